@@ -1,0 +1,50 @@
+//! The target's motion: one state per frame at a fixed time step.
+
+use glam::DVec3;
+use serde::{Deserialize, Serialize};
+
+/// The target at one frame.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct TargetState {
+    /// The point on the ground between the feet, metres.
+    pub feet_in_world: DVec3,
+    /// Walking direction (kept while standing), radians.
+    pub heading_rad: f64,
+    /// Speed along the ground, m/s; 0 while standing.
+    pub speed_mps: f64,
+}
+
+/// A target's states at a fixed time step; frame `i` is at `i * dt_s`.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct TargetTrack {
+    /// Time between frames, seconds.
+    pub dt_s: f64,
+    /// Body height, metres.
+    pub height_m: f64,
+    /// Body radius seen from above, metres.
+    pub radius_m: f64,
+    /// One state per frame.
+    pub states: Vec<TargetState>,
+}
+
+impl TargetTrack {
+    /// Number of frames.
+    pub fn len(&self) -> usize {
+        self.states.len()
+    }
+
+    /// Whether there is no frame at all.
+    pub fn is_empty(&self) -> bool {
+        self.states.is_empty()
+    }
+
+    /// Time of the last frame, seconds.
+    pub fn duration_s(&self) -> f64 {
+        self.dt_s * self.states.len().saturating_sub(1) as f64
+    }
+
+    /// Way walked along the ground, metres.
+    pub fn length_m(&self) -> f64 {
+        self.states.windows(2).map(|pair| (pair[1].feet_in_world - pair[0].feet_in_world).length()).sum()
+    }
+}

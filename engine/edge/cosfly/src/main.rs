@@ -1,0 +1,2 @@
+//! The `cosfly` command.
+fn main() {}

@@ -1,0 +1,1 @@
+//! The record model and its Parquet, MCAP, Croissant and card writers.

@@ -1,0 +1,1 @@
+//! The built-in stages: thin adapters between the simulated world and the engine.

@@ -1,0 +1,89 @@
+//! What a stage declares about itself: ports, items, sources, version. Data, not methods.
+
+use std::path::PathBuf;
+
+/// Everything the engine knows about a stage before running it.
+#[derive(Clone, Debug)]
+pub struct StageProperties {
+    /// Kind, such as `map`; with [`Self::version`] part of every key.
+    pub kind: String,
+    /// Raised by hand whenever the same inputs would give other bytes.
+    pub version: u32,
+    /// The parameters this stage reads, defaults filled in; part of every key. Nothing else may steer `run`.
+    pub parameters: serde_json::Value,
+    /// Files outside the store that it reads; their content is part of the key.
+    pub sources: Vec<Source>,
+    /// Where its inputs come from.
+    pub inputs: Vec<InputPort>,
+    /// What it makes, as `name/format-version`, such as `town/1`.
+    pub artifact: &'static str,
+    /// Which items it has.
+    pub items: ItemRule,
+    /// Rough size of one item's output, for `cosfly plan`.
+    pub bytes_per_item: u64,
+}
+
+/// A file that a stage reads from outside the store.
+#[derive(Clone, Debug)]
+pub struct Source {
+    /// Parameter that names the file, such as `source`.
+    pub parameter: String,
+    /// The path, absolute or relative to the recipe (the recipe reader resolves it).
+    pub path: PathBuf,
+}
+
+/// A named input of a stage.
+#[derive(Clone, Debug)]
+pub struct InputPort {
+    /// Name in the recipe's `inputs` table.
+    pub name: &'static str,
+    /// Artifact it takes, such as `town/1`.
+    pub artifact: &'static str,
+    /// How its items meet the stage's own items.
+    pub fan: Fan,
+    /// Whether a list of stages may be given. The items of such a port are named `<stage>.<item>`,
+    /// so that adding a second stage renames nothing.
+    pub many: bool,
+    /// Whether the port may be left out.
+    pub optional: bool,
+    /// Whom it is connected to.
+    pub source: PortSource,
+    /// One sentence for the reference.
+    pub doc: &'static str,
+}
+
+/// Who connects a port.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum PortSource {
+    /// The recipe's `inputs` table.
+    Recipe,
+    /// Another part of the same recipe stage, by its suffix (see [`crate::StagePart`]).
+    Sibling(&'static str),
+}
+
+/// How the items of an input meet the items of the stage.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Fan {
+    /// Item `x` of the input feeds item `x` of the stage.
+    Each,
+    /// The input's only item feeds every item of the stage.
+    Broadcast,
+    /// All items of the input feed each item of the stage.
+    Gather,
+}
+
+/// Which items a stage has; known before anything runs.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum ItemRule {
+    /// A single item named `all`.
+    One,
+    /// `<prefix>00000`, `<prefix>00001` ...: asking for more never renames the old ones.
+    Count {
+        /// Leads every item id.
+        prefix: &'static str,
+        /// How many.
+        count: u64,
+    },
+    /// The items of the named [`Fan::Each`] port.
+    PerInput(&'static str),
+}

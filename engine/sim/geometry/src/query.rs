@@ -1,0 +1,58 @@
+//! The query seam: rays, nearest obstacle, swept segments. All points in the world frame, metres.
+
+use cosfly_frames::DVec3;
+
+/// Where a ray first meets something.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Hit {
+    /// Along the ray, in lengths of its direction vector; 0 when it starts inside a solid.
+    pub t: f64,
+    /// Index of the primitive that was hit, in the order given when the structure was built.
+    pub primitive: u32,
+}
+
+/// The closest obstacle to a point.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Nearest {
+    /// Distance to its surface; negative inside a solid (depth to the closest face).
+    pub distance_m: f64,
+    /// Unit vector in which the distance grows fastest (away from the obstacle, also from inside).
+    pub away_in_world: DVec3,
+    /// Index of the primitive.
+    pub primitive: u32,
+}
+
+/// Rays, distances and swept spheres against a set of primitives. One law test holds every
+/// implementation against brute force.
+pub trait SpatialQuery: Send + Sync {
+    /// Number of primitives.
+    fn len(&self) -> usize;
+
+    /// Whether there is nothing to hit.
+    fn is_empty(&self) -> bool {
+        self.len() == 0
+    }
+
+    /// First hit of the ray `origin + t * direction` with `0 <= t <= max_t`.
+    fn closest_hit(&self, origin_in_world: DVec3, direction_in_world: DVec3, max_t: f64) -> Option<Hit>;
+
+    /// Whether anything stands between two points (both ends included).
+    fn blocked(&self, from_in_world: DVec3, to_in_world: DVec3) -> bool;
+
+    /// The primitive with the smallest signed distance, if that is below `within_m`.
+    fn nearest(&self, point_in_world: DVec3, within_m: f64) -> Option<Nearest>;
+
+    /// Smallest distance between the segment and any primitive, capped at `within_m`; 0 or less when they touch.
+    /// A sphere of radius r swept along the segment is free exactly when this is more than r.
+    fn segment_clearance(&self, from_in_world: DVec3, to_in_world: DVec3, within_m: f64) -> f64;
+
+    /// [`Self::blocked`] from one point to many.
+    fn blocked_batch(&self, from_in_world: DVec3, to_in_world: &[DVec3], blocked: &mut [bool]) {
+        for (to, out) in to_in_world.iter().zip(blocked) {
+            *out = self.blocked(from_in_world, *to);
+        }
+    }
+
+    /// Calls `visit` with every primitive whose bounds meet the axis-aligned box (`min`, `max`).
+    fn within(&self, min_in_world: DVec3, max_in_world: DVec3, visit: &mut dyn FnMut(u32));
+}

@@ -1,0 +1,180 @@
+//! The town every stage works in: solid obstacles, ground surfaces, walkable polygons, all in one local world frame.
+
+use crate::SemanticLabel;
+use cosfly_frames::{DVec2, DVec3};
+use cosfly_geometry::OrientedBox;
+use serde::{Deserialize, Serialize};
+
+/// A town. World frame: CARLA's (left-handed, x forward, y right, z up, metres), shifted by [`MapOrigin`].
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Town {
+    /// Short name, from the recipe or the file.
+    pub name: String,
+    /// How the world frame lies in the map file's frame.
+    pub origin: MapOrigin,
+    /// Every solid thing, exact. Certificates and pictures use these. Index = primitive index of queries.
+    pub obstacles: Vec<Obstacle>,
+    /// A conservative simplification of `obstacles` for planning: every point of an obstacle lies in one
+    /// of these boxes or within the tolerance in `simplification` of one.
+    pub planning_boxes: Vec<OrientedBox>,
+    /// What simplification did.
+    pub simplification: SimplificationReport,
+    /// Ground the pedestrians may use.
+    pub walkable: Vec<WalkablePolygon>,
+    /// Roads, pavements, crossings, road marks, terrain: thin, not obstacles, but visible and hit by depth rays.
+    pub surfaces: Vec<SurfaceMesh>,
+    /// What in this town was invented and not in the file.
+    pub synthetic: Synthetic,
+    /// Smallest corner of everything, metres.
+    pub min_in_world: DVec3,
+    /// Largest corner of everything, metres.
+    pub max_in_world: DVec3,
+}
+
+/// `x_world = x_map - offset.x`, `y_world = -y_map - offset.y`, `z_world = z_map - offset.z`
+/// (OpenDRIVE and other map files are right-handed, so y changes sign).
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct MapOrigin {
+    /// Offset after the sign change; zero for files near their own origin, whole metres otherwise.
+    pub offset_m: DVec3,
+    /// The file's projection text, if it has one.
+    pub geo_reference: Option<String>,
+}
+
+/// One solid box of the town. A tree, a lamp or a building of several wings is several boxes with one `object_id`.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Obstacle {
+    /// Its space.
+    pub shape: OrientedBox,
+    /// What it is.
+    pub kind: ObstacleKind,
+    /// Boxes of one thing share this; instance ids of pictures come from it.
+    pub object_id: u32,
+    /// True when it was invented (a fill option), false when the file has it.
+    pub synthetic: bool,
+}
+
+/// Kinds of solid things; the renderer dresses them, [`ObstacleKind::label`] gives their CARLA label.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
+pub enum ObstacleKind {
+    /// A building or a wing of it.
+    Building,
+    /// A free-standing wall.
+    Wall,
+    /// A fence or railing.
+    Fence,
+    /// Trunk of a tree.
+    TreeTrunk,
+    /// Crown of a tree.
+    TreeCrown,
+    /// Bush or hedge.
+    Bush,
+    /// A plain pole.
+    Pole,
+    /// A street lamp.
+    Lamp,
+    /// Signal head or mast of a traffic light.
+    TrafficLight,
+    /// A sign plate.
+    TrafficSign,
+    /// Guard rail or crash barrier.
+    GuardRail,
+    /// A bridge deck or pier.
+    Bridge,
+    /// A parked car.
+    Car,
+    /// A bench, bin, stop, box or anything else that does not move.
+    Static,
+}
+
+impl ObstacleKind {
+    /// CARLA's label for it.
+    pub fn label(self) -> SemanticLabel {
+        match self {
+            Self::Building => SemanticLabel::Building,
+            Self::Wall => SemanticLabel::Wall,
+            Self::Fence => SemanticLabel::Fence,
+            Self::TreeTrunk | Self::TreeCrown | Self::Bush => SemanticLabel::Vegetation,
+            Self::Pole | Self::Lamp => SemanticLabel::Pole,
+            Self::TrafficLight => SemanticLabel::TrafficLight,
+            Self::TrafficSign => SemanticLabel::TrafficSign,
+            Self::GuardRail => SemanticLabel::GuardRail,
+            Self::Bridge => SemanticLabel::Bridge,
+            Self::Car => SemanticLabel::Car,
+            Self::Static => SemanticLabel::Static,
+        }
+    }
+}
+
+/// What merge, crop and prune did to the boxes (the paper: 65 K -> 2 K).
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct SimplificationReport {
+    /// Boxes before.
+    pub input_boxes: usize,
+    /// Boxes gone because they lie inside or were merged with others.
+    pub merged: usize,
+    /// Boxes gone because they lie outside the flown region.
+    pub cropped: usize,
+    /// Boxes gone because they are smaller than the tolerance.
+    pub pruned: usize,
+    /// Boxes after.
+    pub output_boxes: usize,
+    /// No point of an original box within the region is farther than this from a box that is kept, metres.
+    pub tolerance_m: f64,
+    /// Space the kept boxes cover beyond the originals, as a share of the originals' volume.
+    pub added_volume_share: f64,
+}
+
+/// What kind of ground a pedestrian walks on.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
+pub enum WalkableKind {
+    /// Pavement beside a road.
+    Sidewalk,
+    /// Marked crossing.
+    Crossing,
+    /// Shoulder used as a documented fallback where a town has no pavement.
+    Shoulder,
+    /// Open pedestrian ground.
+    Plaza,
+    /// Carriageway; only joined in where a route must cross it.
+    Road,
+}
+
+/// A simple polygon of walkable ground; z varies along it.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct WalkablePolygon {
+    /// What it is.
+    pub kind: WalkableKind,
+    /// Corners in order, not repeated at the end.
+    pub outline_in_world: Vec<DVec3>,
+    /// True when it was invented.
+    pub synthetic: bool,
+}
+
+/// A triangle mesh of ground with one label.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct SurfaceMesh {
+    /// CARLA's label.
+    pub label: SemanticLabel,
+    /// Corners.
+    pub vertices_in_world: Vec<DVec3>,
+    /// Along and across the road at each corner, metres (for textures).
+    pub along_across_m: Vec<DVec2>,
+    /// Corner indices, both sides visible.
+    pub triangles: Vec<[u32; 3]>,
+    /// True when it was invented (terrain between roads always is).
+    pub synthetic: bool,
+}
+
+/// What a town has that its file had not. Goes into every dataset's metadata.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct Synthetic {
+    /// Buildings were filled in.
+    pub buildings: bool,
+    /// Trees were filled in.
+    pub trees: bool,
+    /// Street furniture was filled in.
+    pub furniture: bool,
+    /// In words, for the card: option, seed, counts; and assumptions such as crown sizes of surveyed trunks.
+    pub notes: Vec<String>,
+}

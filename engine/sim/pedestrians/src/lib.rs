@@ -1,0 +1,5 @@
+//! Simulated pedestrians: walkable grid, A* routes, smoothing, variable speed, stops.
+
+pub mod path;
+
+pub use path::PedestrianPath;

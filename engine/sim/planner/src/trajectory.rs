@@ -1,0 +1,132 @@
+//! A finished flight: camera poses frame by frame, what it cost, and what was verified about it.
+
+use cosfly_frames::{DVec3, Pose, TargetTrack};
+use serde::{Deserialize, Serialize};
+
+/// What the planner gives for a target track: a certified trajectory, or the reason why there is none.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub enum PlanOutcome {
+    /// Safe and complete.
+    Planned(Box<Trajectory>),
+    /// No valid trajectory; the reason is published with the dataset, never a bad flight.
+    Rejected {
+        /// The track that could not be followed.
+        track: TargetTrack,
+        /// In words.
+        reason: String,
+    },
+}
+
+/// One flight behind one target. All per-frame vectors have the track's length.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Trajectory {
+    /// The target that is followed.
+    pub track: TargetTrack,
+    /// Drone (= camera) pose per frame.
+    pub poses_in_world: Vec<Pose>,
+    /// Share of the target's body points that an unoccluded ray reaches, 0..=1, per frame, exact boxes.
+    pub visibility: Vec<f64>,
+    /// Distance from drone to the nearest exact obstacle per frame, metres, capped at 50.
+    pub clearance_m: Vec<f64>,
+    /// Cost per term of the recipe's weights.
+    pub terms: Vec<TermCost>,
+    /// Total cost after each solver iteration.
+    pub convergence: Vec<f64>,
+    /// What was checked at the end, against the unsimplified map.
+    pub certificate: Certificate,
+    /// How it departs from its expert; `None` for an expert.
+    pub perturbation: Option<Perturbation>,
+}
+
+/// One named cost term, summed over the frames, before and after weighting.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct TermCost {
+    /// Name in recipes, such as `visibility`.
+    pub name: String,
+    /// Its weight.
+    pub weight: f64,
+    /// Sum over the frames, unweighted.
+    pub sum: f64,
+    /// Unweighted cost of each frame.
+    pub per_frame: Vec<f64>,
+}
+
+/// Stated limits of a flight; violations are explicit failures of planning.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Limits {
+    /// Smallest distance from obstacles along the whole swept path, metres.
+    pub clearance_m: f64,
+    /// Speed, m/s.
+    pub speed_mps: f64,
+    /// Acceleration, m/s^2.
+    pub acceleration_mps2: f64,
+    /// Jerk, m/s^3.
+    pub jerk_mps3: f64,
+}
+
+/// Facts about the finished path, computed in f64 against the unsimplified boxes.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Certificate {
+    /// Limits it was checked against.
+    pub limits: Limits,
+    /// Which of the limits hold; a published expert always has clearance.
+    pub holds: bool,
+    /// In words, what does not hold; empty when all does.
+    pub violations: Vec<String>,
+    /// Mean visibility over the frames.
+    pub mean_visibility: f64,
+    /// Share of frames with visibility of at least one half.
+    pub frames_half_visible: f64,
+    /// Smallest distance of the swept path to an obstacle, metres, capped at 50.
+    pub min_clearance_m: f64,
+    /// Largest finite-difference speed, m/s.
+    pub max_speed_mps: f64,
+    /// Largest finite-difference acceleration, m/s^2.
+    pub max_acceleration_mps2: f64,
+    /// Largest finite-difference jerk, m/s^3.
+    pub max_jerk_mps3: f64,
+    /// Mean 3-D distance from drone to target's feet, metres.
+    pub mean_distance_m: f64,
+    /// Mean angle between "target to drone" and "against the walking direction", degrees, horizontal.
+    pub mean_rear_angle_deg: f64,
+    /// Path length of the drone, metres.
+    pub length_m: f64,
+    /// Path length divided by the target's; 0 when the target stands.
+    pub length_ratio: f64,
+    /// Solver iterations.
+    pub iterations: u32,
+    /// Obstacle boxes left by the per-path filter.
+    pub filtered_boxes: u32,
+}
+
+/// How a perturbed trajectory departs from its expert (paper, dual-trajectory augmentation).
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Perturbation {
+    /// Item id of the expert in its stage.
+    pub expert_item: String,
+    /// Probability of the position event per frame.
+    pub position_probability: f64,
+    /// Probability of the rotation event per frame.
+    pub rotation_probability: f64,
+    /// One entry per frame.
+    pub frames: Vec<FramePerturbation>,
+}
+
+/// What happened to one frame.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct FramePerturbation {
+    /// The position event occurred.
+    pub position: bool,
+    /// The rotation event occurred.
+    pub rotation: bool,
+    /// Displacement of the drone, metres; zero without the event.
+    pub drone_offset_in_world: DVec3,
+    /// Displacement of the point that the camera was aimed at, metres; zero without the event.
+    pub aim_offset_in_world: DVec3,
+    /// Turn added to the pitch, radians.
+    pub pitch_offset_rad: f64,
+    /// Turn added to the yaw, radians.
+    pub yaw_offset_rad: f64,
+    /// Frame of the expert that this frame belongs to.
+    pub expert_frame: u32,
+}

@@ -1,0 +1,55 @@
+//! One rendered frame, and how the target looks in it.
+
+use serde::{Deserialize, Serialize};
+
+/// All channels of one frame, row-major from the top-left pixel, sampled at pixel centres.
+#[derive(Clone, Debug, PartialEq)]
+pub struct FrameImages {
+    /// Pixels per row.
+    pub width: u32,
+    /// Rows.
+    pub height: u32,
+    /// sRGB, 3 bytes a pixel.
+    pub rgb: Vec<u8>,
+    /// Planar depth along the optical axis, metres; `f32::INFINITY` for sky.
+    pub depth_m: Vec<f32>,
+    /// CARLA label ids.
+    pub semantic: Vec<u8>,
+    /// Instance ids: 0 for ground and sky, [`crate::frame::TARGET_INSTANCE`] for the target, object id + 2 else.
+    pub instance: Vec<u32>,
+}
+
+/// Instance id of the followed target.
+pub const TARGET_INSTANCE: u32 = 1;
+
+/// A box of pixels, indices inclusive.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub struct PixelBox {
+    /// Leftmost column.
+    pub u_min: u32,
+    /// Topmost row.
+    pub v_min: u32,
+    /// Rightmost column.
+    pub u_max: u32,
+    /// Lowest row.
+    pub v_max: u32,
+}
+
+/// The target in one frame.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct TargetView {
+    /// Some part of its body lies inside the image, occluded or not.
+    pub in_view: bool,
+    /// Share of body points reached by unoccluded rays, whether or not in the image, 0..=1.
+    pub visible_by_rays: f64,
+    /// Visible pixels divided by the pixels it would cover without obstacles (and inside the image); 0 out of view.
+    pub visible_by_pixels: f64,
+    /// Visible pixels.
+    pub pixels: u32,
+    /// Box of the visible pixels.
+    pub visible_box: Option<PixelBox>,
+    /// Box of the pixels it would cover without obstacles.
+    pub full_box: Option<PixelBox>,
+    /// Instance id of what hides most of it; 0 when nothing does.
+    pub occluder_instance: u32,
+}
