@@ -1,0 +1,135 @@
+//! Repository rules: the layering law, heavy crates in their rooms, file headers, generated files, links of the book.
+
+use crate::support::{cosfly, repository_root};
+use std::collections::{BTreeMap, BTreeSet};
+use std::path::{Path, PathBuf};
+use std::process::Command;
+
+/// Package name -> its shelf (`base`, `sim`, `flow`, `edge`) and direct dependencies, dev-dependencies left out.
+fn packages() -> BTreeMap<String, (String, BTreeSet<String>)> {
+    let output = Command::new(env!("CARGO"))
+        .args(["metadata", "--format-version", "1", "--no-deps", "--offline"])
+        .current_dir(repository_root())
+        .output()
+        .expect("cargo runs");
+    let metadata: serde_json::Value = serde_json::from_slice(&output.stdout).expect("cargo metadata is JSON");
+    metadata["packages"]
+        .as_array()
+        .expect("packages")
+        .iter()
+        .map(|package| {
+            let manifest = package["manifest_path"].as_str().expect("path");
+            let shelf = manifest.split("/engine/").nth(1).and_then(|rest| rest.split('/').next()).unwrap_or("");
+            let dependencies = package["dependencies"]
+                .as_array()
+                .expect("dependencies")
+                .iter()
+                .filter(|dependency| dependency["kind"].as_str() != Some("dev"))
+                .map(|dependency| dependency["name"].as_str().expect("name").to_owned())
+                .collect();
+            (package["name"].as_str().expect("name").to_owned(), (shelf.to_owned(), dependencies))
+        })
+        .collect()
+}
+
+#[test]
+fn base_knows_nobody_and_sim_and_flow_never_see_each_other() {
+    let packages = packages();
+    let allowed: BTreeMap<&str, &[&str]> = BTreeMap::from([
+        ("base", &["base"][..]),
+        ("sim", &["base", "sim"][..]),
+        ("flow", &["base", "flow"][..]),
+        ("edge", &["base", "sim", "flow", "edge"][..]),
+    ]);
+    for (name, (shelf, dependencies)) in &packages {
+        for dependency in dependencies {
+            if let Some((other, _)) = packages.get(dependency) {
+                assert!(allowed[shelf.as_str()].contains(&other.as_str()), "`{name}` ({shelf}) uses `{dependency}` ({other})");
+            }
+        }
+    }
+}
+
+#[test]
+fn heavy_crates_stay_in_their_one_room() {
+    let rooms = BTreeMap::from([
+        ("toml", "cosfly-recipe"),
+        ("arrow", "cosfly-dataset"),
+        ("parquet", "cosfly-dataset"),
+        ("mcap", "cosfly-dataset"),
+        ("clap", "cosfly"),
+        ("indicatif", "cosfly"),
+        ("roxmltree", "cosfly-maps"),
+    ]);
+    for (name, (_, dependencies)) in packages() {
+        for dependency in dependencies {
+            if let Some(room) = rooms.get(dependency.as_str()) {
+                assert_eq!(name, *room, "`{dependency}` belongs in `{room}` alone");
+            }
+        }
+    }
+}
+
+fn rust_files(dir: &Path, found: &mut Vec<PathBuf>) {
+    for entry in std::fs::read_dir(dir).expect("readable").map(|entry| entry.expect("entry").path()) {
+        if entry.is_dir() {
+            rust_files(&entry, found);
+        } else if entry.extension().is_some_and(|extension| extension == "rs") {
+            found.push(entry);
+        }
+    }
+}
+
+#[test]
+fn every_file_says_what_is_in_its_room_and_none_is_called_utils() {
+    let mut files = vec![];
+    rust_files(&repository_root().join("engine"), &mut files);
+    rust_files(&repository_root().join("tests"), &mut files);
+    for file in files {
+        let text = std::fs::read_to_string(&file).expect("UTF-8");
+        assert!(text.starts_with("//! ") || text.starts_with("#!["), "{} has no `//!` first line", file.display());
+        let stem = file.file_stem().and_then(|stem| stem.to_str()).unwrap_or("");
+        assert!(!["util", "utils", "helper", "helpers", "common", "misc"].contains(&stem), "{}", file.display());
+    }
+}
+
+#[test]
+fn generated_files_are_current() {
+    for (arguments, path) in [
+        (vec!["schema"], "schemas/recipe.schema.json"),
+        (vec!["schema", "--reference"], "book/src/reference/recipe.md"),
+        (vec!["schema", "--tables"], "book/src/reference/tables.md"),
+        (vec!["town", "--seed", "1"], "recipes/towns/downtown.xodr"),
+    ] {
+        let fresh = cosfly(&arguments).run_ok().stdout;
+        let kept = std::fs::read_to_string(repository_root().join(path)).unwrap_or_default();
+        assert!(fresh == kept, "`{path}` is stale: run `cargo run --release -- {} > {path}`", arguments.join(" "));
+    }
+}
+
+#[test]
+fn every_link_and_page_of_the_book_exists() {
+    let book = repository_root().join("book/src");
+    let summary = std::fs::read_to_string(book.join("SUMMARY.md")).expect("the book has a summary");
+    let mut pages = vec![book.join("SUMMARY.md"), repository_root().join("README.md")];
+    for target in links(&summary) {
+        pages.push(book.join(target));
+    }
+    for page in pages {
+        let text = std::fs::read_to_string(&page).unwrap_or_else(|_| panic!("{} is missing", page.display()));
+        for target in links(&text) {
+            let path = page.parent().expect("a folder").join(target.split('#').next().expect("a path"));
+            assert!(path.exists(), "{} links to {}, which is not there", page.display(), path.display());
+        }
+    }
+}
+
+/// Relative link and picture targets of a Markdown text.
+fn links(text: &str) -> Vec<String> {
+    text.split("](")
+        .skip(1)
+        .filter_map(|rest| rest.split(')').next())
+        .filter(|target| !target.starts_with("http") && !target.starts_with('#') && !target.is_empty())
+        .map(str::to_owned)
+        .collect()
+}

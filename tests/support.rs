@@ -1,0 +1,95 @@
+//! Running the real binary, and scratch folders for it.
+
+use std::path::{Path, PathBuf};
+use std::process::{Command, Output, Stdio};
+
+/// The repository's root folder.
+pub fn repository_root() -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("../../..").canonicalize().expect("the repository is there")
+}
+
+/// The folder of shared real-world inputs, or `None` with a line that says so.
+pub fn shared_data() -> Option<PathBuf> {
+    let root = std::env::var_os("COSFLY_SHARED").map_or_else(|| repository_root().join("../shared"), PathBuf::from);
+    let data = root.join("data");
+    if data.is_dir() {
+        return Some(data);
+    }
+    eprintln!("skipped: the shared inputs are absent (set COSFLY_SHARED to their folder)");
+    None
+}
+
+/// One call of the binary.
+pub struct Call {
+    command: Command,
+}
+
+/// What a call printed.
+pub struct Printed {
+    /// Standard output.
+    pub stdout: String,
+    /// Standard error.
+    pub stderr: String,
+    /// Exit code; `None` when killed.
+    pub code: Option<i32>,
+}
+
+/// A call of `cosfly` with `arguments`, run in the repository root.
+pub fn cosfly<S: AsRef<std::ffi::OsStr>>(arguments: &[S]) -> Call {
+    let mut command = Command::new(env!("CARGO_BIN_EXE_cosfly"));
+    command.args(arguments).current_dir(repository_root()).env_remove("COSFLY_STORE").env("NO_COLOR", "1");
+    Call { command }
+}
+
+impl Call {
+    /// Runs in `dir` instead of the repository root.
+    pub fn within(mut self, dir: &Path) -> Self {
+        self.command.current_dir(dir);
+        self
+    }
+
+    /// Runs to the end.
+    pub fn run(mut self) -> Printed {
+        let Output { status, stdout, stderr } = self.command.stdin(Stdio::null()).output().expect("cosfly starts");
+        Printed {
+            stdout: String::from_utf8(stdout).expect("UTF-8"),
+            stderr: String::from_utf8(stderr).expect("UTF-8"),
+            code: status.code(),
+        }
+    }
+
+    /// Runs to the end and expects success.
+    pub fn run_ok(self) -> Printed {
+        let printed = self.run();
+        assert_eq!(printed.code, Some(0), "stdout:\n{}\nstderr:\n{}", printed.stdout, printed.stderr);
+        printed
+    }
+
+    /// Starts it without waiting.
+    pub fn spawn(mut self) -> std::process::Child {
+        self.command
+            .stdin(Stdio::null())
+            .stdout(Stdio::null())
+            .stderr(Stdio::null())
+            .spawn()
+            .expect("cosfly starts")
+    }
+}
+
+/// All files below `dir` with the digest of their bytes, sorted.
+pub fn tree_digests(dir: &Path) -> Vec<(String, String)> {
+    fn walk(root: &Path, dir: &Path, found: &mut Vec<(String, String)>) {
+        for entry in std::fs::read_dir(dir).expect("readable").map(|entry| entry.expect("entry").path()) {
+            if entry.is_dir() {
+                walk(root, &entry, found);
+            } else {
+                let name = entry.strip_prefix(root).expect("below").display().to_string();
+                found.push((name, cosfly_fingerprint::Digest::of(&std::fs::read(&entry).expect("readable")).to_string()));
+            }
+        }
+    }
+    let mut found = vec![];
+    walk(dir, dir, &mut found);
+    found.sort();
+    found
+}
