@@ -1,6 +1,6 @@
 //! The registry of stage kinds: parameters in, stages out.
 
-use crate::Stage;
+use crate::{InputPort, Stage};
 use std::collections::BTreeMap;
 
 /// A kind of stage that recipes name with `use = "..."`.
@@ -12,6 +12,9 @@ pub trait StageKind: Send + Sync {
     /// JSON Schema of its parameters (an object), with docs, defaults and ranges. The recipe reader
     /// checks parameters against it and points at the offending place; `build` may rely on that.
     fn schema(&self) -> serde_json::Value;
+    /// Every port that a recipe may connect, whatever the parameters say; for editors and the reference.
+    /// What `build` declares is a subset of it (all parts together, ports between siblings left out).
+    fn ports(&self) -> Vec<InputPort>;
     /// Builds the stage, or its parts in dependency order, the last one under the empty suffix.
     /// `recipe_dir` is not needed here: paths go into [`crate::StageProperties::sources`] as written.
     fn build(&self, parameters: serde_json::Value) -> Result<Vec<StagePart>, ParameterError>;

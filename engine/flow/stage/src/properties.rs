@@ -41,7 +41,7 @@ pub struct InputPort {
     pub artifact: &'static str,
     /// How its items meet the stage's own items.
     pub fan: Fan,
-    /// Whether a list of stages may be given. The items of such a port are named `<stage>.<item>`,
+    /// Whether a list of stages may be given. The items of such a port are named `<stage>-<item>`,
     /// so that adding a second stage renames nothing.
     pub many: bool,
     /// Whether the port may be left out.
