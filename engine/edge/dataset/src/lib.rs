@@ -1,1 +1,13 @@
-//! The record model and its Parquet, MCAP, Croissant and card writers.
+//! The record model of a dataset and its writers (Parquet, MCAP, Croissant, card), and the checker of finished ones.
+//!
+//! * [`record`]: what the other stages hand over, one trajectory at a time.
+//! * [`config`]: what a recipe says about the dataset as a whole.
+//! * [`frame_pack`]: the images of one trajectory between rendering and publishing.
+
+pub mod config;
+pub mod frame_pack;
+pub mod record;
+
+pub use config::{DatasetConfig, DepthEncoding, EncodingConfig, RgbEncoding};
+pub use frame_pack::{FramePackReader, FramePackWriter, PackHeader, PackedFrame};
+pub use record::{CaptionRecord, PairInfo, PreviewStrip, Rejection, RenderedTrajectory, Role, TownInfo};

@@ -1,1 +1,36 @@
-//! The built-in stages: thin adapters between the simulated world and the engine.
+//! The built-in stages: thin adapters with the simulated world or the dataset on one side and [`Stage`] on the other.
+//!
+//! Adding a stage: one new file here, its `mod` line, and its line in [`registry`].
+
+mod caption;
+mod codec;
+mod dataset;
+mod map;
+mod memo;
+mod muco;
+mod parameters;
+mod pedestrians;
+mod perturb;
+mod ports;
+mod render;
+mod world;
+
+use cosfly_stage::{Registry, Stage};
+
+/// All built-in stage kinds, sorted by name.
+pub fn registry() -> Registry {
+    Registry::new(vec![
+        Box::new(caption::Caption),
+        Box::new(dataset::Dataset),
+        Box::new(map::Map),
+        Box::new(muco::Muco),
+        Box::new(pedestrians::Pedestrians),
+        Box::new(perturb::Perturb),
+        Box::new(render::Render),
+    ])
+}
+
+/// A stage kind of a single part.
+fn single(stage: impl Stage + 'static) -> Vec<cosfly_stage::StagePart> {
+    vec![cosfly_stage::StagePart { suffix: "", stage: Box::new(stage) }]
+}

@@ -1,0 +1,219 @@
+//! The command line: commands, options, help with examples.
+
+use clap::{Args, Parser, Subcommand, ValueEnum};
+use std::path::PathBuf;
+
+/// The whole command line.
+#[derive(Debug, Parser)]
+#[command(name = "cosfly", version, about, long_about = LONG_ABOUT, after_long_help = AFTER_HELP, max_term_width = 100)]
+pub struct Arguments {
+    /// What to do
+    #[command(subcommand)]
+    pub command: Command,
+}
+
+const LONG_ABOUT: &str = "\
+Datasets that teach drones to follow a moving target without losing sight of it.
+
+A recipe (one TOML file) describes a town, pedestrians, an expert drone pilot, pictures, captions and a dataset; \
+`cosfly run` makes it, item by item, and never computes the same item twice.";
+
+/// Examples and exit codes.
+pub const AFTER_HELP: &str = "\
+Examples:
+  cosfly run recipes/carla_town.toml               make the dataset in out/carla_town
+  cosfly plan recipes/carla_town.toml              what would run, and why
+  cosfly run recipes/carla_town.toml --set stages.walkers.count=20
+  cosfly why recipes/carla_town.toml expert/p00003 what changed since this was last made
+  cosfly verify out/carla_town                     check a finished dataset
+
+Exit codes:
+    0  everything was done
+    1  `verify` found something wrong
+    2  the command line was not understood
+    3  the recipe asks for something that cannot be
+    4  an input file or the store is broken or does not fit
+    5  the machine refused: disk full, no permission, a file vanished
+   70  cosfly itself is wrong; please report it
+  130  stopped by Ctrl-C; what is finished stays finished";
+
+/// The commands.
+#[derive(Debug, Subcommand)]
+pub enum Command {
+    /// Make everything a recipe describes
+    #[command(after_help = "\
+Examples:
+  cosfly run recipes/small.toml
+  cosfly run recipes/carla_town.toml --jobs 1 --out /data/town
+  cosfly run recipes/carla_town.toml --set stages.expert.weights.visibility=5 --set seed=7")]
+    Run(RunArguments),
+    /// Show the DAG of a recipe: items per stage, what is cached, what would run and why, predicted size
+    Plan(PlanArguments),
+    /// Say which field or input changed since a stage or an item was last made
+    #[command(after_help = "\
+Examples:
+  cosfly why recipes/carla_town.toml expert
+  cosfly why recipes/carla_town.toml frames/expert-p00003")]
+    Why(WhyArguments),
+    /// Print the DAG as a Mermaid or DOT drawing
+    Graph(GraphArguments),
+    /// Check a finished dataset: hashes, counts, CRCs, schemas, reprojection, action and pose
+    Verify(VerifyArguments),
+    /// Free space in the store; shows what would go unless `--delete` is given
+    Gc(GcArguments),
+    /// Print the recipe's JSON Schema, or a generated reference page
+    Schema(SchemaArguments),
+    /// Print a generated OpenDRIVE town
+    #[command(after_help = "Example:\n  cosfly town --seed 7 > my_town.xodr")]
+    Town(TownArguments),
+    /// Measure
+    #[command(subcommand)]
+    Bench(BenchCommand),
+    /// Run one planned task (what schedulers call)
+    #[command(subcommand)]
+    Task(TaskCommand),
+}
+
+/// Where the store is.
+#[derive(Args, Clone, Debug)]
+pub struct StoreArguments {
+    /// Folder of the store [default: $COSFLY_STORE, else .cosfly in the current folder]
+    #[arg(long, value_name = "DIR", env = "COSFLY_STORE", hide_env = true)]
+    pub store: Option<PathBuf>,
+}
+
+/// A recipe with changes to it.
+#[derive(Args, Clone, Debug)]
+pub struct RecipeArguments {
+    /// The recipe (TOML)
+    #[arg(value_name = "RECIPE")]
+    pub recipe: PathBuf,
+    /// Change a value of the recipe, such as stages.expert.weights.visibility=5 (repeatable)
+    #[arg(long = "set", value_name = "PATH=VALUE")]
+    pub overrides: Vec<String>,
+}
+
+/// Arguments of `run`.
+#[derive(Args, Debug)]
+pub struct RunArguments {
+    #[command(flatten)]
+    pub recipe: RecipeArguments,
+    #[command(flatten)]
+    pub store: StoreArguments,
+    /// Folder for the dataset [default: out/<recipe name>]
+    #[arg(long, value_name = "DIR")]
+    pub out: Option<PathBuf>,
+    /// Tasks at the same time [default: one per core]
+    #[arg(long, short, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
+    pub jobs: Option<u16>,
+    /// Print errors and the last line only
+    #[arg(long, short)]
+    pub quiet: bool,
+}
+
+/// Arguments of `plan`.
+#[derive(Args, Debug)]
+pub struct PlanArguments {
+    #[command(flatten)]
+    pub recipe: RecipeArguments,
+    #[command(flatten)]
+    pub store: StoreArguments,
+}
+
+/// Arguments of `why`.
+#[derive(Args, Debug)]
+pub struct WhyArguments {
+    #[command(flatten)]
+    pub recipe: RecipeArguments,
+    /// A stage, or one of its items
+    #[arg(value_name = "STAGE[/ITEM]")]
+    pub subject: String,
+    #[command(flatten)]
+    pub store: StoreArguments,
+}
+
+/// Arguments of `graph`.
+#[derive(Args, Debug)]
+pub struct GraphArguments {
+    #[command(flatten)]
+    pub recipe: RecipeArguments,
+    /// Language of the drawing
+    #[arg(long, value_enum, default_value_t = GraphFormat::Mermaid)]
+    pub format: GraphFormat,
+}
+
+/// Languages of drawings.
+#[derive(Clone, Copy, Debug, ValueEnum)]
+pub enum GraphFormat {
+    /// For Markdown pages
+    Mermaid,
+    /// For Graphviz
+    Dot,
+}
+
+/// Arguments of `verify`.
+#[derive(Args, Debug)]
+pub struct VerifyArguments {
+    /// Folder of the dataset
+    #[arg(value_name = "DIR")]
+    pub dir: PathBuf,
+}
+
+/// Arguments of `gc`.
+#[derive(Args, Debug)]
+pub struct GcArguments {
+    #[command(flatten)]
+    pub store: StoreArguments,
+    /// Really delete; without it the sizes are only shown
+    #[arg(long)]
+    pub delete: bool,
+    /// Runs per recipe whose results stay
+    #[arg(long, value_name = "N", default_value_t = 3)]
+    pub keep_runs: usize,
+    /// Nothing younger than this goes
+    #[arg(long, value_name = "DAYS", default_value_t = 7)]
+    pub keep_days: u64,
+}
+
+/// Arguments of `schema`.
+#[derive(Args, Debug)]
+pub struct SchemaArguments {
+    /// The recipe reference as Markdown instead
+    #[arg(long, conflicts_with = "tables")]
+    pub reference: bool,
+    /// The dataset's tables and channels as Markdown instead
+    #[arg(long)]
+    pub tables: bool,
+}
+
+/// Arguments of `town`.
+#[derive(Args, Debug)]
+pub struct TownArguments {
+    /// Seed; every seed is another town
+    #[arg(long, value_name = "N", default_value_t = 1)]
+    pub seed: u64,
+}
+
+/// What can be measured.
+#[derive(Debug, Subcommand)]
+pub enum BenchCommand {
+    /// The engine with cheap items: cold overhead, everything cached, one parameter changed and changed back
+    Engine {
+        /// Items per stage; there are six stages
+        #[arg(long, value_name = "N", default_value_t = 1000)]
+        items: u64,
+    },
+}
+
+/// Single tasks.
+#[derive(Debug, Subcommand)]
+pub enum TaskCommand {
+    /// Run the task whose plan document has this digest, if it is not done yet
+    Run {
+        /// Digest of the plan document, 64 hex digits
+        #[arg(value_name = "PLAN-DIGEST")]
+        digest: String,
+        #[command(flatten)]
+        store: StoreArguments,
+    },
+}

@@ -1,0 +1,49 @@
+//! Documented exit codes.
+
+use cosfly_diagnose::{Diagnostic, Fault};
+use std::process::ExitCode;
+
+/// Everything was done.
+pub const SUCCESS: u8 = 0;
+/// `verify` found something wrong.
+pub const FOUND_PROBLEMS: u8 = 1;
+/// The command line was not understood (clap's code).
+pub const USAGE: u8 = 2;
+/// The recipe asks for something that cannot be.
+pub const RECIPE: u8 = 3;
+/// An input file or the store is broken or does not fit.
+pub const INPUT: u8 = 4;
+/// The machine refused: disk full, no permission, a file vanished.
+pub const MACHINE: u8 = 5;
+/// cosfly itself is wrong.
+pub const BUG: u8 = 70;
+/// Stopped by Ctrl-C or a termination signal.
+pub const STOPPED: u8 = 130;
+
+/// The code for one diagnostic.
+pub fn code_of(diagnostic: &Diagnostic) -> u8 {
+    match diagnostic.fault {
+        _ if diagnostic.code == "cancelled" => STOPPED,
+        Fault::Recipe => RECIPE,
+        Fault::Input => INPUT,
+        Fault::Machine => MACHINE,
+        Fault::Bug => BUG,
+    }
+}
+
+/// The code for several diagnostics: that of the gravest fault.
+pub fn code_of_all<'a>(diagnostics: impl IntoIterator<Item = &'a Box<Diagnostic>>) -> ExitCode {
+    ExitCode::from(diagnostics.into_iter().map(|diagnostic| code_of(diagnostic)).max().unwrap_or(SUCCESS))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_help_names_every_code() {
+        for code in [SUCCESS, FOUND_PROBLEMS, USAGE, RECIPE, INPUT, MACHINE, BUG, STOPPED] {
+            assert!(crate::arguments::AFTER_HELP.lines().any(|line| line.trim_start().starts_with(&format!("{code}  "))), "{code}");
+        }
+    }
+}

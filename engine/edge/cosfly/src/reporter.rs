@@ -1,0 +1,133 @@
+//! What a person sees of a run: bars on a terminal, plain lines when piped.
+
+use cosfly_diagnose::render;
+use cosfly_stage::{RunEvent, TaskOutcome};
+use indicatif::{MultiProgress, ProgressBar, ProgressDrawTarget, ProgressStyle};
+use std::collections::BTreeMap;
+use std::io::IsTerminal;
+use std::sync::{Mutex, PoisonError};
+
+/// How much is printed while a run goes on.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Detail {
+    /// Errors only.
+    Quiet,
+    /// One line per stage.
+    Lines,
+    /// A bar per stage.
+    Bars,
+}
+
+/// Prints the events of a run to standard error. Workers call it from all threads.
+pub struct Reporter {
+    detail: Detail,
+    bars: MultiProgress,
+    stages: Mutex<BTreeMap<String, Progress>>,
+}
+
+struct Progress {
+    bar: ProgressBar,
+    total: u64,
+    done: u64,
+}
+
+impl Reporter {
+    /// Bars when standard error is a terminal, lines otherwise, next to nothing when `quiet`.
+    pub fn new(quiet: bool) -> Self {
+        let detail = match (quiet, std::io::stderr().is_terminal()) {
+            (true, _) => Detail::Quiet,
+            (false, true) => Detail::Bars,
+            (false, false) => Detail::Lines,
+        };
+        let target = if detail == Detail::Bars { ProgressDrawTarget::stderr() } else { ProgressDrawTarget::hidden() };
+        Self { detail, bars: MultiProgress::with_draw_target(target), stages: Mutex::default() }
+    }
+
+    /// Shows one event.
+    pub fn show(&self, event: RunEvent) {
+        match event {
+            RunEvent::Planned { stages } => self.planned(&stages),
+            RunEvent::Started { .. } => {}
+            RunEvent::Finished { stage, outcome, produced, item, .. } => {
+                for warning in &produced.warnings {
+                    self.line(&format!("warning: {stage}/{item}: {warning}"));
+                }
+                if let Some(reason) = &produced.rejected
+                    && outcome == TaskOutcome::Ran
+                {
+                    self.line(&format!("rejected: {stage}/{item}: {reason}"));
+                }
+                self.advance(&stage);
+            }
+            RunEvent::Failed { stage, item, diagnostic } => {
+                if diagnostic.code != "cancelled" {
+                    self.always(&format!("{}\n  (in `{stage}/{item}`)", render(&diagnostic, colour())));
+                }
+                self.advance(&stage);
+            }
+            RunEvent::Stopping => self.always("stopping: what is finished stays finished"),
+        }
+    }
+
+    /// Takes the bars away.
+    pub fn finish(&self) {
+        for progress in self.stages.lock().unwrap_or_else(PoisonError::into_inner).values() {
+            progress.bar.finish_and_clear();
+        }
+    }
+
+    fn planned(&self, planned: &[(String, u64, u64)]) {
+        let width = planned.iter().map(|(stage, ..)| stage.len()).max().unwrap_or(0);
+        let style = ProgressStyle::with_template("{prefix} {wide_bar:.cyan/blue} {pos}/{len} {per_sec:>10} {eta:>5} left")
+            .unwrap_or_else(|_| ProgressStyle::default_bar());
+        let mut stages = self.stages.lock().unwrap_or_else(PoisonError::into_inner);
+        for (stage, total, cached) in planned {
+            let bar = self.bars.add(ProgressBar::new(*total).with_style(style.clone()));
+            bar.set_prefix(format!("{stage:width$}"));
+            bar.set_position(*cached);
+            bar.reset_eta();
+            if *cached == *total {
+                bar.finish();
+            } else if self.detail == Detail::Lines {
+                self.line(&format!("{stage:width$}  {total} items, {cached} cached"));
+            }
+            stages.insert(stage.clone(), Progress { bar, total: *total, done: *cached });
+        }
+    }
+
+    fn advance(&self, stage: &str) {
+        let mut stages = self.stages.lock().unwrap_or_else(PoisonError::into_inner);
+        let Some(progress) = stages.get_mut(stage) else { return };
+        progress.done += 1;
+        progress.bar.set_position(progress.done);
+        let (done, total) = (progress.done, progress.total);
+        if done == total {
+            progress.bar.finish();
+        }
+        // When piped: a line at each tenth of a long stage, and at its end.
+        let tenth = (total / 10).max(1);
+        if self.detail == Detail::Lines && (done == total || (total >= 100 && done % tenth == 0)) {
+            self.line(&format!("{stage}  {done}/{total} done"));
+        }
+    }
+
+    /// A line unless quiet.
+    fn line(&self, text: &str) {
+        if self.detail != Detail::Quiet {
+            self.always(text);
+        }
+    }
+
+    fn always(&self, text: &str) {
+        if self.detail == Detail::Bars {
+            self.bars.suspend(|| eprintln!("{text}"));
+        } else {
+            eprintln!("{text}");
+        }
+    }
+}
+
+/// Whether standard error wants colour.
+pub fn colour() -> bool {
+    std::io::stderr().is_terminal() && std::env::var_os("NO_COLOR").is_none_or(|value| value.is_empty())
+}

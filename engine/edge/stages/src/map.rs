@@ -1,0 +1,102 @@
+//! `map`: reads a town from a map file.
+
+use crate::ports::TOWN;
+use crate::{codec, parameters, single};
+use cosfly_diagnose::{Diagnostic, Fault, Label, Result};
+use cosfly_frames::Seed;
+use cosfly_maps::{MapConfig, MapError, read_town};
+use cosfly_stage::{
+    InputPort, Inputs, ItemRule, OutputSink, ParameterError, Produced, Source, Stage, StageKind, StagePart,
+    StageProperties, TaskContext,
+};
+use std::path::PathBuf;
+
+/// The kind.
+pub struct Map;
+
+impl StageKind for Map {
+    fn name(&self) -> &'static str {
+        "map"
+    }
+
+    fn doc(&self) -> &'static str {
+        "Reads a town from a map file (OpenDRIVE `.xodr`): obstacles, walkable ground, surfaces; fills and simplifies it on request."
+    }
+
+    fn schema(&self) -> serde_json::Value {
+        parameters::schema_of::<MapConfig>()
+    }
+
+    fn ports(&self) -> Vec<InputPort> {
+        vec![]
+    }
+
+    fn build(&self, given: serde_json::Value) -> Result<Vec<StagePart>, ParameterError> {
+        let mut config: MapConfig = parameters::read(given)?;
+        let source = PathBuf::from(&config.source);
+        // The name is part of what the stage makes; where the file lies is not.
+        config.name.get_or_insert_with(|| source.file_stem().map_or("town".into(), |stem| stem.to_string_lossy().into()));
+        config.source = "(content)".into();
+        let properties = StageProperties {
+            kind: self.name().into(),
+            version: 1,
+            parameters: parameters::canonical(&config),
+            sources: vec![Source { parameter: "source".into(), path: source }],
+            inputs: self.ports(),
+            artifact: TOWN,
+            items: ItemRule::One,
+            bytes_per_item: 4_000_000,
+        };
+        Ok(single(MapStage { config, properties }))
+    }
+}
+
+struct MapStage {
+    config: MapConfig,
+    properties: StageProperties,
+}
+
+impl Stage for MapStage {
+    fn properties(&self) -> &StageProperties {
+        &self.properties
+    }
+
+    fn run(&self, _inputs: &Inputs<'_>, outputs: &mut dyn OutputSink, context: &TaskContext) -> Result<Produced> {
+        let path = &context.sources[0];
+        let bytes =
+            std::fs::read(path).map_err(|error| Diagnostic::io(format!("read the map `{}`", path.display()), &error))?;
+        let (town, warnings) =
+            read_town(&bytes, &self.config, Seed(context.seed)).map_err(|error| refusal(error, path.clone(), &bytes))?;
+        outputs.put("town", &codec::encode(TOWN, &town)?)?;
+        let report = &town.simplification;
+        let mut notes = std::collections::BTreeMap::from([
+            ("obstacles".to_owned(), format!("{} boxes", town.obstacles.len())),
+            (
+                "planning boxes".to_owned(),
+                format!(
+                    "{} -> {} (merged {}, cropped {}, pruned {}; within {} m)",
+                    report.input_boxes, report.output_boxes, report.merged, report.cropped, report.pruned, report.tolerance_m
+                ),
+            ),
+            ("walkable".to_owned(), format!("{} polygons", town.walkable.len())),
+        ]);
+        if !town.synthetic.notes.is_empty() {
+            notes.insert("synthetic".to_owned(), town.synthetic.notes.join("; "));
+        }
+        Ok(Produced { notes, warnings, rejected: None })
+    }
+}
+
+/// A map error as a diagnostic that points into the file, when it has a place.
+fn refusal(error: MapError, path: PathBuf, bytes: &[u8]) -> Box<Diagnostic> {
+    let mut diagnostic = Diagnostic::new("map-refused", Fault::Input, error.message);
+    diagnostic = match error.place {
+        Some(place) => {
+            let text = String::from_utf8_lossy(bytes);
+            let span = place.byte_span.start.min(text.len())..place.byte_span.end.min(text.len());
+            diagnostic.at(Label { path, text: text.as_ref().into(), span, note: place.element })
+        }
+        None => diagnostic.because(format!("in `{}`", path.display())),
+    };
+    error.hints.into_iter().fold(diagnostic, |diagnostic, hint| diagnostic.hint(hint))
+}

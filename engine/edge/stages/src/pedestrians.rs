@@ -1,0 +1,84 @@
+//! `pedestrians`: people who walk the town's pavements and crossings.
+
+use crate::memo::Memo;
+use crate::ports::{self, WALK};
+use crate::world::world;
+use crate::{codec, parameters, single};
+use cosfly_diagnose::{Diagnostic, Fault, Result};
+use cosfly_frames::Seed;
+use cosfly_pedestrians::{PedestrianConfig, PedestrianError, WalkableGrid, walk};
+use cosfly_stage::{
+    InputPort, Inputs, ItemRule, OutputSink, ParameterError, Produced, Stage, StageKind, StagePart, StageProperties,
+    TaskContext,
+};
+
+/// The kind.
+pub struct Pedestrians;
+
+impl StageKind for Pedestrians {
+    fn name(&self) -> &'static str {
+        "pedestrians"
+    }
+
+    fn doc(&self) -> &'static str {
+        "Simulates people who walk the town's pavements and crossings: routes, smoothing, variable speed, stops."
+    }
+
+    fn schema(&self) -> serde_json::Value {
+        parameters::schema_of::<PedestrianConfig>()
+    }
+
+    fn ports(&self) -> Vec<InputPort> {
+        vec![ports::town()]
+    }
+
+    fn build(&self, given: serde_json::Value) -> Result<Vec<StagePart>, ParameterError> {
+        let config: PedestrianConfig = parameters::read(given)?;
+        let count = config.count;
+        let mut canonical = parameters::canonical(&config);
+        // How many are asked for is not an ingredient of any one of them.
+        canonical.as_object_mut().expect("a table").remove("count");
+        let properties = StageProperties {
+            kind: self.name().into(),
+            version: 1,
+            parameters: canonical,
+            sources: vec![],
+            inputs: self.ports(),
+            artifact: WALK,
+            items: ItemRule::Count { prefix: "p", count },
+            bytes_per_item: 60 * u64::from(config.steps),
+        };
+        Ok(single(PedestrianStage { config, properties, grid: Memo::default() }))
+    }
+}
+
+struct PedestrianStage {
+    config: PedestrianConfig,
+    properties: StageProperties,
+    grid: Memo<WalkableGrid>,
+}
+
+impl Stage for PedestrianStage {
+    fn properties(&self) -> &StageProperties {
+        &self.properties
+    }
+
+    fn run(&self, inputs: &Inputs<'_>, outputs: &mut dyn OutputSink, context: &TaskContext) -> Result<Produced> {
+        let world = world(inputs)?;
+        let digest = inputs.one("town")?.blobs["town"].digest;
+        let refused = |error: PedestrianError| refusal(error, &world.town.name);
+        let grid = self.grid.get(digest, || WalkableGrid::build(&world.town, &self.config)).map_err(refused)?;
+        let path = walk(&grid, &world.town, &world.exact, &self.config, Seed(context.seed)).map_err(refused)?;
+        outputs.put("walk", &codec::encode(WALK, &path)?)?;
+        Ok(Produced::default())
+    }
+}
+
+fn refusal(error: PedestrianError, town: &str) -> Box<Diagnostic> {
+    let diagnostic = Diagnostic::new("pedestrians-refused", Fault::Input, format!("{error}"))
+        .because(format!("in town `{town}`"));
+    match error.hint() {
+        Some(hint) => diagnostic.hint(hint),
+        None => diagnostic,
+    }
+}

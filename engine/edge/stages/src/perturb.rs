@@ -1,0 +1,76 @@
+//! `perturb`: the twin of every expert trajectory, with realistic position and rotation errors.
+
+use crate::muco::produced;
+use crate::ports::{self, TRAJECTORY};
+use crate::world::world;
+use crate::{codec, parameters, single};
+use cosfly_diagnose::Result;
+use cosfly_frames::Seed;
+use cosfly_planner::PlanOutcome;
+use cosfly_planner::perturb::{PerturbConfig, perturb};
+use cosfly_stage::{
+    InputPort, Inputs, ItemRule, OutputSink, ParameterError, Produced, Stage, StageKind, StagePart, StageProperties,
+    TaskContext,
+};
+
+/// The kind.
+pub struct Perturb;
+
+impl StageKind for Perturb {
+    fn name(&self) -> &'static str {
+        "perturb"
+    }
+
+    fn doc(&self) -> &'static str {
+        "Gives every expert trajectory a twin with realistic errors: two independent events per frame, position and rotation."
+    }
+
+    fn schema(&self) -> serde_json::Value {
+        parameters::schema_of::<PerturbConfig>()
+    }
+
+    fn ports(&self) -> Vec<InputPort> {
+        vec![ports::town(), ports::each("trajectories", TRAJECTORY, false, "The experts, one twin each.")]
+    }
+
+    fn build(&self, given: serde_json::Value) -> Result<Vec<StagePart>, ParameterError> {
+        let config: PerturbConfig = parameters::read(given)?;
+        let properties = StageProperties {
+            kind: self.name().into(),
+            version: 1,
+            parameters: parameters::canonical(&config),
+            sources: vec![],
+            inputs: self.ports(),
+            artifact: TRAJECTORY,
+            items: ItemRule::PerInput("trajectories"),
+            bytes_per_item: 80_000,
+        };
+        Ok(single(PerturbStage { config, properties }))
+    }
+}
+
+struct PerturbStage {
+    config: PerturbConfig,
+    properties: StageProperties,
+}
+
+impl Stage for PerturbStage {
+    fn properties(&self) -> &StageProperties {
+        &self.properties
+    }
+
+    fn run(&self, inputs: &Inputs<'_>, outputs: &mut dyn OutputSink, context: &TaskContext) -> Result<Produced> {
+        let world = world(inputs)?;
+        let expert: PlanOutcome = codec::decode(TRAJECTORY, &inputs.read(inputs.one("trajectories")?, "trajectory")?)?;
+        let twin = match expert {
+            PlanOutcome::Planned(expert) => {
+                perturb(&expert, &context.item, &world.exact, &self.config, Seed(context.seed))
+            }
+            PlanOutcome::Rejected { track, reason } => {
+                PlanOutcome::Rejected { track, reason: format!("its expert was rejected: {reason}") }
+            }
+        };
+        outputs.put("trajectory", &codec::encode(TRAJECTORY, &twin)?)?;
+        Ok(produced(&twin))
+    }
+}

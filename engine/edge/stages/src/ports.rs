@@ -1,0 +1,41 @@
+//! The inputs that built-in stages share, declared once.
+
+use cosfly_stage::{Fan, InputPort, PortSource};
+
+/// Artifact of a town.
+pub const TOWN: &str = "town/1";
+/// Artifact of a pedestrian's walk.
+pub const WALK: &str = "walk/1";
+/// Artifact of a planned or perturbed trajectory.
+pub const TRAJECTORY: &str = "trajectory/1";
+/// Artifact of a rendered trajectory.
+pub const FRAMES: &str = "frames/1";
+/// Artifact of a trajectory's captions.
+pub const CAPTIONS: &str = "captions/1";
+/// Artifact of a trajectory's MCAP log.
+pub const LOG: &str = "log/1";
+/// Artifact of a whole dataset.
+pub const DATASET: &str = "dataset/1";
+
+/// The town that everything happens in.
+pub fn town() -> InputPort {
+    InputPort {
+        name: "town",
+        artifact: TOWN,
+        fan: Fan::Broadcast,
+        many: false,
+        optional: false,
+        source: PortSource::Recipe,
+        doc: "The town that everything happens in.",
+    }
+}
+
+/// A port that meets the stage item by item.
+pub fn each(name: &'static str, artifact: &'static str, many: bool, doc: &'static str) -> InputPort {
+    InputPort { name, artifact, fan: Fan::Each, many, optional: false, source: PortSource::Recipe, doc }
+}
+
+/// A port that brings all items of an input at once.
+pub fn gather(name: &'static str, artifact: &'static str, many: bool, doc: &'static str) -> InputPort {
+    InputPort { name, artifact, fan: Fan::Gather, many, optional: false, source: PortSource::Recipe, doc }
+}
