@@ -1,4 +1,10 @@
 //! End-to-end tests through the real binary: runs, resume, determinism, diagnostics, snapshots, repository rules.
 
+mod caching;
+mod crash;
+mod diagnostics;
 mod repository;
+mod snapshots;
+mod street;
 mod support;
+mod towns;

@@ -106,6 +106,9 @@ pub struct RunArguments {
     /// Tasks at the same time [default: one per core]
     #[arg(long, short, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
     pub jobs: Option<u16>,
+    /// Print the summary as JSON
+    #[arg(long)]
+    pub json: bool,
     /// Print errors and the last line only
     #[arg(long, short)]
     pub quiet: bool,

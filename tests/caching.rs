@@ -1,0 +1,80 @@
+//! What is made again and what is not, seen through the summary of the real binary; and `why` names the reason.
+
+use crate::street::Street;
+use crate::support::cosfly;
+use std::collections::BTreeMap;
+
+/// Items made per stage, from the machine-readable summary.
+fn made(street: &Street, overrides: &[&str]) -> BTreeMap<String, u64> {
+    let mut arguments = vec!["run", "recipe.toml", "--json"];
+    for change in overrides {
+        arguments.extend_from_slice(&["--set", change]);
+    }
+    let printed = cosfly(&arguments).within(street.path()).run_ok();
+    let summary: serde_json::Value = serde_json::from_str(&printed.stdout).expect("a JSON summary");
+    summary["stages"]
+        .as_array()
+        .expect("stages")
+        .iter()
+        .map(|stage| (stage["stage"].as_str().expect("name").to_owned(), stage["ran"].as_u64().expect("count")))
+        .filter(|(_, ran)| *ran > 0)
+        .collect()
+}
+
+fn stages(expected: &[(&str, u64)]) -> BTreeMap<String, u64> {
+    expected.iter().map(|(stage, ran)| ((*stage).to_owned(), *ran)).collect()
+}
+
+#[test]
+fn only_what_depends_on_a_change_runs_and_changing_back_runs_nothing() {
+    let street = Street::new();
+    assert_eq!(
+        made(&street, &[]),
+        stages(&[
+            ("town", 1),
+            ("walkers", 3),
+            ("expert", 3),
+            ("perturbed", 3),
+            ("frames", 6),
+            ("captions", 6),
+            ("dataset.logs", 6),
+            ("dataset", 1)
+        ])
+    );
+    assert_eq!(made(&street, &[]), stages(&[]));
+    let reworded = ["stages.dataset.title=Another title"];
+    assert_eq!(made(&street, &reworded), stages(&[("dataset", 1)]));
+    let disturbed = ["stages.perturbed.rotation_probability=0.9"];
+    let after = made(&street, &disturbed);
+    assert_eq!(after.get("perturbed"), Some(&3));
+    assert_eq!(after.get("frames"), Some(&3), "the experts' pictures stay");
+    assert!(!after.contains_key("expert") && !after.contains_key("walkers"));
+    assert_eq!(made(&street, &[]), stages(&[]));
+    let more = made(&street, &["stages.walkers.count=5"]);
+    assert_eq!(more.get("walkers"), Some(&2), "asking for more makes only those");
+    assert_eq!(more.get("frames"), Some(&4));
+    assert_eq!(more.get("dataset.logs"), Some(&4));
+}
+
+#[test]
+fn why_names_the_changed_ingredient() {
+    let street = Street::new();
+    cosfly(&["run", "recipe.toml", "--quiet"]).within(street.path()).run_ok();
+    let why = |subject: &str, change: &str| {
+        cosfly(&["why", "recipe.toml", subject, "--set", change]).within(street.path()).run_ok().stdout
+    };
+    let own = why("expert/p00001", "stages.expert.weights.visibility=5");
+    assert!(own.contains("weights.visibility") && own.contains('5'), "{own}");
+    let upstream = why("frames/expert-p00001", "stages.walkers.turn_slowdown=0.123");
+    assert!(upstream.contains("walkers") && upstream.contains("turn_slowdown") && upstream.contains("0.123"), "{upstream}");
+    let seed = why("captions", "seed=4");
+    assert!(seed.contains("seed"), "{seed}");
+    let new = why("walkers/p00004", "stages.walkers.count=5");
+    assert!(new.contains("new"), "{new}");
+    let cached = cosfly(&["why", "recipe.toml", "frames"]).within(street.path()).run_ok().stdout;
+    assert!(cached.contains("cached") || cached.contains("nothing changed"), "{cached}");
+    let edited = crate::street::map().replacen("height=\"14.0\"", "height=\"15.0\"", 1);
+    std::fs::write(street.path().join("street.xodr"), edited).expect("writable");
+    let source = cosfly(&["why", "recipe.toml", "town"]).within(street.path()).run_ok().stdout;
+    assert!(source.contains("source") && source.contains("content"), "{source}");
+}

@@ -1,0 +1,135 @@
+//! What users read when something is wrong: one snapshot per mistake, through the real binary.
+
+use crate::street::{RECIPE, Street, map};
+use crate::support::cosfly;
+use std::path::Path;
+
+/// Runs `arguments` in the street's folder and compares exit code and messages with the snapshot `name`.
+/// Redactions: the scratch folder's path becomes `<folder>`.
+fn check_refusal(name: &str, street: &Street, arguments: &[&str]) {
+    let printed = cosfly(arguments).within(street.path()).run();
+    let text = format!("exit code {}\n{}", printed.code.map_or("none".into(), |code| code.to_string()), printed.stderr);
+    let text = text.replace(&street.path().display().to_string(), "<folder>");
+    insta::assert_snapshot!(name, text);
+    assert!(!street.dataset().exists(), "a refused run leaves no dataset behind");
+}
+
+fn check_recipe(name: &str, from: &str, to: &str) {
+    assert!(RECIPE.contains(from), "`{from}` is in the recipe");
+    check_refusal(name, &Street::with(&RECIPE.replacen(from, to, 1), &map()), &["run", "recipe.toml"]);
+}
+
+fn check_map(name: &str, from: &str, to: &str) {
+    assert!(map().contains(from), "`{from}` is in the map");
+    check_refusal(name, &Street::with(RECIPE, &map().replacen(from, to, 1)), &["run", "recipe.toml", "--quiet"]);
+}
+
+#[test]
+fn recipe_mistakes_point_at_the_place_and_name_the_way_out() {
+    check_recipe("unknown_key", "count = 3", "cuont = 3");
+    check_recipe("unknown_kind", "use = \"muco\"", "use = \"mucco\"");
+    check_recipe("wrong_type", "steps = 12", "steps = \"many\"");
+    check_recipe("out_of_range", "width = 96", "width = 0");
+    check_recipe("missing_input", "inputs.town = \"town\"\ncount", "count");
+    check_recipe("unknown_stage", "paths = \"walkers\"", "paths = \"walker\"");
+    check_recipe("wrong_artifact", "paths = \"walkers\"", "paths = \"town\"");
+    check_recipe("missing_file", "street.xodr", "streets.xodr");
+    check_recipe("toml_syntax", "seed = 3", "seed = = 3");
+    check_recipe("cycle", "trajectories = \"expert\"", "trajectories = \"perturbed\"");
+    check_recipe("unknown_weather", "width = 96", "weathers = [\"ClearNun\"]\nwidth = 96");
+    check_recipe("not_a_number", "seed = 3", "seed = nan");
+}
+
+#[test]
+fn command_line_mistakes_are_explained() {
+    let street = Street::new();
+    check_refusal("set_unknown_stage", &street, &["run", "recipe.toml", "--set", "stages.exprt.weights.visibility=5"]);
+    check_refusal("set_without_value", &street, &["run", "recipe.toml", "--set", "seed"]);
+    check_refusal("no_such_recipe", &street, &["run", "recipes.toml"]);
+    check_refusal("why_unknown_item", &street, &["why", "recipe.toml", "expert/p99999"]);
+}
+
+#[test]
+fn broken_maps_name_line_column_and_element() {
+    let whole = map();
+    let truncated = Street::with(RECIPE, &whole[..whole.find("<objects>").expect("objects") + 40]);
+    check_refusal("map_truncated", &truncated, &["run", "recipe.toml", "--quiet"]);
+    check_map("map_broken_xml", "</planView>", "</planview>");
+    check_map("map_not_a_number", "hdg=\"0.0\" length=\"120.0\"", "hdg=\"nan\" length=\"120.0\"");
+    check_map("map_absurd_number", "a=\"3.5\"", "a=\"3.5e30\"");
+    check_map("map_missing_attribute", "s=\"0.0\" x=\"0.0\"", "x=\"0.0\"");
+    check_refusal("map_of_no_known_format", &Street::with(RECIPE, "hello"), &["run", "recipe.toml", "--quiet"]);
+    check_refusal("map_without_roads", &Street::with(RECIPE, "<OpenDRIVE/>"), &["run", "recipe.toml", "--quiet"]);
+}
+
+#[test]
+fn a_town_without_pavements_says_which_option_helps() {
+    let shoulders = map().replace("type=\"sidewalk\"", "type=\"shoulder\"");
+    check_refusal("no_walkable_ground", &Street::with(RECIPE, &shoulders), &["run", "recipe.toml", "--quiet"]);
+    let allowed = RECIPE.replacen("source", "shoulders_as_sidewalks = true\nsource", 1);
+    cosfly(&["run", "recipe.toml"]).within(Street::with(&allowed, &shoulders).path()).run_ok();
+}
+
+#[test]
+fn a_target_that_nobody_can_reach_is_rejected_in_words() {
+    // A roof over the whole street: the pedestrian walks, but no viewpoint above it sees anything or is free.
+    let roof = "<object id=\"9\" name=\"roof\" type=\"building\" s=\"60.0\" t=\"0.0\" zOffset=\"4.0\" hdg=\"0.0\" length=\"400.0\" width=\"400.0\" height=\"200.0\"/></objects>";
+    let street = Street::with(RECIPE, &map().replacen("</objects>", roof, 1));
+    check_refusal("target_unreachable", &street, &["run", "recipe.toml", "--quiet", "--jobs", "1"]);
+}
+
+#[test]
+fn a_store_of_a_newer_format_is_refused_by_name() {
+    let street = Street::new();
+    let store = street.path().join(".cosfly");
+    std::fs::create_dir_all(&store).expect("writable");
+    std::fs::write(store.join("format"), "cosfly-store 99\n").expect("writable");
+    check_refusal("store_newer", &street, &["run", "recipe.toml"]);
+}
+
+#[test]
+fn a_folder_that_is_not_ours_is_never_replaced() {
+    let street = Street::new();
+    let precious = street.path().join("mine");
+    std::fs::create_dir_all(&precious).expect("writable");
+    std::fs::write(precious.join("thesis.txt"), "months of work").expect("writable");
+    check_refusal("foreign_out", &street, &["run", "recipe.toml", "--quiet", "--out", "mine"]);
+    assert!(precious.join("thesis.txt").exists());
+}
+
+/// A small file system that fills up; `None` (with a line that says so) where mounting is not allowed.
+fn small_disk(folder: &Path) -> Option<SmallDisk> {
+    let path = folder.join("disk");
+    std::fs::create_dir_all(&path).expect("writable");
+    let mounted = std::process::Command::new("mount")
+        .args(["-t", "tmpfs", "-o", "size=400k", "tmpfs"])
+        .arg(&path)
+        .stderr(std::process::Stdio::null())
+        .status()
+        .is_ok_and(|status| status.success());
+    if !mounted {
+        eprintln!("skipped: no right to mount a small file system here");
+    }
+    mounted.then_some(SmallDisk { path })
+}
+
+struct SmallDisk {
+    path: std::path::PathBuf,
+}
+
+impl Drop for SmallDisk {
+    fn drop(&mut self) {
+        let _ = std::process::Command::new("umount").arg(&self.path).status();
+    }
+}
+
+#[test]
+fn a_full_disk_is_named_and_nothing_half_written_is_trusted() {
+    let street = Street::new();
+    let Some(disk) = small_disk(street.path()) else { return };
+    let store = disk.path.join("store").display().to_string();
+    let printed = cosfly(&["run", "recipe.toml", "--quiet", "--store", &store]).within(street.path()).run();
+    assert_eq!(printed.code, Some(5), "{}", printed.stderr);
+    assert!(printed.stderr.contains("disk-full") && printed.stderr.contains("finished items are kept"), "{}", printed.stderr);
+    assert!(!street.dataset().exists());
+}
