@@ -24,6 +24,9 @@ pub struct Nearest {
 
 /// Rays, distances and swept spheres against a set of primitives. One law test holds every
 /// implementation against brute force.
+///
+/// Points that are not finite are answered on the safe side: nothing is hit or near, but the way is blocked and has
+/// no clearance. Among equals the primitive with the smallest index counts.
 pub trait SpatialQuery: Send + Sync {
     /// Number of primitives.
     fn len(&self) -> usize;
