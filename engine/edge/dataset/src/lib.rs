@@ -6,6 +6,7 @@
 
 pub mod config;
 pub mod frame_pack;
+pub mod images;
 pub mod record;
 
 pub use config::{DatasetConfig, DepthEncoding, EncodingConfig, RgbEncoding};

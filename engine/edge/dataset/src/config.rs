@@ -1,0 +1,164 @@
+//! What a recipe says about a dataset: name, licence, splits, image encodings.
+
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+use std::collections::BTreeMap;
+
+/// Parameters of the `dataset` stage.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(default, deny_unknown_fields)]
+pub struct DatasetConfig {
+    /// Short name: letters, digits, `-` and `_`; also the name in `croissant.json`.
+    #[schemars(regex(pattern = r"^[A-Za-z0-9][A-Za-z0-9_-]{0,95}$"))]
+    pub name: String,
+    /// Title of the card.
+    pub title: String,
+    /// What the dataset is, in a paragraph; the card and `croissant.json` show it.
+    pub description: String,
+    /// Version of the data, `MAJOR.MINOR.PATCH`.
+    #[schemars(regex(pattern = r"^(0|[1-9][0-9]*)\.(0|[1-9][0-9]*)\.(0|[1-9][0-9]*)$"))]
+    pub version: String,
+    /// Licence of the generated data (not of cosfly).
+    pub license: LicenseConfig,
+    /// Who publishes it.
+    pub creator: CreatorConfig,
+    /// Where it lives.
+    pub url: String,
+    /// How to cite it (BibTeX); empty writes an entry from the title, creator and year.
+    pub citation: String,
+    /// Day of publication, `YYYY-MM-DD`; a parameter, because the same recipe must give the same bytes.
+    #[schemars(regex(pattern = r"^[0-9]{4}-(0[1-9]|1[0-2])-(0[1-9]|[12][0-9]|3[01])$"))]
+    pub date_published: String,
+    /// Shares of train, validation and test.
+    pub splits: SplitShares,
+    /// Texts for single terms of the Responsible AI vocabulary, such as `dataBiases`, instead of cosfly's own.
+    pub responsible_ai: BTreeMap<String, String>,
+    /// Rows of the `frames` table in one Parquet file; larger tables are split into several files.
+    #[schemars(range(min = 1, max = 1_000_000))]
+    pub frames_per_file: u32,
+}
+
+impl Default for DatasetConfig {
+    fn default() -> Self {
+        Self {
+            name: "cosfly-dataset".into(),
+            title: "Aerial tracking flights by cosfly".into(),
+            description: "Simulated flights of a drone that keeps a walking pedestrian in view between buildings and \
+                          trees: expert and perturbed trajectories with RGB, metric depth, semantic and instance \
+                          images, 6-DoF camera poses, target states and bilingual instructions."
+                .into(),
+            version: "1.0.0".into(),
+            license: LicenseConfig::default(),
+            creator: CreatorConfig::default(),
+            url: "https://example.org/cosfly-dataset".into(),
+            citation: String::new(),
+            date_published: "2026-01-01".into(),
+            splits: SplitShares::default(),
+            responsible_ai: BTreeMap::new(),
+            frames_per_file: 20_000,
+        }
+    }
+}
+
+/// A licence for data.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(default, deny_unknown_fields)]
+pub struct LicenseConfig {
+    /// SPDX name in lower case as Hugging Face lists it, such as `cc-by-4.0`, or any other name.
+    pub name: String,
+    /// Address of its text.
+    pub url: String,
+    /// Content of the `LICENSE` file; empty writes the name and the address.
+    pub text: String,
+}
+
+impl Default for LicenseConfig {
+    fn default() -> Self {
+        Self {
+            name: "cc-by-4.0".into(),
+            url: "https://creativecommons.org/licenses/by/4.0/".into(),
+            text: String::new(),
+        }
+    }
+}
+
+/// Who publishes a dataset.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(default, deny_unknown_fields)]
+pub struct CreatorConfig {
+    /// Person or organisation.
+    pub name: String,
+    /// Their address on the web.
+    pub url: String,
+}
+
+impl Default for CreatorConfig {
+    fn default() -> Self {
+        Self { name: "A user of cosfly".into(), url: "https://example.org".into() }
+    }
+}
+
+/// Shares of the splits. A pedestrian's split depends on its id alone, so twins stay together and adding
+/// pedestrians moves no old one.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(default, deny_unknown_fields)]
+pub struct SplitShares {
+    /// Share of training pedestrians; the shares are divided by their sum.
+    #[schemars(range(min = 0, max = 1))]
+    pub train: f64,
+    /// Share of validation pedestrians.
+    #[schemars(range(min = 0, max = 1))]
+    pub val: f64,
+    /// Share of test pedestrians.
+    #[schemars(range(min = 0, max = 1))]
+    pub test: f64,
+    /// Seed of the assignment.
+    pub seed: u64,
+}
+
+impl Default for SplitShares {
+    fn default() -> Self {
+        Self { train: 0.8, val: 0.1, test: 0.1, seed: 0 }
+    }
+}
+
+/// How images are stored; part of the `render` stage's parameters.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(default, deny_unknown_fields)]
+pub struct EncodingConfig {
+    /// Colour images: `jpeg` (4:4:4, small) or `png` (lossless).
+    pub rgb: RgbEncoding,
+    /// Quality of JPEG images.
+    #[schemars(range(min = 50, max = 100))]
+    pub jpeg_quality: u8,
+    /// Depth images: `grid` (rounded to 2^-10 m, about six times smaller) or `lossless`.
+    pub depth: DepthEncoding,
+    /// Store small previews of all channels, for viewers and the `frames` table.
+    pub previews: bool,
+}
+
+impl Default for EncodingConfig {
+    fn default() -> Self {
+        Self { rgb: RgbEncoding::Jpeg, jpeg_quality: 95, depth: DepthEncoding::Grid, previews: true }
+    }
+}
+
+/// How colour images are stored.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum RgbEncoding {
+    /// JPEG without chroma subsampling.
+    Jpeg,
+    /// Lossless PNG.
+    Png,
+}
+
+/// How depth images are stored; always as 32-bit floats in metres.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum DepthEncoding {
+    /// Rounded to multiples of 2^-10 m (error at most 0.49 mm), so that they compress well.
+    Grid,
+    /// As rendered.
+    Lossless,
+}

@@ -1,0 +1,5 @@
+//! Image encoders: colour, depth, and the small previews.
+
+pub mod depth;
+pub mod previews;
+pub mod rgb;

@@ -1,0 +1,133 @@
+//! Small pictures of a frame, for viewers and for the `frames` table.
+
+use super::rgb::{jpeg, palette_png};
+use cosfly_diagnose::Result;
+use cosfly_maps::SemanticLabel;
+use cosfly_render::FrameImages;
+
+const RGB_WIDTH: u32 = 320;
+const RGB_QUALITY: u8 = 80;
+const CHANNEL_WIDTH: u32 = 640;
+const CHANNEL_QUALITY: u8 = 75;
+/// Depths that get the first and the last colour, metres.
+const NEAR_M: f32 = 2.0;
+const FAR_M: f32 = 400.0;
+
+/// Size of a preview at most `width` wide with the aspect of the frame, at least one pixel high.
+fn size(images: &FrameImages, width: u32) -> (u32, u32) {
+    let width = width.min(images.width);
+    let height = (u64::from(images.height) * u64::from(width) + u64::from(images.width) / 2) / u64::from(images.width);
+    (width, (height as u32).clamp(1, images.height))
+}
+
+/// The colour image, averaged over blocks of pixels.
+pub fn rgb(images: &FrameImages) -> Result<Vec<u8>> {
+    let (width, height) = size(images, RGB_WIDTH);
+    let columns: Vec<_> = (0..width).map(|x| block(x, width, images.width)).collect();
+    let mut pixels = Vec::with_capacity(3 * (width * height) as usize);
+    for y in 0..height {
+        let rows = block(y, height, images.height);
+        for columns in &columns {
+            let mut sums = [0u32; 3];
+            for row in rows.clone() {
+                let start = row * images.width as usize;
+                for pixel in images.rgb[3 * (start + columns.start)..3 * (start + columns.end)].chunks_exact(3) {
+                    sums.iter_mut().zip(pixel).for_each(|(sum, value)| *sum += u32::from(*value));
+                }
+            }
+            let count = (rows.len() * columns.len()) as u32;
+            pixels.extend(sums.map(|sum| ((sum + count / 2) / count) as u8));
+        }
+    }
+    jpeg(&pixels, width, height, RGB_QUALITY)
+}
+
+/// The depth image in logarithmic colours from 2 m (dark blue) to 400 m (dark red); sky is black.
+pub fn depth(images: &FrameImages) -> Result<Vec<u8>> {
+    let (width, height) = size(images, CHANNEL_WIDTH);
+    let scale = 255.0 / libm::logf(FAR_M / NEAR_M);
+    let palette = turbo();
+    let mut pixels = Vec::with_capacity(3 * (width * height) as usize);
+    for at in nearest_pixels(images, width, height) {
+        let depth_m = images.depth_m[at];
+        pixels.extend_from_slice(&if depth_m.is_finite() {
+            palette[(scale * libm::logf(depth_m.max(NEAR_M) / NEAR_M)).min(255.0) as usize]
+        } else {
+            [0, 0, 0]
+        });
+    }
+    jpeg(&pixels, width, height, CHANNEL_QUALITY)
+}
+
+/// The label image as a palette PNG: index = CARLA's id, palette = CARLA's colours.
+pub fn semantic(images: &FrameImages) -> Result<Vec<u8>> {
+    let (width, height) = size(images, CHANNEL_WIDTH);
+    let last = SemanticLabel::ALL.len() as u8 - 1;
+    let indices: Vec<u8> = nearest_pixels(images, width, height).map(|at| images.semantic[at].min(last)).collect();
+    let palette = SemanticLabel::ALL.iter().flat_map(|label| label.colour()).collect();
+    palette_png(&indices, width, height, palette)
+}
+
+/// The `count` blocks of `total` pixels: the range that belongs to block `index`, never empty.
+fn block(index: u32, count: u32, total: u32) -> std::ops::Range<usize> {
+    let edge = |i: u32| (u64::from(i) * u64::from(total) / u64::from(count)) as usize;
+    edge(index)..edge(index + 1)
+}
+
+/// Index of the full-size pixel in the middle of each preview pixel, row by row.
+fn nearest_pixels(images: &FrameImages, width: u32, height: u32) -> impl Iterator<Item = usize> {
+    let (full_width, full_height) = (images.width, images.height);
+    let middle = |i: u32, count: u32, total: u32| (2 * i as usize + 1) * total as usize / (2 * count as usize);
+    (0..height).flat_map(move |y| {
+        let start = middle(y, height, full_height) * full_width as usize;
+        (0..width).map(move |x| start + middle(x, width, full_width))
+    })
+}
+
+/// 256 colours from dark blue over green and yellow to dark red, interpolated between ten stops.
+fn turbo() -> [[u8; 3]; 256] {
+    const STOPS: [[i32; 3]; 10] = [
+        [48, 18, 59],
+        [70, 94, 208],
+        [54, 148, 247],
+        [26, 203, 213],
+        [50, 242, 142],
+        [147, 253, 66],
+        [219, 221, 53],
+        [254, 160, 49],
+        [226, 76, 14],
+        [122, 4, 3],
+    ];
+    core::array::from_fn(|i| {
+        let position = i * (STOPS.len() - 1);
+        let (stop, rest) =
+            ((position / 255).min(STOPS.len() - 2), (position - (position / 255).min(STOPS.len() - 2) * 255) as i32);
+        core::array::from_fn(|c| (STOPS[stop][c] + (STOPS[stop + 1][c] - STOPS[stop][c]) * rest / 255) as u8)
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_palette_begins_blue_and_ends_red() {
+        let palette = turbo();
+        assert_eq!((palette[0], palette[255]), ([48, 18, 59], [122, 4, 3]));
+    }
+
+    #[test]
+    fn previews_keep_the_aspect_and_never_grow() {
+        let frame = |width, height| FrameImages {
+            width,
+            height,
+            rgb: vec![],
+            depth_m: vec![],
+            semantic: vec![],
+            instance: vec![],
+        };
+        assert_eq!(size(&frame(1280, 720), 320), (320, 180));
+        assert_eq!(size(&frame(64, 48), 320), (64, 48));
+        assert_eq!(size(&frame(4000, 1), 320), (320, 1));
+    }
+}
