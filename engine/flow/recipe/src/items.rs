@@ -1,0 +1,164 @@
+//! Which items every stage has and what each of them reads; all known before anything runs.
+
+use crate::document::{Place, Texts, list};
+use crate::model::{Arrival, Connection, ItemIds, RecipeStage};
+use cosfly_diagnose::{Diagnostic, Fault};
+use cosfly_stage::{Fan, InputPort, ItemRule, StageProperties};
+use std::collections::BTreeMap;
+use std::sync::Arc;
+
+/// A stage with more items than this is refused: their names alone would fill the memory.
+const MOST_ITEMS: u64 = 1_000_000;
+
+/// A port, what is connected to it, and where the recipe says so.
+pub(crate) struct Wire {
+    pub(crate) port: InputPort,
+    pub(crate) upstreams: Vec<usize>,
+    /// One place per port in the recipe; the stage's own place for siblings.
+    pub(crate) place: Place,
+}
+
+/// Gives items and arrivals to one stage, all of whose upstreams stand in `done`.
+pub(crate) struct ItemReader<'a> {
+    pub(crate) done: &'a [RecipeStage],
+    pub(crate) texts: &'a Texts,
+    pub(crate) stage: &'a str,
+    pub(crate) place: &'a Place,
+}
+
+/// The ids that arrive at one port.
+struct PortItems {
+    ids: ItemIds,
+    arrivals: Vec<Arrival>,
+}
+
+impl ItemReader<'_> {
+    pub(crate) fn read(
+        &self,
+        properties: &StageProperties,
+        wires: Vec<Wire>,
+    ) -> Result<(ItemIds, Vec<Connection>), Box<Diagnostic>> {
+        let arriving: Vec<PortItems> = wires.iter().map(|wire| self.port_items(wire)).collect::<Result<_, _>>()?;
+        let ids = match &properties.items {
+            ItemRule::One => [Arc::from("all")].into(),
+            ItemRule::Count { count, .. } if *count > MOST_ITEMS => return Err(self.too_many(*count)),
+            ItemRule::Count { prefix, count } => {
+                (0..*count).map(|number| Arc::from(format!("{prefix}{number:05}"))).collect()
+            }
+            ItemRule::PerInput(name) => {
+                let index = wires.iter().position(|wire| wire.port.name == *name).ok_or_else(|| {
+                    let message =
+                        format!("`{}` has one item per item of `inputs.{name}`, which is not connected", self.stage);
+                    self.texts.problem("recipe-missing-input", self.place, message)
+                })?;
+                arriving[index].ids.clone()
+            }
+        };
+        let leading = match &properties.items {
+            ItemRule::PerInput(name) => wires.iter().find(|wire| wire.port.name == *name),
+            _ => None,
+        };
+        let mut connections = vec![];
+        for (wire, items) in wires.iter().zip(arriving) {
+            let arrivals = match wire.port.fan {
+                Fan::Gather => items.arrivals,
+                Fan::Broadcast => self.single(wire, items)?,
+                Fan::Each => self.aligned(&ids, leading, wire, items)?,
+            };
+            let Wire { port, upstreams, .. } = wire;
+            connections.push(Connection {
+                port: port.clone(),
+                upstreams: upstreams.clone(),
+                arrivals: arrivals.into(),
+            });
+        }
+        Ok((ids, connections))
+    }
+
+    fn port_items(&self, wire: &Wire) -> Result<PortItems, Box<Diagnostic>> {
+        let total: usize = wire.upstreams.iter().map(|upstream| self.done[*upstream].items.len()).sum();
+        if total as u64 > MOST_ITEMS {
+            return Err(self.too_many(total as u64));
+        }
+        let mut arrivals = Vec::with_capacity(total);
+        for upstream in &wire.upstreams {
+            let RecipeStage { name, items, .. } = &self.done[*upstream];
+            for (item, id) in items.iter().enumerate() {
+                let id = if wire.port.many { Arc::from(format!("{name}-{id}")) } else { id.clone() };
+                arrivals.push(Arrival { id, stage: *upstream, item });
+            }
+        }
+        let ids = match &wire.upstreams[..] {
+            [only] if !wire.port.many => self.done[*only].items.clone(),
+            _ => arrivals.iter().map(|arrival| arrival.id.clone()).collect(),
+        };
+        Ok(PortItems { ids, arrivals })
+    }
+
+    /// The only item of a broadcast port.
+    fn single(&self, wire: &Wire, items: PortItems) -> Result<Vec<Arrival>, Box<Diagnostic>> {
+        if items.arrivals.len() == 1 {
+            return Ok(items.arrivals);
+        }
+        let makers: Vec<&str> = wire.upstreams.iter().map(|upstream| self.done[*upstream].name.as_str()).collect();
+        let message = format!(
+            "`inputs.{}` of `{}` takes a single item, but {} makes {}",
+            wire.port.name,
+            self.stage,
+            list(makers, 10),
+            items.arrivals.len()
+        );
+        let problem = self.texts.problem("recipe-items-differ", &wire.place, message);
+        Err(problem.hint(format!("every item of `{}` reads the same one: connect a stage that makes one", self.stage)))
+    }
+
+    /// Arrivals in the order of the stage's own items.
+    fn aligned(
+        &self,
+        ids: &ItemIds,
+        leading: Option<&Wire>,
+        wire: &Wire,
+        items: PortItems,
+    ) -> Result<Vec<Arrival>, Box<Diagnostic>> {
+        if Arc::ptr_eq(ids, &items.ids) || ids == &items.ids {
+            return Ok(items.arrivals);
+        }
+        let mut by_id: BTreeMap<Arc<str>, Arrival> =
+            items.arrivals.into_iter().map(|arrival| (arrival.id.clone(), arrival)).collect();
+        let lacking: Vec<&str> = ids.iter().filter(|id| !by_id.contains_key(*id)).map(|id| &**id).collect();
+        let extra = by_id.len() + lacking.len() - ids.len();
+        if lacking.is_empty() && extra == 0 {
+            return Ok(ids.iter().filter_map(|id| by_id.remove(id)).collect());
+        }
+        let own: std::collections::BTreeSet<&str> = ids.iter().map(|id| &**id).collect();
+        let extra: Vec<&str> = by_id.keys().map(|id| &**id).filter(|id| !own.contains(id)).collect();
+        let mut differences = vec![];
+        if !lacking.is_empty() {
+            differences.push(format!("lacks {}", list(lacking, 3)));
+        }
+        if !extra.is_empty() {
+            differences.push(format!("has {} beyond them", list(extra, 3)));
+        }
+        let leads =
+            leading.map_or_else(|| "its own items".to_owned(), |wire| format!("those of `inputs.{}`", wire.port.name));
+        let message = format!(
+            "the items of `inputs.{}` of `{}` are not {leads}: it {}",
+            wire.port.name,
+            self.stage,
+            differences.join(" and ")
+        );
+        let mut problem =
+            Diagnostic::new("recipe-items-differ", Fault::Recipe, message).at(self.texts.label(&wire.place, ""));
+        if let Some(leading) = leading {
+            problem = problem.at(self.texts.label(&leading.place, "the items come from here"));
+        }
+        Err(problem.hint("item `x` of the stage reads item `x` of both: both must come from the same stages"))
+    }
+
+    fn too_many(&self, count: u64) -> Box<Diagnostic> {
+        let message = format!("`{}` would have {count} items; a stage may have {MOST_ITEMS}", self.stage);
+        self.texts
+            .problem("recipe-too-many-items", self.place, message)
+            .hint("split the work into several recipes with other seeds")
+    }
+}

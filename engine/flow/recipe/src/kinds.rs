@@ -1,0 +1,151 @@
+//! From a stage's kind and parameters to its built parts.
+
+use crate::document::{Node, Place, Problems, Texts, Value, list};
+use crate::outline::StageOutline;
+use crate::parameters::{Subject, check_parameters};
+use cosfly_diagnose::{Diagnostic, nearest_name};
+use cosfly_stage::{InputPort, ParameterError, PortSource, Registry, Stage, StageKind};
+use std::collections::BTreeMap;
+use std::sync::Arc;
+
+/// Built parts of one recipe stage, in dependency order, the stage itself last.
+pub(crate) struct BuiltStage {
+    pub(crate) parts: Vec<BuiltPart>,
+    /// The stage's table as a node, for places.
+    pub(crate) parameters: Node,
+}
+
+/// One part.
+pub(crate) struct BuiltPart {
+    pub(crate) suffix: &'static str,
+    pub(crate) stage: Arc<dyn Stage>,
+}
+
+/// What is known of a recipe stage's kind.
+pub(crate) struct KnownStage {
+    /// Every port that the recipe may connect.
+    pub(crate) ports: Vec<InputPort>,
+    /// Absent when its parameters were refused.
+    pub(crate) built: Option<BuiltStage>,
+}
+
+/// Builds stages; a kind's schema is made once.
+pub(crate) struct Builder<'a> {
+    registry: &'a Registry,
+    texts: &'a Texts,
+    schemas: BTreeMap<&'static str, serde_json::Value>,
+}
+
+impl BuiltStage {
+    /// What other stages read.
+    pub(crate) fn artifact(&self) -> Option<&'static str> {
+        self.parts.last().map(|part| part.stage.properties().artifact)
+    }
+}
+
+impl<'a> Builder<'a> {
+    pub(crate) fn new(registry: &'a Registry, texts: &'a Texts) -> Self {
+        Self { registry, texts, schemas: BTreeMap::new() }
+    }
+
+    /// Finds the kind, checks the parameters against its schema and builds it.
+    pub(crate) fn build(&mut self, stage: &StageOutline, problems: &mut Problems) -> Option<KnownStage> {
+        let (name, place) = stage.kind.as_ref()?;
+        let Some(kind) = self.registry.get(name) else {
+            problems.push(self.unknown_kind(name, place));
+            return None;
+        };
+        let mut ports = kind.ports();
+        let parameters = Node { place: stage.place.clone(), value: Value::Table(stage.parameters.clone()) };
+        let schema = self.schemas.entry(kind.name()).or_insert_with(|| kind.schema());
+        let port_names: Vec<&str> = ports.iter().map(|port| port.name).collect();
+        let subject = Subject { stage: &stage.name, kind: name, place: &stage.place, ports: &port_names };
+        let mut wrong = check_parameters(schema, &parameters, &subject, self.texts);
+        let built = if wrong.is_empty() && !has_refused(&parameters) {
+            match build_kind(kind, &parameters) {
+                Ok(parts) => Some(BuiltStage { parts, parameters }),
+                Err(error) => {
+                    wrong.push(self.parameter_problem(&error, &parameters, &stage.place));
+                    None
+                }
+            }
+        } else {
+            None
+        };
+        problems.append(&mut wrong);
+        if let Some(built) = &built {
+            ports = recipe_ports(built);
+        }
+        Some(KnownStage { ports, built })
+    }
+
+    fn unknown_kind(&self, name: &str, place: &Place) -> Box<Diagnostic> {
+        let known = || self.registry.iter().map(StageKind::name);
+        let problem = self.texts.problem("recipe-unknown-kind", place, format!("there is no stage kind `{name}`"));
+        if name.starts_with("wasm:") {
+            return problem
+                .hint("this version of cosfly runs no plugins yet: `use = \"wasm:...\"` comes with a later one")
+                .hint(format!("its own kinds are {}", list(known(), usize::MAX)));
+        }
+        match nearest_name(name, known()) {
+            Some(near) => problem.hint(format!("did you mean `{near}`?")),
+            None => problem,
+        }
+        .hint(format!("there are {}", list(known(), usize::MAX)))
+    }
+
+    fn parameter_problem(&self, error: &ParameterError, parameters: &Node, stage: &Place) -> Box<Diagnostic> {
+        let node = parameters.deepest(error.path.iter().map(String::as_str));
+        let place = if std::ptr::eq(node, parameters) { stage } else { &node.place };
+        let problem = self.texts.problem("recipe-parameter", place, &error.message);
+        match &error.hint {
+            Some(hint) => problem.hint(hint),
+            None => problem,
+        }
+    }
+}
+
+fn build_kind(kind: &dyn StageKind, parameters: &Node) -> Result<Vec<BuiltPart>, ParameterError> {
+    let parts = kind.build(parameters.json())?;
+    if parts.is_empty() {
+        let message = format!("`{}` built no stage; this is a bug of the kind", kind.name());
+        return Err(ParameterError { path: vec![], message, hint: None });
+    }
+    Ok(parts.into_iter().map(|part| BuiltPart { suffix: part.suffix, stage: part.stage.into() }).collect())
+}
+
+/// Ports that the recipe connects, over all parts; parts with a port of the same name share its connection.
+fn recipe_ports(built: &BuiltStage) -> Vec<InputPort> {
+    let mut ports: Vec<InputPort> = vec![];
+    for port in built.parts.iter().flat_map(|part| &part.stage.properties().inputs) {
+        if port.source != PortSource::Recipe {
+            continue;
+        }
+        match ports.iter_mut().find(|known| known.name == port.name) {
+            Some(known) => known.optional &= port.optional,
+            None => ports.push(port.clone()),
+        }
+    }
+    ports
+}
+
+fn has_refused(node: &Node) -> bool {
+    match &node.value {
+        Value::Refused => true,
+        Value::Array(items) => items.iter().any(has_refused),
+        Value::Table(table) => table.values().any(|entry| has_refused(&entry.node)),
+        _ => false,
+    }
+}
+
+/// Kinds whose stages make `artifact` with their default parameters; for hints.
+pub(crate) fn kinds_that_make(registry: &Registry, artifact: &str) -> Vec<&'static str> {
+    registry
+        .iter()
+        .filter(|kind| {
+            let parts = kind.build(serde_json::json!({}));
+            parts.is_ok_and(|parts| parts.last().is_some_and(|part| part.stage.properties().artifact == artifact))
+        })
+        .map(StageKind::name)
+        .collect()
+}

@@ -1,0 +1,191 @@
+//! Reads a recipe: text to tree, overrides, graph, parameters, files, items.
+
+use crate::document::{Problems, Texts};
+use crate::items::{ItemReader, Wire};
+use crate::kinds::{Builder, BuiltPart, KnownStage};
+use crate::model::{Recipe, RecipeStage};
+use crate::order::dependency_order;
+use crate::outline::Outline;
+use crate::wiring::{Wires, Wiring};
+use crate::{overrides, sources, toml_text};
+use cosfly_diagnose::{Diagnostic, Fault};
+use cosfly_stage::{PortSource, Registry};
+use std::collections::BTreeMap;
+use std::path::Path;
+use std::sync::Arc;
+
+/// Reads and checks the recipe at `path`, with `overrides` (the arguments of `--set`) put into it.
+/// Reports as many independent mistakes as there are, in the order of the text.
+pub fn load(path: &Path, overrides: &[String], registry: &Registry) -> Result<Recipe, Vec<Box<Diagnostic>>> {
+    let bytes = std::fs::read(path).map_err(|error| vec![unreadable(path, &error)])?;
+    let text = String::from_utf8(bytes).map_err(|error| vec![not_text(path, &error)])?;
+    read(path, &text, overrides, registry)
+}
+
+/// Like [`load`] for a `text` that would stand at `path`; the files that it names are looked for beside it.
+pub fn read(
+    path: &Path,
+    text: &str,
+    overrides: &[String],
+    registry: &Registry,
+) -> Result<Recipe, Vec<Box<Diagnostic>>> {
+    let mut problems = Problems::new();
+    let mut texts = Texts::new(path.to_path_buf(), text.into());
+    let recipe = check(path, text, overrides, registry, &mut texts, &mut problems);
+    match recipe {
+        Some(recipe) if problems.is_empty() => Ok(recipe),
+        _ => {
+            problems.sort_by_key(|problem| problem.labels.first().map(|label| (label.path != path, label.span.start)));
+            Err(problems)
+        }
+    }
+}
+
+fn check(
+    path: &Path,
+    text: &str,
+    overrides: &[String],
+    registry: &Registry,
+    texts: &mut Texts,
+    problems: &mut Problems,
+) -> Option<Recipe> {
+    let mut root = toml_text::parse_document(text, texts, problems)?;
+    overrides::apply(&mut root, overrides, texts, problems);
+    let texts = &*texts;
+    let outline = Outline::read(root, texts, problems)?;
+    let mut builder = Builder::new(registry, texts);
+    let known: Vec<Option<KnownStage>> = outline.stages.iter().map(|stage| builder.build(stage, problems)).collect();
+    let (wires, reads) = Wiring { outline: &outline, known: &known, registry, texts }.connect(problems);
+    let order = dependency_order(&outline, &reads, texts, problems);
+    let directory = path.parent().unwrap_or(Path::new("")).to_path_buf();
+    let mut assembly = Assembly { outline: &outline, wires: &wires, texts, stages: vec![], place_of: BTreeMap::new() };
+    let graph_is_sound = problems.is_empty();
+    for stage in order.unwrap_or_default() {
+        if let Some(built) = known[stage].as_ref().and_then(|known| known.built.as_ref()) {
+            let files: Vec<_> = built
+                .parts
+                .iter()
+                .map(|part| {
+                    let declared = &part.stage.properties().sources;
+                    let places = (&built.parameters, &outline.stages[stage].place);
+                    sources::resolve(declared, &directory, places, texts, problems)
+                })
+                .collect();
+            if graph_is_sound && let Err(problem) = assembly.add(stage, &built.parts, files) {
+                problems.push(problem);
+                break;
+            }
+        }
+    }
+    let stages = assembly.stages;
+    Some(Recipe {
+        name: outline.name,
+        seed: outline.seed,
+        path: path.to_path_buf(),
+        directory,
+        text: text.into(),
+        stages,
+    })
+}
+
+/// The stages that are ready so far, in dependency order.
+struct Assembly<'a> {
+    outline: &'a Outline,
+    wires: &'a Wires,
+    texts: &'a Texts,
+    stages: Vec<RecipeStage>,
+    /// From a stage of the outline to its last part in `stages`.
+    place_of: BTreeMap<usize, usize>,
+}
+
+impl Assembly<'_> {
+    /// Adds all parts of one stage of the outline.
+    fn add(
+        &mut self,
+        index: usize,
+        parts: &[BuiltPart],
+        files: Vec<Vec<crate::SourceFile>>,
+    ) -> Result<(), Box<Diagnostic>> {
+        let outline = &self.outline.stages[index];
+        let parameters = serde_json::Value::Object(crate::document::table_json(&outline.parameters));
+        let mut siblings = BTreeMap::new();
+        for (part, sources) in parts.iter().zip(files) {
+            let name = match part.suffix {
+                "" => outline.name.clone(),
+                suffix => format!("{}.{suffix}", outline.name),
+            };
+            let properties = part.stage.properties();
+            let wires = self.part_wires(index, part, &siblings)?;
+            let reader = ItemReader { done: &self.stages, texts: self.texts, stage: &name, place: &outline.place };
+            let (items, connections) = reader.read(properties, wires)?;
+            siblings.insert(part.suffix, self.stages.len());
+            self.stages.push(RecipeStage {
+                name,
+                recipe_name: outline.name.clone(),
+                kind: outline.kind.as_ref().map_or_else(String::new, |(kind, _)| kind.clone()),
+                stage: Arc::clone(&part.stage),
+                connections,
+                sources,
+                items,
+                parameters: parameters.clone(),
+                span: outline.place.start..outline.place.end,
+            });
+        }
+        self.place_of.insert(index, self.stages.len() - 1);
+        Ok(())
+    }
+
+    /// The connected ports of a part.
+    fn part_wires(
+        &self,
+        index: usize,
+        part: &BuiltPart,
+        siblings: &BTreeMap<&'static str, usize>,
+    ) -> Result<Vec<Wire>, Box<Diagnostic>> {
+        let outline = &self.outline.stages[index];
+        let mut wires = vec![];
+        for port in &part.stage.properties().inputs {
+            let (upstreams, place) = match &port.source {
+                PortSource::Sibling(suffix) => {
+                    let sibling = siblings.get(suffix).ok_or_else(|| {
+                        let message = format!(
+                            "part `{}` of `{}` reads part `{suffix}`, which is not built before it",
+                            part.suffix, outline.name
+                        );
+                        Diagnostic::new("stage-parts", Fault::Bug, message)
+                    })?;
+                    (vec![*sibling], outline.place.clone())
+                }
+                PortSource::Recipe => {
+                    let wired = self.wires[index].get(port.name).map_or(&[][..], Vec::as_slice);
+                    let place = wired.first().map_or(&outline.place, |(_, place)| place);
+                    let upstreams = wired.iter().filter_map(|(upstream, _)| self.place_of.get(upstream).copied());
+                    (upstreams.collect(), place.clone())
+                }
+            };
+            if !upstreams.is_empty() {
+                wires.push(Wire { port: port.clone(), upstreams, place });
+            }
+        }
+        Ok(wires)
+    }
+}
+
+fn unreadable(path: &Path, error: &std::io::Error) -> Box<Diagnostic> {
+    if error.kind() != std::io::ErrorKind::NotFound {
+        return Diagnostic::new("recipe-unreadable", Fault::Recipe, format!("could not read `{}`", path.display()))
+            .because(error);
+    }
+    let problem = Diagnostic::new("recipe-missing", Fault::Recipe, format!("there is no recipe `{}`", path.display()));
+    match sources::similar_file(path) {
+        Some(near) => problem.hint(format!("did you mean `{}`?", path.with_file_name(near).display())),
+        None => problem,
+    }
+}
+
+fn not_text(path: &Path, error: &std::string::FromUtf8Error) -> Box<Diagnostic> {
+    let valid = error.utf8_error().valid_up_to();
+    let line = error.as_bytes()[..valid].iter().filter(|byte| **byte == b'\n').count() + 1;
+    Diagnostic::new("recipe-syntax", Fault::Recipe, format!("`{}` is not UTF-8 text", path.display()))
+        .because(format!("line {line} has a byte that is not"))
+}

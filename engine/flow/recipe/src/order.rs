@@ -1,0 +1,78 @@
+//! Dependency order of the stages, and the cycles that forbid one.
+
+use crate::document::{Place, Problems, Texts};
+use crate::outline::Outline;
+use std::collections::BTreeSet;
+
+/// What each stage reads: (stage number, where it is written), for every name that exists.
+pub(crate) type Reads = Vec<Vec<(usize, Place)>>;
+
+/// Stage numbers, inputs first; among those that are ready the first in the file goes first.
+/// Every cycle is reported, and then there is no order.
+pub(crate) fn dependency_order(
+    outline: &Outline,
+    reads: &Reads,
+    texts: &Texts,
+    problems: &mut Problems,
+) -> Option<Vec<usize>> {
+    let mut waits: Vec<BTreeSet<usize>> =
+        reads.iter().map(|upstreams| upstreams.iter().map(|(stage, _)| *stage).collect()).collect();
+    let mut readers = vec![vec![]; reads.len()];
+    for (stage, upstreams) in waits.iter().enumerate() {
+        upstreams.iter().for_each(|upstream| readers[*upstream].push(stage));
+    }
+    let mut ready: BTreeSet<usize> = (0..reads.len()).filter(|stage| waits[*stage].is_empty()).collect();
+    let mut order = vec![];
+    while let Some(stage) = ready.pop_first() {
+        order.push(stage);
+        for reader in &readers[stage] {
+            waits[*reader].remove(&stage);
+            if waits[*reader].is_empty() {
+                ready.insert(*reader);
+            }
+        }
+    }
+    if order.len() == reads.len() {
+        return Some(order);
+    }
+    report_cycles(outline, reads, &waits, texts, problems);
+    None
+}
+
+/// Walks upstream from every stage that never became ready: each walk ends in a cycle.
+fn report_cycles(outline: &Outline, reads: &Reads, waits: &[BTreeSet<usize>], texts: &Texts, problems: &mut Problems) {
+    let mut seen = vec![false; reads.len()];
+    for start in (0..reads.len()).filter(|stage| !waits[*stage].is_empty()) {
+        let mut walk = vec![];
+        let mut stage = start;
+        while !seen[stage] {
+            seen[stage] = true;
+            walk.push(stage);
+            stage = *waits[stage].first().expect("a stage that waits waits for a stage that waits");
+        }
+        if let Some(first) = walk.iter().position(|walked| *walked == stage) {
+            problems.push(cycle(outline, reads, &walk[first..], texts));
+        }
+    }
+}
+
+fn cycle(outline: &Outline, reads: &Reads, stages: &[usize], texts: &Texts) -> Box<cosfly_diagnose::Diagnostic> {
+    // Begin with the stage that stands first in the file.
+    let first = stages.iter().enumerate().min_by_key(|(_, stage)| **stage).map_or(0, |(index, _)| index);
+    let name = |index: usize| &outline.stages[stages[(first + index) % stages.len()]].name;
+    let reading: Vec<String> =
+        (0..stages.len()).map(|index| format!("`{}` reads `{}`", name(index), name(index + 1))).collect();
+    let message = match stages {
+        [_] => format!("stage `{}` reads itself", name(0)),
+        _ => format!("stages wait for each other in a circle: {}", reading.join(", ")),
+    };
+    let mut problem = cosfly_diagnose::Diagnostic::new("recipe-cycle", cosfly_diagnose::Fault::Recipe, message);
+    for index in 0..stages.len() {
+        let stage = stages[(first + index) % stages.len()];
+        let upstream = stages[(first + index + 1) % stages.len()];
+        if let Some((_, place)) = reads[stage].iter().find(|(read, _)| *read == upstream) {
+            problem = problem.at(texts.label(place, format!("`{}` reads it", outline.stages[stage].name)));
+        }
+    }
+    problem.hint("connect one of them to a stage outside the circle")
+}

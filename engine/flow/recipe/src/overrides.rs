@@ -1,0 +1,111 @@
+//! `--set stages.expert.weights.visibility=5`: one value of the recipe replaced from the command line.
+
+use crate::document::{Entry, Node, Place, Problems, Table, Texts, Value, list};
+use crate::toml_text::parse_value;
+use cosfly_diagnose::nearest_name;
+
+/// Longer paths are refused: no parameter lies that deep.
+const MOST_KEYS: usize = 16;
+
+/// Puts every override into `root`, in the order given; what cannot be placed is reported.
+pub(crate) fn apply(root: &mut Table, overrides: &[String], texts: &mut Texts, problems: &mut Problems) {
+    for argument in overrides {
+        let text = texts.add_override(argument);
+        if let Some(assignment) = read(argument, text, texts, problems) {
+            place_value(root, assignment, texts, problems);
+        }
+    }
+}
+
+struct Assignment {
+    /// Keys from the root and where each is written.
+    path: Vec<(String, Place)>,
+    node: Node,
+}
+
+fn read(argument: &str, text: usize, texts: &Texts, problems: &mut Problems) -> Option<Assignment> {
+    let whole = Place::new(text, 0..argument.len());
+    let Some(equals) = argument.find('=') else {
+        let problem = texts.problem("override-syntax", &whole, format!("`{}` has no `=`", texts.written(&whole)));
+        problems.push(problem.hint("write `--set stages.STAGE.PARAMETER=VALUE`"));
+        return None;
+    };
+    let mut path = vec![];
+    let mut start = 0;
+    for piece in argument[..equals].split('.') {
+        let from = start + (piece.len() - piece.trim_start().len());
+        let key = piece.trim();
+        let place = Place::new(text, from..from + key.len());
+        start += piece.len() + 1;
+        if key.is_empty() || !key.bytes().all(|byte| byte.is_ascii_alphanumeric() || byte == b'_' || byte == b'-') {
+            let problem = texts.problem("override-syntax", &place, format!("`{key}` is not a key"));
+            problems.push(problem.hint("keys are letters, digits, `_` and `-`, joined by dots"));
+            return None;
+        }
+        path.push((key.to_owned(), place));
+    }
+    if path.len() > MOST_KEYS {
+        problems.push(texts.problem("override-syntax", &whole, format!("more than {MOST_KEYS} keys in one path")));
+        return None;
+    }
+    let value = &argument[equals + 1..];
+    let offset = equals + 1 + (value.len() - value.trim_start().len());
+    let keys: Vec<String> = path.iter().map(|(key, _)| key.clone()).collect();
+    let node = parse_value(value.trim(), &keys, (text, offset), texts, problems)?;
+    Some(Assignment { path, node })
+}
+
+fn place_value(root: &mut Table, assignment: Assignment, texts: &Texts, problems: &mut Problems) {
+    let Assignment { path, node } = assignment;
+    if let [(top, _), (stage, place), _, ..] = &path[..]
+        && top == "stages"
+        && let Some(Value::Table(stages)) = root.get("stages").map(|entry| &entry.node.value)
+        && !stages.contains_key(stage)
+    {
+        problems.push(no_such_stage(stage, place, stages, texts));
+        return;
+    }
+    if let [(top, place)] | [(top, _), (_, place)] = &path[..]
+        && top == "stages"
+    {
+        let problem = texts.problem("override-syntax", place, "a whole stage cannot be replaced by `--set`");
+        problems.push(problem.hint("name one of its parameters: `--set stages.STAGE.PARAMETER=VALUE`"));
+        return;
+    }
+    let mut table = root;
+    let (last, parents) = path.split_last().expect("splitting a text gives at least one piece");
+    let mut walked = vec![];
+    for (index, (key, place)) in parents.iter().enumerate() {
+        walked.push(key.as_str());
+        let entry = table.entry(key.clone()).or_insert_with(|| Entry {
+            key: place.clone(),
+            node: Node { place: place.clone(), value: Value::Table(Table::new()) },
+        });
+        if let Value::Array(items) = &mut entry.node.value
+            && index + 1 == parents.len()
+            && let Some(item) = last.0.parse().ok().and_then(|position: usize| items.get_mut(position))
+        {
+            *item = node;
+            return;
+        }
+        let words = entry.node.type_words();
+        let Value::Table(next) = &mut entry.node.value else {
+            let next = parents.get(index + 1).unwrap_or(last);
+            let message = format!("`{}` is {words}; it has no `{}`", walked.join("."), next.0);
+            problems.push(texts.problem("override-syntax", &next.1, message));
+            return;
+        };
+        table = next;
+    }
+    table.insert(last.0.clone(), Entry { key: last.1.clone(), node });
+}
+
+fn no_such_stage(stage: &str, place: &Place, stages: &Table, texts: &Texts) -> Box<cosfly_diagnose::Diagnostic> {
+    let known = || stages.keys().map(String::as_str);
+    let problem = texts.problem("override-unknown-stage", place, format!("the recipe has no stage `{stage}`"));
+    match nearest_name(stage, known()) {
+        Some(name) => problem.hint(format!("did you mean `{name}`?")),
+        None => problem,
+    }
+    .hint(format!("its stages are {}", list(known(), 40)))
+}

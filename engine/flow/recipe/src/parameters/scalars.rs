@@ -1,0 +1,165 @@
+//! Ranges, lengths and allowed values.
+
+use super::check::Walk;
+use super::schema_words::{allowed_values, show_json};
+use crate::document::{Node, Value, list};
+use cosfly_diagnose::{Diagnostic, nearest_name};
+use serde_json::Value as Json;
+use std::cmp::Ordering;
+
+/// `minimum`, `maximum`, their exclusive forms, `multipleOf`, and what the number's `format` can hold.
+pub(super) fn check_number(walk: &Walk<'_>, schema: &Json, node: &Node, path: &[String]) -> Option<Box<Diagnostic>> {
+    let limit = |key: &str| schema.get(key).filter(|limit| limit.is_number());
+    let rules = [
+        ("minimum", &[Ordering::Greater, Ordering::Equal][..], "at least"),
+        ("maximum", &[Ordering::Less, Ordering::Equal][..], "at most"),
+        ("exclusiveMinimum", &[Ordering::Greater][..], "greater than"),
+        ("exclusiveMaximum", &[Ordering::Less][..], "less than"),
+    ];
+    let violated = |key: &str, allowed: &[Ordering]| {
+        limit(key).is_some_and(|limit| compare(&node.value, limit).is_some_and(|order| !allowed.contains(&order)))
+    };
+    let wanted = if rules.iter().any(|(key, allowed, _)| violated(key, allowed)) {
+        let rules: Vec<String> =
+            rules.iter().filter_map(|(key, _, words)| Some(format!("{words} `{}`", show_json(limit(key)?)))).collect();
+        rules.join(" and ")
+    } else if let Some(range) = schema.get("format").and_then(Json::as_str).and_then(format_range)
+        && !(range.0..=range.1).contains(&as_f64(&node.value))
+    {
+        format!("at least `{}` and at most `{}`", show_number(range.0), show_number(range.1))
+    } else {
+        return None;
+    };
+    let rest = format!("is `{}`; it must be {wanted}", walk.texts.written(&node.place));
+    Some(walk.documented(walk.problem("recipe-out-of-range", &node.place, path, rest), schema, path))
+}
+
+/// `minLength` and `maxLength`, in characters.
+pub(super) fn check_text(
+    walk: &Walk<'_>,
+    schema: &Json,
+    text: &str,
+    node: &Node,
+    path: &[String],
+) -> Option<Box<Diagnostic>> {
+    let length = text.chars().count() as u64;
+    let rest = if schema.get("minLength").and_then(Json::as_u64).is_some_and(|least| length < least) {
+        match length {
+            0 => "is empty".to_owned(),
+            _ => format!("has {length} characters; it must have at least {}", schema["minLength"]),
+        }
+    } else if schema.get("maxLength").and_then(Json::as_u64).is_some_and(|most| length > most) {
+        format!("has {length} characters; it may have at most {}", schema["maxLength"])
+    } else {
+        return None;
+    };
+    Some(walk.documented(walk.problem("recipe-out-of-range", &node.place, path, rest), schema, path))
+}
+
+/// `minItems`, `maxItems` and `uniqueItems`.
+pub(super) fn check_list_length(
+    walk: &Walk<'_>,
+    schema: &Json,
+    items: &[Node],
+    node: &Node,
+    path: &[String],
+) -> Option<Box<Diagnostic>> {
+    let count = items.len() as u64;
+    let least = schema.get("minItems").and_then(Json::as_u64);
+    let most = schema.get("maxItems").and_then(Json::as_u64);
+    let rest = if least.is_some_and(|least| count < least) || most.is_some_and(|most| count > most) {
+        let wanted = match (least, most) {
+            (Some(least), Some(most)) if least == most => format!("exactly {least}"),
+            (Some(least), Some(most)) => format!("{least} to {most}"),
+            (Some(least), None) => format!("at least {least}"),
+            (_, most) => format!("at most {}", most.unwrap_or_default()),
+        };
+        format!("has {count} entries; it must have {wanted}")
+    } else if schema.get("uniqueItems") == Some(&Json::Bool(true)) {
+        let mut seen: Vec<Json> = vec![];
+        let twice = items.iter().find(|item| {
+            let value = item.json();
+            let known = seen.contains(&value);
+            seen.push(value);
+            known
+        })?;
+        let rest = format!("has `{}` twice", show_json(&twice.json()));
+        return Some(walk.problem("recipe-out-of-range", &twice.place, path, rest));
+    } else {
+        return None;
+    };
+    Some(walk.documented(walk.problem("recipe-out-of-range", &node.place, path, rest), schema, path))
+}
+
+/// `enum` and `const`.
+pub(super) fn check_allowed(walk: &Walk<'_>, schema: &Json, node: &Node, path: &[String]) -> Option<Box<Diagnostic>> {
+    if schema.get("enum").is_none() && schema.get("const").is_none() {
+        return None;
+    }
+    let values = allowed_values(walk.root, schema);
+    let fits = values.iter().any(|(value, _)| match value {
+        Json::Number(_) => compare(&node.value, value) == Some(Ordering::Equal),
+        _ => &&node.json() == value,
+    });
+    (!fits).then(|| not_allowed(walk, schema, &values, node, path))
+}
+
+/// The value is none of `values`; names the nearest and what each one means.
+pub(super) fn not_allowed(
+    walk: &Walk<'_>,
+    schema: &Json,
+    values: &[(&Json, Option<&str>)],
+    node: &Node,
+    path: &[String],
+) -> Box<Diagnostic> {
+    let names: Vec<String> = values.iter().map(|(value, _)| show_json(value)).collect();
+    let written = node.as_text().map_or_else(|| walk.texts.written(&node.place), str::to_owned);
+    let wanted = match &names[..] {
+        [only] => format!("`{only}`"),
+        _ => format!("one of {}", list(names.iter().map(String::as_str), usize::MAX)),
+    };
+    let short: String = written.chars().take(60).collect();
+    let mut problem =
+        walk.problem("recipe-not-allowed", &node.place, path, format!("is `{short}`; it must be {wanted}"));
+    if let Some(near) = nearest_name(&written, names.iter().map(String::as_str)) {
+        problem = problem.hint(format!("did you mean `{near}`?"));
+    }
+    walk.documented(problem, schema, path)
+}
+
+/// The order of a number and a limit, exact for whole numbers.
+fn compare(value: &Value, limit: &Json) -> Option<Ordering> {
+    match (value, limit.as_i64()) {
+        (Value::Integer(value), Some(limit)) => Some(value.cmp(&limit)),
+        (Value::Integer(_), None) if limit.is_u64() => Some(Ordering::Less),
+        (Value::Integer(_) | Value::Float(_), _) => as_f64(value).partial_cmp(&limit.as_f64()?),
+        _ => None,
+    }
+}
+
+fn as_f64(value: &Value) -> f64 {
+    match value {
+        Value::Integer(value) => *value as f64,
+        Value::Float(value) => *value,
+        _ => 0.0,
+    }
+}
+
+/// What the Rust type behind a number can hold.
+fn format_range(format: &str) -> Option<(f64, f64)> {
+    Some(match format {
+        "uint8" => (0.0, f64::from(u8::MAX)),
+        "uint16" => (0.0, f64::from(u16::MAX)),
+        "uint32" => (0.0, f64::from(u32::MAX)),
+        "uint" | "uint64" => (0.0, u64::MAX as f64),
+        "int8" => (f64::from(i8::MIN), f64::from(i8::MAX)),
+        "int16" => (f64::from(i16::MIN), f64::from(i16::MAX)),
+        "int32" => (f64::from(i32::MIN), f64::from(i32::MAX)),
+        "float" => (f64::from(f32::MIN), f64::from(f32::MAX)),
+        _ => return None,
+    })
+}
+
+fn show_number(value: f64) -> String {
+    if value.abs() < 1e16 { format!("{value}") } else { format!("{value:e}") }
+}

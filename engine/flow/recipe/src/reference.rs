@@ -1,0 +1,227 @@
+//! The book's page on recipes, generated from the kinds' schemas and ports.
+
+use crate::parameters::{allowed_values, resolve, show_json, type_words_of};
+use cosfly_stage::{Fan, InputPort, Registry, StageKind};
+use serde_json::Value;
+use std::fmt::Write;
+
+/// Tables nested deeper than this are not taken apart.
+const MOST_LEVELS: usize = 6;
+
+const INTRODUCTION: &str = "\
+# Recipe reference
+
+<!-- Generated from the stage kinds of the binary. Do not edit. -->
+
+A recipe is one TOML file. It names a dataset, seeds it and wires stages together:
+
+```toml
+#:schema ../schemas/recipe.schema.json
+name = \"carla_town\"
+seed = 42
+
+[stages.town]
+use = \"map\"                       # which kind of stage
+source = \"towns/downtown.xodr\"    # its parameters
+
+[stages.walkers]
+use = \"pedestrians\"
+inputs.town = \"town\"              # port = name of a stage
+count = 4
+```
+
+| key | type | default | what |
+|---|---|---|---|
+| `name` | a string of `a-z`, `0-9`, `_`, `-` | required | Name of the dataset and its folder. |
+| `seed` | a whole number, at least `0` | `0` | Root of all randomness. |
+| `stages.NAME` | a table | at least one | A stage; names are `a-z`, `0-9`, `_` and begin with a letter. |
+| `stages.NAME.use` | a string | required | Its kind: one of those below. |
+| `stages.NAME.inputs.PORT` | the name of a stage, or a list of names where many are allowed | | What it reads. |
+
+Every other key of a stage is a parameter of its kind. Paths begin at the recipe's folder.
+`--set stages.walkers.count=8` on the command line replaces one value; what is not TOML is taken as a string.
+Where a port takes many stages, its items are called `STAGE-ITEM`.
+";
+
+/// The page in Markdown: per kind its inputs and parameters with type, default, range and meaning.
+pub fn reference(registry: &Registry) -> String {
+    let mut page = INTRODUCTION.to_owned();
+    for kind in registry.iter() {
+        // Writing to a String cannot fail.
+        let _ = write_kind(kind, &mut page);
+    }
+    page
+}
+
+fn write_kind(kind: &dyn StageKind, page: &mut String) -> std::fmt::Result {
+    writeln!(page, "\n## `{}`\n\n{}", kind.name(), kind.doc())?;
+    let ports = kind.ports();
+    if !ports.is_empty() {
+        writeln!(page, "\n| input | takes | items | what |\n|---|---|---|---|")?;
+        for port in &ports {
+            writeln!(page, "| `{}` | {} | {} | {} |", port.name, takes(port), fan_words(port.fan), cell(port.doc))?;
+        }
+    }
+    let schema = kind.schema();
+    let mut rows = vec![];
+    collect_rows(&schema, &schema, None, "", 0, &mut rows);
+    if rows.is_empty() {
+        return writeln!(page, "\nIt has no parameters.");
+    }
+    writeln!(page, "\n| parameter | type | default | range | what |\n|---|---|---|---|---|")?;
+    for row in rows {
+        writeln!(page, "| `{}` | {} | {} | {} | {} |", row.name, row.kind, row.default, row.range, row.what)?;
+    }
+    Ok(())
+}
+
+fn takes(port: &InputPort) -> String {
+    let many = if port.many { "one or more of " } else { "" };
+    let optional = if port.optional { ", optional" } else { "" };
+    format!("{many}`{}`{optional}", port.artifact)
+}
+
+fn fan_words(fan: Fan) -> &'static str {
+    match fan {
+        Fan::Each => "item by item",
+        Fan::Broadcast => "its one item, for all",
+        Fan::Gather => "all together",
+    }
+}
+
+struct Row {
+    name: String,
+    kind: String,
+    default: String,
+    range: String,
+    what: String,
+}
+
+/// One row per parameter of the table `schema`; nested tables as `a.b`.
+fn collect_rows(
+    root: &Value,
+    schema: &Value,
+    defaults: Option<&Value>,
+    prefix: &str,
+    depth: usize,
+    rows: &mut Vec<Row>,
+) {
+    let table = resolve(root, schema);
+    let required: Vec<&str> =
+        table.get("required").and_then(Value::as_array).into_iter().flatten().filter_map(Value::as_str).collect();
+    for (key, rule) in table.get("properties").and_then(Value::as_object).into_iter().flatten() {
+        if rule.get("const").is_some() {
+            continue; // the tag of an alternative: it stands in the prefix
+        }
+        let name = format!("{prefix}{key}");
+        let default = defaults.and_then(|defaults| defaults.get(key)).or_else(|| rule.get("default"));
+        let target = nullable_target(root, rule);
+        if depth < MOST_LEVELS && target.get("properties").is_some() && alternatives(target).is_empty() {
+            if default.is_none_or(Value::is_null) {
+                rows.push(row(root, rule, &name, default, required.contains(&key.as_str())));
+            }
+            collect_rows(root, target, default, &format!("{name}."), depth + 1, rows);
+            continue;
+        }
+        rows.push(row(root, rule, &name, default, required.contains(&key.as_str())));
+        if depth < MOST_LEVELS {
+            collect_inner_rows(root, target, &name, depth, rows);
+        }
+    }
+}
+
+/// Tables inside lists, maps and alternatives.
+fn collect_inner_rows(root: &Value, target: &Value, name: &str, depth: usize, rows: &mut Vec<Row>) {
+    for (keyword, mark) in [("items", "[]."), ("additionalProperties", ".*.")] {
+        if let Some(inner) = target.get(keyword).filter(|inner| inner.is_object()) {
+            let inner = nullable_target(root, inner);
+            collect_rows(root, inner, None, &format!("{name}{mark}"), depth + 1, rows);
+            collect_alternatives(root, inner, &format!("{name}{}", mark.trim_end_matches('.')), depth, rows);
+        }
+    }
+    collect_alternatives(root, target, name, depth, rows);
+}
+
+fn collect_alternatives(root: &Value, target: &Value, name: &str, depth: usize, rows: &mut Vec<Row>) {
+    for alternative in alternatives(target) {
+        let alternative = resolve(root, alternative);
+        let Some(properties) = alternative.get("properties").and_then(Value::as_object) else { continue };
+        let tag = properties.iter().find_map(|(key, rule)| Some(format!("({key} = {})", rule.get("const")?.as_str()?)));
+        collect_rows(root, alternative, None, &format!("{name}{}.", tag.unwrap_or_default()), depth + 1, rows);
+    }
+}
+
+fn row(root: &Value, rule: &Value, name: &str, default: Option<&Value>, required: bool) -> Row {
+    let target = resolve(root, rule);
+    let default = match default {
+        Some(Value::Null) => "none".to_owned(),
+        Some(Value::String(text)) if text.is_empty() => "`\"\"`".to_owned(),
+        Some(default) => format!("`{}`", cell(&show_json(default))),
+        None if required => "required".to_owned(),
+        None => String::new(),
+    };
+    let description = rule.get("description").or_else(|| target.get("description")).and_then(Value::as_str);
+    let mut what = cell(description.unwrap_or_default());
+    let values = allowed_values(root, rule);
+    for (value, doc) in &values {
+        if let Some(doc) = doc {
+            let _ = write!(what, "{}`{}`: {}", if what.is_empty() { "" } else { "<br>" }, show_json(value), cell(doc));
+        }
+    }
+    let names: Vec<String> = values.iter().map(|(value, _)| format!("`{}`", show_json(value))).collect();
+    let range = if names.is_empty() { range(root, rule) } else { names.join(", ") };
+    Row { name: name.to_owned(), kind: cell(&type_words_of(root, rule)), default, range: cell(&range), what }
+}
+
+/// Limits of a number, a text or a list, and of a list's entries.
+fn range(root: &Value, rule: &Value) -> String {
+    let target = nullable_target(root, rule);
+    let limits = [
+        ("minimum", "at least "),
+        ("exclusiveMinimum", "greater than "),
+        ("maximum", "at most "),
+        ("exclusiveMaximum", "less than "),
+        ("minLength", "characters: at least "),
+        ("maxLength", "characters: at most "),
+        ("minItems", "entries: at least "),
+        ("maxItems", "entries: at most "),
+    ];
+    let mut words: Vec<String> = limits
+        .iter()
+        .filter_map(|(key, word)| {
+            let limit = target.get(key).or_else(|| rule.get(key)).filter(|limit| limit.is_number())?;
+            Some(format!("{word}`{}`", show_json(limit)))
+        })
+        .collect();
+    if let Some(items) = target.get("items").filter(|items| items.is_object()) {
+        let values = allowed_values(root, items);
+        let names: Vec<String> = values.iter().map(|(value, _)| format!("`{}`", show_json(value))).collect();
+        let inner = if names.is_empty() { range(root, items) } else { names.join(", ") };
+        if !inner.is_empty() {
+            words.push(format!("each: {inner}"));
+        }
+    }
+    words.join(", ")
+}
+
+/// The schema behind `$ref` and `anyOf [X, null]`.
+fn nullable_target<'a>(root: &'a Value, rule: &'a Value) -> &'a Value {
+    let target = resolve(root, rule);
+    let mut others = alternatives(target)
+        .into_iter()
+        .map(|part| resolve(root, part))
+        .filter(|part| part.get("type").and_then(Value::as_str) != Some("null"));
+    match (others.next(), others.next()) {
+        (Some(only), None) => only,
+        _ => target,
+    }
+}
+
+fn alternatives(schema: &Value) -> Vec<&Value> {
+    ["anyOf", "oneOf"].iter().filter_map(|keyword| schema.get(keyword).and_then(Value::as_array)).flatten().collect()
+}
+
+/// Text for one cell of a Markdown table.
+fn cell(text: &str) -> String {
+    text.split_whitespace().collect::<Vec<_>>().join(" ").replace('|', "\\|")
+}

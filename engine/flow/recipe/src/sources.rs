@@ -1,0 +1,86 @@
+//! The files that stages read: resolved against the recipe's folder and looked for before anything runs.
+
+use crate::document::{Node, Place, Problems, Texts};
+use crate::model::SourceFile;
+use cosfly_diagnose::{Diagnostic, Fault, nearest_name};
+use cosfly_stage::Source;
+use std::path::{Path, PathBuf};
+
+/// Folders with more entries than this are not searched for a similar name.
+const MOST_ENTRIES: usize = 10_000;
+
+/// Resolves `declared` sources; each one that is not a file is reported at the parameter that names it.
+pub(crate) fn resolve(
+    declared: &[Source],
+    directory: &Path,
+    (parameters, stage_place): (&Node, &Place),
+    texts: &Texts,
+    problems: &mut Problems,
+) -> Vec<SourceFile> {
+    let mut files = vec![];
+    for source in declared {
+        let path = directory.join(&source.path);
+        if let Err((message, hints)) = check_file(&path, &source.path, directory) {
+            let value = parameters.deepest(source.parameter.split('.'));
+            let place = if value.as_table().is_some() { stage_place } else { &value.place };
+            let label = texts.label(place, "");
+            let problem = Diagnostic::new("input-missing", Fault::Input, message).at(label);
+            problems.push(hints.into_iter().fold(problem, |problem, hint| problem.hint(hint)));
+        }
+        files.push(SourceFile { parameter: source.parameter.clone(), declared: source.path.clone(), path });
+    }
+    files
+}
+
+fn check_file(path: &Path, written: &Path, directory: &Path) -> Result<(), (String, Vec<String>)> {
+    let error = match std::fs::metadata(path) {
+        Ok(metadata) if metadata.is_dir() => {
+            return Err((format!("`{}` is a folder; a file is wanted", path.display()), vec![]));
+        }
+        Ok(metadata) if metadata.is_file() => return Ok(()),
+        Ok(_) => return Err((format!("`{}` is not a regular file", path.display()), vec![])),
+        Err(error) => error,
+    };
+    if error.kind() == std::io::ErrorKind::PermissionDenied {
+        return Err((format!("`{}` may not be read: {error}", path.display()), vec![]));
+    }
+    let mut hints = vec![];
+    let parent = path.parent().unwrap_or(Path::new(""));
+    if let Some(near) = similar_file(path) {
+        hints.push(format!("did you mean `{}`?", written.with_file_name(near).display()));
+    } else if !shown_folder(parent).is_dir() {
+        hints.push(format!("there is no folder `{}`", parent.display()));
+    }
+    if written.is_relative() {
+        if written.is_file() {
+            hints.push(format!(
+                "`{}` exists where you stand, but paths in a recipe begin at the recipe's folder; a full path works, too",
+                written.display()
+            ));
+        } else {
+            hints.push(format!(
+                "paths in a recipe begin at the recipe's folder, here `{}`",
+                shown_folder(directory).display()
+            ));
+        }
+    }
+    Err((format!("there is no file `{}`", path.display()), hints))
+}
+
+/// The name of a file beside `path` that is most like it.
+pub(crate) fn similar_file(path: &Path) -> Option<String> {
+    let name = path.file_name()?.to_str()?;
+    let folder = shown_folder(path.parent()?);
+    let mut names: Vec<String> = std::fs::read_dir(folder)
+        .ok()?
+        .take(MOST_ENTRIES)
+        .filter_map(|entry| entry.ok().filter(|entry| entry.path().is_file())?.file_name().into_string().ok())
+        .collect();
+    names.sort_unstable();
+    nearest_name(name, names.iter().map(String::as_str)).map(str::to_owned)
+}
+
+/// The empty path is the folder we stand in.
+fn shown_folder(folder: &Path) -> PathBuf {
+    if folder.as_os_str().is_empty() { PathBuf::from(".") } else { folder.to_path_buf() }
+}

@@ -1,0 +1,175 @@
+//! TOML text into the spanned tree; the only place that knows the `toml` crate.
+
+use crate::document::{Entry, Node, Place, Problems, Table, Texts, Value};
+use std::ops::Range;
+use toml::Spanned;
+use toml::de::{DeTable, DeValue, Error};
+
+/// Tables deeper than this are refused: no recipe needs them, and every check recurses.
+const MOST_LEVELS: usize = 32;
+/// A text longer than this is not a recipe.
+const MOST_BYTES: usize = 4 << 20;
+/// A broken text often breaks again further down; more than this is noise.
+const MOST_SYNTAX_ERRORS: usize = 5;
+
+/// The recipe's root table.
+pub(crate) fn parse_document(text: &str, texts: &Texts, problems: &mut Problems) -> Option<Table> {
+    if let Err((span, message)) = check_size(text) {
+        problems.push(texts.problem("recipe-syntax", &Place::new(0, span), message));
+        return None;
+    }
+    let (root, errors) = DeTable::parse_recoverable(text);
+    if !errors.is_empty() {
+        problems.extend(syntax_problems(&errors, text, texts));
+        return None;
+    }
+    let mut reader = TreeReader { text: 0, offset: 0, texts, problems };
+    Some(reader.table(root.get_ref(), &mut vec![]))
+}
+
+/// The value of a `--set`, which starts at byte `offset` of text number `text`.
+pub(crate) fn parse_value(
+    value: &str,
+    path: &[String],
+    (text, offset): (usize, usize),
+    texts: &Texts,
+    problems: &mut Problems,
+) -> Option<Node> {
+    let whole = Place::new(text, offset..offset + value.len());
+    if value.is_empty() {
+        let problem = texts.problem("override-syntax", &Place::new(text, 0..offset), "there is no value after `=`");
+        problems.push(problem.hint("an empty text is written `\"\"`"));
+        return None;
+    }
+    let parsed = match check_size(value) {
+        Err((_, message)) => Err(message),
+        Ok(()) => DeValue::parse(value).map_err(|error| error.message().to_owned()),
+    };
+    match parsed {
+        Ok(parsed) => {
+            let mut reader = TreeReader { text, offset, texts, problems };
+            Some(reader.node(&parsed, &mut path.to_vec()))
+        }
+        Err(message) if value.starts_with(['"', '\'', '[', '{']) => {
+            let problem =
+                texts.problem("override-syntax", &whole, format!("`{}` is not a TOML value", texts.written(&whole)));
+            problems.push(problem.because(message));
+            None
+        }
+        Err(_) => Some(Node { place: whole, value: Value::Text(value.to_owned()) }),
+    }
+}
+
+/// Refuses what would make a parser work too hard: huge texts and endlessly nested keys.
+fn check_size(text: &str) -> Result<(), (Range<usize>, String)> {
+    if text.len() > MOST_BYTES {
+        return Err((0..0, format!("the text has {} bytes; a recipe may have {MOST_BYTES}", text.len())));
+    }
+    let mut start = 0;
+    for line in text.split_inclusive('\n') {
+        let key = line.split('=').next().unwrap_or_default();
+        let dots = key.bytes().filter(|byte| *byte == b'.').count();
+        if dots > MOST_LEVELS && !key.contains(['"', '\'', '#']) {
+            return Err((
+                start..start + key.trim_end().len(),
+                format!("a key has {dots} dots; {MOST_LEVELS} are allowed"),
+            ));
+        }
+        start += line.len();
+    }
+    Ok(())
+}
+
+fn syntax_problems(errors: &[Error], text: &str, texts: &Texts) -> Problems {
+    let mut problems = Problems::new();
+    let mut last_line = None;
+    for error in errors {
+        let span = error.span().unwrap_or(text.len()..text.len());
+        let line = text.get(..span.start).map(|before| before.matches('\n').count());
+        if last_line == Some(line) {
+            continue;
+        }
+        last_line = Some(line);
+        problems.push(texts.problem("recipe-syntax", &Place::new(0, span), error.message()));
+    }
+    problems.truncate(MOST_SYNTAX_ERRORS);
+    problems
+}
+
+struct TreeReader<'a> {
+    text: usize,
+    offset: usize,
+    texts: &'a Texts,
+    problems: &'a mut Problems,
+}
+
+impl TreeReader<'_> {
+    fn place(&self, span: Range<usize>) -> Place {
+        Place::new(self.text, span.start + self.offset..span.end + self.offset)
+    }
+
+    fn table(&mut self, table: &DeTable<'_>, path: &mut Vec<String>) -> Table {
+        let mut entries = Table::new();
+        for (key, value) in table {
+            path.push(key.get_ref().to_string());
+            let node = self.node(value, path);
+            path.pop();
+            entries.insert(key.get_ref().to_string(), Entry { key: self.place(key.span()), node });
+        }
+        entries
+    }
+
+    fn node(&mut self, value: &Spanned<DeValue<'_>>, path: &mut Vec<String>) -> Node {
+        let place = self.place(value.span());
+        let value = if path.len() > MOST_LEVELS {
+            let message = format!("tables and lists are nested more than {MOST_LEVELS} deep");
+            self.refuse("recipe-too-deep", &place, message)
+        } else {
+            self.value(value.get_ref(), &place, path)
+        };
+        Node { place, value }
+    }
+
+    fn value(&mut self, value: &DeValue<'_>, place: &Place, path: &mut Vec<String>) -> Value {
+        match value {
+            DeValue::String(text) => Value::Text(text.to_string()),
+            DeValue::Boolean(value) => Value::Bool(*value),
+            DeValue::Integer(digits) => match i64::from_str_radix(digits.as_str(), digits.radix()) {
+                Ok(value) => Value::Integer(value),
+                Err(_) => {
+                    let message =
+                        format!("`{}` is `{}`; whole numbers have 64 bits and a sign", path.join("."), digits.as_str());
+                    self.refuse("recipe-out-of-range", place, message)
+                }
+            },
+            DeValue::Float(digits) => match digits.as_str().parse::<f64>() {
+                Ok(value) if value.is_finite() => Value::Float(value),
+                _ => {
+                    let message =
+                        format!("`{}` is `{}`; numbers must be finite", path.join("."), self.texts.written(place));
+                    self.refuse("recipe-not-finite", place, message)
+                }
+            },
+            DeValue::Datetime(_) => {
+                let message = format!("`{}` is a date; recipes have no dates", path.join("."));
+                self.refuse("recipe-wrong-type", place, message)
+            }
+            DeValue::Array(items) => {
+                let mut nodes = Vec::with_capacity(items.len());
+                for (index, item) in items.iter().enumerate() {
+                    path.push(index.to_string());
+                    nodes.push(self.node(item, path));
+                    path.pop();
+                }
+                Value::Array(nodes)
+            }
+            DeValue::Table(table) => Value::Table(self.table(table, path)),
+        }
+    }
+
+    fn refuse(&mut self, code: &'static str, place: &Place, message: String) -> Value {
+        let problem = self.texts.problem(code, place, message);
+        self.problems.push(if code == "recipe-wrong-type" { problem.hint("put it in quotes") } else { problem });
+        Value::Refused
+    }
+}

@@ -1,0 +1,159 @@
+//! Connections between stages: names, ports and artifacts fit.
+
+use crate::document::{Place, Problems, Texts, list};
+use crate::kinds::{KnownStage, kinds_that_make};
+use crate::order::Reads;
+use crate::outline::{InputOutline, Outline, StageOutline};
+use cosfly_diagnose::{Diagnostic, nearest_name};
+use cosfly_stage::{InputPort, Registry};
+use std::collections::BTreeMap;
+
+/// Per stage of the outline and port: what is connected, in the order of the recipe.
+pub(crate) type Wires = Vec<BTreeMap<String, Vec<(usize, Place)>>>;
+
+/// The graph as the recipe draws it.
+pub(crate) struct Wiring<'a> {
+    pub(crate) outline: &'a Outline,
+    pub(crate) known: &'a [Option<KnownStage>],
+    pub(crate) registry: &'a Registry,
+    pub(crate) texts: &'a Texts,
+}
+
+impl Wiring<'_> {
+    /// Checks every connection; what exists is wired, what does not is reported.
+    pub(crate) fn connect(&self, problems: &mut Problems) -> (Wires, Reads) {
+        let mut wires = vec![];
+        let mut reads = vec![];
+        for (stage, known) in self.outline.stages.iter().zip(self.known) {
+            let mut ports = BTreeMap::new();
+            for input in &stage.inputs {
+                let upstreams = self.upstreams(stage, input, problems);
+                if let Some(known) = known {
+                    self.check_port(stage, input, &known.ports, &upstreams, problems);
+                }
+                ports.insert(input.port.clone(), upstreams);
+            }
+            if let Some(known) = known {
+                let missing = known.ports.iter().filter(|port| !port.optional && !ports.contains_key(port.name));
+                problems.extend(missing.map(|port| self.missing_input(stage, port)));
+            }
+            reads.push(ports.values().flatten().cloned().collect());
+            wires.push(ports);
+        }
+        (wires, reads)
+    }
+
+    fn upstreams(&self, stage: &StageOutline, input: &InputOutline, problems: &mut Problems) -> Vec<(usize, Place)> {
+        let mut upstreams: Vec<(usize, Place)> = vec![];
+        for (name, place) in &input.stages {
+            match self.outline.stages.iter().position(|known| known.name == *name) {
+                None => problems.push(self.unknown_stage(stage, name, place)),
+                Some(index) if upstreams.iter().any(|(known, _)| *known == index) => {
+                    let message = format!("`{name}` is connected twice to `inputs.{}` of `{}`", input.port, stage.name);
+                    problems.push(self.texts.problem("recipe-input-twice", place, message).hint("name it once"));
+                }
+                Some(index) => upstreams.push((index, place.clone())),
+            }
+        }
+        upstreams
+    }
+
+    fn unknown_stage(&self, stage: &StageOutline, name: &str, place: &Place) -> Box<Diagnostic> {
+        let known = || {
+            self.outline.stages.iter().map(|stage| stage.name.as_str()).filter(|known| *known != stage.name.as_str())
+        };
+        let message = format!("`{}` reads `{name}`, but the recipe has no such stage", stage.name);
+        let problem = self.texts.problem("recipe-unknown-stage", place, message);
+        let problem = match nearest_name(name, known()) {
+            Some(near) => problem.hint(format!("did you mean `{near}`?")),
+            None => problem,
+        };
+        match known().next() {
+            Some(_) => problem.hint(format!("the other stages are {}", list(known(), 40))),
+            None => problem.hint("the recipe has no other stage"),
+        }
+    }
+
+    fn check_port(
+        &self,
+        stage: &StageOutline,
+        input: &InputOutline,
+        ports: &[InputPort],
+        upstreams: &[(usize, Place)],
+        problems: &mut Problems,
+    ) {
+        let kind = stage.kind.as_ref().map_or("", |(kind, _)| kind);
+        let Some(port) = ports.iter().find(|port| port.name == input.port) else {
+            let message = format!("`{}` is not an input of `{kind}`", input.port);
+            let problem = self.texts.problem("recipe-unknown-port", &input.place, message);
+            let problem = match nearest_name(&input.port, ports.iter().map(|port| port.name)) {
+                Some(near) => problem.hint(format!("did you mean `{near}`?")),
+                None => problem,
+            };
+            problems.push(match ports {
+                [] => problem.hint(format!("`{kind}` has no inputs")),
+                _ => problem.hint(format!("`{kind}` has {}", list(ports.iter().map(|port| port.name), 40))),
+            });
+            return;
+        };
+        if let [_, (second, place), ..] = &input.stages[..]
+            && !port.many
+        {
+            let message = format!("`inputs.{}` of `{}` takes one stage; `{second}` is one more", port.name, stage.name);
+            problems.push(self.texts.problem("recipe-input-twice", place, message).hint("connect one of them"));
+        }
+        if input.listed && input.stages.is_empty() && !port.optional {
+            let message = format!("`inputs.{}` of `{}` names no stage", port.name, stage.name);
+            let problem = self.texts.problem("recipe-missing-input", &input.place, message);
+            problems.push(self.connectable(problem, stage, port));
+        }
+        for (upstream, place) in upstreams {
+            let made = self.known[*upstream].as_ref().and_then(|known| known.built.as_ref()?.artifact());
+            if let Some(made) = made.filter(|made| *made != port.artifact) {
+                let name = &self.outline.stages[*upstream].name;
+                let message = format!(
+                    "`inputs.{}` of `{}` takes `{}`, but `{name}` makes `{made}`",
+                    port.name, stage.name, port.artifact
+                );
+                let problem = self.texts.problem("recipe-artifact-mismatch", place, message);
+                problems.push(self.connectable(problem, stage, port));
+            }
+        }
+    }
+
+    fn missing_input(&self, stage: &StageOutline, port: &InputPort) -> Box<Diagnostic> {
+        let message =
+            format!("`{}` needs `inputs.{}` ({}, `{}`)", stage.name, port.name, sentence(port), port.artifact);
+        let problem = self.texts.problem("recipe-missing-input", &stage.place, message);
+        self.connectable(problem, stage, port)
+    }
+
+    /// Adds what makes the artifact that `port` takes: stages of this recipe, else kinds.
+    fn connectable(&self, problem: Box<Diagnostic>, reader: &StageOutline, port: &InputPort) -> Box<Diagnostic> {
+        let makers: Vec<&str> = self
+            .outline
+            .stages
+            .iter()
+            .zip(self.known)
+            .filter(|(stage, known)| {
+                let artifact = known.as_ref().and_then(|known| known.built.as_ref()?.artifact());
+                stage.name != reader.name && artifact == Some(port.artifact)
+            })
+            .map(|(stage, _)| stage.name.as_str())
+            .collect();
+        let kinds = kinds_that_make(self.registry, port.artifact);
+        let problem = match &makers[..] {
+            [] => problem,
+            [one] => problem.hint(format!("write `inputs.{} = \"{one}\"` in `[stages.{}]`", port.name, reader.name)),
+            _ => problem.hint(format!("`{}` is made by {}", port.artifact, list(makers.iter().copied(), 20))),
+        };
+        match &kinds[..] {
+            [] => problem,
+            _ => problem.hint(format!("stage kinds that make `{}`: {}", port.artifact, list(kinds, 20))),
+        }
+    }
+}
+
+fn sentence(port: &InputPort) -> &str {
+    port.doc.trim_end_matches('.')
+}
