@@ -1,0 +1,160 @@
+//! Reading blobs: the size always, the digest once per process, and a damaged one is removed at once.
+
+use crate::layout::Area;
+use crate::store::{BLOB_LOST, Store, locked};
+use cosfly_diagnose::{Diagnostic, Fault, Result};
+use cosfly_fingerprint::Digest;
+use cosfly_stage::{BlobRef, BlobSource};
+use std::any::{Any, TypeId};
+use std::fs::{self, File};
+use std::io::{self, Read, Seek};
+use std::path::PathBuf;
+use std::sync::Arc;
+
+impl BlobSource for Store {
+    fn read(&self, blob: &BlobRef) -> Result<Vec<u8>> {
+        let bytes = match fs::read(self.blob_path(blob)) {
+            Ok(bytes) => bytes,
+            Err(error) => return Err(self.unreadable(blob, &error)),
+        };
+        if bytes.len() as u64 != blob.bytes {
+            return Err(self.damaged(blob));
+        }
+        if !self.is_checked(&blob.digest) {
+            if Digest::of(&bytes) != blob.digest {
+                return Err(self.damaged(blob));
+            }
+            self.mark_checked(blob.digest);
+        }
+        Ok(bytes)
+    }
+
+    fn open(&self, blob: &BlobRef) -> Result<File> {
+        let checked = self.open_checked(blob);
+        match checked {
+            Ok(Some(file)) => Ok(file),
+            Ok(None) => Err(self.damaged(blob)),
+            Err(error) => Err(self.unreadable(blob, &error)),
+        }
+    }
+
+    fn decoded(
+        &self,
+        blob: &BlobRef,
+        kind: TypeId,
+        decode: &dyn Fn(&[u8]) -> Result<Arc<dyn Any + Send + Sync>>,
+    ) -> Result<Arc<dyn Any + Send + Sync>> {
+        self.decoded.get_or_decode(blob.digest, kind, || decode(&self.read(blob)?))
+    }
+}
+
+impl Store {
+    /// Where a blob lies.
+    pub(crate) fn blob_path(&self, blob: &BlobRef) -> PathBuf {
+        self.layout.file(Area::Blobs, &blob.digest)
+    }
+
+    pub(crate) fn is_checked(&self, digest: &Digest) -> bool {
+        locked(&self.checked).contains(digest)
+    }
+
+    pub(crate) fn mark_checked(&self, digest: Digest) {
+        locked(&self.checked).insert(digest);
+    }
+
+    /// The blob's file, at its start; nothing when it is not what its name says.
+    fn open_checked(&self, blob: &BlobRef) -> io::Result<Option<File>> {
+        let mut file = File::open(self.blob_path(blob))?;
+        if file.metadata()?.len() != blob.bytes {
+            return Ok(None);
+        }
+        if !self.is_checked(&blob.digest) {
+            if digest_of_file(&mut file)? != blob.digest {
+                return Ok(None);
+            }
+            file.rewind()?;
+            self.mark_checked(blob.digest);
+        }
+        Ok(Some(file))
+    }
+
+    fn unreadable(&self, blob: &BlobRef, error: &io::Error) -> Box<Diagnostic> {
+        if error.kind() == io::ErrorKind::NotFound {
+            lost(blob, "is missing")
+        } else {
+            Diagnostic::io(format!("read `{}`", self.blob_path(blob).display()), error)
+        }
+    }
+
+    /// Takes a damaged blob away, so that nobody else meets it.
+    fn damaged(&self, blob: &BlobRef) -> Box<Diagnostic> {
+        locked(&self.checked).remove(&blob.digest);
+        let _ = fs::remove_file(self.blob_path(blob));
+        lost(blob, "is damaged")
+    }
+}
+
+fn lost(blob: &BlobRef, how: &str) -> Box<Diagnostic> {
+    Diagnostic::new(BLOB_LOST, Fault::Machine, format!("blob `{}` of the store {how}", blob.digest.short()))
+        .hint("run the same command again: what made it will be computed again")
+}
+
+/// The digest of a file from where it stands to its end.
+pub(crate) fn digest_of_file(file: &mut File) -> io::Result<Digest> {
+    let mut hasher = blake3::Hasher::new();
+    let mut buffer = vec![0; 1 << 17];
+    loop {
+        match file.read(&mut buffer) {
+            Ok(0) => return Ok(Digest(*hasher.finalize().as_bytes())),
+            Ok(length) => hasher.update(&buffer[..length]),
+            Err(error) if error.kind() == io::ErrorKind::Interrupted => continue,
+            Err(error) => return Err(error),
+        };
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::ActionRecord;
+    use cosfly_stage::{OutputSink, Produced};
+    use std::path::Path;
+
+    fn store_with(root: &Path, bytes: &[u8]) -> (Store, ActionRecord) {
+        let store = Store::open(root).unwrap();
+        let mut sink = store.sink();
+        sink.put("a", bytes).unwrap();
+        let record = (*sink.settle(&Digest::of(b"action"), Produced::default()).unwrap().record).clone();
+        (store, record)
+    }
+
+    #[test]
+    fn a_blob_reads_back_as_bytes_and_as_a_file() {
+        let root = tempfile::tempdir().unwrap();
+        let (store, record) = store_with(root.path(), b"hello");
+        assert_eq!(store.read(&record.outputs["a"]).unwrap(), b"hello");
+        let again = Store::open(root.path()).unwrap();
+        let mut text = String::new();
+        again.open(&record.outputs["a"]).unwrap().read_to_string(&mut text).unwrap();
+        assert_eq!(text, "hello");
+    }
+
+    #[test]
+    fn a_damaged_blob_is_refused_removed_and_healed_by_publishing_it_again() {
+        let root = tempfile::tempdir().unwrap();
+        for damage in [&b"hellO"[..], b"hell", b""] {
+            let (store, record) = store_with(root.path(), b"hello");
+            let blob = record.outputs["a"];
+            drop(store);
+            let path = Store::open(root.path()).unwrap().blob_path(&blob);
+            fs::remove_file(&path).unwrap();
+            fs::write(&path, damage).unwrap();
+            let store = Store::open(root.path()).unwrap();
+            assert_eq!(store.open(&blob).unwrap_err().code, BLOB_LOST);
+            assert!(!path.exists() && !store.holds(&record));
+            assert_eq!(store.read(&blob).unwrap_err().code, BLOB_LOST);
+        }
+        let (store, record) = store_with(root.path(), b"hello");
+        assert!(store.holds(&record));
+    }
+}

@@ -1,0 +1,81 @@
+//! Forcing a group of files to the disk with one call.
+
+use crate::layout::Layout;
+use crate::store::locked;
+use cosfly_diagnose::{Diagnostic, Result};
+use std::collections::BTreeSet;
+use std::fs::File;
+use std::io;
+use std::path::{Path, PathBuf};
+use std::sync::Mutex;
+
+/// Syncs the file system that holds the store; where that call is missing, the written files one by one.
+#[derive(Debug)]
+pub(crate) struct Durability {
+    #[cfg(target_os = "linux")]
+    root: File,
+    /// Files put into place since the last sync.
+    unsynced: Mutex<Vec<PathBuf>>,
+}
+
+impl Durability {
+    pub(crate) fn of(layout: &Layout) -> Result<Self> {
+        #[cfg(target_os = "linux")]
+        let root = File::open(&layout.root)
+            .map_err(|error| Diagnostic::io(format!("open `{}`", layout.root.display()), &error))?;
+        #[cfg(not(target_os = "linux"))]
+        let _ = layout;
+        Ok(Self {
+            #[cfg(target_os = "linux")]
+            root,
+            unsynced: Mutex::default(),
+        })
+    }
+
+    /// Remembers a file that was put into place.
+    pub(crate) fn note(&self, path: &Path) {
+        locked(&self.unsynced).push(path.to_owned());
+    }
+
+    /// Makes everything that was noted before the call durable.
+    pub(crate) fn sync(&self) -> io::Result<()> {
+        let files = std::mem::take(&mut *locked(&self.unsynced));
+        #[cfg(target_os = "linux")]
+        match rustix::fs::syncfs(&self.root) {
+            Ok(()) => return Ok(()),
+            Err(rustix::io::Errno::NOSYS | rustix::io::Errno::PERM | rustix::io::Errno::OPNOTSUPP) => {}
+            Err(error) => return Err(error.into()),
+        }
+        sync_one_by_one(&files)
+    }
+}
+
+fn sync_one_by_one(files: &[PathBuf]) -> io::Result<()> {
+    let mut folders = BTreeSet::new();
+    for path in files {
+        match File::open(path) {
+            Ok(file) => file.sync_all()?,
+            // Replaced or collected meanwhile.
+            Err(error) if error.kind() == io::ErrorKind::NotFound => {}
+            Err(error) => return Err(error),
+        }
+        folders.extend(path.parent());
+    }
+    if cfg!(unix) {
+        folders.into_iter().try_for_each(|folder| File::open(folder)?.sync_all())?;
+    }
+    Ok(())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn syncing_one_by_one_passes_over_files_that_are_gone() {
+        let folder = tempfile::tempdir().unwrap();
+        let there = folder.path().join("a");
+        std::fs::write(&there, b"a").unwrap();
+        sync_one_by_one(&[there, folder.path().join("gone")]).unwrap();
+    }
+}

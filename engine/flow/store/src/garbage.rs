@@ -1,0 +1,276 @@
+//! Removing what no recent run and no pin needs.
+
+use crate::history::{newest_runs, read_run, run_numbers};
+use crate::layout::{Area, Layout, read_dir_or_nothing};
+use crate::locks::lock_file;
+use crate::records;
+use crate::scratch::sweep_orphans;
+use crate::sink::is_relative_path;
+use cosfly_diagnose::{Diagnostic, Fault, Result};
+use cosfly_fingerprint::Digest;
+use std::collections::BTreeSet;
+use std::fs::{self, File, TryLockError};
+use std::io;
+use std::path::Path;
+use std::time::{Duration, SystemTime};
+
+/// What is kept.
+#[derive(Clone, Debug)]
+pub struct GarbageOptions {
+    /// The newest runs of every recipe that are kept.
+    pub keep_runs: usize,
+    /// Whatever is younger than this is kept, needed or not.
+    pub keep_age: Duration,
+    /// The time now.
+    pub now: SystemTime,
+    /// Only count.
+    pub dry_run: bool,
+}
+
+/// What was, or in a dry run would be, removed.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct GarbageReport {
+    /// Blobs removed.
+    pub blobs: u64,
+    /// Their bytes.
+    pub blob_bytes: u64,
+    /// Records and documents removed.
+    pub records: u64,
+    /// Their bytes.
+    pub record_bytes: u64,
+    /// Temporary folders of dead processes.
+    pub orphans: u64,
+    /// Their bytes.
+    pub orphan_bytes: u64,
+    /// Blobs that stay.
+    pub kept_blobs: u64,
+    /// Their bytes.
+    pub kept_blob_bytes: u64,
+}
+
+/// Removes (or counts) what is neither young nor needed by a recent run or a pin of the store at `root`.
+///
+/// # Errors
+/// `store-in-use` while a run is going on (not in a dry run), the refusals of opening a store, or what the
+/// machine refused.
+pub fn collect_garbage(root: &Path, options: &GarbageOptions) -> Result<GarbageReport> {
+    let layout = Layout::create_or_check(root)?;
+    let failed = |error: io::Error| Diagnostic::io(format!("clean the store `{}`", root.display()), &error);
+    let _alone = lock(&layout, options.dry_run)?;
+    let needed = mark(&layout, options.keep_runs).map_err(failed)?;
+    let mut report = GarbageReport::default();
+    (report.orphans, report.orphan_bytes) = sweep_orphans(&layout, options.dry_run).map_err(failed)?;
+    // What points goes before what it points to: a crash half way leaves nothing dangling.
+    for area in [Area::Done, Area::Builds, Area::Plans, Area::Actions, Area::Blobs] {
+        sweep(&layout, area, &needed, options, &mut report).map_err(failed)?;
+    }
+    if !options.dry_run {
+        remove_stale_locks(&layout).map_err(failed)?;
+    }
+    Ok(report)
+}
+
+/// Keeps the newest run of `recipe` from garbage collection under `name`, until [`unpin`].
+pub fn pin(root: &Path, recipe: &str, name: &str) -> Result<()> {
+    let layout = Layout::create_or_check(root)?;
+    let failed = |error: io::Error| Diagnostic::io(format!("pin `{name}` in `{}`", root.display()), &error);
+    let path = pin_path(&layout, name)?;
+    let folder = layout.folder("runs").join(recipe);
+    let Some(newest) = run_numbers(&folder).map_err(failed)?.pop() else {
+        return Err(Diagnostic::new("pin-nothing", Fault::Recipe, format!("the store has no run of `{recipe}`"))
+            .hint("run the recipe first"));
+    };
+    fs::create_dir_all(layout.folder("pins")).map_err(failed)?;
+    let temporary = layout.folder("tmp").join(format!("pin-{}", std::process::id()));
+    fs::copy(folder.join(format!("{newest:08}")), &temporary).and_then(|_| fs::rename(&temporary, path)).map_err(failed)
+}
+
+/// Removes a pin; nothing happens when there is none of that name.
+pub fn unpin(root: &Path, name: &str) -> Result<()> {
+    let layout = Layout::create_or_check(root)?;
+    match fs::remove_file(pin_path(&layout, name)?) {
+        Err(error) if error.kind() != io::ErrorKind::NotFound => {
+            Err(Diagnostic::io(format!("remove the pin `{name}`"), &error))
+        }
+        _ => Ok(()),
+    }
+}
+
+fn pin_path(layout: &Layout, name: &str) -> Result<std::path::PathBuf> {
+    if !is_relative_path(name) || name.contains('/') {
+        return Err(Diagnostic::new("pin-bad-name", Fault::Recipe, format!("`{name}` cannot be the name of a pin"))
+            .hint("use letters, digits, `-` and `_`"));
+    }
+    Ok(layout.folder("pins").join(name))
+}
+
+fn lock(layout: &Layout, dry_run: bool) -> Result<File> {
+    let failed = |error: &io::Error| Diagnostic::io(format!("lock the store `{}`", layout.root.display()), error);
+    let file = lock_file(&layout.root.join("locks/garbage")).map_err(|error| failed(&error))?;
+    let taken = if dry_run { file.try_lock_shared() } else { file.try_lock() };
+    match taken {
+        Ok(()) => Ok(file),
+        Err(TryLockError::WouldBlock) => Err(Diagnostic::new(
+            "store-in-use",
+            Fault::Machine,
+            format!("another cosfly is using the store `{}`", layout.root.display()),
+        )
+        .hint("collect garbage when no run is going on")),
+        Err(TryLockError::Error(error)) => Err(failed(&error)),
+    }
+}
+
+/// What must stay.
+#[derive(Default)]
+struct Needed {
+    /// Plans, definitions and every document that they name.
+    documents: BTreeSet<Digest>,
+    actions: BTreeSet<Digest>,
+    blobs: BTreeSet<Digest>,
+}
+
+fn mark(layout: &Layout, keep_runs: usize) -> io::Result<Needed> {
+    let mut roots = Vec::new();
+    for recipe in read_dir_or_nothing(&layout.folder("runs"))? {
+        roots.extend(newest_runs(&recipe?.path(), keep_runs)?);
+    }
+    for pin in read_dir_or_nothing(&layout.folder("pins"))? {
+        roots.extend(read_run(&pin?.path()));
+    }
+    let mut needed = Needed::default();
+    let mut waiting: Vec<Digest> = roots.iter().flat_map(|run| run.digests()).collect();
+    while let Some(document) = waiting.pop() {
+        if needed.documents.insert(document) {
+            waiting.extend(documents_named_in(layout, &document));
+            mark_finished(layout, &document, &mut needed);
+        }
+    }
+    Ok(needed)
+}
+
+fn mark_finished(layout: &Layout, plan: &Digest, needed: &mut Needed) {
+    let action = fs::read_to_string(layout.file(Area::Done, plan)).ok().and_then(|text| text.trim_end().parse().ok());
+    let Some(action) = action else { return };
+    if needed.actions.insert(action) {
+        let record = fs::read(layout.file(Area::Actions, &action)).ok().and_then(|bytes| records::decode(&bytes));
+        needed.blobs.extend(record.iter().flat_map(|record| record.outputs.values().map(|blob| blob.digest)));
+    }
+}
+
+/// The digests in a plan document: it names others by them.
+fn documents_named_in(layout: &Layout, document: &Digest) -> Vec<Digest> {
+    let Ok(bytes) = fs::read(layout.file(Area::Plans, document)) else { return Vec::new() };
+    let mut named = Vec::new();
+    let mut waiting: Vec<serde_json::Value> = serde_json::from_slice(&bytes).into_iter().collect();
+    while let Some(value) = waiting.pop() {
+        match value {
+            serde_json::Value::String(text) => named.extend(text.parse::<Digest>()),
+            serde_json::Value::Array(values) => waiting.extend(values),
+            serde_json::Value::Object(members) => waiting.extend(members.into_iter().map(|(_, value)| value)),
+            _ => {}
+        }
+    }
+    named
+}
+
+fn sweep(
+    layout: &Layout,
+    area: Area,
+    needed: &Needed,
+    options: &GarbageOptions,
+    report: &mut GarbageReport,
+) -> io::Result<()> {
+    let wanted = match area {
+        Area::Blobs => &needed.blobs,
+        Area::Actions => &needed.actions,
+        Area::Done | Area::Plans | Area::Builds => &needed.documents,
+    };
+    for digest in layout.list(area)? {
+        let path = layout.file(area, &digest);
+        let metadata = fs::symlink_metadata(&path)?;
+        let age = metadata.modified().ok().and_then(|made| options.now.duration_since(made).ok());
+        let young = age.unwrap_or_default() < options.keep_age;
+        let keep = young || wanted.contains(&digest);
+        if !keep && !options.dry_run {
+            fs::remove_file(&path)?;
+        }
+        let (count, bytes) = match (area, keep) {
+            (Area::Blobs, true) => (&mut report.kept_blobs, &mut report.kept_blob_bytes),
+            (Area::Blobs, false) => (&mut report.blobs, &mut report.blob_bytes),
+            (_, true) => continue,
+            (_, false) => (&mut report.records, &mut report.record_bytes),
+        };
+        *count += 1;
+        *bytes += metadata.len();
+    }
+    Ok(())
+}
+
+/// Lock files that killed processes left behind; nobody holds one while we are alone.
+fn remove_stale_locks(layout: &Layout) -> io::Result<()> {
+    for entry in read_dir_or_nothing(&layout.folder("locks"))? {
+        let entry = entry?;
+        let name = entry.file_name();
+        if name.to_str().is_some_and(|name| name.starts_with("task-") || name.starts_with("out-")) {
+            fs::remove_file(entry.path())?;
+        }
+    }
+    Ok(())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::{PastRun, PastStage, Store};
+    use cosfly_stage::{OutputSink, Produced};
+    use std::collections::BTreeMap;
+
+    /// A run of one task with one blob, remembered.
+    fn run(store: &Store, text: &str) {
+        let definition = format!("{{\"what\":\"{text}\"}}");
+        let definition_digest = Digest::of(definition.as_bytes());
+        let document = format!("{{\"definition\":\"{definition_digest}\"}}");
+        let plan = Digest::of(document.as_bytes());
+        let action = Digest::of(format!("action {text}").as_bytes());
+        let mut sink = store.sink();
+        sink.put("a", text.as_bytes()).unwrap();
+        sink.settle(&action, Produced::default()).unwrap();
+        store.put_document(&definition_digest, &definition).unwrap();
+        store.publish_done(&plan, &document, &action).unwrap();
+        let items = BTreeMap::from([("all".to_owned(), plan)]);
+        let stage = PastStage { name: "s".to_owned(), definition: definition_digest, items };
+        store.record_run("r", &PastRun { stages: vec![stage] }).unwrap();
+    }
+
+    fn collect(root: &Path, keep_runs: usize, age_s: u64, dry_run: bool) -> GarbageReport {
+        let now = SystemTime::now() + Duration::from_secs(3600);
+        let keep_age = Duration::from_secs(age_s);
+        collect_garbage(root, &GarbageOptions { keep_runs, keep_age, now, dry_run }).unwrap()
+    }
+
+    #[test]
+    fn what_recent_runs_and_pins_need_stays_and_the_rest_goes() {
+        let root = tempfile::tempdir().unwrap();
+        let root = root.path();
+        let store = Store::open(root).unwrap();
+        run(&store, "oldest");
+        pin(root, "r", "paper").unwrap();
+        for text in ["older", "old", "new"] {
+            run(&store, text);
+        }
+        let options = GarbageOptions { keep_runs: 2, keep_age: Duration::ZERO, now: SystemTime::now(), dry_run: false };
+        assert_eq!(collect_garbage(root, &options).unwrap_err().code, "store-in-use");
+        drop(store);
+        let count = |report: &GarbageReport| (report.blobs, report.blob_bytes, report.records, report.kept_blobs);
+        assert_eq!(count(&collect(root, 2, 7200, false)), (0, 0, 0, 4), "all is younger than two hours");
+        let predicted = collect(root, 2, 0, true);
+        assert_eq!(count(&predicted), (1, 5, 4, 3));
+        assert_eq!(collect(root, 2, 0, false), predicted);
+        assert_eq!(count(&collect(root, 2, 0, false)), (0, 0, 0, 3));
+        unpin(root, "paper").unwrap();
+        assert_eq!(count(&collect(root, 2, 0, false)), (1, 6, 4, 2));
+        let store = Store::open(root).unwrap();
+        assert_eq!(store.done().unwrap().len(), 2);
+        assert!(store.done().unwrap().iter().all(|plan| store.holds(&store.finished(plan).unwrap().record)));
+    }
+}

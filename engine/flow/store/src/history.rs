@@ -1,0 +1,168 @@
+//! What earlier runs of a recipe consisted of: the ground for `cosfly why`, and the roots of garbage collection.
+
+use crate::fault::Step;
+use crate::layout::read_dir_or_nothing;
+use crate::store::Store;
+use cosfly_diagnose::{Diagnostic, Result};
+use cosfly_fingerprint::Digest;
+use std::collections::BTreeMap;
+use std::fmt::Write as _;
+use std::fs;
+use std::io;
+use std::path::Path;
+
+/// How many runs of a recipe are remembered.
+const REMEMBERED: usize = 10;
+const HEADER: &str = "cosfly-run 1 ";
+
+/// The finished tasks of one run.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct PastRun {
+    /// In the order of the recipe.
+    pub stages: Vec<PastStage>,
+}
+
+/// The finished tasks of one stage of a run.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct PastStage {
+    /// Name in the recipe, with part suffix.
+    pub name: String,
+    /// Digest of its definition document.
+    pub definition: Digest,
+    /// Plan digest by item id.
+    pub items: BTreeMap<String, Digest>,
+}
+
+impl PastRun {
+    /// The stage called `name`.
+    pub fn stage(&self, name: &str) -> Option<&PastStage> {
+        self.stages.iter().find(|stage| stage.name == name)
+    }
+
+    fn encode(&self) -> String {
+        let quoted = |text: &str| serde_json::Value::from(text).to_string();
+        let mut body = String::new();
+        for stage in &self.stages {
+            let _ = writeln!(body, "stage {} {}", stage.definition, quoted(&stage.name));
+            for (item, plan) in &stage.items {
+                let _ = writeln!(body, "item {plan} {}", quoted(item));
+            }
+        }
+        format!("{HEADER}{}\n{body}", Digest::of(body.as_bytes()))
+    }
+
+    /// Reads the file of a run; nothing when it is not exactly what was written.
+    pub(crate) fn decode(text: &str) -> Option<Self> {
+        let (digest, body) = text.strip_prefix(HEADER)?.split_once('\n')?;
+        if digest.parse::<Digest>().ok()? != Digest::of(body.as_bytes()) {
+            return None;
+        }
+        let mut run = Self::default();
+        for line in body.lines() {
+            let mut words = line.splitn(3, ' ');
+            let (what, digest, name) = (words.next()?, words.next()?.parse().ok()?, words.next()?);
+            let name: String = serde_json::from_str(name).ok()?;
+            if what == "stage" {
+                run.stages.push(PastStage { name, definition: digest, items: BTreeMap::new() });
+            } else {
+                run.stages.last_mut()?.items.insert(name, digest);
+            }
+        }
+        Some(run)
+    }
+
+    /// Every plan and definition digest in it.
+    pub(crate) fn digests(&self) -> impl Iterator<Item = Digest> {
+        self.stages.iter().flat_map(|stage| std::iter::once(stage.definition).chain(stage.items.values().copied()))
+    }
+}
+
+impl Store {
+    /// The remembered runs of `recipe`, newest first, read one by one as they are asked for.
+    /// Damaged ones are passed over.
+    pub fn past_runs(&self, recipe: &str) -> impl Iterator<Item = PastRun> {
+        let folder = self.layout.folder("runs").join(recipe);
+        let numbers = run_numbers(&folder).unwrap_or_default();
+        numbers.into_iter().rev().filter_map(move |n| read_run(&folder.join(file_name(n))))
+    }
+
+    /// Remembers a run, unless it is the same as the newest one.
+    pub fn record_run(&self, recipe: &str, run: &PastRun) -> Result<()> {
+        let folder = self.layout.folder("runs").join(recipe);
+        let failed = |error: io::Error| Diagnostic::io(format!("write `{}`", folder.display()), &error);
+        let mut numbers = run_numbers(&folder).map_err(failed)?;
+        let text = run.encode();
+        if numbers.last().is_some_and(|n| fs::read(folder.join(file_name(*n))).is_ok_and(|old| old == text.as_bytes()))
+        {
+            return Ok(());
+        }
+        let next = numbers.last().map_or(1, |n| n.saturating_add(1));
+        self.write_file(&folder.join(file_name(next)), text.as_bytes(), Step::WriteRun, Step::RenameRun)?;
+        numbers.push(next);
+        for old in numbers.iter().rev().skip(REMEMBERED) {
+            let _ = fs::remove_file(folder.join(file_name(*old)));
+        }
+        Ok(())
+    }
+}
+
+fn file_name(number: u64) -> String {
+    format!("{number:08}")
+}
+
+/// The numbers of the runs in a folder, oldest first.
+pub(crate) fn run_numbers(folder: &Path) -> io::Result<Vec<u64>> {
+    let mut numbers = Vec::new();
+    for entry in read_dir_or_nothing(folder)? {
+        numbers.extend(entry?.file_name().to_str().and_then(|name| name.parse::<u64>().ok()));
+    }
+    numbers.sort_unstable();
+    Ok(numbers)
+}
+
+/// The newest `count` runs in a folder.
+pub(crate) fn newest_runs(folder: &Path, count: usize) -> io::Result<Vec<PastRun>> {
+    let numbers = run_numbers(folder)?;
+    Ok(numbers.into_iter().rev().filter_map(|n| read_run(&folder.join(file_name(n)))).take(count).collect())
+}
+
+pub(crate) fn read_run(path: &Path) -> Option<PastRun> {
+    PastRun::decode(&fs::read_to_string(path).ok()?)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn run(seed: u64) -> PastRun {
+        let items = (0..3).map(|n| (format!("p{n} \"x\"\n"), Digest::of(&[seed as u8, n])));
+        let stage = PastStage {
+            name: "walkers".to_owned(),
+            definition: Digest::of(&seed.to_le_bytes()),
+            items: items.collect(),
+        };
+        PastRun { stages: vec![stage] }
+    }
+
+    #[test]
+    fn the_last_ten_different_runs_are_remembered_newest_first() {
+        let root = tempfile::tempdir().unwrap();
+        let store = Store::open(root.path()).unwrap();
+        for seed in 0..14 {
+            store.record_run("r", &run(seed)).unwrap();
+            store.record_run("r", &run(seed)).unwrap();
+        }
+        let remembered: Vec<PastRun> = store.past_runs("r").collect();
+        assert_eq!(remembered, (4..14).rev().map(run).collect::<Vec<_>>());
+        assert_eq!(store.past_runs("other").count(), 0);
+    }
+
+    #[test]
+    fn a_damaged_run_is_passed_over() {
+        let text = run(1).encode();
+        assert_eq!(PastRun::decode(&text), Some(run(1)));
+        for cut in 0..text.len() {
+            assert_eq!(PastRun::decode(&text[..cut]), None, "cut at {cut}");
+        }
+    }
+}

@@ -1,0 +1,308 @@
+//! An artifact as an ordinary folder: built beside, then put in place in one step.
+
+use crate::locks::lock_file;
+use crate::sink::is_relative_path;
+use crate::store::Store;
+use cosfly_diagnose::{Diagnostic, Fault, Result};
+use cosfly_fingerprint::Digest;
+use cosfly_stage::{BlobRef, BlobSource};
+use std::collections::{BTreeMap, BTreeSet};
+use std::fs::{self, File};
+use std::io;
+use std::path::{Path, PathBuf};
+
+/// The file in a materialised folder that says which version it is and which files belong to it.
+pub const VERSION_FILE: &str = ".cosfly-version";
+
+/// What became of a folder.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Materialised {
+    /// Digest over the sorted (path, digest, size) of all files.
+    pub version: Digest,
+    /// How many files it has.
+    pub files: u64,
+    /// Their bytes.
+    pub bytes: u64,
+    /// Whether anything was written; the folder may have held this version already.
+    pub changed: bool,
+}
+
+/// Makes `folder` hold exactly `blobs`, by name. Files are hard links into the store where the file system
+/// allows it (they are read-only), copies elsewhere. A reader of `folder` sees the old version or the new one,
+/// never a mixture.
+///
+/// # Errors
+/// [`crate::BLOB_LOST`] when a blob is missing or damaged, `out-not-ours` when `folder` holds something else,
+/// or what the machine refused.
+pub fn materialise(store: &Store, blobs: &BTreeMap<String, BlobRef>, folder: &Path) -> Result<Materialised> {
+    check_names(blobs)?;
+    let version = version_of(blobs);
+    let bytes = blobs.values().fold(0_u64, |sum, blob| sum.saturating_add(blob.bytes));
+    let result = |changed| Materialised { version, files: blobs.len() as u64, bytes, changed };
+    let folder = std::path::absolute(folder).map_err(|error| refused(folder, &error))?;
+    let _turn = take_turn(store, &folder)?;
+    let marker = fs::read_to_string(folder.join(VERSION_FILE)).ok();
+    if marker.as_deref().and_then(|text| text.lines().next()) == Some(version.to_string().as_str())
+        && blobs.iter().all(|(name, blob)| has_size(&folder.join(name), blob.bytes))
+    {
+        return Ok(result(false));
+    }
+    check_ours(&folder, marker.as_deref())?;
+    let beside = beside(&folder)?;
+    let built = build(store, blobs, &version, &beside)
+        .and_then(|()| put_in_place(&beside, &folder).map_err(|error| refused(&folder, &error)));
+    if let Err(diagnostic) = built {
+        let _ = fs::remove_dir_all(&beside);
+        return Err(diagnostic);
+    }
+    Ok(result(true))
+}
+
+fn refused(folder: &Path, error: &io::Error) -> Box<Diagnostic> {
+    Diagnostic::io(format!("write the folder `{}`", folder.display()), error)
+}
+
+fn version_of(blobs: &BTreeMap<String, BlobRef>) -> Digest {
+    let mut hasher = blake3::Hasher::new();
+    for (name, blob) in blobs {
+        hasher.update(&(name.len() as u64).to_le_bytes());
+        hasher.update(name.as_bytes());
+        hasher.update(&blob.digest.0);
+        hasher.update(&blob.bytes.to_le_bytes());
+    }
+    Digest(*hasher.finalize().as_bytes())
+}
+
+fn check_names(blobs: &BTreeMap<String, BlobRef>) -> Result<()> {
+    match blobs.keys().find(|name| !is_relative_path(name) || *name == VERSION_FILE) {
+        None => Ok(()),
+        Some(name) => Err(Diagnostic::new(
+            "out-bad-name",
+            Fault::Bug,
+            format!("an artifact has a file named `{name}`, which would lie outside its folder or hide its version"),
+        )),
+    }
+}
+
+fn has_size(path: &Path, bytes: u64) -> bool {
+    fs::symlink_metadata(path).is_ok_and(|metadata| metadata.is_file() && metadata.len() == bytes)
+}
+
+/// Two processes that want the same folder come one after the other.
+fn take_turn(store: &Store, folder: &Path) -> Result<File> {
+    let name = format!("out-{}", Digest::of(folder.as_os_str().as_encoded_bytes()));
+    let path = store.root().join("locks").join(name);
+    let locked = lock_file(&path).and_then(|file| file.lock().map(|()| file));
+    locked.map_err(|error| Diagnostic::io(format!("lock `{}`", path.display()), &error))
+}
+
+/// Refuses to replace anything that a run did not put there.
+fn check_ours(folder: &Path, marker: Option<&str>) -> Result<()> {
+    let not_ours = |message: String| {
+        Err(Diagnostic::new("out-not-ours", Fault::Recipe, message)
+            .hint("choose another folder with `--out`, or move what is there out of the way"))
+    };
+    match fs::symlink_metadata(folder) {
+        Err(error) if error.kind() == io::ErrorKind::NotFound => return Ok(()),
+        Err(error) => return Err(refused(folder, &error)),
+        Ok(metadata) if !metadata.is_dir() => {
+            return not_ours(format!("`{}` is there and is not a folder", folder.display()));
+        }
+        Ok(_) => {}
+    }
+    let known: BTreeSet<&str> = marker.unwrap_or_default().lines().skip(1).chain([VERSION_FILE]).collect();
+    let foreign = first_foreign(folder, "", &known).map_err(|error| refused(folder, &error))?;
+    match foreign {
+        None => Ok(()),
+        Some(_) if marker.is_none() => {
+            not_ours(format!("`{}` is not empty and was not made by cosfly", folder.display()))
+        }
+        Some(name) => not_ours(format!("`{}` holds `{name}`, which was not made by cosfly", folder.display())),
+    }
+}
+
+/// The first file below `folder` that is not in `known`, by its path from the top.
+fn first_foreign(folder: &Path, prefix: &str, known: &BTreeSet<&str>) -> io::Result<Option<String>> {
+    for entry in fs::read_dir(folder)? {
+        let entry = entry?;
+        let name = format!("{prefix}{}", entry.file_name().to_string_lossy());
+        let foreign = if entry.file_type()?.is_dir() {
+            first_foreign(&entry.path(), &format!("{name}/"), known)?
+        } else {
+            (!known.contains(name.as_str())).then_some(name)
+        };
+        if foreign.is_some() {
+            return Ok(foreign);
+        }
+    }
+    Ok(None)
+}
+
+/// A fresh folder next to `folder`, on the same file system; what a killed run left there is removed.
+fn beside(folder: &Path) -> Result<PathBuf> {
+    let (Some(parent), Some(name)) = (folder.parent(), folder.file_name()) else {
+        return Err(Diagnostic::new(
+            "out-not-ours",
+            Fault::Recipe,
+            format!("`{}` cannot be the folder of a dataset", folder.display()),
+        )
+        .hint("choose another folder with `--out`"));
+    };
+    let beside = parent.join(format!(".{}.cosfly-tmp", name.to_string_lossy()));
+    let made = fs::create_dir_all(parent)
+        .and_then(|()| match fs::remove_dir_all(&beside) {
+            Err(error) if error.kind() != io::ErrorKind::NotFound => Err(error),
+            _ => Ok(()),
+        })
+        .and_then(|()| fs::create_dir(&beside));
+    made.map(|()| beside.clone()).map_err(|error| refused(&beside, &error))
+}
+
+fn build(store: &Store, blobs: &BTreeMap<String, BlobRef>, version: &Digest, folder: &Path) -> Result<()> {
+    let mut made = BTreeSet::new();
+    let mut marker = format!("{version}\n");
+    for (name, blob) in blobs {
+        let path = folder.join(name);
+        if let Some((parent, _)) = name.rsplit_once('/') {
+            if made.insert(parent) {
+                fs::create_dir_all(folder.join(parent)).map_err(|error| refused(folder, &error))?;
+            }
+        }
+        let mut source = store.open(blob)?;
+        let placed = fs::hard_link(store.blob_path(blob), &path)
+            .or_else(|_| io::copy(&mut source, &mut File::create_new(&path)?).map(|_| ()));
+        placed.map_err(|error| refused(&path, &error))?;
+        marker.push_str(name);
+        marker.push('\n');
+    }
+    fs::write(folder.join(VERSION_FILE), marker)
+        .and_then(|()| sync_file_system(folder))
+        .map_err(|error| refused(folder, &error))
+}
+
+/// Everything below `folder` is on the disk before anyone can see it.
+fn sync_file_system(folder: &Path) -> io::Result<()> {
+    #[cfg(target_os = "linux")]
+    match rustix::fs::syncfs(File::open(folder)?) {
+        Ok(()) | Err(rustix::io::Errno::NOSYS | rustix::io::Errno::PERM | rustix::io::Errno::OPNOTSUPP) => {}
+        Err(error) => return Err(error.into()),
+    }
+    #[cfg(not(target_os = "linux"))]
+    let _ = folder;
+    Ok(())
+}
+
+/// Exchanges the new folder with the old one, in one step where the system can.
+fn put_in_place(new: &Path, folder: &Path) -> io::Result<()> {
+    match fs::rename(new, folder) {
+        // There was nothing, or an empty folder.
+        Ok(()) => return Ok(()),
+        Err(error) if fs::symlink_metadata(folder).is_err() => return Err(error),
+        Err(_) => {}
+    }
+    if exchange(new, folder).is_ok() {
+        return fs::remove_dir_all(new);
+    }
+    let old = new.with_extension("cosfly-old");
+    let _ = fs::remove_dir_all(&old);
+    fs::rename(folder, &old)?;
+    if let Err(error) = fs::rename(new, folder) {
+        fs::rename(&old, folder)?;
+        return Err(error);
+    }
+    fs::remove_dir_all(&old)
+}
+
+#[cfg(target_os = "linux")]
+fn exchange(a: &Path, b: &Path) -> io::Result<()> {
+    use rustix::fs::{CWD, RenameFlags, renameat_with};
+    Ok(renameat_with(CWD, a, CWD, b, RenameFlags::EXCHANGE)?)
+}
+
+#[cfg(not(target_os = "linux"))]
+fn exchange(_a: &Path, _b: &Path) -> io::Result<()> {
+    Err(io::ErrorKind::Unsupported.into())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::BLOB_LOST;
+    use cosfly_stage::{OutputSink, Produced};
+
+    type Blobs = BTreeMap<String, BlobRef>;
+
+    fn artifact(store: &Store, files: &[(&str, &str)]) -> Blobs {
+        let mut sink = store.sink();
+        files.iter().for_each(|(name, text)| sink.put(name, text.as_bytes()).unwrap());
+        let action = Digest::of(format!("{files:?}").as_bytes());
+        sink.settle(&action, Produced::default()).unwrap().record.outputs.clone()
+    }
+
+    fn open() -> (tempfile::TempDir, Store, PathBuf) {
+        let root = tempfile::tempdir().unwrap();
+        let store = Store::open(&root.path().join("store")).unwrap();
+        let out = root.path().join("made/out");
+        (root, store, out)
+    }
+
+    #[test]
+    fn a_folder_becomes_exactly_the_artifact_and_is_left_alone_when_it_is_that_already() {
+        let (_root, store, out) = open();
+        let first = artifact(&store, &[("a.txt", "one"), ("b/c.txt", "two")]);
+        assert!(materialise(&store, &first, &out).unwrap().changed);
+        assert_eq!(fs::read_to_string(out.join("b/c.txt")).unwrap(), "two");
+        assert!(!materialise(&store, &first, &out).unwrap().changed);
+        let second = artifact(&store, &[("a.txt", "three")]);
+        let made = materialise(&store, &second, &out).unwrap();
+        assert_eq!((made.changed, made.files, made.bytes), (true, 1, 5));
+        assert!(!out.join("b").exists());
+        assert_eq!(fs::read_dir(out.parent().unwrap()).unwrap().count(), 1, "nothing is left beside");
+        // A file that was removed or cut is put back.
+        fs::remove_file(out.join("a.txt")).unwrap();
+        assert!(materialise(&store, &second, &out).unwrap().changed);
+        assert_eq!(fs::read_to_string(out.join("a.txt")).unwrap(), "three");
+    }
+
+    #[test]
+    fn what_cosfly_did_not_make_is_never_replaced() {
+        let (_root, store, out) = open();
+        let blobs = artifact(&store, &[("a.txt", "one")]);
+        fs::create_dir_all(&out).unwrap();
+        fs::write(out.join("thesis.tex"), "x").unwrap();
+        assert_eq!(materialise(&store, &blobs, &out).unwrap_err().code, "out-not-ours");
+        fs::remove_file(out.join("thesis.tex")).unwrap();
+        materialise(&store, &blobs, &out).unwrap();
+        fs::write(out.join("notes.md"), "x").unwrap();
+        assert!(!materialise(&store, &blobs, &out).unwrap().changed);
+        let other = artifact(&store, &[("a.txt", "two")]);
+        let refusal = materialise(&store, &other, &out).unwrap_err();
+        assert!(refusal.message.contains("`notes.md`"), "{}", refusal.message);
+        assert_eq!(fs::read_to_string(out.join("a.txt")).unwrap(), "one");
+        let file = out.join("a.txt");
+        assert_eq!(materialise(&store, &other, &file).unwrap_err().code, "out-not-ours");
+    }
+
+    #[test]
+    fn names_outside_the_folder_are_refused() {
+        let (_root, store, out) = open();
+        let blob = artifact(&store, &[("a", "x")])["a"];
+        for name in ["../x", "/x", "a/../../x", VERSION_FILE] {
+            let blobs = Blobs::from([(name.to_owned(), blob)]);
+            assert_eq!(materialise(&store, &blobs, &out).unwrap_err().code, "out-bad-name", "{name}");
+        }
+    }
+
+    #[test]
+    fn a_damaged_blob_is_never_given_out() {
+        let (root, store, out) = open();
+        let blobs = artifact(&store, &[("a", "x"), ("b", "y")]);
+        drop(store);
+        let store = Store::open(&root.path().join("store")).unwrap();
+        let path = store.blob_path(&blobs["b"]);
+        fs::remove_file(&path).unwrap();
+        fs::write(&path, "z").unwrap();
+        assert_eq!(materialise(&store, &blobs, &out).unwrap_err().code, BLOB_LOST);
+        assert!(!out.exists() && fs::read_dir(out.parent().unwrap()).unwrap().next().is_none());
+    }
+}

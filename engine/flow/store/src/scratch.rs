@@ -1,0 +1,114 @@
+//! The temporary folder of one process, and the removal of those whose process died.
+
+use crate::layout::{Layout, read_dir_or_nothing};
+use crate::locks::lock_file;
+use cosfly_diagnose::{Diagnostic, Result};
+use std::fs::{self, File};
+use std::io;
+use std::path::{Path, PathBuf};
+use std::sync::atomic::{AtomicU64, Ordering};
+
+const OWNER: &str = "owner";
+
+/// A folder below `tmp/` that belongs to one open store; gone when the store is closed.
+#[derive(Debug)]
+pub(crate) struct Scratch {
+    folder: PathBuf,
+    next: AtomicU64,
+    /// Locked as long as the owner lives.
+    _owner: File,
+}
+
+impl Scratch {
+    /// A new folder of our own.
+    pub(crate) fn create(layout: &Layout) -> Result<Self> {
+        Self::try_create(layout).map_err(|error| {
+            Diagnostic::io(format!("create a temporary folder in `{}`", layout.folder("tmp").display()), &error)
+        })
+    }
+
+    fn try_create(layout: &Layout) -> io::Result<Self> {
+        let _guard = guard(layout)?;
+        let mut attempt = 0_u64;
+        let folder = loop {
+            let folder = layout.folder("tmp").join(format!("{}-{attempt}", std::process::id()));
+            match fs::create_dir(&folder) {
+                Ok(()) => break folder,
+                Err(error) if error.kind() == io::ErrorKind::AlreadyExists => attempt += 1,
+                Err(error) => return Err(error),
+            }
+        };
+        let owner = lock_file(&folder.join(OWNER))?;
+        owner.lock()?;
+        Ok(Self { folder, next: AtomicU64::new(0), _owner: owner })
+    }
+
+    /// A path in the folder that was not given out before.
+    pub(crate) fn next_path(&self) -> PathBuf {
+        self.folder.join(self.next.fetch_add(1, Ordering::Relaxed).to_string())
+    }
+}
+
+impl Drop for Scratch {
+    fn drop(&mut self) {
+        let _ = fs::remove_dir_all(&self.folder);
+    }
+}
+
+/// Folders below `tmp/` whose owner is dead, with their sizes; removed unless `dry_run`.
+pub(crate) fn sweep_orphans(layout: &Layout, dry_run: bool) -> io::Result<(u64, u64)> {
+    let _guard = guard(layout)?;
+    let (mut folders, mut bytes) = (0, 0);
+    for entry in read_dir_or_nothing(&layout.folder("tmp"))? {
+        let folder = entry?.path();
+        if is_orphan(&folder) {
+            folders += 1;
+            bytes += folder_bytes(&folder);
+            if !dry_run {
+                fs::remove_dir_all(&folder)?;
+            }
+        }
+    }
+    Ok((folders, bytes))
+}
+
+fn is_orphan(folder: &Path) -> bool {
+    // Without an owner file its maker died between making the folder and locking it (makers hold the guard).
+    File::open(folder.join(OWNER))
+        .map_or_else(|error| error.kind() == io::ErrorKind::NotFound && folder.is_dir(), |file| file.try_lock().is_ok())
+}
+
+fn folder_bytes(folder: &Path) -> u64 {
+    let Ok(entries) = fs::read_dir(folder) else { return 0 };
+    entries.flatten().filter_map(|entry| entry.metadata().ok()).map(|metadata| metadata.len()).sum()
+}
+
+/// Makers and sweepers of temporary folders take turns.
+fn guard(layout: &Layout) -> io::Result<File> {
+    let file = lock_file(&layout.root.join("locks/tmp"))?;
+    file.lock()?;
+    Ok(file)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn folders_of_dead_owners_are_swept_and_those_of_the_living_stay() {
+        let root = tempfile::tempdir().unwrap();
+        let layout = Layout::create_or_check(root.path()).unwrap();
+        let living = Scratch::create(&layout).unwrap();
+        fs::write(living.next_path(), b"mine").unwrap();
+        let dead = root.path().join("tmp/999999-0");
+        fs::create_dir(&dead).unwrap();
+        fs::write(dead.join(OWNER), b"").unwrap();
+        fs::write(dead.join("0"), b"12345").unwrap();
+        assert_eq!(sweep_orphans(&layout, true).unwrap(), (1, 5));
+        assert_eq!(sweep_orphans(&layout, false).unwrap(), (1, 5));
+        assert!(!dead.exists() && living.folder.exists());
+        let folder = living.folder.clone();
+        drop(living);
+        assert!(!folder.exists());
+    }
+}

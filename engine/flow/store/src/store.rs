@@ -1,0 +1,208 @@
+//! An open store: what it holds in memory, its records and documents.
+
+use crate::decoded::DecodeCache;
+use crate::durability::Durability;
+use crate::fault::{FaultPoints, NoFaults, Step};
+use crate::layout::{Area, Layout};
+use crate::locks::{TaskLock, lock_file};
+use crate::records::{self, ActionRecord, Finished};
+use crate::scratch::{Scratch, sweep_orphans};
+use crate::sink::TaskSink;
+use cosfly_diagnose::{Diagnostic, Result};
+use cosfly_fingerprint::Digest;
+use cosfly_stage::BlobRef;
+use std::collections::BTreeSet;
+use std::fs::{self, File, OpenOptions};
+use std::io::{self, Write};
+use std::path::{Path, PathBuf};
+use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
+
+/// Code of the diagnostic for a blob that is missing or damaged: whoever gets it computes its item again.
+pub const BLOB_LOST: &str = "store-blob-lost";
+
+/// A store that this process has open. Any number of processes may have it open at once.
+pub struct Store {
+    pub(crate) layout: Layout,
+    pub(crate) scratch: Scratch,
+    pub(crate) faults: Arc<dyn FaultPoints>,
+    pub(crate) durability: Durability,
+    /// Blobs whose size and digest this process has checked, or that it wrote itself.
+    pub(crate) checked: Mutex<BTreeSet<Digest>>,
+    pub(crate) decoded: DecodeCache,
+    /// Shared with other runs; garbage collection takes it alone.
+    _garbage_lock: File,
+}
+
+/// The data behind a lock, also after a panic elsewhere: all of it is valid between two statements.
+pub(crate) fn locked<T>(mutex: &Mutex<T>) -> MutexGuard<'_, T> {
+    mutex.lock().unwrap_or_else(PoisonError::into_inner)
+}
+
+impl Store {
+    /// Opens the store at `root`, creating it when there is nothing yet. Waits while garbage is being collected.
+    ///
+    /// # Errors
+    /// `store-newer-version`, `store-not-a-store`, or what the machine refused.
+    pub fn open(root: &Path) -> Result<Self> {
+        Self::open_with_faults(root, Arc::new(NoFaults))
+    }
+
+    /// As [`Self::open`], with steps of publishing that may be refused.
+    pub fn open_with_faults(root: &Path, faults: Arc<dyn FaultPoints>) -> Result<Self> {
+        let layout = Layout::create_or_check(root)?;
+        let failed = |error: io::Error| Diagnostic::io(format!("lock the store `{}`", root.display()), &error);
+        let garbage_lock = lock_file(&layout.root.join("locks/garbage")).map_err(failed)?;
+        garbage_lock.lock_shared().map_err(failed)?;
+        sweep_orphans(&layout, false)
+            .map_err(|error| Diagnostic::io(format!("clean `{}`", layout.folder("tmp").display()), &error))?;
+        let durability = Durability::of(&layout)?;
+        let scratch = Scratch::create(&layout)?;
+        Ok(Self {
+            layout,
+            scratch,
+            faults,
+            durability,
+            checked: Mutex::default(),
+            decoded: DecodeCache::default(),
+            _garbage_lock: garbage_lock,
+        })
+    }
+
+    /// The store's folder.
+    pub fn root(&self) -> &Path {
+        &self.layout.root
+    }
+
+    /// A sink for one task's outputs.
+    pub fn sink(&self) -> TaskSink<'_> {
+        TaskSink::new(self)
+    }
+
+    /// The lock of one task; nothing while another runner has it.
+    pub fn try_lock_task(&self, plan: &Digest) -> Result<Option<TaskLock>> {
+        TaskLock::try_take(&self.layout, plan)
+    }
+
+    /// The plan digests of all tasks that were ever finished, sorted.
+    pub fn done(&self) -> Result<Vec<Digest>> {
+        self.layout
+            .list(Area::Done)
+            .map_err(|error| Diagnostic::io(format!("list `{}`", self.layout.folder("done").display()), &error))
+    }
+
+    /// What a finished task came to; nothing when it is not finished or a record of it is damaged.
+    pub fn finished(&self, plan: &Digest) -> Option<Finished> {
+        let text = fs::read_to_string(self.layout.file(Area::Done, plan)).ok()?;
+        let action: Digest = text.trim_end().parse().ok()?;
+        Some(Finished { action, record: Arc::new(self.action(&action)?) })
+    }
+
+    /// What an action made; nothing when it never ran or its record is damaged.
+    pub fn action(&self, action: &Digest) -> Option<ActionRecord> {
+        records::decode(&fs::read(self.layout.file(Area::Actions, action)).ok()?)
+    }
+
+    /// Whether all blobs of a record are there with the right size. Their bytes are checked when they are read.
+    pub fn holds(&self, record: &ActionRecord) -> bool {
+        record.outputs.values().all(|blob| self.holds_blob(blob))
+    }
+
+    /// Whether a blob is there with the right size.
+    pub fn holds_blob(&self, blob: &BlobRef) -> bool {
+        fs::symlink_metadata(self.layout.file(Area::Blobs, &blob.digest))
+            .is_ok_and(|metadata| metadata.is_file() && metadata.len() == blob.bytes)
+    }
+
+    /// Writes down that the task `plan` came to `action`. Call it only after a [`Self::sync`] that began after
+    /// the action was settled; another sync makes the record itself durable.
+    pub fn publish_done(&self, plan: &Digest, document: &str, action: &Digest) -> Result<()> {
+        self.put_document(plan, document)?;
+        let path = self.layout.file(Area::Done, plan);
+        self.write_file(&path, format!("{action}\n").as_bytes(), Step::WriteDone, Step::RenameDone)
+    }
+
+    /// Keeps a plan document under its own digest. Nothing happens when it is there.
+    pub fn put_document(&self, digest: &Digest, document: &str) -> Result<()> {
+        debug_assert_eq!(*digest, Digest::of(document.as_bytes()));
+        let path = self.layout.file(Area::Plans, digest);
+        if fs::symlink_metadata(&path).is_ok_and(|metadata| metadata.len() == document.len() as u64) {
+            return Ok(());
+        }
+        self.write_file(&path, document.as_bytes(), Step::WriteDocument, Step::RenameDocument)
+    }
+
+    /// A plan document; nothing when it is absent or damaged.
+    pub fn document(&self, digest: &Digest) -> Option<serde_json::Value> {
+        let bytes = fs::read(self.layout.file(Area::Plans, digest)).ok()?;
+        if Digest::of(&bytes) != *digest {
+            return None;
+        }
+        serde_json::from_slice(&bytes).ok()
+    }
+
+    /// Keeps how the stage of a plan definition is built; the latest one counts.
+    pub fn put_build(&self, definition: &Digest, document: &str) -> Result<()> {
+        let path = self.layout.file(Area::Builds, definition);
+        self.write_file(&path, document.as_bytes(), Step::WriteDocument, Step::RenameDocument)
+    }
+
+    /// How the stage of a plan definition is built; nothing when it is absent or damaged.
+    pub fn build(&self, definition: &Digest) -> Option<serde_json::Value> {
+        serde_json::from_slice(&fs::read(self.layout.file(Area::Builds, definition)).ok()?).ok()
+    }
+
+    /// Forces everything published so far to the disk.
+    pub fn sync(&self) -> Result<()> {
+        let synced = self.faults.before(Step::Sync).and_then(|()| self.durability.sync());
+        synced.map_err(|error| Diagnostic::io(format!("force `{}` to the disk", self.root().display()), &error))
+    }
+
+    /// Writes a small file beside and renames it into place.
+    pub(crate) fn write_file(&self, path: &Path, bytes: &[u8], write: Step, rename: Step) -> Result<()> {
+        let temporary = self.write_temporary(bytes, 0o644, write)?;
+        self.move_into_place(&temporary, path, rename)
+    }
+
+    /// Writes a temporary file; nothing is left of it on failure.
+    pub(crate) fn write_temporary(&self, bytes: &[u8], mode: u32, step: Step) -> Result<PathBuf> {
+        let path = self.scratch.next_path();
+        let written =
+            self.faults.before(step).and_then(|()| create_file(&path, mode)).and_then(|mut file| file.write_all(bytes));
+        written.map(|()| path.clone()).map_err(|error| {
+            let _ = fs::remove_file(&path);
+            Diagnostic::io(format!("write to the store `{}`", self.root().display()), &error)
+        })
+    }
+
+    /// Renames a temporary file to `path`, making its folder when needed; removes it on failure.
+    pub(crate) fn move_into_place(&self, temporary: &Path, path: &Path, step: Step) -> Result<()> {
+        let moved = self.faults.before(step).and_then(|()| with_folder_of(path, || fs::rename(temporary, path)));
+        self.durability.note(path);
+        moved.map_err(|error| {
+            let _ = fs::remove_file(temporary);
+            Diagnostic::io(format!("write `{}`", path.display()), &error)
+        })
+    }
+}
+
+/// Creates a file that did not exist; on Unix with the given permissions.
+pub(crate) fn create_file(path: &Path, mode: u32) -> io::Result<File> {
+    let mut options = OpenOptions::new();
+    options.read(true).write(true).create_new(true);
+    #[cfg(unix)]
+    std::os::unix::fs::OpenOptionsExt::mode(&mut options, mode);
+    #[cfg(not(unix))]
+    let _ = mode;
+    options.open(path)
+}
+
+/// Does `work`; when a folder is missing, makes the folder of `path` and does it once more.
+pub(crate) fn with_folder_of<T>(path: &Path, work: impl Fn() -> io::Result<T>) -> io::Result<T> {
+    match (work(), path.parent()) {
+        (Err(error), Some(folder)) if error.kind() == io::ErrorKind::NotFound => {
+            fs::create_dir_all(folder)?;
+            work()
+        }
+        (result, _) => result,
+    }
+}
