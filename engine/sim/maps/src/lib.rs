@@ -1,6 +1,8 @@
 //! The [`Town`] model (obstacles, walkable areas, surfaces, semantics), its readers and its generator.
 
+pub mod fill;
 pub mod semantics;
+pub mod simplify;
 pub mod town;
 
 pub use semantics::SemanticLabel;
