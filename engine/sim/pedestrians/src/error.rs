@@ -1,0 +1,140 @@
+//! Why there is no pedestrian: broken rules, ground that cannot be walked on; each with what helps.
+
+use std::fmt;
+
+/// A rule between config values that is broken.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct ConfigRule {
+    /// Keys from the config's table to the value.
+    pub path: &'static [&'static str],
+    /// The value and the rule.
+    pub message: String,
+}
+
+impl ConfigRule {
+    /// Holds when `value` is a number within `min` and `max`.
+    pub(crate) fn within(path: &'static [&'static str], value: f64, min: f64, max: f64) -> Result<(), Self> {
+        let name = path.last().copied().unwrap_or_default();
+        if (min..=max).contains(&value) {
+            return Ok(());
+        }
+        Err(Self { path, message: format!("`{name}` is `{value}`; it must be within `{min}` and `{max}`") })
+    }
+
+    /// Holds when `value` is not more than its upper limit.
+    pub(crate) fn in_order(path: &'static [&'static str], value: f64, limit: &str, at_most: f64) -> Result<(), Self> {
+        let name = path.last().copied().unwrap_or_default();
+        if value <= at_most {
+            return Ok(());
+        }
+        let message = format!("`{name}` is `{value}`; it must not be more than `{limit}`, which is `{at_most}`");
+        Err(Self { path, message })
+    }
+}
+
+/// Why a town has no place for pedestrians, or a config cannot be used.
+#[derive(Clone, Debug, PartialEq)]
+pub enum PedestrianError {
+    /// A config rule is broken.
+    Config(ConfigRule),
+    /// A corner of a walkable polygon is not a finite number.
+    BrokenPolygon {
+        /// Index in the town's list.
+        polygon: usize,
+        /// Index of the corner.
+        corner: usize,
+    },
+    /// An obstacle's box is not finite.
+    BrokenObstacle {
+        /// Index in the town's list.
+        obstacle: usize,
+    },
+    /// The town lists no walkable ground at all.
+    NoGround,
+    /// There is ground, but none of it is free of obstacles and wide enough for a cell.
+    NothingFree {
+        /// Walkable polygons in the town.
+        polygons: usize,
+        /// Cells that lie on walkable ground.
+        ground_cells: usize,
+        /// Cell size, metres.
+        grid_m: f64,
+    },
+    /// Every connected piece of ground is too small.
+    NoRoom {
+        /// Extent of the largest piece, metres.
+        largest_m: f64,
+        /// Asked extent, metres.
+        min_route_m: f64,
+    },
+    /// The grid would not fit into memory.
+    TooLarge {
+        /// Cells it would take.
+        cells: f64,
+        /// Cells allowed.
+        limit: usize,
+        /// Cell size, metres.
+        grid_m: f64,
+    },
+}
+
+impl PedestrianError {
+    /// What the user can do.
+    pub fn hint(&self) -> String {
+        match self {
+            Self::Config(_) => "change the value in the recipe".into(),
+            Self::BrokenPolygon { .. } | Self::BrokenObstacle { .. } => {
+                "the map has a value that is no number there; repair the map file".into()
+            }
+            Self::NoGround => "choose a map with pavements, or let the `map` stage use road shoulders instead".into(),
+            Self::NothingFree { .. } => {
+                "make `grid_m` or `radius.max_m` smaller, or fill in fewer buildings and trees in the `map` stage"
+                    .into()
+            }
+            Self::NoRoom { largest_m, .. } => {
+                format!(
+                    "set `min_route_m` to {:.0} or less, or choose a map whose pavements are connected",
+                    largest_m.floor().max(1.0)
+                )
+            }
+            Self::TooLarge { .. } => {
+                "make `grid_m` larger, or cut the map to the part you need in the `map` stage".into()
+            }
+        }
+    }
+}
+
+impl fmt::Display for PedestrianError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Config(rule) => f.write_str(&rule.message),
+            Self::BrokenPolygon { polygon, corner } => {
+                write!(f, "corner {corner} of walkable polygon {polygon} is not a finite number")
+            }
+            Self::BrokenObstacle { obstacle } => write!(f, "the box of obstacle {obstacle} is not finite"),
+            Self::NoGround => f.write_str("the town has no walkable ground"),
+            Self::NothingFree { polygons, ground_cells, grid_m } => write!(
+                f,
+                "none of the town's {polygons} walkable polygons leaves room for a pedestrian: {ground_cells} cells of \
+                 {grid_m} m lie on walkable ground, but none of them is free and connected to another"
+            ),
+            Self::NoRoom { largest_m, min_route_m } => write!(
+                f,
+                "the largest connected piece of walkable ground is {largest_m:.1} m across; `min_route_m` asks for \
+                 {min_route_m} m"
+            ),
+            Self::TooLarge { cells, limit, grid_m } => write!(
+                f,
+                "the walkable ground needs {cells:.0} cells at `grid_m` of {grid_m} m; at most {limit} are supported"
+            ),
+        }
+    }
+}
+
+impl std::error::Error for PedestrianError {}
+
+impl From<ConfigRule> for PedestrianError {
+    fn from(rule: ConfigRule) -> Self {
+        Self::Config(rule)
+    }
+}

@@ -1,0 +1,498 @@
+//! The walkable grid of a town: cells on walkable ground and the steps between them that are free.
+
+use crate::ground::{Ground, rank};
+use crate::obstruction::Obstruction;
+use crate::polygon::Cut;
+use crate::{PedestrianConfig, PedestrianError};
+use cosfly_frames::{DVec2, DVec3};
+use cosfly_maps::{Town, WalkableKind};
+
+mod raster;
+#[cfg(test)]
+pub(crate) mod test_towns;
+
+/// More cells than this are refused (two kilometres square at the default cell size, several times over).
+const MAX_CELLS: usize = 32_000_000;
+
+/// Largest step up or down between neighbouring cells, metres: a kerb, not a wall.
+const MAX_RISE_M: f64 = 0.4;
+
+/// The eight steps to neighbours: column, row. Step `i` and step `(i + 4) % 8` are opposite.
+pub(crate) const STEPS: [(isize, isize); 8] = [(1, 0), (1, 1), (0, 1), (-1, 1), (-1, 0), (-1, -1), (0, -1), (1, -1)];
+
+const NO_NODE: u32 = u32::MAX;
+
+/// One walkable cell.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Node {
+    /// Index of its cell in the dense grid.
+    pub cell: u32,
+    /// Height of the ground at its centre, metres.
+    pub z: f32,
+    /// Distance to the nearest cell that is not freely walkable, metres.
+    pub edge_distance_m: f32,
+    /// Connected piece it belongs to.
+    pub component: u32,
+    /// Bit `i`: the step `STEPS[i]` is free.
+    pub steps: u8,
+    /// What it is.
+    pub kind: WalkableKind,
+    /// The whole cell is ground and no obstacle is within the body radius of it.
+    pub open: bool,
+}
+
+/// A connected piece of ground.
+#[derive(Clone, Debug)]
+pub(crate) struct Component {
+    /// Its nodes, ascending.
+    pub nodes: Vec<u32>,
+    /// Diagonal of its bounds, metres.
+    pub extent_m: f64,
+}
+
+/// The walkable ground of a town as a graph of cells, shared between all pedestrians.
+///
+/// Every step between two nodes is free in the exact sense: it lies on walkable polygons over its whole
+/// length and the widest body passes every obstacle. So corners cannot be cut, and any grid route is valid.
+#[derive(Clone, Debug)]
+pub struct WalkableGrid {
+    pub(crate) cell_m: f64,
+    columns: usize,
+    rows: usize,
+    corner: DVec2,
+    node_of_cell: Vec<u32>,
+    pub(crate) nodes: Vec<Node>,
+    pub(crate) components: Vec<Component>,
+    ground: Ground,
+    obstruction: Obstruction,
+    radius_m: f64,
+    height_m: f64,
+}
+
+impl WalkableGrid {
+    /// Builds the grid of a town: walkable polygons minus obstacles grown by the largest body radius.
+    pub fn build(town: &Town, config: &PedestrianConfig) -> Result<Self, PedestrianError> {
+        config.check()?;
+        let mut ground = Ground::new(town)?;
+        let size = (ground.max - ground.min).truncate() / config.grid_m;
+        // One cell of margin all round, so that neighbours never leave the array.
+        let cells = (size.x + 4.0) * (size.y + 4.0);
+        if cells > MAX_CELLS as f64 {
+            return Err(PedestrianError::TooLarge { cells, limit: MAX_CELLS, grid_m: config.grid_m });
+        }
+        ground.index();
+        let corner = ground.min.truncate() - config.grid_m;
+        let (columns, rows) = (size.x as usize + 3, size.y as usize + 3);
+        let obstruction =
+            Obstruction::new(town, corner, corner + config.grid_m * DVec2::new(columns as f64, rows as f64))?;
+        let mut grid = Self {
+            cell_m: config.grid_m,
+            columns,
+            rows,
+            corner,
+            node_of_cell: vec![NO_NODE; columns * rows],
+            nodes: vec![],
+            components: vec![],
+            ground,
+            obstruction,
+            radius_m: config.radius.max_m,
+            height_m: config.height.max_m,
+        };
+        let ground_cells = grid.lay_nodes();
+        grid.join_nodes();
+        grid.part_by_obstacles();
+        grid.find_components();
+        grid.measure_edge_distance();
+        if grid.components.is_empty() {
+            return Err(PedestrianError::NothingFree {
+                polygons: town.walkable.len(),
+                ground_cells,
+                grid_m: config.grid_m,
+            });
+        }
+        Ok(grid)
+    }
+
+    /// The exact ground under the grid.
+    pub fn ground(&self) -> &Ground {
+        &self.ground
+    }
+
+    /// Number of walkable cells.
+    pub fn len(&self) -> usize {
+        self.nodes.len()
+    }
+
+    /// Never true for a grid that was built.
+    pub fn is_empty(&self) -> bool {
+        self.nodes.is_empty()
+    }
+
+    /// Number and extents of the connected pieces, metres, largest first.
+    pub fn piece_extents_m(&self) -> Vec<f64> {
+        let mut extents: Vec<f64> = self.components.iter().map(|piece| piece.extent_m).collect();
+        extents.sort_by(|a, b| b.total_cmp(a));
+        extents
+    }
+
+    /// Whether a body can walk the straight step: on walkable ground over its whole length, and at no point
+    /// nearer to an obstacle than the largest body radius.
+    pub fn step_is_free(&self, from_in_world: DVec2, to_in_world: DVec2) -> bool {
+        let (Some(z_from), Some(z_to)) = (self.z_near(from_in_world), self.z_near(to_in_world)) else { return false };
+        let mut open = true;
+        raster::cells_on_segment(self, from_in_world, to_in_world, &mut |cell| {
+            open = open && self.node_of_cell[cell] != NO_NODE && self.nodes[self.node_of_cell[cell] as usize].open;
+        });
+        open || {
+            let (from, to) = (from_in_world.extend(z_from), to_in_world.extend(z_to));
+            self.ground.covers(from, to) && self.obstruction.lets_through(from, to, self.radius_m, self.height_m)
+        }
+    }
+
+    /// Height of the ground at or beside a point, from the cells; `None` far from walkable ground.
+    pub(crate) fn z_near(&self, point: DVec2) -> Option<f64> {
+        let cell = self.cell_at(point)?;
+        let node = self.node_of_cell[cell];
+        if node != NO_NODE {
+            return Some(f64::from(self.nodes[node as usize].z));
+        }
+        STEPS.iter().find_map(|&step| {
+            let node = self.node_of_cell[self.beside(cell, step)?];
+            (node != NO_NODE).then(|| f64::from(self.nodes[node as usize].z))
+        })
+    }
+
+    /// Centre of a node's cell in plan.
+    pub(crate) fn center(&self, node: u32) -> DVec2 {
+        self.center_of_cell(self.nodes[node as usize].cell as usize)
+    }
+
+    /// Column and row of a node.
+    pub(crate) fn column_row(&self, node: u32) -> (usize, usize) {
+        let cell = self.nodes[node as usize].cell as usize;
+        (cell % self.columns, cell / self.columns)
+    }
+
+    /// The node one free step away, if that step is free.
+    pub(crate) fn neighbour(&self, node: u32, step: usize) -> Option<u32> {
+        let from = &self.nodes[node as usize];
+        if from.steps & (1 << step) == 0 {
+            return None;
+        }
+        let (column, row) = STEPS[step];
+        let cell = from.cell as isize + row * self.columns as isize + column;
+        Some(self.node_of_cell[cell as usize])
+    }
+
+    /// The joined node of `component` nearest to `point` within `reach` cells.
+    pub(crate) fn node_near(&self, point: DVec2, component: u32, reach: isize) -> Option<u32> {
+        let middle = ((point - self.corner) / self.cell_m).floor();
+        if middle.abs().max_element() > 1e7 {
+            return None;
+        }
+        let (column, row) = (middle.x as isize, middle.y as isize);
+        let mut best: Option<(f64, u32)> = None;
+        for row in (row - reach).max(0)..=(row + reach).min(self.rows as isize - 1) {
+            for column in (column - reach).max(0)..=(column + reach).min(self.columns as isize - 1) {
+                let node = self.node_of_cell[row as usize * self.columns + column as usize];
+                if node != NO_NODE && self.nodes[node as usize].component == component {
+                    let distance = (self.center(node) - point).length_squared();
+                    if best.is_none_or(|kept| distance < kept.0) {
+                        best = Some((distance, node));
+                    }
+                }
+            }
+        }
+        best.map(|(_, node)| node)
+    }
+
+    fn center_of_cell(&self, cell: usize) -> DVec2 {
+        let (column, row) = (cell % self.columns, cell / self.columns);
+        self.corner + self.cell_m * DVec2::new(column as f64 + 0.5, row as f64 + 0.5)
+    }
+
+    fn cell_at(&self, point: DVec2) -> Option<usize> {
+        let place = ((point - self.corner) / self.cell_m).floor();
+        let inside = place.x >= 0.0 && place.y >= 0.0 && place.x < self.columns as f64 && place.y < self.rows as f64;
+        inside.then(|| place.y as usize * self.columns + place.x as usize)
+    }
+
+    fn beside(&self, cell: usize, (column, row): (isize, isize)) -> Option<usize> {
+        let (c, r) = ((cell % self.columns) as isize + column, (cell / self.columns) as isize + row);
+        let inside = c >= 0 && r >= 0 && c < self.columns as isize && r < self.rows as isize;
+        inside.then(|| r as usize * self.columns + c as usize)
+    }
+
+    /// Rasters the polygons: one node for every cell whose centre is on walkable ground. Returns their number.
+    fn lay_nodes(&mut self) -> usize {
+        let mut cells = raster::Cells::new(self.columns * self.rows);
+        let mut cut = Cut::default();
+        for polygon in &self.ground.polygons {
+            for (across, direction) in [(DVec2::Y, DVec2::X), (DVec2::X, DVec2::Y)] {
+                raster::fill(self, polygon, across, direction, &mut cut, &mut cells);
+            }
+        }
+        for polygon in &self.ground.polygons {
+            for (from, to) in polygon.edges() {
+                raster::cells_on_segment(self, from.truncate(), to.truncate(), &mut |cell| cells.outlined[cell] = true);
+            }
+        }
+        for (cell, kind) in cells.kinds.iter().enumerate() {
+            if let Some(kind) = *kind {
+                self.node_of_cell[cell] = self.nodes.len() as u32;
+                self.nodes.push(Node {
+                    cell: cell as u32,
+                    z: cells.z[cell],
+                    edge_distance_m: 0.0,
+                    component: u32::MAX,
+                    steps: 0,
+                    kind,
+                    open: !cells.outlined[cell],
+                });
+            }
+        }
+        self.nodes.len()
+    }
+
+    /// Frees the steps that stay on walkable ground.
+    fn join_nodes(&mut self) {
+        for node in 0..self.nodes.len() {
+            let cell = self.nodes[node].cell as usize;
+            for (step, &offset) in STEPS.iter().enumerate().take(4) {
+                let Some(other) = self.beside(cell, offset).map(|beside| self.node_of_cell[beside]) else { continue };
+                if other == NO_NODE {
+                    continue;
+                }
+                let (a, b) = (self.nodes[node], self.nodes[other as usize]);
+                if f64::from((a.z - b.z).abs()) > MAX_RISE_M {
+                    continue;
+                }
+                let (from, to) = (self.center_of_cell(cell), self.center_of_cell(b.cell as usize));
+                if (a.open && b.open) || self.ground.covers(from.extend(f64::from(a.z)), to.extend(f64::from(b.z))) {
+                    self.nodes[node].steps |= 1 << step;
+                    self.nodes[other as usize].steps |= 1 << (step + 4);
+                }
+            }
+        }
+    }
+
+    /// Takes away the steps on which the widest body would touch an obstacle.
+    fn part_by_obstacles(&mut self) {
+        let reach = self.radius_m + self.cell_m;
+        let footprints = std::mem::take(&mut self.obstruction.footprints);
+        for footprint in &footprints {
+            let low = ((footprint.center() - footprint.reach - reach - self.corner) / self.cell_m).floor();
+            let high = ((footprint.center() + footprint.reach + reach - self.corner) / self.cell_m).floor();
+            let low = low.max(DVec2::ZERO);
+            let high = high.min(DVec2::new(self.columns as f64 - 1.0, self.rows as f64 - 1.0));
+            if high.x < low.x || high.y < low.y {
+                continue;
+            }
+            for row in low.y as usize..=high.y as usize {
+                for column in low.x as usize..=high.x as usize {
+                    let node = self.node_of_cell[row * self.columns + column];
+                    if node != NO_NODE {
+                        self.part_node(node as usize, footprint);
+                    }
+                }
+            }
+        }
+        self.obstruction.footprints = footprints;
+    }
+
+    fn part_node(&mut self, node: usize, footprint: &crate::obstruction::Footprint) {
+        let own = self.nodes[node];
+        let center = self.center_of_cell(own.cell as usize);
+        let (z_low, z_high) = (f64::from(own.z) - MAX_RISE_M, f64::from(own.z) + MAX_RISE_M);
+        let far = footprint.distance_m(center, center);
+        if far > self.radius_m + 1.5 * self.cell_m || !footprint.meets_body(z_low, z_high, self.height_m) {
+            return;
+        }
+        // The farthest corner of the cell is at most 0.71 cells from its centre.
+        if far < self.radius_m + 0.71 * self.cell_m {
+            self.nodes[node].open = false;
+        }
+        for (step, &offset) in STEPS.iter().enumerate() {
+            let Some(other) = self.neighbour(node as u32, step) else { continue };
+            let to = center + self.cell_m * DVec2::new(offset.0 as f64, offset.1 as f64);
+            if footprint.distance_m(center, to) < self.radius_m {
+                self.nodes[node].steps &= !(1 << step);
+                self.nodes[other as usize].steps &= !(1 << ((step + 4) % 8));
+            }
+        }
+    }
+
+    /// Numbers the connected pieces; a node without steps belongs to none.
+    fn find_components(&mut self) {
+        for seed in 0..self.nodes.len() {
+            if self.nodes[seed].component != u32::MAX || self.nodes[seed].steps == 0 {
+                continue;
+            }
+            let component = self.components.len() as u32;
+            self.nodes[seed].component = component;
+            let mut nodes = vec![seed as u32];
+            let (mut low, mut high) = (DVec2::INFINITY, DVec2::NEG_INFINITY);
+            let mut next = 0;
+            while next < nodes.len() {
+                let node = nodes[next];
+                next += 1;
+                (low, high) = (low.min(self.center(node)), high.max(self.center(node)));
+                for step in 0..8 {
+                    if let Some(other) = self.neighbour(node, step)
+                        && self.nodes[other as usize].component == u32::MAX
+                    {
+                        self.nodes[other as usize].component = component;
+                        nodes.push(other);
+                    }
+                }
+            }
+            nodes.sort_unstable();
+            self.components.push(Component { nodes, extent_m: (high - low).length() });
+        }
+    }
+
+    /// Two-pass chamfer distance to the nearest node from which not every step is free.
+    fn measure_edge_distance(&mut self) {
+        let half = 0.5 * self.cell_m as f32;
+        for node in &mut self.nodes {
+            node.edge_distance_m = if node.steps == u8::MAX { f32::INFINITY } else { half };
+        }
+        // Steps 4..8 lead to nodes with smaller numbers, steps 0..4 to larger ones.
+        let (earlier, later) = ([4, 5, 6, 7], [0, 1, 2, 3]);
+        let count = self.nodes.len();
+        for (order, steps) in [(false, earlier), (true, later)] {
+            for i in 0..count {
+                let node = if order { count - 1 - i } else { i };
+                for step in steps {
+                    if let Some(other) = self.neighbour(node as u32, step) {
+                        let length = self.cell_m as f32 * if step % 2 == 0 { 1.0 } else { core::f32::consts::SQRT_2 };
+                        let through = self.nodes[other as usize].edge_distance_m + length;
+                        let own = &mut self.nodes[node].edge_distance_m;
+                        *own = own.min(through);
+                    }
+                }
+            }
+        }
+    }
+
+    /// Height of the ground in space under a point of a walk.
+    pub(crate) fn feet_at(&self, point: DVec2) -> (DVec3, Option<WalkableKind>) {
+        let near = self.z_near(point).unwrap_or_default();
+        match self.ground.at(point, near) {
+            Some((kind, z)) => (point.extend(z), Some(kind)),
+            None => (point.extend(near), None),
+        }
+    }
+}
+
+/// The better of two claims on a cell: the kind that ranks first, then the lower level, then the shorter way
+/// across (its height is the more local one).
+fn better_claim(new: (WalkableKind, f32, f32), old: (WalkableKind, f32, f32)) -> bool {
+    match rank(new.0).cmp(&rank(old.0)) {
+        std::cmp::Ordering::Less => true,
+        std::cmp::Ordering::Greater => false,
+        std::cmp::Ordering::Equal if (new.1 - old.1).abs() > 1.0 => new.1 < old.1,
+        std::cmp::Ordering::Equal => new.2 < old.2,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::test_towns::{pillar, rectangle, streets, town};
+    use super::*;
+
+    fn build(town: &Town) -> Result<WalkableGrid, PedestrianError> {
+        WalkableGrid::build(town, &PedestrianConfig::default())
+    }
+
+    /// Law of the grid: steps are symmetric, stay on the exact ground and out of the exact obstacles.
+    fn assert_well_formed(grid: &WalkableGrid) {
+        for node in 0..grid.nodes.len() as u32 {
+            for step in 0..8 {
+                let Some(other) = grid.neighbour(node, step) else { continue };
+                assert_eq!(grid.neighbour(other, (step + 4) % 8), Some(node));
+                assert_eq!(grid.nodes[node as usize].component, grid.nodes[other as usize].component);
+                let at = |node: u32| grid.center(node).extend(f64::from(grid.nodes[node as usize].z));
+                assert!(grid.ground.covers(at(node), at(other)), "{} to {}", at(node), at(other));
+                assert!(grid.obstruction.lets_through(at(node), at(other), grid.radius_m, grid.height_m));
+            }
+        }
+    }
+
+    #[test]
+    fn every_step_of_the_grid_is_free_in_the_exact_sense() {
+        let mut town = streets();
+        for i in 0..40 {
+            let mut post = pillar((f64::from(i) * 2.9, 0.3 + 0.07 * f64::from(i)), 0.15, 3.0);
+            post.shape.yaw_rad = f64::from(i);
+            town.obstacles.push(post);
+        }
+        let grid = build(&town).unwrap();
+        assert_well_formed(&grid);
+        assert_eq!(grid.components.len(), 1);
+    }
+
+    #[test]
+    fn free_steps_agree_with_the_exact_test_everywhere() {
+        let mut town = streets();
+        town.obstacles.push(pillar((30.0, 1.0), 0.4, 3.0));
+        let grid = build(&town).unwrap();
+        let mut stream = cosfly_frames::Seed::of_item(1, "grid", "steps").stream("points");
+        let mut agreed = [0, 0];
+        for _ in 0..20_000 {
+            let from = DVec2::new(stream.uniform(-3.0, 60.0), stream.uniform(-3.0, 40.0));
+            let to = from + DVec2::new(stream.uniform(-2.0, 2.0), stream.uniform(-2.0, 2.0));
+            let (from3, to3) = (from.extend(0.0), to.extend(0.0));
+            let exact = grid.ground.covers(from3, to3)
+                && grid.obstruction.lets_through(from3, to3, grid.radius_m, grid.height_m);
+            let near = grid.z_near(from).is_some() && grid.z_near(to).is_some();
+            assert_eq!(grid.step_is_free(from, to), exact && near, "{from} to {to}");
+            agreed[usize::from(exact)] += 1;
+        }
+        assert!(agreed[0] > 1000 && agreed[1] > 1000, "{agreed:?}");
+    }
+
+    #[test]
+    fn heights_follow_a_slope_and_a_cliff_parts_the_ground() {
+        let mut slope = rectangle(WalkableKind::Sidewalk, (0.0, 0.0), (100.0, 3.0), 0.0);
+        slope.outline_in_world[1].z = 8.0;
+        slope.outline_in_world[2].z = 8.0;
+        let terrace = rectangle(WalkableKind::Sidewalk, (0.0, 3.0), (100.0, 6.0), 20.0);
+        let grid = build(&town(vec![slope, terrace], vec![])).unwrap();
+        assert_eq!(grid.components.len(), 2);
+        let (feet, kind) = grid.feet_at(DVec2::new(50.0, 1.0));
+        assert!((feet.z - 4.0).abs() < 1e-9 && kind == Some(WalkableKind::Sidewalk));
+        assert_well_formed(&grid);
+    }
+
+    #[test]
+    fn a_wall_of_boxes_parts_a_pavement_and_a_crown_does_not() {
+        let pavement = rectangle(WalkableKind::Sidewalk, (0.0, 0.0), (60.0, 3.0), 0.0);
+        let mut crown = pillar((30.0, 1.5), 2.0, 2.0);
+        crown.shape.center_in_world.z = 5.0;
+        assert_eq!(build(&town(vec![pavement.clone()], vec![crown])).unwrap().components.len(), 1);
+        let wall = pillar((30.0, 1.5), 1.6, 2.0);
+        assert_eq!(build(&town(vec![pavement], vec![wall])).unwrap().components.len(), 2);
+    }
+
+    #[test]
+    fn ground_that_nobody_can_walk_on_is_refused_with_what_helps() {
+        let pavement = rectangle(WalkableKind::Sidewalk, (0.0, 0.0), (60.0, 3.0), 0.0);
+        let check = |town: Town, message: &str, hint: &str| {
+            let error = build(&town).unwrap_err();
+            assert!(error.to_string().contains(message), "{error}");
+            assert!(error.hint().contains(hint), "{}", error.hint());
+        };
+        check(town(vec![], vec![]), "no walkable ground", "shoulders");
+        check(town(vec![pavement.clone()], vec![pillar((30.0, 0.0), 80.0, 3.0)]), "none of the town's 1", "radius");
+        check(town(vec![rectangle(WalkableKind::Sidewalk, (0.0, 0.0), (0.5, 0.5), 0.0)], vec![]), "none of", "grid_m");
+        let mut broken = pavement.clone();
+        broken.outline_in_world[2].y = f64::NAN;
+        check(town(vec![broken], vec![]), "corner 2 of walkable polygon 0", "repair");
+        let mut thing = pillar((0.0, 0.0), 1.0, 1.0);
+        thing.shape.half_extents_m.x = f64::INFINITY;
+        check(town(vec![pavement], vec![thing]), "obstacle 0", "repair");
+        let vast = rectangle(WalkableKind::Sidewalk, (0.0, 0.0), (60_000.0, 60_000.0), 0.0);
+        check(town(vec![vast], vec![]), "cells at `grid_m` of 0.5 m", "larger");
+    }
+}

@@ -1,0 +1,94 @@
+//! Polygons and segments on the cells of the grid.
+
+use super::{WalkableGrid, better_claim};
+use crate::polygon::{Cut, Polygon};
+use cosfly_frames::DVec2;
+use cosfly_maps::WalkableKind;
+
+/// What the polygons say about each cell, while the grid is built.
+pub(super) struct Cells {
+    pub kinds: Vec<Option<WalkableKind>>,
+    pub z: Vec<f32>,
+    /// Length of the line inside the polygon that gave the height.
+    spans: Vec<f32>,
+    /// Some outline passes through the cell.
+    pub outlined: Vec<bool>,
+}
+
+impl Cells {
+    pub fn new(count: usize) -> Self {
+        Self { kinds: vec![None; count], z: vec![0.0; count], spans: vec![0.0; count], outlined: vec![false; count] }
+    }
+
+    fn claim(&mut self, cell: usize, kind: WalkableKind, z: f32, span: f32) {
+        let better =
+            self.kinds[cell].is_none_or(|old| better_claim((kind, z, span), (old, self.z[cell], self.spans[cell])));
+        if better {
+            (self.kinds[cell], self.z[cell], self.spans[cell]) = (Some(kind), z, span);
+        }
+    }
+}
+
+/// Claims every cell whose centre lies in the polygon, line by line along `direction`.
+pub(super) fn fill(
+    grid: &WalkableGrid,
+    polygon: &Polygon,
+    across: DVec2,
+    direction: DVec2,
+    cut: &mut Cut,
+    cells: &mut Cells,
+) {
+    let low = ((polygon.min.truncate() - grid.corner) / grid.cell_m).floor();
+    let high = ((polygon.max.truncate() - grid.corner) / grid.cell_m).floor();
+    let along_rows = direction.x > 0.0;
+    for line in across.dot(low) as usize..=across.dot(high) as usize {
+        let origin = grid.corner + across * ((line as f64 + 0.5) * grid.cell_m) + direction * (0.5 * grid.cell_m);
+        polygon.cut_by_line(origin, direction, cut);
+        for piece in &cut.intervals {
+            let first = (piece.from / grid.cell_m).ceil().max(0.0) as usize;
+            let last = (piece.to / grid.cell_m).floor();
+            if last < 0.0 {
+                continue;
+            }
+            for place in first..=last as usize {
+                let (column, row) = if along_rows { (place, line) } else { (line, place) };
+                if column < grid.columns && row < grid.rows {
+                    let z = piece.z_at(place as f64 * grid.cell_m);
+                    cells.claim(row * grid.columns + column, polygon.kind, z as f32, (piece.to - piece.from) as f32);
+                }
+            }
+        }
+    }
+}
+
+/// Visits every cell that the segment passes through (a line exactly on a border visits one side).
+pub(super) fn cells_on_segment(grid: &WalkableGrid, from: DVec2, to: DVec2, visit: &mut dyn FnMut(usize)) {
+    let (start, end) = ((from - grid.corner) / grid.cell_m, (to - grid.corner) / grid.cell_m);
+    let step = end - start;
+    let (mut column, mut row) = (start.x.floor() as isize, start.y.floor() as isize);
+    let (last_column, last_row) = (end.x.floor() as isize, end.y.floor() as isize);
+    let axis = |place: f64, cell: isize, step: f64| {
+        let border = if step > 0.0 { cell as f64 + 1.0 } else { cell as f64 };
+        if step == 0.0 { (f64::INFINITY, f64::INFINITY) } else { ((border - place) / step, 1.0 / step.abs()) }
+    };
+    let (mut next_x, stride_x) = axis(start.x, column, step.x);
+    let (mut next_y, stride_y) = axis(start.y, row, step.y);
+    let crossings = (last_column - column).unsigned_abs() + (last_row - row).unsigned_abs();
+    for crossing in 0..=crossings {
+        if column >= 0 && row >= 0 && (column as usize) < grid.columns && (row as usize) < grid.rows {
+            visit(row as usize * grid.columns + column as usize);
+        }
+        if crossing == crossings {
+            break;
+        }
+        let x_left = column != last_column;
+        let y_left = row != last_row;
+        if x_left && (next_x <= next_y || !y_left) {
+            column += step.x.signum() as isize;
+            next_x += stride_x;
+        } else {
+            row += step.y.signum() as isize;
+            next_y += stride_y;
+        }
+    }
+}

@@ -1,0 +1,344 @@
+//! One pedestrian's walk: a person, a chain of goals, a smooth path, and its frames.
+
+use crate::motion::{self, ArcPath};
+use crate::route::RouteSearch;
+use crate::smooth::smooth;
+use crate::{PedestrianConfig, PedestrianError, PedestrianPath, WalkableGrid};
+use cosfly_frames::{DVec2, RandomStream, Seed, TargetState, TargetTrack, real};
+use cosfly_maps::WalkableKind;
+
+/// Straight distance to the next goal, metres: bounds the work of one search.
+const LONGEST_LEG_M: f64 = 120.0;
+const SHORTEST_LEG_M: f64 = 15.0;
+
+/// A goal may lie this far to either side of the way that the walk came, radians.
+const AHEAD_RAD: f64 = 1.9;
+
+/// Nodes of the way behind that a new leg avoids.
+const BEHIND_NODES: usize = 40;
+
+/// Smoothing cuts corners; routes are made longer by this.
+const SPARE: f64 = 1.12;
+
+/// Attempts to find a goal that a route leads to, and rounds of making a route longer.
+const GOAL_ATTEMPTS: usize = 48;
+const ROUNDS: usize = 6;
+
+/// Walks one pedestrian over the grid for exactly `steps` frames.
+///
+/// The seed decides the person, the start, every goal, the liking for ways, the speeds and the stops. Every point
+/// between two frames lies on walkable ground, at least the largest body radius from every obstacle. A walk whose
+/// goal is near goes on to another; it ends standing only where no way leads on.
+///
+/// # Errors
+/// When the config breaks its rules or no connected piece of ground is `min_route_m` across.
+pub fn walk(grid: &WalkableGrid, config: &PedestrianConfig, seed: Seed) -> Result<PedestrianPath, PedestrianError> {
+    config.check()?;
+    let person = Person::drawn(config, seed);
+    let fastest_mps = (person.cruise_mps * (1.0 + config.speed_noise)).min(config.speed.max_mps);
+    let needed_m = fastest_mps * config.dt_s * f64::from(config.steps) + 1.0;
+    let mut chain = GoalChain::new(grid, config, seed)?;
+    let mut wanted_m = SPARE * needed_m;
+    let mut points = vec![];
+    for round in 0..ROUNDS {
+        let route = chain.route(wanted_m);
+        points = smooth(grid, &route, config.simplify_m);
+        let path = ArcPath::new(points.clone());
+        if path.length_m() >= needed_m || chain.ended || round + 1 == ROUNDS {
+            break;
+        }
+        wanted_m *= 1.05 * (needed_m / path.length_m().max(1.0)).clamp(1.0, 2.0);
+    }
+    let path = ArcPath::new(points);
+    Ok(timed(grid, config, &person, &path, seed))
+}
+
+/// Speeds, stops and frames over a finished path.
+fn timed(
+    grid: &WalkableGrid,
+    config: &PedestrianConfig,
+    person: &Person,
+    path: &ArcPath,
+    seed: Seed,
+) -> PedestrianPath {
+    let may_stand =
+        |s_m: f64| !matches!(grid.feet_at(path.at(s_m)).1, Some(WalkableKind::Crossing | WalkableKind::Road));
+    let speeds = motion::knot_speeds(path, config, person.cruise_mps, seed);
+    let stops = motion::random_stops(path.length_m(), config, seed, &may_stand);
+    let frames = motion::frames(path, &speeds, &stops, config, true).unwrap_or_default();
+    let mut states = Vec::with_capacity(frames.len());
+    let mut ground = Vec::with_capacity(frames.len());
+    for frame in &frames {
+        let (feet_in_world, kind) = grid.feet_at(frame.position);
+        states.push(TargetState { feet_in_world, heading_rad: frame.heading_rad, speed_mps: frame.speed_mps });
+        ground.push(kind.or(ground.last().copied()).unwrap_or(WalkableKind::Sidewalk));
+    }
+    let track = TargetTrack { dt_s: config.dt_s, height_m: person.height_m, radius_m: person.radius_m, states };
+    PedestrianPath { track, ground, standing: frames.iter().map(|frame| frame.standing).collect() }
+}
+
+/// Who walks.
+struct Person {
+    cruise_mps: f64,
+    height_m: f64,
+    radius_m: f64,
+}
+
+impl Person {
+    fn drawn(config: &PedestrianConfig, seed: Seed) -> Self {
+        let mut stream = seed.stream("person");
+        Self {
+            cruise_mps: stream
+                .normal(config.speed.mean_mps, config.speed.deviation_mps)
+                .clamp(config.speed.min_mps, config.speed.max_mps),
+            height_m: stream.uniform(config.height.min_m, config.height.max_m),
+            radius_m: stream.uniform(config.radius.min_m, config.radius.max_m),
+        }
+    }
+}
+
+/// A route that grows goal by goal.
+struct GoalChain<'a> {
+    grid: &'a WalkableGrid,
+    search: RouteSearch<'a>,
+    stream: RandomStream,
+    component: u32,
+    nodes: Vec<u32>,
+    length_m: f64,
+    /// No way leads on.
+    ended: bool,
+}
+
+impl<'a> GoalChain<'a> {
+    fn new(grid: &'a WalkableGrid, config: &PedestrianConfig, seed: Seed) -> Result<Self, PedestrianError> {
+        let mut stream = seed.stream("goals");
+        let roomy: Vec<u32> = (0..grid.components.len() as u32)
+            .filter(|&piece| grid.components[piece as usize].extent_m >= config.min_route_m)
+            .collect();
+        let size = |piece: &u32| grid.components[*piece as usize].nodes.len();
+        let total: usize = roomy.iter().map(size).sum();
+        if total == 0 {
+            let largest_m = grid.components.iter().map(|piece| piece.extent_m).fold(0.0, f64::max);
+            return Err(PedestrianError::NoRoom { largest_m, min_route_m: config.min_route_m });
+        }
+        // Every square metre is as likely a start as any other; crossings and carriageways only when nothing else comes.
+        let mut start = (0, 0);
+        for _ in 0..GOAL_ATTEMPTS {
+            let mut place = stream.index(total);
+            for piece in &roomy {
+                if place < size(piece) {
+                    start = (*piece, grid.components[*piece as usize].nodes[place]);
+                    break;
+                }
+                place -= size(piece);
+            }
+            if is_goal(grid, start.1) {
+                break;
+            }
+        }
+        Ok(Self {
+            grid,
+            search: RouteSearch::new(grid, config.edge_distance_m, seed),
+            stream,
+            component: start.0,
+            nodes: vec![start.1],
+            length_m: 0.0,
+            ended: false,
+        })
+    }
+
+    /// The route of about `wanted_m`, longer by goals until it is, then cut.
+    fn route(&mut self, wanted_m: f64) -> Vec<DVec2> {
+        while self.length_m < wanted_m && !self.ended {
+            self.ended = !self.grow((wanted_m - self.length_m).clamp(SHORTEST_LEG_M, LONGEST_LEG_M));
+        }
+        let mut route: Vec<DVec2> = vec![];
+        let mut length_m = 0.0;
+        for &node in &self.nodes {
+            let center = self.grid.center(node);
+            length_m += route.last().map_or(0.0, |last| (center - *last).length());
+            route.push(center);
+            if length_m > wanted_m {
+                break;
+            }
+        }
+        route
+    }
+
+    /// Adds the way to one more goal; false when none was found.
+    fn grow(&mut self, leg_m: f64) -> bool {
+        let here = self.nodes[self.nodes.len() - 1];
+        for attempt in 0..GOAL_ATTEMPTS {
+            let Some(goal) = self.draw_goal(here, leg_m, attempt) else { continue };
+            let behind = &self.nodes[self.nodes.len().saturating_sub(BEHIND_NODES)..self.nodes.len() - 1];
+            if let Some(way) = self.search.find(here, goal, behind)
+                && way.len() > 1
+            {
+                self.length_m += way
+                    .windows(2)
+                    .map(|pair| (self.grid.center(pair[1]) - self.grid.center(pair[0])).length())
+                    .sum::<f64>();
+                self.nodes.extend(&way[1..]);
+                return true;
+            }
+        }
+        false
+    }
+
+    /// A node about `leg_m` away, ahead at first, nearer and anywhere later; at last any node of the piece.
+    fn draw_goal(&mut self, here: u32, leg_m: f64, attempt: usize) -> Option<u32> {
+        let center = self.grid.center(here);
+        let late = attempt as f64 / GOAL_ATTEMPTS as f64;
+        if late > 0.8 {
+            let nodes = &self.grid.components[self.component as usize].nodes;
+            let node = nodes[self.stream.index(nodes.len())];
+            let apart_m = (self.grid.center(node) - center).length();
+            return (node != here && apart_m <= 2.0 * LONGEST_LEG_M).then_some(node);
+        }
+        let distance_m = leg_m * self.stream.uniform(0.5, 1.0) * (1.0 - late);
+        let turn = self.stream.uniform(-1.0, 1.0);
+        let angle = match self.nodes.len().checked_sub(BEHIND_NODES / 2) {
+            Some(before) if late < 0.5 => {
+                let came = center - self.grid.center(self.nodes[before]);
+                real::atan2(came.y, came.x) + AHEAD_RAD * turn
+            }
+            _ => real::PI * turn,
+        };
+        let (sin, cos) = real::sin_cos(angle);
+        let node = self.grid.node_near(center + distance_m * DVec2::new(cos, sin), self.component, 10)?;
+        let apart_m = (self.grid.center(node) - center).length();
+        (is_goal(self.grid, node) && apart_m > 0.25 * distance_m && node != here).then_some(node)
+    }
+}
+
+/// Whether a walk may start or change its mind here.
+fn is_goal(grid: &WalkableGrid, node: u32) -> bool {
+    !matches!(grid.nodes[node as usize].kind, WalkableKind::Crossing | WalkableKind::Road)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::grid::test_towns::{rectangle, streets, town};
+
+    fn seed(item: u32) -> Seed {
+        Seed::of_item(11, "walkers", &format!("p{item}"))
+    }
+
+    /// The law of a walk, on the exact ground and the exact obstacles.
+    fn check_walk(town: &cosfly_maps::Town, grid: &WalkableGrid, config: &PedestrianConfig, walked: &PedestrianPath) {
+        let track = &walked.track;
+        assert_eq!((track.len(), track.dt_s), (config.steps as usize, config.dt_s));
+        assert_eq!((walked.ground.len(), walked.standing.len()), (track.len(), track.len()));
+        for (i, state) in track.states.iter().enumerate() {
+            let feet = state.feet_in_world;
+            let (kind, z) = grid.ground().at(feet.truncate(), feet.z).unwrap();
+            assert_eq!((kind, z), (walked.ground[i], feet.z));
+            assert_eq!(walked.standing[i], state.speed_mps == 0.0);
+            if !walked.standing[i] {
+                assert!((config.speed.min_mps..=config.speed.max_mps).contains(&state.speed_mps));
+            }
+            for thing in &town.obstacles {
+                let offset = feet.truncate() - thing.shape.center_in_world.truncate();
+                assert_eq!(thing.shape.yaw_rad, 0.0);
+                let outside = (offset.abs() - thing.shape.half_extents_m.truncate()).max(DVec2::ZERO);
+                assert!(outside.length() >= track.radius_m, "frame {i} at {feet}");
+            }
+        }
+        for (i, pair) in track.states.windows(2).enumerate() {
+            let moved = (pair[1].feet_in_world - pair[0].feet_in_world).truncate().length();
+            assert!(moved <= config.speed.max_mps * config.dt_s + 1e-9);
+            if walked.standing[i] && walked.standing[i + 1] {
+                assert_eq!((moved, pair[0].heading_rad), (0.0, pair[1].heading_rad));
+            }
+        }
+    }
+
+    #[test]
+    fn forty_walks_keep_the_law() {
+        let (town, config) = (streets(), PedestrianConfig::default());
+        let grid = WalkableGrid::build(&town, &config).unwrap();
+        let (mut crossed, mut stood) = (0, 0);
+        for item in 0..40 {
+            let walked = walk(&grid, &config, seed(item)).unwrap();
+            check_walk(&town, &grid, &config, &walked);
+            let asked = 0.6 * config.speed.min_mps * walked.track.duration_s();
+            assert!(walked.track.length_m() > asked, "{}", walked.track.length_m());
+            crossed += usize::from(walked.ground.contains(&WalkableKind::Crossing));
+            stood += usize::from(walked.standing.contains(&true));
+            assert!(!walked.standing[walked.standing.len() - 20..].iter().all(|standing| *standing));
+        }
+        assert!(crossed > 20 && stood > 15, "{crossed} crossed, {stood} stood");
+    }
+
+    #[test]
+    fn every_point_between_frames_is_free_too() {
+        let (town, config) = (streets(), PedestrianConfig::default());
+        let grid = WalkableGrid::build(&town, &config).unwrap();
+        for item in 0..10 {
+            let mut chain = GoalChain::new(&grid, &config, seed(item)).unwrap();
+            let points = smooth(&grid, &chain.route(200.0), config.simplify_m);
+            for pair in points.windows(2) {
+                let (a, b) = (pair[0].extend(0.0), pair[1].extend(0.0));
+                assert!((b - a).length() <= crate::smooth::CHORD_M + 1e-9);
+                assert!(grid.ground().covers(a, b), "{a} to {b}");
+            }
+        }
+    }
+
+    #[test]
+    fn a_walk_depends_on_its_seed_alone() {
+        let (town, config) = (streets(), PedestrianConfig::default());
+        let grid = WalkableGrid::build(&town, &config).unwrap();
+        let again = WalkableGrid::build(&town, &config).unwrap();
+        let first = walk(&grid, &config, seed(1)).unwrap();
+        walk(&grid, &config, seed(2)).unwrap();
+        assert_eq!(first, walk(&again, &config, seed(1)).unwrap());
+        assert_ne!(first, walk(&grid, &config, seed(2)).unwrap());
+    }
+
+    #[test]
+    fn a_small_ground_is_walked_to_and_fro_for_all_frames() {
+        let config = PedestrianConfig::default();
+        let town = town(vec![rectangle(WalkableKind::Sidewalk, (0.0, 0.0), (25.0, 2.0), 0.0)], vec![]);
+        let grid = WalkableGrid::build(&town, &config).unwrap();
+        let walked = walk(&grid, &config, seed(0)).unwrap();
+        check_walk(&town, &grid, &config, &walked);
+        assert!(walked.track.length_m() > 60.0, "{}", walked.track.length_m());
+    }
+
+    #[test]
+    fn islands_too_small_for_a_walk_are_not_started_on() {
+        let config = PedestrianConfig::default();
+        let mut walkable: Vec<_> = (0..200)
+            .map(|i| {
+                rectangle(WalkableKind::Sidewalk, (5.0 * f64::from(i), 50.0), (5.0 * f64::from(i) + 4.0, 54.0), 0.0)
+            })
+            .collect();
+        walkable.push(rectangle(WalkableKind::Sidewalk, (0.0, 0.0), (60.0, 2.0), 0.0));
+        let grid = WalkableGrid::build(&town(walkable.clone(), vec![]), &config).unwrap();
+        for item in 0..20 {
+            let walked = walk(&grid, &config, seed(item)).unwrap();
+            assert!(walked.track.states.iter().all(|state| state.feet_in_world.y < 2.0));
+        }
+        walkable.pop();
+        let grid = WalkableGrid::build(&town(walkable, vec![]), &config).unwrap();
+        let error = walk(&grid, &config, seed(0)).unwrap_err();
+        assert_eq!(
+            error.to_string(),
+            "the largest connected piece of walkable ground is 4.9 m across; `min_route_m` asks for 20 m"
+        );
+        assert_eq!(error.hint(), "set `min_route_m` to 4 or less, or choose a map whose pavements are connected");
+    }
+
+    #[test]
+    fn other_steps_and_time_steps_are_kept_exactly() {
+        let town = streets();
+        let mut config = PedestrianConfig { steps: 37, dt_s: 0.1, ..PedestrianConfig::default() };
+        let grid = WalkableGrid::build(&town, &config).unwrap();
+        check_walk(&town, &grid, &config, &walk(&grid, &config, seed(0)).unwrap());
+        config.steps = 2000;
+        config.dt_s = 0.5;
+        check_walk(&town, &grid, &config, &walk(&grid, &config, seed(0)).unwrap());
+    }
+}
