@@ -1,10 +1,19 @@
 //! The [`Town`] model (obstacles, walkable areas, surfaces, semantics), its readers and its generator.
 
+pub mod config;
+pub mod cover;
+pub mod error;
 pub mod fill;
+pub mod formats;
+pub mod read;
 pub mod semantics;
 pub mod simplify;
 pub mod town;
 
+pub use config::MapConfig;
+pub use error::{MapError, Place};
+pub use formats::{FORMATS, MapFormat};
+pub use read::read_town;
 pub use semantics::SemanticLabel;
 pub use town::{
     MapOrigin, Obstacle, ObstacleKind, SimplificationReport, SurfaceMesh, Synthetic, Town, WalkableKind,

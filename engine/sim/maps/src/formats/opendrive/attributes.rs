@@ -1,0 +1,162 @@
+//! Numbers and names out of XML attributes; each refusal says its line, column, element and rule.
+
+use super::text::Lines;
+use crate::error::{MapError, Place};
+use core::cell::{Cell, RefCell};
+use roxmltree::{Document, Node};
+
+/// What a number in the file may be.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Limits {
+    low: f64,
+    high: f64,
+    unit: &'static str,
+}
+
+/// A coordinate of the plan view.
+pub(super) const COORDINATE: Limits = Limits { low: -1e8, high: 1e8, unit: " m" };
+/// A length of a road or of a piece of its reference line.
+pub(super) const LENGTH: Limits = Limits { low: 0.0, high: 1e6, unit: " m" };
+/// A position along a road; exporters write tiny negative ones.
+pub(super) const STATION: Limits = Limits { low: -1e-3, high: 1e6, unit: " m" };
+/// A distance to the side of, or above, the road.
+pub(super) const OFFSET: Limits = Limits { low: -1e5, high: 1e5, unit: " m" };
+/// A width of a lane, or a size of an object.
+pub(super) const SIZE: Limits = Limits { low: 0.0, high: 1e3, unit: " m" };
+/// A size of an object that exporters also write as -1 for "unknown".
+pub(super) const LOOSE_SIZE: Limits = Limits { low: -1e3, high: 1e4, unit: " m" };
+/// An angle in radians.
+pub(super) const ANGLE: Limits = Limits { low: -1e4, high: 1e4, unit: " rad" };
+/// A curvature.
+pub(super) const CURVATURE: Limits = Limits { low: -1e3, high: 1e3, unit: " 1/m" };
+/// A coefficient of a cubic.
+pub(super) const COEFFICIENT: Limits = Limits { low: -1e8, high: 1e8, unit: "" };
+
+impl Limits {
+    /// The same size, either sign: polynomials dip below zero where a lane ends.
+    pub(super) const fn into_signed(self) -> Self {
+        Self { low: -self.high, ..self }
+    }
+}
+
+const WARNINGS_WITH_PLACES: usize = 100;
+
+/// The document that is read, and the warnings about it.
+pub(super) struct Source<'d> {
+    pub(super) document: &'d Document<'d>,
+    lines: &'d Lines<'d>,
+    warnings: RefCell<Vec<String>>,
+    left_out: Cell<usize>,
+}
+
+impl<'d> Source<'d> {
+    pub(super) fn new(document: &'d Document<'d>, lines: &'d Lines<'d>) -> Self {
+        Self { document, lines, warnings: RefCell::default(), left_out: Cell::new(0) }
+    }
+
+    /// Notes something the reader coped with. Only the first hundred are kept, then they are counted.
+    pub(super) fn warn(&self, node: Node, message: &str) {
+        if self.warnings.borrow().len() < WARNINGS_WITH_PLACES {
+            let place = self.place(node, node.range());
+            let text = format!("line {}, {}: {message}", place.line, place.element);
+            self.warnings.borrow_mut().push(text);
+        } else {
+            self.left_out.set(self.left_out.get() + 1);
+        }
+    }
+
+    /// All warnings so far.
+    pub(super) fn into_warnings(self) -> Vec<String> {
+        let mut warnings = self.warnings.into_inner();
+        if self.left_out.get() > 0 {
+            warnings.push(format!("and {} more warnings of these kinds", self.left_out.get()));
+        }
+        warnings
+    }
+
+    fn place(&self, node: Node, byte_span: core::ops::Range<usize>) -> Place {
+        self.lines.place(byte_span, described(node))
+    }
+
+    /// The start tag of an element; the whole element may be half the file.
+    pub(super) fn start_tag(&self, node: Node) -> core::ops::Range<usize> {
+        let range = node.range();
+        let end = self.document.input_text()[range.clone()].find('>');
+        range.start..end.map_or(range.end, |end| range.start + end + 1)
+    }
+
+    /// A refusal at an element.
+    pub(super) fn refuse(&self, node: Node, message: impl Into<String>) -> MapError {
+        MapError::new(message).at(self.place(node, self.start_tag(node)))
+    }
+
+    /// A number that must be there.
+    pub(super) fn number(&self, node: Node, name: &str, limits: Limits) -> Result<f64, MapError> {
+        self.optional_number(node, name, limits)?
+            .ok_or_else(|| self.refuse(node, format!("`{}` has no `{name}`", node.tag_name().name())))
+    }
+
+    /// A number that may be missing.
+    pub(super) fn optional_number(&self, node: Node, name: &str, limits: Limits) -> Result<Option<f64>, MapError> {
+        let Some(attribute) = node.attribute_node(name) else {
+            return Ok(None);
+        };
+        let rule = match attribute.value().trim().parse::<f64>() {
+            Err(_) => "it must be a number".to_owned(),
+            Ok(value) if !value.is_finite() => "it must be a finite number".to_owned(),
+            Ok(value) if value < limits.low || value > limits.high => {
+                format!("it must lie between {} and {}{}", limits.low, limits.high, limits.unit)
+            }
+            Ok(value) => return Ok(Some(value)),
+        };
+        let shown: String = attribute.value().chars().take(40).collect();
+        let message = format!("`{name}` is `{shown}`; {rule}");
+        Err(MapError::new(message).at(self.place(node, attribute.range_value())))
+    }
+
+    /// The four coefficients `a`, `b`, `c`, `d` with a suffix; missing ones are 0.
+    pub(super) fn coefficients(&self, node: Node, suffix: &str) -> Result<[f64; 4], MapError> {
+        let mut out = [0.0; 4];
+        for (value, letter) in out.iter_mut().zip(["a", "b", "c", "d"]) {
+            *value = self.optional_number(node, &format!("{letter}{suffix}"), COEFFICIENT)?.unwrap_or(0.0);
+        }
+        Ok(out)
+    }
+
+    /// A text attribute that must be there.
+    pub(super) fn text(&self, node: Node<'d, 'd>, name: &str) -> Result<&'d str, MapError> {
+        node.attribute(name).ok_or_else(|| self.refuse(node, format!("`{}` has no `{name}`", node.tag_name().name())))
+    }
+}
+
+/// ``<width> of lane `-1` of road `12` ``, from the element up to its road.
+fn described(node: Node) -> String {
+    let mut text = format!("<{}>", node.tag_name().name());
+    for ancestor in node.ancestors().filter(Node::is_element) {
+        let name = ancestor.tag_name().name();
+        if let (true, Some(id)) =
+            (matches!(name, "lane" | "road" | "object" | "signal" | "junction"), ancestor.attribute("id"))
+        {
+            let id: String = id.chars().take(40).collect();
+            if ancestor == node {
+                text.push_str(&format!(" `{id}`"));
+            } else {
+                text.push_str(&format!(" of {name} `{id}`"));
+            }
+        }
+        if name == "road" {
+            break;
+        }
+    }
+    text
+}
+
+/// The element children with this name.
+pub(super) fn children<'d>(node: Node<'d, 'd>, name: &'static str) -> impl Iterator<Item = Node<'d, 'd>> {
+    node.children().filter(move |child| child.tag_name().name() == name)
+}
+
+/// The first element child with this name.
+pub(super) fn child<'d>(node: Node<'d, 'd>, name: &'static str) -> Option<Node<'d, 'd>> {
+    children(node, name).next()
+}

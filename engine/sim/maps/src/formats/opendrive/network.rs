@@ -1,0 +1,289 @@
+//! The road network as the file states it: typed, checked, nothing derived; map frame, metres, radians.
+
+use super::plan_view::PlanElement;
+use super::polynomial::CubicProfile;
+use core::ops::Range;
+
+/// Everything the reader takes from an OpenDRIVE file.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct RoadNetwork {
+    /// `name` of the header.
+    pub name: Option<String>,
+    /// Projection text of the header.
+    pub geo_reference: Option<String>,
+    /// Roads in file order.
+    pub roads: Vec<Road>,
+}
+
+/// A road: a reference line with lanes and things beside it.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Road {
+    /// `id` in the file.
+    pub id: String,
+    /// Junction that it crosses, `None` outside junctions.
+    pub junction: Option<String>,
+    /// Length of the reference line, metres.
+    pub length_m: f64,
+    /// Whether its start and its end meet a junction.
+    pub meets_junction: [bool; 2],
+    /// The reference line, sorted by s, never empty.
+    pub plan: Vec<PlanElement>,
+    /// Height of the reference line.
+    pub elevation: CubicProfile,
+    /// Roll of the surface, radians, positive = left side up.
+    pub superelevation: CubicProfile,
+    /// Fall of the left and the right side away from the reference line, radians (OpenDRIVE 1.4).
+    pub crossfall: [CubicProfile; 2],
+    /// Cross-sections of free shape, sorted by s.
+    pub shapes: Vec<ShapeSection>,
+    /// Sideways shift of the centre lane.
+    pub lane_offset: CubicProfile,
+    /// Lane sections, sorted by s, never empty.
+    pub sections: Vec<LaneSection>,
+    /// Things beside and on the road.
+    pub objects: Vec<RoadObject>,
+    /// Signs and lights.
+    pub signals: Vec<RoadSignal>,
+    /// Its start tag in the text.
+    pub byte_span: Range<usize>,
+}
+
+/// Heights across the road at one s.
+#[derive(Clone, Debug, PartialEq)]
+pub struct ShapeSection {
+    /// Where, metres along the road.
+    pub s_m: f64,
+    /// Height over t; the starts of the records are values of t.
+    pub over_t: CubicProfile,
+}
+
+/// A stretch of road with a fixed set of lanes.
+#[derive(Clone, Debug, PartialEq)]
+pub struct LaneSection {
+    /// Its start, metres along the road.
+    pub start_s_m: f64,
+    /// Its end: the start of the next one or the end of the road.
+    pub end_s_m: f64,
+    /// Lanes 1, 2, ... from the centre outwards.
+    pub left: Vec<Lane>,
+    /// Marks of the centre line.
+    pub center_marks: Vec<RoadMark>,
+    /// Lanes -1, -2, ... from the centre outwards.
+    pub right: Vec<Lane>,
+}
+
+impl LaneSection {
+    /// Both sides, each with its sign: +1 for the left (growing t), -1 for the right.
+    pub fn sides(&self) -> [(f64, &[Lane]); 2] {
+        [(1.0, &self.left), (-1.0, &self.right)]
+    }
+}
+
+/// One lane of a section. Stations are along the road, not within the section.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Lane {
+    /// `id`: positive to the left, negative to the right.
+    pub id: i32,
+    /// What it is for.
+    pub kind: LaneKind,
+    /// Kept level: the road's roll does not apply.
+    pub level: bool,
+    /// How its outer edge runs.
+    pub edge: LaneEdge,
+    /// Heights above the road surface, sorted by s; between records they change linearly.
+    pub heights: Vec<LaneHeight>,
+    /// Marks on its outer edge, sorted by s.
+    pub marks: Vec<RoadMark>,
+}
+
+/// How the outer edge of a lane is given.
+#[derive(Clone, Debug, PartialEq)]
+pub enum LaneEdge {
+    /// Width of the lane.
+    Width(CubicProfile),
+    /// t of the outer edge, before the lane offset.
+    Border(CubicProfile),
+}
+
+/// `<height>` of a lane.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct LaneHeight {
+    /// Where, metres along the road.
+    pub s_m: f64,
+    /// At the inner edge, metres above the road surface.
+    pub inner_m: f64,
+    /// At the outer edge.
+    pub outer_m: f64,
+}
+
+/// What a lane is for, as far as towns care.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum LaneKind {
+    /// Any carriageway: driving, parking, bus, bicycle, ramp and so on.
+    Carriageway,
+    /// Pavement for pedestrians.
+    Sidewalk,
+    /// Hard or soft shoulder.
+    Shoulder,
+    /// Kerb stone or border strip.
+    Kerb,
+    /// Median.
+    Median,
+    /// Tram or rail.
+    Rail,
+    /// `none` and unknown kinds: green beside the road.
+    None,
+}
+
+/// `<roadMark>`: a painted line on the outer edge of a lane.
+#[derive(Clone, Debug, PartialEq)]
+pub struct RoadMark {
+    /// Where it begins, metres along the road.
+    pub s_m: f64,
+    /// Which line; `None` for kinds without paint.
+    pub paint: Option<Paint>,
+}
+
+/// What is painted on a lane edge.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Paint {
+    /// Width of one line, metres.
+    pub width_m: f64,
+    /// Dashes of this length, or one solid line.
+    pub dash: Option<Dash>,
+    /// Two lines side by side.
+    pub double: bool,
+}
+
+/// A dashed line.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Dash {
+    /// Painted length, metres.
+    pub length_m: f64,
+    /// Gap, metres.
+    pub space_m: f64,
+}
+
+/// `<object>`.
+#[derive(Clone, Debug, PartialEq)]
+pub struct RoadObject {
+    /// `id` in the file.
+    pub id: String,
+    /// `type`, lower case.
+    pub type_name: String,
+    /// `name` and `subtype`, lower case.
+    pub name: String,
+    /// Where its origin is.
+    pub at: RoadPosition,
+    /// Turn against the road, radians.
+    pub heading_rad: f64,
+    /// Size along, across and upwards, and radius, metres; 0 when not given.
+    pub size: ObjectSize,
+    /// Copies along the road.
+    pub repeats: Vec<Repeat>,
+    /// Outlines of its parts.
+    pub outlines: Vec<Outline>,
+    /// Our own extension: `<userData code=... value=...>` of a tree's crown.
+    pub crown: Crown,
+    /// Its start tag in the text.
+    pub byte_span: Range<usize>,
+}
+
+/// A point relative to a road.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct RoadPosition {
+    /// Along the road, metres.
+    pub s_m: f64,
+    /// To the left of the reference line, metres.
+    pub t_m: f64,
+    /// Above the road surface, metres.
+    pub z_offset_m: f64,
+}
+
+/// Sizes of an object, metres, 0 when not given.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct ObjectSize {
+    /// Along its own u axis.
+    pub length_m: f64,
+    /// Along its own v axis.
+    pub width_m: f64,
+    /// Upwards.
+    pub height_m: f64,
+    /// Of a round object.
+    pub radius_m: f64,
+}
+
+/// Crown of a tree, where the file has it.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Crown {
+    /// Radius, metres.
+    pub radius_m: Option<f64>,
+    /// Height of its lower end above the trunk's foot, metres.
+    pub base_m: Option<f64>,
+}
+
+/// `<repeat>`.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Repeat {
+    /// Start and end: along the road.
+    pub s_m: [f64; 2],
+    /// Between copies, metres; 0 for one continuous thing.
+    pub distance_m: f64,
+    /// t at both ends.
+    pub t_m: [f64; 2],
+    /// Height above the road at both ends.
+    pub z_offset_m: [f64; 2],
+    /// Width at both ends.
+    pub width_m: [f64; 2],
+    /// Height at both ends.
+    pub height_m: [f64; 2],
+}
+
+/// `<outline>`.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Outline {
+    /// An area, not a line.
+    pub closed: bool,
+    /// Its corners.
+    pub corners: Vec<Corner>,
+}
+
+/// A corner of an outline.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Corner {
+    /// Relative to the road.
+    Road {
+        /// Foot of the corner.
+        at: RoadPosition,
+        /// Height of the object there, metres.
+        height_m: f64,
+    },
+    /// Relative to the object.
+    Local {
+        /// Along the object, metres.
+        u_m: f64,
+        /// Across it, metres.
+        v_m: f64,
+        /// Above its origin, metres.
+        z_m: f64,
+        /// Height of the object there, metres.
+        height_m: f64,
+    },
+}
+
+/// `<signal>`.
+#[derive(Clone, Debug, PartialEq)]
+pub struct RoadSignal {
+    /// `id` in the file.
+    pub id: String,
+    /// Where its plate hangs.
+    pub at: RoadPosition,
+    /// Turn of the plate, radians against the road (orientation included).
+    pub heading_rad: f64,
+    /// Size of the plate, metres; 0 when not given.
+    pub width_m: f64,
+    /// Height of the plate, metres; 0 when not given.
+    pub height_m: f64,
+    /// A light, not a plate.
+    pub is_light: bool,
+}

@@ -1,0 +1,63 @@
+//! What an `<object>` is, from its type and name.
+
+use super::network::RoadObject;
+use crate::ObstacleKind;
+
+/// What becomes of an object.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum ObjectKind {
+    /// Something solid.
+    Solid(ObstacleKind),
+    /// A pedestrian crossing.
+    Crosswalk,
+    /// Paint, parking spaces, patches and other flat things.
+    Flat,
+}
+
+/// Words in `name` and `subtype` that say more than the type, in the order in which they are tried.
+const NAMES: &[(&str, ObstacleKind)] = &[
+    ("streetlamp", ObstacleKind::Lamp),
+    ("street_lamp", ObstacleKind::Lamp),
+    ("streetlight", ObstacleKind::Lamp),
+    ("lamp", ObstacleKind::Lamp),
+    ("trafficlight", ObstacleKind::TrafficLight),
+    ("traffic_light", ObstacleKind::TrafficLight),
+    ("busstop", ObstacleKind::Static),
+    ("bus_stop", ObstacleKind::Static),
+    ("guardrail", ObstacleKind::GuardRail),
+    ("guard_rail", ObstacleKind::GuardRail),
+    ("jerseybarrier", ObstacleKind::GuardRail),
+    ("fence", ObstacleKind::Fence),
+    ("railing", ObstacleKind::Fence),
+    ("wall", ObstacleKind::Wall),
+    ("hedge", ObstacleKind::Bush),
+    ("bush", ObstacleKind::Bush),
+    ("raisedmedian", ObstacleKind::Static),
+    ("bench", ObstacleKind::Static),
+];
+
+/// Decides by type first, by name where the type says little.
+pub(super) fn kind_of(object: &RoadObject) -> ObjectKind {
+    let named = NAMES.iter().find(|(word, _)| object.name.contains(word)).map(|(_, kind)| *kind);
+    let solid = |usual: ObstacleKind| ObjectKind::Solid(named.unwrap_or(usual));
+    match object.type_name.as_str() {
+        "crosswalk" => ObjectKind::Crosswalk,
+        "building" => solid(ObstacleKind::Building),
+        "tree" => ObjectKind::Solid(ObstacleKind::TreeTrunk),
+        "vegetation" if object.name.contains("tree") => ObjectKind::Solid(ObstacleKind::TreeTrunk),
+        "vegetation" => ObjectKind::Solid(ObstacleKind::Bush),
+        "streetlamp" => ObjectKind::Solid(ObstacleKind::Lamp),
+        "pole" | "gantry" => solid(ObstacleKind::Pole),
+        "barrier" => solid(ObstacleKind::GuardRail),
+        "railing" => solid(ObstacleKind::Fence),
+        "soundbarrier" => ObjectKind::Solid(ObstacleKind::Wall),
+        "car" | "van" | "bus" | "truck" | "trailer" => ObjectKind::Solid(ObstacleKind::Car),
+        "bridge" => ObjectKind::Solid(ObstacleKind::Bridge),
+        "parkingspace" | "roadmark" | "roadsurface" | "patch" | "wind" => ObjectKind::Flat,
+        _ => solid(match object.name.as_str() {
+            name if name.contains("building") => ObstacleKind::Building,
+            name if name.contains("tree") => ObstacleKind::TreeTrunk,
+            _ => ObstacleKind::Static,
+        }),
+    }
+}

@@ -1,0 +1,302 @@
+//! Things beside the road into solid boxes: buildings, trees, poles, lamps, walls, furniture.
+
+use super::network::{Corner, Outline, Repeat, Road, RoadObject};
+use super::object_kind::{ObjectKind, kind_of};
+use super::world::WorldFromMap;
+use crate::cover::cover_polygon;
+use crate::{Obstacle, ObstacleKind};
+use cosfly_frames::{DVec2, DVec3, real};
+use cosfly_geometry::OrientedBox;
+
+/// Most boxes of one file.
+pub(super) const MOST_OBSTACLES: usize = 500_000;
+/// Thickness of walls and fences whose file gives none, metres.
+const DEFAULT_THICKNESS_M: f64 = 0.15;
+/// Objects lower than this are paint or plates in the ground.
+const LOWEST_M: f64 = 0.05;
+/// Longest straight piece of a continuous wall, metres, in a curve; straight ones are not cut.
+const WALL_CHORD_M: f64 = 0.1;
+
+/// The growing list of obstacles of a file.
+#[derive(Debug, Default)]
+pub(super) struct ObstacleBuilder {
+    pub(super) obstacles: Vec<Obstacle>,
+    next_object_id: u32,
+    /// Trees whose crown is our assumption.
+    pub(super) assumed_crowns: usize,
+    /// Objects that gave no usable size.
+    pub(super) without_size: usize,
+    /// Boxes beyond [`MOST_OBSTACLES`].
+    pub(super) left_out: usize,
+}
+
+/// A solid before it becomes a box: foot and top of a footprint, map frame.
+#[derive(Clone, Copy, Debug)]
+struct Block {
+    center_in_map: DVec2,
+    half_extents_m: DVec2,
+    heading_rad: f64,
+    bottom_m: f64,
+    top_m: f64,
+}
+
+impl ObstacleBuilder {
+    /// A new thing; all boxes until the next call belong to it.
+    pub(super) fn begin_object(&mut self) {
+        self.next_object_id += 1;
+    }
+
+    fn push(&mut self, kind: ObstacleKind, block: Block, world: &WorldFromMap) {
+        if self.obstacles.len() >= MOST_OBSTACLES {
+            self.left_out += 1;
+            return;
+        }
+        let height_m = (block.top_m - block.bottom_m).max(0.0);
+        let center = world.point(block.center_in_map.extend(0.5 * (block.top_m + block.bottom_m)));
+        let half_extents_m = block.half_extents_m.abs().extend(0.5 * height_m);
+        if center.is_finite() && half_extents_m.is_finite() {
+            let shape =
+                OrientedBox { center_in_world: center, half_extents_m, yaw_rad: world.yaw_rad(block.heading_rad) };
+            self.obstacles.push(Obstacle { shape, kind, object_id: self.next_object_id, synthetic: false });
+        }
+    }
+
+    /// An upright box with a square or given footprint.
+    pub(super) fn push_upright(
+        &mut self,
+        kind: ObstacleKind,
+        foot_in_map: DVec3,
+        half_extents_m: DVec2,
+        heading_rad: f64,
+        height_m: f64,
+        world: &WorldFromMap,
+    ) {
+        let (bottom_m, top_m) = (foot_in_map.z, foot_in_map.z + height_m);
+        let block = Block { center_in_map: foot_in_map.truncate(), half_extents_m, heading_rad, bottom_m, top_m };
+        self.push(kind, block, world);
+    }
+
+    /// Adds one `<object>`; flat and painted things give nothing.
+    pub(super) fn add(&mut self, road: &Road, object: &RoadObject, world: &WorldFromMap) {
+        let ObjectKind::Solid(kind) = kind_of(object) else { return };
+        self.begin_object();
+        let before = self.obstacles.len();
+        if !object.repeats.is_empty() {
+            for repeat in &object.repeats {
+                self.add_repeat(road, object, kind, repeat, world);
+            }
+        } else if object.outlines.iter().any(|outline| outline.corners.len() >= 2) {
+            for outline in &object.outlines {
+                self.add_outline(road, object, kind, outline, world);
+            }
+        } else {
+            let foot = road.point(object.at.s_m, object.at.t_m, object.at.z_offset_m);
+            let heading_rad = road.plan_point(object.at.s_m).heading_rad + object.heading_rad;
+            let footprint = DVec2::new(object.size.length_m, object.size.width_m);
+            self.add_single(object, kind, foot, heading_rad, footprint, object.size.height_m, world);
+        }
+        if self.obstacles.len() == before {
+            self.without_size += 1;
+        }
+    }
+
+    /// A thing at one place, from its sizes.
+    #[expect(clippy::too_many_arguments, reason = "a repeat overrides place and sizes of its object one by one")]
+    fn add_single(
+        &mut self,
+        object: &RoadObject,
+        kind: ObstacleKind,
+        foot: DVec3,
+        heading_rad: f64,
+        footprint_m: DVec2,
+        height_m: f64,
+        world: &WorldFromMap,
+    ) {
+        if kind == ObstacleKind::TreeTrunk {
+            return self.add_tree(object, foot, heading_rad, footprint_m, height_m, world);
+        }
+        let radius_m = object.size.radius_m;
+        let half = if radius_m > 0.0 { DVec2::splat(radius_m) } else { 0.5 * footprint_m };
+        let thin = matches!(kind, ObstacleKind::Pole | ObstacleKind::Lamp | ObstacleKind::TrafficLight);
+        let half = if half.min_element() > 0.0 {
+            half
+        } else if thin {
+            DVec2::splat(0.06)
+        } else {
+            half.max(DVec2::splat(0.5 * DEFAULT_THICKNESS_M))
+        };
+        let flat = !thin && radius_m <= 0.0 && footprint_m.max_element() <= 0.0;
+        if height_m >= LOWEST_M && !flat {
+            self.push_upright(kind, foot, half, heading_rad, height_m, world);
+        }
+    }
+
+    /// Trunk and crown. A radius below 0.6 m is the trunk's (as surveys give it), a larger one the crown's. Where
+    /// the file has no crown: radius 0.2 of the height within 1 to 4.5 m, from 0.35 of the height upwards.
+    fn add_tree(
+        &mut self,
+        object: &RoadObject,
+        foot: DVec3,
+        heading_rad: f64,
+        footprint_m: DVec2,
+        height_m: f64,
+        world: &WorldFromMap,
+    ) {
+        let height_m = if height_m > 0.0 { height_m } else { 7.0 };
+        let stated_m = if object.size.radius_m > 0.0 { object.size.radius_m } else { 0.5 * footprint_m.max_element() };
+        let stated_crown_m = object.crown.radius_m.or((stated_m >= 0.6).then_some(stated_m));
+        let trunk_m = if stated_m > 0.0 && stated_m < 0.6 { stated_m } else { (0.015 * height_m).clamp(0.08, 0.4) };
+        let crown_m = stated_crown_m.unwrap_or((0.2 * height_m).clamp(1.0, 4.5)).max(0.0);
+        let base_m = object.crown.base_m.unwrap_or(0.35 * height_m).clamp(0.0, height_m);
+        if stated_crown_m.is_none() || object.crown.base_m.is_none() {
+            self.assumed_crowns += 1;
+        }
+        self.push_upright(ObstacleKind::TreeTrunk, foot, DVec2::splat(trunk_m), heading_rad, base_m, world);
+        let crown_foot = foot + base_m * DVec3::Z;
+        self.push_upright(
+            ObstacleKind::TreeCrown,
+            crown_foot,
+            DVec2::splat(crown_m),
+            heading_rad,
+            height_m - base_m,
+            world,
+        );
+    }
+
+    fn add_repeat(
+        &mut self,
+        road: &Road,
+        object: &RoadObject,
+        kind: ObstacleKind,
+        repeat: &Repeat,
+        world: &WorldFromMap,
+    ) {
+        let [start_s_m, end_s_m] = repeat.s_m;
+        let length_m = end_s_m - start_s_m;
+        let at = |share: f64| {
+            let s_m = (start_s_m + share * length_m).clamp(0.0, road.length_m);
+            let mix = |pair: [f64; 2]| pair[0] + share * (pair[1] - pair[0]);
+            (s_m, road.point(s_m, mix(repeat.t_m), mix(repeat.z_offset_m)), mix(repeat.width_m), mix(repeat.height_m))
+        };
+        if repeat.distance_m > 0.0 {
+            let copies = (length_m / repeat.distance_m + 1e-9).floor().min(MOST_OBSTACLES as f64) as usize;
+            for copy in 0..=copies {
+                let share = if length_m > 0.0 { (copy as f64 * repeat.distance_m / length_m).min(1.0) } else { 0.0 };
+                let (s_m, foot, width_m, height_m) = at(share);
+                let heading_rad = road.plan_point(s_m).heading_rad + object.heading_rad;
+                if copy > 0 {
+                    self.begin_object();
+                }
+                self.add_single(
+                    object,
+                    kind,
+                    foot,
+                    heading_rad,
+                    DVec2::new(object.size.length_m, width_m),
+                    height_m,
+                    world,
+                );
+                if self.left_out > 0 {
+                    return;
+                }
+            }
+            return;
+        }
+        let mut pieces = 1_usize;
+        while pieces < 256 && (0..pieces).any(|i| sagitta_m(&at, i, pieces) > WALL_CHORD_M) {
+            pieces *= 2;
+        }
+        for piece in 0..pieces {
+            let (low, high) = (at(piece as f64 / pieces as f64), at((piece + 1) as f64 / pieces as f64));
+            self.add_wall(kind, [low.1, high.1], [low.3, high.3], low.2.max(high.2), world);
+        }
+    }
+
+    /// A straight piece of wall between two feet; it covers the higher of both ends.
+    fn add_wall(
+        &mut self,
+        kind: ObstacleKind,
+        feet: [DVec3; 2],
+        heights_m: [f64; 2],
+        thickness_m: f64,
+        world: &WorldFromMap,
+    ) {
+        let along = feet[1].truncate() - feet[0].truncate();
+        let top_m = (feet[0].z + heights_m[0]).max(feet[1].z + heights_m[1]);
+        let bottom_m = feet[0].z.min(feet[1].z);
+        let thickness_m = if thickness_m > 0.0 { thickness_m } else { DEFAULT_THICKNESS_M };
+        if heights_m[0].max(heights_m[1]) < LOWEST_M {
+            return;
+        }
+        let block = Block {
+            center_in_map: 0.5 * (feet[0] + feet[1]).truncate(),
+            half_extents_m: DVec2::new(0.5 * along.length(), 0.5 * thickness_m),
+            heading_rad: real::atan2(along.y, along.x),
+            bottom_m,
+            top_m,
+        };
+        self.push(kind, block, world);
+    }
+
+    fn add_outline(
+        &mut self,
+        road: &Road,
+        object: &RoadObject,
+        kind: ObstacleKind,
+        outline: &Outline,
+        world: &WorldFromMap,
+    ) {
+        let corners = outline_in_map(road, object, outline);
+        if !outline.closed {
+            for pair in corners.windows(2) {
+                self.add_wall(kind, [pair[0].0, pair[1].0], [pair[0].1, pair[1].1], object.size.width_m, world);
+            }
+            return;
+        }
+        let tallest_m = corners.iter().map(|(_, height_m)| *height_m).fold(0.0, f64::max);
+        if tallest_m < LOWEST_M || corners.len() < 2 {
+            return;
+        }
+        let bottom_m = corners.iter().map(|(foot, _)| foot.z).fold(f64::INFINITY, f64::min);
+        let top_m = corners.iter().map(|(foot, height_m)| foot.z + height_m).fold(f64::NEG_INFINITY, f64::max);
+        // Near the origin, so that rectangles of UTM coordinates keep their precision.
+        let near = corners[0].0.truncate();
+        let flat: Vec<DVec2> = corners.iter().map(|(foot, _)| foot.truncate() - near).collect();
+        for rectangle in cover_polygon(&flat) {
+            let block = Block {
+                center_in_map: near + rectangle.center,
+                half_extents_m: rectangle.half_extents_m,
+                heading_rad: rectangle.yaw_rad,
+                bottom_m,
+                top_m,
+            };
+            self.push(kind, block, world);
+        }
+    }
+}
+
+fn sagitta_m(at: &impl Fn(f64) -> (f64, DVec3, f64, f64), piece: usize, pieces: usize) -> f64 {
+    let point = |part: f64| at((piece as f64 + part) / pieces as f64).1;
+    point(0.0).lerp(point(1.0), 0.5).distance(point(0.5))
+}
+
+/// Corners of an outline (foot in the map, height of the object there), a repeated first corner dropped.
+pub(super) fn outline_in_map(road: &Road, object: &RoadObject, outline: &Outline) -> Vec<(DVec3, f64)> {
+    let origin = road.point(object.at.s_m, object.at.t_m, object.at.z_offset_m);
+    let heading_rad = road.plan_point(object.at.s_m).heading_rad + object.heading_rad;
+    let (sin, cos) = real::sin_cos(heading_rad);
+    let mut corners: Vec<(DVec3, f64)> = outline
+        .corners
+        .iter()
+        .map(|corner| match *corner {
+            Corner::Road { at, height_m } => (road.point(at.s_m, at.t_m, at.z_offset_m), height_m),
+            Corner::Local { u_m, v_m, z_m, height_m } => {
+                (origin + DVec3::new(cos * u_m - sin * v_m, sin * u_m + cos * v_m, z_m), height_m)
+            }
+        })
+        .collect();
+    while outline.closed && corners.len() > 1 && corners[0].0.distance(corners[corners.len() - 1].0) < 1e-3 {
+        corners.pop();
+    }
+    corners
+}

@@ -1,0 +1,177 @@
+//! `<laneSection>` and everything in it into the model.
+
+use super::attributes::{OFFSET, SIZE, STATION, Source, child, children};
+use super::network::{Dash, Lane, LaneEdge, LaneHeight, LaneKind, LaneSection, Paint, RoadMark};
+use super::polynomial::{Cubic, CubicProfile};
+use crate::error::MapError;
+use roxmltree::Node;
+
+/// The sections of a road in the order of their start.
+pub(super) fn lane_sections<'d>(
+    source: &Source<'d>,
+    lanes: Node<'d, 'd>,
+    road_length_m: f64,
+) -> Result<Vec<LaneSection>, MapError> {
+    let mut sections: Vec<LaneSection> = Vec::new();
+    let mut last_s_m = f64::NEG_INFINITY;
+    for node in children(lanes, "laneSection") {
+        let start_s_m = source.number(node, "s", STATION)?.max(0.0);
+        if start_s_m < last_s_m {
+            source.warn(node, "`s` is smaller than that of the section before it; the sections are sorted");
+        }
+        last_s_m = start_s_m;
+        if start_s_m > road_length_m {
+            source
+                .warn(node, &format!("the section begins at {start_s_m} m, after the end of the road; it is left out"));
+            continue;
+        }
+        let mut section = LaneSection {
+            start_s_m,
+            end_s_m: road_length_m,
+            left: side(source, node, "left", start_s_m)?,
+            center_marks: center_marks(source, node, start_s_m)?,
+            right: side(source, node, "right", start_s_m)?,
+        };
+        if node.attribute("singleSide") == Some("true")
+            && let Some(before) = sections.last()
+        {
+            // Stations of lane records are along the road, so the other side simply goes on.
+            if child(node, "left").is_none() {
+                section.left = before.left.clone();
+            } else {
+                section.right = before.right.clone();
+            }
+        }
+        sections.push(section);
+    }
+    sections.sort_by(|a, b| a.start_s_m.total_cmp(&b.start_s_m));
+    for i in 1..sections.len() {
+        sections[i - 1].end_s_m = sections[i].start_s_m;
+    }
+    if sections.is_empty() {
+        return Err(source.refuse(lanes, "the road has no lane section"));
+    }
+    Ok(sections)
+}
+
+fn side<'d>(
+    source: &Source<'d>,
+    section: Node<'d, 'd>,
+    name: &'static str,
+    section_s_m: f64,
+) -> Result<Vec<Lane>, MapError> {
+    let nodes = child(section, name).into_iter().flat_map(|side| children(side, "lane"));
+    let mut lanes = nodes.map(|node| lane(source, node, section_s_m)).collect::<Result<Vec<_>, _>>()?;
+    lanes.sort_by_key(|lane| lane.id.unsigned_abs());
+    let wanted_sign = if name == "left" { 1 } else { -1 };
+    let before = lanes.len();
+    lanes.retain(|lane| lane.id.signum() == wanted_sign);
+    lanes.dedup_by_key(|lane| lane.id);
+    if lanes.len() != before {
+        source.warn(section, &format!("lanes on the {name} with a wrong sign or a repeated id are left out"));
+    }
+    Ok(lanes)
+}
+
+fn lane<'d>(source: &Source<'d>, node: Node<'d, 'd>, section_s_m: f64) -> Result<Lane, MapError> {
+    let id_text = source.text(node, "id")?;
+    let id = id_text.trim().parse::<i32>().ok().filter(|id| id.unsigned_abs() <= 1000);
+    let id = id
+        .ok_or_else(|| source.refuse(node, format!("`id` is `{id_text}`; a lane's id is a whole number up to 1000")))?;
+    let widths = edge_records(source, node, "width", section_s_m, SIZE.into_signed())?;
+    let borders = edge_records(source, node, "border", section_s_m, OFFSET)?;
+    let edge =
+        if widths.is_empty() && !borders.is_empty() { LaneEdge::Border(borders) } else { LaneEdge::Width(widths) };
+    let mut heights = children(node, "height")
+        .map(|height| {
+            Ok(LaneHeight {
+                s_m: section_s_m + source.number(height, "sOffset", STATION)?,
+                inner_m: source.optional_number(height, "inner", OFFSET)?.unwrap_or(0.0),
+                outer_m: source.optional_number(height, "outer", OFFSET)?.unwrap_or(0.0),
+            })
+        })
+        .collect::<Result<Vec<_>, MapError>>()?;
+    heights.sort_by(|a, b| a.s_m.total_cmp(&b.s_m));
+    let level = matches!(node.attribute("level"), Some("true" | "1"));
+    Ok(Lane { id, kind: kind(node.attribute("type")), level, edge, heights, marks: marks(source, node, section_s_m)? })
+}
+
+fn edge_records<'d>(
+    source: &Source<'d>,
+    lane: Node<'d, 'd>,
+    name: &'static str,
+    section_s_m: f64,
+    limits: super::attributes::Limits,
+) -> Result<CubicProfile, MapError> {
+    let mut records = Vec::new();
+    for node in children(lane, name) {
+        source.number(node, "a", limits)?;
+        records.push(Cubic {
+            start_s_m: section_s_m + source.number(node, "sOffset", STATION)?,
+            coefficients: source.coefficients(node, "")?,
+        });
+    }
+    Ok(CubicProfile::new(records))
+}
+
+fn kind(type_name: Option<&str>) -> LaneKind {
+    match type_name.unwrap_or("none") {
+        "sidewalk" | "walking" => LaneKind::Sidewalk,
+        "shoulder" => LaneKind::Shoulder,
+        "border" | "curb" => LaneKind::Kerb,
+        "median" => LaneKind::Median,
+        "tram" | "rail" => LaneKind::Rail,
+        "none" => LaneKind::None,
+        "driving" | "stop" | "parking" | "biking" | "bidirectional" | "restricted" | "entry" | "exit" | "offRamp"
+        | "onRamp" | "connectingRamp" | "slipLane" | "mwyEntry" | "mwyExit" | "bus" | "taxi" | "HOV" | "hov"
+        | "roadWorks" | "special1" | "special2" | "special3" | "shared" => LaneKind::Carriageway,
+        _ => LaneKind::None,
+    }
+}
+
+fn center_marks<'d>(source: &Source<'d>, section: Node<'d, 'd>, section_s_m: f64) -> Result<Vec<RoadMark>, MapError> {
+    let lane = child(section, "center").and_then(|center| child(center, "lane"));
+    lane.map_or(Ok(Vec::new()), |lane| marks(source, lane, section_s_m))
+}
+
+fn marks<'d>(source: &Source<'d>, lane: Node<'d, 'd>, section_s_m: f64) -> Result<Vec<RoadMark>, MapError> {
+    let mut out = children(lane, "roadMark")
+        .map(|node| {
+            let s_m = section_s_m + source.optional_number(node, "sOffset", STATION)?.unwrap_or(0.0);
+            Ok(RoadMark { s_m, paint: paint(source, node)? })
+        })
+        .collect::<Result<Vec<_>, MapError>>()?;
+    out.sort_by(|a, b| a.s_m.total_cmp(&b.s_m));
+    Ok(out)
+}
+
+const DEFAULT_LINE_WIDTH_M: f64 = 0.12;
+/// Dashes of towns where the file gives no pattern.
+const DEFAULT_DASH: Dash = Dash { length_m: 3.0, space_m: 6.0 };
+
+fn paint<'d>(source: &Source<'d>, node: Node<'d, 'd>) -> Result<Option<Paint>, MapError> {
+    let width_m = source.optional_number(node, "width", SIZE)?.filter(|width_m| *width_m > 0.0);
+    let (dashed, double) = match node.attribute("type").unwrap_or("none") {
+        "solid" => (false, false),
+        "broken" => (true, false),
+        "solid solid" => (false, true),
+        "solid broken" | "broken solid" => (false, false),
+        "broken broken" => (true, true),
+        // Kerbs, grass and edges carry no paint; `botts dots` are too small to see from the air.
+        _ => return Ok(None),
+    };
+    let line = child(node, "type").and_then(|kind| child(kind, "line"));
+    let own_dash = match line {
+        Some(line) => Some(Dash {
+            length_m: source.optional_number(line, "length", SIZE)?.unwrap_or(0.0),
+            space_m: source.optional_number(line, "space", SIZE)?.unwrap_or(0.0),
+        }),
+        None => None,
+    };
+    let usable = own_dash.filter(|dash| dash.length_m >= 0.1 && dash.space_m >= 0.1);
+    Ok(Some(Paint {
+        width_m: width_m.unwrap_or(DEFAULT_LINE_WIDTH_M).clamp(0.05, 1.0),
+        dash: dashed.then(|| usable.unwrap_or(DEFAULT_DASH)),
+        double,
+    }))
+}

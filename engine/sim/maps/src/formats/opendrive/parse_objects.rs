@@ -1,0 +1,147 @@
+//! `<object>` and `<signal>` into the model.
+
+use super::attributes::{ANGLE, LENGTH, LOOSE_SIZE, OFFSET, STATION, Source, child, children};
+use super::network::{Corner, Crown, ObjectSize, Outline, Repeat, RoadObject, RoadPosition, RoadSignal};
+use crate::error::MapError;
+use roxmltree::Node;
+
+/// The objects of a road; `<objectReference>`s, tunnels and bridges are not things of their own.
+pub(super) fn objects<'d>(
+    source: &Source<'d>,
+    road: Node<'d, 'd>,
+    road_length_m: f64,
+) -> Result<Vec<RoadObject>, MapError> {
+    let nodes = child(road, "objects").into_iter().flat_map(|objects| children(objects, "object"));
+    nodes.map(|node| object(source, node, road_length_m)).collect()
+}
+
+fn object<'d>(source: &Source<'d>, node: Node<'d, 'd>, road_length_m: f64) -> Result<RoadObject, MapError> {
+    let at = position(source, node, "zOffset", road_length_m)?;
+    let size = |name| source.optional_number(node, name, LOOSE_SIZE).map(|value| value.unwrap_or(0.0).max(0.0));
+    let size = ObjectSize {
+        length_m: size("length")?,
+        width_m: size("width")?,
+        height_m: size("height")?,
+        radius_m: size("radius")?,
+    };
+    let lower = |name| node.attribute(name).unwrap_or_default().to_ascii_lowercase();
+    let repeats =
+        children(node, "repeat").map(|repeat| self::repeat(source, repeat, &at, &size)).collect::<Result<_, _>>()?;
+    let nested = child(node, "outlines").into_iter().flat_map(|outlines| children(outlines, "outline"));
+    let outlines = children(node, "outline")
+        .chain(nested)
+        .map(|outline| self::outline(source, outline, size.height_m, road_length_m))
+        .collect::<Result<Vec<_>, _>>()?;
+    Ok(RoadObject {
+        id: node.attribute("id").unwrap_or_default().to_owned(),
+        type_name: lower("type"),
+        name: format!("{} {}", lower("name"), lower("subtype")).trim().to_owned(),
+        at,
+        heading_rad: source.optional_number(node, "hdg", ANGLE)?.unwrap_or(0.0),
+        size,
+        repeats,
+        outlines,
+        crown: Crown {
+            radius_m: user_data(source, node, "crown_radius")?,
+            base_m: user_data(source, node, "crown_base")?,
+        },
+        byte_span: source.start_tag(node),
+    })
+}
+
+/// `s`, `t` and a height above the road; `s` beyond the road's end is held to it.
+fn position<'d>(
+    source: &Source<'d>,
+    node: Node<'d, 'd>,
+    height_name: &str,
+    road_length_m: f64,
+) -> Result<RoadPosition, MapError> {
+    let s_m = source.number(node, "s", STATION)?;
+    if s_m > road_length_m + 1.0 {
+        source.warn(node, &format!("`s` is {s_m} m, but the road ends at {road_length_m} m; its end is used"));
+    }
+    Ok(RoadPosition {
+        s_m: s_m.clamp(0.0, road_length_m),
+        t_m: source.number(node, "t", OFFSET)?,
+        z_offset_m: source.optional_number(node, height_name, OFFSET)?.unwrap_or(0.0),
+    })
+}
+
+fn user_data<'d>(source: &Source<'d>, node: Node<'d, 'd>, code: &str) -> Result<Option<f64>, MapError> {
+    let found = children(node, "userData").find(|data| data.attribute("code") == Some(code));
+    found.map_or(Ok(None), |data| source.optional_number(data, "value", OFFSET))
+}
+
+fn repeat<'d>(
+    source: &Source<'d>,
+    node: Node<'d, 'd>,
+    at: &RoadPosition,
+    size: &ObjectSize,
+) -> Result<Repeat, MapError> {
+    let start_s_m = source.optional_number(node, "s", STATION)?.unwrap_or(at.s_m).max(0.0);
+    let length_m = source.number(node, "length", LENGTH)?;
+    let pair = |start: &str, end: &str, limits, default: f64| -> Result<[f64; 2], MapError> {
+        let first = source.optional_number(node, start, limits)?;
+        let last = source.optional_number(node, end, limits)?;
+        Ok([first.or(last).unwrap_or(default), last.or(first).unwrap_or(default)])
+    };
+    Ok(Repeat {
+        s_m: [start_s_m, start_s_m + length_m],
+        distance_m: source.optional_number(node, "distance", LENGTH)?.unwrap_or(0.0),
+        t_m: pair("tStart", "tEnd", OFFSET, at.t_m)?,
+        z_offset_m: pair("zOffsetStart", "zOffsetEnd", OFFSET, at.z_offset_m)?,
+        width_m: pair("widthStart", "widthEnd", LOOSE_SIZE, size.width_m)?.map(|width_m| width_m.max(0.0)),
+        height_m: pair("heightStart", "heightEnd", LOOSE_SIZE, size.height_m)?.map(|height_m| height_m.max(0.0)),
+    })
+}
+
+fn outline<'d>(
+    source: &Source<'d>,
+    node: Node<'d, 'd>,
+    object_height_m: f64,
+    road_length_m: f64,
+) -> Result<Outline, MapError> {
+    let mut corners = Vec::new();
+    for corner in node.children().filter(Node::is_element) {
+        let height_m = || {
+            source
+                .optional_number(corner, "height", LOOSE_SIZE)
+                .map(|height| height.unwrap_or(object_height_m).max(0.0))
+        };
+        corners.push(match corner.tag_name().name() {
+            "cornerRoad" => Corner::Road { at: position(source, corner, "dz", road_length_m)?, height_m: height_m()? },
+            "cornerLocal" => Corner::Local {
+                u_m: source.number(corner, "u", OFFSET)?,
+                v_m: source.number(corner, "v", OFFSET)?,
+                z_m: source.optional_number(corner, "z", OFFSET)?.unwrap_or(0.0),
+                height_m: height_m()?,
+            },
+            _ => continue,
+        });
+    }
+    Ok(Outline { closed: node.attribute("closed") != Some("false"), corners })
+}
+
+/// The signals of a road that stand beside it; painted ones have no height.
+pub(super) fn signals<'d>(
+    source: &Source<'d>,
+    road: Node<'d, 'd>,
+    road_length_m: f64,
+) -> Result<Vec<RoadSignal>, MapError> {
+    let nodes = child(road, "signals").into_iter().flat_map(|signals| children(signals, "signal"));
+    nodes.map(|node| signal(source, node, road_length_m)).collect()
+}
+
+fn signal<'d>(source: &Source<'d>, node: Node<'d, 'd>, road_length_m: f64) -> Result<RoadSignal, MapError> {
+    let at = position(source, node, "zOffset", road_length_m)?;
+    let size = |name| source.optional_number(node, name, LOOSE_SIZE).map(|value| value.unwrap_or(0.0).max(0.0));
+    let turned = if node.attribute("orientation") == Some("-") { cosfly_frames::real::PI } else { 0.0 };
+    Ok(RoadSignal {
+        id: node.attribute("id").unwrap_or_default().to_owned(),
+        at,
+        heading_rad: turned + source.optional_number(node, "hOffset", ANGLE)?.unwrap_or(0.0),
+        width_m: size("width")?,
+        height_m: size("height")?,
+        is_light: node.attribute("dynamic") == Some("yes"),
+    })
+}

@@ -1,0 +1,162 @@
+//! `<header>`, `<road>`, `<planView>`, `<elevationProfile>` and `<lateralProfile>` into the model.
+
+use super::attributes::{ANGLE, COEFFICIENT, COORDINATE, CURVATURE, LENGTH, STATION, Source, child, children};
+use super::network::{Road, RoadNetwork, ShapeSection};
+use super::parse_lanes::lane_sections;
+use super::parse_objects::{objects, signals};
+use super::plan_view::{Curve, PlanElement, PlanPoint};
+use super::polynomial::{Cubic, CubicProfile};
+use crate::error::MapError;
+use cosfly_frames::DVec2;
+use roxmltree::Node;
+
+/// The whole file.
+pub(super) fn network(source: &Source<'_>) -> Result<RoadNetwork, MapError> {
+    let root = source.document.root_element();
+    let header = child(root, "header");
+    let text = |value: &str| (!value.trim().is_empty()).then(|| value.trim().to_owned());
+    let name = header.and_then(|header| header.attribute("name")).and_then(text);
+    let geo_reference =
+        header.and_then(|header| child(header, "geoReference")).and_then(|node| node.text()).and_then(text);
+    let roads = children(root, "road").map(|node| road(source, node)).collect::<Result<Vec<_>, _>>()?;
+    if roads.is_empty() {
+        return Err(source.refuse(root, "the file has no road"));
+    }
+    Ok(RoadNetwork { name, geo_reference, roads })
+}
+
+fn road<'d>(source: &Source<'d>, node: Node<'d, 'd>) -> Result<Road, MapError> {
+    let stated_length_m = source.number(node, "length", LENGTH)?;
+    let plan = plan_view(source, node)?;
+    let last = plan.last().map_or(0.0, |element| element.start_s_m + element.length_m);
+    if (last - stated_length_m).abs() > 0.01 * stated_length_m.max(1.0) {
+        source.warn(node, &format!("`length` is {stated_length_m} m, but its geometry is {last} m long"));
+    }
+    let length_m = stated_length_m.min(last);
+    if length_m <= 0.0 {
+        source.warn(node, "the road has no length");
+    }
+    let junction = node.attribute("junction").filter(|id| !id.is_empty() && *id != "-1").map(str::to_owned);
+    let lateral = child(node, "lateralProfile");
+    let lanes = child(node, "lanes").ok_or_else(|| source.refuse(node, "the road has no `<lanes>`"))?;
+    Ok(Road {
+        id: source.text(node, "id")?.to_owned(),
+        junction,
+        length_m,
+        meets_junction: ["predecessor", "successor"].map(|end| {
+            child(node, "link")
+                .and_then(|link| child(link, end))
+                .is_some_and(|end| end.attribute("elementType") == Some("junction"))
+        }),
+        plan,
+        elevation: profile(source, child(node, "elevationProfile"), "elevation", &|_| true)?,
+        superelevation: profile(source, lateral, "superelevation", &|_| true)?,
+        crossfall: crossfall(source, lateral)?,
+        shapes: shapes(source, lateral)?,
+        lane_offset: profile(source, Some(lanes), "laneOffset", &|_| true)?,
+        sections: lane_sections(source, lanes, length_m)?,
+        objects: objects(source, node, length_m)?,
+        signals: signals(source, node, length_m)?,
+        byte_span: source.start_tag(node),
+    })
+}
+
+fn plan_view<'d>(source: &Source<'d>, road: Node<'d, 'd>) -> Result<Vec<PlanElement>, MapError> {
+    let view = child(road, "planView").ok_or_else(|| source.refuse(road, "the road has no `<planView>`"))?;
+    let mut plan = Vec::new();
+    let mut expected_s_m = 0.0_f64;
+    for node in children(view, "geometry") {
+        let start_s_m = source.number(node, "s", STATION)?;
+        let length_m = source.number(node, "length", LENGTH)?;
+        if (start_s_m - expected_s_m).abs() > 0.01 {
+            source.warn(node, &format!("`s` is {start_s_m} m, but the geometry before it ends at {expected_s_m} m"));
+        }
+        expected_s_m = start_s_m + length_m;
+        let position_in_map = DVec2::new(source.number(node, "x", COORDINATE)?, source.number(node, "y", COORDINATE)?);
+        let start = PlanPoint { position_in_map, heading_rad: source.number(node, "hdg", ANGLE)? };
+        plan.push(PlanElement { start_s_m, length_m, start, curve: curve(source, node, length_m)? });
+    }
+    plan.sort_by(|a, b| a.start_s_m.total_cmp(&b.start_s_m));
+    if plan.is_empty() {
+        return Err(source.refuse(view, "the plan view has no `<geometry>`"));
+    }
+    Ok(plan)
+}
+
+fn curve<'d>(source: &Source<'d>, geometry: Node<'d, 'd>, length_m: f64) -> Result<Curve, MapError> {
+    let Some(node) = geometry.children().find(|node| node.is_element() && node.tag_name().name() != "userData") else {
+        return Err(source.refuse(geometry, "the geometry has no shape").hint(SHAPES));
+    };
+    match node.tag_name().name() {
+        "line" => Ok(Curve::Line),
+        "arc" => Ok(Curve::Arc { curvature_per_m: source.number(node, "curvature", CURVATURE)? }),
+        "spiral" => Ok(Curve::Spiral {
+            start_per_m: source.number(node, "curvStart", CURVATURE)?,
+            end_per_m: source.number(node, "curvEnd", CURVATURE)?,
+        }),
+        "poly3" => Ok(Curve::poly3(source.coefficients(node, "")?, length_m)),
+        "paramPoly3" => {
+            let (u, v) = (source.coefficients(node, "U")?, source.coefficients(node, "V")?);
+            match node.attribute("pRange").unwrap_or("normalized") {
+                "arcLength" => Ok(Curve::ByArcLength { u, v }),
+                "normalized" => Ok(normalized(source, node, u, v, length_m)),
+                other => {
+                    Err(source.refuse(node, format!("`pRange` is `{other}`; it must be `arcLength` or `normalized`")))
+                }
+            }
+        }
+        other => Err(source.refuse(node, format!("`{other}` is not a known shape of a geometry")).hint(SHAPES)),
+    }
+}
+
+const SHAPES: &str = "known shapes are line, arc, spiral, poly3 and paramPoly3";
+
+fn normalized<'d>(source: &Source<'d>, node: Node<'d, 'd>, u: [f64; 4], v: [f64; 4], length_m: f64) -> Curve {
+    let curve = Curve::normalized(u, v);
+    if let Some(own_m) = curve.own_length_m()
+        && (own_m - length_m).abs() > 0.01 * length_m.max(1.0)
+    {
+        source.warn(node, &format!("the curve is {own_m:.3} m long, but its `length` is {length_m} m"));
+    }
+    curve
+}
+
+/// The records called `name` that `keep` accepts; a missing `s` or `sOffset` is an error.
+fn profile<'d>(
+    source: &Source<'d>,
+    parent: Option<Node<'d, 'd>>,
+    name: &'static str,
+    keep: &dyn Fn(Node) -> bool,
+) -> Result<CubicProfile, MapError> {
+    let nodes = parent.into_iter().flat_map(|parent| children(parent, name)).filter(|node| keep(*node));
+    let records = nodes.map(|node| {
+        Ok(Cubic { start_s_m: source.number(node, "s", STATION)?, coefficients: source.coefficients(node, "")? })
+    });
+    Ok(CubicProfile::new(records.collect::<Result<_, MapError>>()?))
+}
+
+fn crossfall<'d>(source: &Source<'d>, lateral: Option<Node<'d, 'd>>) -> Result<[CubicProfile; 2], MapError> {
+    let side = |wanted: &'static str| {
+        profile(source, lateral, "crossfall", &|node: Node| {
+            matches!(node.attribute("side"), None | Some("both")) || node.attribute("side") == Some(wanted)
+        })
+    };
+    Ok([side("left")?, side("right")?])
+}
+
+fn shapes<'d>(source: &Source<'d>, lateral: Option<Node<'d, 'd>>) -> Result<Vec<ShapeSection>, MapError> {
+    let mut records: Vec<(f64, Cubic)> = Vec::new();
+    for node in lateral.into_iter().flat_map(|lateral| children(lateral, "shape")) {
+        let t_m = source.number(node, "t", COEFFICIENT)?;
+        let cubic = Cubic { start_s_m: t_m, coefficients: source.coefficients(node, "")? };
+        records.push((source.number(node, "s", STATION)?, cubic));
+    }
+    records.sort_by(|a, b| a.0.total_cmp(&b.0));
+    Ok(records
+        .chunk_by(|a, b| a.0 == b.0)
+        .map(|same| ShapeSection {
+            s_m: same[0].0,
+            over_t: CubicProfile::new(same.iter().map(|(_, cubic)| *cubic).collect()),
+        })
+        .collect())
+}

@@ -1,0 +1,160 @@
+//! Meshes of the lanes: carriageway, raised pavements with kerb faces, green strips, skirts at the road's edge.
+
+use super::network::{Lane, LaneKind, Road};
+use super::road_geometry::LaneSpan;
+use super::stations::CrossSection;
+use super::world::WorldFromMap;
+use crate::{SemanticLabel, SurfaceMesh};
+use cosfly_frames::{DVec2, DVec3};
+use std::collections::BTreeMap;
+
+/// How far the side of a road's edge reaches down, so that no gap opens towards the terrain, metres.
+const SKIRT_M: f64 = 1.0;
+/// Height of pavements in files that give none, metres.
+pub(super) const DEFAULT_KERB_M: f64 = 0.15;
+
+/// One growing mesh for each label.
+#[derive(Debug, Default)]
+pub(super) struct MeshBuilder {
+    meshes: BTreeMap<(SemanticLabel, bool), SurfaceMesh>,
+}
+
+impl MeshBuilder {
+    /// Adds a quad; corners in order around it, each with its place along and across the road.
+    pub(super) fn quad(&mut self, label: SemanticLabel, synthetic: bool, corners: [(DVec3, DVec2); 4]) {
+        self.polygon(label, synthetic, &corners, &[[0, 1, 2], [0, 2, 3]]);
+    }
+
+    /// Adds triangles over some vertices.
+    pub(super) fn polygon(
+        &mut self,
+        label: SemanticLabel,
+        synthetic: bool,
+        vertices: &[(DVec3, DVec2)],
+        triangles: &[[u32; 3]],
+    ) {
+        let mesh = self.meshes.entry((label, synthetic)).or_insert_with(|| SurfaceMesh {
+            label,
+            vertices_in_world: Vec::new(),
+            along_across_m: Vec::new(),
+            triangles: Vec::new(),
+            synthetic,
+        });
+        let first = mesh.vertices_in_world.len() as u32;
+        mesh.vertices_in_world.extend(vertices.iter().map(|(point, _)| *point));
+        mesh.along_across_m.extend(vertices.iter().map(|(_, along_across)| *along_across));
+        mesh.triangles.extend(triangles.iter().map(|triangle| triangle.map(|corner| first + corner)));
+    }
+
+    /// The meshes in the order of their labels.
+    pub(super) fn finish(self) -> Vec<SurfaceMesh> {
+        self.meshes.into_values().collect()
+    }
+}
+
+/// The label under which a lane is seen.
+pub(super) fn lane_label(lane: &Lane) -> SemanticLabel {
+    match lane.kind {
+        LaneKind::Carriageway | LaneKind::Shoulder => SemanticLabel::Roads,
+        LaneKind::Sidewalk | LaneKind::Kerb => SemanticLabel::SideWalks,
+        LaneKind::Median | LaneKind::None => SemanticLabel::Terrain,
+        LaneKind::Rail => SemanticLabel::RailTrack,
+    }
+}
+
+/// Raises pavements of files without lane heights.
+pub(super) fn raise_default_kerbs(road: &mut Road) -> bool {
+    let mut raised = false;
+    for section in &mut road.sections {
+        for lane in section.left.iter_mut().chain(&mut section.right) {
+            if lane.kind == LaneKind::Sidewalk && lane.heights.is_empty() {
+                let s_m = section.start_s_m;
+                lane.heights =
+                    vec![super::network::LaneHeight { s_m, inner_m: DEFAULT_KERB_M, outer_m: DEFAULT_KERB_M }];
+                raised = true;
+            }
+        }
+    }
+    raised
+}
+
+/// Adds everything of one lane section.
+pub(super) fn add_section(builder: &mut MeshBuilder, lanes: [&[Lane]; 2], rows: &[CrossSection], world: &WorldFromMap) {
+    for side in 0..2 {
+        for (index, lane) in lanes[side].iter().enumerate() {
+            let label = lane_label(lane);
+            for pair in rows.windows(2) {
+                let [low, high] = [&pair[0], &pair[1]];
+                let width_m = |row: &CrossSection| span_width_m(&row.spans[side][index]);
+                if width_m(low) > 1e-3 || width_m(high) > 1e-3 {
+                    let corners = [
+                        edge(low, side, index, 0),
+                        edge(high, side, index, 0),
+                        edge(high, side, index, 1),
+                        edge(low, side, index, 1),
+                    ];
+                    builder.quad(label, false, corners.map(|corner| in_world(corner, world)));
+                }
+                let outer = [edge(low, side, index, 1), edge(high, side, index, 1)];
+                let below = match lanes[side].get(index + 1) {
+                    Some(_) => [edge(low, side, index + 1, 0), edge(high, side, index + 1, 0)],
+                    None => outer.map(|(point, along_across)| (point - SKIRT_M * DVec3::Z, along_across)),
+                };
+                let face = lanes[side].get(index + 1).map_or(label, |next| face_label(lane, next));
+                add_face(builder, face, outer, below, world);
+            }
+        }
+    }
+    add_center_face(builder, lanes, rows, world);
+}
+
+/// The face between the first lanes of both sides, when they differ in height at the centre.
+fn add_center_face(builder: &mut MeshBuilder, lanes: [&[Lane]; 2], rows: &[CrossSection], world: &WorldFromMap) {
+    for pair in rows.windows(2) {
+        let [low, high] = [&pair[0], &pair[1]];
+        match (lanes[0].first(), lanes[1].first()) {
+            (Some(left), Some(right)) => {
+                let (left_edge, right_edge) =
+                    ([edge(low, 0, 0, 0), edge(high, 0, 0, 0)], [edge(low, 1, 0, 0), edge(high, 1, 0, 0)]);
+                add_face(builder, face_label(left, right), left_edge, right_edge, world);
+            }
+            (Some(only), None) | (None, Some(only)) => {
+                let side = usize::from(lanes[0].is_empty());
+                let top = [edge(low, side, 0, 0), edge(high, side, 0, 0)];
+                let below = top.map(|(point, along_across)| (point - SKIRT_M * DVec3::Z, along_across));
+                add_face(builder, lane_label(only), top, below, world);
+            }
+            (None, None) => {}
+        }
+    }
+}
+
+fn add_face(
+    builder: &mut MeshBuilder,
+    label: SemanticLabel,
+    upper: [(DVec3, DVec2); 2],
+    lower: [(DVec3, DVec2); 2],
+    world: &WorldFromMap,
+) {
+    let step_m = |i: usize| (upper[i].0.z - lower[i].0.z).abs();
+    if step_m(0).max(step_m(1)) > 1e-3 {
+        builder.quad(label, false, [upper[0], upper[1], lower[1], lower[0]].map(|corner| in_world(corner, world)));
+    }
+}
+
+fn face_label(a: &Lane, b: &Lane) -> SemanticLabel {
+    let labels = [lane_label(a), lane_label(b)];
+    if labels.contains(&SemanticLabel::SideWalks) { SemanticLabel::SideWalks } else { labels[0] }
+}
+
+fn span_width_m(span: &LaneSpan) -> f64 {
+    (span.t_m[1] - span.t_m[0]).abs()
+}
+
+fn edge(row: &CrossSection, side: usize, lane: usize, outer: usize) -> (DVec3, DVec2) {
+    (row.points[side][lane][outer], DVec2::new(row.s_m, row.spans[side][lane].t_m[outer]))
+}
+
+fn in_world((point_in_map, along_across): (DVec3, DVec2), world: &WorldFromMap) -> (DVec3, DVec2) {
+    (world.point(point_in_map), along_across)
+}
