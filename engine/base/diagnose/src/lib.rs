@@ -1,10 +1,11 @@
 //! One diagnostic type: what was wrong, where, whose fault, what is allowed, what to do next.
 
+mod excerpt;
 mod nearest;
 mod print;
 
 pub use nearest::nearest_name;
-pub use print::render;
+pub use print::{render, render_all};
 
 use std::fmt;
 use std::ops::Range;

@@ -1,25 +1,122 @@
-//! The one voice towards the user: a diagnostic as text, readable without colour.
+//! The one voice towards the user: diagnostics as text, readable without colour.
 
 use crate::Diagnostic;
-use annotate_snippets::{AnnotationKind, Level, Renderer, Snippet};
+use crate::excerpt::Excerpt;
+use annotate_snippets::{Annotation, AnnotationKind, Element, Level, Renderer, Snippet};
 
-/// The diagnostic as the text that a terminal shows. `colour` only adds colour, never meaning.
+/// Width of what is printed, in columns; the same on every terminal, so that logs and snapshots agree.
+const COLUMNS: usize = 100;
+/// More diagnostics than this at once help nobody.
+const MOST_AT_ONCE: usize = 20;
+
+/// The diagnostic as the text that a terminal shows, without a newline at the end.
+/// `colour` only adds colour, never meaning.
 pub fn render(diagnostic: &Diagnostic, colour: bool) -> String {
-    let paths: Vec<String> = diagnostic.labels.iter().map(|label| label.path.display().to_string()).collect();
-    let mut group = Level::ERROR.primary_title(&diagnostic.message).id(diagnostic.code).elements(
-        diagnostic.labels.iter().zip(&paths).map(|(label, path)| {
-            let end = label.span.end.min(label.text.len());
-            let annotation = AnnotationKind::Primary.span(label.span.start.min(end)..end);
-            let annotation = if label.note.is_empty() { annotation } else { annotation.label(&label.note) };
-            Snippet::source(&*label.text).path(path).annotation(annotation)
-        }),
-    );
+    let title = wrap(&diagnostic.message, "error[]: ".len() + diagnostic.code.len());
+    let excerpts = Excerpt::of_labels(&diagnostic.labels);
+    let mut group = Level::ERROR.primary_title(&title).id(diagnostic.code).elements(Vec::<Element<'_>>::new());
+    for excerpt in &excerpts {
+        let snippet = Snippet::source(&*excerpt.text).line_start(excerpt.first_line).annotations(annotations(excerpt));
+        group = group.element(snippet.path(&excerpt.path));
+    }
     for cause in &diagnostic.causes {
-        group = group.element(Level::NOTE.with_name("because").message(cause));
+        group = group.element(Level::NOTE.with_name("because").message(wrap(cause, "  = because: ".len())));
     }
     for hint in &diagnostic.hints {
-        group = group.element(Level::HELP.message(hint));
+        group = group.element(Level::HELP.message(wrap(hint, "  = help: ".len())));
     }
     let renderer = if colour { Renderer::styled() } else { Renderer::plain() };
-    renderer.render(&[group])
+    let mut text = renderer.term_width(COLUMNS).render(&[group]);
+    for excerpt in &excerpts {
+        if let Some((in_excerpt, in_file)) = excerpt.shifted_column {
+            let place = format!("{}:{}:", excerpt.path, excerpt.first_line);
+            text = text.replacen(&format!("{place}{in_excerpt}"), &format!("{place}{in_file}"), 1);
+        }
+    }
+    if excerpts.is_empty() { without_gutter(&text, title.lines().count()) } else { text }
+}
+
+/// Several diagnostics under each other, a blank line between them and their number at the end.
+pub fn render_all<'a>(diagnostics: impl IntoIterator<Item = &'a Diagnostic>, colour: bool) -> String {
+    let all: Vec<&Diagnostic> = diagnostics.into_iter().collect();
+    let mut pieces: Vec<String> = all.iter().take(MOST_AT_ONCE).map(|diagnostic| render(diagnostic, colour)).collect();
+    if all.len() > MOST_AT_ONCE {
+        pieces.push(format!("{} errors; the first {MOST_AT_ONCE} are shown", all.len()));
+    } else if all.len() > 1 {
+        pieces.push(format!("{} errors", all.len()));
+    }
+    pieces.join("\n\n")
+}
+
+/// The first label is the place itself; the others say how it came about.
+fn annotations<'a>(excerpt: &'a Excerpt<'_>) -> impl Iterator<Item = Annotation<'a>> {
+    excerpt.marks.iter().map(|mark| {
+        let kind = if mark.is_first { AnnotationKind::Primary } else { AnnotationKind::Context };
+        let annotation = kind.span(mark.span.clone());
+        if mark.note.is_empty() { annotation } else { annotation.label(&mark.note) }
+    })
+}
+
+/// Breaks `text` at spaces so that it fits behind `indent` columns; control characters become visible.
+fn wrap(text: &str, indent: usize) -> String {
+    let room = COLUMNS.saturating_sub(indent).max(40);
+    let mut wrapped = String::with_capacity(text.len() + 8);
+    for (number, line) in text.trim_end().lines().enumerate() {
+        if number > 0 {
+            wrapped.push('\n');
+        }
+        let mut column = 0;
+        for word in line.split(' ') {
+            let width = word.chars().count();
+            if column > 0 && column + 1 + width > room {
+                wrapped.push('\n');
+                column = 0;
+            } else if column > 0 {
+                wrapped.push(' ');
+                column += 1;
+            }
+            wrapped.extend(word.chars().map(visible));
+            column += width;
+        }
+    }
+    wrapped
+}
+
+/// Text from files and file names must not steer a terminal.
+pub(crate) fn visible(character: char) -> char {
+    match character {
+        '\t' => ' ',
+        '\u{0}'..='\u{1f}' => char::from_u32(0x2400 + character as u32).unwrap_or('\u{fffd}'),
+        '\u{7f}'..='\u{9f}' | '\u{202a}'..='\u{202e}' | '\u{2066}'..='\u{2069}' => '\u{fffd}',
+        _ => character,
+    }
+}
+
+/// Without a piece of text beside it the gutter's bar is noise.
+fn without_gutter(text: &str, title_lines: usize) -> String {
+    let kept: Vec<&str> = text
+        .lines()
+        .enumerate()
+        .filter(|(number, line)| *number != title_lines || line.contains('='))
+        .map(|(_, line)| line)
+        .collect();
+    kept.join("\n")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn long_text_breaks_at_spaces_and_keeps_its_words() {
+        let text = "word ".repeat(60);
+        let wrapped = wrap(&text, 20);
+        assert!(wrapped.lines().all(|line| line.chars().count() <= 80), "{wrapped}");
+        assert_eq!(wrapped.split_whitespace().count(), 60);
+    }
+
+    #[test]
+    fn control_characters_become_visible() {
+        assert_eq!(wrap("a\u{1b}[31mb\u{7}\u{202e}", 0), "a\u{241b}[31mb\u{2407}\u{fffd}");
+    }
 }
