@@ -3,12 +3,17 @@
 //! * [`record`]: what the other stages hand over, one trajectory at a time.
 //! * [`config`]: what a recipe says about the dataset as a whole.
 //! * [`frame_pack`]: the images of one trajectory between rendering and publishing.
+//! * [`mcap_log`]: one MCAP file per trajectory.
 
 pub mod config;
 pub mod frame_pack;
+mod hashing;
 pub mod images;
+pub mod mcap_log;
 pub mod record;
+pub mod sample;
 
 pub use config::{DatasetConfig, DepthEncoding, EncodingConfig, RgbEncoding};
 pub use frame_pack::{FramePackReader, FramePackWriter, PackHeader, PackedFrame};
+pub use mcap_log::{LogRecord, write_log};
 pub use record::{CaptionRecord, PairInfo, PreviewStrip, Rejection, RenderedTrajectory, Role, TownInfo};

@@ -103,6 +103,12 @@ impl RenderedTrajectory {
         self.trajectory.track.dt_s
     }
 
+    /// Distance from the camera to the target's feet, metres.
+    pub fn distance_m(&self, frame: usize) -> f64 {
+        let feet = self.trajectory.track.states[frame].feet_in_world;
+        (feet - self.trajectory.poses_in_world[frame].position_in_world).length()
+    }
+
     /// The bytes of an `index` blob.
     pub fn to_bytes(&self) -> Vec<u8> {
         encode(TRAJECTORY_MAGIC, self)

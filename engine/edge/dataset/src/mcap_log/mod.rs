@@ -1,0 +1,62 @@
+//! One MCAP file per trajectory: images, poses, transforms, annotations, captions and metadata as Foxglove
+//! messages, readable without our code.
+//!
+//! This is the border where the world frame (left-handed, y right) becomes the right-handed `map` frame of
+//! robotics tools; [`right_handed`] does it and nothing else does. Frame `i` is at `i * dt_s` after time 0.
+
+pub mod channels;
+pub mod messages;
+pub mod metadata;
+pub mod right_handed;
+pub mod scene;
+pub mod target_state;
+mod writer;
+
+pub use target_state::TargetStateMessage;
+pub use writer::{LogRecord, write_log};
+
+/// Topics, in the order in which they are declared.
+pub mod topic {
+    /// `foxglove.CompressedImage`: the colour image.
+    pub const RGB: &str = "/camera/rgb/image";
+    /// `foxglove.CameraCalibration` of all images.
+    pub const CAMERA: &str = "/camera/rgb/camera_info";
+    /// `foxglove.ImageAnnotations`: boxes of the target.
+    pub const ANNOTATIONS: &str = "/camera/rgb/annotations";
+    /// `foxglove.CompressedImage`: small colour image.
+    pub const RGB_PREVIEW: &str = "/camera/rgb/preview";
+    /// `foxglove.RawImage` `32FC1`: planar depth, metres.
+    pub const DEPTH: &str = "/camera/depth/image";
+    /// `foxglove.CompressedImage`: depth in logarithmic colours.
+    pub const DEPTH_PREVIEW: &str = "/camera/depth/preview";
+    /// `foxglove.RawImage` `mono8`: CARLA label ids.
+    pub const SEMANTIC: &str = "/camera/semantic/image";
+    /// `foxglove.CompressedImage`: labels as palette PNG.
+    pub const SEMANTIC_PREVIEW: &str = "/camera/semantic/preview";
+    /// `foxglove.RawImage` `16UC1` or `32UC1`: instance ids.
+    pub const INSTANCE: &str = "/camera/instance/image";
+    /// `foxglove.FrameTransforms`.
+    pub const TF: &str = "/tf";
+    /// `foxglove.PoseInFrame` of the drone.
+    pub const DRONE_POSE: &str = "/drone/pose";
+    /// `foxglove.PoseInFrame` of the target's feet.
+    pub const TARGET_POSE: &str = "/target/pose";
+    /// `foxglove.PosesInFrame`: the whole flight, once.
+    pub const DRONE_PATH: &str = "/drone/path";
+    /// `foxglove.PosesInFrame`: the whole walk, once.
+    pub const TARGET_PATH: &str = "/target/path";
+    /// `foxglove.SceneUpdate`: obstacles near the flight, once.
+    pub const SCENE: &str = "/scene";
+    /// `foxglove.Log`: captions, once.
+    pub const CAPTIONS: &str = "/captions";
+    /// `cosfly.TargetState`.
+    pub const TARGET_STATE: &str = "/target/state";
+}
+
+/// Time of frame `frame`, nanoseconds after the file's time 0.
+pub fn frame_time_ns(dt_s: f64, frame: usize) -> u64 {
+    (frame as f64 * dt_s * 1e9).round_ties_even() as u64
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,92 @@
+//! From the world frame (left-handed, y right) to the right-handed `map` frame, and back.
+//!
+//! A point (x, y, z) becomes (x, -y, z). A rotation keeps its meaning when y is negated on both sides:
+//! Rz(-yaw) * Ry(-pitch) * Rx(roll). The body frame becomes x ahead, y left, z up.
+
+use cosfly_frames::{DQuat, DVec3, Pose, real};
+use foxglove::messages;
+
+/// Turns the right-handed body axes (x ahead, y left, z up) into the optical ones (x right, y down, z ahead).
+pub const BODY_FROM_OPTICAL: DQuat = DQuat::from_xyzw(-0.5, 0.5, -0.5, 0.5);
+
+/// A point of the world frame in the `map` frame; its own inverse.
+pub fn map_from_world_point(point_in_world: DVec3) -> DVec3 {
+    DVec3::new(point_in_world.x, -point_in_world.y, point_in_world.z)
+}
+
+/// The attitude of a pose of the world frame, in the `map` frame.
+pub fn map_from_body(pose_in_world: &Pose) -> DQuat {
+    let half_turn = |axis: DVec3, angle_rad: f64| {
+        let (sin, cos) = real::sin_cos(0.5 * angle_rad);
+        DQuat::from_xyzw(axis.x * sin, axis.y * sin, axis.z * sin, cos)
+    };
+    half_turn(DVec3::Z, -pose_in_world.yaw_rad)
+        * half_turn(DVec3::Y, -pose_in_world.pitch_rad)
+        * half_turn(DVec3::X, pose_in_world.roll_rad)
+}
+
+/// The pose of the world frame that has this position and attitude in the `map` frame.
+pub fn world_pose_from_map(position_in_map: DVec3, map_from_body: DQuat) -> Pose {
+    let ahead = map_from_world_point(map_from_body * DVec3::X);
+    let right = map_from_world_point(map_from_body * DVec3::NEG_Y);
+    let up = map_from_world_point(map_from_body * DVec3::Z);
+    Pose {
+        position_in_world: map_from_world_point(position_in_map),
+        pitch_rad: real::asin(ahead.z.clamp(-1.0, 1.0)),
+        yaw_rad: real::atan2(ahead.y, ahead.x),
+        roll_rad: real::atan2(-right.z, up.z),
+    }
+}
+
+/// A vector as a message.
+pub fn vector(vector: DVec3) -> messages::Vector3 {
+    messages::Vector3 { x: vector.x, y: vector.y, z: vector.z }
+}
+
+/// A rotation as a message.
+pub fn quaternion(rotation: DQuat) -> messages::Quaternion {
+    messages::Quaternion { x: rotation.x, y: rotation.y, z: rotation.z, w: rotation.w }
+}
+
+/// A pose of the world frame as a message in the `map` frame.
+pub fn pose(pose_in_world: &Pose) -> messages::Pose {
+    messages::Pose {
+        position: Some(vector(map_from_world_point(pose_in_world.position_in_world))),
+        orientation: Some(quaternion(map_from_body(pose_in_world))),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn turned() -> Pose {
+        Pose { position_in_world: DVec3::new(3.0, -7.0, 20.0), pitch_rad: -0.6, yaw_rad: 2.2, roll_rad: 0.3 }
+    }
+
+    #[test]
+    fn body_axes_point_the_same_way_in_both_frames() {
+        let pose = turned();
+        let world_from_body = pose.world_from_body();
+        let rotation = map_from_body(&pose);
+        for (axis, same_axis) in [(DVec3::X, DVec3::X), (DVec3::Y, DVec3::NEG_Y), (DVec3::Z, DVec3::Z)] {
+            let expected = map_from_world_point(world_from_body * axis);
+            assert!((rotation * same_axis - expected).length() < 1e-12, "{axis}");
+        }
+    }
+
+    #[test]
+    fn the_optical_axis_looks_ahead_and_its_x_axis_to_the_right() {
+        assert!((BODY_FROM_OPTICAL * DVec3::Z - DVec3::X).length() < 1e-15);
+        assert!((BODY_FROM_OPTICAL * DVec3::X - DVec3::NEG_Y).length() < 1e-15);
+    }
+
+    #[test]
+    fn a_pose_survives_the_way_to_the_map_frame_and_back() {
+        let pose = turned();
+        let back = world_pose_from_map(map_from_world_point(pose.position_in_world), map_from_body(&pose));
+        assert!((back.position_in_world - pose.position_in_world).length() < 1e-12);
+        let angles = |p: &Pose| DVec3::new(p.pitch_rad, p.yaw_rad, p.roll_rad);
+        assert!((angles(&back) - angles(&pose)).length() < 1e-12);
+    }
+}

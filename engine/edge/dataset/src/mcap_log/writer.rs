@@ -1,0 +1,140 @@
+//! Writes the log of one trajectory, frame by frame.
+
+use super::channels::ChannelWriter;
+use super::{frame_time_ns, messages, metadata, scene, topic};
+use crate::frame_pack::{FramePackReader, PackedFrame};
+use crate::hashing::HashingWriter;
+use crate::{CaptionRecord, RenderedTrajectory, RgbEncoding, Role};
+use cosfly_diagnose::{Diagnostic, Fault, Result};
+use cosfly_maps::Town;
+use serde::{Deserialize, Serialize};
+use std::io::{Read, Seek, Write};
+
+/// What is known of a finished log without opening it.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub struct LogRecord {
+    /// Whose log it is.
+    pub trajectory_id: String,
+    /// Expert or perturbed.
+    pub role: Role,
+    /// The pedestrian; decides the split.
+    pub pedestrian_id: String,
+    /// Town name; decides the folder.
+    pub town: String,
+    /// Frames.
+    pub frames: u64,
+    /// Messages on all channels.
+    pub messages: u64,
+    /// Bytes of the file.
+    pub bytes: u64,
+    /// SHA-256 of the file, 64 hex digits.
+    pub sha256: String,
+}
+
+/// Writes the log of `record` with the images of `pack` to `output`, which is only appended to.
+/// Holds one frame in memory. `keep_going` is asked before every frame and its error ends the work.
+pub fn write_log<R: Read + Seek>(
+    output: &mut dyn Write,
+    record: &RenderedTrajectory,
+    pack: &mut FramePackReader<R>,
+    captions: &[CaptionRecord],
+    town: &Town,
+    keep_going: &dyn Fn() -> Result<()>,
+) -> Result<LogRecord> {
+    record.check()?;
+    check_pack(record, pack)?;
+    let mut hashing = HashingWriter::new(output);
+    let unseekable = ::mcap::write::NoSeek::new(&mut hashing);
+    let mut log = ChannelWriter::new(unseekable, pack.header().encoding.previews)?;
+    for (name, entries) in metadata::records(record, pack.header()) {
+        log.metadata(name, entries)?;
+    }
+    write_once(&mut log, record, captions, town)?;
+    for frame in 0..record.len() {
+        keep_going()?;
+        let images = pack.frame(frame)?;
+        write_frame(&mut log, record, frame, images, pack)?;
+    }
+    let messages = log.finish()?;
+    let (bytes, sha256) = hashing.finish();
+    Ok(LogRecord {
+        trajectory_id: record.trajectory_id.clone(),
+        role: record.role,
+        pedestrian_id: record.pedestrian_id.clone(),
+        town: record.town.name.clone(),
+        frames: record.len() as u64,
+        messages,
+        bytes,
+        sha256,
+    })
+}
+
+fn check_pack<R: Read + Seek>(record: &RenderedTrajectory, pack: &FramePackReader<R>) -> Result<()> {
+    let (header, camera) = (pack.header(), &record.camera);
+    if pack.len() != record.len() || (header.width, header.height) != (camera.width, camera.height) {
+        return Err(Diagnostic::new(
+            "mcap-pack",
+            Fault::Bug,
+            format!(
+                "trajectory `{}` has {} frames of {} x {}; its frame pack has {} of {} x {}",
+                record.trajectory_id,
+                record.len(),
+                camera.width,
+                camera.height,
+                pack.len(),
+                header.width,
+                header.height
+            ),
+        ));
+    }
+    Ok(())
+}
+
+/// What does not change from frame to frame.
+fn write_once<W: Write + Seek>(
+    log: &mut ChannelWriter<W>,
+    record: &RenderedTrajectory,
+    captions: &[CaptionRecord],
+    town: &Town,
+) -> Result<()> {
+    log.write(topic::SCENE, 0, &scene::scene(record, town))?;
+    let poses = record.trajectory.poses_in_world.iter().copied();
+    log.write(topic::DRONE_PATH, 0, &messages::path_in_map(poses))?;
+    let targets = (0..record.len()).map(|frame| messages::target_pose(record, frame));
+    log.write(topic::TARGET_PATH, 0, &messages::path_in_map(targets))?;
+    captions.iter().try_for_each(|caption| log.write(topic::CAPTIONS, 0, &scene::caption(caption)))
+}
+
+fn write_frame<W: Write + Seek, R: Read + Seek>(
+    log: &mut ChannelWriter<W>,
+    record: &RenderedTrajectory,
+    frame: usize,
+    images: PackedFrame,
+    pack: &FramePackReader<R>,
+) -> Result<()> {
+    let header = pack.header();
+    let time = frame_time_ns(record.dt_s(), frame);
+    let camera = &record.camera;
+    let pose = &record.trajectory.poses_in_world[frame];
+    log.write(topic::TF, time, &messages::transforms(time, record, frame))?;
+    log.write(topic::DRONE_POSE, time, &messages::pose_in_map(time, pose))?;
+    log.write(topic::TARGET_POSE, time, &messages::pose_in_map(time, &messages::target_pose(record, frame)))?;
+    log.write(topic::TARGET_STATE, time, &messages::target_state(record, frame))?;
+    log.write(topic::CAMERA, time, &messages::calibration(time, camera))?;
+    log.write(topic::ANNOTATIONS, time, &messages::annotations(time, record, frame))?;
+    let format = match header.encoding.rgb {
+        RgbEncoding::Jpeg => "jpeg",
+        RgbEncoding::Png => "png",
+    };
+    log.write(topic::RGB, time, &messages::compressed_image(time, format, images.rgb_file))?;
+    if let Some(previews) = images.previews {
+        log.write(topic::RGB_PREVIEW, time, &messages::compressed_image(time, "jpeg", previews.rgb_jpeg))?;
+        log.write(topic::DEPTH_PREVIEW, time, &messages::compressed_image(time, "jpeg", previews.depth_jpeg))?;
+        log.write(topic::SEMANTIC_PREVIEW, time, &messages::compressed_image(time, "png", previews.semantic_png))?;
+    }
+    log.write(topic::SEMANTIC, time, &messages::raw_image(time, camera, "mono8", 1, images.semantic))?;
+    let id_bytes = header.instance.bytes() as u32;
+    let instance = messages::raw_image(time, camera, metadata::instance_encoding(header), id_bytes, images.instance_le);
+    log.write(topic::INSTANCE, time, &instance)?;
+    log.write(topic::DEPTH, time, &messages::raw_image(time, camera, "32FC1", 4, images.depth_le))
+}
