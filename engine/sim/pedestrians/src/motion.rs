@@ -259,9 +259,9 @@ mod tests {
     fn stops_come_as_often_as_asked_and_never_where_nobody_should_stand() {
         let mut config = PedestrianConfig::default();
         config.stops.per_100m = 4.0;
-        let stops = random_stops(50_000.0, &config, seed(), &|s| (s / 10.0) as u64 % 3 > 0);
+        let stops = random_stops(50_000.0, &config, seed(), &|s| !((s / 10.0) as u64).is_multiple_of(3));
         assert!((1500..2200).contains(&stops.len()), "{}", stops.len());
-        assert!(stops.iter().all(|stop| (stop.at_m / 10.0) as u64 % 3 > 0));
+        assert!(stops.iter().all(|stop| !((stop.at_m / 10.0) as u64).is_multiple_of(3)));
         assert!(stops.iter().all(|stop| (2.0..=8.0).contains(&stop.duration_s)));
         let mean = stops.iter().map(|stop| stop.duration_s).sum::<f64>() / stops.len() as f64;
         assert!((mean - 5.0).abs() < 0.2, "{mean}");
