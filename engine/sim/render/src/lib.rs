@@ -1,9 +1,28 @@
 //! The CPU renderer: RGB, planar depth, semantic and instance ids from one visibility pass.
+//!
+//! [`Scene`] is built once per town and shared; one [`Renderer`] per thread owns all buffers. A frame goes through
+//! [`visibility`] (which face is nearest at each pixel centre), `passes` (depth and ids, exact, from the plane of that
+//! face), `shade` (light, materials, weather) and [`target_view`] (how much of the target is seen). Every channel comes
+//! from the same face at the same pixel centre, so they agree pixel by pixel; only RGB is smoothed along edges afterwards.
 
 pub mod camera;
+pub mod config;
+pub mod figure;
 pub mod frame;
+mod passes;
+pub mod presets;
+pub mod preview;
+pub mod renderer;
+pub mod scene;
+mod shade;
+mod target_view;
+mod visibility;
 pub mod weather;
 
 pub use camera::Camera;
+pub use config::{ConfigProblem, RenderConfig};
+pub use figure::{TargetSetup, gait_phase_rad, target_triangles};
 pub use frame::{FrameImages, PixelBox, TargetView};
+pub use renderer::{FrameSetup, RenderedFrame, Renderer, StageTimes};
+pub use scene::{Scene, SceneTriangle};
 pub use weather::Weather;

@@ -1,0 +1,309 @@
+//! The walking target: a jointed figure of frustums whose limbs swing with the gait.
+
+use cosfly_frames::{DVec3, RandomStream, Seed, TargetState, real};
+
+/// The target of one frame.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct TargetSetup {
+    /// Where it is and how it moves.
+    pub state: TargetState,
+    /// Body height, metres.
+    pub height_m: f64,
+    /// Body radius seen from above, metres.
+    pub radius_m: f64,
+    /// Draws its clothes, skin and build.
+    pub clothes_seed: Seed,
+    /// Phase of the gait, radians; see [`gait_phase_rad`].
+    pub gait_phase_rad: f64,
+    /// Share of body points that unoccluded rays reach; copied into [`crate::TargetView`].
+    pub visible_by_rays: f64,
+}
+
+/// Phase of the gait after `walked_m` metres: one turn every two steps, and two steps are 0.83 body heights.
+pub fn gait_phase_rad(walked_m: f64, height_m: f64) -> f64 {
+    real::wrap_angle_rad(real::TAU * walked_m / (0.83 * height_m.max(0.1)))
+}
+
+/// What a part of the figure is made of.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Region {
+    /// Face, neck, hands.
+    Skin,
+    /// Hair or hat.
+    Hair,
+    /// Shirt or jacket.
+    Top,
+    /// Trousers or skirt.
+    Trousers,
+    /// Shoes.
+    Shoes,
+    /// Backpack.
+    Bag,
+}
+
+/// A triangle of the figure, corners in the world frame.
+#[derive(Clone, Copy, Debug)]
+pub struct FigureTriangle {
+    /// Corners, metres.
+    pub corners_in_world: [DVec3; 3],
+    /// Away from the part's inside, unit length.
+    pub normal_in_world: DVec3,
+    /// What it is made of.
+    pub region: Region,
+}
+
+/// The figure's surface as bare triangles, for rays.
+pub fn target_triangles(target: &TargetSetup) -> Vec<[DVec3; 3]> {
+    let mut triangles = Vec::new();
+    figure(target, &mut triangles);
+    triangles.iter().map(|triangle| triangle.corners_in_world).collect()
+}
+
+/// Colours of a figure, linear RGB.
+#[derive(Clone, Copy, Debug)]
+pub struct Clothes {
+    /// Indexed by [`Region`].
+    pub colours: [[f32; 3]; 6],
+    /// Wears a backpack.
+    pub backpack: bool,
+    /// Width of the trunk relative to the usual.
+    pub build: f64,
+}
+
+/// Shirts that stand out from asphalt, pavement and grass, linear RGB.
+const TOPS: [[f32; 3]; 10] = [
+    [0.72, 0.03, 0.03],
+    [0.85, 0.45, 0.02],
+    [0.80, 0.78, 0.72],
+    [0.03, 0.16, 0.70],
+    [0.75, 0.08, 0.35],
+    [0.02, 0.45, 0.55],
+    [0.85, 0.70, 0.05],
+    [0.35, 0.05, 0.50],
+    [0.90, 0.22, 0.05],
+    [0.05, 0.40, 0.10],
+];
+const TROUSERS: [[f32; 3]; 6] = [
+    [0.02, 0.03, 0.08],
+    [0.015, 0.015, 0.02],
+    [0.05, 0.09, 0.22],
+    [0.30, 0.24, 0.15],
+    [0.12, 0.12, 0.13],
+    [0.10, 0.05, 0.03],
+];
+const HAIR: [[f32; 3]; 5] =
+    [[0.01, 0.008, 0.006], [0.04, 0.02, 0.01], [0.10, 0.05, 0.02], [0.30, 0.20, 0.08], [0.25, 0.25, 0.25]];
+const SKIN: [[f32; 3]; 4] = [[0.62, 0.38, 0.27], [0.50, 0.28, 0.18], [0.28, 0.14, 0.08], [0.12, 0.06, 0.035]];
+const SHOES: [[f32; 3]; 3] = [[0.02, 0.02, 0.02], [0.60, 0.60, 0.58], [0.12, 0.06, 0.03]];
+
+impl Clothes {
+    /// The clothes that a seed draws.
+    pub fn draw(seed: &Seed) -> Self {
+        let mut stream = seed.stream("clothes");
+        let one_of = |stream: &mut RandomStream, palette: &[[f32; 3]]| palette[stream.index(palette.len())];
+        let skin = one_of(&mut stream, &SKIN);
+        let hair = one_of(&mut stream, &HAIR);
+        let top_index = stream.index(TOPS.len());
+        let trousers = one_of(&mut stream, &TROUSERS);
+        let shoes = one_of(&mut stream, &SHOES);
+        let bag = TOPS[(top_index + 1 + stream.index(TOPS.len() - 1)) % TOPS.len()].map(|c| 0.5 * c);
+        let backpack = stream.chance(0.35);
+        let build = stream.uniform(0.92, 1.12);
+        Self { colours: [skin, hair, TOPS[top_index], trousers, shoes, bag], backpack, build }
+    }
+}
+
+/// Builds the figure into `triangles` (emptied first). All limbs stay near the upright cylinder of the target.
+pub fn figure(target: &TargetSetup, triangles: &mut Vec<FigureTriangle>) {
+    triangles.clear();
+    if !(target.height_m > 0.0 && target.height_m.is_finite() && target.state.feet_in_world.is_finite()) {
+        return;
+    }
+    let clothes = Clothes::draw(&target.clothes_seed);
+    let (sin, cos) = real::sin_cos(target.state.heading_rad);
+    let mut body = Body {
+        feet: target.state.feet_in_world,
+        forward: DVec3::new(cos, sin, 0.0),
+        right: DVec3::new(-sin, cos, 0.0),
+        height: target.height_m,
+        width: clothes.build * (target.radius_m / (0.15 * target.height_m)).clamp(0.8, 1.25),
+        triangles,
+    };
+    let swing = 0.5 * (target.state.speed_mps / 1.3).clamp(0.0, 1.2);
+    body.trunk(clothes.backpack);
+    for side in [-1.0, 1.0] {
+        body.leg(side, target.gait_phase_rad + if side < 0.0 { 0.0 } else { real::PI }, swing);
+        body.arm(side, target.gait_phase_rad + if side < 0.0 { real::PI } else { 0.0 }, 0.8 * swing + 0.08);
+    }
+    // Bent legs are shorter: the whole body sinks until a foot stands on the ground.
+    let lowest = triangles.iter().flat_map(|t| t.corners_in_world).map(|p| p.z).fold(f64::INFINITY, f64::min);
+    let sink = target.state.feet_in_world.z - lowest;
+    for corner in triangles.iter_mut().flat_map(|t| &mut t.corners_in_world) {
+        corner.z += sink;
+    }
+}
+
+/// One end of a frustum: centre in body heights (forward, right, up), half width to the side and forward.
+#[derive(Clone, Copy)]
+struct Ring {
+    forward: f64,
+    right: f64,
+    up: f64,
+    half_side: f64,
+    half_forward: f64,
+}
+
+fn ring(forward: f64, right: f64, up: f64, half_side: f64, half_forward: f64) -> Ring {
+    Ring { forward, right, up, half_side, half_forward }
+}
+
+struct Body<'a> {
+    feet: DVec3,
+    forward: DVec3,
+    right: DVec3,
+    height: f64,
+    width: f64,
+    triangles: &'a mut Vec<FigureTriangle>,
+}
+
+impl Body<'_> {
+    fn trunk(&mut self, backpack: bool) {
+        let w = self.width;
+        self.part(ring(0.0, 0.0, 0.46, 0.085 * w, 0.060), ring(0.0, 0.0, 0.57, 0.088 * w, 0.062), Region::Trousers);
+        self.part(ring(0.0, 0.0, 0.56, 0.088 * w, 0.066), ring(0.0, 0.0, 0.80, 0.122 * w, 0.076), Region::Top);
+        self.part(ring(0.0, 0.0, 0.80, 0.122 * w, 0.076), ring(0.0, 0.0, 0.85, 0.055 * w, 0.045), Region::Top);
+        self.part(ring(0.005, 0.0, 0.83, 0.034, 0.034), ring(0.01, 0.0, 0.89, 0.034, 0.034), Region::Skin);
+        self.part(ring(0.015, 0.0, 0.865, 0.036, 0.044), ring(0.01, 0.0, 0.915, 0.052, 0.058), Region::Skin);
+        self.part(ring(0.01, 0.0, 0.915, 0.052, 0.058), ring(0.008, 0.0, 0.955, 0.052, 0.060), Region::Skin);
+        self.part(ring(-0.008, 0.0, 0.90, 0.053, 0.052), ring(-0.004, 0.0, 0.965, 0.059, 0.066), Region::Hair);
+        self.part(ring(-0.004, 0.0, 0.965, 0.059, 0.066), ring(-0.008, 0.0, 1.0, 0.034, 0.040), Region::Hair);
+        if backpack {
+            self.part(ring(-0.095, 0.0, 0.60, 0.085, 0.045), ring(-0.09, 0.0, 0.80, 0.075, 0.040), Region::Bag);
+        }
+    }
+
+    /// A leg whose hip angle is `swing * sin(phase)`, with the knee bent while it comes forward.
+    fn leg(&mut self, side: f64, phase: f64, swing: f64) {
+        let hip_angle = swing * real::sin(phase);
+        let knee_angle = swing * 1.3 * real::sin(phase + 0.5 * real::PI).max(0.0);
+        let right = side * 0.047 * self.width;
+        let hip = (0.0, 0.49);
+        let knee = reach(hip, hip_angle, 0.235);
+        let shin_angle = hip_angle - knee_angle;
+        let ankle = reach(knee, shin_angle, 0.225);
+        let thick = 0.5 * (1.0 + self.width);
+        self.part(
+            ring(knee.0, right, knee.1, 0.034 * thick, 0.038 * thick),
+            ring(hip.0, right, hip.1, 0.052 * thick, 0.056 * thick),
+            Region::Trousers,
+        );
+        self.part(
+            ring(ankle.0, right, ankle.1, 0.026, 0.030),
+            ring(knee.0, right, knee.1, 0.035 * thick, 0.039 * thick),
+            Region::Trousers,
+        );
+        let sole = (ankle.1 - 0.035).max(0.0);
+        self.part(
+            ring(ankle.0 + 0.035, right, sole, 0.030, 0.078),
+            ring(ankle.0 + 0.012, right, ankle.1 + 0.012, 0.026, 0.042),
+            Region::Shoes,
+        );
+    }
+
+    /// An arm whose shoulder angle is `swing * sin(phase)`, with a bent elbow.
+    fn arm(&mut self, side: f64, phase: f64, swing: f64) {
+        let angle = swing * real::sin(phase);
+        let right = side * (0.118 * self.width + 0.018);
+        let shoulder = (0.0, 0.815);
+        let elbow = reach(shoulder, angle, 0.165);
+        let wrist = reach(elbow, angle + 0.25 + 0.5 * swing, 0.15);
+        let hand = reach(wrist, angle + 0.3 + 0.5 * swing, 0.05);
+        let (out, far) = (right + side * 0.010, right + side * 0.012);
+        self.part(ring(elbow.0, out, elbow.1, 0.027, 0.029), ring(shoulder.0, right, 0.83, 0.034, 0.040), Region::Top);
+        self.part(ring(wrist.0, far, wrist.1, 0.022, 0.023), ring(elbow.0, out, elbow.1, 0.027, 0.029), Region::Top);
+        self.part(ring(hand.0, far, hand.1, 0.014, 0.021), ring(wrist.0, far, wrist.1, 0.019, 0.021), Region::Skin);
+    }
+
+    /// A closed hexagonal frustum between two rings.
+    fn part(&mut self, low: Ring, high: Ring, region: Region) {
+        const SIDES: usize = 6;
+        let corner = |ring: &Ring, k: usize| {
+            let (sin, cos) = real::sin_cos(real::TAU * (k % SIDES) as f64 / SIDES as f64);
+            self.feet
+                + self.height
+                    * (self.forward * (ring.forward + ring.half_forward * cos)
+                        + self.right * (ring.right + ring.half_side * sin)
+                        + DVec3::Z * ring.up.max(0.0))
+        };
+        let center = |ring: &Ring| {
+            self.feet
+                + self.height * (self.forward * ring.forward + self.right * ring.right + DVec3::Z * ring.up.max(0.0))
+        };
+        let inside = 0.5 * (center(&low) + center(&high));
+        let mut faces = [[DVec3::ZERO; 3]; 4 * SIDES];
+        for k in 0..SIDES {
+            let (a, b) = (corner(&low, k), corner(&low, k + 1));
+            let (c, d) = (corner(&high, k), corner(&high, k + 1));
+            faces[4 * k] = [a, b, c];
+            faces[4 * k + 1] = [c, b, d];
+            faces[4 * k + 2] = [center(&low), b, a];
+            faces[4 * k + 3] = [center(&high), c, d];
+        }
+        for corners_in_world in faces {
+            let [a, b, c] = corners_in_world;
+            let normal = (b - a).cross(c - a).normalize_or_zero();
+            let outward = if normal.dot(a - inside) < 0.0 { -normal } else { normal };
+            if outward != DVec3::ZERO {
+                self.triangles.push(FigureTriangle { corners_in_world, normal_in_world: outward, region });
+            }
+        }
+    }
+}
+
+/// The point `length` below `(forward, up)`, turned forward by an angle.
+fn reach((forward, up): (f64, f64), angle_rad: f64, length: f64) -> (f64, f64) {
+    let (sin, cos) = real::sin_cos(angle_rad);
+    (forward + length * sin, up - length * cos)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn walking(phase: f64) -> TargetSetup {
+        TargetSetup {
+            state: TargetState { feet_in_world: DVec3::new(5.0, -3.0, 0.5), heading_rad: 1.0, speed_mps: 1.4 },
+            height_m: 1.75,
+            radius_m: 0.3,
+            clothes_seed: Seed([3; 32]),
+            gait_phase_rad: phase,
+            visible_by_rays: 1.0,
+        }
+    }
+
+    #[test]
+    fn the_figure_fills_its_height_and_stays_near_its_cylinder() {
+        for step in 0..12 {
+            let target = walking(f64::from(step) * 0.55);
+            let corners: Vec<DVec3> = target_triangles(&target).into_iter().flatten().collect();
+            let top = corners.iter().map(|p| p.z).fold(f64::NEG_INFINITY, f64::max);
+            let low = corners.iter().map(|p| p.z).fold(f64::INFINITY, f64::min);
+            assert!((2.1..2.2501).contains(&top) && (low - 0.5).abs() < 1e-9, "{low} to {top}");
+            let reach = corners.iter().map(|p| (*p - target.state.feet_in_world).truncate().length());
+            assert!(reach.fold(0.0, f64::max) < 0.75);
+        }
+    }
+
+    #[test]
+    fn normals_point_out_of_every_part() {
+        let mut triangles = Vec::new();
+        figure(&walking(0.7), &mut triangles);
+        assert!(triangles.len() > 300 && triangles.iter().all(|t| (t.normal_in_world.length() - 1.0).abs() < 1e-9));
+    }
+
+    #[test]
+    fn two_steps_are_one_turn_of_the_phase() {
+        assert!(gait_phase_rad(0.83 * 1.75, 1.75).abs() < 1e-9);
+        assert!(gait_phase_rad(0.0, 1.75) == 0.0);
+    }
+}

@@ -1,0 +1,3 @@
+//! Channels that follow exactly from the face nearest at each pixel centre.
+
+pub mod ids;

@@ -1,0 +1,293 @@
+//! One frame from start to end: cull, draw, resolve, shade, measure the target.
+
+use crate::camera::Camera;
+use crate::figure::{Clothes, FigureTriangle, TargetSetup, figure};
+use crate::frame::{FrameImages, TARGET_INSTANCE, TargetView};
+use crate::passes::ids::resolve_row;
+use crate::scene::{BOX_FACES, Scene};
+use crate::shade::{Shader, smooth};
+use crate::target_view;
+use crate::visibility::{PlaneOnScreen, Screen, Visibility};
+use crate::weather::Weather;
+use cosfly_frames::{DMat3, DVec3, Pose};
+use cosfly_maps::SemanticLabel;
+
+/// What one frame shows.
+#[derive(Clone, Copy, Debug)]
+pub struct FrameSetup<'a> {
+    /// The camera's pose.
+    pub pose: Pose,
+    /// Weather with its sun azimuth drawn (see [`crate::RenderConfig::draw_weather`]).
+    pub weather: &'a Weather,
+    /// The followed target, if there is one.
+    pub target: Option<TargetSetup>,
+}
+
+/// A finished frame; the images belong to the renderer and are overwritten by its next frame.
+pub struct RenderedFrame<'a> {
+    /// All channels.
+    pub images: &'a FrameImages,
+    /// How the target looks in them; all zero without a target.
+    pub target_view: TargetView,
+}
+
+/// A face drawn in this frame.
+pub(crate) struct DrawnFace {
+    pub plane: PlaneOnScreen,
+    pub source: FaceSource,
+    pub label: u8,
+    pub instance: u32,
+}
+
+/// Where a drawn face comes from.
+#[derive(Clone, Copy, PartialEq, Eq)]
+pub(crate) enum FaceSource {
+    /// Box number, face number.
+    Box { index: u32, face: u8 },
+    /// Cluster number, triangle number in it.
+    Ground { cluster: u32, triangle: u16 },
+    /// Triangle of the figure.
+    Figure { triangle: u32 },
+}
+
+/// Which parts of a frame [`Renderer::render_parts`] makes.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum StageTimes {
+    /// Visibility only: what is nearest at each pixel.
+    Visibility,
+    /// Visibility, depth, semantic and instance ids, target view.
+    Ids,
+    /// Everything.
+    All,
+}
+
+/// Draws frames with one camera. Owns every buffer; keep one per thread.
+pub struct Renderer {
+    camera: Camera,
+    screen: Screen,
+    images: FrameImages,
+    nearest: Visibility,
+    alone: Visibility,
+    faces: Vec<DrawnFace>,
+    visible: Vec<(u64, u32)>,
+    seen_vertices: Vec<DVec3>,
+    figure: Vec<FigureTriangle>,
+    occluders: Vec<u32>,
+    shader: Shader,
+}
+
+impl Renderer {
+    /// A renderer for one camera.
+    pub fn new(camera: Camera) -> Self {
+        let screen = Screen::new(&camera);
+        let pixels = screen.width * screen.height;
+        Self {
+            camera,
+            screen,
+            images: FrameImages {
+                width: camera.width,
+                height: camera.height,
+                rgb: vec![0; 3 * pixels],
+                depth_m: vec![f32::INFINITY; pixels],
+                semantic: vec![SemanticLabel::Sky.id(); pixels],
+                instance: vec![0; pixels],
+            },
+            nearest: Visibility::new(screen.width, screen.height),
+            alone: Visibility::new(screen.width, screen.height),
+            faces: Vec::new(),
+            visible: Vec::new(),
+            seen_vertices: Vec::new(),
+            figure: Vec::new(),
+            occluders: Vec::new(),
+            shader: Shader::new(&screen),
+        }
+    }
+
+    /// The camera it draws with.
+    pub fn camera(&self) -> Camera {
+        self.camera
+    }
+
+    /// Draws all channels of one frame. The same scene and setup give the same bytes on any thread, after any other frame.
+    pub fn render(&mut self, scene: &Scene, setup: &FrameSetup<'_>) -> RenderedFrame<'_> {
+        self.render_parts(scene, setup, StageTimes::All)
+    }
+
+    /// Draws a frame up to a stage; channels of later stages keep what they held. For measuring.
+    pub fn render_parts(&mut self, scene: &Scene, setup: &FrameSetup<'_>, parts: StageTimes) -> RenderedFrame<'_> {
+        let eye = Eye::new(&setup.pose);
+        self.nearest.clear();
+        self.alone.clear();
+        self.faces.clear();
+        self.figure.clear();
+        if let Some(target) = &setup.target {
+            figure(target, &mut self.figure);
+        }
+        self.draw_boxes(scene, &eye);
+        self.draw_figure(&eye);
+        self.draw_ground(scene, &eye);
+        let mut view = target_view::NOT_IN_VIEW;
+        if parts != StageTimes::Visibility {
+            self.resolve();
+            if let Some(target) = &setup.target {
+                view = target_view::measure(&self.images, &self.alone, &mut self.occluders);
+                view.visible_by_rays = target.visible_by_rays;
+            }
+        }
+        if parts == StageTimes::All {
+            let clothes = setup.target.as_ref().map(|target| Clothes::draw(&target.clothes_seed));
+            self.shader.prepare(scene, setup, &eye, &self.figure, clothes);
+            self.shader.shade(scene, &self.nearest, &self.faces, &self.figure, &mut self.images);
+            smooth::smooth_edges(&self.nearest, &self.faces, &mut self.images, self.shader.scratch());
+            self.shader.overlay(&mut self.images);
+        }
+        RenderedFrame { images: &self.images, target_view: view }
+    }
+
+    /// Boxes from near to far, so that far ones mostly fail the depth comparison.
+    fn draw_boxes(&mut self, scene: &Scene, eye: &Eye) {
+        self.visible.clear();
+        for (index, b) in scene.boxes.iter().enumerate() {
+            if let Some(key) = eye.order_if_seen(&self.screen, b.center_in_world, b.half_bounds_m) {
+                self.visible.push((key, index as u32));
+            }
+        }
+        self.visible.sort_unstable();
+        for position in 0..self.visible.len() {
+            let index = self.visible[position].1;
+            let b = &scene.boxes[index as usize];
+            let corners = b.corners_in_world.map(|corner| eye.see(corner));
+            // Coplanar faces of different boxes: the number decides, not the rounding.
+            let bias = 5e-7 * f64::from(index % 8);
+            for (face, (_, _, around)) in BOX_FACES.iter().enumerate() {
+                let normal = eye.turn(b.normal_in_world(face));
+                let quad = around.map(|corner| corners[corner]);
+                if normal.dot(quad[0]) < 0.0
+                    && let Some(plane) = PlaneOnScreen::new(&self.screen, normal, quad[0])
+                {
+                    let number = self.faces.len() as u32;
+                    self.nearest.draw_polygon(&self.screen, &quad, &plane, bias, number);
+                    let source = FaceSource::Box { index, face: face as u8 };
+                    self.faces.push(DrawnFace { plane, source, label: b.label, instance: b.instance });
+                }
+            }
+        }
+    }
+
+    /// The target, into the frame and alone into its own buffer.
+    fn draw_figure(&mut self, eye: &Eye) {
+        for (index, triangle) in self.figure.iter().enumerate() {
+            let corners = triangle.corners_in_world.map(|corner| eye.see(corner));
+            let normal = eye.turn(triangle.normal_in_world);
+            if normal.dot(corners[0]) < 0.0
+                && let Some(plane) = PlaneOnScreen::new(&self.screen, normal, corners[0])
+            {
+                let number = self.faces.len() as u32;
+                self.nearest.draw_polygon(&self.screen, &corners, &plane, 0.0, number);
+                self.alone.draw_polygon(&self.screen, &corners, &plane, 0.0, number);
+                let source = FaceSource::Figure { triangle: index as u32 };
+                let label = SemanticLabel::Pedestrian.id();
+                self.faces.push(DrawnFace { plane, source, label, instance: TARGET_INSTANCE });
+            }
+        }
+    }
+
+    fn draw_ground(&mut self, scene: &Scene, eye: &Eye) {
+        self.visible.clear();
+        for (index, cluster) in scene.clusters.iter().enumerate() {
+            if let Some(key) = eye.order_if_seen(&self.screen, cluster.center_in_world, cluster.half_bounds_m) {
+                self.visible.push((key, index as u32));
+            }
+        }
+        self.visible.sort_unstable();
+        for position in 0..self.visible.len() {
+            let index = self.visible[position].1;
+            let cluster = &scene.clusters[index as usize];
+            self.seen_vertices.clear();
+            self.seen_vertices.extend(cluster.vertices_in_world.iter().map(|vertex| eye.see(*vertex)));
+            for (number, triangle) in cluster.triangles.iter().enumerate() {
+                let corners = triangle.corners.map(|corner| self.seen_vertices[usize::from(corner)]);
+                let normal = eye.turn(triangle.normal_in_world);
+                if let Some(plane) = PlaneOnScreen::new(&self.screen, normal, corners[0]) {
+                    let face = self.faces.len() as u32;
+                    let bias = 2e-6 * layer_of(triangle.label);
+                    self.nearest.draw_polygon(&self.screen, &corners, &plane, bias, face);
+                    let source = FaceSource::Ground { cluster: index, triangle: number as u16 };
+                    self.faces.push(DrawnFace { plane, source, label: triangle.label.id(), instance: 0 });
+                }
+            }
+        }
+    }
+
+    fn resolve(&mut self) {
+        let width = self.screen.width;
+        for row in 0..self.screen.height {
+            let pixels = row * width..(row + 1) * width;
+            resolve_row(row, &self.nearest.face[pixels.clone()], &self.faces, pixels, &mut self.images);
+        }
+    }
+}
+
+/// Which of two coplanar ground layers lies on top.
+fn layer_of(label: SemanticLabel) -> f64 {
+    match label {
+        SemanticLabel::Terrain | SemanticLabel::Ground | SemanticLabel::Water => 0.0,
+        SemanticLabel::Roads => 1.0,
+        SemanticLabel::RoadLine => 3.0,
+        _ => 2.0,
+    }
+}
+
+/// The camera's position and turn.
+#[derive(Clone, Copy)]
+pub(crate) struct Eye {
+    pub position_in_world: DVec3,
+    pub world_from_body: DMat3,
+    body_from_world: DMat3,
+}
+
+impl Eye {
+    pub fn new(pose: &Pose) -> Self {
+        let world_from_body = pose.world_from_body();
+        Self {
+            position_in_world: pose.position_in_world,
+            world_from_body,
+            body_from_world: world_from_body.transpose(),
+        }
+    }
+
+    /// A world point in body axes.
+    #[inline]
+    fn see(&self, point_in_world: DVec3) -> DVec3 {
+        self.body_from_world * (point_in_world - self.position_in_world)
+    }
+
+    /// A world direction in body axes.
+    #[inline]
+    fn turn(&self, direction_in_world: DVec3) -> DVec3 {
+        self.body_from_world * direction_in_world
+    }
+
+    /// A drawing order (near first) of an axis-aligned box, or `None` when it lies outside the view.
+    fn order_if_seen(&self, screen: &Screen, center_in_world: DVec3, half: DVec3) -> Option<u64> {
+        let center = self.see(center_in_world);
+        let rows = self.world_from_body;
+        // Reach of the box along a body direction: |R^T axis| against its half sizes.
+        let reach = |direction: DVec3| (rows * direction).abs().dot(half);
+        let across = 0.5 * screen.width as f64 / screen.focal_px;
+        let up = 0.5 * screen.height as f64 / screen.focal_px;
+        for plane in [
+            DVec3::X,
+            DVec3::new(across, 1.0, 0.0),
+            DVec3::new(across, -1.0, 0.0),
+            DVec3::new(up, 0.0, 1.0),
+            DVec3::new(up, 0.0, -1.0),
+        ] {
+            if plane.dot(center) + reach(plane) < 0.0 {
+                return None;
+            }
+        }
+        let nearest = ((center_in_world - self.position_in_world).abs() - half).max(DVec3::ZERO);
+        Some((nearest.length_squared() * 1024.0) as u64)
+    }
+}

@@ -1,0 +1,198 @@
+//! What a town looks like to the renderer: boxes with faces, ground triangles in small bounded clusters, seeds for looks.
+
+use crate::shade::grid::LightGrid;
+use crate::shade::pattern::NoiseTexture;
+use cosfly_frames::{DVec3, Seed, real};
+use cosfly_maps::{ObstacleKind, SemanticLabel, Town};
+use glam::Vec3;
+use std::collections::BTreeMap;
+use std::sync::atomic::{AtomicU64, Ordering};
+
+/// Triangles in one cluster of ground.
+const CLUSTER_TRIANGLES: usize = 96;
+
+/// Everything static, ready to be drawn. Built once per town, shared by all threads.
+pub struct Scene {
+    pub(crate) boxes: Vec<SceneBox>,
+    pub(crate) clusters: Vec<Cluster>,
+    pub(crate) noise: NoiseTexture,
+    pub(crate) grid: LightGrid,
+    /// Tells scenes of one process apart; buffers that outlive a frame remember it.
+    pub(crate) identity: u64,
+}
+
+/// An obstacle's box with what drawing it needs.
+pub(crate) struct SceneBox {
+    pub corners_in_world: [DVec3; 8],
+    pub center_in_world: DVec3,
+    pub half_bounds_m: DVec3,
+    pub half_extents_m: Vec3,
+    /// Unit vectors of the box's own x and y axes.
+    pub axes_in_world: [DVec3; 2],
+    pub kind: ObstacleKind,
+    pub label: u8,
+    pub instance: u32,
+    /// The same for all boxes of one thing.
+    pub seed: u32,
+}
+
+/// A box's six faces: outward axis (0 x, 1 y, 2 z), its sign, and the corner numbers around it.
+pub(crate) const BOX_FACES: [(usize, f64, [usize; 4]); 6] = [
+    (0, -1.0, [0, 2, 6, 4]),
+    (0, 1.0, [1, 3, 7, 5]),
+    (1, -1.0, [0, 1, 5, 4]),
+    (1, 1.0, [2, 3, 7, 6]),
+    (2, -1.0, [0, 1, 3, 2]),
+    (2, 1.0, [4, 5, 7, 6]),
+];
+
+impl SceneBox {
+    /// Outward unit normal of face `face`.
+    pub fn normal_in_world(&self, face: usize) -> DVec3 {
+        let (axis, sign, _) = BOX_FACES[face];
+        sign * if axis == 2 { DVec3::Z } else { self.axes_in_world[axis] }
+    }
+}
+
+/// Neighbouring ground triangles with shared corners and a bounding box.
+pub(crate) struct Cluster {
+    pub center_in_world: DVec3,
+    pub half_bounds_m: DVec3,
+    pub vertices_in_world: Vec<DVec3>,
+    pub triangles: Vec<GroundTriangle>,
+}
+
+/// A ground triangle; corner numbers within its cluster.
+#[derive(Clone, Copy)]
+pub(crate) struct GroundTriangle {
+    pub corners: [u16; 3],
+    pub label: SemanticLabel,
+    pub normal_in_world: DVec3,
+}
+
+/// A triangle of the static scene as rays see it.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct SceneTriangle {
+    /// Corners, metres.
+    pub corners_in_world: [DVec3; 3],
+    /// CARLA label id.
+    pub label: u8,
+    /// Instance id.
+    pub instance: u32,
+}
+
+impl Scene {
+    /// Prepares a town. Boxes and triangles that are not finite are left out; `seed` draws colours and patterns.
+    pub fn new(town: &Town, seed: Seed) -> Self {
+        let look_seed = (seed.child("looks", 0).as_u64() >> 32) as u32;
+        let boxes: Vec<SceneBox> =
+            town.obstacles.iter().filter_map(|obstacle| scene_box(obstacle, look_seed)).collect();
+        let clusters = clusters_of(town);
+        let noise = NoiseTexture::new(look_seed);
+        let grid = LightGrid::new(&boxes, &clusters);
+        static SCENES: AtomicU64 = AtomicU64::new(0);
+        let identity = SCENES.fetch_add(1, Ordering::Relaxed);
+        Self { boxes, clusters, noise, grid, identity }
+    }
+
+    /// Every triangle that the renderer draws except the target's, for casting the same rays
+    /// (box faces as two triangles; only their outside is drawn, ground is seen from both sides).
+    pub fn triangles(&self) -> Vec<SceneTriangle> {
+        let mut triangles = Vec::new();
+        for b in &self.boxes {
+            for (_, _, c) in BOX_FACES {
+                for [i, j, k] in [[c[0], c[1], c[2]], [c[0], c[2], c[3]]] {
+                    let corners_in_world = [b.corners_in_world[i], b.corners_in_world[j], b.corners_in_world[k]];
+                    triangles.push(SceneTriangle { corners_in_world, label: b.label, instance: b.instance });
+                }
+            }
+        }
+        for cluster in &self.clusters {
+            for triangle in &cluster.triangles {
+                let corners_in_world = triangle.corners.map(|i| cluster.vertices_in_world[usize::from(i)]);
+                triangles.push(SceneTriangle { corners_in_world, label: triangle.label.id(), instance: 0 });
+            }
+        }
+        triangles
+    }
+}
+
+fn scene_box(obstacle: &cosfly_maps::Obstacle, look_seed: u32) -> Option<SceneBox> {
+    let shape = &obstacle.shape;
+    let half = shape.half_extents_m;
+    if !shape.center_in_world.is_finite() || !half.is_finite() || !shape.yaw_rad.is_finite() || half.min_element() < 0.0
+    {
+        return None;
+    }
+    let (sin, cos) = real::sin_cos(shape.yaw_rad);
+    let (low, high) = shape.bounds_in_world();
+    Some(SceneBox {
+        corners_in_world: shape.corners_in_world(),
+        center_in_world: shape.center_in_world,
+        half_bounds_m: 0.5 * (high - low),
+        half_extents_m: half.as_vec3(),
+        axes_in_world: [DVec3::new(cos, sin, 0.0), DVec3::new(-sin, cos, 0.0)],
+        kind: obstacle.kind,
+        label: obstacle.kind.label().id(),
+        instance: obstacle.object_id.saturating_add(2),
+        seed: crate::shade::pattern::hash(obstacle.object_id, look_seed),
+    })
+}
+
+/// Cuts all ground meshes into clusters of neighbouring triangles, ordered along a Z curve over the ground.
+fn clusters_of(town: &Town) -> Vec<Cluster> {
+    let mut order: Vec<(u64, u32, u32)> = Vec::new();
+    for (mesh_index, mesh) in town.surfaces.iter().enumerate() {
+        for (index, triangle) in mesh.triangles.iter().enumerate() {
+            let corner = |k: usize| mesh.vertices_in_world.get(triangle[k] as usize).filter(|p| p.is_finite());
+            if let (Some(a), Some(b), Some(c)) = (corner(0), corner(1), corner(2)) {
+                let cell = ((*a + *b + *c) / 3.0 - town.min_in_world) * 0.25;
+                order.push((z_order(cell.x as u32, cell.y as u32), mesh_index as u32, index as u32));
+            }
+        }
+    }
+    order.sort_unstable();
+    order.chunks(CLUSTER_TRIANGLES).map(|members| cluster_of(town, members)).collect()
+}
+
+fn cluster_of(town: &Town, members: &[(u64, u32, u32)]) -> Cluster {
+    let mut numbers = BTreeMap::new();
+    let mut vertices: Vec<DVec3> = Vec::new();
+    let mut triangles = Vec::new();
+    for &(_, mesh_index, index) in members {
+        let mesh = &town.surfaces[mesh_index as usize];
+        let points = mesh.triangles[index as usize].map(|i| mesh.vertices_in_world[i as usize]);
+        let corners = mesh.triangles[index as usize].map(|i| {
+            *numbers.entry((mesh_index, i)).or_insert_with(|| {
+                vertices.push(mesh.vertices_in_world[i as usize]);
+                (vertices.len() - 1) as u16
+            })
+        });
+        let normal = (points[1] - points[0]).cross(points[2] - points[0]).normalize_or_zero();
+        if normal != DVec3::ZERO {
+            let upward = if normal.z < 0.0 { -normal } else { normal };
+            triangles.push(GroundTriangle { corners, label: mesh.label, normal_in_world: upward });
+        }
+    }
+    let low = vertices.iter().copied().fold(DVec3::INFINITY, DVec3::min);
+    let high = vertices.iter().copied().fold(DVec3::NEG_INFINITY, DVec3::max);
+    Cluster {
+        center_in_world: 0.5 * (low + high),
+        half_bounds_m: 0.5 * (high - low),
+        vertices_in_world: vertices,
+        triangles,
+    }
+}
+
+/// Interleaves the bits of a cell's two coordinates.
+fn z_order(x: u32, y: u32) -> u64 {
+    let spread = |value: u32| {
+        let mut v = u64::from(value);
+        v = (v | (v << 16)) & 0x0000_ffff_0000_ffff;
+        v = (v | (v << 8)) & 0x00ff_00ff_00ff_00ff;
+        v = (v | (v << 4)) & 0x0f0f_0f0f_0f0f_0f0f;
+        v = (v | (v << 2)) & 0x3333_3333_3333_3333;
+        (v | (v << 1)) & 0x5555_5555_5555_5555
+    };
+    spread(x) | (spread(y) << 1)
+}

@@ -1,0 +1,199 @@
+//! Light that stays in place: how much sky the ground sees, and how much lamps give, on a coarse grid over the town.
+
+use crate::scene::{Cluster, SceneBox};
+use crate::shade::pattern::lerp;
+use cosfly_frames::DVec3;
+use cosfly_maps::ObstacleKind;
+
+/// Most cells along one side.
+const MAX_CELLS: usize = 512;
+
+/// What the grid says at one place.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct GridSample {
+    /// Height of the ground, metres.
+    pub ground_m: f32,
+    /// Share of the sky the ground sees, 0..=1.
+    pub sky: f32,
+    /// Light of lamps on the ground at night, 0..=1 and above.
+    pub lamps: f32,
+}
+
+/// Ground height, sky share and lamp light in square cells.
+pub struct LightGrid {
+    min: [f32; 2],
+    cells_per_m: f32,
+    columns: usize,
+    rows: usize,
+    cells: Vec<GridSample>,
+}
+
+impl LightGrid {
+    /// Measures the town.
+    pub(crate) fn new(boxes: &[SceneBox], clusters: &[Cluster]) -> Self {
+        let mut low = DVec3::INFINITY;
+        let mut high = DVec3::NEG_INFINITY;
+        for (center, half) in boxes
+            .iter()
+            .map(|b| (b.center_in_world, b.half_bounds_m))
+            .chain(clusters.iter().map(|c| (c.center_in_world, c.half_bounds_m)))
+            .filter(|(center, half)| center.is_finite() && half.is_finite())
+        {
+            low = low.min(center - half);
+            high = high.max(center + half);
+        }
+        if !(low.is_finite() && high.is_finite()) {
+            (low, high) = (DVec3::ZERO, DVec3::ONE);
+        }
+        let side = (high.x - low.x).max(high.y - low.y).clamp(1.0, 1e6);
+        let cell = (side / MAX_CELLS as f64).max(1.0);
+        let count = |length: f64| ((length / cell) as usize + 2).min(MAX_CELLS + 2);
+        let (columns, rows) = (count(high.x - low.x), count(high.y - low.y));
+        let mut grid = Self {
+            min: [low.x as f32, low.y as f32],
+            cells_per_m: (1.0 / cell) as f32,
+            columns,
+            rows,
+            cells: vec![GridSample { ground_m: 0.0, sky: 1.0, lamps: 0.0 }; columns * rows],
+        };
+        grid.measure_ground(clusters, boxes);
+        grid.measure_sky(boxes);
+        grid.add_lamps(boxes);
+        grid
+    }
+
+    /// Blended values at a place; the border's beyond it.
+    #[inline(always)]
+    pub fn sample(&self, x_m: f32, y_m: f32) -> GridSample {
+        let x = ((x_m - self.min[0]) * self.cells_per_m).clamp(0.0, (self.columns - 1) as f32 - 0.001);
+        let y = ((y_m - self.min[1]) * self.cells_per_m).clamp(0.0, (self.rows - 1) as f32 - 0.001);
+        let (column, row) = (x as usize, y as usize);
+        let (fx, fy) = (x - column as f32, y - row as f32);
+        let at = row * self.columns + column;
+        let mix = |pick: fn(&GridSample) -> f32| {
+            let upper = lerp(pick(&self.cells[at]), pick(&self.cells[at + 1]), fx);
+            let lower = lerp(pick(&self.cells[at + self.columns]), pick(&self.cells[at + self.columns + 1]), fx);
+            lerp(upper, lower, fy)
+        };
+        GridSample { ground_m: mix(|c| c.ground_m), sky: mix(|c| c.sky), lamps: mix(|c| c.lamps) }
+    }
+
+    fn cell_of(&self, point: DVec3) -> usize {
+        let column = ((point.x as f32 - self.min[0]) * self.cells_per_m) as usize;
+        let row = ((point.y as f32 - self.min[1]) * self.cells_per_m) as usize;
+        row.min(self.rows - 1) * self.columns + column.min(self.columns - 1)
+    }
+
+    /// Cells over which an upright box stands.
+    fn cells_under(&self, b: &SceneBox) -> (core::ops::Range<usize>, core::ops::Range<usize>) {
+        let low = self.cell_of(b.center_in_world - b.half_bounds_m);
+        let high = self.cell_of(b.center_in_world + b.half_bounds_m);
+        (low % self.columns..high % self.columns + 1, low / self.columns..high / self.columns + 1)
+    }
+
+    /// Ground height from triangle corners and centres, gaps filled from ever coarser means.
+    fn measure_ground(&mut self, clusters: &[Cluster], boxes: &[SceneBox]) {
+        let mut sums = vec![(0.0f32, 0.0f32); self.cells.len()];
+        let mut add = |cell: usize, z: f64| {
+            sums[cell].0 += z as f32;
+            sums[cell].1 += 1.0;
+        };
+        for cluster in clusters {
+            for triangle in &cluster.triangles {
+                let [a, b, c] = triangle.corners.map(|i| cluster.vertices_in_world[usize::from(i)]);
+                for point in [a, b, c, (a + b + c) / 3.0] {
+                    add(self.cell_of(point), point.z);
+                }
+            }
+        }
+        if clusters.is_empty() {
+            for b in boxes {
+                add(self.cell_of(b.center_in_world), b.center_in_world.z - b.half_bounds_m.z);
+            }
+        }
+        let filled = fill_gaps(sums, self.columns, self.rows);
+        for (cell, ground) in self.cells.iter_mut().zip(filled) {
+            cell.ground_m = ground;
+        }
+    }
+
+    /// Sky share from the horizon in eight directions.
+    fn measure_sky(&mut self, boxes: &[SceneBox]) {
+        let mut tops: Vec<f32> = self.cells.iter().map(|cell| cell.ground_m).collect();
+        for b in boxes {
+            let (columns, rows) = self.cells_under(b);
+            let top = (b.center_in_world.z + b.half_bounds_m.z) as f32;
+            let share = if b.kind == ObstacleKind::TreeCrown { 0.6 } else { 1.0 };
+            for row in rows {
+                for column in columns.clone() {
+                    let cell = row * self.columns + column;
+                    let ground = self.cells[cell].ground_m;
+                    tops[cell] = tops[cell].max(ground + share * (top - ground));
+                }
+            }
+        }
+        const DIRECTIONS: [(i32, i32); 8] = [(1, 0), (1, 1), (0, 1), (-1, 1), (-1, 0), (-1, -1), (0, -1), (1, -1)];
+        for row in 0..self.rows {
+            for column in 0..self.columns {
+                let cell = row * self.columns + column;
+                let ground = self.cells[cell].ground_m;
+                let mut open = 0.0;
+                for (dx, dy) in DIRECTIONS {
+                    let mut tangent = 0.0f32;
+                    for step in [1i32, 2, 4, 8, 16, 28] {
+                        let x = (column as i32 + dx * step).clamp(0, self.columns as i32 - 1) as usize;
+                        let y = (row as i32 + dy * step).clamp(0, self.rows as i32 - 1) as usize;
+                        let away = step as f32 / self.cells_per_m * if dx * dy != 0 { 1.414 } else { 1.0 };
+                        tangent = tangent.max((tops[y * self.columns + x] - ground) / away);
+                    }
+                    // 1 - sin(horizon): the open share of a uniform sky in this direction.
+                    open += 1.0 - tangent / (1.0 + tangent * tangent).sqrt();
+                }
+                self.cells[cell].sky = (open / 8.0).clamp(0.08, 1.0);
+            }
+        }
+    }
+
+    /// Every lamp lights the ground around it like a bulb at its top.
+    fn add_lamps(&mut self, boxes: &[SceneBox]) {
+        let radius = (22.0 * self.cells_per_m) as usize + 1;
+        let mut last = None;
+        for b in boxes.iter().filter(|b| b.kind == ObstacleKind::Lamp) {
+            // A lamp of several boxes shines once, from where its last box is.
+            if last.replace(b.instance) == Some(b.instance) {
+                continue;
+            }
+            let cell = self.cell_of(b.center_in_world);
+            let (column, row) = (cell % self.columns, cell / self.columns);
+            for y in row.saturating_sub(radius)..(row + radius + 1).min(self.rows) {
+                for x in column.saturating_sub(radius)..(column + radius + 1).min(self.columns) {
+                    let (dx, dy) = (x as f32 - column as f32, y as f32 - row as f32);
+                    let far = (dx * dx + dy * dy) / (self.cells_per_m * self.cells_per_m);
+                    let height = 6.0f32;
+                    let fall = height * height / (height * height + far);
+                    let edge = (1.0 - far / 484.0).max(0.0);
+                    self.cells[y * self.columns + x].lamps += fall * fall.sqrt() * edge;
+                }
+            }
+        }
+    }
+}
+
+/// Means where something was measured, and means of coarser and coarser neighbourhoods elsewhere.
+fn fill_gaps(sums: Vec<(f32, f32)>, columns: usize, rows: usize) -> Vec<f32> {
+    if columns <= 1 && rows <= 1 {
+        return sums.iter().map(|(sum, count)| if *count > 0.0 { sum / count } else { 0.0 }).collect();
+    }
+    let (half_columns, half_rows) = (columns.div_ceil(2), rows.div_ceil(2));
+    let mut coarse = vec![(0.0f32, 0.0f32); half_columns * half_rows];
+    for (i, (sum, count)) in sums.iter().enumerate() {
+        if *count > 0.0 {
+            let cell = &mut coarse[(i / columns / 2) * half_columns + (i % columns) / 2];
+            cell.0 += sum / count;
+            cell.1 += 1.0;
+        }
+    }
+    let wider = fill_gaps(coarse, half_columns, half_rows);
+    let from_wider = |i: usize| wider[(i / columns / 2) * half_columns + (i % columns) / 2];
+    sums.iter().enumerate().map(|(i, (sum, count))| if *count > 0.0 { sum / count } else { from_wider(i) }).collect()
+}

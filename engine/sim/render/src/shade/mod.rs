@@ -1,0 +1,345 @@
+//! The RGB pass: light, materials and weather for the faces seen, row by row.
+
+pub mod facade;
+pub mod grid;
+pub mod ground;
+pub mod light;
+pub mod pattern;
+pub mod shadow;
+pub mod sky;
+pub mod smooth;
+pub mod surface;
+pub mod things;
+pub mod tone;
+
+use crate::figure::{Clothes, FigureTriangle};
+use crate::frame::FrameImages;
+use crate::passes::ids::for_each_run;
+use crate::renderer::{DrawnFace, Eye, FaceSource, FrameSetup};
+use crate::scene::{BOX_FACES, Scene, SceneBox};
+use crate::visibility::{NO_FACE, Screen, Visibility};
+use cosfly_frames::{DVec3, Pose};
+use cosfly_maps::ObstacleKind;
+use glam::Vec3;
+use light::Light;
+use pattern::{hash, smoothstep};
+use std::ops::Range;
+use surface::{Look, SurfacePoint};
+
+/// Shades whole frames; owns the shadow maps and row buffers.
+pub struct Shader {
+    screen: Screen,
+    view: View,
+    light: Light,
+    shadows: shadow::Shadows,
+    clothes: Option<Clothes>,
+    row: Vec<Vec3>,
+    scratch: Vec<u8>,
+    tone: tone::ToneCurve,
+}
+
+/// The camera for shading, f32.
+#[derive(Clone, Copy, Debug)]
+struct View {
+    position: Vec3,
+    /// Direction through pixel coordinates (0, 0), depth 1.
+    corner: Vec3,
+    /// Its change per pixel to the right and down.
+    across: Vec3,
+    down: Vec3,
+    /// Differs from frame to frame.
+    seed: u32,
+}
+
+impl Shader {
+    /// A shader for one image size.
+    pub fn new(screen: &Screen) -> Self {
+        let pose = Pose { position_in_world: DVec3::ZERO, pitch_rad: 0.0, yaw_rad: 0.0, roll_rad: 0.0 };
+        Self {
+            screen: *screen,
+            view: View::new(screen, &Eye::new(&pose)),
+            light: Light::new(&crate::presets::clear_noon()),
+            shadows: shadow::Shadows::new(),
+            clothes: None,
+            row: vec![Vec3::ZERO; screen.width],
+            scratch: Vec::new(),
+            tone: tone::ToneCurve::new(),
+        }
+    }
+
+    /// Takes over a frame's light, camera and shadows.
+    pub(crate) fn prepare(
+        &mut self,
+        scene: &Scene,
+        setup: &FrameSetup<'_>,
+        eye: &Eye,
+        figure: &[FigureTriangle],
+        clothes: Option<Clothes>,
+    ) {
+        self.light = Light::new(setup.weather);
+        self.view = View::new(&self.screen, eye);
+        self.clothes = clothes;
+        self.shadows.prepare(scene, eye, self.light.to_sun, figure);
+    }
+
+    /// Fills the RGB image from the faces seen.
+    pub(crate) fn shade(
+        &mut self,
+        scene: &Scene,
+        nearest: &Visibility,
+        faces: &[DrawnFace],
+        figure: &[FigureTriangle],
+        images: &mut FrameImages,
+    ) {
+        let mut row_colours = core::mem::take(&mut self.row);
+        let width = self.screen.width;
+        for row in 0..self.screen.height {
+            let pixels = row * width..(row + 1) * width;
+            let depth = &images.depth_m[pixels.clone()];
+            for_each_run(&nearest.face[pixels.clone()], |run, number| {
+                if number == NO_FACE {
+                    self.sky_run(scene, row, run, &mut row_colours);
+                } else {
+                    let context = RunContext { scene, row, depth };
+                    self.face_run(&context, run, &faces[number as usize], figure, &mut row_colours);
+                }
+            });
+            self.haze_row(row, depth, &mut row_colours);
+            self.tone.store(&row_colours, self.light.exposure, &mut images.rgb[3 * pixels.start..3 * pixels.end]);
+        }
+        self.row = row_colours;
+    }
+
+    /// Rain in front of everything.
+    pub(crate) fn overlay(&mut self, images: &mut FrameImages) {
+        sky::rain(&self.light, self.view.seed, images);
+    }
+
+    /// A buffer for passes over the finished image.
+    pub(crate) fn scratch(&mut self) -> &mut Vec<u8> {
+        &mut self.scratch
+    }
+
+    fn sky_run(&self, scene: &Scene, row: usize, run: Range<usize>, colours: &mut [Vec3]) {
+        for column in run {
+            let direction = self.view.ray(column, row).normalize();
+            colours[column] = sky::colour(&self.light, direction, &scene.noise);
+        }
+    }
+
+    fn face_run(
+        &self,
+        context: &RunContext<'_>,
+        run: Range<usize>,
+        face: &DrawnFace,
+        figure: &[FigureTriangle],
+        colours: &mut [Vec3],
+    ) {
+        let (noise, light) = (&context.scene.noise, &self.light);
+        match face.source {
+            FaceSource::Ground { cluster, triangle } => {
+                let ground = context.scene.clusters[cluster as usize].triangles[usize::from(triangle)];
+                let plane = FacePlane::flat(ground.normal_in_world.as_vec3());
+                let label = ground.label;
+                self.shade_run(context, run, &plane, true, colours, |point| ground::look(point, label, noise));
+            }
+            FaceSource::Figure { triangle } => {
+                let part = &figure[triangle as usize];
+                let plane = FacePlane::flat(part.normal_in_world.as_vec3());
+                let colour = self.clothes.map_or([0.5; 3], |clothes| clothes.colours[part.region as usize]);
+                self.shade_run(context, run, &plane, false, colours, |point| {
+                    let cloth = noise.grain(point.world.x * 40.0, point.world.z * 40.0, point.footprint_m * 40.0);
+                    Look::matt(Vec3::from_array(colour) * (0.85 + 0.3 * cloth), point.normal)
+                });
+            }
+            FaceSource::Box { index, face } => {
+                let b = &context.scene.boxes[index as usize];
+                self.box_run(context, run, b, usize::from(face), light, colours);
+            }
+        }
+    }
+
+    fn box_run(
+        &self,
+        context: &RunContext<'_>,
+        run: Range<usize>,
+        b: &SceneBox,
+        face: usize,
+        light: &Light,
+        colours: &mut [Vec3],
+    ) {
+        let noise = &context.scene.noise;
+        let axis = BOX_FACES[face].0;
+        let center = b.center_in_world.as_vec3();
+        let (x_axis, y_axis) = (b.axes_in_world[0].as_vec3(), b.axes_in_world[1].as_vec3());
+        let half = b.half_extents_m;
+        let along_axis = if axis == 0 { y_axis } else { x_axis };
+        let up_axis = if axis == 2 { y_axis } else { Vec3::Z };
+        let normal = b.normal_in_world(face).as_vec3();
+        let plane = FacePlane { normal, along: along_axis, up: up_axis };
+        if b.kind == ObstacleKind::Building && axis == 2 {
+            self.shade_run(context, run, &plane, true, colours, |point| {
+                let away = point.world - center;
+                facade::roof(point, b.seed, [away.dot(x_axis), away.dot(y_axis)], [half.x, half.y], noise)
+            });
+        } else if b.kind == ObstacleKind::Building {
+            let half_width = if axis == 0 { half.y } else { half.x };
+            let facade = facade::Facade::new(b.seed, face as u32, 2.0 * half_width, 2.0 * half.z);
+            self.shade_run(context, run, &plane, false, colours, |point| {
+                let away = point.world - center;
+                facade.look(point, away.dot(along_axis) + half_width, away.z + half.z, light, noise)
+            });
+        } else {
+            let kind = b.kind;
+            self.shade_run(context, run, &plane, false, colours, |point| {
+                let away = point.world - center;
+                let local = Vec3::new(away.dot(x_axis), away.dot(y_axis), away.z);
+                let place = things::BoxPlace { center, local, half, seed: b.seed, axis };
+                things::look(kind, point, &place, light, noise)
+            });
+        }
+    }
+
+    /// Shades the pixels of one face in one row.
+    #[inline(always)]
+    fn shade_run(
+        &self,
+        context: &RunContext<'_>,
+        run: Range<usize>,
+        plane: &FacePlane,
+        wettable: bool,
+        colours: &mut [Vec3],
+        look_at: impl Fn(&SurfacePoint) -> Look,
+    ) {
+        for column in run {
+            let ray = self.view.ray(column, context.row);
+            let depth = context.depth[column];
+            let world = self.view.position + ray * depth;
+            let facing = ray.dot(plane.normal);
+            // Moving one pixel over the plane: (step - normal * ...) slides along the ray to stay on it.
+            let slide = |step: Vec3| (step - ray * (step.dot(plane.normal) / facing)) * depth;
+            let (a, b) = (slide(self.view.across), slide(self.view.down));
+            let along = a.dot(plane.along).abs() + b.dot(plane.along).abs();
+            let up = a.dot(plane.up).abs() + b.dot(plane.up).abs();
+            let normal = if facing > 0.0 { -plane.normal } else { plane.normal };
+            let point = SurfacePoint {
+                world,
+                normal,
+                footprint_m: (along * up).sqrt().max(0.35 * along.max(up)),
+                footprints_m: [along, up],
+            };
+            let look = look_at(&point);
+            colours[column] = self.lit(context.scene, &point, &look, ray, wettable);
+        }
+    }
+
+    /// Light that a surface point sends to the camera.
+    #[inline(always)]
+    fn lit(&self, scene: &Scene, point: &SurfacePoint, look: &Look, ray: Vec3, wettable: bool) -> Vec3 {
+        let light = &self.light;
+        let off_wall = point.world + point.normal * (1.2 * (1.0 - point.normal.z.abs()));
+        let grid = scene.grid.sample(off_wall.x, off_wall.y);
+        let above = point.world.z - grid.ground_m;
+        let sky_share = grid.sky + (1.0 - grid.sky) * (above * 0.045).clamp(0.0, 0.85);
+        let openness = sky_share * look.openness;
+        let facing = look.normal.dot(light.to_sun);
+        let mut direct = Vec3::ZERO;
+        if facing > 0.0 {
+            let lit = self.shadows.sunlight(point.world, point.normal, &scene.noise);
+            direct = light.sun * (facing * lit);
+        }
+        let lamp_share = grid.lamps * (1.0 - above * 0.11).max(0.0) * (0.75 + 0.25 * look.normal.z);
+        let arriving = direct + light.ambient(look.normal) * openness + light.lamp * lamp_share;
+        let (mut albedo, mut mirror, mut reflecting) = (look.albedo, look.mirror, look.normal);
+        if wettable && light.wet > 0.0 && point.normal.z > 0.9 {
+            let level = scene.noise.clumps(point.world.x * 1.1, point.world.y * 1.1, point.footprint_m * 1.1);
+            let puddle = smoothstep(0.80 - 0.5 * light.puddles, 0.84 - 0.5 * light.puddles, level) * light.wet;
+            albedo *= 1.0 - 0.45 * light.wet - 0.25 * puddle;
+            mirror = mirror.max(0.16 * light.wet + 0.75 * puddle);
+            reflecting = point.normal;
+        }
+        let mut colour = albedo * arriving + look.emission;
+        if mirror > 0.003 {
+            let view = ray * ray.dot(ray).sqrt().recip();
+            let cosine = (-view.dot(reflecting)).clamp(0.0, 1.0);
+            let grazing = 1.0 - cosine;
+            let fresnel = 0.06 + 0.94 * grazing * grazing * grazing * grazing * grazing;
+            let out = view + reflecting * (2.0 * cosine);
+            let share = (mirror * (0.35 + 2.2 * fresnel)).min(1.0);
+            let seen = light.sky(out) * (0.25 + 0.75 * sky_share) + light.lamp * (0.5 * lamp_share);
+            colour = colour * (1.0 - share) + seen * share;
+        }
+        colour
+    }
+
+    /// Fades far pixels into the horizon's colour.
+    fn haze_row(&self, row: usize, depth: &[f32], colours: &mut [Vec3]) {
+        let light = &self.light;
+        let haze = light.horizon * 0.8 + light.zenith * 0.2 + light.lamp * 0.02;
+        for (column, (colour, depth)) in colours.iter_mut().zip(depth).enumerate() {
+            if depth.is_finite() {
+                let ray = self.view.ray(column, row);
+                let far = (depth * ray.dot(ray).sqrt() - light.haze_start_m).max(0.0);
+                let kept = fast_exp(-light.haze_per_m * far);
+                *colour = *colour * kept + haze * (1.0 - kept);
+            }
+        }
+    }
+}
+
+/// e^x for x <= 0, to about 1e-4: (1 + x/256)^256.
+#[inline(always)]
+fn fast_exp(x: f32) -> f32 {
+    let mut base = (1.0 + x * (1.0 / 256.0)).max(0.0);
+    for _ in 0..8 {
+        base *= base;
+    }
+    base
+}
+
+/// What a run of pixels needs besides its face.
+struct RunContext<'a> {
+    scene: &'a Scene,
+    row: usize,
+    depth: &'a [f32],
+}
+
+/// Normal of a face, and its own horizontal and vertical.
+struct FacePlane {
+    normal: Vec3,
+    along: Vec3,
+    up: Vec3,
+}
+
+impl FacePlane {
+    fn flat(normal: Vec3) -> Self {
+        Self { normal, along: Vec3::X, up: Vec3::Y }
+    }
+}
+
+impl View {
+    fn new(screen: &Screen, eye: &Eye) -> Self {
+        let [forward, right, up] = [eye.world_from_body.x_axis, eye.world_from_body.y_axis, eye.world_from_body.z_axis];
+        let across = right / screen.focal_px;
+        let down = -up / screen.focal_px;
+        let corner = forward - across * screen.center_u - down * screen.center_v;
+        let position = eye.position_in_world;
+        let seed = [position.x, position.y, position.z, forward.x, forward.y].iter().fold(17, |seed, value| {
+            let bits = value.to_bits();
+            hash(hash(seed, bits as u32), (bits >> 32) as u32)
+        });
+        Self {
+            position: position.as_vec3(),
+            corner: corner.as_vec3(),
+            across: across.as_vec3(),
+            down: down.as_vec3(),
+            seed,
+        }
+    }
+
+    /// Direction through a pixel's centre, of length 1 along the optical axis.
+    #[inline(always)]
+    fn ray(&self, column: usize, row: usize) -> Vec3 {
+        self.corner + self.across * (column as i32 as f32 + 0.5) + self.down * (row as i32 as f32 + 0.5)
+    }
+}

@@ -1,0 +1,58 @@
+//! The sky behind everything, and the rain in front of it.
+
+use super::light::Light;
+use super::pattern::{NoiseTexture, hash, smoothstep, unit};
+use crate::frame::FrameImages;
+use glam::Vec3;
+
+/// Colour of the sky in a direction (unit length): gradient, sun, clouds, stars; haze below the horizon.
+pub fn colour(light: &Light, direction: Vec3, noise: &NoiseTexture) -> Vec3 {
+    let mut colour = light.sky(direction);
+    let toward = direction.dot(light.to_sun).max(0.0);
+    let clear = 1.0 - light.clouds;
+    let disc = smoothstep(0.9994, 0.9998, toward) * clear;
+    let ring = libm::powf(toward, 90.0) * 0.25 * clear;
+    colour += light.sun * (disc * if light.night > 0.5 { 12.0 } else { 5.0 } + ring);
+    if direction.z > 0.01 {
+        let (x, y) = (direction.x / direction.z, direction.y / direction.z);
+        let size = 0.012 / (direction.z * direction.z);
+        let shape = 0.7 * noise.clumps(x * 34.0, y * 34.0, size * 34.0)
+            + 0.3 * noise.clumps(x * 131.0, y * 131.0, size * 131.0);
+        let threshold = 0.74 - 0.62 * light.clouds;
+        let cover = smoothstep(threshold, threshold + 0.22, shape) * smoothstep(0.01, 0.16, direction.z);
+        let body =
+            (light.sun * 0.22 + light.zenith * 0.9 + light.horizon * 0.35) * (1.15 - 0.55 * shape * light.clouds);
+        colour = colour.lerp(body, cover * (0.85 - 0.1 * light.clouds));
+    }
+    // Below the horizon the world is out of the town: haze.
+    let below = smoothstep(0.0, -0.25, direction.z);
+    colour.lerp(light.horizon * 0.55 + light.bounce * 0.5, below)
+}
+
+/// Streaks of rain: light lines slanted by the wind, drawn from the frame's seed.
+pub fn rain(light: &Light, seed: u32, images: &mut FrameImages) {
+    if light.rain <= 0.02 {
+        return;
+    }
+    let (width, height) = (images.width as usize, images.height as usize);
+    let streaks = (light.rain * (width * height) as f32 / 520.0) as u32;
+    let slant = (unit(hash(seed, 1)) - 0.3) * light.wind * 0.9;
+    let white = [170.0f32, 178.0, 188.0].map(|c| if light.night > 0.5 { 0.55 * c } else { c });
+    for streak in 0..streaks {
+        let h = hash(seed, streak.wrapping_add(100));
+        let near = unit(hash(h, 1));
+        let length = (0.012 + 0.055 * near * near) * height as f32;
+        let strength = 0.06 + 0.16 * near;
+        let (u, v) = (unit(hash(h, 2)) * width as f32, unit(hash(h, 3)) * height as f32 * 1.1 - 0.05 * height as f32);
+        for step in 0..length as i32 {
+            let (x, y) = (u + slant * step as f32, v + step as f32);
+            if x < 0.0 || y < 0.0 || x as usize >= width || y as usize >= height {
+                continue;
+            }
+            let at = 3 * (y as usize * width + x as usize);
+            for (byte, bright) in images.rgb[at..at + 3].iter_mut().zip(white) {
+                *byte = (f32::from(*byte) + (bright - f32::from(*byte)) * strength).clamp(0.0, 255.0) as u8;
+            }
+        }
+    }
+}

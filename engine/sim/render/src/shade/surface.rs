@@ -1,0 +1,39 @@
+//! What materials are told about a pixel, and what they answer.
+
+use glam::Vec3;
+
+/// A point of a surface.
+#[derive(Clone, Copy, Debug)]
+pub struct SurfacePoint {
+    /// Where, metres.
+    pub world: Vec3,
+    /// Unit normal of the drawn face.
+    pub normal: Vec3,
+    /// Size of the pixel on the surface, metres, averaged over directions.
+    pub footprint_m: f32,
+    /// Size of the pixel along the face's own horizontal and vertical (or x and y on flat faces), metres.
+    pub footprints_m: [f32; 2],
+}
+
+/// How a surface looks. Colours are linear RGB.
+#[derive(Clone, Copy, Debug)]
+pub struct Look {
+    /// Share of light sent back.
+    pub albedo: Vec3,
+    /// Light of its own.
+    pub emission: Vec3,
+    /// Normal for shading.
+    pub normal: Vec3,
+    /// Share of a mirror in it, 0..=1 (before Fresnel).
+    pub mirror: f32,
+    /// Share of the surroundings' openness it keeps, 0..=1.
+    pub openness: f32,
+}
+
+impl Look {
+    /// A dull surface.
+    #[inline(always)]
+    pub fn matt(albedo: Vec3, normal: Vec3) -> Self {
+        Self { albedo, emission: Vec3::ZERO, normal, mirror: 0.0, openness: 1.0 }
+    }
+}

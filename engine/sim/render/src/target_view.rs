@@ -1,0 +1,89 @@
+//! How much of the target a frame shows, counted in pixels against the target drawn alone.
+
+use crate::frame::{FrameImages, PixelBox, TARGET_INSTANCE, TargetView};
+use crate::visibility::{NO_FACE, Visibility};
+
+/// The view of a target that is not in the image.
+pub(crate) const NOT_IN_VIEW: TargetView = TargetView {
+    in_view: false,
+    visible_by_rays: 0.0,
+    visible_by_pixels: 0.0,
+    pixels: 0,
+    visible_box: None,
+    full_box: None,
+    occluder_instance: 0,
+};
+
+/// Counts the target's pixels in the frame and alone. `occluders` is scratch.
+pub(crate) fn measure(images: &FrameImages, alone: &Visibility, occluders: &mut Vec<u32>) -> TargetView {
+    let width = images.width as usize;
+    let (first_row, end_row) = alone.drawn_rows();
+    let (mut visible, mut full) = (Extent::default(), Extent::default());
+    occluders.clear();
+    for row in first_row..end_row {
+        for column in 0..width {
+            let pixel = row * width + column;
+            if alone.face[pixel] == NO_FACE {
+                continue;
+            }
+            full.add(column, row);
+            match images.instance[pixel] {
+                TARGET_INSTANCE => visible.add(column, row),
+                other => occluders.push(other),
+            }
+        }
+    }
+    TargetView {
+        in_view: full.count > 0,
+        visible_by_rays: 0.0,
+        visible_by_pixels: if full.count > 0 { f64::from(visible.count) / f64::from(full.count) } else { 0.0 },
+        pixels: visible.count,
+        visible_box: visible.pixel_box,
+        full_box: full.pixel_box,
+        occluder_instance: most_frequent(occluders),
+    }
+}
+
+/// The most frequent number other than 0, the smaller one of two equals; 0 when there is none.
+fn most_frequent(numbers: &mut [u32]) -> u32 {
+    numbers.sort_unstable();
+    let (mut best, mut best_count) = (0, 0);
+    for group in numbers.chunk_by(|a, b| a == b) {
+        if group[0] != 0 && group.len() > best_count {
+            (best, best_count) = (group[0], group.len());
+        }
+    }
+    best
+}
+
+#[derive(Default)]
+struct Extent {
+    count: u32,
+    pixel_box: Option<PixelBox>,
+}
+
+impl Extent {
+    fn add(&mut self, column: usize, row: usize) {
+        let (u, v) = (column as u32, row as u32);
+        self.count += 1;
+        let known = self.pixel_box.unwrap_or(PixelBox { u_min: u, v_min: v, u_max: u, v_max: v });
+        self.pixel_box = Some(PixelBox {
+            u_min: known.u_min.min(u),
+            v_min: known.v_min.min(v),
+            u_max: known.u_max.max(u),
+            v_max: known.v_max.max(v),
+        });
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_main_occluder_is_the_most_frequent_object() {
+        assert_eq!(most_frequent(&mut [7, 0, 3, 7, 0, 0, 0]), 7);
+        assert_eq!(most_frequent(&mut [9, 4]), 4);
+        assert_eq!(most_frequent(&mut []), 0);
+    }
+}

@@ -1,0 +1,258 @@
+//! The channels against brute-force rays in f64, and against each other.
+
+mod small_town;
+
+use cosfly_frames::{DVec3, Pose, RandomStream, Seed, TargetState};
+use cosfly_geometry::OrientedBox;
+use cosfly_maps::{Obstacle, ObstacleKind, SemanticLabel, SurfaceMesh, Town};
+use cosfly_render::frame::TARGET_INSTANCE;
+use cosfly_render::{
+    Camera, FrameImages, FrameSetup, PixelBox, Renderer, Scene, TargetSetup, TargetView, Weather, target_triangles,
+};
+
+fn noon() -> Weather {
+    Weather { sun_azimuth_angle: 200.0, ..Weather::preset("ClearNoon").expect("a preset") }
+}
+
+fn camera(width: u32, height: u32) -> Camera {
+    Camera { width, height, horizontal_fov_rad: 1.4 }
+}
+
+fn walker(feet: DVec3) -> TargetSetup {
+    TargetSetup {
+        state: TargetState { feet_in_world: feet, heading_rad: 0.4, speed_mps: 1.3 },
+        height_m: 1.8,
+        radius_m: 0.3,
+        clothes_seed: Seed([2; 32]),
+        gait_phase_rad: 0.8,
+        visible_by_rays: 0.5,
+    }
+}
+
+fn draw(scene: &Scene, camera: Camera, pose: Pose, target: Option<TargetSetup>) -> (FrameImages, TargetView) {
+    let mut renderer = Renderer::new(camera);
+    let frame = renderer.render(scene, &FrameSetup { pose, weather: &noon(), target });
+    (frame.images.clone(), frame.target_view)
+}
+
+/// Planar depth, label and instance of the first triangle on a ray; the Moeller-Trumbore test in f64.
+fn cast(triangles: &[([DVec3; 3], u8, u32)], origin: DVec3, ray: DVec3) -> Option<(f64, u8, u32)> {
+    let mut first: Option<(f64, u8, u32)> = None;
+    for &([a, b, c], label, instance) in triangles {
+        let (ab, ac) = (b - a, c - a);
+        let p = ray.cross(ac);
+        let determinant = ab.dot(p);
+        if determinant.abs() < 1e-14 {
+            continue;
+        }
+        let s = (origin - a) / determinant;
+        let (u, q) = (s.dot(p), s.cross(ab));
+        let (v, t) = (ray.dot(q), ac.dot(q));
+        if u >= 0.0 && v >= 0.0 && u + v <= 1.0 && t > 0.01 && first.is_none_or(|(best, ..)| t < best) {
+            first = Some((t, label, instance));
+        }
+    }
+    first
+}
+
+/// Compares every `stride`-th pixel with a ray; returns (compared, off by more than the tolerance, wrong ids).
+fn compare(scene: &Scene, camera: Camera, pose: Pose, target: Option<TargetSetup>, stride: usize) -> [usize; 3] {
+    let (images, _) = draw(scene, camera, pose, target);
+    let mut triangles: Vec<_> = scene.triangles().iter().map(|t| (t.corners_in_world, t.label, t.instance)).collect();
+    if let Some(target) = &target {
+        triangles.extend(target_triangles(target).iter().map(|corners| (*corners, 12, TARGET_INSTANCE)));
+    }
+    let mut counts = [0; 3];
+    for pixel in (0..images.depth_m.len()).step_by(stride) {
+        let (column, row) = (pixel % images.width as usize, pixel / images.width as usize);
+        let ray = camera.ray_in_world(&pose, column as f64 + 0.5, row as f64 + 0.5);
+        let hit = cast(&triangles, pose.position_in_world, ray);
+        let (depth, label, instance) = hit.unwrap_or((f64::INFINITY, SemanticLabel::Sky.id(), 0));
+        let seen = f64::from(images.depth_m[pixel]);
+        counts[0] += 1;
+        counts[1] += usize::from(seen != depth && (seen - depth).abs() > 1e-3 + 1e-5 * depth);
+        counts[2] += usize::from(images.semantic[pixel] != label || images.instance[pixel] != instance);
+    }
+    counts
+}
+
+fn random_scene(random: &mut RandomStream) -> Town {
+    let mut town = small_town::empty_town();
+    for object_id in 0..40 {
+        let shape = OrientedBox {
+            center_in_world: DVec3::new(
+                random.uniform(5.0, 60.0),
+                random.uniform(-30.0, 30.0),
+                random.uniform(0.0, 9.0),
+            ),
+            half_extents_m: DVec3::new(random.uniform(0.05, 5.0), random.uniform(0.05, 5.0), random.uniform(0.05, 7.0)),
+            yaw_rad: random.uniform(-3.2, 3.2),
+        };
+        town.obstacles.push(Obstacle { shape, kind: ObstacleKind::Building, object_id, synthetic: true });
+    }
+    let mut terrain = SurfaceMesh {
+        label: SemanticLabel::Terrain,
+        vertices_in_world: vec![],
+        along_across_m: vec![],
+        triangles: vec![],
+        synthetic: true,
+    };
+    for row in 0..20u32 {
+        for column in 0..20u32 {
+            let z = random.uniform(-2.5, 0.5);
+            terrain.vertices_in_world.push(DVec3::new(6.0 * f64::from(column) - 30.0, 6.0 * f64::from(row) - 60.0, z));
+            if row > 0 && column > 0 {
+                let at = row * 20 + column;
+                terrain.triangles.extend([[at, at - 1, at - 20], [at - 21, at - 20, at - 1]]);
+            }
+        }
+    }
+    town.surfaces.push(terrain);
+    town
+}
+
+#[test]
+fn depth_and_ids_are_those_of_rays_on_random_scenes() {
+    let mut random = Seed([4; 32]).stream("scenes");
+    for _ in 0..6 {
+        let scene = Scene::new(&random_scene(&mut random), Seed([1; 32]));
+        let pose = Pose {
+            position_in_world: DVec3::new(
+                random.uniform(-20.0, 0.0),
+                random.uniform(-9.0, 9.0),
+                random.uniform(8.0, 25.0),
+            ),
+            pitch_rad: random.uniform(-0.9, 0.1),
+            yaw_rad: random.uniform(-0.4, 0.4),
+            roll_rad: random.uniform(-0.3, 0.3),
+        };
+        let target = walker(DVec3::new(random.uniform(2.0, 12.0), random.uniform(-5.0, 5.0), 1.0));
+        let [compared, off, wrong] = compare(&scene, camera(320, 200), pose, Some(target), 17);
+        // A ray may differ on the very edge of a triangle, where both answers are right.
+        assert!(off <= compared / 1500 && wrong <= compared / 1500, "{off} and {wrong} of {compared}");
+    }
+}
+
+#[test]
+fn depth_is_exact_on_walls_that_graze_the_view() {
+    let mut town = small_town::empty_town();
+    let wall = OrientedBox::from_corners(DVec3::new(-20.0, 0.01, -5.0), DVec3::new(280.0, 1.0, 9.0));
+    town.obstacles.push(Obstacle { shape: wall, kind: ObstacleKind::Wall, object_id: 0, synthetic: false });
+    let scene = Scene::new(&town, Seed([1; 32]));
+    let pose = Pose { yaw_rad: 0.02, ..Pose::looking_at(DVec3::new(0.0, -0.04, 1.0), DVec3::new(9.0, -0.04, 1.0)) };
+    let [compared, off, wrong] = compare(&scene, camera(640, 360), pose, None, 13);
+    assert!(off <= 2 && wrong <= 2, "{off} and {wrong} of {compared}");
+}
+
+#[test]
+fn a_camera_inside_an_obstacle_looks_out_of_it() {
+    let mut town = small_town::small_town(2, 3);
+    let around = OrientedBox::from_corners(DVec3::splat(-3.0), DVec3::splat(3.0));
+    town.obstacles.push(Obstacle { shape: around, kind: ObstacleKind::Building, object_id: 9999, synthetic: true });
+    let scene = Scene::new(&town, Seed([1; 32]));
+    let pose = Pose::looking_at(DVec3::ZERO, DVec3::new(10.0, 5.0, -2.0));
+    let (images, _) = draw(&scene, camera(160, 90), pose, None);
+    assert!(!images.instance.contains(&10_001));
+}
+
+#[test]
+fn odd_boxes_and_sizes_do_no_harm() {
+    let mut town = small_town::small_town(1, 3);
+    for half in [DVec3::ZERO, DVec3::new(2.0, 0.0, 1.0), DVec3::new(0.0, 0.0, 4.0), DVec3::new(f64::NAN, 1.0, 1.0)] {
+        let shape = OrientedBox { center_in_world: DVec3::new(3.0, 0.0, 1.0), half_extents_m: half, yaw_rad: 0.5 };
+        town.obstacles.push(Obstacle { shape, kind: ObstacleKind::Static, object_id: u32::MAX, synthetic: true });
+    }
+    let mut broken = town.surfaces[0].clone();
+    broken.triangles.push([0, 1, 4_000_000]);
+    broken.vertices_in_world[0] = DVec3::new(f64::INFINITY, 0.0, 0.0);
+    town.surfaces.push(broken);
+    let scene = Scene::new(&town, Seed([1; 32]));
+    let target = Some(walker(DVec3::new(4.0, 1.0, 0.0)));
+    for (width, height) in [(64, 48), (1, 1), (0, 0), (17, 3), (3840, 2160)] {
+        for position in [DVec3::new(-9.0, 0.0, 6.0), DVec3::new(4.0, 1.0, 1.0), DVec3::new(1e9, -1e12, 1e300)] {
+            let pose = Pose::looking_at(position, DVec3::ZERO);
+            let (images, _) = draw(&scene, camera(width, height), pose, target);
+            assert_eq!(images.rgb.len(), 3 * (width * height) as usize);
+            if width > 1000 {
+                break;
+            }
+        }
+    }
+}
+
+#[test]
+fn a_target_behind_the_camera_is_not_in_view() {
+    let scene = Scene::new(&small_town::small_town(1, 3), Seed([1; 32]));
+    let pose = Pose::looking_at(DVec3::new(0.0, 0.0, 5.0), DVec3::new(10.0, 0.0, 5.0));
+    let (_, view) = draw(&scene, camera(320, 180), pose, Some(walker(DVec3::new(-8.0, 0.0, 0.0))));
+    assert!(!view.in_view && view.pixels == 0 && view.full_box.is_none() && view.visible_box.is_none());
+    assert_eq!((view.visible_by_pixels, view.visible_by_rays), (0.0, 0.5));
+}
+
+#[test]
+fn the_visible_box_is_the_box_of_the_instance_pixels() {
+    let mut town = small_town::empty_town();
+    let low_wall = OrientedBox::from_corners(DVec3::new(9.0, -5.0, 0.0), DVec3::new(9.3, 5.0, 0.9));
+    town.obstacles.push(Obstacle { shape: low_wall, kind: ObstacleKind::Wall, object_id: 40, synthetic: false });
+    let scene = Scene::new(&town, Seed([1; 32]));
+    let pose = Pose::looking_at(DVec3::new(0.0, 0.0, 1.2), DVec3::new(12.0, 0.0, 1.0));
+    let (images, view) = draw(&scene, camera(640, 480), pose, Some(walker(DVec3::new(12.0, 0.0, 0.0))));
+    let pixels = images.instance.iter().enumerate().filter(|(_, id)| **id == TARGET_INSTANCE);
+    let places: Vec<(u32, u32)> = pixels.map(|(i, _)| (i as u32 % 640, i as u32 / 640)).collect();
+    let by = |pick: fn(&(u32, u32)) -> u32| (places.iter().map(pick).min(), places.iter().map(pick).max());
+    let ((u_min, u_max), (v_min, v_max)) = (by(|p| p.0), by(|p| p.1));
+    let expected = PixelBox {
+        u_min: u_min.expect("seen"),
+        v_min: v_min.expect("seen"),
+        u_max: u_max.expect("seen"),
+        v_max: v_max.expect("seen"),
+    };
+    assert_eq!(view.visible_box, Some(expected));
+    assert_eq!(view.pixels as usize, places.len());
+    let full = view.full_box.expect("in view");
+    assert!(full.v_max > expected.v_max && full.v_min == expected.v_min);
+    assert!(view.in_view && view.occluder_instance == 42 && (0.3..0.8).contains(&view.visible_by_pixels));
+    for (&semantic, &instance) in images.semantic.iter().zip(&images.instance) {
+        assert_eq!(semantic == SemanticLabel::Pedestrian.id(), instance == TARGET_INSTANCE);
+    }
+}
+
+#[test]
+fn the_target_stands_where_the_camera_projects_it() {
+    let scene = Scene::new(&small_town::empty_town(), Seed([1; 32]));
+    for (x, y) in [(14.0, 0.0), (20.0, 9.0), (11.0, -6.0)] {
+        let target = walker(DVec3::new(x, y, 0.0));
+        let pose = Pose::looking_at(DVec3::new(0.0, 0.0, 12.0), DVec3::new(14.0, 0.0, 0.0));
+        let camera = camera(1280, 720);
+        let (_, view) = draw(&scene, camera, pose, Some(target));
+        let seen = view.full_box.expect("in view");
+        assert_eq!((view.visible_by_pixels, view.visible_box), (1.0, view.full_box));
+        let middle = DVec3::new(x, y, 0.9);
+        let (u, v, depth) = camera.project(&pose, middle).expect("ahead");
+        let reach = 0.35 * camera.focal_px() / depth;
+        assert!((0.5 * f64::from(seen.u_min + seen.u_max + 1) - u).abs() < reach);
+        assert!((0.5 * f64::from(seen.v_min + seen.v_max + 1) - v).abs() < reach);
+    }
+}
+
+#[test]
+fn the_same_frame_has_the_same_bytes_after_any_other_frame_and_on_any_thread() {
+    let scene = Scene::new(&small_town::small_town(3, 5), Seed([1; 32]));
+    let rain = Weather { sun_azimuth_angle: 40.0, ..Weather::preset("HardRainSunset").expect("a preset") };
+    let feet = DVec3::new(5.0, -16.0, 0.1);
+    let pose = Pose::looking_at(feet + DVec3::new(-12.0, 3.0, 15.0), feet);
+    let setup = FrameSetup { pose, weather: &rain, target: Some(walker(feet)) };
+    let once = Renderer::new(camera(320, 180)).render(&scene, &setup).images.clone();
+    let mut used = Renderer::new(camera(320, 180));
+    let elsewhere = Pose::looking_at(DVec3::new(70.0, 60.0, 9.0), DVec3::ZERO);
+    used.render(&scene, &FrameSetup { pose: elsewhere, weather: &noon(), target: None });
+    assert!(used.render(&scene, &setup).images == &once);
+    std::thread::scope(|scope| {
+        let workers: Vec<_> = (0..2)
+            .map(|_| scope.spawn(|| Renderer::new(camera(320, 180)).render(&scene, &setup).images.clone()))
+            .collect();
+        for worker in workers {
+            assert!(worker.join().expect("no panic") == once);
+        }
+    });
+}
