@@ -1,5 +1,22 @@
 //! MuCO, the multi-constraint trajectory optimiser, its safety layers, and the perturbed twins.
+//!
+//! [`plan`] turns a target track into a certified [`Trajectory`] or says why there is none. What is worth seeing
+//! is in [`terms`] (one file per cost term), how it is found in [`muco`], what is promised in [`certificate`].
 
+pub mod certificate;
+pub mod config;
+pub mod muco;
+pub mod obstacles;
+pub mod scenes;
+pub mod terms;
 pub mod trajectory;
+pub mod visibility;
+pub mod walk;
+pub mod weights;
 
+pub use config::MucoConfig;
+pub use muco::{plan, plan_with_terms};
+pub use terms::{CostTerm, TermContext, WeightedTerm};
 pub use trajectory::{Certificate, FramePerturbation, Limits, Perturbation, PlanOutcome, TermCost, Trajectory};
+pub use visibility::{aim_point, body_points, visibility};
+pub use weights::{Preset, WeightOverrides, Weights};

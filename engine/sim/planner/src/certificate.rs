@@ -1,0 +1,171 @@
+//! The final word on a flight: everything measured again in f64 against the unsimplified map.
+
+use crate::config::MucoConfig;
+use crate::terms::{TermContext, WeightedTerm};
+use crate::trajectory::{Certificate, Limits, TermCost};
+use crate::visibility::visibility;
+use crate::walk::Walk;
+use cosfly_frames::{DVec3, TargetTrack};
+use cosfly_geometry::SpatialQuery;
+
+/// Distances from obstacles are reported up to here, metres.
+pub const CLEARANCE_CAP_M: f64 = 50.0;
+/// Slack of the kinematic checks for rounding.
+const ROUNDING: f64 = 1e-9;
+
+/// Largest finite-difference speed, acceleration and jerk of a path.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Kinematics {
+    /// m/s.
+    pub speed_mps: f64,
+    /// m/s^2.
+    pub acceleration_mps2: f64,
+    /// m/s^3.
+    pub jerk_mps3: f64,
+}
+
+impl Kinematics {
+    /// Of waypoints `dt_s` apart; 0 where there are too few.
+    pub fn of(waypoints: &[DVec3], dt_s: f64) -> Self {
+        let largest = |order: usize, difference: &dyn Fn(&[DVec3]) -> DVec3| {
+            waypoints.windows(order + 1).map(|w| difference(w).length()).fold(0.0, f64::max)
+        };
+        Self {
+            speed_mps: largest(1, &|w| w[1] - w[0]) / dt_s,
+            acceleration_mps2: largest(2, &|w| w[2] - 2.0 * w[1] + w[0]) / (dt_s * dt_s),
+            jerk_mps3: largest(3, &|w| w[3] - 3.0 * w[2] + 3.0 * w[1] - w[0]) / (dt_s * dt_s * dt_s),
+        }
+    }
+
+    /// What of the limits does not hold, in words.
+    pub fn violations(&self, limits: &Limits) -> Vec<String> {
+        [
+            ("speed", self.speed_mps, limits.speed_mps, "m/s"),
+            ("acceleration", self.acceleration_mps2, limits.acceleration_mps2, "m/s^2"),
+            ("jerk", self.jerk_mps3, limits.jerk_mps3, "m/s^3"),
+        ]
+        .into_iter()
+        .filter(|(_, value, limit, _)| value.is_nan() || *value > limit + ROUNDING)
+        .map(|(name, value, limit, unit)| format!("{name} reaches {value:.2} {unit}; the limit is {limit} {unit}"))
+        .collect()
+    }
+}
+
+/// Smallest distance of the swept path to the exact obstacles, capped at [`CLEARANCE_CAP_M`].
+pub fn swept_clearance_m(exact: &dyn SpatialQuery, waypoints: &[DVec3]) -> f64 {
+    let mut smallest = CLEARANCE_CAP_M;
+    for (i, &from) in waypoints.iter().enumerate() {
+        let to = waypoints.get(i + 1).copied().unwrap_or(from);
+        smallest = smallest.min(exact.segment_clearance(from, to, smallest));
+    }
+    smallest
+}
+
+/// Per-frame measurements and the certificate they add up to.
+pub struct Measured {
+    /// See [`crate::Trajectory::visibility`].
+    pub visibility: Vec<f64>,
+    /// See [`crate::Trajectory::clearance_m`].
+    pub clearance_m: Vec<f64>,
+    /// All figures.
+    pub certificate: Certificate,
+}
+
+/// Solver figures that go into the certificate.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct SolverFigures {
+    /// Iterations of descent and smoothing.
+    pub iterations: u32,
+    /// Boxes left by the per-path filter.
+    pub filtered_boxes: u32,
+}
+
+/// Measures a path. `ground` gives the height of the ground, above which the clearance is kept, too.
+pub fn certify(
+    track: &TargetTrack,
+    waypoints: &[DVec3],
+    exact: &dyn SpatialQuery,
+    ground: &dyn Fn(f64, f64) -> f64,
+    config: &MucoConfig,
+    solver: SolverFigures,
+) -> Measured {
+    let limits = config.stated_limits();
+    let seen: Vec<f64> =
+        waypoints.iter().zip(&track.states).map(|(&w, state)| visibility(exact, w, state, track.height_m)).collect();
+    let near = |w: &DVec3| exact.nearest(*w, CLEARANCE_CAP_M).map_or(CLEARANCE_CAP_M, |n| n.distance_m);
+    let clearance_m: Vec<f64> = waypoints.iter().map(near).collect();
+    let swept = clearance_m.iter().copied().fold(swept_clearance_m(exact, waypoints), f64::min);
+    let kinematics = Kinematics::of(waypoints, track.dt_s);
+    let mut violations = Vec::new();
+    if swept.is_nan() || swept < limits.clearance_m {
+        violations.push(format!("clearance falls to {swept:.2} m; the limit is {} m", limits.clearance_m));
+    }
+    if let Some((frame, above)) = lowest_above_ground(waypoints, ground).filter(|low| low.1 < limits.clearance_m) {
+        violations.push(format!("frame {frame} is {above:.2} m above ground; the limit is {} m", limits.clearance_m));
+    }
+    violations.extend(kinematics.violations(&limits));
+    let frames = waypoints.len().max(1) as f64;
+    let length_m = waypoints.windows(2).map(|w| w[1].distance(w[0])).sum::<f64>();
+    let walked = track.length_m();
+    let certificate = Certificate {
+        limits,
+        holds: violations.is_empty(),
+        violations,
+        mean_visibility: seen.iter().sum::<f64>() / frames,
+        frames_half_visible: seen.iter().filter(|&&v| v >= 0.5).count() as f64 / frames,
+        min_clearance_m: swept,
+        max_speed_mps: kinematics.speed_mps,
+        max_acceleration_mps2: kinematics.acceleration_mps2,
+        max_jerk_mps3: kinematics.jerk_mps3,
+        mean_distance_m: distances(track, waypoints).sum::<f64>() / frames,
+        mean_rear_angle_deg: mean_rear_angle_deg(track, waypoints),
+        length_m,
+        length_ratio: if walked > 0.0 { length_m / walked } else { 0.0 },
+        iterations: solver.iterations,
+        filtered_boxes: solver.filtered_boxes,
+    };
+    Measured { visibility: seen, clearance_m, certificate }
+}
+
+fn distances<'a>(track: &'a TargetTrack, waypoints: &'a [DVec3]) -> impl Iterator<Item = f64> + 'a {
+    waypoints.iter().zip(&track.states).map(|(w, state)| w.distance(state.feet_in_world))
+}
+
+fn lowest_above_ground(waypoints: &[DVec3], ground: &dyn Fn(f64, f64) -> f64) -> Option<(usize, f64)> {
+    let above = |(frame, w): (usize, &DVec3)| (frame, w.z - ground(w.x, w.y));
+    waypoints.iter().enumerate().map(above).filter(|low| low.1.is_finite()).min_by(|a, b| a.1.total_cmp(&b.1))
+}
+
+/// Mean angle between "target to drone" and "against the walking direction", seen from above, over the frames
+/// in which the target walks; 0 when it never does.
+fn mean_rear_angle_deg(track: &TargetTrack, waypoints: &[DVec3]) -> f64 {
+    let walk = Walk::of(track);
+    let angles: Vec<f64> = waypoints
+        .iter()
+        .zip(&track.states)
+        .zip(&walk.direction)
+        .filter_map(|((w, state), direction)| {
+            let toward = (w - state.feet_in_world).truncate().normalize_or_zero();
+            let defined = toward.length_squared() > 0.5 && direction.length_squared() > 0.5;
+            defined.then(|| cosfly_frames::real::acos((-toward.dot(*direction)).clamp(-1.0, 1.0)).to_degrees())
+        })
+        .collect();
+    if angles.is_empty() { 0.0 } else { angles.iter().sum::<f64>() / angles.len() as f64 }
+}
+
+/// Every term's cost, frame by frame.
+pub fn term_costs(terms: &[WeightedTerm], waypoints: &[DVec3], context: &TermContext<'_>) -> Vec<TermCost> {
+    terms
+        .iter()
+        .map(|weighted| {
+            let mut per_frame = vec![0.0; waypoints.len()];
+            weighted.term.cost(waypoints, context, &mut per_frame);
+            TermCost {
+                name: weighted.term.name().to_owned(),
+                weight: weighted.weight,
+                sum: per_frame.iter().sum(),
+                per_frame,
+            }
+        })
+        .collect()
+}

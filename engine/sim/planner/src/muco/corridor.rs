@@ -1,0 +1,142 @@
+//! The safe corridor: half-spaces around each frame in which every straight flight is free.
+//!
+//! For a segment and a box near it, the plane through the box's closest point separates them. If both ends of
+//! the segment stay on its free side by the clearance, so does all between: swept safety by construction, for
+//! turned boxes too. Planes of the boxes' shadows keep the line of sight open in the same way, as wishes.
+
+use crate::obstacles::{Surroundings, local::LocalObstacles, solid::HalfSpace};
+use cosfly_frames::{DVec3, TargetTrack};
+
+/// How far a waypoint may move from where its planes were taken, metres.
+pub const TRUST_M: f64 = 4.0;
+/// Distance wished between the line of sight and the edge of a shadow, metres.
+const SIGHT_MARGIN_M: f64 = 0.4;
+/// A waypoint deeper in shadow than this is not pulled, metres: the way out is likely the wrong one.
+const HOPELESS_M: f64 = 1.5;
+/// Body points whose lines of sight are kept open: ankle, middle, head, shoulders.
+const GUARDED_POINTS: [usize; 5] = [0, 2, 5, 6, 7];
+
+/// The half-spaces of one frame.
+#[derive(Clone)]
+pub struct FrameCorridor {
+    center: DVec3,
+    /// Must hold.
+    pub hard: Vec<HalfSpace>,
+    /// Should hold.
+    pub soft: Vec<HalfSpace>,
+}
+
+/// What the corridor is built from.
+pub struct CorridorInput<'a> {
+    /// The target.
+    pub track: &'a TargetTrack,
+    /// Planning boxes.
+    pub obstacles: &'a LocalObstacles<'a>,
+    /// Distance kept from them, metres.
+    pub keep_out_m: f64,
+    /// Lowest altitude above the ground, metres.
+    pub min_altitude_m: f64,
+    /// Waypoints whose lines of sight are worth keeping.
+    pub wished: &'a [DVec3],
+    /// Planes found by looking at the unsimplified map, per frame.
+    pub learned: &'a [Vec<HalfSpace>],
+}
+
+/// Builds the corridor around `waypoints`.
+pub fn build(input: &CorridorInput<'_>, waypoints: &[DVec3]) -> Vec<FrameCorridor> {
+    let mut corridor: Vec<FrameCorridor> =
+        waypoints.iter().map(|&center| FrameCorridor { center, hard: Vec::new(), soft: Vec::new() }).collect();
+    for frame in 0..waypoints.len() {
+        add_separations(input, waypoints, frame, &mut corridor);
+        add_floor(input, waypoints[frame], frame, &mut corridor[frame]);
+        add_sight(input, waypoints[frame], frame, &mut corridor[frame]);
+        corridor[frame].hard.extend_from_slice(&input.learned[frame]);
+    }
+    corridor
+}
+
+fn add_separations(input: &CorridorInput<'_>, waypoints: &[DVec3], frame: usize, corridor: &mut [FrameCorridor]) {
+    let last = (frame + 1).min(waypoints.len() - 1);
+    let (from, to) = (waypoints[frame], waypoints[last]);
+    let (low, high) = (from.min(to), from.max(to));
+    let reach = input.keep_out_m + TRUST_M;
+    for solid in input.obstacles.at_frame(frame) {
+        if solid.bounds_gap_m(low, high) > reach {
+            continue;
+        }
+        let approach = solid.approach(from, to);
+        if approach.distance_m > reach {
+            continue;
+        }
+        let mut plane = approach.separation;
+        plane.offset_m += input.keep_out_m;
+        corridor[frame].hard.push(plane);
+        if last != frame {
+            corridor[last].hard.push(plane);
+        }
+    }
+}
+
+/// The floor is level at the height of the ground under the waypoint; a waypoint that is already lower (the
+/// search found nothing better) keeps its height.
+fn add_floor(input: &CorridorInput<'_>, waypoint: DVec3, frame: usize, corridor: &mut FrameCorridor) {
+    let feet_z = input.track.states[frame].feet_in_world.z;
+    let floor = input.obstacles.ground_z_m(waypoint.x, waypoint.y).max(feet_z) + input.min_altitude_m;
+    corridor.hard.push(HalfSpace { normal: DVec3::Z, offset_m: floor.min(waypoint.z) });
+}
+
+/// One plane per box: that of the body point which the box hides most.
+fn add_sight(input: &CorridorInput<'_>, waypoint: DVec3, frame: usize, corridor: &mut FrameCorridor) {
+    let body = input.obstacles.body(frame);
+    let wished = input.wished[frame];
+    let (low, high) = (body[0].min(waypoint).min(wished), body[5].max(waypoint).max(wished));
+    for solid in input.obstacles.at_frame(frame) {
+        if solid.bounds_gap_m(low, high) > 0.0 {
+            continue;
+        }
+        let worst = |point: DVec3| {
+            GUARDED_POINTS.iter().filter_map(|&k| solid.lit_side(body[k], point)).min_by(|a, b| a.0.total_cmp(&b.0))
+        };
+        let Some((mut slack, mut plane)) = worst(waypoint) else { continue };
+        if slack < 0.0 {
+            // From the shadow, the way back to where it was lit is better known than the nearest way out.
+            if let Some(lit) = worst(wished).filter(|(wished_slack, _)| *wished_slack > 0.0) {
+                (slack, plane) = (lit.1.slack_m(waypoint), lit.1);
+                slack = slack.max(-HOPELESS_M);
+            }
+        }
+        if slack >= -HOPELESS_M && slack < SIGHT_MARGIN_M + TRUST_M {
+            plane.offset_m += SIGHT_MARGIN_M;
+            corridor.soft.push(plane);
+        }
+    }
+}
+
+impl FrameCorridor {
+    /// The point that balances being near `point` with the half-spaces: hard ones hold (nearly), soft
+    /// ones are approached by `soft_share` of what is missing.
+    pub fn pull_in(&self, point: DVec3, soft_share: f64) -> DVec3 {
+        let mut p = point;
+        for plane in &self.soft {
+            let missing = -plane.slack_m(p);
+            if missing > 0.0 {
+                p += soft_share * missing * plane.normal;
+            }
+        }
+        p = self.center + (p - self.center).clamp_length_max(TRUST_M);
+        for _ in 0..10 {
+            let worst =
+                self.hard.iter().map(|plane| (plane.slack_m(p), plane.normal)).min_by(|a, b| a.0.total_cmp(&b.0));
+            match worst {
+                Some((slack, normal)) if slack < -1e-6 => p -= slack * normal,
+                _ => break,
+            }
+        }
+        p
+    }
+
+    /// Largest violation of the hard half-spaces, metres.
+    pub fn violation_m(&self, point: DVec3) -> f64 {
+        self.hard.iter().map(|plane| -plane.slack_m(point)).fold(0.0, f64::max)
+    }
+}

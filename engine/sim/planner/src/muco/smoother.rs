@@ -1,0 +1,156 @@
+//! The flyable path nearest to a wished one: a banded quadratic programme in the safe corridor, by ADMM.
+//!
+//! Minimise `sum q |x - wished|^2 + a |D2 x|^2 + j |D3 x|^2` subject to the corridor's half-spaces and to
+//! `|D1 x|`, `|D2 x|`, `|D3 x|` within the limits of speed, acceleration and jerk. The splitting keeps every
+//! constraint in a copy that is cheap to project: balls for the differences, planes for the positions.
+
+use super::banded::{Banded, Factor, add_transposed, differences};
+use super::corridor::{self, CorridorInput, FrameCorridor};
+use crate::obstacles::Surroundings;
+use crate::trajectory::Limits;
+use cosfly_frames::DVec3;
+
+/// Rounds of planes and programme.
+const ROUNDS: usize = 4;
+/// Iterations of one programme.
+const ITERATIONS: usize = 160;
+/// Iterations between looks at whether all holds.
+const CHECK_EVERY: usize = 10;
+/// The programme aims at this share of each limit, so that what is left of it holds the limit.
+const AIM_SHARE: f64 = 0.97;
+/// Penalties of the copies: position, speed, acceleration, jerk.
+const PENALTY: [f64; 4] = [1.0, 0.5, 2.0, 4.0];
+/// Over-relaxation.
+const RELAXATION: f64 = 1.6;
+/// Share of a missing line of sight that one projection mends.
+const SIGHT_SHARE: f64 = 0.6;
+
+/// Weights of the programme's objective.
+#[derive(Clone, Copy)]
+pub struct Objective {
+    /// Nearness to the wished waypoints.
+    pub nearness: f64,
+    /// Acceleration.
+    pub acceleration: f64,
+    /// Jerk.
+    pub jerk: f64,
+}
+
+/// Result of smoothing.
+pub struct Smoothed {
+    /// One per frame.
+    pub waypoints: Vec<DVec3>,
+    /// Iterations of the programme, all rounds.
+    pub iterations: u32,
+}
+
+/// Smooths `wished` (from the nearby safe path `start`) to the limits.
+pub fn smooth(input: &CorridorInput<'_>, start: &[DVec3], limits: &Limits, objective: Objective) -> Smoothed {
+    let dt = input.track.dt_s;
+    let reach = [limits.speed_mps * dt, limits.acceleration_mps2 * dt * dt, limits.jerk_mps3 * dt * dt * dt];
+    let mut waypoints = start.to_vec();
+    let mut nearness = vec![objective.nearness; start.len()];
+    let mut iterations = 0;
+    for round in 0..ROUNDS {
+        let corridor = corridor::build(input, &waypoints);
+        let mut programme = Programme::new(&nearness, objective, input.wished, &waypoints, reach);
+        iterations += programme.run(&corridor);
+        waypoints = programme.x;
+        if round + 1 < ROUNDS {
+            hold_on_where_sight_was_lost(input, &waypoints, &mut nearness);
+        }
+    }
+    Smoothed { waypoints, iterations }
+}
+
+/// Frames that were seen better from where they were wished are drawn there more strongly.
+fn hold_on_where_sight_was_lost(input: &CorridorInput<'_>, waypoints: &[DVec3], nearness: &mut [f64]) {
+    for (frame, weight) in nearness.iter_mut().enumerate() {
+        let now = input.obstacles.visibility(frame, waypoints[frame]);
+        if now < 1.0 && now < input.obstacles.visibility(frame, input.wished[frame]) {
+            *weight *= 4.0;
+        }
+    }
+}
+
+struct Programme<'a> {
+    wished: &'a [DVec3],
+    nearness: &'a [f64],
+    reach: [f64; 3],
+    factor: Factor,
+    x: Vec<DVec3>,
+    /// Copies of position and the three differences, and their scaled multipliers.
+    copy: [Vec<DVec3>; 4],
+    multiplier: [Vec<DVec3>; 4],
+}
+
+impl<'a> Programme<'a> {
+    fn new(nearness: &'a [f64], objective: Objective, wished: &'a [DVec3], start: &[DVec3], reach: [f64; 3]) -> Self {
+        let diagonal: Vec<f64> = nearness.iter().map(|q| q + PENALTY[0]).collect();
+        let mut matrix = Banded::diagonal(&diagonal);
+        matrix.add_differences(1, PENALTY[1]);
+        matrix.add_differences(2, PENALTY[2] + objective.acceleration);
+        matrix.add_differences(3, PENALTY[3] + objective.jerk);
+        let mut copy: [Vec<DVec3>; 4] = [start.to_vec(), Vec::new(), Vec::new(), Vec::new()];
+        for order in 1..=3 {
+            differences(order, start, &mut copy[order]);
+        }
+        let multiplier = core::array::from_fn(|k| vec![DVec3::ZERO; copy[k].len()]);
+        Self { wished, nearness, reach, factor: matrix.factor(), x: start.to_vec(), copy, multiplier }
+    }
+
+    /// Iterates until everything holds or the iterations are used up; returns how many it took.
+    fn run(&mut self, corridor: &[FrameCorridor]) -> u32 {
+        let mut row = Vec::new();
+        for iteration in 1..=ITERATIONS {
+            self.solve_for_x();
+            for order in 0..4 {
+                if order == 0 {
+                    row.clone_from(&self.x);
+                } else {
+                    differences(order, &self.x, &mut row);
+                }
+                self.update_copy(order, &row, corridor);
+            }
+            if iteration >= ITERATIONS / 2 && iteration % CHECK_EVERY == 0 && self.holds(corridor) {
+                return iteration as u32;
+            }
+        }
+        ITERATIONS as u32
+    }
+
+    fn solve_for_x(&mut self) {
+        for (i, x) in self.x.iter_mut().enumerate() {
+            *x = self.nearness[i] * self.wished[i] + PENALTY[0] * (self.copy[0][i] - self.multiplier[0][i]);
+        }
+        for order in 1..=3 {
+            let pulled: Vec<DVec3> =
+                self.copy[order].iter().zip(&self.multiplier[order]).map(|(copy, m)| *copy - *m).collect();
+            add_transposed(order, &pulled, PENALTY[order], &mut self.x);
+        }
+        self.factor.solve(&mut self.x);
+    }
+
+    fn update_copy(&mut self, order: usize, row: &[DVec3], corridor: &[FrameCorridor]) {
+        for (i, &value) in row.iter().enumerate() {
+            let relaxed = RELAXATION * value + (1.0 - RELAXATION) * self.copy[order][i];
+            let asked = relaxed + self.multiplier[order][i];
+            let allowed = if order == 0 {
+                corridor[i].pull_in(asked, SIGHT_SHARE)
+            } else {
+                asked.clamp_length_max(AIM_SHARE * self.reach[order - 1])
+            };
+            self.copy[order][i] = allowed;
+            self.multiplier[order][i] = asked - allowed;
+        }
+    }
+
+    fn holds(&self, corridor: &[FrameCorridor]) -> bool {
+        let mut row = Vec::new();
+        let smooth = (1..=3).all(|order| {
+            differences(order, &self.x, &mut row);
+            row.iter().all(|value| value.length() <= 0.995 * self.reach[order - 1])
+        });
+        smooth && self.x.iter().zip(corridor).all(|(x, frame)| frame.violation_m(*x) < 0.02)
+    }
+}

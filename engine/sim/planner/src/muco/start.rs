@@ -1,0 +1,173 @@
+//! The start of a flight: lattice, global search, interpolation, and a look at what lies between the nodes
+//! (paper, algorithm 2, made global).
+
+use super::descent::Problem;
+use super::lattice::{Lattice, NodeState, UNSAFE};
+use super::viterbi::{MoveCosts, NodeCosts, Viterbi};
+use crate::config::MucoConfig;
+use crate::obstacles::local::LocalObstacles;
+use crate::terms::{altitude::band_cost, pitch, tracking, viewpoint};
+use crate::weights::Weights;
+use cosfly_frames::{DVec3, TargetTrack, real};
+
+/// Searches that may be needed to go round nodes whose connections are not free.
+const MAX_SEARCHES: usize = 12;
+/// A connection counts as cut when its clearance is below this share of the limit; the smoother mends the rest.
+const CUT_SHARE: f64 = 0.4;
+/// Cost of a viewpoint outside the sector behind the walker.
+const OUTSIDE_SECTOR: f64 = 30.0;
+/// Visibility weighs this much more than in the sum of the terms, because a node is all or nothing.
+const VISIBILITY_FACTOR: f64 = 2.5;
+
+/// How one search differs from the recipe's when that fails.
+#[derive(Clone, Copy)]
+pub struct Effort {
+    /// Multiplies the number of azimuths.
+    pub azimuth_factor: u32,
+    /// Multiplies the cost of motion.
+    pub motion_factor: f64,
+    /// Distance kept from obstacles by nodes, metres.
+    pub keep_out_m: f64,
+}
+
+/// A start: one waypoint per frame, free of obstacles at least at the keyframes.
+pub fn search(
+    problem: &Problem<'_>,
+    obstacles: &LocalObstacles<'_>,
+    config: &MucoConfig,
+    effort: Effort,
+) -> Result<Vec<DVec3>, String> {
+    let track = problem.track;
+    let mut settings = config.search.clone();
+    settings.azimuths = (settings.azimuths * effort.azimuth_factor).min(360);
+    let lattice = Lattice::new(&settings, &config.view);
+    let stride = settings.keyframe_frames as usize;
+    let mut frames: Vec<usize> = (0..track.len()).step_by(stride).collect();
+    if frames.last() != Some(&(track.len() - 1)) {
+        frames.push(track.len() - 1);
+    }
+    let mut states = vec![0 as NodeState; lattice.nodes() * frames.len()];
+    for (&frame, row) in frames.iter().zip(states.chunks_exact_mut(lattice.nodes())) {
+        lattice.evaluate(frame, track, obstacles, effort.keep_out_m, row);
+    }
+    let costs = node_costs(problem, obstacles, &lattice, &frames, config);
+    let moves = MoveCosts {
+        relative: effort.motion_factor * settings.relative_motion / stride as f64,
+        absolute: effort.motion_factor * settings.absolute_motion / stride as f64,
+        longest_m: config.limits.speed_mps * track.dt_s * stride as f64,
+    };
+    let mut viterbi = Viterbi::new(&lattice, track, &frames, states, costs, moves);
+    let mut changed = 0;
+    for _ in 0..MAX_SEARCHES {
+        let nodes = viterbi.solve(changed).map_err(|layer| {
+            format!(
+                "no free viewpoint can be reached at frame {}: obstacles leave no room around the target",
+                frames[layer]
+            )
+        })?;
+        let waypoints = interpolate(&lattice, track, &frames, &nodes);
+        let cut = cut_layers(obstacles, &waypoints, &frames, CUT_SHARE * config.limits.clearance_m);
+        let Some(&first) = cut.first() else { return Ok(waypoints) };
+        for layer in cut {
+            viterbi.states[layer * lattice.nodes() + nodes[layer]] = UNSAFE;
+        }
+        changed = first;
+    }
+    Err("no way between the free viewpoints was found that keeps out of obstacles".to_owned())
+}
+
+/// Layers whose connection from the layer before comes too near an obstacle.
+fn cut_layers(obstacles: &LocalObstacles<'_>, waypoints: &[DVec3], frames: &[usize], keep_m: f64) -> Vec<usize> {
+    let cut = |layer: &usize| {
+        (frames[*layer - 1]..frames[*layer])
+            .any(|i| obstacles.segment_clearance_m(i, waypoints[i], waypoints[i + 1], keep_m) < keep_m)
+    };
+    (1..frames.len()).filter(cut).collect()
+}
+
+/// Offsets between keyframes: linear in azimuth, altitude and radius.
+fn interpolate(lattice: &Lattice, track: &TargetTrack, frames: &[usize], nodes: &[usize]) -> Vec<DVec3> {
+    let mut waypoints = vec![DVec3::ZERO; track.len()];
+    let step = real::TAU / lattice.directions.len() as f64;
+    for (pair, ends) in frames.windows(2).zip(nodes.windows(2)) {
+        let ((a0, h0, r0), (a1, h1, r1)) = (lattice.split(ends[0]), lattice.split(ends[1]));
+        let turn = real::wrap_angle_rad((a1 as f64 - a0 as f64) * step);
+        for (frame, waypoint) in waypoints.iter_mut().enumerate().take(pair[1]).skip(pair[0]) {
+            let t = (frame - pair[0]) as f64 / (pair[1] - pair[0]) as f64;
+            let between = |values: &[f64], from: usize, to: usize| values[from] + t * (values[to] - values[from]);
+            let (sin, cos) = real::sin_cos(a0 as f64 * step + t * turn);
+            let radius = between(&lattice.radii_m, r0, r1);
+            let up = between(&lattice.altitudes_m, h0, h1);
+            *waypoint = track.states[frame].feet_in_world + DVec3::new(cos * radius, sin * radius, up);
+        }
+    }
+    if let (Some(last), Some(&node), Some(state)) = (waypoints.last_mut(), nodes.last(), track.states.last()) {
+        *last = state.feet_in_world + lattice.offset(node);
+    }
+    waypoints
+}
+
+fn node_costs(
+    problem: &Problem<'_>,
+    obstacles: &LocalObstacles<'_>,
+    lattice: &Lattice,
+    frames: &[usize],
+    config: &MucoConfig,
+) -> NodeCosts {
+    let weights: Weights = config.resolved_weights();
+    let radii = lattice.radii_m.len();
+    let lane = |lane: usize| {
+        let (up, across) = (lattice.altitudes_m[lane / radii], lattice.radii_m[lane % radii]);
+        let offset = DVec3::new(across, 0.0, up);
+        let view = problem.view;
+        let cost = weights.tracking * tracking::distance_cost(offset.length(), view.distance_m)
+            + weights.pitch * pitch::pitch_cost(pitch::pitch_below_horizon_deg(offset), view.pitch_deg).0
+            + weights.altitude * band_cost(up, up, view.min_altitude_m, view.preferred_altitude_m);
+        cost as f32
+    };
+    let sector = real::cos(config.view.rear_sector_deg.to_radians());
+    let azimuth = |frame: usize, direction: &DVec3| {
+        let cosine = direction.truncate().dot(problem.walk.direction[frame]);
+        let outside = -cosine < sector - 1e-9 && problem.walk.directness[frame] > 0.0;
+        let front = weights.viewpoint * viewpoint::front_cost(cosine) * problem.walk.directness[frame];
+        (front + if outside { OUTSIDE_SECTOR } else { 0.0 }) as f32
+    };
+    NodeCosts {
+        visibility: core::array::from_fn(|seen| {
+            let hidden = 1.0 - seen as f64 / 8.0;
+            (VISIBILITY_FACTOR * weights.visibility * (0.7 * hidden + 0.3 * hidden * hidden)) as f32
+        }),
+        close: (4.0 * weights.safety) as f32,
+        lane: (0..lattice.lanes()).map(lane).collect(),
+        azimuth: frames.iter().map(|&f| lattice.directions.iter().map(|d| azimuth(f, d)).collect()).collect(),
+        extra: extra_costs(problem, obstacles, lattice, frames),
+    }
+}
+
+/// Terms that are not built in join the search as the cost of hovering at each node throughout.
+fn extra_costs(
+    problem: &Problem<'_>,
+    obstacles: &LocalObstacles<'_>,
+    lattice: &Lattice,
+    frames: &[usize],
+) -> Vec<Vec<f32>> {
+    let extra: Vec<_> = problem.terms.iter().skip(problem.built_in).filter(|term| term.weight > 0.0).collect();
+    if extra.is_empty() {
+        return Vec::new();
+    }
+    let mut costs = vec![vec![0.0_f32; lattice.nodes()]; frames.len()];
+    let context = problem.context(obstacles);
+    let mut per_frame = vec![0.0; problem.track.len()];
+    for node in 0..lattice.nodes() {
+        let offset = lattice.offset(node);
+        let hover: Vec<DVec3> = problem.track.states.iter().map(|state| state.feet_in_world + offset).collect();
+        for weighted in &extra {
+            weighted.term.cost(&hover, &context, &mut per_frame);
+            for (layer, &frame) in costs.iter_mut().zip(frames) {
+                let cost = (weighted.weight * per_frame[frame]) as f32;
+                layer[node] += if cost.is_finite() { cost } else { f32::INFINITY };
+            }
+        }
+    }
+    costs
+}

@@ -1,0 +1,196 @@
+//! Per-path obstacle filtering: the planning boxes near each stretch of the path (paper, section 3.3).
+
+use super::{Surroundings, ground::GroundGrid, solid::Solid};
+use crate::visibility::{BODY_POINTS, body_points};
+use cosfly_frames::{DVec3, TargetTrack};
+use cosfly_geometry::OrientedBox;
+
+/// Frames that share one list of boxes.
+const FRAMES_PER_LIST: usize = 8;
+/// Frames that share one coarse list, from which the fine ones are drawn.
+const FRAMES_PER_COARSE_LIST: usize = 128;
+/// How far a query may be from its frame's centre while the frame's short lists are still complete, metres.
+const FOCUS_M: f64 = 2.6;
+
+/// The boxes near a track, with short lists per frame around a current set of waypoints.
+pub struct LocalObstacles<'a> {
+    solids: Vec<Solid>,
+    lists: Vec<Vec<u32>>,
+    body: Vec<[DVec3; BODY_POINTS]>,
+    ground: &'a GroundGrid,
+    influence_m: f64,
+    focus: Vec<Focus>,
+}
+
+/// The boxes that matter while a waypoint stays within [`FOCUS_M`] of `center`.
+#[derive(Clone, Default)]
+struct Focus {
+    center: DVec3,
+    /// May stand between waypoint and body.
+    between: Vec<u32>,
+    /// May be nearer than the safety influence radius.
+    near: Vec<u32>,
+}
+
+impl<'a> LocalObstacles<'a> {
+    /// Keeps the boxes within `radius_m` (from above) of the track. Boxes that are not finite are left out.
+    pub fn filter(
+        track: &TargetTrack,
+        boxes: &[OrientedBox],
+        ground: &'a GroundGrid,
+        radius_m: f64,
+        influence_m: f64,
+    ) -> Self {
+        let all: Vec<Solid> = boxes
+            .iter()
+            .filter(|shape| {
+                shape.center_in_world.is_finite() && shape.half_extents_m.is_finite() && shape.yaw_rad.is_finite()
+            })
+            .map(Solid::new)
+            .collect();
+        let everything: Vec<u32> = (0..all.len() as u32).collect();
+        let mut new_index = vec![u32::MAX; all.len()];
+        let (mut solids, mut lists) = (Vec::new(), Vec::new());
+        for coarse_frames in track.states.chunks(FRAMES_PER_COARSE_LIST) {
+            let coarse = near_from_above(&all, &everything, coarse_frames, radius_m);
+            for frames in coarse_frames.chunks(FRAMES_PER_LIST) {
+                let mut list = near_from_above(&all, &coarse, frames, radius_m);
+                for index in &mut list {
+                    let slot = &mut new_index[*index as usize];
+                    if *slot == u32::MAX {
+                        *slot = solids.len() as u32;
+                        solids.push(all[*index as usize]);
+                    }
+                    *index = *slot;
+                }
+                lists.push(list);
+            }
+        }
+        let body = track.states.iter().map(|state| body_points(state, track.height_m)).collect();
+        Self { solids, lists, body, ground, influence_m, focus: Vec::new() }
+    }
+
+    /// Number of boxes that the filter left.
+    pub fn count(&self) -> usize {
+        self.solids.len()
+    }
+
+    /// The boxes that matter at `frame`.
+    pub fn at_frame(&self, frame: usize) -> impl Iterator<Item = &Solid> {
+        self.lists[frame / FRAMES_PER_LIST].iter().map(|&index| &self.solids[index as usize])
+    }
+
+    /// The body points at `frame`.
+    pub fn body(&self, frame: usize) -> &[DVec3; BODY_POINTS] {
+        &self.body[frame]
+    }
+
+    /// Makes the short lists right for queries near `waypoints`; call it before a round of many queries.
+    pub fn focus_on(&mut self, waypoints: &[DVec3]) {
+        let mut focus = core::mem::take(&mut self.focus);
+        focus.resize(waypoints.len(), Focus { center: DVec3::NAN, ..Focus::default() });
+        for (frame, (&center, slot)) in waypoints.iter().zip(&mut focus).enumerate() {
+            // Room is kept for the difference step and for some iterations of movement.
+            if slot.center.distance(center) < FOCUS_M - 1.2 {
+                continue;
+            }
+            self.focus_frame(frame, center, slot);
+        }
+        self.focus = focus;
+    }
+
+    fn focus_frame(&self, frame: usize, center: DVec3, slot: &mut Focus) {
+        slot.center = center;
+        slot.between.clear();
+        slot.near.clear();
+        let body = self.body[frame];
+        let middle = 0.5 * (body[0] + body[5]);
+        let body_radius = body.iter().map(|point| point.distance(middle)).fold(0.0, f64::max);
+        let (low, high) = (middle.min(center), middle.max(center));
+        let reach = FOCUS_M.max(body_radius);
+        for &index in &self.lists[frame / FRAMES_PER_LIST] {
+            let solid = &self.solids[index as usize];
+            if solid.bounds_gap_m(low, high) <= reach && solid.approach(middle, center).distance_m <= reach {
+                slot.between.push(index);
+            }
+            if solid.bounds_gap_m(center, center) <= self.influence_m + FOCUS_M {
+                slot.near.push(index);
+            }
+        }
+    }
+
+    fn in_focus(&self, frame: usize, position: DVec3) -> Option<&Focus> {
+        self.focus.get(frame).filter(|focus| focus.center.distance(position) <= FOCUS_M)
+    }
+
+    /// Smallest distance of the segment from frame `frame` to the next, capped at `within_m`.
+    pub fn segment_clearance_m(&self, frame: usize, from: DVec3, to: DVec3, within_m: f64) -> f64 {
+        let (low, high) = (from.min(to), from.max(to));
+        let mut smallest = within_m;
+        for solid in self.at_frame(frame) {
+            if solid.bounds_gap_m(low, high) < smallest {
+                smallest = smallest.min(solid.approach(from, to).distance_m);
+            }
+        }
+        smallest
+    }
+}
+
+/// The boxes of `candidates` within `radius_m` of the frames' bounding rectangle.
+fn near_from_above(
+    solids: &[Solid],
+    candidates: &[u32],
+    frames: &[cosfly_frames::TargetState],
+    radius_m: f64,
+) -> Vec<u32> {
+    let mut low = frames[0].feet_in_world;
+    let mut high = low;
+    for state in frames {
+        low = low.min(state.feet_in_world);
+        high = high.max(state.feet_in_world);
+    }
+    let near = |solid: &Solid| {
+        let x = (solid.min.x - high.x).max(low.x - solid.max.x).max(0.0);
+        let y = (solid.min.y - high.y).max(low.y - solid.max.y).max(0.0);
+        x * x + y * y <= radius_m * radius_m
+    };
+    candidates.iter().copied().filter(|&index| near(&solids[index as usize])).collect()
+}
+
+impl Surroundings for LocalObstacles<'_> {
+    fn visibility(&self, frame: usize, position: DVec3) -> f64 {
+        let list = match self.in_focus(frame, position) {
+            Some(focus) => &focus.between,
+            None => &self.lists[frame / FRAMES_PER_LIST],
+        };
+        let seen = self.body[frame]
+            .iter()
+            .filter(|&&point| !list.iter().any(|&index| self.solids[index as usize].meets_segment(point, position)))
+            .count();
+        seen as f64 / BODY_POINTS as f64
+    }
+
+    fn nearest(&self, frame: usize, position: DVec3, within_m: f64) -> Option<(f64, DVec3)> {
+        let list = match self.in_focus(frame, position) {
+            Some(focus) if within_m <= self.influence_m => &focus.near,
+            _ => &self.lists[frame / FRAMES_PER_LIST],
+        };
+        let mut best: Option<(f64, DVec3)> = None;
+        let mut limit = within_m;
+        for &index in list {
+            let solid = &self.solids[index as usize];
+            if solid.bounds_gap_m(position, position) < limit.max(1e-12) || limit <= 0.0 {
+                let found = solid.signed_distance(position);
+                if found.0 < limit {
+                    limit = found.0;
+                    best = Some(found);
+                }
+            }
+        }
+        best
+    }
+
+    fn ground_z_m(&self, x_m: f64, y_m: f64) -> f64 {
+        self.ground.z_m(x_m, y_m)
+    }
+}

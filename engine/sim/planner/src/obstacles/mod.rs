@@ -1,0 +1,23 @@
+//! What stands around a path: the boxes near it, asked frame by frame.
+//!
+//! [`Surroundings`] is what cost terms see. [`local::LocalObstacles`] answers from the planning boxes while
+//! the solver runs; [`exact::ExactObstacles`] answers from the unsimplified map when the result is judged.
+
+pub mod exact;
+pub mod ground;
+pub mod local;
+pub mod solid;
+
+use cosfly_frames::DVec3;
+
+/// Visibility and distance around each frame's waypoint. World frame, metres.
+pub trait Surroundings {
+    /// Share of the target's body points at `frame` that a camera at `position` sees, 0..=1.
+    fn visibility(&self, frame: usize, position: DVec3) -> f64;
+
+    /// Signed distance to the nearest obstacle and the direction away from it, when below `within_m`.
+    fn nearest(&self, frame: usize, position: DVec3, within_m: f64) -> Option<(f64, DVec3)>;
+
+    /// Height of the ground at a place.
+    fn ground_z_m(&self, x_m: f64, y_m: f64) -> f64;
+}
