@@ -2,7 +2,7 @@
 
 use crate::document::{Node, Place, Problems, Texts, Value, list};
 use crate::outline::StageOutline;
-use crate::parameters::{Subject, check_parameters};
+use crate::parameters::{Subject, allowed_values, check_parameters, resolve};
 use cosfly_diagnose::{Diagnostic, nearest_name};
 use cosfly_stage::{InputPort, ParameterError, PortSource, Registry, Stage, StageKind};
 use std::collections::BTreeMap;
@@ -138,14 +138,35 @@ fn has_refused(node: &Node) -> bool {
     }
 }
 
-/// Kinds whose stages make `artifact` with their default parameters; for hints.
+/// Kinds whose stages make `artifact` with their default parameters (required ones invented); for hints.
 pub(crate) fn kinds_that_make(registry: &Registry, artifact: &str) -> Vec<&'static str> {
     registry
         .iter()
         .filter(|kind| {
-            let parts = kind.build(serde_json::json!({}));
+            let parts = kind.build(smallest_parameters(&kind.schema()));
             parts.is_ok_and(|parts| parts.last().is_some_and(|part| part.stage.properties().artifact == artifact))
         })
         .map(StageKind::name)
         .collect()
+}
+
+/// A value for every required parameter.
+fn smallest_parameters(schema: &serde_json::Value) -> serde_json::Value {
+    let required = schema.get("required").and_then(serde_json::Value::as_array).into_iter().flatten();
+    let parameters: serde_json::Map<_, _> = required
+        .filter_map(serde_json::Value::as_str)
+        .map(|key| {
+            let rule = resolve(schema, &schema["properties"][key]);
+            let value = match rule.get("type").and_then(serde_json::Value::as_str) {
+                _ if !allowed_values(schema, rule).is_empty() => allowed_values(schema, rule)[0].0.clone(),
+                Some("integer" | "number") => rule.get("minimum").cloned().unwrap_or_else(|| 1.into()),
+                Some("boolean") => false.into(),
+                Some("array") => serde_json::json!([]),
+                Some("object") => serde_json::json!({}),
+                _ => "x".into(),
+            };
+            (key.to_owned(), value)
+        })
+        .collect();
+    parameters.into()
 }

@@ -51,7 +51,13 @@ fn report_cycles(outline: &Outline, reads: &Reads, waits: &[BTreeSet<usize>], te
             stage = *waits[stage].first().expect("a stage that waits waits for a stage that waits");
         }
         if let Some(first) = walk.iter().position(|walked| *walked == stage) {
-            problems.push(cycle(outline, reads, &walk[first..], texts));
+            let problem = cycle(outline, reads, &walk[first..], texts);
+            // What would flow round the circle is no news.
+            problems.retain(|known| {
+                known.code != "recipe-artifact-mismatch"
+                    || !problem.labels.iter().any(|label| known.labels[0].span == label.span)
+            });
+            problems.push(problem);
         }
     }
 }
@@ -74,5 +80,8 @@ fn cycle(outline: &Outline, reads: &Reads, stages: &[usize], texts: &Texts) -> B
             problem = problem.at(texts.label(place, format!("`{}` reads it", outline.stages[stage].name)));
         }
     }
-    problem.hint("connect one of them to a stage outside the circle")
+    problem.hint(match stages {
+        [_] => "connect it to another stage",
+        _ => "connect one of them to a stage outside the circle",
+    })
 }

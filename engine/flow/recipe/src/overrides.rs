@@ -38,7 +38,8 @@ fn read(argument: &str, text: usize, texts: &Texts, problems: &mut Problems) -> 
         let place = Place::new(text, from..from + key.len());
         start += piece.len() + 1;
         if key.is_empty() || !key.bytes().all(|byte| byte.is_ascii_alphanumeric() || byte == b'_' || byte == b'-') {
-            let problem = texts.problem("override-syntax", &place, format!("`{key}` is not a key"));
+            let message = if key.is_empty() { "a key is empty".to_owned() } else { format!("`{key}` is not a key") };
+            let problem = texts.problem("override-syntax", &place, message);
             problems.push(problem.hint("keys are letters, digits, `_` and `-`, joined by dots"));
             return None;
         }

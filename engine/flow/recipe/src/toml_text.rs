@@ -1,6 +1,7 @@
 //! TOML text into the spanned tree; the only place that knows the `toml` crate.
 
 use crate::document::{Entry, Node, Place, Problems, Table, Texts, Value};
+use cosfly_diagnose::Diagnostic;
 use std::ops::Range;
 use toml::Spanned;
 use toml::de::{DeTable, DeValue, Error};
@@ -80,20 +81,46 @@ fn check_size(text: &str) -> Result<(), (Range<usize>, String)> {
     Ok(())
 }
 
+/// The first mistake of every line; what follows a broken table header in its table is its echo.
 fn syntax_problems(errors: &[Error], text: &str, texts: &Texts) -> Problems {
     let mut problems = Problems::new();
-    let mut last_line = None;
+    let (mut last_line, mut broken_table) = (None, None);
     for error in errors {
         let span = error.span().unwrap_or(text.len()..text.len());
-        let line = text.get(..span.start).map(|before| before.matches('\n').count());
-        if last_line == Some(line) {
+        let before = text.get(..span.start).unwrap_or(text);
+        let line_start = before.rfind('\n').map_or(0, |newline| newline + 1);
+        let headers = text[..line_start].lines().filter(|line| line.starts_with('[')).count();
+        if last_line == Some(line_start) || broken_table == Some(headers) {
             continue;
         }
-        last_line = Some(line);
-        problems.push(texts.problem("recipe-syntax", &Place::new(0, span), error.message()));
+        last_line = Some(line_start);
+        if text[line_start..].starts_with('[') {
+            broken_table = Some(headers + 1);
+        }
+        let place = Place::new(0, span);
+        problems.push(match error.message() {
+            "duplicate key" => given_twice(&place, line_start, text, texts),
+            message => texts.problem("recipe-syntax", &place, message),
+        });
     }
     problems.truncate(MOST_SYNTAX_ERRORS);
     problems
+}
+
+/// A key that stands twice in its table; shows the first one, too, where a line begins with it.
+fn given_twice(place: &Place, line_start: usize, text: &str, texts: &Texts) -> Box<Diagnostic> {
+    let problem = texts.problem("recipe-syntax", place, format!("`{}` is given twice", texts.written(place)));
+    let Some(key) = text.get(line_start..place.end) else { return problem };
+    let section = if key.starts_with('[') { 0 } else { text[..line_start].rfind("\n[").unwrap_or(0) };
+    let mut start = section;
+    for line in text[section..line_start].split_inclusive('\n') {
+        if line.strip_prefix(key).is_some_and(|rest| rest.starts_with([' ', '\t', '=', '.', ']'])) {
+            let span = start + (place.start - line_start)..start + key.len();
+            return problem.at(texts.label(&Place::new(0, span), "first here"));
+        }
+        start += line.len();
+    }
+    problem
 }
 
 struct TreeReader<'a> {

@@ -34,7 +34,11 @@ impl Wiring<'_> {
                 ports.insert(input.port.clone(), upstreams);
             }
             if let Some(known) = known {
-                let missing = known.ports.iter().filter(|port| !port.optional && !ports.contains_key(port.name));
+                let mistyped = mistyped_ports(stage, &known.ports);
+                let missing = known
+                    .ports
+                    .iter()
+                    .filter(|port| !port.optional && !ports.contains_key(port.name) && !mistyped.contains(&port.name));
                 problems.extend(missing.map(|port| self.missing_input(stage, port)));
             }
             reads.push(ports.values().flatten().cloned().collect());
@@ -69,7 +73,7 @@ impl Wiring<'_> {
             None => problem,
         };
         match known().next() {
-            Some(_) => problem.hint(format!("the other stages are {}", list(known(), 40))),
+            Some(_) => problem.hint(format!("other stages of the recipe: {}", list(known(), 40))),
             None => problem.hint("the recipe has no other stage"),
         }
     }
@@ -96,9 +100,10 @@ impl Wiring<'_> {
             });
             return;
         };
-        if let [_, (second, place), ..] = &input.stages[..]
+        if let [_, (second, place), ..] = upstreams
             && !port.many
         {
+            let second = &self.outline.stages[*second].name;
             let message = format!("`inputs.{}` of `{}` takes one stage; `{second}` is one more", port.name, stage.name);
             problems.push(self.texts.problem("recipe-input-twice", place, message).hint("connect one of them"));
         }
@@ -152,6 +157,13 @@ impl Wiring<'_> {
             _ => problem.hint(format!("stage kinds that make `{}`: {}", port.artifact, list(kinds, 20))),
         }
     }
+}
+
+/// Ports that an unknown one was probably meant to be: they are not reported as missing, too.
+fn mistyped_ports(stage: &StageOutline, ports: &[InputPort]) -> Vec<&'static str> {
+    let names = || ports.iter().map(|port| port.name);
+    let unknown = stage.inputs.iter().filter(|input| names().all(|name| name != input.port));
+    unknown.filter_map(|input| nearest_name(&input.port, names())).collect()
 }
 
 fn sentence(port: &InputPort) -> &str {

@@ -115,10 +115,11 @@ fn tags<'a>(root: &'a Json, candidate: &'a Json) -> Vec<(&'a str, &'a str)> {
 /// The only key of an alternative such as `{ fixed = {...} }`.
 fn externally_tagged<'a>(root: &'a Json, candidate: &'a Json) -> Option<&'a str> {
     let candidate = resolve(root, candidate);
-    let mut keys = candidate.get("properties")?.as_object()?.keys();
+    let properties = candidate.get("properties")?.as_object()?;
+    let mut keys = properties.iter().filter(|(_, rule)| rule.get("const").is_none()).map(|(key, _)| key);
     let required = candidate.get("required")?.as_array()?;
     match (keys.next(), keys.next(), required.len()) {
-        (Some(key), None, 1) => Some(key),
+        (Some(key), None, 1) if properties.len() == 1 => Some(key),
         _ => None,
     }
 }

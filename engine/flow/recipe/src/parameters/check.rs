@@ -2,7 +2,7 @@
 
 use super::alternatives::check_alternatives;
 use super::scalars::{check_allowed, check_list_length, check_number, check_text};
-use super::schema_words::{first_sentence, is_open, resolve, show_json, type_words_of};
+use super::schema_words::{first_sentence, is_open, resolve, rule_at, show_json, type_words_of};
 use crate::document::{Node, Place, Problems, Table, Texts, Value, list};
 use cosfly_diagnose::{Diagnostic, nearest_name};
 use serde_json::Value as Json;
@@ -123,9 +123,7 @@ impl Walk<'_> {
         let given = match &node.value {
             Value::Table(_) | Value::Array(_) => node.type_words().to_owned(),
             Value::Text(_) => format!("the string `{}`", self.texts.written(&node.place)),
-            Value::Float(_) if wanted.contains("whole") => {
-                format!("`{}`, not a whole number", self.texts.written(&node.place))
-            }
+            Value::Float(_) if wanted.contains("whole") => format!("`{}`", self.texts.written(&node.place)),
             _ => format!("`{}`, {}", self.texts.written(&node.place), node.type_words()),
         };
         let problem = self.problem("recipe-wrong-type", &node.place, path, format!("is {given}; it must be {wanted}"));
@@ -145,16 +143,17 @@ impl Walk<'_> {
 
     /// Adds what the parameter means and its default, when the schema says so.
     pub(super) fn documented(&self, problem: Box<Diagnostic>, schema: &Json, path: &[String]) -> Box<Diagnostic> {
-        let Some(sentence) = schema
+        let rule = rule_at(self.root, path).unwrap_or(schema);
+        let Some(sentence) = rule
             .get("description")
-            .or_else(|| resolve(self.root, schema).get("description"))
+            .or_else(|| resolve(self.root, rule).get("description"))
             .and_then(Json::as_str)
             .map(first_sentence)
             .filter(|_| !path.is_empty())
         else {
             return problem;
         };
-        let default = match schema.get("default") {
+        let default = match rule.get("default") {
             Some(default) if !default.is_object() && !default.is_null() => {
                 format!(" (default `{}`)", show_json(default))
             }

@@ -45,7 +45,7 @@ pub(super) fn check_text(
     let length = text.chars().count() as u64;
     let rest = if schema.get("minLength").and_then(Json::as_u64).is_some_and(|least| length < least) {
         match length {
-            0 => "is empty".to_owned(),
+            0 => "is empty; it must not be".to_owned(),
             _ => format!("has {length} characters; it must have at least {}", schema["minLength"]),
         }
     } else if schema.get("maxLength").and_then(Json::as_u64).is_some_and(|most| length > most) {

@@ -21,6 +21,21 @@ pub(crate) fn resolve<'a>(root: &'a Json, schema: &'a Json) -> &'a Json {
     schema
 }
 
+/// The schema's entry for the parameter at `path`, with its own description and default; none inside alternatives.
+pub(super) fn rule_at<'a>(root: &'a Json, path: &[String]) -> Option<&'a Json> {
+    let mut rule = root;
+    for key in path {
+        let target = resolve(root, rule);
+        rule = match key.parse::<usize>() {
+            Ok(index) => {
+                target.get("prefixItems").and_then(|items| items.get(index)).or_else(|| target.get("items"))?
+            }
+            Err(_) => target.get("properties")?.get(key)?,
+        };
+    }
+    Some(rule)
+}
+
 /// Whether tables may have keys that the schema does not list.
 pub(super) fn is_open(schema: &Json) -> bool {
     match schema.get("additionalProperties") {

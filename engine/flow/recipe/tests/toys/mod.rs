@@ -1,0 +1,371 @@
+//! Small stage kinds that declare everything and do nothing.
+
+#![expect(dead_code, reason = "each test file uses its part of the toys")]
+
+use cosfly_recipe::Recipe;
+use cosfly_stage::{
+    Fan, InputPort, Inputs, ItemRule, OutputSink, ParameterError, PortSource, Produced, Registry, Source, Stage,
+    StageKind, StagePart, StageProperties, TaskContext,
+};
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+use std::path::Path;
+
+/// How a crossing is chosen.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum Crossing {
+    /// Anywhere.
+    #[default]
+    Free,
+    /// Only where the ground is painted.
+    ZebraOnly,
+}
+
+/// Either a fixed number or a range, told apart by `kind`.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(tag = "kind", rename_all = "snake_case", deny_unknown_fields)]
+pub enum Pause {
+    /// Never stops.
+    None,
+    /// Stops at random.
+    Random {
+        /// Chance of a stop per second.
+        #[schemars(range(min = 0.0, max = 1.0))]
+        chance: f64,
+    },
+}
+
+/// Walking speed.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(default, deny_unknown_fields)]
+pub struct Speed {
+    /// Slowest speed.
+    #[schemars(extend("exclusiveMinimum" = 0))]
+    pub min_mps: f64,
+    /// Fastest speed. Not below the slowest.
+    #[schemars(range(max = 10.0))]
+    pub max_mps: f64,
+}
+
+impl Default for Speed {
+    fn default() -> Self {
+        Self { min_mps: 0.5, max_mps: 2.0 }
+    }
+}
+
+/// Parameters of the toy walkers.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(default, deny_unknown_fields)]
+pub struct WalkersConfig {
+    /// How many paths. Asking for more renames none.
+    #[schemars(range(min = 1))]
+    pub count: u64,
+    /// Distance kept from obstacles.
+    #[schemars(range(min = 0.0))]
+    pub margin_m: f64,
+    /// Walking speed.
+    pub speed: Speed,
+    /// How streets are crossed.
+    pub crossing: Crossing,
+    /// When they stop.
+    pub pause: Pause,
+    /// A colour as red, green, blue.
+    pub colour: Option<[u8; 3]>,
+    /// Waypoints that every path visits.
+    #[schemars(length(max = 3))]
+    pub visits: Vec<Speed>,
+    /// Name of the crowd.
+    #[schemars(length(min = 1))]
+    pub crowd: String,
+    /// Whether they look around.
+    pub curious: bool,
+}
+
+impl Default for WalkersConfig {
+    fn default() -> Self {
+        Self {
+            count: 4,
+            margin_m: 0.5,
+            speed: Speed::default(),
+            crossing: Crossing::Free,
+            pause: Pause::None,
+            colour: None,
+            visits: vec![],
+            crowd: "people".into(),
+            curious: false,
+        }
+    }
+}
+
+/// Parameters of the toy map.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct MapConfig {
+    /// The town's file.
+    #[schemars(length(min = 1))]
+    pub source: String,
+}
+
+/// No parameters.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct NoConfig {}
+
+pub struct ToyStage(pub StageProperties);
+
+impl Stage for ToyStage {
+    fn properties(&self) -> &StageProperties {
+        &self.0
+    }
+    fn run(&self, _: &Inputs<'_>, _: &mut dyn OutputSink, _: &TaskContext) -> cosfly_diagnose::Result<Produced> {
+        Ok(Produced::default())
+    }
+}
+
+type Build = fn(&Toy, serde_json::Value) -> Result<Vec<StagePart>, ParameterError>;
+
+/// A kind made of data.
+pub struct Toy {
+    pub name: &'static str,
+    pub doc: &'static str,
+    pub artifact: &'static str,
+    pub ports: Vec<InputPort>,
+    pub items: ItemRule,
+    pub schema: fn() -> serde_json::Value,
+    pub build: Build,
+}
+
+impl StageKind for Toy {
+    fn name(&self) -> &'static str {
+        self.name
+    }
+    fn doc(&self) -> &'static str {
+        self.doc
+    }
+    fn schema(&self) -> serde_json::Value {
+        (self.schema)()
+    }
+    fn ports(&self) -> Vec<InputPort> {
+        self.ports.clone()
+    }
+    fn build(&self, parameters: serde_json::Value) -> Result<Vec<StagePart>, ParameterError> {
+        (self.build)(self, parameters)
+    }
+}
+
+impl Toy {
+    fn properties(&self, parameters: impl Serialize) -> StageProperties {
+        StageProperties {
+            kind: self.name.into(),
+            version: 1,
+            parameters: serde_json::to_value(parameters).unwrap(),
+            sources: vec![],
+            inputs: self.ports.clone(),
+            artifact: self.artifact,
+            items: self.items.clone(),
+            bytes_per_item: 1,
+        }
+    }
+
+    fn parse<T: for<'de> Deserialize<'de>>(&self, parameters: serde_json::Value) -> Result<T, ParameterError> {
+        serde_json::from_value(parameters).map_err(|error| ParameterError {
+            path: vec![],
+            message: format!("the schema let it pass: {error}"),
+            hint: None,
+        })
+    }
+}
+
+fn one_part(properties: StageProperties) -> Vec<StagePart> {
+    vec![StagePart { suffix: "", stage: Box::new(ToyStage(properties)) }]
+}
+
+fn plain(toy: &Toy, parameters: serde_json::Value) -> Result<Vec<StagePart>, ParameterError> {
+    let config: NoConfig = toy.parse(parameters)?;
+    Ok(one_part(toy.properties(config)))
+}
+
+fn map(toy: &Toy, parameters: serde_json::Value) -> Result<Vec<StagePart>, ParameterError> {
+    let config: MapConfig = toy.parse(parameters)?;
+    let source = Source { parameter: "source".into(), path: config.source.clone().into() };
+    Ok(one_part(StageProperties { sources: vec![source], ..toy.properties(config) }))
+}
+
+fn walkers(toy: &Toy, parameters: serde_json::Value) -> Result<Vec<StagePart>, ParameterError> {
+    let config: WalkersConfig = toy.parse(parameters)?;
+    let Speed { min_mps, max_mps } = config.speed;
+    if min_mps > max_mps {
+        return Err(ParameterError {
+            path: vec!["speed".into(), "min_mps".into()],
+            message: format!("`speed.min_mps` is `{min_mps}`, above `speed.max_mps`, which is `{max_mps}`"),
+            hint: Some("lower it or raise `speed.max_mps`".into()),
+        });
+    }
+    let items = ItemRule::Count { prefix: "path", count: config.count };
+    Ok(one_part(StageProperties { items, ..toy.properties(config) }))
+}
+
+fn dataset(toy: &Toy, parameters: serde_json::Value) -> Result<Vec<StagePart>, ParameterError> {
+    let config: NoConfig = toy.parse(parameters)?;
+    let frames = port("frames", "frames/1", Fan::Each).many();
+    let logs = StageProperties {
+        inputs: vec![frames.clone()],
+        artifact: "log/1",
+        items: ItemRule::PerInput("frames"),
+        ..toy.properties(&config)
+    };
+    let own = InputPort { source: PortSource::Sibling("logs"), ..port("logs", "log/1", Fan::Gather) };
+    let tables = StageProperties { inputs: vec![gather(frames), own], ..toy.properties(&config) };
+    Ok(vec![
+        StagePart { suffix: "logs", stage: Box::new(ToyStage(logs)) },
+        StagePart { suffix: "", stage: Box::new(ToyStage(tables)) },
+    ])
+}
+
+pub fn port(name: &'static str, artifact: &'static str, fan: Fan) -> InputPort {
+    let doc = match name {
+        "town" => "The town.",
+        "target" => "Who is followed.",
+        _ => "What is shown.",
+    };
+    InputPort { name, artifact, fan, many: false, optional: false, source: PortSource::Recipe, doc }
+}
+
+fn gather(port: InputPort) -> InputPort {
+    InputPort { fan: Fan::Gather, ..port }
+}
+
+/// Changes to a port, for short lists.
+pub trait PortWords {
+    fn many(self) -> Self;
+    fn optional(self) -> Self;
+}
+
+impl PortWords for InputPort {
+    fn many(self) -> Self {
+        Self { many: true, ..self }
+    }
+    fn optional(self) -> Self {
+        Self { optional: true, ..self }
+    }
+}
+
+fn schema_of<T: JsonSchema>() -> serde_json::Value {
+    schemars::schema_for!(T).into()
+}
+
+/// All toys.
+pub fn registry() -> Registry {
+    let town = || port("town", "town/1", Fan::Broadcast);
+    let plain_toy = |name, doc, artifact, ports, items| Toy {
+        name,
+        doc,
+        artifact,
+        ports,
+        items,
+        schema: schema_of::<NoConfig>,
+        build: plain,
+    };
+    let toys = vec![
+        Toy {
+            schema: schema_of::<MapConfig>,
+            build: map,
+            ..plain_toy("map", "Reads a town.", "town/1", vec![], ItemRule::One)
+        },
+        Toy {
+            schema: schema_of::<WalkersConfig>,
+            build: walkers,
+            ..plain_toy("walkers", "People who walk.", "track/1", vec![town()], ItemRule::One)
+        },
+        plain_toy(
+            "expert",
+            "Follows a track.",
+            "trajectory/1",
+            vec![town(), port("target", "track/1", Fan::Each)],
+            ItemRule::PerInput("target"),
+        ),
+        plain_toy(
+            "render",
+            "Draws what is seen.",
+            "frames/1",
+            vec![
+                town().optional(),
+                port("trajectories", "trajectory/1", Fan::Each).many(),
+                port("also", "trajectory/1", Fan::Each).many().optional(),
+            ],
+            ItemRule::PerInput("trajectories"),
+        ),
+        Toy {
+            build: dataset,
+            ..plain_toy(
+                "dataset",
+                "Writes tables.",
+                "dataset/1",
+                vec![port("frames", "frames/1", Fan::Gather).many()],
+                ItemRule::One,
+            )
+        },
+    ];
+    Registry::new(toys.into_iter().map(|toy| Box::new(toy) as Box<dyn StageKind>).collect())
+}
+
+/// A recipe with every toy in it.
+pub const WHOLE: &str = r#"name = "whole"
+seed = 7
+
+[stages.town]
+use = "map"
+source = "town.xodr"
+
+[stages.people]
+use = "walkers"
+inputs.town = "town"
+count = 3
+
+[stages.expert]
+use = "expert"
+inputs = { town = "town", target = "people" }
+
+[stages.second]
+use = "expert"
+inputs = { town = "town", target = "people" }
+
+[stages.frames]
+use = "render"
+inputs.town = "town"
+inputs.trajectories = ["expert", "second"]
+
+[stages.tables]
+use = "dataset"
+inputs.frames = "frames"
+"#;
+
+/// Checks `text` as if it stood in a folder with the file `town.xodr`.
+pub fn check(text: &str, overrides: &[&str]) -> Result<Recipe, Vec<Box<cosfly_diagnose::Diagnostic>>> {
+    let overrides: Vec<String> = overrides.iter().map(|text| (*text).to_owned()).collect();
+    let folder = tempfile::tempdir().unwrap();
+    std::fs::write(folder.path().join("town.xodr"), "<OpenDRIVE/>").unwrap();
+    std::fs::create_dir(folder.path().join("folder")).unwrap();
+    cosfly_recipe::read(&folder.path().join("a.toml"), text, &overrides, &registry()).map_err(|mut problems| {
+        // Snapshots do not know the temporary folder.
+        let gone = format!("{}/", folder.path().display());
+        let bare = gone.trim_end_matches('/').to_owned();
+        for problem in &mut problems {
+            problem.message = problem.message.replace(&gone, "").replace(&bare, "FOLDER");
+            problem.hints.iter_mut().for_each(|hint| *hint = hint.replace(&gone, "").replace(&bare, "FOLDER"));
+            for label in &mut problem.labels {
+                label.path = label.path.strip_prefix(&gone).map(Path::to_path_buf).unwrap_or(label.path.clone());
+            }
+        }
+        problems
+    })
+}
+
+/// What the user reads.
+pub fn complaint(text: &str, overrides: &[&str]) -> String {
+    match check(text, overrides) {
+        Ok(recipe) => format!("no complaint about {recipe:?}"),
+        Err(problems) => cosfly_diagnose::render_all(problems.iter().map(|problem| &**problem), false),
+    }
+}
