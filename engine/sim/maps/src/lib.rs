@@ -5,6 +5,9 @@ pub mod cover;
 pub mod error;
 pub mod fill;
 pub mod formats;
+pub mod generate;
+pub mod ground;
+pub mod polygons;
 pub mod read;
 pub mod semantics;
 pub mod simplify;
@@ -13,6 +16,7 @@ pub mod town;
 pub use config::MapConfig;
 pub use error::{MapError, Place};
 pub use formats::{FORMATS, MapFormat};
+pub use ground::{GroundIndex, GroundPoint};
 pub use read::read_town;
 pub use semantics::SemanticLabel;
 pub use town::{

@@ -1,0 +1,381 @@
+//! The generated town as OpenDRIVE 1.6 text, floats with fixed decimals.
+
+use super::alignment::{Alignment, Curve};
+use super::streets::{Arm, Contact, LANE_WIDTH_M, Network, Street};
+use super::things::{Footprint, Thing};
+use super::turns::Turn;
+use cosfly_frames::{DVec2, real};
+use std::fmt::Write;
+
+/// Id of the first junction; streets count from 1.
+const FIRST_JUNCTION: usize = 1000;
+/// Id of the first connecting road.
+const FIRST_TURN: usize = 2000;
+/// Height of pavements above the carriageway, metres.
+const KERB_M: f64 = 0.15;
+/// Middle of a crossing from the mouth of its arm, its width along the street, and how far it reaches onto the
+/// pavements, metres.
+const CROSSING_M: [f64; 3] = [3.0, 3.0, 0.4];
+
+/// Writes everything.
+pub fn write_opendrive(network: &Network, turns: &[Turn], things: &[Thing], comment: &str) -> String {
+    let mut text = String::new();
+    let (low, high) = network.outline();
+    text.push_str("<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n");
+    line(&mut text, &format!("<!-- {comment} -->"));
+    line(&mut text, "<OpenDRIVE>");
+    line(
+        &mut text,
+        &format!(
+            "<header revMajor=\"1\" revMinor=\"6\" name=\"downtown\" version=\"1.00\" vendor=\"cosfly\" north=\"{}\" south=\"{}\" east=\"{}\" west=\"{}\"/>",
+            fixed(high.y + 20.0, 1),
+            fixed(low.y - 20.0, 1),
+            fixed(high.x + 20.0, 1),
+            fixed(low.x - 20.0, 1)
+        ),
+    );
+    let objects = objects_by_street(network, things);
+    for (index, street) in network.streets.iter().enumerate() {
+        write_street(&mut text, index, street, &objects[index]);
+    }
+    for (index, turn) in turns.iter().enumerate() {
+        write_turn(&mut text, index, turn, network);
+    }
+    for junction in 0..network.junctions.len() {
+        write_junction(&mut text, junction, turns, network);
+    }
+    line(&mut text, "</OpenDRIVE>");
+    text
+}
+
+fn line(text: &mut String, content: &str) {
+    text.push_str(content);
+    text.push('\n');
+}
+
+/// A number with fixed decimals and no negative zero.
+fn fixed(value: f64, decimals: usize) -> String {
+    let text = format!("{value:.decimals$}");
+    let is_zero = text.trim_start_matches('-').bytes().all(|b| b == b'0' || b == b'.');
+    if is_zero { text.trim_start_matches('-').to_owned() } else { text }
+}
+
+fn write_plan_view(text: &mut String, alignment: &Alignment) {
+    line(text, "<planView>");
+    let mut s_m = 0.0;
+    for piece in &alignment.pieces {
+        let curve = match piece.curve {
+            Curve::Line => "<line/>".to_owned(),
+            Curve::Arc { curvature } => format!("<arc curvature=\"{}\"/>", fixed(curvature, 12)),
+            Curve::Spiral { start, end } => {
+                format!("<spiral curvStart=\"{}\" curvEnd=\"{}\"/>", fixed(start, 12), fixed(end, 12))
+            }
+        };
+        line(
+            text,
+            &format!(
+                "<geometry s=\"{}\" x=\"{}\" y=\"{}\" hdg=\"{}\" length=\"{}\">{curve}</geometry>",
+                fixed(s_m, 9),
+                fixed(piece.start.at.x, 9),
+                fixed(piece.start.at.y, 9),
+                fixed(real::wrap_angle_rad(piece.start.heading_rad), 12),
+                fixed(piece.length_m, 9)
+            ),
+        );
+        s_m += piece.length_m;
+    }
+    line(text, "</planView>");
+    line(text, "<elevationProfile><elevation s=\"0\" a=\"0\" b=\"0\" c=\"0\" d=\"0\"/></elevationProfile>");
+}
+
+/// One lane: its id, width at start and end, links and marking.
+struct Lane {
+    id: i64,
+    is_sidewalk: bool,
+    width_m: [f64; 2],
+    links: Option<[i64; 2]>,
+    mark: &'static str,
+}
+
+fn write_lane(text: &mut String, lane: &Lane, length_m: f64) {
+    let kind = if lane.is_sidewalk { "sidewalk" } else { "driving" };
+    let link = lane.links.map_or_else(
+        || "<link/>".to_owned(),
+        |[from, to]| format!("<link><predecessor id=\"{from}\"/><successor id=\"{to}\"/></link>"),
+    );
+    let growth = (lane.width_m[1] - lane.width_m[0]) / length_m;
+    let height = if lane.is_sidewalk {
+        format!("<height sOffset=\"0\" inner=\"{KERB_M}\" outer=\"{KERB_M}\"/>")
+    } else {
+        String::new()
+    };
+    let speed = if lane.is_sidewalk { "" } else { "<speed sOffset=\"0\" max=\"13.89\" unit=\"m/s\"/>" };
+    line(
+        text,
+        &format!(
+            "<lane id=\"{}\" type=\"{kind}\" level=\"false\">{link}<width sOffset=\"0\" a=\"{}\" b=\"{}\" c=\"0\" d=\"0\"/>{}{speed}{height}</lane>",
+            lane.id,
+            fixed(lane.width_m[0], 4),
+            fixed(growth, 12),
+            road_mark(lane.mark),
+        ),
+    );
+}
+
+fn road_mark(kind: &str) -> String {
+    let width = if kind == "none" { "0" } else { "0.12" };
+    format!(
+        "<roadMark sOffset=\"0\" type=\"{kind}\" weight=\"standard\" color=\"standard\" material=\"standard\" width=\"{width}\" laneChange=\"none\"/>"
+    )
+}
+
+fn write_street(text: &mut String, index: usize, street: &Street, objects: &str) {
+    let length_m = street.line.length_m();
+    let [start, end] = street.junctions.map(|junction| junction + FIRST_JUNCTION);
+    line(
+        text,
+        &format!("<road name=\"street {0}\" length=\"{1}\" id=\"{0}\" junction=\"-1\">", index + 1, fixed(length_m, 9)),
+    );
+    line(
+        text,
+        &format!(
+            "<link><predecessor elementType=\"junction\" elementId=\"{start}\"/><successor elementType=\"junction\" elementId=\"{end}\"/></link>"
+        ),
+    );
+    line(text, "<type s=\"0\" type=\"town\"><speed max=\"50\" unit=\"km/h\"/></type>");
+    write_plan_view(text, &street.line);
+    line(text, "<lanes><laneSection s=\"0\">");
+    let lanes = i64::from(street.profile.lanes);
+    let lane = |id: i64| {
+        let is_sidewalk = id.abs() == lanes + 1;
+        let width_m = if is_sidewalk { street.profile.sidewalk_m } else { LANE_WIDTH_M };
+        let mark = if is_sidewalk {
+            "none"
+        } else if id.abs() == lanes {
+            "solid"
+        } else {
+            "broken"
+        };
+        Lane { id, is_sidewalk, width_m: [width_m; 2], links: None, mark }
+    };
+    line(text, "<left>");
+    (1..=lanes + 1).rev().for_each(|id| write_lane(text, &lane(id), length_m));
+    let middle = if lanes > 1 { "solid" } else { "broken" };
+    line(
+        text,
+        &format!(
+            "</left><center><lane id=\"0\" type=\"none\" level=\"false\">{}</lane></center><right>",
+            road_mark(middle)
+        ),
+    );
+    (1..=lanes + 1).for_each(|id| write_lane(text, &lane(-id), length_m));
+    line(text, "</right></laneSection></lanes>");
+    line(text, "<objects>");
+    write_crossings(text, index, street);
+    text.push_str(objects);
+    line(text, "</objects></road>");
+}
+
+/// One crossing at either end; the outline repeats its first corner, as CARLA's own towns do.
+fn write_crossings(text: &mut String, index: usize, street: &Street) {
+    let [from_mouth_m, along_m, onto_pavement_m] = CROSSING_M;
+    let reach_m = street.profile.carriageway_m() + onto_pavement_m;
+    for (end, s_m) in [from_mouth_m, street.line.length_m() - from_mouth_m].into_iter().enumerate() {
+        line(
+            text,
+            &format!(
+                "<object id=\"{0}\" name=\"crosswalk_{0}\" type=\"crosswalk\" s=\"{1}\" t=\"0.0\" zOffset=\"0.0\" hdg=\"0.0\" pitch=\"0.0\" roll=\"0.0\" orientation=\"none\" length=\"{2}\" width=\"{3}\">",
+                2 * index + end + 1,
+                fixed(s_m, 4),
+                fixed(along_m, 2),
+                fixed(2.0 * reach_m, 2)
+            ),
+        );
+        text.push_str("<outline closed=\"true\">");
+        for (u, v) in [(-1.0, -1.0), (1.0, -1.0), (1.0, 1.0), (-1.0, 1.0), (-1.0, -1.0)] {
+            let (u_m, v_m) = (fixed(0.5 * u * along_m, 3), fixed(v * reach_m, 3));
+            let _ = write!(text, "<cornerLocal u=\"{u_m}\" v=\"{v_m}\" z=\"0.0\" height=\"0.0\"/>");
+        }
+        line(text, "</outline></object>");
+    }
+}
+
+/// The side of the street's lanes that a driver uses: towards (`inward`) or away from the junction at the arm.
+fn lane_sign(arm: &Arm, inward: bool) -> i64 {
+    if (arm.contact == Contact::End) == inward { -1 } else { 1 }
+}
+
+fn contact_name(contact: Contact) -> &'static str {
+    match contact {
+        Contact::Start => "start",
+        Contact::End => "end",
+    }
+}
+
+/// Lane ids that a turn's lane `-lane` comes from and leads to.
+fn turn_links(turn: &Turn, lane: i64, network: &Network) -> [i64; 2] {
+    let is_sidewalk = lane > i64::from(turn.lanes);
+    let of_arm = |arm: &Arm, skipped: u32, inward: bool| {
+        let outermost = i64::from(network.streets[arm.street].profile.lanes) + 1;
+        lane_sign(arm, inward) * if is_sidewalk { outermost } else { i64::from(skipped) + lane }
+    };
+    [of_arm(&turn.from, turn.skipped_lanes[0], true), of_arm(&turn.to, turn.skipped_lanes[1], false)]
+}
+
+fn write_turn(text: &mut String, index: usize, turn: &Turn, network: &Network) {
+    let length_m = turn.line.length_m();
+    line(
+        text,
+        &format!(
+            "<road name=\"turn {0}\" length=\"{1}\" id=\"{0}\" junction=\"{2}\">",
+            FIRST_TURN + index,
+            fixed(length_m, 9),
+            FIRST_JUNCTION + turn.junction
+        ),
+    );
+    line(
+        text,
+        &format!(
+            "<link><predecessor elementType=\"road\" elementId=\"{}\" contactPoint=\"{}\"/><successor elementType=\"road\" elementId=\"{}\" contactPoint=\"{}\"/></link>",
+            turn.from.street + 1,
+            contact_name(turn.from.contact),
+            turn.to.street + 1,
+            contact_name(turn.to.contact)
+        ),
+    );
+    line(text, "<type s=\"0\" type=\"town\"><speed max=\"30\" unit=\"km/h\"/></type>");
+    write_plan_view(text, &turn.line);
+    line(
+        text,
+        &format!(
+            "<lanes><laneSection s=\"0\"><center><lane id=\"0\" type=\"none\" level=\"false\">{}</lane></center><right>",
+            road_mark("none")
+        ),
+    );
+    for lane in 1..=i64::from(turn.lanes) {
+        let links = Some(turn_links(turn, lane, network));
+        write_lane(
+            text,
+            &Lane { id: -lane, is_sidewalk: false, width_m: [LANE_WIDTH_M; 2], links, mark: "none" },
+            length_m,
+        );
+    }
+    if let Some(width_m) = turn.sidewalk_m {
+        let lane = i64::from(turn.lanes) + 1;
+        let links = Some(turn_links(turn, lane, network));
+        write_lane(text, &Lane { id: -lane, is_sidewalk: true, width_m, links, mark: "none" }, length_m);
+    }
+    line(text, "</right></laneSection></lanes></road>");
+}
+
+fn write_junction(text: &mut String, junction: usize, turns: &[Turn], network: &Network) {
+    let own: Vec<(usize, &Turn)> = turns.iter().enumerate().filter(|(_, turn)| turn.junction == junction).collect();
+    if own.is_empty() {
+        return;
+    }
+    line(text, &format!("<junction id=\"{0}\" name=\"junction {0}\">", FIRST_JUNCTION + junction));
+    for (connection, (index, turn)) in own.into_iter().enumerate() {
+        let lanes = i64::from(turn.lanes) + i64::from(turn.sidewalk_m.is_some());
+        let links: String = (1..=lanes)
+            .map(|lane| format!("<laneLink from=\"{}\" to=\"{}\"/>", turn_links(turn, lane, network)[0], -lane))
+            .collect();
+        line(
+            text,
+            &format!(
+                "<connection id=\"{connection}\" incomingRoad=\"{}\" connectingRoad=\"{}\" contactPoint=\"start\">{links}</connection>",
+                turn.from.street + 1,
+                FIRST_TURN + index
+            ),
+        );
+    }
+    line(text, "</junction>");
+}
+
+/// Every thing as an `<object>` of the straight street beside which it lies closest.
+fn objects_by_street(network: &Network, things: &[Thing]) -> Vec<String> {
+    let mut texts = vec![String::new(); network.streets.len()];
+    let first_id = 2 * network.streets.len() + 1;
+    for (index, thing) in things.iter().enumerate() {
+        if let Some((street, foot)) = foot_on_street(network, thing.footprint.center()) {
+            write_object(&mut texts[street], first_id + index, thing, &foot);
+        }
+    }
+    texts
+}
+
+/// A point in the frame of a straight street.
+struct Foot {
+    s_m: f64,
+    t_m: f64,
+    /// What remains along the street when the point lies beyond its ends.
+    beyond_m: f64,
+    origin: DVec2,
+    heading_rad: f64,
+}
+
+fn foot_on_street(network: &Network, point: DVec2) -> Option<(usize, Foot)> {
+    let mut best: Option<(f64, usize, Foot)> = None;
+    for (index, street) in network.streets.iter().enumerate().filter(|(_, street)| street.line.is_straight()) {
+        let start = street.line.pose_at(0.0);
+        let from_start = point - start.at;
+        let (along_m, t_m) = (from_start.dot(start.ahead()), from_start.dot(start.left()));
+        let s_m = along_m.clamp(0.0, street.line.length_m());
+        let beyond_m = along_m - s_m;
+        let badness = 100.0 * beyond_m.abs() + t_m.abs();
+        if best.as_ref().is_none_or(|(least, ..)| badness < *least) {
+            let origin = start.moved(s_m, t_m).at;
+            best = Some((badness, index, Foot { s_m, t_m, beyond_m, origin, heading_rad: start.heading_rad }));
+        }
+    }
+    best.map(|(_, index, foot)| (index, foot))
+}
+
+fn write_object(text: &mut String, id: usize, thing: &Thing, foot: &Foot) {
+    let (kind, name) = thing.kind.type_and_name();
+    let subtype = if name == "wall" { " subtype=\"wall\"" } else { "" };
+    let corners = match &thing.footprint {
+        Footprint::Polygon(corners) => Some(corners.clone()),
+        Footprint::Rectangle(lot) if foot.beyond_m != 0.0 => Some(lot.corners().to_vec()),
+        Footprint::Disc { .. } if foot.beyond_m != 0.0 => return,
+        _ => None,
+    };
+    let (hdg_rad, size) = match &thing.footprint {
+        Footprint::Rectangle(lot) if corners.is_none() => (
+            real::wrap_angle_rad(lot.heading_rad - foot.heading_rad),
+            format!(" length=\"{}\" width=\"{}\"", fixed(2.0 * lot.half_m.x, 3), fixed(2.0 * lot.half_m.y, 3)),
+        ),
+        Footprint::Disc { radius_m, .. } => (0.0, format!(" radius=\"{}\"", fixed(*radius_m, 3))),
+        _ => (0.0, String::new()),
+    };
+    let _ = write!(
+        text,
+        "<object id=\"{id}\" name=\"{name}\" type=\"{kind}\"{subtype} s=\"{}\" t=\"{}\" zOffset=\"0.0\" hdg=\"{}\" pitch=\"0.0\" roll=\"0.0\" orientation=\"none\"{size} height=\"{}\"",
+        fixed(foot.s_m, 4),
+        fixed(foot.t_m, 4),
+        fixed(hdg_rad, 9),
+        fixed(thing.height_m, 2)
+    );
+    let mut content = String::new();
+    if let Some(corners) = corners {
+        content.push_str("<outlines><outline id=\"0\" closed=\"true\" outer=\"true\">");
+        let (sin, cos) = real::sin_cos(foot.heading_rad);
+        for corner in corners {
+            let away = corner - foot.origin;
+            let (u_m, v_m) = (cos * away.x + sin * away.y, cos * away.y - sin * away.x);
+            let _ = write!(
+                content,
+                "<cornerLocal u=\"{}\" v=\"{}\" z=\"0.0\" height=\"{}\"/>",
+                fixed(u_m, 4),
+                fixed(v_m, 4),
+                fixed(thing.height_m, 2)
+            );
+        }
+        content.push_str("</outline></outlines>");
+    }
+    if let Some(crown) = &thing.crown {
+        for (code, value) in [("crown_radius", crown.radius_m), ("crown_base", crown.base_m)] {
+            let _ = write!(content, "<userData code=\"{code}\" value=\"{}\"/>", fixed(value, 2));
+        }
+    }
+    line(text, &if content.is_empty() { "/>".to_owned() } else { format!(">{content}</object>") });
+}

@@ -1,0 +1,90 @@
+//! Where the streets are: a building must stand clear of every lane and pavement.
+
+use super::streets::Network;
+use super::turns::Turn;
+use cosfly_frames::{DVec2, real};
+
+/// A rectangle on the ground, map frame.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Lot {
+    /// Its middle.
+    pub center: DVec2,
+    /// Half its length and width along its own axes, metres.
+    pub half_m: DVec2,
+    /// Direction of its length, radians.
+    pub heading_rad: f64,
+}
+
+impl Lot {
+    /// Its unit axes.
+    pub fn axes(&self) -> [DVec2; 2] {
+        let (sin, cos) = real::sin_cos(self.heading_rad);
+        [DVec2::new(cos, sin), DVec2::new(-sin, cos)]
+    }
+
+    /// Its corners, counter-clockwise.
+    pub fn corners(&self) -> [DVec2; 4] {
+        let [along, across] = self.axes();
+        [(-1.0, -1.0), (1.0, -1.0), (1.0, 1.0), (-1.0, 1.0)]
+            .map(|(x, y)| self.center + along * (x * self.half_m.x) + across * (y * self.half_m.y))
+    }
+
+    /// Distance of a point, 0 inside.
+    pub fn distance_m(&self, point: DVec2) -> f64 {
+        let [along, across] = self.axes();
+        let from_center = point - self.center;
+        let local = DVec2::new(from_center.dot(along), from_center.dot(across));
+        (local.abs() - self.half_m).max(DVec2::ZERO).length()
+    }
+
+    /// Whether two lots come closer than `gap_m` (separating axes).
+    pub fn is_near(&self, other: &Self, gap_m: f64) -> bool {
+        let (mine, theirs) = (self.corners(), other.corners());
+        let [a, b] = self.axes();
+        let [c, d] = other.axes();
+        [a, b, c, d].iter().all(|axis| {
+            let span = |corners: &[DVec2; 4]| {
+                corners.iter().fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), corner| {
+                    let at = corner.dot(*axis);
+                    (low.min(at), high.max(at))
+                })
+            };
+            let (first, second) = (span(&mine), span(&theirs));
+            first.0 < second.1 + gap_m && second.0 < first.1 + gap_m
+        })
+    }
+}
+
+/// Discs along all streets that together cover lanes and pavements.
+#[derive(Clone, Debug)]
+pub struct StreetSpace {
+    discs: Vec<(DVec2, f64)>,
+}
+
+impl StreetSpace {
+    /// Of all streets and turns.
+    pub fn new(network: &Network, turns: &[Turn]) -> Self {
+        let mut discs = Vec::new();
+        for street in &network.streets {
+            let radius_m = street.profile.half_width_m();
+            let steps = (street.line.length_m() / 1.0).ceil() as usize;
+            for i in 0..=steps {
+                discs.push((street.line.pose_at(street.line.length_m() * i as f64 / steps as f64).at, radius_m));
+            }
+        }
+        for turn in turns {
+            let radius_m = 0.5 * turn.width_m();
+            let steps = (turn.line.length_m() / 1.0).ceil() as usize;
+            for i in 0..=steps {
+                let pose = turn.line.pose_at(turn.line.length_m() * i as f64 / steps as f64);
+                discs.push((pose.moved(0.0, -radius_m).at, radius_m));
+            }
+        }
+        Self { discs }
+    }
+
+    /// Whether the lot keeps at least `gap_m` from every street (within 3 cm, by discs a metre apart).
+    pub fn is_clear(&self, lot: &Lot, gap_m: f64) -> bool {
+        self.discs.iter().all(|(center, radius_m)| lot.distance_m(*center) >= radius_m + gap_m)
+    }
+}

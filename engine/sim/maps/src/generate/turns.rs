@@ -1,0 +1,93 @@
+//! Connecting roads: every way through every junction, with the pavements that run around its corners.
+
+use super::alignment::{Alignment, Pose2};
+use super::streets::{Arm, Contact, LANE_WIDTH_M, Network, Profile};
+use cosfly_frames::real;
+
+/// A way through a junction. Its lanes lie to the right of its reference line.
+#[derive(Clone, Debug)]
+pub struct Turn {
+    /// Index of the junction.
+    pub junction: usize,
+    /// The arm it comes from.
+    pub from: Arm,
+    /// The arm it leads into.
+    pub to: Arm,
+    /// Its reference line.
+    pub line: Alignment,
+    /// Its driving lanes.
+    pub lanes: u32,
+    /// Lanes of either arm between the middle of the street and this way's first lane.
+    pub skipped_lanes: [u32; 2],
+    /// Widths of its pavement at start and end, where it has one.
+    pub sidewalk_m: Option<[f64; 2]>,
+}
+
+impl Turn {
+    /// Width of everything to the right of the reference line, metres.
+    pub fn width_m(&self) -> f64 {
+        f64::from(self.lanes) * LANE_WIDTH_M + self.sidewalk_m.map_or(0.0, |[start, end]| start.max(end))
+    }
+}
+
+/// All turns of the network, junction by junction.
+pub fn all_turns(network: &Network) -> Vec<Turn> {
+    let mut turns = Vec::new();
+    for (junction, ends) in network.junctions.iter().enumerate() {
+        for side in 0..4 {
+            let Some(from) = ends.arms[side] else { continue };
+            // To the right of the arm, opposite, to its left: the first one there shares its pavement.
+            let mut pavement_is_open = true;
+            for quarter in 1..4 {
+                let to_side = (side + quarter) % 4;
+                let Some(to) = ends.arms[to_side] else { continue };
+                turns.push(turn(network, junction, (side, from), (to_side, to), pavement_is_open));
+                pavement_is_open = false;
+            }
+        }
+    }
+    turns
+}
+
+/// Pose at an arm's mouth, looking out of the junction.
+fn mouth(network: &Network, arm: &Arm) -> Pose2 {
+    let line = &network.streets[arm.street].line;
+    match arm.contact {
+        Contact::Start => line.pose_at(0.0),
+        Contact::End => reversed(line.end()),
+    }
+}
+
+fn reversed(pose: Pose2) -> Pose2 {
+    Pose2 { heading_rad: pose.heading_rad + real::PI, ..pose }
+}
+
+fn turn(
+    network: &Network,
+    junction: usize,
+    (from_side, from): (usize, Arm),
+    (to_side, to): (usize, Arm),
+    with_sidewalk: bool,
+) -> Turn {
+    let profile = |arm: &Arm| network.streets[arm.street].profile;
+    let (from_profile, to_profile): (Profile, Profile) = (profile(&from), profile(&to));
+    // A driver who comes in on the arm of side k and leaves on side k + 1 turns right: heading k + 2, then k + 1.
+    let quarter = (to_side + 4 - from_side) % 4;
+    let (lanes, skipped_lanes) = match quarter {
+        1 => (1, [from_profile.lanes - 1, to_profile.lanes - 1]),
+        2 => (from_profile.lanes.min(to_profile.lanes), [0, 0]),
+        _ => (1, [0, 0]),
+    };
+    let offset_m = skipped_lanes.map(|lanes| f64::from(lanes) * LANE_WIDTH_M);
+    let start = reversed(mouth(network, &from)).moved(0.0, -offset_m[0]);
+    let goal = mouth(network, &to).moved(0.0, -offset_m[1]);
+    let reach = goal.at - start.at;
+    let (ahead_m, left_m) = (reach.dot(start.ahead()), reach.dot(start.left()));
+    let line = if quarter == 2 {
+        Alignment::straight(start, ahead_m)
+    } else {
+        Alignment::quarter_turn(start, ahead_m, left_m.abs(), quarter == 3, f64::INFINITY, 0.0)
+    };
+    let sidewalk_m = with_sidewalk.then_some([from_profile.sidewalk_m, to_profile.sidewalk_m]);
+    Turn { junction, from, to, line, lanes, skipped_lanes, sidewalk_m }
+}
