@@ -16,7 +16,7 @@ pub fn render(diagnostic: &Diagnostic, colour: bool) -> String {
     let excerpts = Excerpt::of_labels(&diagnostic.labels);
     let mut group = Level::ERROR.primary_title(&title).id(diagnostic.code).elements(Vec::<Element<'_>>::new());
     for excerpt in &excerpts {
-        let snippet = Snippet::source(&*excerpt.text).line_start(excerpt.first_line).annotations(annotations(excerpt));
+        let snippet = Snippet::source(excerpt.text).line_start(excerpt.first_line).annotations(annotations(excerpt));
         group = group.element(snippet.path(&excerpt.path));
     }
     for cause in &diagnostic.causes {

@@ -1,6 +1,6 @@
 //! The book's page on recipes, generated from the kinds' schemas and ports.
 
-use crate::parameters::{allowed_values, resolve, show_json, type_words_of};
+use crate::parameters::{allowed_values, resolve, show_json, show_toml, type_words_of};
 use cosfly_stage::{Fan, InputPort, Registry, StageKind};
 use serde_json::Value;
 use std::fmt::Write;
@@ -117,9 +117,8 @@ fn collect_rows(
         let default = defaults.and_then(|defaults| defaults.get(key)).or_else(|| rule.get("default"));
         let target = nullable_target(root, rule);
         if depth < MOST_LEVELS && target.get("properties").is_some() && alternatives(target).is_empty() {
-            if default.is_none_or(Value::is_null) {
-                rows.push(row(root, rule, &name, default, required.contains(&key.as_str())));
-            }
+            let own_default = default.filter(|default| default.is_null());
+            rows.push(row(root, rule, &name, own_default, required.contains(&key.as_str())));
             collect_rows(root, target, default, &format!("{name}."), depth + 1, rows);
             continue;
         }
@@ -155,8 +154,7 @@ fn row(root: &Value, rule: &Value, name: &str, default: Option<&Value>, required
     let target = resolve(root, rule);
     let default = match default {
         Some(Value::Null) => "none".to_owned(),
-        Some(Value::String(text)) if text.is_empty() => "`\"\"`".to_owned(),
-        Some(default) => format!("`{}`", cell(&show_json(default))),
+        Some(default) => format!("`{}`", cell(&show_toml(default))),
         None if required => "required".to_owned(),
         None => String::new(),
     };
@@ -169,8 +167,44 @@ fn row(root: &Value, rule: &Value, name: &str, default: Option<&Value>, required
         }
     }
     let names: Vec<String> = values.iter().map(|(value, _)| format!("`{}`", show_json(value))).collect();
-    let range = if names.is_empty() { range(root, rule) } else { names.join(", ") };
-    Row { name: name.to_owned(), kind: cell(&type_words_of(root, rule)), default, range: cell(&range), what }
+    let range = match tag_values(root, rule) {
+        Some(tags) => tags,
+        None if names.is_empty() => range(root, rule),
+        None => names.join(", "),
+    };
+    Row { name: name.to_owned(), kind: kind_words(root, rule), default, range: cell(&range), what }
+}
+
+/// The type in words; lists name what they hold.
+fn kind_words(root: &Value, rule: &Value) -> String {
+    let target = nullable_target(root, rule);
+    let words = type_words_of(root, rule);
+    let inner = match target.get("items") {
+        Some(items) if words == "a list" => type_words_of(root, items),
+        _ => return cell(&words),
+    };
+    let plural = match inner.as_str() {
+        "a table" => "tables",
+        "a number" => "numbers",
+        "a whole number" => "whole numbers",
+        "a string" => "strings",
+        "a list" => "lists",
+        _ => return cell(&words),
+    };
+    format!("a list of {plural}")
+}
+
+/// Values of the tag that tells the alternatives of a table apart: `kind`: `none`, `random`.
+fn tag_values(root: &Value, rule: &Value) -> Option<String> {
+    let mut key = None;
+    let mut values = vec![];
+    for alternative in alternatives(nullable_target(root, rule)) {
+        let properties = resolve(root, alternative).get("properties")?.as_object()?;
+        let (name, value) = properties.iter().find_map(|(name, rule)| Some((name, rule.get("const")?.as_str()?)))?;
+        key = Some(name);
+        values.push(format!("`{value}`"));
+    }
+    Some(format!("`{}`: {}", key?, values.join(", ")))
 }
 
 /// Limits of a number, a text or a list, and of a list's entries.
@@ -183,8 +217,6 @@ fn range(root: &Value, rule: &Value) -> String {
         ("exclusiveMaximum", "less than "),
         ("minLength", "characters: at least "),
         ("maxLength", "characters: at most "),
-        ("minItems", "entries: at least "),
-        ("maxItems", "entries: at most "),
     ];
     let mut words: Vec<String> = limits
         .iter()
@@ -193,12 +225,19 @@ fn range(root: &Value, rule: &Value) -> String {
             Some(format!("{word}`{}`", show_json(limit)))
         })
         .collect();
+    match (target.get("minItems"), target.get("maxItems")) {
+        (Some(least), Some(most)) if least == most => words.push(format!("exactly `{least}` entries")),
+        (Some(least), Some(most)) => words.push(format!("`{least}` to `{most}` entries")),
+        (Some(least), None) => words.push(format!("at least `{least}` entries")),
+        (None, Some(most)) => words.push(format!("at most `{most}` entries")),
+        (None, None) => {}
+    }
     if let Some(items) = target.get("items").filter(|items| items.is_object()) {
         let values = allowed_values(root, items);
         let names: Vec<String> = values.iter().map(|(value, _)| format!("`{}`", show_json(value))).collect();
         let inner = if names.is_empty() { range(root, items) } else { names.join(", ") };
         if !inner.is_empty() {
-            words.push(format!("each: {inner}"));
+            words.push(format!("each {inner}"));
         }
     }
     words.join(", ")

@@ -15,8 +15,8 @@ const MOST_SYNTAX_ERRORS: usize = 5;
 
 /// The recipe's root table.
 pub(crate) fn parse_document(text: &str, texts: &Texts, problems: &mut Problems) -> Option<Table> {
-    if let Err((span, message)) = check_size(text) {
-        problems.push(texts.problem("recipe-syntax", &Place::new(0, span), message));
+    if let Some(message) = too_long(text) {
+        problems.push(texts.problem("recipe-syntax", &Place::new(0, 0..0), message));
         return None;
     }
     let (root, errors) = DeTable::parse_recoverable(text);
@@ -42,9 +42,9 @@ pub(crate) fn parse_value(
         problems.push(problem.hint("an empty text is written `\"\"`"));
         return None;
     }
-    let parsed = match check_size(value) {
-        Err((_, message)) => Err(message),
-        Ok(()) => DeValue::parse(value).map_err(|error| error.message().to_owned()),
+    let parsed = match too_long(value) {
+        Some(message) => Err(message),
+        None => DeValue::parse(value).map_err(|error| error.message().to_owned()),
     };
     match parsed {
         Ok(parsed) => {
@@ -61,24 +61,9 @@ pub(crate) fn parse_value(
     }
 }
 
-/// Refuses what would make a parser work too hard: huge texts and endlessly nested keys.
-fn check_size(text: &str) -> Result<(), (Range<usize>, String)> {
-    if text.len() > MOST_BYTES {
-        return Err((0..0, format!("the text has {} bytes; a recipe may have {MOST_BYTES}", text.len())));
-    }
-    let mut start = 0;
-    for line in text.split_inclusive('\n') {
-        let key = line.split('=').next().unwrap_or_default();
-        let dots = key.bytes().filter(|byte| *byte == b'.').count();
-        if dots > MOST_LEVELS && !key.contains(['"', '\'', '#']) {
-            return Err((
-                start..start + key.trim_end().len(),
-                format!("a key has {dots} dots; {MOST_LEVELS} are allowed"),
-            ));
-        }
-        start += line.len();
-    }
-    Ok(())
+/// Why a text is too long to be read; depth the parser limits itself.
+fn too_long(text: &str) -> Option<String> {
+    (text.len() > MOST_BYTES).then(|| format!("the text has {} bytes; a recipe may have {MOST_BYTES}", text.len()))
 }
 
 /// The first mistake of every line; what follows a broken table header in its table is its echo.

@@ -223,7 +223,7 @@ fn a_number_where_a_string_is_wanted() {
       |         ^
       |
       = help: put it in quotes
-      = help: `crowd`: Name of the crowd (default `people`)
+      = help: `crowd`: Name of the crowd (default `"people"`)
     "#);
 }
 
@@ -237,7 +237,7 @@ fn an_empty_string() {
     8 | crowd = ""
       |         ^^
       |
-      = help: `crowd`: Name of the crowd (default `people`)
+      = help: `crowd`: Name of the crowd (default `"people"`)
     "#);
 }
 
@@ -252,7 +252,7 @@ fn not_one_of_the_allowed_values() {
       |            ^^^^^^^
       |
       = help: did you mean `zebra_only`?
-      = help: `crossing`: How streets are crossed (default `free`)
+      = help: `crossing`: How streets are crossed (default `"free"`)
     "#);
 }
 
@@ -426,7 +426,7 @@ fn tables_nested_too_deep() {
     8 | ... = [ [ [ [ [ [ [ [ [ [ [ [ [ [ [ [ [ [ [ [ [ [ [ [ [ [ [ [ [ [ [ [ [ [ [ [ [ [ [ [ ]]]]]]]]]]]]]]]]]]]]]]]]]]]]]]]]]]]]]]]]
       |       ^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^
       |
-      = help: `crowd`: Name of the crowd (default `people`)
+      = help: `crowd`: Name of the crowd (default `"people"`)
 
     error[recipe-too-deep]: tables and lists are nested more than 32 deep
      --> a.toml:8:69

@@ -29,6 +29,9 @@ pub struct Artifact {
     pub blobs: BTreeMap<String, BlobRef>,
 }
 
+/// A decoded blob of whatever type its reader asked for.
+pub type Decoded = Arc<dyn Any + Send + Sync>;
+
 /// Reads blobs and remembers what was decoded from broadcast ones. Implemented by the store.
 pub trait BlobSource: Send + Sync {
     /// All bytes of a blob, digest checked.
@@ -36,12 +39,7 @@ pub trait BlobSource: Send + Sync {
     /// The blob as a file, size and digest checked once per process.
     fn open(&self, blob: &BlobRef) -> Result<File>;
     /// `decode(bytes of blob)` of type `kind`, computed once per process while it stays in use by several tasks.
-    fn decoded(
-        &self,
-        blob: &BlobRef,
-        kind: TypeId,
-        decode: &dyn Fn(&[u8]) -> Result<Arc<dyn Any + Send + Sync>>,
-    ) -> Result<Arc<dyn Any + Send + Sync>>;
+    fn decoded(&self, blob: &BlobRef, kind: TypeId, decode: &dyn Fn(&[u8]) -> Result<Decoded>) -> Result<Decoded>;
 }
 
 /// The artifacts that arrive at one port.
@@ -90,7 +88,7 @@ impl Inputs<'_> {
         decode: impl Fn(&[u8]) -> Result<T>,
     ) -> Result<Arc<T>> {
         let any = self.blobs.decoded(Self::blob(artifact, name)?, TypeId::of::<T>(), &|bytes| {
-            Ok(Arc::new(decode(bytes)?) as Arc<dyn Any + Send + Sync>)
+            Ok(Arc::new(decode(bytes)?) as Decoded)
         })?;
         any.downcast().map_err(|_| {
             Diagnostic::new("stage-decode-type", Fault::Bug, format!("blob `{name}` was decoded as two types"))

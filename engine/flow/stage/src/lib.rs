@@ -10,7 +10,7 @@ mod event;
 mod kind;
 mod properties;
 
-pub use artifact::{Artifact, BlobRef, BlobSource, InputGroup, Inputs, OutputSink, Produced, SeekWrite};
+pub use artifact::{Artifact, BlobRef, BlobSource, Decoded, InputGroup, Inputs, OutputSink, Produced, SeekWrite};
 pub use event::{RunEvent, TaskOutcome};
 pub use kind::{ParameterError, Registry, StageKind, StagePart};
 pub use properties::{Fan, InputPort, ItemRule, PortSource, Source, StageProperties};

@@ -2,7 +2,7 @@
 
 use super::alternatives::check_alternatives;
 use super::scalars::{check_allowed, check_list_length, check_number, check_text};
-use super::schema_words::{first_sentence, is_open, resolve, rule_at, show_json, type_words_of};
+use super::schema_words::{first_sentence, is_open, resolve, rule_at, show_toml, type_words_of};
 use crate::document::{Node, Place, Problems, Table, Texts, Value, list};
 use cosfly_diagnose::{Diagnostic, nearest_name};
 use serde_json::Value as Json;
@@ -155,7 +155,7 @@ impl Walk<'_> {
         };
         let default = match rule.get("default") {
             Some(default) if !default.is_object() && !default.is_null() => {
-                format!(" (default `{}`)", show_json(default))
+                format!(" (default `{}`)", show_toml(default))
             }
             _ => String::new(),
         };

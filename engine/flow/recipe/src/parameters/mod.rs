@@ -11,4 +11,4 @@ mod scalars;
 mod schema_words;
 
 pub(crate) use check::{Subject, check_parameters};
-pub(crate) use schema_words::{allowed_values, resolve, show_json, type_words_of};
+pub(crate) use schema_words::{allowed_values, resolve, show_json, show_toml, type_words_of};

@@ -131,6 +131,24 @@ pub(super) fn first_sentence(description: &str) -> String {
     }
 }
 
+/// A JSON value as TOML.
+pub(crate) fn show_toml(value: &Json) -> String {
+    match value {
+        Json::String(text) => format!("{text:?}"),
+        Json::Array(items) => format!("[{}]", items.iter().map(show_toml).collect::<Vec<_>>().join(", ")),
+        Json::Object(table) if table.is_empty() => "{}".to_owned(),
+        Json::Object(table) => {
+            let entries: Vec<String> = table
+                .iter()
+                .filter(|(_, value)| !value.is_null())
+                .map(|(key, value)| format!("{key} = {}", show_toml(value)))
+                .collect();
+            format!("{{ {} }}", entries.join(", "))
+        }
+        other => show_json(other),
+    }
+}
+
 /// A JSON value as it would be written in a recipe; texts without quotes.
 pub(crate) fn show_json(value: &Json) -> String {
     match value {

@@ -341,8 +341,11 @@ use = "dataset"
 inputs.frames = "frames"
 "#;
 
+/// What [`cosfly_recipe::read`] says.
+type Complaints = Vec<Box<cosfly_diagnose::Diagnostic>>;
+
 /// Checks `text` as if it stood in a folder with the file `town.xodr`.
-pub fn check(text: &str, overrides: &[&str]) -> Result<Recipe, Vec<Box<cosfly_diagnose::Diagnostic>>> {
+pub fn check(text: &str, overrides: &[&str]) -> Result<Recipe, Complaints> {
     let overrides: Vec<String> = overrides.iter().map(|text| (*text).to_owned()).collect();
     let folder = tempfile::tempdir().unwrap();
     std::fs::write(folder.path().join("town.xodr"), "<OpenDRIVE/>").unwrap();
