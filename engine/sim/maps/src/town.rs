@@ -179,6 +179,18 @@ pub struct Synthetic {
     pub notes: Vec<String>,
 }
 
+impl WalkablePolygon {
+    /// Its corners in plan.
+    pub fn plan(&self) -> Vec<DVec2> {
+        self.outline_in_world.iter().map(|corner| corner.truncate()).collect()
+    }
+
+    /// Mean height of its corners, metres.
+    pub fn mean_height_m(&self) -> f64 {
+        self.outline_in_world.iter().map(|corner| corner.z).sum::<f64>() / self.outline_in_world.len().max(1) as f64
+    }
+}
+
 /// Largest coordinate of a town, metres.
 const FARTHEST_M: f64 = 1e7;
 

@@ -1,16 +1,23 @@
 //! The order of work: text, XML, network, then surfaces, walkable ground and obstacles.
 
 use super::attributes::Source;
-use super::network::RoadNetwork;
+use super::crossings::{Crosswalk, crosswalks, unmarked_crossings};
+use super::network::{Road, RoadNetwork};
 use super::objects::{MOST_OBSTACLES, ObstacleBuilder};
 use super::parse_road;
+use super::road_marks::{LinePainter, MOST_STROKES};
+use super::signals;
 use super::stations::{StationBudget, cross_sections};
 use super::surfaces::{self, DEFAULT_KERB_M, MeshBuilder};
+use super::terrain;
 use super::text::{Lines, decoded};
 use super::walkable;
 use super::world::WorldFromMap;
-use crate::{MapConfig, MapError, SimplificationReport, Synthetic, Town};
-use cosfly_frames::DVec3;
+use crate::polygons::PolygonIndex;
+use crate::{
+    GroundIndex, MapConfig, MapError, Obstacle, ObstacleKind, SimplificationReport, Synthetic, Town, WalkablePolygon,
+};
+use cosfly_frames::{DVec2, DVec3};
 use roxmltree::{Document, ParsingOptions};
 
 /// Most XML nodes of one file.
@@ -104,67 +111,169 @@ fn build(
     network: RoadNetwork,
     options: &MapConfig,
     lines: &Lines<'_>,
-    mut notes: Vec<String>,
+    notes: Vec<String>,
 ) -> Result<(Town, Vec<String>), MapError> {
-    let world = WorldFromMap::of(&network);
-    let mut meshes = MeshBuilder::default();
-    let mut walkable = Vec::new();
-    let mut obstacles = ObstacleBuilder::default();
-    let mut budget = StationBudget::default();
-    let mut warnings = Vec::new();
-    let longest_m = options.sample_step_m.clamp(0.5, 1000.0);
+    let mut parts = Parts { world: WorldFromMap::of(&network), notes, ..Parts::default() };
     for road in &network.roads {
-        for (index, section) in road.sections.iter().enumerate() {
-            let placed = |error: MapError| match error.place {
-                Some(_) => error,
-                None => error.at(lines.place(road.byte_span.clone(), format!("<road> `{}`", road.id))),
-            };
-            let rows = cross_sections(road, section, longest_m, &mut budget).map_err(placed)?;
-            surfaces::add_section(&mut meshes, section.sides().map(|(_, lanes)| lanes), &rows, &world);
-            let rows = cross_sections(road, section, walkable::LONGEST_PIECE_M, &mut budget).map_err(placed)?;
-            walkable::add_section(&mut walkable, road, index, &rows, options.shoulders_as_sidewalks, &world);
-        }
+        parts.add_lanes(road, options).map_err(|error| match error.place {
+            Some(_) => error,
+            None => error.at(lines.place(road.byte_span.clone(), format!("<road> `{}`", road.id))),
+        })?;
         for object in &road.objects {
-            obstacles.add(road, object, &world);
+            parts.obstacles.add(road, object, &parts.world);
         }
     }
-    if obstacles.without_size > 0 {
-        warnings.push(format!("{} objects without a usable size or height are left out", obstacles.without_size));
-    }
-    if obstacles.left_out > 0 {
-        let message = format!("the map has more than {MOST_OBSTACLES} solid boxes");
-        return Err(MapError::new(message).hint("a `repeat` with a tiny `distance` may be the cause"));
-    }
-    if obstacles.assumed_crowns > 0 {
-        notes.push(format!(
-            "crowns of {} trees are assumed (radius 0.2 of the height within 1 to 4.5 m, from 0.35 of the height up): \
-             the file gives trunks only",
-            obstacles.assumed_crowns
-        ));
-    }
-    if walkable.is_empty() {
+    if parts.walkable.is_empty() {
         return Err(no_walkable_ground(&network));
     }
-    let town = Town {
-        name: network.name.clone().unwrap_or_else(|| "town".to_owned()),
-        origin: world.origin(network.geo_reference.clone()),
-        obstacles: obstacles.obstacles,
-        planning_boxes: Vec::new(),
-        simplification: SimplificationReport::default(),
-        walkable,
-        surfaces: meshes.finish(),
-        synthetic: Synthetic { notes, ..Synthetic::default() },
-        min_in_world: DVec3::ZERO,
-        max_in_world: DVec3::ZERO,
-    };
-    Ok((town, warnings))
+    parts.add_crossings(&network, options);
+    if options.signals {
+        parts.add_signals(&network);
+    }
+    terrain::add_terrain(&mut parts.meshes, &parts.obstacles.obstacles);
+    parts.finish(network)
+}
+
+/// The town while it grows.
+#[derive(Default)]
+struct Parts {
+    world: WorldFromMap,
+    meshes: MeshBuilder,
+    painter: LinePainter,
+    walkable: Vec<WalkablePolygon>,
+    obstacles: ObstacleBuilder,
+    budget: StationBudget,
+    notes: Vec<String>,
+    warnings: Vec<String>,
+}
+
+impl Parts {
+    /// Surfaces, lane lines and pavements of a road.
+    fn add_lanes(&mut self, road: &Road, options: &MapConfig) -> Result<(), MapError> {
+        let longest_m = options.sample_step_m.clamp(0.5, 1000.0);
+        let world = self.world;
+        for (index, section) in road.sections.iter().enumerate() {
+            let rows = cross_sections(road, section, longest_m, &mut self.budget)?;
+            surfaces::add_section(&mut self.meshes, section.sides().map(|(_, lanes)| lanes), &rows, &world);
+            if options.road_marks {
+                self.painter.paint_section(&mut self.meshes, road, section, &rows, &world);
+            }
+            if walkable::has_walkable(section, options.shoulders_as_sidewalks) {
+                let rows = cross_sections(road, section, walkable::LONGEST_PIECE_M, &mut self.budget)?;
+                walkable::add_section(&mut self.walkable, road, index, &rows, options.shoulders_as_sidewalks, &world);
+            }
+        }
+        Ok(())
+    }
+
+    /// Marked crossings with their paint and joints; then unmarked ones where a junction arm has none.
+    fn add_crossings(&mut self, network: &RoadNetwork, options: &MapConfig) {
+        let world = self.world;
+        let marked: Vec<Crosswalk> = network.roads.iter().flat_map(|road| crosswalks(road, &world)).collect();
+        let outlines = self.walkable.iter().map(WalkablePolygon::plan).collect();
+        let heights_m: Vec<f64> = self.walkable.iter().map(WalkablePolygon::mean_height_m).collect();
+        let pavements = PolygonIndex::new(outlines);
+        if options.road_marks && !marked.is_empty() {
+            let surfaces = core::mem::take(&mut self.meshes).finish();
+            let ground = GroundIndex::of_surfaces(&surfaces, |_| true);
+            self.meshes = MeshBuilder::from_meshes(surfaces);
+            for crosswalk in &marked {
+                crosswalk.paint(&mut self.meshes, &ground);
+            }
+        }
+        for crosswalk in &marked {
+            self.walkable.push(crosswalk.polygon());
+            self.walkable.extend(crosswalk.joints(&pavements, &heights_m));
+        }
+        if options.unmarked_crossings {
+            let before = self.walkable.len();
+            let shoulders = options.shoulders_as_sidewalks;
+            for road in &network.roads {
+                self.walkable.extend(unmarked_crossings(road, &marked, shoulders, &world));
+            }
+            let added = self.walkable.len() - before;
+            if added > 0 {
+                self.notes.push(format!("{added} unmarked crossings at junction arms without a crosswalk in the file"));
+            }
+        }
+    }
+
+    fn add_signals(&mut self, network: &RoadNetwork) {
+        let is_pole = |kind| matches!(kind, ObstacleKind::Pole | ObstacleKind::Lamp | ObstacleKind::TrafficLight);
+        let own = self.obstacles.obstacles.iter().filter(|obstacle| is_pole(obstacle.kind));
+        let poles: Vec<DVec2> = own.map(|obstacle| obstacle.shape.center_in_world.truncate()).collect();
+        let mut assumed = 0;
+        for road in &network.roads {
+            assumed += signals::add_signals(&mut self.obstacles, road, &poles, &self.world);
+        }
+        if assumed > 0 {
+            self.notes
+                .push(format!("{assumed} signs and lights hang at an assumed height: the file gives their foot only"));
+        }
+    }
+
+    fn finish(mut self, network: RoadNetwork) -> Result<(Town, Vec<String>), MapError> {
+        if self.obstacles.left_out > 0 {
+            let message = format!("the map has more than {MOST_OBSTACLES} solid boxes");
+            return Err(MapError::new(message).hint("a `repeat` with a tiny `distance` may be the cause"));
+        }
+        if self.obstacles.without_size > 0 {
+            let count = self.obstacles.without_size;
+            self.warnings.push(format!("{count} objects without a usable size or height are left out"));
+        }
+        if self.painter.strokes >= MOST_STROKES {
+            self.warnings.push(format!("only the first {MOST_STROKES} painted line pieces are kept"));
+        }
+        if self.obstacles.assumed_crowns > 0 {
+            self.notes.push(format!(
+                "crowns of {} trees are assumed (radius 0.2 of the height within 1 to 4.5 m, from 0.35 of the \
+                 height up): the file gives trunks only",
+                self.obstacles.assumed_crowns
+            ));
+        }
+        let surfaces = self.meshes.finish();
+        let mut obstacles = self.obstacles.obstacles;
+        settle(&mut obstacles, &GroundIndex::of_surfaces(&surfaces, |_| true));
+        let town = Town {
+            name: network.name.unwrap_or_else(|| "town".to_owned()),
+            origin: self.world.origin(network.geo_reference),
+            obstacles,
+            planning_boxes: Vec::new(),
+            simplification: SimplificationReport::default(),
+            walkable: self.walkable,
+            surfaces,
+            synthetic: Synthetic { notes: self.notes, ..Synthetic::default() },
+            min_in_world: DVec3::ZERO,
+            max_in_world: DVec3::ZERO,
+        };
+        Ok((town, self.warnings))
+    }
+}
+
+/// Things that hover a little over the terrain, which is our own, reach down to it.
+fn settle(obstacles: &mut [Obstacle], ground: &GroundIndex) {
+    const HIGHEST_GAP_M: f64 = 3.0;
+    for obstacle in obstacles.iter_mut().filter(|obstacle| terrain::stands_on_ground(obstacle.kind)) {
+        let shape = &mut obstacle.shape;
+        let foot_m = shape.center_in_world.z - shape.half_extents_m.z;
+        let corners = shape.corners_in_world();
+        let lowest_m = corners[..4]
+            .iter()
+            .chain([&shape.center_in_world])
+            .filter_map(|corner| ground.ground_below(corner.truncate().extend(foot_m), 0.0))
+            .map(|ground| ground.height_m)
+            .fold(foot_m, f64::min);
+        let gap_m = (foot_m - lowest_m).min(HIGHEST_GAP_M);
+        shape.half_extents_m.z += 0.5 * gap_m;
+        shape.center_in_world.z -= 0.5 * gap_m;
+    }
 }
 
 fn no_walkable_ground(network: &RoadNetwork) -> MapError {
     let has_shoulders = network.roads.iter().flat_map(|road| &road.sections).any(|section| {
         section.left.iter().chain(&section.right).any(|lane| lane.kind == super::network::LaneKind::Shoulder)
     });
-    let error = MapError::new("the map has no walkable ground: no lane of type `sidewalk` and no crosswalk");
+    let error = MapError::new("the map has no walkable ground: it has no lane of type `sidewalk`");
     if has_shoulders {
         error.hint("set `shoulders_as_sidewalks = true` in this stage to let pedestrians use the road shoulders")
     } else {

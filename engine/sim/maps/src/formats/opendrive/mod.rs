@@ -5,6 +5,7 @@
 
 mod attributes;
 mod build;
+mod crossings;
 pub mod network;
 mod object_kind;
 mod objects;
@@ -15,8 +16,11 @@ pub mod plan_view;
 pub mod polynomial;
 mod quadrature;
 pub mod road_geometry;
+mod road_marks;
+mod signals;
 mod stations;
 mod surfaces;
+mod terrain;
 mod text;
 mod walkable;
 pub mod world;

@@ -9,7 +9,7 @@ use cosfly_frames::{DVec2, DVec3};
 use std::collections::BTreeMap;
 
 /// How far the side of a road's edge reaches down, so that no gap opens towards the terrain, metres.
-const SKIRT_M: f64 = 1.0;
+const SKIRT_M: f64 = 1.5;
 /// Height of pavements in files that give none, metres.
 pub(super) const DEFAULT_KERB_M: f64 = 0.15;
 
@@ -44,6 +44,16 @@ impl MeshBuilder {
         mesh.vertices_in_world.extend(vertices.iter().map(|(point, _)| *point));
         mesh.along_across_m.extend(vertices.iter().map(|(_, along_across)| *along_across));
         mesh.triangles.extend(triangles.iter().map(|triangle| triangle.map(|corner| first + corner)));
+    }
+
+    /// Goes on with finished meshes.
+    pub(super) fn from_meshes(meshes: Vec<SurfaceMesh>) -> Self {
+        Self { meshes: meshes.into_iter().map(|mesh| ((mesh.label, mesh.synthetic), mesh)).collect() }
+    }
+
+    /// The meshes made so far.
+    pub(super) fn meshes(&self) -> impl Iterator<Item = &SurfaceMesh> {
+        self.meshes.values()
     }
 
     /// The meshes in the order of their labels.

@@ -1,6 +1,6 @@
 //! Ground for pedestrians: pavements in short pieces, shoulders on request, kerb strips that join them.
 
-use super::network::{Lane, LaneKind, Road};
+use super::network::{Lane, LaneKind, LaneSection, Road};
 use super::stations::CrossSection;
 use super::world::WorldFromMap;
 use crate::{WalkableKind, WalkablePolygon};
@@ -35,6 +35,12 @@ pub(super) fn walkable_lanes(
         }
     }
     kinds
+}
+
+/// Whether a section has any walkable lane.
+pub(super) fn has_walkable(section: &LaneSection, shoulders: bool) -> bool {
+    let mut lanes = section.left.iter().chain(&section.right);
+    lanes.any(|lane| lane.kind == LaneKind::Sidewalk || shoulders && lane.kind == LaneKind::Shoulder)
 }
 
 /// Adds the walkable pieces of one lane section; `rows` are at most [`LONGEST_PIECE_M`] apart.

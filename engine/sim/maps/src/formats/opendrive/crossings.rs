@@ -1,0 +1,211 @@
+//! Crossings: the file's crosswalks with their stripes, joints to the pavements, and unmarked crossings at junctions.
+
+use super::network::{LaneKind, LaneSection, Road, RoadObject};
+use super::object_kind::{ObjectKind, kind_of};
+use super::objects::outline_in_map;
+use super::road_geometry::LaneSpan;
+use super::road_marks::PAINT_ABOVE_M;
+use super::surfaces::MeshBuilder;
+use super::walkable::without_repeats;
+use super::world::WorldFromMap;
+use crate::polygons::{PolygonIndex, clipped_to_band, triangulated};
+use crate::{GroundIndex, SemanticLabel, WalkableKind, WalkablePolygon};
+use cosfly_frames::{DVec2, DVec3, real};
+
+/// Painted stripes of a crossing, and the gaps between them, metres.
+const STRIPE_M: f64 = 0.5;
+/// Most stripes of one crossing.
+const MOST_STRIPES: f64 = 200.0;
+/// A crossing that ends this close to a pavement is joined to it, metres.
+const JOINT_REACH_M: f64 = 4.0;
+/// Width of an unmarked crossing, metres.
+const UNMARKED_WIDTH_M: f64 = 3.0;
+/// A junction arm with a marked crossing within this distance gets no unmarked one, metres.
+const MARKED_WITHIN_M: f64 = 15.0;
+
+/// A crosswalk of the file.
+#[derive(Clone, Debug)]
+pub(super) struct Crosswalk {
+    pub(super) outline_in_world: Vec<DVec3>,
+    /// Unit vector in which pedestrians cross, in plan.
+    across: DVec2,
+}
+
+/// The crosswalk objects of a road.
+pub(super) fn crosswalks(road: &Road, world: &WorldFromMap) -> Vec<Crosswalk> {
+    let objects = road.objects.iter().filter(|object| kind_of(object) == ObjectKind::Crosswalk);
+    objects.filter_map(|object| crosswalk(road, object, world)).collect()
+}
+
+fn crosswalk(road: &Road, object: &RoadObject, world: &WorldFromMap) -> Option<Crosswalk> {
+    let heading_rad = road.plan_point(object.at.s_m).heading_rad + object.heading_rad;
+    let corners: Vec<DVec3> = match object.outlines.iter().find(|outline| outline.corners.len() >= 3) {
+        Some(outline) => outline_in_map(road, object, outline).into_iter().map(|(foot, _)| foot).collect(),
+        None => rectangle(road, object, heading_rad)?,
+    };
+    let outline_in_world = without_repeats(corners.into_iter().map(|corner| world.point(corner)).collect());
+    // Pedestrians cross along the axis of the object that is closer to the road's normal.
+    let road_yaw_rad = world.yaw_rad(road.plan_point(object.at.s_m).heading_rad);
+    let own_yaw_rad = world.yaw_rad(heading_rad);
+    let axes = [own_yaw_rad, own_yaw_rad + real::FRAC_PI_2];
+    let across_rad = if real::sin(axes[0] - road_yaw_rad).abs() >= real::sin(axes[1] - road_yaw_rad).abs() {
+        axes[0]
+    } else {
+        axes[1]
+    };
+    let (sin, cos) = real::sin_cos(across_rad);
+    (outline_in_world.len() >= 3).then(|| Crosswalk { outline_in_world, across: DVec2::new(cos, sin) })
+}
+
+/// A crosswalk without an outline, from its length and width.
+fn rectangle(road: &Road, object: &RoadObject, heading_rad: f64) -> Option<Vec<DVec3>> {
+    let half = 0.5 * DVec2::new(object.size.length_m, object.size.width_m);
+    let origin = road.point(object.at.s_m, object.at.t_m, object.at.z_offset_m);
+    let (sin, cos) = real::sin_cos(heading_rad);
+    let corner = |u: f64, v: f64| origin + DVec3::new(cos * u - sin * v, sin * u + cos * v, 0.0);
+    let corners =
+        vec![corner(half.x, half.y), corner(-half.x, half.y), corner(-half.x, -half.y), corner(half.x, -half.y)];
+    (half.min_element() > 0.1).then_some(corners)
+}
+
+impl Crosswalk {
+    fn plan(&self) -> Vec<DVec2> {
+        self.outline_in_world.iter().map(|corner| corner.truncate()).collect()
+    }
+
+    fn center(&self) -> DVec3 {
+        self.outline_in_world.iter().sum::<DVec3>() / self.outline_in_world.len() as f64
+    }
+
+    /// The ground to walk on.
+    pub(super) fn polygon(&self) -> WalkablePolygon {
+        WalkablePolygon {
+            kind: WalkableKind::Crossing,
+            outline_in_world: self.outline_in_world.clone(),
+            synthetic: false,
+        }
+    }
+
+    /// Stripes across the walking direction, just above whatever road lies there.
+    pub(super) fn paint(&self, builder: &mut MeshBuilder, ground: &GroundIndex) {
+        let plan = self.plan();
+        let reach = |pick: fn(f64, f64) -> f64, start: f64| plan.iter().map(|p| p.dot(self.across)).fold(start, pick);
+        let (low, high) = (reach(f64::min, f64::INFINITY), reach(f64::max, f64::NEG_INFINITY));
+        let z_m = self.center().z;
+        let stripes = ((high - low) / (2.0 * STRIPE_M)).round().clamp(1.0, MOST_STRIPES) as usize;
+        let period_m = (high - low) / stripes as f64;
+        for stripe in 0..stripes {
+            let from = low + (stripe as f64 + 0.25) * period_m;
+            let outline = clipped_to_band(&plan, self.across, from, from + 0.5 * period_m);
+            let vertices: Vec<(DVec3, DVec2)> = outline
+                .iter()
+                .map(|corner| {
+                    let height_m = ground.ground_below(corner.extend(z_m), 0.4).map_or(z_m, |ground| ground.height_m);
+                    (
+                        corner.extend(height_m + PAINT_ABOVE_M),
+                        DVec2::new(corner.dot(self.across.perp()), corner.dot(self.across)),
+                    )
+                })
+                .collect();
+            builder.polygon(SemanticLabel::RoadLine, false, &vertices, &triangulated(&outline));
+        }
+    }
+
+    /// Short pieces that lead from the ends of the crossing onto pavements that do not quite touch it.
+    pub(super) fn joints(&self, pavements: &PolygonIndex, heights_m: &[f64]) -> Vec<WalkablePolygon> {
+        let center = self.center();
+        let plan = self.plan();
+        let along = self.across.perp();
+        let middle = center.truncate();
+        let half_width_m = 0.8 * plan.iter().map(|p| (*p - middle).dot(along).abs()).fold(f64::INFINITY, f64::min);
+        let mut out = Vec::new();
+        for sign in [-1.0, 1.0] {
+            let direction = sign * self.across;
+            let end_m = plan.iter().map(|p| (*p - middle).dot(direction)).fold(0.0, f64::max);
+            let Some((reach_m, pavement)) = first_pavement(pavements, middle + end_m * direction, direction) else {
+                continue;
+            };
+            let half_m = half_width_m.clamp(0.4, 1.5);
+            let (from, to) = (middle + (end_m - 0.8) * direction, middle + (end_m + reach_m + 0.8) * direction);
+            let outline_in_world = vec![
+                (from - half_m * along).extend(center.z),
+                (to - half_m * along).extend(heights_m[pavement]),
+                (to + half_m * along).extend(heights_m[pavement]),
+                (from + half_m * along).extend(center.z),
+            ];
+            out.push(WalkablePolygon { kind: WalkableKind::Crossing, outline_in_world, synthetic: true });
+        }
+        out
+    }
+}
+
+/// How far a pavement is from a point in a direction, and which one it is; `None` when the point is on one.
+fn first_pavement(pavements: &PolygonIndex, from: DVec2, direction: DVec2) -> Option<(f64, usize)> {
+    let step_m = 0.2;
+    let steps = (JOINT_REACH_M / step_m) as usize;
+    (0..=steps)
+        .map(|step| step as f64 * step_m)
+        .find_map(|reach_m| pavements.at(from + reach_m * direction).next().map(|number| (reach_m, number)))
+        .filter(|(reach_m, _)| *reach_m > 0.0)
+}
+
+/// Crossings of the carriageway where a road with pavements on both sides meets a junction and no marked crossing
+/// is near: pedestrians of such towns cross there, too.
+pub(super) fn unmarked_crossings(
+    road: &Road,
+    marked: &[Crosswalk],
+    shoulders: bool,
+    world: &WorldFromMap,
+) -> Vec<WalkablePolygon> {
+    if road.junction.is_some() || road.length_m < UNMARKED_WIDTH_M {
+        return Vec::new();
+    }
+    let ends = [(road.meets_junction[0], 0.0, 1.0), (road.meets_junction[1], road.length_m, -1.0)];
+    ends.into_iter()
+        .filter(|(meets, _, _)| *meets)
+        .filter_map(|(_, s_m, inwards)| {
+            unmarked_crossing(road, s_m, s_m + inwards * UNMARKED_WIDTH_M, marked, shoulders, world)
+        })
+        .collect()
+}
+
+fn unmarked_crossing(
+    road: &Road,
+    end_s_m: f64,
+    inner_s_m: f64,
+    marked: &[Crosswalk],
+    shoulders: bool,
+    world: &WorldFromMap,
+) -> Option<WalkablePolygon> {
+    let near = world.point(road.point(end_s_m, 0.0, 0.0));
+    if marked.iter().any(|crosswalk| crosswalk.center().distance(near) < MARKED_WITHIN_M) {
+        return None;
+    }
+    let section = &road.sections[road.section_at(0.5 * (end_s_m + inner_s_m))];
+    let far_edges = |s_m: f64| -> Option<[DVec3; 2]> {
+        let left = far_pavement_edge(road, section, 0, s_m, shoulders)?;
+        let right = far_pavement_edge(road, section, 1, s_m, shoulders)?;
+        Some([left, right].map(|(t_m, z_m)| world.point(road.plan_position(s_m, t_m).extend(z_m))))
+    };
+    let ([a, b], [d, c]) = (far_edges(end_s_m)?, far_edges(inner_s_m)?);
+    let outline_in_world = without_repeats(vec![a, b, c, d]);
+    (outline_in_world.len() == 4).then_some(WalkablePolygon {
+        kind: WalkableKind::Road,
+        outline_in_world,
+        synthetic: true,
+    })
+}
+
+/// t and height of the outer edge of the outermost pavement on one side.
+fn far_pavement_edge(road: &Road, section: &LaneSection, side: usize, s_m: f64, shoulders: bool) -> Option<(f64, f64)> {
+    let mut spans: Vec<LaneSpan> = Vec::new();
+    road.lane_spans(section, side, s_m, &mut spans);
+    let lanes = section.sides()[side].1;
+    let is_walkable = |kind: LaneKind| kind == LaneKind::Sidewalk || shoulders && kind == LaneKind::Shoulder;
+    let found = lanes
+        .iter()
+        .zip(&spans)
+        .rev()
+        .find(|(lane, span)| is_walkable(lane.kind) && (span.t_m[1] - span.t_m[0]).abs() > 0.3);
+    found.map(|(_, span)| (span.t_m[1], span.z_m[1]))
+}
