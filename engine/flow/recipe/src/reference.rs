@@ -225,6 +225,9 @@ fn range(root: &Value, rule: &Value) -> String {
             Some(format!("{word}`{}`", show_json(limit)))
         })
         .collect();
+    if let Some(pattern) = target.get("pattern").and_then(Value::as_str) {
+        words.push(format!("matches `{pattern}`"));
+    }
     match (target.get("minItems"), target.get("maxItems")) {
         (Some(least), Some(most)) if least == most => words.push(format!("exactly `{least}` entries")),
         (Some(least), Some(most)) => words.push(format!("`{least}` to `{most}` entries")),

@@ -80,9 +80,11 @@ fn the_reference_of_a_kind() {
     | `margin_m` | a number | `0.5` | at least `0` | Distance kept from obstacles. |
     | `pause` | a table | `{ kind = "none" }` | `kind`: `none`, `random` | When they stop. |
     | `pause(kind = random).chance` | a number | required | at least `0`, at most `1` | Chance of a stop per second. |
+    | `shares` | a table | `{}` |  | Shares by age. |
     | `speed` | a table |  |  | Walking speed. |
     | `speed.max_mps` | a number | `2` | at most `10` | Fastest speed. Not below the slowest. |
     | `speed.min_mps` | a number | `0.5` | greater than `0` | Slowest speed. |
+    | `version` | a string | `"1.0"` | matches `^[0-9]+\.[0-9]+$` | Version of the crowd, such as `1.0`. |
     | `visits` | a list of tables | `[]` | at most `3` entries | Waypoints that every path visits. |
     | `visits[].max_mps` | a number | `2` | at most `10` | Fastest speed. Not below the slowest. |
     | `visits[].min_mps` | a number | `0.5` | greater than `0` | Slowest speed. |

@@ -45,7 +45,7 @@ fn an_unknown_parameter_names_the_nearest() {
       |
       = help: did you mean `count`?
       = help: `walkers` knows `colour`, `count`, `crossing`, `crowd`, `curious`, `margin_m`, `pause`,
-              `speed`, `visits`
+              `shares`, `speed`, `version`, `visits`
     "#);
 }
 

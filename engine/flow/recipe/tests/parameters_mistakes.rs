@@ -30,7 +30,7 @@ fn an_unknown_key_names_the_nearest() {
       |
       = help: did you mean `margin_m`?
       = help: `walkers` knows `colour`, `count`, `crossing`, `crowd`, `curious`, `margin_m`, `pause`,
-              `speed`, `visits`
+              `shares`, `speed`, `version`, `visits`
     "#);
 }
 
@@ -66,7 +66,7 @@ town = "town""#,
        |
        = help: `town` is an input: write `inputs.town = ...` in `[stages.more]`
        = help: `walkers` knows `colour`, `count`, `crossing`, `crowd`, `curious`, `margin_m`, `pause`,
-               `speed`, `visits`
+               `shares`, `speed`, `version`, `visits`
     "#);
 }
 
@@ -238,6 +238,32 @@ fn an_empty_string() {
       |         ^^
       |
       = help: `crowd`: Name of the crowd (default `"people"`)
+    "#);
+}
+
+#[test]
+fn a_string_that_does_not_match() {
+    let text = check_complaint(r#"version = "one""#);
+    insta::assert_snapshot!(text, @r#"
+    error[recipe-out-of-range]: `version` is `"one"`; it must match `^[0-9]+\.[0-9]+$`
+     --> a.toml:8:11
+      |
+    8 | version = "one"
+      |           ^^^^^
+      |
+      = help: `version`: Version of the crowd, such as `1.0` (default `"1.0"`)
+    "#);
+}
+
+#[test]
+fn a_mistake_inside_a_map() {
+    let text = check_complaint(r#"shares = { old = 0.2, young = "rest" }"#);
+    insta::assert_snapshot!(text, @r#"
+    error[recipe-wrong-type]: `shares.young` is the string `"rest"`; it must be a number
+     --> a.toml:8:31
+      |
+    8 | shares = { old = 0.2, young = "rest" }
+      |                               ^^^^^^
     "#);
 }
 

@@ -34,7 +34,7 @@ pub(super) fn check_number(walk: &Walk<'_>, schema: &Json, node: &Node, path: &[
     Some(walk.documented(walk.problem("recipe-out-of-range", &node.place, path, rest), schema, path))
 }
 
-/// `minLength` and `maxLength`, in characters.
+/// `minLength` and `maxLength` (in characters) and `pattern`.
 pub(super) fn check_text(
     walk: &Walk<'_>,
     schema: &Json,
@@ -43,6 +43,7 @@ pub(super) fn check_text(
     path: &[String],
 ) -> Option<Box<Diagnostic>> {
     let length = text.chars().count() as u64;
+    let pattern = schema.get("pattern").and_then(Json::as_str);
     let rest = if schema.get("minLength").and_then(Json::as_u64).is_some_and(|least| length < least) {
         match length {
             0 => "is empty; it must not be".to_owned(),
@@ -50,10 +51,17 @@ pub(super) fn check_text(
         }
     } else if schema.get("maxLength").and_then(Json::as_u64).is_some_and(|most| length > most) {
         format!("has {length} characters; it may have at most {}", schema["maxLength"])
+    } else if let Some(pattern) = pattern.filter(|pattern| !matches(pattern, text)) {
+        format!("is `{}`; it must match `{pattern}`", walk.texts.written(&node.place))
     } else {
         return None;
     };
     Some(walk.documented(walk.problem("recipe-out-of-range", &node.place, path, rest), schema, path))
+}
+
+/// Whether `text` has a piece that `pattern` describes; a pattern that is none lets everything pass, `build` decides.
+fn matches(pattern: &str, text: &str) -> bool {
+    regex_lite::Regex::new(pattern).map_or(true, |pattern| pattern.is_match(text))
 }
 
 /// `minItems`, `maxItems` and `uniqueItems`.

@@ -9,6 +9,7 @@ use cosfly_stage::{
 };
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
+use std::collections::BTreeMap;
 use std::path::Path;
 
 /// How a crossing is chosen.
@@ -78,6 +79,11 @@ pub struct WalkersConfig {
     /// Name of the crowd.
     #[schemars(length(min = 1))]
     pub crowd: String,
+    /// Version of the crowd, such as `1.0`.
+    #[schemars(regex(pattern = r"^[0-9]+\.[0-9]+$"))]
+    pub version: String,
+    /// Shares by age.
+    pub shares: BTreeMap<String, f64>,
     /// Whether they look around.
     pub curious: bool,
 }
@@ -93,6 +99,8 @@ impl Default for WalkersConfig {
             colour: None,
             visits: vec![],
             crowd: "people".into(),
+            version: "1.0".into(),
+            shares: BTreeMap::new(),
             curious: false,
         }
     }
