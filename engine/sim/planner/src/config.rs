@@ -88,16 +88,16 @@ pub struct SearchConfig {
     /// Altitudes between the lowest and the highest. Default 6.
     #[schemars(range(min = 1, max = 8))]
     pub altitudes: u32,
-    /// Horizontal distances between the smallest and the largest. Default 8.
+    /// Horizontal distances between the smallest and the largest. Default 10.
     #[schemars(range(min = 1, max = 12))]
     pub radii: u32,
     /// Frames between searched viewpoints; those between are interpolated (paper: 5 to 10). Default 1.
     #[schemars(range(min = 1, max = 10))]
     pub keyframe_frames: u32,
-    /// Cost of moving relative to the target, per square metre and frame. Default 0.2.
+    /// Cost of moving relative to the target, per square metre and frame. Default 0.6.
     #[schemars(range(min = 0.001, max = 1000.0))]
     pub relative_motion: f64,
-    /// Cost of moving at all, per square metre and frame. Default 0.3.
+    /// Cost of moving at all, per square metre and frame. Default 0.6.
     #[schemars(range(min = 0.0, max = 1000.0))]
     pub absolute_motion: f64,
     /// Boxes further than this from the path (seen from above) are left out of planning, metres. Default 45.
@@ -166,10 +166,10 @@ impl Default for SearchConfig {
         Self {
             azimuths: 72,
             altitudes: 6,
-            radii: 8,
+            radii: 10,
             keyframe_frames: 1,
-            relative_motion: 0.2,
-            absolute_motion: 0.3,
+            relative_motion: 0.6,
+            absolute_motion: 0.6,
             filter_radius_m: 45.0,
         }
     }

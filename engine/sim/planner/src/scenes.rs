@@ -1,7 +1,8 @@
 //! Seeded streets, alleys and canyons with walkers in them: for tests, examples and benchmarks.
 //!
 //! The kinds follow the planner's reference figures: `light` and `leafy` are 16 m streets between houses of 8 to 26 m
-//! with trees over the pavement (a third of the places or nearly all), `alley` and `canyon` are gaps of 4.5 to 7 m and
+//! with trees over the pavement (a third of the places or nearly all; in
+//! `tunnel` with crowns that nearly touch), `alley` and `canyon` are gaps of 4.5 to 7 m and
 //! 4.2 to 5.2 m between houses of 20 to 45 m and 40 to 60 m. `fine` is `leafy` cut into many small boxes.
 
 use cosfly_frames::{DVec2, DVec3, RandomStream, Seed, TargetState, TargetTrack, real};
@@ -14,6 +15,8 @@ pub enum SceneKind {
     Light,
     /// Streets with dense trees.
     Leafy,
+    /// Streets whose crowns nearly touch.
+    Tunnel,
     /// Narrow alleys between houses.
     Alley,
     /// Narrower alleys between taller houses.
@@ -24,13 +27,14 @@ pub enum SceneKind {
 
 impl SceneKind {
     /// All kinds, in the order of tables.
-    pub const ALL: [Self; 5] = [Self::Light, Self::Leafy, Self::Alley, Self::Canyon, Self::Fine];
+    pub const ALL: [Self; 6] = [Self::Light, Self::Leafy, Self::Tunnel, Self::Alley, Self::Canyon, Self::Fine];
 
     /// Name in tables and on command lines.
     pub fn name(self) -> &'static str {
         match self {
             Self::Light => "light",
             Self::Leafy => "leafy",
+            Self::Tunnel => "tunnel",
             Self::Alley => "alley",
             Self::Canyon => "canyon",
             Self::Fine => "fine",
@@ -155,7 +159,8 @@ fn fill_block(kind: SceneKind, low: DVec2, high: DVec2, stream: &mut RandomStrea
         let (floor, roof) = if kind == SceneKind::Alley { (20.0, 45.0) } else { (40.0, 60.0) };
         return block(low, high, 0.0, stream.uniform(floor, roof));
     }
-    let share = if kind == SceneKind::Light { 0.33 } else { 0.95 };
+    let share = if kind == SceneKind::Light { 0.3 } else { 0.9 };
+    let crowns = if kind == SceneKind::Tunnel { (2.0, 3.2) } else { (1.5, 2.4) };
     for axis in 0..2 {
         for far in [false, true] {
             let mut along = low[axis] + 2.0;
@@ -178,13 +183,13 @@ fn fill_block(kind: SceneKind, low: DVec2, high: DVec2, stream: &mut RandomStrea
                 let mut foot = DVec2::ZERO;
                 foot[axis] = tree;
                 foot[1 - axis] = if far { high[1 - axis] + TREE_GAP_M } else { low[1 - axis] - TREE_GAP_M };
-                let (crown, bottom) = (stream.uniform(2.0, 3.2), stream.uniform(2.8, 4.0));
-                let top = bottom + stream.uniform(3.5, 6.5);
+                let (crown, bottom) = (stream.uniform(crowns.0, crowns.1), stream.uniform(2.8, 4.0));
+                let top = bottom + stream.uniform(3.0, 5.0);
                 if stream.chance(share) {
                     block(foot - DVec2::splat(0.2), foot + DVec2::splat(0.2), 0.0, bottom);
                     block(foot - DVec2::splat(crown), foot + DVec2::splat(crown), bottom, top);
                 }
-                tree += stream.uniform(8.5, 13.0);
+                tree += stream.uniform(9.0, 14.0);
             }
         }
     }

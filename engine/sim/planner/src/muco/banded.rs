@@ -93,7 +93,7 @@ mod tests {
 
     #[test]
     fn a_solution_satisfies_its_system() {
-        for n in [1, 2, 3, 4, 9, 60] {
+        for n in [1_usize, 2, 3, 4, 9, 60] {
             let build = || {
                 let mut matrix = Banded::diagonal(&(0..n).map(|i| 0.5 + 0.01 * i as f64).collect::<Vec<_>>());
                 matrix.add_differences(1, 0.7);

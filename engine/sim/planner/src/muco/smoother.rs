@@ -23,7 +23,7 @@ const PENALTY: [f64; 4] = [1.0, 0.5, 2.0, 4.0];
 /// Over-relaxation.
 const RELAXATION: f64 = 1.6;
 /// Share of a missing line of sight that one projection mends.
-const SIGHT_SHARE: f64 = 0.6;
+const SIGHT_SHARE: f64 = 0.95;
 
 /// Weights of the programme's objective.
 #[derive(Clone, Copy)]

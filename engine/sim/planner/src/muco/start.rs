@@ -20,7 +20,7 @@ const OUTSIDE_SECTOR: f64 = 30.0;
 const VISIBILITY_FACTOR: f64 = 2.5;
 
 /// How one search differs from the recipe's when that fails.
-#[derive(Clone, Copy)]
+#[derive(Clone, Copy, Debug)]
 pub struct Effort {
     /// Multiplies the number of azimuths.
     pub azimuth_factor: u32,
