@@ -213,13 +213,15 @@ impl Body<'_> {
     /// An arm whose shoulder angle is `swing * sin(phase)`, with a bent elbow.
     fn arm(&mut self, side: f64, phase: f64, swing: f64) {
         let angle = swing * real::sin(phase);
-        let right = side * (0.118 * self.width + 0.018);
+        let right = side * (0.112 * self.width + 0.014);
         let shoulder = (0.0, 0.815);
         let elbow = reach(shoulder, angle, 0.165);
         let wrist = reach(elbow, angle + 0.25 + 0.5 * swing, 0.15);
         let hand = reach(wrist, angle + 0.3 + 0.5 * swing, 0.05);
         let (out, far) = (right + side * 0.010, right + side * 0.012);
-        self.part(ring(elbow.0, out, elbow.1, 0.027, 0.029), ring(shoulder.0, right, 0.83, 0.034, 0.040), Region::Top);
+        self.part(ring(elbow.0, out, elbow.1, 0.025, 0.028), ring(shoulder.0, right, 0.79, 0.031, 0.038), Region::Top);
+        let tip = right - side * 0.016;
+        self.part(ring(shoulder.0, right, 0.785, 0.031, 0.038), ring(0.0, tip, 0.832, 0.016, 0.022), Region::Top);
         self.part(ring(wrist.0, far, wrist.1, 0.022, 0.023), ring(elbow.0, out, elbow.1, 0.027, 0.029), Region::Top);
         self.part(ring(hand.0, far, hand.1, 0.014, 0.021), ring(wrist.0, far, wrist.1, 0.019, 0.021), Region::Skin);
     }

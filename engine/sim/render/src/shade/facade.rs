@@ -43,6 +43,7 @@ pub struct Facade {
     brick: bool,
     shops: bool,
     height_m: f32,
+    shift: f32,
 }
 
 impl Facade {
@@ -51,7 +52,7 @@ impl Facade {
         let wall = WALLS[(draw(seed, 0) * WALLS.len() as f32) as usize % WALLS.len()] * (0.8 + 0.35 * draw(seed, 1));
         let curtain = height_m > 16.0 && draw(seed, 2) < 0.35;
         let floors = (height_m / (3.0 + 0.7 * draw(seed, 3))).round().max(1.0);
-        let wanted_bay = if curtain { 1.5 } else { 2.3 + 1.7 * draw(seed, 4) };
+        let wanted_bay = if curtain { 1.5 } else { 2.0 + 1.3 * draw(seed, 4) };
         let bay_m = width_m / (width_m / wanted_bay).round().max(1.0);
         let ribbon = !curtain && draw(seed, 5) < 0.22;
         let share = if curtain {
@@ -76,6 +77,7 @@ impl Facade {
             brick: draw(seed, 0) * (WALLS.len() as f32) < 1.0 || draw(seed, 9) < 0.2,
             shops: draw(seed, 10) < 0.7 && height_m > 7.0,
             height_m,
+            shift: 200.0 * draw(seed, 11),
         }
     }
 
@@ -85,13 +87,12 @@ impl Facade {
         let (bay, floor) = (along_m / self.bay_m, up_m / self.floor_m);
         let (du, dv) = (point.footprints_m[0] / self.bay_m, point.footprints_m[1] / self.floor_m);
         let size = point.footprint_m;
-        let stain = noise.clumps(along_m * 1.9 + unit(self.seed) * 90.0, up_m * 0.9, size * 1.9);
-        let grain = noise.grain(along_m * 22.0, up_m * 22.0, size * 22.0);
+        let rough = noise.rough(along_m * 14.0 + self.shift, up_m * 14.0, size * 14.0);
         let foot = 1.0 - 0.25 * (1.0 - smoothstep(0.0, 1.6, up_m));
-        let mut wall = self.wall * ((0.80 + 0.24 * stain + 0.16 * grain) * foot);
-        if self.brick && size < 0.25 {
-            let course = stripes(up_m / 0.22, 0.0, 0.14, point.footprints_m[1] / 0.22);
-            wall *= 1.0 - 0.22 * course;
+        let mut wall = self.wall * ((0.78 + 0.44 * rough) * foot);
+        if self.brick && size < 0.1 {
+            let course = stripes(up_m / 0.08, 0.0, 0.17, point.footprints_m[1] / 0.08);
+            wall *= 1.0 - 0.25 * course;
         }
         let story = floor_int(floor);
         let ledge = stripes(floor, 0.0, 0.055, dv);
@@ -136,10 +137,10 @@ impl Facade {
         look.mirror = share * if self.curtain { 0.55 } else { 0.38 } * shade;
         if light.night > 0.0 {
             let lit = unit(hash(cell, 7));
-            let one = if lit < 0.34 { 0.25 + 2.2 * lit } else { 0.0 };
-            let strength = one + (0.2 - one) * mean;
-            let warm = Vec3::new(1.0, 0.72, 0.38).lerp(Vec3::new(0.75, 0.85, 1.0), unit(hash(cell, 9)) * 0.5);
-            look.emission = warm * (strength * share * 0.30 * light.night);
+            let one = if lit < 0.30 { 0.12 + 1.3 * lit } else { 0.0 };
+            let strength = one + (0.09 - one) * mean;
+            let warm = Vec3::new(1.0, 0.62, 0.26).lerp(Vec3::new(0.80, 0.85, 0.95), unit(hash(cell, 9)) * 0.45);
+            look.emission = warm * (strength * share * 0.22 * light.night);
         }
     }
 
@@ -162,8 +163,8 @@ impl Facade {
             look.albedo = look.albedo.lerp(sign * 0.5, 0.55 * glass);
         }
         if light.night > 0.0 && unit(hash(shop, 5)) < 0.6 {
-            look.emission += (sign * 1.2 + Vec3::splat(0.05)) * (sign_share * light.night * 0.35)
-                + Vec3::new(0.30, 0.23, 0.14) * (glass * light.night * 0.5);
+            look.emission += (sign * 1.2 + Vec3::splat(0.03)) * (sign_share * light.night * 0.12)
+                + Vec3::new(0.30, 0.21, 0.11) * (glass * light.night * (0.06 + 0.22 * unit(hash(shop, 6))));
         }
         look
     }
@@ -174,11 +175,11 @@ impl Facade {
 pub fn roof(point: &SurfacePoint, seed: u32, at_m: [f32; 2], half_m: [f32; 2], noise: &NoiseTexture) -> Look {
     let size = point.footprint_m;
     let (x, y) = (at_m[0], at_m[1]);
-    let grain = noise.grain(x * 12.0, y * 12.0, size * 12.0);
+    let rough = noise.rough(x * 10.0 + unit(seed) * 99.0, y * 10.0, size * 10.0);
     let stain = noise.clumps(x * 1.5 + unit(seed) * 99.0, y * 1.5, size * 1.5);
     let tones = [Vec3::new(0.20, 0.19, 0.18), Vec3::new(0.34, 0.32, 0.29), Vec3::new(0.12, 0.12, 0.125)];
     let tone = tones[(draw(seed, 20) * 3.0) as usize % 3];
-    let mut albedo = tone * (0.62 + 0.3 * grain + 0.5 * stain);
+    let mut albedo = tone * (0.5 + 0.5 * rough + 0.5 * stain);
     // Seams of the roofing, skylights and machinery on a grid.
     let seam = stripes(x / 3.0, 0.0, 0.03, point.footprints_m[0] / 3.0);
     albedo *= 1.0 - 0.25 * seam;
@@ -192,7 +193,7 @@ pub fn roof(point: &SurfacePoint, seed: u32, at_m: [f32; 2], half_m: [f32; 2], n
         let unit_share = stripes(u, 0.5 - side, 0.5 + side, du) * stripes(v, 0.5 - side, 0.5 + side, dv);
         albedo *= 1.0 - 0.55 * shadow;
         let metal = if unit(hash(cell, 2)) < 0.4 { Vec3::new(0.10, 0.16, 0.22) } else { Vec3::splat(0.46) };
-        albedo = albedo.lerp(metal * (0.8 + 0.3 * grain), unit_share);
+        albedo = albedo.lerp(metal * (0.8 + 0.3 * rough), unit_share);
     }
     let parapet = band(inner, -1.0, 0.35, size) - 0.5 * band(inner, 0.35, 0.6, size);
     albedo = albedo.lerp(Vec3::splat(0.42), parapet.max(0.0)) * (1.0 - 0.4 * (-parapet).max(0.0));

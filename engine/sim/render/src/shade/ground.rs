@@ -21,30 +21,28 @@ pub fn look(point: &SurfacePoint, label: SemanticLabel, noise: &NoiseTexture) ->
     Look { mirror, ..Look::matt(albedo, point.normal) }
 }
 
+#[inline(always)]
 fn asphalt(x: f32, y: f32, size: f32, noise: &NoiseTexture) -> Vec3 {
-    let grain = noise.grain(x * 24.0, y * 24.0, size * 24.0);
-    let stain = noise.clumps(x * 3.1, y * 3.1, size * 3.1);
-    let wide = noise.clumps(x * 0.37 + 50.0, y * 0.37, size * 0.37);
-    // Mended pieces: the level sets of wide noise.
-    let mended = smoothstep(0.66, 0.67 + 0.05 * size, wide) * 0.22;
-    // Cracks where two noises meet their mean.
-    let meet = (noise.clumps(x * 1.3, y * 1.3 + 91.0, size * 1.3) - 0.5).abs();
-    let crack = (1.0 - smoothstep(0.0, 0.012 + 0.1 * size, meet)) * 0.35 * (1.0 - smoothstep(0.03, 0.25, size));
-    let tone = 0.115 * (0.72 + 0.3 * grain + 0.38 * (stain - 0.25)) * (1.0 - mended) * (1.0 - crack);
-    Vec3::new(tone, tone * 0.99, tone * 0.98)
+    let rough = noise.rough(x * 19.0, y * 19.0, size * 19.0);
+    let wide = noise.clumps(x * 1.05 + 50.0, y * 1.05, size * 1.05);
+    // Mended pieces and cracks: level sets of wide noise.
+    let mended = 0.16 * smoothstep(0.63, 0.64 + 0.03 * size, wide) - 0.07 * smoothstep(0.40, 0.39 - 0.03 * size, wide);
+    let crack = 0.30 * (1.0 - smoothstep(0.0, 0.004 + 0.04 * size, (wide - 0.52).abs())) * (0.12 - size).max(0.0) * 8.0;
+    let tone = 0.125 * (0.62 + 0.62 * rough + 0.18 * wide) * (1.0 - mended) * (1.0 - crack);
+    Vec3::new(tone, tone * 0.99, tone * 0.975)
 }
 
+#[inline(always)]
 fn slabs(x: f32, y: f32, size: f32, footprints: [f32; 2], noise: &NoiseTexture) -> Vec3 {
-    const SLAB_M: f32 = 0.75;
-    let (u, v) = (x / SLAB_M, y / SLAB_M);
-    let (wu, wv) = (footprints[0] / SLAB_M, footprints[1] / SLAB_M);
-    let joint = stripes(u, 0.0, 0.045, wu).max(stripes(v, 0.0, 0.045, wv));
-    let near = 1.0 - smoothstep(0.25, 0.8, size / SLAB_M);
+    const PER_M: f32 = 1.0 / 0.75;
+    let (u, v) = (x * PER_M, y * PER_M);
+    let (wu, wv) = (footprints[0] * PER_M, footprints[1] * PER_M);
+    let joint = stripes(u, 0.0, 0.04, wu).max(stripes(v, 0.0, 0.04, wv));
+    let near = 1.0 - smoothstep(0.25, 0.8, size * PER_M);
     let slab = unit(hash(super::pattern::floor_int(u) as u32, super::pattern::floor_int(v) as u32)) - 0.5;
-    let grain = noise.grain(x * 30.0, y * 30.0, size * 30.0) - 0.5;
-    let stain = noise.clumps(x * 2.3, y * 2.3, size * 2.3) - 0.5;
-    let tone = 0.40 * (1.0 + 0.16 * slab * near + 0.14 * grain + 0.42 * stain) * (1.0 - 0.45 * joint);
-    Vec3::new(tone, tone * 0.97, tone * 0.915)
+    let rough = noise.rough(x * 15.0, y * 15.0, size * 15.0) - 0.5;
+    let tone = 0.34 * (1.0 + 0.18 * slab * near + 0.42 * rough) * (1.0 - 0.4 * joint);
+    Vec3::new(tone, tone * 0.97, tone * 0.925)
 }
 
 fn paint(x: f32, y: f32, size: f32, noise: &NoiseTexture) -> Vec3 {
@@ -53,16 +51,15 @@ fn paint(x: f32, y: f32, size: f32, noise: &NoiseTexture) -> Vec3 {
 }
 
 fn gravel(x: f32, y: f32, size: f32, noise: &NoiseTexture) -> Vec3 {
-    let grain = noise.grain(x * 14.0, y * 14.0, size * 14.0);
+    let rough = noise.rough(x * 12.0, y * 12.0, size * 12.0);
     let stain = noise.clumps(x * 1.7, y * 1.7, size * 1.7);
-    Vec3::new(0.30, 0.275, 0.24) * (0.62 + 0.4 * grain + 0.5 * (stain - 0.3))
+    Vec3::new(0.25, 0.23, 0.20) * (0.45 + 0.7 * rough + 0.5 * (stain - 0.3))
 }
 
 fn grass(x: f32, y: f32, size: f32, noise: &NoiseTexture) -> Vec3 {
-    let blades = noise.grain(x * 20.0, y * 20.0, size * 20.0);
-    let tufts = noise.clumps(x * 5.0, y * 5.0, size * 5.0);
-    let dry = smoothstep(0.42, 0.75, noise.clumps(x * 0.43, y * 0.43, size * 0.43));
+    let blades = noise.rough(x * 16.0, y * 16.0, size * 16.0);
+    let dry = smoothstep(0.42, 0.75, noise.clumps(x * 1.43, y * 1.43, size * 1.43));
     let fresh = Vec3::new(0.075, 0.155, 0.035);
     let straw = Vec3::new(0.20, 0.185, 0.075);
-    fresh.lerp(straw, 0.65 * dry) * (lerp(0.55, 1.25, tufts) * lerp(0.7, 1.3, blades))
+    fresh.lerp(straw, 0.65 * dry) * lerp(0.35, 1.65, blades)
 }

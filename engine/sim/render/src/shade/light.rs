@@ -16,6 +16,8 @@ pub struct Light {
     pub zenith: Vec3,
     /// Sky near the horizon, and the colour that far things fade into.
     pub horizon: Vec3,
+    /// Light of the whole sky on an upward face.
+    pub dome: Vec3,
     /// Light from the ground on downward faces.
     pub bounce: Vec3,
     /// Share of a surface's light lost to haze per metre.
@@ -56,7 +58,7 @@ impl Light {
         let air = 1.0 / to_sun.z.max(0.08);
         let through = Vec3::new(0.045, 0.12, 0.26).map(|k| libm::expf(-k * air));
         let day_sun = 3.6 * through * (1.0 - 0.93 * overcast) * smoothstep(0.0, 8.0, altitude);
-        let moon = Vec3::new(0.035, 0.045, 0.065) * (1.0 - 0.9 * overcast) * night;
+        let moon = Vec3::new(0.022, 0.028, 0.040) * (1.0 - 0.9 * overcast) * night;
         let sun = day_sun * (1.0 - night) + moon;
 
         let clear_zenith = Vec3::new(0.16, 0.30, 0.62).lerp(Vec3::new(0.17, 0.22, 0.42), low);
@@ -64,7 +66,7 @@ impl Light {
         let grey = Vec3::new(0.62, 0.66, 0.70) * (1.0 - 0.35 * low) * (1.0 - 0.35 * rain);
         let sand = Vec3::new(0.62, 0.42, 0.22);
         let day = |clear: Vec3| clear.lerp(grey, 0.9 * overcast).lerp(sand, dust);
-        let dark = Vec3::new(0.006, 0.008, 0.016) + Vec3::new(0.012, 0.009, 0.006) * overcast;
+        let dark = Vec3::new(0.004, 0.0055, 0.011) + Vec3::new(0.009, 0.007, 0.005) * overcast;
         let zenith = day(clear_zenith).lerp(dark, night);
         let horizon = day(clear_horizon).lerp(dark * 1.8, night);
 
@@ -76,7 +78,8 @@ impl Light {
             sun,
             zenith,
             horizon,
-            bounce: 0.18 * (0.5 * sun * to_sun.z + 0.6 * zenith),
+            dome: grey_towards(zenith * 0.62 + horizon * 0.38, 0.45) * lerp(1.35, 1.15, overcast),
+            bounce: 0.30 * (0.5 * sun * to_sun.z + 0.6 * zenith),
             haze_per_m,
             haze_start_m: weather.fog_distance.clamp(0.0, 1000.0) as f32,
             night,
@@ -85,8 +88,8 @@ impl Light {
             clouds,
             rain,
             wind: share(weather.wind_intensity),
-            exposure: lerp(lerp(0.72, 0.95, overcast), 6.0, night),
-            lamp: Vec3::new(0.34, 0.22, 0.10) * night,
+            exposure: lerp(lerp(0.60, 0.80, overcast) * (1.0 + 0.35 * low), 5.0, night),
+            lamp: Vec3::new(0.26, 0.165, 0.075) * night,
         }
     }
 
@@ -105,9 +108,13 @@ impl Light {
     #[inline(always)]
     pub fn ambient(&self, normal: Vec3) -> Vec3 {
         let t = 0.5 + 0.5 * normal.z;
-        let sky = self.zenith * 0.62 + self.horizon * 0.38;
-        self.bounce.lerp(sky, t)
+        self.bounce.lerp(self.dome, t)
     }
+}
+
+/// A colour less saturated by `share`.
+fn grey_towards(colour: Vec3, share: f32) -> Vec3 {
+    colour.lerp(Vec3::splat(colour.element_sum() / 3.0), share)
 }
 
 /// Unit vector towards azimuth (x towards y) and altitude in degrees.

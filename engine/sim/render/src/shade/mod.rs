@@ -22,7 +22,7 @@ use cosfly_frames::{DVec3, Pose};
 use cosfly_maps::ObstacleKind;
 use glam::Vec3;
 use light::Light;
-use pattern::{hash, smoothstep};
+use pattern::{hash, lerp, smoothstep};
 use std::ops::Range;
 use surface::{Look, SurfacePoint};
 
@@ -211,51 +211,84 @@ impl Shader {
         colours: &mut [Vec3],
         look_at: impl Fn(&SurfacePoint) -> Look,
     ) {
-        for column in run {
-            let ray = self.view.ray(column, context.row);
-            let depth = context.depth[column];
-            let world = self.view.position + ray * depth;
-            let facing = ray.dot(plane.normal);
-            // Moving one pixel over the plane: (step - normal * ...) slides along the ray to stay on it.
-            let slide = |step: Vec3| (step - ray * (step.dot(plane.normal) / facing)) * depth;
-            let (a, b) = (slide(self.view.across), slide(self.view.down));
-            let along = a.dot(plane.along).abs() + b.dot(plane.along).abs();
-            let up = a.dot(plane.up).abs() + b.dot(plane.up).abs();
-            let normal = if facing > 0.0 { -plane.normal } else { plane.normal };
-            let point = SurfacePoint {
-                world,
-                normal,
-                footprint_m: (along * up).sqrt().max(0.35 * along.max(up)),
-                footprints_m: [along, up],
-            };
-            let look = look_at(&point);
-            colours[column] = self.lit(context.scene, &point, &look, ray, wettable);
+        let mut start = run.start;
+        while start < run.end {
+            let end = (start + BLOCK).min(run.end);
+            let first = self.slow_part(context, start, plane);
+            let last = if end - start > 1 { self.slow_part(context, end - 1, plane) } else { first };
+            let step = 1.0 / (end - start).max(2).wrapping_sub(1) as i32 as f32;
+            let mut sunlight = 0.0;
+            for column in start..end {
+                let slow = first.lerp(&last, (column - start) as i32 as f32 * step);
+                let ray = self.view.ray(column, context.row);
+                let world = self.view.position + ray * context.depth[column];
+                let normal = if first.facing > 0.0 { -plane.normal } else { plane.normal };
+                let (along, up) = (slow.along_m, slow.up_m);
+                let point = SurfacePoint {
+                    world,
+                    normal,
+                    footprint_m: 0.5 * (along + up).min(4.0 * along.min(up)),
+                    footprints_m: [along, up],
+                };
+                let look = look_at(&point);
+                let toward = look.normal.dot(self.light.to_sun);
+                // Shadows are looked up for every other pixel of a block and for its last one.
+                if (column - start) % 2 == 0 || column + 1 == end {
+                    sunlight = self.shadows.sunlight(world, normal, &context.scene.noise);
+                }
+                let direct = self.light.sun * (toward.max(0.0) * sunlight);
+                colours[column] = self.lit(context.scene, &point, &look, ray, &slow, direct, wettable);
+            }
+            start = end;
+        }
+    }
+
+    /// What changes slowly over a surface: pixel size on it, openness to the sky, lamp light.
+    #[inline(always)]
+    fn slow_part(&self, context: &RunContext<'_>, column: usize, plane: &FacePlane) -> SlowPart {
+        let ray = self.view.ray(column, context.row);
+        let depth = context.depth[column];
+        let world = self.view.position + ray * depth;
+        let facing = ray.dot(plane.normal);
+        // One pixel aside moves over the plane by the step, slid along the ray until it stays in the plane.
+        let slide = |step: Vec3| (step - ray * (step.dot(plane.normal) / facing)) * depth;
+        let (a, b) = (slide(self.view.across), slide(self.view.down));
+        let normal = if facing > 0.0 { -plane.normal } else { plane.normal };
+        let off_wall = world + normal * (1.2 * (1.0 - normal.z.abs()));
+        let grid = context.scene.grid.sample(off_wall.x, off_wall.y);
+        let above = world.z - grid.ground_m;
+        SlowPart {
+            along_m: a.dot(plane.along).abs() + b.dot(plane.along).abs(),
+            up_m: a.dot(plane.up).abs() + b.dot(plane.up).abs(),
+            sky: grid.sky + (1.0 - grid.sky) * (above * 0.045).clamp(0.0, 0.85),
+            lamps: grid.lamps * (1.0 - above * 0.11).max(0.0),
+            facing,
         }
     }
 
     /// Light that a surface point sends to the camera.
     #[inline(always)]
-    fn lit(&self, scene: &Scene, point: &SurfacePoint, look: &Look, ray: Vec3, wettable: bool) -> Vec3 {
+    #[expect(clippy::too_many_arguments, reason = "everything that light depends on, once")]
+    fn lit(
+        &self,
+        scene: &Scene,
+        point: &SurfacePoint,
+        look: &Look,
+        ray: Vec3,
+        slow: &SlowPart,
+        direct: Vec3,
+        wettable: bool,
+    ) -> Vec3 {
         let light = &self.light;
-        let off_wall = point.world + point.normal * (1.2 * (1.0 - point.normal.z.abs()));
-        let grid = scene.grid.sample(off_wall.x, off_wall.y);
-        let above = point.world.z - grid.ground_m;
-        let sky_share = grid.sky + (1.0 - grid.sky) * (above * 0.045).clamp(0.0, 0.85);
-        let openness = sky_share * look.openness;
-        let facing = look.normal.dot(light.to_sun);
-        let mut direct = Vec3::ZERO;
-        if facing > 0.0 {
-            let lit = self.shadows.sunlight(point.world, point.normal, &scene.noise);
-            direct = light.sun * (facing * lit);
-        }
-        let lamp_share = grid.lamps * (1.0 - above * 0.11).max(0.0) * (0.75 + 0.25 * look.normal.z);
-        let arriving = direct + light.ambient(look.normal) * openness + light.lamp * lamp_share;
+        let lamp_share = slow.lamps * (0.75 + 0.25 * look.normal.z);
+        let arriving = direct + light.ambient(look.normal) * (slow.sky * look.openness) + light.lamp * lamp_share;
         let (mut albedo, mut mirror, mut reflecting) = (look.albedo, look.mirror, look.normal);
         if wettable && light.wet > 0.0 && point.normal.z > 0.9 {
-            let level = scene.noise.clumps(point.world.x * 1.1, point.world.y * 1.1, point.footprint_m * 1.1);
-            let puddle = smoothstep(0.80 - 0.5 * light.puddles, 0.84 - 0.5 * light.puddles, level) * light.wet;
-            albedo *= 1.0 - 0.45 * light.wet - 0.25 * puddle;
-            mirror = mirror.max(0.16 * light.wet + 0.75 * puddle);
+            let level = scene.noise.clumps(point.world.x * 2.1, point.world.y * 2.1, point.footprint_m * 2.1);
+            let edge = 0.82 - 0.42 * light.puddles;
+            let puddle = smoothstep(edge, edge + 0.05, level) * light.wet;
+            albedo *= 1.0 - 0.42 * light.wet - 0.30 * puddle;
+            mirror = mirror.max(0.10 * light.wet + 0.45 * puddle);
             reflecting = point.normal;
         }
         let mut colour = albedo * arriving + look.emission;
@@ -263,10 +296,12 @@ impl Shader {
             let view = ray * ray.dot(ray).sqrt().recip();
             let cosine = (-view.dot(reflecting)).clamp(0.0, 1.0);
             let grazing = 1.0 - cosine;
-            let fresnel = 0.06 + 0.94 * grazing * grazing * grazing * grazing * grazing;
+            let fresnel = 0.05 + 0.95 * grazing * grazing * grazing * grazing * grazing;
             let out = view + reflecting * (2.0 * cosine);
-            let share = (mirror * (0.35 + 2.2 * fresnel)).min(1.0);
-            let seen = light.sky(out) * (0.25 + 0.75 * sky_share) + light.lamp * (0.5 * lamp_share);
+            let share = (mirror * (0.30 + 0.9 * fresnel)).min(0.85);
+            // Near the horizon a street mirrors its houses more than the sky.
+            let open = slow.sky * (0.30 + 0.70 * (2.2 * out.z).clamp(0.0, 1.0));
+            let seen = light.sky(out) * open + arriving * 0.10 + light.lamp * (0.6 * lamp_share);
             colour = colour * (1.0 - share) + seen * share;
         }
         colour
@@ -295,6 +330,33 @@ fn fast_exp(x: f32) -> f32 {
         base *= base;
     }
     base
+}
+
+/// Pixels over which slow changes are taken as linear.
+const BLOCK: usize = 8;
+
+/// What changes slowly over a surface.
+#[derive(Clone, Copy)]
+struct SlowPart {
+    along_m: f32,
+    up_m: f32,
+    sky: f32,
+    lamps: f32,
+    /// Cosine-like: negative where the plane's normal points to the camera.
+    facing: f32,
+}
+
+impl SlowPart {
+    #[inline(always)]
+    fn lerp(&self, other: &Self, t: f32) -> Self {
+        Self {
+            along_m: lerp(self.along_m, other.along_m, t),
+            up_m: lerp(self.up_m, other.up_m, t),
+            sky: lerp(self.sky, other.sky, t),
+            lamps: lerp(self.lamps, other.lamps, t),
+            facing: self.facing,
+        }
+    }
 }
 
 /// What a run of pixels needs besides its face.

@@ -45,13 +45,14 @@ pub fn smoothstep(low: f32, high: f32, x: f32) -> f32 {
 /// (0 <= low <= high <= 1). Far away this tends to the stripe's mean, so patterns fade instead of shimmering.
 #[inline(always)]
 pub fn stripes(x: f32, low: f32, high: f32, width: f32) -> f32 {
-    let width = width.clamp(1e-4, 8.0);
-    let integral = |t: f32| {
-        let whole = floor_int(t) as f32;
-        whole * (high - low) + (t - whole - low).clamp(0.0, high - low)
-    };
-    let base = floor_int(x) as f32;
-    ((integral(x - base + 0.5 * width) - integral(x - base - 0.5 * width)) / width).clamp(0.0, 1.0)
+    if width >= 1.0 {
+        return high - low;
+    }
+    let width = width.max(1e-4);
+    let at = x - floor_int(x) as f32;
+    let (from, to) = (at - 0.5 * width, at + 0.5 * width);
+    let overlap = |shift: f32| (to.min(high + shift) - from.max(low + shift)).max(0.0);
+    ((overlap(-1.0) + overlap(0.0) + overlap(1.0)) / width).min(1.0)
 }
 
 /// Share of the interval of width `width` around `x` that lies in [`low`, `high`].
@@ -61,10 +62,11 @@ pub fn band(x: f32, low: f32, high: f32, width: f32) -> f32 {
     (((x + half).min(high) - (x - half).max(low)) / (2.0 * half)).clamp(0.0, 1.0)
 }
 
-/// Two tileable noises of mean one half: `grain` (single texels) and `clumps` (many sizes).
+/// Tileable noises of mean one half: `grain` (single texels), `clumps` (many sizes), and `rough`, a blend of both.
 pub struct NoiseTexture {
     grain: Vec<u8>,
     clumps: Vec<u8>,
+    rough: Vec<u8>,
     starts: [usize; LEVELS],
 }
 
@@ -78,7 +80,12 @@ impl NoiseTexture {
         for level in 1..LEVELS {
             starts[level] = starts[level - 1] + (SIDE >> (level - 1)).pow(2);
         }
-        Self { grain: pyramid(grain), clumps: pyramid(clumps), starts }
+        let rough = grain
+            .iter()
+            .zip(finest(&[(8, 0.3), (16, 0.3), (32, 0.25), (64, 0.15)], hash(seed, 3)))
+            .map(|(grain, clump)| ((2 * u32::from(*grain) + 3 * u32::from(clump)) / 5) as u8)
+            .collect();
+        Self { grain: pyramid(grain), clumps: pyramid(clumps), rough: pyramid(rough), starts }
     }
 
     /// Single-texel noise in [0, 1] at texel coordinates, averaged over about `footprint` texels.
@@ -91,6 +98,12 @@ impl NoiseTexture {
     #[inline(always)]
     pub fn clumps(&self, x: f32, y: f32, footprint: f32) -> f32 {
         self.sample(&self.clumps, x, y, footprint)
+    }
+
+    /// Grain over clumps in [0, 1] at texel coordinates, averaged over about `footprint` texels.
+    #[inline(always)]
+    pub fn rough(&self, x: f32, y: f32, footprint: f32) -> f32 {
+        self.sample(&self.rough, x, y, footprint)
     }
 
     #[inline(always)]

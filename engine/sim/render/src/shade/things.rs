@@ -117,7 +117,10 @@ fn car(point: &SurfacePoint, place: &BoxPlace, light: &Light) -> Look {
                 look.albedo = look.albedo.lerp(Vec3::splat(0.25), 1.0 - smoothstep(0.1 - du, 0.1 + du, away));
             }
         } else {
-            let lamps = band(up, 0.40, 0.52, du);
+            let half_width = if long == 0 { place.half.y } else { place.half.x };
+            let aside = if long == 0 { place.local.y } else { place.local.x };
+            let corner = band(aside.abs(), 0.62 * half_width, 0.95 * half_width, size);
+            let lamps = band(up, 0.38, 0.52, du) * corner;
             let colour = if t > 0.0 { Vec3::splat(0.7) } else { Vec3::new(0.45, 0.02, 0.02) };
             look.albedo = look.albedo.lerp(colour, lamps);
             look.emission = colour * (0.02 * light.night * lamps);
@@ -131,7 +134,7 @@ fn lamp(point: &SurfacePoint, place: &BoxPlace, light: &Light) -> Look {
     // The head: a flat box, or the top end of a mast drawn as one box.
     let flat = place.half.z < 0.6 * place.half.x.max(place.half.y);
     let head = if flat { 1.0 } else { smoothstep(0.25, 0.2, place.half.z - place.local.z) };
-    look.emission = Vec3::new(1.0, 0.78, 0.45) * (1.1 * head * light.night);
+    look.emission = Vec3::new(1.0, 0.78, 0.45) * (0.9 * head * light.night);
     look.albedo = look.albedo.lerp(Vec3::splat(0.5), 0.6 * head);
     look
 }

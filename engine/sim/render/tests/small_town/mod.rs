@@ -54,8 +54,8 @@ impl Builder {
     fn block(&mut self, corner: DVec2) {
         let (x, y) = (corner.x, corner.y);
         let inner = ROAD_M + PAVEMENT_M;
-        self.ground(SemanticLabel::Roads, [x, y], [x + BLOCK_M, y + ROAD_M], 0.0, 6);
-        self.ground(SemanticLabel::Roads, [x, y + ROAD_M], [x + ROAD_M, y + BLOCK_M], 0.0, 6);
+        self.ground(SemanticLabel::Roads, [x, y], [x + BLOCK_M, y + ROAD_M + 0.5], 0.0, 6);
+        self.ground(SemanticLabel::Roads, [x, y + ROAD_M + 0.5], [x + ROAD_M + 0.5, y + BLOCK_M], 0.0, 6);
         for k in 0..8 {
             let start = ROAD_M + 2.0 + 6.0 * f64::from(k);
             let middle = 0.5 * ROAD_M;
