@@ -8,6 +8,10 @@ use cosfly_frames::{DVec2, RandomStream, Seed, real};
 
 /// Gap between buildings and pavements, metres.
 const SETBACK_M: f64 = 0.6;
+/// How far a front keeps from the ends of its block, where the pavement rounds the corner, metres.
+const CORNER_INSET_M: f64 = 1.7;
+/// How far the curves at the town's corners reach along its sides, metres.
+const CURVE_REACH_M: f64 = 54.0;
 /// Lots shallower than this are not built on, metres.
 const MIN_DEPTH_M: f64 = 7.0;
 
@@ -40,7 +44,9 @@ pub fn build_blocks(network: &Network, space: &StreetSpace, config: &GenerateCon
         (high, real::PI, size.x),
         (DVec2::new(low.x, high.y), -real::FRAC_PI_2, size.y),
     ] {
-        let row = Row { corner, heading_rad, length_m, depth_m: 14.0, behind: -1.0 };
+        let (sin, cos) = real::sin_cos(heading_rad);
+        let corner = corner + CURVE_REACH_M * DVec2::new(cos, sin);
+        let row = Row { corner, heading_rad, length_m: length_m - 2.0 * CURVE_REACH_M, depth_m: 14.0, behind: -1.0 };
         site.build_row(&row, &mut stream);
     }
     site.things
@@ -98,7 +104,7 @@ impl Site<'_> {
             let alley_m = if stream.chance(0.35) { stream.uniform(2.5, 5.0) } else { 0.0 };
             let is_built = stream.chance(self.config.building_density);
             // Where a street bends into the lot, stand farther back.
-            let mut back_m = SETBACK_M + 0.05 + pulled_back_m;
+            let mut back_m = SETBACK_M + 0.4 + pulled_back_m;
             while is_built && row.depth_m - back_m >= MIN_DEPTH_M {
                 let half_m = DVec2::new(0.5 * front_m - 0.02, 0.5 * (row.depth_m - back_m));
                 let center = row.corner + along * (at_m + 0.5 * front_m) + behind * (back_m + half_m.y);
@@ -116,23 +122,24 @@ impl Site<'_> {
         let size = high - low;
         let depth_m = stream.uniform(12.0, 16.0).min(0.4 * size.min_element());
         let corner_m = self.corner_building(low, depth_m, stream);
-        let inner = (size - DVec2::splat(2.0 * depth_m)).max(DVec2::ZERO);
-        let row = |corner, heading_rad, length_m, behind| Row { corner, heading_rad, length_m, depth_m, behind };
-        let east = DVec2::new(low.x + corner_m, low.y);
-        self.build_row(&row(east, 0.0, size.x - corner_m, 1.0), stream);
-        self.build_row(&row(DVec2::new(low.x, high.y), 0.0, size.x, -1.0), stream);
-        let west_start_m = depth_m.max(corner_m);
-        let west = DVec2::new(low.x, low.y + west_start_m);
-        self.build_row(&row(west, real::FRAC_PI_2, size.y - depth_m - west_start_m, -1.0), stream);
-        let east = DVec2::new(high.x, low.y + depth_m);
-        self.build_row(&row(east, real::FRAC_PI_2, inner.y, 1.0), stream);
+        let inner_m = size.y - 2.0 * depth_m;
+        let south_start_m = corner_m.max(CORNER_INSET_M);
+        let west_start_m = corner_m.max(depth_m);
+        for (corner, heading_rad, length_m, behind) in [
+            (low + south_start_m * DVec2::X, 0.0, size.x - south_start_m - CORNER_INSET_M, 1.0),
+            (DVec2::new(low.x + CORNER_INSET_M, high.y), 0.0, size.x - 2.0 * CORNER_INSET_M, -1.0),
+            (low + west_start_m * DVec2::Y, real::FRAC_PI_2, size.y - depth_m - west_start_m, -1.0),
+            (DVec2::new(high.x, low.y + depth_m), real::FRAC_PI_2, inner_m, 1.0),
+        ] {
+            self.build_row(&Row { corner, heading_rad, length_m, depth_m, behind }, stream);
+        }
         self.courtyard(low + DVec2::splat(depth_m), high - DVec2::splat(depth_m), stream);
     }
 
     /// An L-shaped building around the block's south-west corner; gives how much of both fronts it takes, metres.
     fn corner_building(&mut self, low: DVec2, depth_m: f64, stream: &mut RandomStream) -> f64 {
         let (wing_m, height_m) = (depth_m + stream.uniform(6.0, 12.0), self.height_m(stream));
-        let inset_m = SETBACK_M + 0.05;
+        let inset_m = CORNER_INSET_M;
         let thick_m = depth_m - inset_m - 2.0;
         let outer = low + DVec2::splat(inset_m);
         let reach_m = wing_m - inset_m;
@@ -180,9 +187,10 @@ impl Site<'_> {
     /// A tree off the street, at least `gap_m` from everything built.
     fn plant(&mut self, at: DVec2, gap_m: f64, stream: &mut RandomStream) {
         let tree = tree_at(at, stream);
-        let trunk = Lot { center: at, half_m: DVec2::splat(0.25), heading_rad: 0.0 };
-        if self.space.is_clear(&trunk, 0.5) && self.lots.iter().all(|lot| lot.distance_m(at) > gap_m) {
-            self.lots.push(trunk);
+        // Two crowns may touch, not swallow each other: the tree's place is a square of 2 m.
+        let place = Lot { center: at, half_m: DVec2::splat(1.0), heading_rad: 0.0 };
+        if self.space.is_clear(&place, 0.0) && self.lots.iter().all(|lot| lot.distance_m(at) > gap_m) {
+            self.lots.push(place);
             self.things.push(tree);
         }
     }

@@ -38,8 +38,8 @@ impl Default for GenerateConfig {
         Self {
             columns: 5,
             rows: 5,
-            min_spacing_m: 64.0,
-            max_spacing_m: 80.0,
+            min_spacing_m: 68.0,
+            max_spacing_m: 90.0,
             building_density: 0.92,
             tree_density: 0.85,
             min_height_m: 8.0,

@@ -38,11 +38,15 @@ pub fn all_turns(network: &Network) -> Vec<Turn> {
             let Some(from) = ends.arms[side] else { continue };
             // To the right of the arm, opposite, to its left: the first one there shares its pavement.
             let mut pavement_is_open = true;
+            let ends_in_a_wall = |arm_side: usize| ends.arms[(arm_side + 2) % 4].is_none();
             for quarter in 1..4 {
                 let to_side = (side + quarter) % 4;
                 let Some(to) = ends.arms[to_side] else { continue };
-                turns.push(turn(network, junction, (side, from), (to_side, to), pavement_is_open));
-                pavement_is_open = false;
+                let way = [(side, from), (to_side, to)];
+                for ways in lane_ways(network, &way, quarter, ends_in_a_wall) {
+                    turns.push(turn(network, junction, &way, ways, pavement_is_open));
+                    pavement_is_open = false;
+                }
             }
         }
     }
@@ -62,25 +66,51 @@ fn reversed(pose: Pose2) -> Pose2 {
     Pose2 { heading_rad: pose.heading_rad + real::PI, ..pose }
 }
 
+/// Lanes of one connecting road: how many, and how many of either arm lie between it and the middle of the street.
+#[derive(Clone, Copy)]
+struct LaneWay {
+    lanes: u32,
+    skipped: [u32; 2],
+}
+
+/// The connecting roads from one arm to another, `quarter` turns to its right. Right turns keep to the kerb, left
+/// turns to the middle; where an arm has nothing opposite, all its lanes turn either way.
+fn lane_ways(
+    network: &Network,
+    [(from_side, from), (to_side, to)]: &[(usize, Arm); 2],
+    quarter: usize,
+    ends_in_a_wall: impl Fn(usize) -> bool,
+) -> Vec<LaneWay> {
+    let lanes = [from, to].map(|arm| network.streets[arm.street].profile.lanes);
+    if quarter == 2 {
+        return vec![LaneWay { lanes: lanes[0].min(lanes[1]), skipped: [0, 0] }];
+    }
+    let usual = lanes.map(|count| if quarter == 1 { count - 1 } else { 0 });
+    let mut ways = vec![LaneWay { lanes: 1, skipped: usual }];
+    for (end, side) in [*from_side, *to_side].into_iter().enumerate() {
+        for lane in (0..lanes[end]).filter(|&lane| lane != usual[end] && ends_in_a_wall(side)) {
+            let mut skipped = usual;
+            skipped[end] = lane;
+            ways.push(LaneWay { lanes: 1, skipped });
+        }
+    }
+    ways
+}
+
+/// A driver who comes in on the arm of side k and leaves on side k + 1 turns right: heading k + 2, then k + 1.
 fn turn(
     network: &Network,
     junction: usize,
-    (from_side, from): (usize, Arm),
-    (to_side, to): (usize, Arm),
+    [(from_side, from), (to_side, to)]: &[(usize, Arm); 2],
+    LaneWay { lanes, skipped: skipped_lanes }: LaneWay,
     with_sidewalk: bool,
 ) -> Turn {
     let profile = |arm: &Arm| network.streets[arm.street].profile;
-    let (from_profile, to_profile): (Profile, Profile) = (profile(&from), profile(&to));
-    // A driver who comes in on the arm of side k and leaves on side k + 1 turns right: heading k + 2, then k + 1.
+    let (from_profile, to_profile): (Profile, Profile) = (profile(from), profile(to));
     let quarter = (to_side + 4 - from_side) % 4;
-    let (lanes, skipped_lanes) = match quarter {
-        1 => (1, [from_profile.lanes - 1, to_profile.lanes - 1]),
-        2 => (from_profile.lanes.min(to_profile.lanes), [0, 0]),
-        _ => (1, [0, 0]),
-    };
     let offset_m = skipped_lanes.map(|lanes| f64::from(lanes) * LANE_WIDTH_M);
-    let start = reversed(mouth(network, &from)).moved(0.0, -offset_m[0]);
-    let goal = mouth(network, &to).moved(0.0, -offset_m[1]);
+    let start = reversed(mouth(network, from)).moved(0.0, -offset_m[0]);
+    let goal = mouth(network, to).moved(0.0, -offset_m[1]);
     let reach = goal.at - start.at;
     let (ahead_m, left_m) = (reach.dot(start.ahead()), reach.dot(start.left()));
     let line = if quarter == 2 {
@@ -89,5 +119,5 @@ fn turn(
         Alignment::quarter_turn(start, ahead_m, left_m.abs(), quarter == 3, f64::INFINITY, 0.0)
     };
     let sidewalk_m = with_sidewalk.then_some([from_profile.sidewalk_m, to_profile.sidewalk_m]);
-    Turn { junction, from, to, line, lanes, skipped_lanes, sidewalk_m }
+    Turn { junction, from: *from, to: *to, line, lanes, skipped_lanes, sidewalk_m }
 }
