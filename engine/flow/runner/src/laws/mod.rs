@@ -1,0 +1,1 @@
+//! Laws of the engine, held on toy stages.

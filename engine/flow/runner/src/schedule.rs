@@ -1,0 +1,267 @@
+//! Which task may start next: counters instead of a graph of tasks, so that memory grows by a few words per item.
+
+use cosfly_recipe::Recipe;
+use cosfly_stage::Fan;
+use std::collections::{BTreeMap, BTreeSet, VecDeque};
+
+/// A task: its number over all stages.
+pub(crate) type TaskId = usize;
+
+/// Where a task stands.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum State {
+    /// For its inputs.
+    Waiting,
+    /// Nothing keeps it from starting.
+    Ready,
+    /// On a thread.
+    Running,
+    /// Its blobs can be read.
+    Finished,
+    /// It ended with a diagnostic.
+    Failed,
+    /// Something it reads failed.
+    Skipped,
+}
+
+/// How the items of one stage feed another.
+enum Link {
+    /// Pairs (upstream item, downstream item), sorted.
+    Each { downstream: usize, pairs: Vec<(u32, u32)> },
+    /// Every item of the upstream feeds every item of the downstream.
+    Whole { downstream: usize },
+}
+
+/// The state of all tasks of a run.
+pub(crate) struct Schedule {
+    /// First task of each stage, and the number of all.
+    offsets: Vec<TaskId>,
+    links: Vec<Vec<Link>>,
+    states: Vec<State>,
+    /// Per stage: unfinished tasks at ports that take a whole stage.
+    barriers: Vec<u64>,
+    /// Per task: unfinished tasks at ports that pair items.
+    pairs_left: Vec<u32>,
+    /// Tasks whose end was counted already; they may run again when their blobs are lost.
+    counted: Vec<bool>,
+    ready: BTreeSet<TaskId>,
+    running: usize,
+    /// Tasks waiting for one whose blobs were lost.
+    rewaiting: BTreeMap<TaskId, Vec<TaskId>>,
+    rewaits_left: BTreeMap<TaskId, usize>,
+}
+
+impl Schedule {
+    /// Nothing is running; `finished(stage, item)` says what need not run.
+    pub(crate) fn new(recipe: &Recipe, finished: impl Fn(usize, usize) -> bool) -> Self {
+        let mut offsets = vec![0];
+        for stage in &recipe.stages {
+            offsets.push(offsets[offsets.len() - 1] + stage.items.len());
+        }
+        let tasks = offsets[offsets.len() - 1];
+        let mut schedule = Self {
+            links: recipe.stages.iter().map(|_| Vec::new()).collect(),
+            states: vec![State::Waiting; tasks],
+            barriers: vec![0; recipe.stages.len()],
+            pairs_left: vec![0; tasks],
+            counted: vec![false; tasks],
+            ready: BTreeSet::new(),
+            running: 0,
+            rewaiting: BTreeMap::new(),
+            rewaits_left: BTreeMap::new(),
+            offsets,
+        };
+        for (stage, described) in recipe.stages.iter().enumerate() {
+            for item in 0..described.items.len() {
+                if finished(stage, item) {
+                    let task = schedule.task(stage, item);
+                    schedule.states[task] = State::Finished;
+                    schedule.counted[task] = true;
+                }
+            }
+        }
+        for downstream in 0..recipe.stages.len() {
+            schedule.connect(recipe, downstream);
+            schedule.release_stage(downstream);
+        }
+        schedule
+    }
+
+    fn connect(&mut self, recipe: &Recipe, downstream: usize) {
+        for connection in &recipe.stages[downstream].connections {
+            let mut upstreams = connection.upstreams.clone();
+            upstreams.sort_unstable();
+            upstreams.dedup();
+            for upstream in upstreams {
+                let arriving = connection.arrivals.iter().enumerate().filter(|(_, arrival)| arrival.stage == upstream);
+                if connection.port.fan == Fan::Each {
+                    let mut pairs: Vec<(u32, u32)> =
+                        arriving.map(|(item, arrival)| (arrival.item as u32, item as u32)).collect();
+                    pairs.sort_unstable();
+                    for (from, to) in &pairs {
+                        let open = !self.counted[self.task(upstream, *from as usize)];
+                        let to = self.task(downstream, *to as usize);
+                        self.pairs_left[to] += u32::from(open);
+                    }
+                    self.links[upstream].push(Link::Each { downstream, pairs });
+                } else {
+                    let items: BTreeSet<usize> = arriving.map(|(_, arrival)| arrival.item).collect();
+                    let open = items.iter().filter(|item| !self.counted[self.task(upstream, **item)]);
+                    self.barriers[downstream] += open.count() as u64;
+                    self.links[upstream].push(Link::Whole { downstream });
+                }
+            }
+        }
+    }
+
+    /// The task of an item.
+    pub(crate) fn task(&self, stage: usize, item: usize) -> TaskId {
+        self.offsets[stage] + item
+    }
+
+    /// The stage and item of a task.
+    pub(crate) fn place(&self, task: TaskId) -> (usize, usize) {
+        let stage = self.offsets.partition_point(|offset| *offset <= task) - 1;
+        (stage, task - self.offsets[stage])
+    }
+
+    /// Where a task stands.
+    pub(crate) fn state(&self, task: TaskId) -> State {
+        self.states[task]
+    }
+
+    /// Takes the first task that is ready.
+    pub(crate) fn next(&mut self) -> Option<TaskId> {
+        let task = self.ready.pop_first()?;
+        self.states[task] = State::Running;
+        self.running += 1;
+        Some(task)
+    }
+
+    /// Whether tasks are running.
+    pub(crate) fn is_busy(&self) -> bool {
+        self.running > 0
+    }
+
+    /// A running task goes back: another process is at it.
+    pub(crate) fn put_back(&mut self, task: TaskId) {
+        self.running -= 1;
+        self.make_ready(task);
+    }
+
+    /// A running task was abandoned, because the run stops.
+    pub(crate) fn abandon(&mut self, task: TaskId) {
+        self.running -= 1;
+        self.states[task] = State::Waiting;
+    }
+
+    /// A running task ended well.
+    pub(crate) fn finish(&mut self, task: TaskId) {
+        self.running -= 1;
+        self.states[task] = State::Finished;
+        for waiting in self.rewaiting.remove(&task).unwrap_or_default() {
+            let left = self.rewaits_left.entry(waiting).or_insert(1);
+            *left -= 1;
+            if *left == 0 {
+                self.rewaits_left.remove(&waiting);
+                self.make_ready_if_free(waiting);
+            }
+        }
+        if std::mem::replace(&mut self.counted[task], true) {
+            return;
+        }
+        let (stage, item) = self.place(task);
+        let links = std::mem::take(&mut self.links[stage]);
+        for link in &links {
+            match link {
+                Link::Each { downstream, pairs } => {
+                    for to in fed_by(pairs, item) {
+                        let to = self.task(*downstream, to);
+                        self.pairs_left[to] -= 1;
+                        self.make_ready_if_free(to);
+                    }
+                }
+                Link::Whole { downstream } => {
+                    self.barriers[*downstream] -= 1;
+                    self.release_stage(*downstream);
+                }
+            }
+        }
+        self.links[stage] = links;
+    }
+
+    /// A running task failed: everything that reads it, directly or not, is skipped.
+    pub(crate) fn fail(&mut self, task: TaskId) {
+        self.end_badly(task, State::Failed);
+    }
+
+    fn end_badly(&mut self, task: TaskId, state: State) {
+        self.running -= 1;
+        self.states[task] = state;
+        let mut dead = VecDeque::from([task]);
+        while let Some(task) = dead.pop_front() {
+            let mut readers = self.rewaiting.remove(&task).unwrap_or_default();
+            let (stage, item) = self.place(task);
+            for link in &self.links[stage] {
+                match link {
+                    Link::Each { downstream, pairs } => {
+                        readers.extend(fed_by(pairs, item).map(|to| self.task(*downstream, to)));
+                    }
+                    Link::Whole { downstream } => {
+                        readers.extend(self.offsets[*downstream]..self.offsets[*downstream + 1]);
+                    }
+                }
+            }
+            for reader in readers {
+                if matches!(self.states[reader], State::Waiting | State::Ready) {
+                    self.states[reader] = State::Skipped;
+                    self.ready.remove(&reader);
+                    dead.push_back(reader);
+                }
+            }
+        }
+    }
+
+    /// A running task found the blobs of `lost` gone: those run again, then it does.
+    pub(crate) fn wait_again(&mut self, task: TaskId, lost: &[TaskId]) {
+        if lost.iter().any(|upstream| matches!(self.states[*upstream], State::Failed | State::Skipped)) {
+            return self.end_badly(task, State::Skipped);
+        }
+        self.running -= 1;
+        self.states[task] = State::Waiting;
+        for upstream in lost {
+            self.rewaiting.entry(*upstream).or_default().push(task);
+            *self.rewaits_left.entry(task).or_insert(0) += 1;
+            if self.states[*upstream] == State::Finished {
+                self.make_ready(*upstream);
+            }
+        }
+    }
+
+    fn release_stage(&mut self, stage: usize) {
+        if self.barriers[stage] == 0 {
+            (self.offsets[stage]..self.offsets[stage + 1]).for_each(|task| self.make_ready_if_free(task));
+        }
+    }
+
+    fn make_ready_if_free(&mut self, task: TaskId) {
+        let free = self.states[task] == State::Waiting
+            && self.pairs_left[task] == 0
+            && !self.rewaits_left.contains_key(&task)
+            && self.barriers[self.place(task).0] == 0;
+        if free {
+            self.make_ready(task);
+        }
+    }
+
+    fn make_ready(&mut self, task: TaskId) {
+        self.states[task] = State::Ready;
+        self.ready.insert(task);
+    }
+}
+
+/// The downstream items that read upstream item `item`.
+fn fed_by(pairs: &[(u32, u32)], item: usize) -> impl Iterator<Item = usize> {
+    let first = pairs.partition_point(|(from, _)| (*from as usize) < item);
+    pairs[first..].iter().take_while(move |(from, _)| *from as usize == item).map(|(_, to)| *to as usize)
+}

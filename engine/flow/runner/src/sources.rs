@@ -1,0 +1,71 @@
+//! Files outside the store that stages read: hashed once per run, and watched for change while it goes on.
+
+use cosfly_diagnose::{Diagnostic, Fault, Result};
+use cosfly_fingerprint::Digest;
+use std::collections::BTreeMap;
+use std::fs::{self, Metadata};
+use std::path::{Path, PathBuf};
+use std::time::SystemTime;
+
+/// A source file as it was when the plan was made.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub(crate) struct HashedSource {
+    pub(crate) parameter: String,
+    pub(crate) path: PathBuf,
+    pub(crate) digest: Digest,
+    /// Size and time of change: when both stay, the file is not read again.
+    stamp: (u64, Option<SystemTime>),
+}
+
+/// Hashes every file once, however many stages read it.
+#[derive(Default)]
+pub(crate) struct SourceReader {
+    known: BTreeMap<PathBuf, (Digest, (u64, Option<SystemTime>))>,
+}
+
+impl SourceReader {
+    pub(crate) fn read(&mut self, parameter: &str, path: &Path) -> Result<HashedSource> {
+        let (digest, stamp) = match self.known.get(path) {
+            Some(known) => *known,
+            None => {
+                let read = digest_of(path).map_err(|error| unreadable(path, &error))?;
+                self.known.insert(path.to_owned(), read);
+                read
+            }
+        };
+        Ok(HashedSource { parameter: parameter.to_owned(), path: path.to_owned(), digest, stamp })
+    }
+}
+
+impl HashedSource {
+    /// An error when the file is not what it was when the plan was made.
+    pub(crate) fn check_unchanged(&self) -> Result<()> {
+        let metadata = fs::metadata(&self.path).map_err(|error| unreadable(&self.path, &error))?;
+        if stamp(&metadata) == self.stamp {
+            return Ok(());
+        }
+        let (digest, _) = digest_of(&self.path).map_err(|error| unreadable(&self.path, &error))?;
+        if digest == self.digest {
+            return Ok(());
+        }
+        Err(Diagnostic::new(
+            "source-changed",
+            Fault::Input,
+            format!("`{}` changed while it was being used", self.path.display()),
+        )
+        .hint("run the same command again"))
+    }
+}
+
+fn digest_of(path: &Path) -> std::io::Result<(Digest, (u64, Option<SystemTime>))> {
+    let before = stamp(&fs::metadata(path)?);
+    Ok((Digest::of(&fs::read(path)?), before))
+}
+
+fn stamp(metadata: &Metadata) -> (u64, Option<SystemTime>) {
+    (metadata.len(), metadata.modified().ok())
+}
+
+fn unreadable(path: &Path, error: &std::io::Error) -> Box<Diagnostic> {
+    Diagnostic::io(format!("read `{}`", path.display()), error)
+}
