@@ -30,7 +30,9 @@ fn main() -> Result<(), Box<dyn Error>> {
         .iter()
         .flat_map(|(town, _)| &town.surfaces)
         .filter(|mesh| mesh.label == SemanticLabel::Roads)
-        .flat_map(|mesh| mesh.triangles.iter().map(|corners| corners.map(|i| point(mesh.vertices_in_world[i as usize]))))
+        .flat_map(|mesh| {
+            mesh.triangles.iter().map(|corners| corners.map(|i| point(mesh.vertices_in_world[i as usize])))
+        })
         .map(|triangle| json!(triangle))
         .collect();
     let lanes = lane_samples(&map, step_m, &point);
@@ -52,6 +54,7 @@ fn lane_samples(map: &RoadMap, step_m: f64, point: &dyn Fn(DVec3) -> [f64; 3]) -
                     out.push(json!({
                         "road": road.id, "lane": lane.id, "s": s_m, "kind": format!("{:?}", lane.kind),
                         "position": point(found.position_in_world), "yaw_deg": found.yaw_rad.to_degrees(), "width": found.width_m,
+                        "drift": found.drift,
                     }));
                 }
             }

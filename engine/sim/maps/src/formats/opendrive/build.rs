@@ -37,8 +37,10 @@ pub struct RoadMap {
 pub struct LanePoint {
     /// World frame, metres.
     pub position_in_world: DVec3,
-    /// Yaw in the world frame of the direction in which s grows, radians.
+    /// Yaw in the world frame of the direction in which s grows, radians: the road's, turned by `drift`.
     pub yaw_rad: f64,
+    /// Sideways movement of the lane's middle for each metre of the road (to the left).
+    pub drift: f64,
     /// Width of the lane, metres.
     pub width_m: f64,
 }
@@ -56,9 +58,9 @@ impl RoadMap {
     /// The middle of lane `lane_id` of road `road_id` at `s_m`; `None` when there is no such road or lane.
     pub fn lane_point(&self, road_id: &str, lane_id: i32, s_m: f64) -> Option<LanePoint> {
         let road = self.network.roads.iter().find(|road| road.id == road_id)?;
-        let (position_in_map, heading_rad, width_m) = road.lane_middle(lane_id, s_m)?;
+        let (position_in_map, heading_rad, drift, width_m) = road.lane_middle(lane_id, s_m)?;
         let position_in_world = self.world.point(position_in_map);
-        Some(LanePoint { position_in_world, yaw_rad: self.world.yaw_rad(heading_rad), width_m })
+        Some(LanePoint { position_in_world, yaw_rad: self.world.yaw_rad(heading_rad), drift, width_m })
     }
 }
 

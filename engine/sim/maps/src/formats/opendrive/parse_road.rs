@@ -98,7 +98,7 @@ fn curve<'d>(source: &Source<'d>, geometry: Node<'d, 'd>, length_m: f64) -> Resu
         "paramPoly3" => {
             let (u, v) = (source.coefficients(node, "U")?, source.coefficients(node, "V")?);
             match node.attribute("pRange").unwrap_or("normalized") {
-                "arcLength" => Ok(Curve::ByArcLength { u, v }),
+                "arcLength" => Ok(Curve::by_arc_length(u, v, length_m)),
                 "normalized" => Ok(normalized(source, node, u, v, length_m)),
                 other => {
                     Err(source.refuse(node, format!("`pRange` is `{other}`; it must be `arcLength` or `normalized`")))

@@ -85,9 +85,9 @@ impl Road {
         [inner, outer]
     }
 
-    /// Plan position (map frame), height, heading and width of the middle of a lane.
+    /// Position (map frame), heading, drift and width of the middle of a lane.
     /// The heading is that of growing s. `None` when there is no such lane at `s`.
-    pub(super) fn lane_middle(&self, lane_id: i32, s_m: f64) -> Option<(DVec3, f64, f64)> {
+    pub(super) fn lane_middle(&self, lane_id: i32, s_m: f64) -> Option<(DVec3, f64, f64, f64)> {
         let section = &self.sections[self.section_at(s_m)];
         let side = usize::from(lane_id < 0);
         let index = section.sides()[side].1.iter().position(|lane| lane.id == lane_id)?;
@@ -97,9 +97,10 @@ impl Road {
         let t_m = 0.5 * (span.t_m[0] + span.t_m[1]);
         let plan = self.plan_point(s_m);
         let [inner, outer] = self.edge_slopes(section, side, index, s_m);
-        let heading_rad = plan.heading_rad + real::atan2(0.5 * (inner + outer), 1.0);
+        let drift = 0.5 * (inner + outer);
+        let heading_rad = plan.heading_rad + real::atan(drift);
         let position = beside(plan, t_m).extend(0.5 * (span.z_m[0] + span.z_m[1]));
-        Some((position, heading_rad, (span.t_m[1] - span.t_m[0]).abs()))
+        Some((position, heading_rad, drift, (span.t_m[1] - span.t_m[0]).abs()))
     }
 }
 

@@ -1,0 +1,108 @@
+"""Lanes and walkable polygons of our OpenDRIVE reader against independent rasters of the same CARLA towns.
+
+usage: check_rasters.py DUMP_LANES_BINARY XODR_FOLDER RASTER_FOLDER   (pip install numpy h5py)
+A raster is HDF5 with layers `road`, `sidewalk` and the attributes `pixels_per_meter` and `world_offset_in_meters`;
+column = (x - offset) * ppm, row = (y - offset) * ppm, y being CARLA's. The rasters leave out the pavements of junction
+corners and draw the others about half a metre wider on either side than the lanes are: hence shares below 1.
+Exits 1 below the shares listed in LEAST.
+"""
+
+import json
+import pathlib
+import subprocess
+import sys
+
+import h5py
+import numpy
+
+# Shares: lane centres on road, pavement centres on pavement, area of pavement polygons on pavement,
+# area of the raster's pavement that is ours.
+LEAST = {
+    "Town01": (0.99, 0.93, 0.95, 0.75),
+    "Town03_2019-04": (0.90, 0.68, 0.70, 0.60),  # its raster is of a newer town
+    "Town04": (0.99, 0.86, 0.90, 0.70),
+    "Town06": (0.99, 0.0, 0.0, 0.0),  # no pavements
+    "Town07": (0.99, 0.78, 0.80, 0.60),
+}
+
+
+class Raster:
+    def __init__(self, path):
+        with h5py.File(path) as file:
+            self.ppm = float(file.attrs["pixels_per_meter"])
+            self.offset = numpy.array(file.attrs["world_offset_in_meters"], dtype=float)
+            self.layers = {name: file[name][:] > 0 for name in ("road", "sidewalk", "shoulder", "parking")}
+
+    def pixels(self, points):
+        return (numpy.asarray(points)[:, :2] - self.offset) * self.ppm
+
+    def share(self, points, *names):
+        """Share of points on any of the layers."""
+        if len(points) == 0:
+            return float("nan")
+        layer = numpy.logical_or.reduce([self.layers[name] for name in names])
+        columns, rows = numpy.floor(self.pixels(points)).astype(int).T
+        inside = (columns >= 0) & (rows >= 0) & (columns < layer.shape[1]) & (rows < layer.shape[0])
+        return float(layer[rows[inside], columns[inside]].sum() / len(points))
+
+    def drawn(self, outlines):
+        """Mask of the pixels whose centres lie in any outline."""
+        mask = numpy.zeros(self.layers["road"].shape, dtype=bool)
+        for outline in outlines:
+            corners = self.pixels(outline)
+            low = numpy.maximum(numpy.floor(corners.min(0)).astype(int), 0)
+            high = numpy.minimum(numpy.ceil(corners.max(0)).astype(int), mask.shape[::-1])
+            if (high <= low).any():
+                continue
+            x, y = numpy.meshgrid(numpy.arange(low[0], high[0]) + 0.5, numpy.arange(low[1], high[1]) + 0.5)
+            odd = numpy.zeros(x.shape, dtype=bool)
+            for a, b in zip(corners, numpy.roll(corners, -1, axis=0)):
+                if a[1] != b[1]:
+                    crosses = (a[1] > y) != (b[1] > y)
+                    odd ^= crosses & (x < a[0] + (b[0] - a[0]) * (y - a[1]) / (b[1] - a[1]))
+            mask[low[1] : high[1], low[0] : high[0]] |= odd
+        return mask
+
+
+def check(binary, xodr, raster_path):
+    dump = json.loads(subprocess.run([binary, str(xodr), "2"], check=True, capture_output=True, text=True).stdout)
+    raster = Raster(raster_path)
+    centres = {"Carriageway": [], "Sidewalk": [], "Shoulder": []}
+    for sample in dump["lanes"]:
+        if sample["width"] > 0.5 and sample["kind"] in centres:
+            centres[sample["kind"]].append(sample["position"])
+    ours = raster.drawn([polygon["outline"] for polygon in dump["walkable"] if polygon["kind"] == "Sidewalk"])
+    theirs = raster.layers["sidewalk"]
+    both, either = (ours & theirs).sum(), (ours | theirs).sum()
+    on_road = (ours & raster.layers["road"] & ~theirs).sum()
+    shares = (
+        raster.share(centres["Carriageway"], "road", "parking", "shoulder"),
+        raster.share(centres["Sidewalk"], "sidewalk"),
+        float(both / ours.sum()) if ours.any() else 0.0,
+        float(both / theirs.sum()) if theirs.any() else 0.0,
+    )
+    print(
+        f"{xodr.stem} ({raster.ppm:.0f} px/m): lane centres on road {shares[0]:.4f}, pavement centres on pavement "
+        f"{shares[1]:.4f}; pavement polygons: {shares[2]:.4f} of ours is theirs, {shares[3]:.4f} of theirs is ours, "
+        f"overlap over union {both / max(either, 1):.4f}, {on_road / max(ours.sum(), 1):.4f} of ours is road there"
+    )
+    least = LEAST.get(xodr.stem, (0.0,) * 4)
+    return all(share >= wanted for share, wanted in zip(shares, least))
+
+
+def main():
+    if len(sys.argv) != 4:
+        raise SystemExit(__doc__)
+    binary, xodr_folder, raster_folder = sys.argv[1], *map(pathlib.Path, sys.argv[2:])
+    results = []
+    for xodr in sorted(xodr_folder.glob("*.xodr")):
+        found = sorted(raster_folder.glob(f"{xodr.stem.split('_')[0]}_4ppm.h5"))
+        if found:
+            results.append(check(binary, xodr, found[0]))
+    if not results:
+        print("skipped: no town has a raster")
+    raise SystemExit(0 if all(results) else 1)
+
+
+if __name__ == "__main__":
+    main()
