@@ -1,1 +1,22 @@
 //! Typed facts of a trajectory, and Chinese and English instructions checked against them.
+//!
+//! [`facts`] reads a trajectory, [`captions`] puts the facts into words, [`check`] reads any text back and compares
+//! it with the facts. The reader shares no code with the templates, so it can judge other people's texts as well.
+
+pub mod caption;
+pub mod check;
+mod chinese;
+pub mod compass;
+pub mod config;
+mod english;
+pub mod facts;
+pub mod precision;
+mod reading;
+mod turns;
+
+pub use caption::{Caption, Language, captions};
+pub use check::{Slot, SlotMismatch, check};
+pub use compass::Compass;
+pub use config::{CaptionConfig, Style};
+pub use facts::{Facts, Stop, facts};
+pub use turns::{Turn, TurnKind};

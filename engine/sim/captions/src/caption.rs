@@ -1,0 +1,162 @@
+//! Captions: facts in, texts in two languages out.
+
+use crate::{CaptionConfig, Facts, Style, chinese, english};
+use cosfly_frames::{RandomStream, Seed};
+use serde::{Deserialize, Serialize};
+
+/// Language of a text.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Language {
+    /// Chinese, simplified characters.
+    Zh,
+    /// English.
+    En,
+}
+
+impl Language {
+    /// All languages.
+    pub const ALL: [Self; 2] = [Self::Zh, Self::En];
+
+    /// The ISO 639-1 code.
+    pub fn code(self) -> &'static str {
+        match self {
+            Self::Zh => "zh",
+            Self::En => "en",
+        }
+    }
+}
+
+/// One text about one trajectory.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub struct Caption {
+    /// Its language.
+    pub language: Language,
+    /// Its style.
+    pub style: Style,
+    /// The text.
+    pub text: String,
+}
+
+/// Writes the captions of one trajectory: for each language and style, `variants_per_style` different wordings,
+/// chosen by the seed.
+pub fn captions(facts: &Facts, config: &CaptionConfig, seed: Seed) -> Vec<Caption> {
+    let mut captions = vec![];
+    for language in Language::ALL {
+        for &style in &config.styles {
+            let own = seed.child(language.code(), style as u64);
+            for template in template_order(&mut own.stream("order"), config.variants_per_style as usize) {
+                let words = &mut own.child("words", template as u64).stream("choice");
+                let text = match (language, style) {
+                    (Language::Zh, Style::Instruction) => chinese::instruction(facts, template, words),
+                    (Language::Zh, Style::Description) => chinese::description(facts, template, words),
+                    (Language::En, Style::Instruction) => english::instruction(facts, template, words),
+                    (Language::En, Style::Description) => english::description(facts, template, words),
+                };
+                captions.push(Caption { language, style, text });
+            }
+        }
+    }
+    captions
+}
+
+/// Templates per style and language.
+pub(crate) const TEMPLATES: usize = 6;
+
+/// The first `count` of the template numbers in random order (Fisher-Yates).
+fn template_order(stream: &mut RandomStream, count: usize) -> Vec<usize> {
+    let mut order: Vec<usize> = (0..TEMPLATES).collect();
+    for last in (1..TEMPLATES).rev() {
+        order.swap(last, stream.index(last + 1));
+    }
+    order.truncate(count);
+    order
+}
+
+/// One of several wordings.
+pub(crate) fn one_of<'a>(words: &mut RandomStream, choices: &[&'a str]) -> &'a str {
+    choices[words.index(choices.len())]
+}
+
+/// `value` rounded to a multiple of `step`, without needless decimals.
+pub(crate) fn rounded(value: f64, step: f64) -> String {
+    let steps = (value / step).round();
+    if step < 1.0 { format!("{:.1}", steps * step) } else { format!("{:.0}", steps * step + 0.0) }
+}
+
+#[cfg(test)]
+pub(crate) mod tests {
+    use super::*;
+    use crate::check::check;
+    use crate::facts::{facts, test_flights::flight};
+
+    /// Walks of every shape: straight, bent, many turns, with and without stops, standing, seen from below.
+    pub(crate) fn flights() -> Vec<Facts> {
+        let mut from_below = flight(&[(Some(0.0), 100), (None, 4)]);
+        for pose in &mut from_below.poses_in_world {
+            (pose.pitch_rad, pose.position_in_world.z) = (0.2, -3.0);
+        }
+        let mut flights = walks();
+        flights.push(facts(&from_below));
+        flights
+    }
+
+    fn walks() -> Vec<Facts> {
+        let many: Vec<(Option<f64>, usize)> =
+            (0..14).map(|i| (Some(if i % 2 == 0 { 90.0 } else { 0.0 }), 12)).collect();
+        let mut with_stops = many.clone();
+        with_stops.insert(5, (None, 7));
+        [
+            vec![(Some(0.0), 200)],
+            vec![(Some(-45.0), 60), (None, 6), (Some(-45.0), 60)],
+            vec![(Some(90.0), 60), (Some(180.0), 60)],
+            vec![(Some(135.0), 40), (Some(-45.0), 40), (None, 9), (Some(45.0), 40), (None, 4), (Some(-45.0), 20)],
+            many,
+            with_stops,
+            vec![(None, 40)],
+            vec![(Some(-90.0), 30), (Some(0.0), 30), (Some(-90.0), 30), (Some(180.0), 30), (Some(-90.0), 30)],
+        ]
+        .iter()
+        .map(|legs| facts(&flight(legs)))
+        .collect()
+    }
+
+    #[test]
+    fn every_caption_of_every_wording_passes_its_own_check() {
+        let config = CaptionConfig { variants_per_style: 6, ..CaptionConfig::default() };
+        let mut count = 0;
+        for (walk, known) in flights().iter().enumerate() {
+            for item in 0..25 {
+                for caption in captions(known, &config, Seed::of_item(1, "captions", &format!("{walk}-{item}"))) {
+                    let checked = check(&caption.text, caption.language, known);
+                    assert_eq!(checked, Ok(()), "{}\n{known:?}", caption.text);
+                    count += 1;
+                }
+            }
+        }
+        assert_eq!(count, 9 * 25 * 2 * 2 * 6);
+    }
+
+    #[test]
+    fn wordings_of_one_trajectory_differ_and_repeat_with_the_seed() {
+        let config = CaptionConfig { variants_per_style: 6, ..CaptionConfig::default() };
+        for known in flights() {
+            let seed = Seed::of_item(1, "captions", "p0");
+            let texts = captions(&known, &config, seed);
+            let mut distinct: Vec<&str> = texts.iter().map(|caption| caption.text.as_str()).collect();
+            distinct.sort_unstable();
+            distinct.dedup();
+            assert_eq!(distinct.len(), texts.len());
+            assert_eq!(texts, captions(&known, &config, seed));
+        }
+    }
+
+    #[test]
+    fn numbers_are_rounded_for_people() {
+        for (value, step, expected) in
+            [(28.284, 1.0, "28"), (1.3401, 0.1, "1.3"), (99.5, 5.0, "100"), (133.0, 10.0, "130"), (-0.2, 1.0, "0")]
+        {
+            assert_eq!(rounded(value, step), expected);
+        }
+    }
+}

@@ -1,0 +1,139 @@
+//! English wordings of the facts.
+
+use crate::caption::{one_of, rounded};
+use crate::precision::{DISTANCE_STEP_M, PITCH_STEP_DEG, SPEED_STEP_MPS, STOP_STEP_S, duration_step_s, way_step_m};
+use crate::{Facts, TurnKind};
+use cosfly_frames::RandomStream;
+
+/// More turns than this are counted instead of listed.
+const LISTED_TURNS: usize = 4;
+
+/// One sentence for the pilot: whom to follow, how far away, at which angle.
+pub(crate) fn instruction(facts: &Facts, template: usize, words: &mut RandomStream) -> String {
+    let who = who(facts, words);
+    let distance = rounded(facts.distance_m, DISTANCE_STEP_M);
+    let (at, by) = (view(facts, "at"), view(facts, "by"));
+    match template {
+        0 => format!("Follow the pedestrian {who}; keep about {distance} m away and look {at}."),
+        1 => format!("Track the person {who} from a distance of about {distance} m, with the camera tilted {by}."),
+        2 => format!("Stay about {distance} m from the pedestrian {who}, and keep the camera pitched {by}."),
+        3 => format!("Keep the person {who} in view from about {distance} m away, camera pointing {at}."),
+        4 => format!("Your target is the pedestrian {who}: hold a distance of about {distance} m and look {at}."),
+        _ => format!("Looking {at}, escort the person {who} at a distance of about {distance} m."),
+    }
+}
+
+/// Several sentences: route, stops, length, and how the drone flies.
+pub(crate) fn description(facts: &Facts, template: usize, words: &mut RandomStream) -> String {
+    let drone = drone(facts, template % 3);
+    let walk = if facts.walks {
+        format!("{} {} {}", route(facts, words), stops(facts, words), length(facts, words))
+    } else {
+        let duration = rounded(facts.duration_s, duration_step_s(facts.duration_s));
+        format!("The pedestrian stands still for about {duration} seconds, facing {}.", facts.start_direction.english())
+    };
+    if template < 3 { format!("{walk} {drone}") } else { format!("{drone} {walk}") }
+}
+
+/// The relative clause that says which way the target goes.
+fn who(facts: &Facts, words: &mut RandomStream) -> String {
+    let (start, end) = (facts.start_direction.english(), facts.end_direction.english());
+    if !facts.walks {
+        let pattern = one_of(words, &["standing still and facing {}", "who stands still and faces {}"]);
+        return pattern.replace("{}", start);
+    }
+    if start != end {
+        let pattern = one_of(words, &["who sets off {} and finally heads", "who first walks {} and later"]);
+        return format!("{} {end}", pattern.replace("{}", start));
+    }
+    let patterns: &[&str] =
+        if facts.turns.is_empty() { &["walking", "heading", "who walks"] } else { &["who sets off", "who starts out"] };
+    format!("{} {start}", one_of(words, patterns))
+}
+
+/// `down at about 45 degrees`.
+fn view(facts: &Facts, preposition: &str) -> String {
+    let side = if facts.pitch_down_deg < 0.0 { "up" } else { "down" };
+    format!("{side} {preposition} about {} degrees", rounded(facts.pitch_down_deg.abs(), PITCH_STEP_DEG))
+}
+
+fn route(facts: &Facts, words: &mut RandomStream) -> String {
+    let (start, end) = (facts.start_direction.english(), facts.end_direction.english());
+    let who = one_of(words, &["The pedestrian", "The person"]);
+    match facts.turns.len() {
+        0 if start == end => format!("{who} walks straight {start}."),
+        0 => format!("{who} walks {start} at first and {end} at the end."),
+        listed if listed <= LISTED_TURNS => {
+            let sides: Vec<&str> = facts.turns.iter().map(|turn| side(turn.kind)).collect();
+            format!("{who} sets off {start}, turns {}, and finally heads {end}.", sides.join(", then "))
+        }
+        count => {
+            let counts: Vec<String> = [TurnKind::Left, TurnKind::Right, TurnKind::Around]
+                .iter()
+                .map(|&kind| (facts.turns_of(kind), side(kind)))
+                .filter(|(count, _)| *count > 0)
+                .map(|(count, side)| format!("{count} {side}"))
+                .collect();
+            format!("{who} sets off {start}, makes {count} turns ({}) and finally heads {end}.", counts.join(", "))
+        }
+    }
+}
+
+fn side(kind: TurnKind) -> &'static str {
+    match kind {
+        TurnKind::Left => "left",
+        TurnKind::Right => "right",
+        TurnKind::Around => "around",
+    }
+}
+
+fn stops(facts: &Facts, words: &mut RandomStream) -> String {
+    let standing = rounded(facts.standing_s(), STOP_STEP_S);
+    match facts.stops.len() {
+        0 => one_of(words, &["There are no stops on the way.", "The walk goes on without stopping."]).into(),
+        1 => {
+            one_of(words, &["They pause once for about {} seconds.", "On the way they stop once for about {} seconds."])
+                .replace("{}", &standing)
+        }
+        count => one_of(
+            words,
+            &["They stop # times for about {} seconds in all.", "They pause # times for about {} seconds together."],
+        )
+        .replace('#', &count.to_string())
+        .replace("{}", &standing),
+    }
+}
+
+fn length(facts: &Facts, words: &mut RandomStream) -> String {
+    let way = rounded(facts.way_m, way_step_m(facts.way_m));
+    let duration = rounded(facts.duration_s, duration_step_s(facts.duration_s));
+    let speed = rounded(facts.walking_speed_mps, SPEED_STEP_MPS);
+    match words.index(2) {
+        0 => format!("The walk covers about {way} m in about {duration} seconds, at about {speed} m/s."),
+        _ => format!(
+            "The route is about {way} m long, takes about {duration} seconds and is walked at about {speed} m/s."
+        ),
+    }
+}
+
+fn drone(facts: &Facts, template: usize) -> String {
+    let distance = rounded(facts.distance_m, DISTANCE_STEP_M);
+    let view = view(facts, "at");
+    // A drone that is not above its target has no height worth a word.
+    let height = (facts.altitude_m >= 0.5).then(|| rounded(facts.altitude_m, DISTANCE_STEP_M));
+    let height = |pattern: &str| height.as_ref().map_or(String::new(), |height| pattern.replace("{}", height));
+    match template {
+        0 => {
+            let height = height(", flies about {} m higher than the target");
+            format!("The drone keeps about {distance} m away{height} and looks {view}.")
+        }
+        1 => {
+            let height = height(" about {} m above the target,");
+            format!("From about {distance} m away,{height} the camera looks {view}.")
+        }
+        _ => {
+            let height = height(" a height of about {} m above the target,");
+            format!("The drone holds a distance of about {distance} m,{height} and points its camera {view}.")
+        }
+    }
+}

@@ -1,0 +1,220 @@
+//! What can be said about a trajectory: directions, turns, stops, distances, angles.
+
+use crate::Compass;
+use crate::turns::{Turn, TurnKind, directions, turns};
+use cosfly_frames::DVec2;
+use cosfly_planner::Trajectory;
+use serde::{Deserialize, Serialize};
+
+/// Slower than this is standing, m/s.
+const STANDING_MPS: f64 = 0.05;
+/// Shorter pauses are not worth a word, seconds.
+const LEAST_STOP_S: f64 = 1.0;
+/// Who moves less than this in all stands, metres.
+const LEAST_WALK_M: f64 = 1.0;
+/// Entries of the direction series that make a start and an end.
+const END_FRAMES: usize = 4;
+
+/// A pause of the target.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Stop {
+    /// First frame that stands.
+    pub frame: u32,
+    /// Standing frames x time step, seconds.
+    pub duration_s: f64,
+}
+
+/// Typed facts of one trajectory.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Facts {
+    /// False when the target stays within a metre.
+    pub walks: bool,
+    /// Walking direction at the start (facing, when it stands).
+    pub start_direction: Compass,
+    /// Walking direction at the end.
+    pub end_direction: Compass,
+    /// Turns of at least 45 degrees, in order.
+    pub turns: Vec<Turn>,
+    /// Pauses of at least a second, in order.
+    pub stops: Vec<Stop>,
+    /// Time from the first to the last frame, seconds.
+    pub duration_s: f64,
+    /// Way that the target walks, metres.
+    pub way_m: f64,
+    /// Mean speed of the target while it walks, m/s.
+    pub walking_speed_mps: f64,
+    /// Mean distance from drone to the target's feet, metres.
+    pub distance_m: f64,
+    /// Mean angle of the camera below the horizon, degrees; negative when it looks up.
+    pub pitch_down_deg: f64,
+    /// Mean height of the drone above the target's feet, metres.
+    pub altitude_m: f64,
+    /// Mean share of the target that is unoccluded, 0..=1.
+    pub visibility: f64,
+}
+
+impl Facts {
+    /// Time of all stops together, seconds.
+    pub fn standing_s(&self) -> f64 {
+        self.stops.iter().map(|stop| stop.duration_s).sum()
+    }
+
+    /// How many turns are of this kind.
+    pub fn turns_of(&self, kind: TurnKind) -> usize {
+        self.turns.iter().filter(|turn| turn.kind == kind).count()
+    }
+}
+
+/// Reads the facts off a trajectory. An empty one gives zeros.
+pub fn facts(trajectory: &Trajectory) -> Facts {
+    let track = &trajectory.track;
+    let feet: Vec<DVec2> = track.states.iter().map(|state| state.feet_in_world.truncate()).collect();
+    let moving: Vec<bool> = track.states.iter().map(|state| state.speed_mps >= STANDING_MPS).collect();
+    let way_m = track.length_m();
+    let walks = way_m >= LEAST_WALK_M;
+    let directions = if walks { directions(&feet, &moving) } else { vec![] };
+    let facing = track.states.first().map_or(0.0, |state| state.heading_rad);
+    let mean_yaw = |part: &[(usize, f64)]| {
+        if part.is_empty() { facing } else { part.iter().map(|(_, yaw)| yaw).sum::<f64>() / part.len() as f64 }
+    };
+    let steps = moving.len().saturating_sub(1).max(1) as f64;
+    let walking_s = track.duration_s() * (moving.iter().skip(1).filter(|moves| **moves).count() as f64 / steps);
+    let pairs = || trajectory.poses_in_world.iter().zip(&track.states);
+    let count = pairs().count().max(1) as f64;
+    Facts {
+        walks,
+        start_direction: Compass::of_yaw_rad(mean_yaw(&directions[..directions.len().min(END_FRAMES)])),
+        end_direction: Compass::of_yaw_rad(mean_yaw(&directions[directions.len().saturating_sub(END_FRAMES)..])),
+        turns: turns(&directions),
+        stops: if walks { stops(&moving, track.dt_s) } else { vec![] },
+        duration_s: track.duration_s(),
+        way_m,
+        walking_speed_mps: if walks && walking_s > 0.0 { way_m / walking_s } else { 0.0 },
+        distance_m: pairs().map(|(pose, target)| pose.position_in_world.distance(target.feet_in_world)).sum::<f64>()
+            / count,
+        pitch_down_deg: -pairs().map(|(pose, _)| pose.pitch_rad.to_degrees()).sum::<f64>() / count,
+        altitude_m: pairs().map(|(pose, target)| pose.position_in_world.z - target.feet_in_world.z).sum::<f64>()
+            / count,
+        visibility: trajectory.visibility.iter().sum::<f64>() / trajectory.visibility.len().max(1) as f64,
+    }
+}
+
+/// Runs of standing frames of at least [`LEAST_STOP_S`].
+fn stops(moving: &[bool], dt_s: f64) -> Vec<Stop> {
+    let mut stops = vec![];
+    let mut first = 0;
+    while first < moving.len() {
+        let count = moving[first..].iter().take_while(|moves| !**moves).count();
+        let duration_s = count as f64 * dt_s;
+        if count > 0 && duration_s >= LEAST_STOP_S - 1e-9 {
+            stops.push(Stop { frame: first as u32, duration_s });
+        }
+        first += count.max(1);
+    }
+    stops
+}
+
+#[cfg(test)]
+pub(crate) mod test_flights {
+    //! Flights with known facts.
+
+    use super::*;
+    use cosfly_frames::{DVec3, Pose, TargetState, TargetTrack, real};
+    use cosfly_planner::{Certificate, Limits};
+
+    /// A target that goes `count` steps of 0.6 m in each of the yaws (degrees), `None` = stands; a drone
+    /// 20 m behind (west of it) and 20 m above.
+    pub(crate) fn flight(legs: &[(Option<f64>, usize)]) -> Trajectory {
+        let mut states = vec![];
+        let (mut feet, mut heading_rad) = (DVec3::new(7.0, -3.0, 1.0), 0.0);
+        for &(yaw_deg, count) in legs {
+            for _ in 0..count {
+                let speed_mps = if yaw_deg.is_some() { 1.2 } else { 0.0 };
+                if let Some(yaw_deg) = yaw_deg {
+                    heading_rad = yaw_deg.to_radians();
+                    let (sin, cos) = real::sin_cos(heading_rad);
+                    feet += 0.6 * DVec3::new(cos, sin, 0.0);
+                }
+                states.push(TargetState { feet_in_world: feet, heading_rad, speed_mps });
+            }
+        }
+        let poses_in_world = states
+            .iter()
+            .map(|state| {
+                let feet: DVec3 = state.feet_in_world;
+                Pose::looking_at(feet + DVec3::new(-20.0, 0.0, 20.0), feet)
+            })
+            .collect();
+        let visibility = vec![0.9; states.len()];
+        let clearance_m = vec![10.0; states.len()];
+        Trajectory {
+            track: TargetTrack { dt_s: 0.5, height_m: 1.7, radius_m: 0.25, states },
+            poses_in_world,
+            visibility,
+            clearance_m,
+            terms: vec![],
+            convergence: vec![],
+            certificate: Certificate {
+                limits: Limits { clearance_m: 1.5, speed_mps: 12.0, acceleration_mps2: 6.0, jerk_mps3: 12.0 },
+                holds: true,
+                violations: vec![],
+                mean_visibility: 0.9,
+                frames_half_visible: 1.0,
+                min_clearance_m: 10.0,
+                max_speed_mps: 1.2,
+                max_acceleration_mps2: 0.0,
+                max_jerk_mps3: 0.0,
+                mean_distance_m: 28.28,
+                mean_rear_angle_deg: 0.0,
+                length_m: 100.0,
+                length_ratio: 1.0,
+                iterations: 1,
+                filtered_boxes: 1,
+            },
+            perturbation: None,
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::test_flights::flight;
+    use super::*;
+
+    #[test]
+    fn the_facts_of_a_walk_round_two_corners() {
+        let known = facts(&flight(&[
+            (Some(-90.0), 40),
+            (None, 8),
+            (Some(0.0), 40),
+            (None, 1),
+            (Some(-90.0), 40),
+            (None, 3),
+            (Some(-90.0), 20),
+        ]));
+        assert_eq!((known.start_direction, known.end_direction), (Compass::North, Compass::North));
+        assert_eq!(known.turns.iter().map(|turn| turn.kind).collect::<Vec<_>>(), [TurnKind::Right, TurnKind::Left]);
+        assert_eq!(
+            known.stops.iter().map(|stop| (stop.frame, stop.duration_s)).collect::<Vec<_>>(),
+            [(40, 4.0), (129, 1.5)]
+        );
+        assert!((known.duration_s - 75.5).abs() < 1e-9 && (known.way_m - 83.4).abs() < 1e-9);
+        assert!((known.distance_m - 800.0_f64.sqrt()).abs() < 1e-9);
+        assert!((known.pitch_down_deg - 45.0).abs() < 1e-9 && (known.altitude_m - 20.0).abs() < 1e-9);
+        assert!((known.walking_speed_mps - 1.2).abs() < 0.02, "{}", known.walking_speed_mps);
+        assert!((known.visibility - 0.9).abs() < 1e-12);
+    }
+
+    #[test]
+    fn a_target_that_stays_walks_nowhere() {
+        let known = facts(&flight(&[(None, 50)]));
+        assert_eq!((known.walks, known.start_direction, known.walking_speed_mps), (false, Compass::East, 0.0));
+        assert!(known.turns.is_empty() && known.stops.is_empty());
+    }
+
+    #[test]
+    fn an_empty_trajectory_gives_zeros() {
+        let known = facts(&flight(&[]));
+        assert_eq!((known.distance_m, known.duration_s, known.way_m), (0.0, 0.0, 0.0));
+    }
+}

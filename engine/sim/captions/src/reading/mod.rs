@@ -1,0 +1,52 @@
+//! Reading texts back: what a text claims, whoever wrote it.
+
+pub mod chinese;
+pub mod english;
+
+use crate::{Compass, TurnKind};
+
+/// One thing that a text says.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Claim {
+    /// The target goes (or faces) this way.
+    Direction(Compass),
+    /// Metres between drone and target.
+    Distance(f64),
+    /// Metres above the target.
+    Altitude(f64),
+    /// Degrees below the horizon.
+    Pitch(f64),
+    /// Metres walked.
+    Way(f64),
+    /// Seconds in all.
+    Duration(f64),
+    /// Metres per second.
+    Speed(f64),
+    /// So many stops.
+    Stops(usize),
+    /// Stops, without a number.
+    SomeStops,
+    /// Seconds of standing.
+    Standing(f64),
+    /// The next turn.
+    Turn(TurnKind),
+    /// So many turns.
+    Turns(usize),
+    /// So many turns to this side.
+    TurnsOf(TurnKind, usize),
+    /// It goes straight.
+    NoTurns,
+    /// The target stays where it is.
+    Stays,
+    /// A number that says nothing this reader knows.
+    Unknown(String),
+}
+
+/// A whole number of things, from a parsed number.
+fn count(value: f64, otherwise: &str, claim: impl Fn(usize) -> Claim) -> Claim {
+    if value.fract() == 0.0 && (0.0..1e6).contains(&value) {
+        claim(value as usize)
+    } else {
+        Claim::Unknown(format!("{value} {otherwise}"))
+    }
+}
