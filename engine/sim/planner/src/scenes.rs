@@ -159,7 +159,11 @@ fn fill_block(kind: SceneKind, low: DVec2, high: DVec2, stream: &mut RandomStrea
         let (floor, roof) = if kind == SceneKind::Alley { (20.0, 45.0) } else { (40.0, 60.0) };
         return block(low, high, 0.0, stream.uniform(floor, roof));
     }
-    let share = if kind == SceneKind::Light { 0.3 } else { 0.9 };
+    let share = match kind {
+        SceneKind::Light => 0.25,
+        SceneKind::Tunnel => 0.95,
+        _ => 0.75,
+    };
     let crowns = if kind == SceneKind::Tunnel { (2.0, 3.2) } else { (1.5, 2.4) };
     for axis in 0..2 {
         for far in [false, true] {

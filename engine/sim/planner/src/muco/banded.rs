@@ -2,8 +2,8 @@
 
 use cosfly_frames::DVec3;
 
-/// Coefficients of first, second and third differences.
-pub const DIFFERENCES: [&[f64]; 3] = [&[-1.0, 1.0], &[1.0, -2.0, 1.0], &[-1.0, 3.0, -3.0, 1.0]];
+/// Coefficients of differences by order; order 0 is the value itself.
+pub const DIFFERENCES: [&[f64]; 4] = [&[1.0], &[-1.0, 1.0], &[1.0, -2.0, 1.0], &[-1.0, 3.0, -3.0, 1.0]];
 
 /// Row i holds the entries (i, i), (i, i-1), (i, i-2), (i, i-3).
 pub struct Banded {
@@ -16,9 +16,9 @@ impl Banded {
         Self { rows: values.iter().map(|&value| [value, 0.0, 0.0, 0.0]).collect() }
     }
 
-    /// Adds `weight * D^T D`, D the matrix of differences of the given order (1, 2 or 3).
+    /// Adds `weight * D^T D`, D the matrix of differences of the given order (0 to 3).
     pub fn add_differences(&mut self, order: usize, weight: f64) {
-        let coefficients = DIFFERENCES[order - 1];
+        let coefficients = DIFFERENCES[order];
         for start in 0..self.rows.len().saturating_sub(order) {
             for (a, ca) in coefficients.iter().enumerate() {
                 for (b, cb) in coefficients[..=a].iter().enumerate() {
@@ -73,7 +73,7 @@ impl Factor {
 
 /// Differences of the given order of `x` into `out` (shorter by the order).
 pub fn differences(order: usize, x: &[DVec3], out: &mut Vec<DVec3>) {
-    let coefficients = DIFFERENCES[order - 1];
+    let coefficients = DIFFERENCES[order];
     out.clear();
     out.extend(x.windows(order + 1).map(|w| w.iter().zip(coefficients).map(|(v, c)| *v * *c).sum::<DVec3>()));
 }
@@ -81,7 +81,7 @@ pub fn differences(order: usize, x: &[DVec3], out: &mut Vec<DVec3>) {
 /// Adds `weight * D^T y`.
 pub fn add_transposed(order: usize, y: &[DVec3], weight: f64, out: &mut [DVec3]) {
     for (i, value) in y.iter().enumerate() {
-        for (k, c) in DIFFERENCES[order - 1].iter().enumerate() {
+        for (k, c) in DIFFERENCES[order].iter().enumerate() {
             out[i + k] += weight * *c * *value;
         }
     }
@@ -105,12 +105,10 @@ mod tests {
             let mut x = right.clone();
             build().factor().solve(&mut x);
             let matrix = build();
-            for i in 0..n {
-                let mut left = DVec3::ZERO;
-                for j in i.saturating_sub(3)..(i + 4).min(n) {
-                    left += matrix.rows[i.max(j)][i.abs_diff(j)] * x[j];
-                }
-                assert!((left - right[i]).length() < 1e-8, "n {n} row {i}");
+            for (i, right) in right.iter().enumerate() {
+                let near = i.saturating_sub(3)..(i + 4).min(n);
+                let left: DVec3 = near.map(|j| matrix.rows[i.max(j)][i.abs_diff(j)] * x[j]).sum();
+                assert!((left - right).length() < 1e-8, "n {n} row {i}");
             }
         }
     }

@@ -105,7 +105,7 @@ fn add_sight(input: &CorridorInput<'_>, waypoint: DVec3, frame: usize, corridor:
                 slack = slack.max(-HOPELESS_M);
             }
         }
-        if slack >= -HOPELESS_M && slack < SIGHT_MARGIN_M + TRUST_M {
+        if (-HOPELESS_M..SIGHT_MARGIN_M + TRUST_M).contains(&slack) {
             plane.offset_m += SIGHT_MARGIN_M;
             corridor.soft.push(plane);
         }

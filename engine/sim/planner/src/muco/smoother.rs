@@ -91,10 +91,11 @@ impl<'a> Programme<'a> {
         matrix.add_differences(1, PENALTY[1]);
         matrix.add_differences(2, PENALTY[2] + objective.acceleration);
         matrix.add_differences(3, PENALTY[3] + objective.jerk);
-        let mut copy: [Vec<DVec3>; 4] = [start.to_vec(), Vec::new(), Vec::new(), Vec::new()];
-        for order in 1..=3 {
-            differences(order, start, &mut copy[order]);
-        }
+        let copy: [Vec<DVec3>; 4] = core::array::from_fn(|order| {
+            let mut row = Vec::new();
+            differences(order, start, &mut row);
+            row
+        });
         let multiplier = core::array::from_fn(|k| vec![DVec3::ZERO; copy[k].len()]);
         Self { wished, nearness, reach, factor: matrix.factor(), x: start.to_vec(), copy, multiplier }
     }
@@ -105,11 +106,7 @@ impl<'a> Programme<'a> {
         for iteration in 1..=ITERATIONS {
             self.solve_for_x();
             for order in 0..4 {
-                if order == 0 {
-                    row.clone_from(&self.x);
-                } else {
-                    differences(order, &self.x, &mut row);
-                }
+                differences(order, &self.x, &mut row);
                 self.update_copy(order, &row, corridor);
             }
             if iteration >= ITERATIONS / 2 && iteration % CHECK_EVERY == 0 && self.holds(corridor) {
@@ -120,13 +117,14 @@ impl<'a> Programme<'a> {
     }
 
     fn solve_for_x(&mut self) {
-        for (i, x) in self.x.iter_mut().enumerate() {
-            *x = self.nearness[i] * self.wished[i] + PENALTY[0] * (self.copy[0][i] - self.multiplier[0][i]);
+        for ((x, wished), nearness) in self.x.iter_mut().zip(self.wished).zip(self.nearness) {
+            *x = *nearness * *wished;
         }
-        for order in 1..=3 {
-            let pulled: Vec<DVec3> =
-                self.copy[order].iter().zip(&self.multiplier[order]).map(|(copy, m)| *copy - *m).collect();
-            add_transposed(order, &pulled, PENALTY[order], &mut self.x);
+        let mut pulled = Vec::new();
+        for (order, penalty) in PENALTY.into_iter().enumerate() {
+            pulled.clear();
+            pulled.extend(self.copy[order].iter().zip(&self.multiplier[order]).map(|(copy, m)| *copy - *m));
+            add_transposed(order, &pulled, penalty, &mut self.x);
         }
         self.factor.solve(&mut self.x);
     }

@@ -51,8 +51,8 @@ pub struct Viterbi<'a> {
     from_azimuth: Vec<u8>,
     checkpoints: Vec<Vec<f32>>,
     steps: usize,
-    climb: [Vec<f32>; 3],
-    reach: [Vec<f32>; 3],
+    climb: Vec<[f32; 3]>,
+    reach: Vec<[f32; 3]>,
     turn: Vec<Vec<f32>>,
 }
 
@@ -69,15 +69,11 @@ impl<'a> Viterbi<'a> {
         let total = lattice.nodes() * frames.len();
         let weight = moves.relative + moves.absolute;
         let square = |gap: f64| if gap <= moves.longest_m { (weight * gap * gap) as f32 } else { FORBIDDEN };
-        let neighbours = |values: &[f64]| {
-            [0_usize, 1, 2].map(|step| {
-                (0..values.len())
-                    .map(|i| match (i + step).checked_sub(1) {
-                        Some(other) if other < values.len() => square(values[other] - values[i]),
-                        _ => FORBIDDEN,
-                    })
-                    .collect::<Vec<f32>>()
-            })
+        let neighbours = |values: &[f64]| -> Vec<[f32; 3]> {
+            let price = |from: Option<usize>, to: usize| {
+                from.and_then(|from| values.get(from)).map_or(FORBIDDEN, |value| square((value - values[to]).abs()))
+            };
+            (0..values.len()).map(|i| [price(i.checked_sub(1), i), 0.0, price(Some(i + 1), i)]).collect()
         };
         let steps = MAX_AZIMUTH_STEPS.min(lattice.directions.len() / 2 - 1);
         let angle = real::TAU / lattice.directions.len() as f64;
@@ -155,7 +151,7 @@ impl<'a> Viterbi<'a> {
             }
             layer += 1;
             self.advance(layer, &mut cost, &mut spare);
-            if layer % CHECKPOINT == 0 {
+            if layer.is_multiple_of(CHECKPOINT) {
                 self.checkpoints.push(cost.clone());
             }
         }
@@ -168,11 +164,9 @@ impl<'a> Viterbi<'a> {
         let (climbed, reached) = spare.split_at_mut(1);
         let back = &mut self.from_lane[layer * nodes..(layer + 1) * nodes];
         let lanes = self.lattice.lanes();
-        let shape = (self.lattice.altitudes_m.len(), self.lattice.radii_m.len());
         for azimuth in 0..self.lattice.directions.len() {
             let row = azimuth * lanes..(azimuth + 1) * lanes;
             change_lane(
-                shape,
                 (&self.climb, &self.reach),
                 &cost[row.clone()],
                 &mut climbed[0][row.clone()],
@@ -221,24 +215,23 @@ impl<'a> Viterbi<'a> {
 
 /// Best way to each (altitude, radius) of one azimuth from its neighbours; `back` packs 3 * climb + reach.
 fn change_lane(
-    (altitudes, radii): (usize, usize),
-    (climb, reach): (&[Vec<f32>; 3], &[Vec<f32>; 3]),
+    (climb, reach): (&[[f32; 3]], &[[f32; 3]]),
     cost: &[f32],
     climbed: &mut [f32],
     reached: &mut [f32],
     back: &mut [u8],
 ) {
+    let (altitudes, radii) = (climb.len(), reach.len());
     let mut climb_step = [1_u8; super::lattice::MAX_LANES];
-    for h in 0..altitudes {
+    for (h, prices) in climb.iter().enumerate() {
         let here = h * radii;
         climbed[here..here + radii].copy_from_slice(&cost[here..here + radii]);
         for (step, other) in [(0, h.wrapping_sub(1)), (2, h + 1)] {
-            let price = climb[step][h];
-            if other >= altitudes || price == FORBIDDEN {
+            if other >= altitudes {
                 continue;
             }
             for r in 0..radii {
-                let offered = cost[other * radii + r] + price;
+                let offered = cost[other * radii + r] + prices[step];
                 if offered < climbed[here + r] {
                     climbed[here + r] = offered;
                     climb_step[here + r] = step as u8;
@@ -247,12 +240,12 @@ fn change_lane(
         }
     }
     for h in 0..altitudes {
-        for r in 0..radii {
+        for (r, prices) in reach.iter().enumerate() {
             let here = h * radii + r;
             let (mut best, mut best_step) = (climbed[here], 1_usize);
             for (step, other) in [(0, r.wrapping_sub(1)), (2, r + 1)] {
-                if other < radii && climbed[h * radii + other] + reach[step][r] < best {
-                    best = climbed[h * radii + other] + reach[step][r];
+                if other < radii && climbed[h * radii + other] + prices[step] < best {
+                    best = climbed[h * radii + other] + prices[step];
                     best_step = step;
                 }
             }
