@@ -4,16 +4,23 @@
 //! * [`config`]: what a recipe says about the dataset as a whole.
 //! * [`frame_pack`]: the images of one trajectory between rendering and publishing.
 //! * [`mcap_log`]: one MCAP file per trajectory.
+//! * [`tables`]: the Parquet tables.
+//! * [`croissant`] and [`publish`]: metadata, card, hashes, and the dataset as a whole.
 
+pub mod action;
 pub mod config;
+pub mod croissant;
 pub mod frame_pack;
 mod hashing;
 pub mod images;
 pub mod mcap_log;
+pub mod publish;
 pub mod record;
 pub mod sample;
+pub mod tables;
 
 pub use config::{DatasetConfig, DepthEncoding, EncodingConfig, RgbEncoding};
 pub use frame_pack::{FramePackReader, FramePackWriter, PackHeader, PackedFrame};
 pub use mcap_log::{LogRecord, write_log};
+pub use publish::{DatasetSource, PublishedLog, Summary, write_dataset};
 pub use record::{CaptionRecord, PairInfo, PreviewStrip, Rejection, RenderedTrajectory, Role, TownInfo};

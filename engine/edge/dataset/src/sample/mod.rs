@@ -1,6 +1,10 @@
 //! A tiny made-up dataset for tests and examples: two pedestrians on a plane, each with an expert and a
 //! perturbed flight, ray-cast into very small images.
 
+mod folder;
+
+pub use folder::{write_flights, write_to_folder};
+
 use crate::frame_pack::{FramePackWriter, PackHeader};
 use crate::{CaptionRecord, EncodingConfig, PairInfo, Rejection, RenderedTrajectory, Role, TownInfo};
 use cosfly_frames::{DVec3, Pose, TargetState, TargetTrack, real};

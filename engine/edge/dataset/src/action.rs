@@ -1,0 +1,50 @@
+//! Actions: the motion from one frame's pose to the next one's, in world axes and seen from the body.
+
+use cosfly_frames::{DMat3, DVec3, Pose, real};
+
+/// dx, dy, dz in metres and dpitch, dyaw, droll in degrees along the world's axes: differences of the two poses,
+/// angles wrapped to (-180, 180].
+pub fn in_world(from: &Pose, to: &Pose) -> [f64; 6] {
+    let step = to.position_in_world - from.position_in_world;
+    let turn = |from_rad: f64, to_rad: f64| real::wrap_angle_rad(to_rad - from_rad).to_degrees();
+    let angles = [turn(from.pitch_rad, to.pitch_rad), turn(from.yaw_rad, to.yaw_rad), turn(from.roll_rad, to.roll_rad)];
+    [step.x, step.y, step.z, angles[0], angles[1], angles[2]]
+}
+
+/// The next pose in the body frame of this one (x ahead, y right, z up): metres, and pitch, yaw, roll of the
+/// relative rotation in degrees.
+pub fn in_body(from: &Pose, to: &Pose) -> [f64; 6] {
+    let body_from_world = from.world_from_body().transpose();
+    let step = body_from_world * (to.position_in_world - from.position_in_world);
+    let [pitch, yaw, roll] = angles_rad(&(body_from_world * to.world_from_body())).map(f64::to_degrees);
+    [step.x, step.y, step.z, pitch, yaw, roll]
+}
+
+/// Pitch, yaw and roll of a rotation, radians.
+pub fn angles_rad(rotation: &DMat3) -> [f64; 3] {
+    let (ahead, right, up): (DVec3, DVec3, DVec3) = (rotation.x_axis, rotation.y_axis, rotation.z_axis);
+    [real::asin(ahead.z.clamp(-1.0, 1.0)), real::atan2(ahead.y, ahead.x), real::atan2(-right.z, up.z)]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn an_action_in_the_body_frame_leads_from_one_pose_to_the_next() {
+        let from = Pose { position_in_world: DVec3::new(1.0, 2.0, 30.0), pitch_rad: -0.5, yaw_rad: 3.1, roll_rad: 0.1 };
+        let to = Pose { position_in_world: DVec3::new(2.0, 1.5, 29.0), pitch_rad: -0.4, yaw_rad: -3.1, roll_rad: 0.0 };
+        let [x, y, z, pitch, yaw, roll] = in_body(&from, &to);
+        let turn = Pose {
+            position_in_world: DVec3::ZERO,
+            pitch_rad: pitch.to_radians(),
+            yaw_rad: yaw.to_radians(),
+            roll_rad: roll.to_radians(),
+        };
+        let position = from.position_in_world + from.world_from_body() * DVec3::new(x, y, z);
+        assert!((position - to.position_in_world).length() < 1e-12);
+        assert!((from.world_from_body() * turn.world_from_body()).abs_diff_eq(to.world_from_body(), 1e-12));
+        let yaw_step = in_world(&from, &to)[4];
+        assert!((yaw_step - (core::f64::consts::TAU - 6.2).to_degrees()).abs() < 1e-9, "{yaw_step}");
+    }
+}

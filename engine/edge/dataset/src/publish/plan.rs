@@ -1,0 +1,166 @@
+//! Decides which split, which file and which folder every trajectory goes to.
+
+use crate::config::{DatasetConfig, SplitShares};
+use crate::mcap_log::LogRecord;
+use cosfly_diagnose::{Diagnostic, Fault, Result};
+use cosfly_frames::Seed;
+use std::collections::{BTreeMap, BTreeSet};
+
+/// Logs in one folder; hosts of datasets refuse folders with many thousand files.
+const LOGS_PER_FOLDER: usize = 1_000;
+
+/// A part of a dataset.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Split {
+    /// For training.
+    Train,
+    /// For choosing between models.
+    Val,
+    /// For final figures.
+    Test,
+}
+
+impl Split {
+    /// All splits in order.
+    pub const ALL: [Self; 3] = [Self::Train, Self::Val, Self::Test];
+
+    /// The name in paths.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Train => "train",
+            Self::Val => "val",
+            Self::Test => "test",
+        }
+    }
+
+    /// The split of a pedestrian: a draw from its id alone.
+    pub fn of_pedestrian(pedestrian_id: &str, shares: &SplitShares) -> Self {
+        let draw = Seed::of_item(shares.seed, "split", pedestrian_id).stream("split").unit();
+        let total = shares.train + shares.val + shares.test;
+        if draw * total < shares.train {
+            Self::Train
+        } else if draw * total < shares.train + shares.val || shares.test <= 0.0 {
+            if shares.val > 0.0 { Self::Val } else { Self::Train }
+        } else {
+            Self::Test
+        }
+    }
+}
+
+/// Where everything goes; computed from the log records alone.
+#[derive(Clone, Debug)]
+pub struct DatasetPlan {
+    /// Split of each trajectory.
+    pub splits: Vec<Split>,
+    /// Path of each trajectory's log.
+    pub mcap_paths: Vec<String>,
+    frames: Vec<u64>,
+    frames_per_file: u64,
+}
+
+impl DatasetPlan {
+    /// Plans a dataset of the trajectories of `logs`, in their order.
+    pub fn new(config: &DatasetConfig, logs: &[&LogRecord]) -> Result<Self> {
+        let mut seen = BTreeSet::new();
+        let mut per_town: BTreeMap<&str, usize> = BTreeMap::new();
+        let mut mcap_paths = vec![];
+        for log in logs {
+            if !seen.insert(&log.trajectory_id) {
+                let message = format!("two trajectories are called `{}`", log.trajectory_id);
+                return Err(Diagnostic::new("dataset-duplicate", Fault::Recipe, message)
+                    .hint("connect every stage to the dataset only once"));
+            }
+            let number = per_town.entry(&log.town).or_default();
+            let folder = *number / LOGS_PER_FOLDER;
+            *number += 1;
+            mcap_paths.push(format!("mcap/{}/{folder:03}/{}.mcap", log.town, log.trajectory_id));
+        }
+        Ok(Self {
+            splits: logs.iter().map(|log| Split::of_pedestrian(&log.pedestrian_id, &config.splits)).collect(),
+            mcap_paths,
+            frames: logs.iter().map(|log| log.frames).collect(),
+            frames_per_file: u64::from(config.frames_per_file.max(1)),
+        })
+    }
+
+    /// The splits that have trajectories.
+    pub fn used_splits(&self) -> Vec<Split> {
+        Split::ALL.into_iter().filter(|split| self.splits.contains(split)).collect()
+    }
+
+    /// The files of a table: path, and the trajectories whose rows it holds.
+    pub fn files(&self, table: &str, per_frame: bool) -> Vec<(String, Vec<usize>)> {
+        let mut files = vec![];
+        for split in self.used_splits() {
+            let members: Vec<usize> = (0..self.splits.len()).filter(|i| self.splits[*i] == split).collect();
+            let shards = if per_frame { self.shards(&members) } else { vec![members] };
+            let count = shards.len();
+            files.extend(shards.into_iter().enumerate().map(|(number, shard)| {
+                (format!("data/{table}/{}-{number:05}-of-{count:05}.parquet", split.name()), shard)
+            }));
+        }
+        files
+    }
+
+    /// Consecutive trajectories with about `frames_per_file` frames together.
+    fn shards(&self, members: &[usize]) -> Vec<Vec<usize>> {
+        let mut shards: Vec<Vec<usize>> = vec![vec![]];
+        let mut frames = 0;
+        for member in members {
+            if frames > 0 && frames + self.frames[*member] > self.frames_per_file {
+                shards.push(vec![]);
+                frames = 0;
+            }
+            frames += self.frames[*member];
+            shards.last_mut().expect("there is always one shard").push(*member);
+        }
+        shards
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::Role;
+
+    fn log(id: usize, pedestrian: usize) -> LogRecord {
+        LogRecord {
+            trajectory_id: format!("t{id}"),
+            role: Role::Expert,
+            pedestrian_id: format!("p{pedestrian:05}"),
+            town: "town".into(),
+            frames: 200,
+            messages: 0,
+            bytes: 0,
+            sha256: String::new(),
+        }
+    }
+
+    #[test]
+    fn splits_have_about_their_shares_and_twins_stay_together() {
+        let logs: Vec<LogRecord> = (0..4000).map(|i| log(i, i / 2)).collect();
+        let plan = DatasetPlan::new(&DatasetConfig::default(), &logs.iter().collect::<Vec<_>>()).unwrap();
+        assert!(plan.splits.chunks(2).all(|twins| twins[0] == twins[1]));
+        let train = plan.splits.iter().filter(|split| **split == Split::Train).count();
+        assert!((3100..3300).contains(&train), "{train}");
+        let files = plan.files("frames", true);
+        assert!(files.iter().all(|(_, members)| (1..=100).contains(&members.len())));
+        assert_eq!(files.iter().map(|file| file.1.len()).sum::<usize>(), 4000);
+        assert_eq!(plan.mcap_paths[3999], "mcap/town/003/t3999.mcap");
+    }
+
+    #[test]
+    fn a_share_of_zero_gets_nothing() {
+        let shares = SplitShares { train: 0.5, val: 0.0, test: 0.5, seed: 1 };
+        assert!((0..500).all(|i| Split::of_pedestrian(&format!("p{i}"), &shares) != Split::Val));
+        let shares = SplitShares { train: 1.0, val: 0.0, test: 0.0, seed: 1 };
+        assert!((0..500).all(|i| Split::of_pedestrian(&format!("p{i}"), &shares) == Split::Train));
+    }
+
+    #[test]
+    fn two_trajectories_of_one_name_are_refused() {
+        let (a, b) = (log(1, 1), log(1, 2));
+        let error = DatasetPlan::new(&DatasetConfig::default(), &[&a, &b]).unwrap_err();
+        assert!(error.message.contains("`t1`"));
+    }
+}

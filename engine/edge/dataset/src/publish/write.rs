@@ -1,0 +1,189 @@
+//! Writes a dataset table by table; one trajectory and one row group are in memory at a time.
+
+use super::card;
+use super::plan::{DatasetPlan, Split};
+use super::summary::Summary;
+use crate::config::DatasetConfig;
+use crate::hashing::{HashingWriter, sha256_of};
+use crate::mcap_log::{LogRecord, target_state};
+use crate::tables::{self, DatasetItem, FileRecord, Table, TableWriter};
+use crate::{CaptionRecord, PreviewStrip, Rejection, RenderedTrajectory, croissant};
+use cosfly_diagnose::{Diagnostic, Fault, Result};
+use cosfly_stage::{BlobRef, OutputSink};
+use std::io::Write;
+
+/// A finished log and the blob that holds it.
+#[derive(Clone, Debug)]
+pub struct PublishedLog {
+    /// What [`crate::write_log`] gave.
+    pub record: LogRecord,
+    /// The bytes, for [`OutputSink::link`].
+    pub blob: BlobRef,
+}
+
+/// Loads the trajectories of a dataset one at a time, by their place in the list of logs. Each is loaded once per
+/// table.
+pub trait DatasetSource {
+    /// The record of trajectory `index`.
+    fn trajectory(&self, index: usize) -> Result<RenderedTrajectory>;
+    /// Its captions; empty without a caption stage.
+    fn captions(&self, index: usize) -> Result<Vec<CaptionRecord>>;
+    /// Its previews; asked for by one table only.
+    fn previews(&self, index: usize) -> Result<PreviewStrip>;
+}
+
+/// Writes the whole dataset to `sink`: logs by link, everything else anew. `keep_going` is asked before every
+/// trajectory of every table and its error ends the work.
+pub fn write_dataset(
+    sink: &mut dyn OutputSink,
+    config: &DatasetConfig,
+    logs: &[PublishedLog],
+    source: &dyn DatasetSource,
+    rejections: &[Rejection],
+    keep_going: &dyn Fn() -> Result<()>,
+) -> Result<Summary> {
+    let records: Vec<&LogRecord> = logs.iter().map(|log| &log.record).collect();
+    let plan = DatasetPlan::new(config, &records)?;
+    let mut dataset = Publishing { sink, files: vec![] };
+    for (log, path) in logs.iter().zip(&plan.mcap_paths) {
+        dataset.link_log(path, log)?;
+    }
+    let items = Items { plan: &plan, logs, source, keep_going };
+    let mut summary = summarise(&items, rejections)?;
+    for table in tables::of_trajectories() {
+        let rows = dataset.trajectory_table(&table, &items)?;
+        summary.rows.insert(table.name, rows);
+    }
+    let rejected = tables::of_rejections();
+    dataset.table(&rejected, &format!("data/{0}/{0}-00000-of-00001.parquet", rejected.name), rejections)?;
+    summary.rows.insert(rejected.name, summary.rejected);
+    dataset.put("layouts/foxglove.json", include_bytes!("../../assets/foxglove.json"))?;
+    dataset.put("schemas/cosfly.proto", target_state::proto_text().as_bytes())?;
+    dataset.put("LICENSE", card::license_text(config).as_bytes())?;
+    dataset.put("README.md", card::readme(config, &summary, &plan).as_bytes())?;
+    dataset.finish(config, &summary)?;
+    Ok(summary)
+}
+
+/// One pass over all trajectories for the figures of the card.
+fn summarise(items: &Items<'_>, rejections: &[Rejection]) -> Result<Summary> {
+    let splits = Split::ALL.iter().map(|split| (split.name(), (0, 0))).collect();
+    let mut summary = Summary { splits, ..Summary::default() };
+    summary.count_rejections(rejections);
+    for index in 0..items.logs.len() {
+        summary.count(&items.load(index, false)?, items.plan.splits[index].name());
+    }
+    Ok(summary)
+}
+
+/// The trajectories in the order of their logs.
+struct Items<'a> {
+    plan: &'a DatasetPlan,
+    logs: &'a [PublishedLog],
+    source: &'a dyn DatasetSource,
+    keep_going: &'a dyn Fn() -> Result<()>,
+}
+
+impl Items<'_> {
+    fn load(&self, index: usize, with_previews: bool) -> Result<DatasetItem> {
+        (self.keep_going)()?;
+        let log = &self.logs[index].record;
+        let record = self.source.trajectory(index)?;
+        record.check()?;
+        if record.trajectory_id != log.trajectory_id || record.len() as u64 != log.frames {
+            let message = format!(
+                "log {index} is of `{}` with {} frames; the record is of `{}` with {}",
+                log.trajectory_id,
+                log.frames,
+                record.trajectory_id,
+                record.len()
+            );
+            return Err(Diagnostic::new("dataset-order", Fault::Bug, message));
+        }
+        let previews = if with_previews { self.source.previews(index)? } else { PreviewStrip::default() };
+        Ok(DatasetItem {
+            captions: self.source.captions(index)?,
+            previews,
+            log: log.clone(),
+            mcap_path: self.plan.mcap_paths[index].clone(),
+            record,
+        })
+    }
+}
+
+/// The sink, and the hashes of what went into it.
+struct Publishing<'a> {
+    sink: &'a mut dyn OutputSink,
+    files: Vec<FileRecord>,
+}
+
+impl Publishing<'_> {
+    fn link_log(&mut self, path: &str, log: &PublishedLog) -> Result<()> {
+        self.sink.link(path, log.blob)?;
+        self.files.push(FileRecord {
+            path: path.to_owned(),
+            bytes: log.record.bytes,
+            sha256: log.record.sha256.clone(),
+        });
+        Ok(())
+    }
+
+    fn put(&mut self, path: &str, bytes: &[u8]) -> Result<FileRecord> {
+        self.sink.put(path, bytes)?;
+        let file = FileRecord { path: path.to_owned(), bytes: bytes.len() as u64, sha256: sha256_of(bytes) };
+        self.files.push(file.clone());
+        Ok(file)
+    }
+
+    /// All files of a table over the trajectories; gives the number of rows.
+    fn trajectory_table(&mut self, table: &Table<DatasetItem>, items: &Items<'_>) -> Result<u64> {
+        let mut rows = 0;
+        for (path, members) in items.plan.files(table.name, table.per_frame) {
+            rows += self.parquet(&path, table, &mut |writer| {
+                members.iter().try_for_each(|index| writer.append(&items.load(*index, table.reads_previews)?))
+            })?;
+        }
+        Ok(rows)
+    }
+
+    /// A table of a list in memory, in one file.
+    fn table<S>(&mut self, table: &Table<S>, path: &str, records: &[S]) -> Result<u64> {
+        self.parquet(path, table, &mut |writer| records.iter().try_for_each(|record| writer.append(record)))
+    }
+
+    fn parquet<S>(
+        &mut self,
+        path: &str,
+        table: &Table<S>,
+        fill: &mut dyn FnMut(&mut TableWriter<'_, S, &mut (dyn Write + Send)>) -> Result<()>,
+    ) -> Result<u64> {
+        let mut outcome = None;
+        self.sink.stream(path, &mut |output| {
+            let mut hashing = HashingWriter::new(output);
+            let mut writer = TableWriter::new(table, &mut hashing as &mut (dyn Write + Send))?;
+            fill(&mut writer)?;
+            let rows = writer.finish()?;
+            outcome = Some((rows, hashing.finish()));
+            Ok(())
+        })?;
+        let (rows, (bytes, sha256)) = outcome.ok_or_else(|| {
+            Diagnostic::new("dataset-sink", Fault::Bug, format!("the output sink did not ask for `{path}`"))
+        })?;
+        self.files.push(FileRecord { path: path.to_owned(), bytes, sha256 });
+        Ok(rows)
+    }
+
+    /// `files.parquet`, then `croissant.json`, which names its hash, then `SHA256SUMS` over both.
+    fn finish(mut self, config: &DatasetConfig, summary: &Summary) -> Result<()> {
+        self.files.sort();
+        let listed = std::mem::take(&mut self.files);
+        self.table(&tables::of_files(), "files.parquet", &listed)?;
+        let single = |path: &str| listed.iter().find(|file| file.path == path).cloned();
+        let mut named: Vec<FileRecord> = self.files.clone();
+        named.extend(["layouts/foxglove.json", "schemas/cosfly.proto", "LICENSE"].iter().filter_map(|it| single(it)));
+        let text = croissant::document(config, summary, &named);
+        self.put("croissant.json", text.as_bytes())?;
+        let sums: String = self.files.iter().map(|file| format!("{}  {}\n", file.sha256, file.path)).collect();
+        self.sink.put("SHA256SUMS", sums.as_bytes())
+    }
+}

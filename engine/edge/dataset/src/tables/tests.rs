@@ -1,0 +1,87 @@
+//! Tables read back as they were written, twice the same.
+
+use super::*;
+use crate::{Role, sample};
+use arrow::array::{Array, FixedSizeListArray, Float64Array, StringArray};
+use arrow::datatypes::Float64Type;
+use parquet::arrow::arrow_reader::ParquetRecordBatchReaderBuilder;
+
+fn item(role: Role) -> DatasetItem {
+    let flight = sample::flight(0, role);
+    let log = LogRecord {
+        trajectory_id: flight.record.trajectory_id.clone(),
+        role,
+        pedestrian_id: flight.record.pedestrian_id.clone(),
+        town: "plain".into(),
+        frames: 5,
+        messages: 70,
+        bytes: 9,
+        sha256: "00".into(),
+    };
+    DatasetItem {
+        record: flight.record,
+        captions: flight.captions,
+        previews: PreviewStrip { jpegs: vec![vec![1, 2]; 5] },
+        log,
+        mcap_path: "mcap/x".into(),
+    }
+}
+
+fn write(table: &Table<DatasetItem>, items: &[DatasetItem]) -> Vec<u8> {
+    let mut bytes = vec![];
+    let mut writer = TableWriter::new(table, &mut bytes).unwrap();
+    items.iter().for_each(|item| writer.append(item).unwrap());
+    writer.finish().unwrap();
+    bytes
+}
+
+#[test]
+fn every_table_has_its_rows_and_the_same_bytes_twice() {
+    let items = [item(Role::Expert), item(Role::Perturbed)];
+    for (table, rows) in of_trajectories().iter().zip([2, 10, 10, 4, 1]) {
+        let bytes = write(table, &items);
+        assert!(bytes == write(table, &items), "{}", table.name);
+        let reader = ParquetRecordBatchReaderBuilder::try_new(foxglove::bytes::Bytes::from(bytes)).unwrap();
+        assert_eq!(reader.metadata().file_metadata().created_by(), Some("cosfly"));
+        let found: usize = reader.build().unwrap().map(|batch| batch.unwrap().num_rows()).sum();
+        assert_eq!(found, rows, "{}", table.name);
+    }
+}
+
+#[test]
+fn frames_hold_poses_in_degrees_and_no_action_on_the_last() {
+    let item = item(Role::Expert);
+    let table = of_trajectories().remove(1);
+    let bytes = foxglove::bytes::Bytes::from(write(&table, std::slice::from_ref(&item)));
+    let batch = ParquetRecordBatchReaderBuilder::try_new(bytes).unwrap().build().unwrap().next().unwrap().unwrap();
+    let yaw = batch.column_by_name("drone_yaw_deg").unwrap().as_any().downcast_ref::<Float64Array>().unwrap();
+    assert_eq!(yaw.value(1), item.record.trajectory.poses_in_world[1].yaw_rad.to_degrees());
+    let action =
+        batch.column_by_name("action_in_world").unwrap().as_any().downcast_ref::<FixedSizeListArray>().unwrap();
+    assert!(action.is_null(4) && !action.is_null(3));
+    let first = action.value(0);
+    let first = arrow::array::cast::as_primitive_array::<Float64Type>(&first);
+    let poses = &item.record.trajectory.poses_in_world;
+    assert_eq!(first.value(0), poses[1].position_in_world.x - poses[0].position_in_world.x);
+    let ids = batch.column_by_name("trajectory_id").unwrap().as_any().downcast_ref::<StringArray>().unwrap();
+    assert_eq!(ids.value(0), "expert-p00000");
+}
+
+#[test]
+fn a_number_that_is_not_finite_is_refused_with_its_place() {
+    let mut item = item(Role::Expert);
+    item.record.trajectory.clearance_m[3] = f64::NAN;
+    let table = of_trajectories().remove(1);
+    let error = TableWriter::new(&table, vec![]).unwrap().append(&item).unwrap_err();
+    assert!(error.message.contains("column `clearance_m`, row 3 of table `frames`"), "{error}");
+}
+
+#[test]
+fn columns_have_distinct_names_and_keys_exist() {
+    for table in of_trajectories() {
+        let mut names: Vec<&str> = table.columns.iter().map(|column| column.name).collect();
+        assert!(table.key.iter().all(|key| names.contains(key)), "{}", table.name);
+        names.sort_unstable();
+        assert!(names.windows(2).all(|pair| pair[0] != pair[1]), "{}", table.name);
+    }
+}
