@@ -7,6 +7,7 @@ pub mod certificate;
 pub mod config;
 pub mod muco;
 pub mod obstacles;
+pub mod perturb;
 pub mod scenes;
 pub mod terms;
 pub mod trajectory;

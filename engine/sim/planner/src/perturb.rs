@@ -1,16 +1,17 @@
 //! The perturbed twin of an expert flight: two independent events per frame, with safe displacements
 //! (paper, section "Dual-Trajectory Augmentation").
 
-use crate::trajectory::{Certificate, FramePerturbation, Limits, Perturbation, Trajectory};
-use crate::visibility::{aim_point, visibility};
-use crate::walk::Walk;
+use crate::certificate::{SolverFigures, certify};
+use crate::config::{LimitsConfig, MucoConfig};
+use crate::trajectory::{FramePerturbation, Perturbation, Trajectory};
+use crate::visibility::aim_point;
 use cosfly_frames::{DVec3, Pose, RandomStream, Seed, real};
 use cosfly_geometry::SpatialQuery;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-/// Distances beyond this are recorded as this, metres.
-const CLEARANCE_CAP_M: f64 = 50.0;
+/// Kept beyond the asked clearance, so that rounding cannot take it away again, metres.
+const ROUNDING_M: f64 = 1e-6;
 
 /// Fresh draws of a displacement that is not free, before it is shortened.
 const DRAWS: usize = 8;
@@ -180,7 +181,8 @@ struct Corridor<'a> {
 
 impl Corridor<'_> {
     fn holds(&self, position: DVec3) -> bool {
-        let swept = |other: DVec3| self.exact.segment_clearance(position, other, self.clearance_m) >= self.clearance_m;
+        let kept_m = self.clearance_m + ROUNDING_M;
+        let swept = |other: DVec3| self.exact.segment_clearance(position, other, kept_m) >= kept_m;
         position.z >= self.lowest_z_m && swept(self.before.unwrap_or(position)) && self.after.is_none_or(swept)
     }
 }
@@ -245,104 +247,35 @@ fn measured(
     exact: &dyn SpatialQuery,
     config: &PerturbConfig,
 ) -> Trajectory {
-    let track = &expert.track;
     let positions: Vec<DVec3> = poses.iter().map(|pose| pose.position_in_world).collect();
-    let visibility: Vec<f64> = positions
-        .iter()
-        .zip(&track.states)
-        .map(|(position, target)| visibility(exact, *position, target, track.height_m))
-        .collect();
-    let clearance_m: Vec<f64> = positions
-        .iter()
-        .map(|position| exact.nearest(*position, CLEARANCE_CAP_M).map_or(CLEARANCE_CAP_M, |near| near.distance_m))
-        .collect();
-    let certificate = certify(expert, &positions, &visibility, &clearance_m, exact, config.clearance_m);
+    let limits = LimitsConfig {
+        clearance_m: config.clearance_m,
+        speed_mps: f64::INFINITY,
+        acceleration_mps2: f64::INFINITY,
+        jerk_mps3: f64::INFINITY,
+        require_kinematics: false,
+    };
+    let solver = SolverFigures { iterations: 0, filtered_boxes: expert.certificate.filtered_boxes };
+    // Height is kept above the target's feet while displacing; no ground below is known here.
+    let no_ground = |_: f64, _: f64| f64::NEG_INFINITY;
+    let muco = MucoConfig { limits, ..MucoConfig::default() };
+    let measured = certify(&expert.track, &positions, exact, &no_ground, &muco, solver);
     Trajectory {
-        track: track.clone(),
+        track: expert.track.clone(),
         poses_in_world: poses,
-        visibility,
-        clearance_m,
+        visibility: measured.visibility,
+        clearance_m: measured.clearance_m,
         terms: vec![],
         convergence: vec![],
-        certificate,
+        certificate: measured.certificate,
         perturbation: Some(perturbation),
     }
-}
-
-fn certify(
-    expert: &Trajectory,
-    positions: &[DVec3],
-    visibility: &[f64],
-    clearance_m: &[f64],
-    exact: &dyn SpatialQuery,
-    limit_m: f64,
-) -> Certificate {
-    let track = &expert.track;
-    let swept_m = positions.windows(2).map(|pair| exact.segment_clearance(pair[0], pair[1], CLEARANCE_CAP_M));
-    let min_clearance_m = swept_m.chain(clearance_m.iter().copied()).fold(CLEARANCE_CAP_M, f64::min);
-    let holds = min_clearance_m >= limit_m;
-    let violations = if holds {
-        vec![]
-    } else {
-        vec![format!(
-            "clearance is {min_clearance_m:.2} m; the limit is {limit_m} m, and the expert is no farther there"
-        )]
-    };
-    let [max_speed_mps, max_acceleration_mps2, max_jerk_mps3] = largest_differences(positions, track.dt_s);
-    let frames = positions.len().max(1) as f64;
-    let length_m: f64 = positions.windows(2).map(|pair| (pair[1] - pair[0]).length()).sum();
-    let distance =
-        |(position, target): (&DVec3, &cosfly_frames::TargetState)| (*position - target.feet_in_world).length();
-    Certificate {
-        limits: Limits {
-            clearance_m: limit_m,
-            speed_mps: f64::INFINITY,
-            acceleration_mps2: f64::INFINITY,
-            jerk_mps3: f64::INFINITY,
-        },
-        holds,
-        violations,
-        mean_visibility: visibility.iter().sum::<f64>() / frames,
-        frames_half_visible: visibility.iter().filter(|share| **share >= 0.5).count() as f64 / frames,
-        min_clearance_m,
-        max_speed_mps,
-        max_acceleration_mps2,
-        max_jerk_mps3,
-        mean_distance_m: positions.iter().zip(&track.states).map(distance).sum::<f64>() / frames,
-        mean_rear_angle_deg: mean_rear_angle_deg(expert, positions),
-        length_m,
-        length_ratio: if track.length_m() > 0.0 { length_m / track.length_m() } else { 0.0 },
-        iterations: 0,
-        filtered_boxes: expert.certificate.filtered_boxes,
-    }
-}
-
-/// Largest finite-difference speed, acceleration and jerk.
-fn largest_differences(positions: &[DVec3], dt_s: f64) -> [f64; 3] {
-    let mut values = positions.to_vec();
-    [(); 3].map(|()| {
-        values = values.windows(2).map(|pair| (pair[1] - pair[0]) / dt_s).collect();
-        values.iter().map(|value| value.length()).fold(0.0, f64::max)
-    })
-}
-
-/// Mean horizontal angle between "target to drone" and "against the walking direction", degrees; 0 when the target stands.
-fn mean_rear_angle_deg(expert: &Trajectory, positions: &[DVec3]) -> f64 {
-    let walk = Walk::of(&expert.track);
-    let (mut sum, mut walking) = (0.0, 0.0_f64);
-    for ((position, target), direction) in positions.iter().zip(&expert.track.states).zip(&walk.direction) {
-        let back = (*position - target.feet_in_world).truncate().normalize_or_zero();
-        if direction.length_squared() > 0.0 && back.length_squared() > 0.0 {
-            sum += real::acos(back.dot(-*direction).clamp(-1.0, 1.0)).to_degrees();
-            walking += 1.0;
-        }
-    }
-    sum / walking.max(1.0)
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::trajectory::{Certificate, Limits};
     use cosfly_frames::{TargetState, TargetTrack};
     use cosfly_geometry::{BoxBvh, OrientedBox};
 
@@ -489,7 +422,7 @@ mod tests {
         let (expert, config) = (expert(100), PerturbConfig::default());
         let twin = perturb(&expert, "p3", &exact, &config, seed());
         assert!(!twin.certificate.holds);
-        assert!(twin.certificate.violations[0].starts_with("clearance is 0.50 m; the limit is 1 m"));
+        assert!(twin.certificate.violations[0].starts_with("clearance falls to 0.50 m; the limit is 1 m"));
         assert!(twin.clearance_m.iter().all(|clearance| *clearance >= 0.5 - 1e-9));
     }
 

@@ -261,3 +261,59 @@ fn mark_hidden(
         marks[lane] |= u32::from(hidden) * bit;
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::obstacles::ground::GroundGrid;
+    use cosfly_frames::{Seed, TargetState};
+    use cosfly_geometry::OrientedBox;
+
+    fn one_frame() -> TargetTrack {
+        let state = TargetState { feet_in_world: DVec3::new(3.0, -2.0, 1.0), heading_rad: 0.0, speed_mps: 0.0 };
+        TargetTrack { dt_s: 0.5, height_m: 1.75, radius_m: 0.3, states: vec![state] }
+    }
+
+    #[test]
+    fn every_node_agrees_with_rays_and_grown_boxes() {
+        let track = one_frame();
+        let feet = track.states[0].feet_in_world;
+        let ground = GroundGrid::sample(&track, &|_, _| 1.0, 60.0);
+        let lattice = Lattice::new(&SearchConfig::default(), &ViewConfig::default());
+        let mut stream = Seed::of_item(2, "lattice", "rays").stream("boxes");
+        let (mut wrong, mut hidden_rays, mut closed, mut nodes) = (0, 0, 0, 0);
+        for _ in 0..12 {
+            let mut v = |low: f64, high: f64| stream.uniform(low, high);
+            let boxes: Vec<OrientedBox> = (0..10)
+                .map(|_| OrientedBox {
+                    center_in_world: DVec3::new(v(-30.0, 30.0), v(-30.0, 30.0), v(0.0, 25.0)),
+                    half_extents_m: DVec3::new(v(0.1, 5.0), v(0.1, 5.0), v(0.1, 9.0)),
+                    yaw_rad: v(-3.0, 3.0),
+                })
+                .collect();
+            let obstacles = LocalObstacles::filter(&track, &boxes, &ground, 60.0, 8.0);
+            let mut states = vec![0; lattice.nodes()];
+            lattice.evaluate(0, &track, &obstacles, 1.7, &mut states);
+            for (node, &state) in states.iter().enumerate() {
+                let position = feet + lattice.offset(node);
+                let lit = |height: f64| {
+                    let eye = feet + DVec3::Z * height;
+                    !obstacles.at_frame(0).any(|solid| solid.meets_segment(eye, position))
+                };
+                let seen: u8 = BODY_HEIGHTS.iter().filter(|(height, _)| lit(*height)).map(|(_, count)| count).sum();
+                let near = obstacles.nearest(0, position, 1.7).is_some();
+                assert!(
+                    !near || state == UNSAFE,
+                    "node {node} is {:?} from a box",
+                    obstacles.nearest(0, position, 9.0)
+                );
+                closed += usize::from(state == UNSAFE);
+                hidden_rays += usize::from(seen < 8);
+                wrong += usize::from(state != UNSAFE && state & !CLOSE != seen);
+                nodes += 1;
+            }
+        }
+        assert!(hidden_rays > 1000 && closed > 300, "{hidden_rays} {closed}");
+        assert!(wrong * 1000 < nodes, "{wrong} of {nodes} nodes differ from rays");
+    }
+}

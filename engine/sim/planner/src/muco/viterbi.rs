@@ -277,3 +277,136 @@ fn turn(lanes: usize, steps: usize, prices: &[Vec<f32>], from: &[f32], to: &mut 
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::config::{SearchConfig, ViewConfig};
+    use cosfly_frames::{RandomStream, Seed, TargetState};
+
+    const LAYERS: usize = 3;
+
+    fn setting() -> (Lattice, TargetTrack, MoveCosts) {
+        let search = SearchConfig { azimuths: 12, altitudes: 2, radii: 3, ..SearchConfig::default() };
+        let state = |i: usize| TargetState {
+            feet_in_world: DVec3::new(1.5 * i as f64, 0.5 * i as f64, 0.2 * i as f64),
+            heading_rad: 0.0,
+            speed_mps: 1.0,
+        };
+        let track = TargetTrack { dt_s: 0.5, height_m: 1.75, radius_m: 0.3, states: (0..LAYERS).map(state).collect() };
+        let moves = MoveCosts { relative: 0.02, absolute: 0.03, longest_m: 25.0 };
+        (Lattice::new(&search, &ViewConfig::default()), track, moves)
+    }
+
+    fn random_costs(lattice: &Lattice, stream: &mut RandomStream) -> (NodeCosts, Vec<NodeState>) {
+        let mut price =
+            |count: usize, scale: f64| -> Vec<f32> { (0..count).map(|_| stream.uniform(0.0, scale) as f32).collect() };
+        let costs = NodeCosts {
+            visibility: core::array::from_fn(|seen| 10.0 * (8 - seen) as f32),
+            close: 3.0,
+            lane: price(lattice.lanes(), 20.0),
+            azimuth: (0..LAYERS).map(|_| price(lattice.directions.len(), 20.0)).collect(),
+            extra: Vec::new(),
+        };
+        let states = (0..LAYERS * lattice.nodes())
+            .map(|_| if stream.chance(0.3) { UNSAFE } else { stream.index(9) as NodeState })
+            .collect();
+        (costs, states)
+    }
+
+    /// The model's price of one move, written without the separation; `None` when it is not allowed.
+    fn move_price(lattice: &Lattice, moves: MoveCosts, target: DVec3, from: usize, to: usize) -> Option<f64> {
+        let ((a0, h0, r0), (a1, h1, r1)) = (lattice.split(from), lattice.split(to));
+        let count = lattice.directions.len();
+        let turned = (a1 + count - a0) % count;
+        let turned = turned.min(count - turned);
+        if h0.abs_diff(h1) > 1 || r0.abs_diff(r1) > 1 || turned > MAX_AZIMUTH_STEPS.min(count / 2 - 1) {
+            return None;
+        }
+        let chord = 2.0 * real::sin(0.5 * real::TAU / count as f64 * turned as f64) * lattice.radii_m[r1];
+        let climb = lattice.altitudes_m[h1] - lattice.altitudes_m[h0];
+        let reach = lattice.radii_m[r1] - lattice.radii_m[r0];
+        if [chord, climb, reach].iter().any(|gap| gap.abs() > moves.longest_m) {
+            return None;
+        }
+        let squared = chord * chord + climb * climb + reach * reach;
+        let along = target.dot(lattice.offset(to) - lattice.offset(from));
+        Some((moves.relative + moves.absolute) * squared + 2.0 * moves.absolute * along)
+    }
+
+    fn path_price(search: &Viterbi<'_>, path: &[usize]) -> Option<f64> {
+        let nodes = search.lattice.nodes();
+        let mut sum = 0.0;
+        for (layer, &node) in path.iter().enumerate() {
+            let state = search.states[layer * nodes + node];
+            if state == UNSAFE {
+                return None;
+            }
+            let (azimuth, _, _) = search.lattice.split(node);
+            sum += f64::from(search.costs.visibility[usize::from(state)])
+                + f64::from(search.costs.lane[node % search.lattice.lanes()])
+                + f64::from(search.costs.azimuth[layer][azimuth]);
+            if layer > 0 {
+                let target = search.feet[layer] - search.feet[layer - 1];
+                sum += move_price(search.lattice, search.moves, target, path[layer - 1], node)?;
+            }
+        }
+        Some(sum)
+    }
+
+    #[test]
+    fn the_search_finds_what_an_exhaustive_one_finds() {
+        let (lattice, track, moves) = setting();
+        let mut stream = Seed::of_item(4, "viterbi", "exhaustive").stream("t");
+        for _ in 0..6 {
+            let (costs, states) = random_costs(&lattice, &mut stream);
+            let mut search = Viterbi::new(&lattice, &track, &[0, 1, 2], states, costs, moves);
+            let found = search.solve(0).expect("some way");
+            let mut best = f64::INFINITY;
+            for a in 0..lattice.nodes() {
+                for b in 0..lattice.nodes() {
+                    if path_price(&search, &[a, b]).is_some() {
+                        for c in 0..lattice.nodes() {
+                            best = best.min(path_price(&search, &[a, b, c]).unwrap_or(f64::INFINITY));
+                        }
+                    }
+                }
+            }
+            let price = path_price(&search, &found).expect("the way found is allowed");
+            assert!((price - best).abs() < 1e-3 * best.abs().max(1.0), "{price} {best}");
+        }
+    }
+
+    #[test]
+    fn a_resumed_search_equals_a_fresh_one_and_closed_layers_are_named() {
+        let search_config = SearchConfig { azimuths: 24, altitudes: 2, radii: 3, ..SearchConfig::default() };
+        let lattice = Lattice::new(&search_config, &ViewConfig::default());
+        let state = TargetState { feet_in_world: DVec3::ZERO, heading_rad: 0.0, speed_mps: 0.0 };
+        let track = TargetTrack { dt_s: 0.5, height_m: 1.75, radius_m: 0.3, states: vec![state; 90] };
+        let frames: Vec<usize> = (0..90).collect();
+        let moves = MoveCosts { relative: 0.2, absolute: 0.3, longest_m: 9.0 };
+        let new = |states: Vec<NodeState>| {
+            let costs = NodeCosts {
+                visibility: core::array::from_fn(|seen| 10.0 * (8 - seen) as f32),
+                close: 0.0,
+                lane: vec![0.0; lattice.lanes()],
+                azimuth: vec![vec![0.0; 24]; 90],
+                extra: Vec::new(),
+            };
+            Viterbi::new(&lattice, &track, &frames, states, costs, moves)
+        };
+        let mut stream = Seed::of_item(4, "viterbi", "resumed").stream("t");
+        let states: Vec<NodeState> = (0..90 * lattice.nodes()).map(|_| stream.index(9) as NodeState).collect();
+        let mut resumed = new(states.clone());
+        let first = resumed.solve(0).expect("a way");
+        let mut changed = states.clone();
+        for layer in [40, 70] {
+            changed[layer * lattice.nodes() + first[layer]] = UNSAFE;
+        }
+        resumed.states.clone_from(&changed);
+        assert_eq!(resumed.solve(40), new(changed).solve(0));
+        let mut closed = states;
+        closed[50 * lattice.nodes()..51 * lattice.nodes()].fill(UNSAFE);
+        assert_eq!(new(closed).solve(0), Err(50));
+    }
+}
