@@ -27,13 +27,6 @@ pub struct SimplifyConfig {
 
 impl Default for SimplifyConfig {
     fn default() -> Self {
-        Self {
-            merge: true,
-            max_empty_share: 0.1,
-            tolerance_m: 0.5,
-            prune: true,
-            crop: false,
-            crop_radius_m: 200.0,
-        }
+        Self { merge: true, max_empty_share: 0.1, tolerance_m: 0.5, prune: true, crop: false, crop_radius_m: 200.0 }
     }
 }
