@@ -3,7 +3,7 @@
 
 use crate::certificate::{SolverFigures, certify};
 use crate::config::{LimitsConfig, MucoConfig};
-use crate::trajectory::{FramePerturbation, Perturbation, Trajectory};
+use crate::trajectory::{FramePerturbation, Perturbation, PlanOutcome, Trajectory};
 use crate::visibility::aim_point;
 use cosfly_frames::{DVec3, Pose, RandomStream, Seed, real};
 use cosfly_geometry::SpatialQuery;
@@ -117,14 +117,24 @@ impl PerturbConfig {
 ///
 /// Frames without events are the expert's, to the bit. `terms` is empty: costs belong to the expert's optimisation.
 /// The certificate states infinite kinematic limits, since jumps from frame to frame are the point of a twin.
+///
+/// Rejected are only a config that breaks its rules, an expert whose frames do not match its track, and a twin that
+/// touches an obstacle, which takes an expert that does.
 pub fn perturb(
     expert: &Trajectory,
     expert_item: &str,
     exact: &dyn SpatialQuery,
     config: &PerturbConfig,
     seed: Seed,
-) -> Trajectory {
-    let count = expert.poses_in_world.len().min(expert.track.len());
+) -> PlanOutcome {
+    let rejected = |reason: String| PlanOutcome::Rejected { track: expert.track.clone(), reason };
+    if let Err((_, rule)) = config.validate() {
+        return rejected(rule);
+    }
+    let count = expert.track.len();
+    if expert.poses_in_world.len() != count {
+        return rejected(format!("the expert has {} poses for {count} frames", expert.poses_in_world.len()));
+    }
     let mut frames = Vec::with_capacity(count);
     let mut poses: Vec<Pose> = Vec::with_capacity(count);
     let (mut position_events, mut rotation_events) = (seed.stream("position event"), seed.stream("rotation event"));
@@ -165,7 +175,11 @@ pub fn perturb(
         rotation_probability: config.rotation_probability,
         frames,
     };
-    measured(expert, poses, perturbation, exact, config)
+    let twin = measured(expert, poses, perturbation, exact, config);
+    match twin.certificate.min_clearance_m {
+        free if free > 0.0 => PlanOutcome::Planned(Box::new(twin)),
+        touching => rejected(format!("the twin comes to {touching:.2} m from an obstacle, as its expert does")),
+    }
 }
 
 /// What a displaced position must keep to.
@@ -335,6 +349,13 @@ mod tests {
         Seed::of_item(9, "perturbed", "p3")
     }
 
+    fn twin_of(expert: &Trajectory, exact: &BoxBvh, config: &PerturbConfig, seed: Seed) -> Trajectory {
+        match perturb(expert, "p3", exact, config, seed) {
+            PlanOutcome::Planned(twin) => *twin,
+            PlanOutcome::Rejected { reason, .. } => panic!("{reason}"),
+        }
+    }
+
     fn frames(twin: &Trajectory) -> &[FramePerturbation] {
         &twin.perturbation.as_ref().unwrap().frames
     }
@@ -356,7 +377,7 @@ mod tests {
 
     #[test]
     fn the_four_states_have_the_papers_shares() {
-        let twin = perturb(&expert(8000), "p3", &BoxBvh::build(vec![]), &PerturbConfig::default(), seed());
+        let twin = twin_of(&expert(8000), &BoxBvh::build(vec![]), &PerturbConfig::default(), seed());
         for (position, rotation, share) in
             [(false, false, 0.16), (true, false, 0.24), (false, true, 0.24), (true, true, 0.36)]
         {
@@ -369,7 +390,7 @@ mod tests {
     #[test]
     fn offsets_keep_their_bounds_and_frames_their_expert() {
         let (expert, config) = (expert(500), PerturbConfig::default());
-        let twin = perturb(&expert, "p3", &BoxBvh::build(vec![]), &config, seed());
+        let twin = twin_of(&expert, &BoxBvh::build(vec![]), &config, seed());
         assert_eq!(twin.poses_in_world.len(), 500);
         for (i, frame) in frames(&twin).iter().enumerate() {
             let (pose, original) = (twin.poses_in_world[i], expert.poses_in_world[i]);
@@ -403,7 +424,7 @@ mod tests {
     fn a_twin_in_a_tunnel_keeps_its_clearance_along_the_whole_way() {
         let (expert, exact) = (expert(700), tunnel());
         let config = PerturbConfig::default();
-        let twin = perturb(&expert, "p3", &exact, &config, seed());
+        let twin = twin_of(&expert, &exact, &config, seed());
         let positions: Vec<DVec3> = twin.poses_in_world.iter().map(|pose| pose.position_in_world).collect();
         for pair in positions.windows(2) {
             assert!(exact.segment_clearance(pair[0], pair[1], 5.0) >= 1.0 - 1e-9);
@@ -420,7 +441,7 @@ mod tests {
         let exact =
             BoxBvh::build(vec![OrientedBox::from_corners(DVec3::new(-30.0, 0.5, 0.0), DVec3::new(90.0, 40.0, 60.0))]);
         let (expert, config) = (expert(100), PerturbConfig::default());
-        let twin = perturb(&expert, "p3", &exact, &config, seed());
+        let twin = twin_of(&expert, &exact, &config, seed());
         assert!(!twin.certificate.holds);
         assert!(twin.certificate.violations[0].starts_with("clearance falls to 0.50 m; the limit is 1 m"));
         assert!(twin.clearance_m.iter().all(|clearance| *clearance >= 0.5 - 1e-9));
@@ -432,26 +453,31 @@ mod tests {
         for pose in &mut expert.poses_in_world {
             pose.position_in_world.z = 3.5;
         }
-        let twin = perturb(&expert, "p3", &BoxBvh::build(vec![]), &PerturbConfig::default(), seed());
+        let twin = twin_of(&expert, &BoxBvh::build(vec![]), &PerturbConfig::default(), seed());
         assert!(twin.poses_in_world.iter().all(|pose| pose.position_in_world.z >= 3.0));
     }
 
     #[test]
     fn a_twin_depends_on_its_seed_alone() {
         let (expert, exact, config) = (expert(200), tunnel(), PerturbConfig::default());
-        let twin = |seed| perturb(&expert, "p3", &exact, &config, seed);
+        let twin = |seed| twin_of(&expert, &exact, &config, seed);
         assert_eq!(twin(seed()), twin(seed()));
         assert_ne!(twin(seed()), twin(Seed::of_item(9, "perturbed", "p4")));
     }
 
     #[test]
-    fn empty_and_uneven_experts_do_not_panic() {
-        let mut uneven = expert(10);
-        uneven.poses_in_world.truncate(4);
+    fn uneven_and_touching_experts_are_rejected_and_empty_ones_have_empty_twins() {
         let config = PerturbConfig::default();
-        assert_eq!(perturb(&uneven, "p3", &tunnel(), &config, seed()).poses_in_world.len(), 4);
-        let empty = perturb(&expert(0), "p3", &tunnel(), &config, seed());
-        assert!(empty.poses_in_world.is_empty());
+        let reason = |expert: &Trajectory| match perturb(expert, "p3", &tunnel(), &config, seed()) {
+            PlanOutcome::Rejected { reason, .. } => reason,
+            PlanOutcome::Planned(_) => String::new(),
+        };
+        let (mut uneven, mut touching) = (expert(10), expert(10));
+        uneven.poses_in_world.truncate(4);
+        assert_eq!(reason(&uneven), "the expert has 4 poses for 10 frames");
+        touching.poses_in_world[5].position_in_world.y = 2.5;
+        assert!(reason(&touching).starts_with("the twin comes to"), "{}", reason(&touching));
+        assert!(twin_of(&expert(0), &tunnel(), &config, seed()).poses_in_world.is_empty());
     }
 
     #[test]
