@@ -132,27 +132,31 @@ impl ItemReader<'_> {
         }
         let own: std::collections::BTreeSet<&str> = ids.iter().map(|id| &**id).collect();
         let extra: Vec<&str> = by_id.keys().map(|id| &**id).filter(|id| !own.contains(id)).collect();
-        let mut differences = vec![];
+        Err(self.differing(leading, wire, &lacking, &extra))
+    }
+
+    /// Two ports whose items should be the same, or a port and the stage's own items.
+    fn differing(&self, leading: Option<&Wire>, wire: &Wire, lacking: &[&str], extra: &[&str]) -> Box<Diagnostic> {
+        let (port, stage) = (wire.port.name, self.stage);
+        let other = leading.map_or_else(|| format!("`{stage}`"), |leading| format!("`{}`", leading.port.name));
+        let mut only = vec![];
         if !lacking.is_empty() {
-            differences.push(format!("lacks {}", list(lacking, 3)));
+            only.push(format!("{} only at {other}", list(lacking.iter().copied(), 3)));
         }
         if !extra.is_empty() {
-            differences.push(format!("has {} beyond them", list(extra, 3)));
+            only.push(format!("{} only at `{port}`", list(extra.iter().copied(), 3)));
         }
-        let leads =
-            leading.map_or_else(|| "its own items".to_owned(), |wire| format!("those of `inputs.{}`", wire.port.name));
-        let message = format!(
-            "the items of `inputs.{}` of `{}` are not {leads}: it {}",
-            wire.port.name,
-            self.stage,
-            differences.join(" and ")
-        );
+        let who = match leading {
+            Some(leading) => format!("`inputs.{}` and `inputs.{port}` of `{stage}`", leading.port.name),
+            None => format!("`{stage}` and its `inputs.{port}`"),
+        };
+        let message = format!("{who} have different items: {}", only.join("; "));
         let mut problem =
             Diagnostic::new("recipe-items-differ", Fault::Recipe, message).at(self.texts.label(&wire.place, ""));
         if let Some(leading) = leading {
-            problem = problem.at(self.texts.label(&leading.place, "the items come from here"));
+            problem = problem.at(self.texts.label(&leading.place, format!("`{stage}` has the items of this one")));
         }
-        Err(problem.hint("item `x` of the stage reads item `x` of both: both must come from the same stages"))
+        problem.hint(format!("item `x` of `{stage}` reads item `x` of both: both must go back to the same items"))
     }
 
     fn too_many(&self, count: u64) -> Box<Diagnostic> {

@@ -3,7 +3,7 @@
 use crate::document::{Problems, Texts};
 use crate::items::{ItemReader, Wire};
 use crate::kinds::{Builder, BuiltPart, KnownStage};
-use crate::model::{Recipe, RecipeStage};
+use crate::model::{Recipe, RecipeStage, SourceFile};
 use crate::order::dependency_order;
 use crate::outline::Outline;
 use crate::wiring::{Wires, Wiring};
@@ -57,24 +57,15 @@ fn check(
     let known: Vec<Option<KnownStage>> = outline.stages.iter().map(|stage| builder.build(stage, problems)).collect();
     let (wires, reads) = Wiring { outline: &outline, known: &known, registry, texts }.connect(problems);
     let order = dependency_order(&outline, &reads, texts, problems);
-    let directory = path.parent().unwrap_or(Path::new("")).to_path_buf();
-    let mut assembly = Assembly { outline: &outline, wires: &wires, texts, stages: vec![], place_of: BTreeMap::new() };
     let graph_is_sound = problems.is_empty();
-    for stage in order.unwrap_or_default() {
-        if let Some(built) = known[stage].as_ref().and_then(|known| known.built.as_ref()) {
-            let files: Vec<_> = built
-                .parts
-                .iter()
-                .map(|part| {
-                    let declared = &part.stage.properties().sources;
-                    let places = (&built.parameters, &outline.stages[stage].place);
-                    sources::resolve(declared, &directory, places, texts, problems)
-                })
-                .collect();
-            if graph_is_sound && let Err(problem) = assembly.add(stage, &built.parts, files) {
-                problems.push(problem);
-                break;
-            }
+    let directory = path.parent().unwrap_or(Path::new("")).to_path_buf();
+    let mut files = find_files(&outline, &known, &directory, texts, problems);
+    let mut assembly = Assembly { outline: &outline, wires: &wires, texts, stages: vec![], place_of: BTreeMap::new() };
+    for stage in order.filter(|_| graph_is_sound).unwrap_or_default() {
+        let Some(built) = known[stage].as_ref().and_then(|known| known.built.as_ref()) else { continue };
+        if let Err(problem) = assembly.add(stage, &built.parts, std::mem::take(&mut files[stage])) {
+            problems.push(problem);
+            break;
         }
     }
     let stages = assembly.stages;
@@ -86,6 +77,29 @@ fn check(
         text: text.into(),
         stages,
     })
+}
+
+/// Per stage of the outline and part: the files it reads.
+fn find_files(
+    outline: &Outline,
+    known: &[Option<KnownStage>],
+    directory: &Path,
+    texts: &Texts,
+    problems: &mut Problems,
+) -> Vec<Vec<Vec<SourceFile>>> {
+    let mut files = vec![];
+    for (stage, known) in outline.stages.iter().zip(known) {
+        let Some(built) = known.as_ref().and_then(|known| known.built.as_ref()) else {
+            files.push(vec![]);
+            continue;
+        };
+        let mut of_part = |part: &BuiltPart| {
+            let declared = &part.stage.properties().sources;
+            sources::resolve(declared, directory, (&built.parameters, &stage.place), texts, problems)
+        };
+        files.push(built.parts.iter().map(&mut of_part).collect());
+    }
+    files
 }
 
 /// The stages that are ready so far, in dependency order.
@@ -100,12 +114,7 @@ struct Assembly<'a> {
 
 impl Assembly<'_> {
     /// Adds all parts of one stage of the outline.
-    fn add(
-        &mut self,
-        index: usize,
-        parts: &[BuiltPart],
-        files: Vec<Vec<crate::SourceFile>>,
-    ) -> Result<(), Box<Diagnostic>> {
+    fn add(&mut self, index: usize, parts: &[BuiltPart], files: Vec<Vec<SourceFile>>) -> Result<(), Box<Diagnostic>> {
         let outline = &self.outline.stages[index];
         let parameters = serde_json::Value::Object(crate::document::table_json(&outline.parameters));
         let mut siblings = BTreeMap::new();

@@ -54,6 +54,7 @@ pub fn schema(registry: &Registry) -> Value {
             "seed": {
                 "type": "integer",
                 "minimum": 0,
+                "maximum": i64::MAX,
                 "default": 0,
                 "description": "Root of all randomness; every stage and item draws from its own stream below it.",
             },

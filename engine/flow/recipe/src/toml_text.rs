@@ -47,6 +47,10 @@ pub(crate) fn parse_value(
         None => DeValue::parse(value).map_err(|error| error.message().to_owned()),
     };
     match parsed {
+        // Nobody quotes twice for a shell: `--set stages.tables.released=2026-05-01` means the text.
+        Ok(parsed) if parsed.get_ref().is_datetime() => {
+            Some(Node { place: whole, value: Value::Text(value.to_owned()) })
+        }
         Ok(parsed) => {
             let mut reader = TreeReader { text, offset, texts, problems };
             Some(reader.node(&parsed, &mut path.to_vec()))

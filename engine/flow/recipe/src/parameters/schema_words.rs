@@ -155,6 +155,8 @@ pub(crate) fn show_json(value: &Json) -> String {
         Json::String(text) => text.clone(),
         Json::Number(number) => match number.as_f64() {
             Some(float) if number.is_f64() && float.fract() == 0.0 && float.abs() < 1e15 => format!("{float:.0}"),
+            // Defaults of 32-bit fields arrive widened: `0.1` as `0.10000000149011612`.
+            Some(float) if number.is_f64() && f64::from(float as f32) == float => (float as f32).to_string(),
             _ => number.to_string(),
         },
         other => other.to_string(),

@@ -1,9 +1,7 @@
 //! What is generated from the kinds: the recipe schema, the reference page, pictures of the DAG.
 
-mod toys;
-
+use crate::toys::{WHOLE, check, registry};
 use cosfly_recipe::{Format, graph, reference, schema};
-use toys::{WHOLE, check, registry};
 
 #[test]
 fn the_graph_as_mermaid() {

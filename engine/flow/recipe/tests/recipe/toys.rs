@@ -1,7 +1,5 @@
 //! Small stage kinds that declare everything and do nothing.
 
-#![expect(dead_code, reason = "each test file uses its part of the toys")]
-
 use cosfly_recipe::Recipe;
 use cosfly_stage::{
     Fan, InputPort, Inputs, ItemRule, OutputSink, ParameterError, PortSource, Produced, Registry, Source, Stage,
@@ -286,6 +284,7 @@ pub fn registry() -> Registry {
             build: walkers,
             ..plain_toy("walkers", "People who walk.", "track/1", vec![town()], ItemRule::One)
         },
+        plain_toy("blocks", "Makes towns.", "town/1", vec![], ItemRule::Count { prefix: "block", count: 2 }),
         plain_toy(
             "expert",
             "Follows a track.",

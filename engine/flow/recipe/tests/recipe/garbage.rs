@@ -1,9 +1,7 @@
 //! No text and no override makes the reader panic, and what it says can be printed.
 
-mod toys;
-
+use crate::toys::WHOLE;
 use cosfly_diagnose::render_all;
-use toys::WHOLE;
 
 /// A linear congruential generator: the same garbage on every machine.
 struct Dice(u64);
@@ -65,7 +63,7 @@ const PIECES: [&str; 44] = [
 
 fn check(text: &str, overrides: &[String]) {
     let path = std::path::Path::new("nowhere/garbage.toml");
-    if let Err(problems) = cosfly_recipe::read(path, text, overrides, &toys::registry()) {
+    if let Err(problems) = cosfly_recipe::read(path, text, overrides, &crate::toys::registry()) {
         assert!(!problems.is_empty());
         let shown = render_all(problems.iter().map(|problem| &**problem), false);
         assert!(shown.starts_with("error["), "{shown}");

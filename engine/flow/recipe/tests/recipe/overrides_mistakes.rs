@@ -1,8 +1,6 @@
 //! What is said about `--set` arguments that do not fit.
 
-mod toys;
-
-use toys::complaint;
+use crate::toys::complaint;
 
 /// The lines before those that a test adds.
 const START: &str = r#"name = "t"
@@ -184,7 +182,7 @@ fn a_kind_that_is_not_there() {
     1 | stages.people.use=gps
       |                   ^^^
       |
-      = help: there are `dataset`, `expert`, `map`, `render`, `walkers`
+      = help: there are `blocks`, `dataset`, `expert`, `map`, `render`, `walkers`
     "#);
 }
 

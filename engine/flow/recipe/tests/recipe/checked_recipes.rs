@@ -1,9 +1,7 @@
 //! What a checked recipe holds.
 
-mod toys;
-
+use crate::toys::{WHOLE, check};
 use cosfly_recipe::{Recipe, RecipeStage};
-use toys::{WHOLE, check};
 
 fn checked(text: &str, overrides: &[&str]) -> Recipe {
     match check(text, overrides) {
@@ -133,6 +131,7 @@ fn overrides_replace_values_and_the_last_one_wins() {
             "stages.people.count=9",
             "stages.people.count = 2",
             "stages.people.speed.max_mps=3",
+            "stages.people.crowd=2026-05-01",
             "stages.people.crowd=two words",
             "stages.people.colour=[1, 2, 3]",
             "stages.people.colour.1=7",
@@ -179,14 +178,17 @@ fn a_recipe_file_is_read_and_a_missing_one_names_the_nearest() {
     let path = folder.path().join("carla_town.toml");
     std::fs::write(&path, WHOLE).unwrap();
     std::fs::write(folder.path().join("town.xodr"), "").unwrap();
-    assert_eq!(cosfly_recipe::load(&path, &[], &toys::registry()).unwrap().path, path);
-    let wrong = cosfly_recipe::load(&folder.path().join("carla_twon.toml"), &[], &toys::registry()).unwrap_err();
+    assert_eq!(cosfly_recipe::load(&path, &[], &crate::toys::registry()).unwrap().path, path);
+    let wrong = cosfly_recipe::load(&folder.path().join("carla_twon.toml"), &[], &crate::toys::registry()).unwrap_err();
     assert_eq!(wrong[0].code, "recipe-missing");
     assert!(wrong[0].hints[0].contains("carla_town.toml"), "{:?}", wrong[0].hints);
     std::fs::write(&path, b"name = \"\xff\"").unwrap();
-    let wrong = cosfly_recipe::load(&path, &[], &toys::registry()).unwrap_err();
+    let wrong = cosfly_recipe::load(&path, &[], &crate::toys::registry()).unwrap_err();
     assert_eq!(wrong[0].code, "recipe-syntax");
-    assert_eq!(cosfly_recipe::load(folder.path(), &[], &toys::registry()).unwrap_err()[0].code, "recipe-unreadable");
+    assert_eq!(
+        cosfly_recipe::load(folder.path(), &[], &crate::toys::registry()).unwrap_err()[0].code,
+        "recipe-unreadable"
+    );
 }
 
 #[test]

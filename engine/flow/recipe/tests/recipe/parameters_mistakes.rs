@@ -1,8 +1,6 @@
 //! What is said about a stage's parameters that its kind does not allow.
 
-mod toys;
-
-use toys::complaint;
+use crate::toys::complaint;
 
 /// The lines before those that a test adds.
 const START: &str = r#"name = "t"
