@@ -39,7 +39,7 @@ class Raster:
     def share(self, points, *names):
         """Share of points on any of the layers."""
         if len(points) == 0:
-            return float("nan")
+            return 0.0
         layer = numpy.logical_or.reduce([self.layers[name] for name in names])
         columns, rows = numpy.floor(self.pixels(points)).astype(int).T
         inside = (columns >= 0) & (rows >= 0) & (columns < layer.shape[1]) & (rows < layer.shape[0])

@@ -19,8 +19,8 @@ pub struct MapConfig {
     pub signals: bool,
     /// Paint lane lines and crossings. On by default.
     pub road_marks: bool,
-    /// Where a junction arm has pavements but no marked crossing within reach, let pedestrians cross the
-    /// carriageway there (flagged as synthetic). On by default.
+    /// Let pedestrians cross the carriageway where a junction arm has pavements but no marked crossing, and join
+    /// parts of the walkable ground that are at most 25 m apart (all flagged as synthetic). On by default.
     pub unmarked_crossings: bool,
     /// Longest piece of road surface in one quad, metres; bends are cut finer by themselves. 0.5 to 1000, default 50.
     #[schemars(range(min = 0.5, max = 1000.0))]

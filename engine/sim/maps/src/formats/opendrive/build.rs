@@ -2,6 +2,7 @@
 
 use super::attributes::Source;
 use super::crossings::{Crosswalk, crosswalks, unmarked_crossings};
+use super::joining::joining_strips;
 use super::network::{Road, RoadNetwork};
 use super::objects::{MOST_OBSTACLES, ObstacleBuilder};
 use super::parse_road;
@@ -128,10 +129,10 @@ fn build(
     if parts.walkable.is_empty() {
         return Err(no_walkable_ground(&network));
     }
-    parts.add_crossings(&network, options);
     if options.signals {
         parts.add_signals(&network);
     }
+    parts.add_crossings(&network, options);
     terrain::add_terrain(&mut parts.meshes, &parts.obstacles.obstacles);
     parts.finish(network)
 }
@@ -168,36 +169,50 @@ impl Parts {
         Ok(())
     }
 
-    /// Marked crossings with their paint and joints; then unmarked ones where a junction arm has none.
+    /// Marked crossings with their paint and joints; then what pedestrians need to get across where the file has none.
     fn add_crossings(&mut self, network: &RoadNetwork, options: &MapConfig) {
         let world = self.world;
         let marked: Vec<Crosswalk> = network.roads.iter().flat_map(|road| crosswalks(road, &world)).collect();
         let outlines = self.walkable.iter().map(WalkablePolygon::plan).collect();
         let heights_m: Vec<f64> = self.walkable.iter().map(WalkablePolygon::mean_height_m).collect();
         let pavements = PolygonIndex::new(outlines);
-        if options.road_marks && !marked.is_empty() {
-            let surfaces = core::mem::take(&mut self.meshes).finish();
-            let ground = GroundIndex::of_surfaces(&surfaces, |_| true);
-            self.meshes = MeshBuilder::from_meshes(surfaces);
-            for crosswalk in &marked {
+        let surfaces = core::mem::take(&mut self.meshes).finish();
+        let ground = GroundIndex::of_surfaces(&surfaces, |_| true);
+        self.meshes = MeshBuilder::from_meshes(surfaces);
+        for crosswalk in &marked {
+            if options.road_marks {
                 crosswalk.paint(&mut self.meshes, &ground);
             }
-        }
-        for crosswalk in &marked {
             self.walkable.push(crosswalk.polygon());
             self.walkable.extend(crosswalk.joints(&pavements, &heights_m));
         }
         if options.unmarked_crossings {
-            let before = self.walkable.len();
-            let shoulders = options.shoulders_as_sidewalks;
-            for road in &network.roads {
-                self.walkable.extend(unmarked_crossings(road, &marked, shoulders, &world));
-            }
-            let added = self.walkable.len() - before;
-            if added > 0 {
-                self.notes.push(format!("{added} unmarked crossings at junction arms without a crosswalk in the file"));
-            }
+            self.add_unmarked_crossings(network, &marked, options.shoulders_as_sidewalks, &ground);
         }
+    }
+
+    fn add_unmarked_crossings(
+        &mut self,
+        network: &RoadNetwork,
+        marked: &[Crosswalk],
+        shoulders: bool,
+        ground: &GroundIndex,
+    ) {
+        let world = self.world;
+        let arms: Vec<WalkablePolygon> =
+            network.roads.iter().flat_map(|road| unmarked_crossings(road, marked, shoulders, &world)).collect();
+        if !arms.is_empty() {
+            let count = arms.len();
+            self.notes.push(format!("{count} unmarked crossings at junction arms without a crosswalk in the file"));
+        }
+        self.walkable.extend(arms);
+        let strips = joining_strips(&self.walkable, &self.obstacles.obstacles, ground, &mut self.meshes);
+        if !strips.is_empty() {
+            let count = strips.len();
+            self.notes
+                .push(format!("{count} strips of ground join parts of the walkable ground that the file leaves apart"));
+        }
+        self.walkable.extend(strips);
     }
 
     fn add_signals(&mut self, network: &RoadNetwork) {

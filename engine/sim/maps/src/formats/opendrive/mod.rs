@@ -6,6 +6,7 @@
 mod attributes;
 mod build;
 mod crossings;
+mod joining;
 pub mod network;
 mod object_kind;
 mod objects;

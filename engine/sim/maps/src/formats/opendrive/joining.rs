@@ -1,0 +1,237 @@
+//! Joins separate parts of the walkable ground by short straight strips, nearest parts first.
+//!
+//! Files often leave out the pavement at junction corners, or give an arm pavement on one side only; pedestrians
+//! walk there all the same. Every strip is synthetic.
+
+use super::surfaces::MeshBuilder;
+use crate::polygons::PolygonIndex;
+use crate::{GroundIndex, Obstacle, SemanticLabel, WalkableKind, WalkablePolygon};
+use cosfly_frames::{DVec2, DVec3};
+use std::collections::BTreeMap;
+
+/// Longest strip, metres.
+const LONGEST_M: f64 = 25.0;
+/// Width of a strip, metres.
+const WIDTH_M: f64 = 2.5;
+/// How far a strip reaches into the ground that it joins, metres.
+const OVERLAP_M: f64 = 0.8;
+/// Outlines closer than this, in plan and in height, touch, metres.
+const TOUCHING_M: [f64; 2] = [0.3, 0.6];
+/// Distance between the points at which strips may begin, metres.
+const SPACING_M: f64 = 1.0;
+/// Steepest strip, rise over run.
+const STEEPEST: f64 = 0.15;
+
+/// Points along the outlines; each knows its polygon.
+struct Sample {
+    point: DVec3,
+    polygon: usize,
+}
+
+/// Sets of polygons that can be reached from each other.
+struct Parts {
+    parents: Vec<usize>,
+}
+
+impl Parts {
+    fn root(&mut self, mut polygon: usize) -> usize {
+        while self.parents[polygon] != polygon {
+            self.parents[polygon] = self.parents[self.parents[polygon]];
+            polygon = self.parents[polygon];
+        }
+        polygon
+    }
+
+    fn unite(&mut self, a: usize, b: usize) {
+        let (a, b) = (self.root(a), self.root(b));
+        self.parents[a.max(b)] = a.min(b);
+    }
+}
+
+/// Strips that join the parts of `walkable`, as far as they are near each other, on level ground and free of
+/// obstacles. Strips beyond the lanes also get a surface.
+pub(super) fn joining_strips(
+    walkable: &[WalkablePolygon],
+    obstacles: &[Obstacle],
+    ground: &GroundIndex,
+    meshes: &mut MeshBuilder,
+) -> Vec<WalkablePolygon> {
+    let mut parts = Parts { parents: (0..walkable.len()).collect() };
+    let fine = samples(walkable, 2.0 * TOUCHING_M[0]);
+    unite_touching(&mut parts, &fine, walkable);
+    let blocked = footprints(obstacles);
+    let mut strips = Vec::new();
+    for (a, b) in candidates(&mut parts, &samples(walkable, SPACING_M)) {
+        if parts.root(a.polygon) == parts.root(b.polygon) {
+            continue;
+        }
+        if let Some(strip) = strip(a.point, b.point, &blocked, ground, meshes) {
+            parts.unite(a.polygon, b.polygon);
+            strips.push(strip);
+        }
+    }
+    strips
+}
+
+fn samples(walkable: &[WalkablePolygon], spacing_m: f64) -> Vec<Sample> {
+    let mut out = Vec::new();
+    for (polygon, area) in walkable.iter().enumerate() {
+        let outline = &area.outline_in_world;
+        for i in 0..outline.len() {
+            let (a, b) = (outline[i], outline[(i + 1) % outline.len()]);
+            let steps = (a.distance(b) / spacing_m).ceil().clamp(1.0, 1e4) as usize;
+            out.extend((0..steps).map(|step| Sample { point: a.lerp(b, step as f64 / steps as f64), polygon }));
+        }
+    }
+    out
+}
+
+type Cells = BTreeMap<(i64, i64), Vec<usize>>;
+
+fn cells(samples: &[Sample], cell_m: f64) -> Cells {
+    let mut cells = Cells::new();
+    for (number, sample) in samples.iter().enumerate() {
+        cells.entry(cell(sample.point, cell_m)).or_default().push(number);
+    }
+    cells
+}
+
+fn cell(point: DVec3, cell_m: f64) -> (i64, i64) {
+    ((point.x / cell_m).floor() as i64, (point.y / cell_m).floor() as i64)
+}
+
+fn around(cells: &Cells, (x, y): (i64, i64)) -> impl Iterator<Item = usize> + '_ {
+    (-1..=1)
+        .flat_map(move |dx| (-1..=1).map(move |dy| (x + dx, y + dy)))
+        .filter_map(|key| cells.get(&key))
+        .flatten()
+        .copied()
+}
+
+/// Polygons touch when outline points are close or lie inside the other polygon, at about the same height.
+fn unite_touching(parts: &mut Parts, fine: &[Sample], walkable: &[WalkablePolygon]) {
+    let [near_m, level_m] = TOUCHING_M;
+    let cell_m = 2.0 * near_m;
+    let grid = cells(fine, cell_m);
+    for sample in fine {
+        for other in around(&grid, cell(sample.point, cell_m)).map(|number| &fine[number]) {
+            let offset = (other.point - sample.point).abs();
+            if offset.z < level_m && offset.truncate().length() < 2.0 * near_m {
+                parts.unite(sample.polygon, other.polygon);
+            }
+        }
+    }
+    let index = PolygonIndex::new(walkable.iter().map(WalkablePolygon::plan).collect());
+    for sample in fine {
+        for other in index.at(sample.point.truncate()) {
+            if (walkable[other].mean_height_m() - sample.point.z).abs() < level_m {
+                parts.unite(sample.polygon, other);
+            }
+        }
+    }
+}
+
+/// Pairs of points of different parts, nearest first; for each point the nearest one of each other part.
+fn candidates<'s>(parts: &mut Parts, samples: &'s [Sample]) -> Vec<(&'s Sample, &'s Sample)> {
+    let roots: Vec<usize> = samples.iter().map(|sample| parts.root(sample.polygon)).collect();
+    if roots.windows(2).all(|pair| pair[0] == pair[1]) {
+        return Vec::new();
+    }
+    let grid = cells(samples, LONGEST_M);
+    let mut pairs: Vec<(f64, usize, usize)> = Vec::new();
+    for (number, sample) in samples.iter().enumerate() {
+        let mut nearest: BTreeMap<usize, (f64, usize)> = BTreeMap::new();
+        for other in around(&grid, cell(sample.point, LONGEST_M)).filter(|other| roots[*other] > roots[number]) {
+            let offset = samples[other].point - sample.point;
+            let distance_m = offset.truncate().length();
+            if distance_m <= LONGEST_M && offset.z.abs() <= STEEPEST * distance_m + 0.3 {
+                let best = nearest.entry(roots[other]).or_insert((distance_m, other));
+                if distance_m < best.0 {
+                    *best = (distance_m, other);
+                }
+            }
+        }
+        pairs.extend(nearest.into_values().map(|(distance_m, other)| (distance_m, number, other)));
+    }
+    pairs.sort_by(|a, b| a.0.total_cmp(&b.0).then((a.1, a.2).cmp(&(b.1, b.2))));
+    pairs.into_iter().map(|(_, a, b)| (&samples[a], &samples[b])).collect()
+}
+
+/// Footprints of everything a pedestrian would run into.
+fn footprints(obstacles: &[Obstacle]) -> PolygonIndex {
+    let standing = obstacles.iter().filter(|obstacle| super::terrain::stands_on_ground(obstacle.kind));
+    let outlines = standing.map(|obstacle| {
+        let corners = obstacle.shape.corners_in_world();
+        [0, 1, 3, 2].map(|corner| corners[corner].truncate()).to_vec()
+    });
+    PolygonIndex::new(outlines.collect())
+}
+
+/// The strip between two points, when nothing stands in its way and no road passes far above or below.
+fn strip(
+    from: DVec3,
+    to: DVec3,
+    blocked: &PolygonIndex,
+    ground: &GroundIndex,
+    meshes: &mut MeshBuilder,
+) -> Option<WalkablePolygon> {
+    let length_m = (to - from).truncate().length();
+    let along = (to - from).truncate().normalize_or(DVec2::X);
+    let across = 0.5 * WIDTH_M * along.perp();
+    let steps = (length_m / 0.5).ceil().max(1.0) as usize;
+    let (mut on_road, mut off_lanes) = (false, false);
+    for step in 0..=steps {
+        let point = from.lerp(to, step as f64 / steps as f64);
+        let plan = point.truncate();
+        if [plan, plan + across, plan - across].iter().any(|place| blocked.at(*place).next().is_some()) {
+            return None;
+        }
+        match ground.ground_near(point) {
+            Some(near) if (near.height_m - point.z).abs() > 0.8 => return None,
+            Some(near) => on_road |= near.label == SemanticLabel::Roads,
+            None => off_lanes = true,
+        }
+    }
+    let reach = OVERLAP_M * along;
+    let corner = |end: DVec3, side: DVec2, reach: DVec2| (end.truncate() + side + reach).extend(end.z);
+    let outline_in_world = vec![
+        corner(from, across, -reach),
+        corner(to, across, reach),
+        corner(to, -across, reach),
+        corner(from, -across, -reach),
+    ];
+    if off_lanes {
+        let corners = [outline_in_world[0], outline_in_world[1], outline_in_world[2], outline_in_world[3]];
+        // Just below the pavements that it meets, so that the two do not fight for the same pixels.
+        let sunk = corners.map(|corner| (corner - 0.01 * DVec3::Z, DVec2::new(corner.x, corner.y)));
+        meshes.quad(SemanticLabel::SideWalks, true, sunk);
+    }
+    let kind = if on_road { WalkableKind::Road } else { WalkableKind::Sidewalk };
+    Some(WalkablePolygon { kind, outline_in_world, synthetic: true })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn square(x: f64, z: f64) -> WalkablePolygon {
+        let outline = [(0.0, 0.0), (4.0, 0.0), (4.0, 4.0), (0.0, 4.0)];
+        let outline_in_world = outline.iter().map(|(u, v)| DVec3::new(x + u, *v, z)).collect();
+        WalkablePolygon { kind: WalkableKind::Sidewalk, outline_in_world, synthetic: false }
+    }
+
+    fn strips(walkable: &[WalkablePolygon]) -> usize {
+        let ground = GroundIndex::of_surfaces(&[], |_| true);
+        joining_strips(walkable, &[], &ground, &mut MeshBuilder::default()).len()
+    }
+
+    #[test]
+    fn only_near_and_level_parts_are_joined() {
+        assert_eq!(strips(&[square(0.0, 0.0), square(4.1, 0.0)]), 0, "they touch");
+        assert_eq!(strips(&[square(0.0, 0.0), square(12.0, 0.0), square(24.0, 0.0)]), 2, "two gaps");
+        assert_eq!(strips(&[square(0.0, 0.0), square(40.0, 0.0)]), 0, "too far");
+        assert_eq!(strips(&[square(0.0, 0.0), square(9.0, 5.0)]), 0, "another level");
+        assert_eq!(strips(&[square(0.0, 0.0), square(1.0, 6.0)]), 0, "a bridge above");
+        assert_eq!(strips(&[]), 0, "nothing");
+    }
+}
