@@ -7,11 +7,11 @@ use std::cmp::Reverse;
 use std::collections::BinaryHeap;
 
 /// Side of the lattice of personal taste, metres, and its number of points per side (it repeats).
-const TASTE_M: f64 = 3.0;
+const TASTE_M: f64 = 5.0;
 const TASTE_POINTS: usize = 32;
 
 /// How much dearer ground may be by personal taste, as a share.
-const TASTE_SHARE: f32 = 0.4;
+const TASTE_SHARE: f32 = 0.3;
 
 /// How much dearer the very edge of the ground is than its middle, as a share.
 const EDGE_SHARE: f32 = 1.5;

@@ -15,7 +15,11 @@ const SHORTEST_LEG_M: f64 = 15.0;
 const AHEAD_RAD: f64 = 1.9;
 
 /// Nodes of the way behind that a new leg avoids.
-const BEHIND_NODES: usize = 40;
+const BEHIND_NODES: usize = 60;
+
+/// A way that begins by going back this many steps is given up for another goal, this often.
+const TURNING_BACK_STEPS: usize = 6;
+const TURNING_BACK_REFUSALS: usize = 3;
 
 /// Smoothing cuts corners; routes are made longer by this.
 const SPARE: f64 = 1.12;
@@ -168,12 +172,18 @@ impl<'a> GoalChain<'a> {
     /// Adds the way to one more goal; false when none was found.
     fn grow(&mut self, leg_m: f64) -> bool {
         let here = self.nodes[self.nodes.len() - 1];
+        let mut refusals = 0;
         for attempt in 0..GOAL_ATTEMPTS {
             let Some(goal) = self.draw_goal(here, leg_m, attempt) else { continue };
             let behind = &self.nodes[self.nodes.len().saturating_sub(BEHIND_NODES)..self.nodes.len() - 1];
             if let Some(way) = self.search.find(here, goal, behind)
                 && way.len() > 1
             {
+                let turns_back = way.get(TURNING_BACK_STEPS).is_some_and(|node| behind.contains(node));
+                if turns_back && refusals < TURNING_BACK_REFUSALS {
+                    refusals += 1;
+                    continue;
+                }
                 self.length_m += way
                     .windows(2)
                     .map(|pair| (self.grid.center(pair[1]) - self.grid.center(pair[0])).length())

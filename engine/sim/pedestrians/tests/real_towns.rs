@@ -1,0 +1,102 @@
+//! Walks on real towns: CARLA's own and a surveyed city. Skipped where the shared data is absent.
+
+use cosfly_frames::{DVec2, Seed};
+use cosfly_maps::{MapConfig, Town, WalkableKind, read_town};
+use cosfly_pedestrians::{PedestrianConfig, PedestrianPath, WalkableGrid, walk};
+use std::path::{Path, PathBuf};
+
+/// A file of the shared data; `None` when it is absent.
+fn shared_file(file: &str) -> Option<Vec<u8>> {
+    let root = std::env::var_os("COSFLY_SHARED")
+        .map_or_else(|| PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("../../../../shared"), PathBuf::from);
+    file_or_skip(&root.join("data").join(file))
+}
+
+fn file_or_skip(path: &Path) -> Option<Vec<u8>> {
+    let bytes = std::fs::read(path).ok();
+    if bytes.is_none() {
+        println!("skipped: {} is absent", path.display());
+    }
+    bytes
+}
+
+/// Distance in plan from a point to the nearest obstacle that a body would meet there.
+fn free_m(town: &Town, walked: &PedestrianPath, frame: usize) -> f64 {
+    let feet = walked.track.states[frame].feet_in_world;
+    let meets = |shape: &cosfly_geometry::OrientedBox| {
+        let (low, high) = shape.bounds_in_world();
+        low.z < feet.z + walked.track.height_m && high.z > feet.z + 0.1
+    };
+    let solid = town.obstacles.iter().filter(|thing| meets(&thing.shape));
+    solid.fold(f64::INFINITY, |least, thing| {
+        let offset = feet.truncate() - thing.shape.center_in_world.truncate();
+        let (sin, cos) = cosfly_frames::real::sin_cos(thing.shape.yaw_rad);
+        let own = DVec2::new(cos * offset.x + sin * offset.y, cos * offset.y - sin * offset.x);
+        least.min((own.abs() - thing.shape.half_extents_m.truncate()).max(DVec2::ZERO).length())
+    })
+}
+
+/// Walks of one town: on its ground, off its things, and most of them somewhere.
+fn check_town(name: &str, bytes: Option<Vec<u8>>, options: &MapConfig) {
+    const WALKS: u32 = 20;
+    let Some(bytes) = bytes else { return };
+    let town = read_town(&bytes, options, Seed::of_item(1, "town", "town")).unwrap().0;
+    let config = PedestrianConfig::default();
+    let grid = WalkableGrid::build(&town, &config).unwrap();
+    let (mut ended, mut crossed, mut way_m) = (0, 0, 0.0);
+    for item in 0..WALKS {
+        let walked = walk(&grid, &config, Seed::of_item(7, "walkers", &format!("p{item}"))).unwrap();
+        assert_eq!(walked.track.len(), 200);
+        for (frame, state) in walked.track.states.iter().enumerate() {
+            let feet = state.feet_in_world;
+            assert!(feet.is_finite());
+            assert!(grid.ground().at(feet.truncate(), feet.z).is_some(), "{name}: p{item} frame {frame} at {feet}");
+            let free = free_m(&town, &walked, frame);
+            assert!(free >= walked.track.radius_m - 1e-9, "{name}: p{item} frame {frame} at {feet}: {free} m");
+        }
+        ended += usize::from(walked.standing[170..].iter().all(|standing| *standing));
+        let on_road = |kind: &WalkableKind| matches!(kind, WalkableKind::Crossing | WalkableKind::Road);
+        crossed += usize::from(walked.ground.iter().any(on_road));
+        way_m += walked.track.length_m() / f64::from(WALKS);
+    }
+    println!(
+        "{name}: {} polygons, {} things, {} cells, {} pieces; mean way {way_m:.0} m, {crossed} of {WALKS} cross a road",
+        town.walkable.len(),
+        town.obstacles.len(),
+        grid.len(),
+        grid.piece_extents_m().len(),
+    );
+    assert!(ended == 0 && way_m > 100.0, "{name}: {ended} walks end standing, mean way {way_m} m");
+}
+
+#[test]
+fn carla_towns_are_walked() {
+    for file in ["Town01.xodr", "Town03_2019-04.xodr", "Town04.xodr", "Town07.xodr"] {
+        check_town(file, shared_file(&format!("carla_xodr/{file}")), &MapConfig::default());
+    }
+}
+
+#[test]
+fn filled_towns_are_walked_between_their_trees() {
+    let mut options = MapConfig::default();
+    (options.fill.buildings, options.fill.trees) = (true, true);
+    check_town("Town01.xodr, filled", shared_file("carla_xodr/Town01.xodr"), &options);
+}
+
+#[test]
+fn a_surveyed_city_is_walked() {
+    let name = "Ingolstadt_CityHall.xodr";
+    check_town(name, shared_file(&format!("xodr_city/{name}")), &MapConfig::default());
+}
+
+#[test]
+fn our_own_town_is_walked() {
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../../recipes/towns/downtown.xodr");
+    check_town("downtown.xodr", file_or_skip(&path), &MapConfig::default());
+}
+
+#[test]
+fn a_town_without_pavements_is_walked_on_its_shoulders() {
+    let options = MapConfig { shoulders_as_sidewalks: true, ..MapConfig::default() };
+    check_town("Town06.xodr, shoulders", shared_file("carla_xodr/Town06.xodr"), &options);
+}
