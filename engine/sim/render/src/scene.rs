@@ -4,7 +4,7 @@ use crate::shade::grid::LightGrid;
 use crate::shade::pattern::NoiseTexture;
 use cosfly_frames::{DVec3, Seed, real};
 use cosfly_maps::{ObstacleKind, SemanticLabel, Town};
-use glam::Vec3;
+use glam::Vec3A as Vec3;
 use std::collections::BTreeMap;
 use std::sync::atomic::{AtomicU64, Ordering};
 
@@ -130,7 +130,7 @@ fn scene_box(obstacle: &cosfly_maps::Obstacle, look_seed: u32) -> Option<SceneBo
         corners_in_world: shape.corners_in_world(),
         center_in_world: shape.center_in_world,
         half_bounds_m: 0.5 * (high - low),
-        half_extents_m: half.as_vec3(),
+        half_extents_m: half.as_vec3a(),
         axes_in_world: [DVec3::new(cos, sin, 0.0), DVec3::new(-sin, cos, 0.0)],
         kind: obstacle.kind,
         label: obstacle.kind.label().id(),

@@ -3,7 +3,7 @@
 use super::light::Light;
 use super::pattern::{NoiseTexture, band, draw, floor_int, hash, smoothstep, stripes, unit};
 use super::surface::{Look, SurfacePoint};
-use glam::Vec3;
+use glam::Vec3A as Vec3;
 
 /// Wall colours, linear RGB.
 const WALLS: [Vec3; 9] = [

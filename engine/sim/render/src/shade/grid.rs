@@ -1,7 +1,7 @@
 //! Light that stays in place: how much sky the ground sees, and how much lamps give, on a coarse grid over the town.
 
 use crate::scene::{Cluster, SceneBox};
-use crate::shade::pattern::lerp;
+use crate::shade::pattern::{lerp, nearest_index};
 use cosfly_frames::DVec3;
 use cosfly_maps::ObstacleKind;
 
@@ -47,7 +47,7 @@ impl LightGrid {
         }
         let side = (high.x - low.x).max(high.y - low.y).clamp(1.0, 1e6);
         let cell = (side / MAX_CELLS as f64).max(1.0);
-        let count = |length: f64| ((length / cell) as usize + 2).min(MAX_CELLS + 2);
+        let count = |length: f64| ((length / cell) as usize + 3).min(MAX_CELLS + 3);
         let (columns, rows) = (count(high.x - low.x), count(high.y - low.y));
         let mut grid = Self {
             min: [low.x as f32, low.y as f32],
@@ -65,11 +65,11 @@ impl LightGrid {
     /// Blended values at a place; the border's beyond it.
     #[inline(always)]
     pub fn sample(&self, x_m: f32, y_m: f32) -> GridSample {
-        let x = ((x_m - self.min[0]) * self.cells_per_m).clamp(0.0, (self.columns - 1) as f32 - 0.001);
-        let y = ((y_m - self.min[1]) * self.cells_per_m).clamp(0.0, (self.rows - 1) as f32 - 0.001);
-        let (column, row) = (x as usize, y as usize);
-        let (fx, fy) = (x - column as f32, y - row as f32);
-        let at = row * self.columns + column;
+        let x = ((x_m - self.min[0]) * self.cells_per_m).clamp(0.5, self.columns as f32 - 1.501);
+        let y = ((y_m - self.min[1]) * self.cells_per_m).clamp(0.5, self.rows as f32 - 1.501);
+        let (column, row) = (nearest_index(x - 0.5), nearest_index(y - 0.5));
+        let (fx, fy) = (x - column as i32 as f32, y - row as i32 as f32);
+        let at = (row.min(self.rows - 2)) * self.columns + column.min(self.columns - 2);
         let mix = |pick: fn(&GridSample) -> f32| {
             let upper = lerp(pick(&self.cells[at]), pick(&self.cells[at + 1]), fx);
             let lower = lerp(pick(&self.cells[at + self.columns]), pick(&self.cells[at + self.columns + 1]), fx);

@@ -3,7 +3,7 @@
 use super::pattern::{NoiseTexture, hash, lerp, smoothstep, stripes, unit};
 use super::surface::{Look, SurfacePoint};
 use cosfly_maps::SemanticLabel;
-use glam::Vec3;
+use glam::Vec3A as Vec3;
 
 /// The look of ground with a label.
 #[inline(always)]

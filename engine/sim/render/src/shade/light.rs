@@ -3,7 +3,7 @@
 use crate::shade::pattern::{lerp, smoothstep};
 use crate::weather::Weather;
 use cosfly_frames::real;
-use glam::Vec3;
+use glam::Vec3A as Vec3;
 
 /// Everything about light that is the same in the whole frame. Colours are linear RGB.
 #[derive(Clone, Copy, Debug)]

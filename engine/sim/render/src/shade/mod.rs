@@ -19,8 +19,8 @@ use crate::renderer::{DrawnFace, Eye, FaceSource, FrameSetup};
 use crate::scene::{BOX_FACES, Scene, SceneBox};
 use crate::visibility::{NO_FACE, Screen, Visibility};
 use cosfly_frames::{DVec3, Pose};
-use cosfly_maps::ObstacleKind;
-use glam::Vec3;
+use cosfly_maps::{ObstacleKind, SemanticLabel};
+use glam::Vec3A as Vec3;
 use light::Light;
 use pattern::{hash, lerp, smoothstep};
 use std::ops::Range;
@@ -31,6 +31,7 @@ pub struct Shader {
     screen: Screen,
     view: View,
     light: Light,
+    haze: Vec3,
     shadows: shadow::Shadows,
     clothes: Option<Clothes>,
     row: Vec<Vec3>,
@@ -59,6 +60,7 @@ impl Shader {
             screen: *screen,
             view: View::new(screen, &Eye::new(&pose)),
             light: Light::new(&crate::presets::clear_noon()),
+            haze: Vec3::ZERO,
             shadows: shadow::Shadows::new(),
             clothes: None,
             row: vec![Vec3::ZERO; screen.width],
@@ -78,6 +80,7 @@ impl Shader {
     ) {
         self.light = Light::new(setup.weather);
         self.view = View::new(&self.screen, eye);
+        self.haze = self.light.horizon * 0.8 + self.light.zenith * 0.2 + self.light.lamp * 0.02;
         self.clothes = clothes;
         self.shadows.prepare(scene, eye, self.light.to_sun, figure);
     }
@@ -104,7 +107,6 @@ impl Shader {
                     self.face_run(&context, run, &faces[number as usize], figure, &mut row_colours);
                 }
             });
-            self.haze_row(row, depth, &mut row_colours);
             self.tone.store(&row_colours, self.light.exposure, &mut images.rgb[3 * pixels.start..3 * pixels.end]);
         }
         self.row = row_colours;
@@ -139,15 +141,18 @@ impl Shader {
         match face.source {
             FaceSource::Ground { cluster, triangle } => {
                 let ground = context.scene.clusters[cluster as usize].triangles[usize::from(triangle)];
-                let plane = FacePlane::flat(ground.normal_in_world.as_vec3());
+                let plane = FacePlane::flat(ground.normal_in_world.as_vec3a());
                 let label = ground.label;
-                self.shade_run(context, run, &plane, true, colours, |point| ground::look(point, label, noise));
+                let sparse = !matches!(label, SemanticLabel::SideWalks | SemanticLabel::RoadLine);
+                self.shade_run(context, run, &plane, (true, sparse), colours, |point| {
+                    ground::look(point, label, noise)
+                });
             }
             FaceSource::Figure { triangle } => {
                 let part = &figure[triangle as usize];
-                let plane = FacePlane::flat(part.normal_in_world.as_vec3());
+                let plane = FacePlane::flat(part.normal_in_world.as_vec3a());
                 let colour = self.clothes.map_or([0.5; 3], |clothes| clothes.colours[part.region as usize]);
-                self.shade_run(context, run, &plane, false, colours, |point| {
+                self.shade_run(context, run, &plane, (false, false), colours, |point| {
                     let cloth = noise.grain(point.world.x * 40.0, point.world.z * 40.0, point.footprint_m * 40.0);
                     Look::matt(Vec3::from_array(colour) * (0.85 + 0.3 * cloth), point.normal)
                 });
@@ -170,28 +175,28 @@ impl Shader {
     ) {
         let noise = &context.scene.noise;
         let axis = BOX_FACES[face].0;
-        let center = b.center_in_world.as_vec3();
-        let (x_axis, y_axis) = (b.axes_in_world[0].as_vec3(), b.axes_in_world[1].as_vec3());
+        let center = b.center_in_world.as_vec3a();
+        let (x_axis, y_axis) = (b.axes_in_world[0].as_vec3a(), b.axes_in_world[1].as_vec3a());
         let half = b.half_extents_m;
         let along_axis = if axis == 0 { y_axis } else { x_axis };
         let up_axis = if axis == 2 { y_axis } else { Vec3::Z };
-        let normal = b.normal_in_world(face).as_vec3();
+        let normal = b.normal_in_world(face).as_vec3a();
         let plane = FacePlane { normal, along: along_axis, up: up_axis };
         if b.kind == ObstacleKind::Building && axis == 2 {
-            self.shade_run(context, run, &plane, true, colours, |point| {
+            self.shade_run(context, run, &plane, (true, false), colours, |point| {
                 let away = point.world - center;
                 facade::roof(point, b.seed, [away.dot(x_axis), away.dot(y_axis)], [half.x, half.y], noise)
             });
         } else if b.kind == ObstacleKind::Building {
             let half_width = if axis == 0 { half.y } else { half.x };
             let facade = facade::Facade::new(b.seed, face as u32, 2.0 * half_width, 2.0 * half.z);
-            self.shade_run(context, run, &plane, false, colours, |point| {
+            self.shade_run(context, run, &plane, (false, false), colours, |point| {
                 let away = point.world - center;
                 facade.look(point, away.dot(along_axis) + half_width, away.z + half.z, light, noise)
             });
         } else {
             let kind = b.kind;
-            self.shade_run(context, run, &plane, false, colours, |point| {
+            self.shade_run(context, run, &plane, (false, false), colours, |point| {
                 let away = point.world - center;
                 let local = Vec3::new(away.dot(x_axis), away.dot(y_axis), away.z);
                 let place = things::BoxPlace { center, local, half, seed: b.seed, axis };
@@ -200,14 +205,15 @@ impl Shader {
         }
     }
 
-    /// Shades the pixels of one face in one row.
+    /// Shades the pixels of one face in one row. `sparse` surfaces have no sharp patterns: every other pixel, in a
+    /// chequerboard, is the mean of its neighbours.
     #[inline(always)]
     fn shade_run(
         &self,
         context: &RunContext<'_>,
         run: Range<usize>,
         plane: &FacePlane,
-        wettable: bool,
+        (wettable, sparse): (bool, bool),
         colours: &mut [Vec3],
         look_at: impl Fn(&SurfacePoint) -> Look,
     ) {
@@ -216,13 +222,17 @@ impl Shader {
             let end = (start + BLOCK).min(run.end);
             let first = self.slow_part(context, start, plane);
             let last = if end - start > 1 { self.slow_part(context, end - 1, plane) } else { first };
-            let step = 1.0 / (end - start).max(2).wrapping_sub(1) as i32 as f32;
+            let step = 1.0 / ((end - start).max(2) - 1) as i32 as f32;
+            let normal = if first.facing > 0.0 { -plane.normal } else { plane.normal };
             let mut sunlight = 0.0;
             for column in start..end {
+                let skipped = |column: usize| column > start && column + 1 < end && (column + context.row) % 2 == 1;
+                if sparse && skipped(column) {
+                    continue;
+                }
                 let slow = first.lerp(&last, (column - start) as i32 as f32 * step);
                 let ray = self.view.ray(column, context.row);
                 let world = self.view.position + ray * context.depth[column];
-                let normal = if first.facing > 0.0 { -plane.normal } else { plane.normal };
                 let (along, up) = (slow.along_m, slow.up_m);
                 let point = SurfacePoint {
                     world,
@@ -233,11 +243,15 @@ impl Shader {
                 let look = look_at(&point);
                 let toward = look.normal.dot(self.light.to_sun);
                 // Shadows are looked up for every other pixel of a block and for its last one.
-                if (column - start) % 2 == 0 || column + 1 == end {
+                if sparse || (column - start) % 2 == 0 || column + 1 == end {
                     sunlight = self.shadows.sunlight(world, normal, &context.scene.noise);
                 }
                 let direct = self.light.sun * (toward.max(0.0) * sunlight);
-                colours[column] = self.lit(context.scene, &point, &look, ray, &slow, direct, wettable);
+                let colour = self.lit(context.scene, &point, &look, ray, &slow, direct, wettable);
+                colours[column] = colour * slow.kept + self.haze * (1.0 - slow.kept);
+                if sparse && column >= start + 2 && skipped(column - 1) {
+                    colours[column - 1] = (colours[column - 2] + colours[column]) * 0.5;
+                }
             }
             start = end;
         }
@@ -256,12 +270,14 @@ impl Shader {
         let normal = if facing > 0.0 { -plane.normal } else { plane.normal };
         let off_wall = world + normal * (1.2 * (1.0 - normal.z.abs()));
         let grid = context.scene.grid.sample(off_wall.x, off_wall.y);
+        let far = (depth * ray.dot(ray).sqrt() - self.light.haze_start_m).max(0.0);
         let above = world.z - grid.ground_m;
         SlowPart {
             along_m: a.dot(plane.along).abs() + b.dot(plane.along).abs(),
             up_m: a.dot(plane.up).abs() + b.dot(plane.up).abs(),
             sky: grid.sky + (1.0 - grid.sky) * (above * 0.045).clamp(0.0, 0.85),
             lamps: grid.lamps * (1.0 - above * 0.11).max(0.0),
+            kept: fast_exp(-self.light.haze_per_m * far),
             facing,
         }
     }
@@ -306,20 +322,6 @@ impl Shader {
         }
         colour
     }
-
-    /// Fades far pixels into the horizon's colour.
-    fn haze_row(&self, row: usize, depth: &[f32], colours: &mut [Vec3]) {
-        let light = &self.light;
-        let haze = light.horizon * 0.8 + light.zenith * 0.2 + light.lamp * 0.02;
-        for (column, (colour, depth)) in colours.iter_mut().zip(depth).enumerate() {
-            if depth.is_finite() {
-                let ray = self.view.ray(column, row);
-                let far = (depth * ray.dot(ray).sqrt() - light.haze_start_m).max(0.0);
-                let kept = fast_exp(-light.haze_per_m * far);
-                *colour = *colour * kept + haze * (1.0 - kept);
-            }
-        }
-    }
 }
 
 /// e^x for x <= 0, to about 1e-4: (1 + x/256)^256.
@@ -342,6 +344,8 @@ struct SlowPart {
     up_m: f32,
     sky: f32,
     lamps: f32,
+    /// Share of light that haze lets through.
+    kept: f32,
     /// Cosine-like: negative where the plane's normal points to the camera.
     facing: f32,
 }
@@ -354,6 +358,7 @@ impl SlowPart {
             up_m: lerp(self.up_m, other.up_m, t),
             sky: lerp(self.sky, other.sky, t),
             lamps: lerp(self.lamps, other.lamps, t),
+            kept: lerp(self.kept, other.kept, t),
             facing: self.facing,
         }
     }
@@ -391,10 +396,10 @@ impl View {
             hash(hash(seed, bits as u32), (bits >> 32) as u32)
         });
         Self {
-            position: position.as_vec3(),
-            corner: corner.as_vec3(),
-            across: across.as_vec3(),
-            down: down.as_vec3(),
+            position: position.as_vec3a(),
+            corner: corner.as_vec3a(),
+            across: across.as_vec3a(),
+            down: down.as_vec3a(),
             seed,
         }
     }

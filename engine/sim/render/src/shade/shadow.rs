@@ -6,11 +6,11 @@
 use crate::figure::FigureTriangle;
 use crate::renderer::Eye;
 use crate::scene::{BOX_FACES, Scene};
-use crate::shade::pattern::{NoiseTexture, smoothstep};
+use crate::shade::pattern::{NoiseTexture, floor_int, smoothstep};
 use crate::visibility::{NO_FACE, PlaneOnScreen, Visibility};
 use cosfly_frames::{DVec2, DVec3};
 use cosfly_maps::ObstacleKind;
-use glam::{DVec4, Vec2, Vec3, Vec4};
+use glam::{DVec4, Vec2, Vec3A as Vec3, Vec4};
 
 /// Texels along a side of the town's map.
 const SIDE: usize = 1536;
@@ -192,8 +192,8 @@ impl Shadows {
         if !(u >= 0.0 && v >= 0.0 && u < limit && v < limit) {
             return 0.0;
         }
-        let (column, row) = (u as usize, v as usize);
-        let (fx, fy) = (u - column as f32, v - row as f32);
+        let (column, row) = (floor_int(u).max(0) as usize, floor_int(v).max(0) as usize);
+        let (fx, fy) = (u - column as i32 as f32, v - row as i32 as f32);
         let at = row * SIDE + column;
         let upper = &self.town.inverse_depth[at..at + 2];
         let lower = &self.town.inverse_depth[at + SIDE..at + SIDE + 2];
@@ -217,8 +217,8 @@ impl Shadows {
         if !(u >= 0.0 && v >= 0.0 && u < limit && v < limit) {
             return 0.0;
         }
-        let (column, row) = (u as usize, v as usize);
-        let (fx, fy) = (u - column as f32, v - row as f32);
+        let (column, row) = (floor_int(u).max(0) as usize, floor_int(v).max(0) as usize);
+        let (fx, fy) = (u - column as i32 as f32, v - row as i32 as f32);
         let at = row * FIGURE_SIDE + column;
         let tap = |index: usize| {
             let above = self.figure.inverse_depth[index] > height + 0.04 && self.figure.face[index] != NO_FACE;

@@ -3,7 +3,7 @@
 use super::light::Light;
 use super::pattern::{NoiseTexture, hash, smoothstep, unit};
 use crate::frame::FrameImages;
-use glam::Vec3;
+use glam::Vec3A as Vec3;
 
 /// Colour of the sky in a direction (unit length): gradient, sun, clouds, stars; haze below the horizon.
 pub fn colour(light: &Light, direction: Vec3, noise: &NoiseTexture) -> Vec3 {

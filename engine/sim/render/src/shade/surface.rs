@@ -1,6 +1,6 @@
 //! What materials are told about a pixel, and what they answer.
 
-use glam::Vec3;
+use glam::Vec3A as Vec3;
 
 /// A point of a surface.
 #[derive(Clone, Copy, Debug)]

@@ -4,7 +4,7 @@ use super::light::Light;
 use super::pattern::{NoiseTexture, band, draw, hash, smoothstep, stripes, unit};
 use super::surface::{Look, SurfacePoint};
 use cosfly_maps::ObstacleKind;
-use glam::Vec3;
+use glam::Vec3A as Vec3;
 
 /// Car paints, linear RGB.
 const PAINTS: [Vec3; 8] = [

@@ -1,6 +1,7 @@
 //! From linear light to sRGB bytes: a filmic curve and gamma, through one table.
 
-use glam::Vec3;
+use super::pattern::nearest_index;
+use glam::Vec3A as Vec3;
 
 /// Entries of the table; it is indexed by the square root of light, so darkness is fine-grained.
 const ENTRIES: usize = 2048;
@@ -34,7 +35,7 @@ impl ToneCurve {
         for (colour, out) in colours.iter().zip(rgb.chunks_exact_mut(3)) {
             for (value, byte) in colour.to_array().into_iter().zip(out) {
                 let root = (value * scale).clamp(0.0, 1.0).sqrt();
-                *byte = self.bytes[((root * (ENTRIES - 1) as f32 + 0.5) as usize).min(ENTRIES - 1)];
+                *byte = self.bytes[nearest_index(root * (ENTRIES - 1) as f32) & (ENTRIES - 1)];
             }
         }
     }
