@@ -33,7 +33,7 @@ pub struct Facts {
     pub start_direction: Compass,
     /// Walking direction at the end.
     pub end_direction: Compass,
-    /// Turns of at least 45 degrees, in order.
+    /// Turns of at least 60 degrees, in order; what bends more slowly or less is none.
     pub turns: Vec<Turn>,
     /// Pauses of at least a second, in order.
     pub stops: Vec<Stop>,

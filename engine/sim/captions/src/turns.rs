@@ -7,14 +7,15 @@ use serde::{Deserialize, Serialize};
 const HALF_WINDOW: usize = 2;
 /// Moving less than this over the window gives no direction, metres.
 const LEAST_MOVE_M: f64 = 0.2;
-/// A departure from the leg's direction that begins a turn, degrees.
-const BEGIN_DEG: f64 = 40.0;
+/// A change of direction by `BEGIN_DEG` within `BEGIN_FRAMES` begins a turn; a street that bends more slowly has none.
+const BEGIN_DEG: f64 = 50.0;
+const BEGIN_FRAMES: usize = 20;
 /// A smaller turn is none, degrees.
-const LEAST_TURN_DEG: f64 = 45.0;
+const LEAST_TURN_DEG: f64 = 60.0;
 /// A turn beyond this is a turn around, degrees.
 const AROUND_DEG: f64 = 135.0;
 /// A turn is over when the direction changes by less than `SETTLED_DEG` over `SETTLED_FRAMES`.
-const SETTLED_DEG: f64 = 12.0;
+const SETTLED_DEG: f64 = 10.0;
 const SETTLED_FRAMES: usize = 4;
 
 /// Which way.
@@ -57,16 +58,17 @@ pub(crate) fn directions(feet: &[DVec2], moving: &[bool]) -> Vec<(usize, f64)> {
     found
 }
 
-/// The turns in a series of directions. Slow bends count as well: a leg keeps the direction it began with.
+/// The turns in a series of directions.
 pub(crate) fn turns(directions: &[(usize, f64)]) -> Vec<Turn> {
     let mean = |from: usize, count: usize| {
         let part = &directions[from..(from + count).min(directions.len())];
         part.iter().map(|(_, yaw)| yaw.to_degrees()).sum::<f64>() / part.len().max(1) as f64
     };
     let mut turns = vec![];
-    let mut leg_deg = mean(0, 4);
+    let mut leg_start = 0;
     let mut i = 0;
     while i < directions.len() {
+        let leg_deg = mean(leg_start.max(i.saturating_sub(BEGIN_FRAMES)), 3);
         if (directions[i].1.to_degrees() - leg_deg).abs() < BEGIN_DEG {
             i += 1;
             continue;
@@ -80,7 +82,7 @@ pub(crate) fn turns(directions: &[(usize, f64)]) -> Vec<Turn> {
                 _ => TurnKind::Left,
             };
             turns.push(Turn { frame: directions[i].0 as u32, angle_deg, kind });
-            leg_deg += angle_deg;
+            leg_start = end;
         }
         i = end + 1;
     }
@@ -117,9 +119,11 @@ mod tests {
     }
 
     #[test]
-    fn sharp_and_slow_turns_are_found_with_their_side() {
+    fn turns_are_found_with_their_side_and_slow_bends_are_none() {
         use TurnKind::{Around, Left, Right};
-        let slow: Vec<(f64, usize)> = (0..=30).map(|i| (3.0 * f64::from(i), 1)).chain([(90.0, 12)]).collect();
+        let bend = |step_deg: f64| -> Vec<(f64, usize)> {
+            (0..=(90.0 / step_deg) as u32).map(|i| (step_deg * f64::from(i), 1)).chain([(90.0, 12)]).collect()
+        };
         for (legs, expected) in [
             (vec![(0.0, 30)], vec![]),
             (vec![(0.0, 15), (90.0, 15)], vec![Right]),
@@ -127,7 +131,8 @@ mod tests {
             (vec![(170.0, 15), (-100.0, 15)], vec![Right]),
             (vec![(0.0, 15), (179.0, 15)], vec![Around]),
             (vec![(0.0, 15), (30.0, 15)], vec![]),
-            (slow, vec![Right]),
+            (bend(4.0), vec![Right]),
+            (bend(1.0), vec![]),
         ] {
             assert_eq!(kinds(&legs), expected, "{legs:?}");
         }
