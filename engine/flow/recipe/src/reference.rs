@@ -159,7 +159,7 @@ fn row(root: &Value, rule: &Value, name: &str, default: Option<&Value>, required
         None => String::new(),
     };
     let description = rule.get("description").or_else(|| target.get("description")).and_then(Value::as_str);
-    let mut what = cell(description.unwrap_or_default());
+    let mut what = cell(without_default(description.unwrap_or_default(), &default));
     let values = allowed_values(root, rule);
     for (value, doc) in &values {
         if let Some(doc) = doc {
@@ -173,6 +173,17 @@ fn row(root: &Value, rule: &Value, name: &str, default: Option<&Value>, required
         None => names.join(", "),
     };
     Row { name: name.to_owned(), kind: kind_words(root, rule), default, range: cell(&range), what }
+}
+
+/// A description without the closing sentence that only repeats the column beside it.
+fn without_default<'a>(description: &'a str, default: &str) -> &'a str {
+    let trimmed = description.trim_end();
+    match trimmed.rfind("Default ") {
+        Some(start) if trimmed[start + 8..].trim_end_matches('.').trim_matches('`') == default.trim_matches('`') => {
+            trimmed[..start].trim_end()
+        }
+        _ => description,
+    }
 }
 
 /// The type in words; lists name what they hold.

@@ -19,10 +19,19 @@ pub(crate) fn resolve(
 ) -> Vec<SourceFile> {
     let mut files = vec![];
     for source in declared {
+        if source.path.as_os_str().is_empty() {
+            let message = format!("`{}` names no file", source.parameter);
+            let place = place_of(source, parameters).unwrap_or(stage_place);
+            problems.push(
+                texts
+                    .problem("recipe-missing-key", place, message)
+                    .hint(format!("write `{} = \"...\"`; paths begin at the recipe's folder", source.parameter)),
+            );
+            continue;
+        }
         let path = directory.join(&source.path);
         if let Err((message, hints)) = check_file(&path, &source.path, directory) {
-            let value = parameters.deepest(source.parameter.split('.'));
-            let place = if value.as_table().is_some() { stage_place } else { &value.place };
+            let place = place_of(source, parameters).unwrap_or(stage_place);
             let label = texts.label(place, "");
             let problem = Diagnostic::new("input-missing", Fault::Input, message).at(label);
             problems.push(hints.into_iter().fold(problem, |problem, hint| problem.hint(hint)));
@@ -30,6 +39,12 @@ pub(crate) fn resolve(
         files.push(SourceFile { parameter: source.parameter.clone(), declared: source.path.clone(), path });
     }
     files
+}
+
+/// Where the recipe gives the parameter that names the file.
+fn place_of<'a>(source: &Source, parameters: &'a Node) -> Option<&'a Place> {
+    let value = parameters.deepest(source.parameter.split('.'));
+    value.as_table().is_none().then_some(&value.place)
 }
 
 fn check_file(path: &Path, written: &Path, directory: &Path) -> Result<(), (String, Vec<String>)> {

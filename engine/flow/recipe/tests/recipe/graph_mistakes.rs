@@ -20,7 +20,7 @@ source = "town.xodr"
       |       ^^^^^^
       |
       = help: did you mean `map`?
-      = help: there are `blocks`, `dataset`, `expert`, `map`, `render`, `walkers`
+      = help: there are `blocks`, `dataset`, `expert`, `map`, `render`, `tracks`, `walkers`
     "#);
 }
 
@@ -42,7 +42,7 @@ source = "town.xodr"
       |       ^^^^^^^^^^^^^^^^^^
       |
       = help: this version of cosfly runs no plugins yet: `use = "wasm:..."` comes with a later one
-      = help: its own kinds are `blocks`, `dataset`, `expert`, `map`, `render`, `walkers`
+      = help: its own kinds are `blocks`, `dataset`, `expert`, `map`, `render`, `tracks`, `walkers`
     "#);
 }
 

@@ -182,7 +182,7 @@ fn a_kind_that_is_not_there() {
     1 | stages.people.use=gps
       |                   ^^^
       |
-      = help: there are `blocks`, `dataset`, `expert`, `map`, `render`, `walkers`
+      = help: there are `blocks`, `dataset`, `expert`, `map`, `render`, `tracks`, `walkers`
     "#);
 }
 

@@ -303,6 +303,20 @@ source = "twon.xodr"
 }
 
 #[test]
+fn a_file_that_is_not_named() {
+    let text = complaint("name = \"t\"\n[stages.people]\nuse = \"tracks\"\n", &[]);
+    insta::assert_snapshot!(text, @r#"
+    error[recipe-missing-key]: `file` names no file
+     --> a.toml:2:9
+      |
+    2 | [stages.people]
+      |         ^^^^^^
+      |
+      = help: write `file = "..."`; paths begin at the recipe's folder
+    "#);
+}
+
+#[test]
 fn a_missing_folder() {
     let text = complaint(
         r#"name = "t"
@@ -393,7 +407,7 @@ use = "rendr"
        |       ^^^^^^^
        |
        = help: did you mean `render`?
-       = help: there are `blocks`, `dataset`, `expert`, `map`, `render`, `walkers`
+       = help: there are `blocks`, `dataset`, `expert`, `map`, `render`, `tracks`, `walkers`
 
     4 errors
     "#);

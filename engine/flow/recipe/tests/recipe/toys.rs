@@ -118,6 +118,14 @@ pub struct MapConfig {
 #[serde(deny_unknown_fields)]
 pub struct NoConfig {}
 
+/// A file that is optional in the schema.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(default, deny_unknown_fields)]
+pub struct TracksConfig {
+    /// The tracks. Default "".
+    pub file: String,
+}
+
 pub struct ToyStage(pub StageProperties);
 
 impl Stage for ToyStage {
@@ -195,6 +203,12 @@ fn plain(toy: &Toy, parameters: serde_json::Value) -> Result<Vec<StagePart>, Par
 fn map(toy: &Toy, parameters: serde_json::Value) -> Result<Vec<StagePart>, ParameterError> {
     let config: MapConfig = toy.parse(parameters)?;
     let source = Source { parameter: "source".into(), path: config.source.clone().into() };
+    Ok(one_part(StageProperties { sources: vec![source], ..toy.properties(config) }))
+}
+
+fn tracks(toy: &Toy, parameters: serde_json::Value) -> Result<Vec<StagePart>, ParameterError> {
+    let config: TracksConfig = toy.parse(parameters)?;
+    let source = Source { parameter: "file".into(), path: config.file.clone().into() };
     Ok(one_part(StageProperties { sources: vec![source], ..toy.properties(config) }))
 }
 
@@ -283,6 +297,11 @@ pub fn registry() -> Registry {
             schema: schema_of::<WalkersConfig>,
             build: walkers,
             ..plain_toy("walkers", "People who walk.", "track/1", vec![town()], ItemRule::One)
+        },
+        Toy {
+            schema: schema_of::<TracksConfig>,
+            build: tracks,
+            ..plain_toy("tracks", "Reads tracks.", "track/1", vec![], ItemRule::One)
         },
         plain_toy("blocks", "Makes towns.", "town/1", vec![], ItemRule::Count { prefix: "block", count: 2 }),
         plain_toy(
