@@ -1,15 +1,92 @@
 //! Seeded buildings, street trees and lamps for towns whose files have none.
+//!
+//! [`land`] knows what ground is taken, [`frontage`] where pavements border open land, [`buildings`] and [`greenery`]
+//! use both. Everything stands off roads, pavements, crossings and what the file has.
 
+pub mod buildings;
 pub mod config;
+pub mod frontage;
+pub mod greenery;
+pub mod land;
 
 pub use config::FillConfig;
 
-use crate::Town;
-use cosfly_frames::Seed;
+use crate::ground::GroundIndex;
+use crate::{Obstacle, ObstacleKind, SemanticLabel, Town};
+use cosfly_frames::{DVec3, Seed};
+use cosfly_geometry::OrientedBox;
 
 /// Adds to `town` what `config` asks for, flags it in `town.synthetic`, and gives warnings for the user. Reads the
 /// town's walkable polygons, surfaces and obstacles; leaves `planning_boxes` to be computed afterwards.
 pub fn fill(town: &mut Town, config: &FillConfig, seed: Seed) -> Vec<String> {
-    let _ = (town, config, seed);
-    Vec::new()
+    if !config.is_on() {
+        return Vec::new();
+    }
+    let mut land = land::Land::of_town(town);
+    let fronts = frontage::fronts(town, &land);
+    let terrain = GroundIndex::of_surfaces(&town.surfaces, |mesh| mesh.label == SemanticLabel::Terrain);
+    let mut site = Site { town, terrain, added: 0 };
+    let mut counts = [0; 3];
+    // Greenery first: it takes little, and buildings stand back from it.
+    if config.lamps {
+        counts[2] = greenery::put_up_lamps(&mut site, &mut land, &fronts, config);
+    }
+    if config.trees {
+        counts[1] = greenery::plant_trees(&mut site, &mut land, &fronts, config, seed);
+    }
+    if config.buildings {
+        counts[0] = buildings::put_up_buildings(&mut site, &mut land, &fronts, config, seed);
+    }
+    note_what_was_made(town, config, seed, counts)
 }
+
+fn note_what_was_made(town: &mut Town, config: &FillConfig, seed: Seed, counts: [usize; 3]) -> Vec<String> {
+    let asked = [config.buildings, config.trees, config.lamps];
+    let names = ["buildings", "trees", "lamps"];
+    town.synthetic.buildings |= counts[0] > 0;
+    town.synthetic.trees |= counts[1] > 0;
+    town.synthetic.furniture |= counts[2] > 0;
+    let mut warnings = Vec::new();
+    for ((name, is_asked), count) in names.into_iter().zip(asked).zip(counts) {
+        if is_asked && count > 0 {
+            town.synthetic.notes.push(format!(
+                "{count} {name} are invented (`fill.{name} = true`, item seed {:016x}); the map file has none of them",
+                seed.as_u64()
+            ));
+        } else if is_asked {
+            warnings
+                .push(format!("`fill.{name}` is on, but no open land beside a pavement was found to put {name} on"));
+        }
+    }
+    warnings
+}
+
+/// The town while it is being filled.
+pub struct Site<'a> {
+    town: &'a mut Town,
+    terrain: GroundIndex,
+    added: u32,
+}
+
+impl Site<'_> {
+    /// A new thing's id.
+    fn next_object_id(&mut self) -> u32 {
+        if self.added == 0 {
+            self.added = self.town.obstacles.iter().map(|one| one.object_id).max().unwrap_or(0);
+        }
+        self.added = self.added.saturating_add(1);
+        self.added
+    }
+
+    /// Height of the open ground at a place; of the pavement beside it where the town has no terrain there.
+    fn ground_m(&self, at: DVec3) -> f64 {
+        self.terrain.ground_height_m(at.x, at.y).unwrap_or(at.z)
+    }
+
+    fn add(&mut self, kind: ObstacleKind, object_id: u32, shape: OrientedBox) {
+        self.town.obstacles.push(Obstacle { shape, kind, object_id, synthetic: true });
+    }
+}
+
+#[cfg(test)]
+mod tests;
