@@ -11,6 +11,10 @@ use cosfly_store::{Finished, PastRun, PastStage, Store};
 use rayon::prelude::*;
 use serde_json::json;
 use std::path::Path;
+use std::sync::Arc;
+
+/// Fewer items than this are not worth another thread.
+const PER_THREAD: usize = 256;
 
 /// What a run of a recipe consists of.
 pub struct Plan<'r> {
@@ -20,8 +24,8 @@ pub struct Plan<'r> {
     pub recipe_id: String,
     /// In the recipe's order.
     pub stages: Vec<PlannedStage>,
-    /// Whether the store's index lacked a finished task.
-    pub(crate) index_is_stale: bool,
+    /// Whether history and index are of this very plan, so that a run with nothing to do writes nothing.
+    pub(crate) index_is_current: bool,
 }
 
 /// One stage of a plan. Everything per item is in the order of [`RecipeStage::items`].
@@ -73,7 +77,7 @@ pub fn recipe_id(recipe: &Recipe) -> String {
 /// What the machine refused while sources were hashed and the store was listed.
 pub fn plan<'r>(recipe: &'r Recipe, store: &Store) -> Result<Plan<'r>> {
     let mut plan = digest_tasks(recipe)?;
-    find_finished(&mut plan, store)?;
+    find_finished(&mut plan, store);
     reasons::give_reasons(&mut plan, store);
     Ok(plan)
 }
@@ -86,7 +90,7 @@ pub(crate) fn digest_tasks(recipe: &Recipe) -> Result<Plan<'_>> {
         let planned = digest_stage(recipe, stage, &stages, &mut sources)?;
         stages.push(planned);
     }
-    Ok(Plan { recipe, recipe_id: recipe_id(recipe), stages, index_is_stale: false })
+    Ok(Plan { recipe, recipe_id: recipe_id(recipe), stages, index_is_current: false })
 }
 
 fn digest_stage(
@@ -107,12 +111,12 @@ fn digest_stage(
         })
         .collect();
     ports.sort_by_key(PortDocument::port);
-    let plan_of = |(index, item): (usize, &std::sync::Arc<str>)| {
+    let plan_of = |(index, item): (usize, &Arc<str>)| {
         let arrival = |connection: usize| stage.connections[connection].arrivals.get(index);
         let each = |connection: usize| arrival(connection).map(|arrival| planned_input(recipe, earlier, arrival));
         Digest::of(plan_document(&definition.digest, item, &ports, each).as_bytes())
     };
-    let plans: Vec<Digest> = stage.items.iter().enumerate().map(plan_of).collect();
+    let plans: Vec<Digest> = stage.items.par_iter().enumerate().with_min_len(PER_THREAD).map(plan_of).collect();
     Ok(PlannedStage {
         name: stage.name.clone(),
         kind: stage.kind.clone(),
@@ -136,46 +140,26 @@ fn planned_input<'a>(recipe: &'a Recipe, stages: &[PlannedStage], arrival: &'a A
     }
 }
 
-fn find_finished(plan: &mut Plan<'_>, store: &Store) -> Result<()> {
-    let done = store.done()?;
-    let index = store.read_index(&plan.recipe_id);
-    let from_index = |digest: &Digest| {
-        let position = index.binary_search_by_key(digest, |(plan, _)| *plan).ok()?;
-        Some(index[position].1.clone()).filter(|finished| store.holds(&finished.record))
-    };
-    let mut missed = false;
+fn find_finished(plan: &mut Plan<'_>, store: &Store) {
+    let known = store.known_tasks(&plan.recipe_id);
     for (stage, described) in plan.stages.iter_mut().zip(&plan.recipe.stages) {
-        let found: Vec<(Option<Finished>, bool)> = stage
-            .plans
-            .par_iter()
-            .with_min_len(64)
-            .map(|digest| {
-                if done.binary_search(digest).is_err() {
-                    return (None, false);
-                }
-                match from_index(digest) {
-                    Some(finished) => (Some(finished), false),
-                    None => {
-                        let finished = store.finished(digest).filter(|finished| store.holds(&finished.record));
-                        let missed = finished.is_some();
-                        (finished, missed)
-                    }
-                }
-            })
-            .collect();
-        missed |= found.iter().any(|(_, missed)| *missed);
-        stage.finished = found.into_iter().map(|(finished, _)| finished).collect();
+        stage.finished = stage.plans.par_iter().with_min_len(PER_THREAD).map(|digest| known.finished(digest)).collect();
         let each = described.stage.properties().bytes_per_item;
         stage.predicted_bytes = stage.to_run().saturating_mul(each);
     }
-    plan.index_is_stale = missed;
-    Ok(())
+    plan.index_is_current = known.is_current(&plan.run_digest());
 }
 
 impl Plan<'_> {
     /// How many tasks are left to do.
     pub fn to_run(&self) -> u64 {
         self.stages.iter().map(PlannedStage::to_run).sum()
+    }
+
+    /// A digest over all plan digests.
+    pub(crate) fn run_digest(&self) -> Digest {
+        let plans = self.stages.iter().flat_map(|stage| stage.plans.iter().flat_map(|plan| plan.0));
+        Digest::of(&plans.collect::<Vec<u8>>())
     }
 
     /// The artifact of an item, as its own stage names it.

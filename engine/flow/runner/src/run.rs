@@ -409,11 +409,11 @@ fn summarise(plan: Plan<'_>, store: &Store, ended: Option<Shared>) -> RunSummary
 
 /// History for `why` and garbage collection, and the index for the next quick start.
 fn remember(plan: &Plan<'_>, store: &Store, worked: bool) -> Result<()> {
-    store.record_run(&plan.recipe_id, &plan.as_past_run())?;
-    if worked || plan.index_is_stale {
-        let finished = plan.stages.iter().flat_map(|stage| stage.plans.iter().zip(&stage.finished));
-        let entries = finished.filter_map(|(plan, finished)| Some((plan, finished.as_ref()?)));
-        store.write_index(&plan.recipe_id, entries)?;
+    if !worked && plan.index_is_current {
+        return Ok(());
     }
-    Ok(())
+    store.record_run(&plan.recipe_id, &plan.as_past_run())?;
+    let finished = plan.stages.iter().flat_map(|stage| stage.plans.iter().zip(&stage.finished));
+    let entries = finished.filter_map(|(plan, finished)| Some((plan, finished.as_ref()?)));
+    store.write_index(&plan.recipe_id, &plan.run_digest(), entries)
 }

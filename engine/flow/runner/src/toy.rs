@@ -43,6 +43,10 @@ impl Stage for ToyStage {
             let bytes = std::fs::read(source).map_err(|error| Diagnostic::io("read a toy's source", &error))?;
             text.push_str(&format!("{:?} ", Digest::of(&bytes)));
         }
+        if let Some(path) = parameters["undeclared"].as_str() {
+            // What a stage must not do: the law of equal bytes catches it.
+            text.push_str(&std::fs::read_to_string(path).map_err(|error| Diagnostic::io("read a toy's file", &error))?);
+        }
         let wanted = usize::try_from(parameters["bytes"].as_u64().unwrap_or(0)).unwrap_or(0);
         let mut bytes = text.into_bytes();
         bytes.resize(bytes.len().max(wanted), b'.');

@@ -1,90 +1,336 @@
 //! A cache of finished tasks in one file, so that a run with everything cached reads one file and not thousands.
-//! Every entry carries its own check; what does not fit is passed over and read from `done` and `ac`.
+//!
+//! It holds the records of the latest run of a recipe and, per folder of `done` and `cas`, the time of its last
+//! change. A folder that did not change since lost no file, so its files need not be looked at one by one.
+//! (Damage inside a file is found when the file is read, here as anywhere.)
 
 use crate::fault::Step;
-use crate::records::{self, Finished};
+use crate::layout::{Area, Layout};
+use crate::records::{ActionRecord, Finished};
 use crate::store::Store;
 use cosfly_diagnose::Result;
 use cosfly_fingerprint::Digest;
+use cosfly_stage::{BlobRef, Produced};
+use std::collections::BTreeMap;
 use std::fs;
-use std::sync::Arc;
+use std::path::Path;
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::{Arc, OnceLock};
+use std::time::{Duration, SystemTime, UNIX_EPOCH};
 
-/// Before the entries: the name and version of the format.
+/// Before the digest of the body and the body.
 const HEADER: &[u8] = b"cosfly-index 1\n";
+const SHARDS: usize = 256;
+/// A folder that changed this shortly before it was looked at may change again without its time moving on.
+const CLOCK_STEP: Duration = Duration::from_millis(20);
+/// More changed folders than this make a new index worth writing.
+const MOST_CHANGED: usize = SHARDS / 4;
+
+/// Times of last change, in nanoseconds since 1970, of the folders of an area; 0 when not to be relied on.
+type Stamps = Vec<u64>;
+
+/// The tasks that are known to be finished, from the index of a recipe and from the records themselves.
+pub struct KnownTasks<'s> {
+    store: &'s Store,
+    run: Option<Digest>,
+    /// Sorted by plan digest.
+    entries: Vec<(Digest, Finished)>,
+    /// Per folder: whether nothing went missing since the index was written.
+    done_is_whole: Vec<bool>,
+    blobs_are_whole: Vec<bool>,
+    /// Names in the folders of `done`, read when first asked for.
+    done: Vec<OnceLock<Vec<Digest>>>,
+    missed: AtomicBool,
+}
+
+#[derive(Default)]
+struct Index {
+    run: Option<Digest>,
+    done_stamps: Stamps,
+    blob_stamps: Stamps,
+    entries: Vec<(Digest, Finished)>,
+}
 
 impl Store {
-    /// The finished tasks in the index of `recipe`, sorted by plan digest. Still to be held against
-    /// [`Store::done`]: the index may know tasks that were forgotten since.
-    pub fn read_index(&self, recipe: &str) -> Vec<(Digest, Finished)> {
+    /// What is known to be finished; quick for what the latest run of `recipe` consisted of.
+    pub fn known_tasks(&self, recipe: &str) -> KnownTasks<'_> {
         let bytes = fs::read(self.layout.folder("index").join(recipe)).unwrap_or_default();
-        let mut rest = bytes.strip_prefix(HEADER).unwrap_or_default();
-        let mut entries = Vec::new();
-        while let Some((entry, after)) = split_entry(rest) {
-            rest = after;
-            entries.extend(decode_entry(entry));
+        let mut index = decode(&bytes).unwrap_or_default();
+        index.entries.sort_unstable_by_key(|(plan, _)| *plan);
+        let whole = |area, old: &Stamps| -> Vec<bool> {
+            if old.len() != SHARDS {
+                return vec![false; SHARDS];
+            }
+            let now = stamps(&self.layout, area);
+            old.iter().zip(now).map(|(old, now)| *old != 0 && *old == now).collect()
+        };
+        KnownTasks {
+            store: self,
+            run: index.run,
+            done_is_whole: whole(Area::Done, &index.done_stamps),
+            blobs_are_whole: whole(Area::Blobs, &index.blob_stamps),
+            entries: index.entries,
+            done: (0..SHARDS).map(|_| OnceLock::new()).collect(),
+            missed: AtomicBool::new(false),
         }
-        entries.sort_unstable_by_key(|(plan, _)| *plan);
-        entries
     }
 
-    /// Replaces the index of `recipe`.
+    /// Replaces the index of `recipe` by the finished tasks of its run `run`.
     pub fn write_index<'e>(
         &self,
         recipe: &str,
+        run: &Digest,
         entries: impl Iterator<Item = (&'e Digest, &'e Finished)>,
     ) -> Result<()> {
-        let mut bytes = HEADER.to_vec();
-        for (plan, finished) in entries {
-            let record = records::encode(&finished.record);
-            let Ok(length) = u32::try_from(64 + record.len()) else { continue };
-            bytes.extend(length.to_le_bytes());
-            bytes.extend(plan.0);
-            bytes.extend(finished.action.0);
-            bytes.extend(record);
-        }
+        // First the times, then the files: what goes missing in between moves a time on.
+        let now = self.file_system_time()?;
+        let reliable = |stamps: Stamps| -> Stamps {
+            let limit = now.saturating_sub(nanoseconds(CLOCK_STEP));
+            stamps.into_iter().map(|stamp| if stamp < limit { stamp } else { 0 }).collect()
+        };
+        let done_stamps = reliable(stamps(&self.layout, Area::Done));
+        let blob_stamps = reliable(stamps(&self.layout, Area::Blobs));
+        let there = |plan: &Digest, finished: &Finished| {
+            fs::symlink_metadata(self.layout.file(Area::Done, plan)).is_ok() && self.holds(&finished.record)
+        };
+        let entries = entries.filter(|(plan, finished)| there(plan, finished));
+        let bytes = encode(run, &done_stamps, &blob_stamps, entries);
         self.write_file(&self.layout.folder("index").join(recipe), &bytes, Step::WriteRun, Step::RenameRun)
+    }
+
+    /// The time now by the clock of the store's file system.
+    fn file_system_time(&self) -> Result<u64> {
+        let probe = self.write_temporary(b"", 0o644, Step::WriteRun)?;
+        let now = stamp(&probe);
+        let _ = fs::remove_file(&probe);
+        Ok(now)
     }
 }
 
-fn split_entry(bytes: &[u8]) -> Option<(&[u8], &[u8])> {
-    let (length, rest) = bytes.split_first_chunk()?;
-    rest.split_at_checked(u32::from_le_bytes(*length) as usize)
+impl KnownTasks<'_> {
+    /// What a task came to, when it is finished and all its blobs are there.
+    pub fn finished(&self, plan: &Digest) -> Option<Finished> {
+        let shard = usize::from(plan.0[0]);
+        let indexed = self.entries.binary_search_by_key(plan, |(plan, _)| *plan).ok();
+        let indexed = indexed.map(|position| &self.entries[position].1);
+        let is_done =
+            (indexed.is_some() && self.done_is_whole[shard]) || self.done_in(shard).binary_search(plan).is_ok();
+        if !is_done {
+            return None;
+        }
+        if let Some(finished) = indexed.filter(|finished| self.holds(&finished.record)) {
+            return Some(finished.clone());
+        }
+        let finished = self.store.finished(plan).filter(|finished| self.store.holds(&finished.record))?;
+        self.missed.store(true, Ordering::Relaxed);
+        Some(finished)
+    }
+
+    /// Whether the index is of the run `run` and still as good as a new one.
+    pub fn is_current(&self, run: &Digest) -> bool {
+        let changed = |whole: &[bool]| whole.iter().filter(|whole| !**whole).count() > MOST_CHANGED;
+        self.run.as_ref() == Some(run)
+            && !self.missed.load(Ordering::Relaxed)
+            && !changed(&self.done_is_whole)
+            && !changed(&self.blobs_are_whole)
+    }
+
+    fn holds(&self, record: &ActionRecord) -> bool {
+        let holds = |blob: &BlobRef| self.blobs_are_whole[usize::from(blob.digest.0[0])] || self.store.holds_blob(blob);
+        record.outputs.values().all(holds)
+    }
+
+    fn done_in(&self, shard: usize) -> &[Digest] {
+        // A folder that cannot be read has nothing finished in it.
+        self.done[shard].get_or_init(|| self.store.layout.list_shard(Area::Done, shard as u8).unwrap_or_default())
+    }
 }
 
-fn decode_entry(entry: &[u8]) -> Option<(Digest, Finished)> {
-    let (plan, rest) = entry.split_first_chunk()?;
-    let (action, record) = rest.split_first_chunk()?;
-    let record = Arc::new(records::decode(record)?);
-    Some((Digest(*plan), Finished { action: Digest(*action), record }))
+/// When the folders of an area last changed; 0 for those that are not there.
+fn stamps(layout: &Layout, area: Area) -> Stamps {
+    let folder = layout.folder(area.folder());
+    (0..SHARDS).map(|shard| stamp(&folder.join(format!("{shard:02x}")))).collect()
+}
+
+fn stamp(path: &Path) -> u64 {
+    let changed = fs::symlink_metadata(path).and_then(|metadata| metadata.modified()).unwrap_or(UNIX_EPOCH);
+    let since = changed.duration_since(SystemTime::UNIX_EPOCH).unwrap_or_default();
+    // A file system that only counts whole seconds is too coarse to rely on.
+    if since.subsec_nanos() == 0 { 0 } else { nanoseconds(since) }
+}
+
+fn nanoseconds(duration: Duration) -> u64 {
+    u64::try_from(duration.as_nanos()).unwrap_or(u64::MAX)
+}
+
+fn encode<'e>(
+    run: &Digest,
+    done: &Stamps,
+    blobs: &Stamps,
+    entries: impl Iterator<Item = (&'e Digest, &'e Finished)>,
+) -> Vec<u8> {
+    let mut body = run.0.to_vec();
+    done.iter().chain(blobs).for_each(|stamp| body.extend(stamp.to_le_bytes()));
+    for (plan, finished) in entries {
+        body.extend(plan.0);
+        body.extend(finished.action.0);
+        let record = &finished.record;
+        put_count(&mut body, record.outputs.len());
+        for (name, blob) in &record.outputs {
+            put_text(&mut body, name);
+            body.extend(blob.digest.0);
+            body.extend(blob.bytes.to_le_bytes());
+        }
+        put_count(&mut body, record.produced.notes.len());
+        record.produced.notes.iter().for_each(|(key, value)| {
+            put_text(&mut body, key);
+            put_text(&mut body, value);
+        });
+        put_count(&mut body, record.produced.warnings.len());
+        record.produced.warnings.iter().for_each(|warning| put_text(&mut body, warning));
+        put_count(&mut body, record.produced.rejected.iter().count());
+        record.produced.rejected.iter().for_each(|reason| put_text(&mut body, reason));
+    }
+    let mut bytes = HEADER.to_vec();
+    bytes.extend(Digest::of(&body).0);
+    bytes.extend(body);
+    bytes
+}
+
+fn put_count(bytes: &mut Vec<u8>, count: usize) {
+    bytes.extend((count as u64).to_le_bytes());
+}
+
+fn put_text(bytes: &mut Vec<u8>, text: &str) {
+    put_count(bytes, text.len());
+    bytes.extend(text.as_bytes());
+}
+
+/// Reads an index; nothing when it is not exactly what [`encode`] wrote.
+fn decode(bytes: &[u8]) -> Option<Index> {
+    let (digest, body) = bytes.strip_prefix(HEADER)?.split_first_chunk()?;
+    if Digest::of(body) != Digest(*digest) {
+        return None;
+    }
+    let mut reader = Reader(body);
+    let mut index = Index { run: Some(reader.digest()?), ..Index::default() };
+    index.done_stamps = (0..SHARDS).map(|_| reader.number()).collect::<Option<_>>()?;
+    index.blob_stamps = (0..SHARDS).map(|_| reader.number()).collect::<Option<_>>()?;
+    while !reader.0.is_empty() {
+        index.entries.push(reader.entry()?);
+    }
+    Some(index)
+}
+
+struct Reader<'b>(&'b [u8]);
+
+impl Reader<'_> {
+    fn take<const N: usize>(&mut self) -> Option<[u8; N]> {
+        let (head, rest) = self.0.split_first_chunk()?;
+        self.0 = rest;
+        Some(*head)
+    }
+
+    fn digest(&mut self) -> Option<Digest> {
+        self.take().map(Digest)
+    }
+
+    fn number(&mut self) -> Option<u64> {
+        self.take().map(u64::from_le_bytes)
+    }
+
+    fn text(&mut self) -> Option<String> {
+        let length = usize::try_from(self.number()?).ok()?;
+        let (text, rest) = self.0.split_at_checked(length)?;
+        self.0 = rest;
+        Some(std::str::from_utf8(text).ok()?.to_owned())
+    }
+
+    fn entry(&mut self) -> Option<(Digest, Finished)> {
+        let (plan, action) = (self.digest()?, self.digest()?);
+        let mut outputs = BTreeMap::new();
+        for _ in 0..self.number()? {
+            outputs.insert(self.text()?, BlobRef { digest: self.digest()?, bytes: self.number()? });
+        }
+        let mut produced = Produced::default();
+        for _ in 0..self.number()? {
+            produced.notes.insert(self.text()?, self.text()?);
+        }
+        for _ in 0..self.number()? {
+            produced.warnings.push(self.text()?);
+        }
+        for _ in 0..self.number()? {
+            produced.rejected = Some(self.text()?);
+        }
+        Some((plan, Finished { action, record: Arc::new(ActionRecord::new(outputs, produced)) }))
+    }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::ActionRecord;
-    use cosfly_stage::{BlobRef, Produced};
-    use std::collections::BTreeMap;
+    use cosfly_stage::OutputSink;
 
-    #[test]
-    fn an_index_that_was_cut_or_edited_gives_only_true_entries() {
+    fn finish(store: &Store, text: &str) -> (Digest, Finished) {
+        let action = Digest::of(text.as_bytes());
+        let mut sink = store.sink();
+        sink.put("a", text.as_bytes()).unwrap();
+        let produced = Produced {
+            notes: BTreeMap::from([("boxes".to_owned(), text.to_owned())]),
+            warnings: vec!["one".to_owned(), String::new()],
+            rejected: (text == "3").then(|| "unreachable".to_owned()),
+        };
+        let record = sink.settle(&action, produced).unwrap().record;
+        let document = format!("\"{text}\"");
+        let plan = Digest::of(document.as_bytes());
+        store.publish_done(&plan, &document, &action).unwrap();
+        (plan, Finished { action, record })
+    }
+
+    fn store_with_index() -> (tempfile::TempDir, Vec<(Digest, Finished)>) {
         let root = tempfile::tempdir().unwrap();
         let store = Store::open(root.path()).unwrap();
-        let mut entries: Vec<(Digest, Finished)> = (0..5_u8)
-            .map(|n| {
-                let blob = BlobRef { digest: Digest::of(&[n, 1]), bytes: 7 };
-                let record = ActionRecord::new(BTreeMap::from([("a".to_owned(), blob)]), Produced::default());
-                (Digest::of(&[n]), Finished { action: Digest::of(&[n, 2]), record: Arc::new(record) })
-            })
-            .collect();
-        entries.sort_unstable_by_key(|(plan, _)| *plan);
-        store.write_index("r", entries.iter().map(|(plan, finished)| (plan, finished))).unwrap();
-        assert_eq!(store.read_index("r"), entries);
+        let entries: Vec<_> = (0..5).map(|n| finish(&store, &n.to_string())).collect();
+        // Older than the step of the file system's clock, so that the index relies on the folders' times.
+        std::thread::sleep(2 * CLOCK_STEP);
+        store.write_index("r", &Digest::of(b"run"), entries.iter().map(|(plan, finished)| (plan, finished))).unwrap();
+        (root, entries)
+    }
+
+    #[test]
+    fn the_index_knows_what_the_records_say() {
+        let (root, entries) = store_with_index();
+        let store = Store::open(root.path()).unwrap();
+        for recipe in ["r", "another"] {
+            let known = store.known_tasks(recipe);
+            assert!(entries.iter().all(|(plan, finished)| known.finished(plan).as_ref() == Some(finished)));
+            assert_eq!(known.finished(&Digest::of(b"unknown")), None);
+            assert_eq!(known.missed.load(Ordering::Relaxed), recipe == "another");
+        }
+    }
+
+    #[test]
+    fn what_went_missing_after_the_index_was_written_is_not_known() {
+        let (root, entries) = store_with_index();
+        let store = Store::open(root.path()).unwrap();
+        fs::remove_file(store.layout.file(Area::Done, &entries[0].0)).unwrap();
+        fs::remove_file(store.blob_path(&entries[1].1.record.outputs["a"])).unwrap();
+        let known = store.known_tasks("r");
+        let finished: Vec<bool> = entries.iter().map(|(plan, _)| known.finished(plan).is_some()).collect();
+        assert_eq!(finished, [false, false, true, true, true]);
+    }
+
+    #[test]
+    fn an_index_that_was_cut_or_edited_is_passed_over() {
+        let (root, entries) = store_with_index();
         let path = root.path().join("index/r");
         let bytes = fs::read(&path).unwrap();
-        for cut in (0..bytes.len()).step_by(7) {
-            fs::write(&path, &bytes[..cut]).unwrap();
-            assert!(store.read_index("r").iter().all(|entry| entries.contains(entry)));
+        assert_eq!(decode(&bytes).unwrap().entries, entries);
+        for position in (0..bytes.len()).step_by(11) {
+            assert!(decode(&bytes[..position]).is_none());
+            let mut changed = bytes.clone();
+            changed[position] ^= 4;
+            assert!(decode(&changed).is_none());
         }
-        assert!(store.read_index("absent").is_empty());
     }
 }

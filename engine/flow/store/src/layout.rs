@@ -56,13 +56,20 @@ impl Layout {
     /// Every digest that has a file in `area`, sorted. Foreign names are passed over.
     pub(crate) fn list(&self, area: Area) -> io::Result<Vec<Digest>> {
         let mut digests = Vec::new();
-        for shard in read_dir_or_nothing(&self.folder(area.folder()))? {
-            for entry in read_dir_or_nothing(&shard?.path())? {
-                if let Some(digest) = entry?.file_name().to_str().and_then(|name| name.parse().ok()) {
-                    digests.push(digest);
-                }
-            }
+        for shard in 0..=u8::MAX {
+            digests.append(&mut self.list_shard(area, shard)?);
         }
+        Ok(digests)
+    }
+
+    /// Every digest in one folder of `area`, sorted.
+    pub(crate) fn list_shard(&self, area: Area, shard: u8) -> io::Result<Vec<Digest>> {
+        let mut digests = Vec::new();
+        let folder = self.folder(area.folder()).join(format!("{shard:02x}"));
+        for entry in read_dir_or_nothing(&folder)? {
+            digests.extend(entry?.file_name().to_str().and_then(|name| name.parse::<Digest>().ok()));
+        }
+        digests.retain(|digest| digest.0[0] == shard);
         digests.sort_unstable();
         Ok(digests)
     }

@@ -41,6 +41,7 @@ mod store;
 pub use fault::{FaultPoints, NoFaults, Step};
 pub use garbage::{GarbageOptions, GarbageReport, collect_garbage, pin, unpin};
 pub use history::{PastRun, PastStage};
+pub use index::KnownTasks;
 pub use locks::TaskLock;
 pub use materialise::{Materialised, VERSION_FILE, materialise};
 pub use records::{ActionRecord, Finished};
