@@ -1,25 +1,35 @@
-//! Renders a small invented town to PNG files: `picture OUT_DIR [PRESET...]`.
+//! Renders a town to PNG files: `picture OUT_DIR [TOWN.xodr] [PRESET...]`; without a map file, a small invented town.
 
 #[path = "../tests/small_town/mod.rs"]
 mod small_town;
 
 use cosfly_frames::{DVec3, Pose, Seed, TargetState};
+use cosfly_maps::{MapConfig, Town, WalkableKind};
 use cosfly_render::{FrameSetup, RenderConfig, Renderer, Scene, TargetSetup, Weather, preview};
 use std::fs::File;
 use std::path::Path;
 
 fn main() -> Result<(), Box<dyn std::error::Error>> {
-    let mut arguments = std::env::args().skip(1);
-    let out = arguments.next().ok_or("usage: picture OUT_DIR [PRESET...]")?;
+    let mut arguments = std::env::args().skip(1).peekable();
+    let out = arguments.next().ok_or("usage: picture OUT_DIR [TOWN.xodr] [PRESET...]")?;
+    let map = arguments.next_if(|argument| argument.ends_with(".xodr"));
     let mut presets: Vec<String> = arguments.collect();
     if presets.is_empty() {
         presets = ["ClearNoon", "ClearSunset", "HardRainNoon", "ClearNight"].map(str::to_owned).to_vec();
     }
     std::fs::create_dir_all(&out)?;
-    let scene = Scene::new(&small_town::small_town(8, 1), Seed([1; 32]));
+    let town = match &map {
+        None => small_town::small_town(8, 1),
+        Some(path) => {
+            cosfly_maps::read_town(&std::fs::read(path)?, &MapConfig::default(), Seed([5; 32]))
+                .map_err(|error| format!("{path}: {error}"))?
+                .0
+        }
+    };
+    let scene = Scene::new(&town, Seed([1; 32]));
     let camera = RenderConfig::default().camera();
     let mut renderer = Renderer::new(camera);
-    let feet = DVec3::new(-8.0, 13.5, 0.14);
+    let feet = if map.is_some() { pavement_near_the_middle(&town) } else { DVec3::new(-8.0, 13.5, 0.14) };
     let target = TargetSetup {
         state: TargetState { feet_in_world: feet, heading_rad: 0.1, speed_mps: 1.4 },
         height_m: 1.75,
@@ -30,6 +40,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     };
     let views = [
         ("follow", Pose::looking_at(feet + DVec3::new(-17.0, -10.0, 20.0), feet + DVec3::Z)),
+        ("high", Pose::looking_at(feet + DVec3::new(40.0, -60.0, 55.0), feet)),
         ("street", Pose::looking_at(feet + DVec3::new(-14.0, -8.0, 5.0), feet + DVec3::new(8.0, 0.0, 3.0))),
         ("near", Pose::looking_at(feet + DVec3::new(-3.0, -2.5, 2.2), feet + DVec3::Z)),
     ];
@@ -50,6 +61,17 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         }
     }
     Ok(())
+}
+
+/// Somewhere on a pavement in the middle of the town.
+fn pavement_near_the_middle(town: &Town) -> DVec3 {
+    let middle = 0.5 * (town.min_in_world + town.max_in_world);
+    let corners = town.walkable.iter().filter(|area| area.kind == WalkableKind::Sidewalk).map(|area| {
+        let (a, b) = (area.outline_in_world[0], area.outline_in_world[area.outline_in_world.len() / 2]);
+        0.5 * (a + b)
+    });
+    let away = |point: &DVec3| (*point - middle).truncate().length();
+    corners.min_by(|a, b| away(a).total_cmp(&away(b))).unwrap_or(middle)
 }
 
 fn write_png(path: &Path, width: u32, height: u32, rgb: &[u8]) -> Result<(), Box<dyn std::error::Error>> {

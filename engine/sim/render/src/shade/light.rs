@@ -78,8 +78,8 @@ impl Light {
             sun,
             zenith,
             horizon,
-            dome: grey_towards(zenith * 0.62 + horizon * 0.38, 0.45) * lerp(1.35, 1.15, overcast),
-            bounce: 0.30 * (0.5 * sun * to_sun.z + 0.6 * zenith),
+            dome: grey_towards(zenith * 0.62 + horizon * 0.38, 0.5) * lerp(1.9, 1.2, overcast),
+            bounce: 0.36 * (0.5 * sun * to_sun.z + 0.6 * zenith),
             haze_per_m,
             haze_start_m: weather.fog_distance.clamp(0.0, 1000.0) as f32,
             night,
@@ -88,7 +88,7 @@ impl Light {
             clouds,
             rain,
             wind: share(weather.wind_intensity),
-            exposure: lerp(lerp(0.60, 0.80, overcast) * (1.0 + 0.35 * low), 5.0, night),
+            exposure: lerp(lerp(0.54, 0.80, overcast) * (1.0 + 0.35 * low), 5.0, night),
             lamp: Vec3::new(0.26, 0.165, 0.075) * night,
         }
     }

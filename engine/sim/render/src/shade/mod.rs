@@ -275,7 +275,7 @@ impl Shader {
         SlowPart {
             along_m: a.dot(plane.along).abs() + b.dot(plane.along).abs(),
             up_m: a.dot(plane.up).abs() + b.dot(plane.up).abs(),
-            sky: grid.sky + (1.0 - grid.sky) * (above * 0.045).clamp(0.0, 0.85),
+            sky: 0.22 + 0.78 * (grid.sky + (1.0 - grid.sky) * (above * 0.045).clamp(0.0, 0.85)),
             lamps: grid.lamps * (1.0 - above * 0.11).max(0.0),
             kept: fast_exp(-self.light.haze_per_m * far),
             facing,

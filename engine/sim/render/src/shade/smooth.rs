@@ -1,10 +1,14 @@
 //! Softens stair steps along edges of the RGB image; depth and ids are left as sampled.
+//!
+//! Morphological anti-aliasing (Reshetov 2009) on edges that are known exactly, from the faces: where a border between
+//! two surfaces runs along a row and steps to the next one, the true edge is taken as the straight line between the
+//! middles of the steps, and each pixel beside it gets the other side's colour by the area that the line cuts off.
 
 use crate::frame::FrameImages;
 use crate::renderer::{DrawnFace, FaceSource};
 use crate::visibility::{NO_FACE, Visibility};
 
-/// Blends pixels on the border of two surfaces along the border's direction. `scratch` is reused between frames.
+/// Blends pixels along all borders between surfaces. `scratch` is reused between frames.
 pub(crate) fn smooth_edges(nearest: &Visibility, faces: &[DrawnFace], images: &mut FrameImages, scratch: &mut Vec<u8>) {
     let (width, height) = (images.width as usize, images.height as usize);
     if width < 3 || height < 3 {
@@ -12,48 +16,116 @@ pub(crate) fn smooth_edges(nearest: &Visibility, faces: &[DrawnFace], images: &m
     }
     scratch.clear();
     scratch.extend_from_slice(&images.rgb);
-    for row in 1..height - 1 {
-        for column in 1..width - 1 {
-            let at = row * width + column;
-            let own = nearest.face[at];
-            let around = [at - 1, at + 1, at - width, at + width];
-            if around.iter().all(|&other| nearest.face[other] == own) {
+    let borders = Borders { seen: &nearest.face, faces, source: scratch };
+    for row in 0..height - 1 {
+        borders.walk(row * width, width, 1, width, &mut images.rgb);
+    }
+    for column in 0..width - 1 {
+        borders.walk(column, height, width, 1, &mut images.rgb);
+    }
+}
+
+/// The image before smoothing and what is seen in it.
+struct Borders<'a> {
+    seen: &'a [u32],
+    faces: &'a [DrawnFace],
+    source: &'a [u8],
+}
+
+impl Borders<'_> {
+    /// Goes along one line of `length` pixels from `start` by `along` and smooths its border to the line `across` it.
+    fn walk(&self, start: usize, length: usize, along: usize, across: usize, rgb: &mut [u8]) {
+        let mut position = 0;
+        while position < length {
+            let near = start + position * along;
+            if self.seen[near] == self.seen[near + across] || !self.differ(near, near + across) {
+                position += 1;
                 continue;
             }
-            if around.iter().all(|&other| same_surface(faces, own, nearest.face[other])) {
-                continue;
+            let mut end = position + 1;
+            while end < length {
+                let (here, before) = (start + end * along, start + (end - 1) * along);
+                let goes_on = self.differ(here, here + across)
+                    && !self.differ(here, before)
+                    && !self.differ(here + across, before + across);
+                if !goes_on {
+                    break;
+                }
+                end += 1;
             }
-            blend(scratch, width, at, &mut images.rgb[3 * at..3 * at + 3]);
+            let step_at = |inside: usize, outside: usize| {
+                let near_steps = self.differ(start + inside * along, start + outside * along);
+                let far_steps = self.differ(start + inside * along + across, start + outside * along + across);
+                match (near_steps, far_steps) {
+                    (true, false) => Step::Near,
+                    (false, true) => Step::Far,
+                    _ => Step::None,
+                }
+            };
+            let first = if position > 0 { step_at(position, position - 1) } else { Step::None };
+            let last = if end < length { step_at(end - 1, end) } else { Step::None };
+            let piece = Piece { start: start + position * along, length: end - position, along, across };
+            self.blend(&piece, first, false, rgb);
+            self.blend(&piece, last, true, rgb);
+            position = end;
+        }
+    }
+
+    /// Whether two pixels show different surfaces. Triangles of one kind of ground are one surface.
+    #[inline(always)]
+    fn differ(&self, a: usize, b: usize) -> bool {
+        let (a, b) = (self.seen[a], self.seen[b]);
+        if a == b {
+            return false;
+        }
+        if a == NO_FACE || b == NO_FACE {
+            return true;
+        }
+        let (a, b) = (&self.faces[a as usize], &self.faces[b as usize]);
+        let ground = |face: &DrawnFace| matches!(face.source, FaceSource::Ground { .. });
+        let figure = |face: &DrawnFace| matches!(face.source, FaceSource::Figure { .. });
+        !(ground(a) && ground(b) && a.label == b.label || figure(a) && figure(b))
+    }
+
+    /// Blends the half of a piece next to one of its ends: the edge starts half a pixel aside, where the step is,
+    /// and comes back to the border in the middle of the piece.
+    fn blend(&self, piece: &Piece, step: Step, from_end: bool, rgb: &mut [u8]) {
+        if step == Step::None {
+            return;
+        }
+        let half = 0.5 * piece.length as f32;
+        // Area between border and edge from the end to t.
+        let area = |t: f32| 0.5 * (t - t * t / (2.0 * half));
+        for index in 0..piece.length.div_ceil(2) {
+            let share = area((index as f32 + 1.0).min(half)) - area(index as f32);
+            let place = if from_end { piece.length - 1 - index } else { index };
+            let near = piece.start + place * piece.along;
+            let (changed, other) = match step {
+                Step::Near => (near, near + piece.across),
+                _ => (near + piece.across, near),
+            };
+            let weight = (share * 256.0) as i32;
+            for channel in 0..3 {
+                let (own, foreign) = (3 * changed + channel, 3 * other + channel);
+                let change = weight * (i32::from(self.source[foreign]) - i32::from(self.source[own])) / 256;
+                rgb[own] = (i32::from(rgb[own]) + change).clamp(0, 255) as u8;
+            }
         }
     }
 }
 
-/// Neighbouring triangles of one ground are no edge.
-fn same_surface(faces: &[DrawnFace], a: u32, b: u32) -> bool {
-    if a == b {
-        return true;
-    }
-    if a == NO_FACE || b == NO_FACE {
-        return false;
-    }
-    let (a, b) = (&faces[a as usize], &faces[b as usize]);
-    let ground = |face: &DrawnFace| matches!(face.source, FaceSource::Ground { .. });
-    ground(a) && ground(b) && a.label == b.label
+/// A straight piece of border: its pixels on the near side, and the way to the far side.
+struct Piece {
+    start: usize,
+    length: usize,
+    along: usize,
+    across: usize,
 }
 
-/// A small tent filter, with more weight along the direction in which brightness changes least.
-fn blend(pixels: &[u8], width: usize, at: usize, out: &mut [u8]) {
-    let luma = |index: usize| {
-        2 * i32::from(pixels[3 * index]) + 5 * i32::from(pixels[3 * index + 1]) + i32::from(pixels[3 * index + 2])
-    };
-    let (left, right, up, down) = (luma(at - 1), luma(at + 1), luma(at - width), luma(at + width));
-    let horizontal = (left + right - 2 * luma(at)).abs();
-    let vertical = (up + down - 2 * luma(at)).abs();
-    let (across, along) = if horizontal > vertical { (1, width) } else { (width, 1) };
-    for (channel, byte) in out.iter_mut().enumerate() {
-        let value = |index: usize| i32::from(pixels[3 * index + channel]);
-        let sides = value(at - across) + value(at + across);
-        let ends = value(at - along) + value(at + along);
-        *byte = ((8 * value(at) + 3 * sides + ends + 8) / 16).clamp(0, 255) as u8;
-    }
+/// On which side of a border its piece ends with a step.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Step {
+    Near,
+    Far,
+    None,
 }

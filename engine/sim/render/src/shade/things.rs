@@ -74,11 +74,16 @@ fn leaves(point: &SurfacePoint, place: &BoxPlace, noise: &NoiseTexture) -> Look 
     let bent = center_out + Vec3::new(slope_u, slope_v, slope_u - slope_v) * 2.6;
     let deep = smoothstep(-0.22, 0.30, big + 0.6 * small);
     let hue = draw(place.seed, 1);
-    let green = Vec3::new(0.050, 0.115, 0.022).lerp(Vec3::new(0.115, 0.140, 0.028), hue);
-    let tint = green.lerp(Vec3::new(0.16, 0.19, 0.05), 0.35 * (small + 0.5) * deep);
+    let green = Vec3::new(0.042, 0.082, 0.024).lerp(Vec3::new(0.088, 0.098, 0.028), hue);
+    let tint = green.lerp(Vec3::new(0.13, 0.145, 0.05), 0.35 * (small + 0.5) * deep);
     let normal = bent.normalize_or(point.normal);
-    let shade = 0.42 + 0.58 * smoothstep(-1.0, 0.9, out.z);
-    Look { openness: (0.30 + 0.70 * deep) * shade, ..Look::matt(tint * (0.35 + 1.05 * deep), normal) }
+    // Darker below and towards the box's edges, where a round crown would turn away.
+    let spread = (place.local / place.half.max(Vec3::splat(0.1))).length();
+    let shade = (0.45 + 0.55 * smoothstep(-1.0, 0.9, out.z)) * (1.0 - 0.5 * smoothstep(1.05, 1.7, spread));
+    Look {
+        openness: (0.30 + 0.70 * deep) * shade,
+        ..Look::matt(tint * ((0.35 + 1.05 * deep) * (0.5 + 0.5 * shade)), normal)
+    }
 }
 
 fn bark(point: &SurfacePoint, place: &BoxPlace, noise: &NoiseTexture) -> Look {
