@@ -36,6 +36,9 @@ fn main() {
     println!("scene    boxes paths rejected   vis  >=.5  dist m  len m  clear m  v max  a max  j max  rear deg    ms");
     for &kind in &options.kinds {
         let scene = Scene::generate(kind, options.seed);
+        // The fine map is planned on its coarse twin and judged on all its boxes.
+        let coarse = if kind == SceneKind::Fine { SceneKind::Leafy } else { kind };
+        let planning = Scene::generate(coarse, options.seed).boxes;
         let exact = BoxBvh::build(scene.boxes.clone());
         let mut planned: Vec<Certificate> = Vec::new();
         let mut rejected = Vec::new();
@@ -44,7 +47,7 @@ fn main() {
             let track = scene.walker(options.seed, index);
             let begin = Instant::now();
             let seed = Seed::of_item(options.seed, "plan_scene", kind.name());
-            let outcome = plan(&track, &exact, &scene.boxes, &|_, _| 0.0, &options.config, seed);
+            let outcome = plan(&track, &exact, &planning, &|_, _| 0.0, &options.config, seed);
             seconds += begin.elapsed().as_secs_f64();
             match outcome {
                 PlanOutcome::Planned(flight) => planned.push(flight.certificate),

@@ -9,7 +9,8 @@ use serde::{Deserialize, Serialize};
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(default, deny_unknown_fields)]
 pub struct MucoConfig {
-    /// Named set of weights: `cosfly` (visibility first, the default) or `paper`.
+    /// Named set of weights: `cosfly` (visibility first, the default) or `paper`. To start like the paper, too, set
+    /// `view.rear_sector_deg` to 60 and `search.keyframe_frames` to 5.
     pub preset: Preset,
     /// Single weights that replace those of the preset.
     pub weights: WeightOverrides,
@@ -91,13 +92,14 @@ pub struct SearchConfig {
     /// Horizontal distances between the smallest and the largest. Default 10.
     #[schemars(range(min = 1, max = 12))]
     pub radii: u32,
-    /// Frames between searched viewpoints; those between are interpolated (paper: 5 to 10). Default 1.
+    /// Frames between searched viewpoints; those between are interpolated (paper: 5 to 10). At
+    /// short time steps they are half a second apart at least. Default 1.
     #[schemars(range(min = 1, max = 10))]
     pub keyframe_frames: u32,
-    /// Cost of moving relative to the target, per square metre and frame. Default 0.6.
+    /// Cost of moving relative to the target, per square metre and frame. Default 0.9.
     #[schemars(range(min = 0.001, max = 1000.0))]
     pub relative_motion: f64,
-    /// Cost of moving at all, per square metre and frame. Default 0.6.
+    /// Cost of moving at all, per square metre and frame. Default 0.9.
     #[schemars(range(min = 0.0, max = 1000.0))]
     pub absolute_motion: f64,
     /// Boxes further than this from the path (seen from above) are left out of planning, metres. Default 45.
@@ -168,8 +170,8 @@ impl Default for SearchConfig {
             altitudes: 6,
             radii: 10,
             keyframe_frames: 1,
-            relative_motion: 0.6,
-            absolute_motion: 0.6,
+            relative_motion: 0.9,
+            absolute_motion: 0.9,
             filter_radius_m: 45.0,
         }
     }

@@ -185,3 +185,39 @@ fn planning_boxes_that_miss_an_obstacle_never_lead_into_it() {
         PlanOutcome::Rejected { reason, .. } => assert!(reason.contains("clearance"), "{reason}"),
     }
 }
+
+/// The walker's track at another time step.
+fn resampled(track: &cosfly_frames::TargetTrack, dt_s: f64) -> cosfly_frames::TargetTrack {
+    let frames = (track.duration_s() / dt_s) as usize + 1;
+    let state = |frame: usize| {
+        let at = (frame as f64 * dt_s / track.dt_s).min((track.len() - 1) as f64);
+        let (i, share) = (at as usize, at.fract());
+        let next = track.states[(i + 1).min(track.len() - 1)].feet_in_world;
+        let feet_in_world = track.states[i].feet_in_world.lerp(next, share);
+        cosfly_frames::TargetState { feet_in_world, ..track.states[i] }
+    };
+    cosfly_frames::TargetTrack { dt_s, states: (0..frames).map(state).collect(), ..*track }
+}
+
+#[test]
+fn other_time_steps_are_flown_within_the_same_limits() {
+    let scene = Scene::generate(SceneKind::Light, 8);
+    let exact = BoxBvh::build(scene.boxes.clone());
+    let config = MucoConfig::default();
+    for dt_s in [1.0, 0.25, 0.1] {
+        for index in 0..2 {
+            let track = resampled(&scene.walker(8, index), dt_s);
+            let seed = Seed::of_item(8, "muco", "x");
+            match plan(&track, &exact, &scene.boxes, &|_, _| 0.0, &config, seed) {
+                PlanOutcome::Planned(flight) => {
+                    eprintln!(
+                        "{dt_s} {index} {:.3} {}",
+                        flight.certificate.mean_visibility, flight.certificate.iterations
+                    );
+                    check_flight(&flight, &scene.boxes, &config, &format!("{dt_s} s"));
+                }
+                PlanOutcome::Rejected { reason, .. } => panic!("{dt_s} s: {reason}"),
+            }
+        }
+    }
+}

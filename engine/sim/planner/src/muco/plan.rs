@@ -88,9 +88,23 @@ pub fn plan_with_terms(
         let exact_obstacles = ExactObstacles { track, query: exact, ground: &grid };
         let context = TermContext { track, view: &config.view, walk: &walk, surroundings: &exact_obstacles };
         flight.terms = term_costs(&terms, &positions(&flight), &context);
+        if let Some(why) = not_a_number(&flight) {
+            return rejected(why);
+        }
         return PlanOutcome::Planned(Box::new(flight));
     }
     rejected(reason)
+}
+
+/// Terms from outside may return anything; a flight with such a cost is not published.
+fn not_a_number(flight: &Trajectory) -> Option<String> {
+    flight.terms.iter().find_map(|term| {
+        let frame = term.per_frame.iter().position(|cost| !cost.is_finite())?;
+        Some(format!(
+            "cost term `{}` is {} at frame {frame}; it must be a finite number",
+            term.name, term.per_frame[frame]
+        ))
+    })
 }
 
 fn positions(flight: &Trajectory) -> Vec<DVec3> {

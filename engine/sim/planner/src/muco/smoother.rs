@@ -18,8 +18,11 @@ const ITERATIONS: usize = 160;
 const CHECK_EVERY: usize = 10;
 /// The programme aims at this share of each limit, so that what is left of it holds the limit.
 const AIM_SHARE: f64 = 0.97;
-/// Penalties of the copies: position, speed, acceleration, jerk.
+/// Penalties of the copies (position, speed, acceleration, jerk) at the reference time step.
 const PENALTY: [f64; 4] = [1.0, 0.5, 2.0, 4.0];
+/// Time step at which penalties and objectives are written, seconds. Differences of order k shrink with the
+/// k-th power of the time step; their weights grow with its square, so that other steps converge alike.
+const REFERENCE_DT_S: f64 = 0.5;
 /// Over-relaxation.
 const RELAXATION: f64 = 1.6;
 /// Share of a missing line of sight that one projection mends.
@@ -48,12 +51,14 @@ pub struct Smoothed {
 pub fn smooth(input: &CorridorInput<'_>, start: &[DVec3], limits: &Limits, objective: Objective) -> Smoothed {
     let dt = input.track.dt_s;
     let reach = [limits.speed_mps * dt, limits.acceleration_mps2 * dt * dt, limits.jerk_mps3 * dt * dt * dt];
+    let ratio = (REFERENCE_DT_S / dt).clamp(0.05, 20.0);
+    let scale = [1.0, ratio, ratio * ratio, ratio * ratio * ratio].map(|s| s * s);
     let mut waypoints = start.to_vec();
     let mut nearness = vec![objective.nearness; start.len()];
     let mut iterations = 0;
     for round in 0..ROUNDS {
         let corridor = corridor::build(input, &waypoints);
-        let mut programme = Programme::new(&nearness, objective, input.wished, &waypoints, reach);
+        let mut programme = Programme::new(&nearness, objective, input.wished, &waypoints, reach, scale);
         iterations += programme.run(&corridor);
         waypoints = programme.x;
         if round + 1 < ROUNDS {
@@ -77,6 +82,7 @@ struct Programme<'a> {
     wished: &'a [DVec3],
     nearness: &'a [f64],
     reach: [f64; 3],
+    penalty: [f64; 4],
     factor: Factor,
     x: Vec<DVec3>,
     /// Copies of position and the three differences, and their scaled multipliers.
@@ -85,19 +91,27 @@ struct Programme<'a> {
 }
 
 impl<'a> Programme<'a> {
-    fn new(nearness: &'a [f64], objective: Objective, wished: &'a [DVec3], start: &[DVec3], reach: [f64; 3]) -> Self {
-        let diagonal: Vec<f64> = nearness.iter().map(|q| q + PENALTY[0]).collect();
+    fn new(
+        nearness: &'a [f64],
+        objective: Objective,
+        wished: &'a [DVec3],
+        start: &[DVec3],
+        reach: [f64; 3],
+        scale: [f64; 4],
+    ) -> Self {
+        let penalty: [f64; 4] = core::array::from_fn(|order| PENALTY[order] * scale[order]);
+        let diagonal: Vec<f64> = nearness.iter().map(|q| q + penalty[0]).collect();
         let mut matrix = Banded::diagonal(&diagonal);
-        matrix.add_differences(1, PENALTY[1]);
-        matrix.add_differences(2, PENALTY[2] + objective.acceleration);
-        matrix.add_differences(3, PENALTY[3] + objective.jerk);
+        matrix.add_differences(1, penalty[1]);
+        matrix.add_differences(2, penalty[2] + objective.acceleration * scale[2]);
+        matrix.add_differences(3, penalty[3] + objective.jerk * scale[3]);
         let copy: [Vec<DVec3>; 4] = core::array::from_fn(|order| {
             let mut row = Vec::new();
             differences(order, start, &mut row);
             row
         });
         let multiplier = core::array::from_fn(|k| vec![DVec3::ZERO; copy[k].len()]);
-        Self { wished, nearness, reach, factor: matrix.factor(), x: start.to_vec(), copy, multiplier }
+        Self { wished, nearness, reach, penalty, factor: matrix.factor(), x: start.to_vec(), copy, multiplier }
     }
 
     /// Iterates until everything holds or the iterations are used up; returns how many it took.
@@ -121,7 +135,7 @@ impl<'a> Programme<'a> {
             *x = *nearness * *wished;
         }
         let mut pulled = Vec::new();
-        for (order, penalty) in PENALTY.into_iter().enumerate() {
+        for (order, penalty) in self.penalty.into_iter().enumerate() {
             pulled.clear();
             pulled.extend(self.copy[order].iter().zip(&self.multiplier[order]).map(|(copy, m)| *copy - *m));
             add_transposed(order, &pulled, penalty, &mut self.x);

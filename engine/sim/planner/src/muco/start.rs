@@ -14,6 +14,8 @@ use cosfly_frames::{DVec3, TargetTrack, real};
 const MAX_SEARCHES: usize = 12;
 /// A connection counts as cut when its clearance is below this share of the limit; the smoother mends the rest.
 const CUT_SHARE: f64 = 0.4;
+/// Keyframes are at least about this far apart, so that a step of the lattice is within reach, seconds.
+const SHORTEST_LAYER_S: f64 = 0.5;
 /// Cost of a viewpoint outside the sector behind the walker.
 const OUTSIDE_SECTOR: f64 = 30.0;
 /// Visibility weighs this much more than in the sum of the terms, because a node is all or nothing.
@@ -41,7 +43,7 @@ pub fn search(
     let mut settings = config.search.clone();
     settings.azimuths = (settings.azimuths * effort.azimuth_factor).min(360);
     let lattice = Lattice::new(&settings, &config.view);
-    let stride = settings.keyframe_frames as usize;
+    let stride = (settings.keyframe_frames as usize).max((SHORTEST_LAYER_S / track.dt_s).round() as usize);
     let mut frames: Vec<usize> = (0..track.len()).step_by(stride).collect();
     if frames.last() != Some(&(track.len() - 1)) {
         frames.push(track.len() - 1);
@@ -165,7 +167,7 @@ fn extra_costs(
             weighted.term.cost(&hover, &context, &mut per_frame);
             for (layer, &frame) in costs.iter_mut().zip(frames) {
                 let cost = (weighted.weight * per_frame[frame]) as f32;
-                layer[node] += if cost.is_finite() { cost } else { f32::INFINITY };
+                layer[node] += if cost.is_finite() { cost } else { 0.0 };
             }
         }
     }
