@@ -34,7 +34,7 @@ impl StageKind for Muco {
 
     fn build(&self, given: serde_json::Value) -> Result<Vec<StagePart>, ParameterError> {
         let config: MucoConfig = parameters::read(given)?;
-        config.validate().map_err(|(path, message)| ParameterError { path, message, hint: None })?;
+        config.validate().map_err(|(path, message)| parameters::refused_at(&path, message))?;
         let properties = StageProperties {
             kind: self.name().into(),
             version: 1,

@@ -11,7 +11,7 @@ pub fn schema_of<T: JsonSchema>() -> serde_json::Value {
 
 /// The config struct; the schema was checked before, so an error here is a rule that the schema cannot say.
 pub fn read<T: DeserializeOwned>(parameters: serde_json::Value) -> Result<T, ParameterError> {
-    serde_json::from_value(parameters).map_err(|error| refused(&[], error.to_string()))
+    serde_json::from_value(parameters).map_err(|error| refused_at("", error.to_string()))
 }
 
 /// The parameters with all defaults filled in: what goes into keys.
@@ -19,7 +19,40 @@ pub fn canonical<T: Serialize>(config: &T) -> serde_json::Value {
     serde_json::to_value(config).expect("configs are plain JSON values")
 }
 
-/// A refusal that points at `path`.
-pub fn refused(path: &[&str], message: impl Into<String>) -> ParameterError {
-    ParameterError { path: path.iter().map(|key| (*key).to_owned()).collect(), message: message.into(), hint: None }
+/// The schema of `A` with one more property, `key`, that holds a `B`: two rooms' configs in one table of a recipe.
+pub fn joined_schema<A: JsonSchema, B: JsonSchema>(key: &str) -> serde_json::Value {
+    let (mut outer, mut inner) = (schema_of::<A>(), schema_of::<B>());
+    for meta in ["$schema", "title"] {
+        inner.as_object_mut().expect("a schema is a table").remove(meta);
+    }
+    if let Some(definitions) = inner.as_object_mut().and_then(|table| table.remove("$defs")) {
+        let all = outer.as_object_mut().expect("a schema is a table").entry("$defs").or_insert_with(Default::default);
+        for (name, definition) in definitions.as_object().expect("definitions are a table") {
+            all[name] = definition.clone();
+        }
+    }
+    outer["properties"][key] = inner;
+    outer
+}
+
+/// Reads what [`joined_schema`] describes; a missing `key` gives `B`'s defaults.
+pub fn read_joined<A: DeserializeOwned, B: DeserializeOwned + Default>(
+    mut parameters: serde_json::Value,
+    key: &str,
+) -> Result<(A, B), ParameterError> {
+    let inner = parameters.as_object_mut().and_then(|table| table.remove(key));
+    Ok((read(parameters)?, inner.map(read).transpose()?.unwrap_or_default()))
+}
+
+/// [`canonical`] of what [`joined_schema`] describes.
+pub fn joined_canonical<A: Serialize, B: Serialize>(outer: &A, inner: &B, key: &str) -> serde_json::Value {
+    let mut all = canonical(outer);
+    all[key] = canonical(inner);
+    all
+}
+
+/// A refusal that points at `path`, keys and list positions as in `view.pitch[1]`; empty is the whole table.
+pub fn refused_at(path: &str, message: impl Into<String>) -> ParameterError {
+    let keys = path.split(['.', '[', ']']).filter(|key| !key.is_empty());
+    ParameterError { path: keys.map(str::to_owned).collect(), message: message.into(), hint: None }
 }

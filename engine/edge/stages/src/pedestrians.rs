@@ -34,6 +34,7 @@ impl StageKind for Pedestrians {
 
     fn build(&self, given: serde_json::Value) -> Result<Vec<StagePart>, ParameterError> {
         let config: PedestrianConfig = parameters::read(given)?;
+        config.check().map_err(|rule| parameters::refused_at(&rule.path.join("."), rule.message))?;
         let count = config.count;
         let mut canonical = parameters::canonical(&config);
         // How many are asked for is not an ingredient of any one of them.
@@ -68,7 +69,7 @@ impl Stage for PedestrianStage {
         let digest = inputs.one("town")?.blobs["town"].digest;
         let refused = |error: PedestrianError| refusal(error, &world.town.name);
         let grid = self.grid.get(digest, || WalkableGrid::build(&world.town, &self.config)).map_err(refused)?;
-        let path = walk(&grid, &world.town, &world.exact, &self.config, Seed(context.seed)).map_err(refused)?;
+        let path = walk(&grid, &self.config, Seed(context.seed)).map_err(refused)?;
         outputs.put("walk", &codec::encode(WALK, &path)?)?;
         Ok(Produced::default())
     }
@@ -77,8 +78,5 @@ impl Stage for PedestrianStage {
 fn refusal(error: PedestrianError, town: &str) -> Box<Diagnostic> {
     let diagnostic = Diagnostic::new("pedestrians-refused", Fault::Input, format!("{error}"))
         .because(format!("in town `{town}`"));
-    match error.hint() {
-        Some(hint) => diagnostic.hint(hint),
-        None => diagnostic,
-    }
+    diagnostic.hint(error.hint())
 }

@@ -35,6 +35,7 @@ impl StageKind for Perturb {
 
     fn build(&self, given: serde_json::Value) -> Result<Vec<StagePart>, ParameterError> {
         let config: PerturbConfig = parameters::read(given)?;
+        config.validate().map_err(|(path, message)| parameters::refused_at(&path, message))?;
         let properties = StageProperties {
             kind: self.name().into(),
             version: 1,
@@ -61,10 +62,13 @@ impl Stage for PerturbStage {
 
     fn run(&self, inputs: &Inputs<'_>, outputs: &mut dyn OutputSink, context: &TaskContext) -> Result<Produced> {
         let world = world(inputs)?;
-        let expert: PlanOutcome = codec::decode(TRAJECTORY, &inputs.read(inputs.one("trajectories")?, "trajectory")?)?;
+        let artifact = inputs.one("trajectories")?;
+        let expert: PlanOutcome = codec::decode(TRAJECTORY, &inputs.read(artifact, "trajectory")?)?;
+        // The id under which the expert is published (see `Fan::Each` ports that take many stages).
+        let expert_id = format!("{}-{}", artifact.stage, artifact.item);
         let twin = match expert {
             PlanOutcome::Planned(expert) => {
-                perturb(&expert, &context.item, &world.exact, &self.config, Seed(context.seed))
+                perturb(&expert, &expert_id, &world.exact, &self.config, Seed(context.seed))
             }
             PlanOutcome::Rejected { track, reason } => {
                 PlanOutcome::Rejected { track, reason: format!("its expert was rejected: {reason}") }

@@ -1,0 +1,91 @@
+//! `caption`: instructions in Chinese and English, checked against the facts of the trajectory.
+
+use crate::ports::{self, CAPTIONS, TRAJECTORY};
+use crate::{codec, parameters, single};
+use cosfly_captions::{Caption as Text, CaptionConfig, captions, check, facts};
+use cosfly_dataset::{CaptionRecord, record::captions_to_bytes};
+use cosfly_diagnose::{Diagnostic, Fault, Result};
+use cosfly_frames::Seed;
+use cosfly_planner::PlanOutcome;
+use cosfly_stage::{
+    InputPort, Inputs, ItemRule, OutputSink, ParameterError, Produced, Stage, StageKind, StagePart, StageProperties,
+    TaskContext,
+};
+
+/// The kind.
+pub struct Caption;
+
+impl StageKind for Caption {
+    fn name(&self) -> &'static str {
+        "caption"
+    }
+
+    fn doc(&self) -> &'static str {
+        "Writes instructions in Chinese and English from facts of the trajectory, every number and direction checked."
+    }
+
+    fn schema(&self) -> serde_json::Value {
+        parameters::schema_of::<CaptionConfig>()
+    }
+
+    fn ports(&self) -> Vec<InputPort> {
+        vec![ports::each("trajectories", TRAJECTORY, true, "The trajectories to put into words.")]
+    }
+
+    fn build(&self, given: serde_json::Value) -> Result<Vec<StagePart>, ParameterError> {
+        let config: CaptionConfig = parameters::read(given)?;
+        let properties = StageProperties {
+            kind: self.name().into(),
+            version: 1,
+            parameters: parameters::canonical(&config),
+            sources: vec![],
+            inputs: self.ports(),
+            artifact: CAPTIONS,
+            items: ItemRule::PerInput("trajectories"),
+            bytes_per_item: 2_000,
+        };
+        Ok(single(CaptionStage { config, properties }))
+    }
+}
+
+struct CaptionStage {
+    config: CaptionConfig,
+    properties: StageProperties,
+}
+
+impl Stage for CaptionStage {
+    fn properties(&self) -> &StageProperties {
+        &self.properties
+    }
+
+    fn run(&self, inputs: &Inputs<'_>, outputs: &mut dyn OutputSink, context: &TaskContext) -> Result<Produced> {
+        let outcome: PlanOutcome = codec::decode(TRAJECTORY, &inputs.read(inputs.one("trajectories")?, "trajectory")?)?;
+        let trajectory = match outcome {
+            PlanOutcome::Planned(trajectory) => trajectory,
+            PlanOutcome::Rejected { reason, .. } => {
+                outputs.put("captions", &captions_to_bytes(&[]))?;
+                return Ok(Produced { rejected: Some(reason), ..Produced::default() });
+            }
+        };
+        let facts = facts(&trajectory);
+        let texts: Vec<Text> = captions(&facts, &self.config, Seed(context.seed));
+        let mut records = Vec::with_capacity(texts.len());
+        for text in texts {
+            check(&text.text, text.language, &facts).map_err(|mismatches| {
+                let refusal = Diagnostic::new(
+                    "caption-mismatch",
+                    Fault::Bug,
+                    format!("the text `{}` does not say what the trajectory does", text.text),
+                );
+                mismatches.iter().fold(refusal, |refusal, mismatch| refusal.because(mismatch))
+            })?;
+            records.push(CaptionRecord {
+                language: text.language.code().to_owned(),
+                style: text.style.name().to_owned(),
+                text: text.text,
+            });
+        }
+        outputs.put("captions", &captions_to_bytes(&records))?;
+        Ok(Produced::default())
+    }
+}

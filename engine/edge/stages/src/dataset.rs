@@ -1,0 +1,207 @@
+//! `dataset`: one MCAP log per trajectory (part `logs`), then tables, manifest and card over all of them.
+
+use crate::ports::{self, CAPTIONS, DATASET, FRAMES, LOG};
+use crate::render::REJECTION;
+use crate::world::world;
+use crate::{codec, parameters};
+use cosfly_dataset::{
+    CaptionRecord, DatasetConfig, DatasetSource, FramePackReader, LogRecord, PreviewStrip, PublishedLog, Rejection,
+    RenderedTrajectory, record::captions_from_bytes, write_dataset, write_log,
+};
+use cosfly_diagnose::{Diagnostic, Fault, Result};
+use cosfly_stage::{
+    Artifact, Fan, InputPort, Inputs, ItemRule, OutputSink, ParameterError, PortSource, Produced, Stage, StageKind,
+    StagePart, StageProperties, TaskContext,
+};
+use std::collections::BTreeMap;
+use std::io::BufReader;
+
+/// The kind.
+pub struct Dataset;
+
+impl StageKind for Dataset {
+    fn name(&self) -> &'static str {
+        "dataset"
+    }
+
+    fn doc(&self) -> &'static str {
+        "Packs everything as a dataset: Parquet tables, an MCAP log per trajectory, a Croissant manifest, a card."
+    }
+
+    fn schema(&self) -> serde_json::Value {
+        parameters::schema_of::<DatasetConfig>()
+    }
+
+    fn ports(&self) -> Vec<InputPort> {
+        vec![
+            ports::town(),
+            ports::gather("frames", FRAMES, false, "The rendered trajectories."),
+            captions(Fan::Gather),
+        ]
+    }
+
+    fn build(&self, given: serde_json::Value) -> Result<Vec<StagePart>, ParameterError> {
+        let config: DatasetConfig = parameters::read(given)?;
+        let logs = StageProperties {
+            kind: self.name().into(),
+            version: 1,
+            // Logs read no parameter: another title or split rewrites no log.
+            parameters: serde_json::json!({}),
+            sources: vec![],
+            inputs: vec![
+                ports::town(),
+                ports::each("frames", FRAMES, false, "The rendered trajectories."),
+                captions(Fan::Each),
+            ],
+            artifact: LOG,
+            items: ItemRule::PerInput("frames"),
+            bytes_per_item: 120_000_000,
+        };
+        // Tables and card say everything from the records; the town itself is only in the logs.
+        let mut inputs: Vec<InputPort> = self.ports().into_iter().filter(|port| port.name != "town").collect();
+        inputs.push(InputPort {
+            source: PortSource::Sibling("logs"),
+            ..ports::gather("logs", LOG, false, "The logs of the same stage.")
+        });
+        let gather = StageProperties {
+            kind: self.name().into(),
+            version: 1,
+            parameters: parameters::canonical(&config),
+            sources: vec![],
+            inputs,
+            artifact: DATASET,
+            items: ItemRule::One,
+            bytes_per_item: 10_000_000,
+        };
+        Ok(vec![
+            StagePart { suffix: "logs", stage: Box::new(LogStage { properties: logs }) },
+            StagePart { suffix: "", stage: Box::new(DatasetStage { config, properties: gather }) },
+        ])
+    }
+}
+
+fn captions(fan: Fan) -> InputPort {
+    InputPort {
+        fan,
+        optional: true,
+        ..ports::each("captions", CAPTIONS, false, "Their captions.")
+    }
+}
+
+struct LogStage {
+    properties: StageProperties,
+}
+
+impl Stage for LogStage {
+    fn properties(&self) -> &StageProperties {
+        &self.properties
+    }
+
+    fn run(&self, inputs: &Inputs<'_>, outputs: &mut dyn OutputSink, context: &TaskContext) -> Result<Produced> {
+        let frames = inputs.one("frames")?;
+        if let Some(rejection) = frames.blobs.get(REJECTION) {
+            outputs.link(REJECTION, *rejection)?;
+            let rejection: Rejection = codec::decode(FRAMES, &inputs.read(frames, REJECTION)?)?;
+            return Ok(Produced { rejected: Some(rejection.reason), ..Produced::default() });
+        }
+        let record = RenderedTrajectory::from_bytes(&inputs.read(frames, "index")?)?;
+        let captions = captions_of(inputs, inputs.all("captions").first())?;
+        let world = world(inputs)?;
+        let mut pack = FramePackReader::new(BufReader::new(inputs.open(frames, "pack")?))?;
+        let mut log = None;
+        outputs.stream("mcap", &mut |file| {
+            let written = write_log(&mut *file, &record, &mut pack, &captions, &world.town, &|| context.check_cancelled())?;
+            log = Some(written);
+            Ok(())
+        })?;
+        outputs.put("log", &codec::encode(LOG, &log)?)?;
+        outputs.put("previews", &pack.preview_strip()?.to_bytes())?;
+        Ok(Produced::default())
+    }
+}
+
+struct DatasetStage {
+    config: DatasetConfig,
+    properties: StageProperties,
+}
+
+impl Stage for DatasetStage {
+    fn properties(&self) -> &StageProperties {
+        &self.properties
+    }
+
+    fn run(&self, inputs: &Inputs<'_>, outputs: &mut dyn OutputSink, context: &TaskContext) -> Result<Produced> {
+        let captions: BTreeMap<&str, &Artifact> =
+            inputs.all("captions").iter().map(|artifact| (artifact.item.as_str(), artifact)).collect();
+        let mut gathered = Gathered { inputs, flights: vec![] };
+        let (mut logs, mut rejections): (Vec<PublishedLog>, Vec<Rejection>) = (vec![], vec![]);
+        for (frames, log) in inputs.all("frames").iter().zip(inputs.all("logs")) {
+            if log.blobs.contains_key(REJECTION) {
+                rejections.push(codec::decode(FRAMES, &inputs.read(log, REJECTION)?)?);
+                continue;
+            }
+            let record: Option<LogRecord> = codec::decode(LOG, &inputs.read(log, "log")?)?;
+            let record = record.ok_or_else(|| {
+                Diagnostic::new("dataset-log", Fault::Bug, format!("the log of `{}` has no record", log.item))
+            })?;
+            logs.push(PublishedLog { record, blob: log.blobs["mcap"] });
+            gathered.flights.push(Flight { frames, log, captions: captions.get(frames.item.as_str()).copied() });
+        }
+        if logs.is_empty() {
+            return Err(nothing_left(&rejections));
+        }
+        let summary =
+            write_dataset(outputs, &self.config, &logs, &gathered, &rejections, &|| context.check_cancelled())?;
+        let flights = summary.experts + summary.perturbed;
+        let notes = BTreeMap::from([
+            ("flights".to_owned(), format!("{} expert, {} perturbed", summary.experts, summary.perturbed)),
+            ("frames".to_owned(), summary.frames.to_string()),
+            ("rejected".to_owned(), summary.rejected.to_string()),
+            ("mean visibility".to_owned(), format!("{:.3}", summary.visibility_sum / flights.max(1) as f64)),
+        ]);
+        Ok(Produced { notes, ..Produced::default() })
+    }
+}
+
+/// There is no dataset without a flight; the first reasons say what to change.
+fn nothing_left(rejections: &[Rejection]) -> Box<Diagnostic> {
+    let refusal = Diagnostic::new("dataset-empty", Fault::Input, "every trajectory was rejected: there is nothing to publish");
+    rejections
+        .iter()
+        .take(3)
+        .fold(refusal, |refusal, rejection| {
+            refusal.because(format!("`{}`: {}", rejection.trajectory_id, rejection.reason))
+        })
+        .hint("the planner found no safe view of any target: look at the reasons, loosen the limits of the `muco` stage, or choose other walks (another `seed`) or another town")
+}
+
+/// The artifacts of one flight.
+struct Flight<'a> {
+    frames: &'a Artifact,
+    log: &'a Artifact,
+    captions: Option<&'a Artifact>,
+}
+
+/// Everything that was gathered, read one flight at a time.
+struct Gathered<'a> {
+    inputs: &'a Inputs<'a>,
+    flights: Vec<Flight<'a>>,
+}
+
+impl DatasetSource for Gathered<'_> {
+    fn trajectory(&self, index: usize) -> Result<RenderedTrajectory> {
+        RenderedTrajectory::from_bytes(&self.inputs.read(self.flights[index].frames, "index")?)
+    }
+
+    fn captions(&self, index: usize) -> Result<Vec<CaptionRecord>> {
+        captions_of(self.inputs, self.flights[index].captions)
+    }
+
+    fn previews(&self, index: usize) -> Result<PreviewStrip> {
+        PreviewStrip::from_bytes(&self.inputs.read(self.flights[index].log, "previews")?)
+    }
+}
+
+fn captions_of(inputs: &Inputs<'_>, artifact: Option<&Artifact>) -> Result<Vec<CaptionRecord>> {
+    artifact.map_or(Ok(vec![]), |artifact| captions_from_bytes(&inputs.read(artifact, "captions")?))
+}
