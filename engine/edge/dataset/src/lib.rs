@@ -5,6 +5,7 @@
 //! * [`frame_pack`]: the images of one trajectory between rendering and publishing.
 //! * [`mcap_log`]: one MCAP file per trajectory.
 //! * [`tables`]: the Parquet tables.
+//! * [`verify`]: checks a finished dataset by its files alone.
 //! * [`croissant`] and [`publish`]: metadata, card, hashes, and the dataset as a whole.
 
 pub mod action;
@@ -18,9 +19,11 @@ pub mod publish;
 pub mod record;
 pub mod sample;
 pub mod tables;
+pub mod verify;
 
 pub use config::{DatasetConfig, DepthEncoding, EncodingConfig, RgbEncoding};
 pub use frame_pack::{FramePackReader, FramePackWriter, PackHeader, PackedFrame};
 pub use mcap_log::{LogRecord, write_log};
 pub use publish::{DatasetSource, PublishedLog, Summary, write_dataset};
 pub use record::{CaptionRecord, PairInfo, PreviewStrip, Rejection, RenderedTrajectory, Role, TownInfo};
+pub use verify::{Finding, VerifyReport, verify};

@@ -44,9 +44,9 @@ impl SampleFlight {
 pub fn town() -> Town {
     let wall = Obstacle {
         shape: OrientedBox {
-            center_in_world: DVec3::new(-1.0, 3.2, 1.0),
-            half_extents_m: DVec3::new(0.4, 1.0, 1.0),
-            yaw_rad: 0.3,
+            center_in_world: DVec3::new(-0.5, 0.75, 0.7),
+            half_extents_m: DVec3::new(0.3, 0.6, 0.7),
+            yaw_rad: 0.4,
         },
         kind: ObstacleKind::Wall,
         object_id: 4,
@@ -91,12 +91,12 @@ pub fn rejections() -> Vec<Rejection> {
 pub fn flight(pedestrian: usize, role: Role) -> SampleFlight {
     let camera = Camera { width: 64, height: 48, horizontal_fov_rad: 1.2 };
     let track = track(pedestrian);
-    let expert: Vec<Pose> = track.states.iter().map(|state| behind(state, DVec3::ZERO)).collect();
+    let expert: Vec<Pose> = track.states.iter().enumerate().map(|(i, state)| behind(state, i, DVec3::ZERO)).collect();
     let offset = DVec3::new(0.4, -0.3, 0.2);
     let poses: Vec<Pose> = match role {
         Role::Expert => expert,
         Role::Perturbed => {
-            let disturbed = |(i, state)| behind(state, if i == 2 { offset } else { DVec3::ZERO });
+            let disturbed = |(i, state)| behind(state, i, if i == 2 { offset } else { DVec3::ZERO });
             track.states.iter().enumerate().map(disturbed).collect()
         }
     };
@@ -133,10 +133,11 @@ fn track(pedestrian: usize) -> TargetTrack {
     TargetTrack { dt_s: 0.5, height_m: HEIGHT_M, radius_m: RADIUS_M, states: (0..FRAMES).map(state).collect() }
 }
 
-/// A camera 6 m behind and 4 m above the feet that looks at the body's middle.
-fn behind(state: &TargetState, offset: DVec3) -> Pose {
+/// A camera 4 m above the feet and 6 m and more behind, falling back, that looks at the body's middle.
+fn behind(state: &TargetState, frame: usize, offset: DVec3) -> Pose {
     let (sin, cos) = real::sin_cos(state.heading_rad);
-    let position = state.feet_in_world + DVec3::new(-6.0 * cos, -6.0 * sin, 4.0) + offset;
+    let back_m = 6.0 + 0.8 * frame as f64;
+    let position = state.feet_in_world + DVec3::new(-back_m * cos, -back_m * sin, 4.0) + offset;
     Pose::looking_at(position, state.feet_in_world + DVec3::Z * (0.5 * HEIGHT_M))
 }
 

@@ -15,7 +15,7 @@ mod write;
 
 pub use column::{Cell, Column, Kind, Table};
 pub use files::FileRecord;
-pub use write::TableWriter;
+pub use write::{TableWriter, schema};
 
 use crate::mcap_log::LogRecord;
 use crate::{CaptionRecord, PreviewStrip, RenderedTrajectory};

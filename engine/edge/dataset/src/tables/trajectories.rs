@@ -171,17 +171,23 @@ fn certificate() -> Vec<Column<DatasetItem>> {
         Column::new("certificate_violations", Kind::TextList, "what does not hold, in words", |item, _| {
             certificate_of(item).violations.clone().into()
         }),
-        Column::new("limit_clearance_m", Kind::Real, "smallest allowed distance from obstacles", |item, _| {
-            certificate_of(item).limits.clearance_m.into()
+        Column::optional(
+            "limit_clearance_m",
+            Kind::Real,
+            "smallest allowed distance from obstacles; null: none",
+            |item, _| limit(certificate_of(item).limits.clearance_m),
+        ),
+        Column::optional("limit_speed_mps", Kind::Real, "largest allowed speed; null: none", |item, _| {
+            limit(certificate_of(item).limits.speed_mps)
         }),
-        Column::new("limit_speed_mps", Kind::Real, "largest allowed speed", |item, _| {
-            certificate_of(item).limits.speed_mps.into()
-        }),
-        Column::new("limit_acceleration_mps2", Kind::Real, "largest allowed acceleration", |item, _| {
-            certificate_of(item).limits.acceleration_mps2.into()
-        }),
-        Column::new("limit_jerk_mps3", Kind::Real, "largest allowed jerk", |item, _| {
-            certificate_of(item).limits.jerk_mps3.into()
+        Column::optional(
+            "limit_acceleration_mps2",
+            Kind::Real,
+            "largest allowed acceleration; null: none",
+            |item, _| limit(certificate_of(item).limits.acceleration_mps2),
+        ),
+        Column::optional("limit_jerk_mps3", Kind::Real, "largest allowed jerk; null: none", |item, _| {
+            limit(certificate_of(item).limits.jerk_mps3)
         }),
         Column::new("mean_visibility", Kind::Real, "mean visibility by rays", |item, _| {
             certificate_of(item).mean_visibility.into()
@@ -262,6 +268,11 @@ fn log() -> Vec<Column<DatasetItem>> {
 
 fn certificate_of(item: &DatasetItem) -> &Certificate {
     &item.record.trajectory.certificate
+}
+
+/// A limit as a cell; infinite limits are none.
+fn limit(value: f64) -> Cell {
+    value.is_finite().then_some(value).into()
 }
 
 fn perturbation(item: &DatasetItem) -> Option<&Perturbation> {

@@ -12,6 +12,7 @@ use parquet::basic::{Compression, ZstdLevel};
 use parquet::errors::ParquetError;
 use parquet::file::metadata::KeyValue;
 use parquet::file::properties::{EnabledStatistics, WriterProperties};
+use std::collections::BTreeMap;
 use std::io::Write;
 use std::sync::Arc;
 
@@ -185,7 +186,9 @@ pub fn schema<S>(table: &Table<S>) -> Schema {
         let featured = matches!(column.kind, Kind::Label(_) | Kind::Image);
         Field::new(column.name, kind, column.nullable || featured)
     };
+    let features = hugging_face_features(table).map(|json| ("huggingface".to_owned(), json));
     Schema::new(table.columns.iter().map(field).collect::<Vec<_>>())
+        .with_metadata(features.into_iter().collect::<BTreeMap<_, _>>())
 }
 
 /// Everything that could vary between machines and versions is fixed here.

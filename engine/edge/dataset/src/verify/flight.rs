@@ -1,0 +1,312 @@
+//! The frames of one flight: numbering, actions against poses, the body reprojected into the image, twins.
+
+use super::files::CheckedFiles;
+use super::log;
+use super::report::VerifyReport;
+use super::rows::{self, FlightRow, FrameRow};
+use super::tables::SmallTables;
+use cosfly_frames::{DVec3, Pose, real};
+use std::collections::{BTreeMap, BTreeSet};
+use std::path::Path;
+
+/// Numbers that were computed from others in 64-bit floats may differ by this much (metres or degrees).
+const TOLERANCE: f64 = 1e-6;
+/// A walking body reaches this far from its axis, in body heights: arms and legs swing beyond its radius.
+const REACH_PER_HEIGHT: f64 = 0.42;
+/// Heights on the axis that the silhouette covers, in body heights.
+const AXIS_HEIGHTS: [f64; 3] = [0.12, 0.65, 0.93];
+/// How far the silhouette may be from a point on the axis, in body heights.
+const AXIS_SLACK_PER_HEIGHT: f64 = 0.1;
+/// Pixels are sampled at their centres.
+const SLACK_PX: f64 = 1.5;
+
+/// Checks all flights: rows of `frames`, then the log of each, then `waypoints` and twins.
+pub fn check_all(
+    folder: &Path,
+    files: &CheckedFiles,
+    tables: &SmallTables,
+    report: &mut VerifyReport,
+    progress: &mut dyn FnMut(u64, u64),
+) {
+    let total = tables.flights.len() as u64;
+    let mut motions: BTreeMap<String, blake3::Hasher> = BTreeMap::new();
+    let mut twins = Twins::of(tables);
+    for file in files.sound_below("data/frames/") {
+        let outcome = rows::frames(&folder.join(file), &mut |frames| {
+            let id = frames[0].trajectory_id.clone();
+            let Some(flight) = tables.flights.get(&id) else {
+                let place = format!("row {}, `{id}`", frames[0].row);
+                report.find(file, place, "verify-reference", "there is no such flight");
+                return;
+            };
+            if motions.contains_key(&id) {
+                report.find(file, format!("row {}, `{id}`", frames[0].row), "verify-duplicate", "its rows are apart");
+                return;
+            }
+            let mut motion = blake3::Hasher::new();
+            for frame in &frames {
+                motion.update(&frame.motion_bytes());
+            }
+            motions.insert(id.clone(), motion);
+            check_frames(file, flight, &frames, report);
+            twins.keep(&frames);
+            if files.listed.contains_key(&flight.mcap_path) {
+                log::check(folder, flight, &frames, tables.captions.get(&id).map_or(&[], Vec::as_slice), report);
+            }
+            report.flights += 1;
+            report.frames += frames.len() as u64;
+            progress(report.flights, total);
+        });
+        if let Err(message) = outcome {
+            report.find(file, "", "verify-schema", message);
+        }
+    }
+    for (id, flight) in tables.flights.iter().filter(|(id, _)| !motions.contains_key(*id)) {
+        let place = format!("row {}, `{id}`", flight.place.1);
+        report.find(&flight.place.0, place, "verify-count", "table `frames` has no readable rows of it");
+    }
+    check_waypoints(folder, files, &motions, report);
+    twins.check(tables, report);
+}
+
+/// Numbering, times, shares, actions, distance and boxes of one flight.
+pub(super) fn check_frames(file: &str, flight: &FlightRow, frames: &[FrameRow], report: &mut VerifyReport) {
+    let id = &flight.trajectory_id;
+    if frames.len() as i64 != flight.frames {
+        let message = format!("{} rows; table `trajectories` says {} frames", frames.len(), flight.frames);
+        report.find(file, format!("`{id}`"), "verify-count", message);
+    }
+    for (number, frame) in frames.iter().enumerate() {
+        let mut find = |rule, message: String| {
+            report.find(file, format!("row {}, `{id}` frame {number}", frame.row), rule, message);
+        };
+        let time_s = number as f64 * flight.dt_s;
+        if frame.frame != number as i64 || (frame.time_s - time_s).abs() > TOLERANCE {
+            find(
+                "verify-order",
+                format!("it is frame {} at {} s; frame {number} at {time_s} s belongs here", frame.frame, frame.time_s),
+            );
+        }
+        match (frames.get(number + 1), frame.action_in_world) {
+            (Some(next), Some(_)) => match frame.action_error(next) {
+                Some(error) if error <= TOLERANCE => {}
+                error => find(
+                    "verify-action",
+                    format!("its action and the way to the next pose differ by {}", error.unwrap_or(f64::NAN)),
+                ),
+            },
+            (None, None) if frame.action_in_body.is_none() => {}
+            _ => find("verify-action", "only the last frame has no action".into()),
+        }
+        let distance_m = (frame.feet_in_world - frame.pose.position_in_world).length();
+        if (distance_m - frame.distance_m).is_nan() || (distance_m - frame.distance_m).abs() > TOLERANCE {
+            find(
+                "verify-distance",
+                format!("`distance_m` is {}; camera and feet are {distance_m} m apart", frame.distance_m),
+            );
+        }
+        if !frame.visible.iter().all(|share| (0.0..=1.0).contains(share)) {
+            find("verify-visibility", format!("shares {:?} must lie between 0 and 1", frame.visible));
+        }
+        if let Some(message) = box_problem(flight, frame) {
+            find("verify-reprojection", message);
+        }
+    }
+    report.boxes += frames.iter().filter(|frame| frame.full_box.is_some()).count() as u64;
+}
+
+/// What is wrong with the stored boxes of a frame, if anything: they must agree with each other and with the body
+/// projected through the stored camera.
+fn box_problem(flight: &FlightRow, frame: &FrameRow) -> Option<String> {
+    if frame.in_view != frame.full_box.is_some() || (frame.visible_pixels > 0) != frame.visible_box.is_some() {
+        return Some("flags, pixel count and boxes contradict each other".into());
+    }
+    let body = Body { feet: frame.feet_in_world, height_m: flight.target_height_m, radius_m: flight.target_radius_m };
+    let (width, height) = (f64::from(flight.camera.width), f64::from(flight.camera.height));
+    let inside_image =
+        |u: f64, v: f64| (SLACK_PX..width - SLACK_PX).contains(&u) && (SLACK_PX..height - SLACK_PX).contains(&v);
+    let Some(full) = frame.full_box else {
+        let (u, v, depth) = flight.camera.project(&frame.pose, body.on_axis(AXIS_HEIGHTS[1]))?;
+        let large = flight.camera.focal_px() * 0.1 * body.height_m / depth > SLACK_PX;
+        return (large && inside_image(u, v))
+            .then(|| format!("it is out of view, but its middle projects to pixel ({u:.1}, {v:.1})"));
+    };
+    if let Some(seen) = frame.visible_box
+        && !(contains(&full, seen[0], seen[1], 0.0) && contains(&full, seen[2], seen[3], 0.0))
+    {
+        return Some(format!("the visible box {seen:?} leaves the full box {full:?}"));
+    }
+    for share in AXIS_HEIGHTS {
+        let Some((u, v, depth)) = flight.camera.project(&frame.pose, body.on_axis(share)) else {
+            return Some("the body is behind the camera and has a box".into());
+        };
+        let slack = SLACK_PX + flight.camera.focal_px() * AXIS_SLACK_PER_HEIGHT * body.height_m / depth;
+        if inside_image(u, v) && !contains(&full, u, v, slack) {
+            return Some(format!(
+                "its body at {share} of its height projects to pixel ({u:.1}, {v:.1}), outside of box {full:?}"
+            ));
+        }
+    }
+    let hull = body.hull(flight, &frame.pose)?;
+    let fits = full[0] >= hull[0] - SLACK_PX
+        && full[1] >= hull[1] - SLACK_PX
+        && full[2] <= hull[2] + SLACK_PX
+        && full[3] <= hull[3] + SLACK_PX;
+    (!fits).then(|| format!("the box {full:?} is larger than the projected body {hull:.1?}"))
+}
+
+fn contains(pixel_box: &[f64; 4], u: f64, v: f64, slack: f64) -> bool {
+    (pixel_box[0] - slack..=pixel_box[2] + slack).contains(&u)
+        && (pixel_box[1] - slack..=pixel_box[3] + slack).contains(&v)
+}
+
+/// The space a walking body may fill: an upright cylinder.
+pub(super) struct Body {
+    pub feet: DVec3,
+    pub height_m: f64,
+    pub radius_m: f64,
+}
+
+impl Body {
+    /// The point on the axis at `share` of the height.
+    fn on_axis(&self, share: f64) -> DVec3 {
+        self.feet + DVec3::Z * (share * self.height_m)
+    }
+
+    /// Corners of a polygonal prism around the cylinder.
+    fn corners(&self) -> impl Iterator<Item = DVec3> {
+        const SIDES: u32 = 16;
+        // A polygon around a circle is wider than it by 1 / cos(pi / sides).
+        let reach = self.radius_m.max(REACH_PER_HEIGHT * self.height_m) / real::cos(real::PI / f64::from(SIDES));
+        (0..SIDES).flat_map(move |side| {
+            let (sin, cos) = real::sin_cos(real::TAU * f64::from(side) / f64::from(SIDES));
+            [-0.02, 1.03].map(|share| self.on_axis(share) + DVec3::new(reach * cos, reach * sin, 0.0))
+        })
+    }
+
+    /// Edges of the projected prism; `None` when part of it is behind the camera.
+    fn hull(&self, flight: &FlightRow, pose: &Pose) -> Option<[f64; 4]> {
+        self.corners().try_fold([f64::MAX, f64::MAX, f64::MIN, f64::MIN], |hull, corner| {
+            let (u, v, depth) = flight.camera.project(pose, corner)?;
+            (depth > 0.1).then(|| [hull[0].min(u), hull[1].min(v), hull[2].max(u), hull[3].max(v)])
+        })
+    }
+
+    /// Nearest and farthest planar depth of the prism.
+    pub fn depths_m(&self, pose: &Pose) -> (f64, f64) {
+        let ahead = pose.world_from_body() * DVec3::X;
+        self.corners()
+            .map(|corner| (corner - pose.position_in_world).dot(ahead))
+            .fold((f64::MAX, f64::MIN), |(near, far), depth| (near.min(depth), far.max(depth)))
+    }
+}
+
+/// The motion in `waypoints` is that of `frames`, bit for bit.
+fn check_waypoints(
+    folder: &Path,
+    files: &CheckedFiles,
+    motions: &BTreeMap<String, blake3::Hasher>,
+    report: &mut VerifyReport,
+) {
+    let mut found: BTreeMap<String, (i64, blake3::Hasher)> = BTreeMap::new();
+    for file in files.sound_below("data/waypoints/") {
+        let outcome = rows::waypoints(&folder.join(file), &mut |id, step, motion| {
+            let (next, hasher) = found.entry(id).or_insert((0, blake3::Hasher::new()));
+            hasher.update(&motion);
+            // A step out of order spoils the hash.
+            if step != *next {
+                hasher.update(b"order");
+            }
+            *next += 1;
+        });
+        if let Err(message) = outcome {
+            report.find(file, "", "verify-schema", message);
+        }
+    }
+    let names: BTreeSet<&String> = motions.keys().chain(found.keys()).collect();
+    for id in names {
+        let same = matches!((motions.get(id), found.get(id)), (Some(a), Some((_, b))) if a.finalize() == b.finalize());
+        if !same {
+            report.find(
+                "data/waypoints",
+                format!("`{id}`"),
+                "verify-waypoints",
+                "its steps are not those of table `frames`",
+            );
+        }
+    }
+}
+
+/// One frame of a perturbed flight, as far as its expert is concerned.
+struct TwinFrame {
+    row: usize,
+    position: DVec3,
+    angles_deg: [f64; 3],
+    expert_frame: i64,
+    undisturbed: bool,
+    offset: DVec3,
+}
+
+/// Experts and twins, kept until both have been read.
+struct Twins<'a> {
+    tables: &'a SmallTables,
+    wanted: BTreeSet<&'a str>,
+    experts: BTreeMap<String, Vec<(DVec3, [f64; 3], DVec3)>>,
+    twins: BTreeMap<String, Vec<(TwinFrame, DVec3)>>,
+}
+
+impl<'a> Twins<'a> {
+    fn of(tables: &'a SmallTables) -> Self {
+        let wanted = tables.flights.values().map(|flight| flight.expert_id.as_str()).filter(|id| !id.is_empty());
+        Self { tables, wanted: wanted.collect(), experts: BTreeMap::new(), twins: BTreeMap::new() }
+    }
+
+    fn keep(&mut self, frames: &[FrameRow]) {
+        let id = &frames[0].trajectory_id;
+        if self.wanted.contains(id.as_str()) {
+            let poses = frames.iter().map(|it| (it.pose.position_in_world, it.angles_deg, it.feet_in_world)).collect();
+            self.experts.insert(id.clone(), poses);
+        }
+        if self.tables.flights.get(id).is_some_and(|flight| !flight.expert_id.is_empty()) {
+            let twin = |frame: &FrameRow| {
+                let (expert_frame, position, rotation, offset) =
+                    frame.disturbance.unwrap_or((-1, false, false, DVec3::ZERO));
+                let twin = TwinFrame {
+                    row: frame.row,
+                    position: frame.pose.position_in_world,
+                    angles_deg: frame.angles_deg,
+                    expert_frame,
+                    undisturbed: !position && !rotation,
+                    offset,
+                };
+                (twin, frame.feet_in_world)
+            };
+            self.twins.insert(id.clone(), frames.iter().map(twin).collect());
+        }
+    }
+
+    /// A twin is its expert plus the stored displacement, and exactly its expert where nothing happened.
+    fn check(&self, tables: &SmallTables, report: &mut VerifyReport) {
+        for (id, frames) in &self.twins {
+            let flight = &tables.flights[id];
+            let file = flight.place.0.replace("data/trajectories/", "data/frames/");
+            let Some(expert) = self.experts.get(&flight.expert_id) else { continue };
+            for (number, (frame, feet)) in frames.iter().enumerate() {
+                let of_expert = usize::try_from(frame.expert_frame).ok().and_then(|it| expert.get(it));
+                let aligned = of_expert.is_some_and(|(position, angles, expert_feet)| {
+                    let turned = angles.iter().zip(frame.angles_deg).any(|(a, b)| (a - b).abs() > TOLERANCE);
+                    (*position + frame.offset - frame.position).length() <= TOLERANCE
+                        && (*expert_feet - *feet).length() <= TOLERANCE
+                        && !(frame.undisturbed && turned)
+                });
+                if !aligned {
+                    let message = format!(
+                        "it is not frame {} of `{}` plus its stored displacement",
+                        frame.expert_frame, flight.expert_id
+                    );
+                    report.find(&file, format!("row {}, `{id}` frame {number}", frame.row), "verify-pair", message);
+                }
+            }
+        }
+    }
+}

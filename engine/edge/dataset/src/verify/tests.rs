@@ -1,0 +1,135 @@
+//! A sound dataset passes; every kind of damage is found and named.
+
+use super::*;
+use crate::sample::{self, SampleFlight};
+use crate::{DatasetConfig, EncodingConfig};
+use std::path::PathBuf;
+use tempfile::TempDir;
+
+fn published(flights: Vec<SampleFlight>) -> TempDir {
+    let folder = tempfile::tempdir().unwrap();
+    sample::write_flights(folder.path(), &DatasetConfig::default(), EncodingConfig::default(), flights).unwrap();
+    folder
+}
+
+fn rules_of(folder: &TempDir) -> Vec<&'static str> {
+    let report = verify(folder.path(), &mut |_, _| {}).unwrap();
+    let mut rules: Vec<&str> = report.findings.iter().map(|finding| finding.rule).collect();
+    rules.dedup();
+    rules
+}
+
+fn some_file(folder: &TempDir, below: &str) -> PathBuf {
+    let mut files: Vec<PathBuf> =
+        std::fs::read_dir(folder.path().join(below)).unwrap().map(|entry| entry.unwrap().path()).collect();
+    files.sort();
+    files.remove(0)
+}
+
+fn flip(path: &Path, at: usize) {
+    let mut bytes = std::fs::read(path).unwrap();
+    bytes[at] ^= 0x10;
+    std::fs::write(path, bytes).unwrap();
+}
+
+#[test]
+fn a_sound_dataset_passes() {
+    let folder = published(sample::flights());
+    let mut heard = vec![];
+    let report = verify(folder.path(), &mut |done, total| heard.push((done, total))).unwrap();
+    assert!(report.is_sound(), "{:#?}", report.findings);
+    assert_eq!((report.flights, report.frames, report.boxes), (4, 20, 20));
+    assert_eq!(heard.last(), Some(&(4, 4)));
+}
+
+#[test]
+fn a_flipped_byte_is_found_wherever_it_is() {
+    for name in ["README.md", "croissant.json", "files.parquet", "SHA256SUMS", "schemas/cosfly.proto"] {
+        let folder = published(sample::flights());
+        flip(&folder.path().join(name), 40);
+        assert!(rules_of(&folder).contains(&"verify-hash"), "{name}");
+    }
+    let folder = published(sample::flights());
+    let log = some_file(&folder, "mcap/plain/000");
+    flip(&log, std::fs::metadata(&log).unwrap().len() as usize / 2);
+    let rules = rules_of(&folder);
+    assert!(rules.contains(&"verify-hash") && rules.contains(&"verify-crc"), "{rules:?}");
+}
+
+#[test]
+fn truncated_missing_and_extra_files_are_found() {
+    let folder = published(sample::flights());
+    let table = some_file(&folder, "data/frames");
+    let bytes = std::fs::read(&table).unwrap();
+    std::fs::write(&table, &bytes[..bytes.len() / 2]).unwrap();
+    assert!(rules_of(&folder).contains(&"verify-size"));
+    std::fs::remove_file(&table).unwrap();
+    assert!(rules_of(&folder).contains(&"verify-missing-file"));
+    std::fs::write(folder.path().join("data/frames/more.parquet"), b"x").unwrap();
+    assert!(rules_of(&folder).contains(&"verify-extra-file"));
+}
+
+#[test]
+fn images_of_the_next_frame_are_found() {
+    let mut flights = sample::flights();
+    flights[0].images.rotate_left(1);
+    let rules = rules_of(&published(flights));
+    assert!(rules.contains(&"verify-depth") || rules.contains(&"verify-log"), "{rules:?}");
+}
+
+#[test]
+fn a_flipped_yaw_is_found() {
+    let mut flights = sample::flights();
+    flights[1].record.trajectory.poses_in_world[3].yaw_rad *= -1.0;
+    let report = verify(published(flights).path(), &mut |_, _| {}).unwrap();
+    let found = report.findings.iter().find(|finding| finding.rule == "verify-reprojection").expect("it is found");
+    assert!(found.place.contains("`perturbed-p00000` frame 3") && found.file.starts_with("data/frames/"), "{found}");
+    assert!(report.findings.iter().any(|finding| finding.rule == "verify-pair"));
+}
+
+#[test]
+fn boxes_of_the_next_frame_are_found() {
+    let mut flights = sample::flights();
+    flights[0].record.views.rotate_left(2);
+    let rules = rules_of(&published(flights));
+    assert!(rules.contains(&"verify-log"), "{rules:?}");
+}
+
+#[test]
+fn a_twin_that_is_not_its_expert_plus_its_displacement_is_found() {
+    let mut flights = sample::flights();
+    let perturbation = flights[1].record.trajectory.perturbation.as_mut().unwrap();
+    perturbation.frames[3].expert_frame = 2;
+    assert_eq!(rules_of(&published(flights)), ["verify-pair"]);
+    let mut flights = sample::flights();
+    flights[1].record.pair.as_mut().unwrap().expert_id = "expert-p00009".into();
+    assert!(rules_of(&published(flights)).contains(&"verify-pair"));
+}
+
+#[test]
+fn a_missing_language_is_found() {
+    let mut flights = sample::flights();
+    flights[2].captions.pop();
+    assert_eq!(rules_of(&published(flights)), ["verify-caption"]);
+}
+
+#[test]
+fn an_action_that_does_not_lead_to_the_next_pose_is_found() {
+    let folder = published(sample::flights());
+    let mut report = VerifyReport::default();
+    let files = files::check(folder.path(), &mut report).unwrap();
+    let tables = tables::read(folder.path(), &files, &mut report);
+    let file = files.sound_below("data/frames/").next().unwrap();
+    let mut groups = vec![];
+    rows::frames(&folder.path().join(file), &mut |frames| groups.push(frames)).unwrap();
+    let frames = &mut groups[0];
+    frames[1].action_in_world.as_mut().unwrap()[4] += 0.01;
+    flight::check_frames(file, &tables.flights[&frames[0].trajectory_id], frames, &mut report);
+    assert_eq!(report.findings.iter().map(|finding| finding.rule).collect::<Vec<_>>(), ["verify-action"]);
+}
+
+#[test]
+fn a_folder_without_a_dataset_is_refused() {
+    let folder = tempfile::tempdir().unwrap();
+    assert!(verify(folder.path(), &mut |_, _| {}).unwrap_err().message.contains("is not a finished dataset"));
+}

@@ -1,0 +1,204 @@
+"""Reads a finished dataset with other people's software only and fails on the first thing that does not work.
+
+    python3 -m venv venv && venv/bin/pip install -r tests/outside/requirements.txt
+    venv/bin/python tests/outside/read_back.py DATASET_FOLDER
+
+Each check prints one line. Exit code 0: every reader read everything.
+"""
+
+import argparse
+import hashlib
+import io
+import json
+import math
+import os
+import subprocess
+import sys
+from pathlib import Path
+
+os.environ.setdefault("HF_HUB_OFFLINE", "1")
+os.environ.setdefault("HF_DATASETS_OFFLINE", "1")
+os.environ.setdefault("HF_HUB_DISABLE_TELEMETRY", "1")
+
+TABLES = ["trajectories", "frames", "waypoints", "captions", "pairs", "rejected"]
+FRAME_TOPICS = [
+    "/camera/rgb/image", "/camera/rgb/camera_info", "/camera/rgb/annotations", "/camera/depth/image",
+    "/camera/semantic/image", "/camera/instance/image", "/tf", "/drone/pose", "/target/pose", "/target/state",
+]
+PREVIEW_TOPICS = ["/camera/rgb/preview", "/camera/depth/preview", "/camera/semantic/preview"]
+ONCE_TOPICS = ["/drone/path", "/target/path", "/scene"]
+
+
+def require(condition, message):
+    if not condition:
+        raise SystemExit(f"read_back: {message}")
+
+
+def said(check, detail=""):
+    print(f"ok  {check:<28} {detail}", flush=True)
+
+
+def check_hashes(folder):
+    """Every file is listed once and has the size and hash that is written down."""
+    import pyarrow.parquet as pq
+
+    for line in (folder / "SHA256SUMS").read_text().splitlines():
+        digest, name = line.split("  ")
+        require(hashlib.sha256((folder / name).read_bytes()).hexdigest() == digest, f"{name} differs from SHA256SUMS")
+    listed = {row["path"]: row for row in pq.read_table(folder / "files.parquet").to_pylist()}
+    present = {str(path.relative_to(folder)) for path in folder.rglob("*") if path.is_file()}
+    present -= {"files.parquet", "croissant.json", "SHA256SUMS"}
+    present = {name for name in present if not name.startswith(".")}
+    require(present == set(listed), f"files.parquet and the folder differ: {sorted(present ^ set(listed))[:5]}")
+    for name, row in listed.items():
+        data = (folder / name).read_bytes()
+        require(len(data) == row["bytes"], f"{name} has {len(data)} bytes, not {row['bytes']}")
+        require(hashlib.sha256(data).hexdigest() == row["sha256"], f"{name} differs from its hash")
+    said("hashlib", f"{len(listed)} files")
+
+
+def check_pyarrow(folder):
+    import pyarrow.dataset as ds
+
+    counts = {}
+    for table in TABLES:
+        rows = ds.dataset(folder / "data" / table, format="parquet").to_table()
+        rows.validate(full=True)
+        counts[table] = rows.num_rows
+    trajectories = ds.dataset(folder / "data" / "trajectories", format="parquet").to_table().to_pylist()
+    require(sum(row["frames"] for row in trajectories) == counts["frames"] == counts["waypoints"], "frame counts differ")
+    said("pyarrow", ", ".join(f"{name} {count}" for name, count in counts.items()))
+    return counts, trajectories
+
+
+def check_datasets(folder, counts, cache):
+    import datasets
+
+    datasets.disable_progress_bars()
+    for config in [*TABLES, "files"]:
+        loaded = datasets.load_dataset(str(folder), config, cache_dir=cache)
+        rows = {split: part.num_rows for split, part in loaded.items()}
+        if config in counts:
+            require(sum(rows.values()) == counts[config], f"datasets sees {rows} rows of {config}")
+        for part in loaded.values():
+            for row in part:
+                if config == "frames" and row["preview"] is not None:
+                    row["preview"].load()
+            if config == "frames":
+                features = part.features
+                require(isinstance(features["preview"], datasets.Image), "frames.preview is not an Image")
+                require(features["role"].names == ["expert", "perturbed"], "frames.role is not a ClassLabel")
+        said(f"datasets {config}", str(rows))
+
+
+def check_croissant(folder, counts):
+    import mlcroissant as mlc
+
+    path = folder / "croissant.json"
+    result = subprocess.run(
+        [Path(sys.executable).with_name("mlcroissant"), "validate", "--jsonld", path], capture_output=True, text=True
+    )
+    require(result.returncode == 0, f"mlcroissant validate: {result.stderr[-2000:]}")
+    require("WARNING" not in result.stderr.upper(), f"mlcroissant warns: {result.stderr[-2000:]}")
+    said("mlcroissant validate")
+    document = json.loads(path.read_text())
+    rai = [key for key in document if key.startswith("rai:")]
+    require(len(rai) == 21 and "prov:wasGeneratedBy" in document, f"{len(rai)} rai: terms")
+    for record_set in document["recordSet"]:
+        name = record_set["@id"]
+        dataset = mlc.Dataset(jsonld=str(path))
+        records = list(dataset.records(record_set=name))
+        require(name not in counts or len(records) == counts[name], f"{len(records)} records of {name}")
+        if records:
+            fields = {field["@id"] for field in record_set["field"]}
+            require(set(records[0]) == fields, f"{name}: {set(records[0]) ^ fields}")
+        said(f"mlcroissant {name}", f"{len(records)} records")
+    splits = {path.name.split("-")[0] for path in (folder / "data" / "trajectories").iterdir()}
+    for split in sorted(splits):
+        dataset = mlc.Dataset(jsonld=str(path))
+        filtered = list(dataset.records(record_set="frames", filters={"frames/split": split}))
+        require(filtered and all(row["frames/split"].decode() == split for row in filtered), f"filter {split}")
+        said(f"mlcroissant filter {split}", f"{len(filtered)} frames")
+
+
+def check_mcap(folder, trajectories):
+    from mcap.reader import make_reader
+    from mcap_protobuf.decoder import DecoderFactory
+
+    for row in trajectories:
+        path = folder / row["mcap_path"]
+        counts = {}
+        with path.open("rb") as file:
+            reader = make_reader(file, validate_crcs=True, decoder_factories=[DecoderFactory()])
+            require(reader.get_header().library == "cosfly", f"{path}: library")
+            names = {record.name for record in reader.iter_metadata()}
+            require({"cosfly.trajectory", "cosfly.weather", "cosfly.conventions"} <= names, f"{path}: metadata {names}")
+        with path.open("rb") as file:
+            reader = make_reader(file, validate_crcs=True, decoder_factories=[DecoderFactory()])
+            for _, channel, message, decoded in reader.iter_decoded_messages():
+                topic = channel.topic
+                require(message.log_time == round(counts.get(topic, 0) * row["dt_s"] * 1e9) or topic == "/captions",
+                        f"{path}: time of {topic}")
+                counts[topic] = counts.get(topic, 0) + 1
+                check_message(row, topic, decoded, path)
+        for topic in FRAME_TOPICS:
+            require(counts.get(topic) == row["frames"], f"{path}: {counts.get(topic)} messages on {topic}")
+        for topic in PREVIEW_TOPICS:
+            require(counts.get(topic, 0) in (0, row["frames"]), f"{path}: {counts.get(topic)} messages on {topic}")
+        for topic in ONCE_TOPICS:
+            require(counts.get(topic) == 1, f"{path}: {counts.get(topic)} messages on {topic}")
+        require(sum(counts.values()) == row["mcap_messages"], f"{path}: number of messages")
+    said("mcap, CRCs, protobuf", f"{len(trajectories)} logs")
+
+
+def check_message(row, topic, decoded, path):
+    pixels = row["camera_width_px"] * row["camera_height_px"]
+    if topic == "/camera/depth/image":
+        require(decoded.encoding == "32FC1" and len(decoded.data) == 4 * pixels, f"{path}: depth")
+    elif topic == "/camera/semantic/image":
+        require(decoded.encoding == "mono8" and len(decoded.data) == pixels, f"{path}: semantic")
+        require(max(decoded.data) <= 28, f"{path}: label {max(decoded.data)}")
+    elif topic == "/camera/rgb/image":
+        from PIL import Image
+
+        image = Image.open(io.BytesIO(decoded.data))
+        image.load()
+        require(image.size == (row["camera_width_px"], row["camera_height_px"]), f"{path}: rgb {image.size}")
+    elif topic == "/camera/semantic/preview":
+        from PIL import Image
+
+        require(Image.open(io.BytesIO(decoded.data)).mode == "P", f"{path}: semantic preview")
+    elif topic == "/camera/rgb/camera_info":
+        require(math.isclose(decoded.K[0], row["camera_focal_px"]), f"{path}: focal length")
+    elif topic == "/target/state":
+        require(math.isclose(decoded.height_m, row["target_height_m"]), f"{path}: target height")
+
+
+def check_rerun(folder, trajectories):
+    rerun = Path(sys.executable).with_name("rerun")
+    subprocess.run([rerun, "analytics", "disable"], capture_output=True)
+    for row in trajectories:
+        result = subprocess.run([rerun, "mcap", "check", folder / row["mcap_path"]], capture_output=True, text=True)
+        require(result.returncode == 0, f"rerun mcap check {row['mcap_path']}: {result.stdout}{result.stderr}")
+    said("rerun mcap check", f"{len(trajectories)} logs")
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("folder", type=Path)
+    parser.add_argument("--cache", default=None, help="cache folder of the datasets library")
+    parser.add_argument("--skip-rerun", action="store_true", help="when rerun-sdk is not installed")
+    arguments = parser.parse_args()
+    folder = arguments.folder.resolve()
+    check_hashes(folder)
+    counts, trajectories = check_pyarrow(folder)
+    check_datasets(folder, counts, arguments.cache)
+    check_croissant(folder, counts)
+    check_mcap(folder, trajectories)
+    if not arguments.skip_rerun:
+        check_rerun(folder, trajectories)
+    print("read_back: all readers read everything")
+
+
+if __name__ == "__main__":
+    main()
