@@ -1,2 +1,41 @@
-//! The `cosfly` command.
-fn main() {}
+//! The `cosfly` command: arguments, progress, exit codes. The only code that prints or reads the environment.
+
+mod arguments;
+mod commands;
+mod exit;
+mod interrupt;
+mod reporter;
+mod text;
+
+use arguments::{Arguments, BenchCommand, Command, TaskCommand};
+use clap::Parser;
+use std::io::Write;
+use std::process::ExitCode;
+
+fn main() -> ExitCode {
+    let outcome = match Arguments::parse().command {
+        Command::Run(arguments) => commands::run::run(&arguments),
+        Command::Plan(arguments) => commands::plan::plan(&arguments),
+        Command::Why(arguments) => commands::why::why(&arguments),
+        Command::Graph(arguments) => commands::graph::graph(&arguments),
+        Command::Verify(arguments) => commands::verify::verify(&arguments),
+        Command::Gc(arguments) => commands::collect::collect(&arguments),
+        Command::Schema(arguments) => commands::schema::schema(&arguments),
+        Command::Town(arguments) => commands::town::town(&arguments),
+        Command::Bench(BenchCommand::Engine { items }) => commands::bench::engine(items),
+        Command::Task(TaskCommand::Run { digest, store }) => commands::task::run(&digest, &store),
+    };
+    match outcome {
+        Ok(code) => ExitCode::from(code),
+        Err(refusals) => {
+            let all = refusals.iter().map(|refusal| &**refusal);
+            eprintln!("{}", cosfly_diagnose::render_all(all, reporter::colour()));
+            exit::code_of_all(&refusals)
+        }
+    }
+}
+
+/// Prints to standard output; a reader that went away (`| head`) is no error.
+fn print(text: &str) {
+    let _ = std::io::stdout().write_all(text.as_bytes());
+}

@@ -62,7 +62,7 @@ impl Stage for MucoStage {
     fn run(&self, inputs: &Inputs<'_>, outputs: &mut dyn OutputSink, context: &TaskContext) -> Result<Produced> {
         let world = world(inputs)?;
         let walk: PedestrianPath = codec::decode(WALK, &inputs.read(inputs.one("paths")?, "walk")?)?;
-        let ground = |x: f64, y: f64| world.ground.height_m(x, y).unwrap_or(0.0);
+        let ground = |x: f64, y: f64| world.ground.ground_height_m(x, y).unwrap_or(0.0);
         let outcome =
             plan(&walk.track, &world.exact, &world.town.planning_boxes, &ground, &self.config, Seed(context.seed));
         outputs.put("trajectory", &codec::encode(TRAJECTORY, &outcome)?)?;

@@ -51,6 +51,27 @@ pub mod topic {
     pub const CAPTIONS: &str = "/captions";
     /// `cosfly.TargetState`.
     pub const TARGET_STATE: &str = "/target/state";
+
+    /// All topics with schema and meaning, in the order above.
+    pub const ALL: [(&str, &str); 17] = [
+        (RGB, "`foxglove.CompressedImage`: the colour image."),
+        (CAMERA, "`foxglove.CameraCalibration` of all images."),
+        (ANNOTATIONS, "`foxglove.ImageAnnotations`: boxes of the target."),
+        (RGB_PREVIEW, "`foxglove.CompressedImage`: small colour image."),
+        (DEPTH, "`foxglove.RawImage` `32FC1`: planar depth, metres."),
+        (DEPTH_PREVIEW, "`foxglove.CompressedImage`: depth in logarithmic colours."),
+        (SEMANTIC, "`foxglove.RawImage` `mono8`: CARLA label ids."),
+        (SEMANTIC_PREVIEW, "`foxglove.CompressedImage`: labels as palette PNG."),
+        (INSTANCE, "`foxglove.RawImage` `16UC1` or `32UC1`: instance ids."),
+        (TF, "`foxglove.FrameTransforms`."),
+        (DRONE_POSE, "`foxglove.PoseInFrame` of the drone."),
+        (TARGET_POSE, "`foxglove.PoseInFrame` of the target's feet."),
+        (DRONE_PATH, "`foxglove.PosesInFrame`: the whole flight, once."),
+        (TARGET_PATH, "`foxglove.PosesInFrame`: the whole walk, once."),
+        (SCENE, "`foxglove.SceneUpdate`: obstacles near the flight, once."),
+        (CAPTIONS, "`foxglove.Log`: captions, once."),
+        (TARGET_STATE, "`cosfly.TargetState`."),
+    ];
 }
 
 /// Time of frame `frame`, nanoseconds after the file's time 0.

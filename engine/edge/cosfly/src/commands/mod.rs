@@ -1,0 +1,33 @@
+//! One file per command.
+
+pub mod bench;
+pub mod collect;
+pub mod graph;
+pub mod plan;
+pub mod run;
+pub mod schema;
+pub mod task;
+pub mod town;
+pub mod verify;
+pub mod why;
+
+use crate::arguments::{RecipeArguments, StoreArguments};
+use cosfly_diagnose::Diagnostic;
+use cosfly_recipe::Recipe;
+use std::path::PathBuf;
+
+/// Everything that can be wrong with a command, at least one.
+pub type Refusals = Vec<Box<Diagnostic>>;
+
+/// Where a command stops: nothing to report, or an exit code of its own.
+pub type Outcome = Result<u8, Refusals>;
+
+/// The checked recipe with its `--set` changes.
+fn recipe(arguments: &RecipeArguments) -> Result<Recipe, Refusals> {
+    cosfly_recipe::load(&arguments.recipe, &arguments.overrides, &cosfly_stages::registry())
+}
+
+/// The store's folder.
+fn store_dir(arguments: &StoreArguments) -> PathBuf {
+    arguments.store.clone().unwrap_or_else(|| PathBuf::from(".cosfly"))
+}

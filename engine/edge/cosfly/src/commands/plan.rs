@@ -1,0 +1,55 @@
+//! `cosfly plan`: items per stage, what is cached, what would run and why, predicted size.
+
+use super::{Outcome, recipe, store_dir};
+use crate::arguments::PlanArguments;
+use crate::exit;
+use crate::text::{bytes, count};
+use cosfly_runner::Plan;
+use cosfly_store::Store;
+use std::fmt::Write;
+
+/// Prints the plan.
+pub fn plan(arguments: &PlanArguments) -> Outcome {
+    let recipe = recipe(&arguments.recipe)?;
+    let store = Store::open(&store_dir(&arguments.store)).map_err(|refusal| vec![refusal])?;
+    let plan = cosfly_runner::plan(&recipe, &store).map_err(|refusal| vec![refusal])?;
+    crate::print(&table(&plan));
+    Ok(exit::SUCCESS)
+}
+
+/// The plan as aligned columns, with the reasons below each stage that has something to run.
+fn table(plan: &Plan<'_>) -> String {
+    let names = plan.stages.iter().map(|stage| stage.name.len()).max().unwrap_or(0).max("stage".len());
+    let kinds = plan.stages.iter().map(|stage| stage.kind.len()).max().unwrap_or(0).max("uses".len());
+    let mut text = String::new();
+    let _ = writeln!(
+        text,
+        "{:names$}  {:kinds$}  {:>7}  {:>7}  {:>7}  predicted",
+        "stage", "uses", "items", "cached", "to run"
+    );
+    for stage in &plan.stages {
+        let predicted = if stage.to_run() == 0 { "-".to_owned() } else { format!("about {}", bytes(stage.predicted_bytes)) };
+        let _ = writeln!(
+            text,
+            "{:names$}  {:kinds$}  {:>7}  {:>7}  {:>7}  {predicted}",
+            stage.name,
+            stage.kind,
+            stage.items(),
+            stage.cached(),
+            stage.to_run(),
+        );
+        for (reason, items) in &stage.reasons {
+            let _ = writeln!(text, "{:names$}  because {reason} ({})", "", count(*items, "item"));
+        }
+    }
+    let _ = match plan.to_run() {
+        0 => writeln!(text, "\nEverything is cached."),
+        left => writeln!(
+            text,
+            "\n{} would run; about {} would be written.",
+            count(left, "task"),
+            bytes(plan.stages.iter().map(|stage| stage.predicted_bytes).sum())
+        ),
+    };
+    text
+}

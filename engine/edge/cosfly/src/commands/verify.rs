@@ -1,0 +1,45 @@
+//! `cosfly verify`: re-checks a finished dataset.
+
+use super::Outcome;
+use crate::arguments::VerifyArguments;
+use crate::exit;
+use crate::text::{bytes, count};
+use indicatif::{ProgressBar, ProgressStyle};
+use std::fmt::Write;
+
+/// Prints one line per finding and a verdict.
+pub fn verify(arguments: &VerifyArguments) -> Outcome {
+    // Draws nothing unless standard error is a terminal.
+    let style = ProgressStyle::with_template("verify {wide_bar:.cyan/blue} {pos}/{len} flights {eta:>5} left")
+        .unwrap_or_else(|_| ProgressStyle::default_bar());
+    let bar = ProgressBar::new(0).with_style(style);
+    let report = cosfly_dataset::verify::verify(&arguments.dir, &mut |done, all| {
+        bar.set_length(all);
+        bar.set_position(done);
+    });
+    bar.finish_and_clear();
+    let report = report.map_err(|refusal| vec![refusal])?;
+    let mut text = String::new();
+    for finding in &report.findings {
+        let _ = writeln!(text, "{finding}");
+    }
+    let hidden = report.found - report.findings.len() as u64;
+    if hidden > 0 {
+        let _ = writeln!(text, "... and {hidden} more");
+    }
+    let _ = writeln!(
+        text,
+        "checked {} of {}, {} with {}, {}",
+        count(report.files, "file"),
+        bytes(report.bytes),
+        count(report.flights, "flight"),
+        count(report.frames, "frame"),
+        count(report.boxes, "target box").replace("boxs", "boxes"),
+    );
+    let _ = match report.found {
+        0 => writeln!(text, "nothing wrong was found"),
+        found => writeln!(text, "{} found", count(found, "problem")),
+    };
+    crate::print(&text);
+    Ok(if report.is_sound() { exit::SUCCESS } else { exit::FOUND_PROBLEMS })
+}
