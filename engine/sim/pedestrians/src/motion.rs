@@ -118,7 +118,8 @@ pub(crate) fn random_stops(
         while at_m < length_m && !may_stand(at_m) {
             at_m += KNOT_M;
         }
-        if at_m >= length_m {
+        // Absurdly rare stops give a distance that is not a number.
+        if at_m.is_nan() || at_m >= length_m {
             return stops;
         }
         stops.push(Stop { at_m, duration_s });
@@ -265,6 +266,17 @@ mod tests {
         assert!(stops.iter().all(|stop| (2.0..=8.0).contains(&stop.duration_s)));
         let mean = stops.iter().map(|stop| stop.duration_s).sum::<f64>() / stops.len() as f64;
         assert!((mean - 5.0).abs() < 0.2, "{mean}");
+    }
+
+    #[test]
+    fn absurdly_rare_stops_never_come() {
+        let mut config = PedestrianConfig::default();
+        for per_100m in [0.0, f64::MIN_POSITIVE, 1e-308 / 4.0] {
+            config.stops.per_100m = per_100m;
+            for item in 0..20 {
+                assert_eq!(random_stops(1000.0, &config, Seed::of_item(item, "s", "i"), &|_| true), vec![]);
+            }
+        }
     }
 
     #[test]
