@@ -65,8 +65,8 @@ fn why_names_the_changed_ingredient() {
     };
     let own = why("expert/p00001", "stages.expert.weights.visibility=5");
     assert!(own.contains("weights.visibility") && own.contains('5'), "{own}");
-    let upstream = why("frames/expert-p00001", "stages.walkers.turn_slowdown=0.123");
-    assert!(upstream.contains("walkers") && upstream.contains("turn_slowdown") && upstream.contains("0.123"), "{upstream}");
+    let upstream = why("frames/expert-p00001", "stages.walkers.turn_slowdown_m=0.123");
+    assert!(upstream.contains("walkers") && upstream.contains("turn_slowdown_m") && upstream.contains("0.123"), "{upstream}");
     let seed = why("captions", "seed=4");
     assert!(seed.contains("seed"), "{seed}");
     let new = why("walkers/p00004", "stages.walkers.count=5");

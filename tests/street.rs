@@ -36,7 +36,7 @@ inputs.trajectories = ["expert", "perturbed"]
 
 [stages.dataset]
 use = "dataset"
-inputs = { town = "town", trajectories = ["expert", "perturbed"], frames = "frames", captions = "captions" }
+inputs = { town = "town", frames = "frames", captions = "captions" }
 "#;
 
 /// The street's map file.
