@@ -1,10 +1,10 @@
-//! Invented buildings: boxes in line with the street, set back from the pavement.
+//! Invented buildings: boxes in line with the street, set back from its edge.
 
 use super::frontage::Front;
 use super::land::{Land, Plot, Use};
 use super::{FillConfig, Site};
 use crate::ObstacleKind;
-use cosfly_frames::{DVec2, RandomStream, Seed};
+use cosfly_frames::{DVec2, RandomStream};
 use cosfly_geometry::OrientedBox;
 
 /// Distance between tries along a front, metres.
@@ -22,9 +22,8 @@ pub fn put_up_buildings(
     land: &mut Land,
     fronts: &[Front],
     config: &FillConfig,
-    seed: Seed,
+    mut stream: RandomStream,
 ) -> usize {
-    let mut stream = seed.stream("fill buildings");
     let mut count = 0;
     for front in fronts {
         let mut along_m = 0.5 * STEP_M.min(front.length_m());
@@ -57,7 +56,6 @@ fn free_plot(land: &Land, front: &Front, along_m: f64, config: &FillConfig, stre
     for (front_share, depth_share) in SIZES {
         for setback_m in [setback_m, 0.5 * (setback_m + farthest_m), farthest_m] {
             let half_m = 0.5 * DVec2::new(front_share * front_m, depth_share * depth_m);
-            // The grid's marks reach beyond the pavement by up to a cell's diagonal; keep that out of the setback.
             let center = edge + front.away * (setback_m + half_m.y);
             let plot = Plot { center, half_m, yaw_rad: front.yaw_rad() };
             if is_free(land, &plot, config.min_setback_m) {

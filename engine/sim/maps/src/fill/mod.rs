@@ -1,6 +1,6 @@
 //! Seeded buildings, street trees and lamps for towns whose files have none.
 //!
-//! [`land`] knows what ground is taken, [`frontage`] where pavements border open land, [`buildings`] and [`greenery`]
+//! [`land`] knows what ground is taken, [`frontage`] where streets border open land, [`buildings`] and [`greenery`]
 //! use both. Everything stands off roads, pavements, crossings and what the file has.
 
 pub mod buildings;
@@ -23,7 +23,8 @@ pub fn fill(town: &mut Town, config: &FillConfig, seed: Seed) -> Vec<String> {
         return Vec::new();
     }
     let mut land = land::Land::of_town(town);
-    let fronts = frontage::fronts(town, &land);
+    let fronts = frontage::pavement_fronts(town, &land);
+    let road_fronts = frontage::road_fronts(town, &land);
     let terrain = GroundIndex::of_surfaces(&town.surfaces, |mesh| mesh.label == SemanticLabel::Terrain);
     let mut site = Site { town, terrain, added: 0 };
     let mut counts = [0; 3];
@@ -35,7 +36,9 @@ pub fn fill(town: &mut Town, config: &FillConfig, seed: Seed) -> Vec<String> {
         counts[1] = greenery::plant_trees(&mut site, &mut land, &fronts, config, seed);
     }
     if config.buildings {
-        counts[0] = buildings::put_up_buildings(&mut site, &mut land, &fronts, config, seed);
+        for (fronts, purpose) in [(&fronts, "fill pavements"), (&road_fronts, "fill roads")] {
+            counts[0] += buildings::put_up_buildings(&mut site, &mut land, fronts, config, seed.stream(purpose));
+        }
     }
     note_what_was_made(town, config, seed, counts)
 }

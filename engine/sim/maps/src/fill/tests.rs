@@ -153,7 +153,7 @@ fn carla_towns_fill_with_hundreds_of_buildings() {
         let buildings = count(&town, ObstacleKind::Building);
         let trees = count(&town, ObstacleKind::TreeTrunk);
         println!("{name}: {buildings} buildings, {trees} trees, {} lamps", count(&town, ObstacleKind::Lamp));
-        assert!((100..3000).contains(&buildings), "{name}: {buildings}");
+        assert!((60..3000).contains(&buildings), "{name}: {buildings}");
         // On hills, too, a building stands in the ground and rises above its street.
         let terrain = GroundIndex::of_surfaces(&town.surfaces, |mesh| mesh.label == SemanticLabel::Terrain);
         for one in town.obstacles.iter().filter(|one| one.synthetic && one.kind == ObstacleKind::Building) {

@@ -7,28 +7,28 @@ use serde::{Deserialize, Serialize};
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(default, deny_unknown_fields)]
 pub struct GenerateConfig {
-    /// Streets that run north-south.
+    /// Streets that run north-south. 4 to 12, default 5.
     #[schemars(range(min = 4, max = 12))]
     pub columns: u32,
-    /// Streets that run east-west.
+    /// Streets that run east-west. 4 to 12, default 5.
     #[schemars(range(min = 4, max = 12))]
     pub rows: u32,
-    /// Smallest distance between neighbouring streets, metres.
+    /// Smallest distance between neighbouring streets, metres. 60 to 300, default 68.
     #[schemars(range(min = 60.0, max = 300.0))]
     pub min_spacing_m: f64,
-    /// Largest distance between neighbouring streets, metres.
+    /// Largest distance between neighbouring streets, metres. 60 to 300, default 90.
     #[schemars(range(min = 60.0, max = 300.0))]
     pub max_spacing_m: f64,
-    /// Share of the lots that carry a building.
+    /// Share of the lots that carry a building. 0 to 1, default 0.92.
     #[schemars(range(min = 0.0, max = 1.0))]
     pub building_density: f64,
-    /// Share of the pavements that are lined with trees.
+    /// Share of the pavements that are lined with trees. 0 to 1, default 0.85.
     #[schemars(range(min = 0.0, max = 1.0))]
     pub tree_density: f64,
-    /// Lowest building, metres.
+    /// Lowest building, metres. 3 to 300, default 8.
     #[schemars(range(min = 3.0, max = 300.0))]
     pub min_height_m: f64,
-    /// Highest building, metres.
+    /// Highest building, metres. 3 to 300, default 45.
     #[schemars(range(min = 3.0, max = 300.0))]
     pub max_height_m: f64,
 }
