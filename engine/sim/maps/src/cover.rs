@@ -8,7 +8,7 @@ pub const COVER_TOLERANCE_M: f64 = 0.25;
 /// Most strips between two corners of the polygon.
 const MOST_STRIPS: f64 = 64.0;
 /// Polygons with more corners are covered by one rectangle.
-const MOST_CORNERS: usize = 2_000;
+const MOST_CORNERS: usize = 512;
 
 /// A rectangle turned about its centre.
 #[derive(Clone, Copy, Debug, PartialEq)]

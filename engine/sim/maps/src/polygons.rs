@@ -43,9 +43,15 @@ pub fn clipped_to_band(outline: &[DVec2], along: DVec2, from: f64, to: f64) -> V
     clipped_by_line(&above, to * along, -along)
 }
 
-/// Triangles over the corners of a simple polygon, by cutting ears; empty for degenerate or crossed outlines
+/// Polygons with more corners are not triangulated.
+const MOST_CORNERS: usize = 100;
+
+/// Triangles over the corners of a simple polygon of at most 100 corners, by cutting ears; empty for degenerate or crossed outlines
 /// that leave no ear.
 pub fn triangulated(outline: &[DVec2]) -> Vec<[u32; 3]> {
+    if outline.len() > MOST_CORNERS {
+        return Vec::new();
+    }
     let mut left: Vec<usize> = (0..outline.len()).collect();
     if twice_area_m2(outline) < 0.0 {
         left.reverse();
@@ -86,9 +92,13 @@ pub fn triangulated(outline: &[DVec2]) -> Vec<[u32; 3]> {
 
 /// Whether a point that is not one of the corners lies in the triangle or on its rim.
 fn inside_or_on([a, b, c]: [DVec2; 3], point: DVec2) -> bool {
-    let inside = (b - a).perp_dot(point - a) >= 0.0 && (c - b).perp_dot(point - b) >= 0.0 && (a - c).perp_dot(point - c) >= 0.0;
+    let inside =
+        (b - a).perp_dot(point - a) >= 0.0 && (c - b).perp_dot(point - b) >= 0.0 && (a - c).perp_dot(point - c) >= 0.0;
     inside && ![a, b, c].contains(&point)
 }
+
+/// Most entries in the lists of an index, beyond one for each polygon.
+const MOST_ENTRIES: f64 = 4e6;
 
 /// Polygons in a grid of cells, to find the ones at a point.
 #[derive(Clone, Debug)]
@@ -108,7 +118,19 @@ impl PolygonIndex {
         let low = corners().fold(DVec2::INFINITY, DVec2::min);
         let size = corners().fold(DVec2::NEG_INFINITY, DVec2::max) - low;
         let size = if size.is_finite() && size.min_element() >= 0.0 { size } else { DVec2::ZERO };
-        let cell_m = (size.max_element() / 512.0).max(8.0);
+        let mut cell_m = (size.max_element() / 512.0).max(8.0);
+        let extents = || {
+            outlines.iter().map(|outline| {
+                let low = outline.iter().copied().fold(DVec2::INFINITY, DVec2::min);
+                outline.iter().copied().fold(DVec2::NEG_INFINITY, DVec2::max) - low
+            })
+        };
+        // Wide polygons lie in many cells: coarser cells keep the lists short.
+        while extents().map(|size| (size.x / cell_m + 1.0) * (size.y / cell_m + 1.0)).sum::<f64>() > MOST_ENTRIES
+            && size.max_element() > cell_m
+        {
+            cell_m *= 2.0;
+        }
         let [columns, rows] = size.to_array().map(|side| (side / cell_m) as usize + 1);
         let mut index = Self { outlines, low, cell_m, columns, rows, cells: vec![Vec::new(); columns * rows] };
         for number in 0..index.outlines.len() {

@@ -1,6 +1,6 @@
 //! Real map files of `../shared`: each is read, is well formed and has what it is known to have.
 
-use cosfly_frames::{DVec2, Seed};
+use cosfly_frames::{DVec2, DVec3, Seed};
 use cosfly_maps::polygons::contains;
 use cosfly_maps::{
     GroundIndex, MapConfig, MapError, ObstacleKind, SemanticLabel, SurfaceMesh, Town, WalkableKind, read_town,
@@ -75,6 +75,91 @@ fn largest_part(town: &Town) -> f64 {
         largest = largest.max(size);
     }
     largest as f64 / total.max(1) as f64
+}
+
+/// The terrain lies below every road and pavement, and pavement polygons lie on the ground.
+fn check_ground(town: &Town) {
+    let is_terrain = |mesh: &SurfaceMesh| mesh.label == SemanticLabel::Terrain && mesh.synthetic;
+    let terrain = GroundIndex::of_surfaces(&town.surfaces, is_terrain);
+    for mesh in
+        town.surfaces.iter().filter(|mesh| matches!(mesh.label, SemanticLabel::Roads | SemanticLabel::SideWalks))
+    {
+        for triangle in mesh.triangles.iter().step_by(7) {
+            let [a, b, c] = triangle.map(|corner| mesh.vertices_in_world[corner as usize]);
+            // Faces of kerbs and skirts reach down below the terrain: only the tops count.
+            if (b - a).truncate().perp_dot((c - a).truncate()).abs() < 1e-6 {
+                continue;
+            }
+            for point in [a, b, c, (a + b + c) / 3.0] {
+                let below_m = terrain.ground_height_m(point.x, point.y).expect("the terrain is everywhere");
+                assert!(below_m < point.z - 0.1, "terrain at {below_m} pokes through the road at {point}");
+            }
+        }
+    }
+    let ground = GroundIndex::new(town);
+    let pavements = town.walkable.iter().filter(|polygon| polygon.kind == WalkableKind::Sidewalk && !polygon.synthetic);
+    let corners: Vec<_> = pavements.flat_map(|polygon| &polygon.outline_in_world).collect();
+    let on_ground =
+        |corner: &DVec3| ground.ground_near(*corner).is_some_and(|found| (found.height_m - corner.z).abs() < 0.1);
+    let count = corners.iter().filter(|corner| on_ground(corner)).count();
+    // Where a lane ends in a point its last triangles have no width and no ground.
+    assert!(count as f64 >= 0.99 * corners.len() as f64, "{count} of {} corners lie on the ground", corners.len());
+}
+
+#[test]
+fn terrain_stays_below_roads_and_pavements_lie_on_the_ground() {
+    let Some(folder) = shared() else { return };
+    for name in [
+        "carla_xodr/Town01.xodr",
+        "carla_xodr/Town04.xodr",
+        "carla_xodr/Town07.xodr",
+        "xodr_city/Ingolstadt_CityHall.xodr",
+    ] {
+        println!("{name}");
+        check_ground(&read(&folder.join(name), &MapConfig::default()));
+    }
+}
+
+#[test]
+fn walkable_ground_hangs_together() {
+    let Some(folder) = shared() else { return };
+    for (name, least) in [
+        ("carla_xodr/Town01.xodr", 0.99),
+        ("carla_xodr/Town03_2019-04.xodr", 0.7),
+        ("carla_xodr/Town04.xodr", 0.97),
+        ("carla_xodr/Town07.xodr", 0.97),
+        ("xodr_city/Ingolstadt_CityHall.xodr", 0.9),
+    ] {
+        let share = largest_part(&read(&folder.join(name), &MapConfig::default()));
+        println!("{name}: {share:.3} of the walkable ground in its largest part");
+        assert!(share >= least, "{name}: {share}");
+    }
+}
+
+#[test]
+fn a_town_without_pavements_is_refused_with_the_option_that_helps() {
+    let Some(folder) = shared() else { return };
+    let path = folder.join("carla_xodr/Town06.xodr");
+    let error = try_read(&path, &MapConfig::default()).expect_err("Town06 has no pavements");
+    assert!(error.hints.iter().any(|hint| hint.contains("shoulders_as_sidewalks = true")), "{error:?}");
+    let town = read(&path, &with_shoulders());
+    assert!(town.walkable.iter().filter(|polygon| polygon.kind == WalkableKind::Shoulder).count() > 100);
+}
+
+#[test]
+fn the_surveyed_city_keeps_its_buildings_trees_and_lamps() {
+    let Some(folder) = shared() else { return };
+    let town = read(&folder.join("xodr_city/Ingolstadt_CityHall.xodr"), &MapConfig::default());
+    let things = |kind| {
+        let ids = town.obstacles.iter().filter(|obstacle| obstacle.kind == kind).map(|obstacle| obstacle.object_id);
+        ids.collect::<std::collections::BTreeSet<_>>().len()
+    };
+    // 123 objects of type building, of which 4 are bus stops.
+    assert_eq!(
+        (things(ObstacleKind::Building), things(ObstacleKind::TreeTrunk), things(ObstacleKind::Lamp)),
+        (119, 117, 40)
+    );
+    assert!(town.origin.offset_m.length() > 1e6 && town.max_in_world.abs().max_element() < 1e3);
 }
 
 fn triangles(town: &Town) -> usize {

@@ -80,12 +80,14 @@ fn with_source<T>(
 }
 
 fn broken_xml(error: &roxmltree::Error, text: &str, lines: &Lines<'_>) -> MapError {
+    // For a file that just stops the parser has no position.
+    let stops = matches!(error, roxmltree::Error::UnclosedRootNode | roxmltree::Error::UnexpectedEndOfStream);
     let position = error.pos();
-    let at = lines.byte_at(position.row, position.col);
+    let at = if stops { text.trim_end().len().saturating_sub(1) } else { lines.byte_at(position.row, position.col) };
     // The parser's own text ends with the position, which the place says better.
     let reason = error.to_string();
     let reason = reason.rsplit_once(" at ").map_or(reason.as_str(), |(before, _)| before);
-    let truncated = at + 1 >= text.trim_end().len() || matches!(error, roxmltree::Error::UnclosedRootNode);
+    let truncated = stops || at + 1 >= text.trim_end().len();
     let hint = if truncated {
         "the file seems to be cut off: fetch or export it again"
     } else {
@@ -219,7 +221,7 @@ impl Parts {
         let is_pole = |kind| matches!(kind, ObstacleKind::Pole | ObstacleKind::Lamp | ObstacleKind::TrafficLight);
         let own = self.obstacles.obstacles.iter().filter(|obstacle| is_pole(obstacle.kind));
         let poles: Vec<DVec2> = own.map(|obstacle| obstacle.shape.center_in_world.truncate()).collect();
-        let mut assumed = 0;
+        let mut assumed = self.obstacles.bare_signs;
         for road in &network.roads {
             assumed += signals::add_signals(&mut self.obstacles, road, &poles, &self.world);
         }

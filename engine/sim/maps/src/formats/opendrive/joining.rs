@@ -22,6 +22,10 @@ const SPACING_M: f64 = 1.0;
 /// Steepest strip, rise over run.
 const STEEPEST: f64 = 0.15;
 
+/// Most points along all outlines, and most pairs of points that are looked at: bounds for absurd maps.
+const MOST_SAMPLES: f64 = 2e6;
+const MOST_PAIRS: usize = 50_000_000;
+
 /// Points along the outlines; each knows its polygon.
 struct Sample {
     point: DVec3,
@@ -56,6 +60,10 @@ pub(super) fn joining_strips(
     ground: &GroundIndex,
     meshes: &mut MeshBuilder,
 ) -> Vec<WalkablePolygon> {
+    let perimeter_m: f64 = walkable.iter().map(perimeter_m).sum();
+    if perimeter_m / (2.0 * TOUCHING_M[0]) > MOST_SAMPLES {
+        return Vec::new();
+    }
     let mut parts = Parts { parents: (0..walkable.len()).collect() };
     let fine = samples(walkable, 2.0 * TOUCHING_M[0]);
     unite_touching(&mut parts, &fine, walkable);
@@ -73,13 +81,18 @@ pub(super) fn joining_strips(
     strips
 }
 
+fn perimeter_m(polygon: &WalkablePolygon) -> f64 {
+    let plan = polygon.plan();
+    (0..plan.len()).map(|i| plan[i].distance(plan[(i + 1) % plan.len()])).sum()
+}
+
 fn samples(walkable: &[WalkablePolygon], spacing_m: f64) -> Vec<Sample> {
     let mut out = Vec::new();
     for (polygon, area) in walkable.iter().enumerate() {
         let outline = &area.outline_in_world;
         for i in 0..outline.len() {
             let (a, b) = (outline[i], outline[(i + 1) % outline.len()]);
-            let steps = (a.distance(b) / spacing_m).ceil().clamp(1.0, 1e4) as usize;
+            let steps = ((b - a).truncate().length() / spacing_m).ceil().clamp(1.0, 1e4) as usize;
             out.extend((0..steps).map(|step| Sample { point: a.lerp(b, step as f64 / steps as f64), polygon }));
         }
     }
@@ -113,9 +126,14 @@ fn unite_touching(parts: &mut Parts, fine: &[Sample], walkable: &[WalkablePolygo
     let [near_m, level_m] = TOUCHING_M;
     let cell_m = 2.0 * near_m;
     let grid = cells(fine, cell_m);
+    let mut pairs = 0;
     for sample in fine {
+        if pairs > MOST_PAIRS {
+            break;
+        }
         for other in around(&grid, cell(sample.point, cell_m)).map(|number| &fine[number]) {
             let offset = (other.point - sample.point).abs();
+            pairs += 1;
             if offset.z < level_m && offset.truncate().length() < 2.0 * near_m {
                 parts.unite(sample.polygon, other.polygon);
             }
@@ -131,17 +149,35 @@ fn unite_touching(parts: &mut Parts, fine: &[Sample], walkable: &[WalkablePolygo
     }
 }
 
+/// One point of each part in each square of one spacing.
+fn thinned<'s>(parts: &mut Parts, samples: &'s [Sample]) -> Vec<&'s Sample> {
+    let mut kept = BTreeMap::new();
+    for sample in samples {
+        kept.entry((parts.root(sample.polygon), cell(sample.point, SPACING_M))).or_insert(sample);
+    }
+    kept.into_values().collect()
+}
+
 /// Pairs of points of different parts, nearest first; for each point the nearest one of each other part.
 fn candidates<'s>(parts: &mut Parts, samples: &'s [Sample]) -> Vec<(&'s Sample, &'s Sample)> {
+    let samples = thinned(parts, samples);
     let roots: Vec<usize> = samples.iter().map(|sample| parts.root(sample.polygon)).collect();
     if roots.windows(2).all(|pair| pair[0] == pair[1]) {
         return Vec::new();
     }
-    let grid = cells(samples, LONGEST_M);
+    let mut grid = Cells::new();
+    for (number, sample) in samples.iter().enumerate() {
+        grid.entry(cell(sample.point, LONGEST_M)).or_default().push(number);
+    }
+    let mut looked_at = 0;
     let mut pairs: Vec<(f64, usize, usize)> = Vec::new();
     for (number, sample) in samples.iter().enumerate() {
         let mut nearest: BTreeMap<usize, (f64, usize)> = BTreeMap::new();
+        if looked_at > MOST_PAIRS {
+            break;
+        }
         for other in around(&grid, cell(sample.point, LONGEST_M)).filter(|other| roots[*other] > roots[number]) {
+            looked_at += 1;
             let offset = samples[other].point - sample.point;
             let distance_m = offset.truncate().length();
             if distance_m <= LONGEST_M && offset.z.abs() <= STEEPEST * distance_m + 0.3 {
@@ -154,7 +190,7 @@ fn candidates<'s>(parts: &mut Parts, samples: &'s [Sample]) -> Vec<(&'s Sample, 
         pairs.extend(nearest.into_values().map(|(distance_m, other)| (distance_m, number, other)));
     }
     pairs.sort_by(|a, b| a.0.total_cmp(&b.0).then((a.1, a.2).cmp(&(b.1, b.2))));
-    pairs.into_iter().map(|(_, a, b)| (&samples[a], &samples[b])).collect()
+    pairs.into_iter().map(|(_, a, b)| (samples[a], samples[b])).collect()
 }
 
 /// Footprints of everything a pedestrian would run into.

@@ -165,7 +165,7 @@ pub struct Dash {
 }
 
 /// `<object>`.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq)]
 pub struct RoadObject {
     /// `id` in the file.
     pub id: String,

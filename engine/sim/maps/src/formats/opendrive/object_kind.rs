@@ -36,8 +36,25 @@ const NAMES: &[(&str, ObstacleKind)] = &[
     ("bench", ObstacleKind::Static),
 ];
 
+/// Words of painted things that some exporters give the type "-1" or none.
+const PAINT: &[&str] = &[
+    "stencil",
+    "stopline",
+    "stop_line",
+    "singlewhite",
+    "singleyellow",
+    "solidwhite",
+    "chevron",
+    "crosswalk",
+    "dashed",
+];
+
 /// Decides by type first, by name where the type says little.
 pub(super) fn kind_of(object: &RoadObject) -> ObjectKind {
+    let says_little = matches!(object.type_name.as_str(), "" | "-1" | "none");
+    if says_little && PAINT.iter().any(|word| object.name.contains(word)) {
+        return ObjectKind::Flat;
+    }
     let named = NAMES.iter().find(|(word, _)| object.name.contains(word)).map(|(_, kind)| *kind);
     let solid = |usual: ObstacleKind| ObjectKind::Solid(named.unwrap_or(usual));
     match object.type_name.as_str() {
@@ -57,7 +74,37 @@ pub(super) fn kind_of(object: &RoadObject) -> ObjectKind {
         _ => solid(match object.name.as_str() {
             name if name.contains("building") => ObstacleKind::Building,
             name if name.contains("tree") => ObstacleKind::TreeTrunk,
+            name if name.contains("pole") || name.contains("post") => ObstacleKind::Pole,
+            name if name.starts_with("speed_") || name.contains("sign") => ObstacleKind::TrafficSign,
             _ => ObstacleKind::Static,
         }),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn names_decide_where_types_say_little() {
+        for (type_name, name, expected) in [
+            ("building", "", ObjectKind::Solid(ObstacleKind::Building)),
+            ("building", "busstop", ObjectKind::Solid(ObstacleKind::Static)),
+            ("pole", "streetlamp", ObjectKind::Solid(ObstacleKind::Lamp)),
+            ("pole", "trafficsign", ObjectKind::Solid(ObstacleKind::Pole)),
+            ("barrier", "wall", ObjectKind::Solid(ObstacleKind::Wall)),
+            ("barrier", "railing", ObjectKind::Solid(ObstacleKind::Fence)),
+            ("barrier", "", ObjectKind::Solid(ObstacleKind::GuardRail)),
+            ("vegetation", "", ObjectKind::Solid(ObstacleKind::Bush)),
+            ("-1", "speed_30", ObjectKind::Solid(ObstacleKind::TrafficSign)),
+            ("-1", "signpost_10ft", ObjectKind::Solid(ObstacleKind::Pole)),
+            ("-1", "stencil_stop", ObjectKind::Flat),
+            ("parkingspace", "", ObjectKind::Flat),
+            ("crosswalk", "simplecrosswalk", ObjectKind::Crosswalk),
+            ("somethingnew", "", ObjectKind::Solid(ObstacleKind::Static)),
+        ] {
+            let object = RoadObject { type_name: type_name.to_owned(), name: name.to_owned(), ..RoadObject::default() };
+            assert_eq!(kind_of(&object), expected, "{type_name} {name}");
+        }
     }
 }

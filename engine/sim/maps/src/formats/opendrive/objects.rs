@@ -24,6 +24,8 @@ pub(super) struct ObstacleBuilder {
     next_object_id: u32,
     /// Trees whose crown is our assumption.
     pub(super) assumed_crowns: usize,
+    /// Signs whose plate and pole are our assumption.
+    pub(super) bare_signs: usize,
     /// Objects that gave no usable size.
     pub(super) without_size: usize,
     /// Boxes beyond [`MOST_OBSTACLES`].
@@ -115,6 +117,9 @@ impl ObstacleBuilder {
         if kind == ObstacleKind::TreeTrunk {
             return self.add_tree(object, foot, heading_rad, footprint_m, height_m, world);
         }
+        if kind == ObstacleKind::TrafficSign && height_m < LOWEST_M {
+            return self.add_bare_sign(foot, heading_rad, world);
+        }
         let radius_m = object.size.radius_m;
         let half = if radius_m > 0.0 { DVec2::splat(radius_m) } else { 0.5 * footprint_m };
         let thin = matches!(kind, ObstacleKind::Pole | ObstacleKind::Lamp | ObstacleKind::TrafficLight);
@@ -129,6 +134,16 @@ impl ObstacleBuilder {
         if height_m >= LOWEST_M && !flat {
             self.push_upright(kind, foot, half, heading_rad, height_m, world);
         }
+    }
+
+    /// A sign whose file gives only its foot: a plate of usual size on a pole.
+    fn add_bare_sign(&mut self, foot: DVec3, heading_rad: f64, world: &WorldFromMap) {
+        const LOWER_END_M: f64 = 2.3;
+        const PLATE_M: f64 = 0.6;
+        self.bare_signs += 1;
+        self.push_upright(ObstacleKind::Pole, foot, DVec2::splat(0.05), heading_rad, LOWER_END_M, world);
+        let half = DVec2::new(0.025, 0.5 * PLATE_M);
+        self.push_upright(ObstacleKind::TrafficSign, foot + LOWER_END_M * DVec3::Z, half, heading_rad, PLATE_M, world);
     }
 
     /// Trunk and crown. A radius below 0.6 m is the trunk's (as surveys give it), a larger one the crown's. Where

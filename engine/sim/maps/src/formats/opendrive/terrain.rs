@@ -30,7 +30,7 @@ struct HeightGrid {
 /// Adds the terrain (synthetic, label Terrain) under all meshes made so far.
 pub(super) fn add_terrain(builder: &mut MeshBuilder, obstacles: &[Obstacle]) {
     let Some(mut grid) = HeightGrid::around(builder.meshes(), obstacles) else { return };
-    for mesh in builder.meshes() {
+    for mesh in builder.meshes().filter(|mesh| mesh.label != SemanticLabel::RoadLine) {
         for triangle in &mesh.triangles {
             grid.lower_below(triangle.map(|corner| mesh.vertices_in_world[corner as usize]));
         }

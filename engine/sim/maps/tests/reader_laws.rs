@@ -1,0 +1,269 @@
+//! Laws of every map reader: it refuses bad input with a place and never panics, whatever the bytes.
+
+use cosfly_frames::{RandomStream, Seed};
+use cosfly_maps::formats::opendrive::RoadMap;
+use cosfly_maps::{MapConfig, MapError, ObstacleKind, SemanticLabel, Town, WalkableKind, read_town};
+use std::time::{Duration, Instant};
+
+/// A road of every curve, with every kind of profile, object and signal.
+const STREET: &str = include_str!("every_feature.xodr");
+
+fn read(text: &str) -> Result<Town, MapError> {
+    read_bytes(text.as_bytes())
+}
+
+fn read_bytes(bytes: &[u8]) -> Result<Town, MapError> {
+    let options = MapConfig { shoulders_as_sidewalks: true, ..MapConfig::default() };
+    let (town, _) = read_town(bytes, &options, Seed::of_item(1, "town", "town"))?;
+    town.assert_well_formed().expect("a town that was read is well formed");
+    Ok(town)
+}
+
+/// The street with one piece of its text replaced.
+fn with(from: &str, to: &str) -> String {
+    assert!(STREET.contains(from), "`{from}` is in the test file");
+    STREET.replacen(from, to, 1)
+}
+
+fn check_refused(text: &str, expected: &str, line: Option<u32>) {
+    let error = read(text).expect_err(expected);
+    assert!(error.to_string().contains(expected), "`{error}` says `{expected}`");
+    if let Some(line) = line {
+        let place = error.place.as_ref().unwrap_or_else(|| panic!("`{error}` has a place"));
+        assert_eq!(place.line, line, "{error}");
+        assert!(place.byte_span.end <= text.len() + 1, "{error}");
+    }
+}
+
+fn line_of(text: &str, what: &str) -> Option<u32> {
+    text.lines().position(|line| line.contains(what)).map(|line| line as u32 + 1)
+}
+
+#[test]
+fn a_file_with_every_feature_gives_every_part_of_a_town() {
+    let town = read(STREET).unwrap();
+    let kinds = |kind| town.obstacles.iter().filter(|obstacle| obstacle.kind == kind).count();
+    use ObstacleKind as Kind;
+    for (kind, expected) in [
+        (Kind::Building, 3),
+        (Kind::TreeTrunk, 2),
+        (Kind::TreeCrown, 2),
+        (Kind::Lamp, 6),
+        (Kind::TrafficLight, 1),
+        (Kind::TrafficSign, 2),
+        (Kind::Pole, 3),
+    ] {
+        assert_eq!(kinds(kind), expected, "{kind:?}");
+    }
+    assert!(kinds(Kind::Wall) >= 2 && kinds(Kind::Fence) >= 1);
+    for label in [SemanticLabel::Roads, SemanticLabel::SideWalks, SemanticLabel::RoadLine, SemanticLabel::Terrain] {
+        assert!(town.surfaces.iter().any(|mesh| mesh.label == label && !mesh.triangles.is_empty()), "{label:?}");
+    }
+    for kind in [WalkableKind::Sidewalk, WalkableKind::Crossing, WalkableKind::Shoulder] {
+        assert!(town.walkable.iter().any(|polygon| polygon.kind == kind), "{kind:?}");
+    }
+    assert_eq!((town.name.as_str(), town.origin.geo_reference.as_deref()), ("every feature", Some("+proj=tmerc")));
+}
+
+#[test]
+fn trees_keep_the_crowns_of_the_file() {
+    let town = read(STREET).unwrap();
+    let crowns: Vec<_> = town.obstacles.iter().filter(|obstacle| obstacle.kind == ObstacleKind::TreeCrown).collect();
+    assert!((crowns[0].shape.half_extents_m.x - 2.5).abs() < 1e-12);
+    assert!((2.0 * crowns[0].shape.half_extents_m.z - 5.0).abs() < 1e-9, "height 8 m, crown from 3 m");
+    assert!(town.synthetic.notes.iter().any(|note| note.contains("crowns of 1 trees are assumed")));
+}
+
+#[test]
+fn curves_follow_each_other_without_gaps() {
+    let (map, warnings) = RoadMap::read(STREET.as_bytes()).unwrap();
+    assert_eq!(warnings, Vec::<String>::new());
+    let road = &map.network.roads[0];
+    for pair in road.plan.windows(2) {
+        let end = pair[0].at(pair[1].start_s_m);
+        assert!(end.position_in_map.distance(pair[1].start.position_in_map) < 1e-3, "s = {}", pair[1].start_s_m);
+    }
+}
+
+#[test]
+fn far_maps_move_to_the_origin_by_whole_metres() {
+    let (map, _) = RoadMap::read(STREET.as_bytes()).unwrap();
+    let far = STREET.replace("x=\"", "x=\"678");
+    let (moved, _) = RoadMap::read(far.as_bytes()).unwrap();
+    assert_eq!(map.world.offset_m.length(), 0.0);
+    assert!(moved.world.offset_m.x > 1e4 && moved.world.offset_m.x.fract() == 0.0);
+}
+
+#[test]
+fn bad_numbers_are_refused_with_value_rule_and_line() {
+    for (from, to, expected) in [
+        ("length=\"40\"><line", "length=\"NaN\"><line", "`length` is `NaN`; it must be a finite number"),
+        ("length=\"40\"><line", "length=\"-40\"><line", "`length` is `-40`; it must lie between 0 and 1000000 m"),
+        ("length=\"40\"><line", "length=\"1e300\"><line", "it must lie between"),
+        ("length=\"40\"><line", "><line", "`geometry` has no `length`"),
+        ("hdg=\"0\" length=\"40\"", "hdg=\"inf\" length=\"40\"", "`hdg` is `inf`; it must be a finite number"),
+        ("hdg=\"0\" length=\"40\"", "hdg=\"zero\" length=\"40\"", "`hdg` is `zero`; it must be a number"),
+        ("curvature=\"0.02\"", "curvature=\"1e9\"", "`curvature` is `1e9`"),
+        ("<width sOffset=\"0\" a=\"3.5\"", "<width sOffset=\"0\" a=\"3.5e6\"", "`a` is `3.5e6`; it must lie between"),
+        ("type=\"building\" s=\"10\"", "type=\"building\" s=\"nan\"", "`s` is `nan`"),
+        ("pRange=\"normalized\"", "pRange=\"metres\"", "`pRange` is `metres`; it must be"),
+        ("<line/>", "<wiggle/>", "`wiggle` is not a known shape"),
+        ("<lane id=\"1\"", "<lane id=\"one\"", "`id` is `one`; a lane's id is a whole number"),
+    ] {
+        let text = with(from, to);
+        let line = line_of(&text, to);
+        check_refused(&text, expected, line);
+    }
+}
+
+#[test]
+fn errors_name_the_element_and_what_it_belongs_to() {
+    let text = with("<width sOffset=\"0\" a=\"3.5\"", "<width sOffset=\"0\" a=\"x\"");
+    let error = read(&text).unwrap_err();
+    let place = error.place.unwrap();
+    assert_eq!(place.element, "<width> of lane `1` of road `main street`");
+    assert_eq!(&text[place.byte_span], "x");
+}
+
+#[test]
+fn widths_that_grow_beyond_all_bounds_are_refused() {
+    let text = with("<width sOffset=\"0\" a=\"3.5\" b=\"0\"", "<width sOffset=\"0\" a=\"3.5\" b=\"1e6\"");
+    check_refused(&text, "a lane is at most 1000 m wide", line_of(&text, "<road "));
+}
+
+#[test]
+fn wrong_files_say_what_is_wrong() {
+    for (bytes, expected) in [
+        (&b""[..], "the file is empty"),
+        (b"hello", "the file is of no known map format"),
+        (b"<?xml version='1.0'?><OpenDRIVE/>", "the file has no road"),
+        (b"<OpenDRIVE><road id='1' length='5'/></OpenDRIVE>", "the road has no `<planView>`"),
+        (b"<!DOCTYPE a [<!ENTITY b 'c'>]><OpenDRIVE/>", "broken XML"),
+        (b"\xff\xfe<\0O\0p\0e\0n\0D\0R\0I\0V\0E\0>\0", "UTF-16"),
+        (b"<OpenDRIVE>\xff\xff</OpenDRIVE>", "byte 0xff is not UTF-8 text"),
+    ] {
+        let error = read_bytes(bytes).expect_err(expected);
+        assert!(error.to_string().contains(expected), "`{error}` says `{expected}`");
+    }
+}
+
+#[test]
+fn a_truncated_file_gives_the_place_and_says_that_it_is_cut_off() {
+    for share in [0.2, 0.5, 0.77, 0.99] {
+        let end = (STREET.len() as f64 * share) as usize;
+        let error = read(&STREET[..end]).unwrap_err();
+        assert!(error.message.starts_with("broken XML"), "{error}");
+        let place = error.place.expect("a truncated file has a place");
+        assert!(place.line > 1 && place.byte_span.start <= end, "{place:?}");
+        assert!(error.hints.iter().any(|hint| hint.contains("cut off")), "{:?} at {share}", error.hints);
+    }
+}
+
+#[test]
+fn a_town_without_pavements_names_the_option_that_helps() {
+    let text = STREET.replace("type=\"sidewalk\"", "type=\"none\"");
+    let refused = read_town(text.as_bytes(), &MapConfig::default(), Seed::of_item(1, "t", "t")).unwrap_err();
+    assert!(refused.message.contains("no walkable ground"), "{refused}");
+    assert!(refused.hints[0].contains("shoulders_as_sidewalks = true"), "{:?}", refused.hints);
+    let town = read(&text).unwrap();
+    assert!(town.walkable.iter().any(|polygon| polygon.kind == WalkableKind::Shoulder));
+}
+
+#[test]
+fn deep_nesting_is_refused_or_ignored_in_bounded_time() {
+    for depth in [1_000, 200_000] {
+        let text = STREET.replacen(
+            "<lateralProfile>",
+            &format!("{}{}<lateralProfile>", "<a>".repeat(depth), "</a>".repeat(depth)),
+            1,
+        );
+        let start = Instant::now();
+        let _ = read(&text);
+        assert!(start.elapsed() < Duration::from_secs(10), "depth {depth}");
+    }
+}
+
+#[test]
+fn hostile_sizes_end_in_an_error_or_a_town_but_end() {
+    for (from, to) in [
+        ("distance=\"8\"", "distance=\"1e-9\""),
+        ("length=\"40\"><line/>", "length=\"999999\"><arc curvature=\"999\"/>"),
+        ("curvStart=\"0.02\"", "curvStart=\"-1000\""),
+        (
+            "<width sOffset=\"0\" a=\"3.5\" b=\"0\" c=\"0\" d=\"0\"/>",
+            "<width sOffset=\"0\" a=\"3.5\" b=\"1e7\" c=\"-1e8\" d=\"1e8\"/>",
+        ),
+        ("space=\"4\"", "space=\"0\""),
+        ("x=\"0\" y=\"0\"", "x=\"1e8\" y=\"-1e8\""),
+        ("u=\"-6\"", "u=\"-99999\""),
+    ] {
+        let start = Instant::now();
+        let result = read(&with(from, to));
+        println!(
+            "{to}: {:.2} s, {}",
+            start.elapsed().as_secs_f64(),
+            result.map_or_else(|e| e.to_string(), |_| "a town".into())
+        );
+        assert!(start.elapsed() < Duration::from_secs(20), "{to}");
+    }
+}
+
+fn mutated(bytes: &[u8], stream: &mut RandomStream) -> Vec<u8> {
+    const PIECES: &[&str] = &[
+        "", "-", "1e9", "nan", "inf", "\"", "<", ">", "/>", "0", "999999", "-1", "s=\"", "<road>", "\u{0}", "e308", " ",
+    ];
+    let mut out = bytes.to_vec();
+    for _ in 0..=stream.index(4) {
+        let at = stream.index(out.len());
+        match stream.index(4) {
+            0 => out[at] = stream.index(256) as u8,
+            1 => drop(out.splice(at..at, PIECES[stream.index(PIECES.len())].bytes())),
+            2 => {
+                let end = (at + stream.index(40)).min(out.len());
+                out.drain(at..end);
+            }
+            _ => {
+                // Digits become other digits, so that the file stays well formed and the numbers turn wild.
+                let digit = b"0123456789.e-"[stream.index(13)];
+                if let Some(found) = out[at..].iter().position(u8::is_ascii_digit) {
+                    out[at + found] = digit;
+                }
+            }
+        }
+        if out.is_empty() {
+            return out;
+        }
+    }
+    out
+}
+
+#[test]
+fn random_damage_never_panics() {
+    let mut stream = Seed::of_item(1, "maps", "mutations").stream("damage");
+    let (mut towns, mut errors) = (0, 0);
+    let start = Instant::now();
+    for round in 0..400 {
+        let bytes = mutated(STREET.as_bytes(), &mut stream);
+        let begun = Instant::now();
+        match read_bytes(&bytes) {
+            Ok(_) => towns += 1,
+            Err(_) => errors += 1,
+        }
+        assert!(begun.elapsed() < Duration::from_secs(20), "round {round} took {:?}", begun.elapsed());
+    }
+    println!("{towns} towns, {errors} errors in {:.1} s", start.elapsed().as_secs_f64());
+    assert!(towns > 30 && errors > 30);
+}
+
+#[test]
+fn garbage_and_every_truncation_never_panic() {
+    let mut stream = Seed::of_item(1, "maps", "garbage").stream("bytes");
+    for _ in 0..200 {
+        let mut bytes = b"<OpenDRIVE".to_vec();
+        bytes.extend((0..stream.index(400)).map(|_| stream.index(256) as u8));
+        assert!(read_bytes(&bytes).is_err());
+    }
+    for end in (0..STREET.len()).step_by(101) {
+        assert!(read_bytes(&STREET.as_bytes()[..end]).is_err() || STREET[end..].trim().is_empty(), "cut at {end}");
+    }
+}
