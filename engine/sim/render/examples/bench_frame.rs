@@ -4,10 +4,9 @@
 mod small_town;
 
 use cosfly_frames::{DVec3, Pose, Seed, TargetState};
-use cosfly_render::{FrameSetup, RenderConfig, Renderer, Scene, StageTimes, TargetSetup, Weather};
+use cosfly_render::{FrameParts, FrameSetup, RenderConfig, Renderer, Scene, TargetSetup, Weather};
 use std::time::Instant;
 
-#[expect(clippy::disallowed_methods, reason = "a benchmark reads the clock")]
 fn main() {
     let mut town = small_town::small_town(9, 1);
     refine(&mut town, 100_000);
@@ -21,9 +20,9 @@ fn main() {
     let mut renderer = Renderer::new(RenderConfig::default().camera());
     let frames: Vec<(Pose, TargetSetup)> = (0..20).map(frame).collect();
     for (name, parts) in [
-        ("visibility", StageTimes::Visibility),
-        ("visibility, depth, ids", StageTimes::Ids),
-        ("everything", StageTimes::All),
+        ("visibility", FrameParts::Visibility),
+        ("visibility, depth, ids", FrameParts::Ids),
+        ("everything", FrameParts::All),
     ] {
         let start = cpu_ms(started);
         for (pose, target) in frames.iter().chain(&frames) {

@@ -23,6 +23,6 @@ pub use camera::Camera;
 pub use config::{ConfigProblem, RenderConfig};
 pub use figure::{TargetSetup, gait_phase_rad, target_triangles};
 pub use frame::{FrameImages, PixelBox, TargetView};
-pub use renderer::{FrameSetup, RenderedFrame, Renderer, StageTimes};
+pub use renderer::{FrameParts, FrameSetup, RenderedFrame, Renderer};
 pub use scene::{Scene, SceneTriangle};
 pub use weather::Weather;

@@ -52,7 +52,7 @@ pub(crate) enum FaceSource {
 
 /// Which parts of a frame [`Renderer::render_parts`] makes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum StageTimes {
+pub enum FrameParts {
     /// Visibility only: what is nearest at each pixel.
     Visibility,
     /// Visibility, depth, semantic and instance ids, target view.
@@ -110,11 +110,11 @@ impl Renderer {
 
     /// Draws all channels of one frame. The same scene and setup give the same bytes on any thread, after any other frame.
     pub fn render(&mut self, scene: &Scene, setup: &FrameSetup<'_>) -> RenderedFrame<'_> {
-        self.render_parts(scene, setup, StageTimes::All)
+        self.render_parts(scene, setup, FrameParts::All)
     }
 
     /// Draws a frame up to a stage; channels of later stages keep what they held. For measuring.
-    pub fn render_parts(&mut self, scene: &Scene, setup: &FrameSetup<'_>, parts: StageTimes) -> RenderedFrame<'_> {
+    pub fn render_parts(&mut self, scene: &Scene, setup: &FrameSetup<'_>, parts: FrameParts) -> RenderedFrame<'_> {
         let eye = Eye::new(&setup.pose);
         self.nearest.clear();
         self.alone.clear();
@@ -127,14 +127,14 @@ impl Renderer {
         self.draw_figure(&eye);
         self.draw_ground(scene, &eye);
         let mut view = target_view::NOT_IN_VIEW;
-        if parts != StageTimes::Visibility {
+        if parts != FrameParts::Visibility {
             self.resolve();
             if let Some(target) = &setup.target {
                 view = target_view::measure(&self.images, &self.alone, &mut self.occluders);
                 view.visible_by_rays = target.visible_by_rays;
             }
         }
-        if parts == StageTimes::All {
+        if parts == FrameParts::All {
             let clothes = setup.target.as_ref().map(|target| Clothes::draw(&target.clothes_seed));
             self.shader.prepare(scene, setup, &eye, &self.figure, clothes);
             self.shader.shade(scene, &self.nearest, &self.faces, &self.figure, &mut self.images);

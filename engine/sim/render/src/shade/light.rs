@@ -78,7 +78,7 @@ impl Light {
             sun,
             zenith,
             horizon,
-            dome: grey_towards(zenith * 0.62 + horizon * 0.38, 0.5) * lerp(1.9, 1.2, overcast),
+            dome: grey_towards(zenith * 0.62 + horizon * 0.38, 0.5) * lerp(1.9, 1.2, overcast) * (1.0 + 1.2 * night),
             bounce: 0.36 * (0.5 * sun * to_sun.z + 0.6 * zenith),
             haze_per_m,
             haze_start_m: weather.fog_distance.clamp(0.0, 1000.0) as f32,

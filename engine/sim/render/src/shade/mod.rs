@@ -243,7 +243,7 @@ impl Shader {
                 let look = look_at(&point);
                 let toward = look.normal.dot(self.light.to_sun);
                 // Shadows are looked up for every other pixel of a block and for its last one.
-                if sparse || (column - start) % 2 == 0 || column + 1 == end {
+                if sparse || (column - start).is_multiple_of(2) || column + 1 == end {
                     sunlight = self.shadows.sunlight(world, normal, &context.scene.noise);
                 }
                 let direct = self.light.sun * (toward.max(0.0) * sunlight);

@@ -79,10 +79,10 @@ fn leaves(point: &SurfacePoint, place: &BoxPlace, noise: &NoiseTexture) -> Look 
     let normal = bent.normalize_or(point.normal);
     // Darker below and towards the box's edges, where a round crown would turn away.
     let spread = (place.local / place.half.max(Vec3::splat(0.1))).length();
-    let shade = (0.45 + 0.55 * smoothstep(-1.0, 0.9, out.z)) * (1.0 - 0.5 * smoothstep(1.05, 1.7, spread));
+    let shade = (0.6 + 0.4 * smoothstep(-1.0, 0.9, out.z)) * (1.0 - 0.35 * smoothstep(1.05, 1.7, spread));
     Look {
-        openness: (0.30 + 0.70 * deep) * shade,
-        ..Look::matt(tint * ((0.35 + 1.05 * deep) * (0.5 + 0.5 * shade)), normal)
+        openness: (0.55 + 0.45 * deep) * shade,
+        ..Look::matt(tint * ((0.36 + 0.90 * deep) * (0.6 + 0.4 * shade)), normal)
     }
 }
 
