@@ -15,8 +15,10 @@ const LONGEST_M: f64 = 25.0;
 const WIDTH_M: f64 = 2.5;
 /// How far a strip reaches into the ground that it joins, metres.
 const OVERLAP_M: f64 = 0.8;
-/// Outlines closer than this, in plan and in height, touch, metres.
-const TOUCHING_M: [f64; 2] = [0.3, 0.6];
+/// Corners closer than this, in plan and in height, touch, metres.
+const TOUCHING_M: [f64; 2] = [0.05, 0.6];
+/// Distance between the outline points that are looked for in other polygons, metres.
+const FINE_M: f64 = 0.6;
 /// Distance between the points at which strips may begin, metres.
 const SPACING_M: f64 = 1.0;
 /// Steepest strip, rise over run.
@@ -61,11 +63,11 @@ pub(super) fn joining_strips(
     meshes: &mut MeshBuilder,
 ) -> Vec<WalkablePolygon> {
     let perimeter_m: f64 = walkable.iter().map(perimeter_m).sum();
-    if perimeter_m / (2.0 * TOUCHING_M[0]) > MOST_SAMPLES {
+    if perimeter_m / FINE_M > MOST_SAMPLES {
         return Vec::new();
     }
     let mut parts = Parts { parents: (0..walkable.len()).collect() };
-    let fine = samples(walkable, 2.0 * TOUCHING_M[0]);
+    let fine = samples(walkable, FINE_M);
     unite_touching(&mut parts, &fine, walkable);
     let blocked = footprints(obstacles);
     let mut strips = Vec::new();
@@ -134,7 +136,7 @@ fn unite_touching(parts: &mut Parts, fine: &[Sample], walkable: &[WalkablePolygo
         for other in around(&grid, cell(sample.point, cell_m)).map(|number| &fine[number]) {
             let offset = (other.point - sample.point).abs();
             pairs += 1;
-            if offset.z < level_m && offset.truncate().length() < 2.0 * near_m {
+            if offset.z < level_m && offset.truncate().length() < near_m {
                 parts.unite(sample.polygon, other.polygon);
             }
         }
