@@ -88,6 +88,7 @@ struct Shared {
     retried: BTreeSet<TaskId>,
     healings: BTreeMap<TaskId, u32>,
     failures: Vec<Failure>,
+    #[expect(clippy::vec_box, reason = "diagnostics are boxed wherever they go")]
     diagnostics: Vec<Box<Diagnostic>>,
     /// The machine refuses to go on.
     broken: bool,

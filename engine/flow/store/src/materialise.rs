@@ -163,10 +163,10 @@ fn build(store: &Store, blobs: &BTreeMap<String, BlobRef>, version: &Digest, fol
     let mut marker = format!("{version}\n");
     for (name, blob) in blobs {
         let path = folder.join(name);
-        if let Some((parent, _)) = name.rsplit_once('/') {
-            if made.insert(parent) {
-                fs::create_dir_all(folder.join(parent)).map_err(|error| refused(folder, &error))?;
-            }
+        if let Some((parent, _)) = name.rsplit_once('/')
+            && made.insert(parent)
+        {
+            fs::create_dir_all(folder.join(parent)).map_err(|error| refused(folder, &error))?;
         }
         let mut source = store.open(blob)?;
         let placed = fs::hard_link(store.blob_path(blob), &path)

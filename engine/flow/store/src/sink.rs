@@ -40,10 +40,10 @@ impl<'s> TaskSink<'s> {
         let outputs = self.outputs.iter().map(|(name, (blob, _))| (name.clone(), *blob)).collect();
         let record = ActionRecord::new(outputs, produced);
         let earlier = self.store.action(action).filter(|earlier| self.store.holds(earlier));
-        if let Some(earlier) = earlier.filter(|earlier| *earlier != record) {
-            if self.store.is_intact(&earlier) {
-                return self.store.diverged(action, earlier, &record);
-            }
+        if let Some(earlier) = earlier.filter(|earlier| *earlier != record)
+            && self.store.is_intact(&earlier)
+        {
+            return self.store.diverged(action, earlier, &record);
         }
         for (blob, temporary) in self.outputs.values_mut() {
             if let Some(path) = temporary.take() {
