@@ -1,5 +1,6 @@
 //! What a recipe says about a dataset: name, licence, splits, image encodings.
 
+use cosfly_stage::ParameterError;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
@@ -56,6 +57,34 @@ impl Default for DatasetConfig {
             splits: SplitShares::default(),
             responsible_ai: BTreeMap::new(),
             frames_per_file: 20_000,
+        }
+    }
+}
+
+impl DatasetConfig {
+    /// The rules that the schema cannot say.
+    pub fn check(&self) -> Result<(), ParameterError> {
+        let shares = [self.splits.train, self.splits.val, self.splits.test];
+        if !(shares.iter().all(|share| *share >= 0.0) && shares.iter().sum::<f64>() > 0.0) {
+            return Err(ParameterError {
+                path: vec!["splits".into()],
+                message: format!("the shares are {shares:?}; none may be negative and one must be more than 0"),
+                hint: Some(
+                    "to put everything into one split: `splits = { train = 1.0, val = 0.0, test = 0.0 }`".into(),
+                ),
+            });
+        }
+        let known = crate::croissant::RESPONSIBLE_AI_TERMS;
+        match self.responsible_ai.keys().find(|term| !known.contains(&term.as_str())) {
+            None => Ok(()),
+            Some(term) => Err(ParameterError {
+                path: vec!["responsible_ai".into(), term.clone()],
+                message: format!("`{term}` is not a term of the Responsible AI vocabulary"),
+                hint: Some(match cosfly_diagnose::nearest_name(term, known) {
+                    Some(nearest) => format!("did you mean `{nearest}`?"),
+                    None => format!("the terms are {}", known.join(", ")),
+                }),
+            }),
         }
     }
 }
@@ -161,4 +190,21 @@ pub enum DepthEncoding {
     Grid,
     /// As rendered.
     Lossless,
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_mistyped_term_and_shares_without_any_are_refused_with_their_place() {
+        assert_eq!(DatasetConfig::default().check(), Ok(()));
+        let mut config = DatasetConfig::default();
+        config.responsible_ai.insert("dataBias".into(), "none".into());
+        let error = config.check().unwrap_err();
+        assert_eq!(error.path, ["responsible_ai", "dataBias"]);
+        assert_eq!(error.hint.unwrap(), "did you mean `dataBiases`?");
+        let splits = SplitShares { train: 0.0, val: 0.0, test: 0.0, seed: 0 };
+        assert_eq!(DatasetConfig { splits, ..DatasetConfig::default() }.check().unwrap_err().path, ["splits"]);
+    }
 }

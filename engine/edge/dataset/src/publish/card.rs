@@ -1,6 +1,5 @@
 //! The Hugging Face card (`README.md`) and the `LICENSE` file.
 
-use super::plan::DatasetPlan;
 use super::summary::Summary;
 use crate::config::DatasetConfig;
 use crate::tables::{self, Column, Kind, Table};
@@ -47,8 +46,8 @@ pub fn citation(config: &DatasetConfig) -> String {
 }
 
 /// The text of `README.md`.
-pub fn readme(config: &DatasetConfig, summary: &Summary, plan: &DatasetPlan) -> String {
-    let mut text = front_matter(config, summary, plan);
+pub fn readme(config: &DatasetConfig, summary: &Summary) -> String {
+    let mut text = front_matter(config, summary);
     let _ = write!(text, "\n# {}\n\n{}\n\n", config.title, config.description);
     text.push_str(&figures(summary));
     text.push_str(&loading(config));
@@ -74,7 +73,7 @@ fn quoted(text: &str) -> String {
     serde_json::Value::from(text).to_string()
 }
 
-fn front_matter(config: &DatasetConfig, summary: &Summary, plan: &DatasetPlan) -> String {
+fn front_matter(config: &DatasetConfig, summary: &Summary) -> String {
     let mut text = format!("---\npretty_name: {}\n", quoted(&config.title));
     let license = &config.license;
     if KNOWN_LICENSES.contains(&license.name.as_str()) {
@@ -94,20 +93,24 @@ fn front_matter(config: &DatasetConfig, summary: &Summary, plan: &DatasetPlan) -
     let _ = writeln!(text, "size_categories:\n- {size}\nlanguage:\n- en\n- zh\ntask_categories:\n- robotics");
     text.push_str("- depth-estimation\n- image-segmentation\n- image-text-to-text\n");
     text.push_str("tags:\n- croissant\n- mcap\n- drone\n- uav\n- tracking\n- trajectory\n- synthetic\nconfigs:\n");
-    for (number, table) in tables::of_trajectories().iter().enumerate() {
-        let _ = writeln!(text, "- config_name: {}", table.name);
-        if number == 0 {
-            text.push_str("  default: true\n");
-        }
-        text.push_str("  data_files:\n");
-        for split in plan.used_splits() {
-            let name = split.name();
-            let _ = writeln!(text, "  - split: {name}\n    path: data/{}/{name}-*.parquet", table.name);
-        }
+    let names = tables::of_trajectories().iter().map(|table| table.name).collect::<Vec<_>>();
+    for name in names.into_iter().chain([tables::of_rejections().name]) {
+        text.push_str(&config_entry(name, summary));
     }
-    text.push_str("- config_name: rejected\n  data_files:\n  - split: rejected\n    path: data/rejected/*.parquet\n");
     text.push_str("- config_name: files\n  data_files:\n  - split: files\n    path: files.parquet\n---\n");
     text
+}
+
+/// The Hugging Face config of a table; splits without rows are left out, because its loader refuses them.
+fn config_entry(table: &str, summary: &Summary) -> String {
+    let splits = summary.rows.get(table).into_iter().flatten().filter(|(_, rows)| **rows > 0);
+    let files: String =
+        splits.map(|(split, _)| format!("  - split: {split}\n    path: data/{table}/{split}-*.parquet\n")).collect();
+    if files.is_empty() {
+        return String::new();
+    }
+    let default = if table == "trajectories" { "  default: true\n" } else { "" };
+    format!("- config_name: {table}\n{default}  data_files:\n{files}")
 }
 
 fn figures(summary: &Summary) -> String {

@@ -88,15 +88,15 @@ impl DatasetPlan {
         Split::ALL.into_iter().filter(|split| self.splits.contains(split)).collect()
     }
 
-    /// The files of a table: path, and the trajectories whose rows it holds.
-    pub fn files(&self, table: &str, per_frame: bool) -> Vec<(String, Vec<usize>)> {
+    /// The files of a table: split, path, and the trajectories whose rows it holds.
+    pub fn files(&self, table: &str, per_frame: bool) -> Vec<(Split, String, Vec<usize>)> {
         let mut files = vec![];
         for split in self.used_splits() {
             let members: Vec<usize> = (0..self.splits.len()).filter(|i| self.splits[*i] == split).collect();
             let shards = if per_frame { self.shards(&members) } else { vec![members] };
             let count = shards.len();
             files.extend(shards.into_iter().enumerate().map(|(number, shard)| {
-                (format!("data/{table}/{}-{number:05}-of-{count:05}.parquet", split.name()), shard)
+                (split, format!("data/{table}/{}-{number:05}-of-{count:05}.parquet", split.name()), shard)
             }));
         }
         files
@@ -144,8 +144,8 @@ mod tests {
         let train = plan.splits.iter().filter(|split| **split == Split::Train).count();
         assert!((3100..3300).contains(&train), "{train}");
         let files = plan.files("frames", true);
-        assert!(files.iter().all(|(_, members)| (1..=100).contains(&members.len())));
-        assert_eq!(files.iter().map(|file| file.1.len()).sum::<usize>(), 4000);
+        assert!(files.iter().all(|(_, _, members)| (1..=100).contains(&members.len())));
+        assert_eq!(files.iter().map(|file| file.2.len()).sum::<usize>(), 4000);
         assert_eq!(plan.mcap_paths[3999], "mcap/town/003/t3999.mcap");
     }
 

@@ -36,8 +36,8 @@ pub struct Summary {
     pub visibility_sum: f64,
     /// Flights and frames by split name.
     pub splits: BTreeMap<&'static str, (u64, u64)>,
-    /// Rows by table name.
-    pub rows: BTreeMap<&'static str, u64>,
+    /// Rows by table name and split name; tables over something else than flights are a split of their own name.
+    pub rows: BTreeMap<&'static str, BTreeMap<String, u64>>,
 }
 
 /// A town of a dataset.

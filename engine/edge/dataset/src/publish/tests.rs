@@ -72,3 +72,11 @@ fn the_sums_are_right_and_croissant_names_the_hash_of_the_file_table() {
     let table = objects.iter().find(|object| object["@id"] == "files.parquet").unwrap();
     assert_eq!(table["sha256"], sha256_of(&files["files.parquet"]));
 }
+
+#[test]
+fn a_dataset_without_a_flight_is_refused_with_the_reasons() {
+    let folder = tempfile::tempdir().unwrap();
+    let outcome = sample::write_flights(folder.path(), &DatasetConfig::default(), EncodingConfig::default(), vec![]);
+    let error = outcome.unwrap_err();
+    assert!(error.message.contains("no flight to publish") && error.causes[0].contains("cannot be reached"), "{error}");
+}

@@ -10,6 +10,7 @@ use crate::tables::{self, DatasetItem, FileRecord, Table, TableWriter};
 use crate::{CaptionRecord, PreviewStrip, Rejection, RenderedTrajectory, croissant};
 use cosfly_diagnose::{Diagnostic, Fault, Result};
 use cosfly_stage::{BlobRef, OutputSink};
+use std::collections::BTreeMap;
 use std::io::Write;
 
 /// A finished log and the blob that holds it.
@@ -42,6 +43,9 @@ pub fn write_dataset(
     rejections: &[Rejection],
     keep_going: &dyn Fn() -> Result<()>,
 ) -> Result<Summary> {
+    if logs.is_empty() {
+        return Err(nothing_to_publish(rejections));
+    }
     let records: Vec<&LogRecord> = logs.iter().map(|log| &log.record).collect();
     let plan = DatasetPlan::new(config, &records)?;
     let mut dataset = Publishing { sink, files: vec![] };
@@ -56,13 +60,20 @@ pub fn write_dataset(
     }
     let rejected = tables::of_rejections();
     dataset.table(&rejected, &format!("data/{0}/{0}-00000-of-00001.parquet", rejected.name), rejections)?;
-    summary.rows.insert(rejected.name, summary.rejected);
+    summary.rows.insert(rejected.name, BTreeMap::from([(rejected.name.to_owned(), summary.rejected)]));
     dataset.put("layouts/foxglove.json", include_bytes!("../../assets/foxglove.json"))?;
     dataset.put("schemas/cosfly.proto", target_state::proto_text().as_bytes())?;
     dataset.put("LICENSE", card::license_text(config).as_bytes())?;
-    dataset.put("README.md", card::readme(config, &summary, &plan).as_bytes())?;
+    dataset.put("README.md", card::readme(config, &summary).as_bytes())?;
     dataset.finish(config, &summary)?;
     Ok(summary)
+}
+
+/// An empty dataset is no success: says what was rejected and why.
+fn nothing_to_publish(rejections: &[Rejection]) -> Box<Diagnostic> {
+    let message = format!("there is no flight to publish: {} of {0} items were rejected", rejections.len());
+    let reasons = rejections.iter().take(3).map(|it| format!("`{}/{}`: {}", it.stage, it.trajectory_id, it.reason));
+    reasons.fold(Diagnostic::new("dataset-empty", Fault::Input, message), Diagnostic::because)
 }
 
 /// One pass over all trajectories for the figures of the card.
@@ -135,11 +146,11 @@ impl Publishing<'_> {
         Ok(file)
     }
 
-    /// All files of a table over the trajectories; gives the number of rows.
-    fn trajectory_table(&mut self, table: &Table<DatasetItem>, items: &Items<'_>) -> Result<u64> {
-        let mut rows = 0;
-        for (path, members) in items.plan.files(table.name, table.per_frame) {
-            rows += self.parquet(&path, table, &mut |writer| {
+    /// All files of a table over the trajectories; gives the number of rows by split.
+    fn trajectory_table(&mut self, table: &Table<DatasetItem>, items: &Items<'_>) -> Result<BTreeMap<String, u64>> {
+        let mut rows = BTreeMap::new();
+        for (split, path, members) in items.plan.files(table.name, table.per_frame) {
+            *rows.entry(split.name().to_owned()).or_insert(0) += self.parquet(&path, table, &mut |writer| {
                 members.iter().try_for_each(|index| writer.append(&items.load(*index, table.reads_previews)?))
             })?;
         }
