@@ -254,7 +254,7 @@ mod tests {
     fn every_cell_that_a_triangle_touches_knows_it() {
         let thin =
             mesh(SemanticLabel::Roads, &[[0.0, 0.0, 1.0], [301.0, 177.0, 1.0], [300.0, 178.5, 1.0]], &[[0, 1, 2]]);
-        let index = GroundIndex::of_surfaces(&[thin.clone()], |_| true);
+        let index = GroundIndex::of_surfaces(core::slice::from_ref(&thin), |_| true);
         for i in 0..2000 {
             let (a, b) = (f64::from(i % 50) / 50.0, f64::from(i / 50) / 40.0);
             let [p, q, r] = [0, 1, 2].map(|k| thin.vertices_in_world[k]);

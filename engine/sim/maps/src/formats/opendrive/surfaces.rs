@@ -90,8 +90,8 @@ pub(super) fn raise_default_kerbs(road: &mut Road) -> bool {
 
 /// Adds everything of one lane section.
 pub(super) fn add_section(builder: &mut MeshBuilder, lanes: [&[Lane]; 2], rows: &[CrossSection], world: &WorldFromMap) {
-    for side in 0..2 {
-        for (index, lane) in lanes[side].iter().enumerate() {
+    for (side, side_lanes) in lanes.into_iter().enumerate() {
+        for (index, lane) in side_lanes.iter().enumerate() {
             let label = lane_label(lane);
             for pair in rows.windows(2) {
                 let [low, high] = [&pair[0], &pair[1]];
@@ -106,11 +106,11 @@ pub(super) fn add_section(builder: &mut MeshBuilder, lanes: [&[Lane]; 2], rows: 
                     builder.quad(label, false, corners.map(|corner| in_world(corner, world)));
                 }
                 let outer = [edge(low, side, index, 1), edge(high, side, index, 1)];
-                let below = match lanes[side].get(index + 1) {
+                let below = match side_lanes.get(index + 1) {
                     Some(_) => [edge(low, side, index + 1, 0), edge(high, side, index + 1, 0)],
                     None => outer.map(|(point, along_across)| (point - SKIRT_M * DVec3::Z, along_across)),
                 };
-                let face = lanes[side].get(index + 1).map_or(label, |next| face_label(lane, next));
+                let face = side_lanes.get(index + 1).map_or(label, |next| face_label(lane, next));
                 add_face(builder, face, outer, below, world);
             }
         }
