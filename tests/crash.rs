@@ -77,10 +77,9 @@ fn two_processes_on_one_store_both_succeed() {
 #[test]
 fn a_termination_signal_stops_cleanly_and_the_next_run_goes_on() {
     let street = Street::new();
-    let child =
-        cosfly(&["run", "recipe.toml", "--store", "store", "--jobs", "1", "--set", "stages.walkers.count=40"])
-            .within(street.path())
-            .spawn();
+    let child = cosfly(&["run", "recipe.toml", "--store", "store", "--jobs", "1", "--set", "stages.walkers.count=40"])
+        .within(street.path())
+        .spawn();
     std::thread::sleep(Duration::from_millis(400));
     let mut child = child;
     let signalled =

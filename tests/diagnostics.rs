@@ -72,10 +72,10 @@ fn a_town_without_pavements_says_which_option_helps() {
 
 #[test]
 fn a_target_that_nobody_can_reach_is_rejected_in_words() {
-    // A roof over the whole street: the pedestrian walks, but no viewpoint above it sees anything or is free.
-    let roof = "<object id=\"9\" name=\"roof\" type=\"building\" s=\"60.0\" t=\"0.0\" zOffset=\"4.0\" hdg=\"0.0\" length=\"400.0\" width=\"400.0\" height=\"200.0\"/></objects>";
-    let street = Street::with(RECIPE, &map().replacen("</objects>", roof, 1));
-    check_refusal("target_unreachable", &street, &["run", "recipe.toml", "--quiet", "--jobs", "1"]);
+    // The pedestrian walks faster than this drone may fly.
+    let slow = ["stages.expert.limits.speed_mps=0.3", "stages.expert.limits.acceleration_mps2=0.1"];
+    let arguments = ["run", "recipe.toml", "--quiet", "--jobs", "1", "--set", slow[0], "--set", slow[1]];
+    check_refusal("target_unreachable", &Street::new(), &arguments);
 }
 
 #[test]
@@ -130,6 +130,10 @@ fn a_full_disk_is_named_and_nothing_half_written_is_trusted() {
     let store = disk.path.join("store").display().to_string();
     let printed = cosfly(&["run", "recipe.toml", "--quiet", "--store", &store]).within(street.path()).run();
     assert_eq!(printed.code, Some(5), "{}", printed.stderr);
-    assert!(printed.stderr.contains("disk-full") && printed.stderr.contains("finished items are kept"), "{}", printed.stderr);
+    assert!(
+        printed.stderr.contains("disk-full") && printed.stderr.contains("finished items are kept"),
+        "{}",
+        printed.stderr
+    );
     assert!(!street.dataset().exists());
 }

@@ -44,7 +44,10 @@ fn base_knows_nobody_and_sim_and_flow_never_see_each_other() {
     for (name, (shelf, dependencies)) in &packages {
         for dependency in dependencies {
             if let Some((other, _)) = packages.get(dependency) {
-                assert!(allowed[shelf.as_str()].contains(&other.as_str()), "`{name}` ({shelf}) uses `{dependency}` ({other})");
+                assert!(
+                    allowed[shelf.as_str()].contains(&other.as_str()),
+                    "`{name}` ({shelf}) uses `{dependency}` ({other})"
+                );
             }
         }
     }

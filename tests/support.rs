@@ -67,12 +67,7 @@ impl Call {
 
     /// Starts it without waiting.
     pub fn spawn(mut self) -> std::process::Child {
-        self.command
-            .stdin(Stdio::null())
-            .stdout(Stdio::null())
-            .stderr(Stdio::null())
-            .spawn()
-            .expect("cosfly starts")
+        self.command.stdin(Stdio::null()).stdout(Stdio::null()).stderr(Stdio::null()).spawn().expect("cosfly starts")
     }
 }
 
@@ -84,7 +79,10 @@ pub fn tree_digests(dir: &Path) -> Vec<(String, String)> {
                 walk(root, &entry, found);
             } else {
                 let name = entry.strip_prefix(root).expect("below").display().to_string();
-                found.push((name, cosfly_fingerprint::Digest::of(&std::fs::read(&entry).expect("readable")).to_string()));
+                found.push((
+                    name,
+                    cosfly_fingerprint::Digest::of(&std::fs::read(&entry).expect("readable")).to_string(),
+                ));
             }
         }
     }

@@ -9,7 +9,8 @@ fn check_town(map: &Path, changes: &[&str]) {
     let (store, out) = (folder.path().join("store"), folder.path().join("out"));
     let source = format!("stages.town.source={}", map.display());
     let (store, out) = (store.display().to_string(), out.display().to_string());
-    let mut arguments = vec!["run", "recipes/small.toml", "--quiet", "--store", &store, "--out", &out, "--set", &source];
+    let mut arguments =
+        vec!["run", "recipes/small.toml", "--quiet", "--store", &store, "--out", &out, "--set", &source];
     for change in changes {
         arguments.extend_from_slice(&["--set", change]);
     }

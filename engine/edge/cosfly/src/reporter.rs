@@ -1,9 +1,11 @@
 //! What a person sees of a run: bars on a terminal, plain lines when piped.
 
-use cosfly_diagnose::render;
+use crate::text::count;
+use cosfly_diagnose::{Diagnostic, render};
 use cosfly_stage::{RunEvent, TaskOutcome};
 use indicatif::{MultiProgress, ProgressBar, ProgressDrawTarget, ProgressStyle};
 use std::collections::BTreeMap;
+use std::collections::btree_map::Entry;
 use std::io::IsTerminal;
 use std::sync::{Mutex, PoisonError};
 
@@ -23,6 +25,8 @@ pub struct Reporter {
     detail: Detail,
     bars: MultiProgress,
     stages: Mutex<BTreeMap<String, Progress>>,
+    /// Failures that were shown in full, with the number of items that failed in the same way since.
+    failures: Mutex<BTreeMap<String, u64>>,
 }
 
 struct Progress {
@@ -40,7 +44,12 @@ impl Reporter {
             (false, false) => Detail::Lines,
         };
         let target = if detail == Detail::Bars { ProgressDrawTarget::stderr() } else { ProgressDrawTarget::hidden() };
-        Self { detail, bars: MultiProgress::with_draw_target(target), stages: Mutex::default() }
+        Self {
+            detail,
+            bars: MultiProgress::with_draw_target(target),
+            stages: Mutex::default(),
+            failures: Mutex::default(),
+        }
     }
 
     /// Shows one event.
@@ -61,7 +70,7 @@ impl Reporter {
             }
             RunEvent::Failed { stage, item, diagnostic } => {
                 if diagnostic.code != "cancelled" {
-                    self.always(&format!("{}\n  (in `{stage}/{item}`)", render(&diagnostic, colour())));
+                    self.failed(&stage, &item, &diagnostic);
                 }
                 self.advance(&stage);
             }
@@ -69,8 +78,27 @@ impl Reporter {
         }
     }
 
-    /// Takes the bars away.
+    /// Shows a failure, unless an item of the same stage failed in the same way: a thousand items, one message.
+    fn failed(&self, stage: &str, item: &str, diagnostic: &Diagnostic) {
+        let message = render(diagnostic, colour());
+        let mut failures = self.failures.lock().unwrap_or_else(PoisonError::into_inner);
+        match failures.entry(format!("{stage}\n{message}")) {
+            Entry::Vacant(first) => {
+                first.insert(0);
+                self.always(&format!("{message}\n  (in `{stage}/{item}`)"));
+            }
+            Entry::Occupied(mut again) => *again.get_mut() += 1,
+        }
+    }
+
+    /// Takes the bars away and counts what was shown once.
     pub fn finish(&self) {
+        for (failure, more) in self.failures.lock().unwrap_or_else(PoisonError::into_inner).iter() {
+            if *more > 0 {
+                let stage = failure.lines().next().unwrap_or_default();
+                self.always(&format!("{} of `{stage}` failed in the same way", count(*more, "more item")));
+            }
+        }
         for progress in self.stages.lock().unwrap_or_else(PoisonError::into_inner).values() {
             progress.bar.finish_and_clear();
         }
@@ -78,8 +106,9 @@ impl Reporter {
 
     fn planned(&self, planned: &[(String, u64, u64)]) {
         let width = planned.iter().map(|(stage, ..)| stage.len()).max().unwrap_or(0);
-        let style = ProgressStyle::with_template("{prefix} {wide_bar:.cyan/blue} {pos}/{len} {per_sec:>10} {eta:>5} left")
-            .unwrap_or_else(|_| ProgressStyle::default_bar());
+        let style =
+            ProgressStyle::with_template("{prefix} {wide_bar:.cyan/blue} {pos}/{len} {per_sec:>10} {eta:>5} left")
+                .unwrap_or_else(|_| ProgressStyle::default_bar());
         let mut stages = self.stages.lock().unwrap_or_else(PoisonError::into_inner);
         for (stage, total, cached) in planned {
             let bar = self.bars.add(ProgressBar::new(*total).with_style(style.clone()));

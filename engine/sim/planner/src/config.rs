@@ -1,7 +1,8 @@
 //! Parameters of the `muco` stage, their defaults, ranges and contradictions.
 
+use crate::terms::{WeightOverrides, Weights};
 use crate::trajectory::Limits;
-use crate::weights::{Preset, WeightOverrides, Weights};
+use crate::weights::Preset;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 

@@ -18,6 +18,7 @@ pub mod weights;
 pub use config::MucoConfig;
 pub use muco::{plan, plan_with_terms};
 pub use terms::{CostTerm, TermContext, WeightedTerm};
+pub use terms::{WeightOverrides, Weights};
 pub use trajectory::{Certificate, FramePerturbation, Limits, Perturbation, PlanOutcome, TermCost, Trajectory};
 pub use visibility::{aim_point, body_points, visibility};
-pub use weights::{Preset, WeightOverrides, Weights};
+pub use weights::Preset;

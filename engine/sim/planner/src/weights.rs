@@ -1,4 +1,4 @@
-//! Weights of the nine cost terms: two presets and single overrides.
+//! Weight presets, and the macro that turns the one list of cost terms into everything that names them.
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -14,10 +14,11 @@ pub enum Preset {
     Paper,
 }
 
-macro_rules! weights {
-    ($($(#[$doc:meta])* $name:ident: cosfly $cosfly:literal, paper $paper:literal;)*) => {
+/// From the one list of cost terms (in `terms/mod.rs`): weights, their overrides in recipes, and the terms themselves.
+macro_rules! cost_terms {
+    ($($(#[$doc:meta])* $name:ident: $term:expr, cosfly $cosfly:literal, paper $paper:literal;)*) => {
         /// Weights that replace those of the preset; what is left out keeps the preset's value.
-        #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
+        #[derive(Clone, Debug, Default, PartialEq, serde::Serialize, serde::Deserialize, schemars::JsonSchema)]
         #[serde(default, deny_unknown_fields)]
         pub struct WeightOverrides {$(
             $(#[$doc])*
@@ -43,31 +44,16 @@ macro_rules! weights {
                 )*}
             }
 
-            /// (name, weight) of every term, in the order of the paper's equation.
+            /// (name, weight) of every term, in the order of the list.
             pub fn named(&self) -> Vec<(&'static str, f64)> {
                 vec![$((stringify!($name), self.$name)),*]
             }
         }
+
+        /// The built-in terms with their weights, in the order of the list.
+        pub fn built_in_terms(weights: &Weights) -> Vec<WeightedTerm> {
+            vec![$(WeightedTerm { term: Box::new($term), weight: weights.$name }),*]
+        }
     };
 }
-
-weights! {
-    /// Distance from the best observation distance (lambda 1); cosfly 0.05, paper 1.
-    tracking: cosfly 0.05, paper 1.0;
-    /// Acceleration (lambda 2); 0.5 in both.
-    smoothness: cosfly 0.5, paper 0.5;
-    /// Jerk (lambda 3); 0.3 in both.
-    jerk: cosfly 0.3, paper 0.3;
-    /// Nearness of obstacles (lambda 4); 2 in both.
-    safety: cosfly 2.0, paper 2.0;
-    /// Hidden body points (lambda 5); cosfly 60, paper 3.
-    visibility: cosfly 60.0, paper 3.0;
-    /// Not being behind the walker (lambda 6); cosfly 0.3, paper 1.
-    viewpoint: cosfly 0.3, paper 1.0;
-    /// Pitch away from the target pitch (lambda 7); cosfly 0.1, paper 0.5.
-    pitch: cosfly 0.1, paper 0.5;
-    /// Altitude out of its band, and its oscillation (lambda 8); 1 in both.
-    altitude: cosfly 1.0, paper 1.0;
-    /// Length of the flight (lambda 9); 0.1 in both.
-    length: cosfly 0.1, paper 0.1;
-}
+pub(crate) use cost_terms;

@@ -11,8 +11,7 @@ pub fn engine(items: u64) -> Outcome {
         .and_then(tempfile::tempdir_in)
         .map_err(|error| one(Diagnostic::io("make a scratch folder here", &error)))?;
     let jobs = std::thread::available_parallelism().map_or(1, usize::from);
-    let figures =
-        cosfly_runner::bench_engine(&scratch.path().join("store"), items as usize, jobs).map_err(one)?;
+    let figures = cosfly_runner::bench_engine(&scratch.path().join("store"), items as usize, jobs).map_err(one)?;
     crate::print(&format!(
         "{} tasks in six stages, {jobs} jobs, a durable store, 16 KiB written per task\n\
          cold                                {:>9.3} s   {:.2} ms per task\n\

@@ -21,6 +21,7 @@ pub fn plan(arguments: &PlanArguments) -> Outcome {
 fn table(plan: &Plan<'_>) -> String {
     let names = plan.stages.iter().map(|stage| stage.name.len()).max().unwrap_or(0).max("stage".len());
     let kinds = plan.stages.iter().map(|stage| stage.kind.len()).max().unwrap_or(0).max("uses".len());
+    let shared = shared_reason(plan);
     let mut text = String::new();
     let _ = writeln!(
         text,
@@ -28,7 +29,8 @@ fn table(plan: &Plan<'_>) -> String {
         "stage", "uses", "items", "cached", "to run"
     );
     for stage in &plan.stages {
-        let predicted = if stage.to_run() == 0 { "-".to_owned() } else { format!("about {}", bytes(stage.predicted_bytes)) };
+        let predicted =
+            if stage.to_run() == 0 { "-".to_owned() } else { format!("about {}", bytes(stage.predicted_bytes)) };
         let _ = writeln!(
             text,
             "{:names$}  {:kinds$}  {:>7}  {:>7}  {:>7}  {predicted}",
@@ -38,18 +40,30 @@ fn table(plan: &Plan<'_>) -> String {
             stage.cached(),
             stage.to_run(),
         );
-        for (reason, items) in &stage.reasons {
-            let _ = writeln!(text, "{:names$}  because {reason} ({})", "", count(*items, "item"));
+        if shared.is_none() {
+            for (reason, items) in &stage.reasons {
+                let _ = writeln!(text, "{:names$}  because {reason} ({})", "", count(*items, "item"));
+            }
         }
     }
     let _ = match plan.to_run() {
         0 => writeln!(text, "\nEverything is cached."),
         left => writeln!(
             text,
-            "\n{} would run; about {} would be written.",
+            "\n{} would run{}; about {} would be written.",
             count(left, "task"),
+            shared.map_or(String::new(), |reason| format!(", because {reason}")),
             bytes(plan.stages.iter().map(|stage| stage.predicted_bytes).sum())
         ),
     };
     text
+}
+
+/// The one reason for everything that would run, when there is only one (such as a first run).
+fn shared_reason(plan: &Plan<'_>) -> Option<String> {
+    let mut reasons: Vec<String> =
+        plan.stages.iter().flat_map(|stage| &stage.reasons).map(|(reason, _)| reason.to_string()).collect();
+    let several = reasons.len() > 1;
+    reasons.dedup();
+    if several && reasons.len() == 1 { reasons.pop() } else { None }
 }

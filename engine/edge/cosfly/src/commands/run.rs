@@ -28,7 +28,11 @@ pub fn run(arguments: &RunArguments) -> Outcome {
     if arguments.json {
         crate::print(&json(&recipe, &delivery, &out));
     } else {
-        crate::print(&summary(&delivery, wanted, &out, &store_dir(&arguments.store), &duration(began.elapsed())));
+        let took = duration(began.elapsed());
+        if !arguments.quiet {
+            crate::print(&stages(&delivery.summary));
+        }
+        crate::print(&result(&delivery, wanted, &out, &store_dir(&arguments.store), &took, arguments.quiet));
     }
     Ok(ended(&delivery.summary))
 }
@@ -51,9 +55,8 @@ fn ended(summary: &RunSummary) -> u8 {
     failed.chain(summary.diagnostics.iter().map(|diagnostic| exit::code_of(diagnostic))).max().unwrap_or(exit::SUCCESS)
 }
 
-/// What a person reads at the end.
-fn summary(delivery: &Delivery, wanted: &str, out: &Path, store: &Path, took: &str) -> String {
-    let run = &delivery.summary;
+/// What every stage came to.
+fn stages(run: &RunSummary) -> String {
     let width = run.stages.iter().map(|stage| stage.name.len()).max().unwrap_or(0);
     let mut text = String::new();
     for stage in &run.stages {
@@ -85,16 +88,25 @@ fn summary(delivery: &Delivery, wanted: &str, out: &Path, store: &Path, took: &s
     for (stage, item, reason) in rejected.iter().take(10) {
         let _ = writeln!(text, "rejected: {stage}/{item}: {reason}");
     }
+    text + "\n"
+}
+
+/// Where the result is and what to open next.
+fn result(delivery: &Delivery, wanted: &str, out: &Path, store: &Path, took: &str, quiet: bool) -> String {
+    let mut text = String::new();
     match &delivery.folder {
         Some(folder) => {
             let state = if folder.changed { "" } else { " (unchanged)" };
             let _ = writeln!(
                 text,
-                "\n{} in {} of {}{state}, in {took}",
+                "{} in {} of {}{state}, in {took}",
                 out.display(),
                 count(folder.files, "file"),
                 bytes(folder.bytes)
             );
+            if quiet {
+                return text;
+            }
             let _ = writeln!(text, "  start with  {}", out.join("README.md").display());
             let _ = writeln!(text, "  check it    cosfly verify {}", out.display());
             if let Some(log) = first_log(out) {
@@ -104,7 +116,7 @@ fn summary(delivery: &Delivery, wanted: &str, out: &Path, store: &Path, took: &s
         None => {
             let _ = writeln!(
                 text,
-                "\n`{wanted}` is not finished after {took}; what is finished is kept in {}: run the same command to go on",
+                "`{wanted}` is not finished after {took}; what is finished is kept in {}: run the same command to go on",
                 store.display()
             );
         }
@@ -116,7 +128,8 @@ fn summary(delivery: &Delivery, wanted: &str, out: &Path, store: &Path, took: &s
 fn first_log(out: &Path) -> Option<PathBuf> {
     let mut folder = out.join("mcap");
     loop {
-        let mut entries: Vec<PathBuf> = std::fs::read_dir(&folder).ok()?.filter_map(|entry| Some(entry.ok()?.path())).collect();
+        let mut entries: Vec<PathBuf> =
+            std::fs::read_dir(&folder).ok()?.filter_map(|entry| Some(entry.ok()?.path())).collect();
         entries.sort();
         let first = entries.into_iter().next()?;
         if first.is_file() {

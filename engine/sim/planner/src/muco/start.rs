@@ -6,8 +6,8 @@ use super::lattice::{Lattice, NodeState, UNSAFE};
 use super::viterbi::{MoveCosts, NodeCosts, Viterbi};
 use crate::config::MucoConfig;
 use crate::obstacles::local::LocalObstacles;
+use crate::terms::Weights;
 use crate::terms::{altitude::band_cost, pitch, tracking, viewpoint};
-use crate::weights::Weights;
 use cosfly_frames::{DVec3, TargetTrack, real};
 
 /// Searches that may be needed to go round nodes whose connections are not free.

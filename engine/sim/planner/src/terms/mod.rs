@@ -1,7 +1,7 @@
 //! The cost terms: one file each, one sorted list, one law that all obey.
 //!
-//! Adding a term: one file here with a struct that implements [`CostTerm`], a `pub mod` line, and a line in
-//! [`built_in_terms`] with its weight. Terms from elsewhere (plugins) are handed to
+//! Adding a term: one file here with a struct that implements [`CostTerm`], its `pub mod` line, and its line in
+//! the list `cost_terms!` below (name in recipes, meaning, weights). Terms from elsewhere (plugins) are handed to
 //! [`crate::muco::plan_with_terms`] and are the same thing to the solver.
 
 pub mod altitude;
@@ -17,7 +17,7 @@ pub mod visibility;
 use crate::config::ViewConfig;
 use crate::obstacles::Surroundings;
 use crate::walk::Walk;
-use crate::weights::Weights;
+use crate::weights::{Preset, cost_terms};
 use cosfly_frames::{DVec3, TargetTrack};
 
 /// What terms may look at beside the waypoints.
@@ -65,22 +65,26 @@ pub struct WeightedTerm {
     pub weight: f64,
 }
 
-/// The nine terms of the paper, in the order of its equation.
-pub fn built_in_terms(weights: &Weights) -> Vec<WeightedTerm> {
-    fn weighted(term: impl CostTerm + 'static, weight: f64) -> WeightedTerm {
-        WeightedTerm { term: Box::new(term), weight }
-    }
-    vec![
-        weighted(tracking::Tracking, weights.tracking),
-        weighted(smoothness::Smoothness, weights.smoothness),
-        weighted(jerk::Jerk, weights.jerk),
-        weighted(safety::Safety, weights.safety),
-        weighted(visibility::Visibility, weights.visibility),
-        weighted(viewpoint::Viewpoint, weights.viewpoint),
-        weighted(pitch::Pitch, weights.pitch),
-        weighted(altitude::Altitude, weights.altitude),
-        weighted(length::Length, weights.length),
-    ]
+// The terms of the paper, in the order of its equation, with their weights in both presets.
+cost_terms! {
+    /// Distance from the best observation distance (lambda 1); cosfly 0.05, paper 1.
+    tracking: tracking::Tracking, cosfly 0.05, paper 1.0;
+    /// Acceleration (lambda 2); 0.5 in both.
+    smoothness: smoothness::Smoothness, cosfly 0.5, paper 0.5;
+    /// Jerk (lambda 3); 0.3 in both.
+    jerk: jerk::Jerk, cosfly 0.3, paper 0.3;
+    /// Nearness of obstacles (lambda 4); 2 in both.
+    safety: safety::Safety, cosfly 2.0, paper 2.0;
+    /// Hidden body points (lambda 5); cosfly 60, paper 3.
+    visibility: visibility::Visibility, cosfly 60.0, paper 3.0;
+    /// Not being behind the walker (lambda 6); cosfly 0.3, paper 1.
+    viewpoint: viewpoint::Viewpoint, cosfly 0.3, paper 1.0;
+    /// Pitch away from the target pitch (lambda 7); cosfly 0.1, paper 0.5.
+    pitch: pitch::Pitch, cosfly 0.1, paper 0.5;
+    /// Altitude out of its band, and its oscillation (lambda 8); 1 in both.
+    altitude: altitude::Altitude, cosfly 1.0, paper 1.0;
+    /// Length of the flight (lambda 9); 0.1 in both.
+    length: length::Length, cosfly 0.1, paper 0.1;
 }
 
 #[cfg(test)]
