@@ -122,6 +122,9 @@ impl Items<'_> {
     }
 }
 
+/// Appends all rows of one file.
+type Fill<'a, S> = &'a mut dyn FnMut(&mut TableWriter<'_, S, &mut (dyn Write + Send)>) -> Result<()>;
+
 /// The sink, and the hashes of what went into it.
 struct Publishing<'a> {
     sink: &'a mut dyn OutputSink,
@@ -162,12 +165,7 @@ impl Publishing<'_> {
         self.parquet(path, table, &mut |writer| records.iter().try_for_each(|record| writer.append(record)))
     }
 
-    fn parquet<S>(
-        &mut self,
-        path: &str,
-        table: &Table<S>,
-        fill: &mut dyn FnMut(&mut TableWriter<'_, S, &mut (dyn Write + Send)>) -> Result<()>,
-    ) -> Result<u64> {
+    fn parquet<S>(&mut self, path: &str, table: &Table<S>, fill: Fill<'_, S>) -> Result<u64> {
         let mut outcome = None;
         self.sink.stream(path, &mut |output| {
             let mut hashing = HashingWriter::new(output);
