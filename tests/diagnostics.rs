@@ -73,7 +73,7 @@ fn a_town_without_pavements_says_which_option_helps() {
 #[test]
 fn a_target_that_nobody_can_reach_is_rejected_in_words() {
     // The pedestrian walks faster than this drone may fly.
-    let slow = ["stages.expert.limits.speed_mps=0.3", "stages.expert.limits.acceleration_mps2=0.1"];
+    let slow = ["stages.expert.limits.speed_mps=0.5", "stages.expert.limits.acceleration_mps2=0.1"];
     let arguments = ["run", "recipe.toml", "--quiet", "--jobs", "1", "--set", slow[0], "--set", slow[1]];
     check_refusal("target_unreachable", &Street::new(), &arguments);
 }

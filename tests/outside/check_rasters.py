@@ -19,7 +19,8 @@ import numpy
 # area of the raster's pavement that is ours.
 LEAST = {
     "Town01": (0.99, 0.93, 0.95, 0.75),
-    "Town03_2019-04": (0.90, 0.68, 0.70, 0.60),  # its raster is of a newer town
+    # Its raster is of a newer town, and leaves out the `bidirectional` lanes: `driving` ones alone are on road to 0.998.
+    "Town03_2019-04": (0.90, 0.68, 0.70, 0.60),
     "Town04": (0.99, 0.86, 0.90, 0.70),
     "Town06": (0.99, 0.0, 0.0, 0.0),  # no pavements
     "Town07": (0.99, 0.78, 0.80, 0.60),

@@ -33,15 +33,12 @@ impl StageKind for Dataset {
     }
 
     fn ports(&self) -> Vec<InputPort> {
-        vec![
-            ports::town(),
-            ports::gather("frames", FRAMES, false, "The rendered trajectories."),
-            captions(Fan::Gather),
-        ]
+        vec![ports::town(), ports::gather("frames", FRAMES, false, "The rendered trajectories."), captions(Fan::Gather)]
     }
 
     fn build(&self, given: serde_json::Value) -> Result<Vec<StagePart>, ParameterError> {
         let config: DatasetConfig = parameters::read(given)?;
+        config.check()?;
         let logs = StageProperties {
             kind: self.name().into(),
             version: 1,
@@ -55,7 +52,7 @@ impl StageKind for Dataset {
             ],
             artifact: LOG,
             items: ItemRule::PerInput("frames"),
-            bytes_per_item: 120_000_000,
+            bytes_per_item: 0,
         };
         // Tables and card say everything from the records; the town itself is only in the logs.
         let mut inputs: Vec<InputPort> = self.ports().into_iter().filter(|port| port.name != "town").collect();
@@ -81,11 +78,7 @@ impl StageKind for Dataset {
 }
 
 fn captions(fan: Fan) -> InputPort {
-    InputPort {
-        fan,
-        optional: true,
-        ..ports::each("captions", CAPTIONS, false, "Their captions.")
-    }
+    InputPort { fan, optional: true, ..ports::each("captions", CAPTIONS, false, "Their captions.") }
 }
 
 struct LogStage {
@@ -110,7 +103,8 @@ impl Stage for LogStage {
         let mut pack = FramePackReader::new(BufReader::new(inputs.open(frames, "pack")?))?;
         let mut log = None;
         outputs.stream("mcap", &mut |file| {
-            let written = write_log(&mut *file, &record, &mut pack, &captions, &world.town, &|| context.check_cancelled())?;
+            let written =
+                write_log(&mut *file, &record, &mut pack, &captions, &world.town, &|| context.check_cancelled())?;
             log = Some(written);
             Ok(())
         })?;
@@ -165,7 +159,8 @@ impl Stage for DatasetStage {
 
 /// There is no dataset without a flight; the first reasons say what to change.
 fn nothing_left(rejections: &[Rejection]) -> Box<Diagnostic> {
-    let refusal = Diagnostic::new("dataset-empty", Fault::Input, "every trajectory was rejected: there is nothing to publish");
+    let refusal =
+        Diagnostic::new("dataset-empty", Fault::Input, "every trajectory was rejected: there is nothing to publish");
     rejections
         .iter()
         .take(3)

@@ -35,7 +35,9 @@ impl StageKind for Map {
         let mut config: MapConfig = parameters::read(given)?;
         let source = PathBuf::from(&config.source);
         // The name is part of what the stage makes; where the file lies is not.
-        config.name.get_or_insert_with(|| source.file_stem().map_or("town".into(), |stem| stem.to_string_lossy().into()));
+        config
+            .name
+            .get_or_insert_with(|| source.file_stem().map_or("town".into(), |stem| stem.to_string_lossy().into()));
         config.source = "(content)".into();
         let properties = StageProperties {
             kind: self.name().into(),
@@ -63,10 +65,10 @@ impl Stage for MapStage {
 
     fn run(&self, _inputs: &Inputs<'_>, outputs: &mut dyn OutputSink, context: &TaskContext) -> Result<Produced> {
         let path = &context.sources[0];
-        let bytes =
-            std::fs::read(path).map_err(|error| Diagnostic::io(format!("read the map `{}`", path.display()), &error))?;
-        let (town, warnings) =
-            read_town(&bytes, &self.config, Seed(context.seed)).map_err(|error| refusal(error, path.clone(), &bytes))?;
+        let bytes = std::fs::read(path)
+            .map_err(|error| Diagnostic::io(format!("read the map `{}`", path.display()), &error))?;
+        let (town, warnings) = read_town(&bytes, &self.config, Seed(context.seed))
+            .map_err(|error| refusal(error, path.clone(), &bytes))?;
         outputs.put("town", &codec::encode(TOWN, &town)?)?;
         let report = &town.simplification;
         let mut notes = std::collections::BTreeMap::from([
@@ -75,7 +77,12 @@ impl Stage for MapStage {
                 "planning boxes".to_owned(),
                 format!(
                     "{} -> {} (merged {}, cropped {}, pruned {}; within {} m)",
-                    report.input_boxes, report.output_boxes, report.merged, report.cropped, report.pruned, report.tolerance_m
+                    report.input_boxes,
+                    report.output_boxes,
+                    report.merged,
+                    report.cropped,
+                    report.pruned,
+                    report.tolerance_m
                 ),
             ),
             ("walkable".to_owned(), format!("{} polygons", town.walkable.len())),

@@ -74,11 +74,7 @@ impl Stage for MucoStage {
 pub fn produced(outcome: &PlanOutcome) -> Produced {
     match outcome {
         PlanOutcome::Planned(trajectory) => Produced {
-            notes: [(
-                "visibility".to_owned(),
-                format!("{:.3}", trajectory.certificate.mean_visibility),
-            )]
-            .into(),
+            notes: [("visibility".to_owned(), format!("{:.3}", trajectory.certificate.mean_visibility))].into(),
             ..Produced::default()
         },
         PlanOutcome::Rejected { reason, .. } => Produced { rejected: Some(reason.clone()), ..Produced::default() },

@@ -76,7 +76,7 @@ impl Stage for PedestrianStage {
 }
 
 fn refusal(error: PedestrianError, town: &str) -> Box<Diagnostic> {
-    let diagnostic = Diagnostic::new("pedestrians-refused", Fault::Input, format!("{error}"))
-        .because(format!("in town `{town}`"));
+    let diagnostic =
+        Diagnostic::new("pedestrians-refused", Fault::Input, format!("{error}")).because(format!("in town `{town}`"));
     diagnostic.hint(error.hint())
 }

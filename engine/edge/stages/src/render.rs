@@ -97,7 +97,9 @@ impl Stage for RenderStage {
         };
         let town_digest = inputs.one("town")?.blobs["town"].digest;
         // Buildings look the same in every flight through the town.
-        let scene = self.scene.get(town_digest, || Ok::<_, Box<cosfly_diagnose::Diagnostic>>(Scene::new(&world.town, Seed(town_digest.0))))?;
+        let scene = self.scene.get(town_digest, || {
+            Ok::<_, Box<cosfly_diagnose::Diagnostic>>(Scene::new(&world.town, Seed(town_digest.0)))
+        })?;
         // Twins follow the same walk: same clothes, same weather.
         let walk_seed = Seed(Digest::of(&codec::encode("walk-seed/1", &trajectory.track)?).0);
         let camera = self.config.camera();
@@ -124,7 +126,8 @@ impl RenderStage {
         walk_seed: Seed,
     ) -> Result<Vec<TargetView>> {
         let mut renderer = self.take_renderer(camera);
-        let largest = world.town.obstacles.iter().map(|obstacle| obstacle.object_id).max().unwrap_or(0).saturating_add(2);
+        let largest =
+            world.town.obstacles.iter().map(|obstacle| obstacle.object_id).max().unwrap_or(0).saturating_add(2);
         let header = PackHeader::new(camera.width, camera.height, largest, self.encoding);
         let track = &trajectory.track;
         let mut views = Vec::with_capacity(track.len());

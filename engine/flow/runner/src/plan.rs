@@ -6,7 +6,7 @@ use crate::sources::{HashedSource, SourceReader};
 use cosfly_diagnose::Result;
 use cosfly_fingerprint::{Digest, canonical_json};
 use cosfly_recipe::{Arrival, Recipe, RecipeStage};
-use cosfly_stage::Artifact;
+use cosfly_stage::{Artifact, Fan};
 use cosfly_store::{Finished, PastRun, PastStage, Store};
 use rayon::prelude::*;
 use serde_json::json;
@@ -142,12 +142,31 @@ fn planned_input<'a>(recipe: &'a Recipe, stages: &[PlannedStage], arrival: &'a A
 
 fn find_finished(plan: &mut Plan<'_>, store: &Store) {
     let known = store.known_tasks(&plan.recipe_id);
-    for (stage, described) in plan.stages.iter_mut().zip(&plan.recipe.stages) {
+    for stage in &mut plan.stages {
         stage.finished = stage.plans.par_iter().with_min_len(PER_THREAD).map(|digest| known.finished(digest)).collect();
-        let each = described.stage.properties().bytes_per_item;
-        stage.predicted_bytes = stage.to_run().saturating_mul(each);
     }
+    predict(plan);
     plan.index_is_current = known.is_current(&plan.run_digest());
+}
+
+/// Sizes of what is left to do: as large as the stage's finished items, else as the stage itself expects.
+fn predict(plan: &mut Plan<'_>) {
+    let mut expected: Vec<u64> = Vec::with_capacity(plan.stages.len());
+    for (stage, described) in plan.stages.iter_mut().zip(&plan.recipe.stages) {
+        let known: Vec<u64> = stage.finished.iter().flatten().map(|finished| finished.record.bytes()).collect();
+        let stated = described.stage.properties().bytes_per_item;
+        let arriving = || {
+            let each = described.connections.iter().filter(|connection| connection.port.fan == Fan::Each);
+            each.filter_map(|connection| connection.upstreams.iter().map(|upstream| expected[*upstream]).max()).sum()
+        };
+        let each = match (known.len() as u64, stated) {
+            (0, 0) => arriving(),
+            (0, stated) => stated,
+            (items, _) => known.iter().fold(0, |sum: u64, bytes| sum.saturating_add(*bytes)) / items,
+        };
+        stage.predicted_bytes = stage.to_run().saturating_mul(each);
+        expected.push(each);
+    }
 }
 
 impl Plan<'_> {

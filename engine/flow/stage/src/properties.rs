@@ -19,7 +19,8 @@ pub struct StageProperties {
     pub artifact: &'static str,
     /// Which items it has.
     pub items: ItemRule,
-    /// Rough size of one item's output, for `cosfly plan`.
+    /// Rough size of one item's output, for `cosfly plan` before any is made; 0 when it is about as large as what
+    /// arrives at its [`Fan::Each`] ports.
     pub bytes_per_item: u64,
 }
 
