@@ -2,6 +2,7 @@
 
 pub mod config;
 pub mod cover;
+pub mod crown;
 pub mod error;
 pub mod fill;
 pub mod formats;

@@ -4,6 +4,7 @@ use super::frontage::Front;
 use super::land::{Land, Plot, Use};
 use super::{FillConfig, Site};
 use crate::ObstacleKind;
+use crate::crown::crown_boxes;
 use cosfly_frames::{DVec2, DVec3, Seed};
 use cosfly_geometry::OrientedBox;
 use std::collections::BTreeMap;
@@ -26,7 +27,9 @@ pub fn plant_trees(site: &mut Site<'_>, land: &mut Land, fronts: &[Front], confi
         let base_m = base_m + (pavement_m - foot.z).max(0.0);
         site.add(ObstacleKind::TreeTrunk, object_id, upright(foot, trunk_m, 0.0, base_m, yaw_rad));
         let crown = upright(foot, crown_m, base_m, base_m + crown_height_m, yaw_rad);
-        site.add(ObstacleKind::TreeCrown, object_id, crown);
+        for layer in crown_boxes(&crown, object_id) {
+            site.add(ObstacleKind::TreeCrown, object_id, layer);
+        }
     })
 }
 

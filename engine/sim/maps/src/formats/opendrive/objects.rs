@@ -4,6 +4,7 @@ use super::network::{Corner, Outline, Repeat, Road, RoadObject};
 use super::object_kind::{ObjectKind, kind_of};
 use super::world::WorldFromMap;
 use crate::cover::cover_polygon;
+use crate::crown::crown_boxes;
 use crate::{Obstacle, ObstacleKind};
 use cosfly_frames::{DVec2, DVec3, real};
 use cosfly_geometry::OrientedBox;
@@ -59,7 +60,13 @@ impl ObstacleBuilder {
         if center.is_finite() && half_extents_m.is_finite() {
             let shape =
                 OrientedBox { center_in_world: center, half_extents_m, yaw_rad: world.yaw_rad(block.heading_rad) };
-            self.obstacles.push(Obstacle { shape, kind, object_id: self.next_object_id, synthetic: false });
+            let object_id = self.next_object_id;
+            let one = |shape| Obstacle { shape, kind, object_id, synthetic: false };
+            if kind == ObstacleKind::TreeCrown {
+                self.obstacles.extend(crown_boxes(&shape, object_id).map(one));
+            } else {
+                self.obstacles.push(one(shape));
+            }
         }
     }
 
