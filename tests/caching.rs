@@ -81,3 +81,29 @@ fn why_names_the_changed_ingredient() {
     let source = cosfly(&["why", "recipe.toml", "town"]).within(street.path()).run_ok().stdout;
     assert!(source.contains("the file that `source` names changed"), "{source}");
 }
+
+#[test]
+fn a_single_task_runs_from_its_plan_digest() {
+    let street = Street::new();
+    cosfly(&["run", "recipe.toml", "--quiet"]).within(street.path()).run_ok();
+    let before = crate::support::tree_digests(&street.dataset());
+    let done = street.path().join(".cosfly/done");
+    let records: Vec<_> = std::fs::read_dir(&done)
+        .expect("readable")
+        .flat_map(|shard| std::fs::read_dir(shard.expect("entry").path()).expect("readable"))
+        .map(|record| record.expect("entry").path())
+        .collect();
+    assert!(!records.is_empty());
+    for record in records {
+        let digest = record.file_name().expect("a name").to_string_lossy().into_owned();
+        assert_eq!(cosfly(&["task", "run", &digest]).within(street.path()).run_ok().stdout, "already done\n");
+        std::fs::remove_file(&record).expect("removable");
+        cosfly(&["task", "run", &digest]).within(street.path()).run_ok();
+        assert!(record.exists(), "the task published its done record again");
+    }
+    assert_eq!(made(&street, &[]), stages(&[]), "the tasks did all that a run would do");
+    assert_eq!(before, crate::support::tree_digests(&street.dataset()));
+    let unknown = "0".repeat(64);
+    let refused = cosfly(&["task", "run", &unknown]).within(street.path()).run();
+    assert_eq!(refused.code, Some(4), "{}", refused.stderr);
+}
