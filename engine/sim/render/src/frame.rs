@@ -38,7 +38,7 @@ pub struct PixelBox {
 /// The target in one frame.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct TargetView {
-    /// Some part of its body lies inside the image, occluded or not.
+    /// Its body covers at least one pixel centre of the image, occluded or not.
     pub in_view: bool,
     /// Share of body points reached by unoccluded rays, whether or not in the image, 0..=1.
     pub visible_by_rays: f64,

@@ -66,7 +66,7 @@ pub const FIELDS: [(&str, Type, bool, &str); 21] = [
     ("speed_mps", Type::Double, false, "speed along the ground; 0 while standing"),
     ("height_m", Type::Double, false, "height of the body"),
     ("radius_m", Type::Double, false, "radius of the body seen from above"),
-    ("in_view", Type::Bool, false, "some part of the body lies inside the image, occluded or not"),
+    ("in_view", Type::Bool, false, "the body covers at least one pixel centre of the image, occluded or not"),
     ("visible_by_rays", Type::Double, false, "share of body points reached by unoccluded rays, 0..1"),
     ("visible_by_pixels", Type::Double, false, "visible pixels / pixels without obstacles, 0..1"),
     ("visible_pixels", Type::Uint32, false, "number of visible pixels"),

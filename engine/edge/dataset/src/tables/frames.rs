@@ -96,7 +96,7 @@ fn target() -> Vec<Column<DatasetItem>> {
 
 fn view() -> Vec<Column<DatasetItem>> {
     vec![
-        Column::new("in_view", Kind::Flag, "part of the body lies inside the image, occluded or not", |item, i| {
+        Column::new("in_view", Kind::Flag, "the body covers at least one pixel centre of the image, occluded or not", |item, i| {
             view_of(item, i).in_view.into()
         }),
         Column::new("visible_by_rays", Kind::Real, "share of body points reached by unoccluded rays", |item, i| {
