@@ -62,7 +62,18 @@ impl MeshBuilder {
     }
 }
 
-/// The label under which a lane is seen.
+/// The label under which lane `index` of a side is seen. A lane without a kind that lies between paved ones (closed
+/// roads of CARLA's towns) is paved as well; elsewhere it is green.
+fn seen_label(side_lanes: &[Lane], index: usize) -> SemanticLabel {
+    let paved = |lane: &Lane| matches!(lane.kind, LaneKind::Carriageway | LaneKind::Shoulder);
+    let lane = &side_lanes[index];
+    if lane.kind == LaneKind::None && side_lanes[..index].iter().any(paved) && side_lanes[index..].iter().any(paved) {
+        return SemanticLabel::Roads;
+    }
+    lane_label(lane)
+}
+
+/// The label of a lane by its own kind.
 pub(super) fn lane_label(lane: &Lane) -> SemanticLabel {
     match lane.kind {
         LaneKind::Carriageway | LaneKind::Shoulder => SemanticLabel::Roads,
@@ -92,7 +103,7 @@ pub(super) fn raise_default_kerbs(road: &mut Road) -> bool {
 pub(super) fn add_section(builder: &mut MeshBuilder, lanes: [&[Lane]; 2], rows: &[CrossSection], world: &WorldFromMap) {
     for (side, side_lanes) in lanes.into_iter().enumerate() {
         for (index, lane) in side_lanes.iter().enumerate() {
-            let label = lane_label(lane);
+            let label = seen_label(side_lanes, index);
             for pair in rows.windows(2) {
                 let [low, high] = [&pair[0], &pair[1]];
                 let width_m = |row: &CrossSection| span_width_m(&row.spans[side][index]);
