@@ -9,26 +9,49 @@ pub fn palette_image(semantic: &[u8]) -> Vec<u8> {
     semantic.iter().flat_map(|&id| palette[usize::from(id)]).collect()
 }
 
-/// Depth as colours from warm (near, 1 m) to cold (far, 300 m) on a logarithmic scale; no hit is black. 3 bytes a pixel.
+/// Nearest and farthest depth that previews tell apart, metres.
+const PREVIEW_M: [f32; 2] = [0.25, 4096.0];
+/// Steps between them, equal on a logarithmic scale within each doubling.
+const STEPS: usize = 4096;
+
+/// Depth as colours from warm (near) to cold (far) on a logarithmic scale; no hit is black. 3 bytes a pixel.
+///
+/// A picture to look at, not data: the scale is the image's own, from its 1st to its 99th percentile (at least a
+/// factor of two) with a rest at both ends for what lies beyond, so that one colour means another depth in another frame.
 pub fn depth_preview(depth_m: &[f32]) -> Vec<u8> {
-    const STEPS: usize = 1024;
-    let table: Vec<[u8; 3]> = (0..STEPS).map(|i| turbo(1.0 - i as f32 / (STEPS - 1) as f32)).collect();
-    // The bits of a float grow nearly like its logarithm: index by them, no transcendental per pixel.
-    let (low, high) = (1.0f32.to_bits(), 300.0f32.to_bits());
-    depth_m
-        .iter()
-        .flat_map(|depth| {
-            if !depth.is_finite() {
-                return [0, 0, 0];
-            }
-            let bits = depth.clamp(1.0, 300.0).to_bits();
-            table[((u64::from(bits - low) * (STEPS as u64 - 1)) / u64::from(high - low)) as usize]
+    let mut counts = vec![0u32; STEPS];
+    let steps = depth_m.iter().filter(|depth| depth.is_finite()).map(|depth| step_of(*depth));
+    steps.for_each(|step| counts[step] += 1);
+    let [near, far] = percentiles(&counts);
+    let scale = 1.0 / (far - near).max(STEPS / 14) as f32;
+    let table: Vec<[u8; 3]> = (0..STEPS).map(|step| turbo(0.96 - 0.92 * (step as f32 - near as f32) * scale)).collect();
+    depth_m.iter().flat_map(|depth| if depth.is_finite() { table[step_of(*depth)] } else { [0, 0, 0] }).collect()
+}
+
+/// A depth's place on the scale. The bits of a float grow nearly like its logarithm: no transcendental per pixel.
+fn step_of(depth_m: f32) -> usize {
+    let [low, high] = PREVIEW_M.map(f32::to_bits);
+    let bits = depth_m.clamp(PREVIEW_M[0], PREVIEW_M[1]).to_bits();
+    ((u64::from(bits - low) * (STEPS as u64 - 1)) / u64::from(high - low)) as usize
+}
+
+/// Steps below which 1 and 99 of 100 counted pixels lie.
+fn percentiles(counts: &[u32]) -> [usize; 2] {
+    let total: u64 = counts.iter().map(|count| u64::from(*count)).sum();
+    [1, 99]
+        .map(|percent| {
+            let mut seen = 0;
+            counts.iter().position(|count| {
+                seen += u64::from(*count);
+                100 * seen >= percent * total
+            })
         })
-        .collect()
+        .map(|step| step.unwrap_or(0))
 }
 
 /// The "turbo" colour map (Mikhailov 2019, polynomial fit), 0 cold to 1 warm.
 fn turbo(x: f32) -> [u8; 3] {
+    let x = x.clamp(0.0, 1.0);
     let polynomial = |c: [f32; 6]| c.iter().rev().fold(0.0f32, |sum, k| sum * x + k);
     [
         polynomial([0.135_721_4, 4.615_392_6, -42.660_324, 132.131_08, -152.942_4, 59.286_38]),
@@ -52,5 +75,16 @@ mod tests {
         let colours = depth_preview(&[2.0, 250.0, f32::INFINITY, f32::NAN, -1.0]);
         assert!(colours[0] > colours[2] && colours[5] > colours[3]);
         assert_eq!(colours[6..12], [0; 6]);
+    }
+
+    #[test]
+    fn a_few_stray_pixels_do_not_eat_the_scale() {
+        let mut depth_m: Vec<f32> = (0..1000).map(|i| 20.0 + 0.02 * i as f32).collect();
+        let plain = depth_preview(&depth_m);
+        assert!(plain[0] > plain[2] && plain[3 * 999 + 2] > plain[3 * 999]);
+        depth_m.extend([0.3, 3000.0]);
+        assert_eq!(depth_preview(&depth_m)[..3000], plain);
+        assert_eq!(depth_preview(&[f32::INFINITY; 4]), [0; 12]);
+        assert!(depth_preview(&[]).is_empty());
     }
 }

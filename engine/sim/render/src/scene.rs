@@ -34,6 +34,8 @@ pub(crate) struct SceneBox {
     pub instance: u32,
     /// The same for all boxes of one thing.
     pub seed: u32,
+    /// Middle and half size of the whole crown that a crown's box belongs to; of the box itself for other kinds.
+    pub whole: [Vec3; 2],
 }
 
 /// A box's six faces: outward axis (0 x, 1 y, 2 z), its sign, and the corner numbers around it.
@@ -85,8 +87,9 @@ impl Scene {
     /// Prepares a town. Boxes and triangles that are not finite are left out; `seed` draws colours and patterns.
     pub fn new(town: &Town, seed: Seed) -> Self {
         let look_seed = (seed.child("looks", 0).as_u64() >> 32) as u32;
-        let boxes: Vec<SceneBox> =
+        let mut boxes: Vec<SceneBox> =
             town.obstacles.iter().filter_map(|obstacle| scene_box(obstacle, look_seed)).collect();
+        join_crowns(&mut boxes);
         let clusters = clusters_of(town);
         let noise = NoiseTexture::new(look_seed);
         let grid = LightGrid::new(&boxes, &clusters);
@@ -136,7 +139,23 @@ fn scene_box(obstacle: &cosfly_maps::Obstacle, look_seed: u32) -> Option<SceneBo
         label: obstacle.kind.label().id(),
         instance: obstacle.object_id.saturating_add(2),
         seed: crate::shade::pattern::hash(obstacle.object_id, look_seed),
+        whole: [shape.center_in_world.as_vec3a(), half.as_vec3a()],
     })
+}
+
+/// Tells the boxes of each crown how large the whole crown is, so that light falls on it as on one round thing.
+fn join_crowns(boxes: &mut [SceneBox]) {
+    let mut bounds: BTreeMap<u32, (DVec3, DVec3)> = BTreeMap::new();
+    for b in boxes.iter().filter(|b| b.kind == ObstacleKind::TreeCrown) {
+        let (low, high) = bounds.entry(b.instance).or_insert((DVec3::INFINITY, DVec3::NEG_INFINITY));
+        *low = low.min(b.center_in_world - b.half_bounds_m);
+        *high = high.max(b.center_in_world + b.half_bounds_m);
+    }
+    for b in boxes.iter_mut().filter(|b| b.kind == ObstacleKind::TreeCrown) {
+        if let Some((low, high)) = bounds.get(&b.instance) {
+            b.whole = [(0.5 * (*low + *high)).as_vec3a(), (0.5 * (*high - *low)).as_vec3a()];
+        }
+    }
 }
 
 /// Cuts all ground meshes into clusters of neighbouring triangles, ordered along a Z curve over the ground.

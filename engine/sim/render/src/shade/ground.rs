@@ -59,7 +59,7 @@ fn gravel(x: f32, y: f32, size: f32, noise: &NoiseTexture) -> Vec3 {
 fn grass(x: f32, y: f32, size: f32, noise: &NoiseTexture) -> Vec3 {
     let blades = noise.rough(x * 16.0, y * 16.0, size * 16.0);
     let dry = smoothstep(0.42, 0.75, noise.clumps(x * 1.43, y * 1.43, size * 1.43));
-    let fresh = Vec3::new(0.070, 0.112, 0.036);
-    let straw = Vec3::new(0.165, 0.150, 0.072);
-    fresh.lerp(straw, 0.65 * dry) * lerp(0.35, 1.65, blades)
+    let fresh = Vec3::new(0.088, 0.160, 0.040);
+    let straw = Vec3::new(0.200, 0.195, 0.080);
+    fresh.lerp(straw, 0.65 * dry) * lerp(0.45, 1.55, blades)
 }

@@ -52,16 +52,17 @@ impl Light {
         let dust = share(weather.dust_storm);
         let night = 1.0 - smoothstep(-8.0, 6.0, altitude);
         let low = 1.0 - smoothstep(4.0, 40.0, altitude);
-        let overcast = (clouds * clouds).max(0.8 * dust);
+        let overcast = smoothstep(0.05, 0.95, clouds).max(0.8 * dust);
 
         let to_sun = direction(weather.sun_azimuth_angle, if altitude > 2.0 { f64::from(altitude) } else { 52.0 });
         let air = 1.0 / to_sun.z.max(0.08);
         let through = Vec3::new(0.045, 0.12, 0.26).map(|k| libm::expf(-k * air));
-        let day_sun = 3.6 * through * (1.0 - 0.93 * overcast) * smoothstep(0.0, 8.0, altitude);
+        let covered = (1.0 - 1.12 * overcast).max(0.03);
+        let day_sun = 3.7 * (1.0 + 0.5 * low) * through * (covered * covered.sqrt()) * smoothstep(0.0, 8.0, altitude);
         let moon = Vec3::new(0.022, 0.028, 0.040) * (1.0 - 0.9 * overcast) * night;
         let sun = day_sun * (1.0 - night) + moon;
 
-        let clear_zenith = Vec3::new(0.16, 0.30, 0.62).lerp(Vec3::new(0.17, 0.22, 0.42), low);
+        let clear_zenith = Vec3::new(0.16, 0.30, 0.62).lerp(Vec3::new(0.20, 0.27, 0.50), low);
         let clear_horizon = Vec3::new(0.58, 0.70, 0.88).lerp(Vec3::new(1.05, 0.62, 0.34), low);
         let grey = Vec3::new(0.62, 0.66, 0.70) * (1.0 - 0.35 * low) * (1.0 - 0.35 * rain);
         let sand = Vec3::new(0.62, 0.42, 0.22);
@@ -72,14 +73,15 @@ impl Light {
 
         // CARLA's presets use densities of 60 at night that look like clear air, so night counts for less.
         let density = share(weather.fog_density) * lerp(1.0, 0.35, night);
-        let haze_per_m = 0.00035 + 0.006 * density + 0.0025 * rain * rain + 0.014 * dust;
+        let haze_per_m = 0.00035 + 0.006 * density + 0.0010 * rain * rain + 0.014 * dust;
         Self {
             to_sun,
             sun,
             zenith,
             horizon,
-            dome: grey_towards(zenith * 0.62 + horizon * 0.38, 0.5) * lerp(1.9, 1.2, overcast) * (1.0 + 1.2 * night),
-            bounce: 0.36 * (0.5 * sun * to_sun.z + 0.6 * zenith),
+            dome: grey_towards(zenith.lerp(horizon, lerp(0.38, 0.28, low)), 0.45)
+                * lerp(lerp(2.7, 2.0, overcast), 4.0, night),
+            bounce: 0.36 * (0.7 * sun * to_sun.z + 1.0 * zenith),
             haze_per_m,
             haze_start_m: weather.fog_distance.clamp(0.0, 1000.0) as f32,
             night,
@@ -88,7 +90,7 @@ impl Light {
             clouds,
             rain,
             wind: share(weather.wind_intensity),
-            exposure: lerp(lerp(0.54, 0.80, overcast) * (1.0 + 0.35 * low), 5.0, night),
+            exposure: lerp(lerp(0.60, 0.68, overcast) * (1.0 + 0.28 * low) * (1.0 + 0.25 * rain), 4.2, night),
             lamp: Vec3::new(0.26, 0.165, 0.075) * night,
         }
     }

@@ -80,7 +80,8 @@ impl Shader {
     ) {
         self.light = Light::new(setup.weather);
         self.view = View::new(&self.screen, eye);
-        self.haze = self.light.horizon * 0.8 + self.light.zenith * 0.2 + self.light.lamp * 0.02;
+        self.haze =
+            self.light.horizon * (0.8 - 0.2 * self.light.rain) + self.light.zenith * 0.2 + self.light.lamp * 0.02;
         self.clothes = clothes;
         self.shadows.prepare(scene, eye, self.light.to_sun, figure);
     }
@@ -144,7 +145,9 @@ impl Shader {
                 let plane = FacePlane::flat(ground.normal_in_world.as_vec3a());
                 let label = ground.label;
                 let sparse = !matches!(label, SemanticLabel::SideWalks | SemanticLabel::RoadLine);
-                self.shade_run(context, run, &plane, (true, sparse), colours, |point| {
+                // Rain soaks into grass: no puddles there.
+                let wettable = label != SemanticLabel::Terrain;
+                self.shade_run(context, run, &plane, (wettable, sparse), colours, |point| {
                     ground::look(point, label, noise)
                 });
             }
@@ -199,7 +202,7 @@ impl Shader {
             self.shade_run(context, run, &plane, (false, false), colours, |point| {
                 let away = point.world - center;
                 let local = Vec3::new(away.dot(x_axis), away.dot(y_axis), away.z);
-                let place = things::BoxPlace { center, local, half, seed: b.seed, axis };
+                let place = things::BoxPlace { local, half, seed: b.seed, axis, whole: b.whole };
                 things::look(kind, point, &place, light, noise)
             });
         }
@@ -275,7 +278,7 @@ impl Shader {
         SlowPart {
             along_m: a.dot(plane.along).abs() + b.dot(plane.along).abs(),
             up_m: a.dot(plane.up).abs() + b.dot(plane.up).abs(),
-            sky: 0.22 + 0.78 * (grid.sky + (1.0 - grid.sky) * (above * 0.045).clamp(0.0, 0.85)),
+            sky: 0.36 + 0.64 * (grid.sky + (1.0 - grid.sky) * (above * 0.045).clamp(0.0, 0.85)),
             lamps: grid.lamps * (1.0 - above * 0.11).max(0.0),
             kept: fast_exp(-self.light.haze_per_m * far),
             facing,
@@ -301,9 +304,9 @@ impl Shader {
         let (mut albedo, mut mirror, mut reflecting) = (look.albedo, look.mirror, look.normal);
         if wettable && light.wet > 0.0 && point.normal.z > 0.9 {
             let level = scene.noise.clumps(point.world.x * 2.1, point.world.y * 2.1, point.footprint_m * 2.1);
-            let edge = 0.82 - 0.42 * light.puddles;
+            let edge = 0.82 - 0.32 * light.puddles;
             let puddle = smoothstep(edge, edge + 0.05, level) * light.wet;
-            albedo *= 1.0 - 0.42 * light.wet - 0.30 * puddle;
+            albedo *= 1.0 - 0.42 * light.wet - 0.10 * puddle;
             mirror = mirror.max(0.10 * light.wet + 0.45 * puddle);
             reflecting = point.normal;
         }

@@ -37,12 +37,12 @@ pub fn rain(light: &Light, seed: u32, images: &mut FrameImages) {
     let (width, height) = (images.width as usize, images.height as usize);
     let streaks = (light.rain * (width * height) as f32 / 520.0) as u32;
     let slant = (unit(hash(seed, 1)) - 0.3) * light.wind * 0.9;
-    let white = [170.0f32, 178.0, 188.0].map(|c| if light.night > 0.5 { 0.55 * c } else { c });
+    let white = [205.0f32, 212.0, 220.0].map(|c| if light.night > 0.5 { 0.55 * c } else { c });
     for streak in 0..streaks {
         let h = hash(seed, streak.wrapping_add(100));
         let near = unit(hash(h, 1));
         let length = (0.012 + 0.055 * near * near) * height as f32;
-        let strength = 0.06 + 0.16 * near;
+        let strength = 0.08 + 0.20 * near;
         let (u, v) = (unit(hash(h, 2)) * width as f32, unit(hash(h, 3)) * height as f32 * 1.1 - 0.05 * height as f32);
         for step in 0..length as i32 {
             let (x, y) = (u + slant * step as f32, v + step as f32);

@@ -21,8 +21,6 @@ const PAINTS: [Vec3; 8] = [
 /// The box a thing is made of, as its looks need it.
 #[derive(Clone, Copy, Debug)]
 pub struct BoxPlace {
-    /// Middle of the box, metres.
-    pub center: Vec3,
     /// The point in the box's own axes from its middle, metres.
     pub local: Vec3,
     /// Half its size.
@@ -31,6 +29,8 @@ pub struct BoxPlace {
     pub seed: u32,
     /// Outward axis of the face: 0 x, 1 y, 2 z.
     pub axis: usize,
+    /// Middle and half size of the whole thing, metres.
+    pub whole: [Vec3; 2],
 }
 
 /// The look of a box that is not a building.
@@ -60,7 +60,7 @@ fn on_face(place: &BoxPlace) -> [f32; 2] {
     }
 }
 
-/// Leaves: clumps of light and dark, and normals that swell around the crown's middle.
+/// Leaves: clumps of light and dark, and normals that swell around the whole crown's middle.
 fn leaves(point: &SurfacePoint, place: &BoxPlace, noise: &NoiseTexture) -> Look {
     let [u, v] = on_face(place);
     let (u, v) = (u + 37.0 * unit(place.seed) + 3.0 * place.axis as f32, v + 11.0 * place.axis as f32);
@@ -69,20 +69,21 @@ fn leaves(point: &SurfacePoint, place: &BoxPlace, noise: &NoiseTexture) -> Look 
     let small = noise.grain(u * 17.0, v * 17.0, size * 17.0) - 0.5;
     let slope_u = noise.clumps(u * 14.0 + 4.0, v * 14.0, size * 14.0) - 0.5 - big;
     let slope_v = noise.clumps(u * 14.0, v * 14.0 + 4.0, size * 14.0) - 0.5 - big;
-    let out = (place.local / place.half.max(Vec3::splat(0.1))).normalize_or_zero();
-    let center_out = (point.world - place.center).normalize_or_zero() * 0.8 + point.normal * 0.6;
-    let bent = center_out + Vec3::new(slope_u, slope_v, slope_u - slope_v) * 2.6;
+    let [middle, half] = place.whole;
+    let out = (point.world - middle) / half.max(Vec3::splat(0.1));
+    let round = out.normalize_or_zero() * 0.9 + point.normal * 0.2;
+    let bent = round + Vec3::new(slope_u, slope_v, slope_u - slope_v) * 2.2;
     let deep = smoothstep(-0.22, 0.30, big + 0.6 * small);
     let hue = draw(place.seed, 1);
-    let green = Vec3::new(0.042, 0.082, 0.024).lerp(Vec3::new(0.088, 0.098, 0.028), hue);
-    let tint = green.lerp(Vec3::new(0.13, 0.145, 0.05), 0.35 * (small + 0.5) * deep);
+    let green = Vec3::new(0.060, 0.135, 0.030).lerp(Vec3::new(0.120, 0.155, 0.036), hue);
+    let tint = green.lerp(Vec3::new(0.20, 0.24, 0.07), 0.35 * (small + 0.5) * deep);
     let normal = bent.normalize_or(point.normal);
-    // Darker below and towards the box's edges, where a round crown would turn away.
-    let spread = (place.local / place.half.max(Vec3::splat(0.1))).length();
-    let shade = (0.6 + 0.4 * smoothstep(-1.0, 0.9, out.z)) * (1.0 - 0.35 * smoothstep(1.05, 1.7, spread));
+    // Darker below, and in the hollows between a crown's boxes.
+    let hollow = smoothstep(0.45, 0.95, out.length());
+    let shade = (0.75 + 0.25 * smoothstep(-1.0, 0.9, out.z)) * (0.6 + 0.4 * hollow);
     Look {
-        openness: (0.55 + 0.45 * deep) * shade,
-        ..Look::matt(tint * ((0.36 + 0.90 * deep) * (0.6 + 0.4 * shade)), normal)
+        openness: (0.85 + 0.45 * deep) * shade,
+        ..Look::matt(tint * ((0.42 + 1.0 * deep) * (0.5 + 0.5 * shade)), normal)
     }
 }
 

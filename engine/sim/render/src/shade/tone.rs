@@ -20,8 +20,11 @@ impl ToneCurve {
             .map(|i| {
                 let root = i as f32 / (ENTRIES - 1) as f32;
                 let x = root * root * WHITE;
-                // Narkowicz's fit of the ACES curve.
-                let y = (x * (2.51 * x + 0.03) / (x * (2.43 * x + 0.59) + 0.14)).clamp(0.0, 1.0);
+                // Narkowicz's fit of the ACES curve, and a share of Reinhard's, which keeps shade open.
+                let filmic = x * (2.51 * x + 0.03) / (x * (2.43 * x + 0.59) + 0.14);
+                let bright = 2.0 * x;
+                let gentle = bright * (1.0 + bright / (4.0 * WHITE * WHITE)) / (1.0 + bright);
+                let y = (0.65 * filmic + 0.35 * gentle).clamp(0.0, 1.0);
                 let srgb = if y <= 0.003_130_8 { 12.92 * y } else { 1.055 * libm::powf(y, 1.0 / 2.4) - 0.055 };
                 (255.0 * srgb + 0.5) as u8
             })
