@@ -38,6 +38,7 @@ fn recipe_mistakes_point_at_the_place_and_name_the_way_out() {
     check_recipe("cycle", "trajectories = \"expert\"", "trajectories = \"perturbed\"");
     check_recipe("unknown_weather", "width = 96", "weathers = [\"ClearNun\"]\nwidth = 96");
     check_recipe("not_a_number", "seed = 3", "seed = nan");
+    check_recipe("town_name", "source", "name = \"Zürich\"\nsource");
 }
 
 #[test]
@@ -76,6 +77,17 @@ fn a_target_that_nobody_can_reach_is_rejected_in_words() {
     let slow = ["stages.expert.limits.speed_mps=0.5", "stages.expert.limits.acceleration_mps2=0.1"];
     let arguments = ["run", "recipe.toml", "--quiet", "--jobs", "1", "--set", slow[0], "--set", slow[1]];
     check_refusal("target_unreachable", &Street::new(), &arguments);
+}
+
+#[test]
+fn a_flight_planned_in_one_town_is_not_filmed_in_another() {
+    let other = "[stages.other]\nuse = \"map\"\nsource = \"street.xodr\"\nroad_marks = false\n\n[stages.walkers]";
+    let mixed = RECIPE.replacen("[stages.walkers]", other, 1).replacen(
+        "inputs = { town = \"town\", trajectories = [",
+        "inputs = { town = \"other\", trajectories = [",
+        1,
+    );
+    check_refusal("towns_differ", &Street::with(&mixed, &map()), &["run", "recipe.toml", "--quiet", "--jobs", "1"]);
 }
 
 #[test]

@@ -2,7 +2,7 @@
 
 use crate::text::count;
 use cosfly_diagnose::{Diagnostic, render};
-use cosfly_stage::{RunEvent, TaskOutcome};
+use cosfly_stage::RunEvent;
 use indicatif::{MultiProgress, ProgressBar, ProgressDrawTarget, ProgressStyle};
 use std::collections::BTreeMap;
 use std::collections::btree_map::Entry;
@@ -33,6 +33,7 @@ struct Progress {
     bar: ProgressBar,
     total: u64,
     done: u64,
+    failed: u64,
 }
 
 impl Reporter {
@@ -57,22 +58,17 @@ impl Reporter {
         match event {
             RunEvent::Planned { stages } => self.planned(&stages),
             RunEvent::Started { .. } => {}
-            RunEvent::Finished { stage, outcome, produced, item, .. } => {
+            RunEvent::Finished { stage, produced, item, .. } => {
                 for warning in &produced.warnings {
                     self.line(&format!("warning: {stage}/{item}: {warning}"));
                 }
-                if let Some(reason) = &produced.rejected
-                    && outcome == TaskOutcome::Ran
-                {
-                    self.line(&format!("rejected: {stage}/{item}: {reason}"));
-                }
-                self.advance(&stage);
+                self.advance(&stage, false);
             }
             RunEvent::Failed { stage, item, diagnostic } => {
                 if diagnostic.code != "cancelled" {
                     self.failed(&stage, &item, &diagnostic);
                 }
-                self.advance(&stage);
+                self.advance(&stage, true);
             }
             RunEvent::Stopping => self.always("stopping: what is finished stays finished"),
         }
@@ -120,23 +116,25 @@ impl Reporter {
             } else if self.detail == Detail::Lines {
                 self.line(&format!("{stage:width$}  {total} items, {cached} cached"));
             }
-            stages.insert(stage.clone(), Progress { bar, total: *total, done: *cached });
+            stages.insert(stage.clone(), Progress { bar, total: *total, done: *cached, failed: 0 });
         }
     }
 
-    fn advance(&self, stage: &str) {
+    fn advance(&self, stage: &str, failed: bool) {
         let mut stages = self.stages.lock().unwrap_or_else(PoisonError::into_inner);
         let Some(progress) = stages.get_mut(stage) else { return };
         progress.done += 1;
         progress.bar.set_position(progress.done);
-        let (done, total) = (progress.done, progress.total);
+        progress.failed += u64::from(failed);
+        let (done, total, failed) = (progress.done, progress.total, progress.failed);
         if done == total {
             progress.bar.finish();
         }
         // When piped: a line at each tenth of a long stage, and at its end.
         let tenth = (total / 10).max(1);
         if self.detail == Detail::Lines && (done == total || (total >= 100 && done % tenth == 0)) {
-            self.line(&format!("{stage}  {done}/{total} done"));
+            let failed = if failed == 0 { String::new() } else { format!(", {failed} failed") };
+            self.line(&format!("{stage}  {done}/{total} done{failed}"));
         }
     }
 

@@ -2,7 +2,7 @@
 
 use crate::ports::{self, CAPTIONS, DATASET, FRAMES, LOG};
 use crate::render::REJECTION;
-use crate::world::world;
+use crate::world::{check_same_town, world};
 use crate::{codec, parameters};
 use cosfly_dataset::{
     CaptionRecord, DatasetConfig, DatasetSource, FramePackReader, LogRecord, PreviewStrip, PublishedLog, Rejection,
@@ -91,6 +91,7 @@ impl Stage for LogStage {
     }
 
     fn run(&self, inputs: &Inputs<'_>, outputs: &mut dyn OutputSink, context: &TaskContext) -> Result<Produced> {
+        check_same_town(inputs, "frames")?;
         let frames = inputs.one("frames")?;
         if let Some(rejection) = frames.blobs.get(REJECTION) {
             outputs.link(REJECTION, *rejection)?;

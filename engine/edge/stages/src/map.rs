@@ -1,6 +1,7 @@
 //! `map`: reads a town from a map file.
 
 use crate::ports::TOWN;
+use crate::world::TOWN_BLOB;
 use crate::{codec, parameters, single};
 use cosfly_diagnose::{Diagnostic, Fault, Label, Result};
 use cosfly_frames::Seed;
@@ -35,9 +36,11 @@ impl StageKind for Map {
         let mut config: MapConfig = parameters::read(given)?;
         let source = PathBuf::from(&config.source);
         // The name is part of what the stage makes; where the file lies is not.
-        config
-            .name
-            .get_or_insert_with(|| source.file_stem().map_or("town".into(), |stem| stem.to_string_lossy().into()));
+        config.name = Some(match config.name.take() {
+            Some(name) if is_plain(&name) => name,
+            Some(name) => return Err(refused_name(&name)),
+            None => plain_stem(&source),
+        });
         config.source = "(content)".into();
         let properties = StageProperties {
             kind: self.name().into(),
@@ -51,6 +54,33 @@ impl StageKind for Map {
         };
         Ok(single(MapStage { config, properties }))
     }
+}
+
+/// Names of towns become folders of the dataset and parts of its tables.
+fn is_plain(name: &str) -> bool {
+    (1..=80).contains(&name.len())
+        && !name.starts_with(['.', '-'])
+        && name.bytes().all(|byte| byte.is_ascii_alphanumeric() || b"._-".contains(&byte))
+}
+
+fn refused_name(name: &str) -> ParameterError {
+    let mut refusal = parameters::refused_at(
+        "name",
+        format!(
+            "`name` is `{name}`; it must have 1 to 80 of `A-Z`, `a-z`, `0-9`, `.`, `_`, `-` and begin with none of `.`, `-`"
+        ),
+    );
+    refusal.hint = Some("it names a folder of the dataset".into());
+    refusal
+}
+
+/// The file's name without extension, other characters replaced.
+fn plain_stem(source: &std::path::Path) -> String {
+    let stem = source.file_stem().map_or_else(String::new, |stem| stem.to_string_lossy().into_owned());
+    let plain: String =
+        stem.chars().map(|letter| if is_plain(&format!("a{letter}")) { letter } else { '_' }).take(80).collect();
+    let plain = plain.trim_start_matches(['.', '-']);
+    if plain.is_empty() { "town".into() } else { plain.into() }
 }
 
 struct MapStage {
@@ -69,7 +99,7 @@ impl Stage for MapStage {
             .map_err(|error| Diagnostic::io(format!("read the map `{}`", path.display()), &error))?;
         let (town, warnings) = read_town(&bytes, &self.config, Seed(context.seed))
             .map_err(|error| refusal(error, path.clone(), &bytes))?;
-        outputs.put("town", &codec::encode(TOWN, &town)?)?;
+        outputs.put(TOWN_BLOB, &codec::encode(TOWN, &town)?)?;
         let report = &town.simplification;
         let mut notes = std::collections::BTreeMap::from([
             ("obstacles".to_owned(), format!("{} boxes", town.obstacles.len())),

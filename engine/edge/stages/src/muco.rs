@@ -1,7 +1,7 @@
 //! `muco`: expert trajectories from the multi-constraint optimiser.
 
 use crate::ports::{self, TRAJECTORY, WALK};
-use crate::world::world;
+use crate::world::{check_same_town, link_town, world};
 use crate::{codec, parameters, single};
 use cosfly_diagnose::Result;
 use cosfly_frames::Seed;
@@ -60,12 +60,14 @@ impl Stage for MucoStage {
     }
 
     fn run(&self, inputs: &Inputs<'_>, outputs: &mut dyn OutputSink, context: &TaskContext) -> Result<Produced> {
+        check_same_town(inputs, "paths")?;
         let world = world(inputs)?;
         let walk: PedestrianPath = codec::decode(WALK, &inputs.read(inputs.one("paths")?, "walk")?)?;
         let ground = |x: f64, y: f64| world.ground.ground_height_m(x, y).unwrap_or(0.0);
         let outcome =
             plan(&walk.track, &world.exact, &world.town.planning_boxes, &ground, &self.config, Seed(context.seed));
         outputs.put("trajectory", &codec::encode(TRAJECTORY, &outcome)?)?;
+        link_town(inputs, outputs)?;
         Ok(produced(&outcome))
     }
 }

@@ -2,7 +2,7 @@
 
 use crate::memo::Memo;
 use crate::ports::{self, WALK};
-use crate::world::world;
+use crate::world::{link_town, world};
 use crate::{codec, parameters, single};
 use cosfly_diagnose::{Diagnostic, Fault, Result};
 use cosfly_frames::Seed;
@@ -71,6 +71,7 @@ impl Stage for PedestrianStage {
         let grid = self.grid.get(digest, || WalkableGrid::build(&world.town, &self.config)).map_err(refused)?;
         let path = walk(&grid, &self.config, Seed(context.seed)).map_err(refused)?;
         outputs.put("walk", &codec::encode(WALK, &path)?)?;
+        link_town(inputs, outputs)?;
         Ok(Produced::default())
     }
 }

@@ -2,7 +2,7 @@
 
 use crate::muco::produced;
 use crate::ports::{self, TRAJECTORY};
-use crate::world::world;
+use crate::world::{check_same_town, link_town, world};
 use crate::{codec, parameters, single};
 use cosfly_diagnose::Result;
 use cosfly_frames::Seed;
@@ -61,6 +61,7 @@ impl Stage for PerturbStage {
     }
 
     fn run(&self, inputs: &Inputs<'_>, outputs: &mut dyn OutputSink, context: &TaskContext) -> Result<Produced> {
+        check_same_town(inputs, "trajectories")?;
         let world = world(inputs)?;
         let artifact = inputs.one("trajectories")?;
         let expert: PlanOutcome = codec::decode(TRAJECTORY, &inputs.read(artifact, "trajectory")?)?;
@@ -75,6 +76,7 @@ impl Stage for PerturbStage {
             }
         };
         outputs.put("trajectory", &codec::encode(TRAJECTORY, &twin)?)?;
+        link_town(inputs, outputs)?;
         Ok(produced(&twin))
     }
 }

@@ -2,7 +2,7 @@
 
 use crate::memo::Memo;
 use crate::ports::{self, FRAMES, TRAJECTORY};
-use crate::world::{World, world};
+use crate::world::{TOWN_BLOB, World, check_same_town, link_town, world};
 use crate::{codec, parameters, single};
 use cosfly_dataset::frame_pack::{FramePackWriter, PackHeader};
 use cosfly_dataset::{EncodingConfig, PairInfo, Rejection, RenderedTrajectory, Role, TownInfo};
@@ -78,6 +78,8 @@ impl Stage for RenderStage {
     }
 
     fn run(&self, inputs: &Inputs<'_>, outputs: &mut dyn OutputSink, context: &TaskContext) -> Result<Produced> {
+        check_same_town(inputs, "trajectories")?;
+        link_town(inputs, outputs)?;
         let artifact = inputs.one("trajectories")?;
         let world = world(inputs)?;
         let outcome: PlanOutcome = codec::decode(TRAJECTORY, &inputs.read(artifact, "trajectory")?)?;
@@ -95,7 +97,7 @@ impl Stage for RenderStage {
                 return Ok(Produced { rejected: Some(reason), ..Produced::default() });
             }
         };
-        let town_digest = inputs.one("town")?.blobs["town"].digest;
+        let town_digest = inputs.one("town")?.blobs[TOWN_BLOB].digest;
         // Buildings look the same in every flight through the town.
         let scene = self.scene.get(town_digest, || {
             Ok::<_, Box<cosfly_diagnose::Diagnostic>>(Scene::new(&world.town, Seed(town_digest.0)))

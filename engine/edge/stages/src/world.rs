@@ -2,10 +2,10 @@
 
 use crate::codec;
 use crate::ports::TOWN;
-use cosfly_diagnose::Result;
+use cosfly_diagnose::{Diagnostic, Fault, Result};
 use cosfly_geometry::BoxBvh;
 use cosfly_maps::{GroundIndex, Town};
-use cosfly_stage::Inputs;
+use cosfly_stage::{Inputs, OutputSink};
 use std::sync::Arc;
 
 /// The town at port `town`, ready for queries.
@@ -18,9 +18,37 @@ pub struct World {
     pub ground: GroundIndex,
 }
 
+/// Every artifact that was made in a town carries the town's own blob under this name (a link, not a copy).
+pub const TOWN_BLOB: &str = "town";
+
+/// Marks what a task makes with the town that it was made in.
+pub fn link_town(inputs: &Inputs<'_>, outputs: &mut dyn OutputSink) -> Result<()> {
+    outputs.link(TOWN_BLOB, inputs.one("town")?.blobs[TOWN_BLOB])
+}
+
+/// Refuses an input that was made in another town than the one at port `town`: a flight planned in one town and
+/// filmed in another would be certified against buildings that are not in the picture.
+pub fn check_same_town(inputs: &Inputs<'_>, port: &str) -> Result<()> {
+    let town = inputs.one("town")?;
+    for artifact in inputs.all(port) {
+        if artifact.blobs.get(TOWN_BLOB) != town.blobs.get(TOWN_BLOB) {
+            return Err(Diagnostic::new(
+                "towns-differ",
+                Fault::Recipe,
+                format!(
+                    "`{}/{}` was made in another town than `{}`, which is connected to `inputs.town`",
+                    artifact.stage, artifact.item, town.stage
+                ),
+            )
+            .hint(format!("connect `inputs.town` and `inputs.{port}` so that both begin at the same `map` stage")));
+        }
+    }
+    Ok(())
+}
+
 /// The town at port `town` of a task.
 pub fn world(inputs: &Inputs<'_>) -> Result<Arc<World>> {
-    inputs.decoded(inputs.one("town")?, "town", |bytes| {
+    inputs.decoded(inputs.one("town")?, TOWN_BLOB, |bytes| {
         let town: Town = codec::decode(TOWN, bytes)?;
         let exact = BoxBvh::build(town.obstacles.iter().map(|obstacle| obstacle.shape).collect());
         let ground = GroundIndex::new(&town);

@@ -11,7 +11,7 @@ use serde::{Deserialize, Serialize};
 pub struct MapConfig {
     /// The map file, relative to the recipe. OpenDRIVE (`.xodr`).
     pub source: String,
-    /// Name of the town in all metadata. Default: the name in the file, else "town".
+    /// Name of the town in all metadata and of its folder: letters, digits, `.`, `_`, `-`. Default: the file's name without its extension.
     pub name: Option<String>,
     /// Let pedestrians use road shoulders in a town that has no pavements. Off by default: such a town is refused.
     pub shoulders_as_sidewalks: bool,

@@ -5,9 +5,11 @@ use crate::arguments::RunArguments;
 use crate::reporter::{Reporter, colour};
 use crate::text::{bytes, count, duration};
 use crate::{exit, interrupt};
+use cosfly_fingerprint::Digest;
 use cosfly_recipe::Recipe;
 use cosfly_runner::{Delivery, RunOptions, RunOutcome, RunSummary, deliver};
 use cosfly_store::Store;
+use std::collections::BTreeSet;
 use std::fmt::Write;
 use std::path::{Path, PathBuf};
 use std::time::Instant;
@@ -82,13 +84,29 @@ fn stages(run: &RunSummary) -> String {
             }
         }
     }
-    // A rejection travels down to the stages below; what a person wants to know is where it began.
-    let mut rejected: Vec<(&str, &str, &str)> = run.rejected().collect();
-    rejected.dedup_by(|later, first| later.2.ends_with(first.2));
+    let rejected = rejections(run);
     for (stage, item, reason) in rejected.iter().take(10) {
         let _ = writeln!(text, "rejected: {stage}/{item}: {reason}");
     }
+    if rejected.len() > 10 {
+        let _ = writeln!(text, "... and {} more", rejected.len() - 10);
+    }
     text + "\n"
+}
+
+/// Where rejections began: one travels down to every stage below, with the reason at its end.
+fn rejections(run: &RunSummary) -> Vec<(&str, &str, &str)> {
+    let mut first: Vec<(&str, &str, &str)> = Vec::new();
+    let mut seen: BTreeSet<(&str, &str)> = BTreeSet::new();
+    for (stage, item, reason) in run.rejected() {
+        // The item's own id stands behind the stages' names: `expert-p00003`.
+        let root = item.rsplit('-').next().unwrap_or(item);
+        let cause = reason.strip_prefix("its expert was rejected: ").unwrap_or(reason);
+        if seen.insert((root, cause)) {
+            first.push((stage, item, reason));
+        }
+    }
+    first
 }
 
 /// Where the result is and what to open next.
@@ -114,9 +132,13 @@ fn result(delivery: &Delivery, wanted: &str, out: &Path, store: &Path, took: &st
             }
         }
         None => {
+            let next = match delivery.summary.outcome {
+                RunOutcome::Failed => "mend what is named above and run the same command again",
+                RunOutcome::Complete | RunOutcome::Cancelled => "run the same command to go on",
+            };
             let _ = writeln!(
                 text,
-                "`{wanted}` is not finished after {took}; what is finished is kept in {}: run the same command to go on",
+                "`{wanted}` is not finished after {took}; what is finished is kept in {}: {next}",
                 store.display()
             );
         }
@@ -149,6 +171,7 @@ fn json(recipe: &Recipe, delivery: &Delivery, out: &Path) -> String {
             serde_json::json!({
                 "stage": stage.name, "items": stage.total, "cached": stage.cached, "ran": stage.ran,
                 "reused": stage.reused, "failed": stage.failed, "skipped": stage.skipped, "unfinished": stage.unfinished,
+                "digest": digest_of(run, &stage.name).to_string(),
             })
         })
         .collect();
@@ -171,4 +194,15 @@ fn json(recipe: &Recipe, delivery: &Delivery, out: &Path) -> String {
         "bytes": delivery.folder.as_ref().map(|folder| folder.bytes),
     });
     serde_json::to_string_pretty(&whole).expect("a summary is plain JSON") + "\n"
+}
+
+/// One digest over everything that the finished items of a stage hold: equal exactly when all their bytes are.
+fn digest_of(run: &RunSummary, stage: &str) -> Digest {
+    let mut lines = String::new();
+    for (item, finished) in run.finished_items(stage) {
+        for (name, blob) in &finished.record.outputs {
+            let _ = writeln!(lines, "{item}/{name} {}", blob.digest);
+        }
+    }
+    Digest::of(lines.as_bytes())
 }
