@@ -20,7 +20,7 @@ use crate::scene::{BOX_FACES, Scene, SceneBox};
 use crate::visibility::{NO_FACE, Screen, Visibility};
 use cosfly_frames::{DVec3, Pose};
 use cosfly_maps::{ObstacleKind, SemanticLabel};
-use glam::Vec3A as Vec3;
+use glam::{Vec3A as Vec3, Vec4};
 use light::Light;
 use pattern::{hash, lerp, smoothstep};
 use std::ops::Range;
@@ -221,13 +221,15 @@ impl Shader {
         look_at: impl Fn(&SurfacePoint) -> Look,
     ) {
         let mut start = run.start;
+        let mut first = self.slow_part(context, start, plane);
+        let normal = if first.facing > 0.0 { -plane.normal } else { plane.normal };
         while start < run.end {
             let end = (start + BLOCK).min(run.end);
-            let first = self.slow_part(context, start, plane);
-            let last = if end - start > 1 { self.slow_part(context, end - 1, plane) } else { first };
-            let step = 1.0 / ((end - start).max(2) - 1) as i32 as f32;
-            let normal = if first.facing > 0.0 { -plane.normal } else { plane.normal };
+            let ahead = end.min(run.end - 1);
+            let last = if ahead > start { self.slow_part(context, ahead, plane) } else { first };
+            let step = 1.0 / (ahead - start).max(1) as i32 as f32;
             let mut sunlight = 0.0;
+            let mut is_fresh = false;
             for column in start..end {
                 let skipped = |column: usize| column > start && column + 1 < end && (column + context.row) % 2 == 1;
                 if sparse && skipped(column) {
@@ -236,7 +238,7 @@ impl Shader {
                 let slow = first.lerp(&last, (column - start) as i32 as f32 * step);
                 let ray = self.view.ray(column, context.row);
                 let world = self.view.position + ray * context.depth[column];
-                let (along, up) = (slow.along_m, slow.up_m);
+                let [along, up, sky, lamps] = slow.values.to_array();
                 let point = SurfacePoint {
                     world,
                     normal,
@@ -245,18 +247,22 @@ impl Shader {
                 };
                 let look = look_at(&point);
                 let toward = look.normal.dot(self.light.to_sun);
-                // Shadows are looked up for every other pixel of a block and for its last one.
-                if sparse || (column - start).is_multiple_of(2) || column + 1 == end {
+                // Shadows matter where the sun can shine: there, on every other pixel of a block and its last one.
+                let is_asked = !is_fresh || sparse || (column - start).is_multiple_of(2) || column + 1 == end;
+                if toward <= 0.0 {
+                    is_fresh = false;
+                } else if is_asked {
                     sunlight = self.shadows.sunlight(world, normal, &context.scene.noise);
+                    is_fresh = true;
                 }
                 let direct = self.light.sun * (toward.max(0.0) * sunlight);
-                let colour = self.lit(context.scene, &point, &look, ray, &slow, direct, wettable);
+                let colour = self.lit(context.scene, &point, &look, ray, [sky, lamps], direct, wettable);
                 colours[column] = colour * slow.kept + self.haze * (1.0 - slow.kept);
                 if sparse && column >= start + 2 && skipped(column - 1) {
                     colours[column - 1] = (colours[column - 2] + colours[column]) * 0.5;
                 }
             }
-            start = end;
+            (start, first) = (end, last);
         }
     }
 
@@ -275,14 +281,11 @@ impl Shader {
         let grid = context.scene.grid.sample(off_wall.x, off_wall.y);
         let far = (depth * ray.dot(ray).sqrt() - self.light.haze_start_m).max(0.0);
         let above = world.z - grid.ground_m;
-        SlowPart {
-            along_m: a.dot(plane.along).abs() + b.dot(plane.along).abs(),
-            up_m: a.dot(plane.up).abs() + b.dot(plane.up).abs(),
-            sky: 0.36 + 0.64 * (grid.sky + (1.0 - grid.sky) * (above * 0.045).clamp(0.0, 0.85)),
-            lamps: grid.lamps * (1.0 - above * 0.11).max(0.0),
-            kept: fast_exp(-self.light.haze_per_m * far),
-            facing,
-        }
+        let sky = 0.36 + 0.64 * (grid.sky + (1.0 - grid.sky) * (above * 0.045).clamp(0.0, 0.85));
+        let lamps = grid.lamps * (1.0 - above * 0.11).max(0.0);
+        let along_m = a.dot(plane.along).abs() + b.dot(plane.along).abs();
+        let up_m = a.dot(plane.up).abs() + b.dot(plane.up).abs();
+        SlowPart { values: Vec4::new(along_m, up_m, sky, lamps), kept: fast_exp(-self.light.haze_per_m * far), facing }
     }
 
     /// Light that a surface point sends to the camera.
@@ -294,13 +297,13 @@ impl Shader {
         point: &SurfacePoint,
         look: &Look,
         ray: Vec3,
-        slow: &SlowPart,
+        [open_sky, lamps]: [f32; 2],
         direct: Vec3,
         wettable: bool,
     ) -> Vec3 {
         let light = &self.light;
-        let lamp_share = slow.lamps * (0.75 + 0.25 * look.normal.z);
-        let arriving = direct + light.ambient(look.normal) * (slow.sky * look.openness) + light.lamp * lamp_share;
+        let lamp_share = lamps * (0.75 + 0.25 * look.normal.z);
+        let arriving = direct + light.ambient(look.normal) * (open_sky * look.openness) + light.lamp * lamp_share;
         let (mut albedo, mut mirror, mut reflecting) = (look.albedo, look.mirror, look.normal);
         if wettable && light.wet > 0.0 && point.normal.z > 0.9 {
             let level = scene.noise.clumps(point.world.x * 2.1, point.world.y * 2.1, point.footprint_m * 2.1);
@@ -319,7 +322,7 @@ impl Shader {
             let out = view + reflecting * (2.0 * cosine);
             let share = (mirror * (0.30 + 0.9 * fresnel)).min(0.85);
             // Near the horizon a street mirrors its houses more than the sky.
-            let open = slow.sky * (0.30 + 0.70 * (2.2 * out.z).clamp(0.0, 1.0));
+            let open = open_sky * (0.30 + 0.70 * (2.2 * out.z).clamp(0.0, 1.0));
             let seen = light.sky(out) * open + arriving * 0.10 + light.lamp * (0.6 * lamp_share);
             colour = colour * (1.0 - share) + seen * share;
         }
@@ -338,15 +341,13 @@ fn fast_exp(x: f32) -> f32 {
 }
 
 /// Pixels over which slow changes are taken as linear.
-const BLOCK: usize = 8;
+const BLOCK: usize = 12;
 
 /// What changes slowly over a surface.
 #[derive(Clone, Copy)]
 struct SlowPart {
-    along_m: f32,
-    up_m: f32,
-    sky: f32,
-    lamps: f32,
+    /// Size of a pixel along the surface and up it, metres; openness to the sky; light of lamps.
+    values: Vec4,
     /// Share of light that haze lets through.
     kept: f32,
     /// Cosine-like: negative where the plane's normal points to the camera.
@@ -357,10 +358,7 @@ impl SlowPart {
     #[inline(always)]
     fn lerp(&self, other: &Self, t: f32) -> Self {
         Self {
-            along_m: lerp(self.along_m, other.along_m, t),
-            up_m: lerp(self.up_m, other.up_m, t),
-            sky: lerp(self.sky, other.sky, t),
-            lamps: lerp(self.lamps, other.lamps, t),
+            values: self.values + (other.values - self.values) * t,
             kept: lerp(self.kept, other.kept, t),
             facing: self.facing,
         }

@@ -43,7 +43,8 @@ pub fn nearest_index(x: f32) -> usize {
 /// 0 below `low`, 1 above `high`, smooth between.
 #[inline(always)]
 pub fn smoothstep(low: f32, high: f32, x: f32) -> f32 {
-    let t = ((x - low) / (high - low)).clamp(0.0, 1.0);
+    // The reciprocal of constant limits is computed once, by the compiler.
+    let t = ((x - low) * (1.0 / (high - low))).clamp(0.0, 1.0);
     t * t * (3.0 - 2.0 * t)
 }
 
