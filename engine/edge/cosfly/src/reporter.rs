@@ -5,9 +5,11 @@ use cosfly_diagnose::{Diagnostic, render};
 use cosfly_stage::RunEvent;
 use indicatif::{MultiProgress, ProgressBar, ProgressDrawTarget, ProgressStyle};
 use std::collections::BTreeMap;
-use std::collections::btree_map::Entry;
 use std::io::IsTerminal;
 use std::sync::{Mutex, PoisonError};
+
+/// Failures of one stage and code that are shown in full.
+const SHOWN_ALIKE: u64 = 3;
 
 /// How much is printed while a run goes on.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -25,8 +27,8 @@ pub struct Reporter {
     detail: Detail,
     bars: MultiProgress,
     stages: Mutex<BTreeMap<String, Progress>>,
-    /// Failures that were shown in full, with the number of items that failed in the same way since.
-    failures: Mutex<BTreeMap<String, u64>>,
+    /// Failed items by stage and code.
+    failures: Mutex<BTreeMap<(String, &'static str), u64>>,
 }
 
 struct Progress {
@@ -74,25 +76,22 @@ impl Reporter {
         }
     }
 
-    /// Shows a failure, unless an item of the same stage failed in the same way: a thousand items, one message.
+    /// Shows a failure, unless enough items of the same stage failed in the same way: a thousand items, three messages.
     fn failed(&self, stage: &str, item: &str, diagnostic: &Diagnostic) {
-        let message = render(diagnostic, colour());
+        let message = format!("{}\n  (in `{stage}/{item}`)", render(diagnostic, colour()));
         let mut failures = self.failures.lock().unwrap_or_else(PoisonError::into_inner);
-        match failures.entry(format!("{stage}\n{message}")) {
-            Entry::Vacant(first) => {
-                first.insert(0);
-                self.always(&format!("{message}\n  (in `{stage}/{item}`)"));
-            }
-            Entry::Occupied(mut again) => *again.get_mut() += 1,
+        let alike = failures.entry((stage.to_owned(), diagnostic.code)).or_insert(0);
+        *alike += 1;
+        if *alike <= SHOWN_ALIKE {
+            self.always(&message);
         }
     }
 
-    /// Takes the bars away and counts what was shown once.
+    /// Takes the bars away and counts the failures that were not shown.
     pub fn finish(&self) {
-        for (failure, more) in self.failures.lock().unwrap_or_else(PoisonError::into_inner).iter() {
-            if *more > 0 {
-                let stage = failure.lines().next().unwrap_or_default();
-                self.always(&format!("{} of `{stage}` failed in the same way", count(*more, "more item")));
+        for ((stage, code), alike) in self.failures.lock().unwrap_or_else(PoisonError::into_inner).iter() {
+            if *alike > SHOWN_ALIKE {
+                self.always(&format!("{} of `{stage}` failed with `{code}`", count(alike - SHOWN_ALIKE, "more item")));
             }
         }
         for progress in self.stages.lock().unwrap_or_else(PoisonError::into_inner).values() {

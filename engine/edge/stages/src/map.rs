@@ -34,6 +34,16 @@ impl StageKind for Map {
 
     fn build(&self, given: serde_json::Value) -> Result<Vec<StagePart>, ParameterError> {
         let mut config: MapConfig = parameters::read(given)?;
+        let fill = &config.fill;
+        for (path, low, high) in [
+            ("fill.max_height_m", fill.min_height_m, fill.max_height_m),
+            ("fill.max_setback_m", fill.min_setback_m, fill.max_setback_m),
+        ] {
+            if high < low {
+                let message = format!("`{path}` is `{high}`; it must be at least the smallest one, `{low}`");
+                return Err(parameters::refused_at(path, message));
+            }
+        }
         let source = PathBuf::from(&config.source);
         // The name is part of what the stage makes; where the file lies is not.
         config.name = Some(match config.name.take() {
