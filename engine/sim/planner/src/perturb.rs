@@ -13,6 +13,9 @@ use serde::{Deserialize, Serialize};
 /// Kept beyond the asked clearance, so that rounding cannot take it away again, metres.
 const ROUNDING_M: f64 = 1e-6;
 
+/// Steepest pitch of a turned view, radians (89.9 degrees): at 90 a pose has no unique yaw.
+const STEEPEST_PITCH_RAD: f64 = 89.9 * (real::PI / 180.0);
+
 /// Fresh draws of a displacement that is not free, before it is shortened.
 const DRAWS: usize = 8;
 
@@ -242,11 +245,12 @@ fn displaced(expert_pose: Pose, expert: &Trajectory, frame: usize, applied: &Fra
     Pose { roll_rad: expert_pose.roll_rad, ..Pose::looking_at(position + applied.drone_offset_in_world, aim) }
 }
 
-/// Turns the view by an angle uniform in 0..=max, split into pitch and yaw by a uniform direction.
+/// Turns the view by an angle uniform in 0..=max, split into pitch and yaw by a uniform direction. The pitch stops at
+/// [`STEEPEST_PITCH_RAD`]; what was turned is recorded, not what was drawn.
 fn turn(pose: &mut Pose, applied: &mut FramePerturbation, config: &PerturbConfig, mut stream: RandomStream) {
     let angle = stream.uniform(0.0, config.max_rotation_deg.to_radians());
     let (sin, cos) = real::sin_cos(stream.uniform(-real::PI, real::PI));
-    let pitch_rad = (pose.pitch_rad + sin * angle).clamp(-real::FRAC_PI_2, real::FRAC_PI_2);
+    let pitch_rad = (pose.pitch_rad + sin * angle).clamp(-STEEPEST_PITCH_RAD, STEEPEST_PITCH_RAD);
     applied.pitch_offset_rad = pitch_rad - pose.pitch_rad;
     applied.yaw_offset_rad = cos * angle;
     pose.pitch_rad = pitch_rad;
@@ -418,6 +422,22 @@ mod tests {
         }
         assert!(twin.certificate.holds && twin.certificate.mean_visibility == 1.0);
         assert_eq!(twin.perturbation.as_ref().unwrap().expert_item, "p3");
+    }
+
+    #[test]
+    fn views_never_turn_past_the_vertical_and_record_what_was_turned() {
+        let expert = expert(400);
+        let config = PerturbConfig { position_probability: 0.0, max_rotation_deg: 90.0, ..PerturbConfig::default() };
+        let twin = twin_of(&expert, &BoxBvh::build(vec![]), &config, seed());
+        let steepest = 89.9 + 1e-9;
+        let mut stopped = 0;
+        for (i, frame) in frames(&twin).iter().enumerate() {
+            let (pose, original) = (twin.poses_in_world[i], expert.poses_in_world[i]);
+            assert!(pose.pitch_rad.to_degrees().abs() <= steepest, "{}", pose.pitch_rad.to_degrees());
+            assert!((original.pitch_rad + frame.pitch_offset_rad - pose.pitch_rad).abs() < 1e-12);
+            stopped += usize::from(pose.pitch_rad.to_degrees() < -89.8);
+        }
+        assert!(stopped > 10, "{stopped}");
     }
 
     #[test]
