@@ -96,9 +96,12 @@ fn target() -> Vec<Column<DatasetItem>> {
 
 fn view() -> Vec<Column<DatasetItem>> {
     vec![
-        Column::new("in_view", Kind::Flag, "the body covers at least one pixel centre of the image, occluded or not", |item, i| {
-            view_of(item, i).in_view.into()
-        }),
+        Column::new(
+            "in_view",
+            Kind::Flag,
+            "the body covers at least one pixel centre of the image, occluded or not",
+            |item, i| view_of(item, i).in_view.into(),
+        ),
         Column::new("visible_by_rays", Kind::Real, "share of body points reached by unoccluded rays", |item, i| {
             view_of(item, i).visible_by_rays.into()
         }),

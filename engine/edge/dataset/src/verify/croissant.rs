@@ -2,11 +2,12 @@
 
 use super::files::CheckedFiles;
 use super::report::VerifyReport;
-use crate::hashing::sha256_of;
+use crate::hashing::sha256_of_reader;
 use crate::tables::{self, Table};
 use cosfly_diagnose::Result;
 use serde_json::Value;
 use std::collections::BTreeSet;
+use std::fs::File;
 use std::path::Path;
 
 const FILE: &str = "croissant.json";
@@ -33,7 +34,7 @@ pub fn check(folder: &Path, files: &CheckedFiles, report: &mut VerifyReport) -> 
             report.find(FILE, property, "verify-croissant", "it is missing or empty");
         }
     }
-    check_file_objects(folder, &document, report);
+    check_file_objects(folder, files, &document, report);
     for table in tables::of_trajectories() {
         check_fields(&document, &table, true, report);
     }
@@ -46,17 +47,18 @@ fn list(value: &Value) -> &[Value] {
     value.as_array().map_or(&[], Vec::as_slice)
 }
 
-fn check_file_objects(folder: &Path, document: &Value, report: &mut VerifyReport) {
+fn check_file_objects(folder: &Path, files: &CheckedFiles, document: &Value, report: &mut VerifyReport) {
     let mut names_files = false;
     for object in list(&document["distribution"]).iter().filter(|object| object["@type"] == "cr:FileObject") {
         let path = object["contentUrl"].as_str().unwrap_or_default();
         names_files |= path == "files.parquet";
-        let inside = Path::new(path).components().all(|part| matches!(part, std::path::Component::Normal(_)));
-        let Some(bytes) = inside.then(|| std::fs::read(folder.join(path)).ok()).flatten() else {
+        // Only files that were looked at before are opened: no pipes, no paths that lead out.
+        let outcome = files.regular.get(path).and_then(|path| File::open(folder.join(path)).ok());
+        let Some((bytes, sha256)) = outcome.and_then(|mut file| sha256_of_reader(&mut file).ok()) else {
             report.find(FILE, format!("file object `{path}`"), "verify-missing-file", "it is not there");
             continue;
         };
-        if object["sha256"] != sha256_of(&bytes) || object["contentSize"] != format!("{} B", bytes.len()) {
+        if object["sha256"] != sha256 || object["contentSize"] != format!("{bytes} B") {
             report.find(FILE, format!("file object `{path}`"), "verify-hash", "its hash or size is another one");
         }
     }

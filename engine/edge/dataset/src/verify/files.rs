@@ -7,6 +7,7 @@ use crate::tables::FileRecord;
 use cosfly_diagnose::{Diagnostic, Result};
 use std::collections::{BTreeMap, BTreeSet};
 use std::fs::File;
+use std::io::{ErrorKind, Read};
 use std::path::Path;
 
 /// The listed files.
@@ -15,6 +16,8 @@ pub struct CheckedFiles {
     pub listed: BTreeMap<String, FileRecord>,
     /// Those that are present with the right hash.
     pub sound: BTreeSet<String>,
+    /// Those that are present and can be read, whatever is in them.
+    pub regular: BTreeSet<String>,
 }
 
 impl CheckedFiles {
@@ -24,76 +27,130 @@ impl CheckedFiles {
     }
 }
 
+/// The two files that `SHA256SUMS` names; `files.parquet` names the others.
+const SUMMED: [&str; 2] = ["files.parquet", "croissant.json"];
+/// Longest `SHA256SUMS` that is read; two lines need less.
+const SUMS_LIMIT: u64 = 64 << 10;
+
 /// Checks `SHA256SUMS`, then every file that `files.parquet` lists, then looks for others.
 pub fn check(folder: &Path, report: &mut VerifyReport) -> Result<CheckedFiles> {
-    let mut sound = BTreeSet::new();
-    for file in sums(folder, report)? {
-        check_file(folder, &file, report, &mut sound)?;
+    let mut files = CheckedFiles { listed: BTreeMap::new(), sound: BTreeSet::new(), regular: BTreeSet::new() };
+    let sums = sums(folder, report)?;
+    for path in SUMMED {
+        let sha256 = sums.get(path).map(String::as_str);
+        check_file(folder, &Expected { path, bytes: None, sha256 }, report, &mut files)?;
     }
-    let mut listed = BTreeMap::new();
-    if sound.contains("files.parquet") {
+    if files.sound.contains("files.parquet") {
         match rows::files(&folder.join("files.parquet")) {
-            Ok(files) => listed.extend(files.into_iter().map(|file| (file.path.clone(), file))),
+            Ok(rows) => list(rows, report, &mut files.listed),
             Err(message) => report.find("files.parquet", "", "verify-schema", message),
         }
     }
-    for file in listed.values() {
-        check_file(folder, file, report, &mut sound)?;
+    for file in files.listed.clone().values() {
+        let expected = Expected { path: &file.path, bytes: Some(file.bytes), sha256: Some(&file.sha256) };
+        check_file(folder, &expected, report, &mut files)?;
     }
     for path in present(folder)? {
-        let known = listed.contains_key(&path) || ["files.parquet", "croissant.json", "SHA256SUMS"].contains(&&*path);
-        if !known {
+        let is_known = files.listed.contains_key(&path) || SUMMED.contains(&&*path) || path == "SHA256SUMS";
+        // A link to a folder is not walked; its listed files were found through it.
+        let leads_to_known = || files.listed.keys().any(|file| file.starts_with(&format!("{path}/")));
+        if !is_known && !leads_to_known() {
             report.find(&path, "", "verify-extra-file", "it is not in `files.parquet`");
         }
     }
-    Ok(CheckedFiles { listed, sound })
-}
-
-/// The entries of `SHA256SUMS`; sizes are not in it.
-fn sums(folder: &Path, report: &mut VerifyReport) -> Result<Vec<FileRecord>> {
-    let bytes =
-        std::fs::read(folder.join("SHA256SUMS")).map_err(|error| Diagnostic::io("read `SHA256SUMS`", &error))?;
-    let text = String::from_utf8_lossy(&bytes);
-    let mut files = vec![];
-    for line in text.lines() {
-        if let Some((sha256, path)) = line.split_once("  ") {
-            files.push(FileRecord { path: path.to_owned(), bytes: u64::MAX, sha256: sha256.to_owned() });
-        }
-    }
-    for path in ["files.parquet", "croissant.json"] {
-        if !files.iter().any(|file| file.path == path) {
-            report.find("SHA256SUMS", "", "verify-hash", format!("it has no line for `{path}`"));
-        }
-    }
-    files.retain(|file| ["files.parquet", "croissant.json"].contains(&&*file.path));
     Ok(files)
 }
 
-fn check_file(folder: &Path, file: &FileRecord, report: &mut VerifyReport, sound: &mut BTreeSet<String>) -> Result<()> {
-    if !is_inside(&file.path) {
-        report.find(&file.path, "", "verify-path", "the path leads out of the dataset's folder");
+fn list(rows: Vec<FileRecord>, report: &mut VerifyReport, listed: &mut BTreeMap<String, FileRecord>) {
+    for (row, file) in rows.into_iter().enumerate() {
+        if let Some(first) = listed.insert(file.path.clone(), file) {
+            let message = format!("`{}` is listed twice", first.path);
+            report.find("files.parquet", format!("row {row}"), "verify-duplicate", message);
+        }
+    }
+}
+
+/// The hashes in `SHA256SUMS` by path. A file without one is read all the same, so that one missing line hides
+/// nothing else.
+fn sums(folder: &Path, report: &mut VerifyReport) -> Result<BTreeMap<String, String>> {
+    const FILE: &str = "SHA256SUMS";
+    let mut sums = BTreeMap::new();
+    if regular_size(folder, FILE, report)?.is_none() {
+        return Ok(sums);
+    }
+    let mut bytes = vec![];
+    File::open(folder.join(FILE))
+        .and_then(|file| file.take(SUMS_LIMIT).read_to_end(&mut bytes))
+        .map_err(|error| Diagnostic::io("read `SHA256SUMS`", &error))?;
+    for (number, line) in String::from_utf8_lossy(&bytes).lines().enumerate() {
+        let place = format!("line {}", number + 1);
+        match line.split_once("  ") {
+            Some((sha256, path)) if SUMMED.contains(&path) => {
+                if sums.insert(path.to_owned(), sha256.to_owned()).is_some() {
+                    report.find(FILE, place, "verify-hash", format!("a second line for `{path}`"));
+                }
+            }
+            Some((_, path)) => {
+                report.find(FILE, place, "verify-hash", format!("`{path}` does not belong here, only {SUMMED:?} do"));
+            }
+            None => report.find(FILE, place, "verify-hash", "it is not a hash, two spaces and a path"),
+        }
+    }
+    for path in SUMMED.into_iter().filter(|path| !sums.contains_key(*path)) {
+        report.find(FILE, "", "verify-hash", format!("it has no line for `{path}`"));
+    }
+    Ok(sums)
+}
+
+/// What a file must be, as far as it is known.
+struct Expected<'a> {
+    path: &'a str,
+    bytes: Option<u64>,
+    sha256: Option<&'a str>,
+}
+
+fn check_file(folder: &Path, file: &Expected<'_>, report: &mut VerifyReport, files: &mut CheckedFiles) -> Result<()> {
+    let path = file.path;
+    if !is_inside(path) {
+        report.find(path, "", "verify-path", "the path leads out of the dataset's folder");
         return Ok(());
     }
-    let mut input = match File::open(folder.join(&file.path)) {
-        Ok(input) => input,
-        Err(error) if error.kind() == std::io::ErrorKind::NotFound => {
-            report.find(&file.path, "", "verify-missing-file", "it is listed and not there");
-            return Ok(());
-        }
-        Err(error) => return Err(Diagnostic::io(format!("open `{}`", file.path), &error)),
-    };
-    let (bytes, sha256) =
-        sha256_of_reader(&mut input).map_err(|error| Diagnostic::io(format!("read `{}`", file.path), &error))?;
+    let Some(size) = regular_size(folder, path, report)? else { return Ok(()) };
+    files.regular.insert(path.to_owned());
+    if let Some(listed) = file.bytes.filter(|bytes| *bytes != size) {
+        report.find(path, "", "verify-size", format!("it has {size} bytes; {listed} are listed"));
+        return Ok(());
+    }
+    let (bytes, sha256) = File::open(folder.join(path))
+        .and_then(|input| sha256_of_reader(&mut input.take(size)))
+        .map_err(|error| Diagnostic::io(format!("read `{path}`"), &error))?;
     report.files += 1;
     report.bytes += bytes;
-    if file.bytes != u64::MAX && bytes != file.bytes {
-        report.find(&file.path, "", "verify-size", format!("it has {bytes} bytes; {} are listed", file.bytes));
-    } else if sha256 != file.sha256 {
-        report.find(&file.path, "", "verify-hash", format!("its SHA-256 is {sha256}; {} is listed", file.sha256));
-    } else {
-        sound.insert(file.path.clone());
+    match file.sha256 {
+        Some(listed) if listed != sha256 => {
+            report.find(path, "", "verify-hash", format!("its SHA-256 is {sha256}; {listed} is listed"));
+        }
+        _ => {
+            files.sound.insert(path.to_owned());
+        }
     }
     Ok(())
+}
+
+/// The size of a file that can be read to its end: pipes, devices and folders are findings and never opened.
+fn regular_size(folder: &Path, path: &str, report: &mut VerifyReport) -> Result<Option<u64>> {
+    match std::fs::metadata(folder.join(path)) {
+        Ok(found) if found.is_file() => return Ok(Some(found.len())),
+        Ok(_) => report.find(path, "", "verify-not-a-file", "it is a folder, a pipe or a device; a file belongs here"),
+        Err(error) if error.kind() == ErrorKind::PermissionDenied => {
+            return Err(Diagnostic::io(format!("open `{path}`"), &error));
+        }
+        Err(error) if error.kind() == ErrorKind::NotFound => {
+            report.find(path, "", "verify-missing-file", "it is listed and not there");
+        }
+        Err(error) => report.find(path, "", "verify-missing-file", format!("it cannot be found: {error}")),
+    }
+    Ok(None)
 }
 
 /// Whether a listed path is relative and goes only down.
@@ -101,7 +158,7 @@ fn is_inside(path: &str) -> bool {
     Path::new(path).components().all(|part| matches!(part, std::path::Component::Normal(_))) && !path.is_empty()
 }
 
-/// All files below the folder, hidden ones left out.
+/// All files below the folder, hidden ones left out. Links to folders are not followed: they could lead back.
 fn present(folder: &Path) -> Result<Vec<String>> {
     let mut files = vec![];
     let mut open = vec![(folder.to_owned(), String::new())];
@@ -114,7 +171,7 @@ fn present(folder: &Path) -> Result<Vec<String>> {
                 continue;
             }
             let path = format!("{prefix}{name}");
-            if entry.path().is_dir() {
+            if entry.file_type().map_err(read_error)?.is_dir() {
                 open.push((entry.path(), format!("{path}/")));
             } else {
                 files.push(path);

@@ -70,6 +70,43 @@ fn truncated_missing_and_extra_files_are_found() {
 }
 
 #[test]
+fn folders_and_pipes_in_the_place_of_files_are_found_and_not_waited_for() {
+    let folder = published(sample::flights());
+    let log = some_file(&folder, "mcap/plain/000");
+    std::fs::remove_file(&log).unwrap();
+    let _pipe = std::os::unix::net::UnixListener::bind(&log).unwrap();
+    std::fs::remove_file(folder.path().join("croissant.json")).unwrap();
+    std::fs::create_dir(folder.path().join("croissant.json")).unwrap();
+    let report = verify(folder.path(), &mut |_, _| {}).unwrap();
+    let found: Vec<&str> =
+        report.findings.iter().filter(|it| it.rule == "verify-not-a-file").map(|it| it.file.as_str()).collect();
+    assert_eq!(found.len(), 2, "{:#?}", report.findings);
+    assert_eq!(found[0], "croissant.json");
+}
+
+#[test]
+fn each_missing_head_of_a_dataset_is_a_finding() {
+    for name in ["files.parquet", "croissant.json", "SHA256SUMS"] {
+        let folder = published(sample::flights());
+        std::fs::remove_file(folder.path().join(name)).unwrap();
+        let report = verify(folder.path(), &mut |_, _| {}).unwrap();
+        assert!(report.findings.iter().any(|it| it.rule == "verify-missing-file" && it.file == name), "{name}");
+    }
+    let folder = published(sample::flights());
+    let sums = folder.path().join("SHA256SUMS");
+    let text = std::fs::read_to_string(&sums).unwrap();
+    std::fs::write(&sums, format!("{text}{}  README.md\n", "0".repeat(64))).unwrap();
+    assert_eq!(rules_of(&folder), ["verify-hash"]);
+}
+
+#[test]
+fn a_dataset_of_perturbed_flights_alone_is_sound() {
+    let flights = sample::flights().into_iter().filter(|flight| flight.record.pair.is_some()).collect();
+    let report = verify(published(flights).path(), &mut |_, _| {}).unwrap();
+    assert!(report.is_sound() && report.flights == 2, "{:#?}", report.findings);
+}
+
+#[test]
 fn images_of_the_next_frame_are_found() {
     let mut flights = sample::flights();
     flights[0].images.rotate_left(1);
@@ -132,4 +169,6 @@ fn an_action_that_does_not_lead_to_the_next_pose_is_found() {
 fn a_folder_without_a_dataset_is_refused() {
     let folder = tempfile::tempdir().unwrap();
     assert!(verify(folder.path(), &mut |_, _| {}).unwrap_err().message.contains("is not a finished dataset"));
+    let absent = folder.path().join("absent");
+    assert!(verify(&absent, &mut |_, _| {}).unwrap_err().message.contains("does not exist"));
 }
