@@ -15,6 +15,7 @@ pub struct DatasetConfig {
     /// Title of the card.
     pub title: String,
     /// What the dataset is, in a paragraph; the card and `croissant.json` show it.
+    #[schemars(length(min = 1))]
     pub description: String,
     /// Version of the data, `MAJOR.MINOR.PATCH`.
     #[schemars(regex(pattern = r"^(0|[1-9][0-9]*)\.(0|[1-9][0-9]*)\.(0|[1-9][0-9]*)$"))]
@@ -24,6 +25,7 @@ pub struct DatasetConfig {
     /// Who publishes it.
     pub creator: CreatorConfig,
     /// Where it lives.
+    #[schemars(length(min = 1))]
     pub url: String,
     /// How to cite it (BibTeX); empty writes an entry from the title, creator and year.
     pub citation: String,
@@ -74,6 +76,13 @@ impl DatasetConfig {
                 ),
             });
         }
+        if !is_day(&self.date_published) {
+            return Err(ParameterError {
+                path: vec!["date_published".into()],
+                message: format!("`{}` is not a day of the calendar", self.date_published),
+                hint: Some("write it as `YYYY-MM-DD`, such as `2026-01-31`".into()),
+            });
+        }
         let known = crate::croissant::RESPONSIBLE_AI_TERMS;
         match self.responsible_ai.keys().find(|term| !known.contains(&term.as_str())) {
             None => Ok(()),
@@ -89,6 +98,20 @@ impl DatasetConfig {
     }
 }
 
+/// Whether a date of the form `YYYY-MM-DD` is in the Gregorian calendar.
+fn is_day(date: &str) -> bool {
+    let parts: Vec<u32> = date.split('-').filter_map(|part| part.parse().ok()).collect();
+    let [year, month, day] = parts[..] else { return false };
+    let is_leap = year % 4 == 0 && (year % 100 != 0 || year % 400 == 0);
+    let days = match month {
+        2 => 28 + u32::from(is_leap),
+        4 | 6 | 9 | 11 => 30,
+        1..=12 => 31,
+        _ => 0,
+    };
+    year > 0 && (1..=days).contains(&day)
+}
+
 /// A licence for data.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(default, deny_unknown_fields)]
@@ -96,6 +119,7 @@ pub struct LicenseConfig {
     /// SPDX name in lower case as Hugging Face lists it, such as `cc-by-4.0`, or any other name.
     pub name: String,
     /// Address of its text.
+    #[schemars(length(min = 1))]
     pub url: String,
     /// Content of the `LICENSE` file; empty writes the name and the address.
     pub text: String,
@@ -195,6 +219,20 @@ pub enum DepthEncoding {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn a_day_that_no_calendar_has_is_refused() {
+        for (date, holds) in [
+            ("2026-02-28", true),
+            ("2024-02-29", true),
+            ("2026-02-29", false),
+            ("2026-06-31", false),
+            ("2026-13-01", false),
+        ] {
+            let config = DatasetConfig { date_published: date.into(), ..DatasetConfig::default() };
+            assert_eq!(config.check().is_ok(), holds, "{date}");
+        }
+    }
 
     #[test]
     fn a_mistyped_term_and_shares_without_any_are_refused_with_their_place() {
