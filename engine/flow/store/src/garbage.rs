@@ -149,10 +149,11 @@ fn mark(layout: &Layout, keep_runs: usize) -> io::Result<Needed> {
 }
 
 fn mark_finished(layout: &Layout, plan: &Digest, needed: &mut Needed) {
-    let action = fs::read_to_string(layout.file(Area::Done, plan)).ok().and_then(|text| text.trim_end().parse().ok());
-    let Some(action) = action else { return };
+    let done = fs::read(layout.file(Area::Done, plan)).ok();
+    let Some(action) = done.and_then(|bytes| records::decode_done(plan, &bytes)) else { return };
     if needed.actions.insert(action) {
-        let record = fs::read(layout.file(Area::Actions, &action)).ok().and_then(|bytes| records::decode(&bytes));
+        let record =
+            fs::read(layout.file(Area::Actions, &action)).ok().and_then(|bytes| records::decode(&action, &bytes));
         needed.blobs.extend(record.iter().flat_map(|record| record.outputs.values().map(|blob| blob.digest)));
     }
 }

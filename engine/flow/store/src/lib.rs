@@ -3,8 +3,8 @@
 //! ```text
 //! STORE/format                     `cosfly-store 1`
 //! STORE/cas/ab/<digest>            blobs, read-only, named by their BLAKE3 digest
-//! STORE/ac/ab/<action digest>      what an action made: blob names and digests, notes, warnings, and a check line
-//! STORE/done/ab/<plan digest>      the action digest that a planned task came to
+//! STORE/ac/ab/<action digest>      what an action made: blob names and digests, notes, warnings, its key, a check line
+//! STORE/done/ab/<plan digest>      the action digest that a planned task came to, its key, a check line
 //! STORE/plan/ab/<digest>           plan documents (canonical JSON, named by their own digest)
 //! STORE/build/ab/<digest>          how to build the stage of a plan definition again (paths, raw parameters)
 //! STORE/runs/<recipe>/<n>          which task of a recipe had which plan digest; the last ten runs

@@ -1,4 +1,4 @@
-//! Action records: what an action made, with a check line so that a torn or edited record is never believed.
+//! Action and done records, each bound to its key by a check line: a torn, edited or exchanged record is never believed.
 
 use cosfly_fingerprint::{Digest, canonical_json};
 use cosfly_stage::{BlobRef, Produced};
@@ -40,22 +40,42 @@ pub struct Finished {
     pub record: Arc<ActionRecord>,
 }
 
-/// The file of a record: canonical JSON, then its digest.
-pub(crate) fn encode(record: &ActionRecord) -> Vec<u8> {
-    let json = canonical_json(record);
-    let check = Digest::of(json.as_bytes());
-    format!("{json}\n{check}\n").into_bytes()
+/// The file of an action record: canonical JSON, the action's key, then the digest of both.
+pub(crate) fn encode(action: &Digest, record: &ActionRecord) -> Vec<u8> {
+    with_check(format!("{}\n{action}\n", canonical_json(record)))
 }
 
-/// Reads the file of a record; nothing when it is not exactly what [`encode`] wrote.
-pub(crate) fn decode(bytes: &[u8]) -> Option<ActionRecord> {
-    let text = std::str::from_utf8(bytes).ok()?;
-    let (json, check) = text.strip_suffix('\n')?.split_once('\n')?;
-    if check.parse::<Digest>().ok()? != Digest::of(json.as_bytes()) {
+/// The file of a done record: what the task came to, the task's plan digest, then the digest of both.
+pub(crate) fn encode_done(plan: &Digest, action: &Digest) -> Vec<u8> {
+    with_check(format!("{action}\n{plan}\n"))
+}
+
+fn with_check(mut body: String) -> Vec<u8> {
+    let check = Digest::of(body.as_bytes());
+    body.push_str(&format!("{check}\n"));
+    body.into_bytes()
+}
+
+/// What stands before the key and the check line; nothing when the file is not whole or belongs to another key.
+fn content_for<'b>(key: &Digest, bytes: &'b [u8]) -> Option<&'b str> {
+    let lines = std::str::from_utf8(bytes).ok()?.strip_suffix('\n')?;
+    let (body, check) = lines.split_at(lines.rfind('\n')? + 1);
+    if check.parse::<Digest>().ok()? != Digest::of(body.as_bytes()) {
         return None;
     }
-    let record: ActionRecord = serde_json::from_str(json).ok()?;
+    let (content, written_key) = body.strip_suffix('\n')?.split_once('\n')?;
+    (written_key.parse::<Digest>().ok()? == *key).then_some(content)
+}
+
+/// Reads the record of `action`; nothing when it is not exactly what [`encode`] wrote for it.
+pub(crate) fn decode(action: &Digest, bytes: &[u8]) -> Option<ActionRecord> {
+    let record: ActionRecord = serde_json::from_str(content_for(action, bytes)?).ok()?;
     (record.schema == SCHEMA).then_some(record)
+}
+
+/// Reads the done record of `plan`; nothing when it is not exactly what [`encode_done`] wrote for it.
+pub(crate) fn decode_done(plan: &Digest, bytes: &[u8]) -> Option<Digest> {
+    content_for(plan, bytes)?.parse().ok()
 }
 
 #[cfg(test)]
@@ -67,13 +87,27 @@ mod tests {
         let blob = BlobRef { digest: Digest::of(b"x"), bytes: 1 };
         let produced = Produced { warnings: vec!["w\n\"".to_owned()], ..Produced::default() };
         let record = ActionRecord::new(BTreeMap::from([("a".to_owned(), blob)]), produced);
-        let bytes = encode(&record);
-        assert_eq!(decode(&bytes).unwrap(), record);
+        let action = Digest::of(b"action");
+        let bytes = encode(&action, &record);
+        assert_eq!(decode(&action, &bytes).unwrap(), record);
         for position in 0..bytes.len() {
             let mut changed = bytes.clone();
             changed[position] ^= 1;
-            assert!(decode(&changed).is_none(), "byte {position}");
-            assert!(decode(&bytes[..position]).is_none(), "length {position}");
+            assert!(decode(&action, &changed).is_none(), "byte {position}");
+            assert!(decode(&action, &bytes[..position]).is_none(), "length {position}");
         }
+    }
+
+    #[test]
+    fn a_record_of_another_key_and_one_of_the_older_shape_are_not_believed() {
+        let (one, other) = (Digest::of(b"one"), Digest::of(b"other"));
+        let record = ActionRecord::new(BTreeMap::new(), Produced::default());
+        assert!(decode(&one, &encode(&other, &record)).is_none());
+        let json = canonical_json(&record);
+        let older = format!("{json}\n{}\n", Digest::of(json.as_bytes()));
+        assert!(decode(&one, older.as_bytes()).is_none());
+        assert_eq!(decode_done(&one, &encode_done(&one, &other)), Some(other));
+        assert_eq!(decode_done(&other, &encode_done(&one, &other)), None);
+        assert_eq!(decode_done(&one, format!("{other}\n").as_bytes()), None);
     }
 }

@@ -140,7 +140,7 @@ impl Store {
     /// Makes `record` the outcome of `action`, unless another process was faster with other bytes.
     fn settle_record(&self, action: &Digest, record: ActionRecord) -> Result<Settled> {
         let path = self.layout.file(Area::Actions, action);
-        let temporary = self.write_temporary(&records::encode(&record), 0o644, Step::WriteAction)?;
+        let temporary = self.write_temporary(&records::encode(action, &record), 0o644, Step::WriteAction)?;
         let linked = self
             .faults
             .before(Step::RenameAction)

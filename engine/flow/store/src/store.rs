@@ -92,14 +92,13 @@ impl Store {
 
     /// What a finished task came to; nothing when it is not finished or a record of it is damaged.
     pub fn finished(&self, plan: &Digest) -> Option<Finished> {
-        let text = fs::read_to_string(self.layout.file(Area::Done, plan)).ok()?;
-        let action: Digest = text.trim_end().parse().ok()?;
+        let action = records::decode_done(plan, &fs::read(self.layout.file(Area::Done, plan)).ok()?)?;
         Some(Finished { action, record: Arc::new(self.action(&action)?) })
     }
 
     /// What an action made; nothing when it never ran or its record is damaged.
     pub fn action(&self, action: &Digest) -> Option<ActionRecord> {
-        records::decode(&fs::read(self.layout.file(Area::Actions, action)).ok()?)
+        records::decode(action, &fs::read(self.layout.file(Area::Actions, action)).ok()?)
     }
 
     /// Whether all blobs of a record are there with the right size. Their bytes are checked when they are read.
@@ -118,14 +117,14 @@ impl Store {
     pub fn publish_done(&self, plan: &Digest, document: &str, action: &Digest) -> Result<()> {
         self.put_document(plan, document)?;
         let path = self.layout.file(Area::Done, plan);
-        self.write_file(&path, format!("{action}\n").as_bytes(), Step::WriteDone, Step::RenameDone)
+        self.write_file(&path, &records::encode_done(plan, action), Step::WriteDone, Step::RenameDone)
     }
 
     /// Keeps a plan document under its own digest. Nothing happens when it is there.
     pub fn put_document(&self, digest: &Digest, document: &str) -> Result<()> {
         debug_assert_eq!(*digest, Digest::of(document.as_bytes()));
         let path = self.layout.file(Area::Plans, digest);
-        if fs::symlink_metadata(&path).is_ok_and(|metadata| metadata.len() == document.len() as u64) {
+        if fs::read(&path).is_ok_and(|there| there == document.as_bytes()) {
             return Ok(());
         }
         self.write_file(&path, document.as_bytes(), Step::WriteDocument, Step::RenameDocument)
