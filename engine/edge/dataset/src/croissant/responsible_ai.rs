@@ -54,7 +54,9 @@ fn default_value(term: &str, config: &DatasetConfig, summary: &Summary) -> Value
         "dataBiases" => json!([
             "Towns, pedestrians, weather and camera motion are those of a simulator: street layouts of a few towns, \
              one body shape, walking pedestrians only, presets of weather.",
-            "Expert flights prefer to stay behind the pedestrian at a steady distance, as the planner's costs say.",
+            "Expert flights weigh distance, view, smoothness and safety as the weights of their planner say. With \
+             the default weights nothing keeps them behind the pedestrian, who is seen from any side; \
+             mean_rear_angle_deg and mean_distance_m of table trajectories say how each one flew.",
         ]),
         "dataLimitations" => json!([
             "Images are rendered with simple materials and no traffic; networks trained on them alone will meet a gap \

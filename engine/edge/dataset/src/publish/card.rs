@@ -50,7 +50,7 @@ pub fn readme(config: &DatasetConfig, summary: &Summary) -> String {
     let mut text = front_matter(config, summary);
     let _ = write!(text, "\n# {}\n\n{}\n\n", config.title, config.description);
     text.push_str(&figures(summary));
-    text.push_str(&loading(config));
+    text.push_str(&loading(config, summary));
     text.push_str(CONVENTIONS);
     text.push_str("## Tables\n\n");
     tables::of_trajectories().iter().for_each(|table| text.push_str(&table_section(table)));
@@ -93,12 +93,14 @@ fn front_matter(config: &DatasetConfig, summary: &Summary) -> String {
     let _ = writeln!(text, "size_categories:\n- {size}\nlanguage:\n- en\n- zh\ntask_categories:\n- robotics");
     text.push_str("- depth-estimation\n- image-segmentation\n- image-text-to-text\n");
     text.push_str("tags:\n- croissant\n- mcap\n- drone\n- uav\n- tracking\n- trajectory\n- synthetic\nconfigs:\n");
-    let names = tables::of_trajectories().iter().map(|table| table.name).collect::<Vec<_>>();
-    for name in names.into_iter().chain([tables::of_rejections().name]) {
-        text.push_str(&config_entry(name, summary));
-    }
+    table_names().iter().for_each(|name| text.push_str(&config_entry(name, summary)));
     text.push_str("- config_name: files\n  data_files:\n  - split: files\n    path: files.parquet\n---\n");
     text
+}
+
+/// All tables with splits.
+fn table_names() -> Vec<&'static str> {
+    tables::of_trajectories().iter().map(|table| table.name).chain([tables::of_rejections().name]).collect()
 }
 
 /// The Hugging Face config of a table; splits without rows are left out, because its loader refuses them.
@@ -141,18 +143,22 @@ fn figures(summary: &Summary) -> String {
     text
 }
 
-fn loading(config: &DatasetConfig) -> String {
+fn loading(config: &DatasetConfig, summary: &Summary) -> String {
+    let has_rows = |name: &&str| summary.rows.get(*name).into_iter().flatten().any(|(_, rows)| *rows > 0);
+    let others: Vec<&str> = table_names().into_iter().filter(has_rows).filter(|name| *name != "frames").collect();
     format!(
-        "## How to load\n\n```python\nfrom datasets import load_dataset\nframes = load_dataset(\".\", \"frames\")  # or \
-         trajectories, waypoints, captions, pairs, rejected, files\n\nimport pyarrow.dataset\ntable = \
-         pyarrow.dataset.dataset(\"data/frames\").to_table()\n\nimport mlcroissant\nrecords = \
+        "## How to load\n\n```python\nfrom datasets import load_dataset\nframes = load_dataset(\".\", \"frames\")  # or {}, files\n\nimport pyarrow.dataset\ntable = \
+         pyarrow.dataset.dataset(\"data/frames\").to_table()\n\nimport mlcroissant  # one Dataset object reads one record set; make another for the next\nrecords = \
          mlcroissant.Dataset(\"croissant.json\").records(\"trajectories\")\n\nfrom mcap_protobuf.reader import \
          read_protobuf_messages\nfor message in read_protobuf_messages(\"mcap/.../x.mcap\", \
          topics=[\"/camera/depth/image\"]):\n    ...\n```\n\nThe logs open in Foxglove and Lichtblick (import \
          `layouts/foxglove.json`) and in Rerun. `sha256sum -c SHA256SUMS` checks `files.parquet` and \
          `croissant.json`; `files.parquet` holds the hash of every other file; `cosfly verify .` checks everything.\n\n\
          Version {} of {}, published {}.\n\n",
-        config.version, config.name, config.date_published
+        others.join(", "),
+        config.version,
+        config.name,
+        config.date_published
     )
 }
 

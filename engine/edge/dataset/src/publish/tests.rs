@@ -74,6 +74,15 @@ fn the_sums_are_right_and_croissant_names_the_hash_of_the_file_table() {
 }
 
 #[test]
+fn the_card_lists_only_tables_with_rows() {
+    let experts = sample::flights().into_iter().filter(|flight| flight.record.pair.is_none()).collect();
+    let folder = tempfile::tempdir().unwrap();
+    sample::write_flights(folder.path(), &DatasetConfig::default(), EncodingConfig::default(), experts).unwrap();
+    let card = std::fs::read_to_string(folder.path().join("README.md")).unwrap();
+    assert!(card.contains("# or trajectories, waypoints, captions, rejected, files\n"), "{card}");
+}
+
+#[test]
 fn a_dataset_without_a_flight_is_refused_with_the_reasons() {
     let folder = tempfile::tempdir().unwrap();
     let outcome = sample::write_flights(folder.path(), &DatasetConfig::default(), EncodingConfig::default(), vec![]);

@@ -146,7 +146,7 @@ fn motion() -> Vec<Column<DatasetItem>> {
         Column::new(
             "term_costs",
             Kind::RealList,
-            "unweighted cost of each planner term, in the order of `trajectories.term_names`",
+            "unweighted cost of each planner term, in the order of `trajectories.term_names`; empty for perturbed flights",
             |item, i| {
                 let terms = &item.record.trajectory.terms;
                 Cell::Reals(terms.iter().map(|term| term.per_frame[i]).collect())

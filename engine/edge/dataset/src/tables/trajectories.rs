@@ -88,9 +88,12 @@ fn weather() -> Vec<Column<DatasetItem>> {
         Column::new("weather_wind_intensity", Kind::Real, "CARLA's number, percent", |item, _| {
             item.record.weather.wind_intensity.into()
         }),
-        Column::new("weather_sun_azimuth_angle", Kind::Real, "CARLA's number, degrees; -1: of the map", |item, _| {
-            item.record.weather.sun_azimuth_angle.into()
-        }),
+        Column::new(
+            "weather_sun_azimuth_angle",
+            Kind::Real,
+            "direction towards the sun, measured as yaw (0 at +x, positive towards y), degrees",
+            |item, _| item.record.weather.sun_azimuth_angle.into(),
+        ),
         Column::new("weather_sun_altitude_angle", Kind::Real, "CARLA's number, degrees", |item, _| {
             item.record.weather.sun_altitude_angle.into()
         }),
@@ -212,9 +215,12 @@ fn certificate() -> Vec<Column<DatasetItem>> {
         Column::new("mean_distance_m", Kind::Real, "mean distance to the feet", |item, _| {
             certificate_of(item).mean_distance_m.into()
         }),
-        Column::new("mean_rear_angle_deg", Kind::Real, "mean angle from straight behind, horizontal", |item, _| {
-            certificate_of(item).mean_rear_angle_deg.into()
-        }),
+        Column::new(
+            "mean_rear_angle_deg",
+            Kind::Real,
+            "mean angle from straight behind the target, horizontal; frames in which it stands are left out",
+            |item, _| certificate_of(item).mean_rear_angle_deg.into(),
+        ),
         Column::new("length_m", Kind::Real, "path length of the drone", |item, _| certificate_of(item).length_m.into()),
         Column::new("length_ratio", Kind::Real, "path length divided by the target's; 0 when it stands", |item, _| {
             certificate_of(item).length_ratio.into()
@@ -224,22 +230,34 @@ fn certificate() -> Vec<Column<DatasetItem>> {
 
 fn solution() -> Vec<Column<DatasetItem>> {
     vec![
-        Column::new("iterations", Kind::Integer, "solver iterations", |item, _| certificate_of(item).iterations.into()),
+        Column::new(
+            "iterations",
+            Kind::Integer,
+            "iterations of descent and corridor smoothing; 0 for perturbed flights",
+            |item, _| certificate_of(item).iterations.into(),
+        ),
         Column::new("filtered_boxes", Kind::Integer, "obstacle boxes left by the per-path filter", |item, _| {
             certificate_of(item).filtered_boxes.into()
         }),
-        Column::new("term_names", Kind::TextList, "planner terms", |item, _| {
+        Column::new("term_names", Kind::TextList, "planner terms; empty for perturbed flights", |item, _| {
             Cell::Texts(item.record.trajectory.terms.iter().map(|term| term.name.clone()).collect())
         }),
-        Column::new("term_weights", Kind::RealList, "their weights", |item, _| {
+        Column::new("term_weights", Kind::RealList, "their weights; empty for perturbed flights", |item, _| {
             Cell::Reals(item.record.trajectory.terms.iter().map(|term| term.weight).collect())
         }),
-        Column::new("term_sums", Kind::RealList, "their unweighted costs over all frames", |item, _| {
-            Cell::Reals(item.record.trajectory.terms.iter().map(|term| term.sum).collect())
-        }),
-        Column::new("convergence", Kind::RealList, "total cost after each iteration", |item, _| {
-            item.record.trajectory.convergence.clone().into()
-        }),
+        Column::new(
+            "term_sums",
+            Kind::RealList,
+            "their unweighted costs over all frames; empty for perturbed flights",
+            |item, _| Cell::Reals(item.record.trajectory.terms.iter().map(|term| term.sum).collect()),
+        ),
+        Column::new(
+            "convergence",
+            Kind::RealList,
+            "total cost at the start and after each descent iteration; the last entry is that of the published flight, after \
+             post-processing and corridor smoothing; empty for perturbed flights",
+            |item, _| item.record.trajectory.convergence.clone().into(),
+        ),
         Column::optional(
             "position_probability",
             Kind::Real,
