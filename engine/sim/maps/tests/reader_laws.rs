@@ -39,6 +39,9 @@ fn line_of(text: &str, what: &str) -> Option<u32> {
     text.lines().position(|line| line.contains(what)).map(|line| line as u32 + 1)
 }
 
+/// Far beyond what any input takes: a guard against hanging, not a measurement.
+const HANGS_AFTER: Duration = Duration::from_secs(300);
+
 #[test]
 fn a_file_with_every_feature_gives_every_part_of_a_town() {
     let town = read(STREET).unwrap();
@@ -181,7 +184,7 @@ fn deep_nesting_is_refused_or_ignored_in_bounded_time() {
         );
         let start = Instant::now();
         let _ = read(&text);
-        assert!(start.elapsed() < Duration::from_secs(10), "depth {depth}");
+        assert!(start.elapsed() < HANGS_AFTER, "depth {depth}");
     }
 }
 
@@ -206,7 +209,7 @@ fn hostile_sizes_end_in_an_error_or_a_town_but_end() {
             start.elapsed().as_secs_f64(),
             result.map_or_else(|e| e.to_string(), |_| "a town".into())
         );
-        assert!(start.elapsed() < Duration::from_secs(20), "{to}");
+        assert!(start.elapsed() < HANGS_AFTER, "{to}");
     }
 }
 
@@ -251,7 +254,7 @@ fn random_damage_never_panics() {
             Ok(_) => towns += 1,
             Err(_) => errors += 1,
         }
-        assert!(begun.elapsed() < Duration::from_secs(20), "round {round} took {:?}", begun.elapsed());
+        assert!(begun.elapsed() < HANGS_AFTER, "round {round} took {:?}", begun.elapsed());
     }
     println!("{towns} towns, {errors} errors in {:.1} s", start.elapsed().as_secs_f64());
     assert!(towns > 30 && errors > 30);

@@ -167,7 +167,7 @@ fn triangles(town: &Town) -> usize {
 }
 
 #[test]
-fn every_shared_town_reads_within_time_and_is_well_formed() {
+fn every_shared_town_reads_and_is_well_formed() {
     let Some(folder) = shared() else { return };
     for path in files(&folder) {
         let name = path.file_name().expect("a file has a name").to_string_lossy().into_owned();
@@ -198,7 +198,5 @@ fn every_shared_town_reads_within_time_and_is_well_formed() {
             println!("    {line}");
         }
         town.assert_well_formed().expect("read towns are well formed");
-        // The aim is 1.5 s; a loaded machine gets room.
-        assert!(seconds < 6.0, "{name} took {seconds} s");
     }
 }

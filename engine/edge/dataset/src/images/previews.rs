@@ -4,15 +4,12 @@ use super::rgb::{jpeg, palette_png};
 use cosfly_diagnose::Result;
 use cosfly_maps::SemanticLabel;
 use cosfly_render::FrameImages;
+use cosfly_render::preview::depth_preview;
 
 const RGB_WIDTH: u32 = 320;
 const RGB_QUALITY: u8 = 80;
 const CHANNEL_WIDTH: u32 = 640;
 const CHANNEL_QUALITY: u8 = 75;
-/// Depths that get the first and the last colour, metres.
-const NEAR_M: f32 = 2.0;
-const FAR_M: f32 = 400.0;
-
 /// Size of a preview at most `width` wide with the aspect of the frame, at least one pixel high.
 fn size(images: &FrameImages, width: u32) -> (u32, u32) {
     let width = width.min(images.width);
@@ -42,21 +39,11 @@ pub fn rgb(images: &FrameImages) -> Result<Vec<u8>> {
     jpeg(&pixels, width, height, RGB_QUALITY)
 }
 
-/// The depth image in logarithmic colours from 2 m (dark blue) to 400 m (dark red); sky is black.
+/// The depth image in colours, stretched over the depths of this frame: a picture, not data.
 pub fn depth(images: &FrameImages) -> Result<Vec<u8>> {
     let (width, height) = size(images, CHANNEL_WIDTH);
-    let scale = 255.0 / libm::logf(FAR_M / NEAR_M);
-    let palette = turbo();
-    let mut pixels = Vec::with_capacity(3 * (width * height) as usize);
-    for at in nearest_pixels(images, width, height) {
-        let depth_m = images.depth_m[at];
-        pixels.extend_from_slice(&if depth_m.is_finite() {
-            palette[(scale * libm::logf(depth_m.max(NEAR_M) / NEAR_M)).min(255.0) as usize]
-        } else {
-            [0, 0, 0]
-        });
-    }
-    jpeg(&pixels, width, height, CHANNEL_QUALITY)
+    let depths: Vec<f32> = nearest_pixels(images, width, height).map(|at| images.depth_m[at]).collect();
+    jpeg(&depth_preview(&depths), width, height, CHANNEL_QUALITY)
 }
 
 /// The label image as a palette PNG: index = CARLA's id, palette = CARLA's colours.
@@ -84,37 +71,9 @@ fn nearest_pixels(images: &FrameImages, width: u32, height: u32) -> impl Iterato
     })
 }
 
-/// 256 colours from dark blue over green and yellow to dark red, interpolated between ten stops.
-fn turbo() -> [[u8; 3]; 256] {
-    const STOPS: [[i32; 3]; 10] = [
-        [48, 18, 59],
-        [70, 94, 208],
-        [54, 148, 247],
-        [26, 203, 213],
-        [50, 242, 142],
-        [147, 253, 66],
-        [219, 221, 53],
-        [254, 160, 49],
-        [226, 76, 14],
-        [122, 4, 3],
-    ];
-    core::array::from_fn(|i| {
-        let position = i * (STOPS.len() - 1);
-        let (stop, rest) =
-            ((position / 255).min(STOPS.len() - 2), (position - (position / 255).min(STOPS.len() - 2) * 255) as i32);
-        core::array::from_fn(|c| (STOPS[stop][c] + (STOPS[stop + 1][c] - STOPS[stop][c]) * rest / 255) as u8)
-    })
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    #[test]
-    fn the_palette_begins_blue_and_ends_red() {
-        let palette = turbo();
-        assert_eq!((palette[0], palette[255]), ([48, 18, 59], [122, 4, 3]));
-    }
 
     #[test]
     fn previews_keep_the_aspect_and_never_grow() {

@@ -192,17 +192,8 @@ fn a_recipe_file_is_read_and_a_missing_one_names_the_nearest() {
 }
 
 #[test]
-fn six_thousand_items_are_known_at_once() {
+fn thousands_of_items_are_known_before_anything_runs() {
     let overrides = ["stages.people.count=1000"];
-    let quickest = (0..10)
-        .map(|_| {
-            let start = std::time::Instant::now();
-            let recipe = checked(WHOLE, &overrides);
-            assert_eq!(recipe.stages.iter().map(|stage| stage.items.len()).sum::<usize>(), 7002);
-            start.elapsed()
-        })
-        .min()
-        .unwrap();
-    eprintln!("7,002 items in {quickest:?}");
-    assert!(quickest.as_millis() < 50, "{quickest:?}");
+    let recipe = checked(WHOLE, &overrides);
+    assert_eq!(recipe.stages.iter().map(|stage| stage.items.len()).sum::<usize>(), 7002);
 }
