@@ -5,7 +5,7 @@ use crate::summary::{RunOutcome, RunSummary};
 use cosfly_diagnose::Result;
 use cosfly_recipe::Recipe;
 use cosfly_stage::{BlobRef, RunEvent};
-use cosfly_store::{BLOB_LOST, Materialised, Store, materialise};
+use cosfly_store::{BLOB_LOST, Materialised, Store, check_out_folder, materialise};
 use std::collections::BTreeMap;
 use std::path::Path;
 
@@ -33,6 +33,7 @@ pub fn deliver(
     options: &RunOptions,
     report: &(dyn Fn(RunEvent) + Sync),
 ) -> Result<Delivery> {
+    check_out_folder(store.root(), folder)?;
     let mut tries = 0;
     loop {
         let summary = run(recipe, store, options, report)?;

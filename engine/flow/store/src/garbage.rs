@@ -64,6 +64,7 @@ pub fn collect_garbage(root: &Path, options: &GarbageOptions) -> Result<GarbageR
     for area in [Area::Done, Area::Builds, Area::Plans, Area::Actions, Area::Blobs] {
         sweep(&layout, area, &needed, options, &mut report).map_err(failed)?;
     }
+    sweep_delivered(&layout, options, &mut report).map_err(failed)?;
     if !options.dry_run {
         remove_stale_locks(&layout).map_err(failed)?;
     }
@@ -188,12 +189,15 @@ fn sweep(
     };
     for digest in layout.list(area)? {
         let path = layout.file(area, &digest);
-        let metadata = fs::symlink_metadata(&path)?;
-        let age = metadata.modified().ok().and_then(|made| options.now.duration_since(made).ok());
-        let young = age.unwrap_or_default() < options.keep_age;
+        let metadata = match fs::symlink_metadata(&path) {
+            // A run went on during a dry run, and took a damaged blob away.
+            Err(error) if error.kind() == io::ErrorKind::NotFound => continue,
+            metadata => metadata?,
+        };
+        let young = age_of(&metadata, options) < options.keep_age;
         let keep = young || wanted.contains(&digest);
         if !keep && !options.dry_run {
-            fs::remove_file(&path)?;
+            remove(&path, &metadata)?;
         }
         let (count, bytes) = match (area, keep) {
             (Area::Blobs, true) => (&mut report.kept_blobs, &mut report.kept_blob_bytes),
@@ -205,6 +209,32 @@ fn sweep(
         *bytes += metadata.len();
     }
     Ok(())
+}
+
+/// What delivered folders looked like: without it they are read once more.
+fn sweep_delivered(layout: &Layout, options: &GarbageOptions, report: &mut GarbageReport) -> io::Result<()> {
+    for entry in read_dir_or_nothing(&layout.folder("out"))? {
+        let path = entry?.path();
+        let metadata = fs::symlink_metadata(&path)?;
+        if age_of(&metadata, options) >= options.keep_age {
+            if !options.dry_run {
+                remove(&path, &metadata)?;
+            }
+            report.records += 1;
+            report.record_bytes += metadata.len();
+        }
+    }
+    Ok(())
+}
+
+fn age_of(metadata: &fs::Metadata, options: &GarbageOptions) -> Duration {
+    metadata.modified().ok().and_then(|made| options.now.duration_since(made).ok()).unwrap_or_default()
+}
+
+/// Removes what lies where a file should be.
+fn remove(path: &Path, metadata: &fs::Metadata) -> io::Result<()> {
+    let removed = if metadata.is_dir() { fs::remove_dir_all(path) } else { fs::remove_file(path) };
+    removed.or_else(|error| if error.kind() == io::ErrorKind::NotFound { Ok(()) } else { Err(error) })
 }
 
 /// Lock files that killed processes left behind; nobody holds one while we are alone.

@@ -9,6 +9,7 @@
 //! STORE/build/ab/<digest>          how to build the stage of a plan definition again (paths, raw parameters)
 //! STORE/runs/<recipe>/<n>          which task of a recipe had which plan digest; the last ten runs
 //! STORE/index/<recipe>             a cache of `done` and `ac` for quick starts; may be deleted
+//! STORE/out/<path digest>          what the files of a delivered folder looked like; may be deleted
 //! STORE/pins/<name>                a copy of a run that garbage collection keeps
 //! STORE/divergence/<action>-<n>    two executions of one action that gave different bytes
 //! STORE/tmp/<pid>-<n>/             what a living process is writing
@@ -20,11 +21,12 @@
 //!
 //! * [`Store`]: opening, reading ([`cosfly_stage::BlobSource`]), records, syncing.
 //! * [`TaskSink`]: where a running task puts its blobs ([`cosfly_stage::OutputSink`]).
-//! * [`materialise`]: an artifact as an ordinary folder.
+//! * [`materialise`]: an artifact as an ordinary folder; [`check_out_folder`]: where that may lie.
 //! * [`collect_garbage`]: what no recent run needs.
 
 mod blobs;
 mod decoded;
+mod delivered;
 mod durability;
 mod fault;
 mod garbage;
@@ -33,6 +35,7 @@ mod index;
 mod layout;
 mod locks;
 mod materialise;
+mod places;
 mod records;
 mod scratch;
 mod sink;
@@ -44,6 +47,7 @@ pub use history::{PastRun, PastStage};
 pub use index::KnownTasks;
 pub use locks::TaskLock;
 pub use materialise::{Materialised, VERSION_FILE, materialise};
+pub use places::check_out_folder;
 pub use records::{ActionRecord, Finished};
 pub use sink::{Settled, TaskSink};
 pub use store::{BLOB_LOST, Store};

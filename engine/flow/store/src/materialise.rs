@@ -1,8 +1,11 @@
 //! An artifact as an ordinary folder: built beside, then put in place in one step.
 
+use crate::blobs::digest_of_file;
+use crate::delivered::Delivered;
 use crate::locks::lock_file;
+use crate::places::check_out_folder;
 use crate::sink::is_relative_path;
-use crate::store::Store;
+use crate::store::{Store, locked};
 use cosfly_diagnose::{Diagnostic, Fault, Result};
 use cosfly_fingerprint::Digest;
 use cosfly_stage::{BlobRef, BlobSource};
@@ -29,33 +32,79 @@ pub struct Materialised {
 
 /// Makes `folder` hold exactly `blobs`, by name. Files are hard links into the store where the file system
 /// allows it (they are read-only), copies elsewhere. A reader of `folder` sees the old version or the new one,
-/// never a mixture.
+/// never a mixture. When the folder holds this version already, every file that does not look as it did when it was
+/// last known to be right is read and compared; a wrong one makes the folder be built again.
 ///
 /// # Errors
 /// [`crate::BLOB_LOST`] when a blob is missing or damaged, `out-not-ours` when `folder` holds something else,
-/// or what the machine refused.
+/// `out-in-store` when folder and store lie in each other, or what the machine refused.
 pub fn materialise(store: &Store, blobs: &BTreeMap<String, BlobRef>, folder: &Path) -> Result<Materialised> {
     check_names(blobs)?;
+    check_out_folder(store.root(), folder)?;
     let version = version_of(blobs);
     let bytes = blobs.values().fold(0_u64, |sum, blob| sum.saturating_add(blob.bytes));
     let result = |changed| Materialised { version, files: blobs.len() as u64, bytes, changed };
     let folder = std::path::absolute(folder).map_err(|error| refused(folder, &error))?;
     let _turn = take_turn(store, &folder)?;
-    let marker = fs::read_to_string(folder.join(VERSION_FILE)).ok();
-    if marker.as_deref().and_then(|text| text.lines().next()) == Some(version.to_string().as_str())
-        && blobs.iter().all(|(name, blob)| has_size(&folder.join(name), blob.bytes))
-    {
+    let marker = fs::read(folder.join(VERSION_FILE)).ok();
+    let marker = marker.map(|bytes| String::from_utf8_lossy(&bytes).into_owned());
+    let new_marker = marker_of(&version, blobs);
+    let before = store.delivered(&folder);
+    if marker.as_ref() == Some(&new_marker) && is_right(store, blobs, &version, &folder, before.as_ref()) {
         return Ok(result(false));
     }
-    check_ours(&folder, marker.as_deref())?;
+    check_ours(&folder, marker.as_deref(), before.as_ref())?;
     let beside = beside(&folder)?;
-    let built = build(store, blobs, &version, &beside)
+    let built = build(store, blobs, &new_marker, &beside)
         .and_then(|()| put_in_place(&beside, &folder).map_err(|error| refused(&folder, &error)));
     if let Err(diagnostic) = built {
         let _ = fs::remove_dir_all(&beside);
         return Err(diagnostic);
     }
+    // Not being able to remember costs reading the files once more.
+    let _ = store.remember_delivered(&folder, &Delivered::look(version, &folder, blobs.keys()));
     Ok(result(true))
+}
+
+/// Whether every file of `folder` is what it should be. A file that looks as it did `before` is not read.
+fn is_right(
+    store: &Store,
+    blobs: &BTreeMap<String, BlobRef>,
+    version: &Digest,
+    folder: &Path,
+    before: Option<&Delivered>,
+) -> bool {
+    let now = Delivered::look(*version, folder, blobs.keys());
+    if before == Some(&now) && blobs.len() == now.names().count() {
+        return true;
+    }
+    let mut right = true;
+    for (name, blob) in blobs {
+        let known = before.is_some_and(|before| before.agrees(&now, name));
+        if !known && !holds_bytes(&folder.join(name), blob) {
+            right = false;
+            // It may be the blob itself by another name: what was read of it before says nothing any more.
+            locked(&store.checked).remove(&blob.digest);
+        }
+    }
+    if right {
+        let _ = store.remember_delivered(folder, &now);
+    }
+    right
+}
+
+fn holds_bytes(path: &Path, blob: &BlobRef) -> bool {
+    has_size(path, blob.bytes)
+        && File::open(path).and_then(|mut file| digest_of_file(&mut file)).is_ok_and(|digest| digest == blob.digest)
+}
+
+fn marker_of(version: &Digest, blobs: &BTreeMap<String, BlobRef>) -> String {
+    let mut marker = format!("{version}\n");
+    for name in blobs.keys() {
+        marker.push_str(name);
+        marker.push('\n');
+    }
+    marker
 }
 
 fn refused(folder: &Path, error: &io::Error) -> Box<Diagnostic> {
@@ -97,7 +146,7 @@ fn take_turn(store: &Store, folder: &Path) -> Result<File> {
 }
 
 /// Refuses to replace anything that a run did not put there.
-fn check_ours(folder: &Path, marker: Option<&str>) -> Result<()> {
+fn check_ours(folder: &Path, marker: Option<&str>, before: Option<&Delivered>) -> Result<()> {
     let not_ours = |message: String| {
         Err(Diagnostic::new("out-not-ours", Fault::Recipe, message)
             .hint("choose another folder with `--out`, or move what is there out of the way"))
@@ -110,7 +159,11 @@ fn check_ours(folder: &Path, marker: Option<&str>) -> Result<()> {
         }
         Ok(_) => {}
     }
-    let known: BTreeSet<&str> = marker.unwrap_or_default().lines().skip(1).chain([VERSION_FILE]).collect();
+    let mut known: BTreeSet<&str> = marker.unwrap_or_default().lines().skip(1).chain([VERSION_FILE]).collect();
+    if marker.is_some() {
+        // The marker may be damaged.
+        known.extend(before.into_iter().flat_map(Delivered::names));
+    }
     let foreign = first_foreign(folder, "", &known).map_err(|error| refused(folder, &error))?;
     match foreign {
         None => Ok(()),
@@ -158,9 +211,8 @@ fn beside(folder: &Path) -> Result<PathBuf> {
     made.map(|()| beside.clone()).map_err(|error| refused(&beside, &error))
 }
 
-fn build(store: &Store, blobs: &BTreeMap<String, BlobRef>, version: &Digest, folder: &Path) -> Result<()> {
+fn build(store: &Store, blobs: &BTreeMap<String, BlobRef>, marker: &str, folder: &Path) -> Result<()> {
     let mut made = BTreeSet::new();
-    let mut marker = format!("{version}\n");
     for (name, blob) in blobs {
         let path = folder.join(name);
         if let Some((parent, _)) = name.rsplit_once('/')
@@ -172,8 +224,6 @@ fn build(store: &Store, blobs: &BTreeMap<String, BlobRef>, version: &Digest, fol
         let placed = fs::hard_link(store.blob_path(blob), &path)
             .or_else(|_| io::copy(&mut source, &mut File::create_new(&path)?).map(|_| ()));
         placed.map_err(|error| refused(&path, &error))?;
-        marker.push_str(name);
-        marker.push('\n');
     }
     fs::write(folder.join(VERSION_FILE), marker)
         .and_then(|()| sync_file_system(folder))
@@ -304,5 +354,51 @@ mod tests {
         fs::write(&path, "z").unwrap();
         assert_eq!(materialise(&store, &blobs, &out).unwrap_err().code, BLOB_LOST);
         assert!(!out.exists() && fs::read_dir(out.parent().unwrap()).unwrap().next().is_none());
+    }
+
+    #[test]
+    fn a_file_that_was_edited_keeping_its_size_and_time_is_put_back() {
+        for linked in [false, true] {
+            let (_root, store, out) = open();
+            let blobs = artifact(&store, &[("a", "one"), ("b", "two")]);
+            materialise(&store, &blobs, &out).unwrap();
+            let path = out.join("b");
+            let modified = fs::metadata(&path).unwrap().modified().unwrap();
+            if linked {
+                let blob = store.blob_path(&blobs["b"]);
+                fs::remove_file(&blob).unwrap();
+                fs::write(&blob, "twO").unwrap();
+                fs::remove_file(&path).unwrap();
+                fs::hard_link(&blob, &path).unwrap();
+            } else {
+                fs::remove_file(&path).unwrap();
+                fs::write(&path, "twO").unwrap();
+            }
+            File::options().write(true).open(&path).unwrap().set_modified(modified).unwrap();
+            if linked {
+                assert_eq!(materialise(&store, &blobs, &out).unwrap_err().code, BLOB_LOST);
+                assert!(!store.holds_blob(&blobs["b"]));
+                artifact(&store, &[("a", "one"), ("b", "two")]);
+            }
+            assert!(materialise(&store, &blobs, &out).unwrap().changed);
+            assert_eq!(fs::read_to_string(&path).unwrap(), "two");
+            assert!(!materialise(&store, &blobs, &out).unwrap().changed);
+        }
+    }
+
+    #[test]
+    fn a_damaged_marker_and_a_lost_record_are_made_again() {
+        let (_root, store, out) = open();
+        let blobs = artifact(&store, &[("a", "one"), ("b", "two")]);
+        materialise(&store, &blobs, &out).unwrap();
+        let marker = fs::read(out.join(VERSION_FILE)).unwrap();
+        let mut damaged = marker.clone();
+        *damaged.iter_mut().rev().nth(1).unwrap() = 0xff;
+        fs::write(out.join(VERSION_FILE), &damaged).unwrap();
+        assert!(materialise(&store, &blobs, &out).unwrap().changed);
+        assert_eq!(fs::read(out.join(VERSION_FILE)).unwrap(), marker);
+        fs::remove_dir_all(store.root().join("out")).unwrap();
+        assert!(!materialise(&store, &blobs, &out).unwrap().changed);
+        assert_eq!(store.delivered(&out).unwrap().names().count(), 2);
     }
 }

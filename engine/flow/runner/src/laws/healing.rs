@@ -126,3 +126,34 @@ fn records_that_were_exchanged_are_not_believed() {
         assert_eq!(log.take().len(), if area == "ac" { 11 } else { 0 }, "{area}");
     }
 }
+
+#[test]
+fn a_delivered_file_that_was_edited_through_its_link_is_made_again() {
+    let folder = tempfile::tempdir().unwrap();
+    let (root, out) = (folder.path().join("store"), folder.path().join("out"));
+    let log = Log::default();
+    let toys = town_toys(2, &log);
+    let run_once = || {
+        let store = Store::open(&root).unwrap();
+        deliver(&recipe(&toys), &store, "dataset", &out, &options(2), &|_| {}).unwrap().folder.unwrap()
+    };
+    assert!(run_once().changed && !run_once().changed);
+    log.take();
+    let path = out.join("out");
+    let whole = fs::read(&path).unwrap();
+    let (metadata, mut edited) = (fs::metadata(&path).unwrap(), whole.clone());
+    edited[0] ^= 1;
+    let mut permissions = metadata.permissions();
+    #[expect(clippy::permissions_set_readonly_false, reason = "a file of a test")]
+    permissions.set_readonly(false);
+    fs::set_permissions(&path, permissions).unwrap();
+    fs::write(&path, &edited).unwrap();
+    fs::File::options().write(true).open(&path).unwrap().set_modified(metadata.modified().unwrap()).unwrap();
+    assert!(run_once().changed);
+    assert_eq!(fs::read(&path).unwrap(), whole);
+    assert!(log.take().contains(&"dataset/i00000".to_owned()));
+    assert!(!run_once().changed);
+    let inside =
+        deliver(&recipe(&toys), &Store::open(&root).unwrap(), "dataset", &root.join("x"), &options(1), &|_| {});
+    assert_eq!(inside.err().unwrap().code, "out-in-store");
+}
