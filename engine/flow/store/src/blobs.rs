@@ -81,6 +81,8 @@ impl Store {
     fn unreadable(&self, blob: &BlobRef, error: &io::Error) -> Box<Diagnostic> {
         if error.kind() == io::ErrorKind::NotFound {
             lost(blob, "is missing")
+        } else if self.clear_away(&self.blob_path(blob)) {
+            lost(blob, "is a folder")
         } else {
             Diagnostic::io(format!("read `{}`", self.blob_path(blob).display()), error)
         }
@@ -89,7 +91,9 @@ impl Store {
     /// Takes a damaged blob away, so that nobody else meets it.
     fn damaged(&self, blob: &BlobRef) -> Box<Diagnostic> {
         locked(&self.checked).remove(&blob.digest);
-        let _ = fs::remove_file(self.blob_path(blob));
+        let path = self.blob_path(blob);
+        let _ = fs::remove_file(&path);
+        self.clear_away(&path);
         lost(blob, "is damaged")
     }
 }

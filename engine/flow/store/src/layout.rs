@@ -9,6 +9,9 @@ use std::path::{Path, PathBuf};
 /// Version of the layout and of every record in it.
 const VERSION: u32 = 1;
 const FORMAT_NAME: &str = "cosfly-store";
+/// What a store holds beside its format.
+const OWN_FOLDERS: [&str; 13] =
+    ["locks", "tmp", "cas", "ac", "done", "plan", "build", "runs", "index", "pins", "divergence", "out", "lost+found"];
 
 /// The folders that hold one file per digest.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -76,11 +79,8 @@ impl Layout {
 
     /// Makes `root` a store, or checks that it is one that this cosfly can read.
     pub(crate) fn create_or_check(root: &Path) -> Result<Self> {
-        let format = root.join("format");
-        match fs::read_to_string(&format) {
-            Ok(text) => check_format(root, &text)?,
-            Err(error) if error.kind() == io::ErrorKind::NotFound => create(root, &format)?,
-            Err(error) => return Err(Diagnostic::io(format!("read `{}`", format.display()), &error)),
+        if !is_a_store(root)? {
+            create(root)?;
         }
         for folder in ["locks", "tmp"] {
             let path = root.join(folder);
@@ -89,6 +89,32 @@ impl Layout {
         }
         Ok(Self { root: root.to_owned() })
     }
+
+    /// As [`Self::create_or_check`] for a store that is there, writing nothing.
+    pub(crate) fn check(root: &Path) -> Result<Option<Self>> {
+        Ok(is_a_store(root)?.then(|| Self { root: root.to_owned() }))
+    }
+}
+
+/// Whether `root` is a store of our version; an error when it is something else, nothing when there is no format.
+fn is_a_store(root: &Path) -> Result<bool> {
+    if root.as_os_str().is_empty() {
+        return Err(not_a_store("the path of the store is empty"));
+    }
+    if fs::metadata(root).is_ok_and(|metadata| !metadata.is_dir()) {
+        return Err(not_a_store(format!("`{}` is a file, and a store is a folder", root.display())));
+    }
+    let format = root.join("format");
+    match fs::read(&format) {
+        Ok(bytes) => check_format(root, &String::from_utf8_lossy(&bytes)).map(|()| true),
+        Err(error) if error.kind() == io::ErrorKind::NotFound => Ok(false),
+        Err(error) if error.kind() == io::ErrorKind::IsADirectory => Err(damaged_format(root, "is a folder")),
+        Err(error) => Err(Diagnostic::io(format!("read `{}`", format.display()), &error)),
+    }
+}
+
+fn not_a_store(message: impl Into<String>) -> Box<Diagnostic> {
+    Diagnostic::new("store-not-a-store", Fault::Input, message).hint("choose an empty or a new folder with `--store`")
 }
 
 /// Entries of a folder; a folder that is absent or is no folder has none.
@@ -102,25 +128,39 @@ pub(crate) fn read_dir_or_nothing(path: &Path) -> io::Result<impl Iterator<Item 
     }
 }
 
-fn create(root: &Path, format: &Path) -> Result<()> {
+/// Makes `root` a store. The format comes first, and at once: who sees anything else of a store sees its format.
+fn create(root: &Path) -> Result<()> {
     let failed = |error: io::Error| Diagnostic::io(format!("create the store `{}`", root.display()), &error);
     fs::create_dir_all(root).map_err(failed)?;
-    for entry in fs::read_dir(root).map_err(failed)? {
-        let name = entry.map_err(failed)?.file_name();
-        let ours = name.to_str().is_some_and(|n| n.starts_with("format") || matches!(n, "locks" | "tmp"));
-        if !ours {
-            return Err(Diagnostic::new(
-                "store-not-a-store",
-                Fault::Input,
-                format!("`{}` is not empty and holds no cosfly store", root.display()),
-            )
-            .hint("choose an empty or a new folder with `--store`"));
-        }
+    // Between looking for the format and listing the folder, another process may have made it a store.
+    if !could_be_a_store(root).map_err(failed)? && !is_a_store(root)? {
+        return Err(not_a_store(format!("`{}` is not empty and holds no cosfly store", root.display())));
     }
     // Another process may be creating the same store: both write the same bytes.
-    let temporary = root.join(format!("format.{}", std::process::id()));
+    let temporary = root.join(format!("format.{}-{:?}", std::process::id(), std::thread::current().id()));
     fs::write(&temporary, format!("{FORMAT_NAME} {VERSION}\n")).map_err(failed)?;
-    fs::rename(&temporary, format).map_err(failed)
+    fs::rename(&temporary, root.join("format")).map_err(failed)
+}
+
+/// Whether a folder without a format is empty, or a store that lost only its format.
+fn could_be_a_store(root: &Path) -> io::Result<bool> {
+    let (mut folders, mut has_locks) = (0, false);
+    for entry in fs::read_dir(root)? {
+        let entry = entry?;
+        let name = entry.file_name();
+        let Some(name) = name.to_str() else { return Ok(false) };
+        let is_folder = entry.file_type().is_ok_and(|kind| kind.is_dir());
+        match name {
+            _ if is_folder && OWN_FOLDERS.contains(&name) => {
+                folders += usize::from(name != "lost+found");
+                has_locks |= name == "locks";
+            }
+            _ if !is_folder && name.starts_with("format") => {}
+            _ => return Ok(false),
+        }
+    }
+    // A store has had locks from its beginning; a folder with only a `build` or a `tmp` is somebody else's.
+    Ok(folders == 0 || has_locks)
 }
 
 fn check_format(root: &Path, text: &str) -> Result<()> {
@@ -128,13 +168,34 @@ fn check_format(root: &Path, text: &str) -> Result<()> {
     if found == format!("{FORMAT_NAME} {VERSION}") {
         return Ok(());
     }
-    let version = found.strip_prefix(FORMAT_NAME).map_or(found, str::trim_start);
+    let version = found.strip_prefix(FORMAT_NAME).and_then(|rest| rest.strip_prefix(' ')).unwrap_or_default();
+    let is_number = !version.is_empty() && version.bytes().all(|byte| byte.is_ascii_digit());
+    if !is_number || version.bytes().all(|byte| byte == b'0') {
+        let start: String = found.chars().take(40).collect();
+        return Err(if start.is_empty() {
+            damaged_format(root, "is empty")
+        } else {
+            damaged_format(root, &format!("holds `{}`", start.escape_debug()))
+        });
+    }
     Err(Diagnostic::new(
         "store-newer-version",
         Fault::Input,
         format!("the store `{}` has version `{version}`; this cosfly reads version `{VERSION}`", root.display()),
     )
     .hint("use the cosfly that wrote it, or choose another folder with `--store`: everything can be computed again"))
+}
+
+fn damaged_format(root: &Path, what: &str) -> Box<Diagnostic> {
+    let format = root.join("format");
+    Diagnostic::new(
+        "store-damaged-format",
+        Fault::Input,
+        format!("`{}` {what} instead of the version of a store", format.display()),
+    )
+    .hint(format!(
+        "if this is a cosfly store, write `{FORMAT_NAME} {VERSION}` into it, or remove the folder: everything can be computed again"
+    ))
 }
 
 #[cfg(test)]
@@ -162,6 +223,67 @@ mod tests {
         let folder = tempfile::tempdir().unwrap();
         for _ in 0..2 {
             Layout::create_or_check(&folder.path().join("deep/store")).unwrap();
+        }
+    }
+
+    #[test]
+    fn a_format_that_is_empty_or_garbage_is_called_damaged_and_not_newer() {
+        let folder = tempfile::tempdir().unwrap();
+        let format = folder.path().join("format");
+        for (bytes, code) in [
+            (&b""[..], "store-damaged-format"),
+            (b"garbage", "store-damaged-format"),
+            (b"cosfly-store 0\n", "store-damaged-format"),
+            (b"cosfly-store -1", "store-damaged-format"),
+            (b"cosfly-store\xff", "store-damaged-format"),
+            (b"cosfly-store 99999999999999999999", "store-newer-version"),
+        ] {
+            fs::write(&format, bytes).unwrap();
+            assert_eq!(Layout::create_or_check(folder.path()).unwrap_err().code, code, "{bytes:?}");
+        }
+        fs::remove_file(&format).unwrap();
+        fs::create_dir(&format).unwrap();
+        assert_eq!(Layout::create_or_check(folder.path()).unwrap_err().code, "store-damaged-format");
+    }
+
+    #[test]
+    fn a_file_is_not_a_store() {
+        let folder = tempfile::tempdir().unwrap();
+        let file = folder.path().join("recipe.toml");
+        fs::write(&file, "x").unwrap();
+        let refusal = Layout::create_or_check(&file).unwrap_err();
+        assert_eq!(refusal.code, "store-not-a-store");
+        assert!(refusal.message.contains("is a file") && !refusal.hints.is_empty());
+        assert_eq!(Layout::create_or_check(Path::new("")).unwrap_err().code, "store-not-a-store");
+    }
+
+    #[test]
+    fn a_store_that_lost_its_format_gets_it_back_and_a_folder_of_somebody_else_does_not() {
+        let folder = tempfile::tempdir().unwrap();
+        for name in ["build", "tmp"] {
+            fs::create_dir(folder.path().join(name)).unwrap();
+        }
+        assert_eq!(Layout::create_or_check(folder.path()).unwrap_err().code, "store-not-a-store");
+        for name in ["locks", "cas", "ac", "done"] {
+            fs::create_dir(folder.path().join(name)).unwrap();
+        }
+        Layout::create_or_check(folder.path()).unwrap();
+        assert!(folder.path().join("format").is_file());
+    }
+
+    #[test]
+    fn threads_that_create_one_store_together_all_succeed() {
+        let folder = tempfile::tempdir().unwrap();
+        for round in 0..50 {
+            let root = folder.path().join(round.to_string());
+            std::thread::scope(|scope| {
+                for _ in 0..4 {
+                    scope.spawn(|| {
+                        let layout = Layout::create_or_check(&root).unwrap();
+                        fs::create_dir_all(layout.folder("cas")).unwrap();
+                    });
+                }
+            });
         }
     }
 }

@@ -15,8 +15,8 @@ const OWNER: &str = "owner";
 pub(crate) struct Scratch {
     folder: PathBuf,
     next: AtomicU64,
-    /// Locked as long as the owner lives.
-    _owner: File,
+    /// Locked as long as the owner lives; nothing in a store that is only read.
+    owner: Option<File>,
 }
 
 impl Scratch {
@@ -40,7 +40,12 @@ impl Scratch {
         };
         let owner = lock_file(&folder.join(OWNER))?;
         owner.lock()?;
-        Ok(Self { folder, next: AtomicU64::new(0), _owner: owner })
+        Ok(Self { folder, next: AtomicU64::new(0), owner: Some(owner) })
+    }
+
+    /// The folder of a store that is only read: it is not there, so that nothing can be written into it.
+    pub(crate) fn none(layout: &Layout) -> Self {
+        Self { folder: layout.folder("tmp").join("read-only"), next: AtomicU64::new(0), owner: None }
     }
 
     /// A path in the folder that was not given out before.
@@ -51,7 +56,9 @@ impl Scratch {
 
 impl Drop for Scratch {
     fn drop(&mut self) {
-        let _ = fs::remove_dir_all(&self.folder);
+        if self.owner.is_some() {
+            let _ = fs::remove_dir_all(&self.folder);
+        }
     }
 }
 
@@ -65,17 +72,41 @@ pub(crate) fn sweep_orphans(layout: &Layout, dry_run: bool) -> io::Result<(u64, 
             folders += 1;
             bytes += folder_bytes(&folder);
             if !dry_run {
-                fs::remove_dir_all(&folder)?;
+                remove_unless_gone(&folder)?;
             }
         }
     }
     Ok((folders, bytes))
 }
 
+/// Its owner may be closing the store at this moment, and remove it too.
+fn remove_unless_gone(folder: &Path) -> io::Result<()> {
+    for _ in 0..100 {
+        match fs::remove_dir_all(folder) {
+            // A file in it went, or it went itself; look again.
+            Err(error) if matches!(error.kind(), io::ErrorKind::NotFound | io::ErrorKind::DirectoryNotEmpty) => {}
+            other => return other,
+        }
+        if fs::symlink_metadata(folder).is_err_and(|error| error.kind() == io::ErrorKind::NotFound) {
+            break;
+        }
+    }
+    Ok(())
+}
+
 fn is_orphan(folder: &Path) -> bool {
+    if !folder.file_name().and_then(|name| name.to_str()).is_some_and(is_our_name) {
+        return false;
+    }
     // Without an owner file its maker died between making the folder and locking it (makers hold the guard).
     File::open(folder.join(OWNER))
         .map_or_else(|error| error.kind() == io::ErrorKind::NotFound && folder.is_dir(), |file| file.try_lock().is_ok())
+}
+
+/// `<process>-<attempt>`
+fn is_our_name(name: &str) -> bool {
+    let is_number = |text: &str| !text.is_empty() && text.bytes().all(|byte| byte.is_ascii_digit());
+    name.split_once('-').is_some_and(|(process, attempt)| is_number(process) && is_number(attempt))
 }
 
 fn folder_bytes(folder: &Path) -> u64 {
@@ -110,5 +141,25 @@ mod tests {
         let folder = living.folder.clone();
         drop(living);
         assert!(!folder.exists());
+    }
+
+    #[test]
+    fn what_is_not_ours_is_never_swept() {
+        let root = tempfile::tempdir().unwrap();
+        let layout = Layout::create_or_check(root.path()).unwrap();
+        fs::create_dir(root.path().join("tmp/precious")).unwrap();
+        assert_eq!(sweep_orphans(&layout, false).unwrap(), (0, 0));
+    }
+
+    #[test]
+    fn sweeping_and_closing_together_never_fails() {
+        let root = tempfile::tempdir().unwrap();
+        let layout = Layout::create_or_check(root.path()).unwrap();
+        std::thread::scope(|scope| {
+            for _ in 0..2 {
+                scope.spawn(|| (0..200).for_each(|_| drop(Scratch::create(&layout).unwrap())));
+                scope.spawn(|| (0..200).for_each(|_| assert!(sweep_orphans(&layout, false).is_ok())));
+            }
+        });
     }
 }

@@ -30,7 +30,7 @@ pub struct Store {
     pub(crate) checked: Mutex<BTreeSet<Digest>>,
     pub(crate) decoded: DecodeCache,
     /// Shared with other runs; garbage collection takes it alone.
-    _garbage_lock: File,
+    _garbage_lock: Option<File>,
 }
 
 /// The data behind a lock, also after a panic elsewhere: all of it is valid between two statements.
@@ -42,7 +42,7 @@ impl Store {
     /// Opens the store at `root`, creating it when there is nothing yet. Waits while garbage is being collected.
     ///
     /// # Errors
-    /// `store-newer-version`, `store-not-a-store`, or what the machine refused.
+    /// `store-newer-version`, `store-damaged-format`, `store-not-a-store`, or what the machine refused.
     pub fn open(root: &Path) -> Result<Self> {
         Self::open_with_faults(root, Arc::new(NoFaults))
     }
@@ -64,8 +64,35 @@ impl Store {
             durability,
             checked: Mutex::default(),
             decoded: DecodeCache::default(),
-            _garbage_lock: garbage_lock,
+            _garbage_lock: Some(garbage_lock),
         })
+    }
+
+    /// As [`Self::open`], for those that only read: a store on a disk that cannot be written is opened, too.
+    ///
+    /// # Errors
+    /// As [`Self::open`].
+    pub fn open_to_read(root: &Path) -> Result<Self> {
+        match Self::open(root) {
+            Err(refusal) if refusal.code == "machine-io" => Self::open_as_it_is(root)?.ok_or(refusal),
+            opened => opened,
+        }
+    }
+
+    /// Opens a store that is there without writing anything; whoever writes gets the machine's refusal.
+    fn open_as_it_is(root: &Path) -> Result<Option<Self>> {
+        let Some(layout) = Layout::check(root)? else { return Ok(None) };
+        // A store that cannot be locked cannot be cleaned either.
+        let garbage_lock = File::open(layout.root.join("locks/garbage")).ok().filter(|file| file.lock_shared().is_ok());
+        Ok(Some(Self {
+            scratch: Scratch::none(&layout),
+            faults: Arc::new(NoFaults),
+            durability: Durability::of(&layout)?,
+            layout,
+            checked: Mutex::default(),
+            decoded: DecodeCache::default(),
+            _garbage_lock: garbage_lock,
+        }))
     }
 
     /// The store's folder.
@@ -175,12 +202,24 @@ impl Store {
 
     /// Renames a temporary file to `path`, making its folder when needed; removes it on failure.
     pub(crate) fn move_into_place(&self, temporary: &Path, path: &Path, step: Step) -> Result<()> {
-        let moved = self.faults.before(step).and_then(|()| with_folder_of(path, || fs::rename(temporary, path)));
+        let moved = self.faults.before(step).and_then(|()| {
+            let moved = with_folder_of(path, || fs::rename(temporary, path));
+            // A folder lies where the file belongs.
+            moved.or_else(|error| if self.clear_away(path) { fs::rename(temporary, path) } else { Err(error) })
+        });
         self.durability.note(path);
         moved.map_err(|error| {
             let _ = fs::remove_file(temporary);
-            Diagnostic::io(format!("write `{}`", path.display()), &error)
+            let diagnostic = Diagnostic::io(format!("write `{}`", path.display()), &error);
+            if path.is_dir() { diagnostic.hint(format!("remove the folder `{}`", path.display())) } else { diagnostic }
         })
+    }
+
+    /// Moves a folder from where a file belongs into our temporary folder, which goes when the store is closed;
+    /// whether there was one.
+    pub(crate) fn clear_away(&self, path: &Path) -> bool {
+        fs::symlink_metadata(path).is_ok_and(|metadata| metadata.is_dir())
+            && fs::rename(path, self.scratch.next_path()).is_ok()
     }
 }
 
@@ -203,5 +242,60 @@ pub(crate) fn with_folder_of<T>(path: &Path, work: impl Fn() -> io::Result<T>) -
             work()
         }
         (result, _) => result,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use cosfly_stage::{BlobSource, OutputSink, Produced};
+
+    #[test]
+    fn a_store_that_cannot_be_written_is_read_and_refuses_to_be_written() {
+        let root = tempfile::tempdir().unwrap();
+        let store = Store::open(root.path()).unwrap();
+        store.put_document(&Digest::of(b"1"), "1").unwrap();
+        drop(store);
+        fs::remove_dir_all(root.path().join("tmp")).unwrap();
+        fs::write(root.path().join("tmp"), "no folder").unwrap();
+        assert_eq!(Store::open(root.path()).map(drop).unwrap_err().code, "machine-io");
+        let store = Store::open_to_read(root.path()).unwrap();
+        assert_eq!(store.document(&Digest::of(b"1")), Some(1.into()));
+        assert_eq!(store.put_document(&Digest::of(b"2"), "2").unwrap_err().code, "machine-io");
+        let nothing = root.path().join("tmp/S");
+        assert_eq!(Store::open_to_read(&nothing).map(drop).unwrap_err().code, "machine-io");
+    }
+
+    #[test]
+    fn a_folder_where_a_file_belongs_counts_as_lost_and_is_moved_out_of_the_way() {
+        let root = tempfile::tempdir().unwrap();
+        let action = Digest::of(b"action");
+        let document = "\"plan\"";
+        let plan = Digest::of(document.as_bytes());
+        let make = |store: &Store| {
+            let mut sink = store.sink();
+            sink.put("a", b"x").unwrap();
+            let record = sink.settle(&action, Produced::default()).unwrap().record;
+            store.publish_done(&plan, document, &action).unwrap();
+            record
+        };
+        let record = make(&Store::open(root.path()).unwrap());
+        let blob = record.outputs["a"];
+        for (area, digest) in
+            [(Area::Blobs, blob.digest), (Area::Actions, action), (Area::Done, plan), (Area::Plans, plan)]
+        {
+            let store = Store::open(root.path()).unwrap();
+            let path = store.layout.file(area, &digest);
+            fs::remove_file(&path).unwrap();
+            fs::create_dir_all(path.join("deep")).unwrap();
+            assert!(store.finished(&plan).is_none_or(|it| area == Area::Plans || !store.holds(&it.record)), "{area:?}");
+            if area == Area::Blobs {
+                assert_eq!(store.read(&blob).unwrap_err().code, BLOB_LOST);
+            }
+            make(&store);
+            assert!(path.is_file(), "{area:?}");
+            assert!(store.holds(&store.finished(&plan).unwrap().record) && store.document(&plan).is_some());
+        }
+        assert_eq!(fs::read_dir(root.path().join("tmp")).unwrap().count(), 0);
     }
 }
