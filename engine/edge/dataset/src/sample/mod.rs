@@ -150,6 +150,7 @@ fn trajectory(
     views: &[TargetView],
 ) -> Trajectory {
     let frames = poses.len();
+    let certificate = certificate(&track, &poses, views);
     let perturbed = |i: usize| FramePerturbation {
         position: i == 2,
         rotation: false,
@@ -166,7 +167,7 @@ fn trajectory(
         clearance_m: vec![3.0; frames],
         terms: vec![TermCost { name: "distance".into(), weight: 2.0, sum: 0.5, per_frame: vec![0.1; frames] }],
         convergence: vec![3.0, 1.0],
-        certificate: certificate(),
+        certificate,
         perturbation: (role == Role::Perturbed).then(|| Perturbation {
             expert_item: format!("p{pedestrian:05}"),
             position_probability: 0.3,
@@ -176,21 +177,26 @@ fn trajectory(
     }
 }
 
-fn certificate() -> Certificate {
+fn certificate(track: &TargetTrack, poses: &[Pose], views: &[TargetView]) -> Certificate {
+    let count = poses.len() as f64;
+    let seen: Vec<f64> = views.iter().map(|view| view.visible_by_rays).collect();
+    let positions: Vec<DVec3> = poses.iter().map(|pose| pose.position_in_world).collect();
+    let distances = positions.iter().zip(&track.states).map(|(position, state)| position.distance(state.feet_in_world));
+    let length_m = positions.windows(2).map(|pair| pair[1].distance(pair[0])).sum::<f64>();
     Certificate {
         limits: Limits { clearance_m: 1.0, speed_mps: 15.0, acceleration_mps2: 8.0, jerk_mps3: 40.0 },
         holds: true,
         violations: vec![],
-        mean_visibility: 0.9,
-        frames_half_visible: 1.0,
+        mean_visibility: seen.iter().sum::<f64>() / count,
+        frames_half_visible: seen.iter().filter(|share| **share >= 0.5).count() as f64 / count,
         min_clearance_m: 3.0,
         max_speed_mps: 1.3,
         max_acceleration_mps2: 0.1,
         max_jerk_mps3: 0.1,
-        mean_distance_m: 7.2,
+        mean_distance_m: distances.sum::<f64>() / count,
         mean_rear_angle_deg: 0.0,
-        length_m: 2.6,
-        length_ratio: 1.0,
+        length_m,
+        length_ratio: length_m / track.length_m(),
         iterations: 2,
         filtered_boxes: 1,
     }

@@ -1,10 +1,11 @@
 //! The frames of one flight: numbering, actions against poses, the body reprojected into the image, twins.
 
+use super::figures;
 use super::files::CheckedFiles;
 use super::log;
 use super::report::VerifyReport;
 use super::rows::{self, FlightRow, FrameRow};
-use super::tables::SmallTables;
+use super::tables::{PairRow, SmallTables};
 use cosfly_frames::{DVec3, Pose, real};
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::Path;
@@ -56,6 +57,8 @@ pub fn check_all(
             }
             motions.insert(id.clone(), motion);
             check_frames(file, flight, &frames, report);
+            figures::check_frames(flight, &frames, report);
+            check_pair(&tables.pairs, flight, &frames, report);
             twins.keep(&frames);
             if files.regular.contains(&flight.mcap_path) {
                 log::check(folder, flight, &frames, tables.captions.get(&id).map_or(&[], Vec::as_slice), report);
@@ -216,6 +219,23 @@ impl Body {
         self.corners()
             .map(|corner| (corner - pose.position_in_world).dot(ahead))
             .fold((f64::MAX, f64::MIN), |(near, far), depth| (near.min(depth), far.max(depth)))
+    }
+}
+
+/// The row of a twin in table `pairs` sums up its frames.
+fn check_pair(pairs: &BTreeMap<String, PairRow>, flight: &FlightRow, frames: &[FrameRow], report: &mut VerifyReport) {
+    let Some(pair) = pairs.get(&flight.trajectory_id) else { return };
+    let events = || frames.iter().filter_map(|frame| frame.disturbance);
+    let expert_frames: Vec<i64> = events().map(|it| it.0).collect();
+    let max_offset_m = events().map(|it| it.3.length()).fold(0.0, f64::max);
+    let counts = [frames.len(), events().filter(|it| it.1).count(), events().filter(|it| it.2).count()];
+    let is_same = pair.expert_frames == expert_frames
+        && (pair.max_offset_m - max_offset_m).abs() <= TOLERANCE
+        && pair.counts == counts.map(|count| count as i64)
+        && pair.pedestrian_id == flight.pedestrian_id;
+    if !is_same {
+        let place = format!("row {}, `{}`", pair.place.1, flight.trajectory_id);
+        report.find(&pair.place.0, place, "verify-pair", "it does not sum up the frames of this flight");
     }
 }
 

@@ -4,6 +4,7 @@
 //! read further, except for logs, whose own checksums tell where the damage is.
 
 mod croissant;
+mod figures;
 mod files;
 mod flight;
 mod log;

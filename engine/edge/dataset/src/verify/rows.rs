@@ -1,9 +1,10 @@
 //! Reads the rows of published tables back, schemas checked first.
 
+use super::figures::Figures;
 use crate::action;
 use crate::tables::{self, FileRecord, Table};
 use arrow::array::{Array, AsArray, RecordBatch};
-use arrow::datatypes::{Float32Type, Float64Type, Int64Type};
+use arrow::datatypes::{DataType, Float32Type, Float64Type, Int64Type};
 use cosfly_frames::{DVec3, Pose};
 use parquet::arrow::ProjectionMask;
 use parquet::arrow::arrow_reader::ParquetRecordBatchReaderBuilder;
@@ -29,10 +30,29 @@ pub fn batches<S>(path: &Path, table: &Table<S>, visit: &mut dyn FnMut(&Batch)) 
     let kept = (0..table.columns.len()).filter(|i| table.columns[*i].kind != tables::Kind::Image);
     let mask = ProjectionMask::roots(builder.parquet_schema(), kept);
     let reader = builder.with_projection(mask).build().map_err(|error| error.to_string())?;
+    let (mut rows, mut endless) = (0, None);
     for batch in reader {
-        visit(&Batch(batch.map_err(|error| format!("it cannot be read: {error}"))?));
+        let batch = batch.map_err(|error| format!("it cannot be read: {error}"))?;
+        let column = (0..batch.num_columns()).find(|at| !is_finite(batch.column(*at).as_ref()));
+        endless = endless.or(column.map(|at| {
+            let name = batch.schema_ref().field(at).name().clone();
+            format!("column `{name}` has a number that is not finite, in row {rows} or after it")
+        }));
+        rows += batch.num_rows();
+        visit(&Batch(batch));
     }
-    Ok(())
+    endless.map_or(Ok(()), Err)
+}
+
+/// Whether no number of a column, in lists or not, is NaN or infinite.
+fn is_finite(column: &dyn Array) -> bool {
+    match column.data_type() {
+        DataType::Float64 => column.as_primitive::<Float64Type>().iter().flatten().all(f64::is_finite),
+        DataType::Float32 => column.as_primitive::<Float32Type>().iter().flatten().all(f32::is_finite),
+        DataType::List(_) => is_finite(column.as_list::<i32>().values().as_ref()),
+        DataType::FixedSizeList(..) => is_finite(column.as_fixed_size_list().values().as_ref()),
+        _ => true,
+    }
 }
 
 /// Rows of a table whose schema was checked.
@@ -64,6 +84,12 @@ impl Batch {
     pub fn integer(&self, name: &str, row: usize) -> Option<i64> {
         let column = self.column(name).as_primitive::<Int64Type>();
         column.is_valid(row).then(|| column.value(row))
+    }
+
+    /// The integers of a list; empty for null.
+    pub fn integers(&self, name: &str, row: usize) -> Vec<i64> {
+        let column = self.column(name).as_list::<i32>();
+        if column.is_null(row) { vec![] } else { column.value(row).as_primitive::<Int64Type>().values().to_vec() }
     }
 
     /// A flag; `None` for null.
@@ -132,6 +158,8 @@ pub struct FlightRow {
     pub mcap: (i64, String),
     /// Messages in the log.
     pub mcap_messages: i64,
+    /// What it says about its frames and limits.
+    pub figures: Figures,
 }
 
 /// The rows of a file of `trajectories`.
@@ -159,6 +187,7 @@ pub fn flights(path: &Path, name: &str) -> ReadResult<Vec<FlightRow>> {
                 mcap_path: batch.text("mcap_path", row),
                 mcap: (batch.integer("mcap_bytes", row).unwrap_or(-1), batch.text("mcap_sha256", row)),
                 mcap_messages: batch.integer("mcap_messages", row).unwrap_or(-1),
+                figures: Figures::read(batch, row),
             });
         }
     })?;
@@ -184,6 +213,8 @@ pub struct FrameRow {
     pub feet_in_world: DVec3,
     /// Stored distance.
     pub distance_m: f64,
+    /// Stored distance from obstacles.
+    pub clearance_m: f64,
     /// Stored flags and shares.
     pub in_view: bool,
     /// Visible share by rays and by pixels.
@@ -222,6 +253,7 @@ impl FrameRow {
             angles_deg,
             feet_in_world: DVec3::new(real("target_x_m"), real("target_y_m"), real("target_z_m")),
             distance_m: real("distance_m"),
+            clearance_m: real("clearance_m"),
             in_view: event("in_view"),
             visible: [real("visible_by_rays"), real("visible_by_pixels")],
             visible_pixels: batch.integer("visible_pixels", row).unwrap_or(-1),
@@ -240,7 +272,9 @@ impl FrameRow {
     pub fn motion_bytes(&self) -> Vec<u8> {
         let p = self.pose.position_in_world;
         let pose = [p.x, p.y, p.z, self.angles_deg[0], self.angles_deg[1], self.angles_deg[2]];
-        motion_bytes(&pose, self.action_in_world.as_ref(), self.action_in_body.as_ref())
+        let expert_frame = self.disturbance.map_or(self.frame, |it| it.0);
+        let target = self.feet_in_world.to_array();
+        motion_bytes(&pose, target, expert_frame, self.action_in_world.as_ref(), self.action_in_body.as_ref())
     }
 
     /// The largest difference between the stored actions and those from this pose to `next`.
@@ -253,9 +287,20 @@ impl FrameRow {
     }
 }
 
-fn motion_bytes(pose: &[f64; 6], in_world: Option<&[f64; 6]>, in_body: Option<&[f64; 6]>) -> Vec<u8> {
-    let none = [f64::MAX; 6];
-    let numbers = pose.iter().chain(in_world.unwrap_or(&none)).chain(in_body.unwrap_or(&none));
+fn motion_bytes(
+    pose: &[f64; 6],
+    target: [f64; 3],
+    expert_frame: i64,
+    in_world: Option<&[f64; 6]>,
+    in_body: Option<&[f64; 6]>,
+) -> Vec<u8> {
+    let (none, expert_frame) = ([f64::MAX; 6], expert_frame as f64);
+    let numbers = pose
+        .iter()
+        .chain(&target)
+        .chain([&expert_frame])
+        .chain(in_world.unwrap_or(&none))
+        .chain(in_body.unwrap_or(&none));
     numbers.flat_map(|number| number.to_bits().to_le_bytes()).collect()
 }
 
@@ -288,8 +333,25 @@ pub fn waypoints(path: &Path, visit: &mut dyn FnMut(String, i64, Vec<u8>)) -> Re
             let pose = batch.reals("pose_in_world", row).unwrap_or([f64::NAN; 6]);
             let world = batch.reals("action_in_world", row);
             let body = batch.reals("action_in_body", row);
-            let motion = motion_bytes(&pose, world.as_ref(), body.as_ref());
+            let target = batch.reals("target_feet_in_world", row).unwrap_or([f64::NAN; 3]);
+            let expert_step = batch.integer("expert_step", row).unwrap_or(-1);
+            let motion = motion_bytes(&pose, target, expert_step, world.as_ref(), body.as_ref());
             visit(batch.text("trajectory_id", row), batch.integer("step", row).unwrap_or(-1), motion);
         }
     })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use arrow::array::{Float32Array, Float64Array, Int64Array, ListArray};
+
+    #[test]
+    fn numbers_that_are_not_finite_are_seen_in_columns_and_lists() {
+        assert!(is_finite(&Float64Array::from(vec![Some(1.0), None])) && is_finite(&Int64Array::from(vec![1])));
+        assert!(!is_finite(&Float64Array::from(vec![1.0, f64::NAN])));
+        assert!(!is_finite(&Float32Array::from(vec![f32::INFINITY])));
+        let lists = [Some(vec![Some(1.0), Some(f64::NEG_INFINITY)])];
+        assert!(!is_finite(&ListArray::from_iter_primitive::<Float64Type, _, _>(lists)));
+    }
 }

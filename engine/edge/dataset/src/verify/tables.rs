@@ -1,5 +1,6 @@
 //! Tables against each other: references, splits, counts, captions.
 
+use super::figures;
 use super::files::CheckedFiles;
 use super::report::VerifyReport;
 use super::rows::{self, FlightRow, ReadResult};
@@ -11,20 +12,37 @@ use std::path::Path;
 pub struct SmallTables {
     /// Flights by name.
     pub flights: BTreeMap<String, FlightRow>,
+    /// Twins by name.
+    pub pairs: BTreeMap<String, PairRow>,
     /// Captions by flight: language and text.
     pub captions: BTreeMap<String, Vec<(String, String)>>,
 }
 
+/// A row of table `pairs`.
+pub struct PairRow {
+    /// File and row it stands in.
+    pub place: (String, usize),
+    expert_id: String,
+    /// The pedestrian of both.
+    pub pedestrian_id: String,
+    /// Frames, position events, rotation events.
+    pub counts: [i64; 3],
+    /// Largest displacement, metres.
+    pub max_offset_m: f64,
+    /// The expert's frame of each frame.
+    pub expert_frames: Vec<i64>,
+}
+
 /// Reads the small tables and checks them against each other.
 pub fn read(folder: &Path, files: &CheckedFiles, report: &mut VerifyReport) -> SmallTables {
-    let mut small = SmallTables { flights: BTreeMap::new(), captions: BTreeMap::new() };
+    let mut small = SmallTables { flights: BTreeMap::new(), pairs: BTreeMap::new(), captions: BTreeMap::new() };
     read_flights(folder, files, &mut small, report);
     let rejected = read_rejected(folder, files, report);
     for id in small.flights.keys().filter(|id| rejected.contains(*id)) {
         report.find("data/rejected", id.clone(), "verify-reference", "it is rejected and has a flight");
     }
     read_captions(folder, files, &mut small, report);
-    read_pairs(folder, files, &small, report);
+    read_pairs(folder, files, &mut small, report);
     check_splits(&small, report);
     small
 }
@@ -47,6 +65,7 @@ fn read_flights(folder: &Path, files: &CheckedFiles, small: &mut SmallTables, re
                 let message = format!("`{}` is not in `files.parquet` with this size and hash", flight.mcap_path);
                 report.find(file, format!("row {row}, `{id}`"), "verify-reference", message);
             }
+            figures::check_row(&flight, report);
             if small.flights.insert(id.clone(), flight).is_some() {
                 report.find(file, format!("row {row}"), "verify-duplicate", format!("a second flight `{id}`"));
             }
@@ -62,28 +81,39 @@ fn read_flights(folder: &Path, files: &CheckedFiles, small: &mut SmallTables, re
 fn read_rejected(folder: &Path, files: &CheckedFiles, report: &mut VerifyReport) -> BTreeSet<String> {
     let mut rejected = BTreeSet::new();
     for file in files.sound_below("data/rejected/") {
+        let mut rows: Vec<String> = vec![];
         let outcome = rows::batches(&folder.join(file), &tables::of_rejections(), &mut |batch| {
-            rejected.extend((0..batch.rows()).map(|row| batch.text("trajectory_id", row)));
+            rows.extend((0..batch.rows()).map(|row| batch.text("trajectory_id", row)));
         });
         note(report, file, outcome);
+        for (row, id) in rows.into_iter().enumerate() {
+            if !rejected.insert(id.clone()) {
+                report.find(file, format!("row {row}, `{id}`"), "verify-duplicate", "a second row of this item");
+            }
+        }
     }
     rejected
 }
 
 fn read_captions(folder: &Path, files: &CheckedFiles, small: &mut SmallTables, report: &mut VerifyReport) {
     let table = tables::of_trajectories().into_iter().find(|table| table.name == "captions").expect("it exists");
+    let mut keys = BTreeSet::new();
     for file in files.sound_below("data/captions/") {
         let mut all = vec![];
         let outcome = rows::batches(&folder.join(file), &table, &mut |batch| {
             all.extend(
-                (0..batch.rows()).map(|row| ["trajectory_id", "language", "text"].map(|it| batch.text(it, row))),
+                (0..batch.rows())
+                    .map(|row| ["trajectory_id", "language", "style", "text"].map(|it| batch.text(it, row))),
             );
         });
         note(report, file, outcome);
-        for (row, [id, language, text]) in all.into_iter().enumerate() {
+        for (row, [id, language, style, text]) in all.into_iter().enumerate() {
             let place = format!("row {row}, `{id}`");
             if text.trim().is_empty() {
                 report.find(file, place.clone(), "verify-caption", "the text is empty");
+            }
+            if !keys.insert((id.clone(), language.clone(), style, text.clone())) {
+                report.find(file, place.clone(), "verify-duplicate", "the same caption twice");
             }
             match small.flights.get(&id) {
                 None => report.find(file, place, "verify-reference", "there is no such flight"),
@@ -109,29 +139,49 @@ fn read_captions(folder: &Path, files: &CheckedFiles, small: &mut SmallTables, r
     }
 }
 
-fn read_pairs(folder: &Path, files: &CheckedFiles, small: &SmallTables, report: &mut VerifyReport) {
+fn read_pairs(folder: &Path, files: &CheckedFiles, small: &mut SmallTables, report: &mut VerifyReport) {
     let table = tables::of_trajectories().into_iter().find(|table| table.name == "pairs").expect("it exists");
-    let mut twins = BTreeSet::new();
     for file in files.sound_below("data/pairs/") {
         let mut all = vec![];
         let outcome = rows::batches(&folder.join(file), &table, &mut |batch| {
-            all.extend((0..batch.rows()).map(|row| ["perturbed_id", "expert_id"].map(|it| batch.text(it, row))));
+            all.extend((0..batch.rows()).map(|row| pair_row(batch, row)));
         });
         note(report, file, outcome);
-        for (row, [perturbed, expert]) in all.into_iter().enumerate() {
-            let place = format!("row {row}, `{perturbed}`");
+        for (row, (perturbed, mut pair)) in all.into_iter().enumerate() {
+            pair.place = (file.to_owned(), row);
+            let (place, expert) = (format!("row {row}, `{perturbed}`"), pair.expert_id.clone());
             let twin = small.flights.get(&perturbed);
             if twin.is_none_or(|twin| twin.expert_id != expert) {
                 report.find(
                     file,
-                    place,
+                    place.clone(),
                     "verify-pair",
                     format!("table `trajectories` has no twin of `{expert}` so called"),
                 );
             }
-            twins.insert(perturbed);
+            if small.pairs.insert(perturbed, pair).is_some() {
+                report.find(file, place, "verify-duplicate", "a second row of this twin");
+            }
         }
     }
+    check_experts(small, report);
+}
+
+fn pair_row(batch: &rows::Batch, row: usize) -> (String, PairRow) {
+    let count = |name| batch.integer(name, row).unwrap_or(-1);
+    let pair = PairRow {
+        place: (String::new(), row),
+        expert_id: batch.text("expert_id", row),
+        pedestrian_id: batch.text("pedestrian_id", row),
+        counts: ["frames", "position_events", "rotation_events"].map(count),
+        max_offset_m: batch.real("max_offset_m", row).unwrap_or(f64::NAN),
+        expert_frames: batch.integers("expert_frames", row),
+    };
+    (batch.text("perturbed_id", row), pair)
+}
+
+/// Every twin has its expert and its row in `pairs`.
+fn check_experts(small: &SmallTables, report: &mut VerifyReport) {
     // A dataset may consist of perturbed flights alone; then there is nobody to compare them with.
     let has_experts = small.flights.values().any(|flight| flight.expert_id.is_empty());
     for (id, flight) in small.flights.iter().filter(|(_, flight)| !flight.expert_id.is_empty()) {
@@ -140,9 +190,9 @@ fn read_pairs(folder: &Path, files: &CheckedFiles, small: &SmallTables, report: 
             Some(expert) if expert.pedestrian_id != flight.pedestrian_id => {
                 report.find(&flight.place.0, place, "verify-pair", "its expert follows another pedestrian");
             }
-            Some(_) if twins.contains(id) => {}
+            Some(_) if small.pairs.contains_key(id) => {}
             Some(_) => report.find(&flight.place.0, place, "verify-pair", "table `pairs` has no row for it"),
-            None if !has_experts && twins.contains(id) => {}
+            None if !has_experts && small.pairs.contains_key(id) => {}
             None => {
                 let message = format!("its expert `{}` is not in the dataset", flight.expert_id);
                 report.find(&flight.place.0, place, "verify-pair", message);

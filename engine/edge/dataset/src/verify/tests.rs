@@ -144,6 +144,29 @@ fn a_twin_that_is_not_its_expert_plus_its_displacement_is_found() {
 }
 
 #[test]
+fn figures_that_do_not_follow_from_the_frames_are_found() {
+    let spoils: [fn(&mut cosfly_planner::Certificate); 5] = [
+        |it| it.mean_visibility += 1e-6,
+        |it| it.frames_half_visible = 0.9,
+        |it| it.mean_distance_m += 0.1,
+        |it| it.length_m *= 1.01,
+        |it| it.min_clearance_m = 3.1,
+    ];
+    for spoil in spoils {
+        let mut flights = sample::flights();
+        spoil(&mut flights[0].record.trajectory.certificate);
+        assert_eq!(rules_of(&published(flights)), ["verify-figures"]);
+    }
+}
+
+#[test]
+fn a_certificate_that_holds_against_its_own_limits_is_found() {
+    let mut flights = sample::flights();
+    flights[0].record.trajectory.certificate.limits.speed_mps = 1.0;
+    assert_eq!(rules_of(&published(flights)), ["verify-certificate"]);
+}
+
+#[test]
 fn a_missing_language_is_found() {
     let mut flights = sample::flights();
     flights[2].captions.pop();
