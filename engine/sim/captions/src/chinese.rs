@@ -58,7 +58,7 @@ fn view(facts: &Facts, words: &mut RandomStream) -> String {
     let patterns: &[&str] = if facts.pitch_down_deg < 0.0 {
         &["镜头上仰约{}度", "仰角约{}度"]
     } else {
-        &["俯仰角约{}度", "俯角约{}度", "镜头下俯约{}度"]
+        &["镜头俯角约{}度", "俯角约{}度", "镜头下俯约{}度"]
     };
     one_of(words, patterns).replace("{}", &rounded(facts.pitch_down_deg.abs(), PITCH_STEP_DEG))
 }

@@ -95,13 +95,16 @@ fn stops(facts: &Facts, words: &mut RandomStream) -> String {
             one_of(words, &["They pause once for about {} seconds.", "On the way they stop once for about {} seconds."])
                 .replace("{}", &standing)
         }
-        count => one_of(
-            words,
-            &["They stop # times for about {} seconds in all.", "They pause # times for about {} seconds together."],
-        )
-        .replace('#', &count.to_string())
-        .replace("{}", &standing),
+        count => {
+            one_of(words, &["They stop # for about {} seconds in all.", "They pause # for about {} seconds together."])
+                .replace('#', &times(count))
+                .replace("{}", &standing)
+        }
     }
+}
+
+fn times(count: usize) -> String {
+    if count == 2 { "twice".into() } else { format!("{count} times") }
 }
 
 fn length(facts: &Facts, words: &mut RandomStream) -> String {
