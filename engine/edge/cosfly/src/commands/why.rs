@@ -10,7 +10,7 @@ use std::fmt::Write;
 /// Prints the explanation.
 pub fn why(arguments: &WhyArguments) -> Outcome {
     let recipe = recipe(&arguments.recipe)?;
-    let store = Store::open(&store_dir(&arguments.store)).map_err(|refusal| vec![refusal])?;
+    let store = Store::open_to_read(&store_dir(&arguments.store)).map_err(|refusal| vec![refusal])?;
     let (stage, item) = match arguments.subject.split_once('/') {
         Some((stage, item)) => (stage, Some(item)),
         None => (arguments.subject.as_str(), None),
