@@ -113,7 +113,9 @@ def compare(binary, path):
     for off, width, heading, sample in sorted(bad, key=lambda entry: -entry[0])[:MOST_SHOWN]:
         place = f"road {sample['road']} lane {sample['lane']} s {sample['s']:.3f} at {sample['position']}"
         print(f"    {place}: {off:.5f} m off, width {width:.5f} m off, heading {heading:.4f} deg off")
-    return not bad and crosswalks >= LEAST_CROSSWALKS and quantile(offsets, 0.97) < (3e-3 if has_cubics else limit)
+    # Surveys shift the centre lane nearly everywhere, so there carla's crosswalks say nothing.
+    crosswalks_agree = has_cubics or crosswalks >= LEAST_CROSSWALKS
+    return not bad and crosswalks_agree and quantile(offsets, 0.97) < (3e-3 if has_cubics else limit)
 
 
 def main():

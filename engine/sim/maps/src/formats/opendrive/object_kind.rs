@@ -59,6 +59,8 @@ pub(super) fn kind_of(object: &RoadObject) -> ObjectKind {
     let solid = |usual: ObstacleKind| ObjectKind::Solid(named.unwrap_or(usual));
     match object.type_name.as_str() {
         "crosswalk" => ObjectKind::Crosswalk,
+        // Surveys list crossings among the road marks.
+        "roadmark" if object.name.contains("crosswalk") => ObjectKind::Crosswalk,
         "building" => solid(ObstacleKind::Building),
         "tree" => ObjectKind::Solid(ObstacleKind::TreeTrunk),
         "vegetation" if object.name.contains("tree") => ObjectKind::Solid(ObstacleKind::TreeTrunk),
@@ -101,6 +103,8 @@ mod tests {
             ("-1", "stencil_stop", ObjectKind::Flat),
             ("parkingspace", "", ObjectKind::Flat),
             ("crosswalk", "simplecrosswalk", ObjectKind::Crosswalk),
+            ("roadmark", "crosswalk", ObjectKind::Crosswalk),
+            ("roadmark", "arrowleft", ObjectKind::Flat),
             ("somethingnew", "", ObjectKind::Solid(ObstacleKind::Static)),
         ] {
             let object = RoadObject { type_name: type_name.to_owned(), name: name.to_owned(), ..RoadObject::default() };
