@@ -113,7 +113,7 @@ impl Reporter {
             if *cached == *total {
                 bar.finish();
             } else if self.detail == Detail::Lines {
-                self.line(&format!("{stage:width$}  {total} items, {cached} cached"));
+                self.line(&format!("{stage:width$}  {}, {cached} cached", count(*total, "item")));
             }
             stages.insert(stage.clone(), Progress { bar, total: *total, done: *cached, failed: 0 });
         }
