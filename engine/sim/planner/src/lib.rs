@@ -5,9 +5,12 @@
 
 pub mod certificate;
 pub mod config;
+pub mod gradient;
 pub mod muco;
 pub mod obstacles;
+pub mod paper;
 pub mod perturb;
+pub mod problem;
 pub mod scenes;
 pub mod terms;
 pub mod trajectory;

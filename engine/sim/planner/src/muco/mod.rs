@@ -12,13 +12,8 @@
 
 pub mod banded;
 pub mod corridor;
-pub mod descent;
-pub mod gradient;
 pub mod lattice;
 pub mod plan;
-pub mod postprocess;
-pub mod projection;
-pub mod repair;
 pub mod smoother;
 pub mod start;
 pub mod track_check;

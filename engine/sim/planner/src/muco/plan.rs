@@ -1,8 +1,6 @@
 //! The planner's main loop: from a target track to a certified flight, or the reason why there is none.
 
 use super::corridor::CorridorInput;
-use super::descent::{Problem, descend};
-use super::postprocess::postprocess;
 use super::smoother::{Objective, smooth};
 use super::start::{self, Effort};
 use super::track_check::check_track;
@@ -10,6 +8,9 @@ use crate::certificate::{Kinematics, Measured, SolverFigures, certify, term_cost
 use crate::config::MucoConfig;
 use crate::obstacles::solid::HalfSpace;
 use crate::obstacles::{exact::ExactObstacles, ground::GroundGrid, local::LocalObstacles};
+use crate::paper::descent::descend;
+use crate::paper::postprocess::postprocess;
+use crate::problem::Problem;
 use crate::terms::{TermContext, WeightedTerm, built_in_terms};
 use crate::trajectory::{PlanOutcome, Trajectory};
 use crate::visibility::aim_point;

@@ -1,11 +1,11 @@
 //! The start of a flight: lattice, global search, interpolation, and a look at what lies between the nodes
 //! (paper, algorithm 2, made global).
 
-use super::descent::Problem;
 use super::lattice::{Lattice, NodeState, UNSAFE};
 use super::viterbi::{MoveCosts, NodeCosts, Viterbi};
 use crate::config::MucoConfig;
 use crate::obstacles::local::LocalObstacles;
+use crate::problem::Problem;
 use crate::terms::Weights;
 use crate::terms::{altitude::band_cost, pitch, tracking, viewpoint};
 use cosfly_frames::{DVec3, TargetTrack, real};

@@ -2,7 +2,7 @@
 
 use super::{TermContext, built_in_terms};
 use crate::config::{MucoConfig, ViewConfig};
-use crate::muco::gradient::difference_gradient;
+use crate::gradient::difference_gradient;
 use crate::obstacles::{ground::GroundGrid, local::LocalObstacles};
 use crate::walk::Walk;
 use cosfly_frames::{DVec3, RandomStream, Seed, TargetState, TargetTrack};

@@ -1,10 +1,10 @@
 //! The seven post-processing steps (paper, appendix A.4), each kept only when it does not raise the cost.
 
-use super::descent::Problem;
 use super::projection::project;
 use super::repair::{redistribute_spikes, smooth_altitude};
 use crate::config::MucoConfig;
 use crate::obstacles::{Surroundings, local::LocalObstacles};
+use crate::problem::Problem;
 use cosfly_frames::{DVec2, DVec3, real};
 
 /// Occluded runs longer than this many frames are straightened.

@@ -1,7 +1,7 @@
 //! Geometric safety projection (paper, algorithm 1): unsafe waypoints are lifted, led round or pushed out.
 
-use super::descent::Problem;
 use crate::obstacles::{Surroundings, local::LocalObstacles};
+use crate::problem::Problem;
 use cosfly_frames::{DVec3, real};
 
 /// Penetration beyond which only a large push along the distance gradient is tried, metres.

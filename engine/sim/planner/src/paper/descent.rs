@@ -1,40 +1,10 @@
 //! Adaptive descent on the nine terms (paper, section 3.3, "Optimization").
 
-use super::gradient::{total_cost, total_gradient};
-use crate::config::{DescentConfig, ViewConfig};
+use crate::config::DescentConfig;
+use crate::gradient::total_gradient;
 use crate::obstacles::local::LocalObstacles;
-use crate::terms::{TermContext, WeightedTerm};
-use crate::walk::Walk;
-use cosfly_frames::{DVec3, TargetTrack};
-
-/// What every part of the solver reads.
-pub struct Problem<'a> {
-    /// The target.
-    pub track: &'a TargetTrack,
-    /// Where the drone should be.
-    pub view: &'a ViewConfig,
-    /// Walking directions.
-    pub walk: &'a Walk,
-    /// The cost.
-    pub terms: &'a [WeightedTerm],
-    /// How many of the terms, from the first, are the paper's.
-    pub built_in: usize,
-}
-
-impl<'a> Problem<'a> {
-    /// What terms see with these obstacles.
-    pub fn context<'b>(&self, obstacles: &'b LocalObstacles<'b>) -> TermContext<'b>
-    where
-        'a: 'b,
-    {
-        TermContext { track: self.track, view: self.view, walk: self.walk, surroundings: obstacles }
-    }
-
-    /// Total cost against the planning boxes.
-    pub fn cost(&self, obstacles: &LocalObstacles<'_>, waypoints: &[DVec3]) -> f64 {
-        total_cost(self.terms, waypoints, &self.context(obstacles))
-    }
-}
+use crate::problem::Problem;
+use cosfly_frames::DVec3;
 
 /// Growth of the learning rate after a step that lowered the cost.
 const RECOVERY: f64 = 1.05;

@@ -1,0 +1,37 @@
+//! What every part of a solver reads: target, wishes, cost.
+
+use crate::config::ViewConfig;
+use crate::gradient::total_cost;
+use crate::obstacles::local::LocalObstacles;
+use crate::terms::{TermContext, WeightedTerm};
+use crate::walk::Walk;
+use cosfly_frames::{DVec3, TargetTrack};
+
+/// What every part of the solver reads.
+pub struct Problem<'a> {
+    /// The target.
+    pub track: &'a TargetTrack,
+    /// Where the drone should be.
+    pub view: &'a ViewConfig,
+    /// Walking directions.
+    pub walk: &'a Walk,
+    /// The cost.
+    pub terms: &'a [WeightedTerm],
+    /// How many of the terms, from the first, are the paper's.
+    pub built_in: usize,
+}
+
+impl<'a> Problem<'a> {
+    /// What terms see with these obstacles.
+    pub fn context<'b>(&self, obstacles: &'b LocalObstacles<'b>) -> TermContext<'b>
+    where
+        'a: 'b,
+    {
+        TermContext { track: self.track, view: self.view, walk: self.walk, surroundings: obstacles }
+    }
+
+    /// Total cost against the planning boxes.
+    pub fn cost(&self, obstacles: &LocalObstacles<'_>, waypoints: &[DVec3]) -> f64 {
+        total_cost(self.terms, waypoints, &self.context(obstacles))
+    }
+}
