@@ -9,6 +9,7 @@
 pub mod pose;
 pub mod random;
 pub mod real;
+pub mod simd;
 pub mod track;
 
 pub use glam::{DMat3, DQuat, DVec2, DVec3};
