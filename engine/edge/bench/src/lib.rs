@@ -1,0 +1,5 @@
+//! Measurements behind `cosfly bench`: planners against each other, box queries against other libraries.
+//!
+//! Everything is timed in thread CPU time, contenders interleaved in one run, so that ratios survive a busy machine.
+
+pub mod clock;
