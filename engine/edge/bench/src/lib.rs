@@ -3,3 +3,4 @@
 //! Everything is timed in thread CPU time, contenders interleaved in one run, so that ratios survive a busy machine.
 
 pub mod clock;
+pub mod planner;

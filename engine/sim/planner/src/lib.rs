@@ -3,6 +3,7 @@
 //! [`plan`] turns a target track into a certified [`Trajectory`] or says why there is none. What is worth seeing
 //! is in [`terms`] (one file per cost term), how it is found in [`muco`], what is promised in [`certificate`].
 
+pub mod baselines;
 pub mod certificate;
 pub mod config;
 pub mod gradient;

@@ -1,0 +1,142 @@
+//! One measure for all flights: in `f64`, against the unsimplified map, whoever planned them.
+
+use super::contender::Planned;
+use cosfly_frames::{DVec3, TargetTrack, real};
+use cosfly_geometry::SpatialQuery;
+use cosfly_planner::certificate::Kinematics;
+use cosfly_planner::walk::Walk;
+use cosfly_planner::{MucoConfig, visibility};
+use serde::Serialize;
+
+/// A swept path nearer than this has collided, metres: the radius of the drone.
+pub const COLLISION_M: f64 = 0.5;
+/// Clearances are measured up to here, metres.
+const CLEARANCE_CAP_M: f64 = 50.0;
+
+/// What came of one path in one contender's hands.
+pub struct Flight {
+    /// One waypoint per frame; empty when there is no flight.
+    pub waypoints: Vec<DVec3>,
+    /// Visibility per frame.
+    pub visibility: Vec<f64>,
+    /// Total cost after each iteration.
+    pub convergence: Vec<f64>,
+    /// CPU seconds of the planning thread, also when no flight came of it.
+    pub cpu_s: f64,
+    /// The figures, or why there is no flight.
+    pub figures: Result<Figures, String>,
+}
+
+/// Figures of one flight.
+#[derive(Clone, Copy, Debug, Serialize)]
+pub struct Figures {
+    /// Mean share of body points seen.
+    pub visibility: f64,
+    /// Share of frames that see at least half of them.
+    pub frames_half_visible: f64,
+    /// Mean distance from drone to the target's feet, metres.
+    pub distance_m: f64,
+    /// Way of the drone, metres.
+    pub length_m: f64,
+    /// Way of the target, metres.
+    pub target_length_m: f64,
+    /// Smallest distance of the swept path to a box, metres.
+    pub min_clearance_m: f64,
+    /// Segments nearer than [`COLLISION_M`].
+    pub collisions: u32,
+    /// Segments nearer than the clearance limit.
+    pub margin_violations: u32,
+    /// Largest speed, m/s.
+    pub max_speed_mps: f64,
+    /// Largest acceleration, m/s^2.
+    pub max_acceleration_mps2: f64,
+    /// Largest jerk, m/s^3.
+    pub max_jerk_mps3: f64,
+    /// Mean angle off the rear of the walker, degrees; `None` when the target never walks.
+    pub rear_angle_deg: Option<f64>,
+    /// Nodes expanded.
+    pub nodes: u64,
+}
+
+impl Flight {
+    /// Measures what was planned.
+    pub fn judge(
+        planned: Result<Planned, String>,
+        cpu_s: f64,
+        track: &TargetTrack,
+        exact: &dyn SpatialQuery,
+        config: &MucoConfig,
+    ) -> Self {
+        let planned = match planned {
+            Ok(planned) => planned,
+            Err(reason) => {
+                let (waypoints, visibility, convergence) = (Vec::new(), Vec::new(), Vec::new());
+                return Self { waypoints, visibility, convergence, cpu_s, figures: Err(reason) };
+            }
+        };
+        let seen: Vec<f64> = planned
+            .waypoints
+            .iter()
+            .zip(&track.states)
+            .map(|(&waypoint, state)| visibility(exact, waypoint, state, track.height_m))
+            .collect();
+        let figures = figures(&planned, &seen, track, exact, config.limits.clearance_m);
+        Self {
+            waypoints: planned.waypoints,
+            visibility: seen,
+            convergence: planned.convergence,
+            cpu_s,
+            figures: Ok(figures),
+        }
+    }
+}
+
+fn figures(
+    planned: &Planned,
+    seen: &[f64],
+    track: &TargetTrack,
+    exact: &dyn SpatialQuery,
+    clearance_m: f64,
+) -> Figures {
+    let waypoints = &planned.waypoints;
+    let frames = waypoints.len().max(1) as f64;
+    let clearances: Vec<f64> = swept_clearances_m(exact, waypoints);
+    let kinematics = Kinematics::of(waypoints, track.dt_s);
+    let nearer = |limit_m: f64| clearances.iter().filter(|&&clearance| clearance < limit_m - 1e-9).count() as u32;
+    let distances = waypoints.iter().zip(&track.states).map(|(w, state)| w.distance(state.feet_in_world));
+    Figures {
+        visibility: seen.iter().sum::<f64>() / frames,
+        frames_half_visible: seen.iter().filter(|&&share| share >= 0.5).count() as f64 / frames,
+        distance_m: distances.sum::<f64>() / frames,
+        length_m: waypoints.windows(2).map(|pair| pair[1].distance(pair[0])).sum(),
+        target_length_m: track.length_m(),
+        min_clearance_m: clearances.iter().copied().fold(CLEARANCE_CAP_M, f64::min),
+        collisions: nearer(COLLISION_M),
+        margin_violations: nearer(clearance_m),
+        max_speed_mps: kinematics.speed_mps,
+        max_acceleration_mps2: kinematics.acceleration_mps2,
+        max_jerk_mps3: kinematics.jerk_mps3,
+        rear_angle_deg: rear_angle_deg(track, waypoints),
+        nodes: planned.nodes,
+    }
+}
+
+/// Distance of each segment to the nearest box, metres; the last waypoint is a segment of its own.
+pub fn swept_clearances_m(exact: &dyn SpatialQuery, waypoints: &[DVec3]) -> Vec<f64> {
+    let ends = waypoints.iter().skip(1).chain(waypoints.last());
+    waypoints.iter().zip(ends).map(|(&from, &to)| exact.segment_clearance(from, to, CLEARANCE_CAP_M)).collect()
+}
+
+/// Mean angle between "target to drone" and "against the walking direction", from above, while the target walks.
+fn rear_angle_deg(track: &TargetTrack, waypoints: &[DVec3]) -> Option<f64> {
+    let walk = Walk::of(track);
+    let (mut sum, mut count) = (0.0, 0.0);
+    for ((waypoint, state), direction) in waypoints.iter().zip(&track.states).zip(&walk.direction) {
+        let toward = (waypoint - state.feet_in_world).truncate().normalize_or_zero();
+        if toward.length_squared() > 0.5 && direction.length_squared() > 0.5 {
+            sum += real::acos((-toward.dot(*direction)).clamp(-1.0, 1.0)).to_degrees();
+            count += 1.0;
+        }
+    }
+    (count > 0.0).then(|| sum / count)
+}

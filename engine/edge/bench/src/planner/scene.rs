@@ -1,0 +1,42 @@
+//! Where paths come from: seeded scenes, or any town with its walkers.
+
+use cosfly_frames::TargetTrack;
+use cosfly_geometry::{BoxBvh, OrientedBox, SpatialQuery};
+use cosfly_planner::scenes::{Scene, SceneKind};
+
+/// Height of the ground at (x, y), metres.
+pub type GroundHeight = Box<dyn Fn(f64, f64) -> f64 + Send + Sync>;
+
+/// A map and the targets that walk in it.
+pub struct Ground {
+    /// Name in tables.
+    pub name: String,
+    /// All unsimplified boxes; flights are judged against them.
+    pub exact: Box<dyn SpatialQuery>,
+    /// How many they are.
+    pub exact_boxes: usize,
+    /// What planners avoid and look past.
+    pub planning_boxes: Vec<OrientedBox>,
+    /// The ground.
+    pub height: GroundHeight,
+    /// The targets.
+    pub tracks: Vec<TargetTrack>,
+}
+
+impl Ground {
+    /// The first `paths` walkers of a seeded scene. `fine` is planned on its coarse twin and judged on all its boxes.
+    pub fn scene(kind: SceneKind, seed: u64, paths: usize) -> Self {
+        let scene = Scene::generate(kind, seed);
+        let coarse = if kind == SceneKind::Fine { SceneKind::Leafy } else { kind };
+        let planning_boxes = Scene::generate(coarse, seed).boxes;
+        let tracks = (0..paths as u64).map(|index| scene.walker(seed, index)).collect();
+        Self {
+            name: kind.name().to_owned(),
+            exact_boxes: scene.boxes.len(),
+            exact: Box::new(BoxBvh::build(scene.boxes)),
+            planning_boxes,
+            height: Box::new(|_, _| 0.0),
+            tracks,
+        }
+    }
+}

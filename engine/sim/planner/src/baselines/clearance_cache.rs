@@ -1,0 +1,70 @@
+//! Distances from obstacles, kept per voxel of the world: what stands still is asked once, not once per layer.
+
+use super::grid::{Cell, VoxelGrid};
+use super::sight::Sight;
+
+/// Largest number of voxels that are kept; wider paths ask anew.
+const MAX_VOXELS: f64 = (1 << 24) as f64;
+
+/// Signed distances of voxels' middles, capped at the safety influence radius.
+pub struct ClearanceCache {
+    low: [i32; 3],
+    size: [i32; 3],
+    distance_m: Vec<f32>,
+    within_m: f64,
+}
+
+impl ClearanceCache {
+    /// Nothing asked yet.
+    pub fn new(grid: &VoxelGrid<'_>, within_m: f64) -> Self {
+        let (mut low, mut high) = ([i32::MAX; 3], [i32::MIN; 3]);
+        for layer in &grid.layers {
+            for k in 0..3 {
+                low[k] = low[k].min(layer.low[k]);
+                high[k] = high[k].max(layer.low[k] + grid.size[k]);
+            }
+        }
+        let size: [i32; 3] = core::array::from_fn(|k| high[k].saturating_sub(low[k]).max(0));
+        let voxels: f64 = size.iter().map(|&count| f64::from(count)).product();
+        let kept = if voxels <= MAX_VOXELS { voxels as usize } else { 0 };
+        Self { low, size, distance_m: vec![f32::NAN; kept], within_m }
+    }
+
+    /// The distance of a cell's middle.
+    #[inline]
+    pub fn distance_m(&mut self, grid: &VoxelGrid<'_>, cell: Cell, sight: &impl Sight) -> f64 {
+        if self.distance_m.is_empty() {
+            return sight.distance_m(grid.position(cell), self.within_m);
+        }
+        let from = grid.layers[cell.layer].low;
+        let [x, y, z]: [usize; 3] = core::array::from_fn(|k| (cell.at[k] + from[k] - self.low[k]) as usize);
+        let slot = &mut self.distance_m[(z * self.size[1] as usize + y) * self.size[0] as usize + x];
+        if slot.is_nan() {
+            // Rounded down: a hair too near rather than too far.
+            *slot = (sight.distance_m(grid.position(cell), self.within_m) as f32).next_down();
+        }
+        f64::from(*slot)
+    }
+}
+
+/// Whether the straight move between two cells keeps `keep_m`; the voxels' own distances settle most cases.
+#[inline]
+pub fn move_is_free(
+    cache: &mut ClearanceCache,
+    grid: &VoxelGrid<'_>,
+    sight: &impl Sight,
+    (from, to): (Cell, Cell),
+    length_m: f64,
+    keep_m: f64,
+) -> bool {
+    let at_start = cache.distance_m(grid, from, sight);
+    if at_start - length_m >= keep_m {
+        return true;
+    }
+    // No point of the segment is nearer than either end's distance less the way from that end.
+    let at_end = cache.distance_m(grid, to, sight);
+    if at_end < keep_m || 0.5 * (at_start + at_end - length_m) >= keep_m {
+        return at_end >= keep_m;
+    }
+    sight.segment_clearance_m(grid.position(from), grid.position(to), keep_m) >= keep_m
+}

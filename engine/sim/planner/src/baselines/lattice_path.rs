@@ -1,0 +1,17 @@
+//! The way through the polar lattice with nothing after it: what the global search alone is worth.
+
+use super::{BaselineInput, BaselinePath};
+use crate::muco::start::{Effort, search};
+use crate::obstacles::local::LocalObstacles;
+
+/// The cheapest way through the lattice of the recipe.
+pub fn lattice_path(input: &BaselineInput<'_>) -> Result<BaselinePath, String> {
+    let (track, config) = (input.problem.track, input.config);
+    let influence_m = config.view.safety_influence_m;
+    let radius_m = config.search.filter_radius_m;
+    let obstacles = LocalObstacles::filter(track, input.planning_boxes, input.ground, radius_m, influence_m);
+    let effort = Effort { azimuth_factor: 1, motion_factor: 1.0, keep_out_m: config.limits.clearance_m + 0.25 };
+    let waypoints = search(input.problem, &obstacles, config, effort)?;
+    let cost = input.problem.cost(&obstacles, &waypoints);
+    Ok(BaselinePath { waypoints, nodes_expanded: 0, cost })
+}
