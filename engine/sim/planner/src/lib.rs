@@ -6,6 +6,7 @@
 pub mod baselines;
 pub mod certificate;
 pub mod config;
+pub mod equations;
 pub mod gradient;
 pub mod muco;
 pub mod obstacles;

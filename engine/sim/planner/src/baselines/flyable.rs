@@ -6,7 +6,7 @@ use crate::muco::smoother::{Objective, smooth};
 use crate::obstacles::local::LocalObstacles;
 
 /// Near the voxels' middles, but loosely.
-const OBJECTIVE: Objective = Objective { nearness: 0.05, acceleration: 0.5, jerk: 2.0 };
+const OBJECTIVE: Objective = Objective { rounds: 4, iterations: 160, nearness: 0.05, acceleration: 0.5, jerk: 2.0 };
 /// Distance kept beyond the limit while smoothing, metres.
 const KEEP_OUT_EXTRA_M: f64 = 0.1;
 

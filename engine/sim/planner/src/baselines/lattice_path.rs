@@ -1,7 +1,8 @@
 //! The way through the polar lattice with nothing after it: what the global search alone is worth.
 
 use super::{BaselineInput, BaselinePath};
-use crate::muco::start::{Effort, search};
+use crate::muco::plan::full_effort;
+use crate::muco::search::search;
 use crate::obstacles::local::LocalObstacles;
 
 /// The cheapest way through the lattice of the recipe.
@@ -10,8 +11,7 @@ pub fn lattice_path(input: &BaselineInput<'_>) -> Result<BaselinePath, String> {
     let influence_m = config.view.safety_influence_m;
     let radius_m = config.search.filter_radius_m;
     let obstacles = LocalObstacles::filter(track, input.planning_boxes, input.ground, radius_m, influence_m);
-    let effort = Effort { azimuth_factor: 1, motion_factor: 1.0, keep_out_m: config.limits.clearance_m + 0.25 };
-    let waypoints = search(input.problem, &obstacles, config, effort)?;
+    let waypoints = search(input.problem, &obstacles, config, full_effort(config), &mut Default::default())?.waypoints;
     let cost = input.problem.cost(&obstacles, &waypoints);
     Ok(BaselinePath { waypoints, nodes_expanded: 0, cost })
 }

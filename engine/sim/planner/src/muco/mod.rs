@@ -14,8 +14,10 @@ pub mod banded;
 pub mod corridor;
 pub mod lattice;
 pub mod plan;
+pub mod refine;
+pub mod scan;
+pub mod search;
 pub mod smoother;
-pub mod start;
 pub mod track_check;
 pub mod viterbi;
 

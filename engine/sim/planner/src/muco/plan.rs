@@ -1,15 +1,16 @@
 //! The planner's main loop: from a target track to a certified flight, or the reason why there is none.
 
 use super::corridor::CorridorInput;
+use super::lattice::LatticeSize;
+use super::refine::{RefineSpace, Rounds, refine};
+use super::search::{Effort, search};
 use super::smoother::{Objective, smooth};
-use super::start::{self, Effort};
 use super::track_check::check_track;
+use super::viterbi::SearchSpace;
 use crate::certificate::{Kinematics, Measured, SolverFigures, certify, term_costs};
-use crate::config::MucoConfig;
+use crate::config::{MucoConfig, SearchEffort};
 use crate::obstacles::solid::HalfSpace;
 use crate::obstacles::{exact::ExactObstacles, ground::GroundGrid, local::LocalObstacles};
-use crate::paper::descent::descend;
-use crate::paper::postprocess::postprocess;
 use crate::problem::Problem;
 use crate::terms::{TermContext, WeightedTerm, built_in_terms};
 use crate::trajectory::{PlanOutcome, Trajectory};
@@ -17,17 +18,34 @@ use crate::visibility::aim_point;
 use crate::walk::Walk;
 use cosfly_frames::{DVec3, Pose, Seed, TargetTrack};
 use cosfly_geometry::{OrientedBox, SpatialQuery};
+use std::cell::RefCell;
 
-/// Searches of growing effort: finer azimuths, then calmer and calmer flights.
-const EFFORTS: [(u32, f64, f64); 5] = [(1, 1.0, 0.25), (2, 1.0, 0.15), (2, 6.0, 0.25), (1, 40.0, 0.6), (2, 200.0, 0.1)];
+/// A flight that sees less than this share of what the lattice's best way sees is searched again with more effort.
+const GOOD_SHARE: f64 = 0.97;
+/// When nothing valid is found: (cost of motion, distance kept beyond the limit) of calmer and calmer searches.
+const CALMER: [(f64, f64); 4] = [(1.0, 0.15), (6.0, 0.25), (40.0, 0.6), (200.0, 0.1)];
+/// Distance kept beyond the limit by the first searches; the fast one looks at every second frame only.
+const FAST_EXTRA_M: f64 = 0.45;
+const FULL_EXTRA_M: f64 = 0.25;
 /// Distance kept beyond the limit while smoothing, metres.
 const KEEP_OUT_EXTRA_M: f64 = 0.1;
 /// Times that planes from the unsimplified map are added when it is nearer than the planning boxes say.
 const MAX_LESSONS: usize = 4;
-/// How the start is smoothed: loosely near the lattice's corners.
-const START_OBJECTIVE: Objective = Objective { nearness: 0.05, acceleration: 0.5, jerk: 2.0 };
-/// How the descended path is smoothed: it is smooth already.
-const FINAL_OBJECTIVE: Objective = Objective { nearness: 0.5, acceleration: 0.2, jerk: 1.0 };
+/// How a refined flight is made to hold its limits: it nearly does.
+const LIGHT: Objective = Objective { rounds: 2, iterations: 60, nearness: 0.5, acceleration: 0.2, jerk: 1.0 };
+/// How the lattice's way is, when that was not enough.
+const THOROUGH: Objective = Objective { rounds: 4, iterations: 160, nearness: 0.05, acceleration: 0.5, jerk: 2.0 };
+
+thread_local! {
+    /// Buffers kept from one flight to the next; every use fills them anew.
+    static WORKSHOP: RefCell<Workshop> = RefCell::default();
+}
+
+#[derive(Default)]
+struct Workshop {
+    search: SearchSpace,
+    refine: RefineSpace,
+}
 
 /// Plans a flight behind `track`.
 ///
@@ -75,26 +93,78 @@ pub fn plan_with_terms(
     let grid = GroundGrid::sample(track, ground, config.search.filter_radius_m + 10.0);
     let influence = config.view.safety_influence_m;
     let mut obstacles = LocalObstacles::filter(track, planning_boxes, &grid, config.search.filter_radius_m, influence);
-    let mut reason = String::new();
-    for (azimuth_factor, motion_factor, extra_m) in EFFORTS {
-        let keep_out_m = config.limits.clearance_m + extra_m;
-        let effort = Effort { azimuth_factor, motion_factor, keep_out_m };
-        let mut flight = match attempt(&problem, &mut obstacles, exact, ground, config, effort) {
-            Ok(flight) => flight,
-            Err(why) => {
-                reason = why;
-                continue;
-            }
-        };
-        let exact_obstacles = ExactObstacles { track, query: exact, ground: &grid };
-        let context = TermContext { track, view: &config.view, walk: &walk, surroundings: &exact_obstacles };
-        flight.terms = term_costs(&terms, &positions(&flight), &context);
-        if let Some(why) = not_a_number(&flight) {
-            return rejected(why);
-        }
-        return PlanOutcome::Planned(Box::new(flight));
+    let found =
+        WORKSHOP.with_borrow_mut(|workshop| escalate(&problem, &mut obstacles, exact, ground, config, workshop));
+    let mut flight = match found {
+        Ok(flight) => flight,
+        Err(reason) => return rejected(reason),
+    };
+    let exact_obstacles = ExactObstacles { track, query: exact, ground: &grid };
+    let context = TermContext { track, view: &config.view, walk: &walk, surroundings: &exact_obstacles };
+    flight.terms = term_costs(&terms, &positions(&flight), &context);
+    match not_a_number(&flight) {
+        Some(why) => rejected(why),
+        None => PlanOutcome::Planned(Box::new(flight)),
     }
-    rejected(reason)
+}
+
+/// Searches of growing effort until one flight is valid and sees what the lattice promises.
+fn escalate(
+    problem: &Problem<'_>,
+    obstacles: &mut LocalObstacles<'_>,
+    exact: &dyn SpatialQuery,
+    ground: &dyn Fn(f64, f64) -> f64,
+    config: &MucoConfig,
+    workshop: &mut Workshop,
+) -> Result<Trajectory, String> {
+    let mut reason = String::new();
+    let mut kept: Option<Trajectory> = None;
+    for (level, effort) in efforts(config).into_iter().enumerate() {
+        match attempt(problem, obstacles, exact, ground, config, effort, workshop) {
+            Ok((flight, promised)) => {
+                let seen = flight.certificate.mean_visibility;
+                let better = kept.as_ref().is_none_or(|kept| seen > kept.certificate.mean_visibility);
+                kept = if better { Some(flight) } else { kept };
+                let again = config.search.effort == SearchEffort::Escalating && level == 0;
+                if !again || seen >= GOOD_SHARE * promised {
+                    break;
+                }
+            }
+            Err(why) => reason = why,
+        }
+        if kept.is_some() && level > 0 {
+            break;
+        }
+    }
+    kept.ok_or(reason)
+}
+
+/// The search over the recipe's own lattice.
+pub fn full_effort(config: &MucoConfig) -> Effort {
+    let search = &config.search;
+    let (azimuths, altitudes, radii) = (search.azimuths as usize, search.altitudes as usize, search.radii as usize);
+    Effort {
+        size: LatticeSize { azimuths, altitudes, radii },
+        layer_frames: search.keyframe_frames as usize,
+        motion_factor: 1.0,
+        keep_out_m: config.limits.clearance_m + FULL_EXTRA_M,
+    }
+}
+
+fn efforts(config: &MucoConfig) -> Vec<Effort> {
+    let full = full_effort(config);
+    let LatticeSize { azimuths, altitudes, radii } = full.size;
+    let clearance = config.limits.clearance_m;
+    let fast = Effort {
+        size: LatticeSize { azimuths, altitudes: altitudes.div_ceil(2), radii: (4 * radii).div_ceil(5) },
+        layer_frames: 2 * full.layer_frames,
+        keep_out_m: clearance + FAST_EXTRA_M,
+        ..full
+    };
+    let first = if config.search.effort == SearchEffort::Quality { vec![full] } else { vec![fast, full] };
+    let calmer =
+        CALMER.map(|(motion_factor, extra_m)| Effort { motion_factor, keep_out_m: clearance + extra_m, ..full });
+    first.into_iter().chain(calmer).collect()
 }
 
 /// Terms from outside may return anything; a flight with such a cost is not published.
@@ -112,7 +182,8 @@ fn positions(flight: &Trajectory) -> Vec<DVec3> {
     flight.poses_in_world.iter().map(|pose| pose.position_in_world).collect()
 }
 
-/// One search and everything after it: the flight, or what stood in its way.
+/// One search and everything after it: the flight and the visibility that the lattice promised, or what stood in
+/// its way.
 fn attempt(
     problem: &Problem<'_>,
     obstacles: &mut LocalObstacles<'_>,
@@ -120,28 +191,53 @@ fn attempt(
     ground: &dyn Fn(f64, f64) -> f64,
     config: &MucoConfig,
     effort: Effort,
-) -> Result<Trajectory, String> {
-    let started = start::search(problem, obstacles, config, effort)?;
-    let mut judge = Judge { problem, exact, ground, config, learned: vec![Vec::new(); started.len()], iterations: 0 };
-    let (safe, safe_measured) = judge.make_flyable(obstacles, &started, &started, START_OBJECTIVE);
-    if !judge.publishable(&safe_measured) {
-        return Err(safe_measured.certificate.violations.join("; "));
+    workshop: &mut Workshop,
+) -> Result<(Trajectory, f64), String> {
+    let start = search(problem, obstacles, config, effort, &mut workshop.search)?;
+    let mut refined = start.waypoints.clone();
+    let rounds = Rounds { rounds: 2, steps: 3 };
+    let steps = refine(problem, obstacles, config, rounds, &mut workshop.refine, &mut refined);
+    let mut dbg = String::new();
+    let learned = vec![Vec::new(); refined.len()];
+    let mut judge = Judge { problem, exact, ground, config, learned, iterations: steps };
+    let mut measured = judge.measure(&refined);
+    let mut waypoints = refined;
+    dbg += &format!("azi {} alt {} lattice {:.3} searches {} dpvis {:.3} gn {:.3} {:?}", effort.size.azimuths, effort.size.altitudes, start.visibility, start.searches, judge.measure(&start.waypoints).certificate.mean_visibility, measured.certificate.mean_visibility, measured.certificate.violations);
+    if !measured.certificate.holds {
+        let safe = led_back(obstacles, &waypoints, &start.waypoints, config.limits.clearance_m + KEEP_OUT_EXTRA_M);
+        (waypoints, measured) = judge.make_flyable(obstacles, &waypoints, &safe, LIGHT);
     }
-    let mut lower = safe.clone();
-    let mut convergence = descend(problem, obstacles, &config.descent, &mut lower);
-    judge.iterations += convergence.len().saturating_sub(1) as u32;
-    postprocess(problem, obstacles, config, &mut lower);
-    let (lower, lower_measured) = judge.make_flyable(obstacles, &lower, &safe, FINAL_OBJECTIVE);
-    obstacles.focus_on(&safe);
-    let safe_cost = problem.cost(obstacles, &safe);
-    obstacles.focus_on(&lower);
-    let lower_cost = problem.cost(obstacles, &lower);
-    let better = judge.publishable(&lower_measured) && lower_cost < safe_cost;
-    let (waypoints, mut measured) = if better { (lower, lower_measured) } else { (safe, safe_measured) };
-    convergence.push(lower_cost.min(safe_cost));
+    dbg += &format!(" light {:.3} {:?}", measured.certificate.mean_visibility, measured.certificate.violations);
+    if !judge.publishable(&measured) {
+        (waypoints, measured) = judge.make_flyable(obstacles, &start.waypoints, &start.waypoints, THOROUGH);
+    }
+    if !judge.publishable(&measured) {
+        return Err(measured.certificate.violations.join("; "));
+    }
+    eprintln!("{dbg} final {:.3}", measured.certificate.mean_visibility);
     measured.certificate.iterations = judge.iterations;
     measured.certificate.filtered_boxes = obstacles.count() as u32;
-    Ok(trajectory(problem.track, &waypoints, measured, convergence))
+    Ok((trajectory(problem.track, &waypoints, measured, Vec::new()), start.visibility))
+}
+
+/// `waypoints`, led back to the safe way over stretches that come too near an obstacle.
+fn led_back(obstacles: &LocalObstacles<'_>, waypoints: &[DVec3], safe: &[DVec3], keep_m: f64) -> Vec<DVec3> {
+    const FULL_FRAMES: usize = 2;
+    const RAMP_FRAMES: usize = 5;
+    let mut share = vec![0.0_f64; waypoints.len()];
+    for i in 0..waypoints.len() {
+        let to = waypoints.get(i + 1).copied().unwrap_or(waypoints[i]);
+        if obstacles.segment_clearance_m(i, waypoints[i], to, keep_m) >= keep_m {
+            continue;
+        }
+        let first = i.saturating_sub(FULL_FRAMES + RAMP_FRAMES);
+        for (k, share) in share.iter_mut().enumerate().skip(first).take(2 * (FULL_FRAMES + RAMP_FRAMES) + 2) {
+            let away = if k > i { k - i - 1 } else { i - k };
+            let here = 1.0 - away.saturating_sub(FULL_FRAMES) as f64 / (RAMP_FRAMES + 1) as f64;
+            *share = share.max(here.clamp(0.0, 1.0));
+        }
+    }
+    waypoints.iter().zip(safe).zip(share).map(|((w, safe), share)| w.lerp(*safe, share)).collect()
 }
 
 fn trajectory(track: &TargetTrack, waypoints: &[DVec3], measured: Measured, convergence: Vec<f64>) -> Trajectory {

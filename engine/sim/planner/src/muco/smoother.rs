@@ -10,10 +10,6 @@ use crate::obstacles::Surroundings;
 use crate::trajectory::Limits;
 use cosfly_frames::DVec3;
 
-/// Rounds of planes and programme.
-const ROUNDS: usize = 4;
-/// Iterations of one programme.
-const ITERATIONS: usize = 160;
 /// Iterations between looks at whether all holds.
 const CHECK_EVERY: usize = 10;
 /// The programme aims at this share of each limit, so that what is left of it holds the limit.
@@ -28,9 +24,13 @@ const RELAXATION: f64 = 1.6;
 /// Share of a missing line of sight that one projection mends.
 const SIGHT_SHARE: f64 = 0.95;
 
-/// Weights of the programme's objective.
+/// Weights of the programme's objective, and the effort.
 #[derive(Clone, Copy)]
 pub struct Objective {
+    /// Rounds of planes and programme.
+    pub rounds: usize,
+    /// Iterations of one programme at most.
+    pub iterations: usize,
     /// Nearness to the wished waypoints.
     pub nearness: f64,
     /// Acceleration.
@@ -56,12 +56,12 @@ pub fn smooth(input: &CorridorInput<'_>, start: &[DVec3], limits: &Limits, objec
     let mut waypoints = start.to_vec();
     let mut nearness = vec![objective.nearness; start.len()];
     let mut iterations = 0;
-    for round in 0..ROUNDS {
+    for round in 0..objective.rounds {
         let corridor = corridor::build(input, &waypoints);
         let mut programme = Programme::new(&nearness, objective, input.wished, &waypoints, reach, scale);
-        iterations += programme.run(&corridor);
+        iterations += programme.run(&corridor, objective.iterations);
         waypoints = programme.x;
-        if round + 1 < ROUNDS {
+        if round + 1 < objective.rounds {
             hold_on_where_sight_was_lost(input, &waypoints, &mut nearness);
         }
     }
@@ -115,19 +115,19 @@ impl<'a> Programme<'a> {
     }
 
     /// Iterates until everything holds or the iterations are used up; returns how many it took.
-    fn run(&mut self, corridor: &[FrameCorridor]) -> u32 {
+    fn run(&mut self, corridor: &[FrameCorridor], iterations: usize) -> u32 {
         let mut row = Vec::new();
-        for iteration in 1..=ITERATIONS {
+        for iteration in 1..=iterations {
             self.solve_for_x();
             for order in 0..4 {
                 differences(order, &self.x, &mut row);
                 self.update_copy(order, &row, corridor);
             }
-            if iteration >= ITERATIONS / 2 && iteration % CHECK_EVERY == 0 && self.holds(corridor) {
+            if iteration % CHECK_EVERY == 0 && self.holds(corridor) {
                 return iteration as u32;
             }
         }
-        ITERATIONS as u32
+        iterations as u32
     }
 
     fn solve_for_x(&mut self) {

@@ -2,25 +2,29 @@
 //!
 //! Moving from offset o to o' while the target moves by dp costs `r |D|^2 + a |dp + D|^2` with D = o' - o. In polar
 //! coordinates |D|^2 is (almost) a sum of an altitude, a radius and an azimuth part and dp.D splits into a part of each
-//! end, so the minimum over all neighbours is taken one coordinate after the other.
+//! end, so the minimum over all neighbours is taken one coordinate after the other. No pointers back are kept: the
+//! way is found again from the costs of all layers.
 
-use super::lattice::{CLOSE, Lattice, NodeState, UNSAFE};
-use cosfly_frames::{DVec3, TargetTrack, real};
+use super::lattice::{Lattice, MAX_LANES, VECTOR};
+use super::scan::{CLOSE, NodeState, UNSAFE};
+use cosfly_frames::simd::Level;
+use cosfly_frames::{DVec3, real, simd_kernel};
 
-/// Layers between stored cost layers, from which a changed search is resumed.
-const CHECKPOINT: usize = 32;
 /// Furthest move in azimuth per layer, in directions.
-const MAX_AZIMUTH_STEPS: usize = 6;
+pub const MAX_AZIMUTH_STEPS: usize = 6;
 /// What forbids.
 const FORBIDDEN: f32 = f32::INFINITY;
+/// Room on both sides of a row of lanes, so that neighbours are read without a test.
+const ROOM: usize = VECTOR;
+const ROW: usize = ROOM + MAX_LANES + ROOM;
 
-/// What a node costs beside being seen from: see [`super::start`].
+/// What a node costs beside being seen from: see [`super::search`].
 pub struct NodeCosts {
-    /// By number of visible body points, 0..=8.
-    pub visibility: [f32; 9],
+    /// Per hidden body point of 8 (linear) and its square.
+    pub hidden: [f32; 2],
     /// Near an obstacle.
     pub close: f32,
-    /// By (altitude, radius).
+    /// By lane.
     pub lane: Vec<f32>,
     /// By layer and azimuth.
     pub azimuth: Vec<Vec<f32>>,
@@ -39,374 +43,295 @@ pub struct MoveCosts {
     pub longest_m: f64,
 }
 
+/// Buffers of a search, worth keeping from one to the next.
+#[derive(Default)]
+pub struct SearchSpace {
+    /// Node states, layer by layer.
+    pub states: Vec<NodeState>,
+    /// Cost of reaching each node of each layer, less a number per layer.
+    arrival: Vec<f32>,
+    /// One layer between its two steps, with the azimuths repeated at both ends.
+    turned: Vec<f32>,
+}
+
 /// The search over all layers, resumable after nodes have been forbidden.
 pub struct Viterbi<'a> {
     lattice: &'a Lattice,
+    space: &'a mut SearchSpace,
     feet: Vec<DVec3>,
     moves: MoveCosts,
     costs: NodeCosts,
-    /// Node states, layer by layer.
-    pub states: Vec<NodeState>,
-    from_lane: Vec<u8>,
-    from_azimuth: Vec<u8>,
-    checkpoints: Vec<Vec<f32>>,
+    prices: MovePrices,
+    level: Level,
+}
+
+/// Prices of single steps by the lane they lead to.
+struct MovePrices {
+    radii: usize,
     steps: usize,
-    climb: Vec<[f32; 3]>,
-    reach: Vec<[f32; 3]>,
+    /// From the altitude below, from the one above.
+    climb: [Vec<f32>; 2],
+    /// From the radius inside, from the one outside.
+    reach: [Vec<f32>; 2],
+    /// From the azimuth `k - steps` further.
     turn: Vec<Vec<f32>>,
 }
 
-impl<'a> Viterbi<'a> {
-    /// Prepares a search over the keyframes `frames` of the track, whose nodes' `states` are given.
-    pub fn new(
-        lattice: &'a Lattice,
-        track: &TargetTrack,
-        frames: &[usize],
-        states: Vec<NodeState>,
-        costs: NodeCosts,
-        moves: MoveCosts,
-    ) -> Self {
-        let total = lattice.nodes() * frames.len();
+impl MovePrices {
+    fn new(lattice: &Lattice, moves: &MoveCosts) -> Self {
         let weight = moves.relative + moves.absolute;
         let square = |gap: f64| if gap <= moves.longest_m { (weight * gap * gap) as f32 } else { FORBIDDEN };
-        let neighbours = |values: &[f64]| -> Vec<[f32; 3]> {
-            let price = |from: Option<usize>, to: usize| {
-                from.and_then(|from| values.get(from)).map_or(FORBIDDEN, |value| square((value - values[to]).abs()))
-            };
-            (0..values.len()).map(|i| [price(i.checked_sub(1), i), 0.0, price(Some(i + 1), i)]).collect()
+        let radii = lattice.radii_m.len();
+        let by_lane = |price: &dyn Fn(usize) -> f32| -> Vec<f32> {
+            (0..lattice.stride()).map(|lane| if lane < lattice.lanes() { price(lane) } else { FORBIDDEN }).collect()
         };
-        let steps = MAX_AZIMUTH_STEPS.min(lattice.directions.len() / 2 - 1);
+        let between = |values: &[f64], from: Option<usize>, to: usize| {
+            from.and_then(|from| values.get(from)).map_or(FORBIDDEN, |value| square((value - values[to]).abs()))
+        };
+        let climb = |from: &dyn Fn(usize) -> Option<usize>| {
+            by_lane(&|lane| between(&lattice.altitudes_m, from(lane / radii), lane / radii))
+        };
+        let reach = |from: &dyn Fn(usize) -> Option<usize>| {
+            by_lane(&|lane| between(&lattice.radii_m, from(lane % radii), lane % radii))
+        };
         let angle = real::TAU / lattice.directions.len() as f64;
+        let chord = |steps: usize| 2.0 * real::sin(0.5 * angle * steps as f64);
+        let possible = (lattice.directions.len() - 1) / 2;
+        let nearest = lattice.radii_m.first().copied().unwrap_or(0.0);
+        let steps = (0..=MAX_AZIMUTH_STEPS.min(possible)).rev().find(|&k| chord(k) * nearest <= moves.longest_m);
+        let steps = steps.unwrap_or(0);
         let turn = (0..=2 * steps)
-            .map(|k| {
-                let chord = 2.0 * real::sin(0.5 * angle * (k as f64 - steps as f64).abs());
-                let radii = lattice.radii_m.len();
-                (0..lattice.lanes()).map(|lane| square(chord * lattice.radii_m[lane % radii])).collect()
-            })
+            .map(|k| by_lane(&|lane| square(chord(k.abs_diff(steps)) * lattice.radii_m[lane % radii])))
             .collect();
         Self {
-            feet: frames.iter().map(|&frame| track.states[frame].feet_in_world).collect(),
-            climb: neighbours(&lattice.altitudes_m),
-            reach: neighbours(&lattice.radii_m),
-            lattice,
-            moves,
-            costs,
-            states,
-            from_lane: vec![0; total],
-            from_azimuth: vec![0; total],
-            checkpoints: Vec::new(),
+            radii,
             steps,
+            climb: [climb(&|h| h.checked_sub(1)), climb(&|h| Some(h + 1))],
+            reach: [reach(&|r| r.checked_sub(1)), reach(&|r| Some(r + 1))],
             turn,
         }
     }
+}
 
-    fn layers(&self) -> usize {
-        self.feet.len()
+impl<'a> Viterbi<'a> {
+    /// Prepares a search over layers at which the target's feet are at `feet`; `space.states` holds the states of
+    /// their nodes.
+    pub fn new(
+        lattice: &'a Lattice,
+        feet: Vec<DVec3>,
+        space: &'a mut SearchSpace,
+        costs: NodeCosts,
+        moves: MoveCosts,
+    ) -> Self {
+        space.arrival.resize(lattice.nodes() * feet.len(), 0.0);
+        let prices = MovePrices::new(lattice, &moves);
+        space.turned.resize((lattice.directions.len() + 2 * prices.steps) * lattice.stride(), 0.0);
+        Self { lattice, space, feet, moves, costs, prices, level: Level::best() }
     }
 
-    /// Cost of being at every node of a layer.
-    fn add_node_costs(&self, layer: usize, cost: &mut [f32]) {
-        let lanes = self.lattice.lanes();
-        let nodes = self.lattice.nodes();
-        let states = &self.states[layer * nodes..(layer + 1) * nodes];
-        for (azimuth, (row, seen)) in cost.chunks_exact_mut(lanes).zip(states.chunks_exact(lanes)).enumerate() {
-            let base = self.costs.azimuth[layer][azimuth];
-            for ((out, &state), &lane) in row.iter_mut().zip(seen).zip(&self.costs.lane) {
-                *out += if state == UNSAFE {
-                    FORBIDDEN
-                } else {
-                    let close = if state & CLOSE != 0 { self.costs.close } else { 0.0 };
-                    base + lane + close + self.costs.visibility[usize::from(state & !CLOSE).min(8)]
-                };
-            }
-        }
-        if let Some(extra) = self.costs.extra.get(layer) {
-            cost.iter_mut().zip(extra).for_each(|(out, more)| *out += more);
-        }
+    /// The same with other instructions; for tests.
+    pub fn at_level(mut self, level: Level) -> Self {
+        self.level = level;
+        self
+    }
+
+    /// Forbids one node; [`Self::solve`] from its layer on before the next look.
+    pub fn forbid(&mut self, layer: usize, node: usize) {
+        self.space.states[layer * self.lattice.nodes() + node] = UNSAFE;
+    }
+
+    /// The state of a node.
+    pub fn state(&self, layer: usize, node: usize) -> NodeState {
+        self.space.states[layer * self.lattice.nodes() + node]
     }
 
     /// The cheapest nodes, one per layer, or the layer at which nothing is reachable. Only layers from
     /// `first_changed` on are computed again.
     pub fn solve(&mut self, first_changed: usize) -> Result<Vec<usize>, usize> {
-        let first = (first_changed / CHECKPOINT).min(self.checkpoints.len().saturating_sub(1));
-        self.checkpoints.truncate(first + 1);
-        let mut layer = first * CHECKPOINT;
-        let mut cost = vec![0.0_f32; self.lattice.nodes()];
-        if layer == 0 {
-            self.checkpoints.clear();
-            self.add_node_costs(0, &mut cost);
-            self.checkpoints.push(cost.clone());
-        } else {
-            cost.clone_from(&self.checkpoints[first]);
-        }
-        let mut spare = [cost.clone(), cost.clone()];
-        loop {
-            let lowest = cost.iter().copied().fold(FORBIDDEN, f32::min);
-            if !lowest.is_finite() {
+        let nodes = self.lattice.nodes();
+        for layer in first_changed..self.feet.len() {
+            let (before, rest) = self.space.arrival.split_at_mut(layer * nodes);
+            let here = &mut rest[..nodes];
+            let moved = if layer == 0 { DVec3::ZERO } else { self.feet[layer] - self.feet[layer - 1] };
+            let pull = [moved.x, moved.y, moved.z].map(|m| (2.0 * self.moves.absolute * m) as f32);
+            let ground = Ground {
+                radius: &self.lattice.lane_radius_m,
+                altitude: &self.lattice.lane_altitude_m,
+                prices: &self.prices,
+                costs: &self.costs,
+                azimuth: &self.costs.azimuth[layer],
+                extra: self.costs.extra.get(layer).map_or(&[], Vec::as_slice),
+                states: &self.space.states[layer * nodes..(layer + 1) * nodes],
+                pull: &pull_along(self.lattice, pull),
+                pull_up: pull[2],
+            };
+            if layer == 0 {
+                here.fill(0.0);
+            } else {
+                advance(self.level, &ground, &before[(layer - 1) * nodes..], &mut self.space.turned, here);
+            }
+            let lowest = add_node_costs(self.level, &ground, here);
+            if lowest >= FORBIDDEN {
                 return Err(layer);
             }
-            cost.iter_mut().for_each(|c| *c -= lowest);
-            if layer + 1 == self.layers() {
-                return Ok(self.trace_back(&cost));
-            }
-            layer += 1;
-            self.advance(layer, &mut cost, &mut spare);
-            if layer.is_multiple_of(CHECKPOINT) {
-                self.checkpoints.push(cost.clone());
-            }
+            here.iter_mut().for_each(|cost| *cost -= lowest);
         }
+        Ok(self.trace_back())
     }
 
-    fn advance(&mut self, layer: usize, cost: &mut [f32], spare: &mut [Vec<f32>; 2]) {
-        let moved = self.feet[layer] - self.feet[layer - 1];
-        self.add_potential(cost, moved, -2.0 * self.moves.absolute);
+    fn trace_back(&self) -> Vec<usize> {
         let nodes = self.lattice.nodes();
-        let (climbed, reached) = spare.split_at_mut(1);
-        let back = &mut self.from_lane[layer * nodes..(layer + 1) * nodes];
-        let lanes = self.lattice.lanes();
-        for azimuth in 0..self.lattice.directions.len() {
-            let row = azimuth * lanes..(azimuth + 1) * lanes;
-            change_lane(
-                (&self.climb, &self.reach),
-                &cost[row.clone()],
-                &mut climbed[0][row.clone()],
-                &mut reached[0][row.clone()],
-                &mut back[row],
-            );
-        }
-        let back = &mut self.from_azimuth[layer * nodes..(layer + 1) * nodes];
-        turn(lanes, self.steps, &self.turn, &reached[0], cost, back);
-        self.add_potential(cost, moved, 2.0 * self.moves.absolute);
-        self.add_node_costs(layer, cost);
-    }
-
-    /// Adds `factor * moved . offset` to every node.
-    fn add_potential(&self, cost: &mut [f32], moved: DVec3, factor: f64) {
-        let lanes = self.lattice.lanes();
-        let radii = self.lattice.radii_m.len();
-        for (direction, row) in self.lattice.directions.iter().zip(cost.chunks_exact_mut(lanes)) {
-            let along = factor * moved.dot(*direction);
-            for (lane, out) in row.iter_mut().enumerate() {
-                let up = factor * moved.z * self.lattice.altitudes_m[lane / radii];
-                *out += (along * self.lattice.radii_m[lane % radii] + up) as f32;
-            }
-        }
-    }
-
-    fn trace_back(&self, cost: &[f32]) -> Vec<usize> {
-        let (nodes, lanes, radii) = (self.lattice.nodes(), self.lattice.lanes(), self.lattice.radii_m.len());
-        let count = self.lattice.directions.len();
-        let mut node = cost.iter().enumerate().min_by(|a, b| a.1.total_cmp(b.1)).map_or(0, |(node, _)| node);
+        let last = self.feet.len() - 1;
+        let arrival = |layer: usize| &self.space.arrival[layer * nodes..(layer + 1) * nodes];
+        let mut node = arrival(last).iter().enumerate().min_by(|a, b| a.1.total_cmp(b.1)).map_or(0, |(node, _)| node);
         let mut path = vec![node];
-        for layer in (1..self.layers()).rev() {
-            let (azimuth, lane) = (node / lanes, node % lanes);
-            let turned = usize::from(self.from_azimuth[layer * nodes + node]);
-            let azimuth = (azimuth + count + turned - self.steps) % count;
-            let packed = usize::from(self.from_lane[layer * nodes + azimuth * lanes + lane]);
-            let radius = (lane % radii + packed % 3).saturating_sub(1);
-            let altitude = (lane / radii + packed / 3).saturating_sub(1);
-            node = azimuth * lanes + altitude * radii + radius;
+        for layer in (1..=last).rev() {
+            let moved = self.feet[layer] - self.feet[layer - 1];
+            node = self.cheapest_before(node, arrival(layer - 1), 2.0 * self.moves.absolute * moved);
             path.push(node);
         }
         path.reverse();
         path
     }
-}
 
-/// Best way to each (altitude, radius) of one azimuth from its neighbours; `back` packs 3 * climb + reach.
-fn change_lane(
-    (climb, reach): (&[[f32; 3]], &[[f32; 3]]),
-    cost: &[f32],
-    climbed: &mut [f32],
-    reached: &mut [f32],
-    back: &mut [u8],
-) {
-    let (altitudes, radii) = (climb.len(), reach.len());
-    let mut climb_step = [1_u8; super::lattice::MAX_LANES];
-    for (h, prices) in climb.iter().enumerate() {
-        let here = h * radii;
-        climbed[here..here + radii].copy_from_slice(&cost[here..here + radii]);
-        for (step, other) in [(0, h.wrapping_sub(1)), (2, h + 1)] {
-            if other >= altitudes {
-                continue;
-            }
-            for r in 0..radii {
-                let offered = cost[other * radii + r] + prices[step];
-                if offered < climbed[here + r] {
-                    climbed[here + r] = offered;
-                    climb_step[here + r] = step as u8;
-                }
-            }
-        }
-    }
-    for h in 0..altitudes {
-        for (r, prices) in reach.iter().enumerate() {
-            let here = h * radii + r;
-            let (mut best, mut best_step) = (climbed[here], 1_usize);
-            for (step, other) in [(0, r.wrapping_sub(1)), (2, r + 1)] {
-                if other < radii && climbed[h * radii + other] + prices[step] < best {
-                    best = climbed[h * radii + other] + prices[step];
-                    best_step = step;
-                }
-            }
-            reached[here] = best;
-            back[here] = 3 * climb_step[h * radii + r + best_step - 1] + best_step as u8;
-        }
-    }
-}
-
-/// Best way to each azimuth from those within `steps`; `back` holds the step plus `steps`.
-fn turn(lanes: usize, steps: usize, prices: &[Vec<f32>], from: &[f32], to: &mut [f32], back: &mut [u8]) {
-    let count = from.len() / lanes;
-    let rows = to.chunks_exact_mut(lanes).zip(back.chunks_exact_mut(lanes));
-    for (azimuth, (best, arg)) in rows.enumerate() {
-        best.copy_from_slice(&from[azimuth * lanes..(azimuth + 1) * lanes]);
-        arg.fill(steps as u8);
-        for (k, price) in prices.iter().enumerate() {
-            if k == steps {
-                continue;
-            }
-            let other = (azimuth + count + k - steps) % count;
-            let offers = &from[other * lanes..(other + 1) * lanes];
-            for (((best, arg), offer), price) in best.iter_mut().zip(arg.iter_mut()).zip(offers).zip(price) {
-                let offered = offer + price;
-                let better = offered < *best;
-                *best = if better { offered } else { *best };
-                *arg = if better { k as u8 } else { *arg };
-            }
-        }
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::config::{SearchConfig, ViewConfig};
-    use cosfly_frames::{RandomStream, Seed, TargetState};
-
-    const LAYERS: usize = 3;
-
-    fn setting() -> (Lattice, TargetTrack, MoveCosts) {
-        let search = SearchConfig { azimuths: 12, altitudes: 2, radii: 3, ..SearchConfig::default() };
-        let state = |i: usize| TargetState {
-            feet_in_world: DVec3::new(1.5 * i as f64, 0.5 * i as f64, 0.2 * i as f64),
-            heading_rad: 0.0,
-            speed_mps: 1.0,
-        };
-        let track = TargetTrack { dt_s: 0.5, height_m: 1.75, radius_m: 0.3, states: (0..LAYERS).map(state).collect() };
-        let moves = MoveCosts { relative: 0.02, absolute: 0.03, longest_m: 25.0 };
-        (Lattice::new(&search, &ViewConfig::default()), track, moves)
-    }
-
-    fn random_costs(lattice: &Lattice, stream: &mut RandomStream) -> (NodeCosts, Vec<NodeState>) {
-        let mut price =
-            |count: usize, scale: f64| -> Vec<f32> { (0..count).map(|_| stream.uniform(0.0, scale) as f32).collect() };
-        let costs = NodeCosts {
-            visibility: core::array::from_fn(|seen| 10.0 * (8 - seen) as f32),
-            close: 3.0,
-            lane: price(lattice.lanes(), 20.0),
-            azimuth: (0..LAYERS).map(|_| price(lattice.directions.len(), 20.0)).collect(),
-            extra: Vec::new(),
-        };
-        let states = (0..LAYERS * lattice.nodes())
-            .map(|_| if stream.chance(0.3) { UNSAFE } else { stream.index(9) as NodeState })
-            .collect();
-        (costs, states)
-    }
-
-    /// The model's price of one move, written without the separation; `None` when it is not allowed.
-    fn move_price(lattice: &Lattice, moves: MoveCosts, target: DVec3, from: usize, to: usize) -> Option<f64> {
-        let ((a0, h0, r0), (a1, h1, r1)) = (lattice.split(from), lattice.split(to));
-        let count = lattice.directions.len();
-        let turned = (a1 + count - a0) % count;
-        let turned = turned.min(count - turned);
-        if h0.abs_diff(h1) > 1 || r0.abs_diff(r1) > 1 || turned > MAX_AZIMUTH_STEPS.min(count / 2 - 1) {
-            return None;
-        }
-        let chord = 2.0 * real::sin(0.5 * real::TAU / count as f64 * turned as f64) * lattice.radii_m[r1];
-        let climb = lattice.altitudes_m[h1] - lattice.altitudes_m[h0];
-        let reach = lattice.radii_m[r1] - lattice.radii_m[r0];
-        if [chord, climb, reach].iter().any(|gap| gap.abs() > moves.longest_m) {
-            return None;
-        }
-        let squared = chord * chord + climb * climb + reach * reach;
-        let along = target.dot(lattice.offset(to) - lattice.offset(from));
-        Some((moves.relative + moves.absolute) * squared + 2.0 * moves.absolute * along)
-    }
-
-    fn path_price(search: &Viterbi<'_>, path: &[usize]) -> Option<f64> {
-        let nodes = search.lattice.nodes();
-        let mut sum = 0.0;
-        for (layer, &node) in path.iter().enumerate() {
-            let state = search.states[layer * nodes + node];
-            if state == UNSAFE {
-                return None;
-            }
-            let (azimuth, _, _) = search.lattice.split(node);
-            sum += f64::from(search.costs.visibility[usize::from(state)])
-                + f64::from(search.costs.lane[node % search.lattice.lanes()])
-                + f64::from(search.costs.azimuth[layer][azimuth]);
-            if layer > 0 {
-                let target = search.feet[layer] - search.feet[layer - 1];
-                sum += move_price(search.lattice, search.moves, target, path[layer - 1], node)?;
-            }
-        }
-        Some(sum)
-    }
-
-    #[test]
-    fn the_search_finds_what_an_exhaustive_one_finds() {
-        let (lattice, track, moves) = setting();
-        let mut stream = Seed::of_item(4, "viterbi", "exhaustive").stream("t");
-        for _ in 0..6 {
-            let (costs, states) = random_costs(&lattice, &mut stream);
-            let mut search = Viterbi::new(&lattice, &track, &[0, 1, 2], states, costs, moves);
-            let found = search.solve(0).expect("some way");
-            let mut best = f64::INFINITY;
-            for a in 0..lattice.nodes() {
-                for b in 0..lattice.nodes() {
-                    if path_price(&search, &[a, b]).is_some() {
-                        for c in 0..lattice.nodes() {
-                            best = best.min(path_price(&search, &[a, b, c]).unwrap_or(f64::INFINITY));
-                        }
+    /// The node of the layer before from which `node` is reached at the lowest cost.
+    fn cheapest_before(&self, node: usize, before: &[f32], pull: DVec3) -> usize {
+        let (stride, count, prices) = (self.lattice.stride(), self.lattice.directions.len(), &self.prices);
+        let (azimuth, lane) = (node / stride, node % stride);
+        let mut best = (f64::INFINITY, node);
+        for (k, turn) in prices.turn.iter().enumerate() {
+            let row = (azimuth + count + k - prices.steps) % count * stride;
+            for (reach, mid) in steps_to(lane, 1, &prices.reach) {
+                for (climb, from) in steps_to(mid, prices.radii, &prices.climb) {
+                    let price = turn[lane] + reach + climb;
+                    let cost = before.get(row + from).copied().unwrap_or(FORBIDDEN) + price;
+                    if cost < FORBIDDEN {
+                        let cost = f64::from(cost) - pull.dot(self.lattice.offset(row + from));
+                        best = if cost < best.0 { (cost, row + from) } else { best };
                     }
                 }
             }
-            let price = path_price(&search, &found).expect("the way found is allowed");
-            assert!((price - best).abs() < 1e-3 * best.abs().max(1.0), "{price} {best}");
+        }
+        best.1
+    }
+}
+
+/// (price, lane before) of staying, coming from the lane `gap` below and from the one above.
+fn steps_to(lane: usize, gap: usize, prices: &[Vec<f32>; 2]) -> impl Iterator<Item = (f32, usize)> {
+    let below = (prices[0][lane], lane.wrapping_sub(gap));
+    let above = (prices[1][lane], lane + gap);
+    [(0.0, lane), below, above].into_iter().filter(|(price, _)| *price < FORBIDDEN)
+}
+
+fn pull_along(lattice: &Lattice, pull: [f32; 3]) -> Vec<f32> {
+    lattice.directions.iter().map(|d| pull[0] * d.x as f32 + pull[1] * d.y as f32).collect()
+}
+
+/// What one step reads.
+struct Ground<'a> {
+    radius: &'a [f32],
+    altitude: &'a [f32],
+    prices: &'a MovePrices,
+    costs: &'a NodeCosts,
+    azimuth: &'a [f32],
+    extra: &'a [f32],
+    states: &'a [NodeState],
+    /// Per azimuth, cost per metre of radius, and per metre of altitude: subtracted before, added after the step.
+    pull: &'a [f32],
+    pull_up: f32,
+}
+
+#[inline(always)]
+fn least(a: f32, b: f32) -> f32 {
+    if a < b { a } else { b }
+}
+
+simd_kernel! {
+    /// The cheapest way to every node from the layer before, node costs left out.
+    fn advance(ground: &Ground<'_>, before: &[f32], turned: &mut [f32], here: &mut [f32]) {
+        let (stride, steps, radii) = (ground.radius.len(), ground.prices.steps, ground.prices.radii);
+        let azimuths = ground.pull.len();
+        let mut row = [FORBIDDEN; ROW];
+        let mut climbed = [FORBIDDEN; ROW];
+        for azimuth in 0..azimuths {
+            let pull = ground.pull[azimuth];
+            let from = &before[azimuth * stride..(azimuth + 1) * stride];
+            for (lane, cost) in row[ROOM..ROOM + stride].iter_mut().enumerate() {
+                *cost = from[lane] - (pull * ground.radius[lane] + ground.pull_up * ground.altitude[lane]);
+            }
+            let [low, high] = &ground.prices.climb;
+            step(&row, radii, stride, low, high, &mut climbed[ROOM..ROOM + stride]);
+            let [low, high] = &ground.prices.reach;
+            let to = (azimuth + steps) * stride;
+            step(&climbed, 1, stride, low, high, &mut turned[to..to + stride]);
+        }
+        turned.copy_within(azimuths * stride..(azimuths + steps) * stride, 0);
+        turned.copy_within(steps * stride..2 * steps * stride, (azimuths + steps) * stride);
+        for azimuth in 0..azimuths {
+            let pull = ground.pull[azimuth];
+            let to = &mut here[azimuth * stride..(azimuth + 1) * stride];
+            for (v, to) in to.as_chunks_mut::<VECTOR>().0.iter_mut().enumerate() {
+                let lanes = v * VECTOR..(v + 1) * VECTOR;
+                let mut best = [FORBIDDEN; VECTOR];
+                for (k, prices) in ground.prices.turn.iter().enumerate() {
+                    let row = &turned[(azimuth + k) * stride..(azimuth + k + 1) * stride];
+                    let (offers, prices) = (&row.as_chunks::<VECTOR>().0[v], &prices.as_chunks::<VECTOR>().0[v]);
+                    for j in 0..VECTOR {
+                        best[j] = least(offers[j] + prices[j], best[j]);
+                    }
+                }
+                let (radius, altitude) = (&ground.radius[lanes.clone()], &ground.altitude[lanes]);
+                for j in 0..VECTOR {
+                    to[j] = best[j] + (pull * radius[j] + ground.pull_up * altitude[j]);
+                }
+            }
         }
     }
+}
 
-    #[test]
-    fn a_resumed_search_equals_a_fresh_one_and_closed_layers_are_named() {
-        let search_config = SearchConfig { azimuths: 24, altitudes: 2, radii: 3, ..SearchConfig::default() };
-        let lattice = Lattice::new(&search_config, &ViewConfig::default());
-        let state = TargetState { feet_in_world: DVec3::ZERO, heading_rad: 0.0, speed_mps: 0.0 };
-        let track = TargetTrack { dt_s: 0.5, height_m: 1.75, radius_m: 0.3, states: vec![state; 90] };
-        let frames: Vec<usize> = (0..90).collect();
-        let moves = MoveCosts { relative: 0.2, absolute: 0.3, longest_m: 9.0 };
-        let new = |states: Vec<NodeState>| {
-            let costs = NodeCosts {
-                visibility: core::array::from_fn(|seen| 10.0 * (8 - seen) as f32),
-                close: 0.0,
-                lane: vec![0.0; lattice.lanes()],
-                azimuth: vec![vec![0.0; 24]; 90],
-                extra: Vec::new(),
-            };
-            Viterbi::new(&lattice, &track, &frames, states, costs, moves)
-        };
-        let mut stream = Seed::of_item(4, "viterbi", "resumed").stream("t");
-        let states: Vec<NodeState> = (0..90 * lattice.nodes()).map(|_| stream.index(9) as NodeState).collect();
-        let mut resumed = new(states.clone());
-        let first = resumed.solve(0).expect("a way");
-        let mut changed = states.clone();
-        for layer in [40, 70] {
-            changed[layer * lattice.nodes() + first[layer]] = UNSAFE;
+/// Staying, or coming from the lane `gap` below or above, whichever is cheapest.
+#[inline(always)]
+fn step(row: &[f32; ROW], gap: usize, stride: usize, low: &[f32], high: &[f32], out: &mut [f32]) {
+    let gap = gap.min(ROOM);
+    let below = &row[ROOM - gap..ROOM - gap + stride];
+    let above = &row[ROOM + gap..ROOM + gap + stride];
+    let stay = &row[ROOM..ROOM + stride];
+    let lanes = stay.as_chunks::<VECTOR>().0.iter().zip(below.as_chunks::<VECTOR>().0);
+    let lanes = lanes.zip(above.as_chunks::<VECTOR>().0);
+    let prices = low.as_chunks::<VECTOR>().0.iter().zip(high.as_chunks::<VECTOR>().0);
+    for ((((stay, below), above), (low, high)), out) in lanes.zip(prices).zip(out.as_chunks_mut::<VECTOR>().0) {
+        for j in 0..VECTOR {
+            out[j] = least(above[j] + high[j], least(below[j] + low[j], stay[j]));
         }
-        resumed.states.clone_from(&changed);
-        assert_eq!(resumed.solve(40), new(changed).solve(0));
-        let mut closed = states;
-        closed[50 * lattice.nodes()..51 * lattice.nodes()].fill(UNSAFE);
-        assert_eq!(new(closed).solve(0), Err(50));
+    }
+}
+
+simd_kernel! {
+    /// Adds what it costs to be at every node; returns the lowest sum.
+    fn add_node_costs(ground: &Ground<'_>, cost: &mut [f32]) -> f32 {
+        let stride = ground.radius.len();
+        let [linear, square] = ground.costs.hidden;
+        let mut lowest = [FORBIDDEN; VECTOR];
+        for (azimuth, (row, states)) in cost.chunks_exact_mut(stride).zip(ground.states.chunks_exact(stride)).enumerate() {
+            let base = ground.azimuth[azimuth];
+            let lanes = ground.costs.lane.as_chunks::<VECTOR>().0.iter().zip(states.as_chunks::<VECTOR>().0);
+            for (v, (row, (lane, states))) in row.as_chunks_mut::<VECTOR>().0.iter_mut().zip(lanes).enumerate() {
+                for j in 0..VECTOR {
+                    let state = u32::from(states[j]);
+                    let hidden = (state & 0xf) as f32;
+                    let close = if state & u32::from(CLOSE) != 0 { ground.costs.close } else { 0.0 };
+                    let sum = row[j] + (base + lane[j] + close + hidden * (linear + square * hidden));
+                    row[j] = if state == u32::from(UNSAFE) { FORBIDDEN } else { sum };
+                }
+                if !ground.extra.is_empty() {
+                    let extra = &ground.extra[azimuth * stride + v * VECTOR..];
+                    row.iter_mut().zip(extra).for_each(|(cost, more)| *cost += more);
+                }
+                for j in 0..VECTOR {
+                    lowest[j] = least(row[j], lowest[j]);
+                }
+            }
+        }
+        lowest.into_iter().fold(FORBIDDEN, least)
     }
 }

@@ -12,6 +12,7 @@ pub struct GroundGrid {
     columns: usize,
     rows: usize,
     z: Vec<f32>,
+    highest_m: f64,
 }
 
 impl GroundGrid {
@@ -29,7 +30,7 @@ impl GroundGrid {
         let (width, depth) = (high.0 + reach_m - low.0, high.1 + reach_m - low.1);
         let cell_m = (width * depth / MAX_POINTS).sqrt().max(4.0);
         let (columns, rows) = ((width / cell_m).ceil() as usize + 2, (depth / cell_m).ceil() as usize + 2);
-        let mut grid = Self { low, cell_m, columns, rows, z: vec![f32::NAN; columns * rows] };
+        let mut grid = Self { low, cell_m, columns, rows, z: vec![f32::NAN; columns * rows], highest_m: 0.0 };
         grid.fill_near(track, ground, reach_m, first.z as f32);
         grid
     }
@@ -59,6 +60,12 @@ impl GroundGrid {
                 *z = missing;
             }
         }
+        self.highest_m = f64::from(self.z.iter().copied().fold(f32::MIN, f32::max));
+    }
+
+    /// The highest sample.
+    pub fn highest_m(&self) -> f64 {
+        self.highest_m
     }
 
     fn cell(&self, x_m: f64, y_m: f64) -> (usize, usize, f64, f64) {

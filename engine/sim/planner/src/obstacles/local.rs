@@ -12,6 +12,9 @@ const FRAMES_PER_COARSE_LIST: usize = 128;
 /// How far a query may be from its frame's centre while the frame's short lists are still complete, metres.
 const FOCUS_M: f64 = 2.6;
 
+/// Shadows further away than this are not told, metres.
+const SHADOW_REACH_M: f64 = 2.0;
+
 /// The boxes near a track, with short lists per frame around a current set of waypoints.
 pub struct LocalObstacles<'a> {
     solids: Vec<Solid>,
@@ -41,13 +44,9 @@ impl<'a> LocalObstacles<'a> {
         radius_m: f64,
         influence_m: f64,
     ) -> Self {
-        let all: Vec<Solid> = boxes
-            .iter()
-            .filter(|shape| {
-                shape.center_in_world.is_finite() && shape.half_extents_m.is_finite() && shape.yaw_rad.is_finite()
-            })
-            .map(Solid::new)
-            .collect();
+        let (low, high) = bounds_from_above(&track.states);
+        let all: Vec<Solid> =
+            boxes.iter().filter(|shape| may_be_near(shape, low, high, radius_m)).map(Solid::new).collect();
         let everything: Vec<u32> = (0..all.len() as u32).collect();
         let mut new_index = vec![u32::MAX; all.len()];
         let (mut solids, mut lists) = (Vec::new(), Vec::new());
@@ -68,6 +67,11 @@ impl<'a> LocalObstacles<'a> {
         }
         let body = track.states.iter().map(|state| body_points(state, track.height_m)).collect();
         Self { solids, lists, body, ground, influence_m, focus: Vec::new() }
+    }
+
+    /// The highest ground around the path, metres.
+    pub fn highest_ground_m(&self) -> f64 {
+        self.ground.highest_m()
     }
 
     /// Number of boxes that the filter left.
@@ -136,6 +140,23 @@ impl<'a> LocalObstacles<'a> {
     }
 }
 
+/// A quick look from above that keeps every box within `radius_m` of the rectangle, and none that is not finite.
+fn may_be_near(shape: &OrientedBox, low: DVec3, high: DVec3, radius_m: f64) -> bool {
+    let (center, half) = (shape.center_in_world, shape.half_extents_m);
+    let reach = radius_m + half.x.abs() + half.y.abs();
+    let finite = center.z.is_finite() && half.is_finite() && shape.yaw_rad.is_finite();
+    finite
+        && center.x >= low.x - reach
+        && center.x <= high.x + reach
+        && center.y >= low.y - reach
+        && center.y <= high.y + reach
+}
+
+fn bounds_from_above(frames: &[cosfly_frames::TargetState]) -> (DVec3, DVec3) {
+    let first = frames.first().map_or(DVec3::ZERO, |state| state.feet_in_world);
+    frames.iter().fold((first, first), |(low, high), s| (low.min(s.feet_in_world), high.max(s.feet_in_world)))
+}
+
 /// The boxes of `candidates` within `radius_m` of the frames' bounding rectangle.
 fn near_from_above(
     solids: &[Solid],
@@ -143,12 +164,7 @@ fn near_from_above(
     frames: &[cosfly_frames::TargetState],
     radius_m: f64,
 ) -> Vec<u32> {
-    let mut low = frames[0].feet_in_world;
-    let mut high = low;
-    for state in frames {
-        low = low.min(state.feet_in_world);
-        high = high.max(state.feet_in_world);
-    }
+    let (low, high) = bounds_from_above(frames);
     let near = |solid: &Solid| {
         let x = (solid.min.x - high.x).max(low.x - solid.max.x).max(0.0);
         let y = (solid.min.y - high.y).max(low.y - solid.max.y).max(0.0);
@@ -188,6 +204,28 @@ impl Surroundings for LocalObstacles<'_> {
             }
         }
         best
+    }
+
+    fn shadows(&self, frame: usize, position: DVec3, each: &mut dyn FnMut(f64, DVec3)) {
+        let list = match self.in_focus(frame, position) {
+            Some(focus) => &focus.between,
+            None => &self.lists[frame / FRAMES_PER_LIST],
+        };
+        if list.is_empty() {
+            return;
+        }
+        for &point in &self.body[frame] {
+            let mut deepest: Option<(f64, DVec3)> = None;
+            for &index in list {
+                let limit = deepest.map_or(SHADOW_REACH_M, |(slack, _)| slack);
+                if let Some((slack, plane)) = self.solids[index as usize].lit_side_below(point, position, limit) {
+                    deepest = Some((slack, plane.normal));
+                }
+            }
+            if let Some((slack, away)) = deepest {
+                each(slack, away);
+            }
+        }
     }
 
     fn ground_z_m(&self, x_m: f64, y_m: f64) -> f64 {

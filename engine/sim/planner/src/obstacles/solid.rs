@@ -49,6 +49,16 @@ impl Solid {
         Self { center: shape.center_in_world, half: shape.half_extents_m, sin, cos, min, max }
     }
 
+    /// Sine and cosine of its turn.
+    pub fn turn(&self) -> (f64, f64) {
+        (self.sin, self.cos)
+    }
+
+    /// Half of its size along its own axes, metres.
+    pub fn half_extents_m(&self) -> DVec3 {
+        self.half
+    }
+
     fn to_local(self, point: DVec3) -> DVec3 {
         self.turn_to_local(point - self.center)
     }
@@ -162,23 +172,48 @@ impl Solid {
     /// The shadow is the cone over the silhouette, behind the faces that the eye sees; every silhouette
     /// edge of a box is parallel to one of its axes, so at most three faces and six edges bound it.
     pub fn lit_side(&self, eye: DVec3, point: DVec3) -> Option<(f64, HalfSpace)> {
+        self.lit_side_below(eye, point, f64::INFINITY)
+    }
+
+    /// [`Self::lit_side`] if its slack is below `limit_m`, sooner done when it is not.
+    pub fn lit_side_below(&self, eye: DVec3, point: DVec3, limit_m: f64) -> Option<(f64, HalfSpace)> {
         let e = self.to_local(eye);
         let p = self.to_local(point);
+        let outside = [e.x.abs() > self.half.x, e.y.abs() > self.half.y, e.z.abs() > self.half.z];
         let mut best: Option<(f64, DVec3, f64)> = None;
-        let mut consider = |normal: DVec3, offset: f64| {
-            let slack = normal.dot(p) - offset;
-            if best.is_none_or(|(s, _, _)| slack > s) {
-                best = Some((slack, normal, offset));
-            }
-        };
         for k in 0..3 {
-            if e[k].abs() > self.half[k] {
-                let mut normal = DVec3::ZERO;
-                normal[k] = e[k].signum();
-                consider(normal, self.half[k]);
+            if outside[k] {
+                let slack = e[k].signum() * p[k] - self.half[k];
+                if slack >= limit_m {
+                    return None;
+                }
+                if best.is_none_or(|(s, _, _)| slack > s) {
+                    let mut normal = DVec3::ZERO;
+                    normal[k] = e[k].signum();
+                    best = Some((slack, normal, self.half[k]));
+                }
             }
-            for normal in self.silhouette_normals(e, (k + 1) % 3, (k + 2) % 3).into_iter().flatten() {
-                consider(normal, normal.dot(e));
+        }
+        for m in 0..3 {
+            let (k, l) = ((m + 1) % 3, (m + 2) % 3);
+            for corner in self.tangent_corners(e, (k, outside[k]), (l, outside[l])).into_iter().flatten() {
+                let (dk, dl) = (corner.0 - e[k], corner.1 - e[l]);
+                let length = (dk * dk + dl * dl).sqrt();
+                if length < 1e-9 {
+                    continue;
+                }
+                // Perpendicular to the tangent, away from the box's middle.
+                let side = if dk * e[l] - dl * e[k] >= 0.0 { 1.0 / length } else { -1.0 / length };
+                let (nk, nl) = (-dl * side, dk * side);
+                let slack = nk * (p[k] - e[k]) + nl * (p[l] - e[l]);
+                if slack >= limit_m {
+                    return None;
+                }
+                if best.is_none_or(|(s, _, _)| slack > s) {
+                    let mut normal = DVec3::ZERO;
+                    (normal[k], normal[l]) = (nk, nl);
+                    best = Some((slack, normal, normal.dot(e)));
+                }
             }
         }
         best.map(|(slack, normal, offset)| {
@@ -187,31 +222,17 @@ impl Solid {
         })
     }
 
-    /// Outward normals of the two tangent lines from `e` to the rectangle in the axes (`k`, `l`).
-    fn silhouette_normals(&self, e: DVec3, k: usize, l: usize) -> [Option<DVec3>; 2] {
-        let (hk, hl) = (self.half[k], self.half[l]);
-        if e[k].abs() <= hk && e[l].abs() <= hl {
-            return [None, None];
+    /// Where the two tangents from `e` touch the rectangle in the axes `k` and `l`; `outside` says for each axis
+    /// whether `e` is beyond the faces across it.
+    fn tangent_corners(&self, e: DVec3, k: (usize, bool), l: (usize, bool)) -> [Option<(f64, f64)>; 2] {
+        let (hk, hl) = (self.half[k.0], self.half[l.0]);
+        let (ek, el) = (hk.copysign(e[k.0]), hl.copysign(e[l.0]));
+        match (k.1, l.1) {
+            (false, false) => [None, None],
+            (true, true) => [Some((ek, -el)), Some((-ek, el))],
+            (true, false) => [Some((ek, hl)), Some((ek, -hl))],
+            (false, true) => [Some((hk, el)), Some((-hk, el))],
         }
-        let corners = [(hk, hl), (hk, -hl), (-hk, -hl), (-hk, hl)];
-        let mut normals = [None, None];
-        for (ck, cl) in corners {
-            let (dk, dl) = (ck - e[k], cl - e[l]);
-            let length = real::hypot(dk, dl);
-            if length < 1e-9 {
-                continue;
-            }
-            for (side, (nk, nl)) in [(-dl / length, dk / length), (dl / length, -dk / length)].into_iter().enumerate() {
-                let outermost = corners.iter().all(|(ok, ol)| (ok - e[k]) * nk + (ol - e[l]) * nl <= 1e-9);
-                if outermost {
-                    let mut normal = DVec3::ZERO;
-                    normal[k] = nk;
-                    normal[l] = nl;
-                    normals[side] = Some(normal);
-                }
-            }
-        }
-        normals
     }
 
     /// The part of the horizontal ray from `origin` along (`cos`, `sin`) that lies in the box grown by

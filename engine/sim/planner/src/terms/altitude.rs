@@ -1,6 +1,7 @@
 //! Altitude (paper, appendix A.1): a strong penalty below the band, a light one above it, and oscillation.
 
 use super::{CostTerm, TermContext};
+use crate::equations::NormalEquations;
 use cosfly_frames::DVec3;
 
 /// With h the height above the ground under the target: `0.01 (h - h_pref)^2` above h_pref, and
@@ -67,6 +68,27 @@ impl CostTerm for Altitude {
             let step = 0.5 * weight * climb.signum();
             gradient[high].z += step;
             gradient[low].z -= step;
+        }
+        true
+    }
+
+    fn add_residuals(
+        &self,
+        waypoints: &[DVec3],
+        context: &TermContext<'_>,
+        weight: f64,
+        equations: &mut NormalEquations,
+    ) -> bool {
+        for (frame, &waypoint) in waypoints.iter().enumerate() {
+            let (height, lowest) = heights(waypoint, frame, context);
+            let below = (context.view.min_altitude_m - lowest).max(0.0);
+            let above = (height - context.view.preferred_altitude_m).max(0.0);
+            if below > 0.0 {
+                equations.add(frame, weight, below, -DVec3::Z);
+            }
+            if above > 0.0 {
+                equations.add(frame, 0.01 * weight, above, DVec3::Z);
+            }
         }
         true
     }

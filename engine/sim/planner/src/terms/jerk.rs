@@ -1,6 +1,7 @@
 //! Jerk (paper, section 3.2): squared third differences, in metres per frame^3.
 
 use super::{CostTerm, TermContext};
+use crate::equations::NormalEquations;
 use cosfly_frames::DVec3;
 
 /// `|w[i+2] - 3 w[i+1] + 3 w[i] - w[i-1]|^2`; the first and the last two frames have none.
@@ -30,6 +31,17 @@ impl CostTerm for Jerk {
             gradient[i + 2] -= 3.0 * jerk;
             gradient[i + 3] += jerk;
         }
+        true
+    }
+
+    fn add_residuals(
+        &self,
+        waypoints: &[DVec3],
+        _context: &TermContext<'_>,
+        weight: f64,
+        equations: &mut NormalEquations,
+    ) -> bool {
+        equations.add_differences(3, weight, waypoints);
         true
     }
 }

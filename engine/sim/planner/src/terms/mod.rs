@@ -15,6 +15,7 @@ pub mod viewpoint;
 pub mod visibility;
 
 use crate::config::ViewConfig;
+use crate::equations::NormalEquations;
 use crate::obstacles::Surroundings;
 use crate::walk::Walk;
 use crate::weights::{Preset, cost_terms};
@@ -53,6 +54,19 @@ pub trait CostTerm: Send + Sync {
         gradient: &mut [DVec3],
     ) -> bool {
         let _ = (waypoints, context, weight, gradient);
+        false
+    }
+
+    /// Adds `weight` times the cost, as squares of residuals linear around `waypoints`, to the Gauss-Newton equations,
+    /// when the term knows such a form; otherwise returns false and its gradient (its own or differences) is added.
+    fn add_residuals(
+        &self,
+        waypoints: &[DVec3],
+        context: &TermContext<'_>,
+        weight: f64,
+        equations: &mut NormalEquations,
+    ) -> bool {
+        let _ = (waypoints, context, weight, equations);
         false
     }
 }

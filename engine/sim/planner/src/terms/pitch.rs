@@ -1,6 +1,7 @@
 //! Pitch (paper, appendix A.1): piecewise quadratic around the target pitch, in degrees.
 
 use super::{CostTerm, TermContext};
+use crate::equations::NormalEquations;
 use cosfly_frames::{DVec3, real};
 
 /// 0.02 (theta - 45)^2 between 30 and 60 degrees below the horizon; beyond, 0.5 (theta - 60)^2 and
@@ -60,6 +61,36 @@ impl CostTerm for Pitch {
             let by_angle = pitch_cost(pitch_below_horizon_deg(sight), context.view.pitch_deg).1;
             let scale = weight * by_angle * (180.0 / real::PI) / squared;
             *slope += scale * DVec3::new(-sight.z * sight.x / across, -sight.z * sight.y / across, across);
+        }
+        true
+    }
+
+    fn add_residuals(
+        &self,
+        waypoints: &[DVec3],
+        context: &TermContext<'_>,
+        weight: f64,
+        equations: &mut NormalEquations,
+    ) -> bool {
+        for (frame, (waypoint, state)) in waypoints.iter().zip(&context.track.states).enumerate() {
+            let sight = waypoint - state.feet_in_world;
+            let across = real::hypot(sight.x, sight.y);
+            if across < 1e-6 {
+                continue;
+            }
+            let degrees_per_m = (180.0 / real::PI) / sight.length_squared();
+            let turn = degrees_per_m * DVec3::new(-sight.z * sight.x / across, -sight.z * sight.y / across, across);
+            let off = pitch_below_horizon_deg(sight) - context.view.pitch_deg;
+            // Half the slope divided by the curvature of the branch: the residual with the same square.
+            let curvature = if off.abs() <= HALF_BAND_DEG {
+                0.02
+            } else if off > 0.0 {
+                0.5
+            } else {
+                0.2
+            };
+            let slope = pitch_cost(off + context.view.pitch_deg, context.view.pitch_deg).1;
+            equations.add(frame, weight * curvature, 0.5 * slope / curvature, turn);
         }
         true
     }

@@ -1,6 +1,7 @@
 //! Safety (paper, appendix A.1): a soft push away from obstacles within the influence radius.
 
 use super::{CostTerm, TermContext};
+use crate::equations::NormalEquations;
 use cosfly_frames::DVec3;
 
 /// `0.5 (d_inf - d)^2` where the nearest obstacle is closer than `d_inf`; d is negative inside.
@@ -34,6 +35,22 @@ impl CostTerm for Safety {
         for (frame, (&waypoint, slope)) in waypoints.iter().zip(gradient).enumerate() {
             if let Some((distance, away)) = context.surroundings.nearest(frame, waypoint, influence) {
                 *slope -= weight * (influence - distance) * away;
+            }
+        }
+        true
+    }
+
+    fn add_residuals(
+        &self,
+        waypoints: &[DVec3],
+        context: &TermContext<'_>,
+        weight: f64,
+        equations: &mut NormalEquations,
+    ) -> bool {
+        let influence = context.view.safety_influence_m;
+        for (frame, &waypoint) in waypoints.iter().enumerate() {
+            if let Some((distance, away)) = context.surroundings.nearest(frame, waypoint, influence) {
+                equations.add(frame, 0.5 * weight, influence - distance, -away);
             }
         }
         true

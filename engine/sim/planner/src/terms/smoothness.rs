@@ -1,6 +1,7 @@
 //! Smoothness (paper, appendix A.1): squared second differences, an acceleration penalty in metres per frame^2.
 
 use super::{CostTerm, TermContext};
+use crate::equations::NormalEquations;
 use cosfly_frames::DVec3;
 
 /// `|w[i+1] - 2 w[i] + w[i-1]|^2`; the first and the last frame have none.
@@ -29,6 +30,17 @@ impl CostTerm for Smoothness {
             gradient[i + 1] -= 2.0 * bend;
             gradient[i + 2] += bend;
         }
+        true
+    }
+
+    fn add_residuals(
+        &self,
+        waypoints: &[DVec3],
+        _context: &TermContext<'_>,
+        weight: f64,
+        equations: &mut NormalEquations,
+    ) -> bool {
+        equations.add_differences(2, weight, waypoints);
         true
     }
 }

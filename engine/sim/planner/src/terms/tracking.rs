@@ -1,6 +1,7 @@
 //! Tracking distance (paper, appendix A.1): squared departure from the best observation distance.
 
 use super::{CostTerm, TermContext};
+use crate::equations::NormalEquations;
 use cosfly_frames::DVec3;
 
 /// `(|w - p| - d_opt)^2`, with p the point between the target's feet.
@@ -38,6 +39,23 @@ impl CostTerm for Tracking {
             let distance = sight.length();
             if distance > 1e-9 {
                 *slope += weight * 2.0 * (distance - context.view.distance_m) / distance * sight;
+            }
+        }
+        true
+    }
+
+    fn add_residuals(
+        &self,
+        waypoints: &[DVec3],
+        context: &TermContext<'_>,
+        weight: f64,
+        equations: &mut NormalEquations,
+    ) -> bool {
+        for (frame, (waypoint, state)) in waypoints.iter().zip(&context.track.states).enumerate() {
+            let sight = waypoint - state.feet_in_world;
+            let distance = sight.length();
+            if distance > 1e-9 {
+                equations.add(frame, weight, distance - context.view.distance_m, sight / distance);
             }
         }
         true

@@ -1,8 +1,9 @@
 //! The start of a flight: lattice, global search, interpolation, and a look at what lies between the nodes
 //! (paper, algorithm 2, made global).
 
-use super::lattice::{Lattice, NodeState, UNSAFE};
-use super::viterbi::{MoveCosts, NodeCosts, Viterbi};
+use super::lattice::{Lattice, LatticeSize};
+use super::scan::{CLOSE, Scanner};
+use super::viterbi::{MoveCosts, NodeCosts, SearchSpace, Viterbi};
 use crate::config::MucoConfig;
 use crate::obstacles::local::LocalObstacles;
 use crate::problem::Problem;
@@ -21,46 +22,61 @@ const OUTSIDE_SECTOR: f64 = 30.0;
 /// Visibility weighs this much more than in the sum of the terms, because a node is all or nothing.
 const VISIBILITY_FACTOR: f64 = 2.5;
 
-/// How one search differs from the recipe's when that fails.
-#[derive(Clone, Copy, Debug)]
+/// The lattice of one search, and how it differs from the recipe's when that fails.
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Effort {
-    /// Multiplies the number of azimuths.
-    pub azimuth_factor: u32,
+    /// Numbers of azimuths, altitudes and radii.
+    pub size: LatticeSize,
+    /// Frames from layer to layer.
+    pub layer_frames: usize,
     /// Multiplies the cost of motion.
     pub motion_factor: f64,
     /// Distance kept from obstacles by nodes, metres.
     pub keep_out_m: f64,
 }
 
-/// A start: one waypoint per frame, free of obstacles at least at the keyframes.
+/// What a search finds.
+pub struct Start {
+    /// One waypoint per frame, free of obstacles at least at the layers.
+    pub waypoints: Vec<DVec3>,
+    /// Mean visibility over the layers: what the best way through the lattice sees.
+    pub visibility: f64,
+    /// Searches that were needed.
+    pub searches: u32,
+}
+
+/// The cheapest way through the lattice whose connections are free.
 pub fn search(
     problem: &Problem<'_>,
     obstacles: &LocalObstacles<'_>,
     config: &MucoConfig,
     effort: Effort,
-) -> Result<Vec<DVec3>, String> {
+    space: &mut SearchSpace,
+) -> Result<Start, String> {
     let track = problem.track;
-    let mut settings = config.search.clone();
-    settings.azimuths = (settings.azimuths * effort.azimuth_factor).min(360);
-    let lattice = Lattice::new(&settings, &config.view);
-    let stride = (settings.keyframe_frames as usize).max((SHORTEST_LAYER_S / track.dt_s).round() as usize);
+    let lattice = Lattice::new(effort.size, &config.view);
+    let stride = effort.layer_frames.max((SHORTEST_LAYER_S / track.dt_s).round() as usize).max(1);
     let mut frames: Vec<usize> = (0..track.len()).step_by(stride).collect();
     if frames.last() != Some(&(track.len() - 1)) {
         frames.push(track.len() - 1);
     }
-    let mut states = vec![0 as NodeState; lattice.nodes() * frames.len()];
-    for (&frame, row) in frames.iter().zip(states.chunks_exact_mut(lattice.nodes())) {
-        lattice.evaluate(frame, track, obstacles, effort.keep_out_m, row);
+    space.states.resize(lattice.nodes() * frames.len(), 0);
+    let mut scanner = Scanner::new(&lattice, track.height_m);
+    for (&frame, row) in frames.iter().zip(space.states.chunks_exact_mut(lattice.nodes())) {
+        scanner.evaluate(frame, &track.states[frame], obstacles, effort.keep_out_m, row);
     }
     let costs = node_costs(problem, obstacles, &lattice, &frames, config);
+    // Costs are per layer: a layer stands for `stride` frames, in each of which an even move goes 1 / stride of the way.
+    let per_layer = effort.motion_factor / (stride * stride) as f64;
     let moves = MoveCosts {
-        relative: effort.motion_factor * settings.relative_motion / stride as f64,
-        absolute: effort.motion_factor * settings.absolute_motion / stride as f64,
+        relative: per_layer * config.search.relative_motion,
+        absolute: per_layer * config.search.absolute_motion,
         longest_m: config.limits.speed_mps * track.dt_s * stride as f64,
     };
-    let mut viterbi = Viterbi::new(&lattice, track, &frames, states, costs, moves);
+    let feet = frames.iter().map(|&frame| track.states[frame].feet_in_world).collect();
+    let mut viterbi = Viterbi::new(&lattice, feet, space, costs, moves);
     let mut changed = 0;
-    for _ in 0..MAX_SEARCHES {
+    for searches in 1..=MAX_SEARCHES {
         let nodes = viterbi.solve(changed).map_err(|layer| {
             format!(
                 "no free viewpoint can be reached at frame {}: obstacles leave no room around the target",
@@ -69,9 +85,14 @@ pub fn search(
         })?;
         let waypoints = interpolate(&lattice, track, &frames, &nodes);
         let cut = cut_layers(obstacles, &waypoints, &frames, CUT_SHARE * config.limits.clearance_m);
-        let Some(&first) = cut.first() else { return Ok(waypoints) };
+        let Some(&first) = cut.first() else {
+            let hidden = |(layer, &node): (usize, &usize)| f64::from(viterbi.state(layer, node) & !CLOSE);
+            let hidden: f64 = nodes.iter().enumerate().map(hidden).sum();
+            let visibility = 1.0 - hidden / (8 * nodes.len()) as f64;
+            return Ok(Start { waypoints, visibility, searches: searches as u32 });
+        };
         for layer in cut {
-            viterbi.states[layer * lattice.nodes() + nodes[layer]] = UNSAFE;
+            viterbi.forbid(layer, nodes[layer]);
         }
         changed = first;
     }
@@ -135,12 +156,9 @@ fn node_costs(
         (front + if outside { OUTSIDE_SECTOR } else { 0.0 }) as f32
     };
     NodeCosts {
-        visibility: core::array::from_fn(|seen| {
-            let hidden = 1.0 - seen as f64 / 8.0;
-            (VISIBILITY_FACTOR * weights.visibility * (0.7 * hidden + 0.3 * hidden * hidden)) as f32
-        }),
+        hidden: [0.7 / 8.0, 0.3 / 64.0].map(|share| (VISIBILITY_FACTOR * weights.visibility * share) as f32),
         close: (4.0 * weights.safety) as f32,
-        lane: (0..lattice.lanes()).map(lane).collect(),
+        lane: (0..lattice.stride()).map(|index| lane(index.min(lattice.lanes() - 1))).collect(),
         azimuth: frames.iter().map(|&f| lattice.directions.iter().map(|d| azimuth(f, d)).collect()).collect(),
         extra: extra_costs(problem, obstacles, lattice, frames),
     }
@@ -160,7 +178,7 @@ fn extra_costs(
     let mut costs = vec![vec![0.0_f32; lattice.nodes()]; frames.len()];
     let context = problem.context(obstacles);
     let mut per_frame = vec![0.0; problem.track.len()];
-    for node in 0..lattice.nodes() {
+    for node in (0..lattice.nodes()).filter(|&node| lattice.is_real(node)) {
         let offset = lattice.offset(node);
         let hover: Vec<DVec3> = problem.track.states.iter().map(|state| state.feet_in_world + offset).collect();
         for weighted in &extra {

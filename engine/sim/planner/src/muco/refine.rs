@@ -1,0 +1,106 @@
+//! Refinement: Gauss-Newton steps from the lattice's way to a smooth flight that sees more.
+//!
+//! Every term adds its residuals ([`CostTerm::add_residuals`](crate::CostTerm::add_residuals)) or its gradient; beside them
+//! the flight is held near the lattice's way, kept clear of obstacles and made smooth. Where a round ends worse than
+//! the lattice's way, the next one holds on to it more strongly.
+
+use crate::config::MucoConfig;
+use crate::equations::NormalEquations;
+use crate::gradient::total_gradient;
+use crate::obstacles::{Surroundings, local::LocalObstacles};
+use crate::problem::Problem;
+use cosfly_frames::DVec3;
+
+/// How many rounds of how many steps.
+#[derive(Clone, Copy, Debug)]
+pub struct Rounds {
+    /// Rounds, each with stronger holds.
+    pub rounds: usize,
+    /// Steps per round.
+    pub steps: usize,
+}
+
+/// Weight of nearness to the lattice's way.
+const HOLD: f64 = 0.01;
+/// It grows by this factor where the round ended worse than the lattice's way.
+const HOLD_GROWTH: f64 = 30.0;
+/// Smoothness beside that of the terms.
+const EXTRA_ACCELERATION: f64 = 0.3;
+const EXTRA_JERK: f64 = 2.0;
+/// Weight of missing clearance, and how far before the limit it begins, metres.
+const CLEARANCE_WEIGHT: f64 = 40.0;
+const CLEARANCE_EXTRA_M: f64 = 0.4;
+/// No waypoint moves further in one step, metres.
+const LONGEST_STEP_M: f64 = 2.5;
+/// Time step for which the smoothness weights are written, seconds.
+const REFERENCE_DT_S: f64 = 0.5;
+
+/// Buffers of a refinement, worth keeping.
+#[derive(Default)]
+pub struct RefineSpace {
+    equations: NormalEquations,
+    step: Vec<DVec3>,
+}
+
+/// Refines `waypoints` (from the lattice) in place; returns the number of steps.
+pub fn refine(
+    problem: &Problem<'_>,
+    obstacles: &mut LocalObstacles<'_>,
+    config: &MucoConfig,
+    rounds: Rounds,
+    space: &mut RefineSpace,
+    waypoints: &mut [DVec3],
+) -> u32 {
+    let lattice_way = waypoints.to_vec();
+    obstacles.focus_on(&lattice_way);
+    let seen: Vec<f64> = (0..waypoints.len()).map(|i| obstacles.visibility(i, lattice_way[i])).collect();
+    let mut hold = vec![HOLD; waypoints.len()];
+    for round in 0..rounds.rounds {
+        for _ in 0..rounds.steps {
+            assemble(problem, obstacles, config, &lattice_way, &hold, &mut space.equations, waypoints);
+            space.equations.solve(1e-9, &mut space.step);
+            for (waypoint, step) in waypoints.iter_mut().zip(&space.step) {
+                *waypoint += step.clamp_length_max(LONGEST_STEP_M);
+            }
+            obstacles.focus_on(waypoints);
+        }
+        if round + 1 < rounds.rounds {
+            for (i, hold) in hold.iter_mut().enumerate() {
+                if obstacles.visibility(i, waypoints[i]) < seen[i] {
+                    *hold *= HOLD_GROWTH;
+                }
+            }
+        }
+    }
+    (rounds.rounds * rounds.steps) as u32
+}
+
+fn assemble(
+    problem: &Problem<'_>,
+    obstacles: &LocalObstacles<'_>,
+    config: &MucoConfig,
+    lattice_way: &[DVec3],
+    hold: &[f64],
+    equations: &mut NormalEquations,
+    waypoints: &[DVec3],
+) {
+    equations.reset(waypoints.len());
+    let context = problem.context(obstacles);
+    for weighted in problem.terms.iter().filter(|weighted| weighted.weight > 0.0) {
+        if !weighted.term.add_residuals(waypoints, &context, weighted.weight, equations) {
+            let alone = core::slice::from_ref(weighted);
+            let gradient = total_gradient(alone, waypoints, &context, config.descent.difference_m);
+            gradient.iter().enumerate().for_each(|(frame, slope)| equations.add_gradient(frame, *slope));
+        }
+    }
+    let ratio = (REFERENCE_DT_S / problem.track.dt_s).clamp(0.05, 20.0);
+    equations.add_differences(2, EXTRA_ACCELERATION * ratio * ratio, waypoints);
+    equations.add_differences(3, EXTRA_JERK * ratio * ratio * ratio, waypoints);
+    let keep = config.limits.clearance_m + CLEARANCE_EXTRA_M;
+    for (frame, &waypoint) in waypoints.iter().enumerate() {
+        equations.add_anchor(frame, hold[frame], waypoint - lattice_way[frame]);
+        if let Some((distance, away)) = obstacles.nearest(frame, waypoint, keep) {
+            equations.add(frame, CLEARANCE_WEIGHT, keep - distance, -away);
+        }
+    }
+}

@@ -1,0 +1,375 @@
+//! What is seen from each node of the lattice, and what is free, one frame at a time.
+//!
+//! No rays are cast: for one azimuth a box covers an interval of the horizontal ray from the target, and a
+//! few comparisons per node say whether the line of sight passes through the box there.
+
+use super::lattice::{Lattice, MAX_LANES, VECTOR};
+use crate::obstacles::{Surroundings, local::LocalObstacles, solid::Solid};
+use cosfly_frames::simd::Level;
+use cosfly_frames::{DVec3, TargetState, simd_kernel};
+
+/// Heights of the body seen along its axis, for a body of 1.75 m, and how many body points each stands for.
+pub const BODY_HEIGHTS: [(f64, u32); 5] = [(0.12, 1), (0.5, 1), (1.05, 2), (1.42, 3), (1.7, 1)];
+
+/// State of a node: the number of hidden body points (0..=8), [`CLOSE`] added when an obstacle is near, or
+/// [`UNSAFE`].
+pub type NodeState = u8;
+/// Set when an obstacle is within the clearance plus [`CLOSE_EXTRA_M`].
+pub const CLOSE: NodeState = 0x10;
+/// The node is too near an obstacle or the ground, or no node at all.
+pub const UNSAFE: NodeState = 0xff;
+/// See [`CLOSE`], metres.
+const CLOSE_EXTRA_M: f64 = 1.5;
+
+const CLOSE_BIT: u32 = 1 << 8;
+const UNSAFE_BIT: u32 = 1 << 9;
+
+/// Azimuth vectors and body slopes, prepared once per search.
+pub struct Scanner<'a> {
+    lattice: &'a Lattice,
+    /// Cosines and sines of the azimuths, filled up to whole vectors.
+    cos: Vec<f32>,
+    sin: Vec<f32>,
+    body_m: [f32; 5],
+    /// Climb per metre from each body height to each lane.
+    slopes: [[f32; MAX_LANES]; 5],
+    marks: Vec<u32>,
+    profiles: Vec<Profile>,
+    level: Level,
+}
+
+/// One box as seen from the target's feet; metres.
+#[derive(Clone, Copy)]
+struct Profile {
+    /// Centre, turned into the box's axes.
+    center: [f32; 2],
+    cos: f32,
+    sin: f32,
+    half: [f32; 2],
+    low: f32,
+    high: f32,
+}
+
+impl<'a> Scanner<'a> {
+    /// For a body `height_m` tall.
+    pub fn new(lattice: &'a Lattice, height_m: f64) -> Self {
+        let padded = lattice.directions.len().next_multiple_of(VECTOR);
+        let direction = |azimuth: usize| lattice.directions[azimuth % lattice.directions.len()];
+        let body_m = BODY_HEIGHTS.map(|(height, _)| (height * height_m / 1.75) as f32);
+        let slopes = body_m.map(|height| {
+            let mut slopes = [0.0; MAX_LANES];
+            for (lane, slope) in slopes.iter_mut().enumerate().take(lattice.stride()) {
+                *slope = (lattice.lane_altitude_m[lane] - height) / lattice.lane_radius_m[lane];
+            }
+            slopes
+        });
+        Self {
+            cos: (0..padded).map(|azimuth| direction(azimuth).x as f32).collect(),
+            sin: (0..padded).map(|azimuth| direction(azimuth).y as f32).collect(),
+            body_m,
+            slopes,
+            marks: vec![0; padded * lattice.stride()],
+            profiles: Vec::new(),
+            level: Level::best(),
+            lattice,
+        }
+    }
+
+    /// The same with other instructions; for tests.
+    pub fn at_level(mut self, level: Level) -> Self {
+        self.level = level;
+        self
+    }
+
+    /// Evaluates one frame into `states` (one per node).
+    pub fn evaluate(
+        &mut self,
+        frame: usize,
+        target: &TargetState,
+        obstacles: &LocalObstacles<'_>,
+        keep_out_m: f64,
+        states: &mut [NodeState],
+    ) {
+        let feet = target.feet_in_world;
+        let farthest = self.lattice.radii_m.last().copied().unwrap_or(0.0) + keep_out_m + CLOSE_EXTRA_M;
+        self.profiles.clear();
+        self.profiles.extend(obstacles.at_frame(frame).filter_map(|solid| profile(solid, feet, farthest)));
+        self.marks.fill(0);
+        let shape = Shape {
+            cos: &self.cos,
+            sin: &self.sin,
+            radius: &self.lattice.lane_radius_m,
+            altitude: &self.lattice.lane_altitude_m,
+            slopes: &self.slopes,
+            body_m: self.body_m,
+            grow: [keep_out_m as f32, (keep_out_m + CLOSE_EXTRA_M) as f32],
+            farthest: farthest as f32,
+        };
+        mark_all(self.level, &shape, &self.profiles, &mut self.marks);
+        write_states(self.level, &self.marks[..states.len()], states);
+        self.close_filling(states);
+        self.close_below_ground(feet, obstacles, states);
+    }
+
+    fn close_filling(&self, states: &mut [NodeState]) {
+        let (lanes, stride) = (self.lattice.lanes(), self.lattice.stride());
+        if lanes < stride {
+            states.chunks_exact_mut(stride).for_each(|row| row[lanes..].fill(UNSAFE));
+        }
+    }
+
+    fn close_below_ground(&self, feet: DVec3, obstacles: &LocalObstacles<'_>, states: &mut [NodeState]) {
+        const LEVEL_M: f64 = 0.4;
+        if obstacles.highest_ground_m() - feet.z <= LEVEL_M {
+            return;
+        }
+        let lattice = self.lattice;
+        let radii = lattice.radii_m.len();
+        for (azimuth, direction) in lattice.directions.iter().enumerate() {
+            for (r, &radius) in lattice.radii_m.iter().enumerate() {
+                let place = feet + *direction * radius;
+                let rise = obstacles.ground_z_m(place.x, place.y) - feet.z;
+                if rise <= LEVEL_M {
+                    continue;
+                }
+                // The highest altitude stays open on steep slopes, so that a way over them remains.
+                let top = lattice.altitudes_m.len() - 1;
+                for (h, &altitude) in lattice.altitudes_m.iter().enumerate() {
+                    let high_enough = altitude + 0.9 >= rise + lattice.altitudes_m[0];
+                    if !(high_enough || h == top && altitude >= rise + 3.0) {
+                        states[azimuth * lattice.stride() + h * radii + r] = UNSAFE;
+                    }
+                }
+            }
+        }
+    }
+}
+
+/// `None` when the box is too far away to matter.
+fn profile(solid: &Solid, feet: DVec3, farthest_m: f64) -> Option<Profile> {
+    let (center, disc) = solid.disc_from_above();
+    let away = (center - feet).truncate();
+    let reach = farthest_m + disc;
+    if away.length_squared() > reach * reach {
+        return None;
+    }
+    let (sin, cos) = solid.turn();
+    let half = solid.half_extents_m();
+    Some(Profile {
+        center: [(cos * away.x + sin * away.y) as f32, (cos * away.y - sin * away.x) as f32],
+        cos: cos as f32,
+        sin: sin as f32,
+        half: [half.x as f32, half.y as f32],
+        low: (solid.min.z - feet.z) as f32,
+        high: (solid.max.z - feet.z) as f32,
+    })
+}
+
+struct Shape<'a> {
+    cos: &'a [f32],
+    sin: &'a [f32],
+    radius: &'a [f32],
+    altitude: &'a [f32],
+    slopes: &'a [[f32; MAX_LANES]; 5],
+    body_m: [f32; 5],
+    grow: [f32; 2],
+    farthest: f32,
+}
+
+/// For 16 azimuths: where the ray enters and leaves the box as it is, grown by the clearance, grown by more.
+struct Crossings {
+    enter: [[f32; VECTOR]; 3],
+    leave: [[f32; VECTOR]; 3],
+}
+
+#[inline(always)]
+fn least(a: f32, b: f32) -> f32 {
+    if a < b { a } else { b }
+}
+
+#[inline(always)]
+fn most(a: f32, b: f32) -> f32 {
+    if a > b { a } else { b }
+}
+
+/// Slabs of the box across 16 azimuths; a bit for each azimuth that meets the most grown box in reach.
+#[inline(always)]
+fn cross(shape: &Shape<'_>, first: usize, solid: &Profile, out: &mut Crossings) -> u32 {
+    let (Some(cos), Some(sin)) =
+        (shape.cos[first..].first_chunk::<VECTOR>(), shape.sin[first..].first_chunk::<VECTOR>())
+    else {
+        return 0;
+    };
+    let grow = [0.0, shape.grow[0], shape.grow[1]];
+    let mut hit = [0_u32; VECTOR];
+    for j in 0..VECTOR {
+        // A ray parallel to a face gets a slope too small to matter instead of a division by zero.
+        let steer = |d: f32| if d.abs() < 1e-9 { 1e-9 } else { d };
+        let inverse_x = 1.0 / steer(solid.cos * cos[j] + solid.sin * sin[j]);
+        let inverse_y = 1.0 / steer(solid.cos * sin[j] - solid.sin * cos[j]);
+        let (middle_x, middle_y) = (solid.center[0] * inverse_x, solid.center[1] * inverse_y);
+        let (size_x, size_y) = (inverse_x.abs(), inverse_y.abs());
+        for (k, grow) in grow.into_iter().enumerate() {
+            let (ex, ey) = ((solid.half[0] + grow) * size_x, (solid.half[1] + grow) * size_y);
+            out.enter[k][j] = most(most(middle_x - ex, middle_y - ey), 0.0);
+            out.leave[k][j] = least(middle_x + ex, middle_y + ey);
+        }
+        let meets = (out.enter[2][j] <= out.leave[2][j]) & (out.enter[2][j] <= shape.farthest);
+        hit[j] = u32::from(meets) << j;
+    }
+    hit.iter().fold(0, |bits, bit| bits | bit)
+}
+
+#[inline(always)]
+fn vectors(lanes: &[f32]) -> &[[f32; VECTOR]] {
+    lanes.as_chunks().0
+}
+
+/// Marks the lanes of one azimuth that lie in the grown boxes.
+#[inline(always)]
+fn mark_inside(shape: &Shape<'_>, solid: &Profile, along: [(f32, f32); 2], marks: &mut [u32]) {
+    let lanes = vectors(shape.radius).iter().zip(vectors(shape.altitude));
+    for (marks, (radius, altitude)) in marks.as_chunks_mut::<VECTOR>().0.iter_mut().zip(lanes) {
+        for j in 0..VECTOR {
+            let inside = |k: usize| {
+                (radius[j] >= along[k].0)
+                    & (radius[j] <= along[k].1)
+                    & (altitude[j] >= solid.low - shape.grow[k])
+                    & (altitude[j] <= solid.high + shape.grow[k])
+            };
+            marks[j] |= if inside(0) { UNSAFE_BIT } else { 0 } | if inside(1) { CLOSE_BIT } else { 0 };
+        }
+    }
+}
+
+/// Marks the lanes of one azimuth whose lines of sight pass the box: they climb by their slope per metre from
+/// the body point, and the box lies between two heights over the distances `enter` to `leave`.
+#[inline(always)]
+fn mark_hidden(shape: &Shape<'_>, solid: &Profile, enter: f32, leave: f32, marks: &mut [u32]) {
+    let radii = vectors(shape.radius).iter().enumerate();
+    for (marks, (g, radius)) in marks.as_chunks_mut::<VECTOR>().0.iter_mut().zip(radii) {
+        let mut found = [0_u32; VECTOR];
+        for (k, slopes) in shape.slopes.iter().enumerate() {
+            let slope = &slopes.as_chunks::<VECTOR>().0[g];
+            let (low, high) = (solid.low - shape.body_m[k], solid.high - shape.body_m[k]);
+            for j in 0..VECTOR {
+                let (at_enter, at_leave) = (slope[j] * enter, slope[j] * least(leave, radius[j]));
+                let hidden =
+                    (least(at_enter, at_leave) <= high) & (most(at_enter, at_leave) >= low) & (enter <= radius[j]);
+                found[j] |= u32::from(hidden) << k;
+            }
+        }
+        for j in 0..VECTOR {
+            marks[j] |= found[j];
+        }
+    }
+}
+
+simd_kernel! {
+    /// Marks every node (azimuth * lanes + lane): bits 0..5 a hidden body height, bit 8 close, bit 9 unsafe.
+    fn mark_all(shape: &Shape<'_>, solids: &[Profile], marks: &mut [u32]) {
+        let lanes = shape.radius.len();
+        let mut crossings = Crossings { enter: [[0.0; VECTOR]; 3], leave: [[0.0; VECTOR]; 3] };
+        for solid in solids {
+            for first in (0..shape.cos.len()).step_by(VECTOR) {
+                let mut bits = cross(shape, first, solid, &mut crossings);
+                while bits != 0 {
+                    let j = bits.trailing_zeros() as usize;
+                    bits &= bits - 1;
+                    let row = &mut marks[(first + j) * lanes..(first + j + 1) * lanes];
+                    let along = |k: usize| (crossings.enter[k][j], crossings.leave[k][j]);
+                    mark_inside(shape, solid, [along(1), along(2)], row);
+                    let (enter, leave) = along(0);
+                    if enter <= leave {
+                        mark_hidden(shape, solid, enter, leave, row);
+                    }
+                }
+            }
+        }
+    }
+}
+
+simd_kernel! {
+    /// Counts what the marks say.
+    fn write_states(marks: &[u32], states: &mut [NodeState]) {
+        for (marks, states) in marks.as_chunks::<VECTOR>().0.iter().zip(states.as_chunks_mut::<VECTOR>().0) {
+            for j in 0..VECTOR {
+                let mut hidden = 0_u32;
+                for (k, (_, count)) in BODY_HEIGHTS.iter().enumerate() {
+                    hidden = hidden.wrapping_add(if marks[j] & (1 << k) != 0 { *count } else { 0 });
+                }
+                let close = if marks[j] & CLOSE_BIT != 0 { u32::from(CLOSE) } else { 0 };
+                let state = if marks[j] & UNSAFE_BIT != 0 { u32::from(UNSAFE) } else { hidden | close };
+                states[j] = state as u8;
+            }
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::lattice::LatticeSize;
+    use super::*;
+    use crate::config::ViewConfig;
+    use crate::obstacles::ground::GroundGrid;
+    use cosfly_frames::{Seed, TargetTrack};
+    use cosfly_geometry::OrientedBox;
+
+    fn one_frame() -> TargetTrack {
+        let state = TargetState { feet_in_world: DVec3::new(3.0, -2.0, 1.0), heading_rad: 0.0, speed_mps: 0.0 };
+        TargetTrack { dt_s: 0.5, height_m: 1.75, radius_m: 0.3, states: vec![state] }
+    }
+
+    fn random_boxes(stream: &mut cosfly_frames::RandomStream) -> Vec<OrientedBox> {
+        let mut v = |low: f64, high: f64| stream.uniform(low, high);
+        (0..10)
+            .map(|_| OrientedBox {
+                center_in_world: DVec3::new(v(-30.0, 30.0), v(-30.0, 30.0), v(0.0, 25.0)),
+                half_extents_m: DVec3::new(v(0.1, 5.0), v(0.1, 5.0), v(0.1, 9.0)),
+                yaw_rad: v(-3.0, 3.0),
+            })
+            .collect()
+    }
+
+    #[test]
+    fn every_node_agrees_with_rays_and_grown_boxes_at_every_level() {
+        let track = one_frame();
+        let feet = track.states[0].feet_in_world;
+        let ground = GroundGrid::sample(&track, &|_, _| 1.0, 60.0);
+        let lattice = Lattice::new(LatticeSize { azimuths: 72, altitudes: 6, radii: 10 }, &ViewConfig::default());
+        let mut stream = Seed::of_item(2, "lattice", "rays").stream("boxes");
+        let (mut wrong, mut hidden_rays, mut closed, mut nodes) = (0, 0, 0, 0);
+        for _ in 0..12 {
+            let boxes = random_boxes(&mut stream);
+            let obstacles = LocalObstacles::filter(&track, &boxes, &ground, 60.0, 8.0);
+            let mut states = vec![0; lattice.nodes()];
+            Scanner::new(&lattice, 1.75).evaluate(0, &track.states[0], &obstacles, 1.7, &mut states);
+            for level in Level::available() {
+                let mut other = vec![0; lattice.nodes()];
+                let mut scanner = Scanner::new(&lattice, 1.75).at_level(level);
+                scanner.evaluate(0, &track.states[0], &obstacles, 1.7, &mut other);
+                assert!(states == other, "{}", level.name());
+            }
+            for (node, &state) in states.iter().enumerate() {
+                if !lattice.is_real(node) {
+                    assert_eq!(state, UNSAFE);
+                    continue;
+                }
+                let position = feet + lattice.offset(node);
+                let dark = |height: f64| {
+                    let eye = feet + DVec3::Z * height;
+                    obstacles.at_frame(0).any(|solid| solid.meets_segment(eye, position))
+                };
+                let hidden: u32 = BODY_HEIGHTS.iter().filter(|(height, _)| dark(*height)).map(|(_, count)| count).sum();
+                let near = obstacles.nearest(0, position, 1.7).is_some();
+                assert!(!near || state == UNSAFE, "node {node} is {:?} away", obstacles.nearest(0, position, 9.0));
+                closed += usize::from(state == UNSAFE);
+                hidden_rays += usize::from(hidden > 0);
+                wrong += usize::from(state != UNSAFE && u32::from(state & !CLOSE) != hidden);
+                nodes += 1;
+            }
+        }
+        assert!(hidden_rays > 1000 && closed > 300, "{hidden_rays} {closed}");
+        assert!(wrong * 1000 < nodes, "{wrong} of {nodes} nodes differ from rays");
+    }
+}
