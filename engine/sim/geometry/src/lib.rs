@@ -1,19 +1,23 @@
 //! Boxes, triangles, BVH, and the one query seam everything else asks: [`SpatialQuery`].
 
 pub mod bounds;
+pub mod box_bvh;
 pub mod brute_force;
 pub mod bvh;
+pub mod lanes;
 pub mod oriented_box;
 pub mod query;
 pub mod shape;
 pub mod shape_bvh;
 pub mod triangle;
 pub mod turned_box;
+pub mod wide;
 
 pub use bounds::Bounds;
+pub use box_bvh::BoxBvh;
 pub use brute_force::{BruteForce, ShapeBruteForce, TriangleBruteForce};
 pub use oriented_box::OrientedBox;
 pub use query::{Hit, Nearest, SpatialQuery};
-pub use shape_bvh::{BoxBvh, ShapeBvh, TriangleBvh};
+pub use shape_bvh::{ShapeBvh, TriangleBvh};
 pub use triangle::Triangle;
 pub use turned_box::TurnedBox;

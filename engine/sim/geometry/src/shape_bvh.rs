@@ -1,15 +1,11 @@
-//! [`SpatialQuery`] through a tree, for every [`Shape`]: [`BoxBvh`] over solid boxes, [`TriangleBvh`] over ground.
+//! [`SpatialQuery`] through a binary tree, for every [`Shape`]: [`TriangleBvh`] over ground.
 
 use crate::bounds::{Bounds, SlabRay};
 use crate::bvh::{Bvh, Visitor};
 use crate::shape::Shape;
 use crate::triangle::Triangle;
-use crate::turned_box::TurnedBox;
-use crate::{Hit, Nearest, OrientedBox, SpatialQuery};
+use crate::{Hit, Nearest, SpatialQuery};
 use cosfly_frames::DVec3;
-
-/// Turned solid boxes under a tree.
-pub type BoxBvh = ShapeBvh<TurnedBox>;
 
 /// Two-sided triangles without thickness under a tree: distances are unsigned, rays hit both sides.
 pub type TriangleBvh = ShapeBvh<Triangle>;
@@ -24,18 +20,6 @@ pub struct ShapeBvh<S: Shape> {
     /// Index in `given` of each slot.
     primitives: Vec<u32>,
     tree: Bvh,
-}
-
-impl BoxBvh {
-    /// Builds the tree over boxes; the same boxes in the same order give the same tree.
-    pub fn build(boxes: Vec<OrientedBox>) -> Self {
-        Self::over(boxes)
-    }
-
-    /// The boxes, in the order given.
-    pub fn boxes(&self) -> &[OrientedBox] {
-        &self.given
-    }
 }
 
 impl TriangleBvh {

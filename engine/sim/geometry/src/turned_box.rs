@@ -15,9 +15,33 @@ pub struct TurnedBox {
 }
 
 impl TurnedBox {
-    /// A world vector in the box's axes.
+    /// Its middle.
+    #[inline(always)]
+    pub fn center_in_world(&self) -> DVec3 {
+        self.center_in_world
+    }
+
+    /// Half its size along its own axes, metres.
+    #[inline(always)]
+    pub fn half_extents_m(&self) -> DVec3 {
+        self.half_extents_m
+    }
+
+    /// Sine and cosine of its turn.
+    #[inline(always)]
+    pub fn sin_cos(&self) -> (f64, f64) {
+        (self.sin, self.cos)
+    }
+
+    /// Whether it fills its bounds but for a ten-billionth of its size: it is turned by quarters.
     #[inline]
-    fn local_from_world_vector(&self, vector: DVec3) -> DVec3 {
+    pub fn is_along_axes(&self) -> bool {
+        self.sin.abs().min(self.cos.abs()) < 1e-10
+    }
+
+    /// A world vector in the box's axes.
+    #[inline(always)]
+    pub fn local_from_world_vector(&self, vector: DVec3) -> DVec3 {
         DVec3::new(self.cos * vector.x + self.sin * vector.y, self.cos * vector.y - self.sin * vector.x, vector.z)
     }
 

@@ -1,6 +1,7 @@
 //! The law of [`SpatialQuery`]: every implementation answers as brute force does, bit for bit, on scenes made to be
 //! awkward; and the kernels agree with `parry3d`, written by others.
 
+use cosfly_frames::simd::Level;
 use cosfly_frames::{DVec3, RandomStream, Seed, real};
 use cosfly_geometry::{BoxBvh, BruteForce, OrientedBox, SpatialQuery, Triangle, TriangleBruteForce, TriangleBvh};
 use parry3d_f64::query::{PointQuery, Ray, RayCast};
@@ -99,9 +100,13 @@ fn a_tree_of_boxes_answers_as_brute_force_does() {
             let boxes: Vec<OrientedBox> = (0..count)
                 .map(|i| if i % 3 == 0 { grid_box(&mut stream) } else { random_box(&mut stream, reach_m) })
                 .collect();
-            let tree = BoxBvh::build(boxes.clone());
-            tree.assert_well_formed();
-            check_same("boxes", &tree, &BruteForce::new(&boxes), &queries(&mut stream, 400));
+            let oracle = BruteForce::new(&boxes);
+            let asked = queries(&mut stream, 400);
+            for level in Level::available() {
+                let tree = BoxBvh::build(boxes.clone()).at_level(level);
+                tree.assert_well_formed();
+                check_same(&format!("boxes, {}", level.name()), &tree, &oracle, &asked);
+            }
         }
     }
 }

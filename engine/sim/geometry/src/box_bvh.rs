@@ -1,0 +1,231 @@
+//! [`SpatialQuery`] over solid boxes: f32 sorts out what is clearly met or missed, f64 decides the rest.
+
+use crate::bounds::Bounds;
+use crate::shape::Shape;
+use crate::turned_box::TurnedBox;
+use crate::wide::near::{self, WideSegment, most_square};
+use crate::wide::ray::{self, WideRay};
+use crate::wide::shaft;
+use crate::wide::tree::{REACH_M, WideTree};
+use crate::{Hit, Nearest, OrientedBox, SpatialQuery};
+use cosfly_frames::DVec3;
+use cosfly_frames::simd::Level;
+
+/// Turned solid boxes under a tree of sixteen children. Boxes with a number that is not finite are counted but never
+/// met. Answers are those of [`crate::BruteForce`], bit for bit, whatever the processor; queries allocate nothing.
+#[derive(Clone, Debug)]
+pub struct BoxBvh {
+    given: Vec<OrientedBox>,
+    /// The boxes ready for exact queries: those of the tree in its order, then those too far away for it.
+    slots: Vec<TurnedBox>,
+    /// Index in `given` of each slot.
+    primitives: Vec<u32>,
+    tree: WideTree,
+    bounds: Option<Bounds>,
+    level: Level,
+}
+
+impl BoxBvh {
+    /// Builds the tree over boxes; the same boxes in the same order give the same tree.
+    pub fn build(boxes: Vec<OrientedBox>) -> Self {
+        let (mut usable, mut shapes) = (Vec::with_capacity(boxes.len()), Vec::with_capacity(boxes.len()));
+        for (index, one) in boxes.iter().enumerate() {
+            if let Some(shape) = TurnedBox::prepare(one) {
+                usable.push(index as u32);
+                shapes.push(shape);
+            }
+        }
+        let each: Vec<Bounds> = shapes.iter().map(TurnedBox::bounds).collect();
+        let (tree, wild) = crate::wide::build::build(&shapes, &each);
+        let order = || tree.order.iter().chain(&wild).map(|&i| i as usize);
+        let slots = order().map(|i| shapes[i]).collect();
+        let primitives = order().map(|i| usable[i]).collect();
+        let bounds = (!each.is_empty()).then(|| each.iter().fold(Bounds::EMPTY, |sum, one| sum.union(one)));
+        Self { given: boxes, slots, primitives, tree, bounds, level: Level::best() }
+    }
+
+    /// The same tree asked with the instructions of a level; answers stay the same.
+    pub fn at_level(self, level: Level) -> Self {
+        Self { level, ..self }
+    }
+
+    /// The boxes, in the order given.
+    pub fn boxes(&self) -> &[OrientedBox] {
+        &self.given
+    }
+
+    /// Bounds of everything; `None` when there is nothing.
+    pub fn bounds(&self) -> Option<&Bounds> {
+        self.bounds.as_ref()
+    }
+
+    /// Checks the tree.
+    ///
+    /// # Panics
+    /// When a box is lost or sticks out of its block.
+    pub fn assert_well_formed(&self) {
+        let mut bounds = vec![Bounds::EMPTY; self.slots.len()];
+        for (shape, &original) in self.slots.iter().zip(&self.tree.order) {
+            bounds[original as usize] = shape.bounds();
+        }
+        self.tree.assert_well_formed(&bounds);
+    }
+
+    /// Slots that f32 is never asked about.
+    #[inline]
+    fn wild(&self) -> std::ops::Range<usize> {
+        self.tree.order.len()..self.slots.len()
+    }
+
+    /// Both ends about the tree's origin and the margin of a query between them; `None` when f32 cannot be asked.
+    #[inline(always)]
+    fn local(&self, from_in_world: DVec3, to_in_world: DVec3) -> Option<(DVec3, DVec3, f64)> {
+        let (from, to) = (self.tree.local(from_in_world)?, self.tree.local(to_in_world)?);
+        Some((from, to, self.tree.margin_m(from.abs().max(to.abs()).max_element())))
+    }
+
+    /// Calls `visit` with every slot.
+    fn visit_all(&self, mut visit: impl FnMut(usize)) {
+        (0..self.slots.len()).for_each(&mut visit);
+    }
+}
+
+impl SpatialQuery for BoxBvh {
+    fn len(&self) -> usize {
+        self.given.len()
+    }
+
+    fn closest_hit(&self, origin_in_world: DVec3, direction_in_world: DVec3, max_t: f64) -> Option<Hit> {
+        if !origin_in_world.is_finite() || !direction_in_world.is_finite() || max_t.is_nan() {
+            return None;
+        }
+        let mut best = Hit { t: max_t, primitive: u32::MAX };
+        let mut exact = |slot: usize| {
+            if let Some(t) = self.slots[slot].ray_entry(origin_in_world, direction_in_world, best.t) {
+                let primitive = self.primitives[slot];
+                if t < best.t || primitive < best.primitive {
+                    best = Hit { t, primitive };
+                }
+            }
+            best.t
+        };
+        let Some((from, _, margin_m)) = self.local(origin_in_world, origin_in_world) else {
+            self.visit_all(|slot| _ = exact(slot));
+            return (best.primitive != u32::MAX).then_some(best);
+        };
+        // The tree's ray moves one metre along its fastest axis per unit of its parameter. Components that exact
+        // kernels take for none are none.
+        let step = DVec3::from_array(direction_in_world.to_array().map(|d| if d.abs() < 1e-250 { 0.0 } else { d }));
+        let speed = step.abs().max_element();
+        let (unit, speed) = if speed > 0.0 { (step / speed, speed) } else { (DVec3::ZERO, 1.0) };
+        let wide = WideRay::new(from, unit, margin_m);
+        let widened = |t: f64| (t * speed) as f32 * (1.0 + 1e-6);
+        let first = self.wild().fold(max_t, |_, slot| exact(slot));
+        ray::along(self.level, &self.tree, &wide, widened(first), &mut |slot| widened(exact(slot)));
+        (best.primitive != u32::MAX).then_some(best)
+    }
+
+    fn blocked(&self, from_in_world: DVec3, to_in_world: DVec3) -> bool {
+        if !(from_in_world.is_finite() && to_in_world.is_finite()) {
+            return true;
+        }
+        let step = to_in_world - from_in_world;
+        let mut exact = |slot: usize| self.slots[slot].ray_entry(from_in_world, step, 1.0).is_some();
+        let Some((from, _, margin_m)) = self.local(from_in_world, to_in_world) else {
+            return (0..self.slots.len()).any(exact);
+        };
+        let wide = WideRay::new(from, step, margin_m);
+        ray::blocked(self.level, &self.tree, &wide, &mut exact) || self.wild().any(exact)
+    }
+
+    fn nearest(&self, point_in_world: DVec3, within_m: f64) -> Option<Nearest> {
+        if !point_in_world.is_finite() || within_m.is_nan() {
+            return None;
+        }
+        let mut best = Nearest { distance_m: within_m, away_in_world: DVec3::ZERO, primitive: u32::MAX };
+        let mut exact = |slot: usize| {
+            let (distance_m, away_in_world) = self.slots[slot].signed_distance(point_in_world);
+            let primitive = self.primitives[slot];
+            let tied = distance_m == best.distance_m && best.primitive != u32::MAX;
+            if distance_m < best.distance_m || (tied && primitive < best.primitive) {
+                best = Nearest { distance_m, away_in_world, primitive };
+            }
+            best.distance_m
+        };
+        self.around(point_in_world, point_in_world, within_m, &mut exact);
+        (best.primitive != u32::MAX).then_some(best)
+    }
+
+    fn segment_clearance(&self, from_in_world: DVec3, to_in_world: DVec3, within_m: f64) -> f64 {
+        if !from_in_world.is_finite() || !to_in_world.is_finite() {
+            return 0.0;
+        }
+        if within_m.is_nan() || within_m <= 0.0 {
+            return within_m;
+        }
+        let mut best = within_m;
+        let mut exact = |slot: usize| {
+            if let Some(distance_m) = self.slots[slot].segment_distance(from_in_world, to_in_world, best) {
+                best = distance_m;
+            }
+            best
+        };
+        self.around(from_in_world, to_in_world, within_m, &mut exact);
+        best
+    }
+
+    fn blocked_batch(&self, from_in_world: DVec3, to_in_world: &[DVec3], blocked: &mut [bool]) {
+        for (ends, out) in to_in_world.chunks(shaft::RAYS).zip(blocked.chunks_mut(shaft::RAYS)) {
+            let last = ends.len() - 1;
+            let eight: [DVec3; shaft::RAYS] = core::array::from_fn(|ray| ends[ray.min(last)]);
+            let all_finite = eight.iter().fold(from_in_world.is_finite(), |all, end| all & end.is_finite());
+            let together = all_finite && ends.len() > 2 && self.wild().is_empty();
+            let hidden = if together {
+                shaft::blocked_rays(self.level, &self.tree, &self.slots, from_in_world, &eight)
+            } else {
+                None
+            };
+            for (ray, (&end, out)) in ends.iter().zip(out).enumerate() {
+                *out = match hidden {
+                    Some(mask) => mask >> ray & 1 == 1,
+                    None => self.blocked(from_in_world, end),
+                };
+            }
+        }
+    }
+
+    fn within(&self, min_in_world: DVec3, max_in_world: DVec3, visit: &mut dyn FnMut(u32)) {
+        let asked = Bounds { min_in_world, max_in_world };
+        let mut exact = |slot: usize| {
+            if self.slots[slot].bounds().meets(&asked) {
+                visit(self.primitives[slot]);
+            }
+        };
+        let reach = DVec3::splat(REACH_M);
+        let low = (min_in_world - self.tree.origin_in_world).clamp(-reach, reach);
+        let high = (max_in_world - self.tree.origin_in_world).clamp(-reach, reach);
+        if !low.is_finite() || !high.is_finite() {
+            return self.visit_all(exact);
+        }
+        self.wild().for_each(&mut exact);
+        let margin_m = self.tree.margin_m(low.abs().max(high.abs()).max_element());
+        let window = WideSegment::window(low, high, margin_m);
+        near::around(self.level, &self.tree, &window, 0.0, &mut |slot| {
+            exact(slot);
+            0.0
+        });
+    }
+}
+
+impl BoxBvh {
+    /// Calls `exact` with at least the slots that lie nearer to the segment than it last gave, at first `within_m`.
+    #[inline]
+    fn around(&self, from_in_world: DVec3, to_in_world: DVec3, within_m: f64, exact: &mut dyn FnMut(usize) -> f64) {
+        let Some((from, to, margin_m)) = self.local(from_in_world, to_in_world) else {
+            return self.visit_all(|slot| _ = exact(slot));
+        };
+        let within_m = self.wild().fold(within_m, |_, slot| exact(slot));
+        let segment = WideSegment::new(from, to, margin_m);
+        near::around(self.level, &self.tree, &segment, most_square(within_m), &mut |slot| most_square(exact(slot)));
+    }
+}

@@ -1,0 +1,115 @@
+//! The tree: blocks of sixteen bounds, each the parent of blocks or of boxes.
+
+use super::turned::TurnedLanes;
+use crate::bounds::Bounds;
+use crate::lanes::{LANES, Lane};
+use cosfly_frames::DVec3;
+
+/// Levels of the largest tree: eight by surface area, and 2^32 boxes eighth by eighth.
+pub const MAX_DEPTH: usize = 20;
+/// Farther than this from the local origin, metres, f32 is not asked.
+pub const REACH_M: f64 = 4e6;
+
+/// Sixteen bounds about the local origin and what they bound. Lanes beyond `valid` are empty.
+#[derive(Clone, Debug)]
+#[repr(align(64))]
+pub struct Block {
+    /// For each axis the lower and the upper faces, metres.
+    pub faces: [[Lane; 2]; 3],
+    /// First child block, or first slot of a leaf; lane i stands for number `first + i`.
+    pub first: u32,
+    /// Bit per lane in use.
+    pub valid: u32,
+    /// Bit per lane that holds a turned box, whose bounds say little of it.
+    pub turned: u32,
+    /// Index into [`WideTree::turned`], if a lane is turned.
+    pub turned_lanes: u32,
+    /// Whether the lanes are boxes.
+    pub is_leaf: bool,
+}
+
+impl Block {
+    /// A block without lanes.
+    pub fn empty(is_leaf: bool) -> Self {
+        let faces = [[[f32::INFINITY; LANES], [f32::NEG_INFINITY; LANES]]; 3];
+        Self { faces, first: 0, valid: 0, turned: 0, turned_lanes: 0, is_leaf }
+    }
+}
+
+/// Sixteen-way tree over bounds; the root is block 0.
+#[derive(Clone, Debug)]
+pub struct WideTree {
+    /// All blocks; children of a block lie next to each other.
+    pub blocks: Vec<Block>,
+    /// The boxes of leaves with turned ones, in their own axes.
+    pub turned: Vec<TurnedLanes>,
+    /// Where the blocks' zero lies.
+    pub origin_in_world: DVec3,
+    /// Levels of blocks.
+    pub depth: usize,
+    /// Largest coordinate of any face.
+    pub size_m: f64,
+    /// Original index of each slot.
+    pub order: Vec<u32>,
+}
+
+impl WideTree {
+    /// A vector from the local origin, if f32 can be asked about it.
+    #[inline(always)]
+    pub fn local(&self, point_in_world: DVec3) -> Option<DVec3> {
+        let local = point_in_world - self.origin_in_world;
+        (local.abs().max_element() <= REACH_M).then_some(local)
+    }
+
+    /// What rounding may move a face or a point of a query that stays within `reach_m` of the local origin.
+    ///
+    /// Each of a face, a point, their product with an inverse direction and the difference of two products is off by
+    /// at most half a unit in the last place, 2^-24 of the coordinates: 2^-22 in all. This is four times as much.
+    /// World coordinates are rounded in f64 on both sides, which the second part covers.
+    #[inline(always)]
+    pub fn margin_m(&self, reach_m: f64) -> f64 {
+        const F32_SHARE: f64 = 1.0 / 1_048_576.0;
+        const F64_SHARE: f64 = 1e-14;
+        F32_SHARE * (1e-3 + self.size_m + reach_m) + F64_SHARE * self.origin_in_world.abs().max_element()
+    }
+
+    /// Checks the tree against the bounds it was built from.
+    ///
+    /// # Panics
+    /// When a box is lost or doubled, sticks out of its lane by more than the margin, a child sticks out of its
+    /// parent's lane, a block is unreachable, or the tree is deeper than it says.
+    pub fn assert_well_formed(&self, bounds: &[Bounds]) {
+        let mut seen = vec![false; bounds.len()];
+        let mut open: Vec<(usize, usize, Option<Bounds>)> = vec![(0, 1, None)];
+        let (mut reached, mut deepest) = (0, 0);
+        if self.blocks.is_empty() {
+            open.clear();
+        }
+        while let Some((at, depth, parent)) = open.pop() {
+            reached += 1;
+            deepest = deepest.max(depth);
+            let block = &self.blocks[at];
+            for lane in (0..LANES).filter(|lane| block.valid >> lane & 1 == 1) {
+                let corner = |side: usize| DVec3::from_array(block.faces.map(|axis| f64::from(axis[side][lane])));
+                let around = Bounds { min_in_world: corner(0), max_in_world: corner(1) };
+                assert!(parent.is_none_or(|p| p.contains(&around)), "lane {lane} of block {at} sticks out");
+                let child = block.first as usize + lane;
+                if !block.is_leaf {
+                    open.push((child, depth + 1, Some(around)));
+                    continue;
+                }
+                let original = self.order[child] as usize;
+                assert!(!seen[original], "box {original} is in two lanes");
+                seen[original] = true;
+                let shift = |corner: DVec3| corner + self.origin_in_world;
+                let in_world =
+                    Bounds { min_in_world: shift(around.min_in_world), max_in_world: shift(around.max_in_world) };
+                let grown = in_world.grown(self.margin_m(0.0));
+                assert!(grown.contains(&bounds[original]), "box {original} sticks out of its lane");
+            }
+        }
+        assert_eq!(reached, self.blocks.len(), "unreachable blocks");
+        assert!(deepest == self.depth && deepest <= MAX_DEPTH, "{deepest} levels, told {}", self.depth);
+        assert!(self.order.iter().all(|&original| seen[original as usize]), "a box is in no leaf");
+    }
+}

@@ -1,0 +1,85 @@
+//! Sixteen boxes in their own axes: sorts out turned boxes of which only the bounds are met.
+
+use crate::lanes::{LANES, Lane, Lanes, larger, smaller};
+use crate::turned_box::TurnedBox;
+use cosfly_frames::DVec3;
+
+/// Middles, half sizes and turns of the boxes of a leaf, seen from above, about the local origin.
+#[derive(Clone, Debug)]
+#[repr(align(64))]
+pub struct TurnedLanes {
+    center: [Lane; 2],
+    half: [Lane; 2],
+    sin: Lane,
+    cos: Lane,
+}
+
+impl TurnedLanes {
+    /// Boxes of no size; their lanes are not valid in the block.
+    pub const EMPTY: Self =
+        Self { center: [[0.0; LANES]; 2], half: [[0.0; LANES]; 2], sin: [0.0; LANES], cos: [1.0; LANES] };
+
+    /// Puts a box into a lane.
+    pub fn set(&mut self, lane: usize, shape: &TurnedBox, origin_in_world: DVec3) {
+        let (center, half) = (shape.center_in_world() - origin_in_world, shape.half_extents_m());
+        for axis in 0..2 {
+            self.center[axis][lane] = center[axis] as f32;
+            self.half[axis][lane] = half[axis] as f32;
+        }
+        let (sin, cos) = shape.sin_cos();
+        (self.sin[lane], self.cos[lane]) = (sin as f32, cos as f32);
+    }
+
+    /// Bits of the lanes that the moving rectangle may meet from above: its middle goes from `from` by `step`, of
+    /// which only the part between the parameters `enter` and `leave` counts, and it reaches `reach` to each side.
+    /// `reach` includes the margin.
+    ///
+    /// Separating axes: those of the box and the normal of the way. The way's ends are worked out first and the test
+    /// uses nothing but them, so that its rounding is that of the ends, however short the way.
+    #[inline(always)]
+    pub fn met(
+        &self,
+        lanes: impl Lanes,
+        from: [f32; 2],
+        step: [f32; 2],
+        reach: [f32; 2],
+        enter: &Lane,
+        leave: &Lane,
+    ) -> u32 {
+        let mut apart = [0.0; LANES];
+        for i in 0..LANES {
+            let (sin, cos) = (self.sin[i], self.cos[i]);
+            let (x, y) = (from[0] - self.center[0][i], from[1] - self.center[1][i]);
+            let (u, v) = (lanes.multiply_add(cos, x, sin * y), lanes.multiply_add(cos, y, -(sin * x)));
+            let step_u = lanes.multiply_add(cos, step[0], sin * step[1]);
+            let step_v = lanes.multiply_add(cos, step[1], -(sin * step[0]));
+            let (u0, v0) = (lanes.multiply_add(enter[i], step_u, u), lanes.multiply_add(enter[i], step_v, v));
+            let (u1, v1) = (lanes.multiply_add(leave[i], step_u, u), lanes.multiply_add(leave[i], step_v, v));
+            let half_u = self.half[0][i] + lanes.multiply_add(cos.abs(), reach[0], sin.abs() * reach[1]);
+            let half_v = self.half[1][i] + lanes.multiply_add(sin.abs(), reach[0], cos.abs() * reach[1]);
+            let beyond_u = larger(smaller(u0, u1), -larger(u0, u1)) - half_u;
+            let beyond_v = larger(smaller(v0, v1), -larger(v0, v1)) - half_v;
+            let (along_u, along_v) = (u1 - u0, v1 - v0);
+            let offset = lanes.multiply_add(u0, along_v, -(v0 * along_u)).abs();
+            let width = lanes.multiply_add(half_u, along_v.abs(), half_v * along_u.abs());
+            apart[i] = larger(larger(beyond_u, beyond_v), offset - width);
+        }
+        lanes.at_most(&apart, &[0.0; LANES])
+    }
+
+    /// How far apart the segment's bounds and the box are along the box's x and y axes; negative when they overlap.
+    #[inline(always)]
+    pub fn gaps(&self, lanes: impl Lanes, from: [f32; 2], to: [f32; 2]) -> [Lane; 2] {
+        let mut gaps = [[0.0; LANES]; 2];
+        for i in 0..LANES {
+            let (sin, cos) = (self.sin[i], self.cos[i]);
+            let (x0, y0) = (from[0] - self.center[0][i], from[1] - self.center[1][i]);
+            let (x1, y1) = (to[0] - self.center[0][i], to[1] - self.center[1][i]);
+            let (u0, v0) = (lanes.multiply_add(cos, x0, sin * y0), lanes.multiply_add(cos, y0, -(sin * x0)));
+            let (u1, v1) = (lanes.multiply_add(cos, x1, sin * y1), lanes.multiply_add(cos, y1, -(sin * x1)));
+            gaps[0][i] = larger(smaller(u0, u1), -larger(u0, u1)) - self.half[0][i];
+            gaps[1][i] = larger(smaller(v0, v1), -larger(v0, v1)) - self.half[1][i];
+        }
+        gaps
+    }
+}
