@@ -26,7 +26,7 @@ pub struct VoxelOptions {
 
 impl Default for VoxelOptions {
     fn default() -> Self {
-        Self { voxel_m: 2.0, motion_per_m: 0.1 }
+        Self { voxel_m: 2.0, motion_per_m: 1.0 }
     }
 }
 

@@ -1,14 +1,15 @@
 //! The textbook tree that the paper's baseline is given: binary, surface-area heuristic, one ray at a time.
 //!
 //! It is here so that "A* with a BVH" keeps meaning the same thing while the engine's own tree gets faster. Nodes
-//! are 32 bytes in `f32`, rounded outward; leaves ask the exact `f64` boxes; nearer children come first.
+//! are `f32`, rounded outward; leaves ask the exact `f64` boxes; nearer children come first.
 
 use crate::obstacles::solid::Solid;
 use cosfly_frames::DVec3;
 use cosfly_geometry::OrientedBox;
+use glam::Vec3A;
 
 /// Most boxes in a leaf.
-const LEAF_SIZE: usize = 2;
+const LEAF_SIZE: usize = 1;
 /// Entries of the traversal stack; deeper trees than this are cut short by halving.
 const STACK: usize = 64;
 /// Depth beyond which ranges are halved by count, which keeps the tree within the stack.
@@ -16,8 +17,8 @@ const SAH_DEPTH: usize = 28;
 
 #[derive(Clone, Copy)]
 struct Node {
-    low: [f32; 3],
-    high: [f32; 3],
+    low: Vec3A,
+    high: Vec3A,
     /// First child of an inner node (the second follows it), first box of a leaf.
     first: u32,
     /// Boxes of a leaf; 0 marks an inner node.
@@ -60,39 +61,73 @@ impl PlainBvh {
 
     /// Whether anything stands between two points.
     pub fn blocked(&self, from: DVec3, to: DVec3) -> bool {
-        let step = to - from;
-        let one_over = |d: f64| if d.abs() < 1e-30 { 1e30_f32 } else { (1.0 / d) as f32 };
-        let inverse = [one_over(step.x), one_over(step.y), one_over(step.z)];
-        let origin = [from.x as f32, from.y as f32, from.z as f32];
-        // A hair is added for what `f32` loses at these coordinates.
-        let slack_m = 4.0 * f32::EPSILON * (from.abs().max_element().max(to.abs().max_element()) as f32 + 1.0);
-        let entry = |node: &Node| {
-            let (mut enter, mut leave) = (0.0_f32, 1.0_f32);
-            for k in 0..3 {
-                let t0 = (node.low[k] - slack_m - origin[k]) * inverse[k];
-                let t1 = (node.high[k] + slack_m - origin[k]) * inverse[k];
-                enter = enter.max(t0.min(t1));
-                leave = leave.min(t0.max(t1));
+        self.blocker(from, to).is_some()
+    }
+
+    /// How many of `points` are seen from `camera`. What hid the last point often hides the next one, too.
+    pub fn visible_points(&self, camera: DVec3, points: &[DVec3]) -> usize {
+        let mut last: Option<&Solid> = None;
+        let mut visible = 0;
+        for &point in points {
+            if last.is_some_and(|solid| solid.meets_segment(camera, point)) {
+                continue;
             }
-            (enter <= leave * (1.0 + 4.0 * f32::EPSILON)).then_some(enter)
-        };
-        let mut found = false;
-        self.walk(entry, |solid, _| {
-            found |= solid.meets_segment(from, to);
-            if found { f32::NEG_INFINITY } else { f32::INFINITY }
-        });
-        found
+            match self.blocker(camera, point) {
+                Some(solid) => last = Some(solid),
+                None => visible += 1,
+            }
+        }
+        visible
+    }
+
+    /// A box that meets the segment, if there is one.
+    fn blocker(&self, from: DVec3, to: DVec3) -> Option<&Solid> {
+        let ray = NodeRay::new(from, to);
+        let mut stack = [0_u32; STACK];
+        let mut height = 0;
+        let mut at = 0;
+        if !self.nodes.first().is_some_and(|root| ray.entry(root) <= 1.0) {
+            return None;
+        }
+        loop {
+            let node = &self.nodes[at as usize];
+            if node.count > 0 {
+                let leaf = &self.solids[node.first as usize..(node.first + node.count) as usize];
+                if let Some(found) = leaf.iter().find(|solid| solid.meets_segment(from, to)) {
+                    return Some(found);
+                }
+            } else {
+                let children = &self.nodes[node.first as usize..node.first as usize + 2];
+                let (left, right) = (ray.entry(&children[0]), ray.entry(&children[1]));
+                let (near, far) = if left <= right { (0, 1) } else { (1, 0) };
+                if far_of(left, right) <= 1.0 {
+                    stack[height] = node.first + far;
+                    height += 1;
+                }
+                if near_of(left, right) <= 1.0 {
+                    at = node.first + near;
+                    continue;
+                }
+            }
+            if height == 0 {
+                return None;
+            }
+            height -= 1;
+            at = stack[height];
+        }
     }
 
     /// Signed distance to the nearest box, capped at `within_m`.
     pub fn nearest_m(&self, point: DVec3, within_m: f64) -> f64 {
+        let (low, high) = (rounded_down(point), rounded_up(point));
         let mut best = within_m;
+        // Inside one box another may be deeper: nodes that hold the point (gap 0) always count.
         self.walk(
-            |node| Some(gap_m(node, point, point)),
-            |solid, _| {
+            within_m,
+            |node| gap_m(node, low, high),
+            |solid| {
                 best = best.min(solid.signed_distance(point).0);
-                // Inside one box another may be deeper: nodes that hold the point (gap 0) still count.
-                next_up(best.max(0.0))
+                best.max(0.0)
             },
         );
         best
@@ -101,53 +136,92 @@ impl PlainBvh {
     /// Smallest distance of the segment to a box, capped at `within_m`; 0 or less when they touch.
     pub fn segment_clearance_m(&self, from: DVec3, to: DVec3, within_m: f64) -> f64 {
         let (low, high) = (from.min(to), from.max(to));
+        let (node_low, node_high) = (rounded_down(low), rounded_up(high));
         let mut best = within_m;
         self.walk(
-            |node| Some(gap_m(node, low, high)),
-            |solid, limit| {
+            within_m,
+            |node| gap_m(node, node_low, node_high),
+            |solid| {
                 if solid.bounds_gap_m(low, high) < best {
                     best = best.min(solid.approach(from, to).distance_m);
                 }
-                limit.min(next_up(best.max(0.0)))
+                best.max(0.0)
             },
         );
         best
     }
 
-    /// Visits leaves by rising key while the key is not above the limit that the last visit returned.
+    /// Visits leaves, nearer ones first, while their distance is not above the limit that the last visit returned.
     #[inline(always)]
-    fn walk(&self, key: impl Fn(&Node) -> Option<f32>, mut visit: impl FnMut(&Solid, f32) -> f32) {
-        let Some(root) = self.nodes.first() else { return };
-        let Some(root_key) = key(root) else { return };
+    fn walk(&self, limit: f64, gap_m: impl Fn(&Node) -> f32, mut visit: impl FnMut(&Solid) -> f64) {
+        let mut limit = next_up(limit);
         let mut stack = [(0_u32, 0.0_f32); STACK];
-        stack[0] = (0, root_key);
-        let (mut height, mut limit) = (1, f32::INFINITY);
+        let mut height = usize::from(!self.nodes.is_empty());
         while height > 0 {
             height -= 1;
-            let (at, at_key) = stack[height];
-            if at_key > limit {
-                continue;
-            }
-            let node = &self.nodes[at as usize];
-            if node.count > 0 {
-                for solid in &self.solids[node.first as usize..(node.first + node.count) as usize] {
-                    limit = visit(solid, limit);
+            let (mut at, mut at_gap) = stack[height];
+            while at_gap <= limit {
+                let node = &self.nodes[at as usize];
+                if node.count > 0 {
+                    for solid in &self.solids[node.first as usize..(node.first + node.count) as usize] {
+                        limit = next_up(visit(solid));
+                    }
+                    break;
                 }
-                continue;
-            }
-            let child = |offset: u32| (node.first + offset, key(&self.nodes[(node.first + offset) as usize]));
-            let (mut near, mut far) = (child(0), child(1));
-            if far.1.is_some_and(|f| near.1.is_none_or(|n| f < n)) {
-                (near, far) = (far, near);
-            }
-            for (index, key) in [far, near] {
-                if let Some(key) = key.filter(|&key| key <= limit) {
-                    stack[height] = (index, key);
+                let children = &self.nodes[node.first as usize..node.first as usize + 2];
+                let (left, right) = (gap_m(&children[0]), gap_m(&children[1]));
+                let (near, far) = if left <= right { (0, 1) } else { (1, 0) };
+                if far_of(left, right) <= limit {
+                    stack[height] = (node.first + far, far_of(left, right));
                     height += 1;
                 }
+                (at, at_gap) = (node.first + near, near_of(left, right));
             }
         }
     }
+}
+
+/// A segment made ready for the nodes' boxes.
+struct NodeRay {
+    /// The origin, moved by a hair for what `f32` loses at these coordinates: up against lower faces, down against
+    /// upper ones.
+    above: Vec3A,
+    below: Vec3A,
+    inverse: Vec3A,
+}
+
+impl NodeRay {
+    fn new(from: DVec3, to: DVec3) -> Self {
+        let (origin, step) = (from.as_vec3a(), (to - from).as_vec3a());
+        let slack_m = 4.0 * f32::EPSILON * (from.abs().max(to.abs()).max_element() as f32 + 1.0);
+        let still = step.abs().cmplt(Vec3A::splat(1e-30));
+        let inverse = Vec3A::select(still, Vec3A::splat(1e30), step.recip());
+        Self { above: origin + slack_m, below: origin - slack_m, inverse }
+    }
+
+    /// Where the segment enters the node's box, as a share of its length; beyond 1 when it does not.
+    #[inline(always)]
+    fn entry(&self, node: &Node) -> f32 {
+        let low = (node.low - self.above) * self.inverse;
+        let high = (node.high - self.below) * self.inverse;
+        let crossed = low.cmpgt(high);
+        let (near, far) = (Vec3A::select(crossed, high, low), Vec3A::select(crossed, low, high));
+        let enter = far_of(far_of(near.x, near.y), far_of(near.z, 0.0));
+        let leave = near_of(near_of(far.x, far.y), near_of(far.z, 1.0));
+        if enter <= leave * (1.0 + 8.0 * f32::EPSILON) { near_of(enter, 1.0) } else { 2.0 }
+    }
+}
+
+/// The smaller; one instruction, since nothing here is not a number.
+#[inline(always)]
+fn near_of(a: f32, b: f32) -> f32 {
+    if a < b { a } else { b }
+}
+
+/// The larger.
+#[inline(always)]
+fn far_of(a: f32, b: f32) -> f32 {
+    if a > b { a } else { b }
 }
 
 /// The next `f32` that is not below a distance.
@@ -157,25 +231,22 @@ fn next_up(value_m: f64) -> f32 {
 
 /// A lower bound of the distance between a node and an axis-aligned box, metres.
 #[inline(always)]
-fn gap_m(node: &Node, low: DVec3, high: DVec3) -> f32 {
-    let (low, high) = (low.to_array(), high.to_array());
-    let mut squared = 0.0_f64;
-    for k in 0..3 {
-        let gap = (f64::from(node.low[k]) - high[k]).max(low[k] - f64::from(node.high[k])).max(0.0);
-        squared += gap * gap;
-    }
-    ((squared.sqrt() * (1.0 - 1e-6)) as f32).max(0.0)
+fn gap_m(node: &Node, low: Vec3A, high: Vec3A) -> f32 {
+    (node.low - high).max(low - node.high).max(Vec3A::ZERO).length() * (1.0 - 1e-5)
+}
+
+fn rounded_down(point: DVec3) -> Vec3A {
+    Vec3A::from_array(point.to_array().map(|value| (value as f32).next_down()))
+}
+
+fn rounded_up(point: DVec3) -> Vec3A {
+    Vec3A::from_array(point.to_array().map(|value| (value as f32).next_up()))
 }
 
 fn node_around(solids: &[Solid], first: u32) -> Node {
     let low = solids.iter().fold(DVec3::INFINITY, |low, solid| low.min(solid.min));
     let high = solids.iter().fold(DVec3::NEG_INFINITY, |high, solid| high.max(solid.max));
-    Node {
-        low: low.to_array().map(|value| (value as f32).next_down()),
-        high: high.to_array().map(|value| (value as f32).next_up()),
-        first,
-        count: 0,
-    }
+    Node { low: rounded_down(low), high: rounded_up(high), first, count: 0 }
 }
 
 fn half_area_m2(low: DVec3, high: DVec3) -> f64 {

@@ -35,7 +35,7 @@ impl Sight for BoxBvh {
 
 impl Sight for PlainBvh {
     fn visible_points(&self, camera: DVec3, body: &[DVec3]) -> usize {
-        body.iter().filter(|&&point| !self.blocked(camera, point)).count()
+        PlainBvh::visible_points(self, camera, body)
     }
 
     fn distance_m(&self, point: DVec3, within_m: f64) -> f64 {
