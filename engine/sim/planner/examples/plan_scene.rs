@@ -3,6 +3,7 @@
 use cosfly_frames::Seed;
 use cosfly_geometry::BoxBvh;
 use cosfly_planner::scenes::{Scene, SceneKind};
+use cosfly_planner::config::SearchEffort;
 use cosfly_planner::{Certificate, MucoConfig, PlanOutcome, Preset, plan};
 use std::time::Instant;
 
@@ -21,6 +22,9 @@ fn options() -> Options {
         match word.as_str() {
             "--paths" => options.paths = value().parse().unwrap_or(5),
             "--seed" => options.seed = value().parse().unwrap_or(1),
+            "--relative" => options.config.search.relative_motion = value().parse().unwrap_or(0.2),
+            "--absolute" => options.config.search.absolute_motion = value().parse().unwrap_or(0.3),
+            "--effort" if value() == "quality" => options.config.search.effort = SearchEffort::Quality,
             "--preset" if value() == "paper" => options.config.preset = Preset::Paper,
             name => options.kinds.extend(SceneKind::ALL.iter().filter(|kind| kind.name() == name)),
         }

@@ -1,16 +1,13 @@
 //! The polar lattice of viewpoints around the moving target.
 //!
 //! A node is (azimuth, altitude, horizontal radius) around the target's feet in **world** azimuth, so that
-//! "stay" moves with the target. The (altitude, radius) pairs of one azimuth are its *lanes*; their number is
-//! rounded up to whole vectors of [`VECTOR`], and the lanes beyond are never free.
+//! "stay" moves with the target. An (altitude, radius) pair is a *ring* of nodes at all azimuths.
 
 use crate::config::ViewConfig;
 use cosfly_frames::{DVec3, real};
 
-/// Lanes are handled in groups of this many.
-pub const VECTOR: usize = 16;
-/// Largest number of (altitude, radius) pairs.
-pub const MAX_LANES: usize = 96;
+/// Largest number of rings.
+pub const MAX_RINGS: usize = 96;
 
 /// Numbers of altitudes and the like.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -31,10 +28,6 @@ pub struct Lattice {
     pub altitudes_m: Vec<f64>,
     /// Horizontal radii, metres, ascending.
     pub radii_m: Vec<f64>,
-    /// Altitude of each lane, metres, vectors filled up.
-    pub lane_altitude_m: Vec<f32>,
-    /// Radius of each lane, metres, vectors filled up.
-    pub lane_radius_m: Vec<f32>,
 }
 
 impl Lattice {
@@ -50,45 +43,31 @@ impl Lattice {
         let low = (view.min_altitude_m + 0.5).min(view.max_altitude_m);
         let altitudes_m = spread(size.altitudes, low, view.max_altitude_m, 1.3);
         let radii_m = spread(size.radii, view.min_radius_m, view.max_radius_m, 1.0);
-        let lanes = altitudes_m.len() * radii_m.len();
-        let padded = lanes.next_multiple_of(VECTOR);
-        let lane = |of: &dyn Fn(usize) -> f64| (0..padded).map(|lane| of(lane.min(lanes - 1)) as f32).collect();
-        Self {
-            lane_altitude_m: lane(&|lane| altitudes_m[lane / radii_m.len()]),
-            lane_radius_m: lane(&|lane| radii_m[lane % radii_m.len()]),
-            directions,
-            altitudes_m,
-            radii_m,
-        }
+        Self { directions, altitudes_m, radii_m }
     }
 
-    /// (altitude, radius) pairs per azimuth.
-    pub fn lanes(&self) -> usize {
+    /// (altitude, radius) pairs.
+    pub fn rings(&self) -> usize {
         self.altitudes_m.len() * self.radii_m.len()
     }
 
-    /// Lanes per azimuth with those that fill up the last vector.
-    pub fn stride(&self) -> usize {
-        self.lane_radius_m.len()
+    /// Altitude and radius of a ring, metres.
+    pub fn ring_m(&self, ring: usize) -> (f64, f64) {
+        (self.altitudes_m[ring / self.radii_m.len()], self.radii_m[ring % self.radii_m.len()])
     }
 
-    /// Nodes per frame, filled up; node = azimuth * stride + altitude * radii + radius.
+    /// Nodes per frame; node = (altitude * radii + radius) * azimuths + azimuth.
     pub fn nodes(&self) -> usize {
-        self.directions.len() * self.stride()
+        self.directions.len() * self.rings()
     }
 
-    /// Whether a node is one and not filling.
-    pub fn is_real(&self, node: usize) -> bool {
-        node % self.stride() < self.lanes()
-    }
-
-    /// (azimuth, altitude, radius) of a real node.
+    /// (azimuth, altitude, radius) of a node.
     pub fn split(&self, node: usize) -> (usize, usize, usize) {
-        let (azimuth, lane) = (node / self.stride(), node % self.stride());
-        (azimuth, lane / self.radii_m.len(), lane % self.radii_m.len())
+        let (ring, azimuth) = (node / self.directions.len(), node % self.directions.len());
+        (azimuth, ring / self.radii_m.len(), ring % self.radii_m.len())
     }
 
-    /// Where a real node is relative to the target's feet, metres.
+    /// Where a node is relative to the target's feet, metres.
     pub fn offset(&self, node: usize) -> DVec3 {
         let (azimuth, altitude, radius) = self.split(node);
         self.directions[azimuth] * self.radii_m[radius] + DVec3::new(0.0, 0.0, self.altitudes_m[altitude])

@@ -3,7 +3,7 @@
 //! No rays are cast: for one azimuth a box covers an interval of the horizontal ray from the target, and a
 //! few comparisons per node say whether the line of sight passes through the box there.
 
-use super::lattice::{Lattice, MAX_LANES, VECTOR};
+use super::lattice::{Lattice, MAX_RINGS};
 use crate::obstacles::{Surroundings, local::LocalObstacles, solid::Solid};
 use cosfly_frames::simd::Level;
 use cosfly_frames::{DVec3, TargetState, simd_kernel};
@@ -16,10 +16,13 @@ pub const BODY_HEIGHTS: [(f64, u32); 5] = [(0.12, 1), (0.5, 1), (1.05, 2), (1.42
 pub type NodeState = u8;
 /// Set when an obstacle is within the clearance plus [`CLOSE_EXTRA_M`].
 pub const CLOSE: NodeState = 0x10;
-/// The node is too near an obstacle or the ground, or no node at all.
+/// The node is too near an obstacle or the ground.
 pub const UNSAFE: NodeState = 0xff;
 /// See [`CLOSE`], metres.
 const CLOSE_EXTRA_M: f64 = 1.5;
+
+/// Azimuths, and rings, are handled in groups of this many.
+const VECTOR: usize = 16;
 
 const CLOSE_BIT: u32 = 1 << 8;
 const UNSAFE_BIT: u32 = 1 << 9;
@@ -31,8 +34,12 @@ pub struct Scanner<'a> {
     cos: Vec<f32>,
     sin: Vec<f32>,
     body_m: [f32; 5],
-    /// Climb per metre from each body height to each lane.
-    slopes: [[f32; MAX_LANES]; 5],
+    /// Radius and altitude of each ring, filled up to whole vectors, metres.
+    radius_m: Vec<f32>,
+    altitude_m: Vec<f32>,
+    /// Climb per metre from each body height to each ring.
+    slopes: [[f32; MAX_RINGS]; 5],
+    /// By azimuth and ring.
     marks: Vec<u32>,
     profiles: Vec<Profile>,
     level: Level,
@@ -56,10 +63,14 @@ impl<'a> Scanner<'a> {
         let padded = lattice.directions.len().next_multiple_of(VECTOR);
         let direction = |azimuth: usize| lattice.directions[azimuth % lattice.directions.len()];
         let body_m = BODY_HEIGHTS.map(|(height, _)| (height * height_m / 1.75) as f32);
+        let rings = lattice.rings().next_multiple_of(VECTOR);
+        let ring = |ring: usize| lattice.ring_m(ring.min(lattice.rings() - 1));
+        let altitude_m: Vec<f32> = (0..rings).map(|r| ring(r).0 as f32).collect();
+        let radius_m: Vec<f32> = (0..rings).map(|r| ring(r).1 as f32).collect();
         let slopes = body_m.map(|height| {
-            let mut slopes = [0.0; MAX_LANES];
-            for (lane, slope) in slopes.iter_mut().enumerate().take(lattice.stride()) {
-                *slope = (lattice.lane_altitude_m[lane] - height) / lattice.lane_radius_m[lane];
+            let mut slopes = [0.0; MAX_RINGS];
+            for (slope, (altitude, radius)) in slopes.iter_mut().zip(altitude_m.iter().zip(&radius_m)) {
+                *slope = (altitude - height) / radius;
             }
             slopes
         });
@@ -68,7 +79,9 @@ impl<'a> Scanner<'a> {
             sin: (0..padded).map(|azimuth| direction(azimuth).y as f32).collect(),
             body_m,
             slopes,
-            marks: vec![0; padded * lattice.stride()],
+            marks: vec![0; padded * rings],
+            radius_m,
+            altitude_m,
             profiles: Vec::new(),
             level: Level::best(),
             lattice,
@@ -98,24 +111,17 @@ impl<'a> Scanner<'a> {
         let shape = Shape {
             cos: &self.cos,
             sin: &self.sin,
-            radius: &self.lattice.lane_radius_m,
-            altitude: &self.lattice.lane_altitude_m,
+            radius: &self.radius_m,
+            altitude: &self.altitude_m,
             slopes: &self.slopes,
             body_m: self.body_m,
             grow: [keep_out_m as f32, (keep_out_m + CLOSE_EXTRA_M) as f32],
             farthest: farthest as f32,
         };
         mark_all(self.level, &shape, &self.profiles, &mut self.marks);
-        write_states(self.level, &self.marks[..states.len()], states);
-        self.close_filling(states);
+        let azimuths = self.lattice.directions.len();
+        write_states(self.level, &self.marks, self.radius_m.len(), azimuths, states);
         self.close_below_ground(feet, obstacles, states);
-    }
-
-    fn close_filling(&self, states: &mut [NodeState]) {
-        let (lanes, stride) = (self.lattice.lanes(), self.lattice.stride());
-        if lanes < stride {
-            states.chunks_exact_mut(stride).for_each(|row| row[lanes..].fill(UNSAFE));
-        }
     }
 
     fn close_below_ground(&self, feet: DVec3, obstacles: &LocalObstacles<'_>, states: &mut [NodeState]) {
@@ -137,7 +143,7 @@ impl<'a> Scanner<'a> {
                 for (h, &altitude) in lattice.altitudes_m.iter().enumerate() {
                     let high_enough = altitude + 0.9 >= rise + lattice.altitudes_m[0];
                     if !(high_enough || h == top && altitude >= rise + 3.0) {
-                        states[azimuth * lattice.stride() + h * radii + r] = UNSAFE;
+                        states[(h * radii + r) * lattice.directions.len() + azimuth] = UNSAFE;
                     }
                 }
             }
@@ -170,7 +176,7 @@ struct Shape<'a> {
     sin: &'a [f32],
     radius: &'a [f32],
     altitude: &'a [f32],
-    slopes: &'a [[f32; MAX_LANES]; 5],
+    slopes: &'a [[f32; MAX_RINGS]; 5],
     body_m: [f32; 5],
     grow: [f32; 2],
     farthest: f32,
@@ -221,15 +227,15 @@ fn cross(shape: &Shape<'_>, first: usize, solid: &Profile, out: &mut Crossings) 
 }
 
 #[inline(always)]
-fn vectors(lanes: &[f32]) -> &[[f32; VECTOR]] {
-    lanes.as_chunks().0
+fn vectors(values: &[f32]) -> &[[f32; VECTOR]] {
+    values.as_chunks().0
 }
 
-/// Marks the lanes of one azimuth that lie in the grown boxes.
+/// Marks the rings of one azimuth that lie in the grown boxes.
 #[inline(always)]
 fn mark_inside(shape: &Shape<'_>, solid: &Profile, along: [(f32, f32); 2], marks: &mut [u32]) {
-    let lanes = vectors(shape.radius).iter().zip(vectors(shape.altitude));
-    for (marks, (radius, altitude)) in marks.as_chunks_mut::<VECTOR>().0.iter_mut().zip(lanes) {
+    let rings = vectors(shape.radius).iter().zip(vectors(shape.altitude));
+    for (marks, (radius, altitude)) in marks.as_chunks_mut::<VECTOR>().0.iter_mut().zip(rings) {
         for j in 0..VECTOR {
             let inside = |k: usize| {
                 (radius[j] >= along[k].0)
@@ -242,7 +248,7 @@ fn mark_inside(shape: &Shape<'_>, solid: &Profile, along: [(f32, f32); 2], marks
     }
 }
 
-/// Marks the lanes of one azimuth whose lines of sight pass the box: they climb by their slope per metre from
+/// Marks the rings of one azimuth whose lines of sight pass the box: they climb by their slope per metre from
 /// the body point, and the box lies between two heights over the distances `enter` to `leave`.
 #[inline(always)]
 fn mark_hidden(shape: &Shape<'_>, solid: &Profile, enter: f32, leave: f32, marks: &mut [u32]) {
@@ -266,9 +272,9 @@ fn mark_hidden(shape: &Shape<'_>, solid: &Profile, enter: f32, leave: f32, marks
 }
 
 simd_kernel! {
-    /// Marks every node (azimuth * lanes + lane): bits 0..5 a hidden body height, bit 8 close, bit 9 unsafe.
+    /// Marks every node (azimuth * rings + ring): bits 0..5 a hidden body height, bit 8 close, bit 9 unsafe.
     fn mark_all(shape: &Shape<'_>, solids: &[Profile], marks: &mut [u32]) {
-        let lanes = shape.radius.len();
+        let rings = shape.radius.len();
         let mut crossings = Crossings { enter: [[0.0; VECTOR]; 3], leave: [[0.0; VECTOR]; 3] };
         for solid in solids {
             for first in (0..shape.cos.len()).step_by(VECTOR) {
@@ -276,7 +282,7 @@ simd_kernel! {
                 while bits != 0 {
                     let j = bits.trailing_zeros() as usize;
                     bits &= bits - 1;
-                    let row = &mut marks[(first + j) * lanes..(first + j + 1) * lanes];
+                    let row = &mut marks[(first + j) * rings..(first + j + 1) * rings];
                     let along = |k: usize| (crossings.enter[k][j], crossings.leave[k][j]);
                     mark_inside(shape, solid, [along(1), along(2)], row);
                     let (enter, leave) = along(0);
@@ -290,17 +296,23 @@ simd_kernel! {
 }
 
 simd_kernel! {
-    /// Counts what the marks say.
-    fn write_states(marks: &[u32], states: &mut [NodeState]) {
-        for (marks, states) in marks.as_chunks::<VECTOR>().0.iter().zip(states.as_chunks_mut::<VECTOR>().0) {
-            for j in 0..VECTOR {
-                let mut hidden = 0_u32;
-                for (k, (_, count)) in BODY_HEIGHTS.iter().enumerate() {
-                    hidden = hidden.wrapping_add(if marks[j] & (1 << k) != 0 { *count } else { 0 });
+    /// Counts what the marks (by azimuth and ring) say, into states by ring and azimuth.
+    fn write_states(marks: &[u32], rings: usize, azimuths: usize, states: &mut [NodeState]) {
+        for (azimuth, marks) in marks.chunks_exact(rings).enumerate().take(azimuths) {
+            for (group, marks) in marks.as_chunks::<VECTOR>().0.iter().enumerate() {
+                let mut found = [0_u8; VECTOR];
+                for j in 0..VECTOR {
+                    let mut hidden = 0_u32;
+                    for (k, (_, count)) in BODY_HEIGHTS.iter().enumerate() {
+                        hidden = hidden.wrapping_add(if marks[j] & (1 << k) != 0 { *count } else { 0 });
+                    }
+                    let close = if marks[j] & CLOSE_BIT != 0 { u32::from(CLOSE) } else { 0 };
+                    found[j] = if marks[j] & UNSAFE_BIT != 0 { UNSAFE } else { (hidden | close) as u8 };
                 }
-                let close = if marks[j] & CLOSE_BIT != 0 { u32::from(CLOSE) } else { 0 };
-                let state = if marks[j] & UNSAFE_BIT != 0 { u32::from(UNSAFE) } else { hidden | close };
-                states[j] = state as u8;
+                let first = group * VECTOR * azimuths + azimuth;
+                for (found, state) in found.iter().zip(states.iter_mut().skip(first).step_by(azimuths)) {
+                    *state = *found;
+                }
             }
         }
     }
@@ -351,10 +363,6 @@ mod tests {
                 assert!(states == other, "{}", level.name());
             }
             for (node, &state) in states.iter().enumerate() {
-                if !lattice.is_real(node) {
-                    assert_eq!(state, UNSAFE);
-                    continue;
-                }
                 let position = feet + lattice.offset(node);
                 let dark = |height: f64| {
                     let eye = feet + DVec3::Z * height;

@@ -138,9 +138,8 @@ fn node_costs(
     config: &MucoConfig,
 ) -> NodeCosts {
     let weights: Weights = config.resolved_weights();
-    let radii = lattice.radii_m.len();
-    let lane = |lane: usize| {
-        let (up, across) = (lattice.altitudes_m[lane / radii], lattice.radii_m[lane % radii]);
+    let ring = |ring: usize| {
+        let (up, across) = lattice.ring_m(ring);
         let offset = DVec3::new(across, 0.0, up);
         let view = problem.view;
         let cost = weights.tracking * tracking::distance_cost(offset.length(), view.distance_m)
@@ -158,7 +157,7 @@ fn node_costs(
     NodeCosts {
         hidden: [0.7 / 8.0, 0.3 / 64.0].map(|share| (VISIBILITY_FACTOR * weights.visibility * share) as f32),
         close: (4.0 * weights.safety) as f32,
-        lane: (0..lattice.stride()).map(|index| lane(index.min(lattice.lanes() - 1))).collect(),
+        ring: (0..lattice.rings()).map(ring).collect(),
         azimuth: frames.iter().map(|&f| lattice.directions.iter().map(|d| azimuth(f, d)).collect()).collect(),
         extra: extra_costs(problem, obstacles, lattice, frames),
     }
@@ -178,7 +177,7 @@ fn extra_costs(
     let mut costs = vec![vec![0.0_f32; lattice.nodes()]; frames.len()];
     let context = problem.context(obstacles);
     let mut per_frame = vec![0.0; problem.track.len()];
-    for node in (0..lattice.nodes()).filter(|&node| lattice.is_real(node)) {
+    for node in 0..lattice.nodes() {
         let offset = lattice.offset(node);
         let hover: Vec<DVec3> = problem.track.states.iter().map(|state| state.feet_in_world + offset).collect();
         for weighted in &extra {

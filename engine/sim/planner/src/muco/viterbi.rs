@@ -5,7 +5,7 @@
 //! end, so the minimum over all neighbours is taken one coordinate after the other. No pointers back are kept: the
 //! way is found again from the costs of all layers.
 
-use super::lattice::{Lattice, MAX_LANES, VECTOR};
+use super::lattice::Lattice;
 use super::scan::{CLOSE, NodeState, UNSAFE};
 use cosfly_frames::simd::Level;
 use cosfly_frames::{DVec3, real, simd_kernel};
@@ -14,18 +14,14 @@ use cosfly_frames::{DVec3, real, simd_kernel};
 pub const MAX_AZIMUTH_STEPS: usize = 6;
 /// What forbids.
 const FORBIDDEN: f32 = f32::INFINITY;
-/// Room on both sides of a row of lanes, so that neighbours are read without a test.
-const ROOM: usize = VECTOR;
-const ROW: usize = ROOM + MAX_LANES + ROOM;
-
 /// What a node costs beside being seen from: see [`super::search`].
 pub struct NodeCosts {
     /// Per hidden body point of 8 (linear) and its square.
     pub hidden: [f32; 2],
     /// Near an obstacle.
     pub close: f32,
-    /// By lane.
-    pub lane: Vec<f32>,
+    /// By ring.
+    pub ring: Vec<f32>,
     /// By layer and azimuth.
     pub azimuth: Vec<Vec<f32>>,
     /// By layer and node; empty when there are no further terms.
@@ -48,9 +44,12 @@ pub struct MoveCosts {
 pub struct SearchSpace {
     /// Node states, layer by layer.
     pub states: Vec<NodeState>,
-    /// Cost of reaching each node of each layer, less a number per layer.
+    /// Cost of reaching each node of each layer, less the lowest of the layer before.
     arrival: Vec<f32>,
-    /// One layer between its two steps, with the azimuths repeated at both ends.
+    /// The lowest of each layer.
+    lowest: Vec<f32>,
+    /// One layer between its steps; rings before the last step have some azimuths repeated at both ends.
+    climbed: Vec<f32>,
     turned: Vec<f32>,
 }
 
@@ -65,15 +64,15 @@ pub struct Viterbi<'a> {
     level: Level,
 }
 
-/// Prices of single steps by the lane they lead to.
+/// Prices of single steps by the ring they lead to.
 struct MovePrices {
     radii: usize,
     steps: usize,
     /// From the altitude below, from the one above.
-    climb: [Vec<f32>; 2],
+    climb: Vec<[f32; 2]>,
     /// From the radius inside, from the one outside.
-    reach: [Vec<f32>; 2],
-    /// From the azimuth `k - steps` further.
+    reach: Vec<[f32; 2]>,
+    /// From 1, 2 ... azimuths further, to either side.
     turn: Vec<Vec<f32>>,
 }
 
@@ -82,17 +81,11 @@ impl MovePrices {
         let weight = moves.relative + moves.absolute;
         let square = |gap: f64| if gap <= moves.longest_m { (weight * gap * gap) as f32 } else { FORBIDDEN };
         let radii = lattice.radii_m.len();
-        let by_lane = |price: &dyn Fn(usize) -> f32| -> Vec<f32> {
-            (0..lattice.stride()).map(|lane| if lane < lattice.lanes() { price(lane) } else { FORBIDDEN }).collect()
-        };
         let between = |values: &[f64], from: Option<usize>, to: usize| {
             from.and_then(|from| values.get(from)).map_or(FORBIDDEN, |value| square((value - values[to]).abs()))
         };
-        let climb = |from: &dyn Fn(usize) -> Option<usize>| {
-            by_lane(&|lane| between(&lattice.altitudes_m, from(lane / radii), lane / radii))
-        };
-        let reach = |from: &dyn Fn(usize) -> Option<usize>| {
-            by_lane(&|lane| between(&lattice.radii_m, from(lane % radii), lane % radii))
+        let both = |values: &[f64], to: usize| {
+            [between(values, to.checked_sub(1), to), between(values, Some(to + 1), to)]
         };
         let angle = real::TAU / lattice.directions.len() as f64;
         let chord = |steps: usize| 2.0 * real::sin(0.5 * angle * steps as f64);
@@ -100,15 +93,13 @@ impl MovePrices {
         let nearest = lattice.radii_m.first().copied().unwrap_or(0.0);
         let steps = (0..=MAX_AZIMUTH_STEPS.min(possible)).rev().find(|&k| chord(k) * nearest <= moves.longest_m);
         let steps = steps.unwrap_or(0);
-        let turn = (0..=2 * steps)
-            .map(|k| by_lane(&|lane| square(chord(k.abs_diff(steps)) * lattice.radii_m[lane % radii])))
-            .collect();
+        let turn = |ring: usize| (1..=steps).map(|k| square(chord(k) * lattice.ring_m(ring).1)).collect();
         Self {
             radii,
             steps,
-            climb: [climb(&|h| h.checked_sub(1)), climb(&|h| Some(h + 1))],
-            reach: [reach(&|r| r.checked_sub(1)), reach(&|r| Some(r + 1))],
-            turn,
+            climb: (0..lattice.rings()).map(|ring| both(&lattice.altitudes_m, ring / radii)).collect(),
+            reach: (0..lattice.rings()).map(|ring| both(&lattice.radii_m, ring % radii)).collect(),
+            turn: (0..lattice.rings()).map(turn).collect(),
         }
     }
 }
@@ -124,8 +115,10 @@ impl<'a> Viterbi<'a> {
         moves: MoveCosts,
     ) -> Self {
         space.arrival.resize(lattice.nodes() * feet.len(), 0.0);
+        space.lowest.resize(feet.len(), 0.0);
         let prices = MovePrices::new(lattice, &moves);
-        space.turned.resize((lattice.directions.len() + 2 * prices.steps) * lattice.stride(), 0.0);
+        space.climbed.resize(lattice.nodes(), 0.0);
+        space.turned.resize(lattice.directions.len() + 2 * prices.steps, 0.0);
         Self { lattice, space, feet, moves, costs, prices, level: Level::best() }
     }
 
@@ -150,31 +143,32 @@ impl<'a> Viterbi<'a> {
     pub fn solve(&mut self, first_changed: usize) -> Result<Vec<usize>, usize> {
         let nodes = self.lattice.nodes();
         for layer in first_changed..self.feet.len() {
-            let (before, rest) = self.space.arrival.split_at_mut(layer * nodes);
+            let SearchSpace { states, arrival, lowest, climbed, turned } = &mut *self.space;
+            let (before, rest) = arrival.split_at_mut(layer * nodes);
             let here = &mut rest[..nodes];
             let moved = if layer == 0 { DVec3::ZERO } else { self.feet[layer] - self.feet[layer - 1] };
             let pull = [moved.x, moved.y, moved.z].map(|m| (2.0 * self.moves.absolute * m) as f32);
             let ground = Ground {
-                radius: &self.lattice.lane_radius_m,
-                altitude: &self.lattice.lane_altitude_m,
+                lattice: self.lattice,
                 prices: &self.prices,
                 costs: &self.costs,
                 azimuth: &self.costs.azimuth[layer],
                 extra: self.costs.extra.get(layer).map_or(&[], Vec::as_slice),
-                states: &self.space.states[layer * nodes..(layer + 1) * nodes],
+                states: &states[layer * nodes..(layer + 1) * nodes],
                 pull: &pull_along(self.lattice, pull),
                 pull_up: pull[2],
+                lowest: if layer == 0 { 0.0 } else { lowest[layer - 1] },
             };
             if layer == 0 {
                 here.fill(0.0);
             } else {
-                advance(self.level, &ground, &before[(layer - 1) * nodes..], &mut self.space.turned, here);
+                advance(self.level, &ground, &before[(layer - 1) * nodes..], climbed, turned, here);
             }
-            let lowest = add_node_costs(self.level, &ground, here);
-            if lowest >= FORBIDDEN {
+            let least_sum = add_node_costs(self.level, &ground, here);
+            if least_sum >= FORBIDDEN {
                 return Err(layer);
             }
-            here.iter_mut().for_each(|cost| *cost -= lowest);
+            lowest[layer] = least_sum;
         }
         Ok(self.trace_back())
     }
@@ -196,18 +190,19 @@ impl<'a> Viterbi<'a> {
 
     /// The node of the layer before from which `node` is reached at the lowest cost.
     fn cheapest_before(&self, node: usize, before: &[f32], pull: DVec3) -> usize {
-        let (stride, count, prices) = (self.lattice.stride(), self.lattice.directions.len(), &self.prices);
-        let (azimuth, lane) = (node / stride, node % stride);
+        let (count, prices) = (self.lattice.directions.len(), &self.prices);
+        let (ring, azimuth) = (node / count, node % count);
         let mut best = (f64::INFINITY, node);
-        for (k, turn) in prices.turn.iter().enumerate() {
-            let row = (azimuth + count + k - prices.steps) % count * stride;
-            for (reach, mid) in steps_to(lane, 1, &prices.reach) {
+        let turns = prices.turn[ring].iter().enumerate();
+        let turns = turns.flat_map(|(k, price)| [(*price, azimuth + k + 1), (*price, azimuth + count - k - 1)]);
+        for (turn, from_azimuth) in core::iter::once((0.0, azimuth)).chain(turns) {
+            for (reach, mid) in steps_to(ring, 1, &prices.reach) {
                 for (climb, from) in steps_to(mid, prices.radii, &prices.climb) {
-                    let price = turn[lane] + reach + climb;
-                    let cost = before.get(row + from).copied().unwrap_or(FORBIDDEN) + price;
+                    let other = from * count + from_azimuth % count;
+                    let cost = before[other] + (turn + reach + climb);
                     if cost < FORBIDDEN {
-                        let cost = f64::from(cost) - pull.dot(self.lattice.offset(row + from));
-                        best = if cost < best.0 { (cost, row + from) } else { best };
+                        let cost = f64::from(cost) - pull.dot(self.lattice.offset(other));
+                        best = if cost < best.0 { (cost, other) } else { best };
                     }
                 }
             }
@@ -216,11 +211,11 @@ impl<'a> Viterbi<'a> {
     }
 }
 
-/// (price, lane before) of staying, coming from the lane `gap` below and from the one above.
-fn steps_to(lane: usize, gap: usize, prices: &[Vec<f32>; 2]) -> impl Iterator<Item = (f32, usize)> {
-    let below = (prices[0][lane], lane.wrapping_sub(gap));
-    let above = (prices[1][lane], lane + gap);
-    [(0.0, lane), below, above].into_iter().filter(|(price, _)| *price < FORBIDDEN)
+/// (price, ring before) of staying, coming from the ring `gap` below and from the one above.
+fn steps_to(ring: usize, gap: usize, prices: &[[f32; 2]]) -> impl Iterator<Item = (f32, usize)> {
+    let [below, above] = prices[ring];
+    let ways = [(0.0, ring), (below, ring.wrapping_sub(gap)), (above, ring + gap)];
+    ways.into_iter().filter(|(price, _)| *price < FORBIDDEN)
 }
 
 fn pull_along(lattice: &Lattice, pull: [f32; 3]) -> Vec<f32> {
@@ -229,8 +224,7 @@ fn pull_along(lattice: &Lattice, pull: [f32; 3]) -> Vec<f32> {
 
 /// What one step reads.
 struct Ground<'a> {
-    radius: &'a [f32],
-    altitude: &'a [f32],
+    lattice: &'a Lattice,
     prices: &'a MovePrices,
     costs: &'a NodeCosts,
     azimuth: &'a [f32],
@@ -239,6 +233,8 @@ struct Ground<'a> {
     /// Per azimuth, cost per metre of radius, and per metre of altitude: subtracted before, added after the step.
     pull: &'a [f32],
     pull_up: f32,
+    /// The lowest cost of the layer before, taken off everything.
+    lowest: f32,
 }
 
 #[inline(always)]
@@ -246,92 +242,85 @@ fn least(a: f32, b: f32) -> f32 {
     if a < b { a } else { b }
 }
 
-simd_kernel! {
-    /// The cheapest way to every node from the layer before, node costs left out.
-    fn advance(ground: &Ground<'_>, before: &[f32], turned: &mut [f32], here: &mut [f32]) {
-        let (stride, steps, radii) = (ground.radius.len(), ground.prices.steps, ground.prices.radii);
-        let azimuths = ground.pull.len();
-        let mut row = [FORBIDDEN; ROW];
-        let mut climbed = [FORBIDDEN; ROW];
-        for azimuth in 0..azimuths {
-            let pull = ground.pull[azimuth];
-            let from = &before[azimuth * stride..(azimuth + 1) * stride];
-            for (lane, cost) in row[ROOM..ROOM + stride].iter_mut().enumerate() {
-                *cost = from[lane] - (pull * ground.radius[lane] + ground.pull_up * ground.altitude[lane]);
-            }
-            let [low, high] = &ground.prices.climb;
-            step(&row, radii, stride, low, high, &mut climbed[ROOM..ROOM + stride]);
-            let [low, high] = &ground.prices.reach;
-            let to = (azimuth + steps) * stride;
-            step(&climbed, 1, stride, low, high, &mut turned[to..to + stride]);
-        }
-        turned.copy_within(azimuths * stride..(azimuths + steps) * stride, 0);
-        turned.copy_within(steps * stride..2 * steps * stride, (azimuths + steps) * stride);
-        for azimuth in 0..azimuths {
-            let pull = ground.pull[azimuth];
-            let to = &mut here[azimuth * stride..(azimuth + 1) * stride];
-            for (v, to) in to.as_chunks_mut::<VECTOR>().0.iter_mut().enumerate() {
-                let lanes = v * VECTOR..(v + 1) * VECTOR;
-                let mut best = [FORBIDDEN; VECTOR];
-                for (k, prices) in ground.prices.turn.iter().enumerate() {
-                    let row = &turned[(azimuth + k) * stride..(azimuth + k + 1) * stride];
-                    let (offers, prices) = (&row.as_chunks::<VECTOR>().0[v], &prices.as_chunks::<VECTOR>().0[v]);
-                    for j in 0..VECTOR {
-                        best[j] = least(offers[j] + prices[j], best[j]);
-                    }
-                }
-                let (radius, altitude) = (&ground.radius[lanes.clone()], &ground.altitude[lanes]);
-                for j in 0..VECTOR {
-                    to[j] = best[j] + (pull * radius[j] + ground.pull_up * altitude[j]);
-                }
-            }
-        }
-    }
-}
-
-/// Staying, or coming from the lane `gap` below or above, whichever is cheapest.
+/// `best = min(best, offers + price)`, azimuth by azimuth.
 #[inline(always)]
-fn step(row: &[f32; ROW], gap: usize, stride: usize, low: &[f32], high: &[f32], out: &mut [f32]) {
-    let gap = gap.min(ROOM);
-    let below = &row[ROOM - gap..ROOM - gap + stride];
-    let above = &row[ROOM + gap..ROOM + gap + stride];
-    let stay = &row[ROOM..ROOM + stride];
-    let lanes = stay.as_chunks::<VECTOR>().0.iter().zip(below.as_chunks::<VECTOR>().0);
-    let lanes = lanes.zip(above.as_chunks::<VECTOR>().0);
-    let prices = low.as_chunks::<VECTOR>().0.iter().zip(high.as_chunks::<VECTOR>().0);
-    for ((((stay, below), above), (low, high)), out) in lanes.zip(prices).zip(out.as_chunks_mut::<VECTOR>().0) {
-        for j in 0..VECTOR {
-            out[j] = least(above[j] + high[j], least(below[j] + low[j], stay[j]));
+fn offer(best: &mut [f32], offers: &[f32], price: f32) {
+    for (best, offer) in best.iter_mut().zip(offers) {
+        *best = least(offer + price, *best);
+    }
+}
+
+simd_kernel! {
+    /// The cheapest way to every node from the layer before, node costs left out. Rings are rows of azimuths.
+    fn advance(ground: &Ground<'_>, before: &[f32], climbed: &mut [f32], turned: &mut [f32], here: &mut [f32]) {
+        let (count, steps, radii) = (ground.pull.len(), ground.prices.steps, ground.prices.radii);
+        let rows = before.chunks_exact(count).zip(here.chunks_exact_mut(count)).enumerate();
+        for (ring, (from, to)) in rows {
+            let (altitude, radius) = ground.lattice.ring_m(ring);
+            let (radius, level) = (radius as f32, ground.pull_up * altitude as f32 + ground.lowest);
+            for ((to, from), pull) in to.iter_mut().zip(from).zip(ground.pull) {
+                *to = from - (pull * radius + level);
+            }
+        }
+        for (ring, (best, prices)) in climbed.chunks_exact_mut(count).zip(&ground.prices.climb).enumerate() {
+            best.copy_from_slice(&here[ring * count..(ring + 1) * count]);
+            if prices[0] < FORBIDDEN {
+                offer(best, &here[(ring - radii) * count..], prices[0]);
+            }
+            if prices[1] < FORBIDDEN {
+                offer(best, &here[(ring + radii) * count..], prices[1]);
+            }
+        }
+        for (ring, to) in here.chunks_exact_mut(count).enumerate() {
+            let middle = &mut turned[steps..steps + count];
+            middle.copy_from_slice(&climbed[ring * count..(ring + 1) * count]);
+            let prices = ground.prices.reach[ring];
+            if prices[0] < FORBIDDEN {
+                offer(middle, &climbed[(ring - 1) * count..], prices[0]);
+            }
+            if prices[1] < FORBIDDEN {
+                offer(middle, &climbed[(ring + 1) * count..], prices[1]);
+            }
+            turned.copy_within(count..count + steps, 0);
+            turned.copy_within(steps..2 * steps, count + steps);
+            to.copy_from_slice(&turned[steps..steps + count]);
+            for (k, price) in ground.prices.turn[ring].iter().enumerate() {
+                let (left, right) = (&turned[steps - k - 1..], &turned[steps + k + 1..]);
+                for ((best, left), right) in to.iter_mut().zip(left).zip(right) {
+                    *best = least(least(*left, *right) + price, *best);
+                }
+            }
         }
     }
 }
 
 simd_kernel! {
-    /// Adds what it costs to be at every node; returns the lowest sum.
+    /// Adds what it costs to be at every node, and the pull; returns the lowest sum.
     fn add_node_costs(ground: &Ground<'_>, cost: &mut [f32]) -> f32 {
-        let stride = ground.radius.len();
+        let count = ground.pull.len();
         let [linear, square] = ground.costs.hidden;
-        let mut lowest = [FORBIDDEN; VECTOR];
-        for (azimuth, (row, states)) in cost.chunks_exact_mut(stride).zip(ground.states.chunks_exact(stride)).enumerate() {
-            let base = ground.azimuth[azimuth];
-            let lanes = ground.costs.lane.as_chunks::<VECTOR>().0.iter().zip(states.as_chunks::<VECTOR>().0);
-            for (v, (row, (lane, states))) in row.as_chunks_mut::<VECTOR>().0.iter_mut().zip(lanes).enumerate() {
-                for j in 0..VECTOR {
-                    let state = u32::from(states[j]);
-                    let hidden = (state & 0xf) as f32;
-                    let close = if state & u32::from(CLOSE) != 0 { ground.costs.close } else { 0.0 };
-                    let sum = row[j] + (base + lane[j] + close + hidden * (linear + square * hidden));
-                    row[j] = if state == u32::from(UNSAFE) { FORBIDDEN } else { sum };
-                }
-                if !ground.extra.is_empty() {
-                    let extra = &ground.extra[azimuth * stride + v * VECTOR..];
-                    row.iter_mut().zip(extra).for_each(|(cost, more)| *cost += more);
-                }
-                for j in 0..VECTOR {
-                    lowest[j] = least(row[j], lowest[j]);
-                }
+        let rows = cost.chunks_exact_mut(count).zip(ground.states.chunks_exact(count));
+        for (ring, (row, states)) in rows.enumerate() {
+            let (altitude, radius) = ground.lattice.ring_m(ring);
+            let (radius, base) = (radius as f32, ground.pull_up * altitude as f32 + ground.costs.ring[ring]);
+            let close_cost = ground.costs.close;
+            let azimuths = ground.azimuth.iter().zip(ground.pull);
+            for ((cost, state), (azimuth, pull)) in row.iter_mut().zip(states).zip(azimuths) {
+                let state = u32::from(*state);
+                let hidden = (state & 0xf) as i32 as f32;
+                let close = if state & u32::from(CLOSE) != 0 { close_cost } else { 0.0 };
+                let more = pull * radius + base + (azimuth + close + hidden * (linear + square * hidden));
+                *cost += if state == u32::from(UNSAFE) { FORBIDDEN } else { more };
             }
         }
-        lowest.into_iter().fold(FORBIDDEN, least)
+        cost.iter_mut().zip(ground.extra).for_each(|(cost, more)| *cost += more);
+        let (groups, rest) = cost.as_chunks::<16>();
+        let mut lowest = [FORBIDDEN; 16];
+        for group in groups {
+            for j in 0..16 {
+                lowest[j] = least(group[j], lowest[j]);
+            }
+        }
+        lowest.into_iter().chain(rest.iter().copied()).fold(FORBIDDEN, least)
     }
 }
