@@ -1,0 +1,107 @@
+//! Parameters of the paper's pipeline that only it has, with the paper's values where it gives them.
+
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+/// How `preset = "paper"` starts and cleans up. The descent has its own table; heights, pitch, distance and limits are
+/// those of `view` and `limits`.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(default, deny_unknown_fields)]
+pub struct PaperConfig {
+    /// Frames between searched viewpoints (paper: 5 to 10). Default 5.
+    #[schemars(range(min = 1, max = 20))]
+    pub keyframe_frames: u32,
+    /// Half-angle of the sector behind the walker that is searched, degrees (paper: 60). Default 60.
+    #[schemars(range(min = 0.0, max = 180.0))]
+    pub rear_sector_deg: f64,
+    /// Least horizontal distance that is searched, as a share of the standard one, which is the best distance times
+    /// the cosine of the best pitch (paper: 0.7). Default 0.7.
+    #[schemars(range(min = 0.1, max = 3.0))]
+    pub nearest_share: f64,
+    /// Largest horizontal distance that is searched, as a share of the standard one (paper: 1.2). Default 1.2.
+    #[schemars(range(min = 0.1, max = 3.0))]
+    pub farthest_share: f64,
+    /// Weight of visibility while viewpoints are searched (the paper says only "optimal"). Default 60.
+    #[schemars(range(min = 0.0, max = 1_000_000.0))]
+    pub search_visibility: f64,
+    /// Hidden runs longer than this are led aside or straightened, frames (paper: 5). Default 5.
+    #[schemars(range(min = 1, max = 1000))]
+    pub hidden_run_frames: u32,
+    /// Largest sideways offset by which a hidden run of the start is bridged, metres. Default 12.
+    #[schemars(range(min = 0.0, max = 100.0))]
+    pub side_offset_m: f64,
+    /// Frames over which a changed stretch runs into the rest. Default 6.
+    #[schemars(range(min = 0, max = 100))]
+    pub ramp_frames: u32,
+    /// Rounds of safety projection (paper: "multi-round"). Default 5.
+    #[schemars(range(min = 1, max = 100))]
+    pub projection_rounds: u32,
+}
+
+impl Default for PaperConfig {
+    fn default() -> Self {
+        Self {
+            keyframe_frames: 5,
+            rear_sector_deg: 60.0,
+            nearest_share: 0.7,
+            farthest_share: 1.2,
+            search_visibility: 60.0,
+            hidden_run_frames: 5,
+            side_offset_m: 12.0,
+            ramp_frames: 6,
+            projection_rounds: 5,
+        }
+    }
+}
+
+impl PaperConfig {
+    /// Refuses values out of range: (name of the parameter within this table, what is wrong).
+    pub fn validate(&self) -> Result<(), (String, String)> {
+        for (name, value, low, high) in [
+            ("keyframe_frames", f64::from(self.keyframe_frames), 1.0, 20.0),
+            ("rear_sector_deg", self.rear_sector_deg, 0.0, 180.0),
+            ("nearest_share", self.nearest_share, 0.1, 3.0),
+            ("farthest_share", self.farthest_share, 0.1, 3.0),
+            ("search_visibility", self.search_visibility, 0.0, 1e6),
+            ("hidden_run_frames", f64::from(self.hidden_run_frames), 1.0, 1000.0),
+            ("side_offset_m", self.side_offset_m, 0.0, 100.0),
+            ("ramp_frames", f64::from(self.ramp_frames), 0.0, 100.0),
+            ("projection_rounds", f64::from(self.projection_rounds), 1.0, 100.0),
+        ] {
+            if !(value >= low && value <= high) {
+                return Err((
+                    name.to_owned(),
+                    format!("`paper.{name}` is {value}; it must be between {low} and {high}"),
+                ));
+            }
+        }
+        if self.nearest_share > self.farthest_share {
+            let (nearest, farthest) = (self.nearest_share, self.farthest_share);
+            let rule = format!(
+                "`paper.nearest_share` is {nearest}; it must not be above `paper.farthest_share`, which is {farthest}"
+            );
+            return Err(("nearest_share".to_owned(), rule));
+        }
+        Ok(())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn defaults_are_valid_and_refusals_name_their_parameter() {
+        assert_eq!(PaperConfig::default().validate(), Ok(()));
+        let check = |change: &dyn Fn(&mut PaperConfig), name: &str| {
+            let mut config = PaperConfig::default();
+            change(&mut config);
+            let (found, rule) = config.validate().unwrap_err();
+            assert_eq!(found, name);
+            assert!(rule.contains(name), "{rule}");
+        };
+        check(&|c| c.keyframe_frames = 0, "keyframe_frames");
+        check(&|c| c.rear_sector_deg = f64::NAN, "rear_sector_deg");
+        check(&|c| c.nearest_share = 1.3, "nearest_share");
+    }
+}
