@@ -143,3 +143,6 @@ fn near_track(track: &TargetTrack, boxes: &[OrientedBox], radius_m: f64) -> Vec<
     };
     boxes.iter().filter(near).copied().collect()
 }
+
+#[cfg(test)]
+mod law;
