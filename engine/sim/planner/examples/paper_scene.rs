@@ -5,7 +5,9 @@ use cosfly_frames::{DVec3, TargetTrack};
 use cosfly_geometry::{BoxBvh, OrientedBox, SpatialQuery};
 use cosfly_planner::certificate::{Kinematics, SolverFigures, certify, swept_clearance_m};
 use cosfly_planner::obstacles::{ground::GroundGrid, local::LocalObstacles};
-use cosfly_planner::paper::{PaperConfig, PaperFlight, Threads, iteration, plan_paper_in};
+use cosfly_planner::paper::{
+    FocusedSurroundings, NearBoxes, PaperConfig, PaperFlight, Threads, iteration, plan_paper_in,
+};
 use cosfly_planner::problem::Problem;
 use cosfly_planner::scenes::{Scene, SceneKind};
 use cosfly_planner::terms::built_in_terms;
@@ -86,13 +88,14 @@ fn fly(track: &TargetTrack, exact: &BoxBvh, boxes: &[OrientedBox], options: &Opt
     let ground = GroundGrid::sample(track, &flat, config.search.filter_radius_m + 10.0);
     let influence_m = config.view.safety_influence_m;
     let begin = Instant::now();
-    let mut obstacles = LocalObstacles::filter(track, boxes, &ground, config.search.filter_radius_m, influence_m);
-    let flight = plan_paper_in(&problem, &mut obstacles, config, &options.paper, Threads::Caller);
+    let obstacles = LocalObstacles::filter(track, boxes, &ground, config.search.filter_radius_m, influence_m);
+    let mut near = NearBoxes::new(&obstacles, track.len(), influence_m);
+    let flight = plan_paper_in(&problem, &mut near, config, &options.paper, Threads::Caller);
     let plan_ms = 1e3 * begin.elapsed().as_secs_f64();
-    obstacles.focus_on(&flight.waypoints);
+    near.focus_on(&flight.waypoints);
     let times = (0..5).map(|_| {
         let begin = Instant::now();
-        std::hint::black_box(iteration(&problem, &obstacles, &config.descent, Threads::Caller, &flight.waypoints));
+        std::hint::black_box(iteration(&problem, &near, &config.descent, Threads::Caller, &flight.waypoints));
         1e3 * begin.elapsed().as_secs_f64()
     });
     let iteration_ms = times.fold(f64::INFINITY, f64::min);

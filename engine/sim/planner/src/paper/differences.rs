@@ -1,10 +1,15 @@
 //! The gradient of the whole cost by coordinate-wise differences, on one thread or on all, with the same bytes.
 
+use super::window::Window;
 use crate::obstacles::Surroundings;
 use crate::problem::Problem;
-use crate::terms::{TermContext, WeightedTerm};
+use crate::terms::{CostTerm, TermContext};
+use core::ops::Range;
 use cosfly_frames::DVec3;
 use rayon::prelude::*;
+
+/// Frames that a thread takes at a time.
+const FRAMES_PER_TASK: usize = 16;
 
 /// Who computes a gradient.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -20,28 +25,9 @@ pub fn context<'a>(problem: &Problem<'a>, surroundings: &'a dyn Surroundings) ->
     TermContext { track: problem.track, view: problem.view, walk: problem.walk, surroundings }
 }
 
-/// One evaluation of one term: every `stride`-th waypoint from `first` moved by `step_m` along `axis`.
-struct Probe<'a> {
-    weighted: &'a WeightedTerm,
-    first: usize,
-    stride: usize,
-    axis: usize,
-    step_m: f64,
-}
-
-impl Probe<'_> {
-    fn costs(&self, waypoints: &[DVec3], context: &TermContext<'_>) -> Vec<f64> {
-        let mut moved = waypoints.to_vec();
-        moved.iter_mut().skip(self.first).step_by(self.stride).for_each(|w| w[self.axis] += self.step_m);
-        let mut costs = vec![0.0; waypoints.len()];
-        self.weighted.term.cost(&moved, context, &mut costs);
-        costs
-    }
-}
-
-/// Central differences of the weighted sum of all terms, metres apart by twice `step_m` (paper, section 3.3:
-/// coordinate-wise, 0.5 m). A waypoint's cost is its own and that of the neighbours that read it, so waypoints out of
-/// each other's reach are moved together.
+/// Central differences of the weighted sum of all terms, `step_m` to each side (paper, section 3.3: coordinate-wise,
+/// 0.5 m). Built-in terms are taken for a few frames at a time, in parallel over the waypoints as the paper does; terms
+/// from elsewhere may read anything of a flight, so each is taken for the whole of it.
 pub fn gradient(
     problem: &Problem<'_>,
     surroundings: &(dyn Surroundings + Sync),
@@ -49,40 +35,83 @@ pub fn gradient(
     threads: Threads,
     waypoints: &[DVec3],
 ) -> Vec<DVec3> {
-    let probes = probes(problem.terms, step_m, waypoints.len());
-    let evaluate = |probe: &Probe<'_>| probe.costs(waypoints, &context(problem, surroundings));
-    let costs: Vec<Vec<f64>> = if threads == Threads::Pool && rayon::current_num_threads() > 1 {
-        probes.par_iter().map(evaluate).collect()
-    } else {
-        probes.iter().map(evaluate).collect()
+    let frames = waypoints.len();
+    let parallel = threads == Threads::Pool && rayon::current_num_threads() > 1;
+    let share = if parallel { FRAMES_PER_TASK } else { frames.max(1) };
+    let chunks: Vec<Range<usize>> =
+        (0..frames).step_by(share).map(|first| first..(first + share).min(frames)).collect();
+    let built_in = |chunk: &Range<usize>| built_in_gradient(problem, surroundings, step_m, waypoints, chunk);
+    let others: Vec<_> = problem.terms.iter().skip(problem.built_in).filter(|other| other.weight > 0.0).collect();
+    let other = |index: usize| {
+        let mut gradient = vec![DVec3::ZERO; frames];
+        let context = context(problem, surroundings);
+        let weighted = others[index];
+        add_differences(weighted.term.as_ref(), weighted.weight, step_m, waypoints, 0..frames, &context, &mut gradient);
+        gradient
     };
-    let mut gradient = vec![DVec3::ZERO; waypoints.len()];
-    for (pair, costs) in probes.chunks_exact(2).zip(costs.chunks_exact(2)) {
-        let (probe, reach) = (&pair[0], (pair[0].stride - 1) / 2);
-        let factor = probe.weighted.weight / (2.0 * step_m);
-        for i in (probe.first..waypoints.len()).step_by(probe.stride) {
-            let readers = i.saturating_sub(reach)..(i + reach + 1).min(waypoints.len());
-            let change: f64 = readers.map(|n| costs[0][n] - costs[1][n]).sum();
-            gradient[i][probe.axis] += factor * change;
-        }
+    let (parts, extra): (Vec<Vec<DVec3>>, Vec<Vec<DVec3>>) = if parallel {
+        (chunks.par_iter().map(built_in).collect(), (0..others.len()).into_par_iter().map(other).collect())
+    } else {
+        (chunks.iter().map(built_in).collect(), (0..others.len()).map(other).collect())
+    };
+    let mut gradient = parts.concat();
+    for part in extra {
+        gradient.iter_mut().zip(part).for_each(|(sum, slope)| *sum += slope);
     }
     gradient
 }
 
-/// In pairs: the step forward, then the step back.
-fn probes(terms: &[WeightedTerm], step_m: f64, frames: usize) -> Vec<Probe<'_>> {
-    let mut probes = Vec::new();
-    for weighted in terms.iter().filter(|weighted| weighted.weight > 0.0) {
-        let stride = weighted.term.support().saturating_mul(2).saturating_add(1);
-        for first in 0..stride.min(frames) {
-            for axis in 0..3 {
-                for step_m in [step_m, -step_m] {
-                    probes.push(Probe { weighted, first, stride, axis, step_m });
-                }
+/// The built-in terms' part of the gradient at the frames of `chunk`.
+fn built_in_gradient(
+    problem: &Problem<'_>,
+    surroundings: &dyn Surroundings,
+    step_m: f64,
+    waypoints: &[DVec3],
+    chunk: &Range<usize>,
+) -> Vec<DVec3> {
+    let mut gradient = vec![DVec3::ZERO; chunk.len()];
+    for weighted in problem.terms.iter().take(problem.built_in).filter(|weighted| weighted.weight > 0.0) {
+        let margin = 2 * weighted.term.support();
+        let window = Window::cut(problem, surroundings, waypoints, chunk.clone(), margin);
+        let (term, inner) = (weighted.term.as_ref(), window.inner.clone());
+        let context = window.context();
+        add_differences(term, weighted.weight, step_m, &window.waypoints, inner, &context, &mut gradient);
+    }
+    gradient
+}
+
+/// Adds `weight` times the differences of a term at the frames `inner` of `waypoints` to `gradient`, which is as long as
+/// `inner`. The cost of a waypoint is its own and that of the neighbours that read it, so waypoints out of each other's
+/// reach are moved together.
+fn add_differences(
+    term: &dyn CostTerm,
+    weight: f64,
+    step_m: f64,
+    waypoints: &[DVec3],
+    inner: Range<usize>,
+    context: &TermContext<'_>,
+    gradient: &mut [DVec3],
+) {
+    let reach = term.support().min(waypoints.len());
+    let stride = 2 * reach + 1;
+    let factor = weight / (2.0 * step_m);
+    let mut moved = waypoints.to_vec();
+    let (mut above, mut below) = (vec![0.0; waypoints.len()], vec![0.0; waypoints.len()]);
+    for first in inner.start..inner.end.min(inner.start + stride) {
+        let moving = || (first..inner.end).step_by(stride);
+        for axis in 0..3 {
+            for (step, costs) in [(step_m, &mut above), (-step_m, &mut below)] {
+                moving().for_each(|i| moved[i][axis] = waypoints[i][axis] + step);
+                term.cost(&moved, context, costs);
+            }
+            for i in moving() {
+                moved[i][axis] = waypoints[i][axis];
+                let readers = i.saturating_sub(reach)..(i + reach + 1).min(waypoints.len());
+                let change: f64 = readers.map(|n| above[n] - below[n]).sum();
+                gradient[i - inner.start][axis] += factor * change;
             }
         }
     }
-    probes
 }
 
 #[cfg(test)]
@@ -120,6 +149,40 @@ mod tests {
             let (problem, path) = (&*problem, &*path);
             let together = pool.install(|| gradient(problem, surroundings, 0.5, Threads::Pool, path));
             assert_eq!(alone, together);
+        });
+    }
+
+    /// Half the square of the distance of every waypoint from the one in the middle.
+    struct FromTheMiddle;
+
+    impl CostTerm for FromTheMiddle {
+        fn name(&self) -> &str {
+            "from_the_middle"
+        }
+        fn support(&self) -> usize {
+            usize::MAX
+        }
+        fn cost(&self, waypoints: &[DVec3], _: &TermContext<'_>, per_frame: &mut [f64]) {
+            let middle = waypoints[waypoints.len() / 2];
+            per_frame.iter_mut().zip(waypoints).for_each(|(cost, w)| *cost = 0.5 * w.distance_squared(middle));
+        }
+    }
+
+    #[test]
+    fn a_term_from_elsewhere_may_read_the_whole_flight() {
+        with_street(|problem, obstacles, _, path| {
+            obstacles.focus_on(path);
+            let term = Box::new(FromTheMiddle);
+            let terms = [crate::terms::WeightedTerm { term, weight: 2.0 }];
+            let alone = Problem { terms: &terms, built_in: 0, ..*problem };
+            let found = gradient(&alone, obstacles, 0.5, Threads::Caller, path);
+            let middle = path[path.len() / 2];
+            for (slope, w) in found.iter().zip(&*path) {
+                if *w != middle {
+                    assert!((*slope - 2.0 * (w - middle)).length() < 1e-6);
+                }
+            }
+            assert_eq!(found, gradient(&alone, obstacles, 0.5, Threads::Pool, path));
         });
     }
 }

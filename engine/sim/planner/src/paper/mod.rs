@@ -13,12 +13,14 @@
 //! Its four safety layers are the safety term and the steps 4, 5 and 6. They promise nothing: who calls this measures
 //! the result. Where the paper is silent the choice and its effect stand in the book (The paper's ambiguities).
 
+pub mod body_rays;
 pub mod config;
 pub mod descent;
 pub mod detours;
 pub mod differences;
 pub mod following;
 pub mod hidden_runs;
+pub mod near_boxes;
 pub mod neighbourhood;
 pub mod oscillation;
 pub mod pipeline;
@@ -27,8 +29,10 @@ pub mod projection;
 pub mod repair;
 pub mod start;
 pub mod straighten;
+pub mod window;
 
 pub use config::PaperConfig;
 pub use descent::{Iteration, iteration};
 pub use differences::Threads;
+pub use near_boxes::NearBoxes;
 pub use pipeline::{FocusedSurroundings, PaperCounts, PaperFlight, plan_paper, plan_paper_in};

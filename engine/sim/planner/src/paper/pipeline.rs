@@ -3,6 +3,7 @@
 use super::config::PaperConfig;
 use super::descent::descend;
 use super::differences::{Threads, context};
+use super::near_boxes::NearBoxes;
 use super::postprocess::postprocess;
 use super::start::initial_path;
 use crate::config::MucoConfig;
@@ -78,11 +79,12 @@ pub struct PaperFlight {
 
 /// Plans as the paper does, on the calling thread and with the paper's own values where the recipe has none.
 pub fn plan_paper(problem: &Problem<'_>, obstacles: &mut LocalObstacles<'_>, config: &MucoConfig) -> PaperFlight {
-    plan_paper_in(problem, obstacles, config, &PaperConfig::default(), Threads::Caller)
+    let mut near = NearBoxes::new(obstacles, problem.track.len(), problem.view.safety_influence_m);
+    plan_paper_in(problem, &mut near, config, &PaperConfig::default(), Threads::Caller)
 }
 
-/// [`plan_paper`] in any surroundings, with its own parameters, and gradients on one thread or all. The bytes depend on
-/// neither the threads nor how queries are answered.
+/// [`plan_paper`] in any surroundings, with its own parameters, and gradients on one thread or all, which gives the same
+/// bytes.
 pub fn plan_paper_in(
     problem: &Problem<'_>,
     surroundings: &mut dyn FocusedSurroundings,
