@@ -3,7 +3,7 @@
 //! The kinds follow the planner's reference figures: `light` and `leafy` are 16 m streets between houses of 8 to 26 m
 //! with trees over the pavement (a third of the places or nearly all; in
 //! `tunnel` with crowns that nearly touch), `alley` and `canyon` are gaps of 4.5 to 7 m and
-//! 4.2 to 5.2 m between houses of 20 to 45 m and 40 to 60 m. `fine` is `leafy` cut into many small boxes.
+//! 4.2 to 5.2 m between houses of 20 to 45 m and 40 to 60 m. `fine` is `leafy` cut into some 65,000 boxes.
 
 use cosfly_frames::{DVec2, DVec3, RandomStream, Seed, TargetState, TargetTrack, real};
 use cosfly_geometry::OrientedBox;
@@ -86,7 +86,7 @@ impl Scene {
             }
         }
         if kind == SceneKind::Fine {
-            boxes = boxes.iter().flat_map(|shape| cut_up(shape, 2.6)).collect();
+            boxes = boxes.iter().flat_map(|shape| cut_up(shape, 3.2)).collect();
         }
         Self { boxes, kind, columns, rows }
     }

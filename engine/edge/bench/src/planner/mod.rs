@@ -5,7 +5,11 @@
 
 pub mod contender;
 pub mod figures;
+pub mod many;
+pub mod plot;
 pub mod scene;
+pub mod solver;
+pub mod svg;
 pub mod table;
 
 pub use contender::Contender;
@@ -40,7 +44,11 @@ pub struct PathOutcome {
 
 /// Plans everything; rows by scene, then contender.
 pub fn planner(options: &PlannerOptions<'_>) -> PlannerTable {
-    let outcomes = outcomes(options);
+    tabulate(options, &outcomes(options))
+}
+
+/// The table of what was planned.
+pub fn tabulate(options: &PlannerOptions<'_>, outcomes: &[PathOutcome]) -> PlannerTable {
     let rows = options.grounds.iter().enumerate().flat_map(|(index, ground)| {
         let of_ground: Vec<&PathOutcome> = outcomes.iter().filter(|outcome| outcome.ground == index).collect();
         table::rows(&ground.name, ground.exact_boxes, &options.contenders, &of_ground)

@@ -26,17 +26,23 @@ pub struct Ground {
 impl Ground {
     /// The first `paths` walkers of a seeded scene. `fine` is planned on its coarse twin and judged on all its boxes.
     pub fn scene(kind: SceneKind, seed: u64, paths: usize) -> Self {
+        Self::scene_and_boxes(kind, seed, paths).0
+    }
+
+    /// [`Self::scene`] and its unsimplified boxes.
+    pub fn scene_and_boxes(kind: SceneKind, seed: u64, paths: usize) -> (Self, Vec<OrientedBox>) {
         let scene = Scene::generate(kind, seed);
         let coarse = if kind == SceneKind::Fine { SceneKind::Leafy } else { kind };
         let planning_boxes = Scene::generate(coarse, seed).boxes;
         let tracks = (0..paths as u64).map(|index| scene.walker(seed, index)).collect();
-        Self {
+        let ground = Self {
             name: kind.name().to_owned(),
             exact_boxes: scene.boxes.len(),
-            exact: Box::new(BoxBvh::build(scene.boxes)),
+            exact: Box::new(BoxBvh::build(scene.boxes.clone())),
             planning_boxes,
             height: Box::new(|_, _| 0.0),
             tracks,
-        }
+        };
+        (ground, scene.boxes)
     }
 }

@@ -124,64 +124,72 @@ fn median(mut values: Vec<f64>) -> f64 {
     }
 }
 
+/// Column heads and their widths, after scene and planner.
+const HEADS: [(&str, usize); 17] = [
+    ("vis", 5),
+    (">=.5", 5),
+    ("dist", 5),
+    ("len", 4),
+    ("ratio", 5),
+    ("clear", 5),
+    ("hit", 4),
+    ("near", 4),
+    ("v", 5),
+    ("a", 5),
+    ("j", 5),
+    ("rear", 4),
+    ("none", 4),
+    ("ms", 7),
+    ("median", 7),
+    ("nodes", 8),
+    ("faster", 6),
+];
+
+impl Row {
+    /// The figures under [`HEADS`].
+    fn cells(&self) -> [String; HEADS.len()] {
+        let faster = |times: f64| if times < 10.0 { format!("{times:.1}x") } else { format!("{times:.0}x") };
+        [
+            format!("{:.3}", self.visibility),
+            format!("{:.3}", self.frames_half_visible),
+            format!("{:.1}", self.distance_m),
+            format!("{:.0}", self.length_m),
+            format!("{:.2}", self.length_ratio),
+            format!("{:.2}", self.min_clearance_m),
+            self.collisions.to_string(),
+            self.margin_violations.to_string(),
+            format!("{:.1}", self.max_speed_mps),
+            format!("{:.1}", self.max_acceleration_mps2),
+            format!("{:.1}", self.max_jerk_mps3),
+            format!("{:.0}", self.rear_angle_deg),
+            self.infeasible.to_string(),
+            format!("{:.2}", self.mean_ms),
+            format!("{:.2}", self.median_ms),
+            if self.nodes > 0.0 { format!("{:.0}", self.nodes) } else { "-".to_owned() },
+            self.speed_up.map_or("-".to_owned(), faster),
+        ]
+    }
+}
+
 impl fmt::Display for PlannerTable {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let name = self.rows.iter().map(|row| row.planner.len()).max().unwrap_or(7).max(7);
-        let scene = self.rows.iter().map(|row| row.scene.len()).max().unwrap_or(6).max(6);
-        writeln!(
-            f,
-            "{:scene$} {:name$} {:>5} {:>5} {:>5} {:>5} {:>4} {:>5} {:>5} {:>4} {:>4} {:>5} {:>5} {:>5} {:>4} {:>8} {:>8} {:>6} {:>4}",
-            "scene",
-            "planner",
-            "vis",
-            ">=.5",
-            "dist",
-            "len",
-            "x",
-            "clear",
-            "coll",
-            "marg",
-            "",
-            "v",
-            "a",
-            "j",
-            "rear",
-            "ms",
-            "nodes",
-            "faster",
-            "none"
-        )?;
-        let mut last = "";
-        for row in &self.rows {
-            if last != row.scene && !last.is_empty() {
+        let widest = |of: &dyn Fn(&Row) -> usize, head: &str| self.rows.iter().map(of).fold(head.len(), usize::max);
+        let scene = widest(&|row| row.scene.len(), "scene");
+        let planner = widest(&|row| row.planner.len(), "planner");
+        write!(f, "{:scene$}  {:planner$}", "scene", "planner")?;
+        for (head, width) in HEADS {
+            write!(f, " {head:>width$}")?;
+        }
+        writeln!(f)?;
+        for (index, row) in self.rows.iter().enumerate() {
+            if index > 0 && self.rows[index - 1].scene != row.scene {
                 writeln!(f)?;
             }
-            last = &row.scene;
-            let faster =
-                row.speed_up.map_or("-".to_owned(), |x| if x < 10.0 { format!("{x:.1}x") } else { format!("{x:.0}x") });
-            writeln!(
-                f,
-                "{:scene$} {:name$} {:>5.3} {:>5.3} {:>5.1} {:>5.0} {:>4.2} {:>5.2} {:>5} {:>4} {:>4} {:>5.1} {:>5.1} {:>5.1} {:>4.0} {:>8.2} {:>8.0} {:>6} {:>4}",
-                row.scene,
-                row.planner,
-                row.visibility,
-                row.frames_half_visible,
-                row.distance_m,
-                row.length_m,
-                row.length_ratio,
-                row.min_clearance_m,
-                row.collisions,
-                row.margin_violations,
-                "",
-                row.max_speed_mps,
-                row.max_acceleration_mps2,
-                row.max_jerk_mps3,
-                row.rear_angle_deg,
-                row.mean_ms,
-                row.nodes,
-                faster,
-                row.infeasible
-            )?;
+            write!(f, "{:scene$}  {:planner$}", row.scene, row.planner)?;
+            for (cell, (_, width)) in row.cells().iter().zip(HEADS) {
+                write!(f, " {cell:>width$}")?;
+            }
+            writeln!(f)?;
         }
         for row in &self.rows {
             for reason in &row.reasons {
@@ -191,3 +199,12 @@ impl fmt::Display for PlannerTable {
         Ok(())
     }
 }
+
+/// What the heads of [`PlannerTable`] mean, for the end of a printed table.
+pub const LEGEND: &str = "\
+vis: mean share of body points seen; >=.5: share of frames that see half of them; dist: to the feet, m; len: of the
+flight, m; ratio: to the walk; clear: least distance of the swept path to any box, m; hit, near: segments closer than
+0.5 m and than the limit; v, a, j: largest speed, acceleration, jerk (m, s); rear: degrees off the walker's back;
+none: paths without a flight; ms: thread CPU time, mean and median; faster: median over paths of A*'s time by this
+one's. All judged against the unsimplified map.
+";

@@ -1,0 +1,240 @@
+//! Many trajectories on all cores: how long a whole dataset takes, and whether any of its flights comes too near.
+//!
+//! Every flight is judged again by another tree than the planner's own, in `f64`, against the unsimplified map.
+
+use super::contender::{Contender, Planned};
+use super::figures::COLLISION_M;
+use super::scene::Ground;
+use crate::clock::timed;
+use cosfly_frames::{DVec3, TargetTrack};
+use cosfly_planner::MucoConfig;
+use cosfly_planner::baselines::plain_bvh::PlainBvh;
+use cosfly_planner::certificate::Kinematics;
+use cosfly_planner::scenes::SceneKind;
+use rayon::prelude::*;
+use serde::Serialize;
+use std::fmt;
+use std::time::Instant;
+
+/// Walkers per generated scene.
+const WALKERS: usize = 20;
+/// Scenes that are held at once.
+const SCENES_PER_ROUND: usize = 24;
+/// Clearances are measured up to here, metres.
+const CAP_M: f64 = 5.0;
+/// Slack of the checks for rounding, metres and m/s.
+const ROUNDING: f64 = 1e-9;
+/// The paper: 6,000 trajectories in 25 minutes.
+const PAPER_S_PER_TRAJECTORY: f64 = 25.0 * 60.0 / 6000.0;
+/// Incidents that are listed; all are counted.
+const LISTED: usize = 50;
+
+/// What is planned.
+pub struct ManyOptions<'a> {
+    /// Kinds of scenes, in turn.
+    pub kinds: Vec<SceneKind>,
+    /// Seed of the first scene of each kind; the next one's is one more.
+    pub seed: u64,
+    /// How many trajectories.
+    pub count: usize,
+    /// Who plans.
+    pub contender: Contender,
+    /// Limits, view and weights.
+    pub config: MucoConfig,
+    /// Told after every round: how many of how many are done.
+    pub progress: &'a (dyn Fn(usize, usize) + Sync),
+}
+
+/// What came of it.
+#[derive(Clone, Debug, Default, Serialize)]
+pub struct ManyReport {
+    /// Planner.
+    pub planner: String,
+    /// Paths.
+    pub paths: usize,
+    /// Paths with a flight.
+    pub planned: usize,
+    /// Threads that planned.
+    pub threads: usize,
+    /// Seconds on the wall, planning only: scenes are made and flights judged outside it.
+    pub planning_wall_s: f64,
+    /// CPU seconds of all planning threads.
+    pub planning_cpu_s: f64,
+    /// How many times faster than the paper's 25 minutes for 6,000 trajectories.
+    pub times_paper: f64,
+    /// Mean visibility over all flights, as the planner's tree sees it.
+    pub visibility: f64,
+    /// Smallest clearance of all swept paths, metres, capped at 5.
+    pub min_clearance_m: f64,
+    /// Largest speed, m/s.
+    pub max_speed_mps: f64,
+    /// Largest acceleration, m/s^2.
+    pub max_acceleration_mps2: f64,
+    /// Largest jerk, m/s^3.
+    pub max_jerk_mps3: f64,
+    /// Flights whose swept path collides.
+    pub collisions: usize,
+    /// Flights that come nearer than the clearance limit.
+    pub margin_violations: usize,
+    /// Flights beyond a limit of speed, acceleration or jerk.
+    pub limit_violations: usize,
+    /// The first of all these, and of the paths without a flight, each in words.
+    pub incidents: Vec<String>,
+}
+
+/// One planned path with the place that it can be found again by.
+struct Job<'a> {
+    ground: &'a Ground,
+    judge: &'a PlainBvh,
+    track: &'a TargetTrack,
+    name: String,
+}
+
+/// What the judge found in one flight.
+struct Verdict {
+    visibility: f64,
+    clearance_m: f64,
+    kinematics: Kinematics,
+}
+
+/// Plans and judges `count` paths.
+pub fn many(options: &ManyOptions<'_>) -> ManyReport {
+    let mut report = ManyReport {
+        planner: options.contender.name().to_owned(),
+        threads: rayon::current_num_threads(),
+        min_clearance_m: CAP_M,
+        ..ManyReport::default()
+    };
+    let scenes: Vec<(SceneKind, u64, usize)> = scenes(options);
+    for round in scenes.chunks(SCENES_PER_ROUND) {
+        plan_round(options, round, &mut report);
+        (options.progress)(report.paths, options.count);
+    }
+    report.visibility /= report.planned.max(1) as f64;
+    report.times_paper = PAPER_S_PER_TRAJECTORY * report.paths as f64 / report.planning_wall_s.max(1e-9);
+    report
+}
+
+/// (kind, seed, walkers) of every scene that is needed.
+fn scenes(options: &ManyOptions<'_>) -> Vec<(SceneKind, u64, usize)> {
+    let kinds = options.kinds.len().max(1);
+    let scene = |index: usize| {
+        let kind = options.kinds.get(index % kinds).copied().unwrap_or(SceneKind::Light);
+        let walkers = WALKERS.min(options.count - index * WALKERS);
+        (kind, options.seed + (index / kinds) as u64, walkers)
+    };
+    (0..options.count.div_ceil(WALKERS)).map(scene).collect()
+}
+
+fn plan_round(options: &ManyOptions<'_>, round: &[(SceneKind, u64, usize)], report: &mut ManyReport) {
+    let grounds: Vec<(Ground, PlainBvh, u64)> = round
+        .par_iter()
+        .map(|&(kind, seed, walkers)| {
+            let (ground, boxes) = Ground::scene_and_boxes(kind, seed, walkers);
+            (ground, PlainBvh::build(&boxes), seed)
+        })
+        .collect();
+    let jobs: Vec<Job<'_>> = grounds
+        .iter()
+        .flat_map(|(ground, judge, seed)| {
+            ground.tracks.iter().enumerate().map(move |(path, track)| {
+                let name = format!("{} --seed {seed}, path {path}", ground.name);
+                Job { ground, judge, track, name }
+            })
+        })
+        .collect();
+    let begin = Instant::now();
+    let planned: Vec<(Result<Planned, String>, f64)> =
+        jobs.par_iter().map(|job| timed(|| options.contender.plan(job.ground, job.track, &options.config))).collect();
+    report.planning_wall_s += begin.elapsed().as_secs_f64();
+    let verdicts: Vec<Result<Verdict, String>> =
+        jobs.par_iter().zip(&planned).map(|(job, (planned, _))| judge(job, planned)).collect();
+    for ((job, (_, cpu_s)), verdict) in jobs.iter().zip(&planned).zip(verdicts) {
+        report.paths += 1;
+        report.planning_cpu_s += cpu_s;
+        report.add(job, verdict, &options.config);
+    }
+}
+
+fn judge(job: &Job<'_>, planned: &Result<Planned, String>) -> Result<Verdict, String> {
+    let waypoints: &[DVec3] = &planned.as_ref().map_err(Clone::clone)?.waypoints;
+    if waypoints.len() != job.track.len() || waypoints.iter().any(|waypoint| !waypoint.is_finite()) {
+        return Err("the flight is not one finite waypoint per frame".to_owned());
+    }
+    let ends = waypoints.iter().skip(1).chain(waypoints.last());
+    let clearance_m = waypoints
+        .iter()
+        .zip(ends)
+        .map(|(&from, &to)| job.judge.segment_clearance_m(from, to, CAP_M))
+        .fold(CAP_M, f64::min);
+    let seen = |(waypoint, state): (&DVec3, _)| {
+        cosfly_planner::visibility(job.ground.exact.as_ref(), *waypoint, state, job.track.height_m)
+    };
+    let visibility = waypoints.iter().zip(&job.track.states).map(seen).sum::<f64>() / waypoints.len().max(1) as f64;
+    Ok(Verdict { visibility, clearance_m, kinematics: Kinematics::of(waypoints, job.track.dt_s) })
+}
+
+impl ManyReport {
+    fn add(&mut self, job: &Job<'_>, verdict: Result<Verdict, String>, config: &MucoConfig) {
+        let verdict = match verdict {
+            Ok(verdict) => verdict,
+            Err(reason) => return self.incident(format!("no flight: {}: {reason}", job.name)),
+        };
+        self.planned += 1;
+        self.visibility += verdict.visibility;
+        self.min_clearance_m = self.min_clearance_m.min(verdict.clearance_m);
+        let (found, limits) = (verdict.kinematics, &config.limits);
+        self.max_speed_mps = self.max_speed_mps.max(found.speed_mps);
+        self.max_acceleration_mps2 = self.max_acceleration_mps2.max(found.acceleration_mps2);
+        self.max_jerk_mps3 = self.max_jerk_mps3.max(found.jerk_mps3);
+        if verdict.clearance_m < COLLISION_M - ROUNDING {
+            self.collisions += 1;
+            self.incident(format!("collision: {}: clearance {:.3} m", job.name, verdict.clearance_m));
+        } else if verdict.clearance_m < limits.clearance_m - ROUNDING {
+            self.margin_violations += 1;
+            self.incident(format!("too near: {}: clearance {:.3} m", job.name, verdict.clearance_m));
+        }
+        if found.speed_mps > limits.speed_mps + ROUNDING
+            || found.acceleration_mps2 > limits.acceleration_mps2 + ROUNDING
+            || found.jerk_mps3 > limits.jerk_mps3 + ROUNDING
+        {
+            self.limit_violations += 1;
+            self.incident(format!("beyond the limits: {}: {found:.2?}", job.name));
+        }
+    }
+
+    fn incident(&mut self, words: String) {
+        if self.incidents.len() < LISTED {
+            self.incidents.push(words);
+        }
+    }
+}
+
+impl fmt::Display for ManyReport {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let each_ms = 1e3 * self.planning_cpu_s / self.paths.max(1) as f64;
+        writeln!(
+            f,
+            "{} paths by {}: {:.1} s on {} threads ({each_ms:.2} ms of CPU each), {:.0} times the paper's 25 minutes for 6,000",
+            self.paths, self.planner, self.planning_wall_s, self.threads, self.times_paper
+        )?;
+        writeln!(
+            f,
+            "{} flights, {} paths without; mean visibility {:.4}",
+            self.planned,
+            self.paths - self.planned,
+            self.visibility
+        )?;
+        writeln!(
+            f,
+            "collisions = {} (swept path nearer than {COLLISION_M} m to an unsimplified box), nearer than the limit = {}, least clearance {:.3} m",
+            self.collisions, self.margin_violations, self.min_clearance_m
+        )?;
+        writeln!(
+            f,
+            "beyond the limits = {}; largest speed {:.2} m/s, acceleration {:.2} m/s^2, jerk {:.2} m/s^3",
+            self.limit_violations, self.max_speed_mps, self.max_acceleration_mps2, self.max_jerk_mps3
+        )?;
+        self.incidents.iter().try_for_each(|incident| writeln!(f, "  {incident}"))
+    }
+}
