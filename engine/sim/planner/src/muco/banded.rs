@@ -42,11 +42,14 @@ impl Banded {
             let lost: f64 = (1..=3.min(i)).map(|k| self.rows[i][k] * self.rows[i][k] * self.rows[i - k][0]).sum();
             self.rows[i][0] -= lost;
         }
+        for row in &mut self.rows {
+            row[0] = 1.0 / row[0];
+        }
         Factor { rows: self.rows }
     }
 }
 
-/// A factored matrix.
+/// A factored matrix: the inverse of D and the rows of L.
 pub struct Factor {
     rows: Vec<[f64; 4]>,
 }
@@ -54,19 +57,20 @@ pub struct Factor {
 impl Factor {
     /// Solves for three right-hand sides at once (x, y, z), in place.
     pub fn solve(&self, x: &mut [DVec3]) {
-        let n = self.rows.len();
-        for i in 0..n {
-            for k in 1..=3.min(i) {
-                let above = x[i - k];
-                x[i] -= self.rows[i][k] * above;
-            }
+        let (mut a, mut b, mut c) = (DVec3::ZERO, DVec3::ZERO, DVec3::ZERO);
+        for (x, row) in x.iter_mut().zip(&self.rows) {
+            // The three values before, the nearest first; rows at the start have zeros for what is not there.
+            *x = *x - row[2] * b - row[3] * c - row[1] * a;
+            (c, b, a) = (b, a, *x);
         }
-        for i in (0..n).rev() {
-            x[i] /= self.rows[i][0];
-            for k in 1..=3.min(n - 1 - i) {
-                let below = x[i + k] * self.rows[i][0];
-                x[i] -= self.rows[i + k][k] * below / self.rows[i][0];
-            }
+        let (mut a, mut b, mut c) = (DVec3::ZERO, DVec3::ZERO, DVec3::ZERO);
+        let (mut la, mut lb, mut lc) = (0.0, 0.0, 0.0);
+        for (i, x) in x.iter_mut().enumerate().rev() {
+            let row = &self.rows[i];
+            *x = row[0] * *x - lb * b - lc * c - la * a;
+            (c, b, a) = (b, a, *x);
+            let below = |k: usize| self.rows.get(i + k - 1).map_or(0.0, |row| row[k]);
+            (la, lb, lc) = (row[1], below(2), below(3));
         }
     }
 }

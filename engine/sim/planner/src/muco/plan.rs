@@ -21,7 +21,7 @@ use cosfly_geometry::{OrientedBox, SpatialQuery};
 use std::cell::RefCell;
 
 /// A flight that sees less than this share of what the lattice's best way sees is searched again with more effort.
-const GOOD_SHARE: f64 = 0.97;
+const GOOD_SHARE: f64 = 0.955;
 /// When nothing valid is found: (cost of motion, distance kept beyond the limit) of calmer and calmer searches.
 const CALMER: [(f64, f64); 4] = [(1.0, 0.15), (6.0, 0.25), (40.0, 0.6), (200.0, 0.1)];
 /// Distance kept beyond the limit by the first searches; the fast one looks at every second frame only.
@@ -32,7 +32,7 @@ const KEEP_OUT_EXTRA_M: f64 = 0.1;
 /// Times that planes from the unsimplified map are added when it is nearer than the planning boxes say.
 const MAX_LESSONS: usize = 4;
 /// How a refined flight is made to hold its limits: it nearly does.
-const LIGHT: Objective = Objective { rounds: 2, iterations: 60, nearness: 0.5, acceleration: 0.2, jerk: 1.0 };
+const LIGHT: Objective = Objective { rounds: 2, iterations: 60, nearness: 0.15, acceleration: 0.2, jerk: 1.0 };
 /// How the lattice's way is, when that was not enough.
 const THOROUGH: Objective = Objective { rounds: 4, iterations: 160, nearness: 0.05, acceleration: 0.5, jerk: 2.0 };
 
@@ -202,7 +202,16 @@ fn attempt(
     let mut judge = Judge { problem, exact, ground, config, learned, iterations: steps };
     let mut measured = judge.measure(&refined);
     let mut waypoints = refined;
-    dbg += &format!("azi {} alt {} lattice {:.3} searches {} dpvis {:.3} gn {:.3} {:?}", effort.size.azimuths, effort.size.altitudes, start.visibility, start.searches, judge.measure(&start.waypoints).certificate.mean_visibility, measured.certificate.mean_visibility, measured.certificate.violations);
+    dbg += &format!(
+        "azi {} alt {} lattice {:.3} searches {} dpvis {:.3} gn {:.3} {:?}",
+        effort.size.azimuths,
+        effort.size.altitudes,
+        start.visibility,
+        start.searches,
+        judge.measure(&start.waypoints).certificate.mean_visibility,
+        measured.certificate.mean_visibility,
+        measured.certificate.violations
+    );
     if !measured.certificate.holds {
         let safe = led_back(obstacles, &waypoints, &start.waypoints, config.limits.clearance_m + KEEP_OUT_EXTRA_M);
         (waypoints, measured) = judge.make_flyable(obstacles, &waypoints, &safe, LIGHT);

@@ -21,12 +21,12 @@ pub struct Rounds {
 }
 
 /// Weight of nearness to the lattice's way.
-const HOLD: f64 = 0.01;
+const HOLD: f64 = 0.02;
 /// It grows by this factor where the round ended worse than the lattice's way.
 const HOLD_GROWTH: f64 = 30.0;
 /// Smoothness beside that of the terms.
-const EXTRA_ACCELERATION: f64 = 0.3;
-const EXTRA_JERK: f64 = 2.0;
+const EXTRA_ACCELERATION: f64 = 0.5;
+const EXTRA_JERK: f64 = 3.0;
 /// Weight of missing clearance, and how far before the limit it begins, metres.
 const CLEARANCE_WEIGHT: f64 = 40.0;
 const CLEARANCE_EXTRA_M: f64 = 0.4;

@@ -117,6 +117,7 @@ impl<'a> Scanner<'a> {
             body_m: self.body_m,
             grow: [keep_out_m as f32, (keep_out_m + CLOSE_EXTRA_M) as f32],
             farthest: farthest as f32,
+            from_above: self.lattice.altitudes_m[0] > f64::from(self.body_m[4]),
         };
         mark_all(self.level, &shape, &self.profiles, &mut self.marks);
         let azimuths = self.lattice.directions.len();
@@ -180,6 +181,8 @@ struct Shape<'a> {
     body_m: [f32; 5],
     grow: [f32; 2],
     farthest: f32,
+    /// All rings are above the body.
+    from_above: bool,
 }
 
 /// For 16 azimuths: where the ray enters and leaves the box as it is, grown by the clearance, grown by more.
@@ -226,24 +229,32 @@ fn cross(shape: &Shape<'_>, first: usize, solid: &Profile, out: &mut Crossings) 
     hit.iter().fold(0, |bits, bit| bits | bit)
 }
 
+/// Number `group` of the groups of rings. Hidden from the optimiser, which would otherwise handle several groups at a
+/// time by gathering single numbers instead of one group as the vector that it is.
 #[inline(always)]
-fn vectors(values: &[f32]) -> &[[f32; VECTOR]] {
-    values.as_chunks().0
+fn group(values: &[f32], group: usize) -> &[f32; VECTOR] {
+    let start = core::hint::black_box(group) * VECTOR;
+    values[start..].first_chunk().unwrap_or(&[0.0; VECTOR])
 }
 
 /// Marks the rings of one azimuth that lie in the grown boxes.
 #[inline(always)]
 fn mark_inside(shape: &Shape<'_>, solid: &Profile, along: [(f32, f32); 2], marks: &mut [u32]) {
-    let rings = vectors(shape.radius).iter().zip(vectors(shape.altitude));
-    for (marks, (radius, altitude)) in marks.as_chunks_mut::<VECTOR>().0.iter_mut().zip(rings) {
+    let (low, high) = (shape.grow.map(|grow| solid.low - grow), shape.grow.map(|grow| solid.high + grow));
+    for (g, marks) in marks.as_chunks_mut::<VECTOR>().0.iter_mut().enumerate() {
+        let (radius, altitude) = (group(shape.radius, g), group(shape.altitude, g));
+        let mut found = [0_u32; VECTOR];
         for j in 0..VECTOR {
             let inside = |k: usize| {
                 (radius[j] >= along[k].0)
                     & (radius[j] <= along[k].1)
-                    & (altitude[j] >= solid.low - shape.grow[k])
-                    & (altitude[j] <= solid.high + shape.grow[k])
+                    & (altitude[j] >= low[k])
+                    & (altitude[j] <= high[k])
             };
-            marks[j] |= if inside(0) { UNSAFE_BIT } else { 0 } | if inside(1) { CLOSE_BIT } else { 0 };
+            found[j] = if inside(0) { UNSAFE_BIT } else { 0 } | if inside(1) { CLOSE_BIT } else { 0 };
+        }
+        for j in 0..VECTOR {
+            marks[j] |= found[j];
         }
     }
 }
@@ -252,16 +263,37 @@ fn mark_inside(shape: &Shape<'_>, solid: &Profile, along: [(f32, f32); 2], marks
 /// the body point, and the box lies between two heights over the distances `enter` to `leave`.
 #[inline(always)]
 fn mark_hidden(shape: &Shape<'_>, solid: &Profile, enter: f32, leave: f32, marks: &mut [u32]) {
-    let radii = vectors(shape.radius).iter().enumerate();
-    for (marks, (g, radius)) in marks.as_chunks_mut::<VECTOR>().0.iter_mut().zip(radii) {
+    for (g, marks) in marks.as_chunks_mut::<VECTOR>().0.iter_mut().enumerate() {
+        let radius = group(shape.radius, g);
         let mut found = [0_u32; VECTOR];
         for (k, slopes) in shape.slopes.iter().enumerate() {
-            let slope = &slopes.as_chunks::<VECTOR>().0[g];
+            let slope = group(slopes, g);
             let (low, high) = (solid.low - shape.body_m[k], solid.high - shape.body_m[k]);
             for j in 0..VECTOR {
                 let (at_enter, at_leave) = (slope[j] * enter, slope[j] * least(leave, radius[j]));
                 let hidden =
                     (least(at_enter, at_leave) <= high) & (most(at_enter, at_leave) >= low) & (enter <= radius[j]);
+                found[j] |= u32::from(hidden) << k;
+            }
+        }
+        for j in 0..VECTOR {
+            marks[j] |= found[j];
+        }
+    }
+}
+
+/// [`mark_hidden`] for a box that stands on or below the lowest body point, seen from above the body: whatever enters
+/// it below its top is hidden.
+#[inline(always)]
+fn mark_behind(shape: &Shape<'_>, solid: &Profile, enter: f32, marks: &mut [u32]) {
+    for (g, marks) in marks.as_chunks_mut::<VECTOR>().0.iter_mut().enumerate() {
+        let radius = group(shape.radius, g);
+        let mut found = [0_u32; VECTOR];
+        for (k, slopes) in shape.slopes.iter().enumerate() {
+            let slope = group(slopes, g);
+            let high = solid.high - shape.body_m[k];
+            for j in 0..VECTOR {
+                let hidden = (slope[j] * enter <= high) & (enter <= radius[j]);
                 found[j] |= u32::from(hidden) << k;
             }
         }
@@ -286,7 +318,10 @@ simd_kernel! {
                     let along = |k: usize| (crossings.enter[k][j], crossings.leave[k][j]);
                     mark_inside(shape, solid, [along(1), along(2)], row);
                     let (enter, leave) = along(0);
-                    if enter <= leave {
+                    if enter > leave {
+                    } else if shape.from_above && solid.low <= shape.body_m[0] {
+                        mark_behind(shape, solid, enter, row);
+                    } else {
                         mark_hidden(shape, solid, enter, leave, row);
                     }
                 }

@@ -20,7 +20,9 @@ const SHORTEST_LAYER_S: f64 = 0.5;
 /// Cost of a viewpoint outside the sector behind the walker.
 const OUTSIDE_SECTOR: f64 = 30.0;
 /// Visibility weighs this much more than in the sum of the terms, because a node is all or nothing.
-const VISIBILITY_FACTOR: f64 = 2.5;
+const VISIBILITY_FACTOR: f64 = 4.0;
+/// Share of the speed limit at which nodes may follow each other; the rest is for getting up to speed and slowing down.
+const STEADY_SHARE: f64 = 0.66;
 
 /// The lattice of one search, and how it differs from the recipe's when that fails.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -71,7 +73,7 @@ pub fn search(
     let moves = MoveCosts {
         relative: per_layer * config.search.relative_motion,
         absolute: per_layer * config.search.absolute_motion,
-        longest_m: config.limits.speed_mps * track.dt_s * stride as f64,
+        longest_m: STEADY_SHARE * config.limits.speed_mps * track.dt_s * stride as f64,
     };
     let feet = frames.iter().map(|&frame| track.states[frame].feet_in_world).collect();
     let mut viterbi = Viterbi::new(&lattice, feet, space, costs, moves);

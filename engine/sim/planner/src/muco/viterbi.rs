@@ -84,9 +84,8 @@ impl MovePrices {
         let between = |values: &[f64], from: Option<usize>, to: usize| {
             from.and_then(|from| values.get(from)).map_or(FORBIDDEN, |value| square((value - values[to]).abs()))
         };
-        let both = |values: &[f64], to: usize| {
-            [between(values, to.checked_sub(1), to), between(values, Some(to + 1), to)]
-        };
+        let both =
+            |values: &[f64], to: usize| [between(values, to.checked_sub(1), to), between(values, Some(to + 1), to)];
         let angle = real::TAU / lattice.directions.len() as f64;
         let chord = |steps: usize| 2.0 * real::sin(0.5 * angle * steps as f64);
         let possible = (lattice.directions.len() - 1) / 2;

@@ -6,11 +6,11 @@ use crate::visibility::BODY_POINTS;
 use cosfly_frames::DVec3;
 
 /// Lines of sight are wished this far from the edge of a shadow, metres.
-const MARGIN_M: f64 = 0.4;
+const MARGIN_M: f64 = 0.7;
 /// A waypoint deeper in shadow than this is not pulled, metres: the way out is likely the wrong one.
 const HOPELESS_M: f64 = 1.5;
 /// Weight of a metre of shadow, squared, beside that of a hidden point.
-const SIGHT_FACTOR: f64 = 1.0;
+const SIGHT_FACTOR: f64 = 3.0;
 
 /// `(1 - v)^2`. A step function of the waypoint: the solver takes differences wide enough to cross an edge.
 pub struct Visibility;
