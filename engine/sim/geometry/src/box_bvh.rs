@@ -4,7 +4,7 @@ use crate::bounds::Bounds;
 use crate::shape::Shape;
 use crate::turned_box::TurnedBox;
 use crate::wide::near::{self, WideSegment, most_square};
-use crate::wide::ray::{self, WideRay};
+use crate::wide::ray;
 use crate::wide::shaft;
 use crate::wide::tree::{REACH_M, WideTree};
 use crate::{Hit, Nearest, OrientedBox, SpatialQuery};
@@ -22,6 +22,7 @@ pub struct BoxBvh {
     primitives: Vec<u32>,
     tree: WideTree,
     bounds: Option<Bounds>,
+    has_wild: bool,
     level: Level,
 }
 
@@ -41,7 +42,7 @@ impl BoxBvh {
         let slots = order().map(|i| shapes[i]).collect();
         let primitives = order().map(|i| usable[i]).collect();
         let bounds = (!each.is_empty()).then(|| each.iter().fold(Bounds::EMPTY, |sum, one| sum.union(one)));
-        Self { given: boxes, slots, primitives, tree, bounds, level: Level::best() }
+        Self { given: boxes, slots, primitives, bounds, has_wild: !wild.is_empty(), tree, level: Level::best() }
     }
 
     /// The same tree asked with the instructions of a level; answers stay the same.
@@ -77,11 +78,28 @@ impl BoxBvh {
         self.tree.order.len()..self.slots.len()
     }
 
-    /// Both ends about the tree's origin and the margin of a query between them; `None` when f32 cannot be asked.
+    /// A point about the tree's origin; `None` when f32 cannot be asked of it.
     #[inline(always)]
-    fn local(&self, from_in_world: DVec3, to_in_world: DVec3) -> Option<(DVec3, DVec3, f64)> {
-        let (from, to) = (self.tree.local(from_in_world)?, self.tree.local(to_in_world)?);
-        Some((from, to, self.tree.margin_m(from.abs().max(to.abs()).max_element())))
+    fn local(&self, point_in_world: DVec3) -> Option<DVec3> {
+        let local = point_in_world - self.tree.origin_in_world;
+        (local.abs().max_element() <= REACH_M).then_some(local)
+    }
+
+    /// Whether one of the slots stands between two points, exactly.
+    #[cold]
+    fn blocked_by(&self, mut slots: std::ops::Range<usize>, from_in_world: DVec3, to_in_world: DVec3) -> bool {
+        let step = to_in_world - from_in_world;
+        slots.any(|slot| self.slots[slot].ray_entry(from_in_world, step, 1.0).is_some())
+    }
+
+    #[inline(always)]
+    fn blocked_eight(&self, from_in_world: DVec3, ends: &[DVec3; shaft::RAYS], out: &mut [bool; shaft::RAYS]) {
+        let hidden =
+            if self.has_wild { None } else { shaft::blocked(self.level, &self.tree, &self.slots, from_in_world, ends) };
+        match hidden {
+            Some(mask) => *out = core::array::from_fn(|ray| mask >> ray & 1 == 1),
+            None => *out = ends.map(|end| self.blocked(from_in_world, end)),
+        }
     }
 
     /// Calls `visit` with every slot.
@@ -109,33 +127,28 @@ impl SpatialQuery for BoxBvh {
             }
             best.t
         };
-        let Some((from, _, margin_m)) = self.local(origin_in_world, origin_in_world) else {
+        if self.local(origin_in_world).is_none() {
             self.visit_all(|slot| _ = exact(slot));
             return (best.primitive != u32::MAX).then_some(best);
-        };
+        }
         // The tree's ray moves one metre along its fastest axis per unit of its parameter. Components that exact
         // kernels take for none are none.
         let step = DVec3::from_array(direction_in_world.to_array().map(|d| if d.abs() < 1e-250 { 0.0 } else { d }));
         let speed = step.abs().max_element();
         let (unit, speed) = if speed > 0.0 { (step / speed, speed) } else { (DVec3::ZERO, 1.0) };
-        let wide = WideRay::new(from, unit, margin_m);
         let widened = |t: f64| (t * speed) as f32 * (1.0 + 1e-6);
-        let first = self.wild().fold(max_t, |_, slot| exact(slot));
-        ray::along(self.level, &self.tree, &wide, widened(first), &mut |slot| widened(exact(slot)));
+        let first = widened(self.wild().fold(max_t, |_, slot| exact(slot)));
+        let from = (origin_in_world - self.tree.origin_in_world).as_vec3a();
+        ray::along(self.level, &self.tree, from, unit.as_vec3a(), first, &mut |slot| widened(exact(slot)));
         (best.primitive != u32::MAX).then_some(best)
     }
 
     fn blocked(&self, from_in_world: DVec3, to_in_world: DVec3) -> bool {
-        if !(from_in_world.is_finite() && to_in_world.is_finite()) {
-            return true;
+        if let Some(hidden) = ray::blocked(self.level, &self.tree, &self.slots, from_in_world, to_in_world) {
+            return hidden || (self.has_wild && self.blocked_by(self.wild(), from_in_world, to_in_world));
         }
-        let step = to_in_world - from_in_world;
-        let mut exact = |slot: usize| self.slots[slot].ray_entry(from_in_world, step, 1.0).is_some();
-        let Some((from, _, margin_m)) = self.local(from_in_world, to_in_world) else {
-            return (0..self.slots.len()).any(exact);
-        };
-        let wide = WideRay::new(from, step, margin_m);
-        ray::blocked(self.level, &self.tree, &wide, &mut exact) || self.wild().any(exact)
+        let all_finite = from_in_world.is_finite() && to_in_world.is_finite();
+        !all_finite || self.blocked_by(0..self.slots.len(), from_in_world, to_in_world)
     }
 
     fn nearest(&self, point_in_world: DVec3, within_m: f64) -> Option<Nearest> {
@@ -175,22 +188,20 @@ impl SpatialQuery for BoxBvh {
     }
 
     fn blocked_batch(&self, from_in_world: DVec3, to_in_world: &[DVec3], blocked: &mut [bool]) {
-        for (ends, out) in to_in_world.chunks(shaft::RAYS).zip(blocked.chunks_mut(shaft::RAYS)) {
-            let last = ends.len() - 1;
-            let eight: [DVec3; shaft::RAYS] = core::array::from_fn(|ray| ends[ray.min(last)]);
-            let all_finite = eight.iter().fold(from_in_world.is_finite(), |all, end| all & end.is_finite());
-            let together = all_finite && ends.len() > 2 && self.wild().is_empty();
-            let hidden = if together {
-                shaft::blocked_rays(self.level, &self.tree, &self.slots, from_in_world, &eight)
-            } else {
-                None
-            };
-            for (ray, (&end, out)) in ends.iter().zip(out).enumerate() {
-                *out = match hidden {
-                    Some(mask) => mask >> ray & 1 == 1,
-                    None => self.blocked(from_in_world, end),
-                };
-            }
+        let count = to_in_world.len().min(blocked.len());
+        let (eights, ends) = to_in_world[..count].as_chunks();
+        let (out_eights, out) = blocked[..count].as_chunks_mut();
+        for (eight, out_eight) in eights.iter().zip(out_eights) {
+            self.blocked_eight(from_in_world, eight, out_eight);
+        }
+        let count = ends.len();
+        if count > 2 {
+            let (mut eight, mut out_eight) = ([ends[0]; shaft::RAYS], [false; shaft::RAYS]);
+            eight[..count].copy_from_slice(ends);
+            self.blocked_eight(from_in_world, &eight, &mut out_eight);
+            out.copy_from_slice(&out_eight[..count]);
+        } else {
+            ends.iter().zip(out).for_each(|(&end, out)| *out = self.blocked(from_in_world, end));
         }
     }
 
@@ -202,14 +213,13 @@ impl SpatialQuery for BoxBvh {
             }
         };
         let reach = DVec3::splat(REACH_M);
-        let low = (min_in_world - self.tree.origin_in_world).clamp(-reach, reach);
-        let high = (max_in_world - self.tree.origin_in_world).clamp(-reach, reach);
+        let clamped = |corner: DVec3| (corner - self.tree.origin_in_world).clamp(-reach, reach);
+        let (low, high) = (clamped(min_in_world), clamped(max_in_world));
         if !low.is_finite() || !high.is_finite() {
             return self.visit_all(exact);
         }
         self.wild().for_each(&mut exact);
-        let margin_m = self.tree.margin_m(low.abs().max(high.abs()).max_element());
-        let window = WideSegment::window(low, high, margin_m);
+        let window = WideSegment::window(low, high, self.margin_m(low, high));
         near::around(self.level, &self.tree, &window, 0.0, &mut |slot| {
             exact(slot);
             0.0
@@ -218,14 +228,20 @@ impl SpatialQuery for BoxBvh {
 }
 
 impl BoxBvh {
+    /// What rounding may add to or take from anything between two points about the tree's origin.
+    #[inline(always)]
+    fn margin_m(&self, from: DVec3, to: DVec3) -> f64 {
+        f64::from(self.tree.margin(from.abs().max(to.abs()).max_element() as f32))
+    }
+
     /// Calls `exact` with at least the slots that lie nearer to the segment than it last gave, at first `within_m`.
     #[inline]
     fn around(&self, from_in_world: DVec3, to_in_world: DVec3, within_m: f64, exact: &mut dyn FnMut(usize) -> f64) {
-        let Some((from, to, margin_m)) = self.local(from_in_world, to_in_world) else {
+        let (Some(from), Some(to)) = (self.local(from_in_world), self.local(to_in_world)) else {
             return self.visit_all(|slot| _ = exact(slot));
         };
         let within_m = self.wild().fold(within_m, |_, slot| exact(slot));
-        let segment = WideSegment::new(from, to, margin_m);
+        let segment = WideSegment::new(from, to, self.margin_m(from, to));
         near::around(self.level, &self.tree, &segment, most_square(within_m), &mut |slot| most_square(exact(slot)));
     }
 }

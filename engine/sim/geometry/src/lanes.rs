@@ -4,6 +4,8 @@
 //! margin for every rounding, and exact arithmetic decides the rest. So levels may round differently here (AVX-512
 //! fuses products and sums) and still give the same answers.
 
+use cosfly_frames::simd::Level;
+
 /// Number of lanes of a block.
 pub const LANES: usize = 16;
 
@@ -12,6 +14,8 @@ pub type Lane = [f32; LANES];
 
 /// What differs between vector levels.
 pub trait Lanes: Copy {
+    /// Which level this is.
+    fn level(self) -> Level;
     /// `a * b + c`, fused where that is one instruction.
     fn multiply_add(self, a: f32, b: f32, c: f32) -> f32;
     /// Bit i tells whether `a[i] <= b[i]`.
@@ -28,6 +32,8 @@ pub struct LevelLanes<F32, F64, const FUSED: bool> {
     pub at_most: F32,
     /// See [`Lanes::at_most_f64`].
     pub at_most_f64: F64,
+    /// See [`Lanes::level`].
+    pub level: Level,
 }
 
 impl<F32, F64, const FUSED: bool> Lanes for LevelLanes<F32, F64, FUSED>
@@ -35,6 +41,10 @@ where
     F32: Fn(&Lane, &Lane) -> u32 + Copy,
     F64: Fn(&[f64; 8], &[f64; 8]) -> u32 + Copy,
 {
+    #[inline(always)]
+    fn level(self) -> Level {
+        self.level
+    }
     #[inline(always)]
     fn multiply_add(self, a: f32, b: f32, c: f32) -> f32 {
         if FUSED { a.mul_add(b, c) } else { a * b + c }
@@ -54,6 +64,10 @@ where
 pub struct PlainLanes;
 
 impl Lanes for PlainLanes {
+    #[inline(always)]
+    fn level(self) -> Level {
+        Level::PLAIN
+    }
     #[inline(always)]
     fn multiply_add(self, a: f32, b: f32, c: f32) -> f32 {
         a * b + c
@@ -97,13 +111,15 @@ macro_rules! at_level {
         $vis fn $name(level: cosfly_frames::simd::Level, $($arg: $ty),*) -> $ret {
             #[cfg(target_arch = "x86_64")]
             #[target_feature(enable = "avx2")]
-            fn avx2($($arg: $ty),*) -> $ret {
+            #[inline(never)]
+            fn avx2(level: cosfly_frames::simd::Level, $($arg: $ty),*) -> $ret {
                 use core::arch::x86_64::*;
                 let half = |a: &$crate::lanes::Lane, i: usize| {
                     _mm256_setr_ps(a[i], a[i + 1], a[i + 2], a[i + 3], a[i + 4], a[i + 5], a[i + 6], a[i + 7])
                 };
                 let half_f64 = |a: &[f64; 8], i: usize| _mm256_setr_pd(a[i], a[i + 1], a[i + 2], a[i + 3]);
                 let lanes = $crate::lanes::LevelLanes::<_, _, false> {
+                    level,
                     at_most: |a: &$crate::lanes::Lane, b: &$crate::lanes::Lane| {
                         let bits = |i| _mm256_movemask_ps(_mm256_cmp_ps::<_CMP_LE_OQ>(half(a, i), half(b, i))) as u32;
                         bits(0) | bits(8) << 8
@@ -118,7 +134,8 @@ macro_rules! at_level {
             }
             #[cfg(target_arch = "x86_64")]
             #[target_feature(enable = "avx512f,avx512bw,avx512dq,avx512vl")]
-            fn avx512($($arg: $ty),*) -> $ret {
+            #[inline(never)]
+            fn avx512(level: cosfly_frames::simd::Level, $($arg: $ty),*) -> $ret {
                 use core::arch::x86_64::*;
                 let all = |a: &$crate::lanes::Lane| {
                     let [a0, a1, a2, a3, a4, a5, a6, a7, a8, a9, a10, a11, a12, a13, a14, a15] = *a;
@@ -126,6 +143,7 @@ macro_rules! at_level {
                 };
                 let all_f64 = |a: &[f64; 8]| _mm512_setr_pd(a[0], a[1], a[2], a[3], a[4], a[5], a[6], a[7]);
                 let lanes = $crate::lanes::LevelLanes::<_, _, true> {
+                    level,
                     at_most: |a: &$crate::lanes::Lane, b: &$crate::lanes::Lane| {
                         u32::from(_mm512_cmp_ps_mask::<_CMP_LE_OQ>(all(a), all(b)))
                     },
@@ -138,10 +156,10 @@ macro_rules! at_level {
             match level.kind() {
                 // SAFETY: a level above the plain one exists only after its features were detected.
                 #[cfg(target_arch = "x86_64")]
-                cosfly_frames::simd::Kind::Avx512 => unsafe { avx512($($arg),*) },
+                cosfly_frames::simd::Kind::Avx512 => unsafe { avx512(level, $($arg),*) },
                 // SAFETY: as above.
                 #[cfg(target_arch = "x86_64")]
-                cosfly_frames::simd::Kind::Avx2 => unsafe { avx2($($arg),*) },
+                cosfly_frames::simd::Kind::Avx2 => unsafe { avx2(level, $($arg),*) },
                 _ => $kernel($crate::lanes::PlainLanes, $($arg),*),
             }
         }

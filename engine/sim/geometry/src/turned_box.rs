@@ -33,6 +33,12 @@ impl TurnedBox {
         (self.sin, self.cos)
     }
 
+    /// Whether its axes are the world's, to the last bit.
+    #[inline(always)]
+    pub fn is_axis_aligned(&self) -> bool {
+        self.sin == 0.0 && self.cos == 1.0
+    }
+
     /// Whether it fills its bounds but for a ten-billionth of its size: it is turned by quarters.
     #[inline]
     pub fn is_along_axes(&self) -> bool {

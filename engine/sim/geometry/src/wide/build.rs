@@ -89,8 +89,9 @@ pub fn build(boxes: &[TurnedBox], bounds: &[Bounds]) -> (WideTree, Vec<u32>) {
         }
     }
     let blocks = Vec::with_capacity(items.len() / 8 + 1);
+    let least_margin = WideTree::least_margin_of(size_m, origin);
     let mut tree =
-        WideTree { blocks, turned: Vec::new(), origin_in_world: origin, depth: 0, size_m, order: Vec::new() };
+        WideTree { blocks, turned: Vec::new(), origin_in_world: origin, depth: 0, least_margin, order: Vec::new() };
     if !items.is_empty() {
         tree.blocks.push(Block::empty(true));
         let mut open = vec![(0_usize, 0..items.len(), 1_usize)];

@@ -1,7 +1,7 @@
 //! A tree of sixteen children over boxes, in f32 about a local origin; each query is a file.
 //!
 //! The tree never answers by itself. For each query it tells which boxes are met beyond doubt, which are missed beyond
-//! doubt, and which need exact arithmetic. Its margin, [`tree::WideTree::margin_m`], covers every rounding.
+//! doubt, and which need exact arithmetic. Its margin, [`tree::WideTree::margin`], covers every rounding.
 
 pub mod build;
 pub mod near;

@@ -1,8 +1,7 @@
 //! What is close to a point or a segment, through the tree.
 
-use super::ray::{WAITING, push_nearest_last};
-use super::tree::{Block, WideTree};
-use crate::lanes::{LANES, Lane, Lanes, at_level, larger, smaller};
+use super::tree::{Block, MAX_DEPTH, WideTree};
+use crate::lanes::{LANES, Lane, Lanes, at_level, larger, smaller, take_lane};
 use cosfly_frames::DVec3;
 
 /// Share by which squared distances are lessened for their own rounding.
@@ -82,6 +81,9 @@ pub fn most_square(distance_m: f64) -> f32 {
 /// Marks a waiting slot, so that it is no block.
 const SLOT: u32 = 1 << 31;
 
+/// Blocks that wait with the parameter or distance at which they begin.
+const WAITING: usize = (MAX_DEPTH + 1) * LANES;
+
 at_level! {
     /// Calls `exact` with the slots that may be nearer than the square root of what it last gave, at first of
     /// `within`, roughly the nearest first.
@@ -115,4 +117,28 @@ fn around_kernel(
         let first = if block.is_leaf { block.first | SLOT } else { block.first };
         height = push_nearest_last(&mut waiting, height, first, met, &squares);
     }
+}
+
+/// Adds children to the waiting blocks such that those with smaller keys come off first.
+#[inline(always)]
+fn push_nearest_last(
+    waiting: &mut [(u32, f32); WAITING],
+    height: usize,
+    first: u32,
+    mut met: u32,
+    keys: &Lane,
+) -> usize {
+    let mut top = height;
+    while met != 0 {
+        let lane = take_lane(&mut met);
+        let key = keys[lane];
+        let mut place = top;
+        while place > height && waiting[place - 1].1 < key {
+            waiting[place] = waiting[place - 1];
+            place -= 1;
+        }
+        waiting[place] = (first + lane as u32, key);
+        top += 1;
+    }
+    top
 }

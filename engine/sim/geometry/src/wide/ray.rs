@@ -1,184 +1,177 @@
 //! Rays through the tree: whether anything stands in the way, and what comes first.
 
-use super::tree::{Block, MAX_DEPTH, WideTree};
+use super::tree::{Block, MAX_DEPTH, REACH_M, WideTree};
+use super::turned::{self, Way};
 use crate::lanes::{LANES, Lane, Lanes, at_level, larger, smaller, take_lane};
+use crate::shape::Shape;
+use crate::turned_box::TurnedBox;
 use cosfly_frames::DVec3;
+use glam::Vec3A;
 
-/// Share by which parameters are widened: a direction, its inverse, a product and a sum are each rounded once.
-const PARAMETER_SHARE: f32 = 8.0 / 16_777_216.0;
-/// Stands for one over a direction that does not move along an axis: with faces within reach it still is finite.
+/// Share by which parameters are widened: a direction, its inverse, the widening itself and the crossing are each
+/// rounded once, by 2^-24.
+pub const PARAMETER_SHARE: f32 = 8.0 / 16_777_216.0;
+/// Stands for one over a direction that does not move along an axis: with faces within reach it stays finite.
 const STANDING: f32 = 1e30;
 /// Directions below this move nowhere in f32.
 const LEAST_STEP: f32 = 1e-30;
 
-/// One over a direction.
+/// One over a direction, axis by axis.
 #[inline(always)]
-pub fn inverse(direction: f32) -> f32 {
-    if direction.abs() < LEAST_STEP { STANDING } else { 1.0 / direction }
+pub fn inverse(step: Vec3A) -> Vec3A {
+    Vec3A::select(step.abs().cmplt(Vec3A::splat(LEAST_STEP)), Vec3A::splat(STANDING), step.recip())
 }
 
-/// A ray made ready for blocks: where it crosses a face at `x` is `x * scale + offset`.
+/// A ray made ready for blocks: it crosses a face at `x` where its parameter is `x * scale + offset`. Near faces are
+/// moved outwards by the margin, and so are far ones.
 #[derive(Clone, Copy)]
-pub struct WideRay {
-    near: [Crossing; 3],
-    far: [Crossing; 3],
-    inner_near: [Crossing; 3],
-    inner_far: [Crossing; 3],
-    backwards: [bool; 3],
-    from: [f32; 3],
-    step: [f32; 3],
-    margin: f32,
-}
-
-#[derive(Clone, Copy)]
-struct Crossing {
-    scale: f32,
-    offset: f32,
-}
-
-impl Crossing {
-    /// Of the faces moved by `shift` with the ray that starts at `origin`.
-    #[inline(always)]
-    fn new(origin: f64, shift: f64, scale: f32) -> Self {
-        Self { scale, offset: -((origin - shift) as f32 * scale) }
-    }
+struct WideRay {
+    near_scale: [f32; 3],
+    near_offset: [f32; 3],
+    far_scale: [f32; 3],
+    far_offset: [f32; 3],
+    /// How much later the ray surely is behind a near face.
+    doubt: [f32; 3],
+    /// Which of an axis's two faces comes first.
+    first: [usize; 3],
+    way: Way,
 }
 
 impl WideRay {
     /// For the ray `from + t * step` in local coordinates.
     #[inline(always)]
-    pub fn new(from: DVec3, step: DVec3, margin_m: f64) -> Self {
-        let nothing = Crossing { scale: 0.0, offset: 0.0 };
-        let mut ray = Self {
-            near: [nothing; 3],
-            far: [nothing; 3],
-            inner_near: [nothing; 3],
-            inner_far: [nothing; 3],
-            backwards: [false; 3],
-            from: from.as_vec3().to_array(),
-            step: step.as_vec3().to_array(),
-            margin: margin_m as f32,
-        };
-        for axis in 0..3 {
-            let scale = inverse(ray.step[axis]);
-            let backwards = scale < 0.0;
-            let outwards = if backwards { margin_m } else { -margin_m };
-            let (small, large) = (scale * (1.0 - PARAMETER_SHARE), scale * (1.0 + PARAMETER_SHARE));
-            ray.backwards[axis] = backwards;
-            ray.near[axis] = Crossing::new(from[axis], outwards, small);
-            ray.far[axis] = Crossing::new(from[axis], -outwards, large);
-            ray.inner_near[axis] = Crossing::new(from[axis], -outwards, large);
-            ray.inner_far[axis] = Crossing::new(from[axis], outwards, small);
+    fn new(from: Vec3A, step: Vec3A, margin: f32) -> Self {
+        let inverse = inverse(step);
+        let backwards = inverse.cmplt(Vec3A::ZERO);
+        let outwards = Vec3A::select(backwards, Vec3A::splat(margin), Vec3A::splat(-margin));
+        let (near_scale, far_scale) = (inverse * (1.0 - PARAMETER_SHARE), inverse * (1.0 + PARAMETER_SHARE));
+        // Twice the margin, and the widening on both sides of parameters up to 1.
+        let doubt = inverse.abs() * (2.0001 * margin) + Vec3A::splat(64.0 / 16_777_216.0);
+        let mask = backwards.bitmask() as usize;
+        let (from_array, step_array) = (from.to_array(), step.to_array());
+        Self {
+            near_scale: near_scale.to_array(),
+            near_offset: ((outwards - from) * near_scale).to_array(),
+            far_scale: far_scale.to_array(),
+            far_offset: ((-outwards - from) * far_scale).to_array(),
+            doubt: doubt.to_array(),
+            first: [mask & 1, mask >> 1 & 1, mask >> 2 & 1],
+            way: Way {
+                from: [from_array[0], from_array[1]],
+                step: [step_array[0], step_array[1]],
+                reach: [2.0 * margin; 2],
+            },
         }
-        ray
     }
 
-    /// Bits of the lanes whose bounds the ray may meet at a parameter of at most `max_t`, and where.
+    /// Bits of the lanes whose bounds the ray may meet at a parameter of at most `max_t`, where, and bits of those
+    /// that it meets beyond doubt.
     #[inline(always)]
-    fn met(&self, lanes: impl Lanes, block: &Block, max_t: f32) -> (u32, Lane, Lane) {
-        self.crossed(lanes, block, (&self.near, &self.far), max_t)
-    }
-
-    /// Bits of the lanes whose bounds the ray meets beyond doubt between 0 and 1.
-    #[inline(always)]
-    fn surely_met(&self, lanes: impl Lanes, block: &Block) -> u32 {
-        self.crossed(lanes, block, (&self.inner_near, &self.inner_far), 1.0 - PARAMETER_SHARE).0
-    }
-
-    #[inline(always)]
-    fn crossed(
-        &self,
-        lanes: impl Lanes,
-        block: &Block,
-        (near, far): (&[Crossing; 3], &[Crossing; 3]),
-        max_t: f32,
-    ) -> (u32, Lane, Lane) {
+    fn met<const SURELY: bool>(&self, lanes: impl Lanes, block: &Block, max_t: f32) -> Met {
         let (mut enter, mut leave) = ([0.0; LANES], [max_t; LANES]);
+        let (mut sure_enter, mut sure_leave) = ([0.0; LANES], [1.0 - PARAMETER_SHARE; LANES]);
         for axis in 0..3 {
-            let faces = &block.faces[axis];
-            let (first, last) = if self.backwards[axis] { (&faces[1], &faces[0]) } else { (&faces[0], &faces[1]) };
+            let [low, high] = &block.faces[axis];
+            let (near, far) = if self.first[axis] == 0 { (low, high) } else { (high, low) };
             for i in 0..LANES {
-                let t_near = lanes.multiply_add(first[i], near[axis].scale, near[axis].offset);
-                let t_far = lanes.multiply_add(last[i], far[axis].scale, far[axis].offset);
+                let t_near = lanes.multiply_add(near[i], self.near_scale[axis], self.near_offset[axis]);
+                let t_far = lanes.multiply_add(far[i], self.far_scale[axis], self.far_offset[axis]);
                 enter[i] = larger(t_near, enter[i]);
                 leave[i] = smaller(t_far, leave[i]);
+                if SURELY {
+                    sure_enter[i] = larger(t_near + self.doubt[axis], sure_enter[i]);
+                    sure_leave[i] = smaller(t_far - self.doubt[axis], sure_leave[i]);
+                }
             }
         }
-        (lanes.at_most(&enter, &leave) & block.valid, enter, leave)
+        let surely = if SURELY { lanes.at_most(&sure_enter, &sure_leave) & block.valid } else { 0 };
+        Met { maybe: lanes.at_most(&enter, &leave) & block.valid, surely, enter, leave }
     }
+}
 
-    /// Takes the turned boxes that are missed after all out of `met`.
-    #[inline(always)]
-    fn without_missed_turned(
-        &self,
-        lanes: impl Lanes,
-        tree: &WideTree,
-        block: &Block,
-        met: u32,
-        ways: (&Lane, &Lane),
-    ) -> u32 {
-        if met & block.turned == 0 {
-            return met;
-        }
-        let turned = &tree.turned[block.turned_lanes as usize];
-        let reach = [2.0 * self.margin; 2];
-        let [from, step] = [self.from, self.step].map(|v| [v[0], v[1]]);
-        met & (!block.turned | turned.met(lanes, from, step, reach, ways.0, ways.1))
-    }
+/// Lanes that a ray meets.
+struct Met {
+    maybe: u32,
+    surely: u32,
+    enter: Lane,
+    leave: Lane,
 }
 
 at_level! {
-    /// Whether a box stands on the ray between 0 and 1. `exact` says so of a slot that f32 cannot decide.
-    pub fn blocked(tree: &WideTree, ray: &WideRay, exact: &mut dyn FnMut(usize) -> bool) -> bool = blocked_kernel;
+    /// Whether a box stands between two points; `None` when f32 cannot be asked. `slots` are the boxes in the tree's
+    /// order.
+    pub fn blocked(tree: &WideTree, slots: &[TurnedBox], from_in_world: DVec3, to_in_world: DVec3) -> Option<bool> = blocked_kernel;
 }
 
 #[inline(always)]
-fn blocked_kernel(lanes: impl Lanes, tree: &WideTree, ray: &WideRay, exact: &mut dyn FnMut(usize) -> bool) -> bool {
+fn blocked_kernel(
+    lanes: impl Lanes,
+    tree: &WideTree,
+    slots: &[TurnedBox],
+    from_in_world: DVec3,
+    to_in_world: DVec3,
+) -> Option<bool> {
+    let from = (from_in_world - tree.origin_in_world).as_vec3a();
+    let step_in_world = to_in_world - from_in_world;
+    let step = step_in_world.as_vec3a();
+    let reach = from.abs().max((from + step).abs()).max_element();
+    if !(reach <= REACH_M as f32) {
+        return None;
+    }
+    let ray = WideRay::new(from, step, tree.margin(reach));
     let mut open = [(0_u32, 0_u32); MAX_DEPTH];
     let (mut height, mut at) = (0, 0_usize);
-    if tree.blocks.is_empty() {
-        return false;
-    }
-    loop {
-        let block = &tree.blocks[at];
-        let (met, enter, leave) = ray.met(lanes, block, 1.0 + PARAMETER_SHARE);
+    while let Some(block) = tree.blocks.get(at) {
         if block.is_leaf {
-            if ray.surely_met(lanes, block) & !block.turned != 0 {
-                return true;
+            let mut met = ray.met::<true>(lanes, block, 1.0 + PARAMETER_SHARE);
+            if met.surely & !block.turned != 0 {
+                return Some(true);
             }
-            if met != 0 {
-                let mut met = ray.without_missed_turned(lanes, tree, block, met, (&enter, &leave));
-                while met != 0 {
-                    let lane = take_lane(&mut met);
-                    if exact(block.first as usize + lane) {
-                        return true;
-                    }
+            if met.maybe & block.turned != 0 {
+                met.maybe &= turned::met(lanes.level(), tree, block, &ray.way, &met.enter, &met.leave);
+            }
+            while met.maybe != 0 {
+                let slot = block.first as usize + take_lane(&mut met.maybe);
+                if slots[slot].ray_entry(from_in_world, step_in_world, 1.0).is_some() {
+                    return Some(true);
                 }
             }
-        } else if met != 0 {
-            open[height] = (block.first, met);
-            height += 1;
+        } else {
+            let met = ray.met::<false>(lanes, block, 1.0 + PARAMETER_SHARE);
+            if met.maybe != 0 {
+                open[height] = (block.first, met.maybe);
+                height += 1;
+            }
         }
         if height == 0 {
-            return false;
+            break;
         }
         let top = &mut open[height - 1];
         at = top.0 as usize + take_lane(&mut top.1);
         height -= usize::from(top.1 == 0);
     }
+    Some(false)
 }
 
 /// Blocks that wait with the parameter or distance at which they begin.
-pub const WAITING: usize = (MAX_DEPTH + 1) * LANES;
+const WAITING: usize = (MAX_DEPTH + 1) * LANES;
 
 at_level! {
-    /// Calls `exact` with the slots that the ray may meet, roughly in order, up to the parameter that it last gave,
-    /// at first `max_t`.
-    pub fn along(tree: &WideTree, ray: &WideRay, max_t: f32, exact: &mut dyn FnMut(usize) -> f32) -> () = along_kernel;
+    /// Calls `exact` with the slots that the ray `from + t * step`, in local coordinates, may meet, roughly in order,
+    /// up to the parameter that it last gave, at first `max_t`.
+    pub fn along(tree: &WideTree, from: Vec3A, step: Vec3A, max_t: f32, exact: &mut dyn FnMut(usize) -> f32) -> () = along_kernel;
 }
 
 #[inline(always)]
-fn along_kernel(lanes: impl Lanes, tree: &WideTree, ray: &WideRay, max_t: f32, exact: &mut dyn FnMut(usize) -> f32) {
+fn along_kernel(
+    lanes: impl Lanes,
+    tree: &WideTree,
+    from: Vec3A,
+    step: Vec3A,
+    max_t: f32,
+    exact: &mut dyn FnMut(usize) -> f32,
+) {
+    let ray = WideRay::new(from, step, tree.margin(from.abs().max_element()));
     let mut best = max_t;
     let mut waiting = [(0_u32, 0.0_f32); WAITING];
     let mut height = usize::from(!tree.blocks.is_empty());
@@ -189,15 +182,17 @@ fn along_kernel(lanes: impl Lanes, tree: &WideTree, ray: &WideRay, max_t: f32, e
             continue;
         }
         let block = &tree.blocks[at as usize];
-        let (mut met, enter, leave) = ray.met(lanes, block, best);
+        let mut met = ray.met::<false>(lanes, block, best);
         if !block.is_leaf {
-            height = push_nearest_last(&mut waiting, height, block.first, met, &enter);
+            height = push_nearest_last(&mut waiting, height, block.first, met.maybe, &met.enter);
             continue;
         }
-        met = ray.without_missed_turned(lanes, tree, block, met, (&enter, &leave));
-        while met != 0 {
-            let lane = take_lane(&mut met);
-            if enter[lane] <= best {
+        if met.maybe & block.turned != 0 {
+            met.maybe &= turned::met(lanes.level(), tree, block, &ray.way, &met.enter, &met.leave);
+        }
+        while met.maybe != 0 {
+            let lane = take_lane(&mut met.maybe);
+            if met.enter[lane] <= best {
                 best = exact(block.first as usize + lane);
             }
         }
@@ -206,7 +201,7 @@ fn along_kernel(lanes: impl Lanes, tree: &WideTree, ray: &WideRay, max_t: f32, e
 
 /// Adds children to the waiting blocks such that those with smaller keys come off first.
 #[inline(always)]
-pub fn push_nearest_last(
+fn push_nearest_last(
     waiting: &mut [(u32, f32); WAITING],
     height: usize,
     first: u32,

@@ -1,172 +1,161 @@
 //! Eight rays from one point at once: the hull of all of them through the tree, then eight exact answers per box.
 
-use super::ray::inverse;
-use super::tree::{Block, MAX_DEPTH, WideTree};
+use super::ray::{PARAMETER_SHARE, inverse};
+use super::tree::{Block, MAX_DEPTH, REACH_M, WideTree};
+use super::turned::{self, Way};
 use crate::lanes::{LANES, Lane, Lanes, at_level, larger, smaller, take_lane};
 use crate::turned_box::TurnedBox;
 use cosfly_frames::DVec3;
+use glam::Vec3A;
 
 /// Rays of a shaft.
 pub const RAYS: usize = 8;
-const PARAMETER_SHARE: f32 = 8.0 / 16_777_216.0;
+/// All rays of a shaft.
+const ALL: u32 = (1 << RAYS) - 1;
 /// A direction component below this never leaves a slab: the exact test's own limit.
 const PARALLEL: f64 = 1e-250;
 
-/// Eight rays from one point: directions axis by axis.
+/// A number for each ray.
+type PerRay = [f64; RAYS];
+
+/// Eight rays from one point, axis by axis.
+#[derive(Clone, Copy)]
 pub struct Shaft {
     from_in_world: DVec3,
-    step: [[f64; RAYS]; 3],
-    inverse: [[f64; RAYS]; 3],
+    step: [PerRay; 3],
+    inverse: [PerRay; 3],
     /// Whether some ray does not move along an axis.
     has_parallel: bool,
-    /// Smallest and largest step per axis.
-    low: [f64; 3],
-    high: [f64; 3],
 }
 
-impl Shaft {
-    /// The rays from one point to eight.
-    #[inline(always)]
-    pub fn new(from_in_world: DVec3, to_in_world: &[DVec3; RAYS]) -> Self {
-        let step: [[f64; RAYS]; 3] =
-            core::array::from_fn(|axis| core::array::from_fn(|ray| to_in_world[ray][axis] - from_in_world[axis]));
-        let inverse = step.map(|axis| axis.map(|d| 1.0 / d));
-        let low = step.map(|axis| axis.into_iter().fold(f64::INFINITY, smaller));
-        let high = step.map(|axis| axis.into_iter().fold(f64::NEG_INFINITY, larger));
-        let has_parallel = step.iter().flatten().fold(false, |any, d| any | (d.abs() < PARALLEL));
-        Self { from_in_world, step, inverse, has_parallel, low, high }
-    }
-
-    /// Whether the rays stay close enough together for their hull to say much of them.
-    #[inline(always)]
-    pub fn is_slender(&self) -> bool {
-        /// Largest distance of two ends along an axis, metres.
-        const WIDTH_M: f64 = 4.0;
-        /// The same per metre of length, beyond half a metre.
-        const SLOPE: f64 = 0.3;
-        let width = (0..3).map(|axis| self.high[axis] - self.low[axis]).fold(0.0, larger);
-        let length = (0..3).map(|axis| larger(self.high[axis], -self.low[axis])).fold(0.0, larger);
-        width <= WIDTH_M && width <= 0.5 + SLOPE * length
-    }
+/// The smallest of eight.
+#[inline(always)]
+fn smallest(a: &PerRay) -> f64 {
+    let four: [f64; 4] = core::array::from_fn(|i| smaller(a[i], a[i + 4]));
+    smaller(smaller(four[0], four[2]), smaller(four[1], four[3]))
 }
 
 /// The hull of a shaft made ready for blocks. At the parameter t it is a box between `from + t * low` and
 /// `from + t * high`; it meets bounds where `t * high >= min - from` and `t * low <= max - from`, two crossings per
 /// axis, each a beginning or an end after the sign of its step.
 struct Hull {
-    axes: [HullAxis; 3],
-    from: [f32; 3],
-    middle: [f32; 3],
-    reach: [f32; 2],
-}
-
-#[derive(Clone, Copy, Default)]
-struct HullAxis {
-    scale: [f32; 2],
-    offset: [f32; 2],
-    /// Which of the two faces comes first.
-    first: bool,
-    /// Whether both crossings are beginnings.
-    spreads: bool,
+    /// For each face, lower and upper: the hull's side crosses it at `x * scale + offset`.
+    scale: [[f32; 3]; 2],
+    offset: [[f32; 3]; 2],
+    /// Which of an axis's two faces comes first.
+    first: [usize; 3],
+    /// Whether both faces are beginnings.
+    spreads: [bool; 3],
+    way: Way,
 }
 
 impl Hull {
     #[inline(always)]
-    fn new(shaft: &Shaft, from: DVec3, margin_m: f64) -> Self {
-        let mut axes = [HullAxis::default(); 3];
-        for axis in 0..3 {
-            let (high, low) = (inverse(shaft.high[axis] as f32), inverse(shaft.low[axis] as f32));
-            let (begins_low, begins_high) = (high > 0.0, low < 0.0);
-            let widened =
-                |scale: f32, begins: bool| scale * (1.0 + if begins { -PARAMETER_SHARE } else { PARAMETER_SHARE });
-            let scale = [widened(high, begins_low), widened(low, begins_high)];
-            let offset = [-((from[axis] + margin_m) as f32 * scale[0]), -((from[axis] - margin_m) as f32 * scale[1])];
-            axes[axis] = HullAxis { scale, offset, first: begins_low, spreads: begins_low && begins_high };
+    fn new(from: Vec3A, low: Vec3A, high: Vec3A, margin: f32) -> Self {
+        let (by_high, by_low) = (inverse(high), inverse(low));
+        let (begins_low, begins_high) = (by_high.cmpgt(Vec3A::ZERO), by_low.cmplt(Vec3A::ZERO));
+        let (less, more) = (Vec3A::splat(1.0 - PARAMETER_SHARE), Vec3A::splat(1.0 + PARAMETER_SHARE));
+        let scale_low = by_high * Vec3A::select(begins_low, less, more);
+        let scale_high = by_low * Vec3A::select(begins_high, less, more);
+        let margins = Vec3A::splat(margin);
+        let offset_low = (-margins - from) * scale_low;
+        let offset_high = (margins - from) * scale_high;
+        let (begins_low, begins_high) = (begins_low.bitmask(), begins_high.bitmask());
+        let (middle, half) = ((0.5 * (low + high)).to_array(), (0.5 * (high - low) + 2.0 * margins).to_array());
+        let from = from.to_array();
+        Self {
+            scale: [scale_low.to_array(), scale_high.to_array()],
+            offset: [offset_low.to_array(), offset_high.to_array()],
+            first: core::array::from_fn(|axis| (!begins_low >> axis & 1) as usize),
+            spreads: core::array::from_fn(|axis| (begins_low & begins_high) >> axis & 1 == 1),
+            way: Way { from: [from[0], from[1]], step: [middle[0], middle[1]], reach: [half[0], half[1]] },
         }
-        let middle = core::array::from_fn(|axis| (0.5 * (shaft.low[axis] + shaft.high[axis])) as f32);
-        let reach = core::array::from_fn(|axis| (0.5 * (shaft.high[axis] - shaft.low[axis]) + 2.0 * margin_m) as f32);
-        Self { axes, from: from.as_vec3().to_array(), middle, reach }
     }
 
     /// Bits of the lanes whose bounds the hull may meet, and where.
     #[inline(always)]
     fn met(&self, lanes: impl Lanes, block: &Block) -> (u32, Lane, Lane) {
         let (mut enter, mut leave) = ([0.0; LANES], [1.0 + PARAMETER_SHARE; LANES]);
-        for (axis, faces) in self.axes.iter().zip(&block.faces) {
-            let (near, far) = if axis.first { (0, 1) } else { (1, 0) };
-            let (near_faces, far_faces) = if axis.first { (&faces[0], &faces[1]) } else { (&faces[1], &faces[0]) };
+        for axis in 0..3 {
+            let [low, high] = &block.faces[axis];
+            let [scale_low, scale_high] = [self.scale[0][axis], self.scale[1][axis]];
+            let [offset_low, offset_high] = [self.offset[0][axis], self.offset[1][axis]];
+            let (near, near_scale, near_offset, far, far_scale, far_offset) = if self.first[axis] == 0 {
+                (low, scale_low, offset_low, high, scale_high, offset_high)
+            } else {
+                (high, scale_high, offset_high, low, scale_low, offset_low)
+            };
             for i in 0..LANES {
-                enter[i] = larger(lanes.multiply_add(near_faces[i], axis.scale[near], axis.offset[near]), enter[i]);
+                enter[i] = larger(lanes.multiply_add(near[i], near_scale, near_offset), enter[i]);
             }
-            if axis.spreads {
+            if self.spreads[axis] {
                 for i in 0..LANES {
-                    enter[i] = larger(lanes.multiply_add(far_faces[i], axis.scale[far], axis.offset[far]), enter[i]);
+                    enter[i] = larger(lanes.multiply_add(far[i], far_scale, far_offset), enter[i]);
                 }
             } else {
                 for i in 0..LANES {
-                    leave[i] = smaller(lanes.multiply_add(far_faces[i], axis.scale[far], axis.offset[far]), leave[i]);
+                    leave[i] = smaller(lanes.multiply_add(far[i], far_scale, far_offset), leave[i]);
                 }
             }
         }
         (lanes.at_most(&enter, &leave) & block.valid, enter, leave)
     }
-
-    /// Takes the turned boxes that are missed after all out of `met`.
-    #[inline(always)]
-    fn without_missed_turned(
-        &self,
-        lanes: impl Lanes,
-        tree: &WideTree,
-        block: &Block,
-        met: u32,
-        ways: (&Lane, &Lane),
-    ) -> u32 {
-        if met & block.turned == 0 {
-            return met;
-        }
-        let turned = &tree.turned[block.turned_lanes as usize];
-        let [from, step] = [self.from, self.middle].map(|v| [v[0], v[1]]);
-        met & (!block.turned | turned.met(lanes, from, step, self.reach, ways.0, ways.1))
-    }
 }
 
 at_level! {
-    /// Bit per ray between two of the given points that a box stands in the way of. `None` when f32 cannot be asked
-    /// or the rays are too far apart; `slots` are the boxes in the tree's order.
-    pub fn blocked_rays(tree: &WideTree, slots: &[TurnedBox], from_in_world: DVec3, to_in_world: &[DVec3; RAYS]) -> Option<u32> = blocked_rays_kernel;
+    /// Bit per ray from one point to eight that a box stands in the way of. `None` when f32 cannot be asked or the
+    /// rays are too far apart; `slots` are the boxes in the tree's order.
+    pub fn blocked(tree: &WideTree, slots: &[TurnedBox], from_in_world: DVec3, to_in_world: &[DVec3; RAYS]) -> Option<u32> = blocked_kernel;
 }
 
 #[inline(always)]
-fn blocked_rays_kernel(
+fn blocked_kernel(
     lanes: impl Lanes,
     tree: &WideTree,
     slots: &[TurnedBox],
     from_in_world: DVec3,
     to_in_world: &[DVec3; RAYS],
 ) -> Option<u32> {
-    const ALL: u32 = (1 << RAYS) - 1;
-    if tree.blocks.is_empty() {
-        return Some(0);
+    let mut step = [[0.0; RAYS]; 3];
+    for ray in 0..RAYS {
+        let [x, y, z] = (to_in_world[ray] - from_in_world).to_array();
+        (step[0][ray], step[1][ray], step[2][ray]) = (x, y, z);
     }
-    let shaft = Shaft::new(from_in_world, to_in_world);
-    let from = tree.local(from_in_world)?;
-    let (low, high) = (DVec3::from_array(shaft.low), DVec3::from_array(shaft.high));
-    let (low_end, high_end) = (tree.local(from_in_world + low)?, tree.local(from_in_world + high)?);
-    if !shaft.is_slender() {
+    let inverse = step.map(|axis| axis.map(|d| 1.0 / d));
+    // Numbers that are not finite fail the second comparison, large ones both.
+    let sizes: [PerRay; 3] = step.map(|axis| axis.map(f64::abs));
+    let parallel = sizes.iter().fold(0, |mask, size| mask | !lanes.at_most_f64(&[PARALLEL; RAYS], size) & ALL);
+    let within = sizes.iter().fold(ALL, |mask, size| mask & lanes.at_most_f64(size, &[REACH_M; RAYS]));
+    let low = DVec3::from_array([0, 1, 2].map(|axis| smallest(&step[axis]))).as_vec3a();
+    let high = -DVec3::from_array([0, 1, 2].map(|axis| smallest(&step[axis].map(|d| -d)))).as_vec3a();
+    let from = (from_in_world - tree.origin_in_world).as_vec3a();
+    let reach = from.abs().max((from + low).abs()).max((from + high).abs()).max_element();
+    if within != ALL || !(reach <= REACH_M as f32) || !is_slender(low, high) {
         return None;
     }
-    let reach_m = from.abs().max(low_end.abs()).max(high_end.abs()).max_element();
-    let hull = Hull::new(&shaft, from, tree.margin_m(reach_m));
+    let shaft = Shaft { from_in_world, step, inverse, has_parallel: parallel != 0 };
+    let hull = Hull::new(from, low, high, tree.margin(reach));
     let mut open = [(0_u32, 0_u32); MAX_DEPTH];
     let (mut height, mut at, mut hidden) = (0, 0_usize, 0);
-    loop {
-        let block = &tree.blocks[at];
+    while let Some(block) = tree.blocks.get(at) {
         let (mut met, enter, leave) = hull.met(lanes, block);
         if block.is_leaf {
-            met = hull.without_missed_turned(lanes, tree, block, met, (&enter, &leave));
+            if met & block.turned != 0 {
+                met &= turned::met(lanes.level(), tree, block, &hull.way, &enter, &leave);
+            }
             while met != 0 {
-                let lane = take_lane(&mut met);
-                hidden |= met_by(lanes, &shaft, &slots[block.first as usize + lane]);
+                let shape = &slots[block.first as usize + take_lane(&mut met)];
+                hidden |= if shape.is_axis_aligned() && !shaft.has_parallel {
+                    slabs::<false>(
+                        lanes,
+                        shaft.from_in_world - shape.center_in_world(),
+                        &shaft.step,
+                        &shaft.inverse,
+                        shape,
+                    )
+                } else {
+                    rays_through_turned(lanes.level(), &shaft, shape)
+                };
                 if hidden == ALL {
                     return Some(ALL);
                 }
@@ -176,27 +165,36 @@ fn blocked_rays_kernel(
             height += 1;
         }
         if height == 0 {
-            return Some(hidden);
+            break;
         }
         let top = &mut open[height - 1];
         at = top.0 as usize + take_lane(&mut top.1);
         height -= usize::from(top.1 == 0);
     }
+    Some(hidden)
 }
 
-/// Bit per ray that meets the box: the operations of [`crate::shape::Shape::ray_entry`], ray by ray the same.
+/// Whether rays stay close enough together for their hull to say much of them.
 #[inline(always)]
-fn met_by(lanes: impl Lanes, shaft: &Shaft, shape: &TurnedBox) -> u32 {
-    let origin = shape.local_from_world_vector(shaft.from_in_world - shape.center_in_world()).to_array();
-    let half = shape.half_extents_m().to_array();
+fn is_slender(low: Vec3A, high: Vec3A) -> bool {
+    /// Largest distance of two ends along an axis, metres.
+    const WIDTH_M: f32 = 4.0;
+    /// The same per metre of length, beyond half a metre.
+    const SLOPE: f32 = 0.3;
+    let (width, length) = ((high - low).max_element(), high.max(-low).max_element());
+    width <= WIDTH_M && width <= 0.5 + SLOPE * length
+}
+
+at_level! {
+    /// Bit per ray that meets a box, turned or not.
+    fn rays_through_turned(shaft: &Shaft, shape: &TurnedBox) -> u32 = rays_through_turned_kernel;
+}
+
+/// The operations of [`crate::shape::Shape::ray_entry`], the same for every ray.
+#[inline(always)]
+fn rays_through_turned_kernel(lanes: impl Lanes, shaft: &Shaft, shape: &TurnedBox) -> u32 {
+    let origin = shape.local_from_world_vector(shaft.from_in_world - shape.center_in_world());
     let (sin, cos) = shape.sin_cos();
-    if sin == 0.0 && cos == 1.0 {
-        return if shaft.has_parallel {
-            eight_slabs::<true>(lanes, origin, &shaft.step, &shaft.inverse, half)
-        } else {
-            eight_slabs::<false>(lanes, origin, &shaft.step, &shaft.inverse, half)
-        };
-    }
     let (mut step, mut inverse) = (shaft.step, shaft.inverse);
     for ray in 0..RAYS {
         let (x, y) = (shaft.step[0][ray], shaft.step[1][ray]);
@@ -206,30 +204,31 @@ fn met_by(lanes: impl Lanes, shaft: &Shaft, shape: &TurnedBox) -> u32 {
     for axis in 0..2 {
         inverse[axis] = step[axis].map(|d| 1.0 / d);
     }
-    eight_slabs::<true>(lanes, origin, &step, &inverse, half)
+    slabs::<true>(lanes, origin, &step, &inverse, shape)
 }
 
+/// The slab test of [`crate::shape::Shape::ray_entry`] for eight rays, whose origin and steps are in the box's axes.
 #[inline(always)]
-fn eight_slabs<const PARALLEL_RAYS: bool>(
+fn slabs<const PARALLEL_RAYS: bool>(
     lanes: impl Lanes,
-    origin: [f64; 3],
-    step: &[[f64; RAYS]; 3],
-    inverse: &[[f64; RAYS]; 3],
-    half: [f64; 3],
+    origin: DVec3,
+    step: &[PerRay; 3],
+    inverse: &[PerRay; 3],
+    shape: &TurnedBox,
 ) -> u32 {
+    let (origin, half) = (origin.to_array(), shape.half_extents_m().to_array());
     let (mut enter, mut leave) = ([0.0; RAYS], [1.0; RAYS]);
     for axis in 0..3 {
         let (low, high) = (-half[axis] - origin[axis], half[axis] - origin[axis]);
         let outside = origin[axis].abs() > half[axis];
-        let (stay_near, stay_far) =
-            if outside { (f64::INFINITY, f64::NEG_INFINITY) } else { (f64::NEG_INFINITY, f64::INFINITY) };
+        let stay_near = if outside { f64::INFINITY } else { f64::NEG_INFINITY };
         for ray in 0..RAYS {
             let (near, far) = (low * inverse[axis][ray], high * inverse[axis][ray]);
             let (mut first, mut last) = (smaller(near, far), larger(near, far));
             if PARALLEL_RAYS {
                 let stays = step[axis][ray].abs() < PARALLEL;
                 first = if stays { stay_near } else { first };
-                last = if stays { stay_far } else { last };
+                last = if stays { -stay_near } else { last };
             }
             enter[ray] = larger(first, enter[ray]);
             leave[ray] = smaller(last, leave[ray]);

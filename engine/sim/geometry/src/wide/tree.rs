@@ -10,6 +10,9 @@ pub const MAX_DEPTH: usize = 20;
 /// Farther than this from the local origin, metres, f32 is not asked.
 pub const REACH_M: f64 = 4e6;
 
+/// Share of coordinates that rounding may take away.
+const F32_SHARE: f32 = 16.0 / 16_777_216.0;
+
 /// Sixteen bounds about the local origin and what they bound. Lanes beyond `valid` are empty.
 #[derive(Clone, Debug)]
 #[repr(align(64))]
@@ -47,30 +50,26 @@ pub struct WideTree {
     pub origin_in_world: DVec3,
     /// Levels of blocks.
     pub depth: usize,
-    /// Largest coordinate of any face.
-    pub size_m: f64,
+    /// See [`WideTree::margin`].
+    pub least_margin: f32,
     /// Original index of each slot.
     pub order: Vec<u32>,
 }
 
 impl WideTree {
-    /// A vector from the local origin, if f32 can be asked about it.
+    /// What rounding may move a face or a point of a query that stays within `reach` of the local origin, metres.
+    ///
+    /// Each of a face, a point, its sum with the margin, their products with an inverse direction and the difference
+    /// of those is off by at most half a unit in the last place, 2^-24 of the coordinates: 5 in all. This is 16.
+    /// World coordinates are rounded in f64 on both sides, which `least_margin` covers.
     #[inline(always)]
-    pub fn local(&self, point_in_world: DVec3) -> Option<DVec3> {
-        let local = point_in_world - self.origin_in_world;
-        (local.abs().max_element() <= REACH_M).then_some(local)
+    pub fn margin(&self, reach: f32) -> f32 {
+        self.least_margin + F32_SHARE * reach
     }
 
-    /// What rounding may move a face or a point of a query that stays within `reach_m` of the local origin.
-    ///
-    /// Each of a face, a point, their product with an inverse direction and the difference of two products is off by
-    /// at most half a unit in the last place, 2^-24 of the coordinates: 2^-22 in all. This is four times as much.
-    /// World coordinates are rounded in f64 on both sides, which the second part covers.
-    #[inline(always)]
-    pub fn margin_m(&self, reach_m: f64) -> f64 {
-        const F32_SHARE: f64 = 1.0 / 1_048_576.0;
-        const F64_SHARE: f64 = 1e-14;
-        F32_SHARE * (1e-3 + self.size_m + reach_m) + F64_SHARE * self.origin_in_world.abs().max_element()
+    /// The margin of queries that stay within the boxes.
+    pub fn least_margin_of(size_m: f64, origin_in_world: DVec3) -> f32 {
+        (f64::from(F32_SHARE) * (1e-3 + size_m) + 1e-14 * origin_in_world.abs().max_element()) as f32
     }
 
     /// Checks the tree against the bounds it was built from.
@@ -104,7 +103,7 @@ impl WideTree {
                 let shift = |corner: DVec3| corner + self.origin_in_world;
                 let in_world =
                     Bounds { min_in_world: shift(around.min_in_world), max_in_world: shift(around.max_in_world) };
-                let grown = in_world.grown(self.margin_m(0.0));
+                let grown = in_world.grown(f64::from(self.least_margin));
                 assert!(grown.contains(&bounds[original]), "box {original} sticks out of its lane");
             }
         }

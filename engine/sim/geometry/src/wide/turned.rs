@@ -1,6 +1,7 @@
 //! Sixteen boxes in their own axes: sorts out turned boxes of which only the bounds are met.
 
-use crate::lanes::{LANES, Lane, Lanes, larger, smaller};
+use super::tree::{Block, WideTree};
+use crate::lanes::{LANES, Lane, Lanes, at_level, larger, smaller};
 use crate::turned_box::TurnedBox;
 use cosfly_frames::DVec3;
 
@@ -30,43 +31,6 @@ impl TurnedLanes {
         (self.sin[lane], self.cos[lane]) = (sin as f32, cos as f32);
     }
 
-    /// Bits of the lanes that the moving rectangle may meet from above: its middle goes from `from` by `step`, of
-    /// which only the part between the parameters `enter` and `leave` counts, and it reaches `reach` to each side.
-    /// `reach` includes the margin.
-    ///
-    /// Separating axes: those of the box and the normal of the way. The way's ends are worked out first and the test
-    /// uses nothing but them, so that its rounding is that of the ends, however short the way.
-    #[inline(always)]
-    pub fn met(
-        &self,
-        lanes: impl Lanes,
-        from: [f32; 2],
-        step: [f32; 2],
-        reach: [f32; 2],
-        enter: &Lane,
-        leave: &Lane,
-    ) -> u32 {
-        let mut apart = [0.0; LANES];
-        for i in 0..LANES {
-            let (sin, cos) = (self.sin[i], self.cos[i]);
-            let (x, y) = (from[0] - self.center[0][i], from[1] - self.center[1][i]);
-            let (u, v) = (lanes.multiply_add(cos, x, sin * y), lanes.multiply_add(cos, y, -(sin * x)));
-            let step_u = lanes.multiply_add(cos, step[0], sin * step[1]);
-            let step_v = lanes.multiply_add(cos, step[1], -(sin * step[0]));
-            let (u0, v0) = (lanes.multiply_add(enter[i], step_u, u), lanes.multiply_add(enter[i], step_v, v));
-            let (u1, v1) = (lanes.multiply_add(leave[i], step_u, u), lanes.multiply_add(leave[i], step_v, v));
-            let half_u = self.half[0][i] + lanes.multiply_add(cos.abs(), reach[0], sin.abs() * reach[1]);
-            let half_v = self.half[1][i] + lanes.multiply_add(sin.abs(), reach[0], cos.abs() * reach[1]);
-            let beyond_u = larger(smaller(u0, u1), -larger(u0, u1)) - half_u;
-            let beyond_v = larger(smaller(v0, v1), -larger(v0, v1)) - half_v;
-            let (along_u, along_v) = (u1 - u0, v1 - v0);
-            let offset = lanes.multiply_add(u0, along_v, -(v0 * along_u)).abs();
-            let width = lanes.multiply_add(half_u, along_v.abs(), half_v * along_u.abs());
-            apart[i] = larger(larger(beyond_u, beyond_v), offset - width);
-        }
-        lanes.at_most(&apart, &[0.0; LANES])
-    }
-
     /// How far apart the segment's bounds and the box are along the box's x and y axes; negative when they overlap.
     #[inline(always)]
     pub fn gaps(&self, lanes: impl Lanes, from: [f32; 2], to: [f32; 2]) -> [Lane; 2] {
@@ -82,4 +46,48 @@ impl TurnedLanes {
         }
         gaps
     }
+}
+
+/// The way of a rectangle seen from above: its middle goes from `from` by `step`, it reaches `reach` to each side.
+#[derive(Clone, Copy)]
+pub struct Way {
+    /// Where its middle begins.
+    pub from: [f32; 2],
+    /// Where it goes while the parameter goes from 0 to 1.
+    pub step: [f32; 2],
+    /// Half its size, and twice the margin.
+    pub reach: [f32; 2],
+}
+
+at_level! {
+    /// Bits of the lanes of a leaf with turned boxes that may be met on a way between the parameters `enter` and
+    /// `leave`, and of all lanes that are not turned.
+    pub fn met(tree: &WideTree, block: &Block, way: &Way, enter: &Lane, leave: &Lane) -> u32 = met_kernel;
+}
+
+/// Separating axes: those of the box and the normal of the way. The way's ends are worked out first and the test
+/// uses nothing but them, so that its rounding is that of the ends, however short the way.
+#[inline(always)]
+fn met_kernel(lanes: impl Lanes, tree: &WideTree, block: &Block, way: &Way, enter: &Lane, leave: &Lane) -> u32 {
+    let of = &tree.turned[block.turned_lanes as usize];
+    let Way { from, step, reach } = *way;
+    let mut apart = [0.0; LANES];
+    for i in 0..LANES {
+        let (sin, cos) = (of.sin[i], of.cos[i]);
+        let (x, y) = (from[0] - of.center[0][i], from[1] - of.center[1][i]);
+        let (u, v) = (lanes.multiply_add(cos, x, sin * y), lanes.multiply_add(cos, y, -(sin * x)));
+        let step_u = lanes.multiply_add(cos, step[0], sin * step[1]);
+        let step_v = lanes.multiply_add(cos, step[1], -(sin * step[0]));
+        let (u0, v0) = (lanes.multiply_add(enter[i], step_u, u), lanes.multiply_add(enter[i], step_v, v));
+        let (u1, v1) = (lanes.multiply_add(leave[i], step_u, u), lanes.multiply_add(leave[i], step_v, v));
+        let half_u = of.half[0][i] + lanes.multiply_add(cos.abs(), reach[0], sin.abs() * reach[1]);
+        let half_v = of.half[1][i] + lanes.multiply_add(sin.abs(), reach[0], cos.abs() * reach[1]);
+        let beyond_u = larger(smaller(u0, u1), -larger(u0, u1)) - half_u;
+        let beyond_v = larger(smaller(v0, v1), -larger(v0, v1)) - half_v;
+        let (along_u, along_v) = (u1 - u0, v1 - v0);
+        let offset = lanes.multiply_add(u0, along_v, -(v0 * along_u)).abs();
+        let width = lanes.multiply_add(half_u, along_v.abs(), half_v * along_u.abs());
+        apart[i] = larger(larger(beyond_u, beyond_v), offset - width);
+    }
+    !block.turned | lanes.at_most(&apart, &[0.0; LANES])
 }
