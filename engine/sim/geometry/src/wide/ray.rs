@@ -71,8 +71,7 @@ impl WideRay {
         let (mut enter, mut leave) = ([0.0; LANES], [max_t; LANES]);
         let (mut sure_enter, mut sure_leave) = ([0.0; LANES], [1.0 - PARAMETER_SHARE; LANES]);
         for axis in 0..3 {
-            let [low, high] = &block.faces[axis];
-            let (near, far) = if self.first[axis] == 0 { (low, high) } else { (high, low) };
+            let (near, far) = block.near_and_far(axis, self.first[axis]);
             for i in 0..LANES {
                 let t_near = lanes.multiply_add(near[i], self.near_scale[axis], self.near_offset[axis]);
                 let t_far = lanes.multiply_add(far[i], self.far_scale[axis], self.far_offset[axis]);

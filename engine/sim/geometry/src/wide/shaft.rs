@@ -28,24 +28,30 @@ pub struct Shaft {
     has_parallel: bool,
 }
 
-/// The smallest of eight.
+/// The smallest and the largest of eight.
 #[inline(always)]
-fn smallest(a: &PerRay) -> f64 {
-    let four: [f64; 4] = core::array::from_fn(|i| smaller(a[i], a[i + 4]));
-    smaller(smaller(four[0], four[2]), smaller(four[1], four[3]))
+fn extremes(a: &PerRay) -> (f64, f64) {
+    let (mut low, mut high) = ([0.0; 4], [0.0; 4]);
+    for i in 0..4 {
+        low[i] = smaller(a[i], a[i + 4]);
+        high[i] = larger(a[i], a[i + 4]);
+    }
+    let low = smaller(smaller(low[0], low[2]), smaller(low[1], low[3]));
+    (low, larger(larger(high[0], high[2]), larger(high[1], high[3])))
 }
 
 /// The hull of a shaft made ready for blocks. At the parameter t it is a box between `from + t * low` and
 /// `from + t * high`; it meets bounds where `t * high >= min - from` and `t * low <= max - from`, two crossings per
-/// axis, each a beginning or an end after the sign of its step.
+/// axis, each a beginning or an end after the sign of its step. The hull crosses a face at `x * scale + offset`.
 struct Hull {
-    /// For each face, lower and upper: the hull's side crosses it at `x * scale + offset`.
-    scale: [[f32; 3]; 2],
-    offset: [[f32; 3]; 2],
+    near_scale: [f32; 3],
+    near_offset: [f32; 3],
+    far_scale: [f32; 3],
+    far_offset: [f32; 3],
+    /// Infinite where an axis's second face is a beginning, too; less than any parameter elsewhere.
+    spreads: [f32; 3],
     /// Which of an axis's two faces comes first.
     first: [usize; 3],
-    /// Whether both faces are beginnings.
-    spreads: [bool; 3],
     way: Way,
 }
 
@@ -60,14 +66,16 @@ impl Hull {
         let margins = Vec3A::splat(margin);
         let offset_low = (-margins - from) * scale_low;
         let offset_high = (margins - from) * scale_high;
-        let (begins_low, begins_high) = (begins_low.bitmask(), begins_high.bitmask());
         let (middle, half) = ((0.5 * (low + high)).to_array(), (0.5 * (high - low) + 2.0 * margins).to_array());
-        let from = from.to_array();
+        let spreads = Vec3A::select(begins_low & begins_high, Vec3A::INFINITY, Vec3A::NEG_INFINITY);
+        let (from, mask) = (from.to_array(), begins_low.bitmask() as usize ^ 7);
         Self {
-            scale: [scale_low.to_array(), scale_high.to_array()],
-            offset: [offset_low.to_array(), offset_high.to_array()],
-            first: core::array::from_fn(|axis| (!begins_low >> axis & 1) as usize),
-            spreads: core::array::from_fn(|axis| (begins_low & begins_high) >> axis & 1 == 1),
+            near_scale: Vec3A::select(begins_low, scale_low, scale_high).to_array(),
+            near_offset: Vec3A::select(begins_low, offset_low, offset_high).to_array(),
+            far_scale: Vec3A::select(begins_low, scale_high, scale_low).to_array(),
+            far_offset: Vec3A::select(begins_low, offset_high, offset_low).to_array(),
+            spreads: spreads.to_array(),
+            first: [mask & 1, mask >> 1 & 1, mask >> 2 & 1],
             way: Way { from: [from[0], from[1]], step: [middle[0], middle[1]], reach: [half[0], half[1]] },
         }
     }
@@ -77,25 +85,12 @@ impl Hull {
     fn met(&self, lanes: impl Lanes, block: &Block) -> (u32, Lane, Lane) {
         let (mut enter, mut leave) = ([0.0; LANES], [1.0 + PARAMETER_SHARE; LANES]);
         for axis in 0..3 {
-            let [low, high] = &block.faces[axis];
-            let [scale_low, scale_high] = [self.scale[0][axis], self.scale[1][axis]];
-            let [offset_low, offset_high] = [self.offset[0][axis], self.offset[1][axis]];
-            let (near, near_scale, near_offset, far, far_scale, far_offset) = if self.first[axis] == 0 {
-                (low, scale_low, offset_low, high, scale_high, offset_high)
-            } else {
-                (high, scale_high, offset_high, low, scale_low, offset_low)
-            };
+            let (near, far) = block.near_and_far(axis, self.first[axis]);
             for i in 0..LANES {
-                enter[i] = larger(lanes.multiply_add(near[i], near_scale, near_offset), enter[i]);
-            }
-            if self.spreads[axis] {
-                for i in 0..LANES {
-                    enter[i] = larger(lanes.multiply_add(far[i], far_scale, far_offset), enter[i]);
-                }
-            } else {
-                for i in 0..LANES {
-                    leave[i] = smaller(lanes.multiply_add(far[i], far_scale, far_offset), leave[i]);
-                }
+                let t_near = lanes.multiply_add(near[i], self.near_scale[axis], self.near_offset[axis]);
+                let t_far = lanes.multiply_add(far[i], self.far_scale[axis], self.far_offset[axis]);
+                enter[i] = larger(t_near, larger(smaller(t_far, self.spreads[axis]), enter[i]));
+                leave[i] = smaller(larger(t_far, self.spreads[axis]), leave[i]);
             }
         }
         (lanes.at_most(&enter, &leave) & block.valid, enter, leave)
@@ -116,24 +111,31 @@ fn blocked_kernel(
     from_in_world: DVec3,
     to_in_world: &[DVec3; RAYS],
 ) -> Option<u32> {
-    let mut step = [[0.0; RAYS]; 3];
+    let (mut step, mut inverse, mut size) = ([[0.0; RAYS]; 3], [[0.0; RAYS]; 3], [[0.0; RAYS]; 3]);
     for ray in 0..RAYS {
-        let [x, y, z] = (to_in_world[ray] - from_in_world).to_array();
-        (step[0][ray], step[1][ray], step[2][ray]) = (x, y, z);
+        step[0][ray] = to_in_world[ray].x - from_in_world.x;
+        step[1][ray] = to_in_world[ray].y - from_in_world.y;
+        step[2][ray] = to_in_world[ray].z - from_in_world.z;
     }
-    let inverse = step.map(|axis| axis.map(|d| 1.0 / d));
-    // Numbers that are not finite fail the second comparison, large ones both.
-    let sizes: [PerRay; 3] = step.map(|axis| axis.map(f64::abs));
-    let parallel = sizes.iter().fold(0, |mask, size| mask | !lanes.at_most_f64(&[PARALLEL; RAYS], size) & ALL);
-    let within = sizes.iter().fold(ALL, |mask, size| mask & lanes.at_most_f64(size, &[REACH_M; RAYS]));
-    let low = DVec3::from_array([0, 1, 2].map(|axis| smallest(&step[axis]))).as_vec3a();
-    let high = -DVec3::from_array([0, 1, 2].map(|axis| smallest(&step[axis].map(|d| -d)))).as_vec3a();
+    let (mut low, mut high) = ([0.0; 3], [0.0; 3]);
+    let (mut moving, mut within) = (ALL, ALL);
+    for axis in 0..3 {
+        for ray in 0..RAYS {
+            inverse[axis][ray] = 1.0 / step[axis][ray];
+            size[axis][ray] = step[axis][ray].abs();
+        }
+        moving &= lanes.at_most_f64(&[PARALLEL; RAYS], &size[axis]);
+        // Numbers that are not finite fail this, too.
+        within &= lanes.at_most_f64(&size[axis], &[REACH_M; RAYS]);
+        (low[axis], high[axis]) = extremes(&step[axis]);
+    }
+    let (low, high) = (DVec3::from_array(low).as_vec3a(), DVec3::from_array(high).as_vec3a());
     let from = (from_in_world - tree.origin_in_world).as_vec3a();
     let reach = from.abs().max((from + low).abs()).max((from + high).abs()).max_element();
     if within != ALL || !(reach <= REACH_M as f32) || !is_slender(low, high) {
         return None;
     }
-    let shaft = Shaft { from_in_world, step, inverse, has_parallel: parallel != 0 };
+    let shaft = Shaft { from_in_world, step, inverse, has_parallel: moving != ALL };
     let hull = Hull::new(from, low, high, tree.margin(reach));
     let mut open = [(0_u32, 0_u32); MAX_DEPTH];
     let (mut height, mut at, mut hidden) = (0, 0_usize, 0);
@@ -202,7 +204,9 @@ fn rays_through_turned_kernel(lanes: impl Lanes, shaft: &Shaft, shape: &TurnedBo
         step[1][ray] = cos * y - sin * x;
     }
     for axis in 0..2 {
-        inverse[axis] = step[axis].map(|d| 1.0 / d);
+        for ray in 0..RAYS {
+            inverse[axis][ray] = 1.0 / step[axis][ray];
+        }
     }
     slabs::<true>(lanes, origin, &step, &inverse, shape)
 }

@@ -37,6 +37,13 @@ impl Block {
         let faces = [[[f32::INFINITY; LANES], [f32::NEG_INFINITY; LANES]]; 3];
         Self { faces, first: 0, valid: 0, turned: 0, turned_lanes: 0, is_leaf }
     }
+
+    /// The faces of an axis, the lower ones first when `first` is 0, the upper ones when it is 1.
+    #[inline(always)]
+    pub fn near_and_far(&self, axis: usize, first: usize) -> (&Lane, &Lane) {
+        let faces = &self.faces[axis];
+        (&faces[first & 1], &faces[first & 1 ^ 1])
+    }
 }
 
 /// Sixteen-way tree over bounds; the root is block 0.
