@@ -109,6 +109,10 @@ macro_rules! at_level {
         $(#[$meta])*
         #[inline]
         $vis fn $name(level: cosfly_frames::simd::Level, $($arg: $ty),*) -> $ret {
+            #[inline(never)]
+            fn plain($($arg: $ty),*) -> $ret {
+                $kernel($crate::lanes::PlainLanes, $($arg),*)
+            }
             #[cfg(target_arch = "x86_64")]
             #[target_feature(enable = "avx2")]
             #[inline(never)]
@@ -160,7 +164,7 @@ macro_rules! at_level {
                 // SAFETY: as above.
                 #[cfg(target_arch = "x86_64")]
                 cosfly_frames::simd::Kind::Avx2 => unsafe { avx2(level, $($arg),*) },
-                _ => $kernel($crate::lanes::PlainLanes, $($arg),*),
+                _ => plain($($arg),*),
             }
         }
     };

@@ -90,8 +90,11 @@ pub fn build(boxes: &[TurnedBox], bounds: &[Bounds]) -> (WideTree, Vec<u32>) {
     }
     let blocks = Vec::with_capacity(items.len() / 8 + 1);
     let least_margin = WideTree::least_margin_of(size_m, origin);
+    let home = 2.0 * size_m as f32 + 100.0;
+    let home_margin = WideTree::least_margin_of(size_m + f64::from(home), origin);
+    let (turned, order) = (Vec::new(), Vec::new());
     let mut tree =
-        WideTree { blocks, turned: Vec::new(), origin_in_world: origin, depth: 0, least_margin, order: Vec::new() };
+        WideTree { blocks, turned, origin_in_world: origin, depth: 0, least_margin, home, home_margin, order };
     if !items.is_empty() {
         tree.blocks.push(Block::empty(true));
         let mut open = vec![(0_usize, 0..items.len(), 1_usize)];

@@ -127,7 +127,12 @@ fn blocked_kernel(
                 return Some(true);
             }
             if met.maybe & block.turned != 0 {
-                met.maybe &= turned::met(lanes.level(), tree, block, &ray.way, &met.enter, &met.leave);
+                let (enter, leave, doubt) = (&met.enter, &met.leave, ray.doubt[2]);
+                let (maybe, surely) = turned::surely_met(lanes.level(), tree, block, &ray.way, enter, leave, doubt);
+                if met.maybe & surely != 0 {
+                    return Some(true);
+                }
+                met.maybe &= maybe;
             }
             while met.maybe != 0 {
                 let slot = block.first as usize + take_lane(&mut met.maybe);

@@ -59,6 +59,10 @@ pub struct WideTree {
     pub depth: usize,
     /// See [`WideTree::margin`].
     pub least_margin: f32,
+    /// Reach of queries close by: twice that of the boxes.
+    pub home: f32,
+    /// The margin of queries close by.
+    pub home_margin: f32,
     /// Original index of each slot.
     pub order: Vec<u32>,
 }
@@ -71,7 +75,8 @@ impl WideTree {
     /// World coordinates are rounded in f64 on both sides, which `least_margin` covers.
     #[inline(always)]
     pub fn margin(&self, reach: f32) -> f32 {
-        self.least_margin + F32_SHARE * reach
+        // Close by the margin is a constant, which need not wait for the reach.
+        if reach <= self.home { self.home_margin } else { self.least_margin + F32_SHARE * reach }
     }
 
     /// The margin of queries that stay within the boxes.

@@ -65,29 +65,64 @@ at_level! {
     pub fn met(tree: &WideTree, block: &Block, way: &Way, enter: &Lane, leave: &Lane) -> u32 = met_kernel;
 }
 
-/// Separating axes: those of the box and the normal of the way. The way's ends are worked out first and the test
-/// uses nothing but them, so that its rounding is that of the ends, however short the way.
 #[inline(always)]
 fn met_kernel(lanes: impl Lanes, tree: &WideTree, block: &Block, way: &Way, enter: &Lane, leave: &Lane) -> u32 {
+    both_kernel::<false>(lanes, tree, block, way, enter, leave, 0.0).0
+}
+
+at_level! {
+    /// The bits of [`met`] and those of the lanes that are met beyond doubt. The way lasts from 0 to 1 and lies between
+    /// the bounds' upper and lower faces for certain from `enter + doubt` to `leave - doubt`.
+    pub fn surely_met(tree: &WideTree, block: &Block, way: &Way, enter: &Lane, leave: &Lane, doubt: f32) -> (u32, u32) = both_kernel::<true>;
+}
+
+#[inline(always)]
+fn both_kernel<const SURELY: bool>(
+    lanes: impl Lanes,
+    tree: &WideTree,
+    block: &Block,
+    way: &Way,
+    enter: &Lane,
+    leave: &Lane,
+    doubt: f32,
+) -> (u32, u32) {
     let of = &tree.turned[block.turned_lanes as usize];
     let Way { from, step, reach } = *way;
-    let mut apart = [0.0; LANES];
+    let (mut apart, mut surely_apart) = ([0.0; LANES], [0.0; LANES]);
     for i in 0..LANES {
         let (sin, cos) = (of.sin[i], of.cos[i]);
         let (x, y) = (from[0] - of.center[0][i], from[1] - of.center[1][i]);
-        let (u, v) = (lanes.multiply_add(cos, x, sin * y), lanes.multiply_add(cos, y, -(sin * x)));
+        let start = [lanes.multiply_add(cos, x, sin * y), lanes.multiply_add(cos, y, -(sin * x))];
         let step_u = lanes.multiply_add(cos, step[0], sin * step[1]);
         let step_v = lanes.multiply_add(cos, step[1], -(sin * step[0]));
-        let (u0, v0) = (lanes.multiply_add(enter[i], step_u, u), lanes.multiply_add(enter[i], step_v, v));
-        let (u1, v1) = (lanes.multiply_add(leave[i], step_u, u), lanes.multiply_add(leave[i], step_v, v));
-        let half_u = of.half[0][i] + lanes.multiply_add(cos.abs(), reach[0], sin.abs() * reach[1]);
-        let half_v = of.half[1][i] + lanes.multiply_add(sin.abs(), reach[0], cos.abs() * reach[1]);
-        let beyond_u = larger(smaller(u0, u1), -larger(u0, u1)) - half_u;
-        let beyond_v = larger(smaller(v0, v1), -larger(v0, v1)) - half_v;
-        let (along_u, along_v) = (u1 - u0, v1 - v0);
-        let offset = lanes.multiply_add(u0, along_v, -(v0 * along_u)).abs();
-        let width = lanes.multiply_add(half_u, along_v.abs(), half_v * along_u.abs());
-        apart[i] = larger(larger(beyond_u, beyond_v), offset - width);
+        let reach_u = lanes.multiply_add(cos.abs(), reach[0], sin.abs() * reach[1]);
+        let reach_v = lanes.multiply_add(sin.abs(), reach[0], cos.abs() * reach[1]);
+        let (half_u, half_v) = (of.half[0][i], of.half[1][i]);
+        let grown = [half_u + reach_u, half_v + reach_v];
+        apart[i] = gap(lanes, start, [step_u, step_v], [enter[i], leave[i]], grown);
+        if SURELY {
+            let shrunk = [half_u - reach_u, half_v - reach_v];
+            let part = [enter[i] + doubt, leave[i] - doubt];
+            let gap = gap(lanes, start, [step_u, step_v], part, shrunk);
+            // A part or a box of which nothing is left says nothing.
+            surely_apart[i] = larger(larger(gap, part[0] - part[1]), larger(-shrunk[0], -shrunk[1]));
+        }
     }
-    !block.turned | lanes.at_most(&apart, &[0.0; LANES])
+    let surely = if SURELY { block.turned & lanes.at_most(&surely_apart, &[0.0; LANES]) } else { 0 };
+    (!block.turned | lanes.at_most(&apart, &[0.0; LANES]), surely)
+}
+
+/// More than 0 when a segment misses a rectangle about the origin. Separating axes: those of the rectangle and the
+/// normal of the segment. The segment's ends are worked out first and the test uses nothing but them, so that its
+/// rounding is that of the ends, however short the segment.
+#[inline(always)]
+fn gap(lanes: impl Lanes, start: [f32; 2], step: [f32; 2], part: [f32; 2], half: [f32; 2]) -> f32 {
+    let (u0, v0) = (lanes.multiply_add(part[0], step[0], start[0]), lanes.multiply_add(part[0], step[1], start[1]));
+    let (u1, v1) = (lanes.multiply_add(part[1], step[0], start[0]), lanes.multiply_add(part[1], step[1], start[1]));
+    let beyond_u = larger(smaller(u0, u1), -larger(u0, u1)) - half[0];
+    let beyond_v = larger(smaller(v0, v1), -larger(v0, v1)) - half[1];
+    let (along_u, along_v) = (u1 - u0, v1 - v0);
+    let offset = lanes.multiply_add(u0, along_v, -(v0 * along_u)).abs();
+    let width = lanes.multiply_add(half[0], along_v.abs(), half[1] * along_u.abs());
+    larger(larger(beyond_u, beyond_v), offset - width)
 }
