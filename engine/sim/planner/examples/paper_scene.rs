@@ -57,16 +57,21 @@ fn options() -> Options {
 fn set(options: &mut Options, assignment: &str) {
     let (name, value) = assignment.split_once('=').unwrap_or((assignment, ""));
     let value: f64 = value.parse().unwrap_or(0.0);
-    let (paper, weights) = (&mut options.paper, &mut options.config.weights);
+    let (paper, config) = (&mut options.paper, &mut options.config);
     match name {
         "keyframe_frames" => paper.keyframe_frames = value as u32,
         "rear_sector_deg" => paper.rear_sector_deg = value,
         "search_visibility" => paper.search_visibility = value,
         "hidden_run_frames" => paper.hidden_run_frames = value as u32,
         "projection_rounds" => paper.projection_rounds = value as u32,
-        "visibility" => weights.visibility = Some(value),
-        "pitch" => weights.pitch = Some(value),
-        "difference_m" => options.config.descent.difference_m = value,
+        "visibility" => config.weights.visibility = Some(value),
+        "pitch" => config.weights.pitch = Some(value),
+        "length" => config.weights.length = Some(value),
+        "difference_m" => config.descent.difference_m = value,
+        "max_move_m" => config.descent.max_move_m = value,
+        "min_altitude_m" => config.view.min_altitude_m = value,
+        "clearance_m" => config.limits.clearance_m = value,
+        "speed_mps" => config.limits.speed_mps = value,
         _ => eprintln!("`{name}` is not one of the parameters that this example sets"),
     }
 }
