@@ -1,5 +1,5 @@
 //! Flies the paper's pipeline through seeded scenes and prints what came out, good and bad:
-//! `paper_scene [KIND ...] [--paths N] [--seed N] [--iterations N] [--set NAME=VALUE] [--split]`.
+//! `paper_scene [KIND ...] [--paths N] [--seed N] [--iterations N] [--set NAME=VALUE] [--pool] [--split]`.
 
 use cosfly_frames::{DVec3, TargetTrack};
 use cosfly_geometry::{BoxBvh, OrientedBox, SpatialQuery};
@@ -23,6 +23,7 @@ struct Options {
     paths: u64,
     seed: u64,
     split: bool,
+    threads: Threads,
     config: MucoConfig,
     paper: PaperConfig,
 }
@@ -33,6 +34,7 @@ fn options() -> Options {
         paths: 20,
         seed: 1,
         split: false,
+        threads: Threads::Caller,
         config: MucoConfig { preset: Preset::Paper, ..MucoConfig::default() },
         paper: PaperConfig::default(),
     };
@@ -43,6 +45,7 @@ fn options() -> Options {
             "--paths" => options.paths = value().parse().unwrap_or(20),
             "--seed" => options.seed = value().parse().unwrap_or(1),
             "--iterations" => options.config.descent.iterations = value().parse().unwrap_or(80),
+            "--pool" => options.threads = Threads::Pool,
             "--split" => options.split = true,
             "--set" => set(&mut options, &value()),
             name => options.kinds.extend(SceneKind::ALL.iter().filter(|kind| kind.name() == name)),
@@ -95,12 +98,12 @@ fn fly(track: &TargetTrack, exact: &BoxBvh, boxes: &[OrientedBox], options: &Opt
     let begin = Instant::now();
     let obstacles = LocalObstacles::filter(track, boxes, &ground, config.search.filter_radius_m, influence_m);
     let mut near = NearBoxes::new(&obstacles, track.len(), influence_m);
-    let flight = plan_paper_in(&problem, &mut near, config, &options.paper, Threads::Caller);
+    let flight = plan_paper_in(&problem, &mut near, config, &options.paper, options.threads);
     let plan_ms = 1e3 * begin.elapsed().as_secs_f64();
     near.focus_on(&flight.waypoints);
     let times = (0..5).map(|_| {
         let begin = Instant::now();
-        std::hint::black_box(iteration(&problem, &near, &config.descent, Threads::Caller, &flight.waypoints));
+        std::hint::black_box(iteration(&problem, &near, &config.descent, options.threads, &flight.waypoints));
         1e3 * begin.elapsed().as_secs_f64()
     });
     let iteration_ms = times.fold(f64::INFINITY, f64::min);

@@ -146,7 +146,7 @@ mod tests {
             let surroundings: &(dyn Surroundings + Sync) = obstacles;
             let alone = gradient(problem, surroundings, 0.5, Threads::Caller, path);
             let pool = rayon::ThreadPoolBuilder::new().num_threads(4).build().unwrap();
-            let (problem, path) = (&*problem, &*path);
+            let path = &path[..];
             let together = pool.install(|| gradient(problem, surroundings, 0.5, Threads::Pool, path));
             assert_eq!(alone, together);
         });

@@ -162,9 +162,9 @@ impl<'a> ViewpointSearch<'a> {
 fn interpolated(frames: usize, keyframes: &[usize], chosen: &[DVec3]) -> Vec<DVec3> {
     let mut waypoints = vec![DVec3::ZERO; frames];
     for (pair, ends) in keyframes.windows(2).zip(chosen.windows(2)) {
-        for frame in pair[0]..pair[1] {
-            waypoints[frame] = ends[0].lerp(ends[1], (frame - pair[0]) as f64 / (pair[1] - pair[0]) as f64);
-        }
+        let stretch = &mut waypoints[pair[0]..pair[1]];
+        let frames = stretch.len() as f64;
+        stretch.iter_mut().enumerate().for_each(|(k, waypoint)| *waypoint = ends[0].lerp(ends[1], k as f64 / frames));
     }
     if let (Some(last), Some(&end)) = (waypoints.last_mut(), chosen.last()) {
         *last = end;
