@@ -63,6 +63,8 @@ fn heavy_crates_stay_in_their_one_room() {
         ("clap", "cosfly"),
         ("indicatif", "cosfly"),
         ("roxmltree", "cosfly-maps"),
+        ("obvhs", "cosfly-bench"),
+        ("parry3d", "cosfly-bench"),
     ]);
     for (name, (_, dependencies)) in packages() {
         for dependency in dependencies {

@@ -1,6 +1,9 @@
 //! The command line: commands, options, help with examples.
 
+use clap::builder::PossibleValuesParser;
 use clap::{Args, Parser, Subcommand, ValueEnum};
+use cosfly_bench::planner::Contender;
+use cosfly_planner::scenes::SceneKind;
 use std::path::PathBuf;
 
 /// The whole command line.
@@ -206,6 +209,59 @@ pub enum BenchCommand {
         #[arg(long, value_name = "N", default_value_t = 1000)]
         items: u64,
     },
+    /// Planners against each other on the same paths: visibility, distance, length, time, nodes, clearance, limits
+    #[command(after_help = "\
+Examples:
+  cosfly bench planner                                       five scenes, 20 paths each, every planner (minutes)
+  cosfly bench planner --scene light --paths 5 --seed 7      one scene, paths that nobody has seen
+  cosfly bench planner --recipe recipes/carla_town.toml      a recipe's own town and walks
+  cosfly bench planner --recipe my.toml --paths 20 --seed 9  its town, twenty other walks
+  cosfly bench planner --planner cosfly --planner astar      two planners
+  cosfly bench planner --plot out/plots --paths 3            pictures, too
+  cosfly bench planner --solver --scene leafy                the paper's solver table: trees or none, one path or many
+  cosfly bench planner --many 6000                           a dataset's worth on all cores
+  cosfly bench planner --many 10000 --seed 1000              the same to count collisions (there should be none)")]
+    Planner(BenchPlannerArguments),
+}
+
+/// Arguments of `bench planner`.
+#[derive(Args, Debug)]
+pub struct BenchPlannerArguments {
+    /// Scenes; light, leafy, alley, canyon and fine unless told otherwise, all of them with `--many` (repeatable)
+    #[arg(long = "scene", value_name = "NAME", value_parser = scene_names())]
+    pub scenes: Vec<String>,
+    /// The town and the walks of a recipe instead of scenes
+    #[arg(long, value_name = "FILE", conflicts_with_all = ["scenes", "many"])]
+    pub recipe: Option<PathBuf>,
+    /// Planners; all unless told otherwise, the first with `--many` (repeatable)
+    #[arg(long = "planner", value_name = "NAME", value_parser = planner_names())]
+    pub planners: Vec<String>,
+    /// Paths per scene [default: 20; as many as the recipe has walkers with `--recipe`]
+    #[arg(long, value_name = "N")]
+    pub paths: Option<usize>,
+    /// Seed of the scenes and their walkers [default: 1; the recipe's own with `--recipe`]
+    #[arg(long, value_name = "N")]
+    pub seed: Option<u64>,
+    /// Plan this many paths on all cores, judge each, and list what came too near
+    #[arg(long, value_name = "N")]
+    pub many: Option<usize>,
+    /// Time the paper's own pipeline without a tree, with one, and with the boxes near the path
+    #[arg(long, conflicts_with = "many")]
+    pub solver: bool,
+    /// Print JSON
+    #[arg(long)]
+    pub json: bool,
+    /// Draw every path from above, coloured by visibility, as SVG into this folder
+    #[arg(long, value_name = "DIR", conflicts_with_all = ["many", "solver"])]
+    pub plot: Option<PathBuf>,
+}
+
+fn scene_names() -> PossibleValuesParser {
+    PossibleValuesParser::new(SceneKind::ALL.map(SceneKind::name))
+}
+
+fn planner_names() -> PossibleValuesParser {
+    PossibleValuesParser::new(Contender::all().into_iter().map(Contender::name))
 }
 
 /// Single tasks.

@@ -12,6 +12,7 @@ mod parameters;
 mod pedestrians;
 mod perturb;
 mod ports;
+pub mod read;
 mod render;
 mod world;
 

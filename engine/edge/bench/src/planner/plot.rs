@@ -12,6 +12,10 @@ const VIEW_PX: f64 = 460.0;
 const MARGIN_M: f64 = 12.0;
 /// Height of the words above a view, pixels.
 const TITLE_PX: f64 = 44.0;
+/// Plan views side by side.
+const VIEWS_PER_ROW: usize = 4;
+/// Width of the chart of costs at most, pixels.
+const CHART_WIDTH_PX: f64 = 900.0;
 /// Height of the chart of costs, pixels.
 const CHART_PX: f64 = 220.0;
 /// Colours from nothing seen to everything seen.
@@ -53,25 +57,27 @@ pub fn picture(ground: &Ground, path: usize, flights: &[(&str, &Flight)]) -> Str
     let scale = VIEW_PX / (high - low).max_element().max(1.0);
     let (width, height) = (scale * (high.x - low.x), scale * (high.y - low.y));
     let gap = 16.0;
-    let column = width.max(250.0) + gap;
+    let (column, row) = (width.max(250.0) + gap, TITLE_PX + height);
+    let columns = flights.len().clamp(1, VIEWS_PER_ROW);
+    let views_px = row * flights.len().div_ceil(columns) as f64;
     let solvers: Vec<&(&str, &Flight)> = flights.iter().filter(|(_, flight)| flight.convergence.len() > 1).collect();
     let chart_px = if solvers.is_empty() { 0.0 } else { CHART_PX };
-    let total = (gap + flights.len() as f64 * column).max(560.0);
-    let mut page = Page::new(total, TITLE_PX + height + 30.0 + chart_px);
+    let total = (gap + columns as f64 * column).max(560.0);
+    let mut page = Page::new(total, views_px + 30.0 + chart_px);
     for (index, (name, flight)) in flights.iter().enumerate() {
-        let left = gap + index as f64 * column;
-        let view = Projection { low, scale, left, bottom: TITLE_PX + height };
-        titles(&mut page, left, name, flight);
-        page.begin_clip(&format!("view{index}"), left, TITLE_PX, width, height);
-        page.polygon(&rectangle(left, TITLE_PX, width, height), "#f4f4f2", 1.0);
+        let (left, top) = (gap + (index % columns) as f64 * column, (index / columns) as f64 * row);
+        let view = Projection { low, scale, left, bottom: top + row };
+        titles(&mut page, (left, top), name, flight);
+        page.begin_clip(&format!("view{index}"), left, top + TITLE_PX, width, height);
+        page.polygon(&rectangle(left, top + TITLE_PX, width, height), "#f4f4f2", 1.0);
         ground.planning_boxes.iter().for_each(|shape| footprint(&mut page, &view, shape, low, high));
         walk(&mut page, &view, track);
         flown(&mut page, &view, flight);
         page.end_clip();
     }
-    legend(&mut page, gap, TITLE_PX + height + 18.0, scale);
+    legend(&mut page, gap, views_px + 18.0, scale);
     if chart_px > 0.0 {
-        chart(&mut page, gap, TITLE_PX + height + 40.0, total - 2.0 * gap, &solvers);
+        chart(&mut page, gap, views_px + 40.0, (total - 2.0 * gap).min(CHART_WIDTH_PX), &solvers);
     }
     page.finish()
 }
@@ -89,15 +95,15 @@ fn rectangle(x: f64, y: f64, width: f64, height: f64) -> [(f64, f64); 4] {
     [(x, y), (x + width, y), (x + width, y + height), (x, y + height)]
 }
 
-fn titles(page: &mut Page, left: f64, name: &str, flight: &Flight) {
-    page.words((left, 18.0), name, "start", "#111111");
+fn titles(page: &mut Page, (left, top): (f64, f64), name: &str, flight: &Flight) {
+    page.words((left, top + 18.0), name, "start", "#111111");
     let words = match &flight.figures {
         Ok(figures) => {
             format!("visibility {:.3}, {:.0} m, {:.1} ms", figures.visibility, figures.length_m, 1e3 * flight.cpu_s)
         }
         Err(_) => "no flight".to_owned(),
     };
-    page.words((left, 35.0), &words, "start", "#555555");
+    page.words((left, top + 35.0), &words, "start", "#555555");
 }
 
 /// Obstacles from above; the higher the darker.
@@ -123,7 +129,7 @@ fn walk(page: &mut Page, view: &Projection, track: &TargetTrack) {
     }
 }
 
-/// The flight in runs of one colour, and every tenth frame's line of sight.
+/// The flight in runs of one colour.
 fn flown(page: &mut Page, view: &Projection, flight: &Flight) {
     let mut run: Vec<(f64, f64)> = Vec::new();
     let mut shade = String::new();

@@ -1,6 +1,7 @@
 //! One file per command.
 
 pub mod bench;
+pub mod bench_planner;
 pub mod collect;
 pub mod graph;
 pub mod plan;
@@ -8,6 +9,7 @@ pub mod run;
 pub mod schema;
 pub mod task;
 pub mod town;
+pub mod town_of_recipe;
 pub mod verify;
 pub mod why;
 
