@@ -2,8 +2,8 @@
 
 use cosfly_frames::Seed;
 use cosfly_geometry::BoxBvh;
-use cosfly_planner::scenes::{Scene, SceneKind};
 use cosfly_planner::config::SearchEffort;
+use cosfly_planner::scenes::{Scene, SceneKind};
 use cosfly_planner::{Certificate, MucoConfig, PlanOutcome, Preset, plan};
 use std::time::Instant;
 

@@ -1,12 +1,11 @@
 //! The final word on a flight: everything measured again in f64 against the unsimplified map.
 
 use crate::config::MucoConfig;
+use crate::obstacles::exact::ExactMap;
 use crate::terms::{TermContext, WeightedTerm};
 use crate::trajectory::{Certificate, Limits, TermCost};
-use crate::visibility::visibility;
 use crate::walk::Walk;
 use cosfly_frames::{DVec3, TargetTrack};
-use cosfly_geometry::SpatialQuery;
 
 /// Distances from obstacles are reported up to here, metres.
 pub const CLEARANCE_CAP_M: f64 = 50.0;
@@ -52,11 +51,11 @@ impl Kinematics {
 }
 
 /// Smallest distance of the swept path to the exact obstacles, capped at [`CLEARANCE_CAP_M`].
-pub fn swept_clearance_m(exact: &dyn SpatialQuery, waypoints: &[DVec3]) -> f64 {
+pub fn swept_clearance_m(exact: ExactMap<'_>, waypoints: &[DVec3]) -> f64 {
     let mut smallest = CLEARANCE_CAP_M;
     for (i, &from) in waypoints.iter().enumerate() {
         let to = waypoints.get(i + 1).copied().unwrap_or(from);
-        smallest = smallest.min(exact.segment_clearance(from, to, smallest));
+        smallest = smallest.min(exact.segment_clearance(i, from, to, smallest));
     }
     smallest
 }
@@ -71,29 +70,19 @@ pub struct Measured {
     pub certificate: Certificate,
 }
 
-/// Solver figures that go into the certificate.
-#[derive(Clone, Copy, Debug, Default)]
-pub struct SolverFigures {
-    /// Iterations of descent and smoothing.
-    pub iterations: u32,
-    /// Boxes left by the per-path filter.
-    pub filtered_boxes: u32,
-}
-
-/// Measures a path. `ground` gives the height of the ground, above which the clearance is kept, too.
+/// Measures a path; what only the solver knows stays at 0. `ground` gives the height of the ground, above which the clearance is kept, too.
 pub fn certify(
     track: &TargetTrack,
     waypoints: &[DVec3],
-    exact: &dyn SpatialQuery,
+    exact: ExactMap<'_>,
     ground: &dyn Fn(f64, f64) -> f64,
     config: &MucoConfig,
-    solver: SolverFigures,
 ) -> Measured {
     let limits = config.stated_limits();
-    let seen: Vec<f64> =
-        waypoints.iter().zip(&track.states).map(|(&w, state)| visibility(exact, w, state, track.height_m)).collect();
-    let near = |w: &DVec3| exact.nearest(*w, CLEARANCE_CAP_M).map_or(CLEARANCE_CAP_M, |n| n.distance_m);
-    let clearance_m: Vec<f64> = waypoints.iter().map(near).collect();
+    let frames = || waypoints.iter().zip(&track.states).enumerate();
+    let seen: Vec<f64> = frames().map(|(i, (&w, state))| exact.visibility(i, w, state, track.height_m)).collect();
+    let near = |i: usize, w: DVec3| exact.nearest(i, w, CLEARANCE_CAP_M).map_or(CLEARANCE_CAP_M, |near| near.0);
+    let clearance_m: Vec<f64> = waypoints.iter().enumerate().map(|(i, &w)| near(i, w)).collect();
     let swept = clearance_m.iter().copied().fold(swept_clearance_m(exact, waypoints), f64::min);
     let kinematics = Kinematics::of(waypoints, track.dt_s);
     let mut violations = Vec::new();
@@ -121,8 +110,7 @@ pub fn certify(
         mean_rear_angle_deg: mean_rear_angle_deg(track, waypoints),
         length_m,
         length_ratio: if walked > 0.0 { length_m / walked } else { 0.0 },
-        iterations: solver.iterations,
-        filtered_boxes: solver.filtered_boxes,
+        ..Certificate::default()
     };
     Measured { visibility: seen, clearance_m, certificate }
 }

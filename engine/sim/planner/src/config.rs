@@ -1,5 +1,6 @@
 //! Parameters of the `muco` stage, their defaults, ranges and contradictions.
 
+use crate::paper::config::PaperConfig;
 use crate::terms::{WeightOverrides, Weights};
 use crate::trajectory::Limits;
 use crate::weights::Preset;
@@ -10,8 +11,8 @@ use serde::{Deserialize, Serialize};
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(default, deny_unknown_fields)]
 pub struct MucoConfig {
-    /// Named set of weights: `cosfly` (visibility first, the default) or `paper`. To start like the paper, too, set
-    /// `view.rear_sector_deg` to 60 and `search.keyframe_frames` to 5.
+    /// Named way of flying: `cosfly` (visibility first, the default), `rear` (behind the walker), `short` (short
+    /// flights) or `paper` (the paper's weights and its own pipeline).
     pub preset: Preset,
     /// Single weights that replace those of the preset.
     pub weights: WeightOverrides,
@@ -21,8 +22,51 @@ pub struct MucoConfig {
     pub view: ViewConfig,
     /// The global search for the start.
     pub search: SearchConfig,
-    /// The descent from that start.
+    /// Several targets at once.
+    pub targets: TargetsConfig,
+    /// Losing the target on purpose.
+    pub occlusion: OcclusionConfig,
+    /// The descent of `preset = "paper"`; the other presets refine in another way.
     pub descent: DescentConfig,
+    /// What only `preset = "paper"` has.
+    pub paper: PaperConfig,
+}
+
+/// What is to be seen when companions of the target are.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum SeveralTargets {
+    /// As much as possible of all together.
+    #[default]
+    Mean,
+    /// As much as possible of the one that is seen least.
+    Minimum,
+}
+
+/// Several targets at once.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(default, deny_unknown_fields)]
+pub struct TargetsConfig {
+    /// Further walkers to be seen beside each target: those that stay nearest to it. Default 0.
+    #[schemars(range(min = 0, max = 8))]
+    pub companions: u32,
+    /// Which visibility counts. Default `mean`.
+    pub visibility: SeveralTargets,
+}
+
+/// Losing the target on purpose: whole frames in which no body point is seen.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(default, deny_unknown_fields)]
+pub struct OcclusionConfig {
+    /// How often the target is to be lost. What could not be reached is in the certificate. Default 0.
+    #[schemars(range(min = 0, max = 100))]
+    pub count: u32,
+    /// Shortest loss, seconds. Default 2.
+    #[schemars(range(min = 0.1, max = 60.0))]
+    pub min_s: f64,
+    /// Longest loss, seconds; half-way between the two is aimed at. Default 4.
+    #[schemars(range(min = 0.1, max = 60.0))]
+    pub max_s: f64,
 }
 
 /// What a flight must never exceed.
@@ -153,8 +197,23 @@ impl Default for MucoConfig {
             limits: LimitsConfig::default(),
             view: ViewConfig::default(),
             search: SearchConfig::default(),
+            targets: TargetsConfig::default(),
+            occlusion: OcclusionConfig::default(),
             descent: DescentConfig::default(),
+            paper: PaperConfig::default(),
         }
+    }
+}
+
+impl Default for TargetsConfig {
+    fn default() -> Self {
+        Self { companions: 0, visibility: SeveralTargets::Mean }
+    }
+}
+
+impl Default for OcclusionConfig {
+    fn default() -> Self {
+        Self { count: 0, min_s: 2.0, max_s: 4.0 }
     }
 }
 
@@ -233,6 +292,8 @@ impl MucoConfig {
         ordered("view.preferred_altitude_m", v.preferred_altitude_m, "view.max_altitude_m", v.max_altitude_m)?;
         ordered("view.min_radius_m", v.min_radius_m, "view.max_radius_m", v.max_radius_m)?;
         ordered("view.max_radius_m", v.max_radius_m, "search.filter_radius_m", self.search.filter_radius_m)?;
+        ordered("occlusion.min_s", self.occlusion.min_s, "occlusion.max_s", self.occlusion.max_s)?;
+        self.paper.validate().map_err(|(name, rule)| (format!("paper.{name}"), rule))?;
         ordered("descent.min_rate", self.descent.min_rate, "descent.rate", self.descent.rate)?;
         Ok(())
     }
@@ -260,6 +321,10 @@ impl MucoConfig {
             ("search.relative_motion", s.relative_motion, 0.001, 1000.0),
             ("search.absolute_motion", s.absolute_motion, 0.0, 1000.0),
             ("search.filter_radius_m", s.filter_radius_m, 5.0, 500.0),
+            ("targets.companions", f64::from(self.targets.companions), 0.0, 8.0),
+            ("occlusion.count", f64::from(self.occlusion.count), 0.0, 100.0),
+            ("occlusion.min_s", self.occlusion.min_s, 0.1, 60.0),
+            ("occlusion.max_s", self.occlusion.max_s, 0.1, 60.0),
             ("descent.iterations", f64::from(d.iterations), 0.0, 1000.0),
             ("descent.difference_m", d.difference_m, 0.001, 0.9),
             ("descent.rate", d.rate, 0.000_001, 10.0),

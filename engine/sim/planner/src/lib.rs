@@ -13,6 +13,7 @@ pub mod obstacles;
 pub mod paper;
 pub mod perturb;
 pub mod problem;
+pub mod request;
 pub mod scenes;
 pub mod terms;
 pub mod trajectory;
@@ -21,7 +22,8 @@ pub mod walk;
 pub mod weights;
 
 pub use config::MucoConfig;
-pub use muco::{plan, plan_with_terms};
+pub use muco::{plan, plan_request, plan_with_terms};
+pub use request::{PlanRequest, StartState};
 pub use terms::{CostTerm, TermContext, WeightedTerm};
 pub use terms::{WeightOverrides, Weights};
 pub use trajectory::{Certificate, FramePerturbation, Limits, Perturbation, PlanOutcome, TermCost, Trajectory};

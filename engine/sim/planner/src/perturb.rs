@@ -1,8 +1,9 @@
 //! The perturbed twin of an expert flight: two independent events per frame, with safe displacements
 //! (paper, section "Dual-Trajectory Augmentation").
 
-use crate::certificate::{SolverFigures, certify};
+use crate::certificate::certify;
 use crate::config::{LimitsConfig, MucoConfig};
+use crate::obstacles::exact::ExactMap;
 use crate::trajectory::{FramePerturbation, Perturbation, PlanOutcome, Trajectory};
 use crate::visibility::aim_point;
 use cosfly_frames::{DVec3, Pose, RandomStream, Seed, real};
@@ -273,11 +274,11 @@ fn measured(
         jerk_mps3: f64::INFINITY,
         require_kinematics: false,
     };
-    let solver = SolverFigures { iterations: 0, filtered_boxes: expert.certificate.filtered_boxes };
     // Height is kept above the target's feet while displacing; no ground below is known here.
     let no_ground = |_: f64, _: f64| f64::NEG_INFINITY;
     let muco = MucoConfig { limits, ..MucoConfig::default() };
-    let measured = certify(&expert.track, &positions, exact, &no_ground, &muco, solver);
+    let mut measured = certify(&expert.track, &positions, ExactMap::still(exact), &no_ground, &muco);
+    measured.certificate.filtered_boxes = expert.certificate.filtered_boxes;
     Trajectory {
         track: expert.track.clone(),
         poses_in_world: poses,

@@ -52,7 +52,7 @@ pub struct TermCost {
 }
 
 /// Stated limits of a flight; violations are explicit failures of planning.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Limits {
     /// Smallest distance from obstacles along the whole swept path, metres.
     pub clearance_m: f64,
@@ -65,7 +65,7 @@ pub struct Limits {
 }
 
 /// Facts about the finished path, computed in f64 against the unsimplified boxes.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Certificate {
     /// Limits it was checked against.
     pub limits: Limits,
@@ -93,10 +93,23 @@ pub struct Certificate {
     pub length_m: f64,
     /// Path length divided by the target's; 0 when the target stands.
     pub length_ratio: f64,
-    /// Solver iterations.
+    /// What the way through the lattice that the flight was refined from sees, mean over the lattice's layers; the
+    /// flight may see more. 0 where no lattice was searched.
+    pub lattice_visibility: f64,
+    /// How much less the flight sees than that; 0 when it sees as much or more.
+    pub visibility_regret: f64,
+    /// Lattices tried, from the fast one to finer and calmer ones.
+    pub attempts: u32,
+    /// Searches through the last lattice, one more for every connection that was not free.
+    pub searches: u32,
+    /// Steps of refinement, descent and smoothing.
     pub iterations: u32,
     /// Obstacle boxes left by the per-path filter.
     pub filtered_boxes: u32,
+    /// For how long the target was to be lost on purpose, seconds, and for how long it was.
+    pub occlusion_ordered_s: f64,
+    /// See [`Self::occlusion_ordered_s`].
+    pub occlusion_reached_s: f64,
 }
 
 /// How a perturbed trajectory departs from its expert (paper, dual-trajectory augmentation).

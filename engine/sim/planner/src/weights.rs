@@ -10,8 +10,33 @@ pub enum Preset {
     /// Visibility first: an unseen target costs more than any viewpoint.
     #[default]
     Cosfly,
-    /// The paper's weights (appendix B).
+    /// `cosfly`, but behind the walker wherever that costs little visibility.
+    Rear,
+    /// `cosfly`, but with short flights: moving costs more.
+    Short,
+    /// The paper's weights (appendix B) and its own pipeline.
     Paper,
+}
+
+impl Preset {
+    /// How much dearer moving is in the global search.
+    pub fn motion_factor(self) -> f64 {
+        if self == Self::Short { SHORT_MOTION_FACTOR } else { 1.0 }
+    }
+}
+
+/// See [`Preset::motion_factor`].
+const SHORT_MOTION_FACTOR: f64 = 8.0;
+/// Weight of the viewpoint term in [`Preset::Rear`].
+const REAR_VIEWPOINT: f64 = 30.0;
+
+impl crate::terms::Weights {
+    /// What presets that are near `cosfly` change.
+    pub(crate) fn suit(&mut self, preset: Preset) {
+        if preset == Preset::Rear {
+            self.viewpoint = REAR_VIEWPOINT;
+        }
+    }
 }
 
 /// From the one list of cost terms (in `terms/mod.rs`): weights, their overrides in recipes, and the terms themselves.
@@ -36,11 +61,15 @@ macro_rules! cost_terms {
         impl Weights {
             /// The preset's weights with the overrides in their place.
             pub fn resolve(preset: Preset, overrides: &WeightOverrides) -> Self {
-                Self {$(
-                    $name: overrides.$name.unwrap_or(match preset {
-                        Preset::Cosfly => $cosfly,
+                let mut weights = Self {$(
+                    $name: match preset {
+                        Preset::Cosfly | Preset::Rear | Preset::Short => $cosfly,
                         Preset::Paper => $paper,
-                    }),
+                    },
+                )*};
+                weights.suit(preset);
+                Self {$(
+                    $name: overrides.$name.unwrap_or(weights.$name),
                 )*}
             }
 

@@ -199,6 +199,7 @@ fn certificate(track: &TargetTrack, poses: &[Pose], views: &[TargetView]) -> Cer
         length_ratio: length_m / track.length_m(),
         iterations: 2,
         filtered_boxes: 1,
+        ..Certificate::default()
     }
 }
 

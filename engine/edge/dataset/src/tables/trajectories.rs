@@ -236,6 +236,33 @@ fn solution() -> Vec<Column<DatasetItem>> {
             "iterations of descent and corridor smoothing; 0 for perturbed flights",
             |item, _| certificate_of(item).iterations.into(),
         ),
+        Column::new(
+            "lattice_visibility",
+            Kind::Real,
+            "mean visibility of the lattice's cheapest way, from which the flight was refined; 0 without a lattice",
+            |item, _| certificate_of(item).lattice_visibility.into(),
+        ),
+        Column::new(
+            "visibility_regret",
+            Kind::Real,
+            "how much less the flight sees than the lattice's way; 0 when as much or more",
+            |item, _| certificate_of(item).visibility_regret.into(),
+        ),
+        Column::new("attempts", Kind::Integer, "lattices tried, from the fast one to finer and calmer ones", |item, _| {
+            certificate_of(item).attempts.into()
+        }),
+        Column::new("searches", Kind::Integer, "searches through the last lattice", |item, _| {
+            certificate_of(item).searches.into()
+        }),
+        Column::new(
+            "occlusion_ordered_s",
+            Kind::Real,
+            "for how long the target was to be lost on purpose, seconds",
+            |item, _| certificate_of(item).occlusion_ordered_s.into(),
+        ),
+        Column::new("occlusion_reached_s", Kind::Real, "for how long of that it was lost, seconds", |item, _| {
+            certificate_of(item).occlusion_reached_s.into()
+        }),
         Column::new("filtered_boxes", Kind::Integer, "obstacle boxes left by the per-path filter", |item, _| {
             certificate_of(item).filtered_boxes.into()
         }),

@@ -24,6 +24,7 @@ pub fn made_flyable(input: &BaselineInput<'_>, found: BaselinePath) -> BaselineP
         min_altitude_m: config.view.min_altitude_m,
         wished: &found.waypoints,
         learned: &learned,
+        head: &[],
     };
     let smoothed = smooth(&corridor, &found.waypoints, &config.stated_limits(), OBJECTIVE);
     BaselinePath { waypoints: smoothed.waypoints, ..found }

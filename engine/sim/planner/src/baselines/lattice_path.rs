@@ -1,7 +1,7 @@
 //! The way through the polar lattice with nothing after it: what the global search alone is worth.
 
 use super::{BaselineInput, BaselinePath};
-use crate::muco::plan::full_effort;
+use crate::muco::attempts::full_effort;
 use crate::muco::search::search;
 use crate::obstacles::local::LocalObstacles;
 
@@ -11,7 +11,8 @@ pub fn lattice_path(input: &BaselineInput<'_>) -> Result<BaselinePath, String> {
     let influence_m = config.view.safety_influence_m;
     let radius_m = config.search.filter_radius_m;
     let obstacles = LocalObstacles::filter(track, input.planning_boxes, input.ground, radius_m, influence_m);
-    let waypoints = search(input.problem, &obstacles, config, full_effort(config), &mut Default::default())?.waypoints;
+    let waypoints =
+        search(input.problem, &obstacles, config, full_effort(config), &[], &mut Default::default())?.waypoints;
     let cost = input.problem.cost(&obstacles, &waypoints);
     Ok(BaselinePath { waypoints, nodes_expanded: 0, cost })
 }

@@ -40,6 +40,8 @@ pub struct CorridorInput<'a> {
     pub wished: &'a [DVec3],
     /// Planes found by looking at the unsimplified map, per frame.
     pub learned: &'a [Vec<HalfSpace>],
+    /// The first waypoints, where they are given.
+    pub head: &'a [DVec3],
 }
 
 /// Builds the corridor around `waypoints`.
@@ -49,7 +51,9 @@ pub fn build(input: &CorridorInput<'_>, waypoints: &[DVec3]) -> Vec<FrameCorrido
     for frame in 0..waypoints.len() {
         add_separations(input, waypoints, frame, &mut corridor);
         add_floor(input, waypoints[frame], frame, &mut corridor[frame]);
-        add_sight(input, waypoints[frame], frame, &mut corridor[frame]);
+        if !input.obstacles.is_to_be_lost(frame) {
+            add_sight(input, waypoints[frame], frame, &mut corridor[frame]);
+        }
         corridor[frame].hard.extend_from_slice(&input.learned[frame]);
     }
     corridor

@@ -1,18 +1,20 @@
-//! MuCO: global start, smoothing in a safe corridor, descent on nine terms, post-processing, final judgement.
+//! MuCO: global start on a lattice, Gauss-Newton refinement, smoothing in a safe corridor, final judgement.
 //!
 //! ```text
 //! filter boxes near the path
-//! repeat with growing effort:
-//!   start   <- cheapest way through the lattice of viewpoints      (start, lattice, viterbi)
-//!   safe    <- flyable path near it, inside its safe corridor       (smoother, corridor, banded)
-//!   lower   <- descent from safe on the terms, seven clean-ups      (descent, gradient, postprocess)
-//!   lower   <- flyable path near it, inside the corridor of safe
-//!   publish the cheaper one whose certificate holds                 (certificate)
+//! repeat with growing effort                                        (attempts)
+//!   start   <- cheapest way through the lattice of viewpoints       (search, lattice, scan, viterbi, losses)
+//!   refined <- Gauss-Newton steps on all terms from there           (refine)
+//!   flight  <- flyable path near it, inside its safe corridor       (smoother, corridor, banded)
+//! until its certificate holds and it sees what the lattice promises (judge)
 //! ```
 
+pub mod attempts;
 pub mod banded;
 pub mod corridor;
+pub mod judge;
 pub mod lattice;
+pub mod losses;
 pub mod plan;
 pub mod refine;
 pub mod scan;
@@ -21,4 +23,4 @@ pub mod smoother;
 pub mod track_check;
 pub mod viterbi;
 
-pub use plan::{plan, plan_with_terms};
+pub use plan::{plan, plan_request, plan_with_terms};

@@ -24,6 +24,8 @@ pub struct Rounds {
 const HOLD: f64 = 0.02;
 /// It grows by this factor where the round ended worse than the lattice's way.
 const HOLD_GROWTH: f64 = 30.0;
+/// Weight that holds given waypoints.
+const HOLD_FAST: f64 = 1e6;
 /// Smoothness beside that of the terms.
 const EXTRA_ACCELERATION: f64 = 0.5;
 const EXTRA_JERK: f64 = 3.0;
@@ -35,6 +37,14 @@ const LONGEST_STEP_M: f64 = 2.5;
 /// Time step for which the smoothness weights are written, seconds.
 const REFERENCE_DT_S: f64 = 0.5;
 
+/// What came of it.
+pub struct Refined {
+    /// Steps taken.
+    pub steps: u32,
+    /// Total cost against the planning boxes, at the start and after each round.
+    pub convergence: Vec<f64>,
+}
+
 /// Buffers of a refinement, worth keeping.
 #[derive(Default)]
 pub struct RefineSpace {
@@ -42,19 +52,25 @@ pub struct RefineSpace {
     step: Vec<DVec3>,
 }
 
-/// Refines `waypoints` (from the lattice) in place; returns the number of steps.
+/// Refines `waypoints` (from the lattice) in place; the first of them stay as given in `head`.
 pub fn refine(
     problem: &Problem<'_>,
     obstacles: &mut LocalObstacles<'_>,
     config: &MucoConfig,
     rounds: Rounds,
+    head: &[DVec3],
     space: &mut RefineSpace,
     waypoints: &mut [DVec3],
-) -> u32 {
+) -> Refined {
     let lattice_way = waypoints.to_vec();
     obstacles.focus_on(&lattice_way);
     let seen: Vec<f64> = (0..waypoints.len()).map(|i| obstacles.visibility(i, lattice_way[i])).collect();
     let mut hold = vec![HOLD; waypoints.len()];
+    hold[..head.len()].fill(HOLD_FAST);
+    for (frame, hold) in hold.iter_mut().enumerate() {
+        *hold *= if obstacles.is_to_be_lost(frame) { HOLD_GROWTH } else { 1.0 };
+    }
+    let mut convergence = vec![problem.cost(obstacles, waypoints)];
     for round in 0..rounds.rounds {
         for _ in 0..rounds.steps {
             assemble(problem, obstacles, config, &lattice_way, &hold, &mut space.equations, waypoints);
@@ -62,8 +78,10 @@ pub fn refine(
             for (waypoint, step) in waypoints.iter_mut().zip(&space.step) {
                 *waypoint += step.clamp_length_max(LONGEST_STEP_M);
             }
+            waypoints[..head.len()].copy_from_slice(head);
             obstacles.focus_on(waypoints);
         }
+        convergence.push(problem.cost(obstacles, waypoints));
         if round + 1 < rounds.rounds {
             for (i, hold) in hold.iter_mut().enumerate() {
                 if obstacles.visibility(i, waypoints[i]) < seen[i] {
@@ -72,7 +90,7 @@ pub fn refine(
             }
         }
     }
-    (rounds.rounds * rounds.steps) as u32
+    Refined { steps: (rounds.rounds * rounds.steps) as u32, convergence }
 }
 
 fn assemble(

@@ -2,9 +2,10 @@
 //! (paper, algorithm 2, made global).
 
 use super::lattice::{Lattice, LatticeSize};
-use super::scan::{CLOSE, Scanner};
+use super::losses::{self, LossPlan};
+use super::scan::{CLOSE, NodeState, Scanner, UNSAFE};
 use super::viterbi::{MoveCosts, NodeCosts, SearchSpace, Viterbi};
-use crate::config::MucoConfig;
+use crate::config::{MucoConfig, SeveralTargets};
 use crate::obstacles::local::LocalObstacles;
 use crate::problem::Problem;
 use crate::terms::Weights;
@@ -45,20 +46,25 @@ pub struct Start {
     pub visibility: f64,
     /// Searches that were needed.
     pub searches: u32,
+    /// Where the target is lost on purpose.
+    pub losses: LossPlan,
 }
 
-/// The cheapest way through the lattice whose connections are free.
+/// The cheapest way through the lattice whose connections are free. The first waypoints may be given as `head`; the
+/// way then starts at the last of them.
 pub fn search(
     problem: &Problem<'_>,
     obstacles: &LocalObstacles<'_>,
     config: &MucoConfig,
     effort: Effort,
+    head: &[DVec3],
     space: &mut SearchSpace,
 ) -> Result<Start, String> {
     let track = problem.track;
     let lattice = Lattice::new(effort.size, &config.view);
     let stride = effort.layer_frames.max((SHORTEST_LAYER_S / track.dt_s).round() as usize).max(1);
-    let mut frames: Vec<usize> = (0..track.len()).step_by(stride).collect();
+    let first = head.len().saturating_sub(1);
+    let mut frames: Vec<usize> = (first..track.len()).step_by(stride).collect();
     if frames.last() != Some(&(track.len() - 1)) {
         frames.push(track.len() - 1);
     }
@@ -66,8 +72,9 @@ pub fn search(
     let mut scanner = Scanner::new(&lattice, track.height_m);
     for (&frame, row) in frames.iter().zip(space.states.chunks_exact_mut(lattice.nodes())) {
         scanner.evaluate(frame, &track.states[frame], obstacles, effort.keep_out_m, row);
+        add_companions(&lattice, track.states[frame].feet_in_world, obstacles, frame, row);
     }
-    let costs = node_costs(problem, obstacles, &lattice, &frames, config);
+    let mut costs = node_costs(problem, obstacles, &lattice, &frames, config);
     // Costs are per layer: a layer stands for `stride` frames, in each of which an even move goes 1 / stride of the way.
     let per_layer = effort.motion_factor / (stride * stride) as f64;
     let moves = MoveCosts {
@@ -75,8 +82,14 @@ pub fn search(
         absolute: per_layer * config.search.absolute_motion,
         longest_m: STEADY_SHARE * config.limits.speed_mps * track.dt_s * stride as f64,
     };
+    if let Some(start) = head.last() {
+        let keep_m = config.limits.clearance_m;
+        let (relative, feet) = (moves.relative, track.states[first].feet_in_world);
+        costs.first = start_costs(&lattice, obstacles, first, feet, *start, (relative, keep_m));
+    }
     let feet = frames.iter().map(|&frame| track.states[frame].feet_in_world).collect();
     let mut viterbi = Viterbi::new(&lattice, feet, space, costs, moves);
+    let losses = losses::order(&mut viterbi, &config.occlusion, &frames, track.dt_s);
     let mut changed = 0;
     for searches in 1..=MAX_SEARCHES {
         let nodes = viterbi.solve(changed).map_err(|layer| {
@@ -85,13 +98,14 @@ pub fn search(
                 frames[layer]
             )
         })?;
-        let waypoints = interpolate(&lattice, track, &frames, &nodes);
+        let mut waypoints = interpolate(&lattice, track, &frames, &nodes);
+        lead_in(head, STEADY_SHARE * config.limits.speed_mps * track.dt_s, &mut waypoints);
         let cut = cut_layers(obstacles, &waypoints, &frames, CUT_SHARE * config.limits.clearance_m);
         let Some(&first) = cut.first() else {
             let hidden = |(layer, &node): (usize, &usize)| f64::from(viterbi.state(layer, node) & !CLOSE);
             let hidden: f64 = nodes.iter().enumerate().map(hidden).sum();
             let visibility = 1.0 - hidden / (8 * nodes.len()) as f64;
-            return Ok(Start { waypoints, visibility, searches: searches as u32 });
+            return Ok(Start { waypoints, visibility, searches: searches as u32, losses });
         };
         for layer in cut {
             viterbi.forbid(layer, nodes[layer]);
@@ -99,6 +113,67 @@ pub fn search(
         changed = first;
     }
     Err("no way between the free viewpoints was found that keeps out of obstacles".to_owned())
+}
+
+/// Costs of the first layer's nodes when the drone is at `start` then: by the way there, as in a move to the side, and
+/// forbidden where that way is not free.
+fn start_costs(
+    lattice: &Lattice,
+    obstacles: &LocalObstacles<'_>,
+    frame: usize,
+    feet: DVec3,
+    start: DVec3,
+    (per_square_m, keep_m): (f64, f64),
+) -> Vec<f32> {
+    let cost = |node: usize| {
+        let place = feet + lattice.offset(node);
+        if obstacles.segment_clearance_m(frame, start, place, keep_m) < keep_m {
+            return f32::INFINITY;
+        }
+        (per_square_m * place.distance_squared(start)) as f32
+    };
+    (0..lattice.nodes()).map(cost).collect()
+}
+
+/// Leads from the given waypoints into the way through the lattice, at no more than `step_m` from frame to frame
+/// beside the way's own moves.
+fn lead_in(head: &[DVec3], step_m: f64, waypoints: &mut [DVec3]) {
+    let Some((&start, first)) = head.last().zip(head.len().checked_sub(1)) else { return };
+    let gap = waypoints.get(first).map_or(DVec3::ZERO, |waypoint| start - waypoint);
+    // Along 3 t^2 - 2 t^3 the steepest step is half again as long as the mean.
+    let frames = (1.5 * gap.length() / step_m.max(1e-6)).ceil().max(1.0);
+    for (i, waypoint) in waypoints.iter_mut().skip(first).enumerate() {
+        let t = (i as f64 / frames).min(1.0);
+        *waypoint += gap * (1.0 - t * t * (3.0 - 2.0 * t));
+    }
+    waypoints[..head.len()].copy_from_slice(head);
+}
+
+/// Counts the hidden body points of companions into the states.
+fn add_companions(
+    lattice: &Lattice,
+    feet: DVec3,
+    obstacles: &LocalObstacles<'_>,
+    frame: usize,
+    states: &mut [NodeState],
+) {
+    let bodies: Vec<_> = obstacles.companions(frame).collect();
+    if bodies.is_empty() {
+        return;
+    }
+    // Ankle, middle and shoulder stand for 2, 3 and 3 of the eight points.
+    let points = [(1, 2.0), (3, 3.0), (5, 3.0)];
+    for (node, state) in states.iter_mut().enumerate().filter(|(_, state)| **state != UNSAFE) {
+        let place = feet + lattice.offset(node);
+        let dark = |point: DVec3| obstacles.is_hidden(frame, point, place);
+        let hidden = |body: &&[DVec3; 8]| points.iter().filter(|(k, _)| dark(body[*k])).map(|(_, n)| n).sum::<f64>();
+        let own = f64::from(*state & !CLOSE);
+        let together = match obstacles.seen_together() {
+            SeveralTargets::Mean => (own + bodies.iter().map(hidden).sum::<f64>()) / (bodies.len() + 1) as f64,
+            SeveralTargets::Minimum => bodies.iter().map(hidden).fold(own, f64::max),
+        };
+        *state = (*state & CLOSE) | together.round() as NodeState;
+    }
 }
 
 /// Layers whose connection from the layer before comes too near an obstacle.
@@ -161,6 +236,7 @@ fn node_costs(
         close: (4.0 * weights.safety) as f32,
         ring: (0..lattice.rings()).map(ring).collect(),
         azimuth: frames.iter().map(|&f| lattice.directions.iter().map(|d| azimuth(f, d)).collect()).collect(),
+        first: Vec::new(),
         extra: extra_costs(problem, obstacles, lattice, frames),
     }
 }

@@ -24,6 +24,9 @@ const RELAXATION: f64 = 1.6;
 /// Share of a missing line of sight that one projection mends.
 const SIGHT_SHARE: f64 = 0.95;
 
+/// Nearness that holds given waypoints.
+const HOLD_FAST: f64 = 1e4;
+
 /// Weights of the programme's objective, and the effort.
 #[derive(Clone, Copy)]
 pub struct Objective {
@@ -55,12 +58,14 @@ pub fn smooth(input: &CorridorInput<'_>, start: &[DVec3], limits: &Limits, objec
     let scale = [1.0, ratio, ratio * ratio, ratio * ratio * ratio].map(|s| s * s);
     let mut waypoints = start.to_vec();
     let mut nearness = vec![objective.nearness; start.len()];
+    nearness[..input.head.len()].fill(HOLD_FAST);
     let mut iterations = 0;
     for round in 0..objective.rounds {
         let corridor = corridor::build(input, &waypoints);
         let mut programme = Programme::new(&nearness, objective, input.wished, &waypoints, reach, scale);
         iterations += programme.run(&corridor, objective.iterations);
         waypoints = programme.x;
+        waypoints[..input.head.len()].copy_from_slice(input.head);
         if round + 1 < objective.rounds {
             hold_on_where_sight_was_lost(input, &waypoints, &mut nearness);
         }

@@ -24,6 +24,8 @@ pub struct NodeCosts {
     pub ring: Vec<f32>,
     /// By layer and azimuth.
     pub azimuth: Vec<Vec<f32>>,
+    /// Further costs of the first layer's nodes; may be empty.
+    pub first: Vec<f32>,
     /// By layer and node; empty when there are no further terms.
     pub extra: Vec<Vec<f32>>,
 }
@@ -61,6 +63,8 @@ pub struct Viterbi<'a> {
     moves: MoveCosts,
     costs: NodeCosts,
     prices: MovePrices,
+    /// Layers in which the target is to be lost.
+    lost: Vec<bool>,
     level: Level,
 }
 
@@ -118,13 +122,34 @@ impl<'a> Viterbi<'a> {
         let prices = MovePrices::new(lattice, &moves);
         space.climbed.resize(lattice.nodes(), 0.0);
         space.turned.resize(lattice.directions.len() + 2 * prices.steps, 0.0);
-        Self { lattice, space, feet, moves, costs, prices, level: Level::best() }
+        let lost = vec![false; feet.len()];
+        Self { lattice, space, feet, moves, costs, prices, lost, level: Level::best() }
     }
 
     /// The same with other instructions; for tests.
     pub fn at_level(mut self, level: Level) -> Self {
         self.level = level;
         self
+    }
+
+    /// Number of layers.
+    pub fn layers(&self) -> usize {
+        self.feet.len()
+    }
+
+    /// Orders the target to be lost at a layer, or no longer: there, what is seen costs instead of what is hidden.
+    pub fn lose(&mut self, layer: usize, lost: bool) {
+        self.lost[layer] = lost;
+    }
+
+    /// Whether the target is to be lost at a layer.
+    pub fn is_lost(&self, layer: usize) -> bool {
+        self.lost[layer]
+    }
+
+    /// Cost of the cheapest way that [`Self::solve`] found last, up to a constant.
+    pub fn lowest_cost(&self) -> f64 {
+        self.space.lowest.iter().map(|lowest| f64::from(*lowest)).sum()
     }
 
     /// Forbids one node; [`Self::solve`] from its layer on before the next look.
@@ -157,9 +182,11 @@ impl<'a> Viterbi<'a> {
                 pull: &pull_along(self.lattice, pull),
                 pull_up: pull[2],
                 lowest: if layer == 0 { 0.0 } else { lowest[layer - 1] },
+                lost: self.lost[layer],
             };
             if layer == 0 {
                 here.fill(0.0);
+                here.iter_mut().zip(&self.costs.first).for_each(|(cost, first)| *cost = *first);
             } else {
                 advance(self.level, &ground, &before[(layer - 1) * nodes..], climbed, turned, here);
             }
@@ -234,6 +261,8 @@ struct Ground<'a> {
     pull_up: f32,
     /// The lowest cost of the layer before, taken off everything.
     lowest: f32,
+    /// Whether what is seen costs instead of what is hidden.
+    lost: bool,
 }
 
 #[inline(always)]
@@ -298,6 +327,8 @@ simd_kernel! {
     fn add_node_costs(ground: &Ground<'_>, cost: &mut [f32]) -> f32 {
         let count = ground.pull.len();
         let [linear, square] = ground.costs.hidden;
+        // Points that cost: the hidden ones, or 8 less them.
+        let (sign, all) = if ground.lost { (-1.0, 8.0) } else { (1.0, 0.0) };
         let rows = cost.chunks_exact_mut(count).zip(ground.states.chunks_exact(count));
         for (ring, (row, states)) in rows.enumerate() {
             let (altitude, radius) = ground.lattice.ring_m(ring);
@@ -306,7 +337,7 @@ simd_kernel! {
             let azimuths = ground.azimuth.iter().zip(ground.pull);
             for ((cost, state), (azimuth, pull)) in row.iter_mut().zip(states).zip(azimuths) {
                 let state = u32::from(*state);
-                let hidden = (state & 0xf) as i32 as f32;
+                let hidden = all + sign * ((state & 0xf) as i32 as f32);
                 let close = if state & u32::from(CLOSE) != 0 { close_cost } else { 0.0 };
                 let more = pull * radius + base + (azimuth + close + hidden * (linear + square * hidden));
                 *cost += if state == u32::from(UNSAFE) { FORBIDDEN } else { more };

@@ -1,8 +1,9 @@
 //! Per-path obstacle filtering: the planning boxes near each stretch of the path (paper, section 3.3).
 
 use super::{Surroundings, ground::GroundGrid, solid::Solid};
+use crate::config::SeveralTargets;
 use crate::visibility::{BODY_POINTS, body_points};
-use cosfly_frames::{DVec3, TargetTrack};
+use cosfly_frames::{DVec3, TargetTrack, real};
 use cosfly_geometry::OrientedBox;
 
 /// Frames that share one list of boxes.
@@ -19,10 +20,24 @@ const SHADOW_REACH_M: f64 = 2.0;
 pub struct LocalObstacles<'a> {
     solids: Vec<Solid>,
     lists: Vec<Vec<u32>>,
-    body: Vec<[DVec3; BODY_POINTS]>,
+    /// Body points of the target frame by frame, then those of its companions.
+    bodies: Vec<Vec<[DVec3; BODY_POINTS]>>,
+    seen_together: SeveralTargets,
+    movers: Movers,
+    /// Frames in which the target is to be lost; empty when in none.
+    lost: Vec<bool>,
     ground: &'a GroundGrid,
     influence_m: f64,
     focus: Vec<Focus>,
+}
+
+/// Boxes that move.
+#[derive(Default)]
+struct Movers {
+    /// Per frame, where they are.
+    there: Vec<Vec<Solid>>,
+    /// Per frame, all that they pass on the way to the next.
+    swept: Vec<Vec<Solid>>,
 }
 
 /// The boxes that matter while a waypoint stays within [`FOCUS_M`] of `center`.
@@ -65,8 +80,49 @@ impl<'a> LocalObstacles<'a> {
                 lists.push(list);
             }
         }
-        let body = track.states.iter().map(|state| body_points(state, track.height_m)).collect();
-        Self { solids, lists, body, ground, influence_m, focus: Vec::new() }
+        let bodies = vec![bodies_of(track)];
+        let (movers, seen_together, lost) = (Movers::default(), SeveralTargets::Mean, Vec::new());
+        Self { solids, lists, bodies, seen_together, movers, lost, ground, influence_m, focus: Vec::new() }
+    }
+
+    /// Adds targets to be seen beside the one whose track it is.
+    pub fn with_companions(mut self, companions: &[TargetTrack], together: SeveralTargets) -> Self {
+        self.bodies.extend(companions.iter().map(bodies_of));
+        self.seen_together = together;
+        self
+    }
+
+    /// Adds boxes that move, each given by its places frame by frame.
+    pub fn with_movers(mut self, movers: &[Vec<OrientedBox>]) -> Self {
+        if let Some(frames) = movers.iter().map(Vec::len).min() {
+            let at = |frame: usize| movers.iter().map(|places| Solid::new(&places[frame])).collect();
+            let to_next = |frame: usize| {
+                let next = (frame + 1).min(frames - 1);
+                movers.iter().map(|places| Solid::new(&swept_box(&places[frame], &places[next]))).collect()
+            };
+            self.movers = Movers { there: (0..frames).map(at).collect(), swept: (0..frames).map(to_next).collect() };
+        }
+        self
+    }
+
+    /// Orders the target to be lost in some frames; there, visibility counts the other way round.
+    pub fn order_losses(&mut self, lost: Vec<bool>) {
+        self.lost = lost;
+    }
+
+    /// Whether the target is to be lost at `frame`.
+    pub fn is_to_be_lost(&self, frame: usize) -> bool {
+        self.lost.get(frame).copied().unwrap_or(false)
+    }
+
+    /// Body points of the target's companions at `frame`.
+    pub fn companions(&self, frame: usize) -> impl Iterator<Item = &[DVec3; BODY_POINTS]> {
+        self.bodies[1..].iter().map(move |body| &body[frame])
+    }
+
+    /// Which visibility of several targets counts.
+    pub fn seen_together(&self) -> SeveralTargets {
+        self.seen_together
     }
 
     /// The highest ground around the path, metres.
@@ -79,14 +135,37 @@ impl<'a> LocalObstacles<'a> {
         self.solids.len()
     }
 
-    /// The boxes that matter at `frame`.
+    /// The boxes that matter at `frame`; those that move with all that they pass until the next.
     pub fn at_frame(&self, frame: usize) -> impl Iterator<Item = &Solid> {
-        self.lists[frame / FRAMES_PER_LIST].iter().map(|&index| &self.solids[index as usize])
+        let still = self.lists[frame / FRAMES_PER_LIST].iter().map(|&index| &self.solids[index as usize]);
+        still.chain(self.movers.swept.get(frame).into_iter().flatten())
+    }
+
+    /// Whether a box stands between a point of a body and `position` at `frame`.
+    pub fn is_hidden(&self, frame: usize, point: DVec3, position: DVec3) -> bool {
+        let still = self.lists[frame / FRAMES_PER_LIST].iter().map(|&index| &self.solids[index as usize]);
+        let (low, high) = (point.min(position), point.max(position));
+        let mut near = still.chain(self.moving_at(frame)).filter(|solid| solid.bounds_gap_m(low, high) <= 0.0);
+        near.any(|solid| solid.meets_segment(point, position))
+    }
+
+    fn moving_at(&self, frame: usize) -> &[Solid] {
+        self.movers.there.get(frame).map_or(&[], Vec::as_slice)
+    }
+
+    /// Share of one body that is seen from `position`.
+    fn seen_share(&self, frame: usize, list: &[u32], body: &[DVec3; BODY_POINTS], position: DVec3) -> f64 {
+        let meets = |solid: &Solid, point: DVec3| solid.meets_segment(point, position);
+        let hidden = |point: DVec3| {
+            list.iter().any(|&index| meets(&self.solids[index as usize], point))
+                || self.moving_at(frame).iter().any(|solid| meets(solid, point))
+        };
+        body.iter().filter(|&&point| !hidden(point)).count() as f64 / BODY_POINTS as f64
     }
 
     /// The body points at `frame`.
     pub fn body(&self, frame: usize) -> &[DVec3; BODY_POINTS] {
-        &self.body[frame]
+        &self.bodies[0][frame]
     }
 
     /// Makes the short lists right for queries near `waypoints`; call it before a round of many queries.
@@ -107,7 +186,7 @@ impl<'a> LocalObstacles<'a> {
         slot.center = center;
         slot.between.clear();
         slot.near.clear();
-        let body = self.body[frame];
+        let body = self.bodies[0][frame];
         let middle = 0.5 * (body[0] + body[5]);
         let body_radius = body.iter().map(|point| point.distance(middle)).fold(0.0, f64::max);
         let (low, high) = (middle.min(center), middle.max(center));
@@ -137,6 +216,30 @@ impl<'a> LocalObstacles<'a> {
             }
         }
         smallest
+    }
+}
+
+fn bodies_of(track: &TargetTrack) -> Vec<[DVec3; BODY_POINTS]> {
+    track.states.iter().map(|state| body_points(state, track.height_m)).collect()
+}
+
+/// A box in the axes of `from` around `from` and `to`, which is everything a box passes that moves evenly between
+/// them and turns by less than a right angle.
+pub fn swept_box(from: &OrientedBox, to: &OrientedBox) -> OrientedBox {
+    let (sin, cos) = real::sin_cos(from.yaw_rad);
+    let into = |v: DVec3| DVec3::new(cos * v.x + sin * v.y, cos * v.y - sin * v.x, v.z);
+    let out = |v: DVec3| DVec3::new(cos * v.x - sin * v.y, sin * v.x + cos * v.y, v.z);
+    let corners = to.corners_in_world().map(|corner| into(corner - from.center_in_world));
+    // A corner that turns on the way bulges out by less than the way it turns.
+    let turn = real::wrap_angle_rad(to.yaw_rad - from.yaw_rad).abs().min(real::PI);
+    let bulge = turn * real::hypot(to.half_extents_m.x, to.half_extents_m.y);
+    let low = corners.iter().fold(-from.half_extents_m, |low, corner| low.min(*corner)) - DVec3::new(bulge, bulge, 0.0);
+    let high =
+        corners.iter().fold(from.half_extents_m, |high, corner| high.max(*corner)) + DVec3::new(bulge, bulge, 0.0);
+    OrientedBox {
+        center_in_world: from.center_in_world + out(0.5 * (low + high)),
+        half_extents_m: 0.5 * (high - low),
+        yaw_rad: from.yaw_rad,
     }
 }
 
@@ -175,15 +278,17 @@ fn near_from_above(
 
 impl Surroundings for LocalObstacles<'_> {
     fn visibility(&self, frame: usize, position: DVec3) -> f64 {
-        let list = match self.in_focus(frame, position) {
-            Some(focus) => &focus.between,
-            None => &self.lists[frame / FRAMES_PER_LIST],
-        };
-        let seen = self.body[frame]
-            .iter()
-            .filter(|&&point| !list.iter().any(|&index| self.solids[index as usize].meets_segment(point, position)))
-            .count();
-        seen as f64 / BODY_POINTS as f64
+        let all = &self.lists[frame / FRAMES_PER_LIST];
+        let list = self.in_focus(frame, position).map_or(all, |focus| &focus.between);
+        let mut seen = self.seen_share(frame, list, &self.bodies[0][frame], position);
+        if self.bodies.len() > 1 {
+            let others = self.companions(frame).map(|body| self.seen_share(frame, all, body, position));
+            seen = match self.seen_together {
+                SeveralTargets::Mean => (seen + others.sum::<f64>()) / self.bodies.len() as f64,
+                SeveralTargets::Minimum => others.fold(seen, f64::min),
+            };
+        }
+        if self.is_to_be_lost(frame) { 1.0 - seen } else { seen }
     }
 
     fn nearest(&self, frame: usize, position: DVec3, within_m: f64) -> Option<(f64, DVec3)> {
@@ -203,27 +308,35 @@ impl Surroundings for LocalObstacles<'_> {
                 }
             }
         }
+        for solid in self.movers.swept.get(frame).into_iter().flatten() {
+            let found = solid.signed_distance(position);
+            if found.0 < limit {
+                limit = found.0;
+                best = Some(found);
+            }
+        }
         best
     }
 
     fn shadows(&self, frame: usize, position: DVec3, each: &mut dyn FnMut(f64, DVec3)) {
-        let list = match self.in_focus(frame, position) {
-            Some(focus) => &focus.between,
-            None => &self.lists[frame / FRAMES_PER_LIST],
-        };
-        if list.is_empty() {
+        if self.is_to_be_lost(frame) {
             return;
         }
-        for &point in &self.body[frame] {
-            let mut deepest: Option<(f64, DVec3)> = None;
-            for &index in list {
-                let limit = deepest.map_or(SHADOW_REACH_M, |(slack, _)| slack);
-                if let Some((slack, plane)) = self.solids[index as usize].lit_side_below(point, position, limit) {
-                    deepest = Some((slack, plane.normal));
+        let all = &self.lists[frame / FRAMES_PER_LIST];
+        let list = self.in_focus(frame, position).map_or(all, |focus| &focus.between);
+        for (target, body) in self.bodies.iter().enumerate() {
+            let list = if target == 0 { list } else { all };
+            for &point in &body[frame] {
+                let mut deepest: Option<(f64, DVec3)> = None;
+                for solid in list.iter().map(|&index| &self.solids[index as usize]).chain(self.moving_at(frame)) {
+                    let limit = deepest.map_or(SHADOW_REACH_M, |(slack, _)| slack);
+                    if let Some((slack, plane)) = solid.lit_side_below(point, position, limit) {
+                        deepest = Some((slack, plane.normal));
+                    }
                 }
-            }
-            if let Some((slack, away)) = deepest {
-                each(slack, away);
+                if let Some((slack, away)) = deepest {
+                    each(slack, away);
+                }
             }
         }
     }

@@ -1,0 +1,178 @@
+//! Attempts of growing effort: search, refine, smooth, judge, until a flight is valid and sees what the lattice promises.
+
+use super::judge::{Judge, KEEP_OUT_EXTRA_M};
+use super::lattice::LatticeSize;
+use super::losses::{LossPlan, reached_s};
+use super::refine::{RefineSpace, Rounds, refine};
+use super::search::{Effort, search};
+use super::smoother::Objective;
+use super::viterbi::SearchSpace;
+use crate::certificate::Measured;
+use crate::config::{MucoConfig, SearchEffort};
+use crate::obstacles::local::LocalObstacles;
+use crate::problem::Problem;
+use cosfly_frames::DVec3;
+use std::cell::RefCell;
+
+/// A flight that sees less than this share of what the lattice's best way sees is searched again with more effort.
+const GOOD_SHARE: f64 = 0.955;
+/// When nothing valid is found: (cost of motion, distance kept beyond the limit) of calmer and calmer searches.
+const CALMER: [(f64, f64); 4] = [(1.0, 0.15), (6.0, 0.25), (40.0, 0.6), (200.0, 0.1)];
+/// Distance kept beyond the limit by the first searches; the fast one looks at every second frame only.
+const FAST_EXTRA_M: f64 = 0.45;
+const FULL_EXTRA_M: f64 = 0.25;
+/// How a refined flight is made to hold its limits: it nearly does.
+const LIGHT: Objective = Objective { rounds: 2, iterations: 60, nearness: 0.15, acceleration: 0.2, jerk: 1.0 };
+/// How the lattice's way is, when that was not enough.
+const THOROUGH: Objective = Objective { rounds: 4, iterations: 160, nearness: 0.05, acceleration: 0.5, jerk: 2.0 };
+
+thread_local! {
+    /// Buffers kept from one flight to the next; every use fills them anew.
+    static WORKSHOP: RefCell<Workshop> = RefCell::default();
+}
+
+#[derive(Default)]
+struct Workshop {
+    search: SearchSpace,
+    refine: RefineSpace,
+}
+
+/// A valid flight.
+pub struct Found {
+    /// One per frame, world frame, metres.
+    pub waypoints: Vec<DVec3>,
+    /// With the certificate.
+    pub measured: Measured,
+    /// Total cost after each step of the last attempt.
+    pub convergence: Vec<f64>,
+}
+
+/// Tries lattices from fast to fine, then calmer and calmer flights, and gives the best of what is valid, or the last
+/// reason why nothing is.
+pub fn escalate(
+    problem: &Problem<'_>,
+    obstacles: &mut LocalObstacles<'_>,
+    config: &MucoConfig,
+    judge: &mut Judge<'_>,
+) -> Result<Found, String> {
+    WORKSHOP.with_borrow_mut(|workshop| {
+        let mut reason = String::new();
+        let mut kept: Option<Found> = None;
+        for (level, effort) in efforts(config).into_iter().enumerate() {
+            match attempt(problem, obstacles, config, effort, judge, workshop) {
+                Ok(mut found) => {
+                    let certificate = &mut found.measured.certificate;
+                    certificate.attempts = level as u32 + 1;
+                    let (seen, promised) = (certificate.mean_visibility, certificate.lattice_visibility);
+                    let better = kept.as_ref().is_none_or(|kept| seen > kept.measured.certificate.mean_visibility);
+                    kept = if better { Some(found) } else { kept };
+                    let again = config.search.effort == SearchEffort::Escalating && level == 0;
+                    if !again || seen >= GOOD_SHARE * promised {
+                        break;
+                    }
+                }
+                Err(why) => reason = why,
+            }
+            if kept.is_some() && level > 0 {
+                break;
+            }
+        }
+        kept.ok_or(reason)
+    })
+}
+
+/// The search over the recipe's own lattice.
+pub fn full_effort(config: &MucoConfig) -> Effort {
+    let search = &config.search;
+    let (azimuths, altitudes, radii) = (search.azimuths as usize, search.altitudes as usize, search.radii as usize);
+    Effort {
+        size: LatticeSize { azimuths, altitudes, radii },
+        layer_frames: search.keyframe_frames as usize,
+        motion_factor: config.preset.motion_factor(),
+        keep_out_m: config.limits.clearance_m + FULL_EXTRA_M,
+    }
+}
+
+fn efforts(config: &MucoConfig) -> Vec<Effort> {
+    let full = full_effort(config);
+    let LatticeSize { azimuths, altitudes, radii } = full.size;
+    let clearance = config.limits.clearance_m;
+    let fast = Effort {
+        size: LatticeSize { azimuths, altitudes: altitudes.div_ceil(2), radii: (4 * radii).div_ceil(5) },
+        layer_frames: 2 * full.layer_frames,
+        keep_out_m: clearance + FAST_EXTRA_M,
+        ..full
+    };
+    let first = if config.search.effort == SearchEffort::Quality { vec![full] } else { vec![fast, full] };
+    let calmer = CALMER.map(|(factor, extra_m)| {
+        let motion_factor = factor * full.motion_factor;
+        Effort { motion_factor, keep_out_m: clearance + extra_m, ..full }
+    });
+    first.into_iter().chain(calmer).collect()
+}
+
+/// One search and everything after it: the flight, or what stood in its way.
+fn attempt(
+    problem: &Problem<'_>,
+    obstacles: &mut LocalObstacles<'_>,
+    config: &MucoConfig,
+    effort: Effort,
+    judge: &mut Judge<'_>,
+    workshop: &mut Workshop,
+) -> Result<Found, String> {
+    obstacles.order_losses(Vec::new());
+    let head = judge.head;
+    let start = search(problem, obstacles, config, effort, head, &mut workshop.search)?;
+    let losses: LossPlan = start.losses;
+    obstacles.order_losses(losses.lost.clone());
+    let mut waypoints = start.waypoints.clone();
+    let rounds = Rounds { rounds: 2, steps: 3 };
+    let refined = refine(problem, obstacles, config, rounds, head, &mut workshop.refine, &mut waypoints);
+    judge.iterations += refined.steps;
+    let mut measured = None;
+    if judge.needs_nothing(obstacles, &waypoints) {
+        measured = Some(judge.measure(&waypoints)).filter(|measured| measured.certificate.holds);
+    }
+    let mut measured = measured.unwrap_or_else(|| {
+        let keep_m = config.limits.clearance_m + KEEP_OUT_EXTRA_M;
+        let safe = led_back(obstacles, &waypoints, &start.waypoints, keep_m);
+        let (smoothed, measured) = judge.make_flyable(obstacles, &waypoints, &safe, LIGHT);
+        waypoints = smoothed;
+        measured
+    });
+    if !judge.publishable(&measured) {
+        (waypoints, measured) = judge.make_flyable(obstacles, &start.waypoints, &start.waypoints, THOROUGH);
+    }
+    if !judge.publishable(&measured) {
+        return Err(measured.certificate.violations.join("; "));
+    }
+    let certificate = &mut measured.certificate;
+    certificate.iterations = judge.iterations;
+    certificate.filtered_boxes = obstacles.count() as u32;
+    certificate.searches = start.searches;
+    certificate.lattice_visibility = start.visibility;
+    certificate.visibility_regret = (start.visibility - certificate.mean_visibility).max(0.0);
+    certificate.occlusion_ordered_s = losses.ordered_s;
+    certificate.occlusion_reached_s = reached_s(&losses, &measured.visibility, problem.track.dt_s);
+    Ok(Found { waypoints, measured, convergence: refined.convergence })
+}
+
+/// `waypoints`, led back to the safe way over stretches that come too near an obstacle.
+fn led_back(obstacles: &LocalObstacles<'_>, waypoints: &[DVec3], safe: &[DVec3], keep_m: f64) -> Vec<DVec3> {
+    const FULL_FRAMES: usize = 2;
+    const RAMP_FRAMES: usize = 5;
+    let mut share = vec![0.0_f64; waypoints.len()];
+    for i in 0..waypoints.len() {
+        let to = waypoints.get(i + 1).copied().unwrap_or(waypoints[i]);
+        if obstacles.segment_clearance_m(i, waypoints[i], to, keep_m) >= keep_m {
+            continue;
+        }
+        let first = i.saturating_sub(FULL_FRAMES + RAMP_FRAMES);
+        for (k, share) in share.iter_mut().enumerate().skip(first).take(2 * (FULL_FRAMES + RAMP_FRAMES) + 2) {
+            let away = if k > i { k - i - 1 } else { i - k };
+            let here = 1.0 - away.saturating_sub(FULL_FRAMES) as f64 / (RAMP_FRAMES + 1) as f64;
+            *share = share.max(here.clamp(0.0, 1.0));
+        }
+    }
+    waypoints.iter().zip(safe).zip(share).map(|((w, safe), share)| w.lerp(*safe, share)).collect()
+}

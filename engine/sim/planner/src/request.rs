@@ -1,0 +1,113 @@
+//! All that a flight may be asked for: track, map, wishes, start, companions, moving occluders.
+
+use crate::config::MucoConfig;
+use crate::terms::WeightedTerm;
+use cosfly_frames::{DVec3, TargetTrack};
+use cosfly_geometry::{OrientedBox, SpatialQuery};
+
+/// What a flight is planned from. [`PlanRequest::new`] asks for the usual; the other fields are set by name.
+pub struct PlanRequest<'a> {
+    /// The target to follow. The camera looks at it.
+    pub track: &'a TargetTrack,
+    /// All unsimplified boxes; the certificate is measured against them.
+    pub exact: &'a dyn SpatialQuery,
+    /// What the solver avoids and looks past (simplified or the same).
+    pub planning_boxes: &'a [OrientedBox],
+    /// Height of the ground at (x, y), metres; where it is not finite the target's height is taken.
+    pub ground: &'a dyn Fn(f64, f64) -> f64,
+    /// Wishes and limits.
+    pub config: &'a MucoConfig,
+    /// Cost terms beside the paper's nine; they join the search, the refinement and the costs in the output.
+    pub extra_terms: Vec<WeightedTerm>,
+    /// Where the drone is at the first frame, and how it moves; `None` leaves that to the planner.
+    pub start: Option<StartState>,
+    /// Further targets to be seen, as long as `track` and with its time step; see
+    /// [`SeveralTargets`](crate::config::SeveralTargets).
+    pub companions: &'a [TargetTrack],
+    /// Boxes that move: each one's place frame by frame, as long as `track`.
+    pub movers: &'a [Vec<OrientedBox>],
+}
+
+/// Position and velocity of a drone, world frame.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct StartState {
+    /// Metres.
+    pub position_in_world: DVec3,
+    /// Metres per second, taken to have been the same in the two frames before.
+    pub velocity_in_world: DVec3,
+}
+
+impl<'a> PlanRequest<'a> {
+    /// A flight behind `track` with nothing further asked.
+    pub fn new(
+        track: &'a TargetTrack,
+        exact: &'a dyn SpatialQuery,
+        planning_boxes: &'a [OrientedBox],
+        ground: &'a dyn Fn(f64, f64) -> f64,
+        config: &'a MucoConfig,
+    ) -> Self {
+        let (extra_terms, companions, movers) = (Vec::new(), &[] as &[_], &[] as &[_]);
+        Self { track, exact, planning_boxes, ground, config, extra_terms, start: None, companions, movers }
+    }
+
+    /// What of the request contradicts itself, in words.
+    pub fn validate(&self) -> Result<(), String> {
+        let frames = self.track.len();
+        for (index, companion) in self.companions.iter().enumerate() {
+            if companion.len() != frames || companion.dt_s != self.track.dt_s {
+                return Err(format!(
+                    "companion {index} has {} frames of {} s; the target has {frames} of {} s",
+                    companion.len(),
+                    companion.dt_s,
+                    self.track.dt_s
+                ));
+            }
+            if let Some(frame) = companion.states.iter().position(|state| !state.feet_in_world.is_finite()) {
+                return Err(format!("companion {index} is not at a finite place at frame {frame}"));
+            }
+        }
+        for (index, places) in self.movers.iter().enumerate() {
+            if places.len() != frames {
+                return Err(format!("moving box {index} has {} places; the target has {frames} frames", places.len()));
+            }
+            let finite = |shape: &OrientedBox| {
+                let sizes = shape.half_extents_m;
+                shape.center_in_world.is_finite()
+                    && sizes.is_finite()
+                    && sizes.min_element() >= 0.0
+                    && shape.yaw_rad.is_finite()
+            };
+            if let Some(frame) = places.iter().position(|shape| !finite(shape)) {
+                return Err(format!("moving box {index} is not a finite box at frame {frame}"));
+            }
+        }
+        self.check_start()
+    }
+
+    fn check_start(&self) -> Result<(), String> {
+        let Some(start) = self.start else { return Ok(()) };
+        let (at, speed) = (start.position_in_world, start.velocity_in_world.length());
+        if !at.is_finite() || !speed.is_finite() {
+            return Err("the start state is not finite".to_owned());
+        }
+        let limits = &self.config.limits;
+        if speed > limits.speed_mps {
+            return Err(format!("the start state moves at {speed:.2} m/s; the limit is {} m/s", limits.speed_mps));
+        }
+        let mut clearance =
+            self.exact.nearest(at, limits.clearance_m).map_or(limits.clearance_m, |near| near.distance_m);
+        for places in self.movers {
+            let solid = places.first().map(crate::obstacles::solid::Solid::new);
+            clearance = solid.map_or(clearance, |solid| clearance.min(solid.signed_distance(at).0));
+        }
+        let above = at.z - (self.ground)(at.x, at.y);
+        let clearance = if above.is_finite() { clearance.min(above) } else { clearance };
+        if clearance < limits.clearance_m {
+            return Err(format!(
+                "the start state is {clearance:.2} m from an obstacle or the ground; the limit is {} m",
+                limits.clearance_m
+            ));
+        }
+        Ok(())
+    }
+}
