@@ -3,7 +3,7 @@
 use crate::bounds::Bounds;
 use crate::shape::Shape;
 use crate::turned_box::TurnedBox;
-use crate::wide::near::{self, WideSegment, most_square};
+use crate::wide::near::{self, most_square};
 use crate::wide::ray;
 use crate::wide::shaft;
 use crate::wide::tree::{REACH_M, WideTree};
@@ -219,29 +219,19 @@ impl SpatialQuery for BoxBvh {
             return self.visit_all(exact);
         }
         self.wild().for_each(&mut exact);
-        let window = WideSegment::window(low, high, self.margin_m(low, high));
-        near::around(self.level, &self.tree, &window, 0.0, &mut |slot| {
-            exact(slot);
-            0.0
-        });
+        near::meeting(self.level, &self.tree, low, high, &mut exact);
     }
 }
 
 impl BoxBvh {
-    /// What rounding may add to or take from anything between two points about the tree's origin.
-    #[inline(always)]
-    fn margin_m(&self, from: DVec3, to: DVec3) -> f64 {
-        f64::from(self.tree.margin(from.abs().max(to.abs()).max_element() as f32))
-    }
-
     /// Calls `exact` with at least the slots that lie nearer to the segment than it last gave, at first `within_m`.
     #[inline]
     fn around(&self, from_in_world: DVec3, to_in_world: DVec3, within_m: f64, exact: &mut dyn FnMut(usize) -> f64) {
-        let (Some(from), Some(to)) = (self.local(from_in_world), self.local(to_in_world)) else {
-            return self.visit_all(|slot| _ = exact(slot));
-        };
-        let within_m = self.wild().fold(within_m, |_, slot| exact(slot));
-        let segment = WideSegment::new(from, to, self.margin_m(from, to));
-        near::around(self.level, &self.tree, &segment, most_square(within_m), &mut |slot| most_square(exact(slot)));
+        let within_m = if self.has_wild { self.wild().fold(within_m, |_, slot| exact(slot)) } else { within_m };
+        let mut exact_square = |slot: usize| most_square(exact(slot));
+        let within = most_square(within_m);
+        if !near::around(self.level, &self.tree, from_in_world, to_in_world, within, &mut exact_square) {
+            self.visit_all(|slot| _ = exact_square(slot));
+        }
     }
 }

@@ -4,6 +4,7 @@
 //! doubt, and which need exact arithmetic. Its margin, [`tree::WideTree::margin`], covers every rounding.
 
 pub mod build;
+pub mod closest;
 pub mod near;
 pub mod ray;
 pub mod shaft;

@@ -1,74 +1,12 @@
-//! What is close to a point or a segment, through the tree.
+//! What is close to a point or a segment, and what meets a window, through the tree.
 
-use super::tree::{Block, MAX_DEPTH, WideTree};
+use super::closest::Segment;
+use super::tree::{MAX_DEPTH, REACH_M, WideTree};
 use crate::lanes::{LANES, Lane, Lanes, at_level, larger, smaller, take_lane};
 use cosfly_frames::DVec3;
 
-/// Share by which squared distances are lessened for their own rounding.
-const SQUARE_SHARE: f32 = 8.0 / 16_777_216.0;
-
-/// A segment made ready for blocks: its bounds grown by the margin.
-pub struct WideSegment {
-    from: [f32; 3],
-    to: [f32; 3],
-    low: [f32; 3],
-    high: [f32; 3],
-    margin: f32,
-    /// Whether only its bounds count.
-    is_window: bool,
-}
-
-impl WideSegment {
-    /// Between two points in local coordinates, which may be the same.
-    #[inline(always)]
-    pub fn new(from: DVec3, to: DVec3, margin_m: f64) -> Self {
-        let margin = DVec3::splat(margin_m);
-        Self {
-            from: from.as_vec3().to_array(),
-            to: to.as_vec3().to_array(),
-            low: (from.min(to) - margin).as_vec3().to_array(),
-            high: (from.max(to) + margin).as_vec3().to_array(),
-            margin: margin_m as f32,
-            is_window: false,
-        }
-    }
-
-    /// A box between two corners, which is at distance 0 from what it meets.
-    #[inline(always)]
-    pub fn window(min: DVec3, max: DVec3, margin_m: f64) -> Self {
-        let margin = DVec3::splat(margin_m);
-        let (low, high) = ((min - margin).as_vec3().to_array(), (max + margin).as_vec3().to_array());
-        Self { from: low, to: high, low, high, margin: margin_m as f32, is_window: true }
-    }
-
-    /// For each lane a squared distance that is no larger than the true one.
-    #[inline(always)]
-    fn least_squares(&self, lanes: impl Lanes, tree: &WideTree, block: &Block) -> Lane {
-        let mut squares = [0.0; LANES];
-        let mut vertical = [0.0; LANES];
-        for axis in 0..3 {
-            let [min, max] = &block.faces[axis];
-            for i in 0..LANES {
-                let gap = larger(larger(min[i] - self.high[axis], self.low[axis] - max[i]), 0.0);
-                squares[i] = lanes.multiply_add(gap, gap, squares[i]);
-                vertical[i] = gap;
-            }
-        }
-        if block.turned != 0 && !self.is_window {
-            let turned = &tree.turned[block.turned_lanes as usize];
-            let [from, to] = [self.from, self.to].map(|v| [v[0], v[1]]);
-            let [along, across] = turned.gaps(lanes, from, to);
-            for i in 0..LANES {
-                let along = larger(along[i] - 2.0 * self.margin, 0.0);
-                let across = larger(across[i] - 2.0 * self.margin, 0.0);
-                let turned =
-                    lanes.multiply_add(along, along, lanes.multiply_add(across, across, vertical[i] * vertical[i]));
-                squares[i] = larger(turned, squares[i]);
-            }
-        }
-        squares.map(|square| square * (1.0 - SQUARE_SHARE))
-    }
-}
+/// Share by which squared distances are moved for their own rounding.
+pub const SQUARE_SHARE: f32 = 8.0 / 16_777_216.0;
 
 /// A squared distance in f32 that is no smaller; 0 for negative distances.
 #[inline(always)]
@@ -78,67 +16,155 @@ pub fn most_square(distance_m: f64) -> f32 {
     if distance == f64::INFINITY { f32::INFINITY } else { square * (1.0 + SQUARE_SHARE) }
 }
 
-/// Marks a waiting slot, so that it is no block.
-const SLOT: u32 = 1 << 31;
+/// Children of a block that still have to be looked at.
+#[derive(Clone, Copy)]
+struct Open {
+    first: u32,
+    lanes: u32,
+    /// Squared distances that are no larger than the true ones.
+    squares: Lane,
+}
 
-/// Blocks that wait with the parameter or distance at which they begin.
-const WAITING: usize = (MAX_DEPTH + 1) * LANES;
+/// Boxes that may be the nearest one, with squared distances that are no larger than the true ones.
+struct Candidates {
+    slots: [(u32, f32); Self::MOST],
+    count: usize,
+}
+
+impl Candidates {
+    const MOST: usize = 48;
+
+    /// Asks `exact` about those that may be nearer than `best`, the most promising one first.
+    #[inline(always)]
+    fn settle(&mut self, mut best: f32, exact: &mut dyn FnMut(usize) -> f32) -> f32 {
+        let own = &mut self.slots[..self.count];
+        let first = (1..own.len()).fold(0, |least, i| if own[i].1 < own[least].1 { i } else { least });
+        if !own.is_empty() {
+            own.swap(0, first);
+        }
+        for &mut (slot, square) in own {
+            if square <= best {
+                best = smaller(exact(slot as usize), best);
+            }
+        }
+        self.count = 0;
+        best
+    }
+}
 
 at_level! {
-    /// Calls `exact` with the slots that may be nearer than the square root of what it last gave, at first of
-    /// `within`, roughly the nearest first.
-    pub fn around(tree: &WideTree, segment: &WideSegment, within: f32, exact: &mut dyn FnMut(usize) -> f32) -> () = around_kernel;
+    /// Calls `exact` with at least the slots whose squared distance from the segment is at most what it last gave, at
+    /// first `within`; false when f32 cannot be asked. Both ends may be the same.
+    pub fn around(tree: &WideTree, from_in_world: DVec3, to_in_world: DVec3, within: f32, exact: &mut dyn FnMut(usize) -> f32) -> bool = around_kernel;
 }
 
 #[inline(always)]
 fn around_kernel(
     lanes: impl Lanes,
     tree: &WideTree,
-    segment: &WideSegment,
+    from_in_world: DVec3,
+    to_in_world: DVec3,
     within: f32,
     exact: &mut dyn FnMut(usize) -> f32,
-) {
-    let mut best = within;
-    let mut waiting = [(0_u32, 0.0_f32); WAITING];
-    let mut height = usize::from(!tree.blocks.is_empty());
-    while height > 0 {
-        height -= 1;
-        let (at, key) = waiting[height];
-        if key > best {
-            continue;
-        }
-        if at & SLOT != 0 {
-            best = exact((at & !SLOT) as usize);
-            continue;
-        }
-        let block = &tree.blocks[at as usize];
-        let squares = segment.least_squares(lanes, tree, block);
-        let met = lanes.at_most(&squares, &[best; LANES]) & block.valid;
-        let first = if block.is_leaf { block.first | SLOT } else { block.first };
-        height = push_nearest_last(&mut waiting, height, first, met, &squares);
+) -> bool {
+    let from = (from_in_world - tree.origin_in_world).as_vec3a();
+    let to = (to_in_world - tree.origin_in_world).as_vec3a();
+    let reach = from.abs().max(to.abs()).max_element();
+    if !(reach <= REACH_M as f32) {
+        return false;
     }
+    let segment = Segment::new(from, to, tree.margin(reach));
+    let mut open = [Open { first: 0, lanes: 0, squares: [0.0; LANES] }; MAX_DEPTH];
+    let mut candidates = Candidates { slots: [(0, 0.0); Candidates::MOST], count: 0 };
+    let (mut height, mut at, mut best) = (0, 0_usize, within);
+    while let Some(block) = tree.blocks.get(at) {
+        let squares = segment.least_squares(lanes, block);
+        let mut met = lanes.at_most(&squares, &[best; LANES]) & block.valid;
+        if met != 0 && block.is_leaf {
+            let mut least = squares;
+            if met & met.wrapping_sub(1) != 0 || met & block.turned != 0 {
+                let bracket = segment.bracket(lanes, tree, block, &squares);
+                (least, best) = (bracket.least, smaller(smallest(&bracket.most), best));
+                met &= lanes.at_most(&least, &[best; LANES]);
+            }
+            if candidates.count > Candidates::MOST - LANES {
+                best = candidates.settle(best, exact);
+            }
+            while met != 0 {
+                let lane = take_lane(&mut met);
+                candidates.slots[candidates.count] = (block.first + lane as u32, least[lane]);
+                candidates.count += 1;
+            }
+        } else if met != 0 {
+            // The nearest child first; the others will mostly be too far away after that.
+            let mut nearest = met & lanes.at_most(&squares, &[smallest(&squares); LANES]);
+            let lane = take_lane(&mut nearest);
+            open[height] = Open { first: block.first, lanes: met & !(1 << lane), squares };
+            height += 1;
+            at = block.first as usize + lane;
+            continue;
+        }
+        let Some(next) = next_open(lanes, &mut open, &mut height, best) else { break };
+        at = next;
+    }
+    candidates.settle(best, exact);
+    true
 }
 
-/// Adds children to the waiting blocks such that those with smaller keys come off first.
+/// A child within `best` of the topmost block that has one, taken out.
 #[inline(always)]
-fn push_nearest_last(
-    waiting: &mut [(u32, f32); WAITING],
-    height: usize,
-    first: u32,
-    mut met: u32,
-    keys: &Lane,
-) -> usize {
-    let mut top = height;
-    while met != 0 {
-        let lane = take_lane(&mut met);
-        let key = keys[lane];
-        let mut place = top;
-        while place > height && waiting[place - 1].1 < key {
-            waiting[place] = waiting[place - 1];
-            place -= 1;
+fn next_open(lanes: impl Lanes, open: &mut [Open; MAX_DEPTH], height: &mut usize, best: f32) -> Option<usize> {
+    while *height > 0 {
+        let top = &mut open[*height - 1];
+        top.lanes &= lanes.at_most(&top.squares, &[best; LANES]);
+        if top.lanes != 0 {
+            return Some(top.first as usize + take_lane(&mut top.lanes));
         }
-        waiting[place] = (first + lane as u32, key);
-        top += 1;
+        *height -= 1;
     }
-    top
+    None
+}
+
+/// The smallest of the lanes. Empty ones are infinite.
+#[inline(always)]
+fn smallest(numbers: &Lane) -> f32 {
+    let (mut eight, mut four) = ([0.0; 8], [0.0; 4]);
+    for i in 0..8 {
+        eight[i] = smaller(numbers[i], numbers[i + 8]);
+    }
+    for i in 0..4 {
+        four[i] = smaller(eight[i], eight[i + 4]);
+    }
+    smaller(smaller(four[0], four[2]), smaller(four[1], four[3]))
+}
+
+at_level! {
+    /// Calls `exact` with at least the slots whose bounds meet the window between two corners in local coordinates.
+    pub fn meeting(tree: &WideTree, min: DVec3, max: DVec3, exact: &mut dyn FnMut(usize)) -> () = meeting_kernel;
+}
+
+#[inline(always)]
+fn meeting_kernel(lanes: impl Lanes, tree: &WideTree, min: DVec3, max: DVec3, exact: &mut dyn FnMut(usize)) {
+    let reach = min.abs().max(max.abs()).max_element() as f32;
+    let window = Segment::window(min.as_vec3a(), max.as_vec3a(), tree.margin(reach));
+    let mut open = [(0_u32, 0_u32); MAX_DEPTH];
+    let (mut height, mut at) = (0, 0_usize);
+    while let Some(block) = tree.blocks.get(at) {
+        let squares = window.least_squares(lanes, block);
+        let mut met = lanes.at_most(&squares, &[0.0; LANES]) & block.valid;
+        if block.is_leaf {
+            while met != 0 {
+                exact(block.first as usize + take_lane(&mut met));
+            }
+        } else if met != 0 {
+            open[height] = (block.first, met);
+            height += 1;
+        }
+        if height == 0 {
+            break;
+        }
+        let top = &mut open[height - 1];
+        at = top.0 as usize + take_lane(&mut top.1);
+        height -= usize::from(top.1 == 0);
+    }
 }

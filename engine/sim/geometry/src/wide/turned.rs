@@ -31,20 +31,26 @@ impl TurnedLanes {
         (self.sin[lane], self.cos[lane]) = (sin as f32, cos as f32);
     }
 
-    /// How far apart the segment's bounds and the box are along the box's x and y axes; negative when they overlap.
+    /// Puts a segment's start and step and the boxes' lower and upper faces into the boxes' axes, seen from above.
     #[inline(always)]
-    pub fn gaps(&self, lanes: impl Lanes, from: [f32; 2], to: [f32; 2]) -> [Lane; 2] {
-        let mut gaps = [[0.0; LANES]; 2];
+    pub fn in_own_axes(
+        &self,
+        lanes: impl Lanes,
+        from: [f32; 3],
+        to: [f32; 3],
+        [start, step, low, high]: [&mut [Lane; 3]; 4],
+    ) {
+        let (step_x, step_y) = (to[0] - from[0], to[1] - from[1]);
         for i in 0..LANES {
             let (sin, cos) = (self.sin[i], self.cos[i]);
-            let (x0, y0) = (from[0] - self.center[0][i], from[1] - self.center[1][i]);
-            let (x1, y1) = (to[0] - self.center[0][i], to[1] - self.center[1][i]);
-            let (u0, v0) = (lanes.multiply_add(cos, x0, sin * y0), lanes.multiply_add(cos, y0, -(sin * x0)));
-            let (u1, v1) = (lanes.multiply_add(cos, x1, sin * y1), lanes.multiply_add(cos, y1, -(sin * x1)));
-            gaps[0][i] = larger(smaller(u0, u1), -larger(u0, u1)) - self.half[0][i];
-            gaps[1][i] = larger(smaller(v0, v1), -larger(v0, v1)) - self.half[1][i];
+            let (x, y) = (from[0] - self.center[0][i], from[1] - self.center[1][i]);
+            start[0][i] = lanes.multiply_add(cos, x, sin * y);
+            start[1][i] = lanes.multiply_add(cos, y, -(sin * x));
+            step[0][i] = lanes.multiply_add(cos, step_x, sin * step_y);
+            step[1][i] = lanes.multiply_add(cos, step_y, -(sin * step_x));
+            (low[0][i], low[1][i]) = (-self.half[0][i], -self.half[1][i]);
+            (high[0][i], high[1][i]) = (self.half[0][i], self.half[1][i]);
         }
-        gaps
     }
 }
 
