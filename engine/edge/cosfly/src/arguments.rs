@@ -209,6 +209,15 @@ pub enum BenchCommand {
         #[arg(long, value_name = "N", default_value_t = 1000)]
         items: u64,
     },
+    /// Box queries of our tree, of parry's and obvhs's trees and of a plain loop, per second on one core
+    Geometry {
+        /// Seed of the towns and rays
+        #[arg(long, value_name = "N", default_value_t = 1)]
+        seed: u64,
+        /// Print JSON
+        #[arg(long)]
+        json: bool,
+    },
     /// Planners against each other on the same paths: visibility, distance, length, time, nodes, clearance, limits
     #[command(after_help = "\
 Examples:

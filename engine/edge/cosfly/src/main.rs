@@ -23,6 +23,7 @@ fn main() -> ExitCode {
         Command::Schema(arguments) => commands::schema::schema(&arguments),
         Command::Town(arguments) => commands::town::town(&arguments),
         Command::Bench(BenchCommand::Engine { items }) => commands::bench::engine(items),
+        Command::Bench(BenchCommand::Geometry { seed, json }) => commands::bench::geometry(seed, json),
         Command::Bench(BenchCommand::Planner(arguments)) => commands::bench_planner::planner(&arguments),
         Command::Task(TaskCommand::Run { digest, store }) => commands::task::run(&digest, &store),
     };

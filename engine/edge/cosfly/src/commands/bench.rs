@@ -29,3 +29,11 @@ pub fn engine(items: u64) -> Outcome {
     ));
     Ok(exit::SUCCESS)
 }
+
+/// Box queries against other libraries' trees.
+pub fn geometry(seed: u64, json: bool) -> Outcome {
+    let table = cosfly_bench::geometry::geometry(seed);
+    let as_json = || serde_json::to_string_pretty(&table).unwrap_or_default() + "\n";
+    crate::print(&if json { as_json() } else { table.to_string() });
+    Ok(exit::SUCCESS)
+}
