@@ -342,6 +342,7 @@ mod tests {
                 length_ratio: 0.0,
                 iterations: 7,
                 filtered_boxes: 3,
+                ..Certificate::default()
             },
             perturbation: None,
         };

@@ -2,7 +2,7 @@
 
 use cosfly_frames::{DVec3, Seed, TargetState, TargetTrack};
 use cosfly_geometry::BoxBvh;
-use cosfly_planner::config::{LimitsConfig, SearchConfig, ViewConfig};
+use cosfly_planner::config::{LimitsConfig, SearchConfig, SearchEffort, ViewConfig};
 use cosfly_planner::{CostTerm, MucoConfig, PlanOutcome, TermContext, Trajectory, WeightedTerm, plan_with_terms};
 
 /// Prefers to be east of the target; knows no gradient.
@@ -109,6 +109,7 @@ fn any_valid_configuration_ends_without_a_panic() {
                 rear_sector_deg: any(10.0, 180.0),
             },
             search: SearchConfig {
+                effort: if any(0.0, 1.0) < 0.3 { SearchEffort::Quality } else { SearchEffort::Escalating },
                 azimuths: any(8.0, 90.0) as u32,
                 altitudes: any(1.0, 6.0) as u32,
                 radii: any(1.0, 9.0) as u32,

@@ -7,9 +7,9 @@ use super::scene::Ground;
 use crate::clock::timed;
 use cosfly_frames::{DVec3, TargetTrack};
 use cosfly_geometry::{BoxBvh, BruteForce, SpatialQuery};
-use cosfly_planner::obstacles::exact::ExactObstacles;
+use cosfly_planner::obstacles::exact::{ExactMap, ExactObstacles};
 use cosfly_planner::obstacles::{Surroundings, ground::GroundGrid, local::LocalObstacles};
-use cosfly_planner::paper::{FocusedSurroundings, PaperConfig, Threads, iteration, plan_paper_in};
+use cosfly_planner::paper::{FocusedSurroundings, Threads, iteration, plan_paper_in};
 use cosfly_planner::problem::Problem;
 use cosfly_planner::terms::built_in_terms;
 use cosfly_planner::walk::Walk;
@@ -91,8 +91,8 @@ fn row(ground: &Ground, config: &MucoConfig, name: &str, queries: Queries) -> So
     let (mut times_s, mut iteration_ms, mut asked) = (Vec::new(), f64::INFINITY, boxes.len());
     for (index, track) in ground.tracks.iter().take(runs).enumerate() {
         with_surroundings(ground, track, config, query.as_ref(), queries, |problem, surroundings, count| {
-            let paper = PaperConfig::default();
-            let (flight, cpu_s) = timed(|| plan_paper_in(problem, surroundings, config, &paper, Threads::Caller));
+            let plan = || plan_paper_in(problem, surroundings, config, &config.paper, Threads::Caller);
+            let (flight, cpu_s) = timed(plan);
             times_s.push(cpu_s);
             if index == 0 {
                 asked = count;
@@ -136,7 +136,7 @@ fn with_surroundings(
         let count = near.count();
         run(&problem, &mut near, count);
     } else {
-        let mut asked = Asked(ExactObstacles { track, query, ground: &grid });
+        let mut asked = Asked(ExactObstacles::still(track, query, &grid));
         run(&problem, &mut asked, query.len());
     }
 }

@@ -1,14 +1,13 @@
-//! A* made flyable: its staircase smoothed to the limits by the same programme, in the same corridor, as our flights.
+//! A* made flyable: its staircase smoothed to the limits by the same judge, in the same corridor, as our flights.
 
 use super::{BaselineInput, BaselinePath};
-use crate::muco::corridor::CorridorInput;
-use crate::muco::smoother::{Objective, smooth};
+use crate::muco::judge::Judge;
+use crate::muco::smoother::Objective;
+use crate::obstacles::exact::ExactMap;
 use crate::obstacles::local::LocalObstacles;
 
 /// Near the voxels' middles, but loosely.
 const OBJECTIVE: Objective = Objective { rounds: 4, iterations: 160, nearness: 0.05, acceleration: 0.5, jerk: 2.0 };
-/// Distance kept beyond the limit while smoothing, metres.
-const KEEP_OUT_EXTRA_M: f64 = 0.1;
 
 /// Smooths a found path to the limits of `config`.
 pub fn made_flyable(input: &BaselineInput<'_>, found: BaselinePath) -> BaselinePath {
@@ -16,16 +15,8 @@ pub fn made_flyable(input: &BaselineInput<'_>, found: BaselinePath) -> BaselineP
     let (radius_m, influence_m) = (config.search.filter_radius_m, config.view.safety_influence_m);
     let mut obstacles = LocalObstacles::filter(track, input.planning_boxes, input.ground, radius_m, influence_m);
     obstacles.focus_on(&found.waypoints);
-    let learned = vec![Vec::new(); found.waypoints.len()];
-    let corridor = CorridorInput {
-        track,
-        obstacles: &obstacles,
-        keep_out_m: config.limits.clearance_m + KEEP_OUT_EXTRA_M,
-        min_altitude_m: config.view.min_altitude_m,
-        wished: &found.waypoints,
-        learned: &learned,
-        head: &[],
-    };
-    let smoothed = smooth(&corridor, &found.waypoints, &config.stated_limits(), OBJECTIVE);
-    BaselinePath { waypoints: smoothed.waypoints, ..found }
+    let ground = |x: f64, y: f64| input.ground.z_m(x, y);
+    let mut judge = Judge::new(input.problem, ExactMap::still(input.exact), &ground, config, &[]);
+    let (waypoints, _) = judge.make_flyable(&obstacles, &found.waypoints, &found.waypoints, OBJECTIVE);
+    BaselinePath { waypoints, ..found }
 }

@@ -78,6 +78,13 @@ pub struct ExactObstacles<'a> {
     pub known_visibility: &'a [f64],
 }
 
+impl<'a> ExactObstacles<'a> {
+    /// Surroundings in which nothing moves and nothing is known yet.
+    pub fn still(track: &'a TargetTrack, query: &'a dyn SpatialQuery, ground: &'a GroundGrid) -> Self {
+        Self { track, map: ExactMap::still(query), ground, known: &[], known_visibility: &[] }
+    }
+}
+
 impl Surroundings for ExactObstacles<'_> {
     fn visibility(&self, frame: usize, position: DVec3) -> f64 {
         match (self.known.get(frame), self.known_visibility.get(frame)) {

@@ -130,3 +130,53 @@ fn the_pitch_cost_is_continuous_at_the_edges_of_its_band() {
         }
     }
 }
+
+/// Half the gradient that residuals add up to must be half the cost's own, wherever the residuals stand for the cost
+/// itself. Visibility's do not (its cost is a step function), altitude's leave out the oscillation.
+#[test]
+fn residuals_have_the_slope_of_their_cost() {
+    with_context(|context, stream| {
+        for _ in 0..20 {
+            let mut flight = random_flight(stream, context.track);
+            // A steady climb: nothing oscillates.
+            (0..FRAMES).for_each(|i| flight[i].z = flight[0].z + 0.2 * i as f64);
+            for weighted in built_in_terms(&MucoConfig::default().resolved_weights()) {
+                let mut equations = crate::equations::NormalEquations::default();
+                equations.reset(FRAMES);
+                let term = weighted.term.as_ref();
+                if term.name() == "visibility" || !term.add_residuals(&flight, context, 1.0, &mut equations) {
+                    continue;
+                }
+                let mut exact = vec![DVec3::ZERO; FRAMES];
+                assert!(term.add_gradient(&flight, context, 1.0, &mut exact), "{}", term.name());
+                for (frame, slope) in exact.iter().enumerate() {
+                    let off = (2.0 * equations.slope(frame) - *slope).length();
+                    assert!(off <= 1e-9 * (1.0 + slope.length()), "{} at {frame}: {off}", term.name());
+                }
+            }
+        }
+    });
+}
+
+#[test]
+fn visibility_residuals_lead_out_of_shadows() {
+    with_context(|context, stream| {
+        let mut better = 0;
+        for _ in 0..200 {
+            let flight = random_flight(stream, context.track);
+            let mut equations = crate::equations::NormalEquations::default();
+            equations.reset(FRAMES);
+            crate::terms::visibility::Visibility.add_residuals(&flight, context, 1.0, &mut equations);
+            let mut step = Vec::new();
+            equations.solve(1e-3, &mut step);
+            for frame in 0..FRAMES {
+                if step[frame].length() > 0.1 {
+                    let before = context.surroundings.visibility(frame, flight[frame]);
+                    let after = context.surroundings.visibility(frame, flight[frame] + step[frame]);
+                    better += i32::from(after > before) - i32::from(after < before);
+                }
+            }
+        }
+        assert!(better > 20, "{better}");
+    });
+}
