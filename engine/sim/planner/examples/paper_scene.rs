@@ -3,7 +3,8 @@
 
 use cosfly_frames::{DVec3, TargetTrack};
 use cosfly_geometry::{BoxBvh, OrientedBox, SpatialQuery};
-use cosfly_planner::certificate::{Kinematics, SolverFigures, certify, swept_clearance_m};
+use cosfly_planner::certificate::{Kinematics, certify, swept_clearance_m};
+use cosfly_planner::obstacles::exact::ExactMap;
 use cosfly_planner::obstacles::{ground::GroundGrid, local::LocalObstacles};
 use cosfly_planner::paper::{
     FocusedSurroundings, NearBoxes, PaperConfig, PaperFlight, Threads, iteration, plan_paper_in,
@@ -107,8 +108,7 @@ fn fly(track: &TargetTrack, exact: &BoxBvh, boxes: &[OrientedBox], options: &Opt
         1e3 * begin.elapsed().as_secs_f64()
     });
     let iteration_ms = times.fold(f64::INFINITY, f64::min);
-    let figures = SolverFigures { iterations: flight.iterations, filtered_boxes: obstacles.count() as u32 };
-    let certificate = certify(track, &flight.waypoints, exact, &flat, config, figures).certificate;
+    let certificate = certify(track, &flight.waypoints, ExactMap::still(exact), &flat, config).certificate;
     let closer = |limit_m: f64| {
         let near = |pair: &&[DVec3]| exact.segment_clearance(pair[0], pair[1], limit_m + 1.0) < limit_m;
         flight.waypoints.windows(2).filter(near).count()
@@ -125,7 +125,7 @@ fn print_split(problem: &Problem<'_>, obstacles: &LocalObstacles<'_>, exact: &Bo
     println!("    {:?}", flight.counts);
     let (first, last) = (flight.convergence.first(), flight.convergence.iter().rev().nth(1));
     println!("    cost {first:.0?} -> {last:.0?} -> after clean-up {:.0?}", flight.convergence.last());
-    let clearance = swept_clearance_m(exact, &flight.waypoints);
+    let clearance = swept_clearance_m(ExactMap::still(exact), &flight.waypoints);
     println!("    {} boxes, clearance {clearance:.2} m, {kinematics:.1?}", obstacles.count());
 }
 

@@ -7,7 +7,7 @@ use super::plain_bvh::PlainBvh;
 use super::{Baseline, BaselineInput, plan_baseline};
 use crate::MucoConfig;
 use crate::obstacles::Surroundings;
-use crate::obstacles::exact::{ExactMap, ExactObstacles};
+use crate::obstacles::exact::ExactObstacles;
 use crate::obstacles::ground::GroundGrid;
 use crate::problem::Problem;
 use crate::scenes::{Scene, SceneKind};
@@ -38,7 +38,8 @@ fn with_input<T>(
 
 /// Costs of every cell from the terms themselves, hovering there; infinite where it may not be.
 fn cell_costs(grid: &VoxelGrid<'_>, input: &BaselineInput<'_>, keep_m: f64) -> Vec<f64> {
-    let surroundings = ExactObstacles::still(input.problem.track, input.exact, input.ground);
+    let track = input.problem.track;
+    let surroundings = ExactObstacles::still(track, input.exact, input.ground);
     let (view, walk) = (input.problem.view, input.problem.walk);
     let context = TermContext { track, view, walk, surroundings: &surroundings };
     let weights = input.config.resolved_weights();

@@ -1,6 +1,6 @@
 //! The law of every cost term: finite, local, and its gradient is the slope of its cost.
 
-use super::{TermContext, built_in_terms};
+use super::{CostTerm, TermContext, built_in_terms};
 use crate::config::{MucoConfig, ViewConfig};
 use crate::gradient::difference_gradient;
 use crate::obstacles::{ground::GroundGrid, local::LocalObstacles};
