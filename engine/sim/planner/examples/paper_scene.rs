@@ -4,11 +4,8 @@
 use cosfly_frames::{DVec3, TargetTrack};
 use cosfly_geometry::{BoxBvh, OrientedBox, SpatialQuery};
 use cosfly_planner::certificate::{Kinematics, certify, swept_clearance_m};
-use cosfly_planner::obstacles::exact::ExactMap;
-use cosfly_planner::obstacles::{ground::GroundGrid, local::LocalObstacles};
-use cosfly_planner::paper::{
-    FocusedSurroundings, NearBoxes, PaperConfig, PaperFlight, Threads, iteration, plan_paper_in,
-};
+use cosfly_planner::obstacles::{exact::ExactMap, ground::GroundGrid, local::LocalObstacles};
+use cosfly_planner::paper::{FocusedSurroundings, NearBoxes, PaperFlight, Threads, iteration, plan_paper_in};
 use cosfly_planner::problem::Problem;
 use cosfly_planner::scenes::{Scene, SceneKind};
 use cosfly_planner::terms::built_in_terms;
@@ -26,7 +23,6 @@ struct Options {
     split: bool,
     threads: Threads,
     config: MucoConfig,
-    paper: PaperConfig,
 }
 
 fn options() -> Options {
@@ -37,7 +33,6 @@ fn options() -> Options {
         split: false,
         threads: Threads::Caller,
         config: MucoConfig { preset: Preset::Paper, ..MucoConfig::default() },
-        paper: PaperConfig::default(),
     };
     let mut words = std::env::args().skip(1);
     while let Some(word) = words.next() {
@@ -61,11 +56,13 @@ fn options() -> Options {
 fn set(options: &mut Options, assignment: &str) {
     let (name, value) = assignment.split_once('=').unwrap_or((assignment, ""));
     let value: f64 = value.parse().unwrap_or(0.0);
-    let (paper, config) = (&mut options.paper, &mut options.config);
+    let config = &mut options.config;
+    let paper = &mut config.paper;
     match name {
         "keyframe_frames" => paper.keyframe_frames = value as u32,
         "rear_sector_deg" => paper.rear_sector_deg = value,
         "search_visibility" => paper.search_visibility = value,
+        "keyframe_motion" => paper.keyframe_motion = value,
         "hidden_run_frames" => paper.hidden_run_frames = value as u32,
         "projection_rounds" => paper.projection_rounds = value as u32,
         "visibility" => config.weights.visibility = Some(value),
@@ -98,8 +95,9 @@ fn fly(track: &TargetTrack, exact: &BoxBvh, boxes: &[OrientedBox], options: &Opt
     let influence_m = config.view.safety_influence_m;
     let begin = Instant::now();
     let obstacles = LocalObstacles::filter(track, boxes, &ground, config.search.filter_radius_m, influence_m);
-    let mut near = NearBoxes::new(&obstacles, track.len(), influence_m);
-    let flight = plan_paper_in(&problem, &mut near, config, &options.paper, options.threads);
+    let mut near =
+        NearBoxes::new(&obstacles, track.len(), influence_m).expect("one target among boxes that stand still");
+    let flight = plan_paper_in(&problem, &mut near, config, &config.paper, options.threads);
     let plan_ms = 1e3 * begin.elapsed().as_secs_f64();
     near.focus_on(&flight.waypoints);
     let times = (0..5).map(|_| {

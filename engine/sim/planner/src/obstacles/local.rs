@@ -149,6 +149,11 @@ impl<'a> LocalObstacles<'a> {
         near.any(|solid| solid.meets_segment(point, position))
     }
 
+    /// Whether any box moves.
+    pub fn has_movers(&self) -> bool {
+        !self.movers.there.is_empty()
+    }
+
     fn moving_at(&self, frame: usize) -> &[Solid] {
         self.movers.there.get(frame).map_or(&[], Vec::as_slice)
     }

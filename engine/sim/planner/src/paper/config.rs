@@ -24,6 +24,10 @@ pub struct PaperConfig {
     /// Weight of visibility while viewpoints are searched (the paper says only "optimal"). Default 60.
     #[schemars(range(min = 0.0, max = 1_000_000.0))]
     pub search_visibility: f64,
+    /// Cost of a square metre between an offset from the target and that of the keyframe before, while viewpoints are
+    /// searched (the paper says nothing; without it paths zigzag more). Default 0.02.
+    #[schemars(range(min = 0.0, max = 1000.0))]
+    pub keyframe_motion: f64,
     /// Hidden runs longer than this are led aside or straightened, frames (paper: 5). Default 5.
     #[schemars(range(min = 1, max = 1000))]
     pub hidden_run_frames: u32,
@@ -46,6 +50,7 @@ impl Default for PaperConfig {
             nearest_share: 0.7,
             farthest_share: 1.2,
             search_visibility: 60.0,
+            keyframe_motion: 0.02,
             hidden_run_frames: 5,
             side_offset_m: 12.0,
             ramp_frames: 6,
@@ -63,6 +68,7 @@ impl PaperConfig {
             ("nearest_share", self.nearest_share, 0.1, 3.0),
             ("farthest_share", self.farthest_share, 0.1, 3.0),
             ("search_visibility", self.search_visibility, 0.0, 1e6),
+            ("keyframe_motion", self.keyframe_motion, 0.0, 1000.0),
             ("hidden_run_frames", f64::from(self.hidden_run_frames), 1.0, 1000.0),
             ("side_offset_m", self.side_offset_m, 0.0, 100.0),
             ("ramp_frames", f64::from(self.ramp_frames), 0.0, 100.0),

@@ -32,10 +32,20 @@ struct Near<'a> {
 }
 
 impl<'a> NearBoxes<'a> {
-    /// For a track of so many frames, and for distances up to `influence_m` (the reach of the safety term).
-    pub fn new(obstacles: &'a LocalObstacles<'a>, frames: usize, influence_m: f64) -> Self {
+    /// For a track of so many frames, and for distances up to `influence_m` (the reach of the safety term). `None` where
+    /// there is more to ask than one target among boxes that stand still: companions, moving boxes, ordered losses.
+    pub fn new(obstacles: &'a LocalObstacles<'a>, frames: usize, influence_m: f64) -> Option<Self> {
+        let alone = |frame| obstacles.companions(frame).next().is_none() && !obstacles.is_to_be_lost(frame);
+        if obstacles.has_movers() || !(0..frames).all(alone) {
+            return None;
+        }
         let bodies = (0..frames).map(|frame| BodyLanes::new(obstacles.body(frame))).collect();
-        Self { obstacles, influence_m, level: level(), bodies, frames: Vec::new() }
+        Some(Self { obstacles, influence_m, level: level(), bodies, frames: Vec::new() })
+    }
+
+    /// The same, with the vector instructions of `level`.
+    pub fn at_level(self, level: Level) -> Self {
+        Self { level, ..self }
     }
 
     fn focus_frame(obstacles: &'a LocalObstacles<'a>, influence_m: f64, frame: usize, near: &mut Near<'a>) {
@@ -144,7 +154,7 @@ mod tests {
     #[test]
     fn answers_are_those_of_all_boxes_in_and_out_of_focus() {
         with_street(|problem, obstacles, _, path| {
-            let mut near = NearBoxes::new(obstacles, path.len(), problem.view.safety_influence_m);
+            let mut near = NearBoxes::new(obstacles, path.len(), problem.view.safety_influence_m).unwrap();
             near.focus_on(path);
             let mut stream = Seed::of_item(1, "paper", "near").stream("t");
             let mut partly = 0;

@@ -77,10 +77,13 @@ pub struct PaperFlight {
     pub unsafe_waypoints: usize,
 }
 
-/// Plans as the paper does, on the calling thread and with the paper's own values where the recipe has none.
+/// Plans as the paper does, on the calling thread. Targets that have companions or are to be lost, and boxes that move,
+/// are not in the paper; its pipeline takes them from the surroundings like everything else, only more slowly.
 pub fn plan_paper(problem: &Problem<'_>, obstacles: &mut LocalObstacles<'_>, config: &MucoConfig) -> PaperFlight {
-    let mut near = NearBoxes::new(obstacles, problem.track.len(), problem.view.safety_influence_m);
-    plan_paper_in(problem, &mut near, config, &PaperConfig::default(), Threads::Caller)
+    match NearBoxes::new(obstacles, problem.track.len(), problem.view.safety_influence_m) {
+        Some(mut near) => plan_paper_in(problem, &mut near, config, &config.paper, Threads::Caller),
+        None => plan_paper_in(problem, obstacles, config, &config.paper, Threads::Caller),
+    }
 }
 
 /// [`plan_paper`] in any surroundings, with its own parameters, and gradients on one thread or all, which gives the same
@@ -188,6 +191,21 @@ pub(super) mod tests {
                 result.unwrap()
             });
             assert_eq!(alone, together);
+        });
+    }
+
+    #[test]
+    fn the_same_bytes_come_from_every_vector_level() {
+        with_street(|problem, obstacles, config, _| {
+            let expected = plan_paper(problem, obstacles, config);
+            for level in cosfly_frames::simd::Level::available() {
+                let mut near = NearBoxes::new(obstacles, problem.track.len(), problem.view.safety_influence_m)
+                    .unwrap()
+                    .at_level(level);
+                let paper = PaperConfig::default();
+                let found = plan_paper_in(problem, &mut near, config, &paper, Threads::Caller);
+                assert_eq!(found, expected, "{}", level.name());
+            }
         });
     }
 

@@ -34,11 +34,12 @@ pub fn initial_path(
     if let Some(last) = frames.checked_sub(1).filter(|last| keyframes.last() != Some(last)) {
         keyframes.push(last);
     }
-    let mut facing = DVec2::ZERO;
+    let (mut facing, mut before) = (DVec2::ZERO, None);
     let mut chosen = Vec::with_capacity(keyframes.len());
     for &frame in &keyframes {
         facing = search.facing(frame, facing);
-        let (viewpoint, evaluated) = search.best(surroundings.answers(), frame, facing);
+        let (viewpoint, evaluated) = search.best(surroundings.answers(), frame, facing, before);
+        before = Some(viewpoint - problem.track.states[frame].feet_in_world);
         counts.viewpoints_evaluated += evaluated;
         chosen.push(viewpoint);
     }
@@ -65,6 +66,7 @@ struct ViewpointSearch<'a> {
     problem: &'a Problem<'a>,
     weights: Weights,
     search_visibility: f64,
+    motion: f64,
     clearance_m: f64,
     ring_m: (f64, f64),
     candidates: Vec<Candidate>,
@@ -95,8 +97,9 @@ impl<'a> ViewpointSearch<'a> {
                 }
             }
         }
-        let (search_visibility, clearance_m) = (paper.search_visibility, config.limits.clearance_m);
-        Self { problem, weights, search_visibility, clearance_m, ring_m, candidates }
+        let (search_visibility, motion, clearance_m) =
+            (paper.search_visibility, paper.keyframe_motion, config.limits.clearance_m);
+        Self { problem, weights, search_visibility, motion, clearance_m, ring_m, candidates }
     }
 
     /// The walking direction; while the target stands, the one before, and at the start its heading.
@@ -111,10 +114,21 @@ impl<'a> ViewpointSearch<'a> {
 
     /// The cheapest candidate by the costs of its frame alone, those that are unsafe only if all are; and how many had
     /// to be looked at: candidates come by their costs without obstacles, so the search ends when no better can come.
-    fn best(&self, surroundings: &dyn Surroundings, frame: usize, facing: DVec2) -> (DVec3, u64) {
+    /// `before` is the offset from the target that was chosen for the keyframe before.
+    fn best(
+        &self,
+        surroundings: &dyn Surroundings,
+        frame: usize,
+        facing: DVec2,
+        before: Option<DVec3>,
+    ) -> (DVec3, u64) {
         let feet = self.problem.track.states[frame].feet_in_world;
-        let mut places: Vec<(f64, DVec3)> =
-            self.candidates.iter().map(|candidate| self.placed(surroundings, frame, facing, candidate)).collect();
+        let placed = |candidate| {
+            let (cost, place) = self.placed(surroundings, frame, facing, candidate);
+            let moved = before.map_or(0.0, |before| (place - feet).distance_squared(before));
+            (cost + self.motion * moved, place)
+        };
+        let mut places: Vec<(f64, DVec3)> = self.candidates.iter().map(placed).collect();
         places.sort_by(|a, b| a.0.total_cmp(&b.0));
         let mut best: Option<(bool, f64, DVec3)> = None;
         let mut evaluated = 0;
@@ -232,7 +246,7 @@ mod tests {
         with_street(|problem, _, config, _| {
             let search = ViewpointSearch::new(problem, config, &PaperConfig::default());
             let (place, evaluated) =
-                search.best(&super::super::pipeline::tests::Nothing, 30, search.facing(30, DVec2::ZERO));
+                search.best(&super::super::pipeline::tests::Nothing, 30, search.facing(30, DVec2::ZERO), None);
             let sight = place - problem.track.states[30].feet_in_world;
             assert!(sight.truncate().normalize().dot(problem.walk.direction[30]) < -0.999, "{sight}");
             assert!((sight.length() - 28.0).abs() < 1.5 && (sight.z - 20.0).abs() < 1e-9, "{sight}");
@@ -246,7 +260,7 @@ mod tests {
             let search = ViewpointSearch::new(problem, config, &PaperConfig::default());
             for frame in (0..problem.track.len()).step_by(7) {
                 let facing = search.facing(frame, DVec2::X);
-                let (place, _) = search.best(obstacles, frame, facing);
+                let (place, _) = search.best(obstacles, frame, facing, None);
                 let judged = |place: DVec3, open: f64| {
                     let nearest = obstacles.nearest(frame, place, 8.0).map_or(8.0, |found| found.0);
                     let hidden = 1.0 - obstacles.visibility(frame, place);
@@ -264,6 +278,20 @@ mod tests {
                 let found = all.iter().find(|c| c.2 == place).unwrap();
                 assert!(all.iter().all(|c| (c.0, c.1 + 1e-9) >= (found.0, found.1)), "frame {frame}");
             }
+        });
+    }
+
+    #[test]
+    fn of_equal_viewpoints_the_one_nearer_to_that_before_is_taken() {
+        with_street(|problem, _, config, _| {
+            let search = ViewpointSearch::new(problem, config, &PaperConfig::default());
+            let nothing = super::super::pipeline::tests::Nothing;
+            let facing = search.facing(30, DVec2::ZERO);
+            let feet = problem.track.states[30].feet_in_world;
+            let (free, _) = search.best(&nothing, 30, facing, None);
+            let aside = (free - feet) + 20.0 * facing.perp().extend(0.0);
+            let (drawn, _) = search.best(&nothing, 30, facing, Some(aside));
+            assert!((drawn - feet).distance(aside) < (free - feet).distance(aside));
         });
     }
 
