@@ -23,7 +23,7 @@ fn main() {
             "--plot" => plots = Some(value()),
             "--planner" => {
                 let name = value();
-                contenders.extend(Contender::all().into_iter().filter(|contender| contender.name() == name));
+                contenders.extend(Contender::nameable().into_iter().filter(|contender| contender.name() == name));
             }
             name => kinds.extend(SceneKind::ALL.into_iter().filter(|kind| kind.name() == name)),
         }

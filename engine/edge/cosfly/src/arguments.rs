@@ -242,7 +242,7 @@ pub struct BenchPlannerArguments {
     /// The town and the walks of a recipe instead of scenes
     #[arg(long, value_name = "FILE", conflicts_with_all = ["scenes", "many"])]
     pub recipe: Option<PathBuf>,
-    /// Planners; all unless told otherwise, the first with `--many` (repeatable)
+    /// Planners; all up to `dp` unless told otherwise, only `cosfly` with `--many` (repeatable)
     #[arg(long = "planner", value_name = "NAME", value_parser = planner_names())]
     pub planners: Vec<String>,
     /// Paths per scene [default: 20; as many as the recipe has walkers with `--recipe`]
@@ -270,7 +270,7 @@ fn scene_names() -> PossibleValuesParser {
 }
 
 fn planner_names() -> PossibleValuesParser {
-    PossibleValuesParser::new(Contender::all().into_iter().map(Contender::name))
+    PossibleValuesParser::new(Contender::nameable().into_iter().map(Contender::name))
 }
 
 /// Single tasks.

@@ -2,9 +2,10 @@
 
 use super::scene::Ground;
 use cosfly_frames::{DVec3, Seed, TargetTrack};
-use cosfly_planner::baselines::{Baseline, BaselineInput, plan_baseline};
+use cosfly_planner::baselines::grid::VoxelOptions;
+use cosfly_planner::baselines::{Baseline, BaselineInput, BaselinePath, plan_baseline, plan_baseline_with};
 use cosfly_planner::obstacles::{ground::GroundGrid, local::LocalObstacles};
-use cosfly_planner::paper::plan_paper;
+use cosfly_planner::paper::{Threads, plan_paper_in};
 use cosfly_planner::problem::Problem;
 use cosfly_planner::terms::built_in_terms;
 use cosfly_planner::walk::Walk;
@@ -19,7 +20,40 @@ pub enum Contender {
     Paper,
     /// One to be measured against.
     Baseline(Baseline),
+    /// A* with other settings; an index into [`SETTINGS`].
+    Setting(usize),
 }
+
+/// A* off its default settings: the points that a fair comparison must look at, too.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Setting {
+    /// Name in the table and on the command line.
+    pub name: &'static str,
+    /// Whether its path is made flyable.
+    pub smoothed: bool,
+    /// Voxels and the price of motion.
+    pub options: VoxelOptions,
+    /// Weight of visibility, when it is not the recipe's.
+    pub visibility: Option<f64>,
+    /// Weight of the soft safety term, when it is not the recipe's; the hard constraint stays.
+    pub safety: Option<f64>,
+}
+
+const fn setting(name: &'static str, smoothed: bool, voxel_m: f64, motion_per_m: f64) -> Setting {
+    Setting { name, smoothed, options: VoxelOptions { voxel_m, motion_per_m }, visibility: None, safety: None }
+}
+
+/// Not in the table unless they are asked for by name.
+pub const SETTINGS: [Setting; 8] = [
+    setting("astar_move_0.1", false, 2.0, 0.1),
+    setting("astar_move_4", false, 2.0, 4.0),
+    Setting { safety: Some(0.0), ..setting("astar_bold", false, 2.0, 1.0) },
+    Setting { safety: Some(0.0), ..setting("astar_bold_smoothed", true, 2.0, 1.0) },
+    Setting { visibility: Some(300.0), ..setting("astar_vis_300", false, 2.0, 1.0) },
+    Setting { visibility: Some(300.0), ..setting("astar_vis_300_smoothed", true, 2.0, 1.0) },
+    Setting { visibility: Some(300.0), safety: Some(0.0), ..setting("astar_best_smoothed", true, 2.0, 0.1) },
+    setting("astar_1m", false, 1.0, 1.0),
+];
 
 /// A path, before anyone has judged it.
 pub struct Planned {
@@ -29,6 +63,8 @@ pub struct Planned {
     pub nodes: u64,
     /// Total cost after each iteration of the solver; empty where there is none.
     pub convergence: Vec<f64>,
+    /// Mean visibility of the best way through the lattice that the flight came from.
+    pub lattice_visibility: Option<f64>,
 }
 
 impl Contender {
@@ -38,9 +74,15 @@ impl Contender {
         ours.into_iter().chain(Baseline::ALL.into_iter().map(Self::Baseline)).collect()
     }
 
+    /// [`Self::all`] and the [`SETTINGS`].
+    pub fn nameable() -> Vec<Self> {
+        Self::all().into_iter().chain((0..SETTINGS.len()).map(Self::Setting)).collect()
+    }
+
     /// Name in the table and on the command line.
     pub fn name(self) -> &'static str {
         match self {
+            Self::Setting(index) => SETTINGS[index].name,
             Self::Cosfly => "cosfly",
             Self::Paper => "paper",
             Self::Baseline(baseline) => baseline.name(),
@@ -52,7 +94,8 @@ impl Contender {
         match self {
             Self::Cosfly => flight(ground, track, &MucoConfig { preset: Preset::Cosfly, ..config.clone() }),
             Self::Paper => Ok(paper_flight(ground, track, &MucoConfig { preset: Preset::Paper, ..config.clone() })),
-            Self::Baseline(baseline) => baseline_path(baseline, ground, track, config),
+            Self::Baseline(baseline) => baseline_path(ground, track, config, &|input| plan_baseline(baseline, input)),
+            Self::Setting(index) => setting_path(&SETTINGS[index], ground, track, config),
         }
     }
 }
@@ -64,6 +107,7 @@ fn flight(ground: &Ground, track: &TargetTrack, config: &MucoConfig) -> Result<P
         PlanOutcome::Planned(flight) => Ok(Planned {
             waypoints: flight.poses_in_world.iter().map(|pose| pose.position_in_world).collect(),
             nodes: 0,
+            lattice_visibility: Some(flight.certificate.lattice_visibility).filter(|seen| *seen > 0.0),
             convergence: flight.convergence,
         }),
         PlanOutcome::Rejected { reason, .. } => Err(reason),
@@ -78,15 +122,28 @@ fn paper_flight(ground: &Ground, track: &TargetTrack, config: &MucoConfig) -> Pl
     let (radius_m, influence_m) = (config.search.filter_radius_m, config.view.safety_influence_m);
     let grid = GroundGrid::sample(track, &*ground.height, radius_m + 10.0);
     let mut obstacles = LocalObstacles::filter(track, &ground.planning_boxes, &grid, radius_m, influence_m);
-    let flight = plan_paper(&problem, &mut obstacles, config);
-    Planned { waypoints: flight.waypoints, nodes: 0, convergence: flight.convergence }
+    let flight = plan_paper_in(&problem, &mut obstacles, config, &config.paper, Threads::Caller);
+    Planned { waypoints: flight.waypoints, nodes: 0, convergence: flight.convergence, lattice_visibility: None }
 }
 
-fn baseline_path(
-    baseline: Baseline,
+fn setting_path(
+    setting: &Setting,
     ground: &Ground,
     track: &TargetTrack,
     config: &MucoConfig,
+) -> Result<Planned, String> {
+    let mut own = config.clone();
+    own.weights.visibility = setting.visibility.or(own.weights.visibility);
+    own.weights.safety = setting.safety.or(own.weights.safety);
+    let kind = if setting.smoothed { Baseline::AstarSmoothed } else { Baseline::AstarFast };
+    baseline_path(ground, track, &own, &|input| plan_baseline_with(kind, input, setting.options))
+}
+
+fn baseline_path(
+    ground: &Ground,
+    track: &TargetTrack,
+    config: &MucoConfig,
+    find: &dyn Fn(&BaselineInput<'_>) -> Result<BaselinePath, String>,
 ) -> Result<Planned, String> {
     let terms = built_in_terms(&config.resolved_weights());
     let walk = Walk::of(track);
@@ -99,6 +156,7 @@ fn baseline_path(
         ground: &grid,
         config,
     };
-    let found = plan_baseline(baseline, &input)?;
-    Ok(Planned { waypoints: found.waypoints, nodes: found.nodes_expanded, convergence: Vec::new() })
+    let found = find(&input)?;
+    let (waypoints, nodes) = (found.waypoints, found.nodes_expanded);
+    Ok(Planned { waypoints, nodes, convergence: Vec::new(), lattice_visibility: None })
 }

@@ -54,6 +54,8 @@ pub struct Figures {
     pub max_jerk_mps3: f64,
     /// Mean angle off the rear of the walker, degrees; `None` when the target never walks.
     pub rear_angle_deg: Option<f64>,
+    /// Visibility as a share of what the best way through the planner's lattice sees; `None` without a lattice.
+    pub share_of_lattice: Option<f64>,
     /// Nodes expanded.
     pub nodes: u64,
 }
@@ -104,8 +106,9 @@ fn figures(
     let kinematics = Kinematics::of(waypoints, track.dt_s);
     let nearer = |limit_m: f64| clearances.iter().filter(|&&clearance| clearance < limit_m - 1e-9).count() as u32;
     let distances = waypoints.iter().zip(&track.states).map(|(w, state)| w.distance(state.feet_in_world));
+    let visibility = seen.iter().sum::<f64>() / frames;
     Figures {
-        visibility: seen.iter().sum::<f64>() / frames,
+        visibility,
         frames_half_visible: seen.iter().filter(|&&share| share >= 0.5).count() as f64 / frames,
         distance_m: distances.sum::<f64>() / frames,
         length_m: waypoints.windows(2).map(|pair| pair[1].distance(pair[0])).sum(),
@@ -117,6 +120,7 @@ fn figures(
         max_acceleration_mps2: kinematics.acceleration_mps2,
         max_jerk_mps3: kinematics.jerk_mps3,
         rear_angle_deg: rear_angle_deg(track, waypoints),
+        share_of_lattice: planned.lattice_visibility.map(|best| visibility / best.max(1e-9)),
         nodes: planned.nodes,
     }
 }

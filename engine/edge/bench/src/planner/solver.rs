@@ -7,7 +7,7 @@ use super::scene::Ground;
 use crate::clock::timed;
 use cosfly_frames::{DVec3, TargetTrack};
 use cosfly_geometry::{BoxBvh, BruteForce, SpatialQuery};
-use cosfly_planner::obstacles::exact::{ExactMap, ExactObstacles};
+use cosfly_planner::obstacles::exact::ExactObstacles;
 use cosfly_planner::obstacles::{Surroundings, ground::GroundGrid, local::LocalObstacles};
 use cosfly_planner::paper::{FocusedSurroundings, Threads, iteration, plan_paper_in};
 use cosfly_planner::problem::Problem;

@@ -31,6 +31,8 @@ pub struct Row {
     pub visibility: f64,
     /// Mean share of frames that see at least half of the target.
     pub frames_half_visible: f64,
+    /// Mean visibility as a share of the lattice optimum; `None` for planners without a lattice.
+    pub share_of_lattice: Option<f64>,
     /// Mean distance, metres.
     pub distance_m: f64,
     /// Mean length, metres.
@@ -88,6 +90,7 @@ fn row(planner: &str, flights: &[&Flight], outcomes: &[&PathOutcome]) -> Row {
         Some(format!("path {}: {}", outcome.path, flight.figures.as_ref().err()?))
     };
     let rear: Vec<f64> = good.iter().filter_map(|figures| figures.rear_angle_deg).collect();
+    let shares: Vec<f64> = good.iter().filter_map(|figures| figures.share_of_lattice).collect();
     Row {
         scene: String::new(),
         boxes: 0,
@@ -96,6 +99,7 @@ fn row(planner: &str, flights: &[&Flight], outcomes: &[&PathOutcome]) -> Row {
         infeasible: flights.len() - good.len(),
         visibility: mean(&|f| f.visibility),
         frames_half_visible: mean(&|f| f.frames_half_visible),
+        share_of_lattice: (!shares.is_empty()).then(|| shares.iter().sum::<f64>() / shares.len() as f64),
         distance_m: mean(&|f| f.distance_m),
         length_m: mean(&|f| f.length_m),
         length_ratio: mean(&|f| f.length_m) / mean(&|f| f.target_length_m).max(1e-9),
@@ -125,8 +129,9 @@ fn median(mut values: Vec<f64>) -> f64 {
 }
 
 /// Column heads and their widths, after scene and planner.
-const HEADS: [(&str, usize); 17] = [
+const HEADS: [(&str, usize); 18] = [
     ("vis", 5),
+    ("opt", 5),
     (">=.5", 5),
     ("dist", 5),
     ("len", 4),
@@ -151,6 +156,7 @@ impl Row {
         let faster = |times: f64| if times < 10.0 { format!("{times:.1}x") } else { format!("{times:.0}x") };
         [
             format!("{:.3}", self.visibility),
+            self.share_of_lattice.map_or("-".to_owned(), |share| format!("{share:.3}")),
             format!("{:.3}", self.frames_half_visible),
             format!("{:.1}", self.distance_m),
             format!("{:.0}", self.length_m),
@@ -202,9 +208,10 @@ impl fmt::Display for PlannerTable {
 
 /// What the heads of [`PlannerTable`] mean, for the end of a printed table.
 pub const LEGEND: &str = "\
-vis: mean share of body points seen; >=.5: share of frames that see half of them; dist: to the feet, m; len: of the
-flight, m; ratio: to the walk; clear: least distance of the swept path to any box, m; hit, near: segments closer than
-0.5 m and than the limit; v, a, j: largest speed, acceleration, jerk (m, s); rear: degrees off the walker's back;
-none: paths without a flight; ms: thread CPU time, mean and median; faster: median over paths of A*'s time by this
-one's. All judged against the unsimplified map.
+vis: mean share of body points seen; opt: the same as a share of what the best way through the lattice sees; >=.5: share
+of frames that see half of them; dist: to the feet, m; len: of the flight, m; ratio: to the walk; clear: least distance of
+the swept path to any box, m; hit, near: segments closer than 0.5 m and than the limit; v, a, j: largest speed,
+acceleration, jerk (m, s); rear: degrees off the walker's back; none: paths without a flight; ms: CPU time of the
+planning thread, mean and median; faster: median over paths of A*'s time by this one's. All flights are judged against the
+unsimplified map.
 ";

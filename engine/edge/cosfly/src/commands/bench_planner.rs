@@ -102,10 +102,13 @@ fn kinds(arguments: &BenchPlannerArguments) -> Vec<SceneKind> {
     SceneKind::ALL.into_iter().filter(named).collect()
 }
 
+/// All planners, or those that were named; A* off its default settings only by name.
 fn contenders(arguments: &BenchPlannerArguments) -> Vec<Contender> {
-    let named =
-        |who: &Contender| arguments.planners.is_empty() || arguments.planners.iter().any(|name| name == who.name());
-    Contender::all().into_iter().filter(named).collect()
+    if arguments.planners.is_empty() {
+        return Contender::all();
+    }
+    let named = |who: &Contender| arguments.planners.iter().any(|name| name == who.name());
+    Contender::nameable().into_iter().filter(named).collect()
 }
 
 fn json(value: &impl serde::Serialize) -> String {
