@@ -44,16 +44,16 @@ impl WideRay {
         let inverse = inverse(step);
         let backwards = inverse.cmplt(Vec3A::ZERO);
         let outwards = Vec3A::select(backwards, Vec3A::splat(margin), Vec3A::splat(-margin));
-        let (near_scale, far_scale) = (inverse * (1.0 - PARAMETER_SHARE), inverse * (1.0 + PARAMETER_SHARE));
+        let (less, more) = (1.0 - PARAMETER_SHARE, 1.0 + PARAMETER_SHARE);
         // Twice the margin, and the widening on both sides of parameters up to 1.
         let doubt = inverse.abs() * (2.0001 * margin) + Vec3A::splat(64.0 / 16_777_216.0);
         let mask = backwards.bitmask() as usize;
         let (from_array, step_array) = (from.to_array(), step.to_array());
         Self {
-            near_scale: near_scale.to_array(),
-            near_offset: ((outwards - from) * near_scale).to_array(),
-            far_scale: far_scale.to_array(),
-            far_offset: ((-outwards - from) * far_scale).to_array(),
+            near_scale: (inverse * less).to_array(),
+            near_offset: ((outwards - from) * less * inverse).to_array(),
+            far_scale: (inverse * more).to_array(),
+            far_offset: ((-outwards - from) * more * inverse).to_array(),
             doubt: doubt.to_array(),
             first: [mask & 1, mask >> 1 & 1, mask >> 2 & 1],
             way: Way {
@@ -121,6 +121,8 @@ fn blocked_kernel(
     let mut open = [(0_u32, 0_u32); MAX_DEPTH];
     let (mut height, mut at) = (0, 0_usize);
     while let Some(block) = tree.blocks.get(at) {
+        // Most rays meet two or three blocks: spreading the ray over lanes ahead of the loop costs more than it saves.
+        let ray = core::hint::black_box(&ray);
         if block.is_leaf {
             let mut met = ray.met::<true>(lanes, block, 1.0 + PARAMETER_SHARE);
             if met.surely & !block.turned != 0 {
