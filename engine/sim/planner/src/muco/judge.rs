@@ -5,14 +5,17 @@ use super::corridor::CorridorInput;
 use super::smoother::{Objective, smooth};
 use crate::certificate::{Kinematics, Measured, certify};
 use crate::config::MucoConfig;
+use crate::obstacles::Surroundings;
 use crate::obstacles::exact::ExactMap;
 use crate::obstacles::local::LocalObstacles;
 use crate::obstacles::solid::HalfSpace;
 use crate::problem::Problem;
-use cosfly_frames::DVec3;
+use cosfly_frames::{DVec3, TargetState};
 
 /// Distance kept beyond the limit while smoothing, metres.
 pub const KEEP_OUT_EXTRA_M: f64 = 0.1;
+/// How far below the lowest altitude a flight may be, metres.
+const FLOOR_SLACK_M: f64 = 0.01;
 /// Times that planes from the unsimplified map are added when it is nearer than the planning boxes say.
 const MAX_LESSONS: usize = 4;
 
@@ -81,13 +84,19 @@ impl<'a> Judge<'a> {
         certify(self.problem.track, waypoints, self.exact, self.ground, self.config)
     }
 
-    /// Whether a flight has no need of smoothing: it is smooth enough and clear of the planning boxes.
+    /// Whether a flight has no need of smoothing: it is smooth enough, high enough and clear of the
+    /// planning boxes.
     pub fn needs_nothing(&self, obstacles: &LocalObstacles<'_>, waypoints: &[DVec3]) -> bool {
         let limits = self.config.stated_limits();
         let kinematics = Kinematics::of(waypoints, self.problem.track.dt_s);
         let keep_m = limits.clearance_m;
         let clear = |(i, w): (usize, &[DVec3])| obstacles.segment_clearance_m(i, w[0], w[1], keep_m) >= keep_m;
-        kinematics.violations(&limits).is_empty() && waypoints.windows(2).enumerate().all(clear)
+        let floor = |(state, w): (&TargetState, &DVec3)| {
+            let ground = obstacles.ground_z_m(w.x, w.y).max(state.feet_in_world.z);
+            w.z >= ground + self.config.view.min_altitude_m - FLOOR_SLACK_M
+        };
+        let high = self.problem.track.states.iter().zip(waypoints).all(floor);
+        high && kinematics.violations(&limits).is_empty() && waypoints.windows(2).enumerate().all(clear)
     }
 
     /// Adds planes for segments that the exact map finds too close; false when there is nothing to add.

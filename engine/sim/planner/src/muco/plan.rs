@@ -1,6 +1,6 @@
 //! The planner's main function: from a request to a certified flight, or the reason why there is none.
 
-use super::attempts::{Found, escalate};
+use super::attempts::{Found, THOROUGH, escalate};
 use super::judge::Judge;
 use super::track_check::check_track;
 use crate::certificate::{Kinematics, certify, term_costs};
@@ -121,16 +121,32 @@ fn solve(request: &PlanRequest<'_>, terms: &[WeightedTerm], built_in: usize, hea
     let exact = ExactMap { query: request.exact, movers: request.movers };
     let mut judge = Judge::new(&problem, exact, request.ground, config, head);
     if config.preset == Preset::Paper && head.is_empty() {
-        let flight = plan_paper(&problem, &mut obstacles, config);
-        let mut measured = judge.measure(&flight.waypoints);
-        measured.certificate.iterations = flight.iterations;
-        measured.certificate.filtered_boxes = obstacles.count() as u32;
-        if !judge.publishable(&measured) {
-            return Err(measured.certificate.violations.join("; "));
-        }
-        return Ok(Found { waypoints: flight.waypoints, measured, convergence: flight.convergence });
+        return by_the_paper(&problem, &mut obstacles, config, &mut judge);
     }
     escalate(&problem, &mut obstacles, config, &mut judge)
+}
+
+/// The paper's own pipeline, made flyable if the recipe leaves that on.
+fn by_the_paper(
+    problem: &Problem<'_>,
+    obstacles: &mut LocalObstacles<'_>,
+    config: &MucoConfig,
+    judge: &mut Judge<'_>,
+) -> Result<Found, String> {
+    let flight = plan_paper(problem, obstacles, config);
+    let (mut waypoints, mut measured) = (flight.waypoints.clone(), judge.measure(&flight.waypoints));
+    judge.iterations = flight.iterations;
+    if config.paper.make_flyable && !measured.certificate.holds {
+        obstacles.focus_on(&waypoints);
+        (waypoints, measured) = judge.make_flyable(obstacles, &flight.waypoints, &flight.waypoints, THOROUGH);
+    }
+    if !judge.publishable(&measured) {
+        return Err(measured.certificate.violations.join("; "));
+    }
+    measured.certificate.attempts = 1;
+    measured.certificate.iterations = judge.iterations;
+    measured.certificate.filtered_boxes = obstacles.count() as u32;
+    Ok(Found { waypoints, measured, convergence: flight.convergence })
 }
 
 /// The flight as it is handed out: without the frames before the first, with poses and the costs of all terms.

@@ -32,6 +32,8 @@ const EXTRA_JERK: f64 = 3.0;
 /// Weight of missing clearance, and how far before the limit it begins, metres.
 const CLEARANCE_WEIGHT: f64 = 40.0;
 const CLEARANCE_EXTRA_M: f64 = 0.4;
+/// The same for the lowest altitude.
+const FLOOR_EXTRA_M: f64 = 0.1;
 /// No waypoint moves further in one step, metres.
 const LONGEST_STEP_M: f64 = 2.5;
 /// Time step for which the smoothness weights are written, seconds.
@@ -117,6 +119,11 @@ fn assemble(
     let keep = config.limits.clearance_m + CLEARANCE_EXTRA_M;
     for (frame, &waypoint) in waypoints.iter().enumerate() {
         equations.add_anchor(frame, hold[frame], waypoint - lattice_way[frame]);
+        let ground = obstacles.ground_z_m(waypoint.x, waypoint.y).max(problem.track.states[frame].feet_in_world.z);
+        let below = ground + config.view.min_altitude_m + FLOOR_EXTRA_M - waypoint.z;
+        if below > 0.0 && lattice_way[frame].z >= ground + config.view.min_altitude_m {
+            equations.add(frame, CLEARANCE_WEIGHT, below, -DVec3::Z);
+        }
         if let Some((distance, away)) = obstacles.nearest(frame, waypoint, keep) {
             equations.add(frame, CLEARANCE_WEIGHT, keep - distance, -away);
         }

@@ -40,6 +40,9 @@ pub struct PaperConfig {
     /// Rounds of safety projection (paper: "multi-round"). Default 5.
     #[schemars(range(min = 1, max = 100))]
     pub projection_rounds: u32,
+    /// Smooths a flight that breaks its limits, as the other presets' are; if false, what the pipeline gives is judged as
+    /// it is (it bounds neither acceleration nor jerk, so set `limits.require_kinematics = false`, too). Default true.
+    pub make_flyable: bool,
 }
 
 impl Default for PaperConfig {
@@ -55,6 +58,7 @@ impl Default for PaperConfig {
             side_offset_m: 12.0,
             ramp_frames: 6,
             projection_rounds: 5,
+            make_flyable: true,
         }
     }
 }
