@@ -50,6 +50,15 @@ fn queries(criterion: &mut Criterion) {
                 black_box(scene.blocked(drone, body))
             });
         });
+        criterion.bench_function(&name("blocked_batch_of_8"), |b| {
+            b.iter(|| {
+                let (drone, body, _) = next();
+                let points: [DVec3; 8] = core::array::from_fn(|i| body + DVec3::Z * (0.2 * i as f64));
+                let mut blocked = [false; 8];
+                scene.blocked_batch(drone, &points, &mut blocked);
+                black_box(blocked)
+            });
+        });
         criterion.bench_function(&name("closest_hit"), |b| {
             b.iter(|| {
                 let (drone, body, _) = next();

@@ -145,7 +145,18 @@ fn numbers_that_are_not_finite_are_answered_on_the_safe_side() {
     tree.assert_well_formed();
     assert_eq!(tree.len(), 2);
     assert_eq!(tree.closest_hit(DVec3::X * 3.0, DVec3::NEG_X, 9.0).map(|hit| (hit.t, hit.primitive)), Some((2.0, 1)));
-    for point in [DVec3::NAN, DVec3::INFINITY] {
+    let bad_numbers = [f64::NAN, f64::INFINITY, f64::NEG_INFINITY];
+    let one_bad = bad_numbers
+        .iter()
+        .flat_map(|&bad| DVec3::AXES.map(|axis| DVec3::select(axis.cmpeq(DVec3::ONE), DVec3::splat(bad), axis)));
+    for point in one_bad.chain([DVec3::NAN, DVec3::INFINITY]) {
+        let ends = [DVec3::X * 9.0, point, DVec3::X * 9.1, DVec3::X * 9.2];
+        for (from, expected) in [(DVec3::X * 8.0, [false, true, false, false]), (point, [true; 4])] {
+            let mut blocked = [false; 4];
+            tree.blocked_batch(from, &ends, &mut blocked);
+            assert_eq!(blocked, expected, "{from} to {point}");
+        }
+        assert!(tree.blocked(DVec3::X * 9.0, point));
         assert_eq!(tree.closest_hit(point, DVec3::X, 9.0), None);
         assert_eq!(tree.nearest(point, 9.0), None);
         assert!(tree.blocked(point, DVec3::X * 9.0));

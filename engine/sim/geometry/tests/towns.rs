@@ -133,3 +133,81 @@ fn boxes_and_points_that_are_impossibly_far_away_are_answered_exactly() {
         }
     }
 }
+
+/// A point on the surface of a box: on a corner, an edge or a face.
+fn on_surface(stream: &mut RandomStream, shape: &OrientedBox) -> DVec3 {
+    let corners = shape.corners_in_world();
+    let fixed = 1 + stream.index(3);
+    let (from, axes) = (stream.index(8), [0, 1, 2].map(|axis| 1_usize << ((axis + stream.index(3)) % 3)));
+    let mut at = corners[from];
+    for axis in &axes[fixed.min(3)..] {
+        at += (corners[from ^ axis] - corners[from]) * stream.uniform(0.0, 1.0);
+    }
+    at
+}
+
+#[test]
+fn rays_that_graze_boxes_by_a_hair_are_answered_exactly() {
+    let nudges = [0.0, 1e-14, 1e-10, 1e-8, 1e-6, 1e-5, 1e-4, 1e-3];
+    for (seed, origin) in [DVec3::ZERO, DVec3::new(300.0, -4000.0, 20.0), DVec3::splat(5e5)].into_iter().enumerate() {
+        let mut stream = random(40 + seed as u64);
+        for round in 0..60 {
+            let count = 1 + stream.index(40);
+            let turned_share = [0.0, 1.0][round % 2];
+            let boxes = town(&mut stream, count, origin, turned_share);
+            let oracle = BruteForce::new(&boxes);
+            let trees: Vec<BoxBvh> =
+                Level::available().into_iter().map(|level| BoxBvh::build(boxes.clone()).at_level(level)).collect();
+            for _ in 0..40 {
+                let shape = boxes[stream.index(count)];
+                let through = on_surface(&mut stream, &shape);
+                let mut aim = || {
+                    let nudge = nudges[stream.index(nudges.len())];
+                    let point = through + nudge * DVec3::new(stream.uniform(-1.0, 1.0), stream.uniform(-1.0, 1.0), 0.3);
+                    let along =
+                        DVec3::new(stream.uniform(-9.0, 9.0), stream.uniform(-9.0, 9.0), stream.uniform(-5.0, 5.0));
+                    (point + along, point - along * stream.uniform(0.0, 2.0))
+                };
+                let rays: [(DVec3, DVec3); 8] = core::array::from_fn(|_| aim());
+                let from = rays[0].0;
+                let ends = rays.map(|(_, to)| from + (to - from).clamp_length_max(40.0));
+                let near_ends: [DVec3; 8] = core::array::from_fn(|ray| ends[0] + 1e-5 * (ends[ray] - ends[0]));
+                for tree in &trees {
+                    for (a, b) in rays {
+                        assert_eq!(tree.blocked(a, b), oracle.blocked(a, b), "{shape:?} {a} {b}");
+                        assert_eq!(
+                            tree.closest_hit(a, b - a, 1.0),
+                            oracle.closest_hit(a, b - a, 1.0),
+                            "{shape:?} {a} {b}"
+                        );
+                        assert_eq!(tree.nearest(b, 9.0), oracle.nearest(b, 9.0), "{shape:?} {b}");
+                        let clearance = |scene: &dyn SpatialQuery| scene.segment_clearance(a, b, 5.0);
+                        assert_eq!(clearance(tree), clearance(&oracle), "{shape:?} {a} {b}");
+                    }
+                    for ends in [ends, near_ends] {
+                        let mut blocked = [false; 8];
+                        tree.blocked_batch(from, &ends, &mut blocked);
+                        assert_eq!(blocked, ends.map(|to| oracle.blocked(from, to)), "{shape:?} {from} {ends:?}");
+                    }
+                }
+            }
+        }
+    }
+}
+
+#[test]
+fn half_a_million_boxes_most_of_them_equal_are_built_and_asked() {
+    let mut stream = random(90);
+    let mut boxes = town(&mut stream, 50_000, DVec3::ZERO, 0.1);
+    boxes.extend(vec![boxes[7]; 450_000]);
+    let tree = BoxBvh::build(boxes.clone());
+    tree.assert_well_formed();
+    let oracle = BruteForce::new(&boxes[..50_000]);
+    for kind in 0..20 {
+        let (camera, points) = view(&mut stream, 2000.0, DVec3::ZERO, kind);
+        let mut blocked = [false; 8];
+        tree.blocked_batch(camera, &points, &mut blocked);
+        assert_eq!(blocked, points.map(|point| oracle.blocked(camera, point)));
+        assert_eq!(tree.nearest(camera, 50.0), oracle.nearest(camera, 50.0));
+    }
+}

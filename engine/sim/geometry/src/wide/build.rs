@@ -6,13 +6,14 @@
 use super::tree::{Block, MAX_DEPTH, REACH_M, WideTree};
 use super::turned::TurnedLanes;
 use crate::bounds::Bounds;
-use crate::lanes::{LANES, larger, smaller};
+use crate::lanes::LANES;
 use crate::turned_box::TurnedBox;
 use cosfly_frames::DVec3;
+use glam::Vec3A;
 use std::ops::Range;
 
 /// Bins per axis of the surface-area heuristic.
-const BINS: usize = 16;
+const BINS: usize = 12;
 /// Below this level sets are halved by count, which bounds the depth of the whole tree.
 const SAH_LEVELS: usize = 8;
 /// A set that fits into one block is split only when that takes away this share of its area.
@@ -21,31 +22,28 @@ const WORTHWHILE: f32 = 0.15;
 /// Bounds in f32 about the local origin.
 #[derive(Clone, Copy)]
 struct Around {
-    min: [f32; 3],
-    max: [f32; 3],
+    min: Vec3A,
+    max: Vec3A,
 }
 
 impl Around {
-    const EMPTY: Self = Self { min: [f32::INFINITY; 3], max: [f32::NEG_INFINITY; 3] };
+    const EMPTY: Self = Self { min: Vec3A::INFINITY, max: Vec3A::NEG_INFINITY };
 
     #[inline(always)]
     fn with(self, other: &Self) -> Self {
-        Self {
-            min: core::array::from_fn(|axis| smaller(self.min[axis], other.min[axis])),
-            max: core::array::from_fn(|axis| larger(self.max[axis], other.max[axis])),
-        }
+        Self { min: self.min.min(other.min), max: self.max.max(other.max) }
     }
 
     #[inline(always)]
     fn half_area(&self) -> f32 {
-        let size: [f32; 3] = core::array::from_fn(|axis| larger(self.max[axis] - self.min[axis], 0.0));
-        size[0] * size[1] + size[1] * size[2] + size[2] * size[0]
+        let size = (self.max - self.min).max(Vec3A::ZERO);
+        (size * Vec3A::new(size.y, size.z, size.x)).element_sum()
     }
 
     /// Twice the middle.
     #[inline(always)]
-    fn twice_center(&self) -> [f32; 3] {
-        core::array::from_fn(|axis| self.min[axis] + self.max[axis])
+    fn twice_center(&self) -> Vec3A {
+        self.min + self.max
     }
 }
 
@@ -66,8 +64,8 @@ struct Set {
 struct Split {
     axis: usize,
     last_left_bin: usize,
-    low: f32,
-    scale: f32,
+    low: Vec3A,
+    scale: Vec3A,
     /// Sum over both sides of area times blocks needed.
     cost: f32,
 }
@@ -82,7 +80,7 @@ pub fn build(boxes: &[TurnedBox], bounds: &[Bounds]) -> (WideTree, Vec<u32>) {
         let reach_m = min.abs().max(max.abs()).max_element();
         if reach_m <= REACH_M {
             size_m = size_m.max(reach_m);
-            let around = Around { min: min.as_vec3().to_array(), max: max.as_vec3().to_array() };
+            let around = Around { min: min.as_vec3a(), max: max.as_vec3a() };
             items.push(Item { around, original: index as u32 });
         } else {
             wild.push(index as u32);
@@ -224,8 +222,11 @@ fn next_to_split(sets: &[Set], by_area: bool) -> Option<usize> {
     best.map(|(at, _)| at)
 }
 
-fn bin_of(center: f32, low: f32, scale: f32) -> usize {
-    (((center - low) * scale) as usize).min(BINS - 1)
+/// The bin of a center along every axis.
+#[inline(always)]
+fn bins_of(center: Vec3A, low: Vec3A, scale: Vec3A) -> [usize; 3] {
+    let at = ((center - low) * scale).to_array();
+    [0, 1, 2].map(|axis| (at[axis] as usize).min(BINS - 1))
 }
 
 /// Reorders the items into a left and a right part and gives the left part's length, neither 0 nor all.
@@ -233,7 +234,7 @@ fn divide(items: &mut [Item], split: Option<Split>, around: &Around) -> usize {
     let mut left = 0;
     if let Some(Split { axis, last_left_bin, low, scale, .. }) = split {
         for at in 0..items.len() {
-            if bin_of(items[at].around.twice_center()[axis], low, scale) <= last_left_bin {
+            if bins_of(items[at].around.twice_center(), low, scale)[axis] <= last_left_bin {
                 items.swap(at, left);
                 left += 1;
             }
@@ -258,27 +259,29 @@ fn best_split(items: &[Item]) -> Option<Split> {
         let center = item.around.twice_center();
         centers = centers.with(&Around { min: center, max: center });
     }
-    let mut best: Option<Split> = None;
-    for axis in 0..3 {
-        let low = centers.min[axis];
-        let scale = BINS as f32 / (centers.max[axis] - low);
-        if !scale.is_finite() || scale <= 0.0 {
-            continue;
-        }
-        let mut bins = [(Around::EMPTY, 0_usize); BINS];
-        for item in items {
-            let bin = &mut bins[bin_of(item.around.twice_center()[axis], low, scale)];
+    let (low, size) = (centers.min, centers.max - centers.min);
+    let scale = Vec3A::splat(BINS as f32) / size;
+    // Along an axis without extent everything falls into one bin, which is no split.
+    let scale = Vec3A::select(size.cmpgt(Vec3A::ZERO) & scale.cmplt(Vec3A::INFINITY), scale, Vec3A::ZERO);
+    let mut bins = [[(Around::EMPTY, 0_u32); BINS]; 3];
+    for item in items {
+        let at = bins_of(item.around.twice_center(), low, scale);
+        for axis in 0..3 {
+            let bin = &mut bins[axis][at[axis]];
             *bin = (bin.0.with(&item.around), bin.1 + 1);
         }
+    }
+    let mut best: Option<Split> = None;
+    for (axis, bins) in bins.iter().enumerate() {
         let mut right_costs = [0.0_f32; BINS];
         let (mut around, mut count) = (Around::EMPTY, 0);
         for at in (1..BINS).rev() {
-            (around, count) = (around.with(&bins[at].0), count + bins[at].1);
+            (around, count) = (around.with(&bins[at].0), count + bins[at].1 as usize);
             right_costs[at] = blocks_of(count) * around.half_area();
         }
         (around, count) = (Around::EMPTY, 0);
         for at in 0..BINS - 1 {
-            (around, count) = (around.with(&bins[at].0), count + bins[at].1);
+            (around, count) = (around.with(&bins[at].0), count + bins[at].1 as usize);
             let cost = blocks_of(count) * around.half_area() + right_costs[at + 1];
             if count > 0 && count < items.len() && best.is_none_or(|b| cost < b.cost) {
                 best = Some(Split { axis, last_left_bin: at, low, scale, cost });

@@ -87,6 +87,7 @@ impl Segment {
         } else {
             self.of_segment(lanes, &from, &step, &low, &high)
         };
+        #[expect(clippy::needless_range_loop, reason = "sixteen lanes of several arrays")]
         for i in 0..LANES {
             bracket.least[i] = larger(bracket.least[i] * (1.0 - SQUARE_SHARE), squares[i]);
             bracket.most[i] *= 1.0 + SQUARE_SHARE;

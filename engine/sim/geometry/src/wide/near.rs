@@ -1,7 +1,7 @@
 //! What is close to a point or a segment, and what meets a window, through the tree.
 
 use super::closest::Segment;
-use super::tree::{MAX_DEPTH, REACH_M, WideTree};
+use super::tree::{MAX_DEPTH, WideTree};
 use crate::lanes::{LANES, Lane, Lanes, at_level, larger, smaller, take_lane};
 use cosfly_frames::DVec3;
 
@@ -69,10 +69,7 @@ fn around_kernel(
 ) -> bool {
     let from = (from_in_world - tree.origin_in_world).as_vec3a();
     let to = (to_in_world - tree.origin_in_world).as_vec3a();
-    let reach = from.abs().max(to.abs()).max_element();
-    if !(reach <= REACH_M as f32) {
-        return false;
-    }
+    let Some(reach) = WideTree::reach_of(from, to) else { return false };
     let segment = Segment::new(from, to, tree.margin(reach));
     let mut open = [Open { first: 0, lanes: 0, squares: [0.0; LANES] }; MAX_DEPTH];
     let mut candidates = Candidates { slots: [(0, 0.0); Candidates::MOST], count: 0 };

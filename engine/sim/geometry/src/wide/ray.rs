@@ -1,6 +1,6 @@
 //! Rays through the tree: whether anything stands in the way, and what comes first.
 
-use super::tree::{Block, MAX_DEPTH, REACH_M, WideTree};
+use super::tree::{Block, MAX_DEPTH, WideTree};
 use super::turned::{self, Way};
 use crate::lanes::{LANES, Lane, Lanes, at_level, larger, smaller, take_lane};
 use crate::shape::Shape;
@@ -113,10 +113,7 @@ fn blocked_kernel(
     let from = (from_in_world - tree.origin_in_world).as_vec3a();
     let step_in_world = to_in_world - from_in_world;
     let step = step_in_world.as_vec3a();
-    let reach = from.abs().max((from + step).abs()).max_element();
-    if !(reach <= REACH_M as f32) {
-        return None;
-    }
+    let reach = WideTree::reach_of(from, from + step)?;
     let ray = WideRay::new(from, step, tree.margin(reach));
     let mut open = [(0_u32, 0_u32); MAX_DEPTH];
     let (mut height, mut at) = (0, 0_usize);

@@ -131,8 +131,8 @@ fn blocked_kernel(
     }
     let (low, high) = (DVec3::from_array(low).as_vec3a(), DVec3::from_array(high).as_vec3a());
     let from = (from_in_world - tree.origin_in_world).as_vec3a();
-    let reach = from.abs().max((from + low).abs()).max((from + high).abs()).max_element();
-    if within != ALL || !(reach <= REACH_M as f32) || !is_slender(low, high) {
+    let reach = WideTree::reach_of(from, (from + low).abs().max((from + high).abs()))?;
+    if within != ALL || !is_slender(low, high) {
         return None;
     }
     let shaft = Shaft { from_in_world, step, inverse, has_parallel: moving != ALL };
@@ -198,6 +198,7 @@ fn rays_through_turned_kernel(lanes: impl Lanes, shaft: &Shaft, shape: &TurnedBo
     let origin = shape.local_from_world_vector(shaft.from_in_world - shape.center_in_world());
     let (sin, cos) = shape.sin_cos();
     let (mut step, mut inverse) = (shaft.step, shaft.inverse);
+    #[expect(clippy::needless_range_loop, reason = "eight lanes of several arrays")]
     for ray in 0..RAYS {
         let (x, y) = (shaft.step[0][ray], shaft.step[1][ray]);
         step[0][ray] = cos * x + sin * y;

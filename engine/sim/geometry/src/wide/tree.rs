@@ -4,6 +4,7 @@ use super::turned::TurnedLanes;
 use crate::bounds::Bounds;
 use crate::lanes::{LANES, Lane};
 use cosfly_frames::DVec3;
+use glam::Vec3A;
 
 /// Levels of the largest tree: eight by surface area, and 2^32 boxes eighth by eighth.
 pub const MAX_DEPTH: usize = 20;
@@ -68,6 +69,14 @@ pub struct WideTree {
 }
 
 impl WideTree {
+    /// The largest coordinate of two points about the local origin; `None` when f32 cannot be asked of them.
+    #[inline(always)]
+    pub fn reach_of(a: Vec3A, b: Vec3A) -> Option<f32> {
+        let (a, b, most) = (a.abs(), b.abs(), Vec3A::splat(REACH_M as f32));
+        // Numbers that are not finite fail the comparison.
+        (a.cmple(most) & b.cmple(most)).all().then(|| a.max(b).max_element())
+    }
+
     /// What rounding may move a face or a point of a query that stays within `reach` of the local origin, metres.
     ///
     /// Each of a face, a point, its sum with the margin, their products with an inverse direction and the difference
