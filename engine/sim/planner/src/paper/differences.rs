@@ -8,8 +8,10 @@ use core::ops::Range;
 use cosfly_frames::DVec3;
 use rayon::prelude::*;
 
-/// Frames that a thread takes at a time.
+/// Frames that a thread of many takes at a time.
 const FRAMES_PER_TASK: usize = 16;
+/// Frames that a single thread takes at a time, so that long flights stay in its cache.
+const FRAMES_AT_ONCE: usize = 256;
 
 /// Who computes a gradient.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -37,7 +39,7 @@ pub fn gradient(
 ) -> Vec<DVec3> {
     let frames = waypoints.len();
     let parallel = threads == Threads::Pool && rayon::current_num_threads() > 1;
-    let share = if parallel { FRAMES_PER_TASK } else { frames.max(1) };
+    let share = if parallel { FRAMES_PER_TASK } else { FRAMES_AT_ONCE };
     let chunks: Vec<Range<usize>> =
         (0..frames).step_by(share).map(|first| first..(first + share).min(frames)).collect();
     let built_in = |chunk: &Range<usize>| built_in_gradient(problem, surroundings, step_m, waypoints, chunk);
