@@ -8,6 +8,8 @@
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Level(Kind);
 
+static BEST: std::sync::OnceLock<Level> = std::sync::OnceLock::new();
+
 /// The levels by name; made into a [`Level`] only after detection.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[doc(hidden)]
@@ -21,10 +23,15 @@ impl Level {
     /// What every processor of the architecture has.
     pub const PLAIN: Self = Self(Kind::Plain);
 
-    /// The best level of this processor, worked out once.
+    /// The level that kernels run at: the best of this processor, worked out once, or what [`Self::make_best`] said
+    /// before anyone asked.
     pub fn best() -> Self {
-        static BEST: std::sync::OnceLock<Level> = std::sync::OnceLock::new();
         *BEST.get_or_init(|| Self::available().last().copied().unwrap_or(Self::PLAIN))
+    }
+
+    /// Makes this level the one that kernels run at, for comparing their bytes; false when one has run already.
+    pub fn make_best(self) -> bool {
+        BEST.set(self).is_ok()
     }
 
     /// All levels of this processor, from the plainest: tests run their kernels with each.

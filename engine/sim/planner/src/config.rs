@@ -144,10 +144,10 @@ pub struct SearchConfig {
     /// short time steps they are half a second apart at least. Default 1.
     #[schemars(range(min = 1, max = 10))]
     pub keyframe_frames: u32,
-    /// Cost of moving relative to the target, per square metre and frame. Default 0.5.
+    /// Cost of moving relative to the target, per square metre and frame. Default 1.
     #[schemars(range(min = 0.001, max = 1000.0))]
     pub relative_motion: f64,
-    /// Cost of moving at all, per square metre and frame. Default 0.8.
+    /// Cost of moving at all, per square metre and frame. Default 1.2.
     #[schemars(range(min = 0.0, max = 1000.0))]
     pub absolute_motion: f64,
     /// Boxes further than this from the path (seen from above) are left out of planning, metres. Default 45.
@@ -247,8 +247,8 @@ impl Default for SearchConfig {
             altitudes: 8,
             radii: 10,
             keyframe_frames: 1,
-            relative_motion: 0.5,
-            absolute_motion: 0.8,
+            relative_motion: 1.0,
+            absolute_motion: 1.2,
             filter_radius_m: 45.0,
         }
     }

@@ -1,7 +1,8 @@
 //! The textbook tree that the paper's baseline is given: binary, surface-area heuristic, one ray at a time.
 //!
-//! It is here so that "A* with a BVH" keeps meaning the same thing while the engine's own tree gets faster. Nodes
-//! are `f32`, rounded outward; leaves ask the exact `f64` boxes; nearer children come first.
+//! It is here so that "A* with a BVH" keeps meaning the same thing while the engine's own tree gets faster. Asked for
+//! the sight of a body from drones around it, it is on a par with the trees of parry and obvhs. Nodes are `f32`,
+//! rounded outward; leaves ask the exact `f64` boxes; nearer children come first.
 
 use crate::obstacles::solid::Solid;
 use cosfly_frames::DVec3;

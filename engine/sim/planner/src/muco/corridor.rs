@@ -9,6 +9,9 @@ use cosfly_frames::{DVec3, TargetTrack};
 
 /// How far a waypoint may move from where its planes were taken, metres.
 pub const TRUST_M: f64 = 4.0;
+/// The floor is this much above the lowest altitude, so that what the programme leaves open stays above that, metres.
+const FLOOR_EXTRA_M: f64 = 0.2;
+const MUCH_LOWER_M: f64 = 1.0;
 /// Distance wished between the line of sight and the edge of a shadow, metres.
 const SIGHT_MARGIN_M: f64 = 0.4;
 /// A waypoint deeper in shadow than this is not pulled, metres: the way out is likely the wrong one.
@@ -81,12 +84,15 @@ fn add_separations(input: &CorridorInput<'_>, waypoints: &[DVec3], frame: usize,
     }
 }
 
-/// The floor is level at the height of the ground under the waypoint; a waypoint that is already lower (the
+/// The floor is level at the height of the ground under the waypoint; a waypoint that is much lower (the
 /// search found nothing better) keeps its height.
 fn add_floor(input: &CorridorInput<'_>, waypoint: DVec3, frame: usize, corridor: &mut FrameCorridor) {
     let feet_z = input.track.states[frame].feet_in_world.z;
-    let floor = input.obstacles.ground_z_m(waypoint.x, waypoint.y).max(feet_z) + input.min_altitude_m;
-    corridor.hard.push(HalfSpace { normal: DVec3::Z, offset_m: floor.min(waypoint.z) });
+    let floor = input.obstacles.ground_z_m(waypoint.x, waypoint.y).max(feet_z) + input.min_altitude_m + FLOOR_EXTRA_M;
+    corridor.hard.push(HalfSpace {
+        normal: DVec3::Z,
+        offset_m: if waypoint.z < floor - MUCH_LOWER_M { waypoint.z } else { floor },
+    });
 }
 
 /// One plane per box: that of the body point which the box hides most.

@@ -33,7 +33,7 @@ const EXTRA_JERK: f64 = 3.0;
 const CLEARANCE_WEIGHT: f64 = 40.0;
 const CLEARANCE_EXTRA_M: f64 = 0.4;
 /// The same for the lowest altitude.
-const FLOOR_EXTRA_M: f64 = 0.1;
+const FLOOR_EXTRA_M: f64 = 0.2;
 /// No waypoint moves further in one step, metres.
 const LONGEST_STEP_M: f64 = 2.5;
 /// Time step for which the smoothness weights are written, seconds.
