@@ -9,6 +9,7 @@ pub mod config;
 pub mod equations;
 pub mod gradient;
 pub mod muco;
+pub mod objectives;
 pub mod obstacles;
 pub mod paper;
 pub mod perturb;
