@@ -1,7 +1,8 @@
 //! What `cosfly bench planner` measures, without the rest of cosfly:
-//! `planner_table [SCENE ...] [--paths N] [--seed N] [--planner NAME ...] [--many N] [--solver] [--plot DIR]`.
+//! `planner_table [SCENE ...] [--paths N] [--seed N] [--planner NAME ...] [--many N] [--solver] [--split] [--plot DIR]`.
 
 use cosfly_bench::planner::many::{ManyOptions, many};
+use cosfly_bench::planner::phases::phases;
 use cosfly_bench::planner::plot::picture;
 use cosfly_bench::planner::scene::Ground;
 use cosfly_bench::planner::solver::solver;
@@ -11,7 +12,7 @@ use cosfly_planner::scenes::SceneKind;
 
 fn main() {
     let (mut kinds, mut contenders) = (Vec::new(), Vec::new());
-    let (mut paths, mut seed, mut count, mut solver_table, mut plots) = (5, 1, 0, false, None);
+    let (mut paths, mut seed, mut count, mut solver_table, mut split, mut plots) = (5, 1, 0, false, false, None);
     let mut words = std::env::args().skip(1);
     while let Some(word) = words.next() {
         let mut value = || words.next().unwrap_or_default();
@@ -20,6 +21,7 @@ fn main() {
             "--seed" => seed = value().parse().unwrap_or(1),
             "--many" => count = value().parse().unwrap_or(1000),
             "--solver" => solver_table = true,
+            "--split" => split = true,
             "--plot" => plots = Some(value()),
             "--planner" => {
                 let name = value();
@@ -42,6 +44,10 @@ fn main() {
         contenders = Contender::all();
     }
     let grounds: Vec<Ground> = kinds.into_iter().map(|kind| Ground::scene(kind, seed, paths)).collect();
+    if split {
+        print!("{}", phases(&grounds, &config));
+        return;
+    }
     if solver_table {
         grounds.iter().for_each(|ground| print!("{}", solver(ground, &config)));
         return;

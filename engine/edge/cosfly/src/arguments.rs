@@ -228,6 +228,7 @@ Examples:
   cosfly bench planner --planner cosfly --planner astar      two planners
   cosfly bench planner --plot out/plots --paths 3            pictures, too
   cosfly bench planner --solver --scene leafy                the paper's solver table: trees or none, one path or many
+  cosfly bench planner --split                               where our planner's time goes
   cosfly bench planner --many 6000                           a dataset's worth on all cores
   cosfly bench planner --many 10000 --seed 1000              the same to count collisions (there should be none)")]
     Planner(BenchPlannerArguments),
@@ -257,11 +258,14 @@ pub struct BenchPlannerArguments {
     /// Time the paper's own pipeline without a tree, with one, and with the boxes near the path
     #[arg(long, conflicts_with = "many")]
     pub solver: bool,
+    /// Time the steps of our planner
+    #[arg(long, conflicts_with_all = ["many", "solver"])]
+    pub split: bool,
     /// Print JSON
     #[arg(long)]
     pub json: bool,
     /// Draw every path from above, coloured by visibility, as SVG into this folder
-    #[arg(long, value_name = "DIR", conflicts_with_all = ["many", "solver"])]
+    #[arg(long, value_name = "DIR", conflicts_with_all = ["many", "solver", "split"])]
     pub plot: Option<PathBuf>,
 }
 

@@ -5,7 +5,7 @@ use cosfly_frames::{DVec3, Seed, TargetTrack};
 use cosfly_planner::baselines::grid::VoxelOptions;
 use cosfly_planner::baselines::{Baseline, BaselineInput, BaselinePath, plan_baseline, plan_baseline_with};
 use cosfly_planner::obstacles::{ground::GroundGrid, local::LocalObstacles};
-use cosfly_planner::paper::{Threads, plan_paper_in};
+use cosfly_planner::paper::plan_paper;
 use cosfly_planner::problem::Problem;
 use cosfly_planner::terms::built_in_terms;
 use cosfly_planner::walk::Walk;
@@ -16,8 +16,10 @@ use cosfly_planner::{MucoConfig, PlanOutcome, Preset, plan};
 pub enum Contender {
     /// Ours, with its default preset.
     Cosfly,
-    /// The paper's own pipeline.
+    /// The paper's own pipeline, as it comes: neither certified nor refused.
     Paper,
+    /// The same as recipes get it: made flyable and certified, or refused.
+    PaperFlyable,
     /// One to be measured against.
     Baseline(Baseline),
     /// A* with other settings; an index into [`SETTINGS`].
@@ -70,7 +72,7 @@ pub struct Planned {
 impl Contender {
     /// All, in the order of the table.
     pub fn all() -> Vec<Self> {
-        let ours = [Self::Cosfly, Self::Paper];
+        let ours = [Self::Cosfly, Self::Paper, Self::PaperFlyable];
         ours.into_iter().chain(Baseline::ALL.into_iter().map(Self::Baseline)).collect()
     }
 
@@ -85,6 +87,7 @@ impl Contender {
             Self::Setting(index) => SETTINGS[index].name,
             Self::Cosfly => "cosfly",
             Self::Paper => "paper",
+            Self::PaperFlyable => "paper_flyable",
             Self::Baseline(baseline) => baseline.name(),
         }
     }
@@ -94,6 +97,7 @@ impl Contender {
         match self {
             Self::Cosfly => flight(ground, track, &MucoConfig { preset: Preset::Cosfly, ..config.clone() }),
             Self::Paper => Ok(paper_flight(ground, track, &MucoConfig { preset: Preset::Paper, ..config.clone() })),
+            Self::PaperFlyable => flight(ground, track, &MucoConfig { preset: Preset::Paper, ..config.clone() }),
             Self::Baseline(baseline) => baseline_path(ground, track, config, &|input| plan_baseline(baseline, input)),
             Self::Setting(index) => setting_path(&SETTINGS[index], ground, track, config),
         }
@@ -122,7 +126,7 @@ fn paper_flight(ground: &Ground, track: &TargetTrack, config: &MucoConfig) -> Pl
     let (radius_m, influence_m) = (config.search.filter_radius_m, config.view.safety_influence_m);
     let grid = GroundGrid::sample(track, &*ground.height, radius_m + 10.0);
     let mut obstacles = LocalObstacles::filter(track, &ground.planning_boxes, &grid, radius_m, influence_m);
-    let flight = plan_paper_in(&problem, &mut obstacles, config, &config.paper, Threads::Caller);
+    let flight = plan_paper(&problem, &mut obstacles, config);
     Planned { waypoints: flight.waypoints, nodes: 0, convergence: flight.convergence, lattice_visibility: None }
 }
 

@@ -6,6 +6,7 @@
 pub mod contender;
 pub mod figures;
 pub mod many;
+pub mod phases;
 pub mod plot;
 pub mod scene;
 pub mod solver;

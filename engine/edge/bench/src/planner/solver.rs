@@ -1,7 +1,7 @@
 //! The paper's solver table: its pipeline without a tree, with one, and with the boxes near the path alone.
 //!
 //! `without a tree` asks every box of the town in turn, `tree` asks a hierarchy over all of them, `near the path`
-//! keeps the boxes within 45 m and short lists per frame. All three give the same flight.
+//! keeps the boxes within 45 m with short lists per frame, and asks eight lines of sight at a time.
 
 use super::scene::Ground;
 use crate::clock::timed;
@@ -9,7 +9,7 @@ use cosfly_frames::{DVec3, TargetTrack};
 use cosfly_geometry::{BoxBvh, BruteForce, SpatialQuery};
 use cosfly_planner::obstacles::exact::ExactObstacles;
 use cosfly_planner::obstacles::{Surroundings, ground::GroundGrid, local::LocalObstacles};
-use cosfly_planner::paper::{FocusedSurroundings, Threads, iteration, plan_paper_in};
+use cosfly_planner::paper::{FocusedSurroundings, NearBoxes, Threads, iteration, plan_paper_in};
 use cosfly_planner::problem::Problem;
 use cosfly_planner::terms::built_in_terms;
 use cosfly_planner::walk::Walk;
@@ -134,7 +134,10 @@ fn with_surroundings(
     if queries == Queries::Near {
         let mut near = LocalObstacles::filter(track, &ground.planning_boxes, &grid, radius_m, influence_m);
         let count = near.count();
-        run(&problem, &mut near, count);
+        match NearBoxes::new(&near, track.len(), influence_m) {
+            Some(mut lanes) => run(&problem, &mut lanes, count),
+            None => run(&problem, &mut near, count),
+        }
     } else {
         let mut asked = Asked(ExactObstacles::still(track, query, &grid));
         run(&problem, &mut asked, query.len());

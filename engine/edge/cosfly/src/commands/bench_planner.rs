@@ -4,6 +4,7 @@ use super::{Outcome, Refusals, town_of_recipe};
 use crate::arguments::BenchPlannerArguments;
 use crate::exit;
 use cosfly_bench::planner::many::{ManyOptions, many};
+use cosfly_bench::planner::phases::phases;
 use cosfly_bench::planner::scene::Ground;
 use cosfly_bench::planner::solver::solver;
 use cosfly_bench::planner::{Contender, PathOutcome, PlannerOptions, outcomes, plot, table, tabulate};
@@ -52,7 +53,7 @@ fn flown_in_bulk(
     Ok(if arguments.json { json(&report) } else { report.to_string() })
 }
 
-/// The tables: every planner on every path, or the paper's solver table.
+/// The tables: every planner on every path, our planner's steps, or the paper's solver table.
 fn compared(arguments: &BenchPlannerArguments, progress: &(dyn Fn(usize, usize) + Sync)) -> Result<String, Refusals> {
     let (grounds, config) = match &arguments.recipe {
         Some(recipe) => {
@@ -65,6 +66,10 @@ fn compared(arguments: &BenchPlannerArguments, progress: &(dyn Fn(usize, usize) 
             (kinds(arguments).into_iter().map(scene).collect(), MucoConfig::default())
         }
     };
+    if arguments.split {
+        let table = phases(&grounds, &config);
+        return Ok(if arguments.json { json(&table) } else { table.to_string() });
+    }
     if arguments.solver {
         let tables: Vec<_> = grounds.iter().map(|ground| solver(ground, &config)).collect();
         return Ok(if arguments.json { json(&tables) } else { tables.iter().map(ToString::to_string).collect() });
