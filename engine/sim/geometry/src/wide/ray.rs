@@ -127,7 +127,8 @@ fn blocked_kernel(
             }
             if met.maybe & block.turned != 0 {
                 let (enter, leave, doubt) = (&met.enter, &met.leave, ray.doubt[2]);
-                let (maybe, surely) = turned::surely_met(lanes.level(), tree, block, &ray.way, enter, leave, doubt);
+                let (maybe, surely) =
+                    turned::maybe_and_surely::<true>(lanes, tree, block, &ray.way, enter, leave, doubt);
                 if met.maybe & surely != 0 {
                     return Some(true);
                 }

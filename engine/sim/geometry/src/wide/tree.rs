@@ -79,8 +79,8 @@ impl WideTree {
 
     /// What rounding may move a face or a point of a query that stays within `reach` of the local origin, metres.
     ///
-    /// Each of a face, a point, its sum with the margin, their products with an inverse direction and the difference
-    /// of those is off by at most half a unit in the last place, 2^-24 of the coordinates: 5 in all. This is 16.
+    /// A face, a point, its sum with the margin, the inverse direction and its products with them are each off by at
+    /// most half a unit in the last place, 2^-24 of the coordinates: ten in all at the most. This is 16.
     /// World coordinates are rounded in f64 on both sides, which `least_margin` covers.
     #[inline(always)]
     pub fn margin(&self, reach: f32) -> f32 {

@@ -73,17 +73,13 @@ at_level! {
 
 #[inline(always)]
 fn met_kernel(lanes: impl Lanes, tree: &WideTree, block: &Block, way: &Way, enter: &Lane, leave: &Lane) -> u32 {
-    both_kernel::<false>(lanes, tree, block, way, enter, leave, 0.0).0
+    maybe_and_surely::<false>(lanes, tree, block, way, enter, leave, 0.0).0
 }
 
-at_level! {
-    /// The bits of [`met`] and those of the lanes that are met beyond doubt. The way lasts from 0 to 1 and lies between
-    /// the bounds' upper and lower faces for certain from `enter + doubt` to `leave - doubt`.
-    pub fn surely_met(tree: &WideTree, block: &Block, way: &Way, enter: &Lane, leave: &Lane, doubt: f32) -> (u32, u32) = both_kernel::<true>;
-}
-
+/// The bits of [`met`] and, if asked for, those of the lanes that are met beyond doubt. The way lasts from 0 to 1 and
+/// lies between the bounds' upper and lower faces for certain from `enter + doubt` to `leave - doubt`.
 #[inline(always)]
-fn both_kernel<const SURELY: bool>(
+pub fn maybe_and_surely<const SURELY: bool>(
     lanes: impl Lanes,
     tree: &WideTree,
     block: &Block,
