@@ -37,10 +37,12 @@ impl BenchTown {
     /// The `count` boxes nearest to a walker's way, or as many as there are: up to 1,000 of a leafy town, up to 2,500 of
     /// one with tree tunnels, beyond that of a leafy town cut into small boxes.
     pub fn generate(seed: u64, count: usize, is_turned: bool) -> Self {
-        let kind = match count {
-            ..=1000 => SceneKind::Leafy,
-            ..=2500 => SceneKind::Tunnel,
-            _ => SceneKind::Fine,
+        let kind = if count <= 1_000 {
+            SceneKind::Leafy
+        } else if count <= 2_500 {
+            SceneKind::Tunnel
+        } else {
+            SceneKind::Fine
         };
         let scene = Scene::generate(kind, seed);
         let track = scene.walker(seed, 0);
