@@ -238,3 +238,30 @@ impl fmt::Display for ManyReport {
         self.incidents.iter().try_for_each(|incident| writeln!(f, "  {incident}"))
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn check(contender: Contender, config: MucoConfig) -> ManyReport {
+        let kinds = vec![SceneKind::Alley, SceneKind::Canyon];
+        many(&ManyOptions { kinds, seed: 3, count: 23, contender, config, progress: &|_, _| {} })
+    }
+
+    #[test]
+    fn every_path_is_planned_and_judged_and_ours_come_nowhere_near() {
+        let report = check(Contender::Cosfly, MucoConfig::default());
+        assert_eq!((report.paths, report.planned), (23, 23), "{report}");
+        assert_eq!((report.collisions, report.margin_violations, report.limit_violations), (0, 0, 0), "{report}");
+        assert!(report.visibility > 0.9 && report.min_clearance_m >= 1.5, "{report}");
+    }
+
+    #[test]
+    fn what_breaks_a_limit_is_counted_and_named() {
+        let mut config = MucoConfig::default();
+        config.limits.acceleration_mps2 = 0.1;
+        let report = check(Contender::Paper, config);
+        assert!(report.limit_violations > 0, "{report}");
+        assert!(report.incidents.iter().any(|words| words.contains("--seed 3, path 0")), "{report}");
+    }
+}

@@ -209,6 +209,6 @@ mod tests {
     fn colours_run_from_red_to_green() {
         assert_eq!(colour(0.0), "#a50026");
         assert_eq!(colour(1.0), "#1a9850");
-        assert_eq!(colour(f64::NAN), "#1a9850");
+        assert_eq!(colour(0.25), "#cd3735");
     }
 }

@@ -215,3 +215,38 @@ acceleration, jerk (m, s); rear: degrees off the walker's back; none: paths with
 planning thread, mean and median; faster: median over paths of A*'s time by this one's. All flights are judged against the
 unsimplified map.
 ";
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::planner::scene::Ground;
+    use crate::planner::{PlannerOptions, outcomes, tabulate};
+    use cosfly_planner::MucoConfig;
+    use cosfly_planner::scenes::SceneKind;
+
+    #[test]
+    fn medians_are_middle_values() {
+        assert_eq!([median(vec![]), median(vec![3.0, 1.0, 2.0]), median(vec![4.0, 1.0])], [0.0, 2.0, 2.5]);
+    }
+
+    #[test]
+    fn rows_are_one_per_scene_and_planner_and_judged_alike() {
+        let mut ground = Ground::scene(SceneKind::Canyon, 2, 2);
+        ground.tracks.iter_mut().for_each(|track| track.states.truncate(30));
+        let contenders = vec![
+            Contender::Cosfly,
+            Contender::Paper,
+            Contender::Baseline(Baseline::Astar),
+            Contender::Baseline(Baseline::AstarFast),
+        ];
+        let config = MucoConfig::default();
+        let options = PlannerOptions { grounds: vec![ground], contenders, config, progress: &|_, _| {} };
+        let table = tabulate(&options, &outcomes(&options));
+        assert_eq!(table.rows.len(), 4);
+        let (ours, slow, fast) = (&table.rows[0], &table.rows[2], &table.rows[3]);
+        assert_eq!((ours.collisions, ours.margin_violations, slow.collisions), (0, 0, 0), "{table}");
+        assert_eq!((slow.visibility, slow.nodes, slow.length_m), (fast.visibility, fast.nodes, fast.length_m));
+        assert_eq!(slow.speed_up, Some(1.0));
+        assert!(table.to_string().lines().next().is_some_and(|heads| heads.contains("faster")));
+    }
+}
