@@ -3,6 +3,7 @@
 mod caching;
 mod crash;
 mod diagnostics;
+mod processors;
 mod repository;
 mod snapshots;
 mod street;

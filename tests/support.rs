@@ -48,6 +48,12 @@ impl Call {
         self
     }
 
+    /// With an environment variable.
+    pub fn with(mut self, name: &str, value: &str) -> Self {
+        self.command.env(name, value);
+        self
+    }
+
     /// Runs to the end.
     pub fn run(mut self) -> Printed {
         let Output { status, stdout, stderr } = self.command.stdin(Stdio::null()).output().expect("cosfly starts");

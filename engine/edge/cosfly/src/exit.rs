@@ -7,6 +7,8 @@ use std::process::ExitCode;
 pub const SUCCESS: u8 = 0;
 /// `verify` found something wrong.
 pub const FOUND_PROBLEMS: u8 = 1;
+/// The command line or the environment cannot be understood (arguments: `clap` exits by itself).
+pub const ARGUMENTS: u8 = 2;
 /// The recipe asks for something that cannot be.
 pub const RECIPE: u8 = 3;
 /// An input file or the store is broken or does not fit.

@@ -9,10 +9,15 @@ mod text;
 
 use arguments::{Arguments, BenchCommand, Command, TaskCommand};
 use clap::Parser;
+use cosfly_frames::simd::Level;
 use std::io::Write;
 use std::process::ExitCode;
 
 fn main() -> ExitCode {
+    if let Err(message) = choose_vector_level() {
+        eprintln!("error: {message}");
+        return ExitCode::from(exit::ARGUMENTS);
+    }
     let outcome = match Arguments::parse().command {
         Command::Run(arguments) => commands::run::run(&arguments),
         Command::Plan(arguments) => commands::plan::plan(&arguments),
@@ -35,6 +40,18 @@ fn main() -> ExitCode {
             exit::code_of_all(&refusals)
         }
     }
+}
+
+/// Everything gives the same bytes with every vector level; `COSFLY_SIMD` chooses one to see that.
+fn choose_vector_level() -> Result<(), String> {
+    let Ok(name) = std::env::var("COSFLY_SIMD") else { return Ok(()) };
+    let available = Level::available();
+    let Some(level) = available.iter().find(|level| level.name() == name) else {
+        let names: Vec<_> = available.iter().map(|level| level.name()).collect();
+        return Err(format!("COSFLY_SIMD is `{name}`; this processor has {}", names.join(", ")));
+    };
+    level.make_best();
+    Ok(())
 }
 
 /// Prints to standard output; a reader that went away (`| head`) is no error.

@@ -123,6 +123,12 @@ fn add_sight(input: &CorridorInput<'_>, waypoint: DVec3, frame: usize, corridor:
 }
 
 impl FrameCorridor {
+    /// Hard planes alone.
+    #[cfg(test)]
+    pub fn for_test(center: DVec3, hard: Vec<HalfSpace>) -> Self {
+        Self { center, hard, soft: Vec::new() }
+    }
+
     /// The point that balances being near `point` with the half-spaces: hard ones hold (nearly), soft
     /// ones are approached by `soft_share` of what is missing.
     pub fn pull_in(&self, point: DVec3, soft_share: f64) -> DVec3 {

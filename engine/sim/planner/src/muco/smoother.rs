@@ -90,6 +90,7 @@ struct Programme<'a> {
     penalty: [f64; 4],
     factor: Factor,
     x: Vec<DVec3>,
+    row: Vec<DVec3>,
     /// Copies of position and the three differences, and their scaled multipliers.
     copy: [Vec<DVec3>; 4],
     multiplier: [Vec<DVec3>; 4],
@@ -116,23 +117,28 @@ impl<'a> Programme<'a> {
             row
         });
         let multiplier = core::array::from_fn(|k| vec![DVec3::ZERO; copy[k].len()]);
-        Self { wished, nearness, reach, penalty, factor: matrix.factor(), x: start.to_vec(), copy, multiplier }
+        Self { wished, nearness, reach, penalty, factor: matrix.factor(), x: start.to_vec(), row: Vec::new(), copy, multiplier }
     }
 
     /// Iterates until everything holds or the iterations are used up; returns how many it took.
     fn run(&mut self, corridor: &[FrameCorridor], iterations: usize) -> u32 {
-        let mut row = Vec::new();
         for iteration in 1..=iterations {
-            self.solve_for_x();
-            for order in 0..4 {
-                differences(order, &self.x, &mut row);
-                self.update_copy(order, &row, corridor);
-            }
+            self.iterate(corridor);
             if iteration % CHECK_EVERY == 0 && self.holds(corridor) {
                 return iteration as u32;
             }
         }
         iterations as u32
+    }
+
+    fn iterate(&mut self, corridor: &[FrameCorridor]) {
+        self.solve_for_x();
+        let mut row = core::mem::take(&mut self.row);
+        for order in 0..4 {
+            differences(order, &self.x, &mut row);
+            self.update_copy(order, &row, corridor);
+        }
+        self.row = row;
     }
 
     fn solve_for_x(&mut self) {
@@ -169,5 +175,99 @@ impl<'a> Programme<'a> {
             row.iter().all(|value| value.length() <= 0.995 * self.reach[order - 1])
         });
         smooth && self.x.iter().zip(corridor).all(|(x, frame)| frame.violation_m(*x) < 0.02)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::obstacles::solid::HalfSpace;
+    use clarabel::algebra::CscMatrix;
+    use clarabel::solver::SupportedConeT::{NonnegativeConeT, SecondOrderConeT};
+    use clarabel::solver::{DefaultSettings, DefaultSolver, IPSolver, SolverStatus};
+    use cosfly_frames::Seed;
+
+    const FRAMES: usize = 24;
+    const OBJECTIVE: Objective = Objective { rounds: 1, iterations: 20_000, nearness: 0.3, acceleration: 0.5, jerk: 2.0 };
+    const REACH: [f64; 3] = [4.0, 1.2, 1.0];
+
+    /// The same programme for an interior-point solver: positions frame by frame, axis by axis.
+    fn by_interior_point(wished: &[DVec3], corridor: &[FrameCorridor]) -> Vec<DVec3> {
+        let n = 3 * wished.len();
+        let mut quadratic = vec![vec![0.0; n]; n];
+        for order in [0, 2, 3] {
+            let weight = [OBJECTIVE.nearness, 0.0, OBJECTIVE.acceleration, OBJECTIVE.jerk][order];
+            let coefficients = super::super::banded::DIFFERENCES[order];
+            for first in 0..wished.len() - order {
+                for (a, ca) in coefficients.iter().enumerate() {
+                    for (b, cb) in coefficients.iter().enumerate() {
+                        for axis in 0..3 {
+                            quadratic[3 * (first + a) + axis][3 * (first + b) + axis] += 2.0 * weight * ca * cb;
+                        }
+                    }
+                }
+            }
+        }
+        let linear: Vec<f64> =
+            wished.iter().flat_map(|w| w.to_array()).map(|w| -2.0 * OBJECTIVE.nearness * w).collect();
+        let (mut rows, mut right, mut cones) = (Vec::new(), Vec::new(), Vec::new());
+        for (frame, corridor) in corridor.iter().enumerate() {
+            for plane in &corridor.hard {
+                let mut row = vec![0.0; n];
+                row[3 * frame..3 * frame + 3].copy_from_slice(&(-plane.normal).to_array());
+                rows.push(row);
+                right.push(-plane.offset_m);
+                cones.push(NonnegativeConeT(1));
+            }
+        }
+        for order in 1..=3 {
+            for first in 0..wished.len() - order {
+                rows.push(vec![0.0; n]);
+                right.push(AIM_SHARE * REACH[order - 1]);
+                for axis in 0..3 {
+                    let mut row = vec![0.0; n];
+                    for (k, c) in super::super::banded::DIFFERENCES[order].iter().enumerate() {
+                        row[3 * (first + k) + axis] = -c;
+                    }
+                    rows.push(row);
+                    right.push(0.0);
+                }
+                cones.push(SecondOrderConeT(4));
+            }
+        }
+        let (quadratic, rows) = (CscMatrix::from(&quadratic), CscMatrix::from(&rows));
+        let settings = DefaultSettings { verbose: false, ..DefaultSettings::default() };
+        let mut solver = DefaultSolver::new(&quadratic.to_triu(), &linear, &rows, &right, &cones, settings)
+            .expect("a well-formed programme");
+        solver.solve();
+        assert_eq!(solver.solution.status, SolverStatus::Solved);
+        solver.solution.x.chunks_exact(3).map(DVec3::from_slice).collect()
+    }
+
+    #[test]
+    fn the_programme_ends_where_an_interior_point_solver_does() {
+        let mut stream = Seed::of_item(3, "smoother", "clarabel").stream("t");
+        for _ in 0..4 {
+            let mut v = |low: f64, high: f64| stream.uniform(low, high);
+            let wished: Vec<DVec3> = (0..FRAMES)
+                .map(|i| DVec3::new(1.5 * i as f64 + v(-1.0, 1.0), v(-2.0, 2.0), 20.0 + v(-1.0, 1.0)))
+                .collect();
+            let corridor: Vec<FrameCorridor> = (0..FRAMES)
+                .map(|i| {
+                    let wall = HalfSpace { normal: DVec3::new(0.6, -0.8, 0.0), offset_m: 0.9 * i as f64 - 1.0 };
+                    let floor = HalfSpace { normal: DVec3::Z, offset_m: 20.0 };
+                    FrameCorridor::for_test(wished[i], vec![wall, floor])
+                })
+                .collect();
+            let scale = [1.0; 4];
+            let nearness = vec![OBJECTIVE.nearness; FRAMES];
+            let mut programme = Programme::new(&nearness, OBJECTIVE, &wished, &wished, REACH, scale);
+            for _ in 0..OBJECTIVE.iterations {
+                programme.iterate(&corridor);
+            }
+            let other = by_interior_point(&wished, &corridor);
+            let off = programme.x.iter().zip(&other).map(|(a, b)| a.distance(*b)).fold(0.0, f64::max);
+            assert!(off < 2e-3, "{off} m apart");
+        }
     }
 }

@@ -13,6 +13,7 @@ pub struct GroundGrid {
     rows: usize,
     z: Vec<f32>,
     highest_m: f64,
+    level: bool,
 }
 
 impl GroundGrid {
@@ -30,7 +31,7 @@ impl GroundGrid {
         let (width, depth) = (high.0 + reach_m - low.0, high.1 + reach_m - low.1);
         let cell_m = (width * depth / MAX_POINTS).sqrt().max(4.0);
         let (columns, rows) = ((width / cell_m).ceil() as usize + 2, (depth / cell_m).ceil() as usize + 2);
-        let mut grid = Self { low, cell_m, columns, rows, z: vec![f32::NAN; columns * rows], highest_m: 0.0 };
+        let mut grid = Self { low, cell_m, columns, rows, z: vec![f32::NAN; columns * rows], highest_m: 0.0, level: false };
         grid.fill_near(track, ground, reach_m, first.z as f32);
         grid
     }
@@ -60,7 +61,9 @@ impl GroundGrid {
                 *z = missing;
             }
         }
+        let lowest = self.z.iter().copied().fold(f32::MAX, f32::min);
         self.highest_m = f64::from(self.z.iter().copied().fold(f32::MIN, f32::max));
+        self.level = f64::from(lowest) == self.highest_m;
     }
 
     /// The highest sample.
@@ -76,6 +79,9 @@ impl GroundGrid {
 
     /// Height at a place, metres.
     pub fn z_m(&self, x_m: f64, y_m: f64) -> f64 {
+        if self.level {
+            return self.highest_m;
+        }
         let (c, r, u, v) = self.cell(x_m, y_m);
         let at = |c: usize, r: usize| f64::from(self.z[r * self.columns + c]);
         let near = at(c, r) * (1.0 - u) + at(c + 1, r) * u;
