@@ -94,11 +94,14 @@ impl BoxBvh {
 
     #[inline(always)]
     fn blocked_eight(&self, from_in_world: DVec3, ends: &[DVec3; shaft::RAYS], out: &mut [bool; shaft::RAYS]) {
-        let hidden =
-            if self.has_wild { None } else { shaft::blocked(self.level, &self.tree, &self.slots, from_in_world, ends) };
-        match hidden {
+        match shaft::blocked(self.level, &self.tree, &self.slots, from_in_world, ends) {
             Some(mask) => *out = core::array::from_fn(|ray| mask >> ray & 1 == 1),
-            None => *out = ends.map(|end| self.blocked(from_in_world, end)),
+            None => return *out = ends.map(|end| self.blocked(from_in_world, end)),
+        }
+        if self.has_wild {
+            for (&end, out) in ends.iter().zip(out) {
+                *out = *out || self.blocked_by(self.wild(), from_in_world, end);
+            }
         }
     }
 
