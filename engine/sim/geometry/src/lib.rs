@@ -4,14 +4,14 @@ pub mod bounds;
 pub mod box_bvh;
 pub mod brute_force;
 pub mod bvh;
-pub mod lanes;
+mod lanes;
 pub mod oriented_box;
 pub mod query;
 pub mod shape;
 pub mod shape_bvh;
 pub mod triangle;
 pub mod turned_box;
-pub mod wide;
+mod wide;
 
 pub use bounds::Bounds;
 pub use box_bvh::BoxBvh;
