@@ -139,7 +139,7 @@ fn no_voxel_path_comes_nearer_than_the_clearance_and_both_trees_find_one_cost() 
 }
 
 #[test]
-fn a_target_in_a_sealed_place_has_no_path_and_a_long_track_is_refused() {
+fn sealed_places_long_tracks_and_broken_ones_are_refused_in_words() {
     let scene = Scene::generate(SceneKind::Light, 1);
     let config = MucoConfig::default();
     let track = track_of(&scene, 10);
@@ -151,10 +151,22 @@ fn a_target_in_a_sealed_place_has_no_path_and_a_long_track_is_refused() {
         }
     });
     let mut long = track.clone();
-    long.states = track.states.iter().cycle().take(100_000).copied().collect();
+    long.states = vec![track.states[0]; 100_000];
     with_input(&long, &[], &config, |input| {
         assert!(plan_baseline(Baseline::Astar, input).expect_err("too long").contains("nodes"));
     });
+    let mut lost = track.clone();
+    lost.states[3].feet_in_world.x = f64::NAN;
+    let mut leaping = track.clone();
+    leaping.states[3].feet_in_world.x += 1e9;
+    for (broken, word) in [(lost, "finite"), (leaping, "frame 3")] {
+        with_input(&broken, &[], &config, |input| {
+            for baseline in Baseline::ALL {
+                let reason = plan_baseline(baseline, input).expect_err("refused");
+                assert!(reason.contains(word), "{reason}");
+            }
+        });
+    }
     let one = TargetTrack { states: track.states[..1].to_vec(), ..track.clone() };
     with_input(&one, &[], &config, |input| {
         assert_eq!(plan_baseline(Baseline::Astar, input).expect("one frame").waypoints.len(), 1);

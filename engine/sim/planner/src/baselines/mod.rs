@@ -19,6 +19,7 @@ pub mod queue;
 pub mod sight;
 
 use crate::config::MucoConfig;
+use crate::muco::track_check::check_track;
 use crate::obstacles::ground::GroundGrid;
 use crate::problem::Problem;
 use cosfly_frames::{DVec2, DVec3, TargetTrack};
@@ -97,21 +98,20 @@ pub fn plan_baseline_with(
     input: &BaselineInput<'_>,
     options: VoxelOptions,
 ) -> Result<BaselinePath, String> {
-    if kind == Baseline::Dp {
-        return lattice_path::lattice_path(input);
-    }
+    input.config.validate().map_err(|(_, rule)| rule)?;
+    check_track(input.problem.track, input.config.limits.speed_mps)?;
     let (keep_m, influence_m) = (input.config.limits.clearance_m, input.config.view.safety_influence_m);
-    let grid = VoxelGrid::new(input.problem, input.ground, input.config, options)?;
-    let near = near_track(input.problem.track, input.planning_boxes, input.config.search.filter_radius_m);
+    let grid = || VoxelGrid::new(input.problem, input.ground, input.config, options);
+    let near = || near_track(input.problem.track, input.planning_boxes, input.config.search.filter_radius_m);
     match kind {
-        Baseline::Astar => astar::astar(&grid, &PlainBvh::build(&near), keep_m, influence_m),
-        Baseline::AstarFast => astar::astar(&grid, &BoxBvh::build(near), keep_m, influence_m),
+        Baseline::Astar => astar::astar(&grid()?, &PlainBvh::build(&near()), keep_m, influence_m),
+        Baseline::AstarFast => astar::astar(&grid()?, &BoxBvh::build(near()), keep_m, influence_m),
         Baseline::AstarSmoothed => {
-            let found = astar::astar(&grid, &BoxBvh::build(near), keep_m, influence_m)?;
+            let found = astar::astar(&grid()?, &BoxBvh::build(near()), keep_m, influence_m)?;
             Ok(flyable::made_flyable(input, found))
         }
-        Baseline::Beam => beam::beam(&grid, &BoxBvh::build(near), keep_m, influence_m, beam::WIDTH),
-        Baseline::Dp => Err("unreachable".to_owned()),
+        Baseline::Beam => beam::beam(&grid()?, &BoxBvh::build(near()), keep_m, influence_m, beam::WIDTH),
+        Baseline::Dp => lattice_path::lattice_path(input),
     }
 }
 
