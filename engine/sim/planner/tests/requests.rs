@@ -26,11 +26,8 @@ fn positions(flight: &Trajectory) -> Vec<DVec3> {
 }
 
 fn straight(frames: usize, y: f64) -> TargetTrack {
-    let state = |i: usize| TargetState {
-        feet_in_world: DVec3::new(0.6 * i as f64, y, 0.0),
-        heading_rad: 0.0,
-        speed_mps: 1.2,
-    };
+    let state =
+        |i: usize| TargetState { feet_in_world: DVec3::new(0.6 * i as f64, y, 0.0), heading_rad: 0.0, speed_mps: 1.2 };
     TargetTrack { dt_s: 0.5, height_m: 1.75, radius_m: 0.3, states: (0..frames).map(state).collect() }
 }
 

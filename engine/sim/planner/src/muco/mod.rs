@@ -20,6 +20,7 @@ pub mod refine;
 pub mod scan;
 pub mod search;
 pub mod smoother;
+pub mod stretches;
 pub mod track_check;
 pub mod viterbi;
 

@@ -2,6 +2,7 @@
 
 use super::attempts::{Found, THOROUGH, escalate};
 use super::judge::Judge;
+use super::stretches::{STRETCH_FRAMES, plan_stretches};
 use super::track_check::check_track;
 use crate::certificate::{Kinematics, certify, term_costs};
 use crate::config::MucoConfig;
@@ -110,6 +111,21 @@ fn repeated_before<T: Clone>(values: &[T]) -> Vec<T> {
 }
 
 fn solve(request: &PlanRequest<'_>, terms: &[WeightedTerm], built_in: usize, head: &[DVec3]) -> Result<Found, String> {
+    let one = |request: &PlanRequest<'_>, head: &[DVec3]| solve_at_once(request, terms, built_in, head);
+    // The paper's pipeline needs little memory and no stretches.
+    if request.track.len() <= STRETCH_FRAMES || request.config.preset == Preset::Paper {
+        one(request, head)
+    } else {
+        plan_stretches(request, head, &one)
+    }
+}
+
+fn solve_at_once(
+    request: &PlanRequest<'_>,
+    terms: &[WeightedTerm],
+    built_in: usize,
+    head: &[DVec3],
+) -> Result<Found, String> {
     let (track, config) = (request.track, request.config);
     let walk = Walk::of(track);
     let problem = Problem { track, view: &config.view, walk: &walk, terms, built_in };

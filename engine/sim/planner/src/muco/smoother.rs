@@ -117,7 +117,17 @@ impl<'a> Programme<'a> {
             row
         });
         let multiplier = core::array::from_fn(|k| vec![DVec3::ZERO; copy[k].len()]);
-        Self { wished, nearness, reach, penalty, factor: matrix.factor(), x: start.to_vec(), row: Vec::new(), copy, multiplier }
+        Self {
+            wished,
+            nearness,
+            reach,
+            penalty,
+            factor: matrix.factor(),
+            x: start.to_vec(),
+            row: Vec::new(),
+            copy,
+            multiplier,
+        }
     }
 
     /// Iterates until everything holds or the iterations are used up; returns how many it took.
@@ -188,7 +198,8 @@ mod tests {
     use cosfly_frames::Seed;
 
     const FRAMES: usize = 24;
-    const OBJECTIVE: Objective = Objective { rounds: 1, iterations: 20_000, nearness: 0.3, acceleration: 0.5, jerk: 2.0 };
+    const OBJECTIVE: Objective =
+        Objective { rounds: 1, iterations: 20_000, nearness: 0.3, acceleration: 0.5, jerk: 2.0 };
     const REACH: [f64; 3] = [4.0, 1.2, 1.0];
 
     /// The same programme for an interior-point solver: positions frame by frame, axis by axis.

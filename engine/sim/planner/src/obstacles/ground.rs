@@ -31,7 +31,8 @@ impl GroundGrid {
         let (width, depth) = (high.0 + reach_m - low.0, high.1 + reach_m - low.1);
         let cell_m = (width * depth / MAX_POINTS).sqrt().max(4.0);
         let (columns, rows) = ((width / cell_m).ceil() as usize + 2, (depth / cell_m).ceil() as usize + 2);
-        let mut grid = Self { low, cell_m, columns, rows, z: vec![f32::NAN; columns * rows], highest_m: 0.0, level: false };
+        let mut grid =
+            Self { low, cell_m, columns, rows, z: vec![f32::NAN; columns * rows], highest_m: 0.0, level: false };
         grid.fill_near(track, ground, reach_m, first.z as f32);
         grid
     }
