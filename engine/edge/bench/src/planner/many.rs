@@ -213,23 +213,22 @@ impl ManyReport {
 impl fmt::Display for ManyReport {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let each_ms = 1e3 * self.planning_cpu_s / self.paths.max(1) as f64;
+        let (wall_s, threads) = (self.planning_wall_s, self.threads);
         writeln!(
             f,
-            "{} paths by {}: {:.1} s on {} threads ({each_ms:.2} ms of CPU each), {:.0} times the paper's 25 minutes for 6,000",
-            self.paths, self.planner, self.planning_wall_s, self.threads, self.times_paper
+            "{} paths by {}: {wall_s:.1} s on {threads} threads, {each_ms:.2} ms of CPU each",
+            self.paths, self.planner
         )?;
+        writeln!(f, "{:.0} times as fast as the paper's 25 minutes for 6,000 trajectories", self.times_paper)?;
+        let none = self.paths - self.planned;
+        writeln!(f, "{} flights, {none} paths without; mean visibility {:.4}", self.planned, self.visibility)?;
         writeln!(
             f,
-            "{} flights, {} paths without; mean visibility {:.4}",
-            self.planned,
-            self.paths - self.planned,
-            self.visibility
+            "collisions = {} (swept path nearer than {COLLISION_M} m to an unsimplified box)",
+            self.collisions
         )?;
-        writeln!(
-            f,
-            "collisions = {} (swept path nearer than {COLLISION_M} m to an unsimplified box), nearer than the limit = {}, least clearance {:.3} m",
-            self.collisions, self.margin_violations, self.min_clearance_m
-        )?;
+        let (near, least_m) = (self.margin_violations, self.min_clearance_m);
+        writeln!(f, "nearer than the limit = {near}, least clearance {least_m:.3} m")?;
         writeln!(
             f,
             "beyond the limits = {}; largest speed {:.2} m/s, acceleration {:.2} m/s^2, jerk {:.2} m/s^3",

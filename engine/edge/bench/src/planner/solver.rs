@@ -33,7 +33,7 @@ pub struct SolverRow {
     pub batch_s: f64,
     /// Whether the batch was run; otherwise it is the single path times the number of paths (as in the paper).
     pub batch_was_run: bool,
-    /// CPU milliseconds of one iteration (gradient, step, cost) at all waypoints of the first path, the fastest of five.
+    /// CPU milliseconds of one iteration (gradient, step, cost) at the waypoints of the first path, the fastest of five.
     pub iteration_ms: f64,
 }
 

@@ -208,12 +208,12 @@ impl fmt::Display for PlannerTable {
 
 /// What the heads of [`PlannerTable`] mean, for the end of a printed table.
 pub const LEGEND: &str = "\
-vis: mean share of body points seen; opt: the same as a share of what the best way through the lattice sees; >=.5: share
-of frames that see half of them; dist: to the feet, m; len: of the flight, m; ratio: to the walk; clear: least distance of
-the swept path to any box, m; hit, near: segments closer than 0.5 m and than the limit; v, a, j: largest speed,
-acceleration, jerk (m, s); rear: degrees off the walker's back; none: paths without a flight; ms: CPU time of the
-planning thread, mean and median; faster: median over paths of A*'s time by this one's. All flights are judged against the
-unsimplified map.
+vis: mean share of body points seen; opt: the same as a share of what the best way through the lattice sees;
+>=.5: share of frames that see half of them; dist: to the feet, m; len: of the flight, m; ratio: to the walk;
+clear: least distance of the swept path to any box, m; hit, near: segments closer than 0.5 m and than the limit;
+v, a, j: largest speed, acceleration, jerk (m, s); rear: degrees off the walker's back; none: paths without a flight;
+ms: CPU time of the planning thread, mean and median; faster: median over paths of A*'s time by this one's.
+All flights are judged against the unsimplified map.
 ";
 
 #[cfg(test)]

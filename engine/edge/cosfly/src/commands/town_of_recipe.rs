@@ -14,8 +14,8 @@ use cosfly_stages::read;
 use cosfly_store::Store;
 use std::path::Path;
 
-/// The town, the walks, and the planner's parameters of the first `muco` stage of a recipe; with another number of walks
-/// or another seed where that is given.
+/// The town, the walks, and the planner's parameters of the first `muco` stage of a recipe; with another number of
+/// walks or another seed where that is given.
 pub fn town_of_recipe(path: &Path, paths: Option<usize>, seed: Option<u64>) -> Result<(Ground, MucoConfig), Refusals> {
     let registry = cosfly_stages::registry();
     let mut overrides: Vec<String> = seed.map(|seed| format!("seed={seed}")).into_iter().collect();
