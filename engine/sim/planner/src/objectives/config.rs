@@ -51,6 +51,9 @@ pub struct InspectConfig {
     /// Highest building that is chosen, metres. Default 40.
     #[schemars(range(min = 2.0, max = 400.0))]
     pub max_height_m: f64,
+    /// Fewest of a building's four sides that must have room for a drone in front of them. Default 2.
+    #[schemars(range(min = 1, max = 4))]
+    pub min_sides: u32,
     /// Longest flight, seconds; buildings that take longer are not chosen. Default 400.
     #[schemars(range(min = 10.0, max = 4000.0))]
     pub max_duration_s: f64,
@@ -91,6 +94,7 @@ impl Default for InspectConfig {
             speed_mps: 2.0,
             min_height_m: 6.0,
             max_height_m: 40.0,
+            min_sides: 2,
             max_duration_s: 400.0,
         }
     }

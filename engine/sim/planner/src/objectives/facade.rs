@@ -73,19 +73,24 @@ pub fn hull(boxes: &[OrientedBox]) -> Option<OrientedBox> {
     Some(OrientedBox { center_in_world: center, half_extents_m: 0.5 * (high - low), yaw_rad })
 }
 
-/// Share of a building's outer walls that a flight has seen.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+/// What of a building's outer walls a flight has seen.
+#[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Coverage {
-    /// Cells seen at least once.
-    pub seen: usize,
+    /// Cells seen for the first time, per frame.
+    pub new_cells: Vec<usize>,
     /// All cells in the open.
     pub cells: usize,
 }
 
 impl Coverage {
-    /// 0..=1; 0 without cells.
+    /// Share of the cells seen at least once, 0..=1; 0 without cells.
     pub fn share(&self) -> f64 {
-        if self.cells == 0 { 0.0 } else { self.seen as f64 / self.cells as f64 }
+        self.new_cells.iter().sum::<usize>() as f64 / self.cells.max(1) as f64
+    }
+
+    /// Share of the cells seen for the first time, per frame.
+    pub fn gained(&self) -> Vec<f64> {
+        self.new_cells.iter().map(|new| *new as f64 / self.cells.max(1) as f64).collect()
     }
 }
 
@@ -103,9 +108,13 @@ pub fn coverage(site: &Site<'_>, boxes: &[OrientedBox], poses: &[Pose], standoff
             && sight.dot(axis) >= view * distance_m
             && !site.exact.blocked(pose.position_in_world, cell)
     };
-    let is_seen =
-        |&(cell, normal): &(DVec3, DVec3)| poses.iter().zip(&axes).any(|(pose, &axis)| sees(pose, axis, cell, normal));
-    Coverage { seen: cells.iter().filter(|cell| is_seen(cell)).count(), cells: cells.len() }
+    let mut new_cells = vec![0; poses.len()];
+    for &(cell, normal) in &cells {
+        if let Some(frame) = poses.iter().zip(&axes).position(|(pose, &axis)| sees(pose, axis, cell, normal)) {
+            new_cells[frame] += 1;
+        }
+    }
+    Coverage { new_cells, cells: cells.len() }
 }
 
 /// Middles of the cells of all walls in the open, just in front of them, and the walls' normals.

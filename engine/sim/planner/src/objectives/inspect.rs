@@ -59,7 +59,7 @@ pub fn mission(site: &Site<'_>, wanted: &InspectConfig, config: &MucoConfig, see
         let Some(shape) = hull(&site.structures[structure]).filter(|shape| has_size(shape, wanted)) else { continue };
         of_size += 1;
         let open = open_sides(site, &shape, wanted, config.limits.clearance_m);
-        if open.is_empty() {
+        if open.len() < wanted.min_sides as usize {
             continue;
         }
         with_room += 1;
@@ -70,9 +70,10 @@ pub fn mission(site: &Site<'_>, wanted: &InspectConfig, config: &MucoConfig, see
     }
     Err(format!(
         "none of the town's {} buildings can be inspected: {of_size} are of the wanted size, {with_room} of these have room \
-         for a drone {} m from a side, and none takes less than {} s",
+         for a drone {} m from at least {} of their sides, and none of these takes less than {} s",
         site.structures.len(),
         wanted.standoff_m,
+        wanted.min_sides,
         wanted.max_duration_s
     ))
 }
