@@ -3,9 +3,11 @@
 mod caching;
 mod crash;
 mod diagnostics;
+mod plan_from;
 mod processors;
 mod repository;
 mod snapshots;
+mod steering;
 mod street;
 mod support;
 mod towns;

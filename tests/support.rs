@@ -1,5 +1,6 @@
 //! Running the real binary, and scratch folders for it.
 
+use std::io::Write;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output, Stdio};
 
@@ -22,6 +23,7 @@ pub fn shared_data() -> Option<PathBuf> {
 /// One call of the binary.
 pub struct Call {
     command: Command,
+    input: Option<String>,
 }
 
 /// What a call printed.
@@ -38,7 +40,7 @@ pub struct Printed {
 pub fn cosfly<S: AsRef<std::ffi::OsStr>>(arguments: &[S]) -> Call {
     let mut command = Command::new(env!("CARGO_BIN_EXE_cosfly"));
     command.args(arguments).current_dir(repository_root()).env_remove("COSFLY_STORE").env("NO_COLOR", "1");
-    Call { command }
+    Call { command, input: None }
 }
 
 impl Call {
@@ -54,9 +56,22 @@ impl Call {
         self
     }
 
+    /// Gives it `text` on standard input; nothing unless called.
+    pub fn fed(mut self, text: &str) -> Self {
+        self.input = Some(text.to_owned());
+        self
+    }
+
     /// Runs to the end.
     pub fn run(mut self) -> Printed {
-        let Output { status, stdout, stderr } = self.command.stdin(Stdio::null()).output().expect("cosfly starts");
+        let stdin = if self.input.is_some() { Stdio::piped() } else { Stdio::null() };
+        let command = self.command.stdin(stdin).stdout(Stdio::piped()).stderr(Stdio::piped());
+        let mut child = command.spawn().expect("cosfly starts");
+        if let (Some(text), Some(mut pipe)) = (self.input, child.stdin.take()) {
+            // A call that refuses early does not listen to the end.
+            let _ = pipe.write_all(text.as_bytes());
+        }
+        let Output { status, stdout, stderr } = child.wait_with_output().expect("cosfly runs");
         Printed {
             stdout: String::from_utf8(stdout).expect("UTF-8"),
             stderr: String::from_utf8(stderr).expect("UTF-8"),

@@ -32,7 +32,7 @@ Examples:
 
 Exit codes:
     0  everything was done
-    1  `verify` found something wrong
+    1  `verify` found something wrong, or `plan-from` no flight
     2  the command line was not understood
     3  the recipe asks for something that cannot be
     4  an input file or the store is broken or does not fit
@@ -52,6 +52,19 @@ Examples:
     Run(RunArguments),
     /// Show the DAG of a recipe: items per stage, what is cached, what would run and why, predicted size
     Plan(PlanArguments),
+    /// Ask a finished recipe's expert how to go on from any state of a drone (relabelling, as for DAgger)
+    #[command(after_help = "\
+Examples:
+  cosfly plan-from recipes/small.toml --trajectory expert-p00000 --frame 5 --position 60 60 24
+  cosfly plan-from recipes/small.toml --trajectory perturbed-p00000 --frame 8 --position 60 61 24 \\
+      --velocity 1 0 0 --horizon 4 --json
+  cosfly plan-from recipes/small.toml --batch < states.jsonl > answers.jsonl
+
+A line of a batch is like
+  {\"trajectory\": \"expert-p00000\", \"frame\": 5, \"position\": [60, 60, 24], \"velocity\": [1, 0, 0], \"horizon_s\": 4}
+velocity and horizon_s may be left out. Each answer is one line of JSON, written at once. Places are in the world
+frame, metres. `cosfly run` must have made the recipe's trajectories before.")]
+    PlanFrom(PlanFromArguments),
     /// Say which field or input changed since a stage or an item was last made
     #[command(after_help = "\
 Examples:
@@ -124,6 +137,36 @@ pub struct PlanArguments {
     pub recipe: RecipeArguments,
     #[command(flatten)]
     pub store: StoreArguments,
+}
+
+/// Arguments of `plan-from`.
+#[derive(Args, Debug)]
+pub struct PlanFromArguments {
+    #[command(flatten)]
+    pub recipe: RecipeArguments,
+    #[command(flatten)]
+    pub store: StoreArguments,
+    /// The trajectory that the drone left, such as expert-p00000; of a twin, its expert answers
+    #[arg(long, value_name = "ID", required_unless_present = "batch")]
+    pub trajectory: Option<String>,
+    /// Frame of the trajectory at which the drone is there
+    #[arg(long, value_name = "N", required_unless_present = "batch")]
+    pub frame: Option<usize>,
+    /// Where the drone is, metres
+    #[arg(long, num_args = 3, value_names = ["X", "Y", "Z"], allow_negative_numbers = true, required_unless_present = "batch")]
+    pub position: Option<Vec<f64>>,
+    /// How it moves, m/s
+    #[arg(long, num_args = 3, value_names = ["X", "Y", "Z"], allow_negative_numbers = true, default_values_t = [0.0, 0.0, 0.0], hide_default_value = true)]
+    pub velocity: Vec<f64>,
+    /// How far to plan [default: to the trajectory's end]
+    #[arg(long, value_name = "SECONDS")]
+    pub horizon: Option<f64>,
+    /// Print JSON
+    #[arg(long)]
+    pub json: bool,
+    /// Read states from standard input, one JSON object per line, and answer each with one line of JSON
+    #[arg(long, conflicts_with_all = ["trajectory", "frame", "position", "velocity", "horizon"])]
+    pub batch: bool,
 }
 
 /// Arguments of `why`.

@@ -21,6 +21,7 @@ fn main() -> ExitCode {
     let outcome = match Arguments::parse().command {
         Command::Run(arguments) => commands::run::run(&arguments),
         Command::Plan(arguments) => commands::plan::plan(&arguments),
+        Command::PlanFrom(arguments) => commands::plan_from::plan_from(&arguments),
         Command::Why(arguments) => commands::why::why(&arguments),
         Command::Graph(arguments) => commands::graph::graph(&arguments),
         Command::Verify(arguments) => commands::verify::verify(&arguments),

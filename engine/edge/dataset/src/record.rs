@@ -228,7 +228,7 @@ pub fn captions_from_bytes(bytes: &[u8]) -> Result<Vec<CaptionRecord>> {
     decode("captions", CAPTIONS_MAGIC, bytes)
 }
 
-const TRAJECTORY_MAGIC: &[u8; 8] = b"CFTRAJ\x00\x01";
+const TRAJECTORY_MAGIC: &[u8; 8] = b"CFTRAJ\x00\x02";
 const PREVIEWS_MAGIC: &[u8; 8] = b"CFPREV\x00\x01";
 const CAPTIONS_MAGIC: &[u8; 8] = b"CFCAPT\x00\x01";
 

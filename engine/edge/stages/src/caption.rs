@@ -36,7 +36,7 @@ impl StageKind for Caption {
         let config: CaptionConfig = parameters::read(given)?;
         let properties = StageProperties {
             kind: self.name().into(),
-            version: 1,
+            version: 2,
             parameters: parameters::canonical(&config),
             sources: vec![],
             inputs: self.ports(),
@@ -67,6 +67,11 @@ impl Stage for CaptionStage {
                 return Ok(Produced { rejected: Some(reason), ..Produced::default() });
             }
         };
+        if trajectory.track.radius_m == 0.0 {
+            // Nobody is followed: the texts know how to speak of walkers only.
+            outputs.put("captions", &captions_to_bytes(&[]))?;
+            return Ok(Produced::default());
+        }
         let facts = facts(&trajectory);
         let texts: Vec<Text> = captions(&facts, &self.config, Seed(context.seed));
         let mut records = Vec::with_capacity(texts.len());

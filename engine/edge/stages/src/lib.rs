@@ -5,6 +5,7 @@
 mod caption;
 mod codec;
 mod dataset;
+pub mod expert;
 mod map;
 mod memo;
 mod muco;
@@ -14,7 +15,7 @@ mod perturb;
 mod ports;
 pub mod read;
 mod render;
-mod world;
+pub mod world;
 
 use cosfly_stage::{Registry, Stage};
 

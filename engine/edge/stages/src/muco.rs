@@ -1,12 +1,15 @@
 //! `muco`: expert trajectories from the multi-constraint optimiser.
 
+use crate::expert::{Companion, Expert, nearest_companions};
 use crate::ports::{self, TRAJECTORY, WALK};
 use crate::world::{check_same_town, link_town, world};
-use crate::{codec, parameters, single};
-use cosfly_diagnose::Result;
-use cosfly_frames::Seed;
+use crate::{codec, single};
+use cosfly_diagnose::{Diagnostic, Fault, Result};
+use cosfly_frames::{Seed, TargetTrack};
 use cosfly_pedestrians::PedestrianPath;
-use cosfly_planner::{MucoConfig, PlanOutcome, plan};
+use cosfly_planner::PlanOutcome;
+use cosfly_planner::objectives::Objective;
+use cosfly_planner::objectives::config::DT_S;
 use cosfly_stage::{
     InputPort, Inputs, ItemRule, OutputSink, ParameterError, Produced, Stage, StageKind, StagePart, StageProperties,
     TaskContext,
@@ -21,36 +24,52 @@ impl StageKind for Muco {
     }
 
     fn doc(&self) -> &'static str {
-        "Plans an expert drone trajectory behind every pedestrian: nine cost terms, safety layers, a certificate."
+        "Plans expert drone trajectories behind pedestrians, around buildings or along waypoints: cost terms, a safe corridor, a certificate."
     }
 
     fn schema(&self) -> serde_json::Value {
-        parameters::schema_of::<MucoConfig>()
+        Expert::schema()
     }
 
     fn ports(&self) -> Vec<InputPort> {
-        vec![ports::town(), ports::each("paths", WALK, false, "The walks to follow, one trajectory each.")]
+        let optional = |port| InputPort { optional: true, ..port };
+        vec![ports::town(), optional(paths()), optional(others())]
     }
 
     fn build(&self, given: serde_json::Value) -> Result<Vec<StagePart>, ParameterError> {
-        let config: MucoConfig = parameters::read(given)?;
-        config.validate().map_err(|(path, message)| parameters::refused_at(&path, message))?;
+        let expert = Expert::read(given)?;
+        let (inputs, items) = match expert.objective.count() {
+            None => {
+                let optional = expert.config.targets.companions == 0;
+                let ports = vec![ports::town(), paths(), InputPort { optional, ..others() }];
+                (ports, ItemRule::PerInput("paths"))
+            }
+            Some(count) => (vec![ports::town()], ItemRule::Count { prefix: "f", count }),
+        };
         let properties = StageProperties {
             kind: self.name().into(),
-            version: 1,
-            parameters: parameters::canonical(&config),
+            version: 2,
+            parameters: expert.canonical(),
             sources: vec![],
-            inputs: self.ports(),
+            inputs,
             artifact: TRAJECTORY,
-            items: ItemRule::PerInput("paths"),
+            items,
             bytes_per_item: 60_000,
         };
-        Ok(single(MucoStage { config, properties }))
+        Ok(single(MucoStage { expert, properties }))
     }
 }
 
+fn paths() -> InputPort {
+    ports::each("paths", WALK, false, "The walks to follow, one trajectory each; `objective = \"track\"` needs them.")
+}
+
+fn others() -> InputPort {
+    ports::gather("others", WALK, false, "The walks that companions are taken from; `targets.companions` needs them.")
+}
+
 struct MucoStage {
-    config: MucoConfig,
+    expert: Expert,
     properties: StageProperties,
 }
 
@@ -60,15 +79,79 @@ impl Stage for MucoStage {
     }
 
     fn run(&self, inputs: &Inputs<'_>, outputs: &mut dyn OutputSink, context: &TaskContext) -> Result<Produced> {
-        check_same_town(inputs, "paths")?;
         let world = world(inputs)?;
-        let walk: PedestrianPath = codec::decode(WALK, &inputs.read(inputs.one("paths")?, "walk")?)?;
-        let ground = |x: f64, y: f64| world.ground.ground_height_m(x, y).unwrap_or(0.0);
-        let outcome =
-            plan(&walk.track, &world.exact, &world.town.planning_boxes, &ground, &self.config, Seed(context.seed));
+        let (walk, companions) = if self.expert.objective.objective == Objective::Track {
+            check_same_town(inputs, "paths")?;
+            let walk: PedestrianPath = codec::decode(WALK, &inputs.read(inputs.one("paths")?, "walk")?)?;
+            let companions = self.companions(inputs, &walk.track)?;
+            (Some(walk.track), companions)
+        } else {
+            (None, vec![])
+        };
+        let (outcome, findings) = match self.expert.flight(&world, walk, companions, Seed(context.seed)) {
+            Ok(flight) => {
+                let outcome = flight.plan(&world);
+                let findings = match &outcome {
+                    PlanOutcome::Planned(trajectory) => flight.findings(&world, trajectory),
+                    PlanOutcome::Rejected { .. } => Default::default(),
+                };
+                (outcome, findings)
+            }
+            Err(reason) => {
+                let track = TargetTrack { dt_s: DT_S, height_m: 0.0, radius_m: 0.0, states: vec![] };
+                (PlanOutcome::Rejected { track, reason }, Default::default())
+            }
+        };
         outputs.put("trajectory", &codec::encode(TRAJECTORY, &outcome)?)?;
         link_town(inputs, outputs)?;
-        Ok(produced(&outcome))
+        let mut produced = produced(&outcome);
+        produced.notes.extend(findings.0);
+        produced.warnings.extend(findings.1);
+        Ok(produced)
+    }
+}
+
+impl MucoStage {
+    /// The walks that stay nearest to the one at `paths`.
+    fn companions(&self, inputs: &Inputs<'_>, track: &TargetTrack) -> Result<Vec<Companion>> {
+        let count = self.expert.config.targets.companions as usize;
+        if count == 0 {
+            return Ok(vec![]);
+        }
+        check_same_town(inputs, "others")?;
+        let own = inputs.one("paths")?;
+        let mut others = vec![];
+        for artifact in inputs.all("others").iter().filter(|it| (&it.stage, &it.item) != (&own.stage, &own.item)) {
+            let walk =
+                inputs.decoded(artifact, "walk", |bytes| codec::decode::<PedestrianPath>(WALK, bytes))?.track.clone();
+            if (walk.len(), walk.dt_s) != (track.len(), track.dt_s) {
+                let message = format!(
+                    "`{}/{}` has {} steps of {} s, `{}/{}` has {} of {} s: they cannot be companions",
+                    artifact.stage,
+                    artifact.item,
+                    walk.len(),
+                    walk.dt_s,
+                    own.stage,
+                    own.item,
+                    track.len(),
+                    track.dt_s
+                );
+                return Err(Diagnostic::new("companions-differ", Fault::Recipe, message)
+                    .hint("connect `inputs.others` to walkers with the same `steps` and `dt_s`"));
+            }
+            others.push((artifact.item.clone(), walk));
+        }
+        if others.len() < count {
+            let message = format!(
+                "`targets.companions` is {count}, but `inputs.others` brings {} walks beside `{}/{}`",
+                others.len(),
+                own.stage,
+                own.item
+            );
+            return Err(Diagnostic::new("companions-few", Fault::Recipe, message)
+                .hint("raise the walkers' `count`, or ask for fewer companions"));
+        }
+        Ok(nearest_companions(track, others, count))
     }
 }
 

@@ -51,6 +51,33 @@ pub fn joined_canonical<A: Serialize, B: Serialize>(outer: &A, inner: &B, key: &
     all
 }
 
+/// The schema of `A` and `B` side by side in one table; their properties have different names.
+pub fn merged_schema<A: JsonSchema, B: JsonSchema>() -> serde_json::Value {
+    let (mut all, mut more) = (schema_of::<A>(), schema_of::<B>());
+    for part in ["properties", "$defs"] {
+        let taken = more.as_object_mut().and_then(|table| table.remove(part));
+        for (name, definition) in taken.iter().filter_map(serde_json::Value::as_object).flatten() {
+            all[part][name] = definition.clone();
+        }
+    }
+    all
+}
+
+/// Reads what [`merged_schema`] describes.
+pub fn read_merged<A: DeserializeOwned, B: DeserializeOwned + JsonSchema>(
+    mut parameters: serde_json::Value,
+) -> Result<(A, B), ParameterError> {
+    let schema = schema_of::<B>();
+    let names = schema["properties"].as_object().into_iter().flat_map(|properties| properties.keys());
+    let mut second = serde_json::Map::new();
+    for name in names {
+        if let Some(value) = parameters.as_object_mut().and_then(|table| table.remove(name)) {
+            second.insert(name.clone(), value);
+        }
+    }
+    Ok((read(parameters)?, read(second.into())?))
+}
+
 /// A refusal that points at `path`, keys and list positions as in `view.pitch[1]`; empty is the whole table.
 pub fn refused_at(path: &str, message: impl Into<String>) -> ParameterError {
     let keys = path.split(['.', '[', ']']).filter(|key| !key.is_empty());

@@ -7,7 +7,7 @@ pub const TOWN: &str = "town/1";
 /// Artifact of a pedestrian's walk.
 pub const WALK: &str = "walk/1";
 /// Artifact of a planned or perturbed trajectory.
-pub const TRAJECTORY: &str = "trajectory/1";
+pub const TRAJECTORY: &str = "trajectory/2";
 /// Artifact of a rendered trajectory.
 pub const FRAMES: &str = "frames/1";
 /// Artifact of a trajectory's captions.

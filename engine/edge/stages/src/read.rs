@@ -1,15 +1,18 @@
 //! What stages made, read back by tools that are no stages.
 
 use crate::codec;
-use crate::ports::{TOWN, WALK};
+use crate::ports::{TOWN, TRAJECTORY, WALK};
 use cosfly_diagnose::Result;
 use cosfly_maps::Town;
 use cosfly_pedestrians::PedestrianPath;
+use cosfly_planner::PlanOutcome;
 
 /// Name of the blob of a `map` item that holds the town.
 pub const TOWN_BLOB: &str = crate::world::TOWN_BLOB;
 /// Name of the blob of a `pedestrians` item that holds the walk.
 pub const WALK_BLOB: &str = "walk";
+/// Name of the blob of a `muco` or `perturb` item that holds the trajectory.
+pub const TRAJECTORY_BLOB: &str = "trajectory";
 
 /// The town in a blob named [`TOWN_BLOB`].
 ///
@@ -25,4 +28,12 @@ pub fn town(bytes: &[u8]) -> Result<Town> {
 /// As [`town`].
 pub fn walk(bytes: &[u8]) -> Result<PedestrianPath> {
     codec::decode(WALK, bytes)
+}
+
+/// The trajectory in a blob named [`TRAJECTORY_BLOB`], or why there is none.
+///
+/// # Errors
+/// As [`town`].
+pub fn trajectory(bytes: &[u8]) -> Result<PlanOutcome> {
+    codec::decode(TRAJECTORY, bytes)
 }

@@ -48,7 +48,7 @@ impl StageKind for Render {
         let pixels = u64::from(config.width) * u64::from(config.height);
         let properties = StageProperties {
             kind: self.name().into(),
-            version: 1,
+            version: 2,
             parameters: parameters::joined_canonical(&config, &encoding, "encoding"),
             sources: vec![],
             inputs: self.ports(),
@@ -150,9 +150,11 @@ impl RenderStage {
                     gait_phase_rad: gait_phase_rad(walked_m, track.height_m),
                     visible_by_rays: trajectory.visibility[frame],
                 };
-                let rendered = renderer.render(scene, &FrameSetup { pose: *pose, weather, target: Some(target) });
+                // A point without extent is nobody: it is watched, not drawn.
+                let target = Some(target).filter(|target| target.radius_m > 0.0);
+                let rendered = renderer.render(scene, &FrameSetup { pose: *pose, weather, target });
                 pack.frame(rendered.images)?;
-                views.push(rendered.target_view);
+                views.push(TargetView { visible_by_rays: trajectory.visibility[frame], ..rendered.target_view });
             }
             pack.finish().map(drop)
         })?;

@@ -18,6 +18,15 @@ pub struct World {
     pub ground: GroundIndex,
 }
 
+impl World {
+    /// Makes a town ready.
+    pub fn new(town: Town) -> Self {
+        let exact = BoxBvh::build(town.obstacles.iter().map(|obstacle| obstacle.shape).collect());
+        let ground = GroundIndex::new(&town);
+        Self { town, exact, ground }
+    }
+}
+
 /// Every artifact that was made in a town carries the town's own blob under this name (a link, not a copy).
 pub const TOWN_BLOB: &str = "town";
 
@@ -48,10 +57,5 @@ pub fn check_same_town(inputs: &Inputs<'_>, port: &str) -> Result<()> {
 
 /// The town at port `town` of a task.
 pub fn world(inputs: &Inputs<'_>) -> Result<Arc<World>> {
-    inputs.decoded(inputs.one("town")?, TOWN_BLOB, |bytes| {
-        let town: Town = codec::decode(TOWN, bytes)?;
-        let exact = BoxBvh::build(town.obstacles.iter().map(|obstacle| obstacle.shape).collect());
-        let ground = GroundIndex::new(&town);
-        Ok(World { town, exact, ground })
-    })
+    inputs.decoded(inputs.one("town")?, TOWN_BLOB, |bytes| codec::decode(TOWN, bytes).map(World::new))
 }

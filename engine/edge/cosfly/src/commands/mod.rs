@@ -3,8 +3,10 @@
 pub mod bench;
 pub mod bench_planner;
 pub mod collect;
+pub mod expert_of_recipe;
 pub mod graph;
 pub mod plan;
+pub mod plan_from;
 pub mod run;
 pub mod schema;
 pub mod task;

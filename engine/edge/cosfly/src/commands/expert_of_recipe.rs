@@ -1,0 +1,155 @@
+//! The experts of a recipe's finished run, to be asked again: towns, walks and parameters out of the store.
+
+use cosfly_diagnose::{Diagnostic, Fault, Result, nearest_name};
+use cosfly_frames::{Seed, TargetTrack};
+use cosfly_planner::PlanOutcome;
+use cosfly_recipe::Arrival;
+use cosfly_runner::Plan;
+use cosfly_stage::{Artifact, BlobSource};
+use cosfly_stages::expert::{Companion, Expert, Flight, nearest_companions};
+use cosfly_stages::read;
+use cosfly_stages::world::World;
+use cosfly_store::Store;
+use std::collections::BTreeMap;
+use std::sync::Arc;
+
+/// Experts by the ids of their published trajectories; each town and each flight is made ready once.
+pub struct Experts<'a> {
+    plan: Plan<'a>,
+    store: &'a Store,
+    /// By the index of the stage that made the town.
+    worlds: BTreeMap<usize, Arc<World>>,
+    flights: BTreeMap<String, Arc<KnownFlight>>,
+}
+
+/// A flight that can be planned again in its town.
+pub struct KnownFlight {
+    /// The town.
+    pub world: Arc<World>,
+    /// What was planned.
+    pub flight: Flight,
+}
+
+impl<'a> Experts<'a> {
+    /// The experts of `plan`, whose artifacts are in `store`.
+    pub fn new(plan: Plan<'a>, store: &'a Store) -> Self {
+        Self { plan, store, worlds: BTreeMap::new(), flights: BTreeMap::new() }
+    }
+
+    /// The flight of a trajectory: `<stage>-<item>` as it is published, or `<stage>/<item>`; of a twin, its expert's.
+    ///
+    /// # Errors
+    /// `plan-from-unknown`, `plan-from-unfinished`, or what is wrong with the store.
+    pub fn flight(&mut self, trajectory: &str) -> Result<Arc<KnownFlight>> {
+        if let Some(known) = self.flights.get(trajectory) {
+            return Ok(Arc::clone(known));
+        }
+        let (stage, item) = self.expert_of(trajectory)?;
+        let known = Arc::new(self.make_ready(stage, item)?);
+        self.flights.insert(trajectory.to_owned(), Arc::clone(&known));
+        Ok(known)
+    }
+
+    /// Stage and item of the expert of a trajectory.
+    fn expert_of(&self, trajectory: &str) -> Result<(usize, usize)> {
+        let (mut stage, mut item) = self.named(trajectory)?;
+        loop {
+            let found = &self.plan.recipe.stages[stage];
+            if found.kind == "muco" {
+                return Ok((stage, item));
+            }
+            let arrival = found.connection("trajectories").and_then(|connection| connection.arrivals.get(item));
+            let arrival = arrival.ok_or_else(|| unknown(trajectory, &[]))?;
+            (stage, item) = (arrival.stage, arrival.item);
+        }
+    }
+
+    fn named(&self, trajectory: &str) -> Result<(usize, usize)> {
+        let mut names = Vec::new();
+        let stages = self.plan.recipe.stages.iter().enumerate();
+        for (index, stage) in stages.filter(|(_, stage)| matches!(stage.kind.as_str(), "muco" | "perturb")) {
+            let rest = trajectory.strip_prefix(stage.name.as_str());
+            if let Some(id) = rest.and_then(|rest| rest.strip_prefix(['-', '/']))
+                && let Some(item) = stage.items.iter().position(|item| &**item == id)
+            {
+                return Ok((index, item));
+            }
+            names.extend(stage.items.iter().take(1000).map(|item| format!("{}-{item}", stage.name)));
+        }
+        Err(unknown(trajectory, &names))
+    }
+
+    fn make_ready(&mut self, stage: usize, item: usize) -> Result<KnownFlight> {
+        let described = &self.plan.recipe.stages[stage];
+        let name = format!("{}-{}", described.name, described.items[item]);
+        let broken = |rule: String| Diagnostic::new("plan-from-parameters", Fault::Bug, rule);
+        let expert = Expert::read(described.stage.properties().parameters.clone()).map_err(|it| broken(it.message))?;
+        let town = described.connection("town").and_then(|connection| connection.arrivals.first().cloned());
+        let world = self.world(&town.ok_or_else(|| broken(format!("`{name}` has no town")))?)?;
+        let own = Arrival { id: Arc::from(""), stage, item };
+        let artifact = self.artifact(&own)?;
+        let outcome = read::trajectory(&self.store.read(&artifact.blobs[read::TRAJECTORY_BLOB])?)?;
+        let track = match outcome {
+            PlanOutcome::Planned(flight) => flight.track,
+            PlanOutcome::Rejected { track, .. } => track,
+        };
+        let companions = self.companions(stage, item, &track, expert.config.targets.companions as usize)?;
+        let seed = Seed::of_item(self.plan.recipe.seed, &described.name, &described.items[item]);
+        let flight = expert.flight(&world, Some(track), companions, seed).map_err(|reason| {
+            Diagnostic::new("plan-from-nothing", Fault::Recipe, format!("`{name}` has no flight to go on from"))
+                .because(reason)
+        })?;
+        Ok(KnownFlight { world, flight })
+    }
+
+    fn world(&mut self, town: &Arrival) -> Result<Arc<World>> {
+        if let Some(world) = self.worlds.get(&town.stage) {
+            return Ok(Arc::clone(world));
+        }
+        let artifact = self.artifact(town)?;
+        let world = Arc::new(World::new(read::town(&self.store.read(&artifact.blobs[read::TOWN_BLOB])?)?));
+        self.worlds.insert(town.stage, Arc::clone(&world));
+        Ok(world)
+    }
+
+    fn companions(&self, stage: usize, item: usize, track: &TargetTrack, count: usize) -> Result<Vec<Companion>> {
+        let described = &self.plan.recipe.stages[stage];
+        let Some(others) = described.connection("others").filter(|_| count > 0) else { return Ok(vec![]) };
+        let own = described.connection("paths").and_then(|paths| paths.arrivals.get(item));
+        let is_own = |other: &&Arrival| own.is_some_and(|own| (own.stage, own.item) == (other.stage, other.item));
+        let mut walks = Vec::new();
+        for other in others.arrivals.iter().filter(|other| !is_own(other)) {
+            let artifact = self.artifact(other)?;
+            let walk = read::walk(&self.store.read(&artifact.blobs[read::WALK_BLOB])?)?;
+            walks.push((other.id.to_string(), walk.track));
+        }
+        Ok(nearest_companions(track, walks, count))
+    }
+
+    fn artifact(&self, arrival: &Arrival) -> Result<Artifact> {
+        let recipe = self.plan.recipe;
+        let stage = &recipe.stages[arrival.stage];
+        let item = &stage.items[arrival.item];
+        self.plan.artifact(&stage.name, item).ok_or_else(|| {
+            let message = format!("`{}/{item}` is not in the store as the recipe now asks for it", stage.name);
+            Diagnostic::new("plan-from-unfinished", Fault::Recipe, message)
+                .hint(format!(
+                    "make it first: `cosfly run {}`, with the same `--set` and `--store`",
+                    recipe.path.display()
+                ))
+                .hint(format!("`cosfly why {} {}/{item}` says what changed since", recipe.path.display(), stage.name))
+        })
+    }
+}
+
+fn unknown(trajectory: &str, names: &[String]) -> Box<Diagnostic> {
+    let message = format!("the recipe has no trajectory `{trajectory}`");
+    let diagnostic = Diagnostic::new("plan-from-unknown", Fault::Recipe, message);
+    let known = || names.iter().map(String::as_str);
+    match (nearest_name(trajectory, known()), names) {
+        (Some(near), _) => diagnostic.hint(format!("did you mean `{near}`?")),
+        (None, [first, .., last]) => diagnostic.hint(format!("its trajectories are `{first}` ... `{last}`")),
+        (None, [only]) => diagnostic.hint(format!("its only trajectory is `{only}`")),
+        (None, []) => diagnostic.hint("trajectories come from stages with `use = \"muco\"` or `use = \"perturb\"`"),
+    }
+}

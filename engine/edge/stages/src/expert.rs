@@ -1,0 +1,266 @@
+//! What a `muco` stage plans from: its parameters, a town, a walk and its companions. For the stage itself, and for tools
+//! that ask the same expert again from another state.
+
+use crate::parameters;
+use crate::world::World;
+use cosfly_frames::{Seed, TargetTrack};
+use cosfly_geometry::OrientedBox;
+use cosfly_maps::ObstacleKind;
+use cosfly_planner::objectives::inspect::{self, Inspection};
+use cosfly_planner::objectives::patrol::{self, MET_M, Patrol};
+use cosfly_planner::objectives::{Mission, Objective, ObjectiveConfig, Site, track};
+use cosfly_planner::{MucoConfig, PlanOutcome, StartState, TermCost, Trajectory, plan_request, visibility};
+use cosfly_stage::ParameterError;
+use std::collections::BTreeMap;
+
+/// The parameters of a `muco` stage.
+#[derive(Clone, Debug, Default)]
+pub struct Expert {
+    /// Wishes and limits.
+    pub config: MucoConfig,
+    /// What flights are for.
+    pub objective: ObjectiveConfig,
+}
+
+/// A walk that may accompany another one: its id and track.
+pub type Companion = (String, TargetTrack);
+
+impl Expert {
+    /// The schema of all parameters in one table.
+    pub fn schema() -> serde_json::Value {
+        parameters::merged_schema::<MucoConfig, ObjectiveConfig>()
+    }
+
+    /// Reads parameters as recipes give them, or as [`Self::canonical`] gives them.
+    ///
+    /// # Errors
+    /// Values out of range and contradictions, at their place.
+    pub fn read(given: serde_json::Value) -> Result<Self, ParameterError> {
+        let (config, objective) = parameters::read_merged::<MucoConfig, ObjectiveConfig>(given)?;
+        let refused = |(path, message): (String, String)| parameters::refused_at(&path, message);
+        config.validate().map_err(refused)?;
+        objective.validate(config.limits.speed_mps).map_err(refused)?;
+        if objective.objective != Objective::Track && config.targets.companions > 0 {
+            let message = format!(
+                "`targets.companions` is {}; only `objective = \"track\"` has companions",
+                config.targets.companions
+            );
+            return Err(parameters::refused_at("targets.companions", message));
+        }
+        Ok(Self { config, objective })
+    }
+
+    /// The parameters with all defaults filled in: what goes into keys. What the objective does not read is left out, and
+    /// so is the number of flights, which is no ingredient of any one of them.
+    pub fn canonical(&self) -> serde_json::Value {
+        let mut all = parameters::canonical(&self.config);
+        let mut objective = parameters::canonical(&self.objective);
+        let key = match self.objective.objective {
+            Objective::Track => return all,
+            Objective::Inspect => "inspect",
+            Objective::Patrol => "patrol",
+        };
+        all["objective"] = objective["objective"].take();
+        all[key] = objective[key].take();
+        if let Some(table) = all[key].as_object_mut() {
+            table.remove("count");
+        }
+        all
+    }
+
+    /// What is flown: behind `walk` and its companions, or what the objective draws from `seed`.
+    ///
+    /// # Errors
+    /// The reason why there is nothing to fly.
+    pub fn flight(
+        &self,
+        world: &World,
+        walk: Option<TargetTrack>,
+        companions: Vec<Companion>,
+        seed: Seed,
+    ) -> Result<Flight, String> {
+        let ground = |x: f64, y: f64| world.ground.ground_height_m(x, y).unwrap_or(0.0);
+        let structures = if self.objective.objective == Objective::Inspect { buildings(world) } else { Vec::new() };
+        let site = Site { exact: &world.exact, structures: &structures, ground: &ground, bounds: bounds(world) };
+        let (mission, purpose) = match (self.objective.objective, walk) {
+            (Objective::Track, Some(walk)) => (track::mission(walk, &self.config), Purpose::Walker),
+            (Objective::Track, None) => return Err("there is no walk to follow".to_owned()),
+            (Objective::Inspect, _) => {
+                let inspection = inspect::mission(&site, &self.objective.inspect, &self.config, seed)?;
+
+                (inspection.mission.clone(), Purpose::Walls(Box::new(inspection)))
+            }
+            (Objective::Patrol, _) => {
+                let patrol = patrol::mission(&site, &self.objective.patrol, &self.config, seed)?;
+
+                (patrol.mission.clone(), Purpose::Waypoints(Box::new(patrol)))
+            }
+        };
+        let (companion_ids, companions) = companions.into_iter().unzip();
+        Ok(Flight { mission, companion_ids, companions, purpose, objective: self.objective.clone() })
+    }
+}
+
+/// The boxes of each building, by the building's number.
+fn buildings(world: &World) -> Vec<Vec<OrientedBox>> {
+    let mut boxes: BTreeMap<u32, Vec<OrientedBox>> = BTreeMap::new();
+    for obstacle in world.town.obstacles.iter().filter(|obstacle| obstacle.kind == ObstacleKind::Building) {
+        boxes.entry(obstacle.object_id).or_default().push(obstacle.shape);
+    }
+    boxes.into_values().collect()
+}
+
+/// Corners of the walkable ground seen from above; of the whole town where there is none.
+fn bounds(world: &World) -> (cosfly_frames::DVec2, cosfly_frames::DVec2) {
+    let corners = world.town.walkable.iter().flat_map(|polygon| &polygon.outline_in_world);
+    let around = corners.map(|corner| corner.truncate()).fold(None, |around, corner| {
+        let (low, high) = around.unwrap_or((corner, corner));
+        Some((corner.min(low), corner.max(high)))
+    });
+    around.unwrap_or((world.town.min_in_world.truncate(), world.town.max_in_world.truncate()))
+}
+
+enum Purpose {
+    Walker,
+    Walls(Box<Inspection>),
+    Waypoints(Box<Patrol>),
+}
+
+/// One flight that can be planned, from its beginning or from any state.
+pub struct Flight {
+    /// What the planner is asked.
+    pub mission: Mission,
+    companion_ids: Vec<String>,
+    companions: Vec<TargetTrack>,
+    purpose: Purpose,
+    objective: ObjectiveConfig,
+}
+
+impl Flight {
+    /// The whole flight. An inspection lists what it has seen beside its costs, as `coverage` of weight 0.
+    pub fn plan(&self, world: &World) -> PlanOutcome {
+        let mut outcome = plan_mission(world, &self.mission, &self.companions, None);
+        if let (PlanOutcome::Planned(flight), Purpose::Walls(inspection)) = (&mut outcome, &self.purpose) {
+            let ground = |x: f64, y: f64| world.ground.ground_height_m(x, y).unwrap_or(0.0);
+            let structures = buildings(world);
+            let site = Site { exact: &world.exact, structures: &structures, ground: &ground, bounds: bounds(world) };
+            let per_frame = inspection.coverage(&site, &flight.poses_in_world, &self.objective.inspect).gained();
+            let sum = per_frame.iter().sum();
+            flight.terms.push(TermCost { name: "coverage".to_owned(), weight: 0.0, sum, per_frame });
+        }
+        outcome
+    }
+
+    /// The flight's rest from `frame` on, at most `frames` long, of a drone that is at `start` then.
+    pub fn plan_from(&self, world: &World, frame: usize, frames: usize, start: StartState) -> PlanOutcome {
+        let mission = self.mission.part(frame, frames);
+        let end = frame + mission.track.len();
+        let part = |companion: &TargetTrack| TargetTrack {
+            states: companion.states.get(frame..end).unwrap_or_default().to_vec(),
+            ..companion.clone()
+        };
+        plan_mission(world, &mission, &self.companions.iter().map(part).collect::<Vec<_>>(), Some(start))
+    }
+
+    /// What the summary says of the whole flight: notes by name, and warnings.
+    pub fn findings(&self, world: &World, flight: &Trajectory) -> (BTreeMap<String, String>, Vec<String>) {
+        let mut notes = BTreeMap::new();
+        let mut warnings = Vec::new();
+        match &self.purpose {
+            Purpose::Walker => {}
+            Purpose::Walls(inspection) => {
+                let covered = flight.terms.iter().find(|term| term.name == "coverage");
+                notes.insert("coverage".to_owned(), format!("{:.3}", covered.map_or(0.0, |term| term.sum)));
+                notes.insert("sides".to_owned(), format!("{} of 4", inspection.sides));
+            }
+            Purpose::Waypoints(patrol) => {
+                let shortfalls = patrol.shortfalls_m(&flight.poses_in_world);
+                let worst = shortfalls.iter().copied().fold(0.0, f64::max);
+                let met = shortfalls.iter().filter(|miss| **miss <= MET_M).count();
+                let words = format!("{met} of {} within {MET_M} m, worst {worst:.2} m", shortfalls.len());
+                notes.insert("waypoints".to_owned(), words);
+                for (index, miss) in shortfalls.iter().enumerate().filter(|(_, miss)| **miss > MET_M) {
+                    warnings.push(format!("waypoint {index} is missed by {miss:.1} m at its time"));
+                }
+            }
+        }
+        if !self.companions.is_empty() {
+            notes.insert("companions".to_owned(), self.companion_ids.join(", "));
+            let seen = self.companions.iter().map(|companion| companion_visibility(world, companion, flight));
+            let mean = seen.sum::<f64>() / self.companions.len() as f64;
+            notes.insert("visibility of companions".to_owned(), format!("{mean:.3}"));
+        }
+        let certificate = &flight.certificate;
+        if certificate.occlusion_ordered_s > 0.0 {
+            let (ordered, reached) = (certificate.occlusion_ordered_s, certificate.occlusion_reached_s);
+            notes.insert("occlusion".to_owned(), format!("{reached} of {ordered} s"));
+            if reached < ordered {
+                warnings.push(format!("the target was to be lost for {ordered} s and is lost for {reached} s"));
+            }
+        }
+        (notes, warnings)
+    }
+}
+
+fn plan_mission(
+    world: &World,
+    mission: &Mission,
+    companions: &[TargetTrack],
+    start: Option<StartState>,
+) -> PlanOutcome {
+    let ground = |x: f64, y: f64| world.ground.ground_height_m(x, y).unwrap_or(0.0);
+    let mut request = mission.request(&world.exact, &world.town.planning_boxes, &ground);
+    request.companions = companions;
+    request.start = start;
+    plan_request(request)
+}
+
+fn companion_visibility(world: &World, companion: &TargetTrack, flight: &Trajectory) -> f64 {
+    let pairs = companion.states.iter().zip(&flight.poses_in_world);
+    let seen = pairs.map(|(state, pose)| visibility(&world.exact, pose.position_in_world, state, companion.height_m));
+    seen.sum::<f64>() / companion.len().max(1) as f64
+}
+
+/// The `count` walks that stay nearest to `track` on average over its frames, nearest first; equally near ones by id.
+pub fn nearest_companions(track: &TargetTrack, others: Vec<Companion>, count: usize) -> Vec<Companion> {
+    let distance = |other: &TargetTrack| {
+        let pairs = track.states.iter().zip(&other.states);
+        pairs.map(|(a, b)| a.feet_in_world.distance(b.feet_in_world)).sum::<f64>()
+    };
+    let mut ranked: Vec<(f64, Companion)> = others.into_iter().map(|other| (distance(&other.1), other)).collect();
+    ranked.sort_by(|a, b| a.0.total_cmp(&b.0).then_with(|| a.1.0.cmp(&b.1.0)));
+    ranked.into_iter().take(count).map(|(_, companion)| companion).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use cosfly_frames::{DVec3, TargetState};
+
+    fn walk_at(y: f64) -> TargetTrack {
+        let state = |x: f64| TargetState { feet_in_world: DVec3::new(x, y, 0.0), heading_rad: 0.0, speed_mps: 1.0 };
+        TargetTrack { dt_s: 0.5, height_m: 1.7, radius_m: 0.3, states: (0..9).map(|x| state(f64::from(x))).collect() }
+    }
+
+    #[test]
+    fn companions_are_the_nearest_and_equals_come_by_id() {
+        let others = [("p3", 2.0), ("p1", -9.0), ("p2", 2.0), ("p4", 30.0)];
+        let others = others.map(|(id, y)| (id.to_owned(), walk_at(y))).to_vec();
+        let chosen = nearest_companions(&walk_at(0.0), others, 3);
+        assert_eq!(chosen.iter().map(|(id, _)| id.as_str()).collect::<Vec<_>>(), ["p2", "p3", "p1"]);
+    }
+
+    #[test]
+    fn parameters_survive_their_canonical_form_and_tracking_reads_nothing_of_other_objectives() {
+        let given =
+            serde_json::json!({ "objective": "patrol", "patrol": { "count": 3, "corners": 5 }, "preset": "short" });
+        let read = Expert::read(given).unwrap();
+        let again = Expert::read(read.canonical()).unwrap();
+        assert_eq!((again.objective.patrol.corners, again.objective.patrol.count), (5, 1));
+        assert_eq!((again.config, again.objective.objective), (read.config, Objective::Patrol));
+        let track = Expert::read(serde_json::json!({ "inspect": { "row_m": 2.0 } })).unwrap().canonical();
+        assert_eq!(track, parameters::canonical(&MucoConfig::default()));
+        let both = serde_json::json!({ "objective": "inspect", "targets": { "companions": 1 } });
+        assert_eq!(Expert::read(both).unwrap_err().path, ["targets", "companions"]);
+    }
+}

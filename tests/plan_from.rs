@@ -1,0 +1,105 @@
+//! `plan-from`: the expert goes on from states that a drone came into, or says why not.
+
+use crate::street::Street;
+use crate::support::cosfly;
+use serde_json::{Value, json};
+
+/// A street whose experts are in the store.
+fn flown_street() -> Street {
+    let street = Street::new();
+    cosfly(&["run", "recipe.toml", "--quiet"]).within(street.path()).run_ok();
+    street
+}
+
+fn ask(street: &Street, changes: &[&str]) -> (Option<i32>, Value) {
+    let mut arguments = vec!["plan-from", "recipe.toml", "--trajectory", "expert-p00001", "--json"];
+    arguments.extend_from_slice(changes);
+    let printed = cosfly(&arguments).within(street.path()).run();
+    let answer =
+        serde_json::from_str(&printed.stdout).unwrap_or_else(|_| panic!("{}{}", printed.stdout, printed.stderr));
+    (printed.code, answer)
+}
+
+fn place(waypoint: &Value) -> [f64; 3] {
+    core::array::from_fn(|axis| waypoint["position_in_world"][axis].as_f64().expect("a number"))
+}
+
+/// As arguments.
+fn texts(place: [f64; 3]) -> [String; 3] {
+    place.map(|value| value.to_string())
+}
+
+#[test]
+fn the_expert_goes_on_from_where_the_drone_is_and_again_from_where_that_leads() {
+    let street = flown_street();
+    let (code, first) = ask(&street, &["--frame", "2", "--position", "40", "-20", "25", "--velocity", "0", "1", "0"]);
+    assert_eq!((code, first["planned"].as_bool()), (Some(0), Some(true)), "{first}");
+    let waypoints = first["waypoints"].as_array().expect("waypoints");
+    assert_eq!((place(&waypoints[0]), waypoints.len()), ([40.0, -20.0, 25.0], 10));
+    assert_eq!((&waypoints[9]["frame"], &waypoints[9]["time_s"]), (&json!(11), &json!(5.5)));
+    assert_eq!(first["certificate"]["holds"], json!(true));
+
+    let (at, before) = (place(&waypoints[4]), place(&waypoints[3]));
+    let velocity: [f64; 3] = core::array::from_fn(|axis| (at[axis] - before[axis]) / 0.5);
+    let ([x, y, z], [vx, vy, vz]) = (texts(at), texts(velocity));
+    let state = ["--frame", "6", "--position", &x, &y, &z, "--velocity", &vx, &vy, &vz, "--horizon", "1"];
+    let (code, next) = ask(&street, &state);
+    assert_eq!((code, next["waypoints"].as_array().map(Vec::len)), (Some(0), Some(3)), "{next}");
+}
+
+#[test]
+fn states_without_a_way_on_are_answered_with_the_reason() {
+    let street = flown_street();
+    for (state, reason) in [
+        (["--position", "40", "-20", "0.2", "--velocity", "0", "0", "0"], "from an obstacle or the ground"),
+        (["--position", "40", "-20", "25", "--velocity", "0", "15", "0"], "15.00 m/s; the limit is 12 m/s"),
+        (["--position", "nan", "-20", "25", "--velocity", "0", "0", "0"], "not finite"),
+    ] {
+        let (code, answer) = ask(&street, &[&["--frame", "0"], &state[..]].concat());
+        assert_eq!((code, answer["planned"].as_bool()), (Some(1), Some(false)), "{answer}");
+        assert!(answer["reason"].as_str().is_some_and(|found| found.contains(reason)), "{answer}");
+    }
+}
+
+#[test]
+fn a_batch_answers_line_by_line_and_names_lines_that_are_no_states() {
+    let street = flown_street();
+    let lines = [
+        r#"{"trajectory": "perturbed-p00001", "frame": 2, "position": [40, -20, 25], "velocity": [0, 1, 0]}"#,
+        r#"{"trajectory": "expert-p00001", "frame": 2}"#,
+        r#"{"trajectory": "expert-p00009", "frame": 2, "position": [40, -20, 25]}"#,
+        r#"{"trajectory": "expert/p00001", "frame": 2, "position": [40, -20, 25], "velocity": [0, 1, 0]}"#,
+    ];
+    let batch = cosfly(&["plan-from", "recipe.toml", "--batch"]).within(street.path()).fed(&lines.join("\n")).run();
+    assert_eq!(batch.code, Some(4), "{}", batch.stderr);
+    let answers: Vec<Value> =
+        batch.stdout.lines().map(|line| serde_json::from_str(line).expect("a line of JSON")).collect();
+    assert_eq!(answers.len(), 4);
+    assert_eq!((&answers[1]["line"], &answers[1]["error"]["code"]), (&json!(2), &json!("plan-from-line")));
+    assert_eq!((&answers[2]["line"], &answers[2]["error"]["code"]), (&json!(3), &json!("plan-from-unknown")));
+    let (_, single) = ask(&street, &["--frame", "2", "--position", "40", "-20", "25", "--velocity", "0", "1", "0"]);
+    for answer in [&answers[0], &answers[3]] {
+        assert_eq!((&answer["waypoints"], &answer["certificate"]), (&single["waypoints"], &single["certificate"]));
+    }
+}
+
+/// Exit code and messages of a question that cannot be answered.
+fn check_refusal(name: &str, street: &Street, arguments: &[&str]) {
+    let all = [&["plan-from", "recipe.toml"], arguments].concat();
+    let printed = cosfly(&all).within(street.path()).run();
+    let code = printed.code.map_or("none".into(), |code| code.to_string());
+    insta::assert_snapshot!(name, format!("exit code {code}\n{}", printed.stderr));
+}
+
+#[test]
+fn questions_that_cannot_be_answered_say_what_to_do() {
+    let place = ["--position", "40", "-20", "25"];
+    let asked = |id: &'static str, frame: &'static str| [&["--trajectory", id, "--frame", frame], &place[..]].concat();
+    check_refusal("plan_from_before_a_run", &Street::new(), &asked("expert-p00001", "2"));
+    let street = flown_street();
+    check_refusal("plan_from_unknown", &street, &asked("expert-p0001", "2"));
+    check_refusal("plan_from_beyond_the_end", &street, &asked("expert-p00001", "12"));
+    check_refusal("plan_from_changed", &street, &[&asked("expert-p00001", "2")[..], &["--set", "seed=9"]].concat());
+    check_refusal("plan_from_horizon", &street, &[&asked("expert-p00001", "2")[..], &["--horizon", "0"]].concat());
+    check_refusal("plan_from_nothing_asked", &street, &["--frame", "2"]);
+}
