@@ -103,7 +103,7 @@ fn arrived(
         .iter()
         .map(|arrival| {
             let stage = &recipe.stages[arrival.stage];
-            let item = stage.items.iter().nth(arrival.item).ok_or_else(|| unfinished(port))?;
+            let item = stage.items.get(arrival.item).ok_or_else(|| unfinished(port))?;
             summary.artifact(&stage.name, item).ok_or_else(|| unfinished(port))
         })
         .collect()
