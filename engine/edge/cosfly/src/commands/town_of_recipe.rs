@@ -10,6 +10,7 @@ use cosfly_planner::MucoConfig;
 use cosfly_recipe::{Recipe, RecipeStage};
 use cosfly_runner::{RunOptions, RunSummary};
 use cosfly_stage::{Artifact, BlobSource};
+use cosfly_stages::expert::Expert;
 use cosfly_stages::read;
 use cosfly_store::Store;
 use std::path::Path;
@@ -40,15 +41,18 @@ pub fn town_of_recipe(path: &Path, paths: Option<usize>, seed: Option<u64>) -> R
         return Err(failures);
     }
     let ground = ground(&recipe, &planner, &summary, &store).map_err(one)?;
-    let config = serde_json::from_value(planner.stage.properties().parameters.clone()).map_err(|error| {
-        one(Diagnostic::new("bench-parameters", Fault::Bug, "could not read the planner's parameters").because(error))
-    })?;
-    Ok((ground, config))
+    let expert = Expert::read(planner.stage.properties().parameters.clone())
+        .map_err(|refused| one(Diagnostic::new("bench-parameters", Fault::Recipe, refused.message)))?;
+    Ok((ground, expert.config))
 }
 
+/// The first `muco` stage that follows somebody.
 fn planner_of(recipe: &Recipe) -> Result<usize, Refusals> {
-    recipe.stages.iter().position(|stage| stage.kind == "muco").ok_or_else(|| {
-        let message = format!("`{}` has no stage with `use = \"muco\"`, so there is nothing to plan", recipe.name);
+    let follows = |stage: &RecipeStage| {
+        stage.kind == "muco" && stage.connections.iter().any(|connection| connection.port.name == "paths")
+    };
+    recipe.stages.iter().position(follows).ok_or_else(|| {
+        let message = format!("`{}` has no stage with `use = \"muco\"` that follows walkers", recipe.name);
         one(Diagnostic::new("bench-no-planner", Fault::Recipe, message))
     })
 }
