@@ -12,10 +12,11 @@ struct Options {
     paths: u64,
     seed: u64,
     config: MucoConfig,
+    each: bool,
 }
 
 fn options() -> Options {
-    let mut options = Options { kinds: vec![], paths: 5, seed: 1, config: MucoConfig::default() };
+    let mut options = Options { kinds: vec![], paths: 5, seed: 1, config: MucoConfig::default(), each: false };
     let mut words = std::env::args().skip(1);
     while let Some(word) = words.next() {
         let mut value = || words.next().unwrap_or_default();
@@ -25,6 +26,7 @@ fn options() -> Options {
             "--relative" => options.config.search.relative_motion = value().parse().unwrap_or(0.2),
             "--absolute" => options.config.search.absolute_motion = value().parse().unwrap_or(0.3),
             "--effort" if value() == "quality" => options.config.search.effort = SearchEffort::Quality,
+            "--each" => options.each = true,
             "--preset" if value() == "paper" => options.config.preset = Preset::Paper,
             name => options.kinds.extend(SceneKind::ALL.iter().filter(|kind| kind.name() == name)),
         }
@@ -54,7 +56,14 @@ fn main() {
             let outcome = plan(&track, &exact, &planning, &|_, _| 0.0, &options.config, seed);
             seconds += begin.elapsed().as_secs_f64();
             match outcome {
-                PlanOutcome::Planned(flight) => planned.push(flight.certificate),
+                PlanOutcome::Planned(flight) => {
+                    let c = &flight.certificate;
+                    if options.each {
+                        let (seen, best) = (c.mean_visibility, c.lattice_visibility);
+                        println!("    {index}: sees {seen:.3} of the lattice's {best:.3}, {} attempts", c.attempts);
+                    }
+                    planned.push(flight.certificate);
+                }
                 PlanOutcome::Rejected { reason, .. } => rejected.push(format!("{index}: {reason}")),
             }
         }

@@ -16,6 +16,10 @@ use std::cell::RefCell;
 
 /// A flight that sees less than this share of what the lattice's best way sees is searched again with more effort.
 const GOOD_SHARE: f64 = 0.955;
+/// Where more than this share of the nodes is closed, the fast lattice may have missed the only gaps from which the
+/// target is seen: there, less than [`GOOD_IN_GAPS`] is searched again.
+const TIGHT_SHARE: f64 = 0.5;
+const GOOD_IN_GAPS: f64 = 0.99;
 /// When nothing valid is found: (cost of motion, distance kept beyond the limit) of calmer and calmer searches.
 const CALMER: [(f64, f64); 4] = [(1.0, 0.15), (6.0, 0.25), (40.0, 0.6), (200.0, 0.1)];
 /// Distance kept beyond the limit by the first searches; the fast one looks at every second frame only.
@@ -60,14 +64,15 @@ pub fn escalate(
         let mut kept: Option<Found> = None;
         for (level, effort) in efforts(config).into_iter().enumerate() {
             match attempt(problem, obstacles, config, effort, judge, workshop) {
-                Ok(mut found) => {
+                Ok((mut found, closed_share)) => {
                     let certificate = &mut found.measured.certificate;
                     certificate.attempts = level as u32 + 1;
                     let (seen, promised) = (certificate.mean_visibility, certificate.lattice_visibility);
                     let better = kept.as_ref().is_none_or(|kept| seen > kept.measured.certificate.mean_visibility);
                     kept = if better { Some(found) } else { kept };
                     let again = config.search.effort == SearchEffort::Escalating && level == 0;
-                    if !again || seen >= GOOD_SHARE * promised {
+                    let tight = closed_share > TIGHT_SHARE && seen < GOOD_IN_GAPS;
+                    if !again || (seen >= GOOD_SHARE * promised && !tight) {
                         break;
                     }
                 }
@@ -111,7 +116,7 @@ fn efforts(config: &MucoConfig) -> Vec<Effort> {
     first.into_iter().chain(calmer).collect()
 }
 
-/// One search and everything after it: the flight, or what stood in its way.
+/// One search and everything after it: the flight and the share of closed nodes, or what stood in its way.
 fn attempt(
     problem: &Problem<'_>,
     obstacles: &mut LocalObstacles<'_>,
@@ -119,7 +124,7 @@ fn attempt(
     effort: Effort,
     judge: &mut Judge<'_>,
     workshop: &mut Workshop,
-) -> Result<Found, String> {
+) -> Result<(Found, f64), String> {
     obstacles.order_losses(Vec::new());
     let head = judge.head;
     let start = search(problem, obstacles, config, effort, head, &mut workshop.search)?;
@@ -154,7 +159,7 @@ fn attempt(
     certificate.visibility_regret = (start.visibility - certificate.mean_visibility).max(0.0);
     certificate.occlusion_ordered_s = losses.ordered_s;
     certificate.occlusion_reached_s = reached_s(&losses, &measured.visibility, problem.track.dt_s);
-    Ok(Found { waypoints, measured, convergence: refined.convergence })
+    Ok((Found { waypoints, measured, convergence: refined.convergence }, start.closed_share))
 }
 
 /// `waypoints`, led back to the safe way over stretches that come too near an obstacle.

@@ -44,6 +44,8 @@ pub struct Start {
     pub waypoints: Vec<DVec3>,
     /// Mean visibility over the layers: what the best way through the lattice sees.
     pub visibility: f64,
+    /// Share of the nodes that are not free.
+    pub closed_share: f64,
     /// Searches that were needed.
     pub searches: u32,
     /// Where the target is lost on purpose.
@@ -74,6 +76,8 @@ pub fn search(
         scanner.evaluate(frame, &track.states[frame], obstacles, effort.keep_out_m, row);
         add_companions(&lattice, track.states[frame].feet_in_world, obstacles, frame, row);
     }
+    let closed = space.states.iter().filter(|&&state| state == UNSAFE).count();
+    let closed_share = closed as f64 / space.states.len() as f64;
     let mut costs = node_costs(problem, obstacles, &lattice, &frames, config);
     // Costs are per layer: a layer stands for `stride` frames, in each of which an even move goes 1 / stride of the way.
     let per_layer = effort.motion_factor / (stride * stride) as f64;
@@ -105,7 +109,7 @@ pub fn search(
             let hidden = |(layer, &node): (usize, &usize)| f64::from(viterbi.state(layer, node) & !CLOSE);
             let hidden: f64 = nodes.iter().enumerate().map(hidden).sum();
             let visibility = 1.0 - hidden / (8 * nodes.len()) as f64;
-            return Ok(Start { waypoints, visibility, searches: searches as u32, losses });
+            return Ok(Start { waypoints, visibility, closed_share, searches: searches as u32, losses });
         };
         for layer in cut {
             viterbi.forbid(layer, nodes[layer]);
