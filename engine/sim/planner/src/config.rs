@@ -340,7 +340,7 @@ impl MucoConfig {
     }
 }
 
-fn in_range(path: &str, value: f64, low: f64, high: f64) -> Result<(), (String, String)> {
+pub(crate) fn in_range(path: &str, value: f64, low: f64, high: f64) -> Result<(), (String, String)> {
     if value >= low && value <= high {
         return Ok(());
     }

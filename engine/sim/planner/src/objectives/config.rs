@@ -55,7 +55,7 @@ pub struct InspectConfig {
     #[schemars(range(min = 1, max = 4))]
     pub min_sides: u32,
     /// Longest flight, seconds; buildings that take longer are not chosen. Default 400.
-    #[schemars(range(min = 10.0, max = 4000.0))]
+    #[schemars(range(min = 10.0, max = 2000.0))]
     pub max_duration_s: f64,
 }
 
@@ -116,8 +116,8 @@ impl Default for PatrolConfig {
 
 /// Frames are this far apart where nobody walks, seconds.
 pub const DT_S: f64 = 0.5;
-/// Longest patrol, seconds.
-const LONGEST_S: f64 = 10_000.0;
+/// Longest flight, seconds: what the planner plans at once, because places are met frame by frame.
+pub const LONGEST_S: f64 = 2000.0;
 
 impl ObjectiveConfig {
     /// How many flights there are, where that is not the number of walkers.
@@ -134,6 +134,21 @@ impl ObjectiveConfig {
     pub fn validate(&self, speed_limit_mps: f64) -> Result<(), (String, String)> {
         let refuse = |path: String, rule: String| Err((path, rule));
         let (i, p) = (&self.inspect, &self.patrol);
+        for (path, value, low, high) in [
+            ("inspect.standoff_m", i.standoff_m, 4.0, 60.0),
+            ("inspect.row_m", i.row_m, 1.0, 30.0),
+            ("inspect.speed_mps", i.speed_mps, 0.2, 10.0),
+            ("inspect.min_height_m", i.min_height_m, 2.0, 200.0),
+            ("inspect.max_height_m", i.max_height_m, 2.0, 400.0),
+            ("inspect.min_sides", f64::from(i.min_sides), 1.0, 4.0),
+            ("inspect.max_duration_s", i.max_duration_s, 10.0, LONGEST_S),
+            ("patrol.corners", f64::from(p.corners), 3.0, 100.0),
+            ("patrol.radius_m", p.radius_m, 5.0, 1000.0),
+            ("patrol.speed_mps", p.speed_mps, 0.5, 20.0),
+            ("patrol.lead_m", p.lead_m, 2.0, 100.0),
+        ] {
+            crate::config::in_range(path, value, low, high)?;
+        }
         if i.min_height_m > i.max_height_m {
             return refuse(
                 "inspect.min_height_m".into(),
@@ -209,6 +224,8 @@ mod tests {
     fn contradictions_name_their_parameter() {
         assert_eq!(ObjectiveConfig::default().validate(12.0), Ok(()));
         check_refused(|c| c.inspect.min_height_m = 50.0, "inspect.min_height_m");
+        check_refused(|c| c.inspect.standoff_m = f64::NAN, "inspect.standoff_m");
+        check_refused(|c| c.patrol.lead_m = 1.0, "patrol.lead_m");
         check_refused(|c| c.patrol.speed_mps = 11.0, "patrol.speed_mps");
         check_refused(|c| c.patrol.altitude_m = [30.0, f64::NAN], "patrol.altitude_m");
         check_refused(|c| c.patrol.waypoints = vec![[0.0; 4]], "patrol.waypoints");

@@ -27,7 +27,8 @@ impl Meeting {
     /// state) has more frames than there are places: those are at the end.
     fn at(&self, frames: usize) -> impl Iterator<Item = (usize, DVec3, f64)> {
         let before = frames.saturating_sub(self.places.len());
-        self.places.iter().enumerate().map(move |(i, (place, share))| (before + i, *place, *share))
+        let places = self.places.iter().take(frames).enumerate();
+        places.map(move |(i, (place, share))| (before + i, *place, *share))
     }
 }
 
@@ -65,5 +66,45 @@ impl CostTerm for Meeting {
             equations.add_anchor(frame, weight * share, waypoints[frame] - place);
         }
         true
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::config::ViewConfig;
+    use crate::obstacles::{exact::ExactObstacles, ground::GroundGrid};
+    use crate::walk::Walk;
+    use cosfly_frames::{TargetState, TargetTrack};
+    use cosfly_geometry::BoxBvh;
+
+    #[test]
+    fn places_are_those_of_the_last_frames_and_the_slope_is_that_of_the_cost() {
+        let state = TargetState { feet_in_world: DVec3::ZERO, heading_rad: 0.0, speed_mps: 0.0 };
+        let track = TargetTrack { dt_s: 0.5, height_m: 1.7, radius_m: 0.3, states: vec![state; 4] };
+        let (exact, grid) = (BoxBvh::build(vec![]), GroundGrid::sample(&track, &|_, _| 0.0, 10.0));
+        let surroundings = ExactObstacles::still(&track, &exact, &grid);
+        let (view, walk) = (ViewConfig::default(), Walk::of(&track));
+        let context = TermContext { track: &track, view: &view, walk: &walk, surroundings: &surroundings };
+        let term = Meeting::new("place", vec![(DVec3::X, 1.0), (DVec3::Y, 0.5)]);
+        let waypoints = [DVec3::Z, DVec3::Z, DVec3::new(3.0, 1.0, 0.0), DVec3::new(0.0, 3.0, 4.0)];
+        let cost = |waypoints: &[DVec3]| {
+            let mut per_frame = vec![f64::NAN; waypoints.len()];
+            term.cost(waypoints, &context, &mut per_frame);
+            per_frame
+        };
+        assert_eq!(cost(&waypoints), [0.0, 0.0, 5.0, 10.0]);
+        let mut gradient = [DVec3::ZERO; 4];
+        assert!(term.add_gradient(&waypoints, &context, 2.0, &mut gradient));
+        for frame in 0..4 {
+            for axis in 0..3 {
+                let (mut low, mut high) = (waypoints, waypoints);
+                low[frame][axis] -= 1e-4;
+                high[frame][axis] += 1e-4;
+                let slope = (cost(&high).iter().sum::<f64>() - cost(&low).iter().sum::<f64>()) / 1e-4;
+                assert!((gradient[frame][axis] - slope).abs() < 1e-6, "{frame} {axis}");
+            }
+        }
+        assert_eq!(cost(&waypoints[..1]), [1.0 + 1.0], "more places than frames do no harm");
     }
 }

@@ -3,7 +3,7 @@
 //! A smooth reference runs through all waypoints at their times. The drone is drawn to each waypoint at its time, and
 //! lightly to the reference between them; the point to be watched runs on the ground below the reference, ahead of it.
 
-use super::config::{DT_S, PatrolConfig};
+use super::config::{DT_S, LONGEST_S, PatrolConfig};
 use super::facade::is_free;
 use super::meeting::Meeting;
 use super::{Mission, POINT_HEIGHT_M, Site};
@@ -77,12 +77,15 @@ fn drawn(site: &Site<'_>, wanted: &PatrolConfig, keep_m: f64, seed: Seed) -> Res
         if corners.iter().all(|place| is_free(site, *place, keep_m)) {
             corners.push(corners[0]);
             let mut time = 0.0;
-            let timed = (0..corners.len()).map(|k| {
-                let way = if k == 0 { 0.0 } else { corners[k].distance(corners[k - 1]) };
-                time += (way / wanted.speed_mps / DT_S).ceil() * DT_S;
-                (corners[k], time)
-            });
-            return Ok(timed.collect());
+            let mut timed = vec![(corners[0], time)];
+            for pair in corners.windows(2) {
+                time += (pair[1].distance(pair[0]) / wanted.speed_mps / DT_S).ceil().max(1.0) * DT_S;
+                timed.push((pair[1], time));
+            }
+            if time > LONGEST_S {
+                return Err(format!("the loop takes {time} s; it must be at most {LONGEST_S} s"));
+            }
+            return Ok(timed);
         }
     }
     Err(format!(
