@@ -1,5 +1,6 @@
 //! Parameters of the `muco` stage, their defaults, ranges and contradictions.
 
+use crate::baselines::Baseline;
 use crate::paper::config::PaperConfig;
 use crate::terms::{WeightOverrides, Weights};
 use crate::trajectory::Limits;
@@ -14,6 +15,9 @@ pub struct MucoConfig {
     /// Named way of flying: `cosfly` (visibility first, the default), `rear` (behind the walker), `short` (short
     /// flights) or `paper` (the paper's weights and its own pipeline).
     pub preset: Preset,
+    /// Who plans: `muco` (the default), or a baseline to compare with. What a baseline finds is judged like any flight;
+    /// all but `astar_smoothed` bound no acceleration, so set `limits.require_kinematics = false` for them.
+    pub planner: Planner,
     /// Single weights that replace those of the preset.
     pub weights: WeightOverrides,
     /// What a flight must never exceed.
@@ -30,6 +34,36 @@ pub struct MucoConfig {
     pub descent: DescentConfig,
     /// What only `preset = "paper"` has.
     pub paper: PaperConfig,
+}
+
+/// Who plans.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum Planner {
+    /// The multi-constraint optimiser of the preset.
+    #[default]
+    Muco,
+    /// The paper's A* over voxels of 2 m and time steps.
+    Astar,
+    /// Its path, smoothed to the limits of speed, acceleration and jerk.
+    AstarSmoothed,
+    /// Layered beam search over the same voxels.
+    Beam,
+    /// The way through the polar lattice, with nothing after it.
+    Dp,
+}
+
+impl Planner {
+    /// The baseline of that name; `None` for the optimiser.
+    pub fn baseline(self) -> Option<Baseline> {
+        match self {
+            Self::Muco => None,
+            Self::Astar => Some(Baseline::AstarFast),
+            Self::AstarSmoothed => Some(Baseline::AstarSmoothed),
+            Self::Beam => Some(Baseline::Beam),
+            Self::Dp => Some(Baseline::Dp),
+        }
+    }
 }
 
 /// What is to be seen when companions of the target are.
@@ -193,6 +227,7 @@ impl Default for MucoConfig {
     fn default() -> Self {
         Self {
             preset: Preset::Cosfly,
+            planner: Planner::Muco,
             weights: WeightOverrides::default(),
             limits: LimitsConfig::default(),
             view: ViewConfig::default(),

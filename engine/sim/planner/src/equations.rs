@@ -88,8 +88,8 @@ impl NormalEquations {
             for k in (1..=3.min(i)).rev() {
                 let j = i - k;
                 let mut block = DMat3::from_diagonal(DVec3::splat(self.coupling[i][k]));
-                for m in k + 1..=3.min(i) {
-                    block -= row[m] * self.factor[j][m - k].transpose();
+                for (m, farther) in row.iter().enumerate().take(3.min(i) + 1).skip(k + 1) {
+                    block -= *farther * self.factor[j][m - k].transpose();
                 }
                 row[k] = block * self.factor[j][0].transpose();
                 right -= row[k] * self.spare[j];

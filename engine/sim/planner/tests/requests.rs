@@ -3,7 +3,7 @@
 use cosfly_frames::{DVec3, TargetState, TargetTrack};
 use cosfly_geometry::{BoxBvh, OrientedBox, SpatialQuery};
 use cosfly_planner::certificate::Kinematics;
-use cosfly_planner::config::SeveralTargets;
+use cosfly_planner::config::{Planner, SeveralTargets};
 use cosfly_planner::scenes::{Scene, SceneKind};
 use cosfly_planner::{
     MucoConfig, PlanOutcome, PlanRequest, Preset, StartState, Trajectory, body_points, plan_request, visibility,
@@ -194,4 +194,25 @@ fn presets_fly_behind_the_walker_or_short_ways() {
     assert!(rear.0 < 0.8 * usual.0, "{usual:?} {rear:?}");
     assert!(short.1 < 0.85 * usual.1, "{usual:?} {short:?}");
     assert!(rear.2 > 0.9 && short.2 > 0.9, "{usual:?} {rear:?} {short:?}");
+}
+
+#[test]
+fn a_baseline_plans_in_place_of_the_optimiser_and_is_judged_like_it() {
+    let track = straight(30, 0.0);
+    let boxes = vec![OrientedBox::from_corners(DVec3::new(-10.0, 6.0, 0.0), DVec3::new(10.0, 16.0, 12.0))];
+    let exact = BoxBvh::build(boxes.clone());
+    let by = |planner: Planner, require_kinematics: bool| {
+        let mut config = MucoConfig { planner, ..MucoConfig::default() };
+        config.limits.require_kinematics = require_kinematics;
+        plan_request(PlanRequest::new(&track, &exact, &boxes, &|_, _| 0.0, &config))
+    };
+    for planner in [Planner::Astar, Planner::AstarSmoothed, Planner::Beam, Planner::Dp] {
+        let flight = flown(by(planner, false));
+        assert!(flight.certificate.min_clearance_m >= 1.5 && flight.certificate.mean_visibility > 0.9, "{planner:?}");
+    }
+    assert!(flown(by(Planner::AstarSmoothed, true)).certificate.holds);
+    let config = MucoConfig { planner: Planner::Dp, ..MucoConfig::default() };
+    let mut request = PlanRequest::new(&track, &exact, &boxes, &|_, _| 0.0, &config);
+    request.companions = core::slice::from_ref(&track);
+    refused(plan_request(request), "`planner` must be `muco`");
 }

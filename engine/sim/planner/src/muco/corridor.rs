@@ -4,7 +4,8 @@
 //! the segment stay on its free side by the clearance, so does all between: swept safety by construction, for
 //! turned boxes too. Planes of the boxes' shadows keep the line of sight open in the same way, as wishes.
 
-use crate::obstacles::{Surroundings, local::LocalObstacles, solid::HalfSpace};
+use crate::obstacles::local::{GUARDED_POINTS, LocalObstacles};
+use crate::obstacles::{Surroundings, solid::HalfSpace};
 use cosfly_frames::{DVec3, TargetTrack};
 
 /// How far a waypoint may move from where its planes were taken, metres.
@@ -16,8 +17,6 @@ const MUCH_LOWER_M: f64 = 1.0;
 const SIGHT_MARGIN_M: f64 = 0.4;
 /// A waypoint deeper in shadow than this is not pulled, metres: the way out is likely the wrong one.
 const HOPELESS_M: f64 = 1.5;
-/// Body points whose lines of sight are kept open: ankle, middle, head, shoulders.
-const GUARDED_POINTS: [usize; 5] = [0, 2, 5, 6, 7];
 
 /// The half-spaces of one frame.
 #[derive(Clone)]

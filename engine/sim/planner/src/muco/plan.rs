@@ -4,8 +4,9 @@ use super::attempts::{Found, THOROUGH, escalate};
 use super::judge::Judge;
 use super::stretches::{STRETCH_FRAMES, plan_stretches};
 use super::track_check::check_track;
+use crate::baselines::{Baseline, BaselineInput, plan_baseline};
 use crate::certificate::{Kinematics, certify, term_costs};
-use crate::config::MucoConfig;
+use crate::config::{MucoConfig, Planner};
 use crate::obstacles::{exact::ExactMap, exact::ExactObstacles, ground::GroundGrid, local::LocalObstacles};
 use crate::paper::pipeline::plan_paper;
 use crate::problem::Problem;
@@ -112,8 +113,9 @@ fn repeated_before<T: Clone>(values: &[T]) -> Vec<T> {
 
 fn solve(request: &PlanRequest<'_>, terms: &[WeightedTerm], built_in: usize, head: &[DVec3]) -> Result<Found, String> {
     let one = |request: &PlanRequest<'_>, head: &[DVec3]| solve_at_once(request, terms, built_in, head);
-    // The paper's pipeline needs little memory and no stretches.
-    if request.track.len() <= STRETCH_FRAMES || request.config.preset == Preset::Paper {
+    // The paper's pipeline needs little memory and no stretches; baselines refuse what is too much for them.
+    let at_once = request.config.preset == Preset::Paper || request.config.planner != Planner::Muco;
+    if request.track.len() <= STRETCH_FRAMES || at_once {
         one(request, head)
     } else {
         plan_stretches(request, head, &one)
@@ -135,11 +137,31 @@ fn solve_at_once(
         .with_companions(request.companions, config.targets.visibility)
         .with_movers(request.movers);
     let exact = ExactMap { query: request.exact, movers: request.movers };
+    if let Some(kind) = config.planner.baseline() {
+        if !(head.is_empty() && request.companions.is_empty() && request.movers.is_empty()) {
+            return Err("baselines know no start states, companions or moving boxes; `planner` must be `muco`".into());
+        }
+        let (planning_boxes, ground) = (request.planning_boxes, &grid);
+        let input = BaselineInput { problem: &problem, planning_boxes, exact: request.exact, ground, config };
+        let judge = Judge::new(&problem, exact, request.ground, config, head);
+        return by_a_baseline(kind, &input, &judge);
+    }
     let mut judge = Judge::new(&problem, exact, request.ground, config, head);
     if config.preset == Preset::Paper && head.is_empty() {
         return by_the_paper(&problem, &mut obstacles, config, &mut judge);
     }
     escalate(&problem, &mut obstacles, config, &mut judge)
+}
+
+/// A baseline's path, judged like any flight.
+fn by_a_baseline(kind: Baseline, input: &BaselineInput<'_>, judge: &Judge<'_>) -> Result<Found, String> {
+    let waypoints = plan_baseline(kind, input)?.waypoints;
+    let mut measured = judge.measure(&waypoints);
+    if !judge.publishable(&measured) {
+        return Err(measured.certificate.violations.join("; "));
+    }
+    measured.certificate.attempts = 1;
+    Ok(Found { waypoints, measured, convergence: Vec::new() })
 }
 
 /// The paper's own pipeline, made flyable if the recipe leaves that on.

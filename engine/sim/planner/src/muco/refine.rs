@@ -43,7 +43,7 @@ const REFERENCE_DT_S: f64 = 0.5;
 pub struct Refined {
     /// Steps taken.
     pub steps: u32,
-    /// Total cost against the planning boxes, at the start and after each round.
+    /// Total cost against the planning boxes, before and after.
     pub convergence: Vec<f64>,
 }
 
@@ -83,7 +83,6 @@ pub fn refine(
             waypoints[..head.len()].copy_from_slice(head);
             obstacles.focus_on(waypoints);
         }
-        convergence.push(problem.cost(obstacles, waypoints));
         if round + 1 < rounds.rounds {
             for (i, hold) in hold.iter_mut().enumerate() {
                 if obstacles.visibility(i, waypoints[i]) < seen[i] {
@@ -92,6 +91,7 @@ pub fn refine(
             }
         }
     }
+    convergence.push(problem.cost(obstacles, waypoints));
     Refined { steps: (rounds.rounds * rounds.steps) as u32, convergence }
 }
 

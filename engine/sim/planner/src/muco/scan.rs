@@ -6,7 +6,7 @@
 use super::lattice::{Lattice, MAX_RINGS};
 use crate::obstacles::{Surroundings, local::LocalObstacles, solid::Solid};
 use cosfly_frames::simd::Level;
-use cosfly_frames::{DVec3, TargetState, simd_kernel};
+use cosfly_frames::{DVec3, TargetState, real, simd_kernel};
 
 /// Heights of the body seen along its axis, for a body of 1.75 m, and how many body points each stands for.
 pub const BODY_HEIGHTS: [(f64, u32); 5] = [(0.12, 1), (0.5, 1), (1.05, 2), (1.42, 3), (1.7, 1)];
@@ -41,6 +41,7 @@ pub struct Scanner<'a> {
     slopes: [[f32; MAX_RINGS]; 5],
     /// By azimuth and ring.
     marks: Vec<u32>,
+    half_group: [f32; 2],
     profiles: Vec<Profile>,
     level: Level,
 }
@@ -55,6 +56,11 @@ struct Profile {
     half: [f32; 2],
     low: f32,
     high: f32,
+    /// Where its middle is, seen from above, and the radius of a disc around it when grown most.
+    away: [f32; 2],
+    reach: f32,
+    /// Even when grown most it stays below all nodes: nothing comes near it.
+    below_all: bool,
 }
 
 impl<'a> Scanner<'a> {
@@ -82,6 +88,7 @@ impl<'a> Scanner<'a> {
             marks: vec![0; padded * rings],
             radius_m,
             altitude_m,
+            half_group: half_group(lattice.directions.len()),
             profiles: Vec::new(),
             level: Level::best(),
             lattice,
@@ -106,7 +113,9 @@ impl<'a> Scanner<'a> {
         let feet = target.feet_in_world;
         let farthest = self.lattice.radii_m.last().copied().unwrap_or(0.0) + keep_out_m + CLOSE_EXTRA_M;
         self.profiles.clear();
-        self.profiles.extend(obstacles.at_frame(frame).filter_map(|solid| profile(solid, feet, farthest)));
+        let lowest = self.lattice.altitudes_m[0];
+        let grown = (keep_out_m + CLOSE_EXTRA_M, lowest);
+        self.profiles.extend(obstacles.at_frame(frame).filter_map(|solid| profile(solid, feet, farthest, grown)));
         self.marks.fill(0);
         let shape = Shape {
             cos: &self.cos,
@@ -117,6 +126,7 @@ impl<'a> Scanner<'a> {
             body_m: self.body_m,
             grow: [keep_out_m as f32, (keep_out_m + CLOSE_EXTRA_M) as f32],
             farthest: farthest as f32,
+            half_group: self.half_group,
             from_above: self.lattice.altitudes_m[0] > f64::from(self.body_m[4]),
         };
         mark_all(self.level, &shape, &self.profiles, &mut self.marks);
@@ -152,8 +162,19 @@ impl<'a> Scanner<'a> {
     }
 }
 
+/// Cosine and sine of half the angle of a group of azimuths around its middle one, at most a right angle: wider
+/// groups are always looked at.
+fn half_group(azimuths: usize) -> [f32; 2] {
+    let half = real::TAU * (VECTOR / 2) as f64 / azimuths as f64;
+    if half >= 0.5 * real::PI {
+        return [f32::NEG_INFINITY, 0.0];
+    }
+    let (sin, cos) = real::sin_cos(half);
+    [cos as f32, sin as f32]
+}
+
 /// `None` when the box is too far away to matter.
-fn profile(solid: &Solid, feet: DVec3, farthest_m: f64) -> Option<Profile> {
+fn profile(solid: &Solid, feet: DVec3, farthest_m: f64, (grow_m, lowest_m): (f64, f64)) -> Option<Profile> {
     let (center, disc) = solid.disc_from_above();
     let away = (center - feet).truncate();
     let reach = farthest_m + disc;
@@ -162,6 +183,8 @@ fn profile(solid: &Solid, feet: DVec3, farthest_m: f64) -> Option<Profile> {
     }
     let (sin, cos) = solid.turn();
     let half = solid.half_extents_m();
+    let below_all = solid.max.z - feet.z + grow_m < lowest_m;
+    let grow_m = if below_all { 0.0 } else { grow_m };
     Some(Profile {
         center: [(cos * away.x + sin * away.y) as f32, (cos * away.y - sin * away.x) as f32],
         cos: cos as f32,
@@ -169,6 +192,10 @@ fn profile(solid: &Solid, feet: DVec3, farthest_m: f64) -> Option<Profile> {
         half: [half.x as f32, half.y as f32],
         low: (solid.min.z - feet.z) as f32,
         high: (solid.max.z - feet.z) as f32,
+        away: [away.x as f32, away.y as f32],
+        // The corners of a grown box stand out by more than it grows; a little more covers all rounding.
+        below_all,
+        reach: (disc + core::f64::consts::SQRT_2 * grow_m) as f32 + 0.1,
     })
 }
 
@@ -183,6 +210,20 @@ struct Shape<'a> {
     farthest: f32,
     /// All rings are above the body.
     from_above: bool,
+    /// Cosine and sine of half the angle that a group of azimuths spans.
+    half_group: [f32; 2],
+}
+
+/// The least that the middle of a group of azimuths must look along the way to a box for any of them to meet it:
+/// `d cos(h + asin(r / d))` with `h` half the group's angle, `d` and `r` the box's distance and reach.
+#[inline(always)]
+fn least_along(shape: &Shape<'_>, solid: &Profile) -> f32 {
+    let [x, y] = solid.away;
+    let beyond = x * x + y * y - solid.reach * solid.reach;
+    if beyond <= 0.0 {
+        return f32::NEG_INFINITY;
+    }
+    shape.half_group[0] * beyond.sqrt() - shape.half_group[1] * solid.reach
 }
 
 /// For 16 azimuths: where the ray enters and leaves the box as it is, grown by the clearance, grown by more.
@@ -201,7 +242,7 @@ fn most(a: f32, b: f32) -> f32 {
     if a > b { a } else { b }
 }
 
-/// Slabs of the box across 16 azimuths; a bit for each azimuth that meets the most grown box in reach.
+/// Slabs of the box across 16 azimuths; a bit for each azimuth that meets the outermost box that matters, in reach.
 #[inline(always)]
 fn cross(shape: &Shape<'_>, first: usize, solid: &Profile, out: &mut Crossings) -> u32 {
     let (Some(cos), Some(sin)) =
@@ -210,6 +251,7 @@ fn cross(shape: &Shape<'_>, first: usize, solid: &Profile, out: &mut Crossings) 
         return 0;
     };
     let grow = [0.0, shape.grow[0], shape.grow[1]];
+    let outermost = if solid.below_all { 0 } else { 2 };
     let mut hit = [0_u32; VECTOR];
     for j in 0..VECTOR {
         // A ray parallel to a face gets a slope too small to matter instead of a division by zero.
@@ -223,7 +265,10 @@ fn cross(shape: &Shape<'_>, first: usize, solid: &Profile, out: &mut Crossings) 
             out.enter[k][j] = most(most(middle_x - ex, middle_y - ey), 0.0);
             out.leave[k][j] = least(middle_x + ex, middle_y + ey);
         }
-        let meets = (out.enter[2][j] <= out.leave[2][j]) & (out.enter[2][j] <= shape.farthest);
+    }
+    let (enter, leave) = (&out.enter[outermost], &out.leave[outermost]);
+    for j in 0..VECTOR {
+        let meets = (enter[j] <= leave[j]) & (enter[j] <= shape.farthest);
         hit[j] = u32::from(meets) << j;
     }
     hit.iter().fold(0, |bits, bit| bits | bit)
@@ -309,14 +354,21 @@ simd_kernel! {
         let rings = shape.radius.len();
         let mut crossings = Crossings { enter: [[0.0; VECTOR]; 3], leave: [[0.0; VECTOR]; 3] };
         for solid in solids {
+            let least_along = least_along(shape, solid);
             for first in (0..shape.cos.len()).step_by(VECTOR) {
+                let middle = first + VECTOR / 2;
+                if solid.away[0] * shape.cos[middle] + solid.away[1] * shape.sin[middle] < least_along {
+                    continue;
+                }
                 let mut bits = cross(shape, first, solid, &mut crossings);
                 while bits != 0 {
                     let j = bits.trailing_zeros() as usize;
                     bits &= bits - 1;
                     let row = &mut marks[(first + j) * rings..(first + j + 1) * rings];
                     let along = |k: usize| (crossings.enter[k][j], crossings.leave[k][j]);
-                    mark_inside(shape, solid, [along(1), along(2)], row);
+                    if !solid.below_all {
+                        mark_inside(shape, solid, [along(1), along(2)], row);
+                    }
                     let (enter, leave) = along(0);
                     if enter > leave {
                     } else if shape.from_above && solid.low <= shape.body_m[0] {

@@ -16,12 +16,11 @@ const LOOK_AHEAD_FRAMES: usize = 256;
 /// Waypoints that a stretch takes over: enough for speed, acceleration and jerk.
 const HEAD_FRAMES: usize = 3;
 
+/// Plans a short request that begins with the given waypoints.
+type PlanOne<'a> = dyn Fn(&PlanRequest<'_>, &[DVec3]) -> Result<Found, String> + 'a;
+
 /// Plans a long request with `plan_one`, which plans a short one that begins with the given waypoints.
-pub fn plan_stretches(
-    request: &PlanRequest<'_>,
-    head: &[DVec3],
-    plan_one: &dyn Fn(&PlanRequest<'_>, &[DVec3]) -> Result<Found, String>,
-) -> Result<Found, String> {
+pub fn plan_stretches(request: &PlanRequest<'_>, head: &[DVec3], plan_one: &PlanOne<'_>) -> Result<Found, String> {
     let frames = request.track.len();
     let mut waypoints = head.to_vec();
     let mut convergence = Vec::new();
@@ -62,7 +61,7 @@ fn plan_stretch(
     request: &PlanRequest<'_>,
     frames: core::ops::Range<usize>,
     head: &[DVec3],
-    plan_one: &dyn Fn(&PlanRequest<'_>, &[DVec3]) -> Result<Found, String>,
+    plan_one: &PlanOne<'_>,
 ) -> Result<Found, String> {
     let cut = |track: &TargetTrack| TargetTrack { states: track.states[frames.clone()].to_vec(), ..*track };
     let companions: Vec<TargetTrack> = request.companions.iter().map(cut).collect();

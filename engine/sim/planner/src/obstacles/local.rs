@@ -13,6 +13,8 @@ const FRAMES_PER_COARSE_LIST: usize = 128;
 /// How far a query may be from its frame's centre while the frame's short lists are still complete, metres.
 const FOCUS_M: f64 = 2.6;
 
+/// Body points whose shadows are told: ankle, middle, head, shoulders. The others lie between them.
+pub const GUARDED_POINTS: [usize; 5] = [0, 2, 5, 6, 7];
 /// Shadows further away than this are not told, metres.
 const SHADOW_REACH_M: f64 = 2.0;
 
@@ -331,7 +333,7 @@ impl Surroundings for LocalObstacles<'_> {
         let list = self.in_focus(frame, position).map_or(all, |focus| &focus.between);
         for (target, body) in self.bodies.iter().enumerate() {
             let list = if target == 0 { list } else { all };
-            for &point in &body[frame] {
+            for point in GUARDED_POINTS.map(|k| body[frame][k]) {
                 let mut deepest: Option<(f64, DVec3)> = None;
                 for solid in list.iter().map(|&index| &self.solids[index as usize]).chain(self.moving_at(frame)) {
                     let limit = deepest.map_or(SHADOW_REACH_M, |(slack, _)| slack);

@@ -18,7 +18,7 @@ pub trait Surroundings {
     /// Signed distance to the nearest obstacle and the direction away from it, when below `within_m`.
     fn nearest(&self, frame: usize, position: DVec3, within_m: f64) -> Option<(f64, DVec3)>;
 
-    /// For each body point near whose lines of sight from `position` a box stands: how far `position` is outside the
+    /// For each of some body points near whose lines of sight from `position` a box stands: how far `position` is outside the
     /// deepest shadow (negative inside it), metres, and the direction in which that grows.
     fn shadows(&self, frame: usize, position: DVec3, each: &mut dyn FnMut(f64, DVec3)) {
         let _ = (frame, position, each);

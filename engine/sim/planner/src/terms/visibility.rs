@@ -2,7 +2,7 @@
 
 use super::{CostTerm, TermContext};
 use crate::equations::NormalEquations;
-use crate::visibility::BODY_POINTS;
+use crate::obstacles::local::GUARDED_POINTS;
 use cosfly_frames::DVec3;
 
 /// Lines of sight are wished this far from the edge of a shadow, metres.
@@ -39,7 +39,7 @@ impl CostTerm for Visibility {
         equations: &mut NormalEquations,
     ) -> bool {
         // The share of hidden points is a step function; what is linear is how deep in shadow the waypoint is.
-        let each = SIGHT_FACTOR * weight / BODY_POINTS as f64;
+        let each = SIGHT_FACTOR * weight / GUARDED_POINTS.len() as f64;
         for (frame, &waypoint) in waypoints.iter().enumerate() {
             context.surroundings.shadows(frame, waypoint, &mut |slack_m, away| {
                 if slack_m > -HOPELESS_M && slack_m < MARGIN_M {
