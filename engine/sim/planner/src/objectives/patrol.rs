@@ -1,7 +1,7 @@
 //! `patrol`: timed waypoints are met, one after the other; the camera looks ahead.
 //!
 //! A smooth reference runs through all waypoints at their times. The drone is drawn to each waypoint at its time, and
-//! lightly to the reference between them; the point to be watched runs on the ground below the reference, ahead of it.
+//! lightly to the reference between them; the point to be watched runs below the reference, ahead of it.
 
 use super::config::{DT_S, LONGEST_S, PatrolConfig};
 use super::facade::is_free;
@@ -14,6 +14,10 @@ use cosfly_frames::{DVec2, DVec3, Pose, Seed, TargetState, TargetTrack, real};
 const WEIGHT: f64 = 60.0;
 /// Share of that for the reference between waypoints.
 const BETWEEN_SHARE: f64 = 0.01;
+/// The watched point is this far below the reference, in leads: the camera looks half down, over roofs.
+const BELOW_SHARE: f64 = 0.5;
+/// Weight of seeing the watched point, unless the recipe says otherwise: it only leads the camera.
+const VISIBILITY_WEIGHT: f64 = 2.0;
 /// Draws of a loop before giving up.
 const MAX_DRAWS: u64 = 200;
 /// A waypoint counts as met within this distance, metres.
@@ -146,8 +150,8 @@ fn along(site: &Site<'_>, timed: &[(DVec3, f64)], wanted: &PatrolConfig, config:
     let places: Vec<DVec3> = (0..frames).map(|frame| reference.at(frame as f64 * DT_S)).collect();
     let watched = |frame: usize| {
         let ahead = reference.at(frame as f64 * DT_S + lead_s);
-        let ground = (site.ground)(ahead.x, ahead.y);
-        ahead.with_z(if ground.is_finite() { ground } else { 0.0 })
+        let (ground, below) = ((site.ground)(ahead.x, ahead.y), ahead.z - BELOW_SHARE * wanted.lead_m);
+        ahead.with_z(if ground.is_finite() { below.max(ground) } else { below })
     };
     let points: Vec<DVec3> = (0..=frames).map(watched).collect();
     let state = |pair: &[DVec3]| {
@@ -188,6 +192,7 @@ fn wishes(heights: impl Iterator<Item = f64>, wanted: &PatrolConfig, config: &Mu
     view.min_radius_m = (0.3 * wanted.lead_m).max(0.5);
     view.max_radius_m = 1.8 * wanted.lead_m;
     view.rear_sector_deg = 180.0;
+    config.weights.visibility = config.weights.visibility.or(Some(VISIBILITY_WEIGHT));
     config.search.filter_radius_m = config.search.filter_radius_m.max(view.max_radius_m + 10.0);
     config
 }
