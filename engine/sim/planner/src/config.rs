@@ -30,7 +30,7 @@ pub struct MucoConfig {
     pub targets: TargetsConfig,
     /// Losing the target on purpose.
     pub occlusion: OcclusionConfig,
-    /// The descent of `preset = "paper"`; the other presets refine in another way.
+    /// The descent of `preset = "paper"`; of it the other presets use only `difference_m`, for terms without a gradient.
     pub descent: DescentConfig,
     /// What only `preset = "paper"` has.
     pub paper: PaperConfig,
@@ -153,12 +153,12 @@ pub struct ViewConfig {
     #[schemars(range(min = 0.1, max = 50.0))]
     pub safety_influence_m: f64,
     /// Half-angle of the sector behind the walker that is searched, degrees; 180 allows every side
-    /// (the viewpoint weight still prefers the rear), the paper's start uses 60. Default 180.
+    /// (the viewpoint weight still prefers the rear). Default 180.
     #[schemars(range(min = 10.0, max = 180.0))]
     pub rear_sector_deg: f64,
 }
 
-/// The global search for the start: a shortest path over a lattice of viewpoints around the moving target.
+/// The global search: a shortest path over a lattice of viewpoints around the moving target.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(default, deny_unknown_fields)]
 pub struct SearchConfig {

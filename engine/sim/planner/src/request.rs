@@ -17,7 +17,8 @@ pub struct PlanRequest<'a> {
     pub ground: &'a dyn Fn(f64, f64) -> f64,
     /// Wishes and limits.
     pub config: &'a MucoConfig,
-    /// Cost terms beside the paper's nine; they join the search, the refinement and the costs in the output.
+    /// Cost terms beside the paper's nine; they join the search, the refinement and the costs in the output. Tracks of
+    /// more than 4,096 frames are planned in stretches, each of which terms see as a track of its own.
     pub extra_terms: Vec<WeightedTerm>,
     /// Where the drone is at the first frame, and how it moves; `None` leaves that to the planner.
     pub start: Option<StartState>,

@@ -30,7 +30,9 @@ pub struct Trajectory {
     pub clearance_m: Vec<f64>,
     /// Cost per term of the recipe's weights.
     pub terms: Vec<TermCost>,
-    /// Total cost after each solver iteration.
+    /// Total cost against the planning boxes: before and after refinement, and of the flight itself; with
+    /// `preset = "paper"` after each iteration of its descent in between. Stretch by stretch on tracks that are planned so;
+    /// empty for baselines.
     pub convergence: Vec<f64>,
     /// What was checked at the end, against the unsimplified map.
     pub certificate: Certificate,

@@ -1,4 +1,4 @@
-//! A term from outside joins the search, the descent and the output like the nine built-in ones.
+//! A term from outside joins the search, the refinement and the output like the nine built-in ones.
 
 use cosfly_frames::{DVec3, Seed, TargetState, TargetTrack};
 use cosfly_geometry::BoxBvh;

@@ -233,7 +233,7 @@ fn solution() -> Vec<Column<DatasetItem>> {
         Column::new(
             "iterations",
             Kind::Integer,
-            "iterations of descent and corridor smoothing; 0 for perturbed flights",
+            "steps of refinement or descent and of corridor smoothing; 0 for perturbed flights",
             |item, _| certificate_of(item).iterations.into(),
         ),
         Column::new(
@@ -248,9 +248,12 @@ fn solution() -> Vec<Column<DatasetItem>> {
             "how much less the flight sees than the lattice's way; 0 when as much or more",
             |item, _| certificate_of(item).visibility_regret.into(),
         ),
-        Column::new("attempts", Kind::Integer, "lattices tried, from the fast one to finer and calmer ones", |item, _| {
-            certificate_of(item).attempts.into()
-        }),
+        Column::new(
+            "attempts",
+            Kind::Integer,
+            "lattices tried, from the fast one to finer and calmer ones",
+            |item, _| certificate_of(item).attempts.into(),
+        ),
         Column::new("searches", Kind::Integer, "searches through the last lattice", |item, _| {
             certificate_of(item).searches.into()
         }),
@@ -281,8 +284,8 @@ fn solution() -> Vec<Column<DatasetItem>> {
         Column::new(
             "convergence",
             Kind::RealList,
-            "total cost at the start and after each descent iteration; the last entry is that of the published flight, after \
-             post-processing and corridor smoothing; empty for perturbed flights",
+            "total cost against the planning boxes before and after refinement (preset `paper`: after each iteration of \
+             descent) and of the published flight; empty for baselines and perturbed flights",
             |item, _| item.record.trajectory.convergence.clone().into(),
         ),
         Column::optional(

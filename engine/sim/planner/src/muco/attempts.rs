@@ -30,6 +30,11 @@ const LIGHT: Objective = Objective { rounds: 2, iterations: 60, nearness: 0.15, 
 /// How the lattice's way (or the paper's flight) is, when that was not enough.
 pub const THOROUGH: Objective = Objective { rounds: 4, iterations: 160, nearness: 0.05, acceleration: 0.5, jerk: 2.0 };
 
+/// Times that a flight which sees nearly all that the lattice promises is refined and smoothed once more: what it lacks
+/// are single frames between layers. Where much is hidden, that gains a thousandth for a quarter of the time.
+const TOUCH_UPS: usize = 2;
+const NEARLY_ALL: f64 = 0.99;
+
 thread_local! {
     /// Buffers kept from one flight to the next; every use fills them anew.
     static WORKSHOP: RefCell<Workshop> = RefCell::default();
@@ -134,23 +139,32 @@ fn attempt(
     let rounds = Rounds { rounds: 2, steps: 3 };
     let refined = refine(problem, obstacles, config, rounds, head, &mut workshop.refine, &mut waypoints);
     judge.iterations += refined.steps;
-    let mut measured = None;
-    if judge.needs_nothing(obstacles, &waypoints) {
-        measured = Some(judge.measure(&waypoints)).filter(|measured| measured.certificate.holds);
-    }
-    let mut measured = measured.unwrap_or_else(|| {
-        let keep_m = config.limits.clearance_m + KEEP_OUT_EXTRA_M;
-        let safe = led_back(obstacles, &waypoints, &start.waypoints, keep_m);
-        let (smoothed, measured) = judge.make_flyable(obstacles, &waypoints, &safe, LIGHT);
-        waypoints = smoothed;
-        measured
-    });
+    let mut measured;
+    (waypoints, measured) = finish(config, obstacles, judge, waypoints, &start.waypoints);
     if !judge.publishable(&measured) {
         (waypoints, measured) = judge.make_flyable(obstacles, &start.waypoints, &start.waypoints, THOROUGH);
     }
     if !judge.publishable(&measured) {
         return Err(measured.certificate.violations.join("; "));
     }
+    for _ in 0..TOUCH_UPS {
+        let seen = measured.certificate.mean_visibility;
+        if seen < NEARLY_ALL || seen >= start.visibility {
+            break;
+        }
+        let mut touched = waypoints.clone();
+        let rounds = Rounds { rounds: 1, steps: 2 };
+        judge.iterations += refine(problem, obstacles, config, rounds, head, &mut workshop.refine, &mut touched).steps;
+        let (touched, again) = finish(config, obstacles, judge, touched, &waypoints);
+        let more = again.certificate.mean_visibility > measured.certificate.mean_visibility;
+        if !more || !judge.publishable(&again) {
+            break;
+        }
+        (waypoints, measured) = (touched, again);
+    }
+    obstacles.focus_on(&waypoints);
+    let mut convergence = refined.convergence;
+    convergence.push(problem.cost(obstacles, &waypoints));
     let certificate = &mut measured.certificate;
     certificate.iterations = judge.iterations;
     certificate.filtered_boxes = obstacles.count() as u32;
@@ -159,7 +173,26 @@ fn attempt(
     certificate.visibility_regret = (start.visibility - certificate.mean_visibility).max(0.0);
     certificate.occlusion_ordered_s = losses.ordered_s;
     certificate.occlusion_reached_s = reached_s(&losses, &measured.visibility, problem.track.dt_s);
-    Ok((Found { waypoints, measured, convergence: refined.convergence }, start.closed_share))
+    Ok((Found { waypoints, measured, convergence }, start.closed_share))
+}
+
+/// A refined flight and its measurements; smoothed, from `safe` where it comes too near an obstacle, if it needs that.
+fn finish(
+    config: &MucoConfig,
+    obstacles: &LocalObstacles<'_>,
+    judge: &mut Judge<'_>,
+    refined: Vec<DVec3>,
+    safe: &[DVec3],
+) -> (Vec<DVec3>, Measured) {
+    if judge.needs_nothing(obstacles, &refined) {
+        let measured = judge.measure(&refined);
+        if measured.certificate.holds {
+            return (refined, measured);
+        }
+    }
+    let keep_m = config.limits.clearance_m + KEEP_OUT_EXTRA_M;
+    let safe = led_back(obstacles, &refined, safe, keep_m);
+    judge.make_flyable(obstacles, &refined, &safe, LIGHT)
 }
 
 /// `waypoints`, led back to the safe way over stretches that come too near an obstacle.

@@ -10,6 +10,7 @@ use crate::obstacles::exact::ExactMap;
 use crate::obstacles::local::LocalObstacles;
 use crate::obstacles::solid::HalfSpace;
 use crate::problem::Problem;
+use crate::trajectory::Certificate;
 use cosfly_frames::{DVec3, TargetState};
 
 /// Distance kept beyond the limit while smoothing, metres.
@@ -123,18 +124,22 @@ impl<'a> Judge<'a> {
         found
     }
 
-    /// Clearance always; speed, acceleration and jerk when the recipe requires them.
+    /// See [`publishable`].
     pub fn publishable(&self, measured: &Measured) -> bool {
-        let certificate = &measured.certificate;
-        if certificate.holds {
-            return true;
-        }
-        let kinematics = Kinematics {
-            speed_mps: certificate.max_speed_mps,
-            acceleration_mps2: certificate.max_acceleration_mps2,
-            jerk_mps3: certificate.max_jerk_mps3,
-        };
-        let kinematic = kinematics.violations(&certificate.limits);
-        !self.config.limits.require_kinematics && certificate.violations.iter().all(|v| kinematic.contains(v))
+        publishable(self.config, &measured.certificate)
     }
+}
+
+/// Clearance always; speed, acceleration and jerk when the recipe requires them.
+pub fn publishable(config: &MucoConfig, certificate: &Certificate) -> bool {
+    if certificate.holds {
+        return true;
+    }
+    let kinematics = Kinematics {
+        speed_mps: certificate.max_speed_mps,
+        acceleration_mps2: certificate.max_acceleration_mps2,
+        jerk_mps3: certificate.max_jerk_mps3,
+    };
+    let kinematic = kinematics.violations(&certificate.limits);
+    !config.limits.require_kinematics && certificate.violations.iter().all(|v| kinematic.contains(v))
 }

@@ -184,7 +184,10 @@ fn by_the_paper(
     measured.certificate.attempts = 1;
     measured.certificate.iterations = judge.iterations;
     measured.certificate.filtered_boxes = obstacles.count() as u32;
-    Ok(Found { waypoints, measured, convergence: flight.convergence })
+    obstacles.focus_on(&waypoints);
+    let mut convergence = flight.convergence;
+    convergence.push(problem.cost(obstacles, &waypoints));
+    Ok(Found { waypoints, measured, convergence })
 }
 
 /// The flight as it is handed out: without the frames before the first, with poses and the costs of all terms.

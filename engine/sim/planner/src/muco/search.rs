@@ -22,6 +22,9 @@ const SHORTEST_LAYER_S: f64 = 0.5;
 const OUTSIDE_SECTOR: f64 = 30.0;
 /// Visibility weighs this much more than in the sum of the terms, because a node is all or nothing.
 const VISIBILITY_FACTOR: f64 = 4.0;
+/// Terms that the search prices in its own way, node by node or move by move.
+const PRICED: [&str; 9] =
+    ["tracking", "smoothness", "jerk", "safety", "visibility", "viewpoint", "pitch", "altitude", "length"];
 /// Share of the speed limit at which nodes may follow each other; the rest is for getting up to speed and slowing down.
 const STEADY_SHARE: f64 = 0.66;
 
@@ -246,14 +249,16 @@ fn node_costs(
     }
 }
 
-/// Terms that are not built in join the search as the cost of hovering at each node throughout.
+/// All other terms join the search as the cost of hovering at each node throughout.
 fn extra_costs(
     problem: &Problem<'_>,
     obstacles: &LocalObstacles<'_>,
     lattice: &Lattice,
     frames: &[usize],
 ) -> Vec<Vec<f32>> {
-    let extra: Vec<_> = problem.terms.iter().skip(problem.built_in).filter(|term| term.weight > 0.0).collect();
+    let priced = |index: usize, name: &str| index < problem.built_in && PRICED.contains(&name);
+    let terms = problem.terms.iter().enumerate().filter(|(index, term)| !priced(*index, term.term.name()));
+    let extra: Vec<_> = terms.map(|(_, term)| term).filter(|term| term.weight > 0.0).collect();
     if extra.is_empty() {
         return Vec::new();
     }

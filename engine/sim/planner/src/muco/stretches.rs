@@ -2,6 +2,7 @@
 //! beginning of the next, so that memory stays that of one stretch and the whole is as smooth as its parts.
 
 use super::attempts::Found;
+use super::judge::publishable;
 use crate::certificate::certify;
 use crate::obstacles::exact::ExactMap;
 use crate::request::PlanRequest;
@@ -51,7 +52,7 @@ pub fn plan_stretches(request: &PlanRequest<'_>, head: &[DVec3], plan_one: &Plan
     (certificate.iterations, certificate.filtered_boxes) = (sum.iterations, sum.filtered_boxes);
     certificate.occlusion_ordered_s = sum.occlusion_ordered_s;
     certificate.occlusion_reached_s = sum.occlusion_reached_s;
-    if request.config.limits.require_kinematics && !certificate.holds {
+    if !publishable(request.config, certificate) {
         return Err(certificate.violations.join("; "));
     }
     Ok(Found { waypoints, measured, convergence })

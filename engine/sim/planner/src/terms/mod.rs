@@ -79,15 +79,15 @@ pub struct WeightedTerm {
     pub weight: f64,
 }
 
-// The terms of the paper, in the order of its equation, with their weights in both presets.
+// The terms of the paper, in the order of its equation, with their weights in `cosfly` (and its kin `rear` and `short`) and `paper`.
 cost_terms! {
     /// Distance from the best observation distance (lambda 1); cosfly 0.05, paper 1.
     tracking: tracking::Tracking, cosfly 0.05, paper 1.0;
-    /// Acceleration (lambda 2); 0.5 in both.
+    /// Acceleration (lambda 2); 0.5 in all presets.
     smoothness: smoothness::Smoothness, cosfly 0.5, paper 0.5;
-    /// Jerk (lambda 3); 0.3 in both.
+    /// Jerk (lambda 3); 0.3 in all presets.
     jerk: jerk::Jerk, cosfly 0.3, paper 0.3;
-    /// Nearness of obstacles (lambda 4); 2 in both.
+    /// Nearness of obstacles (lambda 4); 2 in all presets.
     safety: safety::Safety, cosfly 2.0, paper 2.0;
     /// Hidden body points (lambda 5); cosfly 60, paper 3.
     visibility: visibility::Visibility, cosfly 60.0, paper 3.0;
@@ -95,9 +95,9 @@ cost_terms! {
     viewpoint: viewpoint::Viewpoint, cosfly 0.3, paper 1.0;
     /// Pitch away from the target pitch (lambda 7); cosfly 0.1, paper 0.5.
     pitch: pitch::Pitch, cosfly 0.1, paper 0.5;
-    /// Altitude out of its band, and its oscillation (lambda 8); 1 in both.
+    /// Altitude out of its band, and its oscillation (lambda 8); 1 in all presets.
     altitude: altitude::Altitude, cosfly 1.0, paper 1.0;
-    /// Length of the flight (lambda 9); 0.1 in both.
+    /// Length of the flight (lambda 9); 0.1 in all presets.
     length: length::Length, cosfly 0.1, paper 0.1;
 }
 
