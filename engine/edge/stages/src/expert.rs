@@ -6,6 +6,7 @@ use crate::world::World;
 use cosfly_frames::{Seed, TargetTrack};
 use cosfly_geometry::OrientedBox;
 use cosfly_maps::ObstacleKind;
+use cosfly_planner::config::Planner;
 use cosfly_planner::objectives::inspect::{self, Inspection};
 use cosfly_planner::objectives::patrol::{self, MET_M, Patrol};
 use cosfly_planner::objectives::{Mission, Objective, ObjectiveConfig, Site, track};
@@ -40,6 +41,11 @@ impl Expert {
         let refused = |(path, message): (String, String)| parameters::refused_at(&path, message);
         config.validate().map_err(refused)?;
         objective.validate(config.limits.speed_mps).map_err(refused)?;
+        if config.planner != Planner::Muco && (objective.objective != Objective::Track || config.targets.companions > 0)
+        {
+            let message = "`planner` names a baseline; only `muco` takes companions and other objectives than `track`";
+            return Err(parameters::refused_at("planner", message));
+        }
         if objective.objective != Objective::Track && config.targets.companions > 0 {
             let message = format!(
                 "`targets.companions` is {}; only `objective = \"track\"` has companions",
@@ -191,11 +197,13 @@ impl Flight {
             notes.insert("visibility of companions".to_owned(), format!("{mean:.3}"));
         }
         let certificate = &flight.certificate;
-        if certificate.occlusion_ordered_s > 0.0 {
-            let (ordered, reached) = (certificate.occlusion_ordered_s, certificate.occlusion_reached_s);
-            notes.insert("occlusion".to_owned(), format!("{reached} of {ordered} s"));
-            if reached < ordered {
-                warnings.push(format!("the target was to be lost for {ordered} s and is lost for {reached} s"));
+        let occlusion = &self.mission.config.occlusion;
+        if occlusion.count > 0 {
+            let reached = certificate.occlusion_reached_s;
+            notes.insert("occlusion".to_owned(), format!("{reached} of {} s", certificate.occlusion_ordered_s));
+            let least = f64::from(occlusion.count) * occlusion.min_s;
+            if reached < least {
+                warnings.push(format!("the target was to be lost for {least} s at least and is lost for {reached} s"));
             }
         }
         (notes, warnings)
