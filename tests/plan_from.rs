@@ -42,8 +42,10 @@ fn the_expert_goes_on_from_where_the_drone_is_and_again_from_where_that_leads() 
     let (at, before) = (place(&waypoints[4]), place(&waypoints[3]));
     let velocity: [f64; 3] = core::array::from_fn(|axis| (at[axis] - before[axis]) / 0.5);
     let ([x, y, z], [vx, vy, vz]) = (texts(at), texts(velocity));
-    let state = ["--frame", "6", "--position", &x, &y, &z, "--velocity", &vx, &vy, &vz, "--horizon", "1"];
-    let (code, next) = ask(&street, &state);
+    let state = ["--frame", "6", "--position", &x, &y, &z, "--velocity", &vx, &vy, &vz];
+    let (_, whole) = ask(&street, &[&state[..], &["--horizon", "1e300"]].concat());
+    assert_eq!(whole["waypoints"].as_array().map(Vec::len), Some(6), "{whole}");
+    let (code, next) = ask(&street, &[&state[..], &["--horizon", "1"]].concat());
     assert_eq!((code, next["waypoints"].as_array().map(Vec::len)), (Some(0), Some(3)), "{next}");
 }
 
@@ -53,6 +55,7 @@ fn states_without_a_way_on_are_answered_with_the_reason() {
     for (state, reason) in [
         (["--position", "40", "-20", "0.2", "--velocity", "0", "0", "0"], "from an obstacle or the ground"),
         (["--position", "40", "-20", "25", "--velocity", "0", "15", "0"], "15.00 m/s; the limit is 12 m/s"),
+        (["--position", "1e300", "-20", "25", "--velocity", "0", "0", "0"], "viewpoint"),
         (["--position", "nan", "-20", "25", "--velocity", "0", "0", "0"], "not finite"),
     ] {
         let (code, answer) = ask(&street, &[&["--frame", "0"], &state[..]].concat());

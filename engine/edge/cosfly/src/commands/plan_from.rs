@@ -137,7 +137,9 @@ fn answer(experts: &mut Experts<'_>, state: &State) -> cosfly_diagnose::Result<A
     }
     let frames = match state.horizon_s {
         None => usize::MAX,
-        Some(horizon) if horizon > 0.0 && horizon.is_finite() => (horizon / track.dt_s).ceil() as usize + 1,
+        Some(horizon) if horizon > 0.0 && horizon.is_finite() => {
+            ((horizon / track.dt_s).ceil() as usize).saturating_add(1)
+        }
         Some(horizon) => {
             let message = format!("the horizon is {horizon} s; it must be above 0 s");
             return Err(Diagnostic::new("plan-from-horizon", Fault::Input, message));
