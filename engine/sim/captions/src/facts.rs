@@ -170,7 +170,7 @@ pub(crate) mod test_flights {
                 length_ratio: 1.0,
                 iterations: 1,
                 filtered_boxes: 1,
-        ..Certificate::default()
+                ..Certificate::default()
             },
             perturbation: None,
         }
