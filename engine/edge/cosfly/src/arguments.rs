@@ -158,7 +158,7 @@ pub struct PlanFromArguments {
     /// How it moves, m/s
     #[arg(long, num_args = 3, value_names = ["X", "Y", "Z"], allow_negative_numbers = true, default_values_t = [0.0, 0.0, 0.0], hide_default_value = true)]
     pub velocity: Vec<f64>,
-    /// How far to plan [default: to the trajectory's end]
+    /// How much of the way to tell [default: to the trajectory's end]
     #[arg(long, value_name = "SECONDS")]
     pub horizon: Option<f64>,
     /// Print JSON

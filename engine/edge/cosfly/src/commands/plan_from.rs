@@ -12,6 +12,9 @@ use serde::{Deserialize, Serialize};
 use std::fmt::Write as _;
 use std::io::{BufRead, Write as _};
 
+/// Shorter horizons are planned as far as this and cut off, so that no way ends in a dead end, seconds.
+const LOOK_AHEAD_S: f64 = 15.0;
+
 /// A drone's state beside a trajectory.
 #[derive(Clone, Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
@@ -25,7 +28,7 @@ struct State {
     /// World frame, m/s.
     #[serde(default)]
     velocity: [f64; 3],
-    /// How far to plan, seconds; to the end of the trajectory unless given.
+    /// How much of the way to tell, seconds; to the end of the trajectory unless given.
     horizon_s: Option<f64>,
 }
 
@@ -148,9 +151,11 @@ fn answer(experts: &mut Experts<'_>, state: &State) -> cosfly_diagnose::Result<A
     let start =
         StartState { position_in_world: DVec3::from(state.position), velocity_in_world: DVec3::from(state.velocity) };
     let (mut reason, mut waypoints, mut certificate) = (None, Vec::new(), None);
-    match known.flight.plan_from(&known.world, state.frame, frames, start) {
+    let planned_frames = frames.max((LOOK_AHEAD_S / track.dt_s).ceil() as usize + 1);
+    match known.flight.plan_from(&known.world, state.frame, planned_frames, start) {
         PlanOutcome::Planned(flight) => {
             waypoints = waypoints_of(&flight, state.frame);
+            waypoints.truncate(frames);
             certificate = Some(flight.certificate);
         }
         PlanOutcome::Rejected { reason: why, .. } => reason = Some(why),
