@@ -5,7 +5,7 @@ use super::lattice::{Lattice, LatticeSize};
 use super::losses::{self, LossPlan};
 use super::scan::{CLOSE, NodeState, Scanner, UNSAFE};
 use super::viterbi::{MoveCosts, NodeCosts, SearchSpace, Viterbi};
-use crate::config::{MucoConfig, SeveralTargets};
+use crate::config::{LimitsConfig, MucoConfig, SeveralTargets};
 use crate::obstacles::local::LocalObstacles;
 use crate::problem::Problem;
 use crate::terms::Weights;
@@ -25,6 +25,8 @@ const VISIBILITY_FACTOR: f64 = 4.0;
 /// Terms that the search prices in its own way, node by node or move by move.
 const PRICED: [&str; 9] =
     ["tracking", "smoothness", "jerk", "safety", "visibility", "viewpoint", "pitch", "altitude", "length"];
+/// Share of the limits that leading in from a given start may take.
+const LEAD_IN_SHARE: f64 = 0.6;
 /// Share of the speed limit at which nodes may follow each other; the rest is for getting up to speed and slowing down.
 const STEADY_SHARE: f64 = 0.66;
 
@@ -107,7 +109,7 @@ pub fn search(
             )
         })?;
         let mut waypoints = interpolate(&lattice, track, &frames, &nodes);
-        lead_in(head, STEADY_SHARE * config.limits.speed_mps * track.dt_s, &mut waypoints);
+        lead_in(head, &config.limits, track.dt_s, &mut waypoints);
         let cut = cut_layers(obstacles, &waypoints, &frames, CUT_SHARE * config.limits.clearance_m);
         let Some(&first) = cut.first() else {
             let hidden = |(layer, &node): (usize, &usize)| f64::from(viterbi.state(layer, node) & !CLOSE);
@@ -143,16 +145,28 @@ fn start_costs(
     (0..lattice.nodes()).map(cost).collect()
 }
 
-/// Leads from the given waypoints into the way through the lattice, at no more than `step_m` from frame to frame
-/// beside the way's own moves.
-fn lead_in(head: &[DVec3], step_m: f64, waypoints: &mut [DVec3]) {
-    let Some((&start, first)) = head.last().zip(head.len().checked_sub(1)) else { return };
-    let gap = waypoints.get(first).map_or(DVec3::ZERO, |waypoint| start - waypoint);
-    // Along 3 t^2 - 2 t^3 the steepest step is half again as long as the mean.
-    let frames = (1.5 * gap.length() / step_m.max(1e-6)).ceil().max(1.0);
+/// Leads from the given waypoints into the way through the lattice: what is between them at first, in place and in
+/// velocity, dies away along a cubic, slowly enough for the limits of speed and acceleration.
+fn lead_in(head: &[DVec3], limits: &LimitsConfig, dt_s: f64, waypoints: &mut [DVec3]) {
+    let [.., before, start] = head else { return };
+    let first = head.len() - 1;
+    if waypoints.len() <= first + 1 {
+        return waypoints[..head.len()].copy_from_slice(head);
+    }
+    let gap = start - waypoints[first];
+    // Metres per frame.
+    let drift = (start - before) - (waypoints[first + 1] - waypoints[first]);
+    let (fastest, steepest) =
+        (LEAD_IN_SHARE * limits.speed_mps * dt_s, LEAD_IN_SHARE * limits.acceleration_mps2 * dt_s * dt_s);
+    // The cubic's steepest step is 1.5 gap / frames, its strongest bend 6 gap / frames^2 + 4 drift / frames.
+    let by_speed = 1.5 * gap.length() / fastest;
+    let half = 2.0 * drift.length() / steepest;
+    let by_bend = half + (half * half + 6.0 * gap.length() / steepest).sqrt();
+    let frames = by_speed.max(by_bend).ceil().clamp(1.0, waypoints.len() as f64);
     for (i, waypoint) in waypoints.iter_mut().skip(first).enumerate() {
         let t = (i as f64 / frames).min(1.0);
-        *waypoint += gap * (1.0 - t * t * (3.0 - 2.0 * t));
+        let left = 1.0 - t;
+        *waypoint += gap * (left * left * (1.0 + 2.0 * t)) + drift * (frames * t * left * left);
     }
     waypoints[..head.len()].copy_from_slice(head);
 }
