@@ -370,11 +370,11 @@ simd_kernel! {
                         mark_inside(shape, solid, [along(1), along(2)], row);
                     }
                     let (enter, leave) = along(0);
-                    if enter > leave {
-                    } else if shape.from_above && solid.low <= shape.body_m[0] {
-                        mark_behind(shape, solid, enter, row);
-                    } else {
-                        mark_hidden(shape, solid, enter, leave, row);
+                    let stands = shape.from_above && solid.low <= shape.body_m[0];
+                    match (enter <= leave, stands) {
+                        (true, true) => mark_behind(shape, solid, enter, row),
+                        (true, false) => mark_hidden(shape, solid, enter, leave, row),
+                        (false, _) => (),
                     }
                 }
             }
