@@ -209,14 +209,16 @@ fn leave_shadows(obstacles: &LocalObstacles<'_>, given: usize, waypoints: &mut [
     waypoints.iter_mut().zip(&bend).for_each(|(waypoint, bend)| *waypoint += bend.1);
 }
 
-/// A refined flight and its measurements; smoothed, from `safe` where it comes too near an obstacle, if it needs that.
+/// A refined flight and its measurements; never lower than `safe` and the lowest altitude, and smoothed, from `safe`
+/// where it comes too near an obstacle, if it needs that.
 fn finish(
     config: &MucoConfig,
     obstacles: &LocalObstacles<'_>,
     judge: &mut Judge<'_>,
-    refined: Vec<DVec3>,
+    mut refined: Vec<DVec3>,
     safe: &[DVec3],
 ) -> (Vec<DVec3>, Measured) {
+    judge.raise(obstacles, &mut refined, safe);
     if judge.needs_nothing(obstacles, &refined) {
         let measured = judge.measure(&refined);
         if measured.certificate.holds {

@@ -11,7 +11,7 @@ use crate::obstacles::local::LocalObstacles;
 use crate::obstacles::solid::HalfSpace;
 use crate::problem::Problem;
 use crate::trajectory::Certificate;
-use cosfly_frames::{DVec3, TargetState};
+use cosfly_frames::DVec3;
 
 /// Distance kept beyond the limit while smoothing, metres.
 pub const KEEP_OUT_EXTRA_M: f64 = 0.1;
@@ -92,12 +92,23 @@ impl<'a> Judge<'a> {
         let kinematics = Kinematics::of(waypoints, self.problem.track.dt_s);
         let keep_m = limits.clearance_m;
         let clear = |(i, w): (usize, &[DVec3])| obstacles.segment_clearance_m(i, w[0], w[1], keep_m) >= keep_m;
-        let floor = |(state, w): (&TargetState, &DVec3)| {
-            let ground = obstacles.ground_z_m(w.x, w.y).max(state.feet_in_world.z);
-            w.z >= ground + self.config.view.min_altitude_m - FLOOR_SLACK_M
-        };
-        let high = self.problem.track.states.iter().zip(waypoints).all(floor);
+        let above_floor = |(i, w): (usize, &DVec3)| w.z >= self.floor_m(obstacles, i, *w) - FLOOR_SLACK_M;
+        let high = waypoints.iter().enumerate().all(above_floor);
         high && kinematics.violations(&limits).is_empty() && waypoints.windows(2).enumerate().all(clear)
+    }
+
+    /// Raises waypoints to the lowest altitude, or to that of the waypoint of `safe` if that is lower.
+    pub fn raise(&self, obstacles: &LocalObstacles<'_>, waypoints: &mut [DVec3], safe: &[DVec3]) {
+        for (i, waypoint) in waypoints.iter_mut().enumerate().skip(self.head.len()) {
+            let lowest = safe[i].z.min(self.floor_m(obstacles, i, *waypoint));
+            waypoint.z = waypoint.z.max(lowest);
+        }
+    }
+
+    /// Height of the lowest altitude under a waypoint.
+    fn floor_m(&self, obstacles: &LocalObstacles<'_>, frame: usize, waypoint: DVec3) -> f64 {
+        let feet_z = self.problem.track.states[frame].feet_in_world.z;
+        obstacles.ground_z_m(waypoint.x, waypoint.y).max(feet_z) + self.config.view.min_altitude_m
     }
 
     /// Adds planes for segments that the exact map finds too close; false when there is nothing to add.
