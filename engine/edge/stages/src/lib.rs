@@ -2,6 +2,7 @@
 //!
 //! Adding a stage: one new file here, its `mod` line, and its line in [`registry`].
 
+mod backends;
 mod caption;
 mod codec;
 mod dataset;

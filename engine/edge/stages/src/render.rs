@@ -3,7 +3,7 @@
 use crate::memo::Memo;
 use crate::ports::{self, FRAMES, TRAJECTORY};
 use crate::world::{TOWN_BLOB, World, check_same_town, link_town, world};
-use crate::{codec, parameters, single};
+use crate::{backends, codec, parameters, single};
 use cosfly_dataset::frame_pack::{FramePackWriter, PackHeader};
 use cosfly_dataset::{EncodingConfig, PairInfo, Rejection, RenderedTrajectory, Role, TownInfo};
 use cosfly_diagnose::Result;
@@ -11,7 +11,7 @@ use cosfly_fingerprint::Digest;
 use cosfly_frames::Seed;
 use cosfly_planner::{PlanOutcome, Trajectory};
 use cosfly_render::{
-    Camera, FrameSetup, RenderConfig, Renderer, Scene, TargetSetup, TargetView, Weather, gait_phase_rad,
+    Backend, Camera, FrameSetup, RenderConfig, Scene, TargetSetup, TargetView, Weather, gait_phase_rad,
 };
 use cosfly_stage::{
     Artifact, InputPort, Inputs, ItemRule, OutputSink, ParameterError, Produced, Stage, StageKind, StagePart,
@@ -45,10 +45,14 @@ impl StageKind for Render {
             hint: Some(problem.hint),
             ..parameters::refused_at(&problem.path, problem.message)
         })?;
+        backends::check(config.backend).map_err(|error| ParameterError {
+            hint: Some(error.hint),
+            ..parameters::refused_at("backend", error.message)
+        })?;
         let pixels = u64::from(config.width) * u64::from(config.height);
         let properties = StageProperties {
             kind: self.name().into(),
-            version: 2,
+            version: 3,
             parameters: parameters::joined_canonical(&config, &encoding, "encoding"),
             sources: vec![],
             inputs: self.ports(),
@@ -69,7 +73,7 @@ struct RenderStage {
     properties: StageProperties,
     scene: Memo<Scene>,
     /// Renderers that no task uses now, with the camera they were made for.
-    idle: Mutex<Vec<Renderer>>,
+    idle: Mutex<Vec<Box<dyn Backend>>>,
 }
 
 impl Stage for RenderStage {
@@ -127,7 +131,7 @@ impl RenderStage {
         weather: &Weather,
         walk_seed: Seed,
     ) -> Result<Vec<TargetView>> {
-        let mut renderer = self.take_renderer(camera);
+        let mut renderer = self.take_renderer(camera)?;
         let largest =
             world.town.obstacles.iter().map(|obstacle| obstacle.object_id).max().unwrap_or(0).saturating_add(2);
         let header = PackHeader::new(camera.width, camera.height, largest, self.encoding);
@@ -152,7 +156,9 @@ impl RenderStage {
                 };
                 // A point without extent is nobody: it is watched, not drawn.
                 let target = Some(target).filter(|target| target.radius_m > 0.0);
-                let rendered = renderer.render(scene, &FrameSetup { pose: *pose, weather, target });
+                let rendered = renderer
+                    .render(scene, &FrameSetup { pose: *pose, weather, target })
+                    .map_err(|error| backends::failure(self.config.backend, &error))?;
                 pack.frame(rendered.images)?;
                 views.push(TargetView { visible_by_rays: trajectory.visibility[frame], ..rendered.target_view });
             }
@@ -162,14 +168,15 @@ impl RenderStage {
         Ok(views)
     }
 
-    fn take_renderer(&self, camera: Camera) -> Renderer {
+    fn take_renderer(&self, camera: Camera) -> Result<Box<dyn Backend>> {
         let mut idle = self.idle.lock().unwrap_or_else(PoisonError::into_inner);
         match idle.iter().position(|renderer| renderer.camera() == camera) {
-            Some(position) => idle.swap_remove(position),
+            Some(position) => Ok(idle.swap_remove(position)),
             None => {
                 // Another lens: its buffers replace those of a renderer that nobody uses.
                 idle.pop();
-                Renderer::new(camera)
+                backends::open(self.config.backend, camera)
+                    .map_err(|error| backends::failure(self.config.backend, &error))
             }
         }
     }

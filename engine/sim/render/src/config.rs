@@ -1,5 +1,6 @@
 //! What a recipe says about pictures: camera and weathers.
 
+use crate::backend::BackendKind;
 use crate::camera::Camera;
 use crate::weather::Weather;
 use cosfly_frames::Seed;
@@ -11,6 +12,10 @@ use std::fmt;
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(default, deny_unknown_fields)]
 pub struct RenderConfig {
+    /// What draws the pictures: `cpu` (cosfly's own renderer, the same bytes on every machine), `gpu` (a graphics card;
+    /// needs a cosfly built with the feature `gpu`) or `carla` (a CARLA server; see the guide, it is driven from outside
+    /// of a run).
+    pub backend: BackendKind,
     /// Image width, pixels.
     #[schemars(range(min = 16, max = 7680))]
     pub width: u32,
@@ -28,7 +33,13 @@ pub struct RenderConfig {
 impl Default for RenderConfig {
     fn default() -> Self {
         let weathers = ["ClearNoon", "CloudyNoon", "WetNoon", "ClearSunset", "SoftRainNoon", "CloudySunset"];
-        Self { width: 1280, height: 720, fov_deg: 90.0, weathers: weathers.map(str::to_owned).to_vec() }
+        Self {
+            backend: BackendKind::Cpu,
+            width: 1280,
+            height: 720,
+            fov_deg: 90.0,
+            weathers: weathers.map(str::to_owned).to_vec(),
+        }
     }
 }
 

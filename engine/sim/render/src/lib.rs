@@ -5,6 +5,7 @@
 //! face), `shade` (light, materials, weather) and [`target_view`] (how much of the target is seen). Every channel comes
 //! from the same face at the same pixel centre, so they agree pixel by pixel; only RGB is smoothed along edges afterwards.
 
+pub mod backend;
 pub mod camera;
 pub mod config;
 pub mod figure;
@@ -19,10 +20,12 @@ mod target_view;
 mod visibility;
 pub mod weather;
 
+pub use backend::{Backend, BackendError, BackendKind};
 pub use camera::Camera;
 pub use config::{ConfigProblem, RenderConfig};
 pub use figure::{TargetSetup, gait_phase_rad, target_triangles};
 pub use frame::{FrameImages, PixelBox, TargetView};
 pub use renderer::{FrameParts, FrameSetup, RenderedFrame, Renderer};
 pub use scene::{Scene, SceneTriangle};
+pub use target_view::measure as measure_target;
 pub use weather::Weather;

@@ -29,6 +29,8 @@ pub struct RenderedFrame<'a> {
     pub images: &'a FrameImages,
     /// How the target looks in them; all zero without a target.
     pub target_view: TargetView,
+    /// Indices of the pixels that the target would cover without obstacles, ascending.
+    pub target_pixels: &'a [u32],
 }
 
 /// A face drawn in this frame.
@@ -73,6 +75,7 @@ pub struct Renderer {
     seen_vertices: Vec<DVec3>,
     figure: Vec<FigureTriangle>,
     occluders: Vec<u32>,
+    covered: Vec<u32>,
     shader: Shader,
 }
 
@@ -99,6 +102,7 @@ impl Renderer {
             seen_vertices: Vec::new(),
             figure: Vec::new(),
             occluders: Vec::new(),
+            covered: Vec::new(),
             shader: Shader::new(&screen),
         }
     }
@@ -120,6 +124,7 @@ impl Renderer {
         self.alone.clear();
         self.faces.clear();
         self.figure.clear();
+        self.covered.clear();
         if let Some(target) = &setup.target {
             figure(target, &mut self.figure);
         }
@@ -130,7 +135,8 @@ impl Renderer {
         if parts != FrameParts::Visibility {
             self.resolve();
             if let Some(target) = &setup.target {
-                view = target_view::measure(&self.images, &self.alone, &mut self.occluders);
+                target_view::covered_pixels(&self.alone, self.screen.width, &mut self.covered);
+                view = target_view::measure(&self.images, &self.covered, &mut self.occluders);
                 view.visible_by_rays = target.visible_by_rays;
             }
         }
@@ -141,7 +147,7 @@ impl Renderer {
             smooth::smooth_edges(&self.nearest, &self.faces, &mut self.images, self.shader.scratch());
             self.shader.overlay(&mut self.images);
         }
-        RenderedFrame { images: &self.images, target_view: view }
+        RenderedFrame { images: &self.images, target_view: view, target_pixels: &self.covered }
     }
 
     /// Boxes from near to far, so that far ones mostly fail the depth comparison.

@@ -14,29 +14,35 @@ pub(crate) const NOT_IN_VIEW: TargetView = TargetView {
     occluder_instance: 0,
 };
 
-/// Counts the target's pixels in the frame and alone. `occluders` is scratch.
-pub(crate) fn measure(images: &FrameImages, alone: &Visibility, occluders: &mut Vec<u32>) -> TargetView {
-    let width = images.width as usize;
+/// Indices of the pixels that the target would cover without obstacles, ascending.
+pub(crate) fn covered_pixels(alone: &Visibility, width: usize, covered: &mut Vec<u32>) {
+    covered.clear();
     let (first_row, end_row) = alone.drawn_rows();
+    let pixels = first_row * width..end_row * width;
+    covered.extend(pixels.filter(|pixel| alone.face[*pixel] != NO_FACE).map(|pixel| pixel as u32));
+}
+
+/// How the target looks in `images`, when it would cover the pixels `covered` without obstacles; `visible_by_rays` is
+/// left 0. `occluders` is scratch.
+pub fn measure(images: &FrameImages, covered: &[u32], occluders: &mut Vec<u32>) -> TargetView {
+    let width = images.width.max(1);
     let (mut visible, mut full) = (Extent::default(), Extent::default());
     occluders.clear();
-    for row in first_row..end_row {
-        for column in 0..width {
-            let pixel = row * width + column;
-            if alone.face[pixel] == NO_FACE {
-                continue;
-            }
-            full.add(column, row);
-            match images.instance[pixel] {
-                TARGET_INSTANCE => visible.add(column, row),
-                other => occluders.push(other),
-            }
+    for &pixel in covered {
+        let (column, row) = (pixel % width, pixel / width);
+        full.add(column, row);
+        match images.instance[pixel as usize] {
+            TARGET_INSTANCE => visible.add(column, row),
+            other => occluders.push(other),
         }
     }
+    if full.count == 0 {
+        return NOT_IN_VIEW;
+    }
     TargetView {
-        in_view: full.count > 0,
+        in_view: true,
         visible_by_rays: 0.0,
-        visible_by_pixels: if full.count > 0 { f64::from(visible.count) / f64::from(full.count) } else { 0.0 },
+        visible_by_pixels: f64::from(visible.count) / f64::from(full.count),
         pixels: visible.count,
         visible_box: visible.pixel_box,
         full_box: full.pixel_box,
@@ -63,8 +69,7 @@ struct Extent {
 }
 
 impl Extent {
-    fn add(&mut self, column: usize, row: usize) {
-        let (u, v) = (column as u32, row as u32);
+    fn add(&mut self, u: u32, v: u32) {
         self.count += 1;
         let known = self.pixel_box.unwrap_or(PixelBox { u_min: u, v_min: v, u_max: u, v_max: v });
         self.pixel_box = Some(PixelBox {

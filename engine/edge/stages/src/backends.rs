@@ -1,0 +1,45 @@
+//! Which backends this build can draw with, and how to get the others.
+
+use cosfly_diagnose::{Diagnostic, Fault};
+use cosfly_render::{Backend, BackendError, BackendKind, Camera, Renderer};
+
+/// Refuses a backend that this build does not have, before anything runs.
+pub fn check(kind: BackendKind) -> Result<(), BackendError> {
+    match kind {
+        BackendKind::Cpu => Ok(()),
+        BackendKind::Gpu => Err(BackendError {
+            message: "`backend` is `gpu`, but this cosfly was built without it".into(),
+            hint: "build it with `cargo build --release -p cosfly --features gpu`, or leave `backend` out".into(),
+        }),
+        BackendKind::Carla => Err(BackendError {
+            message: "`backend` is `carla`, but no run waits for a CARLA server".into(),
+            hint: "run the recipe with `backend = \"cpu\"`, write a job with `cosfly carla-job DATASET --out job.json` and \
+                   fly it with `plugins/carla/replay.py`"
+                .into(),
+        }),
+    }
+}
+
+/// A backend of this kind for one camera.
+pub fn open(kind: BackendKind, camera: Camera) -> Result<Box<dyn Backend>, BackendError> {
+    check(kind)?;
+    Ok(Box::new(Renderer::new(camera)))
+}
+
+/// What a user is told when drawing fails in the middle of a run.
+pub fn failure(kind: BackendKind, error: &BackendError) -> Box<Diagnostic> {
+    Diagnostic::new("render-backend", Fault::Machine, format!("backend `{}`: {}", kind.name(), error.message))
+        .hint(&error.hint)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn backends_that_are_not_built_in_say_how_to_get_them() {
+        check(BackendKind::Cpu).unwrap();
+        assert!(check(BackendKind::Gpu).unwrap_err().hint.contains("--features gpu"));
+        assert!(check(BackendKind::Carla).unwrap_err().hint.contains("carla-job"));
+    }
+}
