@@ -16,16 +16,35 @@ const STEPS: usize = 4096;
 
 /// Depth as colours from warm (near) to cold (far) on a logarithmic scale; no hit is black. 3 bytes a pixel.
 ///
-/// A picture to look at, not data: the scale is the image's own, from its 1st to its 99th percentile (at least a
-/// factor of two) with a rest at both ends for what lies beyond, so that one colour means another depth in another frame.
+/// A picture to look at, not data: the scale is the image's own, so that one colour means another depth in another frame.
 pub fn depth_preview(depth_m: &[f32]) -> Vec<u8> {
-    let mut counts = vec![0u32; STEPS];
-    let steps = depth_m.iter().filter(|depth| depth.is_finite()).map(|depth| step_of(*depth));
-    steps.for_each(|step| counts[step] += 1);
-    let [near, far] = percentiles(&counts);
-    let scale = 1.0 / (far - near).max(STEPS / 14) as f32;
-    let table: Vec<[u8; 3]> = (0..STEPS).map(|step| turbo(0.96 - 0.92 * (step as f32 - near as f32) * scale)).collect();
-    depth_m.iter().flat_map(|depth| if depth.is_finite() { table[step_of(*depth)] } else { [0, 0, 0] }).collect()
+    DepthScale::of(depth_m.iter().copied()).colours(depth_m)
+}
+
+/// Which colours depths have: from the 1st to the 99th percentile of some depths (at least a factor of two), with a
+/// rest at both ends for what lies beyond.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct DepthScale {
+    near: usize,
+    far: usize,
+}
+
+impl DepthScale {
+    /// The scale for these depths, metres; those that are not finite are left out.
+    pub fn of(depths_m: impl Iterator<Item = f32>) -> Self {
+        let mut counts = vec![0u32; STEPS];
+        depths_m.filter(|depth| depth.is_finite()).for_each(|depth| counts[step_of(depth)] += 1);
+        let [near, far] = percentiles(&counts);
+        Self { near, far }
+    }
+
+    /// Depths as colours, warm (near) to cold (far); no hit is black. 3 bytes a pixel.
+    pub fn colours(&self, depth_m: &[f32]) -> Vec<u8> {
+        let scale = 1.0 / (self.far - self.near).max(STEPS / 14) as f32;
+        let near = self.near as f32;
+        let table: Vec<[u8; 3]> = (0..STEPS).map(|step| turbo(0.96 - 0.92 * (step as f32 - near) * scale)).collect();
+        depth_m.iter().flat_map(|depth| if depth.is_finite() { table[step_of(*depth)] } else { [0, 0, 0] }).collect()
+    }
 }
 
 /// A depth's place on the scale. The bits of a float grow nearly like its logarithm: no transcendental per pixel.
