@@ -5,6 +5,7 @@
 //! * [`frame_pack`]: the images of one trajectory between rendering and publishing.
 //! * [`mcap_log`]: one MCAP file per trajectory.
 //! * [`tables`]: the Parquet tables.
+//! * [`read`]: reads published datasets back, for pictures and replays.
 //! * [`verify`]: checks a finished dataset by its files alone.
 //! * [`croissant`] and [`publish`]: metadata, card, hashes, and the dataset as a whole.
 
@@ -16,6 +17,7 @@ mod hashing;
 pub mod images;
 pub mod mcap_log;
 pub mod publish;
+pub mod read;
 pub mod record;
 mod reference;
 pub mod sample;

@@ -1,0 +1,100 @@
+//! Named columns of a Parquet file, row group by row group.
+
+use arrow::array::{Array, AsArray, RecordBatch};
+use arrow::datatypes::{DataType, Float32Type, Float64Type, Int64Type};
+use cosfly_diagnose::{Diagnostic, Fault, Result};
+use parquet::arrow::ProjectionMask;
+use parquet::arrow::arrow_reader::ParquetRecordBatchReaderBuilder;
+use std::fs::File;
+use std::path::Path;
+
+/// Some rows of a file.
+pub struct Rows<'a> {
+    batch: RecordBatch,
+    path: &'a Path,
+}
+
+/// Gives the rows of `path` to `visit`, with the columns that `wanted` asks for only.
+pub fn read(path: &Path, wanted: &dyn Fn(&str) -> bool, visit: &mut dyn FnMut(&Rows<'_>) -> Result<()>) -> Result<()> {
+    let file = File::open(path).map_err(|error| Diagnostic::io(format!("open `{}`", path.display()), &error))?;
+    let builder =
+        ParquetRecordBatchReaderBuilder::try_new(file).map_err(|error| damaged(path, "it is not Parquet", error))?;
+    let fields = builder.schema().fields().iter().enumerate();
+    let kept: Vec<usize> = fields.filter(|(_, field)| wanted(field.name())).map(|(at, _)| at).collect();
+    let mask = ProjectionMask::roots(builder.parquet_schema(), kept);
+    let reader = builder.with_projection(mask).build().map_err(|error| damaged(path, "it cannot be read", error))?;
+    for batch in reader {
+        let batch = batch.map_err(|error| damaged(path, "it cannot be read", error))?;
+        visit(&Rows { batch, path })?;
+    }
+    Ok(())
+}
+
+/// A file of the dataset that is not what it should be.
+pub fn damaged(path: &Path, what: &str, cause: impl std::fmt::Display) -> Box<Diagnostic> {
+    Diagnostic::new("dataset-damaged", Fault::Input, format!("`{}` is damaged: {what}", path.display()))
+        .because(cause)
+        .hint("`cosfly verify` lists everything that is wrong with a dataset")
+}
+
+impl Rows<'_> {
+    /// Number of rows.
+    pub fn len(&self) -> usize {
+        self.batch.num_rows()
+    }
+
+    /// Names of the columns that were read.
+    pub fn names(&self) -> Vec<String> {
+        self.batch.schema_ref().fields().iter().map(|field| field.name().clone()).collect()
+    }
+
+    fn column(&self, name: &str, kind: fn(&DataType) -> bool) -> Result<&dyn Array> {
+        let column = self.batch.column_by_name(name).filter(|column| kind(column.data_type()));
+        column.map(AsRef::as_ref).ok_or_else(|| {
+            let message = format!("`{}` has no column `{name}` of the documented type", self.path.display());
+            Diagnostic::new("dataset-column", Fault::Input, message)
+        })
+    }
+
+    /// A text; `None` for null.
+    pub fn text(&self, name: &str, row: usize) -> Result<Option<String>> {
+        let column = self.column(name, |kind| *kind == DataType::Utf8)?.as_string::<i32>();
+        Ok(column.is_valid(row).then(|| column.value(row).to_owned()))
+    }
+
+    /// A finite number.
+    pub fn real(&self, name: &str, row: usize) -> Result<f64> {
+        let column = self.column(name, |kind| *kind == DataType::Float64)?.as_primitive::<Float64Type>();
+        let value = column.is_valid(row).then(|| column.value(row)).filter(|value| value.is_finite());
+        value.ok_or_else(|| damaged(self.path, &format!("column `{name}` has no number in row {row}"), "null or NaN"))
+    }
+
+    /// A number from 0 to 2^32 - 1.
+    pub fn count(&self, name: &str, row: usize) -> Result<u32> {
+        let column = self.column(name, |kind| *kind == DataType::Int64)?.as_primitive::<Int64Type>();
+        let value = column.is_valid(row).then(|| column.value(row)).and_then(|value| u32::try_from(value).ok());
+        value.ok_or_else(|| {
+            damaged(self.path, &format!("column `{name}` has no count in row {row}"), "null or negative")
+        })
+    }
+
+    /// Three numbers.
+    pub fn vector(&self, name: &str, row: usize) -> Result<[f64; 3]> {
+        let column = self.column(name, |kind| matches!(kind, DataType::FixedSizeList(..)))?.as_fixed_size_list();
+        let values = column.is_valid(row).then(|| column.value(row));
+        let numbers = values.as_ref().and_then(|values| values.as_primitive_opt::<Float64Type>());
+        let numbers = numbers.and_then(|numbers| <[f64; 3]>::try_from(&numbers.values()[..]).ok());
+        numbers.ok_or_else(|| damaged(self.path, &format!("column `{name}` has no vector in row {row}"), "wrong size"))
+    }
+
+    /// Edges of a pixel box; `None` for null.
+    pub fn edges(&self, name: &str, row: usize) -> Result<Option<[f32; 4]>> {
+        let column = self.column(name, |kind| matches!(kind, DataType::FixedSizeList(..)))?.as_fixed_size_list();
+        if column.is_null(row) {
+            return Ok(None);
+        }
+        let values = column.value(row);
+        let numbers = values.as_primitive_opt::<Float32Type>();
+        Ok(numbers.and_then(|numbers| <[f32; 4]>::try_from(&numbers.values()[..]).ok()))
+    }
+}

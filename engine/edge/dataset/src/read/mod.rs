@@ -1,0 +1,13 @@
+//! Reads published datasets: which flights there are, what the tables say of a flight, and the images in its log.
+//!
+//! Columns are found by their names, so that datasets with more columns than ours are read, too.
+
+mod columns;
+mod flights;
+mod log;
+
+pub use flights::{PublishedDataset, PublishedFlight, PublishedFrame};
+pub use log::{LogReader, LoggedFrame, SceneBox};
+
+#[cfg(test)]
+mod tests;
