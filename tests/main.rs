@@ -4,6 +4,7 @@ mod caching;
 mod crash;
 mod diagnostics;
 mod plan_from;
+mod preview;
 mod processors;
 mod repository;
 mod snapshots;

@@ -4,6 +4,7 @@ use clap::builder::PossibleValuesParser;
 use clap::{Args, Parser, Subcommand, ValueEnum};
 use cosfly_bench::planner::Contender;
 use cosfly_planner::scenes::SceneKind;
+use cosfly_preview::FrameList;
 use std::path::PathBuf;
 
 /// The whole command line.
@@ -29,6 +30,7 @@ Examples:
   cosfly run recipes/carla_town.toml --set stages.walkers.count=20
   cosfly why recipes/carla_town.toml expert/p00003 what changed since this was last made
   cosfly verify out/carla_town                     check a finished dataset
+  cosfly preview out/carla_town                    pictures of a finished flight
 
 Exit codes:
     0  everything was done
@@ -75,6 +77,17 @@ Examples:
     Graph(GraphArguments),
     /// Check a finished dataset: hashes, counts, CRCs, schemas, reprojection, action and pose
     Verify(VerifyArguments),
+    /// Draw a finished flight: contact sheet, animated clip, plan of town and paths
+    #[command(after_help = "\
+Examples:
+  cosfly preview out/carla_town                                  its first flight, into out/carla_town-preview
+  cosfly preview out/carla_town --trajectory perturbed-p00002
+  cosfly preview out/carla_town --frames 0,50,100
+  cosfly preview out/carla_town --frames 0..200:10 --out pictures
+
+A range ends before its second number: `0..200:10` is 0, 10, ... 190. Without `--frames`, the sheet shows six frames and
+the clip up to a hundred, evenly spread.")]
+    Preview(PreviewArguments),
     /// Free space in the store; shows what would go unless `--delete` is given
     Gc(GcArguments),
     /// Print the recipe's JSON Schema, or a generated reference page
@@ -206,6 +219,23 @@ pub struct VerifyArguments {
     /// Folder of the dataset
     #[arg(value_name = "DIR")]
     pub dir: PathBuf,
+}
+
+/// Arguments of `preview`.
+#[derive(Args, Debug)]
+pub struct PreviewArguments {
+    /// Folder of the dataset that `cosfly run` delivered
+    #[arg(value_name = "DATASET")]
+    pub dir: PathBuf,
+    /// The flight to draw, such as expert-p00000 [default: the first one]
+    #[arg(long, value_name = "ID")]
+    pub trajectory: Option<String>,
+    /// Frames to show, such as 0,50,100 or 0..200:10
+    #[arg(long, value_name = "LIST")]
+    pub frames: Option<FrameList>,
+    /// Folder for the pictures [default: <DATASET>-preview]
+    #[arg(long, value_name = "DIR")]
+    pub out: Option<PathBuf>,
 }
 
 /// Arguments of `gc`.

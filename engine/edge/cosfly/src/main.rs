@@ -25,6 +25,7 @@ fn main() -> ExitCode {
         Command::Why(arguments) => commands::why::why(&arguments),
         Command::Graph(arguments) => commands::graph::graph(&arguments),
         Command::Verify(arguments) => commands::verify::verify(&arguments),
+        Command::Preview(arguments) => commands::preview::preview(&arguments),
         Command::Gc(arguments) => commands::collect::collect(&arguments),
         Command::Schema(arguments) => commands::schema::schema(&arguments),
         Command::Town(arguments) => commands::town::town(&arguments),

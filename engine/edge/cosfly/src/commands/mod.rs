@@ -7,6 +7,7 @@ pub mod expert_of_recipe;
 pub mod graph;
 pub mod plan;
 pub mod plan_from;
+pub mod preview;
 pub mod run;
 pub mod schema;
 pub mod task;
