@@ -5,10 +5,11 @@ use crate::figure::{Clothes, FigureTriangle, TargetSetup, figure};
 use crate::frame::{FrameImages, TARGET_INSTANCE, TargetView};
 use crate::passes::ids::resolve_row;
 use crate::scene::{BOX_FACES, Scene};
-use crate::shade::{Shader, smooth};
+use crate::shade::{Seen, Shader, smooth};
 use crate::target_view;
 use crate::visibility::{PlaneOnScreen, Screen, Visibility};
 use crate::weather::Weather;
+use cosfly_frames::simd::Level;
 use cosfly_frames::{DMat3, DVec3, Pose};
 use cosfly_maps::SemanticLabel;
 
@@ -112,6 +113,11 @@ impl Renderer {
         self.camera
     }
 
+    /// Shades with these vector instructions from now on, to compare their bytes: they are the same.
+    pub fn set_level(&mut self, level: Level) {
+        self.shader.set_level(level);
+    }
+
     /// Draws all channels of one frame. The same scene and setup give the same bytes on any thread, after any other frame.
     pub fn render(&mut self, scene: &Scene, setup: &FrameSetup<'_>) -> RenderedFrame<'_> {
         self.render_parts(scene, setup, FrameParts::All)
@@ -143,8 +149,14 @@ impl Renderer {
         if parts == FrameParts::All {
             let clothes = setup.target.as_ref().map(|target| Clothes::draw(&target.clothes_seed));
             self.shader.prepare(scene, setup, &eye, &self.figure, clothes);
-            self.shader.shade(scene, &self.nearest, &self.faces, &self.figure, &mut self.images);
-            smooth::smooth_edges(&self.nearest, &self.faces, &mut self.images, self.shader.scratch());
+            self.shader.shade(&Seen {
+                scene,
+                face: &self.nearest.face,
+                faces: &self.faces,
+                figure: &self.figure,
+                depth_m: &self.images.depth_m,
+            });
+            smooth::smooth_edges(&self.nearest, &self.faces, self.shader.picture(), &mut self.images);
             self.shader.overlay(&mut self.images);
         }
         RenderedFrame { images: &self.images, target_view: view, target_pixels: &self.covered }
@@ -232,6 +244,11 @@ impl Renderer {
             resolve_row(row, &self.nearest.face[pixels.clone()], &self.faces, pixels, &mut self.images);
         }
     }
+}
+
+/// Whether the caller is one of a pool of threads: only then does a frame use them too.
+pub(crate) fn has_threads() -> bool {
+    rayon::current_thread_index().is_some() && rayon::current_num_threads() > 1
 }
 
 /// Which of two coplanar ground layers lies on top.

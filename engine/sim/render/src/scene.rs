@@ -1,7 +1,7 @@
 //! What a town looks like to the renderer: boxes with faces, ground triangles in small bounded clusters, seeds for looks.
 
 use crate::shade::grid::LightGrid;
-use crate::shade::pattern::NoiseTexture;
+use crate::shade::pattern::{NoiseTexture, noise_texture};
 use cosfly_frames::{DVec3, Seed, real};
 use cosfly_maps::{ObstacleKind, SemanticLabel, Town};
 use glam::Vec3A as Vec3;
@@ -15,7 +15,7 @@ const CLUSTER_TRIANGLES: usize = 96;
 pub struct Scene {
     pub(crate) boxes: Vec<SceneBox>,
     pub(crate) clusters: Vec<Cluster>,
-    pub(crate) noise: NoiseTexture,
+    pub(crate) noise: Box<NoiseTexture>,
     pub(crate) grid: LightGrid,
     /// Tells scenes of one process apart; buffers that outlive a frame remember it.
     pub(crate) identity: u64,
@@ -91,7 +91,7 @@ impl Scene {
             town.obstacles.iter().filter_map(|obstacle| scene_box(obstacle, look_seed)).collect();
         join_crowns(&mut boxes);
         let clusters = clusters_of(town);
-        let noise = NoiseTexture::new(look_seed);
+        let noise = noise_texture(look_seed);
         let grid = LightGrid::new(&boxes, &clusters);
         static SCENES: AtomicU64 = AtomicU64::new(0);
         let identity = SCENES.fetch_add(1, Ordering::Relaxed);

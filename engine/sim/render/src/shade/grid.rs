@@ -1,12 +1,16 @@
 //! Light that stays in place: how much sky the ground sees, and how much lamps give, on a coarse grid over the town.
 
 use crate::scene::{Cluster, SceneBox};
-use crate::shade::pattern::{lerp, nearest_index};
+use crate::shade::pattern::{blend, fixed_size, floor_int, four_bytes, least, lerp, most, nearest_index, share};
 use cosfly_frames::DVec3;
 use cosfly_maps::ObstacleKind;
 
 /// Most cells along one side.
-const MAX_CELLS: usize = 512;
+const MAX_CELLS: usize = 508;
+/// Cells along a side of the packed tables.
+const TABLE_SIDE: usize = 512;
+/// Lamp light of a byte's step.
+const LAMP_STEP: f32 = 1.0 / 64.0;
 
 /// What the grid says at one place.
 #[derive(Clone, Copy, Debug, Default)]
@@ -26,6 +30,62 @@ pub struct LightGrid {
     columns: usize,
     rows: usize,
     cells: Vec<GridSample>,
+    tables: Box<GridTables>,
+}
+
+/// The cells as kernels read them: sky shares of a cell, the one to the right, below, and below right, in bytes; then
+/// their lamp light likewise; then heights of the ground, the bits of an f32. A bare array, so that compilers see that
+/// kernels' results lie elsewhere.
+pub type GridTables = [u32; 3 * TABLE];
+const TABLE: usize = TABLE_SIDE * TABLE_SIDE;
+
+/// A place between four cells.
+#[derive(Clone, Copy)]
+pub struct GridPlace {
+    at: usize,
+    fx: f32,
+    fy: f32,
+}
+
+impl GridPlace {
+    /// Share of the sky that the ground sees.
+    #[inline(always)]
+    pub fn sky(self, tables: &GridTables) -> f32 {
+        blend(tables[self.at], self.fx, self.fy) * (1.0 / 255.0)
+    }
+
+    /// Light of lamps on the ground.
+    #[inline(always)]
+    pub fn lamps(self, tables: &GridTables) -> f32 {
+        blend(tables[TABLE + self.at], self.fx, self.fy) * LAMP_STEP
+    }
+
+    /// Height of the ground of the cell there, metres.
+    #[inline(always)]
+    pub fn ground_m(self, tables: &GridTables) -> f32 {
+        f32::from_bits(tables[2 * TABLE + self.at])
+    }
+}
+
+/// Where the tables lie.
+#[derive(Clone, Copy, Debug)]
+pub struct GridFrame {
+    min: [f32; 2],
+    cells_per_m: f32,
+    last: [f32; 2],
+}
+
+impl GridFrame {
+    /// The cells around a place; the border's beyond it.
+    #[inline(always)]
+    pub fn place(&self, x_m: f32, y_m: f32) -> GridPlace {
+        let x = least(most((x_m - self.min[0]) * self.cells_per_m, 0.5), self.last[0]);
+        let y = least(most((y_m - self.min[1]) * self.cells_per_m, 0.5), self.last[1]);
+        let (column, row) = (floor_int(x), floor_int(y));
+        let (fx, fy) = (share(x - column as f32), share(y - row as f32));
+        let at = ((row as u32).wrapping_shl(9) | (column as u32 & 511)) as usize & (TABLE - 1);
+        GridPlace { at, fx, fy }
+    }
 }
 
 impl LightGrid {
@@ -55,11 +115,39 @@ impl LightGrid {
             columns,
             rows,
             cells: vec![GridSample { ground_m: 0.0, sky: 1.0, lamps: 0.0 }; columns * rows],
+            tables: fixed_size(vec![]),
         };
         grid.measure_ground(clusters, boxes);
         grid.measure_sky(boxes);
         grid.add_lamps(boxes);
+        grid.pack();
         grid
+    }
+
+    /// Packs the cells into tables for the shading kernels.
+    fn pack(&mut self) {
+        for row in 0..self.rows.min(TABLE_SIDE) {
+            for column in 0..self.columns.min(TABLE_SIDE) {
+                let (right, below) = ((column + 1).min(self.columns - 1), (row + 1).min(self.rows - 1));
+                let cell = |row: usize, column: usize| self.cells[row * self.columns + column];
+                let four = [cell(row, column), cell(row, right), cell(below, column), cell(below, right)];
+                let at = row * TABLE_SIDE + column;
+                self.tables[at] = four_bytes(four.map(|c| (255.0 * c.sky + 0.5) as u8));
+                self.tables[TABLE + at] = four_bytes(four.map(|c| (c.lamps / LAMP_STEP + 0.5) as u8));
+                self.tables[2 * TABLE + at] = four[0].ground_m.to_bits();
+            }
+        }
+    }
+
+    /// The cells as kernels read them.
+    pub fn tables(&self) -> &GridTables {
+        &self.tables
+    }
+
+    /// Where they lie.
+    pub fn frame(&self) -> GridFrame {
+        let last = [self.columns, self.rows].map(|count| count as f32 - 1.501);
+        GridFrame { min: self.min, cells_per_m: self.cells_per_m, last }
     }
 
     /// Blended values at a place; the border's beyond it.

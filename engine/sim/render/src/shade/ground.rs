@@ -1,43 +1,65 @@
 //! Ground: asphalt, pavement slabs, road marks, grass, each from world coordinates.
 
-use super::pattern::{NoiseTexture, hash, lerp, smoothstep, stripes, unit};
+use super::lanes::{Block, WIDE};
+use super::pattern::{NoiseTexture, Noises, hash, lerp, most, smoothstep, stripes, unit};
 use super::surface::{Look, SurfacePoint};
+use super::vector::Vec3;
+use cosfly_frames::simd_kernel;
 use cosfly_maps::SemanticLabel;
-use glam::Vec3A as Vec3;
 
-/// The look of ground with a label.
-#[inline(always)]
-pub fn look(point: &SurfacePoint, label: SemanticLabel, noise: &NoiseTexture) -> Look {
-    let (x, y, size) = (point.world.x, point.world.y, point.footprint_m);
-    let albedo = match label {
-        SemanticLabel::Roads | SemanticLabel::Bridge => asphalt(x, y, size, noise),
-        SemanticLabel::SideWalks => slabs(x, y, size, point.footprints_m, noise),
-        SemanticLabel::RoadLine => paint(x, y, size, noise),
-        SemanticLabel::Ground | SemanticLabel::Static | SemanticLabel::Other => gravel(x, y, size, noise),
-        SemanticLabel::Water => Vec3::new(0.02, 0.05, 0.06),
-        _ => grass(x, y, size, noise),
+/// Dull surfaces whose colour follows from the place. Not a function: closures are not always inlined, and only what is
+/// inlined becomes vector code.
+macro_rules! paint_all {
+    ($blocks:ident, $point:ident => $albedo:expr) => {
+        for block in $blocks.iter_mut() {
+            for k in 0..WIDE {
+                let $point = block.point(k);
+                let look = Look::matt($albedo, $point.normal);
+                block.put(k, &look);
+            }
+        }
     };
-    let mirror = if label == SemanticLabel::Water { 0.9 } else { 0.0 };
-    Look { mirror, ..Look::matt(albedo, point.normal) }
+}
+
+simd_kernel! {
+    /// The look of ground with a label.
+    pub fn ground(blocks: &mut [Block], label: SemanticLabel, noise: &NoiseTexture) {
+        match label {
+            SemanticLabel::Roads | SemanticLabel::Bridge => paint_all!(blocks, point => asphalt(&point, noise)),
+            SemanticLabel::SideWalks => paint_all!(blocks, point => slabs(&point, noise)),
+            SemanticLabel::RoadLine => paint_all!(blocks, point => paint(&point, noise)),
+            SemanticLabel::Ground | SemanticLabel::Static | SemanticLabel::Other => {
+                paint_all!(blocks, point => gravel(&point, noise));
+            }
+            SemanticLabel::Water => {
+                paint_all!(blocks, point => Vec3::new(0.02, 0.05, 0.06));
+                blocks.iter_mut().for_each(|block| block.mirror = [0.9; WIDE]);
+            }
+            _ => paint_all!(blocks, point => grass(&point, noise)),
+        }
+    }
 }
 
 #[inline(always)]
-fn asphalt(x: f32, y: f32, size: f32, noise: &NoiseTexture) -> Vec3 {
+fn asphalt(point: &SurfacePoint, noise: &NoiseTexture) -> Vec3 {
+    let (x, y, size) = (point.world.x, point.world.y, point.footprint_m);
     let rough = noise.rough(x * 19.0, y * 19.0, size * 19.0);
     let wide = noise.clumps(x * 1.05 + 50.0, y * 1.05, size * 1.05);
     // Mended pieces and cracks: level sets of wide noise.
     let mended = 0.16 * smoothstep(0.63, 0.64 + 0.03 * size, wide) - 0.07 * smoothstep(0.40, 0.39 - 0.03 * size, wide);
-    let crack = 0.30 * (1.0 - smoothstep(0.0, 0.004 + 0.04 * size, (wide - 0.52).abs())) * (0.12 - size).max(0.0) * 8.0;
+    let crack = 0.30 * (1.0 - smoothstep(0.0, 0.004 + 0.04 * size, (wide - 0.52).abs())) * most(0.12 - size, 0.0) * 8.0;
     let tone = 0.125 * (0.62 + 0.62 * rough + 0.18 * wide) * (1.0 - mended) * (1.0 - crack);
     Vec3::new(tone, tone * 0.99, tone * 0.975)
 }
 
 #[inline(always)]
-fn slabs(x: f32, y: f32, size: f32, footprints: [f32; 2], noise: &NoiseTexture) -> Vec3 {
+fn slabs(point: &SurfacePoint, noise: &NoiseTexture) -> Vec3 {
+    let (x, y, size) = (point.world.x, point.world.y, point.footprint_m);
+    let footprints = point.footprints_m;
     const PER_M: f32 = 1.0 / 0.75;
     let (u, v) = (x * PER_M, y * PER_M);
     let (wu, wv) = (footprints[0] * PER_M, footprints[1] * PER_M);
-    let joint = stripes(u, 0.0, 0.04, wu).max(stripes(v, 0.0, 0.04, wv));
+    let joint = most(stripes(u, 0.0, 0.04, wu), stripes(v, 0.0, 0.04, wv));
     let near = 1.0 - smoothstep(0.25, 0.8, size * PER_M);
     let slab = unit(hash(super::pattern::floor_int(u) as u32, super::pattern::floor_int(v) as u32)) - 0.5;
     let rough = noise.rough(x * 15.0, y * 15.0, size * 15.0) - 0.5;
@@ -45,18 +67,24 @@ fn slabs(x: f32, y: f32, size: f32, footprints: [f32; 2], noise: &NoiseTexture) 
     Vec3::new(tone, tone * 0.97, tone * 0.925)
 }
 
-fn paint(x: f32, y: f32, size: f32, noise: &NoiseTexture) -> Vec3 {
+#[inline(always)]
+fn paint(point: &SurfacePoint, noise: &NoiseTexture) -> Vec3 {
+    let (x, y, size) = (point.world.x, point.world.y, point.footprint_m);
     let worn = smoothstep(0.62, 0.86, noise.clumps(x * 9.0, y * 9.0, size * 9.0));
     Vec3::splat(0.70).lerp(Vec3::splat(0.15), 0.75 * worn)
 }
 
-fn gravel(x: f32, y: f32, size: f32, noise: &NoiseTexture) -> Vec3 {
+#[inline(always)]
+fn gravel(point: &SurfacePoint, noise: &NoiseTexture) -> Vec3 {
+    let (x, y, size) = (point.world.x, point.world.y, point.footprint_m);
     let rough = noise.rough(x * 12.0, y * 12.0, size * 12.0);
     let stain = noise.clumps(x * 1.7, y * 1.7, size * 1.7);
     Vec3::new(0.25, 0.23, 0.20) * (0.45 + 0.7 * rough + 0.5 * (stain - 0.3))
 }
 
-fn grass(x: f32, y: f32, size: f32, noise: &NoiseTexture) -> Vec3 {
+#[inline(always)]
+fn grass(point: &SurfacePoint, noise: &NoiseTexture) -> Vec3 {
+    let (x, y, size) = (point.world.x, point.world.y, point.footprint_m);
     let blades = noise.rough(x * 16.0, y * 16.0, size * 16.0);
     let dry = smoothstep(0.42, 0.75, noise.clumps(x * 1.43, y * 1.43, size * 1.43));
     let fresh = Vec3::new(0.088, 0.160, 0.040);

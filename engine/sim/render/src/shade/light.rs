@@ -1,9 +1,9 @@
 //! Light of a frame from CARLA's weather numbers: sun or moon, sky, haze, wetness, exposure.
 
-use crate::shade::pattern::{lerp, smoothstep};
+use super::pattern::{lerp, most, smoothstep};
+use super::vector::Vec3;
 use crate::weather::Weather;
 use cosfly_frames::real;
-use glam::Vec3A as Vec3;
 
 /// Everything about light that is the same in the whole frame. Colours are linear RGB.
 #[derive(Clone, Copy, Debug)]
@@ -58,7 +58,7 @@ impl Light {
         let air = 1.0 / to_sun.z.max(0.08);
         let through = Vec3::new(0.045, 0.12, 0.26).map(|k| libm::expf(-k * air));
         let covered = (1.0 - 1.12 * overcast).max(0.03);
-        let day_sun = 3.7 * (1.0 + 0.5 * low) * through * (covered * covered.sqrt()) * smoothstep(0.0, 8.0, altitude);
+        let day_sun = through * (3.7 * (1.0 + 0.5 * low) * (covered * covered.sqrt()) * smoothstep(0.0, 8.0, altitude));
         let moon = Vec3::new(0.022, 0.028, 0.040) * (1.0 - 0.9 * overcast) * night;
         let sun = day_sun * (1.0 - night) + moon;
 
@@ -81,7 +81,7 @@ impl Light {
             horizon,
             dome: grey_towards(zenith.lerp(horizon, lerp(0.38, 0.28, low)), 0.45)
                 * lerp(lerp(2.7, 2.0, overcast), 4.0, night),
-            bounce: 0.36 * (0.7 * sun * to_sun.z + 1.0 * zenith),
+            bounce: (sun * (0.7 * to_sun.z) + zenith) * 0.36,
             haze_per_m,
             haze_start_m: weather.fog_distance.clamp(0.0, 1000.0) as f32,
             night,
@@ -98,9 +98,9 @@ impl Light {
     /// Radiance of the sky in a direction (unit length), without clouds' shapes; haze below the horizon.
     #[inline(always)]
     pub fn sky(&self, direction: Vec3) -> Vec3 {
-        let up = direction.z.max(0.0);
+        let up = most(direction.z, 0.0);
         let rise = 1.0 - (1.0 - up) * (1.0 - up) * (1.0 - up);
-        let toward = direction.dot(self.to_sun).max(0.0);
+        let toward = most(direction.dot(self.to_sun), 0.0);
         let toward2 = toward * toward;
         let glow = toward2 * toward2 * toward2 * (1.0 - 0.9 * self.clouds) * (1.0 - self.night);
         self.horizon.lerp(self.zenith, rise) + self.sun * (0.10 * glow)
@@ -116,7 +116,7 @@ impl Light {
 
 /// A colour less saturated by `share`.
 fn grey_towards(colour: Vec3, share: f32) -> Vec3 {
-    colour.lerp(Vec3::splat(colour.element_sum() / 3.0), share)
+    colour.lerp(Vec3::splat(colour.dot(Vec3::splat(1.0 / 3.0))), share)
 }
 
 /// Unit vector towards azimuth (x towards y) and altitude in degrees.

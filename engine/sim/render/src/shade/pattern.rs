@@ -40,11 +40,35 @@ pub fn nearest_index(x: f32) -> usize {
     ((x + 12_582_912.0).to_bits() & 0x003f_ffff) as usize
 }
 
+/// The smaller one; `b` when either is not a number. One instruction, unlike `f32::min`.
+#[inline(always)]
+pub fn least(a: f32, b: f32) -> f32 {
+    if a < b { a } else { b }
+}
+
+/// The larger one; `b` when either is not a number.
+#[inline(always)]
+pub fn most(a: f32, b: f32) -> f32 {
+    if a > b { a } else { b }
+}
+
+/// Into 0..=1; what is not a number becomes 0.
+#[inline(always)]
+pub fn share(x: f32) -> f32 {
+    least(most(x, 0.0), 1.0)
+}
+
+/// 1 when true.
+#[inline(always)]
+pub fn one_if(condition: bool) -> f32 {
+    if condition { 1.0 } else { 0.0 }
+}
+
 /// 0 below `low`, 1 above `high`, smooth between.
 #[inline(always)]
 pub fn smoothstep(low: f32, high: f32, x: f32) -> f32 {
     // The reciprocal of constant limits is computed once, by the compiler.
-    let t = ((x - low) * (1.0 / (high - low))).clamp(0.0, 1.0);
+    let t = share((x - low) * (1.0 / (high - low)));
     t * t * (3.0 - 2.0 * t)
 }
 
@@ -52,84 +76,107 @@ pub fn smoothstep(low: f32, high: f32, x: f32) -> f32 {
 /// (0 <= low <= high <= 1). Far away this tends to the stripe's mean, so patterns fade instead of shimmering.
 #[inline(always)]
 pub fn stripes(x: f32, low: f32, high: f32, width: f32) -> f32 {
-    if width >= 1.0 {
-        return high - low;
-    }
-    let width = width.max(1e-4);
+    // An interval of width 1 holds exactly the mean.
+    let width = least(most(width, 1e-4), 1.0);
     let at = x - floor_int(x) as f32;
     let (from, to) = (at - 0.5 * width, at + 0.5 * width);
-    let overlap = |shift: f32| (to.min(high + shift) - from.max(low + shift)).max(0.0);
-    ((overlap(-1.0) + overlap(0.0) + overlap(1.0)) / width).min(1.0)
+    let overlap = |shift: f32| most(least(to, high + shift) - most(from, low + shift), 0.0);
+    least((overlap(-1.0) + overlap(0.0) + overlap(1.0)) / width, 1.0)
 }
 
 /// Share of the interval of width `width` around `x` that lies in [`low`, `high`].
 #[inline(always)]
 pub fn band(x: f32, low: f32, high: f32, width: f32) -> f32 {
-    let half = 0.5 * width.max(1e-4);
-    (((x + half).min(high) - (x - half).max(low)) / (2.0 * half)).clamp(0.0, 1.0)
+    let half = 0.5 * most(width, 1e-4);
+    share((least(x + half, high) - most(x - half, low)) / (2.0 * half))
 }
 
-/// Tileable noises of mean one half: `grain` (single texels), `clumps` (many sizes), and `rough`, a blend of both.
-pub struct NoiseTexture {
-    grain: Vec<u8>,
-    clumps: Vec<u8>,
-    rough: Vec<u8>,
-    starts: [usize; LEVELS],
-}
+/// Tileable noises of mean one half, see [`Noises`]. A bare array, so that compilers see that kernels' results lie
+/// elsewhere.
+pub type NoiseTexture = [u32; 4 * TEXELS];
 
-impl NoiseTexture {
-    /// Noise from a seed.
-    pub fn new(seed: u32) -> Self {
-        let grain = finest(&[(SIDE, 0.6), (SIDE / 2, 0.4)], hash(seed, 1));
-        let clumps =
-            finest(&[(4, 0.25), (8, 0.25), (16, 0.2), (32, 0.15), (64, 0.1), (128, 0.06), (256, 0.04)], hash(seed, 2));
-        let mut starts = [0; LEVELS];
-        for level in 1..LEVELS {
-            starts[level] = starts[level - 1] + (SIDE >> (level - 1)).pow(2);
-        }
-        let rough = grain
-            .iter()
-            .zip(finest(&[(8, 0.3), (16, 0.3), (32, 0.25), (64, 0.15)], hash(seed, 3)))
-            .map(|(grain, clump)| ((2 * u32::from(*grain) + 3 * u32::from(clump)) / 5) as u8)
-            .collect();
-        Self { grain: pyramid(grain), clumps: pyramid(clumps), rough: pyramid(rough), starts }
-    }
+/// A power of two that holds all levels of one kind.
+const TEXELS: usize = 2 * SIDE * SIDE;
 
+/// Kinds of noise: `grain` (single texels), `clumps` (many sizes), and `rough`, a blend of both.
+///
+/// Each kind's levels lie one after the other. A number holds its texel in the lowest byte, then the one to the right,
+/// the one below, and the one below to the right: what a blended sample needs comes with one load.
+pub trait Noises {
     /// Single-texel noise in [0, 1] at texel coordinates, averaged over about `footprint` texels.
-    #[inline(always)]
-    pub fn grain(&self, x: f32, y: f32, footprint: f32) -> f32 {
-        self.sample(&self.grain, x, y, footprint)
-    }
-
+    fn grain(&self, x: f32, y: f32, footprint: f32) -> f32;
     /// Noise of many sizes in [0, 1] at texel coordinates, averaged over about `footprint` texels.
-    #[inline(always)]
-    pub fn clumps(&self, x: f32, y: f32, footprint: f32) -> f32 {
-        self.sample(&self.clumps, x, y, footprint)
-    }
-
+    fn clumps(&self, x: f32, y: f32, footprint: f32) -> f32;
     /// Grain over clumps in [0, 1] at texel coordinates, averaged over about `footprint` texels.
+    fn rough(&self, x: f32, y: f32, footprint: f32) -> f32;
+}
+
+impl Noises for NoiseTexture {
     #[inline(always)]
-    pub fn rough(&self, x: f32, y: f32, footprint: f32) -> f32 {
-        self.sample(&self.rough, x, y, footprint)
+    fn grain(&self, x: f32, y: f32, footprint: f32) -> f32 {
+        sample(self, 0, x, y, footprint)
     }
 
     #[inline(always)]
-    fn sample(&self, texels: &[u8], x: f32, y: f32, footprint: f32) -> f32 {
-        // The exponent of the footprint: level with texels at least about as large.
-        let level = (((footprint * 1.4).to_bits() >> 23) as i32 - 127).clamp(0, LEVELS as i32 - 1) as usize;
-        let side = SIDE >> level;
-        let scale = side as f32 * (1.0 / SIDE as f32);
-        let (x, y) = (x * scale - 0.5, y * scale - 0.5);
-        let (column, row) = (floor_int(x), floor_int(y));
-        let (fx, fy) = (x - column as f32, y - row as f32);
-        let mask = side as i32 - 1;
-        let start = self.starts[level];
-        let (c0, c1) = ((column & mask) as usize, (column.wrapping_add(1) & mask) as usize);
-        let (r0, r1) = ((row & mask) as usize * side + start, (row.wrapping_add(1) & mask) as usize * side + start);
-        let upper = lerp(f32::from(texels[r0 + c0]), f32::from(texels[r0 + c1]), fx);
-        let lower = lerp(f32::from(texels[r1 + c0]), f32::from(texels[r1 + c1]), fx);
-        lerp(upper, lower, fy) * (1.0 / 255.0)
+    fn clumps(&self, x: f32, y: f32, footprint: f32) -> f32 {
+        sample(self, 1, x, y, footprint)
     }
+
+    #[inline(always)]
+    fn rough(&self, x: f32, y: f32, footprint: f32) -> f32 {
+        sample(self, 2, x, y, footprint)
+    }
+}
+
+/// Noise from a seed.
+pub fn noise_texture(seed: u32) -> Box<NoiseTexture> {
+    let grain = finest(&[(SIDE, 0.6), (SIDE / 2, 0.4)], hash(seed, 1));
+    let clumps =
+        finest(&[(4, 0.25), (8, 0.25), (16, 0.2), (32, 0.15), (64, 0.1), (128, 0.06), (256, 0.04)], hash(seed, 2));
+    let rough = grain
+        .iter()
+        .zip(finest(&[(8, 0.3), (16, 0.3), (32, 0.25), (64, 0.15)], hash(seed, 3)))
+        .map(|(grain, clump)| ((2 * u32::from(*grain) + 3 * u32::from(clump)) / 5) as u8)
+        .collect();
+    let mut all = Vec::with_capacity(4 * TEXELS);
+    for finest in [grain, clumps, rough] {
+        all.extend(pyramid(finest));
+    }
+    fixed_size(all)
+}
+
+#[inline(always)]
+fn sample(texels: &NoiseTexture, kind: usize, x: f32, y: f32, footprint: f32) -> f32 {
+    // The exponent of the footprint: level with texels at least about as large.
+    let exponent = ((footprint * 1.4).to_bits() >> 23) as i32;
+    let level = exponent.wrapping_sub(127).clamp(0, LEVELS as i32 - 1) as u32;
+    // 2^-level from its exponent.
+    let scale = f32::from_bits(127u32.wrapping_sub(level) << 23);
+    let (x, y) = (x * scale - 0.5, y * scale - 0.5);
+    let (column, row) = (floor_int(x), floor_int(y));
+    let (fx, fy) = (x - column as f32, y - row as f32);
+    let mask = (SIDE as u32).wrapping_shr(level).wrapping_sub(1);
+    // Texels of all finer levels: 4^8 + 4^7 + ... = (4^9 - 4^(9 - level)) / 3.
+    let start = ALL_TEXELS.wrapping_sub(ALL_TEXELS.wrapping_shr(level << 1));
+    let in_row = (row as u32 & mask).wrapping_shl(8u32.wrapping_sub(level));
+    let at = start.wrapping_add(in_row).wrapping_add(column as u32 & mask);
+    let four = texels[kind * TEXELS + (at as usize & (TEXELS - 1))];
+    blend(four, fx, fy) * (1.0 / 255.0)
+}
+
+/// Texels of all levels.
+const ALL_TEXELS: u32 = 87_381;
+
+/// The blend of four bytes (here, right, below, below right) between which a place lies.
+#[inline(always)]
+pub fn blend(four: u32, fx: f32, fy: f32) -> f32 {
+    let byte = |shift: u32| ((four >> shift) & 0xff) as i32 as f32;
+    lerp(lerp(byte(0), byte(8), fx), lerp(byte(16), byte(24), fx), fy)
+}
+
+/// Four bytes in one number.
+pub fn four_bytes(bytes: [u8; 4]) -> u32 {
+    u32::from_le_bytes(bytes)
 }
 
 #[inline(always)]
@@ -161,11 +208,25 @@ fn finest(octaves: &[(usize, f32)], seed: u32) -> Vec<u8> {
 }
 
 /// All levels one after the other, each the 2 x 2 means of the one before.
-fn pyramid(finest: Vec<u8>) -> Vec<u8> {
-    let mut all = finest.clone();
+fn pyramid(finest: Vec<u8>) -> Vec<u32> {
+    let mut all = Vec::with_capacity(TEXELS);
     let mut level = finest;
     let mut side = SIDE;
-    while side > 1 {
+    loop {
+        for i in 0..side * side {
+            let (column, row) = (i % side, i / side);
+            let (right, below) = ((column + 1) % side, (row + 1) % side * side);
+            let here = row * side;
+            all.push(four_bytes([
+                level[here + column],
+                level[here + right],
+                level[below + column],
+                level[below + right],
+            ]));
+        }
+        if side == 1 {
+            break;
+        }
         let half = side / 2;
         level = (0..half * half)
             .map(|i| {
@@ -174,10 +235,16 @@ fn pyramid(finest: Vec<u8>) -> Vec<u8> {
                 ((sum.iter().sum::<u32>() + 2) / 4) as u8
             })
             .collect();
-        all.extend_from_slice(&level);
         side = half;
     }
+    all.resize(TEXELS, 0);
     all
+}
+
+/// A table whose size is known, so that masked places in it need no check.
+pub fn fixed_size<const N: usize>(mut table: Vec<u32>) -> Box<[u32; N]> {
+    table.resize(N, 0);
+    table.into_boxed_slice().try_into().unwrap_or_else(|_| Box::new([0; N]))
 }
 
 #[cfg(test)]
@@ -195,7 +262,7 @@ mod tests {
 
     #[test]
     fn noise_tiles_and_its_coarsest_level_is_its_mean() {
-        let noise = NoiseTexture::new(5);
+        let noise = noise_texture(5);
         assert!((noise.clumps(3.2, 9.1, 1.0) - noise.clumps(3.2 + 256.0, 9.1 - 256.0, 1.0)).abs() < 1e-3);
         assert!((noise.clumps(77.0, 12.0, 1e6) - 0.5).abs() < 0.02);
     }

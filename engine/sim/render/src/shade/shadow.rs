@@ -6,11 +6,13 @@
 use crate::figure::FigureTriangle;
 use crate::renderer::Eye;
 use crate::scene::{BOX_FACES, Scene};
-use crate::shade::pattern::{NoiseTexture, floor_int, smoothstep};
-use crate::visibility::{NO_FACE, PlaneOnScreen, Visibility};
-use cosfly_frames::{DVec2, DVec3};
+use crate::shade::lanes::{Block, WIDE, get};
+use crate::shade::pattern::{NoiseTexture, Noises, fixed_size, floor_int, lerp, most, one_if, smoothstep};
+use crate::shade::vector::Vec3;
+use crate::visibility::{PlaneOnScreen, Visibility};
+use cosfly_frames::simd::Level;
+use cosfly_frames::{DVec2, DVec3, simd_kernel};
 use cosfly_maps::ObstacleKind;
-use glam::{DVec4, Vec2, Vec3A as Vec3, Vec4};
 
 /// Texels along a side of the town's map.
 const SIDE: usize = 1536;
@@ -57,12 +59,12 @@ impl Frame {
     }
 
     /// `place` as an affine map in f32: rows of (x, y, z, 1).
-    fn rows(&self) -> [Vec4; 2] {
+    fn rows(&self) -> [[f32; 4]; 2] {
         [0, 1].map(|k| {
             let axis = self.axes[k] / self.texels_m[k];
             let slope = -self.shear.dot(axis);
             let constant = -slope * self.reference_m - self.corner_m[k] / self.texels_m[k];
-            DVec4::new(axis.x, axis.y, slope, constant).as_vec4()
+            [axis.x as f32, axis.y as f32, slope as f32, constant as f32]
         })
     }
 }
@@ -72,17 +74,54 @@ pub struct Shadows {
     town: Visibility,
     town_frame: Option<(u64, Frame)>,
     figure: Visibility,
-    fast: Fast,
+    packed: Packed,
 }
 
-/// The frames as lookups need them.
-#[derive(Clone, Copy, Default)]
-struct Fast {
-    town_rows: [Vec4; 2],
-    figure_rows: Option<[Vec4; 2]>,
+/// Maps as the kernel reads them. A number holds a texel in its low half and the one to the right in its high half:
+/// height above [`LOWEST_M`] below the reference in steps of 1/32 m, times two, plus one for leaves.
+struct Packed {
+    town: Box<TownMap>,
+    figure: Box<FigureMap>,
+    figure_rows: Option<[[f32; 4]; 2]>,
+    places: Places,
+}
+
+/// Where the town's map lies.
+#[derive(Clone, Copy, Debug, Default)]
+struct Places {
+    rows: [[f32; 4]; 2],
     base_m: f32,
-    texels_m: Vec2,
-    corner_m: Vec2,
+    texels_m: [f32; 2],
+    corner_m: [f32; 2],
+}
+
+type TownMap = [u32; TOWN_TEXELS];
+type FigureMap = [u32; FIGURE_TEXELS];
+
+/// Powers of two that hold the maps.
+const TOWN_TEXELS: usize = 1 << 22;
+const FIGURE_TEXELS: usize = 1 << 14;
+/// Nothing lower than this below the reference casts a shadow.
+const LOWEST_M: f64 = 200.0;
+/// Steps per metre of packed heights.
+const STEPS_PER_M: f32 = 32.0;
+
+/// Packs a map's rows from `rows.0` to before `rows.1`.
+fn pack<const N: usize>(map: &Visibility, side: usize, rows: (usize, usize), packed: &mut [u32; N]) {
+    let half = |at: usize| {
+        let height_m = map.inverse_depth[at] - (DEPTH_M - LOWEST_M) as f32;
+        let steps = (height_m * STEPS_PER_M + 0.5).clamp(0.0, 32767.0) as u32;
+        (steps << 1) | u32::from(map.face[at] == LEAVES)
+    };
+    for row in rows.0..rows.1 {
+        let mut here = half(row * side);
+        for column in 0..side - 1 {
+            let right = half(row * side + column + 1);
+            packed[row * side + column] = here | (right << 16);
+            here = right;
+        }
+        packed[row * side + side - 1] = here;
+    }
 }
 
 impl Shadows {
@@ -92,7 +131,12 @@ impl Shadows {
             town: Visibility::new(SIDE, SIDE),
             town_frame: None,
             figure: Visibility::new(FIGURE_SIDE, FIGURE_SIDE),
-            fast: Fast::default(),
+            packed: Packed {
+                town: fixed_size(vec![]),
+                figure: fixed_size(vec![]),
+                figure_rows: None,
+                places: Places::default(),
+            },
         }
     }
 
@@ -115,18 +159,19 @@ impl Shadows {
             self.draw_town(scene, &frame, to_sun);
         }
         let figure_frame = self.draw_figure(&frame, to_sun, figure);
-        self.fast = Fast {
-            town_rows: frame.rows(),
-            figure_rows: figure_frame.map(|frame| frame.rows()),
-            base_m: (DEPTH_M - reference_m) as f32,
-            texels_m: texels_m.as_vec2(),
-            corner_m: frame.corner_m.as_vec2(),
+        self.packed.figure_rows = figure_frame.map(|frame| frame.rows());
+        self.packed.places = Places {
+            rows: frame.rows(),
+            base_m: (LOWEST_M - reference_m) as f32,
+            texels_m: texels_m.as_vec2().to_array(),
+            corner_m: frame.corner_m.as_vec2().to_array(),
         };
     }
 
     fn draw_town(&mut self, scene: &Scene, frame: &Frame, to_sun: Vec3) {
+        let before = self.town.drawn_rows();
         self.town.clear();
-        let to_sun = to_sun.as_dvec3();
+        let to_sun = DVec3::new(f64::from(to_sun.x), f64::from(to_sun.y), f64::from(to_sun.z));
         for b in &scene.boxes {
             let class = if b.kind == ObstacleKind::TreeCrown { LEAVES } else { SOLID };
             let thin = f64::from(b.half_extents_m.x.min(b.half_extents_m.y));
@@ -142,6 +187,9 @@ impl Shadows {
                 }
             }
         }
+        let after = self.town.drawn_rows();
+        let rows = (before.0.min(after.0), before.1.max(after.1));
+        pack(&self.town, SIDE, rows, &mut self.packed.town);
     }
 
     fn draw_figure(&mut self, town_frame: &Frame, to_sun: Vec3, triangles: &[FigureTriangle]) -> Option<Frame> {
@@ -158,76 +206,110 @@ impl Shadows {
         }
         let texels_m = size / (FIGURE_SIDE as f64 - 4.0);
         let frame = Frame { corner_m: low - 2.0 * texels_m, texels_m, ..*town_frame };
-        let to_sun = to_sun.as_dvec3();
+        let to_sun = DVec3::new(f64::from(to_sun.x), f64::from(to_sun.y), f64::from(to_sun.z));
         for triangle in triangles.iter().filter(|triangle| triangle.normal_in_world.dot(to_sun) > 1e-6) {
             let normal = triangle.normal_in_world;
             draw(&mut self.figure, &frame, to_sun, normal, &triangle.corners_in_world, SOLID);
         }
+        pack(&self.figure, FIGURE_SIDE, (0, FIGURE_SIDE), &mut self.packed.figure);
         Some(frame)
     }
 
-    /// Share of the sun's light that reaches a point on a surface, 0..=1.
-    #[inline(always)]
-    pub fn sunlight(&self, point: Vec3, normal: Vec3, noise: &NoiseTexture) -> f32 {
-        // Off the surface, so that a face does not shade itself where the map is coarse.
-        let lift = 0.05 + 0.30 * (1.0 - normal.z.max(0.0));
-        let point = (point + normal * lift).extend(1.0);
-        let height = point.z + self.fast.base_m + 0.05;
-        let [row_u, row_v] = self.fast.town_rows;
-        let mut dark = self.town_share(row_u.dot(point), row_v.dot(point), height, noise);
-        if let Some([row_u, row_v]) = self.fast.figure_rows {
-            let (u, v) = (row_u.dot(point), row_v.dot(point));
-            let limit = FIGURE_SIDE as f32;
-            if u > 0.0 && v > 0.0 && u < limit && v < limit {
-                dark = dark.max(self.figure_share(u, v, height));
+    /// Fills in which share of the sun's light reaches each pixel's place.
+    pub fn sunlight(&self, level: Level, blocks: &mut [Block], noise: &NoiseTexture) {
+        town_sunlight(level, blocks, &self.packed.town, &self.packed.places, noise);
+        if let Some(rows) = &self.packed.figure_rows {
+            figure_shadow(level, blocks, &self.packed.figure, self.packed.places.base_m, rows);
+        }
+    }
+}
+
+simd_kernel! {
+    fn town_sunlight(blocks: &mut [Block], map: &TownMap, places: &Places, noise: &NoiseTexture) {
+        let Places { rows: [row_u, row_v], base_m, texels_m, corner_m } = *places;
+        for block in blocks.iter_mut() {
+            let mut under_leaves = [0.0f32; WIDE];
+            let mut flecks = 0u32;
+            for (k, under) in under_leaves.iter_mut().enumerate() {
+                let (point, height) = lifted(block, k, base_m);
+                let (u, v) = (affine(row_u, point), affine(row_v, point));
+                let (dark, leaves) = darkness(map, SIDE, u, v, height);
+                block.sunlight[k] = 1.0 - dark;
+                *under = dark * leaves;
+                flecks |= u32::from(dark * leaves > 0.0);
+            }
+            if flecks != 0 {
+                // Sun flecks: gaps between the leaves.
+                for (k, under) in under_leaves.iter().enumerate() {
+                    let (point, _) = lifted(block, k, base_m);
+                    let u = (affine(row_u, point) - 0.5) * texels_m[0] + corner_m[0];
+                    let v = (affine(row_v, point) - 0.5) * texels_m[1] + corner_m[1];
+                    let gap = smoothstep(0.52, 0.70, noise.clumps(u * 18.0, v * 18.0, 1.5));
+                    block.sunlight[k] += under * (0.75 * gap);
+                }
             }
         }
-        1.0 - dark
     }
+}
 
-    #[inline(always)]
-    fn town_share(&self, u: f32, v: f32, height: f32, noise: &NoiseTexture) -> f32 {
-        let (u, v) = (u - 0.5, v - 0.5);
-        let limit = (SIDE - 2) as f32;
-        if !(u >= 0.0 && v >= 0.0 && u < limit && v < limit) {
-            return 0.0;
+simd_kernel! {
+    fn figure_shadow(blocks: &mut [Block], map: &FigureMap, base_m: f32, rows: &[[f32; 4]; 2]) {
+        let [row_u, row_v] = *rows;
+        let limit = FIGURE_SIDE as f32;
+        for block in blocks.iter_mut() {
+            let mut inside = 0u32;
+            for k in 0..WIDE {
+                let (point, _) = lifted(block, k, base_m);
+                let (u, v) = (affine(row_u, point), affine(row_v, point));
+                inside |= u32::from((u > 0.0) & (v > 0.0) & (u < limit) & (v < limit));
+            }
+            if inside != 0 {
+                for k in 0..WIDE {
+                    let (point, height) = lifted(block, k, base_m);
+                    let (u, v) = (affine(row_u, point), affine(row_v, point));
+                    let (dark, _) = darkness(map, FIGURE_SIDE, u, v, height + 0.04);
+                    let lit = 1.0 - dark;
+                    block.sunlight[k] = if lit < block.sunlight[k] { lit } else { block.sunlight[k] };
+                }
+            }
         }
-        let (column, row) = (floor_int(u).max(0) as usize, floor_int(v).max(0) as usize);
-        let (fx, fy) = (u - column as i32 as f32, v - row as i32 as f32);
-        let at = row * SIDE + column;
-        let upper = &self.town.inverse_depth[at..at + 2];
-        let lower = &self.town.inverse_depth[at + SIDE..at + SIDE + 2];
-        let above = |top: f32| if top > height { 1.0f32 } else { 0.0 };
-        let upper = above(upper[0]) + (above(upper[1]) - above(upper[0])) * fx;
-        let lower = above(lower[0]) + (above(lower[1]) - above(lower[0])) * fx;
-        let dark = upper + (lower - upper) * fy;
-        if dark > 0.0 && self.town.face[at] == LEAVES {
-            // Sun flecks: gaps between the leaves.
-            let place = Vec2::new(u, v) * self.fast.texels_m + self.fast.corner_m;
-            let gap = smoothstep(0.52, 0.70, noise.clumps(place.x * 18.0, place.y * 18.0, 1.5));
-            return dark * (1.0 - 0.75 * gap);
-        }
-        dark
     }
+}
 
-    #[inline(always)]
-    fn figure_share(&self, u: f32, v: f32, height: f32) -> f32 {
-        let (u, v) = (u - 0.5, v - 0.5);
-        let limit = (FIGURE_SIDE - 2) as f32;
-        if !(u >= 0.0 && v >= 0.0 && u < limit && v < limit) {
-            return 0.0;
-        }
-        let (column, row) = (floor_int(u).max(0) as usize, floor_int(v).max(0) as usize);
-        let (fx, fy) = (u - column as i32 as f32, v - row as i32 as f32);
-        let at = row * FIGURE_SIDE + column;
-        let tap = |index: usize| {
-            let above = self.figure.inverse_depth[index] > height + 0.04 && self.figure.face[index] != NO_FACE;
-            f32::from(u8::from(above))
-        };
-        let upper = tap(at) + (tap(at + 1) - tap(at)) * fx;
-        let lower = tap(at + FIGURE_SIDE) + (tap(at + FIGURE_SIDE + 1) - tap(at + FIGURE_SIDE)) * fx;
-        upper + (lower - upper) * fy
-    }
+/// A pixel's place off its surface, so that a face does not shade itself where the map is coarse, and its height there.
+#[inline(always)]
+fn lifted(block: &Block, k: usize, base_m: f32) -> (Vec3, f32) {
+    let normal = get(&block.normal, k);
+    let lift = 0.05 + 0.30 * (1.0 - most(normal.z, 0.0));
+    let point = get(&block.world, k) + normal * lift;
+    (point, point.z + base_m + 0.05)
+}
+
+#[inline(always)]
+fn affine(row: [f32; 4], point: Vec3) -> f32 {
+    row[0] * point.x + row[1] * point.y + row[2] * point.z + row[3]
+}
+
+/// Share of a texel's size around a place that is above the height, and 1 when leaves are there.
+#[inline(always)]
+fn darkness<const N: usize>(map: &[u32; N], side: usize, u: f32, v: f32, height_m: f32) -> (f32, f32) {
+    let (u, v) = (u - 0.5, v - 0.5);
+    let limit = side as i32 as f32 - 2.0;
+    let inside = (u >= 0.0) & (v >= 0.0) & (u < limit) & (v < limit);
+    let (column, row) = (floor_int(u), floor_int(v));
+    let (fx, fy) = (u - column as f32, v - row as f32);
+    let at = (row as u32).wrapping_mul(side as u32).wrapping_add(column as u32);
+    let upper = map[at as usize & (N - 1)];
+    let lower = map[at.wrapping_add(side as u32) as usize & (N - 1)];
+    let steps = height_m * STEPS_PER_M;
+    let above = |texel: u32| one_if((texel >> 1) as i32 as f32 > steps);
+    let dark = lerp(
+        lerp(above(upper & 0xffff), above(upper >> 16), fx),
+        lerp(above(lower & 0xffff), above(lower >> 16), fx),
+        fy,
+    );
+    let leaves = (upper & 1) as i32 as f32;
+    (if inside { dark } else { 0.0 }, leaves)
 }
 
 /// Draws a face that the sun shines on: its height is affine over the sheared ground.

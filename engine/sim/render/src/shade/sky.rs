@@ -1,29 +1,31 @@
 //! The sky behind everything, and the rain in front of it.
 
 use super::light::Light;
-use super::pattern::{NoiseTexture, hash, smoothstep, unit};
+use super::pattern::{NoiseTexture, Noises, hash, most, smoothstep, unit};
+use super::vector::Vec3;
 use crate::frame::FrameImages;
-use glam::Vec3A as Vec3;
 
 /// Colour of the sky in a direction (unit length): gradient, sun, clouds, stars; haze below the horizon.
+#[inline(always)]
 pub fn colour(light: &Light, direction: Vec3, noise: &NoiseTexture) -> Vec3 {
-    let mut colour = light.sky(direction);
-    let toward = direction.dot(light.to_sun).max(0.0);
+    let colour = light.sky(direction);
+    let toward = most(direction.dot(light.to_sun), 0.0);
     let clear = 1.0 - light.clouds;
     let disc = smoothstep(0.9994, 0.9998, toward) * clear;
-    let ring = libm::powf(toward, 90.0) * 0.25 * clear;
-    colour += light.sun * (disc * if light.night > 0.5 { 12.0 } else { 5.0 } + ring);
-    if direction.z > 0.01 {
-        let (x, y) = (direction.x / direction.z, direction.y / direction.z);
-        let size = 0.012 / (direction.z * direction.z);
-        let shape = 0.7 * noise.clumps(x * 34.0, y * 34.0, size * 34.0)
-            + 0.3 * noise.clumps(x * 131.0, y * 131.0, size * 131.0);
-        let threshold = 0.74 - 0.62 * light.clouds;
-        let cover = smoothstep(threshold, threshold + 0.22, shape) * smoothstep(0.01, 0.16, direction.z);
-        let body =
-            (light.sun * 0.22 + light.zenith * 0.9 + light.horizon * 0.35) * (1.15 - 0.55 * shape * light.clouds);
-        colour = colour.lerp(body, cover * (0.85 - 0.1 * light.clouds));
-    }
+    let near2 = toward * toward;
+    let near8 = near2 * near2 * near2 * near2;
+    let near32 = near8 * near8 * near8 * near8;
+    let ring = near32 * near32 * near8 * near8 * near8 * (0.25 * clear);
+    let colour = colour + light.sun * (disc * if light.night > 0.5 { 12.0 } else { 5.0 } + ring);
+    let up = most(direction.z, 0.01);
+    let (x, y) = (direction.x / up, direction.y / up);
+    let size = 0.012 / (up * up);
+    let shape =
+        0.7 * noise.clumps(x * 34.0, y * 34.0, size * 34.0) + 0.3 * noise.clumps(x * 131.0, y * 131.0, size * 131.0);
+    let threshold = 0.74 - 0.62 * light.clouds;
+    let cover = smoothstep(threshold, threshold + 0.22, shape) * smoothstep(0.01, 0.16, direction.z);
+    let body = (light.sun * 0.22 + light.zenith * 0.9 + light.horizon * 0.35) * (1.15 - 0.55 * shape * light.clouds);
+    let colour = colour.lerp(body, cover * (0.85 - 0.1 * light.clouds));
     // Below the horizon the world is out of the town: haze.
     let below = smoothstep(0.0, -0.25, direction.z);
     colour.lerp(light.horizon * 0.55 + light.bounce * 0.5, below)

@@ -8,15 +8,17 @@ use crate::frame::FrameImages;
 use crate::renderer::{DrawnFace, FaceSource};
 use crate::visibility::{NO_FACE, Visibility};
 
-/// Blends pixels along all borders between surfaces. `scratch` is reused between frames.
-pub(crate) fn smooth_edges(nearest: &Visibility, faces: &[DrawnFace], images: &mut FrameImages, scratch: &mut Vec<u8>) {
+/// Blends pixels of `picture` along all borders between surfaces into `images`.
+pub(crate) fn smooth_edges(nearest: &Visibility, faces: &[DrawnFace], picture: &[u32], images: &mut FrameImages) {
     let (width, height) = (images.width as usize, images.height as usize);
+    for (rgb, pixel) in images.rgb.chunks_exact_mut(3).zip(picture) {
+        let [r, g, b, _] = pixel.to_le_bytes();
+        rgb.copy_from_slice(&[r, g, b]);
+    }
     if width < 3 || height < 3 {
         return;
     }
-    scratch.clear();
-    scratch.extend_from_slice(&images.rgb);
-    let borders = Borders { seen: &nearest.face, faces, source: scratch };
+    let borders = Borders { seen: &nearest.face, faces, source: picture };
     for row in 0..height - 1 {
         borders.walk(row * width, width, 1, width, &mut images.rgb);
     }
@@ -29,7 +31,7 @@ pub(crate) fn smooth_edges(nearest: &Visibility, faces: &[DrawnFace], images: &m
 struct Borders<'a> {
     seen: &'a [u32],
     faces: &'a [DrawnFace],
-    source: &'a [u8],
+    source: &'a [u32],
 }
 
 impl Borders<'_> {
@@ -105,10 +107,10 @@ impl Borders<'_> {
                 _ => (near + piece.across, near),
             };
             let weight = (share * 256.0) as i32;
-            for channel in 0..3 {
-                let (own, foreign) = (3 * changed + channel, 3 * other + channel);
-                let change = weight * (i32::from(self.source[foreign]) - i32::from(self.source[own])) / 256;
-                rgb[own] = (i32::from(rgb[own]) + change).clamp(0, 255) as u8;
+            let (own, foreign) = (self.source[changed].to_le_bytes(), self.source[other].to_le_bytes());
+            for (channel, byte) in rgb[3 * changed..3 * changed + 3].iter_mut().enumerate() {
+                let change = weight * (i32::from(foreign[channel]) - i32::from(own[channel])) / 256;
+                *byte = (i32::from(*byte) + change).clamp(0, 255) as u8;
             }
         }
     }

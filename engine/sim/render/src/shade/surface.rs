@@ -1,6 +1,6 @@
 //! What materials are told about a pixel, and what they answer.
 
-use glam::Vec3A as Vec3;
+use super::vector::Vec3;
 
 /// A point of a surface.
 #[derive(Clone, Copy, Debug)]
@@ -35,5 +35,17 @@ impl Look {
     #[inline(always)]
     pub fn matt(albedo: Vec3, normal: Vec3) -> Self {
         Self { albedo, emission: Vec3::ZERO, normal, mirror: 0.0, openness: 1.0 }
+    }
+
+    /// From this look to another as `t` goes from 0 to 1.
+    #[inline(always)]
+    pub fn lerp(&self, other: &Self, t: f32) -> Self {
+        Self {
+            albedo: self.albedo.lerp(other.albedo, t),
+            emission: self.emission.lerp(other.emission, t),
+            normal: self.normal.lerp(other.normal, t),
+            mirror: self.mirror + (other.mirror - self.mirror) * t,
+            openness: self.openness + (other.openness - self.openness) * t,
+        }
     }
 }

@@ -1,10 +1,11 @@
 //! Trees, cars, lamps and everything else that stands in a street.
 
-use super::light::Light;
-use super::pattern::{NoiseTexture, band, draw, hash, smoothstep, stripes, unit};
+use super::lanes::{Block, WIDE};
+use super::pattern::{NoiseTexture, Noises, band, draw, hash, least, smoothstep, stripes, unit};
 use super::surface::{Look, SurfacePoint};
+use super::vector::Vec3;
+use cosfly_frames::simd_kernel;
 use cosfly_maps::ObstacleKind;
-use glam::Vec3A as Vec3;
 
 /// Car paints, linear RGB.
 const PAINTS: [Vec3; 8] = [
@@ -18,11 +19,15 @@ const PAINTS: [Vec3; 8] = [
     Vec3::new(0.45, 0.38, 0.28),
 ];
 
-/// The box a thing is made of, as its looks need it.
+/// The box a thing is made of, and one of its faces.
 #[derive(Clone, Copy, Debug)]
-pub struct BoxPlace {
-    /// The point in the box's own axes from its middle, metres.
-    pub local: Vec3,
+pub struct Thing {
+    /// What it is.
+    pub kind: ObstacleKind,
+    /// The box's middle, metres.
+    pub center: Vec3,
+    /// Its own horizontal axes.
+    pub axes: [Vec3; 2],
     /// Half its size.
     pub half: Vec3,
     /// Seed of the thing.
@@ -31,166 +36,259 @@ pub struct BoxPlace {
     pub axis: usize,
     /// Middle and half size of the whole thing, metres.
     pub whole: [Vec3; 2],
+    /// 0 by day, 1 at night.
+    pub night: f32,
+    /// Its own colour, drawn from the seed.
+    tint: Vec3,
+    /// Which of several looks it has, drawn from the seed.
+    choice: usize,
+    /// One divided by `whole`'s half size.
+    shrink: Vec3,
 }
 
-/// The look of a box that is not a building.
-#[inline(always)]
-pub fn look(kind: ObstacleKind, point: &SurfacePoint, place: &BoxPlace, light: &Light, noise: &NoiseTexture) -> Look {
-    match kind {
-        ObstacleKind::TreeCrown | ObstacleKind::Bush => leaves(point, place, noise),
-        ObstacleKind::TreeTrunk => bark(point, place, noise),
-        ObstacleKind::Car => car(point, place, light),
-        ObstacleKind::Lamp => lamp(point, place, light),
-        ObstacleKind::TrafficLight => traffic_light(point, place),
-        ObstacleKind::TrafficSign => sign(point, place),
-        ObstacleKind::Fence | ObstacleKind::GuardRail => fence(point, place),
-        ObstacleKind::Wall | ObstacleKind::Bridge | ObstacleKind::Building => stone(point, place, noise),
-        ObstacleKind::Pole => metal(point, Vec3::splat(0.22)),
-        ObstacleKind::Static => furniture(point, place, noise),
-    }
+/// A point in the box's own axes from its middle, and on the face: horizontal and vertical (x and y on top), metres.
+#[derive(Clone, Copy)]
+struct Place {
+    local: Vec3,
+    u: f32,
+    v: f32,
 }
 
-/// Two coordinates on the face: horizontal and vertical (x and y on top).
-#[inline(always)]
-fn on_face(place: &BoxPlace) -> [f32; 2] {
-    match place.axis {
-        0 => [place.local.y, place.local.z],
-        1 => [place.local.x, place.local.z],
-        _ => [place.local.x, place.local.y],
-    }
-}
-
-/// Leaves: clumps of light and dark, and normals that swell around the whole crown's middle.
-fn leaves(point: &SurfacePoint, place: &BoxPlace, noise: &NoiseTexture) -> Look {
-    let [u, v] = on_face(place);
-    let (u, v) = (u + 37.0 * unit(place.seed) + 3.0 * place.axis as f32, v + 11.0 * place.axis as f32);
-    let size = point.footprint_m;
-    let big = noise.clumps(u * 14.0, v * 14.0, size * 14.0) - 0.5;
-    let small = noise.grain(u * 17.0, v * 17.0, size * 17.0) - 0.5;
-    let slope_u = noise.clumps(u * 14.0 + 4.0, v * 14.0, size * 14.0) - 0.5 - big;
-    let slope_v = noise.clumps(u * 14.0, v * 14.0 + 4.0, size * 14.0) - 0.5 - big;
-    let [middle, half] = place.whole;
-    let out = (point.world - middle) / half.max(Vec3::splat(0.1));
-    let round = out.normalize_or_zero() * 0.9 + point.normal * 0.2;
-    let bent = round + Vec3::new(slope_u, slope_v, slope_u - slope_v) * 2.2;
-    let deep = smoothstep(-0.22, 0.30, big + 0.6 * small);
-    let hue = draw(place.seed, 1);
-    let green = Vec3::new(0.060, 0.135, 0.030).lerp(Vec3::new(0.120, 0.155, 0.036), hue);
-    let tint = green.lerp(Vec3::new(0.20, 0.24, 0.07), 0.35 * (small + 0.5) * deep);
-    let normal = bent.normalize_or(point.normal);
-    // Darker below, and in the hollows between a crown's boxes.
-    let hollow = smoothstep(0.45, 0.95, out.length());
-    let shade = (0.75 + 0.25 * smoothstep(-1.0, 0.9, out.z)) * (0.6 + 0.4 * hollow);
-    Look {
-        openness: (0.85 + 0.45 * deep) * shade,
-        ..Look::matt(tint * ((0.42 + 1.0 * deep) * (0.5 + 0.5 * shade)), normal)
-    }
-}
-
-fn bark(point: &SurfacePoint, place: &BoxPlace, noise: &NoiseTexture) -> Look {
-    let [u, v] = on_face(place);
-    let furrow = noise.clumps(u * 60.0 + 9.0 * unit(place.seed), v * 9.0, point.footprint_m * 30.0);
-    Look::matt(Vec3::new(0.115, 0.082, 0.055) * (0.45 + 1.0 * furrow), point.normal)
-}
-
-fn car(point: &SurfacePoint, place: &BoxPlace, light: &Light) -> Look {
-    let paint = PAINTS[(draw(place.seed, 2) * PAINTS.len() as f32) as usize % PAINTS.len()];
-    let long = if place.half.x >= place.half.y { 0 } else { 1 };
-    let (along, half_length) = if long == 0 { (place.local.x, place.half.x) } else { (place.local.y, place.half.y) };
-    let t = along / half_length.max(0.1);
-    let up = (place.local.z + place.half.z) / (2.0 * place.half.z).max(0.1);
-    let size = point.footprint_m;
-    let (dt, du) = (size / half_length.max(0.1), size / (2.0 * place.half.z).max(0.1));
-    let glass = if place.axis == 2 {
-        band(t, -0.78, -0.62, dt) + band(t, 0.10, 0.34, dt)
-    } else if place.axis == long {
-        band(up, 0.60, 0.90, du)
-    } else {
-        band(up, 0.60, 0.90, du) * band(t, -0.72, 0.36, dt) * (1.0 - band(t, -0.18, -0.14, dt))
-    };
-    let mut look = Look { mirror: 0.16, ..Look::matt(paint, point.normal) };
-    look.albedo = look.albedo.lerp(Vec3::splat(0.02), glass);
-    look.mirror += 0.3 * glass;
-    if place.axis != 2 {
-        let dark = band(up, 0.0, 0.16, du);
-        look.albedo = look.albedo.lerp(Vec3::splat(0.012), dark);
-        if place.axis != long {
-            let radius = 0.21;
-            for wheel in [-0.62f32, 0.62] {
-                let dx = (t - wheel) * half_length / (2.0 * place.half.z).max(0.1);
-                let away = (dx * dx + (up - radius) * (up - radius)).sqrt();
-                look.albedo = look.albedo.lerp(Vec3::splat(0.010), 1.0 - smoothstep(radius - du, radius + du, away));
-                look.albedo = look.albedo.lerp(Vec3::splat(0.25), 1.0 - smoothstep(0.1 - du, 0.1 + du, away));
+/// Asks the look of every pixel. Not a function: closures are not always inlined, and only what is inlined becomes
+/// vector code.
+macro_rules! paint_all {
+    ($self:ident, $blocks:ident, $point:ident, $at:ident => $look:expr) => {
+        for block in $blocks.iter_mut() {
+            for k in 0..WIDE {
+                let $point = block.point(k);
+                let $at = $self.place::<AXIS>(&$point);
+                let look = $look;
+                block.put(k, &look);
             }
-        } else {
-            let half_width = if long == 0 { place.half.y } else { place.half.x };
-            let aside = if long == 0 { place.local.y } else { place.local.x };
-            let corner = band(aside.abs(), 0.62 * half_width, 0.95 * half_width, size);
-            let lamps = band(up, 0.38, 0.52, du) * corner;
-            let colour = if t > 0.0 { Vec3::splat(0.7) } else { Vec3::new(0.45, 0.02, 0.02) };
-            look.albedo = look.albedo.lerp(colour, lamps);
-            look.emission = colour * (0.02 * light.night * lamps);
+        }
+    };
+}
+
+impl Thing {
+    /// A face of a box; see the fields.
+    #[expect(clippy::too_many_arguments, reason = "everything that looks depend on")]
+    pub fn new(
+        kind: ObstacleKind,
+        center: Vec3,
+        axes: [Vec3; 2],
+        half: Vec3,
+        seed: u32,
+        axis: usize,
+        whole: [Vec3; 2],
+        night: f32,
+    ) -> Self {
+        let pick = |index: u32, count: usize| (draw(seed, index) * count as f32) as usize % count;
+        let (mut tint, mut choice) = (Vec3::splat(0.2), 0);
+        match kind {
+            ObstacleKind::TreeCrown | ObstacleKind::Bush => {
+                tint = Vec3::new(0.060, 0.135, 0.030).lerp(Vec3::new(0.120, 0.155, 0.036), draw(seed, 1));
+            }
+            ObstacleKind::Car => tint = PAINTS[pick(2, PAINTS.len())],
+            ObstacleKind::TrafficLight => {
+                choice = pick(3, 3);
+                tint = [Vec3::new(0.9, 0.05, 0.03), Vec3::new(0.9, 0.5, 0.03), Vec3::new(0.03, 0.8, 0.25)][choice];
+            }
+            ObstacleKind::TrafficSign => {
+                tint =
+                    [Vec3::new(0.02, 0.12, 0.45), Vec3::new(0.55, 0.03, 0.03), Vec3::new(0.65, 0.45, 0.02)][pick(4, 3)];
+            }
+            ObstacleKind::Wall | ObstacleKind::Bridge | ObstacleKind::Building => {
+                tint = Vec3::new(0.36, 0.33, 0.29) * (0.8 + 0.4 * draw(seed, 5));
+            }
+            ObstacleKind::Static => {
+                tint = [Vec3::new(0.24, 0.14, 0.07), Vec3::new(0.06, 0.16, 0.09), Vec3::splat(0.20)][pick(6, 3)];
+            }
+            _ => {}
+        }
+        let shrink = whole[1].map(|h| 1.0 / h.max(0.1));
+        Self { kind, center, axes, half, seed, axis, whole, night, tint, choice, shrink }
+    }
+
+    /// The face's place under a point.
+    #[inline(always)]
+    fn place<const AXIS: usize>(&self, point: &SurfacePoint) -> Place {
+        let away = point.world - self.center;
+        let local = Vec3::new(away.dot(self.axes[0]), away.dot(self.axes[1]), away.z);
+        let (u, v) = match AXIS {
+            0 => (local.y, local.z),
+            1 => (local.x, local.z),
+            _ => (local.x, local.y),
+        };
+        Place { local, u, v }
+    }
+
+    #[inline(always)]
+    fn all<const AXIS: usize>(&self, blocks: &mut [Block], noise: &NoiseTexture) {
+        match self.kind {
+            ObstacleKind::TreeCrown | ObstacleKind::Bush => {
+                paint_all!(self, blocks, point, at => self.leaves(&point, &at, noise));
+            }
+            ObstacleKind::TreeTrunk => paint_all!(self, blocks, point, at => self.bark(&point, &at, noise)),
+            ObstacleKind::Car => paint_all!(self, blocks, point, at => self.car::<AXIS>(&point, &at)),
+            ObstacleKind::Lamp => paint_all!(self, blocks, point, at => self.lamp(&point, &at)),
+            ObstacleKind::TrafficLight => {
+                paint_all!(self, blocks, point, at => self.traffic_light::<AXIS>(&point, &at));
+            }
+            ObstacleKind::TrafficSign => paint_all!(self, blocks, point, at => self.sign::<AXIS>(&point, &at)),
+            ObstacleKind::Fence | ObstacleKind::GuardRail => {
+                paint_all!(self, blocks, point, at => self.fence(&point, &at));
+            }
+            ObstacleKind::Wall | ObstacleKind::Bridge | ObstacleKind::Building => {
+                paint_all!(self, blocks, point, at => self.stone(&point, &at, noise));
+            }
+            ObstacleKind::Pole => paint_all!(self, blocks, point, _at => metal(&point, Vec3::splat(0.22))),
+            ObstacleKind::Static => paint_all!(self, blocks, point, at => self.furniture(&point, &at, noise)),
         }
     }
-    look
-}
 
-fn lamp(point: &SurfacePoint, place: &BoxPlace, light: &Light) -> Look {
-    let mut look = metal(point, Vec3::new(0.09, 0.10, 0.10));
-    // The head: a flat box, or the top end of a mast drawn as one box.
-    let flat = place.half.z < 0.6 * place.half.x.max(place.half.y);
-    let head = if flat { 1.0 } else { smoothstep(0.25, 0.2, place.half.z - place.local.z) };
-    look.emission = Vec3::new(1.0, 0.78, 0.45) * (0.9 * head * light.night);
-    look.albedo = look.albedo.lerp(Vec3::splat(0.5), 0.6 * head);
-    look
-}
-
-fn traffic_light(point: &SurfacePoint, place: &BoxPlace) -> Look {
-    let mut look = metal(point, Vec3::new(0.06, 0.065, 0.06));
-    let up = place.local.z / place.half.z.max(0.05);
-    if place.half.z < 1.0 && place.axis != 2 {
-        let lit = (draw(place.seed, 3) * 3.0) as usize % 3;
-        let colours = [Vec3::new(0.9, 0.05, 0.03), Vec3::new(0.9, 0.5, 0.03), Vec3::new(0.03, 0.8, 0.25)];
-        let center = [0.62, 0.0, -0.62][lit];
-        look.emission = colours[lit] * (0.5 * band(up, center - 0.2, center + 0.2, 0.1));
+    /// Leaves: clumps of light and dark, and normals that swell around the whole crown's middle.
+    #[inline(always)]
+    fn leaves(&self, point: &SurfacePoint, at: &Place, noise: &NoiseTexture) -> Look {
+        let axis = self.axis as f32;
+        let (u, v) = (at.u + 37.0 * unit(self.seed) + 3.0 * axis, at.v + 11.0 * axis);
+        let size = point.footprint_m;
+        let big = noise.clumps(u * 14.0, v * 14.0, size * 14.0) - 0.5;
+        let small = noise.grain(u * 17.0, v * 17.0, size * 17.0) - 0.5;
+        let slope_u = noise.clumps(u * 14.0 + 4.0, v * 14.0, size * 14.0) - 0.5 - big;
+        let slope_v = noise.clumps(u * 14.0, v * 14.0 + 4.0, size * 14.0) - 0.5 - big;
+        let out = (point.world - self.whole[0]) * self.shrink;
+        let round = out.unit() * 0.9 + point.normal * 0.2;
+        let bent = round + Vec3::new(slope_u, slope_v, slope_u - slope_v) * 2.2;
+        let deep = smoothstep(-0.22, 0.30, big + 0.6 * small);
+        let tint = self.tint.lerp(Vec3::new(0.20, 0.24, 0.07), 0.35 * (small + 0.5) * deep);
+        // Darker below, and in the hollows between a crown's boxes.
+        let hollow = smoothstep(0.45, 0.95, out.dot(out).sqrt());
+        let shade = (0.75 + 0.25 * smoothstep(-1.0, 0.9, out.z)) * (0.6 + 0.4 * hollow);
+        Look {
+            openness: (0.85 + 0.45 * deep) * shade,
+            ..Look::matt(tint * ((0.42 + 1.0 * deep) * (0.5 + 0.5 * shade)), bent.unit())
+        }
     }
-    look
+
+    #[inline(always)]
+    fn bark(&self, point: &SurfacePoint, at: &Place, noise: &NoiseTexture) -> Look {
+        let (u, v) = (at.u, at.v);
+        let furrow = noise.clumps(u * 60.0 + 9.0 * unit(self.seed), v * 9.0, point.footprint_m * 30.0);
+        Look::matt(Vec3::new(0.115, 0.082, 0.055) * (0.45 + 1.0 * furrow), point.normal)
+    }
+
+    #[inline(always)]
+    fn car<const AXIS: usize>(&self, point: &SurfacePoint, at: &Place) -> Look {
+        let long = if self.half.x >= self.half.y { 0 } else { 1 };
+        let (along, half_length) = if long == 0 { (at.local.x, self.half.x) } else { (at.local.y, self.half.y) };
+        let t = along / half_length.max(0.1);
+        let up = (at.local.z + self.half.z) / (2.0 * self.half.z).max(0.1);
+        let size = point.footprint_m;
+        let (dt, du) = (size / half_length.max(0.1), size / (2.0 * self.half.z).max(0.1));
+        let glass = if AXIS == 2 {
+            band(t, -0.78, -0.62, dt) + band(t, 0.10, 0.34, dt)
+        } else if AXIS == long {
+            band(up, 0.60, 0.90, du)
+        } else {
+            band(up, 0.60, 0.90, du) * band(t, -0.72, 0.36, dt) * (1.0 - band(t, -0.18, -0.14, dt))
+        };
+        let mut look = Look { mirror: 0.16, ..Look::matt(self.tint, point.normal) };
+        look.albedo = look.albedo.lerp(Vec3::splat(0.02), glass);
+        look.mirror += 0.3 * glass;
+        if AXIS != 2 {
+            let dark = band(up, 0.0, 0.16, du);
+            look.albedo = look.albedo.lerp(Vec3::splat(0.012), dark);
+            if AXIS != long {
+                let radius = 0.21;
+                for wheel in [-0.62f32, 0.62] {
+                    let dx = (t - wheel) * half_length / (2.0 * self.half.z).max(0.1);
+                    let away = (dx * dx + (up - radius) * (up - radius)).sqrt();
+                    look.albedo =
+                        look.albedo.lerp(Vec3::splat(0.010), 1.0 - smoothstep(radius - du, radius + du, away));
+                    look.albedo = look.albedo.lerp(Vec3::splat(0.25), 1.0 - smoothstep(0.1 - du, 0.1 + du, away));
+                }
+            } else {
+                let half_width = if long == 0 { self.half.y } else { self.half.x };
+                let aside = if long == 0 { at.local.y } else { at.local.x };
+                let corner = band(aside.abs(), 0.62 * half_width, 0.95 * half_width, size);
+                let lamps = band(up, 0.38, 0.52, du) * corner;
+                let colour = if t > 0.0 { Vec3::splat(0.7) } else { Vec3::new(0.45, 0.02, 0.02) };
+                look.albedo = look.albedo.lerp(colour, lamps);
+                look.emission = colour * (0.02 * self.night * lamps);
+            }
+        }
+        look
+    }
+
+    #[inline(always)]
+    fn lamp(&self, point: &SurfacePoint, at: &Place) -> Look {
+        let mut look = metal(point, Vec3::new(0.09, 0.10, 0.10));
+        // The head: a flat box, or the top end of a mast drawn as one box.
+        let flat = self.half.z < 0.6 * self.half.x.max(self.half.y);
+        let head = if flat { 1.0 } else { smoothstep(0.25, 0.2, self.half.z - at.local.z) };
+        look.emission = Vec3::new(1.0, 0.78, 0.45) * (0.9 * head * self.night);
+        look.albedo = look.albedo.lerp(Vec3::splat(0.5), 0.6 * head);
+        look
+    }
+
+    #[inline(always)]
+    fn traffic_light<const AXIS: usize>(&self, point: &SurfacePoint, at: &Place) -> Look {
+        let mut look = metal(point, Vec3::new(0.06, 0.065, 0.06));
+        let up = at.local.z / self.half.z.max(0.05);
+        if self.half.z < 1.0 && AXIS != 2 {
+            let center = 0.62 - 0.62 * self.choice as f32;
+            look.emission = self.tint * (0.5 * band(up, center - 0.2, center + 0.2, 0.1));
+        }
+        look
+    }
+
+    #[inline(always)]
+    fn sign<const AXIS: usize>(&self, point: &SurfacePoint, at: &Place) -> Look {
+        let (u, v) = (at.u, at.v);
+        let half = if AXIS == 0 { self.half.y } else { self.half.x };
+        let edge = least(half - u.abs(), self.half.z - v.abs());
+        Look::matt(self.tint.lerp(Vec3::splat(0.75), 1.0 - smoothstep(0.03, 0.06, edge)), point.normal)
+    }
+
+    #[inline(always)]
+    fn fence(&self, point: &SurfacePoint, at: &Place) -> Look {
+        let u = at.u;
+        let bars = stripes(u / 0.14, 0.0, 0.4, point.footprints_m[0] / 0.14);
+        Look::matt(Vec3::new(0.10, 0.11, 0.115).lerp(Vec3::splat(0.35), bars), point.normal)
+    }
+
+    #[inline(always)]
+    fn stone(&self, point: &SurfacePoint, at: &Place, noise: &NoiseTexture) -> Look {
+        let (u, v) = (at.u, at.v);
+        let size = point.footprint_m;
+        let stain = noise.clumps(u * 3.0, v * 3.0, size * 3.0);
+        let grain = noise.grain(u * 20.0, v * 20.0, size * 20.0);
+        let joint = stripes(v / 0.4, 0.0, 0.06, point.footprints_m[1] / 0.4);
+        Look::matt(self.tint * ((0.66 + 0.35 * stain + 0.3 * grain) * (1.0 - 0.3 * joint)), point.normal)
+    }
+
+    #[inline(always)]
+    fn furniture(&self, point: &SurfacePoint, at: &Place, noise: &NoiseTexture) -> Look {
+        let (u, v) = (at.u, at.v);
+        let plank = stripes(v / 0.12, 0.0, 0.12, point.footprints_m[1] / 0.12);
+        let streak = noise.clumps(u * 8.0 + unit(hash(self.seed, 8)) * 50.0, v * 40.0, point.footprint_m * 20.0);
+        Look::matt(self.tint * ((0.7 + 0.5 * streak) * (1.0 - 0.5 * plank)), point.normal)
+    }
 }
 
-fn sign(point: &SurfacePoint, place: &BoxPlace) -> Look {
-    let [u, v] = on_face(place);
-    let half = if place.axis == 0 { place.half.y } else { place.half.x };
-    let edge = (half - u.abs()).min(place.half.z - v.abs());
-    let colours = [Vec3::new(0.02, 0.12, 0.45), Vec3::new(0.55, 0.03, 0.03), Vec3::new(0.65, 0.45, 0.02)];
-    let face = colours[(draw(place.seed, 4) * 3.0) as usize % 3];
-    Look::matt(face.lerp(Vec3::splat(0.75), 1.0 - smoothstep(0.03, 0.06, edge)), point.normal)
+simd_kernel! {
+    /// The look of a box that is not a building.
+    pub fn things(blocks: &mut [Block], thing: &Thing, noise: &NoiseTexture) {
+        let thing = *thing;
+        match thing.axis {
+            0 => thing.all::<0>(blocks, noise),
+            1 => thing.all::<1>(blocks, noise),
+            _ => thing.all::<2>(blocks, noise),
+        }
+    }
 }
 
-fn fence(point: &SurfacePoint, place: &BoxPlace) -> Look {
-    let [u, _] = on_face(place);
-    let bars = stripes(u / 0.14, 0.0, 0.4, point.footprints_m[0] / 0.14);
-    Look::matt(Vec3::new(0.10, 0.11, 0.115).lerp(Vec3::splat(0.35), bars), point.normal)
-}
-
-fn stone(point: &SurfacePoint, place: &BoxPlace, noise: &NoiseTexture) -> Look {
-    let [u, v] = on_face(place);
-    let size = point.footprint_m;
-    let stain = noise.clumps(u * 3.0, v * 3.0, size * 3.0);
-    let grain = noise.grain(u * 20.0, v * 20.0, size * 20.0);
-    let joint = stripes(v / 0.4, 0.0, 0.06, point.footprints_m[1] / 0.4);
-    let tone = Vec3::new(0.36, 0.33, 0.29) * (0.8 + 0.4 * draw(place.seed, 5));
-    Look::matt(tone * ((0.66 + 0.35 * stain + 0.3 * grain) * (1.0 - 0.3 * joint)), point.normal)
-}
-
-fn furniture(point: &SurfacePoint, place: &BoxPlace, noise: &NoiseTexture) -> Look {
-    let [u, v] = on_face(place);
-    let wood = Vec3::new(0.24, 0.14, 0.07);
-    let paint = [wood, Vec3::new(0.06, 0.16, 0.09), Vec3::splat(0.20)][(draw(place.seed, 6) * 3.0) as usize % 3];
-    let plank = stripes(v / 0.12, 0.0, 0.12, point.footprints_m[1] / 0.12);
-    let streak = noise.clumps(u * 8.0 + unit(hash(place.seed, 8)) * 50.0, v * 40.0, point.footprint_m * 20.0);
-    Look::matt(paint * ((0.7 + 0.5 * streak) * (1.0 - 0.5 * plank)), point.normal)
-}
-
+#[inline(always)]
 fn metal(point: &SurfacePoint, albedo: Vec3) -> Look {
     Look { mirror: 0.08, ..Look::matt(albedo, point.normal) }
 }

@@ -1,7 +1,6 @@
 //! From linear light to sRGB bytes: a filmic curve and gamma, through one table.
 
-use super::pattern::nearest_index;
-use glam::Vec3A as Vec3;
+use super::pattern::{fixed_size, nearest_index, share};
 
 /// Entries of the table; it is indexed by the square root of light, so darkness is fine-grained.
 const ENTRIES: usize = 2048;
@@ -10,7 +9,7 @@ const WHITE: f32 = 8.0;
 
 /// The tone curve as a table.
 pub struct ToneCurve {
-    bytes: Vec<u8>,
+    bytes: [u32; ENTRIES],
 }
 
 impl ToneCurve {
@@ -26,21 +25,17 @@ impl ToneCurve {
                 let gentle = bright * (1.0 + bright / (4.0 * WHITE * WHITE)) / (1.0 + bright);
                 let y = (0.65 * filmic + 0.35 * gentle).clamp(0.0, 1.0);
                 let srgb = if y <= 0.003_130_8 { 12.92 * y } else { 1.055 * libm::powf(y, 1.0 / 2.4) - 0.055 };
-                (255.0 * srgb + 0.5) as u8
+                (255.0 * srgb + 0.5) as u32
             })
             .collect();
-        Self { bytes }
+        Self { bytes: *fixed_size(bytes) }
     }
 
-    /// Writes a row of linear colours as bytes.
-    pub fn store(&self, colours: &[Vec3], exposure: f32, rgb: &mut [u8]) {
-        let scale = exposure / WHITE;
-        for (colour, out) in colours.iter().zip(rgb.chunks_exact_mut(3)) {
-            for (value, byte) in colour.to_array().into_iter().zip(out) {
-                let root = (value * scale).clamp(0.0, 1.0).sqrt();
-                *byte = self.bytes[nearest_index(root * (ENTRIES - 1) as f32) & (ENTRIES - 1)];
-            }
-        }
+    /// The byte for linear light, exposed.
+    #[inline(always)]
+    pub fn byte(&self, light: f32) -> u32 {
+        let root = share(light * (1.0 / WHITE)).sqrt();
+        self.bytes[nearest_index(root * (ENTRIES - 1) as f32) & (ENTRIES - 1)]
     }
 }
 

@@ -1,0 +1,379 @@
+//! Bands of rows: pixels gathered by face, taken through the kernels, put back.
+
+use super::facade::{BoxFace, Facade, Roof, facade, roofs};
+use super::geometry::{FaceAxes, place};
+use super::ground::ground;
+use super::lanes::{BLOCKS, Block, LANES, WIDE};
+use super::lighting::{self, Answers};
+use super::pattern::{NoiseTexture, Noises};
+use super::surface::Look;
+use super::things::{Thing, things};
+use super::vector::Vec3;
+use super::{Seen, Shader};
+use crate::passes::ids::for_each_run;
+use crate::renderer::{DrawnFace, FaceSource};
+use crate::scene::{BOX_FACES, SceneBox};
+use crate::visibility::NO_FACE;
+use cosfly_frames::simd_kernel;
+use cosfly_maps::{ObstacleKind, SemanticLabel};
+use rayon::prelude::*;
+use std::sync::PoisonError;
+
+/// Rows of a band.
+const ROWS: usize = 24;
+/// Groups of pixels that are not of a single face: the sky, and ground by label.
+const SKY: usize = 63;
+const SHARED_GROUPS: usize = 64;
+/// No run follows.
+const END: u32 = u32::MAX;
+
+/// What one thread needs to shade bands.
+pub(crate) struct Worker {
+    blocks: Box<[Block; BLOCKS]>,
+    runs: Vec<Run>,
+    /// First run of each group; [`END`] between bands.
+    first: Vec<u32>,
+    /// Groups that have runs.
+    present: Vec<u32>,
+    pieces: Vec<Piece>,
+}
+
+/// Neighbouring pixels of one face in a row.
+#[derive(Clone, Copy)]
+struct Run {
+    /// From the start of the band, pixels.
+    start: u32,
+    length: u32,
+    face: u32,
+    /// The next one of the group.
+    next: u32,
+}
+
+/// Pixels of a run that went into the blocks.
+#[derive(Clone, Copy)]
+struct Piece {
+    start: usize,
+    lane: usize,
+    length: usize,
+}
+
+/// A band of the picture.
+#[derive(Clone, Copy)]
+struct Band {
+    first_row: usize,
+    first_pixel: usize,
+    width: usize,
+}
+
+/// What the pixels of a group are made of.
+enum Material {
+    Sky,
+    Ground(SemanticLabel),
+    Facade(Facade, BoxFace),
+    Roof(Roof),
+    Thing(Thing),
+    Cloth(Vec3),
+}
+
+/// Shades all bands of a picture; on several threads where a pool of threads calls.
+pub(super) fn shade(shader: &Shader, seen: &Seen<'_>, picture: &mut [u32]) {
+    let width = shader.screen.width;
+    if width == 0 {
+        return;
+    }
+    let one = |(index, band): (usize, &mut [u32])| {
+        let idle = || shader.idle.lock().unwrap_or_else(PoisonError::into_inner);
+        let mut worker = idle().pop().unwrap_or_else(Worker::new);
+        let first_row = index * ROWS;
+        worker.shade(shader, seen, Band { first_row, first_pixel: first_row * width, width }, band);
+        idle().push(worker);
+    };
+    if crate::renderer::has_threads() {
+        picture.par_chunks_mut(ROWS * width).enumerate().for_each(one);
+    } else {
+        picture.chunks_mut(ROWS * width).enumerate().for_each(one);
+    }
+}
+
+impl Worker {
+    fn new() -> Self {
+        Self {
+            blocks: Box::new([Block::EMPTY; BLOCKS]),
+            runs: Vec::new(),
+            first: Vec::new(),
+            present: Vec::new(),
+            pieces: Vec::with_capacity(LANES),
+        }
+    }
+
+    fn shade(&mut self, shader: &Shader, seen: &Seen<'_>, band: Band, picture: &mut [u32]) {
+        self.gather(seen, band, picture.len());
+        for position in 0..self.present.len() {
+            let group = self.present[position] as usize;
+            self.shade_group(shader, seen, band, group, picture);
+            self.first[group] = END;
+        }
+        self.present.clear();
+        self.runs.clear();
+    }
+
+    /// Lists the band's runs by group.
+    fn gather(&mut self, seen: &Seen<'_>, band: Band, pixels: usize) {
+        let groups = SHARED_GROUPS + seen.faces.len();
+        if self.first.len() < groups {
+            self.first.resize(groups, END);
+        }
+        let (runs, first, present) = (&mut self.runs, &mut self.first, &mut self.present);
+        for start in (0..pixels).step_by(band.width) {
+            let row = band.first_pixel + start..band.first_pixel + start + band.width;
+            for_each_run(&seen.face[row], |run, face| {
+                let group = group_of(seen.faces, face);
+                let next = first[group];
+                if next == END {
+                    present.push(group as u32);
+                }
+                first[group] = runs.len() as u32;
+                runs.push(Run { start: (start + run.start) as u32, length: run.len() as u32, face, next });
+            });
+        }
+    }
+
+    fn shade_group(&mut self, shader: &Shader, seen: &Seen<'_>, band: Band, group: usize, picture: &mut [u32]) {
+        let mut next = self.first[group];
+        let first = self.runs[next as usize];
+        let (material, axes) = material_of(shader, seen, first.face);
+        let is_ground = group < SHARED_GROUPS;
+        let mut lanes = 0;
+        if !is_ground {
+            let normal = normal_of(seen, first.face);
+            self.blocks.iter_mut().for_each(|block| block.normal = [normal.x, normal.y, normal.z].map(|n| [n; WIDE]));
+        }
+        while next != END {
+            let run = self.runs[next as usize];
+            next = run.next;
+            let (mut start, end) = (run.start as usize, (run.start + run.length) as usize);
+            let normal = if is_ground { normal_of(seen, run.face) } else { Vec3::ZERO };
+            while start < end {
+                let length = (end - start).min(LANES - lanes);
+                let piece = Piece { start, lane: lanes, length };
+                self.fill(seen, band, piece, is_ground.then_some(normal));
+                self.pieces.push(piece);
+                lanes += length;
+                start += length;
+                if lanes == LANES {
+                    self.flush(shader, seen, &material, &axes, lanes, picture);
+                    lanes = 0;
+                }
+            }
+        }
+        if lanes > 0 {
+            self.flush(shader, seen, &material, &axes, lanes, picture);
+        }
+    }
+
+    /// Puts a piece of a run into the blocks, sixteen pixels at a time where they meet a whole block.
+    #[inline]
+    fn fill(&mut self, seen: &Seen<'_>, band: Band, piece: Piece, normal: Option<Vec3>) {
+        let column = piece.start % band.width;
+        let v = (band.first_row + piece.start / band.width) as f32 + 0.5;
+        let u = column as f32 + 0.5;
+        let pixel = band.first_pixel + piece.start;
+        let depth_m = &seen.depth_m[pixel..pixel + piece.length];
+        let mut done = 0;
+        while done < piece.length {
+            let (block, lane) = ((piece.lane + done) / WIDE, (piece.lane + done) % WIDE);
+            let block = &mut self.blocks[block];
+            let length = (piece.length - done).min(WIDE - lane);
+            let base = u + done as f32;
+            if let (0, Some(depths)) = (lane, depth_m.get(done..done + WIDE)) {
+                for k in 0..WIDE {
+                    block.u[k] = base + k as i32 as f32;
+                }
+                block.v = [v; WIDE];
+                block.depth_m.copy_from_slice(depths);
+                if let Some(normal) = normal {
+                    block.normal = [normal.x, normal.y, normal.z].map(|n| [n; WIDE]);
+                }
+            } else {
+                for k in 0..length {
+                    block.u[lane + k] = base + k as i32 as f32;
+                    block.v[lane + k] = v;
+                    block.depth_m[lane + k] = depth_m[done + k];
+                }
+                if let Some(normal) = normal {
+                    for (row, value) in block.normal.iter_mut().zip([normal.x, normal.y, normal.z]) {
+                        row[lane..lane + length].fill(value);
+                    }
+                }
+            }
+            done += length;
+        }
+    }
+
+    /// Takes the filled lanes through the kernels and writes their pixels.
+    fn flush(
+        &mut self,
+        shader: &Shader,
+        seen: &Seen<'_>,
+        material: &Material,
+        axes: &FaceAxes,
+        lanes: usize,
+        picture: &mut [u32],
+    ) {
+        let blocks = &mut self.blocks[..lanes.div_ceil(WIDE)];
+        run_kernels(shader, seen, material, axes, blocks);
+        for piece in &self.pieces {
+            let mut done = 0;
+            while done < piece.length {
+                let (block, lane) = ((piece.lane + done) / WIDE, (piece.lane + done) % WIDE);
+                let length = (piece.length - done).min(WIDE - lane);
+                let bytes = &self.blocks[block].bytes[lane..lane + length];
+                let out = &mut picture[piece.start + done..piece.start + done + length];
+                if let (Some(out), Some(bytes)) = (out.first_chunk_mut::<WIDE>(), bytes.first_chunk::<WIDE>()) {
+                    *out = *bytes;
+                } else {
+                    for (out, byte) in out.iter_mut().zip(bytes) {
+                        *out = *byte;
+                    }
+                }
+                done += length;
+            }
+        }
+        self.pieces.clear();
+    }
+}
+
+fn run_kernels(shader: &Shader, seen: &Seen<'_>, material: &Material, axes: &FaceAxes, blocks: &mut [Block]) {
+    let (level, light, noise) = (shader.level, &shader.light, &seen.scene.noise);
+    if let Material::Sky = material {
+        lighting::sky(level, blocks, &shader.view, light, noise);
+        lighting::develop(level, blocks, light.exposure, &shader.tone);
+        return;
+    }
+    let grid = &seen.scene.grid;
+    place(level, blocks, &shader.view, axes, grid.tables(), &grid.frame(), light);
+    shader.shadows.sunlight(level, blocks, noise);
+    let answers = material.answers();
+    match material {
+        Material::Sky => {}
+        Material::Ground(label) => ground(level, blocks, *label, noise),
+        Material::Facade(look, face) => facade(level, blocks, look, face, light.night, noise),
+        Material::Roof(roof) => roofs(level, blocks, roof, noise),
+        Material::Thing(thing) => things(level, blocks, thing, noise),
+        Material::Cloth(colour) => cloth(level, blocks, *colour, noise),
+    }
+    let is_wet = answers.wettable && light.wet > 0.0;
+    if is_wet {
+        lighting::wet(level, blocks, light, noise);
+    }
+    lighting::dull(level, blocks, light);
+    if light.night > 0.0 {
+        lighting::lamps(level, blocks, light);
+        if answers.glows {
+            lighting::glow(level, blocks);
+        }
+    }
+    if is_wet || answers.shiny {
+        lighting::mirrored(level, blocks, light);
+    }
+    lighting::hazy(level, blocks, shader.haze);
+    lighting::develop(level, blocks, light.exposure, &shader.tone);
+}
+
+fn group_of(faces: &[DrawnFace], face: u32) -> usize {
+    if face == NO_FACE {
+        return SKY;
+    }
+    let drawn = &faces[face as usize];
+    match drawn.source {
+        FaceSource::Ground { .. } => usize::from(drawn.label).min(SKY - 1),
+        _ => SHARED_GROUPS + face as usize,
+    }
+}
+
+/// Normal of a face, any side.
+fn normal_of(seen: &Seen<'_>, face: u32) -> Vec3 {
+    let Some(face) = seen.faces.get(face as usize) else { return Vec3::ZERO };
+    match face.source {
+        FaceSource::Ground { cluster, triangle } => {
+            seen.scene.clusters[cluster as usize].triangles[usize::from(triangle)].normal_in_world.into()
+        }
+        FaceSource::Figure { triangle } => seen.figure[triangle as usize].normal_in_world.into(),
+        FaceSource::Box { index, face } => seen.scene.boxes[index as usize].normal_in_world(usize::from(face)).into(),
+    }
+}
+
+fn material_of(shader: &Shader, seen: &Seen<'_>, face: u32) -> (Material, FaceAxes) {
+    let flat = FaceAxes { along: Vec3::new(1.0, 0.0, 0.0), up: Vec3::new(0.0, 1.0, 0.0) };
+    let Some(face) = seen.faces.get(face as usize) else { return (Material::Sky, flat) };
+    match face.source {
+        FaceSource::Ground { cluster, triangle } => {
+            let triangle = seen.scene.clusters[cluster as usize].triangles[usize::from(triangle)];
+            (Material::Ground(triangle.label), flat)
+        }
+        FaceSource::Figure { triangle } => {
+            let region = seen.figure[triangle as usize].region;
+            let [r, g, b] = shader.clothes.map_or([0.5; 3], |clothes| clothes.colours[region as usize]);
+            (Material::Cloth(Vec3::new(r, g, b)), flat)
+        }
+        FaceSource::Box { index, face } => {
+            box_material(&seen.scene.boxes[index as usize], usize::from(face), shader.light.night)
+        }
+    }
+}
+
+fn box_material(b: &SceneBox, face: usize, night: f32) -> (Material, FaceAxes) {
+    let axis = BOX_FACES[face].0;
+    let center: Vec3 = b.center_in_world.into();
+    let axes = b.axes_in_world.map(Vec3::from);
+    let half = Vec3::new(b.half_extents_m.x, b.half_extents_m.y, b.half_extents_m.z);
+    let along = axes[usize::from(axis == 0)];
+    let up = if axis == 2 { axes[1] } else { Vec3::new(0.0, 0.0, 1.0) };
+    let material = if b.kind != ObstacleKind::Building {
+        let whole = b.whole.map(|v| Vec3::new(v.x, v.y, v.z));
+        Material::Thing(Thing::new(b.kind, center, axes, half, b.seed, axis, whole, night))
+    } else if axis == 2 {
+        Material::Roof(Roof::new(b.seed, center, axes, [half.x, half.y]))
+    } else {
+        let half_width = if axis == 0 { half.y } else { half.x };
+        let look = Facade::new(b.seed, face as u32, 2.0 * half_width, 2.0 * half.z);
+        let edge_m = center.dot(Vec3::new(along.x, along.y, 0.0)) - half_width;
+        Material::Facade(look, BoxFace { along, edge_m, foot_m: center.z - half.z })
+    };
+    (material, FaceAxes { along, up })
+}
+
+impl Material {
+    fn answers(&self) -> Answers {
+        let matt = Answers { wettable: false, shiny: false, glows: false };
+        match self {
+            // Rain soaks into grass: no puddles there.
+            Self::Ground(label) => {
+                let shiny = *label == SemanticLabel::Water;
+                Answers { wettable: *label != SemanticLabel::Terrain, shiny, glows: false }
+            }
+            Self::Facade(..) => Answers { wettable: false, shiny: true, glows: true },
+            Self::Roof(_) => Answers { wettable: true, shiny: false, glows: false },
+            Self::Thing(thing) => match thing.kind {
+                ObstacleKind::Car | ObstacleKind::Lamp | ObstacleKind::TrafficLight | ObstacleKind::Pole => {
+                    Answers { wettable: false, shiny: true, glows: true }
+                }
+                _ => matt,
+            },
+            Self::Sky | Self::Cloth(_) => matt,
+        }
+    }
+}
+
+simd_kernel! {
+    /// Clothes, skin and hair.
+    fn cloth(blocks: &mut [Block], colour: Vec3, noise: &NoiseTexture) {
+        for block in blocks.iter_mut() {
+            for k in 0..WIDE {
+                let point = block.point(k);
+                let weave = noise.grain(point.world.x * 40.0, point.world.z * 40.0, point.footprint_m * 40.0);
+                block.put(k, &Look::matt(colour * (0.85 + 0.3 * weave), point.normal));
+            }
+        }
+    }
+}

@@ -1,0 +1,101 @@
+//! From pixels to places: world points, pixel sizes on the surface, openness to the sky, haze.
+
+use super::grid::{GridFrame, GridTables};
+use super::lanes::{Block, WIDE, get, set};
+use super::light::Light;
+use super::pattern::{least, most, one_if};
+use super::vector::Vec3;
+use cosfly_frames::simd_kernel;
+
+/// The camera for shading, f32.
+#[derive(Clone, Copy, Debug)]
+pub struct View {
+    /// Where it is, metres.
+    pub position: Vec3,
+    /// Direction through pixel coordinates (0, 0), depth 1.
+    pub corner: Vec3,
+    /// Its change per pixel to the right.
+    pub across: Vec3,
+    /// And down.
+    pub down: Vec3,
+    /// Differs from frame to frame.
+    pub seed: u32,
+}
+
+impl View {
+    /// Direction through pixel coordinates, of length 1 along the optical axis.
+    #[inline(always)]
+    pub fn ray(&self, u: f32, v: f32) -> Vec3 {
+        self.corner + self.across * u + self.down * v
+    }
+}
+
+/// A face's own horizontal and vertical (x and y on flat ground).
+#[derive(Clone, Copy, Debug)]
+pub struct FaceAxes {
+    /// Horizontal unit vector.
+    pub along: Vec3,
+    /// The other one.
+    pub up: Vec3,
+}
+
+simd_kernel! {
+    /// Fills in what follows from pixel, depth and normal; turns normals to the camera.
+    pub fn place(blocks: &mut [Block], view: &View, axes: &FaceAxes, grid: &GridTables, frame: &GridFrame, light: &Light) {
+        let (view, axes, frame) = (*view, *axes, *frame);
+        let (haze_start_m, haze_per_m) = (light.haze_start_m, light.haze_per_m);
+        let [across_along, down_along] = [view.across.dot(axes.along), view.down.dot(axes.along)];
+        let [across_up, down_up] = [view.across.dot(axes.up), view.down.dot(axes.up)];
+        for block in blocks.iter_mut() {
+            for k in 0..WIDE {
+                let ray = view.ray(block.u[k], block.v[k]);
+                let depth = block.depth_m[k];
+                let world = view.position + ray * depth;
+                let drawn = get(&block.normal, k);
+                let facing = ray.dot(drawn);
+                // One pixel aside moves over the plane by the step, slid along the ray until it stays in the plane.
+                let slide = depth / facing;
+                let (across, down) = (view.across.dot(drawn) * slide, view.down.dot(drawn) * slide);
+                let (ray_along, ray_up) = (ray.dot(axes.along), ray.dot(axes.up));
+                let along_m =
+                    (across_along * depth - ray_along * across).abs() + (down_along * depth - ray_along * down).abs();
+                let up_m = (across_up * depth - ray_up * across).abs() + (down_up * depth - ray_up * down).abs();
+                let normal = drawn * (1.0 - 2.0 * one_if(facing > 0.0));
+                set(&mut block.ray, k, ray);
+                set(&mut block.world, k, world);
+                set(&mut block.normal, k, normal);
+                block.along_m[k] = along_m;
+                block.up_m[k] = up_m;
+                block.footprint_m[k] = 0.5 * least(along_m + up_m, 4.0 * least(along_m, up_m));
+                let far = most(depth * ray.dot(ray).sqrt() - haze_start_m, 0.0);
+                block.kept[k] = fast_exp(-haze_per_m * far);
+            }
+            for k in 0..WIDE {
+                let (world, normal) = (get(&block.world, k), get(&block.normal, k));
+                let off_wall_m = 1.2 * (1.0 - normal.z.abs());
+                let cell = frame.place(world.x + normal.x * off_wall_m, world.y + normal.y * off_wall_m);
+                let (sky, above) = (cell.sky(grid), world.z - cell.ground_m(grid));
+                block.sky[k] = 0.36 + 0.64 * (sky + (1.0 - sky) * least(most(above * 0.045, 0.0), 0.85));
+            }
+            if light.night > 0.0 {
+                for k in 0..WIDE {
+                    let (world, normal) = (get(&block.world, k), get(&block.normal, k));
+                    let off_wall_m = 1.2 * (1.0 - normal.z.abs());
+                    let cell = frame.place(world.x + normal.x * off_wall_m, world.y + normal.y * off_wall_m);
+                    let above = world.z - cell.ground_m(grid);
+                    block.lamps[k] = cell.lamps(grid) * most(1.0 - above * 0.11, 0.0);
+                }
+            }
+        }
+    }
+}
+
+/// e^x for x <= 0, to about 1e-4: (1 + x/256)^256.
+#[inline(always)]
+pub fn fast_exp(x: f32) -> f32 {
+    let mut base = most(1.0 + x * (1.0 / 256.0), 0.0);
+    for _ in 0..8 {
+        base *= base;
+    }
+    base
+}

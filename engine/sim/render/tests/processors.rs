@@ -1,0 +1,49 @@
+//! Frames have the same bytes on every processor and with any number of threads.
+
+mod small_town;
+
+use cosfly_frames::simd::Level;
+use cosfly_frames::{DVec3, Pose, Seed, TargetState};
+use cosfly_render::{Camera, FrameImages, FrameSetup, Renderer, Scene, TargetSetup, Weather};
+
+const CAMERA: Camera = Camera { width: 333, height: 187, horizontal_fov_rad: 1.4 };
+
+fn draw(renderer: &mut Renderer, scene: &Scene, weather: &str) -> FrameImages {
+    let weather = Weather { sun_azimuth_angle: 215.0, ..Weather::preset(weather).expect("a preset") };
+    let feet = DVec3::new(5.0, -16.0, 0.1);
+    let target = TargetSetup {
+        state: TargetState { feet_in_world: feet, heading_rad: 0.4, speed_mps: 1.3 },
+        height_m: 1.8,
+        radius_m: 0.3,
+        clothes_seed: Seed([2; 32]),
+        gait_phase_rad: 0.8,
+        visible_by_rays: 0.5,
+    };
+    let pose = Pose::looking_at(feet + DVec3::new(-16.0, 5.0, 7.0), feet + 2.0 * DVec3::Z);
+    renderer.render(scene, &FrameSetup { pose, weather: &weather, target: Some(target) }).images.clone()
+}
+
+#[test]
+fn all_vector_instructions_give_the_same_bytes() {
+    let scene = Scene::new(&small_town::small_town(4, 5), Seed([1; 32]));
+    for weather in ["ClearNoon", "HardRainSunset", "WetNight", "DustStorm"] {
+        let mut renderer = Renderer::new(CAMERA);
+        renderer.set_level(Level::PLAIN);
+        let plain = draw(&mut renderer, &scene, weather);
+        for level in Level::available() {
+            renderer.set_level(level);
+            assert!(draw(&mut renderer, &scene, weather) == plain, "{weather} with {}", level.name());
+        }
+    }
+}
+
+#[test]
+fn any_number_of_threads_gives_the_same_bytes() {
+    let scene = Scene::new(&small_town::small_town(4, 5), Seed([1; 32]));
+    let alone = draw(&mut Renderer::new(CAMERA), &scene, "SoftRainNight");
+    for threads in [1, 2, 5] {
+        let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().expect("threads");
+        let mut renderer = Renderer::new(CAMERA);
+        assert!(pool.install(|| draw(&mut renderer, &scene, "SoftRainNight")) == alone, "{threads}");
+    }
+}
