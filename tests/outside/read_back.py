@@ -15,6 +15,7 @@ import math
 import os
 import subprocess
 import sys
+import tempfile
 from pathlib import Path
 
 os.environ.setdefault("HF_HUB_OFFLINE", "1")
@@ -186,6 +187,13 @@ def check_rerun(folder, trajectories):
         result = subprocess.run([rerun, "mcap", "check", folder / row["mcap_path"]], capture_output=True, text=True)
         require(result.returncode == 0, f"rerun mcap check {row['mcap_path']}: {result.stdout}{result.stderr}")
     said("rerun mcap check", f"{len(trajectories)} logs")
+    with tempfile.TemporaryDirectory() as scratch:
+        saved = Path(scratch) / "flight.rrd"
+        script = [sys.executable, folder / "layouts" / "show_in_rerun.py", folder / trajectories[0]["mcap_path"]]
+        for command in ([*script, "--every", "10", "--save", saved], [rerun, "rrd", "verify", saved]):
+            result = subprocess.run(command, capture_output=True, text=True)
+            require(result.returncode == 0, f"show_in_rerun: {result.stdout}{result.stderr}")
+    said("layouts/show_in_rerun.py, rerun rrd verify")
 
 
 def main():

@@ -41,7 +41,7 @@ impl StageKind for Dataset {
         config.check()?;
         let logs = StageProperties {
             kind: self.name().into(),
-            version: 2,
+            version: 3,
             // Logs read no parameter: another title or split rewrites no log.
             parameters: serde_json::json!({}),
             sources: vec![],
@@ -62,7 +62,7 @@ impl StageKind for Dataset {
         });
         let gather = StageProperties {
             kind: self.name().into(),
-            version: 2,
+            version: 3,
             parameters: parameters::canonical(&config),
             sources: vec![],
             inputs,

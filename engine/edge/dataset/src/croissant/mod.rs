@@ -108,6 +108,7 @@ fn media_type(path: &str) -> &'static str {
     match path.rsplit('.').next() {
         Some("parquet") => "application/x-parquet",
         Some("json") => "application/json",
+        Some("py") => "text/x-python",
         _ => "text/plain",
     }
 }

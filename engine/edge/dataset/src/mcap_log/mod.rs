@@ -45,7 +45,7 @@ pub mod topic {
     pub const DRONE_PATH: &str = "/drone/path";
     /// `foxglove.PosesInFrame`: the whole walk, once.
     pub const TARGET_PATH: &str = "/target/path";
-    /// `foxglove.SceneUpdate`: obstacles near the flight, once.
+    /// `foxglove.SceneUpdate`: obstacles near the flight and the target, once.
     pub const SCENE: &str = "/scene";
     /// `foxglove.Log`: captions, once.
     pub const CAPTIONS: &str = "/captions";
@@ -68,7 +68,7 @@ pub mod topic {
         (TARGET_POSE, "`foxglove.PoseInFrame` of the target's feet."),
         (DRONE_PATH, "`foxglove.PosesInFrame`: the whole flight, once."),
         (TARGET_PATH, "`foxglove.PosesInFrame`: the whole walk, once."),
-        (SCENE, "`foxglove.SceneUpdate`: obstacles near the flight, once."),
+        (SCENE, "`foxglove.SceneUpdate`: obstacles near the flight and the target, once."),
         (CAPTIONS, "`foxglove.Log`: captions, once."),
         (TARGET_STATE, "`cosfly.TargetState`."),
     ];

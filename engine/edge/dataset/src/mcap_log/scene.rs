@@ -1,16 +1,16 @@
-//! The obstacles near a flight as coloured cubes, and the captions as log lines.
+//! The obstacles near a flight and the target as coloured cubes, and the captions as log lines.
 
 use super::messages::{MAP_FRAME, timestamp};
 use super::right_handed;
 use crate::{CaptionRecord, RenderedTrajectory};
-use cosfly_frames::{DVec3, Pose};
+use cosfly_frames::{DQuat, DVec3, Pose};
 use cosfly_maps::{Obstacle, Town};
 use foxglove::messages;
 
 /// Obstacles whose bounds come this near to the flight are shown, metres.
 const REACH_M: f64 = 80.0;
 
-/// The cubes near the flight, one entity per label.
+/// The cubes near the flight, one entity per label, and the target's.
 pub fn scene(record: &RenderedTrajectory, town: &Town) -> messages::SceneUpdate {
     let mut obstacles: Vec<&Obstacle> = town.obstacles.iter().filter(|it| near_flight(record, it)).collect();
     obstacles.sort_by_key(|obstacle| obstacle.kind.label());
@@ -21,7 +21,29 @@ pub fn scene(record: &RenderedTrajectory, town: &Town) -> messages::SceneUpdate 
         cubes: group.iter().map(|obstacle| cube(obstacle)).collect(),
         ..messages::SceneEntity::default()
     });
-    messages::SceneUpdate { entities: entities.collect(), deletions: vec![] }
+    messages::SceneUpdate { entities: entities.chain([target(record)]).collect(), deletions: vec![] }
+}
+
+/// The target's body, which moves with its frame.
+fn target(record: &RenderedTrajectory) -> messages::SceneEntity {
+    let (height_m, radius_m) = (record.trajectory.track.height_m, record.trajectory.track.radius_m);
+    let middle = DVec3::Z * (0.5 * height_m);
+    let body = messages::CubePrimitive {
+        pose: Some(messages::Pose {
+            position: Some(right_handed::vector(middle)),
+            orientation: Some(right_handed::quaternion(DQuat::IDENTITY)),
+        }),
+        size: Some(right_handed::vector(DVec3::new(2.0 * radius_m, 2.0 * radius_m, height_m))),
+        color: Some(messages::Color { r: 1.0, g: 0.2, b: 0.2, a: 0.9 }),
+    };
+    messages::SceneEntity {
+        timestamp: Some(timestamp(0)),
+        frame_id: "target".into(),
+        id: "target".into(),
+        frame_locked: true,
+        cubes: vec![body],
+        ..messages::SceneEntity::default()
+    }
 }
 
 /// Whether some pose of the flight lies within [`REACH_M`] of the obstacle's bounds.

@@ -1,6 +1,7 @@
 //! The Hugging Face card (`README.md`) and the `LICENSE` file.
 
 use super::summary::Summary;
+use super::viewers;
 use crate::config::DatasetConfig;
 use crate::tables::{self, Column, Kind, Table};
 use std::fmt::Write;
@@ -151,11 +152,11 @@ fn loading(config: &DatasetConfig, summary: &Summary) -> String {
          pyarrow.dataset.dataset(\"data/frames\").to_table()\n\nimport mlcroissant  # one Dataset object reads one record set; make another for the next\nrecords = \
          mlcroissant.Dataset(\"croissant.json\").records(\"trajectories\")\n\nfrom mcap_protobuf.reader import \
          read_protobuf_messages\nfor message in read_protobuf_messages(\"mcap/.../x.mcap\", \
-         topics=[\"/camera/depth/image\"]):\n    ...\n```\n\nThe logs open in Foxglove and Lichtblick (import \
-         `layouts/foxglove.json`) and in Rerun. `sha256sum -c SHA256SUMS` checks `files.parquet` and \
+         topics=[\"/camera/depth/image\"]):\n    ...\n```\n\n{}\n\n`sha256sum -c SHA256SUMS` checks `files.parquet` and \
          `croissant.json`; `files.parquet` holds the hash of every other file; `cosfly verify .` checks everything.\n\n\
          Version {} of {}, published {}.\n\n",
         others.join(", "),
+        viewers::USE,
         config.version,
         config.name,
         config.date_published

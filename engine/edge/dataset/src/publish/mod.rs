@@ -3,7 +3,7 @@
 //! ```text
 //! README.md  LICENSE  croissant.json  SHA256SUMS  files.parquet
 //! data/<table>/<split>-00000-of-00001.parquet      mcap/<town>/<000>/<trajectory>.mcap
-//! layouts/foxglove.json                             schemas/cosfly.proto
+//! layouts/{foxglove.json, show_in_rerun.py}         schemas/cosfly.proto
 //! ```
 //! `files.parquet` holds the hash of every other file; `SHA256SUMS` holds those of `files.parquet` and
 //! `croissant.json`, which names it.
@@ -11,6 +11,7 @@
 mod card;
 mod plan;
 mod summary;
+mod viewers;
 mod write;
 
 pub use card::citation;

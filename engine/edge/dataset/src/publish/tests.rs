@@ -46,6 +46,7 @@ fn the_layout_is_the_documented_one() {
             "croissant.json",
             "files.parquet",
             "layouts/foxglove.json",
+            "layouts/show_in_rerun.py",
             "mcap/plain/000/expert-p00000.mcap",
             "mcap/plain/000/expert-p00001.mcap",
             "mcap/plain/000/perturbed-p00000.mcap",

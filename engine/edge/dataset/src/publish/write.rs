@@ -3,6 +3,7 @@
 use super::card;
 use super::plan::{DatasetPlan, Split};
 use super::summary::Summary;
+use super::viewers;
 use crate::config::DatasetConfig;
 use crate::hashing::{HashingWriter, sha256_of};
 use crate::mcap_log::{LogRecord, target_state};
@@ -61,7 +62,9 @@ pub fn write_dataset(
     let rejected = tables::of_rejections();
     dataset.table(&rejected, &format!("data/{0}/{0}-00000-of-00001.parquet", rejected.name), rejections)?;
     summary.rows.insert(rejected.name, BTreeMap::from([(rejected.name.to_owned(), summary.rejected)]));
-    dataset.put("layouts/foxglove.json", include_bytes!("../../assets/foxglove.json"))?;
+    for (path, text) in viewers::FILES {
+        dataset.put(path, text.as_bytes())?;
+    }
     dataset.put("schemas/cosfly.proto", target_state::proto_text().as_bytes())?;
     dataset.put("LICENSE", card::license_text(config).as_bytes())?;
     dataset.put("README.md", card::readme(config, &summary).as_bytes())?;
@@ -189,7 +192,8 @@ impl Publishing<'_> {
         self.table(&tables::of_files(), "files.parquet", &listed)?;
         let single = |path: &str| listed.iter().find(|file| file.path == path).cloned();
         let mut named: Vec<FileRecord> = self.files.clone();
-        named.extend(["layouts/foxglove.json", "schemas/cosfly.proto", "LICENSE"].iter().filter_map(|it| single(it)));
+        named.extend(viewers::FILES.iter().filter_map(|(path, _)| single(path)));
+        named.extend(["schemas/cosfly.proto", "LICENSE"].iter().filter_map(|it| single(it)));
         let text = croissant::document(config, summary, &named);
         self.put("croissant.json", text.as_bytes())?;
         let sums: String = self.files.iter().map(|file| format!("{}  {}\n", file.sha256, file.path)).collect();

@@ -1,7 +1,11 @@
 //! The log of one flight, read frame by frame through its index.
 
 use super::columns::damaged;
-use crate::mcap_log::{TargetStateMessage, frame_time_ns, messages::OPTICAL_FRAME, topic};
+use crate::mcap_log::{
+    TargetStateMessage, frame_time_ns,
+    messages::{MAP_FRAME, OPTICAL_FRAME},
+    topic,
+};
 use ::mcap::Summary;
 use ::mcap::sans_io::indexed_reader::{IndexedReadEvent, IndexedReader, IndexedReaderOptions};
 use ::mcap::sans_io::summary_reader::{SummaryReadEvent, SummaryReader, SummaryReaderOptions};
@@ -115,7 +119,7 @@ impl LogReader {
         let mut boxes = vec![];
         self.messages(0, &[topic::SCENE], &mut |_, data| {
             let update = messages::SceneUpdate::decode(data).map_err(|error| error.to_string())?;
-            for entity in &update.entities {
+            for entity in update.entities.iter().filter(|entity| entity.frame_id == MAP_FRAME) {
                 let label = entity.id.rsplit('/').next().unwrap_or_default();
                 boxes.extend(entity.cubes.iter().filter_map(|cube| SceneBox::read(label, cube)));
             }
@@ -208,8 +212,8 @@ fn camera_in_map(transforms: &[messages::FrameTransform]) -> Result<(DVec3, DQua
         (place, turn) = (DVec3::new(t.x, t.y, t.z) + rotation * place, rotation * turn);
         frame = &next.parent_frame_id;
     }
-    let sound = frame == "map" && place.is_finite() && turn.is_finite();
-    if sound { Ok((place, turn)) } else { Err(format!("`{OPTICAL_FRAME}` does not hang on `map`")) }
+    let sound = frame == MAP_FRAME && place.is_finite() && turn.is_finite();
+    if sound { Ok((place, turn)) } else { Err(format!("`{OPTICAL_FRAME}` does not hang on `{MAP_FRAME}`")) }
 }
 
 impl SceneBox {
