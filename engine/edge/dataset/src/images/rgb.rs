@@ -1,20 +1,15 @@
 //! Colour images as JPEG or PNG files.
 
+use super::jpeg;
 use cosfly_diagnose::{Diagnostic, Fault, Result};
 
 /// A JPEG file of row-major sRGB pixels, without chroma subsampling.
 pub fn jpeg(rgb: &[u8], width: u32, height: u32, quality: u8) -> Result<Vec<u8>> {
-    let too_large =
-        || Diagnostic::new("image-size", Fault::Recipe, format!("{width} x {height} is too large for JPEG"));
-    let (columns, rows) =
-        (u16::try_from(width).map_err(|_| too_large())?, u16::try_from(height).map_err(|_| too_large())?);
-    let mut file = Vec::with_capacity(rgb.len() / 6);
-    let mut encoder = jpeg_encoder::Encoder::new(&mut file, quality);
-    encoder.set_sampling_factor(jpeg_encoder::SamplingFactor::R_4_4_4);
-    encoder
-        .encode(rgb, columns, rows, jpeg_encoder::ColorType::Rgb)
-        .map_err(|error| Diagnostic::new("image-encode", Fault::Bug, "could not encode a JPEG image").because(error))?;
-    Ok(file)
+    if width.max(height) > jpeg::MAX_SIDE || width.min(height) == 0 {
+        let message = format!("{width} x {height} does not fit a JPEG file");
+        return Err(Diagnostic::new("image-size", Fault::Recipe, message));
+    }
+    Ok(jpeg::encode(rgb, width, height, quality))
 }
 
 /// A PNG file of row-major sRGB pixels.

@@ -1,0 +1,172 @@
+//! A baseline JPEG encoder whose bytes are the same on every processor and at every vector level.
+
+mod huffman;
+mod transform;
+
+use cosfly_frames::simd::Level;
+use huffman::{AC, BitWriter, Codes, DC};
+use std::sync::LazyLock;
+use transform::{Coefficients, LANES, ROW_BYTES, Strip, ZIGZAG, factors, transform};
+
+/// Largest width and height of a JPEG file.
+pub const MAX_SIDE: u32 = 65_535;
+
+/// DC and AC codes of luma, then of chroma.
+static CODES: LazyLock<[[Codes; 2]; 2]> =
+    LazyLock::new(|| [[Codes::of(&DC[0]), Codes::of(&AC[0])], [Codes::of(&DC[1]), Codes::of(&AC[1])]]);
+
+/// The standard's example steps (Annex K.1) for quality 50, row by row: luma, chroma.
+#[rustfmt::skip]
+const STEPS: [[u16; 64]; 2] = [
+    [
+        16, 11, 10, 16, 24, 40, 51, 61, 12, 12, 14, 19, 26, 58, 60, 55, 14, 13, 16, 24, 40, 57, 69, 56, 14, 17, 22, 29, 51, 87, 80, 62,
+        18, 22, 37, 56, 68, 109, 103, 77, 24, 35, 55, 64, 81, 104, 113, 92, 49, 64, 78, 87, 103, 121, 120, 101, 72, 92, 95, 98, 112, 100, 103, 99,
+    ],
+    [
+        17, 18, 24, 47, 99, 99, 99, 99, 18, 21, 26, 66, 99, 99, 99, 99, 24, 26, 56, 99, 99, 99, 99, 99, 47, 66, 99, 99, 99, 99, 99, 99,
+        99, 99, 99, 99, 99, 99, 99, 99, 99, 99, 99, 99, 99, 99, 99, 99, 99, 99, 99, 99, 99, 99, 99, 99, 99, 99, 99, 99, 99, 99, 99, 99,
+    ],
+];
+
+/// A JPEG file of row-major sRGB pixels, without chroma subsampling; `quality` is libjpeg's, 1 to 100.
+///
+/// `rgb` must hold `3 * width * height` bytes, and both sides must be 1 to [`MAX_SIDE`].
+pub fn encode(rgb: &[u8], width: u32, height: u32, quality: u8) -> Vec<u8> {
+    encode_at(Level::best(), rgb, width, height, quality)
+}
+
+fn encode_at(level: Level, rgb: &[u8], width: u32, height: u32, quality: u8) -> Vec<u8> {
+    let steps = [0, 1].map(|table| scaled_steps(&STEPS[table], quality));
+    let factors = [factors(&steps[0]), factors(&steps[1])];
+    let mut file = Vec::with_capacity(rgb.len() / 4 + 1024);
+    write_head(&mut file, width as u16, height as u16, &steps);
+    let mut bits = BitWriter::EMPTY;
+    let [luma, chroma] = &*CODES;
+    let codes = [luma, chroma, chroma];
+    let (row_bytes, blocks_across) = (3 * width as usize, (width as usize).div_ceil(8));
+    let mut strip: Strip = [[0; ROW_BYTES]; 8];
+    let mut coefficients = [Coefficients::ZERO; 3];
+    let mut previous_dc = [0; 3];
+    for top in (0..height as usize).step_by(8) {
+        for first in (0..blocks_across).step_by(LANES) {
+            for (y, row) in strip.iter_mut().enumerate() {
+                let start = row_bytes * (top + y).min(height as usize - 1);
+                copy_pixels(&rgb[start..start + row_bytes], 24 * first, row);
+            }
+            transform(level, &strip, &factors, &mut coefficients);
+            for lane in 0..LANES.min(blocks_across - first) {
+                for component in 0..3 {
+                    let block = (&coefficients[component], lane);
+                    bits.block(&mut file, block, codes[component], &mut previous_dc[component]);
+                }
+            }
+        }
+    }
+    bits.finish(&mut file);
+    file.extend_from_slice(&[0xff, 0xd9]);
+    file
+}
+
+/// The bytes of `image_row` from `start` on; beyond its end, its last pixel again and again.
+fn copy_pixels(image_row: &[u8], start: usize, row: &mut [u8; ROW_BYTES]) {
+    let there = &image_row[start..image_row.len().min(start + ROW_BYTES)];
+    row[..there.len()].copy_from_slice(there);
+    let last = &image_row[image_row.len() - 3..];
+    row[there.len()..].chunks_exact_mut(3).for_each(|pixel| pixel.copy_from_slice(last));
+}
+
+/// libjpeg's scaling of the example steps, in zigzag order.
+fn scaled_steps(steps: &[u16; 64], quality: u8) -> [u8; 64] {
+    let quality = u32::from(quality.clamp(1, 100));
+    let percent = if quality < 50 { 5000 / quality } else { 200 - 2 * quality };
+    core::array::from_fn(|k| {
+        let step = u32::from(steps[usize::from(ZIGZAG[k])]);
+        ((step * percent + 50) / 100).clamp(1, 255) as u8
+    })
+}
+
+/// Everything before the entropy-coded bits: JFIF, steps, size, code tables, start of scan.
+fn write_head(file: &mut Vec<u8>, width: u16, height: u16, steps: &[[u8; 64]; 2]) {
+    file.extend_from_slice(&[0xff, 0xd8]);
+    segment(file, 0xe0, &[b"JFIF\0", &[1, 1, 0, 0, 1, 0, 1, 0, 0]]);
+    for (table, steps) in (0u8..).zip(steps) {
+        segment(file, 0xdb, &[&[table], steps]);
+    }
+    let [[h1, h0], [w1, w0]] = [height.to_be_bytes(), width.to_be_bytes()];
+    segment(file, 0xc0, &[&[8, h1, h0, w1, w0, 3], &[1, 0x11, 0], &[2, 0x11, 1], &[3, 0x11, 1]]);
+    for table in 0..2u8 {
+        let (dc, ac) = (&DC[usize::from(table)], &AC[usize::from(table)]);
+        segment(file, 0xc4, &[&[table], &dc.counts, dc.symbols]);
+        segment(file, 0xc4, &[&[0x10 | table], &ac.counts, ac.symbols]);
+    }
+    segment(file, 0xda, &[&[3], &[1, 0x00], &[2, 0x11], &[3, 0x11], &[0, 63, 0]]);
+}
+
+fn segment(file: &mut Vec<u8>, marker: u8, parts: &[&[u8]]) {
+    let length = 2 + parts.iter().map(|part| part.len()).sum::<usize>();
+    file.extend_from_slice(&[0xff, marker]);
+    file.extend_from_slice(&(length as u16).to_be_bytes());
+    parts.iter().for_each(|part| file.extend_from_slice(part));
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use cosfly_frames::Seed;
+    use std::io::Cursor;
+
+    /// Gradients, edges and noise.
+    fn picture(width: u32, height: u32) -> Vec<u8> {
+        let mut random = Seed([3; 32]).stream("picture");
+        let mut rgb = vec![];
+        for y in 0..height {
+            for x in 0..width {
+                let noise = random.uniform(0.0, 24.0) as u32;
+                let wall = if (x / 13 + y / 7) % 3 == 0 { 130 } else { 20 };
+                rgb.extend([wall + noise, (x * 200 / width) + noise, (y * 220 / height) + noise].map(|v| v as u8));
+            }
+        }
+        rgb
+    }
+
+    fn decoded(file: &[u8]) -> (Vec<u8>, usize, usize) {
+        let mut decoder = zune_jpeg::JpegDecoder::new(Cursor::new(file));
+        let pixels = decoder.decode().expect("a readable file");
+        let (width, height) = decoder.dimensions().expect("a size");
+        (pixels, width, height)
+    }
+
+    /// Root of the mean squared difference.
+    fn error(a: &[u8], b: &[u8]) -> f64 {
+        assert_eq!(a.len(), b.len());
+        let sum: f64 =
+            a.iter().zip(b).map(|(a, b)| (f64::from(*a) - f64::from(*b)) * (f64::from(*a) - f64::from(*b))).sum();
+        (sum / a.len() as f64).sqrt()
+    }
+
+    #[test]
+    fn another_library_reads_any_size_as_well_as_its_fellow_would_write_it() {
+        for (width, height) in [(1, 1), (8, 8), (127, 9), (128, 16), (129, 33), (320, 180), (3, 70)] {
+            let rgb = picture(width, height);
+            for quality in [50, 95, 100] {
+                let (pixels, w, h) = decoded(&encode(&rgb, width, height, quality));
+                assert_eq!((w, h), (width as usize, height as usize));
+                let mut other = vec![];
+                let mut encoder = jpeg_encoder::Encoder::new(&mut other, quality);
+                encoder.set_sampling_factor(jpeg_encoder::SamplingFactor::R_4_4_4);
+                encoder.encode(&rgb, width as u16, height as u16, jpeg_encoder::ColorType::Rgb).expect("a file");
+                let (ours, theirs) = (error(&pixels, &rgb), error(&decoded(&other).0, &rgb));
+                assert!(ours < 1.02 * theirs + 0.3, "{width} x {height} at {quality}: {ours} {theirs}");
+            }
+        }
+    }
+
+    #[test]
+    fn all_vector_levels_give_the_same_file() {
+        let rgb = picture(210, 60);
+        let plain = encode_at(Level::PLAIN, &rgb, 210, 60, 90);
+        for level in Level::available() {
+            assert!(encode_at(level, &rgb, 210, 60, 90) == plain, "{}", level.name());
+        }
+    }
+}
