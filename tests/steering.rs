@@ -131,6 +131,11 @@ fn what_contradicts_itself_is_refused_with_the_way_out() {
     };
     check_refusal("patrol_too_fast", &rounds("[[0, 0, 20, 0], [90, 0, 20, 5]]"), &[]);
     check_refusal("patrol_short_waypoint", &rounds("[[0, 0, 20], [90, 0, 20, 5]]"), &[]);
+    check_refusal("patrol_at_one_place", &rounds("[[0, 0, 20, 0], [0, 0, 20, 9]]"), &[]);
+    check_refusal("patrol_knobs_of_an_inspection", &other("objective = \"inspect\"\npatrol.radius_m = 40.0"), &[]);
+    check_refusal("baseline_within_limits", RECIPE, &["stages.expert.planner=astar"]);
+    check_refusal("paper_beside_a_baseline", RECIPE, &["stages.expert.planner=beam", "stages.expert.preset=paper"]);
+    check_refusal("losses_of_the_paper", RECIPE, &["stages.expert.preset=paper", "stages.expert.occlusion.count=1"]);
     check_refusal("patrol_in_the_ground", &rounds("[[0, 0, 20, 0], [40, 0, -3, 9]]"), &[]);
 }
 

@@ -10,6 +10,7 @@ use cosfly_planner::config::Planner;
 use cosfly_planner::objectives::inspect::{self, Inspection};
 use cosfly_planner::objectives::patrol::{self, MET_M, Patrol};
 use cosfly_planner::objectives::{Mission, Objective, ObjectiveConfig, Site, track};
+use cosfly_planner::weights::Preset;
 use cosfly_planner::{MucoConfig, PlanOutcome, StartState, TermCost, Trajectory, plan_request, visibility};
 use cosfly_stage::ParameterError;
 use std::collections::BTreeMap;
@@ -37,10 +38,17 @@ impl Expert {
     /// # Errors
     /// Values out of range and contradictions, at their place.
     pub fn read(given: serde_json::Value) -> Result<Self, ParameterError> {
+        let named = ["inspect", "patrol"].map(|key| given.get(key).map(|_| key));
         let (config, objective) = parameters::read_merged::<MucoConfig, ObjectiveConfig>(given)?;
         let refused = |(path, message): (String, String)| parameters::refused_at(&path, message);
         config.validate().map_err(refused)?;
         objective.validate(config.limits.speed_mps).map_err(refused)?;
+        let asked = objective.objective.name();
+        if let Some(key) = named.into_iter().flatten().find(|key| *key != asked) {
+            let message = format!("`{key}` is for `objective = \"{key}\"`; this stage's objective is `{asked}`");
+            let hint = Some(format!("set `objective = \"{key}\"`, or leave `{key}` out"));
+            return Err(ParameterError { hint, ..parameters::refused_at(key, message) });
+        }
         if config.planner != Planner::Muco && (objective.objective != Objective::Track || config.targets.companions > 0)
         {
             let message = "`planner` names a baseline; only `muco` takes companions and other objectives than `track`";
@@ -53,6 +61,7 @@ impl Expert {
             );
             return Err(parameters::refused_at("targets.companions", message));
         }
+        check_planner(&config)?;
         Ok(Self { config, objective })
     }
 
@@ -61,11 +70,10 @@ impl Expert {
     pub fn canonical(&self) -> serde_json::Value {
         let mut all = parameters::canonical(&self.config);
         let mut objective = parameters::canonical(&self.objective);
-        let key = match self.objective.objective {
-            Objective::Track => return all,
-            Objective::Inspect => "inspect",
-            Objective::Patrol => "patrol",
-        };
+        if self.objective.objective == Objective::Track {
+            return all;
+        }
+        let key = self.objective.objective.name();
         all["objective"] = objective["objective"].take();
         all[key] = objective[key].take();
         if let Some(table) = all[key].as_object_mut() {
@@ -105,6 +113,32 @@ impl Expert {
         let (companion_ids, companions) = companions.into_iter().unzip();
         Ok(Flight { mission, companion_ids, companions, purpose, objective: self.objective.clone() })
     }
+}
+
+/// Refuses what the planner that was chosen is known not to give.
+fn check_planner(config: &MucoConfig) -> Result<(), ParameterError> {
+    let refuse = |path: &str, message: String, hint: &str| {
+        Err(ParameterError { hint: Some(hint.to_owned()), ..parameters::refused_at(path, message) })
+    };
+    let (paper, baseline) = (config.preset == Preset::Paper, config.planner.baseline());
+    let name = config.planner.name();
+    if paper && baseline.is_some() {
+        let message = format!("`planner` is `{name}`, but `preset = \"paper\"` is a planner of its own");
+        return refuse("planner", message, "leave one of the two out; `weights` changes what a baseline weighs");
+    }
+    if config.occlusion.count > 0 && (paper || baseline.is_some()) {
+        let who = if paper { "preset = \"paper\"".to_owned() } else { format!("planner = \"{name}\"") };
+        let count = config.occlusion.count;
+        let message = format!("`occlusion.count` is {count}, but `{who}` cannot lose its target on purpose");
+        return refuse("occlusion.count", message, "leave it out, or take another preset with `planner = \"muco\"`");
+    }
+    if config.limits.require_kinematics && baseline.is_some_and(|baseline| !baseline.bounds_kinematics()) {
+        let message = format!(
+            "`planner = \"{name}\"` bounds no acceleration, and `limits.require_kinematics` is true: all its flights would be rejected"
+        );
+        return refuse("planner", message, "set `limits.require_kinematics = false`, or take `astar_smoothed`");
+    }
+    Ok(())
 }
 
 /// The boxes of each building, by the building's number.
@@ -165,7 +199,7 @@ impl Flight {
             states: companion.states.get(frame..end).unwrap_or_default().to_vec(),
             ..companion.clone()
         };
-        plan_mission(world, &mission, &self.companions.iter().map(part).collect::<Vec<_>>(), Some(start))
+        plan_mission(world, &mission, &self.companions.iter().map(part).collect::<Vec<_>>(), Some((frame, start)))
     }
 
     /// What the summary says of the whole flight: notes by name, and warnings.
@@ -214,12 +248,15 @@ fn plan_mission(
     world: &World,
     mission: &Mission,
     companions: &[TargetTrack],
-    start: Option<StartState>,
+    start: Option<(usize, StartState)>,
 ) -> PlanOutcome {
     let ground = |x: f64, y: f64| world.ground.ground_height_m(x, y).unwrap_or(0.0);
     let mut request = mission.request(&world.exact, &world.town.planning_boxes, &ground);
     request.companions = companions;
-    request.start = start;
+    if let Some((frame, state)) = start {
+        request.start = Some(state);
+        request.first_frame = i64::try_from(frame).unwrap_or(i64::MAX);
+    }
     plan_request(request)
 }
 
@@ -266,9 +303,31 @@ mod tests {
         let again = Expert::read(read.canonical()).unwrap();
         assert_eq!((again.objective.patrol.corners, again.objective.patrol.count), (5, 1));
         assert_eq!((again.config, again.objective.objective), (read.config, Objective::Patrol));
-        let track = Expert::read(serde_json::json!({ "inspect": { "row_m": 2.0 } })).unwrap().canonical();
+        let track = Expert::read(serde_json::json!({ "objective": "track" })).unwrap().canonical();
         assert_eq!(track, parameters::canonical(&MucoConfig::default()));
-        let both = serde_json::json!({ "objective": "inspect", "targets": { "companions": 1 } });
-        assert_eq!(Expert::read(both).unwrap_err().path, ["targets", "companions"]);
+    }
+
+    #[test]
+    fn contradictions_between_objective_preset_and_planner_are_refused_at_their_place() {
+        let check = |given: serde_json::Value, path: &[&str]| {
+            assert_eq!(Expert::read(given.clone()).expect_err("refused").path, path, "{given}");
+        };
+        check(
+            serde_json::json!({ "objective": "inspect", "targets": { "companions": 1 } }),
+            &["targets", "companions"],
+        );
+        check(serde_json::json!({ "inspect": { "row_m": 2.0 } }), &["inspect"]);
+        check(serde_json::json!({ "objective": "inspect", "patrol": {} }), &["patrol"]);
+        check(serde_json::json!({ "planner": "astar" }), &["planner"]);
+        check(serde_json::json!({ "planner": "beam", "preset": "paper" }), &["planner"]);
+        check(serde_json::json!({ "preset": "paper", "occlusion": { "count": 1 } }), &["occlusion", "count"]);
+        check(serde_json::json!({ "planner": "astar_smoothed", "occlusion": { "count": 1 } }), &["occlusion", "count"]);
+        for fine in [
+            serde_json::json!({ "planner": "astar_smoothed" }),
+            serde_json::json!({ "planner": "dp", "limits": { "require_kinematics": false } }),
+            serde_json::json!({ "objective": "inspect", "inspect": { "row_m": 2.0 } }),
+        ] {
+            Expert::read(fine).unwrap();
+        }
     }
 }

@@ -89,7 +89,8 @@ struct Row {
 fn fly(track: &TargetTrack, exact: &BoxBvh, boxes: &[OrientedBox], options: &Options) -> Row {
     let (config, walk) = (&options.config, Walk::of(track));
     let terms = built_in_terms(&config.resolved_weights());
-    let problem = Problem { track, view: &config.view, walk: &walk, terms: &terms, built_in: terms.len() };
+    let problem =
+        Problem { track, view: &config.view, walk: &walk, terms: &terms, built_in: terms.len(), first_frame: 0 };
     let flat = |_: f64, _: f64| 0.0;
     let ground = GroundGrid::sample(track, &flat, config.search.filter_radius_m + 10.0);
     let influence_m = config.view.safety_influence_m;

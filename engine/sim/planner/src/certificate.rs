@@ -89,8 +89,9 @@ pub fn certify(
     if swept.is_nan() || swept < limits.clearance_m {
         violations.push(format!("clearance falls to {swept:.2} m; the limit is {} m", limits.clearance_m));
     }
-    if let Some((frame, above)) = lowest_above_ground(waypoints, ground).filter(|low| low.1 < limits.clearance_m) {
-        violations.push(format!("frame {frame} is {above:.2} m above ground; the limit is {} m", limits.clearance_m));
+    if let Some((at, above)) = lowest_above_ground(waypoints, ground).filter(|low| low.1 < limits.clearance_m) {
+        let limit = limits.clearance_m;
+        violations.push(format!("at {at:.1} the flight is {above:.2} m above ground; the limit is {limit} m"));
     }
     violations.extend(kinematics.violations(&limits));
     let frames = waypoints.len().max(1) as f64;
@@ -119,9 +120,9 @@ fn distances<'a>(track: &'a TargetTrack, waypoints: &'a [DVec3]) -> impl Iterato
     waypoints.iter().zip(&track.states).map(|(w, state)| w.distance(state.feet_in_world))
 }
 
-fn lowest_above_ground(waypoints: &[DVec3], ground: &dyn Fn(f64, f64) -> f64) -> Option<(usize, f64)> {
-    let above = |(frame, w): (usize, &DVec3)| (frame, w.z - ground(w.x, w.y));
-    waypoints.iter().enumerate().map(above).filter(|low| low.1.is_finite()).min_by(|a, b| a.1.total_cmp(&b.1))
+fn lowest_above_ground(waypoints: &[DVec3], ground: &dyn Fn(f64, f64) -> f64) -> Option<(DVec3, f64)> {
+    let above = |w: &DVec3| (*w, w.z - ground(w.x, w.y));
+    waypoints.iter().map(above).filter(|low| low.1.is_finite()).min_by(|a, b| a.1.total_cmp(&b.1))
 }
 
 /// Mean angle between "target to drone" and "against the walking direction", seen from above, over the frames

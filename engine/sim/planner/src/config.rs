@@ -54,6 +54,17 @@ pub enum Planner {
 }
 
 impl Planner {
+    /// Name in recipes.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Muco => "muco",
+            Self::Astar => "astar",
+            Self::AstarSmoothed => "astar_smoothed",
+            Self::Beam => "beam",
+            Self::Dp => "dp",
+        }
+    }
+
     /// The baseline of that name; `None` for the optimiser.
     pub fn baseline(self) -> Option<Baseline> {
         match self {

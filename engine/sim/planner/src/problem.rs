@@ -19,6 +19,13 @@ pub struct Problem<'a> {
     pub terms: &'a [WeightedTerm],
     /// How many of the terms, from the first, are the paper's.
     pub built_in: usize,
+    /// Number that reasons give the track's first frame; below 0 where frames were put before it.
+    pub first_frame: i64,
+}
+
+/// The number of a frame in reasons, when that of the first one is `first`.
+pub(crate) fn frame_number(first: i64, frame: usize) -> i64 {
+    first.saturating_add(i64::try_from(frame).unwrap_or(i64::MAX)).max(0)
 }
 
 impl<'a> Problem<'a> {

@@ -27,6 +27,8 @@ pub struct PlanRequest<'a> {
     pub companions: &'a [TargetTrack],
     /// Boxes that move: each one's place frame by frame, as long as `track`.
     pub movers: &'a [Vec<OrientedBox>],
+    /// Number that reasons give the track's first frame, for tracks that are parts of longer ones. Usually 0.
+    pub first_frame: i64,
 }
 
 /// Position and velocity of a drone, world frame.
@@ -48,7 +50,8 @@ impl<'a> PlanRequest<'a> {
         config: &'a MucoConfig,
     ) -> Self {
         let (extra_terms, companions, movers) = (Vec::new(), &[] as &[_], &[] as &[_]);
-        Self { track, exact, planning_boxes, ground, config, extra_terms, start: None, companions, movers }
+        let (start, first_frame) = (None, 0);
+        Self { track, exact, planning_boxes, ground, config, extra_terms, start, companions, movers, first_frame }
     }
 
     /// What of the request contradicts itself, in words.

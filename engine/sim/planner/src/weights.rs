@@ -47,7 +47,7 @@ macro_rules! cost_terms {
         #[serde(default, deny_unknown_fields)]
         pub struct WeightOverrides {$(
             $(#[$doc])*
-            #[schemars(range(min = 0.0))]
+            #[schemars(range(min = 0.0, max = 1_000_000.0))]
             pub $name: Option<f64>,
         )*}
 

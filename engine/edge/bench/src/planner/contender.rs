@@ -122,7 +122,8 @@ fn flight(ground: &Ground, track: &TargetTrack, config: &MucoConfig) -> Result<P
 fn paper_flight(ground: &Ground, track: &TargetTrack, config: &MucoConfig) -> Planned {
     let terms = built_in_terms(&config.resolved_weights());
     let walk = Walk::of(track);
-    let problem = Problem { track, view: &config.view, walk: &walk, terms: &terms, built_in: terms.len() };
+    let problem =
+        Problem { track, view: &config.view, walk: &walk, terms: &terms, built_in: terms.len(), first_frame: 0 };
     let (radius_m, influence_m) = (config.search.filter_radius_m, config.view.safety_influence_m);
     let grid = GroundGrid::sample(track, &*ground.height, radius_m + 10.0);
     let mut obstacles = LocalObstacles::filter(track, &ground.planning_boxes, &grid, radius_m, influence_m);
@@ -151,7 +152,8 @@ fn baseline_path(
 ) -> Result<Planned, String> {
     let terms = built_in_terms(&config.resolved_weights());
     let walk = Walk::of(track);
-    let problem = Problem { track, view: &config.view, walk: &walk, terms: &terms, built_in: terms.len() };
+    let problem =
+        Problem { track, view: &config.view, walk: &walk, terms: &terms, built_in: terms.len(), first_frame: 0 };
     let grid = GroundGrid::sample(track, &*ground.height, config.search.filter_radius_m + 10.0);
     let input = BaselineInput {
         problem: &problem,

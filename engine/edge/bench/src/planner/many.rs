@@ -203,7 +203,10 @@ impl ManyReport {
             || found.jerk_mps3 > limits.jerk_mps3 + ROUNDING
         {
             self.limit_violations += 1;
-            self.incident(format!("beyond the limits: {}: {found:.2?}", job.name));
+            self.incident(format!(
+                "beyond the limits: {}: {:.2} m/s, {:.2} m/s^2, {:.2} m/s^3",
+                job.name, found.speed_mps, found.acceleration_mps2, found.jerk_mps3
+            ));
         }
     }
 

@@ -120,7 +120,8 @@ fn phases_of(ground: &Ground, track: &TargetTrack, config: &MucoConfig) -> Phase
     let (_, whole) = timed(|| Contender::Cosfly.plan(ground, track, config));
     let terms = built_in_terms(&config.resolved_weights());
     let walk = Walk::of(track);
-    let problem = Problem { track, view: &config.view, walk: &walk, terms: &terms, built_in: terms.len() };
+    let problem =
+        Problem { track, view: &config.view, walk: &walk, terms: &terms, built_in: terms.len(), first_frame: 0 };
     let (radius_m, influence_m) = (config.search.filter_radius_m, config.view.safety_influence_m);
     let grid = GroundGrid::sample(track, &*ground.height, radius_m + 10.0);
     let filter = || LocalObstacles::filter(track, &ground.planning_boxes, &grid, radius_m, influence_m);

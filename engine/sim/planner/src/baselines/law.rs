@@ -30,7 +30,8 @@ fn with_input<T>(
 ) -> T {
     let terms = built_in_terms(&config.resolved_weights());
     let walk = Walk::of(track);
-    let problem = Problem { track, view: &config.view, walk: &walk, terms: &terms, built_in: terms.len() };
+    let problem =
+        Problem { track, view: &config.view, walk: &walk, terms: &terms, built_in: terms.len(), first_frame: 0 };
     let ground = GroundGrid::sample(track, &|_, _| 0.0, 60.0);
     let exact = BruteForce::new(boxes);
     f(&BaselineInput { problem: &problem, planning_boxes: boxes, exact: &exact, ground: &ground, config })

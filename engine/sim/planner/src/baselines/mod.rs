@@ -49,7 +49,12 @@ impl Baseline {
     /// All, in the order of tables.
     pub const ALL: [Self; 5] = [Self::Astar, Self::AstarFast, Self::AstarSmoothed, Self::Beam, Self::Dp];
 
-    /// Name in recipes and on command lines.
+    /// Whether its flights are made to hold limits of speed, acceleration and jerk.
+    pub fn bounds_kinematics(self) -> bool {
+        self == Self::AstarSmoothed
+    }
+
+    /// Name in tables and on command lines.
     pub fn name(self) -> &'static str {
         match self {
             Self::Astar => "astar",

@@ -195,7 +195,7 @@ fn leave_shadows(obstacles: &LocalObstacles<'_>, given: usize, waypoints: &mut [
             }
         });
         let (slack_m, away) = deepest;
-        if slack_m >= 0.0 || slack_m < -DEEPEST_M {
+        if !(-DEEPEST_M..0.0).contains(&slack_m) {
             continue;
         }
         let frames = i.saturating_sub(RAMP_FRAMES).max(given)..(i + RAMP_FRAMES + 1).min(waypoints.len());

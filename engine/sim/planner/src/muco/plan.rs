@@ -9,7 +9,7 @@ use crate::certificate::{Kinematics, certify, term_costs};
 use crate::config::{MucoConfig, Planner};
 use crate::obstacles::{exact::ExactMap, exact::ExactObstacles, ground::GroundGrid, local::LocalObstacles};
 use crate::paper::pipeline::plan_paper;
-use crate::problem::Problem;
+use crate::problem::{Problem, frame_number};
 use crate::request::{PlanRequest, StartState};
 use crate::terms::{TermContext, WeightedTerm, built_in_terms};
 use crate::trajectory::{PlanOutcome, Trajectory};
@@ -97,6 +97,7 @@ fn solve_from(
         start: None,
         companions: &companions,
         movers: &movers,
+        first_frame: request.first_frame.saturating_sub(FRAMES_BEFORE as i64),
         ..*request
     };
     solve(&longer, terms, built_in, &head)
@@ -130,7 +131,7 @@ fn solve_at_once(
 ) -> Result<Found, String> {
     let (track, config) = (request.track, request.config);
     let walk = Walk::of(track);
-    let problem = Problem { track, view: &config.view, walk: &walk, terms, built_in };
+    let problem = Problem { track, view: &config.view, walk: &walk, terms, built_in, first_frame: request.first_frame };
     let (radius_m, influence_m) = (config.search.filter_radius_m, config.view.safety_influence_m);
     let grid = GroundGrid::sample(track, request.ground, radius_m + 10.0);
     let mut obstacles = LocalObstacles::filter(track, request.planning_boxes, &grid, radius_m, influence_m)
@@ -230,19 +231,21 @@ fn publish(request: &PlanRequest<'_>, terms: &[WeightedTerm], found: Found) -> P
         certificate: measured.certificate,
         perturbation: None,
     };
-    match not_a_number(&flight) {
+    match not_a_number(&flight, request.first_frame) {
         Some(reason) => PlanOutcome::Rejected { track: track.clone(), reason },
         None => PlanOutcome::Planned(Box::new(flight)),
     }
 }
 
 /// Terms from outside may return anything; a flight with such a cost is not published.
-fn not_a_number(flight: &Trajectory) -> Option<String> {
+fn not_a_number(flight: &Trajectory, first: i64) -> Option<String> {
     flight.terms.iter().find_map(|term| {
         let frame = term.per_frame.iter().position(|cost| !cost.is_finite())?;
         Some(format!(
-            "cost term `{}` is {} at frame {frame}; it must be a finite number",
-            term.name, term.per_frame[frame]
+            "cost term `{}` is {} at frame {}; it must be a finite number",
+            term.name,
+            term.per_frame[frame],
+            frame_number(first, frame)
         ))
     })
 }

@@ -7,7 +7,7 @@ use super::scan::{CLOSE, NodeState, Scanner, UNSAFE};
 use super::viterbi::{MoveCosts, NodeCosts, SearchSpace, Viterbi};
 use crate::config::{LimitsConfig, MucoConfig, SeveralTargets};
 use crate::obstacles::local::LocalObstacles;
-use crate::problem::Problem;
+use crate::problem::{Problem, frame_number};
 use crate::terms::Weights;
 use crate::terms::{altitude::band_cost, pitch, tracking, viewpoint};
 use cosfly_frames::{DVec3, TargetTrack, real};
@@ -104,8 +104,9 @@ pub fn search(
     for searches in 1..=MAX_SEARCHES {
         let nodes = viterbi.solve(changed).map_err(|layer| {
             format!(
-                "no free viewpoint can be reached at frame {}: obstacles leave no room around the target",
-                frames[layer]
+                "no free viewpoint can be reached at frame {}: obstacles leave no room around the target{}",
+                frame_number(problem.first_frame, frames[layer]),
+                if head.is_empty() { "" } else { ", or it is too far to reach from where the drone is" }
             )
         })?;
         let mut waypoints = interpolate(&lattice, track, &frames, &nodes);

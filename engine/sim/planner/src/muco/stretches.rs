@@ -5,6 +5,7 @@ use super::attempts::Found;
 use super::judge::publishable;
 use crate::certificate::certify;
 use crate::obstacles::exact::ExactMap;
+use crate::problem::frame_number;
 use crate::request::PlanRequest;
 use crate::trajectory::Certificate;
 use cosfly_frames::{DVec3, TargetTrack};
@@ -30,8 +31,9 @@ pub fn plan_stretches(request: &PlanRequest<'_>, head: &[DVec3], plan_one: &Plan
     loop {
         let first = waypoints.len().saturating_sub(HEAD_FRAMES);
         let end = (first + STRETCH_FRAMES).min(frames);
+        let number = |frame: usize| frame_number(request.first_frame, frame);
         let found = plan_stretch(request, first..end, &waypoints[first..], plan_one)
-            .map_err(|reason| format!("in frames {first} to {end}: {reason}"))?;
+            .map_err(|reason| format!("in frames {} to {}: {reason}", number(first), number(end)))?;
         let keep = if end == frames { end } else { end - LOOK_AHEAD_FRAMES };
         let planned = (end - first) as f64;
         add(&mut sum, &found.measured.certificate, planned);
@@ -74,6 +76,7 @@ fn plan_stretch(
         start: None,
         companions: &companions,
         movers: &movers,
+        first_frame: request.first_frame.saturating_add(i64::try_from(frames.start).unwrap_or(i64::MAX)),
         ..*request
     };
     plan_one(&stretch, head)

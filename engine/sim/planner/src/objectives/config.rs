@@ -16,6 +16,17 @@ pub enum Objective {
     Patrol,
 }
 
+impl Objective {
+    /// Name in recipes.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Track => "track",
+            Self::Inspect => "inspect",
+            Self::Patrol => "patrol",
+        }
+    }
+}
+
 /// What flights are for, and what that needs to be told.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(default, deny_unknown_fields)]
@@ -116,6 +127,8 @@ impl Default for PatrolConfig {
 
 /// Frames are this far apart where nobody walks, seconds.
 pub const DT_S: f64 = 0.5;
+/// Some waypoint of a patrol is at least this far from the first one, metres.
+pub const SHORTEST_REACH_M: f64 = 5.0;
 /// Longest flight, seconds: what the planner plans at once, because places are met frame by frame.
 pub const LONGEST_S: f64 = 2000.0;
 
@@ -181,6 +194,15 @@ impl ObjectiveConfig {
             let rule = "`patrol.waypoints` has a single waypoint; there must be none or at least 2".to_owned();
             return Err(("patrol.waypoints".into(), rule));
         }
+        let places = || waypoints.iter().map(|[x, y, z, _]| cosfly_frames::DVec3::new(*x, *y, *z));
+        if let Some(first) = places().next()
+            && places().all(|place| place.distance(first) < SHORTEST_REACH_M)
+        {
+            let rule = format!(
+                "`patrol.waypoints` are all at one place; one must be at least {SHORTEST_REACH_M} m from the first, since the camera looks where the flight goes"
+            );
+            return Err(("patrol.waypoints".into(), rule));
+        }
         for (index, [x, y, z, t]) in waypoints.iter().copied().enumerate() {
             let path = format!("patrol.waypoints[{index}]");
             let refuse = |rule: String| Err((path.clone(), format!("`{path}` {rule}")));
@@ -233,6 +255,7 @@ mod tests {
         check_refused(late(0.0), "patrol.waypoints[1]");
         check_refused(late(4.0), "patrol.waypoints[1]");
         check_refused(late(f64::NAN), "patrol.waypoints[1]");
-        check_refused(|c| c.patrol.waypoints = vec![[0.0, 0.0, 0.0, 1.0], [0.0; 4]], "patrol.waypoints[0]");
+        check_refused(|c| c.patrol.waypoints = vec![[0.0, 0.0, 0.0, 1.0], [9.0; 4]], "patrol.waypoints[0]");
+        check_refused(|c| c.patrol.waypoints = vec![[7.0, 8.0, 30.0, 0.0], [7.0, 8.0, 30.0, 9.0]], "patrol.waypoints");
     }
 }

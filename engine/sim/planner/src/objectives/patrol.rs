@@ -240,6 +240,14 @@ mod tests {
     }
 
     #[test]
+    fn the_shortest_patrol_that_is_allowed_is_met() {
+        for (reach, seconds) in [(5.0, 3.0), (5.0, 20.0), (5.0, 100.0)] {
+            let waypoints = vec![[0.0, 0.0, 30.0, 0.0], [reach, 0.0, 30.0, seconds]];
+            check_met(&PatrolConfig { waypoints, ..PatrolConfig::default() }, vec![]);
+        }
+    }
+
+    #[test]
     fn a_drawn_loop_is_met_too() {
         check_met(&PatrolConfig::default(), vec![tower(0.0, 0.0, 20.0)]);
     }

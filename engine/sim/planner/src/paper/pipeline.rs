@@ -142,7 +142,7 @@ pub(super) mod tests {
     fn with(track: &TargetTrack, boxes: &[OrientedBox], check: impl FnOnce(&Problem<'_>, &mut LocalObstacles<'_>)) {
         let (walk, view) = (Walk::of(track), ViewConfig::default());
         let terms = built_in_terms(&paper_config().resolved_weights());
-        let problem = Problem { track, view: &view, walk: &walk, terms: &terms, built_in: terms.len() };
+        let problem = Problem { track, view: &view, walk: &walk, terms: &terms, built_in: terms.len(), first_frame: 0 };
         let ground = GroundGrid::sample(track, &|_, _| 0.0, 55.0);
         let mut obstacles = LocalObstacles::filter(track, boxes, &ground, 45.0, view.safety_influence_m);
         check(&problem, &mut obstacles);
