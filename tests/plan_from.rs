@@ -55,8 +55,6 @@ fn states_without_a_way_on_are_answered_with_the_reason() {
     for (state, reason) in [
         (["--position", "40", "-20", "0.2", "--velocity", "0", "0", "0"], "from an obstacle or the ground"),
         (["--position", "40", "-20", "25", "--velocity", "0", "15", "0"], "15.00 m/s; the limit is 12 m/s"),
-        (["--position", "1e300", "-20", "25", "--velocity", "0", "0", "0"], "viewpoint"),
-        (["--position", "nan", "-20", "25", "--velocity", "0", "0", "0"], "not finite"),
     ] {
         let (code, answer) = ask(&street, &[&["--frame", "0"], &state[..]].concat());
         assert_eq!((code, answer["planned"].as_bool()), (Some(1), Some(false)), "{answer}");
@@ -73,7 +71,7 @@ fn a_batch_answers_line_by_line_and_names_lines_that_are_no_states() {
         r#"{"trajectory": "expert-p00009", "frame": 2, "position": [40, -20, 25]}"#,
         r#"{"trajectory": "expert/p00001", "frame": 2, "position": [40, -20, 25], "velocity": [0, 1, 0]}"#,
     ];
-    let batch = cosfly(&["plan-from", "recipe.toml", "--batch"]).within(street.path()).fed(&lines.join("\n")).run();
+    let batch = cosfly(&["plan-from", "recipe.toml", "--batch"]).within(street.path()).fed(lines.join("\n")).run();
     assert_eq!(batch.code, Some(4), "{}", batch.stderr);
     let answers: Vec<Value> =
         batch.stdout.lines().map(|line| serde_json::from_str(line).expect("a line of JSON")).collect();
@@ -83,6 +81,32 @@ fn a_batch_answers_line_by_line_and_names_lines_that_are_no_states() {
     let (_, single) = ask(&street, &["--frame", "2", "--position", "40", "-20", "25", "--velocity", "0", "1", "0"]);
     for answer in [&answers[0], &answers[3]] {
         assert_eq!((&answer["waypoints"], &answer["certificate"]), (&single["waypoints"], &single["certificate"]));
+    }
+}
+
+#[test]
+fn a_line_that_is_no_text_spoils_no_other_line_and_null_is_as_good_as_nothing() {
+    let street = flown_street();
+    let state = r#"{"trajectory": "expert-p00001", "frame": 2, "position": [40, -20, 25], "velocity": null}"#;
+    let lines = [state.as_bytes(), b"\xff\xfe", b"", state.as_bytes()].join(&b"\n"[..]);
+    let batch = cosfly(&["plan-from", "recipe.toml", "--batch"]).within(street.path()).fed(lines).run();
+    assert_eq!((batch.code, batch.stderr.as_str()), (Some(4), ""));
+    let answers: Vec<Value> = batch.stdout.lines().map(|line| serde_json::from_str(line).expect("JSON")).collect();
+    assert_eq!((answers.len(), &answers[1]["line"]), (3, &json!(2)));
+    assert!(answers[1]["error"]["message"].as_str().is_some_and(|found| found.contains("UTF-8")), "{}", answers[1]);
+    assert_eq!((&answers[0]["planned"], &answers[0]), (&json!(true), &answers[2]));
+}
+
+#[test]
+#[cfg(target_os = "linux")]
+fn a_full_disk_is_no_success() {
+    let street = flown_street();
+    let state = r#"{"trajectory": "expert-p00001", "frame": 2, "position": [40, -20, 25]}"#;
+    let batch = cosfly(&["plan-from", "recipe.toml", "--batch"]).within(street.path()).fed(state);
+    for call in [cosfly(&["town"]), cosfly(&["graph", "recipe.toml"]).within(street.path()), batch] {
+        let (code, words) = call.run_on_a_full_disk();
+        assert_eq!(code, Some(5), "{words}");
+        assert!(words.contains("could not write to standard output"), "{words}");
     }
 }
 
@@ -98,11 +122,18 @@ fn check_refusal(name: &str, street: &Street, arguments: &[&str]) {
 fn questions_that_cannot_be_answered_say_what_to_do() {
     let place = ["--position", "40", "-20", "25"];
     let asked = |id: &'static str, frame: &'static str| [&["--trajectory", id, "--frame", frame], &place[..]].concat();
-    check_refusal("plan_from_before_a_run", &Street::new(), &asked("expert-p00001", "2"));
+    let untouched = Street::new();
+    check_refusal("plan_from_before_a_run", &untouched, &asked("expert-p00001", "2"));
+    assert!(!untouched.path().join(".cosfly").exists(), "asking makes no store");
     let street = flown_street();
     check_refusal("plan_from_unknown", &street, &asked("expert-p0001", "2"));
     check_refusal("plan_from_beyond_the_end", &street, &asked("expert-p00001", "12"));
     check_refusal("plan_from_changed", &street, &[&asked("expert-p00001", "2")[..], &["--set", "seed=9"]].concat());
     check_refusal("plan_from_horizon", &street, &[&asked("expert-p00001", "2")[..], &["--horizon", "0"]].concat());
+    let at = |place: [&'static str; 3]| {
+        [&["--trajectory", "expert-p00001", "--frame", "2", "--position"], &place[..]].concat()
+    };
+    check_refusal("plan_from_far_away", &street, &at(["1e5", "-20", "25"]));
+    check_refusal("plan_from_nowhere", &street, &at(["nan", "-20", "25"]));
     check_refusal("plan_from_nothing_asked", &street, &["--frame", "2"]);
 }

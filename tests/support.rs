@@ -23,7 +23,7 @@ pub fn shared_data() -> Option<PathBuf> {
 /// One call of the binary.
 pub struct Call {
     command: Command,
-    input: Option<String>,
+    input: Option<Vec<u8>>,
 }
 
 /// What a call printed.
@@ -56,9 +56,9 @@ impl Call {
         self
     }
 
-    /// Gives it `text` on standard input; nothing unless called.
-    pub fn fed(mut self, text: &str) -> Self {
-        self.input = Some(text.to_owned());
+    /// Gives it `text`, which need not be UTF-8, on standard input; nothing unless called.
+    pub fn fed(mut self, text: impl Into<Vec<u8>>) -> Self {
+        self.input = Some(text.into());
         self
     }
 
@@ -69,7 +69,7 @@ impl Call {
         let mut child = command.spawn().expect("cosfly starts");
         if let (Some(text), Some(mut pipe)) = (self.input, child.stdin.take()) {
             // A call that refuses early does not listen to the end.
-            let _ = pipe.write_all(text.as_bytes());
+            let _ = pipe.write_all(&text);
         }
         let Output { status, stdout, stderr } = child.wait_with_output().expect("cosfly runs");
         Printed {
@@ -84,6 +84,19 @@ impl Call {
         let printed = self.run();
         assert_eq!(printed.code, Some(0), "stdout:\n{}\nstderr:\n{}", printed.stdout, printed.stderr);
         printed
+    }
+
+    /// Runs with standard output on a full disk: exit code and standard error.
+    #[cfg(target_os = "linux")]
+    pub fn run_on_a_full_disk(mut self) -> (Option<i32>, String) {
+        let full = std::fs::OpenOptions::new().write(true).open("/dev/full").expect("Linux has it");
+        let stdin = if self.input.is_some() { Stdio::piped() } else { Stdio::null() };
+        let mut child = self.command.stdin(stdin).stdout(full).stderr(Stdio::piped()).spawn().expect("cosfly starts");
+        if let (Some(text), Some(mut pipe)) = (self.input, child.stdin.take()) {
+            let _ = pipe.write_all(&text);
+        }
+        let Output { status, stderr, .. } = child.wait_with_output().expect("cosfly runs");
+        (status.code(), String::from_utf8(stderr).expect("UTF-8"))
     }
 
     /// Starts it without waiting.

@@ -37,10 +37,15 @@ Exit codes:
     1  `verify` found something wrong, or `plan-from` no flight
     2  the command line was not understood
     3  the recipe asks for something that cannot be
-    4  an input file or the store is broken or does not fit
+    4  an input file, the store or a state asked about is broken or does not fit
     5  the machine refused: disk full, no permission, a file vanished
    70  cosfly itself is wrong; please report it
-  130  stopped by Ctrl-C; what is finished stays finished";
+  130  stopped by Ctrl-C; what is finished stays finished
+
+Environment:
+  COSFLY_STORE  folder of the store, where `--store` is not given
+  COSFLY_SIMD   plain, avx2 or avx512, the best there is unless set; every one makes the same bytes
+  NO_COLOR      no colours";
 
 /// The commands.
 #[derive(Debug, Subcommand)]
@@ -163,7 +168,7 @@ pub struct PlanFromArguments {
     #[arg(long, value_name = "ID", required_unless_present = "batch")]
     pub trajectory: Option<String>,
     /// Frame of the trajectory at which the drone is there
-    #[arg(long, value_name = "N", required_unless_present = "batch")]
+    #[arg(long, value_name = "N", allow_negative_numbers = true, value_parser = from_zero, required_unless_present = "batch")]
     pub frame: Option<usize>,
     /// Where the drone is, metres
     #[arg(long, num_args = 3, value_names = ["X", "Y", "Z"], allow_negative_numbers = true, required_unless_present = "batch")]
@@ -172,7 +177,7 @@ pub struct PlanFromArguments {
     #[arg(long, num_args = 3, value_names = ["X", "Y", "Z"], allow_negative_numbers = true, default_values_t = [0.0, 0.0, 0.0], hide_default_value = true)]
     pub velocity: Vec<f64>,
     /// How much of the way to tell [default: to the trajectory's end]
-    #[arg(long, value_name = "SECONDS")]
+    #[arg(long, value_name = "SECONDS", allow_negative_numbers = true)]
     pub horizon: Option<f64>,
     /// Print JSON
     #[arg(long)]
@@ -283,6 +288,11 @@ pub enum BenchCommand {
         items: u64,
     },
     /// Box queries of our tree, of parry's and obvhs's trees and of a plain loop, per second on one core
+    #[command(after_help = "\
+Examples:
+  cosfly bench geometry           50, 200, 2,000 and 65,000 boxes of generated towns (a minute or two)
+  cosfly bench geometry --seed 7  other towns and rays
+  cosfly bench geometry --json    for programs")]
     Geometry {
         /// Seed of the towns and rays
         #[arg(long, value_name = "N", default_value_t = 1)]
@@ -316,23 +326,23 @@ pub struct BenchPlannerArguments {
     /// The town and the walks of a recipe instead of scenes
     #[arg(long, value_name = "FILE", conflicts_with_all = ["scenes", "many"])]
     pub recipe: Option<PathBuf>,
-    /// Planners; all up to `dp` unless told otherwise, only `cosfly` with `--many` (repeatable)
+    /// Planners; all up to `dp` unless told otherwise (repeatable); a single one with `--many`, `cosfly` unless told
     #[arg(long = "planner", value_name = "NAME", value_parser = planner_names())]
     pub planners: Vec<String>,
     /// Paths per scene [default: 20; as many as the recipe has walkers with `--recipe`]
-    #[arg(long, value_name = "N")]
+    #[arg(long, value_name = "N", allow_negative_numbers = true, value_parser = from_one)]
     pub paths: Option<usize>,
     /// Seed of the scenes and their walkers [default: 1; the recipe's own with `--recipe`]
     #[arg(long, value_name = "N")]
     pub seed: Option<u64>,
     /// Plan this many paths on all cores, judge each, and list what came too near
-    #[arg(long, value_name = "N")]
+    #[arg(long, value_name = "N", allow_negative_numbers = true, value_parser = from_one, conflicts_with = "paths")]
     pub many: Option<usize>,
     /// Time the paper's own pipeline without a tree, with one, and with the boxes near the path
-    #[arg(long, conflicts_with = "many")]
+    #[arg(long, conflicts_with_all = ["many", "planners"])]
     pub solver: bool,
     /// Time the steps of our planner
-    #[arg(long, conflicts_with_all = ["many", "solver"])]
+    #[arg(long, conflicts_with_all = ["many", "solver", "planners"])]
     pub split: bool,
     /// Print JSON
     #[arg(long)]
@@ -340,6 +350,17 @@ pub struct BenchPlannerArguments {
     /// Draw every path from above, coloured by visibility, as SVG into this folder
     #[arg(long, value_name = "DIR", conflicts_with_all = ["many", "solver", "split"])]
     pub plot: Option<PathBuf>,
+}
+
+/// Counts of things that are numbered from 0.
+fn from_zero(text: &str) -> Result<usize, String> {
+    text.parse().map_err(|_| "it must be a whole number from 0 on".to_owned())
+}
+
+/// Counts of which there must be some.
+fn from_one(text: &str) -> Result<usize, String> {
+    let count = text.parse().ok().filter(|count| *count > 0);
+    count.ok_or_else(|| "it must be a whole number from 1 on".to_owned())
 }
 
 fn scene_names() -> PossibleValuesParser {

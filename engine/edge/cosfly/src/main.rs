@@ -9,16 +9,24 @@ mod text;
 
 use arguments::{Arguments, BenchCommand, Command, TaskCommand};
 use clap::Parser;
+use cosfly_diagnose::{Diagnostic, Fault};
 use cosfly_frames::simd::Level;
-use std::io::Write;
+use std::io::{ErrorKind, Write};
+use std::panic::AssertUnwindSafe;
 use std::process::ExitCode;
 
 fn main() -> ExitCode {
+    guarded(command)
+}
+
+/// One call of the command line.
+fn command() -> ExitCode {
     if let Err(message) = choose_vector_level() {
         eprintln!("error: {message}");
         return ExitCode::from(exit::ARGUMENTS);
     }
-    let outcome = match Arguments::parse().command {
+    let arguments = Arguments::parse();
+    let outcome = match arguments.command {
         Command::Run(arguments) => commands::run::run(&arguments),
         Command::Plan(arguments) => commands::plan::plan(&arguments),
         Command::PlanFrom(arguments) => commands::plan_from::plan_from(&arguments),
@@ -44,9 +52,9 @@ fn main() -> ExitCode {
     }
 }
 
-/// Everything gives the same bytes with every vector level; `COSFLY_SIMD` chooses one to see that.
+/// Everything gives the same bytes with every vector level; `COSFLY_SIMD` chooses one to see that, empty counts as unset.
 fn choose_vector_level() -> Result<(), String> {
-    let Ok(name) = std::env::var("COSFLY_SIMD") else { return Ok(()) };
+    let Some(name) = std::env::var("COSFLY_SIMD").ok().filter(|name| !name.is_empty()) else { return Ok(()) };
     let available = Level::available();
     let Some(level) = available.iter().find(|level| level.name() == name) else {
         let names: Vec<_> = available.iter().map(|level| level.name()).collect();
@@ -56,7 +64,36 @@ fn choose_vector_level() -> Result<(), String> {
     Ok(())
 }
 
-/// Prints to standard output; a reader that went away (`| head`) is no error.
-fn print(text: &str) {
-    let _ = std::io::stdout().write_all(text.as_bytes());
+/// Prints to standard output; a reader that went away (`| head`) is no error, a full disk is.
+fn print(text: &str) -> Result<(), commands::Refusals> {
+    let mut out = std::io::stdout().lock();
+    match out.write_all(text.as_bytes()).and_then(|()| out.flush()) {
+        Err(error) if error.kind() != ErrorKind::BrokenPipe => Err(vec![unwritten(&error)]),
+        Ok(()) | Err(_) => Ok(()),
+    }
+}
+
+/// What to say when standard output takes nothing more.
+fn unwritten(error: &std::io::Error) -> Box<Diagnostic> {
+    Diagnostic::new("machine-io", Fault::Machine, "could not write to standard output").because(error)
+}
+
+/// Runs `work`; a panic is cosfly's own fault and ends with the exit code for that.
+fn guarded(work: impl FnOnce() -> ExitCode) -> ExitCode {
+    std::panic::catch_unwind(AssertUnwindSafe(work)).unwrap_or_else(|_| {
+        eprintln!("error: cosfly itself is wrong here; please report the lines above, with the recipe or command line");
+        ExitCode::from(exit::BUG)
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_panic_ends_with_the_code_of_a_bug() {
+        let code = guarded(|| panic!("on purpose"));
+        assert_eq!(format!("{code:?}"), format!("{:?}", ExitCode::from(exit::BUG)));
+        assert_eq!(format!("{:?}", guarded(|| ExitCode::from(3))), format!("{:?}", ExitCode::from(3)));
+    }
 }

@@ -26,7 +26,7 @@ pub fn engine(items: u64) -> Outcome {
         figures.change_ran,
         figures.change_back.as_secs_f64(),
         figures.change_back_ran,
-    ));
+    ))?;
     Ok(exit::SUCCESS)
 }
 
@@ -34,6 +34,6 @@ pub fn engine(items: u64) -> Outcome {
 pub fn geometry(seed: u64, json: bool) -> Outcome {
     let table = cosfly_bench::geometry::geometry(seed);
     let as_json = || serde_json::to_string_pretty(&table).unwrap_or_default() + "\n";
-    crate::print(&if json { as_json() } else { table.to_string() });
+    crate::print(&if json { as_json() } else { table.to_string() })?;
     Ok(exit::SUCCESS)
 }

@@ -1,8 +1,9 @@
 //! `cosfly bench planner`: our planner, the paper's, and the baselines on the same paths.
 
 use super::{Outcome, Refusals, town_of_recipe};
-use crate::arguments::BenchPlannerArguments;
+use crate::arguments::{Arguments, BenchPlannerArguments};
 use crate::exit;
+use clap::CommandFactory;
 use cosfly_bench::planner::many::{ManyOptions, many};
 use cosfly_bench::planner::phases::phases;
 use cosfly_bench::planner::scene::Ground;
@@ -26,6 +27,14 @@ const SEED: u64 = 1;
 
 /// Measures.
 pub fn planner(arguments: &BenchPlannerArguments) -> Outcome {
+    if let Some(folder) = &arguments.plot {
+        // Before minutes of work, not after them.
+        std::fs::create_dir_all(folder).map_err(|error| unwritable(folder, &error))?;
+    }
+    if arguments.many.is_some() && arguments.planners.len() > 1 {
+        let rule = "`--many` takes a single `--planner`";
+        Arguments::command().error(clap::error::ErrorKind::ArgumentConflict, rule).exit();
+    }
     let bar = bar();
     let progress = |done: usize, of: usize| {
         bar.set_length(of as u64);
@@ -36,7 +45,7 @@ pub fn planner(arguments: &BenchPlannerArguments) -> Outcome {
         None => compared(arguments, &progress),
     };
     bar.finish_and_clear();
-    crate::print(&done?);
+    crate::print(&done?)?;
     Ok(exit::SUCCESS)
 }
 
@@ -87,16 +96,18 @@ fn compared(arguments: &BenchPlannerArguments, progress: &(dyn Fn(usize, usize) 
 
 /// Writes one picture per path; how many there are.
 fn pictures(options: &PlannerOptions<'_>, planned: &[PathOutcome], folder: &Path) -> Result<usize, Refusals> {
-    let refused =
-        |error: std::io::Error| vec![Diagnostic::io(format!("write pictures to `{}`", folder.display()), &error)];
-    std::fs::create_dir_all(folder).map_err(refused)?;
     for outcome in planned {
         let ground = &options.grounds[outcome.ground];
         let flights: Vec<_> = options.contenders.iter().map(|who| who.name()).zip(&outcome.flights).collect();
         let file = folder.join(format!("{}-{:02}.svg", ground.name, outcome.path));
-        std::fs::write(file, plot::picture(ground, outcome.path, &flights)).map_err(refused)?;
+        std::fs::write(file, plot::picture(ground, outcome.path, &flights))
+            .map_err(|error| unwritable(folder, &error))?;
     }
     Ok(planned.len())
+}
+
+fn unwritable(folder: &Path, error: &std::io::Error) -> Refusals {
+    vec![Diagnostic::io(format!("write pictures to `{}`", folder.display()), error)]
 }
 
 fn kinds(arguments: &BenchPlannerArguments) -> Vec<SceneKind> {

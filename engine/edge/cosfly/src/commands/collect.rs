@@ -30,9 +30,9 @@ pub fn collect(arguments: &GcArguments) -> Outcome {
         bytes(report.orphan_bytes),
         count(report.kept_blobs, "blob"),
         bytes(report.kept_blob_bytes),
-    ));
+    ))?;
     if !arguments.delete {
-        crate::print("nothing was deleted; add `--delete` to do it\n");
+        crate::print("nothing was deleted; add `--delete` to do it\n")?;
     }
     Ok(exit::SUCCESS)
 }

@@ -144,7 +144,7 @@ impl<'a> Experts<'a> {
 
 fn unknown(trajectory: &str, names: &[String]) -> Box<Diagnostic> {
     let message = format!("the recipe has no trajectory `{trajectory}`");
-    let diagnostic = Diagnostic::new("plan-from-unknown", Fault::Recipe, message);
+    let diagnostic = Diagnostic::new("plan-from-unknown", Fault::Input, message);
     let known = || names.iter().map(String::as_str);
     match (nearest_name(trajectory, known()), names) {
         (Some(near), _) => diagnostic.hint(format!("did you mean `{near}`?")),

@@ -12,6 +12,6 @@ pub fn graph(arguments: &GraphArguments) -> Outcome {
         GraphFormat::Mermaid => Format::Mermaid,
         GraphFormat::Dot => Format::Dot,
     };
-    crate::print(&cosfly_recipe::graph(&recipe, format));
+    crate::print(&cosfly_recipe::graph(&recipe, format))?;
     Ok(exit::SUCCESS)
 }

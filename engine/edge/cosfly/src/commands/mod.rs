@@ -3,6 +3,7 @@
 pub mod bench;
 pub mod bench_planner;
 pub mod collect;
+pub mod drone_state;
 pub mod expert_of_recipe;
 pub mod graph;
 pub mod plan;

@@ -13,7 +13,7 @@ pub fn plan(arguments: &PlanArguments) -> Outcome {
     let recipe = recipe(&arguments.recipe)?;
     let store = Store::open_to_read(&store_dir(&arguments.store)).map_err(|refusal| vec![refusal])?;
     let plan = cosfly_runner::plan(&recipe, &store).map_err(|refusal| vec![refusal])?;
-    crate::print(&table(&plan));
+    crate::print(&table(&plan))?;
     Ok(exit::SUCCESS)
 }
 

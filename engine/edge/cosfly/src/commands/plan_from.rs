@@ -1,5 +1,6 @@
 //! `cosfly plan-from`: the expert's way on from a state that a drone came into (relabelling, as for DAgger).
 
+use super::drone_state::State;
 use super::expert_of_recipe::Experts;
 use super::{Outcome, recipe, store_dir};
 use crate::arguments::PlanFromArguments;
@@ -8,29 +9,13 @@ use cosfly_diagnose::{Diagnostic, Fault};
 use cosfly_frames::DVec3;
 use cosfly_planner::{Certificate, PlanOutcome, StartState, Trajectory};
 use cosfly_store::Store;
-use serde::{Deserialize, Serialize};
+use serde::Serialize;
 use std::fmt::Write as _;
-use std::io::{BufRead, Write as _};
+use std::io::{BufRead, ErrorKind, Write as _};
+use std::path::Path;
 
 /// Shorter horizons are planned as far as this and cut off, so that no way ends in a dead end, seconds.
 const LOOK_AHEAD_S: f64 = 15.0;
-
-/// A drone's state beside a trajectory.
-#[derive(Clone, Debug, Deserialize)]
-#[serde(deny_unknown_fields)]
-struct State {
-    /// Id of the trajectory.
-    trajectory: String,
-    /// Frame of it.
-    frame: usize,
-    /// World frame, metres.
-    position: [f64; 3],
-    /// World frame, m/s.
-    #[serde(default)]
-    velocity: [f64; 3],
-    /// How much of the way to tell, seconds; to the end of the trajectory unless given.
-    horizon_s: Option<f64>,
-}
 
 /// The answer to a state.
 #[derive(Debug, Serialize)]
@@ -77,7 +62,11 @@ struct Refused {
 pub fn plan_from(arguments: &PlanFromArguments) -> Outcome {
     let one = |refusal| vec![refusal];
     let recipe = recipe(&arguments.recipe)?;
-    let store = Store::open_to_read(&store_dir(&arguments.store)).map_err(one)?;
+    let folder = store_dir(&arguments.store);
+    if !folder.exists() {
+        return Err(vec![no_store(&arguments.recipe.recipe, &folder)]);
+    }
+    let store = Store::open_to_read(&folder).map_err(one)?;
     let plan = cosfly_runner::plan(&recipe, &store).map_err(one)?;
     let mut experts = Experts::new(plan, &store);
     let (Some(trajectory), Some(frame), Some(position)) = (&arguments.trajectory, arguments.frame, &arguments.position)
@@ -92,8 +81,15 @@ pub fn plan_from(arguments: &PlanFromArguments) -> Outcome {
         horizon_s: arguments.horizon,
     };
     let answer = answer(&mut experts, &state).map_err(one)?;
-    crate::print(&if arguments.json { json_line(&answer) } else { told(&answer) });
+    crate::print(&if arguments.json { json_line(&answer) } else { told(&answer) })?;
     Ok(if answer.planned { exit::SUCCESS } else { exit::FOUND_PROBLEMS })
+}
+
+/// Asking makes no store.
+fn no_store(recipe: &Path, folder: &Path) -> Box<Diagnostic> {
+    let message = format!("there is no store at `{}`, so nothing was flown yet", folder.display());
+    Diagnostic::new("plan-from-unfinished", Fault::Recipe, message)
+        .hint(format!("make it first: `cosfly run {}`, with the same `--set` and `--store`", recipe.display()))
 }
 
 fn triple(values: &[f64]) -> [f64; 3] {
@@ -103,55 +99,46 @@ fn triple(values: &[f64]) -> [f64; 3] {
 /// One answer per line of standard input, each at once, so that a program may ask and listen in turn.
 fn batch(experts: &mut Experts<'_>) -> cosfly_diagnose::Result<u8> {
     let mut code = exit::SUCCESS;
-    for (index, line) in std::io::stdin().lock().lines().enumerate() {
-        let line = line.map_err(|error| Diagnostic::io("read standard input", &error))?;
-        if line.trim().is_empty() {
+    let (mut input, mut line, mut number) = (std::io::stdin().lock(), Vec::new(), 0);
+    loop {
+        line.clear();
+        number += 1;
+        let read = input.read_until(b'\n', &mut line);
+        if read.map_err(|error| Diagnostic::io("read standard input", &error))? == 0 {
+            return Ok(code);
+        }
+        if line.trim_ascii().is_empty() {
             continue;
         }
-        let parsed = serde_json::from_str::<State>(&line).map_err(|error| {
-            Diagnostic::new("plan-from-line", Fault::Input, format!("this is not a state: {error}"))
-                .hint("a state is like {\"trajectory\": \"expert-p00000\", \"frame\": 40, \"position\": [x, y, z], \"velocity\": [x, y, z]}")
-        });
-        let text = match parsed.and_then(|state| answer(experts, &state)) {
+        let text = match State::of_line(&line).and_then(|state| answer(experts, &state)) {
             Ok(answer) => json_line(&answer),
             Err(refusal) => {
-                code = exit::INPUT;
+                code = code.max(exit::INPUT).max(exit::code_of(&refusal));
                 let hints = refusal.hints.clone();
                 let error = Refused { code: refusal.code, message: refusal.to_string(), hints };
-                json_line(&LineError { line: index + 1, error })
+                json_line(&LineError { line: number, error })
             }
         };
         let mut out = std::io::stdout().lock();
-        if out.write_all(text.as_bytes()).and_then(|()| out.flush()).is_err() {
+        match out.write_all(text.as_bytes()).and_then(|()| out.flush()) {
+            Ok(()) => {}
             // Nobody listens any more.
-            break;
+            Err(error) if error.kind() == ErrorKind::BrokenPipe => return Ok(code),
+            Err(error) => return Err(crate::unwritten(&error)),
         }
     }
-    Ok(code)
 }
 
 fn answer(experts: &mut Experts<'_>, state: &State) -> cosfly_diagnose::Result<Answer> {
     let known = experts.flight(&state.trajectory)?;
     let track = &known.flight.mission.track;
-    if state.frame >= track.len() {
-        let message =
-            format!("frame {} is beyond `{}`, which has {} frames", state.frame, state.trajectory, track.len());
-        return Err(Diagnostic::new("plan-from-frame", Fault::Input, message).hint("frames count from 0"));
-    }
-    let frames = match state.horizon_s {
-        None => usize::MAX,
-        Some(horizon) if horizon > 0.0 && horizon.is_finite() => {
-            ((horizon / track.dt_s).ceil() as usize).saturating_add(1)
-        }
-        Some(horizon) => {
-            let message = format!("the horizon is {horizon} s; it must be above 0 s");
-            return Err(Diagnostic::new("plan-from-horizon", Fault::Input, message));
-        }
-    };
+    state.check(track)?;
+    let frames_of = |seconds: f64| ((seconds / track.dt_s).ceil() as usize).saturating_add(1);
+    let frames = state.horizon_s.map_or(usize::MAX, frames_of);
     let start =
         StartState { position_in_world: DVec3::from(state.position), velocity_in_world: DVec3::from(state.velocity) };
     let (mut reason, mut waypoints, mut certificate) = (None, Vec::new(), None);
-    let planned_frames = frames.max((LOOK_AHEAD_S / track.dt_s).ceil() as usize + 1);
+    let planned_frames = frames.max(frames_of(LOOK_AHEAD_S));
     match known.flight.plan_from(&known.world, state.frame, planned_frames, start) {
         PlanOutcome::Planned(flight) => {
             waypoints = waypoints_of(&flight, state.frame);

@@ -21,7 +21,7 @@ pub fn preview(arguments: &PreviewArguments) -> Outcome {
     let pictures = draw(&dataset, flight, arguments).map_err(one)?;
     let out = arguments.out.clone().unwrap_or_else(|| beside(&arguments.dir));
     let written = write(&out, flight, &pictures)?;
-    crate::print(&report(&dataset, flight, &pictures, &written));
+    crate::print(&report(&dataset, flight, &pictures, &written))?;
     Ok(exit::SUCCESS)
 }
 

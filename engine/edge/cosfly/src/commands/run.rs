@@ -29,13 +29,13 @@ pub fn run(arguments: &RunArguments) -> Outcome {
     reporter.finish();
     let delivery = delivery.map_err(|refusal| vec![refusal])?;
     if arguments.json {
-        crate::print(&json(&recipe, &delivery, &out));
+        crate::print(&json(&recipe, &delivery, &out))?;
     } else {
         let took = duration(began.elapsed());
         if !arguments.quiet {
-            crate::print(&stages(&delivery.summary));
+            crate::print(&stages(&delivery.summary))?;
         }
-        crate::print(&result(&delivery, wanted, &out, &store_dir(&arguments.store), &took, arguments.quiet));
+        crate::print(&result(&delivery, wanted, &out, &store_dir(&arguments.store), &took, arguments.quiet))?;
     }
     Ok(ended(&delivery.summary))
 }

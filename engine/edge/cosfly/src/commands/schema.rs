@@ -15,6 +15,6 @@ pub fn schema(arguments: &SchemaArguments) -> Outcome {
         let schema = cosfly_recipe::schema(&registry);
         serde_json::to_string_pretty(&schema).expect("a schema is plain JSON") + "\n"
     };
-    crate::print(&text);
+    crate::print(&text)?;
     Ok(exit::SUCCESS)
 }

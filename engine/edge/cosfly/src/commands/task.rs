@@ -22,6 +22,6 @@ pub fn run(digest: &str, store: &StoreArguments) -> Outcome {
     crate::print(match outcome {
         TaskOutcome::Ran => "ran\n",
         TaskOutcome::Reused => "already done\n",
-    });
+    })?;
     Ok(exit::SUCCESS)
 }

@@ -7,6 +7,6 @@ use cosfly_maps::generate::{GenerateConfig, generate_town};
 
 /// Prints the town.
 pub fn town(arguments: &TownArguments) -> Outcome {
-    crate::print(&generate_town(&GenerateConfig::default(), arguments.seed));
+    crate::print(&generate_town(&GenerateConfig::default(), arguments.seed))?;
     Ok(exit::SUCCESS)
 }

@@ -40,6 +40,6 @@ pub fn verify(arguments: &VerifyArguments) -> Outcome {
         0 => writeln!(text, "nothing wrong was found"),
         found => writeln!(text, "{} found", count(found, "problem")),
     };
-    crate::print(&text);
+    crate::print(&text)?;
     Ok(if report.is_sound() { exit::SUCCESS } else { exit::FOUND_PROBLEMS })
 }

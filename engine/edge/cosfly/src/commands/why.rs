@@ -16,7 +16,7 @@ pub fn why(arguments: &WhyArguments) -> Outcome {
         None => (arguments.subject.as_str(), None),
     };
     let explanation = cosfly_runner::why(&recipe, &store, stage, item).map_err(|refusal| vec![refusal])?;
-    crate::print(&told(&explanation));
+    crate::print(&told(&explanation))?;
     Ok(exit::SUCCESS)
 }
 
