@@ -93,6 +93,15 @@ Examples:
 A range ends before its second number: `0..200:10` is 0, 10, ... 190. Without `--frames`, the sheet shows six frames and
 the clip up to a hundred, evenly spread.")]
     Preview(PreviewArguments),
+    /// Write the job with which `plugins/carla/replay.py` flies a dataset's flights through a CARLA server
+    #[command(after_help = "\
+Examples:
+  cosfly carla-job out/Town01 --out job.json
+  cosfly carla-job out/Town01 --out job.json --trajectory expert-p00000 --trajectory perturbed-p00000
+
+The job holds poses, walks, weathers and cameras. The script then makes logs with the same topics, whose pictures are the
+server's; the map must be one that the server has.")]
+    CarlaJob(CarlaJobArguments),
     /// Free space in the store; shows what would go unless `--delete` is given
     Gc(GcArguments),
     /// Print the recipe's JSON Schema, or a generated reference page
@@ -241,6 +250,20 @@ pub struct PreviewArguments {
     /// Folder for the pictures [default: <DATASET>-preview]
     #[arg(long, value_name = "DIR")]
     pub out: Option<PathBuf>,
+}
+
+/// Arguments of `carla-job`.
+#[derive(Args, Debug)]
+pub struct CarlaJobArguments {
+    /// Folder of the dataset that `cosfly run` delivered
+    #[arg(value_name = "DATASET")]
+    pub dir: PathBuf,
+    /// The job file
+    #[arg(long, value_name = "FILE")]
+    pub out: PathBuf,
+    /// Flights, such as expert-p00000 (repeatable) [default: all]
+    #[arg(long = "trajectory", value_name = "ID")]
+    pub trajectories: Vec<String>,
 }
 
 /// Arguments of `gc`.

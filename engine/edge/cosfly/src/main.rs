@@ -34,6 +34,7 @@ fn command() -> ExitCode {
         Command::Graph(arguments) => commands::graph::graph(&arguments),
         Command::Verify(arguments) => commands::verify::verify(&arguments),
         Command::Preview(arguments) => commands::preview::preview(&arguments),
+        Command::CarlaJob(arguments) => commands::carla_job::carla_job(&arguments),
         Command::Gc(arguments) => commands::collect::collect(&arguments),
         Command::Schema(arguments) => commands::schema::schema(&arguments),
         Command::Town(arguments) => commands::town::town(&arguments),

@@ -6,10 +6,12 @@
 //! * [`mcap_log`]: one MCAP file per trajectory.
 //! * [`tables`]: the Parquet tables.
 //! * [`read`]: reads published datasets back, for pictures and replays.
+//! * [`carla_job`]: published flights as a job for a CARLA server.
 //! * [`verify`]: checks a finished dataset by its files alone.
 //! * [`croissant`] and [`publish`]: metadata, card, hashes, and the dataset as a whole.
 
 pub mod action;
+pub mod carla_job;
 pub mod config;
 pub mod croissant;
 pub mod frame_pack;

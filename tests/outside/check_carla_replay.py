@@ -1,0 +1,324 @@
+"""Flies a dataset through a CARLA server that is not there: a stand-in that answers with the dataset's own pictures in
+CARLA's encodings. What comes back must be the dataset's logs again. Poses, weathers and control use the real `carla` package.
+
+    venv/bin/python tests/outside/check_carla_replay.py COSFLY_BINARY DATASET_FOLDER
+
+What it cannot check: how a real server draws, how its walkers move, how long it takes.
+"""
+
+import importlib.util
+import io
+import subprocess
+import sys
+import tempfile
+from pathlib import Path
+
+import carla
+import numpy as np
+from mcap.reader import make_reader
+from mcap_protobuf.decoder import DecoderFactory
+from PIL import Image
+
+WALKER = 4242  # the raw instance id of the walker
+
+
+def require(condition, message):
+    if not condition:
+        raise SystemExit(f"check_carla_replay: {message}")
+
+
+def said(check, detail=""):
+    print(f"ok  {check:<28} {detail}", flush=True)
+
+
+def read_log(path):
+    """Messages by topic."""
+    messages = {}
+    with path.open("rb") as file:
+        for schema, channel, message, decoded in make_reader(file, decoder_factories=[DecoderFactory()]).iter_decoded_messages():
+            messages.setdefault(channel.topic, []).append((message.log_time, decoded, schema))
+    return messages
+
+
+def pixels(message):
+    kind = {"mono8": "u1", "16UC1": "<u2", "32UC1": "<u4", "32FC1": "<f4"}[message.encoding]
+    return np.frombuffer(message.data, kind).reshape(message.height, message.width)
+
+
+def rotated(q, v):
+    """A vector turned by a quaternion."""
+    u = np.array([q.x, q.y, q.z])
+    return v + 2.0 * np.cross(u, np.cross(u, v) + q.w * v)
+
+
+class Transforms:
+    """Where camera and target are in CARLA's world at each frame, from /tf alone: an independent way to the job's numbers."""
+
+    def __init__(self, log, offset):
+        self.camera, self.ahead, self.feet = [], [], []
+        for _, message, _ in log["/tf"]:
+            by_child = {t.child_frame_id: t for t in message.transforms}
+            place, axis, frame = np.zeros(3), np.array([0.0, 0.0, 1.0]), "camera_optical"
+            while frame != "map":
+                t = by_child[frame]
+                move = np.array([t.translation.x, t.translation.y, t.translation.z])
+                place, axis, frame = move + rotated(t.rotation, place), rotated(t.rotation, axis), t.parent_frame_id
+            feet = by_child["target"].translation
+            flip = np.array([1.0, -1.0, 1.0])
+            self.camera.append(place * flip + offset)
+            self.ahead.append(axis * flip)
+            self.feet.append(np.array([feet.x, feet.y, feet.z]) * flip + offset)
+
+
+class StandIn:
+    """Blueprint, actor, library, settings and world of a server that shows a log."""
+
+    def __init__(self, log, transforms):
+        self.log, self.transforms = log, transforms
+        self.frame, self.ticks, self.sensors, self.weather, self.alive = 100, 0, [], None, set()
+        self.settings = carla.WorldSettings()
+        self.history, self.shown = [], []
+        self.lagging = False
+
+    # the world
+    def get_settings(self):
+        copy = carla.WorldSettings()
+        for name in ("synchronous_mode", "fixed_delta_seconds", "substepping", "max_substep_delta_time", "max_substeps"):
+            setattr(copy, name, getattr(self.settings, name))
+        return copy
+
+    def apply_settings(self, settings):
+        self.settings = settings
+        self.history.append((settings.synchronous_mode, settings.fixed_delta_seconds))
+
+    def set_weather(self, weather):
+        self.weather = weather
+
+    def get_map(self):
+        return type("Map", (), {"name": "Carla/Maps/plain"})()
+
+    def get_blueprint_library(self):
+        return self
+
+    def find(self, name):
+        return Blueprint(name)
+
+    def filter(self, pattern):
+        require(pattern == "walker.pedestrian.*", pattern)
+        return [Blueprint(f"walker.pedestrian.{i:04}") for i in (3, 1, 2)]
+
+    def spawn_actor(self, blueprint, transform):
+        actor = Actor(self, blueprint, transform)
+        self.alive.add(actor)
+        return actor
+
+    try_spawn_actor = spawn_actor
+
+    def tick(self):
+        require(self.settings.synchronous_mode, "a tick outside of synchronous mode")
+        self.frame += 1
+        self.ticks += 1
+        for sensor in self.sensors:
+            place = sensor.transform.location
+            found = np.array([place.x, place.y, place.z])
+            distances = [np.abs(found - camera).max() for camera in self.transforms.camera]
+            number = int(np.argmin(distances))
+            require(distances[number] < 2e-3, f"the camera is {distances[number]} m from every frame")
+            ahead = sensor.transform.get_forward_vector()
+            turned = np.abs(np.array([ahead.x, ahead.y, ahead.z]) - self.transforms.ahead[number]).max()
+            require(turned < 1e-4, f"the camera of frame {number} is turned by {turned}")
+            sensor.callback(self.picture(sensor, number))
+        return self.frame
+
+    def picture(self, sensor, number):
+        kind = sensor.blueprint.id.split(".")[-1]
+        picture = type("Picture", (), {})()
+        if kind == "rgb":
+            rgb = np.asarray(Image.open(io.BytesIO(self.log["/camera/rgb/image"][number][1].data)).convert("RGB"))
+            channels = [rgb[:, :, 2], rgb[:, :, 1], rgb[:, :, 0]]
+            self.shown.append(number)
+        elif kind == "depth":
+            depth = pixels(self.log["/camera/depth/image"][number][1]).astype(np.float64)
+            bits = np.rint(np.minimum(depth, 1000.0) * (2**24 - 1) / 1000.0).astype(np.uint32)
+            channels = [bits >> 16, bits >> 8 & 255, bits & 255]
+        else:
+            label = pixels(self.log["/camera/semantic/image"][number][1])
+            ids = pixels(self.log["/camera/instance/image"][number][1]).astype(np.int64)
+            raw = np.where(ids == 1, WALKER, np.maximum(ids - 2, 0))
+            channels = [raw >> 8, raw & 255, label] if kind == "instance_segmentation" else [label * 0, label * 0, label]
+        bgra = np.stack([*channels, np.full_like(channels[0], 255)], axis=2).astype(np.uint8)
+        picture.raw_data, picture.height, picture.width = bgra.tobytes(), bgra.shape[0], bgra.shape[1]
+        picture.frame, picture.transform = self.frame, sensor.transform
+        if self.lagging:
+            place = sensor.transform.location
+            picture.transform = carla.Transform(carla.Location(x=place.x - 1.0, y=place.y, z=place.z))
+        return picture
+
+
+class Blueprint:
+    def __init__(self, name):
+        self.id, self.attributes = name, {}
+
+    def has_attribute(self, name):
+        return name in ("motion_blur_intensity", "is_invincible")
+
+    def set_attribute(self, name, value):
+        require(isinstance(value, str), f"{name} must be text")
+        self.attributes[name] = value
+
+
+class Actor:
+    def __init__(self, world, blueprint, transform):
+        self.world, self.blueprint, self.transform = world, blueprint, transform
+        self.bounding_box = carla.BoundingBox(carla.Location(), carla.Vector3D(x=0.2, y=0.2, z=0.93))
+        self.places, self.controls, self.callback = [], [], None
+
+    def listen(self, callback):
+        self.callback = callback
+        self.world.sensors.append(self)
+
+    def stop(self):
+        if self in self.world.sensors:
+            self.world.sensors.remove(self)
+
+    def destroy(self):
+        self.world.alive.discard(self)
+
+    def set_transform(self, transform):
+        self.transform = transform
+        self.places.append(transform)
+
+    def apply_control(self, control):
+        self.controls.append(control)
+        self.world.walker = self
+
+    def set_simulate_physics(self, enabled):
+        require(not enabled, "the walker must not fall")
+
+
+class Client:
+    def __init__(self, world):
+        self.world = world
+
+    def get_server_version(self):
+        return "0.9.16"
+
+    def get_world(self):
+        return self.world
+
+    def get_available_maps(self):
+        return ["/Game/Carla/Maps/Town01", "/Game/Carla/Maps/Town02"]
+
+    def load_world(self, name):
+        raise AssertionError(f"{name} is not there")
+
+
+def same_pictures(before, after, world):
+    for topic, messages in before.items():
+        require(topic in after, f"{topic} is missing")
+        require([m[0] for m in messages] == [m[0] for m in after[topic]], f"times of {topic}")
+        require(messages[0][2].data == after[topic][0][2].data, f"schema of {topic}")
+    untouched = [t for t in before if not t.startswith("/camera/") and t != "/target/state"] + ["/camera/rgb/camera_info"]
+    for topic in untouched:
+        bytes_of = [[m[1].SerializeToString() for m in log[topic]] for log in (before, after)]
+        require(bytes_of[0] == bytes_of[1], f"{topic} changed")
+    worst = 0.0
+    for number in range(len(before["/tf"])):
+        old, new = ({t: log[t][number][1] for t in log if t.startswith(("/camera/", "/target/state"))} for log in (before, after))
+        a, b = pixels(old["/camera/depth/image"]), pixels(new["/camera/depth/image"])
+        near = a < 999.9
+        require(np.isinf(b[~near]).all() and np.isfinite(b[near]).all(), f"sky of frame {number}")
+        worst = max(worst, float(np.abs(a[near] - b[near]).max(initial=0.0)))
+        require((pixels(old["/camera/semantic/image"]) == pixels(new["/camera/semantic/image"])).all(), f"labels of {number}")
+        target = [pixels(log["/camera/instance/image"]) == 1 for log in (old, new)]
+        require((target[0] == target[1]).all(), f"the target's pixels of frame {number}")
+        state = [log["/target/state"] for log in (old, new)]
+        require(state[0].visible_pixels == state[1].visible_pixels, f"visible pixels of frame {number}")
+        require(list(state[0].visible_box_px) == list(state[1].visible_box_px), f"visible box of frame {number}")
+        require(state[0].feet_x_m == state[1].feet_x_m and state[0].distance_m == state[1].distance_m, "the plan's numbers")
+        images = [Image.open(io.BytesIO(log["/camera/rgb/image"].data)).convert("RGB") for log in (old, new)]
+        difference = np.abs(np.asarray(images[0], np.int16) - np.asarray(images[1], np.int16)).mean()
+        require(difference < 3.0, f"colours of frame {number} differ by {difference}")
+        for topic in ("/camera/rgb/preview", "/camera/depth/preview", "/camera/semantic/preview"):
+            if topic in new:
+                Image.open(io.BytesIO(new[topic].data)).load()
+        outlines = new["/camera/rgb/annotations"].points
+        require(len(outlines) == (len(state[1].full_box_px) > 0) + (len(state[1].visible_box_px) > 0), "annotations")
+    require(worst <= 1000.0 / 2**24 + 1e-4, f"depth differs by {worst} m")
+    return worst
+
+
+def check_walker(world, flight, transforms):
+    walker = world.walker
+    require(len(walker.places) == len(flight["frames"]), "one place per frame")
+    for place, control, feet, frame in zip(walker.places, walker.controls, transforms.feet, flight["frames"]):
+        found = np.array([place.location.x, place.location.y, place.location.z - 0.93])
+        require(np.abs(found - feet).max() < 2e-3, f"the walker stands at {found}, not {feet}")
+        require(abs(control.speed - frame["target"][4]) < 1e-5, "its speed")
+        ahead = place.get_forward_vector()
+        require(abs(ahead.x - control.direction.x) + abs(ahead.y - control.direction.y) < 1e-4, "it walks where it looks")
+
+
+def check_flight(replay, dataset, out, flight, offset):
+    source = dataset / flight["log"]
+    before = read_log(source)
+    world = StandIn(before, Transforms(before, offset))
+    job = {"flights": [flight]}
+    replay.replay(Client(world), job, dataset, out, True, say=lambda _: None)
+    require(not world.alive and not world.sensors, "actors stay behind")
+    require(world.history == [(True, flight["dt_s"]), (False, None)] or not world.history[-1][0], f"{world.history}")
+    require(world.ticks == len(flight["frames"]) + replay.WARM_UP_TICKS, f"{world.ticks} ticks")
+    for name, value in flight["weather"].items():
+        require(abs(getattr(world.weather, name) - value) < 1e-4, f"weather {name}")
+    check_walker(world, flight, world.transforms)
+    worst = same_pictures(before, read_log(out / flight["log"]), world)
+    said(f"replay {flight['trajectory_id']}", f"{len(flight['frames'])} frames, depth within {1e3 * worst:.2f} mm")
+    return before
+
+
+def check_refusals(replay, dataset, scratch, flight, log, offset):
+    def refusal(change):
+        try:
+            change()
+        except replay.ReplayError as error:
+            return str(error)
+        raise SystemExit("check_carla_replay: nothing was refused")
+
+    (scratch / "not.json").write_text("{}")
+    require("no job file" in refusal(lambda: replay.load_job(scratch / "not.json")), "another file")
+    (scratch / "newer.json").write_text('{"format": "cosfly-carla-job", "version": 9, "flights": []}')
+    require("version 9" in refusal(lambda: replay.load_job(scratch / "newer.json")), "a newer job")
+    world = StandIn(log, Transforms(log, offset))
+    elsewhere = {"flights": [{**flight, "town": "Atlantis"}]}
+    require("no map Atlantis" in refusal(lambda: replay.replay(Client(world), elsewhere, dataset, scratch, False)), "a map")
+    world.lagging = True
+    job = {"flights": [flight]}
+    require("from where" in refusal(lambda: replay.replay(Client(world), job, dataset, scratch / "lag", True)), "a late picture")
+    require(not world.alive and not world.settings.synchronous_mode, "after a refusal the server is as before")
+    require(not list((scratch / "lag").rglob("*.mcap")), "half a log")
+    said("refusals", "wrong file, newer job, unknown map, late picture")
+
+
+def main():
+    cosfly, dataset = Path(sys.argv[1]).resolve(), Path(sys.argv[2]).resolve()
+    script = Path(__file__).resolve().parents[2] / "plugins" / "carla" / "replay.py"
+    specification = importlib.util.spec_from_file_location("replay", script)
+    replay = importlib.util.module_from_spec(specification)
+    specification.loader.exec_module(replay)
+    with tempfile.TemporaryDirectory() as scratch:
+        scratch = Path(scratch)
+        subprocess.run([cosfly, "carla-job", dataset, "--out", scratch / "job.json"], check=True, capture_output=True)
+        job = replay.load_job(scratch / "job.json")
+        said("cosfly carla-job", f"{len(job['flights'])} flights")
+        for flight in job["flights"][:2]:
+            log = read_log(dataset / flight["log"])
+            # The town's offset, once more from the log's metadata.
+            with (dataset / flight["log"]).open("rb") as file:
+                records = {r.name: r.metadata for r in make_reader(file).iter_metadata()}
+            offset = np.array([float(n) for n in records["cosfly.trajectory"]["town_offset_m"].strip("[]").split(",")])
+            check_flight(replay, dataset, scratch / "out", flight, offset)
+        check_refusals(replay, dataset, scratch, flight, log, offset)
+
+
+if __name__ == "__main__":
+    main()
