@@ -1,48 +1,81 @@
-//! CPU time per 1280 x 720 frame, split by stage, on a town of about 3,000 boxes and 100,000 ground triangles.
+//! CPU time per 1280 x 720 frame, split by stage: `bench_frame [TOWN.xodr] [PRESET...]`; without a map file, an
+//! invented town of about 3,000 boxes and 100,000 ground triangles.
 
 #[path = "../tests/small_town/mod.rs"]
 mod small_town;
 
-use cosfly_frames::{DVec3, Pose, Seed, TargetState};
-use cosfly_render::{FrameParts, FrameSetup, RenderConfig, Renderer, Scene, TargetSetup, Weather};
+use cosfly_frames::{DVec3, Pose, Seed, TargetState, real};
+use cosfly_maps::{MapConfig, Town};
+use cosfly_render::{FrameSetup, RenderConfig, Renderer, Scene, Stages, TargetSetup, Weather};
 use std::time::Instant;
 
-fn main() {
-    let mut town = small_town::small_town(9, 1);
-    refine(&mut town, 100_000);
+fn main() -> Result<(), Box<dyn std::error::Error>> {
+    let mut arguments = std::env::args().skip(1).peekable();
+    let map = arguments.next_if(|argument| argument.ends_with(".xodr"));
+    let mut presets: Vec<String> = arguments.collect();
+    if presets.is_empty() {
+        presets = ["ClearNoon", "HardRainNoon", "WetNight"].map(str::to_owned).to_vec();
+    }
+    let town = match &map {
+        None => {
+            let mut town = small_town::small_town(9, 1);
+            refine(&mut town, 100_000);
+            town
+        }
+        Some(path) => {
+            cosfly_maps::read_town(&std::fs::read(path)?, &MapConfig::default(), Seed([5; 32]))
+                .map_err(|error| format!("{path}: {error}"))?
+                .0
+        }
+    };
     let started = Instant::now();
-    let start = cpu_ms(started);
+    let start = cpu_ns(started);
     let scene = Scene::new(&town, Seed([1; 32]));
     println!("{} boxes, {} triangles with faces", town.obstacles.len(), scene.triangles().len());
-    println!("scene                    {:8.2} ms once", cpu_ms(started) - start);
-    let mut weather = Weather::preset("ClearNoon").expect("a preset");
-    weather.sun_azimuth_angle = 215.0;
+    println!("scene {:8.2} ms once", (cpu_ns(started) - start) as f64 * 1e-6);
     let mut renderer = Renderer::new(RenderConfig::default().camera());
-    let frames: Vec<(Pose, TargetSetup)> = (0..20).map(frame).collect();
-    for (name, parts) in [
-        ("visibility", FrameParts::Visibility),
-        ("visibility, depth, ids", FrameParts::Ids),
-        ("everything", FrameParts::All),
-    ] {
-        let start = cpu_ms(started);
-        for (pose, target) in frames.iter().chain(&frames) {
-            let setup = FrameSetup { pose: *pose, weather: &weather, target: Some(*target) };
-            let _ = renderer.render_parts(&scene, &setup, parts);
+    let middle =
+        if map.is_some() { 0.5 * (town.min_in_world + town.max_in_world) } else { DVec3::new(-23.0, 43.5, 0.14) };
+    let views = [("follow", [-17.0, -10.0, 20.0]), ("high", [40.0, -60.0, 55.0]), ("street", [-14.0, -8.0, 5.0])];
+    let names = Stages::NAMES.map(|name| format!("{name:>11}")).join("");
+    println!("{:22}{names}      total", "ms a frame");
+    for preset in &presets {
+        let mut weather = Weather::preset(preset).ok_or_else(|| format!("no preset {preset}"))?;
+        weather.sun_azimuth_angle = 215.0;
+        for (view, away) in &views {
+            let mut spent: [Vec<u64>; Stages::NAMES.len() + 1] = Default::default();
+            for index in 0..40 {
+                let (pose, target) = frame(index, middle, DVec3::from_array(*away));
+                let setup = FrameSetup { pose, weather: &weather, target: Some(target) };
+                let before = cpu_ns(started);
+                let (_, stages) = renderer.render_timed(&scene, &setup, &|| started.elapsed().as_nanos() as u64);
+                let total = cpu_ns(started) - before;
+                for (times, time) in spent.iter_mut().zip(stages.ns().into_iter().chain([total])) {
+                    times.push(time);
+                }
+            }
+            // A low quantile: the machine may have other work.
+            let each = spent.map(|mut times| {
+                times.sort_unstable();
+                format!("{:11.2}", times[times.len() / 5] as f64 * 1e-6)
+            });
+            println!("{:22}{}", format!("{preset} {view}"), each.join(""));
         }
-        println!("{name:24} {:8.2} ms a frame", (cpu_ms(started) - start) / (2.0 * frames.len() as f64));
     }
+    Ok(())
 }
 
-/// CPU time of this thread, milliseconds; wall time where the system does not tell.
-fn cpu_ms(started: Instant) -> f64 {
+/// CPU time of this thread, nanoseconds; wall time where the system does not tell.
+fn cpu_ns(started: Instant) -> u64 {
     let told = std::fs::read_to_string("/proc/thread-self/schedstat").ok();
-    let spent_ns = told.and_then(|text| text.split(' ').next().and_then(|first| first.parse::<f64>().ok()));
-    spent_ns.map_or_else(|| started.elapsed().as_secs_f64() * 1e3, |ns| ns * 1e-6)
+    let spent_ns = told.and_then(|text| text.split(' ').next().and_then(|first| first.parse::<u64>().ok()));
+    spent_ns.unwrap_or_else(|| started.elapsed().as_nanos() as u64)
 }
 
-/// A follower 20 m behind and above a target that walks along a street.
-fn frame(index: u32) -> (Pose, TargetSetup) {
-    let feet = DVec3::new(-30.0 + 0.7 * f64::from(index), 43.5, 0.14);
+/// A follower behind and above a target that walks along a street.
+fn frame(index: u32, middle: DVec3, away: DVec3) -> (Pose, TargetSetup) {
+    let (sin, cos) = real::sin_cos(0.01 * f64::from(index));
+    let feet = middle + DVec3::new(0.2 * f64::from(index), 0.0, 0.0);
     let target = TargetSetup {
         state: TargetState { feet_in_world: feet, heading_rad: 0.1, speed_mps: 1.4 },
         height_m: 1.75,
@@ -51,11 +84,11 @@ fn frame(index: u32) -> (Pose, TargetSetup) {
         gait_phase_rad: 0.4 * f64::from(index),
         visible_by_rays: 1.0,
     };
-    (Pose::looking_at(feet + DVec3::new(-17.0, -10.0, 20.0), feet), target)
+    let turned = DVec3::new(cos * away.x - sin * away.y, sin * away.x + cos * away.y, away.z);
+    (Pose::looking_at(feet + turned, feet + DVec3::Z), target)
 }
-
 /// Cuts ground triangles until there are at least `wanted`.
-fn refine(town: &mut cosfly_maps::Town, wanted: usize) {
+fn refine(town: &mut Town, wanted: usize) {
     while town.surfaces.iter().map(|mesh| mesh.triangles.len()).sum::<usize>() < wanted {
         for mesh in &mut town.surfaces {
             let mut finer = Vec::with_capacity(2 * mesh.triangles.len());

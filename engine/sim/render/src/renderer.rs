@@ -3,11 +3,12 @@
 use crate::camera::Camera;
 use crate::figure::{Clothes, FigureTriangle, TargetSetup, figure};
 use crate::frame::{FrameImages, TARGET_INSTANCE, TargetView};
-use crate::passes::ids::resolve_row;
-use crate::scene::{BOX_FACES, Scene};
+use crate::passes::ids::{SeenRuns, resolve};
+use crate::scene::{BOX_FACES, Cluster, Scene};
 use crate::shade::{Seen, Shader, smooth};
+use crate::stages::{Stages, Stopwatch};
 use crate::target_view;
-use crate::visibility::{PlaneOnScreen, Screen, Visibility};
+use crate::visibility::{MAX_CORNERS, NEAR_M, PlaneOnScreen, Screen, Visibility};
 use crate::weather::Weather;
 use cosfly_frames::simd::Level;
 use cosfly_frames::{DMat3, DVec3, Pose};
@@ -37,6 +38,8 @@ pub struct RenderedFrame<'a> {
 /// A face drawn in this frame.
 pub(crate) struct DrawnFace {
     pub plane: PlaneOnScreen,
+    /// Unit normal in the world, any side.
+    pub normal: [f32; 3],
     pub source: FaceSource,
     pub label: u8,
     pub instance: u32,
@@ -47,8 +50,8 @@ pub(crate) struct DrawnFace {
 pub(crate) enum FaceSource {
     /// Box number, face number.
     Box { index: u32, face: u8 },
-    /// Cluster number, triangle number in it.
-    Ground { cluster: u32, triangle: u16 },
+    /// Cluster number, polygon number in it.
+    Ground { cluster: u32, polygon: u16 },
     /// Triangle of the figure.
     Figure { triangle: u32 },
 }
@@ -73,11 +76,16 @@ pub struct Renderer {
     alone: Visibility,
     faces: Vec<DrawnFace>,
     visible: Vec<(u64, u32)>,
-    seen_vertices: Vec<DVec3>,
+    /// A cluster's points in body axes and on the screen.
+    seen_points: Vec<(DVec3, [f64; 2])>,
     figure: Vec<FigureTriangle>,
     occluders: Vec<u32>,
     covered: Vec<u32>,
+    view: TargetView,
+    runs: SeenRuns,
+    level: Level,
     shader: Shader,
+    smoother: smooth::Smoother,
 }
 
 impl Renderer {
@@ -100,11 +108,15 @@ impl Renderer {
             alone: Visibility::new(screen.width, screen.height),
             faces: Vec::new(),
             visible: Vec::new(),
-            seen_vertices: Vec::new(),
+            seen_points: Vec::new(),
             figure: Vec::new(),
             occluders: Vec::new(),
             covered: Vec::new(),
+            view: target_view::NOT_IN_VIEW,
+            runs: SeenRuns::default(),
+            level: Level::best(),
             shader: Shader::new(&screen),
+            smoother: smooth::Smoother::default(),
         }
     }
 
@@ -115,7 +127,10 @@ impl Renderer {
 
     /// Shades with these vector instructions from now on, to compare their bytes: they are the same.
     pub fn set_level(&mut self, level: Level) {
+        self.level = level;
         self.shader.set_level(level);
+        self.nearest.set_level(level);
+        self.alone.set_level(level);
     }
 
     /// Draws all channels of one frame. The same scene and setup give the same bytes on any thread, after any other frame.
@@ -125,6 +140,27 @@ impl Renderer {
 
     /// Draws a frame up to a stage; channels of later stages keep what they held. For measuring.
     pub fn render_parts(&mut self, scene: &Scene, setup: &FrameSetup<'_>, parts: FrameParts) -> RenderedFrame<'_> {
+        self.draw(scene, setup, parts, &mut Stopwatch::new(None));
+        self.finished()
+    }
+
+    /// Draws all channels and says how long each stage took by the clock `now`.
+    pub fn render_timed(
+        &mut self,
+        scene: &Scene,
+        setup: &FrameSetup<'_>,
+        now: &dyn Fn() -> u64,
+    ) -> (RenderedFrame<'_>, Stages) {
+        let mut watch = Stopwatch::new(Some(now));
+        self.draw(scene, setup, FrameParts::All, &mut watch);
+        (self.finished(), watch.stages())
+    }
+
+    fn finished(&self) -> RenderedFrame<'_> {
+        RenderedFrame { images: &self.images, target_view: self.view, target_pixels: &self.covered }
+    }
+
+    fn draw(&mut self, scene: &Scene, setup: &FrameSetup<'_>, parts: FrameParts, watch: &mut Stopwatch<'_>) {
         let eye = Eye::new(&setup.pose);
         self.nearest.clear();
         self.alone.clear();
@@ -136,30 +172,47 @@ impl Renderer {
         }
         self.draw_boxes(scene, &eye);
         self.draw_figure(&eye);
+        watch.lap(0);
         self.draw_ground(scene, &eye);
-        let mut view = target_view::NOT_IN_VIEW;
+        watch.lap(1);
+        self.view = target_view::NOT_IN_VIEW;
         if parts != FrameParts::Visibility {
-            self.resolve();
+            resolve(self.level, &self.nearest.face, &self.faces, &mut self.images, &mut self.runs);
             if let Some(target) = &setup.target {
                 target_view::covered_pixels(&self.alone, self.screen.width, &mut self.covered);
-                view = target_view::measure(&self.images, &self.covered, &mut self.occluders);
-                view.visible_by_rays = target.visible_by_rays;
+                self.view = target_view::measure(&self.images, &self.covered, &mut self.occluders);
+                self.view.visible_by_rays = target.visible_by_rays;
             }
+            watch.lap(2);
         }
         if parts == FrameParts::All {
-            let clothes = setup.target.as_ref().map(|target| Clothes::draw(&target.clothes_seed));
-            self.shader.prepare(scene, setup, &eye, &self.figure, clothes);
-            self.shader.shade(&Seen {
-                scene,
-                face: &self.nearest.face,
-                faces: &self.faces,
-                figure: &self.figure,
-                depth_m: &self.images.depth_m,
-            });
-            smooth::smooth_edges(&self.nearest, &self.faces, self.shader.picture(), &mut self.images);
-            self.shader.overlay(&mut self.images);
+            self.shade(scene, setup, &eye, watch);
         }
-        RenderedFrame { images: &self.images, target_view: view, target_pixels: &self.covered }
+    }
+
+    fn shade(&mut self, scene: &Scene, setup: &FrameSetup<'_>, eye: &Eye, watch: &mut Stopwatch<'_>) {
+        let clothes = setup.target.as_ref().map(|target| Clothes::draw(&target.clothes_seed));
+        self.shader.prepare(scene, setup, eye, &self.figure, clothes);
+        watch.lap(3);
+        let seen = Seen {
+            scene,
+            runs: &self.runs.bands,
+            faces: &self.faces,
+            figure: &self.figure,
+            depth_m: &self.images.depth_m,
+        };
+        self.shader.shade(&seen, &mut self.images.rgb);
+        watch.lap(4);
+        let mut picture = smooth::Picture {
+            surface: &self.runs.surface,
+            source: self.shader.picture(),
+            rgb: &mut self.images.rgb,
+            width: self.screen.width,
+        };
+        self.smoother.smooth(self.level, &mut picture);
+        watch.lap(5);
+        self.shader.overlay(&mut self.images);
+        watch.lap(6);
     }
 
     /// Boxes from near to far, so that far ones mostly fail the depth comparison.
@@ -178,7 +231,8 @@ impl Renderer {
             // Coplanar faces of different boxes: the number decides, not the rounding.
             let bias = 5e-7 * f64::from(index % 8);
             for (face, (_, _, around)) in BOX_FACES.iter().enumerate() {
-                let normal = eye.turn(b.normal_in_world(face));
+                let normal_in_world = b.normal_in_world(face);
+                let normal = eye.turn(normal_in_world);
                 let quad = around.map(|corner| corners[corner]);
                 if normal.dot(quad[0]) < 0.0
                     && let Some(plane) = PlaneOnScreen::new(&self.screen, normal, quad[0])
@@ -186,7 +240,8 @@ impl Renderer {
                     let number = self.faces.len() as u32;
                     self.nearest.draw_polygon(&self.screen, &quad, &plane, bias, number);
                     let source = FaceSource::Box { index, face: face as u8 };
-                    self.faces.push(DrawnFace { plane, source, label: b.label, instance: b.instance });
+                    let normal = normal_in_world.as_vec3().to_array();
+                    self.faces.push(DrawnFace { plane, normal, source, label: b.label, instance: b.instance });
                 }
             }
         }
@@ -205,7 +260,8 @@ impl Renderer {
                 self.alone.draw_polygon(&self.screen, &corners, &plane, 0.0, number);
                 let source = FaceSource::Figure { triangle: index as u32 };
                 let label = SemanticLabel::Pedestrian.id();
-                self.faces.push(DrawnFace { plane, source, label, instance: TARGET_INSTANCE });
+                let normal = triangle.normal_in_world.as_vec3().to_array();
+                self.faces.push(DrawnFace { plane, normal, source, label, instance: TARGET_INSTANCE });
             }
         }
     }
@@ -221,27 +277,43 @@ impl Renderer {
         for position in 0..self.visible.len() {
             let index = self.visible[position].1;
             let cluster = &scene.clusters[index as usize];
-            self.seen_vertices.clear();
-            self.seen_vertices.extend(cluster.vertices_in_world.iter().map(|vertex| eye.see(*vertex)));
-            for (number, triangle) in cluster.triangles.iter().enumerate() {
-                let corners = triangle.corners.map(|corner| self.seen_vertices[usize::from(corner)]);
-                let normal = eye.turn(triangle.normal_in_world);
-                if let Some(plane) = PlaneOnScreen::new(&self.screen, normal, corners[0]) {
-                    let face = self.faces.len() as u32;
-                    let bias = 2e-6 * layer_of(triangle.label);
-                    self.nearest.draw_polygon(&self.screen, &corners, &plane, bias, face);
-                    let source = FaceSource::Ground { cluster: index, triangle: number as u16 };
-                    self.faces.push(DrawnFace { plane, source, label: triangle.label.id(), instance: 0 });
-                }
-            }
+            self.draw_cluster(cluster, index, eye);
         }
     }
 
-    fn resolve(&mut self) {
-        let width = self.screen.width;
-        for row in 0..self.screen.height {
-            let pixels = row * width..(row + 1) * width;
-            resolve_row(row, &self.nearest.face[pixels.clone()], &self.faces, pixels, &mut self.images);
+    fn draw_cluster(&mut self, cluster: &Cluster, index: u32, eye: &Eye) {
+        let screen = self.screen;
+        self.seen_points.clear();
+        self.seen_points.extend(cluster.points_in_world.iter().map(|point| {
+            let seen = eye.see(*point);
+            let scale = screen.focal_px / seen.x;
+            (seen, [screen.center_u + seen.y * scale, screen.center_v - seen.z * scale])
+        }));
+        for (number, polygon) in cluster.polygons.iter().enumerate() {
+            let mut corners = [DVec3::ZERO; MAX_CORNERS];
+            let mut points = [[0.0; 2]; MAX_CORNERS];
+            let mut nearest_m = f64::INFINITY;
+            let numbers = &cluster.corners[polygon.range()];
+            let count = numbers.len().min(MAX_CORNERS);
+            for ((corner, point), number) in corners.iter_mut().zip(&mut points).zip(numbers) {
+                (*corner, *point) = self.seen_points[usize::from(*number)];
+                nearest_m = nearest_m.min(corner.x);
+            }
+            let is_ahead = nearest_m >= NEAR_M;
+            let rows = if is_ahead { self.nearest.rows_of(&points[..count]) } else { Some((0, 0)) };
+            let Some(rows) = rows else { continue };
+            let normal = eye.turn(polygon.normal_in_world);
+            let Some(plane) = PlaneOnScreen::new(&screen, normal, eye.see(polygon.middle_in_world)) else { continue };
+            let face = self.faces.len() as u32;
+            let bias = 2e-6 * layer_of(polygon.label);
+            if is_ahead {
+                self.nearest.draw_rows(&points[..count], rows, &plane.lifted(bias), face);
+            } else {
+                self.nearest.draw_polygon(&screen, &corners[..count], &plane, bias, face);
+            }
+            let source = FaceSource::Ground { cluster: index, polygon: number as u16 };
+            let normal = polygon.normal_in_world.as_vec3().to_array();
+            self.faces.push(DrawnFace { plane, normal, source, label: polygon.label.id(), instance: 0 });
         }
     }
 }

@@ -1,5 +1,6 @@
-//! What a town looks like to the renderer: boxes with faces, ground triangles in small bounded clusters, seeds for looks.
+//! What a town looks like to the renderer: boxes with faces, ground polygons in small bounded clusters, seeds for looks.
 
+use crate::ground_polygons::{GroundPolygon, GroundPolygons};
 use crate::shade::grid::LightGrid;
 use crate::shade::pattern::{NoiseTexture, noise_texture};
 use cosfly_frames::{DVec3, Seed, real};
@@ -8,8 +9,8 @@ use glam::Vec3A as Vec3;
 use std::collections::BTreeMap;
 use std::sync::atomic::{AtomicU64, Ordering};
 
-/// Triangles in one cluster of ground.
-const CLUSTER_TRIANGLES: usize = 96;
+/// Polygons in one cluster of ground.
+const CLUSTER_POLYGONS: usize = 48;
 
 /// Everything static, ready to be drawn. Built once per town, shared by all threads.
 pub struct Scene {
@@ -56,20 +57,39 @@ impl SceneBox {
     }
 }
 
-/// Neighbouring ground triangles with shared corners and a bounding box.
+/// Neighbouring ground polygons with shared points and a bounding box.
 pub(crate) struct Cluster {
     pub center_in_world: DVec3,
     pub half_bounds_m: DVec3,
-    pub vertices_in_world: Vec<DVec3>,
-    pub triangles: Vec<GroundTriangle>,
+    pub points_in_world: Vec<DVec3>,
+    pub polygons: Vec<ClusterPolygon>,
+    /// Corners of all polygons, point numbers within the cluster.
+    pub corners: Vec<u16>,
 }
 
-/// A ground triangle; corner numbers within its cluster.
+/// A ground polygon.
 #[derive(Clone, Copy)]
-pub(crate) struct GroundTriangle {
-    pub corners: [u16; 3],
+pub(crate) struct ClusterPolygon {
+    /// Its place in the cluster's corners.
+    pub first: u32,
+    pub count: u32,
     pub label: SemanticLabel,
     pub normal_in_world: DVec3,
+    /// A point of its plane.
+    pub middle_in_world: DVec3,
+}
+
+impl ClusterPolygon {
+    /// Its corners in the cluster's list.
+    pub fn range(&self) -> core::ops::Range<usize> {
+        self.first as usize..(self.first + self.count) as usize
+    }
+
+    /// The point of its plane above or below a point.
+    fn on_plane(&self, point: DVec3) -> DVec3 {
+        let off = (point - self.middle_in_world).dot(self.normal_in_world);
+        point - self.normal_in_world * off
+    }
 }
 
 /// A triangle of the static scene as rays see it.
@@ -111,9 +131,13 @@ impl Scene {
             }
         }
         for cluster in &self.clusters {
-            for triangle in &cluster.triangles {
-                let corners_in_world = triangle.corners.map(|i| cluster.vertices_in_world[usize::from(i)]);
-                triangles.push(SceneTriangle { corners_in_world, label: triangle.label.id(), instance: 0 });
+            for polygon in &cluster.polygons {
+                let corners = &cluster.corners[polygon.range()];
+                let corner = |k: usize| polygon.on_plane(cluster.points_in_world[usize::from(corners[k])]);
+                for k in 2..corners.len() {
+                    let corners_in_world = [corner(0), corner(k - 1), corner(k)];
+                    triangles.push(SceneTriangle { corners_in_world, label: polygon.label.id(), instance: 0 });
+                }
             }
         }
         triangles
@@ -158,48 +182,49 @@ fn join_crowns(boxes: &mut [SceneBox]) {
     }
 }
 
-/// Cuts all ground meshes into clusters of neighbouring triangles, ordered along a Z curve over the ground.
+/// Cuts the ground into clusters of neighbouring polygons, ordered along a Z curve over the ground.
 fn clusters_of(town: &Town) -> Vec<Cluster> {
-    let mut order: Vec<(u64, u32, u32)> = Vec::new();
-    for (mesh_index, mesh) in town.surfaces.iter().enumerate() {
-        for (index, triangle) in mesh.triangles.iter().enumerate() {
-            let corner = |k: usize| mesh.vertices_in_world.get(triangle[k] as usize).filter(|p| p.is_finite());
-            if let (Some(a), Some(b), Some(c)) = (corner(0), corner(1), corner(2)) {
-                let cell = ((*a + *b + *c) / 3.0 - town.min_in_world) * 0.25;
-                order.push((z_order(cell.x as u32, cell.y as u32), mesh_index as u32, index as u32));
-            }
-        }
-    }
+    let ground = GroundPolygons::of(town);
+    let mut order: Vec<(u64, u32)> = (0u32..)
+        .zip(&ground.polygons)
+        .map(|(number, polygon)| {
+            let cell = (polygon.middle_in_world - town.min_in_world) * 0.25;
+            (z_order(cell.x as u32, cell.y as u32), number)
+        })
+        .collect();
     order.sort_unstable();
-    order.chunks(CLUSTER_TRIANGLES).map(|members| cluster_of(town, members)).collect()
+    order.chunks(CLUSTER_POLYGONS).map(|members| cluster_of(&ground, members)).collect()
 }
 
-fn cluster_of(town: &Town, members: &[(u64, u32, u32)]) -> Cluster {
+fn cluster_of(ground: &GroundPolygons, members: &[(u64, u32)]) -> Cluster {
     let mut numbers = BTreeMap::new();
-    let mut vertices: Vec<DVec3> = Vec::new();
-    let mut triangles = Vec::new();
-    for &(_, mesh_index, index) in members {
-        let mesh = &town.surfaces[mesh_index as usize];
-        let points = mesh.triangles[index as usize].map(|i| mesh.vertices_in_world[i as usize]);
-        let corners = mesh.triangles[index as usize].map(|i| {
-            *numbers.entry((mesh_index, i)).or_insert_with(|| {
-                vertices.push(mesh.vertices_in_world[i as usize]);
-                (vertices.len() - 1) as u16
+    let mut points: Vec<DVec3> = Vec::new();
+    let (mut polygons, mut all_corners) = (Vec::new(), Vec::new());
+    for &(_, number) in members {
+        let GroundPolygon { corners, label, normal_in_world, middle_in_world } = &ground.polygons[number as usize];
+        let first = all_corners.len() as u32;
+        all_corners.extend(corners.iter().map(|corner| {
+            *numbers.entry(*corner).or_insert_with(|| {
+                points.push(ground.points_in_world[*corner as usize]);
+                (points.len() - 1) as u16
             })
+        }));
+        polygons.push(ClusterPolygon {
+            first,
+            count: corners.len() as u32,
+            label: *label,
+            normal_in_world: *normal_in_world,
+            middle_in_world: *middle_in_world,
         });
-        let normal = (points[1] - points[0]).cross(points[2] - points[0]).normalize_or_zero();
-        if normal != DVec3::ZERO {
-            let upward = if normal.z < 0.0 { -normal } else { normal };
-            triangles.push(GroundTriangle { corners, label: mesh.label, normal_in_world: upward });
-        }
     }
-    let low = vertices.iter().copied().fold(DVec3::INFINITY, DVec3::min);
-    let high = vertices.iter().copied().fold(DVec3::NEG_INFINITY, DVec3::max);
+    let low = points.iter().copied().fold(DVec3::INFINITY, DVec3::min);
+    let high = points.iter().copied().fold(DVec3::NEG_INFINITY, DVec3::max);
     Cluster {
         center_in_world: 0.5 * (low + high),
         half_bounds_m: 0.5 * (high - low),
-        vertices_in_world: vertices,
-        triangles,
+        points_in_world: points,
+        polygons,
+        corners: all_corners,
     }
 }
 

@@ -1,13 +1,14 @@
 //! The visibility pass: convex polygons into a buffer of (inverse depth, face number), sampled at pixel centres.
 
 use crate::camera::Camera;
-use cosfly_frames::DVec3;
+use cosfly_frames::simd::Level;
+use cosfly_frames::{DVec3, simd_kernel};
 
 /// Nothing nearer than this along the optical axis is drawn, metres.
 pub const NEAR_M: f64 = 0.01;
 
 /// Most corners of a polygon before clipping.
-pub const MAX_CORNERS: usize = 12;
+pub const MAX_CORNERS: usize = 20;
 
 /// The face number of a pixel that nothing covers.
 pub const NO_FACE: u32 = u32::MAX;
@@ -34,6 +35,12 @@ impl PlaneOnScreen {
         let down = -normal.z / (screen.focal_px * distance);
         let constant = normal.x / distance - across * screen.center_u - down * screen.center_v;
         constant.is_finite().then_some(Self { constant, across, down })
+    }
+
+    /// The plane with its inverse depth greater by a share.
+    pub fn lifted(&self, bias: f64) -> Self {
+        let factor = 1.0 + bias;
+        Self { constant: self.constant * factor, across: self.across * factor, down: self.down * factor }
     }
 }
 
@@ -75,6 +82,7 @@ pub struct Visibility {
     pub face: Vec<u32>,
     left: Vec<f64>,
     right: Vec<f64>,
+    level: Level,
     dirty_rows: (usize, usize),
 }
 
@@ -88,8 +96,14 @@ impl Visibility {
             face: vec![NO_FACE; width * height],
             left: vec![f64::INFINITY; height],
             right: vec![f64::NEG_INFINITY; height],
+            level: Level::best(),
             dirty_rows: (height, 0),
         }
+    }
+
+    /// Draws with these vector instructions from now on.
+    pub fn set_level(&mut self, level: Level) {
+        self.level = level;
     }
 
     /// Empties the rows that were drawn into since the last call.
@@ -121,32 +135,50 @@ impl Visibility {
             let scale = screen.focal_px / corner.x;
             *point = [screen.center_u + corner.y * scale, screen.center_v - corner.z * scale];
         }
-        let lifted = PlaneOnScreen {
-            constant: plane.constant * (1.0 + bias),
-            across: plane.across * (1.0 + bias),
-            down: plane.down * (1.0 + bias),
-        };
-        self.draw_projected(&points[..count], &lifted, face);
+        self.draw_projected(&points[..count], &plane.lifted(bias), face);
     }
 
     /// Draws a convex polygon given by pixel coordinates; larger values of `plane` win.
     pub fn draw_projected(&mut self, points: &[[f64; 2]], plane: &PlaneOnScreen, face: u32) {
-        let (mut u_min, mut u_max) = (f64::INFINITY, f64::NEG_INFINITY);
-        let (mut v_min, mut v_max) = (f64::INFINITY, f64::NEG_INFINITY);
+        if let Some(rows) = self.rows_of(points) {
+            self.draw_rows(points, rows, plane, face);
+        }
+    }
+
+    /// Rows whose pixel centres a polygon may cover, first and one past the last; `None` when it covers none anywhere.
+    #[inline]
+    pub fn rows_of(&self, points: &[[f64; 2]]) -> Option<(usize, usize)> {
+        let (mut low, mut high) = ([f64::INFINITY; 2], [f64::NEG_INFINITY; 2]);
         for point in points {
-            u_min = u_min.min(point[0]);
-            u_max = u_max.max(point[0]);
-            v_min = v_min.min(point[1]);
-            v_max = v_max.max(point[1]);
+            for k in 0..2 {
+                low[k] = if point[k] < low[k] { point[k] } else { low[k] };
+                high[k] = if point[k] > high[k] { point[k] } else { high[k] };
+            }
         }
-        if u_max < 0.5 || u_min > self.width as f64 || v_max < 0.5 || v_min > self.height as f64 {
-            return;
+        if high[0] < 0.5 || low[0] > self.width as f64 || high[1] < 0.5 || low[1] > self.height as f64 {
+            return None;
         }
-        let rows = (first_center(v_min, self.height), first_center(v_max, self.height));
-        if rows.0 < rows.1 {
-            self.scan_edges(points);
-            self.fill_rows(rows, plane, face);
-        }
+        let columns = (first_center(low[0], self.width), first_center(high[0], self.width));
+        let rows = (first_center(low[1], self.height), first_center(high[1], self.height));
+        (rows.0 < rows.1 && columns.0 < columns.1).then_some(rows)
+    }
+
+    /// Draws a polygon into the rows that [`Self::rows_of`] gave.
+    pub fn draw_rows(&mut self, points: &[[f64; 2]], rows: (usize, usize), plane: &PlaneOnScreen, face: u32) {
+        self.scan_edges(points);
+        self.dirty_rows = (self.dirty_rows.0.min(rows.0), self.dirty_rows.1.max(rows.1));
+        let pixels = rows.0 * self.width..rows.1 * self.width;
+        fill_rows(
+            self.level,
+            &mut self.inverse_depth[pixels.clone()],
+            &mut self.face[pixels],
+            self.width,
+            rows.0,
+            &mut self.left[rows.0..rows.1],
+            &mut self.right[rows.0..rows.1],
+            plane,
+            face,
+        );
     }
 
     /// Notes for every row where the polygon's edges cross its centre line.
@@ -168,31 +200,10 @@ impl Visibility {
             from = to;
         }
     }
-
-    fn fill_rows(&mut self, rows: (usize, usize), plane: &PlaneOnScreen, face: u32) {
-        self.dirty_rows = (self.dirty_rows.0.min(rows.0), self.dirty_rows.1.max(rows.1));
-        for row in rows.0..rows.1 {
-            let start = first_center(self.left[row], self.width);
-            let end = first_center(self.right[row], self.width);
-            self.left[row] = f64::INFINITY;
-            self.right[row] = f64::NEG_INFINITY;
-            if start < end {
-                let base = plane.constant + plane.down * (row as f64 + 0.5);
-                let span = row * self.width + start..row * self.width + end;
-                fill_span(
-                    &mut self.inverse_depth[span.clone()],
-                    &mut self.face[span],
-                    base + plane.across * (start as f64 + 0.5),
-                    plane.across,
-                    face,
-                );
-            }
-        }
-    }
 }
 
 /// Index of the first pixel whose centre is at or after the coordinate, within 0..=`limit`.
-#[inline]
+#[inline(always)]
 fn first_center(coordinate: f64, limit: usize) -> usize {
     // Casts saturate, and a NaN becomes 0.
     let shifted = coordinate - 0.5;
@@ -200,17 +211,85 @@ fn first_center(coordinate: f64, limit: usize) -> usize {
     (truncated + usize::from((truncated as f64) < shifted)).min(limit)
 }
 
-/// Writes one span. The base is taken anew every 64 pixels so that f32 steps never add up to an error that matters.
-#[inline]
-fn fill_span(inverse_depth: &mut [f32], faces: &mut [u32], start: f64, step: f64, face: u32) {
-    let step_f32 = step as f32;
-    for (block, (depths, ids)) in inverse_depth.chunks_mut(64).zip(faces.chunks_mut(64)).enumerate() {
-        let base = (start + step * (64 * block) as f64) as f32;
-        for (k, (depth, id)) in depths.iter_mut().zip(ids).enumerate() {
-            let candidate = base + step_f32 * (k as i32 as f32);
-            let nearer = candidate > *depth;
-            *depth = if nearer { candidate } else { *depth };
-            *id = if nearer { face } else { *id };
+/// Pixels that are compared at a time.
+const WIDE: usize = 16;
+
+/// A window that lets values through between two walls; slices of it close the ends of spans.
+const WINDOW: [f32; 3 * WIDE] = {
+    let mut window = [f32::NEG_INFINITY; 3 * WIDE];
+    let mut k = WIDE;
+    while k < 2 * WIDE {
+        window[k] = f32::INFINITY;
+        k += 1;
+    }
+    window
+};
+
+simd_kernel! {
+    /// Writes the spans between `left` and `right` of neighbouring rows, and forgets the spans.
+    #[expect(clippy::too_many_arguments, reason = "the parts of a buffer, apart so that compilers know that they are")]
+    fn fill_rows(
+        inverse_depth: &mut [f32],
+        faces: &mut [u32],
+        width: usize,
+        first_row: usize,
+        left: &mut [f64],
+        right: &mut [f64],
+        plane: &PlaneOnScreen,
+        face: u32,
+    ) {
+        let step = plane.across as f32;
+        let rows = inverse_depth.chunks_exact_mut(width).zip(faces.chunks_exact_mut(width));
+        for (row, ((depths, ids), (left, right))) in rows.zip(left.iter_mut().zip(right.iter_mut())).enumerate() {
+            let (start, end) = (first_center(*left, width), first_center(*right, width));
+            *left = f64::INFINITY;
+            *right = f64::NEG_INFINITY;
+            if start >= end {
+                continue;
+            }
+            let base = plane.constant + plane.down * (first_row.wrapping_add(row) as f64 + 0.5);
+            if width < WIDE {
+                for column in start..end {
+                    let candidate = (base + plane.across * (column as f64 + 0.5)) as f32;
+                    if candidate > depths[column] {
+                        (depths[column], ids[column]) = (candidate, face);
+                    }
+                }
+                continue;
+            }
+            // Whole blocks; the last of a row may begin earlier. Their first value is exact, so that steps in f32
+            // never add up to an error that matters.
+            let mut at = start;
+            while at < end {
+                let block = at.min(width.wrapping_sub(WIDE));
+                let value = (base + plane.across * (block as f64 + 0.5)) as f32;
+                // How far the span reaches into the block.
+                let from = start.max(block).wrapping_sub(block) & 15;
+                let to = end.wrapping_sub(block).min(WIDE);
+                let (open_from, open_to) = (&WINDOW[WIDE - from..], &WINDOW[2 * WIDE - to..]);
+                if let (Some(depths), Some(ids), Some(open_from), Some(open_to)) = (
+                    depths[block..].first_chunk_mut::<WIDE>(),
+                    ids[block..].first_chunk_mut::<WIDE>(),
+                    open_from.first_chunk::<WIDE>(),
+                    open_to.first_chunk::<WIDE>(),
+                ) {
+                    let mut candidates = [0.0f32; WIDE];
+                    for k in 0..WIDE {
+                        let candidate = value + step * (k as i32 as f32);
+                        let candidate = if candidate < open_from[k] { candidate } else { open_from[k] };
+                        candidates[k] = if candidate < open_to[k] { candidate } else { open_to[k] };
+                    }
+                    let (old_depths, old_ids) = (*depths, *ids);
+                    for k in 0..WIDE {
+                        let nearer = 0u32.wrapping_sub(u32::from(candidates[k] > old_depths[k]));
+                        ids[k] = (face & nearer) | (old_ids[k] & !nearer);
+                    }
+                    for k in 0..WIDE {
+                        depths[k] = if candidates[k] > old_depths[k] { candidates[k] } else { old_depths[k] };
+                    }
+                }
+                at = block.wrapping_add(WIDE);
+            }
         }
     }
 }

@@ -3,15 +3,15 @@
 use super::facade::{BoxFace, Facade, Roof, facade, roofs};
 use super::geometry::{FaceAxes, place};
 use super::ground::ground;
-use super::lanes::{BLOCKS, Block, LANES, WIDE};
+use super::lanes::{BLOCKS, Block, LANES, Stage, WIDE};
 use super::lighting::{self, Answers};
 use super::pattern::{NoiseTexture, Noises};
 use super::surface::Look;
 use super::things::{Thing, things};
 use super::vector::Vec3;
 use super::{Seen, Shader};
-use crate::passes::ids::for_each_run;
-use crate::renderer::{DrawnFace, FaceSource};
+use crate::passes::ids::{BAND_ROWS, Run};
+use crate::renderer::{DrawnFace, FaceSource, has_threads};
 use crate::scene::{BOX_FACES, SceneBox};
 use crate::visibility::NO_FACE;
 use cosfly_frames::simd_kernel;
@@ -19,8 +19,6 @@ use cosfly_maps::{ObstacleKind, SemanticLabel};
 use rayon::prelude::*;
 use std::sync::PoisonError;
 
-/// Rows of a band.
-const ROWS: usize = 24;
 /// Groups of pixels that are not of a single face: the sky, and ground by label.
 const SKY: usize = 63;
 const SHARED_GROUPS: usize = 64;
@@ -29,8 +27,9 @@ const END: u32 = u32::MAX;
 
 /// What one thread needs to shade bands.
 pub(crate) struct Worker {
+    stage: Box<Stage>,
     blocks: Box<[Block; BLOCKS]>,
-    runs: Vec<Run>,
+    runs: Vec<Link>,
     /// First run of each group; [`END`] between bands.
     first: Vec<u32>,
     /// Groups that have runs.
@@ -38,14 +37,10 @@ pub(crate) struct Worker {
     pieces: Vec<Piece>,
 }
 
-/// Neighbouring pixels of one face in a row.
+/// A run of pixels, and the next one of its group.
 #[derive(Clone, Copy)]
-struct Run {
-    /// From the start of the band, pixels.
-    start: u32,
-    length: u32,
-    face: u32,
-    /// The next one of the group.
+struct Link {
+    run: Run,
     next: u32,
 }
 
@@ -75,29 +70,52 @@ enum Material {
     Cloth(Vec3),
 }
 
-/// Shades all bands of a picture; on several threads where a pool of threads calls.
-pub(super) fn shade(shader: &Shader, seen: &Seen<'_>, picture: &mut [u32]) {
+/// Shades all bands of a picture, also as bytes; on several threads where a pool of threads calls.
+pub(super) fn shade(shader: &Shader, seen: &Seen<'_>, picture: &mut [u32], rgb: &mut [u8]) {
     let width = shader.screen.width;
     if width == 0 {
         return;
     }
-    let one = |(index, band): (usize, &mut [u32])| {
+    let one = |(index, ((band, rgb), runs)): (usize, ((&mut [u32], &mut [u8]), &Vec<Run>))| {
         let idle = || shader.idle.lock().unwrap_or_else(PoisonError::into_inner);
         let mut worker = idle().pop().unwrap_or_else(Worker::new);
-        let first_row = index * ROWS;
-        worker.shade(shader, seen, Band { first_row, first_pixel: first_row * width, width }, band);
+        let first_row = index * BAND_ROWS;
+        worker.shade(shader, seen, Band { first_row, first_pixel: first_row * width, width }, runs, band);
+        bytes(shader.level, band, rgb);
         idle().push(worker);
     };
-    if crate::renderer::has_threads() {
-        picture.par_chunks_mut(ROWS * width).enumerate().for_each(one);
+    let pixels = BAND_ROWS * width;
+    if has_threads() {
+        let bands = picture.par_chunks_mut(pixels).zip(rgb.par_chunks_mut(3 * pixels)).zip(seen.runs);
+        bands.enumerate().for_each(one);
     } else {
-        picture.chunks_mut(ROWS * width).enumerate().for_each(one);
+        picture.chunks_mut(pixels).zip(rgb.chunks_mut(3 * pixels)).zip(seen.runs).enumerate().for_each(one);
+    }
+}
+
+simd_kernel! {
+    /// Pixels in the low three bytes of numbers, as bytes.
+    fn bytes(pixels: &[u32], rgb: &mut [u8]) {
+        let (fours, rest) = pixels.as_chunks::<4>();
+        let (twelves, rest_rgb) = rgb.as_chunks_mut::<12>();
+        for (four, twelve) in fours.iter().zip(twelves) {
+            let [a, b, c, d] = *four;
+            let three = [a | b << 24, b >> 8 | c << 16, c >> 16 | d << 8];
+            let (out, _) = twelve.as_chunks_mut::<4>();
+            for (bytes, value) in out.iter_mut().zip(three) {
+                *bytes = value.to_le_bytes();
+            }
+        }
+        for (pixel, rgb) in rest.iter().zip(rest_rgb.chunks_exact_mut(3)) {
+            rgb.copy_from_slice(&pixel.to_le_bytes()[..3]);
+        }
     }
 }
 
 impl Worker {
     fn new() -> Self {
         Self {
+            stage: Box::new(Stage::EMPTY),
             blocks: Box::new([Block::EMPTY; BLOCKS]),
             runs: Vec::new(),
             first: Vec::new(),
@@ -106,8 +124,8 @@ impl Worker {
         }
     }
 
-    fn shade(&mut self, shader: &Shader, seen: &Seen<'_>, band: Band, picture: &mut [u32]) {
-        self.gather(seen, band, picture.len());
+    fn shade(&mut self, shader: &Shader, seen: &Seen<'_>, band: Band, runs: &[Run], picture: &mut [u32]) {
+        self.gather(seen, band, runs);
         for position in 0..self.present.len() {
             let group = self.present[position] as usize;
             self.shade_group(shader, seen, band, group, picture);
@@ -117,40 +135,49 @@ impl Worker {
         self.runs.clear();
     }
 
-    /// Lists the band's runs by group.
-    fn gather(&mut self, seen: &Seen<'_>, band: Band, pixels: usize) {
+    /// Lists the band's runs by group; neighbours in a row that are alike to the kernels become one.
+    fn gather(&mut self, seen: &Seen<'_>, band: Band, runs: &[Run]) {
         let groups = SHARED_GROUPS + seen.faces.len();
         if self.first.len() < groups {
             self.first.resize(groups, END);
         }
-        let (runs, first, present) = (&mut self.runs, &mut self.first, &mut self.present);
-        for start in (0..pixels).step_by(band.width) {
-            let row = band.first_pixel + start..band.first_pixel + start + band.width;
-            for_each_run(&seen.face[row], |run, face| {
-                let group = group_of(seen.faces, face);
-                let next = first[group];
-                if next == END {
-                    present.push(group as u32);
-                }
-                first[group] = runs.len() as u32;
-                runs.push(Run { start: (start + run.start) as u32, length: run.len() as u32, face, next });
-            });
+        let mut last_group = usize::MAX;
+        for run in runs {
+            let group = group_of(seen.faces, run.face);
+            if group == last_group
+                && group < SKY
+                && let Some(last) = self.runs.last_mut()
+                && !(run.start as usize).is_multiple_of(band.width)
+                && normal_of(seen, last.run.face) == normal_of(seen, run.face)
+            {
+                last.run.length += run.length;
+                continue;
+            }
+            last_group = group;
+            let next = self.first[group];
+            if next == END {
+                self.present.push(group as u32);
+            }
+            self.first[group] = self.runs.len() as u32;
+            self.runs.push(Link { run: *run, next });
         }
     }
 
     fn shade_group(&mut self, shader: &Shader, seen: &Seen<'_>, band: Band, group: usize, picture: &mut [u32]) {
         let mut next = self.first[group];
-        let first = self.runs[next as usize];
+        let first = self.runs[next as usize].run;
         let (material, axes) = material_of(shader, seen, first.face);
         let is_ground = group < SHARED_GROUPS;
         let mut lanes = 0;
         if !is_ground {
             let normal = normal_of(seen, first.face);
-            self.blocks.iter_mut().for_each(|block| block.normal = [normal.x, normal.y, normal.z].map(|n| [n; WIDE]));
+            for (row, value) in self.stage.normal.iter_mut().zip([normal.x, normal.y, normal.z]) {
+                row.fill(value);
+            }
         }
         while next != END {
-            let run = self.runs[next as usize];
-            next = run.next;
+            let Link { run, next: after } = self.runs[next as usize];
+            next = after;
             let (mut start, end) = (run.start as usize, (run.start + run.length) as usize);
             let normal = if is_ground { normal_of(seen, run.face) } else { Vec3::ZERO };
             while start < end {
@@ -171,42 +198,33 @@ impl Worker {
         }
     }
 
-    /// Puts a piece of a run into the blocks, sixteen pixels at a time where they meet a whole block.
+    /// Puts a piece of a run on the stage, sixteen pixels at a time: what is too much, the next piece writes over.
     #[inline]
     fn fill(&mut self, seen: &Seen<'_>, band: Band, piece: Piece, normal: Option<Vec3>) {
         let column = piece.start % band.width;
         let v = (band.first_row + piece.start / band.width) as f32 + 0.5;
         let u = column as f32 + 0.5;
-        let pixel = band.first_pixel + piece.start;
-        let depth_m = &seen.depth_m[pixel..pixel + piece.length];
-        let mut done = 0;
-        while done < piece.length {
-            let (block, lane) = ((piece.lane + done) / WIDE, (piece.lane + done) % WIDE);
-            let block = &mut self.blocks[block];
-            let length = (piece.length - done).min(WIDE - lane);
+        let depth_m = &seen.depth_m[band.first_pixel + piece.start..];
+        let stage = &mut *self.stage;
+        for done in (0..piece.length).step_by(WIDE) {
+            let lane = piece.lane + done;
+            let lanes = lane..lane + WIDE;
             let base = u + done as f32;
-            if let (0, Some(depths)) = (lane, depth_m.get(done..done + WIDE)) {
-                for k in 0..WIDE {
-                    block.u[k] = base + k as i32 as f32;
-                }
-                block.v = [v; WIDE];
-                block.depth_m.copy_from_slice(depths);
-                if let Some(normal) = normal {
-                    block.normal = [normal.x, normal.y, normal.z].map(|n| [n; WIDE]);
-                }
+            for (k, u) in stage.u[lanes.clone()].iter_mut().enumerate() {
+                *u = base + k as i32 as f32;
+            }
+            stage.v[lanes.clone()].fill(v);
+            if let Some(depths) = depth_m.get(done..done + WIDE) {
+                stage.depth_m[lanes.clone()].copy_from_slice(depths);
             } else {
-                for k in 0..length {
-                    block.u[lane + k] = base + k as i32 as f32;
-                    block.v[lane + k] = v;
-                    block.depth_m[lane + k] = depth_m[done + k];
-                }
-                if let Some(normal) = normal {
-                    for (row, value) in block.normal.iter_mut().zip([normal.x, normal.y, normal.z]) {
-                        row[lane..lane + length].fill(value);
-                    }
+                let rest = &depth_m[done..];
+                stage.depth_m[lane..lane + rest.len()].copy_from_slice(rest);
+            }
+            if let Some(normal) = normal {
+                for (row, value) in stage.normal.iter_mut().zip([normal.x, normal.y, normal.z]) {
+                    row[lanes.clone()].fill(value);
                 }
             }
-            done += length;
         }
     }
 
@@ -221,6 +239,7 @@ impl Worker {
         picture: &mut [u32],
     ) {
         let blocks = &mut self.blocks[..lanes.div_ceil(WIDE)];
+        self.stage.unload(blocks);
         run_kernels(shader, seen, material, axes, blocks);
         for piece in &self.pieces {
             let mut done = 0;
@@ -292,24 +311,19 @@ fn group_of(faces: &[DrawnFace], face: u32) -> usize {
 }
 
 /// Normal of a face, any side.
+#[inline]
 fn normal_of(seen: &Seen<'_>, face: u32) -> Vec3 {
-    let Some(face) = seen.faces.get(face as usize) else { return Vec3::ZERO };
-    match face.source {
-        FaceSource::Ground { cluster, triangle } => {
-            seen.scene.clusters[cluster as usize].triangles[usize::from(triangle)].normal_in_world.into()
-        }
-        FaceSource::Figure { triangle } => seen.figure[triangle as usize].normal_in_world.into(),
-        FaceSource::Box { index, face } => seen.scene.boxes[index as usize].normal_in_world(usize::from(face)).into(),
-    }
+    let [x, y, z] = seen.faces.get(face as usize).map_or([0.0; 3], |face| face.normal);
+    Vec3::new(x, y, z)
 }
 
 fn material_of(shader: &Shader, seen: &Seen<'_>, face: u32) -> (Material, FaceAxes) {
     let flat = FaceAxes { along: Vec3::new(1.0, 0.0, 0.0), up: Vec3::new(0.0, 1.0, 0.0) };
     let Some(face) = seen.faces.get(face as usize) else { return (Material::Sky, flat) };
     match face.source {
-        FaceSource::Ground { cluster, triangle } => {
-            let triangle = seen.scene.clusters[cluster as usize].triangles[usize::from(triangle)];
-            (Material::Ground(triangle.label), flat)
+        FaceSource::Ground { cluster, polygon } => {
+            let polygon = seen.scene.clusters[cluster as usize].polygons[usize::from(polygon)];
+            (Material::Ground(polygon.label), flat)
         }
         FaceSource::Figure { triangle } => {
             let region = seen.figure[triangle as usize].region;

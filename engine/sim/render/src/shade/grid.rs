@@ -187,10 +187,20 @@ impl LightGrid {
             sums[cell].1 += 1.0;
         };
         for cluster in clusters {
-            for triangle in &cluster.triangles {
-                let [a, b, c] = triangle.corners.map(|i| cluster.vertices_in_world[usize::from(i)]);
-                for point in [a, b, c, (a + b + c) / 3.0] {
-                    add(self.cell_of(point), point.z);
+            for polygon in &cluster.polygons {
+                let corners = &cluster.corners[polygon.range()];
+                let corner = |k: usize| cluster.points_in_world[usize::from(corners[k])];
+                for k in 2..corners.len() {
+                    let (a, ab, ac) = (corner(0), corner(k - 1) - corner(0), corner(k) - corner(0));
+                    let steps =
+                        (ab.length().max(ac.length()) * 0.7 * f64::from(self.cells_per_m)).clamp(1.0, 24.0) as u32;
+                    for i in 0..=steps {
+                        for j in 0..=steps - i {
+                            let [u, v] = [i, j].map(|n| f64::from(n) / f64::from(steps));
+                            let point = a + ab * u + ac * v;
+                            add(self.cell_of(point), point.z);
+                        }
+                    }
                 }
             }
         }

@@ -15,6 +15,41 @@ pub type Lane = [f32; WIDE];
 /// A point, direction or colour of sixteen pixels.
 pub type Lane3 = [Lane; 3];
 
+/// Pixels on their way into blocks. Room beyond the last lane lets sixteen be written at a time.
+pub struct Stage {
+    /// Pixel centre, from the left, pixels.
+    pub u: [f32; LANES + WIDE],
+    /// Pixel centre, from the top.
+    pub v: [f32; LANES + WIDE],
+    /// Planar depth, metres.
+    pub depth_m: [f32; LANES + WIDE],
+    /// Unit normal of the face, any side.
+    pub normal: [[f32; LANES + WIDE]; 3],
+}
+
+impl Stage {
+    /// All zero.
+    pub const EMPTY: Self = Self {
+        u: [0.0; LANES + WIDE],
+        v: [0.0; LANES + WIDE],
+        depth_m: [1.0; LANES + WIDE],
+        normal: [[0.0; LANES + WIDE]; 3],
+    };
+
+    /// Moves the first pixels into blocks.
+    #[inline]
+    pub fn unload(&self, blocks: &mut [Block]) {
+        let (u, v, depth_m) = (self.u.as_chunks().0, self.v.as_chunks().0, self.depth_m.as_chunks().0);
+        let normals = [&self.normal[0], &self.normal[1], &self.normal[2]].map(|lanes| lanes.as_chunks::<WIDE>().0);
+        for (b, block) in blocks.iter_mut().enumerate() {
+            block.u = u[b];
+            block.v = v[b];
+            block.depth_m = depth_m[b];
+            block.normal = normals.map(|lanes| lanes[b]);
+        }
+    }
+}
+
 /// Sixteen pixels of one material. Lanes that no pixel fills hold whatever they held.
 #[repr(align(64))]
 #[derive(Clone, Debug)]

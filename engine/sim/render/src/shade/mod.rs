@@ -23,6 +23,7 @@ pub mod vector;
 
 use crate::figure::{Clothes, FigureTriangle};
 use crate::frame::FrameImages;
+use crate::passes::ids::Run;
 use crate::renderer::{DrawnFace, Eye, FrameSetup};
 use crate::scene::Scene;
 use crate::visibility::Screen;
@@ -53,8 +54,8 @@ pub struct Shader {
 #[derive(Clone, Copy)]
 pub(crate) struct Seen<'a> {
     pub scene: &'a Scene,
-    /// Face number of each pixel.
-    pub face: &'a [u32],
+    /// Runs of the faces by band.
+    pub runs: &'a [Vec<Run>],
     pub faces: &'a [DrawnFace],
     pub figure: &'a [FigureTriangle],
     pub depth_m: &'a [f32],
@@ -101,9 +102,9 @@ impl Shader {
     }
 
     /// Shades the faces seen, without smoothing.
-    pub(crate) fn shade(&mut self, seen: &Seen<'_>) {
+    pub(crate) fn shade(&mut self, seen: &Seen<'_>, rgb: &mut [u8]) {
         let mut picture = core::mem::take(&mut self.picture);
-        bands::shade(self, seen, &mut picture);
+        bands::shade(self, seen, &mut picture, rgb);
         self.picture = picture;
     }
 
