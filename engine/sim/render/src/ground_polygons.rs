@@ -61,11 +61,14 @@ struct Polygon {
     label: SemanticLabel,
 }
 
+/// From one point to another, and the label.
+type Edge = ((u32, u32), u8);
+
 struct Mesh {
     points: Vec<DVec3>,
     polygons: Vec<Polygon>,
     /// Directed edges with their label and the polygon on their left, in order.
-    edges: Vec<((u32, u32), u8)>,
+    edges: Vec<Edge>,
     left_of: Vec<u32>,
 }
 
@@ -96,7 +99,7 @@ impl Mesh {
                 }
             }
         }
-        let mut edges: Vec<(((u32, u32), u8), u32)> = Vec::with_capacity(3 * polygons.len());
+        let mut edges: Vec<(Edge, u32)> = Vec::with_capacity(3 * polygons.len());
         for (number, polygon) in polygons.iter().enumerate() {
             let around = |k: usize| (polygon.corners[k], polygon.corners[(k + 1) % 3]);
             edges.extend((0..3).map(|k| ((around(k), polygon.label.id()), number as u32)));

@@ -123,8 +123,8 @@ simd_kernel! {
                     instance.get_mut(at..).and_then(|rest| rest.first_chunk_mut::<WIDE>()),
                     surface.get_mut(at..).and_then(|rest| rest.first_chunk_mut::<WIDE>()),
                 ) {
-                    for k in 0..WIDE {
-                        depth[k] = 1.0 / (value + step * (k as i32 as f32));
+                    for (k, depth) in depth.iter_mut().enumerate() {
+                        *depth = 1.0 / (value + step * (k as i32 as f32));
                     }
                     *semantic = [label; WIDE];
                     *instance = [id; WIDE];

@@ -70,13 +70,15 @@ enum Material {
     Cloth(Vec3),
 }
 
+type BandParts<'a> = ((&'a mut [u32], &'a mut [u8]), &'a Vec<Run>);
+
 /// Shades all bands of a picture, also as bytes; on several threads where a pool of threads calls.
 pub(super) fn shade(shader: &Shader, seen: &Seen<'_>, picture: &mut [u32], rgb: &mut [u8]) {
     let width = shader.screen.width;
     if width == 0 {
         return;
     }
-    let one = |(index, ((band, rgb), runs)): (usize, ((&mut [u32], &mut [u8]), &Vec<Run>))| {
+    let one = |(index, ((band, rgb), runs)): (usize, BandParts<'_>)| {
         let idle = || shader.idle.lock().unwrap_or_else(PoisonError::into_inner);
         let mut worker = idle().pop().unwrap_or_else(Worker::new);
         let first_row = index * BAND_ROWS;
@@ -214,8 +216,10 @@ impl Worker {
                 *u = base + k as i32 as f32;
             }
             stage.v[lanes.clone()].fill(v);
-            if let Some(depths) = depth_m.get(done..done + WIDE) {
-                stage.depth_m[lanes.clone()].copy_from_slice(depths);
+            if let (Some(depths), Some(out)) =
+                (depth_m[done..].first_chunk::<WIDE>(), stage.depth_m[lane..].first_chunk_mut::<WIDE>())
+            {
+                *out = *depths;
             } else {
                 let rest = &depth_m[done..];
                 stage.depth_m[lane..lane + rest.len()].copy_from_slice(rest);
