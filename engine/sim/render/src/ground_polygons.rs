@@ -5,9 +5,9 @@ use cosfly_maps::{SemanticLabel, Town};
 use std::collections::BTreeMap;
 
 /// How far a corner may lie off its polygon's plane, metres.
-const OFF_PLANE_M: f64 = 2.5e-4;
+const OFF_PLANE_M: f64 = 1e-3;
 /// How far a corner may lie inside the line through its neighbours, metres.
-const INSIDE_LINE_M: f64 = 2.5e-4;
+const INSIDE_LINE_M: f64 = 1e-3;
 /// Most corners of a joined polygon.
 const MAX_CORNERS: usize = 16;
 /// Rounds over all edges.

@@ -8,7 +8,7 @@ use crate::scene::{BOX_FACES, Cluster, Scene};
 use crate::shade::{Seen, Shader, smooth};
 use crate::stages::{Stages, Stopwatch};
 use crate::target_view;
-use crate::visibility::{MAX_CORNERS, NEAR_M, PlaneOnScreen, Screen, Visibility};
+use crate::visibility::{MAX_CORNERS, NEAR_M, Nearer, PlaneOnScreen, Screen, Visibility, bounds};
 use crate::weather::Weather;
 use cosfly_frames::simd::Level;
 use cosfly_frames::{DMat3, DVec3, Pose};
@@ -74,6 +74,7 @@ pub struct Renderer {
     images: FrameImages,
     nearest: Visibility,
     alone: Visibility,
+    nearer: Nearer,
     faces: Vec<DrawnFace>,
     visible: Vec<(u64, u32)>,
     /// A cluster's points in body axes and on the screen.
@@ -106,6 +107,7 @@ impl Renderer {
             },
             nearest: Visibility::new(screen.width, screen.height),
             alone: Visibility::new(screen.width, screen.height),
+            nearer: Nearer::new(),
             faces: Vec::new(),
             visible: Vec::new(),
             seen_points: Vec::new(),
@@ -274,11 +276,25 @@ impl Renderer {
             }
         }
         self.visible.sort_unstable();
+        self.nearer.measure(&self.nearest);
         for position in 0..self.visible.len() {
             let index = self.visible[position].1;
             let cluster = &scene.clusters[index as usize];
             self.draw_cluster(cluster, index, eye);
         }
+    }
+
+    /// Whether all of the seen points lie behind what is drawn.
+    fn is_hidden_cluster(&self) -> bool {
+        let nearest_m = self.seen_points.iter().map(|(seen, _)| seen.x).fold(f64::INFINITY, f64::min);
+        let (mut low, mut high) = ([f64::INFINITY; 2], [f64::NEG_INFINITY; 2]);
+        for (_, point) in &self.seen_points {
+            for k in 0..2 {
+                low[k] = low[k].min(point[k]);
+                high[k] = high[k].max(point[k]);
+            }
+        }
+        nearest_m >= NEAR_M && self.nearer.hides(low, high, 1.0 / nearest_m)
     }
 
     fn draw_cluster(&mut self, cluster: &Cluster, index: u32, eye: &Eye) {
@@ -289,6 +305,9 @@ impl Renderer {
             let scale = screen.focal_px / seen.x;
             (seen, [screen.center_u + seen.y * scale, screen.center_v - seen.z * scale])
         }));
+        if self.is_hidden_cluster() {
+            return;
+        }
         for (number, polygon) in cluster.polygons.iter().enumerate() {
             let mut corners = [DVec3::ZERO; MAX_CORNERS];
             let mut points = [[0.0; 2]; MAX_CORNERS];
@@ -300,8 +319,12 @@ impl Renderer {
                 nearest_m = nearest_m.min(corner.x);
             }
             let is_ahead = nearest_m >= NEAR_M;
-            let rows = if is_ahead { self.nearest.rows_of(&points[..count]) } else { Some((0, 0)) };
+            let (low, high) = bounds(&points[..count]);
+            let rows = if is_ahead { self.nearest.rows_between(low, high) } else { Some((0, 0)) };
             let Some(rows) = rows else { continue };
+            if is_ahead && self.nearer.hides(low, high, 1.0 / nearest_m) {
+                continue;
+            }
             let normal = eye.turn(polygon.normal_in_world);
             let Some(plane) = PlaneOnScreen::new(&screen, normal, eye.see(polygon.middle_in_world)) else { continue };
             let face = self.faces.len() as u32;

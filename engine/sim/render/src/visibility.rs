@@ -148,13 +148,13 @@ impl Visibility {
     /// Rows whose pixel centres a polygon may cover, first and one past the last; `None` when it covers none anywhere.
     #[inline]
     pub fn rows_of(&self, points: &[[f64; 2]]) -> Option<(usize, usize)> {
-        let (mut low, mut high) = ([f64::INFINITY; 2], [f64::NEG_INFINITY; 2]);
-        for point in points {
-            for k in 0..2 {
-                low[k] = if point[k] < low[k] { point[k] } else { low[k] };
-                high[k] = if point[k] > high[k] { point[k] } else { high[k] };
-            }
-        }
+        let (low, high) = bounds(points);
+        self.rows_between(low, high)
+    }
+
+    /// [`Self::rows_of`] what lies within bounds.
+    #[inline]
+    pub fn rows_between(&self, low: [f64; 2], high: [f64; 2]) -> Option<(usize, usize)> {
         if high[0] < 0.5 || low[0] > self.width as f64 || high[1] < 0.5 || low[1] > self.height as f64 {
             return None;
         }
@@ -202,13 +202,101 @@ impl Visibility {
     }
 }
 
+/// Lowest and highest coordinates of points.
+#[inline]
+pub fn bounds(points: &[[f64; 2]]) -> ([f64; 2], [f64; 2]) {
+    let (mut low, mut high) = ([f64::INFINITY; 2], [f64::NEG_INFINITY; 2]);
+    for point in points {
+        for k in 0..2 {
+            low[k] = if point[k] < low[k] { point[k] } else { low[k] };
+            high[k] = if point[k] > high[k] { point[k] } else { high[k] };
+        }
+    }
+    (low, high)
+}
+
 /// Index of the first pixel whose centre is at or after the coordinate, within 0..=`limit`.
 #[inline(always)]
 fn first_center(coordinate: f64, limit: usize) -> usize {
-    // Casts saturate, and a NaN becomes 0.
+    /// Adding it leaves the nearest whole number in the low bits.
+    const MAGIC: f64 = 6_755_399_441_055_744.0;
     let shifted = coordinate - 0.5;
-    let truncated = shifted as usize;
-    (truncated + usize::from((truncated as f64) < shifted)).min(limit)
+    // A NaN becomes 0.
+    let positive = if shifted > 0.0 { shifted } else { 0.0 };
+    let highest = limit as u32 as f64;
+    let inside = if positive < highest { positive } else { highest };
+    let nearest = inside + MAGIC;
+    (nearest.to_bits() as u32).wrapping_add(u32::from(nearest - MAGIC < inside)) as usize
+}
+
+/// Size of a tile of [`Nearer`], pixels.
+const TILE: [usize; 2] = [32, 8];
+
+/// What is drawn so far, coarsely: the least inverse depth in each tile. What is nowhere nearer is hidden.
+pub struct Nearer {
+    columns: usize,
+    least: Vec<f32>,
+}
+
+impl Nearer {
+    /// For images of any size.
+    pub fn new() -> Self {
+        Self { columns: 0, least: Vec::new() }
+    }
+
+    /// Takes over what is drawn.
+    pub fn measure(&mut self, drawn: &Visibility) {
+        self.columns = drawn.width.div_ceil(TILE[0]);
+        self.least.clear();
+        self.least.resize(self.columns * drawn.height.div_ceil(TILE[1]), f32::INFINITY);
+        if drawn.width > 0 {
+            measure(drawn.level, &drawn.inverse_depth, drawn.width, &mut self.least);
+        }
+    }
+
+    /// Whether all pixels between the coordinates hold something nearer than an inverse depth.
+    pub fn hides(&self, low: [f64; 2], high: [f64; 2], inverse_depth: f64) -> bool {
+        if self.columns == 0 {
+            return false;
+        }
+        let rows = self.least.len() / self.columns;
+        let tile = |at: f64, k: usize, count: usize| ((at.max(0.0) as usize) / TILE[k]).min(count - 1);
+        let columns = tile(low[0] - 1.0, 0, self.columns)..=tile(high[0] + 1.0, 0, self.columns);
+        // A margin for rounding and for the bias of road marks.
+        let limit = (inverse_depth * 1.000_02) as f32;
+        (tile(low[1] - 1.0, 1, rows)..=tile(high[1] + 1.0, 1, rows)).all(|row| {
+            let tiles = &self.least[row * self.columns..(row + 1) * self.columns];
+            tiles[columns.clone()].iter().all(|least| *least > limit)
+        })
+    }
+}
+
+simd_kernel! {
+    fn measure(inverse_depth: &[f32], width: usize, least: &mut [f32]) {
+        let columns = width.div_ceil(TILE[0]);
+        for (band, least) in inverse_depth.chunks(width.wrapping_mul(TILE[1])).zip(least.chunks_exact_mut(columns)) {
+            for row in band.chunks_exact(width) {
+                for (tile, least) in row.chunks(TILE[0]).zip(least.iter_mut()) {
+                    let mut halves = [*least; 16];
+                    let (whole, rest) = tile.as_chunks::<16>();
+                    for sixteen in whole {
+                        for k in 0..16 {
+                            halves[k] = if sixteen[k] < halves[k] { sixteen[k] } else { halves[k] };
+                        }
+                    }
+                    let mut count = 8;
+                    while count > 0 {
+                        for k in 0..count {
+                            let other = halves[k + count];
+                            halves[k] = if other < halves[k] { other } else { halves[k] };
+                        }
+                        count /= 2;
+                    }
+                    *least = rest.iter().fold(halves[0], |a, b| if *b < a { *b } else { a });
+                }
+            }
+        }
+    }
 }
 
 /// Pixels that are compared at a time.

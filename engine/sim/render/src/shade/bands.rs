@@ -29,6 +29,8 @@ const END: u32 = u32::MAX;
 pub(crate) struct Worker {
     stage: Box<Stage>,
     blocks: Box<[Block; BLOCKS]>,
+    /// Bytes of the blocks' pixels, in a row.
+    developed: Box<[u32; LANES + WIDE]>,
     runs: Vec<Link>,
     /// First run of each group; [`END`] between bands.
     first: Vec<u32>,
@@ -119,6 +121,7 @@ impl Worker {
         Self {
             stage: Box::new(Stage::EMPTY),
             blocks: Box::new([Block::EMPTY; BLOCKS]),
+            developed: Box::new([0; LANES + WIDE]),
             runs: Vec::new(),
             first: Vec::new(),
             present: Vec::new(),
@@ -245,24 +248,41 @@ impl Worker {
         let blocks = &mut self.blocks[..lanes.div_ceil(WIDE)];
         self.stage.unload(blocks);
         run_kernels(shader, seen, material, axes, blocks);
-        for piece in &self.pieces {
-            let mut done = 0;
-            while done < piece.length {
-                let (block, lane) = ((piece.lane + done) / WIDE, (piece.lane + done) % WIDE);
-                let length = (piece.length - done).min(WIDE - lane);
-                let bytes = &self.blocks[block].bytes[lane..lane + length];
-                let out = &mut picture[piece.start + done..piece.start + done + length];
-                if let (Some(out), Some(bytes)) = (out.first_chunk_mut::<WIDE>(), bytes.first_chunk::<WIDE>()) {
-                    *out = *bytes;
-                } else {
-                    for (out, byte) in out.iter_mut().zip(bytes) {
-                        *out = *byte;
+        for (out, block) in self.developed.as_chunks_mut::<WIDE>().0.iter_mut().zip(blocks.iter()) {
+            *out = block.bytes;
+        }
+        put_back(shader.level, &self.pieces, &self.developed, picture);
+        self.pieces.clear();
+    }
+}
+
+simd_kernel! {
+    /// Copies lanes to where their pieces lie in the picture.
+    fn put_back(pieces: &[Piece], developed: &[u32; LANES + WIDE], picture: &mut [u32]) {
+        for piece in pieces {
+            for done in (0..piece.length).step_by(WIDE) {
+                let (lane, at) = (piece.lane.wrapping_add(done), piece.start.wrapping_add(done));
+                let left = piece.length.wrapping_sub(done);
+                if let (Some(lanes), Some(out)) = (
+                    developed.get(lane..).and_then(|rest| rest.first_chunk::<WIDE>()),
+                    picture.get_mut(at..).and_then(|rest| rest.first_chunk_mut::<WIDE>()),
+                ) {
+                    if left >= WIDE {
+                        *out = *lanes;
+                    } else {
+                        let old = *out;
+                        for k in 0..WIDE {
+                            let taken = 0u32.wrapping_sub(u32::from((k as u32) < left as u32));
+                            out[k] = (lanes[k] & taken) | (old[k] & !taken);
+                        }
+                    }
+                } else if let Some(out) = picture.get_mut(at..at.wrapping_add(left)) {
+                    for (out, lane) in out.iter_mut().zip(&developed[lane..]) {
+                        *out = *lane;
                     }
                 }
-                done += length;
             }
         }
-        self.pieces.clear();
     }
 }
 
