@@ -11,6 +11,7 @@ pub mod config;
 pub mod figure;
 pub mod frame;
 mod ground_polygons;
+pub mod outside;
 mod passes;
 pub mod presets;
 pub mod preview;

@@ -70,12 +70,12 @@ pub enum FrameParts {
 /// Draws frames with one camera. Owns every buffer; keep one per thread.
 pub struct Renderer {
     camera: Camera,
-    screen: Screen,
+    pub(crate) screen: Screen,
     images: FrameImages,
-    nearest: Visibility,
+    pub(crate) nearest: Visibility,
     alone: Visibility,
     nearer: Nearer,
-    faces: Vec<DrawnFace>,
+    pub(crate) faces: Vec<DrawnFace>,
     visible: Vec<(u64, u32)>,
     /// A cluster's points in body axes and on the screen.
     seen_points: Vec<(DVec3, [f64; 2])>,
@@ -142,7 +142,7 @@ impl Renderer {
 
     /// Draws a frame up to a stage; channels of later stages keep what they held. For measuring.
     pub fn render_parts(&mut self, scene: &Scene, setup: &FrameSetup<'_>, parts: FrameParts) -> RenderedFrame<'_> {
-        self.draw(scene, setup, parts, &mut Stopwatch::new(None));
+        self.draw(scene, setup, parts, None, &mut Stopwatch::new(None));
         self.finished()
     }
 
@@ -154,15 +154,30 @@ impl Renderer {
         now: &dyn Fn() -> u64,
     ) -> (RenderedFrame<'_>, Stages) {
         let mut watch = Stopwatch::new(Some(now));
-        self.draw(scene, setup, FrameParts::All, &mut watch);
+        self.draw(scene, setup, FrameParts::All, None, &mut watch);
         (self.finished(), watch.stages())
+    }
+
+    /// Draws all channels of one frame, given which of [`Scene::faces`] is nearest at each pixel centre
+    /// ([`crate::outside::NO_FACE`] for none), without the target, which is drawn here. Numbers beyond the last face
+    /// count as none.
+    pub fn render_found(&mut self, scene: &Scene, setup: &FrameSetup<'_>, nearest: &[u32]) -> RenderedFrame<'_> {
+        self.draw(scene, setup, FrameParts::All, Some(nearest), &mut Stopwatch::new(None));
+        self.finished()
     }
 
     fn finished(&self) -> RenderedFrame<'_> {
         RenderedFrame { images: &self.images, target_view: self.view, target_pixels: &self.covered }
     }
 
-    fn draw(&mut self, scene: &Scene, setup: &FrameSetup<'_>, parts: FrameParts, watch: &mut Stopwatch<'_>) {
+    fn draw(
+        &mut self,
+        scene: &Scene,
+        setup: &FrameSetup<'_>,
+        parts: FrameParts,
+        found: Option<&[u32]>,
+        watch: &mut Stopwatch<'_>,
+    ) {
         let eye = Eye::new(&setup.pose);
         self.nearest.clear();
         self.alone.clear();
@@ -172,10 +187,15 @@ impl Renderer {
         if let Some(target) = &setup.target {
             figure(target, &mut self.figure);
         }
-        self.draw_boxes(scene, &eye);
+        match found {
+            Some(nearest) => self.adopt(scene, &eye, nearest),
+            None => self.draw_boxes(scene, &eye),
+        }
         self.draw_figure(&eye);
         watch.lap(0);
-        self.draw_ground(scene, &eye);
+        if found.is_none() {
+            self.draw_ground(scene, &eye);
+        }
         watch.lap(1);
         self.view = target_view::NOT_IN_VIEW;
         if parts != FrameParts::Visibility {
@@ -376,13 +396,13 @@ impl Eye {
 
     /// A world point in body axes.
     #[inline]
-    fn see(&self, point_in_world: DVec3) -> DVec3 {
+    pub fn see(&self, point_in_world: DVec3) -> DVec3 {
         self.body_from_world * (point_in_world - self.position_in_world)
     }
 
     /// A world direction in body axes.
     #[inline]
-    fn turn(&self, direction_in_world: DVec3) -> DVec3 {
+    pub fn turn(&self, direction_in_world: DVec3) -> DVec3 {
         self.body_from_world * direction_in_world
     }
 

@@ -121,6 +121,14 @@ impl Visibility {
         (self.dirty_rows.0, self.dirty_rows.1.max(self.dirty_rows.0))
     }
 
+    /// Sets pixels of a row to a face that was found elsewhere.
+    pub fn adopt_run(&mut self, row: usize, pixels: std::ops::Range<usize>, plane: &PlaneOnScreen, face: u32) {
+        self.dirty_rows = (self.dirty_rows.0.min(row), self.dirty_rows.1.max(row + 1));
+        let start = plane.constant + plane.down * (row as f64 + 0.5) + plane.across * (pixels.start as f64 + 0.5);
+        let span = row * self.width + pixels.start..row * self.width + pixels.end;
+        fill_span(&mut self.inverse_depth[span.clone()], &mut self.face[span], start, plane.across, face);
+    }
+
     /// Draws a flat convex polygon given by its corners in the camera's body axes (x ahead, y right, z up, metres).
     /// `bias` lifts its inverse depth by that share in the comparison only (coplanar road marks win over the road).
     /// Edges are computed from their lower end, so polygons that share an edge share its pixels without gap or overlap.

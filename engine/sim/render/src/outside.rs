@@ -1,0 +1,100 @@
+//! Frames whose nearest static faces were found elsewhere, such as on a graphics card: everything after visibility is ours.
+
+use crate::renderer::{DrawnFace, Eye, FaceSource, Renderer};
+use crate::scene::{BOX_FACES, Scene};
+use crate::visibility::PlaneOnScreen;
+use cosfly_frames::DVec3;
+
+pub use crate::visibility::NO_FACE;
+
+/// A static face: numbered by its place in [`Scene::faces`].
+#[derive(Clone, Debug, PartialEq)]
+pub struct SceneFace {
+    /// A flat convex polygon, metres. Neighbours share corners exactly.
+    pub corners_in_world: Vec<DVec3>,
+    /// Set for the faces of boxes, which are seen from outside only.
+    pub outward_in_world: Option<DVec3>,
+    /// CARLA label id.
+    pub label: u8,
+}
+
+impl Scene {
+    /// Tells the scenes of one process apart.
+    pub fn identity(&self) -> u64 {
+        self.identity
+    }
+
+    /// All faces but the target's: six of each box, then the ground's.
+    pub fn faces(&self) -> Vec<SceneFace> {
+        let mut faces = Vec::new();
+        for b in &self.boxes {
+            faces.extend(BOX_FACES.iter().enumerate().map(|(face, (_, _, around))| SceneFace {
+                corners_in_world: around.map(|corner| b.corners_in_world[corner]).to_vec(),
+                outward_in_world: Some(b.normal_in_world(face)),
+                label: b.label,
+            }));
+        }
+        for cluster in &self.clusters {
+            faces.extend(cluster.polygons.iter().map(|polygon| {
+                let corners = cluster.corners[polygon.range()].iter();
+                SceneFace {
+                    corners_in_world: corners.map(|corner| cluster.points_in_world[usize::from(*corner)]).collect(),
+                    outward_in_world: None,
+                    label: polygon.label.id(),
+                }
+            }));
+        }
+        faces
+    }
+}
+
+impl Renderer {
+    /// Takes over the faces found, numbers as in [`Scene::faces`].
+    pub(crate) fn adopt(&mut self, scene: &Scene, eye: &Eye, nearest: &[u32]) {
+        let mut count = BOX_FACES.len() * scene.boxes.len();
+        let mut ends = Vec::with_capacity(scene.clusters.len());
+        for cluster in &scene.clusters {
+            count += cluster.polygons.len();
+            ends.push(count);
+        }
+        let mut numbers = vec![NO_FACE; count];
+        let (width, height) = (self.screen.width, self.screen.height);
+        for (row, line) in nearest.chunks_exact(width).take(height).enumerate() {
+            let mut start = 0;
+            for run in line.chunk_by(|a, b| a == b) {
+                let pixels = start..start + run.len();
+                start = pixels.end;
+                let found = run[0] as usize;
+                let Some(number) = numbers.get_mut(found) else { continue };
+                if *number == NO_FACE {
+                    let Some(face) = self.face_of(scene, eye, found, &ends) else { continue };
+                    *number = self.faces.len() as u32;
+                    self.faces.push(face);
+                }
+                let plane = self.faces[*number as usize].plane;
+                self.nearest.adopt_run(row, pixels, &plane, *number);
+            }
+        }
+    }
+
+    /// What drawing a face here would have noted of it.
+    fn face_of(&self, scene: &Scene, eye: &Eye, found: usize, ends: &[usize]) -> Option<DrawnFace> {
+        let plane = |normal, point| PlaneOnScreen::new(&self.screen, eye.turn(normal), eye.see(point));
+        if let Some(b) = scene.boxes.get(found / BOX_FACES.len()) {
+            let (index, face) = ((found / BOX_FACES.len()) as u32, found % BOX_FACES.len());
+            let normal = b.normal_in_world(face);
+            let plane = plane(normal, b.corners_in_world[BOX_FACES[face].2[0]])?;
+            let source = FaceSource::Box { index, face: face as u8 };
+            let normal = normal.as_vec3().to_array();
+            return Some(DrawnFace { plane, normal, source, label: b.label, instance: b.instance });
+        }
+        let index = ends.partition_point(|end| *end <= found);
+        let cluster = scene.clusters.get(index)?;
+        let number = found - (ends[index] - cluster.polygons.len());
+        let polygon = &cluster.polygons[number];
+        let plane = plane(polygon.normal_in_world, polygon.middle_in_world)?;
+        let source = FaceSource::Ground { cluster: index as u32, polygon: number as u16 };
+        let normal = polygon.normal_in_world.as_vec3().to_array();
+        Some(DrawnFace { plane, normal, source, label: polygon.label.id(), instance: 0 })
+    }
+}
