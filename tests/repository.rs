@@ -64,6 +64,7 @@ fn heavy_crates_stay_in_their_one_room() {
         ("indicatif", "cosfly"),
         ("roxmltree", "cosfly-maps"),
         ("obvhs", "cosfly-bench"),
+        ("wgpu", "cosfly-gpu"),
         ("parry3d", "cosfly-bench"),
     ]);
     for (name, (_, dependencies)) in packages() {

@@ -7,6 +7,7 @@ use cosfly_render::{Backend, BackendError, BackendKind, Camera, Renderer};
 pub fn check(kind: BackendKind) -> Result<(), BackendError> {
     match kind {
         BackendKind::Cpu => Ok(()),
+        BackendKind::Gpu if cfg!(feature = "gpu") => Ok(()),
         BackendKind::Gpu => Err(BackendError {
             message: "`backend` is `gpu`, but this cosfly was built without it".into(),
             hint: "build it with `cargo build --release -p cosfly --features gpu`, or leave `backend` out".into(),
@@ -23,6 +24,10 @@ pub fn check(kind: BackendKind) -> Result<(), BackendError> {
 /// A backend of this kind for one camera.
 pub fn open(kind: BackendKind, camera: Camera) -> Result<Box<dyn Backend>, BackendError> {
     check(kind)?;
+    #[cfg(feature = "gpu")]
+    if kind == BackendKind::Gpu {
+        return Ok(Box::new(cosfly_gpu::GpuBackend::new(camera)?));
+    }
     Ok(Box::new(Renderer::new(camera)))
 }
 
@@ -39,7 +44,9 @@ mod tests {
     #[test]
     fn backends_that_are_not_built_in_say_how_to_get_them() {
         check(BackendKind::Cpu).unwrap();
-        assert!(check(BackendKind::Gpu).unwrap_err().hint.contains("--features gpu"));
+        if !cfg!(feature = "gpu") {
+            assert!(check(BackendKind::Gpu).unwrap_err().hint.contains("--features gpu"));
+        }
         assert!(check(BackendKind::Carla).unwrap_err().hint.contains("carla-job"));
     }
 }
