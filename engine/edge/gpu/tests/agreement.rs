@@ -85,7 +85,7 @@ fn compare(cpu: (&FrameImages, TargetView), gpu: (&FrameImages, TargetView), wha
         "{what}: {:.1} % off edges, all ids equal there; {ids:.3} % of all ids differ; depth within {worst} m; colours {colours:.4} of 255 apart",
         differ(inside)
     );
-    assert!(differ(inside) > 40.0 && ids < 0.1 && colours < 0.5, "{what}");
+    assert!(differ(inside) > 40.0 && ids < 0.1 && colours < 0.1, "{what}");
     assert!((view.visible_by_pixels - other.visible_by_pixels).abs() < 0.05, "{what}: {view:?} {other:?}");
 }
 

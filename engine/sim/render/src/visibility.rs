@@ -126,7 +126,10 @@ impl Visibility {
         self.dirty_rows = (self.dirty_rows.0.min(row), self.dirty_rows.1.max(row + 1));
         let start = plane.constant + plane.down * (row as f64 + 0.5) + plane.across * (pixels.start as f64 + 0.5);
         let span = row * self.width + pixels.start..row * self.width + pixels.end;
-        fill_span(&mut self.inverse_depth[span.clone()], &mut self.face[span], start, plane.across, face);
+        for (k, depth) in self.inverse_depth[span.clone()].iter_mut().enumerate() {
+            *depth = (start + plane.across * k as f64) as f32;
+        }
+        self.face[span].fill(face);
     }
 
     /// Draws a flat convex polygon given by its corners in the camera's body axes (x ahead, y right, z up, metres).
