@@ -48,6 +48,8 @@ pub struct FigureTriangle {
     pub corners_in_world: [DVec3; 3],
     /// Away from the part's inside, unit length.
     pub normal_in_world: DVec3,
+    /// The ends of its part's middle line: the part is round around it.
+    pub middle_in_world: [DVec3; 2],
     /// What it is made of.
     pub region: Region,
 }
@@ -66,6 +68,8 @@ pub struct Clothes {
     pub colours: [[f32; 3]; 6],
     /// Wears a backpack.
     pub backpack: bool,
+    /// Bare forearms.
+    pub short_sleeves: bool,
     /// Width of the trunk relative to the usual.
     pub build: f64,
 }
@@ -109,7 +113,8 @@ impl Clothes {
         let bag = TOPS[(top_index + 1 + stream.index(TOPS.len() - 1)) % TOPS.len()].map(|c| 0.5 * c);
         let backpack = stream.chance(0.35);
         let build = stream.uniform(0.92, 1.12);
-        Self { colours: [skin, hair, TOPS[top_index], trousers, shoes, bag], backpack, build }
+        let short_sleeves = stream.chance(0.45);
+        Self { colours: [skin, hair, TOPS[top_index], trousers, shoes, bag], backpack, short_sleeves, build }
     }
 }
 
@@ -126,6 +131,7 @@ pub fn figure(target: &TargetSetup, triangles: &mut Vec<FigureTriangle>) {
         forward: DVec3::new(cos, sin, 0.0),
         right: DVec3::new(-sin, cos, 0.0),
         height: target.height_m,
+        forearm: if clothes.short_sleeves { Region::Skin } else { Region::Top },
         width: clothes.build * (target.radius_m / (0.15 * target.height_m)).clamp(0.8, 1.25),
         triangles,
     };
@@ -138,8 +144,10 @@ pub fn figure(target: &TargetSetup, triangles: &mut Vec<FigureTriangle>) {
     // Bent legs are shorter: the whole body sinks until a foot stands on the ground.
     let lowest = triangles.iter().flat_map(|t| t.corners_in_world).map(|p| p.z).fold(f64::INFINITY, f64::min);
     let sink = target.state.feet_in_world.z - lowest;
-    for corner in triangles.iter_mut().flat_map(|t| &mut t.corners_in_world) {
-        corner.z += sink;
+    for triangle in triangles.iter_mut() {
+        for point in triangle.corners_in_world.iter_mut().chain(&mut triangle.middle_in_world) {
+            point.z += sink;
+        }
     }
 }
 
@@ -163,6 +171,7 @@ struct Body<'a> {
     right: DVec3,
     height: f64,
     width: f64,
+    forearm: Region,
     triangles: &'a mut Vec<FigureTriangle>,
 }
 
@@ -222,7 +231,7 @@ impl Body<'_> {
         self.part(ring(elbow.0, out, elbow.1, 0.025, 0.028), ring(shoulder.0, right, 0.79, 0.031, 0.038), Region::Top);
         let tip = right - side * 0.016;
         self.part(ring(shoulder.0, right, 0.785, 0.031, 0.038), ring(0.0, tip, 0.832, 0.016, 0.022), Region::Top);
-        self.part(ring(wrist.0, far, wrist.1, 0.022, 0.023), ring(elbow.0, out, elbow.1, 0.027, 0.029), Region::Top);
+        self.part(ring(wrist.0, far, wrist.1, 0.022, 0.023), ring(elbow.0, out, elbow.1, 0.027, 0.029), self.forearm);
         self.part(ring(hand.0, far, hand.1, 0.014, 0.021), ring(wrist.0, far, wrist.1, 0.019, 0.021), Region::Skin);
     }
 
@@ -241,7 +250,8 @@ impl Body<'_> {
             self.feet
                 + self.height * (self.forward * ring.forward + self.right * ring.right + DVec3::Z * ring.up.max(0.0))
         };
-        let inside = 0.5 * (center(&low) + center(&high));
+        let middle_in_world = [center(&low), center(&high)];
+        let inside = 0.5 * (middle_in_world[0] + middle_in_world[1]);
         let mut faces = [[DVec3::ZERO; 3]; 4 * SIDES];
         for k in 0..SIDES {
             let (a, b) = (corner(&low, k), corner(&low, k + 1));
@@ -256,7 +266,12 @@ impl Body<'_> {
             let normal = (b - a).cross(c - a).normalize_or_zero();
             let outward = if normal.dot(a - inside) < 0.0 { -normal } else { normal };
             if outward != DVec3::ZERO {
-                self.triangles.push(FigureTriangle { corners_in_world, normal_in_world: outward, region });
+                self.triangles.push(FigureTriangle {
+                    corners_in_world,
+                    normal_in_world: outward,
+                    middle_in_world,
+                    region,
+                });
             }
         }
     }

@@ -3,11 +3,11 @@
 use super::facade::{BoxFace, Facade, Roof, facade, roofs};
 use super::geometry::{FaceAxes, place};
 use super::ground::ground;
-use super::lanes::{BLOCKS, Block, LANES, Stage, WIDE};
+use super::lanes::{BLOCKS, Block, LANES, Stage, WIDE, get};
 use super::lighting::{self, Answers};
-use super::pattern::{NoiseTexture, Noises};
+use super::pattern::{NoiseTexture, Noises, share};
 use super::surface::Look;
-use super::things::{Thing, things};
+use super::things::{Thing, swell, things};
 use super::vector::Vec3;
 use super::{Seen, Shader};
 use crate::passes::ids::{BAND_ROWS, Run};
@@ -69,7 +69,7 @@ enum Material {
     Facade(Facade, BoxFace),
     Roof(Roof),
     Thing(Thing),
-    Cloth(Vec3),
+    Cloth(Cloth),
 }
 
 type BandParts<'a> = ((&'a mut [u32], &'a mut [u8]), &'a Vec<Run>);
@@ -295,7 +295,15 @@ fn run_kernels(shader: &Shader, seen: &Seen<'_>, material: &Material, axes: &Fac
     }
     let grid = &seen.scene.grid;
     place(level, blocks, &shader.view, axes, grid.tables(), &grid.frame(), light);
+    if let Material::Thing(thing) = material
+        && matches!(thing.kind, ObstacleKind::TreeCrown | ObstacleKind::Bush)
+    {
+        swell(level, blocks, thing, shader.view.position);
+    }
     shader.shadows.sunlight(level, blocks, noise);
+    if let (Material::Ground(_), Some((feet, radius_m))) = (material, shader.feet) {
+        contact(level, blocks, feet, radius_m);
+    }
     let answers = material.answers();
     match material {
         Material::Sky => {}
@@ -303,7 +311,7 @@ fn run_kernels(shader: &Shader, seen: &Seen<'_>, material: &Material, axes: &Fac
         Material::Facade(look, face) => facade(level, blocks, look, face, light.night, noise),
         Material::Roof(roof) => roofs(level, blocks, roof, noise),
         Material::Thing(thing) => things(level, blocks, thing, noise),
-        Material::Cloth(colour) => cloth(level, blocks, *colour, noise),
+        Material::Cloth(look) => cloth(level, blocks, look, noise),
     }
     let is_wet = answers.wettable && light.wet > 0.0;
     if is_wet {
@@ -350,9 +358,10 @@ fn material_of(shader: &Shader, seen: &Seen<'_>, face: u32) -> (Material, FaceAx
             (Material::Ground(polygon.label), flat)
         }
         FaceSource::Figure { triangle } => {
-            let region = seen.figure[triangle as usize].region;
-            let [r, g, b] = shader.clothes.map_or([0.5; 3], |clothes| clothes.colours[region as usize]);
-            (Material::Cloth(Vec3::new(r, g, b)), flat)
+            let part = &seen.figure[triangle as usize];
+            let [r, g, b] = shader.clothes.map_or([0.5; 3], |clothes| clothes.colours[part.region as usize]);
+            let [from, to] = part.middle_in_world.map(Vec3::from);
+            (Material::Cloth(Cloth { colour: Vec3::new(r, g, b), from, along: to - from }), flat)
         }
         FaceSource::Box { index, face } => {
             box_material(&seen.scene.boxes[index as usize], usize::from(face), shader.light.night)
@@ -403,14 +412,52 @@ impl Material {
     }
 }
 
+/// A part of a figure.
+#[derive(Clone, Copy, Debug)]
+struct Cloth {
+    colour: Vec3,
+    /// Its middle line.
+    from: Vec3,
+    along: Vec3,
+}
+
 simd_kernel! {
-    /// Clothes, skin and hair.
-    fn cloth(blocks: &mut [Block], colour: Vec3, noise: &NoiseTexture) {
+    /// Clothes, skin and hair, round around the part's middle line.
+    fn cloth(blocks: &mut [Block], look: &Cloth, noise: &NoiseTexture) {
+        let Cloth { colour, from, along } = *look;
+        let per_length2 = 1.0 / (along.dot(along) + 1e-9);
         for block in blocks.iter_mut() {
             for k in 0..WIDE {
                 let point = block.point(k);
                 let weave = noise.grain(point.world.x * 40.0, point.world.z * 40.0, point.footprint_m * 40.0);
-                block.put(k, &Look::matt(colour * (0.85 + 0.3 * weave), point.normal));
+                let fold = noise.clumps(point.world.x * 55.0, point.world.z * 35.0, point.footprint_m * 45.0);
+                let away = point.world - from;
+                let round = (away - along * share(away.dot(along) * per_length2)).unit();
+                let normal = (round + point.normal * 0.4).unit();
+                block.put(k, &Look::matt(colour * (0.62 + 0.25 * weave + 0.5 * fold), normal));
+            }
+        }
+    }
+}
+
+simd_kernel! {
+    /// Less sky where something stands on the ground: around `feet`, `radius_m` wide.
+    fn contact(blocks: &mut [Block], feet: Vec3, radius_m: f32) {
+        let per_radius2 = 1.0 / (radius_m * radius_m);
+        for block in blocks.iter_mut() {
+            let mut near = 0u32;
+            for k in 0..WIDE {
+                let away = get(&block.world, k) - feet;
+                near |= u32::from(away.dot(away) * per_radius2 < 9.0);
+            }
+            if near != 0 {
+                for k in 0..WIDE {
+                    let away = get(&block.world, k) - feet;
+                    let shade = share(1.0 - away.dot(away) * per_radius2 * (1.0 / 9.0));
+                    let kept = 1.0 - 0.55 * shade * shade * shade;
+                    block.sky[k] *= kept;
+                    block.lamps[k] *= kept;
+                }
             }
         }
     }

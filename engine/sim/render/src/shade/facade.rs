@@ -150,7 +150,7 @@ impl Facade {
             let one = one_if(lit < 0.30) * (0.12 + 1.3 * lit);
             let strength = one + (0.09 - one) * mean;
             let warm = Vec3::new(1.0, 0.62, 0.26).lerp(Vec3::new(0.80, 0.85, 0.95), unit(hash(cell, 9)) * 0.45);
-            look.emission = warm * (strength * share * 0.22 * night);
+            look.emission = warm * (strength * share * 0.34 * night);
         }
     }
 

@@ -267,10 +267,10 @@ impl LightGrid {
                 for x in column.saturating_sub(radius)..(column + radius + 1).min(self.columns) {
                     let (dx, dy) = (x as f32 - column as f32, y as f32 - row as f32);
                     let far = (dx * dx + dy * dy) / (self.cells_per_m * self.cells_per_m);
-                    let height = 6.0f32;
+                    let height = 5.5f32;
                     let fall = height * height / (height * height + far);
                     let edge = (1.0 - far / 484.0).max(0.0);
-                    self.cells[y * self.columns + x].lamps += fall * fall.sqrt() * edge;
+                    self.cells[y * self.columns + x].lamps += fall * fall * edge;
                 }
             }
         }

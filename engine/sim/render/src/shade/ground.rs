@@ -1,7 +1,7 @@
 //! Ground: asphalt, pavement slabs, road marks, grass, each from world coordinates.
 
 use super::lanes::{Block, WIDE};
-use super::pattern::{NoiseTexture, Noises, hash, lerp, most, smoothstep, stripes, unit};
+use super::pattern::{NoiseTexture, Noises, hash, lerp, most, one_if, smoothstep, stripes, unit};
 use super::surface::{Look, SurfacePoint};
 use super::vector::Vec3;
 use cosfly_frames::simd_kernel;
@@ -63,7 +63,10 @@ fn slabs(point: &SurfacePoint, noise: &NoiseTexture) -> Vec3 {
     let near = 1.0 - smoothstep(0.25, 0.8, size * PER_M);
     let slab = unit(hash(super::pattern::floor_int(u) as u32, super::pattern::floor_int(v) as u32)) - 0.5;
     let rough = noise.rough(x * 15.0, y * 15.0, size * 15.0) - 0.5;
-    let tone = 0.34 * (1.0 + 0.18 * slab * near + 0.42 * rough) * (1.0 - 0.4 * joint);
+    let slab_tone = 0.34 * (1.0 + 0.18 * slab * near + 0.42 * rough) * (1.0 - 0.4 * joint);
+    // Kerbs: upright faces of lighter stone.
+    let kerb_tone = 0.44 * (1.0 + 0.3 * rough) * (1.0 - 0.3 * joint);
+    let tone = lerp(slab_tone, kerb_tone, one_if(point.normal.z < 0.6));
     Vec3::new(tone, tone * 0.97, tone * 0.925)
 }
 

@@ -59,7 +59,7 @@ impl Light {
         let through = Vec3::new(0.045, 0.12, 0.26).map(|k| libm::expf(-k * air));
         let covered = (1.0 - 1.12 * overcast).max(0.03);
         let day_sun = through * (3.7 * (1.0 + 0.5 * low) * (covered * covered.sqrt()) * smoothstep(0.0, 8.0, altitude));
-        let moon = Vec3::new(0.022, 0.028, 0.040) * (1.0 - 0.9 * overcast) * night;
+        let moon = Vec3::new(0.013, 0.017, 0.026) * (1.0 - 0.9 * overcast) * night;
         let sun = day_sun * (1.0 - night) + moon;
 
         let clear_zenith = Vec3::new(0.16, 0.30, 0.62).lerp(Vec3::new(0.20, 0.27, 0.50), low);
@@ -67,9 +67,10 @@ impl Light {
         let grey = Vec3::new(0.62, 0.66, 0.70) * (1.0 - 0.35 * low) * (1.0 - 0.35 * rain);
         let sand = Vec3::new(0.62, 0.42, 0.22);
         let day = |clear: Vec3| clear.lerp(grey, 0.9 * overcast).lerp(sand, dust);
-        let dark = Vec3::new(0.004, 0.0055, 0.011) + Vec3::new(0.009, 0.007, 0.005) * overcast;
+        let dark = Vec3::new(0.0012, 0.0017, 0.0038) + Vec3::new(0.0050, 0.0038, 0.0026) * overcast;
         let zenith = day(clear_zenith).lerp(dark, night);
-        let horizon = day(clear_horizon).lerp(dark * 1.8, night);
+        // Towns light the air above them.
+        let horizon = day(clear_horizon).lerp(dark * 1.8 + Vec3::new(0.0035, 0.0026, 0.0018), night);
 
         // CARLA's presets use densities of 60 at night that look like clear air, so night counts for less.
         let density = share(weather.fog_density) * lerp(1.0, 0.35, night);
@@ -80,7 +81,7 @@ impl Light {
             zenith,
             horizon,
             dome: grey_towards(zenith.lerp(horizon, lerp(0.38, 0.28, low)), 0.45)
-                * lerp(lerp(2.7, 2.0, overcast), 4.0, night),
+                * lerp(lerp(2.7, 2.0, overcast), 9.5, night),
             bounce: (sun * (0.7 * to_sun.z) + zenith) * 0.36,
             haze_per_m,
             haze_start_m: weather.fog_distance.clamp(0.0, 1000.0) as f32,
@@ -91,7 +92,7 @@ impl Light {
             rain,
             wind: share(weather.wind_intensity),
             exposure: lerp(lerp(0.60, 0.68, overcast) * (1.0 + 0.28 * low) * (1.0 + 0.25 * rain), 4.2, night),
-            lamp: Vec3::new(0.26, 0.165, 0.075) * night,
+            lamp: Vec3::new(0.46, 0.29, 0.13) * night,
         }
     }
 

@@ -98,7 +98,12 @@ simd_kernel! {
                 // Near the horizon a street mirrors its houses more than the sky.
                 let open = block.sky[k] * (0.30 + 0.70 * share(2.2 * out.z));
                 let arriving = light.ambient(bent) * (0.10 * block.sky[k]) + light.lamp * (0.6 * block.lamps[k]);
-                let seen = light.sky(out) * open + arriving;
+                // The sun's own image, wide on rough water.
+                let toward = most(out.dot(light.to_sun), 0.0);
+                let toward4 = toward * toward * toward * toward;
+                let toward16 = toward4 * toward4 * toward4 * toward4;
+                let glint = toward16 * toward16 * toward16 * toward16 * (1.6 * block.sunlight[k]);
+                let seen = light.sky(out) * open + arriving + light.sun * glint;
                 let colour = get(&block.colour, k);
                 set(&mut block.colour, k, colour.lerp(seen, mirror));
             }

@@ -44,6 +44,8 @@ pub struct Shader {
     haze: Vec3,
     shadows: shadow::Shadows,
     clothes: Option<Clothes>,
+    /// Where the target stands, and its radius, metres.
+    feet: Option<(Vec3, f32)>,
     /// The picture before smoothing, a pixel in each number's low three bytes.
     picture: Vec<u32>,
     tone: tone::ToneCurve,
@@ -73,6 +75,7 @@ impl Shader {
             haze: Vec3::ZERO,
             shadows: shadow::Shadows::new(),
             clothes: None,
+            feet: None,
             picture: vec![0; screen.width * screen.height],
             tone: tone::ToneCurve::new(),
             idle: Mutex::new(Vec::new()),
@@ -98,6 +101,8 @@ impl Shader {
         self.haze =
             self.light.horizon * (0.8 - 0.2 * self.light.rain) + self.light.zenith * 0.2 + self.light.lamp * 0.02;
         self.clothes = clothes;
+        self.feet =
+            setup.target.map(|target| (target.state.feet_in_world.into(), target.radius_m.clamp(0.1, 2.0) as f32));
         self.shadows.prepare(scene, eye, self.light.to_sun, figure);
     }
 

@@ -1,7 +1,7 @@
 //! Trees, cars, lamps and everything else that stands in a street.
 
-use super::lanes::{Block, WIDE};
-use super::pattern::{NoiseTexture, Noises, band, draw, hash, least, smoothstep, stripes, unit};
+use super::lanes::{Block, WIDE, get, set};
+use super::pattern::{NoiseTexture, Noises, band, draw, hash, least, most, smoothstep, stripes, unit};
 use super::surface::{Look, SurfacePoint};
 use super::vector::Vec3;
 use cosfly_frames::simd_kernel;
@@ -126,7 +126,7 @@ impl Thing {
     fn all<const AXIS: usize>(&self, blocks: &mut [Block], noise: &NoiseTexture) {
         match self.kind {
             ObstacleKind::TreeCrown | ObstacleKind::Bush => {
-                paint_all!(self, blocks, point, at => self.leaves(&point, &at, noise));
+                paint_all!(self, blocks, point, _at => self.leaves(&point, noise));
             }
             ObstacleKind::TreeTrunk => paint_all!(self, blocks, point, at => self.bark(&point, &at, noise)),
             ObstacleKind::Car => paint_all!(self, blocks, point, at => self.car::<AXIS>(&point, &at)),
@@ -146,28 +146,28 @@ impl Thing {
         }
     }
 
-    /// Leaves: clumps of light and dark, and normals that swell around the whole crown's middle.
+    /// Leaves: clumps of light and dark over a round crown, see [`swell`].
     #[inline(always)]
-    fn leaves(&self, point: &SurfacePoint, at: &Place, noise: &NoiseTexture) -> Look {
-        let axis = self.axis as f32;
-        let (u, v) = (at.u + 37.0 * unit(self.seed) + 3.0 * axis, at.v + 11.0 * axis);
+    fn leaves(&self, point: &SurfacePoint, noise: &NoiseTexture) -> Look {
+        let out = point.normal;
         let size = point.footprint_m;
-        let big = noise.clumps(u * 14.0, v * 14.0, size * 14.0) - 0.5;
-        let small = noise.grain(u * 17.0, v * 17.0, size * 17.0) - 0.5;
-        let slope_u = noise.clumps(u * 14.0 + 4.0, v * 14.0, size * 14.0) - 0.5 - big;
-        let slope_v = noise.clumps(u * 14.0, v * 14.0 + 4.0, size * 14.0) - 0.5 - big;
-        let out = (point.world - self.whole[0]) * self.shrink;
-        let round = out.unit() * 0.9 + point.normal * 0.2;
-        let bent = round + Vec3::new(slope_u, slope_v, slope_u - slope_v) * 2.2;
-        let deep = smoothstep(-0.22, 0.30, big + 0.6 * small);
-        let tint = self.tint.lerp(Vec3::new(0.20, 0.24, 0.07), 0.35 * (small + 0.5) * deep);
-        // Darker below, and in the hollows between a crown's boxes.
-        let hollow = smoothstep(0.45, 0.95, out.dot(out).sqrt());
-        let shade = (0.75 + 0.25 * smoothstep(-1.0, 0.9, out.z)) * (0.6 + 0.4 * hollow);
-        Look {
-            openness: (0.85 + 0.45 * deep) * shade,
-            ..Look::matt(tint * ((0.42 + 1.0 * deep) * (0.5 + 0.5 * shade)), bent.unit())
-        }
+        // Patterns on the three planes of the axes, mixed by how much the surface faces each.
+        let flat = out * out;
+        let facing = flat * flat;
+        let weights = facing * (1.0 / (facing.x + facing.y + facing.z));
+        let shift = 37.0 * unit(self.seed);
+        let p = point.world * 30.0;
+        let big = clumps(p, shift, weights, size * 30.0, noise);
+        let aside = clumps(p, shift + 91.0, weights, size * 30.0, noise);
+        let upward = clumps(p, shift + 173.0, weights, size * 30.0, noise);
+        let small = leaf_grain(p * 0.55, weights, size * 16.5, noise);
+        // Every clump of leaves faces its own way.
+        let bent = out + Vec3::new(aside - upward, aside + upward - big, upward + 0.5 * big) * 1.7;
+        let deep = smoothstep(-0.20, 0.24, big + 0.8 * small);
+        let tint = self.tint.lerp(Vec3::new(0.20, 0.24, 0.07), 0.45 * (small + 0.5) * deep);
+        // Darker below, where the crown shades itself.
+        let shade = 0.5 + 0.5 * smoothstep(-1.0, 0.6, out.z);
+        Look { openness: (0.45 + 0.75 * deep) * shade, ..Look::matt(tint * (0.35 + 1.15 * deep), bent.unit()) }
     }
 
     #[inline(always)]
@@ -273,6 +273,44 @@ impl Thing {
         let plank = stripes(v / 0.12, 0.0, 0.12, point.footprints_m[1] / 0.12);
         let streak = noise.clumps(u * 8.0 + unit(hash(self.seed, 8)) * 50.0, v * 40.0, point.footprint_m * 20.0);
         Look::matt(self.tint * ((0.7 + 0.5 * streak) * (1.0 - 0.5 * plank)), point.normal)
+    }
+}
+
+/// Clumps on the three planes of the axes, around 0.
+#[inline(always)]
+fn clumps(p: Vec3, offset: f32, weights: Vec3, size: f32, noise: &NoiseTexture) -> f32 {
+    noise.clumps(p.y + offset, p.z - offset, size) * weights.x
+        + noise.clumps(p.x + offset, p.z - offset, size) * weights.y
+        + noise.clumps(p.x + offset, p.y - offset, size) * weights.z
+        - 0.5
+}
+
+/// Single leaves on the three planes of the axes, around 0.
+#[inline(always)]
+fn leaf_grain(p: Vec3, weights: Vec3, size: f32, noise: &NoiseTexture) -> f32 {
+    noise.grain(p.y, p.z, size) * weights.x
+        + noise.grain(p.x, p.z, size) * weights.y
+        + noise.grain(p.x, p.y, size) * weights.z
+        - 0.5
+}
+
+simd_kernel! {
+    /// Moves places on a crown's boxes to the round crown around them, along the view, and turns normals its way:
+    /// light and leaves then know nothing of boxes. Where the view passes the round crown, its nearest place counts.
+    pub fn swell(blocks: &mut [Block], thing: &Thing, eye: Vec3) {
+        let thing = *thing;
+        let [middle, half] = thing.whole;
+        let from = (eye - middle) * thing.shrink;
+        for block in blocks.iter_mut() {
+            for k in 0..WIDE {
+                let along = get(&block.ray, k) * thing.shrink;
+                let (a, b, c) = (along.dot(along), along.dot(from), from.dot(from) - 1.25);
+                let reach = most(b * b - a * c, 0.0).sqrt();
+                let out = from + along * ((-b - reach) / a);
+                set(&mut block.world, k, middle + out * half);
+                set(&mut block.normal, k, (out * thing.shrink).unit());
+            }
+        }
     }
 }
 
