@@ -128,6 +128,7 @@ fn result(delivery: &Delivery, wanted: &str, out: &Path, store: &Path, took: &st
             }
             let _ = writeln!(text, "  start with  {}", out.join("README.md").display());
             let _ = writeln!(text, "  check it    cosfly verify {}", out.display());
+            let _ = writeln!(text, "  draw it     cosfly preview {}", out.display());
             if let Some(log) = first_log(out) {
                 let _ = writeln!(text, "  look at it  {} (Foxglove, Rerun)", log.display());
             }
