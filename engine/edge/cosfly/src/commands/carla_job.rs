@@ -10,7 +10,7 @@ use cosfly_diagnose::{Diagnostic, Result};
 
 /// Writes the job file and says how to fly it.
 pub fn carla_job(arguments: &CarlaJobArguments) -> Outcome {
-    crate::print(&written(arguments).map_err(|refusal| vec![refusal])?);
+    crate::print(&written(arguments).map_err(|refusal| vec![refusal])?)?;
     Ok(exit::SUCCESS)
 }
 
