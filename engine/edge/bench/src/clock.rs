@@ -1,10 +1,24 @@
-//! The CPU time of the calling thread: what a computation cost, however busy the machine is.
+//! CPU time: what a computation cost, however busy the machine is.
 
 use rustix::time::{ClockId, clock_gettime};
 
 /// CPU seconds that this thread has used so far.
 pub fn thread_cpu_s() -> f64 {
-    let now = clock_gettime(ClockId::ThreadCPUTime);
+    seconds(ClockId::ThreadCPUTime)
+}
+
+/// CPU seconds of all threads of this process.
+pub fn process_cpu_s() -> f64 {
+    seconds(ClockId::ProcessCPUTime)
+}
+
+/// Seconds since some moment.
+pub fn wall_s() -> f64 {
+    seconds(ClockId::Monotonic)
+}
+
+fn seconds(clock: ClockId) -> f64 {
+    let now = clock_gettime(clock);
     now.tv_sec as f64 + 1e-9 * now.tv_nsec as f64
 }
 

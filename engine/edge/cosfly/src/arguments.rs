@@ -1,6 +1,6 @@
 //! The command line: commands, options, help with examples.
 
-use clap::builder::PossibleValuesParser;
+use clap::builder::{PossibleValuesParser, TypedValueParser};
 use clap::{Args, Parser, Subcommand, ValueEnum};
 use cosfly_bench::planner::Contender;
 use cosfly_planner::scenes::SceneKind;
@@ -338,6 +338,56 @@ Examples:
   cosfly bench planner --many 6000                           a dataset's worth on all cores
   cosfly bench planner --many 10000 --seed 1000              the same to count collisions (there should be none)")]
     Planner(BenchPlannerArguments),
+    /// The renderer: CPU time of a frame by stage, frames per second as finished logs, distance to the memory's limits
+    #[command(after_help = "\
+Examples:
+  cosfly bench render                                        the recipes' town and one of 2,000 boxes, 1280 x 720
+  cosfly bench render --json                                 the same for machines
+  cosfly bench render --weather ClearSunset --rounds 3       another weather, less noise
+  cosfly bench render --width 3840 --height 2160 --views 4   4K
+  cosfly bench render --town my.xodr                         another town
+  cosfly bench render --boxes boxes.json                     boxes and cameras for the scripts in tests/outside/render_anchors")]
+    Render(BenchRenderArguments),
+}
+
+/// Arguments of `bench render`.
+#[derive(Args, Debug)]
+pub struct BenchRenderArguments {
+    /// An OpenDRIVE town instead of the one that `cosfly town` prints
+    #[arg(long, value_name = "FILE")]
+    pub town: Option<PathBuf>,
+    /// Weather presets; ClearNoon, HardRainNoon and ClearNight unless told otherwise (repeatable)
+    #[arg(long = "weather", value_name = "PRESET")]
+    pub weathers: Vec<String>,
+    /// Pixels per row
+    #[arg(long, value_name = "N", default_value_t = 1280)]
+    pub width: u32,
+    /// Rows
+    #[arg(long, value_name = "N", default_value_t = 720)]
+    pub height: u32,
+    /// Viewpoints per town
+    #[arg(long, value_name = "N", default_value_t = 20, value_parser = counts())]
+    pub views: usize,
+    /// Boxes of the second town
+    #[arg(long, value_name = "N", default_value_t = 2000, value_parser = counts())]
+    pub box_count: usize,
+    /// Rounds over all views; the least time counts
+    #[arg(long, value_name = "N", default_value_t = 2, value_parser = counts())]
+    pub rounds: usize,
+    /// Frames per thread that are drawn, encoded and written at once
+    #[arg(long, value_name = "N", default_value_t = 60, value_parser = counts())]
+    pub frames: usize,
+    /// Print JSON
+    #[arg(long)]
+    pub json: bool,
+    /// Measure nothing; write the boxes and cameras of the second town as JSON
+    #[arg(long, value_name = "FILE")]
+    pub boxes: Option<PathBuf>,
+}
+
+/// A number from 1 to a million.
+fn counts() -> impl TypedValueParser<Value = usize> {
+    clap::value_parser!(u64).range(1..=1_000_000).map(|count| count as usize)
 }
 
 /// Arguments of `bench planner`.

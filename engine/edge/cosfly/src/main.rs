@@ -41,6 +41,7 @@ fn command() -> ExitCode {
         Command::Bench(BenchCommand::Engine { items }) => commands::bench::engine(items),
         Command::Bench(BenchCommand::Geometry { seed, json }) => commands::bench::geometry(seed, json),
         Command::Bench(BenchCommand::Planner(arguments)) => commands::bench_planner::planner(&arguments),
+        Command::Bench(BenchCommand::Render(arguments)) => commands::bench_render::render(&arguments),
         Command::Task(TaskCommand::Run { digest, store }) => commands::task::run(&digest, &store),
     };
     match outcome {

@@ -134,7 +134,7 @@ impl RenderStage {
         let mut renderer = self.take_renderer(camera)?;
         let largest =
             world.town.obstacles.iter().map(|obstacle| obstacle.object_id).max().unwrap_or(0).saturating_add(2);
-        let header = PackHeader::new(camera.width, camera.height, largest, self.encoding);
+        let header = PackHeader::new(camera.width, camera.height, largest, self.encoding, trajectory.track.dt_s);
         let track = &trajectory.track;
         let mut views = Vec::with_capacity(track.len());
         outputs.stream("pack", &mut |file| {

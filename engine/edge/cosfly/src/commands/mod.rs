@@ -2,6 +2,7 @@
 
 pub mod bench;
 pub mod bench_planner;
+pub mod bench_render;
 pub mod carla_job;
 pub mod collect;
 pub mod drone_state;

@@ -2,18 +2,19 @@
 //!
 //! ```text
 //! "COSFLYFP" | version u32 | header length u32 | header (JSON)
-//! per frame: rgb | depth | semantic | instance | rgb preview | depth preview | semantic preview
-//! index: per frame and channel: offset u64, bytes u64, check [u8; 8]
+//! per frame: rgb | depth | ids | rgb preview | depth preview | semantic preview
+//! index: per frame and section: offset u64, bytes u64, check [u8; 8], plain bytes u32, CRC-32 of them u32
 //! index offset u64 | frames u64 | check of header and index [u8; 8] | "COSFLYFE"
 //! ```
 //! All numbers are little-endian; a check is the first eight bytes of BLAKE3. `rgb` and the previews are
-//! image files (JPEG or PNG); `depth` (f32 metres), `semantic` (u8) and `instance` (u16 or u32) are
-//! row-major raw pixels behind zstd level 1.
+//! image files (JPEG or PNG); `depth` and `ids` (labels and instances) are chunks of the log to come, compressed with zstd
+//! level 1: message records that go into the log as they are, so that nothing is compressed twice.
 
+mod image_record;
 mod reader;
 mod writer;
 
-pub use reader::{FramePackReader, PackedFrame};
+pub use reader::{FramePackReader, PackedChunk, PackedFrame};
 pub use writer::FramePackWriter;
 
 use crate::config::EncodingConfig;
@@ -21,7 +22,7 @@ use cosfly_diagnose::{Diagnostic, Fault, Result};
 use serde::{Deserialize, Serialize};
 
 /// What all frames of a pack share.
-#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct PackHeader {
     /// Pixels per row.
     pub width: u32,
@@ -31,13 +32,16 @@ pub struct PackHeader {
     pub instance: InstanceFormat,
     /// How the images are stored.
     pub encoding: EncodingConfig,
+    /// Time between frames, seconds.
+    pub dt_s: f64,
 }
 
 impl PackHeader {
-    /// The header for images of `width` x `height` pixels whose instance ids are at most `largest_instance`.
-    pub fn new(width: u32, height: u32, largest_instance: u32, encoding: EncodingConfig) -> Self {
+    /// The header for images of `width` x `height` pixels, `dt_s` apart, whose instance ids are at most
+    /// `largest_instance`.
+    pub fn new(width: u32, height: u32, largest_instance: u32, encoding: EncodingConfig, dt_s: f64) -> Self {
         let instance = if largest_instance <= u32::from(u16::MAX) { InstanceFormat::U16 } else { InstanceFormat::U32 };
-        Self { width, height, instance, encoding }
+        Self { width, height, instance, encoding, dt_s }
     }
 
     /// Pixels of one image.
@@ -53,6 +57,9 @@ impl PackHeader {
                 "images of {} x {} pixels; sides must be 1 to {MAX_SIDE} and the area at most {MAX_PIXELS}",
                 self.width, self.height
             )));
+        }
+        if !(self.dt_s.is_finite() && self.dt_s > 0.0) {
+            return Err(damaged(format!("frames {} s apart", self.dt_s)));
         }
         Ok(())
     }
@@ -81,20 +88,22 @@ impl InstanceFormat {
 const MAGIC: &[u8; 8] = b"COSFLYFP";
 const END_MAGIC: &[u8; 8] = b"COSFLYFE";
 /// Raised whenever older readers would misread newer packs.
-const VERSION: u32 = 1;
-const CHANNELS: usize = 7;
-const ENTRY_BYTES: usize = 24;
+const VERSION: u32 = 2;
+const SECTIONS: usize = 6;
+const ENTRY_BYTES: usize = 32;
 const FOOTER_BYTES: usize = 32;
 const MAX_SIDE: u32 = 16_384;
 const MAX_PIXELS: usize = 1 << 26;
 const MAX_FRAMES: u64 = 1 << 24;
 
-/// Where one image of one frame lies.
+/// Where one image of one frame lies, and for chunks what it is before compression.
 #[derive(Clone, Copy, Debug, Default)]
 struct Section {
     offset: u64,
     bytes: u64,
     check: [u8; 8],
+    plain_bytes: u32,
+    plain_crc: u32,
 }
 
 fn check_of(bytes: &[u8]) -> [u8; 8] {

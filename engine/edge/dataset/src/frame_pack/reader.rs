@@ -1,7 +1,8 @@
 //! Reads a frame pack, one frame at a time; truncated and damaged packs are refused.
 
+use super::image_record::{ChunkRecords, depth_records, id_records};
 use super::{
-    CHANNELS, END_MAGIC, ENTRY_BYTES, FOOTER_BYTES, MAGIC, MAX_FRAMES, PackHeader, Section, VERSION, check_of, damaged,
+    END_MAGIC, ENTRY_BYTES, FOOTER_BYTES, MAGIC, MAX_FRAMES, PackHeader, SECTIONS, Section, VERSION, check_of, damaged,
 };
 use crate::record::PreviewStrip;
 use cosfly_diagnose::{Diagnostic, Result};
@@ -12,14 +13,36 @@ use std::io::{Read, Seek, SeekFrom};
 pub struct PackedFrame {
     /// A JPEG or PNG file, as the header's encoding says.
     pub rgb_file: Vec<u8>,
+    /// The depth image.
+    pub depth: PackedChunk,
+    /// Both id images.
+    pub ids: PackedChunk,
+    /// Previews, unless they are switched off.
+    pub previews: Option<Previews>,
+}
+
+/// Message records of a log, compressed with zstd.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct PackedChunk {
+    /// As they are stored.
+    pub stored: Vec<u8>,
+    /// Bytes before compression.
+    pub plain_bytes: u64,
+    /// CRC-32 of them.
+    pub plain_crc: u32,
+    /// Channel and offset (before compression) of each message.
+    pub messages: Vec<(u16, u64)>,
+}
+
+/// Pixels of a frame's raw images.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct RawPixels {
     /// Row-major f32, little-endian, metres along the optical axis; infinite for sky.
     pub depth_le: Vec<u8>,
     /// Row-major CARLA label ids.
     pub semantic: Vec<u8>,
     /// Row-major u16 or u32, little-endian, as the header's instance format says.
     pub instance_le: Vec<u8>,
-    /// Previews, unless they are switched off.
-    pub previews: Option<Previews>,
 }
 
 /// Small pictures of a frame for viewers.
@@ -37,7 +60,7 @@ pub struct Previews {
 pub struct FramePackReader<R: Read + Seek> {
     input: R,
     header: PackHeader,
-    sections: Vec<[Section; CHANNELS]>,
+    sections: Vec<[Section; SECTIONS]>,
 }
 
 impl<R: Read + Seek> FramePackReader<R> {
@@ -55,7 +78,7 @@ impl<R: Read + Seek> FramePackReader<R> {
             return Err(damaged("it was cut short: its end mark is missing".into()));
         }
         let (index_offset, frames) = (u64_at(&footer, 0), u64_at(&footer, 8));
-        let index_bytes = frames.min(MAX_FRAMES + 1) * (CHANNELS * ENTRY_BYTES) as u64;
+        let index_bytes = frames.min(MAX_FRAMES + 1) * (SECTIONS * ENTRY_BYTES) as u64;
         if frames > MAX_FRAMES || index_offset < data_start || index_offset.checked_add(index_bytes) != Some(footer_at)
         {
             return Err(damaged(format!("its index of {frames} frames does not fit its {length} bytes")));
@@ -88,21 +111,19 @@ impl<R: Read + Seek> FramePackReader<R> {
 
     /// All images of frame `frame`.
     pub fn frame(&mut self, frame: usize) -> Result<PackedFrame> {
-        let pixels = self.header.pixels();
         let previews = if self.header.encoding.previews {
             Some(Previews {
-                rgb_jpeg: self.section(frame, 4)?,
-                depth_jpeg: self.section(frame, 5)?,
-                semantic_png: self.section(frame, 6)?,
+                rgb_jpeg: self.section(frame, 3)?,
+                depth_jpeg: self.section(frame, 4)?,
+                semantic_png: self.section(frame, 5)?,
             })
         } else {
             None
         };
         Ok(PackedFrame {
             rgb_file: self.section(frame, 0)?,
-            depth_le: self.pixels(frame, 1, 4 * pixels)?,
-            semantic: self.pixels(frame, 2, pixels)?,
-            instance_le: self.pixels(frame, 3, self.header.instance.bytes() * pixels)?,
+            depth: self.chunk(frame, 1, &depth_records(&self.header, frame))?,
+            ids: self.chunk(frame, 2, &id_records(&self.header, frame))?,
             previews,
         })
     }
@@ -112,30 +133,54 @@ impl<R: Read + Seek> FramePackReader<R> {
         if !self.header.encoding.previews {
             return Ok(PreviewStrip::default());
         }
-        Ok(PreviewStrip { jpegs: (0..self.len()).map(|frame| self.section(frame, 4)).collect::<Result<_>>()? })
+        Ok(PreviewStrip { jpegs: (0..self.len()).map(|frame| self.section(frame, 3)).collect::<Result<_>>()? })
     }
 
-    fn pixels(&mut self, frame: usize, channel: usize, expected: usize) -> Result<Vec<u8>> {
-        let compressed = self.section(frame, channel)?;
-        let bytes = zstd::bulk::decompress(&compressed, expected)
-            .map_err(|error| damaged(format!("frame {frame}, channel {channel}: {error}")))?;
-        if bytes.len() != expected {
-            return Err(damaged(format!("frame {frame}, channel {channel}: {} bytes, not {expected}", bytes.len())));
+    /// The pixels of a frame's raw images, decompressed.
+    pub fn raw_pixels(&mut self, frame: usize) -> Result<RawPixels> {
+        let (depth, ids) = (depth_records(&self.header, frame), id_records(&self.header, frame));
+        let depth_bytes = unpacked(&self.chunk(frame, 1, &depth)?, frame)?;
+        let id_bytes = unpacked(&self.chunk(frame, 2, &ids)?, frame)?;
+        let (semantic, instance) = id_bytes.split_at(ids.records[0].len());
+        Ok(RawPixels {
+            depth_le: depth_bytes[depth.records[0].pixels()].to_vec(),
+            semantic: semantic[ids.records[0].pixels()].to_vec(),
+            instance_le: instance[ids.records[1].pixels()].to_vec(),
+        })
+    }
+
+    /// Section `number`, which holds `records`.
+    fn chunk<const N: usize>(&mut self, frame: usize, number: usize, records: &ChunkRecords<N>) -> Result<PackedChunk> {
+        let stored = self.section(frame, number)?;
+        let Section { plain_bytes, plain_crc, .. } = self.sections[frame][number];
+        let (plain_bytes, expected) = (u64::from(plain_bytes), records.len());
+        if plain_bytes != expected as u64 {
+            return Err(damaged(format!("frame {frame}, section {number}: {plain_bytes} bytes, not {expected}")));
         }
-        Ok(bytes)
+        Ok(PackedChunk { stored, plain_bytes, plain_crc, messages: records.messages.clone() })
     }
 
-    fn section(&mut self, frame: usize, channel: usize) -> Result<Vec<u8>> {
+    fn section(&mut self, frame: usize, number: usize) -> Result<Vec<u8>> {
         let section = self
             .sections
             .get(frame)
-            .ok_or_else(|| damaged(format!("it has {} frames, no frame {frame}", self.sections.len())))?[channel];
+            .ok_or_else(|| damaged(format!("it has {} frames, no frame {frame}", self.sections.len())))?[number];
         let bytes = read_at(&mut self.input, section.offset, section.bytes as usize)?;
         if check_of(&bytes) != section.check {
-            return Err(damaged(format!("frame {frame}, channel {channel} does not match its check")));
+            return Err(damaged(format!("frame {frame}, section {number} does not match its check")));
         }
         Ok(bytes)
     }
+}
+
+/// The records of a chunk.
+fn unpacked(chunk: &PackedChunk, frame: usize) -> Result<Vec<u8>> {
+    let bytes = zstd::bulk::decompress(&chunk.stored, chunk.plain_bytes as usize)
+        .map_err(|error| damaged(format!("frame {frame}: {error}")))?;
+    if bytes.len() as u64 != chunk.plain_bytes || crc32fast::hash(&bytes) != chunk.plain_crc {
+        return Err(damaged(format!("frame {frame}: a chunk is not what its index says")));
+    }
+    Ok(bytes)
 }
 
 /// The header's bytes and where the first frame begins.
@@ -158,13 +203,18 @@ fn read_header(input: &mut (impl Read + Seek), length: u64) -> Result<(Vec<u8>, 
     Ok((read_at(input, 16, number(12) as usize)?, data_start))
 }
 
-fn read_index(index: &[u8], data_start: u64, data_end: u64) -> Result<Vec<[Section; CHANNELS]>> {
+fn read_index(index: &[u8], data_start: u64, data_end: u64) -> Result<Vec<[Section; SECTIONS]>> {
     let mut sections = vec![];
-    for frame in index.chunks_exact(CHANNELS * ENTRY_BYTES) {
-        let mut row = [Section::default(); CHANNELS];
+    for frame in index.chunks_exact(SECTIONS * ENTRY_BYTES) {
+        let mut row = [Section::default(); SECTIONS];
         for (section, entry) in row.iter_mut().zip(frame.chunks_exact(ENTRY_BYTES)) {
-            let check = entry[16..].try_into().expect("eight bytes");
-            *section = Section { offset: u64_at(entry, 0), bytes: u64_at(entry, 8), check };
+            *section = Section {
+                offset: u64_at(entry, 0),
+                bytes: u64_at(entry, 8),
+                check: u64_at(entry, 16).to_le_bytes(),
+                plain_bytes: u64_at(entry, 24) as u32,
+                plain_crc: (u64_at(entry, 24) >> 32) as u32,
+            };
             let absent = section.bytes == 0 && section.offset == 0;
             let inside = section.offset >= data_start
                 && section.offset.checked_add(section.bytes).is_some_and(|end| end <= data_end);

@@ -19,7 +19,7 @@ fn images(seed: u32) -> FrameImages {
 }
 
 fn pack(encoding: EncodingConfig) -> Vec<u8> {
-    let mut writer = FramePackWriter::new(vec![], &PackHeader::new(64, 48, 500, encoding)).unwrap();
+    let mut writer = FramePackWriter::new(vec![], &PackHeader::new(64, 48, 500, encoding, 0.5)).unwrap();
     for frame in 0..3 {
         writer.frame(&images(frame)).unwrap();
     }
@@ -31,14 +31,14 @@ fn a_pack_gives_back_what_was_put_in() {
     let bytes = pack(EncodingConfig::default());
     let mut reader = FramePackReader::new(Cursor::new(&bytes)).unwrap();
     assert_eq!(reader.len(), 3);
-    let frame = reader.frame(2).unwrap();
+    let (frame, pixels) = (reader.frame(2).unwrap(), reader.raw_pixels(2).unwrap());
     let given = images(2);
-    assert_eq!(frame.semantic, given.semantic);
-    for (stored, depth) in frame.depth_le.chunks_exact(4).zip(&given.depth_m) {
+    assert_eq!(pixels.semantic, given.semantic);
+    for (stored, depth) in pixels.depth_le.chunks_exact(4).zip(&given.depth_m) {
         let stored = f32::from_le_bytes(stored.try_into().unwrap());
         assert!(stored == *depth || (stored - depth).abs() <= 0.5 * GRID_M, "{stored} {depth}");
     }
-    for (stored, id) in frame.instance_le.chunks_exact(2).zip(&given.instance) {
+    for (stored, id) in pixels.instance_le.chunks_exact(2).zip(&given.instance) {
         assert_eq!(u32::from(u16::from_le_bytes(stored.try_into().unwrap())), *id);
     }
     assert_eq!(frame.rgb_file[..2], [0xff, 0xd8]);
@@ -58,7 +58,7 @@ fn lossless_packs_keep_every_bit_and_previews_can_be_left_out() {
     let mut reader = FramePackReader::new(Cursor::new(&bytes)).unwrap();
     let frame = reader.frame(0).unwrap();
     let given = images(0);
-    assert_eq!(frame.depth_le, given.depth_m.iter().flat_map(|d| d.to_le_bytes()).collect::<Vec<_>>());
+    assert_eq!(reader.raw_pixels(0).unwrap().depth_le, given.depth_m.iter().flat_map(|d| d.to_le_bytes()).collect::<Vec<_>>());
     let mut decoder = png::Decoder::new(Cursor::new(&frame.rgb_file)).read_info().unwrap();
     let mut pixels = vec![0; decoder.output_buffer_size().unwrap()];
     decoder.next_frame(&mut pixels).unwrap();
@@ -91,12 +91,12 @@ fn every_truncation_and_every_flipped_byte_is_refused() {
 
 #[test]
 fn images_that_do_not_fit_are_refused_by_name() {
-    let mut writer = FramePackWriter::new(vec![], &PackHeader::new(64, 48, 500, EncodingConfig::default())).unwrap();
+    let mut writer = FramePackWriter::new(vec![], &PackHeader::new(64, 48, 500, EncodingConfig::default(), 0.5)).unwrap();
     let mut bad = images(0);
     bad.depth_m[7] = f32::NAN;
     assert!(writer.frame(&bad).unwrap_err().message.contains("depth of pixel 7 is `NaN`"));
     let mut bad = images(0);
     bad.instance[1] = 70_000;
     assert!(writer.frame(&bad).unwrap_err().message.contains("70000"));
-    assert!(PackHeader::new(0, 48, 1, EncodingConfig::default()).check().is_err());
+    assert!(PackHeader::new(0, 48, 1, EncodingConfig::default(), 0.5).check().is_err());
 }

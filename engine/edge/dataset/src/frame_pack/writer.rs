@@ -1,9 +1,11 @@
 //! Writes a frame pack, one frame at a time, with nothing but the index kept in memory.
 
-use super::{CHANNELS, END_MAGIC, InstanceFormat, MAGIC, PackHeader, Section, VERSION, check_of};
+use super::image_record::{depth_records, id_records};
+use super::{END_MAGIC, InstanceFormat, MAGIC, PackHeader, SECTIONS, Section, VERSION, check_of};
 use crate::config::{DepthEncoding, RgbEncoding};
-use crate::images::{depth, previews, rgb};
+use crate::images::{depth, ids, previews, rgb};
 use cosfly_diagnose::{Diagnostic, Fault, Result};
+use cosfly_frames::simd::Level;
 use cosfly_render::FrameImages;
 use std::io::Write;
 
@@ -17,8 +19,11 @@ pub struct FramePackWriter<W: Write> {
     position: u64,
     header: PackHeader,
     header_bytes: Vec<u8>,
-    sections: Vec<[Section; CHANNELS]>,
+    sections: Vec<[Section; SECTIONS]>,
     compressor: zstd::bulk::Compressor<'static>,
+    /// Records of a chunk before and after compression; kept from frame to frame.
+    plain: Vec<u8>,
+    stored: Vec<u8>,
 }
 
 impl<W: Write> FramePackWriter<W> {
@@ -27,8 +32,16 @@ impl<W: Write> FramePackWriter<W> {
         header.check()?;
         let header_bytes = serde_json::to_vec(header).expect("a pack header is plain JSON");
         let compressor = zstd::bulk::Compressor::new(ZSTD_LEVEL).map_err(write_error)?;
-        let mut writer =
-            Self { output, position: 0, header: header.clone(), header_bytes, sections: vec![], compressor };
+        let mut writer = Self {
+            output,
+            position: 0,
+            header: header.clone(),
+            header_bytes,
+            sections: vec![],
+            compressor,
+            plain: vec![],
+            stored: vec![],
+        };
         let mut start = Vec::from(MAGIC);
         start.extend_from_slice(&VERSION.to_le_bytes());
         start.extend_from_slice(&(writer.header_bytes.len() as u32).to_le_bytes());
@@ -47,23 +60,14 @@ impl<W: Write> FramePackWriter<W> {
             RgbEncoding::Jpeg => rgb::jpeg(&images.rgb, width, height, encoding.jpeg_quality)?,
             RgbEncoding::Png => rgb::png(&images.rgb, width, height)?,
         };
-        let depth_bytes = match encoding.depth {
-            DepthEncoding::Grid => depth::little_endian(images.depth_m.iter().map(|d| depth::on_grid(*d))),
-            DepthEncoding::Lossless => depth::little_endian(images.depth_m.iter().copied()),
-        };
-        let instance_bytes: Vec<u8> = match self.header.instance {
-            InstanceFormat::U16 => images.instance.iter().flat_map(|id| (*id as u16).to_le_bytes()).collect(),
-            InstanceFormat::U32 => images.instance.iter().flat_map(|id| id.to_le_bytes()).collect(),
-        };
-        let mut sections = [Section::default(); CHANNELS];
+        let mut sections = [Section::default(); SECTIONS];
         sections[0] = self.section(&rgb_file)?;
-        sections[1] = self.compressed_section(&depth_bytes)?;
-        sections[2] = self.compressed_section(&images.semantic)?;
-        sections[3] = self.compressed_section(&instance_bytes)?;
+        sections[1] = self.depth_section(images)?;
+        sections[2] = self.ids_section(images)?;
         if encoding.previews {
-            sections[4] = self.section(&previews::rgb(images)?)?;
-            sections[5] = self.section(&previews::depth(images)?)?;
-            sections[6] = self.section(&previews::semantic(images)?)?;
+            sections[3] = self.section(&previews::rgb(images)?)?;
+            sections[4] = self.section(&previews::depth(images)?)?;
+            sections[5] = self.section(&previews::semantic(images)?)?;
         }
         self.sections.push(sections);
         Ok(())
@@ -72,11 +76,13 @@ impl<W: Write> FramePackWriter<W> {
     /// Writes the index and gives the output back.
     pub fn finish(mut self) -> Result<W> {
         let index_offset = self.position;
-        let mut index = Vec::with_capacity(self.sections.len() * CHANNELS * super::ENTRY_BYTES);
+        let mut index = Vec::with_capacity(self.sections.len() * SECTIONS * super::ENTRY_BYTES);
         for section in self.sections.iter().flatten() {
             index.extend_from_slice(&section.offset.to_le_bytes());
             index.extend_from_slice(&section.bytes.to_le_bytes());
             index.extend_from_slice(&section.check);
+            index.extend_from_slice(&section.plain_bytes.to_le_bytes());
+            index.extend_from_slice(&section.plain_crc.to_le_bytes());
         }
         let check = check_of(&[&self.header_bytes[..], &index].concat());
         index.extend_from_slice(&index_offset.to_le_bytes());
@@ -89,37 +95,70 @@ impl<W: Write> FramePackWriter<W> {
     }
 
     fn check_images(&self, images: &FrameImages) -> Result<()> {
-        let frame = self.sections.len();
-        let refuse =
-            |message: String| Err(Diagnostic::new("frame-images", Fault::Bug, format!("frame {frame}: {message}")));
         let pixels = self.header.pixels();
         if (images.width, images.height) != (self.header.width, self.header.height) {
-            return refuse(format!(
+            return self.refuse(format!(
                 "images of {} x {} pixels; the pack has {} x {}",
                 images.width, images.height, self.header.width, self.header.height
             ));
         }
         let lengths = [images.rgb.len() / 3, images.depth_m.len(), images.semantic.len(), images.instance.len()];
         if lengths != [pixels; 4] || images.rgb.len() != 3 * pixels {
-            return refuse(format!("channels hold {lengths:?} pixels; all must hold {pixels}"));
-        }
-        if let Some(at) = images.depth_m.iter().position(|depth| depth.is_nan() || *depth < 0.0) {
-            return refuse(format!("the depth of pixel {at} is `{}`; it must be 0 m or more", images.depth_m[at]));
-        }
-        let largest = images.instance.iter().copied().max().unwrap_or(0);
-        if self.header.instance == InstanceFormat::U16 && largest > u32::from(u16::MAX) {
-            return refuse(format!("instance id {largest} does not fit the pack's 16 bits"));
+            return self.refuse(format!("channels hold {lengths:?} pixels; all must hold {pixels}"));
         }
         Ok(())
     }
 
-    fn compressed_section(&mut self, bytes: &[u8]) -> Result<Section> {
-        let compressed = self.compressor.compress(bytes).map_err(write_error)?;
-        self.section(&compressed)
+    fn refuse<T>(&self, message: String) -> Result<T> {
+        let frame = self.sections.len();
+        Err(Diagnostic::new("frame-images", Fault::Bug, format!("frame {frame}: {message}")))
+    }
+
+    fn depth_section(&mut self, images: &FrameImages) -> Result<Section> {
+        let chunk = depth_records(&self.header, self.sections.len());
+        self.plain.resize(chunk.len(), 0);
+        let room = chunk.records[0].frame_of(&mut self.plain);
+        let all_are_depths = match self.header.encoding.depth {
+            DepthEncoding::Grid => depth::grid_bytes(Level::best(), &images.depth_m, room),
+            DepthEncoding::Lossless => depth::lossless_bytes(Level::best(), &images.depth_m, room),
+        };
+        if let Some(at) = images.depth_m.iter().position(|depth| !all_are_depths && (depth.is_nan() || *depth < 0.0)) {
+            return self.refuse(format!("the depth of pixel {at} is `{}`; it must be 0 m or more", images.depth_m[at]));
+        }
+        self.compressed_section()
+    }
+
+    fn ids_section(&mut self, images: &FrameImages) -> Result<Section> {
+        let chunk = id_records(&self.header, self.sections.len());
+        self.plain.resize(chunk.len(), 0);
+        let (semantic, instance) = self.plain.split_at_mut(chunk.records[0].len());
+        chunk.records[0].frame_of(semantic).copy_from_slice(&images.semantic);
+        let room = chunk.records[1].frame_of(instance);
+        match self.header.instance {
+            InstanceFormat::U16 => {
+                if ids::u16_bytes(Level::best(), &images.instance, room) > u32::from(u16::MAX) {
+                    let largest = images.instance.iter().max().copied().unwrap_or(0);
+                    return self.refuse(format!("instance id {largest} does not fit the pack's 16 bits"));
+                }
+            }
+            InstanceFormat::U32 => ids::u32_bytes(Level::best(), &images.instance, room),
+        }
+        self.compressed_section()
+    }
+
+    /// Compresses and appends the records in `plain`.
+    fn compressed_section(&mut self) -> Result<Section> {
+        self.stored.clear();
+        self.stored.reserve(zstd::zstd_safe::compress_bound(self.plain.len()));
+        self.compressor.compress_to_buffer(&self.plain, &mut self.stored).map_err(write_error)?;
+        let stored = core::mem::take(&mut self.stored);
+        let section = self.section(&stored)?;
+        self.stored = stored;
+        Ok(Section { plain_bytes: self.plain.len() as u32, plain_crc: crc32fast::hash(&self.plain), ..section })
     }
 
     fn section(&mut self, bytes: &[u8]) -> Result<Section> {
-        let section = Section { offset: self.position, bytes: bytes.len() as u64, check: check_of(bytes) };
+        let section = Section { offset: self.position, bytes: bytes.len() as u64, check: check_of(bytes), ..Section::default() };
         self.put(bytes)?;
         Ok(section)
     }

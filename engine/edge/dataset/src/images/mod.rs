@@ -1,6 +1,7 @@
-//! Image encoders: colour, depth, and the small previews.
+//! Image encoders: colour, depth, ids, and the small previews.
 
 pub mod depth;
+pub mod ids;
 pub mod jpeg;
 pub mod previews;
 pub mod rgb;

@@ -28,25 +28,6 @@ pub fn compressed_image(time_ns: u64, format: &str, file: Vec<u8>) -> messages::
     }
 }
 
-/// Raw pixels, `bytes_per_pixel` little-endian bytes each.
-pub fn raw_image(
-    time_ns: u64,
-    camera: &Camera,
-    encoding: &str,
-    bytes_per_pixel: u32,
-    pixels: Vec<u8>,
-) -> messages::RawImage {
-    messages::RawImage {
-        timestamp: Some(timestamp(time_ns)),
-        frame_id: OPTICAL_FRAME.into(),
-        width: camera.width,
-        height: camera.height,
-        encoding: encoding.into(),
-        step: camera.width * bytes_per_pixel,
-        data: Bytes::from(pixels),
-    }
-}
-
 /// The ideal pinhole camera.
 pub fn calibration(time_ns: u64, camera: &Camera) -> messages::CameraCalibration {
     let focal = camera.focal_px();

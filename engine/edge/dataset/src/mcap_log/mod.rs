@@ -5,6 +5,7 @@
 //! robotics tools; [`right_handed`] does it and nothing else does. Frame `i` is at `i * dt_s` after time 0.
 
 pub mod channels;
+mod container;
 pub mod messages;
 pub mod metadata;
 pub mod right_handed;
@@ -15,7 +16,9 @@ mod writer;
 pub use target_state::TargetStateMessage;
 pub use writer::{LogRecord, write_log};
 
-/// Topics, in the order in which they are declared.
+pub(crate) use container::message_head;
+
+/// Topics.
 pub mod topic {
     /// `foxglove.CompressedImage`: the colour image.
     pub const RGB: &str = "/camera/rgb/image";
@@ -51,6 +54,9 @@ pub mod topic {
     pub const CAPTIONS: &str = "/captions";
     /// `cosfly.TargetState`.
     pub const TARGET_STATE: &str = "/target/state";
+
+    /// Channels whose messages are made with the frame pack; their ids in every log are 1, 2, 3.
+    pub const PACKED: [&str; 3] = [DEPTH, SEMANTIC, INSTANCE];
 
     /// All topics with schema and meaning, in the order above.
     pub const ALL: [(&str, &str); 17] = [

@@ -2,7 +2,7 @@
 
 use super::channels::ChannelWriter;
 use super::{frame_time_ns, messages, metadata, scene, topic};
-use crate::frame_pack::{FramePackReader, PackedFrame};
+use crate::frame_pack::{FramePackReader, PackHeader, PackedFrame};
 use crate::hashing::HashingWriter;
 use crate::{CaptionRecord, RenderedTrajectory, RgbEncoding, Role};
 use cosfly_diagnose::{Diagnostic, Fault, Result};
@@ -44,16 +44,15 @@ pub fn write_log<R: Read + Seek>(
     record.check()?;
     check_pack(record, pack)?;
     let mut hashing = HashingWriter::new(output);
-    let unseekable = ::mcap::write::NoSeek::new(&mut hashing);
-    let mut log = ChannelWriter::new(unseekable, pack.header().encoding.previews)?;
+    let mut log = ChannelWriter::new(&mut hashing, pack.header().encoding.previews)?;
     for (name, entries) in metadata::records(record, pack.header()) {
-        log.metadata(name, entries)?;
+        log.metadata(name, &entries)?;
     }
     write_once(&mut log, record, captions, town)?;
     for frame in 0..record.len() {
         keep_going()?;
         let images = pack.frame(frame)?;
-        write_frame(&mut log, record, frame, images, pack)?;
+        write_frame(&mut log, record, frame, images, pack.header())?;
     }
     let messages = log.finish()?;
     let (bytes, sha256) = hashing.finish();
@@ -71,19 +70,22 @@ pub fn write_log<R: Read + Seek>(
 
 fn check_pack<R: Read + Seek>(record: &RenderedTrajectory, pack: &FramePackReader<R>) -> Result<()> {
     let (header, camera) = (pack.header(), &record.camera);
-    if pack.len() != record.len() || (header.width, header.height) != (camera.width, camera.height) {
+    let same_size = (header.width, header.height) == (camera.width, camera.height);
+    if pack.len() != record.len() || !same_size || header.dt_s != record.dt_s() {
         return Err(Diagnostic::new(
             "mcap-pack",
             Fault::Bug,
             format!(
-                "trajectory `{}` has {} frames of {} x {}; its frame pack has {} of {} x {}",
+                "trajectory `{}` has {} frames of {} x {}, {} s apart; its frame pack has {} of {} x {}, {} s apart",
                 record.trajectory_id,
                 record.len(),
                 camera.width,
                 camera.height,
+                record.dt_s(),
                 pack.len(),
                 header.width,
-                header.height
+                header.height,
+                header.dt_s
             ),
         ));
     }
@@ -91,7 +93,7 @@ fn check_pack<R: Read + Seek>(record: &RenderedTrajectory, pack: &FramePackReade
 }
 
 /// What does not change from frame to frame.
-fn write_once<W: Write + Seek>(
+fn write_once<W: Write>(
     log: &mut ChannelWriter<W>,
     record: &RenderedTrajectory,
     captions: &[CaptionRecord],
@@ -102,17 +104,17 @@ fn write_once<W: Write + Seek>(
     log.write(topic::DRONE_PATH, 0, &messages::path_in_map(poses))?;
     let targets = (0..record.len()).map(|frame| messages::target_pose(record, frame));
     log.write(topic::TARGET_PATH, 0, &messages::path_in_map(targets))?;
-    captions.iter().try_for_each(|caption| log.write(topic::CAPTIONS, 0, &scene::caption(caption)))
+    captions.iter().try_for_each(|caption| log.write(topic::CAPTIONS, 0, &scene::caption(caption)))?;
+    log.end_compressed_chunk()
 }
 
-fn write_frame<W: Write + Seek, R: Read + Seek>(
+fn write_frame<W: Write>(
     log: &mut ChannelWriter<W>,
     record: &RenderedTrajectory,
     frame: usize,
     images: PackedFrame,
-    pack: &FramePackReader<R>,
+    header: &PackHeader,
 ) -> Result<()> {
-    let header = pack.header();
     let time = frame_time_ns(record.dt_s(), frame);
     let camera = &record.camera;
     let pose = &record.trajectory.poses_in_world[frame];
@@ -132,9 +134,8 @@ fn write_frame<W: Write + Seek, R: Read + Seek>(
         log.write(topic::DEPTH_PREVIEW, time, &messages::compressed_image(time, "jpeg", previews.depth_jpeg))?;
         log.write(topic::SEMANTIC_PREVIEW, time, &messages::compressed_image(time, "png", previews.semantic_png))?;
     }
-    log.write(topic::SEMANTIC, time, &messages::raw_image(time, camera, "mono8", 1, images.semantic))?;
-    let id_bytes = header.instance.bytes() as u32;
-    let instance = messages::raw_image(time, camera, metadata::instance_encoding(header), id_bytes, images.instance_le);
-    log.write(topic::INSTANCE, time, &instance)?;
-    log.write(topic::DEPTH, time, &messages::raw_image(time, camera, "32FC1", 4, images.depth_le))
+    // Three chunks a frame: who reads one of them decodes nothing of the others.
+    log.end_plain_chunk()?;
+    log.packed_chunk(time, &images.depth)?;
+    log.packed_chunk(time, &images.ids)
 }

@@ -33,7 +33,7 @@ impl SampleFlight {
     /// The flight's frame pack.
     pub fn pack(&self, encoding: EncodingConfig) -> Vec<u8> {
         let camera = &self.record.camera;
-        let header = PackHeader::new(camera.width, camera.height, 9, encoding);
+        let header = PackHeader::new(camera.width, camera.height, 9, encoding, self.record.dt_s());
         let mut writer = FramePackWriter::new(vec![], &header).expect("memory takes every byte");
         self.images.iter().for_each(|images| writer.frame(images).expect("sample images are sound"));
         writer.finish().expect("memory takes every byte")

@@ -1,0 +1,92 @@
+//! The renderer: what a frame costs on one core, stage by stage, how many frames a second come out as finished logs,
+//! and how far both are from what the machine's memory could do.
+//!
+//! [`measure`] does it all in one run; [`views`] holds the towns and the cameras, and exports them for other renderers.
+
+pub mod flight;
+pub mod machine;
+pub mod stages;
+mod table;
+pub mod throughput;
+pub mod views;
+
+use cosfly_dataset::EncodingConfig;
+use cosfly_diagnose::Result;
+use cosfly_render::Weather;
+use machine::Machine;
+use serde::Serialize;
+use stages::StageTimes;
+use std::path::Path;
+use throughput::Throughput;
+use views::Ground;
+
+/// What is measured.
+pub struct RenderOptions<'a> {
+    /// The towns, each with its views.
+    pub grounds: Vec<Ground>,
+    /// Every view is drawn in each of these.
+    pub weathers: Vec<Weather>,
+    /// Rounds over all views; the least time of each stage counts.
+    pub rounds: usize,
+    /// How images are stored.
+    pub encoding: EncodingConfig,
+    /// Threads of the throughput.
+    pub threads: usize,
+    /// Frames per thread of the throughput.
+    pub flight_frames: usize,
+    /// An empty folder on the disk that is written to.
+    pub scratch: &'a Path,
+}
+
+/// One town in one weather.
+#[derive(Clone, Debug, Serialize)]
+pub struct RenderRow {
+    /// The town.
+    pub town: String,
+    /// Boxes in it.
+    pub boxes: usize,
+    /// Triangles with a face of boxes, figures and ground.
+    pub triangles: usize,
+    /// The weather.
+    pub weather: String,
+    /// CPU time of one frame on one core.
+    pub times: StageTimes,
+}
+
+/// Everything that was measured; prints as a table.
+#[derive(Clone, Debug, Serialize)]
+pub struct RenderReport {
+    /// Size of the images.
+    pub width: u32,
+    /// See `width`.
+    pub height: u32,
+    /// Views per town.
+    pub views: usize,
+    /// By town, then weather.
+    pub rows: Vec<RenderRow>,
+    /// Whole frames a second, of the first town.
+    pub throughput: Throughput,
+    /// Limits of the machine.
+    pub machine: Machine,
+}
+
+/// Measures everything.
+pub fn measure(options: &RenderOptions<'_>) -> Result<RenderReport> {
+    let first = options.grounds.first().expect("a town to draw");
+    let mut rows = vec![];
+    for ground in &options.grounds {
+        for weather in &options.weathers {
+            rows.push(RenderRow {
+                town: ground.name.clone(),
+                boxes: ground.town.obstacles.len(),
+                triangles: ground.scene.triangles().len(),
+                weather: weather.name.clone(),
+                times: stages::times(ground, weather, options)?,
+            });
+        }
+    }
+    let throughput = throughput::throughput(first, options)?;
+    let (width, height) = (first.camera.width, first.camera.height);
+    let machine = Machine::measure(width as usize * height as usize);
+    Ok(RenderReport { width, height, views: first.views.len(), rows, throughput, machine })
+}

@@ -1,0 +1,261 @@
+//! The MCAP container: records, chunks that may come ready compressed, and the index at the end.
+//!
+//! The `mcap` crate compresses every chunk itself. Pictures are compressed when they are drawn and go into the log as they
+//! are, so that nothing is compressed twice. Layout: <https://mcap.dev/spec>. Everything is little-endian.
+
+use std::collections::BTreeMap;
+use std::io::{Result, Write};
+
+const MAGIC: &[u8; 8] = b"\x89MCAP0\r\n";
+
+/// Kinds of records.
+mod opcode {
+    pub const HEADER: u8 = 0x01;
+    pub const FOOTER: u8 = 0x02;
+    pub const SCHEMA: u8 = 0x03;
+    pub const CHANNEL: u8 = 0x04;
+    pub const MESSAGE: u8 = 0x05;
+    pub const CHUNK: u8 = 0x06;
+    pub const MESSAGE_INDEX: u8 = 0x07;
+    pub const CHUNK_INDEX: u8 = 0x08;
+    pub const STATISTICS: u8 = 0x0b;
+    pub const METADATA: u8 = 0x0c;
+    pub const METADATA_INDEX: u8 = 0x0d;
+    pub const SUMMARY_OFFSET: u8 = 0x0e;
+    pub const DATA_END: u8 = 0x0f;
+}
+
+/// Bytes of a message record before its payload: opcode, length, channel, sequence, two times.
+pub const MESSAGE_HEAD_BYTES: usize = 31;
+
+/// The head of a message record; its payload of `payload_bytes` bytes follows.
+pub fn message_head(channel: u16, sequence: u32, time_ns: u64, payload_bytes: usize) -> [u8; MESSAGE_HEAD_BYTES] {
+    let mut head = [0; MESSAGE_HEAD_BYTES];
+    head[0] = opcode::MESSAGE;
+    head[1..9].copy_from_slice(&((MESSAGE_HEAD_BYTES - 9 + payload_bytes) as u64).to_le_bytes());
+    head[9..11].copy_from_slice(&channel.to_le_bytes());
+    head[11..15].copy_from_slice(&sequence.to_le_bytes());
+    head[15..23].copy_from_slice(&time_ns.to_le_bytes());
+    head[23..31].copy_from_slice(&time_ns.to_le_bytes());
+    head
+}
+
+/// Message records of one moment, compressed or not.
+pub struct Chunk<'a> {
+    /// The moment.
+    pub time_ns: u64,
+    /// `zstd`, or nothing.
+    pub compression: &'static str,
+    /// Bytes of the records before compression, and their CRC-32.
+    pub plain_bytes: u64,
+    /// See `plain_bytes`.
+    pub plain_crc: u32,
+    /// The records as they are stored.
+    pub stored: &'a [u8],
+    /// Channel and offset (before compression) of each message.
+    pub messages: &'a [(u16, u64)],
+}
+
+/// Writes one file. Without [`Self::finish`] it has no index, and readers say that it was cut short.
+pub struct Container<W: Write> {
+    output: W,
+    position: u64,
+    crc: crc32fast::Hasher,
+    schemas: Vec<Vec<u8>>,
+    channels: Vec<Vec<u8>>,
+    chunk_indexes: Vec<Vec<u8>>,
+    metadata_indexes: Vec<Vec<u8>>,
+    counts: BTreeMap<u16, u64>,
+    times_ns: Option<[u64; 2]>,
+}
+
+impl<W: Write> Container<W> {
+    /// Begins a file.
+    pub fn new(output: W, library: &str) -> Result<Self> {
+        let mut container = Self {
+            output,
+            position: 0,
+            crc: crc32fast::Hasher::new(),
+            schemas: vec![],
+            channels: vec![],
+            chunk_indexes: vec![],
+            metadata_indexes: vec![],
+            counts: BTreeMap::new(),
+            times_ns: None,
+        };
+        container.put(MAGIC)?;
+        let header = Fields::default().text("").text(library);
+        container.record(opcode::HEADER, &header.0)?;
+        Ok(container)
+    }
+
+    /// Declares a schema; gives its id.
+    pub fn schema(&mut self, name: &str, encoding: &str, data: &[u8]) -> Result<u16> {
+        let id = self.schemas.len() as u16 + 1;
+        self.schemas.push(Fields::default().u16(id).text(name).text(encoding).bytes(data).0);
+        self.record(opcode::SCHEMA, &self.schemas[usize::from(id) - 1].clone())?;
+        Ok(id)
+    }
+
+    /// Declares a channel; gives its id: 1 for the first, and so on.
+    pub fn channel(&mut self, schema: u16, topic: &str, encoding: &str, notes: &[(&str, &str)]) -> Result<u16> {
+        let id = self.channels.len() as u16 + 1;
+        let notes = notes.iter().fold(Fields::default(), |all, (key, value)| all.text(key).text(value));
+        self.channels.push(Fields::default().u16(id).u16(schema).text(topic).text(encoding).bytes(&notes.0).0);
+        self.record(opcode::CHANNEL, &self.channels[usize::from(id) - 1].clone())?;
+        self.counts.insert(id, 0);
+        Ok(id)
+    }
+
+    /// Appends a metadata record.
+    pub fn metadata(&mut self, name: &str, entries: &BTreeMap<String, String>) -> Result<()> {
+        let entries = entries.iter().fold(Fields::default(), |all, (key, value)| all.text(key).text(value));
+        let content = Fields::default().text(name).bytes(&entries.0).0;
+        let length = content.len() as u64 + 9;
+        self.metadata_indexes.push(Fields::default().u64(self.position).u64(length).text(name).0);
+        self.record(opcode::METADATA, &content)
+    }
+
+    /// Appends a chunk and the index of its messages.
+    pub fn chunk(&mut self, chunk: &Chunk<'_>) -> Result<()> {
+        let start = self.position;
+        let head = Fields::default()
+            .u64(chunk.time_ns)
+            .u64(chunk.time_ns)
+            .u64(chunk.plain_bytes)
+            .u32(chunk.plain_crc)
+            .text(chunk.compression)
+            .u64(chunk.stored.len() as u64);
+        self.put(&[opcode::CHUNK])?;
+        self.put(&((head.0.len() + chunk.stored.len()) as u64).to_le_bytes())?;
+        self.put(&head.0)?;
+        self.put(chunk.stored)?;
+        let length = self.position - start;
+        let mut by_channel: BTreeMap<u16, Fields> = BTreeMap::new();
+        for (channel, offset) in chunk.messages {
+            let entries = by_channel.remove(channel).unwrap_or_default();
+            by_channel.insert(*channel, entries.u64(chunk.time_ns).u64(*offset));
+            *self.counts.entry(*channel).or_default() += 1;
+        }
+        let indexes_start = self.position;
+        let mut offsets = Fields::default();
+        for (channel, entries) in by_channel {
+            offsets = offsets.u16(channel).u64(self.position);
+            self.record(opcode::MESSAGE_INDEX, &Fields::default().u16(channel).bytes(&entries.0).0)?;
+        }
+        let index = Fields::default()
+            .u64(chunk.time_ns)
+            .u64(chunk.time_ns)
+            .u64(start)
+            .u64(length)
+            .bytes(&offsets.0)
+            .u64(self.position - indexes_start)
+            .text(chunk.compression)
+            .u64(chunk.stored.len() as u64)
+            .u64(chunk.plain_bytes);
+        self.chunk_indexes.push(index.0);
+        let [first, last] = self.times_ns.unwrap_or([chunk.time_ns; 2]);
+        self.times_ns = Some([first.min(chunk.time_ns), last.max(chunk.time_ns)]);
+        Ok(())
+    }
+
+    /// Writes the summary; gives the number of messages.
+    pub fn finish(mut self) -> Result<u64> {
+        let crc = self.crc.clone().finalize();
+        self.record(opcode::DATA_END, &crc.to_le_bytes())?;
+        self.crc = crc32fast::Hasher::new();
+        let summary_start = self.position;
+        let groups = [
+            (opcode::SCHEMA, core::mem::take(&mut self.schemas)),
+            (opcode::CHANNEL, core::mem::take(&mut self.channels)),
+            (opcode::STATISTICS, vec![]),
+            (opcode::CHUNK_INDEX, core::mem::take(&mut self.chunk_indexes)),
+            (opcode::METADATA_INDEX, core::mem::take(&mut self.metadata_indexes)),
+        ];
+        let sizes = [0, 1, 3, 4].map(|group: usize| groups[group].1.len() as u32);
+        let mut offsets = vec![];
+        for (kind, records) in groups {
+            let start = self.position;
+            if kind == opcode::STATISTICS {
+                self.record(kind, &self.statistics(sizes))?;
+            }
+            records.iter().try_for_each(|content| self.record(kind, content))?;
+            if self.position > start {
+                offsets.push(Fields(vec![kind]).u64(start).u64(self.position - start).0);
+            }
+        }
+        let offsets_start = self.position;
+        offsets.iter().try_for_each(|content| self.record(opcode::SUMMARY_OFFSET, content))?;
+        let footer = Fields::default().u64(summary_start).u64(offsets_start);
+        self.put(&[opcode::FOOTER])?;
+        self.put(&(footer.0.len() as u64 + 4).to_le_bytes())?;
+        self.put(&footer.0)?;
+        let crc = self.crc.clone().finalize();
+        self.put(&crc.to_le_bytes())?;
+        self.put(MAGIC)?;
+        self.output.flush()?;
+        Ok(self.counts.values().sum())
+    }
+
+    fn statistics(&self, [schemas, channels, chunks, metadata]: [u32; 4]) -> Vec<u8> {
+        let [first, last] = self.times_ns.unwrap_or_default();
+        let counts = self.counts.iter().filter(|(_, count)| **count > 0);
+        let counts = counts.fold(Fields::default(), |all, (channel, count)| all.u16(*channel).u64(*count));
+        Fields::default()
+            .u64(self.counts.values().sum())
+            .u16(schemas as u16)
+            .u32(channels)
+            .u32(0)
+            .u32(metadata)
+            .u32(chunks)
+            .u64(first)
+            .u64(last)
+            .bytes(&counts.0)
+            .0
+    }
+
+    fn record(&mut self, kind: u8, content: &[u8]) -> Result<()> {
+        self.put(&[kind])?;
+        self.put(&(content.len() as u64).to_le_bytes())?;
+        self.put(content)
+    }
+
+    fn put(&mut self, bytes: &[u8]) -> Result<()> {
+        self.output.write_all(bytes)?;
+        self.crc.update(bytes);
+        self.position += bytes.len() as u64;
+        Ok(())
+    }
+}
+
+/// The content of a record, field by field.
+#[derive(Default)]
+struct Fields(Vec<u8>);
+
+impl Fields {
+    fn u16(mut self, value: u16) -> Self {
+        self.0.extend_from_slice(&value.to_le_bytes());
+        self
+    }
+
+    fn u32(mut self, value: u32) -> Self {
+        self.0.extend_from_slice(&value.to_le_bytes());
+        self
+    }
+
+    fn u64(mut self, value: u64) -> Self {
+        self.0.extend_from_slice(&value.to_le_bytes());
+        self
+    }
+
+    /// Length, then the bytes: arrays and maps, too.
+    fn bytes(self, bytes: &[u8]) -> Self {
+        let mut all = self.u32(bytes.len() as u32);
+        all.0.extend_from_slice(bytes);
+        all
+    }
+
+    fn text(self, text: &str) -> Self {
+        self.bytes(text.as_bytes())
+    }
+}
