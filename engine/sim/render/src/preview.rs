@@ -43,7 +43,13 @@ impl DepthScale {
         let scale = 1.0 / (self.far - self.near).max(STEPS / 14) as f32;
         let near = self.near as f32;
         let table: Vec<[u8; 3]> = (0..STEPS).map(|step| turbo(0.96 - 0.92 * (step as f32 - near) * scale)).collect();
-        depth_m.iter().flat_map(|depth| if depth.is_finite() { table[step_of(*depth)] } else { [0, 0, 0] }).collect()
+        let mut colours = vec![0; 3 * depth_m.len()];
+        for (pixel, depth) in colours.as_chunks_mut::<3>().0.iter_mut().zip(depth_m) {
+            if depth.is_finite() {
+                *pixel = table[step_of(*depth)];
+            }
+        }
+        colours
     }
 }
 

@@ -107,12 +107,19 @@ fn round(
     }
     let encoded = encoding_s(&images, options)?.map(|spent_s| ms_per_frame * spent_s);
     let flight = flight(ground, weather, images.len(), views);
-    let header = PackHeader::new(ground.camera.width, ground.camera.height, ground.largest_instance(), options.encoding, flight.dt_s());
+    let header = PackHeader::new(
+        ground.camera.width,
+        ground.camera.height,
+        ground.largest_instance(),
+        options.encoding,
+        flight.dt_s(),
+    );
     let (pack_path, log_path) = (options.scratch.join("stages.pack"), options.scratch.join("stages.mcap"));
     let (packed, pack_s) = timed(|| -> Result<()> {
         let mut pack = FramePackWriter::new(StoredFile::create(&pack_path)?, &header)?;
         images.iter().try_for_each(|images| pack.frame(images))?;
-        pack.finish().map(|file| drop(file.finish()))
+        pack.finish()?.finish();
+        Ok(())
     });
     packed?;
     let (logged, log_s) = timed(|| -> Result<u64> {
@@ -140,7 +147,9 @@ fn round(
 fn encoding_s(images: &[FrameImages], options: &RenderOptions<'_>) -> Result<[f64; 4]> {
     let quality = options.encoding.jpeg_quality;
     let (encoded, rgb_s) = timed(|| -> Result<()> {
-        images.iter().try_for_each(|it| rgb::jpeg(&it.rgb, it.width, it.height, quality).map(|file| drop(black_box(file))))
+        images
+            .iter()
+            .try_for_each(|it| rgb::jpeg(&it.rgb, it.width, it.height, quality).map(|file| drop(black_box(file))))
     });
     encoded?;
     let mut compressor = zstd::bulk::Compressor::new(1).expect("memory for a compressor");

@@ -5,8 +5,13 @@ use std::fmt;
 
 impl fmt::Display for RenderReport {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        writeln!(f, "{} x {}, {} views per town; CPU milliseconds per frame on one core", self.width, self.height, self.views)?;
-        let heads = ["visible", "+ ids", "+ colour", "drawn", "rgb", "depth", "ids", "previews", "pack", "log", "whole"];
+        writeln!(
+            f,
+            "{} x {}, {} views per town; CPU milliseconds per frame on one core",
+            self.width, self.height, self.views
+        )?;
+        let heads =
+            ["visible", "+ ids", "+ colour", "drawn", "rgb", "depth", "ids", "previews", "pack", "log", "whole"];
         write!(f, "{:14} {:>6} {:18}", "town", "boxes", "weather")?;
         heads.iter().try_for_each(|head| write!(f, " {head:>8}"))?;
         writeln!(f, " {:>8}", "kB")?;
@@ -30,9 +35,16 @@ impl fmt::Display for RenderReport {
             }
             writeln!(f, " {:>8.0}", 1e-3 * t.log_bytes)?;
         }
-        writeln!(f, "`pack` encodes all channels, checks, hashes and writes them; `log` makes the finished log of it.\n")?;
+        writeln!(
+            f,
+            "`pack` encodes all channels, checks, hashes and writes them; `log` makes the finished log of it.\n"
+        )?;
         let t = &self.throughput;
-        writeln!(f, "{} frames on {} threads, drawn, encoded and written as logs: {:.1} frames/s", t.frames, t.threads, t.frames_per_s)?;
+        writeln!(
+            f,
+            "{} frames on {} threads, drawn, encoded and written as logs: {:.1} frames/s",
+            t.frames, t.threads, t.frames_per_s
+        )?;
         writeln!(
             f,
             "{:.1} ms of CPU a frame, which is {:.1} frames/s on that many idle cores; {:.0} kB a frame\n",

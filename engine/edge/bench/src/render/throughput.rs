@@ -58,7 +58,8 @@ pub fn throughput(ground: &Ground, options: &RenderOptions<'_>) -> Result<Throug
 /// One flight from nothing to its log; how many bytes that has.
 fn fly(ground: &Ground, weather: &Weather, frames: usize, thread: usize, options: &RenderOptions<'_>) -> Result<u64> {
     let path = |kind: &str| options.scratch.join(format!("flight-{thread}.{kind}"));
-    let header = PackHeader::new(ground.camera.width, ground.camera.height, ground.largest_instance(), options.encoding, DT_S);
+    let header =
+        PackHeader::new(ground.camera.width, ground.camera.height, ground.largest_instance(), options.encoding, DT_S);
     let mut renderer = Renderer::new(ground.camera);
     let mut pack = FramePackWriter::new(StoredFile::create(&path("pack"))?, &header)?;
     let mut views = Vec::with_capacity(frames);

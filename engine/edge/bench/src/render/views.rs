@@ -4,7 +4,7 @@ use cosfly_frames::{DVec2, DVec3, Pose, Seed, TargetState, real};
 use cosfly_geometry::{BoxBvh, OrientedBox, SpatialQuery};
 use cosfly_maps::generate::{GenerateConfig, generate_town};
 use cosfly_maps::{
-    MapConfig, MapOrigin, Obstacle, ObstacleKind, MapError, SemanticLabel, SimplificationReport, SurfaceMesh,
+    MapConfig, MapError, MapOrigin, Obstacle, ObstacleKind, SemanticLabel, SimplificationReport, SurfaceMesh,
     Synthetic, Town, WalkableKind, read_town,
 };
 use cosfly_render::{Camera, Scene, TargetSetup, gait_phase_rad};
@@ -240,9 +240,10 @@ mod tests {
             assert_eq!((ground.town.obstacles.len(), ground.views.len()), (boxes, 4));
         }
         let ground = Ground::of_boxes(2000, camera, 20);
+        let tree = BoxBvh::build(ground.town.obstacles.iter().map(|obstacle| obstacle.shape).collect());
         for view in &ground.views {
-            let eye = view.pose.position_in_world;
-            assert!(!ground.town.obstacles.iter().any(|it| it.shape.distance(eye) <= 0.0), "{eye}");
+            let (eye, feet) = (view.pose.position_in_world, view.target.state.feet_in_world);
+            assert!(!tree.blocked(eye, feet + DVec3::Z), "{eye}");
         }
         assert_eq!(ground.exported().boxes.len(), 2000);
     }

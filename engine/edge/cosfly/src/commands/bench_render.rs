@@ -21,7 +21,7 @@ pub fn render(arguments: &BenchRenderArguments) -> Outcome {
         let text = serde_json::to_string(&scene).unwrap_or_default() + "\n";
         std::fs::write(file, text)
             .map_err(|error| vec![Diagnostic::io(format!("write `{}`", file.display()), &error)])?;
-        crate::print(&format!("{} boxes and {} views in {}\n", scene.boxes.len(), scene.views.len(), file.display()));
+        crate::print(&format!("{} boxes and {} views in {}\n", scene.boxes.len(), scene.views.len(), file.display()))?;
         return Ok(exit::SUCCESS);
     }
     let scratch = std::env::current_dir()
@@ -38,15 +38,14 @@ pub fn render(arguments: &BenchRenderArguments) -> Outcome {
     })
     .map_err(|refusal| vec![refusal])?;
     let json = || serde_json::to_string_pretty(&report).unwrap_or_default() + "\n";
-    crate::print(&if arguments.json { json() } else { report.to_string() });
+    crate::print(&if arguments.json { json() } else { report.to_string() })?;
     Ok(exit::SUCCESS)
 }
 
 fn camera(arguments: &BenchRenderArguments) -> Result<Camera, Refusals> {
     let config = RenderConfig { width: arguments.width, height: arguments.height, ..RenderConfig::default() };
-    let refused = |message: String, hint: String| {
-        vec![Diagnostic::new("bench-parameters", Fault::Recipe, message).hint(hint)]
-    };
+    let refused =
+        |message: String, hint: String| vec![Diagnostic::new("bench-parameters", Fault::Recipe, message).hint(hint)];
     config.validate().map_err(|problem| refused(problem.message, problem.hint))?;
     Ok(config.camera())
 }

@@ -58,7 +58,10 @@ fn lossless_packs_keep_every_bit_and_previews_can_be_left_out() {
     let mut reader = FramePackReader::new(Cursor::new(&bytes)).unwrap();
     let frame = reader.frame(0).unwrap();
     let given = images(0);
-    assert_eq!(reader.raw_pixels(0).unwrap().depth_le, given.depth_m.iter().flat_map(|d| d.to_le_bytes()).collect::<Vec<_>>());
+    assert_eq!(
+        reader.raw_pixels(0).unwrap().depth_le,
+        given.depth_m.iter().flat_map(|d| d.to_le_bytes()).collect::<Vec<_>>()
+    );
     let mut decoder = png::Decoder::new(Cursor::new(&frame.rgb_file)).read_info().unwrap();
     let mut pixels = vec![0; decoder.output_buffer_size().unwrap()];
     decoder.next_frame(&mut pixels).unwrap();
@@ -91,7 +94,8 @@ fn every_truncation_and_every_flipped_byte_is_refused() {
 
 #[test]
 fn images_that_do_not_fit_are_refused_by_name() {
-    let mut writer = FramePackWriter::new(vec![], &PackHeader::new(64, 48, 500, EncodingConfig::default(), 0.5)).unwrap();
+    let mut writer =
+        FramePackWriter::new(vec![], &PackHeader::new(64, 48, 500, EncodingConfig::default(), 0.5)).unwrap();
     let mut bad = images(0);
     bad.depth_m[7] = f32::NAN;
     assert!(writer.frame(&bad).unwrap_err().message.contains("depth of pixel 7 is `NaN`"));

@@ -158,7 +158,8 @@ impl<W: Write> FramePackWriter<W> {
     }
 
     fn section(&mut self, bytes: &[u8]) -> Result<Section> {
-        let section = Section { offset: self.position, bytes: bytes.len() as u64, check: check_of(bytes), ..Section::default() };
+        let section =
+            Section { offset: self.position, bytes: bytes.len() as u64, check: check_of(bytes), ..Section::default() };
         self.put(bytes)?;
         Ok(section)
     }

@@ -2,6 +2,8 @@
 
 use super::rgb::{jpeg, palette_png};
 use cosfly_diagnose::Result;
+use cosfly_frames::simd::Level;
+use cosfly_frames::simd_kernel;
 use cosfly_maps::SemanticLabel;
 use cosfly_render::FrameImages;
 use cosfly_render::preview::depth_preview;
@@ -22,21 +24,33 @@ pub fn rgb(images: &FrameImages) -> Result<Vec<u8>> {
     let (width, height) = size(images, RGB_WIDTH);
     let columns: Vec<_> = (0..width).map(|x| block(x, width, images.width)).collect();
     let mut pixels = Vec::with_capacity(3 * (width * height) as usize);
+    let mut sums = vec![0u16; 3 * images.width as usize];
     for y in 0..height {
         let rows = block(y, height, images.height);
+        let row_bytes = sums.len();
+        sum_of_rows(Level::best(), &images.rgb[rows.start * row_bytes..rows.end * row_bytes], &mut sums);
         for columns in &columns {
-            let mut sums = [0u32; 3];
-            for row in rows.clone() {
-                let start = row * images.width as usize;
-                for pixel in images.rgb[3 * (start + columns.start)..3 * (start + columns.end)].chunks_exact(3) {
-                    sums.iter_mut().zip(pixel).for_each(|(sum, value)| *sum += u32::from(*value));
-                }
+            let mut total = [0u32; 3];
+            for pixel in sums[3 * columns.start..3 * columns.end].as_chunks::<3>().0 {
+                total.iter_mut().zip(pixel).for_each(|(sum, value)| *sum += u32::from(*value));
             }
             let count = (rows.len() * columns.len()) as u32;
-            pixels.extend(sums.map(|sum| ((sum + count / 2) / count) as u8));
+            pixels.extend_from_slice(&total.map(|sum| ((sum + count / 2) / count) as u8));
         }
     }
     jpeg(&pixels, width, height, RGB_QUALITY)
+}
+
+simd_kernel! {
+    /// Sums of bytes over rows; previews take at most 128 rows together, so that 16 bits suffice.
+    fn sum_of_rows(rows: &[u8], sums: &mut [u16]) {
+        sums.fill(0);
+        for row in rows.chunks_exact(sums.len().max(1)) {
+            for (sum, value) in sums.iter_mut().zip(row) {
+                *sum = sum.wrapping_add(u16::from(*value));
+            }
+        }
+    }
 }
 
 /// The depth image in colours, stretched over the depths of this frame: a picture, not data.
@@ -63,11 +77,12 @@ fn block(index: u32, count: u32, total: u32) -> std::ops::Range<usize> {
 
 /// Index of the full-size pixel in the middle of each preview pixel, row by row.
 fn nearest_pixels(images: &FrameImages, width: u32, height: u32) -> impl Iterator<Item = usize> {
-    let (full_width, full_height) = (images.width, images.height);
     let middle = |i: u32, count: u32, total: u32| (2 * i as usize + 1) * total as usize / (2 * count as usize);
+    let columns: Vec<usize> = (0..width).map(|x| middle(x, width, images.width)).collect();
+    let (full_width, full_height) = (images.width as usize, images.height);
     (0..height).flat_map(move |y| {
-        let start = middle(y, height, full_height) * full_width as usize;
-        (0..width).map(move |x| start + middle(x, width, full_width))
+        let start = middle(y, height, full_height) * full_width;
+        columns.clone().into_iter().map(move |column| start + column)
     })
 }
 
