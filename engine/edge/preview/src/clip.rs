@@ -39,8 +39,11 @@ struct ClipFrame {
 impl Clip {
     /// Adds a frame.
     pub fn add(&mut self, shot: &Shot) {
-        let wide = WIDE.min(shot.rgb.width.max(160)) & !1;
-        let high = ((shot.rgb.height * wide / shot.rgb.width) & !1).max(2);
+        // Even sides, so that two half pictures fill one; tall images are narrower than wide ones.
+        let (width, height) = (shot.rgb.width, shot.rgb.height);
+        let wide = WIDE.min(width.max(160)).min((WIDE * width).div_ceil(height));
+        let wide = wide.next_multiple_of(2).max(16);
+        let high = (height * wide / width).clamp(2, WIDE).next_multiple_of(2);
         self.size = [wide, high];
         let target = &shot.logged.target;
         self.frames.push(ClipFrame {

@@ -5,7 +5,7 @@ use crate::shot::Shot;
 use cosfly_dataset::read::PublishedFlight;
 use cosfly_render::preview::DepthScale;
 
-/// About how wide a picture is.
+/// Longer side of a picture, about.
 const CELL: usize = 384;
 const GAP: usize = 6;
 const HEADER: usize = 34;
@@ -25,8 +25,9 @@ impl<'a> Sheet<'a> {
     /// Adds a row.
     pub fn add(&mut self, shot: &Shot) {
         let (width, height) = cell(shot.rgb.width, shot.rgb.height);
-        let side = height.min(CELL);
-        let mut row = Canvas::new(3 * (width + GAP) + side, height, WHITE);
+        let side = height.clamp(CELL / 4, CELL);
+        let tall = height.max(side);
+        let mut row = Canvas::new(3 * (width + GAP) + side, tall, WHITE);
         let depths = shot.depths(width, height);
         let depth = Canvas { width, height, rgb: DepthScale::of(depths.iter().copied()).colours(&depths) };
         let pictures = [shot.colour(width, height), depth, shot.labels(width, height), shot.target(side)];
@@ -63,13 +64,14 @@ impl<'a> Sheet<'a> {
     }
 }
 
-/// Size of a picture on the sheet: images are shrunk to the cell or repeated a whole number of times.
+/// Size of a picture on the sheet, within a square cell: images are shrunk or repeated a whole number of times.
 fn cell(width: usize, height: usize) -> (usize, usize) {
-    if width >= CELL {
-        return (CELL, (height * CELL / width).max(1));
+    let longer = width.max(height);
+    if longer < CELL {
+        let times = CELL / longer;
+        return (width * times, height * times);
     }
-    let times = (CELL / width).max(1);
-    (width * times, height * times)
+    ((width * CELL / longer).max(1), (height * CELL / longer).max(1))
 }
 
 #[cfg(test)]
@@ -79,6 +81,6 @@ mod tests {
     #[test]
     fn cells_keep_the_aspect() {
         assert_eq!((cell(1280, 720), cell(96, 54), cell(200, 100)), ((384, 216), (384, 216), (200, 100)));
-        assert_eq!(cell(8000, 1), (384, 1));
+        assert_eq!((cell(8000, 1), cell(16, 7680)), ((384, 1), (1, 384)));
     }
 }
