@@ -1,7 +1,7 @@
 //! The job file with which `plugins/carla/replay.py` flies published flights through a CARLA server again.
 
 use crate::read::{PublishedDataset, PublishedFlight, PublishedFrame};
-use cosfly_diagnose::Result;
+use cosfly_diagnose::{Diagnostic, Fault, Result};
 use cosfly_fingerprint::Digest;
 use cosfly_frames::DVec3;
 use serde::Serialize;
@@ -73,6 +73,12 @@ impl CarlaJob {
 
 impl JobFlight {
     fn new(flight: &PublishedFlight, frames: &[PublishedFrame]) -> Result<Self> {
+        if flight.lens_k != [0.0; 2] {
+            let [k1, k2] = flight.lens_k;
+            let message = format!("the lens of `{}` is bent (k1 = {k1}, k2 = {k2})", flight.trajectory_id);
+            return Err(Diagnostic::new("carla-lens", Fault::Recipe, message)
+                .hint("CARLA's lens is bent by another formula; render the flights without `lens`"));
+        }
         let (camera, offset) = (&flight.camera, flight.town_offset_m);
         let walker = Digest::of(flight.pedestrian_id.as_bytes()).0;
         Ok(Self {
@@ -100,7 +106,7 @@ impl JobFlight {
 impl JobFrame {
     /// Our world lies `offset` away from CARLA's, whose x and -y are those of the map file.
     fn new(frame: &PublishedFrame, offset: DVec3) -> Self {
-        let (pose, target) = (&frame.pose, &frame.target);
+        let (pose, target) = (&frame.camera_pose, &frame.target);
         let (place, feet) = (pose.position_in_world + offset, target.feet_in_world + offset);
         let angles = [pose.pitch_rad, pose.yaw_rad, pose.roll_rad].map(f64::to_degrees);
         Self {
@@ -131,6 +137,8 @@ mod tests {
         assert_eq!((first["weather"].as_object().unwrap().len(), &first["weather"]["fog_density"]), (14, &2.0.into()));
         assert_eq!(first["frames"].as_array().unwrap().len(), given.len());
         let pose = &given.trajectory.poses_in_world[3];
+        let bent = PublishedFlight { lens_k: [0.1, 0.0], ..dataset.flights()[0].clone() };
+        assert_eq!(CarlaJob::new(&dataset, &[&bent]).unwrap_err().code, "carla-lens");
         let camera = &first["frames"][3]["camera"];
         assert_eq!(camera[1].as_f64(), Some(pose.position_in_world.y));
         assert!((camera[4].as_f64().unwrap() - pose.yaw_rad.to_degrees()).abs() < 1e-9);
@@ -141,7 +149,8 @@ mod tests {
     #[test]
     fn the_offset_of_the_town_is_taken_back() {
         let frame = PublishedFrame {
-            pose: cosfly_frames::Pose::looking_at(DVec3::new(1.0, 2.0, 30.0), DVec3::ZERO),
+            pose: cosfly_frames::Pose::looking_at(DVec3::new(1.0, 2.0, 30.0), DVec3::Y),
+            camera_pose: cosfly_frames::Pose::looking_at(DVec3::new(1.0, 2.0, 30.0), DVec3::ZERO),
             target: cosfly_frames::TargetState { feet_in_world: DVec3::ZERO, heading_rad: 0.0, speed_mps: 1.0 },
             visible_by_rays: 1.0,
             visible_by_pixels: 1.0,

@@ -69,6 +69,11 @@ impl Rows<'_> {
         value.ok_or_else(|| damaged(self.path, &format!("column `{name}` has no number in row {row}"), "null or NaN"))
     }
 
+    /// A finite number, or `default` in a dataset from before the column was there.
+    pub fn real_or(&self, name: &str, row: usize, default: f64) -> Result<f64> {
+        if self.batch.column_by_name(name).is_none() { Ok(default) } else { self.real(name, row) }
+    }
+
     /// A number from 0 to 2^32 - 1.
     pub fn count(&self, name: &str, row: usize) -> Result<u32> {
         let column = self.column(name, |kind| *kind == DataType::Int64)?.as_primitive::<Int64Type>();

@@ -39,8 +39,10 @@ pub struct PublishedFlight {
     pub frames: usize,
     /// Time between frames, seconds.
     pub dt_s: f64,
-    /// The camera of all frames.
+    /// The camera of all frames, without what its lens bends.
     pub camera: Camera,
+    /// OpenCV's k1 and k2 of the lens.
+    pub lens_k: [f64; 2],
     /// Height of the body, metres.
     pub target_height_m: f64,
     /// Radius of the body, metres.
@@ -56,6 +58,8 @@ pub struct PublishedFlight {
 pub struct PublishedFrame {
     /// Pose of the drone in the world.
     pub pose: Pose,
+    /// Pose of the camera, which is in the same place and may be turned against the drone.
+    pub camera_pose: Pose,
     /// The target.
     pub target: TargetState,
     /// Share of body points reached by rays, 0..=1.
@@ -205,7 +209,7 @@ fn table_files(folder: &Path) -> Result<Vec<(String, PathBuf)>> {
 
 /// What names of weather columns begin with.
 const WEATHER: &str = "weather_";
-const FLIGHT_COLUMNS: [&str; 13] = [
+const FLIGHT_COLUMNS: [&str; 15] = [
     "trajectory_id",
     "expert_id",
     "pedestrian_id",
@@ -216,11 +220,13 @@ const FLIGHT_COLUMNS: [&str; 13] = [
     "camera_width_px",
     "camera_height_px",
     "camera_fov_deg",
+    "camera_k1",
+    "camera_k2",
     "target_height_m",
     "target_radius_m",
     "mcap_path",
 ];
-const FRAME_COLUMNS: [&str; 18] = [
+const FRAME_COLUMNS: [&str; 21] = [
     "trajectory_id",
     "frame",
     "drone_x_m",
@@ -229,6 +235,9 @@ const FRAME_COLUMNS: [&str; 18] = [
     "drone_pitch_deg",
     "drone_yaw_deg",
     "drone_roll_deg",
+    "camera_pitch_deg",
+    "camera_yaw_deg",
+    "camera_roll_deg",
     "target_x_m",
     "target_y_m",
     "target_z_m",
@@ -267,6 +276,7 @@ impl PublishedFlight {
                 height: rows.count("camera_height_px", row)?,
                 horizontal_fov_rad: rows.real("camera_fov_deg", row)?.to_radians(),
             },
+            lens_k: [rows.real_or("camera_k1", row, 0.0)?, rows.real_or("camera_k2", row, 0.0)?],
             target_height_m: rows.real("target_height_m", row)?,
             target_radius_m: rows.real("target_radius_m", row)?,
             mcap_path: text("mcap_path")?,
@@ -278,13 +288,25 @@ impl PublishedFlight {
 impl PublishedFrame {
     fn read(rows: &Rows<'_>, row: usize) -> Result<Self> {
         let real = |name: &str| rows.real(name, row);
+        let pose = Pose {
+            position_in_world: DVec3::new(real("drone_x_m")?, real("drone_y_m")?, real("drone_z_m")?),
+            pitch_rad: real("drone_pitch_deg")?.to_radians(),
+            yaw_rad: real("drone_yaw_deg")?.to_radians(),
+            roll_rad: real("drone_roll_deg")?.to_radians(),
+        };
+        let of_camera = |name: &str, drone_rad: f64| {
+            let degrees = rows.real_or(name, row, drone_rad.to_degrees());
+            degrees.map(f64::to_radians)
+        };
+        let camera_pose = Pose {
+            pitch_rad: of_camera("camera_pitch_deg", pose.pitch_rad)?,
+            yaw_rad: of_camera("camera_yaw_deg", pose.yaw_rad)?,
+            roll_rad: of_camera("camera_roll_deg", pose.roll_rad)?,
+            ..pose
+        };
         Ok(Self {
-            pose: Pose {
-                position_in_world: DVec3::new(real("drone_x_m")?, real("drone_y_m")?, real("drone_z_m")?),
-                pitch_rad: real("drone_pitch_deg")?.to_radians(),
-                yaw_rad: real("drone_yaw_deg")?.to_radians(),
-                roll_rad: real("drone_roll_deg")?.to_radians(),
-            },
+            pose,
+            camera_pose,
             target: TargetState {
                 feet_in_world: DVec3::new(real("target_x_m")?, real("target_y_m")?, real("target_z_m")?),
                 heading_rad: real("target_heading_deg")?.to_radians(),
