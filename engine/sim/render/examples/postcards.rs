@@ -10,7 +10,7 @@ use std::path::Path;
 type Postcard = (&'static str, &'static str, fn(&mut Weather), [f64; 3]);
 
 const POSTCARDS: [Postcard; 5] = [
-    ("noon", "ClearNoon", |it| it.sun_azimuth_angle = 215.0, [-23.0, 11.0, 15.0]),
+    ("noon", "ClearNoon", |it| it.sun_azimuth_angle = 330.0, [-23.0, 11.0, 15.0]),
     ("sunset", "ClearSunset", |it| it.sun_azimuth_angle = 160.0, [-26.0, 9.0, 17.0]),
     ("rain", "HardRainNoon", |it| it.sun_azimuth_angle = 215.0, [-15.0, 8.0, 8.0]),
     (
