@@ -57,6 +57,9 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
                 }
             }
             let total_ms = (cpu_ns(started) - before) as f64 * 1e-6 / 36.0;
+            let shadows: Vec<String> =
+                spent[2].iter().filter(|ns| **ns > 1_000_000).map(|ns| format!("{:.1}", *ns as f64 * 1e-6)).collect();
+            eprintln!("shadow maps drawn: {shadows:?}");
             // A low quantile: the machine may have other work.
             let each = spent.map(|mut times| {
                 times.sort_unstable();

@@ -3,7 +3,7 @@
 use crate::camera::Camera;
 use crate::figure::{Clothes, FigureTriangle, TargetSetup, figure};
 use crate::frame::{FrameImages, TARGET_INSTANCE, TargetView};
-use crate::passes::ids::{SeenRuns, resolve};
+use crate::passes::ids::{SeenRuns, for_each_band};
 use crate::scene::{BOX_FACES, Cluster, Scene};
 use crate::shade::{Seen, Shader, smooth};
 use crate::stages::{Stages, Stopwatch};
@@ -84,6 +84,8 @@ pub struct Renderer {
     covered: Vec<u32>,
     view: TargetView,
     runs: SeenRuns,
+    /// RGB before smoothing, a pixel in each number's low three bytes.
+    picture: Vec<u32>,
     level: Level,
     shader: Shader,
     smoother: smooth::Smoother,
@@ -116,6 +118,7 @@ impl Renderer {
             covered: Vec::new(),
             view: target_view::NOT_IN_VIEW,
             runs: SeenRuns::default(),
+            picture: vec![0; pixels],
             level: Level::best(),
             shader: Shader::new(&screen),
             smoother: smooth::Smoother::default(),
@@ -197,44 +200,46 @@ impl Renderer {
             self.draw_ground(scene, &eye);
         }
         watch.lap(1);
+        if parts == FrameParts::All {
+            let clothes = setup.target.as_ref().map(|target| Clothes::draw(&target.clothes_seed));
+            self.shader.prepare(scene, setup, &eye, &self.figure, clothes);
+            watch.lap(2);
+        }
         self.view = target_view::NOT_IN_VIEW;
         if parts != FrameParts::Visibility {
-            resolve(self.level, &self.nearest.face, &self.faces, &mut self.images, &mut self.runs);
+            self.fill_channels(scene, parts == FrameParts::All);
+            watch.lap(3);
             if let Some(target) = &setup.target {
                 target_view::covered_pixels(&self.alone, self.screen.width, &mut self.covered);
                 self.view = target_view::measure(&self.images, &self.covered, &mut self.occluders);
                 self.view.visible_by_rays = target.visible_by_rays;
             }
-            watch.lap(2);
+            watch.lap(4);
         }
         if parts == FrameParts::All {
-            self.shade(scene, setup, &eye, watch);
+            let mut picture = smooth::Picture {
+                surface: &self.runs.surface,
+                source: &self.picture,
+                rgb: &mut self.images.rgb,
+                width: self.screen.width,
+            };
+            self.smoother.smooth(self.level, &mut picture);
+            watch.lap(5);
+            self.shader.overlay(&mut self.images);
+            watch.lap(6);
         }
     }
 
-    fn shade(&mut self, scene: &Scene, setup: &FrameSetup<'_>, eye: &Eye, watch: &mut Stopwatch<'_>) {
-        let clothes = setup.target.as_ref().map(|target| Clothes::draw(&target.clothes_seed));
-        self.shader.prepare(scene, setup, eye, &self.figure, clothes);
-        watch.lap(3);
-        let seen = Seen {
-            scene,
-            runs: &self.runs.bands,
-            faces: &self.faces,
-            figure: &self.figure,
-            depth_m: &self.images.depth_m,
-        };
-        self.shader.shade(&seen, &mut self.images.rgb);
-        watch.lap(4);
-        let mut picture = smooth::Picture {
-            surface: &self.runs.surface,
-            source: self.shader.picture(),
-            rgb: &mut self.images.rgb,
-            width: self.screen.width,
-        };
-        self.smoother.smooth(self.level, &mut picture);
-        watch.lap(5);
-        self.shader.overlay(&mut self.images);
-        watch.lap(6);
+    /// Depth and ids, and RGB before smoothing, band by band while a band's pixels are at hand.
+    fn fill_channels(&mut self, scene: &Scene, shaded: bool) {
+        let (level, shader) = (self.level, &self.shader);
+        let seen = Seen { scene, faces: &self.faces, figure: &self.figure };
+        for_each_band(&self.nearest.face, &mut self.images, &mut self.runs, &mut self.picture, |mut band| {
+            band.resolve(level, seen.faces);
+            if shaded {
+                shader.shade(&seen, &mut band);
+            }
+        });
     }
 
     /// Boxes from near to far, so that far ones mostly fail the depth comparison.

@@ -5,8 +5,9 @@
 pub struct Stages([u64; Stages::NAMES.len()]);
 
 impl Stages {
-    /// The stages in order: boxes and figure drawn, ground drawn, depth and ids, shadow maps, shading, edges, rain.
-    pub const NAMES: [&'static str; 7] = ["boxes", "ground", "channels", "shadows", "shading", "smoothing", "overlay"];
+    /// The stages in order: boxes and figure drawn, ground drawn, shadow maps, depth and ids and shading (band by band),
+    /// the target measured, edges, rain.
+    pub const NAMES: [&'static str; 7] = ["boxes", "ground", "shadows", "shading", "target", "smoothing", "overlay"];
 
     /// What each took, in the order of the names.
     pub fn ns(&self) -> [u64; Stages::NAMES.len()] {

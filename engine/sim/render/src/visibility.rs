@@ -94,8 +94,8 @@ impl Visibility {
             height,
             inverse_depth: vec![0.0; width * height],
             face: vec![NO_FACE; width * height],
-            left: vec![f64::INFINITY; height],
-            right: vec![f64::NEG_INFINITY; height],
+            left: vec![0.0; height],
+            right: vec![0.0; height],
             level: Level::best(),
             dirty_rows: (height, 0),
         }
@@ -176,10 +176,9 @@ impl Visibility {
 
     /// Draws a polygon into the rows that [`Self::rows_of`] gave.
     pub fn draw_rows(&mut self, points: &[[f64; 2]], rows: (usize, usize), plane: &PlaneOnScreen, face: u32) {
-        self.scan_edges(points);
         self.dirty_rows = (self.dirty_rows.0.min(rows.0), self.dirty_rows.1.max(rows.1));
         let pixels = rows.0 * self.width..rows.1 * self.width;
-        fill_rows(
+        draw_rows(
             self.level,
             &mut self.inverse_depth[pixels.clone()],
             &mut self.face[pixels],
@@ -187,29 +186,37 @@ impl Visibility {
             rows.0,
             &mut self.left[rows.0..rows.1],
             &mut self.right[rows.0..rows.1],
+            points,
             plane,
             face,
         );
     }
+}
 
-    /// Notes for every row where the polygon's edges cross its centre line.
-    fn scan_edges(&mut self, points: &[[f64; 2]]) {
-        let mut from = points[points.len() - 1];
-        for &to in points {
-            let ordered = (from[1], from[0]) <= (to[1], to[0]);
-            let (low, high) = if ordered { (from, to) } else { (to, from) };
-            let first = first_center(low[1], self.height);
-            let end = first_center(high[1], self.height);
-            if first < end {
-                let slope = (high[0] - low[0]) / (high[1] - low[1]);
-                for row in first..end {
-                    let u = low[0] + (row as f64 + 0.5 - low[1]) * slope;
-                    self.left[row] = self.left[row].min(u);
-                    self.right[row] = self.right[row].max(u);
-                }
+/// Notes for rows from `first_row` where a polygon's edges cross their centre lines.
+#[inline(always)]
+fn scan_edges(points: &[[f64; 2]], first_row: usize, left: &mut [f64], right: &mut [f64]) {
+    let end_row = first_row.wrapping_add(left.len());
+    left.fill(f64::INFINITY);
+    right.fill(f64::NEG_INFINITY);
+    let Some(&last) = points.last() else { return };
+    let mut from = last;
+    for &to in points {
+        let ordered = (from[1], from[0]) <= (to[1], to[0]);
+        let (low, high) = if ordered { (from, to) } else { (to, from) };
+        let first = first_center(low[1], end_row).max(first_row);
+        let end = first_center(high[1], end_row);
+        if first < end {
+            let slope = (high[0] - low[0]) / (high[1] - low[1]);
+            let rows = first.wrapping_sub(first_row)..end.wrapping_sub(first_row);
+            let base = first as u32 as f64 + 0.5;
+            for (row, (left, right)) in left[rows.clone()].iter_mut().zip(&mut right[rows]).enumerate() {
+                let u = low[0] + (base + row as i32 as f64 - low[1]) * slope;
+                *left = if u < *left { u } else { *left };
+                *right = if u > *right { u } else { *right };
             }
-            from = to;
         }
+        from = to;
     }
 }
 
@@ -229,15 +236,28 @@ pub fn bounds(points: &[[f64; 2]]) -> ([f64; 2], [f64; 2]) {
 /// Index of the first pixel whose centre is at or after the coordinate, within 0..=`limit`.
 #[inline(always)]
 fn first_center(coordinate: f64, limit: usize) -> usize {
-    /// Adding it leaves the nearest whole number in the low bits.
-    const MAGIC: f64 = 6_755_399_441_055_744.0;
+    whole(center_from(coordinate, limit))
+}
+
+/// Adding it leaves the nearest whole number in the low bits.
+const MAGIC: f64 = 6_755_399_441_055_744.0;
+
+/// [`first_center`] as a float.
+#[inline(always)]
+fn center_from(coordinate: f64, limit: usize) -> f64 {
     let shifted = coordinate - 0.5;
     // A NaN becomes 0.
     let positive = if shifted > 0.0 { shifted } else { 0.0 };
     let highest = limit as u32 as f64;
     let inside = if positive < highest { positive } else { highest };
-    let nearest = inside + MAGIC;
-    (nearest.to_bits() as u32).wrapping_add(u32::from(nearest - MAGIC < inside)) as usize
+    let nearest = (inside + MAGIC) - MAGIC;
+    if nearest < inside { nearest + 1.0 } else { nearest }
+}
+
+/// A whole number below 2^31 as an index.
+#[inline(always)]
+fn whole(number: f64) -> usize {
+    (number + MAGIC).to_bits() as u32 as usize
 }
 
 /// Size of a tile of [`Nearer`], pixels.
@@ -325,24 +345,29 @@ const WINDOW: [f32; 3 * WIDE] = {
 };
 
 simd_kernel! {
-    /// Writes the spans between `left` and `right` of neighbouring rows, and forgets the spans.
+    /// Writes the spans between a polygon's edges in neighbouring rows. `left` and `right` are room for their ends.
     #[expect(clippy::too_many_arguments, reason = "the parts of a buffer, apart so that compilers know that they are")]
-    fn fill_rows(
+    fn draw_rows(
         inverse_depth: &mut [f32],
         faces: &mut [u32],
         width: usize,
         first_row: usize,
         left: &mut [f64],
         right: &mut [f64],
+        points: &[[f64; 2]],
         plane: &PlaneOnScreen,
         face: u32,
     ) {
+        scan_edges(points, first_row, left, right);
+        for (left, right) in left.iter_mut().zip(right.iter_mut()) {
+            *left = center_from(*left, width);
+            *right = center_from(*right, width);
+        }
         let step = plane.across as f32;
         let rows = inverse_depth.chunks_exact_mut(width).zip(faces.chunks_exact_mut(width));
-        for (row, ((depths, ids), (left, right))) in rows.zip(left.iter_mut().zip(right.iter_mut())).enumerate() {
-            let (start, end) = (first_center(*left, width), first_center(*right, width));
-            *left = f64::INFINITY;
-            *right = f64::NEG_INFINITY;
+        for (row, ((depths, ids), (left, right))) in rows.zip(left.iter().zip(right.iter())).enumerate() {
+            // Whole numbers already.
+            let (start, end) = (whole(*left), whole(*right));
             if start >= end {
                 continue;
             }

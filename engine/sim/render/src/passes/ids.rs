@@ -26,18 +26,36 @@ pub(crate) struct Run {
 #[derive(Default)]
 pub(crate) struct SeenRuns {
     /// Runs of each band, row by row.
-    pub bands: Vec<Vec<Run>>,
+    bands: Vec<Vec<Run>>,
     /// Equal for pixels of one surface: a box face, ground of one label, the figure, the sky.
     pub surface: Vec<u32>,
 }
 
-/// Fills the exact channels and lists the runs.
-pub(crate) fn resolve(
-    level: Level,
+/// All channels of a band.
+pub(crate) struct Band<'a> {
+    /// Rows above it.
+    pub first_row: usize,
+    pub width: usize,
+    /// Runs of faces, row by row.
+    pub runs: &'a mut Vec<Run>,
+    /// Face numbers.
+    ids: &'a [u32],
+    pub depth_m: &'a mut [f32],
+    semantic: &'a mut [u8],
+    instance: &'a mut [u32],
+    surface: &'a mut [u32],
+    /// The picture before smoothing.
+    pub picture: &'a mut [u32],
+    pub rgb: &'a mut [u8],
+}
+
+/// Visits all bands of an image; on several threads where a pool of threads calls.
+pub(crate) fn for_each_band(
     faces_seen: &[u32],
-    faces: &[DrawnFace],
     images: &mut FrameImages,
     seen: &mut SeenRuns,
+    picture: &mut [u32],
+    visit: impl Fn(Band<'_>) + Sync,
 ) {
     let width = images.width as usize;
     if width == 0 {
@@ -46,32 +64,50 @@ pub(crate) fn resolve(
     let pixels = BAND_ROWS * width;
     seen.bands.resize(faces_seen.len().div_ceil(pixels), Vec::new());
     seen.surface.resize(faces_seen.len(), 0);
-    let bands = seen.bands.par_iter_mut().zip(faces_seen.par_chunks(pixels));
-    let channels = images.depth_m.par_chunks_mut(pixels).zip(images.semantic.par_chunks_mut(pixels));
-    let more = images.instance.par_chunks_mut(pixels).zip(seen.surface.par_chunks_mut(pixels));
-    let all = bands.zip(channels).zip(more).enumerate();
-    let one = |(band, (((runs, ids), (depth, semantic)), (instance, surface))): (usize, BandParts<'_>)| {
-        runs.clear();
-        for (row, ids) in ids.chunks_exact(width).enumerate() {
-            let start = (row * width) as u32;
-            for_each_run(ids, |from, length, face| {
-                runs.push(Run { start: start + from as u32, length: length as u32, face });
-            });
-        }
-        let first_row = band * BAND_ROWS;
-        resolve_runs(level, runs, faces, width, first_row, depth, semantic, instance, surface);
-    };
+    let FrameImages { rgb, depth_m, semantic, instance, .. } = images;
+    macro_rules! visit_all {
+        ($iterate:ident, $chunks:ident, $chunks_mut:ident) => {
+            (seen.bands.$iterate().zip(faces_seen.$chunks(pixels)))
+                .zip(depth_m.$chunks_mut(pixels).zip(semantic.$chunks_mut(pixels)))
+                .zip(instance.$chunks_mut(pixels).zip(seen.surface.$chunks_mut(pixels)))
+                .zip(picture.$chunks_mut(pixels).zip(rgb.$chunks_mut(3 * pixels)))
+                .enumerate()
+                .for_each(|(band, ((((runs, ids), (depth_m, semantic)), (instance, surface)), (picture, rgb)))| {
+                    let first_row = band * BAND_ROWS;
+                    visit(Band { first_row, width, runs, ids, depth_m, semantic, instance, surface, picture, rgb });
+                })
+        };
+    }
     if has_threads() {
-        all.for_each(one);
+        visit_all!(par_iter_mut, par_chunks, par_chunks_mut);
     } else {
-        let bands = seen.bands.iter_mut().zip(faces_seen.chunks(pixels));
-        let channels = images.depth_m.chunks_mut(pixels).zip(images.semantic.chunks_mut(pixels));
-        let more = images.instance.chunks_mut(pixels).zip(seen.surface.chunks_mut(pixels));
-        bands.zip(channels).zip(more).enumerate().for_each(one);
+        visit_all!(iter_mut, chunks, chunks_mut);
     }
 }
 
-type BandParts<'a> = (((&'a mut Vec<Run>, &'a [u32]), (&'a mut [f32], &'a mut [u8])), (&'a mut [u32], &'a mut [u32]));
+impl Band<'_> {
+    /// Fills the exact channels and lists the runs.
+    pub fn resolve(&mut self, level: Level, faces: &[DrawnFace]) {
+        self.runs.clear();
+        for (row, ids) in self.ids.chunks_exact(self.width).enumerate() {
+            let start = (row * self.width) as u32;
+            for_each_run(ids, |from, length, face| {
+                self.runs.push(Run { start: start + from as u32, length: length as u32, face });
+            });
+        }
+        resolve_runs(
+            level,
+            self.runs,
+            faces,
+            self.width,
+            self.first_row,
+            self.depth_m,
+            self.semantic,
+            self.instance,
+            self.surface,
+        );
+    }
+}
 
 /// The number of a pixel's surface.
 fn surface_of(number: u32, face: &DrawnFace) -> u32 {

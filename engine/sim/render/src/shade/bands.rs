@@ -10,13 +10,12 @@ use super::surface::Look;
 use super::things::{Thing, swell, things};
 use super::vector::Vec3;
 use super::{Seen, Shader};
-use crate::passes::ids::{BAND_ROWS, Run};
-use crate::renderer::{DrawnFace, FaceSource, has_threads};
+use crate::passes::ids::{Band, Run};
+use crate::renderer::{DrawnFace, FaceSource};
 use crate::scene::{BOX_FACES, SceneBox};
 use crate::visibility::NO_FACE;
 use cosfly_frames::simd_kernel;
 use cosfly_maps::{ObstacleKind, SemanticLabel};
-use rayon::prelude::*;
 use std::sync::PoisonError;
 
 /// Groups of pixels that are not of a single face: the sky, and ground by label.
@@ -54,14 +53,6 @@ struct Piece {
     length: usize,
 }
 
-/// A band of the picture.
-#[derive(Clone, Copy)]
-struct Band {
-    first_row: usize,
-    first_pixel: usize,
-    width: usize,
-}
-
 /// What the pixels of a group are made of.
 enum Material {
     Sky,
@@ -72,29 +63,13 @@ enum Material {
     Cloth(Cloth),
 }
 
-type BandParts<'a> = ((&'a mut [u32], &'a mut [u8]), &'a Vec<Run>);
-
-/// Shades all bands of a picture, also as bytes; on several threads where a pool of threads calls.
-pub(super) fn shade(shader: &Shader, seen: &Seen<'_>, picture: &mut [u32], rgb: &mut [u8]) {
-    let width = shader.screen.width;
-    if width == 0 {
-        return;
-    }
-    let one = |(index, ((band, rgb), runs)): (usize, BandParts<'_>)| {
-        let idle = || shader.idle.lock().unwrap_or_else(PoisonError::into_inner);
-        let mut worker = idle().pop().unwrap_or_else(Worker::new);
-        let first_row = index * BAND_ROWS;
-        worker.shade(shader, seen, Band { first_row, first_pixel: first_row * width, width }, runs, band);
-        bytes(shader.level, band, rgb);
-        idle().push(worker);
-    };
-    let pixels = BAND_ROWS * width;
-    if has_threads() {
-        let bands = picture.par_chunks_mut(pixels).zip(rgb.par_chunks_mut(3 * pixels)).zip(seen.runs);
-        bands.enumerate().for_each(one);
-    } else {
-        picture.chunks_mut(pixels).zip(rgb.chunks_mut(3 * pixels)).zip(seen.runs).enumerate().for_each(one);
-    }
+/// Shades a band from its runs and depth: the picture, and the same as bytes.
+pub(super) fn shade(shader: &Shader, seen: &Seen<'_>, band: &mut Band<'_>) {
+    let idle = || shader.idle.lock().unwrap_or_else(PoisonError::into_inner);
+    let mut worker = idle().pop().unwrap_or_else(Worker::new);
+    worker.shade(shader, seen, band);
+    bytes(shader.level, band.picture, band.rgb);
+    idle().push(worker);
 }
 
 simd_kernel! {
@@ -129,11 +104,11 @@ impl Worker {
         }
     }
 
-    fn shade(&mut self, shader: &Shader, seen: &Seen<'_>, band: Band, runs: &[Run], picture: &mut [u32]) {
-        self.gather(seen, band, runs);
+    fn shade(&mut self, shader: &Shader, seen: &Seen<'_>, band: &mut Band<'_>) {
+        self.gather(seen, band);
         for position in 0..self.present.len() {
             let group = self.present[position] as usize;
-            self.shade_group(shader, seen, band, group, picture);
+            self.shade_group(shader, seen, band, group);
             self.first[group] = END;
         }
         self.present.clear();
@@ -141,13 +116,13 @@ impl Worker {
     }
 
     /// Lists the band's runs by group; neighbours in a row that are alike to the kernels become one.
-    fn gather(&mut self, seen: &Seen<'_>, band: Band, runs: &[Run]) {
+    fn gather(&mut self, seen: &Seen<'_>, band: &Band<'_>) {
         let groups = SHARED_GROUPS + seen.faces.len();
         if self.first.len() < groups {
             self.first.resize(groups, END);
         }
         let mut last_group = usize::MAX;
-        for run in runs {
+        for run in band.runs.iter() {
             let group = group_of(seen.faces, run.face);
             if group == last_group
                 && group < SKY
@@ -168,7 +143,7 @@ impl Worker {
         }
     }
 
-    fn shade_group(&mut self, shader: &Shader, seen: &Seen<'_>, band: Band, group: usize, picture: &mut [u32]) {
+    fn shade_group(&mut self, shader: &Shader, seen: &Seen<'_>, band: &mut Band<'_>, group: usize) {
         let mut next = self.first[group];
         let first = self.runs[next as usize].run;
         let (material, axes) = material_of(shader, seen, first.face);
@@ -188,28 +163,28 @@ impl Worker {
             while start < end {
                 let length = (end - start).min(LANES - lanes);
                 let piece = Piece { start, lane: lanes, length };
-                self.fill(seen, band, piece, is_ground.then_some(normal));
+                self.fill(band, piece, is_ground.then_some(normal));
                 self.pieces.push(piece);
                 lanes += length;
                 start += length;
                 if lanes == LANES {
-                    self.flush(shader, seen, &material, &axes, lanes, picture);
+                    self.flush(shader, seen, &material, &axes, lanes, band.picture);
                     lanes = 0;
                 }
             }
         }
         if lanes > 0 {
-            self.flush(shader, seen, &material, &axes, lanes, picture);
+            self.flush(shader, seen, &material, &axes, lanes, band.picture);
         }
     }
 
     /// Puts a piece of a run on the stage, sixteen pixels at a time: what is too much, the next piece writes over.
     #[inline]
-    fn fill(&mut self, seen: &Seen<'_>, band: Band, piece: Piece, normal: Option<Vec3>) {
+    fn fill(&mut self, band: &Band<'_>, piece: Piece, normal: Option<Vec3>) {
         let column = piece.start % band.width;
         let v = (band.first_row + piece.start / band.width) as f32 + 0.5;
         let u = column as f32 + 0.5;
-        let depth_m = &seen.depth_m[band.first_pixel + piece.start..];
+        let depth_m = &band.depth_m[piece.start..];
         let stage = &mut *self.stage;
         for done in (0..piece.length).step_by(WIDE) {
             let lane = piece.lane + done;
@@ -246,8 +221,7 @@ impl Worker {
         picture: &mut [u32],
     ) {
         let blocks = &mut self.blocks[..lanes.div_ceil(WIDE)];
-        self.stage.unload(blocks);
-        run_kernels(shader, seen, material, axes, blocks);
+        run_kernels(shader, seen, material, axes, &self.stage, blocks);
         for (out, block) in self.developed.as_chunks_mut::<WIDE>().0.iter_mut().zip(blocks.iter()) {
             *out = block.bytes;
         }
@@ -286,15 +260,22 @@ simd_kernel! {
     }
 }
 
-fn run_kernels(shader: &Shader, seen: &Seen<'_>, material: &Material, axes: &FaceAxes, blocks: &mut [Block]) {
+fn run_kernels(
+    shader: &Shader,
+    seen: &Seen<'_>,
+    material: &Material,
+    axes: &FaceAxes,
+    stage: &Stage,
+    blocks: &mut [Block],
+) {
     let (level, light, noise) = (shader.level, &shader.light, &seen.scene.noise);
     if let Material::Sky = material {
-        lighting::sky(level, blocks, &shader.view, light, noise);
+        lighting::sky(level, blocks, stage, &shader.view, light, noise);
         lighting::develop(level, blocks, light.exposure, &shader.tone);
         return;
     }
     let grid = &seen.scene.grid;
-    place(level, blocks, &shader.view, axes, grid.tables(), &grid.frame(), light);
+    place(level, blocks, stage, &shader.view, axes, grid.tables(), &grid.frame(), light);
     if let Material::Thing(thing) = material
         && matches!(thing.kind, ObstacleKind::TreeCrown | ObstacleKind::Bush)
     {

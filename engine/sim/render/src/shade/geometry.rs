@@ -1,7 +1,7 @@
 //! From pixels to places: world points, pixel sizes on the surface, openness to the sky, haze.
 
 use super::grid::{GridFrame, GridTables};
-use super::lanes::{Block, WIDE, get, set};
+use super::lanes::{Block, Stage, WIDE, get, set};
 use super::light::Light;
 use super::pattern::{least, most, one_if};
 use super::vector::Vec3;
@@ -41,17 +41,18 @@ pub struct FaceAxes {
 
 simd_kernel! {
     /// Fills in what follows from pixel, depth and normal; turns normals to the camera.
-    pub fn place(blocks: &mut [Block], view: &View, axes: &FaceAxes, grid: &GridTables, frame: &GridFrame, light: &Light) {
+    pub fn place(blocks: &mut [Block], stage: &Stage, view: &View, axes: &FaceAxes, grid: &GridTables, frame: &GridFrame, light: &Light) {
         let (view, axes, frame) = (*view, *axes, *frame);
         let (haze_start_m, haze_per_m) = (light.haze_start_m, light.haze_per_m);
         let [across_along, down_along] = [view.across.dot(axes.along), view.down.dot(axes.along)];
         let [across_up, down_up] = [view.across.dot(axes.up), view.down.dot(axes.up)];
-        for block in blocks.iter_mut() {
+        for (b, block) in blocks.iter_mut().enumerate() {
+            let ((u, v, depth_m), normals) = (stage.lanes(b), stage.normals(b));
             for k in 0..WIDE {
-                let ray = view.ray(block.u[k], block.v[k]);
-                let depth = block.depth_m[k];
+                let ray = view.ray(u[k], v[k]);
+                let depth = depth_m[k];
                 let world = view.position + ray * depth;
-                let drawn = get(&block.normal, k);
+                let drawn = Vec3::new(normals[0][k], normals[1][k], normals[2][k]);
                 let facing = ray.dot(drawn);
                 // One pixel aside moves over the plane by the step, slid along the ray until it stays in the plane.
                 let slide = depth / facing;

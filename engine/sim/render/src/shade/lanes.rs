@@ -36,17 +36,17 @@ impl Stage {
         normal: [[0.0; LANES + WIDE]; 3],
     };
 
-    /// Moves the first pixels into blocks.
-    #[inline]
-    pub fn unload(&self, blocks: &mut [Block]) {
-        let (u, v, depth_m) = (self.u.as_chunks().0, self.v.as_chunks().0, self.depth_m.as_chunks().0);
-        let normals = [&self.normal[0], &self.normal[1], &self.normal[2]].map(|lanes| lanes.as_chunks::<WIDE>().0);
-        for (b, block) in blocks.iter_mut().enumerate() {
-            block.u = u[b];
-            block.v = v[b];
-            block.depth_m = depth_m[b];
-            block.normal = normals.map(|lanes| lanes[b]);
-        }
+    /// The lanes of block `b`: u, v, depth.
+    #[inline(always)]
+    pub fn lanes(&self, b: usize) -> (&Lane, &Lane, &Lane) {
+        (&self.u.as_chunks().0[b], &self.v.as_chunks().0[b], &self.depth_m.as_chunks().0[b])
+    }
+
+    /// The normals of block `b`.
+    #[inline(always)]
+    pub fn normals(&self, b: usize) -> [&Lane; 3] {
+        let [x, y, z] = &self.normal;
+        [&x.as_chunks().0[b], &y.as_chunks().0[b], &z.as_chunks().0[b]]
     }
 }
 
@@ -54,13 +54,7 @@ impl Stage {
 #[repr(align(64))]
 #[derive(Clone, Debug)]
 pub struct Block {
-    /// Pixel centre, from the left, pixels.
-    pub u: Lane,
-    /// Pixel centre, from the top.
-    pub v: Lane,
-    /// Planar depth, metres.
-    pub depth_m: Lane,
-    /// Unit normal of the face, any side.
+    /// Unit normal of the face, towards the camera.
     pub normal: Lane3,
     /// Direction from the camera, 1 along the optical axis.
     pub ray: Lane3,
@@ -99,9 +93,6 @@ pub struct Block {
 impl Block {
     /// All zero.
     pub const EMPTY: Self = Self {
-        u: [0.0; WIDE],
-        v: [0.0; WIDE],
-        depth_m: [1.0; WIDE],
         normal: [[0.0; WIDE]; 3],
         ray: [[0.0; WIDE]; 3],
         world: [[0.0; WIDE]; 3],

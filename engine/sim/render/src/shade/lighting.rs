@@ -1,7 +1,7 @@
 //! From looks to bytes: sun, sky, lamps, wetness, mirrors, haze and the tone curve.
 
 use super::geometry::View;
-use super::lanes::{Block, WIDE, get, set};
+use super::lanes::{Block, Stage, WIDE, get, set};
 use super::light::Light;
 use super::pattern::{NoiseTexture, Noises, least, most, share, smoothstep};
 use super::tone::ToneCurve;
@@ -138,11 +138,12 @@ simd_kernel! {
 
 simd_kernel! {
     /// Colours of the sky.
-    pub fn sky(blocks: &mut [Block], view: &View, light: &Light, noise: &NoiseTexture) {
+    pub fn sky(blocks: &mut [Block], stage: &Stage, view: &View, light: &Light, noise: &NoiseTexture) {
         let (view, light) = (*view, *light);
-        for block in blocks.iter_mut() {
+        for (b, block) in blocks.iter_mut().enumerate() {
+            let (u, v, _) = stage.lanes(b);
             for k in 0..WIDE {
-                let direction = view.ray(block.u[k], block.v[k]).unit();
+                let direction = view.ray(u[k], v[k]).unit();
                 set(&mut block.colour, k, super::sky::colour(&light, direction, noise));
             }
         }

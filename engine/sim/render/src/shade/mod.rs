@@ -23,7 +23,7 @@ pub mod vector;
 
 use crate::figure::{Clothes, FigureTriangle};
 use crate::frame::FrameImages;
-use crate::passes::ids::Run;
+use crate::passes::ids::Band;
 use crate::renderer::{DrawnFace, Eye, FrameSetup};
 use crate::scene::Scene;
 use crate::visibility::Screen;
@@ -35,7 +35,7 @@ use pattern::hash;
 use std::sync::Mutex;
 use vector::Vec3;
 
-/// Shades whole frames; owns the shadow maps and the linear picture.
+/// Shades whole frames; owns the shadow maps.
 pub struct Shader {
     screen: Screen,
     level: Level,
@@ -46,8 +46,6 @@ pub struct Shader {
     clothes: Option<Clothes>,
     /// Where the target stands, and its radius, metres.
     feet: Option<(Vec3, f32)>,
-    /// The picture before smoothing, a pixel in each number's low three bytes.
-    picture: Vec<u32>,
     tone: tone::ToneCurve,
     idle: Mutex<Vec<bands::Worker>>,
 }
@@ -56,11 +54,8 @@ pub struct Shader {
 #[derive(Clone, Copy)]
 pub(crate) struct Seen<'a> {
     pub scene: &'a Scene,
-    /// Runs of the faces by band.
-    pub runs: &'a [Vec<Run>],
     pub faces: &'a [DrawnFace],
     pub figure: &'a [FigureTriangle],
-    pub depth_m: &'a [f32],
 }
 
 impl Shader {
@@ -76,7 +71,6 @@ impl Shader {
             shadows: shadow::Shadows::new(),
             clothes: None,
             feet: None,
-            picture: vec![0; screen.width * screen.height],
             tone: tone::ToneCurve::new(),
             idle: Mutex::new(Vec::new()),
         }
@@ -106,16 +100,9 @@ impl Shader {
         self.shadows.prepare(scene, eye, self.light.to_sun, figure);
     }
 
-    /// Shades the faces seen, without smoothing.
-    pub(crate) fn shade(&mut self, seen: &Seen<'_>, rgb: &mut [u8]) {
-        let mut picture = core::mem::take(&mut self.picture);
-        bands::shade(self, seen, &mut picture, rgb);
-        self.picture = picture;
-    }
-
-    /// The picture that [`Self::shade`] made: red in each number's lowest byte, then green and blue.
-    pub(crate) fn picture(&self) -> &[u32] {
-        &self.picture
+    /// Shades the faces seen in a band, without smoothing.
+    pub(crate) fn shade(&self, seen: &Seen<'_>, band: &mut Band<'_>) {
+        bands::shade(self, seen, band);
     }
 
     /// Rain in front of everything.

@@ -81,14 +81,16 @@ pub fn stripes(x: f32, low: f32, high: f32, width: f32) -> f32 {
     let at = x - floor_int(x) as f32;
     let (from, to) = (at - 0.5 * width, at + 0.5 * width);
     let overlap = |shift: f32| most(least(to, high + shift) - most(from, low + shift), 0.0);
-    least((overlap(-1.0) + overlap(0.0) + overlap(1.0)) / width, 1.0)
+    // One reciprocal serves all stripes of a width.
+    least((overlap(-1.0) + overlap(0.0) + overlap(1.0)) * (1.0 / width), 1.0)
 }
 
 /// Share of the interval of width `width` around `x` that lies in [`low`, `high`].
 #[inline(always)]
 pub fn band(x: f32, low: f32, high: f32, width: f32) -> f32 {
-    let half = 0.5 * most(width, 1e-4);
-    share((least(x + half, high) - most(x - half, low)) / (2.0 * half))
+    let width = most(width, 1e-4);
+    let half = 0.5 * width;
+    share((least(x + half, high) - most(x - half, low)) * (1.0 / width))
 }
 
 /// Tileable noises of mean one half, see [`Noises`]. A bare array, so that compilers see that kernels' results lie

@@ -1,9 +1,11 @@
 //! From linear light to sRGB bytes: a filmic curve and gamma, through one table.
 
-use super::pattern::{fixed_size, nearest_index, share};
+use super::pattern::{fixed_size, least, most};
 
-/// Entries of the table; it is indexed by the square root of light, so darkness is fine-grained.
+/// Entries of the table: 128 for each doubling of light, so darkness is as fine-grained as brightness.
 const ENTRIES: usize = 2048;
+/// Light of the first entry, and everything darker.
+const BLACK: f32 = 1.0 / 4096.0;
 /// Light that becomes pure white.
 const WHITE: f32 = 8.0;
 
@@ -17,8 +19,8 @@ impl ToneCurve {
     pub fn new() -> Self {
         let bytes = (0..ENTRIES)
             .map(|i| {
-                let root = i as f32 / (ENTRIES - 1) as f32;
-                let x = root * root * WHITE;
+                // The middle of the lights that have this place.
+                let x = f32::from_bits(BLACK.to_bits() + ((i as u32) << 16) + 0x8000).min(WHITE);
                 // Narkowicz's fit of the ACES curve, and a share of Reinhard's, which keeps shade open.
                 let filmic = x * (2.51 * x + 0.03) / (x * (2.43 * x + 0.59) + 0.14);
                 let bright = 2.0 * x;
@@ -31,11 +33,11 @@ impl ToneCurve {
         Self { bytes: *fixed_size(bytes) }
     }
 
-    /// The byte for linear light, exposed.
+    /// The byte for linear light, exposed. The bits of a float grow nearly like its logarithm.
     #[inline(always)]
     pub fn byte(&self, light: f32) -> u32 {
-        let root = share(light * (1.0 / WHITE)).sqrt();
-        self.bytes[nearest_index(root * (ENTRIES - 1) as f32) & (ENTRIES - 1)]
+        let bits = least(most(light, BLACK), WHITE).to_bits();
+        self.bytes[(bits.wrapping_sub(BLACK.to_bits()) >> 16) as usize & (ENTRIES - 1)]
     }
 }
 
@@ -48,5 +50,6 @@ mod tests {
         let curve = ToneCurve::new();
         assert!(curve.bytes.windows(2).all(|pair| pair[0] <= pair[1]));
         assert_eq!((curve.bytes[0], curve.bytes[ENTRIES - 1]), (0, 255));
+        assert_eq!((curve.byte(0.0), curve.byte(-1.0), curve.byte(f32::NAN), curve.byte(1e9)), (0, 0, 0, 255));
     }
 }
