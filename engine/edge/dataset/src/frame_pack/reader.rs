@@ -50,9 +50,9 @@ pub struct RawPixels {
 pub struct Previews {
     /// JPEG file, 320 pixels wide.
     pub rgb_jpeg: Vec<u8>,
-    /// JPEG file, 640 pixels wide, logarithmic colours.
+    /// JPEG file, 320 pixels wide, logarithmic colours.
     pub depth_jpeg: Vec<u8>,
-    /// PNG file, 640 pixels wide, index = label id, palette = CARLA's colours.
+    /// PNG file, 320 pixels wide, index = label id, palette = CARLA's colours.
     pub semantic_png: Vec<u8>,
 }
 

@@ -9,8 +9,10 @@ use cosfly_frames::simd::Level;
 use cosfly_render::FrameImages;
 use std::io::Write;
 
-/// Level of all zstd sections: higher ones gain nothing on rendered depth.
+/// Level of all zstd sections: higher ones take longer and gain little on rendered depth.
 const ZSTD_LEVEL: i32 = 1;
+/// Twice the level's own hash table: depth gets a seventh smaller in the same time.
+const ZSTD_HASH_LOG: u32 = 15;
 
 /// Writes one pack. Call [`Self::frame`] per frame and [`Self::finish`] at the end; a pack without its end
 /// is refused by the reader.
@@ -21,8 +23,9 @@ pub struct FramePackWriter<W: Write> {
     header_bytes: Vec<u8>,
     sections: Vec<[Section; SECTIONS]>,
     compressor: zstd::bulk::Compressor<'static>,
-    /// Records of a chunk before and after compression; kept from frame to frame.
-    plain: Vec<u8>,
+    /// Records of both chunks, and the last one compressed; kept from frame to frame.
+    depth_records: Vec<u8>,
+    id_records: Vec<u8>,
     stored: Vec<u8>,
 }
 
@@ -31,7 +34,8 @@ impl<W: Write> FramePackWriter<W> {
     pub fn new(output: W, header: &PackHeader) -> Result<Self> {
         header.check()?;
         let header_bytes = serde_json::to_vec(header).expect("a pack header is plain JSON");
-        let compressor = zstd::bulk::Compressor::new(ZSTD_LEVEL).map_err(write_error)?;
+        let mut compressor = zstd::bulk::Compressor::new(ZSTD_LEVEL).map_err(write_error)?;
+        compressor.set_parameter(zstd::zstd_safe::CParameter::HashLog(ZSTD_HASH_LOG)).map_err(write_error)?;
         let mut writer = Self {
             output,
             position: 0,
@@ -39,7 +43,8 @@ impl<W: Write> FramePackWriter<W> {
             header_bytes,
             sections: vec![],
             compressor,
-            plain: vec![],
+            depth_records: vec![],
+            id_records: vec![],
             stored: vec![],
         };
         let mut start = Vec::from(MAGIC);
@@ -116,8 +121,9 @@ impl<W: Write> FramePackWriter<W> {
 
     fn depth_section(&mut self, images: &FrameImages) -> Result<Section> {
         let chunk = depth_records(&self.header, self.sections.len());
-        self.plain.resize(chunk.len(), 0);
-        let room = chunk.records[0].frame_of(&mut self.plain);
+        let mut plain = core::mem::take(&mut self.depth_records);
+        plain.resize(chunk.len(), 0);
+        let room = chunk.records[0].frame_of(&mut plain);
         let all_are_depths = match self.header.encoding.depth {
             DepthEncoding::Grid => depth::grid_bytes(Level::best(), &images.depth_m, room),
             DepthEncoding::Lossless => depth::lossless_bytes(Level::best(), &images.depth_m, room),
@@ -125,13 +131,16 @@ impl<W: Write> FramePackWriter<W> {
         if let Some(at) = images.depth_m.iter().position(|depth| !all_are_depths && (depth.is_nan() || *depth < 0.0)) {
             return self.refuse(format!("the depth of pixel {at} is `{}`; it must be 0 m or more", images.depth_m[at]));
         }
-        self.compressed_section()
+        let section = self.compressed_section(&plain);
+        self.depth_records = plain;
+        section
     }
 
     fn ids_section(&mut self, images: &FrameImages) -> Result<Section> {
         let chunk = id_records(&self.header, self.sections.len());
-        self.plain.resize(chunk.len(), 0);
-        let (semantic, instance) = self.plain.split_at_mut(chunk.records[0].len());
+        let mut plain = core::mem::take(&mut self.id_records);
+        plain.resize(chunk.len(), 0);
+        let (semantic, instance) = plain.split_at_mut(chunk.records[0].len());
         chunk.records[0].frame_of(semantic).copy_from_slice(&images.semantic);
         let room = chunk.records[1].frame_of(instance);
         match self.header.instance {
@@ -143,18 +152,20 @@ impl<W: Write> FramePackWriter<W> {
             }
             InstanceFormat::U32 => ids::u32_bytes(Level::best(), &images.instance, room),
         }
-        self.compressed_section()
+        let section = self.compressed_section(&plain);
+        self.id_records = plain;
+        section
     }
 
-    /// Compresses and appends the records in `plain`.
-    fn compressed_section(&mut self) -> Result<Section> {
-        self.stored.clear();
-        self.stored.reserve(zstd::zstd_safe::compress_bound(self.plain.len()));
-        self.compressor.compress_to_buffer(&self.plain, &mut self.stored).map_err(write_error)?;
-        let stored = core::mem::take(&mut self.stored);
+    /// Compresses and appends the records of a chunk.
+    fn compressed_section(&mut self, plain: &[u8]) -> Result<Section> {
+        let mut stored = core::mem::take(&mut self.stored);
+        stored.clear();
+        stored.reserve(zstd::zstd_safe::compress_bound(plain.len()));
+        self.compressor.compress_to_buffer(plain, &mut stored).map_err(write_error)?;
         let section = self.section(&stored)?;
         self.stored = stored;
-        Ok(Section { plain_bytes: self.plain.len() as u32, plain_crc: crc32fast::hash(&self.plain), ..section })
+        Ok(Section { plain_bytes: plain.len() as u32, plain_crc: crc32fast::hash(plain), ..section })
     }
 
     fn section(&mut self, bytes: &[u8]) -> Result<Section> {

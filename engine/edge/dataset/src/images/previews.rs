@@ -8,20 +8,21 @@ use cosfly_maps::SemanticLabel;
 use cosfly_render::FrameImages;
 use cosfly_render::preview::depth_preview;
 
-const RGB_WIDTH: u32 = 320;
+/// Previews are at most this wide.
+const WIDTH: u32 = 320;
 const RGB_QUALITY: u8 = 80;
-const CHANNEL_WIDTH: u32 = 640;
-const CHANNEL_QUALITY: u8 = 75;
-/// Size of a preview at most `width` wide with the aspect of the frame, at least one pixel high.
-fn size(images: &FrameImages, width: u32) -> (u32, u32) {
-    let width = width.min(images.width);
+const DEPTH_QUALITY: u8 = 75;
+
+/// Size of a preview with the aspect of the frame, at least one pixel high.
+fn size(images: &FrameImages) -> (u32, u32) {
+    let width = WIDTH.min(images.width);
     let height = (u64::from(images.height) * u64::from(width) + u64::from(images.width) / 2) / u64::from(images.width);
     (width, (height as u32).clamp(1, images.height))
 }
 
 /// The colour image, averaged over blocks of pixels.
 pub fn rgb(images: &FrameImages) -> Result<Vec<u8>> {
-    let (width, height) = size(images, RGB_WIDTH);
+    let (width, height) = size(images);
     let columns: Vec<_> = (0..width).map(|x| block(x, width, images.width)).collect();
     let mut pixels = Vec::with_capacity(3 * (width * height) as usize);
     let mut sums = vec![0u16; 3 * images.width as usize];
@@ -55,14 +56,14 @@ simd_kernel! {
 
 /// The depth image in colours, stretched over the depths of this frame: a picture, not data.
 pub fn depth(images: &FrameImages) -> Result<Vec<u8>> {
-    let (width, height) = size(images, CHANNEL_WIDTH);
+    let (width, height) = size(images);
     let depths: Vec<f32> = nearest_pixels(images, width, height).map(|at| images.depth_m[at]).collect();
-    jpeg(&depth_preview(&depths), width, height, CHANNEL_QUALITY)
+    jpeg(&depth_preview(&depths), width, height, DEPTH_QUALITY)
 }
 
 /// The label image as a palette PNG: index = CARLA's id, palette = CARLA's colours.
 pub fn semantic(images: &FrameImages) -> Result<Vec<u8>> {
-    let (width, height) = size(images, CHANNEL_WIDTH);
+    let (width, height) = size(images);
     let last = SemanticLabel::ALL.len() as u8 - 1;
     let indices: Vec<u8> = nearest_pixels(images, width, height).map(|at| images.semantic[at].min(last)).collect();
     let palette = SemanticLabel::ALL.iter().flat_map(|label| label.colour()).collect();
@@ -100,8 +101,8 @@ mod tests {
             semantic: vec![],
             instance: vec![],
         };
-        assert_eq!(size(&frame(1280, 720), 320), (320, 180));
-        assert_eq!(size(&frame(64, 48), 320), (64, 48));
-        assert_eq!(size(&frame(4000, 1), 320), (320, 1));
+        assert_eq!(size(&frame(1280, 720)), (320, 180));
+        assert_eq!(size(&frame(64, 48)), (64, 48));
+        assert_eq!(size(&frame(4000, 1)), (320, 1));
     }
 }

@@ -84,31 +84,29 @@ impl Codes {
 
 /// Most bytes that one block can take: 64 codes of 16 bits with 11 bits each, every byte stuffed, and what was held.
 const BLOCK_BYTES: usize = 2 * (64 * 27 / 8 + 8);
+/// Most bytes of [`LANES`] blocks of three components.
+const ROOM_BYTES: usize = 3 * LANES * BLOCK_BYTES;
 
 /// Bits on their way into a file; a byte of ones is followed by a byte of zeros, as the standard demands.
 pub struct BitWriter {
     /// The lowest `held` (less than 32) bits wait for company.
     bits: u64,
     held: u32,
-    /// Where a block is written before its length is known.
-    room: [u8; BLOCK_BYTES],
+    /// What was written since the last [`Self::flush`].
+    room: [u8; ROOM_BYTES],
+    written: usize,
 }
 
 impl BitWriter {
     /// Nothing written.
-    pub const EMPTY: Self = Self { bits: 0, held: 0, room: [0; BLOCK_BYTES] };
+    pub const EMPTY: Self = Self { bits: 0, held: 0, room: [0; ROOM_BYTES], written: 0 };
 
-    /// Appends block `lane` to `output`; `previous_dc` is the DC value of the same component's block before.
+    /// Appends block `lane`; `previous_dc` is the DC value of the same component's block before. At most [`LANES`] blocks
+    /// of three components fit between two calls of [`Self::flush`].
     #[inline(always)]
-    pub fn block(
-        &mut self,
-        output: &mut Vec<u8>,
-        (blocks, lane): (&Coefficients, usize),
-        [dc, ac]: &[Codes; 2],
-        previous_dc: &mut i32,
-    ) {
+    pub fn block(&mut self, (blocks, lane): (&Coefficients, usize), [dc, ac]: &[Codes; 2], previous_dc: &mut i32) {
         let lane = lane % LANES;
-        let mut open = OpenBits { bits: self.bits, held: self.held, written: 0, room: &mut self.room };
+        let mut open = OpenBits { bits: self.bits, held: self.held, written: self.written, room: &mut self.room };
         let value = blocks.values[0][lane];
         let (bits, size) = magnitude(value.wrapping_sub(*previous_dc));
         *previous_dc = value;
@@ -130,13 +128,18 @@ impl BitWriter {
         if before != 63 {
             open.symbol(ac, END, 0, 0);
         }
-        (self.bits, self.held) = (open.bits, open.held);
-        let written = open.written;
-        output.extend_from_slice(&self.room[..written.min(BLOCK_BYTES)]);
+        (self.bits, self.held, self.written) = (open.bits, open.held, open.written);
+    }
+
+    /// Moves what was written to `output`.
+    pub fn flush(&mut self, output: &mut Vec<u8>) {
+        output.extend_from_slice(&self.room[..self.written]);
+        self.written = 0;
     }
 
     /// Fills the last byte with ones and ends.
-    pub fn finish(self, output: &mut Vec<u8>) {
+    pub fn finish(mut self, output: &mut Vec<u8>) {
+        self.flush(output);
         let missing = (8 - self.held % 8) % 8;
         let bits = self.bits << missing | ((1 << missing) - 1);
         for shift in (0..self.held + missing).step_by(8).rev() {
@@ -154,7 +157,7 @@ struct OpenBits<'a> {
     bits: u64,
     held: u32,
     written: usize,
-    room: &'a mut [u8; BLOCK_BYTES],
+    room: &'a mut [u8; ROOM_BYTES],
 }
 
 impl OpenBits<'_> {
@@ -185,7 +188,7 @@ impl OpenBits<'_> {
 /// Appends the bytes of `word` at `at`, a byte of zeros after every byte of ones; gives the new end.
 #[cold]
 #[inline(never)]
-fn put_stuffed(room: &mut [u8; BLOCK_BYTES], mut at: usize, word: u32) -> usize {
+fn put_stuffed(room: &mut [u8; ROOM_BYTES], mut at: usize, word: u32) -> usize {
     for byte in word.to_be_bytes() {
         room[at] = byte;
         at += 1;
@@ -232,7 +235,7 @@ mod tests {
 
     #[test]
     fn ones_bytes_are_stuffed_and_the_end_is_filled_with_ones() {
-        let mut room = [0; BLOCK_BYTES];
+        let mut room = [0; ROOM_BYTES];
         assert_eq!(put_stuffed(&mut room, 0, 0x12ff_34ff), 6);
         assert_eq!(room[..6], [0x12, 0xff, 0, 0x34, 0xff, 0]);
         let mut file = vec![];

@@ -57,9 +57,10 @@ fn encode_at(level: Level, rgb: &[u8], width: u32, height: u32, quality: u8) -> 
             for lane in 0..LANES.min(blocks_across - first) {
                 for component in 0..3 {
                     let block = (&coefficients[component], lane);
-                    bits.block(&mut file, block, codes[component], &mut previous_dc[component]);
+                    bits.block(block, codes[component], &mut previous_dc[component]);
                 }
             }
+            bits.flush(&mut file);
         }
     }
     bits.finish(&mut file);
