@@ -41,6 +41,7 @@ pub struct FaceAxes {
 
 simd_kernel! {
     /// Fills in what follows from pixel, depth and normal; turns normals to the camera.
+    #[expect(clippy::too_many_arguments, reason = "everything that places depend on")]
     pub fn place(blocks: &mut [Block], stage: &Stage, view: &View, axes: &FaceAxes, grid: &GridTables, frame: &GridFrame, light: &Light) {
         let (view, axes, frame) = (*view, *axes, *frame);
         let (haze_start_m, haze_per_m) = (light.haze_start_m, light.haze_per_m);

@@ -5,7 +5,7 @@ use super::pattern::{fixed_size, least, most};
 /// Entries of the table: 128 for each doubling of light, so darkness is as fine-grained as brightness.
 const ENTRIES: usize = 2048;
 /// Light of the first entry, and everything darker.
-const BLACK: f32 = 1.0 / 4096.0;
+const BLACK: f32 = 1.0 / 8192.0;
 /// Light that becomes pure white.
 const WHITE: f32 = 8.0;
 
@@ -36,7 +36,8 @@ impl ToneCurve {
     /// The byte for linear light, exposed. The bits of a float grow nearly like its logarithm.
     #[inline(always)]
     pub fn byte(&self, light: f32) -> u32 {
-        let bits = least(most(light, BLACK), WHITE).to_bits();
+        // The last place is the one below `WHITE`.
+        let bits = least(most(light, BLACK), 0.998 * WHITE).to_bits();
         self.bytes[(bits.wrapping_sub(BLACK.to_bits()) >> 16) as usize & (ENTRIES - 1)]
     }
 }
