@@ -70,9 +70,12 @@ def on_state(message):
     half = [message.radius_m, message.radius_m, 0.5 * message.height_m]
     box = rr.Boxes3D(centers=[[0.0, 0.0, half[2]]], half_sizes=[half], colors=[[255, 60, 60]], labels=["target"])
     rr.log("map/target/body", box)
-    for name, edges, colour in (("full", message.full_box_px, [255, 220, 40]), ("visible", message.visible_box_px, [60, 255, 90])):
+    boxes = (("full", message.full_box_px, [255, 220, 40]), ("visible", message.visible_box_px, [60, 255, 90]))
+    for order, (name, edges, colour) in enumerate(boxes, 31):
         if len(edges) == 4:
-            box = rr.Boxes2D(array=list(edges), array_format=rr.Box2DFormat.XYXY, colors=[colour])
+            box = rr.Boxes2D(
+                array=list(edges), array_format=rr.Box2DFormat.XYXY, colors=[colour], draw_order=float(order)
+            )
             rr.log(f"{CAMERA}/target/{name}", box)
         else:
             rr.log(f"{CAMERA}/target/{name}", rr.Clear(recursive=False))
@@ -97,7 +100,8 @@ def on_scene(message):
                 half_sizes=[[0.5 * side for side in vector(cube.size)] for cube in entity.cubes],
                 quaternions=[rotation(cube.pose.orientation) for cube in entity.cubes],
                 colors=[[round(255 * c) for c in (cube.color.r, cube.color.g, cube.color.b)] for cube in entity.cubes],
-                fill_mode="solid",
+                # Walls hide the depth points and paths; their edges do not.
+                fill_mode="majorwireframe" if entity.id.endswith("Building") else "solid",
             ),
             static=True,
         )
@@ -129,7 +133,8 @@ def labels(reader):
         if record.name == "cosfly.semantic_labels":
             for number, text in sorted(record.metadata.items()):
                 name, colour = text.split(" #")
-                yield rr.AnnotationInfo(id=int(number), label=name, color=[int(colour[i : i + 2], 16) for i in (0, 2, 4)])
+                channels = [int(colour[i : i + 2], 16) for i in (0, 2, 4)]
+                yield rr.AnnotationInfo(id=int(number), label=name, color=channels)
 
 
 def show(path, every):
@@ -160,13 +165,13 @@ def blueprint():
         pictures("Depth", "depth"), rrb.Tabs(pictures("Labels", "labels"), pictures("Instances", "instances"))
     )
     curves = rrb.Horizontal(
-        rrb.TimeSeriesView(origin="visibility", name="Visibility"),
+        rrb.TimeSeriesView(origin="visibility", name="Visibility", axis_y=rrb.ScalarAxis(range=(-0.05, 1.05))),
         rrb.TimeSeriesView(origin="distance", name="Distances, m"),
         rrb.TextLogView(origin="captions", name="Captions"),
     )
     left = rrb.Vertical(pictures("Colour", "rgb", "target"), channels, row_shares=[3, 2])
     whole = rrb.Vertical(rrb.Horizontal(left, scene), curves, row_shares=[3, 1])
-    return rrb.Blueprint(whole, rrb.TimePanel(timeline="frame"), collapse_panels=True)
+    return rrb.Blueprint(whole, rrb.TimePanel(timeline="frame", state="collapsed"), collapse_panels=True)
 
 
 def main():
