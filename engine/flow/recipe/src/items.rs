@@ -4,7 +4,7 @@ use crate::document::{Place, Texts, list};
 use crate::model::{Arrival, Connection, ItemIds, RecipeStage};
 use cosfly_diagnose::{Diagnostic, Fault};
 use cosfly_stage::{Fan, InputPort, ItemRule, StageProperties};
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 use std::sync::Arc;
 
 /// A stage with more items than this is refused: their names alone would fill the memory.
@@ -26,6 +26,13 @@ pub(crate) struct ItemReader<'a> {
     pub(crate) place: &'a Place,
 }
 
+/// What one stage has and reads.
+pub(crate) struct Arranged {
+    pub(crate) items: ItemIds,
+    pub(crate) variants: Vec<String>,
+    pub(crate) connections: Vec<Connection>,
+}
+
 /// The ids that arrive at one port.
 struct PortItems {
     ids: ItemIds,
@@ -33,11 +40,7 @@ struct PortItems {
 }
 
 impl ItemReader<'_> {
-    pub(crate) fn read(
-        &self,
-        properties: &StageProperties,
-        wires: Vec<Wire>,
-    ) -> Result<(ItemIds, Vec<Connection>), Box<Diagnostic>> {
+    pub(crate) fn read(&self, properties: &StageProperties, wires: Vec<Wire>) -> Result<Arranged, Box<Diagnostic>> {
         let arriving: Vec<PortItems> = wires.iter().map(|wire| self.port_items(wire)).collect::<Result<_, _>>()?;
         let ids = match &properties.items {
             ItemRule::One => [Arc::from("all")].into(),
@@ -45,25 +48,32 @@ impl ItemReader<'_> {
             ItemRule::Count { prefix, count } => {
                 (0..*count).map(|number| Arc::from(format!("{prefix}{number:05}"))).collect()
             }
-            ItemRule::PerInput(name) => {
-                let index = wires.iter().position(|wire| wire.port.name == *name).ok_or_else(|| {
-                    let message =
-                        format!("`{}` has one item per item of `inputs.{name}`, which is not connected", self.stage);
-                    self.texts.problem("recipe-missing-input", self.place, message)
-                })?;
-                arriving[index].ids.clone()
+            ItemRule::PerInput(name) => arriving[self.leader(&wires, name)?].ids.clone(),
+            ItemRule::PerVariant { port, variants } => {
+                let ids = &arriving[self.leader(&wires, port)?].ids;
+                let count = (ids.len() as u64).saturating_mul(variants.len() as u64);
+                if count > MOST_ITEMS {
+                    return Err(self.too_many(count));
+                }
+                let of_item = |id: &Arc<str>| variants.iter().map(|it| Arc::from(format!("{id}-{it}"))).collect();
+                ids.iter().flat_map(|id| -> Vec<Arc<str>> { of_item(id) }).collect()
             }
         };
-        let leading = match &properties.items {
-            ItemRule::PerInput(name) => wires.iter().find(|wire| wire.port.name == *name),
-            _ => None,
+        let (leading, mut variants) = match &properties.items {
+            ItemRule::PerInput(name) => (Some(&wires[self.leader(&wires, name)?]), vec![]),
+            ItemRule::PerVariant { port, variants } => (Some(&wires[self.leader(&wires, port)?]), variants.clone()),
+            ItemRule::One | ItemRule::Count { .. } => (None, vec![]),
         };
+        let inherited = leading.iter().flat_map(|wire| &wire.upstreams).flat_map(|it| &self.done[*it].variants);
+        variants.extend(inherited.cloned());
+        variants.sort_unstable();
+        variants.dedup();
         let mut connections = vec![];
         for (wire, items) in wires.iter().zip(arriving) {
             let arrivals = match wire.port.fan {
                 Fan::Gather => items.arrivals,
                 Fan::Broadcast => self.single(wire, items)?,
-                Fan::Each => self.aligned(&ids, leading, wire, items)?,
+                Fan::Each => self.aligned(&ids, &variants, leading, wire, items)?,
             };
             let Wire { port, upstreams, .. } = wire;
             connections.push(Connection {
@@ -72,7 +82,15 @@ impl ItemReader<'_> {
                 arrivals: arrivals.into(),
             });
         }
-        Ok((ids, connections))
+        Ok(Arranged { items: ids, variants, connections })
+    }
+
+    /// The wire of the port that gives a stage its items.
+    fn leader(&self, wires: &[Wire], port: &str) -> Result<usize, Box<Diagnostic>> {
+        wires.iter().position(|wire| wire.port.name == port).ok_or_else(|| {
+            let message = format!("`{}` has items for those of `inputs.{port}`, which is not connected", self.stage);
+            self.texts.problem("recipe-missing-input", self.place, message)
+        })
     }
 
     fn port_items(&self, wire: &Wire) -> Result<PortItems, Box<Diagnostic>> {
@@ -112,10 +130,11 @@ impl ItemReader<'_> {
         Err(problem.hint(format!("every item of `{}` reads the same one: connect a stage that makes one", self.stage)))
     }
 
-    /// Arrivals in the order of the stage's own items.
+    /// Arrivals in the order of the stage's own items. What a port does not know as a variant is read by all variants.
     fn aligned(
         &self,
         ids: &ItemIds,
+        variants: &[String],
         leading: Option<&Wire>,
         wire: &Wire,
         items: PortItems,
@@ -123,15 +142,19 @@ impl ItemReader<'_> {
         if Arc::ptr_eq(ids, &items.ids) || ids == &items.ids {
             return Ok(items.arrivals);
         }
-        let mut by_id: BTreeMap<Arc<str>, Arrival> =
-            items.arrivals.into_iter().map(|arrival| (arrival.id.clone(), arrival)).collect();
-        let lacking: Vec<&str> = ids.iter().filter(|id| !by_id.contains_key(*id)).map(|id| &**id).collect();
-        let extra = by_id.len() + lacking.len() - ids.len();
-        if lacking.is_empty() && extra == 0 {
-            return Ok(ids.iter().filter_map(|id| by_id.remove(id)).collect());
+        let by_id: BTreeMap<&str, &Arrival> = items.arrivals.iter().map(|arrival| (&*arrival.id, arrival)).collect();
+        let base = |id: &str| -> Option<&Arrival> {
+            variants.iter().find_map(|variant| by_id.get(id.strip_suffix(&**variant)?.strip_suffix('-')?).copied())
+        };
+        let read: Vec<Option<&Arrival>> = ids.iter().map(|id| by_id.get(&**id).copied().or_else(|| base(id))).collect();
+        let known: BTreeSet<&str> = read.iter().flatten().map(|arrival| &*arrival.id).collect();
+        if let Some(all) =
+            read.iter().copied().collect::<Option<Vec<&Arrival>>>().filter(|_| known.len() == by_id.len())
+        {
+            return Ok(all.into_iter().cloned().collect());
         }
-        let own: std::collections::BTreeSet<&str> = ids.iter().map(|id| &**id).collect();
-        let extra: Vec<&str> = by_id.keys().map(|id| &**id).filter(|id| !own.contains(id)).collect();
+        let lacking: Vec<&str> = ids.iter().zip(&read).filter(|(_, it)| it.is_none()).map(|(id, _)| &**id).collect();
+        let extra: Vec<&str> = by_id.keys().copied().filter(|id| !known.contains(id)).collect();
         Err(self.differing(leading, wire, &lacking, &extra))
     }
 

@@ -1,7 +1,7 @@
 //! Reads a recipe: text to tree, overrides, graph, parameters, files, items.
 
 use crate::document::{Problems, Texts};
-use crate::items::{ItemReader, Wire};
+use crate::items::{Arranged, ItemReader, Wire};
 use crate::kinds::{Builder, BuiltPart, KnownStage};
 use crate::model::{Recipe, RecipeStage, SourceFile};
 use crate::order::dependency_order;
@@ -126,7 +126,7 @@ impl Assembly<'_> {
             let properties = part.stage.properties();
             let wires = self.part_wires(index, part, &siblings)?;
             let reader = ItemReader { done: &self.stages, texts: self.texts, stage: &name, place: &outline.place };
-            let (items, connections) = reader.read(properties, wires)?;
+            let Arranged { items, variants, connections } = reader.read(properties, wires)?;
             siblings.insert(part.suffix, self.stages.len());
             self.stages.push(RecipeStage {
                 name,
@@ -136,6 +136,7 @@ impl Assembly<'_> {
                 connections,
                 sources,
                 items,
+                variants,
                 parameters: parameters.clone(),
                 span: outline.place.start..outline.place.end,
             });

@@ -43,6 +43,9 @@ pub struct RecipeStage {
     pub sources: Vec<SourceFile>,
     /// Its items.
     pub items: ItemIds,
+    /// What the ids of its items may end with, after a `-`, that ids of earlier stages do not
+    /// (see [`cosfly_stage::ItemRule::PerVariant`]).
+    pub variants: Vec<String>,
     /// Its parameters as the recipe and `--set` give them: no defaults, no `use`, no `inputs`.
     pub parameters: serde_json::Value,
     /// Bytes of [`Recipe::text`] with the stage's name, for labels.

@@ -139,6 +139,7 @@ fn toy_stage(toy: &Toy, earlier: &[RecipeStage]) -> Result<RecipeStage> {
         connections,
         sources: files.collect(),
         items,
+        variants: vec![],
         parameters: toy.parameters.clone(),
         span: 0..0,
     })

@@ -87,4 +87,12 @@ pub enum ItemRule {
     },
     /// The items of the named [`Fan::Each`] port.
     PerInput(&'static str),
+    /// Every item of the named [`Fan::Each`] port once per variant, as `<item>-<variant>`: a new variant renames nothing.
+    /// All of them read that item, here and at the [`Fan::Each`] ports of later stages that know it by its own id only.
+    PerVariant {
+        /// The port.
+        port: &'static str,
+        /// What is appended, such as `HardRainNoon`; at least one.
+        variants: Vec<String>,
+    },
 }
