@@ -78,7 +78,7 @@ impl SemanticLabel {
     }
 
     /// The name in tables and legends.
-    pub fn name(self) -> &'static str {
+    pub const fn name(self) -> &'static str {
         match self {
             Self::Unlabeled => "Unlabeled",
             Self::Roads => "Roads",

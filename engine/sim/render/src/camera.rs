@@ -1,6 +1,6 @@
 //! The pinhole camera: intrinsics, and the way from the world to a pixel.
 
-use cosfly_frames::{DVec3, Pose, real};
+use cosfly_frames::{DMat3, DVec3, Pose, real};
 use serde::{Deserialize, Serialize};
 
 /// A pinhole camera with square pixels and the optical centre in the image centre (CARLA's camera).
@@ -41,5 +41,57 @@ impl Camera {
         let y = (u - 0.5 * f64::from(self.width)) / focal;
         let z = (0.5 * f64::from(self.height) - v) / focal;
         pose.world_from_body() * DVec3::new(1.0, y, z)
+    }
+}
+
+/// How the camera is turned against the drone that carries it; it sits in the drone's origin.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct Mount {
+    /// Turn upwards, after the yaw, radians.
+    pub pitch_rad: f64,
+    /// Turn to the right around the drone's up axis, radians.
+    pub yaw_rad: f64,
+}
+
+impl Mount {
+    /// Columns are the camera's axes (x ahead, y right, z up) in the drone's body frame.
+    pub fn body_from_camera(&self) -> DMat3 {
+        let turn =
+            Pose { position_in_world: DVec3::ZERO, pitch_rad: self.pitch_rad, yaw_rad: self.yaw_rad, roll_rad: 0.0 };
+        turn.world_from_body()
+    }
+
+    /// The pose of the camera on a drone at `body`; the very pose of the drone when nothing is turned.
+    pub fn camera_pose(&self, body: &Pose) -> Pose {
+        if *self == Self::default() {
+            return *body;
+        }
+        let world_from_camera = body.world_from_body() * self.body_from_camera();
+        let [ahead, right, up] = [world_from_camera.x_axis, world_from_camera.y_axis, world_from_camera.z_axis];
+        Pose {
+            position_in_world: body.position_in_world,
+            pitch_rad: real::asin(ahead.z.clamp(-1.0, 1.0)),
+            yaw_rad: real::atan2(ahead.y, ahead.x),
+            roll_rad: real::atan2(-right.z, up.z),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_turned_camera_looks_where_its_mount_says() {
+        let body = Pose { position_in_world: DVec3::ONE, pitch_rad: -0.6, yaw_rad: 2.9, roll_rad: 0.2 };
+        let mount = Mount { pitch_rad: 0.3, yaw_rad: -0.8 };
+        let expected = body.world_from_body() * mount.body_from_camera();
+        assert!(mount.camera_pose(&body).world_from_body().abs_diff_eq(expected, 1e-12));
+        assert_eq!(Mount::default().camera_pose(&body), body);
+        // Level drone: yaw and pitch just add.
+        let level = Pose { pitch_rad: 0.0, roll_rad: 0.0, ..body };
+        let turned = mount.camera_pose(&level);
+        assert!((turned.pitch_rad - 0.3).abs() < 1e-12 && (turned.yaw_rad - 2.1).abs() < 1e-12);
+        assert!(turned.roll_rad.abs() < 1e-12);
     }
 }

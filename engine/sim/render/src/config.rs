@@ -1,8 +1,9 @@
 //! What a recipe says about pictures: camera and weathers.
 
 use crate::backend::BackendKind;
-use crate::camera::Camera;
-use crate::weather::Weather;
+use crate::camera::{Camera, Mount};
+use crate::effects::{Effects, Lens, MotionBlur, Noise};
+use crate::weather::{Weather, WeatherRanges};
 use cosfly_frames::Seed;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -25,9 +26,26 @@ pub struct RenderConfig {
     /// Horizontal field of view, degrees.
     #[schemars(range(min = 5, max = 150))]
     pub fov_deg: f64,
-    /// Names of CARLA weather presets; each trajectory draws one, and the sun's azimuth with it.
+    /// Lowest and highest horizontal field of view, degrees, 5 to 150: each walk draws one instead of `fov_deg`, and all
+    /// flights behind it share it.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub fov_range_deg: Option<[f64; 2]>,
+    /// How the camera is turned against the drone; drawn once per walk, the same for all of its flights and frames.
+    pub gimbal: GimbalConfig,
+    /// Distortion of the lens; the focal length is that of the undistorted camera.
+    pub lens: Lens,
+    /// Motion blur of colour.
+    pub motion_blur: MotionBlur,
+    /// Sensor noise on colour.
+    pub noise: Noise,
+    /// Names of CARLA weather presets; each walk draws one, and the sun's azimuth with it.
     #[schemars(length(min = 1))]
     pub weathers: Vec<String>,
+    /// Render every trajectory once in each of `weathers` instead of drawing one: same poses, ids, clothes and sun azimuth,
+    /// pixel by pixel. The items are named `<trajectory>-<weather>`.
+    pub paired_weathers: bool,
+    /// Ranges to draw single weather numbers from, on top of the preset.
+    pub weather: WeatherRanges,
 }
 
 impl Default for RenderConfig {
@@ -38,9 +56,26 @@ impl Default for RenderConfig {
             width: 1280,
             height: 720,
             fov_deg: 90.0,
+            fov_range_deg: None,
+            gimbal: GimbalConfig::default(),
+            lens: Lens::default(),
+            motion_blur: MotionBlur::default(),
+            noise: Noise::default(),
             weathers: weathers.map(str::to_owned).to_vec(),
+            paired_weathers: false,
+            weather: WeatherRanges::default(),
         }
     }
+}
+
+/// Ranges of the camera's turn against the drone.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(default, deny_unknown_fields)]
+pub struct GimbalConfig {
+    /// Lowest and highest turn upwards, degrees, -90 to 90.
+    pub pitch_range_deg: [f64; 2],
+    /// Lowest and highest turn to the right, degrees, -180 to 180.
+    pub yaw_range_deg: [f64; 2],
 }
 
 /// A value that the schema cannot refuse but the renderer must.
@@ -79,6 +114,17 @@ impl RenderConfig {
         if !(5.0..=150.0).contains(&self.fov_deg) {
             return problem("fov_deg", format!("the field of view is `{}`", self.fov_deg), "5 to 150 degrees".into());
         }
+        if let Some(range) = self.fov_range_deg {
+            check_range("fov_range_deg", range, [5.0, 150.0])?;
+        }
+        check_range("gimbal.pitch_range_deg", self.gimbal.pitch_range_deg, [-90.0, 90.0])?;
+        check_range("gimbal.yaw_range_deg", self.gimbal.yaw_range_deg, [-180.0, 180.0])?;
+        self.check_effects()?;
+        for (name, range, bounds) in self.weather.all() {
+            if let Some(range) = range {
+                check_range(&format!("weather.{name}"), range, bounds)?;
+            }
+        }
         if self.weathers.is_empty() {
             return problem("weathers", "there is no weather to draw from".into(), "name at least one preset".into());
         }
@@ -88,25 +134,111 @@ impl RenderConfig {
                 let hint = format!("the presets are {}", Weather::PRESETS.join(", "));
                 return problem(&path, format!("there is no weather preset `{name}`"), hint);
             }
+            if self.paired_weathers && self.weathers[..index].contains(name) {
+                let path = format!("weathers[{index}]");
+                let message = format!("`{name}` stands twice in the list, and `paired_weathers` is on");
+                return problem(&path, message, "name each weather once".into());
+            }
         }
         Ok(())
     }
 
-    /// The camera.
+    fn check_effects(&self) -> Result<(), ConfigProblem> {
+        let in_range = |path: &str, value: f64, [low, high]: [f64; 2]| {
+            if (low..=high).contains(&value) {
+                return Ok(());
+            }
+            let message = format!("the value is `{value}`");
+            Err(ConfigProblem { path: path.into(), message, hint: format!("allowed are {low} to {high}") })
+        };
+        in_range("lens.k1", self.lens.k1, [-1.0, 1.0])?;
+        in_range("lens.k2", self.lens.k2, [-1.0, 1.0])?;
+        in_range("motion_blur.shutter_s", self.motion_blur.shutter_s, [0.0, 0.5])?;
+        in_range("motion_blur.samples", f64::from(self.motion_blur.samples), [3.0, 65.0])?;
+        in_range("noise.gaussian", self.noise.gaussian, [0.0, 64.0])?;
+        in_range("noise.shot", self.noise.shot, [0.0, 64.0])?;
+        let widest_deg = self.fov_range_deg.map_or(self.fov_deg, |range| range[1]);
+        let widest = Camera { horizontal_fov_rad: widest_deg.to_radians(), ..self.camera() };
+        if self.lens.widening(&widest).is_none_or(|widening| widening > 3.0) {
+            let Lens { k1, k2 } = self.lens;
+            return Err(ConfigProblem {
+                path: "lens".into(),
+                message: format!(
+                    "the lens (`k1` {k1}, `k2` {k2}) has no picture in the corners of a field of view of {widest_deg} degrees"
+                ),
+                hint: "take coefficients nearer to 0 or a smaller field of view".into(),
+            });
+        }
+        Ok(())
+    }
+
+    /// The camera, with the field of view of `fov_deg`.
     pub fn camera(&self) -> Camera {
         Camera { width: self.width, height: self.height, horizontal_fov_rad: self.fov_deg.to_radians() }
     }
 
-    /// The weather of one trajectory: a preset from the list and an azimuth of the sun, both from its seed.
+    /// The camera of all flights behind one walk.
+    pub fn draw_camera(&self, walk_seed: &Seed) -> Camera {
+        let fov_deg = self.fov_range_deg.map_or(self.fov_deg, |range| draw(walk_seed, "fov", range));
+        Camera { horizontal_fov_rad: fov_deg.to_radians(), ..self.camera() }
+    }
+
+    /// How the camera is turned against the drone on all flights behind one walk.
+    pub fn draw_mount(&self, walk_seed: &Seed) -> Mount {
+        Mount {
+            pitch_rad: draw(walk_seed, "gimbal-pitch", self.gimbal.pitch_range_deg).to_radians(),
+            yaw_rad: draw(walk_seed, "gimbal-yaw", self.gimbal.yaw_range_deg).to_radians(),
+        }
+    }
+
+    /// The weather of all flights behind one walk: a preset from the list, an azimuth of the sun, and what the ranges say.
     /// Names that are no preset (which [`Self::validate`] refuses) count as `ClearNoon`.
-    pub fn draw_weather(&self, trajectory_seed: &Seed) -> Weather {
-        let mut stream = trajectory_seed.stream("weather");
-        let drawn = self.weathers.get(stream.index(self.weathers.len())).and_then(|name| Weather::preset(name));
-        let mut weather = drawn.unwrap_or_else(crate::presets::clear_noon);
+    pub fn draw_weather(&self, walk_seed: &Seed) -> Weather {
+        let drawn = self.weathers.get(walk_seed.stream("weather").index(self.weathers.len()));
+        self.weather_called(drawn.map_or("ClearNoon", String::as_str), walk_seed)
+    }
+
+    /// The weather `preset` over one walk: everything that is drawn is the same for all presets.
+    pub fn weather_called(&self, preset: &str, walk_seed: &Seed) -> Weather {
+        let mut weather = Weather::preset(preset).unwrap_or_else(crate::presets::clear_noon);
+        let mut stream = walk_seed.stream("weather");
+        // The first number chose the preset.
+        stream.bits();
         // Whole degrees: readable in tables, and exact in every encoding.
         weather.sun_azimuth_angle = stream.index(360) as f64;
+        self.weather.draw(&mut weather, walk_seed);
         weather
     }
+
+    /// What is added to ideal pictures of `camera`.
+    pub fn effects(&self, camera: Camera) -> Effects {
+        Effects::new(camera, self.lens, self.motion_blur, self.noise)
+    }
+}
+
+/// A hundredth of a unit between two values, ends included.
+fn draw(walk_seed: &Seed, purpose: &str, [low, high]: [f64; 2]) -> f64 {
+    let drawn = walk_seed.stream(purpose).uniform(low, high);
+    ((drawn * 100.0).round() / 100.0).clamp(low, high)
+}
+
+fn check_range(path: &str, [low, high]: [f64; 2], [least, most]: [f64; 2]) -> Result<(), ConfigProblem> {
+    let problem = |message: String, hint: String| Err(ConfigProblem { path: path.to_owned(), message, hint });
+    for value in [low, high] {
+        if !(least..=most).contains(&value) {
+            return problem(
+                format!("the range `[{low}, {high}]` leaves what is allowed"),
+                format!("{least} to {most}"),
+            );
+        }
+    }
+    if low > high {
+        return problem(
+            format!("the range `[{low}, {high}]` begins above its end"),
+            "write the lower value first".into(),
+        );
+    }
+    Ok(())
 }
 
 #[cfg(test)]
@@ -130,10 +262,71 @@ mod tests {
             (RenderConfig { width: 0, ..good.clone() }, "width"),
             (RenderConfig { height: 9000, ..good.clone() }, "height"),
             (RenderConfig { fov_deg: f64::NAN, ..good.clone() }, "fov_deg"),
+            (RenderConfig { fov_range_deg: Some([60.0, 200.0]), ..good.clone() }, "fov_range_deg"),
+            (RenderConfig { fov_range_deg: Some([90.0, 60.0]), ..good.clone() }, "fov_range_deg"),
+            (
+                RenderConfig {
+                    gimbal: GimbalConfig { yaw_range_deg: [0.0, f64::NAN], ..GimbalConfig::default() },
+                    ..good.clone()
+                },
+                "gimbal.yaw_range_deg",
+            ),
+            (RenderConfig { lens: Lens { k1: -0.9, k2: 0.0 }, ..good.clone() }, "lens"),
+            (RenderConfig { noise: Noise { gaussian: -1.0, shot: 0.0 }, ..good.clone() }, "noise.gaussian"),
+            (
+                RenderConfig {
+                    weather: WeatherRanges { cloudiness: Some([0.0, 120.0]), ..WeatherRanges::default() },
+                    ..good.clone()
+                },
+                "weather.cloudiness",
+            ),
+            (
+                RenderConfig {
+                    paired_weathers: true,
+                    weathers: vec!["ClearNoon".into(), "ClearNoon".into()],
+                    ..good.clone()
+                },
+                "weathers[1]",
+            ),
             (RenderConfig { weathers: vec![], ..good.clone() }, "weathers"),
             (RenderConfig { weathers: vec!["ClearNoon".into(), "Hail".into()], ..good.clone() }, "weathers[1]"),
         ] {
             assert_eq!(config.validate().expect_err(path).path, path);
         }
+    }
+
+    #[test]
+    fn ranges_are_drawn_per_walk_and_the_other_numbers_stay_the_preset_s() {
+        let mut config = RenderConfig { fov_range_deg: Some([60.0, 100.0]), ..RenderConfig::default() };
+        config.weather.sun_altitude_angle = Some([-10.0, 60.0]);
+        config.gimbal.yaw_range_deg = [-20.0, 20.0];
+        config.validate().expect("a good configuration");
+        let seeds: Vec<Seed> = (0..200).map(|i| Seed([1; 32]).child("walk", i)).collect();
+        for seed in &seeds {
+            let (weather, camera, mount) =
+                (config.draw_weather(seed), config.draw_camera(seed), config.draw_mount(seed));
+            assert!((-10.0..=60.0).contains(&weather.sun_altitude_angle) && mount.pitch_rad == 0.0);
+            assert!((60.0..=100.0).contains(&camera.horizontal_fov_rad.to_degrees().round()));
+            let preset = Weather::preset(&weather.name).expect("a preset");
+            assert_eq!((weather.cloudiness, weather.wetness), (preset.cloudiness, preset.wetness));
+        }
+        let spread = |value: &dyn Fn(&Seed) -> f64| {
+            let values = seeds.iter().map(value);
+            values.clone().fold(f64::MIN, f64::max) - values.fold(f64::MAX, f64::min)
+        };
+        assert!(spread(&|seed| config.draw_weather(seed).sun_altitude_angle) > 60.0);
+        assert!(spread(&|seed| config.draw_mount(seed).yaw_rad.to_degrees()) > 35.0);
+    }
+
+    #[test]
+    fn paired_weathers_share_everything_that_is_drawn() {
+        let mut config = RenderConfig::default();
+        config.weather.fog_density = Some([0.0, 40.0]);
+        let seed = Seed([9; 32]);
+        let (noon, rain) = (config.weather_called("ClearNoon", &seed), config.weather_called("HardRainNoon", &seed));
+        assert_eq!((noon.sun_azimuth_angle, noon.fog_density), (rain.sun_azimuth_angle, rain.fog_density));
+        assert!(rain.precipitation > noon.precipitation);
+        let drawn = config.draw_weather(&seed);
+        assert_eq!(config.weather_called(&drawn.name, &seed), drawn);
     }
 }

@@ -8,6 +8,7 @@
 pub mod backend;
 pub mod camera;
 pub mod config;
+pub mod effects;
 pub mod figure;
 pub mod frame;
 mod ground_polygons;
@@ -24,12 +25,13 @@ mod visibility;
 pub mod weather;
 
 pub use backend::{Backend, BackendError, BackendKind};
-pub use camera::Camera;
-pub use config::{ConfigProblem, RenderConfig};
+pub use camera::{Camera, Mount};
+pub use config::{ConfigProblem, GimbalConfig, RenderConfig};
+pub use effects::{Effects, Lens, Moment, MotionBlur, Noise, Shot};
 pub use figure::{TargetSetup, gait_phase_rad, target_triangles};
 pub use frame::{FrameImages, PixelBox, TargetView};
 pub use renderer::{FrameParts, FrameSetup, RenderedFrame, Renderer};
 pub use scene::{Scene, SceneTriangle};
 pub use stages::Stages;
 pub use target_view::measure as measure_target;
-pub use weather::Weather;
+pub use weather::{Weather, WeatherRanges};

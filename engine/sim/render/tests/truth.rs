@@ -256,3 +256,20 @@ fn the_same_frame_has_the_same_bytes_after_any_other_frame_and_on_any_thread() {
         }
     });
 }
+
+#[test]
+fn the_largest_and_the_smallest_pictures_have_all_their_pixels() {
+    let scene = Scene::new(&small_town::small_town(2, 3), Seed([1; 32]));
+    let target = Some(walker(DVec3::new(6.0, 0.0, 0.1)));
+    let pose = Pose::looking_at(DVec3::new(-14.0, 3.0, 12.0), DVec3::new(6.0, 0.0, 1.0));
+    for (width, height) in [(7680u32, 4320u32), (64, 48), (16, 16)] {
+        let mut renderer = Renderer::new(camera(width, height));
+        let setup = FrameSetup { pose, weather: &noon(), target };
+        let frame = renderer.render_parts(&scene, &setup, cosfly_render::FrameParts::Ids);
+        assert_eq!(frame.images.depth_m.len(), width as usize * height as usize);
+        assert!(frame.target_view.in_view || width < 100);
+        assert!(frame.images.depth_m.iter().all(|depth| *depth > 0.0));
+        let pixels = frame.images.instance.iter().filter(|id| **id == TARGET_INSTANCE).count();
+        assert_eq!(frame.target_view.pixels as usize, pixels);
+    }
+}
