@@ -1,9 +1,10 @@
 //! The record model: one rendered trajectory with everything that tables, logs and cards say about it.
 
 use cosfly_diagnose::{Diagnostic, Fault, Result};
+use cosfly_frames::Pose;
 use cosfly_maps::{MapOrigin, Synthetic, Town};
 use cosfly_planner::Trajectory;
-use cosfly_render::{Camera, TargetView, Weather};
+use cosfly_render::{Camera, Lens, MotionBlur, Mount, Noise, TargetView, Weather};
 use serde::{Deserialize, Serialize, de::DeserializeOwned};
 
 /// Which of the two flights behind a pedestrian this is.
@@ -66,6 +67,8 @@ pub struct PairInfo {
 pub struct RenderedTrajectory {
     /// Unique in the dataset: letters, digits, `.`, `_` and `-`, such as `expert-p00000`.
     pub trajectory_id: String,
+    /// The flight that the pictures are of: the trajectory id without the weather that a paired rendering appends.
+    pub flight_id: String,
     /// Expert or perturbed.
     pub role: Role,
     /// Item id of the pedestrian that is followed. Twins share it, and all flights behind one pedestrian go to
@@ -75,8 +78,16 @@ pub struct RenderedTrajectory {
     pub town: TownInfo,
     /// Poses, target track, costs, certificate, perturbation.
     pub trajectory: Trajectory,
-    /// The camera of all frames.
+    /// The ideal camera of all frames, without its lens.
     pub camera: Camera,
+    /// What the lens of the camera bends.
+    pub lens: Lens,
+    /// How the camera is turned against the drone, whose poses the trajectory holds.
+    pub mount: Mount,
+    /// The shutter of the camera.
+    pub motion_blur: MotionBlur,
+    /// The noise of its sensor.
+    pub noise: Noise,
     /// The weather of all frames.
     pub weather: Weather,
     /// The item's seed, its first eight bytes as a number.
@@ -101,6 +112,11 @@ impl RenderedTrajectory {
     /// Time between frames, seconds.
     pub fn dt_s(&self) -> f64 {
         self.trajectory.track.dt_s
+    }
+
+    /// The camera's pose.
+    pub fn camera_pose(&self, frame: usize) -> Pose {
+        self.mount.camera_pose(&self.trajectory.poses_in_world[frame])
     }
 
     /// Distance from the camera to the target's feet, metres.
@@ -137,7 +153,9 @@ impl RenderedTrajectory {
         if let Some((name, length)) = lengths.into_iter().chain(terms).find(|(_, length)| *length != frames) {
             return Err(self.refusal(format!("`{name}` has {length} frames; there are {frames} poses")));
         }
-        for (what, name) in [("trajectory id", &self.trajectory_id), ("town name", &self.town.name)] {
+        for (what, name) in
+            [("trajectory id", &self.trajectory_id), ("flight id", &self.flight_id), ("town name", &self.town.name)]
+        {
             if !is_plain_name(name) {
                 return Err(self.refusal(format!(
                     "{what} `{name}` must have 1 to 120 letters, digits, `.`, `_` or `-` and not begin with `.`"
@@ -147,6 +165,10 @@ impl RenderedTrajectory {
         let dt_s = self.dt_s();
         if !(dt_s.is_finite() && dt_s > 0.0) {
             return Err(self.refusal(format!("`dt_s` is `{dt_s}`; it must be more than 0 s")));
+        }
+        let optics = [self.lens.k1, self.lens.k2, self.mount.pitch_rad, self.mount.yaw_rad];
+        if !optics.iter().all(|number| number.is_finite()) {
+            return Err(self.refusal("its lens or mount holds a number that is not finite".into()));
         }
         for (frame, (pose, state)) in trajectory.poses_in_world.iter().zip(&trajectory.track.states).enumerate() {
             let finite = pose.position_in_world.is_finite()
@@ -228,7 +250,7 @@ pub fn captions_from_bytes(bytes: &[u8]) -> Result<Vec<CaptionRecord>> {
     decode("captions", CAPTIONS_MAGIC, bytes)
 }
 
-const TRAJECTORY_MAGIC: &[u8; 8] = b"CFTRAJ\x00\x02";
+const TRAJECTORY_MAGIC: &[u8; 8] = b"CFTRAJ\x00\x03";
 const PREVIEWS_MAGIC: &[u8; 8] = b"CFPREV\x00\x01";
 const CAPTIONS_MAGIC: &[u8; 8] = b"CFCAPT\x00\x01";
 

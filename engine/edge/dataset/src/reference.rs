@@ -13,6 +13,7 @@ pub fn reference() -> String {
     for table in tables::of_trajectories() {
         section(&mut text, &table);
     }
+    section(&mut text, &tables::of_objects());
     section(&mut text, &tables::of_rejections());
     section(&mut text, &tables::of_files());
     text.push_str("\n# Topics of the logs\n\n| topic | schema and meaning |\n| --- | --- |\n");

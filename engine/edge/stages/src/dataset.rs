@@ -4,11 +4,13 @@ use crate::ports::{self, CAPTIONS, DATASET, FRAMES, LOG};
 use crate::render::REJECTION;
 use crate::world::{check_same_town, world};
 use crate::{codec, parameters};
+use cosfly_dataset::tables::ObjectRecord;
 use cosfly_dataset::{
     CaptionRecord, DatasetConfig, DatasetSource, FramePackReader, LogRecord, PreviewStrip, PublishedLog, Rejection,
     RenderedTrajectory, record::captions_from_bytes, write_dataset, write_log,
 };
 use cosfly_diagnose::{Diagnostic, Fault, Result};
+use cosfly_render::Weather;
 use cosfly_stage::{
     Artifact, Fan, InputPort, Inputs, ItemRule, OutputSink, ParameterError, PortSource, Produced, Stage, StageKind,
     StagePart, StageProperties, TaskContext,
@@ -54,8 +56,7 @@ impl StageKind for Dataset {
             items: ItemRule::PerInput("frames"),
             bytes_per_item: 0,
         };
-        // Tables and card say everything from the records; the town itself is only in the logs.
-        let mut inputs: Vec<InputPort> = self.ports().into_iter().filter(|port| port.name != "town").collect();
+        let mut inputs: Vec<InputPort> = self.ports();
         inputs.push(InputPort {
             source: PortSource::Sibling("logs"),
             ..ports::gather("logs", LOG, false, "The logs of the same stage.")
@@ -140,7 +141,9 @@ impl Stage for DatasetStage {
                 Diagnostic::new("dataset-log", Fault::Bug, format!("the log of `{}` has no record", log.item))
             })?;
             logs.push(PublishedLog { record, blob: log.blobs["mcap"] });
-            gathered.flights.push(Flight { frames, log, captions: captions.get(frames.item.as_str()).copied() });
+            let of_flight = || captions.get(flight_of_item(&frames.item)?);
+            let captions = captions.get(frames.item.as_str()).or_else(of_flight).copied();
+            gathered.flights.push(Flight { frames, log, captions });
         }
         if logs.is_empty() {
             return Err(nothing_left(&rejections));
@@ -156,6 +159,11 @@ impl Stage for DatasetStage {
         ]);
         Ok(Produced { notes, ..Produced::default() })
     }
+}
+
+/// The item of which a paired rendering shows one weather, when its id says so.
+fn flight_of_item(item: &str) -> Option<&str> {
+    Weather::PRESETS.iter().find_map(|preset| item.strip_suffix(preset)?.strip_suffix('-'))
 }
 
 /// There is no dataset without a flight; the first reasons say what to change.
@@ -195,6 +203,10 @@ impl DatasetSource for Gathered<'_> {
 
     fn captions(&self, index: usize) -> Result<Vec<CaptionRecord>> {
         captions_of(self.inputs, self.flights[index].captions)
+    }
+
+    fn objects(&self) -> Result<Vec<ObjectRecord>> {
+        Ok(ObjectRecord::of(&world(self.inputs)?.town))
     }
 
     fn previews(&self, index: usize) -> Result<PreviewStrip> {

@@ -94,7 +94,7 @@ fn distribution(single_files: &[FileRecord]) -> Value {
     let names = tables::of_trajectories()
         .iter()
         .map(|table| table.name)
-        .chain([tables::of_rejections().name])
+        .chain([tables::of_objects().name, tables::of_rejections().name])
         .collect::<Vec<_>>();
     all.extend(
         names.iter().map(|name| file_set(format!("{name}-parquet"), parquet.clone(), format!("data/{name}/*.parquet"))),
@@ -119,6 +119,7 @@ fn record_sets() -> Value {
         let source = json!({"fileSet": {"@id": format!("{}-parquet", table.name)}});
         record_set(table, &source, true)
     }));
+    sets.push(record_set(&tables::of_objects(), &json!({"fileSet": {"@id": "objects-parquet"}}), false));
     let rejected = tables::of_rejections();
     sets.push(record_set(&rejected, &json!({"fileSet": {"@id": "rejected-parquet"}}), false));
     sets.push(record_set(&tables::of_files(), &json!({"fileObject": {"@id": "files.parquet"}}), false));

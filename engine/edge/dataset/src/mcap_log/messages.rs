@@ -1,10 +1,10 @@
 //! The messages of one frame: images, calibration, transforms, poses, annotations, target state.
 
-use super::right_handed::{self, BODY_FROM_OPTICAL, map_from_world_point};
+use super::right_handed::{self, map_from_world_point};
 use super::target_state::TargetStateMessage;
 use crate::RenderedTrajectory;
 use cosfly_frames::{DVec3, Pose};
-use cosfly_render::{Camera, PixelBox};
+use cosfly_render::{Camera, Lens, PixelBox};
 use foxglove::bytes::Bytes;
 use foxglove::messages::{self, Timestamp};
 
@@ -28,8 +28,8 @@ pub fn compressed_image(time_ns: u64, format: &str, file: Vec<u8>) -> messages::
     }
 }
 
-/// The ideal pinhole camera.
-pub fn calibration(time_ns: u64, camera: &Camera) -> messages::CameraCalibration {
+/// The camera with its lens.
+pub fn calibration(time_ns: u64, camera: &Camera, lens: &Lens) -> messages::CameraCalibration {
     let focal = camera.focal_px();
     let (cx, cy) = (0.5 * f64::from(camera.width), 0.5 * f64::from(camera.height));
     messages::CameraCalibration {
@@ -38,7 +38,7 @@ pub fn calibration(time_ns: u64, camera: &Camera) -> messages::CameraCalibration
         width: camera.width,
         height: camera.height,
         distortion_model: "plumb_bob".into(),
-        d: vec![0.0; 5],
+        d: vec![lens.k1, lens.k2, 0.0, 0.0, 0.0],
         k: vec![focal, 0.0, cx, 0.0, focal, cy, 0.0, 0.0, 1.0],
         r: vec![1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0],
         p: vec![focal, 0.0, cx, 0.0, 0.0, focal, cy, 0.0, 0.0, 0.0, 1.0, 0.0],
@@ -67,7 +67,7 @@ pub fn transforms(time_ns: u64, record: &RenderedTrajectory, frame: usize) -> me
     messages::FrameTransforms {
         transforms: vec![
             in_map("drone", &record.trajectory.poses_in_world[frame]),
-            transform("drone", OPTICAL_FRAME, DVec3::ZERO, BODY_FROM_OPTICAL),
+            transform("drone", OPTICAL_FRAME, DVec3::ZERO, right_handed::body_from_optical(&record.mount)),
             in_map("target", &target_pose(record, frame)),
         ],
     }

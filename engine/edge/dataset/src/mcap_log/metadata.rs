@@ -1,21 +1,27 @@
 //! The metadata records of a log: what it is, weather, camera, conventions, labels.
 
 use crate::frame_pack::PackHeader;
+use crate::tables::kind_name;
 use crate::{DepthEncoding, RenderedTrajectory};
-use cosfly_maps::SemanticLabel;
+use cosfly_maps::{Obstacle, SemanticLabel, Town};
 use std::collections::BTreeMap;
 
 /// Layout of our logs; raised when channels or conventions change.
 pub const LOG_VERSION: u32 = 1;
 
 /// All records: name and entries.
-pub fn records(record: &RenderedTrajectory, header: &PackHeader) -> Vec<(&'static str, BTreeMap<String, String>)> {
+pub fn records(
+    record: &RenderedTrajectory,
+    header: &PackHeader,
+    town: &Town,
+) -> Vec<(&'static str, BTreeMap<String, String>)> {
     vec![
         ("cosfly.trajectory", trajectory(record)),
         ("cosfly.weather", weather(record)),
         ("cosfly.camera", camera(record)),
         ("cosfly.conventions", conventions(header)),
         ("cosfly.semantic_labels", labels()),
+        ("cosfly.instances", instances(town)),
     ]
 }
 
@@ -28,6 +34,7 @@ fn trajectory(record: &RenderedTrajectory) -> BTreeMap<String, String> {
     entries([
         ("log_version", LOG_VERSION.to_string()),
         ("trajectory_id", record.trajectory_id.clone()),
+        ("flight_id", record.flight_id.clone()),
         ("role", record.role.name().into()),
         ("expert_id", record.pair.as_ref().map_or(String::new(), |pair| pair.expert_id.clone())),
         ("pedestrian_id", record.pedestrian_id.clone()),
@@ -80,6 +87,13 @@ fn camera(record: &RenderedTrajectory) -> BTreeMap<String, String> {
         ("height_px", camera.height.to_string()),
         ("horizontal_fov_deg", camera.horizontal_fov_rad.to_degrees().to_string()),
         ("focal_px", camera.focal_px().to_string()),
+        ("k1", record.lens.k1.to_string()),
+        ("k2", record.lens.k2.to_string()),
+        ("mount_yaw_deg", record.mount.yaw_rad.to_degrees().to_string()),
+        ("mount_pitch_deg", record.mount.pitch_rad.to_degrees().to_string()),
+        ("shutter_s", record.motion_blur.shutter_s.to_string()),
+        ("noise_gaussian", record.noise.gaussian.to_string()),
+        ("noise_shot", record.noise.shot.to_string()),
     ])
 }
 
@@ -91,7 +105,7 @@ fn conventions(header: &PackHeader) -> BTreeMap<String, String> {
     entries([
         ("time", "frame i is at i * dt_s; time 0 is the first frame".into()),
         ("map_frame", "right-handed, metres: x = x of CARLA, y = -y of CARLA, z up".into()),
-        ("drone_frame", "x ahead, y left, z up; the camera sits in its origin and looks along x".into()),
+        ("drone_frame", "x ahead, y left, z up; the camera sits in its origin and looks along x, turned by its mount".into()),
         ("camera_optical_frame", "x right, y down, z ahead".into()),
         ("target_frame", "origin on the ground between the feet, x in walking direction, z up".into()),
         ("depth", "planar: distance along the optical axis, metres, 32-bit float; +inf for sky".into()),
@@ -99,7 +113,7 @@ fn conventions(header: &PackHeader) -> BTreeMap<String, String> {
         ("semantic", "CARLA label ids of 0.9.14 and later".into()),
         ("instance", "0 ground and sky, 1 the target, else object id + 2; unsigned, little-endian".into()),
         ("instance_encoding", instance_encoding(header).into()),
-        ("pixels", "row-major from the top-left pixel, sampled at pixel centres".into()),
+        ("pixels", "row-major from the top-left pixel, sampled at pixel centres; through a lens, depth and ids are the nearest sample".into()),
         ("boxes", "left, top, right, bottom edges in pixels from the top-left corner of the image".into()),
     ])
 }
@@ -121,4 +135,31 @@ fn labels() -> BTreeMap<String, String> {
             (format!("{:02}", label.id()), format!("{} #{r:02x}{g:02x}{b:02x}", label.name()))
         })
         .collect()
+}
+
+/// What each instance id stands for: kind, CARLA label id, and corners of the space that its boxes fill, frame `map`.
+fn instances(town: &Town) -> BTreeMap<String, String> {
+    let mut obstacles: Vec<&Obstacle> = town.obstacles.iter().collect();
+    obstacles.sort_by_key(|obstacle| obstacle.object_id);
+    let entry = |group: &[&Obstacle]| {
+        let around = group.iter().map(|obstacle| obstacle.shape.bounds_in_world());
+        let around = around.reduce(|(low, high), (a, b)| (low.min(a), high.max(b)));
+        let (low, high) = around.unwrap_or_default();
+        let kind = group[0].kind;
+        let value = format!(
+            "{} label {} from ({:.2}, {:.2}, {:.2}) to ({:.2}, {:.2}, {:.2}) m",
+            kind_name(kind),
+            kind.label().id(),
+            low.x,
+            -high.y,
+            low.z,
+            high.x,
+            -low.y,
+            high.z
+        );
+        (format!("{:07}", group[0].object_id.saturating_add(2)), value)
+    };
+    let fixed = [("0000000", "ground and sky"), ("0000001", "the target")];
+    let groups = obstacles.chunk_by(|a, b| a.object_id == b.object_id);
+    groups.map(entry).chain(fixed.map(|(id, what)| (id.to_owned(), what.to_owned()))).collect()
 }

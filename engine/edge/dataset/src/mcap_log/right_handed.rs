@@ -4,10 +4,21 @@
 //! Rz(-yaw) * Ry(-pitch) * Rx(roll). The body frame becomes x ahead, y left, z up.
 
 use cosfly_frames::{DQuat, DVec3, Pose, real};
+use cosfly_render::Mount;
 use foxglove::messages;
 
 /// Turns the right-handed body axes (x ahead, y left, z up) into the optical ones (x right, y down, z ahead).
 pub const BODY_FROM_OPTICAL: DQuat = DQuat::from_xyzw(-0.5, 0.5, -0.5, 0.5);
+
+/// Turns the optical axes of a camera in this mount into the drone's right-handed body axes.
+pub fn body_from_optical(mount: &Mount) -> DQuat {
+    if *mount == Mount::default() {
+        return BODY_FROM_OPTICAL;
+    }
+    let turn =
+        Pose { position_in_world: DVec3::ZERO, pitch_rad: mount.pitch_rad, yaw_rad: mount.yaw_rad, roll_rad: 0.0 };
+    map_from_body(&turn) * BODY_FROM_OPTICAL
+}
 
 /// A point of the world frame in the `map` frame; its own inverse.
 pub fn map_from_world_point(point_in_world: DVec3) -> DVec3 {
@@ -79,6 +90,14 @@ mod tests {
     fn the_optical_axis_looks_ahead_and_its_x_axis_to_the_right() {
         assert!((BODY_FROM_OPTICAL * DVec3::Z - DVec3::X).length() < 1e-15);
         assert!((BODY_FROM_OPTICAL * DVec3::X - DVec3::NEG_Y).length() < 1e-15);
+    }
+
+    #[test]
+    fn a_turned_camera_looks_the_same_way_in_both_frames() {
+        let (pose, mount) = (turned(), Mount { pitch_rad: 0.2, yaw_rad: -0.7 });
+        let ahead = mount.camera_pose(&pose).world_from_body() * DVec3::X;
+        let in_map = map_from_body(&pose) * body_from_optical(&mount) * DVec3::Z;
+        assert!((in_map - map_from_world_point(ahead)).length() < 1e-12);
     }
 
     #[test]

@@ -94,3 +94,34 @@ fn a_pack_of_another_flight_is_refused() {
     let error = write_log(&mut vec![], &record, &mut reader, &[], &sample::town(), &|| Ok(())).unwrap_err();
     assert!(error.message.contains("5 frames of 65 x 48"), "{error}");
 }
+
+/// A disk with room for so many bytes.
+struct Disk(usize);
+
+impl std::io::Write for Disk {
+    fn write(&mut self, bytes: &[u8]) -> std::io::Result<usize> {
+        if bytes.len() > self.0 {
+            return Err(std::io::ErrorKind::StorageFull.into());
+        }
+        self.0 -= bytes.len();
+        Ok(bytes.len())
+    }
+
+    fn flush(&mut self) -> std::io::Result<()> {
+        Ok(())
+    }
+}
+
+#[test]
+fn a_disk_that_fills_up_anywhere_is_an_error_and_no_log() {
+    let flight = sample::flight(0, Role::Expert);
+    let pack = flight.pack(EncodingConfig::default());
+    let whole = log(&flight.record).1.bytes as usize;
+    for room in [0, 7, 100, whole / 3, whole - 1] {
+        let mut reader = FramePackReader::new(Cursor::new(&pack)).unwrap();
+        let mut disk = Disk(room);
+        let outcome = write_log(&mut disk, &flight.record, &mut reader, &flight.captions, &sample::town(), &|| Ok(()));
+        let error = outcome.expect_err("there is not enough room");
+        assert_eq!(error.fault, cosfly_diagnose::Fault::Machine, "{room}: {error}");
+    }
+}

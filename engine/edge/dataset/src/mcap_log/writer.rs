@@ -45,7 +45,7 @@ pub fn write_log<R: Read + Seek>(
     check_pack(record, pack)?;
     let mut hashing = HashingWriter::new(output);
     let mut log = ChannelWriter::new(&mut hashing, pack.header().encoding.previews)?;
-    for (name, entries) in metadata::records(record, pack.header()) {
+    for (name, entries) in metadata::records(record, pack.header(), town) {
         log.metadata(name, &entries)?;
     }
     write_once(&mut log, record, captions, town)?;
@@ -122,7 +122,7 @@ fn write_frame<W: Write>(
     log.write(topic::DRONE_POSE, time, &messages::pose_in_map(time, pose))?;
     log.write(topic::TARGET_POSE, time, &messages::pose_in_map(time, &messages::target_pose(record, frame)))?;
     log.write(topic::TARGET_STATE, time, &messages::target_state(record, frame))?;
-    log.write(topic::CAMERA, time, &messages::calibration(time, camera))?;
+    log.write(topic::CAMERA, time, &messages::calibration(time, camera, &record.lens))?;
     log.write(topic::ANNOTATIONS, time, &messages::annotations(time, record, frame))?;
     let format = match header.encoding.rgb {
         RgbEncoding::Jpeg => "jpeg",

@@ -55,6 +55,7 @@ pub fn readme(config: &DatasetConfig, summary: &Summary) -> String {
     text.push_str(CONVENTIONS);
     text.push_str("## Tables\n\n");
     tables::of_trajectories().iter().for_each(|table| text.push_str(&table_section(table)));
+    text.push_str(&table_section(&tables::of_objects()));
     text.push_str(&table_section(&tables::of_rejections()));
     text.push_str(&table_section(&tables::of_files()));
     text.push_str(&invented(summary));
@@ -101,7 +102,8 @@ fn front_matter(config: &DatasetConfig, summary: &Summary) -> String {
 
 /// All tables with splits.
 fn table_names() -> Vec<&'static str> {
-    tables::of_trajectories().iter().map(|table| table.name).chain([tables::of_rejections().name]).collect()
+    let others = [tables::of_objects().name, tables::of_rejections().name];
+    tables::of_trajectories().iter().map(|table| table.name).chain(others).collect()
 }
 
 /// The Hugging Face config of a table; splits without rows are left out, because its loader refuses them.

@@ -80,7 +80,7 @@ fn the_card_lists_only_tables_with_rows() {
     let folder = tempfile::tempdir().unwrap();
     sample::write_flights(folder.path(), &DatasetConfig::default(), EncodingConfig::default(), experts).unwrap();
     let card = std::fs::read_to_string(folder.path().join("README.md")).unwrap();
-    assert!(card.contains("# or trajectories, waypoints, captions, rejected, files\n"), "{card}");
+    assert!(card.contains("# or trajectories, waypoints, captions, objects, rejected, files\n"), "{card}");
 }
 
 #[test]

@@ -7,7 +7,7 @@ use super::viewers;
 use crate::config::DatasetConfig;
 use crate::hashing::{HashingWriter, sha256_of};
 use crate::mcap_log::{LogRecord, target_state};
-use crate::tables::{self, DatasetItem, FileRecord, Table, TableWriter};
+use crate::tables::{self, DatasetItem, FileRecord, ObjectRecord, Table, TableWriter};
 use crate::{CaptionRecord, PreviewStrip, Rejection, RenderedTrajectory, croissant};
 use cosfly_diagnose::{Diagnostic, Fault, Result};
 use cosfly_stage::{BlobRef, OutputSink};
@@ -30,6 +30,8 @@ pub trait DatasetSource {
     fn trajectory(&self, index: usize) -> Result<RenderedTrajectory>;
     /// Its captions; empty without a caption stage.
     fn captions(&self, index: usize) -> Result<Vec<CaptionRecord>>;
+    /// What the instance ids of all images stand for.
+    fn objects(&self) -> Result<Vec<ObjectRecord>>;
     /// Its previews; asked for by one table only.
     fn previews(&self, index: usize) -> Result<PreviewStrip>;
 }
@@ -59,6 +61,10 @@ pub fn write_dataset(
         let rows = dataset.trajectory_table(&table, &items)?;
         summary.rows.insert(table.name, rows);
     }
+    let objects = tables::of_objects();
+    let path = format!("data/{0}/{0}-00000-of-00001.parquet", objects.name);
+    let rows = dataset.table(&objects, &path, &source.objects()?)?;
+    summary.rows.insert(objects.name, BTreeMap::from([(objects.name.to_owned(), rows)]));
     let rejected = tables::of_rejections();
     dataset.table(&rejected, &format!("data/{0}/{0}-00000-of-00001.parquet", rejected.name), rejections)?;
     summary.rows.insert(rejected.name, BTreeMap::from([(rejected.name.to_owned(), summary.rejected)]));

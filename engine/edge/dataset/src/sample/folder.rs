@@ -2,6 +2,7 @@
 
 use super::{SampleFlight, flights, rejections, town};
 use crate::publish::{DatasetSource, PublishedLog, Summary, write_dataset};
+use crate::tables::ObjectRecord;
 use crate::{
     CaptionRecord, DatasetConfig, EncodingConfig, FramePackReader, PreviewStrip, RenderedTrajectory, write_log,
 };
@@ -52,6 +53,10 @@ impl DatasetSource for Flights {
 
     fn captions(&self, index: usize) -> Result<Vec<CaptionRecord>> {
         Ok(self.0[index].captions.clone())
+    }
+
+    fn objects(&self) -> Result<Vec<ObjectRecord>> {
+        Ok(ObjectRecord::of(&town()))
     }
 
     fn previews(&self, index: usize) -> Result<PreviewStrip> {

@@ -12,7 +12,7 @@ use cosfly_geometry::OrientedBox;
 use cosfly_maps::{MapOrigin, Obstacle, ObstacleKind, SemanticLabel, SimplificationReport, Synthetic, Town};
 use cosfly_planner::{Certificate, FramePerturbation, Limits, Perturbation, TermCost, Trajectory};
 use cosfly_render::frame::TARGET_INSTANCE;
-use cosfly_render::{Camera, FrameImages, PixelBox, TargetView, Weather};
+use cosfly_render::{Camera, FrameImages, Lens, MotionBlur, Mount, Noise, PixelBox, TargetView, Weather};
 
 /// Frames of every flight.
 pub const FRAMES: usize = 5;
@@ -106,11 +106,16 @@ pub fn flight(pedestrian: usize, role: Role) -> SampleFlight {
     let trajectory = trajectory(track, poses, role, pedestrian, offset, &views);
     let record = RenderedTrajectory {
         trajectory_id: format!("{}-p{pedestrian:05}", role.name()),
+        flight_id: format!("{}-p{pedestrian:05}", role.name()),
         role,
         pedestrian_id: format!("p{pedestrian:05}"),
         town: TownInfo::of(&town, "0".repeat(64)),
         trajectory,
         camera,
+        lens: Lens::default(),
+        mount: Mount::default(),
+        motion_blur: MotionBlur::default(),
+        noise: Noise::default(),
         weather: weather(),
         seed: 0x0123_4567_89ab_cdef,
         views,

@@ -53,14 +53,14 @@ fn identity() -> Vec<Column<DatasetItem>> {
 
 fn drone() -> Vec<Column<DatasetItem>> {
     vec![
-        Column::new("drone_x_m", Kind::Real, "camera position, CARLA's frame: x east", |item, i| {
+        Column::new("drone_x_m", Kind::Real, "position of drone and camera, CARLA's frame: x east", |item, i| {
             pose(item, i).position_in_world.x.into()
         }),
         Column::new("drone_y_m", Kind::Real, "y south (left-handed)", |item, i| {
             pose(item, i).position_in_world.y.into()
         }),
         Column::new("drone_z_m", Kind::Real, "z up", |item, i| pose(item, i).position_in_world.z.into()),
-        Column::new("drone_pitch_deg", Kind::Real, "positive: nose up", |item, i| {
+        Column::new("drone_pitch_deg", Kind::Real, "the drone's; positive: nose up", |item, i| {
             pose(item, i).pitch_rad.to_degrees().into()
         }),
         Column::new("drone_yaw_deg", Kind::Real, "positive: x towards y", |item, i| {
@@ -68,6 +68,18 @@ fn drone() -> Vec<Column<DatasetItem>> {
         }),
         Column::new("drone_roll_deg", Kind::Real, "positive: right side down", |item, i| {
             pose(item, i).roll_rad.to_degrees().into()
+        }),
+        Column::new(
+            "camera_pitch_deg",
+            Kind::Real,
+            "attitude of the camera that took the images; the drone's turned by the mount in `trajectories`",
+            |item, i| item.record.camera_pose(i).pitch_rad.to_degrees().into(),
+        ),
+        Column::new("camera_yaw_deg", Kind::Real, "as `drone_yaw_deg`, of the camera", |item, i| {
+            item.record.camera_pose(i).yaw_rad.to_degrees().into()
+        }),
+        Column::new("camera_roll_deg", Kind::Real, "as `drone_roll_deg`, of the camera", |item, i| {
+            item.record.camera_pose(i).roll_rad.to_degrees().into()
         }),
     ]
 }
@@ -105,9 +117,12 @@ fn view() -> Vec<Column<DatasetItem>> {
         Column::new("visible_by_rays", Kind::Real, "share of body points reached by unoccluded rays", |item, i| {
             view_of(item, i).visible_by_rays.into()
         }),
-        Column::new("visible_by_pixels", Kind::Real, "visible pixels / pixels without obstacles", |item, i| {
-            view_of(item, i).visible_by_pixels.into()
-        }),
+        Column::new(
+            "visible_by_pixels",
+            Kind::Real,
+            "visible pixels / pixels without obstacles, inside the image; 0 out of view",
+            |item, i| view_of(item, i).visible_by_pixels.into(),
+        ),
         Column::new("visible_pixels", Kind::Integer, "visible pixels of the target", |item, i| {
             view_of(item, i).pixels.into()
         }),
@@ -123,7 +138,7 @@ fn view() -> Vec<Column<DatasetItem>> {
         Column::new(
             "occluder_instance",
             Kind::Integer,
-            "instance id of what hides most of it; 0: nothing",
+            "instance id of what hides most of it, see table `objects`; 0: nothing, or only ground",
             |item, i| view_of(item, i).occluder_instance.into(),
         ),
     ]

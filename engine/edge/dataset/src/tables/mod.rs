@@ -7,6 +7,7 @@ mod captions;
 mod column;
 mod files;
 mod frames;
+mod objects;
 mod pairs;
 mod rejected;
 mod trajectories;
@@ -15,6 +16,7 @@ mod write;
 
 pub use column::{Cell, Column, Kind, Table};
 pub use files::FileRecord;
+pub use objects::{ObjectRecord, kind_name};
 pub use write::{TableWriter, schema};
 
 use crate::mcap_log::LogRecord;
@@ -43,6 +45,11 @@ pub fn of_trajectories() -> Vec<Table<DatasetItem>> {
 /// The table of items without a trajectory.
 pub fn of_rejections() -> Table<crate::Rejection> {
     rejected::table()
+}
+
+/// The table of what instance ids stand for.
+pub fn of_objects() -> Table<ObjectRecord> {
+    objects::table()
 }
 
 /// The table of all files with their hashes.

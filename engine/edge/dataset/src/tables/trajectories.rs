@@ -24,6 +24,12 @@ fn identity() -> Vec<Column<DatasetItem>> {
         Column::new("trajectory_id", Kind::Text, "unique name of the flight", |item, _| {
             (&item.record.trajectory_id).into()
         }),
+        Column::new(
+            "flight_id",
+            Kind::Text,
+            "what is flown: rows with the same one show the same poses, target and ids in different weathers",
+            |item, _| (&item.record.flight_id).into(),
+        ),
         Column::new("role", Kind::Label(&ROLES), "expert or perturbed", |item, _| role_cell(item.record.role)),
         Column::optional("expert_id", Kind::Text, "the expert of a perturbed flight; null for experts", |item, _| {
             item.record.pair.as_ref().map(|pair| &pair.expert_id).into()
@@ -75,7 +81,9 @@ fn scene() -> Vec<Column<DatasetItem>> {
 
 fn weather() -> Vec<Column<DatasetItem>> {
     vec![
-        Column::new("weather_preset", Kind::Text, "CARLA preset", |item, _| (&item.record.weather.name).into()),
+        Column::new("weather_preset", Kind::Text, "CARLA preset that the numbers start from", |item, _| {
+            (&item.record.weather.name).into()
+        }),
         Column::new("weather_cloudiness", Kind::Real, "CARLA's number, percent", |item, _| {
             item.record.weather.cloudiness.into()
         }),
@@ -140,6 +148,44 @@ fn camera() -> Vec<Column<DatasetItem>> {
         Column::new("camera_cy_px", Kind::Real, "optical centre from the top edge", |item, _| {
             (0.5 * f64::from(item.record.camera.height)).into()
         }),
+        Column::new(
+            "camera_k1",
+            Kind::Real,
+            "lens distortion, OpenCV's k1: r (1 + k1 r^2 + k2 r^4), r the tangent of the angle from the optical axis; field \
+             of view and focal length are those without it",
+            |item, _| item.record.lens.k1.into(),
+        ),
+        Column::new("camera_k2", Kind::Real, "OpenCV's k2", |item, _| item.record.lens.k2.into()),
+        Column::new(
+            "camera_mount_yaw_deg",
+            Kind::Real,
+            "turn of the camera against the drone around the drone's up axis, positive to the right; before the pitch",
+            |item, _| item.record.mount.yaw_rad.to_degrees().into(),
+        ),
+        Column::new(
+            "camera_mount_pitch_deg",
+            Kind::Real,
+            "turn of the camera against the drone, positive upwards; after the yaw",
+            |item, _| item.record.mount.pitch_rad.to_degrees().into(),
+        ),
+        Column::new(
+            "camera_shutter_s",
+            Kind::Real,
+            "colour is blurred over this time around `time_s`, depth and ids are of `time_s`; 0: no blur",
+            |item, _| item.record.motion_blur.shutter_s.into(),
+        ),
+        Column::new(
+            "camera_noise_gaussian",
+            Kind::Real,
+            "deviation of the noise of colour, steps of 8 bits, everywhere",
+            |item, _| item.record.noise.gaussian.into(),
+        ),
+        Column::new(
+            "camera_noise_shot",
+            Kind::Real,
+            "the same at white, falling with the root of brightness; added in squares",
+            |item, _| item.record.noise.shot.into(),
+        ),
     ]
 }
 

@@ -38,6 +38,7 @@ pub fn check(folder: &Path, files: &CheckedFiles, report: &mut VerifyReport) -> 
     for table in tables::of_trajectories() {
         check_fields(&document, &table, true, report);
     }
+    check_fields(&document, &tables::of_objects(), false, report);
     check_fields(&document, &tables::of_rejections(), false, report);
     check_fields(&document, &tables::of_files(), false, report);
     Ok(())

@@ -58,6 +58,7 @@ pub fn check_all(
             motions.insert(id.clone(), motion);
             check_frames(file, flight, &frames, report);
             figures::check_frames(flight, &frames, report);
+            check_occluders(file, tables.instances.get(&flight.town), &frames, report);
             check_pair(&tables.pairs, flight, &frames, report);
             twins.keep(&frames);
             if files.regular.contains(&flight.mcap_path) {
@@ -121,8 +122,24 @@ pub(super) fn check_frames(file: &str, flight: &FlightRow, frames: &[FrameRow], 
         if let Some(message) = box_problem(flight, frame) {
             find("verify-reprojection", message);
         }
+        let turned = flight.mount.camera_pose(&frame.pose).world_from_body();
+        let stored = frame.camera_pose.world_from_body();
+        let apart = (turned.x_axis - stored.x_axis).length().max((turned.y_axis - stored.y_axis).length());
+        if apart.is_nan() || apart > TOLERANCE {
+            find("verify-camera", format!("the camera's attitude is {apart} from the drone's turned by its mount"));
+        }
     }
     report.boxes += frames.iter().filter(|frame| frame.full_box.is_some()).count() as u64;
+}
+
+/// What hides the target is in table `objects`.
+fn check_occluders(file: &str, ids: Option<&BTreeSet<i64>>, frames: &[FrameRow], report: &mut VerifyReport) {
+    let is_known = |id: i64| id == 0 || ids.is_some_and(|ids| ids.contains(&id));
+    if let Some(frame) = frames.iter().find(|frame| !is_known(frame.occluder)) {
+        let message = format!("its occluder {} is not in table `objects`", frame.occluder);
+        let place = format!("row {}, `{}` frame {}", frame.row, frame.trajectory_id, frame.frame);
+        report.find(file, place, "verify-reference", message);
+    }
 }
 
 /// What is wrong with the stored boxes of a frame, if anything: they must agree with each other and with the body
@@ -136,7 +153,7 @@ fn box_problem(flight: &FlightRow, frame: &FrameRow) -> Option<String> {
     let inside_image =
         |u: f64, v: f64| (SLACK_PX..width - SLACK_PX).contains(&u) && (SLACK_PX..height - SLACK_PX).contains(&v);
     let Some(full) = frame.full_box else {
-        let (u, v, depth) = flight.camera.project(&frame.pose, body.on_axis(AXIS_HEIGHTS[1]))?;
+        let (u, v, depth) = flight.project(&frame.camera_pose, body.on_axis(AXIS_HEIGHTS[1]))?;
         let large = flight.camera.focal_px() * 0.1 * body.height_m / depth > SLACK_PX;
         return (large && inside_image(u, v))
             .then(|| format!("it is out of view, but its middle projects to pixel ({u:.1}, {v:.1})"));
@@ -147,7 +164,7 @@ fn box_problem(flight: &FlightRow, frame: &FrameRow) -> Option<String> {
         return Some(format!("the visible box {seen:?} leaves the full box {full:?}"));
     }
     for (share, limb) in AXIS_HEIGHTS.into_iter().zip(LIMB_LENGTHS) {
-        let Some((u, v, depth)) = flight.camera.project(&frame.pose, body.on_axis(share)) else {
+        let Some((u, v, depth)) = flight.project(&frame.camera_pose, body.on_axis(share)) else {
             return Some("the body is behind the camera and has a box".into());
         };
         let slack = axis_slack_px(flight.camera.focal_px() * body.height_m / depth, limb);
@@ -157,7 +174,7 @@ fn box_problem(flight: &FlightRow, frame: &FrameRow) -> Option<String> {
             ));
         }
     }
-    let hull = body.hull(flight, &frame.pose)?;
+    let hull = body.hull(flight, &frame.camera_pose)?;
     let fits = full[0] >= hull[0] - SLACK_PX
         && full[1] >= hull[1] - SLACK_PX
         && full[2] <= hull[2] + SLACK_PX
@@ -208,7 +225,7 @@ impl Body {
     /// Edges of the projected prism; `None` when part of it is behind the camera.
     fn hull(&self, flight: &FlightRow, pose: &Pose) -> Option<[f64; 4]> {
         self.corners().try_fold([f64::MAX, f64::MAX, f64::MIN, f64::MIN], |hull, corner| {
-            let (u, v, depth) = flight.camera.project(pose, corner)?;
+            let (u, v, depth) = flight.project(pose, corner)?;
             (depth > 0.1).then(|| [hull[0].min(u), hull[1].min(v), hull[2].max(u), hull[3].max(v)])
         })
     }

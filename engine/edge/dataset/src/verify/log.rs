@@ -143,6 +143,7 @@ impl LogCheck<'_> {
             topic::DRONE_POSE => pose_problem(data, row),
             topic::TARGET_STATE => state_problem(data, row),
             topic::CAMERA => self.camera_problem(data),
+            topic::TF => camera_turn_problem(data, row),
             topic::INSTANCE => self.instance_problem(frame, data, row),
             topic::SEMANTIC | topic::DEPTH => None,
             _ => None,
@@ -159,8 +160,9 @@ impl LogCheck<'_> {
         let Ok(calibration) = messages::CameraCalibration::decode(data) else { return Some(UNREADABLE.into()) };
         let camera = &self.flight.camera;
         let same = (calibration.width, calibration.height) == (camera.width, camera.height)
-            && calibration.k.first().is_some_and(|focal| (focal - camera.focal_px()).abs() < 1e-6 * focal);
-        (!same).then(|| "size or focal length differ from table `trajectories`".into())
+            && calibration.k.first().is_some_and(|focal| (focal - camera.focal_px()).abs() < 1e-6 * focal)
+            && calibration.d.get(..2) == Some(&[self.flight.lens.k1, self.flight.lens.k2]);
+        (!same).then(|| "size, focal length or distortion differ from table `trajectories`".into())
     }
 
     /// The target's pixels in the instance image against count and box of the table.
@@ -204,7 +206,7 @@ impl LogCheck<'_> {
             height_m: self.flight.target_height_m,
             radius_m: self.flight.target_radius_m,
         };
-        let (near, far) = body.depths_m(&row.pose);
+        let (near, far) = body.depths_m(&row.camera_pose);
         let depth = |at: usize| {
             image
                 .data
@@ -286,6 +288,24 @@ fn pose_problem(data: &[u8], row: &FrameRow) -> Option<String> {
     let turned = (a.x_axis - b.x_axis).length().max((a.y_axis - b.y_axis).length());
     let same = apart <= POSE_TOLERANCE && turned <= POSE_TOLERANCE;
     (!same).then(|| format!("the pose is {apart:.6} m and {turned:.6} rad from that of table `frames`"))
+}
+
+/// The chain of transforms from the map to the camera is the stored pose of the camera.
+fn camera_turn_problem(data: &[u8], row: &FrameRow) -> Option<String> {
+    let Ok(transforms) = messages::FrameTransforms::decode(data) else { return Some(UNREADABLE.into()) };
+    let rotation = |child: &str| {
+        let found = transforms.transforms.iter().find(|it| it.child_frame_id == child)?.rotation.as_ref()?;
+        Some(DQuat::from_xyzw(found.x, found.y, found.z, found.w))
+    };
+    let (Some(drone), Some(camera)) = (rotation("drone"), rotation("camera_optical")) else {
+        return Some("the transforms do not lead from the map to the camera".into());
+    };
+    let ahead = right_handed::map_from_world_point(drone * camera * DVec3::Z);
+    let right = right_handed::map_from_world_point(drone * camera * DVec3::X);
+    let stored = row.camera_pose.world_from_body();
+    let apart = (ahead - stored.x_axis).length().max((right - stored.y_axis).length());
+    let same = apart <= POSE_TOLERANCE;
+    (!same).then(|| format!("the camera is turned {apart:.6} rad against table `frames`"))
 }
 
 fn state_problem(data: &[u8], row: &FrameRow) -> Option<String> {

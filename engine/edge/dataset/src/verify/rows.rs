@@ -138,16 +138,26 @@ pub struct FlightRow {
     pub place: (String, usize),
     /// Its name.
     pub trajectory_id: String,
+    /// What is flown; the same for all weathers of a paired rendering.
+    pub flight_id: String,
+    /// Preset of its weather.
+    pub weather: String,
     /// Its expert; empty for experts.
     pub expert_id: String,
     /// Its pedestrian.
     pub pedestrian_id: String,
+    /// Its town.
+    pub town: String,
     /// Number of frames.
     pub frames: i64,
     /// Time between frames, seconds.
     pub dt_s: f64,
-    /// Its camera.
+    /// Its camera without the lens.
     pub camera: cosfly_render::Camera,
+    /// Its lens.
+    pub lens: cosfly_render::Lens,
+    /// The camera's turn against the drone.
+    pub mount: cosfly_render::Mount,
     /// Body height, metres.
     pub target_height_m: f64,
     /// Body radius, metres.
@@ -160,6 +170,15 @@ pub struct FlightRow {
     pub mcap_messages: i64,
     /// What it says about its frames and limits.
     pub figures: Figures,
+}
+
+impl FlightRow {
+    /// Pixel coordinates and planar depth of a world point through camera and lens; `None` behind the camera.
+    pub fn project(&self, camera_pose: &Pose, point_in_world: DVec3) -> Option<(f64, f64, f64)> {
+        let (u, v, depth_m) = self.camera.project(camera_pose, point_in_world)?;
+        let (u, v) = self.lens.bend(&self.camera, (u, v));
+        Some((u, v, depth_m))
+    }
 }
 
 /// The rows of a file of `trajectories`.
@@ -175,6 +194,7 @@ pub fn flights(path: &Path, name: &str) -> ReadResult<Vec<FlightRow>> {
                 trajectory_id: batch.text("trajectory_id", row),
                 expert_id: batch.text("expert_id", row),
                 pedestrian_id: batch.text("pedestrian_id", row),
+                town: batch.text("town", row),
                 frames: batch.integer("frames", row).unwrap_or(-1),
                 dt_s: real("dt_s"),
                 camera: cosfly_render::Camera {
@@ -182,6 +202,13 @@ pub fn flights(path: &Path, name: &str) -> ReadResult<Vec<FlightRow>> {
                     height: side("camera_height_px"),
                     horizontal_fov_rad: real("camera_fov_deg").to_radians(),
                 },
+                lens: cosfly_render::Lens { k1: real("camera_k1"), k2: real("camera_k2") },
+                mount: cosfly_render::Mount {
+                    pitch_rad: real("camera_mount_pitch_deg").to_radians(),
+                    yaw_rad: real("camera_mount_yaw_deg").to_radians(),
+                },
+                flight_id: batch.text("flight_id", row),
+                weather: batch.text("weather_preset", row),
                 target_height_m: real("target_height_m"),
                 target_radius_m: real("target_radius_m"),
                 mcap_path: batch.text("mcap_path", row),
@@ -205,8 +232,10 @@ pub struct FrameRow {
     pub frame: i64,
     /// Its time, seconds.
     pub time_s: f64,
-    /// Camera pose.
+    /// The drone's pose.
     pub pose: Pose,
+    /// The camera's pose, at the same position.
+    pub camera_pose: Pose,
     /// Angles as stored: pitch, yaw, roll, degrees.
     pub angles_deg: [f64; 3],
     /// Feet of the target.
@@ -229,6 +258,8 @@ pub struct FrameRow {
     pub action_in_world: Option<[f64; 6]>,
     /// Action seen from the body.
     pub action_in_body: Option<[f64; 6]>,
+    /// Instance id of what hides most of the target.
+    pub occluder: i64,
     /// Frame of the expert, position event, rotation event, displacement; none for experts.
     pub disturbance: Option<(i64, bool, bool, DVec3)>,
 }
@@ -239,16 +270,23 @@ impl FrameRow {
         let angles_deg = [real("drone_pitch_deg"), real("drone_yaw_deg"), real("drone_roll_deg")];
         let [pitch_rad, yaw_rad, roll_rad] = angles_deg.map(f64::to_radians);
         let event = |name| batch.flag(name, row).unwrap_or(false);
+        let pose = Pose {
+            position_in_world: DVec3::new(real("drone_x_m"), real("drone_y_m"), real("drone_z_m")),
+            pitch_rad,
+            yaw_rad,
+            roll_rad,
+        };
         Self {
             row: row_in_file,
             trajectory_id: batch.text("trajectory_id", row),
             frame: batch.integer("frame", row).unwrap_or(-1),
             time_s: real("time_s"),
-            pose: Pose {
-                position_in_world: DVec3::new(real("drone_x_m"), real("drone_y_m"), real("drone_z_m")),
-                pitch_rad,
-                yaw_rad,
-                roll_rad,
+            pose,
+            camera_pose: Pose {
+                position_in_world: pose.position_in_world,
+                pitch_rad: real("camera_pitch_deg").to_radians(),
+                yaw_rad: real("camera_yaw_deg").to_radians(),
+                roll_rad: real("camera_roll_deg").to_radians(),
             },
             angles_deg,
             feet_in_world: DVec3::new(real("target_x_m"), real("target_y_m"), real("target_z_m")),
@@ -261,6 +299,7 @@ impl FrameRow {
             full_box: batch.pixel_box("full_box_px", row),
             action_in_world: batch.reals("action_in_world", row),
             action_in_body: batch.reals("action_in_body", row),
+            occluder: batch.integer("occluder_instance", row).unwrap_or(-1),
             disturbance: batch.integer("expert_frame", row).map(|frame| {
                 let offset = batch.reals("drone_offset_in_world_m", row).map_or(DVec3::NAN, DVec3::from_array);
                 (frame, event("position_event"), event("rotation_event"), offset)

@@ -16,6 +16,8 @@ pub struct SmallTables {
     pub pairs: BTreeMap<String, PairRow>,
     /// Captions by flight: language and text.
     pub captions: BTreeMap<String, Vec<(String, String)>>,
+    /// Instance ids by town.
+    pub instances: BTreeMap<String, BTreeSet<i64>>,
 }
 
 /// A row of table `pairs`.
@@ -35,12 +37,19 @@ pub struct PairRow {
 
 /// Reads the small tables and checks them against each other.
 pub fn read(folder: &Path, files: &CheckedFiles, report: &mut VerifyReport) -> SmallTables {
-    let mut small = SmallTables { flights: BTreeMap::new(), pairs: BTreeMap::new(), captions: BTreeMap::new() };
+    let mut small = SmallTables {
+        flights: BTreeMap::new(),
+        pairs: BTreeMap::new(),
+        captions: BTreeMap::new(),
+        instances: BTreeMap::new(),
+    };
     read_flights(folder, files, &mut small, report);
     let rejected = read_rejected(folder, files, report);
     for id in small.flights.keys().filter(|id| rejected.contains(*id)) {
         report.find("data/rejected", id.clone(), "verify-reference", "it is rejected and has a flight");
     }
+    read_objects(folder, files, &mut small, report);
+    check_weathers(&small, report);
     read_captions(folder, files, &mut small, report);
     read_pairs(folder, files, &mut small, report);
     check_splits(&small, report);
@@ -93,6 +102,30 @@ fn read_rejected(folder: &Path, files: &CheckedFiles, report: &mut VerifyReport)
         }
     }
     rejected
+}
+
+fn read_objects(folder: &Path, files: &CheckedFiles, small: &mut SmallTables, report: &mut VerifyReport) {
+    for file in files.sound_below("data/objects/") {
+        let outcome = rows::batches(&folder.join(file), &tables::of_objects(), &mut |batch| {
+            for row in 0..batch.rows() {
+                let ids = small.instances.entry(batch.text("town", row)).or_default();
+                ids.insert(batch.integer("instance", row).unwrap_or(-1));
+            }
+        });
+        note(report, file, outcome);
+    }
+}
+
+/// Rows of the same flight are in different weathers, else one of them is there twice.
+fn check_weathers(small: &SmallTables, report: &mut VerifyReport) {
+    let mut seen: BTreeMap<(&str, &str), &str> = BTreeMap::new();
+    for (id, flight) in &small.flights {
+        if let Some(first) = seen.insert((&flight.flight_id, &flight.weather), id) {
+            let place = format!("row {}, `{id}`", flight.place.1);
+            let message = format!("it shows flight `{}` in the same weather as `{first}`", flight.flight_id);
+            report.find(&flight.place.0, place, "verify-duplicate", message);
+        }
+    }
 }
 
 fn read_captions(folder: &Path, files: &CheckedFiles, small: &mut SmallTables, report: &mut VerifyReport) {
