@@ -1,6 +1,7 @@
 //! End-to-end tests through the real binary: runs, resume, determinism, diagnostics, snapshots, repository rules.
 
 mod caching;
+mod cameras;
 mod carla_job;
 mod crash;
 mod diagnostics;

@@ -1,0 +1,76 @@
+//! Cameras and weathers through the real binary: pairs of one flight, drawn optics, and what refuses them.
+
+use crate::street::{RECIPE, Street, map};
+use crate::support::cosfly;
+
+/// The street with `lines` in its render stage.
+fn street(lines: &str) -> Street {
+    let changed = RECIPE.replacen("width = 96\n", &format!("width = 96\n{lines}\n"), 1);
+    assert_ne!(changed, RECIPE);
+    Street::with(&changed, &map())
+}
+
+/// How often each stage ran.
+fn ran(street: &Street, arguments: &[&str], stage: &str) -> u64 {
+    let all = [&["run", "recipe.toml", "--json"][..], arguments].concat();
+    let printed = cosfly(&all).within(street.path()).run_ok();
+    let summary: serde_json::Value = serde_json::from_str(&printed.stdout).expect("a JSON summary");
+    let stages = summary["stages"].as_array().expect("stages");
+    let found = stages.iter().find(|it| it["stage"] == stage).expect("the stage");
+    found["ran"].as_u64().expect("a count")
+}
+
+#[test]
+fn paired_weathers_show_every_flight_in_each_and_another_one_renders_no_old_one_anew() {
+    let street = street("paired_weathers = true\nweathers = [\"ClearNoon\", \"HardRainNoon\"]");
+    assert_eq!(ran(&street, &[], "frames"), 12);
+    let dataset = street.dataset();
+    let printed = cosfly(&["verify", dataset.to_str().expect("UTF-8")]).within(street.path()).run_ok();
+    assert!(printed.stdout.contains("12"), "{}", printed.stdout);
+    for name in ["expert-p00000-ClearNoon", "perturbed-p00002-HardRainNoon"] {
+        let town = std::fs::read_dir(dataset.join("mcap")).expect("logs").next().expect("a town").expect("readable");
+        assert!(town.path().join(format!("000/{name}.mcap")).is_file(), "{name}");
+    }
+    let three = ["--set", "stages.frames.weathers=[\"ClearNoon\", \"HardRainNoon\", \"ClearNight\"]"];
+    assert_eq!(ran(&street, &three, "frames"), 6, "only the new weather");
+    let why = cosfly(&["why", "recipe.toml", "frames/expert-p00001-HardRainNoon"]).within(street.path()).run_ok();
+    assert!(why.stdout.contains("cached") || why.stdout.contains("nothing changed"), "{}", why.stdout);
+}
+
+#[test]
+fn drawn_cameras_with_lens_blur_and_noise_pass_every_check_of_the_dataset() {
+    let street = street(
+        "fov_range_deg = [60.0, 100.0]\n\
+         gimbal = { pitch_range_deg = [-6.0, 6.0], yaw_range_deg = [-12.0, 12.0] }\n\
+         lens = { k1 = -0.12, k2 = 0.01 }\n\
+         motion_blur = { shutter_s = 0.04, samples = 3 }\n\
+         noise = { gaussian = 2.0, shot = 3.0 }\n\
+         weather = { sun_altitude_angle = [-10.0, 60.0], cloudiness = [0.0, 80.0] }",
+    );
+    cosfly(&["run", "recipe.toml", "--quiet"]).within(street.path()).run_ok();
+    let dataset = street.dataset();
+    cosfly(&["verify", dataset.to_str().expect("UTF-8")]).within(street.path()).run_ok();
+}
+
+#[test]
+fn impossible_cameras_and_backends_are_refused_with_their_place() {
+    for (lines, place, way_out) in [
+        ("fov_range_deg = [100.0, 60.0]", "fov_range_deg", "lower value first"),
+        ("fov_range_deg = [60.0, 170.0]", "fov_range_deg", "5 to 150"),
+        ("gimbal = { yaw_range_deg = [0.0, 400.0] }", "yaw_range_deg", "-180 to 180"),
+        ("lens = { k1 = -0.9 }", "lens", "nearer to 0"),
+        ("motion_blur = { shutter_s = 3.0 }", "shutter_s", "0.5"),
+        ("weather = { cloudiness = [0.0, 180.0] }", "cloudiness", "0 to 100"),
+        ("weather = { clouds = [0.0, 80.0] }", "clouds", "cloudiness"),
+        ("backend = \"gpu\"", "backend", "--features gpu"),
+        ("backend = \"carla\"", "backend", "carla-job"),
+        ("backend = \"vulkan\"", "backend", "cpu"),
+        ("weathers = [\"ClearNoon\", \"ClearNoon\"]\npaired_weathers = true", "weathers", "once"),
+    ] {
+        let street = street(lines);
+        let printed = cosfly(&["run", "recipe.toml", "--quiet"]).within(street.path()).run();
+        assert_eq!(printed.code, Some(3), "{lines}: {}", printed.stderr);
+        assert!(printed.stderr.contains(place) && printed.stderr.contains(way_out), "{lines}: {}", printed.stderr);
+        assert!(!street.dataset().exists());
+    }
+}
