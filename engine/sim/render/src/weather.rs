@@ -97,9 +97,12 @@ pub struct WeatherRanges {
     pub dust_storm: Option<[f64; 2]>,
 }
 
+/// Name of a weather number, the range to draw it from, and the bounds that a range must keep to.
+pub type WeatherRange = (&'static str, Option<[f64; 2]>, [f64; 2]);
+
 impl WeatherRanges {
     /// Name, range and the bounds that it must keep to, of each number in the order of [`Weather::numbers_mut`].
-    pub fn all(&self) -> [(&'static str, Option<[f64; 2]>, [f64; 2]); 14] {
+    pub fn all(&self) -> [WeatherRange; 14] {
         [
             ("cloudiness", self.cloudiness, [0.0, 100.0]),
             ("precipitation", self.precipitation, [0.0, 100.0]),
