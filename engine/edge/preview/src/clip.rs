@@ -52,7 +52,7 @@ impl Clip {
             labels: shot.labels(wide / 2, high / 2),
             frame: target.frame,
             time_s: target.time_s,
-            visible: target.visible_by_pixels,
+            visible: shot.visible(),
         });
     }
 

@@ -169,7 +169,7 @@ impl Plan<'_> {
         }
         x = canvas.text(x + 126, y, 1, INK, "100 %");
         canvas.line([(x + 20) as f64, (y + 3) as f64], [(x + 46) as f64, (y + 3) as f64], 3.0, WALK, 1.0);
-        canvas.text(x + 54, y, 1, INK, "walk of the target");
+        canvas.text(x + 54, y, 1, INK, "way of the target");
         scale_bar(view, canvas, y);
     }
 }

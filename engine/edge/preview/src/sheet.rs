@@ -37,7 +37,7 @@ impl<'a> Sheet<'a> {
         let target = &shot.logged.target;
         let words = format!("frame {}  {:.1} s", target.frame, target.time_s);
         row.label(4, 4, 1, WHITE, &words);
-        let words = format!("visible {:.0} %  at {:.1} m", 100.0 * target.visible_by_pixels, target.distance_m);
+        let words = format!("visible {:.0} %  at {:.1} m", 100.0 * shot.visible(), target.distance_m);
         row.label(4, height as i64 - 14, 1, WHITE, &words);
         self.rows.push(row);
     }

@@ -67,9 +67,24 @@ impl Shot {
         Canvas { width, height, rgb: palette_image(&ids) }
     }
 
-    /// The neighbourhood of the target, `side` x `side` pixels; grey when it is out of view.
+    /// Whether a point without extent is watched: it is not drawn and has no pixels.
+    fn is_point(&self) -> bool {
+        self.logged.target.radius_m == 0.0
+    }
+
+    /// The visible share of the target, 0..=1: by pixels, or by rays where it has none.
+    pub fn visible(&self) -> f64 {
+        if self.is_point() { self.logged.target.visible_by_rays } else { self.logged.target.visible_by_pixels }
+    }
+
+    /// The neighbourhood of the target, `side` x `side` pixels: the middle of the image where a point is watched, grey
+    /// where it is out of view.
     pub fn target(&self, side: usize) -> Canvas {
-        let [left, top, right, bottom] = self.logged.target.full_box_px[..] else {
+        let (middle, reach) = ([self.logged.width / 2, self.logged.height / 2], self.logged.height / 8);
+        let around =
+            [middle[0].saturating_sub(reach), middle[1].saturating_sub(reach), middle[0] + reach, middle[1] + reach];
+        let edges = if self.is_point() { &around[..] } else { &self.logged.target.full_box_px[..] };
+        let [left, top, right, bottom] = *edges else {
             let mut nothing = Canvas::new(side, side, [70, 72, 76]);
             nothing.text(8, (side / 2) as i64 - 4, 1, WHITE, "out of view");
             return nothing;
