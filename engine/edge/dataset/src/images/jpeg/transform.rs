@@ -166,16 +166,19 @@ const ROUNDER: f32 = 12_582_912.0;
 fn quantise(blocks: &Blocks, factors: &[f32; 64], coefficients: &mut Coefficients) {
     for half in 0..2 {
         let mut occupied = [0u32; LANES];
-        for bit in 0..32 {
-            let k = 32 * half + bit;
+        // A bit that is shifted on from coefficient to coefficient keeps compilers from taking sixteen coefficients of
+        // one lane together, which they would have to gather and scatter.
+        let mut bit = 1u32;
+        for k in 32 * half..32 * half + 32 {
             let (block, factor) = (&blocks[usize::from(ZIGZAG[k])], factors[k]);
             let values = &mut coefficients.values[k];
             for lane in 0..LANES {
-                let rounded = (block[lane] * factor + ROUNDER).to_bits().wrapping_sub(ROUNDER.to_bits());
-                values[lane] = rounded as i32;
+                let rounded = (block[lane] * factor + ROUNDER).to_bits().wrapping_sub(ROUNDER.to_bits()) as i32;
+                values[lane] = rounded;
                 // The top bit of x or -x: not 0. A comparison would leave the vector registers.
-                occupied[lane] |= ((rounded | rounded.wrapping_neg()) >> 31).wrapping_shl(bit as u32);
+                occupied[lane] |= ((rounded | rounded.wrapping_neg()) >> 31) as u32 & bit;
             }
+            bit = bit.wrapping_shl(1);
         }
         coefficients.occupied[half] = occupied;
     }
