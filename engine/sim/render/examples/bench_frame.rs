@@ -6,7 +6,7 @@ mod small_town;
 
 use cosfly_frames::{DVec3, Pose, Seed, TargetState, real};
 use cosfly_maps::{MapConfig, Town};
-use cosfly_render::{FrameSetup, RenderConfig, Renderer, Scene, Stages, TargetSetup, Weather};
+use cosfly_render::{FrameParts, FrameSetup, RenderConfig, Renderer, Scene, Stages, TargetSetup, Weather};
 use std::time::Instant;
 
 fn main() -> Result<(), Box<dyn std::error::Error>> {
@@ -38,7 +38,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         if map.is_some() { 0.5 * (town.min_in_world + town.max_in_world) } else { DVec3::new(-23.0, 43.5, 0.14) };
     let views = [("follow", [-17.0, -10.0, 20.0]), ("high", [40.0, -60.0, 55.0]), ("street", [-14.0, -8.0, 5.0])];
     let names = Stages::NAMES.map(|name| format!("{name:>10}")).join("");
-    println!("{:22}{names}      total", "ms a frame");
+    println!("{:22}{names} total, CPU  depth + ids", "ms a frame");
     for preset in &presets {
         let mut weather = Weather::preset(preset).ok_or_else(|| format!("no preset {preset}"))?;
         weather.sun_azimuth_angle = 215.0;
@@ -57,15 +57,19 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
                 }
             }
             let total_ms = (cpu_ns(started) - before) as f64 * 1e-6 / 36.0;
-            let shadows: Vec<String> =
-                spent[2].iter().filter(|ns| **ns > 1_000_000).map(|ns| format!("{:.1}", *ns as f64 * 1e-6)).collect();
-            eprintln!("shadow maps drawn: {shadows:?}");
             // A low quantile: the machine may have other work.
             let each = spent.map(|mut times| {
                 times.sort_unstable();
                 format!("{:10.2}", times[times.len() / 5] as f64 * 1e-6)
             });
-            println!("{:22}{}{total_ms:11.2}", format!("{preset} {view}"), each.join(""));
+            let before = cpu_ns(started);
+            for index in 0..40 {
+                let (pose, target) = frame(index, middle, DVec3::from_array(*away));
+                let setup = FrameSetup { pose, weather: &weather, target: Some(target) };
+                let _ = renderer.render_parts(&scene, &setup, FrameParts::Ids);
+            }
+            let ids_ms = (cpu_ns(started) - before) as f64 * 1e-6 / 40.0;
+            println!("{:22}{}{total_ms:10.2}{ids_ms:12.2}", format!("{preset} {view}"), each.join(""));
         }
     }
     Ok(())

@@ -87,6 +87,7 @@ pub struct Renderer {
     /// RGB before smoothing, a pixel in each number's low three bytes.
     picture: Vec<u32>,
     level: Level,
+    parallel: bool,
     shader: Shader,
     smoother: smooth::Smoother,
 }
@@ -120,6 +121,7 @@ impl Renderer {
             runs: SeenRuns::default(),
             picture: vec![0; pixels],
             level: Level::best(),
+            parallel: false,
             shader: Shader::new(&screen),
             smoother: smooth::Smoother::default(),
         }
@@ -136,6 +138,13 @@ impl Renderer {
         self.shader.set_level(level);
         self.nearest.set_level(level);
         self.alone.set_level(level);
+    }
+
+    /// Spreads frames over the threads of the rayon pool that calls, from now on; the bytes are the same. Off at first:
+    /// where a pool's tasks each draw frames of their own, its threads are busy, and one that waited for a frame's
+    /// last band would begin another task meanwhile.
+    pub fn set_parallel(&mut self, parallel: bool) {
+        self.parallel = parallel;
     }
 
     /// Draws all channels of one frame. The same scene and setup give the same bytes on any thread, after any other frame.
@@ -234,12 +243,19 @@ impl Renderer {
     fn fill_channels(&mut self, scene: &Scene, shaded: bool) {
         let (level, shader) = (self.level, &self.shader);
         let seen = Seen { scene, faces: &self.faces, figure: &self.figure };
-        for_each_band(&self.nearest.face, &mut self.images, &mut self.runs, &mut self.picture, |mut band| {
-            band.resolve(level, seen.faces);
-            if shaded {
-                shader.shade(&seen, &mut band);
-            }
-        });
+        for_each_band(
+            self.parallel,
+            &self.nearest.face,
+            &mut self.images,
+            &mut self.runs,
+            &mut self.picture,
+            |mut band| {
+                band.resolve(level, seen.faces);
+                if shaded {
+                    shader.shade(&seen, &mut band);
+                }
+            },
+        );
     }
 
     /// Boxes from near to far, so that far ones mostly fail the depth comparison.
@@ -364,11 +380,6 @@ impl Renderer {
             self.faces.push(DrawnFace { plane, normal, source, label: polygon.label.id(), instance: 0 });
         }
     }
-}
-
-/// Whether the caller is one of a pool of threads: only then does a frame use them too.
-pub(crate) fn has_threads() -> bool {
-    rayon::current_thread_index().is_some() && rayon::current_num_threads() > 1
 }
 
 /// Which of two coplanar ground layers lies on top.

@@ -44,6 +44,7 @@ fn any_number_of_threads_gives_the_same_bytes() {
     for threads in [1, 2, 5] {
         let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().expect("threads");
         let mut renderer = Renderer::new(CAMERA);
+        renderer.set_parallel(true);
         assert!(pool.install(|| draw(&mut renderer, &scene, "SoftRainNight")) == alone, "{threads}");
     }
 }

@@ -1,7 +1,7 @@
 //! Planar depth, semantic and instance ids in bands of rows, from the faces seen in them.
 
 use crate::frame::FrameImages;
-use crate::renderer::{DrawnFace, FaceSource, has_threads};
+use crate::renderer::{DrawnFace, FaceSource};
 use crate::visibility::NO_FACE;
 use cosfly_frames::simd::Level;
 use cosfly_frames::simd_kernel;
@@ -49,8 +49,9 @@ pub(crate) struct Band<'a> {
     pub rgb: &'a mut [u8],
 }
 
-/// Visits all bands of an image; on several threads where a pool of threads calls.
+/// Visits all bands of an image, on request with all threads of the pool that calls.
 pub(crate) fn for_each_band(
+    parallel: bool,
     faces_seen: &[u32],
     images: &mut FrameImages,
     seen: &mut SeenRuns,
@@ -78,7 +79,7 @@ pub(crate) fn for_each_band(
                 })
         };
     }
-    if has_threads() {
+    if parallel {
         visit_all!(par_iter_mut, par_chunks, par_chunks_mut);
     } else {
         visit_all!(iter_mut, chunks, chunks_mut);

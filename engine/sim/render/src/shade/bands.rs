@@ -4,6 +4,7 @@ use super::facade::{BoxFace, Facade, Roof, facade, roofs};
 use super::geometry::{FaceAxes, place};
 use super::ground::ground;
 use super::lanes::{BLOCKS, Block, LANES, Stage, WIDE, get};
+use super::light::Light;
 use super::lighting::{self, Answers};
 use super::pattern::{NoiseTexture, Noises, share};
 use super::surface::Look;
@@ -281,7 +282,11 @@ fn run_kernels(
     {
         swell(level, blocks, thing, shader.view.position);
     }
-    shader.shadows.sunlight(level, blocks, noise);
+    if material.faces_away(stage, light) {
+        blocks.iter_mut().for_each(|block| block.sunlight = [0.0; WIDE]);
+    } else {
+        shader.shadows.sunlight(level, blocks, noise);
+    }
     if let (Material::Ground(_), Some((feet, radius_m))) = (material, shader.feet) {
         contact(level, blocks, feet, radius_m);
     }
@@ -372,6 +377,17 @@ fn box_material(b: &SceneBox, face: usize, night: f32) -> (Material, FaceAxes) {
 }
 
 impl Material {
+    /// Whether the sun shines on the back of a flat face: no shadow matters there. Faces of boxes show their outside.
+    fn faces_away(&self, stage: &Stage, light: &Light) -> bool {
+        let is_flat = match self {
+            Self::Facade(..) | Self::Roof(_) => true,
+            Self::Thing(thing) => !matches!(thing.kind, ObstacleKind::TreeCrown | ObstacleKind::Bush),
+            Self::Sky | Self::Ground(_) | Self::Cloth(_) => false,
+        };
+        let [x, y, z] = stage.normals(0).map(|lane| lane[0]);
+        is_flat && Vec3::new(x, y, z).dot(light.to_sun) <= 0.0
+    }
+
     fn answers(&self) -> Answers {
         let matt = Answers { wettable: false, shiny: false, glows: false };
         match self {
