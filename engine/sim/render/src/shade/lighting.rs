@@ -97,7 +97,10 @@ simd_kernel! {
                 let mirror = least(block.mirror[k] * (0.30 + 0.9 * fresnel), 0.85);
                 // Near the horizon a street mirrors its houses more than the sky.
                 let open = block.sky[k] * (0.30 + 0.70 * share(2.2 * out.z));
-                let arriving = light.ambient(bent) * (0.10 * block.sky[k]) + light.lamp * (0.6 * block.lamps[k]);
+                // Lamps stand near the horizon of what a street mirrors.
+                let level = 1.0 - share(1.4 * out.z);
+                let from_lamps = block.lamps[k] * (0.6 + 2.4 * level * level);
+                let arriving = light.ambient(bent) * (0.10 * block.sky[k]) + light.lamp * from_lamps;
                 // The sun's own image, wide on rough water.
                 let toward = most(out.dot(light.to_sun), 0.0);
                 let toward4 = toward * toward * toward * toward;
