@@ -90,3 +90,30 @@ pub fn measure(options: &RenderOptions<'_>) -> Result<RenderReport> {
     let machine = Machine::measure(width as usize * height as usize);
     Ok(RenderReport { width, height, views: first.views.len(), rows, throughput, machine })
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use cosfly_render::Camera;
+
+    #[test]
+    fn a_tiny_measurement_has_every_figure() {
+        let camera = Camera { width: 64, height: 48, horizontal_fov_rad: 1.2 };
+        let scratch = tempfile::tempdir().unwrap();
+        let report = measure(&RenderOptions {
+            grounds: vec![Ground::of_boxes(20, camera, 2)],
+            weathers: vec![Weather::preset("HardRainNoon").unwrap()],
+            rounds: 1,
+            encoding: EncodingConfig::default(),
+            threads: 2,
+            flight_frames: 3,
+            scratch: scratch.path(),
+        })
+        .unwrap();
+        let times = report.rows[0].times;
+        assert!(times.visibility_ms > 0.0 && times.whole_ms() > times.render_ms() && times.log_bytes > 1000.0);
+        assert_eq!(report.throughput.frames, 6);
+        assert!(report.throughput.frames_per_s > 0.0 && report.machine.far_copy_gbps > 0.0);
+        assert!(report.to_string().contains("HardRainNoon"));
+    }
+}

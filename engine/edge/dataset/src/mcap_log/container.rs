@@ -259,3 +259,123 @@ impl Fields {
         self.bytes(text.as_bytes())
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use ::mcap::sans_io::linear_reader::{LinearReadEvent, LinearReader, LinearReaderOptions};
+
+    fn file() -> Vec<u8> {
+        let mut bytes = vec![];
+        let mut container = Container::new(&mut bytes, "tester").unwrap();
+        let schema = container.schema("shape", "protobuf", b"schema bytes").unwrap();
+        let plain = container.channel(schema, "/plain", "protobuf", &[("unit", "m")]).unwrap();
+        let packed = container.channel(schema, "/packed", "protobuf", &[]).unwrap();
+        container.metadata("about", &BTreeMap::from([("key".to_owned(), "value".to_owned())])).unwrap();
+        for frame in 0..3u32 {
+            let time_ns = 10 * u64::from(frame);
+            let mut records = vec![];
+            for payload in [&b"one"[..], b"number two"] {
+                records.extend_from_slice(&message_head(plain, frame + 1, time_ns, payload.len()));
+                records.extend_from_slice(payload);
+            }
+            let second = (MESSAGE_HEAD_BYTES + 3) as u64;
+            let chunk = |compression, stored, messages| Chunk {
+                time_ns,
+                compression,
+                plain_bytes: records.len() as u64,
+                plain_crc: crc32fast::hash(&records),
+                stored,
+                messages,
+            };
+            container.chunk(&chunk("", &records, &[(plain, 0), (plain, second)])).unwrap();
+            records.clear();
+            records.extend_from_slice(&message_head(packed, frame + 1, time_ns, 1000));
+            records.resize(MESSAGE_HEAD_BYTES + 1000, 7);
+            let stored = zstd::bulk::compress(&records, 1).unwrap();
+            let chunk = Chunk {
+                time_ns,
+                compression: "zstd",
+                plain_bytes: records.len() as u64,
+                plain_crc: crc32fast::hash(&records),
+                stored: &stored,
+                messages: &[(packed, 0)],
+            };
+            container.chunk(&chunk).unwrap();
+        }
+        assert_eq!(container.finish().unwrap(), 9);
+        bytes
+    }
+
+    /// Reads every record and every check with the `mcap` crate.
+    fn check_all(bytes: &[u8]) -> std::result::Result<(), String> {
+        let options = LinearReaderOptions::default()
+            .with_prevalidate_chunk_crcs(true)
+            .with_validate_data_section_crc(true)
+            .with_validate_summary_section_crc(true)
+            .with_record_length_limit(1 << 20);
+        let mut reader = LinearReader::new_with_options(options);
+        let mut left = bytes;
+        while let Some(event) = reader.next_event() {
+            match event.map_err(|error| error.to_string())? {
+                LinearReadEvent::ReadRequest(wanted) => {
+                    let length = wanted.min(left.len());
+                    reader.insert(wanted)[..length].copy_from_slice(&left[..length]);
+                    reader.notify_read(length);
+                    left = &left[length..];
+                }
+                LinearReadEvent::Record { data, opcode } => {
+                    ::mcap::parse_record(opcode, data).map_err(|error| error.to_string())?;
+                }
+            }
+        }
+        if left.is_empty() { Ok(()) } else { Err(format!("{} bytes left", left.len())) }
+    }
+
+    #[test]
+    fn another_library_agrees_with_every_check_and_with_the_summary() {
+        let bytes = file();
+        check_all(&bytes).unwrap();
+        let summary = ::mcap::Summary::read(&bytes).unwrap().unwrap();
+        let statistics = summary.stats.unwrap();
+        assert_eq!((statistics.message_count, statistics.chunk_count, statistics.metadata_count), (9, 6, 1));
+        assert_eq!((statistics.message_start_time, statistics.message_end_time), (0, 20));
+        assert_eq!(statistics.channel_message_counts, BTreeMap::from([(1, 6), (2, 3)]));
+        assert_eq!(summary.channels[&1].metadata["unit"], "m");
+        assert_eq!(summary.channels[&2].schema.as_ref().unwrap().name, "shape");
+        assert_eq!(summary.metadata_indexes[0].name, "about");
+        assert_eq!(summary.chunk_indexes.len(), 6);
+        let messages: Vec<_> = ::mcap::MessageStream::new(&bytes).unwrap().map(|message| message.unwrap()).collect();
+        assert_eq!(messages[1].data.as_ref(), b"number two");
+        assert_eq!(
+            (messages[8].channel.topic.as_str(), messages[8].log_time, messages[8].sequence),
+            ("/packed", 20, 3)
+        );
+    }
+
+    #[test]
+    fn the_index_leads_to_each_message_and_to_no_other_chunk() {
+        let bytes = file();
+        let summary = ::mcap::Summary::read(&bytes).unwrap().unwrap();
+        for index in &summary.chunk_indexes {
+            let channels: Vec<u16> = index.message_index_offsets.keys().copied().collect();
+            assert_eq!(channels, [if index.compression.is_empty() { 1 } else { 2 }]);
+            for (channel, entries) in summary.read_message_indexes(&bytes, index).unwrap() {
+                for entry in entries {
+                    let message = summary.seek_message(&bytes, index, &entry).unwrap();
+                    assert_eq!((message.channel.id, message.log_time), (channel.id, entry.log_time));
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn a_flipped_byte_is_noticed() {
+        let whole = file();
+        for at in (8..whole.len() - 8).step_by(53) {
+            let mut bytes = whole.clone();
+            bytes[at] ^= 1;
+            assert!(check_all(&bytes).is_err(), "byte {at}");
+        }
+    }
+}
