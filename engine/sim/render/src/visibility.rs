@@ -121,6 +121,24 @@ impl Visibility {
         (self.dirty_rows.0, self.dirty_rows.1.max(self.dirty_rows.0))
     }
 
+    /// Empties a rectangle of pixels from `first` to before `end`, by column and row.
+    pub fn clear_part(&mut self, first: [usize; 2], end: [usize; 2]) {
+        for row in first[1]..end[1] {
+            let pixels = row * self.width + first[0]..row * self.width + end[0];
+            self.inverse_depth[pixels.clone()].fill(0.0);
+            self.face[pixels].fill(NO_FACE);
+        }
+    }
+
+    /// Those of [`Self::rows_of`] within a rectangle; `None` when nothing lies in it.
+    pub fn rows_within(&self, points: &[[f64; 2]], first: [usize; 2], end: [usize; 2]) -> Option<(usize, usize)> {
+        let (low, high) = bounds(points);
+        let (from, to) = self.rows_between(low, high)?;
+        let (from, to) = (from.max(first[1]), to.min(end[1]));
+        let beside = high[0] < first[0] as f64 || low[0] > end[0] as f64;
+        (from < to && !beside).then_some((from, to))
+    }
+
     /// Sets pixels of a row to a face that was found elsewhere.
     pub fn adopt_run(&mut self, row: usize, pixels: std::ops::Range<usize>, plane: &PlaneOnScreen, face: u32) {
         self.dirty_rows = (self.dirty_rows.0.min(row), self.dirty_rows.1.max(row + 1));

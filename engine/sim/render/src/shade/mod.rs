@@ -14,6 +14,7 @@ pub mod light;
 pub mod lighting;
 pub mod pattern;
 pub mod shadow;
+pub mod shadow_region;
 pub mod sky;
 pub mod smooth;
 pub mod surface;
@@ -97,7 +98,7 @@ impl Shader {
         self.clothes = clothes;
         self.feet =
             setup.target.map(|target| (target.state.feet_in_world.into(), target.radius_m.clamp(0.1, 2.0) as f32));
-        self.shadows.prepare(scene, eye, self.light.to_sun, figure);
+        self.shadows.prepare(self.level, scene, (eye, &self.screen), self.light.to_sun, figure);
     }
 
     /// Shades the faces seen in a band, without smoothing.

@@ -7,9 +7,10 @@ use crate::figure::FigureTriangle;
 use crate::renderer::Eye;
 use crate::scene::{BOX_FACES, Scene};
 use crate::shade::lanes::{Block, WIDE, get};
-use crate::shade::pattern::{NoiseTexture, Noises, fixed_size, floor_int, lerp, most, one_if, smoothstep};
+use crate::shade::pattern::{NoiseTexture, Noises, fixed_size, floor_int, least, lerp, most, one_if, smoothstep};
+use crate::shade::shadow_region::{Region, for_seen_points};
 use crate::shade::vector::Vec3;
-use crate::visibility::{PlaneOnScreen, Visibility};
+use crate::visibility::{PlaneOnScreen, Screen, Visibility};
 use cosfly_frames::simd::Level;
 use cosfly_frames::{DVec2, DVec3, simd_kernel};
 use cosfly_maps::ObstacleKind;
@@ -26,6 +27,9 @@ const FIGURE_SIDE: usize = 96;
 const DEPTH_M: f64 = 1000.0;
 /// Posts thinner than this cast the shadow of a post this thick, half width in metres: the map would tear them.
 const LEAST_HALF_WIDTH_M: f64 = 0.13;
+
+/// Places this near what the view shows are drawn, too, metres: shading moves points a little.
+const MARGIN_M: f64 = 3.0;
 
 /// What stands in a texel of the town's map.
 const SOLID: u32 = 0;
@@ -72,7 +76,10 @@ impl Frame {
 /// The town's shadows and the figure's.
 pub struct Shadows {
     town: Visibility,
-    town_frame: Option<(u64, Frame)>,
+    /// The scene and the place of the map that is drawn, and which part of it.
+    town_drawn: Option<(u64, Frame, Region)>,
+    /// A scene and the height of its lowest place, metres.
+    lowest_m: Option<(u64, f64)>,
     figure: Visibility,
     packed: Packed,
 }
@@ -93,6 +100,9 @@ struct Places {
     base_m: f32,
     texels_m: [f32; 2],
     corner_m: [f32; 2],
+    /// Map coordinates within which this frame sees shadows.
+    low: [f32; 2],
+    high: [f32; 2],
 }
 
 type TownMap = [u32; TOWN_TEXELS];
@@ -106,21 +116,27 @@ const LOWEST_M: f64 = 200.0;
 /// Steps per metre of packed heights.
 const STEPS_PER_M: f32 = 32.0;
 
-/// Packs a map's rows from `rows.0` to before `rows.1`.
-fn pack<const N: usize>(map: &Visibility, side: usize, rows: (usize, usize), packed: &mut [u32; N]) {
-    let half = |at: usize| {
-        let height_m = map.inverse_depth[at] - (DEPTH_M - LOWEST_M) as f32;
-        let steps = (height_m * STEPS_PER_M + 0.5).clamp(0.0, 32767.0) as u32;
-        (steps << 1) | u32::from(map.face[at] == LEAVES)
-    };
-    for row in rows.0..rows.1 {
-        let mut here = half(row * side);
-        for column in 0..side - 1 {
-            let right = half(row * side + column + 1);
-            packed[row * side + column] = here | (right << 16);
-            here = right;
+simd_kernel! {
+    /// Packs a part of a map `side` texels wide.
+    fn pack(heights: &[f32], classes: &[u32], side: usize, part: &Region, packed: &mut [u32]) {
+        let lowest = (DEPTH_M - LOWEST_M) as f32;
+        let ([first, top], [end, bottom]) = (part.first, part.end);
+        for row in top..bottom {
+            let texels = row.wrapping_mul(side).wrapping_add(first)..row.wrapping_mul(side).wrapping_add(end);
+            let (Some(heights), Some(classes), Some(packed)) =
+                (heights.get(texels.clone()), classes.get(texels.clone()), packed.get_mut(texels))
+            else {
+                return;
+            };
+            for ((packed, height_m), class) in packed.iter_mut().zip(heights).zip(classes) {
+                // Adding 2^23 leaves the nearest whole number in the low bits.
+                let steps = least(most((height_m - lowest) * STEPS_PER_M, 0.0), 32767.0) + 8_388_608.0;
+                *packed = ((steps.to_bits() & 0x7fff) << 1) | u32::from(*class == LEAVES);
+            }
+            for column in 1..packed.len() {
+                packed[column.wrapping_sub(1)] |= packed[column] << 16;
+            }
         }
-        packed[row * side + side - 1] = here;
     }
 }
 
@@ -129,7 +145,8 @@ impl Shadows {
     pub fn new() -> Self {
         Self {
             town: Visibility::new(SIDE, SIDE),
-            town_frame: None,
+            town_drawn: None,
+            lowest_m: None,
             figure: Visibility::new(FIGURE_SIDE, FIGURE_SIDE),
             packed: Packed {
                 town: fixed_size(vec![]),
@@ -141,7 +158,14 @@ impl Shadows {
     }
 
     /// Makes the maps right for a frame; draws the town's only when the view or the sun moved enough.
-    pub(crate) fn prepare(&mut self, scene: &Scene, eye: &Eye, to_sun: Vec3, figure: &[FigureTriangle]) {
+    pub(crate) fn prepare(
+        &mut self,
+        level: Level,
+        scene: &Scene,
+        (eye, screen): (&Eye, &Screen),
+        to_sun: Vec3,
+        figure: &[FigureTriangle],
+    ) {
         let flat = DVec2::new(f64::from(to_sun.x), f64::from(to_sun.y));
         let shear = flat / f64::from(to_sun.z);
         let along = if flat.length() > 1e-6 { flat.normalize() } else { DVec2::Y };
@@ -154,23 +178,44 @@ impl Shadows {
         let middle = frame.sheared(DVec3::new(ahead.x, ahead.y, reference_m));
         let step = STEP_TEXELS * texels_m;
         frame.corner_m = (middle / step).round() * step - 0.5 * SIDE as f64 * texels_m;
-        if self.town_frame != Some((scene.identity, frame)) {
-            self.town_frame = Some((scene.identity, frame));
-            self.draw_town(scene, &frame, to_sun);
+        let region = self.region_seen(scene, eye, screen, &frame);
+        let drawn = self.town_drawn.filter(|(id, drawn, _)| (*id, *drawn) == (scene.identity, frame));
+        let wanted = drawn.map_or(region, |(.., drawn)| drawn.with(region));
+        if drawn.is_none_or(|(.., drawn)| drawn != wanted) {
+            self.town_drawn = Some((scene.identity, frame, wanted));
+            self.draw_town(level, scene, &frame, to_sun, wanted);
         }
-        let figure_frame = self.draw_figure(&frame, to_sun, figure);
+        let figure_frame = self.draw_figure(level, &frame, to_sun, figure);
         self.packed.figure_rows = figure_frame.map(|frame| frame.rows());
         self.packed.places = Places {
             rows: frame.rows(),
             base_m: (LOWEST_M - reference_m) as f32,
             texels_m: texels_m.as_vec2().to_array(),
             corner_m: frame.corner_m.as_vec2().to_array(),
+            low: region.first.map(|texel| texel as f32 + 0.5),
+            high: region.end.map(|texel| texel as f32 - 2.0),
         };
     }
 
-    fn draw_town(&mut self, scene: &Scene, frame: &Frame, to_sun: Vec3) {
-        let before = self.town.drawn_rows();
-        self.town.clear();
+    /// The part of the town's map that a view may need, in whole steps: it depends on the frame alone.
+    fn region_seen(&mut self, scene: &Scene, eye: &Eye, screen: &Screen, frame: &Frame) -> Region {
+        let lowest_m = match self.lowest_m {
+            Some((id, lowest_m)) if id == scene.identity => lowest_m,
+            _ => lowest_place_m(scene),
+        };
+        self.lowest_m = Some((scene.identity, lowest_m));
+        let margin = MARGIN_M / frame.texels_m;
+        let (mut low, mut high) = (DVec2::INFINITY, DVec2::NEG_INFINITY);
+        for_seen_points(eye, screen, lowest_m, |point| {
+            let place = DVec2::from_array(frame.place(point));
+            low = low.min(place - margin);
+            high = high.max(place + margin);
+        });
+        Region::around(low, high, SIDE, STEP_TEXELS as usize)
+    }
+
+    fn draw_town(&mut self, level: Level, scene: &Scene, frame: &Frame, to_sun: Vec3, part: Region) {
+        self.town.clear_part(part.first, part.end);
         let to_sun = DVec3::new(f64::from(to_sun.x), f64::from(to_sun.y), f64::from(to_sun.z));
         for b in &scene.boxes {
             let class = if b.kind == ObstacleKind::TreeCrown { LEAVES } else { SOLID };
@@ -183,16 +228,20 @@ impl Shadows {
                 if normal.dot(to_sun) > 1e-6 {
                     let corners = around
                         .map(|corner| b.center_in_world + wide * (b.corners_in_world[corner] - b.center_in_world));
-                    draw(&mut self.town, frame, to_sun, normal, &corners, class);
+                    draw(&mut self.town, (frame, part), to_sun, normal, &corners, class);
                 }
             }
         }
-        let after = self.town.drawn_rows();
-        let rows = (before.0.min(after.0), before.1.max(after.1));
-        pack(&self.town, SIDE, rows, &mut self.packed.town);
+        pack(level, &self.town.inverse_depth, &self.town.face, SIDE, &part, &mut *self.packed.town);
     }
 
-    fn draw_figure(&mut self, town_frame: &Frame, to_sun: Vec3, triangles: &[FigureTriangle]) -> Option<Frame> {
+    fn draw_figure(
+        &mut self,
+        level: Level,
+        town_frame: &Frame,
+        to_sun: Vec3,
+        triangles: &[FigureTriangle],
+    ) -> Option<Frame> {
         self.figure.clear();
         let (mut low, mut high) = (DVec2::INFINITY, DVec2::NEG_INFINITY);
         for corner in triangles.iter().flat_map(|triangle| triangle.corners_in_world) {
@@ -205,13 +254,15 @@ impl Shadows {
             return None;
         }
         let texels_m = size / (FIGURE_SIDE as f64 - 4.0);
+        let whole = Region { first: [0; 2], end: [FIGURE_SIDE; 2] };
         let frame = Frame { corner_m: low - 2.0 * texels_m, texels_m, ..*town_frame };
         let to_sun = DVec3::new(f64::from(to_sun.x), f64::from(to_sun.y), f64::from(to_sun.z));
         for triangle in triangles.iter().filter(|triangle| triangle.normal_in_world.dot(to_sun) > 1e-6) {
             let normal = triangle.normal_in_world;
-            draw(&mut self.figure, &frame, to_sun, normal, &triangle.corners_in_world, SOLID);
+            draw(&mut self.figure, (&frame, whole), to_sun, normal, &triangle.corners_in_world, SOLID);
         }
-        pack(&self.figure, FIGURE_SIDE, (0, FIGURE_SIDE), &mut self.packed.figure);
+        let (heights, classes) = (&self.figure.inverse_depth, &self.figure.face);
+        pack(level, heights, classes, FIGURE_SIDE, &whole, &mut *self.packed.figure);
         Some(frame)
     }
 
@@ -226,14 +277,14 @@ impl Shadows {
 
 simd_kernel! {
     fn town_sunlight(blocks: &mut [Block], map: &TownMap, places: &Places, noise: &NoiseTexture) {
-        let Places { rows: [row_u, row_v], base_m, texels_m, corner_m } = *places;
+        let Places { rows: [row_u, row_v], base_m, texels_m, corner_m, low, high } = *places;
         for block in blocks.iter_mut() {
             let mut under_leaves = [0.0f32; WIDE];
             let mut flecks = 0u32;
             for (k, under) in under_leaves.iter_mut().enumerate() {
                 let (point, height) = lifted(block, k, base_m);
                 let (u, v) = (affine(row_u, point), affine(row_v, point));
-                let (dark, leaves) = darkness(map, SIDE, u, v, height);
+                let (dark, leaves) = darkness(map, SIDE, [low, high], u, v, height);
                 block.sunlight[k] = 1.0 - dark;
                 *under = dark * leaves;
                 flecks |= u32::from(dark * leaves > 0.0);
@@ -267,7 +318,7 @@ simd_kernel! {
                 for k in 0..WIDE {
                     let (point, height) = lifted(block, k, base_m);
                     let (u, v) = (affine(row_u, point), affine(row_v, point));
-                    let (dark, _) = darkness(map, FIGURE_SIDE, u, v, height + 0.04);
+                    let (dark, _) = darkness(map, FIGURE_SIDE, [[0.0; 2], [limit - 2.0; 2]], u, v, height + 0.04);
                     let lit = 1.0 - dark;
                     block.sunlight[k] = if lit < block.sunlight[k] { lit } else { block.sunlight[k] };
                 }
@@ -290,12 +341,19 @@ fn affine(row: [f32; 4], point: Vec3) -> f32 {
     row[0] * point.x + row[1] * point.y + row[2] * point.z + row[3]
 }
 
-/// Share of a texel's size around a place that is above the height, and 1 when leaves are there.
+/// Share of a texel's size around a place that is above the height, and 1 when leaves are there; none outside of
+/// `low`..`high`.
 #[inline(always)]
-fn darkness<const N: usize>(map: &[u32; N], side: usize, u: f32, v: f32, height_m: f32) -> (f32, f32) {
+fn darkness<const N: usize>(
+    map: &[u32; N],
+    side: usize,
+    [low, high]: [[f32; 2]; 2],
+    u: f32,
+    v: f32,
+    height_m: f32,
+) -> (f32, f32) {
     let (u, v) = (u - 0.5, v - 0.5);
-    let limit = side as i32 as f32 - 2.0;
-    let inside = (u >= 0.0) & (v >= 0.0) & (u < limit) & (v < limit);
+    let inside = (u >= low[0]) & (v >= low[1]) & (u < high[0]) & (v < high[1]);
     let (column, row) = (floor_int(u), floor_int(v));
     let (fx, fy) = (u - column as f32, v - row as f32);
     let at = (row as u32).wrapping_mul(side as u32).wrapping_add(column as u32);
@@ -312,17 +370,33 @@ fn darkness<const N: usize>(map: &[u32; N], side: usize, u: f32, v: f32, height_
     (if inside { dark } else { 0.0 }, leaves)
 }
 
-/// Draws a face that the sun shines on: its height is affine over the sheared ground.
-fn draw(map: &mut Visibility, frame: &Frame, to_sun: DVec3, normal: DVec3, corners: &[DVec3], class: u32) {
+/// Height of the lowest box or ground.
+fn lowest_place_m(scene: &Scene) -> f64 {
+    let boxes = scene.boxes.iter().map(|b| b.center_in_world.z - b.half_bounds_m.z);
+    let ground = scene.clusters.iter().map(|cluster| cluster.center_in_world.z - cluster.half_bounds_m.z);
+    boxes.chain(ground).fold(f64::INFINITY, f64::min)
+}
+
+/// Draws a face that the sun shines on, where a part of the map needs it: its height is affine over the sheared ground.
+fn draw(
+    map: &mut Visibility,
+    (frame, part): (&Frame, Region),
+    to_sun: DVec3,
+    normal: DVec3,
+    corners: &[DVec3],
+    class: u32,
+) {
     let mut points = [[0.0; 2]; 4];
     for (point, corner) in points.iter_mut().zip(corners) {
         *point = frame.place(*corner);
     }
+    let points = &points[..corners.len().min(4)];
+    let Some(rows) = map.rows_within(points, part.first, part.end) else { return };
     // Along the map's x axis the face's point moves by (1, 0, 0) + slope * sun / sun.z with no way along the normal.
     let facing = normal.dot(to_sun) / to_sun.z;
     let slope = -normal.truncate() / facing;
     let across = slope.dot(frame.axes[0]) * frame.texels_m.x;
     let down = slope.dot(frame.axes[1]) * frame.texels_m.y;
     let constant = frame.height(corners[0]) - across * points[0][0] - down * points[0][1];
-    map.draw_projected(&points[..corners.len().min(4)], &PlaneOnScreen { constant, across, down }, class);
+    map.draw_rows(points, rows, &PlaneOnScreen { constant, across, down }, class);
 }
