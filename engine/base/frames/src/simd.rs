@@ -1,7 +1,8 @@
 //! Run-time choice of vector instructions for kernels written once in plain Rust.
 //!
 //! A kernel is an ordinary loop over arrays that compilers turn into vector code. [`simd_kernel!`](crate::simd_kernel)
-//! compiles it for plain x86-64 (or any other processor), for AVX2 and for AVX-512, and calls the one that a
+//! compiles it for plain x86-64 (or any other processor), for AVX2 and for AVX-512 (both with the bit instructions of their
+//! processors), and calls the one that a
 //! [`Level`] names. Rust neither fuses nor reorders floating-point operations, so all levels give the same bytes.
 
 /// What the processor offers; only levels that are really there can be made.
@@ -39,9 +40,13 @@ impl Level {
         let mut levels = vec![Self::PLAIN];
         #[cfg(target_arch = "x86_64")]
         {
-            if std::arch::is_x86_feature_detected!("avx2") {
-                levels.push(Self(Kind::Avx2));
+            let bits = std::arch::is_x86_feature_detected!("bmi1")
+                && std::arch::is_x86_feature_detected!("bmi2")
+                && std::arch::is_x86_feature_detected!("lzcnt");
+            if !(bits && std::arch::is_x86_feature_detected!("avx2")) {
+                return levels;
             }
+            levels.push(Self(Kind::Avx2));
             let wide =
                 std::arch::is_x86_feature_detected!("avx512f") && std::arch::is_x86_feature_detected!("avx512bw");
             let full =
@@ -78,12 +83,12 @@ macro_rules! simd_kernel {
             #[inline(always)]
             fn kernel($($arg: $ty),*) $(-> $ret)? $body
             #[cfg(target_arch = "x86_64")]
-            #[target_feature(enable = "avx2")]
+            #[target_feature(enable = "avx2,bmi1,bmi2,lzcnt")]
             fn avx2($($arg: $ty),*) $(-> $ret)? {
                 kernel($($arg),*)
             }
             #[cfg(target_arch = "x86_64")]
-            #[target_feature(enable = "avx512f,avx512bw,avx512dq,avx512vl")]
+            #[target_feature(enable = "avx512f,avx512bw,avx512dq,avx512vl,bmi1,bmi2,lzcnt")]
             fn avx512($($arg: $ty),*) $(-> $ret)? {
                 kernel($($arg),*)
             }
