@@ -4,6 +4,7 @@ use super::RenderOptions;
 use super::flight::{StoredFile, flight};
 use super::views::Ground;
 use crate::clock::timed;
+use cosfly_dataset::frame_pack::chunk_compressor;
 use cosfly_dataset::images::{depth, ids, previews, rgb};
 use cosfly_dataset::{FramePackReader, FramePackWriter, PackHeader, write_log};
 use cosfly_diagnose::Result;
@@ -152,7 +153,7 @@ fn encoding_s(images: &[FrameImages], options: &RenderOptions<'_>) -> Result<[f6
             .try_for_each(|it| rgb::jpeg(&it.rgb, it.width, it.height, quality).map(|file| drop(black_box(file))))
     });
     encoded?;
-    let mut compressor = zstd::bulk::Compressor::new(1).expect("memory for a compressor");
+    let mut compressor = chunk_compressor()?;
     let mut bytes = vec![0; 4 * images.iter().map(|it| it.depth_m.len()).max().unwrap_or(0)];
     let mut stored = Vec::with_capacity(zstd::zstd_safe::compress_bound(bytes.len()));
     let mut compressed = |bytes: &[u8]| {

@@ -15,7 +15,7 @@ mod reader;
 mod writer;
 
 pub use reader::{FramePackReader, PackedChunk, PackedFrame};
-pub use writer::FramePackWriter;
+pub use writer::{FramePackWriter, chunk_compressor};
 
 use crate::config::EncodingConfig;
 use cosfly_diagnose::{Diagnostic, Fault, Result};

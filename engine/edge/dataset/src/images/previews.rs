@@ -20,14 +20,14 @@ fn size(images: &FrameImages) -> (u32, u32) {
     (width, (height as u32).clamp(1, images.height))
 }
 
-/// The colour image, averaged over blocks of pixels.
+/// The colour image, averaged over the middle of blocks of pixels.
 pub fn rgb(images: &FrameImages) -> Result<Vec<u8>> {
     let (width, height) = size(images);
-    let columns: Vec<_> = (0..width).map(|x| block(x, width, images.width)).collect();
+    let columns: Vec<_> = (0..width).map(|x| middle_of(block(x, width, images.width))).collect();
     let mut pixels = Vec::with_capacity(3 * (width * height) as usize);
     let mut sums = vec![0u16; 3 * images.width as usize];
     for y in 0..height {
-        let rows = block(y, height, images.height);
+        let rows = middle_of(block(y, height, images.height));
         let row_bytes = sums.len();
         sum_of_rows(Level::best(), &images.rgb[rows.start * row_bytes..rows.end * row_bytes], &mut sums);
         for columns in &columns {
@@ -57,7 +57,7 @@ simd_kernel! {
 /// The depth image in colours, stretched over the depths of this frame: a picture, not data.
 pub fn depth(images: &FrameImages) -> Result<Vec<u8>> {
     let (width, height) = size(images);
-    let depths: Vec<f32> = nearest_pixels(images, width, height).map(|at| images.depth_m[at]).collect();
+    let depths = nearest(&images.depth_m, images, width, height);
     jpeg(&depth_preview(&depths), width, height, DEPTH_QUALITY)
 }
 
@@ -65,7 +65,8 @@ pub fn depth(images: &FrameImages) -> Result<Vec<u8>> {
 pub fn semantic(images: &FrameImages) -> Result<Vec<u8>> {
     let (width, height) = size(images);
     let last = SemanticLabel::ALL.len() as u8 - 1;
-    let indices: Vec<u8> = nearest_pixels(images, width, height).map(|at| images.semantic[at].min(last)).collect();
+    let mut indices = nearest(&images.semantic, images, width, height);
+    indices.iter_mut().for_each(|index| *index = (*index).min(last));
     let palette = SemanticLabel::ALL.iter().flat_map(|label| label.colour()).collect();
     palette_png(&indices, width, height, palette)
 }
@@ -76,15 +77,23 @@ fn block(index: u32, count: u32, total: u32) -> std::ops::Range<usize> {
     edge(index)..edge(index + 1)
 }
 
-/// Index of the full-size pixel in the middle of each preview pixel, row by row.
-fn nearest_pixels(images: &FrameImages, width: u32, height: u32) -> impl Iterator<Item = usize> {
+/// The middle half of a block that is at least four wide: a quarter of its pixels shows what all of them would.
+fn middle_of(block: std::ops::Range<usize>) -> std::ops::Range<usize> {
+    let margin = block.len() / 4;
+    block.start + margin..block.end - margin
+}
+
+/// The full-size value in the middle of each preview pixel, row by row.
+fn nearest<T: Copy>(values: &[T], images: &FrameImages, width: u32, height: u32) -> Vec<T> {
     let middle = |i: u32, count: u32, total: u32| (2 * i as usize + 1) * total as usize / (2 * count as usize);
     let columns: Vec<usize> = (0..width).map(|x| middle(x, width, images.width)).collect();
-    let (full_width, full_height) = (images.width as usize, images.height);
-    (0..height).flat_map(move |y| {
-        let start = middle(y, height, full_height) * full_width;
-        columns.clone().into_iter().map(move |column| start + column)
-    })
+    let mut small = Vec::with_capacity((width * height) as usize);
+    for y in 0..height {
+        let start = middle(y, height, images.height) * images.width as usize;
+        let row = &values[start..start + images.width as usize];
+        small.extend(columns.iter().map(|column| row[*column]));
+    }
+    small
 }
 
 #[cfg(test)]

@@ -1,6 +1,7 @@
 //! The entropy coder: coefficients of a block to bits, with the example tables of the JPEG standard (Annex K.3).
 
 use super::transform::{Coefficients, LANES};
+use cosfly_frames::simd_kernel;
 
 /// How many codes have each length, and the symbols in the order of their codes.
 pub struct CodeTable {
@@ -82,14 +83,14 @@ impl Codes {
     }
 }
 
-/// Most bytes that one block can take: 64 codes of 16 bits with 11 bits each, every byte stuffed, and what was held.
-const BLOCK_BYTES: usize = 2 * (64 * 27 / 8 + 8);
-/// Most bytes of [`LANES`] blocks of three components.
-const ROOM_BYTES: usize = 3 * LANES * BLOCK_BYTES;
+/// Most bytes that one block can take: 64 codes of 16 bits with 11 bits each.
+const BLOCK_BYTES: usize = 64 * 27 / 8;
+/// Most bytes of [`LANES`] blocks of three components, and what is written ahead of the end.
+const ROOM_BYTES: usize = 3 * LANES * BLOCK_BYTES + 16;
 
-/// Bits on their way into a file; a byte of ones is followed by a byte of zeros, as the standard demands.
+/// Bits on their way into a file.
 pub struct BitWriter {
-    /// The lowest `held` (less than 32) bits wait for company.
+    /// The highest `held` (less than 8) bits wait for company; the others are 0.
     bits: u64,
     held: u32,
     /// What was written since the last [`Self::flush`].
@@ -101,58 +102,60 @@ impl BitWriter {
     /// Nothing written.
     pub const EMPTY: Self = Self { bits: 0, held: 0, room: [0; ROOM_BYTES], written: 0 };
 
-    /// Appends block `lane`; `previous_dc` is the DC value of the same component's block before. At most [`LANES`] blocks
-    /// of three components fit between two calls of [`Self::flush`].
-    #[inline(always)]
-    pub fn block(&mut self, (blocks, lane): (&Coefficients, usize), [dc, ac]: &[Codes; 2], previous_dc: &mut i32) {
-        let lane = lane % LANES;
-        let mut open = OpenBits { bits: self.bits, held: self.held, written: self.written, room: &mut self.room };
-        let value = blocks.values[0][lane];
-        let (bits, size) = magnitude(value.wrapping_sub(*previous_dc));
-        *previous_dc = value;
-        open.symbol(dc, size as usize, bits, size);
-        let mut left = blocks.occupied(lane) & !1;
-        let mut before = 0u32;
-        while left != 0 {
-            let k = left.trailing_zeros() % 64;
-            left &= left.wrapping_sub(1);
-            let mut zeros = k.wrapping_sub(before).wrapping_sub(1);
-            before = k;
-            while zeros >= 16 {
-                open.symbol(ac, SIXTEEN_ZEROS, 0, 0);
-                zeros = zeros.wrapping_sub(16);
-            }
-            let (bits, size) = magnitude(blocks.values[k as usize][lane]);
-            open.symbol(ac, (zeros << 4 | size) as usize, bits, size);
-        }
-        if before != 63 {
-            open.symbol(ac, END, 0, 0);
-        }
-        (self.bits, self.held, self.written) = (open.bits, open.held, open.written);
-    }
-
     /// Moves what was written to `output`.
     pub fn flush(&mut self, output: &mut Vec<u8>) {
-        output.extend_from_slice(&self.room[..self.written]);
+        put_stuffed(&self.room[..self.written], output);
         self.written = 0;
     }
 
     /// Fills the last byte with ones and ends.
     pub fn finish(mut self, output: &mut Vec<u8>) {
         self.flush(output);
-        let missing = (8 - self.held % 8) % 8;
-        let bits = self.bits << missing | ((1 << missing) - 1);
-        for shift in (0..self.held + missing).step_by(8).rev() {
-            let byte = (bits >> shift) as u8;
-            output.push(byte);
-            if byte == 0xff {
-                output.push(0);
-            }
+        if self.held > 0 {
+            let ones = 0xff >> self.held;
+            put_stuffed(&[(self.bits >> 56) as u8 | ones], output);
         }
     }
 }
 
-/// The state of a [`BitWriter`] within a block: small enough to stay in registers.
+/// Appends `bytes`, each byte of ones followed by a byte of zeros, as the standard demands.
+fn put_stuffed(bytes: &[u8], output: &mut Vec<u8>) {
+    for chunk in bytes.chunks(32) {
+        if chunk.iter().fold(false, |any, byte| any | (*byte == 0xff)) {
+            for byte in chunk {
+                output.push(*byte);
+                if *byte == 0xff {
+                    output.push(0);
+                }
+            }
+        } else {
+            output.extend_from_slice(chunk);
+        }
+    }
+}
+
+simd_kernel! {
+    /// Appends the first `lanes` blocks of all components; `previous_dc` are the DC values of the blocks before. May be
+    /// called once between two calls of [`BitWriter::flush`].
+    pub fn write_blocks(
+        writer: &mut BitWriter,
+        coefficients: &[Coefficients; 3],
+        codes: &[&[Codes; 2]; 3],
+        lanes: usize,
+        previous_dc: &mut [i32; 3],
+    ) {
+        let mut open =
+            OpenBits { bits: writer.bits, held: writer.held, written: writer.written, room: &mut writer.room };
+        for lane in 0..lanes.min(LANES) {
+            for component in 0..3 {
+                open.block(&coefficients[component], lane, codes[component], &mut previous_dc[component]);
+            }
+        }
+        (writer.bits, writer.held, writer.written) = (open.bits, open.held, open.written);
+    }
+}
+
+/// The state of a [`BitWriter`] while blocks are written: small enough to stay in registers.
 struct OpenBits<'a> {
     bits: u64,
     held: u32,
@@ -162,42 +165,46 @@ struct OpenBits<'a> {
 
 impl OpenBits<'_> {
     #[inline(always)]
+    fn block(&mut self, blocks: &Coefficients, lane: usize, [dc, ac]: &[Codes; 2], previous_dc: &mut i32) {
+        let lane = lane % LANES;
+        let value = blocks.values[0][lane];
+        let (bits, size) = magnitude(value.wrapping_sub(*previous_dc));
+        *previous_dc = value;
+        self.symbol(dc, size as usize, bits, size);
+        let mut left = blocks.occupied(lane) & !1;
+        let mut before = 0u32;
+        while left != 0 {
+            let k = left.trailing_zeros() % 64;
+            left &= left.wrapping_sub(1);
+            let mut zeros = k.wrapping_sub(before).wrapping_sub(1);
+            before = k;
+            while zeros >= 16 {
+                self.symbol(ac, SIXTEEN_ZEROS, 0, 0);
+                zeros = zeros.wrapping_sub(16);
+            }
+            let (bits, size) = magnitude(blocks.values[k as usize][lane]);
+            self.symbol(ac, (zeros << 4 | size) as usize, bits, size);
+        }
+        if before != 63 {
+            self.symbol(ac, END, 0, 0);
+        }
+    }
+
+    /// Appends a code and the bits after it. There is no branch to be foreseen wrongly: eight bytes are written every
+    /// time, and as many of them count as are full.
+    #[inline(always)]
     fn symbol(&mut self, codes: &Codes, symbol: usize, bits: u32, size: u32) {
         let (code, length) = codes.get(symbol);
-        let length = length.wrapping_add(size);
-        self.bits = self.bits.wrapping_shl(length) | u64::from(code.wrapping_shl(size) | bits);
-        self.held = self.held.wrapping_add(length);
-        if self.held >= 32 {
-            self.held = self.held.wrapping_sub(32);
-            self.word(self.bits.wrapping_shr(self.held) as u32);
+        let held = self.held.wrapping_add(length).wrapping_add(size);
+        let new = u64::from(code.wrapping_shl(size) | bits);
+        self.bits |= new.wrapping_shl(64u32.wrapping_sub(held));
+        if let Some(place) = self.room.get_mut(self.written..self.written.wrapping_add(8)) {
+            place.copy_from_slice(&self.bits.to_be_bytes());
         }
+        self.written = self.written.wrapping_add((held / 8) as usize);
+        self.bits = self.bits.wrapping_shl(held & 56);
+        self.held = held % 8;
     }
-
-    #[inline(always)]
-    fn word(&mut self, word: u32) {
-        let has_ones_byte = word & 0x8080_8080 & !word.wrapping_add(0x0101_0101) != 0;
-        if has_ones_byte {
-            self.written = put_stuffed(self.room, self.written, word);
-        } else if let Some(place) = self.room.get_mut(self.written..self.written.wrapping_add(4)) {
-            place.copy_from_slice(&word.to_be_bytes());
-            self.written = self.written.wrapping_add(4);
-        }
-    }
-}
-
-/// Appends the bytes of `word` at `at`, a byte of zeros after every byte of ones; gives the new end.
-#[cold]
-#[inline(never)]
-fn put_stuffed(room: &mut [u8; ROOM_BYTES], mut at: usize, word: u32) -> usize {
-    for byte in word.to_be_bytes() {
-        room[at] = byte;
-        at += 1;
-        if byte == 0xff {
-            room[at] = 0;
-            at += 1;
-        }
-    }
-    at
 }
 
 /// The bits that say which value of its size a coefficient has, and that size.
@@ -235,11 +242,13 @@ mod tests {
 
     #[test]
     fn ones_bytes_are_stuffed_and_the_end_is_filled_with_ones() {
-        let mut room = [0; ROOM_BYTES];
-        assert_eq!(put_stuffed(&mut room, 0, 0x12ff_34ff), 6);
-        assert_eq!(room[..6], [0x12, 0xff, 0, 0x34, 0xff, 0]);
         let mut file = vec![];
-        BitWriter { bits: 0xff << 3, held: 11, ..BitWriter::EMPTY }.finish(&mut file);
+        put_stuffed(&[0x12, 0xff, 0x34, 0xff], &mut file);
+        assert_eq!(file, [0x12, 0xff, 0, 0x34, 0xff, 0]);
+        file.clear();
+        let mut writer = BitWriter { bits: 0, held: 3, written: 1, ..BitWriter::EMPTY };
+        writer.room[0] = 0xff;
+        writer.finish(&mut file);
         assert_eq!(file, [0xff, 0, 0x1f]);
     }
 }

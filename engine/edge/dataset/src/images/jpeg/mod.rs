@@ -4,7 +4,7 @@ mod huffman;
 mod transform;
 
 use cosfly_frames::simd::Level;
-use huffman::{AC, BitWriter, Codes, DC};
+use huffman::{AC, BitWriter, Codes, DC, write_blocks};
 use std::sync::LazyLock;
 use transform::{Coefficients, LANES, ROW_BYTES, Strip, ZIGZAG, factors, transform};
 
@@ -44,22 +44,24 @@ fn encode_at(level: Level, rgb: &[u8], width: u32, height: u32, quality: u8) -> 
     let [luma, chroma] = &*CODES;
     let codes = [luma, chroma, chroma];
     let (row_bytes, blocks_across) = (3 * width as usize, (width as usize).div_ceil(8));
-    let mut strip: Strip = [[0; ROW_BYTES]; 8];
+    let mut margin = [[0; ROW_BYTES]; 8];
     let mut coefficients = [Coefficients::ZERO; 3];
     let mut previous_dc = [0; 3];
     for top in (0..height as usize).step_by(8) {
+        let rows: [&[u8]; 8] = core::array::from_fn(|y| {
+            let start = row_bytes * (top + y).min(height as usize - 1);
+            &rgb[start..start + row_bytes]
+        });
         for first in (0..blocks_across).step_by(LANES) {
-            for (y, row) in strip.iter_mut().enumerate() {
-                let start = row_bytes * (top + y).min(height as usize - 1);
-                copy_pixels(&rgb[start..start + row_bytes], 24 * first, row);
+            let inside = 24 * first..24 * first + ROW_BYTES;
+            if inside.end > row_bytes {
+                margin.iter_mut().zip(rows).for_each(|(row, pixels)| copy_pixels(pixels, inside.start, row));
             }
+            let strip: Strip<'_> = core::array::from_fn(|y| {
+                rows[y].get(inside.clone()).and_then(<[u8]>::first_chunk).unwrap_or(&margin[y])
+            });
             transform(level, &strip, &factors, &mut coefficients);
-            for lane in 0..LANES.min(blocks_across - first) {
-                for component in 0..3 {
-                    let block = (&coefficients[component], lane);
-                    bits.block(block, codes[component], &mut previous_dc[component]);
-                }
-            }
+            write_blocks(level, &mut bits, &coefficients, &codes, blocks_across - first, &mut previous_dc);
             bits.flush(&mut file);
         }
     }

@@ -10,7 +10,7 @@ pub const LANES: usize = 16;
 /// Bytes of one row of pixels of all lanes.
 pub const ROW_BYTES: usize = 24 * LANES;
 /// Eight rows of pixels of [`LANES`] neighbouring blocks, three bytes a pixel.
-pub type Strip = [[u8; ROW_BYTES]; 8];
+pub type Strip<'a> = [&'a [u8; ROW_BYTES]; 8];
 
 /// One value per block.
 type Lane<T> = [T; LANES];
@@ -65,7 +65,7 @@ pub fn factors(steps: &[u8; 64]) -> [f32; 64] {
 
 simd_kernel! {
     /// Colours, transforms and quantises a strip; `factors` are those of luma and chroma.
-    pub fn transform(strip: &Strip, factors: &[[f32; 64]; 2], coefficients: &mut [Coefficients; 3]) {
+    pub fn transform(strip: &Strip<'_>, factors: &[[f32; 64]; 2], coefficients: &mut [Coefficients; 3]) {
         let mut planes = [[[0.0f32; LANES]; 64]; 3];
         colour(strip, &mut planes);
         for component in 0..3 {
@@ -77,31 +77,42 @@ simd_kernel! {
 
 /// Luma and chroma (ITU-R BT.601, full range), luma moved to -128..128.
 #[inline(always)]
-fn colour(strip: &Strip, planes: &mut [Blocks; 3]) {
-    for (row, bytes) in strip.iter().enumerate() {
-        let mut words = [[0u64; LANES]; 3];
+fn colour(strip: &Strip<'_>, planes: &mut [Blocks; 3]) {
+    // The rows of all blocks as words, through memory: lane by lane into vector registers would take far longer.
+    let mut words = [[[0u64; LANES]; 3]; 8];
+    for (words, bytes) in words.iter_mut().zip(strip) {
         for (lane, pixels) in bytes.as_chunks::<24>().0.iter().enumerate() {
             for (word, eight) in words.iter_mut().zip(pixels.as_chunks::<8>().0) {
                 word[lane] = u64::from_le_bytes(*eight);
             }
         }
-        pixel_of_row::<0>(&words, row, planes);
-        pixel_of_row::<1>(&words, row, planes);
-        pixel_of_row::<2>(&words, row, planes);
-        pixel_of_row::<3>(&words, row, planes);
-        pixel_of_row::<4>(&words, row, planes);
-        pixel_of_row::<5>(&words, row, planes);
-        pixel_of_row::<6>(&words, row, planes);
-        pixel_of_row::<7>(&words, row, planes);
+    }
+    for (row, words) in words.iter().enumerate() {
+        // Halves: bytes are then taken from words as wide as the floats that they become.
+        let mut halves = [[0u32; LANES]; 6];
+        for (two, word) in halves.as_chunks_mut::<2>().0.iter_mut().zip(words) {
+            for lane in 0..LANES {
+                two[0][lane] = word[lane] as u32;
+                two[1][lane] = (word[lane] >> 32) as u32;
+            }
+        }
+        pixel_of_row::<0>(&halves, row, planes);
+        pixel_of_row::<1>(&halves, row, planes);
+        pixel_of_row::<2>(&halves, row, planes);
+        pixel_of_row::<3>(&halves, row, planes);
+        pixel_of_row::<4>(&halves, row, planes);
+        pixel_of_row::<5>(&halves, row, planes);
+        pixel_of_row::<6>(&halves, row, planes);
+        pixel_of_row::<7>(&halves, row, planes);
     }
 }
 
-/// Pixel `X` of a row of every block; the row of a block is 24 bytes in three words.
+/// Pixel `X` of a row of every block; the row of a block is 24 bytes in six words.
 #[inline(always)]
-fn pixel_of_row<const X: usize>(words: &[Lane<u64>; 3], row: usize, planes: &mut [Blocks; 3]) {
+fn pixel_of_row<const X: usize>(words: &[Lane<u32>; 6], row: usize, planes: &mut [Blocks; 3]) {
     let at = 8 * row + X;
     for lane in 0..LANES {
-        let byte = |index: usize| (words[index / 8][lane].wrapping_shr(8 * (index % 8) as u32) & 0xff) as i32 as f32;
+        let byte = |index: usize| (words[index / 4][lane].wrapping_shr(8 * (index % 4) as u32) & 0xff) as i32 as f32;
         let (r, g, b) = (byte(3 * X), byte(3 * X + 1), byte(3 * X + 2));
         planes[0][at][lane] = 0.299 * r + 0.587 * g + 0.114 * b - 128.0;
         planes[1][at][lane] = 0.5 * b - 0.168_735_89 * r - 0.331_264_1 * g;
@@ -171,13 +182,13 @@ fn quantise(blocks: &Blocks, factors: &[f32; 64], coefficients: &mut Coefficient
         let mut bit = 1u32;
         for k in 32 * half..32 * half + 32 {
             let (block, factor) = (&blocks[usize::from(ZIGZAG[k])], factors[k]);
-            let values = &mut coefficients.values[k];
+            let mut values = [0i32; LANES];
             for lane in 0..LANES {
                 let rounded = (block[lane] * factor + ROUNDER).to_bits().wrapping_sub(ROUNDER.to_bits()) as i32;
                 values[lane] = rounded;
-                // The top bit of x or -x: not 0. A comparison would leave the vector registers.
-                occupied[lane] |= ((rounded | rounded.wrapping_neg()) >> 31) as u32 & bit;
+                occupied[lane] |= u32::from(rounded != 0).wrapping_neg() & bit;
             }
+            coefficients.values[k] = values;
             bit = bit.wrapping_shl(1);
         }
         coefficients.occupied[half] = occupied;
@@ -189,7 +200,7 @@ mod tests {
     use super::*;
     use cosfly_frames::simd::Level;
 
-    fn strip() -> Strip {
+    fn strip() -> [[u8; ROW_BYTES]; 8] {
         core::array::from_fn(|y| {
             core::array::from_fn(|i| {
                 let wave = (i * i + 37 * y * i) % 251;
@@ -203,7 +214,7 @@ mod tests {
         let factors = [factors(&[3; 64]), factors(&[7; 64])];
         let run = |level| {
             let mut coefficients = [Coefficients::ZERO; 3];
-            transform(level, &strip(), &factors, &mut coefficients);
+            transform(level, &strip().each_ref(), &factors, &mut coefficients);
             coefficients
         };
         for level in Level::available() {
@@ -215,7 +226,7 @@ mod tests {
     fn coefficients_are_those_of_the_textbook_sum() {
         let steps = core::array::from_fn(|k| 1 + (k % 5) as u8);
         let mut coefficients = [Coefficients::ZERO; 3];
-        transform(Level::PLAIN, &strip(), &[factors(&steps); 2], &mut coefficients);
+        transform(Level::PLAIN, &strip().each_ref(), &[factors(&steps); 2], &mut coefficients);
         for lane in [0, 7, 15] {
             let luma = |y: usize, x: usize| {
                 let pixel = &strip()[y][24 * lane + 3 * x..][..3];
