@@ -6,6 +6,7 @@
 //! positive pitch lifts the nose, positive roll lowers the right side. Everything named `*_in_world`
 //! is in this frame; conversions happen once, at a border, in a function that names both frames.
 
+pub mod action;
 pub mod pose;
 pub mod random;
 pub mod real;

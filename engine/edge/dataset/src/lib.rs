@@ -10,7 +10,6 @@
 //! * [`verify`]: checks a finished dataset by its files alone.
 //! * [`croissant`] and [`publish`]: metadata, card, hashes, and the dataset as a whole.
 
-pub mod action;
 pub mod carla_job;
 pub mod config;
 pub mod croissant;
@@ -25,6 +24,8 @@ mod reference;
 pub mod sample;
 pub mod tables;
 pub mod verify;
+
+pub use cosfly_frames::action;
 
 pub use config::{DatasetConfig, DepthEncoding, EncodingConfig, RgbEncoding};
 pub use frame_pack::{FramePackReader, FramePackWriter, PackHeader, PackedFrame};

@@ -1,6 +1,7 @@
-//! Actions: the motion from one frame's pose to the next one's, in world axes and seen from the body.
+//! Actions: the motion from one pose to the next one, in world axes and seen from the body, and back.
 
-use cosfly_frames::{DMat3, DVec3, Pose, real};
+use crate::{Pose, real};
+use glam::{DMat3, DVec3};
 
 /// dx, dy, dz in metres and dpitch, dyaw, droll in degrees along the world's axes: differences of the two poses,
 /// angles wrapped to (-180, 180].
@@ -20,6 +21,30 @@ pub fn in_body(from: &Pose, to: &Pose) -> [f64; 6] {
     [step.x, step.y, step.z, pitch, yaw, roll]
 }
 
+/// The pose that [`in_world`] leads to.
+pub fn moved_in_world(from: &Pose, [dx, dy, dz, pitch, yaw, roll]: &[f64; 6]) -> Pose {
+    Pose {
+        position_in_world: from.position_in_world + DVec3::new(*dx, *dy, *dz),
+        pitch_rad: from.pitch_rad + pitch.to_radians(),
+        yaw_rad: from.yaw_rad + yaw.to_radians(),
+        roll_rad: from.roll_rad + roll.to_radians(),
+    }
+}
+
+/// The pose that [`in_body`] leads to.
+pub fn moved_in_body(from: &Pose, [ahead, right, up, pitch, yaw, roll]: &[f64; 6]) -> Pose {
+    let world_from_body = from.world_from_body();
+    let turn = Pose {
+        position_in_world: DVec3::ZERO,
+        pitch_rad: pitch.to_radians(),
+        yaw_rad: yaw.to_radians(),
+        roll_rad: roll.to_radians(),
+    };
+    let [pitch_rad, yaw_rad, roll_rad] = angles_rad(&(world_from_body * turn.world_from_body()));
+    let position_in_world = from.position_in_world + world_from_body * DVec3::new(*ahead, *right, *up);
+    Pose { position_in_world, pitch_rad, yaw_rad, roll_rad }
+}
+
 /// Pitch, yaw and roll of a rotation, radians.
 pub fn angles_rad(rotation: &DMat3) -> [f64; 3] {
     let (ahead, right, up): (DVec3, DVec3, DVec3) = (rotation.x_axis, rotation.y_axis, rotation.z_axis);
@@ -31,19 +56,13 @@ mod tests {
     use super::*;
 
     #[test]
-    fn an_action_in_the_body_frame_leads_from_one_pose_to_the_next() {
+    fn an_action_leads_from_one_pose_to_the_next() {
         let from = Pose { position_in_world: DVec3::new(1.0, 2.0, 30.0), pitch_rad: -0.5, yaw_rad: 3.1, roll_rad: 0.1 };
         let to = Pose { position_in_world: DVec3::new(2.0, 1.5, 29.0), pitch_rad: -0.4, yaw_rad: -3.1, roll_rad: 0.0 };
-        let [x, y, z, pitch, yaw, roll] = in_body(&from, &to);
-        let turn = Pose {
-            position_in_world: DVec3::ZERO,
-            pitch_rad: pitch.to_radians(),
-            yaw_rad: yaw.to_radians(),
-            roll_rad: roll.to_radians(),
-        };
-        let position = from.position_in_world + from.world_from_body() * DVec3::new(x, y, z);
-        assert!((position - to.position_in_world).length() < 1e-12);
-        assert!((from.world_from_body() * turn.world_from_body()).abs_diff_eq(to.world_from_body(), 1e-12));
+        for reached in [moved_in_body(&from, &in_body(&from, &to)), moved_in_world(&from, &in_world(&from, &to))] {
+            assert!((reached.position_in_world - to.position_in_world).length() < 1e-12);
+            assert!(reached.world_from_body().abs_diff_eq(to.world_from_body(), 1e-12));
+        }
         let yaw_step = in_world(&from, &to)[4];
         assert!((yaw_step - (core::f64::consts::TAU - 6.2).to_degrees()).abs() < 1e-9, "{yaw_step}");
     }

@@ -1,0 +1,138 @@
+//! Baselines without training: standing still, carrying on, moving as the target does.
+
+use super::{Prediction, View};
+use cosfly_frames::{DVec3, Pose, real};
+
+/// Polynomials through the past.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Extrapolation {
+    /// The drone stays as it is: all increments are zero.
+    Zero,
+    /// The straight line that fits the input poses best (least squares, angles too): noise averages out.
+    ConstantVelocity,
+    /// The parabola that fits them best.
+    ConstantAcceleration,
+    /// The drone moves on from where it is with the mean velocity of the target over the input frames; its attitude
+    /// stays.
+    CopyTarget,
+}
+
+impl Extrapolation {
+    /// All of them.
+    pub const ALL: [Self; 4] = [Self::Zero, Self::ConstantVelocity, Self::ConstantAcceleration, Self::CopyTarget];
+
+    /// The waypoints of a window.
+    pub fn predict(self, view: &View<'_>) -> Prediction {
+        let current = view.current();
+        match self {
+            Self::Zero => Prediction { current, waypoints: vec![current; view.horizon] },
+            Self::ConstantVelocity => fitted(view, 1),
+            Self::ConstantAcceleration => fitted(view, 2),
+            Self::CopyTarget => {
+                let step = match (view.feet.first(), view.feet.last()) {
+                    (Some(first), Some(last)) if view.feet.len() > 1 => (*last - *first) / (view.feet.len() - 1) as f64,
+                    _ => DVec3::ZERO,
+                };
+                let moved =
+                    |k: usize| Pose { position_in_world: current.position_in_world + k as f64 * step, ..current };
+                Prediction { current, waypoints: (1..=view.horizon).map(moved).collect() }
+            }
+        }
+    }
+}
+
+/// Polynomials of `degree` through the six numbers of the poses, continued. Fewer poses than it needs lower the degree.
+fn fitted(view: &View<'_>, degree: usize) -> Prediction {
+    let current = view.current();
+    let degree = degree.min(view.poses.len().saturating_sub(1));
+    let weights: Vec<Vec<f64>> = (0..=view.horizon).map(|k| fit_weights(view.poses.len(), degree, k as f64)).collect();
+    let pose_at = |weights: &[f64]| {
+        let (mut offset, mut angles) = (DVec3::ZERO, DVec3::ZERO);
+        for (weight, pose) in weights.iter().zip(view.poses) {
+            let turn = |angle: f64, from: f64| real::wrap_angle_rad(angle - from);
+            offset += *weight * (pose.position_in_world - current.position_in_world);
+            angles += *weight
+                * DVec3::new(
+                    turn(pose.pitch_rad, current.pitch_rad),
+                    turn(pose.yaw_rad, current.yaw_rad),
+                    turn(pose.roll_rad, current.roll_rad),
+                );
+        }
+        Pose {
+            position_in_world: current.position_in_world + offset,
+            pitch_rad: current.pitch_rad + angles.x,
+            yaw_rad: current.yaw_rad + angles.y,
+            roll_rad: current.roll_rad + angles.z,
+        }
+    };
+    Prediction {
+        current: pose_at(&weights[0]),
+        waypoints: weights[1..].iter().map(|weights| pose_at(weights)).collect(),
+    }
+}
+
+/// With which weights the values at times 1 - n ..= 0 make up the value of their least-squares polynomial at `time`:
+/// the sum over its orthogonal polynomials (Gram's) p of p(t_i) p(time) / |p|^2.
+fn fit_weights(values: usize, degree: usize, time: f64) -> Vec<f64> {
+    let times: Vec<f64> = (0..values).map(|k| k as f64 + 1.0 - values as f64).collect();
+    let count = (values as f64).max(1.0);
+    let middle = times.iter().sum::<f64>() / count;
+    let spread = times.iter().map(|t| (t - middle) * (t - middle)).sum::<f64>() / count;
+    let of_degree: [&dyn Fn(f64) -> f64; 3] =
+        [&|_| 1.0, &|t: f64| t - middle, &|t: f64| (t - middle) * (t - middle) - spread];
+    let mut weights = vec![0.0; values];
+    for polynomial in &of_degree[..=degree.min(2)] {
+        let square: f64 = times.iter().map(|t| polynomial(*t) * polynomial(*t)).sum();
+        if square > 0.0 {
+            for (weight, t) in weights.iter_mut().zip(&times) {
+                *weight += polynomial(*t) * polynomial(time) / square;
+            }
+        }
+    }
+    weights
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn along(position: impl Fn(f64) -> DVec3) -> Vec<Pose> {
+        (-4..=5)
+            .map(f64::from)
+            .map(|t| Pose { yaw_rad: 3.1 + 0.02 * t, ..Pose::looking_at(position(t), DVec3::ZERO) })
+            .collect()
+    }
+
+    #[test]
+    fn lines_and_parabolas_are_continued_exactly() {
+        let (a, b) = (DVec3::new(1.0, -2.0, 0.5), DVec3::new(0.1, 0.2, -0.05));
+        for (method, curve) in [(Extrapolation::ConstantVelocity, 0.0), (Extrapolation::ConstantAcceleration, 1.0)] {
+            let mut poses = along(|t| a * t + curve * b * t * t);
+            poses.iter_mut().for_each(|pose| pose.pitch_rad = -0.7);
+            let found = method.predict(&View { poses: &poses[..5], feet: &[], horizon: 5 });
+            let errors = crate::errors(&found.waypoints, &poses[5..]);
+            assert!(errors.ade_m < 1e-9 && errors.rotation_mae_deg < 1e-9, "{method:?} {errors:?}");
+        }
+    }
+
+    #[test]
+    fn the_target_is_copied_and_nothing_is_needed() {
+        let poses = along(|_| DVec3::Z);
+        let feet: Vec<DVec3> = (0..5).map(|k| DVec3::new(f64::from(k), 0.0, 0.0)).collect();
+        let found = Extrapolation::CopyTarget.predict(&View { poses: &poses[..5], feet: &feet, horizon: 3 });
+        assert_eq!(found.waypoints[2].position_in_world, DVec3::new(3.0, 0.0, 1.0));
+        for method in Extrapolation::ALL {
+            let alone = method.predict(&View { poses: &poses[..1], feet: &feet[..1], horizon: 2 });
+            assert_eq!(alone.waypoints[1].position_in_world, DVec3::Z, "{method:?}");
+            assert_eq!(method.predict(&View { poses: &[], feet: &[], horizon: 2 }).waypoints.len(), 2);
+        }
+    }
+
+    #[test]
+    fn an_anchor_moves_the_whole_prediction() {
+        let poses = along(|t| DVec3::X * t);
+        let found = Extrapolation::Zero.predict(&View { poses: &poses[..5], feet: &[], horizon: 2 });
+        let anchor = Pose::looking_at(DVec3::new(0.0, 7.0, 0.0), DVec3::new(9.0, 7.0, 0.0));
+        assert_eq!(found.started_at(&anchor), [anchor, anchor]);
+    }
+}

@@ -1,0 +1,165 @@
+//! Numbers that trained baselines see, and those that they predict: seen from the current pose, turned by its yaw.
+
+use super::View;
+use cosfly_frames::{DVec3, Pose, real};
+
+/// Numbers per predicted waypoint: ahead, right, up in metres, pitch, yaw and roll in radians.
+pub const PER_WAYPOINT: usize = 6;
+
+/// Turns horizontal offsets so that the drone's heading is ahead; the inverse for `-yaw_rad`.
+fn turned(offset: DVec3, yaw_rad: f64) -> DVec3 {
+    let (s, c) = real::sin_cos(yaw_rad);
+    DVec3::new(c * offset.x + s * offset.y, c * offset.y - s * offset.x, offset.z)
+}
+
+/// What is known of a window, appended to `features`: for every frame before the current one the pose relative to it,
+/// its pitch and roll, and the target's place in every input frame.
+pub fn push_features(view: &View<'_>, features: &mut Vec<f64>) {
+    let current = view.current();
+    for pose in &view.poses[..view.poses.len().saturating_sub(1)] {
+        features.extend(relative(&current, pose));
+    }
+    features.extend([current.pitch_rad, current.roll_rad]);
+    for feet in view.feet {
+        features.extend(turned(*feet - current.position_in_world, current.yaw_rad).to_array());
+    }
+}
+
+/// `pose` seen from `current`.
+pub fn relative(current: &Pose, pose: &Pose) -> [f64; PER_WAYPOINT] {
+    let offset = turned(pose.position_in_world - current.position_in_world, current.yaw_rad);
+    let turn = |angle: f64, from: f64| real::wrap_angle_rad(angle - from);
+    [
+        offset.x,
+        offset.y,
+        offset.z,
+        turn(pose.pitch_rad, current.pitch_rad),
+        turn(pose.yaw_rad, current.yaw_rad),
+        turn(pose.roll_rad, current.roll_rad),
+    ]
+}
+
+/// The pose that is `relative` to `current`.
+pub fn absolute(current: &Pose, [ahead, right, up, pitch, yaw, roll]: [f64; PER_WAYPOINT]) -> Pose {
+    Pose {
+        position_in_world: current.position_in_world + turned(DVec3::new(ahead, right, up), -current.yaw_rad),
+        pitch_rad: current.pitch_rad + pitch,
+        yaw_rad: current.yaw_rad + yaw,
+        roll_rad: current.roll_rad + roll,
+    }
+}
+
+/// Poses of a flat list of [`PER_WAYPOINT`] numbers each.
+pub fn waypoints_of(current: &Pose, outcomes: &[f64]) -> Vec<Pose> {
+    let (waypoints, _) = outcomes.as_chunks::<PER_WAYPOINT>();
+    waypoints.iter().map(|numbers| absolute(current, *numbers)).collect()
+}
+
+/// Features and true outcomes of windows to learn from, row by row.
+#[derive(Clone, Debug, Default)]
+pub struct Examples {
+    /// Numbers of a row of features.
+    pub width: usize,
+    /// Numbers of a row of outcomes.
+    pub depth: usize,
+    /// All rows of features.
+    pub features: Vec<f64>,
+    /// All rows of outcomes.
+    pub outcomes: Vec<f64>,
+}
+
+impl Examples {
+    /// Adds a window whose true waypoints are `truth`; `start` is the pose that they are learnt relative to, the
+    /// view's current one unless increments are anchored elsewhere. Windows of another shape than the first are
+    /// left out.
+    pub fn push(&mut self, view: &View<'_>, start: &Pose, truth: &[Pose]) {
+        let (features, outcomes) = (self.features.len(), self.outcomes.len());
+        push_features(view, &mut self.features);
+        // Seen from `start`, but along the axes of the pose that the model knows.
+        let frame = Pose { yaw_rad: view.current().yaw_rad, ..*start };
+        for pose in truth {
+            let mut numbers = relative(&frame, pose);
+            numbers[4] = real::wrap_angle_rad(pose.yaw_rad - start.yaw_rad);
+            self.outcomes.extend(numbers);
+        }
+        let (width, depth) = (self.features.len() - features, self.outcomes.len() - outcomes);
+        if features == 0 {
+            (self.width, self.depth) = (width, depth);
+        } else if (width, depth) != (self.width, self.depth) {
+            self.features.truncate(features);
+            self.outcomes.truncate(outcomes);
+        }
+    }
+
+    /// Number of rows.
+    pub fn len(&self) -> usize {
+        self.features.len().checked_div(self.width).unwrap_or(0)
+    }
+
+    /// Whether there is no row.
+    pub fn is_empty(&self) -> bool {
+        self.len() == 0
+    }
+}
+
+/// Means and spreads of the columns of a table, for features of the same size.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Scaling {
+    means: Vec<f64>,
+    /// 1 / deviation; 0 for columns that are always the same.
+    factors: Vec<f64>,
+}
+
+impl Scaling {
+    /// Of a table with rows of `width` numbers.
+    pub fn of(table: &[f64], width: usize) -> Self {
+        let rows = (table.len().checked_div(width).unwrap_or(0) as f64).max(1.0);
+        let (mut means, mut squares) = (vec![0.0; width], vec![0.0; width]);
+        for row in table.chunks_exact(width.max(1)) {
+            means.iter_mut().zip(row).for_each(|(mean, value)| *mean += value / rows);
+        }
+        for row in table.chunks_exact(width.max(1)) {
+            for ((square, value), mean) in squares.iter_mut().zip(row).zip(&means) {
+                *square += (value - mean) * (value - mean) / rows;
+            }
+        }
+        let factors =
+            squares.iter().map(|square: &f64| if *square > 1e-18 { 1.0 / square.sqrt() } else { 0.0 }).collect();
+        Self { means, factors }
+    }
+
+    /// Scales a row in place.
+    pub fn apply(&self, row: &mut [f64]) {
+        for ((value, mean), factor) in row.iter_mut().zip(&self.means).zip(&self.factors) {
+            *value = (*value - mean) * factor;
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn relative_poses_lead_back_and_do_not_depend_on_place_or_heading() {
+        let current = Pose { yaw_rad: 3.0, ..Pose::looking_at(DVec3::new(9.0, 8.0, 30.0), DVec3::new(1.0, 2.0, 3.0)) };
+        let pose = Pose { yaw_rad: -3.0, ..Pose::looking_at(DVec3::new(10.0, 6.0, 29.0), DVec3::ZERO) };
+        let back = absolute(&current, relative(&current, &pose));
+        assert!((back.position_in_world - pose.position_in_world).length() < 1e-12);
+        assert!(real::wrap_angle_rad(back.yaw_rad - pose.yaw_rad).abs() < 1e-12);
+        let ahead = absolute(&current, [1.0, 0.0, 0.0, 0.0, 0.0, 0.0]);
+        assert!(
+            (ahead.position_in_world - current.position_in_world - DVec3::new(real::cos(3.0), real::sin(3.0), 0.0))
+                .length()
+                < 1e-12
+        );
+    }
+
+    #[test]
+    fn scaled_columns_have_mean_zero_and_spread_one() {
+        let mut table = vec![1.0, 5.0, 3.0, 5.0];
+        let scaling = Scaling::of(&table, 2);
+        table.chunks_exact_mut(2).for_each(|row| scaling.apply(row));
+        assert_eq!(table, [-1.0, 0.0, 1.0, 0.0]);
+    }
+}

@@ -1,0 +1,83 @@
+//! Intervals by resampling whole trajectories: windows of one flight overlap and resemble each other, so resampling
+//! windows would make the intervals too narrow.
+
+use crate::scores::{COUNT, Tally};
+use cosfly_frames::Seed;
+
+/// The default number of resamples.
+pub const RESAMPLES: usize = 1000;
+
+/// The middle 95 % of a score over resamples, `None` where it is not defined.
+pub type Intervals = [Option<(f64, f64)>; COUNT];
+
+/// 95 % percentile intervals of all scores. Every resample draws as many of `clusters` as there are, with
+/// replacement, and takes the means over all that the drawn ones counted. The draws depend on `seed` and the number
+/// of clusters alone, so that methods scored on the same clusters are resampled alike.
+pub fn intervals(clusters: &[Tally], resamples: usize, seed: u64) -> Intervals {
+    if clusters.len() < 2 || resamples == 0 {
+        return [None; COUNT];
+    }
+    let mut stream = Seed::of_item(seed, "evaluation", "bootstrap").stream("draws");
+    let mut scores: [Vec<f64>; COUNT] = core::array::from_fn(|_| Vec::with_capacity(resamples));
+    for _ in 0..resamples {
+        let mut drawn = Tally::default();
+        for _ in 0..clusters.len() {
+            drawn.add(&clusters[stream.index(clusters.len())]);
+        }
+        for (scores, mean) in scores.iter_mut().zip(drawn.means()) {
+            scores.extend(mean);
+        }
+    }
+    scores.map(|mut scores| {
+        scores.sort_by(f64::total_cmp);
+        (!scores.is_empty()).then(|| (quantile(&scores, 0.025), quantile(&scores, 0.975)))
+    })
+}
+
+/// The `share` quantile of sorted values, linear between neighbours (numpy's default); 0 of none.
+pub fn quantile(sorted: &[f64], share: f64) -> f64 {
+    let Some(last) = sorted.len().checked_sub(1) else { return 0.0 };
+    let place = share.clamp(0.0, 1.0) * last as f64;
+    let below = place.floor() as usize;
+    let above = (below + 1).min(last);
+    sorted[below] + (sorted[above] - sorted[below]) * (place - below as f64)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::WaypointErrors;
+
+    fn clusters(number: usize) -> Vec<Tally> {
+        let mut stream = Seed::of_item(5, "test", "clusters").stream("errors");
+        (0..number)
+            .map(|_| {
+                let mut tally = Tally::default();
+                let fde_m = stream.normal(3.0, 0.5);
+                (0..4).for_each(|_| tally.add_window(&WaypointErrors { fde_m, ..Default::default() }));
+                tally
+            })
+            .collect()
+    }
+
+    #[test]
+    fn an_interval_is_as_wide_as_the_spread_of_trajectories_says() {
+        let (low, high) = intervals(&clusters(400), RESAMPLES, 1)[4].unwrap();
+        let expected = 2.0 * 1.96 * 0.5 / 20.0;
+        assert!(low < 3.0 && 3.0 < high && ((high - low) / expected - 1.0).abs() < 0.15, "{low} {high}");
+    }
+
+    #[test]
+    fn the_same_seed_gives_the_same_interval_and_one_trajectory_gives_none() {
+        let clusters = clusters(20);
+        assert_eq!(intervals(&clusters, 50, 1), intervals(&clusters, 50, 1));
+        assert_ne!(intervals(&clusters, 50, 1), intervals(&clusters, 50, 2));
+        assert_eq!(intervals(&clusters[..1], 50, 1)[4], None);
+    }
+
+    #[test]
+    fn quantiles_lie_between_neighbours() {
+        assert_eq!(quantile(&[1.0, 2.0, 4.0], 0.75), 3.0);
+        assert_eq!((quantile(&[7.0], 0.3), quantile(&[], 0.3)), (7.0, 0.0));
+    }
+}

@@ -1,0 +1,174 @@
+//! The reported metrics: each is the mean of a value over windows (or over boxes).
+
+use crate::boxes::iou;
+use crate::waypoint::WaypointErrors;
+use serde::Serialize;
+
+/// Whether more is better.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Better {
+    /// The larger the better.
+    Higher,
+    /// The smaller the better.
+    Lower,
+}
+
+/// What a metric is measured in.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Unit {
+    /// A share, 0..=1; shown in percent.
+    Share,
+    /// Metres.
+    Metres,
+    /// Degrees.
+    Degrees,
+    /// Metres and degrees in one number.
+    Mixed,
+    /// A number without unit, 0..=1.
+    Plain,
+}
+
+/// A metric's names and meaning.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub struct Metric {
+    /// Key in JSON.
+    pub key: &'static str,
+    /// Name in tables.
+    pub name: &'static str,
+    /// Unit.
+    pub unit: Unit,
+    /// Direction.
+    pub better: Better,
+    /// Definition in one line.
+    pub meaning: &'static str,
+}
+
+const fn metric(key: &'static str, name: &'static str, unit: Unit, better: Better, meaning: &'static str) -> Metric {
+    Metric { key, name, unit, better, meaning }
+}
+
+/// Number of metrics.
+pub const COUNT: usize = 17;
+
+/// Metrics of boxes are the last ones, from here.
+pub const FIRST_OF_BOXES: usize = 15;
+
+/// All metrics, in the order of tables.
+pub const METRICS: [Metric; COUNT] = {
+    use Better::{Higher, Lower};
+    use Unit::{Degrees, Metres, Mixed, Plain, Share};
+    [
+        metric("sr_0_5m", "SR@0.5m", Share, Higher, "windows whose last waypoint is within 0.5 m of the truth"),
+        metric("sr_1m", "SR@1m", Share, Higher, "windows whose last waypoint is within 1 m"),
+        metric("sr_2m", "SR@2m", Share, Higher, "windows whose last waypoint is within 2 m"),
+        metric("ade_m", "ADE", Metres, Lower, "mean distance from the truth over all waypoints"),
+        metric("fde_m", "FDE", Metres, Lower, "distance from the truth at the last waypoint"),
+        metric("rot_acc_1deg", "RotAcc@1", Share, Higher, "windows whose yaw at the last waypoint is within 1 degree"),
+        metric("rot_acc_5deg", "RotAcc@5", Share, Higher, "windows whose yaw at the last waypoint is within 5 degrees"),
+        metric("yaw_mae_deg", "Yaw MAE", Degrees, Lower, "mean absolute yaw error over all waypoints"),
+        metric(
+            "joint_sr_0_5m_1deg",
+            "JointSR@(0.5m,1)",
+            Share,
+            Higher,
+            "within 0.5 m and 1 degree of yaw at the last waypoint",
+        ),
+        metric(
+            "joint_sr_1m_5deg",
+            "JointSR@(1m,5)",
+            Share,
+            Higher,
+            "within 1 m and 5 degrees of yaw at the last waypoint",
+        ),
+        metric("mae", "MAE", Mixed, Lower, "mean absolute error of all six dimensions, metres and degrees mixed"),
+        metric("position_mae_m", "MAE position", Metres, Lower, "its part of x, y, z"),
+        metric("rotation_mae_deg", "MAE rotation", Degrees, Lower, "its part of pitch, yaw, roll"),
+        metric("final_yaw_mae_deg", "Yaw MAE final", Degrees, Lower, "mean absolute yaw error at the last waypoint"),
+        metric("hard_fail", "HardFail", Share, Lower, "windows with a final error of more than 10 m"),
+        metric("miou", "mIoU", Plain, Higher, "mean intersection over union of predicted and true target boxes"),
+        metric("iou_0_75", "IoU>=0.75", Share, Higher, "boxes that overlap the true one by at least 0.75"),
+    ]
+};
+
+/// Sums and numbers of values per metric; the means of these are the scores.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Tally {
+    /// Sum of the values of each metric.
+    pub sums: [f64; COUNT],
+    /// Windows.
+    pub windows: f64,
+    /// Boxes.
+    pub boxes: f64,
+}
+
+impl Tally {
+    /// Counts the waypoints of a window.
+    pub fn add_window(&mut self, errors: &WaypointErrors) {
+        let share = |holds: bool| f64::from(u8::from(holds));
+        let (fde, yaw) = (errors.fde_m, errors.final_yaw_deg);
+        let values = [
+            share(fde <= 0.5),
+            share(fde <= 1.0),
+            share(fde <= 2.0),
+            errors.ade_m,
+            fde,
+            share(yaw <= 1.0),
+            share(yaw <= 5.0),
+            errors.yaw_mae_deg,
+            share(fde <= 0.5 && yaw <= 1.0),
+            share(fde <= 1.0 && yaw <= 5.0),
+            errors.mae,
+            errors.position_mae_m,
+            errors.rotation_mae_deg,
+            yaw,
+            share(fde > 10.0),
+        ];
+        for (sum, value) in self.sums.iter_mut().zip(values) {
+            *sum += value;
+        }
+        self.windows += 1.0;
+    }
+
+    /// Counts a predicted box; none overlaps nothing.
+    pub fn add_box(&mut self, predicted: Option<&[f64; 4]>, truth: &[f64; 4]) {
+        let overlap = predicted.map_or(0.0, |predicted| iou(predicted, truth));
+        self.sums[FIRST_OF_BOXES] += overlap;
+        self.sums[FIRST_OF_BOXES + 1] += f64::from(u8::from(overlap >= 0.75));
+        self.boxes += 1.0;
+    }
+
+    /// Adds all that `other` has counted.
+    pub fn add(&mut self, other: &Self) {
+        for (sum, more) in self.sums.iter_mut().zip(&other.sums) {
+            *sum += more;
+        }
+        self.windows += other.windows;
+        self.boxes += other.boxes;
+    }
+
+    /// The scores; `None` for metrics of which there is nothing.
+    pub fn means(&self) -> [Option<f64>; COUNT] {
+        core::array::from_fn(|metric| {
+            let number = if metric < FIRST_OF_BOXES { self.windows } else { self.boxes };
+            (number > 0.0).then(|| self.sums[metric] / number)
+        })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn borders_count_as_reached_and_a_hard_fail_is_beyond_ten_metres() {
+        let mut tally = Tally::default();
+        tally.add_window(&WaypointErrors { fde_m: 0.5, final_yaw_deg: 1.0, ..Default::default() });
+        tally.add_window(&WaypointErrors { fde_m: 10.0, final_yaw_deg: 1.5, ..Default::default() });
+        let means = tally.means();
+        let of = |key: &str| means[METRICS.iter().position(|metric| metric.key == key).unwrap()];
+        assert_eq!((of("sr_0_5m"), of("joint_sr_0_5m_1deg"), of("hard_fail")), (Some(0.5), Some(0.5), Some(0.0)));
+        assert_eq!((of("fde_m"), of("miou")), (Some(5.25), None));
+    }
+}
