@@ -3,12 +3,13 @@
 //! ```text
 //! "COSFLYFP" | version u32 | header length u32 | header (JSON)
 //! per frame: rgb | depth | ids | rgb preview | depth preview | semantic preview
-//! index: per frame and section: offset u64, bytes u64, check [u8; 8], plain bytes u32, CRC-32 of them u32
+//! index: per frame and section: bytes u64, CRC-32 of them u32, plain bytes u32, CRC-32 of those u32
 //! index offset u64 | frames u64 | check of header and index [u8; 8] | "COSFLYFE"
 //! ```
-//! All numbers are little-endian; a check is the first eight bytes of BLAKE3. `rgb` and the previews are
-//! image files (JPEG or PNG); `depth` and `ids` (labels and instances) are chunks of the log to come, compressed with zstd
-//! level 1: message records that go into the log as they are, so that nothing is compressed twice.
+//! All numbers are little-endian; a check is the first eight bytes of BLAKE3. Sections lie side by side, in the order of
+//! the index. `rgb` and the previews are image files (JPEG or PNG); `depth` and `ids` (labels and instances) are chunks of
+//! the log to come, compressed with zstd level 1: message records that go into the log as they are, so that nothing is
+//! compressed twice.
 
 mod image_record;
 mod reader;
@@ -88,9 +89,9 @@ impl InstanceFormat {
 const MAGIC: &[u8; 8] = b"COSFLYFP";
 const END_MAGIC: &[u8; 8] = b"COSFLYFE";
 /// Raised whenever older readers would misread newer packs.
-const VERSION: u32 = 2;
+const VERSION: u32 = 3;
 const SECTIONS: usize = 6;
-const ENTRY_BYTES: usize = 32;
+const ENTRY_BYTES: usize = 20;
 const FOOTER_BYTES: usize = 32;
 const MAX_SIDE: u32 = 16_384;
 const MAX_PIXELS: usize = 1 << 26;
@@ -101,7 +102,7 @@ const MAX_FRAMES: u64 = 1 << 24;
 struct Section {
     offset: u64,
     bytes: u64,
-    check: [u8; 8],
+    crc: u32,
     plain_bytes: u32,
     plain_crc: u32,
 }

@@ -6,13 +6,15 @@ use super::{
 };
 use crate::record::PreviewStrip;
 use cosfly_diagnose::{Diagnostic, Result};
+use foxglove::bytes::Bytes;
 use std::io::{Read, Seek, SeekFrom};
 
-/// All images of one frame as they are stored in a log.
+/// All images of one frame as they are stored in a log. Parts share one buffer, which the reader uses again once they are
+/// dropped.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct PackedFrame {
     /// A JPEG or PNG file, as the header's encoding says.
-    pub rgb_file: Vec<u8>,
+    pub rgb_file: Bytes,
     /// The depth image.
     pub depth: PackedChunk,
     /// Both id images.
@@ -25,7 +27,9 @@ pub struct PackedFrame {
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct PackedChunk {
     /// As they are stored.
-    pub stored: Vec<u8>,
+    pub stored: Bytes,
+    /// CRC-32 of them.
+    pub stored_crc: u32,
     /// Bytes before compression.
     pub plain_bytes: u64,
     /// CRC-32 of them.
@@ -49,11 +53,11 @@ pub struct RawPixels {
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Previews {
     /// JPEG file, 320 pixels wide.
-    pub rgb_jpeg: Vec<u8>,
+    pub rgb_jpeg: Bytes,
     /// JPEG file, 320 pixels wide, logarithmic colours.
-    pub depth_jpeg: Vec<u8>,
+    pub depth_jpeg: Bytes,
     /// PNG file, 320 pixels wide, index = label id, palette = CARLA's colours.
-    pub semantic_png: Vec<u8>,
+    pub semantic_png: Bytes,
 }
 
 /// Reads one pack.
@@ -61,6 +65,8 @@ pub struct FramePackReader<R: Read + Seek> {
     input: R,
     header: PackHeader,
     sections: Vec<[Section; SECTIONS]>,
+    /// The last frame.
+    buffer: Bytes,
 }
 
 impl<R: Read + Seek> FramePackReader<R> {
@@ -91,7 +97,7 @@ impl<R: Read + Seek> FramePackReader<R> {
             serde_json::from_slice(&header_bytes).map_err(|error| damaged(format!("its header: {error}")))?;
         header.check()?;
         let sections = read_index(&index, data_start, index_offset)?;
-        Ok(Self { input, header, sections })
+        Ok(Self { input, header, sections, buffer: Bytes::new() })
     }
 
     /// What all frames share.
@@ -111,20 +117,25 @@ impl<R: Read + Seek> FramePackReader<R> {
 
     /// All images of frame `frame`.
     pub fn frame(&mut self, frame: usize) -> Result<PackedFrame> {
-        let previews = if self.header.encoding.previews {
-            Some(Previews {
-                rgb_jpeg: self.section(frame, 3)?,
-                depth_jpeg: self.section(frame, 4)?,
-                semantic_png: self.section(frame, 5)?,
-            })
-        } else {
-            None
-        };
+        let row = *self.row(frame)?;
+        let bytes: u64 = row.iter().map(|section| section.bytes).sum();
+        let mut buffer = core::mem::take(&mut self.buffer).try_into_mut().unwrap_or_default();
+        buffer.resize(bytes as usize, 0);
+        fill_at(&mut self.input, row[0].offset, &mut buffer)?;
+        self.buffer = buffer.freeze();
+        let mut left = self.buffer.clone();
+        let mut parts = [const { Bytes::new() }; SECTIONS];
+        for (number, (part, section)) in parts.iter_mut().zip(&row).enumerate() {
+            *part = left.split_to(section.bytes as usize);
+            section.check(part, frame, number)?;
+        }
+        let [rgb_file, depth, ids, rgb_jpeg, depth_jpeg, semantic_png] = parts;
+        let previews = self.header.encoding.previews;
         Ok(PackedFrame {
-            rgb_file: self.section(frame, 0)?,
-            depth: self.chunk(frame, 1, &depth_records(&self.header, frame))?,
-            ids: self.chunk(frame, 2, &id_records(&self.header, frame))?,
-            previews,
+            rgb_file,
+            depth: row[1].chunk(depth, &depth_records(&self.header, frame), frame)?,
+            ids: row[2].chunk(ids, &id_records(&self.header, frame), frame)?,
+            previews: previews.then_some(Previews { rgb_jpeg, depth_jpeg, semantic_png }),
         })
     }
 
@@ -139,8 +150,8 @@ impl<R: Read + Seek> FramePackReader<R> {
     /// The pixels of a frame's raw images, decompressed.
     pub fn raw_pixels(&mut self, frame: usize) -> Result<RawPixels> {
         let (depth, ids) = (depth_records(&self.header, frame), id_records(&self.header, frame));
-        let depth_bytes = unpacked(&self.chunk(frame, 1, &depth)?, frame)?;
-        let id_bytes = unpacked(&self.chunk(frame, 2, &ids)?, frame)?;
+        let packed = self.frame(frame)?;
+        let (depth_bytes, id_bytes) = (unpacked(&packed.depth, frame)?, unpacked(&packed.ids, frame)?);
         let (semantic, instance) = id_bytes.split_at(ids.records[0].len());
         Ok(RawPixels {
             depth_le: depth_bytes[depth.records[0].pixels()].to_vec(),
@@ -149,27 +160,35 @@ impl<R: Read + Seek> FramePackReader<R> {
         })
     }
 
-    /// Section `number`, which holds `records`.
-    fn chunk<const N: usize>(&mut self, frame: usize, number: usize, records: &ChunkRecords<N>) -> Result<PackedChunk> {
-        let stored = self.section(frame, number)?;
-        let Section { plain_bytes, plain_crc, .. } = self.sections[frame][number];
-        let (plain_bytes, expected) = (u64::from(plain_bytes), records.len());
-        if plain_bytes != expected as u64 {
-            return Err(damaged(format!("frame {frame}, section {number}: {plain_bytes} bytes, not {expected}")));
-        }
-        Ok(PackedChunk { stored, plain_bytes, plain_crc, messages: records.messages.clone() })
+    fn row(&self, frame: usize) -> Result<&[Section; SECTIONS]> {
+        let missing = || damaged(format!("it has {} frames, no frame {frame}", self.sections.len()));
+        self.sections.get(frame).ok_or_else(missing)
     }
 
     fn section(&mut self, frame: usize, number: usize) -> Result<Vec<u8>> {
-        let section = self
-            .sections
-            .get(frame)
-            .ok_or_else(|| damaged(format!("it has {} frames, no frame {frame}", self.sections.len())))?[number];
+        let section = self.row(frame)?[number];
         let bytes = read_at(&mut self.input, section.offset, section.bytes as usize)?;
-        if check_of(&bytes) != section.check {
+        section.check(&bytes, frame, number)?;
+        Ok(bytes)
+    }
+}
+
+impl Section {
+    fn check(&self, bytes: &[u8], frame: usize, number: usize) -> Result<()> {
+        if crc32fast::hash(bytes) != self.crc {
             return Err(damaged(format!("frame {frame}, section {number} does not match its check")));
         }
-        Ok(bytes)
+        Ok(())
+    }
+
+    /// This section, which holds `records`.
+    fn chunk<const N: usize>(&self, stored: Bytes, records: &ChunkRecords<N>, frame: usize) -> Result<PackedChunk> {
+        let (plain_bytes, expected) = (u64::from(self.plain_bytes), records.len());
+        if plain_bytes != expected as u64 {
+            return Err(damaged(format!("frame {frame}: images of {plain_bytes} bytes, not {expected}")));
+        }
+        let messages = records.messages.clone();
+        Ok(PackedChunk { stored, stored_crc: self.crc, plain_bytes, plain_crc: self.plain_crc, messages })
     }
 }
 
@@ -192,39 +211,39 @@ fn read_header(input: &mut (impl Read + Seek), length: u64) -> Result<(Vec<u8>, 
     if start[..8] != MAGIC[..] {
         return Err(damaged("these bytes are something else".into()));
     }
-    let number = |at: usize| u32::from_le_bytes(start[at..at + 4].try_into().expect("four bytes"));
-    if number(8) != VERSION {
-        return Err(damaged(format!("it has version {}; this cosfly reads version {VERSION}", number(8))));
+    let (version, header_bytes) = (u32_at(&start, 8), u32_at(&start, 12));
+    if version != VERSION {
+        return Err(damaged(format!("it has version {version}; this cosfly reads version {VERSION}")));
     }
-    let data_start = 16 + u64::from(number(12));
+    let data_start = 16 + u64::from(header_bytes);
     if data_start > length {
         return Err(damaged(format!("it ends after {length} bytes, within its header")));
     }
-    Ok((read_at(input, 16, number(12) as usize)?, data_start))
+    Ok((read_at(input, 16, header_bytes as usize)?, data_start))
 }
 
 fn read_index(index: &[u8], data_start: u64, data_end: u64) -> Result<Vec<[Section; SECTIONS]>> {
     let mut sections = vec![];
+    let mut offset = data_start;
     for frame in index.chunks_exact(SECTIONS * ENTRY_BYTES) {
         let mut row = [Section::default(); SECTIONS];
         for (section, entry) in row.iter_mut().zip(frame.chunks_exact(ENTRY_BYTES)) {
-            *section = Section {
-                offset: u64_at(entry, 0),
-                bytes: u64_at(entry, 8),
-                check: u64_at(entry, 16).to_le_bytes(),
-                plain_bytes: u64_at(entry, 24) as u32,
-                plain_crc: (u64_at(entry, 24) >> 32) as u32,
-            };
-            let absent = section.bytes == 0 && section.offset == 0;
-            let inside = section.offset >= data_start
-                && section.offset.checked_add(section.bytes).is_some_and(|end| end <= data_end);
-            if !absent && !inside {
-                return Err(damaged(format!("frame {} lies outside of it", sections.len())));
-            }
+            let bytes = u64_at(entry, 0);
+            let [crc, plain_bytes, plain_crc] = [8, 12, 16].map(|at| u32_at(entry, at));
+            *section = Section { offset, bytes, crc, plain_bytes, plain_crc };
+            let end = offset.checked_add(bytes).filter(|end| *end <= data_end);
+            offset = end.ok_or_else(|| damaged(format!("frame {} lies outside of it", sections.len())))?;
         }
         sections.push(row);
     }
+    if offset != data_end {
+        return Err(damaged(format!("its frames end at byte {offset}, its index begins at {data_end}")));
+    }
     Ok(sections)
+}
+
+fn u32_at(bytes: &[u8], at: usize) -> u32 {
+    u32::from_le_bytes(bytes[at..at + 4].try_into().expect("four bytes"))
 }
 
 fn u64_at(bytes: &[u8], at: usize) -> u64 {
@@ -234,9 +253,13 @@ fn u64_at(bytes: &[u8], at: usize) -> u64 {
 /// `bytes` bytes from `offset`; both were checked against the length of the input.
 fn read_at(input: &mut (impl Read + Seek), offset: u64, bytes: usize) -> Result<Vec<u8>> {
     let mut buffer = vec![0; bytes];
-    input.seek(SeekFrom::Start(offset)).map_err(read_error)?;
-    input.read_exact(&mut buffer).map_err(read_error)?;
+    fill_at(input, offset, &mut buffer)?;
     Ok(buffer)
+}
+
+fn fill_at(input: &mut (impl Read + Seek), offset: u64, buffer: &mut [u8]) -> Result<()> {
+    input.seek(SeekFrom::Start(offset)).map_err(read_error)?;
+    input.read_exact(buffer).map_err(read_error)
 }
 
 fn read_error(error: std::io::Error) -> Box<Diagnostic> {

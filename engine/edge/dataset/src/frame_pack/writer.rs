@@ -3,7 +3,8 @@
 use super::image_record::{depth_records, id_records};
 use super::{END_MAGIC, InstanceFormat, MAGIC, PackHeader, SECTIONS, Section, VERSION, check_of};
 use crate::config::{DepthEncoding, RgbEncoding};
-use crate::images::{depth, ids, previews, rgb};
+use crate::images::previews::SmallImages;
+use crate::images::{depth, ids, rgb};
 use cosfly_diagnose::{Diagnostic, Fault, Result};
 use cosfly_frames::simd::Level;
 use cosfly_render::FrameImages;
@@ -26,10 +27,12 @@ pub struct FramePackWriter<W: Write> {
     header_bytes: Vec<u8>,
     sections: Vec<[Section; SECTIONS]>,
     compressor: zstd::bulk::Compressor<'static>,
-    /// Records of both chunks, and the last one compressed; kept from frame to frame.
+    /// Records of both chunks, the last one compressed, and the last image file; kept from frame to frame.
     depth_records: Vec<u8>,
     id_records: Vec<u8>,
     stored: Vec<u8>,
+    file: Vec<u8>,
+    small: SmallImages,
 }
 
 impl<W: Write> FramePackWriter<W> {
@@ -47,6 +50,8 @@ impl<W: Write> FramePackWriter<W> {
             depth_records: vec![],
             id_records: vec![],
             stored: vec![],
+            file: vec![],
+            small: SmallImages::default(),
         };
         let mut start = Vec::from(MAGIC);
         start.extend_from_slice(&VERSION.to_le_bytes());
@@ -62,18 +67,18 @@ impl<W: Write> FramePackWriter<W> {
         self.check_images(images)?;
         let encoding = self.header.encoding;
         let (width, height) = (images.width, images.height);
-        let rgb_file = match encoding.rgb {
-            RgbEncoding::Jpeg => rgb::jpeg(&images.rgb, width, height, encoding.jpeg_quality)?,
-            RgbEncoding::Png => rgb::png(&images.rgb, width, height)?,
+        let rgb = |_: &mut SmallImages, file: &mut Vec<u8>| match encoding.rgb {
+            RgbEncoding::Jpeg => rgb::jpeg(&images.rgb, width, height, encoding.jpeg_quality, file),
+            RgbEncoding::Png => rgb::png(&images.rgb, width, height, file),
         };
         let mut sections = [Section::default(); SECTIONS];
-        sections[0] = self.section(&rgb_file)?;
+        sections[0] = self.file_section(rgb)?;
         sections[1] = self.depth_section(images)?;
         sections[2] = self.ids_section(images)?;
         if encoding.previews {
-            sections[3] = self.section(&previews::rgb(images)?)?;
-            sections[4] = self.section(&previews::depth(images)?)?;
-            sections[5] = self.section(&previews::semantic(images)?)?;
+            sections[3] = self.file_section(|small, file| small.rgb(images, file))?;
+            sections[4] = self.file_section(|small, file| small.depth(images, file))?;
+            sections[5] = self.file_section(|small, file| small.semantic(images, file))?;
         }
         self.sections.push(sections);
         Ok(())
@@ -84,9 +89,8 @@ impl<W: Write> FramePackWriter<W> {
         let index_offset = self.position;
         let mut index = Vec::with_capacity(self.sections.len() * SECTIONS * super::ENTRY_BYTES);
         for section in self.sections.iter().flatten() {
-            index.extend_from_slice(&section.offset.to_le_bytes());
             index.extend_from_slice(&section.bytes.to_le_bytes());
-            index.extend_from_slice(&section.check);
+            index.extend_from_slice(&section.crc.to_le_bytes());
             index.extend_from_slice(&section.plain_bytes.to_le_bytes());
             index.extend_from_slice(&section.plain_crc.to_le_bytes());
         }
@@ -186,9 +190,22 @@ impl<W: Write> FramePackWriter<W> {
         Ok(Section { plain_bytes: plain.len() as u32, plain_crc, ..section })
     }
 
+    /// Encodes and appends an image file.
+    fn file_section(&mut self, encode: impl FnOnce(&mut SmallImages, &mut Vec<u8>) -> Result<()>) -> Result<Section> {
+        let mut file = core::mem::take(&mut self.file);
+        encode(&mut self.small, &mut file)?;
+        let section = self.section(&file)?;
+        self.file = file;
+        Ok(section)
+    }
+
     fn section(&mut self, bytes: &[u8]) -> Result<Section> {
-        let section =
-            Section { offset: self.position, bytes: bytes.len() as u64, check: check_of(bytes), ..Section::default() };
+        let section = Section {
+            offset: self.position,
+            bytes: bytes.len() as u64,
+            crc: crc32fast::hash(bytes),
+            ..Section::default()
+        };
         self.put(bytes)?;
         Ok(section)
     }

@@ -1,6 +1,7 @@
 //! Small pictures of a frame, for viewers and for the `frames` table.
 
 use super::rgb::{jpeg, palette_png};
+use core::ops::Range;
 use cosfly_diagnose::Result;
 use cosfly_frames::simd::Level;
 use cosfly_frames::simd_kernel;
@@ -20,26 +21,55 @@ fn size(images: &FrameImages) -> (u32, u32) {
     (width, (height as u32).clamp(1, images.height))
 }
 
-/// The colour image, averaged over the middle of blocks of pixels.
-pub fn rgb(images: &FrameImages) -> Result<Vec<u8>> {
-    let (width, height) = size(images);
-    let columns: Vec<_> = (0..width).map(|x| middle_of(block(x, width, images.width))).collect();
-    let mut pixels = Vec::with_capacity(3 * (width * height) as usize);
-    let mut sums = vec![0u16; 3 * images.width as usize];
-    for y in 0..height {
-        let rows = middle_of(block(y, height, images.height));
-        let row_bytes = sums.len();
-        sum_of_rows(Level::best(), &images.rgb[rows.start * row_bytes..rows.end * row_bytes], &mut sums);
-        for columns in &columns {
-            let mut total = [0u32; 3];
-            for pixel in sums[3 * columns.start..3 * columns.end].as_chunks::<3>().0 {
-                total.iter_mut().zip(pixel).for_each(|(sum, value)| *sum += u32::from(*value));
+/// Draws the small pictures; keeps its buffers from frame to frame.
+#[derive(Default)]
+pub struct SmallImages {
+    rgb: Vec<u8>,
+    row_sums: Vec<u16>,
+    depth_m: Vec<f32>,
+    labels: Vec<u8>,
+}
+
+impl SmallImages {
+    /// Fills `file` with the colour image, averaged over the middle of blocks of pixels (JPEG).
+    pub fn rgb(&mut self, images: &FrameImages, file: &mut Vec<u8>) -> Result<()> {
+        let (width, height) = size(images);
+        let columns: Vec<_> = (0..width).map(|x| middle_of(block(x, width, images.width))).collect();
+        self.rgb.resize(3 * (width * height) as usize, 0);
+        self.row_sums.resize(3 * images.width as usize, 0);
+        let row_bytes = self.row_sums.len();
+        for (y, pixels) in (0..height).zip(self.rgb.chunks_exact_mut(3 * width as usize)) {
+            let rows = middle_of(block(y, height, images.height));
+            let full_rows = &images.rgb[rows.start * row_bytes..rows.end * row_bytes];
+            sum_of_rows(Level::best(), full_rows, &mut self.row_sums);
+            if images.width == 4 * width && rows.len() == 2 {
+                // The usual size: two of four pixels, two of four rows.
+                quarters(Level::best(), &self.row_sums, pixels);
+            } else {
+                for (pixel, columns) in pixels.as_chunks_mut::<3>().0.iter_mut().zip(&columns) {
+                    *pixel = average(&self.row_sums, columns, rows.len());
+                }
             }
-            let count = (rows.len() * columns.len()) as u32;
-            pixels.extend_from_slice(&total.map(|sum| ((sum + count / 2) / count) as u8));
         }
+        jpeg(&self.rgb, width, height, RGB_QUALITY, file)
     }
-    jpeg(&pixels, width, height, RGB_QUALITY)
+
+    /// Fills `file` with the depth image in colours, stretched over the depths of this frame (JPEG): a picture, not data.
+    pub fn depth(&mut self, images: &FrameImages, file: &mut Vec<u8>) -> Result<()> {
+        let (width, height) = size(images);
+        nearest(&images.depth_m, images, &mut self.depth_m);
+        jpeg(&depth_preview(&self.depth_m), width, height, DEPTH_QUALITY, file)
+    }
+
+    /// Fills `file` with the label image as a palette PNG: index = CARLA's id, palette = CARLA's colours.
+    pub fn semantic(&mut self, images: &FrameImages, file: &mut Vec<u8>) -> Result<()> {
+        let (width, height) = size(images);
+        let last = SemanticLabel::ALL.len() as u8 - 1;
+        nearest(&images.semantic, images, &mut self.labels);
+        self.labels.iter_mut().for_each(|index| *index = (*index).min(last));
+        let palette = SemanticLabel::ALL.iter().flat_map(|label| label.colour()).collect();
+        palette_png(&self.labels, width, height, palette, file)
+    }
 }
 
 simd_kernel! {
@@ -54,51 +84,72 @@ simd_kernel! {
     }
 }
 
-/// The depth image in colours, stretched over the depths of this frame: a picture, not data.
-pub fn depth(images: &FrameImages) -> Result<Vec<u8>> {
-    let (width, height) = size(images);
-    let depths = nearest(&images.depth_m, images, width, height);
-    jpeg(&depth_preview(&depths), width, height, DEPTH_QUALITY)
+simd_kernel! {
+    /// The mean of the middle two of four neighbouring pixels, each a sum of two rows.
+    fn quarters(row_sums: &[u16], pixels: &mut [u8]) {
+        for (pixel, four) in pixels.as_chunks_mut::<3>().0.iter_mut().zip(row_sums.as_chunks::<12>().0) {
+            for channel in 0..3 {
+                let sum = four[3 + channel].wrapping_add(four[6 + channel]);
+                pixel[channel] = (sum.wrapping_add(2) >> 2) as u8;
+            }
+        }
+    }
 }
 
-/// The label image as a palette PNG: index = CARLA's id, palette = CARLA's colours.
-pub fn semantic(images: &FrameImages) -> Result<Vec<u8>> {
-    let (width, height) = size(images);
-    let last = SemanticLabel::ALL.len() as u8 - 1;
-    let mut indices = nearest(&images.semantic, images, width, height);
-    indices.iter_mut().for_each(|index| *index = (*index).min(last));
-    let palette = SemanticLabel::ALL.iter().flat_map(|label| label.colour()).collect();
-    palette_png(&indices, width, height, palette)
+/// The mean colour of some pixels of summed rows.
+fn average(row_sums: &[u16], columns: &Range<usize>, rows: usize) -> [u8; 3] {
+    let mut total = [0u32; 3];
+    for pixel in row_sums[3 * columns.start..3 * columns.end].as_chunks::<3>().0 {
+        total.iter_mut().zip(pixel).for_each(|(sum, value)| *sum += u32::from(*value));
+    }
+    let count = (rows * columns.len()) as u32;
+    total.map(|sum| ((sum + count / 2) / count) as u8)
 }
 
 /// The `count` blocks of `total` pixels: the range that belongs to block `index`, never empty.
-fn block(index: u32, count: u32, total: u32) -> std::ops::Range<usize> {
+fn block(index: u32, count: u32, total: u32) -> Range<usize> {
     let edge = |i: u32| (u64::from(i) * u64::from(total) / u64::from(count)) as usize;
     edge(index)..edge(index + 1)
 }
 
 /// The middle half of a block that is at least four wide: a quarter of its pixels shows what all of them would.
-fn middle_of(block: std::ops::Range<usize>) -> std::ops::Range<usize> {
+fn middle_of(block: Range<usize>) -> Range<usize> {
     let margin = block.len() / 4;
     block.start + margin..block.end - margin
 }
 
-/// The full-size value in the middle of each preview pixel, row by row.
-fn nearest<T: Copy>(values: &[T], images: &FrameImages, width: u32, height: u32) -> Vec<T> {
+/// Fills `small` with the full-size value in the middle of each preview pixel, row by row.
+fn nearest<T: Copy>(values: &[T], images: &FrameImages, small: &mut Vec<T>) {
+    let (width, height) = size(images);
     let middle = |i: u32, count: u32, total: u32| (2 * i as usize + 1) * total as usize / (2 * count as usize);
     let columns: Vec<usize> = (0..width).map(|x| middle(x, width, images.width)).collect();
-    let mut small = Vec::with_capacity((width * height) as usize);
+    small.clear();
     for y in 0..height {
         let start = middle(y, height, images.height) * images.width as usize;
         let row = &values[start..start + images.width as usize];
         small.extend(columns.iter().map(|column| row[*column]));
     }
-    small
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn a_quarter_of_the_size_is_averaged_like_any_other() {
+        let (width, height) = (1280, 720);
+        let rgb: Vec<u8> = (0..3 * width * height).map(|i: u32| (i.wrapping_mul(i) / 7 + i / 3840) as u8).collect();
+        let images = FrameImages { width, height, rgb, depth_m: vec![], semantic: vec![], instance: vec![] };
+        let mut small = SmallImages::default();
+        small.rgb(&images, &mut vec![]).unwrap();
+        for (x, y) in [(0, 0), (319, 0), (17, 91), (319, 179)] {
+            let expected: [u8; 3] = core::array::from_fn(|c| {
+                let at = |dx: usize, dy: usize| u32::from(images.rgb[3 * (1280 * (4 * y + dy) + 4 * x + dx) + c]);
+                ((at(1, 1) + at(2, 1) + at(1, 2) + at(2, 2) + 2) / 4) as u8
+            });
+            assert_eq!(small.rgb[3 * (320 * y + x)..][..3], expected, "{x} {y}");
+        }
+    }
 
     #[test]
     fn previews_keep_the_aspect_and_never_grow() {

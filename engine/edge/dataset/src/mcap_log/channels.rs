@@ -96,12 +96,14 @@ impl<W: Write> ChannelWriter<W> {
 
     /// Ends the chunk as it is: image files do not get smaller.
     pub fn end_plain_chunk(&mut self) -> Result<()> {
+        let crc = crc32fast::hash(&self.records);
         let chunk = Chunk {
             time_ns: self.time_ns,
             compression: "",
             plain_bytes: self.records.len() as u64,
-            plain_crc: crc32fast::hash(&self.records),
+            plain_crc: crc,
             stored: &self.records,
+            stored_crc: crc,
             messages: &self.messages,
         };
         self.container.chunk(&chunk).map_err(|error| write_error(&error))?;
@@ -119,6 +121,7 @@ impl<W: Write> ChannelWriter<W> {
             plain_bytes: self.records.len() as u64,
             plain_crc: crc32fast::hash(&self.records),
             stored: &stored,
+            stored_crc: crc32fast::hash(&stored),
             messages: &self.messages,
         };
         self.container.chunk(&chunk).map_err(|error| write_error(&error))?;
@@ -135,6 +138,7 @@ impl<W: Write> ChannelWriter<W> {
             plain_bytes: packed.plain_bytes,
             plain_crc: packed.plain_crc,
             stored: &packed.stored,
+            stored_crc: packed.stored_crc,
             messages: &packed.messages,
         };
         self.container.chunk(&chunk).map_err(|error| write_error(&error))

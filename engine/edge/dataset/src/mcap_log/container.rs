@@ -52,6 +52,8 @@ pub struct Chunk<'a> {
     pub plain_crc: u32,
     /// The records as they are stored.
     pub stored: &'a [u8],
+    /// CRC-32 of them.
+    pub stored_crc: u32,
     /// Channel and offset (before compression) of each message.
     pub messages: &'a [(u16, u64)],
 }
@@ -129,7 +131,9 @@ impl<W: Write> Container<W> {
         self.put(&[opcode::CHUNK])?;
         self.put(&((head.0.len() + chunk.stored.len()) as u64).to_le_bytes())?;
         self.put(&head.0)?;
-        self.put(chunk.stored)?;
+        self.output.write_all(chunk.stored)?;
+        self.crc.combine(&crc32fast::Hasher::new_with_initial_len(chunk.stored_crc, chunk.stored.len() as u64));
+        self.position += chunk.stored.len() as u64;
         let length = self.position - start;
         let mut by_channel: BTreeMap<u16, Fields> = BTreeMap::new();
         for (channel, offset) in chunk.messages {
@@ -286,6 +290,7 @@ mod tests {
                 plain_bytes: records.len() as u64,
                 plain_crc: crc32fast::hash(&records),
                 stored,
+                stored_crc: crc32fast::hash(&records),
                 messages,
             };
             container.chunk(&chunk("", &records, &[(plain, 0), (plain, second)])).unwrap();
@@ -299,6 +304,7 @@ mod tests {
                 plain_bytes: records.len() as u64,
                 plain_crc: crc32fast::hash(&records),
                 stored: &stored,
+                stored_crc: crc32fast::hash(&stored),
                 messages: &[(packed, 0)],
             };
             container.chunk(&chunk).unwrap();

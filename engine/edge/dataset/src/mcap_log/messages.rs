@@ -19,11 +19,11 @@ pub fn timestamp(time_ns: u64) -> Timestamp {
 }
 
 /// An image file (`jpeg` or `png`).
-pub fn compressed_image(time_ns: u64, format: &str, file: Vec<u8>) -> messages::CompressedImage {
+pub fn compressed_image(time_ns: u64, format: &str, file: Bytes) -> messages::CompressedImage {
     messages::CompressedImage {
         timestamp: Some(timestamp(time_ns)),
         frame_id: OPTICAL_FRAME.into(),
-        data: Bytes::from(file),
+        data: file,
         format: format.into(),
     }
 }

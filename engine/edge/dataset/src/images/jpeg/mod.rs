@@ -6,7 +6,7 @@ mod transform;
 use cosfly_frames::simd::Level;
 use huffman::{AC, BitWriter, Codes, DC, write_blocks};
 use std::sync::LazyLock;
-use transform::{Coefficients, LANES, ROW_BYTES, Strip, ZIGZAG, factors, transform};
+use transform::{Coefficients, LANES, Planes, ROW_BYTES, Strip, ZIGZAG, factors, transform};
 
 /// Largest width and height of a JPEG file.
 pub const MAX_SIDE: u32 = 65_535;
@@ -28,23 +28,24 @@ const STEPS: [[u16; 64]; 2] = [
     ],
 ];
 
-/// A JPEG file of row-major sRGB pixels, without chroma subsampling; `quality` is libjpeg's, 1 to 100.
+/// Fills `file` with a JPEG file of row-major sRGB pixels, without chroma subsampling; `quality` is libjpeg's, 1 to 100.
 ///
 /// `rgb` must hold `3 * width * height` bytes, and both sides must be 1 to [`MAX_SIDE`].
-pub fn encode(rgb: &[u8], width: u32, height: u32, quality: u8) -> Vec<u8> {
-    encode_at(Level::best(), rgb, width, height, quality)
+pub fn encode(rgb: &[u8], width: u32, height: u32, quality: u8, file: &mut Vec<u8>) {
+    encode_at(Level::best(), rgb, width, height, quality, file);
 }
 
-fn encode_at(level: Level, rgb: &[u8], width: u32, height: u32, quality: u8) -> Vec<u8> {
+fn encode_at(level: Level, rgb: &[u8], width: u32, height: u32, quality: u8, file: &mut Vec<u8>) {
     let steps = [0, 1].map(|table| scaled_steps(&STEPS[table], quality));
     let factors = [factors(&steps[0]), factors(&steps[1])];
-    let mut file = Vec::with_capacity(rgb.len() / 4 + 1024);
-    write_head(&mut file, width as u16, height as u16, &steps);
+    file.clear();
+    write_head(file, width as u16, height as u16, &steps);
     let mut bits = BitWriter::EMPTY;
     let [luma, chroma] = &*CODES;
     let codes = [luma, chroma, chroma];
     let (row_bytes, blocks_across) = (3 * width as usize, (width as usize).div_ceil(8));
     let mut margin = [[0; ROW_BYTES]; 8];
+    let mut planes = Planes::ZERO;
     let mut coefficients = [Coefficients::ZERO; 3];
     let mut previous_dc = [0; 3];
     for top in (0..height as usize).step_by(8) {
@@ -60,14 +61,13 @@ fn encode_at(level: Level, rgb: &[u8], width: u32, height: u32, quality: u8) -> 
             let strip: Strip<'_> = core::array::from_fn(|y| {
                 rows[y].get(inside.clone()).and_then(<[u8]>::first_chunk).unwrap_or(&margin[y])
             });
-            transform(level, &strip, &factors, &mut coefficients);
+            transform(level, &strip, &factors, &mut planes, &mut coefficients);
             write_blocks(level, &mut bits, &coefficients, &codes, blocks_across - first, &mut previous_dc);
-            bits.flush(&mut file);
+            bits.flush(file);
         }
     }
-    bits.finish(&mut file);
+    bits.finish(file);
     file.extend_from_slice(&[0xff, 0xd9]);
-    file
 }
 
 /// The bytes of `image_row` from `start` on; beyond its end, its last pixel again and again.
@@ -132,6 +132,12 @@ mod tests {
         rgb
     }
 
+    fn encoded(level: Level, rgb: &[u8], width: u32, height: u32, quality: u8) -> Vec<u8> {
+        let mut file = b"something else".to_vec();
+        encode_at(level, rgb, width, height, quality, &mut file);
+        file
+    }
+
     fn decoded(file: &[u8]) -> (Vec<u8>, usize, usize) {
         let mut decoder = zune_jpeg::JpegDecoder::new(Cursor::new(file));
         let pixels = decoder.decode().expect("a readable file");
@@ -152,7 +158,7 @@ mod tests {
         for (width, height) in [(1, 1), (8, 8), (127, 9), (128, 16), (129, 33), (320, 180), (3, 70)] {
             let rgb = picture(width, height);
             for quality in [50, 95, 100] {
-                let (pixels, w, h) = decoded(&encode(&rgb, width, height, quality));
+                let (pixels, w, h) = decoded(&encoded(Level::best(), &rgb, width, height, quality));
                 assert_eq!((w, h), (width as usize, height as usize));
                 let mut other = vec![];
                 let mut encoder = jpeg_encoder::Encoder::new(&mut other, quality);
@@ -167,9 +173,9 @@ mod tests {
     #[test]
     fn all_vector_levels_give_the_same_file() {
         let rgb = picture(210, 60);
-        let plain = encode_at(Level::PLAIN, &rgb, 210, 60, 90);
+        let plain = encoded(Level::PLAIN, &rgb, 210, 60, 90);
         for level in Level::available() {
-            assert!(encode_at(level, &rgb, 210, 60, 90) == plain, "{}", level.name());
+            assert!(encoded(level, &rgb, 210, 60, 90) == plain, "{}", level.name());
         }
     }
 }
