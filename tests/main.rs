@@ -5,6 +5,7 @@ mod cameras;
 mod carla_job;
 mod crash;
 mod diagnostics;
+mod evaluation;
 mod plan_from;
 mod preview;
 mod processors;

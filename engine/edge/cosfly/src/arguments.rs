@@ -31,10 +31,11 @@ Examples:
   cosfly why recipes/carla_town.toml expert/p00003 what changed since this was last made
   cosfly verify out/carla_town                     check a finished dataset
   cosfly preview out/carla_town                    pictures of a finished flight
+  cosfly eval mine.jsonl --dataset out/carla_town  scores of a model's predictions, beside baselines
 
 Exit codes:
     0  everything was done
-    1  `verify` found something wrong, or `plan-from` no flight
+    1  `verify` found something wrong, `plan-from` no flight, or `eval` rows that it cannot score
     2  the command line was not understood
     3  the recipe asks for something that cannot be
     4  an input file, the store or a state asked about is broken or does not fit
@@ -93,6 +94,24 @@ Examples:
 A range ends before its second number: `0..200:10` is 0, 10, ... 190. Without `--frames`, the sheet shows six frames and
 the clip up to a hundred, evenly spread.")]
     Preview(PreviewArguments),
+    /// Score a model's predictions on a finished dataset, beside baselines, by kind of window, with 95 % intervals
+    #[command(after_help = "\
+Examples:
+  cosfly eval predictions.jsonl --dataset out/carla_town
+  cosfly eval predictions.parquet --dataset out/carla_town --split test --out scores
+  cosfly eval answers.jsonl --dataset out/carla_town --frame body --missing-as-zero
+  cosfly eval --dataset out/carla_town                                          the baselines alone
+  cosfly eval --dataset out/carla_town --train                                  and small networks, in a minute
+
+A line of predictions is like
+  {\"trajectory_id\": \"perturbed-p00000\", \"frame\": 3, \"waypoint_deltas\": [[0.5, 0, 0, 0, 2, 0], ... five in all]}
+with the first frame of a window (0, 3, 6, ...) and, per waypoint, dx, dy, dz (m), dpitch, dyaw, droll (degrees) as an
+array or an object; a missing dimension counts as 0. Instead of `waypoint_deltas`, `text` may hold what a model wrote:
+what is before `</think>` is dropped, and a JSON object in it has `waypoint_deltas`. Optional `boxes` are the target's
+boxes in the waypoints' frames. Parquet has the same columns.
+
+Rows that cannot be scored are counted and named; the exit code is then 1, and 4 when no row fits.")]
+    Eval(EvalArguments),
     /// Write the job with which `plugins/carla/replay.py` flies a dataset's flights through a CARLA server
     #[command(after_help = "\
 Examples:
@@ -250,6 +269,95 @@ pub struct PreviewArguments {
     /// Folder for the pictures [default: <DATASET>-preview]
     #[arg(long, value_name = "DIR")]
     pub out: Option<PathBuf>,
+}
+
+/// Arguments of `eval`.
+#[derive(Args, Debug)]
+pub struct EvalArguments {
+    /// Predictions, JSON lines or Parquet [default: none, the baselines alone]
+    #[arg(value_name = "PREDICTIONS")]
+    pub predictions: Option<PathBuf>,
+    /// Folder of the dataset that `cosfly run` delivered
+    #[arg(long, value_name = "DIR")]
+    pub dataset: PathBuf,
+    /// Folder for report.md, report.json and errors.svg [default: <PREDICTIONS>-evaluation]
+    #[arg(long, value_name = "DIR")]
+    pub out: Option<PathBuf>,
+    /// Splits to score (repeatable) [default: those of the predicted flights; without predictions, all but train]
+    #[arg(long = "split", value_name = "NAME")]
+    pub splits: Vec<String>,
+    /// Axes of the increments: those of the world, or of the body that moves (x ahead, y right, z up)
+    #[arg(long, value_enum, default_value_t = FrameChoice::World)]
+    pub frame: FrameChoice,
+    /// Pose that each increment starts from: the waypoint before, or the current pose for all
+    #[arg(long, value_enum, default_value_t = OriginChoice::Previous)]
+    pub from: OriginChoice,
+    /// Pose that the first increment starts from: the last one of the input, or the expert's in the same frame
+    #[arg(long, value_enum, default_value_t = AnchorChoice::Input)]
+    pub anchor: AnchorChoice,
+    /// Flights that models see
+    #[arg(long, value_enum, default_value_t = RoleChoice::Perturbed)]
+    pub input: RoleChoice,
+    /// Frames that a model sees
+    #[arg(long, value_name = "N", default_value_t = 5, value_parser = counts())]
+    pub history: usize,
+    /// Waypoints that it predicts
+    #[arg(long, value_name = "N", default_value_t = 5, value_parser = counts())]
+    pub horizon: usize,
+    /// Frames from one window to the next
+    #[arg(long, value_name = "N", default_value_t = 3, value_parser = counts())]
+    pub stride: usize,
+    /// Score windows without a prediction as if all increments were zero, instead of leaving them out
+    #[arg(long)]
+    pub missing_as_zero: bool,
+    /// Train small networks on split train, too, and test two findings of the paper with them
+    #[arg(long)]
+    pub train: bool,
+    /// Resamples behind an interval
+    #[arg(long, value_name = "N", default_value_t = 1000, value_parser = counts())]
+    pub resamples: usize,
+    /// Seed of resamples and networks
+    #[arg(long, value_name = "N", default_value_t = 1)]
+    pub seed: u64,
+    /// Print the report as JSON
+    #[arg(long)]
+    pub json: bool,
+}
+
+/// Axes of increments.
+#[derive(Clone, Copy, Debug, ValueEnum)]
+pub enum FrameChoice {
+    /// The world's
+    World,
+    /// The body's
+    Body,
+}
+
+/// Where increments start.
+#[derive(Clone, Copy, Debug, ValueEnum)]
+pub enum OriginChoice {
+    /// At the waypoint before
+    Previous,
+    /// At the current pose, all of them
+    Current,
+}
+
+/// Where the first increment starts.
+#[derive(Clone, Copy, Debug, ValueEnum)]
+pub enum AnchorChoice {
+    /// Where the drone is
+    Input,
+    /// Where the expert is
+    Expert,
+}
+
+/// Flights that models see.
+#[derive(Clone, Copy, Debug, ValueEnum)]
+pub enum RoleChoice {
+    /// Perturbed ones
+    Perturbed,
+    /// Experts
+    Expert,
 }
 
 /// Arguments of `carla-job`.

@@ -33,6 +33,7 @@ fn command() -> ExitCode {
         Command::Why(arguments) => commands::why::why(&arguments),
         Command::Graph(arguments) => commands::graph::graph(&arguments),
         Command::Verify(arguments) => commands::verify::verify(&arguments),
+        Command::Eval(arguments) => commands::eval::eval(&arguments),
         Command::Preview(arguments) => commands::preview::preview(&arguments),
         Command::CarlaJob(arguments) => commands::carla_job::carla_job(&arguments),
         Command::Gc(arguments) => commands::collect::collect(&arguments),

@@ -6,6 +6,7 @@
 //! * [`mcap_log`]: one MCAP file per trajectory.
 //! * [`tables`]: the Parquet tables.
 //! * [`read`]: reads published datasets back, for pictures and replays.
+//! * [`predictions`]: reads what models predicted.
 //! * [`carla_job`]: published flights as a job for a CARLA server.
 //! * [`verify`]: checks a finished dataset by its files alone.
 //! * [`croissant`] and [`publish`]: metadata, card, hashes, and the dataset as a whole.
@@ -17,6 +18,7 @@ pub mod frame_pack;
 mod hashing;
 pub mod images;
 pub mod mcap_log;
+pub mod predictions;
 pub mod publish;
 pub mod read;
 pub mod record;

@@ -22,7 +22,7 @@ pub struct WindowFeatures {
     pub turn_deg: f64,
     /// Highest minus lowest place of the expert, metres.
     pub height_change_m: f64,
-    /// Frames in which less than half of the target is visible to the expert, 0..=1.
+    /// Frames in which the expert sees less than half of the target, 0..=1.
     pub occluded_share: f64,
     /// Mean speed of the expert, m/s.
     pub speed_mps: f64,

@@ -6,6 +6,7 @@ pub mod bench_render;
 pub mod carla_job;
 pub mod collect;
 pub mod drone_state;
+pub mod eval;
 pub mod expert_of_recipe;
 pub mod graph;
 pub mod plan;

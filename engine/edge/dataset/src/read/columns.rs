@@ -74,6 +74,40 @@ impl Rows<'_> {
         if self.batch.column_by_name(name).is_none() { Ok(default) } else { self.real(name, row) }
     }
 
+    /// A text that is not null.
+    pub fn text_at(&self, name: &str, row: usize) -> Result<&str> {
+        let column = self.column(name, |kind| *kind == DataType::Utf8)?.as_string::<i32>();
+        let value = column.is_valid(row).then(|| column.value(row));
+        value.ok_or_else(|| damaged(self.path, &format!("column `{name}` has no text in row {row}"), "null"))
+    }
+
+    /// A text, or `default` for null and in a dataset from before the column was there.
+    pub fn text_or(&self, name: &str, row: usize, default: &str) -> Result<String> {
+        let text = if self.batch.column_by_name(name).is_none() { None } else { self.text(name, row)? };
+        Ok(text.unwrap_or_else(|| default.to_owned()))
+    }
+
+    /// All numbers of a column, each of them finite.
+    pub fn reals(&self, name: &str) -> Result<&[f64]> {
+        let column = self.column(name, |kind| *kind == DataType::Float64)?.as_primitive::<Float64Type>();
+        let sound = column.null_count() == 0 && column.values().iter().all(|value| value.is_finite());
+        let refusal = || damaged(self.path, &format!("column `{name}` has a row without a number"), "null or NaN");
+        if sound { Ok(column.values()) } else { Err(refusal()) }
+    }
+
+    /// All whole numbers of a column.
+    pub fn integers(&self, name: &str) -> Result<&[i64]> {
+        let column = self.column(name, |kind| *kind == DataType::Int64)?.as_primitive::<Int64Type>();
+        let refusal = || damaged(self.path, &format!("column `{name}` has a row without a number"), "null");
+        if column.null_count() == 0 { Ok(column.values()) } else { Err(refusal()) }
+    }
+
+    /// A number from 0 to 2^32 - 1; `None` for null.
+    pub fn count_or_null(&self, name: &str, row: usize) -> Result<Option<u32>> {
+        let column = self.column(name, |kind| *kind == DataType::Int64)?;
+        if column.is_null(row) { Ok(None) } else { self.count(name, row).map(Some) }
+    }
+
     /// A number from 0 to 2^32 - 1.
     pub fn count(&self, name: &str, row: usize) -> Result<u32> {
         let column = self.column(name, |kind| *kind == DataType::Int64)?.as_primitive::<Int64Type>();

@@ -29,6 +29,8 @@ pub struct PublishedFlight {
     pub pedestrian_id: String,
     /// Name of the town.
     pub town: String,
+    /// Digest of the town's geometry; towns with the same one are the same place. Empty when it is not told.
+    pub town_geometry: String,
     /// `x = x_map - x_offset`, `y = -y_map - y_offset`, `z = z_map - z_offset`, metres.
     pub town_offset_m: DVec3,
     /// Name of the weather preset.
@@ -192,7 +194,7 @@ fn no_dataset(folder: &Path) -> Box<Diagnostic> {
 }
 
 /// Parquet files of a table with the names of their splits, in the order of train, val, test.
-fn table_files(folder: &Path) -> Result<Vec<(String, PathBuf)>> {
+pub(super) fn table_files(folder: &Path) -> Result<Vec<(String, PathBuf)>> {
     let refused = |error: std::io::Error| Diagnostic::io(format!("read `{}`", folder.display()), &error);
     let mut files = vec![];
     for entry in std::fs::read_dir(folder).map_err(refused)? {
@@ -209,11 +211,12 @@ fn table_files(folder: &Path) -> Result<Vec<(String, PathBuf)>> {
 
 /// What names of weather columns begin with.
 const WEATHER: &str = "weather_";
-const FLIGHT_COLUMNS: [&str; 15] = [
+const FLIGHT_COLUMNS: [&str; 16] = [
     "trajectory_id",
     "expert_id",
     "pedestrian_id",
     "town",
+    "town_geometry_blake3",
     "town_offset_m",
     "frames",
     "dt_s",
@@ -266,6 +269,7 @@ impl PublishedFlight {
             expert_id: rows.text("expert_id", row)?.filter(|id| !id.is_empty()),
             pedestrian_id: text("pedestrian_id")?,
             town: text("town")?,
+            town_geometry: rows.text_or("town_geometry_blake3", row, "")?,
             town_offset_m: DVec3::from_array(rows.vector("town_offset_m", row)?),
             weather: text("weather_preset")?,
             weather_numbers,

@@ -5,9 +5,11 @@
 mod columns;
 mod flights;
 mod log;
+mod tracks;
 
 pub use flights::{PublishedDataset, PublishedFlight, PublishedFrame};
 pub use log::{LogReader, LoggedFrame, SceneBox};
+pub use tracks::FlightTrack;
 
 #[cfg(test)]
 mod tests;

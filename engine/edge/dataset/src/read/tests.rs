@@ -81,3 +81,16 @@ fn what_is_no_dataset_or_is_cut_short_is_refused() {
     std::fs::write(&path, &bytes[..bytes.len() / 2]).unwrap();
     assert!(dataset.log(flight).is_err());
 }
+
+#[test]
+fn all_tracks_at_once_are_those_of_the_single_flights() {
+    let (_folder, dataset) = published();
+    for (flight, track) in dataset.flights().iter().zip(dataset.tracks().unwrap()) {
+        let frames = dataset.frames(flight).unwrap();
+        assert_eq!(track.poses, frames.iter().map(|frame| frame.pose).collect::<Vec<_>>());
+        assert_eq!(track.boxes, frames.iter().map(|frame| frame.visible_box_px).collect::<Vec<_>>());
+        assert_eq!(track.expert_frame, (0..frames.len() as u32).collect::<Vec<_>>());
+        assert_eq!((track.feet.len(), track.visible.len()), (frames.len(), frames.len()));
+        assert_eq!(flight.town_geometry.len(), 64);
+    }
+}

@@ -109,7 +109,7 @@ mod tests {
         for (method, curve) in [(Extrapolation::ConstantVelocity, 0.0), (Extrapolation::ConstantAcceleration, 1.0)] {
             let mut poses = along(|t| a * t + curve * b * t * t);
             poses.iter_mut().for_each(|pose| pose.pitch_rad = -0.7);
-            let found = method.predict(&View { poses: &poses[..5], feet: &[], horizon: 5 });
+            let found = method.predict(&View { poses: &poses[..5], feet: &[], horizon: 5, ..View::default() });
             let errors = crate::errors(&found.waypoints, &poses[5..]);
             assert!(errors.ade_m < 1e-9 && errors.rotation_mae_deg < 1e-9, "{method:?} {errors:?}");
         }
@@ -119,19 +119,23 @@ mod tests {
     fn the_target_is_copied_and_nothing_is_needed() {
         let poses = along(|_| DVec3::Z);
         let feet: Vec<DVec3> = (0..5).map(|k| DVec3::new(f64::from(k), 0.0, 0.0)).collect();
-        let found = Extrapolation::CopyTarget.predict(&View { poses: &poses[..5], feet: &feet, horizon: 3 });
+        let found =
+            Extrapolation::CopyTarget.predict(&View { poses: &poses[..5], feet: &feet, horizon: 3, ..View::default() });
         assert_eq!(found.waypoints[2].position_in_world, DVec3::new(3.0, 0.0, 1.0));
         for method in Extrapolation::ALL {
-            let alone = method.predict(&View { poses: &poses[..1], feet: &feet[..1], horizon: 2 });
+            let alone = method.predict(&View { poses: &poses[..1], feet: &feet[..1], horizon: 2, ..View::default() });
             assert_eq!(alone.waypoints[1].position_in_world, DVec3::Z, "{method:?}");
-            assert_eq!(method.predict(&View { poses: &[], feet: &[], horizon: 2 }).waypoints.len(), 2);
+            assert_eq!(
+                method.predict(&View { poses: &[], feet: &[], horizon: 2, ..View::default() }).waypoints.len(),
+                2
+            );
         }
     }
 
     #[test]
     fn an_anchor_moves_the_whole_prediction() {
         let poses = along(|t| DVec3::X * t);
-        let found = Extrapolation::Zero.predict(&View { poses: &poses[..5], feet: &[], horizon: 2 });
+        let found = Extrapolation::Zero.predict(&View { poses: &poses[..5], feet: &[], horizon: 2, ..View::default() });
         let anchor = Pose::looking_at(DVec3::new(0.0, 7.0, 0.0), DVec3::new(9.0, 7.0, 0.0));
         assert_eq!(found.started_at(&anchor), [anchor, anchor]);
     }

@@ -39,6 +39,13 @@ pub fn relative(current: &Pose, pose: &Pose) -> [f64; PER_WAYPOINT] {
     ]
 }
 
+/// `pose` seen from `start`, but along the axes of the current pose, which is the one that a model knows.
+pub fn outcome(view: &View<'_>, start: &Pose, pose: &Pose) -> [f64; PER_WAYPOINT] {
+    let mut numbers = relative(&Pose { yaw_rad: view.current().yaw_rad, ..*start }, pose);
+    numbers[4] = real::wrap_angle_rad(pose.yaw_rad - start.yaw_rad);
+    numbers
+}
+
 /// The pose that is `relative` to `current`.
 pub fn absolute(current: &Pose, [ahead, right, up, pitch, yaw, roll]: [f64; PER_WAYPOINT]) -> Pose {
     Pose {
@@ -75,12 +82,8 @@ impl Examples {
     pub fn push(&mut self, view: &View<'_>, start: &Pose, truth: &[Pose]) {
         let (features, outcomes) = (self.features.len(), self.outcomes.len());
         push_features(view, &mut self.features);
-        // Seen from `start`, but along the axes of the pose that the model knows.
-        let frame = Pose { yaw_rad: view.current().yaw_rad, ..*start };
         for pose in truth {
-            let mut numbers = relative(&frame, pose);
-            numbers[4] = real::wrap_angle_rad(pose.yaw_rad - start.yaw_rad);
-            self.outcomes.extend(numbers);
+            self.outcomes.extend(outcome(view, start, pose));
         }
         let (width, depth) = (self.features.len() - features, self.outcomes.len() - outcomes);
         if features == 0 {

@@ -6,22 +6,28 @@
 pub mod extrapolate;
 pub mod features;
 pub mod nearest;
+pub mod network;
 pub mod ridge;
 mod solve;
 
 pub use extrapolate::Extrapolation;
 pub use nearest::NearestNeighbour;
+pub use network::Network;
 pub use ridge::Ridge;
 
 use cosfly_frames::{DVec3, Pose};
 
 /// What a baseline sees of a window: the input frames, the last one is the current one.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, Default)]
 pub struct View<'a> {
     /// Poses of the drone.
     pub poses: &'a [Pose],
     /// The target's feet in the same frames.
     pub feet: &'a [DVec3],
+    /// Edges around its visible pixels in their images: left, top, right, bottom.
+    pub boxes: &'a [Option<[f32; 4]>],
+    /// Width and height of the images.
+    pub image_px: [f32; 2],
     /// Waypoints to predict.
     pub horizon: usize,
 }

@@ -105,11 +105,17 @@ mod tests {
         };
         for step in [0.5, 1.0, 1.5, 2.0] {
             let poses = poses(step);
-            examples.push(&View { poses: &poses[..5], feet: &[DVec3::ZERO; 5], horizon: 5 }, &poses[4], &poses[5..]);
+            examples.push(
+                &View { poses: &poses[..5], feet: &[DVec3::ZERO; 5], horizon: 5, ..View::default() },
+                &poses[4],
+                &poses[5..],
+            );
         }
         let memory = NearestNeighbour::fit(&examples, 100).unwrap();
         let poses = poses(1.5);
-        let found = memory.predict(&View { poses: &poses[..5], feet: &[DVec3::ZERO; 5], horizon: 5 }).unwrap();
+        let found = memory
+            .predict(&View { poses: &poses[..5], feet: &[DVec3::ZERO; 5], horizon: 5, ..View::default() })
+            .unwrap();
         assert!(crate::errors(&found.waypoints, &poses[5..]).fde_m < 1e-9);
         assert_eq!(NearestNeighbour::fit(&examples, 2).unwrap().len(), 2);
         assert_eq!(NearestNeighbour::fit(&examples, 0), None);

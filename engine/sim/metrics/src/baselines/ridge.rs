@@ -86,13 +86,17 @@ mod tests {
         let feet = [DVec3::ZERO; 5];
         for _ in 0..200 {
             let poses = window();
-            examples.push(&View { poses: &poses[..5], feet: &feet, horizon: 5 }, &poses[4], &poses[5..]);
+            examples.push(
+                &View { poses: &poses[..5], feet: &feet, horizon: 5, ..View::default() },
+                &poses[4],
+                &poses[5..],
+            );
         }
         let ridge = Ridge::fit(&examples).unwrap();
         let poses = window();
-        let found = ridge.predict(&View { poses: &poses[..5], feet: &feet, horizon: 5 }).unwrap();
+        let found = ridge.predict(&View { poses: &poses[..5], feet: &feet, horizon: 5, ..View::default() }).unwrap();
         assert!(crate::errors(&found.waypoints, &poses[5..]).fde_m < 0.05);
-        assert_eq!(ridge.predict(&View { poses: &poses[..4], feet: &feet, horizon: 5 }), None);
+        assert_eq!(ridge.predict(&View { poses: &poses[..4], feet: &feet, horizon: 5, ..View::default() }), None);
         assert_eq!(Ridge::fit(&Examples::default()), None);
     }
 }

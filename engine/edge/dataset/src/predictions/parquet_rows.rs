@@ -1,0 +1,177 @@
+//! Predictions in a Parquet file: the same fields as columns, lists as nested or flat lists of any float type.
+
+use super::waypoint::DIMENSIONS;
+use super::{Prediction, Predictions, RowProblem, checked, model_text};
+use arrow::array::{Array, ArrayRef, AsArray, RecordBatch};
+use arrow::compute::cast;
+use arrow::datatypes::{DataType, Float64Type, Int64Type};
+use cosfly_diagnose::{Diagnostic, Fault, Result};
+use parquet::arrow::arrow_reader::ParquetRecordBatchReaderBuilder;
+use std::fs::File;
+use std::path::Path;
+
+type Refusal = (&'static str, String);
+
+/// Reads all rows of `file`, which is at `path`.
+pub fn read(path: &Path, file: File) -> Result<Predictions> {
+    let unreadable = |error: &dyn std::fmt::Display| {
+        let message = format!("`{}` cannot be read as Parquet", path.display());
+        Diagnostic::new("predictions-damaged", Fault::Input, message).because(error)
+    };
+    let builder = ParquetRecordBatchReaderBuilder::try_new(file).map_err(|e| unreadable(&e))?;
+    let mut found = Predictions::default();
+    let mut line = 0;
+    for batch in builder.build().map_err(|e| unreadable(&e))? {
+        let batch = batch.map_err(|e| unreadable(&e))?;
+        let columns = Columns::of(&batch, path)?;
+        for row in 0..batch.num_rows() {
+            line += 1;
+            match columns.row(row, line) {
+                Ok(row) => found.rows.push(row),
+                Err((kind, reason)) => found.problems.push(RowProblem::new(line, kind, reason)),
+            }
+        }
+    }
+    Ok(found)
+}
+
+/// The columns of some rows, in the types that they are read as.
+struct Columns {
+    trajectory_id: ArrayRef,
+    frame: ArrayRef,
+    deltas: Option<ArrayRef>,
+    text: Option<ArrayRef>,
+    boxes: Option<ArrayRef>,
+}
+
+impl Columns {
+    fn of(batch: &RecordBatch, path: &Path) -> Result<Self> {
+        let find = |name: &str| batch.column_by_name(name);
+        let missing = |what: &str| {
+            let schema = batch.schema();
+            let names: Vec<&str> = schema.fields().iter().map(|field| field.name().as_str()).collect();
+            let message = format!("`{}` has no column {what}", path.display());
+            Diagnostic::new("predictions-column", Fault::Input, message)
+                .hint(format!("its columns are {}", names.join(", ")))
+        };
+        let as_type = |column: &ArrayRef, kind: DataType, name: &str| {
+            cast(column, &kind).map_err(|error| missing(&format!("`{name}` of a type that fits")).because(error))
+        };
+        let text_of = |name: &str| find(name).filter(|column| !column.data_type().is_nested());
+        let text = text_of("text").or_else(|| text_of("prediction"));
+        let deltas = find("waypoint_deltas").cloned();
+        if deltas.is_none() && text.is_none() {
+            return Err(missing("`waypoint_deltas`, `text` or `prediction`"));
+        }
+        Ok(Self {
+            trajectory_id: as_type(
+                find("trajectory_id").ok_or_else(|| missing("`trajectory_id`"))?,
+                DataType::Utf8,
+                "trajectory_id",
+            )?,
+            frame: as_type(find("frame").ok_or_else(|| missing("`frame`"))?, DataType::Int64, "frame")?,
+            deltas,
+            text: text.map(|column| as_type(column, DataType::Utf8, "text")).transpose()?,
+            boxes: find("boxes").cloned(),
+        })
+    }
+
+    fn row(&self, row: usize, line: u64) -> std::result::Result<Prediction, Refusal> {
+        let missing = |field: &str| ("field-missing", format!("the row has no `{field}`"));
+        let (ids, frames) = (self.trajectory_id.as_string::<i32>(), self.frame.as_primitive::<Int64Type>());
+        let trajectory_id = ids.is_valid(row).then(|| ids.value(row)).ok_or_else(|| missing("trajectory_id"))?;
+        let frame = frames.is_valid(row).then(|| frames.value(row)).ok_or_else(|| missing("frame"))?;
+        let frame = u64::try_from(frame)
+            .map_err(|_| ("frame", format!("`frame` is {frame}; it must be a whole number from 0")))?;
+        let given = self.deltas.as_ref().filter(|column| column.is_valid(row));
+        let said = self.text.as_ref().filter(|column| column.is_valid(row));
+        let deltas = match (given, said) {
+            (Some(column), _) => waypoints(&item(column, row)?)?,
+            (None, Some(text)) => {
+                model_text::deltas_in(text.as_string::<i32>().value(row)).map_err(|why| ("model-text", why))?
+            }
+            (None, None) => return Err(missing("waypoint_deltas`, `text` or `prediction")),
+        };
+        let boxes = match self.boxes.as_ref().filter(|column| column.is_valid(row)) {
+            Some(column) => boxes(&item(column, row)?)?,
+            None => vec![],
+        };
+        checked(Prediction { line, trajectory_id: trajectory_id.to_owned(), frame, deltas, boxes })
+    }
+}
+
+/// The list in row `row`.
+fn item(column: &ArrayRef, row: usize) -> std::result::Result<ArrayRef, Refusal> {
+    match column.data_type() {
+        DataType::List(_) => Ok(column.as_list::<i32>().value(row)),
+        DataType::LargeList(_) => Ok(column.as_list::<i64>().value(row)),
+        DataType::FixedSizeList(..) => Ok(column.as_fixed_size_list().value(row)),
+        other => Err(("field-type", format!("a list was expected, not {other}"))),
+    }
+}
+
+/// Numbers of a flat array; null is none.
+fn numbers(array: &ArrayRef) -> std::result::Result<Vec<f64>, Refusal> {
+    let cast = cast(array, &DataType::Float64).map_err(|error| ("field-type", error.to_string()))?;
+    let values = cast.as_primitive::<Float64Type>();
+    if values.null_count() > 0 {
+        return Err(("field-type", "a number is null".to_owned()));
+    }
+    Ok(values.values().to_vec())
+}
+
+/// Increments: lists, objects, or one flat list of six numbers each.
+fn waypoints(list: &ArrayRef) -> std::result::Result<Vec<[f64; 6]>, Refusal> {
+    match list.data_type() {
+        DataType::Struct(_) => waypoints_of_objects(list),
+        kind if kind.is_nested() => (0..list.len()).map(|at| waypoint(&numbers(&item(list, at)?)?)).collect(),
+        _ => {
+            let flat = numbers(list)?;
+            let (waypoints, rest) = flat.as_chunks::<6>();
+            if rest.is_empty() {
+                Ok(waypoints.to_vec())
+            } else {
+                Err(("length", format!("a flat list of {} numbers; six each were expected", flat.len())))
+            }
+        }
+    }
+}
+
+fn waypoint(given: &[f64]) -> std::result::Result<[f64; 6], Refusal> {
+    if given.is_empty() || given.len() > 6 {
+        return Err(("field-type", format!("a waypoint has {} numbers; one to six were expected", given.len())));
+    }
+    let mut waypoint = [0.0; 6];
+    waypoint[..given.len()].copy_from_slice(given);
+    Ok(waypoint)
+}
+
+fn waypoints_of_objects(list: &ArrayRef) -> std::result::Result<Vec<[f64; 6]>, Refusal> {
+    let (objects, mut waypoints) = (list.as_struct(), vec![[0.0; 6]; list.len()]);
+    let mut known = false;
+    for (place, name) in DIMENSIONS.iter().enumerate() {
+        if let Some(column) = objects.column_by_name(name) {
+            known = true;
+            for (waypoint, value) in waypoints.iter_mut().zip(numbers(column)?) {
+                waypoint[place] = value;
+            }
+        }
+    }
+    if known {
+        Ok(waypoints)
+    } else {
+        Err(("field-type", "a waypoint names none of dx, dy, dz, dpitch, dyaw, droll".into()))
+    }
+}
+
+fn boxes(list: &ArrayRef) -> std::result::Result<Vec<Option<[f64; 4]>>, Refusal> {
+    let one = |at: usize| {
+        if list.is_null(at) {
+            return Ok(None);
+        }
+        let edges = numbers(&item(list, at)?)?;
+        let count = edges.len();
+        <[f64; 4]>::try_from(edges).map(Some).map_err(|_| ("field-type", format!("a box has {count} numbers, not 4")))
+    };
+    (0..list.len()).map(one).collect()
+}

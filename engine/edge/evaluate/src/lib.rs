@@ -1,0 +1,24 @@
+//! Scores of predictions on a published dataset, beside baselines, by strata, with intervals.
+//!
+//! * [`settings`]: what can be chosen.
+//! * [`windows`]: the windows of a dataset that are to be predicted.
+//! * [`join`]: which prediction belongs to which window, and rows that belong to none.
+//! * [`methods`]: predictions and baselines, asked alike for the waypoints of a window.
+//! * [`strata`] and [`scoring`]: errors, added up by trajectory and stratum.
+//! * [`study`]: small networks trained to test two findings of the paper.
+//! * [`report`]: the result as JSON, Markdown and a picture.
+
+pub mod join;
+pub mod methods;
+pub mod report;
+pub mod scoring;
+pub mod settings;
+pub mod strata;
+pub mod study;
+pub mod windows;
+
+mod evaluation;
+
+pub use evaluation::evaluate;
+pub use report::Evaluation;
+pub use settings::{InputRole, Settings};

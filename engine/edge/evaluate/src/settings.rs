@@ -1,0 +1,61 @@
+//! What can be chosen about an evaluation.
+
+use cosfly_metrics::baselines::Anchor;
+use cosfly_metrics::baselines::network::Training;
+use cosfly_metrics::{DeltaFrame, DeltaOrigin, WindowShape, bootstrap};
+use serde::Serialize;
+
+/// Which flights models see.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "snake_case")]
+pub enum InputRole {
+    /// Perturbed ones; the truth is their expert's.
+    Perturbed,
+    /// Experts; the truth is their own.
+    Expert,
+}
+
+/// Choices; all of them are written into the report.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Settings {
+    /// How windows are cut.
+    pub window: WindowShape,
+    /// Axes of the increments.
+    pub delta_frame: DeltaFrame,
+    /// Pose that each increment starts from.
+    pub delta_origin: DeltaOrigin,
+    /// Pose that the first increment starts from.
+    pub anchor: Anchor,
+    /// Flights that models see.
+    pub input: InputRole,
+    /// The splits to score; empty: those of the predicted flights, without predictions val and test.
+    pub splits: Vec<String>,
+    /// Windows without a prediction are scored as if all increments were zero.
+    pub missing_as_zero: bool,
+    /// Resamples behind an interval.
+    pub resamples: usize,
+    /// Seed of the resamples and of networks.
+    pub seed: u64,
+    /// Train small networks, too.
+    pub train: bool,
+    /// How; their seeds come from `seed`.
+    pub training: Training,
+}
+
+impl Default for Settings {
+    fn default() -> Self {
+        Self {
+            window: WindowShape::default(),
+            delta_frame: DeltaFrame::World,
+            delta_origin: DeltaOrigin::Previous,
+            anchor: Anchor::Input,
+            input: InputRole::Perturbed,
+            splits: vec![],
+            missing_as_zero: false,
+            resamples: bootstrap::RESAMPLES,
+            seed: 1,
+            train: false,
+            training: Training::default(),
+        }
+    }
+}

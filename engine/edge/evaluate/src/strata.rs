@@ -1,0 +1,62 @@
+//! Kinds of windows that are scored separately.
+
+use crate::windows::{Flights, Window, WindowSet};
+use cosfly_dataset::read::PublishedFlight;
+use cosfly_metrics::{Difficulty, WindowShape};
+use rayon::prelude::*;
+use std::collections::BTreeSet;
+
+/// Number of strata.
+pub const COUNT: usize = 9;
+
+/// Kind and name of each stratum; a window is in one of each kind.
+pub const STRATA: [(&str, &str); COUNT] = [
+    ("difficulty", "easy"),
+    ("difficulty", "medium"),
+    ("difficulty", "hard"),
+    ("scene", "seen"),
+    ("scene", "unseen"),
+    ("target in the input", "visible"),
+    ("target in the input", "occluded"),
+    ("target", "moving"),
+    ("target", "static"),
+];
+
+/// Places in [`STRATA`], one bit each.
+pub type Membership = u16;
+
+/// The strata of every window.
+///
+/// * difficulty: see [`cosfly_metrics::difficulty`].
+/// * scene: a town is seen when a flight of split `train` is in a town of the same geometry.
+/// * target in the input: occluded when rays reach less than half of it in an input frame.
+/// * target: static when it stays within half a metre during the window.
+pub fn memberships(flights: &Flights, windows: &WindowSet) -> Vec<Membership> {
+    let train = flights.rows.iter().filter(|row| row.split == "train");
+    let seen: BTreeSet<&str> = train.map(place_of).collect();
+    let of_flight = |entry: &(usize, usize)| -> Vec<Membership> {
+        let row = &flights.rows[entry.0];
+        let scene = if seen.contains(place_of(row)) { 3 } else { 4 };
+        let numbered = windows.of_flight(*entry, row.frames);
+        numbered.map(|(_, window)| (1 << scene) | of_window(flights, window, &windows.shape)).collect()
+    };
+    windows.flights.par_iter().flat_map_iter(of_flight).collect()
+}
+
+/// The town by its geometry, by its name in datasets that do not tell the geometry.
+fn place_of(row: &PublishedFlight) -> &str {
+    if row.town_geometry.is_empty() { &row.town } else { &row.town_geometry }
+}
+
+fn of_window(flights: &Flights, window: Window, shape: &WindowShape) -> Membership {
+    let features = flights.features(window, shape);
+    let difficulty = match features.difficulty() {
+        Difficulty::Easy => 0,
+        Difficulty::Medium => 1,
+        Difficulty::Hard => 2,
+    };
+    let input = &flights.tracks[window.flight].visible[window.start..window.start + shape.history];
+    let occluded = if input.iter().any(|visible| *visible < 0.5) { 6 } else { 5 };
+    let target = if features.target_is_static() { 8 } else { 7 };
+    (1 << difficulty) | (1 << occluded) | (1 << target)
+}

@@ -1,0 +1,101 @@
+//! `cosfly eval` through the real binary: scores, baselines, malformed rows, refusals.
+
+use crate::street::Street;
+use crate::support::{Printed, cosfly, tree_digests};
+use std::path::Path;
+
+fn street() -> Street {
+    let street = Street::new();
+    cosfly(&["run", "recipe.toml", "--quiet"]).within(street.path()).run_ok();
+    street
+}
+
+fn eval(street: &Street, arguments: &[&str]) -> Printed {
+    cosfly(&[&["eval", "--dataset", "out/street"], arguments].concat()).within(street.path()).run()
+}
+
+fn row(trajectory: &str, step: &str) -> String {
+    let deltas = [step; 5].join(", ");
+    format!("{{\"trajectory_id\": \"{trajectory}\", \"frame\": 0, \"waypoint_deltas\": [{deltas}]}}\n")
+}
+
+fn report(path: &Path) -> serde_json::Value {
+    serde_json::from_slice(&std::fs::read(path.join("report.json")).expect("a report")).expect("JSON")
+}
+
+#[test]
+fn predictions_are_scored_beside_baselines_the_same_way_twice() {
+    let street = street();
+    let ids = ["perturbed-p00000", "perturbed-p00001", "perturbed-p00002"];
+    let text: String = ids.iter().map(|id| row(id, "[0, 0, 0]")).collect();
+    std::fs::write(street.path().join("zero.jsonl"), text).expect("writable");
+    let before = tree_digests(&street.dataset());
+    let printed = eval(&street, &["zero.jsonl"]);
+    assert_eq!(printed.code, Some(0), "{}", printed.stderr);
+    assert!(printed.stdout.contains("| SR@1m %") && printed.stdout.contains("constant velocity"), "{}", printed.stdout);
+    let folder = street.path().join("zero-evaluation");
+    let found = report(&folder);
+    assert_eq!((&found["rows"]["scored"], &found["rows"]["malformed"]), (&3.into(), &0.into()));
+    assert_eq!(found["methods"][0]["scores"]["fde_m"], found["methods"][1]["scores"]["fde_m"], "zero is zero");
+    let again = eval(&street, &["zero.jsonl", "--out", "again", "--json"]);
+    assert_eq!(again.stdout, std::fs::read_to_string(street.path().join("again/report.json")).expect("a report"));
+    assert!(tree_digests(&folder) == tree_digests(&street.path().join("again")));
+    assert!(tree_digests(&street.dataset()) == before, "the dataset itself is not touched");
+}
+
+#[test]
+fn baselines_are_scored_without_predictions() {
+    let street = street();
+    let printed = eval(&street, &["--out", "base", "--input", "expert"]);
+    assert_eq!(printed.code, Some(0), "{}", printed.stderr);
+    let found = report(&street.path().join("base"));
+    assert!(found["rows"].is_null() && found["methods"][0]["name"] == "predict zero");
+}
+
+#[test]
+fn malformed_rows_are_counted_and_named() {
+    let street = street();
+    let answer = "<think>[1, 2]</think> Here: {\\\"waypoint_deltas\\\": [{\\\"dx\\\": 1}, [1], [1], [1], [1]]}";
+    let text = [
+        format!("{{\"trajectory_id\": \"perturbed-p00001\", \"frame\": 0, \"text\": \"{answer}\"}}\n"),
+        "{\"trajectory_id\": \"perturbed-p00001\"\n".to_owned(),
+        row("perturbed-p00001", "[1]"),
+        row("perturbed-p00099", "[1]"),
+        row("perturbed-p00000", "[NaN]"),
+        row("perturbed-p00000", "[1e999]"),
+        row("expert-p00000", "[1]"),
+        row("perturbed-p00002", "[1]").replace("\"frame\": 0", "\"frame\": 1"),
+        row("perturbed-p00002", "[1], [2]"),
+        "{\"trajectory_id\": \"perturbed-p00002\", \"frame\": 0, \"text\": \"no\"}\n".to_owned(),
+    ];
+    std::fs::write(street.path().join("mixed.jsonl"), text.concat()).expect("writable");
+    let printed = eval(&street, &["mixed.jsonl"]);
+    assert_eq!(printed.code, Some(1), "{}", printed.stderr);
+    assert!(printed.stdout.contains("9 of 10 rows") && printed.stdout.contains("line 2: "), "{}", printed.stdout);
+    let problems = report(&street.path().join("mixed-evaluation"))["rows"]["problems"].clone();
+    insta::assert_snapshot!("eval_malformed", serde_json::to_string_pretty(&problems).expect("JSON"));
+}
+
+#[test]
+fn what_cannot_be_scored_is_refused_with_a_way_out() {
+    let street = street();
+    std::fs::write(street.path().join("strangers.jsonl"), row("nobody", "[1]")).expect("writable");
+    std::fs::write(street.path().join("empty.jsonl"), "").expect("writable");
+    for (name, arguments) in [
+        ("eval_no_overlap", &["strangers.jsonl"][..]),
+        ("eval_empty", &["empty.jsonl"]),
+        ("eval_no_file", &["nowhere.jsonl"]),
+        ("eval_unknown_split", &["strangers.jsonl", "--split", "exam"]),
+        ("eval_too_long", &["strangers.jsonl", "--history", "50"]),
+    ] {
+        let printed = eval(&street, arguments);
+        let code = printed.code.unwrap_or(-1);
+        insta::assert_snapshot!(name, format!("exit code {code}\n{}", printed.stderr));
+        assert!(!street.path().join("strangers-evaluation").exists());
+    }
+}
+
+#[test]
+fn the_help_has_examples() {
+    insta::assert_snapshot!("help_eval", cosfly(&["eval", "--help"]).run_ok().stdout);
+}
