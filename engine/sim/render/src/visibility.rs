@@ -37,6 +37,12 @@ impl PlaneOnScreen {
         constant.is_finite().then_some(Self { constant, across, down })
     }
 
+    /// The inverse depth at pixel coordinates, 1/m.
+    #[inline]
+    pub fn at(&self, u: f64, v: f64) -> f64 {
+        self.constant + self.across * u + self.down * v
+    }
+
     /// The plane with its inverse depth greater by a share.
     pub fn lifted(&self, bias: f64) -> Self {
         let factor = 1.0 + bias;

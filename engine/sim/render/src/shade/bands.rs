@@ -3,7 +3,7 @@
 use super::facade::{BoxFace, Facade, Roof, facade, roofs};
 use super::geometry::{FaceAxes, place};
 use super::ground::ground;
-use super::lanes::{BLOCKS, Block, LANES, Stage, WIDE, get};
+use super::lanes::{Block, FOUR, FOURS, GROUPS, LANES, Shared, Stage, WIDE, get, groups};
 use super::light::Light;
 use super::lighting::{self, Answers};
 use super::pattern::{NoiseTexture, Noises, share};
@@ -14,7 +14,7 @@ use super::{Seen, Shader};
 use crate::passes::ids::{Band, Run};
 use crate::renderer::{DrawnFace, FaceSource};
 use crate::scene::{BOX_FACES, SceneBox};
-use crate::visibility::NO_FACE;
+use crate::visibility::{NO_FACE, PlaneOnScreen};
 use cosfly_frames::simd_kernel;
 use cosfly_maps::{ObstacleKind, SemanticLabel};
 use std::sync::PoisonError;
@@ -28,7 +28,8 @@ const END: u32 = u32::MAX;
 /// What one thread needs to shade bands.
 pub(crate) struct Worker {
     stage: Box<Stage>,
-    blocks: Box<[Block; BLOCKS]>,
+    shared: Box<[Shared; GROUPS]>,
+    blocks: Box<[Block; FOUR * GROUPS]>,
     /// Bytes of the blocks' pixels, in a row.
     developed: Box<[u32; LANES + WIDE]>,
     runs: Vec<Link>,
@@ -46,12 +47,24 @@ struct Link {
     next: u32,
 }
 
-/// Pixels of a run that went into the blocks.
+/// Pixels of a run that go into the blocks, from the first pixel of a four, and the plane of their face.
 #[derive(Clone, Copy)]
 struct Piece {
+    /// First pixel, from the start of the band.
     start: usize,
+    /// Its place in the blocks.
     lane: usize,
+    /// Pixels.
     length: usize,
+    /// The first pixel's centre.
+    u: f32,
+    v: f32,
+    /// Inverse depth there, 1/m, and its changes per pixel.
+    inverse: f32,
+    across: f32,
+    down: f32,
+    /// Unit normal of the face, any side.
+    normal: [f32; 3],
 }
 
 /// What the pixels of a group are made of.
@@ -96,12 +109,13 @@ impl Worker {
     fn new() -> Self {
         Self {
             stage: Box::new(Stage::EMPTY),
-            blocks: Box::new([Block::EMPTY; BLOCKS]),
+            shared: Box::new([Shared::EMPTY; GROUPS]),
+            blocks: Box::new([Block::EMPTY; FOUR * GROUPS]),
             developed: Box::new([0; LANES + WIDE]),
             runs: Vec::new(),
             first: Vec::new(),
             present: Vec::new(),
-            pieces: Vec::with_capacity(LANES),
+            pieces: Vec::with_capacity(FOURS),
         }
     }
 
@@ -129,7 +143,7 @@ impl Worker {
                 && group < SKY
                 && let Some(last) = self.runs.last_mut()
                 && !(run.start as usize).is_multiple_of(band.width)
-                && normal_of(seen, last.run.face) == normal_of(seen, run.face)
+                && are_one_plane(seen, band, &last.run, run)
             {
                 last.run.length += run.length;
                 continue;
@@ -148,25 +162,27 @@ impl Worker {
         let mut next = self.first[group];
         let first = self.runs[next as usize].run;
         let (material, axes) = material_of(shader, seen, first.face);
-        let is_ground = group < SHARED_GROUPS;
         let mut lanes = 0;
-        if !is_ground {
-            let normal = normal_of(seen, first.face);
-            for (row, value) in self.stage.normal.iter_mut().zip([normal.x, normal.y, normal.z]) {
-                row.fill(value);
-            }
-        }
         while next != END {
             let Link { run, next: after } = self.runs[next as usize];
             next = after;
+            let (on_screen, normal) = plane_of(seen, run.face);
             let (mut start, end) = (run.start as usize, (run.start + run.length) as usize);
-            let normal = if is_ground { normal_of(seen, run.face) } else { Vec3::ZERO };
             while start < end {
                 let length = (end - start).min(LANES - lanes);
-                let piece = Piece { start, lane: lanes, length };
-                self.fill(band, piece, is_ground.then_some(normal));
-                self.pieces.push(piece);
-                lanes += length;
+                let (u, v) = center_of(band, start);
+                self.pieces.push(Piece {
+                    start,
+                    lane: lanes,
+                    length,
+                    u: u as f32,
+                    v: v as f32,
+                    inverse: on_screen.at(u, v) as f32,
+                    across: on_screen.across as f32,
+                    down: on_screen.down as f32,
+                    normal,
+                });
+                lanes += length.next_multiple_of(FOUR);
                 start += length;
                 if lanes == LANES {
                     self.flush(shader, seen, &material, &axes, lanes, band.picture);
@@ -176,38 +192,6 @@ impl Worker {
         }
         if lanes > 0 {
             self.flush(shader, seen, &material, &axes, lanes, band.picture);
-        }
-    }
-
-    /// Puts a piece of a run on the stage, sixteen pixels at a time: what is too much, the next piece writes over.
-    #[inline]
-    fn fill(&mut self, band: &Band<'_>, piece: Piece, normal: Option<Vec3>) {
-        let column = piece.start % band.width;
-        let v = (band.first_row + piece.start / band.width) as f32 + 0.5;
-        let u = column as f32 + 0.5;
-        let depth_m = &band.depth_m[piece.start..];
-        let stage = &mut *self.stage;
-        for done in (0..piece.length).step_by(WIDE) {
-            let lane = piece.lane + done;
-            let lanes = lane..lane + WIDE;
-            let base = u + done as f32;
-            for (k, u) in stage.u[lanes.clone()].iter_mut().enumerate() {
-                *u = base + k as i32 as f32;
-            }
-            stage.v[lanes.clone()].fill(v);
-            if let (Some(depths), Some(out)) =
-                (depth_m[done..].first_chunk::<WIDE>(), stage.depth_m[lane..].first_chunk_mut::<WIDE>())
-            {
-                *out = *depths;
-            } else {
-                let rest = &depth_m[done..];
-                stage.depth_m[lane..lane + rest.len()].copy_from_slice(rest);
-            }
-            if let Some(normal) = normal {
-                for (row, value) in stage.normal.iter_mut().zip([normal.x, normal.y, normal.z]) {
-                    row[lanes.clone()].fill(value);
-                }
-            }
         }
     }
 
@@ -221,19 +205,84 @@ impl Worker {
         lanes: usize,
         picture: &mut [u32],
     ) {
-        let blocks = &mut self.blocks[..lanes.div_ceil(WIDE)];
-        run_kernels(shader, seen, material, axes, &self.stage, blocks);
-        for (out, block) in self.developed.as_chunks_mut::<WIDE>().0.iter_mut().zip(blocks.iter()) {
-            *out = block.bytes;
-        }
-        put_back(shader.level, &self.pieces, &self.developed, picture);
+        let groups = lanes.div_ceil(FOUR * WIDE);
+        fill(shader.level, &self.pieces, &mut self.stage);
+        let (shared, blocks) = (&mut self.shared[..groups], &mut self.blocks[..FOUR * groups]);
+        run_kernels(shader, seen, material, axes, &self.stage, (shared, blocks));
+        put_back(shader.level, &self.pieces, &self.blocks[..FOUR * groups], &mut self.developed, picture);
         self.pieces.clear();
     }
 }
 
+/// Coordinates of the centre of a band's pixel.
+#[inline]
+fn center_of(band: &Band<'_>, pixel: usize) -> (f64, f64) {
+    let (column, row) = ((pixel % band.width) as u32, (band.first_row + pixel / band.width) as u32);
+    (f64::from(column) + 0.5, f64::from(row) + 0.5)
+}
+
+/// The plane of a face and its normal; any for the sky.
+#[inline]
+fn plane_of(seen: &Seen<'_>, face: u32) -> (PlaneOnScreen, [f32; 3]) {
+    let far = PlaneOnScreen { constant: 1.0, across: 0.0, down: 0.0 };
+    seen.faces.get(face as usize).map_or((far, [0.0; 3]), |face| (face.plane, face.normal))
+}
+
+/// Whether neighbouring runs of ground go on in one plane: its kernels know no other difference.
+fn are_one_plane(seen: &Seen<'_>, band: &Band<'_>, left: &Run, right: &Run) -> bool {
+    let ((left, left_normal), (plane, normal)) = (plane_of(seen, left.face), plane_of(seen, right.face));
+    let (u, v) = center_of(band, right.start as usize);
+    let near = |u: f64| (left.at(u, v) - plane.at(u, v)).abs() < 1e-4 * plane.at(u, v);
+    left_normal == normal && near(u) && near(u + f64::from(right.length))
+}
+
 simd_kernel! {
-    /// Copies lanes to where their pieces lie in the picture.
-    fn put_back(pieces: &[Piece], developed: &[u32; LANES + WIDE], picture: &mut [u32]) {
+    /// Puts pieces of runs on the stage, sixteen fours at a time: what is too much, the next piece writes over.
+    fn fill(pieces: &[Piece], stage: &mut Stage) {
+        for piece in pieces {
+            let step = FOUR as f32 * piece.across;
+            let first = piece.lane / FOUR;
+            for done in (0..piece.length.div_ceil(FOUR)).step_by(WIDE) {
+                let fours = first.wrapping_add(done)..first.wrapping_add(done).wrapping_add(WIDE);
+                let aside = (FOUR.wrapping_mul(done)) as i32 as f32;
+                let (from_u, inverse) = (piece.u + aside, piece.inverse + piece.across * aside);
+                let (mut u, mut inverses) = ([0.0; WIDE], [0.0; WIDE]);
+                for k in 0..WIDE {
+                    let aside = k as i32 as f32;
+                    u[k] = from_u + FOUR as f32 * aside;
+                    inverses[k] = inverse + step * aside;
+                }
+                let [x, y, z] = &mut stage.normal;
+                for (row, values) in [(&mut stage.u, u), (&mut stage.inverse, inverses)] {
+                    row[fours.clone()].copy_from_slice(&values);
+                }
+                for (row, value) in [
+                    (&mut stage.v, piece.v),
+                    (&mut stage.across, piece.across),
+                    (&mut stage.down, piece.down),
+                    (x, piece.normal[0]),
+                    (y, piece.normal[1]),
+                    (z, piece.normal[2]),
+                ] {
+                    row[fours.clone()].copy_from_slice(&[value; WIDE]);
+                }
+            }
+        }
+    }
+}
+
+simd_kernel! {
+    /// Copies lanes to where their pieces lie in the picture. `developed` is room for their bytes in a row.
+    fn put_back(pieces: &[Piece], blocks: &[Block], developed: &mut [u32; LANES + WIDE], picture: &mut [u32]) {
+        for (four, out) in blocks.as_chunks::<FOUR>().0.iter().zip(developed.as_chunks_mut::<{ FOUR * WIDE }>().0) {
+            let [a, b, c, d] = four.each_ref().map(|block| &block.bytes);
+            for k in 0..WIDE {
+                out[FOUR * k] = a[k];
+                out[FOUR * k + 1] = b[k];
+                out[FOUR * k + 2] = c[k];
+                out[FOUR * k + 3] = d[k];
+            }
+        }
         for piece in pieces {
             for done in (0..piece.length).step_by(WIDE) {
                 let (lane, at) = (piece.lane.wrapping_add(done), piece.start.wrapping_add(done));
@@ -267,54 +316,52 @@ fn run_kernels(
     material: &Material,
     axes: &FaceAxes,
     stage: &Stage,
-    blocks: &mut [Block],
+    (shared, blocks): (&mut [Shared], &mut [Block]),
 ) {
     let (level, light, noise) = (shader.level, &shader.light, &seen.scene.noise);
     if let Material::Sky = material {
-        lighting::sky(level, blocks, stage, &shader.view, light, noise);
-        lighting::develop(level, blocks, light.exposure, &shader.tone);
+        lighting::sky(level, blocks, stage, &shader.view, light, &shader.tone, noise);
         return;
     }
     let grid = &seen.scene.grid;
-    place(level, blocks, stage, &shader.view, axes, grid.tables(), &grid.frame(), light);
+    place(level, shared, blocks, stage, &shader.view, axes, grid.tables(), &grid.frame(), light);
+    if let (Material::Ground(_), Some((feet, radius_m))) = (material, shader.feet) {
+        contact(level, shared, feet, radius_m);
+    }
+    let is_bent = material.is_bent();
     if let Material::Thing(thing) = material
-        && matches!(thing.kind, ObstacleKind::TreeCrown | ObstacleKind::Bush)
+        && is_bent
     {
         swell(level, blocks, thing, shader.view.position);
     }
     if material.faces_away(stage, light) {
         blocks.iter_mut().for_each(|block| block.sunlight = [0.0; WIDE]);
     } else {
-        shader.shadows.sunlight(level, blocks, noise);
+        shader.shadows.sunlight(level, blocks, !is_bent, noise);
     }
-    if let (Material::Ground(_), Some((feet, radius_m))) = (material, shader.feet) {
-        contact(level, blocks, feet, radius_m);
-    }
-    let answers = material.answers();
     match material {
         Material::Sky => {}
-        Material::Ground(label) => ground(level, blocks, *label, noise),
-        Material::Facade(look, face) => facade(level, blocks, look, face, light.night, noise),
-        Material::Roof(roof) => roofs(level, blocks, roof, noise),
-        Material::Thing(thing) => things(level, blocks, thing, noise),
-        Material::Cloth(look) => cloth(level, blocks, look, noise),
+        Material::Ground(label) => ground(level, shared, blocks, *label, noise),
+        Material::Facade(look, face) => facade(level, shared, blocks, look, face, light.night, noise),
+        Material::Roof(roof) => roofs(level, shared, blocks, roof, noise),
+        Material::Thing(thing) => things(level, shared, blocks, thing, noise),
+        Material::Cloth(look) => cloth(level, shared, blocks, look, noise),
     }
+    lighting::arriving(level, shared, light, shader.haze);
+    if is_bent {
+        lighting::develop_bent(level, shared, blocks, light, &shader.tone);
+        return;
+    }
+    let answers = material.answers();
     let is_wet = answers.wettable && light.wet > 0.0;
     if is_wet {
-        lighting::wet(level, blocks, light, noise);
+        lighting::wet(level, shared, blocks, light, noise);
     }
-    lighting::dull(level, blocks, light);
-    if light.night > 0.0 {
-        lighting::lamps(level, blocks, light);
-        if answers.glows {
-            lighting::glow(level, blocks);
-        }
+    let is_shiny = is_wet || answers.shiny;
+    if is_shiny {
+        lighting::mirrored(level, shared, light);
     }
-    if is_wet || answers.shiny {
-        lighting::mirrored(level, blocks, light);
-    }
-    lighting::hazy(level, blocks, shader.haze);
-    lighting::develop(level, blocks, light.exposure, &shader.tone);
+    lighting::develop(level, shared, blocks, light, &shader.tone, answers.glows && light.night > 0.0, is_shiny);
 }
 
 fn group_of(faces: &[DrawnFace], face: u32) -> usize {
@@ -326,13 +373,6 @@ fn group_of(faces: &[DrawnFace], face: u32) -> usize {
         FaceSource::Ground { .. } => usize::from(drawn.label).min(SKY - 1),
         _ => SHARED_GROUPS + face as usize,
     }
-}
-
-/// Normal of a face, any side.
-#[inline]
-fn normal_of(seen: &Seen<'_>, face: u32) -> Vec3 {
-    let [x, y, z] = seen.faces.get(face as usize).map_or([0.0; 3], |face| face.normal);
-    Vec3::new(x, y, z)
 }
 
 fn material_of(shader: &Shader, seen: &Seen<'_>, face: u32) -> (Material, FaceAxes) {
@@ -377,14 +417,19 @@ fn box_material(b: &SceneBox, face: usize, night: f32) -> (Material, FaceAxes) {
 }
 
 impl Material {
+    /// Whether it has normals of its own.
+    fn is_bent(&self) -> bool {
+        match self {
+            Self::Thing(thing) => matches!(thing.kind, ObstacleKind::TreeCrown | ObstacleKind::Bush),
+            Self::Cloth(_) => true,
+            Self::Sky | Self::Ground(_) | Self::Facade(..) | Self::Roof(_) => false,
+        }
+    }
+
     /// Whether the sun shines on the back of a flat face: no shadow matters there. Faces of boxes show their outside.
     fn faces_away(&self, stage: &Stage, light: &Light) -> bool {
-        let is_flat = match self {
-            Self::Facade(..) | Self::Roof(_) => true,
-            Self::Thing(thing) => !matches!(thing.kind, ObstacleKind::TreeCrown | ObstacleKind::Bush),
-            Self::Sky | Self::Ground(_) | Self::Cloth(_) => false,
-        };
-        let [x, y, z] = stage.normals(0).map(|lane| lane[0]);
+        let is_flat = matches!(self, Self::Facade(..) | Self::Roof(_) | Self::Thing(_)) && !self.is_bent();
+        let [x, y, z] = stage.normal.each_ref().map(|row| row[0]);
         is_flat && Vec3::new(x, y, z).dot(light.to_sun) <= 0.0
     }
 
@@ -420,18 +465,20 @@ struct Cloth {
 
 simd_kernel! {
     /// Clothes, skin and hair, round around the part's middle line.
-    fn cloth(blocks: &mut [Block], look: &Cloth, noise: &NoiseTexture) {
+    fn cloth(shared: &[Shared], blocks: &mut [Block], look: &Cloth, noise: &NoiseTexture) {
         let Cloth { colour, from, along } = *look;
         let per_length2 = 1.0 / (along.dot(along) + 1e-9);
-        for block in blocks.iter_mut() {
-            for k in 0..WIDE {
-                let point = block.point(k);
-                let weave = noise.grain(point.world.x * 40.0, point.world.z * 40.0, point.footprint_m * 40.0);
-                let fold = noise.clumps(point.world.x * 55.0, point.world.z * 35.0, point.footprint_m * 45.0);
-                let away = point.world - from;
-                let round = (away - along * share(away.dot(along) * per_length2)).unit();
-                let normal = (round + point.normal * 0.4).unit();
-                block.put(k, &Look::matt(colour * (0.62 + 0.25 * weave + 0.5 * fold), normal));
+        for (shared, four) in groups(shared, blocks) {
+            for block in four {
+                for k in 0..WIDE {
+                    let point = block.point(shared, k);
+                    let weave = noise.grain(point.world.x * 40.0, point.world.z * 40.0, point.footprint_m * 40.0);
+                    let fold = noise.clumps(point.world.x * 55.0, point.world.z * 35.0, point.footprint_m * 45.0);
+                    let away = point.world - from;
+                    let round = (away - along * share(away.dot(along) * per_length2)).unit();
+                    let normal = (round + point.normal * 0.4).unit();
+                    block.put_bent(k, &Look::matt(colour * (0.62 + 0.25 * weave + 0.5 * fold), normal));
+                }
             }
         }
     }
@@ -439,22 +486,15 @@ simd_kernel! {
 
 simd_kernel! {
     /// Less sky where something stands on the ground: around `feet`, `radius_m` wide.
-    fn contact(blocks: &mut [Block], feet: Vec3, radius_m: f32) {
+    fn contact(shared: &mut [Shared], feet: Vec3, radius_m: f32) {
         let per_radius2 = 1.0 / (radius_m * radius_m);
-        for block in blocks.iter_mut() {
-            let mut near = 0u32;
+        for shared in shared.iter_mut() {
             for k in 0..WIDE {
-                let away = get(&block.world, k) - feet;
-                near |= u32::from(away.dot(away) * per_radius2 < 9.0);
-            }
-            if near != 0 {
-                for k in 0..WIDE {
-                    let away = get(&block.world, k) - feet;
-                    let shade = share(1.0 - away.dot(away) * per_radius2 * (1.0 / 9.0));
-                    let kept = 1.0 - 0.55 * shade * shade * shade;
-                    block.sky[k] *= kept;
-                    block.lamps[k] *= kept;
-                }
+                let away = get(&shared.middle, k) - feet;
+                let shade = share(1.0 - away.dot(away) * per_radius2 * (1.0 / 9.0));
+                let kept = 1.0 - 0.55 * shade * shade * shade;
+                shared.sky[k] *= kept;
+                shared.lamps[k] *= kept;
             }
         }
     }

@@ -1,6 +1,6 @@
 //! Buildings: facades with floors, windows, shops and doors, and flat roofs, all drawn from the building's seed.
 
-use super::lanes::{Block, WIDE};
+use super::lanes::{Block, Shared, WIDE, groups};
 use super::pattern::{
     NoiseTexture, Noises, band, draw, floor_int, hash, least, lerp, most, one_if, smoothstep, stripes, unit,
 };
@@ -183,23 +183,32 @@ impl Facade {
     }
 
     #[inline(always)]
-    fn paint_all(&self, blocks: &mut [Block], place: &BoxFace, night: Option<f32>, noise: &NoiseTexture) {
-        for block in blocks.iter_mut() {
-            let mut in_shop = 0u32;
-            for k in 0..WIDE {
-                let point = block.point(k);
-                let up_m = point.world.z - place.foot_m;
-                let look = self.look(&point, place.along_m(&point), up_m, night, noise);
-                block.put(k, &look);
-                in_shop |= u32::from(up_m < self.floor_m);
-            }
-            if self.shops && in_shop != 0 {
+    fn paint_all(
+        &self,
+        shared: &[Shared],
+        blocks: &mut [Block],
+        place: &BoxFace,
+        night: Option<f32>,
+        noise: &NoiseTexture,
+    ) {
+        for (shared, four) in groups(shared, blocks) {
+            for block in four {
+                let mut in_shop = 0u32;
                 for k in 0..WIDE {
-                    let point = block.point(k);
+                    let point = block.point(shared, k);
                     let up_m = point.world.z - place.foot_m;
-                    let shop = self.shop(&point, place.along_m(&point), up_m, night, noise);
-                    let look = block.look(k).lerp(&shop, one_if(up_m < self.floor_m));
+                    let look = self.look(&point, place.along_m(&point), up_m, night, noise);
                     block.put(k, &look);
+                    in_shop |= u32::from(up_m < self.floor_m);
+                }
+                if self.shops && in_shop != 0 {
+                    for k in 0..WIDE {
+                        let point = block.point(shared, k);
+                        let up_m = point.world.z - place.foot_m;
+                        let shop = self.shop(&point, place.along_m(&point), up_m, night, noise);
+                        let look = block.look(k).lerp(&shop, one_if(up_m < self.floor_m));
+                        block.put(k, &look);
+                    }
                 }
             }
         }
@@ -226,24 +235,33 @@ impl BoxFace {
 
 simd_kernel! {
     /// The look of a facade.
-    pub fn facade(blocks: &mut [Block], facade: &Facade, place: &BoxFace, night: f32, noise: &NoiseTexture) {
+    pub fn facade(
+        shared: &[Shared],
+        blocks: &mut [Block],
+        facade: &Facade,
+        place: &BoxFace,
+        night: f32,
+        noise: &NoiseTexture,
+    ) {
         let (facade, place) = (*facade, *place);
         if night > 0.0 {
-            facade.paint_all(blocks, &place, Some(night), noise);
+            facade.paint_all(shared, blocks, &place, Some(night), noise);
         } else {
-            facade.paint_all(blocks, &place, None, noise);
+            facade.paint_all(shared, blocks, &place, None, noise);
         }
     }
 }
 
 simd_kernel! {
     /// The look of a flat roof.
-    pub fn roofs(blocks: &mut [Block], roof: &Roof, noise: &NoiseTexture) {
+    pub fn roofs(shared: &[Shared], blocks: &mut [Block], roof: &Roof, noise: &NoiseTexture) {
         let roof = *roof;
-        for block in blocks.iter_mut() {
-            for k in 0..WIDE {
-                let look = roof.look(&block.point(k), noise);
-                block.put(k, &look);
+        for (shared, four) in groups(shared, blocks) {
+            for block in four {
+                for k in 0..WIDE {
+                    let look = roof.look(&block.point(shared, k), noise);
+                    block.put(k, &look);
+                }
             }
         }
     }

@@ -1,7 +1,7 @@
 //! From pixels to places: world points, pixel sizes on the surface, openness to the sky, haze.
 
 use super::grid::{GridFrame, GridTables};
-use super::lanes::{Block, Stage, WIDE, get, set};
+use super::lanes::{Block, FOUR, Shared, Stage, WIDE, get, set};
 use super::light::Light;
 use super::pattern::{least, most, one_if};
 use super::vector::Vec3;
@@ -42,54 +42,83 @@ pub struct FaceAxes {
 simd_kernel! {
     /// Fills in what follows from pixel, depth and normal; turns normals to the camera.
     #[expect(clippy::too_many_arguments, reason = "everything that places depend on")]
-    pub fn place(blocks: &mut [Block], stage: &Stage, view: &View, axes: &FaceAxes, grid: &GridTables, frame: &GridFrame, light: &Light) {
+    pub fn place(
+        shared: &mut [Shared],
+        blocks: &mut [Block],
+        stage: &Stage,
+        view: &View,
+        axes: &FaceAxes,
+        grid: &GridTables,
+        frame: &GridFrame,
+        light: &Light,
+    ) {
         let (view, axes, frame) = (*view, *axes, *frame);
         let (haze_start_m, haze_per_m) = (light.haze_start_m, light.haze_per_m);
         let [across_along, down_along] = [view.across.dot(axes.along), view.down.dot(axes.along)];
         let [across_up, down_up] = [view.across.dot(axes.up), view.down.dot(axes.up)];
-        for (b, block) in blocks.iter_mut().enumerate() {
-            let ((u, v, depth_m), normals) = (stage.lanes(b), stage.normals(b));
+        for (group, (shared, four)) in shared.iter_mut().zip(blocks.as_chunks_mut::<FOUR>().0).enumerate() {
+            let [u, v] = [&stage.u, &stage.v].map(|row| Stage::lane(row, group));
+            let [inverse, across, down] =
+                [&stage.inverse, &stage.across, &stage.down].map(|row| Stage::lane(row, group));
+            let [x, y, z] = &stage.normal;
+            let normals = [x, y, z].map(|row| Stage::lane(row, group));
             for k in 0..WIDE {
-                let ray = view.ray(u[k], v[k]);
-                let depth = depth_m[k];
-                let world = view.position + ray * depth;
-                let drawn = Vec3::new(normals[0][k], normals[1][k], normals[2][k]);
-                let facing = ray.dot(drawn);
-                // One pixel aside moves over the plane by the step, slid along the ray until it stays in the plane.
-                let slide = depth / facing;
-                let (across, down) = (view.across.dot(drawn) * slide, view.down.dot(drawn) * slide);
+                let ray = view.ray(u[k] + MIDDLE, v[k]);
+                let depth = 1.0 / inverse_at(inverse[k], across[k], MIDDLE);
+                // One pixel aside moves along the ray by as much as depth changes over the plane.
+                let (aside, below) = (-depth * depth * across[k], -depth * depth * down[k]);
                 let (ray_along, ray_up) = (ray.dot(axes.along), ray.dot(axes.up));
                 let along_m =
-                    (across_along * depth - ray_along * across).abs() + (down_along * depth - ray_along * down).abs();
-                let up_m = (across_up * depth - ray_up * across).abs() + (down_up * depth - ray_up * down).abs();
-                let normal = drawn * (1.0 - 2.0 * one_if(facing > 0.0));
-                set(&mut block.ray, k, ray);
-                set(&mut block.world, k, world);
-                set(&mut block.normal, k, normal);
-                block.along_m[k] = along_m;
-                block.up_m[k] = up_m;
-                block.footprint_m[k] = 0.5 * least(along_m + up_m, 4.0 * least(along_m, up_m));
+                    (across_along * depth + ray_along * aside).abs() + (down_along * depth + ray_along * below).abs();
+                let up_m = (across_up * depth + ray_up * aside).abs() + (down_up * depth + ray_up * below).abs();
+                let drawn = Vec3::new(normals[0][k], normals[1][k], normals[2][k]);
+                let normal = drawn * (1.0 - 2.0 * one_if(ray.dot(drawn) > 0.0));
+                set(&mut shared.ray, k, ray);
+                set(&mut shared.middle, k, view.position + ray * depth);
+                set(&mut shared.normal, k, normal);
+                shared.along_m[k] = along_m;
+                shared.up_m[k] = up_m;
+                shared.footprint_m[k] = 0.5 * least(along_m + up_m, 4.0 * least(along_m, up_m));
                 let far = most(depth * ray.dot(ray).sqrt() - haze_start_m, 0.0);
-                block.kept[k] = fast_exp(-haze_per_m * far);
+                shared.kept[k] = fast_exp(-haze_per_m * far);
+            }
+            for (pixel, block) in four.iter_mut().enumerate() {
+                let aside = pixel as i32 as f32;
+                for k in 0..WIDE {
+                    let ray = view.ray(u[k] + aside, v[k]);
+                    let depth = 1.0 / inverse_at(inverse[k], across[k], aside);
+                    set(&mut block.world, k, view.position + ray * depth);
+                }
+                block.normal = shared.normal;
             }
             for k in 0..WIDE {
-                let (world, normal) = (get(&block.world, k), get(&block.normal, k));
+                let (middle, normal) = (get(&shared.middle, k), get(&shared.normal, k));
                 let off_wall_m = 1.2 * (1.0 - normal.z.abs());
-                let cell = frame.place(world.x + normal.x * off_wall_m, world.y + normal.y * off_wall_m);
-                let (sky, above) = (cell.sky(grid), world.z - cell.ground_m(grid));
-                block.sky[k] = 0.36 + 0.64 * (sky + (1.0 - sky) * least(most(above * 0.045, 0.0), 0.85));
+                let cell = frame.place(middle.x + normal.x * off_wall_m, middle.y + normal.y * off_wall_m);
+                let (sky, above) = (cell.sky(grid), middle.z - cell.ground_m(grid));
+                shared.sky[k] = 0.36 + 0.64 * (sky + (1.0 - sky) * least(most(above * 0.045, 0.0), 0.85));
+                shared.lamps[k] = 0.0;
             }
             if light.night > 0.0 {
                 for k in 0..WIDE {
-                    let (world, normal) = (get(&block.world, k), get(&block.normal, k));
+                    let (middle, normal) = (get(&shared.middle, k), get(&shared.normal, k));
                     let off_wall_m = 1.2 * (1.0 - normal.z.abs());
-                    let cell = frame.place(world.x + normal.x * off_wall_m, world.y + normal.y * off_wall_m);
-                    let above = world.z - cell.ground_m(grid);
-                    block.lamps[k] = cell.lamps(grid) * most(1.0 - above * 0.11, 0.0);
+                    let cell = frame.place(middle.x + normal.x * off_wall_m, middle.y + normal.y * off_wall_m);
+                    let above = middle.z - cell.ground_m(grid);
+                    shared.lamps[k] = cell.lamps(grid) * most(1.0 - above * 0.11, 0.0);
                 }
             }
         }
     }
+}
+
+/// From the first pixel of a four to its middle, pixels.
+const MIDDLE: f32 = 1.5;
+
+/// Inverse depth so many pixels to the right; where a four reaches beyond its face, never beyond the horizon.
+#[inline(always)]
+fn inverse_at(inverse: f32, across: f32, pixels: f32) -> f32 {
+    most(inverse + across * pixels, 0.25 * inverse)
 }
 
 /// e^x for x <= 0, to about 1e-4: (1 + x/256)^256.

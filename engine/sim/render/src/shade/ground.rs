@@ -1,6 +1,6 @@
 //! Ground: asphalt, pavement slabs, road marks, grass, each from world coordinates.
 
-use super::lanes::{Block, WIDE};
+use super::lanes::{Block, Shared, WIDE, groups};
 use super::pattern::{NoiseTexture, Noises, hash, lerp, most, one_if, smoothstep, stripes, unit};
 use super::surface::{Look, SurfacePoint};
 use super::vector::Vec3;
@@ -10,12 +10,14 @@ use cosfly_maps::SemanticLabel;
 /// Dull surfaces whose colour follows from the place. Not a function: closures are not always inlined, and only what is
 /// inlined becomes vector code.
 macro_rules! paint_all {
-    ($blocks:ident, $point:ident => $albedo:expr) => {
-        for block in $blocks.iter_mut() {
-            for k in 0..WIDE {
-                let $point = block.point(k);
-                let look = Look::matt($albedo, $point.normal);
-                block.put(k, &look);
+    ($shared:ident, $blocks:ident, $point:ident => $albedo:expr) => {
+        for (shared, four) in groups($shared, $blocks) {
+            for block in four {
+                for k in 0..WIDE {
+                    let $point = block.point(shared, k);
+                    let look = Look::matt($albedo, $point.normal);
+                    block.put(k, &look);
+                }
             }
         }
     };
@@ -23,19 +25,19 @@ macro_rules! paint_all {
 
 simd_kernel! {
     /// The look of ground with a label.
-    pub fn ground(blocks: &mut [Block], label: SemanticLabel, noise: &NoiseTexture) {
+    pub fn ground(shared: &[Shared], blocks: &mut [Block], label: SemanticLabel, noise: &NoiseTexture) {
         match label {
-            SemanticLabel::Roads | SemanticLabel::Bridge => paint_all!(blocks, point => asphalt(&point, noise)),
-            SemanticLabel::SideWalks => paint_all!(blocks, point => slabs(&point, noise)),
-            SemanticLabel::RoadLine => paint_all!(blocks, point => paint(&point, noise)),
+            SemanticLabel::Roads | SemanticLabel::Bridge => paint_all!(shared, blocks, point => asphalt(&point, noise)),
+            SemanticLabel::SideWalks => paint_all!(shared, blocks, point => slabs(&point, noise)),
+            SemanticLabel::RoadLine => paint_all!(shared, blocks, point => paint(&point, noise)),
             SemanticLabel::Ground | SemanticLabel::Static | SemanticLabel::Other => {
-                paint_all!(blocks, point => gravel(&point, noise));
+                paint_all!(shared, blocks, point => gravel(&point, noise));
             }
             SemanticLabel::Water => {
-                paint_all!(blocks, point => Vec3::new(0.02, 0.05, 0.06));
+                paint_all!(shared, blocks, point => Vec3::new(0.02, 0.05, 0.06));
                 blocks.iter_mut().for_each(|block| block.mirror = [0.9; WIDE]);
             }
-            _ => paint_all!(blocks, point => grass(&point, noise)),
+            _ => paint_all!(shared, blocks, point => grass(&point, noise)),
         }
     }
 }

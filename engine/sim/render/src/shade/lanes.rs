@@ -1,91 +1,140 @@
-//! Pixels on their way through the shading kernels: blocks of sixteen, one array per quantity.
+//! Pixels on their way through the shading kernels: sixteen fours of neighbours, one array per quantity.
+//!
+//! What changes slowly over a surface (light, haze, pixel sizes) is worked out once for the four pixels of a [`Shared`]
+//! lane; textures and shadow edges for each pixel of the four [`Block`]s beside it.
 
 use super::surface::{Look, SurfacePoint};
 use super::vector::Vec3;
 
-/// Pixels of a block.
+/// Fours that go through a kernel side by side.
 pub const WIDE: usize = 16;
-/// Blocks that go through the kernels together.
-pub const BLOCKS: usize = 8;
+/// Neighbouring pixels of a row that share what changes slowly.
+pub const FOUR: usize = 4;
+/// Sixteen fours that go through the kernels together.
+pub const GROUPS: usize = 4;
+/// Fours that go through the kernels together.
+pub const FOURS: usize = WIDE * GROUPS;
 /// Pixels that go through the kernels together.
-pub const LANES: usize = WIDE * BLOCKS;
+pub const LANES: usize = FOUR * FOURS;
 
-/// One quantity of sixteen pixels.
+/// One quantity of sixteen pixels or fours.
 pub type Lane = [f32; WIDE];
-/// A point, direction or colour of sixteen pixels.
+/// A point, direction or colour of sixteen pixels or fours.
 pub type Lane3 = [Lane; 3];
+/// One quantity of fours on their way. Room beyond the last lets sixteen be written at a time.
+pub type StageRow = [f32; FOURS + WIDE];
 
-/// Pixels on their way into blocks. Room beyond the last lane lets sixteen be written at a time.
+/// Fours on their way into blocks.
 pub struct Stage {
-    /// Pixel centre, from the left, pixels.
-    pub u: [f32; LANES + WIDE],
-    /// Pixel centre, from the top.
-    pub v: [f32; LANES + WIDE],
-    /// Planar depth, metres.
-    pub depth_m: [f32; LANES + WIDE],
+    /// Centre of the first pixel, from the left, pixels.
+    pub u: StageRow,
+    /// From the top.
+    pub v: StageRow,
+    /// Inverse planar depth there, 1/m.
+    pub inverse: StageRow,
+    /// Its change per pixel to the right.
+    pub across: StageRow,
+    /// And down.
+    pub down: StageRow,
     /// Unit normal of the face, any side.
-    pub normal: [[f32; LANES + WIDE]; 3],
+    pub normal: [StageRow; 3],
 }
 
 impl Stage {
-    /// All zero.
+    /// Nothing in particular.
     pub const EMPTY: Self = Self {
-        u: [0.0; LANES + WIDE],
-        v: [0.0; LANES + WIDE],
-        depth_m: [1.0; LANES + WIDE],
-        normal: [[0.0; LANES + WIDE]; 3],
+        u: [0.0; FOURS + WIDE],
+        v: [0.0; FOURS + WIDE],
+        inverse: [1.0; FOURS + WIDE],
+        across: [0.0; FOURS + WIDE],
+        down: [0.0; FOURS + WIDE],
+        normal: [[0.0; FOURS + WIDE]; 3],
     };
 
-    /// The lanes of block `b`: u, v, depth.
+    /// Sixteen fours of a row.
     #[inline(always)]
-    pub fn lanes(&self, b: usize) -> (&Lane, &Lane, &Lane) {
-        (&self.u.as_chunks().0[b], &self.v.as_chunks().0[b], &self.depth_m.as_chunks().0[b])
-    }
-
-    /// The normals of block `b`.
-    #[inline(always)]
-    pub fn normals(&self, b: usize) -> [&Lane; 3] {
-        let [x, y, z] = &self.normal;
-        [&x.as_chunks().0[b], &y.as_chunks().0[b], &z.as_chunks().0[b]]
+    pub fn lane(row: &StageRow, group: usize) -> &Lane {
+        &row.as_chunks().0[group]
     }
 }
 
-/// Sixteen pixels of one material. Lanes that no pixel fills hold whatever they held.
+/// What the pixels of sixteen fours share. Lanes that no pixel fills hold whatever they held.
 #[repr(align(64))]
 #[derive(Clone, Debug)]
-pub struct Block {
+pub struct Shared {
     /// Unit normal of the face, towards the camera.
     pub normal: Lane3,
-    /// Direction from the camera, 1 along the optical axis.
+    /// Direction from the camera to the middle, 1 along the optical axis.
     pub ray: Lane3,
-    /// The point, metres.
-    pub world: Lane3,
-    /// Size of the pixel along the face's own horizontal, metres.
+    /// The middle, metres.
+    pub middle: Lane3,
+    /// Size of a pixel along the face's own horizontal, metres.
     pub along_m: Lane,
     /// And along its vertical.
     pub up_m: Lane,
-    /// Size of the pixel averaged over directions, metres.
+    /// Size of a pixel averaged over directions, metres.
     pub footprint_m: Lane,
     /// Share of the sky that the place sees.
     pub sky: Lane,
-    /// Light of street lamps.
+    /// Light of street lamps; 0 by day.
     pub lamps: Lane,
-    /// Share of light that haze lets through.
+    /// Share of light that haze lets through, exposed.
     pub kept: Lane,
+    /// What haze adds, exposed.
+    pub fog: Lane3,
+    /// Light on the surface where the sun reaches it.
+    pub sunny: Lane3,
+    /// All other light on it.
+    pub soft: Lane3,
+    /// What a mirror there shows.
+    pub mirrored: Lane3,
+    /// Strength of the sun's image in it.
+    pub glint: Lane,
+    /// How much of a mirror the surface is when it is one.
+    pub fresnel: Lane,
+}
+
+impl Shared {
+    /// All zero.
+    pub const EMPTY: Self = Self {
+        normal: [[0.0; WIDE]; 3],
+        ray: [[0.0; WIDE]; 3],
+        middle: [[0.0; WIDE]; 3],
+        along_m: [0.0; WIDE],
+        up_m: [0.0; WIDE],
+        footprint_m: [0.0; WIDE],
+        sky: [0.0; WIDE],
+        lamps: [0.0; WIDE],
+        kept: [0.0; WIDE],
+        fog: [[0.0; WIDE]; 3],
+        sunny: [[0.0; WIDE]; 3],
+        soft: [[0.0; WIDE]; 3],
+        mirrored: [[0.0; WIDE]; 3],
+        glint: [0.0; WIDE],
+        fresnel: [0.0; WIDE],
+    };
+}
+
+/// Sixteen pixels of one material, one of each four.
+#[repr(align(64))]
+#[derive(Clone, Debug)]
+pub struct Block {
+    /// Unit normal of the surface, towards the camera.
+    pub normal: Lane3,
+    /// The point, metres.
+    pub world: Lane3,
     /// Share of the sun's light that no shadow takes.
     pub sunlight: Lane,
     /// What the material answers.
     pub albedo: Lane3,
     /// Light of its own.
     pub emission: Lane3,
-    /// Normal for shading.
+    /// Normal for shading, of materials that are not flat.
     pub bent: Lane3,
     /// Share of a mirror.
     pub mirror: Lane,
-    /// Share of the surroundings' openness that the surface keeps.
+    /// Share of the surroundings' openness that the surface keeps, where it is not flat.
     pub openness: Lane,
-    /// Linear light to the camera.
-    pub colour: Lane3,
     /// sRGB bytes: red in the lowest byte, then green and blue.
     pub bytes: [u32; WIDE],
 }
@@ -94,56 +143,61 @@ impl Block {
     /// All zero.
     pub const EMPTY: Self = Self {
         normal: [[0.0; WIDE]; 3],
-        ray: [[0.0; WIDE]; 3],
         world: [[0.0; WIDE]; 3],
-        along_m: [0.0; WIDE],
-        up_m: [0.0; WIDE],
-        footprint_m: [0.0; WIDE],
-        sky: [0.0; WIDE],
-        lamps: [0.0; WIDE],
-        kept: [0.0; WIDE],
         sunlight: [0.0; WIDE],
         albedo: [[0.0; WIDE]; 3],
         emission: [[0.0; WIDE]; 3],
         bent: [[0.0; WIDE]; 3],
         mirror: [0.0; WIDE],
         openness: [0.0; WIDE],
-        colour: [[0.0; WIDE]; 3],
         bytes: [0; WIDE],
     };
 
     /// What a material is told about pixel `k`.
     #[inline(always)]
-    pub fn point(&self, k: usize) -> SurfacePoint {
+    pub fn point(&self, shared: &Shared, k: usize) -> SurfacePoint {
         SurfacePoint {
             world: get(&self.world, k),
             normal: get(&self.normal, k),
-            footprint_m: self.footprint_m[k],
-            footprints_m: [self.along_m[k], self.up_m[k]],
+            footprint_m: shared.footprint_m[k],
+            footprints_m: [shared.along_m[k], shared.up_m[k]],
         }
     }
 
-    /// What it answered about pixel `k`.
+    /// What a flat one answered about pixel `k`.
     #[inline(always)]
     pub fn look(&self, k: usize) -> Look {
         Look {
-            albedo: get(&self.albedo, k),
             emission: get(&self.emission, k),
-            normal: get(&self.bent, k),
             mirror: self.mirror[k],
-            openness: self.openness[k],
+            ..Look::matt(get(&self.albedo, k), get(&self.normal, k))
         }
     }
 
-    /// Stores what it answers.
+    /// Stores what a flat material answers.
     #[inline(always)]
     pub fn put(&mut self, k: usize, look: &Look) {
         set(&mut self.albedo, k, look.albedo);
         set(&mut self.emission, k, look.emission);
-        set(&mut self.bent, k, look.normal);
         self.mirror[k] = look.mirror;
+    }
+
+    /// Stores what a material with a normal and depths of its own answers.
+    #[inline(always)]
+    pub fn put_bent(&mut self, k: usize, look: &Look) {
+        set(&mut self.albedo, k, look.albedo);
+        set(&mut self.bent, k, look.normal);
         self.openness[k] = look.openness;
     }
+}
+
+/// Every sixteen fours with their pixels.
+#[inline(always)]
+pub fn groups<'a>(
+    shared: &'a [Shared],
+    blocks: &'a mut [Block],
+) -> impl Iterator<Item = (&'a Shared, &'a mut [Block; FOUR])> {
+    shared.iter().zip(blocks.as_chunks_mut::<FOUR>().0)
 }
 
 /// Pixel `k` of a triple.

@@ -1,7 +1,7 @@
 //! From looks to bytes: sun, sky, lamps, wetness, mirrors, haze and the tone curve.
 
 use super::geometry::View;
-use super::lanes::{Block, Stage, WIDE, get, set};
+use super::lanes::{Block, FOUR, Shared, Stage, WIDE, get, groups, set};
 use super::light::Light;
 use super::pattern::{NoiseTexture, Noises, least, most, share, smoothstep};
 use super::tone::ToneCurve;
@@ -21,119 +21,129 @@ pub struct Answers {
 
 simd_kernel! {
     /// Wet ground: darker, and a mirror where water stands.
-    pub fn wet(blocks: &mut [Block], light: &Light, noise: &NoiseTexture) {
+    pub fn wet(shared: &[Shared], blocks: &mut [Block], light: &Light, noise: &NoiseTexture) {
         let wetness = light.wet;
         let edge = 0.82 - 0.32 * light.puddles;
-        for block in blocks.iter_mut() {
-            for k in 0..WIDE {
-                let point = block.point(k);
-                let level = noise.clumps(point.world.x * 2.1, point.world.y * 2.1, point.footprint_m * 2.1);
-                let flat = if point.normal.z > 0.9 { wetness } else { 0.0 };
-                let puddle = smoothstep(edge, edge + 0.05, level) * flat;
-                let albedo = get(&block.albedo, k) * (1.0 - 0.42 * flat - 0.10 * puddle);
-                set(&mut block.albedo, k, albedo);
-                set(&mut block.bent, k, point.normal);
-                block.mirror[k] = most(block.mirror[k], 0.10 * flat + 0.45 * puddle);
+        for (shared, four) in groups(shared, blocks) {
+            for block in four {
+                for k in 0..WIDE {
+                    let point = block.point(shared, k);
+                    let level = noise.clumps(point.world.x * 2.1, point.world.y * 2.1, point.footprint_m * 2.1);
+                    let flat = if point.normal.z > 0.9 { wetness } else { 0.0 };
+                    let puddle = smoothstep(edge, edge + 0.05, level) * flat;
+                    let albedo = get(&block.albedo, k) * (1.0 - 0.42 * flat - 0.10 * puddle);
+                    set(&mut block.albedo, k, albedo);
+                    block.mirror[k] = most(block.mirror[k], 0.10 * flat + 0.45 * puddle);
+                }
             }
         }
     }
 }
 
 simd_kernel! {
-    /// Light from sun, sky and lamps that a dull surface sends back, and what it gives itself.
-    pub fn dull(blocks: &mut [Block], light: &Light) {
+    /// Light on flat surfaces from sun, sky and lamps, and haze before them.
+    pub fn arriving(shared: &mut [Shared], light: &Light, haze: Vec3) {
         let light = *light;
-        for block in blocks.iter_mut() {
+        for shared in shared.iter_mut() {
             for k in 0..WIDE {
-                let bent = get(&block.bent, k);
-                let toward = most(bent.dot(light.to_sun), 0.0);
-                let arriving = light.sun * (toward * block.sunlight[k])
-                    + light.ambient(bent) * (block.sky[k] * block.openness[k]);
-                set(&mut block.colour, k, get(&block.albedo, k) * arriving);
+                let normal = get(&shared.normal, k);
+                set(&mut shared.sunny, k, light.sun * most(normal.dot(light.to_sun), 0.0));
+                let lamps = light.lamp * (shared.lamps[k] * (0.75 + 0.25 * normal.z));
+                set(&mut shared.soft, k, light.ambient(normal) * shared.sky[k] + lamps);
+                let kept = shared.kept[k];
+                set(&mut shared.fog, k, haze * ((1.0 - kept) * light.exposure));
+                shared.kept[k] = kept * light.exposure;
             }
         }
     }
 }
 
 simd_kernel! {
-    /// Light of street lamps.
-    pub fn lamps(blocks: &mut [Block], light: &Light) {
-        let lamp = light.lamp;
-        for block in blocks.iter_mut() {
-            for k in 0..WIDE {
-                let arriving = lamp * (block.lamps[k] * (0.75 + 0.25 * block.bent[2][k]));
-                let colour = get(&block.colour, k) + get(&block.albedo, k) * arriving;
-                set(&mut block.colour, k, colour);
-            }
-        }
-    }
-}
-
-simd_kernel! {
-    /// Adds a surface's own light.
-    pub fn glow(blocks: &mut [Block]) {
-        for block in blocks.iter_mut() {
-            for k in 0..WIDE {
-                let colour = get(&block.colour, k) + get(&block.emission, k);
-                set(&mut block.colour, k, colour);
-            }
-        }
-    }
-}
-
-simd_kernel! {
-    /// Mixes the mirrored sky in.
-    pub fn mirrored(blocks: &mut [Block], light: &Light) {
+    /// What flat surfaces mirror.
+    pub fn mirrored(shared: &mut [Shared], light: &Light) {
         let light = *light;
-        for block in blocks.iter_mut() {
+        for shared in shared.iter_mut() {
             for k in 0..WIDE {
-                let (ray, bent) = (get(&block.ray, k), get(&block.bent, k));
+                let (ray, normal) = (get(&shared.ray, k), get(&shared.normal, k));
                 let view = ray * (1.0 / ray.dot(ray).sqrt());
-                let cosine = share(-view.dot(bent));
+                let cosine = share(-view.dot(normal));
                 let grazing = 1.0 - cosine;
                 let grazing2 = grazing * grazing;
                 let fresnel = 0.05 + 0.95 * grazing2 * grazing2 * grazing;
-                let out = view + bent * (2.0 * cosine);
-                let mirror = least(block.mirror[k] * (0.30 + 0.9 * fresnel), 0.85);
+                let out = view + normal * (2.0 * cosine);
+                shared.fresnel[k] = 0.30 + 0.9 * fresnel;
                 // Near the horizon a street mirrors its houses more than the sky.
-                let open = block.sky[k] * (0.30 + 0.70 * share(2.2 * out.z));
+                let open = shared.sky[k] * (0.30 + 0.70 * share(2.2 * out.z));
                 // Lamps stand near the horizon of what a street mirrors.
                 let level = 1.0 - share(1.4 * out.z);
-                let from_lamps = block.lamps[k] * (0.6 + 2.4 * level * level);
-                let arriving = light.ambient(bent) * (0.10 * block.sky[k]) + light.lamp * from_lamps;
+                let from_lamps = shared.lamps[k] * (0.6 + 2.4 * level * level);
+                let near = light.ambient(normal) * (0.10 * shared.sky[k]) + light.lamp * from_lamps;
+                set(&mut shared.mirrored, k, light.sky(out) * open + near);
                 // The sun's own image, wide on rough water.
                 let toward = most(out.dot(light.to_sun), 0.0);
                 let toward4 = toward * toward * toward * toward;
                 let toward16 = toward4 * toward4 * toward4 * toward4;
-                let glint = toward16 * toward16 * toward16 * toward16 * (1.6 * block.sunlight[k]);
-                let seen = light.sky(out) * open + arriving + light.sun * glint;
-                let colour = get(&block.colour, k);
-                set(&mut block.colour, k, colour.lerp(seen, mirror));
+                shared.glint[k] = toward16 * toward16 * toward16 * toward16 * 1.6;
             }
         }
     }
 }
 
 simd_kernel! {
-    /// Haze between the surface and the camera.
-    pub fn hazy(blocks: &mut [Block], haze: Vec3) {
-        for block in blocks.iter_mut() {
+    /// From flat surfaces' looks to sRGB bytes; which of light's kinds they answer to.
+    pub fn develop(shared: &[Shared], blocks: &mut [Block], light: &Light, tone: &ToneCurve, glows: bool, shiny: bool) {
+        match (glows, shiny) {
+            (false, false) => develop_all::<false, false>(shared, blocks, light, tone),
+            (false, true) => develop_all::<false, true>(shared, blocks, light, tone),
+            (true, false) => develop_all::<true, false>(shared, blocks, light, tone),
+            (true, true) => develop_all::<true, true>(shared, blocks, light, tone),
+        }
+    }
+}
+
+#[inline(always)]
+fn develop_all<const GLOWS: bool, const SHINY: bool>(
+    shared: &[Shared],
+    blocks: &mut [Block],
+    light: &Light,
+    tone: &ToneCurve,
+) {
+    let sun = light.sun;
+    for (shared, four) in groups(shared, blocks) {
+        for block in four {
             for k in 0..WIDE {
-                let colour = haze.lerp(get(&block.colour, k), block.kept[k]);
-                set(&mut block.colour, k, colour);
+                let sunlight = block.sunlight[k];
+                let arriving = get(&shared.sunny, k) * sunlight + get(&shared.soft, k);
+                let mut colour = get(&block.albedo, k) * arriving;
+                if GLOWS {
+                    colour += get(&block.emission, k);
+                }
+                if SHINY {
+                    let mirror = least(block.mirror[k] * shared.fresnel[k], 0.85);
+                    let seen = get(&shared.mirrored, k) + sun * (shared.glint[k] * sunlight);
+                    colour = colour.lerp(seen, mirror);
+                }
+                block.bytes[k] = tone.pixel(colour * shared.kept[k] + get(&shared.fog, k));
             }
         }
     }
 }
 
 simd_kernel! {
-    /// Linear colours to sRGB bytes.
-    pub fn develop(blocks: &mut [Block], exposure: f32, tone: &ToneCurve) {
-        for block in blocks.iter_mut() {
-            for k in 0..WIDE {
-                let colour = get(&block.colour, k);
-                let [r, g, b] = [colour.x, colour.y, colour.z].map(|value| tone.byte(value * exposure));
-                block.bytes[k] = r | (g << 8) | (b << 16);
+    /// From looks of surfaces with normals of their own to sRGB bytes.
+    pub fn develop_bent(shared: &[Shared], blocks: &mut [Block], light: &Light, tone: &ToneCurve) {
+        let light = *light;
+        for (shared, four) in groups(shared, blocks) {
+            for block in four {
+                for k in 0..WIDE {
+                    let bent = get(&block.bent, k);
+                    let toward = most(bent.dot(light.to_sun), 0.0);
+                    let arriving = light.sun * (toward * block.sunlight[k])
+                        + light.ambient(bent) * (shared.sky[k] * block.openness[k])
+                        + light.lamp * (shared.lamps[k] * (0.75 + 0.25 * bent.z));
+                    let colour = get(&block.albedo, k) * arriving;
+                    block.bytes[k] = tone.pixel(colour * shared.kept[k] + get(&shared.fog, k));
+                }
             }
         }
     }
@@ -141,13 +151,16 @@ simd_kernel! {
 
 simd_kernel! {
     /// Colours of the sky.
-    pub fn sky(blocks: &mut [Block], stage: &Stage, view: &View, light: &Light, noise: &NoiseTexture) {
+    pub fn sky(blocks: &mut [Block], stage: &Stage, view: &View, light: &Light, tone: &ToneCurve, noise: &NoiseTexture) {
         let (view, light) = (*view, *light);
-        for (b, block) in blocks.iter_mut().enumerate() {
-            let (u, v, _) = stage.lanes(b);
-            for k in 0..WIDE {
-                let direction = view.ray(u[k], v[k]).unit();
-                set(&mut block.colour, k, super::sky::colour(&light, direction, noise));
+        for (group, four) in blocks.as_chunks_mut::<FOUR>().0.iter_mut().enumerate() {
+            let [u, v] = [&stage.u, &stage.v].map(|row| Stage::lane(row, group));
+            for (pixel, block) in four.iter_mut().enumerate() {
+                let aside = pixel as i32 as f32;
+                for k in 0..WIDE {
+                    let direction = view.ray(u[k] + aside, v[k]).unit();
+                    block.bytes[k] = tone.pixel(super::sky::colour(&light, direction, noise) * light.exposure);
+                }
             }
         }
     }

@@ -6,7 +6,7 @@
 use crate::figure::FigureTriangle;
 use crate::renderer::Eye;
 use crate::scene::{BOX_FACES, Scene};
-use crate::shade::lanes::{Block, WIDE, get};
+use crate::shade::lanes::{Block, FOUR, WIDE, get};
 use crate::shade::pattern::{NoiseTexture, Noises, fixed_size, floor_int, least, lerp, most, one_if, smoothstep};
 use crate::shade::shadow_region::{Region, for_seen_points};
 use crate::shade::vector::Vec3;
@@ -266,9 +266,10 @@ impl Shadows {
         Some(frame)
     }
 
-    /// Fills in which share of the sun's light reaches each pixel's place.
-    pub fn sunlight(&self, level: Level, blocks: &mut [Block], noise: &NoiseTexture) {
-        town_sunlight(level, blocks, &self.packed.town, &self.packed.places, noise);
+    /// Fills in which share of the sun's light reaches each pixel's place. On flat surfaces, the pixels between the ends
+    /// of a four that are lit alike are lit like them.
+    pub fn sunlight(&self, level: Level, blocks: &mut [Block], flat: bool, noise: &NoiseTexture) {
+        town_sunlight(level, blocks, &self.packed.town, &self.packed.places, flat, noise);
         if let Some(rows) = &self.packed.figure_rows {
             figure_shadow(level, blocks, &self.packed.figure, self.packed.places.base_m, rows);
         }
@@ -276,51 +277,78 @@ impl Shadows {
 }
 
 simd_kernel! {
-    fn town_sunlight(blocks: &mut [Block], map: &TownMap, places: &Places, noise: &NoiseTexture) {
-        let Places { rows: [row_u, row_v], base_m, texels_m, corner_m, low, high } = *places;
-        for block in blocks.iter_mut() {
-            let mut under_leaves = [0.0f32; WIDE];
-            let mut flecks = 0u32;
-            for (k, under) in under_leaves.iter_mut().enumerate() {
-                let (point, height) = lifted(block, k, base_m);
-                let (u, v) = (affine(row_u, point), affine(row_v, point));
-                let (dark, leaves) = darkness(map, SIDE, [low, high], u, v, height);
-                block.sunlight[k] = 1.0 - dark;
-                *under = dark * leaves;
-                flecks |= u32::from(dark * leaves > 0.0);
-            }
-            if flecks != 0 {
-                // Sun flecks: gaps between the leaves.
-                for (k, under) in under_leaves.iter().enumerate() {
-                    let (point, _) = lifted(block, k, base_m);
-                    let u = (affine(row_u, point) - 0.5) * texels_m[0] + corner_m[0];
-                    let v = (affine(row_v, point) - 0.5) * texels_m[1] + corner_m[1];
-                    let gap = smoothstep(0.52, 0.70, noise.clumps(u * 18.0, v * 18.0, 1.5));
-                    block.sunlight[k] += under * (0.75 * gap);
+    fn town_sunlight(blocks: &mut [Block], map: &TownMap, places: &Places, flat: bool, noise: &NoiseTexture) {
+        let places = *places;
+        for four in blocks.as_chunks_mut::<FOUR>().0 {
+            let mut alike = flat;
+            // The ends first.
+            for (number, pixel) in [0, 3, 1, 2].into_iter().enumerate() {
+                if number == 2 && alike {
+                    (four[1].sunlight, four[2].sunlight) = (four[0].sunlight, four[0].sunlight);
+                    break;
+                }
+                alike &= !lit_through_leaves(&mut four[pixel], map, &places, noise);
+                if number == 1 {
+                    let mut differ = 0u32;
+                    for k in 0..WIDE {
+                        differ |= u32::from((four[0].sunlight[k] - four[3].sunlight[k]).abs() > 0.01);
+                    }
+                    alike &= differ == 0;
                 }
             }
         }
     }
 }
 
+/// Looks a block's sunlight up; whether leaves shade some of it.
+#[inline(always)]
+fn lit_through_leaves(block: &mut Block, map: &TownMap, places: &Places, noise: &NoiseTexture) -> bool {
+    let Places { rows: [row_u, row_v], base_m, texels_m, corner_m, low, high } = *places;
+    let mut under_leaves = [0.0f32; WIDE];
+    let mut flecks = 0u32;
+    for (k, under) in under_leaves.iter_mut().enumerate() {
+        let (point, height) = lifted(block, k, base_m);
+        let (u, v) = (affine(row_u, point), affine(row_v, point));
+        let (dark, leaves) = darkness(map, SIDE, [low, high], u, v, height);
+        block.sunlight[k] = 1.0 - dark;
+        *under = dark * leaves;
+        flecks |= u32::from(dark * leaves > 0.0);
+    }
+    if flecks != 0 {
+        // Sun flecks: gaps between the leaves.
+        for (k, under) in under_leaves.iter().enumerate() {
+            let (point, _) = lifted(block, k, base_m);
+            let u = (affine(row_u, point) - 0.5) * texels_m[0] + corner_m[0];
+            let v = (affine(row_v, point) - 0.5) * texels_m[1] + corner_m[1];
+            let gap = smoothstep(0.52, 0.70, noise.clumps(u * 18.0, v * 18.0, 1.5));
+            block.sunlight[k] += under * (0.75 * gap);
+        }
+    }
+    flecks != 0
+}
+
 simd_kernel! {
     fn figure_shadow(blocks: &mut [Block], map: &FigureMap, base_m: f32, rows: &[[f32; 4]; 2]) {
         let [row_u, row_v] = *rows;
         let limit = FIGURE_SIDE as f32;
-        for block in blocks.iter_mut() {
+        for four in blocks.as_chunks_mut::<FOUR>().0 {
             let mut inside = 0u32;
-            for k in 0..WIDE {
-                let (point, _) = lifted(block, k, base_m);
-                let (u, v) = (affine(row_u, point), affine(row_v, point));
-                inside |= u32::from((u > 0.0) & (v > 0.0) & (u < limit) & (v < limit));
+            for block in [&four[0], &four[3]] {
+                for k in 0..WIDE {
+                    let (point, _) = lifted(block, k, base_m);
+                    let (u, v) = (affine(row_u, point), affine(row_v, point));
+                    inside |= u32::from((u > 0.0) & (v > 0.0) & (u < limit) & (v < limit));
+                }
             }
             if inside != 0 {
-                for k in 0..WIDE {
-                    let (point, height) = lifted(block, k, base_m);
-                    let (u, v) = (affine(row_u, point), affine(row_v, point));
-                    let (dark, _) = darkness(map, FIGURE_SIDE, [[0.0; 2], [limit - 2.0; 2]], u, v, height + 0.04);
-                    let lit = 1.0 - dark;
-                    block.sunlight[k] = if lit < block.sunlight[k] { lit } else { block.sunlight[k] };
+                for block in four {
+                    for k in 0..WIDE {
+                        let (point, height) = lifted(block, k, base_m);
+                        let (u, v) = (affine(row_u, point), affine(row_v, point));
+                        let (dark, _) = darkness(map, FIGURE_SIDE, [[0.0; 2], [limit - 2.0; 2]], u, v, height + 0.04);
+                        let lit = 1.0 - dark;
+                        block.sunlight[k] = if lit < block.sunlight[k] { lit } else { block.sunlight[k] };
+                    }
                 }
             }
         }

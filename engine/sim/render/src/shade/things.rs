@@ -1,6 +1,6 @@
 //! Trees, cars, lamps and everything else that stands in a street.
 
-use super::lanes::{Block, WIDE, get, set};
+use super::lanes::{Block, Shared, WIDE, get, groups, set};
 use super::pattern::{NoiseTexture, Noises, band, draw, hash, least, most, smoothstep, stripes, unit};
 use super::surface::{Look, SurfacePoint};
 use super::vector::Vec3;
@@ -57,13 +57,15 @@ struct Place {
 /// Asks the look of every pixel. Not a function: closures are not always inlined, and only what is inlined becomes
 /// vector code.
 macro_rules! paint_all {
-    ($self:ident, $blocks:ident, $point:ident, $at:ident => $look:expr) => {
-        for block in $blocks.iter_mut() {
-            for k in 0..WIDE {
-                let $point = block.point(k);
-                let $at = $self.place::<AXIS>(&$point);
-                let look = $look;
-                block.put(k, &look);
+    ($put:ident, $self:ident, $shared:ident, $blocks:ident, $point:ident, $at:ident => $look:expr) => {
+        for (shared, four) in groups($shared, $blocks) {
+            for block in four {
+                for k in 0..WIDE {
+                    let $point = block.point(shared, k);
+                    let $at = $self.place::<AXIS>(&$point);
+                    let look = $look;
+                    block.$put(k, &look);
+                }
             }
         }
     };
@@ -123,26 +125,26 @@ impl Thing {
     }
 
     #[inline(always)]
-    fn all<const AXIS: usize>(&self, blocks: &mut [Block], noise: &NoiseTexture) {
+    fn all<const AXIS: usize>(&self, shared: &[Shared], blocks: &mut [Block], noise: &NoiseTexture) {
         match self.kind {
             ObstacleKind::TreeCrown | ObstacleKind::Bush => {
-                paint_all!(self, blocks, point, _at => self.leaves(&point, noise));
+                paint_all!(put_bent, self, shared, blocks, point, _at => self.leaves(&point, noise));
             }
-            ObstacleKind::TreeTrunk => paint_all!(self, blocks, point, at => self.bark(&point, &at, noise)),
-            ObstacleKind::Car => paint_all!(self, blocks, point, at => self.car::<AXIS>(&point, &at)),
-            ObstacleKind::Lamp => paint_all!(self, blocks, point, at => self.lamp(&point, &at)),
+            ObstacleKind::TreeTrunk => paint_all!(put, self, shared, blocks, point, at => self.bark(&point, &at, noise)),
+            ObstacleKind::Car => paint_all!(put, self, shared, blocks, point, at => self.car::<AXIS>(&point, &at)),
+            ObstacleKind::Lamp => paint_all!(put, self, shared, blocks, point, at => self.lamp(&point, &at)),
             ObstacleKind::TrafficLight => {
-                paint_all!(self, blocks, point, at => self.traffic_light::<AXIS>(&point, &at));
+                paint_all!(put, self, shared, blocks, point, at => self.traffic_light::<AXIS>(&point, &at));
             }
-            ObstacleKind::TrafficSign => paint_all!(self, blocks, point, at => self.sign::<AXIS>(&point, &at)),
+            ObstacleKind::TrafficSign => paint_all!(put, self, shared, blocks, point, at => self.sign::<AXIS>(&point, &at)),
             ObstacleKind::Fence | ObstacleKind::GuardRail => {
-                paint_all!(self, blocks, point, at => self.fence(&point, &at));
+                paint_all!(put, self, shared, blocks, point, at => self.fence(&point, &at));
             }
             ObstacleKind::Wall | ObstacleKind::Bridge | ObstacleKind::Building => {
-                paint_all!(self, blocks, point, at => self.stone(&point, &at, noise));
+                paint_all!(put, self, shared, blocks, point, at => self.stone(&point, &at, noise));
             }
-            ObstacleKind::Pole => paint_all!(self, blocks, point, _at => metal(&point, Vec3::splat(0.22))),
-            ObstacleKind::Static => paint_all!(self, blocks, point, at => self.furniture(&point, &at, noise)),
+            ObstacleKind::Pole => paint_all!(put, self, shared, blocks, point, _at => metal(&point, Vec3::splat(0.22))),
+            ObstacleKind::Static => paint_all!(put, self, shared, blocks, point, at => self.furniture(&point, &at, noise)),
         }
     }
 
@@ -151,16 +153,18 @@ impl Thing {
     fn leaves(&self, point: &SurfacePoint, noise: &NoiseTexture) -> Look {
         let out = point.normal;
         let size = point.footprint_m;
-        // Patterns on the three planes of the axes, mixed by how much the surface faces each.
-        let flat = out * out;
-        let facing = flat * flat;
-        let weights = facing * (1.0 / (facing.x + facing.y + facing.z));
         let shift = 37.0 * unit(self.seed);
         let p = point.world * 30.0;
-        let big = clumps(p, shift, weights, size * 30.0, noise);
-        let aside = clumps(p, shift + 91.0, weights, size * 30.0, noise);
-        let upward = clumps(p, shift + 173.0, weights, size * 30.0, noise);
-        let small = leaf_grain(p * 0.55, weights, size * 16.5, noise);
+        // Each pattern lies on the plane of two axes that the surface faces most. They change planes in different places.
+        let clumps = |weights: [f32; 3], offset: f32| {
+            let (u, v) = faced(p, out, weights);
+            noise.clumps(u + offset, v - offset, size * 30.0) - 0.5
+        };
+        let big = clumps([1.0, 1.0, 1.0], shift);
+        let aside = clumps([1.2, 0.9, 0.95], shift + 91.0);
+        let upward = clumps([0.9, 1.2, 1.05], shift + 173.0);
+        let (u, v) = faced(p, out, [1.0, 1.1, 0.85]);
+        let small = noise.grain(u * 0.55, v * 0.55, size * 16.5) - 0.5;
         // Every clump of leaves faces its own way.
         let bent = out + Vec3::new(aside - upward, aside + upward - big, upward + 0.5 * big) * 1.7;
         let deep = smoothstep(-0.20, 0.24, big + 0.8 * small);
@@ -276,22 +280,13 @@ impl Thing {
     }
 }
 
-/// Clumps on the three planes of the axes, around 0.
+/// Coordinates of a point on the plane of two axes that a direction faces most, by weights of the axes.
 #[inline(always)]
-fn clumps(p: Vec3, offset: f32, weights: Vec3, size: f32, noise: &NoiseTexture) -> f32 {
-    noise.clumps(p.y + offset, p.z - offset, size) * weights.x
-        + noise.clumps(p.x + offset, p.z - offset, size) * weights.y
-        + noise.clumps(p.x + offset, p.y - offset, size) * weights.z
-        - 0.5
-}
-
-/// Single leaves on the three planes of the axes, around 0.
-#[inline(always)]
-fn leaf_grain(p: Vec3, weights: Vec3, size: f32, noise: &NoiseTexture) -> f32 {
-    noise.grain(p.y, p.z, size) * weights.x
-        + noise.grain(p.x, p.z, size) * weights.y
-        + noise.grain(p.x, p.y, size) * weights.z
-        - 0.5
+fn faced(p: Vec3, direction: Vec3, weights: [f32; 3]) -> (f32, f32) {
+    let (x, y, z) = (direction.x.abs() * weights[0], direction.y.abs() * weights[1], direction.z.abs() * weights[2]);
+    let is_x = (x > y) & (x > z);
+    let is_y = (y > z) & !is_x;
+    (if is_x { p.y } else { p.x }, if is_x | is_y { p.z } else { p.y })
 }
 
 simd_kernel! {
@@ -303,7 +298,7 @@ simd_kernel! {
         let from = (eye - middle) * thing.shrink;
         for block in blocks.iter_mut() {
             for k in 0..WIDE {
-                let along = get(&block.ray, k) * thing.shrink;
+                let along = (get(&block.world, k) - eye) * thing.shrink;
                 let (a, b, c) = (along.dot(along), along.dot(from), from.dot(from) - 1.25);
                 let reach = most(b * b - a * c, 0.0).sqrt();
                 let out = from + along * ((-b - reach) / a);
@@ -316,12 +311,12 @@ simd_kernel! {
 
 simd_kernel! {
     /// The look of a box that is not a building.
-    pub fn things(blocks: &mut [Block], thing: &Thing, noise: &NoiseTexture) {
+    pub fn things(shared: &[Shared], blocks: &mut [Block], thing: &Thing, noise: &NoiseTexture) {
         let thing = *thing;
         match thing.axis {
-            0 => thing.all::<0>(blocks, noise),
-            1 => thing.all::<1>(blocks, noise),
-            _ => thing.all::<2>(blocks, noise),
+            0 => thing.all::<0>(shared, blocks, noise),
+            1 => thing.all::<1>(shared, blocks, noise),
+            _ => thing.all::<2>(shared, blocks, noise),
         }
     }
 }

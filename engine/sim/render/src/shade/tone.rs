@@ -1,6 +1,7 @@
 //! From linear light to sRGB bytes: a filmic curve and gamma, through one table.
 
 use super::pattern::{fixed_size, least, most};
+use super::vector::Vec3;
 
 /// Entries of the table: 128 for each doubling of light, so darkness is as fine-grained as brightness.
 const ENTRIES: usize = 2048;
@@ -39,6 +40,12 @@ impl ToneCurve {
         // The last place is the one below `WHITE`.
         let bits = least(most(light, BLACK), 0.998 * WHITE).to_bits();
         self.bytes[(bits.wrapping_sub(BLACK.to_bits()) >> 16) as usize & (ENTRIES - 1)]
+    }
+
+    /// The pixel for a linear colour, exposed: red in the lowest byte, then green and blue.
+    #[inline(always)]
+    pub fn pixel(&self, colour: Vec3) -> u32 {
+        self.byte(colour.x) | (self.byte(colour.y) << 8) | (self.byte(colour.z) << 16)
     }
 }
 
