@@ -84,8 +84,6 @@ pub struct Renderer {
     covered: Vec<u32>,
     view: TargetView,
     runs: SeenRuns,
-    /// RGB before smoothing, a pixel in each number's low three bytes.
-    picture: Vec<u32>,
     level: Level,
     parallel: bool,
     shader: Shader,
@@ -119,7 +117,6 @@ impl Renderer {
             covered: Vec::new(),
             view: target_view::NOT_IN_VIEW,
             runs: SeenRuns::default(),
-            picture: vec![0; pixels],
             level: Level::best(),
             parallel: false,
             shader: Shader::new(&screen),
@@ -226,13 +223,7 @@ impl Renderer {
             watch.lap(4);
         }
         if parts == FrameParts::All {
-            let mut picture = smooth::Picture {
-                surface: &self.runs.surface,
-                source: &self.picture,
-                rgb: &mut self.images.rgb,
-                width: self.screen.width,
-            };
-            self.smoother.smooth(self.level, &mut picture);
+            self.smoother.smooth(self.runs.rows(), self.screen.width, &mut self.images.rgb);
             watch.lap(5);
             self.shader.overlay(&mut self.images);
             watch.lap(6);
@@ -243,19 +234,12 @@ impl Renderer {
     fn fill_channels(&mut self, scene: &Scene, shaded: bool) {
         let (level, shader) = (self.level, &self.shader);
         let seen = Seen { scene, faces: &self.faces, figure: &self.figure };
-        for_each_band(
-            self.parallel,
-            &self.nearest.face,
-            &mut self.images,
-            &mut self.runs,
-            &mut self.picture,
-            |mut band| {
-                band.resolve(level, seen.faces);
-                if shaded {
-                    shader.shade(&seen, &mut band);
-                }
-            },
-        );
+        for_each_band(self.parallel, &self.nearest.face, &mut self.images, &mut self.runs, |mut band| {
+            band.resolve(level, seen.faces);
+            if shaded {
+                shader.shade(&seen, &mut band);
+            }
+        });
     }
 
     /// Boxes from near to far, so that far ones mostly fail the depth comparison.

@@ -20,15 +20,33 @@ pub(crate) struct Run {
     pub length: u32,
     /// Number of the face, or [`NO_FACE`].
     pub face: u32,
+    /// Equal for runs of one surface: a box face, ground of one label, the figure, the sky.
+    pub surface: u32,
 }
 
-/// What is seen: the faces' runs by band, and which surface each pixel belongs to.
+/// The runs of faces seen, by band.
 #[derive(Default)]
-pub(crate) struct SeenRuns {
-    /// Runs of each band, row by row.
-    bands: Vec<Vec<Run>>,
-    /// Equal for pixels of one surface: a box face, ground of one label, the figure, the sky.
-    pub surface: Vec<u32>,
+pub(crate) struct SeenRuns(Vec<BandRuns>);
+
+/// The runs of a band.
+#[derive(Clone, Default)]
+pub(crate) struct BandRuns {
+    /// Row by row.
+    pub all: Vec<Run>,
+    /// Where each row's runs end.
+    row_ends: Vec<usize>,
+    /// Bits of the places where a row's faces change.
+    changes: Vec<u64>,
+}
+
+impl SeenRuns {
+    /// The runs of each row, from the top.
+    pub fn rows(&self) -> impl Iterator<Item = &[Run]> {
+        self.0.iter().flat_map(|band| {
+            let starts = core::iter::once(0).chain(band.row_ends.iter().copied());
+            starts.zip(&band.row_ends).map(|(start, end)| &band.all[start..*end])
+        })
+    }
 }
 
 /// All channels of a band.
@@ -36,16 +54,13 @@ pub(crate) struct Band<'a> {
     /// Rows above it.
     pub first_row: usize,
     pub width: usize,
-    /// Runs of faces, row by row.
-    pub runs: &'a mut Vec<Run>,
+    /// Runs of faces.
+    pub runs: &'a mut BandRuns,
     /// Face numbers.
     ids: &'a [u32],
     pub depth_m: &'a mut [f32],
     semantic: &'a mut [u8],
     instance: &'a mut [u32],
-    surface: &'a mut [u32],
-    /// The picture before smoothing.
-    pub picture: &'a mut [u32],
     pub rgb: &'a mut [u8],
 }
 
@@ -55,7 +70,6 @@ pub(crate) fn for_each_band(
     faces_seen: &[u32],
     images: &mut FrameImages,
     seen: &mut SeenRuns,
-    picture: &mut [u32],
     visit: impl Fn(Band<'_>) + Sync,
 ) {
     let width = images.width as usize;
@@ -63,19 +77,17 @@ pub(crate) fn for_each_band(
         return;
     }
     let pixels = BAND_ROWS * width;
-    seen.bands.resize(faces_seen.len().div_ceil(pixels), Vec::new());
-    seen.surface.resize(faces_seen.len(), 0);
+    seen.0.resize(faces_seen.len().div_ceil(pixels), BandRuns::default());
     let FrameImages { rgb, depth_m, semantic, instance, .. } = images;
     macro_rules! visit_all {
         ($iterate:ident, $chunks:ident, $chunks_mut:ident) => {
-            (seen.bands.$iterate().zip(faces_seen.$chunks(pixels)))
+            (seen.0.$iterate().zip(faces_seen.$chunks(pixels)))
                 .zip(depth_m.$chunks_mut(pixels).zip(semantic.$chunks_mut(pixels)))
-                .zip(instance.$chunks_mut(pixels).zip(seen.surface.$chunks_mut(pixels)))
-                .zip(picture.$chunks_mut(pixels).zip(rgb.$chunks_mut(3 * pixels)))
+                .zip(instance.$chunks_mut(pixels).zip(rgb.$chunks_mut(3 * pixels)))
                 .enumerate()
-                .for_each(|(band, ((((runs, ids), (depth_m, semantic)), (instance, surface)), (picture, rgb)))| {
+                .for_each(|(band, (((runs, ids), (depth_m, semantic)), (instance, rgb)))| {
                     let first_row = band * BAND_ROWS;
-                    visit(Band { first_row, width, runs, ids, depth_m, semantic, instance, surface, picture, rgb });
+                    visit(Band { first_row, width, runs, ids, depth_m, semantic, instance, rgb });
                 })
         };
     }
@@ -89,24 +101,26 @@ pub(crate) fn for_each_band(
 impl Band<'_> {
     /// Fills the exact channels and lists the runs.
     pub fn resolve(&mut self, level: Level, faces: &[DrawnFace]) {
-        self.runs.clear();
+        let runs = &mut *self.runs;
+        runs.all.clear();
+        runs.row_ends.clear();
+        runs.changes.resize(self.width.div_ceil(64), 0);
         for (row, ids) in self.ids.chunks_exact(self.width).enumerate() {
+            differences(level, &ids[1..], &ids[..self.width - 1], &mut runs.changes);
             let start = (row * self.width) as u32;
-            for_each_run(ids, |from, length, face| {
-                self.runs.push(Run { start: start + from as u32, length: length as u32, face });
-            });
+            let mut from = 0;
+            let mut push = |end: usize| {
+                let face = ids[from];
+                let surface = faces.get(face as usize).map_or(NO_FACE, |drawn| surface_of(face, drawn));
+                runs.all.push(Run { start: start + from as u32, length: (end - from) as u32, face, surface });
+                from = end;
+            };
+            for_each_bit(&runs.changes, |column| push(column + 1));
+            push(self.width);
+            runs.row_ends.push(runs.all.len());
         }
-        resolve_runs(
-            level,
-            self.runs,
-            faces,
-            self.width,
-            self.first_row,
-            self.depth_m,
-            self.semantic,
-            self.instance,
-            self.surface,
-        );
+        let (width, first_row) = (self.width, self.first_row);
+        resolve_runs(level, &runs.all, faces, width, first_row, self.depth_m, self.semantic, self.instance);
     }
 }
 
@@ -134,18 +148,17 @@ simd_kernel! {
         depth: &mut [f32],
         semantic: &mut [u8],
         instance: &mut [u32],
-        surface: &mut [u32],
     ) {
         for run in runs {
             let (start, length) = (run.start as usize, run.length as usize);
             let row = start / width;
             let column = start % width;
             let (mut base, mut across) = (0.0, 0.0);
-            let (mut label, mut id, mut number) = (SemanticLabel::Sky.id(), 0, NO_FACE);
+            let (mut label, mut id) = (SemanticLabel::Sky.id(), 0);
             if let Some(face) = faces.get(run.face as usize) {
                 base = face.plane.constant + face.plane.down * (first_row.wrapping_add(row) as f64 + 0.5);
                 across = face.plane.across;
-                (label, id, number) = (face.label, face.instance, surface_of(run.face, face));
+                (label, id) = (face.label, face.instance);
             }
             let step = across as f32;
             let row_end = start.wrapping_sub(column).wrapping_add(width);
@@ -153,19 +166,17 @@ simd_kernel! {
             while done < length {
                 let at = start.wrapping_add(done);
                 let value = (base + across * (column.wrapping_add(done) as i32 as f64 + 0.5)) as f32;
-                if let (true, Some(depth), Some(semantic), Some(instance), Some(surface)) = (
+                if let (true, Some(depth), Some(semantic), Some(instance)) = (
                     at.wrapping_add(WIDE) <= row_end,
                     depth.get_mut(at..).and_then(|rest| rest.first_chunk_mut::<WIDE>()),
                     semantic.get_mut(at..).and_then(|rest| rest.first_chunk_mut::<WIDE>()),
                     instance.get_mut(at..).and_then(|rest| rest.first_chunk_mut::<WIDE>()),
-                    surface.get_mut(at..).and_then(|rest| rest.first_chunk_mut::<WIDE>()),
                 ) {
                     for (k, depth) in depth.iter_mut().enumerate() {
                         *depth = 1.0 / (value + step * (k as i32 as f32));
                     }
                     *semantic = [label; WIDE];
                     *instance = [id; WIDE];
-                    *surface = [number; WIDE];
                 } else {
                     let end = at.wrapping_add(WIDE).min(start.wrapping_add(length));
                     for (k, depth) in depth[at..end].iter_mut().enumerate() {
@@ -173,7 +184,6 @@ simd_kernel! {
                     }
                     semantic[at..end].fill(label);
                     instance[at..end].fill(id);
-                    surface[at..end].fill(number);
                 }
                 done = done.wrapping_add(WIDE);
             }
@@ -181,24 +191,41 @@ simd_kernel! {
     }
 }
 
-/// Calls `visit` with start, length and number of every run of equal numbers in a row.
-#[inline]
-fn for_each_run(numbers: &[u32], mut visit: impl FnMut(usize, usize, u32)) {
-    let mut start = 0;
-    while start < numbers.len() {
-        let number = numbers[start];
-        let mut end = start + 1;
-        while let Some(next) = numbers[end..].first_chunk::<8>() {
-            if next.iter().fold(0, |other, value| other | (value ^ number)) != 0 {
-                break;
+simd_kernel! {
+    /// Sets the bits of the places where two rows differ.
+    pub fn differences(a: &[u32], b: &[u32], bits: &mut [u64]) {
+        bits.fill(0);
+        for ((a, b), word) in a.chunks(64).zip(b.chunks(64)).zip(bits.iter_mut()) {
+            let mut flags = [0u8; 64];
+            if let (Some(a), Some(b)) = (a.first_chunk::<64>(), b.first_chunk::<64>()) {
+                for k in 0..64 {
+                    flags[k] = u8::from(a[k] != b[k]);
+                }
+            } else {
+                for ((a, b), flag) in a.iter().zip(b).zip(&mut flags) {
+                    *flag = u8::from(a != b);
+                }
             }
-            end += 8;
+            for (k, eight) in flags.chunks_exact(8).enumerate() {
+                let mut bytes = [0; 8];
+                bytes.copy_from_slice(eight);
+                // Gathers the lowest bits of eight bytes in the highest byte.
+                let gathered = u64::from_le_bytes(bytes).wrapping_mul(0x0102_0408_1020_4080) >> 56;
+                *word |= gathered << (8 * k);
+            }
         }
-        while end < numbers.len() && numbers[end] == number {
-            end += 1;
+    }
+}
+
+/// Visits the places of set bits, ascending.
+#[inline]
+pub fn for_each_bit(words: &[u64], mut visit: impl FnMut(usize)) {
+    for (number, word) in words.iter().enumerate() {
+        let mut left = *word;
+        while left != 0 {
+            visit(64 * number + left.trailing_zeros() as usize);
+            left &= left - 1;
         }
-        visit(start, end - start, number);
-        start = end;
     }
 }
 
@@ -207,15 +234,46 @@ mod tests {
     use super::*;
 
     #[test]
-    fn runs_cover_a_row_once() {
-        let numbers: Vec<u32> = (0..1000u32).map(|i| i * i / 3000).collect();
-        let mut expected = 0;
-        for_each_run(&numbers, |start, length, number| {
-            assert_eq!(start, expected);
-            assert!(numbers[start..start + length].iter().all(|other| *other == number));
-            assert!(numbers.get(start + length) != Some(&number));
-            expected += length;
-        });
-        assert_eq!(expected, 1000);
+    fn runs_cover_every_row_once() {
+        let (width, rows) = (200, BAND_ROWS + 3);
+        let ids: Vec<u32> = (0..(width * rows) as u32).map(|i| NO_FACE - i * i / 3000).collect();
+        let mut images = FrameImages {
+            width: width as u32,
+            height: rows as u32,
+            rgb: vec![0; 3 * ids.len()],
+            depth_m: vec![0.0; ids.len()],
+            semantic: vec![0; ids.len()],
+            instance: vec![0; ids.len()],
+        };
+        let mut seen = SeenRuns::default();
+        for_each_band(false, &ids, &mut images, &mut seen, |mut band| band.resolve(Level::best(), &[]));
+        assert_eq!(seen.rows().count(), rows);
+        for (row, runs) in seen.rows().enumerate() {
+            let ids = &ids[row * width..(row + 1) * width];
+            let mut expected = (row % BAND_ROWS * width) as u32;
+            for run in runs {
+                assert_eq!(run.start, expected);
+                let column = run.start as usize % width;
+                let end = column + run.length as usize;
+                assert!(ids[column..end].iter().all(|other| *other == run.face));
+                assert!(ids.get(end) != Some(&run.face));
+                expected += run.length;
+            }
+            assert_eq!(expected as usize, (row % BAND_ROWS + 1) * width);
+        }
+        assert!(images.depth_m.iter().all(|depth| depth.is_infinite()));
+    }
+
+    #[test]
+    fn differences_are_bits() {
+        let a: Vec<u32> = (0..130).collect();
+        let mut b = a.clone();
+        (b[0], b[64], b[129]) = (9, 9, 9);
+        let mut bits = [0; 3];
+        differences(Level::best(), &a, &b, &mut bits);
+        assert_eq!(bits, [1, 1, 2]);
+        let mut places = vec![];
+        for_each_bit(&bits, |place| places.push(place));
+        assert_eq!(places, [0, 64, 129]);
     }
 }

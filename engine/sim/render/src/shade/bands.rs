@@ -32,6 +32,8 @@ pub(crate) struct Worker {
     blocks: Box<[Block; FOUR * GROUPS]>,
     /// Bytes of the blocks' pixels, in a row.
     developed: Box<[u32; LANES + WIDE]>,
+    /// The band's pixels: red in the lowest byte, then green and blue.
+    picture: Vec<u32>,
     runs: Vec<Link>,
     /// First run of each group; [`END`] between bands.
     first: Vec<u32>,
@@ -77,12 +79,12 @@ enum Material {
     Cloth(Cloth),
 }
 
-/// Shades a band from its runs and depth: the picture, and the same as bytes.
+/// Shades a band from its runs.
 pub(super) fn shade(shader: &Shader, seen: &Seen<'_>, band: &mut Band<'_>) {
     let idle = || shader.idle.lock().unwrap_or_else(PoisonError::into_inner);
     let mut worker = idle().pop().unwrap_or_else(Worker::new);
     worker.shade(shader, seen, band);
-    bytes(shader.level, band.picture, band.rgb);
+    bytes(shader.level, &worker.picture, band.rgb);
     idle().push(worker);
 }
 
@@ -112,6 +114,7 @@ impl Worker {
             shared: Box::new([Shared::EMPTY; GROUPS]),
             blocks: Box::new([Block::EMPTY; FOUR * GROUPS]),
             developed: Box::new([0; LANES + WIDE]),
+            picture: Vec::new(),
             runs: Vec::new(),
             first: Vec::new(),
             present: Vec::new(),
@@ -119,7 +122,8 @@ impl Worker {
         }
     }
 
-    fn shade(&mut self, shader: &Shader, seen: &Seen<'_>, band: &mut Band<'_>) {
+    fn shade(&mut self, shader: &Shader, seen: &Seen<'_>, band: &Band<'_>) {
+        self.picture.resize(band.rgb.len() / 3, 0);
         self.gather(seen, band);
         for position in 0..self.present.len() {
             let group = self.present[position] as usize;
@@ -137,7 +141,7 @@ impl Worker {
             self.first.resize(groups, END);
         }
         let mut last_group = usize::MAX;
-        for run in band.runs.iter() {
+        for run in &band.runs.all {
             let group = group_of(seen.faces, run.face);
             if group == last_group
                 && group < SKY
@@ -158,7 +162,7 @@ impl Worker {
         }
     }
 
-    fn shade_group(&mut self, shader: &Shader, seen: &Seen<'_>, band: &mut Band<'_>, group: usize) {
+    fn shade_group(&mut self, shader: &Shader, seen: &Seen<'_>, band: &Band<'_>, group: usize) {
         let mut next = self.first[group];
         let first = self.runs[next as usize].run;
         let (material, axes) = material_of(shader, seen, first.face);
@@ -185,31 +189,23 @@ impl Worker {
                 lanes += length.next_multiple_of(FOUR);
                 start += length;
                 if lanes == LANES {
-                    self.flush(shader, seen, &material, &axes, lanes, band.picture);
+                    self.flush(shader, seen, &material, &axes, lanes);
                     lanes = 0;
                 }
             }
         }
         if lanes > 0 {
-            self.flush(shader, seen, &material, &axes, lanes, band.picture);
+            self.flush(shader, seen, &material, &axes, lanes);
         }
     }
 
     /// Takes the filled lanes through the kernels and writes their pixels.
-    fn flush(
-        &mut self,
-        shader: &Shader,
-        seen: &Seen<'_>,
-        material: &Material,
-        axes: &FaceAxes,
-        lanes: usize,
-        picture: &mut [u32],
-    ) {
+    fn flush(&mut self, shader: &Shader, seen: &Seen<'_>, material: &Material, axes: &FaceAxes, lanes: usize) {
         let groups = lanes.div_ceil(FOUR * WIDE);
         fill(shader.level, &self.pieces, &mut self.stage);
         let (shared, blocks) = (&mut self.shared[..groups], &mut self.blocks[..FOUR * groups]);
         run_kernels(shader, seen, material, axes, &self.stage, (shared, blocks));
-        put_back(shader.level, &self.pieces, &self.blocks[..FOUR * groups], &mut self.developed, picture);
+        put_back(shader.level, &self.pieces, &self.blocks[..FOUR * groups], &mut self.developed, &mut self.picture);
         self.pieces.clear();
     }
 }

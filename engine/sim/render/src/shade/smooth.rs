@@ -5,8 +5,7 @@
 //! middles of the steps, and each pixel beside it gets the other side's colour by the area that the line cuts off.
 //! Borders are found as bits, 64 pixels at a time.
 
-use cosfly_frames::simd::Level;
-use cosfly_frames::simd_kernel;
+use crate::passes::ids::{Run, for_each_bit};
 
 /// Bits of the borders around the row at hand; kept between frames.
 #[derive(Default)]
@@ -23,28 +22,23 @@ pub(crate) struct Smoother {
     above: Vec<u64>,
     /// For every column with an upright border that goes on: its first row and the step there.
     first: Vec<(u32, Step)>,
+    changes: Vec<Change>,
 }
 
-/// An image to smooth.
-pub(crate) struct Picture<'a> {
-    /// Equal numbers for pixels of one surface.
-    pub surface: &'a [u32],
-    /// Pixels before smoothing: red in the lowest byte, then green and blue.
-    pub source: &'a [u32],
-    /// The same as bytes, to be smoothed.
-    pub rgb: &'a mut [u8],
-    /// Pixels per row.
-    pub width: usize,
+/// What smoothing adds to a pixel.
+struct Change {
+    /// Its first byte.
+    at: usize,
+    added: [i16; 3],
 }
 
 impl Smoother {
-    /// Blends pixels along all borders between surfaces.
-    pub fn smooth(&mut self, level: Level, picture: &mut Picture<'_>) {
-        let width = picture.width;
-        if width < 3 || picture.surface.len() < 3 * width {
+    /// Blends pixels along all borders between surfaces, given each row's runs.
+    pub fn smooth<'a>(&mut self, rows: impl Iterator<Item = &'a [Run]>, width: usize, rgb: &mut [u8]) {
+        if width < 3 || rgb.len() < 9 * width {
             return;
         }
-        let height = picture.surface.len() / width;
+        let height = rgb.len() / 3 / width;
         let words = width.div_ceil(64);
         for bits in [&mut self.right, &mut self.right_below, &mut self.right_above, &mut self.below, &mut self.above] {
             bits.clear();
@@ -52,42 +46,45 @@ impl Smoother {
         }
         self.first.clear();
         self.first.resize(width, (0, Step::None));
-        let row = |row: usize| &picture.surface[row * width..(row + 1) * width];
-        differences(level, &row(0)[1..], &row(0)[..width - 1], &mut self.right);
-        for number in 0..height {
-            let has_next = number + 1 < height;
-            if has_next {
-                let (here, next) = (row(number), row(number + 1));
-                differences(level, &next[1..], &next[..width - 1], &mut self.right_below);
-                differences(level, here, next, &mut self.below);
+        let mut changes = core::mem::take(&mut self.changes);
+        changes.clear();
+        let mut borders = Borders { rgb, width, changes: &mut changes };
+        let mut rows = rows.peekable();
+        let mut number = 0;
+        while let Some(row) = rows.next() {
+            if number == 0 {
+                borders_right(row, width, &mut self.right);
             }
-            let borders = Borders { source: picture.source, width };
-            self.upright(&borders, number, picture.rgb);
-            if has_next {
-                self.level(&borders, number, picture.rgb);
+            if let Some(next) = rows.peek() {
+                borders_right(next, width, &mut self.right_below);
+                borders_below(row, next, width, &mut self.below);
+            }
+            self.upright(&mut borders, number);
+            if rows.peek().is_some() {
+                self.level(&mut borders, number);
             }
             core::mem::swap(&mut self.right_above, &mut self.right);
             core::mem::swap(&mut self.right, &mut self.right_below);
             core::mem::swap(&mut self.above, &mut self.below);
+            number += 1;
         }
         // What reaches the last row ends there.
-        for word in 0..words {
-            for column in bits(self.right_above[word], word) {
-                let (first, step) = self.first[column];
-                let piece = Piece {
-                    start: first as usize * width + column,
-                    length: height - first as usize,
-                    along: width,
-                    across: 1,
-                };
-                let borders = Borders { source: picture.source, width };
-                borders.blend(&piece, step, false, picture.rgb);
+        for_each_bit(&self.right_above, |column| {
+            let (first, step) = self.first[column];
+            borders.blend(&Piece::upright(column, first as usize..height, width), step, false);
+        });
+        for Change { at, added } in &changes {
+            if let Some(pixel) = rgb.get_mut(*at..).and_then(|rest| rest.first_chunk_mut::<3>()) {
+                for (byte, added) in pixel.iter_mut().zip(added) {
+                    *byte = (i16::from(*byte) + added).clamp(0, 255) as u8;
+                }
             }
         }
+        self.changes = changes;
     }
 
     /// Ends and begins pieces of upright borders at a row.
-    fn upright(&mut self, borders: &Borders<'_>, row: usize, rgb: &mut [u8]) {
+    fn upright(&mut self, borders: &mut Borders<'_>, row: usize) {
         for word in 0..self.right.len() {
             let (now, before) = (self.right[word], self.right_above[word]);
             if now | before == 0 {
@@ -99,15 +96,9 @@ impl Smoother {
             let step_at = |column: usize| Step::of(step_left >> (column % 64), step_right >> (column % 64));
             for column in bits(before & !goes_on, word) {
                 let (first, step) = self.first[column];
-                let first = first as usize;
-                let piece = Piece {
-                    start: first * borders.width + column,
-                    length: row - first,
-                    along: borders.width,
-                    across: 1,
-                };
-                borders.blend(&piece, step, false, rgb);
-                borders.blend(&piece, step_at(column), true, rgb);
+                let piece = Piece::upright(column, first as usize..row, borders.width);
+                borders.blend(&piece, step, false);
+                borders.blend(&piece, step_at(column), true);
             }
             for column in bits(now & !goes_on, word) {
                 self.first[column] = (row as u32, step_at(column));
@@ -116,7 +107,7 @@ impl Smoother {
     }
 
     /// Smooths the border between a row and the next one.
-    fn level(&self, borders: &Borders<'_>, row: usize, rgb: &mut [u8]) {
+    fn level(&self, borders: &mut Borders<'_>, row: usize) {
         let width = borders.width;
         // Bit c: one of the rows changes between c - 1 and c.
         let breaks = |word: usize| shifted_up(&self.right, word) | shifted_up(&self.right_below, word);
@@ -144,8 +135,8 @@ impl Smoother {
                 }
                 let end = (64 * at + stops.trailing_zeros() as usize).min(width);
                 let piece = Piece { start: row * width + start, length: end - start, along: 1, across: width };
-                borders.blend(&piece, step_at(start), false, rgb);
-                borders.blend(&piece, step_at(end), true, rgb);
+                borders.blend(&piece, step_at(start), false);
+                borders.blend(&piece, step_at(end), true);
             }
         }
     }
@@ -174,43 +165,70 @@ fn bits(mut bits: u64, word: usize) -> impl Iterator<Item = usize> {
     })
 }
 
-simd_kernel! {
-    /// Sets the bits of the places where two rows differ.
-    fn differences(a: &[u32], b: &[u32], bits: &mut [u64]) {
-        for ((a, b), word) in a.chunks(64).zip(b.chunks(64)).zip(bits.iter_mut()) {
-            let mut flags = [0u8; 64];
-            if let (Some(a), Some(b)) = (a.first_chunk::<64>(), b.first_chunk::<64>()) {
-                for k in 0..64 {
-                    flags[k] = u8::from(a[k] != b[k]);
-                }
-            } else {
-                for ((a, b), flag) in a.iter().zip(b).zip(&mut flags) {
-                    *flag = u8::from(a != b);
-                }
-            }
-            *word = 0;
-            for (k, eight) in flags.chunks_exact(8).enumerate() {
-                let mut bytes = [0; 8];
-                bytes.copy_from_slice(eight);
-                // Gathers the lowest bits of eight bytes in the highest byte.
-                let gathered = u64::from_le_bytes(bytes).wrapping_mul(0x0102_0408_1020_4080) >> 56;
-                *word |= gathered << (8 * k);
-            }
+/// Sets the bits of a row's pixels that differ from the next one.
+fn borders_right(row: &[Run], width: usize, bits: &mut [u64]) {
+    bits.fill(0);
+    let mut end = 0;
+    for pair in row.windows(2) {
+        end += pair[0].length as usize;
+        if pair[0].surface != pair[1].surface && end < width {
+            bits[(end - 1) / 64] |= 1 << ((end - 1) % 64);
         }
     }
 }
 
-/// The image before smoothing.
+/// Sets the bits of a row's pixels that differ from the ones below.
+fn borders_below(row: &[Run], below: &[Run], width: usize, bits: &mut [u64]) {
+    bits.fill(0);
+    let (mut upper, mut lower) = (row.iter(), below.iter());
+    let (Some(mut here), Some(mut there)) = (upper.next(), lower.next()) else { return };
+    let (mut end_here, mut end_there) = (here.length as usize, there.length as usize);
+    let mut at = 0;
+    loop {
+        let end = end_here.min(end_there).min(width);
+        if here.surface != there.surface {
+            set_bits(bits, at, end);
+        }
+        at = end;
+        if end_here == end {
+            let Some(next) = upper.next() else { return };
+            (here, end_here) = (next, end_here + next.length as usize);
+        }
+        if end_there == end {
+            let Some(next) = lower.next() else { return };
+            (there, end_there) = (next, end_there + next.length as usize);
+        }
+    }
+}
+
+/// Sets bits `from` to before `to`.
+fn set_bits(bits: &mut [u64], from: usize, to: usize) {
+    if from >= to {
+        return;
+    }
+    let (first, last) = (from / 64, (to - 1) / 64);
+    let (low, high) = (u64::MAX << (from % 64), u64::MAX >> (63 - (to - 1) % 64));
+    if first == last {
+        bits[first] |= low & high;
+        return;
+    }
+    bits[first] |= low;
+    bits[first + 1..last].fill(u64::MAX);
+    bits[last] |= high;
+}
+
+/// The image before smoothing, and what is to be added to it.
 struct Borders<'a> {
-    source: &'a [u32],
+    rgb: &'a [u8],
     width: usize,
+    changes: &'a mut Vec<Change>,
 }
 
 impl Borders<'_> {
     /// Blends the half of a piece next to one of its ends: the edge starts half a pixel aside, where the step is,
     /// and comes back to the border in the middle of the piece.
     #[inline]
-    fn blend(&self, piece: &Piece, step: Step, from_end: bool, rgb: &mut [u8]) {
+    fn blend(&mut self, piece: &Piece, step: Step, from_end: bool) {
         if step == Step::None {
             return;
         }
@@ -229,10 +247,10 @@ impl Borders<'_> {
                 Step::Near => (near, near + piece.across),
                 _ => (near + piece.across, near),
             };
-            let (own, foreign) = (self.source[changed].to_le_bytes(), self.source[other].to_le_bytes());
-            for (channel, byte) in rgb[3 * changed..3 * changed + 3].iter_mut().enumerate() {
-                let change = (weight * (i32::from(foreign[channel]) - i32::from(own[channel]))) >> 8;
-                *byte = (i32::from(*byte) + change).clamp(0, 255) as u8;
+            let pixel = |number: usize| self.rgb[3 * number..].first_chunk::<3>();
+            if let (Some(own), Some(foreign)) = (pixel(changed), pixel(other)) {
+                let change = |k: usize| ((weight * (i32::from(foreign[k]) - i32::from(own[k]))) >> 8) as i16;
+                self.changes.push(Change { at: 3 * changed, added: [change(0), change(1), change(2)] });
             }
         }
     }
@@ -244,6 +262,13 @@ struct Piece {
     length: usize,
     along: usize,
     across: usize,
+}
+
+impl Piece {
+    /// Along the right side of a column's pixels.
+    fn upright(column: usize, rows: core::ops::Range<usize>, width: usize) -> Self {
+        Self { start: rows.start * width + column, length: rows.len(), along: width, across: 1 }
+    }
 }
 
 /// On which side of a border its piece ends with a step.
@@ -270,10 +295,18 @@ mod tests {
     use super::*;
 
     fn smoothed(surface: &[u32], width: usize) -> Vec<u8> {
-        let source: Vec<u32> = surface.iter().map(|number| if *number == 1 { 0x00ff_ffff } else { 0 }).collect();
-        let mut rgb: Vec<u8> = source.iter().flat_map(|pixel| pixel.to_le_bytes()[..3].to_vec()).collect();
-        let mut picture = Picture { surface, source: &source, rgb: &mut rgb, width };
-        Smoother::default().smooth(Level::best(), &mut picture);
+        let mut rgb: Vec<u8> = surface.iter().flat_map(|number| [if *number == 1 { 255 } else { 0 }; 3]).collect();
+        let runs = |row: &[u32]| -> Vec<Run> {
+            row.chunk_by(|a, b| a == b)
+                .scan(0, |start, run| {
+                    let length = run.len() as u32;
+                    *start += length;
+                    Some(Run { start: *start - length, length, face: run[0], surface: run[0] })
+                })
+                .collect()
+        };
+        let rows: Vec<Vec<Run>> = surface.chunks(width).map(runs).collect();
+        Smoother::default().smooth(rows.iter().map(Vec::as_slice), width, &mut rgb);
         rgb
     }
 
@@ -292,12 +325,13 @@ mod tests {
     }
 
     #[test]
-    fn differences_are_bits() {
-        let a: Vec<u32> = (0..130).collect();
-        let mut b = a.clone();
-        (b[0], b[64], b[129]) = (9, 9, 9);
-        let mut bits = [0; 3];
-        differences(Level::best(), &a, &b, &mut bits);
-        assert_eq!(bits, [1, 1, 2]);
+    fn bits_are_set_over_words() {
+        let mut bits = [0; 4];
+        set_bits(&mut bits, 60, 130);
+        assert_eq!(bits, [0xf << 60, u64::MAX, 3, 0]);
+        set_bits(&mut bits, 192, 256);
+        assert_eq!(bits[3], u64::MAX);
+        set_bits(&mut bits, 3, 3);
+        assert_eq!(bits[0], 0xf << 60);
     }
 }

@@ -130,13 +130,17 @@ impl Thing {
             ObstacleKind::TreeCrown | ObstacleKind::Bush => {
                 paint_all!(put_bent, self, shared, blocks, point, _at => self.leaves(&point, noise));
             }
-            ObstacleKind::TreeTrunk => paint_all!(put, self, shared, blocks, point, at => self.bark(&point, &at, noise)),
+            ObstacleKind::TreeTrunk => {
+                paint_all!(put, self, shared, blocks, point, at => self.bark(&point, &at, noise))
+            }
             ObstacleKind::Car => paint_all!(put, self, shared, blocks, point, at => self.car::<AXIS>(&point, &at)),
             ObstacleKind::Lamp => paint_all!(put, self, shared, blocks, point, at => self.lamp(&point, &at)),
             ObstacleKind::TrafficLight => {
                 paint_all!(put, self, shared, blocks, point, at => self.traffic_light::<AXIS>(&point, &at));
             }
-            ObstacleKind::TrafficSign => paint_all!(put, self, shared, blocks, point, at => self.sign::<AXIS>(&point, &at)),
+            ObstacleKind::TrafficSign => {
+                paint_all!(put, self, shared, blocks, point, at => self.sign::<AXIS>(&point, &at))
+            }
             ObstacleKind::Fence | ObstacleKind::GuardRail => {
                 paint_all!(put, self, shared, blocks, point, at => self.fence(&point, &at));
             }
@@ -144,7 +148,9 @@ impl Thing {
                 paint_all!(put, self, shared, blocks, point, at => self.stone(&point, &at, noise));
             }
             ObstacleKind::Pole => paint_all!(put, self, shared, blocks, point, _at => metal(&point, Vec3::splat(0.22))),
-            ObstacleKind::Static => paint_all!(put, self, shared, blocks, point, at => self.furniture(&point, &at, noise)),
+            ObstacleKind::Static => {
+                paint_all!(put, self, shared, blocks, point, at => self.furniture(&point, &at, noise))
+            }
         }
     }
 
