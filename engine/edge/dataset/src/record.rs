@@ -94,6 +94,8 @@ pub struct RenderedTrajectory {
     pub seed: u64,
     /// The target in the image, per frame.
     pub views: Vec<TargetView>,
+    /// Share of the target that hundreds of rays reach, per frame, apart from the renderer; none out of view.
+    pub visible_by_dense_rays: Vec<Option<f64>>,
     /// Set for a perturbed flight.
     pub pair: Option<PairInfo>,
 }
@@ -147,6 +149,7 @@ impl RenderedTrajectory {
             ("visibility", trajectory.visibility.len()),
             ("clearance_m", trajectory.clearance_m.len()),
             ("views", self.views.len()),
+            ("visible_by_dense_rays", self.visible_by_dense_rays.len()),
             ("perturbation.frames", trajectory.perturbation.as_ref().map_or(frames, |p| p.frames.len())),
         ];
         let terms = trajectory.terms.iter().map(|term| (term.name.as_str(), term.per_frame.len()));

@@ -3,6 +3,7 @@
 //! Adding a stage: one new file here, its `mod` line, and its line in [`registry`].
 
 mod backends;
+mod body_rays;
 mod caption;
 mod codec;
 mod dataset;

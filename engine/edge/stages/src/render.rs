@@ -1,5 +1,6 @@
 //! `render`: pictures of every trajectory, all channels of a frame from one visibility pass.
 
+use crate::body_rays::BodyRays;
 use crate::memo::Memo;
 use crate::ports::{self, FRAMES, TRAJECTORY};
 use crate::world::{TOWN_BLOB, World, check_same_town, link_town, world};
@@ -133,7 +134,7 @@ impl Stage for RenderStage {
             },
             walk_seed,
         };
-        let views = self.draw(outputs, context, &scene, &world, &trajectory, &shooting)?;
+        let (views, visible_by_dense_rays) = self.draw(outputs, context, &scene, &world, &trajectory, &shooting)?;
         let pedestrian_id = pedestrian_of(artifact).to_owned();
         // The expert is published in the same weather.
         let expert_id = |expert: &str| preset.map_or(expert.to_owned(), |preset| format!("{expert}-{preset}"));
@@ -153,6 +154,7 @@ impl Stage for RenderStage {
             weather: shooting.weather,
             seed: Seed(context.seed).as_u64(),
             views,
+            visible_by_dense_rays,
             pair,
         };
         outputs.put("index", &record.to_bytes())?;
@@ -176,7 +178,8 @@ struct Rig {
 }
 
 impl RenderStage {
-    /// Renders frame by frame into the `pack` blob; memory does not grow with the number of frames.
+    /// Renders frame by frame into the `pack` blob; memory does not grow with the number of frames. Gives how the target
+    /// looks in each frame, and how much of it rays reach.
     fn draw(
         &self,
         outputs: &mut dyn OutputSink,
@@ -185,7 +188,7 @@ impl RenderStage {
         world: &World,
         trajectory: &Trajectory,
         shooting: &Shooting,
-    ) -> Result<Vec<TargetView>> {
+    ) -> Result<(Vec<TargetView>, Vec<Option<f64>>)> {
         let mut rig = self.take_rig(shooting.camera)?;
         let largest =
             world.town.obstacles.iter().map(|obstacle| obstacle.object_id).max().unwrap_or(0).saturating_add(2);
@@ -196,8 +199,10 @@ impl RenderStage {
             trajectory.poses_in_world.iter().map(|drone| shooting.mount.camera_pose(drone)).collect();
         let walked_m = walked_m(&track.states);
         let mut views = Vec::with_capacity(track.len());
+        let (mut body_rays, mut by_dense_rays) = (BodyRays::default(), Vec::with_capacity(track.len()));
         outputs.stream("pack", &mut |file| {
             views.clear();
+            by_dense_rays.clear();
             let mut pack = FramePackWriter::new(file, &header)?;
             for (frame, visible_by_rays) in trajectory.visibility.iter().copied().enumerate() {
                 context.check_cancelled()?;
@@ -223,11 +228,15 @@ impl RenderStage {
                     .map_err(|error| backends::failure(self.config.backend, &error))?;
                 pack.frame(rendered.images)?;
                 views.push(TargetView { visible_by_rays, ..rendered.target_view });
+                let Moment { pose, target } = moment(0.0);
+                let target = target.filter(|_| rendered.target_view.in_view);
+                by_dense_rays
+                    .push(target.and_then(|it| body_rays.visible_share(&world.exact, &shooting.camera, &pose, &it)));
             }
             pack.finish().map(drop)
         })?;
         self.idle.lock().unwrap_or_else(PoisonError::into_inner).push(rig);
-        Ok(views)
+        Ok((views, by_dense_rays))
     }
 
     fn take_rig(&self, camera: Camera) -> Result<Rig> {

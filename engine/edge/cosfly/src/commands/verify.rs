@@ -36,6 +36,22 @@ pub fn verify(arguments: &VerifyArguments) -> Outcome {
         count(report.frames, "frame"),
         count(report.boxes, "target box").replace("boxs", "boxes"),
     );
+    if report.labels > 0 {
+        let _ = writeln!(
+            text,
+            "visible shares by rays and by pixels agree within 5 points in {} of {}{}",
+            report.labels - report.gaps,
+            count(report.labels, "frame"),
+            if report.gaps > 0 { "; not in these:" } else { "" }
+        );
+    }
+    for gap in &report.label_gaps {
+        let _ = writeln!(text, "  {gap}");
+    }
+    let hidden = report.gaps - report.label_gaps.len() as u64;
+    if hidden > 0 {
+        let _ = writeln!(text, "  ... and {hidden} more");
+    }
     let _ = match report.found {
         0 => writeln!(text, "nothing wrong was found"),
         found => writeln!(text, "{} found", count(found, "problem")),

@@ -118,6 +118,7 @@ pub fn flight(pedestrian: usize, role: Role) -> SampleFlight {
         noise: Noise::default(),
         weather: weather(),
         seed: 0x0123_4567_89ab_cdef,
+        visible_by_dense_rays: views.iter().map(|view| view.in_view.then_some(view.visible_by_pixels)).collect(),
         views,
         pair: (role == Role::Perturbed).then(|| PairInfo { expert_id: format!("expert-p{pedestrian:05}") }),
     };

@@ -123,6 +123,12 @@ fn view() -> Vec<Column<DatasetItem>> {
             "visible pixels / pixels without obstacles, inside the image; 0 out of view",
             |item, i| view_of(item, i).visible_by_pixels.into(),
         ),
+        Column::optional(
+            "visible_by_dense_rays",
+            Kind::Real,
+            "share that some 400 rays to the body inside the image reach, apart from the renderer; null when out of view",
+            |item, i| item.record.visible_by_dense_rays[i].into(),
+        ),
         Column::new("visible_pixels", Kind::Integer, "visible pixels of the target", |item, i| {
             view_of(item, i).pixels.into()
         }),

@@ -2,6 +2,7 @@
 
 use super::figures;
 use super::files::CheckedFiles;
+use super::labels;
 use super::log;
 use super::report::VerifyReport;
 use super::rows::{self, FlightRow, FrameRow};
@@ -58,6 +59,7 @@ pub fn check_all(
             motions.insert(id.clone(), motion);
             check_frames(file, flight, &frames, report);
             figures::check_frames(flight, &frames, report);
+            labels::compare(file, flight, &frames, report);
             check_occluders(file, tables.instances.get(&flight.town), &frames, report);
             check_pair(&tables.pairs, flight, &frames, report);
             twins.keep(&frames);

@@ -7,12 +7,13 @@ mod croissant;
 mod figures;
 mod files;
 mod flight;
+mod labels;
 mod log;
 mod report;
 mod rows;
 mod tables;
 
-pub use report::{Finding, VerifyReport};
+pub use report::{Finding, LabelGap, VerifyReport};
 
 use cosfly_diagnose::{Diagnostic, Fault, Result};
 use std::path::Path;

@@ -25,8 +25,30 @@ impl fmt::Display for Finding {
     }
 }
 
+/// A frame in which rays and pixels tell different shares of the target visible: no problem, but worth a look.
+#[derive(Clone, Debug, PartialEq)]
+pub struct LabelGap {
+    /// File, from the dataset's folder.
+    pub file: String,
+    /// Row, flight and frame.
+    pub place: String,
+    /// `visible_by_dense_rays`.
+    pub by_rays: f64,
+    /// `visible_by_pixels`.
+    pub by_pixels: f64,
+    /// Why, as far as the tables tell.
+    pub reason: String,
+}
+
+impl fmt::Display for LabelGap {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let Self { file, place, by_rays, by_pixels, reason } = self;
+        write!(f, "{file}, {place}: {by_rays:.2} visible by rays, {by_pixels:.2} by pixels; {reason}")
+    }
+}
+
 /// What was checked and what was found.
-#[derive(Clone, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Debug, Default, PartialEq)]
 pub struct VerifyReport {
     /// The first findings, in the order of the checks.
     pub findings: Vec<Finding>,
@@ -42,12 +64,26 @@ pub struct VerifyReport {
     pub frames: u64,
     /// Frames whose stored boxes were compared with the reprojected body and with the images.
     pub boxes: u64,
+    /// Frames whose visible shares by rays and by pixels were compared.
+    pub labels: u64,
+    /// Frames in which those are more than 5 points apart.
+    pub gaps: u64,
+    /// The first of them, in the order of the rows.
+    pub label_gaps: Vec<LabelGap>,
 }
 
 impl VerifyReport {
     /// Whether nothing was found.
     pub fn is_sound(&self) -> bool {
         self.found == 0
+    }
+
+    /// Notes a frame whose labels differ.
+    pub(super) fn note_gap(&mut self, gap: LabelGap) {
+        self.gaps += 1;
+        if self.label_gaps.len() < KEPT_FINDINGS {
+            self.label_gaps.push(gap);
+        }
     }
 
     /// Notes a finding.

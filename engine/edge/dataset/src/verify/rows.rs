@@ -248,6 +248,8 @@ pub struct FrameRow {
     pub in_view: bool,
     /// Visible share by rays and by pixels.
     pub visible: [f64; 2],
+    /// Visible share by hundreds of rays.
+    pub visible_by_dense_rays: Option<f64>,
     /// Visible pixels.
     pub visible_pixels: i64,
     /// Edges of the visible pixels.
@@ -294,6 +296,7 @@ impl FrameRow {
             clearance_m: real("clearance_m"),
             in_view: event("in_view"),
             visible: [real("visible_by_rays"), real("visible_by_pixels")],
+            visible_by_dense_rays: batch.real("visible_by_dense_rays", row),
             visible_pixels: batch.integer("visible_pixels", row).unwrap_or(-1),
             visible_box: batch.pixel_box("visible_box_px", row),
             full_box: batch.pixel_box("full_box_px", row),

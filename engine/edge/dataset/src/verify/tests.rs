@@ -43,6 +43,18 @@ fn a_sound_dataset_passes() {
 }
 
 #[test]
+fn shares_by_rays_and_pixels_that_differ_are_listed_with_a_reason_and_are_no_problem() {
+    let mut flights = sample::flights();
+    let pixels = flights[0].record.views[2].visible_by_pixels;
+    let differing = if pixels > 0.5 { pixels - 0.2 } else { pixels + 0.2 };
+    flights[0].record.visible_by_dense_rays[2] = Some(differing);
+    let report = verify(published(flights).path(), &mut |_, _| {}).unwrap();
+    assert!(report.is_sound() && (report.labels, report.gaps) == (20, 1), "{:#?}", report.findings);
+    let gap = report.label_gaps[0].to_string();
+    assert!(gap.contains("frame 2: ") && gap.contains(&format!("{differing:.2} visible by rays")), "{gap}");
+}
+
+#[test]
 fn a_flipped_byte_is_found_wherever_it_is() {
     for name in ["README.md", "croissant.json", "files.parquet", "SHA256SUMS", "schemas/cosfly.proto"] {
         let folder = published(sample::flights());

@@ -1,0 +1,175 @@
+//! How much of the target rays reach, hundreds of them: the figure's triangles against the town's boxes in double
+//! precision, apart from all that the renderer does, so that its pixels can be held against it.
+
+use cosfly_frames::{DVec3, Pose};
+use cosfly_geometry::{BoxBvh, SpatialQuery};
+use cosfly_render::{Camera, TargetSetup, target_triangles};
+
+/// Rays through the box around the body in the image; about half of them meet the body.
+const RAYS: f64 = 900.0;
+
+/// Casts rays; keeps its buffers from frame to frame.
+#[derive(Default)]
+pub struct BodyRays {
+    /// One over the planar depth of the body at each ray; 0 where it is not.
+    nearness: Vec<f64>,
+    points_in_world: Vec<DVec3>,
+    blocked: Vec<bool>,
+}
+
+/// A corner in the image: u, v, one over planar depth.
+type Corner = [f64; 3];
+
+impl BodyRays {
+    /// Of the rays that meet the body inside the image, evenly spaced, the share that nothing blocks; `None` when none
+    /// meets it.
+    pub fn visible_share(&mut self, boxes: &BoxBvh, camera: &Camera, pose: &Pose, target: &TargetSetup) -> Option<f64> {
+        let in_image = |corner: DVec3| camera.project(pose, corner).map(|(u, v, depth_m)| [u, v, 1.0 / depth_m]);
+        let triangles: Vec<[Corner; 3]> = target_triangles(target)
+            .into_iter()
+            .filter_map(|[a, b, c]| Some([in_image(a)?, in_image(b)?, in_image(c)?]))
+            .collect();
+        let grid = Grid::around(&triangles, camera)?;
+        self.nearness.clear();
+        self.nearness.resize(grid.columns * grid.rows, 0.0);
+        triangles.iter().for_each(|triangle| grid.meet(triangle, &mut self.nearness));
+        self.points_in_world.clear();
+        for (at, nearness) in self.nearness.iter().enumerate().filter(|(_, nearness)| **nearness > 0.0) {
+            let ray = camera.ray_in_world(pose, grid.u(at % grid.columns), grid.v(at / grid.columns));
+            self.points_in_world.push(pose.position_in_world + ray * ((1.0 - 1e-9) / nearness));
+        }
+        self.blocked.clear();
+        self.blocked.resize(self.points_in_world.len(), false);
+        boxes.blocked_batch(pose.position_in_world, &self.points_in_world, &mut self.blocked);
+        let free = self.blocked.iter().filter(|blocked| !**blocked).count();
+        (!self.blocked.is_empty()).then(|| free as f64 / self.blocked.len() as f64)
+    }
+}
+
+/// Places of rays in the image: the middles of square cells.
+struct Grid {
+    left: f64,
+    top: f64,
+    step: f64,
+    columns: usize,
+    rows: usize,
+}
+
+impl Grid {
+    /// Over the part of the triangles' bounds that is in the image.
+    fn around(triangles: &[[Corner; 3]], camera: &Camera) -> Option<Self> {
+        let corners = || triangles.iter().flatten();
+        let least = |axis: usize| corners().map(|corner| corner[axis]).fold(f64::INFINITY, f64::min).max(0.0);
+        let most = |axis: usize, size: u32| {
+            corners().map(|corner| corner[axis]).fold(f64::NEG_INFINITY, f64::max).min(f64::from(size))
+        };
+        let (left, top) = (least(0), least(1));
+        let (width, height) = (most(0, camera.width) - left, most(1, camera.height) - top);
+        if !(width > 0.0 && height > 0.0) {
+            return None;
+        }
+        // Slender boxes have one row of rays at least, and not more than four times as many rays as others.
+        let step = (width * height / RAYS).sqrt().max(width.max(height) / (4.0 * RAYS));
+        let count = |length: f64| (length / step).ceil().max(1.0) as usize;
+        Some(Self { left, top, step, columns: count(width), rows: count(height) })
+    }
+
+    fn u(&self, column: usize) -> f64 {
+        self.left + (column as f64 + 0.5) * self.step
+    }
+
+    fn v(&self, row: usize) -> f64 {
+        self.top + (row as f64 + 0.5) * self.step
+    }
+
+    /// Notes how near a triangle is at the rays through it, from either side.
+    fn meet(&self, [a, b, c]: &[Corner; 3], nearness: &mut [f64]) {
+        let area = cross(a, b, c[0], c[1]);
+        if area == 0.0 {
+            return;
+        }
+        let cells = |axis: usize, start: f64, count: usize| {
+            let low = a[axis].min(b[axis]).min(c[axis]);
+            let high = a[axis].max(b[axis]).max(c[axis]);
+            let first = ((low - start) / self.step - 0.5).ceil().max(0.0) as usize;
+            let end = ((high - start) / self.step + 0.5).floor().max(0.0) as usize;
+            first..end.min(count)
+        };
+        for row in cells(1, self.top, self.rows) {
+            for column in cells(0, self.left, self.columns) {
+                let (u, v) = (self.u(column), self.v(row));
+                let shares = [cross(b, c, u, v) / area, cross(c, a, u, v) / area, cross(a, b, u, v) / area];
+                if shares.iter().all(|share| *share >= 0.0) {
+                    // One over planar depth is linear in the image.
+                    let here = shares[0] * a[2] + shares[1] * b[2] + shares[2] * c[2];
+                    let nearest = &mut nearness[row * self.columns + column];
+                    *nearest = nearest.max(here);
+                }
+            }
+        }
+    }
+}
+
+/// Twice the area between an edge and a point of the image.
+fn cross(from: &Corner, to: &Corner, u: f64, v: f64) -> f64 {
+    (to[0] - from[0]) * (v - from[1]) - (to[1] - from[1]) * (u - from[0])
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use cosfly_frames::{Seed, TargetState};
+    use cosfly_geometry::OrientedBox;
+
+    const CAMERA: Camera = Camera { width: 640, height: 360, horizontal_fov_rad: 1.2 };
+
+    fn target() -> TargetSetup {
+        TargetSetup {
+            state: TargetState { feet_in_world: DVec3::ZERO, heading_rad: 0.4, speed_mps: 1.3 },
+            height_m: 1.8,
+            radius_m: 0.3,
+            clothes_seed: Seed([1; 32]),
+            gait_phase_rad: 0.5,
+            visible_by_rays: 1.0,
+        }
+    }
+
+    fn share(obstacles: &[OrientedBox], pose: Pose) -> Option<f64> {
+        BodyRays::default().visible_share(&BoxBvh::build(obstacles.to_vec()), &CAMERA, &pose, &target())
+    }
+
+    /// A wall 5 m before the body, between two heights.
+    fn wall(low_m: f64, high_m: f64) -> OrientedBox {
+        OrientedBox::from_corners(DVec3::new(4.9, -5.0, low_m), DVec3::new(5.1, 5.0, high_m))
+    }
+
+    #[test]
+    fn a_free_body_is_seen_whole_and_a_hidden_one_not_at_all() {
+        let level = Pose::looking_at(DVec3::new(20.0, 0.0, 0.9), DVec3::new(0.0, 0.0, 0.9));
+        assert_eq!(share(&[], level), Some(1.0));
+        assert_eq!(share(&[wall(-1.0, 4.0)], level), Some(0.0));
+        let away = Pose::looking_at(DVec3::new(20.0, 0.0, 0.9), DVec3::new(40.0, 0.0, 0.9));
+        assert_eq!(share(&[], away), None);
+    }
+
+    #[test]
+    fn half_a_wall_hides_the_lower_part_of_the_body() {
+        let level = Pose::looking_at(DVec3::new(1000.0, 0.0, 0.9), DVec3::new(0.0, 0.0, 0.9));
+        let shares: Vec<f64> =
+            [0.3, 0.6, 0.9, 1.2, 1.5].map(|high| share(&[wall(-1.0, high)], level).unwrap()).to_vec();
+        assert!(shares.is_sorted_by(|a, b| a > b), "{shares:?}");
+        // The trunk is wider than the legs.
+        assert!((0.5..0.75).contains(&shares[2]), "{shares:?}");
+    }
+
+    #[test]
+    fn only_what_is_in_the_image_counts() {
+        // The wall hides the right half of the body, which is outside of the image.
+        let pose = Pose::looking_at(DVec3::new(10.0, 0.0, 0.9), DVec3::new(0.0, 0.0, 0.9));
+        let to_the_left = Pose { yaw_rad: pose.yaw_rad - 0.6, ..pose };
+        let (_, right) = (0, OrientedBox::from_corners(DVec3::new(4.9, -5.0, -1.0), DVec3::new(5.1, 0.0, 4.0)));
+        let left = OrientedBox::from_corners(DVec3::new(4.9, 0.0, -1.0), DVec3::new(5.1, 5.0, 4.0));
+        let halves = [share(&[right], to_the_left), share(&[left], to_the_left)];
+        assert!(halves.contains(&Some(1.0)) && halves.contains(&Some(0.0)), "{halves:?}");
+    }
+}
