@@ -6,6 +6,7 @@ mod carla_job;
 mod crash;
 mod diagnostics;
 mod evaluation;
+mod people;
 mod plan_from;
 mod preview;
 mod processors;

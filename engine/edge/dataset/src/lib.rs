@@ -33,6 +33,8 @@ pub use config::{DatasetConfig, DepthEncoding, EncodingConfig, RgbEncoding};
 pub use frame_pack::{FramePackReader, FramePackWriter, PackHeader, PackedFrame};
 pub use mcap_log::{LogRecord, write_log};
 pub use publish::{DatasetSource, PublishedLog, Summary, write_dataset};
-pub use record::{CaptionRecord, PairInfo, PreviewStrip, Rejection, RenderedTrajectory, Role, TownInfo};
+pub use record::{
+    CaptionRecord, OtherPerson, PairInfo, PreviewStrip, Rejection, RenderedTrajectory, Role, Sighting, TownInfo,
+};
 pub use reference::reference;
 pub use verify::{Finding, VerifyReport, verify};

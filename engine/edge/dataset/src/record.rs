@@ -1,10 +1,11 @@
 //! The record model: one rendered trajectory with everything that tables, logs and cards say about it.
 
 use cosfly_diagnose::{Diagnostic, Fault, Result};
-use cosfly_frames::Pose;
+use cosfly_frames::{Pose, TargetState};
 use cosfly_maps::{MapOrigin, Synthetic, Town};
 use cosfly_planner::Trajectory;
-use cosfly_render::{Camera, Lens, MotionBlur, Mount, Noise, TargetView, Weather};
+use cosfly_render::frame::TARGET_INSTANCE;
+use cosfly_render::{Camera, Lens, MotionBlur, Mount, Noise, PersonView, TargetView, Weather};
 use serde::{Deserialize, Serialize, de::DeserializeOwned};
 
 /// Which of the two flights behind a pedestrian this is.
@@ -61,6 +62,32 @@ pub struct PairInfo {
     pub expert_id: String,
 }
 
+/// Somebody who is about beside the target.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct OtherPerson {
+    /// Id in instance images: after those of all objects, the same in all flights of a stage.
+    pub instance: u32,
+    /// Stage and item of their walk, such as `crowd-p00003`.
+    pub walk_id: String,
+    /// Body height, metres.
+    pub height_m: f64,
+    /// Body radius seen from above, metres.
+    pub radius_m: f64,
+}
+
+/// Somebody of whom a frame shows at least one pixel.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Sighting {
+    /// The frame.
+    pub frame: u32,
+    /// Their place among [`RenderedTrajectory::others`].
+    pub person: u32,
+    /// Where they are and how they move.
+    pub state: TargetState,
+    /// Their pixels.
+    pub view: PersonView,
+}
+
 /// One trajectory with all that was computed about it, except for the pixels (see [`crate::frame_pack`]).
 /// The `index` blob of the render stage. World frame: CARLA's, metres, radians.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -96,6 +123,10 @@ pub struct RenderedTrajectory {
     pub views: Vec<TargetView>,
     /// Share of the target that hundreds of rays reach, per frame, apart from the renderer; none out of view.
     pub visible_by_dense_rays: Vec<Option<f64>>,
+    /// Everybody who is about beside the target, by instance id.
+    pub others: Vec<OtherPerson>,
+    /// Who of them is seen in which frame, by frame and instance id.
+    pub sightings: Vec<Sighting>,
     /// Set for a perturbed flight.
     pub pair: Option<PairInfo>,
 }
@@ -119,6 +150,13 @@ impl RenderedTrajectory {
     /// The camera's pose.
     pub fn camera_pose(&self, frame: usize) -> Pose {
         self.mount.camera_pose(&self.trajectory.poses_in_world[frame])
+    }
+
+    /// Who is seen in a frame beside the target.
+    pub fn seen_in(&self, frame: usize) -> impl Iterator<Item = (&OtherPerson, &Sighting)> {
+        let start = self.sightings.partition_point(|sighting| (sighting.frame as usize) < frame);
+        let seen = self.sightings[start..].iter().take_while(move |sighting| sighting.frame as usize == frame);
+        seen.map(|sighting| (&self.others[sighting.person as usize], sighting))
     }
 
     /// Distance from the camera to the target's feet, metres.
@@ -183,7 +221,29 @@ impl RenderedTrajectory {
                 return Err(self.refusal(format!("frame {frame} holds a number that is not finite")));
             }
         }
-        Ok(())
+        self.check_others()
+    }
+
+    fn check_others(&self) -> Result<()> {
+        let ids = |pair: &[OtherPerson]| pair[0].instance < pair[1].instance;
+        if !(self.others.windows(2).all(ids) && self.others.first().is_none_or(|it| it.instance > TARGET_INSTANCE)) {
+            return Err(self.refusal("its people are not in the order of their ids".into()));
+        }
+        let key = |it: &Sighting| (it.frame, it.person);
+        let is_sound = |it: &Sighting| {
+            let person = self.others.get(it.person as usize);
+            (it.frame as usize) < self.len()
+                && person.is_some_and(|person| person.instance == it.view.instance)
+                && it.state.feet_in_world.is_finite()
+                && it.state.heading_rad.is_finite()
+                && it.state.speed_mps.is_finite()
+        };
+        let is_ordered = self.sightings.windows(2).all(|pair| key(&pair[0]) < key(&pair[1]));
+        match self.sightings.iter().find(|it| !is_sound(it)) {
+            Some(it) => Err(self.refusal(format!("frame {} sees somebody who is not about", it.frame))),
+            None if !is_ordered => Err(self.refusal("people who are seen are not in the order of frames".into())),
+            None => Ok(()),
+        }
     }
 
     fn refusal(&self, message: String) -> Box<Diagnostic> {

@@ -101,7 +101,7 @@ fn every_channel_agrees_off_edges() {
         weather.sun_azimuth_angle = 215.0;
         for (view, offset) in [("follow", DVec3::new(-17.0, -10.0, 20.0)), ("street", DVec3::new(9.0, -12.0, 4.0))] {
             let pose = Pose::looking_at(feet + offset, feet + DVec3::Z);
-            let setup = FrameSetup { pose, weather: &weather, target: Some(target(feet)) };
+            let setup = FrameSetup { pose, weather: &weather, target: Some(target(feet)), others: &[] };
             let drawn = cpu.render(&scene, &setup);
             let other = gpu.render(&scene, &setup).expect("the card draws");
             compare((drawn.images, drawn.target_view), (other.images, other.target_view), &format!("{preset} {view}"));
@@ -119,7 +119,7 @@ fn a_camera_inside_an_obstacle_sees_out_of_it_as_on_the_cpu() {
     let center = inside.expect("a town has obstacles").shape.center_in_world;
     let weather = Weather::preset("CloudyNoon").expect("a preset");
     let pose = Pose { position_in_world: center, pitch_rad: -0.2, yaw_rad: 0.7, roll_rad: 0.1 };
-    let setup = FrameSetup { pose, weather: &weather, target: None };
+    let setup = FrameSetup { pose, weather: &weather, target: None, others: &[] };
     let mut cpu = Renderer::new(camera);
     let drawn = cpu.render(&scene, &setup);
     let other = gpu.render(&scene, &setup).expect("the card draws");
@@ -136,7 +136,8 @@ fn an_empty_scene_is_sky_and_an_odd_width_is_read_back_whole() {
     let scene = Scene::new(&town, Seed([1; 32]));
     let weather = Weather::preset("ClearNoon").expect("a preset");
     let pose = Pose::looking_at(DVec3::new(0.0, 0.0, 10.0), DVec3::new(20.0, 3.0, 0.0));
-    let drawn = gpu.render(&scene, &FrameSetup { pose, weather: &weather, target: None }).expect("the card draws");
+    let drawn =
+        gpu.render(&scene, &FrameSetup { pose, weather: &weather, target: None, others: &[] }).expect("the card draws");
     assert!(drawn.images.depth_m.iter().all(|depth| depth.is_infinite()));
     assert!(drawn.images.instance.iter().all(|id| *id == 0));
 }

@@ -1,18 +1,22 @@
-//! How much of the target rays reach, hundreds of them: the figure's triangles against the town's boxes in double
-//! precision, apart from all that the renderer does, so that its pixels can be held against it.
+//! How much of the target rays reach, hundreds of them: the figure's triangles against the town's boxes and other people
+//! in double precision, apart from all that the renderer does, so that its pixels can be held against it.
 
 use cosfly_frames::{DVec3, Pose};
 use cosfly_geometry::{BoxBvh, SpatialQuery};
-use cosfly_render::{Camera, TargetSetup, target_triangles};
+use cosfly_render::{Bystander, Camera, TargetSetup, target_triangles, walker_triangles};
 
 /// Rays through the box around the body in the image; about half of them meet the body.
 const RAYS: f64 = 900.0;
+/// Two bodies whose middles are this far from one line of sight do not hide each other, metres.
+const APART_M: f64 = 2.5;
 
 /// Casts rays; keeps its buffers from frame to frame.
 #[derive(Default)]
 pub struct BodyRays {
     /// One over the planar depth of the body at each ray; 0 where it is not.
     nearness: Vec<f64>,
+    /// The same of the people before it.
+    nearness_of_others: Vec<f64>,
     points_in_world: Vec<DVec3>,
     blocked: Vec<bool>,
 }
@@ -23,16 +27,27 @@ type Corner = [f64; 3];
 impl BodyRays {
     /// Of the rays that meet the body inside the image, evenly spaced, the share that nothing blocks; `None` when none
     /// meets it.
-    pub fn visible_share(&mut self, boxes: &BoxBvh, camera: &Camera, pose: &Pose, target: &TargetSetup) -> Option<f64> {
+    pub fn visible_share(
+        &mut self,
+        boxes: &BoxBvh,
+        others: &[Bystander],
+        camera: &Camera,
+        pose: &Pose,
+        target: &TargetSetup,
+    ) -> Option<f64> {
         let in_image = |corner: DVec3| camera.project(pose, corner).map(|(u, v, depth_m)| [u, v, 1.0 / depth_m]);
-        let triangles: Vec<[Corner; 3]> = target_triangles(target)
-            .into_iter()
-            .filter_map(|[a, b, c]| Some([in_image(a)?, in_image(b)?, in_image(c)?]))
-            .collect();
+        let seen = |[a, b, c]: [DVec3; 3]| Some([in_image(a)?, in_image(b)?, in_image(c)?]);
+        let triangles: Vec<[Corner; 3]> = target_triangles(target).into_iter().filter_map(seen).collect();
         let grid = Grid::around(&triangles, camera)?;
         self.nearness.clear();
         self.nearness.resize(grid.columns * grid.rows, 0.0);
         triangles.iter().for_each(|triangle| grid.meet(triangle, &mut self.nearness));
+        self.nearness_of_others.clear();
+        self.nearness_of_others.resize(grid.columns * grid.rows, 0.0);
+        for other in others.iter().filter(|other| is_before(other, pose.position_in_world, target)) {
+            let triangles = walker_triangles(&other.walker).into_iter().filter_map(seen);
+            triangles.for_each(|triangle| grid.meet(&triangle, &mut self.nearness_of_others));
+        }
         self.points_in_world.clear();
         for (at, nearness) in self.nearness.iter().enumerate().filter(|(_, nearness)| **nearness > 0.0) {
             let ray = camera.ray_in_world(pose, grid.u(at % grid.columns), grid.v(at / grid.columns));
@@ -41,9 +56,20 @@ impl BodyRays {
         self.blocked.clear();
         self.blocked.resize(self.points_in_world.len(), false);
         boxes.blocked_batch(pose.position_in_world, &self.points_in_world, &mut self.blocked);
-        let free = self.blocked.iter().filter(|blocked| !**blocked).count();
+        let cells = self.nearness.iter().zip(&self.nearness_of_others).filter(|(nearness, _)| **nearness > 0.0);
+        let is_free = |(blocked, (body, other)): (&bool, (&f64, &f64))| !blocked && other <= body;
+        let free = self.blocked.iter().zip(cells).filter(|it| is_free(*it)).count();
         (!self.blocked.is_empty()).then(|| free as f64 / self.blocked.len() as f64)
     }
+}
+
+/// Whether somebody may hide a part of the target from a point.
+fn is_before(other: &Bystander, eye_in_world: DVec3, target: &TargetSetup) -> bool {
+    let away = |feet: DVec3, height_m: f64| feet + DVec3::Z * (0.5 * height_m) - eye_in_world;
+    let to_target = away(target.state.feet_in_world, target.height_m);
+    let to_other = away(other.walker.state.feet_in_world, other.walker.height_m);
+    let along = to_other.dot(to_target) / to_target.length_squared().max(1e-9);
+    (to_other - to_target * along.clamp(0.0, 1.0)).length() < APART_M
 }
 
 /// Places of rays in the image: the middles of square cells.
@@ -135,7 +161,7 @@ mod tests {
     }
 
     fn share(obstacles: &[OrientedBox], pose: Pose) -> Option<f64> {
-        BodyRays::default().visible_share(&BoxBvh::build(obstacles.to_vec()), &CAMERA, &pose, &target())
+        BodyRays::default().visible_share(&BoxBvh::build(obstacles.to_vec()), &[], &CAMERA, &pose, &target())
     }
 
     /// A wall 5 m before the body, between two heights.
@@ -150,6 +176,24 @@ mod tests {
         assert_eq!(share(&[wall(-1.0, 4.0)], level), Some(0.0));
         let away = Pose::looking_at(DVec3::new(20.0, 0.0, 0.9), DVec3::new(40.0, 0.0, 0.9));
         assert_eq!(share(&[], away), None);
+    }
+
+    #[test]
+    fn somebody_before_the_body_hides_it_and_somebody_behind_does_not() {
+        let pose = Pose::looking_at(DVec3::new(20.0, 0.0, 0.9), DVec3::new(0.0, 0.0, 0.9));
+        let share = |x: f64, y: f64| {
+            let mut walker = target().walker();
+            walker.state.feet_in_world = DVec3::new(x, y, 0.0);
+            let other = [Bystander { walker, instance: 9 }];
+            BodyRays::default().visible_share(&BoxBvh::build(vec![]), &other, &CAMERA, &pose, &target()).unwrap()
+        };
+        assert!(
+            share(2.0, 0.0) < 0.3 && (0.3..0.95).contains(&share(2.0, 0.3)),
+            "{} {}",
+            share(2.0, 0.0),
+            share(2.0, 0.3)
+        );
+        assert_eq!([share(-2.0, 0.0), share(2.0, 1.5), share(22.0, 0.0)], [1.0; 3]);
     }
 
     #[test]

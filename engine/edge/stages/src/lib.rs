@@ -6,6 +6,7 @@ mod backends;
 mod body_rays;
 mod caption;
 mod codec;
+mod crowd;
 mod dataset;
 pub mod expert;
 mod map;

@@ -1,25 +1,29 @@
 //! `render`: pictures of every trajectory, all channels of a frame from one visibility pass.
 
 use crate::body_rays::BodyRays;
+use crate::crowd::{Crowd, walk_seed, walked_m};
 use crate::memo::Memo;
-use crate::ports::{self, FRAMES, TRAJECTORY};
+use crate::ports::{self, FRAMES, TRAJECTORY, WALK};
 use crate::world::{TOWN_BLOB, World, check_same_town, link_town, world};
 use crate::{backends, codec, parameters, single};
 use cosfly_dataset::frame_pack::{FramePackWriter, PackHeader};
-use cosfly_dataset::{EncodingConfig, PairInfo, Rejection, RenderedTrajectory, Role, TownInfo};
+use cosfly_dataset::tables::kind_name;
+use cosfly_dataset::{EncodingConfig, PairInfo, Rejection, RenderedTrajectory, Role, Sighting, TownInfo};
 use cosfly_diagnose::Result;
-use cosfly_fingerprint::Digest;
-use cosfly_frames::{Pose, Seed, TargetState};
+use cosfly_frames::{Pose, Seed};
+use cosfly_geometry::SpatialQuery;
 use cosfly_planner::{PlanOutcome, Trajectory};
 use cosfly_render::effects::{pose_at, target_state_at};
+use cosfly_render::frame::{TARGET_INSTANCE, object_instance};
 use cosfly_render::{
-    Backend, Camera, Effects, Moment, Mount, RenderConfig, Scene, Shot, TargetSetup, TargetView, Weather,
+    Backend, Bystander, Camera, Effects, Moment, Mount, RenderConfig, Scene, Shot, TargetSetup, TargetView, Weather,
     gait_phase_rad,
 };
 use cosfly_stage::{
     Artifact, InputPort, Inputs, ItemRule, OutputSink, ParameterError, Produced, Stage, StageKind, StagePart,
     StageProperties, TaskContext,
 };
+use std::collections::{BTreeMap, BTreeSet};
 use std::sync::{Mutex, PoisonError};
 
 /// The kind.
@@ -39,7 +43,12 @@ impl StageKind for Render {
     }
 
     fn ports(&self) -> Vec<InputPort> {
-        vec![ports::town(), ports::each("trajectories", TRAJECTORY, true, "The trajectories to fly the camera along.")]
+        let others = "Walks of other people who are about while the camera flies; nobody else, when left out.";
+        vec![
+            ports::town(),
+            ports::each("trajectories", TRAJECTORY, true, "The trajectories to fly the camera along."),
+            InputPort { optional: true, ..ports::gather("others", WALK, true, others) },
+        ]
     }
 
     fn build(&self, given: serde_json::Value) -> Result<Vec<StagePart>, ParameterError> {
@@ -103,9 +112,13 @@ impl Stage for RenderStage {
         let artifact = inputs.one("trajectories")?;
         let world = world(inputs)?;
         let outcome: PlanOutcome = codec::decode(TRAJECTORY, &inputs.read(artifact, "trajectory")?)?;
+        let outcome = match outcome {
+            PlanOutcome::Planned(flight) => camera_inside(&world, &flight.poses_in_world).map_or(Ok(flight), Err),
+            PlanOutcome::Rejected { reason, .. } => Err(reason),
+        };
         let trajectory = match outcome {
-            PlanOutcome::Planned(trajectory) => *trajectory,
-            PlanOutcome::Rejected { reason, .. } => {
+            Ok(trajectory) => *trajectory,
+            Err(reason) => {
                 let rejection = Rejection {
                     trajectory_id: context.item.clone(),
                     stage: artifact.stage.clone(),
@@ -123,7 +136,7 @@ impl Stage for RenderStage {
             Ok::<_, Box<cosfly_diagnose::Diagnostic>>(Scene::new(&world.town, Seed(town_digest.0)))
         })?;
         // Twins follow the same walk: same clothes, same weather, same camera.
-        let walk_seed = Seed(Digest::of(&codec::encode("walk-seed/1", &trajectory.track)?).0);
+        let walk_seed = walk_seed(&trajectory.track)?;
         let preset = variant_of(artifact, context);
         let shooting = Shooting {
             camera: self.config.draw_camera(&walk_seed),
@@ -134,7 +147,11 @@ impl Stage for RenderStage {
             },
             walk_seed,
         };
-        let (views, visible_by_dense_rays) = self.draw(outputs, context, &scene, &world, &trajectory, &shooting)?;
+        let ids = world.town.obstacles.iter().map(|obstacle| object_instance(obstacle.object_id));
+        let crowd = Crowd::around(inputs, &trajectory.track, ids.max().unwrap_or(TARGET_INSTANCE))?;
+        let place = Place { scene: &scene, world: &world, crowd: &crowd };
+        let seen = self.draw(outputs, context, &place, &trajectory, &shooting)?;
+        let notes = notes_of(&crowd, &seen.sightings);
         let pedestrian_id = pedestrian_of(artifact).to_owned();
         // The expert is published in the same weather.
         let expert_id = |expert: &str| preset.map_or(expert.to_owned(), |preset| format!("{expert}-{preset}"));
@@ -153,13 +170,52 @@ impl Stage for RenderStage {
             noise: self.config.noise,
             weather: shooting.weather,
             seed: Seed(context.seed).as_u64(),
-            views,
-            visible_by_dense_rays,
+            views: seen.views,
+            visible_by_dense_rays: seen.by_dense_rays,
+            others: crowd.into_people(),
+            sightings: seen.sightings,
             pair,
         };
         outputs.put("index", &record.to_bytes())?;
-        Ok(Produced::default())
+        Ok(Produced { notes, ..Produced::default() })
     }
+}
+
+/// Why a flight cannot be filmed: a camera in a wall would look out through it.
+fn camera_inside(world: &World, poses: &[Pose]) -> Option<String> {
+    poses.iter().enumerate().find_map(|(frame, pose)| {
+        let nearest = world.exact.nearest(pose.position_in_world, 0.0).filter(|nearest| nearest.distance_m < 0.0)?;
+        let obstacle = &world.town.obstacles[nearest.primitive as usize];
+        let (kind, id) = (kind_name(obstacle.kind), obstacle.object_id);
+        Some(format!("the camera is inside of obstacle {id} ({kind}) at frame {frame}"))
+    })
+}
+
+/// Who was seen.
+#[derive(Default)]
+struct SeenPeople {
+    views: Vec<TargetView>,
+    by_dense_rays: Vec<Option<f64>>,
+    sightings: Vec<Sighting>,
+}
+
+/// What the summary says of the people around.
+fn notes_of(crowd: &Crowd, sightings: &[Sighting]) -> BTreeMap<String, String> {
+    if crowd.len() + crowd.left_out == 0 {
+        return BTreeMap::new();
+    }
+    let seen: BTreeSet<u32> = sightings.iter().map(|sighting| sighting.person).collect();
+    let left_out = crowd.left_out;
+    let words =
+        format!("{} of {} seen, {left_out} left out: they would walk through the target", seen.len(), crowd.len());
+    BTreeMap::from([("others".to_owned(), words)])
+}
+
+/// Where a flight is filmed, and who else is there.
+struct Place<'a> {
+    scene: &'a Scene,
+    world: &'a World,
+    crowd: &'a Crowd,
 }
 
 /// What all frames of a flight have in common.
@@ -184,25 +240,21 @@ impl RenderStage {
         &self,
         outputs: &mut dyn OutputSink,
         context: &TaskContext,
-        scene: &Scene,
-        world: &World,
+        place: &Place<'_>,
         trajectory: &Trajectory,
         shooting: &Shooting,
-    ) -> Result<(Vec<TargetView>, Vec<Option<f64>>)> {
+    ) -> Result<SeenPeople> {
+        let Place { scene, world, crowd } = *place;
         let mut rig = self.take_rig(shooting.camera)?;
-        let largest =
-            world.town.obstacles.iter().map(|obstacle| obstacle.object_id).max().unwrap_or(0).saturating_add(2);
         let Camera { width, height, .. } = shooting.camera;
-        let header = PackHeader::new(width, height, largest, self.encoding, trajectory.track.dt_s);
+        let header = PackHeader::new(width, height, crowd.largest_instance, self.encoding, trajectory.track.dt_s);
         let track = &trajectory.track;
         let poses: Vec<Pose> =
             trajectory.poses_in_world.iter().map(|drone| shooting.mount.camera_pose(drone)).collect();
         let walked_m = walked_m(&track.states);
-        let mut views = Vec::with_capacity(track.len());
-        let (mut body_rays, mut by_dense_rays) = (BodyRays::default(), Vec::with_capacity(track.len()));
+        let (mut seen, mut body_rays, mut about) = (SeenPeople::default(), BodyRays::default(), vec![]);
         outputs.stream("pack", &mut |file| {
-            views.clear();
-            by_dense_rays.clear();
+            seen = SeenPeople::default();
             let mut pack = FramePackWriter::new(file, &header)?;
             for (frame, visible_by_rays) in trajectory.visibility.iter().copied().enumerate() {
                 context.check_cancelled()?;
@@ -221,22 +273,28 @@ impl RenderStage {
                     Moment { pose: pose_at(&poses, at), target: Some(target).filter(|target| target.radius_m > 0.0) }
                 };
                 let noise_seed = Seed(context.seed).child("frame", frame as u64);
-                let shot = Shot { weather: &shooting.weather, moment: &moment, noise_seed };
+                let time_s = frame as f64 * track.dt_s;
+                let others = |offset_s: f64, list: &mut Vec<Bystander>| crowd.at(time_s + offset_s, list);
+                let shot = Shot { weather: &shooting.weather, moment: &moment, others: &others, noise_seed };
                 let rendered = rig
                     .effects
                     .film(&mut *rig.backend, scene, &shot)
                     .map_err(|error| backends::failure(self.config.backend, &error))?;
                 pack.frame(rendered.images)?;
-                views.push(TargetView { visible_by_rays, ..rendered.target_view });
                 let Moment { pose, target } = moment(0.0);
                 let target = target.filter(|_| rendered.target_view.in_view);
-                by_dense_rays
-                    .push(target.and_then(|it| body_rays.visible_share(&world.exact, &shooting.camera, &pose, &it)));
+                about.clear();
+                crowd.at(time_s, &mut about);
+                seen.by_dense_rays.push(
+                    target.and_then(|it| body_rays.visible_share(&world.exact, &about, &shooting.camera, &pose, &it)),
+                );
+                seen.views.push(TargetView { visible_by_rays, ..rendered.target_view });
+                seen.sightings.extend(crowd.sightings(frame, time_s, rendered.others));
             }
             pack.finish().map(drop)
         })?;
         self.idle.lock().unwrap_or_else(PoisonError::into_inner).push(rig);
-        Ok((views, by_dense_rays))
+        Ok(seen)
     }
 
     fn take_rig(&self, camera: Camera) -> Result<Rig> {
@@ -254,21 +312,6 @@ impl RenderStage {
     }
 }
 
-/// How far the target has walked at each frame.
-fn walked_m(states: &[TargetState]) -> Vec<f64> {
-    let mut sum_m = 0.0;
-    let step_m = |frame: usize| match frame {
-        0 => 0.0,
-        _ => (states[frame].feet_in_world - states[frame - 1].feet_in_world).length(),
-    };
-    (0..states.len())
-        .map(|frame| {
-            sum_m += step_m(frame);
-            sum_m
-        })
-        .collect()
-}
-
 /// The weather that the item of a paired rendering is named after.
 fn variant_of<'a>(artifact: &Artifact, context: &'a TaskContext) -> Option<&'a str> {
     context.item.strip_prefix(&artifact.item)?.strip_prefix('-')
@@ -277,4 +320,22 @@ fn variant_of<'a>(artifact: &Artifact, context: &'a TaskContext) -> Option<&'a s
 /// The pedestrian that a trajectory at a `many` port follows: its id without the stage's name.
 pub fn pedestrian_of(artifact: &Artifact) -> &str {
     artifact.item.strip_prefix(&artifact.stage).and_then(|rest| rest.strip_prefix('-')).unwrap_or(&artifact.item)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use cosfly_frames::DVec3;
+
+    #[test]
+    fn a_camera_in_a_wall_is_named_with_its_frame() {
+        let town = cosfly_dataset::sample::town();
+        let wall = town.obstacles[0].shape.center_in_world;
+        let world = World::new(town);
+        let at = |position: DVec3| Pose::looking_at(position, position + DVec3::X);
+        let poses = [at(wall + 5.0 * DVec3::Z), at(wall + 0.1 * DVec3::Z), at(wall)];
+        let reason = camera_inside(&world, &poses).expect("it is inside");
+        assert_eq!(reason, "the camera is inside of obstacle 4 (wall) at frame 1");
+        assert_eq!(camera_inside(&world, &poses[..1]), None);
+    }
 }

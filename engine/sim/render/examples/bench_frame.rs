@@ -1,6 +1,8 @@
-//! Time per 1280 x 720 frame: wall time by stage, CPU time in all; `bench_frame [TOWN.xodr] [PRESET...]`; without a map file, an
-//! invented town of about 3,000 boxes and 100,000 ground triangles.
+//! Time per 1280 x 720 frame: wall time by stage, CPU time in all; `bench_frame [TOWN.xodr] [PEOPLE] [PRESET...]`; without a map
+//! file, an invented town of about 3,000 boxes and 100,000 ground triangles; PEOPLE is how many are around, none by default.
 
+#[path = "../tests/crowd/mod.rs"]
+mod crowd;
 #[path = "../tests/small_town/mod.rs"]
 mod small_town;
 
@@ -12,6 +14,7 @@ use std::time::Instant;
 fn main() -> Result<(), Box<dyn std::error::Error>> {
     let mut arguments = std::env::args().skip(1).peekable();
     let map = arguments.next_if(|argument| argument.ends_with(".xodr"));
+    let people = arguments.next_if(|argument| argument.parse::<u32>().is_ok()).and_then(|count| count.parse().ok());
     let mut presets: Vec<String> = arguments.collect();
     if presets.is_empty() {
         presets = ["ClearNoon", "HardRainNoon", "WetNight"].map(str::to_owned).to_vec();
@@ -36,6 +39,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     let mut renderer = Renderer::new(RenderConfig::default().camera());
     let middle =
         if map.is_some() { 0.5 * (town.min_in_world + town.max_in_world) } else { DVec3::new(-23.0, 43.5, 0.14) };
+    let others = crowd::crowd(middle, people.unwrap_or(0));
     let views = [("follow", [-17.0, -10.0, 20.0]), ("high", [40.0, -60.0, 55.0]), ("street", [-14.0, -8.0, 5.0])];
     let names = Stages::NAMES.map(|name| format!("{name:>10}")).join("");
     println!("{:22}{names} total, CPU  depth + ids", "ms a frame");
@@ -47,7 +51,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
             let mut before = 0;
             for index in 0..40 {
                 let (pose, target) = frame(index, middle, DVec3::from_array(*away));
-                let setup = FrameSetup { pose, weather: &weather, target: Some(target) };
+                let setup = FrameSetup { pose, weather: &weather, target: Some(target), others: &others };
                 if index == 4 {
                     before = cpu_ns(started);
                 }
@@ -65,7 +69,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
             let before = cpu_ns(started);
             for index in 0..40 {
                 let (pose, target) = frame(index, middle, DVec3::from_array(*away));
-                let setup = FrameSetup { pose, weather: &weather, target: Some(target) };
+                let setup = FrameSetup { pose, weather: &weather, target: Some(target), others: &others };
                 let _ = renderer.render_parts(&scene, &setup, FrameParts::Ids);
             }
             let ids_ms = (cpu_ns(started) - before) as f64 * 1e-6 / 40.0;

@@ -1,5 +1,8 @@
-//! Renders a town to PNG files: `picture OUT_DIR [TOWN.xodr] [PRESET...]`; without a map file, a small invented town.
+//! Renders a town to PNG files: `picture OUT_DIR [TOWN.xodr] [PEOPLE] [PRESET...]`; without a map file, a small invented
+//! town; PEOPLE is how many stand and walk around, none by default.
 
+#[path = "../tests/crowd/mod.rs"]
+mod crowd;
 #[path = "../tests/small_town/mod.rs"]
 mod small_town;
 
@@ -13,6 +16,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     let mut arguments = std::env::args().skip(1).peekable();
     let out = arguments.next().ok_or("usage: picture OUT_DIR [TOWN.xodr] [PRESET...]")?;
     let map = arguments.next_if(|argument| argument.ends_with(".xodr"));
+    let people = arguments.next_if(|argument| argument.parse::<u32>().is_ok()).and_then(|count| count.parse().ok());
     let mut presets: Vec<String> = arguments.collect();
     if presets.is_empty() {
         presets = ["ClearNoon", "ClearSunset", "HardRainNoon", "ClearNight"].map(str::to_owned).to_vec();
@@ -44,11 +48,13 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         ("street", Pose::looking_at(feet + DVec3::new(-14.0, -8.0, 5.0), feet + DVec3::new(8.0, 0.0, 3.0))),
         ("near", Pose::looking_at(feet + DVec3::new(-3.0, -2.5, 2.2), feet + DVec3::Z)),
     ];
+    let others = crowd::crowd(feet, people.unwrap_or(0));
     for preset in &presets {
         let mut weather = Weather::preset(preset).ok_or_else(|| format!("no preset {preset}"))?;
         weather.sun_azimuth_angle = 215.0;
         for (name, pose) in &views {
-            let frame = renderer.render(&scene, &FrameSetup { pose: *pose, weather: &weather, target: Some(target) });
+            let setup = FrameSetup { pose: *pose, weather: &weather, target: Some(target), others: &others };
+            let frame = renderer.render(&scene, &setup);
             let (width, height) = (frame.images.width, frame.images.height);
             write_png(&Path::new(&out).join(format!("{name}_{preset}.png")), width, height, &frame.images.rgb)?;
             println!("{name} {preset}: {:?}", frame.target_view);

@@ -52,8 +52,12 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         };
         let offset = DVec3::new(back * cos - aside * sin, back * sin + aside * cos, up);
         let ahead = DVec3::new(6.0 * cos, 6.0 * sin, 1.0);
-        let setup =
-            FrameSetup { pose: Pose::looking_at(feet + offset, feet + ahead), weather: &weather, target: Some(target) };
+        let setup = FrameSetup {
+            pose: Pose::looking_at(feet + offset, feet + ahead),
+            weather: &weather,
+            target: Some(target),
+            others: &[],
+        };
         let frame = renderer.render(&scene, &setup);
         let file = File::create(Path::new(&out).join(format!("{name}.png")))?;
         let mut encoder = png::Encoder::new(file, frame.images.width, frame.images.height);

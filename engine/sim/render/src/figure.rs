@@ -1,4 +1,4 @@
-//! The walking target: a jointed figure of frustums whose limbs swing with the gait.
+//! People: jointed figures of frustums whose limbs swing with the gait.
 
 use cosfly_frames::{DVec3, RandomStream, Seed, TargetState, real};
 
@@ -17,6 +17,54 @@ pub struct TargetSetup {
     pub gait_phase_rad: f64,
     /// Share of body points that unoccluded rays reach; copied into [`crate::TargetView`].
     pub visible_by_rays: f64,
+}
+
+impl TargetSetup {
+    /// The target as one of the people in the picture.
+    pub fn walker(&self) -> Walker {
+        Walker {
+            state: self.state,
+            height_m: self.height_m,
+            radius_m: self.radius_m,
+            clothes_seed: self.clothes_seed,
+            gait_phase_rad: self.gait_phase_rad,
+        }
+    }
+}
+
+/// Somebody in the picture.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Walker {
+    /// Where they are and how they move.
+    pub state: TargetState,
+    /// Body height, metres.
+    pub height_m: f64,
+    /// Body radius seen from above, metres.
+    pub radius_m: f64,
+    /// Draws their clothes, skin and build.
+    pub clothes_seed: Seed,
+    /// Phase of the gait, radians; see [`gait_phase_rad`].
+    pub gait_phase_rad: f64,
+}
+
+impl Walker {
+    /// Whether there is a body to draw.
+    pub(crate) fn has_body(&self) -> bool {
+        let numbers = [self.radius_m, self.state.heading_rad, self.state.speed_mps, self.gait_phase_rad];
+        self.height_m > 0.0
+            && self.height_m.is_finite()
+            && self.state.feet_in_world.is_finite()
+            && numbers.iter().all(|number| number.is_finite())
+    }
+}
+
+/// Somebody in the picture beside the target.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Bystander {
+    /// Where they are and what they look like.
+    pub walker: Walker,
+    /// Their id in instance images: not 0, not [`crate::frame::TARGET_INSTANCE`], not that of an object.
+    pub instance: u32,
 }
 
 /// Phase of the gait after `walked_m` metres: one turn every two steps, and two steps are 0.83 body heights.
@@ -52,12 +100,21 @@ pub struct FigureTriangle {
     pub middle_in_world: [DVec3; 2],
     /// What it is made of.
     pub region: Region,
+    /// Whose it is: a number among the people of a frame.
+    pub person: u32,
+    /// The part of the body that it belongs to.
+    pub part: u32,
 }
 
 /// The figure's surface as bare triangles, for rays.
 pub fn target_triangles(target: &TargetSetup) -> Vec<[DVec3; 3]> {
+    walker_triangles(&target.walker())
+}
+
+/// Somebody's surface as bare triangles, for rays.
+pub fn walker_triangles(walker: &Walker) -> Vec<[DVec3; 3]> {
     let mut triangles = Vec::new();
-    figure(target, &mut triangles);
+    figure(walker, &Clothes::draw(&walker.clothes_seed), 0, &mut triangles);
     triangles.iter().map(|triangle| triangle.corners_in_world).collect()
 }
 
@@ -118,38 +175,44 @@ impl Clothes {
     }
 }
 
-/// Builds the figure into `triangles` (emptied first). All limbs stay near the upright cylinder of the target.
-pub fn figure(target: &TargetSetup, triangles: &mut Vec<FigureTriangle>) {
-    triangles.clear();
-    if !(target.height_m > 0.0 && target.height_m.is_finite() && target.state.feet_in_world.is_finite()) {
+/// Appends the figure of `person` to `triangles`. All limbs stay near the upright cylinder of the walker.
+pub fn figure(walker: &Walker, clothes: &Clothes, person: u32, triangles: &mut Vec<FigureTriangle>) {
+    if !walker.has_body() {
         return;
     }
-    let clothes = Clothes::draw(&target.clothes_seed);
-    let (sin, cos) = real::sin_cos(target.state.heading_rad);
+    let first = triangles.len();
+    let (sin, cos) = real::sin_cos(walker.state.heading_rad);
     let mut body = Body {
-        feet: target.state.feet_in_world,
+        feet: walker.state.feet_in_world,
         forward: DVec3::new(cos, sin, 0.0),
         right: DVec3::new(-sin, cos, 0.0),
-        height: target.height_m,
+        height: walker.height_m,
         forearm: if clothes.short_sleeves { Region::Skin } else { Region::Top },
-        width: clothes.build * (target.radius_m / (0.15 * target.height_m)).clamp(0.8, 1.25),
+        width: clothes.build * (walker.radius_m / (0.15 * walker.height_m)).clamp(0.8, 1.25),
+        around: core::array::from_fn(|k| real::sin_cos(real::TAU * k as f64 / SIDES as f64)),
+        person,
+        parts: 0,
         triangles,
     };
-    let swing = 0.5 * (target.state.speed_mps / 1.3).clamp(0.0, 1.2);
+    let swing = 0.5 * (walker.state.speed_mps / 1.3).clamp(0.0, 1.2);
     body.trunk(clothes.backpack);
     for side in [-1.0, 1.0] {
-        body.leg(side, target.gait_phase_rad + if side < 0.0 { 0.0 } else { real::PI }, swing);
-        body.arm(side, target.gait_phase_rad + if side < 0.0 { real::PI } else { 0.0 }, 0.8 * swing + 0.08);
+        body.leg(side, walker.gait_phase_rad + if side < 0.0 { 0.0 } else { real::PI }, swing);
+        body.arm(side, walker.gait_phase_rad + if side < 0.0 { real::PI } else { 0.0 }, 0.8 * swing + 0.08);
     }
     // Bent legs are shorter: the whole body sinks until a foot stands on the ground.
-    let lowest = triangles.iter().flat_map(|t| t.corners_in_world).map(|p| p.z).fold(f64::INFINITY, f64::min);
-    let sink = target.state.feet_in_world.z - lowest;
-    for triangle in triangles.iter_mut() {
+    let built = &mut triangles[first..];
+    let lowest = built.iter().flat_map(|t| t.corners_in_world).map(|p| p.z).fold(f64::INFINITY, f64::min);
+    let sink = walker.state.feet_in_world.z - lowest;
+    for triangle in built {
         for point in triangle.corners_in_world.iter_mut().chain(&mut triangle.middle_in_world) {
             point.z += sink;
         }
     }
 }
+
+/// Sides of every frustum.
+const SIDES: usize = 6;
 
 /// One end of a frustum: centre in body heights (forward, right, up), half width to the side and forward.
 #[derive(Clone, Copy)]
@@ -172,6 +235,11 @@ struct Body<'a> {
     height: f64,
     width: f64,
     forearm: Region,
+    /// Sine and cosine of the direction of each side.
+    around: [(f64, f64); SIDES],
+    person: u32,
+    /// Parts built so far.
+    parts: u32,
     triangles: &'a mut Vec<FigureTriangle>,
 }
 
@@ -237,9 +305,8 @@ impl Body<'_> {
 
     /// A closed hexagonal frustum between two rings.
     fn part(&mut self, low: Ring, high: Ring, region: Region) {
-        const SIDES: usize = 6;
         let corner = |ring: &Ring, k: usize| {
-            let (sin, cos) = real::sin_cos(real::TAU * (k % SIDES) as f64 / SIDES as f64);
+            let (sin, cos) = self.around[k];
             self.feet
                 + self.height
                     * (self.forward * (ring.forward + ring.half_forward * cos)
@@ -253,13 +320,14 @@ impl Body<'_> {
         let middle_in_world = [center(&low), center(&high)];
         let inside = 0.5 * (middle_in_world[0] + middle_in_world[1]);
         let mut faces = [[DVec3::ZERO; 3]; 4 * SIDES];
+        let [lows, highs] = [&low, &high].map(|ring| core::array::from_fn::<_, SIDES, _>(|k| corner(ring, k)));
         for k in 0..SIDES {
-            let (a, b) = (corner(&low, k), corner(&low, k + 1));
-            let (c, d) = (corner(&high, k), corner(&high, k + 1));
+            let next = (k + 1) % SIDES;
+            let (a, b, c, d) = (lows[k], lows[next], highs[k], highs[next]);
             faces[4 * k] = [a, b, c];
             faces[4 * k + 1] = [c, b, d];
-            faces[4 * k + 2] = [center(&low), b, a];
-            faces[4 * k + 3] = [center(&high), c, d];
+            faces[4 * k + 2] = [middle_in_world[0], b, a];
+            faces[4 * k + 3] = [middle_in_world[1], c, d];
         }
         for corners_in_world in faces {
             let [a, b, c] = corners_in_world;
@@ -271,9 +339,12 @@ impl Body<'_> {
                     normal_in_world: outward,
                     middle_in_world,
                     region,
+                    person: self.person,
+                    part: self.parts,
                 });
             }
         }
+        self.parts += 1;
     }
 }
 
@@ -314,7 +385,8 @@ mod tests {
     #[test]
     fn normals_point_out_of_every_part() {
         let mut triangles = Vec::new();
-        figure(&walking(0.7), &mut triangles);
+        let walker = walking(0.7).walker();
+        figure(&walker, &Clothes::draw(&walker.clothes_seed), 0, &mut triangles);
         assert!(triangles.len() > 300 && triangles.iter().all(|t| (t.normal_in_world.length() - 1.0).abs() < 1e-9));
     }
 

@@ -15,12 +15,18 @@ pub struct FrameImages {
     pub depth_m: Vec<f32>,
     /// CARLA label ids.
     pub semantic: Vec<u8>,
-    /// Instance ids: 0 for ground and sky, [`crate::frame::TARGET_INSTANCE`] for the target, object id + 2 else.
+    /// Instance ids: 0 for ground and sky, [`TARGET_INSTANCE`] for the target, [`object_instance`] for
+    /// objects, and for other people what [`crate::Bystander`] says.
     pub instance: Vec<u32>,
 }
 
 /// Instance id of the followed target.
 pub const TARGET_INSTANCE: u32 = 1;
+
+/// Instance id of an object of the town.
+pub fn object_instance(object_id: u32) -> u32 {
+    object_id.saturating_add(2)
+}
 
 /// A box of pixels, indices inclusive.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
@@ -52,4 +58,15 @@ pub struct TargetView {
     pub full_box: Option<PixelBox>,
     /// Instance id of what hides most of it; 0 when nothing does.
     pub occluder_instance: u32,
+}
+
+/// Somebody beside the target in one frame.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub struct PersonView {
+    /// Instance id.
+    pub instance: u32,
+    /// Visible pixels.
+    pub pixels: u32,
+    /// Box of the visible pixels.
+    pub visible_box: PixelBox,
 }

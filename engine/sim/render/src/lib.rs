@@ -2,7 +2,7 @@
 //!
 //! [`Scene`] is built once per town and shared; one [`Renderer`] per thread owns all buffers. A frame goes through
 //! [`visibility`] (which face is nearest at each pixel centre), `passes` (depth and ids, exact, from the plane of that
-//! face), `shade` (light, materials, weather) and [`target_view`] (how much of the target is seen). Every channel comes
+//! face), `shade` (light, materials, weather) and [`target_view`] (how much of people is seen). Every channel comes
 //! from the same face at the same pixel centre, so they agree pixel by pixel; only RGB is smoothed along edges afterwards.
 
 pub mod backend;
@@ -14,6 +14,7 @@ pub mod frame;
 mod ground_polygons;
 pub mod outside;
 mod passes;
+mod people;
 pub mod presets;
 pub mod preview;
 pub mod renderer;
@@ -28,8 +29,8 @@ pub use backend::{Backend, BackendError, BackendKind};
 pub use camera::{Camera, Mount};
 pub use config::{ConfigProblem, GimbalConfig, RenderConfig};
 pub use effects::{Effects, Lens, Moment, MotionBlur, Noise, Shot};
-pub use figure::{TargetSetup, gait_phase_rad, target_triangles};
-pub use frame::{FrameImages, PixelBox, TargetView};
+pub use figure::{Bystander, TargetSetup, Walker, gait_phase_rad, target_triangles, walker_triangles};
+pub use frame::{FrameImages, PersonView, PixelBox, TargetView};
 pub use renderer::{FrameParts, FrameSetup, RenderedFrame, Renderer};
 pub use scene::{Scene, SceneTriangle};
 pub use stages::Stages;

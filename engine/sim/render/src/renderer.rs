@@ -1,11 +1,12 @@
 //! One frame from start to end: cull, draw, resolve, shade, measure the target.
 
 use crate::camera::Camera;
-use crate::figure::{Clothes, FigureTriangle, TargetSetup, figure};
-use crate::frame::{FrameImages, TARGET_INSTANCE, TargetView};
+use crate::figure::{Bystander, TargetSetup};
+use crate::frame::{FrameImages, PersonView, TARGET_INSTANCE, TargetView};
 use crate::passes::ids::{SeenRuns, for_each_band};
+use crate::people::People;
 use crate::scene::{BOX_FACES, Cluster, Scene};
-use crate::shade::{Seen, Shader, smooth};
+use crate::shade::{Seen, Shader, light::Light, smooth};
 use crate::stages::{Stages, Stopwatch};
 use crate::target_view;
 use crate::visibility::{MAX_CORNERS, NEAR_M, Nearer, PlaneOnScreen, Screen, Visibility, bounds};
@@ -23,6 +24,8 @@ pub struct FrameSetup<'a> {
     pub weather: &'a Weather,
     /// The followed target, if there is one.
     pub target: Option<TargetSetup>,
+    /// Everybody else who is about. They are drawn like the target, hide it and are hidden by it.
+    pub others: &'a [Bystander],
 }
 
 /// A finished frame; the images belong to the renderer and are overwritten by its next frame.
@@ -33,6 +36,8 @@ pub struct RenderedFrame<'a> {
     pub target_view: TargetView,
     /// Indices of the pixels that the target would cover without obstacles, ascending.
     pub target_pixels: &'a [u32],
+    /// What is seen of the others, by instance id; those of whom no pixel is seen are left out.
+    pub others: &'a [PersonView],
 }
 
 /// A face drawn in this frame.
@@ -52,8 +57,8 @@ pub(crate) enum FaceSource {
     Box { index: u32, face: u8 },
     /// Cluster number, polygon number in it.
     Ground { cluster: u32, polygon: u16 },
-    /// Triangle of the figure.
-    Figure { triangle: u32 },
+    /// Triangle of the figures, and the first face drawn of the same part of a body.
+    Figure { triangle: u32, first_face: u32 },
 }
 
 /// Which parts of a frame [`Renderer::render_parts`] makes.
@@ -79,10 +84,11 @@ pub struct Renderer {
     visible: Vec<(u64, u32)>,
     /// A cluster's points in body axes and on the screen.
     seen_points: Vec<(DVec3, [f64; 2])>,
-    figure: Vec<FigureTriangle>,
+    people: People,
     occluders: Vec<u32>,
     covered: Vec<u32>,
     view: TargetView,
+    others: Vec<PersonView>,
     runs: SeenRuns,
     level: Level,
     parallel: bool,
@@ -112,10 +118,11 @@ impl Renderer {
             faces: Vec::new(),
             visible: Vec::new(),
             seen_points: Vec::new(),
-            figure: Vec::new(),
+            people: People::default(),
             occluders: Vec::new(),
             covered: Vec::new(),
             view: target_view::NOT_IN_VIEW,
+            others: Vec::new(),
             runs: SeenRuns::default(),
             level: Level::best(),
             parallel: false,
@@ -168,7 +175,7 @@ impl Renderer {
     }
 
     /// Draws all channels of one frame, given which of [`Scene::faces`] is nearest at each pixel centre
-    /// ([`crate::outside::NO_FACE`] for none), without the target, which is drawn here. Numbers beyond the last face
+    /// ([`crate::outside::NO_FACE`] for none), without people, who are drawn here. Numbers beyond the last face
     /// count as none.
     pub fn render_found(&mut self, scene: &Scene, setup: &FrameSetup<'_>, nearest: &[u32]) -> RenderedFrame<'_> {
         self.draw(scene, setup, FrameParts::All, Some(nearest), &mut Stopwatch::new(None));
@@ -176,7 +183,12 @@ impl Renderer {
     }
 
     fn finished(&self) -> RenderedFrame<'_> {
-        RenderedFrame { images: &self.images, target_view: self.view, target_pixels: &self.covered }
+        RenderedFrame {
+            images: &self.images,
+            target_view: self.view,
+            target_pixels: &self.covered,
+            others: &self.others,
+        }
     }
 
     fn draw(
@@ -191,24 +203,20 @@ impl Renderer {
         self.nearest.clear();
         self.alone.clear();
         self.faces.clear();
-        self.figure.clear();
         self.covered.clear();
-        if let Some(target) = &setup.target {
-            figure(target, &mut self.figure);
-        }
+        self.others.clear();
         match found {
             Some(nearest) => self.adopt(scene, &eye, nearest),
             None => self.draw_boxes(scene, &eye),
         }
-        self.draw_figure(&eye);
+        self.draw_people(&eye, setup);
         watch.lap(0);
         if found.is_none() {
             self.draw_ground(scene, &eye);
         }
         watch.lap(1);
         if parts == FrameParts::All {
-            let clothes = setup.target.as_ref().map(|target| Clothes::draw(&target.clothes_seed));
-            self.shader.prepare(scene, setup, &eye, &self.figure, clothes);
+            self.shader.prepare(scene, setup, &eye, &self.people);
             watch.lap(2);
         }
         self.view = target_view::NOT_IN_VIEW;
@@ -220,6 +228,7 @@ impl Renderer {
                 self.view = target_view::measure(&self.images, &self.covered, &mut self.occluders);
                 self.view.visible_by_rays = target.visible_by_rays;
             }
+            target_view::measure_people(self.level, &self.images, setup.others, &mut self.others);
             watch.lap(4);
         }
         if parts == FrameParts::All {
@@ -233,7 +242,7 @@ impl Renderer {
     /// Depth and ids, and RGB before smoothing, band by band while a band's pixels are at hand.
     fn fill_channels(&mut self, scene: &Scene, shaded: bool) {
         let (level, shader) = (self.level, &self.shader);
-        let seen = Seen { scene, faces: &self.faces, figure: &self.figure };
+        let seen = Seen { scene, faces: &self.faces, people: &self.people };
         for_each_band(self.parallel, &self.nearest.face, &mut self.images, &mut self.runs, |mut band| {
             band.resolve(level, seen.faces);
             if shaded {
@@ -274,21 +283,44 @@ impl Renderer {
         }
     }
 
-    /// The target, into the frame and alone into its own buffer.
-    fn draw_figure(&mut self, eye: &Eye) {
-        for (index, triangle) in self.figure.iter().enumerate() {
-            let corners = triangle.corners_in_world.map(|corner| eye.see(corner));
-            let normal = eye.turn(triangle.normal_in_world);
-            if normal.dot(corners[0]) < 0.0
-                && let Some(plane) = PlaneOnScreen::new(&self.screen, normal, corners[0])
-            {
-                let number = self.faces.len() as u32;
-                self.nearest.draw_polygon(&self.screen, &corners, &plane, 0.0, number);
-                self.alone.draw_polygon(&self.screen, &corners, &plane, 0.0, number);
-                let source = FaceSource::Figure { triangle: index as u32 };
-                let label = SemanticLabel::Pedestrian.id();
-                let normal = triangle.normal_in_world.as_vec3().to_array();
-                self.faces.push(DrawnFace { plane, normal, source, label, instance: TARGET_INSTANCE });
+    /// People into the frame, and the target alone into its own buffer.
+    fn draw_people(&mut self, eye: &Eye, setup: &FrameSetup<'_>) {
+        let to_sun = Light::new(setup.weather).to_sun;
+        let to_sun = DVec3::new(f64::from(to_sun.x), f64::from(to_sun.y), f64::from(to_sun.z));
+        self.people.begin(setup, eye, &self.screen, to_sun);
+        if !setup.others.is_empty() {
+            self.nearer.measure(&self.nearest);
+            self.people.gather(setup, eye, &self.screen, to_sun, &self.nearer);
+        }
+        let mut part = None;
+        let mut first_face = 0;
+        for person in self.people.members.iter().filter(|person| person.is_seen) {
+            let is_target = person.instance == TARGET_INSTANCE;
+            for index in person.triangles.clone() {
+                let triangle = &self.people.triangles[index];
+                // Most backs are told without turning them.
+                let towards = triangle.normal_in_world.dot(eye.position_in_world - triangle.corners_in_world[0]);
+                if towards < -1e-6 {
+                    continue;
+                }
+                let corners = triangle.corners_in_world.map(|corner| eye.see(corner));
+                let normal = eye.turn(triangle.normal_in_world);
+                if normal.dot(corners[0]) < 0.0
+                    && let Some(plane) = PlaneOnScreen::new(&self.screen, normal, corners[0])
+                {
+                    let number = self.faces.len() as u32;
+                    if part != Some((triangle.person, triangle.part)) {
+                        (part, first_face) = (Some((triangle.person, triangle.part)), number);
+                    }
+                    self.nearest.draw_polygon(&self.screen, &corners, &plane, 0.0, number);
+                    if is_target {
+                        self.alone.draw_polygon(&self.screen, &corners, &plane, 0.0, number);
+                    }
+                    let source = FaceSource::Figure { triangle: index as u32, first_face };
+                    let label = SemanticLabel::Pedestrian.id();
+                    let normal = triangle.normal_in_world.as_vec3().to_array();
+                    self.faces.push(DrawnFace { plane, normal, source, label, instance: person.instance });
+                }
             }
         }
     }
@@ -407,7 +439,7 @@ impl Eye {
     }
 
     /// A drawing order (near first) of an axis-aligned box, or `None` when it lies outside the view.
-    fn order_if_seen(&self, screen: &Screen, center_in_world: DVec3, half: DVec3) -> Option<u64> {
+    pub fn order_if_seen(&self, screen: &Screen, center_in_world: DVec3, half: DVec3) -> Option<u64> {
         let center = self.see(center_in_world);
         let rows = self.world_from_body;
         // Reach of the box along a body direction: |R^T axis| against its half sizes.

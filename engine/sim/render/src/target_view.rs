@@ -1,7 +1,10 @@
-//! How much of the target a frame shows, counted in pixels against the target drawn alone.
+//! How much of people a frame shows, counted in pixels; of the target, against the target drawn alone.
 
-use crate::frame::{FrameImages, PixelBox, TARGET_INSTANCE, TargetView};
+use crate::figure::Bystander;
+use crate::frame::{FrameImages, PersonView, PixelBox, TARGET_INSTANCE, TargetView};
 use crate::visibility::{NO_FACE, Visibility};
+use cosfly_frames::simd::Level;
+use cosfly_frames::simd_kernel;
 
 /// The view of a target that is not in the image.
 pub(crate) const NOT_IN_VIEW: TargetView = TargetView {
@@ -50,6 +53,52 @@ pub fn measure(images: &FrameImages, covered: &[u32], occluders: &mut Vec<u32>) 
     }
 }
 
+/// What is seen of `others` in `images`, by instance id.
+pub(crate) fn measure_people(level: Level, images: &FrameImages, others: &[Bystander], views: &mut Vec<PersonView>) {
+    views.clear();
+    // People's ids come after those of objects: most pixels are told by one comparison.
+    let ids = others.iter().map(|other| other.instance);
+    let (Some(least), Some(most)) = (ids.clone().min(), ids.max()) else { return };
+    let is_person = |id: u32| (least..=most).contains(&id);
+    let width = images.width.max(1) as usize;
+    for (row, line) in images.instance.chunks(width).enumerate() {
+        for (place, part) in line.chunks(64).enumerate() {
+            if !holds_any(level, part, least, most) {
+                continue;
+            }
+            let people = part.iter().enumerate().filter(|(_, id)| is_person(**id));
+            people.for_each(|(at, id)| add_pixel(views, *id, (64 * place + at) as u32, row as u32));
+        }
+    }
+    views.retain(|view| others.iter().any(|other| other.instance == view.instance));
+    views.sort_unstable_by_key(|view| view.instance);
+}
+
+simd_kernel! {
+    /// Whether an id lies between two, ends included.
+    fn holds_any(ids: &[u32], least: u32, most: u32) -> bool {
+        let mut any = 0u32;
+        for id in ids {
+            any |= u32::from((*id >= least) & (*id <= most));
+        }
+        any != 0
+    }
+}
+
+fn add_pixel(views: &mut Vec<PersonView>, instance: u32, u: u32, v: u32) {
+    // Who was seen last comes first in the search.
+    match views.iter_mut().rev().find(|view| view.instance == instance) {
+        Some(view) => {
+            view.pixels += 1;
+            view.visible_box.add(u, v);
+        }
+        None => {
+            let visible_box = PixelBox { u_min: u, v_min: v, u_max: u, v_max: v };
+            views.push(PersonView { instance, pixels: 1, visible_box });
+        }
+    }
+}
+
 /// The most frequent number other than 0, the smaller one of two equals; 0 when there is none.
 fn most_frequent(numbers: &mut [u32]) -> u32 {
     numbers.sort_unstable();
@@ -71,13 +120,18 @@ struct Extent {
 impl Extent {
     fn add(&mut self, u: u32, v: u32) {
         self.count += 1;
-        let known = self.pixel_box.unwrap_or(PixelBox { u_min: u, v_min: v, u_max: u, v_max: v });
-        self.pixel_box = Some(PixelBox {
-            u_min: known.u_min.min(u),
-            v_min: known.v_min.min(v),
-            u_max: known.u_max.max(u),
-            v_max: known.v_max.max(v),
-        });
+        self.pixel_box.get_or_insert(PixelBox { u_min: u, v_min: v, u_max: u, v_max: v }).add(u, v);
+    }
+}
+
+impl PixelBox {
+    fn add(&mut self, u: u32, v: u32) {
+        *self = Self {
+            u_min: self.u_min.min(u),
+            v_min: self.v_min.min(v),
+            u_max: self.u_max.max(u),
+            v_max: self.v_max.max(v),
+        };
     }
 }
 

@@ -32,7 +32,7 @@ fn film(lens: Lens, blur: MotionBlur, noise: Noise, noise_seed: u8) -> (FrameIma
     let weather = Weather { sun_azimuth_angle: 200.0, ..Weather::preset("ClearNoon").expect("a preset") };
     let mut effects = Effects::new(CAMERA, lens, blur, noise);
     let mut renderer = Renderer::new(effects.ideal_camera());
-    let shot = Shot { weather: &weather, moment: &moment, noise_seed: Seed([noise_seed; 32]) };
+    let shot = Shot { weather: &weather, moment: &moment, others: &|_, _| {}, noise_seed: Seed([noise_seed; 32]) };
     let frame = effects.film(&mut renderer, &scene, &shot).expect("the CPU renderer never fails");
     assert_eq!(frame.target_view.visible_by_rays, 0.5);
     (frame.images.clone(), frame.target_view)

@@ -51,7 +51,7 @@ fn draw(
     target: TargetSetup,
 ) -> (FrameImages, TargetView, Vec<u32>) {
     let weather = Weather::preset("ClearNoon").expect("a preset");
-    let setup = FrameSetup { pose, weather: &weather, target: Some(target) };
+    let setup = FrameSetup { pose, weather: &weather, target: Some(target), others: &[] };
     let frame = renderer.render_parts(scene, &setup, FrameParts::Ids);
     (frame.images.clone(), frame.target_view, frame.target_pixels.to_vec())
 }

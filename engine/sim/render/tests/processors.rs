@@ -20,7 +20,7 @@ fn draw(renderer: &mut Renderer, scene: &Scene, weather: &str) -> FrameImages {
         visible_by_rays: 0.5,
     };
     let pose = Pose::looking_at(feet + DVec3::new(-16.0, 5.0, 7.0), feet + 2.0 * DVec3::Z);
-    renderer.render(scene, &FrameSetup { pose, weather: &weather, target: Some(target) }).images.clone()
+    renderer.render(scene, &FrameSetup { pose, weather: &weather, target: Some(target), others: &[] }).images.clone()
 }
 
 #[test]

@@ -31,7 +31,7 @@ fn walker(feet: DVec3) -> TargetSetup {
 
 fn draw(scene: &Scene, camera: Camera, pose: Pose, target: Option<TargetSetup>) -> (FrameImages, TargetView) {
     let mut renderer = Renderer::new(camera);
-    let frame = renderer.render(scene, &FrameSetup { pose, weather: &noon(), target });
+    let frame = renderer.render(scene, &FrameSetup { pose, weather: &noon(), target, others: &[] });
     (frame.images.clone(), frame.target_view)
 }
 
@@ -241,11 +241,11 @@ fn the_same_frame_has_the_same_bytes_after_any_other_frame_and_on_any_thread() {
     let rain = Weather { sun_azimuth_angle: 40.0, ..Weather::preset("HardRainSunset").expect("a preset") };
     let feet = DVec3::new(5.0, -16.0, 0.1);
     let pose = Pose::looking_at(feet + DVec3::new(-12.0, 3.0, 15.0), feet);
-    let setup = FrameSetup { pose, weather: &rain, target: Some(walker(feet)) };
+    let setup = FrameSetup { pose, weather: &rain, target: Some(walker(feet)), others: &[] };
     let once = Renderer::new(camera(320, 180)).render(&scene, &setup).images.clone();
     let mut used = Renderer::new(camera(320, 180));
     let elsewhere = Pose::looking_at(DVec3::new(70.0, 60.0, 9.0), DVec3::ZERO);
-    used.render(&scene, &FrameSetup { pose: elsewhere, weather: &noon(), target: None });
+    used.render(&scene, &FrameSetup { pose: elsewhere, weather: &noon(), target: None, others: &[] });
     assert!(used.render(&scene, &setup).images == &once);
     std::thread::scope(|scope| {
         let workers: Vec<_> = (0..2)
@@ -264,7 +264,7 @@ fn the_largest_and_the_smallest_pictures_have_all_their_pixels() {
     let pose = Pose::looking_at(DVec3::new(-14.0, 3.0, 12.0), DVec3::new(6.0, 0.0, 1.0));
     for (width, height) in [(7680u32, 4320u32), (64, 48), (16, 16)] {
         let mut renderer = Renderer::new(camera(width, height));
-        let setup = FrameSetup { pose, weather: &noon(), target };
+        let setup = FrameSetup { pose, weather: &noon(), target, others: &[] };
         let frame = renderer.render_parts(&scene, &setup, cosfly_render::FrameParts::Ids);
         assert_eq!(frame.images.depth_m.len(), width as usize * height as usize);
         assert!(frame.target_view.in_view || width < 100);

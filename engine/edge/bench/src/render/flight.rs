@@ -19,6 +19,7 @@ pub fn flight(ground: &Ground, weather: &Weather, frames: usize, views: Vec<Targ
     record.weather = weather.clone();
     record.views = views;
     record.visible_by_dense_rays = vec![None; frames];
+    (record.others, record.sightings) = (vec![], vec![]);
     let trajectory = &mut record.trajectory;
     let of_frame = |frame: usize| &ground.views[frame % ground.views.len()];
     trajectory.track.dt_s = DT_S;

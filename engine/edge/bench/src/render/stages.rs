@@ -93,7 +93,7 @@ fn round(
     let drawn = [FrameParts::Visibility, FrameParts::Ids, FrameParts::All].map(|parts| {
         let all = || {
             for view in &ground.views {
-                let setup = FrameSetup { pose: view.pose, weather, target: Some(view.target) };
+                let setup = FrameSetup { pose: view.pose, weather, target: Some(view.target), others: &[] };
                 black_box(renderer.render_parts(&ground.scene, &setup, parts));
             }
         };
@@ -102,7 +102,7 @@ fn round(
     let mut images: Vec<FrameImages> = vec![];
     let mut views = vec![];
     for view in &ground.views {
-        let setup = FrameSetup { pose: view.pose, weather, target: Some(view.target) };
+        let setup = FrameSetup { pose: view.pose, weather, target: Some(view.target), others: &[] };
         let rendered = renderer.render(&ground.scene, &setup);
         images.push(rendered.images.clone());
         views.push(rendered.target_view);

@@ -65,7 +65,7 @@ fn fly(ground: &Ground, weather: &Weather, frames: usize, thread: usize, options
     let mut views = Vec::with_capacity(frames);
     for frame in 0..frames {
         let view = &ground.views[frame % ground.views.len()];
-        let setup = FrameSetup { pose: view.pose, weather, target: Some(view.target) };
+        let setup = FrameSetup { pose: view.pose, weather, target: Some(view.target), others: &[] };
         let rendered = renderer.render(&ground.scene, &setup);
         pack.frame(rendered.images)?;
         views.push(rendered.target_view);

@@ -38,7 +38,7 @@ impl<W: Write> ChannelWriter<W> {
         let depth = [("unit", "m"), ("depth", "planar, along the optical axis"), ("no_hit", "+inf")];
         self.declare::<messages::RawImage>(topic::DEPTH, &depth)?;
         self.declare::<messages::RawImage>(topic::SEMANTIC, &[("labels", "CARLA 0.9.14 and later")])?;
-        let instance = [("0", "ground and sky"), ("1", "the target"), ("2 and more", "object id + 2")];
+        let instance = [("0", "ground and sky"), ("1", "the target"), ("2 and more", "object id + 2, then people")];
         self.declare::<messages::RawImage>(topic::INSTANCE, &instance)?;
         debug_assert!(topic::PACKED.iter().zip(1..).all(|(topic, id)| self.channels[topic].0 == id));
         self.declare::<messages::CompressedImage>(topic::RGB, &[])?;

@@ -96,22 +96,23 @@ pub fn edges_px(pixel_box: &PixelBox) -> [u32; 4] {
     [pixel_box.u_min, pixel_box.v_min, pixel_box.u_max.saturating_add(1), pixel_box.v_max.saturating_add(1)]
 }
 
-/// The target's boxes (visible: green; without obstacles: yellow) and how much of it is seen.
+/// The target's boxes (visible: green; without obstacles: yellow) and how much of it is seen; other people's boxes (blue).
 pub fn annotations(time_ns: u64, record: &RenderedTrajectory, frame: usize) -> messages::ImageAnnotations {
     let view = &record.views[frame];
-    let outline = |pixel_box: &PixelBox, r: f64, thickness: f64| {
+    let outline = |pixel_box: &PixelBox, [r, g, b]: [f64; 3], thickness: f64| {
         let [left, top, right, bottom] = edges_px(pixel_box).map(f64::from);
         let corner = |x, y| messages::Point2 { x, y };
         messages::PointsAnnotation {
             timestamp: Some(timestamp(time_ns)),
             r#type: messages::points_annotation::Type::LineLoop as i32,
             points: vec![corner(left, top), corner(right, top), corner(right, bottom), corner(left, bottom)],
-            outline_color: Some(messages::Color { r, g: 1.0, b: 0.0, a: 1.0 }),
+            outline_color: Some(messages::Color { r, g, b, a: 1.0 }),
             thickness,
             ..messages::PointsAnnotation::default()
         }
     };
-    let points = view.full_box.iter().map(|full| outline(full, 1.0, 1.0));
+    let points = view.full_box.iter().map(|full| outline(full, [1.0, 1.0, 0.0], 1.0));
+    let others = record.seen_in(frame).map(|(_, seen)| outline(&seen.view.visible_box, [0.3, 0.6, 1.0], 1.0));
     let text = view.full_box.iter().map(|full| messages::TextAnnotation {
         timestamp: Some(timestamp(time_ns)),
         position: Some(messages::Point2 { x: f64::from(full.u_min), y: f64::from(full.v_min) }),
@@ -123,7 +124,10 @@ pub fn annotations(time_ns: u64, record: &RenderedTrajectory, frame: usize) -> m
     });
     messages::ImageAnnotations {
         timestamp: Some(timestamp(time_ns)),
-        points: points.chain(view.visible_box.iter().map(|seen| outline(seen, 0.0, 2.0))).collect(),
+        points: points
+            .chain(view.visible_box.iter().map(|seen| outline(seen, [0.0, 1.0, 0.0], 2.0)))
+            .chain(others)
+            .collect(),
         texts: text.collect(),
         ..messages::ImageAnnotations::default()
     }

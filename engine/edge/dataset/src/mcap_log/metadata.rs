@@ -2,8 +2,9 @@
 
 use crate::frame_pack::PackHeader;
 use crate::tables::kind_name;
-use crate::{DepthEncoding, RenderedTrajectory};
+use crate::{DepthEncoding, OtherPerson, RenderedTrajectory};
 use cosfly_maps::{Obstacle, SemanticLabel, Town};
+use cosfly_render::frame::{TARGET_INSTANCE, object_instance};
 use std::collections::BTreeMap;
 
 /// Layout of our logs; raised when channels or conventions change.
@@ -21,7 +22,7 @@ pub fn records(
         ("cosfly.camera", camera(record)),
         ("cosfly.conventions", conventions(header)),
         ("cosfly.semantic_labels", labels()),
-        ("cosfly.instances", instances(town)),
+        ("cosfly.instances", instances(town, record)),
     ]
 }
 
@@ -111,7 +112,7 @@ fn conventions(header: &PackHeader) -> BTreeMap<String, String> {
         ("depth", "planar: distance along the optical axis, metres, 32-bit float; +inf for sky".into()),
         ("depth_values", depth_grid.into()),
         ("semantic", "CARLA label ids of 0.9.14 and later".into()),
-        ("instance", "0 ground and sky, 1 the target, else object id + 2; unsigned, little-endian".into()),
+        ("instance", "0 ground and sky, 1 the target, object id + 2, then people; unsigned, little-endian".into()),
         ("instance_encoding", instance_encoding(header).into()),
         ("pixels", "row-major from the top-left pixel, sampled at pixel centres; through a lens, depth and ids are the nearest sample".into()),
         ("boxes", "left, top, right, bottom edges in pixels from the top-left corner of the image".into()),
@@ -137,10 +138,12 @@ fn labels() -> BTreeMap<String, String> {
         .collect()
 }
 
-/// What each instance id stands for: kind, CARLA label id, and corners of the space that its boxes fill, frame `map`.
-fn instances(town: &Town) -> BTreeMap<String, String> {
+/// What each instance id stands for: kind, CARLA label id, and corners of the space that its boxes fill, frame `map`; of
+/// people, their walk and height.
+fn instances(town: &Town, record: &RenderedTrajectory) -> BTreeMap<String, String> {
     let mut obstacles: Vec<&Obstacle> = town.obstacles.iter().collect();
     obstacles.sort_by_key(|obstacle| obstacle.object_id);
+    let id = |instance: u32| format!("{instance:07}");
     let entry = |group: &[&Obstacle]| {
         let around = group.iter().map(|obstacle| obstacle.shape.bounds_in_world());
         let around = around.reduce(|(low, high), (a, b)| (low.min(a), high.max(b)));
@@ -157,9 +160,15 @@ fn instances(town: &Town) -> BTreeMap<String, String> {
             -low.y,
             high.z
         );
-        (format!("{:07}", group[0].object_id.saturating_add(2)), value)
+        (id(object_instance(group[0].object_id)), value)
     };
-    let fixed = [("0000000", "ground and sky"), ("0000001", "the target")];
+    let person = |person: &OtherPerson| {
+        let label = SemanticLabel::Pedestrian.id();
+        let value = format!("person label {label} of walk {}, {:.2} m high", person.walk_id, person.height_m);
+        (id(person.instance), value)
+    };
+    let fixed = [(0, "ground and sky"), (TARGET_INSTANCE, "the target")];
+    let fixed = fixed.map(|(instance, what)| (id(instance), what.to_owned()));
     let groups = obstacles.chunk_by(|a, b| a.object_id == b.object_id);
-    groups.map(entry).chain(fixed.map(|(id, what)| (id.to_owned(), what.to_owned()))).collect()
+    groups.map(entry).chain(record.others.iter().map(person)).chain(fixed).collect()
 }

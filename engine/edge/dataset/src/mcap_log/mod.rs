@@ -24,7 +24,7 @@ pub mod topic {
     pub const RGB: &str = "/camera/rgb/image";
     /// `foxglove.CameraCalibration` of all images.
     pub const CAMERA: &str = "/camera/rgb/camera_info";
-    /// `foxglove.ImageAnnotations`: boxes of the target.
+    /// `foxglove.ImageAnnotations`: boxes of the target and of other people.
     pub const ANNOTATIONS: &str = "/camera/rgb/annotations";
     /// `foxglove.CompressedImage`: small colour image.
     pub const RGB_PREVIEW: &str = "/camera/rgb/preview";
@@ -62,7 +62,7 @@ pub mod topic {
     pub const ALL: [(&str, &str); 17] = [
         (RGB, "`foxglove.CompressedImage`: the colour image."),
         (CAMERA, "`foxglove.CameraCalibration` of all images."),
-        (ANNOTATIONS, "`foxglove.ImageAnnotations`: boxes of the target."),
+        (ANNOTATIONS, "`foxglove.ImageAnnotations`: boxes of the target and of other people."),
         (RGB_PREVIEW, "`foxglove.CompressedImage`: small colour image."),
         (DEPTH, "`foxglove.RawImage` `32FC1`: planar depth, metres."),
         (DEPTH_PREVIEW, "`foxglove.CompressedImage`: depth in logarithmic colours."),

@@ -173,8 +173,8 @@ towards y, positive pitch lifts the nose, positive roll lowers the right side.\n
 * Camera: pinhole without distortion, square pixels, optical centre in the image centre; pixel (0, 0) is the top-left \
 one and its centre is at (0.5, 0.5).\n\
 * Depth: planar, along the optical axis, metres, 32-bit float, +inf for sky.\n\
-* Semantic images: CARLA's label ids (0.9.14 and later). Instance images: 0 ground and sky, 1 the target, else object \
-id + 2.\n\
+* Semantic images: CARLA's label ids (0.9.14 and later). Instance images: 0 ground and sky, 1 the target, object id + \
+2 (table `objects`), then people (table `people`).\n\
 * Boxes: left, top, right, bottom edges in pixels; right and bottom lie outside.\n\n";
 
 fn table_section<S>(table: &Table<S>) -> String {

@@ -54,7 +54,7 @@ fn the_layout_is_the_documented_one() {
             "schemas/cosfly.proto",
         ]
     );
-    for table in ["trajectories", "frames", "waypoints", "captions", "pairs", "rejected"] {
+    for table in ["trajectories", "frames", "waypoints", "captions", "pairs", "people", "rejected"] {
         assert!(files.keys().any(|name| name.starts_with(&format!("data/{table}/"))), "{table}");
     }
 }
@@ -80,7 +80,7 @@ fn the_card_lists_only_tables_with_rows() {
     let folder = tempfile::tempdir().unwrap();
     sample::write_flights(folder.path(), &DatasetConfig::default(), EncodingConfig::default(), experts).unwrap();
     let card = std::fs::read_to_string(folder.path().join("README.md")).unwrap();
-    assert!(card.contains("# or trajectories, waypoints, captions, objects, rejected, files\n"), "{card}");
+    assert!(card.contains("# or trajectories, waypoints, captions, people, objects, rejected, files\n"), "{card}");
 }
 
 #[test]

@@ -6,18 +6,22 @@ mod folder;
 pub use folder::{write_flights, write_to_folder};
 
 use crate::frame_pack::{FramePackWriter, PackHeader};
-use crate::{CaptionRecord, EncodingConfig, PairInfo, Rejection, RenderedTrajectory, Role, TownInfo};
+use crate::{
+    CaptionRecord, EncodingConfig, OtherPerson, PairInfo, Rejection, RenderedTrajectory, Role, Sighting, TownInfo,
+};
 use cosfly_frames::{DVec3, Pose, TargetState, TargetTrack, real};
 use cosfly_geometry::OrientedBox;
 use cosfly_maps::{MapOrigin, Obstacle, ObstacleKind, SemanticLabel, SimplificationReport, Synthetic, Town};
 use cosfly_planner::{Certificate, FramePerturbation, Limits, Perturbation, TermCost, Trajectory};
 use cosfly_render::frame::TARGET_INSTANCE;
-use cosfly_render::{Camera, FrameImages, Lens, MotionBlur, Mount, Noise, PixelBox, TargetView, Weather};
+use cosfly_render::{Camera, FrameImages, Lens, MotionBlur, Mount, Noise, PersonView, PixelBox, TargetView, Weather};
 
 /// Frames of every flight.
 pub const FRAMES: usize = 5;
 const HEIGHT_M: f64 = 1.8;
 const RADIUS_M: f64 = 0.35;
+/// Instance id of the one who walks ahead of every target.
+const COMPANION: u32 = 7;
 
 /// One flight with its pixels and captions.
 pub struct SampleFlight {
@@ -101,8 +105,14 @@ pub fn flight(pedestrian: usize, role: Role) -> SampleFlight {
         }
     };
     let town = town();
-    let (images, views): (Vec<_>, Vec<_>) =
-        poses.iter().zip(&track.states).map(|(pose, state)| look(&camera, pose, state, &town)).unzip();
+    let (mut images, mut views, mut sightings) = (vec![], vec![], vec![]);
+    for (frame, (pose, state)) in poses.iter().zip(&track.states).enumerate() {
+        let (picture, view, companion) = look(&camera, pose, state, &town);
+        images.push(picture);
+        views.push(view);
+        let sighting = |view| Sighting { frame: frame as u32, person: 0, state: ahead_of(state), view };
+        sightings.extend(companion.map(sighting));
+    }
     let trajectory = trajectory(track, poses, role, pedestrian, offset, &views);
     let record = RenderedTrajectory {
         trajectory_id: format!("{}-p{pedestrian:05}", role.name()),
@@ -120,6 +130,13 @@ pub fn flight(pedestrian: usize, role: Role) -> SampleFlight {
         seed: 0x0123_4567_89ab_cdef,
         visible_by_dense_rays: views.iter().map(|view| view.in_view.then_some(view.visible_by_pixels)).collect(),
         views,
+        others: vec![OtherPerson {
+            instance: COMPANION,
+            walk_id: "crowd-p00000".into(),
+            height_m: HEIGHT_M,
+            radius_m: RADIUS_M,
+        }],
+        sightings,
         pair: (role == Role::Perturbed).then(|| PairInfo { expert_id: format!("expert-p{pedestrian:05}") }),
     };
     let caption = |language: &str, text: &str| CaptionRecord {
@@ -137,6 +154,13 @@ fn track(pedestrian: usize) -> TargetTrack {
     let state =
         |i| TargetState { feet_in_world: DVec3::new(cos, sin, 0.0) * (0.65 * i as f64), heading_rad, speed_mps: 1.3 };
     TargetTrack { dt_s: 0.5, height_m: HEIGHT_M, radius_m: RADIUS_M, states: (0..FRAMES).map(state).collect() }
+}
+
+/// Somebody 2.5 m ahead and 1.5 m to the right.
+fn ahead_of(state: &TargetState) -> TargetState {
+    let (sin, cos) = real::sin_cos(state.heading_rad);
+    let away = DVec3::new(2.5 * cos - 1.5 * sin, 2.5 * sin + 1.5 * cos, 0.0);
+    TargetState { feet_in_world: state.feet_in_world + away, ..*state }
 }
 
 /// A camera 4 m above the feet and 6 m and more behind, falling back, that looks at the body's middle.
@@ -229,11 +253,16 @@ fn weather() -> Weather {
     }
 }
 
-/// Ray-casts ground, wall and target.
-fn look(camera: &Camera, pose: &Pose, state: &TargetState, town: &Town) -> (FrameImages, TargetView) {
+/// Ray-casts ground, wall, target and who walks ahead of it.
+fn look(
+    camera: &Camera,
+    pose: &Pose,
+    state: &TargetState,
+    town: &Town,
+) -> (FrameImages, TargetView, Option<PersonView>) {
     let (width, height) = (camera.width, camera.height);
     let mut images = FrameImages { width, height, rgb: vec![], depth_m: vec![], semantic: vec![], instance: vec![] };
-    let (mut full, mut visible) = (vec![], vec![]);
+    let (mut full, mut visible, mut companion) = (vec![], vec![], vec![]);
     let wall = &town.obstacles[0];
     for v in 0..height {
         for u in 0..width {
@@ -242,11 +271,14 @@ fn look(camera: &Camera, pose: &Pose, state: &TargetState, town: &Town) -> (Fram
             let ground = if ray.z < 0.0 { -from.z / ray.z } else { f64::INFINITY };
             let body = cylinder_hit(from - state.feet_in_world, ray);
             let wall_hit = box_hit(&wall.shape, from, ray);
-            let depth = ground.min(body).min(wall_hit);
+            let other = cylinder_hit(from - ahead_of(state).feet_in_world, ray);
+            let depth = ground.min(body).min(wall_hit).min(other);
             let (label, id) = if depth == f64::INFINITY {
                 (SemanticLabel::Sky, 0)
             } else if depth == body {
                 (SemanticLabel::Pedestrian, TARGET_INSTANCE)
+            } else if depth == other {
+                (SemanticLabel::Pedestrian, COMPANION)
             } else if depth == wall_hit {
                 (SemanticLabel::Wall, wall.object_id + 2)
             } else {
@@ -255,8 +287,10 @@ fn look(camera: &Camera, pose: &Pose, state: &TargetState, town: &Town) -> (Fram
             if body < f64::INFINITY {
                 full.push((u, v));
             }
-            if id == TARGET_INSTANCE {
-                visible.push((u, v));
+            match id {
+                TARGET_INSTANCE => visible.push((u, v)),
+                COMPANION => companion.push((u, v)),
+                _ => {}
             }
             images.rgb.extend(label.colour());
             images.depth_m.push(depth as f32);
@@ -274,7 +308,9 @@ fn look(camera: &Camera, pose: &Pose, state: &TargetState, town: &Town) -> (Fram
         full_box: bounds(&full),
         occluder_instance: if visible.len() < full.len() { wall.object_id + 2 } else { 0 },
     };
-    (images, view)
+    let pixels = companion.len() as u32;
+    let companion = bounds(&companion).map(|visible_box| PersonView { instance: COMPANION, pixels, visible_box });
+    (images, view, companion)
 }
 
 fn bounds(pixels: &[(u32, u32)]) -> Option<PixelBox> {

@@ -144,7 +144,7 @@ fn view() -> Vec<Column<DatasetItem>> {
         Column::new(
             "occluder_instance",
             Kind::Integer,
-            "instance id of what hides most of it, see table `objects`; 0: nothing, or only ground",
+            "instance id of what hides most of it, see tables `objects` and `people`; 0: nothing, or only ground",
             |item, i| view_of(item, i).occluder_instance.into(),
         ),
     ]

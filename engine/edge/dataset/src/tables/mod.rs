@@ -9,6 +9,7 @@ mod files;
 mod frames;
 mod objects;
 mod pairs;
+mod people;
 mod rejected;
 mod trajectories;
 mod waypoints;
@@ -39,7 +40,7 @@ pub struct DatasetItem {
 
 /// The tables over the trajectories, in the order of the card.
 pub fn of_trajectories() -> Vec<Table<DatasetItem>> {
-    vec![trajectories::table(), frames::table(), waypoints::table(), captions::table(), pairs::table()]
+    vec![trajectories::table(), frames::table(), waypoints::table(), captions::table(), pairs::table(), people::table()]
 }
 
 /// The table of items without a trajectory.

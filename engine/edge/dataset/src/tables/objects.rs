@@ -2,6 +2,7 @@
 
 use super::{Cell, Column, Kind, Table};
 use cosfly_maps::{Obstacle, ObstacleKind, SemanticLabel, Town};
+use cosfly_render::frame::object_instance;
 
 /// One box of an object of a town.
 #[derive(Clone, Debug, PartialEq)]
@@ -30,7 +31,7 @@ impl ObjectRecord {
 
     /// The id in instance images.
     pub fn instance(&self) -> u32 {
-        self.obstacle.object_id.saturating_add(2)
+        object_instance(self.obstacle.object_id)
     }
 
     /// What kind of thing it is, as text.
@@ -75,7 +76,7 @@ pub fn table() -> Table<ObjectRecord> {
     Table {
         name: "objects",
         doc: "The boxes behind the instance ids of images and of `frames.occluder_instance`: all obstacles of the town. \
-              Id 0 is ground and sky, 1 the target.",
+              Id 0 is ground and sky, 1 the target; ids after those of all objects are people, see table `people`.",
         key: &["town", "instance", "part"],
         rows: |_| 1,
         per_frame: false,

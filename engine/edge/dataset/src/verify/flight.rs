@@ -3,7 +3,8 @@
 use super::figures;
 use super::files::CheckedFiles;
 use super::labels;
-use super::log;
+use super::log::{self, Known};
+use super::people::{self, PersonRow};
 use super::report::VerifyReport;
 use super::rows::{self, FlightRow, FrameRow};
 use super::tables::{PairRow, SmallTables};
@@ -27,7 +28,7 @@ const LIMB_LENGTHS: [f64; 3] = [0.38, 0.0, 0.15];
 /// Below this height in pixels the trunk may miss pixel centres as well, and any single pixel may be all of the box.
 const THIN_TRUNK_BELOW_PX: f64 = 8.0;
 /// Pixels are sampled at their centres.
-const SLACK_PX: f64 = 1.5;
+pub(super) const SLACK_PX: f64 = 1.5;
 
 /// Checks all flights: rows of `frames`, then the log of each, then `waypoints` and twins.
 pub fn check_all(
@@ -41,6 +42,8 @@ pub fn check_all(
     let mut motions: BTreeMap<String, blake3::Hasher> = BTreeMap::new();
     let mut twins = Twins::of(tables);
     for file in files.sound_below("data/frames/") {
+        let mut others = people::read(folder, files, file, report);
+        let people_file = people::file_beside(file);
         let outcome = rows::frames(&folder.join(file), &mut |frames| {
             let id = frames[0].trajectory_id.clone();
             let Some(flight) = tables.flights.get(&id) else {
@@ -60,11 +63,14 @@ pub fn check_all(
             check_frames(file, flight, &frames, report);
             figures::check_frames(flight, &frames, report);
             labels::compare(file, flight, &frames, report);
-            check_occluders(file, tables.instances.get(&flight.town), &frames, report);
+            let (others, objects) = (others.remove(&id).unwrap_or_default(), tables.instances.get(&flight.town));
+            people::check(&people_file, flight, &frames, &others, objects, report);
+            check_occluders(file, objects, &others, &frames, report);
             check_pair(&tables.pairs, flight, &frames, report);
             twins.keep(&frames);
             if files.regular.contains(&flight.mcap_path) {
-                log::check(folder, flight, &frames, tables.captions.get(&id).map_or(&[], Vec::as_slice), report);
+                let captions = tables.captions.get(&id).map_or(&[][..], Vec::as_slice);
+                log::check(folder, flight, &frames, &Known { captions, objects, others: &others }, report);
             }
             report.flights += 1;
             report.frames += frames.len() as u64;
@@ -72,6 +78,10 @@ pub fn check_all(
         });
         if let Err(message) = outcome {
             report.find(file, "", "verify-schema", message);
+        }
+        for (id, rows) in others {
+            let place = format!("row {}, `{id}`", rows[0].row);
+            report.find(&people_file, place, "verify-reference", "its frames are not in the file of this name");
         }
     }
     for (id, flight) in tables.flights.iter().filter(|(id, _)| !motions.contains_key(*id)) {
@@ -134,11 +144,22 @@ pub(super) fn check_frames(file: &str, flight: &FlightRow, frames: &[FrameRow], 
     report.boxes += frames.iter().filter(|frame| frame.full_box.is_some()).count() as u64;
 }
 
-/// What hides the target is in table `objects`.
-fn check_occluders(file: &str, ids: Option<&BTreeSet<i64>>, frames: &[FrameRow], report: &mut VerifyReport) {
-    let is_known = |id: i64| id == 0 || ids.is_some_and(|ids| ids.contains(&id));
-    if let Some(frame) = frames.iter().find(|frame| !is_known(frame.occluder)) {
-        let message = format!("its occluder {} is not in table `objects`", frame.occluder);
+/// What hides the target is in table `objects`, or somebody who is seen in the same frame.
+fn check_occluders(
+    file: &str,
+    objects: Option<&BTreeSet<i64>>,
+    others: &[PersonRow],
+    frames: &[FrameRow],
+    report: &mut VerifyReport,
+) {
+    let people: BTreeSet<(i64, i64)> = others.iter().map(|person| (person.frame, person.instance)).collect();
+    let is_known = |frame: &&FrameRow| {
+        frame.occluder == 0
+            || objects.is_some_and(|ids| ids.contains(&frame.occluder))
+            || people.contains(&(frame.frame, frame.occluder))
+    };
+    if let Some(frame) = frames.iter().find(|frame| !is_known(frame)) {
+        let message = format!("its occluder {} is neither in table `objects` nor in `people`", frame.occluder);
         let place = format!("row {}, `{}` frame {}", frame.row, frame.trajectory_id, frame.frame);
         report.find(file, place, "verify-reference", message);
     }
@@ -225,7 +246,7 @@ impl Body {
     }
 
     /// Edges of the projected prism; `None` when part of it is behind the camera.
-    fn hull(&self, flight: &FlightRow, pose: &Pose) -> Option<[f64; 4]> {
+    pub fn hull(&self, flight: &FlightRow, pose: &Pose) -> Option<[f64; 4]> {
         self.corners().try_fold([f64::MAX, f64::MAX, f64::MIN, f64::MIN], |hull, corner| {
             let (u, v, depth) = flight.project(pose, corner)?;
             (depth > 0.1).then(|| [hull[0].min(u), hull[1].min(v), hull[2].max(u), hull[3].max(v)])

@@ -1,6 +1,7 @@
 //! The log of one flight: its own checksums, then its messages against the rows of the tables.
 
 use super::flight::Body;
+use super::people::PersonRow;
 use super::report::VerifyReport;
 use super::rows::{FlightRow, FrameRow};
 use crate::mcap_log::{TargetStateMessage, frame_time_ns, right_handed, topic};
@@ -11,7 +12,7 @@ use cosfly_maps::SemanticLabel;
 use cosfly_render::frame::TARGET_INSTANCE;
 use foxglove::messages;
 use prost::Message;
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 use std::fs::File;
 use std::io::{BufReader, Read};
 use std::path::Path;
@@ -36,20 +37,24 @@ const PER_FRAME: [&str; 10] = [
     topic::TARGET_STATE,
 ];
 
+/// What tables say about a flight beside its frames.
+pub struct Known<'a> {
+    /// Language and text of its captions.
+    pub captions: &'a [(String, String)],
+    /// Instance ids of the town's objects.
+    pub objects: Option<&'a BTreeSet<i64>>,
+    /// Who is seen beside the target, by frame.
+    pub others: &'a [PersonRow],
+}
+
 /// Checks the log of `flight`.
-pub fn check(
-    folder: &Path,
-    flight: &FlightRow,
-    frames: &[FrameRow],
-    captions: &[(String, String)],
-    report: &mut VerifyReport,
-) {
+pub fn check(folder: &Path, flight: &FlightRow, frames: &[FrameRow], known: &Known<'_>, report: &mut VerifyReport) {
     let file = &flight.mcap_path;
     let Ok(input) = File::open(folder.join(file)) else { return };
     let mut log = LogCheck {
         flight,
         frames,
-        captions,
+        known,
         report,
         topics: BTreeMap::new(),
         counts: BTreeMap::new(),
@@ -90,7 +95,7 @@ fn read_records(input: &mut impl Read, visit: &mut dyn FnMut(Record<'_>)) -> Res
 struct LogCheck<'a> {
     flight: &'a FlightRow,
     frames: &'a [FrameRow],
-    captions: &'a [(String, String)],
+    known: &'a Known<'a>,
     report: &'a mut VerifyReport,
     topics: BTreeMap<u16, String>,
     counts: BTreeMap<String, usize>,
@@ -128,7 +133,7 @@ impl LogCheck<'_> {
     fn message(&mut self, topic: &str, frame: usize, time_ns: u64, data: &[u8]) {
         if topic == topic::CAPTIONS {
             let text = messages::Log::decode(data).map(|log| log.message).unwrap_or_default();
-            if !self.captions.iter().any(|caption| caption.1 == text) {
+            if !self.known.captions.iter().any(|caption| caption.1 == text) {
                 self.find(format!("caption {frame}"), "verify-caption", "table `captions` does not have it".into());
             }
             return;
@@ -165,18 +170,45 @@ impl LogCheck<'_> {
         (!same).then(|| "size, focal length or distortion differ from table `trajectories`".into())
     }
 
-    /// The target's pixels in the instance image against count and box of the table.
+    /// The pixels of the target and of others in the instance image against counts and boxes of the tables; no other
+    /// ids than those of objects.
     fn instance_problem(&mut self, frame: usize, data: &[u8], row: &FrameRow) -> Option<String> {
         let Some(image) = self.image(data) else { return Some(UNREADABLE.into()) };
         let bytes = if image.encoding == "32UC1" { 4 } else { 2 };
-        let ids = image
+        let width = self.flight.camera.width as usize;
+        let ids: Vec<u32> = image
             .data
             .chunks_exact(bytes)
-            .map(|id| id.iter().rev().fold(0u32, |sum, byte| sum << 8 | u32::from(*byte)));
-        let pixels: Vec<usize> = ids.enumerate().filter(|(_, id)| *id == TARGET_INSTANCE).map(|(at, _)| at).collect();
-        let found = edges(&pixels, self.flight.camera.width as usize);
-        let count = pixels.len() as i64;
-        self.instance = Some((frame, pixels));
+            .map(|id| id.iter().rev().fold(0u32, |sum, byte| sum << 8 | u32::from(*byte)))
+            .collect();
+        let mut pixels: BTreeMap<u32, Vec<usize>> = BTreeMap::new();
+        let mut start = 0;
+        for run in ids.chunk_by(|a, b| a == b) {
+            let id = i64::from(run[0]);
+            if id != 0 && !self.known.objects.is_some_and(|ids| ids.contains(&id)) {
+                pixels.entry(run[0]).or_default().extend(start..start + run.len());
+            }
+            start += run.len();
+        }
+        let of_target = pixels.remove(&TARGET_INSTANCE).unwrap_or_default();
+        let (count, found) = (of_target.len() as i64, edges(&of_target, width));
+        self.instance = Some((frame, of_target));
+        let others = self.known.others;
+        let first = others.partition_point(|person| person.frame < row.frame);
+        for person in others[first..].iter().take_while(|person| person.frame == row.frame) {
+            let seen = u32::try_from(person.instance).ok().and_then(|id| pixels.remove(&id)).unwrap_or_default();
+            let (count, found) = (seen.len() as i64, edges(&seen, width));
+            if (count, found) != (person.pixels, person.visible_box) {
+                return Some(format!(
+                    "{count} pixels of id {} in {found:?}; table `people` says {} in {:?}",
+                    person.instance, person.pixels, person.visible_box
+                ));
+            }
+        }
+        if let Some((id, seen)) = pixels.first_key_value() {
+            let count = seen.len();
+            return Some(format!("{count} pixels have the id {id}, which is neither in `objects` nor in `people`"));
+        }
         (count != row.visible_pixels || found != row.visible_box).then(|| {
             format!(
                 "{count} pixels of the target in {found:?}; table `frames` says {} in {:?}",
@@ -254,8 +286,8 @@ impl LogCheck<'_> {
             }
         }
         let captions = self.counts.get(topic::CAPTIONS).copied().unwrap_or(0);
-        if captions != self.captions.len() {
-            let message = format!("{captions} captions; table `captions` has {}", self.captions.len());
+        if captions != self.known.captions.len() {
+            let message = format!("{captions} captions; table `captions` has {}", self.known.captions.len());
             self.find(format!("`{}`", topic::CAPTIONS), "verify-count", message);
         }
         if self.messages != self.flight.mcap_messages {

@@ -9,6 +9,7 @@ mod files;
 mod flight;
 mod labels;
 mod log;
+mod people;
 mod report;
 mod rows;
 mod tables;

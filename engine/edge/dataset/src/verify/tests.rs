@@ -145,6 +145,27 @@ fn boxes_of_the_next_frame_are_found() {
 }
 
 #[test]
+fn people_who_are_not_where_their_pixels_are_are_found() {
+    type Spoil = (&'static str, fn(&mut SampleFlight));
+    let spoils: [Spoil; 5] = [
+        ("verify-log", |it| it.record.sightings[2].view.pixels += 1),
+        ("verify-log", |it| it.record.sightings.truncate(2)),
+        ("verify-reprojection", |it| it.record.sightings[1].state.feet_in_world.x += 4.0),
+        ("verify-reference", |it| {
+            it.record.others[0].instance = 6;
+            it.record.sightings.iter_mut().for_each(|sighting| sighting.view.instance = 6);
+        }),
+        ("verify-reference", |it| it.record.views[0].occluder_instance = 8),
+    ];
+    for (rule, spoil) in spoils {
+        let mut flights = sample::flights();
+        spoil(&mut flights[0]);
+        let rules = rules_of(&published(flights));
+        assert!(rules.contains(&rule), "{rule}: {rules:?}");
+    }
+}
+
+#[test]
 fn a_twin_that_is_not_its_expert_plus_its_displacement_is_found() {
     let mut flights = sample::flights();
     let perturbation = flights[1].record.trajectory.perturbation.as_mut().unwrap();

@@ -13,12 +13,13 @@ pub use noise::Noise;
 
 use crate::backend::{Backend, BackendError};
 use crate::camera::Camera;
-use crate::figure::TargetSetup;
-use crate::frame::FrameImages;
+use crate::figure::{Bystander, TargetSetup};
+use crate::frame::{FrameImages, PersonView};
 use crate::renderer::{FrameSetup, RenderedFrame};
 use crate::scene::Scene;
 use crate::target_view;
 use crate::weather::Weather;
+use cosfly_frames::simd::Level;
 use cosfly_frames::{Pose, Seed};
 use lens::LensMap;
 use motion_blur::Exposure;
@@ -38,6 +39,8 @@ pub struct Shot<'a> {
     pub weather: &'a Weather,
     /// What is to be seen this many seconds after the middle of the shutter (before it, when negative).
     pub moment: &'a dyn Fn(f64) -> Moment,
+    /// Adds everybody else who is about then to an empty list.
+    pub others: &'a dyn Fn(f64, &mut Vec<Bystander>),
     /// Seed of the sensor's noise; another one per frame.
     pub noise_seed: Seed,
 }
@@ -53,6 +56,8 @@ pub struct Effects {
     covered: Vec<u32>,
     occluders: Vec<u32>,
     mask: Vec<bool>,
+    bystanders: Vec<Bystander>,
+    seen: Vec<PersonView>,
 }
 
 impl Effects {
@@ -72,6 +77,8 @@ impl Effects {
             covered: vec![],
             occluders: vec![],
             mask: vec![],
+            bystanders: vec![],
+            seen: vec![],
         }
     }
 
@@ -90,19 +97,16 @@ impl Effects {
         scene: &Scene,
         shot: &Shot<'_>,
     ) -> Result<RenderedFrame<'a>, BackendError> {
-        let setup = |offset_s: f64| {
-            let Moment { pose, target } = (shot.moment)(offset_s);
-            FrameSetup { pose, weather: shot.weather, target }
-        };
         if self.lens.is_none() && self.blur.is_none() && self.noise.is_none() {
-            return backend.render(scene, &setup(0.0));
+            return backend.render(scene, &setup(shot, 0.0, &mut self.bystanders));
         }
         self.exposure.open();
         for offset_s in self.blur.offsets_s() {
-            self.exposure.add(&backend.render(scene, &setup(offset_s))?.images.rgb);
+            let setup = setup(shot, offset_s, &mut self.bystanders);
+            self.exposure.add(&backend.render(scene, &setup)?.images.rgb);
         }
         // The middle comes last: its depth and ids are what stays.
-        let middle = setup(0.0);
+        let middle = setup(shot, 0.0, &mut self.bystanders);
         let frame = backend.render(scene, &middle)?;
         if !self.blur.is_none() {
             self.exposure.add(&frame.images.rgb);
@@ -123,8 +127,17 @@ impl Effects {
         self.noise.add(&mut self.images.rgb, &shot.noise_seed);
         let mut view = target_view::measure(&self.images, &self.covered, &mut self.occluders);
         view.visible_by_rays = middle.target.map_or(0.0, |target| target.visible_by_rays);
-        Ok(RenderedFrame { images: &self.images, target_view: view, target_pixels: &self.covered })
+        target_view::measure_people(Level::best(), &self.images, middle.others, &mut self.seen);
+        Ok(RenderedFrame { images: &self.images, target_view: view, target_pixels: &self.covered, others: &self.seen })
     }
+}
+
+/// The frame at a moment of a shot; `bystanders` is room for who is about.
+fn setup<'a>(shot: &Shot<'a>, offset_s: f64, bystanders: &'a mut Vec<Bystander>) -> FrameSetup<'a> {
+    let Moment { pose, target } = (shot.moment)(offset_s);
+    bystanders.clear();
+    (shot.others)(offset_s, bystanders);
+    FrameSetup { pose, weather: shot.weather, target, others: bystanders }
 }
 
 /// Copies all channels, without new buffers when the sizes agree.

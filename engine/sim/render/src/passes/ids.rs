@@ -20,7 +20,7 @@ pub(crate) struct Run {
     pub length: u32,
     /// Number of the face, or [`NO_FACE`].
     pub face: u32,
-    /// Equal for runs of one surface: a box face, ground of one label, the figure, the sky.
+    /// Equal for runs of one surface: a box face, ground of one label, a person, the sky.
     pub surface: u32,
 }
 
@@ -128,7 +128,7 @@ impl Band<'_> {
 fn surface_of(number: u32, face: &DrawnFace) -> u32 {
     match face.source {
         FaceSource::Ground { .. } => 0x8000_0000 | u32::from(face.label),
-        FaceSource::Figure { .. } => 0x8100_0000,
+        FaceSource::Figure { .. } => 0x8100_0000 | (face.instance & 0xff_ffff),
         FaceSource::Box { .. } => number & 0x7fff_ffff,
     }
 }

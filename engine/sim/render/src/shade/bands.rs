@@ -19,7 +19,8 @@ use cosfly_frames::simd_kernel;
 use cosfly_maps::{ObstacleKind, SemanticLabel};
 use std::sync::PoisonError;
 
-/// Groups of pixels that are not of a single face: the sky, and ground by label.
+/// Groups of pixels that are not of a single face: the sky, and ground by label. Faces of one part of a body are a group,
+/// too, named after the first of them.
 const SKY: usize = 63;
 const SHARED_GROUPS: usize = 64;
 /// No run follows.
@@ -40,6 +41,9 @@ pub(crate) struct Worker {
     /// Groups that have runs.
     present: Vec<u32>,
     pieces: Vec<Piece>,
+    /// Numbers of the people who may darken something in the band, and of those among the pieces.
+    near_band: Vec<u32>,
+    near: Vec<u32>,
 }
 
 /// A run of pixels, and the next one of its group.
@@ -119,12 +123,18 @@ impl Worker {
             first: Vec::new(),
             present: Vec::new(),
             pieces: Vec::with_capacity(FOURS),
+            near_band: Vec::new(),
+            near: Vec::new(),
         }
     }
 
     fn shade(&mut self, shader: &Shader, seen: &Seen<'_>, band: &Band<'_>) {
         self.picture.resize(band.rgb.len() / 3, 0);
         self.gather(seen, band);
+        let rows = band.first_row..band.first_row + self.picture.len() / band.width.max(1);
+        let people = (0u32..).zip(&seen.people.members);
+        self.near_band.clear();
+        self.near_band.extend(people.filter(|(_, person)| person.reach.meets_rows(rows.clone())).map(|(k, _)| k));
         for position in 0..self.present.len() {
             let group = self.present[position] as usize;
             self.shade_group(shader, seen, band, group);
@@ -199,12 +209,37 @@ impl Worker {
         }
     }
 
+    /// Lists who may darken a pixel of the pieces.
+    fn find_near(&mut self, seen: &Seen<'_>) {
+        self.near.clear();
+        if self.near_band.is_empty() {
+            return;
+        }
+        let place = |piece: &Piece| {
+            let column = piece.u as usize;
+            (piece.v as usize, column..column + piece.length)
+        };
+        let columns = self.pieces.iter().map(|piece| place(piece).1);
+        let around = columns.reduce(|a, b| a.start.min(b.start)..a.end.max(b.end)).unwrap_or(0..0);
+        let rows = self.pieces.iter().map(|piece| place(piece).0..place(piece).0 + 1);
+        let rows = rows.reduce(|a, b| a.start.min(b.start)..a.end.max(b.end)).unwrap_or(0..0);
+        for person in &self.near_band {
+            let reach = &seen.people.members[*person as usize].reach;
+            if reach.meets(rows.clone(), around.clone())
+                && self.pieces.iter().map(place).any(|(row, columns)| reach.meets(row..row + 1, columns))
+            {
+                self.near.push(*person);
+            }
+        }
+    }
+
     /// Takes the filled lanes through the kernels and writes their pixels.
     fn flush(&mut self, shader: &Shader, seen: &Seen<'_>, material: &Material, axes: &FaceAxes, lanes: usize) {
         let groups = lanes.div_ceil(FOUR * WIDE);
+        self.find_near(seen);
         fill(shader.level, &self.pieces, &mut self.stage);
         let (shared, blocks) = (&mut self.shared[..groups], &mut self.blocks[..FOUR * groups]);
-        run_kernels(shader, seen, material, axes, &self.stage, (shared, blocks));
+        run_kernels(shader, seen, material, axes, &self.stage, (shared, blocks), &self.near);
         put_back(shader.level, &self.pieces, &self.blocks[..FOUR * groups], &mut self.developed, &mut self.picture);
         self.pieces.clear();
     }
@@ -313,6 +348,7 @@ fn run_kernels(
     axes: &FaceAxes,
     stage: &Stage,
     (shared, blocks): (&mut [Shared], &mut [Block]),
+    near: &[u32],
 ) {
     let (level, light, noise) = (shader.level, &shader.light, &seen.scene.noise);
     if let Material::Sky = material {
@@ -321,8 +357,11 @@ fn run_kernels(
     }
     let grid = &seen.scene.grid;
     place(level, shared, blocks, stage, &shader.view, axes, grid.tables(), &grid.frame(), light);
-    if let (Material::Ground(_), Some((feet, radius_m))) = (material, shader.feet) {
-        contact(level, shared, feet, radius_m);
+    if let Material::Ground(_) = material {
+        for person in near {
+            let walker = &seen.people.members[*person as usize].walker;
+            contact(level, shared, walker.state.feet_in_world.into(), walker.radius_m.clamp(0.1, 2.0) as f32);
+        }
     }
     let is_bent = material.is_bent();
     if let Material::Thing(thing) = material
@@ -333,7 +372,7 @@ fn run_kernels(
     if material.faces_away(stage, light) {
         blocks.iter_mut().for_each(|block| block.sunlight = [0.0; WIDE]);
     } else {
-        shader.shadows.sunlight(level, blocks, !is_bent, noise);
+        shader.shadows.sunlight(level, blocks, !is_bent, noise, near);
     }
     match material {
         Material::Sky => {}
@@ -367,7 +406,8 @@ fn group_of(faces: &[DrawnFace], face: u32) -> usize {
     let drawn = &faces[face as usize];
     match drawn.source {
         FaceSource::Ground { .. } => usize::from(drawn.label).min(SKY - 1),
-        _ => SHARED_GROUPS + face as usize,
+        FaceSource::Figure { first_face, .. } => SHARED_GROUPS + first_face as usize,
+        FaceSource::Box { .. } => SHARED_GROUPS + face as usize,
     }
 }
 
@@ -379,9 +419,9 @@ fn material_of(shader: &Shader, seen: &Seen<'_>, face: u32) -> (Material, FaceAx
             let polygon = seen.scene.clusters[cluster as usize].polygons[usize::from(polygon)];
             (Material::Ground(polygon.label), flat)
         }
-        FaceSource::Figure { triangle } => {
-            let part = &seen.figure[triangle as usize];
-            let [r, g, b] = shader.clothes.map_or([0.5; 3], |clothes| clothes.colours[part.region as usize]);
+        FaceSource::Figure { triangle, .. } => {
+            let part = &seen.people.triangles[triangle as usize];
+            let [r, g, b] = seen.people.members[part.person as usize].clothes.colours[part.region as usize];
             let [from, to] = part.middle_in_world.map(Vec3::from);
             (Material::Cloth(Cloth { colour: Vec3::new(r, g, b), from, along: to - from }), flat)
         }

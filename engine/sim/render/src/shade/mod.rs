@@ -22,9 +22,9 @@ pub mod things;
 pub mod tone;
 pub mod vector;
 
-use crate::figure::{Clothes, FigureTriangle};
 use crate::frame::FrameImages;
 use crate::passes::ids::Band;
+use crate::people::People;
 use crate::renderer::{DrawnFace, Eye, FrameSetup};
 use crate::scene::Scene;
 use crate::visibility::Screen;
@@ -44,9 +44,6 @@ pub struct Shader {
     light: Light,
     haze: Vec3,
     shadows: shadow::Shadows,
-    clothes: Option<Clothes>,
-    /// Where the target stands, and its radius, metres.
-    feet: Option<(Vec3, f32)>,
     tone: tone::ToneCurve,
     idle: Mutex<Vec<bands::Worker>>,
 }
@@ -56,7 +53,7 @@ pub struct Shader {
 pub(crate) struct Seen<'a> {
     pub scene: &'a Scene,
     pub faces: &'a [DrawnFace],
-    pub figure: &'a [FigureTriangle],
+    pub people: &'a People,
 }
 
 impl Shader {
@@ -70,8 +67,6 @@ impl Shader {
             light: Light::new(&crate::presets::clear_noon()),
             haze: Vec3::ZERO,
             shadows: shadow::Shadows::new(),
-            clothes: None,
-            feet: None,
             tone: tone::ToneCurve::new(),
             idle: Mutex::new(Vec::new()),
         }
@@ -83,22 +78,12 @@ impl Shader {
     }
 
     /// Takes over a frame's light, camera and shadows.
-    pub(crate) fn prepare(
-        &mut self,
-        scene: &Scene,
-        setup: &FrameSetup<'_>,
-        eye: &Eye,
-        figure: &[FigureTriangle],
-        clothes: Option<Clothes>,
-    ) {
+    pub(crate) fn prepare(&mut self, scene: &Scene, setup: &FrameSetup<'_>, eye: &Eye, people: &People) {
         self.light = Light::new(setup.weather);
         self.view = View::new(&self.screen, eye);
         self.haze =
             self.light.horizon * (0.8 - 0.2 * self.light.rain) + self.light.zenith * 0.2 + self.light.lamp * 0.02;
-        self.clothes = clothes;
-        self.feet =
-            setup.target.map(|target| (target.state.feet_in_world.into(), target.radius_m.clamp(0.1, 2.0) as f32));
-        self.shadows.prepare(self.level, scene, (eye, &self.screen), self.light.to_sun, figure);
+        self.shadows.prepare(self.level, scene, (eye, &self.screen), self.light.to_sun, people);
     }
 
     /// Shades the faces seen in a band, without smoothing.

@@ -4,6 +4,8 @@
 //! `(x, y) - (z - reference) * sun.xy / sun.z`; it is in shadow when the map's height there is above z.
 
 use crate::figure::FigureTriangle;
+use crate::frame::TARGET_INSTANCE;
+use crate::people::People;
 use crate::renderer::Eye;
 use crate::scene::{BOX_FACES, Scene};
 use crate::shade::lanes::{Block, FOUR, WIDE, get};
@@ -21,8 +23,12 @@ const SIDE: usize = 1536;
 const TEXEL_M: f64 = 0.2;
 /// The town's map moves in steps of this many texels, so that it depends on the frame alone and still is mostly reused.
 const STEP_TEXELS: f64 = 128.0;
-/// Texels along a side of the figure's own map.
+/// Texels along a side of the target's own map.
 const FIGURE_SIDE: usize = 96;
+/// People less high than this on the screen throw no shadow, pixels.
+const LEAST_FIGURE_PX: f64 = 4.0;
+/// Texels along a side of the maps of other people, by their least height on the screen, pixels.
+const SIDES_BY_HEIGHT: [(f64, usize); 3] = [(48.0, FIGURE_SIDE), (20.0, 48), (LEAST_FIGURE_PX, 24)];
 /// Heights in the maps are above this level below the reference, so that all are positive.
 const DEPTH_M: f64 = 1000.0;
 /// Posts thinner than this cast the shadow of a post this thick, half width in metres: the map would tear them.
@@ -73,7 +79,7 @@ impl Frame {
     }
 }
 
-/// The town's shadows and the figure's.
+/// The town's shadows and the figures'.
 pub struct Shadows {
     town: Visibility,
     /// The scene and the place of the map that is drawn, and which part of it.
@@ -88,9 +94,17 @@ pub struct Shadows {
 /// height above [`LOWEST_M`] below the reference in steps of 1/32 m, times two, plus one for leaves.
 struct Packed {
     town: Box<TownMap>,
-    figure: Box<FigureMap>,
-    figure_rows: Option<[[f32; 4]; 2]>,
+    /// One for each of a frame's people, and some that wait to be used again.
+    figures: Vec<FigureShadow>,
     places: Places,
+}
+
+/// A figure's own map, and where it lies; nowhere without a shadow.
+struct FigureShadow {
+    map: Box<FigureMap>,
+    /// How many of its rows and columns are in use.
+    side: usize,
+    rows: Option<[[f32; 4]; 2]>,
 }
 
 /// Where the town's map lies.
@@ -148,12 +162,7 @@ impl Shadows {
             town_drawn: None,
             lowest_m: None,
             figure: Visibility::new(FIGURE_SIDE, FIGURE_SIDE),
-            packed: Packed {
-                town: fixed_size(vec![]),
-                figure: fixed_size(vec![]),
-                figure_rows: None,
-                places: Places::default(),
-            },
+            packed: Packed { town: fixed_size(vec![]), figures: Vec::new(), places: Places::default() },
         }
     }
 
@@ -164,7 +173,7 @@ impl Shadows {
         scene: &Scene,
         (eye, screen): (&Eye, &Screen),
         to_sun: Vec3,
-        figure: &[FigureTriangle],
+        people: &People,
     ) {
         let flat = DVec2::new(f64::from(to_sun.x), f64::from(to_sun.y));
         let shear = flat / f64::from(to_sun.z);
@@ -185,8 +194,25 @@ impl Shadows {
             self.town_drawn = Some((scene.identity, frame, wanted));
             self.draw_town(level, scene, &frame, to_sun, wanted);
         }
-        let figure_frame = self.draw_figure(level, &frame, to_sun, figure);
-        self.packed.figure_rows = figure_frame.map(|frame| frame.rows());
+        for (position, person) in people.members.iter().enumerate() {
+            if self.packed.figures.len() <= position {
+                self.packed.figures.push(FigureShadow { map: fixed_size(vec![]), side: 0, rows: None });
+            }
+            let by_height = SIDES_BY_HEIGHT.iter().find(|(least_px, _)| person.height_px >= *least_px);
+            let side = match person.instance {
+                TARGET_INSTANCE => FIGURE_SIDE,
+                _ => by_height.map_or(0, |(_, side)| *side),
+            };
+            let triangles = &people.triangles[person.triangles.clone()];
+            let drawn = if side > 0 { self.draw_figure(&frame, to_sun, triangles, side) } else { None };
+            let figure = &mut self.packed.figures[position];
+            (figure.side, figure.rows) = (side, drawn.map(|frame| frame.rows()));
+            if figure.rows.is_some() {
+                let (heights, classes) = (&self.figure.inverse_depth, &self.figure.face);
+                let whole = Region { first: [0; 2], end: [side; 2] };
+                pack(level, heights, classes, FIGURE_SIDE, &whole, &mut *figure.map);
+            }
+        }
         self.packed.places = Places {
             rows: frame.rows(),
             base_m: (LOWEST_M - reference_m) as f32,
@@ -235,14 +261,15 @@ impl Shadows {
         pack(level, &self.town.inverse_depth, &self.town.face, SIDE, &part, &mut *self.packed.town);
     }
 
+    /// Draws a figure's shadow into the first `side` rows and columns of the scratch map; says where they lie.
     fn draw_figure(
         &mut self,
-        level: Level,
         town_frame: &Frame,
         to_sun: Vec3,
         triangles: &[FigureTriangle],
+        side: usize,
     ) -> Option<Frame> {
-        self.figure.clear();
+        self.figure.clear_part([0; 2], [side; 2]);
         let (mut low, mut high) = (DVec2::INFINITY, DVec2::NEG_INFINITY);
         for corner in triangles.iter().flat_map(|triangle| triangle.corners_in_world) {
             let at = town_frame.sheared(corner);
@@ -253,25 +280,25 @@ impl Shadows {
         if !size.is_finite() || size.min_element() <= 0.0 || size.max_element() > 100.0 {
             return None;
         }
-        let texels_m = size / (FIGURE_SIDE as f64 - 4.0);
-        let whole = Region { first: [0; 2], end: [FIGURE_SIDE; 2] };
+        let texels_m = size / (side as f64 - 4.0);
+        let whole = Region { first: [0; 2], end: [side; 2] };
         let frame = Frame { corner_m: low - 2.0 * texels_m, texels_m, ..*town_frame };
         let to_sun = DVec3::new(f64::from(to_sun.x), f64::from(to_sun.y), f64::from(to_sun.z));
         for triangle in triangles.iter().filter(|triangle| triangle.normal_in_world.dot(to_sun) > 1e-6) {
             let normal = triangle.normal_in_world;
             draw(&mut self.figure, (&frame, whole), to_sun, normal, &triangle.corners_in_world, SOLID);
         }
-        let (heights, classes) = (&self.figure.inverse_depth, &self.figure.face);
-        pack(level, heights, classes, FIGURE_SIDE, &whole, &mut *self.packed.figure);
         Some(frame)
     }
 
     /// Fills in which share of the sun's light reaches each pixel's place. On flat surfaces, the pixels between the ends
-    /// of a four that are lit alike are lit like them.
-    pub fn sunlight(&self, level: Level, blocks: &mut [Block], flat: bool, noise: &NoiseTexture) {
+    /// of a four that are lit alike are lit like them. Of people, only those numbered in `near` count.
+    pub fn sunlight(&self, level: Level, blocks: &mut [Block], flat: bool, noise: &NoiseTexture, near: &[u32]) {
         town_sunlight(level, blocks, &self.packed.town, &self.packed.places, flat, noise);
-        if let Some(rows) = &self.packed.figure_rows {
-            figure_shadow(level, blocks, &self.packed.figure, self.packed.places.base_m, rows);
+        for figure in near.iter().filter_map(|person| self.packed.figures.get(*person as usize)) {
+            if let Some(rows) = &figure.rows {
+                figure_shadow(level, blocks, &figure.map, figure.side, self.packed.places.base_m, rows);
+            }
         }
     }
 }
@@ -328,9 +355,9 @@ fn lit_through_leaves(block: &mut Block, map: &TownMap, places: &Places, noise: 
 }
 
 simd_kernel! {
-    fn figure_shadow(blocks: &mut [Block], map: &FigureMap, base_m: f32, rows: &[[f32; 4]; 2]) {
+    fn figure_shadow(blocks: &mut [Block], map: &FigureMap, side: usize, base_m: f32, rows: &[[f32; 4]; 2]) {
         let [row_u, row_v] = *rows;
-        let limit = FIGURE_SIDE as f32;
+        let limit = side as u32 as f32;
         for four in blocks.as_chunks_mut::<FOUR>().0 {
             let mut inside = 0u32;
             for block in [&four[0], &four[3]] {

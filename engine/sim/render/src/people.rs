@@ -1,0 +1,212 @@
+//! The people of a frame: who of them can be seen, or throws a shadow that can, and their figures.
+
+use crate::figure::{Clothes, FigureTriangle, Walker, figure};
+use crate::frame::TARGET_INSTANCE;
+use crate::renderer::{Eye, FrameSetup};
+use crate::visibility::{NEAR_M, Nearer, Screen};
+use cosfly_frames::DVec3;
+use std::ops::Range;
+
+/// Limbs swing this far from the upright axis, in body heights.
+const REACH_PER_HEIGHT: f64 = 0.45;
+/// Shadows are looked for on ground that lies at most this far below the feet, metres.
+const DROP_M: f64 = 8.0;
+/// Shading looks this far around a point, metres.
+const MARGIN_M: f64 = 0.5;
+/// People whose bodies are less high than this are left out, pixels.
+const LEAST_HEIGHT_PX: f64 = 1.0;
+
+/// Somebody whose figure is built in this frame.
+pub(crate) struct Person {
+    pub walker: Walker,
+    pub clothes: Clothes,
+    pub instance: u32,
+    /// Their triangles among those of all.
+    pub triangles: Range<usize>,
+    /// Whether the body itself may be seen.
+    pub is_seen: bool,
+    /// Where their body and what it darkens may be seen.
+    pub reach: Reach,
+    /// Height of the body, pixels.
+    pub height_px: f64,
+}
+
+/// A part of the screen: left, top, right and bottom edge, pixels.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Reach(pub [f64; 4]);
+
+impl Reach {
+    const EVERYWHERE: Self = Self([f64::NEG_INFINITY, f64::NEG_INFINITY, f64::INFINITY, f64::INFINITY]);
+
+    /// Around points in body axes; everywhere, when one is not ahead of the camera.
+    fn around(screen: &Screen, points: impl Iterator<Item = DVec3>) -> Self {
+        let mut edges = [f64::INFINITY, f64::INFINITY, f64::NEG_INFINITY, f64::NEG_INFINITY];
+        for point in points {
+            if point.x < NEAR_M || !point.is_finite() {
+                return Self::EVERYWHERE;
+            }
+            let scale = screen.focal_px / point.x;
+            let (u, v) = (screen.center_u + point.y * scale, screen.center_v - point.z * scale);
+            edges = [edges[0].min(u), edges[1].min(v), edges[2].max(u), edges[3].max(v)];
+        }
+        Self(edges)
+    }
+
+    /// Whether it holds a pixel of these rows.
+    pub fn meets_rows(&self, rows: Range<usize>) -> bool {
+        self.0[1] < rows.end as f64 && self.0[3] > rows.start as f64
+    }
+
+    /// Whether it holds a pixel of these rows and columns.
+    pub fn meets(&self, rows: Range<usize>, columns: Range<usize>) -> bool {
+        self.meets_rows(rows) && self.0[0] < columns.end as f64 && self.0[2] > columns.start as f64
+    }
+}
+
+/// Everybody in a frame; the target comes first, if there is one.
+#[derive(Default)]
+pub(crate) struct People {
+    pub members: Vec<Person>,
+    pub triangles: Vec<FigureTriangle>,
+}
+
+impl People {
+    /// Takes over a frame's target: always, wherever it is.
+    pub fn begin(&mut self, setup: &FrameSetup<'_>, eye: &Eye, screen: &Screen, to_sun: DVec3) {
+        self.members.clear();
+        self.triangles.clear();
+        if let Some(target) = setup.target.as_ref().map(|target| target.walker()).filter(Walker::has_body) {
+            let body = Bounds::new(&target);
+            let height_px = body.height_px(&target, eye, screen);
+            self.add(target, TARGET_INSTANCE, true, body.reach(eye, screen, to_sun), height_px);
+        }
+    }
+
+    /// Adds everybody else who may matter to the picture; `drawn` is what may hide them.
+    pub fn gather(&mut self, setup: &FrameSetup<'_>, eye: &Eye, screen: &Screen, to_sun: DVec3, drawn: &Nearer) {
+        for other in setup.others.iter().filter(|other| other.walker.has_body()) {
+            let body = Bounds::new(&other.walker);
+            let height_px = body.height_px(&other.walker, eye, screen);
+            if height_px < LEAST_HEIGHT_PX || !body.with_shadow(to_sun).is_in_view(eye, screen) {
+                continue;
+            }
+            let is_seen = body.is_in_view(eye, screen) && !body.is_hidden(eye, screen, drawn);
+            self.add(other.walker, other.instance, is_seen, body.reach(eye, screen, to_sun), height_px);
+        }
+    }
+
+    fn add(&mut self, walker: Walker, instance: u32, is_seen: bool, reach: Reach, height_px: f64) {
+        let first = self.triangles.len();
+        let clothes = Clothes::draw(&walker.clothes_seed);
+        figure(&walker, &clothes, self.members.len() as u32, &mut self.triangles);
+        let triangles = first..self.triangles.len();
+        self.members.push(Person { walker, clothes, instance, triangles, is_seen, reach, height_px });
+    }
+}
+
+/// An upright box around a body, its shadow left out.
+struct Bounds {
+    low: DVec3,
+    high: DVec3,
+    foot_m: f64,
+}
+
+impl Bounds {
+    fn new(walker: &Walker) -> Self {
+        let side = (REACH_PER_HEIGHT * walker.height_m).max(3.0 * walker.radius_m.clamp(0.1, 2.0));
+        let feet = walker.state.feet_in_world;
+        Self {
+            low: feet - DVec3::new(side, side, 0.05 * walker.height_m),
+            high: feet + DVec3::new(side, side, 1.05 * walker.height_m),
+            foot_m: feet.z,
+        }
+    }
+
+    fn is_in_view(&self, eye: &Eye, screen: &Screen) -> bool {
+        eye.order_if_seen(screen, 0.5 * (self.low + self.high), 0.5 * (self.high - self.low)).is_some()
+    }
+
+    fn height_px(&self, walker: &Walker, eye: &Eye, screen: &Screen) -> f64 {
+        let away_m = (eye.position_in_world - eye.position_in_world.clamp(self.low, self.high)).length();
+        screen.focal_px * walker.height_m / away_m.max(NEAR_M)
+    }
+
+    /// How the box moves along the sun's rays to the lowest ground that counts.
+    fn fall(&self, from_m: f64, to_sun: DVec3) -> DVec3 {
+        let height_m = from_m - (self.foot_m - DROP_M);
+        -to_sun * (height_m / to_sun.z.max(0.02))
+    }
+
+    fn with_shadow(&self, to_sun: DVec3) -> Self {
+        let (below, tip) = (self.fall(self.low.z, to_sun), self.fall(self.high.z, to_sun));
+        Self {
+            low: self.low.min(self.low + below).min(self.low + tip),
+            high: self.high.max(self.high + below).max(self.high + tip),
+            foot_m: self.foot_m,
+        }
+    }
+
+    fn corners(&self, margin_m: f64) -> impl Iterator<Item = DVec3> {
+        let ends = [self.low - margin_m, self.high + margin_m];
+        (0..8).map(move |k| DVec3::new(ends[k & 1].x, ends[k >> 1 & 1].y, ends[k >> 2].z))
+    }
+
+    /// The body and all that it may darken: its box, and the same box at the end of the sun's rays.
+    fn reach(&self, eye: &Eye, screen: &Screen, to_sun: DVec3) -> Reach {
+        let corners = self.corners(MARGIN_M).flat_map(|corner| [corner, corner + self.fall(corner.z, to_sun)]);
+        Reach::around(screen, corners.map(|corner| eye.see(corner)))
+    }
+
+    fn is_hidden(&self, eye: &Eye, screen: &Screen, drawn: &Nearer) -> bool {
+        let Reach([left, top, right, bottom]) = Reach::around(screen, self.corners(0.0).map(|corner| eye.see(corner)));
+        let nearest_m = self.corners(0.0).map(|corner| eye.see(corner).x).fold(f64::INFINITY, f64::min);
+        nearest_m >= NEAR_M && drawn.hides([left, top], [right, bottom], 1.0 / nearest_m)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::camera::Camera;
+    use crate::figure::walker_triangles;
+    use cosfly_frames::{Pose, Seed, TargetState};
+
+    #[test]
+    fn a_body_and_its_shadow_stay_within_reach() {
+        let camera = Camera { width: 640, height: 480, horizontal_fov_rad: 1.4 };
+        let screen = Screen::new(&camera);
+        let eye = Eye::new(&Pose::looking_at(DVec3::new(-12.0, 3.0, 9.0), DVec3::new(0.0, 0.0, 1.0)));
+        for step in 0..24 {
+            let turn = f64::from(step) * 0.7;
+            let walker = Walker {
+                state: TargetState { feet_in_world: DVec3::new(0.3, -1.0, 0.2), heading_rad: turn, speed_mps: 1.6 },
+                height_m: 1.8,
+                radius_m: 0.3,
+                clothes_seed: Seed([step as u8; 32]),
+                gait_phase_rad: 1.3 * turn,
+            };
+            let to_sun = DVec3::new(libm::cos(turn), libm::sin(turn), 0.3 + 0.1 * turn).normalize();
+            let bounds = Bounds::new(&walker);
+            let Reach([left, top, right, bottom]) = bounds.reach(&eye, &screen, to_sun);
+            let shaded = bounds.with_shadow(to_sun);
+            for corner in walker_triangles(&walker).into_iter().flatten() {
+                let tip = corner - to_sun * ((corner.z + 1.0) / to_sun.z);
+                for point in [corner, 0.5 * (corner + tip), tip] {
+                    let seen = eye.see(point);
+                    let scale = screen.focal_px / seen.x;
+                    let (u, v) = (screen.center_u + seen.y * scale, screen.center_v - seen.z * scale);
+                    assert!((left..right).contains(&u) && (top..bottom).contains(&v), "{step}: {u} {v}");
+                    assert!(point.cmpge(shaded.low - 1e-9).all() && point.cmple(shaded.high + 1e-9).all(), "{step}");
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn reach_is_tested_by_pixels() {
+        let reach = Reach([10.5, 4.0, 20.0, 6.5]);
+        assert!(reach.meets(6..7, 0..11) && !reach.meets(7..9, 0..99) && !reach.meets(0..4, 0..99));
+        assert!(!reach.meets(5..6, 0..10) && reach.meets(0..9, 19..30) && !reach.meets(5..6, 20..30));
+        assert!(Reach::EVERYWHERE.meets(0..1, 0..1));
+    }
+}
