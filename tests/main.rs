@@ -8,6 +8,8 @@ mod diagnostics;
 mod evaluation;
 mod people;
 mod plan_from;
+#[cfg(feature = "plugins")]
+mod plugins;
 mod preview;
 mod processors;
 mod repository;

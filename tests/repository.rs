@@ -64,6 +64,7 @@ fn heavy_crates_stay_in_their_one_room() {
         ("indicatif", "cosfly"),
         ("roxmltree", "cosfly-maps"),
         ("obvhs", "cosfly-bench"),
+        ("wasmtime", "cosfly-plugin-host"),
         ("wgpu", "cosfly-gpu"),
         ("parry3d", "cosfly-bench"),
     ]);

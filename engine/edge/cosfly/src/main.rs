@@ -7,6 +7,8 @@ mod interrupt;
 mod reporter;
 mod text;
 
+#[cfg(feature = "plugins")]
+use arguments::PluginCommand;
 use arguments::{Arguments, BenchCommand, Command, TaskCommand};
 use clap::Parser;
 use cosfly_diagnose::{Diagnostic, Fault};
@@ -26,6 +28,8 @@ fn command() -> ExitCode {
         return ExitCode::from(exit::ARGUMENTS);
     }
     let arguments = Arguments::parse();
+    #[cfg(feature = "plugins")]
+    cosfly_stages::plugins::keep_compiled_in(compiled_plugins());
     let outcome = match arguments.command {
         Command::Run(arguments) => commands::run::run(&arguments),
         Command::Plan(arguments) => commands::plan::plan(&arguments),
@@ -39,6 +43,12 @@ fn command() -> ExitCode {
         Command::Gc(arguments) => commands::collect::collect(&arguments),
         Command::Schema(arguments) => commands::schema::schema(&arguments),
         Command::Town(arguments) => commands::town::town(&arguments),
+        #[cfg(feature = "plugins")]
+        Command::Plugin(PluginCommand::New(arguments)) => commands::plugin_new::new(&arguments),
+        #[cfg(feature = "plugins")]
+        Command::Plugin(PluginCommand::Check(arguments)) => commands::plugin_check::check(&arguments),
+        #[cfg(feature = "plugins")]
+        Command::Plugin(PluginCommand::Bench(arguments)) => commands::plugin_bench::bench(&arguments),
         Command::Bench(BenchCommand::Engine { items }) => commands::bench::engine(items),
         Command::Bench(BenchCommand::Geometry { seed, json }) => commands::bench::geometry(seed, json),
         Command::Bench(BenchCommand::Planner(arguments)) => commands::bench_planner::planner(&arguments),
@@ -65,6 +75,14 @@ fn choose_vector_level() -> Result<(), String> {
     };
     level.make_best();
     Ok(())
+}
+
+/// The user's own folder for compiled plugins; none where the environment names none.
+#[cfg(feature = "plugins")]
+fn compiled_plugins() -> Option<std::path::PathBuf> {
+    let folder = |name: &str| std::env::var_os(name).map(std::path::PathBuf::from).filter(|path| path.is_absolute());
+    let caches = folder("XDG_CACHE_HOME").or_else(|| folder("HOME").map(|home| home.join(".cache")));
+    caches.map(|caches| caches.join("cosfly").join("plugins"))
 }
 
 /// Prints to standard output; a reader that went away (`| head`) is no error, a full disk is.

@@ -5,6 +5,7 @@
 //! * [`frame_pack`]: the images of one trajectory between rendering and publishing.
 //! * [`mcap_log`]: one MCAP file per trajectory.
 //! * [`tables`]: the Parquet tables.
+//! * [`flight_table`]: a flight as an Arrow stream for plugins, and their answers.
 //! * [`read`]: reads published datasets back, for pictures and replays.
 //! * [`predictions`]: reads what models predicted.
 //! * [`carla_job`]: published flights as a job for a CARLA server.
@@ -14,6 +15,7 @@
 pub mod carla_job;
 pub mod config;
 pub mod croissant;
+pub mod flight_table;
 pub mod frame_pack;
 mod hashing;
 pub mod images;

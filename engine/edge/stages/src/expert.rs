@@ -2,6 +2,8 @@
 //! that ask the same expert again from another state.
 
 use crate::parameters;
+use crate::plugins::config::ExpertPlugins;
+use crate::plugins::{DrawnReference, Plugins, Role, source};
 use crate::world::World;
 use cosfly_frames::{Seed, TargetTrack};
 use cosfly_geometry::OrientedBox;
@@ -9,11 +11,13 @@ use cosfly_maps::ObstacleKind;
 use cosfly_planner::config::Planner;
 use cosfly_planner::objectives::inspect::{self, Inspection};
 use cosfly_planner::objectives::patrol::{self, MET_M, Patrol};
+use cosfly_planner::objectives::reference;
 use cosfly_planner::objectives::{Mission, Objective, ObjectiveConfig, Site, track};
 use cosfly_planner::weights::Preset;
 use cosfly_planner::{MucoConfig, PlanOutcome, StartState, TermCost, Trajectory, plan_request, visibility};
-use cosfly_stage::ParameterError;
+use cosfly_stage::{ParameterError, Source};
 use std::collections::BTreeMap;
+use std::sync::Arc;
 
 /// The parameters of a `muco` stage.
 #[derive(Clone, Debug, Default)]
@@ -22,6 +26,8 @@ pub struct Expert {
     pub config: MucoConfig,
     /// What flights are for.
     pub objective: ObjectiveConfig,
+    /// Cost terms and objective from plugins.
+    pub plugins: ExpertPlugins,
 }
 
 /// A walk that may accompany another one: its id and track.
@@ -30,16 +36,19 @@ pub type Companion = (String, TargetTrack);
 impl Expert {
     /// The schema of all parameters in one table.
     pub fn schema() -> serde_json::Value {
-        parameters::merged_schema::<MucoConfig, ObjectiveConfig>()
+        let own = parameters::merged_schema::<MucoConfig, ObjectiveConfig>();
+        parameters::merged_into(own, parameters::schema_of::<ExpertPlugins>())
     }
 
     /// Reads parameters as recipes give them, or as [`Self::canonical`] gives them.
     ///
     /// # Errors
     /// Values out of range and contradictions, at their place.
-    pub fn read(given: serde_json::Value) -> Result<Self, ParameterError> {
-        let named = ["inspect", "patrol"].map(|key| given.get(key).map(|_| key));
+    pub fn read(mut given: serde_json::Value) -> Result<Self, ParameterError> {
+        let named = ["inspect", "patrol", "plugin"].map(|key| given.get(key).map(|_| key));
+        let plugins: ExpertPlugins = parameters::take(&mut given)?;
         let (config, objective) = parameters::read_merged::<MucoConfig, ObjectiveConfig>(given)?;
+        plugins.validate()?;
         let refused = |(path, message): (String, String)| parameters::refused_at(&path, message);
         config.validate().map_err(refused)?;
         objective.validate(config.limits.speed_mps).map_err(refused)?;
@@ -48,6 +57,11 @@ impl Expert {
             let message = format!("`{key}` is for `objective = \"{key}\"`; this stage's objective is `{asked}`");
             let hint = Some(format!("set `objective = \"{key}\"`, or leave `{key}` out"));
             return Err(ParameterError { hint, ..parameters::refused_at(key, message) });
+        }
+        if objective.objective == Objective::Plugin && plugins.plugin.is_none() {
+            let hint = Some("add `plugin.use = \"wasm:FILE\"`, and what it is told as `plugin.params`".to_owned());
+            let message = "`objective` is `plugin`, but no `plugin` is given";
+            return Err(ParameterError { hint, ..parameters::refused_at("objective", message) });
         }
         if config.planner != Planner::Muco && (objective.objective != Objective::Track || config.targets.companions > 0)
         {
@@ -62,19 +76,42 @@ impl Expert {
             return Err(parameters::refused_at("targets.companions", message));
         }
         check_planner(&config)?;
-        Ok(Self { config, objective })
+        Ok(Self { config, objective, plugins })
+    }
+
+    /// How many flights there are, where that is not the number of walkers.
+    pub fn count(&self) -> Option<u64> {
+        let of_plugin = self.plugins.plugin.as_ref().filter(|_| self.objective.objective == Objective::Plugin);
+        of_plugin.map(|plugin| plugin.count).or_else(|| self.objective.count())
+    }
+
+    /// The files of its plugins.
+    pub fn sources(&self) -> Vec<Source> {
+        let settings = self.plugins.settings();
+        let role = |parameter: &str| if parameter == "plugin" { Role::Objective } else { Role::Term };
+        settings.iter().map(|(parameter, setting)| source(parameter, role(parameter), setting)).collect()
     }
 
     /// The parameters with all defaults filled in: what goes into keys. What the objective does not read is left out, and
     /// so is the number of flights, which is no ingredient of any one of them.
     pub fn canonical(&self) -> serde_json::Value {
         let mut all = parameters::canonical(&self.config);
+        let plugins = parameters::canonical(&self.plugins.canonical());
+        let defaults = parameters::canonical(&ExpertPlugins::default());
+        for (key, value) in
+            plugins.as_object().into_iter().flatten().filter(|(key, value)| defaults.get(key) != Some(value))
+        {
+            all[key] = value.clone();
+        }
         let mut objective = parameters::canonical(&self.objective);
         if self.objective.objective == Objective::Track {
             return all;
         }
         let key = self.objective.objective.name();
         all["objective"] = objective["objective"].take();
+        if self.objective.objective == Objective::Plugin {
+            return all;
+        }
         all[key] = objective[key].take();
         if let Some(table) = all[key].as_object_mut() {
             table.remove("count");
@@ -82,16 +119,39 @@ impl Expert {
         all
     }
 
-    /// What is flown: behind `walk` and its companions, or what the objective draws from `seed`.
+    /// What is flown: behind `walk` and its companions, or what the objective draws from `seed`. `Err` inside is the reason why
+    /// there is nothing to fly.
     ///
     /// # Errors
-    /// The reason why there is nothing to fly.
+    /// What a plugin did wrong.
     pub fn flight(
+        &self,
+        world: &Arc<World>,
+        walk: Option<TargetTrack>,
+        companions: Vec<Companion>,
+        seed: Seed,
+        plugins: Plugins,
+    ) -> cosfly_diagnose::Result<Result<Flight, String>> {
+        let drawn = if self.objective.objective == Objective::Plugin {
+            let (low, high) = bounds(world);
+            match plugins.draw_reference(world, &self.config, [low.x, low.y, high.x, high.y], seed)? {
+                Ok(drawn) => Some(drawn),
+                Err(reason) => return Ok(Err(reason)),
+            }
+        } else {
+            None
+        };
+        Ok(self.flight_of(world, walk, companions, seed, plugins, drawn))
+    }
+
+    fn flight_of(
         &self,
         world: &World,
         walk: Option<TargetTrack>,
         companions: Vec<Companion>,
         seed: Seed,
+        plugins: Plugins,
+        drawn: Option<DrawnReference>,
     ) -> Result<Flight, String> {
         let ground = |x: f64, y: f64| world.ground.ground_height_m(x, y).unwrap_or(0.0);
         let structures = if self.objective.objective == Objective::Inspect { buildings(world) } else { Vec::new() };
@@ -109,9 +169,14 @@ impl Expert {
 
                 (patrol.mission.clone(), Purpose::Waypoints(Box::new(patrol)))
             }
+            (Objective::Plugin, _) => {
+                let drawn = drawn.ok_or("there is no reference to fly along")?;
+                (reference::mission(&drawn.reference, &self.config), Purpose::Reference(Box::new(drawn)))
+            }
         };
         let (companion_ids, companions) = companions.into_iter().unzip();
-        Ok(Flight { mission, companion_ids, companions, purpose, objective: self.objective.clone() })
+        let objective = self.objective.clone();
+        Ok(Flight { mission, companion_ids, companions, purpose, objective, plugins, seed })
     }
 }
 
@@ -164,6 +229,7 @@ enum Purpose {
     Walker,
     Walls(Box<Inspection>),
     Waypoints(Box<Patrol>),
+    Reference(Box<DrawnReference>),
 }
 
 /// One flight that can be planned, from its beginning or from any state.
@@ -174,12 +240,18 @@ pub struct Flight {
     companions: Vec<TargetTrack>,
     purpose: Purpose,
     objective: ObjectiveConfig,
+    plugins: Plugins,
+    seed: Seed,
 }
 
 impl Flight {
-    /// The whole flight. An inspection lists what it has seen beside its costs, as `coverage` of weight 0.
-    pub fn plan(&self, world: &World) -> PlanOutcome {
-        let mut outcome = plan_mission(world, &self.mission, &self.companions, None);
+    /// The whole flight, and what plugins say that users are to read. An inspection lists what it has seen beside its costs,
+    /// as `coverage` of weight 0.
+    ///
+    /// # Errors
+    /// What a plugin did wrong.
+    pub fn plan(&self, world: &Arc<World>) -> cosfly_diagnose::Result<(PlanOutcome, Vec<String>)> {
+        let (mut outcome, warnings) = self.plan_mission(world, &self.mission, &self.companions, None)?;
         if let (PlanOutcome::Planned(flight), Purpose::Walls(inspection)) = (&mut outcome, &self.purpose) {
             let ground = |x: f64, y: f64| world.ground.ground_height_m(x, y).unwrap_or(0.0);
             let structures = buildings(world);
@@ -188,18 +260,48 @@ impl Flight {
             let sum = per_frame.iter().sum();
             flight.terms.push(TermCost { name: "coverage".to_owned(), weight: 0.0, sum, per_frame });
         }
-        outcome
+        Ok((outcome, warnings))
     }
 
     /// The flight's rest from `frame` on, at most `frames` long, of a drone that is at `start` then.
-    pub fn plan_from(&self, world: &World, frame: usize, frames: usize, start: StartState) -> PlanOutcome {
+    ///
+    /// # Errors
+    /// What a plugin did wrong.
+    pub fn plan_from(
+        &self,
+        world: &Arc<World>,
+        frame: usize,
+        frames: usize,
+        start: StartState,
+    ) -> cosfly_diagnose::Result<PlanOutcome> {
         let mission = self.mission.part(frame, frames);
         let end = frame + mission.track.len();
         let part = |companion: &TargetTrack| TargetTrack {
             states: companion.states.get(frame..end).unwrap_or_default().to_vec(),
             ..companion.clone()
         };
-        plan_mission(world, &mission, &self.companions.iter().map(part).collect::<Vec<_>>(), Some((frame, start)))
+        let companions: Vec<TargetTrack> = self.companions.iter().map(part).collect();
+        Ok(self.plan_mission(world, &mission, &companions, Some((frame, start)))?.0)
+    }
+
+    fn plan_mission(
+        &self,
+        world: &Arc<World>,
+        mission: &Mission,
+        companions: &[TargetTrack],
+        start: Option<(usize, StartState)>,
+    ) -> cosfly_diagnose::Result<(PlanOutcome, Vec<String>)> {
+        let ground = |x: f64, y: f64| world.ground.ground_height_m(x, y).unwrap_or(0.0);
+        let mut request = mission.request(&world.exact, &world.town.planning_boxes, &ground);
+        request.companions = companions;
+        if let Some((frame, state)) = start {
+            request.start = Some(state);
+            request.first_frame = i64::try_from(frame).unwrap_or(i64::MAX);
+        }
+        let (terms, after) = self.plugins.open_terms(world, self.seed)?;
+        request.extra_terms.extend(terms);
+        let outcome = plan_request(request);
+        Ok((outcome, after.warnings()?))
     }
 
     /// What the summary says of the whole flight: notes by name, and warnings.
@@ -214,13 +316,14 @@ impl Flight {
                 notes.insert("sides".to_owned(), format!("{} of 4", inspection.sides));
             }
             Purpose::Waypoints(patrol) => {
-                let shortfalls = patrol.shortfalls_m(&flight.poses_in_world);
-                let worst = shortfalls.iter().copied().fold(0.0, f64::max);
-                let met = shortfalls.iter().filter(|miss| **miss <= MET_M).count();
-                let words = format!("{met} of {} within {MET_M} m, worst {worst:.2} m", shortfalls.len());
-                notes.insert("waypoints".to_owned(), words);
-                for (index, miss) in shortfalls.iter().enumerate().filter(|(_, miss)| **miss > MET_M) {
-                    warnings.push(format!("waypoint {index} is missed by {miss:.1} m at its time"));
+                tell_met(&patrol.shortfalls_m(&flight.poses_in_world), &mut notes, &mut warnings);
+            }
+            Purpose::Reference(drawn) => {
+                notes.extend(drawn.notes.iter().cloned());
+                warnings.extend(drawn.warnings.iter().cloned());
+                let shortfalls = drawn.reference.shortfalls_m(&flight.poses_in_world);
+                if !shortfalls.is_empty() {
+                    tell_met(&shortfalls, &mut notes, &mut warnings);
                 }
             }
         }
@@ -244,20 +347,15 @@ impl Flight {
     }
 }
 
-fn plan_mission(
-    world: &World,
-    mission: &Mission,
-    companions: &[TargetTrack],
-    start: Option<(usize, StartState)>,
-) -> PlanOutcome {
-    let ground = |x: f64, y: f64| world.ground.ground_height_m(x, y).unwrap_or(0.0);
-    let mut request = mission.request(&world.exact, &world.town.planning_boxes, &ground);
-    request.companions = companions;
-    if let Some((frame, state)) = start {
-        request.start = Some(state);
-        request.first_frame = i64::try_from(frame).unwrap_or(i64::MAX);
+/// How many waypoints are met, and which are not.
+fn tell_met(shortfalls: &[f64], notes: &mut BTreeMap<String, String>, warnings: &mut Vec<String>) {
+    let worst = shortfalls.iter().copied().fold(0.0, f64::max);
+    let met = shortfalls.iter().filter(|miss| **miss <= MET_M).count();
+    let words = format!("{met} of {} within {MET_M} m, worst {worst:.2} m", shortfalls.len());
+    notes.insert("waypoints".to_owned(), words);
+    for (index, miss) in shortfalls.iter().enumerate().filter(|(_, miss)| **miss > MET_M) {
+        warnings.push(format!("waypoint {index} is missed by {miss:.1} m at its time"));
     }
-    plan_request(request)
 }
 
 fn companion_visibility(world: &World, companion: &TargetTrack, flight: &Trajectory) -> f64 {

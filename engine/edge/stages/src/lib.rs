@@ -15,6 +15,7 @@ mod muco;
 mod parameters;
 mod pedestrians;
 mod perturb;
+pub mod plugins;
 mod ports;
 pub mod read;
 mod render;
@@ -32,6 +33,7 @@ pub fn registry() -> Registry {
         Box::new(pedestrians::Pedestrians),
         Box::new(perturb::Perturb),
         Box::new(render::Render),
+        Box::new(plugins::stage::Wasm),
     ])
 }
 

@@ -56,7 +56,7 @@ impl StageKind for Map {
             kind: self.name().into(),
             version: 1,
             parameters: parameters::canonical(&config),
-            sources: vec![Source { parameter: "source".into(), path: source }],
+            sources: vec![Source::new("source", source)],
             inputs: self.ports(),
             artifact: TOWN,
             items: ItemRule::One,

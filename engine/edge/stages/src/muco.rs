@@ -1,6 +1,7 @@
 //! `muco`: expert trajectories from the multi-constraint optimiser.
 
 use crate::expert::{Companion, Expert, nearest_companions};
+use crate::plugins::Plugins;
 use crate::ports::{self, TRAJECTORY, WALK};
 use crate::world::{check_same_town, link_town, world};
 use crate::{codec, single};
@@ -38,7 +39,7 @@ impl StageKind for Muco {
 
     fn build(&self, given: serde_json::Value) -> Result<Vec<StagePart>, ParameterError> {
         let expert = Expert::read(given)?;
-        let (inputs, items) = match expert.objective.count() {
+        let (inputs, items) = match expert.count() {
             None => {
                 let optional = expert.config.targets.companions == 0;
                 let ports = vec![ports::town(), paths(), InputPort { optional, ..others() }];
@@ -50,7 +51,7 @@ impl StageKind for Muco {
             kind: self.name().into(),
             version: 2,
             parameters: expert.canonical(),
-            sources: vec![],
+            sources: expert.sources(),
             inputs,
             artifact: TRAJECTORY,
             items,
@@ -88,14 +89,18 @@ impl Stage for MucoStage {
         } else {
             (None, vec![])
         };
-        let (outcome, findings) = match self.expert.flight(&world, walk, companions, Seed(context.seed)) {
+        let plugins = Plugins::of_expert(&self.expert.plugins, &context.sources)?;
+        let plugins = plugins.for_item(format!("{}/{}", context.stage, context.item));
+        let flight = self.expert.flight(&world, walk, companions, Seed(context.seed), plugins)?;
+        let (outcome, findings) = match flight {
             Ok(flight) => {
-                let outcome = flight.plan(&world);
-                let findings = match &outcome {
+                let (outcome, said) = flight.plan(&world)?;
+                let (notes, mut warnings) = match &outcome {
                     PlanOutcome::Planned(trajectory) => flight.findings(&world, trajectory),
                     PlanOutcome::Rejected { .. } => Default::default(),
                 };
-                (outcome, findings)
+                warnings.extend(said);
+                (outcome, (notes, warnings))
             }
             Err(reason) => {
                 let track = TargetTrack { dt_s: DT_S, height_m: 0.0, radius_m: 0.0, states: vec![] };

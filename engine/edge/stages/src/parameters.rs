@@ -53,7 +53,11 @@ pub fn joined_canonical<A: Serialize, B: Serialize>(outer: &A, inner: &B, key: &
 
 /// The schema of `A` and `B` side by side in one table; their properties have different names.
 pub fn merged_schema<A: JsonSchema, B: JsonSchema>() -> serde_json::Value {
-    let (mut all, mut more) = (schema_of::<A>(), schema_of::<B>());
+    merged_into(schema_of::<A>(), schema_of::<B>())
+}
+
+/// `all` with the properties of `more` beside its own.
+pub fn merged_into(mut all: serde_json::Value, mut more: serde_json::Value) -> serde_json::Value {
     for part in ["properties", "$defs"] {
         let taken = more.as_object_mut().and_then(|table| table.remove(part));
         for (name, definition) in taken.iter().filter_map(serde_json::Value::as_object).flatten() {
@@ -67,6 +71,12 @@ pub fn merged_schema<A: JsonSchema, B: JsonSchema>() -> serde_json::Value {
 pub fn read_merged<A: DeserializeOwned, B: DeserializeOwned + JsonSchema>(
     mut parameters: serde_json::Value,
 ) -> Result<(A, B), ParameterError> {
+    let second = take(&mut parameters)?;
+    Ok((read(parameters)?, second))
+}
+
+/// Takes the properties of a `B` out of a table that holds more.
+pub fn take<B: DeserializeOwned + JsonSchema>(parameters: &mut serde_json::Value) -> Result<B, ParameterError> {
     let schema = schema_of::<B>();
     let names = schema["properties"].as_object().into_iter().flat_map(|properties| properties.keys());
     let mut second = serde_json::Map::new();
@@ -75,7 +85,7 @@ pub fn read_merged<A: DeserializeOwned, B: DeserializeOwned + JsonSchema>(
             second.insert(name.clone(), value);
         }
     }
-    Ok((read(parameters)?, read(second.into())?))
+    read(second.into())
 }
 
 /// A refusal that points at `path`, keys and list positions as in `view.pitch[1]`; empty is the whole table.

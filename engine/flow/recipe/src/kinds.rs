@@ -82,9 +82,9 @@ impl<'a> Builder<'a> {
     fn unknown_kind(&self, name: &str, place: &Place) -> Box<Diagnostic> {
         let known = || self.registry.iter().map(StageKind::name);
         let problem = self.texts.problem("recipe-unknown-kind", place, format!("there is no stage kind `{name}`"));
-        if name.starts_with("wasm:") {
+        if name == "wasm" {
             return problem
-                .hint("this version of cosfly runs no plugins yet: `use = \"wasm:...\"` comes with a later one")
+                .hint("this cosfly was built without plugins: build it with the feature `plugins`, which is on by default")
                 .hint(format!("its own kinds are {}", list(known(), usize::MAX)));
         }
         match nearest_name(name, known()) {

@@ -6,6 +6,7 @@ use crate::kinds::{Builder, BuiltPart, KnownStage};
 use crate::model::{Recipe, RecipeStage, SourceFile};
 use crate::order::dependency_order;
 use crate::outline::Outline;
+use crate::parameters::Subject;
 use crate::wiring::{Wires, Wiring};
 use crate::{overrides, sources, toml_text};
 use cosfly_diagnose::{Diagnostic, Fault};
@@ -95,7 +96,9 @@ fn find_files(
         };
         let mut of_part = |part: &BuiltPart| {
             let declared = &part.stage.properties().sources;
-            sources::resolve(declared, directory, (&built.parameters, &stage.place), texts, problems)
+            let kind = stage.kind.as_ref().map_or("", |(kind, _)| kind);
+            let subject = Subject { stage: &stage.name, kind, place: &stage.place, ports: &[] };
+            sources::resolve(declared, directory, (&built.parameters, &subject), texts, problems)
         };
         files.push(built.parts.iter().map(&mut of_part).collect());
     }

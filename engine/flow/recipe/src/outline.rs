@@ -33,6 +33,9 @@ pub(crate) struct InputOutline {
     pub(crate) listed: bool,
 }
 
+/// The kind whose stages are files: `use = "wasm:FILE"` is `use = "wasm"` with `file = "FILE"`.
+pub(crate) const FILE_KIND: &str = "wasm";
+
 const TOP_KEYS: [&str; 3] = ["name", "seed", "stages"];
 
 impl Outline {
@@ -149,6 +152,15 @@ impl Reader<'_> {
                 None
             }
         };
+        let kind =
+            kind.map(|(kind, place)| match kind.strip_prefix(FILE_KIND).and_then(|rest| rest.strip_prefix(':')) {
+                Some(file) => {
+                    let node = Node { place: place.clone(), value: Value::Text(file.to_owned()) };
+                    parameters.insert("file".to_owned(), Entry { key: place.clone(), node });
+                    (FILE_KIND.to_owned(), place)
+                }
+                None => (kind, place),
+            });
         let inputs = parameters.remove("inputs").map_or_else(Vec::new, |inputs| self.inputs(&name, inputs.node));
         Some(StageOutline { name, place: entry.key, kind, inputs, parameters })
     }

@@ -1,5 +1,6 @@
 //! The book's page on recipes, generated from the kinds' schemas and ports.
 
+use crate::outline::FILE_KIND;
 use crate::parameters::{allowed_values, resolve, show_json, show_toml, type_words_of};
 use cosfly_stage::{Fan, InputPort, Registry, StageKind};
 use serde_json::Value;
@@ -54,7 +55,8 @@ pub fn reference(registry: &Registry) -> String {
 }
 
 fn write_kind(kind: &dyn StageKind, page: &mut String) -> std::fmt::Result {
-    writeln!(page, "\n## `{}`\n\n{}", kind.name(), kind.doc())?;
+    let name = if kind.name() == FILE_KIND { "wasm:FILE" } else { kind.name() };
+    writeln!(page, "\n## `{name}`\n\n{}", kind.doc())?;
     let ports = kind.ports();
     if !ports.is_empty() {
         writeln!(page, "\n| input | takes | items | what |\n|---|---|---|---|")?;

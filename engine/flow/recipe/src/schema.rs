@@ -1,5 +1,6 @@
 //! The JSON Schema of whole recipes, for editors.
 
+use crate::outline::FILE_KIND;
 use cosfly_stage::{InputPort, Registry, StageKind};
 use serde_json::{Map, Value, json};
 
@@ -20,11 +21,10 @@ pub fn schema(registry: &Registry) -> Value {
     for kind in registry.iter() {
         let name = kind.name();
         let reference = json!({ "$ref": format!("#/$defs/{name}") });
-        rules.push(
-            json!({ "if": { "properties": { "use": { "const": name } }, "required": ["use"] }, "then": reference }),
-        );
+        let written = written_use(name);
+        rules.push(json!({ "if": { "properties": { "use": written }, "required": ["use"] }, "then": reference }));
         offers.push(reference);
-        uses.push(json!({ "const": name, "description": kind.doc() }));
+        uses.push(described(written, kind));
         add_definitions(kind, &mut definitions);
     }
     offers.push(json!({}));
@@ -72,6 +72,16 @@ pub fn schema(registry: &Registry) -> Value {
     })
 }
 
+/// What `use` says of a kind.
+fn written_use(kind: &str) -> Value {
+    if kind == FILE_KIND { json!({ "pattern": format!("^{FILE_KIND}:.") }) } else { json!({ "const": kind }) }
+}
+
+fn described(mut rule: Value, kind: &dyn StageKind) -> Value {
+    rule["description"] = kind.doc().into();
+    rule
+}
+
 /// The kind's own schema with `use` and `inputs` added, and what it refers to as `KIND.DEFINITION`.
 fn add_definitions(kind: &dyn StageKind, definitions: &mut Map<String, Value>) {
     let name = kind.name();
@@ -96,7 +106,11 @@ fn add_definitions(kind: &dyn StageKind, definitions: &mut Map<String, Value>) {
     }
     let properties = own.entry("properties").or_insert_with(|| json!({}));
     if let Value::Object(properties) = properties {
-        properties.insert("use".to_owned(), json!({ "const": name, "description": kind.doc() }));
+        properties.insert("use".to_owned(), described(written_use(name), kind));
+        if name == FILE_KIND {
+            properties.remove("file");
+            required.retain(|key| key != "file");
+        }
         if !ports.is_empty() {
             properties.insert("inputs".to_owned(), inputs(&ports));
         }

@@ -2,8 +2,10 @@
 
 use crate::document::{Node, Place, Problems, Texts};
 use crate::model::SourceFile;
+use crate::parameters::{Subject, check_parameters};
 use cosfly_diagnose::{Diagnostic, Fault, nearest_name};
 use cosfly_stage::Source;
+use serde_json::{Value as Json, json};
 use std::path::{Path, PathBuf};
 
 /// Folders with more entries than this are not searched for a similar name.
@@ -13,10 +15,11 @@ const MOST_ENTRIES: usize = 10_000;
 pub(crate) fn resolve(
     declared: &[Source],
     directory: &Path,
-    (parameters, stage_place): (&Node, &Place),
+    (parameters, subject): (&Node, &Subject<'_>),
     texts: &Texts,
     problems: &mut Problems,
 ) -> Vec<SourceFile> {
+    let stage_place = subject.place;
     let mut files = vec![];
     for source in declared {
         if source.path.as_os_str().is_empty() {
@@ -35,10 +38,40 @@ pub(crate) fn resolve(
             let label = texts.label(place, "");
             let problem = Diagnostic::new("input-missing", Fault::Input, message).at(label);
             problems.push(hints.into_iter().fold(problem, |problem, hint| problem.hint(hint)));
+        } else if let Some(check) = &source.check {
+            match (check.read)(&path) {
+                Ok(schema) => {
+                    let whole = schema_at(&check.describes, schema);
+                    problems.append(&mut check_parameters(&whole, parameters, subject, texts));
+                }
+                Err(problem) => {
+                    problems.push(problem.at(texts.label(place_of(source, parameters).unwrap_or(stage_place), "")));
+                }
+            }
         }
         files.push(SourceFile { parameter: source.parameter.clone(), declared: source.path.clone(), path });
     }
     files
+}
+
+/// The schema of a stage's table of which only the parameter at `path` is described, by `schema`.
+fn schema_at(path: &str, mut schema: Json) -> Json {
+    let definitions = schema.as_object_mut().and_then(|table| table.remove("$defs"));
+    for key in path.split('.').rev() {
+        let needs_it = schema.get("required").and_then(Json::as_array).is_some_and(|keys| !keys.is_empty());
+        schema = match key.parse::<usize>() {
+            Ok(index) => {
+                let mut items = vec![Json::Bool(true); index];
+                items.push(schema);
+                json!({ "prefixItems": items })
+            }
+            Err(_) => json!({ "properties": { key: schema }, "required": if needs_it { vec![key] } else { vec![] } }),
+        };
+    }
+    if let Some(definitions) = definitions {
+        schema["$defs"] = definitions;
+    }
+    schema
 }
 
 /// Where the recipe gives the parameter that names the file.

@@ -124,7 +124,7 @@ fn toy_stage(toy: &Toy, earlier: &[RecipeStage]) -> Result<RecipeStage> {
         kind: "toy".to_owned(),
         version: toy.version,
         parameters: toy.parameters.clone(),
-        sources: sources.clone().map(|(parameter, path)| Source { parameter, path }).collect(),
+        sources: sources.clone().map(|(parameter, path)| Source::new(parameter, path)).collect(),
         inputs: connections.iter().map(|connection| connection.port.clone()).collect(),
         artifact: "toy/1",
         items: ItemRule::One,

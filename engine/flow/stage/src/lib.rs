@@ -13,7 +13,7 @@ mod properties;
 pub use artifact::{Artifact, BlobRef, BlobSource, Decoded, InputGroup, Inputs, OutputSink, Produced, SeekWrite};
 pub use event::{RunEvent, TaskOutcome};
 pub use kind::{ParameterError, Registry, StageKind, StagePart};
-pub use properties::{Fan, InputPort, ItemRule, PortSource, Source, StageProperties};
+pub use properties::{Fan, InputPort, ItemRule, PortSource, ReadSchema, Source, SourceCheck, StageProperties};
 
 use cosfly_diagnose::Result;
 use std::path::PathBuf;

@@ -1,6 +1,9 @@
 //! What a stage declares about itself: ports, items, sources, version. Data, not methods.
 
-use std::path::PathBuf;
+use cosfly_diagnose::Diagnostic;
+use std::fmt;
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
 
 /// Everything the engine knows about a stage before running it.
 #[derive(Clone, Debug)]
@@ -31,6 +34,33 @@ pub struct Source {
     pub parameter: String,
     /// The path, absolute or relative to the recipe (the recipe reader resolves it).
     pub path: PathBuf,
+    /// What is asked of the file before anything runs.
+    pub check: Option<SourceCheck>,
+}
+
+/// A look into a file while the recipe is read: it may refuse the file, and it tells which parameters the file wants.
+#[derive(Clone)]
+pub struct SourceCheck {
+    /// Parameter that the file itself describes, keys joined by dots, such as `terms.0.params`.
+    pub describes: String,
+    /// From the file's path to the JSON Schema of that parameter.
+    pub read: Arc<ReadSchema>,
+}
+
+/// See [`SourceCheck::read`]. What it refuses is shown at the parameter that names the file.
+pub type ReadSchema = dyn Fn(&Path) -> Result<serde_json::Value, Box<Diagnostic>> + Send + Sync;
+
+impl Source {
+    /// A file that is taken as it is.
+    pub fn new(parameter: impl Into<String>, path: impl Into<PathBuf>) -> Self {
+        Self { parameter: parameter.into(), path: path.into(), check: None }
+    }
+}
+
+impl fmt::Debug for SourceCheck {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.debug_struct("SourceCheck").field("describes", &self.describes).finish_non_exhaustive()
+    }
 }
 
 /// A named input of a stage.

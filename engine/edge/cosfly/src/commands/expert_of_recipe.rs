@@ -7,10 +7,12 @@ use cosfly_recipe::Arrival;
 use cosfly_runner::Plan;
 use cosfly_stage::{Artifact, BlobSource};
 use cosfly_stages::expert::{Companion, Expert, Flight, nearest_companions};
+use cosfly_stages::plugins::Plugins;
 use cosfly_stages::read;
 use cosfly_stages::world::World;
 use cosfly_store::Store;
 use std::collections::BTreeMap;
+use std::path::PathBuf;
 use std::sync::Arc;
 
 /// Experts by the ids of their published trajectories; each town and each flight is made ready once.
@@ -67,7 +69,7 @@ impl<'a> Experts<'a> {
     fn named(&self, trajectory: &str) -> Result<(usize, usize)> {
         let mut names = Vec::new();
         let stages = self.plan.recipe.stages.iter().enumerate();
-        for (index, stage) in stages.filter(|(_, stage)| matches!(stage.kind.as_str(), "muco" | "perturb")) {
+        for (index, stage) in stages.filter(|(_, stage)| matches!(stage.kind.as_str(), "muco" | "perturb" | "wasm")) {
             let rest = trajectory.strip_prefix(stage.name.as_str());
             if let Some(id) = rest.and_then(|rest| rest.strip_prefix(['-', '/']))
                 && let Some(item) = stage.items.iter().position(|item| &**item == id)
@@ -95,7 +97,9 @@ impl<'a> Experts<'a> {
         };
         let companions = self.companions(stage, item, &track, expert.config.targets.companions as usize)?;
         let seed = Seed::of_item(self.plan.recipe.seed, &described.name, &described.items[item]);
-        let flight = expert.flight(&world, Some(track), companions, seed).map_err(|reason| {
+        let paths: Vec<PathBuf> = described.sources.iter().map(|source| source.path.clone()).collect();
+        let plugins = Plugins::of_expert(&expert.plugins, &paths)?.for_item(name.clone());
+        let flight = expert.flight(&world, Some(track), companions, seed, plugins)?.map_err(|reason| {
             Diagnostic::new("plan-from-nothing", Fault::Recipe, format!("`{name}` has no flight to go on from"))
                 .because(reason)
         })?;

@@ -11,6 +11,12 @@ pub mod expert_of_recipe;
 pub mod graph;
 pub mod plan;
 pub mod plan_from;
+#[cfg(feature = "plugins")]
+pub mod plugin_bench;
+#[cfg(feature = "plugins")]
+pub mod plugin_check;
+#[cfg(feature = "plugins")]
+pub mod plugin_new;
 pub mod preview;
 pub mod run;
 pub mod schema;

@@ -139,7 +139,7 @@ fn answer(experts: &mut Experts<'_>, state: &State) -> cosfly_diagnose::Result<A
         StartState { position_in_world: DVec3::from(state.position), velocity_in_world: DVec3::from(state.velocity) };
     let (mut reason, mut waypoints, mut certificate) = (None, Vec::new(), None);
     let planned_frames = frames.max(frames_of(LOOK_AHEAD_S));
-    match known.flight.plan_from(&known.world, state.frame, planned_frames, start) {
+    match known.flight.plan_from(&known.world, state.frame, planned_frames, start)? {
         PlanOutcome::Planned(flight) => {
             waypoints = waypoints_of(&flight, state.frame);
             waypoints.truncate(frames);

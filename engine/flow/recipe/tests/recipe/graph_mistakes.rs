@@ -25,7 +25,7 @@ source = "town.xodr"
 }
 
 #[test]
-fn plugins_come_later() {
+fn a_cosfly_without_plugins_says_so() {
     let text = complaint(
         r#"name = "t"
 [stages.town]

@@ -202,13 +202,13 @@ fn plain(toy: &Toy, parameters: serde_json::Value) -> Result<Vec<StagePart>, Par
 
 fn map(toy: &Toy, parameters: serde_json::Value) -> Result<Vec<StagePart>, ParameterError> {
     let config: MapConfig = toy.parse(parameters)?;
-    let source = Source { parameter: "source".into(), path: config.source.clone().into() };
+    let source = Source::new("source", config.source.clone());
     Ok(one_part(StageProperties { sources: vec![source], ..toy.properties(config) }))
 }
 
 fn tracks(toy: &Toy, parameters: serde_json::Value) -> Result<Vec<StagePart>, ParameterError> {
     let config: TracksConfig = toy.parse(parameters)?;
-    let source = Source { parameter: "file".into(), path: config.file.clone().into() };
+    let source = Source::new("file", config.file.clone());
     Ok(one_part(StageProperties { sources: vec![source], ..toy.properties(config) }))
 }
 

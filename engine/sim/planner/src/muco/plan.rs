@@ -137,6 +137,7 @@ fn solve_at_once(
     let mut obstacles = LocalObstacles::filter(track, request.planning_boxes, &grid, radius_m, influence_m)
         .with_companions(request.companions, config.targets.visibility)
         .with_movers(request.movers);
+    terms.iter().for_each(|weighted| weighted.term.begin(&problem.context(&obstacles)));
     let exact = ExactMap { query: request.exact, movers: request.movers };
     if let Some(kind) = config.planner.baseline() {
         if !(head.is_empty() && request.companions.is_empty() && request.movers.is_empty()) {
@@ -219,6 +220,7 @@ fn publish(request: &PlanRequest<'_>, terms: &[WeightedTerm], found: Found) -> P
     let surroundings =
         ExactObstacles { track, map, ground: &grid, known: waypoints, known_visibility: &measured.visibility };
     let context = TermContext { track, view: &config.view, walk: &walk, surroundings: &surroundings };
+    terms.iter().for_each(|weighted| weighted.term.begin(&context));
     let costs = term_costs(terms, waypoints, &context);
     let pose = |(&w, state): (&DVec3, &_)| Pose::looking_at(w, aim_point(state, track.height_m));
     let flight = Trajectory {

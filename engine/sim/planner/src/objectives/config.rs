@@ -14,6 +14,8 @@ pub enum Objective {
     Inspect,
     /// Meet timed waypoints, one after the other.
     Patrol,
+    /// What a plugin says.
+    Plugin,
 }
 
 impl Objective {
@@ -23,6 +25,7 @@ impl Objective {
             Self::Track => "track",
             Self::Inspect => "inspect",
             Self::Patrol => "patrol",
+            Self::Plugin => "plugin",
         }
     }
 }
@@ -32,7 +35,7 @@ impl Objective {
 #[serde(default, deny_unknown_fields)]
 pub struct ObjectiveConfig {
     /// What flights are for: `track` follows a walker each (the default), `inspect` covers the facades of buildings,
-    /// `patrol` meets timed waypoints. The last two take no `inputs.paths`.
+    /// `patrol` meets timed waypoints, `plugin` is what a plugin says. The last three take no `inputs.paths`.
     pub objective: Objective,
     /// How buildings are inspected; `objective = "inspect"` only.
     pub inspect: InspectConfig,
@@ -133,10 +136,10 @@ pub const SHORTEST_REACH_M: f64 = 5.0;
 pub const LONGEST_S: f64 = 2000.0;
 
 impl ObjectiveConfig {
-    /// How many flights there are, where that is not the number of walkers.
+    /// How many flights there are, where that is neither the number of walkers nor told to a plugin.
     pub fn count(&self) -> Option<u64> {
         match self.objective {
-            Objective::Track => None,
+            Objective::Track | Objective::Plugin => None,
             Objective::Inspect => Some(self.inspect.count),
             Objective::Patrol if self.patrol.waypoints.is_empty() => Some(self.patrol.count),
             Objective::Patrol => Some(1),
@@ -173,7 +176,8 @@ impl ObjectiveConfig {
         }
         for (path, speed) in [("inspect.speed_mps", i.speed_mps), ("patrol.speed_mps", p.speed_mps)] {
             let asked = path.starts_with("inspect") == (self.objective == Objective::Inspect);
-            if self.objective != Objective::Track && asked && speed > 0.8 * speed_limit_mps {
+            if !matches!(self.objective, Objective::Track | Objective::Plugin) && asked && speed > 0.8 * speed_limit_mps
+            {
                 let rule = format!(
                     "`{path}` is {speed}; it must be at most 0.8 of `limits.speed_mps`, which is {speed_limit_mps}"
                 );

@@ -3,6 +3,7 @@
 //! * [`track`]: a walker is followed; the point to be watched is the walker.
 //! * [`inspect`]: the facades of a building are covered from a stand-off distance.
 //! * [`patrol`]: timed waypoints are met, one after the other.
+//! * [`reference`]: something from outside says what to look at and where to be (a plugin).
 //!
 //! An objective makes a [`Mission`]; [`Mission::request`] is what the planner is asked. Adding one: a file here with a
 //! function that makes a mission, and its name in [`Objective`].
@@ -12,6 +13,7 @@ pub mod facade;
 pub mod inspect;
 pub mod meeting;
 pub mod patrol;
+pub mod reference;
 pub mod track;
 
 pub use config::{InspectConfig, Objective, ObjectiveConfig, PatrolConfig};

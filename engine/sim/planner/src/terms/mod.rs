@@ -41,6 +41,11 @@ pub trait CostTerm: Send + Sync {
     /// How many neighbours on each side the cost of a frame reads; 0 when only its own waypoint.
     fn support(&self) -> usize;
 
+    /// Told before the first cost on a track, for terms that keep something per track.
+    fn begin(&self, context: &TermContext<'_>) {
+        let _ = context;
+    }
+
     /// Writes the cost of every frame; `per_frame` is as long as `waypoints` (world frame, metres).
     fn cost(&self, waypoints: &[DVec3], context: &TermContext<'_>, per_frame: &mut [f64]);
 

@@ -1,0 +1,110 @@
+//! `cosfly plugin check`: what a plugin says of itself, and whether it keeps the laws of its kind.
+
+use super::{Outcome, Refusals};
+use crate::arguments::PluginFileArguments;
+use crate::exit;
+use cosfly_dataset::flight_table;
+use cosfly_diagnose::{Diagnostic, Fault};
+use cosfly_plugin_host::laws::{self, Finding};
+use cosfly_plugin_host::{Effect, Kind, NoTown, Plugin, PluginError, PluginTerm, check_schema, with_defaults};
+use cosfly_stages::plugins::host;
+use serde_json::{Map, Value};
+use std::fmt::Write;
+use std::sync::Arc;
+use std::time::Instant;
+
+/// Prints the description, one line per law, and a verdict.
+pub fn check(arguments: &PluginFileArguments) -> Outcome {
+    let started = Instant::now();
+    let plugin = load(arguments)?;
+    let took_ms = 1e3 * started.elapsed().as_secs_f64();
+    let (params, schema) = params(arguments, &plugin)?;
+    let mut text = describe(&plugin, &schema);
+    let _ = writeln!(text, "loaded in {took_ms:.1} ms");
+    let one = |error: PluginError| vec![error.diagnostic(None)];
+    let findings = match plugin.kind {
+        Kind::CostTerm => laws::check_cost_term(&plugin, &params).map_err(one)?,
+        Kind::Objective => laws::check_objective(&plugin, &params).map_err(one)?,
+        Kind::Stage => laws::check_stage(&plugin, &params, &flight_table::sample(), &read_answer).map_err(one)?,
+    };
+    for Finding { law, words, holds } in &findings {
+        let _ = writeln!(text, "{} {law}: {words}", if *holds { "holds " } else { "BROKEN" });
+    }
+    if plugin.kind == Kind::CostTerm {
+        let _ = writeln!(
+            text,
+            "speed: {:.2} us per call of {} waypoints",
+            call_us(&plugin, &params).map_err(one)?,
+            laws::FRAMES
+        );
+    }
+    let broken = findings.iter().filter(|finding| !finding.holds).count();
+    let _ = match broken {
+        0 => writeln!(text, "it keeps the laws of its kind"),
+        count => writeln!(text, "{count} laws are broken"),
+    };
+    crate::print(&text)?;
+    Ok(if broken == 0 { exit::SUCCESS } else { exit::FOUND_PROBLEMS })
+}
+
+/// The plugin of a command line.
+pub fn load(arguments: &PluginFileArguments) -> Result<Plugin, Refusals> {
+    let shown = arguments.file.display().to_string();
+    let limits = cosfly_plugin_host::PluginLimits { fuel: arguments.fuel, ..Default::default() };
+    host().load(&arguments.file, &shown, None, limits).map_err(|error| vec![error.diagnostic(None)])
+}
+
+/// Its parameters as JSON text with defaults, and their schema.
+pub fn params(arguments: &PluginFileArguments, plugin: &Plugin) -> Result<(String, Value), Refusals> {
+    let refused = |message: String| vec![Diagnostic::new("plugin-params", Fault::Recipe, message)];
+    let schema = check_schema(&plugin.metadata.params_schema).map_err(refused)?;
+    let given: Map<String, Value> = match &arguments.params {
+        None => Map::new(),
+        Some(text) => serde_json::from_str(text).map_err(|error| {
+            refused(format!("`--params` is no JSON object: {error}; write it like `{{\"radius_m\": 3}}`"))
+        })?,
+    };
+    Ok((with_defaults(&schema, &given), schema))
+}
+
+fn describe(plugin: &Plugin, schema: &Value) -> String {
+    let told = &plugin.metadata;
+    let mut text = format!("`{}` {}, {}: {}\n", told.name, told.version, plugin.kind.words(), told.summary);
+    for (name, rule) in schema["properties"].as_object().into_iter().flatten() {
+        let word = |key: &str| rule.get(key).map(|value| format!(", {key} {value}")).unwrap_or_default();
+        let about = rule.get("description").and_then(Value::as_str).unwrap_or_default();
+        let kind = rule.get("type").and_then(Value::as_str).unwrap_or("any");
+        let _ = writeln!(text, "  {name} ({kind}{}{}{}): {about}", word("default"), word("minimum"), word("maximum"));
+    }
+    text
+}
+
+fn read_answer(effect: Effect, answer: &[u8]) -> Result<String, String> {
+    match effect {
+        Effect::Filter => flight_table::verdict(answer).map(|verdict| {
+            format!("a filter; it {} the sample flight", if verdict.keep { "keeps" } else { "rejects" })
+        }),
+        Effect::Label => flight_table::labels(answer, flight_table::SAMPLE_FRAMES).map(|labels| {
+            let names: Vec<String> = labels.into_iter().map(|(name, _)| format!("`{name}`")).collect();
+            format!("labels frames with {}", names.join(", "))
+        }),
+    }
+}
+
+/// Time of an evaluation, microseconds: the best of some rounds.
+pub fn call_us(plugin: &Plugin, params: &str) -> Result<f64, PluginError> {
+    use cosfly_planner::CostTerm;
+    let term = PluginTerm::open(plugin, Arc::new(NoTown), "timed", params, 1)?;
+    laws::with_context(laws::FRAMES, |context| {
+        let mut stream = cosfly_frames::Seed::of_item(1, "plugin", "time").stream("flight");
+        let flight = laws::random_flight(&mut stream, context.track);
+        let mut costs = vec![0.0; flight.len()];
+        let mut best = f64::INFINITY;
+        for _ in 0..10 {
+            let started = Instant::now();
+            (0..50).for_each(|_| term.cost(&flight, context, &mut costs));
+            best = best.min(started.elapsed().as_secs_f64() / 50.0);
+        }
+        term.began().failure().map_or(Ok(1e6 * best), Err)
+    })
+}

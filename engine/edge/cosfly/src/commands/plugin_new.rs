@@ -1,0 +1,95 @@
+//! `cosfly plugin new`: the beginning of a plugin, as a project that builds.
+
+use super::Outcome;
+use crate::arguments::{PluginKind, PluginNewArguments};
+use crate::exit;
+use cosfly_diagnose::{Diagnostic, Fault};
+use std::fs;
+use std::path::Path;
+
+/// What plugins are made of, as it is in `plugins/sdk`.
+const SDK: [(&str, &str); 15] = [
+    ("Cargo.toml", include_str!("../../../../../plugins/sdk/Cargo.toml")),
+    ("src/lib.rs", include_str!("../../../../../plugins/sdk/src/lib.rs")),
+    ("src/arrow_stream.rs", include_str!("../../../../../plugins/sdk/src/arrow_stream.rs")),
+    ("src/bindings/mod.rs", include_str!("../../../../../plugins/sdk/src/bindings/mod.rs")),
+    ("src/bindings/cost_term.rs", include_str!("../../../../../plugins/sdk/src/bindings/cost_term.rs")),
+    ("src/bindings/objective.rs", include_str!("../../../../../plugins/sdk/src/bindings/objective.rs")),
+    ("src/bindings/stage.rs", include_str!("../../../../../plugins/sdk/src/bindings/stage.rs")),
+    ("src/cost_term.rs", include_str!("../../../../../plugins/sdk/src/cost_term.rs")),
+    ("src/geometry.rs", include_str!("../../../../../plugins/sdk/src/geometry.rs")),
+    ("src/json.rs", include_str!("../../../../../plugins/sdk/src/json.rs")),
+    ("src/objective.rs", include_str!("../../../../../plugins/sdk/src/objective.rs")),
+    ("src/params.rs", include_str!("../../../../../plugins/sdk/src/params.rs")),
+    ("src/random.rs", include_str!("../../../../../plugins/sdk/src/random.rs")),
+    ("src/stage.rs", include_str!("../../../../../plugins/sdk/src/stage.rs")),
+    ("src/town.rs", include_str!("../../../../../plugins/sdk/src/town.rs")),
+];
+const SDK_LOG: (&str, &str) = ("src/log.rs", include_str!("../../../../../plugins/sdk/src/log.rs"));
+const MANIFEST: &str = include_str!("../../../../../plugins/templates/Cargo.toml.txt");
+const README: &str = include_str!("../../../../../plugins/templates/README.md.txt");
+
+/// Writes the project and says how to go on.
+pub fn new(arguments: &PluginNewArguments) -> Outcome {
+    let name = arguments.path.file_name().and_then(|name| name.to_str()).unwrap_or_default();
+    let is_plain = |byte: u8| byte.is_ascii_lowercase() || byte.is_ascii_digit() || byte == b'_';
+    let begins = name.bytes().next().is_some_and(|byte| byte.is_ascii_lowercase());
+    if !begins || name.len() > 60 || !name.bytes().all(is_plain) {
+        let message = format!("a plugin cannot be called `{name}`");
+        return Err(vec![
+            Diagnostic::new("plugin-name", Fault::Recipe, message)
+                .hint("names begin with `a-z` and go on with at most 59 of `a-z`, `0-9` and `_`"),
+        ]);
+    }
+    if arguments.path.exists() {
+        let message = format!("`{}` is there already", arguments.path.display());
+        return Err(vec![
+            Diagnostic::new("plugin-exists", Fault::Recipe, message).hint("choose another name or folder"),
+        ]);
+    }
+    write(arguments, name).map_err(|refusal| vec![refusal])?;
+    let built = format!("target/wasm32-unknown-unknown/release/{name}.wasm");
+    crate::print(&format!(
+        "wrote `{0}`: what it does is in `{0}/src/lib.rs`. Then:\n  cd {0}\n  cargo test\n  cargo build --release --target \
+         wasm32-unknown-unknown     (once before: rustup target add wasm32-unknown-unknown)\n  cosfly plugin check {built}\n",
+        arguments.path.display()
+    ))?;
+    Ok(exit::SUCCESS)
+}
+
+fn write(arguments: &PluginNewArguments, name: &str) -> cosfly_diagnose::Result<()> {
+    let (source, words, usage) = match arguments.kind {
+        PluginKind::CostTerm => (
+            include_str!("../../../../../plugins/templates/cost-term.rs.txt"),
+            "cost term",
+            "    [[stages.expert.terms]]\n    use = \"wasm:NAME.wasm\"\n    weight = 1.0\n    params = { free_m = 25.0 }\n",
+        ),
+        PluginKind::Objective => (
+            include_str!("../../../../../plugins/templates/objective.rs.txt"),
+            "objective",
+            "    [stages.expert]\n    use = \"muco\"\n    inputs.town = \"town\"\n    objective = \"plugin\"\n\n    [stages.expert.plugin]\n    use = \"wasm:NAME.wasm\"\n    count = 1\n",
+        ),
+        PluginKind::Stage => (
+            include_str!("../../../../../plugins/templates/stage.rs.txt"),
+            "stage",
+            "    [stages.kept]\n    use = \"wasm:NAME.wasm\"\n    inputs = { town = \"town\", trajectories = \"expert\" }\n",
+        ),
+    };
+    let named = |text: &str| text.replace("NAME", name);
+    put(&arguments.path.join("Cargo.toml"), &named(MANIFEST))?;
+    put(&arguments.path.join("src/lib.rs"), &named(source))?;
+    put(&arguments.path.join("README.md"), &named(&README.replace("KIND", words).replace("USE", usage)))?;
+    put(&arguments.path.join(".gitignore"), "/target\n")?;
+    for (file, text) in SDK.iter().chain([&SDK_LOG]) {
+        put(&arguments.path.join("sdk").join(file), text)?;
+    }
+    Ok(())
+}
+
+fn put(path: &Path, text: &str) -> cosfly_diagnose::Result<()> {
+    let refused = |error: std::io::Error| Diagnostic::io(format!("write `{}`", path.display()), &error);
+    if let Some(folder) = path.parent() {
+        fs::create_dir_all(folder).map_err(refused)?;
+    }
+    fs::write(path, text).map_err(refused)
+}

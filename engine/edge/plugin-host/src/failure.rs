@@ -1,0 +1,58 @@
+//! What a plugin did wrong: which plugin, in which function, at which limit.
+
+use cosfly_diagnose::{Diagnostic, Fault};
+
+/// A refusal or a failure of a plugin.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct PluginError {
+    /// The file, as the user wrote it.
+    pub plugin: String,
+    /// The function of the interface, when one was running.
+    pub function: Option<&'static str>,
+    /// What happened: the value and the limit or rule.
+    pub message: String,
+    /// What to do next.
+    pub hint: Option<String>,
+}
+
+impl PluginError {
+    /// A refusal before any function runs.
+    pub fn refused(plugin: &str, message: impl Into<String>) -> Self {
+        Self { plugin: plugin.to_owned(), function: None, message: message.into(), hint: None }
+    }
+
+    /// A failure of a function.
+    pub fn failed(plugin: &str, function: &'static str, message: impl Into<String>) -> Self {
+        Self { plugin: plugin.to_owned(), function: Some(function), message: message.into(), hint: None }
+    }
+
+    /// Adds what to do next.
+    pub fn hint(self, hint: impl Into<String>) -> Self {
+        Self { hint: Some(hint.into()), ..self }
+    }
+
+    /// What a user is told; `item` is what it failed for.
+    pub fn diagnostic(&self, item: Option<&str>) -> Box<Diagnostic> {
+        let place = item.map_or_else(String::new, |item| format!(" for `{item}`"));
+        let (code, message) = match self.function {
+            Some(function) => ("plugin-failed", format!("plugin `{}` failed in `{function}`{place}", self.plugin)),
+            None => ("plugin-refused", format!("plugin `{}` cannot be used{place}", self.plugin)),
+        };
+        let diagnostic = Diagnostic::new(code, Fault::Input, message).because(&self.message);
+        match &self.hint {
+            Some(hint) => diagnostic.hint(hint),
+            None => diagnostic,
+        }
+    }
+}
+
+impl std::fmt::Display for PluginError {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        match self.function {
+            Some(function) => write!(f, "plugin `{}` failed in `{function}`: {}", self.plugin, self.message),
+            None => write!(f, "plugin `{}`: {}", self.plugin, self.message),
+        }
+    }
+}
+
+impl std::error::Error for PluginError {}

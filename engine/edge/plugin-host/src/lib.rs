@@ -1,0 +1,36 @@
+//! Plugins: WebAssembly components in a sandbox, as cost terms, objectives and stages. The interface is in `plugins/wit`.
+//!
+//! * [`Host`]: engines, and the way from a file to compiled code: checked, made a component, compiled, kept.
+//! * [`Plugin`]: a compiled file and what it says of itself; [`Session`]: one instance of it, with its limits.
+//! * [`PluginTerm`], [`draw_reference`], [`run_transform`]: the three things that a plugin can be.
+//! * [`PluginError`]: what went wrong, where, and which limit it met.
+//!
+//! A plugin that traps is done for: its session answers nothing more, and the next item gets a new one.
+
+mod compiled_code;
+mod component;
+mod cost_term;
+mod failure;
+mod host;
+mod imports;
+mod interface_0_1;
+pub mod laws;
+mod limits;
+mod objective;
+mod parameters;
+mod plugin;
+mod session;
+mod town;
+mod transform;
+
+pub use cost_term::{Began, PluginTerm};
+pub use failure::PluginError;
+pub use host::{Host, MAX_FILE_BYTES};
+pub use interface_0_1::{Metadata, Plan, RunContext, SiteContext, TermShape};
+pub use limits::PluginLimits;
+pub use objective::{Drawn, draw_reference};
+pub use parameters::{check_schema, with_defaults};
+pub use plugin::{Kind, Plugin};
+pub use session::{Effort, Said, Session};
+pub use town::{NoTown, TownView};
+pub use transform::{Effect, Transformed, run_transform};

@@ -1,0 +1,6 @@
+//! The host against plugins of every kind: good ones, hostile ones, damaged ones. All are written as text here.
+
+mod border;
+mod fixtures;
+mod hostile;
+mod working;

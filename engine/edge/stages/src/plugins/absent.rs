@@ -1,0 +1,112 @@
+//! In place of the host, in a build without plugins: every use is refused when the recipe is read.
+
+use super::config::{ExpertPlugins, Setting};
+use super::{DrawnReference, Role};
+use crate::world::World;
+use cosfly_diagnose::{Diagnostic, Fault, Result};
+use cosfly_frames::Seed;
+use cosfly_planner::{MucoConfig, WeightedTerm};
+use cosfly_stage::{Source, SourceCheck};
+use std::path::PathBuf;
+use std::sync::Arc;
+
+fn refused(file: &str) -> Box<Diagnostic> {
+    Diagnostic::new("plugin-refused", Fault::Recipe, format!("plugin `{file}` cannot be used"))
+        .because("this cosfly was built without plugins")
+        .hint("build it with the feature `plugins`, which is on by default")
+}
+
+/// A source that is refused.
+pub fn source(parameter: &str, role: Role, setting: &Setting) -> Source {
+    let file = setting.file.clone();
+    let read = move |_: &std::path::Path| Err(refused(&file));
+    Source {
+        parameter: if role == Role::Stage { "file".to_owned() } else { format!("{parameter}.use") },
+        path: PathBuf::from(&setting.file),
+        check: Some(SourceCheck { describes: "params".to_owned(), read: Arc::new(read) }),
+    }
+}
+
+/// What a stage does with flights.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Effect {
+    /// Keeps or rejects each.
+    Filter,
+    /// Labels their frames.
+    Label,
+}
+
+/// What came of a stage.
+pub struct Transformed {
+    /// What to read into the answer.
+    pub effect: Effect,
+    /// An Arrow stream.
+    pub answer: Vec<u8>,
+    /// For users.
+    pub warnings: Vec<String>,
+}
+
+/// No plugins.
+#[derive(Clone, Default)]
+pub struct Plugins;
+
+/// Nothing.
+pub struct AfterPlanning;
+
+impl AfterPlanning {
+    /// Nothing.
+    ///
+    /// # Errors
+    /// None.
+    pub fn warnings(&self) -> Result<Vec<String>> {
+        Ok(vec![])
+    }
+}
+
+impl Plugins {
+    /// # Errors
+    /// When there are any.
+    pub fn of_expert(config: &ExpertPlugins, _: &[PathBuf]) -> Result<Self> {
+        config.settings().first().map_or(Ok(Self), |(_, setting)| Err(refused(&setting.file)))
+    }
+
+    /// # Errors
+    /// Always.
+    pub fn of_stage(setting: &Setting, _: &[PathBuf]) -> Result<Self> {
+        Err(refused(&setting.file))
+    }
+
+    /// The same.
+    pub fn for_item(self, _: String) -> Self {
+        self
+    }
+
+    /// # Errors
+    /// None.
+    pub fn open_terms(&self, _: &Arc<World>, _: Seed) -> Result<(Vec<WeightedTerm>, AfterPlanning)> {
+        Ok((vec![], AfterPlanning))
+    }
+
+    /// # Errors
+    /// Always.
+    pub fn draw_reference(
+        &self,
+        _: &Arc<World>,
+        _: &MucoConfig,
+        _: [f64; 4],
+        _: Seed,
+    ) -> Result<Result<DrawnReference, String>> {
+        Err(refused(""))
+    }
+
+    /// # Errors
+    /// Always.
+    pub fn transform(&self, _: &Arc<World>, _: Vec<u8>) -> Result<Transformed> {
+        Err(refused(""))
+    }
+
+    /// That an answer is wrong.
+    pub fn wrong_answer(&self, message: String) -> Box<Diagnostic> {
+        Diagnostic::new("plugin-failed", Fault::Input, message)
+    }
+}

@@ -1,0 +1,257 @@
+//! The host at work: plugins of a stage, loaded once, opened anew for every item.
+
+use super::config::{ExpertPlugins, Setting};
+use super::{DrawnReference, Role};
+use crate::world::World;
+use cosfly_diagnose::{Diagnostic, Fault, Result};
+use cosfly_frames::{DVec3, Seed};
+use cosfly_geometry::{OrientedBox, SpatialQuery};
+use cosfly_maps::ObstacleKind;
+use cosfly_planner::objectives::config::{DT_S, LONGEST_S};
+use cosfly_planner::objectives::reference::Reference;
+use cosfly_planner::{MucoConfig, WeightedTerm};
+use cosfly_plugin_host::{
+    Began, Host, Kind, Plugin, PluginError, PluginLimits, PluginTerm, SiteContext, TownView, Transformed, check_schema,
+    draw_reference, run_transform, with_defaults,
+};
+use cosfly_stage::{Source, SourceCheck};
+use sha2::{Digest as _, Sha256};
+use std::path::{Path, PathBuf};
+use std::sync::{Arc, OnceLock};
+
+static FOLDER: OnceLock<Option<PathBuf>> = OnceLock::new();
+static HOST: OnceLock<Host> = OnceLock::new();
+
+/// Where compiled plugins are kept from one process to the next; to be told before the first one is loaded.
+pub fn keep_compiled_in(folder: Option<PathBuf>) {
+    let _ = FOLDER.set(folder);
+}
+
+/// The host of this process.
+pub fn host() -> &'static Host {
+    HOST.get_or_init(|| Host::new(FOLDER.get_or_init(|| None).clone()))
+}
+
+/// The file of a plugin as a source of a stage: it is loaded when the recipe is read, and describes its `params`.
+/// `parameter` is where the recipe names it; empty for the stage itself.
+pub fn source(parameter: &str, role: Role, setting: &Setting) -> Source {
+    let under = |key: &str| if parameter.is_empty() { key.to_owned() } else { format!("{parameter}.{key}") };
+    let known = setting.clone();
+    let read = move |path: &Path| {
+        let plugin = load(&known, role, path).map_err(|error| error.diagnostic(None))?;
+        check_schema(&plugin.metadata.params_schema)
+            .map_err(|message| PluginError::failed(&known.file, "describe", message).diagnostic(None))
+    };
+    Source {
+        parameter: if role == Role::Stage { "file".to_owned() } else { under("use") },
+        path: PathBuf::from(&setting.file),
+        check: Some(SourceCheck { describes: under("params"), read: Arc::new(read) }),
+    }
+}
+
+fn load(setting: &Setting, role: Role, path: &Path) -> Result<Plugin, PluginError> {
+    let kind = match role {
+        Role::Term => Kind::CostTerm,
+        Role::Objective => Kind::Objective,
+        Role::Stage => Kind::Stage,
+    };
+    let (memory_mib, call_ms, fuel) = (setting.limits.memory_mib, setting.limits.call_ms, setting.limits.fuel);
+    let plugin = host().load(path, &setting.file, Some(kind), PluginLimits { memory_mib, call_ms, fuel })?;
+    if let Some(wanted) = &setting.sha256 {
+        let bytes = std::fs::read(path).unwrap_or_default();
+        let found: String = Sha256::digest(bytes).iter().map(|byte| format!("{byte:02x}")).collect();
+        if found != *wanted {
+            let message = format!("its SHA-256 is `{found}`; the recipe wants `{wanted}`");
+            return Err(PluginError::refused(&setting.file, message));
+        }
+    }
+    Ok(plugin)
+}
+
+/// A plugin with its parameters.
+#[derive(Clone)]
+struct Ready {
+    plugin: Plugin,
+    /// JSON text, defaults filled in.
+    params: String,
+}
+
+fn ready(setting: &Setting, role: Role, path: Option<&PathBuf>) -> Result<Ready> {
+    let path = path.ok_or_else(|| {
+        Diagnostic::new("plugin-source", Fault::Bug, format!("plugin `{}` is no source of its stage", setting.file))
+    })?;
+    let plugin = load(setting, role, path).map_err(|error| error.diagnostic(None))?;
+    let schema = check_schema(&plugin.metadata.params_schema)
+        .map_err(|message| PluginError::failed(&setting.file, "describe", message).diagnostic(None))?;
+    let params = with_defaults(&schema, &setting.params);
+    Ok(Ready { plugin, params })
+}
+
+/// The plugins of a `muco` stage, or the one of a stage of its own.
+#[derive(Clone, Default)]
+pub struct Plugins {
+    terms: Vec<(Ready, String, f64)>,
+    other: Option<Ready>,
+    /// For whom they run, in messages.
+    item: Option<String>,
+}
+
+impl Plugins {
+    /// Loads what an expert names from the files at `paths`, in the order of [`ExpertPlugins::settings`].
+    ///
+    /// # Errors
+    /// Files that are no such plugins, and names that are taken.
+    pub fn of_expert(config: &ExpertPlugins, paths: &[PathBuf]) -> Result<Self> {
+        let mut plugins = Self::default();
+        for (index, term) in config.terms.iter().enumerate() {
+            let ready = ready(&term.setting(), Role::Term, paths.get(index))?;
+            let name = term.name.clone().unwrap_or_else(|| ready.plugin.metadata.name.clone());
+            if plugins.terms.iter().any(|(_, known, _)| *known == name) || is_built_in(&name) {
+                let message = format!("`terms.{index}` is called `{name}`, and so is another cost term");
+                return Err(Diagnostic::new("plugin-name", Fault::Recipe, message)
+                    .hint(format!("give it another name: `name = \"{name}_2\"`")));
+            }
+            plugins.terms.push((ready, name, term.weight));
+        }
+        if let Some(objective) = &config.plugin {
+            plugins.other = Some(ready(&objective.setting(), Role::Objective, paths.get(config.terms.len()))?);
+        }
+        Ok(plugins)
+    }
+
+    /// Loads the plugin of a stage of its own from the file at `paths`.
+    ///
+    /// # Errors
+    /// A file that is no such plugin.
+    pub fn of_stage(setting: &Setting, paths: &[PathBuf]) -> Result<Self> {
+        Ok(Self { other: Some(ready(setting, Role::Stage, paths.first())?), ..Self::default() })
+    }
+
+    /// The same, for the item `item`.
+    pub fn for_item(self, item: String) -> Self {
+        Self { item: Some(item), ..self }
+    }
+
+    /// Gives a flight to the stage's plugin, and its answer back.
+    ///
+    /// # Errors
+    /// What the plugin did wrong.
+    pub fn transform(&self, world: &Arc<World>, flight: Vec<u8>) -> Result<Transformed> {
+        let Some(ready) = &self.other else {
+            return Err(Diagnostic::new("plugin-source", Fault::Bug, "the stage has no plugin"));
+        };
+        run_transform(&ready.plugin, Arc::clone(world) as _, &ready.params, flight)
+            .map_err(|error| error.diagnostic(self.item.as_deref()))
+    }
+
+    /// That the stage's plugin answered what it must not.
+    pub fn wrong_answer(&self, message: String) -> Box<Diagnostic> {
+        let shown = self.other.as_ref().map_or("", |ready| &ready.plugin.shown);
+        PluginError::failed(shown, "run", message).diagnostic(self.item.as_deref())
+    }
+
+    /// New instances of all terms, for one flight.
+    ///
+    /// # Errors
+    /// What a plugin did wrong.
+    pub fn open_terms(&self, world: &Arc<World>, seed: Seed) -> Result<(Vec<WeightedTerm>, AfterPlanning)> {
+        let (mut terms, mut began) = (vec![], vec![]);
+        for (ready, name, weight) in &self.terms {
+            let town: Arc<dyn TownView> = Arc::clone(world) as _;
+            let term = PluginTerm::open(&ready.plugin, town, name, &ready.params, number_of(seed, name));
+            let term = term.map_err(|error| error.diagnostic(self.item.as_deref()))?;
+            began.push((name.clone(), term.began()));
+            terms.push(WeightedTerm { term: Box::new(term), weight: *weight });
+        }
+        Ok((terms, AfterPlanning { began, item: self.item.clone() }))
+    }
+
+    /// What the objective says; `Err` inside is its own word that there is nothing to fly.
+    ///
+    /// # Errors
+    /// What the plugin did wrong.
+    pub fn draw_reference(
+        &self,
+        world: &Arc<World>,
+        config: &MucoConfig,
+        bounds: [f64; 4],
+        seed: Seed,
+    ) -> Result<Result<DrawnReference, String>> {
+        let Some(ready) = &self.other else { return Ok(Err("no plugin is given".to_owned())) };
+        let site = SiteContext {
+            seed: number_of(seed, "reference"),
+            dt: DT_S,
+            max_steps: (LONGEST_S / DT_S) as u32,
+            bounds: bounds.to_vec(),
+            clearance: config.limits.clearance_m,
+            max_speed: config.limits.speed_mps,
+            channels: vec![],
+        };
+        let drawn = draw_reference(&ready.plugin, Arc::clone(world) as _, &ready.params, site)
+            .map_err(|error| error.diagnostic(self.item.as_deref()))?;
+        Ok(drawn.map(|drawn| {
+            let points = |flat: &[f64]| flat.as_chunks::<3>().0.iter().map(|xyz| DVec3::from_array(*xyz)).collect();
+            let (watched, places) = (points(&drawn.plan.watched), points(&drawn.plan.places));
+            let reference = Reference { watched, places, pull: drawn.plan.pull };
+            DrawnReference { reference, notes: drawn.plan.notes, warnings: drawn.warnings }
+        }))
+    }
+}
+
+/// What is left of the terms of a flight.
+pub struct AfterPlanning {
+    began: Vec<(String, Began)>,
+    item: Option<String>,
+}
+
+impl AfterPlanning {
+    /// What the terms said that users are to read.
+    ///
+    /// # Errors
+    /// The first failure: the flight is worth nothing then.
+    pub fn warnings(&self) -> Result<Vec<String>> {
+        let mut warnings = vec![];
+        for (name, began) in &self.began {
+            if let Some(failure) = began.failure() {
+                return Err(failure.diagnostic(self.item.as_deref()));
+            }
+            warnings.extend(began.warnings().into_iter().map(|text| format!("{name}: {text}")));
+        }
+        Ok(warnings)
+    }
+}
+
+fn is_built_in(name: &str) -> bool {
+    const OTHERS: [&str; 4] = ["standoff", "rendezvous", "reference", "coverage"];
+    let weights = serde_json::to_value(MucoConfig::default().weights).unwrap_or_default();
+    OTHERS.contains(&name) || weights.get(name).is_some()
+}
+
+/// The seed that a plugin is told.
+fn number_of(seed: Seed, name: &str) -> u64 {
+    let child = seed.child(name, 0);
+    let mut first = [0; 8];
+    first.copy_from_slice(&child.0[..8]);
+    u64::from_le_bytes(first)
+}
+
+impl TownView for World {
+    fn first_hit(&self, from: DVec3, to: DVec3) -> Option<f64> {
+        self.exact.closest_hit(from, to - from, 1.0).map(|hit| hit.t)
+    }
+
+    fn distance_m(&self, point: DVec3, within_m: f64) -> f64 {
+        self.exact.nearest(point, within_m).map_or(within_m, |nearest| nearest.distance_m)
+    }
+
+    fn ground_m(&self, x_m: f64, y_m: f64) -> Option<f64> {
+        self.ground.ground_height_m(x_m, y_m)
+    }
+
+    fn buildings(&self) -> Vec<(u32, OrientedBox)> {
+        let buildings = self.town.obstacles.iter().filter(|obstacle| obstacle.kind == ObstacleKind::Building);
+        let mut boxes: Vec<(u32, OrientedBox)> = buildings.map(|it| (it.object_id, it.shape)).collect();
+        boxes.sort_by_key(|(building, _)| *building);
+        boxes
+    }
+}

@@ -1,0 +1,147 @@
+//! Cost terms: a trait for authors, and what stands between it and the interface.
+
+use crate::bindings::cost_term::exports::cosfly::plugin::cost as wire;
+use crate::{Metadata, Param, Params, Point, params};
+
+/// What a configured term is.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Shape {
+    /// How many neighbours on each side the cost of a waypoint reads.
+    pub support: u32,
+    /// Whether [`CostTerm::evaluate`] fills in gradients when asked.
+    pub gradients: bool,
+}
+
+/// What stays the same while a flight is planned.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Run {
+    /// Of the recipe, the stage and the item.
+    pub seed: u64,
+    /// Seconds between frames.
+    pub dt: f64,
+    /// The target's feet, one per frame.
+    pub targets: Vec<Point>,
+    /// Where the target faces, radians from x towards y.
+    pub headings: Vec<f64>,
+    /// Where the target walks, a horizontal unit vector; zero while it stands.
+    pub directions: Vec<[f64; 2]>,
+    /// The eight points of the body that are to be seen.
+    pub body_points: Vec<[Point; 8]>,
+}
+
+/// A cost term of the planner: a cost per waypoint of a whole flight.
+pub trait CostTerm: Sized + 'static {
+    /// Its parameters; [`NoParams`](crate::NoParams) for none.
+    type Params: Params;
+
+    /// What it says of itself.
+    fn describe() -> Metadata;
+    /// A configured term.
+    ///
+    /// # Errors
+    /// What of the parameters contradicts itself.
+    fn new(params: Self::Params) -> Result<Self, String>;
+    /// Support and gradients; by default, the own waypoint only and none.
+    fn shape(&self) -> Shape {
+        Shape::default()
+    }
+    /// Told once per track, before the first cost.
+    ///
+    /// # Errors
+    /// Why it cannot work on this track.
+    fn begin(&mut self, run: Run) -> Result<(), String>;
+    /// Writes the cost of every waypoint, at least 0; `costs` is as long as `waypoints` and filled with 0. `gradients`, when asked
+    /// for, is as long and filled with 0, and takes the slope of the summed costs.
+    ///
+    /// # Errors
+    /// Why it gives up; the flight fails with these words.
+    fn evaluate(&self, waypoints: &[Point], costs: &mut [f64], gradients: Option<&mut [Point]>) -> Result<(), String>;
+}
+
+/// A term at work, behind the interface's functions.
+#[doc(hidden)]
+pub struct Running<T>(Option<T>);
+
+impl<T: CostTerm> Running<T> {
+    pub const fn new() -> Self {
+        Self(None)
+    }
+
+    pub fn describe() -> wire::Metadata {
+        let told = T::describe();
+        wire::Metadata {
+            name: told.name.to_owned(),
+            version: told.version.to_owned(),
+            summary: told.summary.to_owned(),
+            params_schema: format!("{{{}}}", T::Params::schema()),
+        }
+    }
+
+    pub fn configure(&mut self, text: &str) -> Result<wire::Shape, wire::Error> {
+        crate::log::panics_as_messages();
+        let term = params::from_text(text).and_then(T::new).map_err(wire::Error::InvalidParams)?;
+        let Shape { support, gradients } = term.shape();
+        self.0 = Some(term);
+        Ok(wire::Shape { support, gradients })
+    }
+
+    pub fn begin(&mut self, run: wire::RunContext) -> Result<(), wire::Error> {
+        let term = self.0.as_mut().ok_or_else(unconfigured)?;
+        let points = |flat: &[f64]| flat.as_chunks::<3>().0.to_vec();
+        let bodies = points(&run.body_points);
+        let run = Run {
+            seed: run.seed,
+            dt: run.dt,
+            targets: points(&run.targets),
+            headings: run.headings,
+            directions: run.directions.as_chunks::<2>().0.to_vec(),
+            body_points: bodies.as_chunks::<8>().0.to_vec(),
+        };
+        term.begin(run).map_err(wire::Error::Failed)
+    }
+
+    pub fn evaluate(&self, waypoints: &[f64], want_gradients: bool) -> Result<wire::Evaluation, wire::Error> {
+        let term = self.0.as_ref().ok_or_else(unconfigured)?;
+        let (points, _) = waypoints.as_chunks::<3>();
+        let mut costs = vec![0.0; points.len()];
+        let mut gradients = vec![[0.0; 3]; if want_gradients { points.len() } else { 0 }];
+        let wanted = want_gradients.then_some(&mut gradients[..]);
+        term.evaluate(points, &mut costs, wanted).map_err(wire::Error::Failed)?;
+        Ok(wire::Evaluation { costs, gradients: gradients.into_flattened() })
+    }
+}
+
+fn unconfigured() -> wire::Error {
+    wire::Error::Failed("it was not configured".to_owned())
+}
+
+/// Makes a type that is a [`CostTerm`](crate::CostTerm) the plugin of this crate.
+#[macro_export]
+macro_rules! cost_term {
+    ($term:ty) => {
+        #[cfg(target_family = "wasm")]
+        const _: () = {
+            use $crate::bindings::cost_term::exports::cosfly::plugin::cost as wire;
+            $crate::macros::thread_local! {
+                static RUNNING: $crate::macros::RefCell<$crate::macros::RunningTerm<$term>> =
+                    const { $crate::macros::RefCell::new($crate::macros::RunningTerm::new()) };
+            }
+            struct Plugin;
+            impl wire::Guest for Plugin {
+                fn describe() -> wire::Metadata {
+                    $crate::macros::RunningTerm::<$term>::describe()
+                }
+                fn configure(params: String) -> Result<wire::Shape, wire::Error> {
+                    RUNNING.with_borrow_mut(|running| running.configure(&params))
+                }
+                fn begin(run: wire::RunContext) -> Result<(), wire::Error> {
+                    RUNNING.with_borrow_mut(|running| running.begin(run))
+                }
+                fn evaluate(waypoints: Vec<f64>, want_gradients: bool) -> Result<wire::Evaluation, wire::Error> {
+                    RUNNING.with_borrow(|running| running.evaluate(&waypoints, want_gradients))
+                }
+            }
+    $crate::bindings::cost_term::export_cost_term!(Plugin with_types_in $crate::bindings::cost_term);
+        };
+    };
+}

@@ -1,0 +1,209 @@
+//! Plugins through the real binary: every recipe with one, what a changed plugin makes anew, mistakes, failures, the commands.
+
+use crate::support::{cosfly, repository_root};
+use std::path::{Path, PathBuf};
+
+/// A folder with the town, the plugins and a recipe.
+struct Yard {
+    folder: tempfile::TempDir,
+}
+
+const RECIPE: &str = r#"name = "yard"
+seed = 7
+
+[stages.town]
+use = "map"
+source = "street.xodr"
+
+[stages.walkers]
+use = "pedestrians"
+inputs.town = "town"
+count = 2
+steps = 12
+
+[stages.expert]
+use = "muco"
+inputs = { town = "town", paths = "walkers" }
+
+[[stages.expert.terms]]
+use = "wasm:no_fly_zone.wasm"
+weight = 5.0
+params.margin_m = 4.0
+params.zones = [{ corners = [[0, 0], [9, 0], [9, 9]], low_m = 0, high_m = 20 }]
+
+[stages.kept]
+use = "wasm:keep_good.wasm"
+inputs = { town = "town", trajectories = "expert" }
+params.rules = [{ column = "cost_no_fly_zone", of = "max", at_most = 1e6 }]
+
+[stages.frames]
+use = "render"
+inputs = { town = "town", trajectories = ["kept"] }
+width = 96
+height = 54
+
+[stages.dataset]
+use = "dataset"
+inputs = { town = "town", frames = "frames" }
+name = "yard"
+title = "A yard"
+"#;
+
+impl Yard {
+    fn with(recipe: &str) -> Self {
+        let folder = tempfile::tempdir().expect("a folder");
+        std::fs::write(folder.path().join("street.xodr"), crate::street::map()).expect("writable");
+        std::fs::write(folder.path().join("recipe.toml"), recipe).expect("writable");
+        for plugin in ["no_fly_zone", "keep_good", "orbit"] {
+            let file = format!("{plugin}.wasm");
+            std::fs::copy(plugins().join(&file), folder.path().join(file)).expect("the plugin is there");
+        }
+        Self { folder }
+    }
+
+    fn path(&self) -> &Path {
+        self.folder.path()
+    }
+
+    /// (exit code, standard error) of a command.
+    fn refusal(&self, arguments: &[&str]) -> (Option<i32>, String) {
+        let printed = cosfly(arguments).within(self.path()).run();
+        (printed.code, printed.stderr)
+    }
+
+    /// Items made per stage.
+    fn made(&self) -> Vec<(String, u64)> {
+        let printed = cosfly(&["run", "recipe.toml", "--json"]).within(self.path()).run_ok();
+        let summary: serde_json::Value = serde_json::from_str(&printed.stdout).expect("a JSON summary");
+        let stages = summary["stages"].as_array().expect("stages").iter();
+        let ran = stages
+            .map(|stage| (stage["stage"].as_str().expect("name").to_owned(), stage["ran"].as_u64().expect("count")));
+        ran.filter(|(_, ran)| *ran > 0).collect()
+    }
+}
+
+fn plugins() -> PathBuf {
+    repository_root().join("recipes/plugins")
+}
+
+#[test]
+fn every_recipe_with_a_plugin_makes_a_sound_dataset() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let at = |name: &str| folder.path().join(name).display().to_string();
+    for name in ["no_fly_zone", "privacy", "sun_glare", "wind", "judged", "patrol", "inspection", "orbit"] {
+        let recipe = format!("recipes/{name}.toml");
+        cosfly(&["run", &recipe, "--quiet", "--store", &at("store"), "--out", &at(name)]).run_ok();
+        cosfly(&["verify", &at(name)]).run_ok();
+    }
+}
+
+#[test]
+fn a_plugin_changed_by_one_byte_reruns_only_what_uses_it() {
+    let yard = Yard::with(RECIPE);
+    assert!(yard.made().contains(&("expert".to_owned(), 2)));
+    assert!(yard.made().is_empty());
+    // A section of one's own: the same functions, other bytes.
+    let file = yard.path().join("no_fly_zone.wasm");
+    let mut bytes = std::fs::read(&file).expect("readable");
+    bytes.extend([0, 4, 1, b'n', b'e', b'w']);
+    std::fs::write(&file, bytes).expect("writable");
+    assert_eq!(yard.made(), [("expert".to_owned(), 2)], "what is made of equal flights is not made again");
+    let why = cosfly(&["plan", "recipe.toml"]).within(yard.path()).run_ok().stdout;
+    assert!(!why.contains("walkers  2 to run"), "{why}");
+}
+
+#[test]
+fn parameters_are_held_against_what_the_plugin_declares_before_anything_runs() {
+    for (from, to, words) in [
+        ("margin_m = 4.0", "margin_m = 400.0", "`terms.0.params.margin_m` is `400.0`; it must be at most `100`"),
+        ("margin_m = 4.0", "margn_m = 4.0", "did you mean `margin_m`?"),
+        ("margin_m = 4.0", "margin_m = \"4\"", "leave the quotes away"),
+        ("low_m = 0", "low_m = true", "it must be a number"),
+        ("of = \"max\"", "off = \"max\"", "`off` is not a parameter"),
+    ] {
+        let yard = Yard::with(&RECIPE.replacen(from, to, 1));
+        let (code, text) = yard.refusal(&["plan", "recipe.toml"]);
+        assert_eq!(code, Some(3), "{text}");
+        assert!(text.contains(words) && text.contains("recipe.toml:"), "{to}: {text}");
+    }
+}
+
+#[test]
+fn files_that_are_not_the_wanted_plugin_are_refused_at_their_place() {
+    for (from, to, words) in [
+        ("wasm:no_fly_zone", "wasm:keep_good", "it is a stage; a cost term is wanted here"),
+        ("wasm:no_fly_zone", "wasm:no_fly_zon", "did you mean `no_fly_zone.wasm`?"),
+        ("wasm:no_fly_zone.wasm", "wasm:recipe.toml", "it is not a WebAssembly file"),
+        (
+            "weight = 5.0",
+            "sha256 = \"0000000000000000000000000000000000000000000000000000000000000000\"",
+            "its SHA-256 is",
+        ),
+        ("weight = 5.0", "limits.memory_mib = 1", "its limit is 1 MiB"),
+    ] {
+        let (code, text) = Yard::with(&RECIPE.replacen(from, to, 1)).refusal(&["plan", "recipe.toml"]);
+        assert!(matches!(code, Some(3 | 4)), "{text}");
+        assert!(text.contains(words) && text.contains("recipe.toml:"), "{to}: {text}");
+    }
+    let objective = RECIPE.replacen("[[stages.expert.terms]]", "[stages.expert.plugin]", 1).replace("weight = 5.0", "");
+    let (code, text) = Yard::with(&objective).refusal(&["plan", "recipe.toml"]);
+    assert_eq!(code, Some(3), "{text}");
+}
+
+#[test]
+fn a_failing_plugin_is_named_with_function_and_item_and_the_rest_goes_on() {
+    let yard = Yard::with(&RECIPE.replace("cost_no_fly_zone", "colour"));
+    let (code, text) = yard.refusal(&["run", "recipe.toml", "--quiet"]);
+    assert_eq!(code, Some(4), "{text}");
+    assert!(text.contains("plugin `keep_good.wasm` failed in `run` for `kept/p00000`"), "{text}");
+    assert!(text.contains("flights have no column `colour`"), "{text}");
+    std::fs::write(yard.path().join("recipe.toml"), RECIPE).expect("writable");
+    assert!(!yard.made().iter().any(|(stage, _)| stage == "expert"), "the experts were finished");
+}
+
+#[test]
+fn a_filter_rejects_with_its_reason() {
+    let yard = Yard::with(&RECIPE.replace("at_most = 1e6", "at_most = -1.0"));
+    let printed = cosfly(&["run", "recipe.toml", "--json"]).within(yard.path()).run();
+    assert!(printed.stdout.contains("max of `cost_no_fly_zone` is"), "{}{}", printed.stdout, printed.stderr);
+}
+
+#[test]
+fn the_example_plugins_keep_the_laws_of_their_kinds() {
+    for name in
+        ["no_fly_zone", "privacy", "sun_glare", "wind", "keep_good", "seconds_to_loss", "patrol", "inspection", "orbit"]
+    {
+        let file = plugins().join(format!("{name}.wasm")).display().to_string();
+        let text = cosfly(&["plugin", "check", &file]).run_ok().stdout;
+        assert!(text.contains("it keeps the laws of its kind"), "{text}");
+    }
+}
+
+#[test]
+fn a_new_plugin_is_a_project_with_all_that_it_needs() {
+    let folder = tempfile::tempdir().expect("a folder");
+    for kind in ["cost-term", "objective", "stage"] {
+        let name = kind.replace('-', "_");
+        cosfly(&["plugin", "new", "--kind", kind, &name]).within(folder.path()).run_ok();
+        let source = std::fs::read_to_string(folder.path().join(&name).join("src/lib.rs")).expect("a source");
+        assert!(source.contains(&format!("name: \"{name}\"")) && source.lines().count() < 80, "{source}");
+        let sdk = folder.path().join(&name).join("sdk/src");
+        let mut wanted = vec![];
+        for entry in std::fs::read_dir(repository_root().join("plugins/sdk/src")).expect("the sdk") {
+            wanted.push(entry.expect("an entry").file_name());
+        }
+        assert!(wanted.iter().all(|file| sdk.join(file).exists()), "{wanted:?}");
+    }
+    let again = cosfly(&["plugin", "new", "--kind", "stage", "stage"]).within(folder.path()).run();
+    assert_eq!(again.code, Some(3), "{}", again.stderr);
+}
+
+#[test]
+fn the_plugins_that_are_kept_are_built_from_the_sources_beside_them() {
+    let root = repository_root();
+    let kept = std::fs::read_to_string(root.join("recipes/plugins/built_from.txt")).expect("the digest is kept");
+    let script = "find sdk twin/src twin/Cargo.toml examples wit Cargo.toml Cargo.lock -type f | LC_ALL=C sort | xargs sha256sum | sha256sum | cut -d' ' -f1";
+    let output = std::process::Command::new("bash").args(["-c", script]).current_dir(root.join("plugins")).output();
+    let Ok(output) = output else { return eprintln!("skipped: there is no bash") };
+    assert_eq!(String::from_utf8_lossy(&output.stdout), kept, "run `plugins/build.sh` and commit what it writes");
+}
