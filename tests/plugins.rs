@@ -68,7 +68,8 @@ impl Yard {
     /// (exit code, standard error) of a command.
     fn refusal(&self, arguments: &[&str]) -> (Option<i32>, String) {
         let printed = cosfly(arguments).within(self.path()).run();
-        (printed.code, printed.stderr)
+        // Lines are broken where they are long.
+        (printed.code, printed.stderr.split_whitespace().collect::<Vec<_>>().join(" "))
     }
 
     /// Items made per stage.
@@ -115,7 +116,11 @@ fn a_plugin_changed_by_one_byte_reruns_only_what_uses_it() {
 #[test]
 fn parameters_are_held_against_what_the_plugin_declares_before_anything_runs() {
     for (from, to, words) in [
-        ("margin_m = 4.0", "margin_m = 400.0", "`terms.0.params.margin_m` is `400.0`; it must be at most `100`"),
+        (
+            "margin_m = 4.0",
+            "margin_m = 400.0",
+            "`terms.0.params.margin_m` is `400.0`; it must be at least `0` and at most `100`",
+        ),
         ("margin_m = 4.0", "margn_m = 4.0", "did you mean `margin_m`?"),
         ("margin_m = 4.0", "margin_m = \"4\"", "leave the quotes away"),
         ("low_m = 0", "low_m = true", "it must be a number"),

@@ -84,7 +84,7 @@ impl<'a> Builder<'a> {
         let problem = self.texts.problem("recipe-unknown-kind", place, format!("there is no stage kind `{name}`"));
         if name == "wasm" {
             return problem
-                .hint("this cosfly was built without plugins: build it with the feature `plugins`, which is on by default")
+                .hint("this cosfly was built without plugins; its feature `plugins` adds them")
                 .hint(format!("its own kinds are {}", list(known(), usize::MAX)));
         }
         match nearest_name(name, known()) {

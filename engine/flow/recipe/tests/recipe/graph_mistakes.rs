@@ -35,13 +35,13 @@ source = "town.xodr"
         &[],
     );
     insta::assert_snapshot!(text, @r#"
-    error[recipe-unknown-kind]: there is no stage kind `wasm:my_map.wasm`
+    error[recipe-unknown-kind]: there is no stage kind `wasm`
      --> a.toml:3:7
       |
     3 | use = "wasm:my_map.wasm"
       |       ^^^^^^^^^^^^^^^^^^
       |
-      = help: this version of cosfly runs no plugins yet: `use = "wasm:..."` comes with a later one
+      = help: this cosfly was built without plugins; its feature `plugins` adds them
       = help: its own kinds are `blocks`, `dataset`, `expert`, `map`, `render`, `tracks`, `walkers`
     "#);
 }
