@@ -26,8 +26,12 @@ pub struct Host {
     folder: Option<PathBuf>,
     plain: OnceLock<Result<Workshop, String>>,
     strict: OnceLock<Result<Workshop, String>>,
-    known: Mutex<BTreeMap<(Digest, bool, Kind), (Arc<Compiled>, Metadata)>>,
+    known: Mutex<BTreeMap<KnownKey, Known>>,
 }
+
+/// The file, whether it runs in strict mode, and as what.
+type KnownKey = (Digest, bool, Kind);
+type Known = (Arc<Compiled>, Metadata);
 
 struct Workshop {
     engine: Engine,

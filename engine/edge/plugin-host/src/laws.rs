@@ -230,6 +230,9 @@ fn plan_bits(plan: &Plan) -> Vec<u64> {
     numbers.map(|number| number.to_bits()).collect()
 }
 
+/// What an answer says, or what it should have said.
+pub type ReadAnswer<'a> = dyn Fn(crate::Effect, &[u8]) -> Result<String, String> + 'a;
+
 /// Tries all laws of stages on a flight.
 ///
 /// # Errors
@@ -238,7 +241,7 @@ pub fn check_stage(
     plugin: &Plugin,
     params: &str,
     flight: &[u8],
-    read: &dyn Fn(crate::Effect, &[u8]) -> Result<String, String>,
+    read: &ReadAnswer<'_>,
 ) -> Result<Vec<Finding>, PluginError> {
     let run = || run_transform(plugin, Arc::new(NoTown), params, flight.to_vec());
     let (first, second) = (run()?, run()?);
