@@ -264,3 +264,24 @@ fn through_a_lens_and_blurred_people_move_and_keep_their_ids() {
         assert!(still.images.rgb != moved.images.rgb && still.view == moved.view);
     }
 }
+
+#[test]
+fn every_weather_has_the_same_depth_and_ids() {
+    let scene = Scene::new(&small_town::small_town(3, 5), Seed([1; 32]));
+    let feet = DVec3::new(5.0, -16.0, 0.1);
+    let others = crowd(&mut Seed([9; 32]).stream("crowd"), feet, 40);
+    let pose = Pose::looking_at(feet + DVec3::new(-12.0, 3.0, 9.0), feet);
+    let mut renderer = Renderer::new(CAMERA);
+    let mut first: Option<Drawn> = None;
+    for name in Weather::PRESETS {
+        let weather = Weather::preset(name).expect("a preset");
+        let setup = FrameSetup { pose, weather: &weather, target: Some(target(feet)), others: &others };
+        let drawn = draw(&mut renderer, &scene, &setup);
+        let known = first.get_or_insert(Drawn { images: drawn.images.clone(), others: drawn.others.clone(), ..drawn });
+        let bits = |images: &FrameImages| images.depth_m.iter().map(|depth| depth.to_bits()).collect::<Vec<_>>();
+        assert!(bits(&known.images) == bits(&drawn.images), "{name}");
+        assert!(known.images.semantic == drawn.images.semantic, "{name}");
+        assert!(known.images.instance == drawn.images.instance, "{name}");
+        assert!(known.view == drawn.view && known.others == drawn.others && !known.others.is_empty(), "{name}");
+    }
+}
