@@ -4,7 +4,7 @@ use crate::mesh::{Mesh, Vertex};
 use bytemuck::{Pod, Zeroable};
 use cosfly_frames::Pose;
 use cosfly_render::outside::NO_FACE;
-use cosfly_render::{Backend, BackendError, Camera, FrameSetup, RenderedFrame, Renderer, Scene};
+use cosfly_render::{Backend, BackendError, Camera, FrameSetup, PictureLook, RenderedFrame, Renderer, Scene};
 use std::sync::{Arc, Mutex, OnceLock, PoisonError};
 
 /// Nothing nearer than this along the optical axis is drawn, metres.
@@ -109,6 +109,11 @@ impl GpuBackend {
             nearest: vec![NO_FACE; camera.width as usize * camera.height as usize],
             card,
         })
+    }
+
+    /// Draws colours in this look from now on.
+    pub fn set_look(&mut self, look: PictureLook) {
+        self.renderer.set_look(look);
     }
 
     /// The card's name and driver.

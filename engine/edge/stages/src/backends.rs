@@ -1,7 +1,7 @@
 //! Which backends this build can draw with, and how to get the others.
 
 use cosfly_diagnose::{Diagnostic, Fault};
-use cosfly_render::{Backend, BackendError, BackendKind, Camera, Renderer};
+use cosfly_render::{Backend, BackendError, BackendKind, Camera, PictureLook, Renderer};
 
 /// Refuses a backend that this build does not have, before anything runs.
 pub fn check(kind: BackendKind) -> Result<(), BackendError> {
@@ -21,14 +21,18 @@ pub fn check(kind: BackendKind) -> Result<(), BackendError> {
     }
 }
 
-/// A backend of this kind for one camera.
-pub fn open(kind: BackendKind, camera: Camera) -> Result<Box<dyn Backend>, BackendError> {
+/// A backend of this kind for one camera and look.
+pub fn open(kind: BackendKind, camera: Camera, look: PictureLook) -> Result<Box<dyn Backend>, BackendError> {
     check(kind)?;
     #[cfg(feature = "gpu")]
     if kind == BackendKind::Gpu {
-        return Ok(Box::new(cosfly_gpu::GpuBackend::new(camera)?));
+        let mut backend = cosfly_gpu::GpuBackend::new(camera)?;
+        backend.set_look(look);
+        return Ok(Box::new(backend));
     }
-    Ok(Box::new(Renderer::new(camera)))
+    let mut renderer = Renderer::new(camera);
+    renderer.set_look(look);
+    Ok(Box::new(renderer))
 }
 
 /// What a user is told when drawing fails in the middle of a run.

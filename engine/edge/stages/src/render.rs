@@ -306,7 +306,7 @@ impl RenderStage {
         idle.pop();
         drop(idle);
         let effects = self.config.effects(camera);
-        let backend = backends::open(self.config.backend, effects.ideal_camera())
+        let backend = backends::open(self.config.backend, effects.ideal_camera(), self.config.look)
             .map_err(|error| backends::failure(self.config.backend, &error))?;
         Ok(Rig { camera, effects, backend })
     }

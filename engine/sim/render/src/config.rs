@@ -17,6 +17,9 @@ pub struct RenderConfig {
     /// needs a cosfly built with the feature `gpu`) or `carla` (a CARLA server; see the guide, it is driven from outside
     /// of a run).
     pub backend: BackendKind,
+    /// How colours look: `full` (shadows, textures, weather, smooth edges) or `simple` (plain colours and windows in the
+    /// light of sun, sky and haze, in about a third of the time). Depth, labels and ids are the same in both.
+    pub look: PictureLook,
     /// Image width, pixels.
     #[schemars(range(min = 16, max = 7680))]
     pub width: u32,
@@ -53,6 +56,7 @@ impl Default for RenderConfig {
         let weathers = ["ClearNoon", "CloudyNoon", "WetNoon", "ClearSunset", "SoftRainNoon", "CloudySunset"];
         Self {
             backend: BackendKind::Cpu,
+            look: PictureLook::Full,
             width: 1280,
             height: 720,
             fov_deg: 90.0,
@@ -66,6 +70,16 @@ impl Default for RenderConfig {
             weather: WeatherRanges::default(),
         }
     }
+}
+
+/// How the colours of pictures look.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum PictureLook {
+    /// Sun and shadows, light of the sky between houses, textures, wetness, puddles and rain, lamps, smooth edges.
+    Full,
+    /// Plain colours and windows, light of the sun and the open sky, haze; no shadows, textures or smooth edges.
+    Simple,
 }
 
 /// Ranges of the camera's turn against the drone.

@@ -1,6 +1,7 @@
 //! One frame from start to end: cull, draw, resolve, shade, measure the target.
 
 use crate::camera::Camera;
+use crate::config::PictureLook;
 use crate::figure::{Bystander, TargetSetup};
 use crate::frame::{FrameImages, PersonView, TARGET_INSTANCE, TargetView};
 use crate::passes::ids::{SeenRuns, for_each_band};
@@ -91,6 +92,7 @@ pub struct Renderer {
     others: Vec<PersonView>,
     runs: SeenRuns,
     level: Level,
+    look: PictureLook,
     parallel: bool,
     shader: Shader,
     smoother: smooth::Smoother,
@@ -125,6 +127,7 @@ impl Renderer {
             others: Vec::new(),
             runs: SeenRuns::default(),
             level: Level::best(),
+            look: PictureLook::Full,
             parallel: false,
             shader: Shader::new(&screen),
             smoother: smooth::Smoother::default(),
@@ -142,6 +145,12 @@ impl Renderer {
         self.shader.set_level(level);
         self.nearest.set_level(level);
         self.alone.set_level(level);
+    }
+
+    /// Draws colours in this look from now on; all other channels are the same in each.
+    pub fn set_look(&mut self, look: PictureLook) {
+        self.look = look;
+        self.shader.set_look(look);
     }
 
     /// Spreads frames over the threads of the rayon pool that calls, from now on; the bytes are the same. Off at first:
@@ -231,7 +240,7 @@ impl Renderer {
             target_view::measure_people(self.level, &self.images, setup.others, &mut self.others);
             watch.lap(4);
         }
-        if parts == FrameParts::All {
+        if parts == FrameParts::All && self.look == PictureLook::Full {
             self.smoother.smooth(self.runs.rows(), self.screen.width, &mut self.images.rgb);
             watch.lap(5);
             self.shader.overlay(&mut self.images);

@@ -127,12 +127,11 @@ impl Visibility {
         (self.dirty_rows.0, self.dirty_rows.1.max(self.dirty_rows.0))
     }
 
-    /// Empties a rectangle of pixels from `first` to before `end`, by column and row.
+    /// Empties a rectangle of pixels from `first` to before `end`, by column and row. Face numbers stay where nothing is
+    /// drawn later: they count only where the inverse depth is not 0.
     pub fn clear_part(&mut self, first: [usize; 2], end: [usize; 2]) {
         for row in first[1]..end[1] {
-            let pixels = row * self.width + first[0]..row * self.width + end[0];
-            self.inverse_depth[pixels.clone()].fill(0.0);
-            self.face[pixels].fill(NO_FACE);
+            self.inverse_depth[row * self.width + first[0]..row * self.width + end[0]].fill(0.0);
         }
     }
 

@@ -4,7 +4,7 @@ mod small_town;
 
 use cosfly_frames::simd::Level;
 use cosfly_frames::{DVec3, Pose, Seed, TargetState};
-use cosfly_render::{Camera, FrameImages, FrameSetup, Renderer, Scene, TargetSetup, Weather};
+use cosfly_render::{Camera, FrameImages, FrameSetup, PictureLook, Renderer, Scene, TargetSetup, Weather};
 
 const CAMERA: Camera = Camera { width: 333, height: 187, horizontal_fov_rad: 1.4 };
 
@@ -28,12 +28,33 @@ fn all_vector_instructions_give_the_same_bytes() {
     let scene = Scene::new(&small_town::small_town(4, 5), Seed([1; 32]));
     for weather in ["ClearNoon", "HardRainSunset", "WetNight", "DustStorm"] {
         let mut renderer = Renderer::new(CAMERA);
-        renderer.set_level(Level::PLAIN);
-        let plain = draw(&mut renderer, &scene, weather);
-        for level in Level::available() {
-            renderer.set_level(level);
-            assert!(draw(&mut renderer, &scene, weather) == plain, "{weather} with {}", level.name());
+        for look in [PictureLook::Full, PictureLook::Simple] {
+            renderer.set_look(look);
+            renderer.set_level(Level::PLAIN);
+            let plain = draw(&mut renderer, &scene, weather);
+            for level in Level::available() {
+                renderer.set_level(level);
+                assert!(draw(&mut renderer, &scene, weather) == plain, "{weather} {look:?} with {}", level.name());
+            }
         }
+    }
+}
+
+#[test]
+fn the_simple_look_changes_colours_only() {
+    let scene = Scene::new(&small_town::small_town(4, 5), Seed([1; 32]));
+    for weather in ["ClearNoon", "HardRainSunset", "WetNight"] {
+        let mut renderer = Renderer::new(CAMERA);
+        let full = draw(&mut renderer, &scene, weather);
+        renderer.set_look(PictureLook::Simple);
+        let simple = draw(&mut renderer, &scene, weather);
+        assert_eq!((&simple.depth_m, &simple.semantic), (&full.depth_m, &full.semantic), "{weather}");
+        assert_eq!(simple.instance, full.instance, "{weather}");
+        let away = |a: &u8, b: &u8| f64::from(a.abs_diff(*b));
+        let mean = full.rgb.iter().zip(&simple.rgb).map(|(a, b)| away(a, b)).sum::<f64>() / full.rgb.len() as f64;
+        assert!(mean > 1.0 && mean < 40.0, "{weather}: {mean} of 255 apart");
+        renderer.set_look(PictureLook::Full);
+        assert!(draw(&mut renderer, &scene, weather) == full, "{weather}: the full look after the simple one");
     }
 }
 
@@ -46,5 +67,10 @@ fn any_number_of_threads_gives_the_same_bytes() {
         let mut renderer = Renderer::new(CAMERA);
         renderer.set_parallel(true);
         assert!(pool.install(|| draw(&mut renderer, &scene, "SoftRainNight")) == alone, "{threads}");
+        let mut simple = Renderer::new(CAMERA);
+        simple.set_look(PictureLook::Simple);
+        let alone = draw(&mut simple, &scene, "SoftRainNight");
+        renderer.set_look(PictureLook::Simple);
+        assert!(pool.install(|| draw(&mut renderer, &scene, "SoftRainNight")) == alone, "{threads}, simple");
     }
 }

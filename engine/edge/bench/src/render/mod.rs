@@ -12,7 +12,7 @@ pub mod views;
 
 use cosfly_dataset::EncodingConfig;
 use cosfly_diagnose::Result;
-use cosfly_render::Weather;
+use cosfly_render::{PictureLook, Weather};
 use machine::Machine;
 use serde::Serialize;
 use stages::StageTimes;
@@ -38,7 +38,7 @@ pub struct RenderOptions<'a> {
     pub scratch: &'a Path,
 }
 
-/// One town in one weather.
+/// One town in one weather and look.
 #[derive(Clone, Debug, Serialize)]
 pub struct RenderRow {
     /// The town.
@@ -49,6 +49,8 @@ pub struct RenderRow {
     pub triangles: usize,
     /// The weather.
     pub weather: String,
+    /// How colours look.
+    pub look: PictureLook,
     /// CPU time of one frame on one core.
     pub times: StageTimes,
 }
@@ -62,7 +64,7 @@ pub struct RenderReport {
     pub height: u32,
     /// Views per town.
     pub views: usize,
-    /// By town, then weather.
+    /// By town, then weather; the first weather of each town in the simple look, too.
     pub rows: Vec<RenderRow>,
     /// Whole frames a second, of the first town.
     pub throughput: Throughput,
@@ -76,19 +78,27 @@ pub fn measure(options: &RenderOptions<'_>) -> Result<RenderReport> {
     let mut rows = vec![];
     for ground in &options.grounds {
         for weather in &options.weathers {
-            rows.push(RenderRow {
-                town: ground.name.clone(),
-                boxes: ground.town.obstacles.len(),
-                triangles: ground.scene.triangles().len(),
-                weather: weather.name.clone(),
-                times: stages::times(ground, weather, options)?,
-            });
+            rows.push(row(ground, weather, PictureLook::Full, options)?);
+        }
+        if let Some(weather) = options.weathers.first() {
+            rows.push(row(ground, weather, PictureLook::Simple, options)?);
         }
     }
     let throughput = throughput::throughput(first, options)?;
     let (width, height) = (first.camera.width, first.camera.height);
     let machine = Machine::measure(width as usize * height as usize);
     Ok(RenderReport { width, height, views: first.views.len(), rows, throughput, machine })
+}
+
+fn row(ground: &Ground, weather: &Weather, look: PictureLook, options: &RenderOptions<'_>) -> Result<RenderRow> {
+    Ok(RenderRow {
+        town: ground.name.clone(),
+        boxes: ground.town.obstacles.len(),
+        triangles: ground.scene.triangles().len(),
+        weather: weather.name.clone(),
+        look,
+        times: stages::times(ground, weather, look, options)?,
+    })
 }
 
 #[cfg(test)]
@@ -114,6 +124,7 @@ mod tests {
         assert!(times.visibility_ms > 0.0 && times.whole_ms() > times.render_ms() && times.log_bytes > 1000.0);
         assert_eq!(report.throughput.frames, 6);
         assert!(report.throughput.frames_per_s > 0.0 && report.machine.far_copy_gbps > 0.0);
-        assert!(report.to_string().contains("HardRainNoon"));
+        assert!(report.rows.len() == 2 && report.rows[1].look == PictureLook::Simple);
+        assert!(report.to_string().contains("HardRainNoon, simple"));
     }
 }

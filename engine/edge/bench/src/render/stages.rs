@@ -10,7 +10,7 @@ use cosfly_dataset::images::{depth, ids, rgb};
 use cosfly_dataset::{FramePackReader, FramePackWriter, PackHeader, write_log};
 use cosfly_diagnose::Result;
 use cosfly_frames::simd::Level;
-use cosfly_render::{FrameImages, FrameParts, FrameSetup, Renderer, Weather};
+use cosfly_render::{FrameImages, FrameParts, FrameSetup, PictureLook, Renderer, Weather};
 use serde::Serialize;
 use std::fs::File;
 use std::hint::black_box;
@@ -73,8 +73,9 @@ impl StageTimes {
 }
 
 /// The least of each stage over all rounds, each round being the mean over all views.
-pub fn times(ground: &Ground, weather: &Weather, options: &RenderOptions<'_>) -> Result<StageTimes> {
+pub fn times(ground: &Ground, weather: &Weather, look: PictureLook, options: &RenderOptions<'_>) -> Result<StageTimes> {
     let mut renderer = Renderer::new(ground.camera);
+    renderer.set_look(look);
     let mut least: Option<StageTimes> = None;
     for _ in 0..options.rounds.max(1) {
         let round = round(ground, weather, options, &mut renderer)?;

@@ -1,6 +1,7 @@
 //! The report as text.
 
-use super::RenderReport;
+use super::{RenderReport, RenderRow};
+use cosfly_render::PictureLook;
 use std::fmt;
 
 impl fmt::Display for RenderReport {
@@ -12,12 +13,12 @@ impl fmt::Display for RenderReport {
         )?;
         let heads =
             ["visible", "+ ids", "+ colour", "drawn", "rgb", "depth", "ids", "previews", "pack", "log", "whole"];
-        write!(f, "{:14} {:>6} {:18}", "town", "boxes", "weather")?;
+        write!(f, "{:14} {:>6} {:20}", "town", "boxes", "weather")?;
         heads.iter().try_for_each(|head| write!(f, " {head:>8}"))?;
         writeln!(f, " {:>8}", "kB")?;
         for row in &self.rows {
             let t = &row.times;
-            write!(f, "{:14} {:>6} {:18}", row.town, row.boxes, row.weather)?;
+            write!(f, "{:14} {:>6} {:20}", row.town, row.boxes, row.title())?;
             for ms in [
                 t.visibility_ms,
                 t.ids_ms,
@@ -56,6 +57,16 @@ impl fmt::Display for RenderReport {
     }
 }
 
+impl RenderRow {
+    /// Weather and look.
+    fn title(&self) -> String {
+        match self.look {
+            PictureLook::Full => self.weather.clone(),
+            PictureLook::Simple => format!("{}, simple", self.weather),
+        }
+    }
+}
+
 impl RenderReport {
     fn distances(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let m = &self.machine;
@@ -73,9 +84,9 @@ impl RenderReport {
             let t = &row.times;
             writeln!(
                 f,
-                "{:14} {:18} visibility {:>5.1} x the depth tests; depth and ids {:>5.1} x the writing; all channels {:>6.1} x",
+                "{:14} {:20} visibility {:>5.1} x the depth tests; depth and ids {:>5.1} x the writing; all channels {:>6.1} x",
                 row.town,
-                row.weather,
+                row.title(),
                 t.visibility_ms / m.frame_depth_test_ms,
                 (t.visibility_ms + t.ids_ms) / m.frame_fill_ms,
                 t.render_ms() / m.frame_fill_ms

@@ -1,7 +1,7 @@
 //! Bands of rows: pixels gathered by face, taken through the kernels, put back.
 
 use super::facade::{BoxFace, Facade, Roof, facade, roofs};
-use super::geometry::{FaceAxes, place};
+use super::geometry::{FaceAxes, open, place, points};
 use super::ground::ground;
 use super::lanes::{Block, FOUR, FOURS, GROUPS, LANES, Shared, Stage, WIDE, get, groups};
 use super::light::Light;
@@ -10,7 +10,8 @@ use super::pattern::{NoiseTexture, Noises, share};
 use super::surface::Look;
 use super::things::{Thing, swell, things};
 use super::vector::Vec3;
-use super::{Seen, Shader};
+use super::{Seen, Shader, simple};
+use crate::config::PictureLook;
 use crate::passes::ids::{Band, Run};
 use crate::renderer::{DrawnFace, FaceSource};
 use crate::scene::{BOX_FACES, SceneBox};
@@ -239,7 +240,11 @@ impl Worker {
         self.find_near(seen);
         fill(shader.level, &self.pieces, &mut self.stage);
         let (shared, blocks) = (&mut self.shared[..groups], &mut self.blocks[..FOUR * groups]);
-        run_kernels(shader, seen, material, axes, &self.stage, (shared, blocks), &self.near);
+        let blocks = (shared, blocks);
+        match shader.look {
+            PictureLook::Full => run_kernels(shader, seen, material, axes, &self.stage, blocks, &self.near),
+            PictureLook::Simple => run_simple_kernels(shader, material, axes, &self.stage, blocks),
+        }
         put_back(shader.level, &self.pieces, &self.blocks[..FOUR * groups], &mut self.developed, &mut self.picture);
         self.pieces.clear();
     }
@@ -356,7 +361,9 @@ fn run_kernels(
         return;
     }
     let grid = &seen.scene.grid;
-    place(level, shared, blocks, stage, &shader.view, axes, grid.tables(), &grid.frame(), light);
+    place(level, shared, stage, &shader.view, axes, light);
+    points(level, shared, blocks, stage, &shader.view);
+    open(level, shared, grid.tables(), &grid.frame(), light.night > 0.0);
     if let Material::Ground(_) = material {
         for person in near {
             let walker = &seen.people.members[*person as usize].walker;
@@ -397,6 +404,41 @@ fn run_kernels(
         lighting::mirrored(level, shared, light);
     }
     lighting::develop(level, shared, blocks, light, &shader.tone, answers.glows && light.night > 0.0, is_shiny);
+}
+
+/// Draws a group in the simple look.
+fn run_simple_kernels(
+    shader: &Shader,
+    material: &Material,
+    axes: &FaceAxes,
+    stage: &Stage,
+    (shared, blocks): (&mut [Shared], &mut [Block]),
+) {
+    let (level, light, tone) = (shader.level, &shader.light, &shader.tone);
+    if let Material::Sky = material {
+        simple::sky(level, blocks, stage, &shader.view, light, tone);
+        return;
+    }
+    place(level, shared, stage, &shader.view, axes, light);
+    simple::open_sky(level, shared);
+    lighting::arriving(level, shared, light, shader.haze);
+    match material {
+        Material::Facade(look, face) => {
+            points(level, shared, blocks, stage, &shader.view);
+            simple::windows(level, shared, blocks, look, face, light, tone);
+        }
+        Material::Thing(thing) if material.is_bent() => {
+            points(level, shared, blocks, stage, &shader.view);
+            swell(level, blocks, thing, shader.view.position);
+            simple::crown(level, blocks, thing.colour());
+            lighting::develop_bent(level, shared, blocks, light, tone);
+        }
+        Material::Ground(label) => simple::even(level, shared, blocks, simple::ground_colour(*label), tone),
+        Material::Roof(roof) => simple::even(level, shared, blocks, roof.colour(), tone),
+        Material::Thing(thing) => simple::even(level, shared, blocks, thing.colour(), tone),
+        Material::Cloth(look) => simple::even(level, shared, blocks, look.colour, tone),
+        Material::Sky => {}
+    }
 }
 
 fn group_of(faces: &[DrawnFace], face: u32) -> usize {

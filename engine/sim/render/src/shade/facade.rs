@@ -96,6 +96,23 @@ impl Facade {
         }
     }
 
+    /// The colour of its wall.
+    #[inline(always)]
+    pub fn wall_colour(&self) -> Vec3 {
+        self.wall
+    }
+
+    /// Share of glass at a point, and 1 where the window there is lit at night.
+    #[inline(always)]
+    pub fn pane(&self, place: &BoxFace, point: &SurfacePoint) -> (f32, f32) {
+        let bay = place.along_m(point) * self.bays_per_m;
+        let floor = (point.world.z - place.foot_m) * self.floors_per_m;
+        let (du, dv) = (point.footprints_m[0] * self.bays_per_m, point.footprints_m[1] * self.floors_per_m);
+        let glass = stripes(bay, self.window[0], self.window[1], du) * stripes(floor, self.sill[0], self.sill[1], dv);
+        let cell = hash(floor_int(bay) as u32, floor_int(floor) as u32 ^ self.seed);
+        (glass, one_if(unit(hash(cell, 7)) < 0.30))
+    }
+
     /// The look at `along_m` from one edge and `up_m` above the building's foot.
     #[inline(always)]
     fn look(&self, point: &SurfacePoint, along_m: f32, up_m: f32, night: Option<f32>, noise: &NoiseTexture) -> Look {
@@ -284,6 +301,11 @@ impl Roof {
         let tones = [Vec3::new(0.20, 0.19, 0.18), Vec3::new(0.34, 0.32, 0.29), Vec3::new(0.12, 0.12, 0.125)];
         let tone = tones[(draw(seed, 20) * 3.0) as usize % 3];
         Self { seed, tone, shift: unit(seed) * 99.0, center, axes, half_m }
+    }
+
+    /// Its colour without patterns.
+    pub fn colour(&self) -> Vec3 {
+        self.tone
     }
 
     #[inline(always)]

@@ -1,7 +1,7 @@
 //! From pixels to places: world points, pixel sizes on the surface, openness to the sky, haze.
 
 use super::grid::{GridFrame, GridTables};
-use super::lanes::{Block, FOUR, Shared, Stage, WIDE, get, set};
+use super::lanes::{Block, Shared, Stage, WIDE, get, groups, set};
 use super::light::Light;
 use super::pattern::{least, most, one_if};
 use super::vector::Vec3;
@@ -40,23 +40,13 @@ pub struct FaceAxes {
 }
 
 simd_kernel! {
-    /// Fills in what follows from pixel, depth and normal; turns normals to the camera.
-    #[expect(clippy::too_many_arguments, reason = "everything that places depend on")]
-    pub fn place(
-        shared: &mut [Shared],
-        blocks: &mut [Block],
-        stage: &Stage,
-        view: &View,
-        axes: &FaceAxes,
-        grid: &GridTables,
-        frame: &GridFrame,
-        light: &Light,
-    ) {
-        let (view, axes, frame) = (*view, *axes, *frame);
+    /// Fills in what fours share that follows from pixel, depth and normal; turns normals to the camera.
+    pub fn place(shared: &mut [Shared], stage: &Stage, view: &View, axes: &FaceAxes, light: &Light) {
+        let (view, axes) = (*view, *axes);
         let (haze_start_m, haze_per_m) = (light.haze_start_m, light.haze_per_m);
         let [across_along, down_along] = [view.across.dot(axes.along), view.down.dot(axes.along)];
         let [across_up, down_up] = [view.across.dot(axes.up), view.down.dot(axes.up)];
-        for (group, (shared, four)) in shared.iter_mut().zip(blocks.as_chunks_mut::<FOUR>().0).enumerate() {
+        for (group, shared) in shared.iter_mut().enumerate() {
             let [u, v] = [&stage.u, &stage.v].map(|row| Stage::lane(row, group));
             let [inverse, across, down] =
                 [&stage.inverse, &stage.across, &stage.down].map(|row| Stage::lane(row, group));
@@ -82,6 +72,17 @@ simd_kernel! {
                 let far = most(depth * ray.dot(ray).sqrt() - haze_start_m, 0.0);
                 shared.kept[k] = fast_exp(-haze_per_m * far);
             }
+        }
+    }
+}
+
+simd_kernel! {
+    /// Fills in the place of each pixel.
+    pub fn points(shared: &[Shared], blocks: &mut [Block], stage: &Stage, view: &View) {
+        let view = *view;
+        for (group, (shared, four)) in groups(shared, blocks).enumerate() {
+            let [u, v] = [&stage.u, &stage.v].map(|row| Stage::lane(row, group));
+            let [inverse, across] = [&stage.inverse, &stage.across].map(|row| Stage::lane(row, group));
             for (pixel, block) in four.iter_mut().enumerate() {
                 let aside = pixel as i32 as f32;
                 for k in 0..WIDE {
@@ -91,6 +92,15 @@ simd_kernel! {
                 }
                 block.normal = shared.normal;
             }
+        }
+    }
+}
+
+simd_kernel! {
+    /// Fills in how much sky and light of lamps places see.
+    pub fn open(shared: &mut [Shared], grid: &GridTables, frame: &GridFrame, night: bool) {
+        let frame = *frame;
+        for shared in shared.iter_mut() {
             for k in 0..WIDE {
                 let (middle, normal) = (get(&shared.middle, k), get(&shared.normal, k));
                 let off_wall_m = 1.2 * (1.0 - normal.z.abs());
@@ -99,7 +109,7 @@ simd_kernel! {
                 shared.sky[k] = 0.36 + 0.64 * (sky + (1.0 - sky) * least(most(above * 0.045, 0.0), 0.85));
                 shared.lamps[k] = 0.0;
             }
-            if light.night > 0.0 {
+            if night {
                 for k in 0..WIDE {
                     let (middle, normal) = (get(&shared.middle, k), get(&shared.normal, k));
                     let off_wall_m = 1.2 * (1.0 - normal.z.abs());

@@ -23,6 +23,26 @@ macro_rules! paint_all {
     };
 }
 
+/// The same where a pattern of wide patches is told once for the pixels of a four.
+macro_rules! paint_patches {
+    ($shared:ident, $blocks:ident, $middle:ident => $patches:expr, $point:ident, $patch:ident => $albedo:expr) => {
+        for (shared, four) in groups($shared, $blocks) {
+            let mut patches = [0.0f32; WIDE];
+            for k in 0..WIDE {
+                let $middle = shared.point(k);
+                patches[k] = $patches;
+            }
+            for block in four {
+                for k in 0..WIDE {
+                    let ($point, $patch) = (block.point(shared, k), patches[k]);
+                    let look = Look::matt($albedo, $point.normal);
+                    block.put(k, &look);
+                }
+            }
+        }
+    };
+}
+
 simd_kernel! {
     /// The look of ground with a label.
     pub fn ground(shared: &[Shared], blocks: &mut [Block], label: SemanticLabel, noise: &NoiseTexture) {
@@ -31,13 +51,13 @@ simd_kernel! {
             SemanticLabel::SideWalks => paint_all!(shared, blocks, point => slabs(&point, noise)),
             SemanticLabel::RoadLine => paint_all!(shared, blocks, point => paint(&point, noise)),
             SemanticLabel::Ground | SemanticLabel::Static | SemanticLabel::Other => {
-                paint_all!(shared, blocks, point => gravel(&point, noise));
+                paint_patches!(shared, blocks, middle => stains(&middle, noise), point, stain => gravel(&point, stain, noise));
             }
             SemanticLabel::Water => {
                 paint_all!(shared, blocks, point => Vec3::new(0.02, 0.05, 0.06));
                 blocks.iter_mut().for_each(|block| block.mirror = [0.9; WIDE]);
             }
-            _ => paint_all!(shared, blocks, point => grass(&point, noise)),
+            _ => paint_patches!(shared, blocks, middle => dryness(&middle, noise), point, dry => grass(&point, dry, noise)),
         }
     }
 }
@@ -80,18 +100,26 @@ fn paint(point: &SurfacePoint, noise: &NoiseTexture) -> Vec3 {
 }
 
 #[inline(always)]
-fn gravel(point: &SurfacePoint, noise: &NoiseTexture) -> Vec3 {
+fn stains(point: &SurfacePoint, noise: &NoiseTexture) -> f32 {
+    noise.clumps(point.world.x * 1.7, point.world.y * 1.7, point.footprint_m * 1.7)
+}
+
+#[inline(always)]
+fn gravel(point: &SurfacePoint, stain: f32, noise: &NoiseTexture) -> Vec3 {
     let (x, y, size) = (point.world.x, point.world.y, point.footprint_m);
     let rough = noise.rough(x * 12.0, y * 12.0, size * 12.0);
-    let stain = noise.clumps(x * 1.7, y * 1.7, size * 1.7);
     Vec3::new(0.25, 0.23, 0.20) * (0.45 + 0.7 * rough + 0.5 * (stain - 0.3))
 }
 
 #[inline(always)]
-fn grass(point: &SurfacePoint, noise: &NoiseTexture) -> Vec3 {
+fn dryness(point: &SurfacePoint, noise: &NoiseTexture) -> f32 {
+    smoothstep(0.42, 0.75, noise.clumps(point.world.x * 1.43, point.world.y * 1.43, point.footprint_m * 1.43))
+}
+
+#[inline(always)]
+fn grass(point: &SurfacePoint, dry: f32, noise: &NoiseTexture) -> Vec3 {
     let (x, y, size) = (point.world.x, point.world.y, point.footprint_m);
     let blades = noise.rough(x * 16.0, y * 16.0, size * 16.0);
-    let dry = smoothstep(0.42, 0.75, noise.clumps(x * 1.43, y * 1.43, size * 1.43));
     let fresh = Vec3::new(0.088, 0.160, 0.040);
     let straw = Vec3::new(0.200, 0.195, 0.080);
     fresh.lerp(straw, 0.65 * dry) * lerp(0.45, 1.55, blades)

@@ -15,6 +15,7 @@ pub mod lighting;
 pub mod pattern;
 pub mod shadow;
 pub mod shadow_region;
+pub mod simple;
 pub mod sky;
 pub mod smooth;
 pub mod surface;
@@ -22,6 +23,7 @@ pub mod things;
 pub mod tone;
 pub mod vector;
 
+use crate::config::PictureLook;
 use crate::frame::FrameImages;
 use crate::passes::ids::Band;
 use crate::people::People;
@@ -40,6 +42,7 @@ use vector::Vec3;
 pub struct Shader {
     screen: Screen,
     level: Level,
+    look: PictureLook,
     view: View,
     light: Light,
     haze: Vec3,
@@ -63,6 +66,7 @@ impl Shader {
         Self {
             screen: *screen,
             level: Level::best(),
+            look: PictureLook::Full,
             view: View::new(screen, &Eye::new(&pose)),
             light: Light::new(&crate::presets::clear_noon()),
             haze: Vec3::ZERO,
@@ -77,13 +81,20 @@ impl Shader {
         self.level = level;
     }
 
+    /// Shades in this look from now on.
+    pub fn set_look(&mut self, look: PictureLook) {
+        self.look = look;
+    }
+
     /// Takes over a frame's light, camera and shadows.
     pub(crate) fn prepare(&mut self, scene: &Scene, setup: &FrameSetup<'_>, eye: &Eye, people: &People) {
         self.light = Light::new(setup.weather);
         self.view = View::new(&self.screen, eye);
         self.haze =
             self.light.horizon * (0.8 - 0.2 * self.light.rain) + self.light.zenith * 0.2 + self.light.lamp * 0.02;
-        self.shadows.prepare(self.level, scene, (eye, &self.screen), self.light.to_sun, people);
+        if self.look == PictureLook::Full {
+            self.shadows.prepare(self.level, scene, (eye, &self.screen), self.light.to_sun, people);
+        }
     }
 
     /// Shades the faces seen in a band, without smoothing.

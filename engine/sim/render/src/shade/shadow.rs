@@ -64,6 +64,16 @@ impl Frame {
         ((self.sheared(point) - self.corner_m) / self.texels_m).to_array()
     }
 
+    /// Whether a box around `center`, `half` its size along the world's axes, casts no shadow into a part of the map.
+    fn misses(&self, part: &Region, center: DVec3, half: DVec3) -> bool {
+        let at = self.place(center);
+        (0..2).any(|k| {
+            let axis = self.axes[k] / self.texels_m[k];
+            let reach = axis.abs().dot(half.truncate()) + self.shear.dot(axis).abs() * half.z + 1.0;
+            !(at[k] + reach > part.first[k] as f64 && at[k] - reach < part.end[k] as f64)
+        })
+    }
+
     fn height(&self, point: DVec3) -> f64 {
         point.z - self.reference_m + DEPTH_M
     }
@@ -94,6 +104,7 @@ pub struct Shadows {
 /// height above [`LOWEST_M`] below the reference in steps of 1/32 m, times two, plus one for leaves.
 struct Packed {
     town: Box<TownMap>,
+    tiles: Box<TileMap>,
     /// One for each of a frame's people, and some that wait to be used again.
     figures: Vec<FigureShadow>,
     places: Places,
@@ -120,11 +131,19 @@ struct Places {
 }
 
 type TownMap = [u32; TOWN_TEXELS];
+/// Of each tile of texels, and those right and below of it: the least height in the low half, 0 where leaves are, and the
+/// greatest in the high half; steps.
+type TileMap = [u32; TILES];
 type FigureMap = [u32; FIGURE_TEXELS];
 
 /// Powers of two that hold the maps.
 const TOWN_TEXELS: usize = 1 << 22;
 const FIGURE_TEXELS: usize = 1 << 14;
+const TILES: usize = 1 << (2 * TILES_SHIFT);
+/// A row of tiles has room for so many bits of columns.
+const TILES_SHIFT: u32 = 8;
+/// Bits of a texel's column or row within its tile.
+const IN_TILE: u32 = 3;
 /// Nothing lower than this below the reference casts a shadow.
 const LOWEST_M: f64 = 200.0;
 /// Steps per metre of packed heights.
@@ -145,10 +164,37 @@ simd_kernel! {
             for ((packed, height_m), class) in packed.iter_mut().zip(heights).zip(classes) {
                 // Adding 2^23 leaves the nearest whole number in the low bits.
                 let steps = least(most((height_m - lowest) * STEPS_PER_M, 0.0), 32767.0) + 8_388_608.0;
-                *packed = ((steps.to_bits() & 0x7fff) << 1) | u32::from(*class == LEAVES);
+                // Classes count where something stands.
+                *packed = ((steps.to_bits() & 0x7fff) << 1) | u32::from((*class == LEAVES) & (*height_m > 0.0));
             }
             for column in 1..packed.len() {
                 packed[column.wrapping_sub(1)] |= packed[column] << 16;
+            }
+        }
+    }
+}
+
+simd_kernel! {
+    /// Measures the tiles of a part of the town's packed map.
+    fn measure_tiles(map: &TownMap, part: &Region, tiles: &mut TileMap) {
+        const TEXELS: usize = 1 << IN_TILE;
+        for row in part.first[1] / TEXELS..part.end[1].div_ceil(TEXELS) {
+            for column in part.first[0] / TEXELS..part.end[0].div_ceil(TEXELS) {
+                let (mut least, mut greatest) = ([u32::MAX; TEXELS], [0u32; TEXELS]);
+                for below in 0..=TEXELS {
+                    let texel = (row * TEXELS + below) * SIDE + column * TEXELS;
+                    let Some(texels) = map.get(texel..).and_then(|rest| rest.first_chunk::<TEXELS>()) else { continue };
+                    for k in 0..TEXELS {
+                        for half in [texels[k] & 0xffff, texels[k] >> 16] {
+                            let low = if half & 1 == LEAVES { 0 } else { half >> 1 };
+                            least[k] = least[k].min(low);
+                            greatest[k] = greatest[k].max(half >> 1);
+                        }
+                    }
+                }
+                let least = least.into_iter().fold(0x7fff, u32::min);
+                let greatest = greatest.into_iter().fold(0, u32::max);
+                tiles[((row << TILES_SHIFT) | column) & (TILES - 1)] = least | greatest << 16;
             }
         }
     }
@@ -162,7 +208,12 @@ impl Shadows {
             town_drawn: None,
             lowest_m: None,
             figure: Visibility::new(FIGURE_SIDE, FIGURE_SIDE),
-            packed: Packed { town: fixed_size(vec![]), figures: Vec::new(), places: Places::default() },
+            packed: Packed {
+                town: fixed_size(vec![]),
+                tiles: fixed_size(vec![]),
+                figures: Vec::new(),
+                places: Places::default(),
+            },
         }
     }
 
@@ -249,6 +300,9 @@ impl Shadows {
             let grow = (LEAST_HALF_WIDTH_M / thin.max(0.01)).clamp(1.0, 8.0);
             let upright = b.half_extents_m.z > b.half_extents_m.x.max(b.half_extents_m.y);
             let wide = if upright { DVec3::new(grow, grow, 1.0) } else { DVec3::ONE };
+            if frame.misses(&part, b.center_in_world, wide * b.half_bounds_m) {
+                continue;
+            }
             for (face, (_, _, around)) in BOX_FACES.iter().enumerate() {
                 let normal = b.normal_in_world(face);
                 if normal.dot(to_sun) > 1e-6 {
@@ -259,6 +313,7 @@ impl Shadows {
             }
         }
         pack(level, &self.town.inverse_depth, &self.town.face, SIDE, &part, &mut *self.packed.town);
+        measure_tiles(level, &self.packed.town, &part, &mut self.packed.tiles);
     }
 
     /// Draws a figure's shadow into the first `side` rows and columns of the scratch map; says where they lie.
@@ -294,7 +349,8 @@ impl Shadows {
     /// Fills in which share of the sun's light reaches each pixel's place. On flat surfaces, the pixels between the ends
     /// of a four that are lit alike are lit like them. Of people, only those numbered in `near` count.
     pub fn sunlight(&self, level: Level, blocks: &mut [Block], flat: bool, noise: &NoiseTexture, near: &[u32]) {
-        town_sunlight(level, blocks, &self.packed.town, &self.packed.places, flat, noise);
+        let Packed { town, tiles, places, .. } = &self.packed;
+        town_sunlight(level, blocks, town, tiles, places, flat, noise);
         for figure in near.iter().filter_map(|person| self.packed.figures.get(*person as usize)) {
             if let Some(rows) = &figure.rows {
                 figure_shadow(level, blocks, &figure.map, figure.side, self.packed.places.base_m, rows);
@@ -304,7 +360,14 @@ impl Shadows {
 }
 
 simd_kernel! {
-    fn town_sunlight(blocks: &mut [Block], map: &TownMap, places: &Places, flat: bool, noise: &NoiseTexture) {
+    fn town_sunlight(
+        blocks: &mut [Block],
+        map: &TownMap,
+        tiles: &TileMap,
+        places: &Places,
+        flat: bool,
+        noise: &NoiseTexture,
+    ) {
         let places = *places;
         for four in blocks.as_chunks_mut::<FOUR>().0 {
             let mut alike = flat;
@@ -314,7 +377,9 @@ simd_kernel! {
                     (four[1].sunlight, four[2].sunlight) = (four[0].sunlight, four[0].sunlight);
                     break;
                 }
-                alike &= !lit_through_leaves(&mut four[pixel], map, &places, noise);
+                if !lit_by_tiles(&mut four[pixel], tiles, &places) {
+                    alike &= !lit_through_leaves(&mut four[pixel], map, &places, noise);
+                }
                 if number == 1 {
                     let mut differ = 0u32;
                     for k in 0..WIDE {
@@ -325,6 +390,27 @@ simd_kernel! {
             }
         }
     }
+}
+
+/// Looks a block's sunlight up in whole tiles, which tells the same wherever a tile is all above or all below the
+/// places; whether it did for all of them.
+#[inline(always)]
+fn lit_by_tiles(block: &mut Block, tiles: &TileMap, places: &Places) -> bool {
+    let Places { rows: [row_u, row_v], base_m, low, high, .. } = *places;
+    let mut unknown = 0u32;
+    for k in 0..WIDE {
+        let (point, height) = lifted(block, k, base_m);
+        let (u, v) = (affine(row_u, point) - 0.5, affine(row_v, point) - 0.5);
+        let inside = (u >= low[0]) & (v >= low[1]) & (u < high[0]) & (v < high[1]);
+        let (column, row) = (floor_int(u) as u32 >> IN_TILE, floor_int(v) as u32 >> IN_TILE);
+        let tile = tiles[(row.wrapping_shl(TILES_SHIFT) | column) as usize & (TILES - 1)];
+        let steps = height * STEPS_PER_M;
+        let lit = !inside | ((tile >> 16) as i32 as f32 <= steps);
+        let dark = (tile & 0xffff) as i32 as f32 > steps;
+        block.sunlight[k] = one_if(lit);
+        unknown |= u32::from(!(lit | dark));
+    }
+    unknown == 0
 }
 
 /// Looks a block's sunlight up; whether leaves shade some of it.

@@ -111,6 +111,15 @@ impl Thing {
         Self { kind, center, axes, half, seed, axis, whole, night, tint, choice, shrink }
     }
 
+    /// Its colour without patterns.
+    pub fn colour(&self) -> Vec3 {
+        match self.kind {
+            ObstacleKind::TreeCrown | ObstacleKind::Bush => self.tint * 1.2,
+            ObstacleKind::TreeTrunk => Vec3::new(0.115, 0.082, 0.055),
+            _ => self.tint,
+        }
+    }
+
     /// The face's place under a point.
     #[inline(always)]
     fn place<const AXIS: usize>(&self, point: &SurfacePoint) -> Place {
