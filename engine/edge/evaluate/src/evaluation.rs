@@ -9,37 +9,35 @@ use crate::strata::{STRATA, memberships};
 use crate::study::study;
 use crate::windows::{Flights, WindowSet};
 use cosfly_dataset::predictions::Predictions;
-use cosfly_dataset::read::PublishedDataset;
 use cosfly_diagnose::{Diagnostic, Fault, Result};
 use cosfly_metrics::{METRICS, Tally, bootstrap};
 use rayon::prelude::*;
 use std::collections::{BTreeMap, BTreeSet};
 
-/// Scores the predictions of the file called `.0`, beside the baselines, on `dataset`; without predictions the
+/// Scores the predictions of the file called `.0`, beside the baselines, on `flights`; without predictions the
 /// baselines alone.
 ///
 /// # Errors
-/// A dataset that cannot be read or has no windows, and predictions none of which can be scored.
+/// A dataset that has no windows, and predictions none of which can be scored.
 pub fn evaluate(
-    dataset: &PublishedDataset,
+    flights: &Flights,
     predictions: Option<(&str, Predictions)>,
     settings: &Settings,
 ) -> Result<Evaluation> {
-    let flights = Flights::read(dataset)?;
-    let splits = splits(&flights, predictions.as_ref().map(|(_, given)| given), settings)?;
-    let windows = WindowSet::new(&flights, settings, &splits);
+    let splits = splits(flights, predictions.as_ref().map(|(_, given)| given), settings)?;
+    let windows = WindowSet::new(flights, settings, &splits);
     if windows.len == 0 {
-        return Err(no_windows(dataset, &flights, &splits, settings));
+        return Err(no_windows(flights, &splits, settings));
     }
     let (file, given) = predictions.map_or((None, Predictions::default()), |(file, given)| (Some(file), given));
-    let mut joined = Joined::new(&given.rows, &flights, &windows, settings);
+    let mut joined = Joined::new(&given.rows, flights, &windows, settings);
     let read = given.rows.len() + given.problems.len();
     joined.problems.extend(given.problems);
     joined.problems.sort_by_key(|problem| problem.line);
     if file.is_some() && joined.predicted == 0 {
-        return Err(nothing_to_score(dataset, &flights, &windows, &joined));
+        return Err(nothing_to_score(flights, &windows, &joined));
     }
-    let memberships = memberships(&flights, &windows);
+    let memberships = memberships(flights, &windows);
     let everything = file.is_none() || settings.missing_as_zero;
     let wanted = |window: usize| everything || joined.row(window).is_some();
     let scored = if everything { windows.len } else { joined.predicted };
@@ -47,10 +45,10 @@ pub fn evaluate(
     let mut notes = vec![];
     let mut methods: Vec<Method<'_>> = vec![];
     methods.extend(file.is_some().then_some(Method::Predictions(&given.rows, &joined)));
-    methods.extend(baselines(&flights, settings, scored, splits.contains("train"), &mut notes));
+    methods.extend(baselines(flights, settings, scored, splits.contains("train"), &mut notes));
     let mut studied = None;
     if settings.train {
-        match study(&flights, &windows, &memberships, settings, &wanted) {
+        match study(flights, &windows, &memberships, settings, &wanted) {
             Some((study, network)) => {
                 studied = Some(study);
                 methods.push(Method::Network(Box::new(network)));
@@ -62,22 +60,19 @@ pub fn evaluate(
         }
     }
     let reports = methods
-        .iter()
+        .par_iter()
         .map(|method| {
-            let tallies = score(method, &flights, &windows, &memberships, settings, &wanted);
-            method_report(method.name(), &tallies, settings)
+            let tallies = score(method, flights, &windows, &memberships, settings, &wanted);
+            method_report(method, &tallies, settings)
         })
         .collect();
-    let groups: BTreeSet<usize> = clusters(&flights, &windows).into_iter().collect();
+    let groups: BTreeSet<usize> = clusters(flights, &windows).into_iter().collect();
     Ok(Evaluation {
         format: "cosfly-evaluation",
         version: 1,
         settings: settings.clone(),
         dataset: DatasetFacts {
-            name: dataset
-                .folder()
-                .file_name()
-                .map_or_else(|| ".".to_owned(), |name| name.to_string_lossy().into_owned()),
+            name: flights.name.clone(),
             splits: splits.into_iter().collect(),
             flights: windows.flights.len(),
             clusters: groups.len(),
@@ -118,13 +113,8 @@ fn splits(flights: &Flights, predictions: Option<&Predictions>, settings: &Setti
     Ok(if chosen.is_empty() { there } else { chosen })
 }
 
-fn no_windows(
-    dataset: &PublishedDataset,
-    flights: &Flights,
-    splits: &BTreeSet<String>,
-    settings: &Settings,
-) -> Box<Diagnostic> {
-    let (size, folder) = (settings.window.size(), dataset.folder().display());
+fn no_windows(flights: &Flights, splits: &BTreeSet<String>, settings: &Settings) -> Box<Diagnostic> {
+    let (size, folder) = (settings.window.size(), &flights.folder);
     let role = match settings.input {
         InputRole::Perturbed => "perturbed",
         InputRole::Expert => "expert",
@@ -133,23 +123,20 @@ fn no_windows(
     let message =
         format!("`{folder}` has no window to predict: no {role} flight of {size} frames in split {}", names.join(", "));
     let refusal = Diagnostic::new("evaluation-no-windows", Fault::Input, message);
-    let others = (0..flights.rows.len()).filter(|flight| flights.role(*flight) != settings.input).count();
+    let experts = Settings { input: InputRole::Expert, ..settings.clone() };
     match settings.input {
-        InputRole::Perturbed if others > 0 => {
+        InputRole::Perturbed if WindowSet::new(flights, &experts, splits).len > 0 => {
             refusal.hint("with `--input expert` windows are cut from experts' flights")
         }
         _ => refusal,
     }
 }
 
-fn nothing_to_score(
-    dataset: &PublishedDataset,
-    flights: &Flights,
-    windows: &WindowSet,
-    joined: &Joined,
-) -> Box<Diagnostic> {
-    let rows = joined.problems.len() as u64 + joined.elsewhere;
-    let message = format!("none of {rows} predictions fits a window of `{}`", dataset.folder().display());
+fn nothing_to_score(flights: &Flights, windows: &WindowSet, joined: &Joined) -> Box<Diagnostic> {
+    let message = match joined.problems.len() as u64 + joined.elsewhere {
+        0 => "there is no prediction in the file".to_owned(),
+        rows => format!("none of {rows} predictions fits a window of `{}`", flights.folder),
+    };
     let mut refusal = Diagnostic::new("evaluation-no-overlap", Fault::Input, message);
     for problem in joined.problems.iter().take(3) {
         refusal = refusal.because(format!("line {}: {}", problem.line, problem.reason));
@@ -182,9 +169,13 @@ fn row_facts(file: &str, read: usize, joined: Joined) -> RowFacts {
     }
 }
 
-fn method_report(name: &str, tallies: &MethodTallies, settings: &Settings) -> MethodReport {
-    let all: Vec<&Vec<Tally>> = [&tallies.overall].into_iter().chain(&tallies.strata).collect();
-    let mut scores: Vec<Scores> = all.par_iter().map(|tallies| scores(tallies, settings)).collect();
+/// Intervals of strata are for predictions alone: with many flights they would take longer than all else.
+fn method_report(method: &Method<'_>, tallies: &MethodTallies, settings: &Settings) -> MethodReport {
+    let of_strata = if matches!(method, Method::Predictions(..)) { settings.resamples } else { 0 };
+    let strata = tallies.strata.iter().map(|tallies| (tallies, of_strata));
+    let all: Vec<(&Vec<Tally>, usize)> = [(&tallies.overall, settings.resamples)].into_iter().chain(strata).collect();
+    let mut scores: Vec<Scores> =
+        all.par_iter().map(|(tallies, resamples)| scores(tallies, *resamples, settings.seed)).collect();
     let overall = scores.remove(0);
     let mut strata: BTreeMap<_, BTreeMap<_, _>> = BTreeMap::new();
     for (((kind, name), tallies), scores) in STRATA.iter().zip(&tallies.strata).zip(scores) {
@@ -193,11 +184,11 @@ fn method_report(name: &str, tallies: &MethodTallies, settings: &Settings) -> Me
             strata.entry(*kind).or_default().insert(*name, StratumReport { windows, clusters: tallies.len(), scores });
         }
     }
-    MethodReport { name: name.to_owned(), scores: overall, by_step_m: tallies.by_step_m.clone(), strata }
+    MethodReport { name: method.name().to_owned(), scores: overall, by_step_m: tallies.by_step_m.clone(), strata }
 }
 
-fn scores(tallies: &[Tally], settings: &Settings) -> Scores {
-    let intervals = bootstrap::intervals(tallies, settings.resamples, settings.seed);
+fn scores(tallies: &[Tally], resamples: usize, seed: u64) -> Scores {
+    let intervals = bootstrap::intervals(tallies, resamples, seed);
     let means = total(tallies).means();
     let named = METRICS.iter().zip(means.into_iter().zip(intervals));
     named

@@ -12,6 +12,10 @@ use std::collections::{BTreeMap, BTreeSet};
 /// A dataset's flights with their tracks.
 #[derive(Debug)]
 pub struct Flights {
+    /// Name of the dataset's folder.
+    pub name: String,
+    /// The folder as it was given.
+    pub folder: String,
     /// Rows of the table of flights.
     pub rows: Vec<PublishedFlight>,
     /// Frames of each flight.
@@ -59,7 +63,9 @@ impl Flights {
             }
             expert.push(of);
         }
-        Ok(Self { rows, tracks, expert, places })
+        let folder = dataset.folder();
+        let name = folder.file_name().map_or_else(|| ".".to_owned(), |name| name.to_string_lossy().into_owned());
+        Ok(Self { name, folder: folder.display().to_string(), rows, tracks, expert, places })
     }
 
     /// Place of a flight.

@@ -68,8 +68,12 @@ fn true_predictions_have_no_error_whatever_the_frame_origin_and_anchor() {
                 (Anchor::Input, InputRole::Expert),
             ] {
                 let settings = Settings { delta_frame, delta_origin, anchor, input, ..settings() };
-                let found =
-                    evaluate(&dataset, Some(("true", perfect(&dataset, &settings, |_| ()))), &settings).unwrap();
+                let found = evaluate(
+                    &Flights::read(&dataset).unwrap(),
+                    Some(("true", perfect(&dataset, &settings, |_| ()))),
+                    &settings,
+                )
+                .unwrap();
                 assert!(
                     score(&found, 0, "ade_m") < 1e-9 && score(&found, 0, "rotation_mae_deg") < 1e-9,
                     "{settings:?}"
@@ -87,10 +91,10 @@ fn a_shifted_frame_and_a_flipped_yaw_show() {
     let (_folder, dataset) = dataset();
     let settings = settings();
     let shifted = perfect(&dataset, &settings, |pose| pose.position_in_world.x += 3.0);
-    let found = evaluate(&dataset, Some(("shifted", shifted)), &settings).unwrap();
+    let found = evaluate(&Flights::read(&dataset).unwrap(), Some(("shifted", shifted)), &settings).unwrap();
     assert!((score(&found, 0, "fde_m") - 3.0).abs() < 1e-9 && score(&found, 0, "sr_2m") == 0.0);
     let flipped = perfect(&dataset, &settings, |pose| pose.yaw_rad = -pose.yaw_rad);
-    let found = evaluate(&dataset, Some(("flipped", flipped)), &settings).unwrap();
+    let found = evaluate(&Flights::read(&dataset).unwrap(), Some(("flipped", flipped)), &settings).unwrap();
     assert!(score(&found, 0, "yaw_mae_deg") > 10.0 && score(&found, 0, "fde_m") < 1e-9);
 }
 
@@ -109,7 +113,7 @@ fn rows_that_fit_nothing_are_named_and_windows_without_rows_are_counted() {
     given.rows.push(Prediction { frame: 77, ..change(103, &first) });
     given.rows.push(Prediction { deltas: vec![[0.0; 6]; 3], ..change(104, &first) });
     given.rows.push(Prediction { boxes: vec![None], ..change(105, &first) });
-    let found = evaluate(&dataset, Some(("some", given.clone())), &settings).unwrap();
+    let found = evaluate(&Flights::read(&dataset).unwrap(), Some(("some", given.clone())), &settings).unwrap();
     let rows = found.rows.as_ref().unwrap();
     let kinds: Vec<_> = rows.problems.iter().map(|problem| (problem.line, problem.kind)).collect();
     assert_eq!(
@@ -126,7 +130,7 @@ fn rows_that_fit_nothing_are_named_and_windows_without_rows_are_counted() {
     assert_eq!((rows.read, rows.scored, rows.malformed), (all as u64 + 5, all as u64 - 1, 6));
     assert_eq!((found.windows.scored, found.windows.without_prediction), (all - 1, 1));
     let strict = Settings { missing_as_zero: true, ..settings };
-    let found = evaluate(&dataset, Some(("some", given)), &strict).unwrap();
+    let found = evaluate(&Flights::read(&dataset).unwrap(), Some(("some", given)), &strict).unwrap();
     assert!(found.windows.scored == all && score(&found, 0, "fde_m") > 0.0);
 }
 
@@ -137,7 +141,7 @@ fn zero_increments_score_exactly_as_the_baseline_that_predicts_zero() {
         let settings = Settings { anchor, ..settings() };
         let mut given = perfect(&dataset, &settings, |_| ());
         given.rows.iter_mut().for_each(|row| row.deltas.iter_mut().for_each(|delta| *delta = [0.0; 6]));
-        let found = evaluate(&dataset, Some(("zero", given)), &settings).unwrap();
+        let found = evaluate(&Flights::read(&dataset).unwrap(), Some(("zero", given)), &settings).unwrap();
         assert_eq!(found.methods[1].name, "predict zero");
         for key in ["ade_m", "fde_m", "yaw_mae_deg", "mae", "sr_1m"] {
             assert_eq!(found.methods[0].scores[key], found.methods[1].scores[key], "{key}");
@@ -153,7 +157,8 @@ fn threads_do_not_change_a_byte() {
     let report = |threads: usize| {
         let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
         let given = perfect(&dataset, &settings, |pose| pose.position_in_world.y += 0.3);
-        let found = pool.install(|| evaluate(&dataset, Some(("some", given)), &settings)).unwrap();
+        let found =
+            pool.install(|| evaluate(&Flights::read(&dataset).unwrap(), Some(("some", given)), &settings)).unwrap();
         (found.to_json(), found.to_markdown(), found.to_svg())
     };
     let alone = report(1);
@@ -164,10 +169,11 @@ fn threads_do_not_change_a_byte() {
 #[test]
 fn what_cannot_be_scored_is_refused() {
     let (_folder, dataset) = dataset();
-    let empty = |settings: &Settings| evaluate(&dataset, None, settings).unwrap_err();
+    let empty = |settings: &Settings| evaluate(&Flights::read(&dataset).unwrap(), None, settings).unwrap_err();
     assert_eq!(empty(&Settings::default()).code, "evaluation-no-windows");
     let error = empty(&Settings { splits: vec!["exam".into()], ..settings() });
     assert!(error.code == "evaluation-split" && error.hints[0].contains("train"), "{error:?}");
-    let none = evaluate(&dataset, Some(("empty", Predictions::default())), &settings()).unwrap_err();
+    let none =
+        evaluate(&Flights::read(&dataset).unwrap(), Some(("empty", Predictions::default())), &settings()).unwrap_err();
     assert!(none.code == "evaluation-no-overlap" && none.hints[0].contains("perturbed-p0000"), "{none:?}");
 }

@@ -6,6 +6,7 @@ use crate::exit;
 use cosfly_dataset::predictions;
 use cosfly_dataset::read::PublishedDataset;
 use cosfly_diagnose::{Diagnostic, Result};
+use cosfly_evaluate::windows::Flights;
 use cosfly_evaluate::{Evaluation, InputRole, Settings, evaluate};
 use cosfly_metrics::baselines::Anchor;
 use cosfly_metrics::{DeltaFrame, DeltaOrigin, WindowShape};
@@ -28,13 +29,16 @@ pub fn eval(arguments: &EvalArguments) -> Outcome {
 }
 
 fn evaluation(arguments: &EvalArguments) -> Result<Evaluation> {
-    let dataset = PublishedDataset::open(&arguments.dataset)?;
-    let given = match &arguments.predictions {
-        Some(path) => Some((name_of(path), predictions::read(path)?)),
-        None => None,
-    };
+    // Both take seconds when they are large.
+    let (flights, given) = std::thread::scope(|scope| {
+        let reader = scope.spawn(|| PublishedDataset::open(&arguments.dataset).and_then(|it| Flights::read(&it)));
+        let given =
+            arguments.predictions.as_deref().map(|path| predictions::read(path).map(|rows| (name_of(path), rows)));
+        (reader.join().unwrap_or_else(|panic| std::panic::resume_unwind(panic)), given.transpose())
+    });
+    let (flights, given) = (flights?, given?);
     let (name, rows) = given.unzip();
-    evaluate(&dataset, name.as_deref().zip(rows), &settings(arguments))
+    evaluate(&flights, name.as_deref().zip(rows), &settings(arguments))
 }
 
 fn name_of(path: &Path) -> String {

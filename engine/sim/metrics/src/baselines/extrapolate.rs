@@ -45,13 +45,14 @@ impl Extrapolation {
 fn fitted(view: &View<'_>, degree: usize) -> Prediction {
     let current = view.current();
     let degree = degree.min(view.poses.len().saturating_sub(1));
-    let weights: Vec<Vec<f64>> = (0..=view.horizon).map(|k| fit_weights(view.poses.len(), degree, k as f64)).collect();
-    let pose_at = |weights: &[f64]| {
+    let fit = Fit::new(view.poses.len(), degree);
+    let pose_at = |time: f64| {
         let (mut offset, mut angles) = (DVec3::ZERO, DVec3::ZERO);
-        for (weight, pose) in weights.iter().zip(view.poses) {
+        for (number, pose) in view.poses.iter().enumerate() {
+            let weight = fit.weight(number, time);
             let turn = |angle: f64, from: f64| real::wrap_angle_rad(angle - from);
-            offset += *weight * (pose.position_in_world - current.position_in_world);
-            angles += *weight
+            offset += weight * (pose.position_in_world - current.position_in_world);
+            angles += weight
                 * DVec3::new(
                     turn(pose.pitch_rad, current.pitch_rad),
                     turn(pose.yaw_rad, current.yaw_rad),
@@ -65,31 +66,43 @@ fn fitted(view: &View<'_>, degree: usize) -> Prediction {
             roll_rad: current.roll_rad + angles.z,
         }
     };
-    Prediction {
-        current: pose_at(&weights[0]),
-        waypoints: weights[1..].iter().map(|weights| pose_at(weights)).collect(),
-    }
+    Prediction { current: pose_at(0.0), waypoints: (1..=view.horizon).map(|step| pose_at(step as f64)).collect() }
 }
 
-/// With which weights the values at times 1 - n ..= 0 make up the value of their least-squares polynomial at `time`:
-/// the sum over its orthogonal polynomials (Gram's) p of p(t_i) p(time) / |p|^2.
-fn fit_weights(values: usize, degree: usize, time: f64) -> Vec<f64> {
-    let times: Vec<f64> = (0..values).map(|k| k as f64 + 1.0 - values as f64).collect();
-    let count = (values as f64).max(1.0);
-    let middle = times.iter().sum::<f64>() / count;
-    let spread = times.iter().map(|t| (t - middle) * (t - middle)).sum::<f64>() / count;
-    let of_degree: [&dyn Fn(f64) -> f64; 3] =
-        [&|_| 1.0, &|t: f64| t - middle, &|t: f64| (t - middle) * (t - middle) - spread];
-    let mut weights = vec![0.0; values];
-    for polynomial in &of_degree[..=degree.min(2)] {
-        let square: f64 = times.iter().map(|t| polynomial(*t) * polynomial(*t)).sum();
-        if square > 0.0 {
-            for (weight, t) in weights.iter_mut().zip(&times) {
-                *weight += polynomial(*t) * polynomial(time) / square;
-            }
+/// Least squares through values at the times 1 - n ..= 0, by orthogonal polynomials (Gram's).
+struct Fit {
+    first: f64,
+    middle: f64,
+    spread: f64,
+    /// Sum of squares of each polynomial over the times.
+    squares: [f64; 3],
+    degree: usize,
+}
+
+impl Fit {
+    fn new(values: usize, degree: usize) -> Self {
+        let (first, count) = (1.0 - values as f64, (values as f64).max(1.0));
+        let mut fit = Self { first, middle: 0.5 * first, spread: 0.0, squares: [0.0; 3], degree: degree.min(2) };
+        let times = || (0..values).map(|number| first + number as f64);
+        fit.spread = times().map(|time| (time - fit.middle) * (time - fit.middle)).sum::<f64>() / count;
+        for time in times() {
+            let polynomials = fit.polynomials(time);
+            fit.squares.iter_mut().zip(polynomials).for_each(|(square, value)| *square += value * value);
         }
+        fit
     }
-    weights
+
+    fn polynomials(&self, time: f64) -> [f64; 3] {
+        let from_middle = time - self.middle;
+        [1.0, from_middle, from_middle * from_middle - self.spread]
+    }
+
+    /// With which weight value `number` makes up the polynomial's value at `time`: sum of p(t) p(time) / |p|^2.
+    fn weight(&self, number: usize, time: f64) -> f64 {
+        let (here, there) = (self.polynomials(self.first + number as f64), self.polynomials(time));
+        let terms = (0..=self.degree).filter(|degree| self.squares[*degree] > 0.0);
+        terms.map(|degree| here[degree] * there[degree] / self.squares[degree]).sum()
+    }
 }
 
 #[cfg(test)]
