@@ -102,6 +102,13 @@ impl Rows<'_> {
         if column.null_count() == 0 { Ok(column.values()) } else { Err(refusal()) }
     }
 
+    /// True or false.
+    pub fn flag(&self, name: &str, row: usize) -> Result<bool> {
+        let column = self.column(name, |kind| *kind == DataType::Boolean)?.as_boolean();
+        let value = column.is_valid(row).then(|| column.value(row));
+        value.ok_or_else(|| damaged(self.path, &format!("column `{name}` has no value in row {row}"), "null"))
+    }
+
     /// A number from 0 to 2^32 - 1; `None` for null.
     pub fn count_or_null(&self, name: &str, row: usize) -> Result<Option<u32>> {
         let column = self.column(name, |kind| *kind == DataType::Int64)?;

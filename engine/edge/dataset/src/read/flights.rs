@@ -229,7 +229,7 @@ const FLIGHT_COLUMNS: [&str; 16] = [
     "target_radius_m",
     "mcap_path",
 ];
-const FRAME_COLUMNS: [&str; 21] = [
+pub(super) const FRAME_COLUMNS: [&str; 21] = [
     "trajectory_id",
     "frame",
     "drone_x_m",
@@ -290,7 +290,7 @@ impl PublishedFlight {
 }
 
 impl PublishedFrame {
-    fn read(rows: &Rows<'_>, row: usize) -> Result<Self> {
+    pub(super) fn read(rows: &Rows<'_>, row: usize) -> Result<Self> {
         let real = |name: &str| rows.real(name, row);
         let pose = Pose {
             position_in_world: DVec3::new(real("drone_x_m")?, real("drone_y_m")?, real("drone_z_m")?),

@@ -20,6 +20,9 @@ use std::path::{Path, PathBuf};
 /// Longest record that is read; a raw depth image of the largest camera fits.
 const RECORD_LIMIT: usize = 1 << 30;
 
+/// What a frame is made of; instance ids are the last.
+const TOPICS: [&str; 6] = [topic::RGB, topic::DEPTH, topic::SEMANTIC, topic::TF, topic::TARGET_STATE, topic::INSTANCE];
+
 /// Hears topic and bytes of a message; says what is wrong with it.
 type Visit<'a> = &'a mut dyn FnMut(&str, &[u8]) -> Result<(), String>;
 
@@ -46,6 +49,8 @@ pub struct LoggedFrame {
     pub depth_m: Vec<f32>,
     /// CARLA label ids, row-major.
     pub semantic: Vec<u8>,
+    /// Instance ids, row-major; empty unless asked for.
+    pub instance: Vec<u32>,
     /// Where the optical centre is, frame `map` (y is minus that of the world).
     pub camera_in_map: DVec3,
     /// Turns the optical axes (x right, y down, z ahead) into those of `map`.
@@ -97,17 +102,27 @@ impl LogReader {
         topics
     }
 
-    /// Images, camera and target of frame `frame`.
+    /// Images, camera and target of frame `frame`, without instance ids.
     pub fn frame(&mut self, frame: usize) -> Result<LoggedFrame> {
-        const TOPICS: [&str; 5] = [topic::RGB, topic::DEPTH, topic::SEMANTIC, topic::TF, topic::TARGET_STATE];
+        self.read_frame(frame, &TOPICS[..TOPICS.len() - 1])
+    }
+
+    /// Everything of frame `frame`.
+    pub fn frame_with_instances(&mut self, frame: usize) -> Result<LoggedFrame> {
+        let logged = self.read_frame(frame, &TOPICS)?;
+        let is_whole = logged.instance.len() == logged.semantic.len();
+        if is_whole { Ok(logged) } else { Err(self.damaged(&format!("the images of frame {frame} differ in size"))) }
+    }
+
+    fn read_frame(&mut self, frame: usize, topics: &[&str]) -> Result<LoggedFrame> {
         let time = frame_time_ns(self.dt_s, frame);
         let mut logged = LoggedFrame::default();
         let mut found = [false; TOPICS.len()];
-        self.messages(time, &TOPICS, &mut |topic, data| {
-            found[TOPICS.iter().position(|it| *it == topic).unwrap_or(0)] = true;
+        self.messages(time, topics, &mut |topic, data| {
+            found[topics.iter().position(|it| *it == topic).unwrap_or(0)] = true;
             logged.take(topic, data)
         })?;
-        match TOPICS.iter().zip(found).find(|(_, found)| !found) {
+        match topics.iter().zip(found).find(|(_, found)| !found) {
             Some((topic, _)) => Err(self.damaged(&format!("frame {frame} has no message on `{topic}`"))),
             None if logged.is_whole() => Ok(logged),
             None => Err(self.damaged(&format!("the images of frame {frame} differ in size"))),
@@ -184,6 +199,16 @@ impl LoggedFrame {
             topic::SEMANTIC => {
                 let image = messages::RawImage::decode(data).map_err(unreadable)?;
                 self.semantic = image.data.to_vec();
+            }
+            topic::INSTANCE => {
+                let image = messages::RawImage::decode(data).map_err(unreadable)?;
+                self.instance = match image.encoding.as_str() {
+                    "16UC1" => {
+                        image.data.as_chunks::<2>().0.iter().map(|it| u32::from(u16::from_le_bytes(*it))).collect()
+                    }
+                    "32UC1" => image.data.as_chunks::<4>().0.iter().map(|it| u32::from_le_bytes(*it)).collect(),
+                    other => return Err(format!("its encoding is `{other}`, not `16UC1` or `32UC1`")),
+                };
             }
             topic::TF => {
                 let transforms = messages::FrameTransforms::decode(data).map_err(unreadable)?.transforms;

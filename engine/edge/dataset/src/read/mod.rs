@@ -6,10 +6,12 @@ mod columns;
 mod flights;
 mod log;
 mod tracks;
+mod walk;
 
 pub use flights::{PublishedDataset, PublishedFlight, PublishedFrame};
 pub use log::{LogReader, LoggedFrame, SceneBox};
 pub use tracks::FlightTrack;
+pub use walk::{Disturbance, FrameRow};
 
 #[cfg(test)]
 mod tests;

@@ -94,3 +94,38 @@ fn all_tracks_at_once_are_those_of_the_single_flights() {
         assert_eq!(flight.town_geometry.len(), 64);
     }
 }
+
+#[test]
+fn flights_are_walked_one_after_the_other_with_all_that_is_said_of_their_frames() {
+    let (_folder, dataset) = published();
+    let mut walked = vec![];
+    let mut visit = |flight: &PublishedFlight, rows: Vec<FrameRow>| {
+        let plain: Vec<_> = rows.iter().map(|row| row.frame.clone()).collect();
+        assert_eq!(plain, dataset.frames(flight).unwrap());
+        assert!(rows.iter().all(|row| row.disturbance.is_some() == flight.expert_id.is_some()));
+        walked.push(flight.trajectory_id.clone());
+        Ok(())
+    };
+    dataset.walk(&|_| true, &mut visit).unwrap();
+    assert_eq!(walked.len(), 4);
+    let mut twins = vec![];
+    dataset
+        .walk(&|flight| flight.expert_id.is_some(), &mut |flight, rows| {
+            let events = rows.iter().filter(|row| row.disturbance.as_ref().is_some_and(|it| it.position)).count();
+            twins.push((flight.trajectory_id.clone(), events));
+            Ok(())
+        })
+        .unwrap();
+    assert_eq!(twins, [("perturbed-p00000".to_owned(), 1), ("perturbed-p00001".to_owned(), 1)]);
+    assert_eq!(dataset.captions().unwrap().len(), 4);
+    assert_eq!(dataset.object_labels().unwrap()["plain"].values().collect::<Vec<_>>(), [&4]);
+}
+
+#[test]
+fn instance_ids_come_back_when_asked_for() {
+    let (_folder, dataset) = published();
+    let given = sample::flight(0, crate::Role::Expert);
+    let mut log = dataset.log(dataset.flight("expert-p00000").unwrap()).unwrap();
+    assert!(log.frame(2).unwrap().instance.is_empty());
+    assert_eq!(log.frame_with_instances(2).unwrap().instance, given.images[2].instance);
+}
