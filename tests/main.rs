@@ -6,6 +6,7 @@ mod carla_job;
 mod crash;
 mod diagnostics;
 mod evaluation;
+mod export;
 mod people;
 mod plan_from;
 #[cfg(feature = "plugins")]

@@ -1,6 +1,6 @@
 //! The command line: commands, options, help with examples.
 
-use clap::builder::{PossibleValuesParser, TypedValueParser};
+use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
 use clap::{Args, Parser, Subcommand, ValueEnum};
 use cosfly_bench::planner::Contender;
 use cosfly_planner::scenes::SceneKind;
@@ -32,6 +32,7 @@ Examples:
   cosfly verify out/carla_town                     check a finished dataset
   cosfly preview out/carla_town                    pictures of a finished flight
   cosfly eval mine.jsonl --dataset out/carla_town  scores of a model's predictions, beside baselines
+  cosfly export out/carla_town --format v7 --out out/town-v7
 
 Exit codes:
     0  everything was done
@@ -112,6 +113,9 @@ boxes in the waypoints' frames. Parquet has the same columns.
 
 Rows that cannot be scored are counted and named; the exit code is then 1, and 4 when no row fits.")]
     Eval(EvalArguments),
+    /// Write a finished dataset in the format of others
+    #[command(after_help = EXPORT_HELP)]
+    Export(ExportArguments),
     /// Write the job with which `plugins/carla/replay.py` flies a dataset's flights through a CARLA server
     #[command(after_help = "\
 Examples:
@@ -326,6 +330,48 @@ pub struct EvalArguments {
     /// Print the report as JSON
     #[arg(long)]
     pub json: bool,
+}
+
+const EXPORT_HELP: &str = "\
+Examples:
+  cosfly export out/carla_town --format v7 --out out/town-v7
+  cosfly export out/carla_town --format v7 --town downtown=Town03 --out out/town-v7
+
+The new folder appears when it is whole. Flights are chosen with `--split` and `--trajectory`; without them, all are
+exported.";
+
+/// Arguments of `export`.
+#[derive(Args, Debug)]
+pub struct ExportArguments {
+    /// Folder of the dataset that `cosfly run` delivered
+    #[arg(value_name = "DATASET")]
+    pub dir: PathBuf,
+    /// The format
+    #[arg(long, value_name = "NAME", value_parser = format_names())]
+    pub format: String,
+    /// The folder to make; it must not be there yet
+    #[arg(long, value_name = "DIR")]
+    pub out: PathBuf,
+    /// Splits to export (repeatable) [default: all]
+    #[arg(long = "split", value_name = "NAME")]
+    pub splits: Vec<String>,
+    /// Flights to export, such as expert-p00000 (repeatable) [default: all]
+    #[arg(long = "trajectory", value_name = "ID")]
+    pub trajectories: Vec<String>,
+    /// v7: a name of CARLA for a town of another name, such as downtown=Town01 (repeatable)
+    #[arg(long = "town", value_name = "TOWN=NAME", value_parser = town_name)]
+    pub towns: Vec<(String, String)>,
+}
+
+fn format_names() -> PossibleValuesParser {
+    let formats = cosfly_export::EXPORTERS;
+    PossibleValuesParser::new(formats.map(|format| PossibleValue::new(format.name()).help(format.about())))
+}
+
+fn town_name(text: &str) -> Result<(String, String), String> {
+    let names = text.split_once('=').filter(|(town, name)| !town.is_empty() && !name.is_empty());
+    let names = names.map(|(town, name)| (town.to_owned(), name.to_owned()));
+    names.ok_or_else(|| "it must be a town of the dataset and a name for it, such as downtown=Town01".to_owned())
 }
 
 /// Axes of increments.

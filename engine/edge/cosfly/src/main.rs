@@ -39,6 +39,7 @@ fn command() -> ExitCode {
         Command::Verify(arguments) => commands::verify::verify(&arguments),
         Command::Eval(arguments) => commands::eval::eval(&arguments),
         Command::Preview(arguments) => commands::preview::preview(&arguments),
+        Command::Export(arguments) => commands::export::export(&arguments),
         Command::CarlaJob(arguments) => commands::carla_job::carla_job(&arguments),
         Command::Gc(arguments) => commands::collect::collect(&arguments),
         Command::Schema(arguments) => commands::schema::schema(&arguments),

@@ -8,6 +8,7 @@ pub mod collect;
 pub mod drone_state;
 pub mod eval;
 pub mod expert_of_recipe;
+pub mod export;
 pub mod graph;
 pub mod plan;
 pub mod plan_from;

@@ -1,0 +1,115 @@
+//! The laws that every export keeps, over all of them.
+
+use crate::{EXPORTERS, Options, OutFolder, Source, exporter};
+use cosfly_dataset::read::PublishedDataset;
+use cosfly_dataset::{DatasetConfig, EncodingConfig, sample};
+use cosfly_diagnose::Result;
+use std::cell::Cell;
+use std::collections::BTreeMap;
+use std::path::{Path, PathBuf};
+
+fn published() -> (tempfile::TempDir, PublishedDataset) {
+    let home = tempfile::tempdir().unwrap();
+    let folder = home.path().join("sample");
+    sample::write_to_folder(&folder, &DatasetConfig::default(), EncodingConfig::default()).unwrap();
+    let dataset = PublishedDataset::open(&folder).unwrap();
+    (home, dataset)
+}
+
+/// Options that fit the sample's five frames.
+fn options() -> Options {
+    let window = cosfly_metrics::WindowShape { history: 3, horizon: 2, stride: 1 };
+    Options { window, ..Options::default() }
+}
+
+fn export(dataset: &PublishedDataset, name: &str, options: &Options, out: &Path) -> Result<Vec<String>> {
+    let heard = Cell::new((0, 1));
+    let progress = |done, all| heard.set((done, all));
+    let source = Source::new(dataset, options, &progress)?;
+    let folder = OutFolder::begin(out, dataset.folder())?;
+    let remarks = exporter(name).unwrap().export(&source, &folder)?;
+    folder.finish()?;
+    assert_eq!(heard.get().0, heard.get().1, "progress of `{name}` ends where it should");
+    Ok(remarks)
+}
+
+fn files(folder: &Path) -> BTreeMap<PathBuf, Vec<u8>> {
+    let mut found = BTreeMap::new();
+    let mut folders = vec![folder.to_owned()];
+    while let Some(next) = folders.pop() {
+        for entry in std::fs::read_dir(next).unwrap().map(|entry| entry.unwrap().path()) {
+            if entry.is_dir() {
+                folders.push(entry);
+            } else {
+                let bytes = std::fs::read(&entry).unwrap();
+                found.insert(entry.strip_prefix(folder).unwrap().to_owned(), bytes);
+            }
+        }
+    }
+    found
+}
+
+#[test]
+fn every_export_has_a_card_a_licence_and_the_same_bytes_twice() {
+    let (home, dataset) = published();
+    for format in EXPORTERS {
+        let [first, second] = ["first", "second"].map(|name| home.path().join(format!("{}-{name}", format.name())));
+        export(&dataset, format.name(), &options(), &first).unwrap();
+        export(&dataset, format.name(), &options(), &second).unwrap();
+        let files = files(&first);
+        assert!(files == self::files(&second), "`{}` differs from itself", format.name());
+        let card = String::from_utf8(files[Path::new("README.md")].clone()).unwrap();
+        assert!(card.starts_with("---\n") && card.contains("license:"), "{card}");
+        assert!(files.contains_key(Path::new("LICENSE")), "`{}`", format.name());
+        assert!(!format.about().is_empty() && exporter(format.name()).is_some());
+    }
+}
+
+#[test]
+fn a_refused_export_leaves_nothing_behind() {
+    let (home, dataset) = published();
+    let log = dataset.folder().join(&dataset.flights()[0].mcap_path);
+    let bytes = std::fs::read(&log).unwrap();
+    std::fs::write(&log, &bytes[..bytes.len() / 2]).unwrap();
+    for format in EXPORTERS {
+        let refusal = export(&dataset, format.name(), &options(), &home.path().join("out")).unwrap_err();
+        assert!(refusal.code.starts_with("dataset-"), "`{}`: {refusal:?}", format.name());
+        assert_eq!(std::fs::read_dir(home.path()).unwrap().count(), 1, "`{}` left something", format.name());
+    }
+}
+
+#[test]
+fn flights_are_chosen_by_split_and_name() {
+    let (home, dataset) = published();
+    let split = dataset.flights()[0].split.clone();
+    let chosen = |splits: &[&str], trajectories: &[&str]| {
+        let owned = |names: &[&str]| names.iter().map(|name| (*name).to_owned()).collect();
+        let options = Options { splits: owned(splits), trajectories: owned(trajectories), ..options() };
+        let source = Source::new(&dataset, &options, &|_, _| {})?;
+        Ok::<_, Box<cosfly_diagnose::Diagnostic>>(source.flights().count())
+    };
+    assert_eq!(chosen(&[], &[]).unwrap(), 4);
+    assert_eq!(
+        chosen(&[&split], &["expert-p00000", "expert-p00001"]).unwrap_or(0) % 2,
+        chosen(&[&split], &["expert-p00000"]).unwrap_or(0)
+    );
+    assert_eq!(chosen(&[], &["expert-p00001"]).unwrap(), 1);
+    assert_eq!(chosen(&["dev"], &[]).unwrap_err().code, "export-split");
+    assert_eq!(chosen(&[], &["expert"]).unwrap_err().code, "dataset-no-flight");
+    let alone = Options { trajectories: vec!["expert-p00000".into()], ..options() };
+    assert_eq!(export(&dataset, "v7", &alone, &home.path().join("x")).unwrap_err().code, "export-pairs");
+}
+
+#[test]
+fn a_v7_export_is_read_back_by_the_strict_reader() {
+    let (home, dataset) = published();
+    let out = home.path().join("v7");
+    let remarks = export(&dataset, "v7", &options(), &out).unwrap();
+    assert!(remarks.len() == 1 && remarks[0].contains("`plain` is called `Town01`"), "{remarks:?}");
+    let root = out.join(crate::v7::ROOT);
+    let reading = crate::v7::reader::read(&root).unwrap();
+    assert_eq!((reading.pairs, reading.frames, reading.problems), (2, 4 * sample::FRAMES, vec![]));
+    let picture = files(&root).into_keys().find(|path| path.ends_with("rgb.png")).unwrap();
+    std::fs::write(root.join(picture), b"no picture").unwrap();
+    assert_eq!(crate::v7::reader::read(&root).unwrap().problems.len(), 1);
+}

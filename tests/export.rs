@@ -1,0 +1,38 @@
+//! `cosfly export` through the real binary: what it prints, and what it says when it cannot.
+
+use crate::street::Street;
+use crate::support::{Printed, cosfly, tree_digests};
+
+fn export(street: &Street, arguments: &[&str]) -> Printed {
+    cosfly(&[&["export"], arguments].concat()).within(street.path()).run()
+}
+
+#[test]
+fn a_dataset_is_exported_whole_or_not_at_all() {
+    let street = Street::new();
+    cosfly(&["run", "recipe.toml", "--quiet"]).within(street.path()).run_ok();
+    let before = tree_digests(&street.dataset());
+    let first = export(&street, &["out/street", "--format", "v7", "--out", "v7"]);
+    assert_eq!(first.code, Some(0), "{}", first.stderr);
+
+    assert!(first.stdout.starts_with("v7: ") && first.stdout.contains("`Town01`"), "{}", first.stdout);
+    assert!(tree_digests(&street.dataset()) == before, "the dataset itself is not touched");
+    for (name, arguments) in [
+        ("export_exists", &["out/street", "--format", "v7", "--out", "v7"][..]),
+        ("export_inside", &["out/street", "--format", "v7", "--out", "out/street/v7"]),
+        ("export_town", &["out/street", "--format", "v7", "--out", "x", "--town", "street=Paris"]),
+        ("export_split", &["out/street", "--format", "v7", "--out", "x", "--split", "dev"]),
+        ("export_pairs", &["out/street", "--format", "v7", "--out", "x", "--trajectory", "expert-p00000"]),
+        ("export_format", &["out/street", "--format", "v8", "--out", "x"]),
+    ] {
+        let printed = export(&street, arguments);
+        let code = printed.code.unwrap_or(-1);
+        insta::assert_snapshot!(name, format!("exit code {code}\n{}", printed.stderr));
+    }
+    assert!(!street.path().join("x").exists() && !street.path().join(".x.unfinished").exists());
+}
+
+#[test]
+fn the_help_has_examples() {
+    insta::assert_snapshot!("help_export", cosfly(&["export", "--help"]).run_ok().stdout);
+}
