@@ -12,8 +12,8 @@ use cosfly_dataset::{
 use cosfly_diagnose::{Diagnostic, Fault, Result};
 use cosfly_render::Weather;
 use cosfly_stage::{
-    Artifact, Fan, InputPort, Inputs, ItemRule, OutputSink, ParameterError, PortSource, Produced, Stage, StageKind,
-    StagePart, StageProperties, TaskContext,
+    Artifact, Fan, InputPort, Inputs, ItemRule, OutputSink, ParameterError, PassingFile, PortSource, Produced, Stage,
+    StageKind, StagePart, StageProperties, TaskContext,
 };
 use std::collections::BTreeMap;
 use std::io::BufReader;
@@ -102,7 +102,7 @@ impl Stage for LogStage {
         let record = RenderedTrajectory::from_bytes(&inputs.read(frames, "index")?)?;
         let captions = captions_of(inputs, inputs.all("captions").first())?;
         let world = world(inputs)?;
-        let mut pack = FramePackReader::new(BufReader::new(inputs.open(frames, "pack")?))?;
+        let mut pack = FramePackReader::new(BufReader::new(PassingFile::new(inputs.open(frames, "pack")?)))?;
         let mut log = None;
         outputs.stream("mcap", &mut |file| {
             let written =

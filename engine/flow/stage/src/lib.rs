@@ -8,11 +8,13 @@
 mod artifact;
 mod event;
 mod kind;
+mod passing;
 mod properties;
 
 pub use artifact::{Artifact, BlobRef, BlobSource, Decoded, InputGroup, Inputs, OutputSink, Produced, SeekWrite};
 pub use event::{RunEvent, TaskOutcome};
 pub use kind::{ParameterError, Registry, StageKind, StagePart};
+pub use passing::PassingFile;
 pub use properties::{Fan, InputPort, ItemRule, PortSource, ReadSchema, Source, SourceCheck, StageProperties};
 
 use cosfly_diagnose::Result;

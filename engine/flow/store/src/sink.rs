@@ -7,7 +7,7 @@ use crate::records::{self, ActionRecord};
 use crate::store::{BLOB_LOST, Store, create_file, with_folder_of};
 use cosfly_diagnose::{Diagnostic, Fault, Result};
 use cosfly_fingerprint::{Digest, canonical_json};
-use cosfly_stage::{BlobRef, BlobSource, OutputSink, Produced, SeekWrite};
+use cosfly_stage::{BlobRef, BlobSource, OutputSink, PassingFile, Produced, SeekWrite};
 use std::collections::BTreeMap;
 use std::fs::{self, File};
 use std::io::{self, BufWriter, Seek, SeekFrom, Write};
@@ -221,7 +221,7 @@ pub(crate) fn is_relative_path(name: &str) -> bool {
 
 /// A file that is hashed while it is written from front to back, and read again only when it was not.
 struct DigestingFile {
-    file: File,
+    file: PassingFile,
     hasher: blake3::Hasher,
     /// Where the next write goes.
     position: u64,
@@ -234,16 +234,17 @@ struct DigestingFile {
 
 impl DigestingFile {
     fn new(file: File) -> Self {
+        let file = PassingFile::new(file);
         Self { file, hasher: blake3::Hasher::new(), position: 0, hashed: 0, in_order: true, refused: None }
     }
 
     fn finish(mut self) -> io::Result<BlobRef> {
-        let bytes = self.file.metadata()?.len();
+        let bytes = self.file.file().metadata()?.len();
         let digest = if self.in_order && bytes == self.hashed {
             Digest(*self.hasher.finalize().as_bytes())
         } else {
             self.file.rewind()?;
-            digest_of_file(&mut self.file)?
+            digest_of_file(self.file.file())?
         };
         Ok(BlobRef { digest, bytes })
     }

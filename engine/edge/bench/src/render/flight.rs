@@ -1,9 +1,10 @@
 //! A flight record around measured frames, and files that are hashed while they are written, as in a store.
 
-use super::views::Ground;
+use super::views::{Ground, View};
 use cosfly_dataset::{RenderedTrajectory, Role, TownInfo, sample};
 use cosfly_diagnose::{Diagnostic, Result};
 use cosfly_render::{TargetView, Weather};
+use cosfly_stage::PassingFile;
 use std::fs::File;
 use std::io::{Read, Seek, SeekFrom, Write};
 use std::path::Path;
@@ -11,23 +12,22 @@ use std::path::Path;
 /// Time between frames, seconds.
 pub const DT_S: f64 = 0.5;
 
-/// A record whose frame `i` is view `i` modulo their number.
-pub fn flight(ground: &Ground, weather: &Weather, frames: usize, views: Vec<TargetView>) -> RenderedTrajectory {
+/// A record of frames `shown`; `views` says how the target looks in them.
+pub fn flight(ground: &Ground, weather: &Weather, shown: &[View], views: Vec<TargetView>) -> RenderedTrajectory {
     let mut record = sample::flight(0, Role::Expert).record;
     record.town = TownInfo::of(&ground.town, "0".repeat(64));
     record.camera = ground.camera;
     record.weather = weather.clone();
     record.views = views;
-    record.visible_by_dense_rays = vec![None; frames];
+    record.visible_by_dense_rays = vec![None; shown.len()];
     (record.others, record.sightings) = (vec![], vec![]);
     let trajectory = &mut record.trajectory;
-    let of_frame = |frame: usize| &ground.views[frame % ground.views.len()];
     trajectory.track.dt_s = DT_S;
-    trajectory.track.states = (0..frames).map(|frame| of_frame(frame).target.state).collect();
-    trajectory.poses_in_world = (0..frames).map(|frame| of_frame(frame).pose).collect();
-    trajectory.visibility = vec![1.0; frames];
-    trajectory.clearance_m = vec![10.0; frames];
-    trajectory.terms.iter_mut().for_each(|term| term.per_frame = vec![0.0; frames]);
+    trajectory.track.states = shown.iter().map(|view| view.target.state).collect();
+    trajectory.poses_in_world = shown.iter().map(|view| view.pose).collect();
+    trajectory.visibility = vec![1.0; shown.len()];
+    trajectory.clearance_m = vec![10.0; shown.len()];
+    trajectory.terms.iter_mut().for_each(|term| term.per_frame = vec![0.0; shown.len()]);
     record
 }
 
@@ -40,7 +40,7 @@ impl Ground {
 
 /// A file with the BLAKE3 of what was written to it; written through when finished.
 pub struct StoredFile {
-    file: File,
+    file: PassingFile,
     hasher: blake3::Hasher,
 }
 
@@ -49,13 +49,13 @@ impl StoredFile {
     pub fn create(path: &Path) -> Result<Self> {
         let file = File::create(path);
         let file = file.map_err(|error| Diagnostic::io(format!("write `{}`", path.display()), &error))?;
-        Ok(Self { file, hasher: blake3::Hasher::new() })
+        Ok(Self { file: PassingFile::new(file), hasher: blake3::Hasher::new() })
     }
 
     /// The file at `path`, to be read.
     pub fn open(path: &Path) -> Result<Self> {
         let file = File::open(path).map_err(|error| Diagnostic::io(format!("read `{}`", path.display()), &error))?;
-        Ok(Self { file, hasher: blake3::Hasher::new() })
+        Ok(Self { file: PassingFile::new(file), hasher: blake3::Hasher::new() })
     }
 
     /// The hash of what was written.

@@ -109,7 +109,7 @@ fn round(
         views.push(rendered.target_view);
     }
     let encoded = encoding_s(&images, options)?.map(|spent_s| ms_per_frame * spent_s);
-    let flight = flight(ground, weather, images.len(), views);
+    let flight = flight(ground, weather, &ground.views, views);
     let header = PackHeader::new(
         ground.camera.width,
         ground.camera.height,

@@ -2,7 +2,7 @@
 
 use super::RenderOptions;
 use super::flight::{DT_S, StoredFile, flight};
-use super::views::Ground;
+use super::views::{Ground, View};
 use crate::clock::{process_cpu_s, wall_s};
 use cosfly_dataset::{FramePackReader, FramePackWriter, PackHeader, write_log};
 use cosfly_diagnose::Result;
@@ -27,7 +27,7 @@ pub struct Throughput {
     pub bytes: f64,
 }
 
-/// Flies through `ground` on all threads at once, each in the next weather of the list.
+/// Follows the walkers of `ground` on all threads at once, each in the next weather of the list.
 pub fn throughput(ground: &Ground, options: &RenderOptions<'_>) -> Result<Throughput> {
     let threads = options.threads.max(1);
     let frames = options.flight_frames.max(1);
@@ -62,16 +62,16 @@ fn fly(ground: &Ground, weather: &Weather, frames: usize, thread: usize, options
         PackHeader::new(ground.camera.width, ground.camera.height, ground.largest_instance(), options.encoding, DT_S);
     let mut renderer = Renderer::new(ground.camera);
     let mut pack = FramePackWriter::new(StoredFile::create(&path("pack"))?, &header)?;
+    let shown: Vec<View> = (0..frames).map(|frame| ground.walked(frame, DT_S)).collect();
     let mut views = Vec::with_capacity(frames);
-    for frame in 0..frames {
-        let view = &ground.views[frame % ground.views.len()];
+    for view in &shown {
         let setup = FrameSetup { pose: view.pose, weather, target: Some(view.target), others: &[] };
         let rendered = renderer.render(&ground.scene, &setup);
         pack.frame(rendered.images)?;
         views.push(rendered.target_view);
     }
     pack.finish()?.finish();
-    let record = flight(ground, weather, frames, views);
+    let record = flight(ground, weather, &shown, views);
     let mut pack = FramePackReader::new(BufReader::new(StoredFile::open(&path("pack"))?))?;
     let mut output = StoredFile::create(&path("mcap"))?;
     let log = write_log(&mut output, &record, &mut pack, &[], &ground.town, &|| Ok(()))?;

@@ -14,6 +14,8 @@ use serde::Serialize;
 const DISTANCE_M: f64 = 28.0;
 const PITCH_DEG: f64 = 45.0;
 const HEIGHT_M: f64 = 1.75;
+/// Frames of a flight around each view: few, so that nobody walks into a house.
+const STRETCH_FRAMES: usize = 12;
 
 /// A town, ready to be drawn from some viewpoints.
 pub struct Ground {
@@ -84,6 +86,21 @@ impl Ground {
         let views = spots.iter().enumerate().map(|(index, feet)| follower(&tree, *feet, index)).collect();
         let scene = Scene::new(&town, Seed([1; 32]));
         Self { name, town, scene, camera, views }
+    }
+
+    /// Frame `frame` of a flight from view to view: around each the walker goes a few steps, `dt_s` apart, away from the
+    /// follower, who comes after.
+    pub fn walked(&self, frame: usize, dt_s: f64) -> View {
+        let mut view = self.views[frame / STRETCH_FRAMES % self.views.len()];
+        let steps = (frame % STRETCH_FRAMES) as f64 - 0.5 * STRETCH_FRAMES as f64;
+        let away = view.target.state.feet_in_world - view.pose.position_in_world;
+        let way_m = steps * dt_s * view.target.state.speed_mps;
+        let moved = way_m * DVec3::new(away.x, away.y, 0.0).normalize_or_zero();
+        view.pose.position_in_world += moved;
+        view.target.state.feet_in_world += moved;
+        view.target.state.heading_rad = real::atan2(away.y, away.x);
+        view.target.gait_phase_rad = gait_phase_rad(way_m, HEIGHT_M);
+        view
     }
 
     /// The boxes and views for other renderers.
