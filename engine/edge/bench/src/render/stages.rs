@@ -1,8 +1,8 @@
 //! CPU time of one frame on one core, split by stage: drawing, encoding by channel, writing.
 
 use super::RenderOptions;
-use super::flight::{StoredFile, flight};
-use super::views::Ground;
+use super::flight::{DT_S, StoredFile, flight};
+use super::views::{Ground, View};
 use crate::clock::timed;
 use cosfly_dataset::frame_pack::chunk_compressor;
 use cosfly_dataset::images::previews::SmallImages;
@@ -15,6 +15,10 @@ use serde::Serialize;
 use std::fs::File;
 use std::hint::black_box;
 use std::io::BufReader;
+
+/// Frames of each view that are drawn one after the other, as in a flight: the town's shadows are drawn for the first, and
+/// again when the way leads out of them.
+const STEPS: usize = 4;
 
 /// Milliseconds of CPU per frame. The stages of a group add up to it but for rounding and clocks.
 #[derive(Clone, Copy, Debug, Default, Serialize)]
@@ -91,14 +95,17 @@ fn round(
     renderer: &mut Renderer,
 ) -> Result<StageTimes> {
     let ms_per_frame = 1e3 / ground.views.len().max(1) as f64;
+    let followed: Vec<View> = (0..ground.views.len())
+        .flat_map(|view| (0..STEPS).map(move |step| ground.followed(view, step, DT_S)))
+        .collect();
     let drawn = [FrameParts::Visibility, FrameParts::Ids, FrameParts::All].map(|parts| {
         let all = || {
-            for view in &ground.views {
+            for view in &followed {
                 let setup = FrameSetup { pose: view.pose, weather, target: Some(view.target), others: &[] };
                 black_box(renderer.render_parts(&ground.scene, &setup, parts));
             }
         };
-        ms_per_frame * timed(all).1
+        ms_per_frame / STEPS as f64 * timed(all).1
     });
     let mut images: Vec<FrameImages> = vec![];
     let mut views = vec![];

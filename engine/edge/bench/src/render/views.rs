@@ -88,13 +88,17 @@ impl Ground {
         Self { name, town, scene, camera, views }
     }
 
-    /// Frame `frame` of a flight from view to view: around each the walker goes a few steps, `dt_s` apart, away from the
-    /// follower, who comes after.
+    /// Frame `frame` of a flight from view to view, a few steps around each.
     pub fn walked(&self, frame: usize, dt_s: f64) -> View {
-        let mut view = self.views[frame / STRETCH_FRAMES % self.views.len()];
-        let steps = (frame % STRETCH_FRAMES) as f64 - 0.5 * STRETCH_FRAMES as f64;
+        self.followed(frame / STRETCH_FRAMES, frame % STRETCH_FRAMES, dt_s)
+    }
+
+    /// View `view` (modulo their number) some steps on, `dt_s` apart: the walker goes away from the follower, who comes after,
+    /// and is in the view's place half way through a stretch.
+    pub fn followed(&self, view: usize, step: usize, dt_s: f64) -> View {
+        let mut view = self.views[view % self.views.len()];
         let away = view.target.state.feet_in_world - view.pose.position_in_world;
-        let way_m = steps * dt_s * view.target.state.speed_mps;
+        let way_m = (step as f64 - 0.5 * STRETCH_FRAMES as f64) * dt_s * view.target.state.speed_mps;
         let moved = way_m * DVec3::new(away.x, away.y, 0.0).normalize_or_zero();
         view.pose.position_in_world += moved;
         view.target.state.feet_in_world += moved;
