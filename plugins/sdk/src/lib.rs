@@ -60,7 +60,7 @@ mod random;
 mod stage;
 pub mod town;
 
-pub use cost_term::{CostTerm, Run, Shape};
+pub use cost_term::{CostTerm, Run, Shape, per_waypoint};
 pub use geometry::{Point, add, cross_2d, distance, dot, length, scale, sub};
 pub use json::Json;
 pub use libm;

@@ -1,6 +1,6 @@
 //! `twin`: a plugin that exists natively, too, for `cosfly plugin bench`.
 
-use cosfly_plugin::{CostTerm, Metadata, Point, Run, params};
+use cosfly_plugin::{CostTerm, Metadata, Point, Run, params, per_waypoint};
 
 mod kernels;
 
@@ -34,11 +34,11 @@ impl CostTerm for Twin {
     }
 
     fn evaluate(&self, waypoints: &[Point], costs: &mut [f64], _: Option<&mut [Point]>) -> Result<(), String> {
-        let each = waypoints.iter().zip(&self.feet).zip(costs);
         if self.params.heavy {
+            let each = waypoints.iter().zip(&self.feet).zip(costs);
             each.for_each(|((waypoint, feet), cost)| *cost = kernels::heavy(*waypoint, *feet));
         } else {
-            each.for_each(|((waypoint, feet), cost)| *cost = kernels::root(*waypoint, *feet));
+            per_waypoint(waypoints, &self.feet, costs, |waypoint, feet| kernels::root(waypoint, *feet));
         }
         Ok(())
     }

@@ -5,34 +5,92 @@ use std::fs;
 use std::hash::{Hash, Hasher};
 use std::io::Write;
 use std::path::{Path, PathBuf};
-use wasmtime::Engine;
 use wasmtime::component::Component;
+use wasmtime::{Engine, Module};
 
-/// Compiles `component`, or takes it from `folder`; `digest` is that of the plugin's file. A folder that cannot be used is
+/// A form that plugins are compiled to.
+pub trait Compiled: Sized {
+    /// Ending of the files that it is kept in.
+    const ENDING: &str;
+    /// Compiles `bytes`.
+    ///
+    /// # Errors
+    /// What the compiler refuses.
+    fn compile(engine: &Engine, bytes: &[u8]) -> wasmtime::Result<Self>;
+    /// Its machine code.
+    ///
+    /// # Errors
+    /// What the compiler says.
+    fn code(&self) -> wasmtime::Result<Vec<u8>>;
+    /// What [`Self::code`] gave.
+    ///
+    /// # Errors
+    /// That it is of another form, version or engine.
+    ///
+    /// # Safety
+    /// The code is run: it must be what [`Self::code`] gave, whole.
+    unsafe fn of_code(engine: &Engine, code: &[u8]) -> wasmtime::Result<Self>;
+}
+
+impl Compiled for Component {
+    const ENDING: &str = "cwasm";
+
+    fn compile(engine: &Engine, bytes: &[u8]) -> wasmtime::Result<Self> {
+        Self::from_binary(engine, bytes)
+    }
+
+    fn code(&self) -> wasmtime::Result<Vec<u8>> {
+        self.serialize()
+    }
+
+    unsafe fn of_code(engine: &Engine, code: &[u8]) -> wasmtime::Result<Self> {
+        // SAFETY: the caller vouches for the code.
+        unsafe { Self::deserialize(engine, code) }
+    }
+}
+
+impl Compiled for Module {
+    const ENDING: &str = "module.cwasm";
+
+    fn compile(engine: &Engine, bytes: &[u8]) -> wasmtime::Result<Self> {
+        Self::from_binary(engine, bytes)
+    }
+
+    fn code(&self) -> wasmtime::Result<Vec<u8>> {
+        self.serialize()
+    }
+
+    unsafe fn of_code(engine: &Engine, code: &[u8]) -> wasmtime::Result<Self> {
+        // SAFETY: the caller vouches for the code.
+        unsafe { Self::deserialize(engine, code) }
+    }
+}
+
+/// Compiles `bytes` and keeps that in `folder`; `digest` is that of the plugin's file. A folder that cannot be used is
 /// passed over: the plugin is then compiled every time.
 ///
 /// # Errors
 /// What the compiler refuses.
-pub fn compile(
+pub fn compile<C: Compiled>(
     engine: &Engine,
     folder: Option<&Path>,
     digest: Digest,
-    component: &[u8],
-) -> wasmtime::Result<Component> {
-    let file = folder.map(|folder| folder.join(format!("{}.cwasm", key(engine, digest))));
-    if let Some(known) = file.as_deref().and_then(|file| read(engine, file)) {
-        return Ok(known);
-    }
-    let compiled = Component::from_binary(engine, component)?;
-    if let (Some(file), Ok(code)) = (&file, compiled.serialize()) {
-        let _ = write(file, &code);
+    bytes: &[u8],
+) -> wasmtime::Result<C> {
+    let compiled = C::compile(engine, bytes)?;
+    if let (Some(folder), Ok(code)) = (folder, compiled.code()) {
+        let _ = write(&file::<C>(engine, folder, digest), &code);
     }
     Ok(compiled)
 }
 
 /// The compiled form of a plugin that was compiled before, without looking at more than its digest.
-pub fn find(engine: &Engine, folder: Option<&Path>, digest: Digest) -> Option<Component> {
-    read(engine, &folder?.join(format!("{}.cwasm", key(engine, digest))))
+pub fn find<C: Compiled>(engine: &Engine, folder: Option<&Path>, digest: Digest) -> Option<C> {
+    read(engine, &file::<C>(engine, folder?, digest))
+}
+
+fn file<C: Compiled>(engine: &Engine, folder: &Path, digest: Digest) -> PathBuf {
+    folder.join(format!("{}.{}", key(engine, digest), C::ENDING))
 }
 
 /// Of the plugin, the compiler and all its settings.
@@ -52,7 +110,7 @@ fn key(engine: &Engine, digest: Digest) -> Digest {
 }
 
 /// A kept file is the digest of the code and the code, so that a damaged one is not run.
-fn read(engine: &Engine, file: &Path) -> Option<Component> {
+fn read<C: Compiled>(engine: &Engine, file: &Path) -> Option<C> {
     let bytes = fs::read(file).ok()?;
     let (digest, code) = bytes.split_first_chunk::<32>()?;
     if Digest::of(code).0 != *digest {
@@ -60,7 +118,7 @@ fn read(engine: &Engine, file: &Path) -> Option<Component> {
     }
     // SAFETY: the code is what `write` put there, whole, from an engine with the same compatibility hash; the folder is the
     // user's own, which is as trusted as this program's own file.
-    unsafe { Component::deserialize(engine, code) }.ok()
+    unsafe { C::of_code(engine, code) }.ok()
 }
 
 fn write(file: &Path, code: &[u8]) -> std::io::Result<()> {

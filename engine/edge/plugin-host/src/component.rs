@@ -61,7 +61,8 @@ fn of_module(bytes: &[u8]) -> Result<Vec<u8>, String> {
     encoder.encode().map_err(|error| words(&format!("{error:#}")))
 }
 
-fn own_world(kind: Kind) -> Result<(Resolve, wit_parser::WorldId), String> {
+/// The interface of this version, and the world of `kind` in it.
+pub fn own_world(kind: Kind) -> Result<(Resolve, wit_parser::WorldId), String> {
     let words = |error: &dyn std::fmt::Display| format!("the interface itself is broken: {error}");
     let mut texts = SourceMap::new();
     for (name, text) in WIT {

@@ -1,19 +1,14 @@
 //! A plugin as a cost term of the planner: the solver cannot tell it from a built-in one.
 
 use crate::failure::PluginError;
-use crate::interface_0_1::{Evaluation, Refusal, RunContext, TermShape};
+use crate::interface_0_1::{RunContext, TermShape};
 use crate::plugin::Plugin;
-use crate::session::Session;
+use crate::term_border::{self, TermBorder};
 use crate::town::TownView;
 use cosfly_frames::{DVec3, TargetTrack};
 use cosfly_planner::walk::Walk;
 use cosfly_planner::{CostTerm, TermContext, body_points};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
-use wasmtime::component::TypedFunc;
-
-type Configure = TypedFunc<(String,), (Result<TermShape, Refusal>,)>;
-type Begin = TypedFunc<(RunContext,), (Result<(), Refusal>,)>;
-type Evaluate<'a> = TypedFunc<(&'a [f64], bool), (Result<Evaluation, Refusal>,)>;
 
 /// One configured instance of a plugin, for one flight. Costs nothing more after a failure, which [`Began::failure`] tells.
 pub struct PluginTerm {
@@ -28,11 +23,9 @@ pub struct PluginTerm {
 pub struct Began(Arc<Mutex<Running>>);
 
 struct Running {
-    session: Session,
-    begin: Begin,
-    evaluate: Evaluate<'static>,
-    /// The waypoints as they cross the border; kept, because some thousands of calls need it.
-    flat: Vec<f64>,
+    border: Box<dyn TermBorder>,
+    /// The last gradients; kept, because some hundreds of calls need room for them.
+    gradients: Vec<f64>,
     /// Address and length of the track that it was told of.
     told: Option<(usize, usize)>,
     failure: Option<PluginError>,
@@ -50,12 +43,8 @@ impl PluginTerm {
         params: &str,
         seed: u64,
     ) -> Result<Self, PluginError> {
-        let mut session = Session::open(plugin, town)?;
-        let configure: Configure = session.function("configure")?;
-        let (begin, evaluate) = (session.function("begin")?, session.function("evaluate")?);
-        let (shape,) = session.call("configure", &configure, (params.to_owned(),))?;
-        let shape = shape.map_err(|refusal| PluginError::failed(&plugin.shown, "configure", refusal.words()))?;
-        let running = Running { session, begin, evaluate, flat: Vec::new(), told: None, failure: None };
+        let (border, shape) = term_border::open(plugin, town, params)?;
+        let running = Running { border, gradients: Vec::new(), told: None, failure: None };
         Ok(Self { name: name.to_owned(), shape, seed, running: Arc::new(Mutex::new(running)) })
     }
 
@@ -73,22 +62,27 @@ impl PluginTerm {
         self.running.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
-    /// Costs and, when wanted and known, gradients of `waypoints`; `None` after a failure.
-    fn evaluate(&self, waypoints: &[DVec3], context: &TermContext<'_>, want_gradients: bool) -> Option<Evaluation> {
+    /// Writes the costs of `waypoints` and gives gradients, when wanted, to `take`; false after a failure.
+    fn evaluate(
+        &self,
+        waypoints: &[DVec3],
+        context: &TermContext<'_>,
+        costs: &mut [f64],
+        take: Option<&mut dyn FnMut(&[f64])>,
+    ) -> bool {
         let mut running = self.running();
         if running.failure.is_none() && running.told != Some(identity(context.track)) {
             running.tell(context, self.seed);
         }
         if running.failure.is_some() {
-            return None;
+            return false;
         }
-        match running.evaluate(waypoints, want_gradients) {
-            Ok(evaluation) => Some(evaluation),
-            Err(failure) => {
-                running.failure = Some(failure);
-                None
-            }
+        match (running.evaluate(waypoints, costs, take.is_some()), take) {
+            (Ok(()), Some(take)) => take(&running.gradients),
+            (Ok(()), None) => {}
+            (Err(failure), _) => running.failure = Some(failure),
         }
+        running.failure.is_none()
     }
 }
 
@@ -100,17 +94,17 @@ impl Began {
 
     /// What it said that users are to read.
     pub fn warnings(&self) -> Vec<String> {
-        self.0.lock().unwrap_or_else(PoisonError::into_inner).session.warnings()
+        self.0.lock().unwrap_or_else(PoisonError::into_inner).border.sandbox().warnings()
     }
 
     /// What its last call took.
     pub fn effort(&self) -> crate::Effort {
-        self.0.lock().unwrap_or_else(PoisonError::into_inner).session.effort()
+        self.0.lock().unwrap_or_else(PoisonError::into_inner).border.sandbox().effort()
     }
 
     /// All that it said.
     pub fn said(&self) -> Vec<crate::Said> {
-        self.0.lock().unwrap_or_else(PoisonError::into_inner).session.said()
+        self.0.lock().unwrap_or_else(PoisonError::into_inner).border.sandbox().said()
     }
 }
 
@@ -121,8 +115,8 @@ fn identity(track: &TargetTrack) -> (usize, usize) {
 impl Running {
     fn tell(&mut self, context: &TermContext<'_>, seed: u64) {
         let run = run_context(context.track, context.walk, seed);
-        let told = self.session.call("begin", &self.begin, (run,)).and_then(|(answer,)| {
-            answer.map_err(|refusal| PluginError::failed(self.session.shown(), "begin", refusal.words()))
+        let told = self.border.begin(run).and_then(|answer| {
+            answer.map_err(|refusal| PluginError::failed(self.border.sandbox().shown(), "begin", refusal.words()))
         });
         match told {
             Ok(()) => self.told = Some(identity(context.track)),
@@ -130,37 +124,50 @@ impl Running {
         }
     }
 
-    fn evaluate(&mut self, waypoints: &[DVec3], want_gradients: bool) -> Result<Evaluation, PluginError> {
-        self.flat.resize(3 * waypoints.len(), 0.0);
-        let (triples, _) = self.flat.as_chunks_mut::<3>();
-        triples.iter_mut().zip(waypoints).for_each(|(triple, waypoint)| *triple = waypoint.to_array());
-        let function: Evaluate<'_> = self.evaluate;
-        let (answer,) = self.session.call("evaluate", &function, (&self.flat[..], want_gradients))?;
-        let failed = |message: String| PluginError::failed(self.session.shown(), "evaluate", message);
-        let evaluation = answer.map_err(|refusal| failed(refusal.words()))?;
-        let (costs, gradients) = (&evaluation.costs, &evaluation.gradients);
-        if costs.len() != waypoints.len() {
-            return Err(failed(format!("it returned {} costs for {} waypoints", costs.len(), waypoints.len())));
-        }
-        if want_gradients && gradients.len() != 3 * waypoints.len() {
-            let message =
-                format!("it returned {} numbers of gradients for {} waypoints", gradients.len(), waypoints.len());
-            return Err(failed(format!("{message}; there must be 3 per waypoint")));
-        }
-        let is_cost = |cost: &f64| *cost >= 0.0 && *cost < f64::INFINITY;
-        if !costs.iter().all(is_cost) {
-            let frame = costs.iter().position(|cost| !is_cost(cost)).unwrap_or_default();
-            let message = format!("cost {frame} is {} at waypoint {}", costs[frame], waypoints[frame]);
-            return Err(failed(format!("{message}; costs are finite and at least 0")));
-        }
-        if want_gradients && !gradients.iter().all(|slope| slope.is_finite()) {
-            let at = gradients.iter().position(|slope| !slope.is_finite()).unwrap_or_default();
-            let message =
-                format!("number {at} of the gradients is {} at waypoint {}", gradients[at], waypoints[at / 3]);
-            return Err(failed(format!("{message}; gradients are finite")));
-        }
-        Ok(evaluation)
+    fn evaluate(&mut self, waypoints: &[DVec3], costs: &mut [f64], want_gradients: bool) -> Result<(), PluginError> {
+        let answer = self.border.evaluate(waypoints, want_gradients, costs, &mut self.gradients)?;
+        let gradients = want_gradients.then_some(&self.gradients[..]);
+        let checked = match answer {
+            Ok(count) if count == waypoints.len() => check(costs, gradients, waypoints),
+            Ok(count) => Err(format!("it returned {count} costs for {} waypoints", waypoints.len())),
+            Err(refusal) => Err(refusal.words()),
+        };
+        checked.map_err(|message| PluginError::failed(self.border.sandbox().shown(), "evaluate", message))
     }
+}
+
+/// That all costs and gradients are numbers, and as many as wanted; or what is wrong with them.
+fn check(costs: &[f64], gradients: Option<&[f64]>, waypoints: &[DVec3]) -> Result<(), String> {
+    let is_cost = |cost: &f64| *cost >= 0.0 && *cost < f64::INFINITY;
+    if let Some(frame) = first_wrong(costs, 0, is_cost) {
+        let message = format!("cost {frame} is {} at waypoint {}", costs[frame], waypoints[frame]);
+        return Err(format!("{message}; costs are finite and at least 0"));
+    }
+    let Some(gradients) = gradients else { return Ok(()) };
+    if gradients.len() != 3 * waypoints.len() {
+        let message = format!("it returned {} numbers of gradients for {} waypoints", gradients.len(), waypoints.len());
+        return Err(format!("{message}; there must be 3 per waypoint"));
+    }
+    if let Some(at) = first_wrong(gradients, SIGN, |slope| slope.is_finite()) {
+        let message = format!("number {at} of the gradients is {} at waypoint {}", gradients[at], waypoints[at / 3]);
+        return Err(format!("{message}; gradients are finite"));
+    }
+    Ok(())
+}
+
+/// The bit of a number's sign.
+const SIGN: u64 = 1 << 63;
+
+/// The first number that is not `right`. Finite positive ones are seen to be right by their bits, some at a time and without the
+/// bits of `mask`; only when there are others is every one looked at.
+fn first_wrong(numbers: &[f64], mask: u64, right: impl Fn(&f64) -> bool) -> Option<usize> {
+    let last_finite = f64::INFINITY.to_bits() - 1;
+    let strange = |number: &f64| {
+        let bits = number.to_bits() & !mask;
+        bits | last_finite.wrapping_sub(bits)
+    };
+    let any = numbers.iter().fold(0, |any, number| any | strange(number));
+    if any & SIGN == 0 { None } else { numbers.iter().position(|number| !right(number)) }
 }
 
 /// What a plugin is told of a track.
@@ -194,9 +201,8 @@ impl CostTerm for PluginTerm {
     }
 
     fn cost(&self, waypoints: &[DVec3], context: &TermContext<'_>, per_frame: &mut [f64]) {
-        match self.evaluate(waypoints, context, false) {
-            Some(evaluation) => per_frame.copy_from_slice(&evaluation.costs),
-            None => per_frame.fill(0.0),
+        if !self.evaluate(waypoints, context, per_frame, None) {
+            per_frame.fill(0.0);
         }
     }
 
@@ -210,12 +216,12 @@ impl CostTerm for PluginTerm {
         if !self.shape.gradients {
             return false;
         }
-        if let Some(evaluation) = self.evaluate(waypoints, context, true) {
-            let (slopes, _) = evaluation.gradients.as_chunks::<3>();
-            for (sum, slope) in gradient.iter_mut().zip(slopes) {
+        let mut add = |slopes: &[f64]| {
+            for (sum, slope) in gradient.iter_mut().zip(slopes.as_chunks::<3>().0) {
                 *sum += weight * DVec3::from_array(*slope);
             }
-        }
+        };
+        self.evaluate(waypoints, context, &mut vec![0.0; waypoints.len()], Some(&mut add));
         true
     }
 }

@@ -3,17 +3,19 @@
 use crate::failure::PluginError;
 use crate::interface_0_1::Metadata;
 use crate::limits::PluginLimits;
-use crate::plugin::{Compiled, Kind, Plugin, foreign_import, kinds_of, wrong_kind};
-use crate::session::{Guest, Session, TICK};
+use crate::plugin::{Code, Compiled, Kind, Plugin, foreign_import, kinds_of, wrong_kind};
+use crate::sandbox::{Guest, TICK};
+use crate::session::Session;
 use crate::town::NoTown;
-use crate::{compiled_code, component, imports, parameters};
+use crate::{compiled_code, component, direct_term, imports, parameters, signature};
 use cosfly_fingerprint::Digest;
 use std::collections::BTreeMap;
 use std::io::Read;
 use std::path::{Path, PathBuf};
 use std::sync::{Arc, Mutex, OnceLock, PoisonError};
+use wasmparser::Parser;
 use wasmtime::component::Linker;
-use wasmtime::{Config, Engine, Inlining};
+use wasmtime::{Config, Engine, Inlining, Module};
 
 /// Largest file that is read as a plugin.
 pub const MAX_FILE_BYTES: u64 = 64 * 1024 * 1024;
@@ -36,6 +38,7 @@ type Known = (Arc<Compiled>, Metadata);
 struct Workshop {
     engine: Engine,
     linker: Linker<Guest>,
+    direct_linker: wasmtime::Linker<Guest>,
 }
 
 impl Host {
@@ -104,12 +107,23 @@ impl Host {
         let workshop = slot.get_or_init(|| workshop(strict).map_err(|error| format!("{error:#}")));
         let workshop = workshop.as_ref().map_err(|error| refused(format!("plugins cannot run here: {error}")))?;
         let engine = &workshop.engine;
-        let component = match compiled_code::find(engine, self.folder.as_deref(), digest) {
+        let folder = self.folder.as_deref();
+        let is_term = wanted.is_none_or(|wanted| wanted == Kind::CostTerm);
+        let kept: Option<Module> = if is_term { compiled_code::find(engine, folder, digest) } else { None };
+        if let Some(module) = kept {
+            return workshop.term(&module).map_err(|error| refused(format!("{error:#}")));
+        }
+        let component = match compiled_code::find(engine, folder, digest) {
             Some(component) => component,
             None => {
+                let compiler =
+                    |error: wasmtime::Error| refused(component::first_line(&format!("{error:#}")).to_owned());
                 let encoded = component::of_bytes(bytes).map_err(refused)?;
-                compiled_code::compile(engine, self.folder.as_deref(), digest, &encoded)
-                    .map_err(|error| refused(component::first_line(&format!("{error:#}")).to_owned()))?
+                if is_term && !Parser::is_component(bytes) && signature::is_direct_term(bytes) {
+                    let module = compiled_code::compile(engine, folder, digest, bytes).map_err(compiler)?;
+                    return workshop.term(&module).map_err(|error| refused(format!("{error:#}")));
+                }
+                compiled_code::compile(engine, folder, digest, &encoded).map_err(compiler)?
             }
         };
         let kind = kinds_of(&component).into_iter().find(|kind| wanted.is_none_or(|wanted| wanted == *kind));
@@ -123,7 +137,15 @@ impl Host {
         let ready =
             linker.define_unknown_imports_as_traps(&component).and_then(|()| linker.instantiate_pre(&component));
         let ready = ready.map_err(|error| refused(format!("{error:#}")))?;
-        Ok((kind, Arc::new(Compiled { engine: engine.clone(), ready })))
+        Ok((kind, Arc::new(Compiled { engine: engine.clone(), code: Code::Component(ready) })))
+    }
+}
+
+impl Workshop {
+    /// A cost term that is called as the module that it is.
+    fn term(&self, module: &Module) -> wasmtime::Result<(Kind, Arc<Compiled>)> {
+        let code = Code::Module(self.direct_linker.instantiate_pre(module)?);
+        Ok((Kind::CostTerm, Arc::new(Compiled { engine: self.engine.clone(), code })))
     }
 }
 
@@ -138,7 +160,7 @@ fn workshop(strict: bool) -> wasmtime::Result<Workshop> {
         .consume_fuel(strict)
         .cranelift_nan_canonicalization(strict);
     let engine = Engine::new(&config)?;
-    let linker = imports::linker(&engine)?;
+    let (linker, direct_linker) = (imports::linker(&engine)?, imports::direct_linker(&engine)?);
     let ticking = engine.weak();
     // Only stops what runs too long: no result depends on it.
     std::thread::Builder::new().name("plugin deadlines".to_owned()).spawn(move || {
@@ -148,7 +170,7 @@ fn workshop(strict: bool) -> wasmtime::Result<Workshop> {
             engine.increment_epoch();
         }
     })?;
-    Ok(Workshop { engine, linker })
+    Ok(Workshop { engine, linker, direct_linker })
 }
 
 fn read(path: &Path, shown: &str) -> Result<Vec<u8>, PluginError> {
@@ -166,9 +188,14 @@ fn read(path: &Path, shown: &str) -> Result<Vec<u8>, PluginError> {
 
 /// What a plugin says of itself, checked.
 fn describe(plugin: &Plugin) -> Result<Metadata, PluginError> {
-    let mut session = Session::open(plugin, Arc::new(NoTown))?;
-    let function = session.function::<(), (Metadata,)>("describe")?;
-    let (metadata,) = session.call("describe", &function, ())?;
+    let metadata = match &plugin.compiled.code {
+        Code::Module(_) => direct_term::describe(plugin, Arc::new(NoTown))?,
+        Code::Component(_) => {
+            let mut session = Session::open(plugin, Arc::new(NoTown))?;
+            let function = session.function::<(), (Metadata,)>("describe")?;
+            session.call("describe", &function, ())?.0
+        }
+    };
     let refused = |message: String| PluginError::failed(&plugin.shown, "describe", message);
     let is_plain = |byte: u8| byte.is_ascii_lowercase() || byte.is_ascii_digit() || byte == b'_';
     let name = &metadata.name;

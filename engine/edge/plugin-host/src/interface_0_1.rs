@@ -163,7 +163,6 @@ pub enum StageEffect {
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, ComponentType, Lift)]
 #[component(enum)]
 #[repr(u8)]
-#[expect(dead_code, reason = "made by lifting only")]
 pub enum Severity {
     /// For authors.
     #[component(name = "debug")]

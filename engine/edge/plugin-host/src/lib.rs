@@ -9,7 +9,10 @@
 
 mod compiled_code;
 mod component;
+mod component_term;
 mod cost_term;
+mod direct_abi;
+mod direct_term;
 mod failure;
 mod host;
 mod imports;
@@ -19,7 +22,10 @@ mod limits;
 mod objective;
 mod parameters;
 mod plugin;
+mod sandbox;
 mod session;
+mod signature;
+mod term_border;
 mod town;
 mod transform;
 
@@ -31,6 +37,7 @@ pub use limits::PluginLimits;
 pub use objective::{Drawn, draw_reference};
 pub use parameters::{check_schema, with_defaults};
 pub use plugin::{Kind, Plugin};
-pub use session::{Effort, Said, Session};
+pub use sandbox::{Effort, Said};
+pub use session::Session;
 pub use town::{NoTown, TownView};
 pub use transform::{Effect, Transformed, run_transform};

@@ -3,7 +3,8 @@
 use crate::failure::PluginError;
 use crate::interface_0_1::{Plan, Refusal, SiteContext};
 use crate::plugin::Plugin;
-use crate::session::{Said, Session};
+use crate::sandbox::Said;
+use crate::session::Session;
 use crate::town::TownView;
 use std::sync::Arc;
 use wasmtime::component::TypedFunc;

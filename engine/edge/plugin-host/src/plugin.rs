@@ -3,7 +3,7 @@
 use crate::imports::OFFERED;
 use crate::interface_0_1::{Metadata, PACKAGE, VERSION};
 use crate::limits::PluginLimits;
-use crate::session::Guest;
+use crate::sandbox::Guest;
 use cosfly_fingerprint::Digest;
 use std::sync::Arc;
 use wasmtime::Engine;
@@ -56,7 +56,15 @@ impl Kind {
 /// What is compiled once, whatever its limits.
 pub(crate) struct Compiled {
     pub(crate) engine: Engine,
-    pub(crate) ready: InstancePre<Guest>,
+    pub(crate) code: Code,
+}
+
+/// In which form it is compiled.
+pub(crate) enum Code {
+    /// As a component.
+    Component(InstancePre<Guest>),
+    /// A cost term, as the core module that it is in its file: calls are quicker.
+    Module(wasmtime::InstancePre<Guest>),
 }
 
 /// A plugin, ready to be opened as often as wanted.

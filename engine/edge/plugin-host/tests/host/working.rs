@@ -45,3 +45,22 @@ fn another_track_is_told_again() {
         assert_eq!(costs_of(&plugin, &flight(frames)).unwrap().len(), frames);
     }
 }
+
+#[test]
+fn a_module_and_the_component_around_it_give_the_same_bits() {
+    let folder = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("../../../recipes/plugins");
+    let mut tried = 0;
+    for name in ["no_fly_zone", "privacy", "sun_glare", "wind"] {
+        let bytes = std::fs::read(folder.join(format!("{name}.wasm"))).unwrap();
+        let component = wit_component::ComponentEncoder::default().module(&bytes).unwrap().encode().unwrap();
+        let flight = flight(50);
+        let both = [bytes, component].map(|bytes| {
+            let plugin = Host::new(None).load_bytes(&bytes, name, None, PluginLimits::default()).unwrap();
+            let costs = costs_of(&plugin, &flight).unwrap();
+            (plugin.metadata.clone(), costs.iter().map(|cost| cost.to_bits()).collect::<Vec<_>>())
+        });
+        assert_eq!(both[0], both[1], "{name}");
+        tried += 1;
+    }
+    assert_eq!(tried, 4);
+}
