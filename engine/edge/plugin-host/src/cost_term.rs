@@ -10,6 +10,9 @@ use cosfly_planner::walk::Walk;
 use cosfly_planner::{CostTerm, TermContext, body_points};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
+/// What is done with gradients.
+type Take<'a> = dyn FnMut(&[f64]) + 'a;
+
 /// One configured instance of a plugin, for one flight. Costs nothing more after a failure, which [`Began::failure`] tells.
 pub struct PluginTerm {
     name: String,
@@ -68,7 +71,7 @@ impl PluginTerm {
         waypoints: &[DVec3],
         context: &TermContext<'_>,
         costs: &mut [f64],
-        take: Option<&mut dyn FnMut(&[f64])>,
+        take: Option<&mut Take<'_>>,
     ) -> bool {
         let mut running = self.running();
         if running.failure.is_none() && running.told != Some(identity(context.track)) {
