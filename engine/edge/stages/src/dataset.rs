@@ -63,7 +63,7 @@ impl StageKind for Dataset {
         });
         let gather = StageProperties {
             kind: self.name().into(),
-            version: 3,
+            version: 4,
             parameters: parameters::canonical(&config),
             sources: vec![],
             inputs,

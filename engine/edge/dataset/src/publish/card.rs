@@ -142,7 +142,8 @@ fn figures(summary: &Summary) -> String {
         let (flights, frames) = summary.splits.get(split.name()).copied().unwrap_or_default();
         row(&format!("split `{}`", split.name()), format!("{flights} flights, {frames} frames"));
     }
-    text.push_str("\nFlights behind one pedestrian are always in the same split.\n\n");
+    text.push_str("\nFlights behind one pedestrian are always in the same split. `report/index.html` shows all of this as a page: maps, \
+         curves, distributions, worst cases with their pictures.\n\n");
     text
 }
 

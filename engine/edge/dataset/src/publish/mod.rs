@@ -3,13 +3,14 @@
 //! ```text
 //! README.md  LICENSE  croissant.json  SHA256SUMS  files.parquet
 //! data/<table>/<split>-00000-of-00001.parquet      mcap/<town>/<000>/<trajectory>.mcap
-//! layouts/{foxglove.json, show_in_rerun.py}         schemas/cosfly.proto
+//! layouts/{foxglove.json, show_in_rerun.py}         schemas/cosfly.proto      report/index.html
 //! ```
 //! `files.parquet` holds the hash of every other file; `SHA256SUMS` holds those of `files.parquet` and
 //! `croissant.json`, which names it.
 
 mod card;
 mod plan;
+mod report;
 mod summary;
 mod viewers;
 mod write;

@@ -51,6 +51,7 @@ fn the_layout_is_the_documented_one() {
             "mcap/plain/000/expert-p00001.mcap",
             "mcap/plain/000/perturbed-p00000.mcap",
             "mcap/plain/000/perturbed-p00001.mcap",
+            "report/index.html",
             "schemas/cosfly.proto",
         ]
     );

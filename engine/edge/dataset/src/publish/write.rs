@@ -2,6 +2,7 @@
 
 use super::card;
 use super::plan::{DatasetPlan, Split};
+use super::report;
 use super::summary::Summary;
 use super::viewers;
 use crate::config::DatasetConfig;
@@ -10,6 +11,7 @@ use crate::mcap_log::{LogRecord, target_state};
 use crate::tables::{self, DatasetItem, FileRecord, ObjectRecord, Table, TableWriter};
 use crate::{CaptionRecord, PreviewStrip, Rejection, RenderedTrajectory, croissant};
 use cosfly_diagnose::{Diagnostic, Fault, Result};
+use cosfly_report::FlightSketch;
 use cosfly_stage::{BlobRef, OutputSink};
 use std::collections::BTreeMap;
 use std::io::Write;
@@ -56,14 +58,15 @@ pub fn write_dataset(
         dataset.link_log(path, log)?;
     }
     let items = Items { plan: &plan, logs, source, keep_going };
-    let mut summary = summarise(&items, rejections)?;
+    let (mut summary, flights) = summarise(&items, rejections)?;
     for table in tables::of_trajectories() {
         let rows = dataset.trajectory_table(&table, &items)?;
         summary.rows.insert(table.name, rows);
     }
     let objects = tables::of_objects();
     let path = format!("data/{0}/{0}-00000-of-00001.parquet", objects.name);
-    let rows = dataset.table(&objects, &path, &source.objects()?)?;
+    let boxes = source.objects()?;
+    let rows = dataset.table(&objects, &path, &boxes)?;
     summary.rows.insert(objects.name, BTreeMap::from([(objects.name.to_owned(), rows)]));
     let rejected = tables::of_rejections();
     dataset.table(&rejected, &format!("data/{0}/{0}-00000-of-00001.parquet", rejected.name), rejections)?;
@@ -71,6 +74,8 @@ pub fn write_dataset(
     for (path, text) in viewers::FILES {
         dataset.put(path, text.as_bytes())?;
     }
+    let page = report::page(config, &summary, flights, &boxes, rejections, source)?;
+    dataset.put(report::PATH, page.as_bytes())?;
     dataset.put("schemas/cosfly.proto", target_state::proto_text().as_bytes())?;
     dataset.put("LICENSE", card::license_text(config).as_bytes())?;
     dataset.put("README.md", card::readme(config, &summary).as_bytes())?;
@@ -85,15 +90,18 @@ fn nothing_to_publish(rejections: &[Rejection]) -> Box<Diagnostic> {
     reasons.fold(Diagnostic::new("dataset-empty", Fault::Input, message), Diagnostic::because)
 }
 
-/// One pass over all trajectories for the figures of the card.
-fn summarise(items: &Items<'_>, rejections: &[Rejection]) -> Result<Summary> {
+/// One pass over all trajectories for the figures of the card and the sketches of the report.
+fn summarise(items: &Items<'_>, rejections: &[Rejection]) -> Result<(Summary, Vec<FlightSketch>)> {
     let splits = Split::ALL.iter().map(|split| (split.name(), (0, 0))).collect();
     let mut summary = Summary { splits, ..Summary::default() };
     summary.count_rejections(rejections);
+    let mut flights = vec![];
     for index in 0..items.logs.len() {
-        summary.count(&items.load(index, false)?, items.plan.splits[index].name());
+        let (item, split) = (items.load(index, false)?, items.plan.splits[index].name());
+        summary.count(&item, split);
+        flights.push(report::sketch(&item.record, split));
     }
-    Ok(summary)
+    Ok((summary, flights))
 }
 
 /// The trajectories in the order of their logs.

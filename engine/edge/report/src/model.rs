@@ -1,0 +1,190 @@
+//! What the page is made of: sketches of towns and flights, a few numbers per frame. World frame, metres, degrees.
+
+use serde::Deserialize;
+
+/// A dataset as its page shows it.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Report {
+    /// Heading of the page.
+    pub title: String,
+    /// What the dataset is, in a paragraph.
+    pub description: String,
+    /// Its short name and version.
+    pub name_and_version: String,
+    /// Day of publication, `YYYY-MM-DD`.
+    pub published: String,
+    /// Name of the licence.
+    pub license: String,
+    /// Who publishes it.
+    pub creator: String,
+    /// Languages of the captions.
+    pub languages: Vec<String>,
+    /// Towns by name.
+    pub towns: Vec<TownSketch>,
+    /// Flights, in the order of the tables.
+    pub flights: Vec<FlightSketch>,
+    /// Items without a flight.
+    pub rejections: Vec<RejectionSketch>,
+    /// Planners beside each other; empty leaves the section out.
+    pub planners: Vec<PlannerRow>,
+}
+
+/// A town seen from above.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct TownSketch {
+    /// Its name.
+    pub name: String,
+    /// Its obstacles.
+    pub boxes: Vec<BoxSketch>,
+}
+
+/// An obstacle seen from above.
+#[derive(Clone, Debug, PartialEq)]
+pub struct BoxSketch {
+    /// Boxes with the same id are one object.
+    pub instance: u32,
+    /// Kind as in table `objects`, such as `building`.
+    pub kind: String,
+    /// Middle: x east, y south.
+    pub center_m: [f64; 2],
+    /// Half its lengths along its own axes.
+    pub half_m: [f64; 2],
+    /// Turn from x towards y, radians.
+    pub yaw_rad: f64,
+}
+
+/// A flight with a few numbers per frame.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct FlightSketch {
+    /// Its id.
+    pub id: String,
+    /// Perturbed, otherwise an expert.
+    pub is_perturbed: bool,
+    /// Whom it follows.
+    pub pedestrian: String,
+    /// Name of the town.
+    pub town: String,
+    /// Name of the weather.
+    pub weather: String,
+    /// Name of the split.
+    pub split: String,
+    /// Time between frames, seconds.
+    pub dt_s: f64,
+    /// Width and height of images, pixels.
+    pub image_px: [u32; 2],
+    /// Positions of the drone.
+    pub drone_m: Vec<[f32; 3]>,
+    /// Feet of the target.
+    pub feet_m: Vec<[f32; 3]>,
+    /// Share of the target's body that rays from the camera reach, 0..=1.
+    pub visible: Vec<f32>,
+    /// To the nearest obstacle.
+    pub clearance_m: Vec<f32>,
+    /// Edges of the box around the whole body in the image, hidden or not: left, top, right, bottom.
+    pub box_px: Vec<Option<[f32; 4]>>,
+    /// Whether its limits hold.
+    pub holds: bool,
+    /// Which do not, in words.
+    pub violations: Vec<String>,
+    /// Largest jerk, m/s^3.
+    pub max_jerk_mps3: f64,
+    /// Total cost on the way to the flight.
+    pub convergence: Vec<f64>,
+    /// Weighted cost of each term of the published flight.
+    pub term_costs: Vec<(String, f64)>,
+}
+
+impl FlightSketch {
+    /// Number of frames.
+    pub fn len(&self) -> usize {
+        self.drone_m.len()
+    }
+
+    /// Whether it has no frame.
+    pub fn is_empty(&self) -> bool {
+        self.drone_m.is_empty()
+    }
+
+    /// From the first frame to the last, seconds.
+    pub fn duration_s(&self) -> f64 {
+        self.dt_s * self.len().saturating_sub(1) as f64
+    }
+
+    /// Mean visibility; 0 without frames.
+    pub fn mean_visible(&self) -> f64 {
+        self.visible.iter().map(|share| f64::from(*share)).sum::<f64>() / self.visible.len().max(1) as f64
+    }
+
+    /// From the camera to the feet, metres, frame by frame.
+    pub fn distances_m(&self) -> Vec<f32> {
+        let pairs = self.drone_m.iter().zip(&self.feet_m);
+        pairs.map(|(drone, feet)| length([drone[0] - feet[0], drone[1] - feet[1], drone[2] - feet[2]])).collect()
+    }
+
+    /// Speed of the drone between frames, m/s.
+    pub fn speeds_mps(&self) -> Vec<f32> {
+        speeds(&self.drone_m, self.dt_s)
+    }
+
+    /// Speed of the target between frames, m/s.
+    pub fn target_speeds_mps(&self) -> Vec<f32> {
+        speeds(&self.feet_m, self.dt_s)
+    }
+
+    /// Height of the box around the body, pixels; 0 when it is not in the image.
+    pub fn box_height_px(&self, frame: usize) -> f32 {
+        self.box_px.get(frame).copied().flatten().map_or(0.0, |edges| edges[3] - edges[1])
+    }
+
+    /// First frame and number of frames of each stretch in which less than half of the target is visible.
+    pub fn occlusions(&self) -> Vec<(usize, usize)> {
+        let mut stretches: Vec<(usize, usize)> = vec![];
+        for (frame, _) in self.visible.iter().enumerate().filter(|(_, share)| **share < 0.5) {
+            match stretches.last_mut() {
+                Some((start, count)) if *start + *count == frame => *count += 1,
+                _ => stretches.push((frame, 1)),
+            }
+        }
+        stretches
+    }
+}
+
+fn speeds(places: &[[f32; 3]], dt_s: f64) -> Vec<f32> {
+    let step = |pair: &[[f32; 3]]| length([0, 1, 2].map(|axis| pair[1][axis] - pair[0][axis])) / dt_s as f32;
+    places.windows(2).map(step).collect()
+}
+
+fn length(v: [f32; 3]) -> f32 {
+    v.iter().map(|it| it * it).sum::<f32>().sqrt()
+}
+
+/// An item without a flight.
+#[derive(Clone, Debug, PartialEq)]
+pub struct RejectionSketch {
+    /// The id that the flight would have had.
+    pub id: String,
+    /// Stage that rejected it.
+    pub stage: String,
+    /// Why.
+    pub reason: String,
+}
+
+/// A planner's figures over the same walks as those of the others.
+#[derive(Clone, Debug, PartialEq, Deserialize)]
+pub struct PlannerRow {
+    /// Its name.
+    pub planner: String,
+    /// Mean visibility, 0..=1.
+    pub visibility: Known,
+    /// Mean distance to the target, metres.
+    pub distance_m: Known,
+    /// Mean length of the way, metres.
+    pub length_m: Known,
+    /// Mean time per flight, milliseconds.
+    pub time_ms: Known,
+    /// Flights planned and flights asked for.
+    pub planned: (u64, u64),
+}
+
+/// A number that may not be known.
+pub type Known = Option<f64>;

@@ -1,0 +1,142 @@
+//! Which flights and which of their frames are worth a picture.
+
+use crate::model::FlightSketch;
+
+/// A reason to look at a flight, and the frames that show it.
+pub struct Case {
+    /// Place of the flight in the list.
+    pub flight: usize,
+    /// What it is the worst in.
+    pub what: &'static str,
+    /// The value, in words.
+    pub figure: String,
+    /// Frames to show, with what each shows.
+    pub frames: Vec<(usize, &'static str)>,
+}
+
+/// Pictures in the heading: up to `count` flights spread over the list, each at a frame that shows its target large.
+pub fn gallery(flights: &[FlightSketch], count: usize) -> Vec<(usize, usize)> {
+    let experts: Vec<usize> = (0..flights.len()).filter(|at| !flights[*at].is_perturbed).collect();
+    let chosen: Vec<usize> = if experts.is_empty() { (0..flights.len()).collect() } else { experts };
+    spread(chosen.len(), count).into_iter().map(|at| (chosen[at], best_frame(&flights[chosen[at]]))).collect()
+}
+
+/// Up to `count` places of `length`, the same distance apart.
+pub fn spread(length: usize, count: usize) -> Vec<usize> {
+    let count = count.min(length);
+    (0..count).map(|at| (2 * at + 1) * length / (2 * count)).collect()
+}
+
+/// A frame of the middle that shows the target large and free.
+fn best_frame(flight: &FlightSketch) -> usize {
+    let value = |frame: &usize| flight.visible[*frame] * flight.box_height_px(*frame);
+    let middle = flight.len() / 6..(5 * flight.len()).div_ceil(6);
+    middle.max_by(|a, b| value(a).total_cmp(&value(b)).then(b.cmp(a))).unwrap_or(0)
+}
+
+/// The flights that are the worst in something.
+pub fn worst(flights: &[FlightSketch]) -> Vec<Case> {
+    let of = |perturbed: bool| (0..flights.len()).filter(move |at| flights[*at].is_perturbed == perturbed);
+    let mut cases: Vec<Case> = least(of(false), &|at| flights[at].mean_visible(), 3)
+        .into_iter()
+        .map(|at| hidden(flights, at, "least visible expert"))
+        .collect();
+    cases.extend(
+        least(of(true), &|at| flights[at].mean_visible(), 1)
+            .into_iter()
+            .map(|at| hidden(flights, at, "least visible perturbed flight")),
+    );
+    let nearest = |at: usize| flights[at].clearance_m.iter().copied().fold(f32::INFINITY, f32::min);
+    cases.extend(least(of(false), &|at| f64::from(nearest(at)), 1).into_iter().map(|at| {
+        let frame = lowest(&flights[at].clearance_m);
+        let figure = format!("{:.2} m to the nearest obstacle", nearest(at));
+        Case { flight: at, what: "closest to an obstacle", figure, frames: vec![(frame, "the nearest frame")] }
+    }));
+    cases.extend(least(of(false), &|at| -flights[at].max_jerk_mps3, 1).into_iter().map(|at| {
+        let flight = &flights[at];
+        let figure = format!("jerk up to {:.1} m/s³", flight.max_jerk_mps3);
+        Case { flight: at, what: "roughest expert", figure, frames: vec![(roughest(flight), "where the jerk peaks")] }
+    }));
+    cases
+}
+
+/// The `count` places with the least values, that of equals which comes first.
+fn least(places: impl Iterator<Item = usize>, value: &dyn Fn(usize) -> f64, count: usize) -> Vec<usize> {
+    let mut places: Vec<usize> = places.collect();
+    places.sort_by(|a, b| value(*a).total_cmp(&value(*b)).then(a.cmp(b)));
+    places.truncate(count);
+    places
+}
+
+fn hidden(flights: &[FlightSketch], at: usize, what: &'static str) -> Case {
+    let flight = &flights[at];
+    let longest = flight.occlusions().into_iter().max_by(|a, b| a.1.cmp(&b.1).then(b.0.cmp(&a.0)));
+    let frames = match longest {
+        Some((start, count)) => {
+            let mut frames = vec![];
+            frames.extend(start.checked_sub(1).map(|before| (before, "just before it is lost")));
+            frames.push((start + count / 2, "lost"));
+            frames
+        }
+        None => vec![(lowest(&flight.visible), "least visible")],
+    };
+    let lost = longest.map_or(String::new(), |(_, count)| format!(", lost for {:.1} s", count as f64 * flight.dt_s));
+    Case { flight: at, what, figure: format!("{:.1} % visible{lost}", 100.0 * flight.mean_visible()), frames }
+}
+
+/// The place of the least number, the first of equals.
+fn lowest(numbers: &[f32]) -> usize {
+    let least = |a: &usize, b: &usize| numbers[*a].total_cmp(&numbers[*b]).then(a.cmp(b));
+    (0..numbers.len()).min_by(least).unwrap_or(0)
+}
+
+/// The frame in the middle of the four whose third difference is the largest.
+fn roughest(flight: &FlightSketch) -> usize {
+    let places = &flight.drone_m;
+    let jerk = |at: usize| {
+        let third = |axis: usize| {
+            let p = |i: usize| f64::from(places[at + i][axis]);
+            p(3) - 3.0 * p(2) + 3.0 * p(1) - p(0)
+        };
+        [0, 1, 2].map(third).iter().map(|it| it * it).sum::<f64>()
+    };
+    let count = places.len().saturating_sub(3);
+    (0..count).max_by(|a, b| jerk(*a).total_cmp(&jerk(*b)).then(b.cmp(a))).map_or(0, |at| at + 1)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn flight(visible: &[f32]) -> FlightSketch {
+        FlightSketch {
+            dt_s: 0.5,
+            drone_m: vec![[0.0; 3]; visible.len()],
+            feet_m: vec![[0.0; 3]; visible.len()],
+            visible: visible.to_vec(),
+            clearance_m: vec![2.0; visible.len()],
+            box_px: vec![Some([1.0, 1.0, 4.0, 9.0]); visible.len()],
+            ..FlightSketch::default()
+        }
+    }
+
+    #[test]
+    fn the_least_visible_flight_is_shown_where_it_loses_its_target() {
+        let flights = [flight(&[1.0; 6]), flight(&[1.0, 1.0, 0.1, 0.0, 0.2, 1.0])];
+        let cases = worst(&flights);
+        assert_eq!(cases[0].flight, 1);
+        assert_eq!(cases[0].frames, [(1, "just before it is lost"), (3, "lost")]);
+        assert!(cases[0].figure.ends_with("lost for 1.5 s"), "{}", cases[0].figure);
+    }
+
+    #[test]
+    fn nothing_is_shown_of_nothing() {
+        assert!(worst(&[]).is_empty() && gallery(&[], 6).is_empty());
+    }
+
+    #[test]
+    fn places_are_spread_evenly() {
+        assert_eq!(spread(10, 2), [2, 7]);
+        assert_eq!(spread(2, 5), [0, 1]);
+    }
+}

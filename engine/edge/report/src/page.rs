@@ -1,0 +1,183 @@
+//! The page as a whole: heading, contents, sections, foot.
+
+use crate::model::Report;
+use crate::pictures::{Source, image};
+use crate::sections::{distributions, maps, numbers, planning, shares, timelines, worst};
+use crate::text::escaped;
+use crate::{moments, statistics};
+use std::fmt::Write;
+
+const STYLE: &str = include_str!("../assets/style.css");
+/// Pictures in the heading.
+const GALLERY: usize = 6;
+
+/// The page. `pictures` gives the small colour image of a frame of a flight, by their places, if there is one.
+///
+/// # Errors
+/// Those of `pictures`.
+pub fn page<E>(report: &Report, pictures: Source<'_, E>) -> Result<String, E> {
+    let sections = [
+        ("numbers", "In numbers", numbers::section(report)),
+        ("maps", "Where they fly", maps::section(report)),
+        ("time", "When the target is seen", timelines::section(report)),
+        ("distributions", "Distributions", distributions::section(report)),
+        ("planning", "Planning", planning::section(report)),
+        ("worst", "Worst cases", worst::section(report, pictures)?),
+        ("shares", "What is where, and what was left out", shares::section(report)),
+    ];
+    let shown: Vec<_> = sections.iter().filter(|(_, _, body)| !body.is_empty()).collect();
+    let mut html = format!(
+        "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n\
+         <meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n\
+         <meta name=\"color-scheme\" content=\"light dark\">\n<title>{title}</title>\n<link rel=\"icon\" href=\"data:,\">\n\
+         <style>\n{STYLE}</style>\n</head>\n<body>\n<a class=\"skip\" href=\"#main\">Skip to the content</a>\n",
+        title = escaped(&report.title)
+    );
+    html.push_str(&heading(report, pictures)?);
+    html.push_str("<nav aria-label=\"Contents\"><ul>");
+    for (id, title, _) in &shown {
+        let _ = write!(html, "<li><a href=\"#{id}\">{title}</a></li>");
+    }
+    html.push_str("</ul></nav>\n<main id=\"main\">\n");
+    for (id, title, body) in &shown {
+        let _ = writeln!(
+            html,
+            "<section id=\"{id}\" aria-labelledby=\"{id}-title\"><h2 id=\"{id}-title\">{title}</h2>{body}</section>"
+        );
+    }
+    html.push_str("</main>\n");
+    html.push_str(&foot(report));
+    html.push_str("</body>\n</html>\n");
+    Ok(html)
+}
+
+fn heading<E>(report: &Report, pictures: Source<'_, E>) -> Result<String, E> {
+    let mut html = format!(
+        "<header><div class=\"words\"><p class=\"eyebrow\">Dataset report</p><h1>{}</h1><p class=\"lead\">{}</p>",
+        escaped(&report.title),
+        escaped(report.description.trim())
+    );
+    let mut visible: Vec<f64> =
+        report.flights.iter().filter(|it| !it.is_perturbed).map(crate::FlightSketch::mean_visible).collect();
+    visible.sort_by(f64::total_cmp);
+    if !visible.is_empty() {
+        let mean = visible.iter().sum::<f64>() / visible.len() as f64;
+        let _ = write!(
+            html,
+            "<p class=\"headline\"><b>{:.1} %</b> of the target is visible on average over expert flights; {:.1} % in the \
+             median flight.</p>",
+            100.0 * mean,
+            100.0 * statistics::quantile(&visible, 0.5)
+        );
+    }
+    let facts = [&report.name_and_version, &report.published, &report.creator, &report.license];
+    let facts: Vec<String> = facts.into_iter().filter(|it| !it.is_empty()).map(|it| escaped(it)).collect();
+    let _ = write!(html, "<p class=\"facts\">{}</p></div>", facts.join("<span aria-hidden=\"true\"> · </span>"));
+    let mut gallery = String::new();
+    for (flight, frame) in moments::gallery(&report.flights, GALLERY) {
+        let Some(jpeg) = pictures(flight, frame)? else { continue };
+        let sketch = &report.flights[flight];
+        let alternative = format!("A pedestrian from the air: {}, frame {frame}, {}", sketch.id, sketch.weather);
+        let _ = write!(gallery, "<li>{}</li>", image(&jpeg, sketch, frame, &alternative));
+    }
+    if !gallery.is_empty() {
+        let _ = write!(html, "<ul class=\"gallery\" aria-label=\"Frames of some flights\">{gallery}</ul>");
+    }
+    html.push_str("</header>\n");
+    Ok(html)
+}
+
+fn foot(report: &Report) -> String {
+    let languages = if report.languages.is_empty() {
+        String::new()
+    } else {
+        format!(" Instructions in {}.", escaped(&report.languages.join(", ")))
+    };
+    format!(
+        "<footer><p>Written by cosfly while it published the dataset, from the same records as the tables.{languages} \
+         World frame: x east, y south, z up, metres.</p>\
+         <p>Check it: <code>cosfly verify .</code> compares every file with its hash and every number with the others; \
+         <code>README.md</code> explains all columns.</p></footer>\n"
+    )
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::model::{BoxSketch, FlightSketch, RejectionSketch, TownSketch};
+    use std::convert::Infallible;
+
+    fn flight(number: usize, is_perturbed: bool) -> FlightSketch {
+        let place = |frame: usize| [frame as f32, number as f32, 20.0];
+        FlightSketch {
+            id: format!("flight-{number}<{is_perturbed}>"),
+            is_perturbed,
+            pedestrian: format!("p{number}"),
+            town: "plain".into(),
+            weather: "ClearNoon".into(),
+            split: "train".into(),
+            dt_s: 0.5,
+            image_px: [64, 48],
+            drone_m: (0..20).map(place).collect(),
+            feet_m: (0..20).map(|frame| [frame as f32 + 20.0, 0.0, 0.0]).collect(),
+            visible: (0..20).map(|frame| (frame % 6) as f32 / 5.0).collect(),
+            clearance_m: vec![3.0; 20],
+            box_px: vec![Some([30.0, 10.0, 40.0, 30.0]); 20],
+            holds: true,
+            convergence: if is_perturbed { vec![] } else { vec![10.0, 4.0, 5.0] },
+            term_costs: vec![("visibility".into(), 3.0), ("jerk".into(), 1.0)],
+            ..FlightSketch::default()
+        }
+    }
+
+    fn report() -> Report {
+        let shape =
+            BoxSketch { instance: 3, kind: "building".into(), center_m: [5.0, 5.0], half_m: [4.0, 2.0], yaw_rad: 0.3 };
+        Report {
+            title: "A <dataset>".into(),
+            towns: vec![TownSketch { name: "plain".into(), boxes: vec![shape] }],
+            flights: (0..4).map(|i| flight(i / 2, i % 2 == 1)).collect(),
+            rejections: vec![RejectionSketch { id: "p9".into(), stage: "expert".into(), reason: "no way".into() }],
+            ..Report::default()
+        }
+    }
+
+    fn written(report: &Report) -> String {
+        let Ok(html) = page::<Infallible>(report, &mut |_, _| Ok(Some(vec![0xff, 0xd8])));
+        html
+    }
+
+    #[test]
+    fn everything_is_inside_and_nothing_runs() {
+        let html = written(&report());
+        for outside in ["http:", "https:", "<script", "src=\"/", "@import", "url("] {
+            assert!(!html.contains(outside), "{outside}");
+        }
+        assert!(html.contains("data:image/jpeg;base64,/9g="));
+    }
+
+    #[test]
+    fn every_element_that_is_opened_is_closed_and_text_is_escaped() {
+        let html = written(&report());
+        for name in ["section", "figure", "table", "tr", "svg", "g", "ul", "li", "div", "p", "article", "dl", "details"]
+        {
+            let opened = html.matches(&format!("<{name}>")).count() + html.matches(&format!("<{name} ")).count();
+            assert_eq!(opened, html.matches(&format!("</{name}>")).count(), "{name}");
+        }
+        assert!(html.contains("A &lt;dataset&gt;") && !html.contains("flight-0<"));
+    }
+
+    #[test]
+    fn the_same_data_give_the_same_bytes_and_none_give_a_page() {
+        assert!(written(&report()) == written(&report()));
+        let empty = written(&Report::default());
+        assert!(empty.contains("<main") && !empty.contains("NaN") && !empty.contains("inf"), "{empty}");
+    }
+
+    #[test]
+    fn every_picture_has_words() {
+        let html = written(&report());
+        assert_eq!(html.matches("<img ").count(), html.matches(" alt=\"").count());
+        assert_eq!(html.matches("<svg ").count(), html.matches("role=\"img\" aria-label=").count());
+    }
+}

@@ -1,0 +1,9 @@
+//! The sections of the page, one file each.
+
+pub mod distributions;
+pub mod maps;
+pub mod numbers;
+pub mod planning;
+pub mod shares;
+pub mod timelines;
+pub mod worst;

@@ -1,0 +1,60 @@
+//! The statistics table of the paper, with what this dataset has in each row.
+
+use crate::model::{FlightSketch, Report};
+use crate::text::{escaped, grouped, short};
+use std::collections::BTreeSet;
+use std::fmt::Write;
+
+/// RGB, depth, segmentation, drone pose, target state (paper, section on the dataset: five channels per timestep).
+const CHANNELS: u64 = 5;
+
+/// The section.
+pub fn section(report: &Report) -> String {
+    let mut text = String::from("<dl class=\"tiles\">");
+    for (name, here, paper) in rows(report) {
+        let _ = write!(
+            text,
+            "<div class=\"tile\"><dt>{name}</dt><dd><b>{}</b><small>paper: {paper}</small></dd></div>",
+            escaped(&here)
+        );
+    }
+    text.push_str("</dl>");
+    text.push_str(
+        "<p class=\"note\">The rows are those of the statistics table of the CosFly-Track paper, whose figures stand below \
+         ours. An annotation sample is one of five channels of one timestep: colour, depth, segmentation, drone pose, \
+         target state.</p>",
+    );
+    text
+}
+
+/// Name, what is here, what the paper has.
+fn rows(report: &Report) -> Vec<(&'static str, String, &'static str)> {
+    let flights = &report.flights;
+    let distinct = |name: fn(&FlightSketch) -> &String| flights.iter().map(name).collect::<BTreeSet<_>>().len() as u64;
+    let perturbed = flights.iter().filter(|flight| flight.is_perturbed).count();
+    let frames: u64 = flights.iter().map(|flight| flight.len() as u64).sum();
+    let seconds: f64 = flights.iter().map(FlightSketch::duration_s).sum();
+    let count = flights.len().max(1) as f64;
+    vec![
+        ("Unique pedestrian paths", grouped(distinct(|flight| &flight.pedestrian)), "~6,000"),
+        ("Expert and perturbed trajectories", format!("{} + {perturbed}", flights.len() - perturbed), "~12,000"),
+        ("Timesteps", grouped(frames), "2.4M"),
+        ("Annotation samples", grouped(frames * CHANNELS), "~10M"),
+        ("Total tracking duration", duration(seconds), "~334 hours"),
+        ("Urban scenes", grouped(distinct(|flight| &flight.town)), "16"),
+        ("Weather and lighting conditions", grouped(distinct(|flight| &flight.weather)), "8+"),
+        (
+            "Average trajectory",
+            format!("{} steps / {} s", short(frames as f64 / count), short(seconds / count)),
+            "~200 steps / 100 s",
+        ),
+    ]
+}
+
+fn duration(seconds: f64) -> String {
+    match seconds {
+        _ if seconds < 90.0 => format!("{} s", short(seconds)),
+        _ if seconds < 5_400.0 => format!("{} min", short(seconds / 60.0)),
+        _ => format!("{} hours", short(seconds / 3_600.0)),
+    }
+}

@@ -1,0 +1,43 @@
+//! When targets are seen: a strip of colours per flight.
+
+use super::maps::legend;
+use crate::chart;
+use crate::model::{FlightSketch, Report};
+use crate::moments::spread;
+use crate::text::{escaped, percent, short};
+use std::fmt::Write;
+
+/// Rows of the table.
+const MOST_ROWS: usize = 40;
+
+/// The section.
+pub fn section(report: &Report) -> String {
+    let flights = &report.flights;
+    let longest = flights.iter().map(FlightSketch::len).max().unwrap_or(1).max(1);
+    let mut text = legend();
+    text.push_str(
+        "<div class=\"scroll card\" tabindex=\"0\" role=\"region\" aria-label=\"Visibility over time\"><table class=\"strips\">\
+         <thead><tr><th scope=\"col\">flight</th><th scope=\"col\">visible</th><th scope=\"col\">lost, longest</th>\
+         <th scope=\"col\">over time</th></tr></thead><tbody>",
+    );
+    let mut order: Vec<&FlightSketch> = flights.iter().collect();
+    order.sort_by(|a, b| (&a.pedestrian, a.is_perturbed, &a.id).cmp(&(&b.pedestrian, b.is_perturbed, &b.id)));
+    let rows = spread(order.len(), MOST_ROWS);
+    for flight in rows.iter().map(|at| order[*at]) {
+        let lost_s = flight.occlusions().into_iter().map(|it| it.1).max().unwrap_or(0) as f64 * flight.dt_s;
+        let name = format!("{}: visibility over {} s", flight.id, short(flight.duration_s()));
+        let _ = write!(
+            text,
+            "<tr><th scope=\"row\">{}</th><td>{}</td><td>{} s</td><td>{}</td></tr>",
+            escaped(&flight.id),
+            percent(flight.mean_visible()),
+            short(lost_s),
+            chart::strip(&flight.visible, longest, &name)
+        );
+    }
+    text.push_str("</tbody></table></div>");
+    if rows.len() < order.len() {
+        let _ = write!(text, "<p class=\"note\">{} of {} flights.</p>", rows.len(), order.len());
+    }
+    text
+}

@@ -1,0 +1,82 @@
+"""Opens a dataset's page in headless Chromium: no error, nothing loaded from elsewhere, readable by all at any width.
+
+    python check_report.py DATASET [--screenshots FOLDER]
+
+Needs the package `playwright`, `axe-playwright-python`, and a Chromium: that of playwright, or one on the PATH.
+"""
+
+import argparse
+import pathlib
+import shutil
+import sys
+
+from axe_playwright_python.sync_playwright import Axe
+from playwright.sync_api import sync_playwright
+
+WIDTHS = (1280, 400)
+SCHEMES = ("light", "dark")
+
+parser = argparse.ArgumentParser(description=__doc__)
+parser.add_argument("dataset", type=pathlib.Path)
+parser.add_argument("--screenshots", type=pathlib.Path)
+arguments = parser.parse_args()
+page_file = (arguments.dataset / "report" / "index.html").resolve()
+address = page_file.as_uri()
+problems = []
+
+
+def check(page, name):
+    """What must hold at every width in every colour scheme."""
+    width, inside = page.evaluate("[document.documentElement.scrollWidth, innerWidth]")
+    if width > inside:
+        problems.append(f"{name}: the page is {width} px wide in a window of {inside}")
+    broken = page.evaluate("[...document.images].filter(it => !it.complete || it.naturalWidth == 0).length")
+    if broken:
+        problems.append(f"{name}: {broken} pictures are broken")
+    for violation in Axe().run(page).response["violations"]:
+        nodes = violation["nodes"]
+        problems.append(f"{name}: {violation['id']}: {violation['help']} ({len(nodes)} times, first {nodes[0]['html'][:120]})")
+
+
+def contents(page):
+    """What must be there at all."""
+    counts = {
+        "landmarks": page.locator("header, nav, main, footer").count(),
+        "sections": page.locator("main > section").count(),
+        "maps and charts": page.locator("svg[role=img][aria-label]").count(),
+        "pictures": page.locator("img[alt]").count(),
+        "tiles of the statistics table": page.locator(".tile").count(),
+    }
+    least = {"landmarks": 4, "sections": 6, "maps and charts": 10, "pictures": 2, "tiles of the statistics table": 8}
+    problems.extend(f"{name}: {counts[name]}; at least {least[name]}" for name in least if counts[name] < least[name])
+    missing = page.evaluate("[...document.querySelectorAll('nav a')].filter(it => !document.querySelector(it.hash)).length")
+    if missing:
+        problems.append(f"{missing} links of the contents lead nowhere")
+    return counts
+
+
+with sync_playwright() as playwright:
+    path = shutil.which("chromium") or shutil.which("chromium-browser") or shutil.which("google-chrome")
+    browser = playwright.chromium.launch(executable_path=path, args=["--no-sandbox"])
+    for width in WIDTHS:
+        for scheme in SCHEMES:
+            name = f"{width} px, {scheme}"
+            page = browser.new_page(viewport={"width": width, "height": 900}, color_scheme=scheme)
+            page.on("console", lambda it, name=name: problems.append(f"{name}: console: {it.text}"))
+            page.on("pageerror", lambda it, name=name: problems.append(f"{name}: error: {it}"))
+            page.on(
+                "request",
+                lambda it, name=name: it.url.startswith(("data:", address)) or problems.append(f"{name}: loads {it.url}"),
+            )
+            page.goto(address)
+            if arguments.screenshots:
+                arguments.screenshots.mkdir(parents=True, exist_ok=True)
+                page.screenshot(path=arguments.screenshots / f"report-{width}-{scheme}.png", full_page=True)
+            counts = contents(page)
+            check(page, name)
+    browser.close()
+
+print(f"report of {page_file.stat().st_size} bytes: " + ", ".join(f"{count} {name}" for name, count in counts.items()))
+for problem in problems:
+    print("WRONG:", problem)
+sys.exit(1 if problems else 0)
