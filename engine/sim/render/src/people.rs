@@ -87,7 +87,8 @@ impl People {
         for other in setup.others.iter().filter(|other| other.walker.has_body()) {
             let body = Bounds::new(&other.walker);
             let height_px = body.height_px(&other.walker, eye, screen);
-            if height_px < LEAST_HEIGHT_PX || !body.with_shadow(to_sun).is_in_view(eye, screen) {
+            let shaded = body.with_shadow(to_sun);
+            if height_px < LEAST_HEIGHT_PX || !shaded.is_in_view(eye, screen) || shaded.is_hidden(eye, screen, drawn) {
                 continue;
             }
             let is_seen = body.is_in_view(eye, screen) && !body.is_hidden(eye, screen, drawn);

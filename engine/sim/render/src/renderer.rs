@@ -297,8 +297,9 @@ impl Renderer {
         let to_sun = Light::new(setup.weather).to_sun;
         let to_sun = DVec3::new(f64::from(to_sun.x), f64::from(to_sun.y), f64::from(to_sun.z));
         self.people.begin(setup, eye, &self.screen, to_sun);
+        // What hides people hides the ground, too; that they hide some of it themselves is not worth another look.
+        self.nearer.measure(&self.nearest);
         if !setup.others.is_empty() {
-            self.nearer.measure(&self.nearest);
             self.people.gather(setup, eye, &self.screen, to_sun, &self.nearer);
         }
         let mut part = None;
@@ -342,7 +343,6 @@ impl Renderer {
             }
         }
         self.visible.sort_unstable();
-        self.nearer.measure(&self.nearest);
         for position in 0..self.visible.len() {
             let index = self.visible[position].1;
             let cluster = &scene.clusters[index as usize];
