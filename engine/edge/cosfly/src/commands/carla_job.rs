@@ -24,9 +24,16 @@ fn written(arguments: &CarlaJobArguments) -> Result<String> {
     let job = CarlaJob::new(&dataset, &flights)?.to_json();
     let out = arguments.out.display();
     std::fs::write(&arguments.out, &job).map_err(|error| Diagnostic::io(format!("write `{out}`"), &error))?;
+    let left_out = match dataset.others_seen(&flights)? {
+        0 => String::new(),
+        seen => format!(
+            "left out: {} beside the targets; the server shows the targets alone\n",
+            count(seen as u64, "walker")
+        ),
+    };
     let frames: usize = flights.iter().map(|flight| flight.frames).sum();
     Ok(format!(
-        "{out}: {} with {}\nbeside a running CARLA server:\n  python plugins/carla/replay.py {out} {} --out DIR\n",
+        "{out}: {} with {}\n{left_out}beside a running CARLA server:\n  python plugins/carla/replay.py {out} {} --out DIR\n",
         count(flights.len() as u64, "flight"),
         count(frames as u64, "frame"),
         arguments.dir.display()

@@ -5,7 +5,7 @@ use super::log::LogReader;
 use cosfly_diagnose::{Diagnostic, Fault, Result, nearest_name};
 use cosfly_frames::{DVec3, Pose, TargetState};
 use cosfly_render::Camera;
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Component, Path, PathBuf};
 
 /// Ids that an error lists at most.
@@ -137,6 +137,24 @@ impl PublishedDataset {
         let mut family: Vec<_> = self.flights.iter().filter(|it| it.trajectory_id == expert).collect();
         family.extend(self.flights.iter().filter(|it| it.expert_id.as_deref() == Some(expert)));
         family
+    }
+
+    /// How many others the pictures of some flights show, each counted once a flight.
+    pub fn others_seen(&self, flights: &[&PublishedFlight]) -> Result<usize> {
+        let folder = self.folder.join("data/people");
+        let mut seen = BTreeSet::new();
+        for (_, path) in if folder.is_dir() { table_files(&folder)? } else { vec![] } {
+            columns::read(&path, &|name| ["trajectory_id", "instance"].contains(&name), &mut |rows| {
+                for row in 0..rows.len() {
+                    let id = rows.text("trajectory_id", row)?;
+                    if let Some(flight) = flights.iter().position(|it| Some(&it.trajectory_id) == id.as_ref()) {
+                        seen.insert((flight, rows.count("instance", row)?));
+                    }
+                }
+                Ok(())
+            })?;
+        }
+        Ok(seen.len())
     }
 
     /// The log of `flight`.
