@@ -64,7 +64,7 @@ impl StageKind for Render {
         let pixels = u64::from(config.width) * u64::from(config.height);
         let properties = StageProperties {
             kind: self.name().into(),
-            version: 3,
+            version: 4,
             parameters: canonical(&config, &encoding),
             sources: vec![],
             inputs: self.ports(),

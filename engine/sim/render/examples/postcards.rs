@@ -2,7 +2,9 @@
 
 use cosfly_frames::{DVec3, Pose, Seed, TargetState};
 use cosfly_maps::{MapConfig, Town, WalkableKind};
-use cosfly_render::{FrameSetup, RenderConfig, Renderer, Scene, TargetSetup, Weather};
+use cosfly_render::{
+    Bystander, FrameSetup, RenderConfig, Renderer, Scene, TargetSetup, Walker, Weather, gait_phase_rad,
+};
 use std::fs::File;
 use std::path::Path;
 
@@ -37,6 +39,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     let mut renderer = Renderer::new(RenderConfig::default().camera());
     std::fs::create_dir_all(&out)?;
     let (feet, heading_rad) = corner_of_a_pavement(&town);
+    let others = passers_by(&town, feet);
     let state = TargetState { feet_in_world: feet, heading_rad, speed_mps: 1.4 };
     let (sin, cos) = cosfly_frames::real::sin_cos(heading_rad);
     for (name, preset, change, [back, aside, up]) in POSTCARDS {
@@ -56,7 +59,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
             pose: Pose::looking_at(feet + offset, feet + ahead),
             weather: &weather,
             target: Some(target),
-            others: &[],
+            others: &others,
         };
         let frame = renderer.render(&scene, &setup);
         let file = File::create(Path::new(&out).join(format!("{name}.png")))?;
@@ -66,6 +69,38 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         encoder.write_header()?.write_image_data(&frame.images.rgb)?;
     }
     Ok(())
+}
+
+/// People on the pavements and crossings around a place.
+fn passers_by(town: &Town, place: DVec3) -> Vec<Bystander> {
+    let mut random = Seed([4; 32]).stream("passers-by");
+    let mut people = vec![];
+    for area in &town.walkable {
+        let outline = &area.outline_in_world;
+        let (Some(first), Some(second)) = (outline.first(), outline.get(1)) else { continue };
+        let apart_m = (*first - place).truncate().length();
+        if !(4.0..90.0).contains(&apart_m) || !random.chance(0.9) {
+            continue;
+        }
+        let opposite = outline[outline.len() / 2];
+        let feet = *first + (opposite - *first) * random.uniform(0.3, 0.7);
+        let along = *second - *first;
+        let turn = if random.chance(0.5) { 0.0 } else { cosfly_frames::real::PI };
+        let heading_rad = cosfly_frames::real::atan2(along.y, along.x) + turn;
+        let height_m = random.uniform(1.55, 1.92);
+        let number = people.len() as u8;
+        people.push(Bystander {
+            walker: Walker {
+                state: TargetState { feet_in_world: feet, heading_rad, speed_mps: random.uniform(1.1, 1.6) },
+                height_m,
+                radius_m: 0.3,
+                clothes_seed: Seed([number; 32]),
+                gait_phase_rad: gait_phase_rad(random.uniform(0.0, 2.0), height_m),
+            },
+            instance: 60_000 + u32::from(number),
+        });
+    }
+    people
 }
 
 /// A place on a pavement near the middle of the town, and a way along it.

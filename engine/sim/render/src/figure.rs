@@ -144,6 +144,21 @@ const TOPS: [[f32; 3]; 10] = [
     [0.90, 0.22, 0.05],
     [0.05, 0.40, 0.10],
 ];
+/// What most people wear who are just about, linear RGB.
+const EVERYDAY_TOPS: [[f32; 3]; 12] = [
+    [0.03, 0.03, 0.035],
+    [0.08, 0.085, 0.09],
+    [0.20, 0.20, 0.20],
+    [0.45, 0.45, 0.44],
+    [0.62, 0.60, 0.55],
+    [0.03, 0.045, 0.10],
+    [0.10, 0.16, 0.27],
+    [0.30, 0.38, 0.48],
+    [0.07, 0.09, 0.05],
+    [0.16, 0.09, 0.05],
+    [0.38, 0.29, 0.19],
+    [0.20, 0.04, 0.045],
+];
 const TROUSERS: [[f32; 3]; 6] = [
     [0.02, 0.03, 0.08],
     [0.015, 0.015, 0.02],
@@ -172,6 +187,18 @@ impl Clothes {
         let build = stream.uniform(0.92, 1.12);
         let short_sleeves = stream.chance(0.45);
         Self { colours: [skin, hair, TOPS[top_index], trousers, shoes, bag], backpack, short_sleeves, build }
+    }
+
+    /// The clothes of somebody who is not followed: the same, but for a top that mostly does not stand out.
+    pub fn of_bystander(seed: &Seed) -> Self {
+        let mut clothes = Self::draw(seed);
+        let mut stream = seed.stream("everyday");
+        if stream.chance(0.75) {
+            clothes.colours[Region::Top as usize] = EVERYDAY_TOPS[stream.index(EVERYDAY_TOPS.len())];
+            let bag = EVERYDAY_TOPS[stream.index(EVERYDAY_TOPS.len())];
+            clothes.colours[Region::Bag as usize] = bag.map(|c| 0.5 * c);
+        }
+        clothes
     }
 }
 

@@ -98,7 +98,10 @@ impl People {
 
     fn add(&mut self, walker: Walker, instance: u32, is_seen: bool, reach: Reach, height_px: f64) {
         let first = self.triangles.len();
-        let clothes = Clothes::draw(&walker.clothes_seed);
+        let clothes = match instance {
+            TARGET_INSTANCE => Clothes::draw(&walker.clothes_seed),
+            _ => Clothes::of_bystander(&walker.clothes_seed),
+        };
         figure(&walker, &clothes, self.members.len() as u32, &mut self.triangles);
         let triangles = first..self.triangles.len();
         self.members.push(Person { walker, clothes, instance, triangles, is_seen, reach, height_px });
