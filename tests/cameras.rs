@@ -44,6 +44,7 @@ fn drawn_cameras_with_lens_blur_and_noise_pass_every_check_of_the_dataset() {
          gimbal = { pitch_range_deg = [-6.0, 6.0], yaw_range_deg = [-12.0, 12.0] }\n\
          lens = { k1 = -0.12, k2 = 0.01 }\n\
          motion_blur = { shutter_s = 0.04, samples = 3 }\n\
+         rolling_shutter = { readout_s = 0.03, strips = 4 }\n\
          noise = { gaussian = 2.0, shot = 3.0 }\n\
          weather = { sun_altitude_angle = [-10.0, 60.0], cloudiness = [0.0, 80.0] }",
     );
@@ -60,6 +61,7 @@ fn impossible_cameras_and_backends_are_refused_with_their_place() {
         ("gimbal = { yaw_range_deg = [0.0, 400.0] }", "yaw_range_deg", "-180 to 180"),
         ("lens = { k1 = -0.9 }", "lens", "nearer to 0"),
         ("motion_blur = { shutter_s = 3.0 }", "shutter_s", "0.5"),
+        ("rolling_shutter = { strips = 1 }", "strips", "2 or more"),
         ("weather = { cloudiness = [0.0, 180.0] }", "cloudiness", "0 to 100"),
         ("weather = { clouds = [0.0, 80.0] }", "clouds", "cloudiness"),
         ("backend = \"gpu\"", "backend", "--features gpu"),

@@ -5,7 +5,7 @@ use cosfly_frames::{Pose, TargetState};
 use cosfly_maps::{MapOrigin, Synthetic, Town};
 use cosfly_planner::Trajectory;
 use cosfly_render::frame::TARGET_INSTANCE;
-use cosfly_render::{Camera, Lens, MotionBlur, Mount, Noise, PersonView, TargetView, Weather};
+use cosfly_render::{Camera, Lens, MotionBlur, Mount, Noise, PersonView, RollingShutter, TargetView, Weather};
 use serde::{Deserialize, Serialize, de::DeserializeOwned};
 
 /// Which of the two flights behind a pedestrian this is.
@@ -113,6 +113,8 @@ pub struct RenderedTrajectory {
     pub mount: Mount,
     /// The shutter of the camera.
     pub motion_blur: MotionBlur,
+    /// How its rows are read.
+    pub rolling_shutter: RollingShutter,
     /// The noise of its sensor.
     pub noise: Noise,
     /// The weather of all frames.

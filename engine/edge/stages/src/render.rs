@@ -167,6 +167,7 @@ impl Stage for RenderStage {
             lens: self.config.lens,
             mount: shooting.mount,
             motion_blur: self.config.motion_blur,
+            rolling_shutter: self.config.rolling_shutter,
             noise: self.config.noise,
             weather: shooting.weather,
             seed: Seed(context.seed).as_u64(),

@@ -2,7 +2,7 @@
 
 use crate::backend::BackendKind;
 use crate::camera::{Camera, Mount};
-use crate::effects::{Effects, Lens, MotionBlur, Noise};
+use crate::effects::{Effects, Lens, MotionBlur, Noise, RollingShutter};
 use crate::weather::{Weather, WeatherRanges};
 use cosfly_frames::Seed;
 use schemars::JsonSchema;
@@ -39,6 +39,8 @@ pub struct RenderConfig {
     pub lens: Lens,
     /// Motion blur of colour.
     pub motion_blur: MotionBlur,
+    /// Rows that are taken one after the other, in all channels.
+    pub rolling_shutter: RollingShutter,
     /// Sensor noise on colour.
     pub noise: Noise,
     /// Names of CARLA weather presets; each walk draws one, and the sun's azimuth with it.
@@ -64,6 +66,7 @@ impl Default for RenderConfig {
             gimbal: GimbalConfig::default(),
             lens: Lens::default(),
             motion_blur: MotionBlur::default(),
+            rolling_shutter: RollingShutter::default(),
             noise: Noise::default(),
             weathers: weathers.map(str::to_owned).to_vec(),
             paired_weathers: false,
@@ -169,6 +172,8 @@ impl RenderConfig {
         in_range("lens.k2", self.lens.k2, [-1.0, 1.0])?;
         in_range("motion_blur.shutter_s", self.motion_blur.shutter_s, [0.0, 0.5])?;
         in_range("motion_blur.samples", f64::from(self.motion_blur.samples), [3.0, 65.0])?;
+        in_range("rolling_shutter.readout_s", self.rolling_shutter.readout_s, [0.0, 0.5])?;
+        in_range("rolling_shutter.strips", f64::from(self.rolling_shutter.strips), [2.0, 256.0])?;
         in_range("noise.gaussian", self.noise.gaussian, [0.0, 64.0])?;
         in_range("noise.shot", self.noise.shot, [0.0, 64.0])?;
         let widest_deg = self.fov_range_deg.map_or(self.fov_deg, |range| range[1]);
@@ -226,7 +231,7 @@ impl RenderConfig {
 
     /// What is added to ideal pictures of `camera`.
     pub fn effects(&self, camera: Camera) -> Effects {
-        Effects::new(camera, self.lens, self.motion_blur, self.noise)
+        Effects::new(camera, self.lens, self.motion_blur, self.rolling_shutter, self.noise)
     }
 }
 

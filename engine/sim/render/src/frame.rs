@@ -3,7 +3,7 @@
 use serde::{Deserialize, Serialize};
 
 /// All channels of one frame, row-major from the top-left pixel, sampled at pixel centres.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq)]
 pub struct FrameImages {
     /// Pixels per row.
     pub width: u32,

@@ -28,7 +28,7 @@ pub mod weather;
 pub use backend::{Backend, BackendError, BackendKind};
 pub use camera::{Camera, Mount};
 pub use config::{ConfigProblem, GimbalConfig, PictureLook, RenderConfig};
-pub use effects::{Effects, Lens, Moment, MotionBlur, Noise, Shot};
+pub use effects::{Effects, Lens, Moment, MotionBlur, Noise, RollingShutter, Shot};
 pub use figure::{Bystander, TargetSetup, Walker, gait_phase_rad, target_triangles, walker_triangles};
 pub use frame::{FrameImages, PersonView, PixelBox, TargetView};
 pub use renderer::{FrameParts, FrameSetup, RenderedFrame, Renderer};

@@ -5,8 +5,8 @@ mod small_town;
 use cosfly_frames::{DVec3, Pose, Seed, TargetState};
 use cosfly_render::frame::TARGET_INSTANCE;
 use cosfly_render::{
-    Camera, Effects, FrameImages, Lens, Moment, MotionBlur, Noise, PixelBox, Renderer, Scene, Shot, TargetSetup,
-    TargetView, Weather,
+    Camera, Effects, FrameImages, Lens, Moment, MotionBlur, Noise, PixelBox, Renderer, RollingShutter, Scene, Shot,
+    TargetSetup, TargetView, Weather,
 };
 
 const CAMERA: Camera = Camera { width: 320, height: 180, horizontal_fov_rad: 1.4 };
@@ -28,9 +28,21 @@ fn moment(offset_s: f64) -> Moment {
 }
 
 fn film(lens: Lens, blur: MotionBlur, noise: Noise, noise_seed: u8) -> (FrameImages, TargetView) {
+    film_rolling(lens, blur, AT_ONCE, noise, noise_seed, 0.0)
+}
+
+fn film_rolling(
+    lens: Lens,
+    blur: MotionBlur,
+    rolling: RollingShutter,
+    noise: Noise,
+    noise_seed: u8,
+    later_s: f64,
+) -> (FrameImages, TargetView) {
+    let moment = |offset_s: f64| moment(later_s + offset_s);
     let scene = Scene::new(&small_town::small_town(3, 5), Seed([1; 32]));
     let weather = Weather { sun_azimuth_angle: 200.0, ..Weather::preset("ClearNoon").expect("a preset") };
-    let mut effects = Effects::new(CAMERA, lens, blur, noise);
+    let mut effects = Effects::new(CAMERA, lens, blur, rolling, noise);
     let mut renderer = Renderer::new(effects.ideal_camera());
     let shot = Shot { weather: &weather, moment: &moment, others: &|_, _| {}, noise_seed: Seed([noise_seed; 32]) };
     let frame = effects.film(&mut renderer, &scene, &shot).expect("the CPU renderer never fails");
@@ -54,6 +66,7 @@ fn box_of_pixels(images: &FrameImages) -> Option<PixelBox> {
 
 const NO_LENS: Lens = Lens { k1: 0.0, k2: 0.0 };
 const NO_BLUR: MotionBlur = MotionBlur { shutter_s: 0.0, samples: 9 };
+const AT_ONCE: RollingShutter = RollingShutter { readout_s: 0.0, strips: 16 };
 const NO_NOISE: Noise = Noise { gaussian: 0.0, shot: 0.0 };
 
 #[test]
@@ -71,6 +84,30 @@ fn blur_and_noise_change_colours_only() {
     // Neighbouring columns differ less in a picture that is blurred sideways.
     let roughness = |rgb: &[u8]| rgb.windows(4).map(|w| u64::from(w[0].abs_diff(w[3]))).sum::<u64>();
     assert!(roughness(&blurred.rgb) < roughness(&plain.rgb) && roughness(&noisy.rgb) > roughness(&plain.rgb));
+}
+
+#[test]
+fn a_rolling_shutter_shows_each_strip_at_its_moment_in_all_channels() {
+    let rolling = RollingShutter { readout_s: 0.4, strips: 9 };
+    let (rolled, view) = film_rolling(NO_LENS, NO_BLUR, rolling, NO_NOISE, 1, 0.0);
+    let width = CAMERA.width as usize;
+    for (rows, later_s) in rolling.strips(CAMERA.height as usize) {
+        let (still, _) = film_rolling(NO_LENS, NO_BLUR, AT_ONCE, NO_NOISE, 1, later_s);
+        let pixels = rows.start * width..rows.end * width;
+        let colours = 3 * pixels.start..3 * pixels.end;
+        assert!(rolled.rgb[colours.clone()] == still.rgb[colours], "{rows:?}");
+        assert!(rolled.depth_m[pixels.clone()] == still.depth_m[pixels.clone()], "{rows:?}");
+        assert!(rolled.semantic[pixels.clone()] == still.semantic[pixels.clone()], "{rows:?}");
+        assert!(rolled.instance[pixels.clone()] == still.instance[pixels], "{rows:?}");
+    }
+    assert_eq!(view.visible_box, box_of_pixels(&rolled));
+    let (_, at_once) = film(NO_LENS, NO_BLUR, NO_NOISE, 1);
+    assert_ne!(view.visible_box, at_once.visible_box, "the target leans");
+    // Blurred and bent as well, every pixel of the target still counts once.
+    let blur = MotionBlur { shutter_s: 0.02, samples: 3 };
+    let (bent, view) = film_rolling(Lens { k1: -0.2, k2: 0.0 }, blur, rolling, NO_NOISE, 1, 0.0);
+    assert_eq!(view.visible_box, box_of_pixels(&bent));
+    assert_eq!(view.pixels as usize, bent.instance.iter().filter(|id| **id == TARGET_INSTANCE).count());
 }
 
 #[test]

@@ -3,7 +3,9 @@
 mod small_town;
 
 use cosfly_frames::{DVec3, Pose, Seed, TargetState, real};
-use cosfly_render::{Camera, Effects, Lens, Moment, MotionBlur, Noise, Renderer, Scene, Shot, TargetSetup, Weather};
+use cosfly_render::{
+    Camera, Effects, Lens, Moment, MotionBlur, Noise, Renderer, RollingShutter, Scene, Shot, TargetSetup, Weather,
+};
 
 /// Resident memory of this process in kB, where the system tells.
 fn resident_kb() -> Option<u64> {
@@ -21,7 +23,8 @@ fn ten_thousand_frames_take_no_more_memory_than_a_thousand() {
     let scene = Scene::new(&small_town::small_town(2, 5), Seed([1; 32]));
     let camera = Camera { width: 64, height: 48, horizontal_fov_rad: 1.2 };
     let noise = Noise { gaussian: 2.0, shot: 1.0 };
-    let mut effects = Effects::new(camera, Lens { k1: -0.1, k2: 0.0 }, MotionBlur::default(), noise);
+    let mut effects =
+        Effects::new(camera, Lens { k1: -0.1, k2: 0.0 }, MotionBlur::default(), RollingShutter::default(), noise);
     let mut renderer = Renderer::new(effects.ideal_camera());
     let weathers = ["ClearNoon", "HardRainNight"].map(|name| Weather::preset(name).expect("a preset"));
     let mut early_kb = 0;

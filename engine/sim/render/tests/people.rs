@@ -9,7 +9,7 @@ use cosfly_render::figure::{Clothes, Region};
 use cosfly_render::frame::TARGET_INSTANCE;
 use cosfly_render::{
     Bystander, Camera, Effects, FrameImages, FrameSetup, Lens, Moment, MotionBlur, Noise, PersonView, PixelBox,
-    Renderer, Scene, Shot, TargetSetup, TargetView, Walker, Weather, walker_triangles,
+    Renderer, RollingShutter, Scene, Shot, TargetSetup, TargetView, Walker, Weather, walker_triangles,
 };
 
 const CAMERA: Camera = Camera { width: 640, height: 360, horizontal_fov_rad: 1.4 };
@@ -268,7 +268,7 @@ fn through_a_lens_and_blurred_people_move_and_keep_their_ids() {
     };
     let blur = MotionBlur { shutter_s: 0.1, samples: 5 };
     let film = |lens: Lens, blur: MotionBlur, speed_mps: f64| {
-        let mut effects = Effects::new(CAMERA, lens, blur, Noise::default());
+        let mut effects = Effects::new(CAMERA, lens, blur, RollingShutter::default(), Noise::default());
         let mut renderer = Renderer::new(effects.ideal_camera());
         let weather = noon();
         let shot = Shot { weather: &weather, moment: &moment, others: &others(speed_mps), noise_seed: Seed([1; 32]) };

@@ -14,7 +14,9 @@ use cosfly_geometry::OrientedBox;
 use cosfly_maps::{MapOrigin, Obstacle, ObstacleKind, SemanticLabel, SimplificationReport, Synthetic, Town};
 use cosfly_planner::{Certificate, FramePerturbation, Limits, Perturbation, TermCost, Trajectory};
 use cosfly_render::frame::TARGET_INSTANCE;
-use cosfly_render::{Camera, FrameImages, Lens, MotionBlur, Mount, Noise, PersonView, PixelBox, TargetView, Weather};
+use cosfly_render::{
+    Camera, FrameImages, Lens, MotionBlur, Mount, Noise, PersonView, PixelBox, RollingShutter, TargetView, Weather,
+};
 
 /// Frames of every flight.
 pub const FRAMES: usize = 5;
@@ -125,6 +127,7 @@ pub fn flight(pedestrian: usize, role: Role) -> SampleFlight {
         lens: Lens::default(),
         mount: Mount::default(),
         motion_blur: MotionBlur::default(),
+        rolling_shutter: RollingShutter::default(),
         noise: Noise::default(),
         weather: weather(),
         seed: 0x0123_4567_89ab_cdef,

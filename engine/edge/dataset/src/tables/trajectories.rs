@@ -175,6 +175,12 @@ fn camera() -> Vec<Column<DatasetItem>> {
             |item, _| item.record.motion_blur.shutter_s.into(),
         ),
         Column::new(
+            "camera_readout_s",
+            Kind::Real,
+            "time from the top row to the bottom row, the middle at `time_s`, in all channels; 0: all rows at once",
+            |item, _| item.record.rolling_shutter.readout_s.into(),
+        ),
+        Column::new(
             "camera_noise_gaussian",
             Kind::Real,
             "deviation of the noise of colour, steps of 8 bits, everywhere",

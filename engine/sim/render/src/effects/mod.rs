@@ -1,15 +1,19 @@
-//! What a real camera adds to an ideal picture: lens distortion, motion blur, sensor noise. All off by default.
+//! What a real camera adds to an ideal picture: lens distortion, motion blur, a rolling shutter, sensor noise. All off by
+//! default.
 //!
 //! Colour goes through the blur (a mean of light over the shutter), then the lens (bilinear), then the sensor (noise).
 //! Depth and ids are those of the middle of the shutter, seen through the lens at the nearest sample: they are never mixed.
+//! A rolling shutter takes all channels of a strip of rows at the strip's moment, so that they still agree.
 
 mod lens;
 mod motion_blur;
 mod noise;
+mod rolling_shutter;
 
 pub use lens::Lens;
 pub use motion_blur::{MotionBlur, pose_at, target_state_at};
 pub use noise::Noise;
+pub use rolling_shutter::RollingShutter;
 
 use crate::backend::{Backend, BackendError};
 use crate::camera::Camera;
@@ -23,6 +27,7 @@ use cosfly_frames::simd::Level;
 use cosfly_frames::{Pose, Seed};
 use lens::LensMap;
 use motion_blur::Exposure;
+use std::ops::Range;
 
 /// What is in front of the camera at a moment.
 #[derive(Clone, Copy, Debug)]
@@ -49,9 +54,13 @@ pub struct Shot<'a> {
 pub struct Effects {
     camera: Camera,
     blur: MotionBlur,
+    rolling: RollingShutter,
     noise: Noise,
     lens: Option<LensMap>,
     exposure: Exposure,
+    /// Strips put together, and the target's pixels in them.
+    rolled: FrameImages,
+    rolled_target: Vec<u32>,
     images: FrameImages,
     covered: Vec<u32>,
     occluders: Vec<u32>,
@@ -63,17 +72,18 @@ pub struct Effects {
 impl Effects {
     /// The effects of a camera whose finished pictures have the size and field of view of `camera`. The field of view is
     /// that of the ideal camera without the lens: its focal length stays the same.
-    pub fn new(camera: Camera, lens: Lens, blur: MotionBlur, noise: Noise) -> Self {
+    pub fn new(camera: Camera, lens: Lens, blur: MotionBlur, rolling: RollingShutter, noise: Noise) -> Self {
         let lens = (!lens.is_none()).then(|| LensMap::new(camera, lens));
-        let images =
-            FrameImages { width: 0, height: 0, rgb: vec![], depth_m: vec![], semantic: vec![], instance: vec![] };
         Self {
             camera,
             blur,
+            rolling,
             noise,
             lens,
             exposure: Exposure::default(),
-            images,
+            rolled: FrameImages::default(),
+            rolled_target: vec![],
+            images: FrameImages::default(),
             covered: vec![],
             occluders: vec![],
             mask: vec![],
@@ -97,37 +107,43 @@ impl Effects {
         scene: &Scene,
         shot: &Shot<'_>,
     ) -> Result<RenderedFrame<'a>, BackendError> {
-        if self.lens.is_none() && self.blur.is_none() && self.noise.is_none() {
+        if self.lens.is_none() && self.blur.is_none() && self.rolling.is_none() && self.noise.is_none() {
             return backend.render(scene, &setup(shot, 0.0, &mut self.bystanders));
         }
-        self.exposure.open();
-        for offset_s in self.blur.offsets_s() {
-            let setup = setup(shot, offset_s, &mut self.bystanders);
-            self.exposure.add(&backend.render(scene, &setup)?.images.rgb);
-        }
-        // The middle comes last: its depth and ids are what stays.
-        let middle = setup(shot, 0.0, &mut self.bystanders);
-        let frame = backend.render(scene, &middle)?;
-        if !self.blur.is_none() {
-            self.exposure.add(&frame.images.rgb);
+        let strips = self.rolling.strips(self.ideal_camera().height as usize);
+        let Self { blur, exposure, rolled, rolled_target, bystanders, .. } = self;
+        rolled_target.clear();
+        for (rows, moment_s) in strips {
+            exposure.open();
+            for offset_s in blur.offsets_s() {
+                let setup = setup(shot, moment_s + offset_s, bystanders);
+                exposure.add(&backend.render(scene, &setup)?.images.rgb);
+            }
+            // The middle comes last: its depth and ids are what stays.
+            let frame = backend.render(scene, &setup(shot, moment_s, bystanders))?;
+            if !blur.is_none() {
+                exposure.add(&frame.images.rgb);
+            }
+            let rgb = exposure.developed().unwrap_or(&frame.images.rgb);
+            add_rows(frame.images, rgb, rows.clone(), rolled);
+            let width = frame.images.width as usize;
+            let pixels = (rows.start * width) as u32..(rows.end * width) as u32;
+            rolled_target.extend(frame.target_pixels.iter().filter(|pixel| pixels.contains(*pixel)));
         }
         match &self.lens {
             None => {
-                copy(frame.images, &mut self.images);
-                self.exposure.develop_into(&mut self.images.rgb);
-                self.covered.clear();
-                self.covered.extend_from_slice(frame.target_pixels);
+                core::mem::swap(rolled, &mut self.images);
+                core::mem::swap(rolled_target, &mut self.covered);
             }
             Some(lens) => {
-                let developed = self.exposure.developed();
-                lens.bend(frame.images, developed.unwrap_or(&frame.images.rgb), &mut self.images);
-                lens.bend_pixels(frame.target_pixels, &mut self.mask, &mut self.covered);
+                lens.bend(rolled, &rolled.rgb, &mut self.images);
+                lens.bend_pixels(rolled_target, &mut self.mask, &mut self.covered);
             }
         }
         self.noise.add(&mut self.images.rgb, &shot.noise_seed);
         let mut view = target_view::measure(&self.images, &self.covered, &mut self.occluders);
-        view.visible_by_rays = middle.target.map_or(0.0, |target| target.visible_by_rays);
-        target_view::measure_people(Level::best(), &self.images, middle.others, &mut self.seen);
+        view.visible_by_rays = (shot.moment)(0.0).target.map_or(0.0, |target| target.visible_by_rays);
+        target_view::measure_people(Level::best(), &self.images, bystanders, &mut self.seen);
         Ok(RenderedFrame { images: &self.images, target_view: view, target_pixels: &self.covered, others: &self.seen })
     }
 }
@@ -140,11 +156,18 @@ fn setup<'a>(shot: &Shot<'a>, offset_s: f64, bystanders: &'a mut Vec<Bystander>)
     FrameSetup { pose, weather: shot.weather, target, others: bystanders }
 }
 
-/// Copies all channels, without new buffers when the sizes agree.
-fn copy(from: &FrameImages, to: &mut FrameImages) {
+/// Copies rows of all channels, those of `rgb` for colours, without new buffers when the sizes agree.
+fn add_rows(from: &FrameImages, rgb: &[u8], rows: Range<usize>, to: &mut FrameImages) {
     (to.width, to.height) = (from.width, from.height);
-    to.rgb.clone_from(&from.rgb);
-    to.depth_m.clone_from(&from.depth_m);
-    to.semantic.clone_from(&from.semantic);
-    to.instance.clone_from(&from.instance);
+    let width = from.width as usize;
+    let pixels = rows.start * width..rows.end * width;
+    let colours = 3 * pixels.start..3 * pixels.end;
+    to.rgb.resize(from.rgb.len(), 0);
+    to.depth_m.resize(from.depth_m.len(), 0.0);
+    to.semantic.resize(from.semantic.len(), 0);
+    to.instance.resize(from.instance.len(), 0);
+    to.rgb[colours.clone()].copy_from_slice(&rgb[colours]);
+    to.depth_m[pixels.clone()].copy_from_slice(&from.depth_m[pixels.clone()]);
+    to.semantic[pixels.clone()].copy_from_slice(&from.semantic[pixels.clone()]);
+    to.instance[pixels.clone()].copy_from_slice(&from.instance[pixels]);
 }
