@@ -61,7 +61,7 @@ fn impossible_cameras_and_backends_are_refused_with_their_place() {
         ("gimbal = { yaw_range_deg = [0.0, 400.0] }", "yaw_range_deg", "-180 to 180"),
         ("lens = { k1 = -0.9 }", "lens", "nearer to 0"),
         ("motion_blur = { shutter_s = 3.0 }", "shutter_s", "0.5"),
-        ("rolling_shutter = { strips = 1 }", "strips", "2 or more"),
+        ("rolling_shutter = { strips = 1 }", "strips", "at least `2`"),
         ("weather = { cloudiness = [0.0, 180.0] }", "cloudiness", "0 to 100"),
         ("weather = { clouds = [0.0, 80.0] }", "clouds", "cloudiness"),
         ("backend = \"gpu\"", "backend", "--features gpu"),
