@@ -23,6 +23,24 @@ pub trait Exporter: Sync {
     fn export(&self, source: &Source<'_>, out: &OutFolder) -> Result<Vec<String>>;
 }
 
+/// Flights that models see.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Input {
+    /// Perturbed ones, to learn the way back.
+    Perturbed,
+    /// Experts.
+    Expert,
+}
+
+/// Scale of boxes in texts; families of models differ.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum BoxScale {
+    /// Pixels of the pictures.
+    Pixels,
+    /// Thousandths of width and height.
+    Thousandths,
+}
+
 /// What an export is told. Formats that a field does not concern do not read it.
 #[derive(Clone, Debug)]
 pub struct Options {
@@ -36,6 +54,10 @@ pub struct Options {
     pub language: String,
     /// Axes of actions and increments.
     pub delta_frame: DeltaFrame,
+    /// Flights that windows are cut from.
+    pub input: Input,
+    /// Scale of boxes in texts.
+    pub box_scale: BoxScale,
     /// How windows are cut.
     pub window: WindowShape,
     /// Names of CARLA towns for towns of other names, such as `downtown` -> `Town01`.
@@ -52,6 +74,8 @@ impl Default for Options {
             every: 1,
             language: "en".into(),
             delta_frame: DeltaFrame::World,
+            input: Input::Perturbed,
+            box_scale: BoxScale::Pixels,
             window: WindowShape::default(),
             towns: vec![],
             shard_bytes: 300_000_000,

@@ -4,6 +4,8 @@ use crate::{EXPORTERS, Options, OutFolder, Source, exporter};
 use cosfly_dataset::read::PublishedDataset;
 use cosfly_dataset::{DatasetConfig, EncodingConfig, sample};
 use cosfly_diagnose::Result;
+use cosfly_frames::real::wrap_angle_rad;
+use cosfly_metrics::{DeltaFrame, DeltaOrigin};
 use std::cell::Cell;
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
@@ -68,9 +70,11 @@ fn every_export_has_a_card_a_licence_and_the_same_bytes_twice() {
 #[test]
 fn a_refused_export_leaves_nothing_behind() {
     let (home, dataset) = published();
-    let log = dataset.folder().join(&dataset.flights()[0].mcap_path);
-    let bytes = std::fs::read(&log).unwrap();
-    std::fs::write(&log, &bytes[..bytes.len() / 2]).unwrap();
+    for flight in dataset.flights() {
+        let log = dataset.folder().join(&flight.mcap_path);
+        let bytes = std::fs::read(&log).unwrap();
+        std::fs::write(&log, &bytes[..bytes.len() / 2]).unwrap();
+    }
     for format in EXPORTERS {
         let refusal = export(&dataset, format.name(), &options(), &home.path().join("out")).unwrap_err();
         assert!(refusal.code.starts_with("dataset-"), "`{}`: {refusal:?}", format.name());
@@ -112,4 +116,62 @@ fn a_v7_export_is_read_back_by_the_strict_reader() {
     let picture = files(&root).into_keys().find(|path| path.ends_with("rgb.png")).unwrap();
     std::fs::write(root.join(picture), b"no picture").unwrap();
     assert_eq!(crate::v7::reader::read(&root).unwrap().problems.len(), 1);
+}
+
+#[test]
+fn no_folder_of_pictures_has_more_than_a_thousand_entries() {
+    let paths: Vec<String> = (0..2500).map(|i| crate::media::picture_path(i, &format!("e{i}"), 0, "jpg")).collect();
+    let frames: Vec<String> = (0..2500).map(|i| crate::media::picture_path(7, "e7", i, "jpg")).collect();
+    let mut entries: BTreeMap<String, std::collections::BTreeSet<String>> = BTreeMap::new();
+    for path in paths.iter().chain(&frames) {
+        let parts: Vec<&str> = path.split('/').collect();
+        for (depth, part) in parts.iter().enumerate() {
+            entries.entry(parts[..depth].join("/")).or_default().insert((*part).to_owned());
+        }
+    }
+    assert!(entries.values().all(|entries| entries.len() <= crate::media::FOLDER_LIMIT));
+}
+
+#[test]
+fn what_a_vision_language_model_learns_to_say_leads_to_the_expert() {
+    let (home, dataset) = published();
+    for (delta_frame, name) in [(DeltaFrame::World, "world"), (DeltaFrame::Body, "body")] {
+        let out = home.path().join(name);
+        export(&dataset, "vlm", &Options { delta_frame, ..options() }, &out).unwrap();
+        let mut rows = 0;
+        for (path, bytes) in
+            files(&out).into_iter().filter(|(path, _)| path.extension().is_some_and(|it| it == "jsonl"))
+        {
+            let text = String::from_utf8(bytes).unwrap();
+            for line in text.lines() {
+                let row: serde_json::Value = serde_json::from_str(line).unwrap();
+                let answer = row["messages"][2]["content"].as_str().unwrap();
+                let answer: serde_json::Value = serde_json::from_str(answer).unwrap();
+                let deltas: Vec<[f64; 6]> = serde_json::from_value(answer["waypoint_deltas"].clone()).unwrap();
+                let id = row["trajectory_id"].as_str().unwrap();
+                let current = row["frame"].as_u64().unwrap() as usize + 2;
+                let own = dataset.frames(dataset.flight(id).unwrap()).unwrap();
+                let expert = dataset.frames(dataset.flight(&id.replace("perturbed", "expert")).unwrap()).unwrap();
+                let mut reached = vec![];
+                cosfly_metrics::waypoints(
+                    &own[current].pose,
+                    &deltas,
+                    delta_frame,
+                    DeltaOrigin::Previous,
+                    &mut reached,
+                );
+                for (pose, truth) in reached.iter().zip(&expert[current + 1..]) {
+                    let gap = (pose.position_in_world - truth.pose.position_in_world).length();
+                    let turn = wrap_angle_rad(pose.yaw_rad - truth.pose.yaw_rad).to_degrees();
+                    assert!(gap < 0.01 && turn.abs() < 0.02, "{}: {gap} m, {turn} degrees", path.display());
+                }
+                let images = row["images"].as_array().unwrap();
+                let prompt = row["messages"][1]["content"].as_str().unwrap();
+                assert_eq!((images.len(), prompt.matches("<image>").count()), (3, 3));
+                assert!(images.iter().all(|image| out.join(image.as_str().unwrap()).is_file()));
+                rows += 1;
+            }
+        }
+        assert_eq!(rows, 2);
+    }
 }

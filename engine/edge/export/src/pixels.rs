@@ -58,6 +58,15 @@ fn gray_png(bytes: &[u8], [width, height]: [u32; 2], depth: png::BitDepth) -> Re
     Ok(file)
 }
 
+/// A PNG file of depths in centimetres, 16 bits: at most 655.34 m, infinity (the sky) is 65,535.
+pub fn depth_png(depth_m: &[f32], size: [u32; 2]) -> Result<Vec<u8>> {
+    gray16_png(depth_m.iter().map(|depth| centimetres(*depth)), size)
+}
+
+fn centimetres(depth_m: f32) -> u16 {
+    if depth_m.is_finite() { (100.0 * depth_m).round_ties_even().clamp(0.0, 65_534.0) as u16 } else { u16::MAX }
+}
+
 /// A NumPy file of 32-bit floats with `rows` x `columns` entries.
 pub fn npy_f32(values: &[f32], [columns, rows]: [u32; 2]) -> Vec<u8> {
     let mut header = format!("{{'descr': '<f4', 'fortran_order': False, 'shape': ({rows}, {columns}), }}");
@@ -87,6 +96,11 @@ mod tests {
         assert_eq!((file.len(), &file[..8]), (128 + 24, &b"\x93NUMPY\x01\x00"[..]));
         assert!(String::from_utf8_lossy(&file[10..128]).contains("'shape': (2, 3)"));
         assert_eq!(&file[128..132], &1.0f32.to_le_bytes());
+    }
+
+    #[test]
+    fn depths_are_centimetres_and_the_sky_is_the_largest_number() {
+        assert_eq!([0.0, 1.234, 655.34, 900.0, f32::INFINITY].map(centimetres), [0, 123, 65_534, 65_534, 65_535]);
     }
 
     #[test]

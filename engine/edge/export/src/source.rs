@@ -4,6 +4,7 @@ use crate::exporter::Options;
 use cosfly_dataset::CaptionRecord;
 use cosfly_dataset::read::{FrameRow, LoggedFrame, PublishedDataset, PublishedFlight};
 use cosfly_diagnose::{Diagnostic, Fault, Result};
+use cosfly_frames::Pose;
 use rayon::prelude::*;
 use std::cell::Cell;
 use std::collections::{BTreeMap, BTreeSet};
@@ -119,6 +120,18 @@ impl<'a> Source<'a> {
         })
     }
 
+    /// Poses of the chosen flights' experts, by trajectory id, chosen or not.
+    pub fn expert_poses(&self) -> Result<BTreeMap<String, Vec<Pose>>> {
+        let experts: BTreeSet<&str> =
+            self.flights().map(|flight| flight.expert_id.as_deref().unwrap_or(&flight.trajectory_id)).collect();
+        let mut poses = BTreeMap::new();
+        self.dataset.walk(&|flight| experts.contains(flight.trajectory_id.as_str()), &mut |flight, rows| {
+            poses.insert(flight.trajectory_id.clone(), rows.iter().map(|row| row.frame.pose).collect());
+            Ok(())
+        })?;
+        Ok(poses)
+    }
+
     fn set_done(&self, done: u64) {
         self.done.set(done);
         (self.progress)(done, self.all.get());
@@ -151,6 +164,23 @@ impl Episode<'_> {
             self.source.set_done(self.source.done.get() + batch.len() as u64);
         }
         Ok(())
+    }
+
+    /// The expert's pose of every frame, its own for an expert; `experts` are [`Source::expert_poses`].
+    ///
+    /// # Errors
+    /// `dataset-damaged` when the expert or one of its frames is not there.
+    pub fn expert_poses(&self, experts: &BTreeMap<String, Vec<Pose>>) -> Result<Vec<Pose>> {
+        let flight = self.flight;
+        let poses = experts.get(flight.expert_id.as_deref().unwrap_or(&flight.trajectory_id));
+        let pose = |(frame, row): (usize, &FrameRow)| {
+            let expert_frame = row.disturbance.as_ref().map_or(frame, |it| it.expert_frame as usize);
+            poses.and_then(|poses| poses.get(expert_frame)).copied().ok_or_else(|| {
+                let message = format!("the expert of frame {frame} of `{}` is not there", flight.trajectory_id);
+                Diagnostic::new("dataset-damaged", Fault::Input, message)
+            })
+        };
+        self.frames.iter().enumerate().map(pose).collect()
     }
 
     /// Every frame.

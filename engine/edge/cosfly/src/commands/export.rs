@@ -1,12 +1,13 @@
 //! `cosfly export`: a finished dataset in the format of others.
 
 use super::Outcome;
-use crate::arguments::ExportArguments;
+use crate::arguments::{BoxScaleChoice, ExportArguments, FrameChoice, RoleChoice};
 use crate::exit;
 use crate::text::{bytes, count};
 use cosfly_dataset::read::PublishedDataset;
 use cosfly_diagnose::{Diagnostic, Fault, Result};
-use cosfly_export::{Options, OutFolder, Source, exporter};
+use cosfly_export::{BoxScale, Input, Options, OutFolder, Source, exporter};
+use cosfly_metrics::{DeltaFrame, WindowShape};
 use indicatif::{ProgressBar, ProgressStyle};
 use std::fmt::Write;
 
@@ -52,7 +53,22 @@ fn options(arguments: &ExportArguments) -> Options {
     Options {
         splits: arguments.splits.clone(),
         trajectories: arguments.trajectories.clone(),
+        every: arguments.every,
+        language: arguments.language.clone(),
+        delta_frame: match arguments.frame {
+            FrameChoice::World => DeltaFrame::World,
+            FrameChoice::Body => DeltaFrame::Body,
+        },
+        input: match arguments.input {
+            RoleChoice::Perturbed => Input::Perturbed,
+            RoleChoice::Expert => Input::Expert,
+        },
+        box_scale: match arguments.box_scale {
+            BoxScaleChoice::Pixels => BoxScale::Pixels,
+            BoxScaleChoice::Thousandths => BoxScale::Thousandths,
+        },
+        window: WindowShape { history: arguments.history, horizon: arguments.horizon, stride: arguments.stride },
         towns: arguments.towns.clone(),
-        ..Options::default()
+        shard_bytes: arguments.shard_size as u64 * 1_000_000,
     }
 }

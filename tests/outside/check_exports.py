@@ -1,0 +1,131 @@
+"""Reads exports of a dataset with the software that they are made for: pycocotools, webdataset, datasets.
+
+python check_exports.py DATASET FOLDER CACHE     FOLDER has coco/, webdataset/, imagefolder/ and vlm/
+"""
+
+import glob
+import json
+import sys
+from pathlib import Path
+
+import datasets
+import numpy as np
+import pyarrow.parquet as parquet
+import webdataset
+from PIL import Image
+from pycocotools import mask as masks
+from pycocotools.coco import COCO
+
+dataset, folder, cache = Path(sys.argv[1]), Path(sys.argv[2]), sys.argv[3]
+frames = {}
+flights = {}
+for path in sorted(glob.glob(str(dataset / "data/frames/*.parquet"))):
+    split = Path(path).name.split("-")[0]
+    for row in parquet.read_table(path).drop(["preview"]).to_pylist():
+        frames[row["trajectory_id"], row["frame"]] = row | {"split": split}
+for path in sorted(glob.glob(str(dataset / "data/trajectories/*.parquet"))):
+    for row in parquet.read_table(path).to_pylist():
+        flights[row["trajectory_id"]] = row
+splits = sorted({row["split"] for row in frames.values()})
+
+
+def coco():
+    root, seen, things = folder / "coco", 0, 0
+    for split in splits:
+        data = COCO(str(root / f"annotations/instances_{split}.json"))
+        assert len(data.imgs) == sum(row["split"] == split for row in frames.values())
+        for image in data.imgs.values():
+            row = frames[image["trajectory_id"], image["frame"]]
+            with Image.open(root / split / image["file_name"]) as picture:
+                assert picture.size == (image["width"], image["height"])
+            anns = data.imgToAnns[image["id"]]
+            covered = np.zeros((image["height"], image["width"]), int)
+            for ann in anns:
+                rle = ann["segmentation"]
+                binary = data.annToMask(ann)
+                covered += binary
+                assert masks.area(rle) == binary.sum() == ann["area"] > 0
+                assert list(masks.toBbox(rle)) == ann["bbox"]
+                again = masks.encode(np.asfortranarray(binary))
+                assert again["counts"].decode() == rle["counts"], "the same bytes as pycocotools writes"
+                things += 1
+            assert covered.max() <= 1, "no pixel belongs to two things"
+            target = [ann for ann in anns if ann["is_target"]]
+            assert len(target) == (row["visible_pixels"] > 0)
+            for ann in target:
+                left, top, right, bottom = row["visible_box_px"]
+                assert ann["area"] == row["visible_pixels"] and ann["category_id"] == 12
+                assert ann["bbox"] == [left, top, right - left, bottom - top]
+                seen += 1
+    assert seen
+    return f"{things} things, the target in {seen} frames"
+
+
+def web_dataset():
+    root, samples = folder / "webdataset", 0
+    shards = sorted(glob.glob(str(root / "data/*.tar")))
+    assert len(shards) >= len(splits)
+    for sample in webdataset.WebDataset(shards, shardshuffle=False).decode("pil"):
+        facts = sample["json"]
+        row = frames[facts["trajectory_id"], facts["frame"]]
+        size = flights[facts["trajectory_id"]]["camera_width_px"], flights[facts["trajectory_id"]]["camera_height_px"]
+        assert sample["rgb.jpg"].size == size
+        assert sample["__key__"] == f"{facts['trajectory_id'].replace('.', '_')}_{facts['frame']:06d}"
+        assert abs(facts["drone_pose"][0] - row["drone_x_m"]) < 1e-9 and facts["split"] == row["split"]
+        samples += 1
+    assert samples == len(frames)
+    rows = datasets.load_dataset(str(root), split=splits[0], streaming=True, cache_dir=cache)
+    first = next(iter(rows))
+    depth, ids = np.asarray(first["depth.png"]), np.asarray(first["instance.png"])
+    facts = first["json"]
+    row = frames[facts["trajectory_id"], facts["frame"]]
+    assert depth.dtype == ids.dtype == np.uint16, "16 bits stay 16 bits"
+    target = ids == 1
+    assert target.sum() == row["visible_pixels"]
+    if target.any():
+        assert abs(np.median(depth[target]) / 100 - row["distance_m"]) < 3
+    assert set(np.unique(np.asarray(first["semantic.png"])[target])) <= {12}
+    return f"{samples} samples in {len(shards)} shards"
+
+
+def image_folder():
+    rows = datasets.load_dataset(str(folder / "imagefolder"), cache_dir=cache)
+    assert sum(len(part) for part in rows.values()) == len(frames)
+    for part in rows.values():
+        row = part[len(part) // 2]
+        known = frames[row["trajectory_id"], row["frame"]]
+        assert row["image"].size == row["semantic"].size == row["depth"].size
+        assert row["visible_box_px"] == known["visible_box_px"] and row["instruction"]
+    return f"{len(frames)} rows, columns {sorted(rows[next(iter(rows))].features)[:6]} ..."
+
+
+def vlm():
+    """The rules of both tools' readers; the answers lead from the current pose to the expert's (world frame)."""
+    root, windows = folder / "vlm", 0
+    for name, entry in json.loads((root / "dataset_info.json").read_text()).items():
+        assert entry["formatting"] == "sharegpt" and entry["columns"] == {"messages": "messages", "images": "images"}
+        rows = datasets.load_dataset("json", data_files=str(root / entry["file_name"]), split="train", cache_dir=cache)
+        for row in rows:
+            roles = [message["role"] for message in row["messages"]]
+            assert roles == ["system", "user", "assistant"]
+            text = "".join(message["content"] for message in row["messages"])
+            assert text.count("<image>") == len(row["images"]) == 5
+            for image in row["images"]:
+                with Image.open(root / image) as picture:
+                    picture.verify()
+            deltas = json.loads(row["messages"][2]["content"])["waypoint_deltas"]
+            assert len(deltas) == 5 and all(len(delta) == 6 for delta in deltas)
+            known = frames[row["trajectory_id"], row["frame"] + 4]
+            place = np.array([known[f"drone_{axis}_m"] for axis in "xyz"])
+            expert = flights[row["trajectory_id"]]["expert_id"]
+            for step, delta in enumerate(deltas):
+                place = place + delta[:3]
+                truth = frames[expert, known["expert_frame"] + 1 + step]
+                assert np.abs(place - [truth[f"drone_{axis}_m"] for axis in "xyz"]).max() < 6e-4
+            windows += 1
+    assert windows
+    return f"{windows} windows"
+
+
+for check in (coco, web_dataset, image_folder, vlm):
+    print(f"{check.__name__}: {check()}")
