@@ -33,6 +33,34 @@ fn a_dataset_is_exported_whole_or_not_at_all() {
 }
 
 #[test]
+fn the_answers_that_models_learn_are_scored_as_right() {
+    let street = Street::new();
+    cosfly(&["run", "recipe.toml", "--quiet"]).within(street.path()).run_ok();
+    let shape = ["--history", "3", "--horizon", "2", "--frame", "body"];
+    export(&street, &[&["out/street", "--format", "vlm", "--out", "vlm"][..], &shape].concat());
+    let lines = ["train", "val"].map(|split| std::fs::read_to_string(street.path().join(format!("vlm/{split}.jsonl"))));
+    let mut answers = String::new();
+    for line in lines.iter().flatten().flat_map(|text| text.lines()) {
+        let row: serde_json::Value = serde_json::from_str(line).expect("JSON");
+        let answer = serde_json::json!({
+            "trajectory_id": row["trajectory_id"],
+            "frame": row["frame"],
+            "text": format!("<think>where to?</think>{}", row["messages"][2]["content"].as_str().expect("text")),
+        });
+        answers.push_str(&format!("{answer}\n"));
+    }
+    std::fs::write(street.path().join("answers.jsonl"), answers).expect("writable");
+    let scored = cosfly(&[&["eval", "answers.jsonl", "--dataset", "out/street", "--json"][..], &shape].concat())
+        .within(street.path())
+        .run_ok();
+    let report: serde_json::Value = serde_json::from_str(&scored.stdout).expect("JSON");
+    let of_answers = &report["methods"][0];
+    let score = |name: &str| of_answers["scores"][name]["value"].as_f64().expect("a score");
+    assert_eq!(of_answers["name"], "predictions");
+    assert!(score("ade_m") < 0.001 && score("yaw_mae_deg") < 0.01, "{of_answers}");
+}
+
+#[test]
 fn the_help_has_examples() {
     insta::assert_snapshot!("help_export", cosfly(&["export", "--help"]).run_ok().stdout);
 }
