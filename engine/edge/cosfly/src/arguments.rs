@@ -36,7 +36,7 @@ Examples:
 
 Exit codes:
     0  everything was done
-    1  `verify` found something wrong, `plan-from` no flight, or `eval` rows that it cannot score
+    1  `verify` or `dataset lint` found something wrong, `plan-from` no flight, or `eval` rows that it cannot score
     2  the command line was not understood
     3  the recipe asks for something that cannot be
     4  an input file, the store or a state asked about is broken or does not fit
@@ -84,6 +84,9 @@ Examples:
     Graph(GraphArguments),
     /// Check a finished dataset: hashes, counts, CRCs, schemas, reprojection, action and pose
     Verify(VerifyArguments),
+    /// Work with finished datasets: lint their splits
+    #[command(subcommand)]
+    Dataset(crate::dataset_arguments::DatasetCommand),
     /// Draw a finished flight: contact sheet, animated clip, plan of town and paths
     #[command(after_help = "\
 Examples:

@@ -2,6 +2,7 @@
 
 mod arguments;
 mod commands;
+mod dataset_arguments;
 mod exit;
 mod interrupt;
 mod reporter;
@@ -13,6 +14,7 @@ use arguments::{Arguments, BenchCommand, Command, TaskCommand};
 use clap::Parser;
 use cosfly_diagnose::{Diagnostic, Fault};
 use cosfly_frames::simd::Level;
+use dataset_arguments::DatasetCommand;
 use std::io::{ErrorKind, Write};
 use std::panic::AssertUnwindSafe;
 use std::process::ExitCode;
@@ -37,6 +39,7 @@ fn command() -> ExitCode {
         Command::Why(arguments) => commands::why::why(&arguments),
         Command::Graph(arguments) => commands::graph::graph(&arguments),
         Command::Verify(arguments) => commands::verify::verify(&arguments),
+        Command::Dataset(DatasetCommand::Lint(arguments)) => commands::dataset_lint::dataset_lint(&arguments),
         Command::Eval(arguments) => commands::eval::eval(&arguments),
         Command::Preview(arguments) => commands::preview::preview(&arguments),
         Command::Export(arguments) => commands::export::export(&arguments),

@@ -1,5 +1,6 @@
 //! What a recipe says about a dataset: name, licence, splits, image encodings.
 
+use cosfly_metrics::WindowShape;
 use cosfly_stage::ParameterError;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -32,8 +33,10 @@ pub struct DatasetConfig {
     /// Day of publication, `YYYY-MM-DD`; a parameter, because the same recipe must give the same bytes.
     #[schemars(regex(pattern = r"^[0-9]{4}-(0[1-9]|1[0-2])-(0[1-9]|[12][0-9]|3[01])$"))]
     pub date_published: String,
-    /// Shares of train, validation and test.
+    /// Shares of train, validation and test, and what must stay together.
     pub splits: SplitShares,
+    /// How training windows are cut: table `windows`.
+    pub windows: WindowConfig,
     /// Texts for single terms of the Responsible AI vocabulary, such as `dataBiases`, instead of cosfly's own.
     pub responsible_ai: BTreeMap<String, String>,
     /// Rows of the `frames` table in one Parquet file; larger tables are split into several files.
@@ -57,6 +60,7 @@ impl Default for DatasetConfig {
             citation: String::new(),
             date_published: "2026-01-01".into(),
             splits: SplitShares::default(),
+            windows: WindowConfig::default(),
             responsible_ai: BTreeMap::new(),
             frames_per_file: 20_000,
         }
@@ -74,6 +78,17 @@ impl DatasetConfig {
                 hint: Some(
                     "to put everything into one split: `splits = { train = 1.0, val = 0.0, test = 0.0 }`".into(),
                 ),
+            });
+        }
+        let windows = &self.windows;
+        if windows.history >= windows.size {
+            return Err(ParameterError {
+                path: vec!["windows".into(), "history".into()],
+                message: format!(
+                    "`history` is `{}` of `{}` frames: nothing is left to predict",
+                    windows.history, windows.size
+                ),
+                hint: Some("it must be less than `size`".into()),
             });
         }
         if !is_day(&self.date_published) {
@@ -151,8 +166,51 @@ impl Default for CreatorConfig {
     }
 }
 
-/// Shares of the splits. A pedestrian's split depends on its id alone, so twins stay together and adding
-/// pedestrians moves no old one.
+/// How training windows are cut.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(default, deny_unknown_fields)]
+pub struct WindowConfig {
+    /// Frames of a window.
+    #[schemars(range(min = 2, max = 1000))]
+    pub size: u32,
+    /// Its first frames, which a model sees; the last of them is the current frame. Fewer than `size`.
+    #[schemars(range(min = 1, max = 999))]
+    pub history: u32,
+    /// Frames from the start of a window to the start of the next one.
+    #[schemars(range(min = 1, max = 1000))]
+    pub stride: u32,
+}
+
+impl Default for WindowConfig {
+    fn default() -> Self {
+        Self { size: 10, history: 5, stride: 3 }
+    }
+}
+
+impl WindowConfig {
+    /// The cut.
+    pub fn shape(&self) -> WindowShape {
+        WindowShape {
+            history: self.history as usize,
+            horizon: self.size.saturating_sub(self.history) as usize,
+            stride: self.stride as usize,
+        }
+    }
+}
+
+/// What goes to one split as a whole.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum SplitBy {
+    /// All flights behind one pedestrian, and behind all others whose ways overlap.
+    Pedestrian,
+    /// All flights in one town, whatever it is called: datasets of several towns put together have unseen towns.
+    Town,
+}
+
+/// Shares of the splits. The split is a draw from the id of the pedestrian (the first of those whose ways overlap) or
+/// from the town's ground plan, so that twins stay together and adding pedestrians moves old ones only where a new
+/// walk joins two groups.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(default, deny_unknown_fields)]
 pub struct SplitShares {
@@ -167,11 +225,17 @@ pub struct SplitShares {
     pub test: f64,
     /// Seed of the assignment.
     pub seed: u64,
+    /// What goes to one split as a whole: `pedestrian` or `town`.
+    pub by: SplitBy,
+    /// Two walks stay together when one repeats more than this share of the other: the same ground within 4 m in the
+    /// same direction. Publishing refuses splits that break it.
+    #[schemars(range(min = 0, max = 1))]
+    pub max_route_overlap: f64,
 }
 
 impl Default for SplitShares {
     fn default() -> Self {
-        Self { train: 0.8, val: 0.1, test: 0.1, seed: 0 }
+        Self { train: 0.8, val: 0.1, test: 0.1, seed: 0, by: SplitBy::Pedestrian, max_route_overlap: 0.5 }
     }
 }
 
@@ -242,7 +306,7 @@ mod tests {
         let error = config.check().unwrap_err();
         assert_eq!(error.path, ["responsible_ai", "dataBias"]);
         assert_eq!(error.hint.unwrap(), "did you mean `dataBiases`?");
-        let splits = SplitShares { train: 0.0, val: 0.0, test: 0.0, seed: 0 };
+        let splits = SplitShares { train: 0.0, val: 0.0, test: 0.0, ..SplitShares::default() };
         assert_eq!(DatasetConfig { splits, ..DatasetConfig::default() }.check().unwrap_err().path, ["splits"]);
     }
 }

@@ -8,6 +8,7 @@
 //! * [`flight_table`]: a flight as an Arrow stream for plugins, and their answers.
 //! * [`read`]: reads published datasets back, for pictures and replays.
 //! * [`predictions`]: reads what models predicted.
+//! * [`splits`]: splits that do not leak, and their linter.
 //! * [`carla_job`]: published flights as a job for a CARLA server.
 //! * [`verify`]: checks a finished dataset by its files alone.
 //! * [`croissant`] and [`publish`]: metadata, card, hashes, and the dataset as a whole.
@@ -26,6 +27,7 @@ pub mod read;
 pub mod record;
 mod reference;
 pub mod sample;
+pub mod splits;
 pub mod tables;
 pub mod verify;
 

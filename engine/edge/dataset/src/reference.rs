@@ -44,6 +44,7 @@ fn kind(kind: Kind) -> String {
         Kind::Reals(length) => format!("float64[{length}]"),
         Kind::Box => "float32[4]: left, top, right, bottom edge, pixels".into(),
         Kind::RealList => "list of float64".into(),
+        Kind::FloatList => "list of float32".into(),
         Kind::IntegerList => "list of int64".into(),
         Kind::TextList => "list of text".into(),
         Kind::Image => "image".into(),

@@ -4,6 +4,7 @@ use crate::ports::{self, CAPTIONS, DATASET, FRAMES, LOG};
 use crate::render::REJECTION;
 use crate::world::{check_same_town, world};
 use crate::{codec, parameters};
+use cosfly_dataset::splits::TownLayout;
 use cosfly_dataset::tables::ObjectRecord;
 use cosfly_dataset::{
     CaptionRecord, DatasetConfig, DatasetSource, FramePackReader, LogRecord, PreviewStrip, PublishedLog, Rejection,
@@ -207,6 +208,10 @@ impl DatasetSource for Gathered<'_> {
 
     fn objects(&self) -> Result<Vec<ObjectRecord>> {
         Ok(ObjectRecord::of(&world(self.inputs)?.town))
+    }
+
+    fn layout(&self) -> Result<TownLayout> {
+        Ok(TownLayout::of(&world(self.inputs)?.town))
     }
 
     fn previews(&self, index: usize) -> Result<PreviewStrip> {

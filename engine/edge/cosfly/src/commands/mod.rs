@@ -5,6 +5,7 @@ pub mod bench_planner;
 pub mod bench_render;
 pub mod carla_job;
 pub mod collect;
+pub mod dataset_lint;
 pub mod drone_state;
 pub mod eval;
 pub mod expert_of_recipe;

@@ -197,6 +197,7 @@ fn data_type(kind: Kind) -> serde_json::Map<String, Value> {
         Kind::Reals(length) => json!({"dataType": "cr:Float64", "isArray": true, "arrayShape": length.to_string()}),
         Kind::Box => json!({"dataType": ["cr:Float32", "cr:BoundingBox"], "isArray": true, "arrayShape": "4"}),
         Kind::RealList => json!({"dataType": "cr:Float64", "isArray": true, "arrayShape": "-1"}),
+        Kind::FloatList => json!({"dataType": "cr:Float32", "isArray": true, "arrayShape": "-1"}),
         Kind::IntegerList => json!({"dataType": "cr:Int64", "isArray": true, "arrayShape": "-1"}),
         Kind::TextList => json!({"dataType": "sc:Text", "isArray": true, "arrayShape": "-1"}),
         Kind::Image => json!({"dataType": "sc:ImageObject"}),

@@ -197,6 +197,7 @@ fn type_name<S>(column: &Column<S>) -> String {
         Kind::Reals(length) => format!("float64[{length}]"),
         Kind::Box => "float32[4]".into(),
         Kind::RealList => "list of float64".into(),
+        Kind::FloatList => "list of float32".into(),
         Kind::IntegerList => "list of int64".into(),
         Kind::TextList => "list of text".into(),
         Kind::Image => "image".into(),

@@ -2,8 +2,8 @@
 
 use crate::config::{DatasetConfig, SplitShares};
 use crate::mcap_log::LogRecord;
+use crate::splits::Assignment;
 use cosfly_diagnose::{Diagnostic, Fault, Result};
-use cosfly_frames::Seed;
 use std::collections::{BTreeMap, BTreeSet};
 
 /// Logs in one folder; hosts of datasets refuse folders with many thousand files.
@@ -33,9 +33,8 @@ impl Split {
         }
     }
 
-    /// The split of a pedestrian: a draw from its id alone.
-    pub fn of_pedestrian(pedestrian_id: &str, shares: &SplitShares) -> Self {
-        let draw = Seed::of_item(shares.seed, "split", pedestrian_id).stream("split").unit();
+    /// The split of a draw from 0..1.
+    pub fn of_draw(draw: f64, shares: &SplitShares) -> Self {
         let total = shares.train + shares.val + shares.test;
         if draw * total < shares.train {
             Self::Train
@@ -60,7 +59,7 @@ pub struct DatasetPlan {
 
 impl DatasetPlan {
     /// Plans a dataset of the trajectories of `logs`, in their order.
-    pub fn new(config: &DatasetConfig, logs: &[&LogRecord]) -> Result<Self> {
+    pub fn new(config: &DatasetConfig, logs: &[&LogRecord], assignment: &Assignment) -> Result<Self> {
         let mut seen = BTreeSet::new();
         let mut per_town: BTreeMap<&str, usize> = BTreeMap::new();
         let mut mcap_paths = vec![];
@@ -76,7 +75,7 @@ impl DatasetPlan {
             mcap_paths.push(format!("mcap/{}/{folder:03}/{}.mcap", log.town, log.trajectory_id));
         }
         Ok(Self {
-            splits: logs.iter().map(|log| Split::of_pedestrian(&log.pedestrian_id, &config.splits)).collect(),
+            splits: assignment.splits.clone(),
             mcap_paths,
             frames: logs.iter().map(|log| log.frames).collect(),
             frames_per_file: u64::from(config.frames_per_file.max(1)),
@@ -122,6 +121,7 @@ impl DatasetPlan {
 mod tests {
     use super::*;
     use crate::Role;
+    use cosfly_frames::Seed;
 
     fn log(id: usize, pedestrian: usize) -> LogRecord {
         LogRecord {
@@ -136,11 +136,21 @@ mod tests {
         }
     }
 
+    fn drawn(logs: &[LogRecord]) -> Assignment {
+        let shares = SplitShares::default();
+        let draw = |log: &LogRecord| Seed::of_item(0, "split", &log.pedestrian_id).stream("split").unit();
+        Assignment {
+            splits: logs.iter().map(|log| Split::of_draw(draw(log), &shares)).collect(),
+            groups: vec![],
+            subset_ranks: vec![],
+        }
+    }
+
     #[test]
-    fn splits_have_about_their_shares_and_twins_stay_together() {
+    fn splits_have_about_their_shares_and_files_a_bounded_size() {
         let logs: Vec<LogRecord> = (0..4000).map(|i| log(i, i / 2)).collect();
-        let plan = DatasetPlan::new(&DatasetConfig::default(), &logs.iter().collect::<Vec<_>>()).unwrap();
-        assert!(plan.splits.chunks(2).all(|twins| twins[0] == twins[1]));
+        let assignment = drawn(&logs);
+        let plan = DatasetPlan::new(&DatasetConfig::default(), &logs.iter().collect::<Vec<_>>(), &assignment).unwrap();
         let train = plan.splits.iter().filter(|split| **split == Split::Train).count();
         assert!((3100..3300).contains(&train), "{train}");
         let files = plan.files("frames", true);
@@ -151,16 +161,17 @@ mod tests {
 
     #[test]
     fn a_share_of_zero_gets_nothing() {
-        let shares = SplitShares { train: 0.5, val: 0.0, test: 0.5, seed: 1 };
-        assert!((0..500).all(|i| Split::of_pedestrian(&format!("p{i}"), &shares) != Split::Val));
-        let shares = SplitShares { train: 1.0, val: 0.0, test: 0.0, seed: 1 };
-        assert!((0..500).all(|i| Split::of_pedestrian(&format!("p{i}"), &shares) == Split::Train));
+        let shares = SplitShares { train: 0.5, val: 0.0, test: 0.5, ..SplitShares::default() };
+        assert!((0..500).all(|i| Split::of_draw(f64::from(i) / 500.0, &shares) != Split::Val));
+        let shares = SplitShares { train: 1.0, val: 0.0, test: 0.0, ..SplitShares::default() };
+        assert!((0..500).all(|i| Split::of_draw(f64::from(i) / 500.0, &shares) == Split::Train));
     }
 
     #[test]
     fn two_trajectories_of_one_name_are_refused() {
         let (a, b) = (log(1, 1), log(1, 2));
-        let error = DatasetPlan::new(&DatasetConfig::default(), &[&a, &b]).unwrap_err();
+        let assignment = drawn(&[a.clone(), b.clone()]);
+        let error = DatasetPlan::new(&DatasetConfig::default(), &[&a, &b], &assignment).unwrap_err();
         assert!(error.message.contains("`t1`"));
     }
 }

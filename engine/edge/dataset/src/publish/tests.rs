@@ -53,9 +53,10 @@ fn the_layout_is_the_documented_one() {
             "mcap/plain/000/perturbed-p00001.mcap",
             "report/index.html",
             "schemas/cosfly.proto",
+            "splits.json",
         ]
     );
-    for table in ["trajectories", "frames", "waypoints", "captions", "pairs", "people", "rejected"] {
+    for table in ["trajectories", "frames", "waypoints", "captions", "pairs", "people", "windows", "rejected"] {
         assert!(files.keys().any(|name| name.starts_with(&format!("data/{table}/"))), "{table}");
     }
 }

@@ -8,13 +8,16 @@ use super::viewers;
 use crate::config::DatasetConfig;
 use crate::hashing::{HashingWriter, sha256_of};
 use crate::mcap_log::{LogRecord, target_state};
-use crate::tables::{self, DatasetItem, FileRecord, ObjectRecord, Table, TableWriter};
+use crate::splits::{self, Assignment, FlightFacts, LintRules, TownLayout};
+use crate::tables::{self, DatasetItem, FileRecord, Membership, ObjectRecord, Table, TableWriter};
 use crate::{CaptionRecord, PreviewStrip, Rejection, RenderedTrajectory, croissant};
 use cosfly_diagnose::{Diagnostic, Fault, Result};
+use cosfly_metrics::WindowShape;
 use cosfly_report::FlightSketch;
 use cosfly_stage::{BlobRef, OutputSink};
 use std::collections::BTreeMap;
 use std::io::Write;
+use std::sync::Arc;
 
 /// A finished log and the blob that holds it.
 #[derive(Clone, Debug)]
@@ -34,6 +37,8 @@ pub trait DatasetSource {
     fn captions(&self, index: usize) -> Result<Vec<CaptionRecord>>;
     /// What the instance ids of all images stand for.
     fn objects(&self) -> Result<Vec<ObjectRecord>>;
+    /// The town that all flights are in, without its name.
+    fn layout(&self) -> Result<TownLayout>;
     /// Its previews; asked for by one table only.
     fn previews(&self, index: usize) -> Result<PreviewStrip>;
 }
@@ -52,12 +57,24 @@ pub fn write_dataset(
         return Err(nothing_to_publish(rejections));
     }
     let records: Vec<&LogRecord> = logs.iter().map(|log| &log.record).collect();
-    let plan = DatasetPlan::new(config, &records)?;
+    let layout = Arc::new(source.layout()?);
+    let assignment = split(config, logs, source, &layout, keep_going)?;
+    let plan = DatasetPlan::new(config, &records, &assignment)?;
     let mut dataset = Publishing { sink, files: vec![] };
     for (log, path) in logs.iter().zip(&plan.mcap_paths) {
         dataset.link_log(path, log)?;
     }
-    let items = Items { plan: &plan, logs, source, keep_going };
+    let items = Items {
+        is_seen: plan.splits.contains(&Split::Train),
+        places: logs.iter().enumerate().map(|(place, log)| (log.record.trajectory_id.as_str(), place)).collect(),
+        windows: config.windows.shape(),
+        plan: &plan,
+        assignment,
+        layout,
+        logs,
+        source,
+        keep_going,
+    };
     let (mut summary, flights) = summarise(&items, rejections)?;
     for table in tables::of_trajectories() {
         let rows = dataset.trajectory_table(&table, &items)?;
@@ -71,6 +88,7 @@ pub fn write_dataset(
     let rejected = tables::of_rejections();
     dataset.table(&rejected, &format!("data/{0}/{0}-00000-of-00001.parquet", rejected.name), rejections)?;
     summary.rows.insert(rejected.name, BTreeMap::from([(rejected.name.to_owned(), summary.rejected)]));
+    dataset.put("splits.json", splits::promise(config).as_bytes())?;
     for (path, text) in viewers::FILES {
         dataset.put(path, text.as_bytes())?;
     }
@@ -81,6 +99,30 @@ pub fn write_dataset(
     dataset.put("README.md", card::readme(config, &summary).as_bytes())?;
     dataset.finish(config, &summary)?;
     Ok(summary)
+}
+
+/// One pass over all trajectories for their splits, which must not leak.
+fn split(
+    config: &DatasetConfig,
+    logs: &[PublishedLog],
+    source: &dyn DatasetSource,
+    layout: &Arc<TownLayout>,
+    keep_going: &dyn Fn() -> Result<()>,
+) -> Result<Assignment> {
+    let size = config.windows.shape().size();
+    let of_flight = |index| {
+        keep_going()?;
+        Ok(FlightFacts::of_record(&source.trajectory(index)?, layout, size))
+    };
+    let mut facts: Vec<FlightFacts> = (0..logs.len()).map(of_flight).collect::<Result<_>>()?;
+    let assignment = splits::assign(&facts, &config.splits);
+    for ((it, split), group) in facts.iter_mut().zip(&assignment.splits).zip(&assignment.groups) {
+        (it.split, it.group) = (split.name().to_owned(), group.clone());
+    }
+    match splits::refusal(&splits::lint(&facts, &LintRules::of(config))) {
+        None => Ok(assignment),
+        Some(refusal) => Err(refusal),
+    }
 }
 
 /// An empty dataset is no success: says what was rejected and why.
@@ -97,7 +139,7 @@ fn summarise(items: &Items<'_>, rejections: &[Rejection]) -> Result<(Summary, Ve
     summary.count_rejections(rejections);
     let mut flights = vec![];
     for index in 0..items.logs.len() {
-        let (item, split) = (items.load(index, false)?, items.plan.splits[index].name());
+        let (item, split) = (items.load(index, Reading::default())?, items.plan.splits[index].name());
         summary.count(&item, split);
         flights.push(report::sketch(&item.record, split));
     }
@@ -107,13 +149,25 @@ fn summarise(items: &Items<'_>, rejections: &[Rejection]) -> Result<(Summary, Ve
 /// The trajectories in the order of their logs.
 struct Items<'a> {
     plan: &'a DatasetPlan,
+    assignment: Assignment,
+    layout: Arc<TownLayout>,
+    is_seen: bool,
+    windows: WindowShape,
+    /// Places of trajectories by their ids.
+    places: BTreeMap<&'a str, usize>,
     logs: &'a [PublishedLog],
     source: &'a dyn DatasetSource,
     keep_going: &'a dyn Fn() -> Result<()>,
 }
 
 impl Items<'_> {
-    fn load(&self, index: usize, with_previews: bool) -> Result<DatasetItem> {
+    /// The expert of a perturbed flight, where the dataset has it.
+    fn expert_of(&self, record: &RenderedTrajectory) -> Result<Option<Box<RenderedTrajectory>>> {
+        let place = record.pair.as_ref().and_then(|pair| self.places.get(pair.expert_id.as_str()));
+        place.map(|place| self.source.trajectory(*place).map(Box::new)).transpose()
+    }
+
+    fn load(&self, index: usize, reading: Reading) -> Result<DatasetItem> {
         (self.keep_going)()?;
         let log = &self.logs[index].record;
         let record = self.source.trajectory(index)?;
@@ -128,15 +182,30 @@ impl Items<'_> {
             );
             return Err(Diagnostic::new("dataset-order", Fault::Bug, message));
         }
-        let previews = if with_previews { self.source.previews(index)? } else { PreviewStrip::default() };
+        let previews = if reading.previews { self.source.previews(index)? } else { PreviewStrip::default() };
         Ok(DatasetItem {
             captions: self.source.captions(index)?,
             previews,
             log: log.clone(),
             mcap_path: self.plan.mcap_paths[index].clone(),
+            expert: if reading.expert { self.expert_of(&record)? } else { None },
+            membership: Membership {
+                split_group: self.assignment.groups[index].clone(),
+                is_seen: self.is_seen,
+                subset_rank: self.assignment.subset_ranks[index],
+            },
+            layout: Arc::clone(&self.layout),
+            windows: self.windows,
             record,
         })
     }
+}
+
+/// What a table reads beside the records.
+#[derive(Clone, Copy, Default)]
+struct Reading {
+    previews: bool,
+    expert: bool,
 }
 
 /// Appends all rows of one file.
@@ -169,9 +238,10 @@ impl Publishing<'_> {
     /// All files of a table over the trajectories; gives the number of rows by split.
     fn trajectory_table(&mut self, table: &Table<DatasetItem>, items: &Items<'_>) -> Result<BTreeMap<String, u64>> {
         let mut rows = BTreeMap::new();
+        let reading = Reading { previews: table.reads_previews, expert: table.reads_expert };
         for (split, path, members) in items.plan.files(table.name, table.per_frame) {
             *rows.entry(split.name().to_owned()).or_insert(0) += self.parquet(&path, table, &mut |writer| {
-                members.iter().try_for_each(|index| writer.append(&items.load(*index, table.reads_previews)?))
+                members.iter().try_for_each(|index| writer.append(&items.load(*index, reading)?))
             })?;
         }
         Ok(rows)
@@ -207,7 +277,7 @@ impl Publishing<'_> {
         let single = |path: &str| listed.iter().find(|file| file.path == path).cloned();
         let mut named: Vec<FileRecord> = self.files.clone();
         named.extend(viewers::FILES.iter().filter_map(|(path, _)| single(path)));
-        named.extend(["schemas/cosfly.proto", "LICENSE"].iter().filter_map(|it| single(it)));
+        named.extend(["schemas/cosfly.proto", "LICENSE", "splits.json"].iter().filter_map(|it| single(it)));
         let text = croissant::document(config, summary, &named);
         self.put("croissant.json", text.as_bytes())?;
         let sums: String = self.files.iter().map(|file| format!("{}  {}\n", file.sha256, file.path)).collect();

@@ -124,12 +124,24 @@ impl Rows<'_> {
         })
     }
 
-    /// Three numbers.
-    pub fn vector(&self, name: &str, row: usize) -> Result<[f64; 3]> {
+    /// The whole numbers of a list; none for null and in a dataset from before the column was there.
+    pub fn integers_or_none(&self, name: &str, row: usize) -> Result<Vec<i64>> {
+        if self.batch.column_by_name(name).is_none() {
+            return Ok(vec![]);
+        }
+        let column = self.column(name, |kind| matches!(kind, DataType::List(_)))?.as_list::<i32>();
+        let values = column.is_valid(row).then(|| column.value(row));
+        let numbers = values.as_ref().and_then(|values| values.as_primitive_opt::<Int64Type>());
+        Ok(numbers.map_or_else(Vec::new, |numbers| numbers.values().to_vec()))
+    }
+
+    /// `N` numbers, each of them finite.
+    pub fn vector<const N: usize>(&self, name: &str, row: usize) -> Result<[f64; N]> {
         let column = self.column(name, |kind| matches!(kind, DataType::FixedSizeList(..)))?.as_fixed_size_list();
         let values = column.is_valid(row).then(|| column.value(row));
         let numbers = values.as_ref().and_then(|values| values.as_primitive_opt::<Float64Type>());
-        let numbers = numbers.and_then(|numbers| <[f64; 3]>::try_from(&numbers.values()[..]).ok());
+        let numbers = numbers.and_then(|numbers| <[f64; N]>::try_from(&numbers.values()[..]).ok());
+        let numbers = numbers.filter(|numbers| numbers.iter().all(|number| number.is_finite()));
         numbers.ok_or_else(|| damaged(self.path, &format!("column `{name}` has no vector in row {row}"), "wrong size"))
     }
 

@@ -2,6 +2,7 @@
 
 use super::columns::{self, Rows};
 use super::log::LogReader;
+use crate::splits::TownLayout;
 use cosfly_diagnose::{Diagnostic, Fault, Result, nearest_name};
 use cosfly_frames::{DVec3, Pose, TargetState};
 use cosfly_render::Camera;
@@ -31,6 +32,10 @@ pub struct PublishedFlight {
     pub town: String,
     /// Digest of the town's geometry; towns with the same one are the same place. Empty when it is not told.
     pub town_geometry: String,
+    /// Its ground plan; without a sketch, and with the geometry's digest, in datasets from before the column was there.
+    pub town_layout: TownLayout,
+    /// Flights with the same one must stay in one split; empty when it is not told.
+    pub split_group: String,
     /// `x = x_map - x_offset`, `y = -y_map - y_offset`, `z = z_map - z_offset`, metres.
     pub town_offset_m: DVec3,
     /// Name of the weather preset.
@@ -229,12 +234,15 @@ pub(super) fn table_files(folder: &Path) -> Result<Vec<(String, PathBuf)>> {
 
 /// What names of weather columns begin with.
 const WEATHER: &str = "weather_";
-const FLIGHT_COLUMNS: [&str; 16] = [
+const FLIGHT_COLUMNS: [&str; 19] = [
     "trajectory_id",
     "expert_id",
     "pedestrian_id",
     "town",
     "town_geometry_blake3",
+    "town_layout_blake3",
+    "town_layout_sketch",
+    "split_group",
     "town_offset_m",
     "frames",
     "dt_s",
@@ -272,6 +280,13 @@ pub(super) const FRAME_COLUMNS: [&str; 21] = [
 ];
 
 impl PublishedFlight {
+    fn layout(rows: &Rows<'_>, row: usize) -> Result<TownLayout> {
+        let geometry = rows.text_or("town_geometry_blake3", row, "")?;
+        let known = if geometry.is_empty() { rows.text_or("town", row, "")? } else { geometry };
+        let digest = rows.text_or("town_layout_blake3", row, &known)?;
+        Ok(TownLayout { digest, sketch: rows.integers_or_none("town_layout_sketch", row)? })
+    }
+
     fn read(rows: &Rows<'_>, row: usize, split: &str) -> Result<Self> {
         let text = |name: &str| Ok::<_, Box<Diagnostic>>(rows.text(name, row)?.unwrap_or_default());
         let mut weather_numbers = BTreeMap::new();
@@ -288,6 +303,8 @@ impl PublishedFlight {
             pedestrian_id: text("pedestrian_id")?,
             town: text("town")?,
             town_geometry: rows.text_or("town_geometry_blake3", row, "")?,
+            town_layout: Self::layout(rows, row)?,
+            split_group: rows.text_or("split_group", row, "")?,
             town_offset_m: DVec3::from_array(rows.vector("town_offset_m", row)?),
             weather: text("weather_preset")?,
             weather_numbers,

@@ -7,6 +7,7 @@ mod flights;
 mod log;
 mod tracks;
 mod walk;
+mod ways;
 
 pub use flights::{PublishedDataset, PublishedFlight, PublishedFrame};
 pub use log::{LogReader, LoggedFrame, SceneBox};

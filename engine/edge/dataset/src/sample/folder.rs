@@ -2,6 +2,7 @@
 
 use super::{SampleFlight, flights, rejections, town};
 use crate::publish::{DatasetSource, PublishedLog, Summary, write_dataset};
+use crate::splits::TownLayout;
 use crate::tables::ObjectRecord;
 use crate::{
     CaptionRecord, DatasetConfig, EncodingConfig, FramePackReader, PreviewStrip, RenderedTrajectory, write_log,
@@ -57,6 +58,10 @@ impl DatasetSource for Flights {
 
     fn objects(&self) -> Result<Vec<ObjectRecord>> {
         Ok(ObjectRecord::of(&town()))
+    }
+
+    fn layout(&self) -> Result<TownLayout> {
+        Ok(TownLayout::of(&town()))
     }
 
     fn previews(&self, index: usize) -> Result<PreviewStrip> {

@@ -20,6 +20,8 @@ pub enum Kind {
     Box,
     /// Any number of 64-bit floats.
     RealList,
+    /// Any number of 32-bit floats.
+    FloatList,
     /// Any number of 64-bit integers.
     IntegerList,
     /// Any number of texts.
@@ -39,6 +41,7 @@ pub enum Cell {
     Flag(bool),
     Reals(Vec<f64>),
     Box([f32; 4]),
+    Floats(Vec<f32>),
     Integers(Vec<i64>),
     Texts(Vec<String>),
     Image(Vec<u8>),
@@ -68,6 +71,7 @@ cells! {
     Vec<f64> => |value| Cell::Reals(value),
     [f64; 6] => |value| Cell::Reals(value.to_vec()),
     cosfly_frames::DVec3 => |value| Cell::Reals(value.to_array().to_vec()),
+    Vec<f32> => |value| Cell::Floats(value),
     Vec<i64> => |value| Cell::Integers(value),
     Vec<String> => |value| Cell::Texts(value),
     Vec<u8> => |value| Cell::Image(value),
@@ -121,6 +125,8 @@ pub struct Table<S> {
     pub rows_per_group: usize,
     /// Whether its cells read the previews.
     pub reads_previews: bool,
+    /// Whether its cells read the expert of a perturbed flight.
+    pub reads_expert: bool,
     /// The columns, in their order.
     pub columns: Vec<Column<S>>,
 }

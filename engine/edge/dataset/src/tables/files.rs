@@ -23,6 +23,7 @@ pub fn table() -> Table<FileRecord> {
         per_frame: false,
         rows_per_group: 50_000,
         reads_previews: false,
+        reads_expert: false,
         columns: vec![
             Column::new("path", Kind::Text, "path from the dataset's folder", |it, _| (&it.path).into()),
             Column::new("bytes", Kind::Integer, "size", |it, _| it.bytes.into()),

@@ -28,6 +28,7 @@ pub fn table() -> Table<DatasetItem> {
         per_frame: true,
         rows_per_group: 200,
         reads_previews: true,
+        reads_expert: false,
         columns,
     }
 }

@@ -13,6 +13,7 @@ mod people;
 mod rejected;
 mod trajectories;
 mod waypoints;
+mod windows;
 mod write;
 
 pub use column::{Cell, Column, Kind, Table};
@@ -21,7 +22,10 @@ pub use objects::{ObjectRecord, kind_name};
 pub use write::{TableWriter, schema};
 
 use crate::mcap_log::LogRecord;
+use crate::splits::TownLayout;
 use crate::{CaptionRecord, PreviewStrip, RenderedTrajectory};
+use cosfly_metrics::WindowShape;
+use std::sync::Arc;
 
 /// One trajectory with everything that tables say about it.
 #[derive(Clone, Debug)]
@@ -36,11 +40,38 @@ pub struct DatasetItem {
     pub log: LogRecord,
     /// Path of the log in the dataset.
     pub mcap_path: String,
+    /// The expert of a perturbed flight, for tables that read it; none where it is not in the dataset.
+    pub expert: Option<Box<RenderedTrajectory>>,
+    /// What it belongs to.
+    pub membership: Membership,
+    /// Its town without the name.
+    pub layout: Arc<TownLayout>,
+    /// How training windows are cut.
+    pub windows: WindowShape,
+}
+
+/// What a flight belongs to among all others.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Membership {
+    /// Flights with the same one are in one split.
+    pub split_group: String,
+    /// Whether split `train` has flights in the same town.
+    pub is_seen: bool,
+    /// 0..1: those below 0.25 are a quarter of all.
+    pub subset_rank: f64,
 }
 
 /// The tables over the trajectories, in the order of the card.
 pub fn of_trajectories() -> Vec<Table<DatasetItem>> {
-    vec![trajectories::table(), frames::table(), waypoints::table(), captions::table(), pairs::table(), people::table()]
+    vec![
+        trajectories::table(),
+        frames::table(),
+        waypoints::table(),
+        captions::table(),
+        pairs::table(),
+        people::table(),
+        windows::table(),
+    ]
 }
 
 /// The table of items without a trajectory.

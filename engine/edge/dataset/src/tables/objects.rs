@@ -82,6 +82,7 @@ pub fn table() -> Table<ObjectRecord> {
         per_frame: false,
         rows_per_group: 50_000,
         reads_previews: false,
+        reads_expert: false,
         columns: vec![
             Column::new("town", Kind::Text, "name of the town", |it, _| (&it.town).into()),
             Column::new("instance", Kind::Integer, "id in instance images", |it, _| it.instance().into()),

@@ -13,6 +13,7 @@ pub fn table() -> Table<DatasetItem> {
         per_frame: false,
         rows_per_group: 10_000,
         reads_previews: false,
+        reads_expert: false,
         columns: vec![
             Column::new("perturbed_id", Kind::Text, "the perturbed flight", |item, _| {
                 (&item.record.trajectory_id).into()

@@ -14,6 +14,7 @@ pub fn table() -> Table<DatasetItem> {
         per_frame: true,
         rows_per_group: 50_000,
         reads_previews: false,
+        reads_expert: false,
         columns: vec![
             Column::new("trajectory_id", Kind::Text, "the flight", |item, _| (&item.record.trajectory_id).into()),
             Column::new("frame", Kind::Integer, "the frame", |item, i| sighting(item, i).frame.into()),

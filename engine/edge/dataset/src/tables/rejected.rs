@@ -13,6 +13,7 @@ pub fn table() -> Table<Rejection> {
         per_frame: false,
         rows_per_group: 50_000,
         reads_previews: false,
+        reads_expert: false,
         columns: vec![
             Column::new("trajectory_id", Kind::Text, "the id the flight would have had", |it, _| {
                 (&it.trajectory_id).into()

@@ -24,6 +24,10 @@ fn item(role: Role) -> DatasetItem {
         previews: PreviewStrip { jpegs: vec![vec![1, 2]; 5] },
         log,
         mcap_path: "mcap/x".into(),
+        expert: (role == Role::Perturbed).then(|| Box::new(sample::flight(0, Role::Expert).record)),
+        membership: Membership { split_group: "plain/p00000".into(), is_seen: true, subset_rank: 0.5 },
+        layout: Arc::new(TownLayout::of(&sample::town())),
+        windows: WindowShape { history: 2, horizon: 2, stride: 1 },
     }
 }
 
@@ -38,7 +42,7 @@ fn write(table: &Table<DatasetItem>, items: &[DatasetItem]) -> Vec<u8> {
 #[test]
 fn every_table_has_its_rows_and_the_same_bytes_twice() {
     let items = [item(Role::Expert), item(Role::Perturbed)];
-    for (table, rows) in of_trajectories().iter().zip([2, 10, 10, 4, 1, 10]) {
+    for (table, rows) in of_trajectories().iter().zip([2, 10, 10, 4, 1, 10, 4]) {
         let bytes = write(table, &items);
         assert!(bytes == write(table, &items), "{}", table.name);
         let reader = ParquetRecordBatchReaderBuilder::try_new(foxglove::bytes::Bytes::from(bytes)).unwrap();
@@ -84,4 +88,40 @@ fn columns_have_distinct_names_and_keys_exist() {
         names.sort_unstable();
         assert!(names.windows(2).all(|pair| pair[0] != pair[1]), "{}", table.name);
     }
+}
+
+fn floats(item: &DatasetItem, column: &str, row: usize) -> Vec<f32> {
+    let table = windows::table();
+    let column = table.columns.iter().find(|it| it.name == column).unwrap();
+    match (column.cell)(item, row) {
+        Cell::Floats(values) => values,
+        cell => panic!("{cell:?}"),
+    }
+}
+
+#[test]
+fn windows_lead_from_the_disturbed_pose_to_the_experts() {
+    let item = item(Role::Perturbed);
+    let (own, expert) = (&item.record.trajectory.poses_in_world, &item.expert.as_ref().unwrap().trajectory);
+    // The twin is displaced in frame 2 alone, which is the current frame of the window that starts at 1.
+    let offset = expert.poses_in_world[2].position_in_world - own[2].position_in_world;
+    let correction = floats(&item, "correction_in_world", 1);
+    assert_eq!((correction.len(), &correction[..6]), (12, &[0.0; 6][..]));
+    assert!((f64::from(correction[6]) - offset.x).abs() < 1e-6 && offset.x != 0.0);
+    let deltas = floats(&item, "waypoint_deltas_in_world", 1);
+    let expected = expert.poses_in_world[3].position_in_world - own[2].position_in_world;
+    assert!((f64::from(deltas[0]) - expected.x).abs() < 1e-6 && deltas.len() == 12);
+    assert_eq!(deltas[6..], floats(&item, "expert_steps_in_world", 1)[12..]);
+    assert_eq!(floats(&item, "input_boxes_px", 0).len(), 8);
+    assert_eq!(floats(&item, "expert_boxes_px", 0).len(), 16);
+}
+
+#[test]
+fn a_twin_without_its_expert_has_no_windows() {
+    let alone = DatasetItem { expert: None, ..item(Role::Perturbed) };
+    assert_eq!(windows::count(&alone), 0);
+    let trajectories = of_trajectories().remove(0);
+    let difficulty = trajectories.columns.iter().find(|column| column.name == "difficulty").unwrap();
+    assert_eq!((difficulty.cell)(&alone, 0), Cell::Null);
+    assert_eq!((difficulty.cell)(&item(Role::Perturbed), 0), Cell::Integer(0));
 }

@@ -1,12 +1,14 @@
 //! Table `trajectories`: one row per flight, with its certificate, weather, camera and log.
 
 use super::frames::{ROLES, role_cell};
+use super::windows::{self, DIFFICULTIES, SCENES};
 use super::{Cell, Column, DatasetItem, Kind, Table};
+use cosfly_metrics::WindowFeatures;
 use cosfly_planner::{Certificate, Perturbation};
 
 /// The table.
 pub fn table() -> Table<DatasetItem> {
-    let parts = [identity(), scene(), weather(), camera(), target(), certificate(), solution(), log()];
+    let parts = [identity(), scene(), belonging(), weather(), camera(), target(), certificate(), solution(), log()];
     Table {
         name: "trajectories",
         doc: "One row per flight: town, weather, camera, certificate, costs, and where its log is.",
@@ -15,6 +17,7 @@ pub fn table() -> Table<DatasetItem> {
         per_frame: false,
         rows_per_group: 10_000,
         reads_previews: false,
+        reads_expert: true,
         columns: parts.into_iter().flatten().collect(),
     }
 }
@@ -77,6 +80,66 @@ fn scene() -> Vec<Column<DatasetItem>> {
             item.record.town.synthetic.notes.clone().into()
         }),
     ]
+}
+
+fn belonging() -> Vec<Column<DatasetItem>> {
+    vec![
+        Column::new(
+            "town_layout_blake3",
+            Kind::Text,
+            "BLAKE3 of the walkable ground's plan, the same for copies of a town with other names or buildings",
+            |item, _| (&item.layout.digest).into(),
+        ),
+        Column::new(
+            "town_layout_sketch",
+            Kind::IntegerList,
+            "64 numbers; the share that two towns have in common says how alike their plans are (MinHash)",
+            |item, _| item.layout.sketch.clone().into(),
+        ),
+        Column::new("split_group", Kind::Text, "flights with the same one are in one split", |item, _| {
+            (&item.membership.split_group).into()
+        }),
+        Column::new(
+            "subset_rank",
+            Kind::Real,
+            "0..1, the same for all flights behind a pedestrian: those below 0.25 are a quarter of all, and part of \
+             those below 0.5",
+            |item, _| item.membership.subset_rank.into(),
+        ),
+        Column::new(
+            "scene",
+            Kind::Label(&SCENES),
+            "seen: split `train` of this dataset has flights in the same town, by its ground plan",
+            |item, _| windows::scene_cell(item),
+        ),
+        Column::optional(
+            "difficulty",
+            Kind::Label(&DIFFICULTIES),
+            "median of the difficulties of its windows, see table `windows`; null without the expert",
+            |item, _| {
+                let mut all: Vec<_> = windows::all_features(item).iter().map(|it| it.difficulty()).collect();
+                all.sort_unstable();
+                all.get(all.len() / 2).map_or(Cell::Null, |median| windows::difficulty_cell(*median))
+            },
+        ),
+        Column::optional("mean_turn_deg", Kind::Real, "mean of the windows' `turn_deg`", |item, _| {
+            mean_of_windows(item, |it| it.turn_deg)
+        }),
+        Column::optional("mean_height_change_m", Kind::Real, "mean of the windows' `height_change_m`", |item, _| {
+            mean_of_windows(item, |it| it.height_change_m)
+        }),
+        Column::optional("mean_occluded_share", Kind::Real, "mean of the windows' `occluded_share`", |item, _| {
+            mean_of_windows(item, |it| it.occluded_share)
+        }),
+        Column::optional("mean_speed_mps", Kind::Real, "mean of the windows' `speed_mps`", |item, _| {
+            mean_of_windows(item, |it| it.speed_mps)
+        }),
+    ]
+}
+
+fn mean_of_windows(item: &DatasetItem, feature: fn(&WindowFeatures) -> f64) -> Cell {
+    let all = windows::all_features(item);
+    (!all.is_empty()).then(|| all.iter().map(feature).sum::<f64>() / all.len() as f64).into()
 }
 
 fn weather() -> Vec<Column<DatasetItem>> {

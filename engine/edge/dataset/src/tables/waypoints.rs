@@ -13,6 +13,7 @@ pub fn table() -> Table<DatasetItem> {
         per_frame: true,
         rows_per_group: 50_000,
         reads_previews: false,
+        reads_expert: false,
         columns: vec![
             Column::new("trajectory_id", Kind::Text, "the flight", |item, _| (&item.record.trajectory_id).into()),
             Column::new("step", Kind::Integer, "step, from 0; the frame of the same number", |_, i| i.into()),
@@ -46,7 +47,11 @@ pub fn table() -> Table<DatasetItem> {
 }
 
 fn pose(item: &DatasetItem, i: usize) -> Cell {
-    let pose = &item.record.trajectory.poses_in_world[i];
+    pose_cell(&item.record.trajectory.poses_in_world[i])
+}
+
+/// x, y, z in metres, pitch, yaw, roll in degrees.
+pub fn pose_cell(pose: &cosfly_frames::Pose) -> Cell {
     let position = pose.position_in_world;
     let [pitch, yaw, roll] = [pose.pitch_rad, pose.yaw_rad, pose.roll_rad].map(f64::to_degrees);
     [position.x, position.y, position.z, pitch, yaw, roll].into()

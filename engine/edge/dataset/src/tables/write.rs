@@ -72,6 +72,7 @@ fn check_cell<S>(column: &Column<S>, cell: &Cell) -> std::result::Result<(), Str
         (Kind::Real, Cell::Real(value)) => value.is_finite(),
         (Kind::Reals(length), Cell::Reals(values)) => values.len() == length && finite(values),
         (Kind::RealList, Cell::Reals(values)) => finite(values),
+        (Kind::FloatList, Cell::Floats(values)) => values.iter().all(|value| value.is_finite()),
         (Kind::Label(names), Cell::Integer(value)) => (0..names.len() as i64).contains(value),
         (Kind::Text, Cell::Text(_))
         | (Kind::Integer, Cell::Integer(_))
@@ -134,6 +135,7 @@ fn build_array(kind: Kind, cells: Vec<Cell>) -> ArrayRef {
         Kind::Reals(length) => fixed_list!(Float64Builder::new(), length, Reals),
         Kind::Box => fixed_list!(Float32Builder::new(), 4, Box),
         Kind::RealList => list!(Float64Builder::new(), Reals),
+        Kind::FloatList => list!(Float32Builder::new(), Floats),
         Kind::IntegerList => list!(Int64Builder::new(), Integers),
         Kind::TextList => list!(StringBuilder::new(), Texts),
         Kind::Image => image_array(cells),
@@ -162,7 +164,7 @@ fn image_fields() -> Fields {
 
 fn item_field(kind: Kind) -> Arc<Field> {
     let item = match kind {
-        Kind::Box => DataType::Float32,
+        Kind::Box | Kind::FloatList => DataType::Float32,
         Kind::IntegerList => DataType::Int64,
         Kind::TextList => DataType::Utf8,
         _ => DataType::Float64,
@@ -180,7 +182,9 @@ pub fn schema<S>(table: &Table<S>) -> Schema {
             Kind::Flag => DataType::Boolean,
             Kind::Reals(length) => DataType::FixedSizeList(item_field(column.kind), length as i32),
             Kind::Box => DataType::FixedSizeList(item_field(column.kind), 4),
-            Kind::RealList | Kind::IntegerList | Kind::TextList => DataType::List(item_field(column.kind)),
+            Kind::RealList | Kind::FloatList | Kind::IntegerList | Kind::TextList => {
+                DataType::List(item_field(column.kind))
+            }
             Kind::Image => DataType::Struct(image_fields()),
         };
         let featured = matches!(column.kind, Kind::Label(_) | Kind::Image);

@@ -12,7 +12,9 @@ mod log;
 mod people;
 mod report;
 mod rows;
+mod splits;
 mod tables;
+mod windows;
 
 pub use report::{Finding, LabelGap, VerifyReport};
 
@@ -30,6 +32,8 @@ pub fn verify(folder: &Path, progress: &mut dyn FnMut(u64, u64)) -> Result<Verif
     let mut report = VerifyReport::default();
     let files = files::check(folder, &mut report)?;
     let tables = tables::read(folder, &files, &mut report);
+    splits::check(folder, &tables, &mut report);
+    windows::check(folder, &files, &tables, &mut report);
     croissant::check(folder, &files, &mut report)?;
     flight::check_all(folder, &files, &tables, &mut report, progress);
     Ok(report)

@@ -92,6 +92,12 @@ impl Batch {
         if column.is_null(row) { vec![] } else { column.value(row).as_primitive::<Int64Type>().values().to_vec() }
     }
 
+    /// The 32-bit floats of a list; empty for null.
+    pub fn floats(&self, name: &str, row: usize) -> Vec<f32> {
+        let column = self.column(name).as_list::<i32>();
+        if column.is_null(row) { vec![] } else { column.value(row).as_primitive::<Float32Type>().values().to_vec() }
+    }
+
     /// A flag; `None` for null.
     pub fn flag(&self, name: &str, row: usize) -> Option<bool> {
         let column = self.column(name).as_boolean();

@@ -52,12 +52,11 @@ pub fn read(folder: &Path, files: &CheckedFiles, report: &mut VerifyReport) -> S
     check_weathers(&small, report);
     read_captions(folder, files, &mut small, report);
     read_pairs(folder, files, &mut small, report);
-    check_splits(&small, report);
     small
 }
 
 /// The split that a file belongs to.
-fn split_of(path: &str) -> &str {
+pub fn split_of(path: &str) -> &str {
     path.rsplit('/').next().and_then(|name| name.split('-').next()).unwrap_or_default()
 }
 
@@ -230,19 +229,6 @@ fn check_experts(small: &SmallTables, report: &mut VerifyReport) {
                 let message = format!("its expert `{}` is not in the dataset", flight.expert_id);
                 report.find(&flight.place.0, place, "verify-pair", message);
             }
-        }
-    }
-}
-
-/// All flights behind one pedestrian are in one split.
-fn check_splits(small: &SmallTables, report: &mut VerifyReport) {
-    let mut splits: BTreeMap<&str, &str> = BTreeMap::new();
-    for (id, flight) in &small.flights {
-        let split = split_of(&flight.place.0);
-        let first = *splits.entry(&flight.pedestrian_id).or_insert(split);
-        if first != split {
-            let message = format!("pedestrian `{}` is in `{first}` and in `{split}`", flight.pedestrian_id);
-            report.find(&flight.place.0, format!("row {}, `{id}`", flight.place.1), "verify-split", message);
         }
     }
 }

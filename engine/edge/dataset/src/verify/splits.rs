@@ -1,0 +1,23 @@
+//! Splits: nothing that a model meets in training is met again in its test.
+
+use super::report::VerifyReport;
+use super::tables::SmallTables;
+use crate::splits::{self, facts_of_dataset, promise};
+use std::path::Path;
+
+/// Lints the splits by what `splits.json` promises.
+pub fn check(folder: &Path, tables: &SmallTables, report: &mut VerifyReport) {
+    let promise = match promise::Promise::of_dataset(folder) {
+        Ok(promise) => promise,
+        Err(message) => return report.find(promise::FILE, "", "verify-schema", message),
+    };
+    // Tables that cannot be read were found before.
+    let Ok(facts) = facts_of_dataset(folder, 0, promise.windows.shape().size()) else { return };
+    let leaks = splits::lint(&facts, &promise.rules());
+    for leak in &leaks.kept {
+        let place = tables.flights.get(&leak.trajectory_id).map(|flight| &flight.place);
+        let (file, row) = place.map_or(("data/trajectories", 0), |(file, row)| (file, *row));
+        report.find(file, format!("row {row}, `{}`", leak.trajectory_id), leak.rule, leak.message.clone());
+    }
+    report.found += (leaks.found - leaks.kept.len()) as u64;
+}
