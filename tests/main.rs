@@ -19,3 +19,4 @@ mod steering;
 mod street;
 mod support;
 mod towns;
+mod versions;

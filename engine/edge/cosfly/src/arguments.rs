@@ -84,7 +84,7 @@ Examples:
     Graph(GraphArguments),
     /// Check a finished dataset: hashes, counts, CRCs, schemas, reprojection, action and pose
     Verify(VerifyArguments),
-    /// Work with finished datasets: lint their splits
+    /// Work with finished datasets: lint their splits, name versions, compare them, write them out again
     #[command(subcommand)]
     Dataset(crate::dataset_arguments::DatasetCommand),
     /// Draw a finished flight: contact sheet, animated clip, plan of town and paths
@@ -263,6 +263,17 @@ pub struct VerifyArguments {
     /// Folder of the dataset
     #[arg(value_name = "DIR")]
     pub dir: PathBuf,
+    /// Make so many flights anew from the recipe alone, in an empty store, and compare their logs byte by byte
+    #[arg(long, value_name = "N")]
+    pub regenerate: Option<u16>,
+    /// The recipe for `--regenerate` [default: that of the named version that has these files]
+    #[arg(long, value_name = "RECIPE", requires = "regenerate")]
+    pub recipe: Option<PathBuf>,
+    /// Change a value of that recipe (repeatable)
+    #[arg(long = "set", value_name = "PATH=VALUE", requires = "recipe")]
+    pub overrides: Vec<String>,
+    #[command(flatten)]
+    pub store: StoreArguments,
 }
 
 /// Arguments of `preview`.

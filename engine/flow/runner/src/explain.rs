@@ -274,6 +274,11 @@ fn inputs_of<'p>(plan: &'p Plan<'_>, stage: usize, item: usize) -> InputsNow<'p>
     described.connections.iter().map(|c| (c.port.name, c.arrivals_for(item).iter().map(stored).collect())).collect()
 }
 
+/// What differs between two definitions of one stage, as [`crate::PlannedStage::definition_document`] gives them.
+pub fn definition_difference(old: &Value, new: &Value) -> Vec<Change> {
+    definition_changes(old, &new.to_string())
+}
+
 /// What differs between two definitions of one stage.
 pub(crate) fn definition_changes(old: &Value, new_json: &str) -> Vec<Change> {
     let new: Value = serde_json::from_str(new_json).unwrap_or_default();

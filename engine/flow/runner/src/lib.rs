@@ -26,7 +26,7 @@ mod toy;
 
 pub use bench::{EngineFigures, bench_engine};
 pub use deliver::{Delivery, deliver};
-pub use explain::{Change, Explanation, Link, why};
+pub use explain::{Change, Explanation, Link, definition_difference, why};
 pub use plan::{Plan, PlannedStage, plan, recipe_id};
 pub use reasons::Reason;
 pub use run::{RunOptions, run, run_plan};

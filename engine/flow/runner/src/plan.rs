@@ -53,6 +53,11 @@ impl PlannedStage {
         self.plans.len() as u64
     }
 
+    /// What all its items share: kind, version, parameters with their defaults, digests of files.
+    pub fn definition_document(&self) -> serde_json::Value {
+        serde_json::from_str(&self.definition.json).unwrap_or_default()
+    }
+
     /// How many of them are finished.
     pub fn cached(&self) -> u64 {
         self.finished.iter().flatten().count() as u64

@@ -104,7 +104,7 @@ fn lost(blob: &BlobRef, how: &str) -> Box<Diagnostic> {
 }
 
 /// The digest of a file from where it stands to its end.
-pub(crate) fn digest_of_file(file: &mut File) -> io::Result<Digest> {
+pub fn digest_of_file(file: &mut File) -> io::Result<Digest> {
     let mut hasher = blake3::Hasher::new();
     let mut buffer = vec![0; 1 << 17];
     loop {

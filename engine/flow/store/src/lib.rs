@@ -41,12 +41,13 @@ mod scratch;
 mod sink;
 mod store;
 
+pub use blobs::digest_of_file;
 pub use fault::{FaultPoints, NoFaults, Step};
 pub use garbage::{GarbageOptions, GarbageReport, collect_garbage, pin, unpin};
 pub use history::{PastRun, PastStage};
 pub use index::KnownTasks;
 pub use locks::TaskLock;
-pub use materialise::{Materialised, VERSION_FILE, materialise};
+pub use materialise::{Materialised, VERSION_FILE, content_of, materialise};
 pub use places::check_out_folder;
 pub use records::{ActionRecord, Finished};
 pub use sink::{Settled, TaskSink};

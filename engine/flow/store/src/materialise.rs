@@ -41,7 +41,7 @@ pub struct Materialised {
 pub fn materialise(store: &Store, blobs: &BTreeMap<String, BlobRef>, folder: &Path) -> Result<Materialised> {
     check_names(blobs)?;
     check_out_folder(store.root(), folder)?;
-    let version = version_of(blobs);
+    let version = content_of(blobs);
     let bytes = blobs.values().fold(0_u64, |sum, blob| sum.saturating_add(blob.bytes));
     let result = |changed| Materialised { version, files: blobs.len() as u64, bytes, changed };
     let folder = std::path::absolute(folder).map_err(|error| refused(folder, &error))?;
@@ -111,7 +111,8 @@ fn refused(folder: &Path, error: &io::Error) -> Box<Diagnostic> {
     Diagnostic::io(format!("write the folder `{}`", folder.display()), error)
 }
 
-fn version_of(blobs: &BTreeMap<String, BlobRef>) -> Digest {
+/// Digest over the sorted (path, digest, size) of all files: [`Materialised::version`].
+pub fn content_of(blobs: &BTreeMap<String, BlobRef>) -> Digest {
     let mut hasher = blake3::Hasher::new();
     for (name, blob) in blobs {
         hasher.update(&(name.len() as u64).to_le_bytes());

@@ -6,6 +6,7 @@ pub mod bench_render;
 pub mod carla_job;
 pub mod collect;
 pub mod dataset_lint;
+pub mod dataset_versions;
 pub mod drone_state;
 pub mod eval;
 pub mod expert_of_recipe;
@@ -20,6 +21,7 @@ pub mod plugin_check;
 #[cfg(feature = "plugins")]
 pub mod plugin_new;
 pub mod preview;
+pub mod regenerate;
 pub mod run;
 pub mod schema;
 pub mod task;

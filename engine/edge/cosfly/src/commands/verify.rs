@@ -56,6 +56,12 @@ pub fn verify(arguments: &VerifyArguments) -> Outcome {
         0 => writeln!(text, "nothing wrong was found"),
         found => writeln!(text, "{} found", count(found, "problem")),
     };
+    let mut wrong = 0;
+    if let Some(number) = arguments.regenerate {
+        let (told, found) = super::regenerate::regenerated(arguments, usize::from(number))?;
+        text += &told;
+        wrong = found;
+    }
     crate::print(&text)?;
-    Ok(if report.is_sound() { exit::SUCCESS } else { exit::FOUND_PROBLEMS })
+    Ok(if report.is_sound() && wrong == 0 { exit::SUCCESS } else { exit::FOUND_PROBLEMS })
 }

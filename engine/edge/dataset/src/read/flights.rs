@@ -117,6 +117,28 @@ impl PublishedDataset {
         &self.flights
     }
 
+    /// Items without a flight, with their reasons.
+    ///
+    /// # Errors
+    /// What is wrong with table `rejected`.
+    pub fn rejections(&self) -> Result<BTreeMap<String, String>> {
+        let tables = self.folder.join("data/rejected");
+        let mut found = BTreeMap::new();
+        if !tables.is_dir() {
+            return Ok(found);
+        }
+        for (_, path) in table_files(&tables)? {
+            columns::read(&path, &|name| ["trajectory_id", "reason"].contains(&name), &mut |rows| {
+                for row in 0..rows.len() {
+                    let id = rows.text_at("trajectory_id", row)?.to_owned();
+                    found.insert(id, rows.text_or("reason", row, "")?);
+                }
+                Ok(())
+            })?;
+        }
+        Ok(found)
+    }
+
     /// The flight called `id`.
     ///
     /// # Errors

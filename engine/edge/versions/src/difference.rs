@@ -1,0 +1,328 @@
+//! What two versions have not in common, and why: by the keys of the tasks behind every flight.
+
+use crate::version::Version;
+use cosfly_runner::{Change, definition_difference};
+use serde_json::Value;
+use std::collections::{BTreeMap, BTreeSet};
+use std::fmt;
+
+/// What the number of a dataset's version must do.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Bump {
+    /// Nothing: the same files.
+    None,
+    /// Records are the same, packed or described in another way.
+    Patch,
+    /// Old records are unchanged, new ones came.
+    Minor,
+    /// Records changed, went, or moved to another split.
+    Major,
+}
+
+impl Bump {
+    /// Its name.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::None => "none",
+            Self::Patch => "patch",
+            Self::Minor => "minor",
+            Self::Major => "major",
+        }
+    }
+
+    /// Whether going from `old` to `new`, both `MAJOR.MINOR.PATCH`, is at least this.
+    pub fn is_kept(self, old: &str, new: &str) -> bool {
+        let parts = |version: &str| -> Option<[u64; 3]> {
+            let parts: Vec<u64> = version.split('.').map(|part| part.parse().ok()).collect::<Option<_>>()?;
+            parts.try_into().ok()
+        };
+        let (Some(old), Some(new)) = (parts(old), parts(new)) else { return false };
+        match self {
+            Self::None => new >= old,
+            Self::Patch => new > old,
+            Self::Minor => new[..2] > old[..2],
+            Self::Major => new[0] > old[0],
+        }
+    }
+}
+
+/// What happened to a flight.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Fate {
+    /// It is new.
+    Added,
+    /// It is gone.
+    Dropped,
+    /// Its bytes are others.
+    Changed,
+    /// Its bytes are the same, in another split.
+    Moved,
+}
+
+impl Fate {
+    /// Its name.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Added => "added",
+            Self::Dropped => "dropped",
+            Self::Changed => "changed",
+            Self::Moved => "moved",
+        }
+    }
+}
+
+/// What two versions have not in common.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Difference {
+    /// What happened to each flight that is not the same, and the reasons.
+    pub flights: BTreeMap<String, (Fate, Vec<String>)>,
+    /// Flights that are the same.
+    pub same: usize,
+    /// Files that are new, gone or other, logs left out.
+    pub files: Vec<(String, Fate)>,
+    /// What differs in the stage that packs the dataset.
+    pub packing: Vec<String>,
+}
+
+impl fmt::Display for Fate {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(self.name())
+    }
+}
+
+impl Difference {
+    /// What the version's number must do.
+    pub fn bump(&self) -> Bump {
+        let of_fate = |(fate, _): &(Fate, Vec<String>)| if *fate == Fate::Added { Bump::Minor } else { Bump::Major };
+        let files = if self.files.is_empty() { Bump::None } else { Bump::Patch };
+        self.flights.values().map(of_fate).fold(files, Bump::max)
+    }
+}
+
+/// From `old` to `new`.
+pub fn difference(old: &Version, new: &Version) -> Difference {
+    let mut found = Difference::default();
+    let ids: BTreeSet<&String> = old.flights.keys().chain(new.flights.keys()).collect();
+    for id in ids {
+        let fate = match (old.flights.get(id), new.flights.get(id)) {
+            (None, Some(flight)) => (Fate::Added, appearance(old, new, id, &flight.task)),
+            (Some(flight), None) => (Fate::Dropped, appearance(new, old, id, &flight.task)),
+            (Some(a), Some(b)) if a.log != b.log => (Fate::Changed, causes(old, new, &a.task, &b.task)),
+            (Some(a), Some(b)) if a.split != b.split => {
+                let moved = format!("from `{}` to `{}`", a.split, b.split);
+                let mut why = packing(old, new).into_iter().filter(|it| it.contains("splits.")).collect::<Vec<_>>();
+                why.insert(0, moved);
+                (Fate::Moved, why)
+            }
+            _ => {
+                found.same += 1;
+                continue;
+            }
+        };
+        found.flights.insert(id.clone(), fate);
+    }
+    let is_told = |path: &&String| !path.starts_with("mcap/");
+    let paths: BTreeSet<&String> = old.files.keys().chain(new.files.keys()).filter(is_told).collect();
+    for path in paths {
+        match (old.files.get(path), new.files.get(path)) {
+            (None, _) => found.files.push((path.clone(), Fate::Added)),
+            (_, None) => found.files.push((path.clone(), Fate::Dropped)),
+            (Some(a), Some(b)) if a.digest != b.digest => found.files.push((path.clone(), Fate::Changed)),
+            _ => {}
+        }
+    }
+    found.packing = packing(old, new);
+    found
+}
+
+/// Why a flight is in `with` and not in `without`.
+fn appearance(without: &Version, with: &Version, id: &str, task: &str) -> Vec<String> {
+    if let Some(reason) = without.rejected.get(id) {
+        let mut why = vec![format!("it was rejected in `{}`: {reason}", without.name)];
+        why.extend(causes(without, with, task, task).into_iter().filter(|_| without.tasks.contains_key(task)));
+        return why;
+    }
+    // Which items there are is up to settings that no item's own key reads, such as a number of walkers.
+    let mut open = vec![task];
+    let mut seen: BTreeSet<&str> = BTreeSet::from([task]);
+    let mut why = vec![];
+    let mut told: BTreeSet<&str> = BTreeSet::new();
+    while let Some(task) = open.pop() {
+        let stage = task.split('/').next().unwrap_or(task);
+        let recipe_name = stage.split('.').next().unwrap_or(stage);
+        if told.insert(recipe_name) {
+            match (without.recipe.settings.get(recipe_name), with.recipe.settings.get(recipe_name)) {
+                (None, Some(_)) => why.push(format!("stage `{recipe_name}` is only in `{}`", with.name)),
+                (Some(a), Some(b)) => {
+                    let named = |version: &Version, value: &Option<Value>| {
+                        let value = value.as_ref().map_or("its default".to_owned(), Value::to_string);
+                        format!("{value} in `{}`", version.name)
+                    };
+                    why.extend(setting_changes(a, b).into_iter().map(|(path, a, b)| {
+                        format!("{recipe_name}: `{path}` is {} and {}", named(without, &a), named(with, &b))
+                    }));
+                }
+                _ => {}
+            }
+        }
+        let reads = with.tasks.get(task).map_or(&[][..], |task| &task.reads);
+        open.extend(reads.iter().map(String::as_str).filter(|read| seen.insert(*read)));
+    }
+    if why.is_empty() {
+        why.push(format!("nothing that `{}` and `{}` record tells why", without.name, with.name));
+    }
+    why
+}
+
+/// Paths at which two trees of settings differ.
+fn setting_changes(old: &Value, new: &Value) -> Vec<(String, Option<Value>, Option<Value>)> {
+    let changes =
+        definition_difference(&serde_json::json!({"parameters": old}), &serde_json::json!({"parameters": new}));
+    let parameter = |change| match change {
+        Change::Parameter { path, old, new } => Some((path, old, new)),
+        _ => None,
+    };
+    changes.into_iter().filter_map(parameter).collect()
+}
+
+/// The stages in which two tasks began to differ, with what changed there.
+fn causes(old: &Version, new: &Version, old_task: &str, new_task: &str) -> Vec<String> {
+    let mut open = vec![(old_task, new_task)];
+    let mut seen: BTreeSet<(&str, &str)> = open.iter().copied().collect();
+    let mut why: Vec<String> = vec![];
+    while let Some((was, is)) = open.pop() {
+        let (Some(a), Some(b)) = (old.tasks.get(was), new.tasks.get(is)) else { continue };
+        if a.key == b.key {
+            continue;
+        }
+        let stage = is.split('/').next().unwrap_or(is);
+        for change in stage_changes(old, new, stage) {
+            if !why.contains(&change) {
+                why.push(change);
+            }
+        }
+        let is_read = |name: &&String| b.reads.contains(*name);
+        for gone in a.reads.iter().filter(|name| !is_read(name)) {
+            why.push(format!("{is}: it no longer reads `{gone}`"));
+        }
+        for read in b.reads.iter().map(String::as_str) {
+            match a.reads.iter().any(|it| it == read) {
+                true if seen.insert((read, read)) => open.push((read, read)),
+                true => {}
+                false => why.push(format!("{is}: it reads `{read}` now")),
+            }
+        }
+    }
+    if why.is_empty() {
+        let tools =
+            if old.cosfly == new.cosfly { String::new() } else { format!(" ({} and {})", old.cosfly, new.cosfly) };
+        why.push(format!("recipe and inputs are the same: cosfly itself{tools} or a plugin made other bytes"));
+    }
+    why
+}
+
+fn stage_changes(old: &Version, new: &Version, stage: &str) -> Vec<String> {
+    match (old.definitions.get(stage), new.definitions.get(stage)) {
+        (Some(a), Some(b)) => definition_difference(a, b).iter().map(|change| format!("{stage}: {change}")).collect(),
+        _ => vec![],
+    }
+}
+
+/// What differs in the stages that pack, by name: the recipe's last word on splits, tables and texts.
+fn packing(old: &Version, new: &Version) -> Vec<String> {
+    let is_dataset = |(_, it): &(&String, &Value)| it["kind"] == "dataset";
+    let stages: Vec<&String> = new.definitions.iter().filter(is_dataset).map(|(name, _)| name).collect();
+    stages.into_iter().flat_map(|stage| stage_changes(old, new, stage)).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::version::{Flight, RecipeText, SCHEMA, Task};
+    use cosfly_fingerprint::Digest;
+    use serde_json::json;
+
+    fn version(name: &str, walkers: u32, weight: f64) -> Version {
+        let settings = BTreeMap::from([("walkers".to_owned(), json!({"count": walkers}))]);
+        let key = |text: String| Digest::of(text.as_bytes());
+        let (mut tasks, mut flights) = (BTreeMap::new(), BTreeMap::new());
+        for id in (0..walkers).map(|number| format!("p{number}")) {
+            let walk = format!("walkers/{id}");
+            tasks.insert(walk.clone(), Task { key: key(id.clone()), reads: vec![] });
+            let task = format!("dataset.logs/{id}");
+            tasks
+                .insert(task.clone(), Task { key: key(format!("{id} {weight}")), reads: vec![format!("expert/{id}")] });
+            tasks.insert(format!("expert/{id}"), Task { key: key(format!("{id}{weight}")), reads: vec![walk] });
+            flights.insert(id.clone(), Flight { split: "train".into(), log: key(format!("{id}.{weight}")), task });
+        }
+        let definition = |kind: &str, parameters| json!({"kind": kind, "version": 1, "parameters": parameters});
+        Version {
+            schema: SCHEMA.into(),
+            name: name.into(),
+            dataset: "d".into(),
+            dataset_version: "1.0.0".into(),
+            cosfly: "0.1.0".into(),
+            recipe: RecipeText { path: "r.toml".into(), text: String::new(), overrides: vec![], settings },
+            sources: BTreeMap::new(),
+            content: key(format!("{walkers} {weight}")),
+            files: BTreeMap::new(),
+            definitions: BTreeMap::from([
+                ("expert".to_owned(), definition("muco", json!({"weights": {"visibility": weight}}))),
+                ("dataset".to_owned(), definition("dataset", json!({"splits": {"seed": 0}}))),
+            ]),
+            tasks,
+            flights,
+            rejected: BTreeMap::new(),
+        }
+    }
+
+    #[test]
+    fn more_walkers_are_added_because_of_their_number_and_the_old_ones_stay() {
+        let found = difference(&version("a", 2, 1.0), &version("b", 3, 1.0));
+        assert_eq!((found.same, found.bump()), (2, Bump::Minor));
+        let (fate, why) = &found.flights["p2"];
+        assert_eq!((*fate, why[0].as_str()), (Fate::Added, "walkers: `count` is 2 in `a` and 3 in `b`"));
+    }
+
+    #[test]
+    fn a_changed_weight_is_the_reason_of_all_changed_flights() {
+        let found = difference(&version("a", 2, 1.0), &version("b", 2, 5.0));
+        assert_eq!(found.bump(), Bump::Major);
+        let why = &found.flights["p0"].1;
+        assert_eq!(why, &["expert: `weights.visibility` changed from `1.0` to `5.0`"]);
+    }
+
+    #[test]
+    fn moved_dropped_and_unexplained_flights_say_so() {
+        let old = version("a", 2, 1.0);
+        let mut new = version("b", 2, 1.0);
+        new.definitions.get_mut("dataset").unwrap()["parameters"]["splits"]["seed"] = json!(7);
+        new.flights.get_mut("p0").unwrap().split = "test".into();
+        new.flights.get_mut("p1").unwrap().log = Digest::of(b"other");
+        let found = difference(&old, &new);
+        assert_eq!(found.flights["p0"].0, Fate::Moved);
+        assert!(found.flights["p0"].1[1].contains("`splits.seed` changed from `0` to `7`"), "{found:?}");
+        assert!(found.flights["p1"].1[0].contains("recipe and inputs are the same"), "{found:?}");
+        new.flights.remove("p0");
+        new.rejected.insert("p0".into(), "too near".into());
+        let dropped = difference(&old, &new);
+        assert_eq!(dropped.flights["p0"].0, Fate::Dropped);
+        assert!(dropped.flights["p0"].1[0].contains("rejected in `b`: too near"));
+        assert_eq!(difference(&old, &old), Difference { same: 2, ..Difference::default() });
+    }
+
+    #[test]
+    fn numbers_of_versions_keep_the_rules() {
+        for (bump, old, new, kept) in [
+            (Bump::Patch, "1.0.0", "1.0.1", true),
+            (Bump::Patch, "1.0.0", "1.0.0", false),
+            (Bump::Minor, "1.0.9", "1.1.0", true),
+            (Bump::Minor, "1.0.0", "1.0.1", false),
+            (Bump::Major, "1.9.9", "2.0.0", true),
+            (Bump::Major, "1.0.0", "1.1.0", false),
+            (Bump::None, "1.0.0", "1.0.0", true),
+        ] {
+            assert_eq!(bump.is_kept(old, new), kept, "{bump:?} {old} {new}");
+        }
+    }
+}

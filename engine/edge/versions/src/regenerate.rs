@@ -1,0 +1,96 @@
+//! Flights made anew from the recipe alone, in an empty store, and held against what was published.
+
+use crate::record::{dataset_stage, reads};
+use cosfly_dataset::read::PublishedDataset;
+use cosfly_diagnose::{Diagnostic, Fault, Result};
+use cosfly_fingerprint::Digest;
+use cosfly_recipe::Recipe;
+use cosfly_runner::{plan, run_task};
+use cosfly_stage::Registry;
+use cosfly_store::{Store, digest_of_file};
+use std::collections::BTreeSet;
+use std::fs::File;
+use std::path::Path;
+use std::sync::Arc;
+use std::sync::atomic::AtomicBool;
+
+/// A flight that was made anew.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Regenerated {
+    /// Its id.
+    pub trajectory_id: String,
+    /// Its log, from the dataset's folder.
+    pub mcap_path: String,
+    /// What is wrong; nothing when its log has the same bytes.
+    pub problem: Option<String>,
+}
+
+/// Makes `number` flights of the dataset in `folder`, spread evenly over it, anew in the empty store `scratch` and
+/// compares their logs with the published ones byte by byte (by BLAKE3).
+///
+/// # Errors
+/// What is wrong with the dataset or the recipe, or what a stage or the machine refused.
+pub fn regenerate(
+    folder: &Path,
+    number: usize,
+    recipe: &Recipe,
+    registry: &Registry,
+    scratch: &Path,
+    cancelled: &Arc<AtomicBool>,
+) -> Result<Vec<Regenerated>> {
+    let published = PublishedDataset::open(folder)?;
+    let flights = published.flights();
+    let chosen: Vec<_> =
+        (0..number.min(flights.len())).map(|k| &flights[k * flights.len() / number.min(flights.len())]).collect();
+    let logs = format!("{}.logs", recipe.stages[dataset_stage(recipe)?].name);
+    let stage = recipe
+        .position(&logs)
+        .ok_or_else(|| Diagnostic::new("regenerate-no-logs", Fault::Bug, format!("the recipe has no part `{logs}`")))?;
+    let store = Store::open(scratch)?;
+    plan(recipe, &store)?.publish_documents(&store)?;
+    let mut found = vec![];
+    for flight in chosen {
+        let id = &flight.trajectory_id;
+        let place = recipe.stages[stage].items.iter().position(|item| **item == **id);
+        let problem = match place {
+            None => Some("the recipe makes no such flight".to_owned()),
+            Some(item) => {
+                let digest = made(recipe, registry, &store, stage, item, cancelled)?;
+                compared(folder, &flight.mcap_path, digest)?
+            }
+        };
+        found.push(Regenerated { trajectory_id: id.clone(), mcap_path: flight.mcap_path.clone(), problem });
+    }
+    Ok(found)
+}
+
+/// Runs a task and all it needs; gives the digest of its log.
+fn made(
+    recipe: &Recipe,
+    registry: &Registry,
+    store: &Store,
+    stage: usize,
+    item: usize,
+    cancelled: &Arc<AtomicBool>,
+) -> Result<Option<Digest>> {
+    let mut needed = BTreeSet::from([(stage, item)]);
+    let mut open = vec![(stage, item)];
+    while let Some((stage, item)) = open.pop() {
+        open.extend(reads(recipe, stage, item).into_iter().filter(|task| needed.insert(*task)));
+    }
+    let plan = plan(recipe, store)?;
+    // Stages are in dependency order, so inputs come first.
+    for (stage, item) in &needed {
+        run_task(store, registry, &plan.stages[*stage].plans[*item], Arc::clone(cancelled))?;
+    }
+    let finished = store.finished(&plan.stages[stage].plans[item]);
+    Ok(finished.and_then(|finished| finished.record.outputs.get("mcap").map(|blob| blob.digest)))
+}
+
+fn compared(folder: &Path, path: &str, made: Option<Digest>) -> Result<Option<String>> {
+    let Some(made) = made else { return Ok(Some("made anew, it is rejected".to_owned())) };
+    let refused = |error: std::io::Error| Diagnostic::io(format!("read `{path}`"), &error);
+    let published = File::open(folder.join(path)).and_then(|mut file| digest_of_file(&mut file)).map_err(refused)?;
+    let differs = || format!("made anew, its BLAKE3 is {made}; {published} is published");
+    Ok((published != made).then(differs))
+}
