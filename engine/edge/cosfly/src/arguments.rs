@@ -380,7 +380,7 @@ pub struct ExportArguments {
     /// Language of instructions; all but v7, which has them in all, and coco, which has none
     #[arg(long, value_name = "CODE", default_value = "en", value_parser = ["en", "zh"])]
     pub language: String,
-    /// Axes of increments: those of the world, or of the body that moves (x ahead, y right, z up); vlm
+    /// Axes of increments: those of the world, or of the body that moves (x ahead, y right, z up); vlm, lerobot
     #[arg(long, value_enum, default_value_t = FrameChoice::World)]
     pub frame: FrameChoice,
     /// Flights that models see; vlm

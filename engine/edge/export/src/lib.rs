@@ -16,6 +16,7 @@ pub mod coco;
 pub mod exporter;
 pub mod folder;
 pub mod image_folder;
+pub mod lerobot;
 pub mod media;
 pub mod pixels;
 pub mod sample_text;
@@ -29,8 +30,8 @@ pub use folder::{OutFolder, Written};
 pub use source::Source;
 
 /// All formats, in the order of the help.
-pub static EXPORTERS: [&dyn Exporter; 5] =
-    [&v7::V7, &vlm::Vlm, &coco::Coco, &webdataset::WebDataset, &image_folder::ImageFolder];
+pub static EXPORTERS: [&dyn Exporter; 6] =
+    [&v7::V7, &lerobot::LeRobot, &vlm::Vlm, &coco::Coco, &webdataset::WebDataset, &image_folder::ImageFolder];
 
 /// The format called `name`.
 pub fn exporter(name: &str) -> Option<&'static dyn Exporter> {

@@ -28,7 +28,14 @@ pub struct TableWriter<'t, S, W: Write + Send> {
 impl<'t, S, W: Write + Send> TableWriter<'t, S, W> {
     /// Begins a file.
     pub fn new(table: &'t Table<S>, output: W) -> Result<Self> {
-        let writer = ArrowWriter::try_new(output, Arc::new(schema(table)), Some(properties(table)))
+        Self::with_notes(table, output, &[])
+    }
+
+    /// Begins a file with more entries in the metadata of its schema, such as those of pandas.
+    pub fn with_notes(table: &'t Table<S>, output: W, notes: &[(&str, String)]) -> Result<Self> {
+        let mut schema = schema(table);
+        schema.metadata.extend(notes.iter().map(|(key, value)| ((*key).to_owned(), value.clone())));
+        let writer = ArrowWriter::try_new(output, Arc::new(schema), Some(properties(table)))
             .map_err(|error| write_error(table.name, error))?;
         Ok(Self { table, writer, rows: 0 })
     }
