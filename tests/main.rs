@@ -5,6 +5,7 @@ mod cameras;
 mod carla_job;
 mod crash;
 mod diagnostics;
+mod doctor;
 mod evaluation;
 mod export;
 mod people;

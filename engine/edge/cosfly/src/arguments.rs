@@ -36,7 +36,7 @@ Examples:
 
 Exit codes:
     0  everything was done
-    1  `verify` or `dataset lint` found something wrong, `plan-from` no flight, or `eval` rows that it cannot score
+    1  `verify`, `doctor` or `dataset lint` found something wrong, `plan-from` no flight, or `eval` rows that it cannot score
     2  the command line was not understood
     3  the recipe asks for something that cannot be
     4  an input file, the store or a state asked about is broken or does not fit
@@ -87,6 +87,17 @@ Examples:
     /// Work with finished datasets: lint their splits, name versions, compare them, write them out again
     #[command(subcommand)]
     Dataset(crate::dataset_arguments::DatasetCommand),
+    /// Examine anyone's data: splits that leak, signs, units, shifts, frozen frames, times, instructions, limits
+    #[command(after_help = "\
+Examples:
+  cosfly doctor out/carla_town                       a dataset of cosfly
+  cosfly doctor CosFly/data_v7                       the published release
+  cosfly doctor out/carla_town --quota 20:2-4        do 20 % of the episodes lose their target for 2 to 4 s?
+  cosfly doctor out/carla_town --json verdict.json   every flag, and which episodes are without one
+
+A damage is what the data say and is not so; an imperfection is true and worse than elsewhere. Exits with 1 when there is a
+damage, more imperfect episodes than --imperfect allows, or a quota that is not met.")]
+    Doctor(DoctorArguments),
     /// Draw a finished flight: contact sheet, animated clip, plan of town and paths
     #[command(after_help = "\
 Examples:
@@ -274,6 +285,35 @@ pub struct VerifyArguments {
     pub overrides: Vec<String>,
     #[command(flatten)]
     pub store: StoreArguments,
+}
+
+/// Arguments of `doctor`.
+#[derive(Args, Debug)]
+pub struct DoctorArguments {
+    /// Folder of the data
+    #[arg(value_name = "DIR")]
+    pub dir: PathBuf,
+    /// Share of imperfect episodes that does no harm, percent
+    #[arg(long, value_name = "PERCENT", default_value_t = 5.0)]
+    pub imperfect: f64,
+    /// Share of episodes, percent, that lose their target for a time between two lengths in seconds (repeatable)
+    #[arg(long = "quota", value_name = "PERCENT:FROM-TO", value_parser = quota)]
+    pub quotas: Vec<cosfly_doctor::Quota>,
+    /// Write everything that was found as JSON
+    #[arg(long, value_name = "FILE")]
+    pub json: Option<PathBuf>,
+}
+
+fn quota(text: &str) -> Result<cosfly_doctor::Quota, String> {
+    let parts = text.split_once(':').and_then(|(share, times)| Some((share, times.split_once('-')?)));
+    let number = |text: &str| text.parse::<f64>().ok().filter(|number| number.is_finite() && *number >= 0.0);
+    let numbers = parts.and_then(|(share, (from, to))| Some((number(share)?, number(from)?, number(to)?)));
+    match numbers {
+        Some((percent, from, to)) if percent <= 100.0 && from <= to => {
+            Ok(cosfly_doctor::Quota { wanted: percent / 100.0, lost_s: (from, to) })
+        }
+        _ => Err("it must be a percentage, a colon and two times in seconds, such as 20:2-4".to_owned()),
+    }
 }
 
 /// Arguments of `preview`.

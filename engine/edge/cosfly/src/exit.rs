@@ -5,7 +5,7 @@ use std::process::ExitCode;
 
 /// Everything was done.
 pub const SUCCESS: u8 = 0;
-/// `verify` found something wrong, `plan-from` found no flight, or `eval` met rows that cannot be scored.
+/// `verify` or `doctor` found something wrong, `plan-from` found no flight, or `eval` met rows that cannot be scored.
 pub const FOUND_PROBLEMS: u8 = 1;
 /// The command line or the environment cannot be understood (arguments: `clap` exits by itself).
 pub const ARGUMENTS: u8 = 2;

@@ -46,6 +46,7 @@ fn command() -> ExitCode {
         Command::Dataset(DatasetCommand::Checkout(arguments)) => commands::dataset_versions::checkout(&arguments),
         Command::Eval(arguments) => commands::eval::eval(&arguments),
         Command::Preview(arguments) => commands::preview::preview(&arguments),
+        Command::Doctor(arguments) => commands::doctor::doctor(&arguments),
         Command::Export(arguments) => commands::export::export(&arguments),
         Command::CarlaJob(arguments) => commands::carla_job::carla_job(&arguments),
         Command::Gc(arguments) => commands::collect::collect(&arguments),

@@ -7,6 +7,7 @@ pub mod carla_job;
 pub mod collect;
 pub mod dataset_lint;
 pub mod dataset_versions;
+pub mod doctor;
 pub mod drone_state;
 pub mod eval;
 pub mod expert_of_recipe;

@@ -135,6 +135,15 @@ impl Rows<'_> {
         Ok(numbers.map_or_else(Vec::new, |numbers| numbers.values().to_vec()))
     }
 
+    /// The number or the numbers of a row, as they are; none for null and in a dataset from before the column was there.
+    pub fn numbers(&self, name: &str, row: usize) -> Option<Vec<f64>> {
+        let column = self.batch.column_by_name(name).filter(|column| column.is_valid(row))?;
+        if let Some(list) = column.as_fixed_size_list_opt() {
+            return Some(list.value(row).as_primitive_opt::<Float64Type>()?.values().to_vec());
+        }
+        Some(vec![column.as_primitive_opt::<Float64Type>()?.value(row)])
+    }
+
     /// `N` numbers, each of them finite.
     pub fn vector<const N: usize>(&self, name: &str, row: usize) -> Result<[f64; N]> {
         let column = self.column(name, |kind| matches!(kind, DataType::FixedSizeList(..)))?.as_fixed_size_list();

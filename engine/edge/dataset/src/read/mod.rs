@@ -4,12 +4,14 @@
 
 mod columns;
 mod flights;
+mod inspection;
 mod log;
 mod tracks;
 mod walk;
 mod ways;
 
 pub use flights::{PublishedDataset, PublishedFlight, PublishedFrame};
+pub use inspection::{BoxInWorld, FlightFacts, log_problem, parquet_problem};
 pub use log::{LogReader, LoggedFrame, SceneBox};
 pub use tracks::FlightTrack;
 pub use walk::{Disturbance, FrameRow};

@@ -70,7 +70,7 @@ pub fn check(folder: &Path, flight: &FlightRow, frames: &[FrameRow], known: &Kno
 }
 
 /// Gives every record to `visit`, with all checksums checked before.
-fn read_records(input: &mut impl Read, visit: &mut dyn FnMut(Record<'_>)) -> Result<(), String> {
+pub fn read_records(input: &mut impl Read, visit: &mut dyn FnMut(Record<'_>)) -> Result<(), String> {
     let options = LinearReaderOptions::default()
         .with_prevalidate_chunk_crcs(true)
         .with_validate_data_section_crc(true)

@@ -39,6 +39,11 @@ pub fn verify(folder: &Path, progress: &mut dyn FnMut(u64, u64)) -> Result<Verif
     Ok(report)
 }
 
+/// Reads every record of a log with all its checksums; says what is wrong.
+pub(crate) fn read_log(input: &mut impl std::io::Read) -> std::result::Result<(), String> {
+    log::read_records(input, &mut |_| {})
+}
+
 /// Why nothing in `folder` can be checked, if so. One part of a dataset is enough: missing others are findings.
 fn folder_problem(folder: &Path) -> Option<&'static str> {
     match std::fs::metadata(folder) {

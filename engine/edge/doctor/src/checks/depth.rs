@@ -1,0 +1,61 @@
+//! The unit of depth images, and whether they are of their frames.
+
+use super::median;
+use super::motion::frames;
+use crate::episode::OFFSETS;
+use crate::{Episode, Flag};
+
+/// Depth of a body's surface over that of its middle may lie between these.
+const RATIOS: (f64, f64) = (0.8, 1.25);
+/// Frames with a target in full view that a verdict needs.
+const ENOUGH: usize = 4;
+/// Units by how many of them a metre has.
+const UNITS: [(f64, &str); 4] =
+    [(1000.0, "millimetres"), (100.0, "centimetres"), (0.001, "kilometres"), (1.0 / 0.3048, "feet")];
+/// Spread of depths around their middle that belongs to a body, metres.
+const SPREAD_M: f64 = 0.6;
+
+/// Compares depth images with distances to the target.
+pub fn check(episode: &Episode) -> Vec<Flag> {
+    // A body that is hidden in parts shows the depth of what hides it.
+    let free = |frame: usize| episode.moments.get(frame).and_then(|it| it.visible).is_none_or(|share| share > 0.95);
+    let looks: Vec<_> = episode.looks.iter().filter(|look| free(look.frame)).collect();
+    let pairs: Vec<(f64, f64)> = looks
+        .iter()
+        .filter_map(|look| Some((look.depth_m.first().copied().flatten()?, episode.depth_of_target(look.frame)?)))
+        .collect();
+    if pairs.len() < ENOUGH {
+        return vec![];
+    }
+    let Some(ratio) = median(pairs.iter().map(|(found, expected)| found / expected)) else { return vec![] };
+    let flag = |name, message: String| vec![Flag::damage(name, &episode.id, message)];
+    let is_off = !(RATIOS.0..RATIOS.1).contains(&ratio);
+    let has_unit = |per_metre: f64| (RATIOS.0..RATIOS.1).contains(&(ratio / per_metre));
+    if let Some((_, unit)) = UNITS.into_iter().find(|(per_metre, _)| is_off && has_unit(*per_metre)) {
+        return flag("depth-unit", format!("depth is in {unit}: {ratio:.4} times the distance in metres"));
+    }
+    let spread = |place: usize| {
+        let gaps: Vec<f64> = looks
+            .iter()
+            .filter_map(|look| {
+                let frame = look.frame.checked_add_signed(OFFSETS[place] as isize).filter(|at| free(*at))?;
+                Some(look.depth_m.get(place).copied().flatten()? - episode.depth_of_target(frame)?)
+            })
+            .collect();
+        let middle = median(gaps.iter().copied())?;
+        (gaps.len() >= ENOUGH).then(|| median(gaps.iter().map(|gap| (gap - middle).abs())))?
+    };
+    let Some(own) = spread(0) else { return vec![] };
+    let others = (1..OFFSETS.len()).filter_map(|place| Some((OFFSETS[place], spread(place)?)));
+    match others.min_by(|a, b| a.1.total_cmp(&b.1)) {
+        Some((shift, best)) if best * 4.0 < own && own > 0.1 && best < SPREAD_M => flag(
+            "image-shift",
+            format!(
+                "images are those of {}: depths at the target miss by {own:.2} m, by {best:.2} m with that frame's pose",
+                frames(shift)
+            ),
+        ),
+        _ if is_off => flag("depth-mismatch", format!("depth at the target is {ratio:.3} times its distance")),
+        _ => vec![],
+    }
+}

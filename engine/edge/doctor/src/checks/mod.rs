@@ -1,0 +1,35 @@
+//! The checks, one kind of fault per file.
+
+mod depth;
+mod leaks;
+mod motion;
+mod pictures;
+mod projection;
+mod surroundings;
+mod time;
+mod words;
+
+pub use leaks::of_all as leaks;
+
+use crate::{Episode, Flag};
+
+/// Everything that can be told from one episode.
+pub fn of_episode(episode: &Episode) -> Vec<Flag> {
+    let checks: [fn(&Episode) -> Vec<Flag>; 7] = [
+        time::check,
+        motion::check,
+        projection::check,
+        depth::check,
+        pictures::check,
+        surroundings::check,
+        words::check,
+    ];
+    checks.iter().flat_map(|check| check(episode)).collect()
+}
+
+/// The middle of some values; none of none.
+fn median(values: impl Iterator<Item = f64>) -> Option<f64> {
+    let mut values: Vec<f64> = values.filter(|value| value.is_finite()).collect();
+    values.sort_by(f64::total_cmp);
+    values.get(values.len() / 2).copied()
+}

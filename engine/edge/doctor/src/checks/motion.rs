@@ -1,0 +1,133 @@
+//! Poses that freeze, actions that do not lead to the next pose, limits that are not kept.
+
+use crate::{Episode, Flag};
+use cosfly_frames::DVec3;
+
+/// Actions and poses agree to this, metres and degrees.
+const ACTION_TOLERANCE: f64 = 1e-3;
+/// A drone that is behind a walking target does not stay in one place for so long, seconds.
+const FROZEN_S: f64 = 3.0;
+/// No drone of this kind is so fast, m/s.
+const ABSURD_MPS: f64 = 45.0;
+/// Limits are kept to rounding.
+const LIMIT_TOLERANCE: f64 = 1e-3;
+
+/// Looks at poses and actions.
+pub fn check(episode: &Episode) -> Vec<Flag> {
+    let parts = [frozen(episode), actions(episode)];
+    parts.into_iter().flatten().chain(limits(episode)).collect()
+}
+
+/// The same pose for long while the target walks: frames were repeated.
+fn frozen(episode: &Episode) -> Option<Flag> {
+    let moments = &episode.moments;
+    let (mut start, mut longest) = (0, (0, 0));
+    for frame in 1..moments.len() {
+        if moments[frame].drone != moments[start].drone {
+            start = frame;
+        }
+        if frame - start > longest.1 {
+            longest = (start, frame - start);
+        }
+    }
+    let (start, steps) = longest;
+    let walked = moments[start].target_in_world.zip(moments.get(start + steps)?.target_in_world);
+    let walked_m = walked.map_or(0.0, |(from, to)| from.distance(to));
+    let seconds = steps as f64 * episode.dt_s;
+    // A repeated frame repeats the target, too; a hovering drone does not.
+    let target_stands_still = walked_m == 0.0 && moments[start].heading_and_speed.is_some_and(|it| it.1 > 0.3);
+    if seconds >= FROZEN_S && (target_stands_still || walked_m > 2.0) || (steps >= 2 && target_stands_still) {
+        let message = format!(
+            "frames {start} to {} have the same pose, {seconds:.1} s long, while the target walks",
+            start + steps
+        );
+        return Some(Flag::damage("frozen-frames", &episode.id, message));
+    }
+    None
+}
+
+/// Where actions lead against where the next poses are; tells when they are those of other frames.
+fn actions(episode: &Episode) -> Option<Flag> {
+    let moments = &episode.moments;
+    let error = |shift: i64| {
+        let mut worst: f64 = 0.0;
+        let mut count = 0;
+        for (frame, moment) in moments.iter().enumerate() {
+            let Some(told) = moment.next_in_world else { continue };
+            // The step that is told, moved to the frame that it may belong to.
+            let step = told - moment.drone.position_in_world;
+            let Some(from) = frame.checked_add_signed(shift as isize).filter(|at| at + 1 < moments.len()) else {
+                continue;
+            };
+            let taken = moments[from + 1].drone.position_in_world - moments[from].drone.position_in_world;
+            worst = worst.max((step - taken).length());
+            count += 1;
+        }
+        (count > 0).then_some(worst)
+    };
+    let own = error(0)?;
+    if own <= ACTION_TOLERANCE {
+        return turns(episode);
+    }
+    let message = match [-1, 1, -2, 2].into_iter().find(|shift| error(*shift).is_some_and(|it| it <= ACTION_TOLERANCE))
+    {
+        Some(shift) => format!("actions are those of {}; they miss the next pose by up to {own:.3} m", frames(shift)),
+        None => format!("actions do not lead to the next pose: they miss it by up to {own:.3} m"),
+    };
+    Some(Flag::damage("action-mismatch", &episode.id, message))
+}
+
+/// `1` as "the frame after", and so on.
+pub fn frames(shift: i64) -> String {
+    let side = if shift < 0 { "before" } else { "after" };
+    if shift.abs() == 1 { format!("the frame {side}") } else { format!("{} frames {side}", shift.abs()) }
+}
+
+fn turns(episode: &Episode) -> Option<Flag> {
+    for (frame, pair) in episode.moments.windows(2).enumerate() {
+        let Some(told) = pair[0].turn_deg else { continue };
+        let taken = [
+            pair[1].drone.pitch_rad - pair[0].drone.pitch_rad,
+            pair[1].drone.yaw_rad - pair[0].drone.yaw_rad,
+            pair[1].drone.roll_rad - pair[0].drone.roll_rad,
+        ];
+        for (name, (told, taken)) in ["pitch", "yaw", "roll"].into_iter().zip(told.into_iter().zip(taken)) {
+            let gap = (told - taken.to_degrees()).rem_euclid(360.0);
+            if gap.min(360.0 - gap) > ACTION_TOLERANCE {
+                let message = format!(
+                    "the action of frame {frame} turns {name} by {told:.3}°; the poses by {:.3}°",
+                    taken.to_degrees()
+                );
+                return Some(Flag::damage("action-mismatch", &episode.id, message));
+            }
+        }
+    }
+    None
+}
+
+/// Largest speed, acceleration and jerk by finite differences.
+pub fn extremes(places: &[DVec3], dt_s: f64) -> [f64; 3] {
+    let difference = |values: &[DVec3]| -> Vec<DVec3> { values.windows(2).map(|it| (it[1] - it[0]) / dt_s).collect() };
+    let speed = difference(places);
+    let acceleration = difference(&speed);
+    let jerk = difference(&acceleration);
+    [speed, acceleration, jerk].map(|values| values.iter().map(|it| it.length()).fold(0.0, f64::max))
+}
+
+fn limits(episode: &Episode) -> Vec<Flag> {
+    let places: Vec<DVec3> = episode.moments.iter().map(|it| it.drone.position_in_world).collect();
+    let found = extremes(&places, episode.dt_s);
+    let mut flags = vec![];
+    if found[0] > ABSURD_MPS {
+        let message = format!("the drone jumps: {:.1} m/s between two frames", found[0]);
+        flags.push(Flag::damage("pose-jump", &episode.id, message));
+    }
+    let names = [("speed", "m/s"), ("acceleration", "m/s²"), ("jerk", "m/s³")];
+    for ((value, limit), (name, unit)) in found.into_iter().zip(&episode.limits[1..]).zip(names) {
+        if let Some(limit) = limit.filter(|limit| value > limit + LIMIT_TOLERANCE && !episode.is_perturbed) {
+            let message = format!("{name} reaches {value:.2} {unit}; its limit is {limit} {unit}");
+            flags.push(Flag::imperfect("kinematic-limit", &episode.id, message));
+        }
+    }
+    flags
+}

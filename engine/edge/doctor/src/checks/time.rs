@@ -1,0 +1,27 @@
+//! Times that go back, stand still or jump.
+
+use crate::{Episode, Flag};
+
+/// Steps may differ from the usual one by this share.
+const TOLERANCE: f64 = 0.02;
+
+/// Looks at the steps between frames.
+pub fn check(episode: &Episode) -> Vec<Flag> {
+    let steps = || episode.moments.windows(2).map(|pair| pair[1].time_s - pair[0].time_s).enumerate();
+    let flag = |message: String| vec![Flag::damage("timestamps", &episode.id, message)];
+    if let Some((frame, step)) = steps().find(|(_, step)| step.is_nan() || *step <= 0.0) {
+        return flag(format!("time does not increase after frame {frame}: the step is {step:.3} s"));
+    }
+    let is_odd = |step: f64| (step - episode.dt_s).abs() > TOLERANCE * episode.dt_s;
+    match steps().find(|(_, step)| is_odd(*step)) {
+        Some((frame, step)) => {
+            let odd = steps().filter(|(_, step)| is_odd(*step)).count();
+            flag(format!(
+                "{odd} of {} steps are not {:.3} s; the first is {step:.3} s after frame {frame}",
+                episode.moments.len() - 1,
+                episode.dt_s
+            ))
+        }
+        None => vec![],
+    }
+}

@@ -1,0 +1,109 @@
+//! A flight as the checks see it: what its files say, number by number, with gaps where they say nothing.
+
+use cosfly_frames::{DVec3, Pose};
+use cosfly_render::Camera;
+
+/// A flight. World frame: CARLA's (x east, y south, z up), metres, radians.
+#[derive(Clone, Debug, Default)]
+pub struct Episode {
+    /// Its name.
+    pub id: String,
+    /// Its split, when the data have splits.
+    pub split: Option<String>,
+    /// Whom it follows, or its scenario: episodes that share it belong to one split.
+    pub group: String,
+    /// Where it is; episodes with the same one share a place.
+    pub place: String,
+    /// Perturbed on purpose: limits of motion are not asked of it.
+    pub is_perturbed: bool,
+    /// The camera of all frames; none where its lens bends or nothing is known of it.
+    pub camera: Option<Camera>,
+    /// Height of the target's body, metres.
+    pub target_height_m: f64,
+    /// Time between frames, seconds, as it is told or as most frames have it.
+    pub dt_s: f64,
+    /// Its limits of clearance, speed, acceleration and jerk, where it states some.
+    pub limits: [Option<f64>; 4],
+    /// The frames.
+    pub moments: Vec<Moment>,
+    /// Pictures of some frames.
+    pub looks: Vec<Look>,
+    /// Language code and text of its instructions.
+    pub captions: Vec<(String, String)>,
+    /// Vehicles that stand in its place: middle, half lengths and yaw.
+    pub vehicles: Vec<(DVec3, DVec3, f64)>,
+}
+
+/// What is told of a frame.
+#[derive(Clone, Debug)]
+pub struct Moment {
+    /// Time, seconds.
+    pub time_s: f64,
+    /// The drone.
+    pub drone: Pose,
+    /// The camera.
+    pub camera: Pose,
+    /// Where the next frame's drone is said to be.
+    pub next_in_world: Option<DVec3>,
+    /// Turn to the next frame that is told: pitch, yaw, roll, degrees.
+    pub turn_deg: Option<[f64; 3]>,
+    /// The middle of the target's body.
+    pub target_in_world: Option<DVec3>,
+    /// Its walking direction and speed.
+    pub heading_and_speed: Option<(f64, f64)>,
+    /// Where the target is said to be in the image, hidden or not: middle and height, pixels.
+    pub in_image: Option<(f64, f64, f64)>,
+    /// The box around its visible part: left, top, right, bottom, pixels.
+    pub visible_box: Option<[f64; 4]>,
+    /// Share of it that is visible, 0..=1.
+    pub visible: Option<f64>,
+    /// Distance to the nearest obstacle.
+    pub clearance_m: Option<f64>,
+}
+
+/// The pictures of a frame, as far as checks need them.
+#[derive(Clone, Debug, Default)]
+pub struct Look {
+    /// The frame.
+    pub frame: usize,
+    /// Digest of the colour image's file.
+    pub digest: String,
+    /// Depth of the target: per frame offset in [`OFFSETS`], the nearest quarter of the depths in that frame's box.
+    pub depth_m: Vec<Option<f64>>,
+}
+
+/// The boxes of which frames a depth image is read in, against its own.
+pub const OFFSETS: [i64; 5] = [0, -1, 1, -2, 2];
+
+impl Episode {
+    /// Planar depth of the target's middle in a frame.
+    pub fn depth_of_target(&self, frame: usize) -> Option<f64> {
+        let moment = self.moments.get(frame)?;
+        let seen = moment.camera.body_from_world_point(moment.target_in_world?);
+        (seen.x > 0.0).then_some(seen.x)
+    }
+
+    /// Lengths, in seconds, of the stretches with less than half of the target visible.
+    pub fn losses_s(&self) -> Vec<f64> {
+        let mut stretches: Vec<(usize, usize)> = vec![];
+        for frame in (0..self.moments.len()).filter(|at| self.moments[*at].visible.is_some_and(|share| share < 0.5)) {
+            match stretches.last_mut() {
+                Some((start, count)) if *start + *count == frame => *count += 1,
+                _ => stretches.push((frame, 1)),
+            }
+        }
+        stretches.into_iter().map(|(_, count)| count as f64 * self.dt_s).collect()
+    }
+}
+
+/// The 25 % least of the depths (rows of `width`) inside of a box, so that the ground behind the target does not count.
+pub fn depth_in_box(depth_m: &[f32], width: usize, edges: [f64; 4]) -> Option<f64> {
+    let height = depth_m.len().checked_div(width)?;
+    let clamp = |value: f64, most: usize| value.clamp(0.0, most as f64) as usize;
+    let (left, right) = (clamp(edges[0].floor(), width), clamp(edges[2].ceil(), width));
+    let (top, bottom) = (clamp(edges[1].floor(), height), clamp(edges[3].ceil(), height));
+    let rows = (top..bottom).flat_map(|row| &depth_m[row * width + left.min(right)..row * width + right]);
+    let mut depths: Vec<f32> = rows.copied().filter(|depth| depth.is_finite()).collect();
+    depths.sort_by(f32::total_cmp);
+    depths.get(depths.len() / 4).map(|depth| f64::from(*depth))
+}

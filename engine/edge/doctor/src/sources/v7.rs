@@ -1,0 +1,218 @@
+//! The layout of the published CosFly-Track data: `<Town>/trajectory_<id>/<trace>/trajectory.json` with a folder per frame.
+
+use super::stretch;
+use crate::episode::{OFFSETS, depth_in_box};
+use crate::{Episode, Flag, Look, Moment};
+use cosfly_diagnose::{Diagnostic, Result};
+use cosfly_fingerprint::Digest;
+use cosfly_frames::{DVec3, Pose};
+use cosfly_render::Camera;
+use serde_json::Value;
+use std::fs;
+use std::path::{Path, PathBuf};
+
+/// Height of a body where nothing tells it, metres.
+const BODY_M: f64 = 1.8;
+/// Longest `trajectory.json` that is read, bytes.
+const JSON_LIMIT: u64 = 1 << 30;
+/// Depth that stands for the sky, metres.
+const SKY_M: f32 = 999.0;
+
+/// The folder of towns in or below `folder`, if it is of this layout.
+pub fn root(folder: &Path) -> Option<PathBuf> {
+    let has_towns = |path: &PathBuf| {
+        listed(path).is_ok_and(|entries| entries.iter().any(|town| town.is_dir() && !traces(town).is_empty()))
+    };
+    [folder.to_owned(), folder.join("data_v7")].into_iter().find(has_towns)
+}
+
+fn listed(folder: &Path) -> std::io::Result<Vec<PathBuf>> {
+    let mut entries =
+        fs::read_dir(folder)?.map(|entry| entry.map(|entry| entry.path())).collect::<std::io::Result<Vec<_>>>()?;
+    entries.sort();
+    Ok(entries)
+}
+
+fn name(path: &Path) -> String {
+    path.file_name().map_or_else(String::new, |name| name.to_string_lossy().into_owned())
+}
+
+/// Folders with a `trajectory.json` below a town.
+fn traces(town: &Path) -> Vec<PathBuf> {
+    let pairs = listed(town).unwrap_or_default().into_iter().filter(|pair| name(pair).starts_with("trajectory_"));
+    let traces = pairs.flat_map(|pair| listed(&pair).unwrap_or_default());
+    traces.filter(|trace| trace.join("trajectory.json").is_file()).collect()
+}
+
+/// Reads all traces below `root`, and what is wrong with their files.
+///
+/// # Errors
+/// When a folder cannot be listed.
+pub fn episodes(root: &Path, progress: &mut dyn FnMut(u64, u64)) -> Result<(Vec<Episode>, Vec<Flag>)> {
+    let towns = listed(root).map_err(|error| Diagnostic::io(format!("read `{}`", root.display()), &error))?;
+    let traces: Vec<PathBuf> = towns.iter().filter(|it| it.is_dir()).flat_map(|town| traces(town)).collect();
+    let (mut episodes, mut flags) = (vec![], vec![]);
+    for (done, trace) in traces.iter().enumerate() {
+        progress(done as u64, traces.len() as u64);
+        let id = trace.strip_prefix(root).unwrap_or(trace).display().to_string();
+        match document(trace).and_then(|document| episode(&id, &document)) {
+            Ok(mut episode) => {
+                looks(trace, &mut episode, &mut flags);
+                episodes.push(episode);
+            }
+            Err(problem) => flags.push(Flag::damage("json-damaged", format!("{id}/trajectory.json"), problem)),
+        }
+    }
+    Ok((episodes, flags))
+}
+
+fn document(trace: &Path) -> Result<Value, String> {
+    let path = trace.join("trajectory.json");
+    let size = fs::metadata(&path).map_err(|error| error.to_string())?.len();
+    if size > JSON_LIMIT {
+        return Err(format!("it has {size} bytes"));
+    }
+    let bytes = fs::read(path).map_err(|error| format!("it cannot be read: {error}"))?;
+    serde_json::from_slice(&bytes).map_err(|error| format!("it is no JSON: {error}"))
+}
+
+fn episode(id: &str, document: &Value) -> Result<Episode, String> {
+    let points = document["points"].as_array().filter(|points| !points.is_empty()).ok_or("it has no points")?;
+    let own = &document["cosfly"];
+    let target_height_m = own["target"]["height_m"].as_f64().unwrap_or(BODY_M);
+    let moments = points
+        .iter()
+        .enumerate()
+        .map(|(index, point)| {
+            moment(point).ok_or_else(|| format!("point {index} has a pose or a time that is no number"))
+        })
+        .collect::<Result<Vec<Moment>, String>>()?;
+    let mut steps: Vec<f64> = moments.windows(2).map(|pair| pair[1].time_s - pair[0].time_s).collect();
+    steps.sort_by(f64::total_cmp);
+    let (town, source) = (id.split('/').next().unwrap_or_default(), &document["source"]);
+    let captions = own["captions"].as_array().into_iter().flatten();
+    let text = |it: &Value, key: &str| it[key].as_str().unwrap_or_default().to_owned();
+    Ok(Episode {
+        id: id.to_owned(),
+        split: own["split"].as_str().map(str::to_owned),
+        group: format!("{}/{}/{}", source["path_index"], source["scenario_id"], source["scenario_name"]),
+        place: town.trim_end_matches("_Opt").to_owned(),
+        is_perturbed: !id.ends_with("/ORI"),
+        camera: camera(&document["camera"]),
+        target_height_m,
+        dt_s: steps.get(steps.len() / 2).copied().unwrap_or(0.5),
+        captions: captions.map(|it| (text(it, "language"), text(it, "text"))).collect(),
+        moments,
+        ..Episode::default()
+    })
+}
+
+fn camera(camera: &Value) -> Option<Camera> {
+    let side = |key: &str| camera[key].as_u64().and_then(|side| u32::try_from(side).ok()).filter(|side| *side > 0);
+    let (width, height) = (side("width")?, side("height")?);
+    let focal_px = camera["intrinsic"][0][0].as_f64().or(camera["focal_length_px"].as_f64())?;
+    let half = 0.5 * f64::from(width) / focal_px;
+    (half.is_finite() && half > 0.0).then(|| Camera {
+        width,
+        height,
+        horizontal_fov_rad: 2.0 * cosfly_frames::real::atan2(half, 1.0),
+    })
+}
+
+fn place(value: &Value) -> Option<DVec3> {
+    Some(DVec3::new(value["x"].as_f64()?, value["y"].as_f64()?, value["z"].as_f64()?))
+}
+
+fn pose(value: &Value) -> Option<Pose> {
+    let angle = |key: &str| value[key].as_f64().unwrap_or_default().to_radians();
+    value["yaw"].as_f64()?;
+    Some(Pose {
+        position_in_world: place(value)?,
+        pitch_rad: angle("pitch"),
+        yaw_rad: angle("yaw"),
+        roll_rad: angle("roll"),
+    })
+}
+
+fn moment(point: &Value) -> Option<Moment> {
+    let (target, own) = (&point["target"], &point["cosfly"]);
+    let drone = pose(&point["drone_pose"])?;
+    let edges = |value: &Value| {
+        let edge = |key: &str| value[key].as_f64();
+        Some([edge("xmin")?, edge("ymin")?, edge("xmax")?, edge("ymax")?])
+    };
+    let visible_box = edges(&target["bbox_2d"]);
+    let shown = edges(&own["full_bbox_2d"]).or(visible_box);
+    let uv = target["image_uv"][0].as_f64().zip(target["image_uv"][1].as_f64());
+    let flag = |value: &Value| value.as_bool().map(|seen| f64::from(u8::from(seen)));
+    Some(Moment {
+        time_s: point["timing"]["trace_timestamp"].as_f64()?,
+        drone,
+        camera: pose(&own["camera_pose"]).unwrap_or(drone),
+        next_in_world: place(&point["nav_waypoint"]["t1_world"]),
+        turn_deg: None,
+        target_in_world: place(&target["world_location"]),
+        heading_and_speed: own["target_heading_deg"]
+            .as_f64()
+            .map(f64::to_radians)
+            .zip(own["target_speed_mps"].as_f64()),
+        in_image: match (shown, uv) {
+            (Some([left, top, right, bottom]), _) => Some((0.5 * (left + right), 0.5 * (top + bottom), bottom - top)),
+            (None, Some((u, v))) => Some((u, v, 0.0)),
+            _ => None,
+        },
+        visible_box,
+        visible: own["visible_by_pixels"].as_f64().or(flag(&target["visible"])),
+        clearance_m: own["clearance_m"].as_f64(),
+    })
+}
+
+/// Pictures of a stretch of frames.
+fn looks(trace: &Path, episode: &mut Episode, flags: &mut Vec<Flag>) {
+    for frame in stretch(episode.moments.len()) {
+        let folder = trace.join(format!("frames_playback/frame_{frame:05}"));
+        let Ok(colour) = fs::read(folder.join("rgb.png")) else {
+            flags.push(Flag::damage("picture-missing", &episode.id, format!("frame {frame} has no `rgb.png`")));
+            return;
+        };
+        let mut look = Look { frame, digest: Digest::of(&colour).to_string(), depth_m: vec![] };
+        match fs::read(folder.join("depth.npy")).map_err(|error| error.to_string()).and_then(|it| depth_of_npy(&it)) {
+            Ok((depth, width)) => {
+                let at = |offset: &i64| {
+                    let moment = episode.moments.get(frame.checked_add_signed(*offset as isize)?)?;
+                    depth_in_box(&depth, width, moment.visible_box?)
+                };
+                look.depth_m = OFFSETS.iter().map(at).collect();
+            }
+            Err(problem) => {
+                flags.push(Flag::damage(
+                    "depth-damaged",
+                    &episode.id,
+                    format!("frame {frame}, `depth.npy`: {problem}"),
+                ));
+            }
+        }
+        episode.looks.push(look);
+    }
+}
+
+/// Rows of 32-bit floats and their width; the sky is infinite.
+fn depth_of_npy(bytes: &[u8]) -> Result<(Vec<f32>, usize), String> {
+    let head =
+        bytes.get(..10).filter(|head| head.starts_with(b"\x93NUMPY\x01")).ok_or("it is not NumPy's version 1")?;
+    let length = usize::from(u16::from_le_bytes([head[8], head[9]]));
+    let header = bytes.get(10..10 + length).ok_or("it ends in its head")?;
+    let header = std::str::from_utf8(header).map_err(|_| "its head is not text")?;
+    if !header.contains("'<f4'") || header.contains("'fortran_order': True") {
+        return Err(format!("it holds no rows of 32-bit floats: {}", header.trim()));
+    }
+    let shape = header.split('(').nth(1).and_then(|rest| rest.split(')').next()).ok_or("its head has no shape")?;
+    let sides: Vec<usize> = shape.split(',').filter_map(|side| side.trim().parse().ok()).collect();
+    let [height, width] = sides[..] else { return Err(format!("its shape is ({shape}), not rows and columns")) };
+    let (numbers, _) = bytes[10 + length..].as_chunks::<4>();
+    if height.checked_mul(width) != Some(numbers.len()) {
+        return Err(format!("it has {} numbers; its shape is ({shape})", numbers.len()));
+    }
+    let depth = numbers.iter().map(|number| f32::from_le_bytes(*number));
+    Ok((depth.map(|depth| if depth >= SKY_M && depth <= 1000.0 { f32::INFINITY } else { depth }).collect(), width))
+}
