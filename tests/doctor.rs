@@ -1,7 +1,7 @@
 //! `cosfly doctor` through the real binary: sound data, damaged data, other folders.
 
-use crate::street::Street;
-use crate::support::cosfly;
+use crate::street::{RECIPE, Street, map};
+use crate::support::{cosfly, tree_digests};
 
 #[test]
 fn sound_data_and_damaged_data_are_told_apart() {
@@ -36,4 +36,37 @@ fn a_folder_of_no_known_layout_and_a_strange_quota_are_refused() {
     insta::assert_snapshot!("doctor_unknown", printed.stderr);
     assert_eq!(cosfly(&["doctor", ".", "--quota", "20:4-2"]).within(street.path()).run().code, Some(2));
     insta::assert_snapshot!("help_doctor", cosfly(&["doctor", "--help"]).run_ok().stdout);
+}
+
+/// The street's recipe with a stage `inspect` between pictures and dataset.
+fn inspected(parameters: &str) -> Street {
+    let stage = format!(
+        "[stages.inspected]\nuse = \"inspect\"\ninputs = {{ town = \"town\", frames = \"frames\" }}\n{parameters}\n"
+    );
+    let recipe = RECIPE.replace("frames = \"frames\"", "frames = \"inspected\"");
+    Street::with(&recipe.replace("[stages.captions]", &format!("{stage}\n[stages.captions]")), &map())
+}
+
+#[test]
+fn the_stage_inspect_lets_sound_flights_pass_and_leaves_out_imperfect_families() {
+    let street = inspected("imperfect_share = 1.0");
+    let printed = cosfly(&["run", "recipe.toml"]).within(street.path()).run_ok();
+    assert!(printed.stdout.contains("kept: 6 of 6"), "{}", printed.stdout);
+    let plain = Street::new();
+    cosfly(&["run", "recipe.toml", "--quiet"]).within(plain.path()).run_ok();
+    let tables = |street: &Street| tree_digests(&street.dataset().join("data/frames"));
+    assert_eq!(tables(&street), tables(&plain), "what is kept passes as it is");
+    let strict = inspected("");
+    let printed = cosfly(&["run", "recipe.toml"]).within(strict.path()).run_ok();
+    assert!(printed.stdout.contains("kept: 2 of 6"), "{}", printed.stdout);
+    assert!(printed.stdout.contains("[mostly-lost]; more than 5.0 % would be imperfect"), "{}", printed.stdout);
+    cosfly(&["verify", "out/street"]).within(strict.path()).run_ok();
+}
+
+#[test]
+fn a_quota_that_no_flight_meets_is_refused() {
+    let street = inspected("quotas = [{ share = 0.2, from_s = 30.0, to_s = 40.0 }]");
+    let printed = cosfly(&["run", "recipe.toml"]).within(street.path()).run();
+    assert_eq!(printed.code, Some(3), "{}", printed.stderr);
+    assert!(printed.stderr.contains("no flight loses its target for 30 to 40 s"), "{}", printed.stderr);
 }

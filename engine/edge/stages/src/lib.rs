@@ -9,6 +9,7 @@ mod codec;
 mod crowd;
 mod dataset;
 pub mod expert;
+mod inspect;
 mod map;
 mod memo;
 mod muco;
@@ -28,6 +29,7 @@ pub fn registry() -> Registry {
     Registry::new(vec![
         Box::new(caption::Caption),
         Box::new(dataset::Dataset),
+        Box::new(inspect::Inspect),
         Box::new(map::Map),
         Box::new(muco::Muco),
         Box::new(pedestrians::Pedestrians),

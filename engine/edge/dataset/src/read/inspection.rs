@@ -15,6 +15,8 @@ use std::path::Path;
 pub struct FlightFacts {
     /// Limits of clearance (m), speed (m/s), acceleration (m/s^2) and jerk (m/s^3), where it has them.
     pub limits: [Option<f64>; 4],
+    /// Time from the top row to the bottom row of its images, seconds.
+    pub readout_s: f64,
     /// Time and action of each frame: dx, dy, dz, dpitch, dyaw, droll along the world's axes, metres and degrees.
     pub steps: Vec<(f64, Option<[f64; 6]>)>,
 }
@@ -30,15 +32,22 @@ impl PublishedDataset {
     pub fn facts(&self) -> Result<BTreeMap<String, FlightFacts>> {
         const LIMITS: [&str; 4] =
             ["limit_clearance_m", "limit_speed_mps", "limit_acceleration_mps2", "limit_jerk_mps3"];
+        const READOUT: &str = "camera_readout_s";
         let mut facts: BTreeMap<String, FlightFacts> = BTreeMap::new();
         for (_, path) in table_files(&self.folder().join("data/trajectories"))? {
-            columns::read(&path, &|name| name == "trajectory_id" || LIMITS.contains(&name), &mut |rows| {
-                for row in 0..rows.len() {
-                    let limits = LIMITS.map(|name| rows.numbers(name, row).and_then(|it| it.first().copied()));
-                    facts.entry(rows.text_at("trajectory_id", row)?.to_owned()).or_default().limits = limits;
-                }
-                Ok(())
-            })?;
+            columns::read(
+                &path,
+                &|name| ["trajectory_id", READOUT].contains(&name) || LIMITS.contains(&name),
+                &mut |rows| {
+                    for row in 0..rows.len() {
+                        let limits = LIMITS.map(|name| rows.numbers(name, row).and_then(|it| it.first().copied()));
+                        let flight = facts.entry(rows.text_at("trajectory_id", row)?.to_owned()).or_default();
+                        flight.limits = limits;
+                        flight.readout_s = rows.real_or(READOUT, row, 0.0)?;
+                    }
+                    Ok(())
+                },
+            )?;
         }
         for (_, path) in table_files(&self.folder().join("data/frames"))? {
             columns::read(

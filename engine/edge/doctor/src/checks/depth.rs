@@ -12,8 +12,8 @@ const ENOUGH: usize = 4;
 /// Units by how many of them a metre has.
 const UNITS: [(f64, &str); 4] =
     [(1000.0, "millimetres"), (100.0, "centimetres"), (0.001, "kilometres"), (1.0 / 0.3048, "feet")];
-/// Spread of depths around their middle that belongs to a body, metres.
-const SPREAD_M: f64 = 0.6;
+/// Spread of depths around their middle that a body and its pixels may have, metres.
+const SPREAD_M: f64 = 0.4;
 
 /// Compares depth images with distances to the target.
 pub fn check(episode: &Episode) -> Vec<Flag> {
@@ -48,7 +48,7 @@ pub fn check(episode: &Episode) -> Vec<Flag> {
     let Some(own) = spread(0) else { return vec![] };
     let others = (1..OFFSETS.len()).filter_map(|place| Some((OFFSETS[place], spread(place)?)));
     match others.min_by(|a, b| a.1.total_cmp(&b.1)) {
-        Some((shift, best)) if best * 4.0 < own && own > 0.1 && best < SPREAD_M => flag(
+        Some((shift, best)) if best * 4.0 < own && own > SPREAD_M && best < SPREAD_M => flag(
             "image-shift",
             format!(
                 "images are those of {}: depths at the target miss by {own:.2} m, by {best:.2} m with that frame's pose",

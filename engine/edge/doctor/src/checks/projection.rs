@@ -67,7 +67,7 @@ fn error(episode: &Episode, camera: &Camera, shift: i64, mended: fn(Pose) -> Pos
         // Boxes at an edge are cut; their middles are not the body's.
         let half = 0.5 * height;
         let inside = u > half && v > half && u < f64::from(camera.width) - half && v < f64::from(camera.height) - half;
-        let Some(from) = frame.checked_sub_signed(shift as isize).and_then(|at| moments.get(at)) else { continue };
+        let Some(from) = frame.checked_add_signed(-shift as isize).and_then(|at| moments.get(at)) else { continue };
         let Some(target) = from.target_in_world.filter(|_| inside) else { continue };
         let tolerated = TOLERANCE.0 * height + TOLERANCE.1;
         errors.push(match camera.project(&mended(from.camera), target) {

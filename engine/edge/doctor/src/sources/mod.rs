@@ -1,6 +1,7 @@
 //! One reader per layout: from files to episodes.
 
 pub mod ours;
+pub mod record;
 pub mod v7;
 
 /// Frames whose pictures are looked at: a stretch of this many, in the middle of a flight, so that shifts show.

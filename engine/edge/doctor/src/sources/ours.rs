@@ -96,6 +96,8 @@ fn named(flight: &PublishedFlight) -> Episode {
 }
 
 fn episode(flight: &PublishedFlight, rows: &[FrameRow], facts: Option<&FlightFacts>) -> Episode {
+    // Lenses that bend and rows that are taken one after the other move what is projected.
+    let is_plain = flight.lens_k == [0.0; 2] && facts.is_none_or(|facts| facts.readout_s == 0.0);
     let told = |frame: usize| facts.and_then(|facts| facts.steps.get(frame));
     let middle = DVec3::Z * (0.5 * flight.target_height_m);
     let moment = |(frame, row): (usize, &FrameRow)| {
@@ -119,7 +121,7 @@ fn episode(flight: &PublishedFlight, rows: &[FrameRow], facts: Option<&FlightFac
         }
     };
     Episode {
-        camera: (flight.lens_k == [0.0; 2]).then_some(flight.camera),
+        camera: is_plain.then_some(flight.camera),
         target_height_m: flight.target_height_m,
         dt_s: flight.dt_s,
         limits: facts.map_or([None; 4], |facts| facts.limits),

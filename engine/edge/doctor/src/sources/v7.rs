@@ -214,5 +214,5 @@ fn depth_of_npy(bytes: &[u8]) -> Result<(Vec<f32>, usize), String> {
         return Err(format!("it has {} numbers; its shape is ({shape})", numbers.len()));
     }
     let depth = numbers.iter().map(|number| f32::from_le_bytes(*number));
-    Ok((depth.map(|depth| if depth >= SKY_M && depth <= 1000.0 { f32::INFINITY } else { depth }).collect(), width))
+    Ok((depth.map(|depth| if (SKY_M..=1000.0).contains(&depth) { f32::INFINITY } else { depth }).collect(), width))
 }
