@@ -17,3 +17,12 @@ cp "$out/$target/release/twin.wasm" twin/twin.wasm
 # What they were built from, for the test that says when they are stale.
 sources() { find sdk twin/src twin/Cargo.toml examples wit Cargo.toml Cargo.lock -type f | LC_ALL=C sort; }
 sources | xargs sha256sum | sha256sum | cut -d' ' -f1 > ../recipes/plugins/built_from.txt
+# The interface as a page of the book.
+{
+  printf '# The interface of plugins\n\nThis page is `plugins/wit`, file by file; `plugins/build.sh` writes it.\n'
+  for file in types host cost-term objective stage; do
+    printf '\n## `%s.wit`\n\n```wit\n' "$file"
+    cat "wit/$file.wit"
+    printf '```\n'
+  done
+} > ../book/src/reference/plugin-interface.md

@@ -1,6 +1,7 @@
 //! Plugins through the real binary: every recipe with one, what a changed plugin makes anew, mistakes, failures, the commands.
 
 use crate::support::{cosfly, repository_root};
+use parquet::file::reader::{FileReader, SerializedFileReader};
 use std::path::{Path, PathBuf};
 
 /// A folder with the town, the plugins and a recipe.
@@ -98,6 +99,34 @@ fn every_recipe_with_a_plugin_makes_a_sound_dataset() {
     }
 }
 
+/// A column of a table, row by row, as text.
+fn column(dataset: &Path, table: &str, column: &str) -> Vec<String> {
+    let mut rows = vec![];
+    for file in std::fs::read_dir(dataset.join("data").join(table)).expect("a table") {
+        let file = std::fs::File::open(file.expect("an entry").path()).expect("readable");
+        let reader = SerializedFileReader::new(file).expect("Parquet");
+        for row in reader.get_row_iter(None).expect("rows").map(|row| row.expect("readable")) {
+            let cell = row.get_column_iter().find(|(name, _)| *name == column);
+            rows.push(cell.expect("the column is there").1.to_string());
+        }
+    }
+    rows
+}
+
+#[test]
+fn labels_stand_in_columns_of_their_own_with_the_plugin_that_gave_them() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let (store, out) = (folder.path().join("store"), folder.path().join("out"));
+    let at = |path: &Path| path.display().to_string();
+    cosfly(&["run", "recipes/judged.toml", "--quiet", "--store", &at(&store), "--out", &at(&out)]).run_ok();
+    assert_eq!(column(&out, "trajectories", "label_names")[0], "[\"seconds_to_loss\"]");
+    assert_eq!(column(&out, "trajectories", "label_plugins")[0], "[\"seconds_to_loss 0.1.0\"]");
+    assert!(!column(&out, "trajectories", "term_names")[0].contains("loss"));
+    let labels = column(&out, "frames", "labels");
+    let seconds = |cell: &String| cell.trim_matches(['[', ']']).parse::<f64>().expect("one number");
+    assert!(labels.iter().map(seconds).all(|seconds| (0.0..=8.0).contains(&seconds)), "{labels:?}");
+}
+
 #[test]
 fn a_plugin_changed_by_one_byte_reruns_only_what_uses_it() {
     let yard = Yard::with(RECIPE);
@@ -182,6 +211,8 @@ fn the_example_plugins_keep_the_laws_of_their_kinds() {
         let text = cosfly(&["plugin", "check", &file]).run_ok().stdout;
         assert!(text.contains("it keeps the laws of its kind"), "{text}");
     }
+    let in_c = repository_root().join("plugins/examples/in_c/steady_height.wasm").display().to_string();
+    assert!(cosfly(&["plugin", "check", &in_c]).run_ok().stdout.contains("it keeps the laws of its kind"));
 }
 
 #[test]
@@ -201,6 +232,20 @@ fn a_new_plugin_is_a_project_with_all_that_it_needs() {
     }
     let again = cosfly(&["plugin", "new", "--kind", "stage", "stage"]).within(folder.path()).run();
     assert_eq!(again.code, Some(3), "{}", again.stderr);
+}
+
+#[test]
+fn the_books_page_of_the_interface_is_the_interface() {
+    let root = repository_root();
+    let page = std::fs::read_to_string(root.join("book/src/reference/plugin-interface.md")).expect("a page");
+    let mut rest = page.as_str();
+    for name in ["types", "host", "cost-term", "objective", "stage"] {
+        let text = std::fs::read_to_string(root.join(format!("plugins/wit/{name}.wit"))).expect("a part of it");
+        let shown = format!("## `{name}.wit`\n\n```wit\n{text}```\n");
+        let at = rest.find(&shown);
+        rest = &rest[at.expect("as `plugins/build.sh` writes it") + shown.len()..];
+    }
+    assert!(rest.is_empty(), "run `plugins/build.sh`");
 }
 
 #[test]

@@ -59,7 +59,7 @@ pub trait CostTerm: Sized + 'static {
 }
 
 /// Waypoints that [`per_waypoint`] takes together.
-const GROUP: usize = 4;
+const GROUP: usize = 8;
 
 /// Writes a cost for every waypoint from the waypoint itself and what is `beside` it (the target's feet, say), a few at a time:
 /// the same costs as from a loop, and sooner where they are as light as a square root.

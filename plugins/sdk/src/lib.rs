@@ -57,6 +57,8 @@ pub mod log;
 mod objective;
 mod params;
 mod random;
+#[cfg(any(test, target_family = "wasm"))]
+mod recent_blocks;
 mod stage;
 pub mod town;
 
@@ -70,6 +72,10 @@ pub use params::{NoParams, Param, Params};
 pub use params::{quoted as __private_quoted, sentence as __private_sentence};
 pub use random::Random;
 pub use stage::{Answer, Flight, Stage};
+
+#[cfg(target_family = "wasm")]
+#[global_allocator]
+static ALLOCATOR: recent_blocks::RecentBlocks = recent_blocks::RecentBlocks::new();
 
 /// What a plugin says of itself.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -1,5 +1,6 @@
 //! A flight as an Arrow stream for stages that are plugins, and their answers read back.
 
+use crate::flight_labels;
 use arrow::array::{Array, BooleanArray, Float64Array, RecordBatch, StringArray};
 use arrow::datatypes::{DataType, Field, Schema};
 use arrow::ipc::reader::StreamReader;
@@ -45,8 +46,11 @@ pub fn encode(flight: &Trajectory, item: &str) -> Result<Vec<u8>> {
     add("target_speed", &|k| states[k].speed_mps);
     add("visibility", &|k| flight.visibility[k]);
     add("clearance", &|k| flight.clearance_m[k]);
-    for term in &flight.terms {
+    for term in flight_labels::costs(flight) {
         add(&format!("cost_{}", term.name), &|k| term.per_frame[k]);
+    }
+    for label in flight_labels::labels(flight) {
+        add(&format!("label_{}", label.name), &|k| label.per_frame[k]);
     }
     written(columns, item).map_err(|error| {
         Diagnostic::new("flight-table", Fault::Bug, format!("could not write the flight `{item}` as a table"))

@@ -5,6 +5,7 @@
 //! * [`frame_pack`]: the images of one trajectory between rendering and publishing.
 //! * [`mcap_log`]: one MCAP file per trajectory.
 //! * [`tables`]: the Parquet tables.
+//! * [`flight_labels`]: labels that plugins give to frames.
 //! * [`flight_table`]: a flight as an Arrow stream for plugins, and their answers.
 //! * [`read`]: reads published datasets back, for pictures and replays.
 //! * [`predictions`]: reads what models predicted.
@@ -16,6 +17,7 @@
 pub mod carla_job;
 pub mod config;
 pub mod croissant;
+pub mod flight_labels;
 pub mod flight_table;
 pub mod frame_pack;
 mod hashing;

@@ -771,7 +771,7 @@ pub mod exports {
                     /// * `time_s`; `drone_x`, `drone_y`, `drone_z`, metres; `drone_yaw`, `drone_pitch`, radians;
                     /// * `target_x`, `target_y`, `target_z` (feet), metres; `target_heading`, radians; `target_speed`, metres per second;
                     /// * `visibility`, 0 to 1; `clearance`, metres;
-                    /// * `cost_NAME` for every cost term, without its weight.
+                    /// * `cost_NAME` for every cost term, without its weight; `label_NAME` for every label of an earlier stage.
                     ///
                     /// Metadata of the schema: `item`, the id of the flight.
                     #[allow(async_fn_in_trait)]

@@ -67,6 +67,13 @@ pub fn bench(arguments: &PluginBenchArguments) -> Outcome {
         let _ =
             writeln!(text, "{what:<40} {native:>6.2} us  {plugin:>6.2} us   {:>5.2}   costs {same}", plugin / native);
     }
+    let strict = PluginLimits { fuel: 1_000_000_000, ..limits };
+    let strict = host.load_bytes(TWIN, "twin.wasm", Some(Kind::CostTerm), strict).map_err(one)?;
+    for (heavy, what) in [(false, "the first one in strict mode (fuel)"), (true, "the second one in strict mode")] {
+        let (native, plugin, same) = calls(&strict, heavy).map_err(one)?;
+        let _ =
+            writeln!(text, "{what:<40} {native:>6.2} us  {plugin:>6.2} us   {:>5.2}   costs {same}", plugin / native);
+    }
     let (native, plugin, words) = flights(&twin).map_err(one)?;
     let what = "a whole planned trajectory with one term";
     let _ = writeln!(text, "{what:<40} {native:>6.1} ms  {plugin:>6.1} ms   {:>5.2}   {words}", plugin / native);

@@ -8,7 +8,7 @@ use std::fs;
 use std::path::Path;
 
 /// What plugins are made of, as it is in `plugins/sdk`.
-const SDK: [(&str, &str); 15] = [
+const SDK: [(&str, &str); 16] = [
     ("Cargo.toml", include_str!("../../../../../plugins/sdk/Cargo.toml")),
     ("src/lib.rs", include_str!("../../../../../plugins/sdk/src/lib.rs")),
     ("src/arrow_stream.rs", include_str!("../../../../../plugins/sdk/src/arrow_stream.rs")),
@@ -22,11 +22,14 @@ const SDK: [(&str, &str); 15] = [
     ("src/objective.rs", include_str!("../../../../../plugins/sdk/src/objective.rs")),
     ("src/params.rs", include_str!("../../../../../plugins/sdk/src/params.rs")),
     ("src/random.rs", include_str!("../../../../../plugins/sdk/src/random.rs")),
+    ("src/recent_blocks.rs", include_str!("../../../../../plugins/sdk/src/recent_blocks.rs")),
     ("src/stage.rs", include_str!("../../../../../plugins/sdk/src/stage.rs")),
     ("src/town.rs", include_str!("../../../../../plugins/sdk/src/town.rs")),
 ];
 const SDK_LOG: (&str, &str) = ("src/log.rs", include_str!("../../../../../plugins/sdk/src/log.rs"));
 const MANIFEST: &str = include_str!("../../../../../plugins/templates/Cargo.toml.txt");
+/// Vectors are part of WebAssembly, but the compiler wants to be told.
+const CARGO_CONFIG: &str = "[target.wasm32-unknown-unknown]\nrustflags = [\"-Ctarget-feature=+simd128\"]\n";
 const README: &str = include_str!("../../../../../plugins/templates/README.md.txt");
 
 /// Writes the project and says how to go on.
@@ -79,6 +82,7 @@ fn write(arguments: &PluginNewArguments, name: &str) -> cosfly_diagnose::Result<
     put(&arguments.path.join("Cargo.toml"), &named(MANIFEST))?;
     put(&arguments.path.join("src/lib.rs"), &named(source))?;
     put(&arguments.path.join("README.md"), &named(&README.replace("KIND", words).replace("USE", usage)))?;
+    put(&arguments.path.join(".cargo/config.toml"), CARGO_CONFIG)?;
     put(&arguments.path.join(".gitignore"), "/target\n")?;
     for (file, text) in SDK.iter().chain([&SDK_LOG]) {
         put(&arguments.path.join("sdk").join(file), text)?;

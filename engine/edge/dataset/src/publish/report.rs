@@ -3,6 +3,7 @@
 use super::summary::Summary;
 use super::write::DatasetSource;
 use crate::config::DatasetConfig;
+use crate::flight_labels::costs;
 use crate::mcap_log::messages::edges_px;
 use crate::tables::ObjectRecord;
 use crate::{Rejection, RenderedTrajectory, Role};
@@ -80,7 +81,7 @@ pub fn sketch(record: &RenderedTrajectory, split: &str) -> FlightSketch {
         violations: trajectory.certificate.violations.clone(),
         max_jerk_mps3: trajectory.certificate.max_jerk_mps3,
         convergence: trajectory.convergence.clone(),
-        term_costs: trajectory.terms.iter().map(|term| (term.name.clone(), term.weight * term.sum)).collect(),
+        term_costs: costs(trajectory).map(|term| (term.name.clone(), term.weight * term.sum)).collect(),
     }
 }
 

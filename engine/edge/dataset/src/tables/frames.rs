@@ -4,6 +4,7 @@ use super::waypoints::step;
 use super::{Cell, Column, DatasetItem, Kind, Table};
 use crate::Role;
 use crate::action;
+use crate::flight_labels;
 use crate::mcap_log::messages::edges_px;
 use cosfly_frames::{Pose, TargetState};
 use cosfly_planner::FramePerturbation;
@@ -170,8 +171,15 @@ fn motion() -> Vec<Column<DatasetItem>> {
             Kind::RealList,
             "unweighted cost of each planner term, in the order of `trajectories.term_names`; empty for perturbed flights",
             |item, i| {
-                let terms = &item.record.trajectory.terms;
-                Cell::Reals(terms.iter().map(|term| term.per_frame[i]).collect())
+                Cell::Reals(flight_labels::costs(&item.record.trajectory).map(|term| term.per_frame[i]).collect())
+            },
+        ),
+        Column::new(
+            "labels",
+            Kind::RealList,
+            "labels that plugins gave to the frame, in the order of `trajectories.label_names`; empty where none did",
+            |item, i| {
+                Cell::Reals(flight_labels::labels(&item.record.trajectory).map(|label| label.per_frame[i]).collect())
             },
         ),
     ]

@@ -3,6 +3,7 @@
 use super::frames::{ROLES, role_cell};
 use super::windows::{self, DIFFICULTIES, SCENES};
 use super::{Cell, Column, DatasetItem, Kind, Table};
+use crate::flight_labels;
 use cosfly_metrics::WindowFeatures;
 use cosfly_planner::{Certificate, Perturbation};
 
@@ -385,17 +386,29 @@ fn solution() -> Vec<Column<DatasetItem>> {
             certificate_of(item).filtered_boxes.into()
         }),
         Column::new("term_names", Kind::TextList, "planner terms; empty for perturbed flights", |item, _| {
-            Cell::Texts(item.record.trajectory.terms.iter().map(|term| term.name.clone()).collect())
+            Cell::Texts(flight_labels::costs(&item.record.trajectory).map(|term| term.name.clone()).collect())
         }),
         Column::new("term_weights", Kind::RealList, "their weights; empty for perturbed flights", |item, _| {
-            Cell::Reals(item.record.trajectory.terms.iter().map(|term| term.weight).collect())
+            Cell::Reals(flight_labels::costs(&item.record.trajectory).map(|term| term.weight).collect())
         }),
         Column::new(
             "term_sums",
             Kind::RealList,
             "their unweighted costs over all frames; empty for perturbed flights",
-            |item, _| Cell::Reals(item.record.trajectory.terms.iter().map(|term| term.sum).collect()),
+            |item, _| Cell::Reals(flight_labels::costs(&item.record.trajectory).map(|term| term.sum).collect()),
         ),
+        Column::new(
+            "label_names",
+            Kind::TextList,
+            "labels that plugins gave to the frames, see `frames.labels`; empty where none did",
+            |item, _| {
+                Cell::Texts(flight_labels::labels(&item.record.trajectory).map(|it| it.name.to_owned()).collect())
+            },
+        ),
+        Column::new("label_plugins", Kind::TextList, "the plugin that gave each label, and its version", |item, _| {
+            let plugins = flight_labels::labels(&item.record.trajectory);
+            Cell::Texts(plugins.map(|it| format!("{} {}", it.plugin, it.version)).collect())
+        }),
         Column::new(
             "convergence",
             Kind::RealList,

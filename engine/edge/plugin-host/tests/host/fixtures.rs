@@ -56,6 +56,18 @@ impl TermText {
         wat::parse_str(self.text()).expect("the fixture is WebAssembly text")
     }
 
+    /// The same as a component, where it can be made one.
+    pub fn component(&self) -> Option<Vec<u8>> {
+        let folder = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("../../../plugins/wit");
+        let mut resolve = wit_parser::Resolve::default();
+        let (package, _) = resolve.push_dir(folder).expect("the interface is well-formed");
+        let world = resolve.select_world(&[package], Some("cost-term")).expect("it has the world");
+        let mut module = self.bytes();
+        let utf8 = wit_component::StringEncoding::UTF8;
+        wit_component::embed_component_metadata(&mut module, &resolve, world, utf8).ok()?;
+        wit_component::ComponentEncoder::default().module(&module).ok()?.encode().ok()
+    }
+
     fn text(&self) -> String {
         let Self { version, fields, first, cost, more, name, pages, schema, .. } = self;
         let export = |function: &str, name: String| {
@@ -118,14 +130,19 @@ impl TermText {
 
     /// Loaded within the usual limits, but shorter time.
     pub fn load(&self) -> Result<Plugin, PluginError> {
-        let limits = PluginLimits { call_ms: 200, memory_mib: 16, ..PluginLimits::default() };
-        Host::new(None).load_bytes(&self.bytes(), "square.wasm", Some(Kind::CostTerm), limits)
+        load(&self.bytes())
     }
 
     /// Loaded and tried on a flight: its costs, or the first failure.
     pub fn costs(&self, waypoints: &[DVec3]) -> Result<Vec<f64>, PluginError> {
         costs_of(&self.load()?, waypoints)
     }
+}
+
+/// A cost term of these bytes within the usual limits, but shorter time.
+pub fn load(bytes: &[u8]) -> Result<Plugin, PluginError> {
+    let limits = PluginLimits { call_ms: 200, memory_mib: 16, ..PluginLimits::default() };
+    Host::new(None).load_bytes(bytes, "square.wasm", Some(Kind::CostTerm), limits)
 }
 
 /// A walk along x.

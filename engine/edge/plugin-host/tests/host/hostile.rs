@@ -1,17 +1,23 @@
 //! Plugins that do what they must not: each is stopped within its limit, with a message that says which.
 
-use crate::fixtures::{TermText, costs_of, flight};
+use crate::fixtures::{TermText, costs_of, flight, load};
 use cosfly_plugin_host::{Host, Kind, MAX_FILE_BYTES, PluginError, PluginLimits};
 
 fn refusal(text: &TermText) -> PluginError {
     text.costs(&flight(6)).expect_err("the plugin is hostile")
 }
 
+/// As the module that it is, and as a component, where it can be made one.
 fn check(text: TermText, function: Option<&str>, words: &str) {
-    let error = refusal(&text);
-    assert_eq!(error.function, function, "{error}");
-    assert!(error.message.contains(words), "{error}");
-    assert_eq!(error.plugin, "square.wasm");
+    let of_component = text.component().map(|bytes| {
+        let costs = load(&bytes).and_then(|plugin| costs_of(&plugin, &flight(6)));
+        costs.expect_err("the plugin is hostile")
+    });
+    for error in [refusal(&text)].into_iter().chain(of_component) {
+        assert_eq!(error.function, function, "{error}");
+        assert!(error.message.contains(words), "{error}");
+        assert_eq!(error.plugin, "square.wasm");
+    }
 }
 
 fn first(function: usize, what: &'static str) -> TermText {

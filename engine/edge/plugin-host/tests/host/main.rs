@@ -3,4 +3,5 @@
 mod border;
 mod fixtures;
 mod hostile;
+mod laws;
 mod working;

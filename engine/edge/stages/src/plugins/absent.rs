@@ -105,6 +105,11 @@ impl Plugins {
         Err(refused(""))
     }
 
+    /// Nothing.
+    pub fn name_and_version(&self) -> (&str, &str) {
+        ("", "")
+    }
+
     /// That an answer is wrong.
     pub fn wrong_answer(&self, message: String) -> Box<Diagnostic> {
         Diagnostic::new("plugin-failed", Fault::Input, message)

@@ -144,6 +144,12 @@ impl Plugins {
             .map_err(|error| error.diagnostic(self.item.as_deref()))
     }
 
+    /// What the stage's plugin calls itself, and its version.
+    pub fn name_and_version(&self) -> (&str, &str) {
+        let told = self.other.as_ref().map(|ready| &ready.plugin.metadata);
+        told.map_or(("", ""), |told| (&told.name, &told.version))
+    }
+
     /// That the stage's plugin answered what it must not.
     pub fn wrong_answer(&self, message: String) -> Box<Diagnostic> {
         let shown = self.other.as_ref().map_or("", |ready| &ready.plugin.shown);

@@ -6,9 +6,10 @@ use crate::muco::produced;
 use crate::ports::{self, TRAJECTORY};
 use crate::world::{check_same_town, link_town, world};
 use crate::{codec, parameters, single};
+use cosfly_dataset::flight_labels::{self, FlightLabel};
 use cosfly_dataset::flight_table;
 use cosfly_diagnose::Result;
-use cosfly_planner::{PlanOutcome, TermCost, Trajectory};
+use cosfly_planner::{PlanOutcome, Trajectory};
 use cosfly_stage::{
     InputPort, Inputs, ItemRule, OutputSink, ParameterError, Produced, Stage, StageKind, StagePart, StageProperties,
     TaskContext,
@@ -39,7 +40,7 @@ impl StageKind for Wasm {
         let config: StagePlugin = parameters::read(given)?;
         let properties = StageProperties {
             kind: self.name().into(),
-            version: 1,
+            version: 2,
             parameters: parameters::canonical(&config.canonical()),
             sources: vec![source("", Role::Stage, &config.setting())],
             inputs: self.ports(),
@@ -76,7 +77,9 @@ impl Stage for WasmStage {
                 let refuse = |message: String| plugins.wrong_answer(message);
                 match transformed.effect {
                     Effect::Filter => judged(*flight, &transformed.answer).map_err(refuse)?,
-                    Effect::Label => labelled(*flight, &transformed.answer).map_err(refuse)?,
+                    Effect::Label => {
+                        labelled(*flight, &transformed.answer, plugins.name_and_version()).map_err(refuse)?
+                    }
                 }
             }
             rejected @ PlanOutcome::Rejected { .. } => rejected,
@@ -96,14 +99,9 @@ fn judged(flight: Trajectory, answer: &[u8]) -> Result<PlanOutcome, String> {
     })
 }
 
-/// Labels join the flight's costs per frame, with weight 0.
-fn labelled(mut flight: Trajectory, answer: &[u8]) -> Result<PlanOutcome, String> {
+fn labelled(mut flight: Trajectory, answer: &[u8], (plugin, version): (&str, &str)) -> Result<PlanOutcome, String> {
     for (name, per_frame) in flight_table::labels(answer, flight.track.len())? {
-        if flight.terms.iter().any(|term| term.name == name) {
-            return Err(format!("it returned a label `{name}`, but the flight has a cost or label of that name"));
-        }
-        let sum = per_frame.iter().sum();
-        flight.terms.push(TermCost { name, weight: 0.0, sum, per_frame });
+        flight_labels::add(&mut flight, FlightLabel { name: &name, plugin, version, per_frame: &per_frame })?;
     }
     Ok(PlanOutcome::Planned(Box::new(flight)))
 }
