@@ -7,6 +7,7 @@ mod context;
 mod responsible_ai;
 
 pub use responsible_ai::TERMS as RESPONSIBLE_AI_TERMS;
+pub(crate) use responsible_ai::values as responsible_ai_values;
 
 use crate::config::DatasetConfig;
 use crate::publish::{LAYOUT_VERSION, Split, Summary, TownSummary, citation};

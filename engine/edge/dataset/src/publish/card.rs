@@ -59,6 +59,7 @@ pub fn readme(config: &DatasetConfig, summary: &Summary) -> String {
     text.push_str(&table_section(&tables::of_rejections()));
     text.push_str(&table_section(&tables::of_files()));
     text.push_str(&invented(summary));
+    text.push_str(&super::datasheet::section(config, summary));
     let _ = write!(
         text,
         "## Licence\n\nThe data: {} ({}), see `LICENSE`. The software that made them: MIT OR Apache-2.0.\n\n\
@@ -142,7 +143,7 @@ fn figures(summary: &Summary) -> String {
         let (flights, frames) = summary.splits.get(split.name()).copied().unwrap_or_default();
         row(&format!("split `{}`", split.name()), format!("{flights} flights, {frames} frames"));
     }
-    text.push_str("\nFlights behind one pedestrian are always in the same split. `report/index.html` shows all of this as a page: maps, \
+    text.push_str("\nFlights behind one pedestrian, and behind pedestrians whose ways overlap, are always in the same split (`splits.json`). `report/index.html` shows all of this as a page: maps, \
          curves, distributions, worst cases with their pictures.\n\n");
     text
 }

@@ -9,6 +9,7 @@
 //! `croissant.json`, which names it.
 
 mod card;
+mod datasheet;
 mod plan;
 mod report;
 mod summary;
