@@ -2,7 +2,6 @@
 
 mod arguments;
 mod commands;
-mod dataset_arguments;
 mod exit;
 mod interrupt;
 mod reporter;
@@ -10,11 +9,10 @@ mod text;
 
 #[cfg(feature = "plugins")]
 use arguments::PluginCommand;
-use arguments::{Arguments, BenchCommand, Command, TaskCommand};
+use arguments::{Arguments, BenchCommand, Command, DatasetCommand, TaskCommand};
 use clap::Parser;
 use cosfly_diagnose::{Diagnostic, Fault};
 use cosfly_frames::simd::Level;
-use dataset_arguments::DatasetCommand;
 use std::io::{ErrorKind, Write};
 use std::panic::AssertUnwindSafe;
 use std::process::ExitCode;

@@ -1,7 +1,7 @@
 //! `cosfly dataset lint`: leaks between the splits of one or several datasets.
 
 use super::Outcome;
-use crate::dataset_arguments::LintArguments;
+use crate::arguments::LintArguments;
 use crate::exit;
 use crate::text::count;
 use cosfly_dataset::splits::promise::Promise;

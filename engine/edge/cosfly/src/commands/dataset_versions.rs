@@ -1,7 +1,7 @@
 //! `cosfly dataset tag`, `list`, `diff`, `checkout`: named versions of datasets.
 
 use super::{Outcome, recipe, store_dir};
-use crate::dataset_arguments::{CheckoutArguments, DiffArguments, ListArguments, TagArguments};
+use crate::arguments::{CheckoutArguments, DiffArguments, ListArguments, TagArguments};
 use crate::exit;
 use crate::text::{bytes, count};
 use cosfly_diagnose::{Diagnostic, Fault, Result};

@@ -115,28 +115,6 @@ impl PublishedDataset {
         }
         Ok(captions)
     }
-
-    /// CARLA's label id of each instance id of a town's objects, by town.
-    ///
-    /// # Errors
-    /// What is wrong with the table.
-    pub fn object_labels(&self) -> Result<BTreeMap<String, BTreeMap<u32, u8>>> {
-        let mut labels: BTreeMap<String, BTreeMap<u32, u8>> = BTreeMap::new();
-        let folder = self.folder().join("data/objects");
-        for (_, path) in if folder.is_dir() { table_files(&folder)? } else { vec![] } {
-            columns::read(&path, &|name| ["town", "instance", "label"].contains(&name), &mut |rows| {
-                for row in 0..rows.len() {
-                    let label = u8::try_from(rows.count("label", row)?);
-                    let label =
-                        label.map_err(|_| damaged(&path, &format!("row {row} has no label"), "it is above 255"))?;
-                    let town = labels.entry(rows.text_at("town", row)?.to_owned()).or_default();
-                    town.insert(rows.count("instance", row)?, label);
-                }
-                Ok(())
-            })?;
-        }
-        Ok(labels)
-    }
 }
 
 fn end(

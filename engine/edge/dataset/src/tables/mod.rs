@@ -19,6 +19,7 @@ mod write;
 pub use column::{Cell, Column, Kind, Table};
 pub use files::FileRecord;
 pub use objects::{ObjectRecord, kind_name};
+pub use windows::SCENES;
 pub use write::{TableWriter, schema};
 
 use crate::mcap_log::LogRecord;

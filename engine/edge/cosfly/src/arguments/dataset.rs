@@ -1,6 +1,6 @@
 //! The command line of `cosfly dataset ...`.
 
-use crate::arguments::{RecipeArguments, StoreArguments};
+use super::{RecipeArguments, StoreArguments};
 use clap::{Args, Subcommand};
 use std::path::PathBuf;
 

@@ -1,0 +1,94 @@
+//! `eval`, and the choices of increments that exports share with it.
+
+use super::counts;
+use clap::{Args, ValueEnum};
+use std::path::PathBuf;
+
+/// Arguments of `eval`.
+#[derive(Args, Debug)]
+pub struct EvalArguments {
+    /// Predictions, JSON lines or Parquet [default: none, the baselines alone]
+    #[arg(value_name = "PREDICTIONS")]
+    pub predictions: Option<PathBuf>,
+    /// Folder of the dataset that `cosfly run` delivered
+    #[arg(long, value_name = "DIR")]
+    pub dataset: PathBuf,
+    /// Folder for report.md, report.json and errors.svg [default: <PREDICTIONS>-evaluation]
+    #[arg(long, value_name = "DIR")]
+    pub out: Option<PathBuf>,
+    /// Splits to score (repeatable) [default: those of the predicted flights; without predictions, all but train]
+    #[arg(long = "split", value_name = "NAME")]
+    pub splits: Vec<String>,
+    /// Axes of the increments: those of the world, or of the body that moves (x ahead, y right, z up)
+    #[arg(long, value_enum, default_value_t = FrameChoice::World)]
+    pub frame: FrameChoice,
+    /// Pose that each increment starts from: the waypoint before, or the current pose for all
+    #[arg(long, value_enum, default_value_t = OriginChoice::Previous)]
+    pub from: OriginChoice,
+    /// Pose that the first increment starts from: the last one of the input, or the expert's in the same frame
+    #[arg(long, value_enum, default_value_t = AnchorChoice::Input)]
+    pub anchor: AnchorChoice,
+    /// Flights that models see
+    #[arg(long, value_enum, default_value_t = RoleChoice::Perturbed)]
+    pub input: RoleChoice,
+    /// Frames that a model sees
+    #[arg(long, value_name = "N", default_value_t = 5, value_parser = counts())]
+    pub history: usize,
+    /// Waypoints that it predicts
+    #[arg(long, value_name = "N", default_value_t = 5, value_parser = counts())]
+    pub horizon: usize,
+    /// Frames from one window to the next
+    #[arg(long, value_name = "N", default_value_t = 3, value_parser = counts())]
+    pub stride: usize,
+    /// Score windows without a prediction as if all increments were zero, instead of leaving them out
+    #[arg(long)]
+    pub missing_as_zero: bool,
+    /// Train small networks on split train, too, and test two findings of the paper with them
+    #[arg(long)]
+    pub train: bool,
+    /// Resamples behind an interval
+    #[arg(long, value_name = "N", default_value_t = 1000, value_parser = counts())]
+    pub resamples: usize,
+    /// Seed of resamples and networks
+    #[arg(long, value_name = "N", default_value_t = 1)]
+    pub seed: u64,
+    /// Print the report as JSON
+    #[arg(long)]
+    pub json: bool,
+}
+
+/// Axes of increments.
+#[derive(Clone, Copy, Debug, ValueEnum)]
+pub enum FrameChoice {
+    /// The world's
+    World,
+    /// The body's
+    Body,
+}
+
+/// Where increments start.
+#[derive(Clone, Copy, Debug, ValueEnum)]
+pub enum OriginChoice {
+    /// At the waypoint before
+    Previous,
+    /// At the current pose, all of them
+    Current,
+}
+
+/// Where the first increment starts.
+#[derive(Clone, Copy, Debug, ValueEnum)]
+pub enum AnchorChoice {
+    /// Where the drone is
+    Input,
+    /// Where the expert is
+    Expert,
+}
+
+/// Flights that models see.
+#[derive(Clone, Copy, Debug, ValueEnum)]
+pub enum RoleChoice {
+    /// Perturbed ones
+    Perturbed,
+    /// Experts
+    Expert,
+}
