@@ -234,7 +234,7 @@ impl Cut<'_> {
             ("occluded_share", occluded_share, features.occluded_share),
             ("speed_mps", speed_mps, features.speed_mps),
         ] {
-            if !((found - expected).abs() <= TOLERANCE) {
+            if (found - expected).is_nan() || (found - expected).abs() > TOLERANCE {
                 return Err(("verify-window", format!("`{name}` is {found}; the frames give {expected}")));
             }
         }
