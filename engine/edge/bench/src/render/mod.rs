@@ -4,6 +4,7 @@
 //! [`measure`] does it all in one run; [`views`] holds the towns and the cameras, and exports them for other renderers.
 
 pub mod flight;
+pub mod flown;
 pub mod machine;
 pub mod stages;
 mod table;
@@ -18,7 +19,7 @@ use serde::Serialize;
 use stages::StageTimes;
 use std::path::Path;
 use throughput::Throughput;
-use views::Ground;
+use views::{Ground, View};
 
 /// What is measured.
 pub struct RenderOptions<'a> {
@@ -32,7 +33,7 @@ pub struct RenderOptions<'a> {
     pub encoding: EncodingConfig,
     /// Threads of the throughput.
     pub threads: usize,
-    /// Frames per thread of the throughput.
+    /// Frames of each flight of the throughput.
     pub flight_frames: usize,
     /// An empty folder on the disk that is written to.
     pub scratch: &'a Path,
@@ -66,8 +67,8 @@ pub struct RenderReport {
     pub views: usize,
     /// By town, then weather; the first weather of each town in the simple look, too.
     pub rows: Vec<RenderRow>,
-    /// Whole frames a second, of the first town.
-    pub throughput: Throughput,
+    /// Whole frames a second, of the first town, in the full look and in the simple one.
+    pub throughput: [Throughput; 2],
     /// Limits of the machine.
     pub machine: Machine,
 }
@@ -84,10 +85,21 @@ pub fn measure(options: &RenderOptions<'_>) -> Result<RenderReport> {
             rows.push(row(ground, weather, PictureLook::Simple, options)?);
         }
     }
-    let throughput = throughput::throughput(first, options)?;
+    let flights = flights(first, options);
+    let throughput = |look| throughput::throughput(first, &flights, look, options);
+    let throughput = [throughput(PictureLook::Full)?, throughput(PictureLook::Simple)?];
     let (width, height) = (first.camera.width, first.camera.height);
     let machine = Machine::measure(width as usize * height as usize);
     Ok(RenderReport { width, height, views: first.views.len(), rows, throughput, machine })
+}
+
+/// A flight for each thread: planned ones where people can walk, or steps around the views.
+fn flights(ground: &Ground, options: &RenderOptions<'_>) -> Vec<Vec<View>> {
+    let (threads, frames) = (options.threads.max(1), options.flight_frames.max(1));
+    let mut flights = flown::flown(ground, frames, threads as u64);
+    let around = || (0..frames).map(|frame| ground.walked(frame, flight::DT_S)).collect();
+    flights.resize_with(threads, around);
+    flights
 }
 
 fn row(ground: &Ground, weather: &Weather, look: PictureLook, options: &RenderOptions<'_>) -> Result<RenderRow> {
@@ -122,8 +134,8 @@ mod tests {
         .unwrap();
         let times = report.rows[0].times;
         assert!(times.visibility_ms > 0.0 && times.whole_ms() > times.render_ms() && times.log_bytes > 1000.0);
-        assert_eq!(report.throughput.frames, 6);
-        assert!(report.throughput.frames_per_s > 0.0 && report.machine.far_copy_gbps > 0.0);
+        assert_eq!(report.throughput[0].frames, 6);
+        assert!(report.throughput[1].frames_per_s > 0.0 && report.machine.far_copy_gbps > 0.0);
         assert!(report.rows.len() == 2 && report.rows[1].look == PictureLook::Simple);
         assert!(report.to_string().contains("HardRainNoon, simple"));
     }

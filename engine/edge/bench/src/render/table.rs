@@ -40,19 +40,23 @@ impl fmt::Display for RenderReport {
             f,
             "`pack` encodes all channels, checks, hashes and writes them; `log` makes the finished log of it.\n"
         )?;
-        let t = &self.throughput;
-        writeln!(
-            f,
-            "{} frames on {} threads, drawn, encoded and written as logs: {:.1} frames/s",
-            t.frames, t.threads, t.frames_per_s
-        )?;
-        writeln!(
-            f,
-            "{:.1} ms of CPU a frame, which is {:.1} frames/s on that many idle cores; {:.0} kB a frame\n",
-            t.cpu_ms,
-            t.undisturbed_frames_per_s,
-            1e-3 * t.bytes
-        )?;
+        for t in &self.throughput {
+            writeln!(
+                f,
+                "{} look: {} frames on {} threads, drawn, encoded and written as logs: {:.1} frames/s",
+                look_name(t.look),
+                t.frames,
+                t.threads,
+                t.frames_per_s
+            )?;
+            writeln!(
+                f,
+                "{:.1} ms of CPU a frame, which is {:.1} frames/s on that many idle cores; {:.0} kB a frame\n",
+                t.cpu_ms,
+                t.undisturbed_frames_per_s,
+                1e-3 * t.bytes
+            )?;
+        }
         self.distances(f)
     }
 }
@@ -64,6 +68,13 @@ impl RenderRow {
             PictureLook::Full => self.weather.clone(),
             PictureLook::Simple => format!("{}, simple", self.weather),
         }
+    }
+}
+
+fn look_name(look: PictureLook) -> &'static str {
+    match look {
+        PictureLook::Full => "full",
+        PictureLook::Simple => "simple",
     }
 }
 

@@ -6,14 +6,16 @@ use super::views::{Ground, View};
 use crate::clock::{process_cpu_s, wall_s};
 use cosfly_dataset::{FramePackReader, FramePackWriter, PackHeader, write_log};
 use cosfly_diagnose::Result;
-use cosfly_render::{FrameSetup, Renderer, Weather};
+use cosfly_render::{FrameSetup, PictureLook, Renderer, Weather};
 use serde::Serialize;
 use std::io::BufReader;
 
 /// How fast finished frames come out.
 #[derive(Clone, Copy, Debug, Serialize)]
 pub struct Throughput {
-    /// Threads that worked, one flight each.
+    /// How colours look.
+    pub look: PictureLook,
+    /// Threads that worked; each made a flight in every weather.
     pub threads: usize,
     /// Frames of all flights.
     pub frames: usize,
@@ -27,25 +29,31 @@ pub struct Throughput {
     pub bytes: f64,
 }
 
-/// Follows the walkers of `ground` on all threads at once, each in the next weather of the list.
-pub fn throughput(ground: &Ground, options: &RenderOptions<'_>) -> Result<Throughput> {
-    let threads = options.threads.max(1);
-    let frames = options.flight_frames.max(1);
+/// Makes logs of flights on all threads at once, one flight each, in one weather after the other.
+pub fn throughput(
+    ground: &Ground,
+    flights: &[Vec<View>],
+    look: PictureLook,
+    options: &RenderOptions<'_>,
+) -> Result<Throughput> {
+    let threads = flights.len();
     // Once before, so that code, fonts of memory and the disk's cache are warm.
-    fly(ground, &options.weathers[0], ground.views.len().min(frames), 0, options)?;
+    let warm = &flights[0][..flights[0].len().min(20)];
+    fly(ground, (&options.weathers[0], look), warm, 0, options)?;
     let (began_s, cpu_began_s) = (wall_s(), process_cpu_s());
     let written = std::thread::scope(|scope| -> Result<u64> {
-        let workers: Vec<_> = (0..threads)
-            .map(|thread| {
-                let weather = &options.weathers[thread % options.weathers.len()];
-                scope.spawn(move || fly(ground, weather, frames, thread, options))
+        let workers: Vec<_> = (flights.iter().enumerate())
+            .map(|(thread, shown)| {
+                let fly = move |weather| fly(ground, (weather, look), shown, thread, options);
+                scope.spawn(move || options.weathers.iter().map(fly).sum::<Result<u64>>())
             })
             .collect();
         workers.into_iter().map(|worker| worker.join().expect("a flight does not panic")).sum()
     })?;
     let (spent_s, cpu_s) = (wall_s() - began_s, process_cpu_s() - cpu_began_s);
-    let total = threads * frames;
+    let total = options.weathers.len() * flights.iter().map(Vec::len).sum::<usize>();
     Ok(Throughput {
+        look,
         threads,
         frames: total,
         frames_per_s: total as f64 / spent_s,
@@ -56,22 +64,28 @@ pub fn throughput(ground: &Ground, options: &RenderOptions<'_>) -> Result<Throug
 }
 
 /// One flight from nothing to its log; how many bytes that has.
-fn fly(ground: &Ground, weather: &Weather, frames: usize, thread: usize, options: &RenderOptions<'_>) -> Result<u64> {
+fn fly(
+    ground: &Ground,
+    (weather, look): (&Weather, PictureLook),
+    shown: &[View],
+    thread: usize,
+    options: &RenderOptions<'_>,
+) -> Result<u64> {
     let path = |kind: &str| options.scratch.join(format!("flight-{thread}.{kind}"));
     let header =
         PackHeader::new(ground.camera.width, ground.camera.height, ground.largest_instance(), options.encoding, DT_S);
     let mut renderer = Renderer::new(ground.camera);
+    renderer.set_look(look);
     let mut pack = FramePackWriter::new(StoredFile::create(&path("pack"))?, &header)?;
-    let shown: Vec<View> = (0..frames).map(|frame| ground.walked(frame, DT_S)).collect();
-    let mut views = Vec::with_capacity(frames);
-    for view in &shown {
+    let mut views = Vec::with_capacity(shown.len());
+    for view in shown {
         let setup = FrameSetup { pose: view.pose, weather, target: Some(view.target), others: &[] };
         let rendered = renderer.render(&ground.scene, &setup);
         pack.frame(rendered.images)?;
         views.push(rendered.target_view);
     }
     pack.finish()?.finish();
-    let record = flight(ground, weather, &shown, views);
+    let record = flight(ground, weather, shown, views);
     let mut pack = FramePackReader::new(BufReader::new(StoredFile::open(&path("pack"))?))?;
     let mut output = StoredFile::create(&path("mcap"))?;
     let log = write_log(&mut output, &record, &mut pack, &[], &ground.town, &|| Ok(()))?;

@@ -80,7 +80,7 @@ pub struct BenchRenderArguments {
     /// Rounds over all views; the least time counts
     #[arg(long, value_name = "N", default_value_t = 2, value_parser = counts())]
     pub rounds: usize,
-    /// Frames per thread that are drawn, encoded and written at once
+    /// Frames of the flights that are drawn, encoded and written on all threads at once
     #[arg(long, value_name = "N", default_value_t = 60, value_parser = counts())]
     pub frames: usize,
     /// Print JSON

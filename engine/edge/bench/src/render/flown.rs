@@ -1,0 +1,57 @@
+//! Flights as `cosfly run` makes them: someone walks the town, the planner follows.
+
+use super::views::{Ground, View};
+use cosfly_frames::{Seed, TargetState};
+use cosfly_geometry::BoxBvh;
+use cosfly_maps::GroundIndex;
+use cosfly_pedestrians::{PedestrianConfig, WalkableGrid, walk};
+use cosfly_planner::{MucoConfig, PlanOutcome, plan};
+use cosfly_render::{TargetSetup, gait_phase_rad};
+
+/// The expert's flights behind `count` walkers, `frames` frames each, with the defaults of all recipes. None in a town
+/// where nobody can walk.
+pub fn flown(ground: &Ground, frames: usize, count: u64) -> Vec<Vec<View>> {
+    let town = &ground.town;
+    let steps = u32::try_from(frames).unwrap_or(u32::MAX);
+    let least = PedestrianConfig::default().steps;
+    let config = PedestrianConfig { steps: steps.max(least), ..PedestrianConfig::default() };
+    let Ok(grid) = WalkableGrid::build(town, &config) else { return vec![] };
+    let exact = BoxBvh::build(town.obstacles.iter().map(|obstacle| obstacle.shape).collect());
+    let index = GroundIndex::new(town);
+    let height = |x: f64, y: f64| index.ground_height_m(x, y).unwrap_or(0.0);
+    // A walk that cannot be followed is passed over.
+    let flight = |number: u64| {
+        let seed = Seed([3; 32]).child("flights", number);
+        let path = walk(&grid, &config, seed).ok()?;
+        match plan(&path.track, &exact, &town.planning_boxes, &height, &MucoConfig::default(), seed) {
+            PlanOutcome::Planned(flight) => {
+                let track = &flight.track;
+                let walked_m = walked_m(&track.states);
+                let shown = flight.poses_in_world.iter().zip(&track.states).zip(walked_m);
+                let view = |((pose, state), walked_m): ((&_, &TargetState), f64)| View {
+                    pose: *pose,
+                    target: TargetSetup {
+                        state: *state,
+                        height_m: track.height_m,
+                        radius_m: track.radius_m,
+                        clothes_seed: seed,
+                        gait_phase_rad: gait_phase_rad(walked_m, track.height_m),
+                        visible_by_rays: 1.0,
+                    },
+                };
+                Some(shown.take(frames).map(view).collect())
+            }
+            PlanOutcome::Rejected { .. } => None,
+        }
+    };
+    (0..4 * count).filter_map(flight).take(count as usize).collect()
+}
+
+/// Metres walked up to each state.
+fn walked_m(states: &[TargetState]) -> impl Iterator<Item = f64> {
+    let mut before = states.first().map(|state| state.feet_in_world);
+    states.iter().scan(0.0, move |sum_m, state| {
+        *sum_m += before.replace(state.feet_in_world).map_or(0.0, |feet| (state.feet_in_world - feet).length());
+        Some(*sum_m)
+    })
+}
