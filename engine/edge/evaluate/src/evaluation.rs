@@ -92,13 +92,10 @@ pub fn evaluate(
 
 /// The splits to score.
 fn splits(flights: &Flights, predictions: Option<&Predictions>, settings: &Settings) -> Result<BTreeSet<String>> {
-    let there: BTreeSet<String> = flights.rows.iter().map(|row| row.split.clone()).collect();
-    if let Some(unknown) = settings.splits.iter().find(|split| !there.contains(*split)) {
-        let names: Vec<&str> = there.iter().map(String::as_str).collect();
-        let message = format!("the dataset has no split `{unknown}`");
-        return Err(Diagnostic::new("evaluation-split", Fault::Recipe, message)
-            .hint(format!("its splits are {}", names.join(", "))));
+    if let Some(refusal) = unknown_split(flights, &settings.splits) {
+        return Err(refusal);
     }
+    let there: BTreeSet<String> = flights.rows.iter().map(|row| row.split.clone()).collect();
     if !settings.splits.is_empty() {
         return Ok(settings.splits.iter().cloned().collect());
     }
@@ -111,6 +108,18 @@ fn splits(flights: &Flights, predictions: Option<&Predictions>, settings: &Setti
         None => there.iter().filter(|split| *split != "train").cloned().collect(),
     };
     Ok(if chosen.is_empty() { there } else { chosen })
+}
+
+/// What to say when one of `wanted` is no split of the dataset.
+pub(crate) fn unknown_split(flights: &Flights, wanted: &[String]) -> Option<Box<Diagnostic>> {
+    let there: BTreeSet<&str> = flights.rows.iter().map(|row| row.split.as_str()).collect();
+    let unknown = wanted.iter().find(|split| !there.contains(split.as_str()))?;
+    let names: Vec<&str> = there.into_iter().collect();
+    let message = format!("the dataset has no split `{unknown}`");
+    Some(
+        Diagnostic::new("evaluation-split", Fault::Recipe, message)
+            .hint(format!("its splits are {}", names.join(", "))),
+    )
 }
 
 fn no_windows(flights: &Flights, splits: &BTreeSet<String>, settings: &Settings) -> Box<Diagnostic> {

@@ -21,8 +21,14 @@ pub struct MethodTallies {
 
 /// Which flights are resampled together: all flights behind one pedestrian, in any weather.
 pub fn clusters(flights: &Flights, windows: &WindowSet) -> Vec<usize> {
+    let chosen: Vec<usize> = windows.flights.iter().map(|(flight, _)| *flight).collect();
+    groups_of_flights(flights, &chosen)
+}
+
+/// The group of each flight of `chosen`: all flights behind one pedestrian, in any weather, are one.
+pub fn groups_of_flights(flights: &Flights, chosen: &[usize]) -> Vec<usize> {
     let mut numbers: BTreeMap<(&str, &str), usize> = BTreeMap::new();
-    let keys = windows.flights.iter().map(|(flight, _)| {
+    let keys = chosen.iter().map(|flight| {
         let row = &flights.rows[*flight];
         (row.town.as_str(), row.pedestrian_id.as_str())
     });

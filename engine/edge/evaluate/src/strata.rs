@@ -32,15 +32,21 @@ pub type Membership = u16;
 /// * target in the input: occluded when rays reach less than half of it in an input frame.
 /// * target: static when it stays within half a metre during the window.
 pub fn memberships(flights: &Flights, windows: &WindowSet) -> Vec<Membership> {
-    let train = flights.rows.iter().filter(|row| row.split == "train");
-    let seen: BTreeSet<&str> = train.map(place_of).collect();
+    let seen = is_seen(flights);
     let of_flight = |entry: &(usize, usize)| -> Vec<Membership> {
         let row = &flights.rows[entry.0];
-        let scene = if seen.contains(place_of(row)) { 3 } else { 4 };
+        let scene = if seen[entry.0] { 3 } else { 4 };
         let numbered = windows.of_flight(*entry, row.frames);
         numbered.map(|(_, window)| (1 << scene) | of_window(flights, window, &windows.shape)).collect()
     };
     windows.flights.par_iter().flat_map_iter(of_flight).collect()
+}
+
+/// Of every flight whether a flight of split `train` is in a town of the same geometry.
+pub fn is_seen(flights: &Flights) -> Vec<bool> {
+    let train = flights.rows.iter().filter(|row| row.split == "train");
+    let seen: BTreeSet<&str> = train.map(place_of).collect();
+    flights.rows.iter().map(|row| seen.contains(place_of(row))).collect()
 }
 
 /// The town by its geometry, by its name in datasets that do not tell the geometry.

@@ -73,6 +73,11 @@ impl Flights {
         self.places.get(trajectory_id).copied()
     }
 
+    /// Place of a flight by its id as keys of WebDataset have it, with `_` for `.`.
+    pub fn place_by_key(&self, key: &str) -> Option<usize> {
+        self.rows.iter().position(|row| row.trajectory_id.contains('.') && row.trajectory_id.replace('.', "_") == key)
+    }
+
     /// Which flights models see.
     pub fn role(&self, flight: usize) -> InputRole {
         if self.rows[flight].expert_id.is_some() { InputRole::Perturbed } else { InputRole::Expert }

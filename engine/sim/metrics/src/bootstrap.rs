@@ -14,24 +14,57 @@ pub type Intervals = [Option<(f64, f64)>; COUNT];
 /// replacement, and takes the means over all that the drawn ones counted. The draws depend on `seed` and the number
 /// of clusters alone, so that methods scored on the same clusters are resampled alike.
 pub fn intervals(clusters: &[Tally], resamples: usize, seed: u64) -> Intervals {
-    if clusters.len() < 2 || resamples == 0 {
-        return [None; COUNT];
+    let merged = merged(clusters);
+    let found = resampled(merged.len(), resamples, seed, COUNT, &mut |times| {
+        let mut drawn = Tally::default();
+        for (cluster, times) in merged.iter().zip(times).filter(|(_, times)| **times > 0) {
+            drawn.add_times(cluster, f64::from(*times));
+        }
+        drawn.means().to_vec()
+    });
+    let mut found = found.into_iter();
+    core::array::from_fn(|_| found.next().flatten())
+}
+
+/// Clusters that are resampled at most; more are put together, so that a million windows take no longer. The spread of
+/// [`MOST_CLUSTERS`] sums of several clusters says the same of the spread of the mean, to some percent of its width.
+pub const MOST_CLUSTERS: usize = 1000;
+
+/// At most [`MOST_CLUSTERS`] tallies with the same total.
+fn merged(clusters: &[Tally]) -> Vec<Tally> {
+    let mut merged = clusters[..clusters.len().min(MOST_CLUSTERS)].to_vec();
+    for (place, cluster) in clusters.iter().enumerate().skip(MOST_CLUSTERS) {
+        merged[place % MOST_CLUSTERS].add(cluster);
+    }
+    merged
+}
+
+/// 95 % percentile intervals of `scores` numbers that `score` makes of how often each of `clusters` clusters was drawn.
+pub fn resampled(
+    clusters: usize,
+    resamples: usize,
+    seed: u64,
+    scores: usize,
+    score: &mut dyn FnMut(&[u32]) -> Vec<Option<f64>>,
+) -> Vec<Option<(f64, f64)>> {
+    if clusters < 2 || resamples == 0 {
+        return vec![None; scores];
     }
     let mut stream = Seed::of_item(seed, "evaluation", "bootstrap").stream("draws");
-    let mut scores: [Vec<f64>; COUNT] = core::array::from_fn(|_| Vec::with_capacity(resamples));
+    let mut found = vec![Vec::with_capacity(resamples); scores];
+    let mut times = vec![0; clusters];
     for _ in 0..resamples {
-        let mut drawn = Tally::default();
-        for _ in 0..clusters.len() {
-            drawn.add(&clusters[stream.index(clusters.len())]);
-        }
-        for (scores, mean) in scores.iter_mut().zip(drawn.means()) {
-            scores.extend(mean);
+        times.fill(0);
+        (0..clusters).for_each(|_| times[stream.index(clusters)] += 1);
+        for (found, score) in found.iter_mut().zip(score(&times)) {
+            found.extend(score);
         }
     }
-    scores.map(|mut scores| {
+    let interval = |mut scores: Vec<f64>| {
         scores.sort_by(f64::total_cmp);
         (!scores.is_empty()).then(|| (quantile(&scores, 0.025), quantile(&scores, 0.975)))
-    })
+    };
+    found.into_iter().map(interval).collect()
 }
 
 /// The `share` quantile of sorted values, linear between neighbours (numpy's default); 0 of none.

@@ -3,6 +3,9 @@
 /// Detections that count per image, the ones with the best scores.
 pub const MAX_DETECTIONS: usize = 100;
 
+/// Overlaps that COCO averages over: 0.5, 0.55 ... 0.95.
+pub const THRESHOLDS: usize = 10;
+
 /// Detections of one class in one image, and how they overlap what is there.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct ImageDetections {
@@ -25,74 +28,141 @@ pub struct AveragePrecision {
     pub ap: f64,
 }
 
-/// The ten overlaps that COCO averages over.
-fn thresholds() -> [f64; 10] {
+/// A detection that counts.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Ranked {
+    /// Its score.
+    pub score: f64,
+    /// Which images are drawn together with its own.
+    pub cluster: u32,
+    /// Bit k: it found an object at overlap k of the ten that no better one had found.
+    pub hits: u16,
+}
+
+impl ImageDetections {
+    /// The detections that count, best first.
+    pub fn ranked(&self, cluster: u32) -> Vec<Ranked> {
+        let mut order: Vec<usize> = (0..self.scores.len().min(self.overlaps.len())).collect();
+        order.sort_by(|a, b| self.scores[*b].total_cmp(&self.scores[*a]));
+        order.truncate(MAX_DETECTIONS);
+        let mut found: Vec<Ranked> =
+            order.iter().map(|at| Ranked { score: self.scores[*at], cluster, hits: 0 }).collect();
+        for (bit, threshold) in thresholds().into_iter().enumerate() {
+            let mut taken = vec![false; self.objects];
+            for (detection, ranked) in order.iter().zip(&mut found) {
+                let (mut best, mut matched) = (threshold.min(1.0 - 1e-10), None);
+                for (object, overlap) in self.overlaps[*detection].iter().enumerate().take(self.objects) {
+                    if !taken[object] && *overlap >= best {
+                        (best, matched) = (*overlap, Some(object));
+                    }
+                }
+                if let Some(object) = matched {
+                    taken[object] = true;
+                    ranked.hits |= 1 << bit;
+                }
+            }
+        }
+        found
+    }
+
+    /// Sum over the objects of the overlap of the detection that overlaps each most.
+    pub fn best_overlaps(&self) -> f64 {
+        let best = |object: usize| self.overlaps.iter().filter_map(|row| row.get(object)).copied().fold(0.0, f64::max);
+        (0..self.objects).map(best).sum()
+    }
+}
+
+/// Detections of one class in all images, best first.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Ranking {
+    cluster: Vec<u32>,
+    /// Places of the hits at each overlap.
+    hits: [Vec<u32>; THRESHOLDS],
+    /// True objects by cluster.
+    objects: Vec<u64>,
+}
+
+impl Ranking {
+    /// Of detections in the order of their images, and the number of true objects by cluster.
+    pub fn new(mut found: Vec<Ranked>, objects: Vec<u64>) -> Self {
+        found.sort_by(|a, b| b.score.total_cmp(&a.score));
+        let at = |bit: usize| {
+            let hits = found.iter().zip(0..).filter(move |(ranked, _)| ranked.hits & (1 << bit) != 0);
+            hits.map(|(_, place): (_, u32)| place).collect()
+        };
+        Self { hits: core::array::from_fn(at), cluster: found.iter().map(|ranked| ranked.cluster).collect(), objects }
+    }
+
+    /// Average precision when cluster k counts `times(k)` times; `None` without any object.
+    pub fn precision(&self, times: &dyn Fn(usize) -> u64) -> Option<AveragePrecision> {
+        let weights: Vec<u64> = (0..self.objects.len()).map(times).collect();
+        let objects: u64 = self.objects.iter().zip(&weights).map(|(objects, times)| objects * times).sum();
+        if objects == 0 {
+            return None;
+        }
+        let weight = |place: usize| weights.get(self.cluster[place] as usize).copied().unwrap_or(0);
+        let mut counted = 0;
+        let mut so_far = Vec::with_capacity(self.cluster.len());
+        for place in 0..self.cluster.len() {
+            counted += weight(place);
+            so_far.push(counted);
+        }
+        let at: [f64; THRESHOLDS] = core::array::from_fn(|bit| {
+            let mut found = 0;
+            let mut curve = Vec::with_capacity(self.hits[bit].len());
+            for place in self.hits[bit].iter().map(|place| *place as usize).filter(|place| weight(*place) > 0) {
+                found += weight(place);
+                curve.push((found as f64 / objects as f64, found as f64 / so_far[place] as f64));
+            }
+            interpolated(&mut curve)
+        });
+        Some(AveragePrecision { ap50: at[0], ap75: at[5], ap: at.iter().sum::<f64>() / at.len() as f64 })
+    }
+}
+
+/// Mean over 101 recalls of the best precision at this recall or more; `curve` has recall and precision at every hit.
+fn interpolated(curve: &mut [(f64, f64)]) -> f64 {
+    for number in (1..curve.len()).rev() {
+        curve[number - 1].1 = curve[number - 1].1.max(curve[number].1);
+    }
+    let (mut first, mut sum) = (0, 0.0);
+    for k in 0..=100 {
+        let recall = if k == 100 { 1.0 } else { f64::from(k) * 0.01 };
+        while curve.get(first).is_some_and(|(reached, _)| *reached < recall) {
+            first += 1;
+        }
+        sum += curve.get(first).map_or(0.0, |(_, precision)| *precision);
+    }
+    sum / 101.0
+}
+
+/// The ten overlaps.
+fn thresholds() -> [f64; THRESHOLDS] {
     core::array::from_fn(|k| if k == 9 { 0.95 } else { 0.5 + k as f64 * ((0.95 - 0.5) / 9.0) })
 }
 
 /// Average precision of one class; `None` when there is no object at all.
 pub fn average_precision(images: &[ImageDetections]) -> Option<AveragePrecision> {
-    let objects: usize = images.iter().map(|image| image.objects).sum();
-    if objects == 0 {
-        return None;
-    }
-    let at: Vec<f64> = thresholds().iter().map(|threshold| precision_at(images, objects, *threshold)).collect();
-    Some(AveragePrecision { ap50: at[0], ap75: at[5], ap: at.iter().sum::<f64>() / at.len() as f64 })
-}
-
-fn precision_at(images: &[ImageDetections], objects: usize, threshold: f64) -> f64 {
-    let mut found: Vec<(f64, bool)> = images.iter().flat_map(|image| matches(image, threshold)).collect();
-    found.sort_by(|a, b| b.0.total_cmp(&a.0));
-    let (mut hits, mut recalls, mut precisions) = (0_usize, vec![], vec![]);
-    for (number, (_, hit)) in found.iter().enumerate() {
-        hits += usize::from(*hit);
-        recalls.push(hits as f64 / objects as f64);
-        precisions.push(hits as f64 / (number + 1) as f64);
-    }
-    // A precision is the best that is still to come at this recall or more.
-    for number in (1..precisions.len()).rev() {
-        precisions[number - 1] = precisions[number - 1].max(precisions[number]);
-    }
-    let at_recall = |recall: f64| {
-        let first = recalls.partition_point(|it| *it < recall);
-        precisions.get(first).copied().unwrap_or(0.0)
-    };
-    (0..=100).map(|k| at_recall(if k == 100 { 1.0 } else { f64::from(k) * 0.01 })).sum::<f64>() / 101.0
-}
-
-/// Score of each counted detection, best first, and whether it found an object that no better one had found.
-fn matches(image: &ImageDetections, threshold: f64) -> Vec<(f64, bool)> {
-    let mut order: Vec<usize> = (0..image.scores.len().min(image.overlaps.len())).collect();
-    order.sort_by(|a, b| image.scores[*b].total_cmp(&image.scores[*a]));
-    order.truncate(MAX_DETECTIONS);
-    let mut taken = vec![false; image.objects];
-    let mut found = Vec::with_capacity(order.len());
-    for detection in order {
-        let (mut best, mut matched) = (threshold.min(1.0 - 1e-10), None);
-        for (object, overlap) in image.overlaps[detection].iter().enumerate().take(image.objects) {
-            if !taken[object] && *overlap >= best {
-                (best, matched) = (*overlap, Some(object));
-            }
-        }
-        if let Some(object) = matched {
-            taken[object] = true;
-        }
-        found.push((image.scores[detection], matched.is_some()));
-    }
-    found
+    let objects = images.iter().map(|image| image.objects as u64).sum();
+    Ranking::new(images.iter().flat_map(|image| image.ranked(0)).collect(), vec![objects]).precision(&|_| 1)
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
 
-    #[test]
-    fn a_second_detection_of_the_same_object_is_a_false_one() {
-        let image = ImageDetections {
+    fn two_objects() -> ImageDetections {
+        ImageDetections {
             scores: vec![0.9, 0.8, 0.7],
             overlaps: vec![vec![0.9, 0.0], vec![0.8, 0.0], vec![0.0, 0.6]],
             objects: 2,
-        };
+        }
+    }
+
+    #[test]
+    fn a_second_detection_of_the_same_object_is_a_false_one() {
+        let image = two_objects();
+        assert_eq!(image.best_overlaps(), 1.5);
         let found = average_precision(&[image]).unwrap();
         // Precision 1 up to recall 0.5 (51 of the 101 recalls), 2/3 up to recall 1.
         assert!((found.ap50 - (51.0 + 50.0 * 2.0 / 3.0) / 101.0).abs() < 1e-12, "{found:?}");
@@ -104,5 +174,15 @@ mod tests {
         assert_eq!(average_precision(&[ImageDetections::default()]), None);
         let missed = ImageDetections { objects: 1, ..Default::default() };
         assert_eq!(average_precision(&[missed]).unwrap().ap, 0.0);
+    }
+
+    #[test]
+    fn a_cluster_that_counts_not_at_all_is_as_if_it_were_not_there() {
+        let noise = ImageDetections { scores: vec![0.95], overlaps: vec![vec![0.1]], objects: 1 };
+        let both: Vec<Ranked> = [two_objects().ranked(0), noise.ranked(1)].concat();
+        let ranking = Ranking::new(both, vec![2, 1]);
+        assert_eq!(ranking.precision(&|cluster| u64::from(cluster == 0)), average_precision(&[two_objects()]));
+        assert!(ranking.precision(&|_| 1).unwrap().ap50 < average_precision(&[two_objects()]).unwrap().ap50);
+        assert_eq!(ranking.precision(&|_| 0), None);
     }
 }

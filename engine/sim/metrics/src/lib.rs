@@ -7,7 +7,7 @@
 //! * [`windows`]: where the windows of a flight start.
 //! * [`deltas`]: from a model's increments to waypoints.
 //! * [`waypoint`]: errors of waypoints; [`scores`]: the means of them that are reported.
-//! * [`boxes`], [`depth`], [`segmentation`], [`detection`]: metrics of pictures.
+//! * [`boxes`], [`depth`], [`segmentation`], [`detection`], [`run_lengths`]: metrics of pictures.
 //! * [`bootstrap`]: intervals by resampling whole trajectories.
 //! * [`difficulty`]: which windows are easy, medium and hard.
 //! * [`baselines`]: what a model must beat.
@@ -19,6 +19,7 @@ pub mod deltas;
 pub mod depth;
 pub mod detection;
 pub mod difficulty;
+pub mod run_lengths;
 pub mod scores;
 pub mod segmentation;
 pub mod waypoint;

@@ -141,11 +141,16 @@ impl Tally {
 
     /// Adds all that `other` has counted.
     pub fn add(&mut self, other: &Self) {
+        self.add_times(other, 1.0);
+    }
+
+    /// Adds all that `other` has counted, `times` over.
+    pub fn add_times(&mut self, other: &Self, times: f64) {
         for (sum, more) in self.sums.iter_mut().zip(&other.sums) {
-            *sum += more;
+            *sum += times * more;
         }
-        self.windows += other.windows;
-        self.boxes += other.boxes;
+        self.windows += times * other.windows;
+        self.boxes += times * other.boxes;
     }
 
     /// The scores; `None` for metrics of which there is nothing.
@@ -156,6 +161,54 @@ impl Tally {
         })
     }
 }
+
+/// Metrics of depth images: means over images.
+pub const OF_DEPTH: [Metric; 3] = {
+    use Better::{Higher, Lower};
+    [
+        metric(
+            "abs_rel",
+            "AbsRel",
+            Unit::Plain,
+            Lower,
+            "mean of |predicted - true| / true over pixels, then over images",
+        ),
+        metric("rmse_m", "RMSE", Unit::Metres, Lower, "root mean square of predicted - true, then mean over images"),
+        metric("delta1", "delta1", Unit::Share, Higher, "pixels with max(predicted / true, true / predicted) < 1.25"),
+    ]
+};
+
+/// Metrics of label images.
+pub const OF_LABELS: [Metric; 2] = {
+    use Better::Higher;
+    [
+        metric(
+            "miou",
+            "mIoU",
+            Unit::Plain,
+            Higher,
+            "intersection over union of a class over all images at once, mean over the classes that occur",
+        ),
+        metric("pixel_accuracy", "Pixel accuracy", Unit::Share, Higher, "pixels whose label is right"),
+    ]
+};
+
+/// Metrics of detected boxes or masks: means over the classes that are there.
+pub const OF_DETECTIONS: [Metric; 4] = {
+    use Better::Higher;
+    [
+        metric("ap50", "AP50", Unit::Share, Higher, "COCO's average precision at an overlap of 0.5"),
+        metric("ap75", "AP75", Unit::Share, Higher, "at an overlap of 0.75"),
+        metric("ap", "AP", Unit::Share, Higher, "mean over overlaps 0.5, 0.55 ... 0.95"),
+        metric(
+            "mean_overlap",
+            "mIoU",
+            Unit::Plain,
+            Higher,
+            "mean over true objects of the overlap of the detection of their class that overlaps them most; 0 for none",
+        ),
+    ]
+};
 
 #[cfg(test)]
 mod tests {

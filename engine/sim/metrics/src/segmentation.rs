@@ -1,46 +1,87 @@
 //! Metrics of label images: IoU per class and their mean.
 
-/// How often which true class was called what.
+/// Pixels by class: what truth and prediction have in common, and what each of them has.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Confusion {
-    classes: usize,
-    /// Row: truth, column: prediction; the last column is for labels out of range.
-    pixels: Vec<u64>,
+    common: Vec<u64>,
+    truth: Vec<u64>,
+    predicted: Vec<u64>,
 }
 
 impl Confusion {
     /// Nothing counted yet, for labels 0..`classes`.
     pub fn new(classes: usize) -> Self {
-        Self { classes, pixels: vec![0; classes * (classes + 1)] }
+        Self { common: vec![0; classes], truth: vec![0; classes], predicted: vec![0; classes] }
     }
 
     /// Counts the pixels of an image. A predicted label that is out of range counts as wrong for its true class;
     /// pixels whose truth is out of range are left out.
     pub fn add(&mut self, predicted: &[u8], truth: &[u8]) {
-        for (predicted, truth) in predicted.iter().zip(truth) {
-            let (predicted, truth) = (usize::from(*predicted), usize::from(*truth));
-            if truth < self.classes {
-                self.pixels[truth * (self.classes + 1) + predicted.min(self.classes)] += 1;
+        let classes = self.truth.len();
+        // Neighbours mostly have the same pair of labels: a run is counted at once.
+        let mut run: ([u8; 2], u64) = ([0, 0], 0);
+        for pair in predicted.iter().zip(truth).map(|(predicted, truth)| [*predicted, *truth]) {
+            if pair == run.0 {
+                run.1 += 1;
+            } else {
+                self.add_run(run, classes);
+                run = (pair, 1);
             }
+        }
+        self.add_run(run, classes);
+    }
+
+    fn add_run(&mut self, ([predicted, truth], pixels): ([u8; 2], u64), classes: usize) {
+        let (predicted, truth) = (usize::from(predicted), usize::from(truth));
+        if truth >= classes {
+            return;
+        }
+        self.truth[truth] += pixels;
+        if predicted < classes {
+            self.predicted[predicted] += pixels;
+        }
+        if predicted == truth {
+            self.common[truth] += pixels;
+        }
+    }
+
+    /// Adds all that `other` has counted, `times` over.
+    pub fn add_times(&mut self, other: &Self, times: u64) {
+        for (sum, more) in [
+            (&mut self.common, &other.common),
+            (&mut self.truth, &other.truth),
+            (&mut self.predicted, &other.predicted),
+        ] {
+            sum.iter_mut().zip(more).for_each(|(sum, more)| *sum += times * more);
         }
     }
 
     /// Intersection over union of every class; `None` where it occurs in neither.
     pub fn class_iou(&self) -> Vec<Option<f64>> {
-        let of = |truth: usize, predicted: usize| self.pixels[truth * (self.classes + 1) + predicted];
-        let scores = (0..self.classes).map(|class| {
-            let row: u64 = (0..=self.classes).map(|other| of(class, other)).sum();
-            let column: u64 = (0..self.classes).map(|other| of(other, class)).sum();
-            let union = row + column - of(class, class);
-            (union > 0).then(|| of(class, class) as f64 / union as f64)
-        });
-        scores.collect()
+        let counts = self.common.iter().zip(&self.truth).zip(&self.predicted);
+        counts
+            .map(|((common, truth), predicted)| {
+                let union = truth + predicted - common;
+                (union > 0).then(|| *common as f64 / union as f64)
+            })
+            .collect()
     }
 
     /// Mean of [`Self::class_iou`] over the classes that occur in truth or prediction, over all images at once.
     pub fn mean_iou(&self) -> Option<f64> {
         let scores: Vec<f64> = self.class_iou().into_iter().flatten().collect();
         (!scores.is_empty()).then(|| scores.iter().sum::<f64>() / scores.len() as f64)
+    }
+
+    /// Share of pixels whose label is right.
+    pub fn accuracy(&self) -> Option<f64> {
+        let pixels: u64 = self.truth.iter().sum();
+        (pixels > 0).then(|| self.common.iter().sum::<u64>() as f64 / pixels as f64)
+    }
+
+    /// True pixels of every class.
+    pub fn true_pixels(&self) -> &[u64] {
+        &self.truth
     }
 }
 
@@ -64,10 +105,21 @@ mod tests {
         confusion.add(&[1, 1, 2, 2], &[1, 1, 1, 2]);
         assert_eq!(confusion.class_iou()[1], Some(2.0 / 3.0));
         assert_eq!(confusion.mean_iou(), Some((2.0 / 3.0 + 0.5) / 2.0));
+        assert_eq!(confusion.accuracy(), Some(0.75));
         assert_eq!(Confusion::new(3).mean_iou(), None);
         let mut confusion = Confusion::new(2);
         confusion.add(&[200, 0], &[0, 0]);
         assert_eq!(confusion.class_iou(), [Some(0.5), None], "a label out of range is a miss and nothing else");
+    }
+
+    #[test]
+    fn an_image_counted_twice_is_the_same_as_twice_the_image() {
+        let (mut once, mut twice) = (Confusion::new(4), Confusion::new(4));
+        once.add(&[0, 0, 3, 1, 200], &[0, 1, 3, 3, 2]);
+        twice.add(&[0, 0, 3, 1, 200, 0, 0, 3, 1, 200], &[0, 1, 3, 3, 2, 0, 1, 3, 3, 2]);
+        let mut sum = Confusion::new(4);
+        sum.add_times(&once, 2);
+        assert_eq!(sum, twice);
     }
 
     #[test]

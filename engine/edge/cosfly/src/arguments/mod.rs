@@ -14,7 +14,7 @@ mod store;
 pub use bench::{BenchCommand, BenchPlannerArguments, BenchRenderArguments};
 pub use checks::{DoctorArguments, PreviewArguments, VerifyArguments};
 pub use dataset::{CheckoutArguments, DatasetCommand, DiffArguments, LintArguments, ListArguments, TagArguments};
-pub use evaluation::{AnchorChoice, EvalArguments, FrameChoice, OriginChoice, RoleChoice};
+pub use evaluation::{AnchorChoice, EvalArguments, FrameChoice, KindChoice, OriginChoice, RoleChoice};
 pub use export::{BoxScaleChoice, CarlaJobArguments, ExportArguments};
 pub use generated::{SchemaArguments, TownArguments};
 #[cfg(feature = "plugins")]
@@ -128,12 +128,14 @@ Examples:
 A range ends before its second number: `0..200:10` is 0, 10, ... 190. Without `--frames`, the sheet shows six frames and
 the clip up to a hundred, evenly spread.")]
     Preview(PreviewArguments),
-    /// Score a model's predictions on a finished dataset, beside baselines, by kind of window, with 95 % intervals
+    /// Score a model's predictions on a finished dataset: waypoints (beside baselines), depth, labels, boxes, masks
     #[command(after_help = "\
 Examples:
   cosfly eval predictions.jsonl --dataset out/carla_town
   cosfly eval predictions.parquet --dataset out/carla_town --split test --out scores
   cosfly eval answers.jsonl --dataset out/carla_town --frame body --missing-as-zero
+  cosfly eval depth-of-my-model --dataset out/carla_town                        a folder of PNG or .npy files
+  cosfly eval results.json --dataset out/carla_town --images out/coco/annotations/instances_val.json
   cosfly eval --dataset out/carla_town                                          the baselines alone
   cosfly eval --dataset out/carla_town --train                                  and small networks, in a minute
 
@@ -144,7 +146,14 @@ array or an object; a missing dimension counts as 0. Instead of `waypoint_deltas
 what is before `</think>` is dropped, and a JSON object in it has `waypoint_deltas`. Optional `boxes` are the target's
 boxes in the waypoints' frames. Parquet has the same columns.
 
-Rows that cannot be scored are counted and named; the exit code is then 1, and 4 when no row fits.")]
+Pictures: a file belongs to the frame whose number its name ends in, in a folder that is called like the trajectory, as
+in `cosfly export --format imagefolder`: .../perturbed-p00000/000/000012.png. Depth is 16-bit PNG (centimetres unless
+`--depth-per-metre` says otherwise; 65535 is the sky) or .npy (metres); labels are 8-bit PNG of CARLA's ids. Boxes and
+masks are COCO results: an array, or lines, of
+  {\"image_id\": 7, \"category_id\": 12, \"bbox\": [left, top, width, height], \"score\": 0.9}
+where `trajectory_id` and `frame` may stand instead of `image_id`, and `segmentation` (run lengths) makes masks.
+
+Rows and files that cannot be scored are counted and named; the exit code is then 1, and 4 when none fits.")]
     Eval(EvalArguments),
     /// Write a finished dataset in the format of others
     #[command(after_help = export::EXPORT_HELP)]

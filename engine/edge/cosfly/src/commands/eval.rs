@@ -1,31 +1,86 @@
-//! `cosfly eval`: scores of predictions on a dataset, beside baselines.
+//! `cosfly eval`: scores of predictions on a dataset, of waypoints beside baselines, or of pictures.
 
 use super::Outcome;
-use crate::arguments::{AnchorChoice, EvalArguments, FrameChoice, OriginChoice, RoleChoice};
+use crate::arguments::{AnchorChoice, EvalArguments, FrameChoice, KindChoice, OriginChoice, RoleChoice};
 use crate::exit;
 use cosfly_dataset::predictions;
 use cosfly_dataset::read::PublishedDataset;
 use cosfly_diagnose::{Diagnostic, Result};
+use cosfly_evaluate::pictures::{self, PictureKind, PictureSettings};
 use cosfly_evaluate::windows::Flights;
-use cosfly_evaluate::{Evaluation, InputRole, Settings, evaluate};
+use cosfly_evaluate::{Evaluation, InputRole, Settings, evaluate, name_of};
 use cosfly_metrics::baselines::Anchor;
 use cosfly_metrics::{DeltaFrame, DeltaOrigin, WindowShape};
 use std::ffi::OsString;
 use std::path::{Path, PathBuf};
 
+/// A report in three forms.
+struct Reports {
+    markdown: String,
+    json: String,
+    svg: String,
+    has_malformed: bool,
+}
+
 /// Prints the report and writes it in three forms.
 pub fn eval(arguments: &EvalArguments) -> Outcome {
-    let evaluation = evaluation(arguments).map_err(|refusal| vec![refusal])?;
+    let reports = reports(arguments).map_err(|refusal| vec![refusal])?;
     let folder = folder(arguments);
-    write(&folder, &evaluation).map_err(|refusal| vec![refusal])?;
+    write(&folder, &reports).map_err(|refusal| vec![refusal])?;
     if arguments.json {
-        crate::print(&evaluation.to_json())?;
+        crate::print(&reports.json)?;
     } else {
-        let text = evaluation.to_markdown();
+        let text = &reports.markdown;
         crate::print(&format!("{text}\nwritten to {}: report.md, report.json, errors.svg\n", folder.display()))?;
     }
-    let malformed = evaluation.rows.as_ref().is_some_and(|rows| rows.malformed > 0);
-    Ok(if malformed { exit::FOUND_PROBLEMS } else { exit::SUCCESS })
+    Ok(if reports.has_malformed { exit::FOUND_PROBLEMS } else { exit::SUCCESS })
+}
+
+fn reports(arguments: &EvalArguments) -> Result<Reports> {
+    if let Some((path, kind)) = picture_kind(arguments)? {
+        let dataset = PublishedDataset::open(&arguments.dataset)?;
+        let flights = Flights::read(&dataset)?;
+        let found = pictures::evaluate(&dataset, &flights, path, &picture_settings(kind, arguments))?;
+        let has_malformed = found.files.malformed > 0;
+        return Ok(Reports {
+            markdown: found.to_markdown(),
+            json: found.to_json(),
+            svg: found.to_svg(),
+            has_malformed,
+        });
+    }
+    let found = evaluation(arguments)?;
+    let has_malformed = found.rows.as_ref().is_some_and(|rows| rows.malformed > 0);
+    Ok(Reports { markdown: found.to_markdown(), json: found.to_json(), svg: found.to_svg(), has_malformed })
+}
+
+/// The kind that was asked for, or that the predictions look like; none for waypoints.
+fn picture_kind(arguments: &EvalArguments) -> Result<Option<(&Path, PictureKind)>> {
+    let Some(path) = arguments.predictions.as_deref() else { return Ok(None) };
+    let kind = match arguments.kind {
+        Some(KindChoice::Waypoints) => None,
+        Some(KindChoice::Depth) => Some(PictureKind::Depth),
+        Some(KindChoice::Semantic) => Some(PictureKind::Semantic),
+        Some(KindChoice::Boxes) => Some(PictureKind::Boxes),
+        Some(KindChoice::Masks) => Some(PictureKind::Masks),
+        None => pictures::recognise(path)?,
+    };
+    Ok(kind.map(|kind| (path, kind)))
+}
+
+fn picture_settings(kind: PictureKind, arguments: &EvalArguments) -> PictureSettings {
+    let of_pictures = &arguments.pictures;
+    PictureSettings {
+        splits: arguments.splits.clone(),
+        every: of_pictures.every,
+        max_depth_m: of_pictures.max_depth,
+        depth_per_metre: of_pictures.depth_per_metre,
+        categories: of_pictures.categories.clone(),
+        images: of_pictures.images.clone(),
+        resamples: arguments.resamples,
+        seed: arguments.seed,
+        ..PictureSettings::new(kind)
+    }
 }
 
 fn evaluation(arguments: &EvalArguments) -> Result<Evaluation> {
@@ -39,10 +94,6 @@ fn evaluation(arguments: &EvalArguments) -> Result<Evaluation> {
     let (flights, given) = (flights?, given?);
     let (name, rows) = given.unzip();
     evaluate(&flights, name.as_deref().zip(rows), &settings(arguments))
-}
-
-fn name_of(path: &Path) -> String {
-    path.file_name().map_or_else(String::new, |name| name.to_string_lossy().into_owned())
 }
 
 fn settings(arguments: &EvalArguments) -> Settings {
@@ -85,14 +136,11 @@ fn folder(arguments: &EvalArguments) -> PathBuf {
     beside.with_file_name(name)
 }
 
-fn write(folder: &Path, evaluation: &Evaluation) -> Result<()> {
+fn write(folder: &Path, reports: &Reports) -> Result<()> {
     let refused = |path: &Path, error: &std::io::Error| Diagnostic::io(format!("write `{}`", path.display()), error);
     std::fs::create_dir_all(folder).map_err(|error| refused(folder, &error))?;
-    for (name, text) in [
-        ("report.md", evaluation.to_markdown()),
-        ("report.json", evaluation.to_json()),
-        ("errors.svg", evaluation.to_svg()),
-    ] {
+    for (name, text) in [("report.md", &reports.markdown), ("report.json", &reports.json), ("errors.svg", &reports.svg)]
+    {
         let path = folder.join(name);
         std::fs::write(&path, text).map_err(|error| refused(&path, &error))?;
     }

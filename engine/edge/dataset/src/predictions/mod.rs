@@ -10,6 +10,7 @@
 //! | `text` or `prediction` | instead of `waypoint_deltas`: what a language model wrote, see [`model_text`] |
 //! | `boxes` | optional: left, top, right, bottom edge (pixels) of the target in the frame of each waypoint, or null |
 
+pub mod detections;
 mod json_lines;
 pub mod model_text;
 mod parquet_rows;

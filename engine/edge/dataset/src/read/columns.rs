@@ -1,6 +1,6 @@
 //! Named columns of a Parquet file, row group by row group.
 
-use arrow::array::{Array, AsArray, RecordBatch};
+use arrow::array::{Array, AsArray, RecordBatch, StringArray};
 use arrow::datatypes::{DataType, Float32Type, Float64Type, Int64Type};
 use cosfly_diagnose::{Diagnostic, Fault, Result};
 use parquet::arrow::ProjectionMask;
@@ -74,6 +74,13 @@ impl Rows<'_> {
         if self.batch.column_by_name(name).is_none() { Ok(default) } else { self.real(name, row) }
     }
 
+    /// All texts of a column, none of them null.
+    pub fn texts(&self, name: &str) -> Result<&StringArray> {
+        let column = self.column(name, |kind| *kind == DataType::Utf8)?.as_string::<i32>();
+        let refusal = || damaged(self.path, &format!("column `{name}` has a row without a text"), "null");
+        if column.null_count() == 0 { Ok(column) } else { Err(refusal()) }
+    }
+
     /// A text that is not null.
     pub fn text_at(&self, name: &str, row: usize) -> Result<&str> {
         let column = self.column(name, |kind| *kind == DataType::Utf8)?.as_string::<i32>();
@@ -100,6 +107,29 @@ impl Rows<'_> {
         let column = self.column(name, |kind| *kind == DataType::Int64)?.as_primitive::<Int64Type>();
         let refusal = || damaged(self.path, &format!("column `{name}` has a row without a number"), "null");
         if column.null_count() == 0 { Ok(column.values()) } else { Err(refusal()) }
+    }
+
+    /// All boxes of a column: four edges each, null where there is none.
+    pub fn boxes(&self, name: &str) -> Result<Vec<Option<[f32; 4]>>> {
+        let column = self.column(name, |kind| matches!(kind, DataType::FixedSizeList(..)))?.as_fixed_size_list();
+        let edges = column.values().as_primitive_opt::<Float32Type>().filter(|_| column.value_length() == 4);
+        let refusal = || damaged(self.path, &format!("column `{name}` has no boxes of four numbers"), "wrong type");
+        let edges = edges.ok_or_else(refusal)?.values().as_chunks::<4>().0;
+        let start = column.value_offset(0) as usize / 4;
+        let row = |row: usize| if column.is_null(row) { None } else { edges.get(start + row).copied() };
+        Ok((0..column.len()).map(row).collect())
+    }
+
+    /// All counts of a column; null is none.
+    pub fn counts_or_null(&self, name: &str) -> Result<Vec<Option<u32>>> {
+        let column = self.column(name, |kind| *kind == DataType::Int64)?.as_primitive::<Int64Type>();
+        let refusal =
+            |row: usize| damaged(self.path, &format!("column `{name}` has no count in row {row}"), "negative");
+        let count = |row: usize| match column.is_valid(row).then(|| u32::try_from(column.value(row))) {
+            None => Ok(None),
+            Some(count) => count.map(Some).map_err(|_| refusal(row)),
+        };
+        (0..column.len()).map(count).collect()
     }
 
     /// True or false.

@@ -2,6 +2,7 @@
 
 use super::columns::{self, Rows, damaged};
 use super::flights::{PublishedDataset, PublishedFlight, table_files};
+use arrow::array::StringArray;
 use cosfly_diagnose::Result;
 use cosfly_frames::{DVec3, Pose};
 use std::collections::BTreeMap;
@@ -42,13 +43,31 @@ const COLUMNS: [&str; 15] = [
     "expert_frame",
 ];
 
+/// Frames that room is made for at most before they are there.
+const MOST_ROOM: usize = 1 << 16;
+
+impl FlightTrack {
+    /// An empty one with room for `frames` frames.
+    fn with_room(frames: usize) -> Self {
+        Self {
+            poses: Vec::with_capacity(frames),
+            feet: Vec::with_capacity(frames),
+            heading_rad: Vec::with_capacity(frames),
+            visible: Vec::with_capacity(frames),
+            boxes: Vec::with_capacity(frames),
+            expert_frame: Vec::with_capacity(frames),
+        }
+    }
+}
+
 impl PublishedDataset {
     /// The track of every flight, in the order of [`Self::flights`]. Reads each file of table `frames` once.
     ///
     /// # Errors
     /// What is wrong with the table: a column that is not there, a number that is none, frames that are missing.
     pub fn tracks(&self) -> Result<Vec<FlightTrack>> {
-        let mut tracks = vec![FlightTrack::default(); self.flights().len()];
+        let mut tracks: Vec<FlightTrack> =
+            self.flights().iter().map(|flight| FlightTrack::with_room(flight.frames.min(MOST_ROOM))).collect();
         let places: BTreeMap<&str, usize> =
             self.flights().iter().enumerate().map(|(place, flight)| (flight.trajectory_id.as_str(), place)).collect();
         for (_, path) in table_files(&self.folder().join("data/frames"))? {
@@ -56,7 +75,7 @@ impl PublishedDataset {
             columns::read(&path, &|name| COLUMNS.contains(&name), &mut |rows| {
                 let batch = Batch::of(rows)?;
                 for row in 0..rows.len() {
-                    let id = rows.text_at("trajectory_id", row)?;
+                    let id = batch.ids.value(row);
                     if last.as_ref().is_none_or(|(name, _)| name != id) {
                         let place = places.get(id).copied();
                         let unknown =
@@ -83,7 +102,9 @@ impl PublishedDataset {
 
 /// The columns of some rows.
 struct Batch<'a> {
-    rows: &'a Rows<'a>,
+    ids: &'a StringArray,
+    boxes: Vec<Option<[f32; 4]>>,
+    expert_frame: Vec<Option<u32>>,
     frame: &'a [i64],
     /// Position, angles, feet, heading, visibility.
     reals: [&'a [f64]; 11],
@@ -95,7 +116,13 @@ impl<'a> Batch<'a> {
         for (column, name) in reals.iter_mut().zip(&COLUMNS[2..13]) {
             *column = rows.reals(name)?;
         }
-        Ok(Self { rows, frame: rows.integers("frame")?, reals })
+        Ok(Self {
+            ids: rows.texts("trajectory_id")?,
+            boxes: rows.boxes("visible_box_px")?,
+            expert_frame: rows.counts_or_null("expert_frame")?,
+            frame: rows.integers("frame")?,
+            reals,
+        })
     }
 
     fn push(&self, row: usize, path: &Path, flight: &PublishedFlight, track: &mut FlightTrack) -> Result<()> {
@@ -114,9 +141,9 @@ impl<'a> Batch<'a> {
         track.feet.push(DVec3::new(feet_x, feet_y, feet_z));
         track.heading_rad.push(heading.to_radians());
         track.visible.push(visible);
-        track.boxes.push(self.rows.edges("visible_box_px", row)?);
+        track.boxes.push(self.boxes[row]);
         let own = track.expert_frame.len() as u32;
-        track.expert_frame.push(self.rows.count_or_null("expert_frame", row)?.unwrap_or(own));
+        track.expert_frame.push(self.expert_frame[row].unwrap_or(own));
         Ok(())
     }
 }

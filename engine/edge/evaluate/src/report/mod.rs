@@ -1,10 +1,11 @@
 //! The result of an evaluation, and its forms.
 
+pub(crate) mod drawing;
 mod markdown;
 mod plot;
 mod table;
 
-pub(crate) use table::table;
+pub(crate) use table::{number, score, table, title};
 
 use crate::settings::Settings;
 use crate::study::Study;

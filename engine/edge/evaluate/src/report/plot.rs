@@ -1,14 +1,14 @@
 //! The picture: final errors with their intervals, and errors waypoint by waypoint, method beside method.
 
+use super::drawing::{BAR_PX, TOP_PX, grid, label, line, marks, opened, ticks, words};
 use super::{Evaluation, MethodReport};
 use std::fmt::Write;
 
 const COLOURS: [&str; 9] =
     ["#c0392b", "#7f8c8d", "#2471a3", "#5dade2", "#b7950b", "#1e8449", "#82c596", "#6c3483", "#34495e"];
-/// Height of a bar with the gap below it, pixels.
-const BAR_PX: f64 = 26.0;
-const WIDTH_PX: f64 = 980.0;
-const TOP_PX: f64 = 64.0;
+/// An axis ends at most at so many times the median of the methods, so that one that goes far astray does not flatten
+/// all others.
+const MOST_MEDIANS: f64 = 2.5;
 /// Left edges and width of the two panels.
 const BARS: (f64, f64) = (170.0, 300.0);
 const LINES: (f64, f64) = (620.0, 320.0);
@@ -18,15 +18,7 @@ pub fn picture(evaluation: &Evaluation) -> String {
     let methods = &evaluation.methods;
     let panel = (BAR_PX * methods.len() as f64).max(200.0);
     let height = TOP_PX + panel + 56.0;
-    let mut svg = String::new();
-    let _ = writeln!(
-        svg,
-        "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{WIDTH_PX}\" height=\"{height}\" viewBox=\"0 0 {WIDTH_PX} {height}\" \
-         font-family=\"DejaVu Sans, Helvetica, Arial, sans-serif\" font-size=\"12\" role=\"img\">\n\
-         <title>Errors of predictions and baselines on {name}</title>\n\
-         <rect width=\"100%\" height=\"100%\" fill=\"#ffffff\"/>",
-        name = escaped(&evaluation.dataset.name)
-    );
+    let mut svg = opened(&format!("Errors of predictions and baselines on {}", evaluation.dataset.name), height);
     words(
         &mut svg,
         (16.0, 26.0),
@@ -47,9 +39,14 @@ fn colour(place: usize) -> &'static str {
 
 fn bars(svg: &mut String, methods: &[MethodReport], panel: f64) {
     let ends = methods.iter().filter_map(|method| method.scores.get("fde_m"));
-    let longest = ends.map(|score| score.high.unwrap_or(score.value).max(score.value)).fold(0.0, f64::max);
+    let ends: Vec<f64> = ends.map(|score| score.high.unwrap_or(score.value).max(score.value)).collect();
+    let (longest, is_cut) = end_of_axis(&ends);
     let (step, top) = ticks(longest);
-    let x = |value: f64| BARS.0 + BARS.1 * value / top;
+    let x = |value: f64| BARS.0 + BARS.1 * (value / top).min(1.0);
+    if is_cut {
+        let note = format!("axis cut at {} m; bars with an arrow are longer", label(top));
+        words(svg, (16.0, 44.0), "start", &note, "fill=\"#555\"");
+    }
     grid(svg, step, top, |value| (x(value), TOP_PX - 8.0, x(value), TOP_PX + panel));
     for tick in marks(step, top) {
         words(svg, (x(tick), TOP_PX + panel + 18.0), "middle", &label(tick), "fill=\"#555\"");
@@ -68,16 +65,19 @@ fn bars(svg: &mut String, methods: &[MethodReport], panel: f64) {
         if let (Some(low), Some(high)) = (score.low, score.high) {
             let middle = y + 8.5;
             line(svg, (x(low), middle, x(high), middle), "#111111", 1.5);
-            for end in [low, high] {
+            for end in [low, high].into_iter().filter(|end| *end <= top) {
                 line(svg, (x(end), middle - 4.0, x(end), middle + 4.0), "#111111", 1.5);
             }
         }
-        words(svg, (x(score.high.unwrap_or(score.value)) + 6.0, y + 13.0), "start", &format!("{:.2}", score.value), "");
+        let arrow = if score.high.unwrap_or(score.value).max(score.value) > top { "\u{2192} " } else { "" };
+        let end = x(score.high.unwrap_or(score.value).max(score.value)) + 6.0;
+        words(svg, (end, y + 13.0), "start", &format!("{arrow}{:.2}", score.value), "");
     }
 }
 
 fn lines(svg: &mut String, methods: &[MethodReport], panel: f64) {
-    let highest = methods.iter().flat_map(|method| &method.by_step_m).copied().fold(0.0, f64::max);
+    let last: Vec<f64> = methods.iter().map(|method| method.by_step_m.iter().copied().fold(0.0, f64::max)).collect();
+    let (highest, is_cut) = end_of_axis(&last);
     let steps = methods.iter().map(|method| method.by_step_m.len()).max().unwrap_or(0);
     let (step, top) = ticks(highest);
     let y = |value: f64| TOP_PX + panel * (1.0 - value / top);
@@ -95,6 +95,18 @@ fn lines(svg: &mut String, methods: &[MethodReport], panel: f64) {
         "middle",
         "waypoint; colours as on the left",
         "fill=\"#555\"",
+    );
+    if is_cut {
+        let note = format!("axis cut at {} m; lines that leave it go on", label(top));
+        words(svg, (LINES.0 - 40.0, 44.0), "start", &note, "fill=\"#555\"");
+    }
+    let _ = writeln!(
+        svg,
+        "<clipPath id=\"inside\"><rect x=\"{:.1}\" y=\"{:.1}\" width=\"{:.1}\" height=\"{:.1}\"/></clipPath>\n<g clip-path=\"url(#inside)\">",
+        LINES.0 - 6.0,
+        TOP_PX - 4.0,
+        LINES.1 + 12.0,
+        panel + 8.0
     );
     for (place, method) in methods.iter().enumerate().rev() {
         let mut points = String::new();
@@ -116,46 +128,17 @@ fn lines(svg: &mut String, methods: &[MethodReport], panel: f64) {
             colour(place)
         );
     }
+    svg.push_str("</g>\n");
 }
 
-/// Distance between marks of an axis that reaches `highest`, and its end.
-fn ticks(highest: f64) -> (f64, f64) {
-    let mut step = 0.1;
-    for factor in [2.0, 2.5, 2.0].into_iter().cycle().take(60) {
-        if highest / step <= 6.0 {
-            break;
-        }
-        step *= factor;
-    }
-    (step, step * (highest / step).ceil().max(1.0))
-}
-
-fn marks(step: f64, top: f64) -> impl Iterator<Item = f64> {
-    (0..=(top / step).round() as u32).map(move |number| f64::from(number) * step)
-}
-
-fn label(tick: f64) -> String {
-    let text = format!("{tick:.1}");
-    text.strip_suffix(".0").map_or(text.clone(), str::to_owned)
-}
-
-fn grid(svg: &mut String, step: f64, top: f64, at: impl Fn(f64) -> (f64, f64, f64, f64)) {
-    marks(step, top).for_each(|tick| line(svg, at(tick), "#dddddd", 1.0));
-}
-
-fn line(svg: &mut String, (x1, y1, x2, y2): (f64, f64, f64, f64), colour: &str, width: f64) {
-    let _ = writeln!(
-        svg,
-        "<line x1=\"{x1:.1}\" y1=\"{y1:.1}\" x2=\"{x2:.1}\" y2=\"{y2:.1}\" stroke=\"{colour}\" stroke-width=\"{width}\"/>"
-    );
-}
-
-fn words(svg: &mut String, (x, y): (f64, f64), anchor: &str, text: &str, more: &str) {
-    let _ = writeln!(svg, "<text x=\"{x:.1}\" y=\"{y:.1}\" text-anchor=\"{anchor}\" {more}>{}</text>", escaped(text));
-}
-
-fn escaped(text: &str) -> String {
-    text.replace('&', "&amp;").replace('<', "&lt;").replace('>', "&gt;")
+/// Where an axis of these values ends, and whether some of them are beyond it. The first method is never cut.
+fn end_of_axis(values: &[f64]) -> (f64, bool) {
+    let mut sorted = values.to_vec();
+    sorted.sort_by(f64::total_cmp);
+    let (Some(longest), Some(first)) = (sorted.last(), values.first()) else { return (0.0, false) };
+    let most = (MOST_MEDIANS * sorted[sorted.len() / 2]).max(*first);
+    // A little beyond is not worth a cut.
+    if *longest <= 1.5 * most { (*longest, false) } else { (most, true) }
 }
 
 #[cfg(test)]
@@ -163,12 +146,10 @@ mod tests {
     use super::*;
 
     #[test]
-    fn axes_have_a_few_round_marks() {
-        for (highest, expected) in [(0.0, (0.1, 0.1)), (0.55, (0.1, 0.6)), (4.9, (1.0, 5.0)), (37.0, (10.0, 40.0))] {
-            let (step, top) = ticks(highest);
-            assert!((step - expected.0).abs() < 1e-9 && (top - expected.1).abs() < 1e-9, "{highest} {step} {top}");
-        }
-        assert!(ticks(1e30).1.is_finite());
-        assert_eq!((label(2.0), label(0.5)), ("2".to_owned(), "0.5".to_owned()));
+    fn one_that_goes_far_astray_is_cut_and_predictions_never_are() {
+        assert_eq!(end_of_axis(&[4.0, 5.0, 6.0]), (6.0, false));
+        assert_eq!(end_of_axis(&[4.0, 5.0, 80.0]), (12.5, true));
+        assert_eq!(end_of_axis(&[80.0, 5.0, 4.0]), (80.0, false));
+        assert_eq!(end_of_axis(&[]), (0.0, false));
     }
 }

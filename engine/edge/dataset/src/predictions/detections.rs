@@ -1,0 +1,285 @@
+//! Detections as COCO writes results (a JSON array) or as JSON lines of the same objects, row by row.
+
+use super::RowProblem;
+use cosfly_diagnose::{Diagnostic, Fault, Result};
+use cosfly_metrics::run_lengths::Runs;
+use serde::Deserialize;
+use serde::de::{Deserializer, SeqAccess, Visitor};
+use serde_json::Value;
+use std::fmt;
+use std::path::Path;
+
+/// Where a detection was made.
+#[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub enum ImageKey {
+    /// By a number that a list of images explains.
+    Number(i64),
+    /// By flight and frame.
+    Frame(String, u64),
+}
+
+/// A mask with the size of its image, `[width, height]`.
+#[derive(Clone, Debug, PartialEq)]
+pub struct DetectedMask {
+    /// Its pixels.
+    pub runs: Runs,
+    /// Of its image.
+    pub size: [u32; 2],
+}
+
+/// A detection that could be read.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Detection {
+    /// Line of the file, or place in its array, from 1.
+    pub line: u64,
+    /// Its picture.
+    pub image: ImageKey,
+    /// CARLA's label.
+    pub category: i64,
+    /// How sure the model is.
+    pub score: f64,
+    /// Left, top, right and bottom edge, pixels.
+    pub edges: Option<[f64; 4]>,
+    /// Its mask.
+    pub mask: Option<DetectedMask>,
+}
+
+/// What is in a file, in its order.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Detections {
+    /// Rows that could be read.
+    pub rows: Vec<Detection>,
+    /// Rows that could not.
+    pub problems: Vec<RowProblem>,
+}
+
+/// Whether the beginning of a file looks like one of detections: `Some(true)` for masks, `Some(false)` for boxes.
+pub fn recognise(start: &[u8]) -> Option<bool> {
+    let text = String::from_utf8_lossy(start);
+    let text = text.trim_start();
+    let first = text.strip_prefix('[').unwrap_or(text).trim_start();
+    let first = first.split_once('\n').map_or(first, |(line, _)| if text.starts_with('[') { first } else { line });
+    if text.starts_with('[') || first.contains("\"score\"") || first.contains("\"bbox\"") {
+        return Some(first.contains("\"counts\""));
+    }
+    None
+}
+
+/// Reads the file at `path`.
+///
+/// # Errors
+/// The file cannot be read, or is an array that is not JSON. Bad rows are no error, see [`Detections::problems`].
+pub fn read(path: &Path) -> Result<Detections> {
+    let refused = |error: std::io::Error| Diagnostic::io(format!("read `{}`", path.display()), &error);
+    let bytes = std::fs::read(path).map_err(refused)?;
+    let mut found = Detections::default();
+    if bytes.trim_ascii_start().starts_with(b"[") {
+        let array: Array = serde_json::from_slice(&bytes).map_err(|error| {
+            let message = format!("`{}` is not a JSON array of detections", path.display());
+            Diagnostic::new("predictions-damaged", Fault::Input, message).because(error)
+        })?;
+        return Ok(array.0);
+    }
+    for (line, number) in bytes.split(|byte| *byte == b'\n').zip(1..) {
+        let text = line.trim_ascii();
+        if !text.is_empty() {
+            match serde_json::from_slice::<Value>(text) {
+                Ok(value) => found.take(&value, number),
+                Err(error) => found.problems.push(RowProblem::new(number, "json", format!("not JSON: {error}"))),
+            }
+        }
+    }
+    Ok(found)
+}
+
+impl Detections {
+    fn take(&mut self, row: &Value, line: u64) {
+        match detection(row, line) {
+            Ok(row) => self.rows.push(row),
+            Err((kind, reason)) => self.problems.push(RowProblem::new(line, kind, reason)),
+        }
+    }
+}
+
+/// An array whose elements are taken one at a time.
+struct Array(Detections);
+
+impl<'de> Deserialize<'de> for Array {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> std::result::Result<Self, D::Error> {
+        struct Elements;
+        impl<'de> Visitor<'de> for Elements {
+            type Value = Array;
+
+            fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+                f.write_str("an array of detections")
+            }
+
+            fn visit_seq<A: SeqAccess<'de>>(self, mut rows: A) -> std::result::Result<Array, A::Error> {
+                let (mut found, mut number) = (Detections::default(), 0);
+                while let Some(row) = rows.next_element::<Value>()? {
+                    number += 1;
+                    found.take(&row, number);
+                }
+                Ok(Array(found))
+            }
+        }
+        deserializer.deserialize_seq(Elements)
+    }
+}
+
+type Refusal = (&'static str, String);
+
+fn detection(row: &Value, line: u64) -> std::result::Result<Detection, Refusal> {
+    let missing = |field: &str| ("field-missing", format!("the row has no `{field}`"));
+    if !row.is_object() {
+        return Err(("field-type", "the row is not an object".to_owned()));
+    }
+    let image = match (row.get("trajectory_id").and_then(Value::as_str), row.get("frame").and_then(whole)) {
+        (Some(id), Some(frame)) => {
+            ImageKey::Frame(id.to_owned(), u64::try_from(frame).map_err(|_| ("frame", format!("`frame` is {frame}")))?)
+        }
+        _ => ImageKey::Number(
+            row.get("image_id").and_then(whole).ok_or_else(|| missing("image_id`, or `trajectory_id` and `frame"))?,
+        ),
+    };
+    let category = row.get("category_id").and_then(whole).ok_or_else(|| missing("category_id"))?;
+    let score = row.get("score").and_then(Value::as_f64).ok_or_else(|| missing("score"))?;
+    // Polygons, which pycocotools adds to boxes, are no masks of ours; a row with a box is one without them.
+    let mask = row.get("segmentation").filter(|it| it.is_object()).map(mask).transpose()?;
+    let edges = row.get("bbox").filter(|it| !it.is_null()).map(edges).transpose()?;
+    if mask.is_none() && edges.is_none() {
+        return Err(missing("bbox` or `segmentation"));
+    }
+    Ok(Detection { line, image, category, score, edges, mask })
+}
+
+/// A whole number, also one that is written as 3.0.
+fn whole(value: &Value) -> Option<i64> {
+    value.as_i64().or_else(|| value.as_f64().filter(|it| it.fract() == 0.0 && it.abs() < 9e15).map(|it| it as i64))
+}
+
+/// COCO's left, top, width, height as edges.
+fn edges(value: &Value) -> std::result::Result<[f64; 4], Refusal> {
+    let numbers: Option<Vec<f64>> = value.as_array().and_then(|list| list.iter().map(Value::as_f64).collect());
+    match numbers.as_deref() {
+        Some([left, top, width, height]) if *width >= 0.0 && *height >= 0.0 => {
+            Ok([*left, *top, left + width, top + height])
+        }
+        _ => Err(("field-type", "`bbox` is not left, top, width and height with sizes from 0".to_owned())),
+    }
+}
+
+fn mask(value: &Value) -> std::result::Result<DetectedMask, Refusal> {
+    let refusal = |what: &str| ("field-type", format!("`segmentation` {what}"));
+    if value.is_array() {
+        return Err(refusal(
+            "is a list of polygons; masks are read as run lengths: {\"size\": [h, w], \"counts\": ...}",
+        ));
+    }
+    let size = value.get("size").and_then(Value::as_array).map(|size| size.iter().map(Value::as_u64).collect());
+    let Some(Some([Some(height), Some(width)])) = size.map(|size: Vec<_>| <[Option<u64>; 2]>::try_from(size).ok())
+    else {
+        return Err(refusal("has no `size` of height and width"));
+    };
+    let pixels = height.saturating_mul(width);
+    let (Ok(columns), Ok(rows), true) = (u32::try_from(width), u32::try_from(height), pixels <= u64::from(u32::MAX))
+    else {
+        return Err(refusal("is larger than any image"));
+    };
+    let runs = match value.get("counts") {
+        Some(Value::String(text)) => Runs::of_text(text, pixels),
+        Some(Value::Array(counts)) => {
+            let counts: Option<Vec<u64>> = counts.iter().map(Value::as_u64).collect();
+            counts.ok_or("has a run that is no number".to_owned()).and_then(|counts| Runs::of_counts(counts, pixels))
+        }
+        _ => return Err(refusal("has no `counts`")),
+    };
+    let runs = runs.map_err(|why| ("mask", format!("the mask cannot be read: {why}")))?;
+    Ok(DetectedMask { runs, size: [columns, rows] })
+}
+
+/// An image of a COCO file of annotations that `cosfly export --format coco` wrote.
+#[derive(Clone, Debug, Deserialize, PartialEq)]
+pub struct ListedImage {
+    /// Its number.
+    pub id: i64,
+    /// Its flight.
+    pub trajectory_id: String,
+    /// Its frame.
+    pub frame: u64,
+}
+
+/// The images of the file of annotations at `path`.
+///
+/// # Errors
+/// The file cannot be read, or its images do not say which frames they are.
+pub fn read_images(path: &Path) -> Result<Vec<ListedImage>> {
+    #[derive(Deserialize)]
+    struct Annotations {
+        images: Vec<ListedImage>,
+    }
+    let refused = |error: std::io::Error| Diagnostic::io(format!("read `{}`", path.display()), &error);
+    let file = std::fs::read(path).map_err(refused)?;
+    let annotations: Annotations = serde_json::from_slice(&file).map_err(|error| {
+        let message = format!("`{}` does not say which frames its images are", path.display());
+        Diagnostic::new("predictions-images", Fault::Input, message)
+            .because(error)
+            .hint("it must be `annotations/instances_<split>.json` of `cosfly export --format coco`")
+    })?;
+    Ok(annotations.images)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn of(text: &str) -> Detections {
+        let file = tempfile::NamedTempFile::new().unwrap();
+        std::fs::write(file.path(), text).unwrap();
+        read(file.path()).unwrap()
+    }
+
+    #[test]
+    fn an_array_and_lines_say_the_same() {
+        let row = "{\"image_id\": 3, \"category_id\": 12, \"bbox\": [1, 2, 3, 4], \"score\": 0.5}";
+        let found = of(&format!("[{row}]"));
+        assert_eq!(found, of(&format!("\n{row}\n")).tap(|it| it.rows[0].line = 1));
+        assert_eq!((found.rows[0].edges, &found.rows[0].image), (Some([1.0, 2.0, 4.0, 6.0]), &ImageKey::Number(3)));
+        assert_eq!(
+            (recognise(row.as_bytes()), recognise(b"[]"), recognise(b"{\"frame\":1}")),
+            (Some(false), Some(false), None)
+        );
+    }
+
+    impl Detections {
+        fn tap(mut self, change: impl Fn(&mut Self)) -> Self {
+            change(&mut self);
+            self
+        }
+    }
+
+    #[test]
+    fn what_is_wrong_with_a_row_is_said_and_the_others_are_read() {
+        let rows = [
+            "{\"image_id\": 3, \"category_id\": 12, \"bbox\": [1, 2, 3, 4], \"score\": 0.5}",
+            "{\"category_id\": 12, \"bbox\": [1, 2, 3, 4], \"score\": 0.5}",
+            "{\"image_id\": 3, \"category_id\": 12, \"bbox\": [1, 2, -3, 4], \"score\": 0.5}",
+            "{\"image_id\": 3, \"category_id\": 12, \"score\": 0.5}",
+            "{\"image_id\": 3, \"category_id\": 12, \"score\": 0.5, \"segmentation\": [[1, 2, 3, 4, 5, 6]]}",
+            "{\"image_id\": 3, \"category_id\": 12, \"score\": 0.5, \"segmentation\": {\"size\": [4, 3], \"counts\": \"543\"}}",
+            "{\"image_id\": 3, \"category_id\": 12, \"score\": 0.5, \"segmentation\": {\"size\": [4, 4], \"counts\": \"543\"}}",
+            "7",
+        ];
+        let found = of(&format!("[{}]", rows.join(",")));
+        let kinds: Vec<_> = found.problems.iter().map(|it| (it.line, it.kind)).collect();
+        let expected = [
+            (2, "field-missing"),
+            (3, "field-type"),
+            (4, "field-missing"),
+            (5, "field-type"),
+            (7, "mask"),
+            (8, "field-type"),
+        ];
+        assert_eq!((kinds.as_slice(), found.rows.len()), (&expected[..], 2));
+    }
+}

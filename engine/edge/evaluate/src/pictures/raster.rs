@@ -1,0 +1,215 @@
+//! Predicted pictures: depth as 16-bit PNG or NumPy array, labels as 8-bit PNG or NumPy array.
+
+use std::fs::File;
+use std::io::{BufReader, Read};
+use std::path::Path;
+
+/// Kind and words of what is wrong with a file.
+pub type Refusal = (&'static str, String);
+
+/// Largest side of a picture, pixels.
+const LONGEST_SIDE: u64 = 1 << 15;
+
+/// Numbers of a picture, row-major.
+enum Raster {
+    Depth16(Vec<u16>),
+    Bytes(Vec<u8>),
+    Floats(Vec<f32>),
+}
+
+/// What a file holds, by its beginning.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Content {
+    /// Depth.
+    Depth,
+    /// Labels.
+    Labels,
+}
+
+/// What the picture at `path` holds; `None` when it cannot be told.
+pub fn content(path: &Path) -> Option<Content> {
+    match read(path).ok()?.0 {
+        Raster::Depth16(_) | Raster::Floats(_) => Some(Content::Depth),
+        Raster::Bytes(_) => Some(Content::Labels),
+    }
+}
+
+/// Depth in metres of a picture of `size` (width, height). `per_metre` is what whole numbers count a metre as; the
+/// largest of 16 bits is the sky.
+///
+/// # Errors
+/// A file that cannot be read, has another size or other numbers.
+pub fn depth_m(path: &Path, size: [u32; 2], per_metre: f64) -> Result<Vec<f32>, Refusal> {
+    match sized(path, size)? {
+        Raster::Depth16(values) => {
+            let metres = |value: u16| {
+                if value == u16::MAX { f32::INFINITY } else { (f64::from(value) / per_metre) as f32 }
+            };
+            Ok(values.into_iter().map(metres).collect())
+        }
+        Raster::Floats(values) => Ok(values),
+        Raster::Bytes(_) => Err(("format", "it has 8 bits a pixel; depth needs 16, or a NumPy array of floats".into())),
+    }
+}
+
+/// Labels of a picture of `size` (width, height).
+///
+/// # Errors
+/// A file that cannot be read, has another size or other numbers.
+pub fn labels(path: &Path, size: [u32; 2]) -> Result<Vec<u8>, Refusal> {
+    match sized(path, size)? {
+        Raster::Bytes(values) => Ok(values),
+        Raster::Depth16(values) => Ok(values.into_iter().map(|value| u8::try_from(value).unwrap_or(u8::MAX)).collect()),
+        Raster::Floats(_) => Err(("format", "it has floating-point numbers; labels are whole numbers".into())),
+    }
+}
+
+fn sized(path: &Path, [width, height]: [u32; 2]) -> Result<Raster, Refusal> {
+    let (raster, [columns, rows]) = read(path)?;
+    if [columns, rows] == [u64::from(width), u64::from(height)] {
+        Ok(raster)
+    } else {
+        Err(("size", format!("it has {columns} x {rows} pixels; the frame has {width} x {height}")))
+    }
+}
+
+fn read(path: &Path) -> Result<(Raster, [u64; 2]), Refusal> {
+    let unreadable = |error: &dyn std::fmt::Display| ("unreadable", format!("it cannot be read: {error}"));
+    let file = File::open(path).map_err(|error| unreadable(&error))?;
+    if path.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("npy")) {
+        return numpy(BufReader::new(file)).map_err(|why| unreadable(&why));
+    }
+    let mut reader = png::Decoder::new(BufReader::new(file)).read_info().map_err(|error| unreadable(&error))?;
+    let (info_size, colour, depth) = {
+        let info = reader.info();
+        ([u64::from(info.width), u64::from(info.height)], info.color_type, info.bit_depth)
+    };
+    if info_size.iter().any(|side| *side > LONGEST_SIDE) {
+        return Err(("size", format!("it has {} x {} pixels", info_size[0], info_size[1])));
+    }
+    if !matches!(colour, png::ColorType::Grayscale | png::ColorType::Indexed) {
+        return Err(("format", "it is a colour picture; one channel was expected".into()));
+    }
+    let mut bytes = vec![0; reader.output_buffer_size().ok_or_else(|| unreadable(&"it is too large"))?];
+    reader.next_frame(&mut bytes).map_err(|error| unreadable(&error))?;
+    let raster = match depth {
+        png::BitDepth::Sixteen => {
+            Raster::Depth16(bytes.as_chunks::<2>().0.iter().map(|pair| u16::from_be_bytes(*pair)).collect())
+        }
+        png::BitDepth::Eight => Raster::Bytes(bytes),
+        other => return Err(("format", format!("it has {} bits a pixel; 8 or 16 were expected", other as u8))),
+    };
+    Ok((raster, info_size))
+}
+
+/// A NumPy array of two dimensions, or more of which the others are 1.
+fn numpy(mut file: impl Read) -> Result<(Raster, [u64; 2]), String> {
+    let mut start = [0; 10];
+    file.read_exact(&mut start).map_err(|error| error.to_string())?;
+    if !start.starts_with(b"\x93NUMPY") {
+        return Err("it does not begin like a NumPy file".into());
+    }
+    let mut length = usize::from(u16::from_le_bytes([start[8], start[9]]));
+    if start[6] > 1 {
+        let mut rest = [0; 2];
+        file.read_exact(&mut rest).map_err(|error| error.to_string())?;
+        length |= usize::from(u16::from_le_bytes(rest)) << 16;
+    }
+    if length > 1 << 16 {
+        return Err("its header is too long".into());
+    }
+    let mut header = vec![0; length];
+    file.read_exact(&mut header).map_err(|error| error.to_string())?;
+    let header = String::from_utf8_lossy(&header).into_owned();
+    let after = |key: &str| header.split_once(&format!("'{key}':")).map(|(_, rest)| rest.trim_start());
+    if after("fortran_order").is_some_and(|rest| rest.starts_with("True")) {
+        return Err("it is stored by columns (Fortran order)".into());
+    }
+    let kind = after("descr").and_then(|rest| rest.split('\'').nth(1)).ok_or("its header has no `descr`")?;
+    let shape = after("shape").and_then(|rest| rest.strip_prefix('(')?.split_once(')')).ok_or("it has no shape")?.0;
+    let sides: Result<Vec<u64>, _> =
+        shape.split(',').map(str::trim).filter(|side| !side.is_empty()).map(str::parse).collect();
+    let sides: Vec<u64> = sides.map_err(|_| "its shape is no list of numbers")?;
+    let mut long: Vec<u64> = sides.iter().copied().filter(|side| *side != 1).collect();
+    if sides.len() == 2 {
+        long = sides;
+    }
+    let [rows, columns] = long[..] else { return Err(format!("its shape is ({shape}), not height and width")) };
+    if rows > LONGEST_SIDE || columns > LONGEST_SIDE {
+        return Err(format!("its shape is ({shape})"));
+    }
+    Ok((numbers(file, kind, (rows * columns) as usize)?, [columns, rows]))
+}
+
+fn numbers(file: impl Read, kind: &str, count: usize) -> Result<Raster, String> {
+    let width = match kind {
+        "|u1" => 1,
+        "<u2" | "<f2" => 2,
+        "<f4" => 4,
+        "<f8" => 8,
+        other => return Err(format!("its numbers are `{other}`; f2, f4, f8 (depth), u1 and u2 are read")),
+    };
+    let mut bytes = Vec::with_capacity(width * count);
+    file.take((width * count) as u64 + 1).read_to_end(&mut bytes).map_err(|error| error.to_string())?;
+    if bytes.len() != width * count {
+        return Err(format!("it has {} bytes of numbers; {} were expected", bytes.len(), width * count));
+    }
+    Ok(match kind {
+        "|u1" => Raster::Bytes(bytes),
+        "<u2" => Raster::Depth16(bytes.as_chunks::<2>().0.iter().map(|it| u16::from_le_bytes(*it)).collect()),
+        "<f2" => Raster::Floats(bytes.as_chunks::<2>().0.iter().map(|it| half(u16::from_le_bytes(*it))).collect()),
+        "<f4" => Raster::Floats(bytes.as_chunks::<4>().0.iter().map(|it| f32::from_le_bytes(*it)).collect()),
+        _ => Raster::Floats(bytes.as_chunks::<8>().0.iter().map(|it| f64::from_le_bytes(*it) as f32).collect()),
+    })
+}
+
+/// A number of 16 bits: sign, five bits of exponent, ten of fraction.
+fn half(bits: u16) -> f32 {
+    let fraction = f32::from(bits & 0x3ff);
+    let size = match (bits >> 10) & 0x1f {
+        0 => fraction / 16_777_216.0,
+        31 if bits & 0x3ff == 0 => f32::INFINITY,
+        31 => f32::NAN,
+        exponent => (1.0 + fraction / 1024.0) * f32::from_bits((u32::from(exponent) + 112) << 23),
+    };
+    if bits & 0x8000 == 0 { size } else { -size }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn array(header: &str, bytes: &[u8]) -> Vec<u8> {
+        [&b"\x93NUMPY\x01\x00"[..], &(header.len() as u16).to_le_bytes(), header.as_bytes(), bytes].concat()
+    }
+
+    #[test]
+    fn arrays_of_one_channel_are_read_and_others_refused_in_words() {
+        let header = "{'descr': '<f4', 'fortran_order': False, 'shape': (1, 2, 3), }";
+        let bytes: Vec<u8> = (0..6).flat_map(|number| (number as f32).to_le_bytes()).collect();
+        let (raster, size) = numpy(&array(header, &bytes)[..]).unwrap();
+        assert!(matches!(raster, Raster::Floats(values) if values == [0.0, 1.0, 2.0, 3.0, 4.0, 5.0]) && size == [3, 2]);
+        for (header, bytes, expected) in [
+            (header, &bytes[..20], "20 bytes"),
+            ("{'descr': '<i8', 'fortran_order': False, 'shape': (2, 3), }", &bytes[..], "`<i8`"),
+            ("{'descr': '<f4', 'fortran_order': True, 'shape': (2, 3), }", &bytes[..], "Fortran"),
+            ("{'descr': '<f4', 'fortran_order': False, 'shape': (2, 3, 4), }", &bytes[..], "(2, 3, 4)"),
+            ("{'descr': '<f4', 'fortran_order': False, 'shape': (99999999999, 3), }", &bytes[..], "shape"),
+            ("{}", &bytes[..], "descr"),
+        ] {
+            let why = numpy(&array(header, bytes)[..]).err().unwrap();
+            assert!(why.contains(expected), "{why}");
+        }
+        assert!(numpy(&b"PK"[..]).is_err());
+    }
+
+    #[test]
+    fn halves_are_those_of_numpy() {
+        for (bits, value) in
+            [(0x3c00, 1.0), (0xc000, -2.0), (0x3555, 0.333_251_95), (0x0001, 5.960_464_5e-8), (0x7bff, 65504.0)]
+        {
+            assert_eq!(half(bits), value);
+        }
+        assert!(half(0x7c00).is_infinite() && half(0x7e00).is_nan());
+    }
+}

@@ -1,0 +1,156 @@
+//! Masks as the runs of their pixels down the columns, and COCO's texts of them.
+
+use std::collections::BTreeMap;
+
+/// Sorted, separate runs of places (first, one past the last) of an image that is read column by column.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct Runs(pub Vec<[u32; 2]>);
+
+impl Runs {
+    /// Of COCO's lengths of runs: background first, then by turns. They must fill `pixels` exactly.
+    ///
+    /// # Errors
+    /// In words, when they do not.
+    pub fn of_counts(counts: impl IntoIterator<Item = u64>, pixels: u64) -> Result<Self, String> {
+        let (mut runs, mut at): (Vec<[u32; 2]>, u64) = (vec![], 0);
+        for (number, count) in counts.into_iter().enumerate() {
+            let end = at.saturating_add(count);
+            if end > pixels || end > u64::from(u32::MAX) {
+                return Err(format!("the runs are longer than the {pixels} pixels of the image"));
+            }
+            if number % 2 == 1 && count > 0 {
+                match runs.last_mut() {
+                    Some([_, last]) if *last == at as u32 => *last = end as u32,
+                    _ => runs.push([at as u32, end as u32]),
+                }
+            }
+            at = end;
+        }
+        if at == pixels { Ok(Self(runs)) } else { Err(format!("the runs have {at} of {pixels} pixels")) }
+    }
+
+    /// Of COCO's compressed text: five bits a letter, lowest first; from the fourth number on differences to the
+    /// second before.
+    ///
+    /// # Errors
+    /// In words, when the text is none.
+    pub fn of_text(text: &str, pixels: u64) -> Result<Self, String> {
+        let (mut counts, mut value, mut shift) = (Vec::<i64>::new(), 0_i64, 0_u32);
+        for letter in text.bytes() {
+            let bits =
+                letter.checked_sub(48).filter(|bits| *bits < 64).ok_or("it has a letter that is none of COCO's")?;
+            if shift > 40 {
+                return Err("it has a number that is too long".to_owned());
+            }
+            value |= i64::from(bits & 0x1f) << shift;
+            shift += 5;
+            if bits & 0x20 == 0 {
+                if bits & 0x10 != 0 {
+                    value |= -1_i64 << shift;
+                }
+                if counts.len() > 2 {
+                    value += counts[counts.len() - 2];
+                }
+                counts.push(value);
+                (value, shift) = (0, 0);
+            }
+        }
+        if shift > 0 {
+            return Err("it ends within a number".to_owned());
+        }
+        let counts: Option<Vec<u64>> = counts.into_iter().map(|count| u64::try_from(count).ok()).collect();
+        Self::of_counts(counts.ok_or("it has a negative run")?, pixels)
+    }
+
+    /// Number of pixels.
+    pub fn area(&self) -> u64 {
+        self.0.iter().map(|[start, end]| u64::from(end - start)).sum()
+    }
+
+    /// Left, top, right and bottom edge in an image of `height` rows; zeros for none.
+    pub fn edges(&self, height: u32) -> [u32; 4] {
+        let (mut low, mut high) = ([u32::MAX; 2], [0; 2]);
+        for [start, end] in &self.0 {
+            let columns = [start / height.max(1), (end - 1) / height.max(1)];
+            // A run over several columns touches both ends of a column.
+            let rows = if columns[0] == columns[1] { [start % height, (end - 1) % height] } else { [0, height - 1] };
+            low = [low[0].min(columns[0]), low[1].min(rows[0])];
+            high = [high[0].max(columns[1] + 1), high[1].max(rows[1] + 1)];
+        }
+        if self.0.is_empty() { [0; 4] } else { [low[0], low[1], high[0], high[1]] }
+    }
+
+    /// Intersection over union; 0 when both are empty.
+    pub fn iou(&self, other: &Self) -> f64 {
+        let (mut common, mut a, mut b) = (0_u64, self.0.iter().peekable(), other.0.iter().peekable());
+        while let (Some(x), Some(y)) = (a.peek(), b.peek()) {
+            common += u64::from(x[1].min(y[1]).saturating_sub(x[0].max(y[0])));
+            if x[1] <= y[1] {
+                a.next()
+            } else {
+                b.next()
+            };
+        }
+        let union = self.area() + other.area() - common;
+        if union > 0 { common as f64 / union as f64 } else { 0.0 }
+    }
+}
+
+/// Everything but ground and sky (id 0) in row-major images of `width` x `height` pixels, by instance id and label.
+pub fn things(instance: &[u32], labels: &[u8], [width, height]: [u32; 2]) -> BTreeMap<(u32, u8), Runs> {
+    let (width, height) = (width as usize, height as usize);
+    let mut found: BTreeMap<(u32, u8), Runs> = BTreeMap::new();
+    let mut open: Option<((u32, u8), u32)> = None;
+    let mut end = |open: Option<((u32, u8), u32)>, place: u32| {
+        if let Some((thing, start)) = open.filter(|((instance, _), _)| *instance != 0) {
+            found.entry(thing).or_default().0.push([start, place]);
+        }
+    };
+    for column in 0..width {
+        for row in 0..height {
+            let at = row * width + column;
+            let (Some(id), Some(label)) = (instance.get(at), labels.get(at)) else { continue };
+            let place = (column * height + row) as u32;
+            if open.is_none_or(|(before, _)| before != (*id, *label)) {
+                end(open, place);
+                open = Some(((*id, *label), place));
+            }
+        }
+    }
+    end(open, (width * height) as u32);
+    found
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn texts_are_those_of_pycocotools() {
+        // What `mask.encode` gives of a 4 x 3 image with the middle column's lower three pixels and the next one's first.
+        let runs = Runs::of_text("543", 12).unwrap();
+        assert_eq!((runs.0.clone(), runs.area(), runs.edges(4)), (vec![[5, 9]], 4, [1, 0, 3, 4]));
+        assert_eq!(Runs::of_text("T33j2U1XM", 235).unwrap(), Runs::of_counts([100, 3, 90, 40, 2], 235).unwrap());
+        for (text, expected) in
+            [("54", "of 12 pixels"), ("5433", "longer"), ("5 3", "none of COCO's"), ("54S", "within")]
+        {
+            let why = Runs::of_text(text, 12).unwrap_err();
+            assert!(why.contains(expected), "{text}: {why}");
+        }
+        assert!(Runs::of_text(&"o".repeat(100), 12).is_err());
+    }
+
+    #[test]
+    fn masks_overlap_by_their_common_pixels() {
+        let of = |runs: &[[u32; 2]]| Runs(runs.to_vec());
+        assert_eq!(of(&[[0, 4], [6, 8]]).iou(&of(&[[2, 7]])), 3.0 / 8.0);
+        assert_eq!((of(&[]).iou(&of(&[])), of(&[[0, 1]]).iou(&of(&[[1, 2]]))), (0.0, 0.0));
+    }
+
+    #[test]
+    fn things_of_one_id_and_two_labels_are_two() {
+        let found = things(&[7, 7, 0, 7], &[1, 2, 3, 2], [2, 2]);
+        let found: Vec<_> = found.iter().map(|(thing, runs)| (*thing, runs.area(), runs.edges(2))).collect();
+        assert_eq!(found, [((7, 1), 1, [0, 0, 1, 1]), ((7, 2), 2, [1, 0, 2, 2])]);
+    }
+}
