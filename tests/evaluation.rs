@@ -96,6 +96,56 @@ fn what_cannot_be_scored_is_refused_with_a_way_out() {
 }
 
 #[test]
+fn exported_truth_scores_perfectly_and_faulty_pictures_are_named() {
+    let street = street();
+    for format in ["imagefolder", "coco"] {
+        cosfly(&["export", "out/street", "--format", format, "--out", format]).within(street.path()).run_ok();
+    }
+    for (kind, key, expected) in [("depth", "delta1", 1.0), ("semantic", "miou", 1.0)] {
+        let printed = eval(&street, &["imagefolder", "--kind", kind, "--out", kind]);
+        assert_eq!(printed.code, Some(0), "{}", printed.stderr);
+        let found = report(&street.path().join(kind));
+        assert_eq!(found["scores"][key]["value"], expected, "{kind}");
+        assert_eq!(
+            (&found["frames"]["scored"], &found["files"]["malformed"]),
+            (&found["frames"]["expected"], &0.into())
+        );
+    }
+    let unclear = eval(&street, &["imagefolder"]);
+    insta::assert_snapshot!("eval_two_kinds", format!("exit code {}\n{}", unclear.code.unwrap_or(-1), unclear.stderr));
+
+    let annotations = street.path().join("coco/annotations/instances_train.json");
+    let truth: serde_json::Value =
+        serde_json::from_slice(&std::fs::read(annotations).expect("exported")).expect("JSON");
+    let rows = truth["annotations"].as_array().expect("a list").iter().map(|it| {
+        serde_json::json!({"image_id": it["image_id"], "category_id": it["category_id"], "bbox": it["bbox"], "score": 0.5})
+    });
+    let rows: Vec<_> = rows.collect();
+    std::fs::write(street.path().join("boxes.json"), serde_json::to_vec(&rows).expect("JSON")).expect("writable");
+    let images = ["--images", "coco/annotations/instances_train.json"];
+    let printed = eval(&street, &[&["boxes.json", "--out", "boxes"][..], &images].concat());
+    assert_eq!(printed.code, Some(0), "{}", printed.stderr);
+    assert_eq!(report(&street.path().join("boxes"))["scores"]["ap"]["value"], 1.0);
+    let unexplained = eval(&street, &["boxes.json"]);
+    insta::assert_snapshot!(
+        "eval_unexplained",
+        format!("exit code {}\n{}", unexplained.code.unwrap_or(-1), unexplained.stderr)
+    );
+
+    let folder = street.path().join("faulty/expert-p00000");
+    std::fs::create_dir_all(&folder).expect("writable");
+    let picture = "imagefolder/train/depth/000/expert-p00000/000/000000.png";
+    std::fs::copy(street.path().join(picture), folder.join("0.png")).expect("exported");
+    std::fs::write(folder.join("1.png"), "no picture").expect("writable");
+    std::fs::copy(folder.join("0.png"), folder.join("77777.png")).expect("writable");
+    let printed = eval(&street, &["faulty", "--kind", "depth"]);
+    assert_eq!(printed.code, Some(1), "{}", printed.stderr);
+    let files = report(&street.path().join("faulty-evaluation"))["files"].clone();
+    assert_eq!(files["kinds"], serde_json::json!({"no-frame": 1, "unreadable": 1}));
+    assert_eq!(files["problems"][0]["place"], "expert-p00000/1.png");
+}
+
+#[test]
 fn the_help_has_examples() {
     insta::assert_snapshot!("help_eval", cosfly(&["eval", "--help"]).run_ok().stdout);
 }

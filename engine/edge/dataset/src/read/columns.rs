@@ -115,8 +115,7 @@ impl Rows<'_> {
         let edges = column.values().as_primitive_opt::<Float32Type>().filter(|_| column.value_length() == 4);
         let refusal = || damaged(self.path, &format!("column `{name}` has no boxes of four numbers"), "wrong type");
         let edges = edges.ok_or_else(refusal)?.values().as_chunks::<4>().0;
-        let start = column.value_offset(0) as usize / 4;
-        let row = |row: usize| if column.is_null(row) { None } else { edges.get(start + row).copied() };
+        let row = |row: usize| if column.is_null(row) { None } else { edges.get(row).copied() };
         Ok((0..column.len()).map(row).collect())
     }
 
