@@ -34,6 +34,7 @@ pub mod tables;
 pub mod verify;
 
 pub use cosfly_frames::action;
+pub use cosfly_report::PlannerRow;
 
 pub use config::{DatasetConfig, DepthEncoding, EncodingConfig, RgbEncoding};
 pub use frame_pack::{FramePackReader, FramePackWriter, PackHeader, PackedFrame};

@@ -7,7 +7,7 @@ use std::fmt::Write;
 const WIDTH: f64 = 360.0;
 const HEIGHT: f64 = 190.0;
 /// Left, top, right and bottom of the area of a chart.
-const AREA: [f64; 4] = [40.0, 10.0, 350.0, 158.0];
+const AREA: [f64; 4] = [46.0, 10.0, 350.0, 156.0];
 
 /// Numbers of experts and of perturbed flights beside each other.
 pub struct Histogram<'a> {

@@ -1,7 +1,5 @@
 //! What the page is made of: sketches of towns and flights, a few numbers per frame. World frame, metres, degrees.
 
-use serde::Deserialize;
-
 /// A dataset as its page shows it.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Report {
@@ -170,20 +168,34 @@ pub struct RejectionSketch {
 }
 
 /// A planner's figures over the same walks as those of the others.
-#[derive(Clone, Debug, PartialEq, Deserialize)]
+#[derive(Clone, Debug, Default, PartialEq)]
 pub struct PlannerRow {
     /// Its name.
     pub planner: String,
+    /// Walks that it was given.
+    pub asked: u64,
+    /// Flights that it found; the other numbers are over these.
+    pub planned: u64,
+    /// Flights that keep all limits.
+    pub sound: u64,
     /// Mean visibility, 0..=1.
-    pub visibility: Known,
+    pub visible: Known,
+    /// Share of frames with at least half of the target visible, 0..=1.
+    pub half_visible: Known,
     /// Mean distance to the target, metres.
     pub distance_m: Known,
     /// Mean length of the way, metres.
     pub length_m: Known,
-    /// Mean time per flight, milliseconds.
-    pub time_ms: Known,
-    /// Flights planned and flights asked for.
-    pub planned: (u64, u64),
+    /// Smallest distance of a swept way to an obstacle, metres.
+    pub nearest_m: Known,
+    /// Largest acceleration, m/s^2.
+    pub acceleration_mps2: Known,
+    /// Largest jerk, m/s^3.
+    pub jerk_mps3: Known,
+    /// Weighted cost of each term per frame.
+    pub costs: Vec<(String, f64)>,
+    /// Why it found no way, the first time that it found none.
+    pub refusal: Option<String>,
 }
 
 /// A number that may not be known.

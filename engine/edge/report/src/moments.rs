@@ -2,6 +2,9 @@
 
 use crate::model::FlightSketch;
 
+/// Mean visibility from which on a flight is no bad case.
+const FULLY: f64 = 0.9995;
+
 /// A reason to look at a flight, and the frames that show it.
 pub struct Case {
     /// Place of the flight in the list.
@@ -14,11 +17,18 @@ pub struct Case {
     pub frames: Vec<(usize, &'static str)>,
 }
 
-/// Pictures in the heading: up to `count` flights spread over the list, each at a frame that shows its target large.
+/// Pictures in the heading: `count` moments spread over the flights, those that show their target large; fewer when there
+/// are not enough frames. Few flights are shown at several of their moments.
 pub fn gallery(flights: &[FlightSketch], count: usize) -> Vec<(usize, usize)> {
     let experts: Vec<usize> = (0..flights.len()).filter(|at| !flights[*at].is_perturbed).collect();
     let chosen: Vec<usize> = if experts.is_empty() { (0..flights.len()).collect() } else { experts };
-    spread(chosen.len(), count).into_iter().map(|at| (chosen[at], best_frame(&flights[chosen[at]]))).collect()
+    let shown = spread(chosen.len(), count);
+    let rounds = count.div_ceil(shown.len().max(1));
+    let moments = |round: usize| {
+        let of_round = shown.iter().map(|at| chosen[*at]).collect::<Vec<usize>>().into_iter();
+        of_round.filter_map(move |at| Some((at, best_frame(&flights[at], round, rounds)?)))
+    };
+    (0..rounds).flat_map(moments).take(count).collect()
 }
 
 /// Up to `count` places of `length`, the same distance apart.
@@ -27,19 +37,25 @@ pub fn spread(length: usize, count: usize) -> Vec<usize> {
     (0..count).map(|at| (2 * at + 1) * length / (2 * count)).collect()
 }
 
-/// A frame of the middle that shows the target large and free.
-fn best_frame(flight: &FlightSketch) -> usize {
+/// The frame that shows the target large and free in one of so many parts of a flight, its ends left out.
+fn best_frame(flight: &FlightSketch, part: usize, parts: usize) -> Option<usize> {
     let value = |frame: &usize| flight.visible[*frame] * flight.box_height_px(*frame);
-    let middle = flight.len() / 6..(5 * flight.len()).div_ceil(6);
-    middle.max_by(|a, b| value(a).total_cmp(&value(b)).then(b.cmp(a))).unwrap_or(0)
+    let (start, end) = (flight.len() / 6, (5 * flight.len()).div_ceil(6));
+    let edge = |part: usize| start + (end - start) * part / parts;
+    (edge(part)..edge(part + 1)).max_by(|a, b| value(a).total_cmp(&value(b)).then(b.cmp(a)))
 }
 
 /// The flights that are the worst in something.
 pub fn worst(flights: &[FlightSketch]) -> Vec<Case> {
     let of = |perturbed: bool| (0..flights.len()).filter(move |at| flights[*at].is_perturbed == perturbed);
-    let mut cases: Vec<Case> = least(of(false), &|at| flights[at].mean_visible(), 3)
+    let names = ["least visible expert", "second least visible expert", "third least visible expert"];
+    let mut cases: Vec<Case> = least(of(false), &|at| flights[at].mean_visible(), names.len())
         .into_iter()
-        .map(|at| hidden(flights, at, "least visible expert"))
+        .zip(names)
+        .enumerate()
+        // The first is shown whatever it is; others only where something is hidden.
+        .filter(|(rank, (at, _))| *rank == 0 || flights[*at].mean_visible() < FULLY)
+        .map(|(_, (at, name))| hidden(flights, at, name))
         .collect();
     cases.extend(
         least(of(true), &|at| flights[at].mean_visible(), 1)

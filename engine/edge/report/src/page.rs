@@ -2,7 +2,7 @@
 
 use crate::model::Report;
 use crate::pictures::{Source, image};
-use crate::sections::{distributions, maps, numbers, planning, shares, timelines, worst};
+use crate::sections::{distributions, maps, numbers, planners, planning, shares, timelines, worst};
 use crate::text::escaped;
 use crate::{moments, statistics};
 use std::fmt::Write;
@@ -17,13 +17,14 @@ const GALLERY: usize = 6;
 /// Those of `pictures`.
 pub fn page<E>(report: &Report, pictures: Source<'_, E>) -> Result<String, E> {
     let sections = [
-        ("numbers", "In numbers", numbers::section(report)),
-        ("maps", "Where they fly", maps::section(report)),
-        ("time", "When the target is seen", timelines::section(report)),
-        ("distributions", "Distributions", distributions::section(report)),
-        ("planning", "Planning", planning::section(report)),
-        ("worst", "Worst cases", worst::section(report, pictures)?),
-        ("shares", "What is where, and what was left out", shares::section(report)),
+        ("numbers", ["Numbers", "In numbers"], numbers::section(report)),
+        ("maps", ["Maps", "Where they fly"], maps::section(report)),
+        ("time", ["Visibility", "When the target is seen"], timelines::section(report)),
+        ("distributions", ["Distributions"; 2], distributions::section(report)),
+        ("planning", ["Planning"; 2], planning::section(report)),
+        ("planners", ["Planners", "Planners beside each other"], planners::section(report)),
+        ("worst", ["Worst cases"; 2], worst::section(report, pictures)?),
+        ("shares", ["Shares", "What is where, and what was left out"], shares::section(report)),
     ];
     let shown: Vec<_> = sections.iter().filter(|(_, _, body)| !body.is_empty()).collect();
     let mut html = format!(
@@ -35,11 +36,11 @@ pub fn page<E>(report: &Report, pictures: Source<'_, E>) -> Result<String, E> {
     );
     html.push_str(&heading(report, pictures)?);
     html.push_str("<nav aria-label=\"Contents\"><ul>");
-    for (id, title, _) in &shown {
+    for (id, [title, _], _) in &shown {
         let _ = write!(html, "<li><a href=\"#{id}\">{title}</a></li>");
     }
     html.push_str("</ul></nav>\n<main id=\"main\">\n");
-    for (id, title, body) in &shown {
+    for (id, [_, title], body) in &shown {
         let _ = writeln!(
             html,
             "<section id=\"{id}\" aria-labelledby=\"{id}-title\"><h2 id=\"{id}-title\">{title}</h2>{body}</section>"

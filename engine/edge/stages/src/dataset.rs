@@ -3,12 +3,12 @@
 use crate::ports::{self, CAPTIONS, DATASET, FRAMES, LOG};
 use crate::render::REJECTION;
 use crate::world::{check_same_town, world};
-use crate::{codec, parameters};
+use crate::{codec, parameters, planner_comparison};
 use cosfly_dataset::splits::TownLayout;
 use cosfly_dataset::tables::ObjectRecord;
 use cosfly_dataset::{
-    CaptionRecord, DatasetConfig, DatasetSource, FramePackReader, LogRecord, PreviewStrip, PublishedLog, Rejection,
-    RenderedTrajectory, record::captions_from_bytes, write_dataset, write_log,
+    CaptionRecord, DatasetConfig, DatasetSource, FramePackReader, LogRecord, PlannerRow, PreviewStrip, PublishedLog,
+    Rejection, RenderedTrajectory, record::captions_from_bytes, write_dataset, write_log,
 };
 use cosfly_diagnose::{Diagnostic, Fault, Result};
 use cosfly_render::Weather;
@@ -18,6 +18,7 @@ use cosfly_stage::{
 };
 use std::collections::BTreeMap;
 use std::io::BufReader;
+use std::sync::Arc;
 
 /// The kind.
 pub struct Dataset;
@@ -64,7 +65,7 @@ impl StageKind for Dataset {
         });
         let gather = StageProperties {
             kind: self.name().into(),
-            version: 4,
+            version: 5,
             parameters: parameters::canonical(&config),
             sources: vec![],
             inputs,
@@ -212,6 +213,12 @@ impl DatasetSource for Gathered<'_> {
 
     fn layout(&self) -> Result<TownLayout> {
         Ok(TownLayout::of(&world(self.inputs)?.town))
+    }
+
+    fn planners(&self, flights: &[usize]) -> Result<Vec<PlannerRow>> {
+        let world = world(self.inputs)?;
+        let flights = flights.iter().map(|index| Ok((self.trajectory(*index)?, Arc::clone(&world))));
+        Ok(planner_comparison::compared(&flights.collect::<Result<Vec<_>>>()?))
     }
 
     fn previews(&self, index: usize) -> Result<PreviewStrip> {

@@ -16,6 +16,7 @@ mod muco;
 mod parameters;
 mod pedestrians;
 mod perturb;
+mod planner_comparison;
 pub mod plugins;
 mod ports;
 pub mod read;

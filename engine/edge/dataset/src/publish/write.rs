@@ -13,7 +13,7 @@ use crate::tables::{self, DatasetItem, FileRecord, Membership, ObjectRecord, Tab
 use crate::{CaptionRecord, PreviewStrip, Rejection, RenderedTrajectory, croissant};
 use cosfly_diagnose::{Diagnostic, Fault, Result};
 use cosfly_metrics::WindowShape;
-use cosfly_report::FlightSketch;
+use cosfly_report::{FlightSketch, PlannerRow};
 use cosfly_stage::{BlobRef, OutputSink};
 use std::collections::BTreeMap;
 use std::io::Write;
@@ -39,6 +39,11 @@ pub trait DatasetSource {
     fn objects(&self) -> Result<Vec<ObjectRecord>>;
     /// The town that all flights are in, without its name.
     fn layout(&self) -> Result<TownLayout>;
+    /// What other planners make of the walks of some flights, for the report.
+    fn planners(&self, flights: &[usize]) -> Result<Vec<PlannerRow>> {
+        let _ = flights;
+        Ok(vec![])
+    }
     /// Its previews; asked for by one table only.
     fn previews(&self, index: usize) -> Result<PreviewStrip>;
 }
@@ -92,6 +97,7 @@ pub fn write_dataset(
     for (path, text) in viewers::FILES {
         dataset.put(path, text.as_bytes())?;
     }
+    keep_going()?;
     let page = report::page(config, &summary, flights, &boxes, rejections, source)?;
     dataset.put(report::PATH, page.as_bytes())?;
     dataset.put("schemas/cosfly.proto", target_state::proto_text().as_bytes())?;

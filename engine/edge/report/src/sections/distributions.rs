@@ -20,9 +20,16 @@ pub fn section(report: &Report) -> String {
     let sizes = |flight: &FlightSketch| (0..flight.len()).map(|frame| flight.box_height_px(frame)).collect();
     let losses =
         |flight: &FlightSketch| flight.occlusions().into_iter().map(|it| (it.1 as f64 * flight.dt_s) as f32).collect();
+    let longest = report.flights.iter().flat_map(&losses).fold(0.0, f32::max);
     let charts = [
         draw("Visibility", "share of the body, per frame", Some((0.0, 1.0)), 0.0, &|it| it.visible.clone()),
-        draw("Length of losses", "seconds with less than half visible", None, step_s, &losses),
+        draw(
+            "Length of losses",
+            "seconds with less than half visible",
+            Some((0.0, f64::from(longest))),
+            step_s,
+            &losses,
+        ),
         draw("Distance to the target", "metres, per frame", None, 0.0, &FlightSketch::distances_m),
         draw("Height above the target", "metres, per frame", None, 0.0, &heights),
         draw("Clearance", "metres to the nearest obstacle", None, 0.0, &|it| it.clearance_m.clone()),
@@ -32,5 +39,5 @@ pub fn section(report: &Report) -> String {
     ];
     let key = "<p class=\"legend\"><span><i class=\"k-expert\"></i>experts</span><span><i class=\"k-perturbed\"></i>perturbed\
                </span><span>Heights are shares of all frames of the kind.</span></p>";
-    format!("{key}<div class=\"grid small\">{}</div>", charts.concat())
+    format!("{key}<div class=\"grid\">{}</div>", charts.concat())
 }

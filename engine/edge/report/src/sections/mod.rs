@@ -3,6 +3,7 @@
 pub mod distributions;
 pub mod maps;
 pub mod numbers;
+pub mod planners;
 pub mod planning;
 pub mod shares;
 pub mod timelines;

@@ -1,9 +1,9 @@
 //! What planning cost and whether its limits hold.
 
 use crate::chart;
-use crate::model::{FlightSketch, Known, Report};
+use crate::model::{FlightSketch, Report};
 use crate::moments::spread;
-use crate::text::{escaped, percent, short};
+use crate::text::{escaped, percent};
 use std::collections::BTreeMap;
 use std::fmt::Write;
 
@@ -17,8 +17,7 @@ pub fn section(report: &Report) -> String {
     let parts = [convergence(&report.flights), terms(&report.flights), limits(&report.flights)];
     let cards: Vec<&String> = parts.iter().filter(|part| !part.is_empty()).collect();
     let cards: String = cards.into_iter().map(|part| format!("<figure class=\"card\">{part}</figure>")).collect();
-    let compared = planners(report);
-    if cards.is_empty() && compared.is_empty() { cards } else { format!("<div class=\"grid\">{cards}</div>{compared}") }
+    if cards.is_empty() { cards } else { format!("<div class=\"grid\">{cards}</div>") }
 }
 
 fn convergence(flights: &[FlightSketch]) -> String {
@@ -93,35 +92,5 @@ fn limits(flights: &[FlightSketch]) -> String {
         let items: String = broken.iter().map(|it| format!("<li>{}</li>", escaped(it))).collect();
         let _ = write!(text, "<p>Not kept:</p><ul>{items}</ul>");
     }
-    text
-}
-
-fn planners(report: &Report) -> String {
-    if report.planners.is_empty() {
-        return String::new();
-    }
-    let mut text = String::from(
-        "<figure class=\"card wide\"><h3>Planners beside each other</h3><div class=\"scroll\" tabindex=\"0\" role=\"region\" \
-         aria-label=\"Planners beside each other\"><table><thead><tr>",
-    );
-    for name in ["planner", "visible", "distance, m", "length, m", "time, ms", "planned"] {
-        let _ = write!(text, "<th scope=\"col\">{name}</th>");
-    }
-    text.push_str("</tr></thead><tbody>");
-    let known = |value: Known, written: fn(f64) -> String| value.map_or("–".to_owned(), written);
-    for row in &report.planners {
-        let _ = write!(
-            text,
-            "<tr><th scope=\"row\">{}</th><td>{}</td><td>{}</td><td>{}</td><td>{}</td><td>{} of {}</td></tr>",
-            escaped(&row.planner),
-            known(row.visibility, percent),
-            known(row.distance_m, short),
-            known(row.length_m, short),
-            known(row.time_ms, short),
-            row.planned.0,
-            row.planned.1
-        );
-    }
-    text.push_str("</tbody></table></div></figure>");
     text
 }

@@ -1,0 +1,239 @@
+//! Other planners on the walks of published flights, measured like them: the comparison in a dataset's report.
+
+use crate::world::World;
+use cosfly_dataset::{PlannerRow, RenderedTrajectory};
+use cosfly_frames::{DVec3, Seed, TargetTrack};
+use cosfly_planner::baselines::{Baseline, BaselineInput, BaselinePath, flyable::made_flyable, plan_baseline};
+use cosfly_planner::certificate::{certify, term_costs};
+use cosfly_planner::obstacles::exact::ExactMap;
+use cosfly_planner::obstacles::ground::GroundGrid;
+use cosfly_planner::obstacles::local::LocalObstacles;
+use cosfly_planner::problem::Problem;
+use cosfly_planner::terms::built_in_terms;
+use cosfly_planner::walk::Walk;
+use cosfly_planner::{Certificate, Limits, MucoConfig, PlanOutcome, WeightedTerm, plan};
+use std::collections::BTreeSet;
+use std::sync::Arc;
+
+/// Frames of a walk that are planned anew, as many as the paper has on average: A* takes a second on so many.
+const MOST_FRAMES: usize = 200;
+/// A walk that is not so long has nobody who walks, metres.
+const LEAST_WAY_M: f64 = 1.0;
+
+/// Who plans, and the name in the table.
+const OTHERS: [(Other, &str); 5] = [
+    (Other::Behind, "straight behind, blind"),
+    (Other::Astar, "A*"),
+    (Other::AstarSmoothed, "A*, smoothed"),
+    (Other::Lattice, "lattice alone"),
+    (Other::Cosfly, "cosfly, defaults"),
+];
+
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Other {
+    Behind,
+    Astar,
+    AstarSmoothed,
+    Lattice,
+    Cosfly,
+}
+
+/// The published flights and what others make of their walks, all measured against the unsimplified town of each flight.
+/// Others get the default wishes and the limits of the flight's certificate.
+pub fn compared(flights: &[(RenderedTrajectory, Arc<World>)]) -> Vec<PlannerRow> {
+    let mut published: Vec<Column> = vec![];
+    let mut others: Vec<Column> = OTHERS.iter().map(|(_, name)| Column::new((*name).to_owned())).collect();
+    let mut followed = BTreeSet::new();
+    for (flight, world) in flights.iter().filter(|(flight, _)| walks(flight)) {
+        let stage = flight.flight_id.strip_suffix(&flight.pedestrian_id).unwrap_or(&flight.flight_id);
+        let name = format!("as published (`{}`)", stage.trim_end_matches(['-', '.']));
+        let place = published.iter().position(|column| column.name == name).unwrap_or(published.len());
+        if place == published.len() {
+            published.push(Column::new(name));
+        }
+        let task = Task::new(flight, world);
+        let positions = flight.trajectory.poses_in_world.iter().map(|pose| pose.position_in_world);
+        published[place].add(&task, Ok(positions.take(task.track.len()).collect()));
+        if !followed.insert((&flight.town.geometry_digest, &flight.pedestrian_id)) {
+            continue;
+        }
+        let astar = task.baseline(Baseline::AstarFast);
+        for ((other, _), column) in OTHERS.iter().zip(&mut others) {
+            column.add(&task, task.by(*other, &astar));
+        }
+    }
+    let published: Vec<PlannerRow> = published.into_iter().map(Column::row).collect();
+    let anew = others.into_iter().map(Column::row);
+    // Published flights of the default planner are the same when they are planned anew.
+    let is_new = |row: &PlannerRow| published.iter().all(|it| (it.length_m, it.visible) != (row.length_m, row.visible));
+    let anew: Vec<PlannerRow> = anew.filter(is_new).collect();
+    let rows = [published, anew].concat();
+    if rows.iter().all(|row| row.asked == 0) { vec![] } else { rows }
+}
+
+fn walks(flight: &RenderedTrajectory) -> bool {
+    let track = &flight.trajectory.track;
+    track.height_m > 0.0 && track.length_m() > LEAST_WAY_M
+}
+
+/// A walk to be followed in a town.
+struct Task<'a> {
+    track: TargetTrack,
+    walk: Walk,
+    config: MucoConfig,
+    terms: Vec<WeightedTerm>,
+    ground: GroundGrid,
+    world: &'a World,
+}
+
+impl<'a> Task<'a> {
+    fn new(flight: &RenderedTrajectory, world: &'a World) -> Self {
+        let mut track = flight.trajectory.track.clone();
+        track.states.truncate(MOST_FRAMES);
+        let mut config = MucoConfig::default();
+        let Limits { clearance_m, speed_mps, acceleration_mps2, jerk_mps3 } = flight.trajectory.certificate.limits;
+        let told = |limit: f64, default: f64| if limit.is_finite() && limit > 0.0 { limit } else { default };
+        let limits = &mut config.limits;
+        limits.clearance_m = told(clearance_m, limits.clearance_m);
+        limits.speed_mps = told(speed_mps, limits.speed_mps);
+        limits.acceleration_mps2 = told(acceleration_mps2, limits.acceleration_mps2);
+        limits.jerk_mps3 = told(jerk_mps3, limits.jerk_mps3);
+        let terms = built_in_terms(&config.resolved_weights());
+        let reach_m = config.search.filter_radius_m + 10.0;
+        let ground = GroundGrid::sample(&track, &|x, y| world.ground.ground_height_m(x, y).unwrap_or(0.0), reach_m);
+        Self { walk: Walk::of(&track), track, config, terms, ground, world }
+    }
+
+    fn problem(&self) -> Problem<'_> {
+        Problem {
+            track: &self.track,
+            view: &self.config.view,
+            walk: &self.walk,
+            terms: &self.terms,
+            built_in: self.terms.len(),
+            first_frame: 0,
+        }
+    }
+
+    fn input<'b>(&'b self, problem: &'b Problem<'b>) -> BaselineInput<'b> {
+        BaselineInput {
+            problem,
+            planning_boxes: &self.world.town.planning_boxes,
+            exact: &self.world.exact,
+            ground: &self.ground,
+            config: &self.config,
+        }
+    }
+
+    fn baseline(&self, kind: Baseline) -> Result<BaselinePath, String> {
+        plan_baseline(kind, &self.input(&self.problem()))
+    }
+
+    /// One waypoint per frame, or why there are none. A* comes searched.
+    fn by(&self, other: Other, astar: &Result<BaselinePath, String>) -> Result<Vec<DVec3>, String> {
+        match other {
+            Other::Behind => Ok(self.straight_behind()),
+            Other::Astar => Ok(astar.clone()?.waypoints),
+            Other::AstarSmoothed => Ok(made_flyable(&self.input(&self.problem()), astar.clone()?).waypoints),
+            Other::Lattice => Ok(self.baseline(Baseline::Dp)?.waypoints),
+            Other::Cosfly => {
+                let ground = |x: f64, y: f64| self.world.ground.ground_height_m(x, y).unwrap_or(0.0);
+                let boxes = &self.world.town.planning_boxes;
+                match plan(&self.track, &self.world.exact, boxes, &ground, &self.config, Seed([0; 32])) {
+                    PlanOutcome::Planned(flight) => {
+                        Ok(flight.poses_in_world.iter().map(|pose| pose.position_in_world).collect())
+                    }
+                    PlanOutcome::Rejected { reason, .. } => Err(reason),
+                }
+            }
+        }
+    }
+
+    /// Always at the best distance and pitch behind the walker, whatever stands there.
+    fn straight_behind(&self) -> Vec<DVec3> {
+        let (sin, cos) = cosfly_frames::real::sin_cos(self.config.view.pitch_deg.to_radians());
+        let mut back = DVec3::NEG_X;
+        let places = self.track.states.iter().zip(&self.walk.direction).map(|(state, direction)| {
+            if direction.length_squared() > 0.0 {
+                back = -direction.extend(0.0);
+            }
+            state.feet_in_world + self.config.view.distance_m * (cos * back + sin * DVec3::Z)
+        });
+        places.collect()
+    }
+}
+
+/// What becomes a row.
+struct Column {
+    name: String,
+    asked: u64,
+    measured: Vec<Measure>,
+    refusal: Option<String>,
+}
+
+/// A flight in figures.
+struct Measure {
+    certificate: Certificate,
+    costs: Vec<(String, f64)>,
+}
+
+impl Column {
+    fn new(name: String) -> Self {
+        Self { name, asked: 0, measured: vec![], refusal: None }
+    }
+
+    fn add(&mut self, task: &Task<'_>, path: Result<Vec<DVec3>, String>) {
+        self.asked += 1;
+        let waypoints = match path {
+            Ok(waypoints) if waypoints.len() == task.track.len() => waypoints,
+            Ok(_) => return,
+            Err(reason) => {
+                self.refusal.get_or_insert(reason);
+                return;
+            }
+        };
+        let ground = |x: f64, y: f64| task.world.ground.ground_height_m(x, y).unwrap_or(0.0);
+        let exact = ExactMap::still(&task.world.exact);
+        let certificate = certify(&task.track, &waypoints, exact, &ground, &task.config).certificate;
+        let search = &task.config.search;
+        let influence_m = task.config.view.safety_influence_m;
+        let boxes = &task.world.town.planning_boxes;
+        let mut obstacles =
+            LocalObstacles::filter(&task.track, boxes, &task.ground, search.filter_radius_m, influence_m);
+        obstacles.focus_on(&waypoints);
+        let frames = task.track.len().max(1) as f64;
+        let costs = term_costs(&task.terms, &waypoints, &task.problem().context(&obstacles));
+        let costs = costs.into_iter().map(|term| (term.name, term.weight * term.sum / frames)).collect();
+        self.measured.push(Measure { certificate, costs });
+    }
+
+    fn row(self) -> PlannerRow {
+        let count = self.measured.len();
+        let known = |value: f64| (count > 0).then_some(value);
+        let mean = |of: fn(&Certificate) -> f64| {
+            known(self.measured.iter().map(|it| of(&it.certificate)).sum::<f64>() / count.max(1) as f64)
+        };
+        let most = |of: fn(&Certificate) -> f64| {
+            known(self.measured.iter().map(|it| of(&it.certificate)).fold(f64::NEG_INFINITY, f64::max))
+        };
+        let mut costs: Vec<(String, f64)> = self.measured.first().map_or(vec![], |it| it.costs.clone());
+        for (place, cost) in costs.iter_mut().enumerate() {
+            cost.1 = self.measured.iter().map(|it| it.costs[place].1).sum::<f64>() / count.max(1) as f64;
+        }
+        PlannerRow {
+            visible: mean(|it| it.mean_visibility),
+            half_visible: mean(|it| it.frames_half_visible),
+            distance_m: mean(|it| it.mean_distance_m),
+            length_m: mean(|it| it.length_m),
+            nearest_m: most(|it| -it.min_clearance_m).map(|metres| -metres),
+            acceleration_mps2: most(|it| it.max_acceleration_mps2),
+            jerk_mps3: most(|it| it.max_jerk_mps3),
+            sound: self.measured.iter().filter(|it| it.certificate.holds).count() as u64,
+            planned: count as u64,
+            asked: self.asked,
+            costs,
+            refusal: self.refusal,
+            planner: self.name,
+        }
+    }
+}
