@@ -26,6 +26,8 @@ pub struct Episode {
     pub limits: [Option<f64>; 4],
     /// The frames.
     pub moments: Vec<Moment>,
+    /// The flight to whose next pose actions lead; its own where there is none.
+    pub followed: Option<Vec<Pose>>,
     /// Pictures of some frames.
     pub looks: Vec<Look>,
     /// Language code and text of its instructions.

@@ -1,7 +1,7 @@
 //! Reads a folder, runs all checks, and says how much of it may be kept.
 
-use crate::sources::{ours, v7};
-use crate::{Episode, Flag, Gravity, checks};
+use crate::sources::{lerobot, ours, v7};
+use crate::{Episode, Flag, Gravity, Moment, checks};
 use cosfly_diagnose::{Diagnostic, Fault, Result};
 use serde::Serialize;
 use std::collections::{BTreeMap, BTreeSet};
@@ -18,6 +18,8 @@ pub enum Layout {
     Cosfly,
     /// The published CosFly-Track release.
     V7,
+    /// A dataset of LeRobot.
+    Lerobot,
 }
 
 /// A share of episodes that have a loss of a certain length.
@@ -50,6 +52,8 @@ pub struct Examination {
     pub visibility: Vec<(f64, usize)>,
     /// Quotas with the share that was found.
     pub quotas: Vec<(Quota, f64)>,
+    /// What could not be checked, and why.
+    pub unchecked: Vec<String>,
 }
 
 impl Examination {
@@ -69,13 +73,16 @@ impl Examination {
 /// # Errors
 /// `doctor-layout` when the folder has none that is known; a refusal of the machine. What is wrong with the data is a flag.
 pub fn examine(folder: &Path, quotas: &[Quota], progress: &mut dyn FnMut(u64, u64)) -> Result<Examination> {
-    let (layout, episodes, mut flags) = if ours::recognises(folder) {
+    let (layout, episodes, mut flags, mut unchecked) = if ours::recognises(folder) {
         let mut flags = ours::files(folder)?;
         let episodes = ours::episodes(folder, &mut flags, progress)?;
-        (Layout::Cosfly, episodes, flags)
+        (Layout::Cosfly, episodes, flags, vec![])
     } else if let Some(root) = v7::root(folder) {
         let (episodes, flags) = v7::episodes(&root, progress)?;
-        (Layout::V7, episodes, flags)
+        (Layout::V7, episodes, flags, vec![])
+    } else if lerobot::recognises(folder) {
+        let (episodes, flags, notes) = lerobot::episodes(folder, progress)?;
+        (Layout::Lerobot, episodes, flags, notes)
     } else {
         return Err(unknown(folder));
     };
@@ -83,7 +90,27 @@ pub fn examine(folder: &Path, quotas: &[Quota], progress: &mut dyn FnMut(u64, u6
         flags.extend(checks::of_episode(episode));
     }
     flags.extend(checks::leaks(&episodes));
-    Ok(summed(layout, &episodes, flags, quotas))
+    unchecked.extend(untold(layout, &episodes));
+    Ok(Examination { unchecked, ..summed(layout, &episodes, flags, quotas) })
+}
+
+/// What no episode tells, so that its checks were passed over.
+fn untold(layout: Layout, episodes: &[Episode]) -> Vec<String> {
+    let is_told = |what: &dyn Fn(&Episode) -> bool| episodes.is_empty() || episodes.iter().any(what);
+    let moments = |what: fn(&Moment) -> bool| is_told(&|it| it.moments.iter().any(what));
+    let mut gaps = vec![
+        (is_told(&|it| it.split.is_some()), "leaks between splits: no splits are told"),
+        (is_told(&|it| it.limits[1..].iter().any(Option::is_some)), "limits of motion: none are stated"),
+        (is_told(&|it| !it.captions.is_empty()), "instructions: there are none that can be read back"),
+    ];
+    if layout != Layout::Lerobot {
+        gaps.extend([
+            (is_told(&|it| it.camera.is_some()), "projection of the target: no camera without a bent lens is told"),
+            (moments(|it| it.clearance_m.is_some()), "clearance: it is not told"),
+            (moments(|it| it.visible.is_some()), "visibility: it is not told"),
+        ]);
+    }
+    gaps.into_iter().filter(|(is_told, _)| !is_told).map(|(_, gap)| gap.to_owned()).collect()
 }
 
 fn summed(layout: Layout, episodes: &[Episode], flags: Vec<Flag>, quotas: &[Quota]) -> Examination {
@@ -114,6 +141,7 @@ fn summed(layout: Layout, episodes: &[Episode], flags: Vec<Flag>, quotas: &[Quot
         damaged,
         visibility: visibility.collect(),
         quotas: quotas.iter().map(|quota| (quota.clone(), share(quota))).collect(),
+        unchecked: vec![],
         flags,
     }
 }
@@ -143,5 +171,5 @@ fn unknown(folder: &Path) -> Box<Diagnostic> {
         format!("`{}` is not a folder", folder.display())
     };
     Diagnostic::new("doctor-layout", Fault::Input, message)
-        .hint("give the folder of a dataset of cosfly (with `data/trajectories`), or one with `<Town>/trajectory_<id>/<trace>/trajectory.json`")
+        .hint("give the folder of a dataset of cosfly (with `data/trajectories`), one with `<Town>/trajectory_<id>/<trace>/trajectory.json`, or one of LeRobot (with `meta/info.json`)")
 }

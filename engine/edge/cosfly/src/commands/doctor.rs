@@ -50,6 +50,7 @@ fn text(examination: &Examination, allowed: f64) -> String {
     let layout = match examination.layout {
         Layout::Cosfly => "a dataset of cosfly",
         Layout::V7 => "the published v7 layout",
+        Layout::Lerobot => "a LeRobot dataset",
     };
     let (episodes, frames) = (examination.episodes as u64, examination.frames as u64);
     let _ = writeln!(text, "examined {layout}: {} with {}", count(episodes, "episode"), count(frames, "frame"));
@@ -59,6 +60,9 @@ fn text(examination: &Examination, allowed: f64) -> String {
         let shares = classes.iter().zip(&examination.visibility);
         let shares = shares.map(|(name, (_, frames))| format!("{name}: {:.1} %", 100.0 * *frames as f64 / told as f64));
         let _ = writeln!(text, "frames by visible share of the target: {}", shares.collect::<Vec<_>>().join(", "));
+    }
+    for gap in &examination.unchecked {
+        let _ = writeln!(text, "not checked: {gap}");
     }
     for (quota, found) in &examination.quotas {
         let verdict = if *found >= quota.wanted { "met" } else { "not met" };

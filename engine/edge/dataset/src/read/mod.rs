@@ -4,6 +4,7 @@
 
 mod columns;
 mod flights;
+mod foreign;
 mod inspection;
 mod log;
 mod tracks;
@@ -11,6 +12,7 @@ mod walk;
 mod ways;
 
 pub use flights::{PublishedDataset, PublishedFlight, PublishedFrame};
+pub use foreign::{ForeignRows, foreign_rows};
 pub use inspection::{BoxInWorld, FlightFacts, log_problem, parquet_problem};
 pub use log::{LogReader, LoggedFrame, SceneBox};
 pub use tracks::FlightTrack;

@@ -1,5 +1,6 @@
 //! The checks, one kind of fault per file.
 
+mod bearing;
 mod depth;
 mod leaks;
 mod motion;
@@ -15,10 +16,11 @@ use crate::{Episode, Flag};
 
 /// Everything that can be told from one episode.
 pub fn of_episode(episode: &Episode) -> Vec<Flag> {
-    let checks: [fn(&Episode) -> Vec<Flag>; 7] = [
+    let checks: [fn(&Episode) -> Vec<Flag>; 8] = [
         time::check,
         motion::check,
         projection::check,
+        bearing::check,
         depth::check,
         pictures::check,
         surroundings::check,

@@ -1,7 +1,7 @@
 //! Poses that freeze, actions that do not lead to the next pose, limits that are not kept.
 
 use crate::{Episode, Flag};
-use cosfly_frames::DVec3;
+use cosfly_frames::{DVec3, Pose};
 
 /// Actions and poses agree to this, metres and degrees.
 const ACTION_TOLERANCE: f64 = 1e-3;
@@ -59,7 +59,8 @@ fn actions(episode: &Episode) -> Option<Flag> {
             let Some(from) = frame.checked_add_signed(shift as isize).filter(|at| at + 1 < moments.len()) else {
                 continue;
             };
-            let taken = moments[from + 1].drone.position_in_world - moments[from].drone.position_in_world;
+            let Some(next) = led(episode, from + 1) else { continue };
+            let taken = next.position_in_world - moments[from].drone.position_in_world;
             worst = worst.max((step - taken).length());
             count += 1;
         }
@@ -77,6 +78,14 @@ fn actions(episode: &Episode) -> Option<Flag> {
     Some(Flag::damage("action-mismatch", &episode.id, message))
 }
 
+/// The pose that actions of the frame before lead to.
+fn led(episode: &Episode, frame: usize) -> Option<Pose> {
+    match &episode.followed {
+        Some(followed) => followed.get(frame).copied(),
+        None => episode.moments.get(frame).map(|moment| moment.drone),
+    }
+}
+
 /// `1` as "the frame after", and so on.
 pub fn frames(shift: i64) -> String {
     let side = if shift < 0 { "before" } else { "after" };
@@ -86,11 +95,9 @@ pub fn frames(shift: i64) -> String {
 fn turns(episode: &Episode) -> Option<Flag> {
     for (frame, pair) in episode.moments.windows(2).enumerate() {
         let Some(told) = pair[0].turn_deg else { continue };
-        let taken = [
-            pair[1].drone.pitch_rad - pair[0].drone.pitch_rad,
-            pair[1].drone.yaw_rad - pair[0].drone.yaw_rad,
-            pair[1].drone.roll_rad - pair[0].drone.roll_rad,
-        ];
+        let Some(next) = led(episode, frame + 1) else { continue };
+        let now = pair[0].drone;
+        let taken = [next.pitch_rad - now.pitch_rad, next.yaw_rad - now.yaw_rad, next.roll_rad - now.roll_rad];
         for (name, (told, taken)) in ["pitch", "yaw", "roll"].into_iter().zip(told.into_iter().zip(taken)) {
             let gap = (told - taken.to_degrees()).rem_euclid(360.0);
             if gap.min(360.0 - gap) > ACTION_TOLERANCE {

@@ -1,5 +1,6 @@
 //! One reader per layout: from files to episodes.
 
+pub mod lerobot;
 pub mod ours;
 pub mod record;
 pub mod v7;

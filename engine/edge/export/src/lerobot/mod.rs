@@ -66,6 +66,7 @@ impl Exporter for LeRobot {
             let file = data.append(&rows)?;
             episodes.push(EpisodeRow {
                 trajectory_id: episode.flight.trajectory_id.clone(),
+                expert_id: episode.flight.expert_id.clone().unwrap_or_default(),
                 split: episode.flight.split.clone(),
                 episode: episodes.len(),
                 task,

@@ -34,6 +34,8 @@ pub struct DataRows {
 pub struct EpisodeRow {
     /// The flight.
     pub trajectory_id: String,
+    /// The flight to whose next pose its actions lead; empty for an expert.
+    pub expert_id: String,
     /// Its split.
     pub split: String,
     /// Its number.
@@ -102,6 +104,7 @@ pub fn episodes() -> Table<EpisodeRow> {
         Column::new("meta/episodes/chunk_index", Kind::Integer, "", |_, _| 0usize.into()),
         Column::new("meta/episodes/file_index", Kind::Integer, "", |_, _| 0usize.into()),
         Column::new("trajectory_id", Kind::Text, "", |it, _| (&it.trajectory_id).into()),
+        Column::new("expert_id", Kind::Text, "", |it, _| (&it.expert_id).into()),
         Column::new("split", Kind::Text, "", |it, _| (&it.split).into()),
     ];
     table("episodes", |_| 1, 50_000, columns)

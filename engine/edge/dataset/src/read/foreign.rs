@@ -1,0 +1,116 @@
+//! Tables that others wrote: whatever has numbers, texts or pictures, by the names of their columns.
+
+use super::columns::damaged;
+use arrow::array::{Array, ArrayRef, AsArray};
+use arrow::compute::cast;
+use arrow::datatypes::{DataType, Float64Type};
+use cosfly_diagnose::{Diagnostic, Result};
+use cosfly_fingerprint::Digest;
+use parquet::arrow::ProjectionMask;
+use parquet::arrow::arrow_reader::ParquetRecordBatchReaderBuilder;
+use std::collections::BTreeMap;
+use std::fs::File;
+use std::path::Path;
+
+/// Rows that are decoded at once: pictures may be large.
+const BATCH: usize = 64;
+
+/// The columns of some rows, as long as each other.
+#[derive(Clone, Debug, Default)]
+pub struct ForeignRows {
+    /// Numbers of a row: one, or those of its list; none where it is null.
+    pub numbers: BTreeMap<String, Vec<Vec<f64>>>,
+    /// Texts; lists of them, joined by line ends.
+    pub texts: BTreeMap<String, Vec<String>>,
+    /// Digests of picture files that are inside of the table; empty where it only names a file.
+    pub pictures: BTreeMap<String, Vec<String>>,
+    /// Number of rows.
+    pub rows: usize,
+}
+
+/// Reads the columns of a Parquet file that are numbers, texts or pictures.
+///
+/// # Errors
+/// When the file cannot be opened or read to its end.
+pub fn foreign_rows(path: &Path) -> Result<ForeignRows> {
+    let file = File::open(path).map_err(|error| Diagnostic::io(format!("open `{}`", path.display()), &error))?;
+    let builder =
+        ParquetRecordBatchReaderBuilder::try_new(file).map_err(|error| damaged(path, "it is not Parquet", error))?;
+    let reader = builder.with_projection(ProjectionMask::all()).with_batch_size(BATCH).build();
+    let mut all = ForeignRows::default();
+    for batch in reader.map_err(|error| damaged(path, "it cannot be read", error))? {
+        let batch = batch.map_err(|error| damaged(path, "it cannot be read", error))?;
+        for (field, column) in batch.schema_ref().fields().iter().zip(batch.columns()) {
+            let name = || field.name().clone();
+            if let Some(pictures) = pictures(column) {
+                all.pictures.entry(name()).or_default().extend(pictures);
+            } else if let Some(numbers) = numbers(column) {
+                all.numbers.entry(name()).or_default().extend(numbers);
+            } else if let Some(texts) = texts(column) {
+                all.texts.entry(name()).or_default().extend(texts);
+            }
+        }
+        all.rows += batch.num_rows();
+    }
+    Ok(all)
+}
+
+/// The values of the lists in a column, row by row; `None` when it has no lists.
+fn lists(column: &ArrayRef) -> Option<Vec<Option<ArrayRef>>> {
+    let rows = 0..column.len();
+    let valid = |row: usize, value: &dyn Fn(usize) -> ArrayRef| column.is_valid(row).then(|| value(row));
+    Some(match column.data_type() {
+        DataType::List(_) => rows.map(|row| valid(row, &|row| column.as_list::<i32>().value(row))).collect(),
+        DataType::LargeList(_) => rows.map(|row| valid(row, &|row| column.as_list::<i64>().value(row))).collect(),
+        DataType::FixedSizeList(..) => {
+            rows.map(|row| valid(row, &|row| column.as_fixed_size_list().value(row))).collect()
+        }
+        _ => return None,
+    })
+}
+
+fn plain_numbers(column: &ArrayRef) -> Option<Vec<Option<f64>>> {
+    if !(column.data_type().is_numeric() || *column.data_type() == DataType::Boolean) {
+        return None;
+    }
+    let cast = cast(column, &DataType::Float64).ok()?;
+    let values = cast.as_primitive_opt::<Float64Type>()?;
+    Some(values.iter().collect())
+}
+
+fn numbers(column: &ArrayRef) -> Option<Vec<Vec<f64>>> {
+    if let Some(values) = plain_numbers(column) {
+        return Some(values.into_iter().map(|value| value.into_iter().collect()).collect());
+    }
+    let of_row = |row: Option<ArrayRef>| match row {
+        Some(row) => Some(plain_numbers(&row)?.into_iter().map(|value| value.unwrap_or(f64::NAN)).collect()),
+        None => Some(vec![]),
+    };
+    lists(column)?.into_iter().map(of_row).collect()
+}
+
+fn plain_texts(column: &ArrayRef) -> Option<Vec<String>> {
+    if !matches!(column.data_type(), DataType::Utf8 | DataType::LargeUtf8 | DataType::Utf8View) {
+        return None;
+    }
+    let cast = cast(column, &DataType::Utf8).ok()?;
+    Some(cast.as_string_opt::<i32>()?.iter().map(|text| text.unwrap_or_default().to_owned()).collect())
+}
+
+fn texts(column: &ArrayRef) -> Option<Vec<String>> {
+    if let Some(texts) = plain_texts(column) {
+        return Some(texts);
+    }
+    let of_row = |row: Option<ArrayRef>| match row {
+        Some(row) => Some(plain_texts(&row)?.join("\n")),
+        None => Some(String::new()),
+    };
+    lists(column)?.into_iter().map(of_row).collect()
+}
+
+fn pictures(column: &ArrayRef) -> Option<Vec<String>> {
+    let bytes = column.as_struct_opt()?.column_by_name("bytes")?;
+    let bytes = cast(bytes, &DataType::LargeBinary).ok()?;
+    let bytes = bytes.as_binary_opt::<i64>()?;
+    Some(bytes.iter().map(|file| file.map_or_else(String::new, |file| Digest::of(file).to_string())).collect())
+}
