@@ -1,4 +1,4 @@
-"""Plants faults into copies of a dataset and of its v7 export; `cosfly doctor` must name each, and nothing in sound data.
+"""Plants faults into copies of a dataset and of its exports; `cosfly doctor` must name each, and nothing in sound data.
 
     python check_doctor.py COSFLY DATASET
 
@@ -64,6 +64,15 @@ def shift_frames(rows):
     for before, row in zip(rows, moved[1:]):
         if before["trajectory_id"] == row["trajectory_id"]:
             row.update({name: before[name] for name in POSE})
+    return moved
+
+
+def shift_all(rows):
+    """All numbers of the frame before, consistent with each other and not with the images; experts alone, who fly smoothly."""
+    moved = [dict(row) for row in rows]
+    for before, row in zip(rows, moved[1:]):
+        if before["trajectory_id"] == row["trajectory_id"] and row["trajectory_id"].startswith("expert"):
+            row.update({name: value for name, value in before.items() if name not in ("frame", "time_s", "preview")})
     return moved
 
 
@@ -153,6 +162,115 @@ def shift_pictures(folder):
                 shutil.copy(source / name, target / name)
 
 
+def lerobot(folder, change):
+    """Rewrites the frames of a LeRobot dataset, episode by episode: lists of row dictionaries, changed in place."""
+    for path in folder.glob("data/*/*.parquet"):
+        old = parquet.read_table(path)
+        rows = old.to_pylist()
+        for number in {row["episode_index"] for row in rows}:
+            change([row for row in rows if row["episode_index"] == number])
+        parquet.write_table(pyarrow.Table.from_pylist(rows, schema=old.schema), path)
+
+
+def lerobot_jump(rows):
+    for row in rows[9:]:
+        row["timestamp"] += 0.7
+
+
+def lerobot_actions(rows):
+    """The action of the frame before in every frame."""
+    actions = [row["action"] for row in rows]
+    for action, row in zip(actions, rows[1:]):
+        row["action"] = action
+
+
+def lerobot_yaw(rows):
+    for row in rows:
+        row["observation.state"][4] *= -1
+
+
+def lerobot_repeated(rows):
+    rows[12]["observation.images.rgb"] = rows[11]["observation.images.rgb"]
+
+
+def lerobot_gap(folder):
+    """A row less than told."""
+    path = sorted(folder.glob("data/*/*.parquet"))[0]
+    table = parquet.read_table(path)
+    parquet.write_table(pyarrow.concat_tables([table.slice(0, 5), table.slice(6)]), path)
+
+
+def truncate_data(folder):
+    path = sorted(folder.glob("data/*/*.parquet"))[0]
+    path.write_bytes(path.read_bytes()[:-700])
+
+
+def box(kind, body):
+    """A box of an MP4 file."""
+    return (len(body) + 8).to_bytes(4, "big") + kind + body
+
+
+VIDEO = "videos/observation.images.front/chunk-000/file-000.mp4"
+
+
+def foreign(folder):
+    """A LeRobot dataset as others make them: other names, radians, velocities of the body as actions, video, no target."""
+    rate, episodes, index = 10, [], 0
+    rows, random = [], numpy.random.default_rng(7)
+    for number in range(3):
+        place, yaw, first = random.normal(size=3) * 20, random.uniform(-3, 3), index
+        for frame in range(40):
+            speed = numpy.array([3.0 + numpy.sin(frame / 5), 0.4 * numpy.cos(frame / 7), 0.2])
+            rows.append({
+                "observation.pose": [*place, yaw],
+                "action": [*speed, 0.05],
+                "timestamp": frame / rate,
+                "frame_index": frame,
+                "episode_index": number,
+                "index": index,
+                "task_index": 0,
+            })
+            cos, sin = numpy.cos(yaw), numpy.sin(yaw)
+            place = place + numpy.array([[cos, -sin, 0], [sin, cos, 0], [0, 0, 1]]) @ speed / rate
+            yaw, index = yaw + 0.05 / rate, index + 1
+        episodes.append({
+            "episode_index": number, "length": 40, "tasks": ["follow"], "dataset_from_index": first, "dataset_to_index": index,
+            "videos/observation.images.front/chunk_index": 0, "videos/observation.images.front/file_index": 0,
+            "videos/observation.images.front/from_timestamp": first / rate,
+            "videos/observation.images.front/to_timestamp": index / rate,
+        })
+    vector = lambda names: {"dtype": "float64", "shape": [len(names)], "names": {"axes": names}}
+    info = {
+        "codebase_version": "v3.0", "robot_type": "uav", "fps": rate, "total_episodes": 3, "total_frames": index, "splits": {"train": "0:3"},
+        "chunks_size": 1000, "data_path": "data/chunk-{chunk_index:03d}/file-{file_index:03d}.parquet",
+        "video_path": "videos/{video_key}/chunk-{chunk_index:03d}/file-{file_index:03d}.mp4",
+        "features": {
+            "observation.images.front": {"dtype": "video", "shape": [48, 64, 3], "names": ["height", "width", "channels"]},
+            "observation.pose": vector(["pos_x", "pos_y", "pos_z", "yaw_rad"]),
+            "action": vector(["vx", "vy", "vz", "yaw_rate"]),
+        },
+    }
+    for name in ("data/chunk-000", "meta/episodes/chunk-000", pathlib.Path(VIDEO).parent):
+        (folder / name).mkdir(parents=True)
+    parquet.write_table(pyarrow.Table.from_pylist(rows), folder / "data/chunk-000/file-000.parquet")
+    parquet.write_table(pyarrow.Table.from_pylist(episodes), folder / "meta/episodes/chunk-000/file-000.parquet")
+    (folder / "meta/info.json").write_text(json.dumps(info))
+    # The boxes of a video: 12 s at 600 ticks a second. It is not decoded here or there.
+    header = bytes(12) + (600).to_bytes(4, "big") + (12 * 600).to_bytes(4, "big")
+    moov = box(b"moov", box(b"trak", box(b"mdia", box(b"mdhd", header))))
+    (folder / VIDEO).write_bytes(box(b"ftyp", b"isom") + box(b"mdat", bytes(4000)) + moov)
+
+
+def foreign_actions(rows):
+    for row, action in reversed(list(zip(rows[1:], [row["action"] for row in rows]))):
+        row["action"] = action
+
+
+def foreign_jump(rows):
+    for row in rows[30:]:
+        row["observation.pose"][0] += 30.0
+
+
 def repeat_pictures(folder):
     for frames in folder.rglob("frames_playback"):
         shutil.copy(frames / "frame_00011/rgb.png", frames / "frame_00012/rgb.png")
@@ -164,6 +282,7 @@ with tempfile.TemporaryDirectory() as place:
     subprocess.run([cosfly, "export", dataset, "--format", "v7", "--out", v7], check=True, capture_output=True)
     planted(None, dataset, work, lambda folder: None)
     planted("frame-shift", dataset, work, lambda folder: tables(folder, "frames", shift_frames))
+    planted("image-shift", dataset, work, lambda folder: tables(folder, "frames", shift_all))
     planted("yaw-sign", dataset, work, lambda folder: tables(folder, "frames", flip_yaw))
     planted("action-mismatch", dataset, work, lambda folder: tables(folder, "frames", wrong_actions))
     planted("timestamps", dataset, work, lambda folder: tables(folder, "frames", late))
@@ -178,5 +297,23 @@ with tempfile.TemporaryDirectory() as place:
     planted("depth-unit", v7, work, millimetres)
     planted("image-shift", v7, work, shift_pictures)
     planted("duplicate-frames", v7, work, repeat_pictures)
+
+    ours = work / "lerobot"
+    subprocess.run([cosfly, "export", dataset, "--format", "lerobot", "--out", ours], check=True, capture_output=True)
+    planted(None, ours, work, lambda folder: None)
+    planted("timestamps", ours, work, lambda folder: lerobot(folder, lerobot_jump))
+    planted("action-mismatch", ours, work, lambda folder: lerobot(folder, lerobot_actions))
+    planted("yaw-sign", ours, work, lambda folder: lerobot(folder, lerobot_yaw))
+    planted("duplicate-frames", ours, work, lambda folder: lerobot(folder, lerobot_repeated))
+    planted("index-mismatch", ours, work, lerobot_gap)
+    planted("parquet-damaged", ours, work, truncate_data)
+    others = work / "foreign"
+    foreign(others)
+    planted(None, others, work, lambda folder: None)
+    planted("timestamps", others, work, lambda folder: lerobot(folder, lerobot_jump))
+    planted("action-mismatch", others, work, lambda folder: lerobot(folder, foreign_actions))
+    planted("pose-jump", others, work, lambda folder: lerobot(folder, foreign_jump))
+    planted("video-missing", others, work, lambda folder: (folder / VIDEO).unlink())
+    planted("video-damaged", others, work, lambda folder: (folder / VIDEO).write_bytes((folder / VIDEO).read_bytes()[:-40]))
 
 sys.exit(f"missed: {failures}" if failures else 0)

@@ -72,6 +72,9 @@ pub struct Look {
     pub digest: String,
     /// Depth of the target: per frame offset in [`OFFSETS`], the nearest quarter of the depths in that frame's box.
     pub depth_m: Vec<Option<f64>>,
+    /// What the depth image shows of walls, seen from the pose of the frame at each offset in [`OFFSETS`]: distance of its
+    /// middle point from its wall, metres.
+    pub walls_m: Vec<Option<f64>>,
 }
 
 /// The boxes of which frames a depth image is read in, against its own.

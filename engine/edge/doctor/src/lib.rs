@@ -14,6 +14,7 @@ pub mod flag;
 pub mod sources;
 #[cfg(test)]
 mod tests;
+pub mod walls;
 
 pub use episode::{Episode, Look, Moment};
 pub use examination::{Examination, Layout, Quota, examine};

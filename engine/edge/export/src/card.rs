@@ -2,8 +2,11 @@
 
 use crate::folder::OutFolder;
 use crate::source::Source;
-use cosfly_diagnose::Result;
+use cosfly_dataset::read::foreign_rows;
+use cosfly_diagnose::{Diagnostic, Result};
+use std::collections::{BTreeMap, BTreeSet};
 use std::fmt::Write;
+use std::path::PathBuf;
 
 /// What the card of an export says.
 #[derive(Clone, Debug, Default)]
@@ -36,6 +39,7 @@ impl Card {
             flights.len()
         );
         text.push_str(&self.body);
+        text.push_str(&optics(source)?);
         out.put("README.md", text.as_bytes())?;
         match std::fs::read(folder.join("LICENSE")) {
             Ok(license) => out.put("LICENSE", &license),
@@ -43,6 +47,68 @@ impl Card {
         }
     }
 }
+
+/// Weather, lens, shutter and noise of the chosen flights, which formats of others have no place for.
+fn optics(source: &Source<'_>) -> Result<String> {
+    let ids: BTreeSet<&str> = source.flights().map(|flight| &*flight.trajectory_id).collect();
+    let mut columns: BTreeMap<&str, Vec<f64>> = BTreeMap::new();
+    let folder = source.dataset.folder().join("data/trajectories");
+    let entries = std::fs::read_dir(&folder).and_then(|entries| entries.map(|it| Ok(it?.path())).collect());
+    let mut paths: Vec<PathBuf> =
+        entries.map_err(|error| Diagnostic::io(format!("read `{}`", folder.display()), &error))?;
+    paths.sort();
+    for path in paths {
+        let rows = foreign_rows(&path)?;
+        let names = rows.texts.get("trajectory_id").map_or(&[][..], Vec::as_slice);
+        for (name, _) in OPTICS {
+            let values = rows.numbers.get(*name).into_iter().flatten().zip(names);
+            let values = values.filter(|(_, id)| ids.contains(id.as_str())).filter_map(|(value, _)| value.first());
+            columns.entry(name).or_default().extend(values.copied());
+        }
+    }
+    let mut weathers: BTreeMap<&str, usize> = BTreeMap::new();
+    let mut sizes: BTreeSet<String> = BTreeSet::new();
+    for flight in source.flights() {
+        *weathers.entry(&flight.weather).or_default() += 1;
+        let fov_deg = flight.camera.horizontal_fov_rad.to_degrees();
+        sizes.insert(format!("{} x {} pixels, {fov_deg:.1}° wide", flight.camera.width, flight.camera.height));
+    }
+    let weathers: Vec<String> = weathers.iter().map(|(name, count)| format!("`{name}` ({count})")).collect();
+    let mut text = format!("\n## Camera and weather\n\n* Weather, with flights: {}.\n", weathers.join(", "));
+    let _ = writeln!(text, "* Picture: {}.", sizes.into_iter().collect::<Vec<_>>().join("; "));
+    let bends: BTreeSet<String> =
+        source.flights().filter(|it| it.lens_k != [0.0; 2]).map(|it| format!("{:?}", it.lens_k)).collect();
+    let _ = match bends.is_empty() {
+        true => writeln!(text, "* Lens: a pinhole; nothing is bent."),
+        false => writeln!(
+            text,
+            "* Lens: bent by k1, k2 (Brown's radial terms): {}. Intrinsics are those of the pinhole.",
+            bends.into_iter().collect::<Vec<_>>().join(", ")
+        ),
+    };
+    for (name, words) in OPTICS {
+        let values = columns.get(name).map_or(&[][..], Vec::as_slice);
+        let most = values.iter().copied().fold(0.0, f64::max);
+        let least = values.iter().copied().fold(f64::INFINITY, f64::min);
+        let _ = match (most > 0.0, least == most) {
+            (false, _) => writeln!(text, "* {words}: none."),
+            (true, true) => writeln!(text, "* {words}: {most}."),
+            (true, false) => writeln!(text, "* {words}: {least} to {most}."),
+        };
+    }
+    Ok(text)
+}
+
+/// Columns of the table of flights, and what they are.
+const OPTICS: &[(&str, &str)] = &[
+    ("camera_shutter_s", "Motion blur of colours, seconds around the time of the frame"),
+    (
+        "camera_readout_s",
+        "Rolling shutter, seconds from the top row to the bottom row, the middle at the time of the frame",
+    ),
+    ("camera_noise_gaussian", "Noise of colours, deviation everywhere, steps of 8 bits"),
+    ("camera_noise_shot", "Noise that falls with the root of brightness, deviation at white, steps of 8 bits"),
+];
 
 /// Licence and language of a card's front matter.
 fn kept_lines(card: &str) -> impl Iterator<Item = &str> {

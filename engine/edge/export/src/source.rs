@@ -183,6 +183,11 @@ impl Episode<'_> {
         self.frames.iter().enumerate().map(pose).collect()
     }
 
+    /// Some of its frames as an episode of their own, except for pictures: these keep the numbers of the whole flight.
+    pub fn part(&self, frames: std::ops::Range<usize>) -> Episode<'_> {
+        Episode { frames: self.frames[frames].to_vec(), ..*self }
+    }
+
     /// Every frame.
     pub fn all_frames(&self) -> Vec<usize> {
         (0..self.frames.len()).collect()

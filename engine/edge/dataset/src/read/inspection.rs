@@ -91,6 +91,36 @@ impl PublishedDataset {
     }
 }
 
+impl PublishedDataset {
+    /// Boxes of buildings and walls by their instance ids, by town.
+    ///
+    /// # Errors
+    /// What is wrong with the table.
+    pub fn walls(&self) -> Result<BTreeMap<String, BTreeMap<u32, Vec<BoxInWorld>>>> {
+        const COLUMNS: [&str; 6] = ["town", "instance", "kind", "center_in_world_m", "size_m", "yaw_deg"];
+        let mut walls: BTreeMap<String, BTreeMap<u32, Vec<BoxInWorld>>> = BTreeMap::new();
+        let folder = self.folder().join("data/objects");
+        for (_, path) in if folder.is_dir() { table_files(&folder)? } else { vec![] } {
+            columns::read(&path, &|name| COLUMNS.contains(&name), &mut |rows| {
+                for row in 0..rows.len() {
+                    if !["building", "wall"].contains(&rows.text_at("kind", row)?) {
+                        continue;
+                    }
+                    let shape = (
+                        DVec3::from_array(rows.vector("center_in_world_m", row)?),
+                        0.5 * DVec3::from_array(rows.vector("size_m", row)?),
+                        rows.real("yaw_deg", row)?.to_radians(),
+                    );
+                    let of_town = walls.entry(rows.text_at("town", row)?.to_owned()).or_default();
+                    of_town.entry(rows.count("instance", row)?).or_default().push(shape);
+                }
+                Ok(())
+            })?;
+        }
+        Ok(walls)
+    }
+}
+
 /// Why a Parquet file cannot be read to its end, if so.
 pub fn parquet_problem(path: &Path) -> Option<String> {
     let outcome = columns::read(path, &|_| true, &mut |_| Ok(()));

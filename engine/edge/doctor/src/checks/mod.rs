@@ -6,6 +6,7 @@ mod leaks;
 mod motion;
 mod pictures;
 mod projection;
+mod surface;
 mod surroundings;
 mod time;
 mod words;
@@ -16,12 +17,13 @@ use crate::{Episode, Flag};
 
 /// Everything that can be told from one episode.
 pub fn of_episode(episode: &Episode) -> Vec<Flag> {
-    let checks: [fn(&Episode) -> Vec<Flag>; 8] = [
+    let checks: [fn(&Episode) -> Vec<Flag>; 9] = [
         time::check,
         motion::check,
         projection::check,
         bearing::check,
         depth::check,
+        surface::check,
         pictures::check,
         surroundings::check,
         words::check,

@@ -2,6 +2,7 @@
 
 use super::stretch;
 use crate::episode::{OFFSETS, depth_in_box};
+use crate::walls::{self, Walls};
 use crate::{Episode, Flag, Look, Moment};
 use cosfly_dataset::read::{FlightFacts, FrameRow, PublishedDataset, PublishedFlight, log_problem, parquet_problem};
 use cosfly_diagnose::{Diagnostic, Fault, Result};
@@ -71,6 +72,7 @@ fn read(dataset: &PublishedDataset, episodes: &mut Vec<Episode>, progress: &mut 
     let captions = dataset.captions()?;
     let facts = dataset.facts()?;
     let vehicles = dataset.vehicles()?;
+    let walls = dataset.walls()?;
     let all = dataset.flights().len() as u64;
     dataset.walk(&|_| true, &mut |flight, rows| {
         progress(episodes.len() as u64, all);
@@ -78,7 +80,8 @@ fn read(dataset: &PublishedDataset, episodes: &mut Vec<Episode>, progress: &mut 
         let captions = captions.get(&flight.trajectory_id).into_iter().flatten();
         episode.captions = captions.map(|it| (it.language.clone(), it.text.clone())).collect();
         episode.vehicles = vehicles.get(&flight.town).cloned().unwrap_or_default();
-        episode.looks = looks(dataset, flight, &rows).unwrap_or_default();
+        let walls = walls.get(&flight.town).filter(|_| episode.camera.is_some());
+        episode.looks = looks(dataset, flight, &rows, walls).unwrap_or_default();
         episodes.push(episode);
         Ok(())
     })
@@ -130,18 +133,32 @@ fn episode(flight: &PublishedFlight, rows: &[FrameRow], facts: Option<&FlightFac
     }
 }
 
-fn looks(dataset: &PublishedDataset, flight: &PublishedFlight, rows: &[FrameRow]) -> Result<Vec<Look>> {
+fn looks(
+    dataset: &PublishedDataset,
+    flight: &PublishedFlight,
+    rows: &[FrameRow],
+    walls: Option<&Walls>,
+) -> Result<Vec<Look>> {
     let mut log = dataset.log(flight)?;
     let mut looks = vec![];
     for frame in stretch(rows.len()) {
-        let logged = log.frame(frame)?;
+        let logged = log.frame_with_instances(frame)?;
         let depth = |offset: &i64| {
             let row = rows.get(frame.checked_add_signed(*offset as isize)?)?;
             let edges = row.frame.visible_box_px?.map(f64::from);
             depth_in_box(&logged.depth_m, logged.width as usize, edges)
         };
         let digest = Digest::of(&logged.rgb_file).to_string();
-        looks.push(Look { frame, digest, depth_m: OFFSETS.iter().map(depth).collect() });
+        let mut look = Look { frame, digest, depth_m: OFFSETS.iter().map(depth).collect(), walls_m: vec![] };
+        if let Some(walls) = walls {
+            let points = walls::points(&flight.camera, &logged.depth_m, &logged.instance, walls);
+            let gap = |offset: &i64| {
+                let row = rows.get(frame.checked_add_signed(*offset as isize)?)?;
+                walls::middle_gap_m(&points, &row.frame.camera_pose, walls)
+            };
+            look.walls_m = OFFSETS.iter().map(gap).collect();
+        }
+        looks.push(look);
     }
     Ok(looks)
 }

@@ -175,7 +175,7 @@ fn looks(trace: &Path, episode: &mut Episode, flags: &mut Vec<Flag>) {
             flags.push(Flag::damage("picture-missing", &episode.id, format!("frame {frame} has no `rgb.png`")));
             return;
         };
-        let mut look = Look { frame, digest: Digest::of(&colour).to_string(), depth_m: vec![] };
+        let mut look = Look { frame, digest: Digest::of(&colour).to_string(), ..Look::default() };
         match fs::read(folder.join("depth.npy")).map_err(|error| error.to_string()).and_then(|it| depth_of_npy(&it)) {
             Ok((depth, width)) => {
                 let at = |offset: &i64| {

@@ -1,6 +1,6 @@
 //! `trajectory.json` and `perturbation_report.json` of a trace.
 
-use super::names::Place;
+use super::names::{PART_FRAMES, Place};
 use crate::source::Episode;
 use cosfly_dataset::read::{FrameRow, PublishedFlight};
 use cosfly_frames::{DVec3, Pose};
@@ -37,12 +37,12 @@ pub fn trajectory(episode: &Episode<'_>, place: &Place) -> Value {
             "is_original": place.aug_index == 0,
         },
         "points": points,
-        "cosfly": own_part(episode),
+        "cosfly": own_part(episode, place),
     })
 }
 
 /// What the release has no place for.
-fn own_part(episode: &Episode<'_>) -> Value {
+fn own_part(episode: &Episode<'_>, place: &Place) -> Value {
     let flight = episode.flight;
     let captions: Vec<Value> = episode
         .captions
@@ -56,6 +56,11 @@ fn own_part(episode: &Episode<'_>) -> Value {
         "town": flight.town,
         "town_geometry_blake3": flight.town_geometry,
         "split": flight.split,
+        "part": {
+            "index": place.part,
+            "count": place.ids.len(),
+            "first_frame": place.part * PART_FRAMES,
+        },
         "dt_s": flight.dt_s,
         "weather": {"preset": flight.weather, "numbers": flight.weather_numbers},
         "target": {"height_m": flight.target_height_m, "radius_m": flight.target_radius_m},

@@ -59,15 +59,26 @@ impl Exporter for V7 {
 }
 
 fn write_trace(episode: &Episode<'_>, place: &Place, out: &OutFolder) -> Result<()> {
+    let frames = episode.all_frames();
+    let parts = place.ids.len();
+    frames.chunks(names::PART_FRAMES).take(parts).enumerate().try_for_each(|(part, frames)| {
+        let range = frames[0]..frames[0] + frames.len();
+        write_part(&episode.part(range), &place.of_part(part), frames, out)
+    })
+}
+
+/// A trace of some frames of a flight; `frames` are their numbers in the flight.
+fn write_part(episode: &Episode<'_>, place: &Place, frames: &[usize], out: &OutFolder) -> Result<()> {
+    let first = frames[0];
     let folder = format!("{ROOT}/{}", place.folder());
     let json =
         |name: &str, value: &serde_json::Value| out.put(&format!("{folder}/{name}"), format!("{value}\n").as_bytes());
     json("trajectory.json", &document::trajectory(episode, place))?;
     json("perturbation_report.json", &document::perturbation_report(episode, place))?;
     episode.each_picture(
-        &episode.all_frames(),
+        frames,
         |frame, logged| {
-            let folder = format!("{folder}/{}/frame_{frame:05}", document::FRAMES_DIR);
+            let folder = format!("{folder}/{}/frame_{:05}", document::FRAMES_DIR, frame - first);
             pictures::write(&logged, &mut |name, bytes| out.put(&format!("{folder}/{name}"), bytes))
         },
         |_, ()| Ok(()),
@@ -94,6 +105,7 @@ data_v7/<Town>/trajectory_<id>/<trace>/frames_playback/frame_<index>/{rgb.png,de
 release (`drone_nav_traj_v7`, `7.0.0`) rely on. Its full description is not public, so these choices are ours:
 
 * Everything under a key `cosfly`, and the whole of `perturbation_report.json`.
+* A flight of more than 1,000 frames becomes several trajectories with the same `source`; `cosfly.part` says which.
 * `<id>`: ten digits made from the expert's name. They look like the release's Unix times and are none.
 * `drone_pose` is the drone's; with a turned mount, `cosfly.camera_pose` is that of the pictures.
 * `target.world_location` is the middle of the body; `image_uv` and `depth` (along the optical axis) are its projection.

@@ -12,6 +12,9 @@ pub const TOWNS: [&str; 8] = ["Town01", "Town02", "Town03", "Town04", "Town05", 
 /// First number of a trajectory folder: ten digits, like the release's.
 const FIRST_ID: u64 = 1_000_000_000;
 
+/// Frames of a trace at most, since each is a folder.
+pub const PART_FRAMES: usize = crate::media::FOLDER_LIMIT;
+
 /// Whether readers of the release take `name` for a town.
 pub fn is_town(name: &str) -> bool {
     TOWNS.contains(&name.strip_suffix("_Opt").unwrap_or(name))
@@ -22,8 +25,10 @@ pub fn is_town(name: &str) -> bool {
 pub struct Place {
     /// Folder of the town.
     pub town: String,
-    /// Number of the pair.
-    pub id: u64,
+    /// Numbers of the pairs that the flight becomes: one for each [`PART_FRAMES`] frames.
+    pub ids: Vec<u64>,
+    /// Which of them this is.
+    pub part: usize,
     /// 0 for the expert, 1 and more for its twins.
     pub aug_index: usize,
     /// Number of the pedestrian in the town.
@@ -31,6 +36,11 @@ pub struct Place {
 }
 
 impl Place {
+    /// The same for the `part`-th stretch of its frames.
+    pub fn of_part(&self, part: usize) -> Self {
+        Self { part, ..self.clone() }
+    }
+
     /// Folder of the trace below that of the pair.
     pub fn trace(&self) -> String {
         if self.aug_index == 0 { "ORI".into() } else { format!("aug_{:03}", self.aug_index) }
@@ -38,7 +48,7 @@ impl Place {
 
     /// The whole folder.
     pub fn folder(&self) -> String {
-        format!("{}/trajectory_{}/{}", self.town, self.id, self.trace())
+        format!("{}/trajectory_{}/{}", self.town, self.ids[self.part], self.trace())
     }
 }
 
@@ -49,6 +59,7 @@ pub struct Names {
     towns: BTreeMap<String, String>,
     places: BTreeMap<String, Place>,
     alone: usize,
+    cut: usize,
 }
 
 impl Names {
@@ -75,13 +86,15 @@ impl Names {
             for (aug_index, flight) in family.enumerate() {
                 let place = Place {
                     town: names.towns[&flight.town].clone(),
-                    id: ids[*id],
+                    ids: ids[*id].clone(),
+                    part: 0,
                     aug_index,
                     path_index: paths[&(flight.town.as_str(), flight.pedestrian_id.as_str())],
                 };
                 names.places.insert(flight.trajectory_id.clone(), place);
             }
         }
+        names.cut = names.places.values().filter(|place| place.ids.len() > 1).count();
         names.alone = chosen.len() - names.places.len();
         if names.places.is_empty() {
             let message = "v7 holds pairs of an expert's flight and its perturbed twin; none was chosen";
@@ -111,6 +124,12 @@ impl Names {
                 format!("town `{town}` is called `{folder}` here, since readers look for CARLA's towns; `--town {town}=NAME` gives it another name")
             })
             .collect();
+        if self.cut > 0 {
+            remarks.push(format!(
+                "{} of more than {PART_FRAMES} frames cut into several trajectories: hosts of datasets refuse larger folders",
+                flights(self.cut)
+            ));
+        }
         if self.alone > 0 {
             remarks.push(format!(
                 "{} without a chosen twin of the same length left out: v7 holds pairs",
@@ -165,17 +184,22 @@ fn town_names(towns: &BTreeSet<&str>, asked: &[(String, String)]) -> Result<BTre
     Ok(names)
 }
 
-/// A number of ten digits for every expert, from its name and town.
-fn pair_ids(flights: &[PublishedFlight]) -> BTreeMap<String, u64> {
+/// Numbers of ten digits for every expert, from its name and town: one per part.
+fn pair_ids(flights: &[PublishedFlight]) -> BTreeMap<String, Vec<u64>> {
     let mut taken = BTreeSet::new();
     let mut ids = BTreeMap::new();
     for expert in flights.iter().filter(|flight| flight.expert_id.is_none()) {
-        let digest = Digest::of(format!("{}/{}", expert.town, expert.trajectory_id).as_bytes()).0;
-        let mut id = FIRST_ID + u64::from(u32::from_le_bytes([digest[0], digest[1], digest[2], digest[3]]));
-        while !taken.insert(id) {
-            id += 1;
-        }
-        ids.insert(expert.trajectory_id.clone(), id);
+        let mut id_of = |part: usize| {
+            let part = if part == 0 { String::new() } else { format!("/{part}") };
+            let digest = Digest::of(format!("{}/{}{part}", expert.town, expert.trajectory_id).as_bytes()).0;
+            let mut id = FIRST_ID + u64::from(u32::from_le_bytes([digest[0], digest[1], digest[2], digest[3]]));
+            while !taken.insert(id) {
+                id += 1;
+            }
+            id
+        };
+        let parts = expert.frames.div_ceil(PART_FRAMES).max(1);
+        ids.insert(expert.trajectory_id.clone(), (0..parts).map(&mut id_of).collect());
     }
     ids
 }

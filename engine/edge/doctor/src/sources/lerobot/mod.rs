@@ -213,7 +213,7 @@ impl Frames {
             self.pictures.get(name)?.get(*rows.get(frame)?).cloned()
         };
         let looks =
-            stretch(moments.len()).filter_map(|frame| Some(Look { frame, digest: digest(frame)?, depth_m: vec![] }));
+            stretch(moments.len()).filter_map(|frame| Some(Look { frame, digest: digest(frame)?, ..Look::default() }));
         let part = |parts: &Option<features::Parts<3>>| -> Vec<Option<[f64; 3]>> {
             let of = |row: &usize| parts.as_ref().and_then(|parts| parts.of(self.row(&parts.feature, *row)));
             rows.iter().map(of).collect()
