@@ -162,8 +162,9 @@ pub fn convergence(curves: &[&[f64]], stops: Option<&[&str]>) -> String {
     let axes = Axes { x: (0.0, (longest - 1) as f64), y: (low - 0.05, high + 0.05) };
     let last: Vec<f64> = sorted(relative.iter().filter_map(|curve| curve.last().copied()));
     let summary = format!(
-        "{} flights; the published cost is {} of the first in the median",
+        "{} flight{}; the published cost is {} of the first in the median",
         curves.len(),
+        if curves.len() == 1 { "" } else { "s" },
         percent(statistics::quantile(&last, 0.5))
     );
     let mut svg = open(&format!("Cost against its first value. {summary}"));

@@ -41,6 +41,7 @@ pub fn draw(town: &TownSketch, flights: &[&FlightSketch]) -> String {
     svg.push_str("</svg>");
     let shown = match (chosen.len(), drawn.len()) {
         (some, all) if some < all => format!("{some} of {all} expert flights"),
+        (1, _) => "1 flight".to_owned(),
         (all, _) => format!("{all} flights"),
     };
     let mean = chosen.iter().map(|flight| flight.mean_visible()).sum::<f64>() / chosen.len() as f64;

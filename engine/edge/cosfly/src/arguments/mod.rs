@@ -111,6 +111,7 @@ Examples:
 Examples:
   cosfly doctor out/carla_town                       a dataset of cosfly
   cosfly doctor CosFly/data_v7                       the published release
+  cosfly doctor my-lerobot-data                      a LeRobot dataset, exported or anyone's
   cosfly doctor out/carla_town --quota 20:2-4        do 20 % of the episodes lose their target for 2 to 4 s?
   cosfly doctor out/carla_town --json verdict.json   every flag, and which episodes are without one
 

@@ -51,7 +51,7 @@ fn rejected(report: &Report) -> String {
         *reasons.entry((&it.stage, &it.reason)).or_default() += 1;
     }
     let mut text = format!(
-        "<section class=\"card\"><h3>Left out</h3><p class=\"big\">{}</p><p>items gave no flight{}</p>",
+        "<section class=\"card whole-row\"><h3>Left out</h3><p class=\"big\">{}</p><p>items gave no flight{}</p>",
         grouped(report.rejections.len() as u64),
         if reasons.is_empty() { "." } else { ":" }
     );
