@@ -99,6 +99,39 @@ def image_folder():
     return f"{len(frames)} rows, columns {sorted(rows[next(iter(rows))].features)[:6]} ..."
 
 
+def as_llama_factory_reads(row, entry, media_dir):
+    """The rules of its converter for `sharegpt`: a system message first, then turns of user and assistant, as many `<image>` in the
+    turns as there are images (the system message is not searched), paths below `media_dir`."""
+    tags, columns = entry["tags"], entry["columns"]
+    messages = row[columns["messages"]]
+    if messages[0][tags["role_tag"]] == tags["system_tag"]:
+        messages = messages[1:]
+    assert messages and len(messages) % 2 == 0, "turns come in pairs; others are skipped"
+    for turn, message in enumerate(messages):
+        assert message[tags["role_tag"]] == (tags["user_tag"], tags["assistant_tag"])[turn % 2]
+    images = row[columns["images"]]
+    assert sum(message[tags["content_tag"]].count("<image>") for message in messages) == len(images)
+    assert all((media_dir / image).is_file() for image in images)
+
+
+def as_ms_swift_reads(row):
+    """The rules of its check of messages: roles by their plain names, no content missing, no empty answer."""
+    messages = row["messages"][1:] if row["messages"][0]["role"] == "system" else row["messages"]
+    assert len(messages) % 2 == 0
+    for user, assistant in zip(messages[::2], messages[1::2]):
+        assert user["role"] in ("user", "tool") and user["content"] is not None
+        assert assistant["role"] == "assistant" and assistant["content"]
+    assert not {"rejected_response", "rejected_messages", "objects", "videos", "audios"} & set(row), "keys with a meaning of their own"
+
+
+def small_folders():
+    """No folder of any export has more entries than hosts of datasets like."""
+    folders = [path for path in folder.rglob("*") if path.is_dir()] + [folder]
+    most = max(len(list(path.iterdir())) for path in folders)
+    assert most <= 1000
+    return f"at most {most} entries in {len(folders)} folders"
+
+
 def vlm():
     """The rules of both tools' readers; the answers lead from the current pose to the expert's (world frame)."""
     root, windows = folder / "vlm", 0
@@ -106,6 +139,8 @@ def vlm():
         assert entry["formatting"] == "sharegpt" and entry["columns"] == {"messages": "messages", "images": "images"}
         rows = datasets.load_dataset("json", data_files=str(root / entry["file_name"]), split="train", cache_dir=cache)
         for row in rows:
+            as_llama_factory_reads(row, entry, root)
+            as_ms_swift_reads(row)
             roles = [message["role"] for message in row["messages"]]
             assert roles == ["system", "user", "assistant"]
             text = "".join(message["content"] for message in row["messages"])
@@ -127,5 +162,5 @@ def vlm():
     return f"{windows} windows"
 
 
-for check in (coco, web_dataset, image_folder, vlm):
+for check in (coco, web_dataset, image_folder, vlm, small_folders):
     print(f"{check.__name__}: {check()}")

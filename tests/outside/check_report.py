@@ -46,8 +46,9 @@ def contents(page):
         "maps and charts": page.locator("svg[role=img][aria-label]").count(),
         "pictures": page.locator("img[alt]").count(),
         "tiles of the statistics table": page.locator(".tile").count(),
+        "planners": page.locator("#planners .wide tbody").first.locator("tr").count(),
     }
-    least = {"landmarks": 4, "sections": 6, "maps and charts": 10, "pictures": 2, "tiles of the statistics table": 8}
+    least = {"landmarks": 4, "sections": 8, "maps and charts": 10, "pictures": 2, "tiles of the statistics table": 8, "planners": 5}
     problems.extend(f"{name}: {counts[name]}; at least {least[name]}" for name in least if counts[name] < least[name])
     missing = page.evaluate("[...document.querySelectorAll('nav a')].filter(it => !document.querySelector(it.hash)).length")
     if missing:
