@@ -1,8 +1,16 @@
 //! Plugins through the real binary: every recipe with one, what a changed plugin makes anew, mistakes, failures, the commands.
 
 use crate::support::{cosfly, repository_root};
+use arrow_stream::Values;
 use parquet::file::reader::{FileReader, SerializedFileReader};
 use std::path::{Path, PathBuf};
+
+#[path = "../plugins/sdk/src/arrow_stream.rs"]
+mod arrow_stream;
+#[path = "../engine/edge/plugin-host/tests/host/stage_text.rs"]
+mod stage_text;
+
+use stage_text::StageText;
 
 /// A folder with the town, the plugins and a recipe.
 struct Yard {
@@ -55,7 +63,7 @@ impl Yard {
         let folder = tempfile::tempdir().expect("a folder");
         std::fs::write(folder.path().join("street.xodr"), crate::street::map()).expect("writable");
         std::fs::write(folder.path().join("recipe.toml"), recipe).expect("writable");
-        for plugin in ["no_fly_zone", "keep_good", "orbit"] {
+        for plugin in ["no_fly_zone", "keep_good", "orbit", "tum"] {
             let file = format!("{plugin}.wasm");
             std::fs::copy(plugins().join(&file), folder.path().join(file)).expect("the plugin is there");
         }
@@ -84,6 +92,22 @@ impl Yard {
     }
 }
 
+/// All that are kept.
+const EXAMPLES: [&str; 12] = [
+    "no_fly_zone",
+    "privacy",
+    "sun_glare",
+    "wind",
+    "keep_good",
+    "seconds_to_loss",
+    "tum",
+    "viewpoint",
+    "losses",
+    "patrol",
+    "inspection",
+    "orbit",
+];
+
 fn plugins() -> PathBuf {
     repository_root().join("recipes/plugins")
 }
@@ -92,7 +116,7 @@ fn plugins() -> PathBuf {
 fn every_recipe_with_a_plugin_makes_a_sound_dataset() {
     let folder = tempfile::tempdir().expect("a folder");
     let at = |name: &str| folder.path().join(name).display().to_string();
-    for name in ["no_fly_zone", "privacy", "sun_glare", "wind", "judged", "patrol", "inspection", "orbit"] {
+    for name in ["no_fly_zone", "privacy", "sun_glare", "wind", "judged", "extras", "patrol", "inspection", "orbit"] {
         let recipe = format!("recipes/{name}.toml");
         cosfly(&["run", &recipe, "--quiet", "--store", &at("store"), "--out", &at(name)]).run_ok();
         cosfly(&["verify", &at(name)]).run_ok();
@@ -186,13 +210,113 @@ fn files_that_are_not_the_wanted_plugin_are_refused_at_their_place() {
 
 #[test]
 fn a_failing_plugin_is_named_with_function_and_item_and_the_rest_goes_on() {
-    let yard = Yard::with(&RECIPE.replace("cost_no_fly_zone", "colour"));
+    let yard = Yard::with(&RECIPE.replace("cost_no_fly_zone", "cost_colour"));
     let (code, text) = yard.refusal(&["run", "recipe.toml", "--quiet"]);
     assert_eq!(code, Some(4), "{text}");
-    assert!(text.contains("plugin `keep_good.wasm` failed in `run` for `kept/p00000`"), "{text}");
-    assert!(text.contains("flights have no column `colour`"), "{text}");
+    assert!(text.contains("plugin `keep_good.wasm` failed in `configure` for `kept/p00000`"), "{text}");
+    assert!(text.contains("it reads `cost_colour`; flights have no such column, but `frame`, `time_s`"), "{text}");
     std::fs::write(yard.path().join("recipe.toml"), RECIPE).expect("writable");
     assert!(!yard.made().iter().any(|(stage, _)| stage == "expert"), "the experts were finished");
+}
+
+#[test]
+fn what_a_stage_reads_and_makes_is_held_against_what_there_is_before_anything_runs() {
+    for (from, to, words) in [
+        ("cost_no_fly_zone", "visibilty", "it reads `visibilty`; flights have no such column, but `frame`, `time_s`"),
+        ("cost_no_fly_zone", "visibilty", "did you mean `visibility`?"),
+        ("cost_no_fly_zone", "frame", "it reads `frame` as real; it is integer"),
+        ("cost_no_fly_zone", "box_left", "which only rendered flights have"),
+        ("wasm:keep_good.wasm", "wasm:tum.wasm", "it is an exporter of files, and makes no flights"),
+    ] {
+        let mut recipe = RECIPE.replacen(from, to, 1);
+        if to.contains("tum") {
+            recipe =
+                recipe.replace("params.rules = [{ column = \"cost_no_fly_zone\", of = \"max\", at_most = 1e6 }]", "");
+        }
+        let yard = Yard::with(&recipe);
+        let (code, text) = yard.refusal(&["plan", "recipe.toml"]);
+        assert_eq!(code, Some(4), "{text}");
+        assert!(text.contains(words) && text.contains("recipe.toml:"), "{to}: {text}");
+        assert!(text.contains("failed in `configure`"), "{text}");
+    }
+}
+
+/// The yard's recipe with an exporter.
+fn with_extras(file: &str) -> String {
+    let stage = format!(
+        "[stages.more]\nuse = \"wasm:{file}\"\nmakes = \"extras\"\ninputs = {{ town = \"town\", frames = \"frames\" }}\n\n[stages.dataset]"
+    );
+    let recipe = RECIPE.replace("[stages.dataset]", &stage);
+    recipe.replace("frames = \"frames\" }\nname", "frames = \"frames\", extras = [\"more\"] }\nname")
+}
+
+#[test]
+fn an_exporter_adds_files_that_the_dataset_knows_and_a_changed_one_renders_nothing_anew() {
+    let yard = Yard::with(&with_extras("tum.wasm"));
+    assert!(yard.made().contains(&("more".to_owned(), 2)));
+    let out = yard.path().join("out/yard");
+    let text = std::fs::read_to_string(out.join("extras/tum/street/000/kept-p00000/camera.txt")).expect("a file");
+    assert_eq!(text.lines().count(), 13, "{text}");
+    assert!(std::fs::read_to_string(out.join("README.md")).expect("a card").contains("### tum"));
+    cosfly(&["verify", "out/yard"]).within(yard.path()).run_ok();
+    // Another file than the exporter wrote is found.
+    let damaged = out.join("extras/tum/street/000/kept-p00000/camera.txt");
+    // Not through the link into the store.
+    std::fs::remove_file(&damaged).and_then(|()| std::fs::write(&damaged, "damaged")).expect("writable");
+    let (code, _) = yard.refusal(&["verify", "out/yard"]);
+    assert_ne!(code, Some(0));
+    let file = yard.path().join("tum.wasm");
+    let mut bytes = std::fs::read(&file).expect("readable");
+    bytes.extend([0, 4, 1, b'n', b'e', b'w']);
+    std::fs::write(file, bytes).expect("writable");
+    assert_eq!(yard.made(), [("more".to_owned(), 2)]);
+}
+
+#[test]
+fn hostile_answers_are_refused_with_plugin_function_and_item_and_the_rest_goes_on() {
+    let reals = |name: &str, values: &[f64]| (name.to_owned(), Values::Reals(values.to_vec()));
+    let texts =
+        |name: &str, values: &[&str]| (name.to_owned(), Values::Texts(values.iter().map(|it| (*it).into()).collect()));
+    let bytes = |count: usize| ("content".to_owned(), Values::Bytes(vec![b"x".to_vec(); count]));
+    let file = |paths: &[&str]| arrow_stream::write(&[texts("path", paths), bytes(paths.len())]);
+    let rows = StageText { effect: 3, name: "more", gives: vec![("risk", 0)], ..StageText::default() };
+    let note = StageText { effect: 2, ..rows.clone() };
+    let files = StageText { effect: 4, gives: vec![("path", 3), ("content", 4)], ..rows.clone() };
+    let good = arrow_stream::write(&[reals("risk", &[0.5])]);
+    let yard = Yard::with(&with_extras("hostile.wasm"));
+    let write = |text: &StageText| std::fs::write(yard.path().join("hostile.wasm"), text.bytes()).expect("writable");
+    for (text, answer, words) in [
+        (&files, file(&["../../x"]), "it returned a file `../../x`; paths are relative"),
+        (&files, file(&["a", "a"]), "the file `a` twice"),
+        (&files, file(&["a"; 1001]), "1001 rows; at most 1000 are taken"),
+        (&note, arrow_stream::write(&[reals("risk", &[0.5, 0.5])]), "2 rows; one is wanted"),
+        (&note, arrow_stream::write(&[reals("cost", &[0.5])]), "column 0 is `cost`; it declares `risk` (real)"),
+        (&note, arrow_stream::write(&[texts("risk", &["high"])]), "its column `risk` holds Utf8; it declares Float64"),
+        (&note, arrow_stream::write(&[reals("risk", &[f64::NAN])]), "its column `risk` is NaN at row 0"),
+        (&rows, good[..good.len() - 40].to_vec(), "it returned no Arrow stream: it ends within message 1"),
+        (&rows, b"no table".to_vec(), "it returned no Arrow stream: byte 0 begins no message"),
+    ] {
+        write(&StageText { answer, ..text.clone() });
+        let (code, text) = yard.refusal(&["run", "recipe.toml", "--quiet"]);
+        assert_eq!(code, Some(4), "{text}");
+        assert!(text.contains("plugin `hostile.wasm` failed in `run` for `more/kept-p0000"), "{text}");
+        assert!(text.contains(words), "{text}");
+    }
+    for (name, gives, words) in [
+        ("frames", ("risk", 0), "it names its table `frames`, which datasets have of their own"),
+        ("more", ("trajectory_id", 3), "it gives a column `trajectory_id`, which the dataset adds itself"),
+    ] {
+        write(&StageText { name, gives: vec![gives], ..rows.clone() });
+        let (code, text) = yard.refusal(&["run", "recipe.toml", "--quiet"]);
+        assert!(code == Some(4) && text.contains(words) && text.contains("recipe.toml:"), "{text}");
+    }
+    write(&StageText { answer: good, ..note });
+    let made = yard.made();
+    assert!(
+        made.iter().all(|(stage, _)| stage == "more" || stage.starts_with("dataset")),
+        "all else was finished: {made:?}"
+    );
+    assert_eq!(column(&yard.path().join("out/yard"), "more", "risk"), ["0.5", "0.5"]);
 }
 
 #[test]
@@ -204,9 +328,7 @@ fn a_filter_rejects_with_its_reason() {
 
 #[test]
 fn the_example_plugins_keep_the_laws_of_their_kinds() {
-    for name in
-        ["no_fly_zone", "privacy", "sun_glare", "wind", "keep_good", "seconds_to_loss", "patrol", "inspection", "orbit"]
-    {
+    for name in EXAMPLES {
         let file = plugins().join(format!("{name}.wasm")).display().to_string();
         let text = cosfly(&["plugin", "check", &file]).run_ok().stdout;
         assert!(text.contains("it keeps the laws of its kind"), "{text}");

@@ -1,26 +1,32 @@
-//! The little of Arrow streams that stages need: one record batch of 64-bit floats in; floats, booleans or texts out.
+//! The little of Arrow streams that stages need: one record batch of floats, integers and truths in; of those, texts or bytes out.
 //!
 //! The whole library would make plugins of a hundred kilobytes into some of two megabytes. Layout: Arrow columnar format 1.5,
 //! IPC streams; messages are Flatbuffers.
 
-/// A column to write.
+/// The values of a column.
 #[derive(Clone, Debug, PartialEq)]
-pub enum Column {
+pub enum Values {
     /// 64-bit floats.
     Reals(Vec<f64>),
-    /// Booleans.
-    Bools(Vec<bool>),
+    /// 64-bit integers.
+    Integers(Vec<i64>),
+    /// Truths.
+    Booleans(Vec<bool>),
     /// Texts.
     Texts(Vec<String>),
+    /// Bytes.
+    Bytes(Vec<Vec<u8>>),
 }
 
-/// What is read: the schema's metadata and the columns of floats.
+/// What is read: the schema's metadata, and the columns.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Table {
+    /// How many rows there are.
+    pub rows: usize,
     /// Names and values.
     pub metadata: Vec<(String, String)>,
     /// Names and values.
-    pub columns: Vec<(String, Vec<f64>)>,
+    pub columns: Vec<(String, Values)>,
 }
 
 const CONTINUED: u32 = 0xFFFF_FFFF;
@@ -28,7 +34,9 @@ const CONTINUED: u32 = 0xFFFF_FFFF;
 const SCHEMA: u8 = 1;
 const RECORD_BATCH: u8 = 3;
 /// Types of fields.
+const INT: u8 = 2;
 const FLOATING_POINT: u8 = 3;
+const BINARY: u8 = 4;
 const UTF8: u8 = 5;
 const BOOL: u8 = 6;
 /// Version 5 of the metadata.
@@ -39,13 +47,13 @@ const V5: i16 = 4;
 /// # Errors
 /// What of it is not as in the interface.
 pub fn read(stream: &[u8]) -> Result<Table, String> {
-    read_checked(stream).ok_or_else(|| "the flight is no Arrow stream of 64-bit floats".to_owned())
+    read_checked(stream).ok_or_else(|| "the flight is no Arrow stream of floats, integers and truths".to_owned())
 }
 
 fn read_checked(stream: &[u8]) -> Option<Table> {
     let mut at = 0;
     let mut table = Table::default();
-    let mut names = Vec::new();
+    let mut fields = Vec::new();
     loop {
         if u32_at(stream, at)? != CONTINUED {
             return None;
@@ -63,11 +71,7 @@ fn read_checked(stream: &[u8]) -> Option<Table> {
         match *message.get(root.slot(1)?)? {
             SCHEMA => {
                 for field in header.tables(1)? {
-                    let is_real = *message.get(field.slot(2)?)? == FLOATING_POINT;
-                    if !is_real || field.table(3)?.slot(0).and_then(|at| message.get(at)) != Some(&2) {
-                        return None;
-                    }
-                    names.push(field.text(0)?);
+                    fields.push((field.text(0)?, field_kind(&field)?));
                 }
                 for pair in header.tables(2).unwrap_or_default() {
                     table.metadata.push((pair.text(0)?, pair.text(1)?));
@@ -76,19 +80,42 @@ fn read_checked(stream: &[u8]) -> Option<Table> {
             RECORD_BATCH => {
                 let rows = usize::try_from(i64_at(message, header.slot(0)?)?).ok()?;
                 let buffers = header.vector(2)?;
-                for (column, name) in names.into_iter().enumerate() {
+                table.rows = rows;
+                for (column, (name, kind)) in fields.into_iter().enumerate() {
                     // Two buffers per column, validity and data: 16 bytes each, offset and length.
                     let data_at = buffers + 4 + 16 * (2 * column + 1);
                     let start = usize::try_from(i64_at(message, data_at)?).ok()?;
-                    let data = body.get(start..start.checked_add(rows.checked_mul(8)?)?)?;
-                    let (numbers, _) = data.as_chunks::<8>();
-                    table.columns.push((name, numbers.iter().map(|bytes| f64::from_le_bytes(*bytes)).collect()));
+                    let length = if kind == BOOL { rows.div_ceil(8) } else { rows.checked_mul(8)? };
+                    table.columns.push((name, values(kind, body.get(start..start.checked_add(length)?)?, rows)));
                 }
                 return Some(table);
             }
             _ => return None,
         }
         at = body_at + body.len();
+    }
+}
+
+/// The type of a field, where it is one that is read.
+fn field_kind(field: &Node<'_>) -> Option<u8> {
+    let kind = *field.bytes.get(field.slot(2)?)?;
+    let first = field.table(3)?;
+    let parameter = first.slot(0).and_then(|at| field.bytes.get(at));
+    // Double precision; 64 bits.
+    let is_read = match kind {
+        FLOATING_POINT => parameter == Some(&2),
+        INT => parameter == Some(&64),
+        other => other == BOOL,
+    };
+    is_read.then_some(kind)
+}
+
+fn values(kind: u8, data: &[u8], rows: usize) -> Values {
+    let (numbers, _) = data.as_chunks::<8>();
+    match kind {
+        FLOATING_POINT => Values::Reals(numbers.iter().map(|bytes| f64::from_le_bytes(*bytes)).collect()),
+        INT => Values::Integers(numbers.iter().map(|bytes| i64::from_le_bytes(*bytes)).collect()),
+        _ => Values::Booleans((0..rows).map(|row| data[row / 8] >> (row % 8) & 1 == 1).collect()),
     }
 }
 
@@ -152,7 +179,7 @@ impl<'a> Node<'a> {
 }
 
 /// Writes a stream of one batch; the columns are of one length.
-pub fn write(columns: &[(String, Column)]) -> Vec<u8> {
+pub fn write(columns: &[(String, Values)]) -> Vec<u8> {
     let mut stream = Vec::new();
     push_message(&mut stream, schema(columns), &[]);
     let (message, body) = batch(columns);
@@ -176,6 +203,7 @@ enum Cell {
     Absent,
     Byte(u8),
     Short(i16),
+    Word(i32),
     Long(i64),
     /// Filled in when its target is written.
     Offset,
@@ -215,6 +243,7 @@ impl Builder {
             match cell {
                 Cell::Byte(value) => bytes[0] = *value,
                 Cell::Short(value) => bytes[..2].copy_from_slice(&value.to_le_bytes()),
+                Cell::Word(value) => bytes[..4].copy_from_slice(&value.to_le_bytes()),
                 Cell::Long(value) => bytes = value.to_le_bytes(),
                 Cell::Absent | Cell::Offset => {}
             }
@@ -267,7 +296,7 @@ impl Builder {
     }
 }
 
-fn schema(columns: &[(String, Column)]) -> Vec<u8> {
+fn schema(columns: &[(String, Values)]) -> Vec<u8> {
     let mut out = Builder::new();
     let message = out.message(SCHEMA, 0);
     let schema = out.table(&[Cell::Absent, Cell::Offset]);
@@ -276,16 +305,22 @@ fn schema(columns: &[(String, Column)]) -> Vec<u8> {
     out.link_cell(schema, 1, fields);
     for (k, (name, column)) in columns.iter().enumerate() {
         let kind = match column {
-            Column::Reals(_) => FLOATING_POINT,
-            Column::Bools(_) => BOOL,
-            Column::Texts(_) => UTF8,
+            Values::Reals(_) => FLOATING_POINT,
+            Values::Integers(_) => INT,
+            Values::Booleans(_) => BOOL,
+            Values::Texts(_) => UTF8,
+            Values::Bytes(_) => BINARY,
         };
         let field =
             out.table(&[Cell::Offset, Cell::Byte(0), Cell::Byte(kind), Cell::Offset, Cell::Absent, Cell::Offset]);
         out.link(fields + 4 + 4 * k, field);
         let name = out.text(name);
         out.link_cell(field, 0, name);
-        let of_kind = if kind == FLOATING_POINT { out.table(&[Cell::Short(2)]) } else { out.table(&[]) };
+        let of_kind = match kind {
+            FLOATING_POINT => out.table(&[Cell::Short(2)]),
+            INT => out.table(&[Cell::Word(64), Cell::Byte(1)]),
+            _ => out.table(&[]),
+        };
         out.link_cell(field, 3, of_kind);
         let children = out.offsets(0);
         out.link_cell(field, 5, children);
@@ -293,7 +328,7 @@ fn schema(columns: &[(String, Column)]) -> Vec<u8> {
     out.0
 }
 
-fn batch(columns: &[(String, Column)]) -> (Vec<u8>, Vec<u8>) {
+fn batch(columns: &[(String, Values)]) -> (Vec<u8>, Vec<u8>) {
     let (mut body, mut buffers) = (Vec::new(), Vec::new());
     let mut add = |bytes: &[u8]| {
         buffers.push([body.len() as i64, bytes.len() as i64]);
@@ -304,22 +339,29 @@ fn batch(columns: &[(String, Column)]) -> (Vec<u8>, Vec<u8>) {
     for (_, column) in columns {
         add(&[]);
         match column {
-            Column::Reals(values) => {
+            Values::Reals(values) => {
                 rows = values.len();
                 add(&values.iter().flat_map(|value| value.to_le_bytes()).collect::<Vec<u8>>());
             }
-            Column::Bools(values) => {
+            Values::Integers(values) => {
+                rows = values.len();
+                add(&values.iter().flat_map(|value| value.to_le_bytes()).collect::<Vec<u8>>());
+            }
+            Values::Booleans(values) => {
                 rows = values.len();
                 let mut bits = vec![0_u8; rows.div_ceil(8)];
                 (0..rows).filter(|row| values[*row]).for_each(|row| bits[row / 8] |= 1 << (row % 8));
                 add(&bits);
             }
-            Column::Texts(values) => {
+            Values::Texts(values) => {
                 rows = values.len();
-                let mut ends = vec![0_i32];
-                values.iter().for_each(|text| ends.push(ends[ends.len() - 1] + text.len() as i32));
-                add(&ends.iter().flat_map(|end| end.to_le_bytes()).collect::<Vec<u8>>());
+                add(&ends_of(values.iter().map(String::len)));
                 add(values.concat().as_bytes());
+            }
+            Values::Bytes(values) => {
+                rows = values.len();
+                add(&ends_of(values.iter().map(Vec::len)));
+                add(&values.concat());
             }
         }
     }
@@ -334,16 +376,28 @@ fn batch(columns: &[(String, Column)]) -> (Vec<u8>, Vec<u8>) {
     (out.0, body)
 }
 
+/// Where each of some texts begins and ends when all stand one behind the other.
+fn ends_of(lengths: impl Iterator<Item = usize>) -> Vec<u8> {
+    let mut ends = vec![0_i32];
+    lengths.for_each(|length| ends.push(ends[ends.len() - 1] + length as i32));
+    ends.iter().flat_map(|end| end.to_le_bytes()).collect()
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
 
     #[test]
-    fn floats_are_read_back_and_damage_is_refused_without_a_panic() {
-        let columns = [("a", vec![1.0, -2.5, 3.0]), ("longer_name", vec![0.0, f64::MAX, 1e-9])];
+    fn columns_are_read_back_and_damage_is_refused_without_a_panic() {
+        let columns = [
+            ("a", Values::Reals(vec![1.0, -2.5, 3.0])),
+            ("longer_name", Values::Integers(vec![0, i64::MAX, -7])),
+            ("truths", Values::Booleans(vec![true, false, true])),
+        ];
         let columns = columns.map(|(name, values)| (name.to_owned(), values));
-        let stream = write(&columns.clone().map(|(name, values)| (name, Column::Reals(values))));
-        assert_eq!(read(&stream).unwrap().columns, columns);
+        let stream = write(&columns);
+        let table = read(&stream).unwrap();
+        assert_eq!((table.rows, &table.columns[..]), (3, &columns[..]));
         for at in 0..stream.len() {
             let _ = read(&stream[..at]);
             for bit in [1, 0x80] {

@@ -1,7 +1,8 @@
 //! Cost terms: a trait for authors, and what stands between it and the interface.
 
 use crate::bindings::cost_term::exports::cosfly::plugin::cost as wire;
-use crate::{Metadata, Param, Params, Point, params};
+use crate::running::Running;
+use crate::{Metadata, Params, Point};
 
 /// What a configured term is.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -80,35 +81,14 @@ pub fn per_waypoint<T>(waypoints: &[Point], beside: &[T], costs: &mut [f64], cos
     }
 }
 
-/// A term at work, behind the interface's functions.
-#[doc(hidden)]
-pub struct Running<T>(Option<T>);
-
 impl<T: CostTerm> Running<T> {
-    pub const fn new() -> Self {
-        Self(None)
-    }
-
-    pub fn describe() -> wire::Metadata {
-        let told = T::describe();
-        wire::Metadata {
-            name: told.name.to_owned(),
-            version: told.version.to_owned(),
-            summary: told.summary.to_owned(),
-            params_schema: format!("{{{}}}", T::Params::schema()),
-        }
-    }
-
-    pub fn configure(&mut self, text: &str) -> Result<wire::Shape, wire::Error> {
-        crate::log::panics_as_messages();
-        let term = params::from_text(text).and_then(T::new).map_err(wire::Error::InvalidParams)?;
-        let Shape { support, gradients } = term.shape();
-        self.0 = Some(term);
+    pub fn configure_term(&mut self, text: &str) -> Result<wire::Shape, wire::Error> {
+        let Shape { support, gradients } = self.put(text, T::new)?.shape();
         Ok(wire::Shape { support, gradients })
     }
 
     pub fn begin(&mut self, run: wire::RunContext) -> Result<(), wire::Error> {
-        let term = self.0.as_mut().ok_or_else(unconfigured)?;
+        let term = self.get_mut()?;
         let points = |flat: &[f64]| flat.as_chunks::<3>().0.to_vec();
         let bodies = points(&run.body_points);
         let run = Run {
@@ -123,7 +103,7 @@ impl<T: CostTerm> Running<T> {
     }
 
     pub fn evaluate(&self, waypoints: &[f64], want_gradients: bool) -> Result<wire::Evaluation, wire::Error> {
-        let term = self.0.as_ref().ok_or_else(unconfigured)?;
+        let term = self.get()?;
         let (points, _) = waypoints.as_chunks::<3>();
         let mut costs = vec![0.0; points.len()];
         let mut gradients = vec![[0.0; 3]; if want_gradients { points.len() } else { 0 }];
@@ -131,10 +111,6 @@ impl<T: CostTerm> Running<T> {
         term.evaluate(points, &mut costs, wanted).map_err(wire::Error::Failed)?;
         Ok(wire::Evaluation { costs, gradients: gradients.into_flattened() })
     }
-}
-
-fn unconfigured() -> wire::Error {
-    wire::Error::Failed("it was not configured".to_owned())
 }
 
 /// Makes a type that is a [`CostTerm`](crate::CostTerm) the plugin of this crate.
@@ -145,16 +121,16 @@ macro_rules! cost_term {
         const _: () = {
             use $crate::bindings::cost_term::exports::cosfly::plugin::cost as wire;
             $crate::macros::thread_local! {
-                static RUNNING: $crate::macros::RefCell<$crate::macros::RunningTerm<$term>> =
-                    const { $crate::macros::RefCell::new($crate::macros::RunningTerm::new()) };
+                static RUNNING: $crate::macros::RefCell<$crate::macros::Running<$term>> =
+                    const { $crate::macros::RefCell::new($crate::macros::Running::new()) };
             }
             struct Plugin;
             impl wire::Guest for Plugin {
                 fn describe() -> wire::Metadata {
-                    $crate::macros::RunningTerm::<$term>::describe()
+                    $crate::macros::Running::<$term>::describe::<<$term as $crate::CostTerm>::Params>(<$term as $crate::CostTerm>::describe())
                 }
                 fn configure(params: String) -> Result<wire::Shape, wire::Error> {
-                    RUNNING.with_borrow_mut(|running| running.configure(&params))
+                    RUNNING.with_borrow_mut(|running| running.configure_term(&params))
                 }
                 fn begin(run: wire::RunContext) -> Result<(), wire::Error> {
                     RUNNING.with_borrow_mut(|running| running.begin(run))

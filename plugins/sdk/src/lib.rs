@@ -2,7 +2,7 @@
 //!
 //! * [`CostTerm`] and [`cost_term!`]: a cost term of the planner.
 //! * [`Objective`] and [`objective!`]: what to look at, from where, when.
-//! * [`Stage`] and [`stage!`]: judges or labels finished flights.
+//! * [`Stage`] and [`stage!`]: judges, labels, annotates or exports finished flights.
 //! * [`params!`]: parameters with documentation, defaults and ranges; the schema that recipes are checked against comes from it.
 //! * [`town`]: rays, distances, ground and buildings, in batches. [`log`]: messages. [`Random`]: chance from the given seed.
 //! * [`libm`]: the mathematics library; the same bits on every machine.
@@ -59,6 +59,7 @@ mod params;
 mod random;
 #[cfg(any(test, target_family = "wasm"))]
 mod recent_blocks;
+mod running;
 mod stage;
 pub mod town;
 
@@ -71,7 +72,7 @@ pub use params::{NoParams, Param, Params};
 #[doc(hidden)]
 pub use params::{quoted as __private_quoted, sentence as __private_sentence};
 pub use random::Random;
-pub use stage::{Answer, Flight, Stage};
+pub use stage::{Answer, Column, File, Flight, Gives, Kind, Stage, Value, reals};
 
 #[cfg(target_family = "wasm")]
 #[global_allocator]
@@ -91,9 +92,7 @@ pub struct Metadata {
 /// What the macros need; no part of the interface for authors.
 #[doc(hidden)]
 pub mod macros {
-    pub use crate::cost_term::Running as RunningTerm;
-    pub use crate::objective::Running as RunningObjective;
-    pub use crate::stage::Running as RunningStage;
+    pub use crate::running::Running;
     pub use std::cell::RefCell;
     pub use std::thread_local;
 }

@@ -1,7 +1,8 @@
 //! Objectives: a trait for authors, and what stands between it and the interface.
 
 use crate::bindings::objective::exports::cosfly::plugin::reference as wire;
-use crate::{Metadata, Param, Params, Point, params};
+use crate::running::Running;
+use crate::{Metadata, Params, Point};
 
 /// Where a flight is to be.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -87,33 +88,13 @@ pub trait Objective: Sized + 'static {
     fn produce(&self, site: &Site) -> Result<Plan, String>;
 }
 
-/// An objective at work, behind the interface's functions.
-#[doc(hidden)]
-pub struct Running<T>(Option<T>);
-
 impl<T: Objective> Running<T> {
-    pub const fn new() -> Self {
-        Self(None)
-    }
-
-    pub fn describe() -> wire::Metadata {
-        let told = T::describe();
-        wire::Metadata {
-            name: told.name.to_owned(),
-            version: told.version.to_owned(),
-            summary: told.summary.to_owned(),
-            params_schema: format!("{{{}}}", T::Params::schema()),
-        }
-    }
-
-    pub fn configure(&mut self, text: &str) -> Result<(), wire::Error> {
-        crate::log::panics_as_messages();
-        self.0 = Some(params::from_text(text).and_then(T::new).map_err(wire::Error::InvalidParams)?);
-        Ok(())
+    pub fn configure_objective(&mut self, text: &str) -> Result<(), wire::Error> {
+        self.put(text, T::new).map(drop)
     }
 
     pub fn produce(&self, site: wire::Site) -> Result<wire::Plan, wire::Error> {
-        let objective = self.0.as_ref().ok_or_else(|| wire::Error::Unsupported("it was not configured".to_owned()))?;
+        let objective = self.get()?;
         let site = Site {
             seed: site.seed,
             dt: site.dt,
@@ -140,16 +121,16 @@ macro_rules! objective {
         const _: () = {
             use $crate::bindings::objective::exports::cosfly::plugin::reference as wire;
             $crate::macros::thread_local! {
-                static RUNNING: $crate::macros::RefCell<$crate::macros::RunningObjective<$objective>> =
-                    const { $crate::macros::RefCell::new($crate::macros::RunningObjective::new()) };
+                static RUNNING: $crate::macros::RefCell<$crate::macros::Running<$objective>> =
+                    const { $crate::macros::RefCell::new($crate::macros::Running::new()) };
             }
             struct Plugin;
             impl wire::Guest for Plugin {
                 fn describe() -> wire::Metadata {
-                    $crate::macros::RunningObjective::<$objective>::describe()
+                    $crate::macros::Running::<$objective>::describe::<<$objective as $crate::Objective>::Params>(<$objective as $crate::Objective>::describe())
                 }
                 fn configure(params: String) -> Result<(), wire::Error> {
-                    RUNNING.with_borrow_mut(|running| running.configure(&params))
+                    RUNNING.with_borrow_mut(|running| running.configure_objective(&params))
                 }
                 fn produce(site: wire::Site) -> Result<wire::Plan, wire::Error> {
                     RUNNING.with_borrow(|running| running.produce(site))

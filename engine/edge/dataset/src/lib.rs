@@ -7,6 +7,7 @@
 //! * [`tables`]: the Parquet tables.
 //! * [`flight_labels`]: labels that plugins give to frames.
 //! * [`flight_table`]: a flight as an Arrow stream for plugins, and their answers.
+//! * [`extras`]: tables and files that plugins add.
 //! * [`read`]: reads published datasets back, for pictures and replays.
 //! * [`predictions`]: reads what models predicted.
 //! * [`splits`]: splits that do not leak, and their linter.
@@ -17,6 +18,7 @@
 pub mod carla_job;
 pub mod config;
 pub mod croissant;
+pub mod extras;
 pub mod flight_labels;
 pub mod flight_table;
 pub mod frame_pack;

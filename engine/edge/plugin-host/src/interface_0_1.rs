@@ -145,18 +145,100 @@ pub struct Plan {
     pub notes: Vec<(String, String)>,
 }
 
-/// What a stage does with flights.
+/// What a column holds.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ComponentType, Lift)]
 #[component(enum)]
 #[repr(u8)]
-#[expect(dead_code, reason = "made by lifting only")]
-pub enum StageEffect {
-    /// Keeps or rejects.
+pub enum ValueKind {
+    /// 64-bit floats.
+    #[component(name = "real")]
+    Real,
+    /// 64-bit integers.
+    #[component(name = "integer")]
+    Integer,
+    /// Truths.
+    #[component(name = "boolean")]
+    Boolean,
+    /// Texts.
+    #[component(name = "text")]
+    Text,
+    /// Bytes.
+    #[component(name = "bytes")]
+    Bytes,
+}
+
+impl ValueKind {
+    /// As in the interface.
+    pub fn words(self) -> &'static str {
+        match self {
+            Self::Real => "real",
+            Self::Integer => "integer",
+            Self::Boolean => "boolean",
+            Self::Text => "text",
+            Self::Bytes => "bytes",
+        }
+    }
+}
+
+/// A column that a stage reads or gives.
+#[derive(Clone, Debug, PartialEq, Eq, ComponentType, Lift)]
+#[component(record)]
+pub struct Column {
+    /// Name.
+    pub name: String,
+    /// What it holds.
+    pub kind: ValueKind,
+    /// What it means.
+    pub doc: String,
+}
+
+/// What becomes of a stage's answers.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ComponentType, Lift)]
+#[component(enum)]
+#[repr(u8)]
+pub enum Effect {
+    /// Keeps or rejects flights.
     #[component(name = "filter")]
     Filter,
-    /// Labels frames.
+    /// Labels their frames.
     #[component(name = "label")]
     Label,
+    /// One row about each, in a table of the dataset.
+    #[component(name = "annotate")]
+    Annotate,
+    /// Any number of rows.
+    #[component(name = "rows")]
+    Rows,
+    /// Files of the dataset.
+    #[component(name = "files")]
+    Files,
+}
+
+impl Effect {
+    /// What has this effect, in words.
+    pub fn words(self) -> &'static str {
+        match self {
+            Self::Filter => "a filter",
+            Self::Label => "a labeller",
+            Self::Annotate => "an annotator",
+            Self::Rows => "a maker of rows",
+            Self::Files => "an exporter of files",
+        }
+    }
+}
+
+/// What a configured stage reads and gives.
+#[derive(Clone, Debug, PartialEq, Eq, ComponentType, Lift)]
+#[component(record)]
+pub struct Declaration {
+    /// What becomes of its answers.
+    pub effect: Effect,
+    /// Table or folder of the dataset; empty where there is none.
+    pub name: String,
+    /// The columns that it reads.
+    pub reads: Vec<Column>,
+    /// The columns that it gives.
+    pub gives: Vec<Column>,
 }
 
 /// How serious a message is.

@@ -2,11 +2,11 @@
 
 use crate::cost_term::PluginTerm;
 use crate::failure::PluginError;
-use crate::interface_0_1::{Plan, SiteContext};
+use crate::interface_0_1::{Declaration, Plan, SiteContext};
 use crate::objective::{Drawn, draw_reference};
 use crate::plugin::Plugin;
+use crate::tables::run_stage;
 use crate::town::NoTown;
-use crate::transform::run_transform;
 use cosfly_frames::{DVec3, RandomStream, Seed, TargetState, TargetTrack};
 use cosfly_geometry::BoxBvh;
 use cosfly_planner::config::ViewConfig;
@@ -255,8 +255,10 @@ fn plan_bits(plan: &Plan) -> Vec<u64> {
     numbers.map(|number| number.to_bits()).collect()
 }
 
+/// The sample flight with the columns that are declared.
+pub type EncodeSample<'a> = dyn Fn(&Declaration) -> Result<Vec<u8>, PluginError> + 'a;
 /// What an answer says, or what it should have said.
-pub type ReadAnswer<'a> = dyn Fn(crate::Effect, &[u8]) -> Result<String, String> + 'a;
+pub type ReadAnswer<'a> = dyn Fn(&Declaration, &[u8]) -> Result<String, String> + 'a;
 
 /// Tries all laws of stages on a flight.
 ///
@@ -265,17 +267,27 @@ pub type ReadAnswer<'a> = dyn Fn(crate::Effect, &[u8]) -> Result<String, String>
 pub fn check_stage(
     plugin: &Plugin,
     params: &str,
-    flight: &[u8],
+    encode: &EncodeSample<'_>,
     read: &ReadAnswer<'_>,
 ) -> Result<Vec<Finding>, PluginError> {
-    let run = || run_transform(plugin, Arc::new(NoTown), params, flight.to_vec());
+    let run = || run_stage(plugin, Arc::new(NoTown), params, encode);
     let (first, second) = (run()?, run()?);
-    let answer = match read(first.effect, &first.answer) {
-        Ok(words) => holds("answer", words),
-        Err(words) => broken("answer", words),
+    let declared = &first.0;
+    let named = |columns: &[crate::Column]| {
+        let each = columns.iter().map(|it| format!("`{}` ({})", it.name, it.kind.words()));
+        if columns.is_empty() { "nothing".to_owned() } else { each.collect::<Vec<_>>().join(", ") }
     };
+    let undescribed = declared.gives.iter().find(|column| column.doc.is_empty() && !declared.name.is_empty());
+    let undescribed = undescribed.filter(|_| declared.effect != crate::Effect::Files);
     Ok(vec![
-        answer,
+        match undescribed {
+            Some(column) => broken("declaration", format!("it does not say what `{}` means", column.name)),
+            None => holds("declaration", format!("reads {}; gives {}", named(&declared.reads), named(&declared.gives))),
+        },
+        match read(declared, &first.1.answer) {
+            Ok(words) => holds("answer", words),
+            Err(words) => broken("answer", words),
+        },
         if first == second {
             holds("pure", "the same flight gives the same bytes")
         } else {

@@ -2,7 +2,7 @@
 //!
 //! * [`Host`]: engines, and the way from a file to compiled code: checked, made a component, compiled, kept.
 //! * [`Plugin`]: a compiled file and what it says of itself; [`Session`]: one instance of it, with its limits.
-//! * [`PluginTerm`], [`draw_reference`], [`run_transform`]: the three things that a plugin can be.
+//! * [`PluginTerm`], [`draw_reference`], [`run_stage`]: the three things that a plugin can be.
 //! * [`PluginError`]: what went wrong, where, and which limit it met.
 //!
 //! A plugin that traps is done for: its session answers nothing more, and the next item gets a new one.
@@ -25,19 +25,19 @@ mod plugin;
 mod sandbox;
 mod session;
 mod signature;
+mod tables;
 mod term_border;
 mod town;
-mod transform;
 
 pub use cost_term::{Began, PluginTerm};
 pub use failure::PluginError;
 pub use host::{Host, MAX_FILE_BYTES};
-pub use interface_0_1::{Metadata, Plan, RunContext, SiteContext, TermShape};
+pub use interface_0_1::{Column, Declaration, Effect, Metadata, Plan, RunContext, SiteContext, TermShape, ValueKind};
 pub use limits::PluginLimits;
 pub use objective::{Drawn, draw_reference};
 pub use parameters::{check_schema, with_defaults};
 pub use plugin::{Kind, Plugin};
 pub use sandbox::{Effort, Said};
 pub use session::Session;
+pub use tables::{Answered, declaration, run_stage};
 pub use town::{NoTown, TownView};
-pub use transform::{Effect, Transformed, run_transform};

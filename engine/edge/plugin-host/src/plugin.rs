@@ -38,7 +38,7 @@ impl Kind {
         let name = match self {
             Self::CostTerm => "cost",
             Self::Objective => "reference",
-            Self::Stage => "transform",
+            Self::Stage => "tables",
         };
         format!("{PACKAGE}{name}@{VERSION}")
     }
@@ -96,7 +96,7 @@ pub(crate) fn wrong_kind(component: &Component, engine: &Engine, wanted: Option<
     }
     let component_type = component.component_type();
     let exports: Vec<&str> = component_type.exports(engine).map(|(name, _)| name).collect();
-    let wanted = wanted.map_or_else(|| format!("`{PACKAGE}cost`, `reference` or `transform`"), |it| it.interface());
+    let wanted = wanted.map_or_else(|| format!("`{PACKAGE}cost`, `reference` or `tables`"), |it| it.interface());
     match exports.iter().find(|name| name.starts_with(PACKAGE)) {
         Some(other) => format!("it exports `{other}`; this cosfly runs version {VERSION} of the interface: {wanted}"),
         None if exports.is_empty() => format!("it exports nothing; {wanted} is wanted"),

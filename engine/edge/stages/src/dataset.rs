@@ -1,9 +1,11 @@
 //! `dataset`: one MCAP log per trajectory (part `logs`), then tables, manifest and card over all of them.
 
-use crate::ports::{self, CAPTIONS, DATASET, FRAMES, LOG};
+use crate::plugins::stage::EXTRA;
+use crate::ports::{self, CAPTIONS, DATASET, EXTRAS, FRAMES, LOG};
 use crate::render::REJECTION;
 use crate::world::{check_same_town, world};
 use crate::{codec, parameters, planner_comparison};
+use cosfly_dataset::extras::Extra;
 use cosfly_dataset::splits::TownLayout;
 use cosfly_dataset::tables::ObjectRecord;
 use cosfly_dataset::{
@@ -37,7 +39,12 @@ impl StageKind for Dataset {
     }
 
     fn ports(&self) -> Vec<InputPort> {
-        vec![ports::town(), ports::gather("frames", FRAMES, false, "The rendered trajectories."), captions(Fan::Gather)]
+        vec![
+            ports::town(),
+            ports::gather("frames", FRAMES, false, "The rendered trajectories."),
+            captions(Fan::Gather),
+            extras(),
+        ]
     }
 
     fn build(&self, given: serde_json::Value) -> Result<Vec<StagePart>, ParameterError> {
@@ -82,6 +89,11 @@ impl StageKind for Dataset {
 
 fn captions(fan: Fan) -> InputPort {
     InputPort { fan, optional: true, ..ports::each("captions", CAPTIONS, false, "Their captions.") }
+}
+
+fn extras() -> InputPort {
+    let doc = "What plugins made of the same frames (`makes = \"extras\"`): annotations, tables, files.";
+    InputPort { optional: true, ..ports::gather("extras", EXTRAS, true, doc) }
 }
 
 struct LogStage {
@@ -131,6 +143,13 @@ impl Stage for DatasetStage {
     fn run(&self, inputs: &Inputs<'_>, outputs: &mut dyn OutputSink, context: &TaskContext) -> Result<Produced> {
         let captions: BTreeMap<&str, &Artifact> =
             inputs.all("captions").iter().map(|artifact| (artifact.item.as_str(), artifact)).collect();
+        // At a port for many, items are called after their stage, too.
+        let item_of =
+            |artifact: &'_ Artifact| artifact.item.get(artifact.stage.len() + 1..).unwrap_or_default().to_owned();
+        let mut extras: BTreeMap<String, Vec<&Artifact>> = BTreeMap::new();
+        for artifact in inputs.all("extras").iter().filter(|artifact| artifact.blobs.contains_key(EXTRA)) {
+            extras.entry(item_of(artifact)).or_default().push(artifact);
+        }
         let mut gathered = Gathered { inputs, flights: vec![] };
         let (mut logs, mut rejections): (Vec<PublishedLog>, Vec<Rejection>) = (vec![], vec![]);
         for (frames, log) in inputs.all("frames").iter().zip(inputs.all("logs")) {
@@ -145,7 +164,8 @@ impl Stage for DatasetStage {
             logs.push(PublishedLog { record, blob: log.blobs["mcap"] });
             let of_flight = || captions.get(flight_of_item(&frames.item)?);
             let captions = captions.get(frames.item.as_str()).or_else(of_flight).copied();
-            gathered.flights.push(Flight { frames, log, captions });
+            let extras = extras.remove(&frames.item).unwrap_or_default();
+            gathered.flights.push(Flight { frames, log, captions, extras });
         }
         if logs.is_empty() {
             return Err(nothing_left(&rejections));
@@ -190,6 +210,7 @@ struct Flight<'a> {
     frames: &'a Artifact,
     log: &'a Artifact,
     captions: Option<&'a Artifact>,
+    extras: Vec<&'a Artifact>,
 }
 
 /// Everything that was gathered, read one flight at a time.
@@ -205,6 +226,11 @@ impl DatasetSource for Gathered<'_> {
 
     fn captions(&self, index: usize) -> Result<Vec<CaptionRecord>> {
         captions_of(self.inputs, self.flights[index].captions)
+    }
+
+    fn extras(&self, index: usize) -> Result<Vec<Extra>> {
+        let read = |artifact: &&Artifact| codec::decode(EXTRAS, &self.inputs.read(artifact, EXTRA)?);
+        self.flights[index].extras.iter().map(read).collect()
     }
 
     fn objects(&self) -> Result<Vec<ObjectRecord>> {

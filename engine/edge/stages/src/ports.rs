@@ -14,6 +14,8 @@ pub const FRAMES: &str = "frames/1";
 pub const CAPTIONS: &str = "captions/1";
 /// Artifact of a trajectory's MCAP log.
 pub const LOG: &str = "log/1";
+/// Artifact of what a plugin gave of a trajectory.
+pub const EXTRAS: &str = "extras/1";
 /// Artifact of a whole dataset.
 pub const DATASET: &str = "dataset/1";
 

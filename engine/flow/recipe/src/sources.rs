@@ -39,14 +39,19 @@ pub(crate) fn resolve(
             let problem = Diagnostic::new("input-missing", Fault::Input, message).at(label);
             problems.push(hints.into_iter().fold(problem, |problem, hint| problem.hint(hint)));
         } else if let Some(check) = &source.check {
+            let at_source = |problem: Box<Diagnostic>| {
+                problem.at(texts.label(place_of(source, parameters).unwrap_or(stage_place), ""))
+            };
             match (check.read)(&path) {
                 Ok(schema) => {
                     let whole = schema_at(&check.describes, schema);
-                    problems.append(&mut check_parameters(&whole, parameters, subject, texts));
+                    let mut found = check_parameters(&whole, parameters, subject, texts);
+                    if let Some(settle) = check.settle.as_ref().filter(|_| found.is_empty()) {
+                        problems.extend(settle(&path).err().map(at_source));
+                    }
+                    problems.append(&mut found);
                 }
-                Err(problem) => {
-                    problems.push(problem.at(texts.label(place_of(source, parameters).unwrap_or(stage_place), "")));
-                }
+                Err(problem) => problems.push(at_source(problem)),
             }
         }
         files.push(SourceFile { parameter: source.parameter.clone(), declared: source.path.clone(), path });

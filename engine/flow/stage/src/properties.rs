@@ -45,10 +45,15 @@ pub struct SourceCheck {
     pub describes: String,
     /// From the file's path to the JSON Schema of that parameter.
     pub read: Arc<ReadSchema>,
+    /// Once the parameter fits that schema: whether the file can do what is asked of it.
+    pub settle: Option<Arc<Settle>>,
 }
 
 /// See [`SourceCheck::read`]. What it refuses is shown at the parameter that names the file.
 pub type ReadSchema = dyn Fn(&Path) -> Result<serde_json::Value, Box<Diagnostic>> + Send + Sync;
+
+/// See [`SourceCheck::settle`]. What it refuses is shown at the parameter that names the file.
+pub type Settle = dyn Fn(&Path) -> Result<(), Box<Diagnostic>> + Send + Sync;
 
 impl Source {
     /// A file that is taken as it is.

@@ -1,6 +1,6 @@
 //! `keep_good`: keeps flights whose columns fulfil your rules, and rejects the others with the reason.
 
-use cosfly_plugin::{Answer, Flight, Metadata, Stage, params};
+use cosfly_plugin::{Answer, Column, Flight, Gives, Metadata, Stage, params};
 
 params! {
     /// A rule on one column of flights.
@@ -31,7 +31,6 @@ pub struct KeepGood(Params);
 
 impl Stage for KeepGood {
     type Params = Params;
-    const LABELS: bool = false;
 
     fn describe() -> Metadata {
         Metadata { name: "keep_good", version: "0.1.0", summary: "Keeps flights whose columns fulfil your rules." }
@@ -47,6 +46,17 @@ impl Stage for KeepGood {
             }
         }
         Ok(Self(params))
+    }
+
+    fn reads(&self) -> Vec<Column> {
+        let mut columns: Vec<Column> = self.0.rules.iter().map(|rule| Column::real(&rule.column, "")).collect();
+        columns.sort_by(|a, b| a.name.cmp(&b.name));
+        columns.dedup();
+        columns
+    }
+
+    fn gives(&self) -> Gives {
+        Gives::Verdict
     }
 
     fn run(&self, flight: &Flight) -> Result<Answer, String> {
@@ -89,6 +99,6 @@ mod tests {
             Answer::Reject("min of `visibility` is 0.000; it must be at least 0.1".into())
         );
         let unknown = KeepGood::new(Params { rules: vec![Rule { column: "colour".into(), ..Rule::default() }] });
-        assert!(unknown.unwrap().run(&flight).unwrap_err().contains("no column `colour`"));
+        assert!(unknown.unwrap().run(&flight).unwrap_err().contains("does not read `colour`"));
     }
 }

@@ -1,6 +1,6 @@
 //! `seconds_to_loss`: labels every frame with the time until the target is out of sight, for training to foresee it.
 
-use cosfly_plugin::{Answer, Flight, Metadata, Stage, params};
+use cosfly_plugin::{Answer, Column, Flight, Gives, Metadata, Stage, params, reals};
 
 params! {
     /// When a target counts as lost.
@@ -17,7 +17,6 @@ pub struct SecondsToLoss(Params);
 
 impl Stage for SecondsToLoss {
     type Params = Params;
-    const LABELS: bool = true;
 
     fn describe() -> Metadata {
         let summary = "Labels every frame with the time until the target is out of sight.";
@@ -26,6 +25,14 @@ impl Stage for SecondsToLoss {
 
     fn new(params: Params) -> Result<Self, String> {
         Ok(Self(params))
+    }
+
+    fn reads(&self) -> Vec<Column> {
+        reals(["time_s", "visibility"])
+    }
+
+    fn gives(&self) -> Gives {
+        Gives::Labels(vec![Column::real("seconds_to_loss", "seconds until the target is out of sight")])
     }
 
     fn run(&self, flight: &Flight) -> Result<Answer, String> {
@@ -38,7 +45,7 @@ impl Stage for SecondsToLoss {
             }
             left[frame] = (lost_at - times[frame]).min(self.0.horizon_s);
         }
-        Ok(Answer::Labels(vec![("seconds_to_loss".to_owned(), left)]))
+        Ok(Answer::Labels(vec![left]))
     }
 }
 
@@ -52,7 +59,6 @@ mod tests {
     fn time_runs_down_to_the_loss_and_is_capped() {
         let flight = Flight::new("p", &[("time_s", &[0.0, 1.0, 2.0, 3.0]), ("visibility", &[1.0, 1.0, 0.0, 1.0])]);
         let stage = SecondsToLoss::new(Params { horizon_s: 1.5, ..Params::default() }).unwrap();
-        let wanted = vec![("seconds_to_loss".to_owned(), vec![1.5, 1.0, 0.0, 1.5])];
-        assert_eq!(stage.run(&flight), Ok(Answer::Labels(wanted)));
+        assert_eq!(stage.run(&flight), Ok(Answer::Labels(vec![vec![1.5, 1.0, 0.0, 1.5]])));
     }
 }

@@ -3,11 +3,14 @@
 use super::{Outcome, Refusals};
 use crate::arguments::PluginFileArguments;
 use crate::exit;
-use cosfly_dataset::flight_table;
+use cosfly_dataset::flight_table::{self, FlightColumns};
 use cosfly_diagnose::{Diagnostic, Fault};
 use cosfly_plugin_host::laws::{self, Finding};
-use cosfly_plugin_host::{Effect, Kind, NoTown, Plugin, PluginError, PluginTerm, check_schema, with_defaults};
-use cosfly_stages::plugins::host;
+use cosfly_plugin_host::{
+    Declaration, Effect, Kind, NoTown, Plugin, PluginError, PluginTerm, check_schema, with_defaults,
+};
+use cosfly_stages::plugins::config::Makes;
+use cosfly_stages::plugins::{host, tables};
 use serde_json::{Map, Value};
 use std::fmt::Write;
 use std::sync::Arc;
@@ -25,7 +28,7 @@ pub fn check(arguments: &PluginFileArguments) -> Outcome {
     let findings = match plugin.kind {
         Kind::CostTerm => laws::check_cost_term(&plugin, &params).map_err(one)?,
         Kind::Objective => laws::check_objective(&plugin, &params).map_err(one)?,
-        Kind::Stage => laws::check_stage(&plugin, &params, &flight_table::sample(), &read_answer).map_err(one)?,
+        Kind::Stage => laws::check_stage(&plugin, &params, &encode_sample(&plugin), &read_answer).map_err(one)?,
     };
     for Finding { law, words, holds } in &findings {
         let _ = writeln!(text, "{} {law}: {words}", if *holds { "holds " } else { "BROKEN" });
@@ -79,14 +82,44 @@ fn describe(plugin: &Plugin, schema: &Value) -> String {
     text
 }
 
-fn read_answer(effect: Effect, answer: &[u8]) -> Result<String, String> {
-    match effect {
-        Effect::Filter => flight_table::verdict(answer).map(|verdict| {
+/// The sample flight with the columns that the plugin declares.
+fn encode_sample(plugin: &Plugin) -> impl Fn(&Declaration) -> Result<Vec<u8>, PluginError> {
+    let shown = plugin.shown.clone();
+    move |declared| {
+        let makes = match declared.effect {
+            Effect::Filter | Effect::Label => Makes::Flights,
+            Effect::Annotate | Effect::Rows | Effect::Files => Makes::Extras,
+        };
+        let failed = |(message, hint): (String, Option<String>)| {
+            hint.into_iter().fold(PluginError::failed(&shown, "configure", message), PluginError::hint)
+        };
+        tables::check(declared, makes).map_err(failed)?;
+        let stream = FlightColumns::sample().encode(&tables::columns(&declared.reads));
+        stream.map_err(|refusal| failed((refusal.message, refusal.hint)))
+    }
+}
+
+fn read_answer(declared: &Declaration, answer: &[u8]) -> Result<String, String> {
+    let gives = tables::columns(&declared.gives);
+    let name = &declared.name;
+    let count = |most| {
+        let values = flight_table::read_answer(answer, &gives, 0..=most)?;
+        Ok::<usize, String>(values.first().map_or(0, flight_table::Values::len))
+    };
+    match declared.effect {
+        Effect::Filter => flight_table::verdict(answer, &gives).map(|verdict| {
             format!("a filter; it {} the sample flight", if verdict.keep { "keeps" } else { "rejects" })
         }),
-        Effect::Label => flight_table::labels(answer, flight_table::SAMPLE_FRAMES).map(|labels| {
+        Effect::Label => flight_table::labels(answer, &gives, flight_table::SAMPLE_FRAMES).map(|labels| {
             let names: Vec<String> = labels.into_iter().map(|(name, _)| format!("`{name}`")).collect();
             format!("labels frames with {}", names.join(", "))
+        }),
+        Effect::Annotate => flight_table::read_answer(answer, &gives, 1..=1)
+            .map(|_| format!("annotates flights in the table `{name}`, `makes = \"extras\"`")),
+        Effect::Rows => count(flight_table::MOST_ROWS)
+            .map(|rows| format!("{rows} rows of the sample flight for the table `{name}`, `makes = \"extras\"`")),
+        Effect::Files => count(flight_table::MOST_FILES).map(|files| {
+            format!("{files} files of the sample flight for the folder `extras/{name}`, `makes = \"extras\"`")
         }),
     }
 }

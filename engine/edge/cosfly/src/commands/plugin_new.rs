@@ -8,7 +8,7 @@ use std::fs;
 use std::path::Path;
 
 /// What plugins are made of, as it is in `plugins/sdk`.
-const SDK: [(&str, &str); 16] = [
+const SDK: [(&str, &str); 17] = [
     ("Cargo.toml", include_str!("../../../../../plugins/sdk/Cargo.toml")),
     ("src/lib.rs", include_str!("../../../../../plugins/sdk/src/lib.rs")),
     ("src/arrow_stream.rs", include_str!("../../../../../plugins/sdk/src/arrow_stream.rs")),
@@ -23,6 +23,7 @@ const SDK: [(&str, &str); 16] = [
     ("src/params.rs", include_str!("../../../../../plugins/sdk/src/params.rs")),
     ("src/random.rs", include_str!("../../../../../plugins/sdk/src/random.rs")),
     ("src/recent_blocks.rs", include_str!("../../../../../plugins/sdk/src/recent_blocks.rs")),
+    ("src/running.rs", include_str!("../../../../../plugins/sdk/src/running.rs")),
     ("src/stage.rs", include_str!("../../../../../plugins/sdk/src/stage.rs")),
     ("src/town.rs", include_str!("../../../../../plugins/sdk/src/town.rs")),
 ];

@@ -10,6 +10,8 @@ pub use responsible_ai::TERMS as RESPONSIBLE_AI_TERMS;
 pub(crate) use responsible_ai::values as responsible_ai_values;
 
 use crate::config::DatasetConfig;
+use crate::extras::{self, ExtraShape, ExtraSource, Kept};
+use crate::flight_table::{ColumnKind, DeclaredColumn};
 use crate::publish::{LAYOUT_VERSION, Split, Summary, TownSummary, citation};
 use crate::tables::{self, FileRecord, Kind, Table};
 use cosfly_maps::SemanticLabel;
@@ -49,8 +51,8 @@ pub fn document(config: &DatasetConfig, summary: &Summary, single_files: &[FileR
                             hash in trajectories.town_geometry_blake3.",
         },
         "prov:wasDerivedFrom": derived_from(summary),
-        "distribution": distribution(single_files),
-        "recordSet": record_sets(),
+        "distribution": distribution(summary, single_files),
+        "recordSet": record_sets(summary),
     });
     let object = document.as_object_mut().expect("the document is an object");
     object.extend(responsible_ai::values(config, summary));
@@ -75,7 +77,7 @@ fn derived_from(summary: &Summary) -> Value {
     summary.towns.iter().map(town).collect()
 }
 
-fn distribution(single_files: &[FileRecord]) -> Value {
+fn distribution(summary: &Summary, single_files: &[FileRecord]) -> Value {
     let file_set = |id: String, format: Value, includes: String| json!({"@type": "cr:FileSet", "@id": id, "name": id, "encodingFormat": format, "includes": includes});
     let mut all: Vec<Value> = single_files
         .iter()
@@ -102,6 +104,9 @@ fn distribution(single_files: &[FileRecord]) -> Value {
     );
     let mcap = json!(["application/x-mcap", "https://mcap.dev/spec"]);
     all.push(file_set("mcap-logs".into(), mcap, "mcap/*/*/*.mcap".into()));
+    all.extend(
+        summary.extras.iter().filter(|kept| kept.source.shape != ExtraShape::Files || kept.files > 0).map(extra_set),
+    );
     Value::Array(all)
 }
 
@@ -114,7 +119,7 @@ fn media_type(path: &str) -> &'static str {
     }
 }
 
-fn record_sets() -> Value {
+fn record_sets(summary: &Summary) -> Value {
     let mut sets = vec![splits(), labels(), roles()];
     sets.extend(tables::of_trajectories().iter().map(|table| {
         let source = json!({"fileSet": {"@id": format!("{}-parquet", table.name)}});
@@ -123,6 +128,8 @@ fn record_sets() -> Value {
     sets.push(record_set(&tables::of_objects(), &json!({"fileSet": {"@id": "objects-parquet"}}), false));
     let rejected = tables::of_rejections();
     sets.push(record_set(&rejected, &json!({"fileSet": {"@id": "rejected-parquet"}}), false));
+    let tables = summary.extras.iter().filter(|kept| kept.source.shape != ExtraShape::Files);
+    sets.extend(tables.map(|kept| extra_record_set(&kept.source)));
     sets.push(record_set(&tables::of_files(), &json!({"fileObject": {"@id": "files.parquet"}}), false));
     Value::Array(sets)
 }
@@ -164,6 +171,65 @@ fn record_set<S>(table: &Table<S>, source: &Value, has_splits: bool) -> Value {
         "@id": name,
         "name": name,
         "description": table.doc,
+        "key": key,
+        "field": fields,
+    })
+}
+
+/// Files of a plugin's table, or of its folder.
+fn extra_set(kept: &Kept) -> Value {
+    let name = &kept.source.name;
+    let (id, format, includes) = match kept.source.shape {
+        ExtraShape::Files => {
+            let parts = kept.depths.iter().map(|depth| json!(format!("extras/{name}/*/*/*{}", "/*".repeat(*depth))));
+            (format!("{name}-files"), "application/octet-stream", parts.collect())
+        }
+        _ => (format!("{name}-parquet"), "application/x-parquet", json!(format!("data/{name}/*.parquet"))),
+    };
+    json!({
+        "@type": "cr:FileSet", "@id": id, "name": id, "encodingFormat": format, "includes": includes,
+        "description": format!("Given by the plugin `{}` {}: {}", kept.source.plugin, kept.source.version, kept.source.summary),
+    })
+}
+
+/// The record set of a plugin's table.
+fn extra_record_set(source: &ExtraSource) -> Value {
+    let name = &source.name;
+    let files = json!({"fileSet": {"@id": format!("{name}-parquet")}});
+    let field = |column: &DeclaredColumn| {
+        let mut extract = files.clone();
+        extract["extract"] = json!({"column": column.name});
+        let kind = match column.kind {
+            ColumnKind::Real => "cr:Float64",
+            ColumnKind::Integer => "cr:Int64",
+            ColumnKind::Boolean => "sc:Boolean",
+            ColumnKind::Text | ColumnKind::Bytes => "sc:Text",
+        };
+        let mut field = json!({
+            "@type": "cr:Field",
+            "@id": format!("{name}/{}", column.name),
+            "name": column.name,
+            "description": column.doc,
+            "dataType": kind,
+            "source": extract,
+        });
+        if column.name == "trajectory_id" {
+            field["references"] = json!({"field": {"@id": "trajectories/trajectory_id"}});
+        }
+        field
+    };
+    let mut fields = vec![split_field(name, &files)];
+    fields.extend(extras::columns_of(source).iter().map(field));
+    let id = |column: &str| json!({"@id": format!("{name}/{column}")});
+    let key = match source.shape {
+        ExtraShape::Rows => json!([id("trajectory_id"), id("row")]),
+        _ => id("trajectory_id"),
+    };
+    json!({
+        "@type": "cr:RecordSet",
+        "@id": name,
+        "name": name,
+        "description": format!("Given by the plugin `{}` {}: {}", source.plugin, source.version, source.summary),
         "key": key,
         "field": fields,
     })

@@ -3,7 +3,10 @@
 use super::summary::Summary;
 use super::viewers;
 use crate::config::DatasetConfig;
+use crate::extras::{self, ExtraShape, Kept};
+use crate::flight_table::ColumnKind;
 use crate::tables::{self, Column, Kind, Table};
+use std::collections::BTreeMap;
 use std::fmt::Write;
 
 /// Licences that Hugging Face knows by name; any other needs `license_name` and `license_link`.
@@ -58,6 +61,7 @@ pub fn readme(config: &DatasetConfig, summary: &Summary) -> String {
     text.push_str(&table_section(&tables::of_objects()));
     text.push_str(&table_section(&tables::of_rejections()));
     text.push_str(&table_section(&tables::of_files()));
+    summary.extras.iter().for_each(|kept| text.push_str(&extra_section(kept)));
     text.push_str(&invented(summary));
     text.push_str(&super::datasheet::section(config, summary));
     let _ = write!(
@@ -97,6 +101,9 @@ fn front_matter(config: &DatasetConfig, summary: &Summary) -> String {
     text.push_str("- depth-estimation\n- image-segmentation\n- image-text-to-text\n");
     text.push_str("tags:\n- croissant\n- mcap\n- drone\n- uav\n- tracking\n- trajectory\n- synthetic\nconfigs:\n");
     table_names().iter().for_each(|name| text.push_str(&config_entry(name, summary)));
+    for Kept { source, rows, .. } in &summary.extras {
+        text.push_str(&config_of(&source.name, rows));
+    }
     text.push_str("- config_name: files\n  data_files:\n  - split: files\n    path: files.parquet\n---\n");
     text
 }
@@ -109,7 +116,11 @@ fn table_names() -> Vec<&'static str> {
 
 /// The Hugging Face config of a table; splits without rows are left out, because its loader refuses them.
 fn config_entry(table: &str, summary: &Summary) -> String {
-    let splits = summary.rows.get(table).into_iter().flatten().filter(|(_, rows)| **rows > 0);
+    summary.rows.get(table).map_or_else(String::new, |rows| config_of(table, rows))
+}
+
+fn config_of(table: &str, rows: &BTreeMap<String, u64>) -> String {
+    let splits = rows.iter().filter(|(_, rows)| **rows > 0);
     let files: String =
         splits.map(|(split, _)| format!("  - split: {split}\n    path: data/{table}/{split}-*.parquet\n")).collect();
     if files.is_empty() {
@@ -183,6 +194,36 @@ fn table_section<S>(table: &Table<S>) -> String {
     let mut text = format!("### {}\n\n{}\n\n| column | type | meaning |\n| --- | --- | --- |\n", table.name, table.doc);
     for column in &table.columns {
         let _ = writeln!(text, "| `{}` | {} | {} |", column.name, type_name(column), column.doc);
+    }
+    text.push('\n');
+    text
+}
+
+/// A table or a folder that a plugin gave.
+fn extra_section(kept: &Kept) -> String {
+    let source = &kept.source;
+    let mut text = format!(
+        "### {}\n\nGiven by the plugin `{}` {}: {}",
+        source.name, source.plugin, source.version, source.summary
+    );
+    if source.shape == ExtraShape::Files {
+        let _ = write!(
+            text,
+            "\n\n{} files, `extras/{}/TOWN/NUMBER/TRAJECTORY/...`, beside each other as the logs are.\n\n",
+            kept.files, source.name
+        );
+        return text;
+    }
+    text.push_str("\n\n| column | type | meaning |\n| --- | --- | --- |\n");
+    for column in extras::columns_of(source) {
+        let kind = match column.kind {
+            ColumnKind::Real => "float64",
+            ColumnKind::Integer => "int64",
+            ColumnKind::Boolean => "bool",
+            ColumnKind::Text => "text",
+            ColumnKind::Bytes => "bytes",
+        };
+        let _ = writeln!(text, "| `{}` | {kind} | {} |", column.name, column.doc.replace('|', "\\|"));
     }
     text.push('\n');
     text

@@ -1,5 +1,6 @@
 //! The figures of a dataset that card and `croissant.json` state.
 
+use crate::extras::Kept;
 use crate::mcap_log::LogRecord;
 use crate::tables::DatasetItem;
 use crate::{Rejection, Role};
@@ -38,6 +39,8 @@ pub struct Summary {
     pub splits: BTreeMap<&'static str, (u64, u64)>,
     /// Rows by table name and split name; tables over something else than flights are a split of their own name.
     pub rows: BTreeMap<&'static str, BTreeMap<String, u64>>,
+    /// What plugins added.
+    pub extras: Vec<Kept>,
 }
 
 /// A town of a dataset.

@@ -6,6 +6,8 @@ use super::report;
 use super::summary::Summary;
 use super::viewers;
 use crate::config::DatasetConfig;
+use crate::extras::{self, Extra, ExtraShape, ExtraSource, Kept};
+use crate::flight_table::Values;
 use crate::hashing::{HashingWriter, sha256_of};
 use crate::mcap_log::{LogRecord, target_state};
 use crate::splits::{self, Assignment, FlightFacts, LintRules, TownLayout};
@@ -15,9 +17,13 @@ use cosfly_diagnose::{Diagnostic, Fault, Result};
 use cosfly_metrics::WindowShape;
 use cosfly_report::{FlightSketch, PlannerRow};
 use cosfly_stage::{BlobRef, OutputSink};
-use std::collections::BTreeMap;
+use parquet::arrow::ArrowWriter;
+use std::collections::{BTreeMap, BTreeSet};
 use std::io::Write;
 use std::sync::Arc;
+
+/// Rows kept together in tables of plugins.
+const EXTRA_ROWS_PER_GROUP: usize = 50_000;
 
 /// A finished log and the blob that holds it.
 #[derive(Clone, Debug)]
@@ -46,6 +52,10 @@ pub trait DatasetSource {
     }
     /// Its previews; asked for by one table only.
     fn previews(&self, index: usize) -> Result<PreviewStrip>;
+    /// What plugins gave of it.
+    fn extras(&self, _: usize) -> Result<Vec<Extra>> {
+        Ok(vec![])
+    }
 }
 
 /// Writes the whole dataset to `sink`: logs by link, everything else anew. `keep_going` is asked before every
@@ -93,6 +103,7 @@ pub fn write_dataset(
     let rejected = tables::of_rejections();
     dataset.table(&rejected, &format!("data/{0}/{0}-00000-of-00001.parquet", rejected.name), rejections)?;
     summary.rows.insert(rejected.name, BTreeMap::from([(rejected.name.to_owned(), summary.rejected)]));
+    summary.extras = dataset.extras(&items)?;
     dataset.put("splits.json", splits::promise(config).as_bytes())?;
     for (path, text) in viewers::FILES {
         dataset.put(path, text.as_bytes())?;
@@ -241,6 +252,52 @@ impl Publishing<'_> {
         Ok(file)
     }
 
+    /// Tables and files of plugins.
+    fn extras(&mut self, items: &Items<'_>) -> Result<Vec<Kept>> {
+        let sources = extras::gather(items.logs.len(), &|flight| items.source.extras(flight))?;
+        sources.into_iter().map(|source| self.extra(source, items)).collect()
+    }
+
+    fn extra(&mut self, source: ExtraSource, items: &Items<'_>) -> Result<Kept> {
+        let mut kept = Kept { source, rows: BTreeMap::new(), files: 0, depths: BTreeSet::new() };
+        let name = kept.source.name.clone();
+        let of_flight = |index: usize| -> Result<Option<Extra>> {
+            (items.keep_going)()?;
+            Ok(items.source.extras(index)?.into_iter().find(|extra| extra.source.name == name))
+        };
+        if kept.source.shape == ExtraShape::Files {
+            for (index, log) in items.plan.mcap_paths.iter().enumerate() {
+                let Some(extra) = of_flight(index)? else { continue };
+                let [Values::Texts(paths), Values::Bytes(contents)] = &extra.values[..] else { continue };
+                for (path, content) in paths.iter().zip(contents) {
+                    self.put(&extras::path_of_file(&name, log, path), content)?;
+                    kept.depths.insert(path.split('/').count());
+                    kept.files += 1;
+                }
+            }
+            return Ok(kept);
+        }
+        for (split, path, members) in items.plan.files(&name, false) {
+            let mut rows = 0;
+            self.hashed(&path, &mut |output| {
+                let failed = |error| tables::write_error(&name, error);
+                let properties = tables::writer_properties(EXTRA_ROWS_PER_GROUP, None);
+                let mut writer =
+                    ArrowWriter::try_new(output, extras::schema_of(&kept.source), Some(properties)).map_err(failed)?;
+                for index in &members {
+                    let Some(extra) = of_flight(*index)? else { continue };
+                    let trajectory_id = &items.logs[*index].record.trajectory_id;
+                    let batch = extras::write_batch(trajectory_id, &extra).map_err(|error| failed(error.into()))?;
+                    rows += batch.num_rows() as u64;
+                    writer.write(&batch).map_err(failed)?;
+                }
+                writer.close().map(drop).map_err(failed)
+            })?;
+            *kept.rows.entry(split.name().to_owned()).or_insert(0) += rows;
+        }
+        Ok(kept)
+    }
+
     /// All files of a table over the trajectories; gives the number of rows by split.
     fn trajectory_table(&mut self, table: &Table<DatasetItem>, items: &Items<'_>) -> Result<BTreeMap<String, u64>> {
         let mut rows = BTreeMap::new();
@@ -259,20 +316,30 @@ impl Publishing<'_> {
     }
 
     fn parquet<S>(&mut self, path: &str, table: &Table<S>, fill: Fill<'_, S>) -> Result<u64> {
+        let mut rows = 0;
+        self.hashed(path, &mut |output| {
+            let mut writer = TableWriter::new(table, output)?;
+            fill(&mut writer)?;
+            rows = writer.finish()?;
+            Ok(())
+        })?;
+        Ok(rows)
+    }
+
+    /// A file that is written piece by piece, and its hash.
+    fn hashed(&mut self, path: &str, write: &mut dyn FnMut(&mut (dyn Write + Send)) -> Result<()>) -> Result<()> {
         let mut outcome = None;
         self.sink.stream(path, &mut |output| {
             let mut hashing = HashingWriter::new(output);
-            let mut writer = TableWriter::new(table, &mut hashing as &mut (dyn Write + Send))?;
-            fill(&mut writer)?;
-            let rows = writer.finish()?;
-            outcome = Some((rows, hashing.finish()));
+            write(&mut hashing)?;
+            outcome = Some(hashing.finish());
             Ok(())
         })?;
-        let (rows, (bytes, sha256)) = outcome.ok_or_else(|| {
+        let (bytes, sha256) = outcome.ok_or_else(|| {
             Diagnostic::new("dataset-sink", Fault::Bug, format!("the output sink did not ask for `{path}`"))
         })?;
         self.files.push(FileRecord { path: path.to_owned(), bytes, sha256 });
-        Ok(rows)
+        Ok(())
     }
 
     /// `files.parquet`, then `croissant.json`, which names its hash, then `SHA256SUMS` over both.

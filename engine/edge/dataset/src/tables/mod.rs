@@ -21,6 +21,7 @@ pub use files::FileRecord;
 pub use objects::{ObjectRecord, kind_name};
 pub use windows::SCENES;
 pub use write::{TableWriter, schema};
+pub(crate) use write::{write_error, writer_properties};
 
 use crate::mcap_log::LogRecord;
 use crate::splits::TownLayout;

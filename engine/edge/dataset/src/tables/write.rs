@@ -204,15 +204,18 @@ pub fn schema<S>(table: &Table<S>) -> Schema {
 
 /// Everything that could vary between machines and versions is fixed here.
 fn properties<S>(table: &Table<S>) -> WriterProperties {
+    writer_properties(table.rows_per_group, hugging_face_features(table))
+}
+
+/// See [`properties`]; `features` are what Hugging Face is to make of columns.
+pub(crate) fn writer_properties(rows_per_group: usize, features: Option<String>) -> WriterProperties {
     let level = ZstdLevel::try_new(ZSTD_LEVEL).expect("level 3 exists");
     WriterProperties::builder()
         .set_created_by("cosfly".to_owned())
         .set_compression(Compression::ZSTD(level))
-        .set_max_row_group_row_count(Some(table.rows_per_group))
+        .set_max_row_group_row_count(Some(rows_per_group))
         .set_statistics_enabled(EnabledStatistics::Page)
-        .set_key_value_metadata(
-            hugging_face_features(table).map(|json| vec![KeyValue::new("huggingface".into(), json)]),
-        )
+        .set_key_value_metadata(features.map(|json| vec![KeyValue::new("huggingface".into(), json)]))
         .build()
 }
 
@@ -231,7 +234,8 @@ fn hugging_face_features<S>(table: &Table<S>) -> Option<String> {
     Some(serde_json::json!({"info": {"features": features}}).to_string())
 }
 
-fn write_error(table: &str, error: ParquetError) -> Box<Diagnostic> {
+/// What kept a table from being written.
+pub(crate) fn write_error(table: &str, error: ParquetError) -> Box<Diagnostic> {
     if let ParquetError::External(inner) = &error
         && let Some(error) = inner.downcast_ref::<std::io::Error>()
     {

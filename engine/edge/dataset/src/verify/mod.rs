@@ -4,6 +4,7 @@
 //! read further, except for logs, whose own checksums tell where the damage is.
 
 mod croissant;
+mod extras;
 mod figures;
 mod files;
 mod flight;
@@ -35,6 +36,7 @@ pub fn verify(folder: &Path, progress: &mut dyn FnMut(u64, u64)) -> Result<Verif
     splits::check(folder, &tables, &mut report);
     windows::check(folder, &files, &tables, &mut report);
     croissant::check(folder, &files, &mut report)?;
+    extras::check(folder, &files, &tables, &mut report);
     flight::check_all(folder, &files, &tables, &mut report, progress);
     Ok(report)
 }

@@ -1,8 +1,9 @@
 //! In place of the host, in a build without plugins: every use is refused when the recipe is read.
 
-use super::config::{ExpertPlugins, Setting};
+use super::config::{ExpertPlugins, Makes, Setting};
 use super::{DrawnReference, Role};
 use crate::world::World;
+use cosfly_dataset::flight_table::FlightColumns;
 use cosfly_diagnose::{Diagnostic, Fault, Result};
 use cosfly_frames::Seed;
 use cosfly_planner::{MucoConfig, WeightedTerm};
@@ -21,25 +22,65 @@ pub fn source(parameter: &str, role: Role, setting: &Setting) -> Source {
     let file = setting.file.clone();
     let read = move |_: &std::path::Path| Err(refused(&file));
     Source {
-        parameter: if role == Role::Stage { "file".to_owned() } else { format!("{parameter}.use") },
+        parameter: if matches!(role, Role::Stage(_)) { "file".to_owned() } else { format!("{parameter}.use") },
         path: PathBuf::from(&setting.file),
-        check: Some(SourceCheck { describes: "params".to_owned(), read: Arc::new(read) }),
+        check: Some(SourceCheck { describes: "params".to_owned(), read: Arc::new(read), settle: None }),
     }
 }
 
-/// What a stage does with flights.
+/// What a column holds.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Effect {
-    /// Keeps or rejects each.
-    Filter,
-    /// Labels their frames.
-    Label,
+#[expect(missing_docs, reason = "never made here; as in the interface")]
+pub enum ValueKind {
+    Real,
+    Integer,
+    Boolean,
+    Text,
+    Bytes,
 }
 
-/// What came of a stage.
-pub struct Transformed {
-    /// What to read into the answer.
+/// A column that a stage reads or gives.
+pub struct Column {
+    /// Name.
+    pub name: String,
+    /// What it holds.
+    pub kind: ValueKind,
+    /// What it means.
+    pub doc: String,
+}
+
+/// What becomes of a stage's answers.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[expect(missing_docs, reason = "never made here; as in the interface")]
+pub enum Effect {
+    Filter,
+    Label,
+    Annotate,
+    Rows,
+    Files,
+}
+
+impl Effect {
+    /// Nothing.
+    pub fn words(self) -> &'static str {
+        ""
+    }
+}
+
+/// What a stage reads and gives.
+pub struct Declaration {
+    /// What becomes of its answers.
     pub effect: Effect,
+    /// Table or folder of the dataset.
+    pub name: String,
+    /// The columns that it reads.
+    pub reads: Vec<Column>,
+    /// The columns that it gives.
+    pub gives: Vec<Column>,
+}
+
+/// What came of a flight.
+pub struct Answered {
     /// An Arrow stream.
     pub answer: Vec<u8>,
     /// For users.
@@ -101,13 +142,13 @@ impl Plugins {
 
     /// # Errors
     /// Always.
-    pub fn transform(&self, _: &Arc<World>, _: Vec<u8>) -> Result<Transformed> {
+    pub fn answer(&self, _: &Arc<World>, _: Makes, _: &FlightColumns) -> Result<(Declaration, Answered)> {
         Err(refused(""))
     }
 
     /// Nothing.
-    pub fn name_and_version(&self) -> (&str, &str) {
-        ("", "")
+    pub fn told(&self) -> [&str; 3] {
+        [""; 3]
     }
 
     /// That an answer is wrong.

@@ -89,6 +89,21 @@ pub struct StagePlugin {
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schemars(regex(pattern = "^[0-9a-f]{64}$"))]
     pub sha256: Option<String>,
+    /// What it makes: `flights`, the ones that arrive at `trajectories`, judged or labelled; or `extras` of rendered flights, those
+    /// that arrive at `frames`, for the dataset's `inputs.extras`: annotations, tables, files. Default `flights`.
+    #[serde(default)]
+    pub makes: Makes,
+}
+
+/// What a stage from a plugin makes.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum Makes {
+    /// Flights, judged or labelled.
+    #[default]
+    Flights,
+    /// What datasets hold beside their own tables.
+    Extras,
 }
 
 /// What a plugin may use.

@@ -1,6 +1,7 @@
 //! Plugins in recipes: cost terms and objectives of `muco` stages, and stages of their own.
 //!
 //! * [`config`]: how recipes name them; there with and without the feature `plugins`.
+//! * [`stage`]: plugins as stages; [`tables`]: their declarations, held against what there is to be read and written.
 //! * `running`: the host at work; `absent` takes its place in a build without plugins.
 
 #[cfg(not(feature = "plugins"))]
@@ -9,14 +10,15 @@ pub mod config;
 #[cfg(feature = "plugins")]
 mod running;
 pub mod stage;
+pub mod tables;
 
 #[cfg(not(feature = "plugins"))]
-pub use absent::{AfterPlanning, Effect, Plugins, Transformed, source};
+pub use absent::{AfterPlanning, Answered, Column, Declaration, Effect, Plugins, ValueKind, source};
 #[cfg(feature = "plugins")]
 pub use running::{AfterPlanning, Plugins, host, keep_compiled_in, source};
 
 #[cfg(feature = "plugins")]
-pub use cosfly_plugin_host::{Effect, Transformed};
+pub use cosfly_plugin_host::{Answered, Column, Declaration, Effect, ValueKind};
 
 use cosfly_planner::objectives::reference::Reference;
 
@@ -37,6 +39,6 @@ pub enum Role {
     Term,
     /// An objective.
     Objective,
-    /// A stage.
-    Stage,
+    /// A stage that makes this.
+    Stage(config::Makes),
 }

@@ -1,8 +1,9 @@
 //! The host at work: plugins of a stage, loaded once, opened anew for every item.
 
-use super::config::{ExpertPlugins, Setting};
-use super::{DrawnReference, Role};
+use super::config::{ExpertPlugins, Makes, Setting};
+use super::{DrawnReference, Role, tables};
 use crate::world::World;
+use cosfly_dataset::flight_table::FlightColumns;
 use cosfly_diagnose::{Diagnostic, Fault, Result};
 use cosfly_frames::{DVec3, Seed};
 use cosfly_geometry::{OrientedBox, SpatialQuery};
@@ -11,10 +12,10 @@ use cosfly_planner::objectives::config::{DT_S, LONGEST_S};
 use cosfly_planner::objectives::reference::Reference;
 use cosfly_planner::{MucoConfig, WeightedTerm};
 use cosfly_plugin_host::{
-    Began, Host, Kind, Plugin, PluginError, PluginLimits, PluginTerm, SiteContext, TownView, Transformed, check_schema,
-    draw_reference, run_transform, with_defaults,
+    Answered, Began, Declaration, Host, Kind, NoTown, Plugin, PluginError, PluginLimits, PluginTerm, SiteContext,
+    TownView, check_schema, declaration, draw_reference, run_stage, with_defaults,
 };
-use cosfly_stage::{Source, SourceCheck};
+use cosfly_stage::{Settle, Source, SourceCheck};
 use sha2::{Digest as _, Sha256};
 use std::path::{Path, PathBuf};
 use std::sync::{Arc, OnceLock};
@@ -42,18 +43,39 @@ pub fn source(parameter: &str, role: Role, setting: &Setting) -> Source {
         check_schema(&plugin.metadata.params_schema)
             .map_err(|message| PluginError::failed(&known.file, "describe", message).diagnostic(None))
     };
+    let makes = match role {
+        Role::Stage(makes) => Some(makes),
+        Role::Term | Role::Objective => None,
+    };
+    let known = setting.clone();
+    let settle = makes.map(|makes| -> Arc<Settle> {
+        Arc::new(move |path: &Path| {
+            let ready = ready(&known, role, Some(&path.to_path_buf()))?;
+            let declared = declaration(&ready.plugin, Arc::new(NoTown), &ready.params);
+            let checked = declared.and_then(|declared| misfit(&ready.plugin, tables::check(&declared, makes)));
+            checked.map_err(|error| error.diagnostic(None))
+        })
+    });
     Source {
-        parameter: if role == Role::Stage { "file".to_owned() } else { under("use") },
+        parameter: if makes.is_some() { "file".to_owned() } else { under("use") },
         path: PathBuf::from(&setting.file),
-        check: Some(SourceCheck { describes: under("params"), read: Arc::new(read) }),
+        check: Some(SourceCheck { describes: under("params"), read: Arc::new(read), settle }),
     }
+}
+
+/// A declaration that does not fit, as a failure of `configure`, which gave it.
+fn misfit(plugin: &Plugin, checked: Result<(), tables::Refusal>) -> Result<(), PluginError> {
+    checked.map_err(|(message, hint)| {
+        let failed = PluginError::failed(&plugin.shown, "configure", message);
+        hint.into_iter().fold(failed, PluginError::hint)
+    })
 }
 
 fn load(setting: &Setting, role: Role, path: &Path) -> Result<Plugin, PluginError> {
     let kind = match role {
         Role::Term => Kind::CostTerm,
         Role::Objective => Kind::Objective,
-        Role::Stage => Kind::Stage,
+        Role::Stage(_) => Kind::Stage,
     };
     let (memory_mib, call_ms, fuel) = (setting.limits.memory_mib, setting.limits.call_ms, setting.limits.fuel);
     let plugin = host().load(path, &setting.file, Some(kind), PluginLimits { memory_mib, call_ms, fuel })?;
@@ -124,7 +146,7 @@ impl Plugins {
     /// # Errors
     /// A file that is no such plugin.
     pub fn of_stage(setting: &Setting, paths: &[PathBuf]) -> Result<Self> {
-        Ok(Self { other: Some(ready(setting, Role::Stage, paths.first())?), ..Self::default() })
+        Ok(Self { other: Some(ready(setting, Role::Stage(Makes::default()), paths.first())?), ..Self::default() })
     }
 
     /// The same, for the item `item`.
@@ -132,22 +154,29 @@ impl Plugins {
         Self { item: Some(item), ..self }
     }
 
-    /// Gives a flight to the stage's plugin, and its answer back.
+    /// Gives a flight to the plugin of a stage that `makes` this, and what it declares and answers back.
     ///
     /// # Errors
     /// What the plugin did wrong.
-    pub fn transform(&self, world: &Arc<World>, flight: Vec<u8>) -> Result<Transformed> {
+    pub fn answer(&self, world: &Arc<World>, makes: Makes, flight: &FlightColumns) -> Result<(Declaration, Answered)> {
         let Some(ready) = &self.other else {
             return Err(Diagnostic::new("plugin-source", Fault::Bug, "the stage has no plugin"));
         };
-        run_transform(&ready.plugin, Arc::clone(world) as _, &ready.params, flight)
+        let encode = |declared: &Declaration| {
+            misfit(&ready.plugin, tables::check(declared, makes))?;
+            flight.encode(&tables::columns(&declared.reads)).map_err(|refusal| {
+                let failed = PluginError::failed(&ready.plugin.shown, "configure", refusal.message);
+                refusal.hint.into_iter().fold(failed, PluginError::hint)
+            })
+        };
+        run_stage(&ready.plugin, Arc::clone(world) as _, &ready.params, encode)
             .map_err(|error| error.diagnostic(self.item.as_deref()))
     }
 
-    /// What the stage's plugin calls itself, and its version.
-    pub fn name_and_version(&self) -> (&str, &str) {
+    /// Name, version and summary of the stage's plugin, as it says.
+    pub fn told(&self) -> [&str; 3] {
         let told = self.other.as_ref().map(|ready| &ready.plugin.metadata);
-        told.map_or(("", ""), |told| (&told.name, &told.version))
+        told.map_or([""; 3], |told| [&told.name, &told.version, &told.summary])
     }
 
     /// That the stage's plugin answered what it must not.

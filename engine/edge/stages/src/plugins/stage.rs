@@ -1,19 +1,27 @@
-//! `wasm`: a plugin as a stage, `use = "wasm:FILE"`: it judges or labels finished flights.
+//! `wasm`: a plugin as a stage, `use = "wasm:FILE"`: it judges or labels finished flights, or makes extras of rendered ones.
 
-use super::config::StagePlugin;
-use super::{Effect, Plugins, Role, source};
+use super::config::{Makes, StagePlugin};
+use super::{Declaration, Effect, Plugins, Role, source, tables};
 use crate::muco::produced;
-use crate::ports::{self, TRAJECTORY};
+use crate::ports::{self, CAPTIONS, EXTRAS, FRAMES, TRAJECTORY};
+use crate::render::REJECTION;
 use crate::world::{check_same_town, link_town, world};
 use crate::{codec, parameters, single};
+use cosfly_dataset::extras::{Extra, ExtraShape};
 use cosfly_dataset::flight_labels::{self, FlightLabel};
-use cosfly_dataset::flight_table;
+use cosfly_dataset::flight_table::{self, FlightColumns, MOST_FILES, MOST_ROWS};
+use cosfly_dataset::record::captions_from_bytes;
+use cosfly_dataset::{Rejection, RenderedTrajectory};
 use cosfly_diagnose::Result;
 use cosfly_planner::{PlanOutcome, Trajectory};
 use cosfly_stage::{
     InputPort, Inputs, ItemRule, OutputSink, ParameterError, Produced, Stage, StageKind, StagePart, StageProperties,
     TaskContext,
 };
+use std::collections::BTreeMap;
+
+/// Blob of extras.
+pub const EXTRA: &str = "extra";
 
 /// The kind.
 pub struct Wasm;
@@ -24,7 +32,7 @@ impl StageKind for Wasm {
     }
 
     fn doc(&self) -> &'static str {
-        "A plugin of your own as a stage, `use = \"wasm:FILE\"`: rejects flights by its rule, or labels their frames."
+        "A plugin of your own as a stage, `use = \"wasm:FILE\"`: rejects or labels flights, or makes tables and files of them."
     }
 
     fn schema(&self) -> serde_json::Value {
@@ -32,23 +40,43 @@ impl StageKind for Wasm {
     }
 
     fn ports(&self) -> Vec<InputPort> {
-        let doc = "The flights that it judges or labels, one item each.";
-        vec![ports::town(), ports::each("trajectories", TRAJECTORY, false, doc)]
+        let mut ports = ports_of(Makes::Flights);
+        ports.extend(ports_of(Makes::Extras).into_iter().skip(1));
+        // Which are wanted is known when it is known what the stage makes.
+        ports.into_iter().map(|port| InputPort { optional: port.name != "town", ..port }).collect()
     }
 
     fn build(&self, given: serde_json::Value) -> Result<Vec<StagePart>, ParameterError> {
         let config: StagePlugin = parameters::read(given)?;
+        let (artifact, items, bytes_per_item) = match config.makes {
+            Makes::Flights => (TRAJECTORY, "trajectories", 60_000),
+            Makes::Extras => (EXTRAS, "frames", 20_000),
+        };
         let properties = StageProperties {
             kind: self.name().into(),
             version: 2,
             parameters: parameters::canonical(&config.canonical()),
-            sources: vec![source("", Role::Stage, &config.setting())],
-            inputs: self.ports(),
-            artifact: TRAJECTORY,
-            items: ItemRule::PerInput("trajectories"),
-            bytes_per_item: 60_000,
+            sources: vec![source("", Role::Stage(config.makes), &config.setting())],
+            inputs: ports_of(config.makes),
+            artifact,
+            items: ItemRule::PerInput(items),
+            bytes_per_item,
         };
         Ok(single(WasmStage { config, properties }))
+    }
+}
+
+fn ports_of(makes: Makes) -> Vec<InputPort> {
+    let judged = "The flights that it judges or labels, one item each.";
+    let rendered = "The rendered flights of which it makes extras, one item each.";
+    let captions = "Their captions, for those that make extras.";
+    match makes {
+        Makes::Flights => vec![ports::town(), ports::each("trajectories", TRAJECTORY, false, judged)],
+        Makes::Extras => vec![
+            ports::town(),
+            ports::each("frames", FRAMES, false, rendered),
+            InputPort { optional: true, ..ports::each("captions", CAPTIONS, false, captions) },
+        ],
     }
 }
 
@@ -63,35 +91,47 @@ impl Stage for WasmStage {
     }
 
     fn run(&self, inputs: &Inputs<'_>, outputs: &mut dyn OutputSink, context: &TaskContext) -> Result<Produced> {
-        check_same_town(inputs, "trajectories")?;
-        let world = world(inputs)?;
-        let artifact = inputs.one("trajectories")?;
-        let given: PlanOutcome = codec::decode(TRAJECTORY, &inputs.read(artifact, "trajectory")?)?;
-        let mut warnings = vec![];
-        let outcome = match given {
-            PlanOutcome::Planned(flight) => {
-                let plugins = Plugins::of_stage(&self.config.setting(), &context.sources)?;
-                let plugins = plugins.for_item(format!("{}/{}", context.stage, context.item));
-                let transformed = plugins.transform(&world, flight_table::encode(&flight, &context.item)?)?;
-                warnings = transformed.warnings;
-                let refuse = |message: String| plugins.wrong_answer(message);
-                match transformed.effect {
-                    Effect::Filter => judged(*flight, &transformed.answer).map_err(refuse)?,
-                    Effect::Label => {
-                        labelled(*flight, &transformed.answer, plugins.name_and_version()).map_err(refuse)?
-                    }
-                }
-            }
-            rejected @ PlanOutcome::Rejected { .. } => rejected,
-        };
-        outputs.put("trajectory", &codec::encode(TRAJECTORY, &outcome)?)?;
-        link_town(inputs, outputs)?;
-        Ok(Produced { warnings, ..produced(&outcome) })
+        let plugins = Plugins::of_stage(&self.config.setting(), &context.sources)?;
+        let plugins = plugins.for_item(format!("{}/{}", context.stage, context.item));
+        match self.config.makes {
+            Makes::Flights => flights(&plugins, inputs, outputs, context),
+            Makes::Extras => extras(&plugins, inputs, outputs),
+        }
     }
 }
 
-fn judged(flight: Trajectory, answer: &[u8]) -> Result<PlanOutcome, String> {
-    let verdict = flight_table::verdict(answer)?;
+/// Judges or labels a flight.
+fn flights(
+    plugins: &Plugins,
+    inputs: &Inputs<'_>,
+    outputs: &mut dyn OutputSink,
+    context: &TaskContext,
+) -> Result<Produced> {
+    check_same_town(inputs, "trajectories")?;
+    let world = world(inputs)?;
+    let artifact = inputs.one("trajectories")?;
+    let given: PlanOutcome = codec::decode(TRAJECTORY, &inputs.read(artifact, "trajectory")?)?;
+    let mut warnings = vec![];
+    let outcome = match given {
+        PlanOutcome::Planned(flight) => {
+            let columns = FlightColumns::of_flight(&flight, &context.item);
+            let (declared, answered) = plugins.answer(&world, Makes::Flights, &columns)?;
+            warnings = answered.warnings;
+            let outcome = match declared.effect {
+                Effect::Filter => judged(*flight, &declared, &answered.answer),
+                _ => labelled(*flight, &declared, &answered.answer, plugins.told()),
+            };
+            outcome.map_err(|message| plugins.wrong_answer(message))?
+        }
+        rejected @ PlanOutcome::Rejected { .. } => rejected,
+    };
+    outputs.put("trajectory", &codec::encode(TRAJECTORY, &outcome)?)?;
+    link_town(inputs, outputs)?;
+    Ok(Produced { warnings, ..produced(&outcome) })
+}
+
+fn judged(flight: Trajectory, declared: &Declaration, answer: &[u8]) -> Result<PlanOutcome, String> {
+    let verdict = flight_table::verdict(answer, &tables::columns(&declared.gives))?;
     Ok(if verdict.keep {
         PlanOutcome::Planned(Box::new(flight))
     } else {
@@ -99,9 +139,48 @@ fn judged(flight: Trajectory, answer: &[u8]) -> Result<PlanOutcome, String> {
     })
 }
 
-fn labelled(mut flight: Trajectory, answer: &[u8], (plugin, version): (&str, &str)) -> Result<PlanOutcome, String> {
-    for (name, per_frame) in flight_table::labels(answer, flight.track.len())? {
+fn labelled(
+    mut flight: Trajectory,
+    declared: &Declaration,
+    answer: &[u8],
+    [plugin, version, _]: [&str; 3],
+) -> Result<PlanOutcome, String> {
+    for (name, per_frame) in flight_table::labels(answer, &tables::columns(&declared.gives), flight.track.len())? {
         flight_labels::add(&mut flight, FlightLabel { name: &name, plugin, version, per_frame: &per_frame })?;
     }
     Ok(PlanOutcome::Planned(Box::new(flight)))
+}
+
+/// Makes extras of a rendered flight; a rejected one has none.
+fn extras(plugins: &Plugins, inputs: &Inputs<'_>, outputs: &mut dyn OutputSink) -> Result<Produced> {
+    check_same_town(inputs, "frames")?;
+    let frames = inputs.one("frames")?;
+    if let Some(rejection) = frames.blobs.get(REJECTION) {
+        outputs.link(REJECTION, *rejection)?;
+        let rejection: Rejection = codec::decode(FRAMES, &inputs.read(frames, REJECTION)?)?;
+        return Ok(Produced { rejected: Some(rejection.reason), ..Produced::default() });
+    }
+    let record = RenderedTrajectory::from_bytes(&inputs.read(frames, "index")?)?;
+    let captions = match inputs.all("captions").first() {
+        Some(artifact) => captions_from_bytes(&inputs.read(artifact, "captions")?)?,
+        None => vec![],
+    };
+    let columns = FlightColumns::of_rendered(&record, &captions);
+    let (declared, answered) = plugins.answer(&world(inputs)?, Makes::Extras, &columns)?;
+    let wrong = |message: String| plugins.wrong_answer(message);
+    let source = tables::source_of(&declared, plugins.told()).ok_or_else(|| wrong("it makes no extras".to_owned()))?;
+    let rows = match source.shape {
+        ExtraShape::Annotation => 1..=1,
+        ExtraShape::Rows => 0..=MOST_ROWS,
+        ExtraShape::Files => 0..=MOST_FILES,
+    };
+    let values = flight_table::read_answer(&answered.answer, &source.columns, rows).map_err(wrong)?;
+    let count = values.first().map_or(0, flight_table::Values::len).to_string();
+    let notes = match source.shape {
+        ExtraShape::Annotation => BTreeMap::new(),
+        ExtraShape::Rows => BTreeMap::from([("rows".to_owned(), count)]),
+        ExtraShape::Files => BTreeMap::from([("files".to_owned(), count)]),
+    };
+    outputs.put(EXTRA, &codec::encode(EXTRAS, &Extra { source, values })?)?;
+    Ok(Produced { notes, warnings: answered.warnings, rejected: None })
 }

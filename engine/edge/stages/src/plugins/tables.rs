@@ -1,0 +1,69 @@
+//! Declarations of plugins that are stages, held against what there is to be read and what their stage makes.
+
+use super::config::Makes;
+use super::{Column, Declaration, Effect, ValueKind};
+use cosfly_dataset::extras::{self, ExtraShape, ExtraSource};
+use cosfly_dataset::flight_table::{ColumnKind, DeclaredColumn, check_names};
+
+/// What is wrong, and what to do.
+pub type Refusal = (String, Option<String>);
+
+/// The columns of a declaration as datasets know them.
+pub fn columns(declared: &[Column]) -> Vec<DeclaredColumn> {
+    let kind = |kind: ValueKind| match kind {
+        ValueKind::Real => ColumnKind::Real,
+        ValueKind::Integer => ColumnKind::Integer,
+        ValueKind::Boolean => ColumnKind::Boolean,
+        ValueKind::Text => ColumnKind::Text,
+        ValueKind::Bytes => ColumnKind::Bytes,
+    };
+    let of = |column: &Column| DeclaredColumn {
+        name: column.name.clone(),
+        kind: kind(column.kind),
+        doc: column.doc.clone(),
+    };
+    declared.iter().map(of).collect()
+}
+
+/// Whether a stage that `makes` this can do what the plugin declares.
+///
+/// # Errors
+/// What does not fit.
+pub fn check(declared: &Declaration, makes: Makes) -> Result<(), Refusal> {
+    let of_flights = matches!(declared.effect, Effect::Filter | Effect::Label);
+    match makes {
+        Makes::Flights if !of_flights => {
+            let message = format!("it is {}, and makes no flights", declared.effect.words());
+            let hint = "write `makes = \"extras\"` and `inputs.frames`, and connect the stage to the dataset's `inputs.extras`";
+            return Err((message, Some(hint.to_owned())));
+        }
+        Makes::Extras if of_flights => {
+            let hint = "leave `makes` away and connect `inputs.trajectories`";
+            return Err((format!("it is {}, and makes no extras", declared.effect.words()), Some(hint.to_owned())));
+        }
+        Makes::Flights | Makes::Extras => {}
+    }
+    check_names(&columns(&declared.reads), makes == Makes::Extras).map_err(|it| (it.message, it.hint))?;
+    if matches!(declared.effect, Effect::Annotate | Effect::Rows) {
+        extras::check_names(&declared.name, &columns(&declared.gives)).map_err(|message| (message, None))?;
+    }
+    Ok(())
+}
+
+/// Where extras are from: `plugin` is its name, version and summary. None for other effects.
+pub fn source_of(declared: &Declaration, [plugin, version, summary]: [&str; 3]) -> Option<ExtraSource> {
+    let shape = match declared.effect {
+        Effect::Filter | Effect::Label => return None,
+        Effect::Annotate => ExtraShape::Annotation,
+        Effect::Rows => ExtraShape::Rows,
+        Effect::Files => ExtraShape::Files,
+    };
+    Some(ExtraSource {
+        name: declared.name.clone(),
+        shape,
+        columns: columns(&declared.gives),
+        plugin: plugin.to_owned(),
+        version: version.to_owned(),
+        summary: summary.to_owned(),
+    })
+}
