@@ -15,6 +15,7 @@ mod plugins;
 mod preview;
 mod processors;
 mod repository;
+mod several_towns;
 mod snapshots;
 mod steering;
 mod street;

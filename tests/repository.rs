@@ -107,6 +107,7 @@ fn generated_files_are_current() {
         (vec!["schema", "--reference"], "book/src/reference/recipe.md"),
         (vec!["schema", "--tables"], "book/src/reference/tables.md"),
         (vec!["town", "--seed", "1"], "recipes/towns/downtown.xodr"),
+        (vec!["town", "--seed", "7"], "recipes/towns/uptown.xodr"),
     ] {
         let fresh = cosfly(&arguments).run_ok().stdout;
         let kept = std::fs::read_to_string(repository_root().join(path)).unwrap_or_default();

@@ -1,5 +1,6 @@
 //! What a recipe says about a dataset: name, licence, splits, image encodings.
 
+use crate::publish::Split;
 use cosfly_metrics::WindowShape;
 use cosfly_stage::ParameterError;
 use schemars::JsonSchema;
@@ -204,14 +205,14 @@ impl WindowConfig {
 pub enum SplitBy {
     /// All flights behind one pedestrian, and behind all others whose ways overlap.
     Pedestrian,
-    /// All flights in one town, whatever it is called: datasets of several towns put together have unseen towns.
+    /// All flights in one town, whatever it is called: a dataset of several towns then has unseen ones.
     Town,
 }
 
 /// Shares of the splits. The split is a draw from the id of the pedestrian (the first of those whose ways overlap) or
 /// from the town's ground plan, so that twins stay together and adding pedestrians moves old ones only where a new
 /// walk joins two groups.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(default, deny_unknown_fields)]
 pub struct SplitShares {
     /// Share of training pedestrians; the shares are divided by their sum.
@@ -231,11 +232,23 @@ pub struct SplitShares {
     /// same direction. Publishing refuses splits that break it.
     #[schemars(range(min = 0, max = 1))]
     pub max_route_overlap: f64,
+    /// Splits that towns go to as a whole, by the town's name: `{ uptown = "test" }` keeps `uptown` unseen. Towns with
+    /// the same ground plan go with it.
+    #[serde(skip_serializing_if = "BTreeMap::is_empty")]
+    pub towns: BTreeMap<String, Split>,
 }
 
 impl Default for SplitShares {
     fn default() -> Self {
-        Self { train: 0.8, val: 0.1, test: 0.1, seed: 0, by: SplitBy::Pedestrian, max_route_overlap: 0.5 }
+        Self {
+            train: 0.8,
+            val: 0.1,
+            test: 0.1,
+            seed: 0,
+            by: SplitBy::Pedestrian,
+            max_route_overlap: 0.5,
+            towns: BTreeMap::new(),
+        }
     }
 }
 

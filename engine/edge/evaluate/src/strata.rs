@@ -2,9 +2,10 @@
 
 use crate::windows::{Flights, Window, WindowSet};
 use cosfly_dataset::read::PublishedFlight;
+use cosfly_dataset::splits::TownLayout;
 use cosfly_metrics::{Difficulty, WindowShape};
 use rayon::prelude::*;
-use std::collections::BTreeSet;
+use std::collections::BTreeMap;
 
 /// Number of strata.
 pub const COUNT: usize = 9;
@@ -28,7 +29,7 @@ pub type Membership = u16;
 /// The strata of every window.
 ///
 /// * difficulty: see [`cosfly_metrics::difficulty`].
-/// * scene: a town is seen when a flight of split `train` is in a town of the same geometry.
+/// * scene: a town is seen when a flight of split `train` is in a town of the same ground plan, whatever its name.
 /// * target in the input: occluded when rays reach less than half of it in an input frame.
 /// * target: static when it stays within half a metre during the window.
 pub fn memberships(flights: &Flights, windows: &WindowSet) -> Vec<Membership> {
@@ -42,16 +43,16 @@ pub fn memberships(flights: &Flights, windows: &WindowSet) -> Vec<Membership> {
     windows.flights.par_iter().flat_map_iter(of_flight).collect()
 }
 
-/// Of every flight whether a flight of split `train` is in a town of the same geometry.
+/// Of every flight whether a flight of split `train` is in a town of the same ground plan.
 pub fn is_seen(flights: &Flights) -> Vec<bool> {
     let train = flights.rows.iter().filter(|row| row.split == "train");
-    let seen: BTreeSet<&str> = train.map(place_of).collect();
-    flights.rows.iter().map(|row| seen.contains(place_of(row))).collect()
-}
-
-/// The town by its geometry, by its name in datasets that do not tell the geometry.
-fn place_of(row: &PublishedFlight) -> &str {
-    if row.town_geometry.is_empty() { &row.town } else { &row.town_geometry }
+    let seen: BTreeMap<&str, &TownLayout> =
+        train.map(|row| (row.town_layout.digest.as_str(), &row.town_layout)).collect();
+    let is_seen = |row: &PublishedFlight| {
+        let layout = &row.town_layout;
+        seen.contains_key(layout.digest.as_str()) || seen.values().any(|it| it.is_same_place(layout))
+    };
+    flights.rows.iter().map(is_seen).collect()
 }
 
 fn of_window(flights: &Flights, window: Window, shape: &WindowShape) -> Membership {

@@ -2,8 +2,9 @@
 
 use crate::plugins::stage::EXTRA;
 use crate::ports::{self, CAPTIONS, DATASET, EXTRAS, FRAMES, LOG};
+use crate::published_towns::PublishedTowns;
 use crate::render::REJECTION;
-use crate::world::{check_same_town, world};
+use crate::world::world_of;
 use crate::{codec, parameters, planner_comparison};
 use cosfly_dataset::extras::Extra;
 use cosfly_dataset::splits::TownLayout;
@@ -16,7 +17,7 @@ use cosfly_diagnose::{Diagnostic, Fault, Result};
 use cosfly_render::Weather;
 use cosfly_stage::{
     Artifact, Fan, InputPort, Inputs, ItemRule, OutputSink, ParameterError, PassingFile, PortSource, Produced, Stage,
-    StageKind, StagePart, StageProperties, TaskContext,
+    StageKind, StagePart, StageProperties, Takes, TaskContext,
 };
 use std::collections::BTreeMap;
 use std::io::BufReader;
@@ -39,12 +40,7 @@ impl StageKind for Dataset {
     }
 
     fn ports(&self) -> Vec<InputPort> {
-        vec![
-            ports::town(),
-            ports::gather("frames", FRAMES, false, "The rendered trajectories."),
-            captions(Fan::Gather),
-            extras(),
-        ]
+        vec![towns(), frames(Fan::Gather), captions(Fan::Gather), extras()]
     }
 
     fn build(&self, given: serde_json::Value) -> Result<Vec<StagePart>, ParameterError> {
@@ -56,11 +52,7 @@ impl StageKind for Dataset {
             // Logs read no parameter: another title or split rewrites no log.
             parameters: serde_json::json!({}),
             sources: vec![],
-            inputs: vec![
-                ports::town(),
-                ports::each("frames", FRAMES, false, "The rendered trajectories."),
-                captions(Fan::Each),
-            ],
+            inputs: vec![frames(Fan::Each), captions(Fan::Each)],
             artifact: LOG,
             items: ItemRule::PerInput("frames"),
             bytes_per_item: 0,
@@ -87,8 +79,19 @@ impl StageKind for Dataset {
     }
 }
 
+fn towns() -> InputPort {
+    InputPort { fan: Fan::Gather, takes: Takes::Named, doc: "The towns that the pictures show.", ..ports::town() }
+}
+
+/// Pictures and captions of several towns; each flight is called after the stage that it comes from.
+fn frames(fan: Fan) -> InputPort {
+    let doc = "The rendered trajectories, of one town or of several.";
+    InputPort { fan, takes: Takes::Distinct, ..ports::each("frames", FRAMES, false, doc) }
+}
+
 fn captions(fan: Fan) -> InputPort {
-    InputPort { fan, optional: true, ..ports::each("captions", CAPTIONS, false, "Their captions.") }
+    let port = ports::each("captions", CAPTIONS, false, "Their captions.");
+    InputPort { fan, takes: Takes::Distinct, optional: true, ..port }
 }
 
 fn extras() -> InputPort {
@@ -106,7 +109,6 @@ impl Stage for LogStage {
     }
 
     fn run(&self, inputs: &Inputs<'_>, outputs: &mut dyn OutputSink, context: &TaskContext) -> Result<Produced> {
-        check_same_town(inputs, "frames")?;
         let frames = inputs.one("frames")?;
         if let Some(rejection) = frames.blobs.get(REJECTION) {
             outputs.link(REJECTION, *rejection)?;
@@ -115,7 +117,7 @@ impl Stage for LogStage {
         }
         let record = RenderedTrajectory::from_bytes(&inputs.read(frames, "index")?)?;
         let captions = captions_of(inputs, inputs.all("captions").first())?;
-        let world = world(inputs)?;
+        let world = world_of(inputs, frames)?;
         let mut pack = FramePackReader::new(BufReader::new(PassingFile::new(inputs.open(frames, "pack")?)))?;
         let mut log = None;
         outputs.stream("mcap", &mut |file| {
@@ -150,7 +152,7 @@ impl Stage for DatasetStage {
         for artifact in inputs.all("extras").iter().filter(|artifact| artifact.blobs.contains_key(EXTRA)) {
             extras.entry(item_of(artifact)).or_default().push(artifact);
         }
-        let mut gathered = Gathered { inputs, flights: vec![] };
+        let mut gathered = Gathered { inputs, towns: PublishedTowns::of(inputs)?, flights: vec![] };
         let (mut logs, mut rejections): (Vec<PublishedLog>, Vec<Rejection>) = (vec![], vec![]);
         for (frames, log) in inputs.all("frames").iter().zip(inputs.all("logs")) {
             if log.blobs.contains_key(REJECTION) {
@@ -216,6 +218,7 @@ struct Flight<'a> {
 /// Everything that was gathered, read one flight at a time.
 struct Gathered<'a> {
     inputs: &'a Inputs<'a>,
+    towns: PublishedTowns,
     flights: Vec<Flight<'a>>,
 }
 
@@ -234,16 +237,18 @@ impl DatasetSource for Gathered<'_> {
     }
 
     fn objects(&self) -> Result<Vec<ObjectRecord>> {
-        Ok(ObjectRecord::of(&world(self.inputs)?.town))
+        self.towns.objects(self.inputs)
     }
 
-    fn layout(&self) -> Result<TownLayout> {
-        Ok(TownLayout::of(&world(self.inputs)?.town))
+    fn layout(&self, index: usize) -> Result<Arc<TownLayout>> {
+        self.towns.layout(self.flights[index].frames)
     }
 
     fn planners(&self, flights: &[usize]) -> Result<Vec<PlannerRow>> {
-        let world = world(self.inputs)?;
-        let flights = flights.iter().map(|index| Ok((self.trajectory(*index)?, Arc::clone(&world))));
+        let flights = flights.iter().map(|index| {
+            let world = world_of(self.inputs, self.flights[*index].frames)?;
+            Ok((self.trajectory(*index)?, world))
+        });
         Ok(planner_comparison::compared(&flights.collect::<Result<Vec<_>>>()?))
     }
 

@@ -19,6 +19,7 @@ mod perturb;
 mod planner_comparison;
 pub mod plugins;
 mod ports;
+mod published_towns;
 pub mod read;
 mod render;
 pub mod world;

@@ -1,6 +1,6 @@
 //! The inputs that built-in stages share, declared once.
 
-use cosfly_stage::{Fan, InputPort, PortSource};
+use cosfly_stage::{Fan, InputPort, PortSource, Takes};
 
 /// Artifact of a town.
 pub const TOWN: &str = "town/1";
@@ -25,7 +25,7 @@ pub fn town() -> InputPort {
         name: "town",
         artifact: TOWN,
         fan: Fan::Broadcast,
-        many: false,
+        takes: Takes::One,
         optional: false,
         source: PortSource::Recipe,
         doc: "The town that everything happens in.",
@@ -34,10 +34,15 @@ pub fn town() -> InputPort {
 
 /// A port that meets the stage item by item.
 pub fn each(name: &'static str, artifact: &'static str, many: bool, doc: &'static str) -> InputPort {
-    InputPort { name, artifact, fan: Fan::Each, many, optional: false, source: PortSource::Recipe, doc }
+    InputPort { name, artifact, fan: Fan::Each, takes: takes(many), optional: false, source: PortSource::Recipe, doc }
 }
 
 /// A port that brings all items of an input at once.
 pub fn gather(name: &'static str, artifact: &'static str, many: bool, doc: &'static str) -> InputPort {
-    InputPort { name, artifact, fan: Fan::Gather, many, optional: false, source: PortSource::Recipe, doc }
+    InputPort { name, artifact, fan: Fan::Gather, takes: takes(many), optional: false, source: PortSource::Recipe, doc }
+}
+
+/// One stage, or several whose items are named after them.
+fn takes(many: bool) -> Takes {
+    if many { Takes::Named } else { Takes::One }
 }

@@ -5,7 +5,7 @@ use crate::ports::TOWN;
 use cosfly_diagnose::{Diagnostic, Fault, Result};
 use cosfly_geometry::BoxBvh;
 use cosfly_maps::{GroundIndex, Town};
-use cosfly_stage::{Inputs, OutputSink};
+use cosfly_stage::{Artifact, Inputs, OutputSink};
 use std::sync::Arc;
 
 /// The town at port `town`, ready for queries.
@@ -57,5 +57,10 @@ pub fn check_same_town(inputs: &Inputs<'_>, port: &str) -> Result<()> {
 
 /// The town at port `town` of a task.
 pub fn world(inputs: &Inputs<'_>) -> Result<Arc<World>> {
-    inputs.decoded(inputs.one("town")?, TOWN_BLOB, |bytes| codec::decode(TOWN, bytes).map(World::new))
+    world_of(inputs, inputs.one("town")?)
+}
+
+/// The town that an artifact was made in.
+pub fn world_of(inputs: &Inputs<'_>, artifact: &Artifact) -> Result<Arc<World>> {
+    inputs.decoded(artifact, TOWN_BLOB, |bytes| codec::decode(TOWN, bytes).map(World::new))
 }

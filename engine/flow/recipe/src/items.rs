@@ -3,7 +3,7 @@
 use crate::document::{Place, Texts, list};
 use crate::model::{Arrival, Connection, ItemIds, RecipeStage};
 use cosfly_diagnose::{Diagnostic, Fault};
-use cosfly_stage::{Fan, InputPort, ItemRule, StageProperties};
+use cosfly_stage::{Fan, InputPort, ItemRule, StageProperties, Takes};
 use std::collections::{BTreeMap, BTreeSet};
 use std::sync::Arc;
 
@@ -102,15 +102,38 @@ impl ItemReader<'_> {
         for upstream in &wire.upstreams {
             let RecipeStage { name, items, .. } = &self.done[*upstream];
             for (item, id) in items.iter().enumerate() {
-                let id = if wire.port.many { Arc::from(format!("{name}-{id}")) } else { id.clone() };
+                let is_renamed = wire.port.takes == Takes::Named;
+                let id = if is_renamed { Arc::from(format!("{name}-{id}")) } else { id.clone() };
                 arrivals.push(Arrival { id, stage: *upstream, item });
             }
         }
         let ids = match &wire.upstreams[..] {
-            [only] if !wire.port.many => self.done[*only].items.clone(),
+            [only] if wire.port.takes != Takes::Named => self.done[*only].items.clone(),
             _ => arrivals.iter().map(|arrival| arrival.id.clone()).collect(),
         };
+        if wire.upstreams.len() > 1 && wire.port.takes == Takes::Distinct {
+            self.check_distinct(wire, &arrivals)?;
+        }
         Ok(PortItems { ids, arrivals })
+    }
+
+    /// Stages at one port that calls their items by their own ids have no id in common.
+    fn check_distinct(&self, wire: &Wire, arrivals: &[Arrival]) -> Result<(), Box<Diagnostic>> {
+        let mut first: BTreeMap<&str, usize> = BTreeMap::new();
+        for arrival in arrivals {
+            let earlier = first.insert(&arrival.id, arrival.stage);
+            let Some(earlier) = earlier.map(|stage| &self.done[stage].name) else { continue };
+            let message = format!(
+                "`inputs.{}` of `{}` gets an item `{}` from `{earlier}` and from `{}`",
+                wire.port.name, self.stage, arrival.id, self.done[arrival.stage].name
+            );
+            let problem = self.texts.problem("recipe-items-same", &wire.place, message);
+            return Err(problem.hint(
+                "items are called after the stages that they come through: give these chains stages of their own, or \
+                 connect one of the two",
+            ));
+        }
+        Ok(())
     }
 
     /// The only item of a broadcast port.

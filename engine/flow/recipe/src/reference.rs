@@ -2,7 +2,7 @@
 
 use crate::outline::FILE_KIND;
 use crate::parameters::{allowed_values, resolve, show_json, show_toml, type_words_of};
-use cosfly_stage::{Fan, InputPort, Registry, StageKind};
+use cosfly_stage::{Fan, InputPort, Registry, StageKind, Takes};
 use serde_json::Value;
 use std::fmt::Write;
 
@@ -41,7 +41,7 @@ count = 4
 
 Every other key of a stage is a parameter of its kind. Paths begin at the recipe's folder.
 `--set stages.walkers.count=8` on the command line replaces one value; what is not TOML is taken as a string.
-Where a port takes many stages, its items are called `STAGE-ITEM`.
+Where a port takes many stages, its items are called `STAGE-ITEM`; those of a dataset keep their names.
 ";
 
 /// The page in Markdown: per kind its inputs and parameters with type, default, range and meaning.
@@ -78,7 +78,7 @@ fn write_kind(kind: &dyn StageKind, page: &mut String) -> std::fmt::Result {
 }
 
 fn takes(port: &InputPort) -> String {
-    let many = if port.many { "one or more of " } else { "" };
+    let many = if port.takes == Takes::One { "" } else { "one or more of " };
     let optional = if port.optional { ", optional" } else { "" };
     format!("{many}`{}`{optional}", port.artifact)
 }

@@ -1,7 +1,7 @@
 //! The JSON Schema of whole recipes, for editors.
 
 use crate::outline::FILE_KIND;
-use cosfly_stage::{InputPort, Registry, StageKind};
+use cosfly_stage::{InputPort, Registry, StageKind, Takes};
 use serde_json::{Map, Value, json};
 
 /// Names of stages, as in `[stages.NAME]`.
@@ -128,7 +128,7 @@ fn inputs(ports: &[InputPort]) -> Value {
         .map(|port| {
             let description = format!("{} Takes `{}`.", port.doc, port.artifact);
             let one = json!({ "type": "string", "pattern": STAGE_NAME });
-            let rule = if port.many {
+            let rule = if port.takes != Takes::One {
                 let list = json!({ "type": "array", "items": one, "uniqueItems": true });
                 json!({ "description": description, "anyOf": [one, list] })
             } else {

@@ -5,7 +5,7 @@ use crate::kinds::{KnownStage, kinds_that_make};
 use crate::order::Reads;
 use crate::outline::{InputOutline, Outline, StageOutline};
 use cosfly_diagnose::{Diagnostic, nearest_name};
-use cosfly_stage::{InputPort, Registry};
+use cosfly_stage::{InputPort, Registry, Takes};
 use std::collections::BTreeMap;
 
 /// Per stage of the outline and port: what is connected, in the order of the recipe.
@@ -101,7 +101,7 @@ impl Wiring<'_> {
             return;
         };
         if let [_, (second, place), ..] = upstreams
-            && !port.many
+            && port.takes == Takes::One
         {
             let second = &self.outline.stages[*second].name;
             let message = format!("`inputs.{}` of `{}` takes one stage; `{second}` is one more", port.name, stage.name);

@@ -4,7 +4,8 @@ use cosfly_diagnose::{Diagnostic, Fault, Result};
 use cosfly_fingerprint::Digest;
 use cosfly_recipe::{Arrival, Connection, ItemIds, Recipe, RecipeStage, SourceFile};
 use cosfly_stage::{
-    Fan, InputPort, Inputs, ItemRule, OutputSink, PortSource, Produced, Source, Stage, StageProperties, TaskContext,
+    Fan, InputPort, Inputs, ItemRule, OutputSink, PortSource, Produced, Source, Stage, StageProperties, Takes,
+    TaskContext,
 };
 use serde_json::Value;
 use std::path::{Path, PathBuf};
@@ -150,7 +151,7 @@ fn toy_port(name: &'static str, fan: Fan) -> InputPort {
         name,
         artifact: "toy/1",
         fan,
-        many: false,
+        takes: Takes::One,
         optional: false,
         source: PortSource::Recipe,
         doc: "what it reads",

@@ -15,7 +15,9 @@ pub use artifact::{Artifact, BlobRef, BlobSource, Decoded, InputGroup, Inputs, O
 pub use event::{RunEvent, TaskOutcome};
 pub use kind::{ParameterError, Registry, StageKind, StagePart};
 pub use passing::PassingFile;
-pub use properties::{Fan, InputPort, ItemRule, PortSource, ReadSchema, Settle, Source, SourceCheck, StageProperties};
+pub use properties::{
+    Fan, InputPort, ItemRule, PortSource, ReadSchema, Settle, Source, SourceCheck, StageProperties, Takes,
+};
 
 use cosfly_diagnose::Result;
 use std::path::PathBuf;

@@ -77,15 +77,25 @@ pub struct InputPort {
     pub artifact: &'static str,
     /// How its items meet the stage's own items.
     pub fan: Fan,
-    /// Whether a list of stages may be given. The items of such a port are named `<stage>-<item>`,
-    /// so that adding a second stage renames nothing.
-    pub many: bool,
+    /// How many stages it takes, and what it calls their items.
+    pub takes: Takes,
     /// Whether the port may be left out.
     pub optional: bool,
     /// Whom it is connected to.
     pub source: PortSource,
     /// One sentence for the reference.
     pub doc: &'static str,
+}
+
+/// How many stages a port takes.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Takes {
+    /// One, whose items keep their ids.
+    One,
+    /// One or a list. Items are called `<stage>-<item>`, so that adding a second stage renames nothing.
+    Named,
+    /// One or a list. Items keep their ids, so stages that have items of the same id cannot be connected together.
+    Distinct,
 }
 
 /// Who connects a port.

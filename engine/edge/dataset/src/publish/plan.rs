@@ -4,13 +4,16 @@ use crate::config::{DatasetConfig, SplitShares};
 use crate::mcap_log::LogRecord;
 use crate::splits::Assignment;
 use cosfly_diagnose::{Diagnostic, Fault, Result};
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
 use std::collections::{BTreeMap, BTreeSet};
 
 /// Logs in one folder; hosts of datasets refuse folders with many thousand files.
 const LOGS_PER_FOLDER: usize = 1_000;
 
 /// A part of a dataset.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
 pub enum Split {
     /// For training.
     Train,
@@ -67,7 +70,7 @@ impl DatasetPlan {
             if !seen.insert(&log.trajectory_id) {
                 let message = format!("two trajectories are called `{}`", log.trajectory_id);
                 return Err(Diagnostic::new("dataset-duplicate", Fault::Recipe, message)
-                    .hint("connect every stage to the dataset only once"));
+                    .hint("ids begin with the stage that a flight comes from: give every chain stages of its own"));
             }
             let number = per_town.entry(&log.town).or_default();
             let folder = *number / LOGS_PER_FOLDER;

@@ -13,8 +13,8 @@ pub struct Summary {
     pub experts: u64,
     /// Perturbed flights.
     pub perturbed: u64,
-    /// Distinct pedestrians.
-    pub pedestrians: BTreeSet<String>,
+    /// Distinct pedestrians: town and id.
+    pub pedestrians: BTreeSet<(String, String)>,
     /// Frames.
     pub frames: u64,
     /// Time flown, seconds.
@@ -63,7 +63,7 @@ impl Summary {
             Role::Perturbed => self.perturbed += 1,
         }
         self.count_log(&item.log, split);
-        self.pedestrians.insert(record.pedestrian_id.clone());
+        self.pedestrians.insert((record.town.name.clone(), record.pedestrian_id.clone()));
         self.duration_s += record.trajectory.track.duration_s();
         self.uncertified += u64::from(!record.trajectory.certificate.holds);
         self.visibility_sum += record.trajectory.certificate.mean_visibility;

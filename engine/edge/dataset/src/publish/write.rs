@@ -41,10 +41,10 @@ pub trait DatasetSource {
     fn trajectory(&self, index: usize) -> Result<RenderedTrajectory>;
     /// Its captions; empty without a caption stage.
     fn captions(&self, index: usize) -> Result<Vec<CaptionRecord>>;
-    /// What the instance ids of all images stand for.
+    /// What the instance ids of all images stand for, town by town.
     fn objects(&self) -> Result<Vec<ObjectRecord>>;
-    /// The town that all flights are in, without its name.
-    fn layout(&self) -> Result<TownLayout>;
+    /// The town of trajectory `index` without its name.
+    fn layout(&self, index: usize) -> Result<Arc<TownLayout>>;
     /// What other planners make of the walks of some flights, for the report.
     fn planners(&self, flights: &[usize]) -> Result<Vec<PlannerRow>> {
         let _ = flights;
@@ -72,20 +72,20 @@ pub fn write_dataset(
         return Err(nothing_to_publish(rejections));
     }
     let records: Vec<&LogRecord> = logs.iter().map(|log| &log.record).collect();
-    let layout = Arc::new(source.layout()?);
-    let assignment = split(config, logs, source, &layout, keep_going)?;
+    let layouts: Vec<Arc<TownLayout>> = (0..logs.len()).map(|index| source.layout(index)).collect::<Result<_>>()?;
+    let assignment = split(config, logs, source, &layouts, keep_going)?;
     let plan = DatasetPlan::new(config, &records, &assignment)?;
     let mut dataset = Publishing { sink, files: vec![] };
     for (log, path) in logs.iter().zip(&plan.mcap_paths) {
         dataset.link_log(path, log)?;
     }
     let items = Items {
-        is_seen: plan.splits.contains(&Split::Train),
+        is_seen: seen(&plan.splits, &layouts),
         places: logs.iter().enumerate().map(|(place, log)| (log.record.trajectory_id.as_str(), place)).collect(),
         windows: config.windows.shape(),
         plan: &plan,
         assignment,
-        layout,
+        layouts,
         logs,
         source,
         keep_going,
@@ -123,23 +123,78 @@ fn split(
     config: &DatasetConfig,
     logs: &[PublishedLog],
     source: &dyn DatasetSource,
-    layout: &Arc<TownLayout>,
+    layouts: &[Arc<TownLayout>],
     keep_going: &dyn Fn() -> Result<()>,
 ) -> Result<Assignment> {
     let size = config.windows.shape().size();
     let of_flight = |index| {
         keep_going()?;
-        Ok(FlightFacts::of_record(&source.trajectory(index)?, layout, size))
+        let record = source.trajectory(index)?;
+        Ok((FlightFacts::of_record(&record, &layouts[index], size), record.dt_s()))
     };
-    let mut facts: Vec<FlightFacts> = (0..logs.len()).map(of_flight).collect::<Result<_>>()?;
+    let flights: Vec<(FlightFacts, f64)> = (0..logs.len()).map(of_flight).collect::<Result<_>>()?;
+    check_rates(&flights)?;
+    let mut facts: Vec<FlightFacts> = flights.into_iter().map(|(facts, _)| facts).collect();
+    check_towns(&facts, config)?;
     let assignment = splits::assign(&facts, &config.splits);
     for ((it, split), group) in facts.iter_mut().zip(&assignment.splits).zip(&assignment.groups) {
         (it.split, it.group) = (split.name().to_owned(), group.clone());
     }
+    check_promises(&facts, config)?;
     match splits::refusal(&splits::lint(&facts, &LintRules::of(config))) {
         None => Ok(assignment),
         Some(refusal) => Err(refusal),
     }
+}
+
+/// Increments from frame to frame are one quantity in tables only if all frames are equally far apart.
+fn check_rates(flights: &[(FlightFacts, f64)]) -> Result<()> {
+    let Some(((first, dt_s), rest)) = flights.split_first() else { return Ok(()) };
+    let Some((other, other_s)) = rest.iter().find(|(_, other_s)| other_s != dt_s) else { return Ok(()) };
+    let message = format!(
+        "frames are {dt_s} s apart in `{}` and {other_s} s in `{}`: they cannot be in one dataset",
+        first.trajectory_id, other.trajectory_id
+    );
+    Err(Diagnostic::new("dataset-rates", Fault::Recipe, message)
+        .hint("give all stages that walks come from the same `dt_s`, or make two datasets"))
+}
+
+/// Towns that a recipe gives a split are there.
+fn check_towns(facts: &[FlightFacts], config: &DatasetConfig) -> Result<()> {
+    let known: BTreeSet<&str> = facts.iter().map(|it| it.town.as_str()).collect();
+    let Some(name) = config.splits.towns.keys().find(|name| !known.contains(name.as_str())) else { return Ok(()) };
+    let message = format!("`splits.towns` names `{name}`, but no flight is in a town of that name");
+    let refusal = Diagnostic::new("dataset-unknown-town", Fault::Recipe, message);
+    let list = || known.iter().map(|it| format!("`{it}`")).collect::<Vec<_>>().join(", ");
+    Err(match cosfly_diagnose::nearest_name(name, known.iter().copied()) {
+        Some(near) => refusal.hint(format!("did you mean `{near}`?")),
+        None => refusal.hint(format!("flights are in {}", list())),
+    })
+}
+
+/// Every town is in the split that the recipe gives it; a place under two names cannot be in two.
+fn check_promises(facts: &[FlightFacts], config: &DatasetConfig) -> Result<()> {
+    let promised = |it: &FlightFacts| config.splits.towns.get(&it.town).copied();
+    let broken = |it: &&FlightFacts| promised(it).is_some_and(|split| split.name() != it.split);
+    let Some(it) = facts.iter().find(broken) else { return Ok(()) };
+    let other =
+        facts.iter().find(|other| other.town != it.town && promised(other).is_some() && other.split == it.split);
+    let message = format!(
+        "`splits.towns` puts `{}` and `{}` into two splits, but they have the same ground plan",
+        it.town,
+        other.map_or("a copy of it", |other| other.town.as_str())
+    );
+    Err(Diagnostic::new("dataset-leak", Fault::Recipe, message).hint("give both the same split, or leave one out"))
+}
+
+/// Whether split `train` has flights in the town of each flight.
+fn seen(splits: &[Split], layouts: &[Arc<TownLayout>]) -> Vec<bool> {
+    let train: BTreeMap<&str, &TownLayout> = (splits.iter().zip(layouts))
+        .filter(|(split, _)| **split == Split::Train)
+        .map(|(_, layout)| (layout.digest.as_str(), &**layout))
+        .collect();
+    let is_seen = |layout: &Arc<TownLayout>| train.values().any(|seen| seen.is_same_place(layout));
+    layouts.iter().map(is_seen).collect()
 }
 
 /// An empty dataset is no success: says what was rejected and why.
@@ -167,8 +222,8 @@ fn summarise(items: &Items<'_>, rejections: &[Rejection]) -> Result<(Summary, Ve
 struct Items<'a> {
     plan: &'a DatasetPlan,
     assignment: Assignment,
-    layout: Arc<TownLayout>,
-    is_seen: bool,
+    layouts: Vec<Arc<TownLayout>>,
+    is_seen: Vec<bool>,
     windows: WindowShape,
     /// Places of trajectories by their ids.
     places: BTreeMap<&'a str, usize>,
@@ -208,10 +263,10 @@ impl Items<'_> {
             expert: if reading.expert { self.expert_of(&record)? } else { None },
             membership: Membership {
                 split_group: self.assignment.groups[index].clone(),
-                is_seen: self.is_seen,
+                is_seen: self.is_seen[index],
                 subset_rank: self.assignment.subset_ranks[index],
             },
-            layout: Arc::clone(&self.layout),
+            layout: Arc::clone(&self.layouts[index]),
             windows: self.windows,
             record,
         })

@@ -13,6 +13,7 @@ use cosfly_stage::{BlobRef, OutputSink, SeekWrite};
 use std::collections::BTreeMap;
 use std::io::Cursor;
 use std::path::{Path, PathBuf};
+use std::sync::Arc;
 
 /// An output sink that writes files below a folder and knows the blobs it may link.
 struct FolderSink<'a> {
@@ -60,8 +61,8 @@ impl DatasetSource for Flights {
         Ok(ObjectRecord::of(&town()))
     }
 
-    fn layout(&self) -> Result<TownLayout> {
-        Ok(TownLayout::of(&town()))
+    fn layout(&self, _index: usize) -> Result<Arc<TownLayout>> {
+        Ok(Arc::new(TownLayout::of(&town())))
     }
 
     fn previews(&self, index: usize) -> Result<PreviewStrip> {

@@ -80,11 +80,10 @@ pub fn refusal(leaks: &Leaks) -> Option<Box<Diagnostic>> {
     let pairs = if leaks.found == 1 { "a pair".to_owned() } else { format!("{} pairs", leaks.found) };
     let refusal = Diagnostic::new("dataset-leak", Fault::Recipe, format!("the splits leak: {pairs} across them"));
     let refusal = leaks.kept.iter().take(8).fold(refusal, |refusal, leak| refusal.because(leak));
-    Some(
-        refusal.hint(
-            "lower `splits.max_route_overlap` so that such walks stay together, or put everything into one split",
-        ),
-    )
+    Some(refusal.hint(
+        "lower `splits.max_route_overlap` so that such walks stay together, give towns with the same ground plan the \
+             same split in `splits.towns`, or put everything into one split",
+    ))
 }
 
 /// `id` in words, with the dataset where there are several.
@@ -128,15 +127,17 @@ fn towns(facts: &[FlightFacts], rules: &LintRules, leaks: &mut Leaks) {
 
 /// Flights behind one pedestrian, twins, and what was published as one group.
 fn pedestrians(facts: &[FlightFacts], leaks: &mut Leaks) {
-    let mut first: BTreeMap<(usize, &str, &str), &FlightFacts> = BTreeMap::new();
+    // Pedestrians of two towns may be called the same; groups are called after their town.
+    let mut first: BTreeMap<(usize, &str, &str, &str), &FlightFacts> = BTreeMap::new();
     let by_id: BTreeMap<(usize, &str), &FlightFacts> =
         facts.iter().map(|it| ((it.dataset, it.trajectory_id.as_str()), it)).collect();
     for it in facts {
         let mut is_apart = false;
-        for (rule, what, name) in
-            [("split-pedestrian", "pedestrian", &it.pedestrian_id), ("split-group", "group", &it.group)]
-        {
-            let other = *first.entry((it.dataset, rule, name)).or_insert(it);
+        for (rule, what, place, name) in [
+            ("split-pedestrian", "pedestrian", it.layout.digest.as_str(), &it.pedestrian_id),
+            ("split-group", "group", "", &it.group),
+        ] {
+            let other = *first.entry((it.dataset, rule, place, name)).or_insert(it);
             if !is_apart && !name.is_empty() && other.split != it.split {
                 is_apart = true;
                 leaks.add(rule, it, format!("{what} `{name}` is in two splits: {} and {}", named(other), named(it)));
@@ -151,7 +152,7 @@ fn pedestrians(facts: &[FlightFacts], leaks: &mut Leaks) {
 
 /// Flights behind one pedestrian that are apart are found by that alone.
 fn is_one_walk(a: &FlightFacts, b: &FlightFacts) -> bool {
-    (a.dataset, &a.pedestrian_id) == (b.dataset, &b.pedestrian_id)
+    (a.dataset, &a.layout.digest, &a.pedestrian_id) == (b.dataset, &b.layout.digest, &b.pedestrian_id)
 }
 
 /// The same moments under two names.

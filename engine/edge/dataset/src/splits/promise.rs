@@ -49,6 +49,6 @@ impl Promise {
 
 /// The text of the file.
 pub fn promise(config: &DatasetConfig) -> String {
-    let promise = Promise { version: 1, splits: config.splits, windows: config.windows };
+    let promise = Promise { version: 1, splits: config.splits.clone(), windows: config.windows };
     serde_json::to_string_pretty(&promise).expect("numbers and names always print") + "\n"
 }

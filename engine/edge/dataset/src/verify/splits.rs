@@ -19,5 +19,14 @@ pub fn check(folder: &Path, tables: &SmallTables, report: &mut VerifyReport) {
         let (file, row) = place.map_or(("data/trajectories", 0), |(file, row)| (file, *row));
         report.find(file, format!("row {row}, `{}`", leak.trajectory_id), leak.rule, leak.message.clone());
     }
+    for it in &facts {
+        let Some(promised) = promise.splits.towns.get(&it.town).filter(|split| split.name() != it.split) else {
+            continue;
+        };
+        let place = tables.flights.get(&it.trajectory_id).map(|flight| &flight.place);
+        let (file, row) = place.map_or(("data/trajectories", 0), |(file, row)| (file, *row));
+        let message = format!("it is in `{}`; `splits.json` promises `{}` for its town", it.split, promised.name());
+        report.find(file, format!("row {row}, `{}`", it.trajectory_id), "split-town", message);
+    }
     report.found += (leaks.found - leaks.kept.len()) as u64;
 }

@@ -31,12 +31,13 @@ pub fn section(report: &Report) -> String {
 fn rows(report: &Report) -> Vec<(&'static str, String, &'static str)> {
     let flights = &report.flights;
     let distinct = |name: fn(&FlightSketch) -> &String| flights.iter().map(name).collect::<BTreeSet<_>>().len() as u64;
+    let walks: BTreeSet<_> = flights.iter().map(|flight| (&flight.town, &flight.pedestrian)).collect();
     let perturbed = flights.iter().filter(|flight| flight.is_perturbed).count();
     let frames: u64 = flights.iter().map(|flight| flight.len() as u64).sum();
     let seconds: f64 = flights.iter().map(FlightSketch::duration_s).sum();
     let count = flights.len().max(1) as f64;
     vec![
-        ("Unique pedestrian paths", grouped(distinct(|flight| &flight.pedestrian)), "~6,000"),
+        ("Unique pedestrian paths", grouped(walks.len() as u64), "~6,000"),
         ("Expert and perturbed trajectories", format!("{} + {perturbed}", flights.len() - perturbed), "~12,000"),
         ("Timesteps", grouped(frames), "2.4M"),
         ("Annotation samples", grouped(frames * CHANNELS), "~10M"),

@@ -21,7 +21,10 @@ pub fn section(report: &Report) -> String {
          <th scope=\"col\">over time</th></tr></thead><tbody>",
     );
     let mut order: Vec<&FlightSketch> = flights.iter().collect();
-    order.sort_by(|a, b| (&a.pedestrian, a.is_perturbed, &a.id).cmp(&(&b.pedestrian, b.is_perturbed, &b.id)));
+    order.sort_by(|a, b| {
+        let key = |it: &FlightSketch| (it.town.clone(), it.pedestrian.clone(), it.is_perturbed, it.id.clone());
+        key(a).cmp(&key(b))
+    });
     let rows = spread(order.len(), MOST_ROWS);
     for flight in rows.iter().map(|at| order[*at]) {
         let lost_s = flight.occlusions().into_iter().map(|it| it.1).max().unwrap_or(0) as f64 * flight.dt_s;

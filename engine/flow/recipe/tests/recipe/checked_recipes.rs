@@ -73,7 +73,7 @@ fn parts_are_stages_of_their_own_and_siblings_are_connected() {
     assert_eq!(tables.items.len(), 1);
     assert_eq!(tables.connection("logs").unwrap().arrivals_for(0).len(), 6);
     assert_eq!(tables.connection("frames").unwrap().arrivals_for(0).len(), 6);
-    assert_eq!(&*logs.items[0], "frames-expert-path00000");
+    assert_eq!(&*logs.items[0], "expert-path00000");
 }
 
 #[test]

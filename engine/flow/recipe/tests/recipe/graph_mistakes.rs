@@ -350,6 +350,26 @@ inputs = { trajectories = "one", also = ["one", "two"] }
 }
 
 #[test]
+fn two_stages_with_items_of_one_id_are_not_gathered_together() {
+    let text = WHOLE.replace(
+        "[stages.tables]",
+        "[stages.again]\nuse = \"render\"\ninputs.trajectories = [\"expert\", \"second\"]\n\n[stages.tables]",
+    );
+    let text = text.replace("inputs.frames = \"frames\"", "inputs.frames = [\"frames\", \"again\"]");
+    insta::assert_snapshot!(complaint(&text, &[]), @r#"
+    error[recipe-items-same]: `inputs.frames` of `tables.logs` gets an item `expert-path00000` from
+                              `frames` and from `again`
+      --> a.toml:32:18
+       |
+    32 | inputs.frames = ["frames", "again"]
+       |                  ^^^^^^^^
+       |
+       = help: items are called after the stages that they come through: give these chains stages of
+               their own, or connect one of the two
+    "#);
+}
+
+#[test]
 fn a_single_item_is_wanted_where_many_are_made() {
     let text = WHOLE.replace("use = \"map\"\nsource = \"town.xodr\"", "use = \"blocks\"");
     insta::assert_snapshot!(complaint(&text, &[]), @r#"

@@ -3,7 +3,7 @@
 use cosfly_recipe::Recipe;
 use cosfly_stage::{
     Fan, InputPort, Inputs, ItemRule, OutputSink, ParameterError, PortSource, Produced, Registry, Source, Stage,
-    StageKind, StagePart, StageProperties, TaskContext,
+    StageKind, StagePart, StageProperties, Takes, TaskContext,
 };
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -228,7 +228,7 @@ fn walkers(toy: &Toy, parameters: serde_json::Value) -> Result<Vec<StagePart>, P
 
 fn dataset(toy: &Toy, parameters: serde_json::Value) -> Result<Vec<StagePart>, ParameterError> {
     let config: NoConfig = toy.parse(parameters)?;
-    let frames = port("frames", "frames/1", Fan::Each).many();
+    let frames = port("frames", "frames/1", Fan::Each).distinct();
     let logs = StageProperties {
         inputs: vec![frames.clone()],
         artifact: "log/1",
@@ -249,7 +249,7 @@ pub fn port(name: &'static str, artifact: &'static str, fan: Fan) -> InputPort {
         "target" => "Who is followed.",
         _ => "What is shown.",
     };
-    InputPort { name, artifact, fan, many: false, optional: false, source: PortSource::Recipe, doc }
+    InputPort { name, artifact, fan, takes: Takes::One, optional: false, source: PortSource::Recipe, doc }
 }
 
 fn gather(port: InputPort) -> InputPort {
@@ -259,12 +259,16 @@ fn gather(port: InputPort) -> InputPort {
 /// Changes to a port, for short lists.
 pub trait PortWords {
     fn many(self) -> Self;
+    fn distinct(self) -> Self;
     fn optional(self) -> Self;
 }
 
 impl PortWords for InputPort {
     fn many(self) -> Self {
-        Self { many: true, ..self }
+        Self { takes: Takes::Named, ..self }
+    }
+    fn distinct(self) -> Self {
+        Self { takes: Takes::Distinct, ..self }
     }
     fn optional(self) -> Self {
         Self { optional: true, ..self }
@@ -328,7 +332,7 @@ pub fn registry() -> Registry {
                 "dataset",
                 "Writes tables.",
                 "dataset/1",
-                vec![port("frames", "frames/1", Fan::Gather).many()],
+                vec![port("frames", "frames/1", Fan::Gather).distinct()],
                 ItemRule::One,
             )
         },

@@ -1,0 +1,159 @@
+//! One dataset from several towns: whole towns in one split, and what cannot be put together is said.
+
+use crate::street::{RECIPE, Street, map};
+use crate::support::cosfly;
+use std::path::Path;
+
+/// The street's recipe with a second town and everything that happens there; the stages of the second one begin with
+/// `far_`. The dataset's line of inputs is `inputs`.
+fn recipe_of_two_towns(inputs: &str) -> String {
+    let (chain, dataset) = RECIPE.split_at(RECIPE.find("[stages.captions]").expect("it has captions"));
+    let (_, chain) = chain.split_at(chain.find("[stages.town]").expect("it has a town"));
+    let mut far = chain.replace("street.xodr", "far.xodr").replace("[stages.", "[stages.far_");
+    for name in ["town", "walkers", "expert", "perturbed"] {
+        far = far.replace(&format!("\"{name}\""), &format!("\"far_{name}\""));
+    }
+    let captions = "\"expert\", \"perturbed\", \"far_expert\", \"far_perturbed\"";
+    let old_inputs = "inputs = { town = \"town\", frames = \"frames\", captions = \"captions\" }";
+    let dataset = dataset.replace("\"expert\", \"perturbed\"", captions).replace(old_inputs, inputs);
+    format!("name = \"street\"\nseed = 3\n\n{chain}{far}{dataset}")
+}
+
+const BOTH: &str =
+    "inputs = { town = [\"town\", \"far_town\"], frames = [\"frames\", \"far_frames\"], captions = \"captions\" }";
+
+/// The street, four kilometres and a bend away: another place.
+fn far_map() -> String {
+    map().replace("x=\"0.0\"", "x=\"4000.0\"").replace("x=\"0\"", "x=\"4000\"")
+}
+
+fn two_towns(inputs: &str, far: &str) -> Street {
+    let street = Street::with(&recipe_of_two_towns(inputs), &map());
+    std::fs::write(street.path().join("far.xodr"), far).expect("writable");
+    street
+}
+
+/// What a refused run says.
+fn refusal(street: &Street, changes: &[&str]) -> String {
+    let mut arguments = vec!["run", "recipe.toml", "--quiet"];
+    changes.iter().for_each(|change| arguments.extend_from_slice(&["--set", change]));
+    let printed = cosfly(&arguments).within(street.path()).run();
+    assert_ne!(printed.code, Some(0));
+    assert!(!street.dataset().exists(), "a refused run leaves no dataset behind");
+    printed.stderr.split_whitespace().collect::<Vec<_>>().join(" ")
+}
+
+fn text(path: &Path) -> String {
+    String::from_utf8_lossy(&std::fs::read(path).unwrap_or_default()).into_owned()
+}
+
+#[test]
+fn the_recipe_of_two_towns_makes_a_verified_dataset_with_an_unseen_town() {
+    let folder = tempfile::tempdir().expect("scratch");
+    let at = |name: &str| folder.path().join(name).display().to_string();
+    let run = ["run", "recipes/two_towns.toml", "--quiet", "--store", &at("store"), "--out", &at("out")];
+    cosfly(&run).run_ok();
+    cosfly(&["verify", &at("out")]).run_ok();
+    let lint = cosfly(&["dataset", "lint", &at("out"), "--by-town"]).run_ok().stdout;
+    assert!(lint.contains("town `downtown`") && lint.contains("town `uptown`"), "{lint}");
+    assert!(lint.contains("4 flights in `train`") && lint.contains("4 flights in `test`"), "{lint}");
+    let out = folder.path().join("out");
+    assert!(out.join("mcap/uptown/000/uptown_expert-p00000.mcap").is_file());
+    let page = text(&out.join("report/index.html"));
+    assert!(page.contains("<h3>downtown</h3>") && page.contains("<h3>uptown</h3>"));
+    assert!(text(&out.join("README.md")).contains("| pedestrians | 4 |"));
+    // The predicted flights are those of `test`, all of them in the unseen town.
+    let scored = cosfly(&["eval", "--dataset", &at("out"), "--json"]).run_ok().stdout;
+    assert!(scored.contains("unseen") && !scored.contains("\"seen\""), "{scored}");
+    cosfly(&["doctor", &at("out"), "--imperfect", "100"]).run_ok();
+    cosfly(&["preview", &at("out"), "--trajectory", "uptown_perturbed-p00001", "--out", &at("pictures")]).run_ok();
+    cosfly(&["carla-job", &at("out"), "--out", &at("job.json")]).run_ok();
+    let job = text(&folder.path().join("job.json"));
+    assert!(job.contains("\"uptown\"") && job.contains("\"downtown\""));
+    for format in ["coco", "webdataset", "imagefolder", "vlm", "lerobot"] {
+        cosfly(&["export", &at("out"), "--format", format, "--out", &at(format)]).run_ok();
+    }
+    let names = ["downtown=Town01", "uptown=Town02"];
+    cosfly(&["export", &at("out"), "--format", "v7", "--out", &at("v7"), "--town", names[0], "--town", names[1]])
+        .run_ok();
+    // Any flight can be made again, alone, in an empty store.
+    let again =
+        ["verify", &at("out"), "--regenerate", "3", "--recipe", "recipes/two_towns.toml", "--store", &at("store")];
+    cosfly(&again).run_ok();
+}
+
+#[test]
+fn adding_a_town_makes_no_flight_of_the_first_one_again() {
+    let street = two_towns(BOTH, &far_map());
+    std::fs::write(street.path().join("alone.toml"), RECIPE).expect("writable");
+    cosfly(&["run", "alone.toml", "--quiet", "--out", "alone"]).within(street.path()).run_ok();
+    cosfly(&["run", "recipe.toml", "--quiet"]).within(street.path()).run_ok();
+    let logs = |dataset: &Path| crate::support::tree_digests(&dataset.join("mcap/street"));
+    assert_eq!(logs(&street.path().join("alone")), logs(&street.dataset()));
+    cosfly(&["verify", "out/street"]).within(street.path()).run_ok();
+}
+
+#[test]
+fn the_same_town_twice_is_one_town() {
+    let street = two_towns(BOTH, &map());
+    let same_name = ["--set", "stages.far_town.name=street"];
+    let run = [&["run", "recipe.toml", "--quiet"][..], &same_name[..]].concat();
+    cosfly(&run).within(street.path()).run_ok();
+    cosfly(&["verify", "out/street"]).within(street.path()).run_ok();
+}
+
+#[test]
+fn a_copy_of_a_town_under_another_name_goes_to_its_split() {
+    let street = two_towns(BOTH, &map());
+    let shares = "stages.dataset.splits={ train = 0.5, val = 0.0, test = 0.5 }";
+    cosfly(&["run", "recipe.toml", "--quiet", "--set", shares]).within(street.path()).run_ok();
+    cosfly(&["verify", "out/street"]).within(street.path()).run_ok();
+    cosfly(&["dataset", "lint", "out/street", "--by-town"]).within(street.path()).run_ok();
+}
+
+#[test]
+fn towns_that_cannot_be_told_apart_or_are_not_there_are_refused() {
+    let renamed = two_towns(BOTH, &far_map());
+    let said = refusal(&renamed, &["stages.far_town.name=street"]);
+    assert!(
+        said.contains("towns-same-name") && said.contains("`name = \"street_2\"` in `[stages.far_town]`"),
+        "{said}"
+    );
+    let said = refusal(&renamed, &["stages.dataset.splits.towns={ farr = \"test\" }"]);
+    assert!(said.contains("names `farr`") && said.contains("did you mean `far`?"), "{said}");
+    let said = refusal(&renamed, &["stages.dataset.splits.towns={ far = \"tset\" }"]);
+    assert!(said.contains("`test`"), "{said}");
+    let said = refusal(&renamed, &["stages.far_walkers.dt_s=0.25"]);
+    assert!(said.contains("frames are 0.5 s apart in `expert-p00000` and 0.25 s in `far_expert-p00000`"), "{said}");
+    let copy = two_towns(BOTH, &map());
+    let said = refusal(&copy, &["stages.dataset.splits.towns={ street = \"train\", far = \"test\" }"]);
+    assert!(said.contains("puts `street` and `far` into two splits, but they have the same ground plan"), "{said}");
+}
+
+#[test]
+fn inputs_that_do_not_fit_together_are_refused() {
+    let inputs =
+        |town: &str, frames: &str| format!("inputs = {{ town = {town}, frames = {frames}, captions = \"captions\" }}");
+    let check = |town: &str, frames: &str, expected: &str| {
+        let said = refusal(&two_towns(&inputs(town, frames), &far_map()), &[]);
+        assert!(said.contains(expected), "{town} {frames}: {said}");
+    };
+    let both = "[\"frames\", \"far_frames\"]";
+    check("\"town\"", both, "`far_frames/far_expert-p00000` was made in another town than `town`");
+    check("[\"town\", \"town\"]", both, "`town` is connected twice");
+    check("[\"town\", \"far_town\"]", "[\"frames\", \"frames\"]", "`frames` is connected twice");
+    check("[\"town\", \"far_town\"]", "\"frames\"", "have different items");
+    let again = recipe_of_two_towns(BOTH)
+        .replace("frames = [\"frames\", \"far_frames\"]", "frames = [\"frames\", \"again\"]")
+        .replace("[stages.captions]", "[stages.again]\nuse = \"render\"\ninputs = { town = \"town\", trajectories = [\"expert\", \"perturbed\"] }\n\n[stages.captions]");
+    let street = Street::with(&again, &map());
+    std::fs::write(street.path().join("far.xodr"), far_map()).expect("writable");
+    let said = refusal(&street, &[]);
+    assert!(said.contains("gets an item `expert-p00000` from `frames` and from `again`"), "{said}");
+    let uncaptioned = recipe_of_two_towns(&BOTH.replace(", captions = \"captions\"", ""))
+        .replace("frames = [\"frames\", \"far_frames\"]", "frames = \"frames\"");
+    let street = Street::with(&uncaptioned, &map());
+    std::fs::write(street.path().join("far.xodr"), far_map()).expect("writable");
+    let said = refusal(&street, &[]);
+    assert!(said.contains("`far_town` is connected to `inputs.town`, but no picture shows that town"), "{said}");
+}
