@@ -128,7 +128,8 @@ fn is_day(date: &str) -> bool {
     year > 0 && (1..=days).contains(&day)
 }
 
-/// A licence for data.
+/// A licence for data. By default cosfly's own terms: free for all, but not for unauthorised surveillance and not for
+/// military targeting.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(default, deny_unknown_fields)]
 pub struct LicenseConfig {
@@ -137,16 +138,28 @@ pub struct LicenseConfig {
     /// Address of its text.
     #[schemars(length(min = 1))]
     pub url: String,
-    /// Content of the `LICENSE` file; empty writes the name and the address.
+    /// Content of the `LICENSE` file; empty writes cosfly's own terms under their default name, and name and address
+    /// of any other licence.
     pub text: String,
+    /// What the data are not for: section "Responsible use" of the card and `usageInfo` of `croissant.json`, whatever
+    /// the licence.
+    #[schemars(length(min = 1))]
+    pub responsible_use: String,
 }
+
+/// Name of cosfly's own terms.
+pub const OWN_LICENSE: &str = "cosfly-responsible-use-1.0";
 
 impl Default for LicenseConfig {
     fn default() -> Self {
         Self {
-            name: "cc-by-4.0".into(),
-            url: "https://creativecommons.org/licenses/by/4.0/".into(),
+            name: OWN_LICENSE.into(),
+            url: "LICENSE".into(),
             text: String::new(),
+            responsible_use:
+                "These data, and models trained on them, may not be used to build, test or operate systems \
+                              for the unauthorised surveillance of people, nor for military targeting."
+                    .into(),
         }
     }
 }

@@ -29,10 +29,10 @@ pub fn evaluate(
     if windows.len == 0 {
         return Err(no_windows(flights, &splits, settings));
     }
-    let (file, given) = predictions.map_or((None, Predictions::default()), |(file, given)| (Some(file), given));
-    let mut joined = Joined::new(&given.rows, flights, &windows, settings);
-    let read = given.rows.len() + given.problems.len();
-    joined.problems.extend(given.problems);
+    let (file, mut given) = predictions.map_or((None, Predictions::default()), |(file, given)| (Some(file), given));
+    let mut joined = Joined::new(&given, flights, &windows, settings);
+    let read = given.len() + given.problems.len();
+    joined.problems.append(&mut given.problems);
     joined.problems.sort_by_key(|problem| problem.line);
     if file.is_some() && joined.predicted == 0 {
         return Err(nothing_to_score(flights, &windows, &joined));
@@ -44,7 +44,7 @@ pub fn evaluate(
 
     let mut notes = vec![];
     let mut methods: Vec<Method<'_>> = vec![];
-    methods.extend(file.is_some().then_some(Method::Predictions(&given.rows, &joined)));
+    methods.extend(file.is_some().then_some(Method::Predictions(&given, &joined)));
     methods.extend(baselines(flights, settings, scored, splits.contains("train"), &mut notes));
     let mut studied = None;
     if settings.train {
@@ -101,7 +101,9 @@ fn splits(flights: &Flights, predictions: Option<&Predictions>, settings: &Setti
     }
     let chosen: BTreeSet<String> = match predictions {
         Some(given) => {
-            let named: BTreeSet<&str> = given.rows.iter().map(|row| row.trajectory_id.as_str()).collect();
+            let mut named: Vec<&str> = given.rows().map(|row| row.trajectory_id).collect();
+            named.dedup();
+            let named: BTreeSet<&str> = named.into_iter().collect();
             let places = named.iter().filter_map(|id| flights.place(id));
             places.map(|place| flights.rows[place].split.clone()).collect()
         }
@@ -178,13 +180,10 @@ fn row_facts(file: &str, read: usize, joined: Joined) -> RowFacts {
     }
 }
 
-/// Intervals of strata are for predictions alone: with many flights they would take longer than all else.
 fn method_report(method: &Method<'_>, tallies: &MethodTallies, settings: &Settings) -> MethodReport {
-    let of_strata = if matches!(method, Method::Predictions(..)) { settings.resamples } else { 0 };
-    let strata = tallies.strata.iter().map(|tallies| (tallies, of_strata));
-    let all: Vec<(&Vec<Tally>, usize)> = [(&tallies.overall, settings.resamples)].into_iter().chain(strata).collect();
+    let all: Vec<&Vec<Tally>> = [&tallies.overall].into_iter().chain(&tallies.strata).collect();
     let mut scores: Vec<Scores> =
-        all.par_iter().map(|(tallies, resamples)| scores(tallies, *resamples, settings.seed)).collect();
+        all.par_iter().map(|tallies| scores(tallies, settings.resamples, settings.seed)).collect();
     let overall = scores.remove(0);
     let mut strata: BTreeMap<_, BTreeMap<_, _>> = BTreeMap::new();
     for (((kind, name), tallies), scores) in STRATA.iter().zip(&tallies.strata).zip(scores) {

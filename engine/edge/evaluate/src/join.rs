@@ -2,7 +2,7 @@
 
 use crate::settings::{InputRole, Settings};
 use crate::windows::{Flights, WindowSet};
-use cosfly_dataset::predictions::{Prediction, RowProblem};
+use cosfly_dataset::predictions::{PredictionRow, Predictions, RowProblem};
 
 /// No prediction.
 const NONE: u32 = u32::MAX;
@@ -22,15 +22,22 @@ pub struct Joined {
 
 impl Joined {
     /// Looks up the window of every row. The first of several predictions for a window counts.
-    pub fn new(rows: &[Prediction], flights: &Flights, windows: &WindowSet, settings: &Settings) -> Self {
+    pub fn new(given: &Predictions, flights: &Flights, windows: &WindowSet, settings: &Settings) -> Self {
         let mut joined = Self { row_of_window: vec![NONE; windows.len], ..Self::default() };
-        for (number, row) in rows.iter().enumerate() {
-            match window_of(row, flights, windows, settings) {
+        // Neighbours are mostly of one flight.
+        let mut last: Option<(&str, Option<usize>)> = None;
+        for (number, row) in given.rows().enumerate() {
+            let flight = match last {
+                Some((id, flight)) if id == row.trajectory_id => flight,
+                _ => flights.place(row.trajectory_id),
+            };
+            last = Some((row.trajectory_id, flight));
+            match window_of(&row, flight, flights, windows, settings) {
                 Ok(None) => joined.elsewhere += 1,
                 Ok(Some(window)) => match joined.row_of_window[window] {
                     NONE => (joined.row_of_window[window], joined.predicted) = (number as u32, joined.predicted + 1),
                     first => {
-                        let (id, frame, line) = (&row.trajectory_id, row.frame, rows[first as usize].line);
+                        let (id, frame, line) = (row.trajectory_id, row.frame, given.row(first as usize).line);
                         let reason = format!("a second prediction for frame {frame} of `{id}`; line {line} counts");
                         joined.problems.push(RowProblem::new(row.line, "duplicate", reason));
                     }
@@ -49,13 +56,14 @@ impl Joined {
 
 /// The window of a row; `None` for one in a split that is not scored.
 fn window_of(
-    row: &Prediction,
+    row: &PredictionRow<'_>,
+    flight: Option<usize>,
     flights: &Flights,
     windows: &WindowSet,
     settings: &Settings,
 ) -> Result<Option<usize>, (&'static str, String)> {
-    let id = &row.trajectory_id;
-    let Some(flight) = flights.place(id) else {
+    let id = row.trajectory_id;
+    let Some(flight) = flight else {
         return Err(("unknown-trajectory", format!("the dataset has no trajectory `{id}`")));
     };
     if flights.role(flight) != settings.input {

@@ -3,7 +3,7 @@
 use crate::join::Joined;
 use crate::settings::{InputRole, Settings};
 use crate::windows::{Flights, Window, WindowSet};
-use cosfly_dataset::predictions::Prediction;
+use cosfly_dataset::predictions::Predictions;
 use cosfly_frames::Pose;
 use cosfly_metrics::baselines::features::Examples;
 use cosfly_metrics::baselines::{Anchor, Extrapolation, NearestNeighbour, Network, Ridge};
@@ -18,7 +18,7 @@ const COMPARED_NUMBERS: usize = 8_000_000_000;
 /// Something that predicts.
 pub enum Method<'a> {
     /// What was handed in.
-    Predictions(&'a [Prediction], &'a Joined),
+    Predictions(&'a Predictions, &'a Joined),
     /// A polynomial or the target's motion.
     Extrapolation(Extrapolation),
     /// Ridge autoregression.
@@ -56,8 +56,8 @@ impl Method<'_> {
         if let Self::Predictions(rows, joined) = self {
             let zero = vec![[0.0; 6]; shape.horizon];
             let deltas = match joined.row(number) {
-                Some(row) => &rows[row].deltas,
-                None if settings.missing_as_zero => &zero,
+                Some(row) => rows.row(row).deltas,
+                None if settings.missing_as_zero => &zero[..],
                 None => return None,
             };
             let anchor = flights.anchor(window, shape, settings.anchor);
@@ -89,7 +89,7 @@ impl Method<'_> {
     ) -> Vec<Option<[f64; 4]>> {
         match self {
             Self::Predictions(rows, joined) => {
-                joined.row(number).map(|row| rows[row].boxes.clone()).unwrap_or_default()
+                joined.row(number).map(|row| rows.row(row).boxes.to_vec()).unwrap_or_default()
             }
             // The last box that was seen stays where it was in the image.
             Self::Extrapolation(Extrapolation::Zero) => {

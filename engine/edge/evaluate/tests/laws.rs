@@ -24,7 +24,7 @@ fn settings() -> Settings {
 }
 
 /// What a perfect model says, with `mistake` made to every pose that it means.
-fn perfect(dataset: &PublishedDataset, settings: &Settings, mistake: impl Fn(&mut Pose)) -> Predictions {
+fn perfect(dataset: &PublishedDataset, settings: &Settings, mistake: impl Fn(&mut Pose)) -> Vec<Prediction> {
     let flights = Flights::read(dataset).unwrap();
     let splits = flights.rows.iter().map(|row| row.split.clone()).collect();
     let windows = WindowSet::new(&flights, settings, &splits);
@@ -50,7 +50,11 @@ fn perfect(dataset: &PublishedDataset, settings: &Settings, mistake: impl Fn(&mu
             boxes: flights.true_boxes(window, &settings.window).collect(),
         });
     }
-    Predictions { rows, problems: vec![] }
+    rows
+}
+
+fn predictions(rows: &[Prediction]) -> Predictions {
+    Predictions::of(rows, vec![])
 }
 
 fn score(evaluation: &Evaluation, method: usize, key: &str) -> f64 {
@@ -70,7 +74,7 @@ fn true_predictions_have_no_error_whatever_the_frame_origin_and_anchor() {
                 let settings = Settings { delta_frame, delta_origin, anchor, input, ..settings() };
                 let found = evaluate(
                     &Flights::read(&dataset).unwrap(),
-                    Some(("true", perfect(&dataset, &settings, |_| ()))),
+                    Some(("true", predictions(&perfect(&dataset, &settings, |_| ())))),
                     &settings,
                 )
                 .unwrap();
@@ -91,10 +95,12 @@ fn a_shifted_frame_and_a_flipped_yaw_show() {
     let (_folder, dataset) = dataset();
     let settings = settings();
     let shifted = perfect(&dataset, &settings, |pose| pose.position_in_world.x += 3.0);
-    let found = evaluate(&Flights::read(&dataset).unwrap(), Some(("shifted", shifted)), &settings).unwrap();
+    let found =
+        evaluate(&Flights::read(&dataset).unwrap(), Some(("shifted", predictions(&shifted))), &settings).unwrap();
     assert!((score(&found, 0, "fde_m") - 3.0).abs() < 1e-9 && score(&found, 0, "sr_2m") == 0.0);
     let flipped = perfect(&dataset, &settings, |pose| pose.yaw_rad = -pose.yaw_rad);
-    let found = evaluate(&Flights::read(&dataset).unwrap(), Some(("flipped", flipped)), &settings).unwrap();
+    let found =
+        evaluate(&Flights::read(&dataset).unwrap(), Some(("flipped", predictions(&flipped))), &settings).unwrap();
     assert!(score(&found, 0, "yaw_mae_deg") > 10.0 && score(&found, 0, "fde_m") < 1e-9);
 }
 
@@ -103,17 +109,17 @@ fn rows_that_fit_nothing_are_named_and_windows_without_rows_are_counted() {
     let (_folder, dataset) = dataset();
     let settings = settings();
     let mut given = perfect(&dataset, &settings, |_| ());
-    let all = given.rows.len();
+    let all = given.len();
     let change = |line: u64, row: &Prediction| Prediction { line, ..row.clone() };
-    let first = given.rows[0].clone();
-    given.rows.truncate(all - 1);
-    given.rows.push(change(100, &first));
-    given.rows.push(Prediction { trajectory_id: "nobody".into(), ..change(101, &first) });
-    given.rows.push(Prediction { trajectory_id: "expert-p00000".into(), ..change(102, &first) });
-    given.rows.push(Prediction { frame: 77, ..change(103, &first) });
-    given.rows.push(Prediction { deltas: vec![[0.0; 6]; 3], ..change(104, &first) });
-    given.rows.push(Prediction { boxes: vec![None], ..change(105, &first) });
-    let found = evaluate(&Flights::read(&dataset).unwrap(), Some(("some", given.clone())), &settings).unwrap();
+    let first = given[0].clone();
+    given.truncate(all - 1);
+    given.push(change(100, &first));
+    given.push(Prediction { trajectory_id: "nobody".into(), ..change(101, &first) });
+    given.push(Prediction { trajectory_id: "expert-p00000".into(), ..change(102, &first) });
+    given.push(Prediction { frame: 77, ..change(103, &first) });
+    given.push(Prediction { deltas: vec![[0.0; 6]; 3], ..change(104, &first) });
+    given.push(Prediction { boxes: vec![None], ..change(105, &first) });
+    let found = evaluate(&Flights::read(&dataset).unwrap(), Some(("some", predictions(&given))), &settings).unwrap();
     let rows = found.rows.as_ref().unwrap();
     let kinds: Vec<_> = rows.problems.iter().map(|problem| (problem.line, problem.kind)).collect();
     assert_eq!(
@@ -130,7 +136,7 @@ fn rows_that_fit_nothing_are_named_and_windows_without_rows_are_counted() {
     assert_eq!((rows.read, rows.scored, rows.malformed), (all as u64 + 5, all as u64 - 1, 6));
     assert_eq!((found.windows.scored, found.windows.without_prediction), (all - 1, 1));
     let strict = Settings { missing_as_zero: true, ..settings };
-    let found = evaluate(&Flights::read(&dataset).unwrap(), Some(("some", given)), &strict).unwrap();
+    let found = evaluate(&Flights::read(&dataset).unwrap(), Some(("some", predictions(&given))), &strict).unwrap();
     assert!(found.windows.scored == all && score(&found, 0, "fde_m") > 0.0);
 }
 
@@ -140,8 +146,9 @@ fn zero_increments_score_exactly_as_the_baseline_that_predicts_zero() {
     for anchor in [Anchor::Input, Anchor::Expert] {
         let settings = Settings { anchor, ..settings() };
         let mut given = perfect(&dataset, &settings, |_| ());
-        given.rows.iter_mut().for_each(|row| row.deltas.iter_mut().for_each(|delta| *delta = [0.0; 6]));
-        let found = evaluate(&Flights::read(&dataset).unwrap(), Some(("zero", given)), &settings).unwrap();
+        given.iter_mut().for_each(|row| row.deltas.iter_mut().for_each(|delta| *delta = [0.0; 6]));
+        let found =
+            evaluate(&Flights::read(&dataset).unwrap(), Some(("zero", predictions(&given))), &settings).unwrap();
         assert_eq!(found.methods[1].name, "predict zero");
         for key in ["ade_m", "fde_m", "yaw_mae_deg", "mae", "sr_1m"] {
             assert_eq!(found.methods[0].scores[key], found.methods[1].scores[key], "{key}");
@@ -157,8 +164,9 @@ fn threads_do_not_change_a_byte() {
     let report = |threads: usize| {
         let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
         let given = perfect(&dataset, &settings, |pose| pose.position_in_world.y += 0.3);
-        let found =
-            pool.install(|| evaluate(&Flights::read(&dataset).unwrap(), Some(("some", given)), &settings)).unwrap();
+        let found = pool
+            .install(|| evaluate(&Flights::read(&dataset).unwrap(), Some(("some", predictions(&given))), &settings))
+            .unwrap();
         (found.to_json(), found.to_markdown(), found.to_svg())
     };
     let alone = report(1);

@@ -13,7 +13,7 @@ use crate::config::DatasetConfig;
 use crate::extras::{self, ExtraShape, ExtraSource, Kept};
 use crate::flight_table::{ColumnKind, DeclaredColumn};
 use crate::publish::{LAYOUT_VERSION, Split, Summary, TownSummary, citation};
-use crate::tables::{self, FileRecord, Kind, Table};
+use crate::tables::{self, DIFFICULTIES, FileRecord, Kind, SCENES, Table};
 use cosfly_maps::SemanticLabel;
 use serde_json::{Value, json};
 
@@ -38,7 +38,7 @@ pub fn document(config: &DatasetConfig, summary: &Summary, single_files: &[FileR
         "keywords": ["drone", "UAV", "visual tracking", "trajectory planning", "vision-language-action", "synthetic"],
         "creator": {"@type": "sc:Organization", "name": config.creator.name, "url": config.creator.url},
         "publisher": {"@type": "sc:Organization", "name": config.creator.name, "url": config.creator.url},
-        "usageInfo": "Not for unauthorised surveillance of persons and not for targeting persons with weapons.",
+        "usageInfo": config.license.responsible_use,
         "prov:wasGeneratedBy": {
             "@type": "prov:Activity",
             "name": "cosfly run",
@@ -121,6 +121,9 @@ fn media_type(path: &str) -> &'static str {
 
 fn record_sets(summary: &Summary) -> Value {
     let mut sets = vec![splits(), labels(), roles()];
+    sets.extend(
+        [("scenes", &SCENES[..]), ("difficulties", &DIFFICULTIES[..])].map(|(name, values)| names(name, values)),
+    );
     sets.extend(tables::of_trajectories().iter().map(|table| {
         let source = json!({"fileSet": {"@id": format!("{}-parquet", table.name)}});
         record_set(table, &source, true)
@@ -312,11 +315,17 @@ fn labels() -> Value {
 }
 
 fn roles() -> Value {
-    let rows = crate::Role::ALL
-        .iter()
-        .enumerate()
-        .map(|(id, role)| json!({"roles/name": role.name(), "roles/id": id}))
-        .collect();
+    names("roles", &crate::Role::ALL.map(crate::Role::name))
+}
+
+/// The values of columns that are numbers in Parquet and names in words.
+fn names(set: &str, values: &[&str]) -> Value {
+    let row = |(id, name): (usize, &&str)| json!({format!("{set}/name"): name, format!("{set}/id"): id});
     let fields = [("name", json!(["sc:Text", "sc:name"])), ("id", json!("cr:Int64"))];
-    inline_set("roles", "sc:Enumeration", "The values of the role columns.", &fields, rows)
+    let column = match set {
+        "difficulties" => "difficulty",
+        plural => plural.trim_end_matches('s'),
+    };
+    let doc = format!("The values of columns `{column}`.");
+    inline_set(set, "sc:Enumeration", &doc, &fields, values.iter().enumerate().map(row).collect())
 }

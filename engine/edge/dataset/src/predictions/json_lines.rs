@@ -1,13 +1,16 @@
 //! Predictions as JSON lines, read on all cores.
 
 use super::waypoint::Waypoint;
-use super::{Prediction, Predictions, RowProblem, checked, model_text};
+use super::{Block, Predictions, Refusal, RowProblem, model_text};
 use rayon::prelude::*;
 use serde::Deserialize;
 use std::borrow::Cow;
+use std::io::Read;
 
-/// Lines that one task reads.
-const LINES_AT_ONCE: usize = 4096;
+/// Bytes of the file that are in memory at once, as long as lines are shorter.
+const SEGMENT: usize = 1 << 24;
+/// Bytes that one task reads, about.
+const PART: usize = 1 << 20;
 /// Length of a line, bytes; longer ones are refused unread.
 const LONGEST_LINE: usize = 1 << 24;
 
@@ -32,47 +35,78 @@ enum Said<'a> {
     Text(#[serde(borrow)] Cow<'a, str>),
 }
 
-/// Reads all lines; empty ones are passed over.
-pub fn read(bytes: &[u8]) -> Predictions {
-    let lines: Vec<&[u8]> = bytes.split(|byte| *byte == b'\n').collect();
-    let chunks: Vec<Predictions> = lines
-        .par_chunks(LINES_AT_ONCE)
-        .enumerate()
-        .map(|(chunk, lines)| {
-            let mut found = Predictions::default();
-            for (line, number) in lines.iter().zip(chunk * LINES_AT_ONCE + 1..) {
-                let text = line.trim_ascii();
-                if text.is_empty() {
-                    continue;
-                }
-                match row_of(text, number as u64) {
-                    Ok(row) => found.rows.push(row),
-                    Err((kind, reason)) => found.problems.push(RowProblem::new(number as u64, kind, reason)),
-                }
-            }
-            found
-        })
-        .collect();
-    let mut all = Predictions::default();
-    for chunk in chunks {
-        all.rows.extend(chunk.rows);
-        all.problems.extend(chunk.problems);
+/// Reads all lines, a segment of the file at a time; empty ones are passed over.
+pub fn read(file: &mut dyn Read) -> std::io::Result<Predictions> {
+    let (mut all, mut text, mut lines) = (Predictions::default(), vec![], 0);
+    loop {
+        let read = (&mut *file).take(SEGMENT as u64).read_to_end(&mut text)?;
+        let is_last = read < SEGMENT;
+        let end = match text.iter().rposition(|byte| *byte == b'\n') {
+            _ if is_last => text.len(),
+            Some(newline) => newline + 1,
+            None => continue,
+        };
+        let parts: Vec<Part> = parts(&text[..end]).par_iter().map(|part| part_of(part)).collect();
+        for mut part in parts {
+            part.block.rows.iter_mut().for_each(|row| row.line += lines);
+            part.problems.iter_mut().for_each(|problem| problem.line += lines);
+            lines += part.lines;
+            all.append(part.block);
+            all.problems.append(&mut part.problems);
+        }
+        if is_last {
+            return Ok(all);
+        }
+        text.drain(..end);
     }
-    all
 }
 
-fn row_of(text: &[u8], line: u64) -> Result<Prediction, (&'static str, String)> {
+/// Whole lines of about [`PART`] bytes each.
+fn parts(text: &[u8]) -> Vec<&[u8]> {
+    let (mut parts, mut rest) = (vec![], text);
+    while !rest.is_empty() {
+        let newline = rest.iter().skip(PART).position(|byte| *byte == b'\n');
+        let (part, after) = rest.split_at(newline.map_or(rest.len(), |place| PART + place + 1));
+        parts.push(part);
+        rest = after;
+    }
+    parts
+}
+
+/// What is in some lines, numbered from 1.
+struct Part {
+    block: Block,
+    problems: Vec<RowProblem>,
+    lines: u64,
+}
+
+fn part_of(text: &[u8]) -> Part {
+    let mut part = Part { block: Block::default(), problems: vec![], lines: 0 };
+    for line in text.split_inclusive(|byte| *byte == b'\n') {
+        part.lines += 1;
+        let line = line.trim_ascii();
+        if !line.is_empty()
+            && let Err((kind, reason)) = take_row(line, part.lines, &mut part.block)
+        {
+            part.problems.push(RowProblem::new(part.lines, kind, reason));
+        }
+    }
+    part.block.shrink();
+    part
+}
+
+fn take_row(text: &[u8], line: u64, block: &mut Block) -> Result<(), Refusal> {
     if text.len() > LONGEST_LINE {
         return Err(("too-long", format!("the line has {} bytes; at most {LONGEST_LINE} are read", text.len())));
     }
     let parsed: Line<'_> = serde_json::from_slice(text).map_err(|error| refusal(text, &error))?;
     let missing = |field: &str| ("field-missing", format!("the row has no `{field}`"));
-    let trajectory_id = parsed.trajectory_id.ok_or_else(|| missing("trajectory_id"))?.into_owned();
+    let trajectory_id = parsed.trajectory_id.ok_or_else(|| missing("trajectory_id"))?;
     let frame = parsed.frame.ok_or_else(|| missing("frame"))?;
     if !(frame >= 0.0 && frame.fract() == 0.0 && frame <= f64::from(u32::MAX)) {
         return Err(("frame", format!("`frame` is {frame}; it must be a whole number from 0")));
     }
-    let deltas = match (parsed.waypoint_deltas, parsed.text.or(parsed.prediction)) {
+    let deltas: Vec<[f64; 6]> = match (parsed.waypoint_deltas, parsed.text.or(parsed.prediction)) {
         (Some(waypoints), _) | (None, Some(Said::Object { waypoint_deltas: waypoints })) => {
             waypoints.into_iter().map(|waypoint| waypoint.0).collect()
         }
@@ -80,11 +114,11 @@ fn row_of(text: &[u8], line: u64) -> Result<Prediction, (&'static str, String)> 
         (None, None) => return Err(missing("waypoint_deltas`, `text` or `prediction")),
     };
     let boxes = parsed.boxes.unwrap_or_default();
-    checked(Prediction { line, trajectory_id, frame: frame as u64, deltas, boxes })
+    block.take(line, &trajectory_id, frame as u64, &deltas, &boxes)
 }
 
 /// Why a line is no row.
-fn refusal(text: &[u8], error: &serde_json::Error) -> (&'static str, String) {
+fn refusal(text: &[u8], error: &serde_json::Error) -> Refusal {
     let has = |word: &[u8]| text.windows(word.len()).any(|part| part == word);
     let words = error.to_string();
     // Every line is a document of its own.

@@ -55,14 +55,154 @@ impl RowProblem {
     }
 }
 
-/// What is in a file, in its order.
+/// What is in a file, in its order, stored without a piece of memory per row.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Predictions {
-    /// Rows that could be read.
-    pub rows: Vec<Prediction>,
-    /// Rows that could not.
+    blocks: Vec<Block>,
+    /// Number of the first row of each block.
+    first: Vec<usize>,
+    len: usize,
+    /// Rows that could not be read.
     pub problems: Vec<RowProblem>,
 }
+
+/// A row of [`Predictions`].
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct PredictionRow<'a> {
+    /// Line of the file (of Parquet: row), from 1.
+    pub line: u64,
+    /// The flight.
+    pub trajectory_id: &'a str,
+    /// First frame of the window.
+    pub frame: u64,
+    /// Increments, as many as were written.
+    pub deltas: &'a [[f64; 6]],
+    /// The target's box in the frames of the waypoints; empty when none was given.
+    pub boxes: &'a [Option<[f64; 4]>],
+}
+
+impl Predictions {
+    /// Of rows in memory.
+    pub fn of(rows: &[Prediction], problems: Vec<RowProblem>) -> Self {
+        let mut block = Block::default();
+        rows.iter().for_each(|row| block.push(row.line, &row.trajectory_id, row.frame, &row.deltas, &row.boxes));
+        let mut all = Self { problems, ..Self::default() };
+        all.append(block);
+        all
+    }
+
+    /// Number of rows that could be read.
+    pub fn len(&self) -> usize {
+        self.len
+    }
+
+    /// Whether no row could be read.
+    pub fn is_empty(&self) -> bool {
+        self.len == 0
+    }
+
+    /// Row number `row`, which must be there.
+    pub fn row(&self, row: usize) -> PredictionRow<'_> {
+        let block = self.first.partition_point(|first| *first <= row) - 1;
+        self.blocks[block].row(row - self.first[block])
+    }
+
+    /// All rows.
+    pub fn rows(&self) -> impl Iterator<Item = PredictionRow<'_>> {
+        self.blocks.iter().flat_map(|block| (0..block.rows.len()).map(|row| block.row(row)))
+    }
+
+    fn append(&mut self, block: Block) {
+        if !block.rows.is_empty() {
+            self.first.push(self.len);
+            self.len += block.rows.len();
+            self.blocks.push(block);
+        }
+    }
+}
+
+/// Rows that were read together.
+#[derive(Clone, Debug, Default, PartialEq)]
+struct Block {
+    rows: Vec<BlockRow>,
+    /// Names; neighbouring rows of one flight share theirs.
+    ids: Vec<String>,
+    deltas: Vec<[f64; 6]>,
+    boxes: Vec<Option<[f64; 4]>>,
+}
+
+/// Where the parts of a row are: first and one past the last.
+#[derive(Clone, Debug, PartialEq)]
+struct BlockRow {
+    line: u64,
+    frame: u64,
+    id: u32,
+    deltas: [u32; 2],
+    boxes: [u32; 2],
+}
+
+impl Block {
+    fn push(&mut self, line: u64, id: &str, frame: u64, deltas: &[[f64; 6]], boxes: &[Option<[f64; 4]>]) {
+        if self.ids.last().is_none_or(|last| last != id) {
+            self.ids.push(id.to_owned());
+        }
+        let starts = [self.deltas.len(), self.boxes.len()];
+        self.deltas.extend_from_slice(deltas);
+        self.boxes.extend_from_slice(boxes);
+        self.rows.push(BlockRow {
+            line,
+            frame,
+            id: self.ids.len() as u32 - 1,
+            deltas: [starts[0] as u32, self.deltas.len() as u32],
+            boxes: [starts[1] as u32, self.boxes.len() as u32],
+        });
+    }
+
+    /// Gives room back that is not needed.
+    fn shrink(&mut self) {
+        self.rows.shrink_to_fit();
+        self.ids.shrink_to_fit();
+        self.deltas.shrink_to_fit();
+        self.boxes.shrink_to_fit();
+    }
+
+    fn row(&self, row: usize) -> PredictionRow<'_> {
+        let row = &self.rows[row];
+        PredictionRow {
+            line: row.line,
+            trajectory_id: &self.ids[row.id as usize],
+            frame: row.frame,
+            deltas: &self.deltas[row.deltas[0] as usize..row.deltas[1] as usize],
+            boxes: &self.boxes[row.boxes[0] as usize..row.boxes[1] as usize],
+        }
+    }
+
+    /// Puts a row in; `Err` is kind and reason.
+    fn take(
+        &mut self,
+        line: u64,
+        id: &str,
+        frame: u64,
+        deltas: &[[f64; 6]],
+        boxes: &[Option<[f64; 4]>],
+    ) -> std::result::Result<(), Refusal> {
+        for (number, delta) in deltas.iter().enumerate() {
+            if !delta.iter().all(|value| value.is_finite()) {
+                return Err(("not-finite", format!("waypoint {number} has a number that is not finite")));
+            }
+        }
+        for (number, edges) in boxes.iter().flatten().enumerate() {
+            if !edges.iter().all(|edge| edge.is_finite()) {
+                return Err(("not-finite", format!("box {number} has a number that is not finite")));
+            }
+        }
+        self.push(line, id, frame, deltas, boxes);
+        Ok(())
+    }
+}
+
+/// Kind and reason of what is wrong with a row.
+type Refusal = (&'static str, String);
 
 /// Reads a file of predictions: Parquet if it begins like one, otherwise JSON lines.
 ///
@@ -71,29 +211,12 @@ pub struct Predictions {
 pub fn read(path: &Path) -> Result<Predictions> {
     let refused = |error: std::io::Error| Diagnostic::io(format!("read `{}`", path.display()), &error);
     let mut file = File::open(path).map_err(refused)?;
-    let mut bytes = vec![];
-    file.by_ref().take(4).read_to_end(&mut bytes).map_err(refused)?;
-    if bytes == b"PAR1" {
+    let mut start = vec![];
+    file.by_ref().take(4).read_to_end(&mut start).map_err(refused)?;
+    if start == b"PAR1" {
         return parquet_rows::read(path, file);
     }
-    file.read_to_end(&mut bytes).map_err(refused)?;
-    Ok(json_lines::read(&bytes))
-}
-
-/// Puts a row together; `Err` is kind and reason.
-fn checked(mut row: Prediction) -> std::result::Result<Prediction, (&'static str, String)> {
-    for (number, delta) in row.deltas.iter().enumerate() {
-        if !delta.iter().all(|value| value.is_finite()) {
-            return Err(("not-finite", format!("waypoint {number} has a number that is not finite")));
-        }
-    }
-    for (number, edges) in row.boxes.iter().flatten().enumerate() {
-        if !edges.iter().all(|edge| edge.is_finite()) {
-            return Err(("not-finite", format!("box {number} has a number that is not finite")));
-        }
-    }
-    row.trajectory_id.shrink_to_fit();
-    Ok(row)
+    json_lines::read(&mut (&start[..]).chain(file)).map_err(refused)
 }
 
 #[cfg(test)]

@@ -1,7 +1,7 @@
 //! Predictions in a Parquet file: the same fields as columns, lists as nested or flat lists of any float type.
 
 use super::waypoint::DIMENSIONS;
-use super::{Prediction, Predictions, RowProblem, checked, model_text};
+use super::{Block, Predictions, Refusal, RowProblem, model_text};
 use arrow::array::{Array, ArrayRef, AsArray, RecordBatch};
 use arrow::compute::cast;
 use arrow::datatypes::{DataType, Float64Type, Int64Type};
@@ -10,7 +10,8 @@ use parquet::arrow::arrow_reader::ParquetRecordBatchReaderBuilder;
 use std::fs::File;
 use std::path::Path;
 
-type Refusal = (&'static str, String);
+/// Rows that are read at once.
+const ROWS_AT_ONCE: usize = 8192;
 
 /// Reads all rows of `file`, which is at `path`.
 pub fn read(path: &Path, file: File) -> Result<Predictions> {
@@ -21,16 +22,18 @@ pub fn read(path: &Path, file: File) -> Result<Predictions> {
     let builder = ParquetRecordBatchReaderBuilder::try_new(file).map_err(|e| unreadable(&e))?;
     let mut found = Predictions::default();
     let mut line = 0;
-    for batch in builder.build().map_err(|e| unreadable(&e))? {
+    for batch in builder.with_batch_size(ROWS_AT_ONCE).build().map_err(|e| unreadable(&e))? {
         let batch = batch.map_err(|e| unreadable(&e))?;
         let columns = Columns::of(&batch, path)?;
+        let mut block = Block::default();
         for row in 0..batch.num_rows() {
             line += 1;
-            match columns.row(row, line) {
-                Ok(row) => found.rows.push(row),
-                Err((kind, reason)) => found.problems.push(RowProblem::new(line, kind, reason)),
+            if let Err((kind, reason)) = columns.take_row(row, line, &mut block) {
+                found.problems.push(RowProblem::new(line, kind, reason));
             }
         }
+        block.shrink();
+        found.append(block);
     }
     Ok(found)
 }
@@ -40,6 +43,8 @@ struct Columns {
     trajectory_id: ArrayRef,
     frame: ArrayRef,
     deltas: Option<ArrayRef>,
+    /// The same, when all of it is lists of lists of numbers.
+    plain: Option<PlainDeltas>,
     text: Option<ArrayRef>,
     boxes: Option<ArrayRef>,
 }
@@ -70,13 +75,14 @@ impl Columns {
                 "trajectory_id",
             )?,
             frame: as_type(find("frame").ok_or_else(|| missing("`frame`"))?, DataType::Int64, "frame")?,
+            plain: deltas.as_ref().and_then(PlainDeltas::of),
             deltas,
             text: text.map(|column| as_type(column, DataType::Utf8, "text")).transpose()?,
             boxes: find("boxes").cloned(),
         })
     }
 
-    fn row(&self, row: usize, line: u64) -> std::result::Result<Prediction, Refusal> {
+    fn take_row(&self, row: usize, line: u64, block: &mut Block) -> std::result::Result<(), Refusal> {
         let missing = |field: &str| ("field-missing", format!("the row has no `{field}`"));
         let (ids, frames) = (self.trajectory_id.as_string::<i32>(), self.frame.as_primitive::<Int64Type>());
         let trajectory_id = ids.is_valid(row).then(|| ids.value(row)).ok_or_else(|| missing("trajectory_id"))?;
@@ -85,18 +91,63 @@ impl Columns {
             .map_err(|_| ("frame", format!("`frame` is {frame}; it must be a whole number from 0")))?;
         let given = self.deltas.as_ref().filter(|column| column.is_valid(row));
         let said = self.text.as_ref().filter(|column| column.is_valid(row));
-        let deltas = match (given, said) {
-            (Some(column), _) => waypoints(&item(column, row)?)?,
-            (None, Some(text)) => {
+        let deltas = match (given, &self.plain, said) {
+            (Some(_), Some(plain), _) => plain.row(row)?,
+            (Some(column), None, _) => waypoints(&item(column, row)?)?,
+            (None, _, Some(text)) => {
                 model_text::deltas_in(text.as_string::<i32>().value(row)).map_err(|why| ("model-text", why))?
             }
-            (None, None) => return Err(missing("waypoint_deltas`, `text` or `prediction")),
+            (None, _, None) => return Err(missing("waypoint_deltas`, `text` or `prediction")),
         };
         let boxes = match self.boxes.as_ref().filter(|column| column.is_valid(row)) {
             Some(column) => boxes(&item(column, row)?)?,
             None => vec![],
         };
-        checked(Prediction { line, trajectory_id: trajectory_id.to_owned(), frame, deltas, boxes })
+        block.take(line, trajectory_id, frame, &deltas, &boxes)
+    }
+}
+
+/// Increments as lists of lists without a null, taken apart once for all rows.
+struct PlainDeltas {
+    /// Waypoints of each row, and numbers of each waypoint: where they start; one more for the end.
+    rows: Vec<usize>,
+    waypoints: Vec<usize>,
+    numbers: Vec<f64>,
+}
+
+impl PlainDeltas {
+    fn of(column: &ArrayRef) -> Option<Self> {
+        let (rows, lists) = taken_apart(column)?;
+        let (waypoints, values) = taken_apart(&lists)?;
+        if values.data_type().is_nested() || values.null_count() > 0 || lists.null_count() > 0 {
+            return None;
+        }
+        let numbers = cast(&values, &DataType::Float64).ok()?;
+        Some(Self { rows, waypoints, numbers: numbers.as_primitive_opt::<Float64Type>()?.values().to_vec() })
+    }
+
+    fn row(&self, row: usize) -> std::result::Result<Vec<[f64; 6]>, Refusal> {
+        let numbers = |at: usize| &self.numbers[self.waypoints[at]..self.waypoints[at + 1]];
+        (self.rows[row]..self.rows[row + 1]).map(|at| waypoint(numbers(at))).collect()
+    }
+}
+
+/// Where each list starts, and the end of the last one, with all that is in the lists.
+fn taken_apart(column: &ArrayRef) -> Option<(Vec<usize>, ArrayRef)> {
+    match column.data_type() {
+        DataType::List(_) => {
+            let lists = column.as_list::<i32>();
+            Some((lists.value_offsets().iter().map(|at| *at as usize).collect(), lists.values().clone()))
+        }
+        DataType::LargeList(_) => {
+            let lists = column.as_list::<i64>();
+            Some((lists.value_offsets().iter().map(|at| *at as usize).collect(), lists.values().clone()))
+        }
+        DataType::FixedSizeList(_, length) => {
+            let (length, lists) = (usize::try_from(*length).ok()?, column.as_fixed_size_list());
+            Some(((0..=lists.len()).map(|row| row * length).collect(), lists.values().clone()))
+        }
+        _ => None,
     }
 }
 

@@ -20,12 +20,12 @@ fn arrays_objects_and_model_texts_are_the_same_prediction() {
 "#;
     let found = of_text(text);
     assert_eq!(found.problems, []);
-    assert_eq!(found.rows.iter().map(|row| row.line).collect::<Vec<_>>(), [1, 3, 4, 5]);
-    for row in &found.rows {
-        assert_eq!((row.trajectory_id.as_str(), row.frame), ("a", 3));
+    assert_eq!(found.rows().map(|row| row.line).collect::<Vec<_>>(), [1, 3, 4, 5]);
+    for row in found.rows() {
+        assert_eq!((row.trajectory_id, row.frame), ("a", 3));
         assert_eq!(row.deltas, [[1.0, 2.0, 3.0, 4.0, 5.0, 6.0], [1.0, 0.0, 0.0, 0.0, 0.0, 0.0]]);
     }
-    assert_eq!(found.rows[3].boxes, [Some([1.0, 2.0, 3.0, 4.0]), None]);
+    assert_eq!(found.row(3).boxes, [Some([1.0, 2.0, 3.0, 4.0]), None]);
 }
 
 #[test]
@@ -47,10 +47,30 @@ fn every_bad_line_is_named_with_its_reason() {
         (r#"{"trajectory_id": "a", "frame": 0, "waypoint_deltas": [[1]], "boxes": [[1, 2]]}"#, "field-type", "length"),
     ] {
         let found = of_text(line);
-        assert_eq!(found.rows, [], "{line}");
+        assert!(found.is_empty(), "{line}");
         let problem = &found.problems[0];
         assert!((problem.line, problem.kind) == (1, kind) && problem.reason.contains(words), "{line}: {problem:?}");
     }
+}
+
+#[test]
+fn lines_keep_their_numbers_over_segments_and_parts() {
+    let row = |number: usize| match number % 1000 {
+        7 => "{\n".to_owned(),
+        8 => "\n".to_owned(),
+        _ => format!(
+            "{{\"trajectory_id\": \"a{}\", \"frame\": {number}, \"waypoint_deltas\": [[1, 2, 3]]}}\n",
+            number / 64
+        ),
+    };
+    // More than two segments.
+    let text: String = (0..560_000).map(row).collect();
+    assert!(text.len() > 35_000_000, "{}", text.len());
+    let found = of_text(text.trim_end());
+    assert_eq!((found.len(), found.problems.len()), (560_000 - 1120, 560));
+    assert!(found.rows().all(|row| row.line == row.frame + 1 && row.trajectory_id == format!("a{}", row.frame / 64)));
+    assert!(found.problems.iter().zip(0..).all(|(problem, number)| problem.line == 1000 * number + 8));
+    assert_eq!(found.row(found.len() - 1).frame, 559_999);
 }
 
 fn parquet_file(columns: Vec<(&str, ArrayRef)>) -> tempfile::NamedTempFile {
@@ -78,8 +98,8 @@ fn parquet_rows_are_read_like_lines() {
         ("waypoint_deltas", Arc::new(deltas.finish())),
     ]);
     let found = read(file.path()).unwrap();
-    assert_eq!(found.rows.len(), 1);
-    assert_eq!(found.rows[0].deltas, [[1.0, 2.0, 0.0, 0.0, 0.0, 0.0], [0.5, 0.0, 0.0, 0.0, 0.0, 0.0]]);
+    assert_eq!(found.len(), 1);
+    assert_eq!(found.row(0).deltas, [[1.0, 2.0, 0.0, 0.0, 0.0, 0.0], [0.5, 0.0, 0.0, 0.0, 0.0, 0.0]]);
     let kinds: Vec<_> = found.problems.iter().map(|problem| (problem.line, problem.kind)).collect();
     assert_eq!(kinds, [(2, "not-finite"), (3, "field-type")]);
 }

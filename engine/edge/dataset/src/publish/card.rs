@@ -2,7 +2,7 @@
 
 use super::summary::Summary;
 use super::viewers;
-use crate::config::DatasetConfig;
+use crate::config::{DatasetConfig, OWN_LICENSE};
 use crate::extras::{self, ExtraShape, Kept};
 use crate::flight_table::ColumnKind;
 use crate::tables::{self, Column, Kind, Table};
@@ -30,10 +30,10 @@ const KNOWN_LICENSES: [&str; 14] = [
 /// The text of `LICENSE`.
 pub fn license_text(config: &DatasetConfig) -> String {
     let license = &config.license;
-    if license.text.is_empty() {
-        format!("The data in this folder are licensed under {}.\n{}\n", license.name, license.url)
-    } else {
-        format!("{}\n", license.text.trim_end())
+    match (license.text.trim_end(), license.name.as_str()) {
+        ("", OWN_LICENSE) => include_str!("../../assets/LICENSE-data.txt").to_owned(),
+        ("", name) => format!("The data in this folder are licensed under {name}.\n{}\n", license.url),
+        (text, _) => format!("{text}\n"),
     }
 }
 
@@ -66,8 +66,9 @@ pub fn readme(config: &DatasetConfig, summary: &Summary) -> String {
     text.push_str(&super::datasheet::section(config, summary));
     let _ = write!(
         text,
-        "## Licence\n\nThe data: {} ({}), see `LICENSE`. The software that made them: MIT OR Apache-2.0.\n\n\
-         ## Citation\n\n```bibtex\n{}\n```\n",
+        "## Responsible use\n\n{}\n\n## Licence\n\nThe data: {} ({}), see `LICENSE`. The software that made them: MIT OR \
+         Apache-2.0.\n\n## Citation\n\n```bibtex\n{}\n```\n",
+        config.license.responsible_use.trim(),
         config.license.name,
         config.license.url,
         citation(config)

@@ -19,7 +19,7 @@ mod write;
 pub use column::{Cell, Column, Kind, Table};
 pub use files::FileRecord;
 pub use objects::{ObjectRecord, kind_name};
-pub use windows::SCENES;
+pub use windows::{DIFFICULTIES, SCENES};
 pub use write::{TableWriter, schema};
 pub(crate) use write::{write_error, writer_properties};
 

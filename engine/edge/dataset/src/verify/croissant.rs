@@ -29,7 +29,7 @@ pub fn check(folder: &Path, files: &CheckedFiles, report: &mut VerifyReport) -> 
     if !list(&document["conformsTo"]).iter().any(|version| *version == "http://mlcommons.org/croissant/1.1") {
         report.find(FILE, "conformsTo", "verify-croissant", "version 1.1 of Croissant is not named");
     }
-    for property in ["name", "description", "license", "url", "version", "datePublished", "citeAs"] {
+    for property in ["name", "description", "license", "usageInfo", "url", "version", "datePublished", "citeAs"] {
         if document[property].as_str().is_none_or(str::is_empty) {
             report.find(FILE, property, "verify-croissant", "it is missing or empty");
         }
