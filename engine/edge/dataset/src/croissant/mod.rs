@@ -289,6 +289,9 @@ fn inline_set(name: &str, kind: &str, doc: &str, fields: &[(&str, Value)], data:
     })
 }
 
+/// Record sets whose rows stand in the manifest itself.
+pub const INLINE_SETS: [&str; 5] = ["splits", "semantic_labels", "roles", "scenes", "difficulties"];
+
 fn splits() -> Value {
     let url = |split| match split {
         Split::Train => "cr:TrainingSplit",

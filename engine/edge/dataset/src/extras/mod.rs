@@ -68,8 +68,7 @@ pub struct Kept {
 pub fn is_taken(name: &str) -> bool {
     let own = tables::of_trajectories().iter().map(|table| table.name).collect::<Vec<_>>();
     let others = [tables::of_objects().name, tables::of_rejections().name, tables::of_files().name];
-    let inline = ["splits", "roles", "semantic_labels"];
-    own.into_iter().chain(others).chain(inline).any(|taken| taken == name)
+    own.into_iter().chain(others).chain(crate::croissant::INLINE_SETS).any(|taken| taken == name)
 }
 
 /// Columns that the dataset itself gives such tables.
