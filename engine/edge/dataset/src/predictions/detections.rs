@@ -148,6 +148,8 @@ fn detection(row: &Value, line: u64) -> std::result::Result<Detection, Refusal> 
     let mask = row.get("segmentation").filter(|it| it.is_object()).map(mask).transpose()?;
     let edges = row.get("bbox").filter(|it| !it.is_null()).map(edges).transpose()?;
     if mask.is_none() && edges.is_none() {
+        // Polygons alone: says that they are none.
+        row.get("segmentation").map(self::mask).transpose()?;
         return Err(missing("bbox` or `segmentation"));
     }
     Ok(Detection { line, image, category, score, edges, mask })
