@@ -219,7 +219,7 @@ impl Builder {
     }
 
     fn align(&mut self, to: usize, extra: usize) {
-        while (self.0.len() + extra) % to != 0 {
+        while !(self.0.len() + extra).is_multiple_of(to) {
             self.0.push(0);
         }
     }

@@ -127,7 +127,9 @@ macro_rules! cost_term {
             struct Plugin;
             impl wire::Guest for Plugin {
                 fn describe() -> wire::Metadata {
-                    $crate::macros::Running::<$term>::describe::<<$term as $crate::CostTerm>::Params>(<$term as $crate::CostTerm>::describe())
+                    $crate::macros::Running::<$term>::describe::<<$term as $crate::CostTerm>::Params>(
+                        <$term as $crate::CostTerm>::describe(),
+                    )
                 }
                 fn configure(params: String) -> Result<wire::Shape, wire::Error> {
                     RUNNING.with_borrow_mut(|running| running.configure_term(&params))
@@ -137,9 +139,9 @@ macro_rules! cost_term {
                 }
                 fn evaluate(waypoints: Vec<f64>, want_gradients: bool) -> Result<wire::Evaluation, wire::Error> {
                     RUNNING.with_borrow(|running| running.evaluate(&waypoints, want_gradients))
-                }
+        }
             }
-    $crate::bindings::cost_term::export_cost_term!(Plugin with_types_in $crate::bindings::cost_term);
+            $crate::bindings::cost_term::export_cost_term!(Plugin with_types_in $crate::bindings::cost_term);
         };
     };
 }

@@ -127,16 +127,18 @@ macro_rules! objective {
             struct Plugin;
             impl wire::Guest for Plugin {
                 fn describe() -> wire::Metadata {
-                    $crate::macros::Running::<$objective>::describe::<<$objective as $crate::Objective>::Params>(<$objective as $crate::Objective>::describe())
+                    $crate::macros::Running::<$objective>::describe::<<$objective as $crate::Objective>::Params>(
+                        <$objective as $crate::Objective>::describe(),
+                    )
                 }
                 fn configure(params: String) -> Result<(), wire::Error> {
                     RUNNING.with_borrow_mut(|running| running.configure_objective(&params))
                 }
                 fn produce(site: wire::Site) -> Result<wire::Plan, wire::Error> {
                     RUNNING.with_borrow(|running| running.produce(site))
-                }
+        }
             }
-    $crate::bindings::objective::export_objective!(Plugin with_types_in $crate::bindings::objective);
+            $crate::bindings::objective::export_objective!(Plugin with_types_in $crate::bindings::objective);
         };
     };
 }

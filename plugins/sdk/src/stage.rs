@@ -364,16 +364,18 @@ macro_rules! stage {
             struct Plugin;
             impl wire::Guest for Plugin {
                 fn describe() -> wire::Metadata {
-                    $crate::macros::Running::<$stage>::describe::<<$stage as $crate::Stage>::Params>(<$stage as $crate::Stage>::describe())
+                    $crate::macros::Running::<$stage>::describe::<<$stage as $crate::Stage>::Params>(
+                        <$stage as $crate::Stage>::describe(),
+                    )
                 }
                 fn configure(params: String) -> Result<wire::Declaration, wire::Error> {
                     RUNNING.with_borrow_mut(|running| running.configure_stage(&params))
                 }
                 fn run(flight: Vec<u8>) -> Result<Vec<u8>, wire::Error> {
                     RUNNING.with_borrow(|running| running.run(&flight))
-                }
+        }
             }
-    $crate::bindings::stage::export_stage!(Plugin with_types_in $crate::bindings::stage);
+            $crate::bindings::stage::export_stage!(Plugin with_types_in $crate::bindings::stage);
         };
     };
 }
@@ -392,7 +394,9 @@ mod tests {
         ];
         assert_eq!(in_columns(columns.clone(), rows), Ok(wanted));
         assert!(in_columns(columns.clone(), vec![vec![1.5.into()]]).unwrap_err().contains("1 values; 2 columns"));
-        assert!(in_columns(columns, vec![vec![true.into(), "a".into()]]).unwrap_err().contains("`length_m` is Boolean"));
+        assert!(
+            in_columns(columns, vec![vec![true.into(), "a".into()]]).unwrap_err().contains("`length_m` is Boolean")
+        );
         let error = written(Answer::Keep, Gives::Labels(vec![])).unwrap_err();
         assert!(error.contains("`Keep`") && error.contains("`Labels`"), "{error}");
     }

@@ -122,7 +122,10 @@ mod tests {
             String::from_utf8(files[0].content.clone()).unwrap().lines().nth(1).unwrap().to_owned()
         };
         // Straight down: a quarter turn about the axis to the left.
-        assert_eq!(text(false), "0.500000 1.000000000 -2.000000000 3.000000000 0.000000000 0.707106781 0.000000000 0.707106781");
+        assert_eq!(
+            text(false),
+            "0.500000 1.000000000 -2.000000000 3.000000000 0.000000000 0.707106781 0.000000000 0.707106781"
+        );
         assert!(text(true).starts_with("0.500000 1.000000000 -2.000000000 3.000000000 "));
         let north = turned([-quarter, 0.0, 0.0]);
         assert!((north[2] - 0.5_f64.sqrt()).abs() < 1e-12, "north is a quarter turn to the left");

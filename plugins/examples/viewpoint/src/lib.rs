@@ -28,7 +28,8 @@ impl Stage for Viewpoint {
     }
 
     fn reads(&self) -> Vec<Column> {
-        let mut columns = reals(["drone_x", "drone_y", "drone_z", "target_x", "target_y", "target_z", "target_heading"]);
+        let mut columns =
+            reals(["drone_x", "drone_y", "drone_z", "target_x", "target_y", "target_z", "target_heading"]);
         columns.extend(reals(["time_s", "visibility"]));
         columns.push(Column::boolean("in_view", ""));
         columns
@@ -36,7 +37,10 @@ impl Stage for Viewpoint {
 
     fn gives(&self) -> Gives {
         let columns = vec![
-            Column::text("side", "where the camera is for most of the time, seen from the target: ahead, right, behind or left"),
+            Column::text(
+                "side",
+                "where the camera is for most of the time, seen from the target: ahead, right, behind or left",
+            ),
             Column::real("mean_distance_m", "from the camera to the feet"),
             Column::real("mean_elevation_deg", "of the camera above the feet's horizon"),
             Column::integer("losses", "how often the target is lost from sight"),

@@ -13,6 +13,9 @@ const EXPLAINED: f64 = 0.95;
 /// Frames that show the target, for a verdict.
 const ENOUGH: usize = 8;
 
+/// Rule, what it says, and what the mistake makes of an angle.
+type Mistake = (&'static str, &'static str, fn(f64) -> f64);
+
 /// Compares yaw with the direction to the target in all frames that show it.
 pub fn check(episode: &Episode) -> Vec<Flag> {
     if episode.camera.is_some() {
@@ -39,7 +42,7 @@ pub fn check(episode: &Episode) -> Vec<Flag> {
         return vec![];
     }
     let away = format!("it looks away from its target in {:.0} % of the frames that show it", 100.0 * (1.0 - own));
-    let mistakes: [(&'static str, &str, fn(f64) -> f64); 4] = [
+    let mistakes: [Mistake; 4] = [
         ("yaw-sign", "yaw has the wrong sign", |yaw| -yaw),
         ("angle-unit", "yaw is in degrees where radians are meant", f64::to_radians),
         ("angle-unit", "yaw is in radians where degrees are meant", f64::to_degrees),

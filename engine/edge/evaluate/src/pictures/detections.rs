@@ -96,9 +96,12 @@ impl DetectionTallies {
     }
 }
 
-/// Rankings with objects and sums of overlaps by group: row per kind, column per class.
+/// A class's ranking, and by group its objects and the sum of their overlaps.
+type RankedClass = (Ranking, Vec<(u64, f64)>);
+
+/// What all classes are: row per kind, column per class.
 pub struct RankedDetections {
-    kinds: Vec<Vec<(Ranking, Vec<(u64, f64)>)>>,
+    kinds: Vec<Vec<RankedClass>>,
 }
 
 impl RankedDetections {

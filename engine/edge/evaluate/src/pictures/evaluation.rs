@@ -88,7 +88,7 @@ pub fn evaluate(
     }
     let mut count = Count::new(flights, settings.kind, &expected);
     count.frames(dataset, flights, &given, &present, settings)?;
-    Ok(count.finished(flights, &mut given, &expected, &present, splits, path, settings))
+    Ok(count.finished(flights, &mut given, (&expected, &present), splits, path, settings))
 }
 
 /// The splits to score.
@@ -346,13 +346,12 @@ impl Count {
         self.scored += 1;
     }
 
-    /// Puts the report together.
+    /// Puts the report together of the frames that were expected and those that are there.
     fn finished(
         self,
         flights: &Flights,
         given: &mut Given,
-        expected: &[FrameKey],
-        present: &[FrameKey],
+        (expected, present): (&[FrameKey], &[FrameKey]),
         splits: BTreeSet<String>,
         path: &Path,
         settings: &PictureSettings,
