@@ -29,8 +29,8 @@ const SDK: [(&str, &str); 17] = [
 ];
 const SDK_LOG: (&str, &str) = ("src/log.rs", include_str!("../../../../../plugins/sdk/src/log.rs"));
 const MANIFEST: &str = include_str!("../../../../../plugins/templates/Cargo.toml.txt");
-/// Vectors are part of WebAssembly, but the compiler wants to be told.
-const CARGO_CONFIG: &str = "[target.wasm32-unknown-unknown]\nrustflags = [\"-Ctarget-feature=+simd128\"]\n";
+/// Vectors are part of WebAssembly, but the compiler wants to be told; calls cost more in it than in native code.
+const CARGO_CONFIG: &str = "[target.wasm32-unknown-unknown]\nrustflags = [\"-Ctarget-feature=+simd128\", \"-Cllvm-args=-inline-threshold=1000\"]\n";
 const README: &str = include_str!("../../../../../plugins/templates/README.md.txt");
 
 /// Writes the project and says how to go on.
