@@ -2,19 +2,21 @@
 
 use super::depth::DepthTallies;
 use super::detections::{DetectionTallies, FrameDetections, compare};
+use super::distances::Ratio;
 use super::files::{PredictedFiles, pictures};
+use super::given::{FrameKey, Given, detections_by_frame, nothing_to_score};
 use super::kinds::FrameKinds;
 use super::labels::{LabelTallies, nothing};
 use super::raster::{self, Refusal};
-use super::report::{ClassReport, DistanceReport, FileFacts, FileProblem, FrameFacts, PictureEvaluation, ranges};
+use super::report::{ClassReport, FileFacts, FileProblem, FrameFacts, PictureEvaluation, ranges};
 use super::tallies::{Counted, FrameCounts, reports};
 use super::{PictureKind, PictureSettings};
 use crate::report::DatasetFacts;
 use crate::scoring::groups_of_flights;
 use crate::windows::Flights;
-use cosfly_dataset::predictions::detections::{self as rows, Detection, ImageKey};
+use cosfly_dataset::predictions::detections::Detection;
 use cosfly_dataset::read::{LoggedFrame, PublishedDataset};
-use cosfly_diagnose::{Diagnostic, Fault, Result};
+use cosfly_diagnose::Result;
 use cosfly_maps::SemanticLabel;
 use cosfly_metrics::depth::{DepthScores, depth_scores};
 use cosfly_metrics::segmentation::Confusion;
@@ -24,31 +26,12 @@ use std::path::Path;
 
 /// Frames that are compared side by side.
 const BATCH: usize = 16;
-/// Borders of the ranges of true depth, metres; the last one ends at the largest depth that counts.
-const DISTANCES_M: [f64; 6] = [0.0, 10.0, 20.0, 40.0, 80.0, 160.0];
-
-/// Place of a flight, and a frame of it.
-type FrameKey = (usize, usize);
-
-/// What was handed in, by frame.
-enum Given {
-    Files(PredictedFiles),
-    Rows { of_frame: BTreeMap<FrameKey, Vec<Detection>>, listed: Option<BTreeSet<FrameKey>>, facts: FileFacts },
-}
 
 /// What was found in one frame.
 enum Found {
     Depth(Option<(DepthScores, Ratio)>),
     Labels(Confusion),
     Things(Vec<FrameDetections>),
-}
-
-/// Errors by range of true depth, and sums of predicted and true depths.
-#[derive(Clone, Copy, Default)]
-struct Ratio {
-    by_distance: [(u64, f64); DISTANCES_M.len()],
-    predicted_m: f64,
-    true_m: f64,
 }
 
 /// Scores the predictions at `path` for pictures of `dataset`, whose flights are `flights`.
@@ -105,132 +88,6 @@ fn splits(flights: &Flights, given: &Given, settings: &PictureSettings) -> Resul
         Given::Rows { of_frame, .. } => of_frame.keys().map(|(flight, _)| *flight).collect(),
     };
     Ok(keys.into_iter().map(|flight| flights.rows[flight].split.clone()).collect())
-}
-
-fn nothing_to_score(given: &Given, present: &[FrameKey], flights: &Flights, path: &Path) -> Option<Box<Diagnostic>> {
-    let problems = match given {
-        Given::Files(files) => &files.problems,
-        Given::Rows { facts, .. } => &facts.problems,
-    };
-    let none = match given {
-        Given::Files(_) => present.is_empty(),
-        Given::Rows { of_frame, .. } => present.is_empty() || !present.iter().any(|key| of_frame.contains_key(key)),
-    };
-    if !none {
-        return None;
-    }
-    let message = format!("none of the predictions in `{}` fits a frame of `{}`", path.display(), flights.folder);
-    let mut refusal = Diagnostic::new("evaluation-no-overlap", Fault::Input, message);
-    for problem in problems.iter().take(3) {
-        refusal = refusal.because(format!("{}: {}", problem.place, problem.reason));
-    }
-    let id = flights.rows.first().map_or("", |row| row.trajectory_id.as_str());
-    Some(refusal.hint(match given {
-        Given::Files(_) => format!("a picture that fits is `{id}/000000.png`: a folder of the trajectory, the frame's number"),
-        Given::Rows { .. } => format!(
-            "a row that fits is {{\"trajectory_id\": \"{id}\", \"frame\": 0, \"category_id\": 12, \"bbox\": [left, top, width, height], \"score\": 0.9}}; \
-             `image_id` needs `--images annotations/instances_<split>.json`"
-        ),
-    }))
-}
-
-/// Reads detections and looks up their frames.
-fn detections_by_frame(path: &Path, flights: &Flights, settings: &PictureSettings) -> Result<Given> {
-    let found = rows::read(path)?;
-    let mut numbers: BTreeMap<i64, FrameKey> = BTreeMap::new();
-    if let Some(images) = &settings.images {
-        for image in rows::read_images(images)? {
-            let frame = usize::try_from(image.frame).unwrap_or(usize::MAX);
-            let flight = flights.place(&image.trajectory_id).filter(|flight| frame < flights.rows[*flight].frames);
-            let Some(flight) = flight else {
-                let message = format!(
-                    "`{}` is of another dataset: there is no frame {} of `{}`",
-                    images.display(),
-                    image.frame,
-                    image.trajectory_id
-                );
-                return Err(Diagnostic::new("predictions-images", Fault::Input, message));
-            };
-            numbers.insert(image.id, (flight, frame));
-        }
-    }
-    let listed = settings.images.is_some().then(|| numbers.values().copied().collect::<BTreeSet<_>>());
-    let mut facts = FileFacts {
-        name: crate::name_of(path),
-        read: (found.rows.len() + found.problems.len()) as u64,
-        scored: 0,
-        elsewhere: 0,
-        passed_over: 0,
-        malformed: 0,
-        kinds: BTreeMap::new(),
-        problems: vec![],
-    };
-    let line = |line: u64| format!("line {line}");
-    facts.problems = found
-        .problems
-        .into_iter()
-        .map(|problem| FileProblem::new(line(problem.line), problem.kind, problem.reason))
-        .collect();
-    let mut of_frame: BTreeMap<FrameKey, Vec<Detection>> = BTreeMap::new();
-    for row in found.rows {
-        match frame_of(&row, &numbers, flights, settings) {
-            Ok(Some(key)) if listed.as_ref().is_none_or(|listed| listed.contains(&key)) => {
-                of_frame.entry(key).or_default().push(row);
-            }
-            Ok(_) => facts.elsewhere += 1,
-            Err((kind, reason)) => facts.problems.push(FileProblem::new(line(row.line), kind, reason)),
-        }
-    }
-    Ok(Given::Rows { of_frame, listed, facts })
-}
-
-/// The frame of a detection; `None` for a class that was not asked for.
-fn frame_of(
-    row: &Detection,
-    numbers: &BTreeMap<i64, FrameKey>,
-    flights: &Flights,
-    settings: &PictureSettings,
-) -> std::result::Result<Option<FrameKey>, Refusal> {
-    let key = match &row.image {
-        ImageKey::Number(number) if settings.images.is_none() => {
-            return Err(("image", format!("which frame image {number} is cannot be known without `--images`")));
-        }
-        ImageKey::Number(number) => {
-            *numbers.get(number).ok_or_else(|| ("image", format!("the list of images has no number {number}")))?
-        }
-        ImageKey::Frame(id, frame) => {
-            let unknown = || ("unknown-trajectory", format!("the dataset has no trajectory `{id}`"));
-            let flight = flights.place(id).ok_or_else(unknown)?;
-            let (frame, frames) = (usize::try_from(*frame).unwrap_or(usize::MAX), flights.rows[flight].frames);
-            if frame >= frames {
-                return Err(("no-frame", format!("`{id}` has {frames} frames: there is no frame {frame}")));
-            }
-            (flight, frame)
-        }
-    };
-    let category = u8::try_from(row.category).ok().filter(|id| usize::from(*id) < SemanticLabel::ALL.len());
-    let Some(category) = category else {
-        return Err(("category", format!("`category_id` {} is none of CARLA's labels, 0 to 28", row.category)));
-    };
-    match (settings.kind, &row.mask, &row.edges) {
-        (PictureKind::Masks, None, _) => return Err((
-            "field-missing",
-            "the row has no `segmentation` of run lengths: {\"size\": [h, w], \"counts\": ...}; polygons are not read"
-                .into(),
-        )),
-        (PictureKind::Boxes, _, None) => return Err(("field-missing", "the row has no `bbox`".into())),
-        _ => {}
-    }
-    let camera = &flights.rows[key.0].camera;
-    if let (PictureKind::Masks, Some(mask)) = (settings.kind, &row.mask)
-        && mask.size != [camera.width, camera.height]
-    {
-        let [width, height] = mask.size;
-        let reason =
-            format!("the mask has {width} x {height} pixels; the frame has {} x {}", camera.width, camera.height);
-        return Err(("size", reason));
-    }
-    Ok((settings.categories.is_empty() || settings.categories.contains(&category)).then_some(key))
 }
 
 /// The count of one kind of prediction.
@@ -426,49 +283,6 @@ fn compared(
             let categories = if settings.categories.is_empty() { &all } else { &settings.categories };
             Ok(Found::Things(compare(logged, &own.iter().collect::<Vec<_>>(), categories, group)))
         }
-    }
-}
-
-impl Ratio {
-    fn of(predicted_m: &[f32], true_m: &[f32], most_m: f64) -> Self {
-        let mut sum = Self::default();
-        for (predicted, truth) in predicted_m.iter().zip(true_m) {
-            let (predicted, truth) = (f64::from(*predicted), f64::from(*truth));
-            if !(truth.is_finite() && truth > 0.0 && truth <= most_m) {
-                continue;
-            }
-            // Before it is clamped: it shows a wrong unit.
-            if predicted.is_finite() {
-                (sum.predicted_m, sum.true_m) = (sum.predicted_m + predicted, sum.true_m + truth);
-            }
-            let clamped = if predicted.is_nan() { most_m } else { predicted.clamp(0.001, most_m.max(0.001)) };
-            let range = DISTANCES_M.iter().rposition(|from| truth >= *from).unwrap_or(0);
-            let (pixels, errors) = &mut sum.by_distance[range];
-            (*pixels, *errors) = (*pixels + 1, *errors + (clamped - truth).abs() / truth);
-        }
-        sum
-    }
-
-    fn add(&mut self, other: &Self) {
-        for (sum, more) in self.by_distance.iter_mut().zip(&other.by_distance) {
-            (sum.0, sum.1) = (sum.0 + more.0, sum.1 + more.1);
-        }
-        self.predicted_m += other.predicted_m;
-        self.true_m += other.true_m;
-    }
-
-    fn reports(&self, most_m: f64) -> Vec<DistanceReport> {
-        let ends = DISTANCES_M[1..].iter().copied().chain([f64::INFINITY]);
-        let ranges = DISTANCES_M.into_iter().zip(ends).zip(self.by_distance);
-        ranges
-            .filter(|(_, (pixels, _))| *pixels > 0)
-            .map(|((from_m, to_m), (pixels, sum))| DistanceReport {
-                from_m,
-                to_m: to_m.min(most_m),
-                pixels,
-                abs_rel: sum / pixels as f64,
-            })
-            .collect()
     }
 }
 

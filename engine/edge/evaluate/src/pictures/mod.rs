@@ -1,14 +1,16 @@
 //! Scores of predicted pictures: depth, labels, detected boxes and masks.
 //!
-//! * [`files`] and [`raster`]: which file belongs to which frame, and what is in it.
+//! * [`files`], [`given`] and [`raster`]: which file or row belongs to which frame, and what is in it.
 //! * [`kinds`]: kinds of frames that are scored separately.
 //! * [`tallies`] with [`depth`], [`labels`] and [`detections`]: what is counted, and its intervals.
 //! * [`report`]: the result as JSON, Markdown and a picture.
 
 mod depth;
 mod detections;
+mod distances;
 mod evaluation;
 mod files;
+mod given;
 mod kinds;
 mod labels;
 mod markdown;
