@@ -3,7 +3,7 @@
 use crate::plugins::stage::EXTRA;
 use crate::ports::{self, CAPTIONS, DATASET, EXTRAS, FRAMES, LOG};
 use crate::published_towns::PublishedTowns;
-use crate::render::REJECTION;
+use crate::rejections::{handed_on, rejection};
 use crate::world::world_of;
 use crate::{codec, parameters, planner_comparison};
 use cosfly_dataset::extras::Extra;
@@ -110,10 +110,8 @@ impl Stage for LogStage {
 
     fn run(&self, inputs: &Inputs<'_>, outputs: &mut dyn OutputSink, context: &TaskContext) -> Result<Produced> {
         let frames = inputs.one("frames")?;
-        if let Some(rejection) = frames.blobs.get(REJECTION) {
-            outputs.link(REJECTION, *rejection)?;
-            let rejection: Rejection = codec::decode(FRAMES, &inputs.read(frames, REJECTION)?)?;
-            return Ok(Produced { rejected: Some(rejection.reason), ..Produced::default() });
+        if let Some(rejected) = handed_on(inputs, outputs, frames)? {
+            return Ok(rejected);
         }
         let record = RenderedTrajectory::from_bytes(&inputs.read(frames, "index")?)?;
         let captions = captions_of(inputs, inputs.all("captions").first())?;
@@ -155,8 +153,8 @@ impl Stage for DatasetStage {
         let mut gathered = Gathered { inputs, towns: PublishedTowns::of(inputs)?, flights: vec![] };
         let (mut logs, mut rejections): (Vec<PublishedLog>, Vec<Rejection>) = (vec![], vec![]);
         for (frames, log) in inputs.all("frames").iter().zip(inputs.all("logs")) {
-            if log.blobs.contains_key(REJECTION) {
-                rejections.push(codec::decode(FRAMES, &inputs.read(log, REJECTION)?)?);
+            if let Some(rejection) = rejection(inputs, log)? {
+                rejections.push(rejection);
                 continue;
             }
             let record: Option<LogRecord> = codec::decode(LOG, &inputs.read(log, "log")?)?;

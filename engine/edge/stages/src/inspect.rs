@@ -1,7 +1,8 @@
 //! `inspect`: examines rendered flights and leaves out what is damaged, more imperfect than allowed, or beyond a quota.
 
 use crate::ports::{self, FRAMES};
-use crate::render::REJECTION;
+use crate::rejections::{handed_on, is_rejected, reject};
+use crate::world::link_town;
 use crate::world::{check_same_town, world};
 use crate::{codec, parameters};
 use cosfly_dataset::{Rejection, RenderedTrajectory};
@@ -138,7 +139,7 @@ impl Stage for VerdictStage {
         check_same_town(inputs, "frames")?;
         let vehicles = vehicles(&world(inputs)?.town);
         let mut families: BTreeMap<String, Family> = BTreeMap::new();
-        for artifact in inputs.all("frames").iter().filter(|it| !it.blobs.contains_key(REJECTION)) {
+        for artifact in inputs.all("frames").iter().filter(|it| !is_rejected(it)) {
             context.check_cancelled()?;
             let record = record(inputs, artifact)?;
             let mut episode = sources::record::episode(&record);
@@ -273,11 +274,9 @@ impl Stage for KeepStage {
 
     fn run(&self, inputs: &Inputs<'_>, outputs: &mut dyn OutputSink, context: &TaskContext) -> Result<Produced> {
         let frames = inputs.one("frames")?;
-        if let Some(rejection) = frames.blobs.get(REJECTION) {
-            outputs.link(REJECTION, *rejection)?;
-            let rejection: Rejection = codec::decode(FRAMES, &inputs.read(frames, REJECTION)?)?;
-            crate::world::link_town(inputs, outputs)?;
-            return Ok(Produced { rejected: Some(rejection.reason), ..Produced::default() });
+        if let Some(rejected) = handed_on(inputs, outputs, frames)? {
+            link_town(inputs, outputs)?;
+            return Ok(rejected);
         }
         let verdict: Verdict = codec::decode(VERDICT, &inputs.read(inputs.one("verdict")?, VERDICT_BLOB)?)?;
         let Some(reason) = verdict.get(&frames.item) else {
@@ -292,9 +291,8 @@ impl Stage for KeepStage {
             town: record.town.name,
             reason: reason.clone(),
         };
-        outputs.put(REJECTION, &codec::encode(FRAMES, &rejection)?)?;
-        crate::world::link_town(inputs, outputs)?;
-        Ok(Produced { rejected: Some(reason.clone()), ..Produced::default() })
+        link_town(inputs, outputs)?;
+        reject(outputs, rejection)
     }
 }
 

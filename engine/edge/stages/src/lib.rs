@@ -21,6 +21,7 @@ pub mod plugins;
 mod ports;
 mod published_towns;
 pub mod read;
+mod rejections;
 mod render;
 pub mod world;
 

@@ -4,6 +4,7 @@ use crate::body_rays::BodyRays;
 use crate::crowd::{Crowd, walk_seed, walked_m};
 use crate::memo::Memo;
 use crate::ports::{self, FRAMES, TRAJECTORY, WALK};
+use crate::rejections::reject;
 use crate::world::{TOWN_BLOB, World, check_same_town, link_town, world};
 use crate::{backends, codec, parameters, single};
 use cosfly_dataset::frame_pack::{FramePackWriter, PackHeader};
@@ -89,9 +90,6 @@ fn canonical(config: &RenderConfig, encoding: &EncodingConfig) -> serde_json::Va
     all
 }
 
-/// Blob of a flight that there is nothing to render of; `index` and `pack` are absent then.
-pub const REJECTION: &str = "rejection";
-
 struct RenderStage {
     config: RenderConfig,
     encoding: EncodingConfig,
@@ -124,10 +122,9 @@ impl Stage for RenderStage {
                     stage: artifact.stage.clone(),
                     pedestrian_id: pedestrian_of(artifact).to_owned(),
                     town: world.town.name.clone(),
-                    reason: reason.clone(),
+                    reason,
                 };
-                outputs.put(REJECTION, &codec::encode(FRAMES, &rejection)?)?;
-                return Ok(Produced { rejected: Some(reason), ..Produced::default() });
+                return reject(outputs, rejection);
             }
         };
         let town_digest = inputs.one("town")?.blobs[TOWN_BLOB].digest;

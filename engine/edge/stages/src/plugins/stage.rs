@@ -4,14 +4,14 @@ use super::config::{Makes, StagePlugin};
 use super::{Declaration, Effect, Plugins, Role, source, tables};
 use crate::muco::produced;
 use crate::ports::{self, CAPTIONS, EXTRAS, FRAMES, TRAJECTORY};
-use crate::render::REJECTION;
+use crate::rejections::handed_on;
 use crate::world::{check_same_town, link_town, world};
 use crate::{codec, parameters, single};
+use cosfly_dataset::RenderedTrajectory;
 use cosfly_dataset::extras::{Extra, ExtraShape};
 use cosfly_dataset::flight_labels::{self, FlightLabel};
 use cosfly_dataset::flight_table::{self, FlightColumns, MOST_FILES, MOST_ROWS};
 use cosfly_dataset::record::captions_from_bytes;
-use cosfly_dataset::{Rejection, RenderedTrajectory};
 use cosfly_diagnose::Result;
 use cosfly_planner::{PlanOutcome, Trajectory};
 use cosfly_stage::{
@@ -155,10 +155,8 @@ fn labelled(
 fn extras(plugins: &Plugins, inputs: &Inputs<'_>, outputs: &mut dyn OutputSink) -> Result<Produced> {
     check_same_town(inputs, "frames")?;
     let frames = inputs.one("frames")?;
-    if let Some(rejection) = frames.blobs.get(REJECTION) {
-        outputs.link(REJECTION, *rejection)?;
-        let rejection: Rejection = codec::decode(FRAMES, &inputs.read(frames, REJECTION)?)?;
-        return Ok(Produced { rejected: Some(rejection.reason), ..Produced::default() });
+    if let Some(rejected) = handed_on(inputs, outputs, frames)? {
+        return Ok(rejected);
     }
     let record = RenderedTrajectory::from_bytes(&inputs.read(frames, "index")?)?;
     let captions = match inputs.all("captions").first() {
