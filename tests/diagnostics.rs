@@ -47,9 +47,6 @@ fn command_line_mistakes_are_explained() {
     check_refusal("set_unknown_stage", &street, &["run", "recipe.toml", "--set", "stages.exprt.weights.visibility=5"]);
     check_refusal("set_without_value", &street, &["run", "recipe.toml", "--set", "seed"]);
     check_refusal("no_such_recipe", &street, &["run", "recipes.toml"]);
-    check_refusal("bench_no_paths", &street, &["bench", "planner", "--paths", "0"]);
-    check_refusal("bench_fewer_than_no_paths", &street, &["bench", "planner", "--many", "-3"]);
-    check_refusal("bench_split_of_a_planner", &street, &["bench", "planner", "--split", "--planner", "dp"]);
     check_refusal("why_unknown_item", &street, &["why", "recipe.toml", "expert/p99999"]);
 }
 

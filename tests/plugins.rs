@@ -175,7 +175,7 @@ fn parameters_are_held_against_what_the_plugin_declares_before_anything_runs() {
             "`terms.0.params.margin_m` is `400.0`; it must be at least `0` and at most `100`",
         ),
         ("margin_m = 4.0", "margn_m = 4.0", "did you mean `margin_m`?"),
-        ("margin_m = 4.0", "margin_m = \"4\"", "leave the quotes away"),
+        ("margin_m = 4.0", "margin_m = \"4\"", "leave out the quotes"),
         ("low_m = 0", "low_m = true", "it must be a number"),
         ("of = \"max\"", "off = \"max\"", "`off` is not a parameter"),
     ] {

@@ -1,4 +1,4 @@
-"""Boxes and cameras as `cosfly bench render --boxes FILE` writes them, and how frames are timed."""
+"""Boxes and cameras as `cosfly-lab render --boxes FILE` writes them, and how frames are timed."""
 
 import argparse
 import json
@@ -28,7 +28,7 @@ class Scene:
 
 def arguments(description):
     parser = argparse.ArgumentParser(description=description)
-    parser.add_argument("boxes", help="what `cosfly bench render --boxes FILE` wrote")
+    parser.add_argument("boxes", help="what `cosfly-lab render --boxes FILE` wrote")
     parser.add_argument("--rounds", type=int, default=3, help="rounds over all views; the least time counts")
     return parser.parse_args()
 

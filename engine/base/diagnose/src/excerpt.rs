@@ -1,18 +1,19 @@
-//! The lines of a file that labels point at, cut to what a person can read.
+//! The lines of a file that labels point at, cut to a readable length.
 
 use crate::Label;
-use crate::print::visible;
+use crate::visible::visible;
 use std::ops::Range;
 
 /// A line longer than this is cut around the label (data files may be one line of many megabytes).
 const LONG_LINE_BYTES: usize = 1_000;
-/// How much of a long line stays on each side.
+/// Bytes of a long line that are kept on each side of the label.
 const KEPT_BYTES: usize = 200;
-/// A label over more lines than this only marks its first line.
+/// A label that spans more lines than this only marks its first line.
 const MOST_LINES: usize = 5;
 
-/// Lines of one file with the marks of one or several labels.
+/// Consecutive lines of one file, with the marks of one or several labels.
 pub(crate) struct Excerpt<'a> {
+    /// Path of the file, for display.
     pub(crate) path: String,
     /// The lines, or the middle of one long line.
     pub(crate) text: &'a str,
@@ -20,6 +21,7 @@ pub(crate) struct Excerpt<'a> {
     pub(crate) first_line: usize,
     /// When the line was cut: column of the label (in characters, from 1) in `text` and in the file.
     pub(crate) shifted_column: Option<(usize, usize)>,
+    /// Places to underline.
     pub(crate) marks: Vec<Mark>,
 }
 
@@ -27,13 +29,14 @@ pub(crate) struct Excerpt<'a> {
 pub(crate) struct Mark {
     /// Bytes of the excerpt's text, at character boundaries.
     pub(crate) span: Range<usize>,
+    /// Text beside the underline; may be empty.
     pub(crate) note: String,
-    /// Whether it is the diagnostic's first label.
+    /// True for the diagnostic's first label.
     pub(crate) is_first: bool,
 }
 
 impl<'a> Excerpt<'a> {
-    /// One excerpt per file, in the order of the labels; long lines have their own.
+    /// One excerpt per file, in the order of the labels; a long line has an excerpt of its own.
     pub(crate) fn of_labels(labels: &'a [Label]) -> Vec<Self> {
         let mut excerpts = vec![];
         let mut first = 0;
@@ -110,7 +113,7 @@ impl<'a> Excerpt<'a> {
     }
 }
 
-/// The label's span inside its text, at character boundaries, over a few lines at most.
+/// Span of the label within its text: at character boundaries, over a few lines at most.
 fn readable_span(label: &Label) -> Range<usize> {
     let text = &*label.text;
     let mut start = floor_boundary(text, label.span.start);

@@ -1,25 +1,29 @@
 //! The nearest known name to a mistyped one.
 
-/// Shorter beginnings fit too many names.
-const SHORTEST_BEGINNING: usize = 3;
+/// Bytes of a prefix; shorter ones match too many names.
+const SHORTEST_PREFIX: usize = 3;
 
-/// The name in `known` most like `given`, if any is like it at all: a few letters apart, or else the only one that
-/// begins with `given` (a forgotten unit, such as `speed` for `speed_mps`).
+/// Name in `known` that is most like `given`: a few letters apart, or else the only one that begins with `given` (a
+/// forgotten unit, such as `speed` for `speed_mps`). `None` where no name is similar.
 pub fn nearest_name<'a>(given: &str, known: impl IntoIterator<Item = &'a str>) -> Option<&'a str> {
-    // Distances grow with the product of the lengths; nobody mistypes a name of a thousand letters.
+    // The cost of a distance grows with the product of the lengths, and a name of a thousand letters is no typing error.
     if given.len() > 200 {
         return None;
     }
     let known: Vec<&str> = known.into_iter().collect();
+    let most = |name: &str| (name.len().max(given.len()) / 3).max(1);
+    let letters = given.chars().count();
     let nearest = known
         .iter()
+        // A distance is at least the difference of the lengths, which costs far less.
+        .filter(|name| name.chars().count().abs_diff(letters) <= most(name))
         .map(|name| (strsim::damerau_levenshtein(given, name), *name))
-        .filter(|(distance, name)| *distance <= (name.len().max(given.len()) / 3).max(1))
+        .filter(|(distance, name)| *distance <= most(name))
         .min();
     if let Some((_, name)) = nearest {
         return Some(name);
     }
-    let mut longer = known.iter().filter(|name| given.len() >= SHORTEST_BEGINNING && name.starts_with(given));
+    let mut longer = known.iter().filter(|name| given.len() >= SHORTEST_PREFIX && name.starts_with(given));
     match (longer.next(), longer.next()) {
         (Some(only), None) => Some(only),
         _ => None,

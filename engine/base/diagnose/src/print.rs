@@ -1,12 +1,13 @@
-//! The one voice towards the user: diagnostics as text, readable without colour.
+//! Diagnostics as the text that a terminal shows, readable without colour.
 
 use crate::Diagnostic;
 use crate::excerpt::Excerpt;
+use crate::visible::visible;
 use annotate_snippets::{Annotation, AnnotationKind, Element, Level, Renderer, Snippet};
 
-/// Width of what is printed, in columns; the same on every terminal, so that logs and snapshots agree.
+/// Line width in columns; the same on every terminal, so that logs and snapshots agree.
 const COLUMNS: usize = 100;
-/// More diagnostics than this at once help nobody.
+/// Diagnostics printed at once; the rest is only counted.
 const MOST_AT_ONCE: usize = 20;
 
 /// The diagnostic as the text that a terminal shows, without a newline at the end.
@@ -36,7 +37,7 @@ pub fn render(diagnostic: &Diagnostic, colour: bool) -> String {
     if excerpts.is_empty() { without_gutter(&text, title.lines().count()) } else { text }
 }
 
-/// Several diagnostics under each other, a blank line between them and their number at the end.
+/// Several diagnostics below one another, with blank lines between them and their number at the end.
 pub fn render_all<'a>(diagnostics: impl IntoIterator<Item = &'a Diagnostic>, colour: bool) -> String {
     let all: Vec<&Diagnostic> = diagnostics.into_iter().collect();
     let mut pieces: Vec<String> = all.iter().take(MOST_AT_ONCE).map(|diagnostic| render(diagnostic, colour)).collect();
@@ -48,7 +49,7 @@ pub fn render_all<'a>(diagnostics: impl IntoIterator<Item = &'a Diagnostic>, col
     pieces.join("\n\n")
 }
 
-/// The first label is the place itself; the others say how it came about.
+/// Underlines of an excerpt: the first label is the place itself, the others say how it came about.
 fn annotations<'a>(excerpt: &'a Excerpt<'_>) -> impl Iterator<Item = Annotation<'a>> {
     excerpt.marks.iter().map(|mark| {
         let kind = if mark.is_first { AnnotationKind::Primary } else { AnnotationKind::Context };
@@ -82,17 +83,7 @@ fn wrap(text: &str, indent: usize) -> String {
     wrapped
 }
 
-/// Text from files and file names must not steer a terminal.
-pub(crate) fn visible(character: char) -> char {
-    match character {
-        '\t' => ' ',
-        '\u{0}'..='\u{1f}' => char::from_u32(0x2400 + character as u32).unwrap_or('\u{fffd}'),
-        '\u{7f}'..='\u{9f}' | '\u{202a}'..='\u{202e}' | '\u{2066}'..='\u{2069}' => '\u{fffd}',
-        _ => character,
-    }
-}
-
-/// Without a piece of text beside it the gutter's bar is noise.
+/// `text` without the bar of the gutter, which means nothing where no excerpt follows.
 fn without_gutter(text: &str, title_lines: usize) -> String {
     let kept: Vec<&str> = text
         .lines()
@@ -113,10 +104,5 @@ mod tests {
         let wrapped = wrap(&text, 20);
         assert!(wrapped.lines().all(|line| line.chars().count() <= 80), "{wrapped}");
         assert_eq!(wrapped.split_whitespace().count(), 60);
-    }
-
-    #[test]
-    fn control_characters_become_visible() {
-        assert_eq!(wrap("a\u{1b}[31mb\u{7}\u{202e}", 0), "a\u{241b}[31mb\u{2407}\u{fffd}");
     }
 }

@@ -1,4 +1,4 @@
-//! What each form of diagnostic looks like to the user.
+//! The look of every form of diagnostic.
 
 use cosfly_diagnose::{Diagnostic, Fault, Label, render, render_all};
 

@@ -1,5 +1,7 @@
 //! Canonical hashing of configs and inputs: BLAKE3 digests and the canonical JSON they are taken over.
 
+pub mod sha256;
+
 use serde::{Deserialize, Deserializer, Serialize, Serializer, de::Error as _};
 use std::fmt;
 use std::str::FromStr;

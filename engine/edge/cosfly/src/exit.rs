@@ -1,37 +1,37 @@
-//! Documented exit codes.
+//! Exit codes, as the help documents them.
 
 use cosfly_diagnose::{Diagnostic, Fault};
 use std::process::ExitCode;
 
-/// Everything was done.
+/// Success.
 pub const SUCCESS: u8 = 0;
-/// `verify` or `doctor` found something wrong, `plan-from` found no flight, or `eval` met rows that cannot be scored.
+/// `verify` or `doctor` found problems, `plan-from` found no flight, or `eval` met rows that cannot be scored.
 pub const FOUND_PROBLEMS: u8 = 1;
-/// The command line or the environment cannot be understood (arguments: `clap` exits by itself).
+/// The command line or the environment is invalid (for arguments `clap` exits itself).
 pub const ARGUMENTS: u8 = 2;
-/// The recipe asks for something that cannot be.
+/// The recipe asks for something impossible.
 pub const RECIPE: u8 = 3;
 /// An input file or the store is broken or does not fit.
 pub const INPUT: u8 = 4;
 /// The machine refused: disk full, no permission, a file vanished.
 pub const MACHINE: u8 = 5;
-/// cosfly itself is wrong.
+/// Internal error.
 pub const BUG: u8 = 70;
 /// Stopped by Ctrl-C or a termination signal.
 pub const STOPPED: u8 = 130;
 
-/// The code for one diagnostic.
+/// Exit code for one diagnostic.
 pub fn code_of(diagnostic: &Diagnostic) -> u8 {
     match diagnostic.fault {
-        _ if diagnostic.code == "cancelled" => STOPPED,
         Fault::Recipe => RECIPE,
         Fault::Input => INPUT,
-        Fault::Machine => MACHINE,
+        Fault::Machine | Fault::DiskFull | Fault::Lost => MACHINE,
+        Fault::Stopped => STOPPED,
         Fault::Bug => BUG,
     }
 }
 
-/// The code for several diagnostics: that of the gravest fault.
+/// Exit code for several diagnostics: the highest of their codes.
 pub fn code_of_all<'a>(diagnostics: impl IntoIterator<Item = &'a Box<Diagnostic>>) -> ExitCode {
     ExitCode::from(diagnostics.into_iter().map(|diagnostic| code_of(diagnostic)).max().unwrap_or(SUCCESS))
 }

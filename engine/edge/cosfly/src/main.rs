@@ -9,7 +9,7 @@ mod text;
 
 #[cfg(feature = "plugins")]
 use arguments::PluginCommand;
-use arguments::{Arguments, BenchCommand, Command, DatasetCommand, TaskCommand};
+use arguments::{Arguments, Command, DatasetCommand, TaskCommand};
 use clap::Parser;
 use cosfly_diagnose::{Diagnostic, Fault};
 use cosfly_frames::simd::Level;
@@ -56,10 +56,6 @@ fn command() -> ExitCode {
         Command::Plugin(PluginCommand::Check(arguments)) => commands::plugin_check::check(&arguments),
         #[cfg(feature = "plugins")]
         Command::Plugin(PluginCommand::Bench(arguments)) => commands::plugin_bench::bench(&arguments),
-        Command::Bench(BenchCommand::Engine { items }) => commands::bench::engine(items),
-        Command::Bench(BenchCommand::Geometry { seed, json }) => commands::bench::geometry(seed, json),
-        Command::Bench(BenchCommand::Planner(arguments)) => commands::bench_planner::planner(&arguments),
-        Command::Bench(BenchCommand::Render(arguments)) => commands::bench_render::render(&arguments),
         Command::Task(TaskCommand::Run { digest, store }) => commands::task::run(&digest, &store),
     };
     match outcome {

@@ -1,17 +1,17 @@
-//! What a person sees of a run: bars on a terminal, plain lines when piped.
+//! Reports of a run for people: bars on a terminal, plain lines when piped.
 
 use crate::text::count;
 use cosfly_diagnose::{Diagnostic, render};
-use cosfly_stage::RunEvent;
+use cosfly_stage::{ItemId, RunEvent, StageName};
 use indicatif::{MultiProgress, ProgressBar, ProgressDrawTarget, ProgressStyle};
 use std::collections::BTreeMap;
 use std::io::IsTerminal;
 use std::sync::{Mutex, PoisonError};
 
-/// Failures of one stage and code that are shown in full.
+/// Number of failures of one stage and code that are shown in full.
 const SHOWN_ALIKE: u64 = 3;
 
-/// How much is printed while a run goes on.
+/// Amount of text that is printed during a run.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Detail {
     /// Errors only.
@@ -26,9 +26,9 @@ pub enum Detail {
 pub struct Reporter {
     detail: Detail,
     bars: MultiProgress,
-    stages: Mutex<BTreeMap<String, Progress>>,
-    /// Failed items by stage and code.
-    failures: Mutex<BTreeMap<(String, &'static str), u64>>,
+    stages: Mutex<BTreeMap<StageName, Progress>>,
+    /// Number of failed items by stage and code.
+    failures: Mutex<BTreeMap<(StageName, &'static str), u64>>,
 }
 
 struct Progress {
@@ -39,7 +39,7 @@ struct Progress {
 }
 
 impl Reporter {
-    /// Bars when standard error is a terminal, lines otherwise, next to nothing when `quiet`.
+    /// A reporter of bars where standard error is a terminal, of lines otherwise, of errors alone when `quiet`.
     pub fn new(quiet: bool) -> Self {
         let detail = match (quiet, std::io::stderr().is_terminal()) {
             (true, _) => Detail::Quiet,
@@ -59,35 +59,32 @@ impl Reporter {
     pub fn show(&self, event: RunEvent) {
         match event {
             RunEvent::Planned { stages } => self.planned(&stages),
-            RunEvent::Started { .. } => {}
-            RunEvent::Finished { stage, produced, item, .. } => {
+            RunEvent::Finished { id, produced, .. } => {
                 for warning in &produced.warnings {
-                    self.line(&format!("warning: {stage}/{item}: {warning}"));
+                    self.line(&format!("warning: {id}: {warning}"));
                 }
-                self.advance(&stage, false);
+                self.advance(&id.stage, false);
             }
-            RunEvent::Failed { stage, item, diagnostic } => {
-                if diagnostic.code != "cancelled" {
-                    self.failed(&stage, &item, &diagnostic);
-                }
-                self.advance(&stage, true);
+            RunEvent::Failed { id, diagnostic } => {
+                self.failed(&id, &diagnostic);
+                self.advance(&id.stage, true);
             }
-            RunEvent::Stopping => self.always("stopping: what is finished stays finished"),
+            RunEvent::Stopping => self.always("stopping: finished items are kept"),
         }
     }
 
     /// Shows a failure, unless enough items of the same stage failed in the same way: a thousand items, three messages.
-    fn failed(&self, stage: &str, item: &str, diagnostic: &Diagnostic) {
-        let message = format!("{}\n  (in `{stage}/{item}`)", render(diagnostic, colour()));
+    fn failed(&self, id: &ItemId, diagnostic: &Diagnostic) {
+        let message = format!("{}\n  (in `{id}`)", render(diagnostic, colour()));
         let mut failures = self.failures.lock().unwrap_or_else(PoisonError::into_inner);
-        let alike = failures.entry((stage.to_owned(), diagnostic.code)).or_insert(0);
+        let alike = failures.entry((id.stage.clone(), diagnostic.code)).or_insert(0);
         *alike += 1;
         if *alike <= SHOWN_ALIKE {
             self.always(&message);
         }
     }
 
-    /// Takes the bars away and counts the failures that were not shown.
+    /// Removes the bars, and prints the number of failures that were not shown.
     pub fn finish(&self) {
         for ((stage, code), alike) in self.failures.lock().unwrap_or_else(PoisonError::into_inner).iter() {
             if *alike > SHOWN_ALIKE {
@@ -99,8 +96,8 @@ impl Reporter {
         }
     }
 
-    fn planned(&self, planned: &[(String, u64, u64)]) {
-        let width = planned.iter().map(|(stage, ..)| stage.len()).max().unwrap_or(0);
+    fn planned(&self, planned: &[(StageName, u64, u64)]) {
+        let width = planned.iter().map(|(stage, ..)| stage.as_str().len()).max().unwrap_or(0);
         let style =
             ProgressStyle::with_template("{prefix} {wide_bar:.cyan/blue} {pos}/{len} {per_sec:>10} {eta:>5} left")
                 .unwrap_or_else(|_| ProgressStyle::default_bar());
@@ -119,7 +116,7 @@ impl Reporter {
         }
     }
 
-    fn advance(&self, stage: &str, failed: bool) {
+    fn advance(&self, stage: &StageName, failed: bool) {
         let mut stages = self.stages.lock().unwrap_or_else(PoisonError::into_inner);
         let Some(progress) = stages.get_mut(stage) else { return };
         progress.done += 1;
@@ -137,7 +134,7 @@ impl Reporter {
         }
     }
 
-    /// A line unless quiet.
+    /// Prints a line unless quiet.
     fn line(&self, text: &str) {
         if self.detail != Detail::Quiet {
             self.always(text);
@@ -153,7 +150,7 @@ impl Reporter {
     }
 }
 
-/// Whether standard error wants colour.
+/// True where standard error takes colour.
 pub fn colour() -> bool {
     std::io::stderr().is_terminal() && std::env::var_os("NO_COLOR").is_none_or(|value| value.is_empty())
 }

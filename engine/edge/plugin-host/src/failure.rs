@@ -34,11 +34,17 @@ impl PluginError {
     /// What a user is told; `item` is what it failed for.
     pub fn diagnostic(&self, item: Option<&str>) -> Box<Diagnostic> {
         let place = item.map_or_else(String::new, |item| format!(" for `{item}`"));
-        let (code, message) = match self.function {
-            Some(function) => ("plugin-failed", format!("plugin `{}` failed in `{function}`{place}", self.plugin)),
-            None => ("plugin-refused", format!("plugin `{}` cannot be used{place}", self.plugin)),
+        let diagnostic = match self.function {
+            Some(function) => {
+                let message = format!("plugin `{}` failed in `{function}`{place}", self.plugin);
+                Diagnostic::new("plugin-failed", Fault::Input, message)
+            }
+            None => {
+                let message = format!("plugin `{}` cannot be used{place}", self.plugin);
+                Diagnostic::new("plugin-refused", Fault::Input, message)
+            }
         };
-        let diagnostic = Diagnostic::new(code, Fault::Input, message).because(&self.message);
+        let diagnostic = diagnostic.because(&self.message);
         match &self.hint {
             Some(hint) => diagnostic.hint(hint),
             None => diagnostic,

@@ -1,4 +1,4 @@
-//! Which backends this build can draw with, and how to get the others.
+//! Rendering backends of this build, and how to get the others.
 
 use cosfly_diagnose::{Diagnostic, Fault};
 use cosfly_render::{Backend, BackendError, BackendKind, Camera, PictureLook, Renderer};
@@ -35,7 +35,7 @@ pub fn open(kind: BackendKind, camera: Camera, look: PictureLook) -> Result<Box<
     Ok(Box::new(renderer))
 }
 
-/// What a user is told when drawing fails in the middle of a run.
+/// Diagnostic for drawing that fails in the middle of a run.
 pub fn failure(kind: BackendKind, error: &BackendError) -> Box<Diagnostic> {
     Diagnostic::new("render-backend", Fault::Machine, format!("backend `{}`: {}", kind.name(), error.message))
         .hint(&error.hint)

@@ -1,5 +1,5 @@
-//! How much of the target rays reach, hundreds of them: the figure's triangles against the town's boxes and other people
-//! in double precision, apart from all that the renderer does, so that its pixels can be held against it.
+//! Share of the target's body that hundreds of rays reach: the figure's triangles against the town's boxes and other
+//! people in double precision, without any code of the renderer, so that its pixels can be compared with it.
 
 use cosfly_frames::{DVec3, Pose};
 use cosfly_geometry::{BoxBvh, SpatialQuery};
@@ -7,26 +7,26 @@ use cosfly_render::{Bystander, Camera, TargetSetup, target_triangles, walker_tri
 
 /// Rays through the box around the body in the image; about half of them meet the body.
 const RAYS: f64 = 900.0;
-/// Two bodies whose middles are this far from one line of sight do not hide each other, metres.
+/// Distance from a line of sight to the middle of a body that cannot hide another one there, metres.
 const APART_M: f64 = 2.5;
 
 /// Casts rays; keeps its buffers from frame to frame.
 #[derive(Default)]
 pub struct BodyRays {
-    /// One over the planar depth of the body at each ray; 0 where it is not.
+    /// Inverse planar depth of the body at each ray, 1/m; 0 where the ray misses it.
     nearness: Vec<f64>,
-    /// The same of the people before it.
+    /// Inverse planar depth of the people in front of it, 1/m.
     nearness_of_others: Vec<f64>,
     points_in_world: Vec<DVec3>,
     blocked: Vec<bool>,
 }
 
-/// A corner in the image: u, v, one over planar depth.
+/// A corner in the image: u and v in pixels, inverse planar depth in 1/m.
 type Corner = [f64; 3];
 
 impl BodyRays {
-    /// Of the rays that meet the body inside the image, evenly spaced, the share that nothing blocks; `None` when none
-    /// meets it.
+    /// Share of unblocked rays among those, evenly spaced, that meet the body inside of the image; `None` where none meets
+    /// it.
     pub fn visible_share(
         &mut self,
         boxes: &BoxBvh,
@@ -63,7 +63,7 @@ impl BodyRays {
     }
 }
 
-/// Whether somebody may hide a part of the target from a point.
+/// True where a person may hide a part of the target from a point.
 fn is_before(other: &Bystander, eye_in_world: DVec3, target: &TargetSetup) -> bool {
     let away = |feet: DVec3, height_m: f64| feet + DVec3::Z * (0.5 * height_m) - eye_in_world;
     let to_target = away(target.state.feet_in_world, target.height_m);
@@ -72,7 +72,7 @@ fn is_before(other: &Bystander, eye_in_world: DVec3, target: &TargetSetup) -> bo
     (to_other - to_target * along.clamp(0.0, 1.0)).length() < APART_M
 }
 
-/// Places of rays in the image: the middles of square cells.
+/// Pixels of rays: the middles of square cells.
 struct Grid {
     left: f64,
     top: f64,
@@ -82,7 +82,7 @@ struct Grid {
 }
 
 impl Grid {
-    /// Over the part of the triangles' bounds that is in the image.
+    /// Grid over the part of the triangles' bounds that is in the image.
     fn around(triangles: &[[Corner; 3]], camera: &Camera) -> Option<Self> {
         let corners = || triangles.iter().flatten();
         let least = |axis: usize| corners().map(|corner| corner[axis]).fold(f64::INFINITY, f64::min).max(0.0);
@@ -108,7 +108,7 @@ impl Grid {
         self.top + (row as f64 + 0.5) * self.step
     }
 
-    /// Notes how near a triangle is at the rays through it, from either side.
+    /// Notes the inverse depth of a triangle, seen from either side, at the rays through it.
     fn meet(&self, [a, b, c]: &[Corner; 3], nearness: &mut [f64]) {
         let area = cross(a, b, c[0], c[1]);
         if area == 0.0 {
@@ -126,7 +126,7 @@ impl Grid {
                 let (u, v) = (self.u(column), self.v(row));
                 let shares = [cross(b, c, u, v) / area, cross(c, a, u, v) / area, cross(a, b, u, v) / area];
                 if shares.iter().all(|share| *share >= 0.0) {
-                    // One over planar depth is linear in the image.
+                    // Inverse planar depth is linear in the image.
                     let here = shares[0] * a[2] + shares[1] * b[2] + shares[2] * c[2];
                     let nearest = &mut nearness[row * self.columns + column];
                     *nearest = nearest.max(here);
@@ -136,7 +136,7 @@ impl Grid {
     }
 }
 
-/// Twice the area between an edge and a point of the image.
+/// Twice the signed area between an edge and a point of the image.
 fn cross(from: &Corner, to: &Corner, u: f64, v: f64) -> f64 {
     (to[0] - from[0]) * (v - from[1]) - (to[1] - from[1]) * (u - from[0])
 }

@@ -2,17 +2,16 @@
 
 use crate::ports::{self, CAPTIONS, TRAJECTORY};
 use crate::{codec, parameters, single};
+use cosfly_blobs::OutputSink;
 use cosfly_captions::{Caption as Text, CaptionConfig, captions, check, facts};
-use cosfly_dataset::{CaptionRecord, record::captions_to_bytes};
-use cosfly_diagnose::{Diagnostic, Fault, Result};
+use cosfly_diagnose::{Diagnostic, Fault, ParameterError, Result};
 use cosfly_frames::Seed;
 use cosfly_planner::PlanOutcome;
-use cosfly_stage::{
-    InputPort, Inputs, ItemRule, OutputSink, ParameterError, Produced, Stage, StageKind, StagePart, StageProperties,
-    TaskContext,
-};
+use cosfly_schema::CaptionRecord;
+use cosfly_schema::record::captions_to_bytes;
+use cosfly_stage::{InputPort, Inputs, ItemRule, Produced, Stage, StageKind, StagePart, StageProperties, TaskContext};
 
-/// The kind.
+/// Stage kind `caption`.
 pub struct Caption;
 
 impl StageKind for Caption {
@@ -64,11 +63,11 @@ impl Stage for CaptionStage {
             PlanOutcome::Planned(trajectory) => trajectory,
             PlanOutcome::Rejected { reason, .. } => {
                 outputs.put("captions", &captions_to_bytes(&[]))?;
-                return Ok(Produced { rejected: Some(reason), ..Produced::default() });
+                return Ok(Produced::rejected(reason));
             }
         };
         if trajectory.track.radius_m == 0.0 {
-            // Nobody is followed: the texts know how to speak of walkers only.
+            // The texts are about walkers only.
             outputs.put("captions", &captions_to_bytes(&[]))?;
             return Ok(Produced::default());
         }

@@ -1,4 +1,4 @@
-//! How models of the simulated world become blobs: one header line with kind and format version, then postcard.
+//! Encoding of models as blobs: one header line with kind and format version, then postcard.
 
 use cosfly_diagnose::{Diagnostic, Fault, Result};
 use serde::{Serialize, de::DeserializeOwned};
@@ -13,7 +13,7 @@ pub fn encode<T: Serialize>(artifact: &str, value: &T) -> Result<Vec<u8>> {
     Ok(bytes)
 }
 
-/// The value in a blob of `artifact`; another kind or format version is refused by name.
+/// Value in a blob of `artifact`; another kind or format version is refused by name.
 pub fn decode<T: DeserializeOwned>(artifact: &str, bytes: &[u8]) -> Result<T> {
     let header = format!("cosfly {artifact}\n");
     let Some(body) = bytes.strip_prefix(header.as_bytes()) else {

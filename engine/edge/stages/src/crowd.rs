@@ -1,27 +1,27 @@
-//! Everybody who is about while a flight is filmed: the walks at port `others`, on the flight's clock.
+//! Other people during a flight: the walks at port `others`, on the flight's clock.
 
 use crate::codec;
 use crate::ports::WALK;
 use crate::world::check_same_town;
-use cosfly_dataset::{OtherPerson, Sighting};
 use cosfly_diagnose::{Diagnostic, Fault, Result};
 use cosfly_fingerprint::Digest;
 use cosfly_frames::{Seed, TargetState, TargetTrack};
 use cosfly_pedestrians::PedestrianPath;
 use cosfly_render::effects::target_state_at;
 use cosfly_render::{Bystander, PersonView, Walker, gait_phase_rad};
+use cosfly_schema::{OtherPerson, Sighting};
 use cosfly_stage::Inputs;
 use std::sync::Arc;
 
-/// Who comes this near to the target at a frame would walk through it, metres: between the axes of two bodies.
+/// Distance between the axes of two bodies below which one would walk through the other, metres.
 const APART_M: f64 = 0.6;
 
-/// The people around one flight.
+/// Other people around one flight.
 pub struct Crowd {
     members: Vec<Member>,
-    /// How many walks were left out: they lead through the target.
+    /// Number of walks that were left out, because they lead through the target.
     pub left_out: usize,
-    /// The largest instance id that the pictures may hold.
+    /// Largest instance id that the pictures may hold.
     pub largest_instance: u32,
 }
 
@@ -33,8 +33,8 @@ struct Member {
 }
 
 impl Crowd {
-    /// The walks at port `others` beside the one that `target` walks. `largest_object` is the largest instance id of an
-    /// object: people come after it, numbered by their place at the port, so that they keep their ids in all flights.
+    /// The walks at port `others` without the target's own. `largest_object` is the largest instance id of an object:
+    /// people have the ids after it, by their place at the port, so that they keep them in all flights.
     pub fn around(inputs: &Inputs<'_>, target: &TargetTrack, largest_object: u32) -> Result<Self> {
         check_same_town(inputs, "others")?;
         let mut crowd = Self { members: vec![], left_out: 0, largest_instance: largest_object };
@@ -42,7 +42,7 @@ impl Crowd {
             let walk = inputs.decoded(artifact, "walk", |bytes| codec::decode::<PedestrianPath>(WALK, bytes))?;
             let track = &walk.track;
             if track.is_empty() || !(track.dt_s > 0.0 && track.dt_s.is_finite()) {
-                let message = format!("the walk `{}` has no steps", artifact.item);
+                let message = format!("the walk `{}` has no steps", artifact.name);
                 return Err(Diagnostic::new("crowd-walk", Fault::Input, message));
             }
             let instance = largest_object.saturating_add(place);
@@ -53,7 +53,7 @@ impl Crowd {
             let member = Member {
                 person: OtherPerson {
                     instance,
-                    walk_id: artifact.item.clone(),
+                    walk_id: artifact.name.to_string(),
                     height_m: track.height_m,
                     radius_m: track.radius_m,
                 },
@@ -69,12 +69,12 @@ impl Crowd {
         Ok(crowd)
     }
 
-    /// How many there are.
+    /// Number of people.
     pub fn len(&self) -> usize {
         self.members.len()
     }
 
-    /// Adds everybody at a time, seconds from the flight's first frame.
+    /// Adds all people at a time, seconds from the flight's first frame.
     pub fn at(&self, time_s: f64, list: &mut Vec<Bystander>) {
         list.extend(
             self.members
@@ -83,7 +83,7 @@ impl Crowd {
         );
     }
 
-    /// What is noted of those who are seen in a frame.
+    /// Sightings of the people who are seen in a frame.
     pub fn sightings(&self, frame: usize, time_s: f64, seen: &[PersonView]) -> impl Iterator<Item = Sighting> {
         seen.iter().filter_map(move |view| {
             let person = self.members.binary_search_by_key(&view.instance, |member| member.person.instance).ok()?;
@@ -92,20 +92,20 @@ impl Crowd {
         })
     }
 
-    /// Who is about, by instance id.
+    /// All people, by instance id.
     pub fn into_people(self) -> Vec<OtherPerson> {
         self.members.into_iter().map(|member| member.person).collect()
     }
 }
 
 impl Member {
-    /// The frame number of the walk at a time, within the walk.
+    /// Frame number of the walk at a time, within the walk.
     fn step(&self, time_s: f64) -> f64 {
         let last = (self.walk.track.len() - 1) as f64;
         (time_s / self.walk.track.dt_s).clamp(0.0, last)
     }
 
-    /// Who has arrived stands there.
+    /// State at a time, seconds; at the end of the walk the person stands still.
     fn state(&self, time_s: f64) -> TargetState {
         let (states, step) = (&self.walk.track.states, self.step(time_s));
         let state = target_state_at(states, step);
@@ -128,7 +128,7 @@ impl Member {
         }
     }
 
-    /// Whether they walk through a target with a body.
+    /// True where the person walks through a target with a body.
     fn meets(&self, target: &TargetTrack) -> bool {
         let near = |(frame, state): (usize, &TargetState)| {
             let feet = self.state(frame as f64 * target.dt_s).feet_in_world;
@@ -138,12 +138,12 @@ impl Member {
     }
 }
 
-/// Draws what a walker looks like, and the camera and weather of flights behind them.
+/// Seed of a walker's looks, and of the camera and weather of flights behind them.
 pub fn walk_seed(track: &TargetTrack) -> Result<Seed> {
     Ok(Seed(Digest::of(&codec::encode("walk-seed/1", track)?).0))
 }
 
-/// How far somebody has walked at each frame.
+/// Distance walked up to each frame, metres.
 pub fn walked_m(states: &[TargetState]) -> Vec<f64> {
     let mut sum_m = 0.0;
     let step_m = |frame: usize| match frame {

@@ -1,29 +1,29 @@
 //! `dataset`: one MCAP log per trajectory (part `logs`), then tables, manifest and card over all of them.
 
+use crate::planner_comparison::{self, ComparedFlight};
 use crate::plugins::stage::EXTRA;
 use crate::ports::{self, CAPTIONS, DATASET, EXTRAS, FRAMES, LOG};
 use crate::published_towns::PublishedTowns;
 use crate::rejections::{handed_on, rejection};
 use crate::world::world_of;
-use crate::{codec, parameters, planner_comparison};
-use cosfly_dataset::extras::Extra;
-use cosfly_dataset::splits::TownLayout;
-use cosfly_dataset::tables::ObjectRecord;
-use cosfly_dataset::{
-    CaptionRecord, DatasetConfig, DatasetSource, FramePackReader, LogRecord, PlannerRow, PreviewStrip, PublishedLog,
-    Rejection, RenderedTrajectory, record::captions_from_bytes, write_dataset, write_log,
-};
-use cosfly_diagnose::{Diagnostic, Fault, Result};
-use cosfly_render::Weather;
+use crate::{codec, parameters};
+use cosfly_blobs::{OutputSink, PassingFile};
+use cosfly_diagnose::{Diagnostic, Fault, ParameterError, Result};
+use cosfly_report::PlannerRow;
+use cosfly_schema::extras::Extra;
+use cosfly_schema::record::captions_from_bytes;
+use cosfly_schema::tables::ObjectRecord;
+use cosfly_schema::{CaptionRecord, DatasetConfig, LogRecord, PreviewStrip, Rejection, RenderedTrajectory, TownLayout};
 use cosfly_stage::{
-    Artifact, Fan, InputPort, Inputs, ItemRule, OutputSink, ParameterError, PassingFile, PortSource, Produced, Stage,
-    StageKind, StagePart, StageProperties, Takes, TaskContext,
+    Artifact, Fan, InputPort, Inputs, ItemName, ItemRule, PortSource, Produced, Stage, StageKind, StagePart,
+    StageProperties, Takes, TaskContext,
 };
+use cosfly_write::{DatasetSource, FramePackReader, PublishedLog, write_dataset, write_log};
 use std::collections::BTreeMap;
 use std::io::BufReader;
 use std::sync::Arc;
 
-/// The kind.
+/// Stage kind `dataset`.
 pub struct Dataset;
 
 impl StageKind for Dataset {
@@ -64,7 +64,7 @@ impl StageKind for Dataset {
         });
         let gather = StageProperties {
             kind: self.name().into(),
-            version: 5,
+            version: 6,
             parameters: parameters::canonical(&config),
             sources: vec![],
             inputs,
@@ -83,7 +83,7 @@ fn towns() -> InputPort {
     InputPort { fan: Fan::Gather, takes: Takes::Named, doc: "The towns that the pictures show.", ..ports::town() }
 }
 
-/// Pictures and captions of several towns; each flight is called after the stage that it comes from.
+/// Port of pictures of several towns; each flight is named after the stage that it comes from.
 fn frames(fan: Fan) -> InputPort {
     let doc = "The rendered trajectories, of one town or of several.";
     InputPort { fan, takes: Takes::Distinct, ..ports::each("frames", FRAMES, false, doc) }
@@ -141,14 +141,12 @@ impl Stage for DatasetStage {
     }
 
     fn run(&self, inputs: &Inputs<'_>, outputs: &mut dyn OutputSink, context: &TaskContext) -> Result<Produced> {
-        let captions: BTreeMap<&str, &Artifact> =
-            inputs.all("captions").iter().map(|artifact| (artifact.item.as_str(), artifact)).collect();
-        // At a port for many, items are called after their stage, too.
-        let item_of =
-            |artifact: &'_ Artifact| artifact.item.get(artifact.stage.len() + 1..).unwrap_or_default().to_owned();
-        let mut extras: BTreeMap<String, Vec<&Artifact>> = BTreeMap::new();
+        let captions: BTreeMap<&ItemName, &Artifact> =
+            inputs.all("captions").iter().map(|artifact| (&artifact.name, artifact)).collect();
+        // Extras are items of the same names as the frames that they were made of.
+        let mut extras: BTreeMap<&ItemName, Vec<&Artifact>> = BTreeMap::new();
         for artifact in inputs.all("extras").iter().filter(|artifact| artifact.blobs.contains_key(EXTRA)) {
-            extras.entry(item_of(artifact)).or_default().push(artifact);
+            extras.entry(&artifact.id.item).or_default().push(artifact);
         }
         let mut gathered = Gathered { inputs, towns: PublishedTowns::of(inputs)?, flights: vec![] };
         let (mut logs, mut rejections): (Vec<PublishedLog>, Vec<Rejection>) = (vec![], vec![]);
@@ -159,12 +157,13 @@ impl Stage for DatasetStage {
             }
             let record: Option<LogRecord> = codec::decode(LOG, &inputs.read(log, "log")?)?;
             let record = record.ok_or_else(|| {
-                Diagnostic::new("dataset-log", Fault::Bug, format!("the log of `{}` has no record", log.item))
+                Diagnostic::new("dataset-log", Fault::Bug, format!("the log of `{}` has no record", log.name))
             })?;
             logs.push(PublishedLog { record, blob: log.blobs["mcap"] });
-            let of_flight = || captions.get(flight_of_item(&frames.item)?);
-            let captions = captions.get(frames.item.as_str()).or_else(of_flight).copied();
-            let extras = extras.remove(&frames.item).unwrap_or_default();
+            // One weather of a paired rendering has the captions of its flight.
+            let of_flight = || captions.get(&frames.name.without_variant()?);
+            let captions = captions.get(&frames.name).or_else(of_flight).copied();
+            let extras = extras.remove(&frames.name).unwrap_or_default();
             gathered.flights.push(Flight { frames, log, captions, extras });
         }
         if logs.is_empty() {
@@ -183,12 +182,7 @@ impl Stage for DatasetStage {
     }
 }
 
-/// The item of which a paired rendering shows one weather, when its id says so.
-fn flight_of_item(item: &str) -> Option<&str> {
-    Weather::PRESETS.iter().find_map(|preset| item.strip_suffix(preset)?.strip_suffix('-'))
-}
-
-/// There is no dataset without a flight; the first reasons say what to change.
+/// Refusal of a dataset without a flight, with the first reasons.
 fn nothing_left(rejections: &[Rejection]) -> Box<Diagnostic> {
     let refusal =
         Diagnostic::new("dataset-empty", Fault::Input, "every trajectory was rejected: there is nothing to publish");
@@ -205,7 +199,7 @@ fn nothing_left(rejections: &[Rejection]) -> Box<Diagnostic> {
     refusal
 }
 
-/// The artifacts of one flight.
+/// Artifacts of one flight.
 struct Flight<'a> {
     frames: &'a Artifact,
     log: &'a Artifact,
@@ -213,7 +207,7 @@ struct Flight<'a> {
     extras: Vec<&'a Artifact>,
 }
 
-/// Everything that was gathered, read one flight at a time.
+/// Inputs of a dataset, read one flight at a time.
 struct Gathered<'a> {
     inputs: &'a Inputs<'a>,
     towns: PublishedTowns,
@@ -244,8 +238,9 @@ impl DatasetSource for Gathered<'_> {
 
     fn planners(&self, flights: &[usize]) -> Result<Vec<PlannerRow>> {
         let flights = flights.iter().map(|index| {
-            let world = world_of(self.inputs, self.flights[*index].frames)?;
-            Ok((self.trajectory(*index)?, world))
+            let frames = self.flights[*index].frames;
+            let planner = frames.name.stage().map(ToString::to_string).unwrap_or_default();
+            Ok(ComparedFlight { flight: self.trajectory(*index)?, world: world_of(self.inputs, frames)?, planner })
         });
         Ok(planner_comparison::compared(&flights.collect::<Result<Vec<_>>>()?))
     }

@@ -1,10 +1,11 @@
-//! What a `muco` stage plans from: its parameters, a town, a walk and its companions. For the stage itself, and for tools
-//! that ask the same expert again from another state.
+//! Expert of a `muco` stage: its parameters, a town, a walk and its companions. For the stage itself, and for tools that
+//! ask the same expert again from another state.
 
 use crate::parameters;
 use crate::plugins::config::ExpertPlugins;
 use crate::plugins::{DrawnReference, Plugins, Role, source};
 use crate::world::World;
+use cosfly_diagnose::ParameterError;
 use cosfly_frames::{Seed, TargetTrack};
 use cosfly_geometry::OrientedBox;
 use cosfly_maps::ObstacleKind;
@@ -15,26 +16,26 @@ use cosfly_planner::objectives::reference;
 use cosfly_planner::objectives::{Mission, Objective, ObjectiveConfig, Site, track};
 use cosfly_planner::weights::Preset;
 use cosfly_planner::{MucoConfig, PlanOutcome, StartState, TermCost, Trajectory, plan_request, visibility};
-use cosfly_stage::{ParameterError, Source};
+use cosfly_stage::Source;
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
-/// The parameters of a `muco` stage.
+/// Parameters of a `muco` stage.
 #[derive(Clone, Debug, Default)]
 pub struct Expert {
-    /// Wishes and limits.
+    /// Weights and limits.
     pub config: MucoConfig,
-    /// What flights are for.
+    /// Objective of the flights.
     pub objective: ObjectiveConfig,
     /// Cost terms and objective from plugins.
     pub plugins: ExpertPlugins,
 }
 
-/// A walk that may accompany another one: its id and track.
+/// A walk that may accompany another one: id and track.
 pub type Companion = (String, TargetTrack);
 
 impl Expert {
-    /// The schema of all parameters in one table.
+    /// Schema of all parameters in one table.
     pub fn schema() -> serde_json::Value {
         let own = parameters::merged_schema::<MucoConfig, ObjectiveConfig>();
         parameters::merged_into(own, parameters::schema_of::<ExpertPlugins>())
@@ -79,21 +80,21 @@ impl Expert {
         Ok(Self { config, objective, plugins })
     }
 
-    /// How many flights there are, where that is not the number of walkers.
+    /// Number of flights, where that is not the number of walkers.
     pub fn count(&self) -> Option<u64> {
         let of_plugin = self.plugins.plugin.as_ref().filter(|_| self.objective.objective == Objective::Plugin);
         of_plugin.map(|plugin| plugin.count).or_else(|| self.objective.count())
     }
 
-    /// The files of its plugins.
+    /// Files of its plugins.
     pub fn sources(&self) -> Vec<Source> {
         let settings = self.plugins.settings();
         let role = |parameter: &str| if parameter == "plugin" { Role::Objective } else { Role::Term };
         settings.iter().map(|(parameter, setting)| source(parameter, role(parameter), setting)).collect()
     }
 
-    /// The parameters with all defaults filled in: what goes into keys. What the objective does not read is left out, and
-    /// so is the number of flights, which is no ingredient of any one of them.
+    /// Parameters with all defaults filled in, for keys. Those that the objective does not read are left out, and so is the
+    /// number of flights, on which no single flight depends.
     pub fn canonical(&self) -> serde_json::Value {
         let mut all = parameters::canonical(&self.config);
         let plugins = parameters::canonical(&self.plugins.canonical());
@@ -119,11 +120,11 @@ impl Expert {
         all
     }
 
-    /// What is flown: behind `walk` and its companions, or what the objective draws from `seed`. `Err` inside is the reason why
+    /// Flight behind `walk` and its companions, or one that the objective draws from `seed`. `Err` inside is the reason why
     /// there is nothing to fly.
     ///
     /// # Errors
-    /// What a plugin did wrong.
+    /// Failures of a plugin.
     pub fn flight(
         &self,
         world: &Arc<World>,
@@ -180,7 +181,7 @@ impl Expert {
     }
 }
 
-/// Refuses what the planner that was chosen is known not to give.
+/// Refuses parameters that the chosen planner does not support.
 fn check_planner(config: &MucoConfig) -> Result<(), ParameterError> {
     let refuse = |path: &str, message: String, hint: &str| {
         Err(ParameterError { hint: Some(hint.to_owned()), ..parameters::refused_at(path, message) })
@@ -206,7 +207,7 @@ fn check_planner(config: &MucoConfig) -> Result<(), ParameterError> {
     Ok(())
 }
 
-/// The boxes of each building, by the building's number.
+/// Boxes of each building, by the building's number.
 fn buildings(world: &World) -> Vec<Vec<OrientedBox>> {
     let mut boxes: BTreeMap<u32, Vec<OrientedBox>> = BTreeMap::new();
     for obstacle in world.town.obstacles.iter().filter(|obstacle| obstacle.kind == ObstacleKind::Building) {
@@ -234,7 +235,7 @@ enum Purpose {
 
 /// One flight that can be planned, from its beginning or from any state.
 pub struct Flight {
-    /// What the planner is asked.
+    /// Task of the planner.
     pub mission: Mission,
     companion_ids: Vec<String>,
     companions: Vec<TargetTrack>,
@@ -245,11 +246,11 @@ pub struct Flight {
 }
 
 impl Flight {
-    /// The whole flight, and what plugins say that users are to read. An inspection lists what it has seen beside its costs,
-    /// as `coverage` of weight 0.
+    /// The whole flight, and warnings of plugins for users. An inspection lists its coverage beside its costs, as `coverage`
+    /// of weight 0.
     ///
     /// # Errors
-    /// What a plugin did wrong.
+    /// Failures of a plugin.
     pub fn plan(&self, world: &Arc<World>) -> cosfly_diagnose::Result<(PlanOutcome, Vec<String>)> {
         let (mut outcome, warnings) = self.plan_mission(world, &self.mission, &self.companions, None)?;
         if let (PlanOutcome::Planned(flight), Purpose::Walls(inspection)) = (&mut outcome, &self.purpose) {
@@ -263,10 +264,10 @@ impl Flight {
         Ok((outcome, warnings))
     }
 
-    /// The flight's rest from `frame` on, at most `frames` long, of a drone that is at `start` then.
+    /// Rest of the flight from `frame` on, at most `frames` long, of a drone that is at `start` then.
     ///
     /// # Errors
-    /// What a plugin did wrong.
+    /// Failures of a plugin.
     pub fn plan_from(
         &self,
         world: &Arc<World>,
@@ -304,7 +305,7 @@ impl Flight {
         Ok((outcome, after.warnings()?))
     }
 
-    /// What the summary says of the whole flight: notes by name, and warnings.
+    /// Notes by name, and warnings, about the whole flight.
     pub fn findings(&self, world: &World, flight: &Trajectory) -> (BTreeMap<String, String>, Vec<String>) {
         let mut notes = BTreeMap::new();
         let mut warnings = Vec::new();
@@ -347,7 +348,7 @@ impl Flight {
     }
 }
 
-/// How many waypoints are met, and which are not.
+/// Notes the number of waypoints that are met, and warns about the others.
 fn tell_met(shortfalls: &[f64], notes: &mut BTreeMap<String, String>, warnings: &mut Vec<String>) {
     let worst = shortfalls.iter().copied().fold(0.0, f64::max);
     let met = shortfalls.iter().filter(|miss| **miss <= MET_M).count();

@@ -2,17 +2,17 @@
 
 use crate::ports::{self, FRAMES};
 use crate::rejections::{handed_on, is_rejected, reject};
-use crate::world::link_town;
-use crate::world::{check_same_town, world};
+use crate::world::{check_same_town, link_town, world};
 use crate::{codec, parameters};
-use cosfly_dataset::{Rejection, RenderedTrajectory};
-use cosfly_diagnose::{Diagnostic, Fault, Result};
-use cosfly_doctor::{Episode, Gravity, checks, sources};
+use cosfly_blobs::OutputSink;
+use cosfly_diagnose::{Diagnostic, Fault, ParameterError, Result};
+use cosfly_doctor::{Episode, Severity, checks, sources};
 use cosfly_frames::Seed;
 use cosfly_maps::{ObstacleKind, Town};
+use cosfly_schema::{Rejection, RenderedTrajectory};
 use cosfly_stage::{
-    Artifact, Fan, InputPort, Inputs, ItemRule, OutputSink, ParameterError, PortSource, Produced, Stage, StageKind,
-    StagePart, StageProperties, TaskContext,
+    Artifact, Fan, InputPort, Inputs, ItemRule, PortSource, Produced, Stage, StageKind, StagePart, StageProperties,
+    TaskContext,
 };
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -20,7 +20,7 @@ use std::collections::BTreeMap;
 
 /// Artifact of the verdict over all flights.
 const VERDICT: &str = "verdict/1";
-/// Its blob.
+/// Blob of the verdict.
 const VERDICT_BLOB: &str = "verdict";
 
 /// Parameters of the `inspect` stage.
@@ -62,7 +62,7 @@ pub struct LossQuota {
     pub to_s: f64,
 }
 
-/// The kind.
+/// Stage kind `inspect`.
 pub struct Inspect;
 
 impl StageKind for Inspect {
@@ -107,7 +107,7 @@ impl StageKind for Inspect {
         let kept = StageProperties {
             kind: self.name().into(),
             version: 1,
-            // The verdict read them.
+            // Only the verdict reads parameters.
             parameters: serde_json::json!({}),
             sources: vec![],
             inputs,
@@ -122,7 +122,7 @@ impl StageKind for Inspect {
     }
 }
 
-/// Why items are left out, by item id.
+/// Reasons why items are left out, by name.
 type Verdict = BTreeMap<String, String>;
 
 struct VerdictStage {
@@ -146,14 +146,14 @@ impl Stage for VerdictStage {
             episode.vehicles.clone_from(&vehicles);
             let expert = record.pair.as_ref().map_or(&record.trajectory_id, |pair| &pair.expert_id);
             let family = families.entry(expert.clone()).or_default();
-            family.items.push(artifact.item.clone());
+            family.items.push(artifact.name.to_string());
             family.add(&episode, &self.config);
         }
         let mut drawn: Vec<(u64, Family)> = families
             .into_iter()
             .map(|(name, family)| (Seed(context.seed).child(&name, 0).stream("inspect").unit().to_bits(), family))
             .collect();
-        // Who is left out first is a draw from the family's own name: others do not change it.
+        // The order of leaving out is drawn from the family's own name: other families do not change it.
         drawn.sort_by_key(|(draw, _)| *draw);
         let families: Vec<Family> = drawn.into_iter().map(|(_, family)| family).collect();
         let verdict = decide(&families, &self.config)?;
@@ -177,9 +177,9 @@ fn vehicles(town: &Town) -> Vec<(cosfly_frames::DVec3, cosfly_frames::DVec3, f64
 #[derive(Clone, Debug, Default, PartialEq)]
 struct Family {
     items: Vec<String>,
-    /// Why, when there is a damage.
+    /// Damage, where there is one.
     damage: Option<String>,
-    /// Why, when it is imperfect.
+    /// Imperfection, where there is one.
     imperfection: Option<String>,
     /// Losses of all members, seconds.
     losses_s: Vec<f64>,
@@ -188,9 +188,9 @@ struct Family {
 impl Family {
     fn add(&mut self, episode: &Episode, config: &InspectConfig) {
         for flag in checks::of_episode(episode) {
-            let reason = match flag.gravity {
-                Gravity::Damage => &mut self.damage,
-                Gravity::Imperfect => &mut self.imperfection,
+            let reason = match flag.severity {
+                Severity::Damage => &mut self.damage,
+                Severity::Imperfect => &mut self.imperfection,
             };
             reason.get_or_insert_with(|| flag.to_string());
         }
@@ -214,7 +214,7 @@ impl Family {
     }
 }
 
-/// Leaves out damaged families, then imperfect ones beyond their share, then those that stand in the way of a quota.
+/// Leaves out damaged families, then imperfect ones beyond their share, then those that exceed a quota.
 fn decide(families: &[Family], config: &InspectConfig) -> Result<Verdict> {
     let mut verdict = Verdict::new();
     let mut leave = |family: &Family, reason: &str| {
@@ -279,14 +279,14 @@ impl Stage for KeepStage {
             return Ok(rejected);
         }
         let verdict: Verdict = codec::decode(VERDICT, &inputs.read(inputs.one("verdict")?, VERDICT_BLOB)?)?;
-        let Some(reason) = verdict.get(&frames.item) else {
+        let Some(reason) = verdict.get(&frames.name.to_string()) else {
             frames.blobs.iter().try_for_each(|(name, blob)| outputs.link(name, *blob))?;
             return Ok(Produced::default());
         };
         let record = record(inputs, frames)?;
         let rejection = Rejection {
             trajectory_id: record.trajectory_id,
-            stage: context.stage.clone(),
+            stage: context.id.stage.to_string(),
             pedestrian_id: record.pedestrian_id,
             town: record.town.name,
             reason: reason.clone(),

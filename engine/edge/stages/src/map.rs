@@ -3,16 +3,16 @@
 use crate::ports::TOWN;
 use crate::world::TOWN_BLOB;
 use crate::{codec, parameters, single};
-use cosfly_diagnose::{Diagnostic, Fault, Label, Result};
+use cosfly_blobs::OutputSink;
+use cosfly_diagnose::{Diagnostic, Fault, Label, ParameterError, Result};
 use cosfly_frames::Seed;
 use cosfly_maps::{MapConfig, MapError, read_town};
 use cosfly_stage::{
-    InputPort, Inputs, ItemRule, OutputSink, ParameterError, Produced, Source, Stage, StageKind, StagePart,
-    StageProperties, TaskContext,
+    InputPort, Inputs, ItemRule, Produced, Source, Stage, StageKind, StagePart, StageProperties, TaskContext,
 };
 use std::path::PathBuf;
 
-/// The kind.
+/// Stage kind `map`.
 pub struct Map;
 
 impl StageKind for Map {
@@ -45,7 +45,7 @@ impl StageKind for Map {
             }
         }
         let source = PathBuf::from(&config.source);
-        // The name is part of what the stage makes; where the file lies is not.
+        // The name is part of the stage's output; the path of the file is not.
         config.name = Some(match config.name.take() {
             Some(name) if is_plain(&name) => name,
             Some(name) => return Err(refused_name(&name)),
@@ -66,7 +66,7 @@ impl StageKind for Map {
     }
 }
 
-/// Names of towns become folders of the dataset and parts of its tables.
+/// True for names that can be folders of the dataset and values in its tables.
 fn is_plain(name: &str) -> bool {
     (1..=80).contains(&name.len())
         && !name.starts_with(['.', '-'])
@@ -134,7 +134,7 @@ impl Stage for MapStage {
     }
 }
 
-/// A map error as a diagnostic that points into the file, when it has a place.
+/// A map error as a diagnostic that points into the file, where it has a place.
 fn refusal(error: MapError, path: PathBuf, bytes: &[u8]) -> Box<Diagnostic> {
     let mut diagnostic = Diagnostic::new("map-refused", Fault::Input, error.message);
     diagnostic = match error.place {

@@ -1,4 +1,4 @@
-//! Something computed from one broadcast input, kept by a stage for all its items.
+//! A value computed from one broadcast input, kept by a stage for all its items.
 
 use cosfly_fingerprint::Digest;
 use std::sync::{Arc, Mutex, PoisonError};
@@ -13,7 +13,7 @@ impl<T> Default for Memo<T> {
 }
 
 impl<T> Memo<T> {
-    /// The value for `input`; `compute` runs at most once at a time, others wait for it.
+    /// Value for `input`; `compute` runs at most once at a time, others wait for it.
     pub fn get<E>(&self, input: Digest, compute: impl FnOnce() -> Result<T, E>) -> Result<Arc<T>, E> {
         let mut slot = self.0.lock().unwrap_or_else(PoisonError::into_inner);
         if let Some((digest, value)) = &*slot

@@ -5,18 +5,16 @@ use crate::plugins::Plugins;
 use crate::ports::{self, TRAJECTORY, WALK};
 use crate::world::{check_same_town, link_town, world};
 use crate::{codec, single};
-use cosfly_diagnose::{Diagnostic, Fault, Result};
+use cosfly_blobs::OutputSink;
+use cosfly_diagnose::{Diagnostic, Fault, ParameterError, Result};
 use cosfly_frames::{Seed, TargetTrack};
 use cosfly_pedestrians::PedestrianPath;
 use cosfly_planner::PlanOutcome;
 use cosfly_planner::objectives::Objective;
 use cosfly_planner::objectives::config::DT_S;
-use cosfly_stage::{
-    InputPort, Inputs, ItemRule, OutputSink, ParameterError, Produced, Stage, StageKind, StagePart, StageProperties,
-    TaskContext,
-};
+use cosfly_stage::{InputPort, Inputs, ItemRule, Produced, Stage, StageKind, StagePart, StageProperties, TaskContext};
 
-/// The kind.
+/// Stage kind `muco`.
 pub struct Muco;
 
 impl StageKind for Muco {
@@ -90,7 +88,7 @@ impl Stage for MucoStage {
             (None, vec![])
         };
         let plugins = Plugins::of_expert(&self.expert.plugins, &context.sources)?;
-        let plugins = plugins.for_item(format!("{}/{}", context.stage, context.item));
+        let plugins = plugins.for_item(context.id.to_string());
         let flight = self.expert.flight(&world, walk, companions, Seed(context.seed), plugins)?;
         let (outcome, findings) = match flight {
             Ok(flight) => {
@@ -126,32 +124,29 @@ impl MucoStage {
         check_same_town(inputs, "others")?;
         let own = inputs.one("paths")?;
         let mut others = vec![];
-        for artifact in inputs.all("others").iter().filter(|it| (&it.stage, &it.item) != (&own.stage, &own.item)) {
+        for artifact in inputs.all("others").iter().filter(|it| it.id != own.id) {
             let walk =
                 inputs.decoded(artifact, "walk", |bytes| codec::decode::<PedestrianPath>(WALK, bytes))?.track.clone();
             if (walk.len(), walk.dt_s) != (track.len(), track.dt_s) {
                 let message = format!(
-                    "`{}/{}` has {} steps of {} s, `{}/{}` has {} of {} s: they cannot be companions",
-                    artifact.stage,
-                    artifact.item,
+                    "`{}` has {} steps of {} s, `{}` has {} of {} s: they cannot be companions",
+                    artifact.id,
                     walk.len(),
                     walk.dt_s,
-                    own.stage,
-                    own.item,
+                    own.id,
                     track.len(),
                     track.dt_s
                 );
                 return Err(Diagnostic::new("companions-differ", Fault::Recipe, message)
                     .hint("connect `inputs.others` to walkers with the same `steps` and `dt_s`"));
             }
-            others.push((artifact.item.clone(), walk));
+            others.push((artifact.name.to_string(), walk));
         }
         if others.len() < count {
             let message = format!(
-                "`targets.companions` is {count}, but `inputs.others` brings {} walks beside `{}/{}`",
+                "`targets.companions` is {count}, but `inputs.others` brings {} walks beside `{}`",
                 others.len(),
-                own.stage,
-                own.item
+                own.id
             );
             return Err(Diagnostic::new("companions-few", Fault::Recipe, message)
                 .hint("raise the walkers' `count`, or ask for fewer companions"));
@@ -160,13 +155,13 @@ impl MucoStage {
     }
 }
 
-/// What the summary says of a trajectory.
+/// Notes or rejection of a trajectory.
 pub fn produced(outcome: &PlanOutcome) -> Produced {
     match outcome {
         PlanOutcome::Planned(trajectory) => Produced {
             notes: [("visibility".to_owned(), format!("{:.3}", trajectory.certificate.mean_visibility))].into(),
             ..Produced::default()
         },
-        PlanOutcome::Rejected { reason, .. } => Produced { rejected: Some(reason.clone()), ..Produced::default() },
+        PlanOutcome::Rejected { reason, .. } => Produced::rejected(reason),
     }
 }

@@ -1,25 +1,25 @@
-//! From a stage's checked JSON parameters to its config struct and back.
+//! Parameters of a stage: from checked JSON to the config struct and back.
 
-use cosfly_stage::ParameterError;
+use cosfly_diagnose::ParameterError;
 use schemars::{JsonSchema, generate::SchemaSettings};
 use serde::{Serialize, de::DeserializeOwned};
 
-/// The JSON Schema of a config struct.
+/// JSON Schema of a config struct.
 pub fn schema_of<T: JsonSchema>() -> serde_json::Value {
     SchemaSettings::draft2020_12().into_generator().into_root_schema_for::<T>().to_value()
 }
 
-/// The config struct; the schema was checked before, so an error here is a rule that the schema cannot say.
+/// Config struct of checked parameters; an error here is a rule that the schema cannot express.
 pub fn read<T: DeserializeOwned>(parameters: serde_json::Value) -> Result<T, ParameterError> {
     serde_json::from_value(parameters).map_err(|error| refused_at("", error.to_string()))
 }
 
-/// The parameters with all defaults filled in: what goes into keys.
+/// Parameters with all defaults filled in, for keys.
 pub fn canonical<T: Serialize>(config: &T) -> serde_json::Value {
     serde_json::to_value(config).expect("configs are plain JSON values")
 }
 
-/// The schema of `A` with one more property, `key`, that holds a `B`: two rooms' configs in one table of a recipe.
+/// Schema of `A` with one more property, `key`, that holds a `B`: configs of two rooms in one table of a recipe.
 pub fn joined_schema<A: JsonSchema, B: JsonSchema>(key: &str) -> serde_json::Value {
     let (mut outer, mut inner) = (schema_of::<A>(), schema_of::<B>());
     for meta in ["$schema", "title"] {
@@ -35,7 +35,7 @@ pub fn joined_schema<A: JsonSchema, B: JsonSchema>(key: &str) -> serde_json::Val
     outer
 }
 
-/// Reads what [`joined_schema`] describes; a missing `key` gives `B`'s defaults.
+/// Reads parameters of the form of [`joined_schema`]; a missing `key` gives `B`'s defaults.
 pub fn read_joined<A: DeserializeOwned, B: DeserializeOwned + Default>(
     mut parameters: serde_json::Value,
     key: &str,
@@ -44,14 +44,14 @@ pub fn read_joined<A: DeserializeOwned, B: DeserializeOwned + Default>(
     Ok((read(parameters)?, inner.map(read).transpose()?.unwrap_or_default()))
 }
 
-/// [`canonical`] of what [`joined_schema`] describes.
+/// [`canonical`] parameters of the form of [`joined_schema`].
 pub fn joined_canonical<A: Serialize, B: Serialize>(outer: &A, inner: &B, key: &str) -> serde_json::Value {
     let mut all = canonical(outer);
     all[key] = canonical(inner);
     all
 }
 
-/// The schema of `A` and `B` side by side in one table; their properties have different names.
+/// Schema of `A` and `B` side by side in one table; their properties have different names.
 pub fn merged_schema<A: JsonSchema, B: JsonSchema>() -> serde_json::Value {
     merged_into(schema_of::<A>(), schema_of::<B>())
 }
@@ -67,7 +67,7 @@ pub fn merged_into(mut all: serde_json::Value, mut more: serde_json::Value) -> s
     all
 }
 
-/// Reads what [`merged_schema`] describes.
+/// Reads parameters of the form of [`merged_schema`].
 pub fn read_merged<A: DeserializeOwned, B: DeserializeOwned + JsonSchema>(
     mut parameters: serde_json::Value,
 ) -> Result<(A, B), ParameterError> {

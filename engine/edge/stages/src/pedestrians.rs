@@ -4,15 +4,13 @@ use crate::memo::Memo;
 use crate::ports::{self, WALK};
 use crate::world::{link_town, world};
 use crate::{codec, parameters, single};
-use cosfly_diagnose::{Diagnostic, Fault, Result};
+use cosfly_blobs::OutputSink;
+use cosfly_diagnose::{Diagnostic, Fault, ParameterError, Result};
 use cosfly_frames::Seed;
 use cosfly_pedestrians::{PedestrianConfig, PedestrianError, WalkableGrid, walk};
-use cosfly_stage::{
-    InputPort, Inputs, ItemRule, OutputSink, ParameterError, Produced, Stage, StageKind, StagePart, StageProperties,
-    TaskContext,
-};
+use cosfly_stage::{InputPort, Inputs, ItemRule, Produced, Stage, StageKind, StagePart, StageProperties, TaskContext};
 
-/// The kind.
+/// Stage kind `pedestrians`.
 pub struct Pedestrians;
 
 impl StageKind for Pedestrians {
@@ -37,7 +35,7 @@ impl StageKind for Pedestrians {
         config.check().map_err(|rule| parameters::refused_at(&rule.path.join("."), rule.message))?;
         let count = config.count;
         let mut canonical = parameters::canonical(&config);
-        // How many are asked for is not an ingredient of any one of them.
+        // No single walk depends on the number of walks.
         canonical.as_object_mut().expect("a table").remove("count");
         let properties = StageProperties {
             kind: self.name().into(),

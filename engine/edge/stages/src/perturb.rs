@@ -4,16 +4,14 @@ use crate::muco::produced;
 use crate::ports::{self, TRAJECTORY};
 use crate::world::{check_same_town, link_town, world};
 use crate::{codec, parameters, single};
-use cosfly_diagnose::Result;
+use cosfly_blobs::OutputSink;
+use cosfly_diagnose::{ParameterError, Result};
 use cosfly_frames::Seed;
 use cosfly_planner::PlanOutcome;
 use cosfly_planner::perturb::{PerturbConfig, perturb};
-use cosfly_stage::{
-    InputPort, Inputs, ItemRule, OutputSink, ParameterError, Produced, Stage, StageKind, StagePart, StageProperties,
-    TaskContext,
-};
+use cosfly_stage::{InputPort, Inputs, ItemRule, Produced, Stage, StageKind, StagePart, StageProperties, TaskContext};
 
-/// The kind.
+/// Stage kind `perturb`.
 pub struct Perturb;
 
 impl StageKind for Perturb {
@@ -65,8 +63,8 @@ impl Stage for PerturbStage {
         let world = world(inputs)?;
         let artifact = inputs.one("trajectories")?;
         let expert: PlanOutcome = codec::decode(TRAJECTORY, &inputs.read(artifact, "trajectory")?)?;
-        // The id under which the expert is published (see `Fan::Each` ports that take many stages).
-        let expert_id = format!("{}-{}", artifact.stage, artifact.item);
+        // The expert is published under this name (see `Takes::Named`).
+        let expert_id = artifact.id.item.of_stage(&artifact.id.stage).to_string();
         let twin = match expert {
             PlanOutcome::Planned(expert) => {
                 perturb(&expert, &expert_id, &world.exact, &self.config, Seed(context.seed))

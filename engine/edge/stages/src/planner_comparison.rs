@@ -1,7 +1,6 @@
-//! Other planners on the walks of published flights, measured like them: the comparison in a dataset's report.
+//! Comparison of planners in a dataset's report: others on the walks of published flights, measured like them.
 
 use crate::world::World;
-use cosfly_dataset::{PlannerRow, RenderedTrajectory};
 use cosfly_frames::{DVec3, Seed, TargetTrack};
 use cosfly_planner::baselines::{Baseline, BaselineInput, BaselinePath, flyable::made_flyable, plan_baseline};
 use cosfly_planner::certificate::{certify, term_costs};
@@ -12,15 +11,17 @@ use cosfly_planner::problem::Problem;
 use cosfly_planner::terms::built_in_terms;
 use cosfly_planner::walk::Walk;
 use cosfly_planner::{Certificate, Limits, MucoConfig, PlanOutcome, WeightedTerm, plan};
+use cosfly_report::PlannerRow;
+use cosfly_schema::RenderedTrajectory;
 use std::collections::BTreeSet;
 use std::sync::Arc;
 
-/// Frames of a walk that are planned anew, as many as the paper has on average: A* takes a second on so many.
+/// Frames of a walk that are planned again, as many as the paper has on average: A* takes a second on so many.
 const MOST_FRAMES: usize = 200;
-/// A walk that is not so long has nobody who walks, metres.
+/// Length of a walk below which the person stands, metres.
 const LEAST_WAY_M: f64 = 1.0;
 
-/// Who plans, and the name in the table.
+/// Other planners, and their names in the table.
 const OTHERS: [(Other, &str); 5] = [
     (Other::Behind, "straight behind, blind"),
     (Other::Astar, "A*"),
@@ -38,15 +39,24 @@ enum Other {
     Cosfly,
 }
 
-/// The published flights and what others make of their walks, all measured against the unsimplified town of each flight.
-/// Others get the default wishes and the limits of the flight's certificate.
-pub fn compared(flights: &[(RenderedTrajectory, Arc<World>)]) -> Vec<PlannerRow> {
+/// A published flight, for the comparison.
+pub struct ComparedFlight {
+    /// The flight.
+    pub flight: RenderedTrajectory,
+    /// Town that it was planned in.
+    pub world: Arc<World>,
+    /// Name of the stage that planned it.
+    pub planner: String,
+}
+
+/// Rows for the published flights and for other planners on their walks, all measured against the unsimplified town of
+/// each flight. Others have the default weights and the limits of the flight's certificate.
+pub fn compared(flights: &[ComparedFlight]) -> Vec<PlannerRow> {
     let mut published: Vec<Column> = vec![];
     let mut others: Vec<Column> = OTHERS.iter().map(|(_, name)| Column::new((*name).to_owned())).collect();
     let mut followed = BTreeSet::new();
-    for (flight, world) in flights.iter().filter(|(flight, _)| walks(flight)) {
-        let stage = flight.flight_id.strip_suffix(&flight.pedestrian_id).unwrap_or(&flight.flight_id);
-        let name = format!("as published (`{}`)", stage.trim_end_matches(['-', '.']));
+    for ComparedFlight { flight, world, planner } in flights.iter().filter(|it| walks(&it.flight)) {
+        let name = format!("as published (`{planner}`)");
         let place = published.iter().position(|column| column.name == name).unwrap_or(published.len());
         if place == published.len() {
             published.push(Column::new(name));
@@ -64,7 +74,7 @@ pub fn compared(flights: &[(RenderedTrajectory, Arc<World>)]) -> Vec<PlannerRow>
     }
     let published: Vec<PlannerRow> = published.into_iter().map(Column::row).collect();
     let anew = others.into_iter().map(Column::row);
-    // Published flights of the default planner are the same when they are planned anew.
+    // Published flights of the default planner are the same when they are planned again.
     let is_new = |row: &PlannerRow| published.iter().all(|it| (it.length_m, it.visible) != (row.length_m, row.visible));
     let anew: Vec<PlannerRow> = anew.filter(is_new).collect();
     let rows = [published, anew].concat();
@@ -129,7 +139,7 @@ impl<'a> Task<'a> {
         plan_baseline(kind, &self.input(&self.problem()))
     }
 
-    /// One waypoint per frame, or why there are none. A* comes searched.
+    /// One waypoint per frame, or the reason why there are none. The result of A* is given.
     fn by(&self, other: Other, astar: &Result<BaselinePath, String>) -> Result<Vec<DVec3>, String> {
         match other {
             Other::Behind => Ok(self.straight_behind()),
@@ -149,7 +159,7 @@ impl<'a> Task<'a> {
         }
     }
 
-    /// Always at the best distance and pitch behind the walker, whatever stands there.
+    /// Waypoints at the best distance and pitch behind the walker, through any obstacle.
     fn straight_behind(&self) -> Vec<DVec3> {
         let (sin, cos) = cosfly_frames::real::sin_cos(self.config.view.pitch_deg.to_radians());
         let mut back = DVec3::NEG_X;
@@ -163,7 +173,7 @@ impl<'a> Task<'a> {
     }
 }
 
-/// What becomes a row.
+/// Measurements for one row.
 struct Column {
     name: String,
     asked: u64,
@@ -171,7 +181,7 @@ struct Column {
     refusal: Option<String>,
 }
 
-/// A flight in figures.
+/// Measurement of one flight.
 struct Measure {
     certificate: Certificate,
     costs: Vec<(String, f64)>,

@@ -1,4 +1,4 @@
-//! The inputs that built-in stages share, declared once.
+//! Ports that built-in stages share, declared once.
 
 use cosfly_stage::{Fan, InputPort, PortSource, Takes};
 
@@ -14,12 +14,12 @@ pub const FRAMES: &str = "frames/1";
 pub const CAPTIONS: &str = "captions/1";
 /// Artifact of a trajectory's MCAP log.
 pub const LOG: &str = "log/1";
-/// Artifact of what a plugin gave of a trajectory.
+/// Artifact of extras that a plugin made of a trajectory.
 pub const EXTRAS: &str = "extras/1";
 /// Artifact of a whole dataset.
 pub const DATASET: &str = "dataset/1";
 
-/// The town that everything happens in.
+/// Port of the town.
 pub fn town() -> InputPort {
     InputPort {
         name: "town",
@@ -42,7 +42,7 @@ pub fn gather(name: &'static str, artifact: &'static str, many: bool, doc: &'sta
     InputPort { name, artifact, fan: Fan::Gather, takes: takes(many), optional: false, source: PortSource::Recipe, doc }
 }
 
-/// One stage, or several whose items are named after them.
+/// One stage, or several with items named after them.
 fn takes(many: bool) -> Takes {
     if many { Takes::Named } else { Takes::One }
 }

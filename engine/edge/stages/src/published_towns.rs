@@ -1,17 +1,17 @@
-//! The towns of a dataset: which of them a flight is in, and what its tables say of them.
+//! Towns of a dataset: the one of each flight, and their tables.
 
 use crate::codec;
 use crate::ports::TOWN;
 use crate::world::TOWN_BLOB;
-use cosfly_dataset::splits::TownLayout;
-use cosfly_dataset::tables::ObjectRecord;
 use cosfly_diagnose::{Diagnostic, Fault, Result};
 use cosfly_maps::Town;
+use cosfly_schema::TownLayout;
+use cosfly_schema::tables::ObjectRecord;
 use cosfly_stage::{Artifact, Inputs};
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
-/// The towns at port `town` of a dataset, each once.
+/// Towns at port `town` of a dataset, each once.
 pub struct PublishedTowns(Vec<PublishedTown>);
 
 struct PublishedTown {
@@ -21,10 +21,10 @@ struct PublishedTown {
 }
 
 impl PublishedTowns {
-    /// Reads the towns and holds them against those that the pictures at port `frames` show.
+    /// Reads the towns and compares them with those that the pictures at port `frames` show.
     ///
     /// # Errors
-    /// `towns-same-name`, `towns-differ`, `town-without-pictures`, or what cannot be read.
+    /// `towns-same-name`, `towns-differ`, `town-without-pictures`, or failures of reading.
     pub fn of(inputs: &Inputs<'_>) -> Result<Self> {
         let mut towns: BTreeMap<String, PublishedTown> = BTreeMap::new();
         for artifact in inputs.all("town") {
@@ -53,7 +53,7 @@ impl PublishedTowns {
         Ok(objects)
     }
 
-    /// The ground plan of the town that `frames` show.
+    /// Ground plan of the town that `frames` show.
     pub fn layout(&self, frames: &Artifact) -> Result<Arc<TownLayout>> {
         self.town_of(frames).map(|town| Arc::clone(&town.layout)).ok_or_else(|| self.elsewhere(frames))
     }
@@ -62,7 +62,7 @@ impl PublishedTowns {
         self.0.iter().find(|town| town.artifact.blobs.get(TOWN_BLOB) == frames.blobs.get(TOWN_BLOB))
     }
 
-    /// All pictures show a town that is connected, and all towns are shown.
+    /// Refuses pictures of a town that is not connected, and towns without pictures.
     fn check_pictures(&self, inputs: &Inputs<'_>) -> Result<()> {
         let frames = inputs.all("frames");
         if let Some(stray) = frames.iter().find(|artifact| self.town_of(artifact).is_none()) {
@@ -74,7 +74,7 @@ impl PublishedTowns {
         match self.0.iter().find(|town| !is_shown(town)) {
             None => Ok(()),
             Some(town) => {
-                let stage = &town.artifact.stage;
+                let stage = &town.artifact.id.stage;
                 let message = format!("`{stage}` is connected to `inputs.town`, but no picture shows that town");
                 Err(Diagnostic::new("town-without-pictures", Fault::Recipe, message).hint(format!(
                     "connect the pictures that were taken in `{}` to `inputs.frames`, or leave `{stage}` out",
@@ -85,13 +85,9 @@ impl PublishedTowns {
     }
 
     fn elsewhere(&self, frames: &Artifact) -> Box<Diagnostic> {
-        let stages: Vec<String> = self.0.iter().map(|town| format!("`{}`", town.artifact.stage)).collect();
-        let message = format!(
-            "`{}/{}` was made in another town than {}, connected to `inputs.town`",
-            frames.stage,
-            frames.item,
-            stages.join(", ")
-        );
+        let stages: Vec<String> = self.0.iter().map(|town| format!("`{}`", town.artifact.id.stage)).collect();
+        let message =
+            format!("`{}` was made in another town than {}, connected to `inputs.town`", frames.id, stages.join(", "));
         Diagnostic::new("towns-differ", Fault::Recipe, message)
             .hint("connect to `inputs.town` the `map` stage of every town that `inputs.frames` shows")
     }
@@ -101,9 +97,10 @@ fn read(inputs: &Inputs<'_>, artifact: &Artifact) -> Result<Town> {
     codec::decode(TOWN, &inputs.read(artifact, TOWN_BLOB)?)
 }
 
-/// Tables and folders tell towns apart by their names.
+/// Refusal of two towns with one name, which tables and folders could not tell apart.
 fn same_name(name: &str, a: &Artifact, b: &Artifact) -> Box<Diagnostic> {
-    let message = format!("`{}` and `{}` are two different towns, and both are called `{name}`", a.stage, b.stage);
+    let (a, b) = (&a.id.stage, &b.id.stage);
+    let message = format!("`{a}` and `{b}` are two different towns, and both are called `{name}`");
     Diagnostic::new("towns-same-name", Fault::Recipe, message)
-        .hint(format!("give one of them a name of its own: `name = \"{name}_2\"` in `[stages.{}]`", b.stage))
+        .hint(format!("give one of them a name of its own: `name = \"{name}_2\"` in `[stages.{b}]`"))
 }

@@ -1,4 +1,4 @@
-//! What stages made, read back by tools that are no stages.
+//! Results of stages, read back by other tools.
 
 use crate::codec;
 use crate::ports::{TOWN, TRAJECTORY, WALK};
@@ -14,15 +14,15 @@ pub const WALK_BLOB: &str = "walk";
 /// Name of the blob of a `muco` or `perturb` item that holds the trajectory.
 pub const TRAJECTORY_BLOB: &str = "trajectory";
 
-/// The town in a blob named [`TOWN_BLOB`].
+/// Town in a blob named [`TOWN_BLOB`].
 ///
 /// # Errors
-/// When the bytes are of another kind or format version, or broken.
+/// Bytes of another kind or format version, and broken ones.
 pub fn town(bytes: &[u8]) -> Result<Town> {
     codec::decode(TOWN, bytes)
 }
 
-/// The walk in a blob named [`WALK_BLOB`].
+/// Walk in a blob named [`WALK_BLOB`].
 ///
 /// # Errors
 /// As [`town`].
@@ -30,7 +30,7 @@ pub fn walk(bytes: &[u8]) -> Result<PedestrianPath> {
     codec::decode(WALK, bytes)
 }
 
-/// The trajectory in a blob named [`TRAJECTORY_BLOB`], or why there is none.
+/// Trajectory in a blob named [`TRAJECTORY_BLOB`], or the reason why there is none.
 ///
 /// # Errors
 /// As [`town`].

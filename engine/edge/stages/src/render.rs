@@ -7,10 +7,8 @@ use crate::ports::{self, FRAMES, TRAJECTORY, WALK};
 use crate::rejections::reject;
 use crate::world::{TOWN_BLOB, World, check_same_town, link_town, world};
 use crate::{backends, codec, parameters, single};
-use cosfly_dataset::frame_pack::{FramePackWriter, PackHeader};
-use cosfly_dataset::tables::kind_name;
-use cosfly_dataset::{EncodingConfig, PairInfo, Rejection, RenderedTrajectory, Role, Sighting, TownInfo};
-use cosfly_diagnose::Result;
+use cosfly_blobs::OutputSink;
+use cosfly_diagnose::{ParameterError, Result};
 use cosfly_frames::{Pose, Seed};
 use cosfly_geometry::SpatialQuery;
 use cosfly_planner::{PlanOutcome, Trajectory};
@@ -20,14 +18,16 @@ use cosfly_render::{
     Backend, Bystander, Camera, Effects, Moment, Mount, RenderConfig, Scene, Shot, TargetSetup, TargetView, Weather,
     gait_phase_rad,
 };
+use cosfly_schema::tables::kind_name;
+use cosfly_schema::{EncodingConfig, PairInfo, Rejection, RenderedTrajectory, Role, Sighting, TownInfo};
 use cosfly_stage::{
-    Artifact, InputPort, Inputs, ItemRule, OutputSink, ParameterError, Produced, Stage, StageKind, StagePart,
-    StageProperties, TaskContext,
+    InputPort, Inputs, ItemName, ItemRule, Produced, Stage, StageKind, StagePart, StageProperties, TaskContext,
 };
+use cosfly_write::frame_pack::{FramePackWriter, PackHeader};
 use std::collections::{BTreeMap, BTreeSet};
 use std::sync::{Mutex, PoisonError};
 
-/// The kind.
+/// Stage kind `render`.
 pub struct Render;
 
 impl StageKind for Render {
@@ -80,8 +80,8 @@ impl StageKind for Render {
     }
 }
 
-/// The parameters that go into keys. A paired item is named after its own weather and reads no other: one more weather
-/// renders no old one anew.
+/// Parameters for keys. A paired item is named after its own weather and reads no other: one more weather renders no old
+/// one again.
 fn canonical(config: &RenderConfig, encoding: &EncodingConfig) -> serde_json::Value {
     let mut all = parameters::joined_canonical(config, encoding, "encoding");
     if let Some(table) = all.as_object_mut().filter(|_| config.paired_weathers) {
@@ -110,17 +110,13 @@ impl Stage for RenderStage {
         let artifact = inputs.one("trajectories")?;
         let world = world(inputs)?;
         let outcome: PlanOutcome = codec::decode(TRAJECTORY, &inputs.read(artifact, "trajectory")?)?;
-        let outcome = match outcome {
-            PlanOutcome::Planned(flight) => camera_inside(&world, &flight.poses_in_world).map_or(Ok(flight), Err),
-            PlanOutcome::Rejected { reason, .. } => Err(reason),
-        };
-        let trajectory = match outcome {
+        let trajectory = match filmable(&world, outcome) {
             Ok(trajectory) => *trajectory,
             Err(reason) => {
                 let rejection = Rejection {
-                    trajectory_id: context.item.clone(),
-                    stage: artifact.stage.clone(),
-                    pedestrian_id: pedestrian_of(artifact).to_owned(),
+                    trajectory_id: context.id.item.to_string(),
+                    stage: artifact.id.stage.to_string(),
+                    pedestrian_id: artifact.id.item.to_string(),
                     town: world.town.name.clone(),
                     reason,
                 };
@@ -129,35 +125,27 @@ impl Stage for RenderStage {
         };
         let town_digest = inputs.one("town")?.blobs[TOWN_BLOB].digest;
         // Buildings look the same in every flight through the town.
-        let scene = self.scene.get(town_digest, || {
-            Ok::<_, Box<cosfly_diagnose::Diagnostic>>(Scene::new(&world.town, Seed(town_digest.0)))
-        })?;
+        let scene =
+            self.scene.get(town_digest, || -> Result<_> { Ok(Scene::new(&world.town, Seed(town_digest.0))) })?;
         // Twins follow the same walk: same clothes, same weather, same camera.
-        let walk_seed = walk_seed(&trajectory.track)?;
-        let preset = variant_of(artifact, context);
-        let shooting = Shooting {
-            camera: self.config.draw_camera(&walk_seed),
-            mount: self.config.draw_mount(&walk_seed),
-            weather: match preset {
-                Some(preset) => self.config.weather_called(preset, &walk_seed),
-                None => self.config.draw_weather(&walk_seed),
-            },
-            walk_seed,
-        };
+        let preset = context.id.item.variant().filter(|_| self.config.paired_weathers);
+        let shooting = self.shooting(walk_seed(&trajectory.track)?, preset);
         let ids = world.town.obstacles.iter().map(|obstacle| object_instance(obstacle.object_id));
         let crowd = Crowd::around(inputs, &trajectory.track, ids.max().unwrap_or(TARGET_INSTANCE))?;
         let place = Place { scene: &scene, world: &world, crowd: &crowd };
         let seen = self.draw(outputs, context, &place, &trajectory, &shooting)?;
         let notes = notes_of(&crowd, &seen.sightings);
-        let pedestrian_id = pedestrian_of(artifact).to_owned();
-        // The expert is published in the same weather.
-        let expert_id = |expert: &str| preset.map_or(expert.to_owned(), |preset| format!("{expert}-{preset}"));
-        let pair = trajectory.perturbation.as_ref().map(|twin| PairInfo { expert_id: expert_id(&twin.expert_item) });
+        let pair = trajectory.perturbation.as_ref().map(|twin| {
+            let expert = ItemName::own(twin.expert_item.as_str());
+            // The expert is published in the same weather.
+            PairInfo { expert_id: preset.map_or(expert.clone(), |preset| expert.with_variant(preset)).to_string() }
+        });
         let record = RenderedTrajectory {
-            trajectory_id: context.item.clone(),
-            flight_id: artifact.item.clone(),
+            trajectory_id: context.id.item.to_string(),
+            flight_id: artifact.name.to_string(),
             role: if pair.is_some() { Role::Perturbed } else { Role::Expert },
-            pedestrian_id,
+            // A trajectory has the name of the walk that it follows.
+            pedestrian_id: artifact.id.item.to_string(),
             town: TownInfo::of(&world.town, town_digest),
             trajectory,
             camera: shooting.camera,
@@ -179,7 +167,15 @@ impl Stage for RenderStage {
     }
 }
 
-/// Why a flight cannot be filmed: a camera in a wall would look out through it.
+/// The flight, or the reason why it cannot be filmed.
+fn filmable(world: &World, outcome: PlanOutcome) -> Result<Box<Trajectory>, String> {
+    match outcome {
+        PlanOutcome::Planned(flight) => camera_inside(world, &flight.poses_in_world).map_or(Ok(flight), Err),
+        PlanOutcome::Rejected { reason, .. } => Err(reason),
+    }
+}
+
+/// Reason why a flight cannot be filmed: a camera in a wall would look out through it.
 fn camera_inside(world: &World, poses: &[Pose]) -> Option<String> {
     poses.iter().enumerate().find_map(|(frame, pose)| {
         let nearest = world.exact.nearest(pose.position_in_world, 0.0).filter(|nearest| nearest.distance_m < 0.0)?;
@@ -189,7 +185,7 @@ fn camera_inside(world: &World, poses: &[Pose]) -> Option<String> {
     })
 }
 
-/// Who was seen.
+/// Views of the target, and people who were seen.
 #[derive(Default)]
 struct SeenPeople {
     views: Vec<TargetView>,
@@ -197,7 +193,7 @@ struct SeenPeople {
     sightings: Vec<Sighting>,
 }
 
-/// What the summary says of the people around.
+/// Notes about the people around.
 fn notes_of(crowd: &Crowd, sightings: &[Sighting]) -> BTreeMap<String, String> {
     if crowd.len() + crowd.left_out == 0 {
         return BTreeMap::new();
@@ -209,14 +205,14 @@ fn notes_of(crowd: &Crowd, sightings: &[Sighting]) -> BTreeMap<String, String> {
     BTreeMap::from([("others".to_owned(), words)])
 }
 
-/// Where a flight is filmed, and who else is there.
+/// Scene, town and people of a flight.
 struct Place<'a> {
     scene: &'a Scene,
     world: &'a World,
     crowd: &'a Crowd,
 }
 
-/// What all frames of a flight have in common.
+/// Settings that all frames of a flight share.
 struct Shooting {
     camera: Camera,
     mount: Mount,
@@ -224,7 +220,7 @@ struct Shooting {
     walk_seed: Seed,
 }
 
-/// The camera that films, with what it films through.
+/// A camera with its effects and backend.
 struct Rig {
     camera: Camera,
     effects: Effects,
@@ -232,8 +228,18 @@ struct Rig {
 }
 
 impl RenderStage {
-    /// Renders frame by frame into the `pack` blob; memory does not grow with the number of frames. Gives how the target
-    /// looks in each frame, and how much of it rays reach.
+    /// Camera, mount and weather of a flight behind the walk with this seed; the weather is `preset` where that is given.
+    fn shooting(&self, walk_seed: Seed, preset: Option<&str>) -> Shooting {
+        let weather = match preset {
+            Some(preset) => self.config.weather_called(preset, &walk_seed),
+            None => self.config.draw_weather(&walk_seed),
+        };
+        let (camera, mount) = (self.config.draw_camera(&walk_seed), self.config.draw_mount(&walk_seed));
+        Shooting { camera, mount, weather, walk_seed }
+    }
+
+    /// Renders frame by frame into the `pack` blob; memory does not grow with the number of frames. Gives the views of the
+    /// target in each frame, and the share of it that rays reach.
     fn draw(
         &self,
         outputs: &mut dyn OutputSink,
@@ -267,7 +273,7 @@ impl RenderStage {
                         gait_phase_rad: gait_phase_rad(walked_m[frame] + offset_s * state.speed_mps, track.height_m),
                         visible_by_rays,
                     };
-                    // A point without extent is nobody: it is watched, not drawn.
+                    // A target without extent is a point: it is watched, not drawn.
                     Moment { pose: pose_at(&poses, at), target: Some(target).filter(|target| target.radius_m > 0.0) }
                 };
                 let noise_seed = Seed(context.seed).child("frame", frame as u64);
@@ -300,7 +306,7 @@ impl RenderStage {
         if let Some(position) = idle.iter().position(|rig| rig.camera == camera) {
             return Ok(idle.swap_remove(position));
         }
-        // Another camera: its buffers replace those of one that nobody uses.
+        // Another camera: its buffers replace those of one that is not in use.
         idle.pop();
         drop(idle);
         let effects = self.config.effects(camera);
@@ -310,16 +316,6 @@ impl RenderStage {
     }
 }
 
-/// The weather that the item of a paired rendering is named after.
-fn variant_of<'a>(artifact: &Artifact, context: &'a TaskContext) -> Option<&'a str> {
-    context.item.strip_prefix(&artifact.item)?.strip_prefix('-')
-}
-
-/// The pedestrian that a trajectory at a `many` port follows: its id without the stage's name.
-pub fn pedestrian_of(artifact: &Artifact) -> &str {
-    artifact.item.strip_prefix(&artifact.stage).and_then(|rest| rest.strip_prefix('-')).unwrap_or(&artifact.item)
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -327,7 +323,7 @@ mod tests {
 
     #[test]
     fn a_camera_in_a_wall_is_named_with_its_frame() {
-        let town = cosfly_dataset::sample::town();
+        let town = cosfly_sample::town();
         let wall = town.obstacles[0].shape.center_in_world;
         let world = World::new(town);
         let at = |position: DVec3| Pose::looking_at(position, position + DVec3::X);

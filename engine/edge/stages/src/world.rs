@@ -2,15 +2,16 @@
 
 use crate::codec;
 use crate::ports::TOWN;
+use cosfly_blobs::OutputSink;
 use cosfly_diagnose::{Diagnostic, Fault, Result};
 use cosfly_geometry::BoxBvh;
 use cosfly_maps::{GroundIndex, Town};
-use cosfly_stage::{Artifact, Inputs, OutputSink};
+use cosfly_stage::{Artifact, Inputs};
 use std::sync::Arc;
 
 /// The town at port `town`, ready for queries.
 pub struct World {
-    /// The model.
+    /// Model of the town.
     pub town: Town,
     /// All unsimplified boxes; primitive index = obstacle index.
     pub exact: BoxBvh,
@@ -19,7 +20,7 @@ pub struct World {
 }
 
 impl World {
-    /// Makes a town ready.
+    /// Prepares a town for queries.
     pub fn new(town: Town) -> Self {
         let exact = BoxBvh::build(town.obstacles.iter().map(|obstacle| obstacle.shape).collect());
         let ground = GroundIndex::new(&town);
@@ -27,10 +28,10 @@ impl World {
     }
 }
 
-/// Every artifact that was made in a town carries the town's own blob under this name (a link, not a copy).
+/// Name of the town's own blob, which every artifact that was made in the town carries as a link.
 pub const TOWN_BLOB: &str = "town";
 
-/// Marks what a task makes with the town that it was made in.
+/// Links the town to the output of a task.
 pub fn link_town(inputs: &Inputs<'_>, outputs: &mut dyn OutputSink) -> Result<()> {
     outputs.link(TOWN_BLOB, inputs.one("town")?.blobs[TOWN_BLOB])
 }
@@ -45,8 +46,8 @@ pub fn check_same_town(inputs: &Inputs<'_>, port: &str) -> Result<()> {
                 "towns-differ",
                 Fault::Recipe,
                 format!(
-                    "`{}/{}` was made in another town than `{}`, which is connected to `inputs.town`",
-                    artifact.stage, artifact.item, town.stage
+                    "`{}` was made in another town than `{}`, which is connected to `inputs.town`",
+                    artifact.id, town.id.stage
                 ),
             )
             .hint(format!("connect `inputs.town` and `inputs.{port}` so that both begin at the same `map` stage")));
@@ -55,12 +56,12 @@ pub fn check_same_town(inputs: &Inputs<'_>, port: &str) -> Result<()> {
     Ok(())
 }
 
-/// The town at port `town` of a task.
+/// Town at port `town` of a task.
 pub fn world(inputs: &Inputs<'_>) -> Result<Arc<World>> {
     world_of(inputs, inputs.one("town")?)
 }
 
-/// The town that an artifact was made in.
+/// Town that an artifact was made in.
 pub fn world_of(inputs: &Inputs<'_>, artifact: &Artifact) -> Result<Arc<World>> {
     inputs.decoded(artifact, TOWN_BLOB, |bytes| codec::decode(TOWN, bytes).map(World::new))
 }

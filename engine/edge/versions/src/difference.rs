@@ -1,15 +1,16 @@
-//! What two versions have not in common, and why: by the keys of the tasks behind every flight.
+//! Differences of two versions, and their reasons: by the keys of the tasks behind every flight.
 
+use crate::task_name::TaskName;
 use crate::version::Version;
 use cosfly_runner::{Change, definition_difference};
 use serde_json::Value;
 use std::collections::{BTreeMap, BTreeSet};
 use std::fmt;
 
-/// What the number of a dataset's version must do.
+/// Change of a dataset's version number that a difference asks for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Bump {
-    /// Nothing: the same files.
+    /// No change: the same files.
     None,
     /// Records are the same, packed or described in another way.
     Patch,
@@ -20,7 +21,7 @@ pub enum Bump {
 }
 
 impl Bump {
-    /// Its name.
+    /// Name in messages.
     pub fn name(self) -> &'static str {
         match self {
             Self::None => "none",
@@ -30,7 +31,7 @@ impl Bump {
         }
     }
 
-    /// Whether going from `old` to `new`, both `MAJOR.MINOR.PATCH`, is at least this.
+    /// True where the step from `old` to `new`, both `MAJOR.MINOR.PATCH`, is at least this change.
     pub fn is_kept(self, old: &str, new: &str) -> bool {
         let parts = |version: &str| -> Option<[u64; 3]> {
             let parts: Vec<u64> = version.split('.').map(|part| part.parse().ok()).collect::<Option<_>>()?;
@@ -46,21 +47,21 @@ impl Bump {
     }
 }
 
-/// What happened to a flight.
+/// Difference of one flight or file.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Fate {
     /// It is new.
     Added,
     /// It is gone.
     Dropped,
-    /// Its bytes are others.
+    /// It has other bytes.
     Changed,
-    /// Its bytes are the same, in another split.
+    /// It has the same bytes, in another split.
     Moved,
 }
 
 impl Fate {
-    /// Its name.
+    /// Name in messages.
     pub fn name(self) -> &'static str {
         match self {
             Self::Added => "added",
@@ -71,16 +72,16 @@ impl Fate {
     }
 }
 
-/// What two versions have not in common.
+/// Differences of two versions.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Difference {
-    /// What happened to each flight that is not the same, and the reasons.
+    /// Flights that are not the same, and the reasons.
     pub flights: BTreeMap<String, (Fate, Vec<String>)>,
-    /// Flights that are the same.
+    /// Number of flights that are the same.
     pub same: usize,
-    /// Files that are new, gone or other, logs left out.
+    /// Files that are new, gone or changed, without the logs.
     pub files: Vec<(String, Fate)>,
-    /// What differs in the stage that packs the dataset.
+    /// Changes in the stages that pack the dataset.
     pub packing: Vec<String>,
 }
 
@@ -91,7 +92,7 @@ impl fmt::Display for Fate {
 }
 
 impl Difference {
-    /// What the version's number must do.
+    /// Change of the version number that the differences ask for.
     pub fn bump(&self) -> Bump {
         let of_fate = |(fate, _): &(Fate, Vec<String>)| if *fate == Fate::Added { Bump::Minor } else { Bump::Major };
         let files = if self.files.is_empty() { Bump::None } else { Bump::Patch };
@@ -99,7 +100,7 @@ impl Difference {
     }
 }
 
-/// From `old` to `new`.
+/// Differences from `old` to `new`.
 pub fn difference(old: &Version, new: &Version) -> Difference {
     let mut found = Difference::default();
     let ids: BTreeSet<&String> = old.flights.keys().chain(new.flights.keys()).collect();
@@ -135,21 +136,20 @@ pub fn difference(old: &Version, new: &Version) -> Difference {
     found
 }
 
-/// Why a flight is in `with` and not in `without`.
-fn appearance(without: &Version, with: &Version, id: &str, task: &str) -> Vec<String> {
+/// Reasons why a flight is in `with` and not in `without`.
+fn appearance(without: &Version, with: &Version, id: &str, task: &TaskName) -> Vec<String> {
     if let Some(reason) = without.rejected.get(id) {
         let mut why = vec![format!("it was rejected in `{}`: {reason}", without.name)];
         why.extend(causes(without, with, task, task).into_iter().filter(|_| without.tasks.contains_key(task)));
         return why;
     }
-    // Which items there are is up to settings that no item's own key reads, such as a number of walkers.
+    // The number of items depends on settings that no item's own key reads, such as a number of walkers.
     let mut open = vec![task];
-    let mut seen: BTreeSet<&str> = BTreeSet::from([task]);
+    let mut seen: BTreeSet<&TaskName> = BTreeSet::from([task]);
     let mut why = vec![];
     let mut told: BTreeSet<&str> = BTreeSet::new();
     while let Some(task) = open.pop() {
-        let stage = task.split('/').next().unwrap_or(task);
-        let recipe_name = stage.split('.').next().unwrap_or(stage);
+        let recipe_name = task.stage.recipe_name();
         if told.insert(recipe_name) {
             match (without.recipe.settings.get(recipe_name), with.recipe.settings.get(recipe_name)) {
                 (None, Some(_)) => why.push(format!("stage `{recipe_name}` is only in `{}`", with.name)),
@@ -166,7 +166,7 @@ fn appearance(without: &Version, with: &Version, id: &str, task: &str) -> Vec<St
             }
         }
         let reads = with.tasks.get(task).map_or(&[][..], |task| &task.reads);
-        open.extend(reads.iter().map(String::as_str).filter(|read| seen.insert(*read)));
+        open.extend(reads.iter().filter(|read| seen.insert(*read)));
     }
     if why.is_empty() {
         why.push(format!("nothing that `{}` and `{}` record tells why", without.name, with.name));
@@ -174,7 +174,7 @@ fn appearance(without: &Version, with: &Version, id: &str, task: &str) -> Vec<St
     why
 }
 
-/// Paths at which two trees of settings differ.
+/// Paths at which two trees of settings differ, with both values.
 fn setting_changes(old: &Value, new: &Value) -> Vec<(String, Option<Value>, Option<Value>)> {
     let changes =
         definition_difference(&serde_json::json!({"parameters": old}), &serde_json::json!({"parameters": new}));
@@ -185,28 +185,27 @@ fn setting_changes(old: &Value, new: &Value) -> Vec<(String, Option<Value>, Opti
     changes.into_iter().filter_map(parameter).collect()
 }
 
-/// The stages in which two tasks began to differ, with what changed there.
-fn causes(old: &Version, new: &Version, old_task: &str, new_task: &str) -> Vec<String> {
+/// Changes in the stages where two tasks began to differ.
+fn causes(old: &Version, new: &Version, old_task: &TaskName, new_task: &TaskName) -> Vec<String> {
     let mut open = vec![(old_task, new_task)];
-    let mut seen: BTreeSet<(&str, &str)> = open.iter().copied().collect();
+    let mut seen: BTreeSet<(&TaskName, &TaskName)> = open.iter().copied().collect();
     let mut why: Vec<String> = vec![];
     while let Some((was, is)) = open.pop() {
         let (Some(a), Some(b)) = (old.tasks.get(was), new.tasks.get(is)) else { continue };
         if a.key == b.key {
             continue;
         }
-        let stage = is.split('/').next().unwrap_or(is);
-        for change in stage_changes(old, new, stage) {
+        for change in stage_changes(old, new, is.stage.as_str()) {
             if !why.contains(&change) {
                 why.push(change);
             }
         }
-        let is_read = |name: &&String| b.reads.contains(*name);
+        let is_read = |name: &&TaskName| b.reads.contains(*name);
         for gone in a.reads.iter().filter(|name| !is_read(name)) {
             why.push(format!("{is}: it no longer reads `{gone}`"));
         }
-        for read in b.reads.iter().map(String::as_str) {
-            match a.reads.iter().any(|it| it == read) {
+        for read in &b.reads {
+            match a.reads.contains(read) {
                 true if seen.insert((read, read)) => open.push((read, read)),
                 true => {}
                 false => why.push(format!("{is}: it reads `{read}` now")),
@@ -228,7 +227,7 @@ fn stage_changes(old: &Version, new: &Version, stage: &str) -> Vec<String> {
     }
 }
 
-/// What differs in the stages that pack, by name: the recipe's last word on splits, tables and texts.
+/// Changes in the stages that pack, by name: splits, tables and texts.
 fn packing(old: &Version, new: &Version) -> Vec<String> {
     let is_dataset = |(_, it): &(&String, &Value)| it["kind"] == "dataset";
     let stages: Vec<&String> = new.definitions.iter().filter(is_dataset).map(|(name, _)| name).collect();
@@ -240,6 +239,7 @@ mod tests {
     use super::*;
     use crate::version::{Flight, RecipeText, SCHEMA, Task};
     use cosfly_fingerprint::Digest;
+    use cosfly_stage::StageName;
     use serde_json::json;
 
     fn version(name: &str, walkers: u32, weight: f64) -> Version {
@@ -247,12 +247,11 @@ mod tests {
         let key = |text: String| Digest::of(text.as_bytes());
         let (mut tasks, mut flights) = (BTreeMap::new(), BTreeMap::new());
         for id in (0..walkers).map(|number| format!("p{number}")) {
-            let walk = format!("walkers/{id}");
+            let name = |stage: &str| TaskName { stage: StageName::read(stage), item: id.clone() };
+            let (walk, expert, task) = (name("walkers"), name("expert"), name("dataset.logs"));
             tasks.insert(walk.clone(), Task { key: key(id.clone()), reads: vec![] });
-            let task = format!("dataset.logs/{id}");
-            tasks
-                .insert(task.clone(), Task { key: key(format!("{id} {weight}")), reads: vec![format!("expert/{id}")] });
-            tasks.insert(format!("expert/{id}"), Task { key: key(format!("{id}{weight}")), reads: vec![walk] });
+            tasks.insert(task.clone(), Task { key: key(format!("{id} {weight}")), reads: vec![expert.clone()] });
+            tasks.insert(expert, Task { key: key(format!("{id}{weight}")), reads: vec![walk] });
             flights.insert(id.clone(), Flight { split: "train".into(), log: key(format!("{id}.{weight}")), task });
         }
         let definition = |kind: &str, parameters| json!({"kind": kind, "version": 1, "parameters": parameters});

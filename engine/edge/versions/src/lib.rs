@@ -3,16 +3,18 @@
 //! * [`version`]: the manifest.
 //! * [`record`]: a finished dataset of a store as a version.
 //! * [`shelf`]: the versions of a store: named, listed, found.
-//! * [`difference`]: which flights two versions have not in common, and why.
-//! * [`regenerate`]: flights made anew from the recipe alone, held against what was published.
+//! * [`difference`]: flights that differ between two versions, and why.
+//! * [`regenerate`]: flights made again from the recipe alone, compared with the published ones.
 
 pub mod difference;
 pub mod record;
 pub mod regenerate;
 pub mod shelf;
+mod task_name;
 pub mod version;
 
 pub use difference::{Bump, Difference, difference};
 pub use record::record;
 pub use regenerate::{Regenerated, regenerate};
+pub use task_name::TaskName;
 pub use version::Version;

@@ -1,31 +1,32 @@
 //! A finished dataset of a store as a version.
 
+use crate::task_name::TaskName;
 use crate::version::{Flight, RecipeText, SCHEMA, Task, Version};
-use cosfly_dataset::read::PublishedDataset;
 use cosfly_diagnose::{Diagnostic, Fault, Result};
 use cosfly_fingerprint::Digest;
-use cosfly_recipe::Recipe;
+use cosfly_read::PublishedDataset;
+use cosfly_recipe::{Recipe, RecipeStage};
 use cosfly_runner::{Plan, plan};
-use cosfly_stage::BlobRef;
+use cosfly_stage::{Blobs, StageName};
 use cosfly_store::{Store, materialise};
 use std::collections::{BTreeMap, BTreeSet};
 
-/// The last stage of a recipe that makes a dataset, by its place.
+/// Index of the last stage of a recipe that makes a dataset.
 ///
 /// # Errors
 /// `version-no-dataset`.
 pub fn dataset_stage(recipe: &Recipe) -> Result<usize> {
-    let is_dataset = |stage: &cosfly_recipe::RecipeStage| stage.kind == "dataset" && stage.name == stage.recipe_name;
+    let is_dataset = |stage: &RecipeStage| stage.kind == "dataset" && stage.name.part().is_empty();
     recipe.stages.iter().rposition(is_dataset).ok_or_else(|| {
         let message = format!("recipe `{}` has no stage that uses `dataset`", recipe.name);
         Diagnostic::new("version-no-dataset", Fault::Recipe, message)
     })
 }
 
-/// The dataset of `recipe`, read with `overrides`, as it lies finished in `store`; `cosfly` is the tool's version.
+/// Version of the finished dataset of `recipe`, read with `overrides`, in `store`; `cosfly` is the tool's version.
 ///
 /// # Errors
-/// `version-unfinished`, or what is wrong with the store.
+/// `version-unfinished`, or failures of the store.
 pub fn record(name: &str, recipe: &Recipe, overrides: &[String], store: &Store, cosfly: &str) -> Result<Version> {
     let stage = dataset_stage(recipe)?;
     let plan = plan(recipe, store)?;
@@ -34,8 +35,8 @@ pub fn record(name: &str, recipe: &Recipe, overrides: &[String], store: &Store, 
         return Err(Diagnostic::new("version-unfinished", Fault::Recipe, message)
             .hint("run the recipe first, with the same `--set`"));
     };
-    let files = finished.record.outputs.clone();
-    let logs = format!("{}.logs", recipe.stages[stage].name);
+    let files = (*finished.record.outputs).clone();
+    let logs = logs_of(&recipe.stages[stage]);
     let (flights, rejected, content) = flights(store, &files, &logs)?;
     let mut version = Version {
         schema: SCHEMA.to_owned(),
@@ -47,7 +48,11 @@ pub fn record(name: &str, recipe: &Recipe, overrides: &[String], store: &Store, 
             path: std::path::absolute(&recipe.path).unwrap_or_else(|_| recipe.path.clone()),
             text: recipe.text.to_string(),
             overrides: overrides.to_vec(),
-            settings: recipe.stages.iter().map(|it| (it.recipe_name.clone(), it.parameters.clone())).collect(),
+            settings: recipe
+                .stages
+                .iter()
+                .map(|it| (it.name.recipe_name().to_owned(), it.parameters.clone()))
+                .collect(),
         },
         sources: BTreeMap::new(),
         content,
@@ -64,9 +69,9 @@ pub fn record(name: &str, recipe: &Recipe, overrides: &[String], store: &Store, 
                 version.sources.insert(format!("{}.{parameter}", planned.name), digest);
             }
         }
-        version.definitions.insert(planned.name.clone(), definition);
+        version.definitions.insert(planned.name.to_string(), definition);
     }
-    let parameters = &version.definitions[&recipe.stages[stage].name]["parameters"];
+    let parameters = &version.definitions[recipe.stages[stage].name.as_str()]["parameters"];
     let text = |key: &str| parameters[key].as_str().unwrap_or_default().to_owned();
     (version.dataset, version.dataset_version) = (text("name"), text("version"));
     version.tasks = tasks(&plan, &logs, version.flights.keys().chain(version.rejected.keys()));
@@ -75,8 +80,8 @@ pub fn record(name: &str, recipe: &Recipe, overrides: &[String], store: &Store, 
 
 type Published = (BTreeMap<String, Flight>, BTreeMap<String, String>, Digest);
 
-/// What the table of flights says, read from a copy of that table alone.
-fn flights(store: &Store, files: &BTreeMap<String, BlobRef>, logs: &str) -> Result<Published> {
+/// Flights and rejections from the dataset's tables, read from a copy of those tables alone.
+fn flights(store: &Store, files: &Blobs, logs: &StageName) -> Result<Published> {
     let refused = |error: std::io::Error| Diagnostic::io("make a folder for the table of flights", &error);
     let scratch = tempfile::tempdir().map_err(refused)?;
     let folder = scratch.path().join("tables");
@@ -84,26 +89,24 @@ fn flights(store: &Store, files: &BTreeMap<String, BlobRef>, logs: &str) -> Resu
     let tables = files.iter().filter(|(path, _)| is_read(path)).map(|(path, blob)| (path.clone(), *blob)).collect();
     materialise(store, &tables, &folder)?;
     let published = PublishedDataset::open(&folder)?;
-    let flight = |flight: &cosfly_dataset::read::PublishedFlight| {
+    let flight = |flight: &cosfly_read::PublishedFlight| {
         let log = files.get(&flight.mcap_path).map_or(Digest([0; 32]), |blob| blob.digest);
-        let task = format!("{logs}/{}", flight.trajectory_id);
+        let task = TaskName { stage: logs.clone(), item: flight.trajectory_id.clone() };
         (flight.trajectory_id.clone(), Flight { split: flight.split.clone(), log, task })
     };
     let flights = published.flights().iter().map(flight).collect();
     Ok((flights, published.rejections()?, cosfly_store::content_of(files)))
 }
 
-/// All tasks behind the named items of the stage of logs.
-fn tasks<'a>(plan: &Plan<'_>, logs: &str, items: impl Iterator<Item = &'a String>) -> BTreeMap<String, Task> {
+/// All tasks behind the named items of the stage that writes logs.
+fn tasks<'a>(plan: &Plan<'_>, logs: &StageName, items: impl Iterator<Item = &'a String>) -> BTreeMap<TaskName, Task> {
     let wanted: BTreeSet<&str> = items.map(String::as_str).collect();
-    let Some(last) = plan.recipe.position(logs) else { return BTreeMap::new() };
+    let Some(last) = plan.recipe.position(logs.as_str()) else { return BTreeMap::new() };
     let places = plan.recipe.stages[last].items.iter().enumerate();
-    let first = places.filter(|(_, item)| wanted.contains(&***item)).map(|(item, _)| (last, item));
+    let first = places.filter(|(_, item)| wanted.contains(&*item.to_string())).map(|(item, _)| (last, item));
     let mut open: Vec<(usize, usize)> = first.collect();
     let mut seen: BTreeSet<(usize, usize)> = open.iter().copied().collect();
-    let name = |(stage, item): (usize, usize)| {
-        format!("{}/{}", plan.recipe.stages[stage].name, plan.recipe.stages[stage].items[item])
-    };
+    let name = |(stage, item): (usize, usize)| TaskName::from(&plan.recipe.id(stage, item));
     let mut tasks = BTreeMap::new();
     while let Some((stage, item)) = open.pop() {
         let read = reads(plan.recipe, stage, item);
@@ -114,8 +117,12 @@ fn tasks<'a>(plan: &Plan<'_>, logs: &str, items: impl Iterator<Item = &'a String
     tasks
 }
 
-/// What a task reads: places of stages and items.
+/// Part of the dataset stage `dataset` that writes the logs.
+pub fn logs_of(dataset: &RecipeStage) -> StageName {
+    StageName::new(dataset.name.recipe_name(), "logs")
+}
+
+/// Tasks that a task reads, as indices of stages and items.
 pub fn reads(recipe: &Recipe, stage: usize, item: usize) -> Vec<(usize, usize)> {
-    let arrivals = recipe.stages[stage].connections.iter().flat_map(|connection| connection.arrivals_for(item));
-    arrivals.map(|arrival| (arrival.stage, arrival.item)).collect()
+    recipe.stages[stage].reads(item).map(|arrival| (arrival.stage, arrival.item)).collect()
 }

@@ -1,9 +1,9 @@
-//! Flights made anew from the recipe alone, in an empty store, and held against what was published.
+//! Flights made again from the recipe alone, in an empty store, and compared with the published ones.
 
-use crate::record::{dataset_stage, reads};
-use cosfly_dataset::read::PublishedDataset;
+use crate::record::{dataset_stage, logs_of, reads};
 use cosfly_diagnose::{Diagnostic, Fault, Result};
 use cosfly_fingerprint::Digest;
+use cosfly_read::PublishedDataset;
 use cosfly_recipe::Recipe;
 use cosfly_runner::{plan, run_task};
 use cosfly_stage::Registry;
@@ -14,22 +14,22 @@ use std::path::Path;
 use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
 
-/// A flight that was made anew.
+/// A flight that was made again.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Regenerated {
-    /// Its id.
+    /// Id of the flight.
     pub trajectory_id: String,
-    /// Its log, from the dataset's folder.
+    /// Path of its log in the dataset's folder.
     pub mcap_path: String,
-    /// What is wrong; nothing when its log has the same bytes.
+    /// Difference to the published log; `None` where the bytes are the same.
     pub problem: Option<String>,
 }
 
-/// Makes `number` flights of the dataset in `folder`, spread evenly over it, anew in the empty store `scratch` and
+/// Makes `number` flights of the dataset in `folder`, spread evenly over it, again in the empty store `scratch` and
 /// compares their logs with the published ones byte by byte (by BLAKE3).
 ///
 /// # Errors
-/// What is wrong with the dataset or the recipe, or what a stage or the machine refused.
+/// Mistakes in the dataset or the recipe, or a refusal of a stage or the machine.
 pub fn regenerate(
     folder: &Path,
     number: usize,
@@ -42,16 +42,16 @@ pub fn regenerate(
     let flights = published.flights();
     let chosen: Vec<_> =
         (0..number.min(flights.len())).map(|k| &flights[k * flights.len() / number.min(flights.len())]).collect();
-    let logs = format!("{}.logs", recipe.stages[dataset_stage(recipe)?].name);
+    let logs = logs_of(&recipe.stages[dataset_stage(recipe)?]);
     let stage = recipe
-        .position(&logs)
+        .position(logs.as_str())
         .ok_or_else(|| Diagnostic::new("regenerate-no-logs", Fault::Bug, format!("the recipe has no part `{logs}`")))?;
     let store = Store::open(scratch)?;
     plan(recipe, &store)?.publish_documents(&store)?;
     let mut found = vec![];
     for flight in chosen {
         let id = &flight.trajectory_id;
-        let place = recipe.stages[stage].items.iter().position(|item| **item == **id);
+        let place = recipe.stages[stage].items.iter().position(|item| item.to_string() == *id);
         let problem = match place {
             None => Some("the recipe makes no such flight".to_owned()),
             Some(item) => {
@@ -64,7 +64,7 @@ pub fn regenerate(
     Ok(found)
 }
 
-/// Runs a task and all it needs; gives the digest of its log.
+/// Runs a task and everything that it needs; gives the digest of its log.
 fn made(
     recipe: &Recipe,
     registry: &Registry,

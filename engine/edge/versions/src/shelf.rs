@@ -1,4 +1,4 @@
-//! The versions of a store: one manifest each, in its folder `versions`.
+//! Versions of a store: one manifest each, in the folder `versions`.
 
 use crate::version::{SCHEMA, Version};
 use cosfly_diagnose::{Diagnostic, Fault, Result, nearest_name};
@@ -6,24 +6,24 @@ use cosfly_fingerprint::Digest;
 use std::io::Write;
 use std::path::{Path, PathBuf};
 
-/// Longest manifest that is read.
+/// Longest manifest, bytes.
 const LIMIT: u64 = 1 << 30;
 
 fn folder(store: &Path) -> PathBuf {
     store.join("versions")
 }
 
-/// Whether `name` can name a version: letters, digits, `.`, `_` and `-`, not beginning with a dot.
-pub fn is_name(name: &str) -> bool {
+/// True where `name` can name a version: letters, digits, `.`, `_` and `-`, not beginning with a dot.
+fn is_name(name: &str) -> bool {
     (1..=100).contains(&name.len())
         && !name.starts_with('.')
         && name.bytes().all(|byte| byte.is_ascii_alphanumeric() || matches!(byte, b'.' | b'_' | b'-'))
 }
 
-/// Puts a version on the shelf. The same version may be put there twice.
+/// Adds a version. The same version may be added twice.
 ///
 /// # Errors
-/// `version-bad-name`, `version-taken` when the name stands for something else, or what the machine refused.
+/// `version-bad-name`, `version-taken` where the name belongs to another version, or a refusal of the machine.
 pub fn put(store: &Path, version: &Version) -> Result<()> {
     let name = &version.name;
     if !is_name(name) {
@@ -53,7 +53,7 @@ pub fn put(store: &Path, version: &Version) -> Result<()> {
 /// The version called `name`.
 ///
 /// # Errors
-/// `version-unknown` with the nearest name, or what is wrong with its manifest.
+/// `version-unknown` with the nearest name, or mistakes in its manifest.
 pub fn get(store: &Path, name: &str) -> Result<Version> {
     let path = folder(store).join(format!("{name}.json"));
     if is_name(name) && path.exists() {
@@ -72,12 +72,12 @@ pub fn get(store: &Path, name: &str) -> Result<Version> {
 /// All versions by name.
 ///
 /// # Errors
-/// What the machine refuses, and manifests that are damaged.
+/// Refusals of the machine, and damaged manifests.
 pub fn all(store: &Path) -> Result<Vec<Version>> {
     names(store)?.iter().map(|name| read(&folder(store).join(format!("{name}.json")))).collect()
 }
 
-/// A version whose files are exactly those of a delivered folder, by the digest that the folder is marked with.
+/// A version with exactly the files of a delivered folder, by the digest that the folder is marked with.
 ///
 /// # Errors
 /// As [`all`].
@@ -104,7 +104,7 @@ fn names(store: &Path) -> Result<Vec<String>> {
 fn read(path: &Path) -> Result<Version> {
     let failed = |error: std::io::Error| Diagnostic::io(format!("read `{}`", path.display()), &error);
     let damaged = |what: String| {
-        let message = format!("`{}` is no manifest of a version", path.display());
+        let message = format!("`{}` is not the manifest of a version", path.display());
         Diagnostic::new("version-damaged", Fault::Input, message).because(what)
     };
     let size = std::fs::metadata(path).map_err(failed)?.len();

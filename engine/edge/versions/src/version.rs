@@ -1,22 +1,23 @@
-//! What a version of a dataset is: every file's hash, the exact recipe, the tool, and how each flight came about.
+//! Manifest of a version of a dataset: hashes of all files, the exact recipe, the tool, and the origin of each flight.
 
+use crate::task_name::TaskName;
+use cosfly_blobs::BlobRef;
 use cosfly_fingerprint::Digest;
-use cosfly_stage::BlobRef;
 use serde::{Deserialize, Serialize};
 use serde_json::Value;
 use std::collections::BTreeMap;
 use std::path::PathBuf;
 
-/// The form of the manifest.
+/// Format of the manifest.
 pub const SCHEMA: &str = "cosfly.version/1";
 
-/// A version. Nothing in it depends on when or where it was named, except for the recipe's path.
+/// A named version. Nothing in it depends on when or where it was named, except for the recipe's path.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Version {
     /// [`SCHEMA`].
     pub schema: String,
-    /// Its name.
+    /// Name of the version.
     pub name: String,
     /// Name of the dataset, from the recipe.
     pub dataset: String,
@@ -32,27 +33,27 @@ pub struct Version {
     pub content: Digest,
     /// All files of the dataset by their paths.
     pub files: BTreeMap<String, BlobRef>,
-    /// What all items of a stage share: kind, version, all parameters with their defaults, digests of files.
+    /// Definitions by stage: kind, version, all parameters with their defaults, digests of files.
     pub definitions: BTreeMap<String, Value>,
-    /// Every task behind a flight, as `stage/item`.
-    pub tasks: BTreeMap<String, Task>,
-    /// The published flights by their ids.
+    /// All tasks behind the flights.
+    pub tasks: BTreeMap<TaskName, Task>,
+    /// Published flights by their ids.
     pub flights: BTreeMap<String, Flight>,
     /// Items without a flight, with their reasons.
     pub rejected: BTreeMap<String, String>,
 }
 
-/// A recipe as it was.
+/// A recipe as it was read.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct RecipeText {
-    /// Where it lies: files that it names are looked for beside it.
+    /// Path of the recipe; files that it names are looked for beside it.
     pub path: PathBuf,
-    /// Its text.
+    /// Text of the recipe.
     pub text: String,
     /// Values of `--set`.
     pub overrides: Vec<String>,
-    /// What it and the overrides say of each stage, without defaults.
+    /// Parameters of each stage as recipe and overrides give them, without defaults.
     pub settings: BTreeMap<String, Value>,
 }
 
@@ -60,22 +61,22 @@ pub struct RecipeText {
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Task {
-    /// Its key: equal keys make equal bytes.
+    /// Key of the task: equal keys give equal bytes.
     pub key: Digest,
-    /// What it reads, as `stage/item`.
-    pub reads: Vec<String>,
+    /// Tasks that it reads.
+    pub reads: Vec<TaskName>,
 }
 
 /// One flight.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Flight {
-    /// Its split.
+    /// Split that it is in.
     pub split: String,
     /// BLAKE3 of its log.
     pub log: Digest,
-    /// The task that wrote the log.
-    pub task: String,
+    /// Task that wrote the log.
+    pub task: TaskName,
 }
 
 impl Version {

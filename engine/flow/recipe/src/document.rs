@@ -3,11 +3,12 @@
 use cosfly_diagnose::{Diagnostic, Fault, Label};
 use serde_json::{Map, Number};
 use std::collections::BTreeMap;
+use std::fmt;
 use std::ops::Range;
 use std::path::PathBuf;
 use std::sync::Arc;
 
-/// A text that values come from.
+/// A text with values in it.
 #[derive(Clone, Debug)]
 struct Text {
     path: PathBuf,
@@ -18,7 +19,7 @@ struct Text {
 #[derive(Clone, Debug)]
 pub(crate) struct Texts(Vec<Text>);
 
-/// Bytes of one of the texts.
+/// Span of bytes in one of the texts.
 #[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub(crate) struct Place {
     pub(crate) text: usize,
@@ -26,14 +27,14 @@ pub(crate) struct Place {
     pub(crate) end: usize,
 }
 
-/// A value and where it stands.
+/// A value and its place.
 #[derive(Clone, Debug)]
 pub(crate) struct Node {
     pub(crate) place: Place,
     pub(crate) value: Value,
 }
 
-/// What a node holds.
+/// Value of a node.
 #[derive(Clone, Debug)]
 pub(crate) enum Value {
     Bool(bool),
@@ -42,7 +43,7 @@ pub(crate) enum Value {
     Text(String),
     Array(Vec<Node>),
     Table(Table),
-    /// Already reported; every check lets it pass.
+    /// A value that was reported already; every check lets it pass.
     Refused,
 }
 
@@ -56,7 +57,7 @@ pub(crate) struct Entry {
     pub(crate) node: Node,
 }
 
-/// Everything that was found wrong so far.
+/// Mistakes found so far.
 pub(crate) type Problems = Vec<Box<Diagnostic>>;
 
 impl Texts {
@@ -75,7 +76,7 @@ impl Texts {
         Label { path: path.clone(), text: text.clone(), span: place.start..place.end, note: note.into() }
     }
 
-    /// What is written at `place`, cut to one short line for a message.
+    /// Text at `place`, cut to one short line for a message.
     pub(crate) fn written(&self, place: &Place) -> String {
         let text = self.0[place.text].text.get(place.start..place.end).unwrap_or_default();
         let line = text.lines().next().unwrap_or_default().trim_end();
@@ -110,7 +111,7 @@ impl Node {
         }
     }
 
-    /// What it is, in words.
+    /// Type of the value, in words.
     pub(crate) fn type_words(&self) -> &'static str {
         match self.value {
             Value::Bool(_) => "a boolean",
@@ -160,8 +161,8 @@ pub(crate) fn table_json(table: &Table) -> Map<String, serde_json::Value> {
 }
 
 /// Names in back-ticks, separated by commas; at most `most` of them.
-pub(crate) fn list<'a>(names: impl IntoIterator<Item = &'a str>, most: usize) -> String {
-    let names: Vec<&str> = names.into_iter().collect();
+pub(crate) fn list<T: fmt::Display>(names: impl IntoIterator<Item = T>, most: usize) -> String {
+    let names: Vec<T> = names.into_iter().collect();
     let mut shown: Vec<String> = names.iter().take(most).map(|name| format!("`{name}`")).collect();
     if names.len() > most {
         shown.push(format!("and {} more", names.len() - most));

@@ -1,9 +1,9 @@
-//! The DAG as a picture: Mermaid for Markdown pages, DOT for Graphviz.
+//! The graph of a recipe as a drawing: Mermaid for Markdown pages, DOT for Graphviz.
 
 use crate::model::{Recipe, RecipeStage};
 use std::fmt::Write;
 
-/// A language for graphs.
+/// Language of a drawing.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Format {
     /// <https://mermaid.js.org>, drawn by GitHub and mdBook.
@@ -12,7 +12,7 @@ pub enum Format {
     Dot,
 }
 
-/// The recipe's stages and connections in `format`. Edges carry the port's name where it is not the upstream's.
+/// Drawing of the recipe's stages and connections. Edges carry the port's name where it differs from the stage's.
 pub fn graph(recipe: &Recipe, format: Format) -> String {
     let mut text = String::new();
     // Writing to a String cannot fail.
@@ -66,7 +66,7 @@ fn edges(recipe: &Recipe) -> impl Iterator<Item = Edge<'_>> {
         stage.connections.iter().flat_map(move |connection| {
             connection.upstreams.iter().map(move |from| {
                 let port = connection.port.name;
-                Edge { from: *from, to, label: (recipe.stages[*from].name != port).then_some(port) }
+                Edge { from: *from, to, label: (recipe.stages[*from].name != *port).then_some(port) }
             })
         })
     })

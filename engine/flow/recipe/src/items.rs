@@ -1,24 +1,24 @@
-//! Which items every stage has and what each of them reads; all known before anything runs.
+//! Items of every stage, and what each of them reads; all known before anything runs.
 
 use crate::document::{Place, Texts, list};
-use crate::model::{Arrival, Connection, ItemIds, RecipeStage};
+use crate::model::{Arrival, Connection, ItemNames, RecipeStage};
 use cosfly_diagnose::{Diagnostic, Fault};
-use cosfly_stage::{Fan, InputPort, ItemRule, StageProperties, Takes};
+use cosfly_stage::{Fan, InputPort, ItemName, ItemRule, StageProperties, Takes};
 use std::collections::{BTreeMap, BTreeSet};
 use std::sync::Arc;
 
-/// A stage with more items than this is refused: their names alone would fill the memory.
+/// Items that a stage may have; the names of more would fill the memory.
 const MOST_ITEMS: u64 = 1_000_000;
 
-/// A port, what is connected to it, and where the recipe says so.
+/// A port, the stages that are connected to it, and the place in the recipe that says so.
 pub(crate) struct Wire {
     pub(crate) port: InputPort,
     pub(crate) upstreams: Vec<usize>,
-    /// One place per port in the recipe; the stage's own place for siblings.
+    /// Place of the first stage's name; the stage's own place for siblings.
     pub(crate) place: Place,
 }
 
-/// Gives items and arrivals to one stage, all of whose upstreams stand in `done`.
+/// Gives items and arrivals to one stage, all of whose upstreams are in `done`.
 pub(crate) struct ItemReader<'a> {
     pub(crate) done: &'a [RecipeStage],
     pub(crate) texts: &'a Texts,
@@ -26,69 +26,67 @@ pub(crate) struct ItemReader<'a> {
     pub(crate) place: &'a Place,
 }
 
-/// What one stage has and reads.
+/// Items and connections of one stage.
 pub(crate) struct Arranged {
-    pub(crate) items: ItemIds,
-    pub(crate) variants: Vec<String>,
+    pub(crate) items: ItemNames,
     pub(crate) connections: Vec<Connection>,
 }
 
-/// The ids that arrive at one port.
+/// Items at one port.
 struct PortItems {
-    ids: ItemIds,
+    names: ItemNames,
     arrivals: Vec<Arrival>,
 }
 
 impl ItemReader<'_> {
     pub(crate) fn read(&self, properties: &StageProperties, wires: Vec<Wire>) -> Result<Arranged, Box<Diagnostic>> {
         let arriving: Vec<PortItems> = wires.iter().map(|wire| self.port_items(wire)).collect::<Result<_, _>>()?;
-        let ids = match &properties.items {
-            ItemRule::One => [Arc::from("all")].into(),
-            ItemRule::Count { count, .. } if *count > MOST_ITEMS => return Err(self.too_many(*count)),
-            ItemRule::Count { prefix, count } => {
-                (0..*count).map(|number| Arc::from(format!("{prefix}{number:05}"))).collect()
-            }
-            ItemRule::PerInput(name) => arriving[self.leader(&wires, name)?].ids.clone(),
-            ItemRule::PerVariant { port, variants } => {
-                let ids = &arriving[self.leader(&wires, port)?].ids;
-                let count = (ids.len() as u64).saturating_mul(variants.len() as u64);
-                if count > MOST_ITEMS {
-                    return Err(self.too_many(count));
-                }
-                let of_item = |id: &Arc<str>| variants.iter().map(|it| Arc::from(format!("{id}-{it}"))).collect();
-                ids.iter().flat_map(|id| -> Vec<Arc<str>> { of_item(id) }).collect()
-            }
+        let leader = match &properties.items {
+            ItemRule::PerInput(port) | ItemRule::PerVariant { port, .. } => Some(self.leader(&wires, port)?),
+            ItemRule::One | ItemRule::Count { .. } => None,
         };
-        let (leading, mut variants) = match &properties.items {
-            ItemRule::PerInput(name) => (Some(&wires[self.leader(&wires, name)?]), vec![]),
-            ItemRule::PerVariant { port, variants } => (Some(&wires[self.leader(&wires, port)?]), variants.clone()),
-            ItemRule::One | ItemRule::Count { .. } => (None, vec![]),
-        };
-        let inherited = leading.iter().flat_map(|wire| &wire.upstreams).flat_map(|it| &self.done[*it].variants);
-        variants.extend(inherited.cloned());
-        variants.sort_unstable();
-        variants.dedup();
+        let leading = leader.map(|at| &arriving[at].names);
+        let items = self.own_items(&properties.items, leading.unwrap_or(&ItemNames::default()))?;
         let mut connections = vec![];
-        for (wire, items) in wires.iter().zip(arriving) {
+        for (wire, at_port) in wires.iter().zip(arriving) {
             let arrivals = match wire.port.fan {
-                Fan::Gather => items.arrivals,
-                Fan::Broadcast => self.single(wire, items)?,
-                Fan::Each => self.aligned(&ids, &variants, leading, wire, items)?,
+                Fan::Gather => at_port.arrivals,
+                Fan::Broadcast => self.single(wire, at_port)?,
+                Fan::Each => self.aligned(&items, leader.map(|at| &wires[at]), wire, at_port)?,
             };
             let Wire { port, upstreams, .. } = wire;
-            connections.push(Connection {
-                port: port.clone(),
-                upstreams: upstreams.clone(),
-                arrivals: arrivals.into(),
-            });
+            let (port, upstreams) = (port.clone(), upstreams.clone());
+            connections.push(Connection { port, upstreams, arrivals: arrivals.into() });
         }
-        Ok(Arranged { items: ids, variants, connections })
+        Ok(Arranged { items, connections })
     }
 
-    /// The wire of the port that gives a stage its items.
+    /// Items by the stage's rule; `leading` are those of the port that the rule names.
+    fn own_items(&self, rule: &ItemRule, leading: &ItemNames) -> Result<ItemNames, Box<Diagnostic>> {
+        let count = match rule {
+            ItemRule::Count { count, .. } => *count,
+            ItemRule::PerVariant { variants, .. } => (leading.len() as u64).saturating_mul(variants.len() as u64),
+            ItemRule::One | ItemRule::PerInput(_) => 0,
+        };
+        if count > MOST_ITEMS {
+            return Err(self.too_many(count));
+        }
+        Ok(match rule {
+            ItemRule::One => [ItemName::only()].into(),
+            ItemRule::Count { prefix, count } => (0..*count).map(|number| ItemName::numbered(prefix, number)).collect(),
+            ItemRule::PerInput(_) => leading.clone(),
+            ItemRule::PerVariant { variants, .. } => {
+                let variants: Vec<Arc<str>> = variants.iter().map(|variant| variant.as_str().into()).collect();
+                let of_item = |item: &ItemName| variants.iter().map(|it| item.with_variant(it.clone())).collect();
+                leading.iter().flat_map(|item| -> Vec<ItemName> { of_item(item) }).collect()
+            }
+        })
+    }
+
+    /// Index of the wire of the port that gives the stage its items.
     fn leader(&self, wires: &[Wire], port: &str) -> Result<usize, Box<Diagnostic>> {
         wires.iter().position(|wire| wire.port.name == port).ok_or_else(|| {
-            let message = format!("`{}` has items for those of `inputs.{port}`, which is not connected", self.stage);
+            let message = format!("`{}` has one item for each of `inputs.{port}`, which is not connected", self.stage);
             self.texts.problem("recipe-missing-input", self.place, message)
         })
     }
@@ -98,38 +96,38 @@ impl ItemReader<'_> {
         if total as u64 > MOST_ITEMS {
             return Err(self.too_many(total as u64));
         }
+        let named = wire.port.takes == Takes::Named;
         let mut arrivals = Vec::with_capacity(total);
         for upstream in &wire.upstreams {
             let RecipeStage { name, items, .. } = &self.done[*upstream];
-            for (item, id) in items.iter().enumerate() {
-                let is_renamed = wire.port.takes == Takes::Named;
-                let id = if is_renamed { Arc::from(format!("{name}-{id}")) } else { id.clone() };
-                arrivals.push(Arrival { id, stage: *upstream, item });
+            for (item, own) in items.iter().enumerate() {
+                let name = if named { own.of_stage(name) } else { own.clone() };
+                arrivals.push(Arrival { name, stage: *upstream, item });
             }
         }
-        let ids = match &wire.upstreams[..] {
-            [only] if wire.port.takes != Takes::Named => self.done[*only].items.clone(),
-            _ => arrivals.iter().map(|arrival| arrival.id.clone()).collect(),
+        let names = match &wire.upstreams[..] {
+            [only] if !named => self.done[*only].items.clone(),
+            _ => arrivals.iter().map(|arrival| arrival.name.clone()).collect(),
         };
         if wire.upstreams.len() > 1 && wire.port.takes == Takes::Distinct {
             self.check_distinct(wire, &arrivals)?;
         }
-        Ok(PortItems { ids, arrivals })
+        Ok(PortItems { names, arrivals })
     }
 
-    /// Stages at one port that calls their items by their own ids have no id in common.
+    /// Refuses stages with items of the same name at a port where items keep their names.
     fn check_distinct(&self, wire: &Wire, arrivals: &[Arrival]) -> Result<(), Box<Diagnostic>> {
-        let mut first: BTreeMap<&str, usize> = BTreeMap::new();
+        let mut first: BTreeMap<&ItemName, usize> = BTreeMap::new();
         for arrival in arrivals {
-            let earlier = first.insert(&arrival.id, arrival.stage);
+            let earlier = first.insert(&arrival.name, arrival.stage);
             let Some(earlier) = earlier.map(|stage| &self.done[stage].name) else { continue };
             let message = format!(
                 "`inputs.{}` of `{}` gets an item `{}` from `{earlier}` and from `{}`",
-                wire.port.name, self.stage, arrival.id, self.done[arrival.stage].name
+                wire.port.name, self.stage, arrival.name, self.done[arrival.stage].name
             );
             let problem = self.texts.problem("recipe-items-same", &wire.place, message);
             return Err(problem.hint(
-                "items are called after the stages that they come through: give these chains stages of their own, or \
+                "items are named after the stages that they come through: give these chains stages of their own, or \
                  connect one of the two",
             ));
         }
@@ -137,9 +135,9 @@ impl ItemReader<'_> {
     }
 
     /// The only item of a broadcast port.
-    fn single(&self, wire: &Wire, items: PortItems) -> Result<Vec<Arrival>, Box<Diagnostic>> {
-        if items.arrivals.len() == 1 {
-            return Ok(items.arrivals);
+    fn single(&self, wire: &Wire, at_port: PortItems) -> Result<Vec<Arrival>, Box<Diagnostic>> {
+        if at_port.arrivals.len() == 1 {
+            return Ok(at_port.arrivals);
         }
         let makers: Vec<&str> = wire.upstreams.iter().map(|upstream| self.done[*upstream].name.as_str()).collect();
         let message = format!(
@@ -147,50 +145,57 @@ impl ItemReader<'_> {
             wire.port.name,
             self.stage,
             list(makers, 10),
-            items.arrivals.len()
+            at_port.arrivals.len()
         );
         let problem = self.texts.problem("recipe-items-differ", &wire.place, message);
         Err(problem.hint(format!("every item of `{}` reads the same one: connect a stage that makes one", self.stage)))
     }
 
-    /// Arrivals in the order of the stage's own items. What a port does not know as a variant is read by all variants.
+    /// Arrivals in the order of the stage's own items. An item that is not at the port reads the item that it is a
+    /// variant of.
     fn aligned(
         &self,
-        ids: &ItemIds,
-        variants: &[String],
+        items: &ItemNames,
         leading: Option<&Wire>,
         wire: &Wire,
-        items: PortItems,
+        at_port: PortItems,
     ) -> Result<Vec<Arrival>, Box<Diagnostic>> {
-        if Arc::ptr_eq(ids, &items.ids) || ids == &items.ids {
-            return Ok(items.arrivals);
+        if Arc::ptr_eq(items, &at_port.names) || items == &at_port.names {
+            return Ok(at_port.arrivals);
         }
-        let by_id: BTreeMap<&str, &Arrival> = items.arrivals.iter().map(|arrival| (&*arrival.id, arrival)).collect();
-        let base = |id: &str| -> Option<&Arrival> {
-            variants.iter().find_map(|variant| by_id.get(id.strip_suffix(&**variant)?.strip_suffix('-')?).copied())
+        let by_name: BTreeMap<&ItemName, &Arrival> =
+            at_port.arrivals.iter().map(|arrival| (&arrival.name, arrival)).collect();
+        let read_by = |item: &ItemName| -> Option<&Arrival> {
+            let mut variants = std::iter::successors(Some(item.clone()), ItemName::without_variant);
+            variants.find_map(|name| by_name.get(&name).copied())
         };
-        let read: Vec<Option<&Arrival>> = ids.iter().map(|id| by_id.get(&**id).copied().or_else(|| base(id))).collect();
-        let known: BTreeSet<&str> = read.iter().flatten().map(|arrival| &*arrival.id).collect();
-        if let Some(all) =
-            read.iter().copied().collect::<Option<Vec<&Arrival>>>().filter(|_| known.len() == by_id.len())
-        {
+        let read: Vec<Option<&Arrival>> = items.iter().map(read_by).collect();
+        let known: BTreeSet<&ItemName> = read.iter().flatten().map(|arrival| &arrival.name).collect();
+        let all: Option<Vec<&Arrival>> = read.iter().copied().collect();
+        if let Some(all) = all.filter(|_| known.len() == by_name.len()) {
             return Ok(all.into_iter().cloned().collect());
         }
-        let lacking: Vec<&str> = ids.iter().zip(&read).filter(|(_, it)| it.is_none()).map(|(id, _)| &**id).collect();
-        let extra: Vec<&str> = by_id.keys().copied().filter(|id| !known.contains(id)).collect();
+        let lacking: Vec<&ItemName> = items.iter().zip(&read).filter(|(_, it)| it.is_none()).map(|it| it.0).collect();
+        let extra: Vec<&ItemName> = by_name.keys().copied().filter(|name| !known.contains(name)).collect();
         Err(self.differing(leading, wire, &lacking, &extra))
     }
 
     /// Two ports whose items should be the same, or a port and the stage's own items.
-    fn differing(&self, leading: Option<&Wire>, wire: &Wire, lacking: &[&str], extra: &[&str]) -> Box<Diagnostic> {
+    fn differing(
+        &self,
+        leading: Option<&Wire>,
+        wire: &Wire,
+        lacking: &[&ItemName],
+        extra: &[&ItemName],
+    ) -> Box<Diagnostic> {
         let (port, stage) = (wire.port.name, self.stage);
         let other = leading.map_or_else(|| format!("`{stage}`"), |leading| format!("`{}`", leading.port.name));
         let mut only = vec![];
         if !lacking.is_empty() {
-            only.push(format!("{} only at {other}", list(lacking.iter().copied(), 3)));
+            only.push(format!("{} only at {other}", list(lacking, 3)));
         }
         if !extra.is_empty() {
-            only.push(format!("{} only at `{port}`", list(extra.iter().copied(), 3)));
+            only.push(format!("{} only at `{port}`", list(extra, 3)));
         }
         let who = match leading {
             Some(leading) => format!("`inputs.{}` and `inputs.{port}` of `{stage}`", leading.port.name),
@@ -202,11 +207,11 @@ impl ItemReader<'_> {
         if let Some(leading) = leading {
             problem = problem.at(self.texts.label(&leading.place, format!("`{stage}` has the items of this one")));
         }
-        problem.hint(format!("item `x` of `{stage}` reads item `x` of both: both must go back to the same items"))
+        problem.hint(format!("item `x` of `{stage}` reads item `x` of both: both must begin with the same items"))
     }
 
     fn too_many(&self, count: u64) -> Box<Diagnostic> {
-        let message = format!("`{}` would have {count} items; a stage may have {MOST_ITEMS}", self.stage);
+        let message = format!("`{}` would have {count} items; a stage may have at most {MOST_ITEMS}", self.stage);
         self.texts
             .problem("recipe-too-many-items", self.place, message)
             .hint("split the work into several recipes with other seeds")

@@ -3,33 +3,34 @@
 use crate::document::{Node, Place, Problems, Texts, Value, list};
 use crate::outline::StageOutline;
 use crate::parameters::{Subject, allowed_values, check_parameters, resolve};
-use cosfly_diagnose::{Diagnostic, nearest_name};
-use cosfly_stage::{InputPort, ParameterError, PortSource, Registry, Stage, StageKind};
+use cosfly_diagnose::{Diagnostic, ParameterError, nearest_name};
+use cosfly_stage::{InputPort, PortSource, Registry, Stage, StageKind};
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
-/// Built parts of one recipe stage, in dependency order, the stage itself last.
+/// Built parts of one recipe stage.
 pub(crate) struct BuiltStage {
+    /// Parts in dependency order, the stage itself last.
     pub(crate) parts: Vec<BuiltPart>,
-    /// The stage's table as a node, for places.
+    /// Table of the stage, for places.
     pub(crate) parameters: Node,
 }
 
-/// One part.
+/// One built part.
 pub(crate) struct BuiltPart {
     pub(crate) suffix: &'static str,
     pub(crate) stage: Arc<dyn Stage>,
 }
 
-/// What is known of a recipe stage's kind.
+/// Knowledge of a recipe stage's kind.
 pub(crate) struct KnownStage {
-    /// Every port that the recipe may connect.
+    /// Ports that the recipe may connect.
     pub(crate) ports: Vec<InputPort>,
     /// Absent when its parameters were refused.
     pub(crate) built: Option<BuiltStage>,
 }
 
-/// Builds stages; a kind's schema is made once.
+/// Builds stages; the schema of a kind is made once.
 pub(crate) struct Builder<'a> {
     registry: &'a Registry,
     texts: &'a Texts,
@@ -37,7 +38,7 @@ pub(crate) struct Builder<'a> {
 }
 
 impl BuiltStage {
-    /// What other stages read.
+    /// Kind of artifact that other stages read.
     pub(crate) fn artifact(&self) -> Option<&'static str> {
         self.parts.last().map(|part| part.stage.properties().artifact)
     }
@@ -84,14 +85,14 @@ impl<'a> Builder<'a> {
         let problem = self.texts.problem("recipe-unknown-kind", place, format!("there is no stage kind `{name}`"));
         if name == "wasm" {
             return problem
-                .hint("this cosfly was built without plugins; its feature `plugins` adds them")
-                .hint(format!("its own kinds are {}", list(known(), usize::MAX)));
+                .hint("this cosfly was built without plugins; the feature `plugins` adds them")
+                .hint(format!("built-in stage kinds: {}", list(known(), usize::MAX)));
         }
         match nearest_name(name, known()) {
             Some(near) => problem.hint(format!("did you mean `{near}`?")),
             None => problem,
         }
-        .hint(format!("there are {}", list(known(), usize::MAX)))
+        .hint(format!("stage kinds: {}", list(known(), usize::MAX)))
     }
 
     fn parameter_problem(&self, error: &ParameterError, parameters: &Node, stage: &Place) -> Box<Diagnostic> {
@@ -108,7 +109,7 @@ impl<'a> Builder<'a> {
 fn build_kind(kind: &dyn StageKind, parameters: &Node) -> Result<Vec<BuiltPart>, ParameterError> {
     let parts = kind.build(parameters.json())?;
     if parts.is_empty() {
-        let message = format!("`{}` built no stage; this is a bug of the kind", kind.name());
+        let message = format!("internal error: `{}` built no stage", kind.name());
         return Err(ParameterError { path: vec![], message, hint: None });
     }
     Ok(parts.into_iter().map(|part| BuiltPart { suffix: part.suffix, stage: part.stage.into() }).collect())

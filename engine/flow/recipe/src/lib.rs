@@ -1,10 +1,10 @@
-//! From TOML text to a checked DAG of stages.
+//! From TOML text to a checked graph of stages.
 //!
-//! * [`load`], [`read`]: the way in; a [`Recipe`] or all that is wrong with it.
-//! * `toml_text` -> `document`: the text as a tree that remembers places; `overrides` puts `--set` into it.
+//! * [`load`], [`read`]: the entry points; a [`Recipe`], or all mistakes in it.
+//! * `toml_text` -> `document`: the text as a tree with places; `overrides` applies `--set` to it.
 //! * `outline` -> `kinds` -> `wiring` -> `order` -> `sources` -> `items`: the checks, in this order.
-//! * `parameters`: a stage's parameters against the JSON Schema of its kind.
-//! * [`schema`], [`reference`], [`graph`]: what editors, the book and people look at.
+//! * `parameters`: the parameters of a stage against the JSON Schema of its kind.
+//! * [`schema`], [`reference`], [`graph`]: for editors, the book and people.
 
 mod document;
 mod drawing;
@@ -24,6 +24,6 @@ mod wiring;
 
 pub use drawing::{Format, graph};
 pub use load::{load, read};
-pub use model::{Arrival, Connection, ItemIds, Recipe, RecipeStage, SourceFile};
+pub use model::{Arrival, Connection, ItemNames, Recipe, RecipeStage, SourceFile};
 pub use reference::reference;
 pub use schema::schema;

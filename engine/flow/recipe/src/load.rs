@@ -1,4 +1,4 @@
-//! Reads a recipe: text to tree, overrides, graph, parameters, files, items.
+//! Reading a recipe: text to tree, overrides, graph, parameters, files, items.
 
 use crate::document::{Problems, Texts};
 use crate::items::{Arranged, ItemReader, Wire};
@@ -7,23 +7,29 @@ use crate::model::{Recipe, RecipeStage, SourceFile};
 use crate::order::dependency_order;
 use crate::outline::Outline;
 use crate::parameters::Subject;
+use crate::sources::{Neighbours, SourceFinder};
 use crate::wiring::{Wires, Wiring};
-use crate::{overrides, sources, toml_text};
-use cosfly_diagnose::{Diagnostic, Fault};
-use cosfly_stage::{PortSource, Registry};
+use crate::{overrides, toml_text};
+use cosfly_diagnose::{Diagnostic, Fault, Label};
+use cosfly_stage::{PortSource, Registry, StageName};
 use std::collections::BTreeMap;
 use std::path::Path;
 use std::sync::Arc;
 
-/// Reads and checks the recipe at `path`, with `overrides` (the arguments of `--set`) put into it.
-/// Reports as many independent mistakes as there are, in the order of the text.
+/// The recipe at `path`, with `overrides` (the arguments of `--set`) applied, checked.
+///
+/// # Errors
+/// All independent mistakes, in the order of the text.
 pub fn load(path: &Path, overrides: &[String], registry: &Registry) -> Result<Recipe, Vec<Box<Diagnostic>>> {
     let bytes = std::fs::read(path).map_err(|error| vec![unreadable(path, &error)])?;
     let text = String::from_utf8(bytes).map_err(|error| vec![not_text(path, &error)])?;
     read(path, &text, overrides, registry)
 }
 
-/// Like [`load`] for a `text` that would stand at `path`; the files that it names are looked for beside it.
+/// As [`load`] for a `text` instead of the file at `path`; the files that it names are looked for beside that path.
+///
+/// # Errors
+/// As [`load`].
 pub fn read(
     path: &Path,
     text: &str,
@@ -56,13 +62,22 @@ fn check(
     let outline = Outline::read(root, texts, problems)?;
     let mut builder = Builder::new(registry, texts);
     let known: Vec<Option<KnownStage>> = outline.stages.iter().map(|stage| builder.build(stage, problems)).collect();
-    let (wires, reads) = Wiring { outline: &outline, known: &known, registry, texts }.connect(problems);
-    let order = dependency_order(&outline, &reads, texts, problems);
+    let mut connected = Wiring::new(&outline, &known, registry, texts).connect(problems);
+    let order = dependency_order(&outline, &connected.reads, texts).unwrap_or_else(|cycles| {
+        // A connection of a cycle is wrong anyway, whatever would flow through it.
+        let in_cycle = |place: &Label| cycles.iter().flat_map(|cycle| &cycle.labels).any(|it| it.span == place.span);
+        connected.mismatches.retain(|problem| !problem.labels.first().is_some_and(in_cycle));
+        problems.extend(cycles);
+        vec![]
+    });
+    problems.append(&mut connected.mismatches);
     let graph_is_sound = problems.is_empty();
-    let directory = path.parent().unwrap_or(Path::new("")).to_path_buf();
-    let mut files = find_files(&outline, &known, &directory, texts, problems);
-    let mut assembly = Assembly { outline: &outline, wires: &wires, texts, stages: vec![], place_of: BTreeMap::new() };
-    for stage in order.filter(|_| graph_is_sound).unwrap_or_default() {
+    let directory = path.parent().unwrap_or(Path::new(""));
+    let mut finder = SourceFinder { directory, texts, neighbours: Neighbours::default() };
+    let mut files = find_files(&outline, &known, &mut finder, problems);
+    let wires = &connected.wires;
+    let mut assembly = Assembly { outline: &outline, wires, texts, stages: vec![], place_of: BTreeMap::new() };
+    for stage in order.into_iter().filter(|_| graph_is_sound) {
         let Some(built) = known[stage].as_ref().and_then(|known| known.built.as_ref()) else { continue };
         if let Err(problem) = assembly.add(stage, &built.parts, std::mem::take(&mut files[stage])) {
             problems.push(problem);
@@ -70,22 +85,14 @@ fn check(
         }
     }
     let stages = assembly.stages;
-    Some(Recipe {
-        name: outline.name,
-        seed: outline.seed,
-        path: path.to_path_buf(),
-        directory,
-        text: text.into(),
-        stages,
-    })
+    Some(Recipe { name: outline.name, seed: outline.seed, path: path.to_path_buf(), text: text.into(), stages })
 }
 
-/// Per stage of the outline and part: the files it reads.
+/// Files that are read, by stage of the outline and part.
 fn find_files(
     outline: &Outline,
     known: &[Option<KnownStage>],
-    directory: &Path,
-    texts: &Texts,
+    finder: &mut SourceFinder<'_>,
     problems: &mut Problems,
 ) -> Vec<Vec<Vec<SourceFile>>> {
     let mut files = vec![];
@@ -98,20 +105,20 @@ fn find_files(
             let declared = &part.stage.properties().sources;
             let kind = stage.kind.as_ref().map_or("", |(kind, _)| kind);
             let subject = Subject { stage: &stage.name, kind, place: &stage.place, ports: &[] };
-            sources::resolve(declared, directory, (&built.parameters, &subject), texts, problems)
+            finder.resolve(declared, (&built.parameters, &subject), problems)
         };
         files.push(built.parts.iter().map(&mut of_part).collect());
     }
     files
 }
 
-/// The stages that are ready so far, in dependency order.
+/// Stages that are ready so far, in dependency order.
 struct Assembly<'a> {
     outline: &'a Outline,
     wires: &'a Wires,
     texts: &'a Texts,
     stages: Vec<RecipeStage>,
-    /// From a stage of the outline to its last part in `stages`.
+    /// Index in `stages` of the last part of each stage of the outline.
     place_of: BTreeMap<usize, usize>,
 }
 
@@ -122,26 +129,21 @@ impl Assembly<'_> {
         let parameters = serde_json::Value::Object(crate::document::table_json(&outline.parameters));
         let mut siblings = BTreeMap::new();
         for (part, sources) in parts.iter().zip(files) {
-            let name = match part.suffix {
-                "" => outline.name.clone(),
-                suffix => format!("{}.{suffix}", outline.name),
-            };
+            let name = StageName::new(&outline.name, part.suffix);
             let properties = part.stage.properties();
             let wires = self.part_wires(index, part, &siblings)?;
-            let reader = ItemReader { done: &self.stages, texts: self.texts, stage: &name, place: &outline.place };
-            let Arranged { items, variants, connections } = reader.read(properties, wires)?;
+            let reader =
+                ItemReader { done: &self.stages, texts: self.texts, stage: name.as_str(), place: &outline.place };
+            let Arranged { items, connections } = reader.read(properties, wires)?;
             siblings.insert(part.suffix, self.stages.len());
             self.stages.push(RecipeStage {
                 name,
-                recipe_name: outline.name.clone(),
                 kind: outline.kind.as_ref().map_or_else(String::new, |(kind, _)| kind.clone()),
                 stage: Arc::clone(&part.stage),
                 connections,
                 sources,
                 items,
-                variants,
                 parameters: parameters.clone(),
-                span: outline.place.start..outline.place.end,
             });
         }
         self.place_of.insert(index, self.stages.len() - 1);
@@ -190,7 +192,7 @@ fn unreadable(path: &Path, error: &std::io::Error) -> Box<Diagnostic> {
             .because(error);
     }
     let problem = Diagnostic::new("recipe-missing", Fault::Recipe, format!("there is no recipe `{}`", path.display()));
-    match sources::similar_file(path) {
+    match Neighbours::default().similar_file(path) {
         Some(near) => problem.hint(format!("did you mean `{}`?", path.with_file_name(near).display())),
         None => problem,
     }
@@ -200,5 +202,5 @@ fn not_text(path: &Path, error: &std::string::FromUtf8Error) -> Box<Diagnostic> 
     let valid = error.utf8_error().valid_up_to();
     let line = error.as_bytes()[..valid].iter().filter(|byte| **byte == b'\n').count() + 1;
     Diagnostic::new("recipe-syntax", Fault::Recipe, format!("`{}` is not UTF-8 text", path.display()))
-        .because(format!("line {line} has a byte that is not"))
+        .because(format!("line {line} has an invalid byte"))
 }

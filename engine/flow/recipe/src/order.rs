@@ -2,19 +2,17 @@
 
 use crate::document::{Place, Problems, Texts};
 use crate::outline::Outline;
+use cosfly_diagnose::{Diagnostic, Fault};
 use std::collections::BTreeSet;
 
-/// What each stage reads: (stage number, where it is written), for every name that exists.
+/// Stages that each stage reads: number and place in the recipe, for every name that exists.
 pub(crate) type Reads = Vec<Vec<(usize, Place)>>;
 
 /// Stage numbers, inputs first; among those that are ready the first in the file goes first.
-/// Every cycle is reported, and then there is no order.
-pub(crate) fn dependency_order(
-    outline: &Outline,
-    reads: &Reads,
-    texts: &Texts,
-    problems: &mut Problems,
-) -> Option<Vec<usize>> {
+///
+/// # Errors
+/// All cycles.
+pub(crate) fn dependency_order(outline: &Outline, reads: &Reads, texts: &Texts) -> Result<Vec<usize>, Problems> {
     let mut waits: Vec<BTreeSet<usize>> =
         reads.iter().map(|upstreams| upstreams.iter().map(|(stage, _)| *stage).collect()).collect();
     let mut readers = vec![vec![]; reads.len()];
@@ -32,47 +30,39 @@ pub(crate) fn dependency_order(
             }
         }
     }
-    if order.len() == reads.len() {
-        return Some(order);
-    }
-    report_cycles(outline, reads, &waits, texts, problems);
-    None
+    if order.len() == reads.len() { Ok(order) } else { Err(cycles(outline, reads, &waits, texts)) }
 }
 
 /// Walks upstream from every stage that never became ready: each walk ends in a cycle.
-fn report_cycles(outline: &Outline, reads: &Reads, waits: &[BTreeSet<usize>], texts: &Texts, problems: &mut Problems) {
+fn cycles(outline: &Outline, reads: &Reads, waits: &[BTreeSet<usize>], texts: &Texts) -> Problems {
+    let mut found = Problems::new();
     let mut seen = vec![false; reads.len()];
     for start in (0..reads.len()).filter(|stage| !waits[*stage].is_empty()) {
-        let mut walk = vec![];
+        let mut passed = vec![];
         let mut stage = start;
         while !seen[stage] {
             seen[stage] = true;
-            walk.push(stage);
+            passed.push(stage);
             stage = *waits[stage].first().expect("a stage that waits waits for a stage that waits");
         }
-        if let Some(first) = walk.iter().position(|walked| *walked == stage) {
-            let problem = cycle(outline, reads, &walk[first..], texts);
-            // What would flow round the circle is no news.
-            problems.retain(|known| {
-                known.code != "recipe-artifact-mismatch"
-                    || !problem.labels.iter().any(|label| known.labels[0].span == label.span)
-            });
-            problems.push(problem);
+        if let Some(first) = passed.iter().position(|other| *other == stage) {
+            found.push(cycle(outline, reads, &passed[first..], texts));
         }
     }
+    found
 }
 
-fn cycle(outline: &Outline, reads: &Reads, stages: &[usize], texts: &Texts) -> Box<cosfly_diagnose::Diagnostic> {
-    // Begin with the stage that stands first in the file.
+fn cycle(outline: &Outline, reads: &Reads, stages: &[usize], texts: &Texts) -> Box<Diagnostic> {
+    // Begin with the stage that is first in the file.
     let first = stages.iter().enumerate().min_by_key(|(_, stage)| **stage).map_or(0, |(index, _)| index);
     let name = |index: usize| &outline.stages[stages[(first + index) % stages.len()]].name;
     let reading: Vec<String> =
         (0..stages.len()).map(|index| format!("`{}` reads `{}`", name(index), name(index + 1))).collect();
     let message = match stages {
         [_] => format!("stage `{}` reads itself", name(0)),
-        _ => format!("stages wait for each other in a circle: {}", reading.join(", ")),
+        _ => format!("stages read each other in a cycle: {}", reading.join(", ")),
     };
-    let mut problem = cosfly_diagnose::Diagnostic::new("recipe-cycle", cosfly_diagnose::Fault::Recipe, message);
+    let mut problem = Diagnostic::new("recipe-cycle", Fault::Recipe, message);
     for index in 0..stages.len() {
         let stage = stages[(first + index) % stages.len()];
         let upstream = stages[(first + index + 1) % stages.len()];
@@ -82,6 +72,6 @@ fn cycle(outline: &Outline, reads: &Reads, stages: &[usize], texts: &Texts) -> B
     }
     problem.hint(match stages {
         [_] => "connect it to another stage",
-        _ => "connect one of them to a stage outside the circle",
+        _ => "connect one of them to a stage outside the cycle",
     })
 }

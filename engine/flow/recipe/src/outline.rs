@@ -1,25 +1,25 @@
-//! What a recipe says before any stage kind is asked: name, seed, stages, kinds and connections.
+//! Outline of a recipe, before any stage kind is asked: name, seed, stages, kinds and connections.
 
 use crate::document::{Entry, Node, Place, Problems, Table, Texts, Value, list};
 use cosfly_diagnose::nearest_name;
 
-/// The recipe as written, keys checked.
+/// A recipe as it is written, with its keys checked.
 pub(crate) struct Outline {
     pub(crate) name: String,
     pub(crate) seed: u64,
-    /// In the order of the file.
+    /// Stages in the order of the file.
     pub(crate) stages: Vec<StageOutline>,
 }
 
 /// One `[stages.NAME]` table.
 pub(crate) struct StageOutline {
     pub(crate) name: String,
-    /// Where the name is written.
+    /// Place of the name.
     pub(crate) place: Place,
-    /// The kind; absent when that was reported.
+    /// Kind and its place; absent when its lack was reported.
     pub(crate) kind: Option<(String, Place)>,
     pub(crate) inputs: Vec<InputOutline>,
-    /// Its table without `use` and `inputs`.
+    /// Table of the stage without `use` and `inputs`.
     pub(crate) parameters: Table,
 }
 
@@ -27,13 +27,13 @@ pub(crate) struct StageOutline {
 pub(crate) struct InputOutline {
     pub(crate) port: String,
     pub(crate) place: Place,
-    /// Names of stages and where they are written.
+    /// Names of stages and their places.
     pub(crate) stages: Vec<(String, Place)>,
-    /// Whether they are written as a list.
+    /// True where they are written as a list.
     pub(crate) listed: bool,
 }
 
-/// The kind whose stages are files: `use = "wasm:FILE"` is `use = "wasm"` with `file = "FILE"`.
+/// Kind whose stages are files: `use = "wasm:FILE"` means `use = "wasm"` with `file = "FILE"`.
 pub(crate) const FILE_KIND: &str = "wasm";
 
 const TOP_KEYS: [&str; 3] = ["name", "seed", "stages"];
@@ -83,7 +83,7 @@ impl Reader<'_> {
             self.problems.push(
                 self.texts
                     .problem("recipe-name", &entry.node.place, message)
-                    .hint("the dataset and its folder are called by it"),
+                    .hint("the dataset and its folder have this name"),
             );
         }
         name
@@ -132,7 +132,7 @@ impl Reader<'_> {
         let lower = bytes.next().is_some_and(|byte| byte.is_ascii_lowercase());
         if !lower || name.len() > 100 || !bytes.all(|b| b.is_ascii_lowercase() || b.is_ascii_digit() || b == b'_') {
             let message = format!(
-                "a stage is called `{}`; names begin with `a-z` and go on with at most 99 of `a-z`, `0-9` and `_`",
+                "a stage is named `{}`; names are one of `a-z`, then at most 99 of `a-z`, `0-9` and `_`",
                 short(&name)
             );
             self.problems.push(self.texts.problem("recipe-name", &entry.key, message));
@@ -146,7 +146,7 @@ impl Reader<'_> {
         let kind = match parameters.remove("use") {
             Some(entry) => self.text(&format!("stages.{name}.use"), &entry.node).map(|kind| (kind, entry.node.place)),
             None => {
-                let message = format!("stage `{name}` does not say what it uses");
+                let message = format!("stage `{name}` has no `use`");
                 let problem = self.texts.problem("recipe-missing-key", &entry.key, message);
                 self.problems.push(problem.hint("add a line such as `use = \"map\"`"));
                 None
@@ -212,7 +212,7 @@ impl Reader<'_> {
     }
 }
 
-/// A name for a message, cut when it is absurdly long.
+/// `name` for a message, cut when it is very long.
 fn short(name: &str) -> String {
     let cut: String = name.chars().take(60).collect();
     if cut.len() < name.len() { format!("{cut}...") } else { cut }

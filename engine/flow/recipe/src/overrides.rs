@@ -1,13 +1,13 @@
-//! `--set stages.expert.weights.visibility=5`: one value of the recipe replaced from the command line.
+//! Overrides from the command line: `--set stages.expert.weights.visibility=5` replaces one value of the recipe.
 
 use crate::document::{Entry, Node, Place, Problems, Table, Texts, Value, list};
 use crate::toml_text::parse_value;
 use cosfly_diagnose::nearest_name;
 
-/// Longer paths are refused: no parameter lies that deep.
+/// Longest path, keys: no parameter lies deeper.
 const MOST_KEYS: usize = 16;
 
-/// Puts every override into `root`, in the order given; what cannot be placed is reported.
+/// Applies every override to `root`, in the order given; those that cannot be applied are reported.
 pub(crate) fn apply(root: &mut Table, overrides: &[String], texts: &mut Texts, problems: &mut Problems) {
     for argument in overrides {
         let text = texts.add_override(argument);
@@ -18,7 +18,7 @@ pub(crate) fn apply(root: &mut Table, overrides: &[String], texts: &mut Texts, p
 }
 
 struct Assignment {
-    /// Keys from the root and where each is written.
+    /// Keys from the root, and their places.
     path: Vec<(String, Place)>,
     node: Node,
 }
@@ -108,5 +108,5 @@ fn no_such_stage(stage: &str, place: &Place, stages: &Table, texts: &Texts) -> B
         Some(name) => problem.hint(format!("did you mean `{name}`?")),
         None => problem,
     }
-    .hint(format!("its stages are {}", list(known(), 40)))
+    .hint(format!("stages of the recipe: {}", list(known(), 40)))
 }

@@ -1,4 +1,4 @@
-//! The book's page on recipes, generated from the kinds' schemas and ports.
+//! Reference page of the book, generated from the schemas and ports of the kinds.
 
 use crate::outline::FILE_KIND;
 use crate::parameters::{allowed_values, resolve, show_json, show_toml, type_words_of};
@@ -6,7 +6,7 @@ use cosfly_stage::{Fan, InputPort, Registry, StageKind, Takes};
 use serde_json::Value;
 use std::fmt::Write;
 
-/// Tables nested deeper than this are not taken apart.
+/// Deepest nesting of tables that is listed parameter by parameter.
 const MOST_LEVELS: usize = 6;
 
 const INTRODUCTION: &str = "\
@@ -44,7 +44,7 @@ Every other key of a stage is a parameter of its kind. Paths begin at the recipe
 Where a port takes many stages, its items are called `STAGE-ITEM`; those of a dataset keep their names.
 ";
 
-/// The page in Markdown: per kind its inputs and parameters with type, default, range and meaning.
+/// Reference page in Markdown: inputs and parameters of each kind with type, default, range and meaning.
 pub fn reference(registry: &Registry) -> String {
     let mut page = INTRODUCTION.to_owned();
     for kind in registry.iter() {
@@ -113,7 +113,7 @@ fn collect_rows(
         table.get("required").and_then(Value::as_array).into_iter().flatten().filter_map(Value::as_str).collect();
     for (key, rule) in table.get("properties").and_then(Value::as_object).into_iter().flatten() {
         if rule.get("const").is_some() {
-            continue; // the tag of an alternative: it stands in the prefix
+            continue; // the tag of an alternative is in the prefix
         }
         let name = format!("{prefix}{key}");
         let default = defaults.and_then(|defaults| defaults.get(key)).or_else(|| rule.get("default"));

@@ -1,4 +1,4 @@
-//! The JSON Schema of whole recipes, for editors.
+//! JSON Schema of whole recipes, for editors.
 
 use crate::outline::FILE_KIND;
 use cosfly_stage::{InputPort, Registry, StageKind, Takes};
@@ -7,8 +7,8 @@ use serde_json::{Map, Value, json};
 /// Names of stages, as in `[stages.NAME]`.
 const STAGE_NAME: &str = "^[a-z][a-z0-9_]*$";
 
-/// The schema (draft 2020-12) of recipes over the kinds of `registry`: each stage is checked against the parameters
-/// and inputs of the kind that its `use` names.
+/// Schema (draft 2020-12) of recipes over the kinds of `registry`: each stage is checked against the parameters and
+/// inputs of the kind that its `use` names.
 ///
 /// Precise errors come from `allOf` with one `if`/`then` per kind. The `anyOf` beside it never refuses anything
 /// (its last alternative is empty): editors such as Taplo take completions and hovers from it, because they do not
@@ -72,7 +72,7 @@ pub fn schema(registry: &Registry) -> Value {
     })
 }
 
-/// What `use` says of a kind.
+/// Rule for the value of `use` of a kind.
 fn written_use(kind: &str) -> Value {
     if kind == FILE_KIND { json!({ "pattern": format!("^{FILE_KIND}:.") }) } else { json!({ "const": kind }) }
 }
@@ -82,7 +82,7 @@ fn described(mut rule: Value, kind: &dyn StageKind) -> Value {
     rule
 }
 
-/// The kind's own schema with `use` and `inputs` added, and what it refers to as `KIND.DEFINITION`.
+/// Adds the kind's own schema with `use` and `inputs`, and the definitions that it refers to as `KIND.DEFINITION`.
 fn add_definitions(kind: &dyn StageKind, definitions: &mut Map<String, Value>) {
     let name = kind.name();
     let mut own = kind.schema();

@@ -1,4 +1,4 @@
-//! The files that stages read: resolved against the recipe's folder and looked for before anything runs.
+//! Files that stages read: resolved against the recipe's folder, and checked before anything runs.
 
 use crate::document::{Node, Place, Problems, Texts};
 use crate::model::SourceFile;
@@ -6,60 +6,106 @@ use crate::parameters::{Subject, check_parameters};
 use cosfly_diagnose::{Diagnostic, Fault, nearest_name};
 use cosfly_stage::Source;
 use serde_json::{Value as Json, json};
+use std::collections::BTreeMap;
+use std::fs::DirEntry;
 use std::path::{Path, PathBuf};
 
-/// Folders with more entries than this are not searched for a similar name.
-const MOST_ENTRIES: usize = 10_000;
-
-/// Resolves `declared` sources; each one that is not a file is reported at the parameter that names it.
-pub(crate) fn resolve(
-    declared: &[Source],
-    directory: &Path,
-    (parameters, subject): (&Node, &Subject<'_>),
-    texts: &Texts,
-    problems: &mut Problems,
-) -> Vec<SourceFile> {
-    let stage_place = subject.place;
-    let mut files = vec![];
-    for source in declared {
-        if source.path.as_os_str().is_empty() {
-            let message = format!("`{}` names no file", source.parameter);
-            let place = place_of(source, parameters).unwrap_or(stage_place);
-            problems.push(
-                texts
-                    .problem("recipe-missing-key", place, message)
-                    .hint(format!("write `{} = \"...\"`; paths begin at the recipe's folder", source.parameter)),
-            );
-            continue;
-        }
-        let path = directory.join(&source.path);
-        if let Err((message, hints)) = check_file(&path, &source.path, directory) {
-            let place = place_of(source, parameters).unwrap_or(stage_place);
-            let label = texts.label(place, "");
-            let problem = Diagnostic::new("input-missing", Fault::Input, message).at(label);
-            problems.push(hints.into_iter().fold(problem, |problem, hint| problem.hint(hint)));
-        } else if let Some(check) = &source.check {
-            let at_source = |problem: Box<Diagnostic>| {
-                problem.at(texts.label(place_of(source, parameters).unwrap_or(stage_place), ""))
-            };
-            match (check.read)(&path) {
-                Ok(schema) => {
-                    let whole = schema_at(&check.describes, schema);
-                    let mut found = check_parameters(&whole, parameters, subject, texts);
-                    if let Some(settle) = check.settle.as_ref().filter(|_| found.is_empty()) {
-                        problems.extend(settle(&path).err().map(at_source));
-                    }
-                    problems.append(&mut found);
-                }
-                Err(problem) => problems.push(at_source(problem)),
-            }
-        }
-        files.push(SourceFile { parameter: source.parameter.clone(), declared: source.path.clone(), path });
-    }
-    files
+/// Resolves and checks the files of a recipe.
+pub(crate) struct SourceFinder<'a> {
+    /// Folder of the recipe.
+    pub(crate) directory: &'a Path,
+    pub(crate) texts: &'a Texts,
+    /// Folders that were searched for similar names.
+    pub(crate) neighbours: Neighbours,
 }
 
-/// The schema of a stage's table of which only the parameter at `path` is described, by `schema`.
+impl SourceFinder<'_> {
+    /// Resolves `declared` sources; each one that is not a file is reported at the parameter that names it.
+    pub(crate) fn resolve(
+        &mut self,
+        declared: &[Source],
+        (parameters, subject): (&Node, &Subject<'_>),
+        problems: &mut Problems,
+    ) -> Vec<SourceFile> {
+        let mut files = vec![];
+        for source in declared {
+            let place = place_of(source, parameters).unwrap_or(subject.place);
+            if source.path.as_os_str().is_empty() {
+                let message = format!("`{}` names no file", source.parameter);
+                let hint = format!("write `{} = \"...\"`; paths are relative to the recipe's folder", source.parameter);
+                problems.push(self.texts.problem("recipe-missing-key", place, message).hint(hint));
+                continue;
+            }
+            let path = self.directory.join(&source.path);
+            match self.check_file(&path, &source.path) {
+                Ok(()) => problems.extend(self.check_content(source, &path, place, (parameters, subject))),
+                Err((message, hints)) => {
+                    let label = self.texts.label(place, "");
+                    let problem = Diagnostic::new("input-missing", Fault::Input, message).at(label);
+                    problems.push(hints.into_iter().fold(problem, |problem, hint| problem.hint(hint)));
+                }
+            }
+            files.push(SourceFile { parameter: source.parameter.clone(), path });
+        }
+        files
+    }
+
+    /// Mistakes that only the content of a file shows.
+    fn check_content(
+        &self,
+        source: &Source,
+        path: &Path,
+        place: &Place,
+        (parameters, subject): (&Node, &Subject<'_>),
+    ) -> Problems {
+        let Some(check) = &source.check else { return vec![] };
+        let at_source = |problem: Box<Diagnostic>| problem.at(self.texts.label(place, ""));
+        let schema = match (check.read)(path) {
+            Ok(schema) => schema_at(&check.describes, schema),
+            Err(problem) => return vec![at_source(problem)],
+        };
+        let mut found = check_parameters(&schema, parameters, subject, self.texts);
+        if let Some(settle) = check.settle.as_ref().filter(|_| found.is_empty()) {
+            found.extend(settle(path).err().map(at_source));
+        }
+        found
+    }
+
+    fn check_file(&mut self, path: &Path, written: &Path) -> Result<(), (String, Vec<String>)> {
+        let error = match std::fs::metadata(path) {
+            Ok(metadata) if metadata.is_dir() => {
+                return Err((format!("`{}` is a folder, not a file", path.display()), vec![]));
+            }
+            Ok(metadata) if metadata.is_file() => return Ok(()),
+            Ok(_) => return Err((format!("`{}` is not a regular file", path.display()), vec![])),
+            Err(error) => error,
+        };
+        if error.kind() == std::io::ErrorKind::PermissionDenied {
+            return Err((format!("`{}` cannot be read: {error}", path.display()), vec![]));
+        }
+        let mut hints = vec![];
+        let parent = path.parent().unwrap_or(Path::new(""));
+        if let Some(near) = self.neighbours.similar_file(path) {
+            hints.push(format!("did you mean `{}`?", written.with_file_name(near).display()));
+        } else if !shown_folder(parent).is_dir() {
+            hints.push(format!("there is no folder `{}`", parent.display()));
+        }
+        if written.is_relative() {
+            let folder = shown_folder(self.directory);
+            hints.push(match written.is_file() {
+                true => format!(
+                    "`{}` exists in the current folder, but paths in a recipe are relative to the recipe's folder; a full \
+                     path works as well",
+                    written.display()
+                ),
+                false => format!("paths in a recipe are relative to the recipe's folder, here `{}`", folder.display()),
+            });
+        }
+        Err((format!("there is no file `{}`", path.display()), hints))
+    }
+}
+
+/// Schema of a stage's table in which only the parameter at `path` is described, by `schema`.
 fn schema_at(path: &str, mut schema: Json) -> Json {
     let definitions = schema.as_object_mut().and_then(|table| table.remove("$defs"));
     for key in path.split('.').rev() {
@@ -79,61 +125,42 @@ fn schema_at(path: &str, mut schema: Json) -> Json {
     schema
 }
 
-/// Where the recipe gives the parameter that names the file.
+/// Place of the parameter that names the file, where the recipe gives it.
 fn place_of<'a>(source: &Source, parameters: &'a Node) -> Option<&'a Place> {
     let value = parameters.deepest(source.parameter.split('.'));
     value.as_table().is_none().then_some(&value.place)
 }
 
-fn check_file(path: &Path, written: &Path, directory: &Path) -> Result<(), (String, Vec<String>)> {
-    let error = match std::fs::metadata(path) {
-        Ok(metadata) if metadata.is_dir() => {
-            return Err((format!("`{}` is a folder; a file is wanted", path.display()), vec![]));
-        }
-        Ok(metadata) if metadata.is_file() => return Ok(()),
-        Ok(_) => return Err((format!("`{}` is not a regular file", path.display()), vec![])),
-        Err(error) => error,
-    };
-    if error.kind() == std::io::ErrorKind::PermissionDenied {
-        return Err((format!("`{}` may not be read: {error}", path.display()), vec![]));
+/// File names of folders, each folder read once.
+#[derive(Default)]
+pub(crate) struct Neighbours(BTreeMap<PathBuf, Vec<String>>);
+
+impl Neighbours {
+    /// Entries of a folder that are read at most.
+    const MOST_ENTRIES: usize = 10_000;
+
+    /// Name of the file beside `path` that is most like it.
+    pub(crate) fn similar_file(&mut self, path: &Path) -> Option<String> {
+        let name = path.file_name()?.to_str()?;
+        let folder = shown_folder(path.parent()?);
+        let names = self.0.entry(folder).or_insert_with_key(|folder| Self::files_of(folder));
+        nearest_name(name, names.iter().map(String::as_str)).map(str::to_owned)
     }
-    let mut hints = vec![];
-    let parent = path.parent().unwrap_or(Path::new(""));
-    if let Some(near) = similar_file(path) {
-        hints.push(format!("did you mean `{}`?", written.with_file_name(near).display()));
-    } else if !shown_folder(parent).is_dir() {
-        hints.push(format!("there is no folder `{}`", parent.display()));
+
+    fn files_of(folder: &Path) -> Vec<String> {
+        let Ok(entries) = std::fs::read_dir(folder) else { return vec![] };
+        let is_file = |entry: &DirEntry| match entry.file_type() {
+            Ok(kind) if kind.is_symlink() => entry.path().is_file(),
+            kind => kind.is_ok_and(|kind| kind.is_file()),
+        };
+        let files = entries.take(Self::MOST_ENTRIES).flatten().filter(is_file);
+        let mut names: Vec<String> = files.filter_map(|entry| entry.file_name().into_string().ok()).collect();
+        names.sort_unstable();
+        names
     }
-    if written.is_relative() {
-        if written.is_file() {
-            hints.push(format!(
-                "`{}` exists where you stand, but paths in a recipe begin at the recipe's folder; a full path works, too",
-                written.display()
-            ));
-        } else {
-            hints.push(format!(
-                "paths in a recipe begin at the recipe's folder, here `{}`",
-                shown_folder(directory).display()
-            ));
-        }
-    }
-    Err((format!("there is no file `{}`", path.display()), hints))
 }
 
-/// The name of a file beside `path` that is most like it.
-pub(crate) fn similar_file(path: &Path) -> Option<String> {
-    let name = path.file_name()?.to_str()?;
-    let folder = shown_folder(path.parent()?);
-    let mut names: Vec<String> = std::fs::read_dir(folder)
-        .ok()?
-        .take(MOST_ENTRIES)
-        .filter_map(|entry| entry.ok().filter(|entry| entry.path().is_file())?.file_name().into_string().ok())
-        .collect();
-    names.sort_unstable();
-    nearest_name(name, names.iter().map(String::as_str)).map(str::to_owned)
-}
-
-/// The empty path is the folder we stand in.
+/// The current folder for an empty path.
 fn shown_folder(folder: &Path) -> PathBuf {
     if folder.as_os_str().is_empty() { PathBuf::from(".") } else { folder.to_path_buf() }
 }

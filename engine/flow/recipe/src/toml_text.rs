@@ -1,4 +1,4 @@
-//! TOML text into the spanned tree; the only place that knows the `toml` crate.
+//! From TOML text to the tree with places; the only file that knows the `toml` crate.
 
 use crate::document::{Entry, Node, Place, Problems, Table, Texts, Value};
 use cosfly_diagnose::Diagnostic;
@@ -6,11 +6,11 @@ use std::ops::Range;
 use toml::Spanned;
 use toml::de::{DeTable, DeValue, Error};
 
-/// Tables deeper than this are refused: no recipe needs them, and every check recurses.
+/// Deepest nesting of tables: no recipe needs more, and every check recurses.
 const MOST_LEVELS: usize = 32;
-/// A text longer than this is not a recipe.
+/// Longest text, bytes.
 const MOST_BYTES: usize = 4 << 20;
-/// A broken text often breaks again further down; more than this is noise.
+/// Syntax errors that are reported: a broken text often breaks again further down.
 const MOST_SYNTAX_ERRORS: usize = 5;
 
 /// The recipe's root table.
@@ -47,7 +47,7 @@ pub(crate) fn parse_value(
         None => DeValue::parse(value).map_err(|error| error.message().to_owned()),
     };
     match parsed {
-        // Nobody quotes twice for a shell: `--set stages.tables.released=2026-05-01` means the text.
+        // Quotes inside of shell quotes are easily forgotten: `--set stages.tables.released=2026-05-01` means the text.
         Ok(parsed) if parsed.get_ref().is_datetime() => {
             Some(Node { place: whole, value: Value::Text(value.to_owned()) })
         }
@@ -65,12 +65,12 @@ pub(crate) fn parse_value(
     }
 }
 
-/// Why a text is too long to be read; depth the parser limits itself.
+/// Message for a text that is too long to be read. (The parser limits the depth itself.)
 fn too_long(text: &str) -> Option<String> {
     (text.len() > MOST_BYTES).then(|| format!("the text has {} bytes; a recipe may have {MOST_BYTES}", text.len()))
 }
 
-/// The first mistake of every line; what follows a broken table header in its table is its echo.
+/// First mistake of every line, without those that follow from a broken table header above them.
 fn syntax_problems(errors: &[Error], text: &str, texts: &Texts) -> Problems {
     let mut problems = Problems::new();
     let (mut last_line, mut broken_table) = (None, None);
@@ -96,7 +96,7 @@ fn syntax_problems(errors: &[Error], text: &str, texts: &Texts) -> Problems {
     problems
 }
 
-/// A key that stands twice in its table; shows the first one, too, where a line begins with it.
+/// A key that is given twice in its table; the first place is shown as well, where a line begins with it.
 fn given_twice(place: &Place, line_start: usize, text: &str, texts: &Texts) -> Box<Diagnostic> {
     let problem = texts.problem("recipe-syntax", place, format!("`{}` is given twice", texts.written(place)));
     let Some(key) = text.get(line_start..place.end) else { return problem };
@@ -139,7 +139,7 @@ impl TreeReader<'_> {
         let place = self.place(value.span());
         let value = if path.len() > MOST_LEVELS {
             let message = format!("tables and lists are nested more than {MOST_LEVELS} deep");
-            self.refuse("recipe-too-deep", &place, message)
+            self.refuse(self.texts.problem("recipe-too-deep", &place, message))
         } else {
             self.value(value.get_ref(), &place, path)
         };
@@ -153,9 +153,12 @@ impl TreeReader<'_> {
             DeValue::Integer(digits) => match i64::from_str_radix(digits.as_str(), digits.radix()) {
                 Ok(value) => Value::Integer(value),
                 Err(_) => {
-                    let message =
-                        format!("`{}` is `{}`; whole numbers have 64 bits and a sign", path.join("."), digits.as_str());
-                    self.refuse("recipe-out-of-range", place, message)
+                    let message = format!(
+                        "`{}` is `{}`; whole numbers must fit into 64 bits with a sign",
+                        path.join("."),
+                        digits.as_str()
+                    );
+                    self.refuse(self.texts.problem("recipe-out-of-range", place, message))
                 }
             },
             DeValue::Float(digits) => match digits.as_str().parse::<f64>() {
@@ -163,12 +166,12 @@ impl TreeReader<'_> {
                 _ => {
                     let message =
                         format!("`{}` is `{}`; numbers must be finite", path.join("."), self.texts.written(place));
-                    self.refuse("recipe-not-finite", place, message)
+                    self.refuse(self.texts.problem("recipe-not-finite", place, message))
                 }
             },
             DeValue::Datetime(_) => {
                 let message = format!("`{}` is a date; recipes have no dates", path.join("."));
-                self.refuse("recipe-wrong-type", place, message)
+                self.refuse(self.texts.problem("recipe-wrong-type", place, message).hint("put it in quotes"))
             }
             DeValue::Array(items) => {
                 let mut nodes = Vec::with_capacity(items.len());
@@ -183,9 +186,8 @@ impl TreeReader<'_> {
         }
     }
 
-    fn refuse(&mut self, code: &'static str, place: &Place, message: String) -> Value {
-        let problem = self.texts.problem(code, place, message);
-        self.problems.push(if code == "recipe-wrong-type" { problem.hint("put it in quotes") } else { problem });
+    fn refuse(&mut self, problem: Box<Diagnostic>) -> Value {
+        self.problems.push(problem);
         Value::Refused
     }
 }

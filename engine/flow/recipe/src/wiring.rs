@@ -6,30 +6,54 @@ use crate::order::Reads;
 use crate::outline::{InputOutline, Outline, StageOutline};
 use cosfly_diagnose::{Diagnostic, nearest_name};
 use cosfly_stage::{InputPort, Registry, Takes};
+use std::cell::RefCell;
 use std::collections::BTreeMap;
 
-/// Per stage of the outline and port: what is connected, in the order of the recipe.
+/// Connected stages by stage of the outline and port, in the order of the recipe.
 pub(crate) type Wires = Vec<BTreeMap<String, Vec<(usize, Place)>>>;
 
-/// The graph as the recipe draws it.
+/// Connections as the recipe writes them.
 pub(crate) struct Wiring<'a> {
-    pub(crate) outline: &'a Outline,
-    pub(crate) known: &'a [Option<KnownStage>],
-    pub(crate) registry: &'a Registry,
-    pub(crate) texts: &'a Texts,
+    outline: &'a Outline,
+    known: &'a [Option<KnownStage>],
+    registry: &'a Registry,
+    texts: &'a Texts,
+    /// Numbers of the stages of the outline.
+    positions: BTreeMap<&'a str, usize>,
+    /// Kinds that make an artifact, by artifact: building all kinds takes long.
+    makers: RefCell<BTreeMap<&'static str, Vec<&'static str>>>,
 }
 
-impl Wiring<'_> {
-    /// Checks every connection; what exists is wired, what does not is reported.
-    pub(crate) fn connect(&self, problems: &mut Problems) -> (Wires, Reads) {
-        let mut wires = vec![];
-        let mut reads = vec![];
+/// The graph, as far as it exists.
+pub(crate) struct Connected {
+    pub(crate) wires: Wires,
+    pub(crate) reads: Reads,
+    /// Connections of stages that exist, but make another artifact.
+    pub(crate) mismatches: Problems,
+}
+
+impl<'a> Wiring<'a> {
+    pub(crate) fn new(
+        outline: &'a Outline,
+        known: &'a [Option<KnownStage>],
+        registry: &'a Registry,
+        texts: &'a Texts,
+    ) -> Self {
+        let names = outline.stages.iter().enumerate();
+        let positions = names.map(|(index, stage)| (stage.name.as_str(), index)).collect();
+        Self { outline, known, registry, texts, positions, makers: RefCell::default() }
+    }
+
+    /// Checks every connection: those that exist are returned, mistakes are reported.
+    pub(crate) fn connect(&self, problems: &mut Problems) -> Connected {
+        let (mut wires, mut reads, mut mismatches) = (vec![], vec![], vec![]);
         for (stage, known) in self.outline.stages.iter().zip(self.known) {
             let mut ports = BTreeMap::new();
             for input in &stage.inputs {
                 let upstreams = self.upstreams(stage, input, problems);
                 if let Some(known) = known {
                     self.check_port(stage, input, &known.ports, &upstreams, problems);
+                    mismatches.extend(self.mismatches(stage, input, &known.ports, &upstreams));
                 }
                 ports.insert(input.port.clone(), upstreams);
             }
@@ -44,13 +68,13 @@ impl Wiring<'_> {
             reads.push(ports.values().flatten().cloned().collect());
             wires.push(ports);
         }
-        (wires, reads)
+        Connected { wires, reads, mismatches }
     }
 
     fn upstreams(&self, stage: &StageOutline, input: &InputOutline, problems: &mut Problems) -> Vec<(usize, Place)> {
         let mut upstreams: Vec<(usize, Place)> = vec![];
         for (name, place) in &input.stages {
-            match self.outline.stages.iter().position(|known| known.name == *name) {
+            match self.positions.get(name.as_str()).copied() {
                 None => problems.push(self.unknown_stage(stage, name, place)),
                 Some(index) if upstreams.iter().any(|(known, _)| *known == index) => {
                     let message = format!("`{name}` is connected twice to `inputs.{}` of `{}`", input.port, stage.name);
@@ -96,7 +120,7 @@ impl Wiring<'_> {
             };
             problems.push(match ports {
                 [] => problem.hint(format!("`{kind}` has no inputs")),
-                _ => problem.hint(format!("`{kind}` has {}", list(ports.iter().map(|port| port.name), 40))),
+                _ => problem.hint(format!("inputs of `{kind}`: {}", list(ports.iter().map(|port| port.name), 40))),
             });
             return;
         };
@@ -104,7 +128,8 @@ impl Wiring<'_> {
             && port.takes == Takes::One
         {
             let second = &self.outline.stages[*second].name;
-            let message = format!("`inputs.{}` of `{}` takes one stage; `{second}` is one more", port.name, stage.name);
+            let message =
+                format!("`inputs.{}` of `{}` takes one stage, and `{second}` is a second one", port.name, stage.name);
             problems.push(self.texts.problem("recipe-input-twice", place, message).hint("connect one of them"));
         }
         if input.listed && input.stages.is_empty() && !port.optional {
@@ -112,6 +137,18 @@ impl Wiring<'_> {
             let problem = self.texts.problem("recipe-missing-input", &input.place, message);
             problems.push(self.connectable(problem, stage, port));
         }
+    }
+
+    /// Connections of stages that make another artifact than the port takes.
+    fn mismatches(
+        &self,
+        stage: &StageOutline,
+        input: &InputOutline,
+        ports: &[InputPort],
+        upstreams: &[(usize, Place)],
+    ) -> Problems {
+        let Some(port) = ports.iter().find(|port| port.name == input.port) else { return vec![] };
+        let mut found = vec![];
         for (upstream, place) in upstreams {
             let made = self.known[*upstream].as_ref().and_then(|known| known.built.as_ref()?.artifact());
             if let Some(made) = made.filter(|made| *made != port.artifact) {
@@ -121,9 +158,10 @@ impl Wiring<'_> {
                     port.name, stage.name, port.artifact
                 );
                 let problem = self.texts.problem("recipe-artifact-mismatch", place, message);
-                problems.push(self.connectable(problem, stage, port));
+                found.push(self.connectable(problem, stage, port));
             }
         }
+        found
     }
 
     fn missing_input(&self, stage: &StageOutline, port: &InputPort) -> Box<Diagnostic> {
@@ -133,7 +171,7 @@ impl Wiring<'_> {
         self.connectable(problem, stage, port)
     }
 
-    /// Adds what makes the artifact that `port` takes: stages of this recipe, else kinds.
+    /// Adds the makers of the artifact that `port` takes: stages of this recipe, and kinds.
     fn connectable(&self, problem: Box<Diagnostic>, reader: &StageOutline, port: &InputPort) -> Box<Diagnostic> {
         let makers: Vec<&str> = self
             .outline
@@ -146,7 +184,9 @@ impl Wiring<'_> {
             })
             .map(|(stage, _)| stage.name.as_str())
             .collect();
-        let kinds = kinds_that_make(self.registry, port.artifact);
+        let mut makers_by_kind = self.makers.borrow_mut();
+        let kinds =
+            makers_by_kind.entry(port.artifact).or_insert_with(|| kinds_that_make(self.registry, port.artifact));
         let problem = match &makers[..] {
             [] => problem,
             [one] => problem.hint(format!("write `inputs.{} = \"{one}\"` in `[stages.{}]`", port.name, reader.name)),
@@ -154,7 +194,7 @@ impl Wiring<'_> {
         };
         match &kinds[..] {
             [] => problem,
-            _ => problem.hint(format!("stage kinds that make `{}`: {}", port.artifact, list(kinds, 20))),
+            _ => problem.hint(format!("stage kinds that make `{}`: {}", port.artifact, list(kinds.iter(), 20))),
         }
     }
 }

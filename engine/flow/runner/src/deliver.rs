@@ -1,34 +1,34 @@
-//! A run, then the artifact of a stage as a folder; what turns out damaged on the way is made again.
+//! A run, then the artifact of a stage as a folder; blobs that turn out damaged on the way are made again.
 
-use crate::run::{RunOptions, run};
+use crate::options::RunOptions;
+use crate::run::run;
 use crate::summary::{RunOutcome, RunSummary};
-use cosfly_diagnose::Result;
+use cosfly_diagnose::{Fault, Result};
 use cosfly_recipe::Recipe;
-use cosfly_stage::{BlobRef, RunEvent};
-use cosfly_store::{BLOB_LOST, Materialised, Store, check_out_folder, materialise};
-use std::collections::BTreeMap;
+use cosfly_stage::{Blobs, RunEvent};
+use cosfly_store::{Materialised, Store, check_out_folder, materialise};
 use std::path::Path;
 
-/// How often lost blobs are made again.
+/// Times that lost blobs are made again.
 const MOST_HEALINGS: u32 = 3;
 
 /// A run and the folder that it filled.
 pub struct Delivery {
-    /// The run (the last one, when blobs had to be made again).
+    /// Summary of the run; of the last one, where blobs had to be made again.
     pub summary: RunSummary,
-    /// The folder; nothing when the run did not finish the stage.
+    /// The folder; `None` where the run did not finish the stage.
     pub folder: Option<Materialised>,
 }
 
-/// Runs `recipe` and, when `stage` is finished, makes `folder` hold its artifact. The files of a stage with
-/// several items lie in one folder per item. A run that failed elsewhere still delivers a finished stage.
+/// Runs `recipe` and, where stage number `stage` is finished then, makes `folder` hold its artifact. The files of a stage
+/// with several items are in one folder per item. A run that failed elsewhere still delivers a finished stage.
 ///
 /// # Errors
 /// As [`run`] and [`materialise`].
 pub fn deliver(
     recipe: &Recipe,
     store: &Store,
-    stage: &str,
+    stage: usize,
     folder: &Path,
     options: &RunOptions,
     report: &(dyn Fn(RunEvent) + Sync),
@@ -40,17 +40,17 @@ pub fn deliver(
         let Some(blobs) = files_of(&summary, stage) else { return Ok(Delivery { summary, folder: None }) };
         match materialise(store, &blobs, folder) {
             Ok(folder) => return Ok(Delivery { summary, folder: Some(folder) }),
-            Err(lost) if lost.code == BLOB_LOST && tries < MOST_HEALINGS => tries += 1,
+            Err(lost) if lost.fault == Fault::Lost && tries < MOST_HEALINGS => tries += 1,
             Err(diagnostic) => return Err(diagnostic),
         }
     }
 }
 
-/// The files of all items of a finished stage.
-fn files_of(summary: &RunSummary, stage: &str) -> Option<BTreeMap<String, BlobRef>> {
-    let total = summary.stages.iter().find(|counts| counts.name == stage)?.total;
+/// Files of all items of a finished stage.
+fn files_of(summary: &RunSummary, stage: usize) -> Option<Blobs> {
     let items: Vec<_> = summary.finished_items(stage).collect();
-    if summary.outcome == RunOutcome::Cancelled || items.is_empty() || items.len() as u64 != total {
+    let is_whole = items.len() as u64 == summary.stages[stage].total;
+    if summary.outcome == RunOutcome::Cancelled || items.is_empty() || !is_whole {
         return None;
     }
     let single = items.len() == 1;

@@ -1,46 +1,50 @@
 //! Plan documents: canonical JSON whose digest is the key of a task before it runs, and the action key afterwards.
 //!
-//! A *definition* (`cosfly.stage/1`) is what all items of a stage share. A *plan* (`cosfly.plan/1`) names the
-//! definition, the item and, by their plan digests, the tasks it reads. A *gather* (`cosfly.gather/1`) lists what
-//! arrives at a port that takes all items, once for all tasks that read it. The *action key* is taken over
-//! everything a stage can see while it runs, with inputs as contents; it is never stored as a document.
+//! A *definition* (`cosfly.stage/1`) is shared by all items of a stage. A *plan* (`cosfly.plan/1`) names the definition,
+//! the item and, by their plan digests, the tasks that are read. A *gather* (`cosfly.gather/1`) lists the items at a port
+//! that takes all of them, once for all tasks that read it. The *action key* is taken over everything that a stage can
+//! see while it runs, with inputs as contents; it is never stored as a document.
 
 use crate::sources::HashedSource;
 use cosfly_fingerprint::{Digest, canonical_json};
-use cosfly_stage::{Artifact, Fan, InputGroup, Stage};
+use cosfly_stage::{Artifact, Fan, ItemId, ItemName, Ports, Stage, StageName};
 use serde_json::{Value, json};
 use std::collections::BTreeMap;
-use std::fmt::Write as _;
+use std::fmt::{Display, Write as _};
 
 pub(crate) const DEFINITION_SCHEMA: &str = "cosfly.stage/1";
 pub(crate) const PLAN_SCHEMA: &str = "cosfly.plan/1";
 const GATHER_SCHEMA: &str = "cosfly.gather/1";
 const ACTION_SCHEMA: &str = "cosfly.action/1";
 
-/// What all items of a stage share.
+/// Document that all items of a stage share.
 #[derive(Clone, Debug)]
 pub(crate) struct Definition {
     pub(crate) digest: Digest,
     pub(crate) json: String,
-    /// The part of the action key that all its items share.
+    /// Part of the action key that all items share.
     action_prefix: Digest,
 }
 
-/// One thing that arrives at a port.
+/// An item at a port.
+#[derive(Clone, Copy)]
 pub(crate) struct PlannedInput<'a> {
-    /// Its id at the port.
-    pub(crate) id: &'a str,
-    pub(crate) stage: &'a str,
-    pub(crate) item: &'a str,
+    /// Name at the port.
+    pub(crate) name: &'a ItemName,
+    /// Stage that makes it.
+    pub(crate) stage: &'a StageName,
+    /// Name in that stage.
+    pub(crate) item: &'a ItemName,
+    /// Plan digest of its task.
     pub(crate) plan: Digest,
 }
 
 /// A port in the plan documents of a stage.
 #[derive(Clone, Debug)]
 pub(crate) enum PortDocument {
-    /// The same text for all items: a broadcast, or the name of a gather document.
+    /// Text for all items: a broadcast, or the digest of a gather document.
     Shared { port: &'static str, text: String, gather: Option<(Digest, String)> },
-    /// One input per item; the connection's index.
+    /// One input per item, of the connection with this index.
     Each { port: &'static str, connection: usize },
 }
 
@@ -53,8 +57,8 @@ impl PortDocument {
 }
 
 impl Definition {
-    /// The definition of `stage`, called `name` in a recipe with seed `seed`.
-    pub(crate) fn new(name: &str, seed: u64, stage: &dyn Stage, sources: &[HashedSource]) -> Self {
+    /// Definition of `stage`, called `name` in a recipe with the seed `seed`.
+    pub(crate) fn new(name: &StageName, seed: u64, stage: &dyn Stage, sources: &[HashedSource]) -> Self {
         let properties = stage.properties();
         let sources: BTreeMap<&str, Digest> = sources.iter().map(|s| (s.parameter.as_str(), s.digest)).collect();
         let shared = json!({
@@ -67,7 +71,7 @@ impl Definition {
         let mut definition = shared.clone();
         definition["schema"] = DEFINITION_SCHEMA.into();
         definition["seed"] = seed.into();
-        definition["stage"] = name.into();
+        definition["stage"] = name.as_str().into();
         let json = canonical_json(&definition);
         let mut action = shared;
         action["schema"] = ACTION_SCHEMA.into();
@@ -78,21 +82,21 @@ impl Definition {
         }
     }
 
-    /// The action key of one item: everything its stage can see, and nothing else.
-    pub(crate) fn action_key(
-        &self,
-        stage: &str,
-        item: &str,
-        seed: &[u8; 32],
-        ports: &BTreeMap<String, InputGroup>,
-    ) -> Digest {
-        let mut text = format!("{{\"definition\":\"{}\",\"item\":{},\"ports\":{{", self.action_prefix, quoted(item));
-        for (index, (port, group)) in ports.iter().enumerate() {
-            let _ = write!(text, "{}{}:[", comma(index), quoted(port));
-            group.artifacts.iter().enumerate().for_each(|(index, artifact)| push_artifact(&mut text, index, artifact));
+    /// Action key of one item: over everything that its stage can see, and nothing else.
+    pub(crate) fn action_key(&self, id: &ItemId, seed: &[u8; 32], ports: &Ports) -> Digest {
+        let mut text = format!("{{\"definition\":\"{}\",\"item\":", self.action_prefix);
+        push_quoted(&mut text, &id.item);
+        text.push_str(",\"ports\":{");
+        for (index, (port, artifacts)) in ports.iter().enumerate() {
+            text.push_str(comma(index));
+            push_quoted(&mut text, port);
+            text.push_str(":[");
+            artifacts.iter().enumerate().for_each(|(index, artifact)| push_artifact(&mut text, index, artifact));
             text.push(']');
         }
-        let _ = write!(text, "}},\"seed\":\"{}\",\"stage\":{}}}", Digest(*seed), quoted(stage));
+        let _ = write!(text, "}},\"seed\":\"{}\",\"stage\":", Digest(*seed));
+        push_quoted(&mut text, &id.stage);
+        text.push('}');
         Digest::of(text.as_bytes())
     }
 }
@@ -100,12 +104,18 @@ impl Definition {
 fn push_artifact(text: &mut String, index: usize, artifact: &Artifact) {
     let _ = write!(text, "{}{{\"blobs\":{{", comma(index));
     for (index, (name, blob)) in artifact.blobs.iter().enumerate() {
-        let _ = write!(text, "{}{}:\"{}\"", comma(index), quoted(name), blob.digest);
+        text.push_str(comma(index));
+        push_quoted(text, name);
+        let _ = write!(text, ":\"{}\"", blob.digest);
     }
-    let _ = write!(text, "}},\"item\":{},\"stage\":{}}}", quoted(&artifact.item), quoted(&artifact.stage));
+    text.push_str("},\"item\":");
+    push_quoted(text, &artifact.name);
+    text.push_str(",\"stage\":");
+    push_quoted(text, &artifact.id.stage);
+    text.push('}');
 }
 
-/// The port of a stage in the plan documents of all its items; `inputs` gives what arrives.
+/// Port of a stage in the plan documents of all its items; `inputs` are the items at the port.
 pub(crate) fn port_document<'a>(
     port: &'static str,
     fan: Fan,
@@ -124,56 +134,65 @@ pub(crate) fn port_document<'a>(
     }
 }
 
-/// The plan document of one item. `ports` are sorted by name; `each` gives what arrives at a connection.
+/// Plan document of one item. `ports` are sorted by name; `each` gives the item's input at a connection.
 pub(crate) fn plan_document<'a>(
     definition: &Digest,
-    item: &str,
+    item: &ItemName,
     ports: &[PortDocument],
     each: impl Fn(usize) -> Option<PlannedInput<'a>>,
 ) -> String {
     let mut text = format!("{{\"definition\":\"{definition}\",\"inputs\":{{");
     for (index, port) in ports.iter().enumerate() {
-        let _ = write!(text, "{}{}:", comma(index), quoted(port.port()));
+        text.push_str(comma(index));
+        push_quoted(&mut text, &port.port());
+        text.push(':');
         match port {
             PortDocument::Shared { text: shared, .. } => text.push_str(shared),
-            PortDocument::Each { connection, .. } => text.push_str(&list_text(each(*connection).into_iter())),
+            PortDocument::Each { connection, .. } => push_list(&mut text, each(*connection).into_iter()),
         }
     }
-    let _ = write!(text, "}},\"item\":{},\"schema\":\"{PLAN_SCHEMA}\"}}", quoted(item));
+    text.push_str("},\"item\":");
+    push_quoted(&mut text, item);
+    let _ = write!(text, ",\"schema\":\"{PLAN_SCHEMA}\"}}");
     text
 }
 
 fn list_text<'a>(inputs: impl Iterator<Item = PlannedInput<'a>>) -> String {
-    let mut text = String::from("[");
+    let mut text = String::new();
+    push_list(&mut text, inputs);
+    text
+}
+
+fn push_list<'a>(text: &mut String, inputs: impl Iterator<Item = PlannedInput<'a>>) {
+    text.push('[');
     for (index, input) in inputs.enumerate() {
-        let _ = write!(
-            text,
-            "{}{{\"as\":{},\"item\":{},\"plan\":\"{}\",\"stage\":{}}}",
-            comma(index),
-            quoted(input.id),
-            quoted(input.item),
-            input.plan,
-            quoted(input.stage)
-        );
+        let _ = write!(text, "{}{{\"as\":", comma(index));
+        push_quoted(text, input.name);
+        text.push_str(",\"item\":");
+        push_quoted(text, input.item);
+        let _ = write!(text, ",\"plan\":\"{}\",\"stage\":", input.plan);
+        push_quoted(text, input.stage);
+        text.push('}');
     }
     text.push(']');
-    text
 }
 
 fn comma(index: usize) -> &'static str {
     if index == 0 { "" } else { "," }
 }
 
-/// A JSON string. Names are almost always plain, and there are many of them.
-fn quoted(text: &str) -> String {
-    if text.bytes().all(|byte| (b' '..0x7f).contains(&byte) && byte != b'"' && byte != b'\\') {
-        let mut plain = String::with_capacity(text.len() + 2);
-        plain.push('"');
-        plain.push_str(text);
-        plain.push('"');
-        plain
+/// Appends a value as a JSON string. Names are almost always plain, and there are many of them.
+fn push_quoted(text: &mut String, value: &(impl Display + ?Sized)) {
+    text.push('"');
+    let start = text.len();
+    let _ = write!(text, "{value}");
+    let is_plain = |byte| (b' '..0x7f).contains(&byte) && byte != b'"' && byte != b'\\';
+    if text[start..].bytes().all(is_plain) {
+        text.push('"');
     } else {
-        Value::from(text).to_string()
+        let raw = text.split_off(start);
+        text.pop();
+        text.push_str(&Value::from(raw).to_string());
     }
 }
 
@@ -181,13 +200,13 @@ fn quoted(text: &str) -> String {
 #[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord, serde::Deserialize)]
 pub(crate) struct StoredInput {
     #[serde(rename = "as")]
-    pub(crate) id: String,
+    pub(crate) name: String,
     pub(crate) stage: String,
     pub(crate) item: String,
     pub(crate) plan: Digest,
 }
 
-/// A stored plan document, gather documents read along.
+/// A stored plan document, with its gather documents.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct StoredPlan {
     pub(crate) definition: Digest,
@@ -196,7 +215,7 @@ pub(crate) struct StoredPlan {
 }
 
 impl StoredPlan {
-    /// Reads it with `document`, which gives the document of a digest.
+    /// Reads the plan document of `plan`; `document` gives the document of a digest.
     pub(crate) fn read(plan: &Digest, document: impl Fn(&Digest) -> Option<Value>) -> Option<Self> {
         let mut value = document(plan)?;
         if value["schema"] != PLAN_SCHEMA {
@@ -224,15 +243,17 @@ mod tests {
 
     #[test]
     fn plan_documents_are_canonical_json_and_read_back() {
-        let upstream = Digest::of(b"upstream");
-        let input = |id| PlannedInput { id, stage: "walkers", item: "p\"0\n", plan: upstream };
+        let stage = StageName::new("walkers", "");
+        let (item, names) = (ItemName::own("p\"0\n"), ["a", "b", "c", "d"].map(ItemName::own));
+        let input =
+            |at: usize| PlannedInput { name: &names[at], stage: &stage, item: &item, plan: Digest::of(b"upstream") };
         let ports = [
-            port_document("all", Fan::Gather, 0, [input("a"), input("b")].into_iter()),
+            port_document("all", Fan::Gather, 0, [input(0), input(1)].into_iter()),
             port_document("path", Fan::Each, 1, std::iter::empty()),
-            port_document("town", Fan::Broadcast, 2, [input("c")].into_iter()),
+            port_document("town", Fan::Broadcast, 2, [input(2)].into_iter()),
         ];
         let definition = Digest::of(b"definition");
-        let text = plan_document(&definition, "é\\", &ports, |_| Some(input("d")));
+        let text = plan_document(&definition, &ItemName::own("é\\"), &ports, |_| Some(input(3)));
         let value: Value = serde_json::from_str(&text).unwrap();
         assert_eq!(canonical_json(&value), text);
         let PortDocument::Shared { gather: Some((gather, json)), .. } = &ports[0] else { panic!("no gather") };
@@ -242,6 +263,6 @@ mod tests {
         assert_eq!((stored.definition, stored.item.as_str()), (definition, "é\\"));
         assert_eq!(stored.inputs["all"].len(), 2);
         assert_eq!(stored.inputs["path"][0].item, "p\"0\n");
-        assert_eq!(stored.inputs["town"][0].plan, upstream);
+        assert_eq!(stored.inputs["town"][0].plan, Digest::of(b"upstream"));
     }
 }

@@ -1,34 +1,38 @@
 //! Plan, schedule, execute, resume, explain.
 //!
-//! * [`plan`]: a recipe against a store: every task with its plan digest, what is finished, what will run and why.
+//! * [`plan`]: a recipe against a store: every task with its plan digest, the finished ones, and why the others will run.
 //! * [`run`]: does what a plan leaves to do, on several threads; resuming is the same as running.
-//! * [`run_task`]: one task by its plan digest, for another process or machine; the same leaf as in [`run`].
-//! * [`why`]: the ingredient that changed a task's key.
 //! * [`deliver`]: a run, then the artifact of a stage as a folder.
-//! * [`bench_engine`]: what the engine itself costs.
+//! * [`run_task`]: one task by its plan digest, for another process or machine; the same code as in [`run`].
+//! * [`why`]: the ingredient that changed a task's key.
 
-mod bench;
+mod change;
 mod deliver;
 mod document;
 mod explain;
-#[cfg(test)]
-mod laws;
+mod inputs;
 mod leaf;
+mod names;
+mod options;
 mod plan;
+mod planning;
 mod publisher;
+mod reason;
 mod reasons;
 mod run;
 mod schedule;
 mod single;
 mod sources;
 mod summary;
-mod toy;
+mod workers;
 
-pub use bench::{EngineFigures, bench_engine};
+pub use change::{Change, definition_difference};
 pub use deliver::{Delivery, deliver};
-pub use explain::{Change, Explanation, Link, definition_difference, why};
-pub use plan::{Plan, PlannedStage, plan, recipe_id};
-pub use reasons::Reason;
-pub use run::{RunOptions, run, run_plan};
+pub use explain::{Explanation, Link, why};
+pub use options::RunOptions;
+pub use plan::{Plan, PlannedStage, recipe_id};
+pub use planning::plan;
+pub use reason::Reason;
+pub use run::run;
 pub use single::run_task;
-pub use summary::{Failure, RunOutcome, RunSummary, StageSummary};
+pub use summary::{Failure, Origin, Rejection, RunOutcome, RunSummary, StageSummary, TaskEnd};

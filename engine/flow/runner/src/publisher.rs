@@ -1,18 +1,19 @@
-//! One thread that makes finished tasks durable, in groups: the disk is asked once for many of them.
+//! One thread that makes finished tasks durable in groups: one sync of the disk for many of them.
 
 use crate::leaf::Settlement;
-use crate::schedule::TaskId;
-use cosfly_diagnose::Result;
+use crate::schedule::TaskIndex;
+use cosfly_diagnose::{Diagnostic, Result};
+use cosfly_fingerprint::Digest;
 use cosfly_store::Store;
 use std::sync::{Condvar, Mutex, MutexGuard, PoisonError};
 use std::time::Duration;
 
-/// Settled tasks that may wait for the disk; more make their workers wait. Each holds a lock, that is an open file.
+/// Settled tasks that may wait for the disk; workers wait when there are more. Each holds a lock, that is an open file.
 const MOST_WAITING: usize = 256;
 
 /// A task on its way to being finished.
 pub(crate) struct Publication {
-    pub(crate) task: TaskId,
+    pub(crate) task: TaskIndex,
     pub(crate) settlement: Settlement,
     pub(crate) took: Duration,
 }
@@ -31,7 +32,7 @@ struct Queue {
 }
 
 impl Publisher {
-    /// Hands a settled task over; waits when the disk is far behind.
+    /// Queues a settled task; waits when the disk is far behind.
     pub(crate) fn submit(&self, publication: Publication) {
         let mut queue = self.lock();
         while queue.waiting.len() >= MOST_WAITING && !queue.closed {
@@ -41,21 +42,21 @@ impl Publisher {
         self.changed.notify_all();
     }
 
-    /// No more tasks will come.
+    /// Ends the queue: no more tasks will come.
     pub(crate) fn close(&self) {
         self.lock().closed = true;
         self.changed.notify_all();
     }
 
-    /// Publishes until closed. `document` gives the plan digest and document of a task; `durable` is told of every
-    /// task once its done record is on the disk. On a refusal, `refused` gets what could not be published, and
-    /// the rest is passed by.
+    /// Publishes until the queue ends. `document` gives the plan digest and document of a task; `durable` gets every
+    /// task once its done record is on the disk. A refusal of the disk goes to `refused`, and the tasks of that group
+    /// stay unpublished.
     pub(crate) fn serve(
         &self,
         store: &Store,
-        document: impl Fn(TaskId) -> (cosfly_fingerprint::Digest, String),
+        document: impl Fn(TaskIndex) -> (Digest, String),
         mut durable: impl FnMut(Publication),
-        mut refused: impl FnMut(Box<cosfly_diagnose::Diagnostic>),
+        mut refused: impl FnMut(Box<Diagnostic>),
     ) {
         // Done records that were written after the last sync.
         let mut written: Vec<Publication> = Vec::new();
@@ -76,14 +77,14 @@ impl Publisher {
             });
             if let Err(diagnostic) = published {
                 refused(diagnostic);
-                // Their locks are freed, and whoever comes next does them again.
+                // Their locks are freed, and the next run does them again.
                 written.clear();
             }
         }
     }
 
-    /// The tasks that wait; when `idle`, waits for some. Empty means that there is nothing at the moment, or,
-    /// when `idle`, that there never will be.
+    /// Waiting tasks; when `idle`, waits for some. Empty means that there are none at the moment, or, when `idle`, that
+    /// the queue ended.
     fn take(&self, idle: bool) -> Vec<Publication> {
         let mut queue = self.lock();
         while idle && queue.waiting.is_empty() && !queue.closed {
@@ -98,11 +99,7 @@ impl Publisher {
     }
 }
 
-fn publish(
-    store: &Store,
-    document: &impl Fn(TaskId) -> (cosfly_fingerprint::Digest, String),
-    publication: &Publication,
-) -> Result<()> {
+fn publish(store: &Store, document: &impl Fn(TaskIndex) -> (Digest, String), publication: &Publication) -> Result<()> {
     let (plan, document) = document(publication.task);
     store.publish_done(&plan, &document, &publication.settlement.finished.action)
 }

@@ -1,56 +1,60 @@
-//! Why the items of a stage will run, in few words for many items.
+//! Reasons why the items of a stage will run, found for many items at once.
 
-use crate::explain::{Change, definition_changes, newest_with_stage};
+use crate::change::{Change, definition_changes};
 use crate::plan::{Plan, PlannedStage};
-use cosfly_recipe::RecipeStage;
+use crate::reason::Reason;
+use cosfly_recipe::{Arrival, RecipeStage};
 use cosfly_store::{PastRun, PastStage, Store};
-use std::fmt;
-
-/// Why some items of a stage will run.
-#[derive(Clone, Debug, PartialEq)]
-pub enum Reason {
-    /// Something about the items themselves or the stage as a whole.
-    Changed(Vec<Change>),
-    /// What they read will be made anew by these stages.
-    Upstream(Vec<String>),
-    /// Other inputs are connected.
-    Wiring,
-}
-
-impl fmt::Display for Reason {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            Self::Changed(changes) => changes.iter().enumerate().try_for_each(|(index, change)| {
-                f.write_str(if index == 0 { "" } else { "; " })?;
-                change.fmt(f)
-            }),
-            Self::Upstream(stages) => write!(f, "what `{}` makes for it changed", stages.join("`, `")),
-            Self::Wiring => write!(f, "other inputs are connected"),
-        }
-    }
-}
 
 /// Fills in the reasons of every stage that has items to run.
 pub(crate) fn give_reasons(plan: &mut Plan<'_>, store: &Store) {
     if plan.to_run() == 0 {
         return;
     }
-    let runs: Vec<PastRun> = store.past_runs(&plan.recipe_id).collect();
+    let mut history = History { loaded: Vec::new(), more: store.past_runs(&plan.recipe_id) };
     for stage in 0..plan.stages.len() {
         if plan.stages[stage].to_run() > 0 {
-            plan.stages[stage].reasons = reasons_of(plan, store, &runs, stage);
+            plan.stages[stage].reasons = reasons_of(plan, store, &mut history, stage);
         }
     }
 }
 
-fn reasons_of(plan: &Plan<'_>, store: &Store, runs: &[PastRun], stage: usize) -> Vec<(Reason, u64)> {
+/// Remembered runs, newest first, loaded as far as they are needed: mostly one.
+struct History<I> {
+    loaded: Vec<PastRun>,
+    more: I,
+}
+
+impl<I: Iterator<Item = PastRun>> History<I> {
+    /// Newest run with finished items of a stage, and that stage.
+    fn newest_with(&mut self, stage: &str) -> Option<(&PastRun, &PastStage)> {
+        let has_items = |run: &PastRun| run.stage(stage).is_some_and(|stage| !stage.items.is_empty());
+        let mut position = self.loaded.iter().position(has_items);
+        while position.is_none() {
+            let next = self.more.next()?;
+            position = has_items(&next).then_some(self.loaded.len());
+            self.loaded.push(next);
+        }
+        let run = self.loaded.get(position?)?;
+        Some((run, run.stage(stage)?))
+    }
+
+    fn is_empty(&self) -> bool {
+        self.loaded.is_empty()
+    }
+}
+
+fn reasons_of(
+    plan: &Plan<'_>,
+    store: &Store,
+    history: &mut History<impl Iterator<Item = PastRun>>,
+    stage: usize,
+) -> Vec<(Reason, u64)> {
     let planned = &plan.stages[stage];
-    let all = |change| vec![(Reason::Changed(vec![change]), planned.to_run())];
-    let Some(past) = newest_with_stage(runs, &planned.name) else {
-        return all(if runs.is_empty() { Change::FirstRun } else { Change::NewStage });
+    let Some((run, past)) = history.newest_with(planned.name.as_str()) else {
+        let change = if history.is_empty() { Change::FirstRun } else { Change::NewStage };
+        return vec![(Reason::Changed(vec![change]), planned.to_run())];
     };
-    let run = &runs[past];
-    let Some(past) = run.stage(&planned.name) else { return all(Change::NewStage) };
     let definition = definition_reason(planned, past, store);
     let mut reasons: Vec<(Reason, u64)> = Vec::new();
     for item in (0..planned.plans.len()).filter(|item| planned.finished[*item].is_none()) {
@@ -63,7 +67,7 @@ fn reasons_of(plan: &Plan<'_>, store: &Store, runs: &[PastRun], stage: usize) ->
     reasons
 }
 
-/// What changed for all items alike.
+/// Reason that all items share: a change of the stage's definition.
 fn definition_reason(planned: &PlannedStage, past: &PastStage, store: &Store) -> Option<Reason> {
     if past.definition == planned.definition.digest {
         return None;
@@ -83,7 +87,7 @@ fn item_reason(
     definition: Option<&Reason>,
 ) -> Reason {
     let described: &RecipeStage = &plan.recipe.stages[stage];
-    match past.items.get(&*described.items[item]) {
+    match past.items.get(&described.items[item].to_string()) {
         None => return Reason::Changed(vec![Change::NewItem]),
         Some(digest) if *digest == plan.stages[stage].plans[item] => {
             return Reason::Changed(vec![Change::OutputLost]);
@@ -93,19 +97,26 @@ fn item_reason(
     if let Some(reason) = definition {
         return reason.clone();
     }
-    let mut upstreams: Vec<String> = Vec::new();
+    let upstreams = changed_upstreams(plan, run, described, item);
+    if upstreams.is_empty() { Reason::Wiring } else { Reason::Upstream(upstreams) }
+}
+
+/// Names of the stages of which an item reads items with other keys than in `run`.
+fn changed_upstreams(plan: &Plan<'_>, run: &PastRun, described: &RecipeStage, item: usize) -> Vec<String> {
+    let mut changed: Vec<String> = Vec::new();
     for connection in &described.connections {
-        for upstream in &connection.upstreams {
-            let name = &plan.recipe.stages[*upstream].name;
-            let changed = connection.arrivals_for(item).iter().filter(|a| a.stage == *upstream).any(|arrival| {
-                let id = &*plan.recipe.stages[arrival.stage].items[arrival.item];
-                let before = run.stage(name).and_then(|stage| stage.items.get(id));
+        // Arrivals are sorted by stage.
+        for arrivals in connection.arrivals_for(item).chunk_by(|a, b| a.stage == b.stage) {
+            let upstream = &plan.recipe.stages[arrivals[0].stage];
+            let past = run.stage(upstream.name.as_str());
+            let is_other = |arrival: &Arrival| {
+                let before = past.and_then(|stage| stage.items.get(&upstream.items[arrival.item].to_string()));
                 before != Some(&plan.stages[arrival.stage].plans[arrival.item])
-            });
-            if changed && !upstreams.contains(name) {
-                upstreams.push(name.clone());
+            };
+            if !changed.iter().any(|known| upstream.name == **known) && arrivals.iter().any(is_other) {
+                changed.push(upstream.name.to_string());
             }
         }
     }
-    if upstreams.is_empty() { Reason::Wiring } else { Reason::Upstream(upstreams) }
+    changed
 }

@@ -1,30 +1,30 @@
-//! Which task may start next: counters instead of a graph of tasks, so that memory grows by a few words per item.
+//! Order of tasks: counters instead of a graph of tasks, so that memory grows by a few words per item.
 
 use cosfly_recipe::Recipe;
 use cosfly_stage::Fan;
 use std::collections::{BTreeMap, BTreeSet, VecDeque};
 
-/// A task: its number over all stages.
-pub(crate) type TaskId = usize;
+/// Number of a task, counted over all stages.
+pub(crate) type TaskIndex = usize;
 
-/// Where a task stands.
+/// State of a task.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum State {
-    /// For its inputs.
+    /// Its inputs are not finished.
     Waiting,
-    /// Nothing keeps it from starting.
+    /// It may start.
     Ready,
-    /// On a thread.
+    /// It is on a thread.
     Running,
     /// Its blobs can be read.
     Finished,
     /// It ended with a diagnostic.
     Failed,
-    /// Something it reads failed.
+    /// A task that it reads failed.
     Skipped,
 }
 
-/// How the items of one stage feed another.
+/// Relation of the items of one stage to those of a stage that reads it.
 enum Link {
     /// Pairs (upstream item, downstream item), sorted.
     Each { downstream: usize, pairs: Vec<(u32, u32)> },
@@ -32,27 +32,27 @@ enum Link {
     Whole { downstream: usize },
 }
 
-/// The state of all tasks of a run.
+/// State of all tasks of a run.
 pub(crate) struct Schedule {
-    /// First task of each stage, and the number of all.
-    offsets: Vec<TaskId>,
+    /// First task of each stage, and the number of all tasks.
+    offsets: Vec<TaskIndex>,
     links: Vec<Vec<Link>>,
     states: Vec<State>,
-    /// Per stage: unfinished tasks at ports that take a whole stage.
+    /// By stage: unfinished tasks at ports that take a whole stage.
     barriers: Vec<u64>,
-    /// Per task: unfinished tasks at ports that pair items.
+    /// By task: unfinished tasks at ports that pair items.
     pairs_left: Vec<u32>,
-    /// Tasks whose end was counted already; they may run again when their blobs are lost.
+    /// Tasks whose end was counted already; they run again when their blobs are lost.
     counted: Vec<bool>,
-    ready: BTreeSet<TaskId>,
+    ready: BTreeSet<TaskIndex>,
     running: usize,
     /// Tasks waiting for one whose blobs were lost.
-    rewaiting: BTreeMap<TaskId, Vec<TaskId>>,
-    rewaits_left: BTreeMap<TaskId, usize>,
+    rewaiting: BTreeMap<TaskIndex, Vec<TaskIndex>>,
+    rewaits_left: BTreeMap<TaskIndex, usize>,
 }
 
 impl Schedule {
-    /// Nothing is running; `finished(stage, item)` says what need not run.
+    /// Schedule with nothing running; `finished(stage, item)` is true for tasks that need not run.
     pub(crate) fn new(recipe: &Recipe, finished: impl Fn(usize, usize) -> bool) -> Self {
         let mut offsets = vec![0];
         for stage in &recipe.stages {
@@ -89,15 +89,14 @@ impl Schedule {
 
     fn connect(&mut self, recipe: &Recipe, downstream: usize) {
         for connection in &recipe.stages[downstream].connections {
-            let mut upstreams = connection.upstreams.clone();
-            upstreams.sort_unstable();
-            upstreams.dedup();
-            for upstream in upstreams {
-                let arriving = connection.arrivals.iter().enumerate().filter(|(_, arrival)| arrival.stage == upstream);
+            // Pairs of (upstream item, downstream item) by upstream stage.
+            let mut arriving: BTreeMap<usize, Vec<(u32, u32)>> = BTreeMap::new();
+            for (item, arrival) in connection.arrivals.iter().enumerate() {
+                arriving.entry(arrival.stage).or_default().push((arrival.item as u32, item as u32));
+            }
+            for (upstream, mut pairs) in arriving {
+                pairs.sort_unstable();
                 if connection.port.fan == Fan::Each {
-                    let mut pairs: Vec<(u32, u32)> =
-                        arriving.map(|(item, arrival)| (arrival.item as u32, item as u32)).collect();
-                    pairs.sort_unstable();
                     for (from, to) in &pairs {
                         let open = !self.counted[self.task(upstream, *from as usize)];
                         let to = self.task(downstream, *to as usize);
@@ -105,8 +104,8 @@ impl Schedule {
                     }
                     self.links[upstream].push(Link::Each { downstream, pairs });
                 } else {
-                    let items: BTreeSet<usize> = arriving.map(|(_, arrival)| arrival.item).collect();
-                    let open = items.iter().filter(|item| !self.counted[self.task(upstream, **item)]);
+                    pairs.dedup_by_key(|(from, _)| *from);
+                    let open = pairs.iter().filter(|(from, _)| !self.counted[self.task(upstream, *from as usize)]);
                     self.barriers[downstream] += open.count() as u64;
                     self.links[upstream].push(Link::Whole { downstream });
                 }
@@ -114,49 +113,49 @@ impl Schedule {
         }
     }
 
-    /// The task of an item.
-    pub(crate) fn task(&self, stage: usize, item: usize) -> TaskId {
+    /// Task of an item.
+    pub(crate) fn task(&self, stage: usize, item: usize) -> TaskIndex {
         self.offsets[stage] + item
     }
 
-    /// The stage and item of a task.
-    pub(crate) fn place(&self, task: TaskId) -> (usize, usize) {
+    /// Stage and item of a task.
+    pub(crate) fn place(&self, task: TaskIndex) -> (usize, usize) {
         let stage = self.offsets.partition_point(|offset| *offset <= task) - 1;
         (stage, task - self.offsets[stage])
     }
 
-    /// Where a task stands.
-    pub(crate) fn state(&self, task: TaskId) -> State {
+    /// State of a task.
+    pub(crate) fn state(&self, task: TaskIndex) -> State {
         self.states[task]
     }
 
     /// Takes the first task that is ready.
-    pub(crate) fn next(&mut self) -> Option<TaskId> {
+    pub(crate) fn next(&mut self) -> Option<TaskIndex> {
         let task = self.ready.pop_first()?;
         self.states[task] = State::Running;
         self.running += 1;
         Some(task)
     }
 
-    /// Whether tasks are running.
+    /// True while tasks are running.
     pub(crate) fn is_busy(&self) -> bool {
         self.running > 0
     }
 
-    /// A running task goes back: another process is at it.
-    pub(crate) fn put_back(&mut self, task: TaskId) {
+    /// Makes a running task ready again: another process is working on it.
+    pub(crate) fn put_back(&mut self, task: TaskIndex) {
         self.running -= 1;
         self.make_ready(task);
     }
 
-    /// A running task was abandoned, because the run stops.
-    pub(crate) fn abandon(&mut self, task: TaskId) {
+    /// Gives up a running task, because the run stops.
+    pub(crate) fn abandon(&mut self, task: TaskIndex) {
         self.running -= 1;
         self.states[task] = State::Waiting;
     }
 
-    /// A running task ended well.
-    pub(crate) fn finish(&mut self, task: TaskId) {
+    /// Ends a running task that is finished.
+    pub(crate) fn finish(&mut self, task: TaskIndex) {
         self.running -= 1;
         self.states[task] = State::Finished;
         for waiting in self.rewaiting.remove(&task).unwrap_or_default() {
@@ -190,12 +189,12 @@ impl Schedule {
         self.links[stage] = links;
     }
 
-    /// A running task failed: everything that reads it, directly or not, is skipped.
-    pub(crate) fn fail(&mut self, task: TaskId) {
+    /// Ends a running task that failed: everything that reads it, directly or not, is skipped.
+    pub(crate) fn fail(&mut self, task: TaskIndex) {
         self.end_badly(task, State::Failed);
     }
 
-    fn end_badly(&mut self, task: TaskId, state: State) {
+    fn end_badly(&mut self, task: TaskIndex, state: State) {
         self.running -= 1;
         self.states[task] = state;
         let mut dead = VecDeque::from([task]);
@@ -222,8 +221,8 @@ impl Schedule {
         }
     }
 
-    /// A running task found the blobs of `lost` gone: those run again, then it does.
-    pub(crate) fn wait_again(&mut self, task: TaskId, lost: &[TaskId]) {
+    /// Makes a running task wait for `lost`, whose blobs are gone and which run again first.
+    pub(crate) fn wait_again(&mut self, task: TaskIndex, lost: &[TaskIndex]) {
         if lost.iter().any(|upstream| matches!(self.states[*upstream], State::Failed | State::Skipped)) {
             return self.end_badly(task, State::Skipped);
         }
@@ -244,7 +243,7 @@ impl Schedule {
         }
     }
 
-    fn make_ready_if_free(&mut self, task: TaskId) {
+    fn make_ready_if_free(&mut self, task: TaskIndex) {
         let free = self.states[task] == State::Waiting
             && self.pairs_left[task] == 0
             && !self.rewaits_left.contains_key(&task)
@@ -254,13 +253,13 @@ impl Schedule {
         }
     }
 
-    fn make_ready(&mut self, task: TaskId) {
+    fn make_ready(&mut self, task: TaskIndex) {
         self.states[task] = State::Ready;
         self.ready.insert(task);
     }
 }
 
-/// The downstream items that read upstream item `item`.
+/// Downstream items that read upstream item `item`.
 fn fed_by(pairs: &[(u32, u32)], item: usize) -> impl Iterator<Item = usize> {
     let first = pairs.partition_point(|(from, _)| (*from as usize) < item);
     pairs[first..].iter().take_while(move |(from, _)| *from as usize == item).map(|(_, to)| *to as usize)

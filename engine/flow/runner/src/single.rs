@@ -1,29 +1,31 @@
 //! One task by its plan digest alone: `cosfly task run`, for another process or machine over the same store.
 
+use crate::change::definition_changes;
 use crate::document::{DEFINITION_SCHEMA, Definition, StoredPlan};
 use crate::leaf::{Ended, Task, execute};
+use crate::names::NameReader;
 use crate::sources::{HashedSource, SourceReader};
 use cosfly_diagnose::{Diagnostic, Fault, Result};
 use cosfly_fingerprint::{Digest, canonical_json};
-use cosfly_stage::{Artifact, InputGroup, Registry, Stage, TaskOutcome};
+use cosfly_stage::{Artifact, ItemId, Ports, Registry, Stage, StageName, Work};
 use cosfly_store::Store;
 use serde_json::Value;
-use std::collections::BTreeMap;
+use std::fmt::Display;
 use std::path::Path;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::Duration;
 
-/// How long to wait before looking again at a task that another process is at.
+/// Pause before a task that another process is working on is tried again.
 const LOOK_AGAIN: Duration = Duration::from_millis(50);
 
-/// Runs the task `plan`, whose documents are in `store` (see [`crate::Plan::publish_documents`]) and whose inputs
-/// are finished. Nothing is done when it is finished already.
+/// Runs the task `plan`, whose documents are in `store` (see [`crate::Plan::publish_documents`]) and whose inputs are
+/// finished. Nothing is done where it is finished already.
 ///
 /// # Errors
-/// `task-unknown`, `task-input-missing`, `task-other-version`, `nondeterministic-stage` (the task is finished with
-/// the earlier bytes), or what the stage or the machine refused.
-pub fn run_task(store: &Store, registry: &Registry, plan: &Digest, cancelled: Arc<AtomicBool>) -> Result<TaskOutcome> {
+/// `task-unknown`, `task-input-missing`, `task-other-version`, `nondeterministic-stage` (the task is finished with the
+/// earlier bytes), or a refusal of the stage or the machine.
+pub fn run_task(store: &Store, registry: &Registry, plan: &Digest, cancelled: Arc<AtomicBool>) -> Result<Work> {
     let unknown = || {
         Diagnostic::new("task-unknown", Fault::Input, format!("the store has no plan `{plan}`"))
             .hint("plan digests come from a run or a plan of a recipe on the same store")
@@ -33,40 +35,39 @@ pub fn run_task(store: &Store, registry: &Registry, plan: &Digest, cancelled: Ar
     let definition = store.document(&stored.definition).filter(|it| it["schema"] == DEFINITION_SCHEMA);
     let definition = definition.ok_or_else(unknown)?;
     let build = store.build(&stored.definition).ok_or_else(unknown)?;
-    let name = definition["stage"].as_str().ok_or_else(unknown)?;
+    let name = StageName::read(definition["stage"].as_str().ok_or_else(unknown)?);
     let recipe_seed = definition["seed"].as_u64().ok_or_else(unknown)?;
     let stage = build_stage(registry, &build)?;
     let sources = read_sources(&build)?;
-    let rebuilt = Definition::new(name, recipe_seed, &*stage, &sources);
+    let rebuilt = Definition::new(&name, recipe_seed, &*stage, &sources);
     if rebuilt.digest != stored.definition {
-        return Err(other_version(name, &definition, &rebuilt));
+        return Err(other_version(&name, &definition, &rebuilt));
     }
+    let mut names = NameReader::new(store);
+    let missing = || input_missing(&name, &stored.item);
+    let ports = read_inputs(store, &*stage, &stored, &mut names)?.ok_or_else(missing)?;
+    let item = names.of_task(plan).ok_or_else(missing)?;
     let task = Task {
         plan: *plan,
         stage: &*stage,
-        name,
-        item: &stored.item,
+        id: ItemId { stage: name, item },
         recipe_seed,
         definition: &rebuilt,
         sources: &sources,
-        ports: read_inputs(store, &stored)?,
+        ports,
         cancelled,
     };
     finish(store, &task, &document)
 }
 
-fn finish(store: &Store, task: &Task<'_>, document: &str) -> Result<TaskOutcome> {
+fn finish(store: &Store, task: &Task<'_>, document: &str) -> Result<Work> {
     let settlement = loop {
         match execute(store, task)? {
-            Ended::AlreadyDone(_) => return Ok(TaskOutcome::Reused),
-            Ended::InputsLost => return Err(input_missing(task.name, task.item)),
+            Ended::AlreadyDone(_) => return Ok(Work::Cached),
+            Ended::InputsLost => return Err(input_missing(&task.id.stage, &task.id.item)),
             Ended::Settled(settlement) => break settlement,
             Ended::Contended if task.cancelled.load(Ordering::Relaxed) => {
-                return Err(Diagnostic::new(
-                    "cancelled",
-                    Fault::Machine,
-                    format!("`{}/{}` was stopped", task.name, task.item),
-                ));
+                return Err(Diagnostic::stopped(&task.id));
             }
             Ended::Contended => std::thread::sleep(LOOK_AGAIN),
         }
@@ -74,7 +75,7 @@ fn finish(store: &Store, task: &Task<'_>, document: &str) -> Result<TaskOutcome>
     store.sync()?;
     store.publish_done(&task.plan, document, &settlement.finished.action)?;
     store.sync()?;
-    settlement.divergence.map_or(Ok(settlement.outcome), Err)
+    settlement.divergence.map_or(Ok(settlement.work), Err)
 }
 
 fn build_stage(registry: &Registry, build: &Value) -> Result<Box<dyn Stage>> {
@@ -96,21 +97,35 @@ fn read_sources(build: &Value) -> Result<Vec<HashedSource>> {
     sources.iter().map(|source| reader.read(&text(source, "parameter"), Path::new(&text(source, "path")))).collect()
 }
 
-fn read_inputs(store: &Store, stored: &StoredPlan) -> Result<BTreeMap<String, InputGroup>> {
-    let mut ports = BTreeMap::new();
-    for (port, inputs) in &stored.inputs {
+/// Inputs by port; `None` where a document behind the name of an input is missing or damaged.
+fn read_inputs(
+    store: &Store,
+    stage: &dyn Stage,
+    stored: &StoredPlan,
+    names: &mut NameReader<'_>,
+) -> Result<Option<Ports>> {
+    let declared = &stage.properties().inputs;
+    if let Some(unknown) = stored.inputs.keys().find(|name| declared.iter().all(|port| port.name != *name)) {
+        let message = format!("`{}` has no input `{unknown}` in this version of cosfly", stage.properties().kind);
+        return Err(Diagnostic::new("task-other-version", Fault::Input, message));
+    }
+    let mut ports = Ports::new();
+    for port in declared {
+        let Some(inputs) = stored.inputs.get(port.name) else { continue };
         let mut artifacts = Vec::with_capacity(inputs.len());
         for input in inputs {
-            let finished = store.finished(&input.plan).ok_or_else(|| input_missing(&input.stage, &input.item))?;
-            let blobs = finished.record.outputs.clone();
-            artifacts.push(Artifact { stage: input.stage.clone(), item: input.id.clone(), blobs });
+            let upstream = StageName::read(&input.stage);
+            let finished = store.finished(&input.plan).ok_or_else(|| input_missing(&upstream, &input.item))?;
+            let (Some(item), Some(name)) = (names.of_task(&input.plan), names.at_port(input)) else { return Ok(None) };
+            let blobs = Arc::clone(&finished.record.outputs);
+            artifacts.push(Artifact { id: ItemId { stage: upstream, item }, name, blobs });
         }
-        ports.insert(port.clone(), InputGroup { artifacts });
+        ports.insert(port.name, artifacts.into());
     }
-    Ok(ports)
+    Ok(Some(ports))
 }
 
-fn input_missing(stage: &str, item: &str) -> Box<Diagnostic> {
+fn input_missing(stage: &StageName, item: &dyn Display) -> Box<Diagnostic> {
     Diagnostic::new(
         "task-input-missing",
         Fault::Input,
@@ -119,12 +134,12 @@ fn input_missing(stage: &str, item: &str) -> Box<Diagnostic> {
     .hint("run what it depends on first")
 }
 
-fn other_version(name: &str, planned: &Value, rebuilt: &Definition) -> Box<Diagnostic> {
-    let changes = crate::explain::definition_changes(planned, &rebuilt.json);
+fn other_version(name: &StageName, planned: &Value, rebuilt: &Definition) -> Box<Diagnostic> {
+    let changes = definition_changes(planned, &rebuilt.json);
     let diagnostic = Diagnostic::new(
         "task-other-version",
         Fault::Input,
-        format!("stage `{name}` is not here what it was when the task was planned"),
+        format!("stage `{name}` has changed since the task was planned"),
     );
     let diagnostic = changes.iter().fold(diagnostic, |diagnostic, change| diagnostic.because(change));
     diagnostic.hint("use the same cosfly and the same source files everywhere, or plan again")

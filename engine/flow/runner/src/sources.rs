@@ -1,4 +1,4 @@
-//! Files outside the store that stages read: hashed once per run, and watched for change while it goes on.
+//! Files outside the store that stages read: hashed once per run, and checked for changes during the run.
 
 use cosfly_diagnose::{Diagnostic, Fault, Result};
 use cosfly_fingerprint::Digest;
@@ -7,17 +7,17 @@ use std::fs::{self, Metadata};
 use std::path::{Path, PathBuf};
 use std::time::SystemTime;
 
-/// A source file as it was when the plan was made.
+/// A source file as it was when it was planned.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(crate) struct HashedSource {
     pub(crate) parameter: String,
     pub(crate) path: PathBuf,
     pub(crate) digest: Digest,
-    /// Size and time of change: when both stay, the file is not read again.
+    /// Size and time of change; while both stay, the file is not read again.
     stamp: (u64, Option<SystemTime>),
 }
 
-/// Hashes every file once, however many stages read it.
+/// Hashes every file once, for any number of stages that read it.
 #[derive(Default)]
 pub(crate) struct SourceReader {
     known: BTreeMap<PathBuf, (Digest, (u64, Option<SystemTime>))>,
@@ -38,7 +38,7 @@ impl SourceReader {
 }
 
 impl HashedSource {
-    /// An error when the file is not what it was when the plan was made.
+    /// Fails where the file changed since it was planned.
     pub(crate) fn check_unchanged(&self) -> Result<()> {
         let metadata = fs::metadata(&self.path).map_err(|error| unreadable(&self.path, &error))?;
         if stamp(&metadata) == self.stamp {

@@ -1,118 +1,214 @@
-//! What a run came to.
+//! Summary of a run: how every task ended, and what the finished ones made.
 
 use crate::plan::Plan;
 use cosfly_diagnose::Diagnostic;
-use cosfly_recipe::ItemIds;
-use cosfly_stage::{Artifact, Produced};
+use cosfly_recipe::{Arrival, Connection, ItemNames};
+use cosfly_stage::{Fan, ItemId, ItemName, StageName, Work};
 use cosfly_store::Finished;
 
-/// How a run ended.
+/// Outcome of a run.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum RunOutcome {
     /// Every item of every stage is finished.
     Complete,
     /// Something failed; see [`RunSummary::failures`] and [`RunSummary::diagnostics`].
     Failed,
-    /// The run was asked to stop. What is finished stays finished.
+    /// The run was asked to stop. Finished tasks stay finished.
     Cancelled,
+}
+
+/// End of a task.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum TaskEnd {
+    /// It is finished, with a usable result.
+    Done(Work),
+    /// It is finished, with a published reason why there is no usable result.
+    Rejected(Work, Rejection),
+    /// It failed.
+    Failed,
+    /// It was not tried, because something that it reads failed.
+    Skipped,
+    /// It was not tried or given up, because the run stopped.
+    Cancelled,
+}
+
+/// Reason why an item holds no usable result.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Rejection {
+    /// Reason as it is published.
+    pub reason: String,
+    /// Beginning of the rejection.
+    pub origin: Origin,
+}
+
+/// Beginning of a rejection.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum Origin {
+    /// The item itself was rejected.
+    Own,
+    /// This item further up was rejected, and all that read it inherit that.
+    Inherited(ItemId),
 }
 
 /// A task that failed.
 #[derive(Clone, Debug)]
 pub struct Failure {
-    /// Stage name.
-    pub stage: String,
-    /// Item id.
-    pub item: String,
-    /// Why.
+    /// Item of the task.
+    pub id: ItemId,
+    /// Reason.
     pub diagnostic: Box<Diagnostic>,
 }
 
 /// Counts of one stage.
-#[derive(Clone, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq, Eq)]
 pub struct StageSummary {
-    /// Stage name.
-    pub name: String,
-    /// Items it has.
+    /// Name of the stage.
+    pub name: StageName,
+    /// Number of items.
     pub total: u64,
-    /// Finished before the run, or by another process during it.
+    /// Items that were finished before the run, or by another process during it.
     pub cached: u64,
-    /// Computed in this run.
+    /// Items that were computed in this run.
     pub ran: u64,
-    /// Not computed, because their inputs turned out to be those of an earlier run.
+    /// Items that were not computed, because their inputs turned out to be those of an earlier run.
     pub reused: u64,
-    /// Failed.
+    /// Items that failed.
     pub failed: u64,
-    /// Not tried, because something they read failed.
+    /// Items that were not tried, because something that they read failed.
     pub skipped: u64,
-    /// Not tried or abandoned, because the run stopped.
+    /// Items that were not tried or given up, because the run stopped.
     pub unfinished: u64,
 }
 
-/// What a run came to, with what every item made.
+/// State of a task at the end of a run.
+#[derive(Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Ending {
+    Finished(Work),
+    Failed,
+    Skipped,
+    Cancelled,
+}
+
+/// Items of one stage: names, connections, endings and results.
+struct StageItems {
+    names: ItemNames,
+    connections: Vec<Connection>,
+    endings: Vec<Ending>,
+    results: Vec<Option<Finished>>,
+}
+
+/// Summary of a run.
 pub struct RunSummary {
-    /// How it ended.
+    /// Outcome of the run.
     pub outcome: RunOutcome,
-    /// In the recipe's order.
+    /// Counts of all stages, in the recipe's order.
     pub stages: Vec<StageSummary>,
     /// The first failed tasks (at most [`Self::MOST_FAILURES`]); all of them were reported as events.
     pub failures: Vec<Failure>,
-    /// What went wrong without a task failing: a disk that refused, bytes that differ between executions.
+    /// Failures that belong to no task: a disk that refused, bytes that differ between executions.
     pub diagnostics: Vec<Box<Diagnostic>>,
-    items: Vec<ItemIds>,
-    finished: Vec<Vec<Option<Finished>>>,
+    items: Vec<StageItems>,
 }
 
-impl RunSummary {
-    /// How many failures are kept in memory.
-    pub const MOST_FAILURES: usize = 100;
-
-    pub(crate) fn new(plan: Plan<'_>, outcome: RunOutcome, stages: Vec<StageSummary>) -> Self {
+impl StageSummary {
+    fn new(name: StageName, endings: &[Ending]) -> Self {
+        let count = |ending: Ending| endings.iter().filter(|it| **it == ending).count() as u64;
         Self {
-            outcome,
-            stages,
-            failures: Vec::new(),
-            diagnostics: Vec::new(),
-            items: plan.recipe.stages.iter().map(|stage| stage.items.clone()).collect(),
-            finished: plan.stages.into_iter().map(|stage| stage.finished).collect(),
+            name,
+            total: endings.len() as u64,
+            cached: count(Ending::Finished(Work::Cached)),
+            ran: count(Ending::Finished(Work::Ran)),
+            reused: count(Ending::Finished(Work::Reused)),
+            failed: count(Ending::Failed),
+            skipped: count(Ending::Skipped),
+            unfinished: count(Ending::Cancelled),
         }
     }
 
-    /// What an item made, under the name of its own stage; nothing when it is not finished.
-    pub fn artifact(&self, stage: &str, item: &str) -> Option<Artifact> {
-        self.finished_items(stage).find(|(id, _)| *id == item).map(|(_, finished)| Artifact {
-            stage: stage.to_owned(),
-            item: item.to_owned(),
-            blobs: finished.record.outputs.clone(),
+    /// True where all items are finished.
+    pub fn is_whole(&self) -> bool {
+        self.cached + self.ran + self.reused == self.total
+    }
+}
+
+impl RunSummary {
+    /// Number of failures that are kept in memory.
+    pub const MOST_FAILURES: usize = 100;
+
+    /// Summary of `plan`, whose tasks ended as `endings`, by stage and item.
+    pub(crate) fn new(plan: Plan<'_>, endings: Vec<Vec<Ending>>) -> Self {
+        let described = &plan.recipe.stages;
+        let counts = described.iter().zip(&endings).map(|(stage, ends)| StageSummary::new(stage.name.clone(), ends));
+        let stages: Vec<StageSummary> = counts.collect();
+        let items = described.iter().zip(endings).zip(plan.stages).map(|((stage, endings), planned)| StageItems {
+            names: stage.items.clone(),
+            connections: stage.connections.clone(),
+            endings,
+            results: planned.finished,
+        });
+        let items = items.collect();
+        Self { outcome: RunOutcome::Complete, stages, failures: Vec::new(), diagnostics: Vec::new(), items }
+    }
+
+    /// Result of an item; `None` where it is not finished.
+    pub fn result(&self, stage: usize, item: usize) -> Option<&Finished> {
+        self.items[stage].results[item].as_ref()
+    }
+
+    /// Finished items of a stage, in order.
+    pub fn finished_items(&self, stage: usize) -> impl Iterator<Item = (&ItemName, &Finished)> {
+        let StageItems { names, results, .. } = &self.items[stage];
+        names.iter().zip(results).filter_map(|(name, finished)| Some((name, finished.as_ref()?)))
+    }
+
+    /// All tasks and how they ended, cached ones as well.
+    pub fn ends(&self) -> impl Iterator<Item = (ItemId, TaskEnd)> {
+        let tasks = |stage: usize| (0..self.items[stage].names.len()).map(move |item| (stage, item));
+        let tasks = (0..self.items.len()).flat_map(tasks);
+        tasks.map(|(stage, item)| (self.id(stage, item), self.end(stage, item)))
+    }
+
+    /// All items without a usable result.
+    pub fn rejections(&self) -> impl Iterator<Item = (ItemId, Rejection)> {
+        self.ends().filter_map(|(id, end)| match end {
+            TaskEnd::Rejected(_, rejection) => Some((id, rejection)),
+            _ => None,
         })
     }
 
-    /// The finished items of a stage, in order.
-    pub fn finished_items(&self, stage: &str) -> impl Iterator<Item = (&str, &Finished)> {
-        let position = self.stages.iter().position(|summary| summary.name == stage);
-        position.into_iter().flat_map(|position| {
-            let items = self.items[position].iter().zip(&self.finished[position]);
-            items.filter_map(|(item, finished)| Some((&**item, finished.as_ref()?)))
-        })
+    fn id(&self, stage: usize, item: usize) -> ItemId {
+        ItemId { stage: self.stages[stage].name.clone(), item: self.items[stage].names[item].clone() }
     }
 
-    /// What the items of all stages said beside their blobs, cached ones too: (stage, item, produced).
-    pub fn produced(&self) -> impl Iterator<Item = (&str, &str, &Produced)> {
-        self.stages.iter().flat_map(|stage| {
-            self.finished_items(&stage.name)
-                .map(|(item, finished)| (stage.name.as_str(), item, &finished.record.produced))
-        })
+    fn end(&self, stage: usize, item: usize) -> TaskEnd {
+        match (self.items[stage].endings[item], self.reason(stage, item)) {
+            (Ending::Finished(work), None) => TaskEnd::Done(work),
+            (Ending::Finished(work), Some(reason)) => {
+                TaskEnd::Rejected(work, Rejection { reason: reason.to_owned(), origin: self.origin(stage, item) })
+            }
+            (Ending::Failed, _) => TaskEnd::Failed,
+            (Ending::Skipped, _) => TaskEnd::Skipped,
+            (Ending::Cancelled, _) => TaskEnd::Cancelled,
+        }
     }
 
-    /// All warnings: (stage, item, warning).
-    pub fn warnings(&self) -> impl Iterator<Item = (&str, &str, &str)> {
-        self.produced().flat_map(|(stage, item, produced)| {
-            produced.warnings.iter().map(move |warning| (stage, item, warning.as_str()))
-        })
+    fn reason(&self, stage: usize, item: usize) -> Option<&str> {
+        self.items[stage].results[item].as_ref()?.record.produced.rejected.as_deref()
     }
 
-    /// All items that hold no usable result: (stage, item, reason).
-    pub fn rejected(&self) -> impl Iterator<Item = (&str, &str, &str)> {
-        self.produced().filter_map(|(stage, item, produced)| Some((stage, item, produced.rejected.as_deref()?)))
+    /// Follows a rejection upstream: an item that reads a rejected one is rejected for that reason alone.
+    fn origin(&self, stage: usize, item: usize) -> Origin {
+        let (mut at_stage, mut at_item) = (stage, item);
+        while let Some(arrival) = self.rejected_input(at_stage, at_item) {
+            (at_stage, at_item) = (arrival.stage, arrival.item);
+        }
+        if (at_stage, at_item) == (stage, item) { Origin::Own } else { Origin::Inherited(self.id(at_stage, at_item)) }
+    }
+
+    /// First rejected item that an item reads at a port that brings it a single one.
+    fn rejected_input(&self, stage: usize, item: usize) -> Option<&Arrival> {
+        let single = self.items[stage].connections.iter().filter(|connection| connection.port.fan != Fan::Gather);
+        let mut inputs = single.flat_map(|connection| connection.arrivals_for(item));
+        inputs.find(|arrival| self.reason(arrival.stage, arrival.item).is_some())
     }
 }

@@ -1,66 +1,56 @@
-//! What flows between stages: named blobs in the store, read with their digest checked.
+//! Finished items as stages read them: named blobs, with their digest checked.
 
+use crate::{ItemId, ItemName};
+use cosfly_blobs::BlobRef;
 use cosfly_diagnose::{Diagnostic, Fault, Result};
-use cosfly_fingerprint::Digest;
-use serde::{Deserialize, Serialize};
 use std::any::{Any, TypeId};
 use std::collections::BTreeMap;
 use std::fs::File;
-use std::io::{Seek, Write};
 use std::sync::Arc;
 
-/// Content-addressed bytes.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
-pub struct BlobRef {
-    /// BLAKE3 of the bytes.
-    pub digest: Digest,
-    /// How many bytes.
-    pub bytes: u64,
-}
+/// Blobs of one item by name.
+pub type Blobs = BTreeMap<String, BlobRef>;
 
-/// The finished output of one item.
+/// A finished item at a port.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Artifact {
-    /// Stage (with part suffix) that made it.
-    pub stage: String,
-    /// Item id in the port that it is read through.
-    pub item: String,
-    /// Its blobs by name.
-    pub blobs: BTreeMap<String, BlobRef>,
+    /// Item of the stage that made it.
+    pub id: ItemId,
+    /// Name at the port that it is read through (see [`crate::Takes`]).
+    pub name: ItemName,
+    /// Blobs of the item.
+    pub blobs: Arc<Blobs>,
 }
 
-/// A decoded blob of whatever type its reader asked for.
+/// A decoded blob, of the type that its reader asked for.
 pub type Decoded = Arc<dyn Any + Send + Sync>;
 
-/// Reads blobs and remembers what was decoded from broadcast ones. Implemented by the store.
+/// Reads blobs, and remembers decoded ones that several tasks share. Implemented by the store.
 pub trait BlobSource: Send + Sync {
     /// All bytes of a blob, digest checked.
     fn read(&self, blob: &BlobRef) -> Result<Vec<u8>>;
-    /// The blob as a file, size and digest checked once per process.
+    /// The blob as a file; size and digest are checked once per process.
     fn open(&self, blob: &BlobRef) -> Result<File>;
-    /// `decode(bytes of blob)` of type `kind`, computed once per process while it stays in use by several tasks.
+    /// `decode` of the blob's bytes, of type `kind`; computed once per process while tasks use it.
     fn decoded(&self, blob: &BlobRef, kind: TypeId, decode: &dyn Fn(&[u8]) -> Result<Decoded>) -> Result<Decoded>;
 }
 
-/// The artifacts that arrive at one port.
-#[derive(Clone, Debug, Default)]
-pub struct InputGroup {
-    /// In item order; exactly one for `Each` and `Broadcast` ports.
-    pub artifacts: Vec<Artifact>,
-}
+/// Artifacts by port, in item order; exactly one at [`crate::Fan::Each`] and [`crate::Fan::Broadcast`] ports. Optional
+/// ports that are not connected are absent.
+pub type Ports = BTreeMap<&'static str, Arc<[Artifact]>>;
 
-/// The inputs of one task.
+/// Inputs of one task.
 pub struct Inputs<'a> {
-    /// By port name; optional ports that are not connected are absent.
-    pub ports: BTreeMap<String, InputGroup>,
-    /// Where their bytes are.
+    /// Artifacts that the task reads.
+    pub ports: Ports,
+    /// Storage of their bytes.
     pub blobs: &'a dyn BlobSource,
 }
 
 impl Inputs<'_> {
     /// All artifacts at `port`; empty when the port is not connected.
     pub fn all(&self, port: &str) -> &[Artifact] {
-        self.ports.get(port).map_or(&[], |group| &group.artifacts)
+        self.ports.get(port).map_or(&[], |artifacts| artifacts)
     }
 
     /// The only artifact at an `Each` or `Broadcast` port.
@@ -70,7 +60,7 @@ impl Inputs<'_> {
         })
     }
 
-    /// The bytes of blob `name` of `artifact`.
+    /// Bytes of blob `name` of `artifact`.
     pub fn read(&self, artifact: &Artifact, name: &str) -> Result<Vec<u8>> {
         self.blobs.read(Self::blob(artifact, name)?)
     }
@@ -97,36 +87,7 @@ impl Inputs<'_> {
 
     fn blob<'b>(artifact: &'b Artifact, name: &str) -> Result<&'b BlobRef> {
         artifact.blobs.get(name).ok_or_else(|| {
-            Diagnostic::new(
-                "stage-blob-missing",
-                Fault::Bug,
-                format!("`{}/{}` has no blob `{name}`", artifact.stage, artifact.item),
-            )
+            Diagnostic::new("stage-blob-missing", Fault::Bug, format!("`{}` has no blob `{name}`", artifact.id))
         })
     }
-}
-
-/// A file being written by a stage.
-pub trait SeekWrite: Write + Seek + Send {}
-impl<T: Write + Seek + Send> SeekWrite for T {}
-
-/// Where a stage puts what it makes. Nothing is visible to anyone until the whole task has succeeded.
-pub trait OutputSink {
-    /// A small blob at once. Names are relative paths with `/`, unique within the item.
-    fn put(&mut self, name: &str, bytes: &[u8]) -> Result<()>;
-    /// A large blob, streamed by `write` to a file; disk-full errors become the diagnostic.
-    fn stream(&mut self, name: &str, write: &mut dyn FnMut(&mut dyn SeekWrite) -> Result<()>) -> Result<BlobRef>;
-    /// An existing blob of an input under a new name (no copy).
-    fn link(&mut self, name: &str, blob: BlobRef) -> Result<()>;
-}
-
-/// What a task says beside its blobs; stored with them and shown by `cosfly run` also when cached.
-#[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
-pub struct Produced {
-    /// Short facts for the summary, such as `boxes` = `65638 -> 2011`.
-    pub notes: BTreeMap<String, String>,
-    /// Things a person should know about; never lost data.
-    pub warnings: Vec<String>,
-    /// Why this item holds no usable result, when it does not (an explicit, published rejection).
-    pub rejected: Option<String>,
 }

@@ -1,55 +1,46 @@
 //! Everything a run tells its reporters: one closed list. Reporters are the only code that prints.
 
-use crate::Produced;
+use crate::{ItemId, Produced, StageName};
 use cosfly_diagnose::Diagnostic;
 use std::time::Duration;
 
-/// How a task ended.
+/// Work that a finished task took.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum TaskOutcome {
-    /// It ran and its output was published.
+pub enum Work {
+    /// None: it was finished before, or by another process meanwhile.
+    Cached,
+    /// It was computed.
     Ran,
-    /// Its inputs turned out equal to those of an earlier run: nothing was computed.
+    /// None: its inputs turned out equal to those of an earlier run.
     Reused,
 }
 
 /// Something that happened in a run.
 #[derive(Clone, Debug)]
 pub enum RunEvent {
-    /// The plan is known: per stage, in order, how many items there are and how many are cached.
+    /// The plan is known.
     Planned {
-        /// (stage, items, cached items).
-        stages: Vec<(String, u64, u64)>,
+        /// Stage, items, cached items, in the order of the recipe.
+        stages: Vec<(StageName, u64, u64)>,
     },
-    /// A task began.
-    Started {
-        /// Stage name.
-        stage: String,
-        /// Item id.
-        item: String,
-    },
-    /// A task ended well.
+    /// A task is finished and its output is on the disk.
     Finished {
-        /// Stage name.
-        stage: String,
-        /// Item id.
-        item: String,
-        /// Whether it computed anything.
-        outcome: TaskOutcome,
-        /// Wall time it took.
+        /// Item that it made.
+        id: ItemId,
+        /// Work that it took.
+        work: Work,
+        /// Wall time.
         took: Duration,
-        /// Its notes, warnings and rejection.
+        /// Notes, warnings and rejection.
         produced: Produced,
     },
     /// A task failed; what depends on it will not run, everything else will.
     Failed {
-        /// Stage name.
-        stage: String,
-        /// Item id.
-        item: String,
-        /// Why.
+        /// Item that it should have made.
+        id: ItemId,
+        /// Reason.
         diagnostic: Box<Diagnostic>,
     },
-    /// The run was asked to stop and is letting go.
+    /// The run was asked to stop; running tasks are ending.
     Stopping,
 }

@@ -1,52 +1,45 @@
 //! The registry of stage kinds: parameters in, stages out.
 
 use crate::{InputPort, Stage};
+use cosfly_diagnose::ParameterError;
 use std::collections::BTreeMap;
 
 /// A kind of stage that recipes name with `use = "..."`.
 pub trait StageKind: Send + Sync {
-    /// The name in recipes.
+    /// Name in recipes.
     fn name(&self) -> &'static str;
-    /// One sentence for the reference and `cosfly schema`.
+    /// Description for the reference and `cosfly schema`, one sentence.
     fn doc(&self) -> &'static str;
-    /// JSON Schema of its parameters (an object), with docs, defaults and ranges. The recipe reader
-    /// checks parameters against it and points at the offending place; `build` may rely on that.
+    /// JSON Schema of its parameters (an object), with descriptions, defaults and ranges. The recipe reader checks
+    /// parameters against it and points at the offending place; `build` may rely on that.
     fn schema(&self) -> serde_json::Value;
-    /// Every port that a recipe may connect, whatever the parameters say; for editors and the reference.
-    /// What `build` declares is a subset of it (all parts together, ports between siblings left out).
+    /// Every port that a recipe may connect, for any parameters; for editors and the reference. The ports of the built
+    /// parts together are a subset of them, apart from ports between siblings.
     fn ports(&self) -> Vec<InputPort>;
-    /// Builds the stage, or its parts in dependency order, the last one under the empty suffix.
-    /// `recipe_dir` is not needed here: paths go into [`crate::StageProperties::sources`] as written.
+    /// Builds the stage, or its parts in dependency order, the stage itself (with the empty suffix) last. Paths go into
+    /// [`crate::StageProperties::sources`] as they are written.
+    ///
+    /// # Errors
+    /// Violations of rules between parameters that the schema cannot express.
     fn build(&self, parameters: serde_json::Value) -> Result<Vec<StagePart>, ParameterError>;
 }
 
-/// One part of a recipe stage. Most kinds have one, with an empty suffix; `dataset` also has `logs`.
+/// One part of a recipe stage. Most kinds have one, with an empty suffix; `dataset` has `logs` beside it.
 pub struct StagePart {
-    /// Appended to the recipe's stage name as `.suffix`; empty for the stage itself.
+    /// Name of the part; empty for the stage itself (see [`crate::StageName`]).
     pub suffix: &'static str,
-    /// The part.
+    /// Stage that does the work of the part.
     pub stage: Box<dyn Stage>,
 }
 
-/// A rule between parameters that the schema cannot say.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct ParameterError {
-    /// Keys from the stage's table to the offending value, such as `["speed", "min_mps"]`.
-    pub path: Vec<String>,
-    /// The value and the violated rule, in the words of a diagnostic message.
-    pub message: String,
-    /// What to do.
-    pub hint: Option<String>,
-}
-
-/// The sorted list of stage kinds a binary offers.
+/// Stage kinds that a binary offers, by name.
 #[derive(Default)]
 pub struct Registry {
     kinds: BTreeMap<&'static str, Box<dyn StageKind>>,
 }
 
 impl Registry {
-    /// A registry of `kinds`; a later one of the same name replaces an earlier one.
+    /// A registry of `kinds`; a later kind replaces an earlier one of the same name.
     pub fn new(kinds: Vec<Box<dyn StageKind>>) -> Self {
         Self { kinds: kinds.into_iter().map(|kind| (kind.name(), kind)).collect() }
     }

@@ -1,10 +1,12 @@
-//! Reading blobs: the size always, the digest once per process, and a damaged one is removed at once.
+//! Reading blobs: the size is checked always, the digest once per process; a damaged blob is removed at once.
 
 use crate::layout::Area;
-use crate::store::{BLOB_LOST, Store, locked};
+use crate::mutex::locked;
+use crate::store::Store;
+use cosfly_blobs::BlobRef;
 use cosfly_diagnose::{Diagnostic, Fault, Result};
 use cosfly_fingerprint::Digest;
-use cosfly_stage::{BlobRef, BlobSource};
+use cosfly_stage::BlobSource;
 use std::any::{Any, TypeId};
 use std::fs::{self, File};
 use std::io::{self, Read, Seek};
@@ -49,7 +51,7 @@ impl BlobSource for Store {
 }
 
 impl Store {
-    /// Where a blob lies.
+    /// Path of a blob.
     pub(crate) fn blob_path(&self, blob: &BlobRef) -> PathBuf {
         self.layout.file(Area::Blobs, &blob.digest)
     }
@@ -62,7 +64,7 @@ impl Store {
         locked(&self.checked).insert(digest);
     }
 
-    /// The blob's file, at its start; nothing when it is not what its name says.
+    /// File of a blob, at its start; `None` where its bytes do not match its name.
     fn open_checked(&self, blob: &BlobRef) -> io::Result<Option<File>> {
         let mut file = File::open(self.blob_path(blob))?;
         if file.metadata()?.len() != blob.bytes {
@@ -88,7 +90,7 @@ impl Store {
         }
     }
 
-    /// Takes a damaged blob away, so that nobody else meets it.
+    /// Removes a damaged blob, so that no other reader meets it.
     fn damaged(&self, blob: &BlobRef) -> Box<Diagnostic> {
         locked(&self.checked).remove(&blob.digest);
         let path = self.blob_path(blob);
@@ -99,11 +101,11 @@ impl Store {
 }
 
 fn lost(blob: &BlobRef, how: &str) -> Box<Diagnostic> {
-    Diagnostic::new(BLOB_LOST, Fault::Machine, format!("blob `{}` of the store {how}", blob.digest.short()))
-        .hint("run the same command again: what made it will be computed again")
+    Diagnostic::new("store-blob-lost", Fault::Lost, format!("blob `{}` of the store {how}", blob.digest.short()))
+        .hint("run the same command again: the blob will be computed again")
 }
 
-/// The digest of a file from where it stands to its end.
+/// Digest of a file from its position to its end.
 pub fn digest_of_file(file: &mut File) -> io::Result<Digest> {
     let mut hasher = blake3::Hasher::new();
     let mut buffer = vec![0; 1 << 17];
@@ -121,7 +123,8 @@ pub fn digest_of_file(file: &mut File) -> io::Result<Digest> {
 mod tests {
     use super::*;
     use crate::ActionRecord;
-    use cosfly_stage::{OutputSink, Produced};
+    use cosfly_blobs::OutputSink;
+    use cosfly_stage::Produced;
     use std::path::Path;
 
     fn store_with(root: &Path, bytes: &[u8]) -> (Store, ActionRecord) {
@@ -154,9 +157,9 @@ mod tests {
             fs::remove_file(&path).unwrap();
             fs::write(&path, damage).unwrap();
             let store = Store::open(root.path()).unwrap();
-            assert_eq!(store.open(&blob).unwrap_err().code, BLOB_LOST);
+            assert_eq!(store.open(&blob).unwrap_err().fault, Fault::Lost);
             assert!(!path.exists() && !store.holds(&record));
-            assert_eq!(store.read(&blob).unwrap_err().code, BLOB_LOST);
+            assert_eq!(store.read(&blob).unwrap_err().fault, Fault::Lost);
         }
         let (store, record) = store_with(root.path(), b"hello");
         assert!(store.holds(&record));

@@ -1,6 +1,6 @@
-//! What was decoded from blobs that many tasks share, such as the town.
+//! Decoded blobs that many tasks share, such as the town.
 
-use crate::store::locked;
+use crate::mutex::locked;
 use cosfly_diagnose::Result;
 use cosfly_fingerprint::Digest;
 use std::any::{Any, TypeId};
@@ -12,27 +12,36 @@ type Value = Arc<dyn Any + Send + Sync>;
 type Slot = Arc<Mutex<Option<Weak<dyn Any + Send + Sync>>>>;
 type Key = (Digest, TypeId);
 
-/// How many values stay although no task uses them at the moment. A run of one task at a time would
-/// otherwise decode the town anew for every item.
+/// Values that stay although no task uses them at the moment. A run of one task at a time would otherwise decode the
+/// town anew for every item.
 const KEPT: usize = 8;
-/// How many slots may be empty before they are cleared away.
-const SLOTS: usize = 256;
+/// Slots before empty ones are first removed.
+const FEW_SLOTS: usize = 256;
 
 thread_local! {
-    /// How many decodes this thread is in. Inside one it never waits for another: a decode may run work of a
-    /// thread pool, and a pool's thread that waits inside its own task would wait for ever.
+    /// Depth of decodes on this thread. Inside of one it never waits for another: a decode may run work of a thread
+    /// pool, and a thread of the pool that waits inside of its own task would wait for ever.
     static DEPTH: Cell<u32> = const { Cell::new(0) };
 }
 
-/// Values by blob and type: weak for all, strong for the last few.
+/// Slots by blob and type.
+#[derive(Default)]
+struct Slots {
+    by_key: BTreeMap<Key, Slot>,
+    /// Number of slots above which empty ones are removed: twice as many as were in use the last time, so that looking
+    /// through them costs a constant time per slot.
+    limit: usize,
+}
+
+/// Values by blob and type: weak references to all, strong ones to the last few.
 #[derive(Default)]
 pub(crate) struct DecodeCache {
-    slots: Mutex<BTreeMap<Key, Slot>>,
+    slots: Mutex<Slots>,
     recent: Mutex<VecDeque<(Key, Value)>>,
 }
 
 impl DecodeCache {
-    /// The value of a blob, from memory or by `decode`; two threads that ask at once decode it once.
+    /// Value of a blob, from memory or by `decode`; two threads that ask at once decode it once.
     pub(crate) fn get_or_decode(
         &self,
         digest: Digest,
@@ -61,12 +70,13 @@ impl DecodeCache {
 
     fn slot(&self, key: Key) -> Slot {
         let mut slots = locked(&self.slots);
-        if slots.len() > SLOTS {
-            slots.retain(|_, slot| {
+        if slots.by_key.len() > slots.limit {
+            slots.by_key.retain(|_, slot| {
                 Arc::strong_count(slot) > 1 || locked(slot).as_ref().is_some_and(|weak| weak.strong_count() > 0)
             });
+            slots.limit = FEW_SLOTS.max(2 * slots.by_key.len());
         }
-        Arc::clone(slots.entry(key).or_default())
+        Arc::clone(slots.by_key.entry(key).or_default())
     }
 
     fn keep(&self, key: Key, value: &Value) {
@@ -74,7 +84,7 @@ impl DecodeCache {
         recent.retain(|(other, _)| *other != key);
         recent.push_back((key, Arc::clone(value)));
         let dropped = if recent.len() > KEPT { recent.pop_front() } else { None };
-        // A large value is freed outside the lock.
+        // A large value is freed outside of the lock.
         drop(recent);
         drop(dropped);
     }
@@ -123,7 +133,7 @@ mod tests {
             number(&cache, "town", &decodes);
         }
         assert_eq!(decodes.load(Ordering::Relaxed), 2001);
-        assert!(locked(&cache.recent).len() <= KEPT && locked(&cache.slots).len() <= SLOTS + 1);
+        assert!(locked(&cache.recent).len() <= KEPT && locked(&cache.slots).by_key.len() <= FEW_SLOTS + 1);
     }
 
     #[test]

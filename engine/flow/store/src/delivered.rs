@@ -1,6 +1,6 @@
-//! What the files of a materialised folder looked like when they were last known to be right.
+//! Sizes and times of the files of a materialised folder, from when they were last known to be right.
 //!
-//! It lies in the store, not in the folder: two folders of one artifact are the same to the byte.
+//! The record is in the store, not in the folder: two folders of one artifact are the same to the byte.
 
 use crate::fault::Step;
 use crate::store::Store;
@@ -14,11 +14,11 @@ use std::time::{SystemTime, UNIX_EPOCH};
 
 const HEADER: &str = "cosfly-out 1 ";
 
-/// Size, time of change of the bytes, time of change of the file, device and number of the file:
-/// when all of them stay, the bytes stay. Times in nanoseconds since 1970.
+/// Size, time of change of the bytes, time of change of the file, device and number of the file. While all of them stay,
+/// the bytes stay. Times in nanoseconds since 1970.
 type Stamp = [u64; 5];
 
-/// The files of one folder, when they were last found right.
+/// Files of one folder, from when they were last found right.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub(crate) struct Delivered {
     /// Version of the whole folder.
@@ -27,19 +27,19 @@ pub(crate) struct Delivered {
 }
 
 impl Delivered {
-    /// What the files `names` of `folder` look like now; a file that is not there is left out.
+    /// The files `names` of `folder` as they are now; absent ones are left out.
     pub(crate) fn look<'n>(version: Digest, folder: &Path, names: impl Iterator<Item = &'n String>) -> Self {
         let stamps = names.filter_map(|name| Some((name.clone(), stamp(&folder.join(name))?)));
         Self { version, stamps: stamps.collect() }
     }
 
-    /// Whether both are of one version and the file looks the same in both.
+    /// True where both are of one version and the file has the same size and times in both.
     pub(crate) fn agrees(&self, other: &Self, name: &str) -> bool {
         self.version == other.version
             && self.stamps.get(name).is_some_and(|stamp| other.stamps.get(name) == Some(stamp))
     }
 
-    /// The names of all files.
+    /// Names of all files.
     pub(crate) fn names(&self) -> impl Iterator<Item = &str> {
         self.stamps.keys().map(String::as_str)
     }
@@ -53,7 +53,7 @@ impl Delivered {
         format!("{HEADER}{}\n{body}", Digest::of(body.as_bytes()))
     }
 
-    /// Reads a record; nothing when it is not exactly what was written.
+    /// Reads a record; `None` where it is not exactly as it was written.
     fn decode(text: &str) -> Option<Self> {
         let (digest, body) = text.strip_prefix(HEADER)?.split_once('\n')?;
         if digest.parse::<Digest>().ok()? != Digest::of(body.as_bytes()) {
@@ -74,12 +74,12 @@ impl Delivered {
 }
 
 impl Store {
-    /// What is remembered of `folder`, an absolute path.
+    /// Record of `folder`, an absolute path.
     pub(crate) fn delivered(&self, folder: &Path) -> Option<Delivered> {
         Delivered::decode(&fs::read_to_string(self.delivered_path(folder)).ok()?)
     }
 
-    /// Remembers that the files of `folder` are right. Without it they are only read once more.
+    /// Records that the files of `folder` are right. Without the record they are read once more.
     pub(crate) fn remember_delivered(&self, folder: &Path, delivered: &Delivered) -> Result<()> {
         let path = self.delivered_path(folder);
         self.write_file(&path, delivered.encode().as_bytes(), Step::WriteRun, Step::RenameRun)

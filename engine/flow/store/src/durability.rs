@@ -1,7 +1,7 @@
-//! Forcing a group of files to the disk with one call.
+//! Making a group of files durable with one call.
 
 use crate::layout::Layout;
-use crate::store::locked;
+use crate::mutex::locked;
 use cosfly_diagnose::{Diagnostic, Result};
 use std::collections::BTreeSet;
 use std::fs::File;
@@ -9,7 +9,7 @@ use std::io;
 use std::path::{Path, PathBuf};
 use std::sync::Mutex;
 
-/// Syncs the file system that holds the store; where that call is missing, the written files one by one.
+/// Syncs the file system of the store; where that call is missing, the written files one by one.
 #[derive(Debug)]
 pub(crate) struct Durability {
     #[cfg(target_os = "linux")]
@@ -32,7 +32,7 @@ impl Durability {
         })
     }
 
-    /// Remembers a file that was put into place.
+    /// Notes a file that was put into place.
     pub(crate) fn note(&self, path: &Path) {
         locked(&self.unsynced).push(path.to_owned());
     }

@@ -1,11 +1,11 @@
-//! Removing what no recent run and no pin needs.
+//! Garbage collection: removal of everything that no recent run and no pin needs.
 
 use crate::history::{newest_runs, read_run, run_numbers};
 use crate::layout::{Area, Layout, read_dir_or_nothing};
 use crate::locks::lock_file;
+use crate::names::is_relative_path;
 use crate::records;
 use crate::scratch::sweep_orphans;
-use crate::sink::is_relative_path;
 use cosfly_diagnose::{Diagnostic, Fault, Result};
 use cosfly_fingerprint::Digest;
 use std::collections::BTreeSet;
@@ -14,45 +14,45 @@ use std::io;
 use std::path::Path;
 use std::time::{Duration, SystemTime};
 
-/// What is kept.
+/// Rules for what is kept.
 #[derive(Clone, Debug)]
 pub struct GarbageOptions {
-    /// The newest runs of every recipe that are kept.
+    /// Number of the newest runs of every recipe that are kept.
     pub keep_runs: usize,
-    /// Whatever is younger than this is kept, needed or not.
+    /// Files younger than this are kept, needed or not.
     pub keep_age: Duration,
-    /// The time now.
+    /// Present time.
     pub now: SystemTime,
-    /// Only count.
+    /// True to count only.
     pub dry_run: bool,
 }
 
-/// What was, or in a dry run would be, removed.
+/// Counts of what was removed, or would be in a dry run.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct GarbageReport {
     /// Blobs removed.
     pub blobs: u64,
-    /// Their bytes.
+    /// Bytes of those blobs.
     pub blob_bytes: u64,
     /// Records and documents removed.
     pub records: u64,
-    /// Their bytes.
+    /// Bytes of those records and documents.
     pub record_bytes: u64,
-    /// Temporary folders of dead processes.
+    /// Temporary folders of dead processes removed.
     pub orphans: u64,
-    /// Their bytes.
+    /// Bytes of those folders.
     pub orphan_bytes: u64,
-    /// Blobs that stay.
+    /// Blobs kept.
     pub kept_blobs: u64,
-    /// Their bytes.
+    /// Bytes of the kept blobs.
     pub kept_blob_bytes: u64,
 }
 
-/// Removes (or counts) what is neither young nor needed by a recent run or a pin of the store at `root`.
+/// Removes (or counts) everything in the store at `root` that is neither young nor needed by a recent run or a pin.
 ///
 /// # Errors
-/// `store-in-use` while a run is going on (not in a dry run), the refusals of opening a store, or what the
-/// machine refused.
+/// `store-in-use` while a run is going on (not in a dry run), the refusals of opening a store, or a refusal of the
+/// machine.
 pub fn collect_garbage(root: &Path, options: &GarbageOptions) -> Result<GarbageReport> {
     let layout = Layout::create_or_check(root)?;
     let failed = |error: io::Error| Diagnostic::io(format!("clean the store `{}`", root.display()), &error);
@@ -60,7 +60,7 @@ pub fn collect_garbage(root: &Path, options: &GarbageOptions) -> Result<GarbageR
     let needed = mark(&layout, options.keep_runs).map_err(failed)?;
     let mut report = GarbageReport::default();
     (report.orphans, report.orphan_bytes) = sweep_orphans(&layout, options.dry_run).map_err(failed)?;
-    // What points goes before what it points to: a crash half way leaves nothing dangling.
+    // References go before their targets: a crash half way leaves nothing dangling.
     for area in [Area::Done, Area::Builds, Area::Plans, Area::Actions, Area::Blobs] {
         sweep(&layout, area, &needed, options, &mut report).map_err(failed)?;
     }
@@ -71,7 +71,7 @@ pub fn collect_garbage(root: &Path, options: &GarbageOptions) -> Result<GarbageR
     Ok(report)
 }
 
-/// Keeps the newest run of `recipe` from garbage collection under `name`, until [`unpin`].
+/// Keeps the newest run of `recipe` from garbage collection under `name`.
 pub fn pin(root: &Path, recipe: &str, name: &str) -> Result<()> {
     let layout = Layout::create_or_check(root)?;
     let failed = |error: io::Error| Diagnostic::io(format!("pin `{name}` in `{}`", root.display()), &error);
@@ -84,17 +84,6 @@ pub fn pin(root: &Path, recipe: &str, name: &str) -> Result<()> {
     fs::create_dir_all(layout.folder("pins")).map_err(failed)?;
     let temporary = layout.folder("tmp").join(format!("pin-{}", std::process::id()));
     fs::copy(folder.join(format!("{newest:08}")), &temporary).and_then(|_| fs::rename(&temporary, path)).map_err(failed)
-}
-
-/// Removes a pin; nothing happens when there is none of that name.
-pub fn unpin(root: &Path, name: &str) -> Result<()> {
-    let layout = Layout::create_or_check(root)?;
-    match fs::remove_file(pin_path(&layout, name)?) {
-        Err(error) if error.kind() != io::ErrorKind::NotFound => {
-            Err(Diagnostic::io(format!("remove the pin `{name}`"), &error))
-        }
-        _ => Ok(()),
-    }
 }
 
 fn pin_path(layout: &Layout, name: &str) -> Result<std::path::PathBuf> {
@@ -121,7 +110,7 @@ fn lock(layout: &Layout, dry_run: bool) -> Result<File> {
     }
 }
 
-/// What must stay.
+/// Digests that must stay.
 #[derive(Default)]
 struct Needed {
     /// Plans, definitions and every document that they name.
@@ -159,7 +148,7 @@ fn mark_finished(layout: &Layout, plan: &Digest, needed: &mut Needed) {
     }
 }
 
-/// The digests in a plan document: it names others by them.
+/// Digests in a plan document, which are the names of other documents.
 fn documents_named_in(layout: &Layout, document: &Digest) -> Vec<Digest> {
     let Ok(bytes) = fs::read(layout.file(Area::Plans, document)) else { return Vec::new() };
     let mut named = Vec::new();
@@ -190,7 +179,7 @@ fn sweep(
     for digest in layout.list(area)? {
         let path = layout.file(area, &digest);
         let metadata = match fs::symlink_metadata(&path) {
-            // A run went on during a dry run, and took a damaged blob away.
+            // A run may go on during a dry run, and remove a damaged blob.
             Err(error) if error.kind() == io::ErrorKind::NotFound => continue,
             metadata => metadata?,
         };
@@ -211,7 +200,7 @@ fn sweep(
     Ok(())
 }
 
-/// What delivered folders looked like: without it they are read once more.
+/// Removes records of delivered folders; without them the folders are read once more.
 fn sweep_delivered(layout: &Layout, options: &GarbageOptions, report: &mut GarbageReport) -> io::Result<()> {
     for entry in read_dir_or_nothing(&layout.folder("out"))? {
         let path = entry?.path();
@@ -231,13 +220,13 @@ fn age_of(metadata: &fs::Metadata, options: &GarbageOptions) -> Duration {
     metadata.modified().ok().and_then(|made| options.now.duration_since(made).ok()).unwrap_or_default()
 }
 
-/// Removes what lies where a file should be.
+/// Removes a file, or a folder in its place.
 fn remove(path: &Path, metadata: &fs::Metadata) -> io::Result<()> {
     let removed = if metadata.is_dir() { fs::remove_dir_all(path) } else { fs::remove_file(path) };
     removed.or_else(|error| if error.kind() == io::ErrorKind::NotFound { Ok(()) } else { Err(error) })
 }
 
-/// Lock files that killed processes left behind; nobody holds one while we are alone.
+/// Removes lock files of killed processes; no living process holds one during garbage collection.
 fn remove_stale_locks(layout: &Layout) -> io::Result<()> {
     for entry in read_dir_or_nothing(&layout.folder("locks"))? {
         let entry = entry?;
@@ -253,7 +242,8 @@ fn remove_stale_locks(layout: &Layout) -> io::Result<()> {
 mod tests {
     use super::*;
     use crate::{PastRun, PastStage, Store};
-    use cosfly_stage::{OutputSink, Produced};
+    use cosfly_blobs::OutputSink;
+    use cosfly_stage::Produced;
     use std::collections::BTreeMap;
 
     /// A run of one task with one blob, remembered.
@@ -298,10 +288,11 @@ mod tests {
         assert_eq!(count(&predicted), (1, 5, 4, 3));
         assert_eq!(collect(root, 2, 0, false), predicted);
         assert_eq!(count(&collect(root, 2, 0, false)), (0, 0, 0, 3));
-        unpin(root, "paper").unwrap();
+        fs::remove_file(root.join("pins/paper")).unwrap();
         assert_eq!(count(&collect(root, 2, 0, false)), (1, 6, 4, 2));
         let store = Store::open(root).unwrap();
-        assert_eq!(store.done().unwrap().len(), 2);
-        assert!(store.done().unwrap().iter().all(|plan| store.holds(&store.finished(plan).unwrap().record)));
+        let done = store.layout.list(Area::Done).unwrap();
+        assert_eq!(done.len(), 2);
+        assert!(done.iter().all(|plan| store.holds(&store.finished(plan).unwrap().record)));
     }
 }

@@ -1,4 +1,4 @@
-//! What earlier runs of a recipe consisted of: the ground for `cosfly why`, and the roots of garbage collection.
+//! Tasks of earlier runs of a recipe: for `cosfly why`, and as the roots of garbage collection.
 
 use crate::fault::Step;
 use crate::layout::read_dir_or_nothing;
@@ -11,25 +11,25 @@ use std::fs;
 use std::io;
 use std::path::Path;
 
-/// How many runs of a recipe are remembered.
+/// Number of runs of a recipe that are remembered.
 const REMEMBERED: usize = 10;
 const HEADER: &str = "cosfly-run 1 ";
 
-/// The finished tasks of one run.
+/// Finished tasks of one run.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct PastRun {
-    /// In the order of the recipe.
+    /// Stages in the order of the recipe.
     pub stages: Vec<PastStage>,
 }
 
-/// The finished tasks of one stage of a run.
+/// Finished tasks of one stage of a run.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct PastStage {
-    /// Name in the recipe, with part suffix.
+    /// Name of the stage, as text.
     pub name: String,
-    /// Digest of its definition document.
+    /// Digest of the stage's definition document.
     pub definition: Digest,
-    /// Plan digest by item id.
+    /// Plan digests by the names of items, as text.
     pub items: BTreeMap<String, Digest>,
 }
 
@@ -51,7 +51,7 @@ impl PastRun {
         format!("{HEADER}{}\n{body}", Digest::of(body.as_bytes()))
     }
 
-    /// Reads the file of a run; nothing when it is not exactly what was written.
+    /// Reads the file of a run; `None` where it is not exactly as it was written.
     pub(crate) fn decode(text: &str) -> Option<Self> {
         let (digest, body) = text.strip_prefix(HEADER)?.split_once('\n')?;
         if digest.parse::<Digest>().ok()? != Digest::of(body.as_bytes()) {
@@ -71,22 +71,21 @@ impl PastRun {
         Some(run)
     }
 
-    /// Every plan and definition digest in it.
+    /// All plan and definition digests of the run.
     pub(crate) fn digests(&self) -> impl Iterator<Item = Digest> {
         self.stages.iter().flat_map(|stage| std::iter::once(stage.definition).chain(stage.items.values().copied()))
     }
 }
 
 impl Store {
-    /// The remembered runs of `recipe`, newest first, read one by one as they are asked for.
-    /// Damaged ones are passed over.
+    /// Remembered runs of `recipe`, newest first, each read when it is asked for. Damaged ones are skipped.
     pub fn past_runs(&self, recipe: &str) -> impl Iterator<Item = PastRun> {
         let folder = self.layout.folder("runs").join(recipe);
         let numbers = run_numbers(&folder).unwrap_or_default();
         numbers.into_iter().rev().filter_map(move |n| read_run(&folder.join(file_name(n))))
     }
 
-    /// Remembers a run, unless it is the same as the newest one.
+    /// Remembers a run, unless it equals the newest one.
     pub fn record_run(&self, recipe: &str, run: &PastRun) -> Result<()> {
         let folder = self.layout.folder("runs").join(recipe);
         let failed = |error: io::Error| Diagnostic::io(format!("write `{}`", folder.display()), &error);
@@ -110,7 +109,7 @@ fn file_name(number: u64) -> String {
     format!("{number:08}")
 }
 
-/// The numbers of the runs in a folder, oldest first.
+/// Numbers of the runs in a folder, oldest first.
 pub(crate) fn run_numbers(folder: &Path) -> io::Result<Vec<u64>> {
     let mut numbers = Vec::new();
     for entry in read_dir_or_nothing(folder)? {
@@ -120,7 +119,7 @@ pub(crate) fn run_numbers(folder: &Path) -> io::Result<Vec<u64>> {
     Ok(numbers)
 }
 
-/// The newest `count` runs in a folder.
+/// Newest `count` runs in a folder.
 pub(crate) fn newest_runs(folder: &Path, count: usize) -> io::Result<Vec<PastRun>> {
     let numbers = run_numbers(folder)?;
     Ok(numbers.into_iter().rev().filter_map(|n| read_run(&folder.join(file_name(n)))).take(count).collect())

@@ -1,16 +1,17 @@
 //! A cache of finished tasks in one file, so that a run with everything cached reads one file and not thousands.
 //!
-//! It holds the records of the latest run of a recipe and, per folder of `done` and `cas`, the time of its last
-//! change. A folder that did not change since lost no file, so its files need not be looked at one by one.
-//! (Damage inside a file is found when the file is read, here as anywhere.)
+//! It holds the records of the latest run of a recipe and, for each folder of `done` and `cas`, the time of its last
+//! change. A folder that did not change since then lost no file, so its files need not be looked at one by one.
+//! (Damage inside of a file is found when the file is read.)
 
 use crate::fault::Step;
 use crate::layout::{Area, Layout};
 use crate::records::{ActionRecord, Finished};
 use crate::store::Store;
+use cosfly_blobs::BlobRef;
 use cosfly_diagnose::Result;
 use cosfly_fingerprint::Digest;
-use cosfly_stage::{BlobRef, Produced};
+use cosfly_stage::Produced;
 use std::collections::BTreeMap;
 use std::fs;
 use std::path::Path;
@@ -18,27 +19,27 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Arc, OnceLock};
 use std::time::{Duration, SystemTime, UNIX_EPOCH};
 
-/// Before the digest of the body and the body.
+/// Beginning of the file; the digest of the body and the body follow.
 const HEADER: &[u8] = b"cosfly-index 1\n";
 const SHARDS: usize = 256;
-/// A folder that changed this shortly before it was looked at may change again without its time moving on.
+/// Resolution of the file system's clock: a folder that changed this shortly before may change again at the same time.
 const CLOCK_STEP: Duration = Duration::from_millis(20);
-/// More changed folders than this make a new index worth writing.
+/// Number of changed folders above which a new index is written.
 const MOST_CHANGED: usize = SHARDS / 4;
 
-/// Times of last change, in nanoseconds since 1970, of the folders of an area; 0 when not to be relied on.
+/// Times of last change of the folders of an area, nanoseconds since 1970; 0 where they cannot be relied on.
 type Stamps = Vec<u64>;
 
-/// The tasks that are known to be finished, from the index of a recipe and from the records themselves.
+/// Tasks that are known to be finished, from the index of a recipe and from the records themselves.
 pub struct KnownTasks<'s> {
     store: &'s Store,
     run: Option<Digest>,
-    /// Sorted by plan digest.
+    /// Results sorted by plan digest.
     entries: Vec<(Digest, Finished)>,
-    /// Per folder: whether nothing went missing since the index was written.
+    /// By folder: true where nothing went missing since the index was written.
     done_is_whole: Vec<bool>,
     blobs_are_whole: Vec<bool>,
-    /// Names in the folders of `done`, read when first asked for.
+    /// Names in the folders of `done`, each read when it is first needed.
     done: Vec<OnceLock<Vec<Digest>>>,
     missed: AtomicBool,
 }
@@ -52,7 +53,7 @@ struct Index {
 }
 
 impl Store {
-    /// What is known to be finished; quick for what the latest run of `recipe` consisted of.
+    /// Finished tasks; quick for those of the latest run of `recipe`.
     pub fn known_tasks(&self, recipe: &str) -> KnownTasks<'_> {
         let bytes = fs::read(self.layout.folder("index").join(recipe)).unwrap_or_default();
         let mut index = decode(&bytes).unwrap_or_default();
@@ -82,7 +83,7 @@ impl Store {
         run: &Digest,
         entries: impl Iterator<Item = (&'e Digest, &'e Finished)>,
     ) -> Result<()> {
-        // First the times, then the files: what goes missing in between moves a time on.
+        // First the times, then the files: a file that goes missing in between changes a time.
         let now = self.file_system_time()?;
         let reliable = |stamps: Stamps| -> Stamps {
             let limit = now.saturating_sub(nanoseconds(CLOCK_STEP));
@@ -98,7 +99,7 @@ impl Store {
         self.write_file(&self.layout.folder("index").join(recipe), &bytes, Step::WriteRun, Step::RenameRun)
     }
 
-    /// The time now by the clock of the store's file system.
+    /// Present time by the clock of the store's file system.
     fn file_system_time(&self) -> Result<u64> {
         let probe = self.write_temporary(b"", 0o644, Step::WriteRun)?;
         let now = stamp(&probe);
@@ -108,7 +109,7 @@ impl Store {
 }
 
 impl KnownTasks<'_> {
-    /// What a task came to, when it is finished and all its blobs are there.
+    /// Result of a task that is finished and has all its blobs.
     pub fn finished(&self, plan: &Digest) -> Option<Finished> {
         let shard = usize::from(plan.0[0]);
         let indexed = self.entries.binary_search_by_key(plan, |(plan, _)| *plan).ok();
@@ -126,7 +127,7 @@ impl KnownTasks<'_> {
         Some(finished)
     }
 
-    /// Whether the index is of the run `run` and still as good as a new one.
+    /// True where the index is of the run `run` and as good as a new one.
     pub fn is_current(&self, run: &Digest) -> bool {
         let changed = |whole: &[bool]| whole.iter().filter(|whole| !**whole).count() > MOST_CHANGED;
         self.run.as_ref() == Some(run)
@@ -141,12 +142,12 @@ impl KnownTasks<'_> {
     }
 
     fn done_in(&self, shard: usize) -> &[Digest] {
-        // A folder that cannot be read has nothing finished in it.
+        // A folder that cannot be read counts as empty.
         self.done[shard].get_or_init(|| self.store.layout.list_shard(Area::Done, shard as u8).unwrap_or_default())
     }
 }
 
-/// When the folders of an area last changed; 0 for those that are not there.
+/// Times of last change of the folders of an area; 0 for absent ones.
 fn stamps(layout: &Layout, area: Area) -> Stamps {
     let folder = layout.folder(area.folder());
     (0..SHARDS).map(|shard| stamp(&folder.join(format!("{shard:02x}")))).collect()
@@ -176,7 +177,7 @@ fn encode<'e>(
         body.extend(finished.action.0);
         let record = &finished.record;
         put_count(&mut body, record.outputs.len());
-        for (name, blob) in &record.outputs {
+        for (name, blob) in record.outputs.iter() {
             put_text(&mut body, name);
             body.extend(blob.digest.0);
             body.extend(blob.bytes.to_le_bytes());
@@ -206,7 +207,7 @@ fn put_text(bytes: &mut Vec<u8>, text: &str) {
     bytes.extend(text.as_bytes());
 }
 
-/// Reads an index; nothing when it is not exactly what [`encode`] wrote.
+/// Reads an index; `None` where it is not exactly as [`encode`] wrote it.
 fn decode(bytes: &[u8]) -> Option<Index> {
     let (digest, body) = bytes.strip_prefix(HEADER)?.split_first_chunk()?;
     if Digest::of(body) != Digest(*digest) {
@@ -269,7 +270,7 @@ impl Reader<'_> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use cosfly_stage::OutputSink;
+    use cosfly_blobs::OutputSink;
 
     fn finish(store: &Store, text: &str) -> (Digest, Finished) {
         let action = Digest::of(text.as_bytes());

@@ -1,4 +1,4 @@
-//! Where things lie in a store, and the version of that.
+//! Layout of a store, and its version.
 
 use cosfly_diagnose::{Diagnostic, Fault, Result};
 use cosfly_fingerprint::Digest;
@@ -9,11 +9,11 @@ use std::path::{Path, PathBuf};
 /// Version of the layout and of every record in it.
 const VERSION: u32 = 1;
 const FORMAT_NAME: &str = "cosfly-store";
-/// What a store holds beside its format.
+/// Folders of a store.
 const OWN_FOLDERS: [&str; 13] =
     ["locks", "tmp", "cas", "ac", "done", "plan", "build", "runs", "index", "pins", "divergence", "out", "lost+found"];
 
-/// The folders that hold one file per digest.
+/// Folders that hold one file per digest.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Area {
     Blobs,
@@ -56,7 +56,7 @@ impl Layout {
         self.root.join(name)
     }
 
-    /// Every digest that has a file in `area`, sorted. Foreign names are passed over.
+    /// Digests that have a file in `area`, sorted. Foreign names are skipped.
     pub(crate) fn list(&self, area: Area) -> io::Result<Vec<Digest>> {
         let mut digests = Vec::new();
         for shard in 0..=u8::MAX {
@@ -65,7 +65,7 @@ impl Layout {
         Ok(digests)
     }
 
-    /// Every digest in one folder of `area`, sorted.
+    /// Digests in one folder of `area`, sorted.
     pub(crate) fn list_shard(&self, area: Area, shard: u8) -> io::Result<Vec<Digest>> {
         let mut digests = Vec::new();
         let folder = self.folder(area.folder()).join(format!("{shard:02x}"));
@@ -77,7 +77,7 @@ impl Layout {
         Ok(digests)
     }
 
-    /// Makes `root` a store, or checks that it is one that this cosfly can read.
+    /// Makes `root` a store, or checks that it is one that this version of cosfly reads.
     pub(crate) fn create_or_check(root: &Path) -> Result<Self> {
         if !is_a_store(root)? {
             create(root)?;
@@ -90,13 +90,13 @@ impl Layout {
         Ok(Self { root: root.to_owned() })
     }
 
-    /// As [`Self::create_or_check`] for a store that is there, writing nothing.
+    /// As [`Self::create_or_check`] for an existing store, writing nothing; `None` where there is none.
     pub(crate) fn check(root: &Path) -> Result<Option<Self>> {
         Ok(is_a_store(root)?.then(|| Self { root: root.to_owned() }))
     }
 }
 
-/// Whether `root` is a store of our version; an error when it is something else, nothing when there is no format.
+/// True where `root` is a store of this version, false where it has no format; an error where it is something else.
 fn is_a_store(root: &Path) -> Result<bool> {
     if root.as_os_str().is_empty() {
         return Err(not_a_store("the path of the store is empty"));
@@ -117,7 +117,7 @@ fn not_a_store(message: impl Into<String>) -> Box<Diagnostic> {
     Diagnostic::new("store-not-a-store", Fault::Input, message).hint("choose an empty or a new folder with `--store`")
 }
 
-/// Entries of a folder; a folder that is absent or is no folder has none.
+/// Entries of a folder; none where it is absent or no folder.
 pub(crate) fn read_dir_or_nothing(path: &Path) -> io::Result<impl Iterator<Item = io::Result<fs::DirEntry>>> {
     match fs::read_dir(path) {
         Ok(entries) => Ok(Some(entries).into_iter().flatten()),
@@ -128,7 +128,7 @@ pub(crate) fn read_dir_or_nothing(path: &Path) -> io::Result<impl Iterator<Item 
     }
 }
 
-/// Makes `root` a store. The format comes first, and at once: who sees anything else of a store sees its format.
+/// Makes `root` a store. The format is written first and in one step: a store with anything in it has a format.
 fn create(root: &Path) -> Result<()> {
     let failed = |error: io::Error| Diagnostic::io(format!("create the store `{}`", root.display()), &error);
     fs::create_dir_all(root).map_err(failed)?;
@@ -142,7 +142,7 @@ fn create(root: &Path) -> Result<()> {
     fs::rename(&temporary, root.join("format")).map_err(failed)
 }
 
-/// Whether a folder without a format is empty, or a store that lost only its format.
+/// True where a folder without a format is empty, or a store that lost only its format.
 fn could_be_a_store(root: &Path) -> io::Result<bool> {
     let (mut folders, mut has_locks) = (0, false);
     for entry in fs::read_dir(root)? {
@@ -159,7 +159,7 @@ fn could_be_a_store(root: &Path) -> io::Result<bool> {
             _ => return Ok(false),
         }
     }
-    // A store has had locks from its beginning; a folder with only a `build` or a `tmp` is somebody else's.
+    // A store has locks from its beginning; a folder with only a `build` or a `tmp` belongs to another program.
     Ok(folders == 0 || has_locks)
 }
 

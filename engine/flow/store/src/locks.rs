@@ -12,17 +12,17 @@ pub(crate) fn lock_file(path: &Path) -> io::Result<File> {
     OpenOptions::new().read(true).write(true).create(true).truncate(false).open(path)
 }
 
-/// Held while one process computes one task, so that another does something else meanwhile.
-/// Without it nothing would be wrong, only computed twice.
+/// Lock of one task while a process computes it, so that others compute something else meanwhile. Without it tasks would
+/// be computed twice, with the same result.
 #[derive(Debug)]
 pub struct TaskLock {
     path: PathBuf,
-    /// Open as long as the lock is held.
+    /// File that is open as long as the lock is held.
     _file: File,
 }
 
 impl TaskLock {
-    /// The lock of a task, or nothing when another holder has it.
+    /// Lock of a task; `None` while another process holds it.
     pub(crate) fn try_take(layout: &Layout, plan: &Digest) -> Result<Option<Self>> {
         let path = layout.root.join("locks").join(format!("task-{plan}"));
         let failed = |error: &io::Error| Diagnostic::io(format!("lock `{}`", path.display()), error);
@@ -33,7 +33,7 @@ impl TaskLock {
                 Err(TryLockError::WouldBlock) => return Ok(None),
                 Err(TryLockError::Error(error)) => return Err(failed(&error)),
             }
-            // The last holder removed the file while we were opening it: what we hold is nobody's lock.
+            // The last holder may have removed the file while it was being opened here; then the lock is on no file.
             if is_still_there(&file, &path) {
                 return Ok(Some(Self { path, _file: file }));
             }
@@ -43,7 +43,7 @@ impl TaskLock {
 
 impl Drop for TaskLock {
     fn drop(&mut self) {
-        // Removed before it is freed, so that nobody can hold a file that is about to vanish unnoticed.
+        // Removed before it is freed, so that no process can lock a file that is about to vanish.
         let _ = fs::remove_file(&self.path);
     }
 }

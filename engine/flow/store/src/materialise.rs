@@ -2,43 +2,46 @@
 
 use crate::blobs::digest_of_file;
 use crate::delivered::Delivered;
+use crate::folder::{first_foreign, fresh_beside, put_in_place, sync_file_system};
 use crate::locks::lock_file;
+use crate::mutex::locked;
+use crate::names::is_relative_path;
 use crate::places::check_out_folder;
-use crate::sink::is_relative_path;
-use crate::store::{Store, locked};
+use crate::store::Store;
+use cosfly_blobs::BlobRef;
 use cosfly_diagnose::{Diagnostic, Fault, Result};
 use cosfly_fingerprint::Digest;
-use cosfly_stage::{BlobRef, BlobSource};
-use std::collections::{BTreeMap, BTreeSet};
+use cosfly_stage::{BlobSource, Blobs};
+use std::collections::BTreeSet;
 use std::fs::{self, File};
 use std::io;
 use std::path::{Path, PathBuf};
 
-/// The file in a materialised folder that says which version it is and which files belong to it.
+/// File in a materialised folder with its version and the names of its files.
 pub const VERSION_FILE: &str = ".cosfly-version";
 
-/// What became of a folder.
+/// State of a folder after [`materialise`].
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Materialised {
     /// Digest over the sorted (path, digest, size) of all files.
     pub version: Digest,
-    /// How many files it has.
+    /// Number of its files.
     pub files: u64,
-    /// Their bytes.
+    /// Bytes of all files.
     pub bytes: u64,
-    /// Whether anything was written; the folder may have held this version already.
+    /// True where anything was written; false where the folder held this version already.
     pub changed: bool,
 }
 
-/// Makes `folder` hold exactly `blobs`, by name. Files are hard links into the store where the file system
-/// allows it (they are read-only), copies elsewhere. A reader of `folder` sees the old version or the new one,
-/// never a mixture. When the folder holds this version already, every file that does not look as it did when it was
-/// last known to be right is read and compared; a wrong one makes the folder be built again.
+/// Makes `folder` hold exactly `blobs`, by name. Files are hard links into the store where the file system allows it
+/// (they are read-only), copies elsewhere. A reader of `folder` sees the old version or the new one, never a mixture.
+/// Where the folder holds this version already, every file whose size or times changed since it was last known to be
+/// right is read and compared; a wrong one makes the folder be built again.
 ///
 /// # Errors
-/// [`crate::BLOB_LOST`] when a blob is missing or damaged, `out-not-ours` when `folder` holds something else,
-/// `out-in-store` when folder and store lie in each other, or what the machine refused.
-pub fn materialise(store: &Store, blobs: &BTreeMap<String, BlobRef>, folder: &Path) -> Result<Materialised> {
+/// [`Fault::Lost`] when a blob is missing or damaged, `out-not-ours` when `folder` holds something else,
+/// `out-in-store` when one of folder and store is inside of the other, or a refusal of the machine.
+pub fn materialise(store: &Store, blobs: &Blobs, folder: &Path) -> Result<Materialised> {
     check_names(blobs)?;
     check_out_folder(store.root(), folder)?;
     let version = content_of(blobs);
@@ -61,19 +64,13 @@ pub fn materialise(store: &Store, blobs: &BTreeMap<String, BlobRef>, folder: &Pa
         let _ = fs::remove_dir_all(&beside);
         return Err(diagnostic);
     }
-    // Not being able to remember costs reading the files once more.
+    // Without this record the files are read once more.
     let _ = store.remember_delivered(&folder, &Delivered::look(version, &folder, blobs.keys()));
     Ok(result(true))
 }
 
-/// Whether every file of `folder` is what it should be. A file that looks as it did `before` is not read.
-fn is_right(
-    store: &Store,
-    blobs: &BTreeMap<String, BlobRef>,
-    version: &Digest,
-    folder: &Path,
-    before: Option<&Delivered>,
-) -> bool {
+/// True where every file of `folder` is as it should be. A file with the size and times of `before` is not read.
+fn is_right(store: &Store, blobs: &Blobs, version: &Digest, folder: &Path, before: Option<&Delivered>) -> bool {
     let now = Delivered::look(*version, folder, blobs.keys());
     if before == Some(&now) && blobs.len() == now.names().count() {
         return true;
@@ -83,7 +80,7 @@ fn is_right(
         let known = before.is_some_and(|before| before.agrees(&now, name));
         if !known && !holds_bytes(&folder.join(name), blob) {
             right = false;
-            // It may be the blob itself by another name: what was read of it before says nothing any more.
+            // It may be a link to the blob itself, which then has to be checked again.
             locked(&store.checked).remove(&blob.digest);
         }
     }
@@ -98,7 +95,7 @@ fn holds_bytes(path: &Path, blob: &BlobRef) -> bool {
         && File::open(path).and_then(|mut file| digest_of_file(&mut file)).is_ok_and(|digest| digest == blob.digest)
 }
 
-fn marker_of(version: &Digest, blobs: &BTreeMap<String, BlobRef>) -> String {
+fn marker_of(version: &Digest, blobs: &Blobs) -> String {
     let mut marker = format!("{version}\n");
     for name in blobs.keys() {
         marker.push_str(name);
@@ -112,7 +109,7 @@ fn refused(folder: &Path, error: &io::Error) -> Box<Diagnostic> {
 }
 
 /// Digest over the sorted (path, digest, size) of all files: [`Materialised::version`].
-pub fn content_of(blobs: &BTreeMap<String, BlobRef>) -> Digest {
+pub fn content_of(blobs: &Blobs) -> Digest {
     let mut hasher = blake3::Hasher::new();
     for (name, blob) in blobs {
         hasher.update(&(name.len() as u64).to_le_bytes());
@@ -123,7 +120,7 @@ pub fn content_of(blobs: &BTreeMap<String, BlobRef>) -> Digest {
     Digest(*hasher.finalize().as_bytes())
 }
 
-fn check_names(blobs: &BTreeMap<String, BlobRef>) -> Result<()> {
+fn check_names(blobs: &Blobs) -> Result<()> {
     match blobs.keys().find(|name| !is_relative_path(name) || *name == VERSION_FILE) {
         None => Ok(()),
         Some(name) => Err(Diagnostic::new(
@@ -138,7 +135,7 @@ fn has_size(path: &Path, bytes: u64) -> bool {
     fs::symlink_metadata(path).is_ok_and(|metadata| metadata.is_file() && metadata.len() == bytes)
 }
 
-/// Two processes that want the same folder come one after the other.
+/// Lock of a folder, so that two processes that fill it come one after the other.
 fn take_turn(store: &Store, folder: &Path) -> Result<File> {
     let name = format!("out-{}", Digest::of(folder.as_os_str().as_encoded_bytes()));
     let path = store.root().join("locks").join(name);
@@ -146,7 +143,7 @@ fn take_turn(store: &Store, folder: &Path) -> Result<File> {
     locked.map_err(|error| Diagnostic::io(format!("lock `{}`", path.display()), &error))
 }
 
-/// Refuses to replace anything that a run did not put there.
+/// Refuses to replace anything that a run did not write.
 fn check_ours(folder: &Path, marker: Option<&str>, before: Option<&Delivered>) -> Result<()> {
     let not_ours = |message: String| {
         Err(Diagnostic::new("out-not-ours", Fault::Recipe, message)
@@ -175,44 +172,15 @@ fn check_ours(folder: &Path, marker: Option<&str>, before: Option<&Delivered>) -
     }
 }
 
-/// The first file below `folder` that is not in `known`, by its path from the top.
-fn first_foreign(folder: &Path, prefix: &str, known: &BTreeSet<&str>) -> io::Result<Option<String>> {
-    for entry in fs::read_dir(folder)? {
-        let entry = entry?;
-        let name = format!("{prefix}{}", entry.file_name().to_string_lossy());
-        let foreign = if entry.file_type()?.is_dir() {
-            first_foreign(&entry.path(), &format!("{name}/"), known)?
-        } else {
-            (!known.contains(name.as_str())).then_some(name)
-        };
-        if foreign.is_some() {
-            return Ok(foreign);
-        }
-    }
-    Ok(None)
-}
-
-/// A fresh folder next to `folder`, on the same file system; what a killed run left there is removed.
 fn beside(folder: &Path) -> Result<PathBuf> {
-    let (Some(parent), Some(name)) = (folder.parent(), folder.file_name()) else {
-        return Err(Diagnostic::new(
-            "out-not-ours",
-            Fault::Recipe,
-            format!("`{}` cannot be the folder of a dataset", folder.display()),
-        )
-        .hint("choose another folder with `--out`"));
-    };
-    let beside = parent.join(format!(".{}.cosfly-tmp", name.to_string_lossy()));
-    let made = fs::create_dir_all(parent)
-        .and_then(|()| match fs::remove_dir_all(&beside) {
-            Err(error) if error.kind() != io::ErrorKind::NotFound => Err(error),
-            _ => Ok(()),
-        })
-        .and_then(|()| fs::create_dir(&beside));
-    made.map(|()| beside.clone()).map_err(|error| refused(&beside, &error))
+    let made = fresh_beside(folder).ok_or_else(|| {
+        let message = format!("`{}` cannot be the folder of a dataset", folder.display());
+        Diagnostic::new("out-not-ours", Fault::Recipe, message).hint("choose another folder with `--out`")
+    })?;
+    made.map_err(|error| refused(folder, &error))
 }
 
-fn build(store: &Store, blobs: &BTreeMap<String, BlobRef>, marker: &str, folder: &Path) -> Result<()> {
+fn build(store: &Store, blobs: &Blobs, marker: &str, folder: &Path) -> Result<()> {
     let mut made = BTreeSet::new();
     for (name, blob) in blobs {
         let path = folder.join(name);
@@ -231,63 +199,17 @@ fn build(store: &Store, blobs: &BTreeMap<String, BlobRef>, marker: &str, folder:
         .map_err(|error| refused(folder, &error))
 }
 
-/// Everything below `folder` is on the disk before anyone can see it.
-fn sync_file_system(folder: &Path) -> io::Result<()> {
-    #[cfg(target_os = "linux")]
-    match rustix::fs::syncfs(File::open(folder)?) {
-        Ok(()) | Err(rustix::io::Errno::NOSYS | rustix::io::Errno::PERM | rustix::io::Errno::OPNOTSUPP) => {}
-        Err(error) => return Err(error.into()),
-    }
-    #[cfg(not(target_os = "linux"))]
-    let _ = folder;
-    Ok(())
-}
-
-/// Exchanges the new folder with the old one, in one step where the system can.
-fn put_in_place(new: &Path, folder: &Path) -> io::Result<()> {
-    match fs::rename(new, folder) {
-        // There was nothing, or an empty folder.
-        Ok(()) => return Ok(()),
-        Err(error) if fs::symlink_metadata(folder).is_err() => return Err(error),
-        Err(_) => {}
-    }
-    if exchange(new, folder).is_ok() {
-        return fs::remove_dir_all(new);
-    }
-    let old = new.with_extension("cosfly-old");
-    let _ = fs::remove_dir_all(&old);
-    fs::rename(folder, &old)?;
-    if let Err(error) = fs::rename(new, folder) {
-        fs::rename(&old, folder)?;
-        return Err(error);
-    }
-    fs::remove_dir_all(&old)
-}
-
-#[cfg(target_os = "linux")]
-fn exchange(a: &Path, b: &Path) -> io::Result<()> {
-    use rustix::fs::{CWD, RenameFlags, renameat_with};
-    Ok(renameat_with(CWD, a, CWD, b, RenameFlags::EXCHANGE)?)
-}
-
-#[cfg(not(target_os = "linux"))]
-fn exchange(_a: &Path, _b: &Path) -> io::Result<()> {
-    Err(io::ErrorKind::Unsupported.into())
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::BLOB_LOST;
-    use cosfly_stage::{OutputSink, Produced};
-
-    type Blobs = BTreeMap<String, BlobRef>;
+    use cosfly_blobs::OutputSink;
+    use cosfly_stage::Produced;
 
     fn artifact(store: &Store, files: &[(&str, &str)]) -> Blobs {
         let mut sink = store.sink();
         files.iter().for_each(|(name, text)| sink.put(name, text.as_bytes()).unwrap());
         let action = Digest::of(format!("{files:?}").as_bytes());
-        sink.settle(&action, Produced::default()).unwrap().record.outputs.clone()
+        (*sink.settle(&action, Produced::default()).unwrap().record.outputs).clone()
     }
 
     fn open() -> (tempfile::TempDir, Store, PathBuf) {
@@ -353,7 +275,7 @@ mod tests {
         let path = store.blob_path(&blobs["b"]);
         fs::remove_file(&path).unwrap();
         fs::write(&path, "z").unwrap();
-        assert_eq!(materialise(&store, &blobs, &out).unwrap_err().code, BLOB_LOST);
+        assert_eq!(materialise(&store, &blobs, &out).unwrap_err().fault, Fault::Lost);
         assert!(!out.exists() && fs::read_dir(out.parent().unwrap()).unwrap().next().is_none());
     }
 
@@ -377,7 +299,7 @@ mod tests {
             }
             File::options().write(true).open(&path).unwrap().set_modified(modified).unwrap();
             if linked {
-                assert_eq!(materialise(&store, &blobs, &out).unwrap_err().code, BLOB_LOST);
+                assert_eq!(materialise(&store, &blobs, &out).unwrap_err().fault, Fault::Lost);
                 assert!(!store.holds_blob(&blobs["b"]));
                 artifact(&store, &[("a", "one"), ("b", "two")]);
             }

@@ -1,22 +1,22 @@
-//! Where the folder of a dataset may lie with respect to the store.
+//! Places where the folder of a dataset may be with respect to the store.
 
 use cosfly_diagnose::{Diagnostic, Fault, Result};
 use std::fs;
 use std::path::{Component, Path, PathBuf};
 
-/// Refuses a dataset's folder inside the store and a store inside the dataset's folder: one would be taken for
-/// files of the other. Symbolic links are followed as far as they lead to something.
+/// Refuses a dataset's folder inside of the store and a store inside of the dataset's folder: files of one would be taken
+/// for files of the other. Symbolic links are followed as far as they lead to something.
 ///
 /// # Errors
-/// `out-in-store`, or what the machine refused.
+/// `out-in-store`, or a refusal of the machine.
 pub fn check_out_folder(store_root: &Path, out: &Path) -> Result<()> {
     let (store, folder) = (resolved(store_root)?, resolved(out)?);
     let message = if folder == store {
         format!("`{}` is the folder of the store; a dataset cannot be put there", out.display())
     } else if folder.starts_with(&store) {
-        format!("`{}` lies inside the store `{}`", out.display(), store_root.display())
+        format!("`{}` is inside of the store `{}`", out.display(), store_root.display())
     } else if store.starts_with(&folder) {
-        format!("the store `{}` lies inside `{}`, where the dataset would be put", store_root.display(), out.display())
+        format!("the store `{}` is inside of `{}`, where the dataset would be put", store_root.display(), out.display())
     } else {
         return Ok(());
     };
@@ -24,7 +24,7 @@ pub fn check_out_folder(store_root: &Path, out: &Path) -> Result<()> {
         .hint("choose two folders side by side with `--out` and `--store`"))
 }
 
-/// The absolute path without links, `.` and `..`; what does not exist is taken as it is written.
+/// Absolute path without links, `.` and `..`; parts that do not exist are taken as they are written.
 fn resolved(path: &Path) -> Result<PathBuf> {
     let absolute = std::path::absolute(path)
         .map_err(|error| Diagnostic::io(format!("find the folder `{}`", path.display()), &error))?;

@@ -1,28 +1,27 @@
 //! Action and done records, each bound to its key by a check line: a torn, edited or exchanged record is never believed.
 
 use cosfly_fingerprint::{Digest, canonical_json};
-use cosfly_stage::{BlobRef, Produced};
+use cosfly_stage::{Blobs, Produced};
 use serde::{Deserialize, Serialize};
-use std::collections::BTreeMap;
 use std::sync::Arc;
 
 const SCHEMA: &str = "cosfly.action-record/1";
 
-/// What an action made.
+/// Output of an action.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct ActionRecord {
-    /// Its blobs by name.
-    pub outputs: BTreeMap<String, BlobRef>,
-    /// Its notes, warnings and rejection.
+    /// Blobs by name.
+    pub outputs: Arc<Blobs>,
+    /// Notes, warnings and rejection.
     pub produced: Produced,
     schema: String,
 }
 
 impl ActionRecord {
     /// A record of these outputs.
-    pub fn new(outputs: BTreeMap<String, BlobRef>, produced: Produced) -> Self {
-        Self { outputs, produced, schema: SCHEMA.to_owned() }
+    pub fn new(outputs: Blobs, produced: Produced) -> Self {
+        Self { outputs: Arc::new(outputs), produced, schema: SCHEMA.to_owned() }
     }
 
     /// Bytes of all blobs together.
@@ -31,21 +30,21 @@ impl ActionRecord {
     }
 }
 
-/// What a finished task came to.
+/// Result of a finished task.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Finished {
-    /// Key over the contents of its inputs.
+    /// Key over the contents of the task's inputs.
     pub action: Digest,
-    /// What it made.
+    /// Output of the task.
     pub record: Arc<ActionRecord>,
 }
 
-/// The file of an action record: canonical JSON, the action's key, then the digest of both.
+/// File of an action record: canonical JSON, the action's key, then the digest of both.
 pub(crate) fn encode(action: &Digest, record: &ActionRecord) -> Vec<u8> {
     with_check(format!("{}\n{action}\n", canonical_json(record)))
 }
 
-/// The file of a done record: what the task came to, the task's plan digest, then the digest of both.
+/// File of a done record: the action's key, the task's plan digest, then the digest of both.
 pub(crate) fn encode_done(plan: &Digest, action: &Digest) -> Vec<u8> {
     with_check(format!("{action}\n{plan}\n"))
 }
@@ -56,7 +55,7 @@ fn with_check(mut body: String) -> Vec<u8> {
     body.into_bytes()
 }
 
-/// What stands before the key and the check line; nothing when the file is not whole or belongs to another key.
+/// Text before the key and the check line; `None` where the file is not whole or belongs to another key.
 fn content_for<'b>(key: &Digest, bytes: &'b [u8]) -> Option<&'b str> {
     let lines = std::str::from_utf8(bytes).ok()?.strip_suffix('\n')?;
     let (body, check) = lines.split_at(lines.rfind('\n')? + 1);
@@ -67,13 +66,13 @@ fn content_for<'b>(key: &Digest, bytes: &'b [u8]) -> Option<&'b str> {
     (written_key.parse::<Digest>().ok()? == *key).then_some(content)
 }
 
-/// Reads the record of `action`; nothing when it is not exactly what [`encode`] wrote for it.
+/// Reads the record of `action`; `None` where it is not exactly as [`encode`] wrote it.
 pub(crate) fn decode(action: &Digest, bytes: &[u8]) -> Option<ActionRecord> {
     let record: ActionRecord = serde_json::from_str(content_for(action, bytes)?).ok()?;
     (record.schema == SCHEMA).then_some(record)
 }
 
-/// Reads the done record of `plan`; nothing when it is not exactly what [`encode_done`] wrote for it.
+/// Reads the done record of `plan`; `None` where it is not exactly as [`encode_done`] wrote it.
 pub(crate) fn decode_done(plan: &Digest, bytes: &[u8]) -> Option<Digest> {
     content_for(plan, bytes)?.parse().ok()
 }
@@ -81,6 +80,8 @@ pub(crate) fn decode_done(plan: &Digest, bytes: &[u8]) -> Option<Digest> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use cosfly_blobs::BlobRef;
+    use std::collections::BTreeMap;
 
     #[test]
     fn a_record_with_any_byte_changed_is_not_believed() {

@@ -1,4 +1,4 @@
-//! The temporary folder of one process, and the removal of those whose process died.
+//! Temporary folder of one process, and the removal of those of dead processes.
 
 use crate::layout::{Layout, read_dir_or_nothing};
 use crate::locks::lock_file;
@@ -10,17 +10,17 @@ use std::sync::atomic::{AtomicU64, Ordering};
 
 const OWNER: &str = "owner";
 
-/// A folder below `tmp/` that belongs to one open store; gone when the store is closed.
+/// A folder below `tmp/` that belongs to one open store and is removed when the store is closed.
 #[derive(Debug)]
 pub(crate) struct Scratch {
     folder: PathBuf,
     next: AtomicU64,
-    /// Locked as long as the owner lives; nothing in a store that is only read.
+    /// File that is locked as long as the owner lives; `None` in a store that is only read.
     owner: Option<File>,
 }
 
 impl Scratch {
-    /// A new folder of our own.
+    /// A new folder of this process.
     pub(crate) fn create(layout: &Layout) -> Result<Self> {
         Self::try_create(layout).map_err(|error| {
             Diagnostic::io(format!("create a temporary folder in `{}`", layout.folder("tmp").display()), &error)
@@ -43,12 +43,12 @@ impl Scratch {
         Ok(Self { folder, next: AtomicU64::new(0), owner: Some(owner) })
     }
 
-    /// The folder of a store that is only read: it is not there, so that nothing can be written into it.
+    /// Folder of a store that is only read: it does not exist, so that nothing can be written into it.
     pub(crate) fn none(layout: &Layout) -> Self {
         Self { folder: layout.folder("tmp").join("read-only"), next: AtomicU64::new(0), owner: None }
     }
 
-    /// A path in the folder that was not given out before.
+    /// A path in the folder that was not used before.
     pub(crate) fn next_path(&self) -> PathBuf {
         self.folder.join(self.next.fetch_add(1, Ordering::Relaxed).to_string())
     }
@@ -62,7 +62,7 @@ impl Drop for Scratch {
     }
 }
 
-/// Folders below `tmp/` whose owner is dead, with their sizes; removed unless `dry_run`.
+/// Number and bytes of the folders below `tmp/` whose owner is dead; they are removed unless `dry_run`.
 pub(crate) fn sweep_orphans(layout: &Layout, dry_run: bool) -> io::Result<(u64, u64)> {
     let _guard = guard(layout)?;
     let (mut folders, mut bytes) = (0, 0);
@@ -79,11 +79,11 @@ pub(crate) fn sweep_orphans(layout: &Layout, dry_run: bool) -> io::Result<(u64, 
     Ok((folders, bytes))
 }
 
-/// Its owner may be closing the store at this moment, and remove it too.
+/// Removes a folder whose owner may be closing the store, and removing it, at this moment.
 fn remove_unless_gone(folder: &Path) -> io::Result<()> {
     for _ in 0..100 {
         match fs::remove_dir_all(folder) {
-            // A file in it went, or it went itself; look again.
+            // A file in it is gone, or the folder itself; look again.
             Err(error) if matches!(error.kind(), io::ErrorKind::NotFound | io::ErrorKind::DirectoryNotEmpty) => {}
             other => return other,
         }
@@ -103,7 +103,7 @@ fn is_orphan(folder: &Path) -> bool {
         .map_or_else(|error| error.kind() == io::ErrorKind::NotFound && folder.is_dir(), |file| file.try_lock().is_ok())
 }
 
-/// `<process>-<attempt>`
+/// True for names of the form `<process>-<attempt>`.
 fn is_our_name(name: &str) -> bool {
     let is_number = |text: &str| !text.is_empty() && text.bytes().all(|byte| byte.is_ascii_digit());
     name.split_once('-').is_some_and(|(process, attempt)| is_number(process) && is_number(attempt))
@@ -114,7 +114,7 @@ fn folder_bytes(folder: &Path) -> u64 {
     entries.flatten().filter_map(|entry| entry.metadata().ok()).map(|metadata| metadata.len()).sum()
 }
 
-/// Makers and sweepers of temporary folders take turns.
+/// Lock by which makers and sweepers of temporary folders take turns.
 fn guard(layout: &Layout) -> io::Result<File> {
     let file = lock_file(&layout.root.join("locks/tmp"))?;
     file.lock()?;

@@ -1,16 +1,18 @@
-//! Where a running task puts its blobs, and the moment its action becomes visible.
+//! Sink for the blobs of a running task, and the moment its action becomes visible.
 
-use crate::blobs::digest_of_file;
+use crate::digesting::DigestingFile;
 use crate::fault::Step;
 use crate::layout::Area;
+use crate::names::is_relative_path;
 use crate::records::{self, ActionRecord};
-use crate::store::{BLOB_LOST, Store, create_file, with_folder_of};
+use crate::store::{Store, create_file, with_folder_of};
+use cosfly_blobs::{BlobRef, OutputSink, SeekWrite};
 use cosfly_diagnose::{Diagnostic, Fault, Result};
 use cosfly_fingerprint::{Digest, canonical_json};
-use cosfly_stage::{BlobRef, BlobSource, OutputSink, PassingFile, Produced, SeekWrite};
+use cosfly_stage::{BlobSource, Produced};
 use std::collections::BTreeMap;
-use std::fs::{self, File};
-use std::io::{self, BufWriter, Seek, SeekFrom, Write};
+use std::fs;
+use std::io::{self, BufWriter, Write};
 use std::path::PathBuf;
 use std::sync::Arc;
 
@@ -20,22 +22,18 @@ pub struct TaskSink<'s> {
     outputs: BTreeMap<String, (BlobRef, Option<PathBuf>)>,
 }
 
-/// What counts as the outcome of an action from now on.
+/// Outcome of an action, from now on.
 #[derive(Clone, Debug)]
 pub struct Settled {
-    /// The record that counts.
+    /// Record of the outcome.
     pub record: Arc<ActionRecord>,
-    /// Set when another execution of the same action gave other bytes (`nondeterministic-stage`).
+    /// Set where another execution of the same action gave other bytes (`nondeterministic-stage`).
     pub divergence: Option<Box<Diagnostic>>,
 }
 
 impl<'s> TaskSink<'s> {
-    pub(crate) fn new(store: &'s Store) -> Self {
-        Self { store, outputs: BTreeMap::new() }
-    }
-
-    /// Moves the blobs into the store and records them as the outcome of `action`.
-    /// Whoever settled the same action first with other bytes, still intact, wins.
+    /// Moves the blobs into the store and records them as the outcome of `action`. An earlier outcome with other bytes
+    /// wins while it is intact.
     pub fn settle(mut self, action: &Digest, produced: Produced) -> Result<Settled> {
         let outputs = self.outputs.iter().map(|(name, (blob, _))| (name.clone(), *blob)).collect();
         let record = ActionRecord::new(outputs, produced);
@@ -47,7 +45,7 @@ impl<'s> TaskSink<'s> {
         }
         for (blob, temporary) in self.outputs.values_mut() {
             if let Some(path) = temporary.take() {
-                // Over what is there: the bytes are the same, unless the old ones are damaged.
+                // This may replace a blob: its bytes are the same, unless they are damaged.
                 self.store.move_into_place(&path, &self.store.blob_path(blob), Step::RenameBlob)?;
                 self.store.mark_checked(blob.digest);
             }
@@ -118,8 +116,8 @@ impl OutputSink for TaskSink<'_> {
         self.claim(name)?;
         if !self.store.holds_blob(&blob) {
             return Err(Diagnostic::new(
-                BLOB_LOST,
-                Fault::Machine,
+                "store-blob-lost",
+                Fault::Lost,
                 format!("blob `{}` of the store, linked as `{name}`, is missing", blob.digest.short()),
             ));
         }
@@ -137,6 +135,11 @@ impl Drop for TaskSink<'_> {
 }
 
 impl Store {
+    /// A sink for the outputs of one task.
+    pub fn sink(&self) -> TaskSink<'_> {
+        TaskSink { store: self, outputs: BTreeMap::new() }
+    }
+
     /// Makes `record` the outcome of `action`, unless another process was faster with other bytes.
     fn settle_record(&self, action: &Digest, record: ActionRecord) -> Result<Settled> {
         let path = self.layout.file(Area::Actions, action);
@@ -162,7 +165,7 @@ impl Store {
                 self.diverged(action, earlier, &record)
             }
             Some(earlier) => {
-                // The earlier bytes are lost and will not come back.
+                // The earlier bytes are lost.
                 self.move_into_place(&temporary, &path, Step::RenameAction)?;
                 let divergence = self.report_divergence(action, &record, &earlier)?;
                 Ok(Settled { record: Arc::new(record), divergence: Some(divergence) })
@@ -174,7 +177,7 @@ impl Store {
         }
     }
 
-    /// Whether every blob of a record is there with the right bytes.
+    /// True where every blob of a record exists with the right bytes.
     fn is_intact(&self, record: &ActionRecord) -> bool {
         record.outputs.values().all(|blob| self.open(blob).is_ok())
     }
@@ -191,15 +194,14 @@ impl Store {
         let name = format!("{action}-{}", Digest::of(report.as_bytes()).short());
         let path = self.layout.folder("divergence").join(name);
         self.write_file(&path, report.as_bytes(), Step::WriteAction, Step::RenameAction)?;
-        let what = first_difference(kept, other);
         Ok(Diagnostic::new(
             "nondeterministic-stage",
             Fault::Bug,
             "the same stage with the same inputs and seed gave other bytes than before",
         )
-        .because(format!("{what} differs"))
+        .because(format!("{} differs", first_difference(kept, other)))
         .hint(format!("the earlier result is kept; both are described in `{}`", path.display()))
-        .hint("raise the stage's version when its results are meant to change"))
+        .hint("where its results are meant to change, raise the version of the stage's kind"))
     }
 }
 
@@ -208,89 +210,13 @@ fn first_difference(kept: &ActionRecord, other: &ActionRecord) -> String {
     names
         .filter(|name| kept.outputs.get(*name) != other.outputs.get(*name))
         .min()
-        .map_or_else(|| "what it says about itself".to_owned(), |name| format!("output `{name}`"))
-}
-
-/// Relative, of plain names: nothing that could leave the folder it is put in, on any system.
-pub(crate) fn is_relative_path(name: &str) -> bool {
-    name.len() <= 1024
-        && !name.contains(['\\', ':'])
-        && !name.chars().any(char::is_control)
-        && name.split('/').all(|part| !part.is_empty() && part.len() <= 255 && part != "." && part != "..")
-}
-
-/// A file that is hashed while it is written from front to back, and read again only when it was not.
-struct DigestingFile {
-    file: PassingFile,
-    hasher: blake3::Hasher,
-    /// Where the next write goes.
-    position: u64,
-    /// How many bytes are hashed, all from the front.
-    hashed: u64,
-    in_order: bool,
-    /// The first refusal of a write; the stage may have wrapped it in words of its own.
-    refused: Option<io::Error>,
-}
-
-impl DigestingFile {
-    fn new(file: File) -> Self {
-        let file = PassingFile::new(file);
-        Self { file, hasher: blake3::Hasher::new(), position: 0, hashed: 0, in_order: true, refused: None }
-    }
-
-    fn finish(mut self) -> io::Result<BlobRef> {
-        let bytes = self.file.file().metadata()?.len();
-        let digest = if self.in_order && bytes == self.hashed {
-            Digest(*self.hasher.finalize().as_bytes())
-        } else {
-            self.file.rewind()?;
-            digest_of_file(self.file.file())?
-        };
-        Ok(BlobRef { digest, bytes })
-    }
-}
-
-impl Write for DigestingFile {
-    fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
-        match self.file.write(bytes) {
-            Ok(length) => {
-                if self.position == self.hashed {
-                    self.hasher.update(&bytes[..length]);
-                    self.hashed += length as u64;
-                } else {
-                    self.in_order = false;
-                }
-                self.position += length as u64;
-                Ok(length)
-            }
-            Err(error) => {
-                if error.kind() != io::ErrorKind::Interrupted && self.refused.is_none() {
-                    self.refused = Some(copy_of(&error));
-                }
-                Err(error)
-            }
-        }
-    }
-
-    fn flush(&mut self) -> io::Result<()> {
-        self.file.flush()
-    }
-}
-
-impl Seek for DigestingFile {
-    fn seek(&mut self, to: SeekFrom) -> io::Result<u64> {
-        self.position = self.file.seek(to)?;
-        Ok(self.position)
-    }
-}
-
-fn copy_of(error: &io::Error) -> io::Error {
-    error.raw_os_error().map_or_else(|| io::Error::new(error.kind(), error.to_string()), io::Error::from_raw_os_error)
+        .map_or_else(|| "a note or a warning".to_owned(), |name| format!("output `{name}`"))
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use std::io::SeekFrom;
 
     fn open() -> (tempfile::TempDir, Store) {
         let root = tempfile::tempdir().unwrap();

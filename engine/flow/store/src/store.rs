@@ -1,4 +1,4 @@
-//! An open store: what it holds in memory, its records and documents.
+//! An open store: its state in memory, its records and documents.
 
 use crate::decoded::DecodeCache;
 use crate::durability::Durability;
@@ -7,18 +7,14 @@ use crate::layout::{Area, Layout};
 use crate::locks::{TaskLock, lock_file};
 use crate::records::{self, ActionRecord, Finished};
 use crate::scratch::{Scratch, sweep_orphans};
-use crate::sink::TaskSink;
-use cosfly_diagnose::{Diagnostic, Result};
+use cosfly_blobs::BlobRef;
+use cosfly_diagnose::{Diagnostic, Fault, Result};
 use cosfly_fingerprint::Digest;
-use cosfly_stage::BlobRef;
 use std::collections::BTreeSet;
 use std::fs::{self, File, OpenOptions};
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
-use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
-
-/// Code of the diagnostic for a blob that is missing or damaged: whoever gets it computes its item again.
-pub const BLOB_LOST: &str = "store-blob-lost";
+use std::sync::{Arc, Mutex};
 
 /// A store that this process has open. Any number of processes may have it open at once.
 pub struct Store {
@@ -29,25 +25,20 @@ pub struct Store {
     /// Blobs whose size and digest this process has checked, or that it wrote itself.
     pub(crate) checked: Mutex<BTreeSet<Digest>>,
     pub(crate) decoded: DecodeCache,
-    /// Shared with other runs; garbage collection takes it alone.
+    /// Lock that runs share, and that garbage collection takes alone.
     _garbage_lock: Option<File>,
 }
 
-/// The data behind a lock, also after a panic elsewhere: all of it is valid between two statements.
-pub(crate) fn locked<T>(mutex: &Mutex<T>) -> MutexGuard<'_, T> {
-    mutex.lock().unwrap_or_else(PoisonError::into_inner)
-}
-
 impl Store {
-    /// Opens the store at `root`, creating it when there is nothing yet. Waits while garbage is being collected.
+    /// Opens the store at `root`, creating it where there is nothing yet. Waits while garbage is being collected.
     ///
     /// # Errors
-    /// `store-newer-version`, `store-damaged-format`, `store-not-a-store`, or what the machine refused.
+    /// `store-newer-version`, `store-damaged-format`, `store-not-a-store`, or a refusal of the machine.
     pub fn open(root: &Path) -> Result<Self> {
         Self::open_with_faults(root, Arc::new(NoFaults))
     }
 
-    /// As [`Self::open`], with steps of publishing that may be refused.
+    /// As [`Self::open`], with `faults` that may refuse steps of publishing.
     pub fn open_with_faults(root: &Path, faults: Arc<dyn FaultPoints>) -> Result<Self> {
         let layout = Layout::create_or_check(root)?;
         let failed = |error: io::Error| Diagnostic::io(format!("lock the store `{}`", root.display()), &error);
@@ -68,18 +59,20 @@ impl Store {
         })
     }
 
-    /// As [`Self::open`], for those that only read: a store on a disk that cannot be written is opened, too.
+    /// As [`Self::open`], for reading: a store on a disk that cannot be written is opened as well.
     ///
     /// # Errors
     /// As [`Self::open`].
     pub fn open_to_read(root: &Path) -> Result<Self> {
         match Self::open(root) {
-            Err(refusal) if refusal.code == "machine-io" => Self::open_as_it_is(root)?.ok_or(refusal),
+            Err(refusal) if matches!(refusal.fault, Fault::Machine | Fault::DiskFull) => {
+                Self::open_as_it_is(root)?.ok_or(refusal)
+            }
             opened => opened,
         }
     }
 
-    /// Opens a store that is there without writing anything; whoever writes gets the machine's refusal.
+    /// Opens an existing store without writing anything; later writes get the machine's refusal.
     fn open_as_it_is(root: &Path) -> Result<Option<Self>> {
         let Some(layout) = Layout::check(root)? else { return Ok(None) };
         // A store that cannot be locked cannot be cleaned either.
@@ -95,59 +88,52 @@ impl Store {
         }))
     }
 
-    /// The store's folder.
+    /// Folder of the store.
     pub fn root(&self) -> &Path {
         &self.layout.root
     }
 
-    /// A sink for one task's outputs.
-    pub fn sink(&self) -> TaskSink<'_> {
-        TaskSink::new(self)
-    }
-
-    /// The lock of one task; nothing while another runner has it.
+    /// Lock of one task; `None` while another runner holds it.
     pub fn try_lock_task(&self, plan: &Digest) -> Result<Option<TaskLock>> {
         TaskLock::try_take(&self.layout, plan)
     }
 
-    /// The plan digests of all tasks that were ever finished, sorted.
-    pub fn done(&self) -> Result<Vec<Digest>> {
-        self.layout
-            .list(Area::Done)
-            .map_err(|error| Diagnostic::io(format!("list `{}`", self.layout.folder("done").display()), &error))
+    /// True where the task was finished once, whether or not its output is whole.
+    pub fn was_finished(&self, plan: &Digest) -> bool {
+        fs::symlink_metadata(self.layout.file(Area::Done, plan)).is_ok()
     }
 
-    /// What a finished task came to; nothing when it is not finished or a record of it is damaged.
+    /// Result of a task; `None` where it is not finished or a record of it is damaged.
     pub fn finished(&self, plan: &Digest) -> Option<Finished> {
         let action = records::decode_done(plan, &fs::read(self.layout.file(Area::Done, plan)).ok()?)?;
         Some(Finished { action, record: Arc::new(self.action(&action)?) })
     }
 
-    /// What an action made; nothing when it never ran or its record is damaged.
+    /// Output of an action; `None` where it never ran or its record is damaged.
     pub fn action(&self, action: &Digest) -> Option<ActionRecord> {
         records::decode(action, &fs::read(self.layout.file(Area::Actions, action)).ok()?)
     }
 
-    /// Whether all blobs of a record are there with the right size. Their bytes are checked when they are read.
+    /// True where all blobs of a record exist with the right size. Their bytes are checked when they are read.
     pub fn holds(&self, record: &ActionRecord) -> bool {
         record.outputs.values().all(|blob| self.holds_blob(blob))
     }
 
-    /// Whether a blob is there with the right size.
+    /// True where a blob exists with the right size.
     pub fn holds_blob(&self, blob: &BlobRef) -> bool {
         fs::symlink_metadata(self.layout.file(Area::Blobs, &blob.digest))
             .is_ok_and(|metadata| metadata.is_file() && metadata.len() == blob.bytes)
     }
 
-    /// Writes down that the task `plan` came to `action`. Call it only after a [`Self::sync`] that began after
-    /// the action was settled; another sync makes the record itself durable.
+    /// Records that the task `plan` is finished by `action`. To be called after a [`Self::sync`] that began after the
+    /// action was settled; another sync makes the record itself durable.
     pub fn publish_done(&self, plan: &Digest, document: &str, action: &Digest) -> Result<()> {
         self.put_document(plan, document)?;
         let path = self.layout.file(Area::Done, plan);
         self.write_file(&path, &records::encode_done(plan, action), Step::WriteDone, Step::RenameDone)
     }
 
-    /// Keeps a plan document under its own digest. Nothing happens when it is there.
+    /// Stores a plan document under its own digest, unless it is there already.
     pub fn put_document(&self, digest: &Digest, document: &str) -> Result<()> {
         debug_assert_eq!(*digest, Digest::of(document.as_bytes()));
         let path = self.layout.file(Area::Plans, digest);
@@ -157,7 +143,7 @@ impl Store {
         self.write_file(&path, document.as_bytes(), Step::WriteDocument, Step::RenameDocument)
     }
 
-    /// A plan document; nothing when it is absent or damaged.
+    /// A plan document; `None` where it is absent or damaged.
     pub fn document(&self, digest: &Digest) -> Option<serde_json::Value> {
         let bytes = fs::read(self.layout.file(Area::Plans, digest)).ok()?;
         if Digest::of(&bytes) != *digest {
@@ -166,30 +152,30 @@ impl Store {
         serde_json::from_slice(&bytes).ok()
     }
 
-    /// Keeps how the stage of a plan definition is built; the latest one counts.
+    /// Stores how the stage of a plan definition is built; the latest one counts.
     pub fn put_build(&self, definition: &Digest, document: &str) -> Result<()> {
         let path = self.layout.file(Area::Builds, definition);
         self.write_file(&path, document.as_bytes(), Step::WriteDocument, Step::RenameDocument)
     }
 
-    /// How the stage of a plan definition is built; nothing when it is absent or damaged.
+    /// Document about building the stage of a plan definition; `None` where it is absent or damaged.
     pub fn build(&self, definition: &Digest) -> Option<serde_json::Value> {
         serde_json::from_slice(&fs::read(self.layout.file(Area::Builds, definition)).ok()?).ok()
     }
 
-    /// Forces everything published so far to the disk.
+    /// Makes everything published so far durable.
     pub fn sync(&self) -> Result<()> {
         let synced = self.faults.before(Step::Sync).and_then(|()| self.durability.sync());
         synced.map_err(|error| Diagnostic::io(format!("force `{}` to the disk", self.root().display()), &error))
     }
 
-    /// Writes a small file beside and renames it into place.
+    /// Writes a small temporary file and renames it into place.
     pub(crate) fn write_file(&self, path: &Path, bytes: &[u8], write: Step, rename: Step) -> Result<()> {
         let temporary = self.write_temporary(bytes, 0o644, write)?;
         self.move_into_place(&temporary, path, rename)
     }
 
-    /// Writes a temporary file; nothing is left of it on failure.
+    /// Writes a temporary file; a failed one is removed.
     pub(crate) fn write_temporary(&self, bytes: &[u8], mode: u32, step: Step) -> Result<PathBuf> {
         let path = self.scratch.next_path();
         let written =
@@ -200,11 +186,11 @@ impl Store {
         })
     }
 
-    /// Renames a temporary file to `path`, making its folder when needed; removes it on failure.
+    /// Renames a temporary file to `path`, creating the folder where needed; removes the file on failure.
     pub(crate) fn move_into_place(&self, temporary: &Path, path: &Path, step: Step) -> Result<()> {
         let moved = self.faults.before(step).and_then(|()| {
             let moved = with_folder_of(path, || fs::rename(temporary, path));
-            // A folder lies where the file belongs.
+            // There may be a folder in place of the file.
             moved.or_else(|error| if self.clear_away(path) { fs::rename(temporary, path) } else { Err(error) })
         });
         self.durability.note(path);
@@ -215,15 +201,15 @@ impl Store {
         })
     }
 
-    /// Moves a folder from where a file belongs into our temporary folder, which goes when the store is closed;
-    /// whether there was one.
+    /// Moves a folder that is in the place of a file into the temporary folder, which is removed when the store is
+    /// closed. True where there was one.
     pub(crate) fn clear_away(&self, path: &Path) -> bool {
         fs::symlink_metadata(path).is_ok_and(|metadata| metadata.is_dir())
             && fs::rename(path, self.scratch.next_path()).is_ok()
     }
 }
 
-/// Creates a file that did not exist; on Unix with the given permissions.
+/// Creates a file that must not exist, with the given permissions on Unix.
 pub(crate) fn create_file(path: &Path, mode: u32) -> io::Result<File> {
     let mut options = OpenOptions::new();
     options.read(true).write(true).create_new(true);
@@ -234,7 +220,7 @@ pub(crate) fn create_file(path: &Path, mode: u32) -> io::Result<File> {
     options.open(path)
 }
 
-/// Does `work`; when a folder is missing, makes the folder of `path` and does it once more.
+/// Result of `work`, which is repeated after creating the folder of `path` where that was missing.
 pub(crate) fn with_folder_of<T>(path: &Path, work: impl Fn() -> io::Result<T>) -> io::Result<T> {
     match (work(), path.parent()) {
         (Err(error), Some(folder)) if error.kind() == io::ErrorKind::NotFound => {
@@ -248,7 +234,8 @@ pub(crate) fn with_folder_of<T>(path: &Path, work: impl Fn() -> io::Result<T>) -
 #[cfg(test)]
 mod tests {
     use super::*;
-    use cosfly_stage::{BlobSource, OutputSink, Produced};
+    use cosfly_blobs::OutputSink;
+    use cosfly_stage::{BlobSource, Produced};
 
     #[test]
     fn a_store_that_cannot_be_written_is_read_and_refuses_to_be_written() {
@@ -290,7 +277,7 @@ mod tests {
             fs::create_dir_all(path.join("deep")).unwrap();
             assert!(store.finished(&plan).is_none_or(|it| area == Area::Plans || !store.holds(&it.record)), "{area:?}");
             if area == Area::Blobs {
-                assert_eq!(store.read(&blob).unwrap_err().code, BLOB_LOST);
+                assert_eq!(store.read(&blob).unwrap_err().fault, Fault::Lost);
             }
             make(&store);
             assert!(path.is_file(), "{area:?}");

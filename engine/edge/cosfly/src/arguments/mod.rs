@@ -1,6 +1,5 @@
 //! The command line: commands, options, help with examples; one file per family of commands.
 
-mod bench;
 mod checks;
 mod dataset;
 mod evaluation;
@@ -11,7 +10,6 @@ mod plugin;
 mod recipes;
 mod store;
 
-pub use bench::{BenchCommand, BenchPlannerArguments, BenchRenderArguments};
 pub use checks::{DoctorArguments, PreviewArguments, VerifyArguments};
 pub use dataset::{CheckoutArguments, DatasetCommand, DiffArguments, LintArguments, ListArguments, TagArguments};
 pub use evaluation::{AnchorChoice, EvalArguments, FrameChoice, KindChoice, OriginChoice, RoleChoice};
@@ -179,9 +177,6 @@ server's; the map must be one that the server has.")]
     #[cfg(feature = "plugins")]
     #[command(subcommand)]
     Plugin(PluginCommand),
-    /// Measure
-    #[command(subcommand)]
-    Bench(BenchCommand),
     /// Run one planned task (what schedulers call)
     #[command(subcommand)]
     Task(TaskCommand),

@@ -4,9 +4,9 @@ use super::Outcome;
 use crate::arguments::CarlaJobArguments;
 use crate::exit;
 use crate::text::count;
-use cosfly_dataset::carla_job::CarlaJob;
-use cosfly_dataset::read::{PublishedDataset, PublishedFlight};
 use cosfly_diagnose::{Diagnostic, Result};
+use cosfly_export::carla_job::CarlaJob;
+use cosfly_read::{PublishedDataset, PublishedFlight};
 
 /// Writes the job file and says how to fly it.
 pub fn carla_job(arguments: &CarlaJobArguments) -> Outcome {

@@ -4,9 +4,9 @@ use super::Outcome;
 use crate::arguments::LintArguments;
 use crate::exit;
 use crate::text::count;
-use cosfly_dataset::splits::promise::Promise;
-use cosfly_dataset::splits::{FlightFacts, LintRules, facts_of_dataset, lint};
 use cosfly_diagnose::{Diagnostic, Fault, Result};
+use cosfly_splits::promise::Promise;
+use cosfly_splits::{FlightFacts, LintRules, facts_of_dataset, lint};
 use std::collections::BTreeMap;
 use std::fmt::Write;
 use std::path::Path;
@@ -47,7 +47,7 @@ pub fn dataset_lint(arguments: &LintArguments) -> Outcome {
 
 fn promise(dir: &Path) -> Result<Promise> {
     Promise::of_dataset(dir).map_err(|message| {
-        let file = dir.join(cosfly_dataset::splits::promise::FILE);
+        let file = dir.join(cosfly_splits::promise::FILE);
         Diagnostic::new("dataset-damaged", Fault::Input, format!("`{}` cannot be read", file.display()))
             .because(message)
     })

@@ -8,7 +8,7 @@ use cosfly_diagnose::{Diagnostic, Fault, Result};
 use cosfly_fingerprint::Digest;
 use cosfly_store::{Store, check_out_folder, materialise, pin};
 use cosfly_versions::difference::{Bump, Difference};
-use cosfly_versions::{Version, difference, record, shelf};
+use cosfly_versions::{TaskName, Version, difference, record, shelf};
 use std::collections::BTreeMap;
 use std::fmt::Write;
 use std::path::Path;
@@ -56,9 +56,8 @@ fn tagged(arguments: &TagArguments, recipe: &cosfly_recipe::Recipe, root: &Path)
 /// Garbage collection keeps a version by the run that made it, which must be the newest one.
 fn check_newest(recipe: &cosfly_recipe::Recipe, store: &Store, version: &Version) -> Result<()> {
     let newest = store.past_runs(&cosfly_runner::recipe_id(recipe)).next();
-    let holds = |task: &String, key: Digest| {
-        let (stage, item) = task.split_once('/')?;
-        (*newest.as_ref()?.stage(stage)?.items.get(item)? == key).then_some(())
+    let holds = |task: &TaskName, key: Digest| {
+        (*newest.as_ref()?.stage(task.stage.as_str())?.items.get(&task.item)? == key).then_some(())
     };
     let is_newest = version
         .flights

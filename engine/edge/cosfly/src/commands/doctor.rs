@@ -5,7 +5,7 @@ use crate::arguments::DoctorArguments;
 use crate::exit;
 use crate::text::count;
 use cosfly_diagnose::Diagnostic;
-use cosfly_doctor::{Examination, Gravity, Layout, examine};
+use cosfly_doctor::{Examination, Layout, Severity, examine};
 use indicatif::{ProgressBar, ProgressStyle};
 use std::fmt::Write;
 
@@ -38,8 +38,8 @@ pub fn doctor(arguments: &DoctorArguments) -> Outcome {
 
 fn text(examination: &Examination, allowed: f64) -> String {
     let mut text = String::new();
-    for (gravity, heading) in [(Gravity::Damage, "damage"), (Gravity::Imperfect, "imperfect")] {
-        let flags: Vec<_> = examination.flags.iter().filter(|flag| flag.gravity == gravity).collect();
+    for (severity, heading) in [(Severity::Damage, "damage"), (Severity::Imperfect, "imperfect")] {
+        let flags: Vec<_> = examination.flags.iter().filter(|flag| flag.severity == severity).collect();
         for flag in flags.iter().take(PRINTED) {
             let _ = writeln!(text, "{heading}: {flag}");
         }

@@ -84,12 +84,12 @@ impl State {
         })
     }
 
-    /// Refuses what no flight can begin with, whatever the map and the limits.
+    /// Refuses states that no flight can begin with, for any map and any limits.
     ///
     /// # Errors
     /// `plan-from-frame`, `plan-from-state`, `plan-from-horizon`.
     pub fn check(&self, track: &TargetTrack) -> Result<()> {
-        let refuse = |code, message: String| Err(Diagnostic::new(code, Fault::Input, message));
+        let state_refused = |message: String| Err(Diagnostic::new("plan-from-state", Fault::Input, message));
         let Some(target) = track.states.get(self.frame) else {
             let (frame, frames) = (self.frame, track.len());
             let message = format!("frame {frame} is beyond `{}`, which has {frames} frames", self.trajectory);
@@ -97,23 +97,21 @@ impl State {
         };
         let (place, velocity) = (self.position, self.velocity);
         if !place.iter().all(|value| value.is_finite()) {
-            return refuse("plan-from-state", format!("the position is {place:?}; it must be three finite numbers"));
+            return state_refused(format!("the position is {place:?}; it must be three finite numbers"));
         }
         if !velocity.iter().all(|value| value.abs() <= FASTEST_MPS) {
             let rule = format!("it must be three finite numbers between -{FASTEST_MPS} and {FASTEST_MPS} m/s");
-            return refuse("plan-from-state", format!("the velocity is {velocity:?}; {rule}"));
+            return state_refused(format!("the velocity is {velocity:?}; {rule}"));
         }
         if self.horizon_s.is_some_and(|horizon| !(horizon.is_finite() && horizon > 0.0)) {
             let horizon = self.horizon_s.unwrap_or_default();
-            return refuse(
-                "plan-from-horizon",
-                format!("the horizon is {horizon:?} s; it must be finite and above 0 s"),
-            );
+            let message = format!("the horizon is {horizon:?} s; it must be finite and above 0 s");
+            return Err(Diagnostic::new("plan-from-horizon", Fault::Input, message));
         }
         if DVec3::from(place).distance(target.feet_in_world) > FURTHEST_M {
             let rule =
                 format!("it must be within {FURTHEST_M} m of the target, which is at {:.1}", target.feet_in_world);
-            return refuse("plan-from-state", format!("the position is {place:?} at frame {}; {rule}", self.frame));
+            return state_refused(format!("the position is {place:?} at frame {}; {rule}", self.frame));
         }
         Ok(())
     }

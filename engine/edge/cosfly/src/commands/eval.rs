@@ -3,14 +3,14 @@
 use super::Outcome;
 use crate::arguments::{AnchorChoice, EvalArguments, FrameChoice, KindChoice, OriginChoice, RoleChoice};
 use crate::exit;
-use cosfly_dataset::predictions;
-use cosfly_dataset::read::PublishedDataset;
 use cosfly_diagnose::{Diagnostic, Result};
 use cosfly_evaluate::pictures::{self, PictureKind, PictureSettings};
 use cosfly_evaluate::windows::Flights;
 use cosfly_evaluate::{Evaluation, InputRole, Settings, evaluate, name_of};
 use cosfly_metrics::baselines::Anchor;
 use cosfly_metrics::{DeltaFrame, DeltaOrigin, WindowShape};
+use cosfly_read::PublishedDataset;
+use cosfly_read::predictions;
 use std::ffi::OsString;
 use std::path::{Path, PathBuf};
 

@@ -5,7 +5,7 @@ use cosfly_frames::{Seed, TargetTrack};
 use cosfly_planner::PlanOutcome;
 use cosfly_recipe::Arrival;
 use cosfly_runner::Plan;
-use cosfly_stage::{Artifact, BlobSource};
+use cosfly_stage::{BlobSource, Blobs, ItemName};
 use cosfly_stages::expert::{Companion, Expert, Flight, nearest_companions};
 use cosfly_stages::plugins::Plugins;
 use cosfly_stages::read;
@@ -70,33 +70,33 @@ impl<'a> Experts<'a> {
         let mut names = Vec::new();
         let stages = self.plan.recipe.stages.iter().enumerate();
         for (index, stage) in stages.filter(|(_, stage)| matches!(stage.kind.as_str(), "muco" | "perturb" | "wasm")) {
-            let rest = trajectory.strip_prefix(stage.name.as_str());
-            if let Some(id) = rest.and_then(|rest| rest.strip_prefix(['-', '/']))
-                && let Some(item) = stage.items.iter().position(|item| &**item == id)
+            let published = |item: &ItemName| item.of_stage(&stage.name).to_string() == trajectory;
+            let is_meant = |item: &ItemName| published(item) || format!("{}/{item}", stage.name) == trajectory;
+            if trajectory.starts_with(stage.name.as_str())
+                && let Some(item) = stage.items.iter().position(is_meant)
             {
                 return Ok((index, item));
             }
-            names.extend(stage.items.iter().take(1000).map(|item| format!("{}-{item}", stage.name)));
+            names.extend(stage.items.iter().take(1000).map(|item| item.of_stage(&stage.name).to_string()));
         }
         Err(unknown(trajectory, &names))
     }
 
     fn make_ready(&mut self, stage: usize, item: usize) -> Result<KnownFlight> {
         let described = &self.plan.recipe.stages[stage];
-        let name = format!("{}-{}", described.name, described.items[item]);
+        let name = described.items[item].of_stage(&described.name).to_string();
         let broken = |rule: String| Diagnostic::new("plan-from-parameters", Fault::Bug, rule);
         let expert = Expert::read(described.stage.properties().parameters.clone()).map_err(|it| broken(it.message))?;
         let town = described.connection("town").and_then(|connection| connection.arrivals.first().cloned());
         let world = self.world(&town.ok_or_else(|| broken(format!("`{name}` has no town")))?)?;
-        let own = Arrival { id: Arc::from(""), stage, item };
-        let artifact = self.artifact(&own)?;
-        let outcome = read::trajectory(&self.store.read(&artifact.blobs[read::TRAJECTORY_BLOB])?)?;
+        let blobs = self.blobs(stage, item)?;
+        let outcome = read::trajectory(&self.store.read(&blobs[read::TRAJECTORY_BLOB])?)?;
         let track = match outcome {
             PlanOutcome::Planned(flight) => flight.track,
             PlanOutcome::Rejected { track, .. } => track,
         };
         let companions = self.companions(stage, item, &track, expert.config.targets.companions as usize)?;
-        let seed = Seed::of_item(self.plan.recipe.seed, &described.name, &described.items[item]);
+        let seed = Seed::of_item(self.plan.recipe.seed, described.name.as_str(), &described.items[item].to_string());
         let paths: Vec<PathBuf> = described.sources.iter().map(|source| source.path.clone()).collect();
         let plugins = Plugins::of_expert(&expert.plugins, &paths)?.for_item(name.clone());
         let flight = expert.flight(&world, Some(track), companions, seed, plugins)?.map_err(|reason| {
@@ -110,8 +110,8 @@ impl<'a> Experts<'a> {
         if let Some(world) = self.worlds.get(&town.stage) {
             return Ok(Arc::clone(world));
         }
-        let artifact = self.artifact(town)?;
-        let world = Arc::new(World::new(read::town(&self.store.read(&artifact.blobs[read::TOWN_BLOB])?)?));
+        let blobs = self.blobs(town.stage, town.item)?;
+        let world = Arc::new(World::new(read::town(&self.store.read(&blobs[read::TOWN_BLOB])?)?));
         self.worlds.insert(town.stage, Arc::clone(&world));
         Ok(world)
     }
@@ -123,25 +123,22 @@ impl<'a> Experts<'a> {
         let is_own = |other: &&Arrival| own.is_some_and(|own| (own.stage, own.item) == (other.stage, other.item));
         let mut walks = Vec::new();
         for other in others.arrivals.iter().filter(|other| !is_own(other)) {
-            let artifact = self.artifact(other)?;
-            let walk = read::walk(&self.store.read(&artifact.blobs[read::WALK_BLOB])?)?;
-            walks.push((other.id.to_string(), walk.track));
+            let blobs = self.blobs(other.stage, other.item)?;
+            let walk = read::walk(&self.store.read(&blobs[read::WALK_BLOB])?)?;
+            walks.push((other.name.to_string(), walk.track));
         }
         Ok(nearest_companions(track, walks, count))
     }
 
-    fn artifact(&self, arrival: &Arrival) -> Result<Artifact> {
+    fn blobs(&self, stage: usize, item: usize) -> Result<&Blobs> {
         let recipe = self.plan.recipe;
-        let stage = &recipe.stages[arrival.stage];
-        let item = &stage.items[arrival.item];
-        self.plan.artifact(&stage.name, item).ok_or_else(|| {
-            let message = format!("`{}/{item}` is not in the store as the recipe now asks for it", stage.name);
+        let finished = self.plan.stages[stage].finished[item].as_ref();
+        finished.map(|finished| &*finished.record.outputs).ok_or_else(|| {
+            let (id, path) = (recipe.id(stage, item), recipe.path.display());
+            let message = format!("`{id}` is not in the store as the recipe now asks for it");
             Diagnostic::new("plan-from-unfinished", Fault::Recipe, message)
-                .hint(format!(
-                    "make it first: `cosfly run {}`, with the same `--set` and `--store`",
-                    recipe.path.display()
-                ))
-                .hint(format!("`cosfly why {} {}/{item}` says what changed since", recipe.path.display(), stage.name))
+                .hint(format!("make it first: `cosfly run {path}`, with the same `--set` and `--store`"))
+                .hint(format!("`cosfly why {path} {id}` says what changed since"))
         })
     }
 }

@@ -4,10 +4,10 @@ use super::Outcome;
 use crate::arguments::{BoxScaleChoice, ExportArguments, FrameChoice, RoleChoice};
 use crate::exit;
 use crate::text::{bytes, count};
-use cosfly_dataset::read::PublishedDataset;
 use cosfly_diagnose::{Diagnostic, Fault, Result};
 use cosfly_export::{BoxScale, Input, Options, OutFolder, Source, exporter};
 use cosfly_metrics::{DeltaFrame, WindowShape};
+use cosfly_read::PublishedDataset;
 use indicatif::{ProgressBar, ProgressStyle};
 use std::fmt::Write;
 

@@ -1,8 +1,5 @@
 //! One file per command.
 
-pub mod bench;
-pub mod bench_planner;
-pub mod bench_render;
 pub mod carla_job;
 pub mod collect;
 pub mod dataset_lint;
@@ -27,7 +24,6 @@ pub mod run;
 pub mod schema;
 pub mod task;
 pub mod town;
-pub mod town_of_recipe;
 pub mod verify;
 pub mod why;
 

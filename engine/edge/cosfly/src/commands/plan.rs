@@ -1,4 +1,4 @@
-//! `cosfly plan`: items per stage, what is cached, what would run and why, predicted size.
+//! `cosfly plan`: items of each stage, cached ones, those that would run and why, predicted size.
 
 use super::{Outcome, recipe, store_dir};
 use crate::arguments::PlanArguments;
@@ -17,9 +17,9 @@ pub fn plan(arguments: &PlanArguments) -> Outcome {
     Ok(exit::SUCCESS)
 }
 
-/// The plan as aligned columns, with the reasons below each stage that has something to run.
+/// Text of a plan: aligned columns, with the reasons below each stage that has items to run.
 fn table(plan: &Plan<'_>) -> String {
-    let names = plan.stages.iter().map(|stage| stage.name.len()).max().unwrap_or(0).max("stage".len());
+    let names = plan.stages.iter().map(|stage| stage.name.as_str().len()).max().unwrap_or(0).max("stage".len());
     let kinds = plan.stages.iter().map(|stage| stage.kind.len()).max().unwrap_or(0).max("uses".len());
     let shared = shared_reason(plan);
     let mut text = String::new();
@@ -59,7 +59,7 @@ fn table(plan: &Plan<'_>) -> String {
     text
 }
 
-/// The one reason for everything that would run, when there is only one (such as a first run).
+/// The one reason for everything that would run, where there is only one (such as a first run).
 fn shared_reason(plan: &Plan<'_>) -> Option<String> {
     let mut reasons: Vec<String> =
         plan.stages.iter().flat_map(|stage| &stage.reasons).map(|(reason, _)| reason.to_string()).collect();

@@ -3,12 +3,12 @@
 use super::{Outcome, Refusals};
 use crate::arguments::PluginFileArguments;
 use crate::exit;
-use cosfly_dataset::flight_table::{self, FlightColumns};
 use cosfly_diagnose::{Diagnostic, Fault};
 use cosfly_plugin_host::laws::{self, Finding};
 use cosfly_plugin_host::{
     Declaration, Effect, Kind, NoTown, Plugin, PluginError, PluginTerm, check_schema, with_defaults,
 };
+use cosfly_schema::flight_table::{self, FlightColumns};
 use cosfly_stages::plugins::config::Makes;
 use cosfly_stages::plugins::{host, tables};
 use serde_json::{Map, Value};

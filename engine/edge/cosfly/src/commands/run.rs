@@ -1,4 +1,4 @@
-//! `cosfly run`: makes everything a recipe describes, and says what was made, where, and what to open next.
+//! `cosfly run`: makes everything that a recipe describes, and tells the result, its place and what to open next.
 
 use super::{Outcome, recipe, store_dir};
 use crate::arguments::RunArguments;
@@ -6,13 +6,16 @@ use crate::reporter::{Reporter, colour};
 use crate::text::{bytes, count, duration};
 use crate::{exit, interrupt};
 use cosfly_fingerprint::Digest;
-use cosfly_recipe::Recipe;
-use cosfly_runner::{Delivery, RunOptions, RunOutcome, RunSummary, deliver};
+use cosfly_recipe::{Recipe, RecipeStage};
+use cosfly_runner::{Delivery, Origin, Rejection, RunOptions, RunOutcome, RunSummary, deliver};
+use cosfly_stage::{ItemId, StageName};
 use cosfly_store::{Store, check_out_folder};
-use std::collections::BTreeSet;
 use std::fmt::Write;
 use std::path::{Path, PathBuf};
 use std::time::Instant;
+
+/// Rejections that are listed.
+const MOST_REJECTIONS: usize = 10;
 
 /// Runs the recipe and delivers the dataset.
 pub fn run(arguments: &RunArguments) -> Outcome {
@@ -35,18 +38,19 @@ pub fn run(arguments: &RunArguments) -> Outcome {
         if !arguments.quiet {
             crate::print(&stages(&delivery.summary))?;
         }
+        let wanted = &recipe.stages[wanted].name;
         crate::print(&result(&delivery, wanted, &out, &store_dir(&arguments.store), &took, arguments.quiet))?;
     }
     Ok(ended(&delivery.summary))
 }
 
-/// The stage whose artifact is the result: the last `dataset`, else the last stage.
-fn delivered_stage(recipe: &Recipe) -> &str {
-    let dataset = recipe.stages.iter().rev().find(|stage| stage.kind == "dataset" && stage.name == stage.recipe_name);
-    dataset.or(recipe.stages.last()).map_or("", |stage| stage.name.as_str())
+/// Index of the stage whose artifact is the result: the last `dataset`, else the last stage.
+fn delivered_stage(recipe: &Recipe) -> usize {
+    let is_dataset = |stage: &RecipeStage| stage.kind == "dataset" && stage.name.part().is_empty();
+    recipe.stages.iter().rposition(is_dataset).unwrap_or(recipe.stages.len() - 1)
 }
 
-/// The exit code, after printing what went wrong without a task failing (failed tasks were reported as they failed).
+/// Exit code, after printing the failures that belong to no task (failed tasks were reported as they failed).
 fn ended(summary: &RunSummary) -> u8 {
     if summary.outcome == RunOutcome::Cancelled {
         return exit::STOPPED;
@@ -58,11 +62,11 @@ fn ended(summary: &RunSummary) -> u8 {
     failed.chain(summary.diagnostics.iter().map(|diagnostic| exit::code_of(diagnostic))).max().unwrap_or(exit::SUCCESS)
 }
 
-/// What every stage came to.
+/// Text about all stages and rejections.
 fn stages(run: &RunSummary) -> String {
-    let width = run.stages.iter().map(|stage| stage.name.len()).max().unwrap_or(0);
+    let width = run.stages.iter().map(|stage| stage.name.as_str().len()).max().unwrap_or(0);
     let mut text = String::new();
-    for stage in &run.stages {
+    for (index, stage) in run.stages.iter().enumerate() {
         let parts: Vec<String> = [
             (stage.cached, "cached"),
             (stage.ran, "made"),
@@ -78,40 +82,24 @@ fn stages(run: &RunSummary) -> String {
         let _ = writeln!(text, "{:width$}  {}: {}", stage.name, count(stage.total, "item"), parts.join(", "));
         // The notes of a stage with one item are facts about the whole run; those of many items are too many.
         if stage.total == 1 {
-            for (_, _, produced) in run.produced().filter(|(name, ..)| *name == stage.name) {
-                for (name, fact) in &produced.notes {
-                    let _ = writeln!(text, "{:width$}    {name}: {fact}", "");
-                }
+            for (name, fact) in run.finished_items(index).flat_map(|(_, finished)| &finished.record.produced.notes) {
+                let _ = writeln!(text, "{:width$}    {name}: {fact}", "");
             }
         }
     }
-    let rejected = rejections(run);
-    for (stage, item, reason) in rejected.iter().take(10) {
-        let _ = writeln!(text, "rejected: {stage}/{item}: {reason}");
+    // A rejection is inherited by everything that is made of the item: it is told once, where it began.
+    let rejected: Vec<(ItemId, Rejection)> = run.rejections().filter(|(_, it)| it.origin == Origin::Own).collect();
+    for (id, Rejection { reason, .. }) in rejected.iter().take(MOST_REJECTIONS) {
+        let _ = writeln!(text, "rejected: {id}: {reason}");
     }
-    if rejected.len() > 10 {
-        let _ = writeln!(text, "... and {} more", rejected.len() - 10);
+    if rejected.len() > MOST_REJECTIONS {
+        let _ = writeln!(text, "... and {} more", rejected.len() - MOST_REJECTIONS);
     }
     text + "\n"
 }
 
-/// Where rejections began: one travels down to every stage below, with the reason at its end.
-fn rejections(run: &RunSummary) -> Vec<(&str, &str, &str)> {
-    let mut first: Vec<(&str, &str, &str)> = Vec::new();
-    let mut seen: BTreeSet<(&str, &str)> = BTreeSet::new();
-    for (stage, item, reason) in run.rejected() {
-        // The item's own id stands behind the stages' names: `expert-p00003`.
-        let root = item.rsplit('-').next().unwrap_or(item);
-        let cause = reason.strip_prefix("its expert was rejected: ").unwrap_or(reason);
-        if seen.insert((root, cause)) {
-            first.push((stage, item, reason));
-        }
-    }
-    first
-}
-
-/// Where the result is and what to open next.
-fn result(delivery: &Delivery, wanted: &str, out: &Path, store: &Path, took: &str, quiet: bool) -> String {
+/// Text about the result: its place, and what to open next.
+fn result(delivery: &Delivery, wanted: &StageName, out: &Path, store: &Path, took: &str, quiet: bool) -> String {
     let mut text = String::new();
     match &delivery.folder {
         Some(folder) => {
@@ -135,12 +123,12 @@ fn result(delivery: &Delivery, wanted: &str, out: &Path, store: &Path, took: &st
         }
         None => {
             let next = match delivery.summary.outcome {
-                RunOutcome::Failed => "mend what is named above and run the same command again",
-                RunOutcome::Complete | RunOutcome::Cancelled => "run the same command to go on",
+                RunOutcome::Failed => "correct the errors above and run the same command again",
+                RunOutcome::Complete | RunOutcome::Cancelled => "run the same command to continue",
             };
             let _ = writeln!(
                 text,
-                "`{wanted}` is not finished after {took}; what is finished is kept in {}: {next}",
+                "`{wanted}` is not finished after {took}; finished items are kept in {}: {next}",
                 store.display()
             );
         }
@@ -148,7 +136,7 @@ fn result(delivery: &Delivery, wanted: &str, out: &Path, store: &Path, took: &st
     text
 }
 
-/// The first sensor log of the dataset, to look at.
+/// First sensor log of the dataset, to look at.
 fn first_log(out: &Path) -> Option<PathBuf> {
     let mut folder = out.join("mcap");
     loop {
@@ -163,23 +151,26 @@ fn first_log(out: &Path) -> Option<PathBuf> {
     }
 }
 
-/// The same for programs.
+/// Summary and result for programs.
 fn json(recipe: &Recipe, delivery: &Delivery, out: &Path) -> String {
     let run = &delivery.summary;
     let stages: Vec<serde_json::Value> = run
         .stages
         .iter()
-        .map(|stage| {
+        .enumerate()
+        .map(|(index, stage)| {
             serde_json::json!({
-                "stage": stage.name, "items": stage.total, "cached": stage.cached, "ran": stage.ran,
+                "stage": stage.name.as_str(), "items": stage.total, "cached": stage.cached, "ran": stage.ran,
                 "reused": stage.reused, "failed": stage.failed, "skipped": stage.skipped, "unfinished": stage.unfinished,
-                "digest": digest_of(run, &stage.name).to_string(),
+                "digest": digest_of(run, index).to_string(),
             })
         })
         .collect();
     let rejected: Vec<serde_json::Value> = run
-        .rejected()
-        .map(|(stage, item, reason)| serde_json::json!({ "stage": stage, "item": item, "reason": reason }))
+        .rejections()
+        .map(|(ItemId { stage, item }, Rejection { reason, .. })| {
+            serde_json::json!({ "stage": stage.as_str(), "item": item.to_string(), "reason": reason })
+        })
         .collect();
     let whole = serde_json::json!({
         "recipe": recipe.name,
@@ -198,11 +189,11 @@ fn json(recipe: &Recipe, delivery: &Delivery, out: &Path) -> String {
     serde_json::to_string_pretty(&whole).expect("a summary is plain JSON") + "\n"
 }
 
-/// One digest over everything that the finished items of a stage hold: equal exactly when all their bytes are.
-fn digest_of(run: &RunSummary, stage: &str) -> Digest {
+/// Digest over the outputs of all finished items of a stage: equal exactly when all their bytes are equal.
+fn digest_of(run: &RunSummary, stage: usize) -> Digest {
     let mut lines = String::new();
     for (item, finished) in run.finished_items(stage) {
-        for (name, blob) in &finished.record.outputs {
+        for (name, blob) in finished.record.outputs.iter() {
             let _ = writeln!(lines, "{item}/{name} {}", blob.digest);
         }
     }

@@ -8,7 +8,7 @@ use crate::exit;
 pub fn schema(arguments: &SchemaArguments) -> Outcome {
     let registry = cosfly_stages::registry();
     let text = if arguments.tables {
-        cosfly_dataset::reference()
+        cosfly_schema::reference()
     } else if arguments.reference {
         cosfly_recipe::reference(&registry)
     } else {

@@ -5,10 +5,10 @@ use crate::arguments::StoreArguments;
 use crate::{exit, interrupt};
 use cosfly_diagnose::{Diagnostic, Fault};
 use cosfly_fingerprint::Digest;
-use cosfly_stage::TaskOutcome;
+use cosfly_stage::Work;
 use cosfly_store::Store;
 
-/// Runs the task whose plan document has `digest`, if it is not done yet.
+/// Runs the task whose plan document has the digest `digest`, unless it is finished.
 pub fn run(digest: &str, store: &StoreArguments) -> Outcome {
     let plan: Digest = digest.parse().map_err(|_| -> Refusals {
         vec![
@@ -20,8 +20,8 @@ pub fn run(digest: &str, store: &StoreArguments) -> Outcome {
     let store = Store::open(&store_dir(store)).map_err(one)?;
     let outcome = cosfly_runner::run_task(&store, &cosfly_stages::registry(), &plan, interrupt::flag()).map_err(one)?;
     crate::print(match outcome {
-        TaskOutcome::Ran => "ran\n",
-        TaskOutcome::Reused => "already done\n",
+        Work::Ran => "ran\n",
+        Work::Cached | Work::Reused => "already done\n",
     })?;
     Ok(exit::SUCCESS)
 }

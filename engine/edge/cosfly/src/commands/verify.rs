@@ -13,7 +13,7 @@ pub fn verify(arguments: &VerifyArguments) -> Outcome {
     let style = ProgressStyle::with_template("verify {wide_bar:.cyan/blue} {pos}/{len} flights {eta:>5} left")
         .unwrap_or_else(|_| ProgressStyle::default_bar());
     let bar = ProgressBar::new(0).with_style(style);
-    let report = cosfly_dataset::verify::verify(&arguments.dir, &mut |done, all| {
+    let report = cosfly_verify::verify(&arguments.dir, &mut |done, all| {
         bar.set_length(all);
         bar.set_position(done);
     });

@@ -1,4 +1,4 @@
-//! `cosfly why`: the one field or input that changed a key.
+//! `cosfly why`: the parameter or input that changed a key.
 
 use super::{Outcome, recipe, store_dir};
 use crate::arguments::WhyArguments;
@@ -20,18 +20,18 @@ pub fn why(arguments: &WhyArguments) -> Outcome {
     Ok(exit::SUCCESS)
 }
 
-/// The chain from the task to the root cause, one indentation per step upstream.
+/// Text of an explanation: the chain from the task to the root cause, one indentation per step upstream.
 fn told(explanation: &Explanation) -> String {
-    let subject = format!("{}/{}", explanation.stage, explanation.item);
+    let subject = &explanation.id;
     let mut text = match (explanation.finished, explanation.chain.is_empty()) {
-        (true, true) => format!("`{subject}` is cached; nothing changed since it was first made\n"),
+        (true, true) => format!("`{subject}` is cached; nothing has changed since it was first made\n"),
         (true, false) => format!("`{subject}` is cached; the last time it was made, it was because\n"),
         (false, _) => format!("`{subject}` would run, because\n"),
     };
     for (depth, link) in explanation.chain.iter().enumerate() {
         let indent = "  ".repeat(depth + 1);
         for change in &link.changes {
-            let _ = writeln!(text, "{indent}{}/{}: {change}", link.stage, link.item);
+            let _ = writeln!(text, "{indent}{}: {change}", link.id);
         }
     }
     text

@@ -3,10 +3,10 @@
 use super::config::{ExpertPlugins, Makes, Setting};
 use super::{DrawnReference, Role};
 use crate::world::World;
-use cosfly_dataset::flight_table::FlightColumns;
 use cosfly_diagnose::{Diagnostic, Fault, Result};
 use cosfly_frames::Seed;
 use cosfly_planner::{MucoConfig, WeightedTerm};
+use cosfly_schema::flight_table::FlightColumns;
 use cosfly_stage::{Source, SourceCheck};
 use std::path::PathBuf;
 use std::sync::Arc;

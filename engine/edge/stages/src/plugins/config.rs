@@ -1,6 +1,6 @@
 //! How recipes name plugins: file, parameters, limits.
 
-use cosfly_stage::ParameterError;
+use cosfly_diagnose::ParameterError;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use serde_json::{Map, Value};

@@ -1,7 +1,7 @@
 //! Plugins in recipes: cost terms and objectives of `muco` stages, and stages of their own.
 //!
-//! * [`config`]: how recipes name them; there with and without the feature `plugins`.
-//! * [`stage`]: plugins as stages; [`tables`]: their declarations, held against what there is to be read and written.
+//! * [`config`]: plugins as recipes name them; it exists with and without the feature `plugins`.
+//! * [`stage`]: plugins as stages; [`tables`]: checks of their declarations.
 //! * `running`: the host at work; `absent` takes its place in a build without plugins.
 
 #[cfg(not(feature = "plugins"))]
@@ -22,23 +22,23 @@ pub use cosfly_plugin_host::{Answered, Column, Declaration, Effect, ValueKind};
 
 use cosfly_planner::objectives::reference::Reference;
 
-/// What an objective's plugin gave.
+/// Reference drawn by an objective's plugin.
 pub struct DrawnReference {
-    /// Where to be and what to look at.
+    /// Places to be at, and points to look at.
     pub reference: Reference,
-    /// For the summary.
+    /// Notes for the summary.
     pub notes: Vec<(String, String)>,
-    /// What the plugin said.
+    /// Warnings of the plugin.
     pub warnings: Vec<String>,
 }
 
-/// What a plugin can be in a recipe.
+/// Role of a plugin in a recipe.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Role {
     /// A cost term.
     Term,
     /// An objective.
     Objective,
-    /// A stage that makes this.
+    /// A stage with this output.
     Stage(config::Makes),
 }

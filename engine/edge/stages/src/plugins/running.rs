@@ -1,9 +1,8 @@
-//! The host at work: plugins of a stage, loaded once, opened anew for every item.
+//! Plugins at work: those of a stage are loaded once, and opened again for every item.
 
 use super::config::{ExpertPlugins, Makes, Setting};
 use super::{DrawnReference, Role, tables};
 use crate::world::World;
-use cosfly_dataset::flight_table::FlightColumns;
 use cosfly_diagnose::{Diagnostic, Fault, Result};
 use cosfly_frames::{DVec3, Seed};
 use cosfly_geometry::{OrientedBox, SpatialQuery};
@@ -15,6 +14,7 @@ use cosfly_plugin_host::{
     Answered, Began, Declaration, Host, Kind, NoTown, Plugin, PluginError, PluginLimits, PluginTerm, SiteContext,
     TownView, check_schema, declaration, draw_reference, run_stage, with_defaults,
 };
+use cosfly_schema::flight_table::FlightColumns;
 use cosfly_stage::{Settle, Source, SourceCheck};
 use sha2::{Digest as _, Sha256};
 use std::path::{Path, PathBuf};
@@ -23,18 +23,18 @@ use std::sync::{Arc, OnceLock};
 static FOLDER: OnceLock<Option<PathBuf>> = OnceLock::new();
 static HOST: OnceLock<Host> = OnceLock::new();
 
-/// Where compiled plugins are kept from one process to the next; to be told before the first one is loaded.
+/// Sets the folder of compiled plugins, which outlives the process; to be called before the first plugin is loaded.
 pub fn keep_compiled_in(folder: Option<PathBuf>) {
     let _ = FOLDER.set(folder);
 }
 
-/// The host of this process.
+/// Host of this process.
 pub fn host() -> &'static Host {
     HOST.get_or_init(|| Host::new(FOLDER.get_or_init(|| None).clone()))
 }
 
-/// The file of a plugin as a source of a stage: it is loaded when the recipe is read, and describes its `params`.
-/// `parameter` is where the recipe names it; empty for the stage itself.
+/// File of a plugin as a source of a stage: it is loaded when the recipe is read, and describes its `params`.
+/// `parameter` is the parameter that names it; empty for the stage itself.
 pub fn source(parameter: &str, role: Role, setting: &Setting) -> Source {
     let under = |key: &str| if parameter.is_empty() { key.to_owned() } else { format!("{parameter}.{key}") };
     let known = setting.clone();
@@ -63,7 +63,7 @@ pub fn source(parameter: &str, role: Role, setting: &Setting) -> Source {
     }
 }
 
-/// A declaration that does not fit, as a failure of `configure`, which gave it.
+/// A declaration that does not fit, as a failure of `configure`, which returned it.
 fn misfit(plugin: &Plugin, checked: Result<(), tables::Refusal>) -> Result<(), PluginError> {
     checked.map_err(|(message, hint)| {
         let failed = PluginError::failed(&plugin.shown, "configure", message);
@@ -109,20 +109,20 @@ fn ready(setting: &Setting, role: Role, path: Option<&PathBuf>) -> Result<Ready>
     Ok(Ready { plugin, params })
 }
 
-/// The plugins of a `muco` stage, or the one of a stage of its own.
+/// Plugins of a `muco` stage, or the plugin that is a stage itself.
 #[derive(Clone, Default)]
 pub struct Plugins {
     terms: Vec<(Ready, String, f64)>,
     other: Option<Ready>,
-    /// For whom they run, in messages.
+    /// Item that they run for, in messages.
     item: Option<String>,
 }
 
 impl Plugins {
-    /// Loads what an expert names from the files at `paths`, in the order of [`ExpertPlugins::settings`].
+    /// Loads the plugins of an expert from the files at `paths`, in the order of [`ExpertPlugins::settings`].
     ///
     /// # Errors
-    /// Files that are no such plugins, and names that are taken.
+    /// Files that are not such plugins, and names that are taken.
     pub fn of_expert(config: &ExpertPlugins, paths: &[PathBuf]) -> Result<Self> {
         let mut plugins = Self::default();
         for (index, term) in config.terms.iter().enumerate() {
@@ -141,10 +141,10 @@ impl Plugins {
         Ok(plugins)
     }
 
-    /// Loads the plugin of a stage of its own from the file at `paths`.
+    /// Loads the plugin that is a stage itself from the file at `paths`.
     ///
     /// # Errors
-    /// A file that is no such plugin.
+    /// A file that is not such a plugin.
     pub fn of_stage(setting: &Setting, paths: &[PathBuf]) -> Result<Self> {
         Ok(Self { other: Some(ready(setting, Role::Stage(Makes::default()), paths.first())?), ..Self::default() })
     }
@@ -154,10 +154,10 @@ impl Plugins {
         Self { item: Some(item), ..self }
     }
 
-    /// Gives a flight to the plugin of a stage that `makes` this, and what it declares and answers back.
+    /// Runs the plugin of a stage that makes `makes` on a flight; gives its declaration and its answer.
     ///
     /// # Errors
-    /// What the plugin did wrong.
+    /// Failures of the plugin.
     pub fn answer(&self, world: &Arc<World>, makes: Makes, flight: &FlightColumns) -> Result<(Declaration, Answered)> {
         let Some(ready) = &self.other else {
             return Err(Diagnostic::new("plugin-source", Fault::Bug, "the stage has no plugin"));
@@ -173,13 +173,13 @@ impl Plugins {
             .map_err(|error| error.diagnostic(self.item.as_deref()))
     }
 
-    /// Name, version and summary of the stage's plugin, as it says.
+    /// Name, version and summary of the stage's plugin, as it states them.
     pub fn told(&self) -> [&str; 3] {
         let told = self.other.as_ref().map(|ready| &ready.plugin.metadata);
         told.map_or([""; 3], |told| [&told.name, &told.version, &told.summary])
     }
 
-    /// That the stage's plugin answered what it must not.
+    /// Diagnostic for an invalid answer of the stage's plugin.
     pub fn wrong_answer(&self, message: String) -> Box<Diagnostic> {
         let shown = self.other.as_ref().map_or("", |ready| &ready.plugin.shown);
         PluginError::failed(shown, "run", message).diagnostic(self.item.as_deref())
@@ -188,7 +188,7 @@ impl Plugins {
     /// New instances of all terms, for one flight.
     ///
     /// # Errors
-    /// What a plugin did wrong.
+    /// Failures of a plugin.
     pub fn open_terms(&self, world: &Arc<World>, seed: Seed) -> Result<(Vec<WeightedTerm>, AfterPlanning)> {
         let (mut terms, mut began) = (vec![], vec![]);
         for (ready, name, weight) in &self.terms {
@@ -201,10 +201,10 @@ impl Plugins {
         Ok((terms, AfterPlanning { began, item: self.item.clone() }))
     }
 
-    /// What the objective says; `Err` inside is its own word that there is nothing to fly.
+    /// Reference that the objective draws; `Err` inside is its own reason why there is nothing to fly.
     ///
     /// # Errors
-    /// What the plugin did wrong.
+    /// Failures of the plugin.
     pub fn draw_reference(
         &self,
         world: &Arc<World>,
@@ -233,17 +233,17 @@ impl Plugins {
     }
 }
 
-/// What is left of the terms of a flight.
+/// Terms of a flight after planning, for their warnings.
 pub struct AfterPlanning {
     began: Vec<(String, Began)>,
     item: Option<String>,
 }
 
 impl AfterPlanning {
-    /// What the terms said that users are to read.
+    /// Warnings of the terms for users.
     ///
     /// # Errors
-    /// The first failure: the flight is worth nothing then.
+    /// The first failure of a term, which makes the flight invalid.
     pub fn warnings(&self) -> Result<Vec<String>> {
         let mut warnings = vec![];
         for (name, began) in &self.began {
@@ -262,7 +262,7 @@ fn is_built_in(name: &str) -> bool {
     OTHERS.contains(&name) || weights.get(name).is_some()
 }
 
-/// The seed that a plugin is told.
+/// Seed that a plugin is given.
 fn number_of(seed: Seed, name: &str) -> u64 {
     let child = seed.child(name, 0);
     let mut first = [0; 8];

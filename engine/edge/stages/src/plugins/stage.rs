@@ -7,23 +7,21 @@ use crate::ports::{self, CAPTIONS, EXTRAS, FRAMES, TRAJECTORY};
 use crate::rejections::handed_on;
 use crate::world::{check_same_town, link_town, world};
 use crate::{codec, parameters, single};
-use cosfly_dataset::RenderedTrajectory;
-use cosfly_dataset::extras::{Extra, ExtraShape};
-use cosfly_dataset::flight_labels::{self, FlightLabel};
-use cosfly_dataset::flight_table::{self, FlightColumns, MOST_FILES, MOST_ROWS};
-use cosfly_dataset::record::captions_from_bytes;
-use cosfly_diagnose::Result;
+use cosfly_blobs::OutputSink;
+use cosfly_diagnose::{ParameterError, Result};
 use cosfly_planner::{PlanOutcome, Trajectory};
-use cosfly_stage::{
-    InputPort, Inputs, ItemRule, OutputSink, ParameterError, Produced, Stage, StageKind, StagePart, StageProperties,
-    TaskContext,
-};
+use cosfly_schema::RenderedTrajectory;
+use cosfly_schema::extras::{Extra, ExtraShape};
+use cosfly_schema::flight_labels::{self, FlightLabel};
+use cosfly_schema::flight_table::{self, FlightColumns, MOST_FILES, MOST_ROWS};
+use cosfly_schema::record::captions_from_bytes;
+use cosfly_stage::{InputPort, Inputs, ItemRule, Produced, Stage, StageKind, StagePart, StageProperties, TaskContext};
 use std::collections::BTreeMap;
 
 /// Blob of extras.
 pub const EXTRA: &str = "extra";
 
-/// The kind.
+/// Stage kind `wasm`.
 pub struct Wasm;
 
 impl StageKind for Wasm {
@@ -42,7 +40,7 @@ impl StageKind for Wasm {
     fn ports(&self) -> Vec<InputPort> {
         let mut ports = ports_of(Makes::Flights);
         ports.extend(ports_of(Makes::Extras).into_iter().skip(1));
-        // Which are wanted is known when it is known what the stage makes.
+        // Which of them are needed depends on the kind of output.
         ports.into_iter().map(|port| InputPort { optional: port.name != "town", ..port }).collect()
     }
 
@@ -92,7 +90,7 @@ impl Stage for WasmStage {
 
     fn run(&self, inputs: &Inputs<'_>, outputs: &mut dyn OutputSink, context: &TaskContext) -> Result<Produced> {
         let plugins = Plugins::of_stage(&self.config.setting(), &context.sources)?;
-        let plugins = plugins.for_item(format!("{}/{}", context.stage, context.item));
+        let plugins = plugins.for_item(context.id.to_string());
         match self.config.makes {
             Makes::Flights => flights(&plugins, inputs, outputs, context),
             Makes::Extras => extras(&plugins, inputs, outputs),
@@ -114,7 +112,7 @@ fn flights(
     let mut warnings = vec![];
     let outcome = match given {
         PlanOutcome::Planned(flight) => {
-            let columns = FlightColumns::of_flight(&flight, &context.item);
+            let columns = FlightColumns::of_flight(&flight, &context.id.item.to_string());
             let (declared, answered) = plugins.answer(&world, Makes::Flights, &columns)?;
             warnings = answered.warnings;
             let outcome = match declared.effect {

@@ -1,14 +1,14 @@
-//! Declarations of plugins that are stages, held against what there is to be read and what their stage makes.
+//! Declarations of plugins that are stages, checked against the columns that exist and the output of their stage.
 
 use super::config::Makes;
 use super::{Column, Declaration, Effect, ValueKind};
-use cosfly_dataset::extras::{self, ExtraShape, ExtraSource};
-use cosfly_dataset::flight_table::{ColumnKind, DeclaredColumn, check_names};
+use cosfly_schema::extras::{self, ExtraShape, ExtraSource};
+use cosfly_schema::flight_table::{ColumnKind, DeclaredColumn, check_names};
 
-/// What is wrong, and what to do.
+/// Message and hint of a refusal.
 pub type Refusal = (String, Option<String>);
 
-/// The columns of a declaration as datasets know them.
+/// Columns of a declaration in the form of datasets.
 pub fn columns(declared: &[Column]) -> Vec<DeclaredColumn> {
     let kind = |kind: ValueKind| match kind {
         ValueKind::Real => ColumnKind::Real,
@@ -25,10 +25,10 @@ pub fn columns(declared: &[Column]) -> Vec<DeclaredColumn> {
     declared.iter().map(of).collect()
 }
 
-/// Whether a stage that `makes` this can do what the plugin declares.
+/// Checks that a stage that makes `makes` can do what the plugin declares.
 ///
 /// # Errors
-/// What does not fit.
+/// Parts of the declaration that do not fit.
 pub fn check(declared: &Declaration, makes: Makes) -> Result<(), Refusal> {
     let of_flights = matches!(declared.effect, Effect::Filter | Effect::Label);
     match makes {
@@ -50,7 +50,7 @@ pub fn check(declared: &Declaration, makes: Makes) -> Result<(), Refusal> {
     Ok(())
 }
 
-/// Where extras are from: `plugin` is its name, version and summary. None for other effects.
+/// Source of extras: `plugin` is its name, version and summary. `None` for other effects.
 pub fn source_of(declared: &Declaration, [plugin, version, summary]: [&str; 3]) -> Option<ExtraSource> {
     let shape = match declared.effect {
         Effect::Filter | Effect::Label => return None,

@@ -1,42 +1,24 @@
 //! The walk over a value and its schema.
 
-use super::alternatives::check_alternatives;
+use super::alternatives::mistakes_of_the_meant;
+use super::context::{Context, Subject};
 use super::scalars::{check_allowed, check_list_length, check_number, check_text};
-use super::schema_words::{first_sentence, is_open, resolve, rule_at, show_toml, type_words_of};
+use super::schema_words::{is_null, is_open, resolve};
 use crate::document::{Node, Place, Problems, Table, Texts, Value, list};
 use cosfly_diagnose::{Diagnostic, nearest_name};
 use serde_json::Value as Json;
 
-/// What is being checked, for messages.
-pub(crate) struct Subject<'a> {
-    /// Stage in the recipe.
-    pub(crate) stage: &'a str,
-    /// Its kind.
-    pub(crate) kind: &'a str,
-    /// Where the stage's name is written.
-    pub(crate) place: &'a Place,
-    /// Ports of the kind, for the hint when one is written among the parameters.
-    pub(crate) ports: &'a [&'a str],
-}
-
-/// Schema, subject and texts: what every step of the walk needs.
-pub(super) struct Walk<'a> {
-    pub(super) root: &'a Json,
-    pub(super) subject: &'a Subject<'a>,
-    pub(super) texts: &'a Texts,
-}
-
-/// Every violation of `schema` by a stage's `parameters`.
+/// All violations of `schema` by the `parameters` of a stage.
 pub(crate) fn check_parameters(schema: &Json, parameters: &Node, subject: &Subject<'_>, texts: &Texts) -> Problems {
-    let walk = Walk { root: schema, subject, texts };
+    let context = Context { root: schema, subject, texts };
     let mut problems = Problems::new();
-    walk.check(schema, parameters, &mut vec![], &mut problems);
+    context.check(schema, parameters, &mut vec![], &mut problems);
     problems
 }
 
-impl Walk<'_> {
-    /// Checks `node` at `path` and appends what is wrong.
-    pub(super) fn check(&self, schema: &Json, node: &Node, path: &mut Vec<String>, problems: &mut Problems) {
+impl Context<'_> {
+    /// Checks `node` at `path` and appends the mistakes.
+    fn check(&self, schema: &Json, node: &Node, path: &mut Vec<String>, problems: &mut Problems) {
         let Json::Object(keywords) = schema else {
             if schema == &Json::Bool(false) {
                 problems.push(self.problem("recipe-unknown-key", &node.place, path, "may not be given"));
@@ -61,7 +43,7 @@ impl Walk<'_> {
         }
         for keyword in ["anyOf", "oneOf"] {
             if let Some(alternatives) = keywords.get(keyword).and_then(Json::as_array) {
-                check_alternatives(self, alternatives, node, path, problems);
+                self.check_alternatives(alternatives, node, path, problems);
             }
         }
         if let Some(problem) = self.check_type(schema, node, path) {
@@ -81,20 +63,20 @@ impl Walk<'_> {
         }
     }
 
-    /// A message that begins with the value's path in back-ticks, at `place`, with the parameter's documentation.
-    pub(super) fn problem(
-        &self,
-        code: &'static str,
-        place: &Place,
-        path: &[String],
-        rest: impl AsRef<str>,
-    ) -> Box<Diagnostic> {
-        self.texts.problem(code, place, format!("`{}` {}", self.name(path), rest.as_ref()))
-    }
-
-    /// The path of a value; the stage's own table has the stage's name.
-    pub(super) fn name(&self, path: &[String]) -> String {
-        if path.is_empty() { format!("stages.{}", self.subject.stage) } else { path.join(".") }
+    /// Passes when one alternative fits; reports the mistakes against the one that was probably meant otherwise.
+    fn check_alternatives(&self, alternatives: &[Json], node: &Node, path: &mut Vec<String>, problems: &mut Problems) {
+        // TOML cannot write null.
+        let candidates: Vec<&Json> = alternatives.iter().filter(|it| !is_null(self.root, it)).collect();
+        let mut found = vec![];
+        for candidate in &candidates {
+            let mut wrong = Problems::new();
+            self.check(candidate, node, path, &mut wrong);
+            if wrong.is_empty() {
+                return;
+            }
+            found.push(wrong);
+        }
+        problems.extend(mistakes_of_the_meant(self, &candidates, found, node, path));
     }
 
     fn check_type(&self, schema: &Json, node: &Node, path: &[String]) -> Option<Box<Diagnostic>> {
@@ -115,51 +97,6 @@ impl Walk<'_> {
             )
         });
         (!fits).then(|| self.wrong_type(schema, node, path))
-    }
-
-    /// What was given and what is wanted.
-    pub(super) fn wrong_type(&self, schema: &Json, node: &Node, path: &[String]) -> Box<Diagnostic> {
-        let wanted = type_words_of(self.root, schema);
-        let given = match &node.value {
-            Value::Table(_) | Value::Array(_) => node.type_words().to_owned(),
-            Value::Text(_) => format!("the string `{}`", self.texts.written(&node.place)),
-            Value::Float(_) if wanted.contains("whole") => format!("`{}`", self.texts.written(&node.place)),
-            _ => format!("`{}`, {}", self.texts.written(&node.place), node.type_words()),
-        };
-        let problem = self.problem("recipe-wrong-type", &node.place, path, format!("is {given}; it must be {wanted}"));
-        let text_wanted = wanted.starts_with("a string");
-        let problem = match &node.value {
-            Value::Text(text) if !text_wanted && text.trim().parse::<f64>().is_ok_and(f64::is_finite) => {
-                problem.hint(format!("leave the quotes away: `{}`", text.trim()))
-            }
-            Value::Text(text) if text == "true" || text == "false" => {
-                problem.hint(format!("leave the quotes away: `{text}`"))
-            }
-            Value::Integer(_) | Value::Float(_) | Value::Bool(_) if text_wanted => problem.hint("put it in quotes"),
-            _ => problem,
-        };
-        self.documented(problem, schema, path)
-    }
-
-    /// Adds what the parameter means and its default, when the schema says so.
-    pub(super) fn documented(&self, problem: Box<Diagnostic>, schema: &Json, path: &[String]) -> Box<Diagnostic> {
-        let rule = rule_at(self.root, path).unwrap_or(schema);
-        let Some(sentence) = rule
-            .get("description")
-            .or_else(|| resolve(self.root, rule).get("description"))
-            .and_then(Json::as_str)
-            .map(first_sentence)
-            .filter(|_| !path.is_empty())
-        else {
-            return problem;
-        };
-        let default = match rule.get("default") {
-            Some(default) if !default.is_object() && !default.is_null() => {
-                format!(" (default `{}`)", show_toml(default))
-            }
-            _ => String::new(),
-        };
-        problem.hint(format!("`{}`: {sentence}{default}", self.name(path)))
     }
 
     fn check_items(&self, schema: &Json, items: &[Node], path: &mut Vec<String>, problems: &mut Problems) {
@@ -225,6 +162,6 @@ impl Walk<'_> {
         if names().next().is_none() {
             return problem.hint(format!("{owner} has no parameters"));
         }
-        problem.hint(format!("{owner} knows {}", list(names(), usize::MAX)))
+        problem.hint(format!("parameters of {owner}: {}", list(names(), usize::MAX)))
     }
 }

@@ -1,14 +1,19 @@
 //! Ranges, lengths and allowed values.
 
-use super::check::Walk;
+use super::context::Context;
 use super::schema_words::{allowed_values, show_json};
 use crate::document::{Node, Value, list};
 use cosfly_diagnose::{Diagnostic, nearest_name};
 use serde_json::Value as Json;
 use std::cmp::Ordering;
 
-/// `minimum`, `maximum`, their exclusive forms, `multipleOf`, and what the number's `format` can hold.
-pub(super) fn check_number(walk: &Walk<'_>, schema: &Json, node: &Node, path: &[String]) -> Option<Box<Diagnostic>> {
+/// Checks `minimum`, `maximum`, their exclusive forms, and the range of the number's `format`.
+pub(super) fn check_number(
+    context: &Context<'_>,
+    schema: &Json,
+    node: &Node,
+    path: &[String],
+) -> Option<Box<Diagnostic>> {
     let limit = |key: &str| schema.get(key).filter(|limit| limit.is_number());
     let rules = [
         ("minimum", &[Ordering::Greater, Ordering::Equal][..], "at least"),
@@ -30,13 +35,13 @@ pub(super) fn check_number(walk: &Walk<'_>, schema: &Json, node: &Node, path: &[
     } else {
         return None;
     };
-    let rest = format!("is `{}`; it must be {wanted}", walk.texts.written(&node.place));
-    Some(walk.documented(walk.problem("recipe-out-of-range", &node.place, path, rest), schema, path))
+    let rest = format!("is `{}`; it must be {wanted}", context.texts.written(&node.place));
+    Some(context.documented(context.problem("recipe-out-of-range", &node.place, path, rest), schema, path))
 }
 
-/// `minLength` and `maxLength` (in characters) and `pattern`.
+/// Checks `minLength` and `maxLength` (in characters) and `pattern`.
 pub(super) fn check_text(
-    walk: &Walk<'_>,
+    context: &Context<'_>,
     schema: &Json,
     text: &str,
     node: &Node,
@@ -52,21 +57,21 @@ pub(super) fn check_text(
     } else if schema.get("maxLength").and_then(Json::as_u64).is_some_and(|most| length > most) {
         format!("has {length} characters; it may have at most {}", schema["maxLength"])
     } else if let Some(pattern) = pattern.filter(|pattern| !matches(pattern, text)) {
-        format!("is `{}`; it must match `{pattern}`", walk.texts.written(&node.place))
+        format!("is `{}`; it must match `{pattern}`", context.texts.written(&node.place))
     } else {
         return None;
     };
-    Some(walk.documented(walk.problem("recipe-out-of-range", &node.place, path, rest), schema, path))
+    Some(context.documented(context.problem("recipe-out-of-range", &node.place, path, rest), schema, path))
 }
 
-/// Whether `text` has a piece that `pattern` describes; a pattern that is none lets everything pass, `build` decides.
+/// True where a piece of `text` matches `pattern`. An invalid pattern lets everything pass; `build` decides then.
 fn matches(pattern: &str, text: &str) -> bool {
     regex_lite::Regex::new(pattern).map_or(true, |pattern| pattern.is_match(text))
 }
 
-/// `minItems`, `maxItems` and `uniqueItems`.
+/// Checks `minItems`, `maxItems` and `uniqueItems`.
 pub(super) fn check_list_length(
-    walk: &Walk<'_>,
+    context: &Context<'_>,
     schema: &Json,
     items: &[Node],
     node: &Node,
@@ -92,50 +97,55 @@ pub(super) fn check_list_length(
             known
         })?;
         let rest = format!("has `{}` twice", show_json(&twice.json()));
-        return Some(walk.problem("recipe-out-of-range", &twice.place, path, rest));
+        return Some(context.problem("recipe-out-of-range", &twice.place, path, rest));
     } else {
         return None;
     };
-    Some(walk.documented(walk.problem("recipe-out-of-range", &node.place, path, rest), schema, path))
+    Some(context.documented(context.problem("recipe-out-of-range", &node.place, path, rest), schema, path))
 }
 
-/// `enum` and `const`.
-pub(super) fn check_allowed(walk: &Walk<'_>, schema: &Json, node: &Node, path: &[String]) -> Option<Box<Diagnostic>> {
+/// Checks `enum` and `const`.
+pub(super) fn check_allowed(
+    context: &Context<'_>,
+    schema: &Json,
+    node: &Node,
+    path: &[String],
+) -> Option<Box<Diagnostic>> {
     if schema.get("enum").is_none() && schema.get("const").is_none() {
         return None;
     }
-    let values = allowed_values(walk.root, schema);
+    let values = allowed_values(context.root, schema);
     let fits = values.iter().any(|(value, _)| match value {
         Json::Number(_) => compare(&node.value, value) == Some(Ordering::Equal),
         _ => &&node.json() == value,
     });
-    (!fits).then(|| not_allowed(walk, schema, &values, node, path))
+    (!fits).then(|| not_allowed(context, schema, &values, node, path))
 }
 
-/// The value is none of `values`; names the nearest and what each one means.
+/// Mistake of a value that is not among `values`; names the nearest one.
 pub(super) fn not_allowed(
-    walk: &Walk<'_>,
+    context: &Context<'_>,
     schema: &Json,
     values: &[(&Json, Option<&str>)],
     node: &Node,
     path: &[String],
 ) -> Box<Diagnostic> {
     let names: Vec<String> = values.iter().map(|(value, _)| show_json(value)).collect();
-    let written = node.as_text().map_or_else(|| walk.texts.written(&node.place), str::to_owned);
+    let written = node.as_text().map_or_else(|| context.texts.written(&node.place), str::to_owned);
     let wanted = match &names[..] {
         [only] => format!("`{only}`"),
         _ => format!("one of {}", list(names.iter().map(String::as_str), usize::MAX)),
     };
     let short: String = written.chars().take(60).collect();
     let mut problem =
-        walk.problem("recipe-not-allowed", &node.place, path, format!("is `{short}`; it must be {wanted}"));
+        context.problem("recipe-not-allowed", &node.place, path, format!("is `{short}`; it must be {wanted}"));
     if let Some(near) = nearest_name(&written, names.iter().map(String::as_str)) {
         problem = problem.hint(format!("did you mean `{near}`?"));
     }
-    walk.documented(problem, schema, path)
+    context.documented(problem, schema, path)
 }
 
-/// The order of a number and a limit, exact for whole numbers.
+/// Order of a number and a limit, exact for whole numbers.
 fn compare(value: &Value, limit: &Json) -> Option<Ordering> {
     match (value, limit.as_i64()) {
         (Value::Integer(value), Some(limit)) => Some(value.cmp(&limit)),
@@ -153,7 +163,7 @@ fn as_f64(value: &Value) -> f64 {
     }
 }
 
-/// What the Rust type behind a number can hold.
+/// Range of the Rust type behind a number.
 fn format_range(format: &str) -> Option<(f64, f64)> {
     Some(match format {
         "uint8" => (0.0, f64::from(u8::MAX)),

@@ -1,11 +1,11 @@
-//! What a schema wants and documents, in words.
+//! Schemas in words: types, allowed values, descriptions.
 
 use serde_json::Value as Json;
 
 /// Longest chain of `$ref` that is followed.
 const MOST_REFERENCES: usize = 16;
 
-/// The schema that `$ref`s lead to; `schema` itself when it has none or they lead nowhere.
+/// Schema that `$ref`s lead to; `schema` itself where it has none or they lead nowhere.
 pub(crate) fn resolve<'a>(root: &'a Json, schema: &'a Json) -> &'a Json {
     let mut schema = schema;
     for _ in 0..MOST_REFERENCES {
@@ -21,7 +21,7 @@ pub(crate) fn resolve<'a>(root: &'a Json, schema: &'a Json) -> &'a Json {
     schema
 }
 
-/// The schema's entry for the parameter at `path`, with its own description and default; none inside alternatives.
+/// Entry of the schema for the parameter at `path`, with its own description and default; `None` inside alternatives.
 pub(super) fn rule_at<'a>(root: &'a Json, path: &[String]) -> Option<&'a Json> {
     let mut rule = root;
     for key in path {
@@ -36,7 +36,7 @@ pub(super) fn rule_at<'a>(root: &'a Json, path: &[String]) -> Option<&'a Json> {
     Some(rule)
 }
 
-/// Whether tables may have keys that the schema does not list.
+/// True where tables may have keys that the schema does not list.
 pub(super) fn is_open(schema: &Json) -> bool {
     match schema.get("additionalProperties") {
         Some(rule) => rule != &Json::Bool(false),
@@ -44,12 +44,12 @@ pub(super) fn is_open(schema: &Json) -> bool {
     }
 }
 
-/// Whether a schema only allows null, which TOML cannot write.
+/// True for a schema that only allows null.
 pub(super) fn is_null(root: &Json, schema: &Json) -> bool {
     resolve(root, schema).get("type").and_then(Json::as_str) == Some("null")
 }
 
-/// What a schema wants: `a number`, `a string or a table` ...
+/// Types that a schema allows: `a number`, `a string or a table` ...
 pub(crate) fn type_words_of(root: &Json, schema: &Json) -> String {
     let mut words = vec![];
     collect_type_words(root, schema, &mut words, 0);
@@ -95,7 +95,7 @@ fn collect_type_words(root: &Json, schema: &Json, words: &mut Vec<&'static str>,
     }
 }
 
-/// Every value that a schema allows by name, with its documentation; empty when it is not such a schema.
+/// Values that a schema lists, with their descriptions; empty where it lists none.
 pub(crate) fn allowed_values<'a>(root: &'a Json, schema: &'a Json) -> Vec<(&'a Json, Option<&'a str>)> {
     let mut values = vec![];
     collect_allowed(root, schema, &mut values, 0);

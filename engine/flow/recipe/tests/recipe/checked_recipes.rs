@@ -1,4 +1,4 @@
-//! What a checked recipe holds.
+//! Checked recipes: stages, items, connections and parameters.
 
 use crate::toys::{WHOLE, check};
 use cosfly_recipe::{Recipe, RecipeStage};
@@ -20,7 +20,7 @@ fn stage<'a>(recipe: &'a Recipe, name: &str) -> &'a RecipeStage {
     &recipe.stages[recipe.position(name).unwrap()]
 }
 
-/// What the stage's own config holds after defaults.
+/// Parameters of the stage after defaults.
 fn settled(recipe: &Recipe, name: &str) -> serde_json::Value {
     stage(recipe, name).stage.properties().parameters.clone()
 }
@@ -59,21 +59,21 @@ fn every_stage_knows_its_items_and_what_each_one_reads() {
     let trajectories = frames.connection("trajectories").unwrap();
     let second = recipe.position("second").unwrap();
     let [arrival] = trajectories.arrivals_for(4) else { panic!("one arrival per item") };
-    assert_eq!((&*arrival.id, arrival.stage, arrival.item), ("second-path00001", second, 1));
+    assert_eq!((&*arrival.name.to_string(), arrival.stage, arrival.item), ("second-path00001", second, 1));
     assert_eq!(frames.connection("town").unwrap().arrivals_for(4).len(), 1);
     assert!(frames.connection("also").is_none());
-    assert_eq!(frames.upstreams(), [0, 2, 3]);
+    assert_eq!(frames.reads(4).map(|arrival| arrival.stage).collect::<Vec<_>>(), [0, second]);
 }
 
 #[test]
 fn parts_are_stages_of_their_own_and_siblings_are_connected() {
     let recipe = checked(WHOLE, &[]);
     let (logs, tables) = (stage(&recipe, "tables.logs"), stage(&recipe, "tables"));
-    assert_eq!((logs.recipe_name.as_str(), logs.kind.as_str(), logs.items.len()), ("tables", "dataset", 6));
+    assert_eq!((logs.name.recipe_name(), logs.kind.as_str(), logs.items.len()), ("tables", "dataset", 6));
     assert_eq!(tables.items.len(), 1);
     assert_eq!(tables.connection("logs").unwrap().arrivals_for(0).len(), 6);
     assert_eq!(tables.connection("frames").unwrap().arrivals_for(0).len(), 6);
-    assert_eq!(&*logs.items[0], "expert-path00000");
+    assert_eq!(logs.items[0].to_string(), "expert-path00000");
 }
 
 #[test]
@@ -96,7 +96,7 @@ fn each_ports_meet_by_item_id_whatever_their_order() {
     let frames = stage(&recipe, "frames");
     for (index, id) in frames.items.iter().enumerate() {
         for port in ["trajectories", "also"] {
-            assert_eq!(frames.connection(port).unwrap().arrivals_for(index)[0].id, *id);
+            assert_eq!(frames.connection(port).unwrap().arrivals_for(index)[0].name, *id);
         }
     }
 }
@@ -160,16 +160,27 @@ fn source_files_are_found_beside_the_recipe() {
     let recipe = checked(WHOLE, &[]);
     let [source] = &stage(&recipe, "town").sources[..] else { panic!("the town has one source") };
     assert_eq!(source.parameter, "source");
-    assert_eq!(source.declared.to_str(), Some("town.xodr"));
-    assert_eq!(source.path, recipe.directory.join("town.xodr"));
+    assert_eq!(source.path, recipe.path.with_file_name("town.xodr"));
 }
 
 #[test]
-fn the_place_of_a_stage_is_its_name() {
-    let recipe = checked(WHOLE, &[]);
-    for stage in &recipe.stages {
-        assert_eq!(recipe.text[stage.span.clone()], stage.recipe_name);
+fn a_variant_reads_the_item_that_it_is_a_variant_of() {
+    let text = WHOLE.replace(
+        "use = \"render\"\ninputs.town = \"town\"\n",
+        "use = \"weathers\"\ninputs.also = [\"second\", \"expert\"]\n",
+    );
+    let recipe = checked(&text, &[]);
+    let (frames, logs) = (stage(&recipe, "frames"), stage(&recipe, "tables.logs"));
+    assert_eq!(frames.items.len(), 12);
+    assert_eq!(frames.items[1].to_string(), "expert-path00000-Night");
+    for (index, item) in frames.items.iter().enumerate() {
+        for port in ["trajectories", "also"] {
+            let read = &frames.connection(port).unwrap().arrivals_for(index)[0];
+            assert_eq!(Some(&read.name), item.without_variant().as_ref());
+            assert_eq!(recipe.stages[read.stage].items[read.item].of_stage(&recipe.stages[read.stage].name), read.name);
+        }
     }
+    assert_eq!(logs.items, frames.items);
 }
 
 #[test]

@@ -1,17 +1,8 @@
-//! No text and no override makes the reader panic, and what it says can be printed.
+//! No text and no override makes the reader panic, and its messages can be printed.
 
 use crate::toys::WHOLE;
 use cosfly_diagnose::render_all;
-
-/// A linear congruential generator: the same garbage on every machine.
-struct Dice(u64);
-
-impl Dice {
-    fn roll(&mut self, sides: usize) -> usize {
-        self.0 = self.0.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
-        ((self.0 >> 33) as usize) % sides.max(1)
-    }
-}
+use proptest::prelude::*;
 
 /// Pieces that bring the reader further than random letters do.
 const PIECES: [&str; 44] = [
@@ -70,36 +61,39 @@ fn check(text: &str, overrides: &[String]) {
     }
 }
 
-#[test]
-fn mutilated_recipes_are_refused_without_panic() {
-    let mut dice = Dice(1);
-    for _ in 0..3_000 {
-        let mut text = WHOLE.to_owned();
-        for _ in 0..=dice.roll(4) {
+fn pieces(most: usize) -> impl Strategy<Value = String> {
+    prop::collection::vec(prop::sample::select(&PIECES[..]), 0..most).prop_map(|pieces| pieces.concat())
+}
+
+/// [`WHOLE`] with a few short stretches replaced by pieces.
+fn mutilated() -> impl Strategy<Value = String> {
+    let change = (any::<prop::sample::Index>(), 0..12_usize, prop::sample::select(&PIECES[..]));
+    prop::collection::vec(change, 1..6).prop_map(|changes| {
+        changes.into_iter().fold(WHOLE.to_owned(), |mut text, (from, letters, piece)| {
             let boundaries: Vec<usize> = text.char_indices().map(|(index, _)| index).chain([text.len()]).collect();
-            let (a, b) = (dice.roll(boundaries.len()), dice.roll(boundaries.len()));
-            let (from, to) = (boundaries[a.min(b)], boundaries[a.max(b).min(a.min(b) + 12)]);
-            text.replace_range(from..to, PIECES[dice.roll(PIECES.len())]);
-        }
-        check(&text, &[]);
-    }
+            let from = from.index(boundaries.len());
+            text.replace_range(boundaries[from]..boundaries[(from + letters).min(boundaries.len() - 1)], piece);
+            text
+        })
+    })
 }
 
-#[test]
-fn random_pieces_are_refused_without_panic() {
-    let mut dice = Dice(2);
-    for _ in 0..3_000 {
-        let text: String = (0..dice.roll(60)).map(|_| PIECES[dice.roll(PIECES.len())]).collect();
+proptest! {
+    #![proptest_config(ProptestConfig { cases: 3_000, failure_persistence: None, ..ProptestConfig::default() })]
+
+    #[test]
+    fn mutilated_recipes_are_refused_without_panic(text in mutilated()) {
         check(&text, &[]);
     }
-}
 
-#[test]
-fn random_overrides_are_refused_without_panic() {
-    let mut dice = Dice(3);
-    for _ in 0..3_000 {
-        let mut argument: String = "stages.people.".chars().take(dice.roll(15)).collect();
-        argument.extend((0..dice.roll(8)).map(|_| PIECES[dice.roll(PIECES.len())]));
+    #[test]
+    fn random_pieces_are_refused_without_panic(text in pieces(60)) {
+        check(&text, &[]);
+    }
+
+    #[test]
+    fn random_overrides_are_refused_without_panic(letters in 0..15_usize, more in pieces(8)) {
+        let argument: String = "stages.people.".chars().take(letters).chain(more.chars()).collect();
         check(WHOLE, &[argument]);
     }
 }

@@ -1,4 +1,4 @@
-//! What is generated from the kinds: the recipe schema, the reference page, pictures of the DAG.
+//! Texts generated from the kinds: the recipe schema, the reference page, drawings of the graph.
 
 use crate::toys::{WHOLE, check, registry};
 use cosfly_recipe::{Format, graph, reference, schema};
@@ -71,12 +71,12 @@ fn the_reference_of_a_kind() {
     | parameter | type | default | range | what |
     |---|---|---|---|---|
     | `colour` | a list of whole numbers | none | exactly `3` entries, each at least `0`, at most `255` | A colour as red, green, blue. |
-    | `count` | a whole number | `4` | at least `1` | How many paths. Asking for more renames none. |
-    | `crossing` | a string | `"free"` | `free`, `zebra_only` | How streets are crossed.<br>`free`: Anywhere.<br>`zebra_only`: Only where the ground is painted. |
+    | `count` | a whole number | `4` | at least `1` | Number of paths. Asking for more renames none. |
+    | `crossing` | a string | `"free"` | `free`, `zebra_only` | Places where streets are crossed.<br>`free`: Anywhere.<br>`zebra_only`: Only where the ground is painted. |
     | `crowd` | a string | `"people"` | characters: at least `1` | Name of the crowd. |
-    | `curious` | `true` or `false` | `false` |  | Whether they look around. |
+    | `curious` | `true` or `false` | `false` |  | True for people who look around. |
     | `margin_m` | a number | `0.5` | at least `0` | Distance kept from obstacles. |
-    | `pause` | a table | `{ kind = "none" }` | `kind`: `none`, `random` | When they stop. |
+    | `pause` | a table | `{ kind = "none" }` | `kind`: `none`, `random` | Stops on the way. |
     | `pause(kind = random).chance` | a number | required | at least `0`, at most `1` | Chance of a stop per second. |
     | `shares` | a table | `{}` |  | Shares by age. |
     | `speed` | a table |  |  | Walking speed. |
@@ -86,6 +86,17 @@ fn the_reference_of_a_kind() {
     | `visits` | a list of tables | `[]` | at most `3` entries | Waypoints that every path visits. |
     | `visits[].max_mps` | a number | `2` | at most `10` | Fastest speed. Not below the slowest. |
     | `visits[].min_mps` | a number | `0.5` | greater than `0` | Slowest speed. |
+
+    ## `weathers`
+
+    Draws each trajectory in several weathers.
+
+    | input | takes | items | what |
+    |---|---|---|---|
+    | `trajectories` | one or more of `trajectory/1` | item by item | What is shown. |
+    | `also` | one or more of `trajectory/1`, optional | item by item | What is shown. |
+
+    It has no parameters.
     "#);
 }
 

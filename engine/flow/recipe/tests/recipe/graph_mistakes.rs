@@ -1,6 +1,6 @@
-//! What is said about stages that do not fit together: kinds, connections, cycles, items.
+//! Messages about stages that do not fit together: kinds, connections, cycles.
 
-use crate::toys::{WHOLE, complaint};
+use crate::toys::complaint;
 
 #[test]
 fn an_unknown_kind_names_the_nearest() {
@@ -20,7 +20,8 @@ source = "town.xodr"
       |       ^^^^^^
       |
       = help: did you mean `map`?
-      = help: there are `blocks`, `dataset`, `expert`, `map`, `render`, `tracks`, `walkers`
+      = help: stage kinds: `blocks`, `dataset`, `expert`, `map`, `render`, `tracks`, `walkers`,
+              `weathers`
     "#);
 }
 
@@ -41,8 +42,9 @@ source = "town.xodr"
     3 | use = "wasm:my_map.wasm"
       |       ^^^^^^^^^^^^^^^^^^
       |
-      = help: this cosfly was built without plugins; its feature `plugins` adds them
-      = help: its own kinds are `blocks`, `dataset`, `expert`, `map`, `render`, `tracks`, `walkers`
+      = help: this cosfly was built without plugins; the feature `plugins` adds them
+      = help: built-in stage kinds: `blocks`, `dataset`, `expert`, `map`, `render`, `tracks`, `walkers`,
+              `weathers`
     "#);
 }
 
@@ -92,7 +94,7 @@ inputs.twon = "town"
       |        ^^^^
       |
       = help: did you mean `town`?
-      = help: `walkers` has `town`
+      = help: inputs of `walkers`: `town`
     "#);
 }
 
@@ -181,7 +183,7 @@ source = "town.xodr"
         &[],
     );
     insta::assert_snapshot!(text, @r#"
-    error[recipe-input-twice]: `inputs.town` of `people` takes one stage; `other` is one more
+    error[recipe-input-twice]: `inputs.town` of `people` takes one stage, and `other` is a second one
      --> a.toml:7:24
       |
     7 | inputs.town = ["town", "other"]
@@ -271,8 +273,7 @@ inputs.trajectories = ["c"]
         &[],
     );
     insta::assert_snapshot!(text, @r#"
-    error[recipe-cycle]: stages wait for each other in a circle: `a` reads `c`, `c` reads `b`, `b` reads
-                         `a`
+    error[recipe-cycle]: stages read each other in a cycle: `a` reads `c`, `c` reads `b`, `b` reads `a`
       --> a.toml:7:36
        |
      7 | inputs = { town = "town", target = "c" }
@@ -284,7 +285,7 @@ inputs.trajectories = ["c"]
     13 | inputs = { town = "town", target = "b" }
        |                                    --- `c` reads it
        |
-       = help: connect one of them to a stage outside the circle
+       = help: connect one of them to a stage outside the cycle
     "#);
 }
 
@@ -306,104 +307,5 @@ inputs.trajectories = "a"
       |                       ^^^ `a` reads it
       |
       = help: connect it to another stage
-    "#);
-}
-
-#[test]
-fn items_that_do_not_meet() {
-    let text = complaint(
-        r#"name = "t"
-[stages.town]
-use = "map"
-source = "town.xodr"
-[stages.people]
-use = "walkers"
-inputs.town = "town"
-[stages.fewer]
-use = "walkers"
-inputs.town = "town"
-count = 2
-[stages.one]
-use = "expert"
-inputs = { town = "town", target = "people" }
-[stages.two]
-use = "expert"
-inputs = { town = "town", target = "fewer" }
-[stages.frames]
-use = "render"
-inputs = { trajectories = "one", also = ["one", "two"] }
-"#,
-        &[],
-    );
-    insta::assert_snapshot!(text, @r#"
-    error[recipe-items-differ]: `inputs.trajectories` and `inputs.also` of `frames` have different
-                                items: `two-path00000`, `two-path00001` only at `also`
-      --> a.toml:20:42
-       |
-    20 | inputs = { trajectories = "one", also = ["one", "two"] }
-       |                           -----          ^^^^^
-       |                           |
-       |                           `frames` has the items of this one
-       |
-       = help: item `x` of `frames` reads item `x` of both: both must go back to the same items
-    "#);
-}
-
-#[test]
-fn two_stages_with_items_of_one_id_are_not_gathered_together() {
-    let text = WHOLE.replace(
-        "[stages.tables]",
-        "[stages.again]\nuse = \"render\"\ninputs.trajectories = [\"expert\", \"second\"]\n\n[stages.tables]",
-    );
-    let text = text.replace("inputs.frames = \"frames\"", "inputs.frames = [\"frames\", \"again\"]");
-    insta::assert_snapshot!(complaint(&text, &[]), @r#"
-    error[recipe-items-same]: `inputs.frames` of `tables.logs` gets an item `expert-path00000` from
-                              `frames` and from `again`
-      --> a.toml:32:18
-       |
-    32 | inputs.frames = ["frames", "again"]
-       |                  ^^^^^^^^
-       |
-       = help: items are called after the stages that they come through: give these chains stages of
-               their own, or connect one of the two
-    "#);
-}
-
-#[test]
-fn a_single_item_is_wanted_where_many_are_made() {
-    let text = WHOLE.replace("use = \"map\"\nsource = \"town.xodr\"", "use = \"blocks\"");
-    insta::assert_snapshot!(complaint(&text, &[]), @r#"
-    error[recipe-items-differ]: `inputs.town` of `people` takes a single item, but `town` makes 2
-     --> a.toml:9:15
-      |
-    9 | inputs.town = "town"
-      |               ^^^^^^
-      |
-      = help: every item of `people` reads the same one: connect a stage that makes one
-    "#);
-}
-
-#[test]
-fn too_many_items() {
-    let text = complaint(
-        r#"name = "t"
-[stages.town]
-use = "map"
-source = "town.xodr"
-[stages.people]
-use = "walkers"
-inputs.town = "town"
-count = 2_000_000_000
-"#,
-        &[],
-    );
-    insta::assert_snapshot!(text, @r#"
-    error[recipe-too-many-items]: `people` would have 2000000000 items; a stage may have 1000000
-     --> a.toml:5:9
-      |
-    5 | [stages.people]
-      |         ^^^^^^
-      |
-      = help: split the work into several recipes with other seeds
     "#);
 }

@@ -1,10 +1,15 @@
 //! Recipes of toy stages through the whole reader: what is checked, what is said, what is generated.
 
 mod checked_recipes;
+mod file_mistakes;
 mod garbage;
 mod generated;
 mod graph_mistakes;
+mod item_mistakes;
+mod list_mistakes;
 mod overrides_mistakes;
 mod parameters_mistakes;
 mod text_mistakes;
+mod toy_configs;
 mod toys;
+mod value_mistakes;

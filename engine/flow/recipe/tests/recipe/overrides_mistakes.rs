@@ -1,19 +1,9 @@
-//! What is said about `--set` arguments that do not fit.
+//! Messages about `--set` arguments that do not fit.
 
-use crate::toys::complaint;
-
-/// The lines before those that a test adds.
-const START: &str = r#"name = "t"
-[stages.town]
-use = "map"
-source = "town.xodr"
-[stages.people]
-use = "walkers"
-inputs.town = "town"
-"#;
+use crate::toys::{PEOPLE, complaint};
 
 fn check_complaint(argument: &str) -> String {
-    complaint(START, &[argument])
+    complaint(PEOPLE, &[argument])
 }
 
 #[test]
@@ -27,7 +17,7 @@ fn an_unknown_stage_names_the_nearest() {
       |        ^^^^^^
       |
       = help: did you mean `people`?
-      = help: its stages are `people`, `town`
+      = help: stages of the recipe: `people`, `town`
     "#);
 }
 
@@ -42,8 +32,8 @@ fn an_unknown_parameter_names_the_nearest() {
       |               ^^^^^
       |
       = help: did you mean `count`?
-      = help: `walkers` knows `colour`, `count`, `crossing`, `crowd`, `curious`, `margin_m`, `pause`,
-              `shares`, `speed`, `version`, `visits`
+      = help: parameters of `walkers`: `colour`, `count`, `crossing`, `crowd`, `curious`, `margin_m`,
+              `pause`, `shares`, `speed`, `version`, `visits`
     "#);
 }
 
@@ -71,7 +61,7 @@ fn a_word_where_a_number_is_wanted() {
     1 | stages.people.count=many
       |                     ^^^^
       |
-      = help: `count`: How many paths (default `4`)
+      = help: `count`: Number of paths (default `4`)
     "#);
 }
 
@@ -168,7 +158,7 @@ fn a_missing_file() {
       |                    ^^^^^^^^^^^^^^^^^^^^
       |
       = help: there is no folder `../nowhere`
-      = help: paths in a recipe begin at the recipe's folder, here `FOLDER`
+      = help: paths in a recipe are relative to the recipe's folder, here `FOLDER`
     "#);
 }
 
@@ -182,7 +172,8 @@ fn a_kind_that_is_not_there() {
     1 | stages.people.use=gps
       |                   ^^^
       |
-      = help: there are `blocks`, `dataset`, `expert`, `map`, `render`, `tracks`, `walkers`
+      = help: stage kinds: `blocks`, `dataset`, `expert`, `map`, `render`, `tracks`, `walkers`,
+              `weathers`
     "#);
 }
 

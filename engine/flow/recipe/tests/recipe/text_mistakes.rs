@@ -1,4 +1,4 @@
-//! What is said about a recipe whose text, keys or names are wrong, and about a file that is not there.
+//! Messages about a recipe whose text, keys or names are wrong.
 
 use crate::toys::complaint;
 
@@ -131,7 +131,7 @@ source = "town.xodr"
     1 | name = "My Town"
       |        ^^^^^^^^^
       |
-      = help: the dataset and its folder are called by it
+      = help: the dataset and its folder have this name
 
     error[recipe-out-of-range]: `seed` is `-1`; it must be at least `0`
      --> a.toml:2:8
@@ -189,7 +189,7 @@ source = "town.xodr"
         &[],
     );
     insta::assert_snapshot!(text, @r#"
-    error[recipe-missing-key]: stage `town` does not say what it uses
+    error[recipe-missing-key]: stage `town` has no `use`
      --> a.toml:2:9
       |
     2 | [stages.town]
@@ -210,8 +210,8 @@ source = "town.xodr"
         &[],
     );
     insta::assert_snapshot!(text, @r#"
-    error[recipe-name]: a stage is called `my-town`; names begin with `a-z` and go on with at most 99 of
-                        `a-z`, `0-9` and `_`
+    error[recipe-name]: a stage is named `my-town`; names are one of `a-z`, then at most 99 of `a-z`,
+                        `0-9` and `_`
      --> a.toml:2:9
       |
     2 | [stages.my-town]
@@ -281,83 +281,6 @@ inputs.town = 4
 }
 
 #[test]
-fn a_missing_file_names_the_nearest() {
-    let text = complaint(
-        r#"name = "t"
-[stages.town]
-use = "map"
-source = "twon.xodr"
-"#,
-        &[],
-    );
-    insta::assert_snapshot!(text, @r#"
-    error[input-missing]: there is no file `twon.xodr`
-     --> a.toml:4:10
-      |
-    4 | source = "twon.xodr"
-      |          ^^^^^^^^^^^
-      |
-      = help: did you mean `town.xodr`?
-      = help: paths in a recipe begin at the recipe's folder, here `FOLDER`
-    "#);
-}
-
-#[test]
-fn a_file_that_is_not_named() {
-    let text = complaint("name = \"t\"\n[stages.people]\nuse = \"tracks\"\n", &[]);
-    insta::assert_snapshot!(text, @r#"
-    error[recipe-missing-key]: `file` names no file
-     --> a.toml:2:9
-      |
-    2 | [stages.people]
-      |         ^^^^^^
-      |
-      = help: write `file = "..."`; paths begin at the recipe's folder
-    "#);
-}
-
-#[test]
-fn a_missing_folder() {
-    let text = complaint(
-        r#"name = "t"
-[stages.town]
-use = "map"
-source = "towns/town.xodr"
-"#,
-        &[],
-    );
-    insta::assert_snapshot!(text, @r#"
-    error[input-missing]: there is no file `towns/town.xodr`
-     --> a.toml:4:10
-      |
-    4 | source = "towns/town.xodr"
-      |          ^^^^^^^^^^^^^^^^^
-      |
-      = help: there is no folder `towns`
-      = help: paths in a recipe begin at the recipe's folder, here `FOLDER`
-    "#);
-}
-
-#[test]
-fn a_folder_instead_of_a_file() {
-    let text = complaint(
-        r#"name = "t"
-[stages.town]
-use = "map"
-source = "folder"
-"#,
-        &[],
-    );
-    insta::assert_snapshot!(text, @r#"
-    error[input-missing]: `folder` is a folder; a file is wanted
-     --> a.toml:4:10
-      |
-    4 | source = "folder"
-      |          ^^^^^^^^
-    "#);
-}
-
-#[test]
 fn many_mistakes_at_once_in_the_order_of_the_text() {
     let text = complaint(
         r#"name = "t"
@@ -398,7 +321,7 @@ use = "rendr"
     8 | count = 0
       |         ^
       |
-      = help: `count`: How many paths (default `4`)
+      = help: `count`: Number of paths (default `4`)
 
     error[recipe-unknown-kind]: there is no stage kind `rendr`
       --> a.toml:10:7
@@ -407,7 +330,8 @@ use = "rendr"
        |       ^^^^^^^
        |
        = help: did you mean `render`?
-       = help: there are `blocks`, `dataset`, `expert`, `map`, `render`, `tracks`, `walkers`
+       = help: stage kinds: `blocks`, `dataset`, `expert`, `map`, `render`, `tracks`, `walkers`,
+               `weathers`
 
     4 errors
     "#);

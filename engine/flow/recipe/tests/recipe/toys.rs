@@ -1,130 +1,16 @@
-//! Small stage kinds that declare everything and do nothing.
+//! Small stage kinds that declare everything and do nothing, and recipes of them.
 
+use crate::toy_configs::{MapConfig, NoConfig, Speed, TracksConfig, WalkersConfig};
+use cosfly_blobs::OutputSink;
+use cosfly_diagnose::ParameterError;
 use cosfly_recipe::Recipe;
 use cosfly_stage::{
-    Fan, InputPort, Inputs, ItemRule, OutputSink, ParameterError, PortSource, Produced, Registry, Source, Stage,
-    StageKind, StagePart, StageProperties, Takes, TaskContext,
+    Fan, InputPort, Inputs, ItemRule, PortSource, Produced, Registry, Source, Stage, StageKind, StagePart,
+    StageProperties, Takes, TaskContext,
 };
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
-use std::collections::BTreeMap;
 use std::path::Path;
-
-/// How a crossing is chosen.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[serde(rename_all = "snake_case")]
-pub enum Crossing {
-    /// Anywhere.
-    #[default]
-    Free,
-    /// Only where the ground is painted.
-    ZebraOnly,
-}
-
-/// Either a fixed number or a range, told apart by `kind`.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[serde(tag = "kind", rename_all = "snake_case", deny_unknown_fields)]
-pub enum Pause {
-    /// Never stops.
-    None,
-    /// Stops at random.
-    Random {
-        /// Chance of a stop per second.
-        #[schemars(range(min = 0.0, max = 1.0))]
-        chance: f64,
-    },
-}
-
-/// Walking speed.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[serde(default, deny_unknown_fields)]
-pub struct Speed {
-    /// Slowest speed.
-    #[schemars(extend("exclusiveMinimum" = 0))]
-    pub min_mps: f64,
-    /// Fastest speed. Not below the slowest.
-    #[schemars(range(max = 10.0))]
-    pub max_mps: f64,
-}
-
-impl Default for Speed {
-    fn default() -> Self {
-        Self { min_mps: 0.5, max_mps: 2.0 }
-    }
-}
-
-/// Parameters of the toy walkers.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[serde(default, deny_unknown_fields)]
-pub struct WalkersConfig {
-    /// How many paths. Asking for more renames none.
-    #[schemars(range(min = 1))]
-    pub count: u64,
-    /// Distance kept from obstacles.
-    #[schemars(range(min = 0.0))]
-    pub margin_m: f64,
-    /// Walking speed.
-    pub speed: Speed,
-    /// How streets are crossed.
-    pub crossing: Crossing,
-    /// When they stop.
-    pub pause: Pause,
-    /// A colour as red, green, blue.
-    pub colour: Option<[u8; 3]>,
-    /// Waypoints that every path visits.
-    #[schemars(length(max = 3))]
-    pub visits: Vec<Speed>,
-    /// Name of the crowd.
-    #[schemars(length(min = 1))]
-    pub crowd: String,
-    /// Version of the crowd, such as `1.0`.
-    #[schemars(regex(pattern = r"^[0-9]+\.[0-9]+$"))]
-    pub version: String,
-    /// Shares by age.
-    pub shares: BTreeMap<String, f64>,
-    /// Whether they look around.
-    pub curious: bool,
-}
-
-impl Default for WalkersConfig {
-    fn default() -> Self {
-        Self {
-            count: 4,
-            margin_m: 0.5,
-            speed: Speed::default(),
-            crossing: Crossing::Free,
-            pause: Pause::None,
-            colour: None,
-            visits: vec![],
-            crowd: "people".into(),
-            version: "1.0".into(),
-            shares: BTreeMap::new(),
-            curious: false,
-        }
-    }
-}
-
-/// Parameters of the toy map.
-#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
-pub struct MapConfig {
-    /// The town's file.
-    #[schemars(length(min = 1))]
-    pub source: String,
-}
-
-/// No parameters.
-#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
-pub struct NoConfig {}
-
-/// A file that is optional in the schema.
-#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[serde(default, deny_unknown_fields)]
-pub struct TracksConfig {
-    /// The tracks. Default "".
-    pub file: String,
-}
 
 pub struct ToyStage(pub StageProperties);
 
@@ -139,7 +25,7 @@ impl Stage for ToyStage {
 
 type Build = fn(&Toy, serde_json::Value) -> Result<Vec<StagePart>, ParameterError>;
 
-/// A kind made of data.
+/// A stage kind made of data.
 pub struct Toy {
     pub name: &'static str,
     pub doc: &'static str,
@@ -279,19 +165,47 @@ fn schema_of<T: JsonSchema>() -> serde_json::Value {
     schemars::schema_for!(T).into()
 }
 
+fn plain_toy(
+    name: &'static str,
+    doc: &'static str,
+    artifact: &'static str,
+    ports: Vec<InputPort>,
+    items: ItemRule,
+) -> Toy {
+    Toy { name, doc, artifact, ports, items, schema: schema_of::<NoConfig>, build: plain }
+}
+
+fn renderers() -> Vec<Toy> {
+    let town = port("town", "town/1", Fan::Broadcast);
+    vec![
+        plain_toy(
+            "weathers",
+            "Draws each trajectory in several weathers.",
+            "frames/1",
+            vec![
+                port("trajectories", "trajectory/1", Fan::Each).many(),
+                port("also", "trajectory/1", Fan::Each).many().optional(),
+            ],
+            ItemRule::PerVariant { port: "trajectories", variants: vec!["Noon".to_owned(), "Night".to_owned()] },
+        ),
+        plain_toy(
+            "render",
+            "Draws what is seen.",
+            "frames/1",
+            vec![
+                town.optional(),
+                port("trajectories", "trajectory/1", Fan::Each).many(),
+                port("also", "trajectory/1", Fan::Each).many().optional(),
+            ],
+            ItemRule::PerInput("trajectories"),
+        ),
+    ]
+}
+
 /// All toys.
 pub fn registry() -> Registry {
     let town = || port("town", "town/1", Fan::Broadcast);
-    let plain_toy = |name, doc, artifact, ports, items| Toy {
-        name,
-        doc,
-        artifact,
-        ports,
-        items,
-        schema: schema_of::<NoConfig>,
-        build: plain,
-    };
-    let toys = vec![
+    let mut toys = vec![
         Toy {
             schema: schema_of::<MapConfig>,
             build: map,
@@ -315,17 +229,6 @@ pub fn registry() -> Registry {
             vec![town(), port("target", "track/1", Fan::Each)],
             ItemRule::PerInput("target"),
         ),
-        plain_toy(
-            "render",
-            "Draws what is seen.",
-            "frames/1",
-            vec![
-                town().optional(),
-                port("trajectories", "trajectory/1", Fan::Each).many(),
-                port("also", "trajectory/1", Fan::Each).many().optional(),
-            ],
-            ItemRule::PerInput("trajectories"),
-        ),
         Toy {
             build: dataset,
             ..plain_toy(
@@ -337,6 +240,7 @@ pub fn registry() -> Registry {
             )
         },
     ];
+    toys.extend(renderers());
     Registry::new(toys.into_iter().map(|toy| Box::new(toy) as Box<dyn StageKind>).collect())
 }
 
@@ -371,7 +275,7 @@ use = "dataset"
 inputs.frames = "frames"
 "#;
 
-/// What [`cosfly_recipe::read`] says.
+/// Mistakes that [`cosfly_recipe::read`] reports.
 type Complaints = Vec<Box<cosfly_diagnose::Diagnostic>>;
 
 /// Checks `text` as if it stood in a folder with the file `town.xodr`.
@@ -395,10 +299,25 @@ pub fn check(text: &str, overrides: &[&str]) -> Result<Recipe, Complaints> {
     })
 }
 
-/// What the user reads.
+/// Mistakes in `text` as the user reads them.
 pub fn complaint(text: &str, overrides: &[&str]) -> String {
     match check(text, overrides) {
         Ok(recipe) => format!("no complaint about {recipe:?}"),
         Err(problems) => cosfly_diagnose::render_all(problems.iter().map(|problem| &**problem), false),
     }
+}
+
+/// A recipe that ends in the parameters of walkers.
+pub const PEOPLE: &str = r#"name = "t"
+[stages.town]
+use = "map"
+source = "town.xodr"
+[stages.people]
+use = "walkers"
+inputs.town = "town"
+"#;
+
+/// Mistakes in [`PEOPLE`] with the parameters `more`, as the user reads them.
+pub fn complaint_about_people(more: &str) -> String {
+    complaint(&format!("{PEOPLE}{more}"), &[])
 }

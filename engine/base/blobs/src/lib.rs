@@ -1,0 +1,13 @@
+//! Named bytes: content references, sinks that makers write files to, files that pass by once.
+//!
+//! * [`BlobRef`]: bytes by their digest.
+//! * [`OutputSink`]: the files of one result while they are being made.
+//! * [`PassingFile`]: a large file that is written or read once, without filling the system's file cache.
+
+mod blob;
+mod passing;
+mod sink;
+
+pub use blob::BlobRef;
+pub use passing::PassingFile;
+pub use sink::{OutputSink, SeekWrite};

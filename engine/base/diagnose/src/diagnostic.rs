@@ -1,0 +1,111 @@
+//! The diagnostic: a stable code, the kind of failure, a message, places, causes and hints.
+
+use std::fmt;
+use std::io::{Error, ErrorKind};
+use std::ops::Range;
+use std::path::PathBuf;
+use std::sync::Arc;
+
+/// Kind of failure: who can mend it. Decides the exit code, and whether a run goes on.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Fault {
+    /// The recipe or the command line asks for something impossible.
+    Recipe,
+    /// An input file (map, track, store) is broken or does not fit.
+    Input,
+    /// The machine refused: no permission, no thread, a file that vanished.
+    Machine,
+    /// The disk is full; the next write would fail as well.
+    DiskFull,
+    /// A stored result is missing or damaged; computing it again mends that.
+    Lost,
+    /// The user stopped the program.
+    Stopped,
+    /// Internal error of cosfly, to be reported.
+    Bug,
+}
+
+/// A piece of a text file that a diagnostic points at.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Label {
+    /// File that the text came from.
+    pub path: PathBuf,
+    /// The whole text of the file.
+    pub text: Arc<str>,
+    /// Bytes of `text` to underline.
+    pub span: Range<usize>,
+    /// Text beside the underline; may be empty.
+    pub note: String,
+}
+
+/// One failure, ready to be shown.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Diagnostic {
+    /// Stable kebab-case name for users, such as `recipe-unknown-key`. Programs decide by [`Self::fault`].
+    pub code: &'static str,
+    /// Kind of failure.
+    pub fault: Fault,
+    /// Statement of the failure: a lower-case fragment, literals in back-ticks.
+    pub message: String,
+    /// Places in text files; the first is where the failure is.
+    pub labels: Vec<Label>,
+    /// Causes, from the nearest to the deepest.
+    pub causes: Vec<String>,
+    /// Advice: what is allowed and what to do next.
+    pub hints: Vec<String>,
+}
+
+/// Result of fallible work of the engine.
+pub type Result<T, E = Box<Diagnostic>> = std::result::Result<T, E>;
+
+impl Diagnostic {
+    /// A diagnostic with a code, a kind and a message. The code is written as a literal, so that all codes can be found.
+    pub fn new(code: &'static str, fault: Fault, message: impl Into<String>) -> Box<Self> {
+        Box::new(Self { code, fault, message: message.into(), labels: vec![], causes: vec![], hints: vec![] })
+    }
+
+    /// A refusal of the operating system while it was asked to do `action`, such as "read `a.toml`"; a full disk has a
+    /// kind of its own.
+    pub fn io(action: impl fmt::Display, error: &Error) -> Box<Self> {
+        let message = format!("could not {action}");
+        let diagnostic = match error.kind() {
+            ErrorKind::StorageFull | ErrorKind::QuotaExceeded => Diagnostic::new("disk-full", Fault::DiskFull, message).hint(
+                "free some space or choose another disk with `--store` and `--out`, then run the same command again: finished items are kept",
+            ),
+            _ => Diagnostic::new("machine-io", Fault::Machine, message),
+        };
+        diagnostic.because(error)
+    }
+
+    /// Work on `subject`, in back-ticks in the message, that ended because the user stopped the program.
+    pub fn stopped(subject: impl fmt::Display) -> Box<Self> {
+        Diagnostic::new("cancelled", Fault::Stopped, format!("`{subject}` was stopped"))
+    }
+
+    /// Adds a place in a text file.
+    pub fn at(mut self: Box<Self>, label: Label) -> Box<Self> {
+        self.labels.push(label);
+        self
+    }
+
+    /// Adds a cause.
+    pub fn because(mut self: Box<Self>, cause: impl fmt::Display) -> Box<Self> {
+        self.causes.push(cause.to_string());
+        self
+    }
+
+    /// Adds advice: what is allowed or what to do next.
+    pub fn hint(mut self: Box<Self>, hint: impl Into<String>) -> Box<Self> {
+        self.hints.push(hint.into());
+        self
+    }
+}
+
+impl fmt::Display for Diagnostic {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(&self.message)?;
+        self.causes.iter().try_for_each(|cause| write!(f, ": {cause}"))
+    }
+}
+
+impl std::error::Error for Diagnostic {}

@@ -1,0 +1,23 @@
+//! Characters of foreign text, made harmless for a terminal.
+
+/// `character`, or a visible stand-in where it would steer the terminal: control characters and marks that reverse the
+/// direction of writing.
+pub(crate) fn visible(character: char) -> char {
+    match character {
+        '\t' => ' ',
+        '\u{0}'..='\u{1f}' => char::from_u32(0x2400 + character as u32).unwrap_or('\u{fffd}'),
+        '\u{7f}'..='\u{9f}' | '\u{202a}'..='\u{202e}' | '\u{2066}'..='\u{2069}' => '\u{fffd}',
+        _ => character,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn control_characters_become_visible() {
+        let shown: String = "a\u{1b}[31mb\u{7}\u{202e}".chars().map(visible).collect();
+        assert_eq!(shown, "a\u{241b}[31mb\u{2407}\u{fffd}");
+    }
+}

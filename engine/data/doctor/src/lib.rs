@@ -1,0 +1,22 @@
+//! Finds what is wrong with data of flights behind a target: ours, the published v7 layout, or LeRobot's.
+//!
+//! * [`episode`]: a flight as the checks see it, whatever files it came from.
+//! * [`sources`]: one reader per layout.
+//! * [`checks`]: one file per kind of fault; each looks at an episode and raises flags.
+//! * [`examine`]: reads a folder and runs all checks.
+//!
+//! To add a check: one file in `checks/` and its line in [`checks::of_episode`].
+
+pub mod checks;
+pub mod episode;
+mod examination;
+mod files;
+pub mod flag;
+pub mod sources;
+#[cfg(test)]
+mod tests;
+pub mod walls;
+
+pub use episode::{Episode, Look, Moment};
+pub use examination::{Examination, Layout, Quota, examine};
+pub use flag::{Flag, Severity};

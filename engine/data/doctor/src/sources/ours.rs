@@ -1,0 +1,168 @@
+//! Datasets of cosfly: tables, then a stretch of every log.
+
+use super::stretch;
+use crate::episode::{OFFSETS, depth_in_box};
+use crate::walls::{self, Walls};
+use crate::{Episode, Flag, Look, Moment};
+use cosfly_diagnose::{Diagnostic, Fault, Result};
+use cosfly_fingerprint::Digest;
+use cosfly_frames::DVec3;
+use cosfly_read::{BoxInWorld, FrameRow, PublishedDataset, PublishedFlight, log_problem, parquet_problem};
+use std::collections::BTreeMap;
+use std::path::Path;
+
+/// Whether `folder` is one.
+pub fn recognises(folder: &Path) -> bool {
+    folder.join("data/trajectories").is_dir()
+}
+
+/// What is wrong with the files themselves. Each is read to its end, with its checksums.
+///
+/// # Errors
+/// When the folder cannot be listed.
+pub fn files(folder: &Path) -> Result<Vec<Flag>> {
+    let mut flags = vec![];
+    for path in crate::files::files_below(folder)? {
+        let name = path.strip_prefix(folder).unwrap_or(&path).display().to_string();
+        if name.ends_with(".parquet")
+            && let Some(problem) = parquet_problem(&path)
+        {
+            flags.push(Flag::damage("parquet-damaged", name, problem));
+        } else if name.ends_with(".mcap")
+            && let Some(problem) = log_problem(&path)
+        {
+            flags.push(Flag::damage("log-damaged", name, problem));
+        }
+    }
+    Ok(flags)
+}
+
+/// Reads all flights; logs that cannot be read were flagged by [`files`] and are passed over. Where tables are damaged, a
+/// flag says so and flights have no frames.
+///
+/// # Errors
+/// When the machine refuses.
+pub fn episodes(folder: &Path, flags: &mut Vec<Flag>, progress: &mut dyn FnMut(u64, u64)) -> Result<Vec<Episode>> {
+    let mut damaged = |refusal: Box<Diagnostic>| match refusal.fault {
+        Fault::Machine => Err(refusal),
+        _ => {
+            let message = [vec![refusal.message], refusal.causes].concat().join(": ");
+            flags.push(Flag::damage("tables-damaged", "data", message));
+            Ok(())
+        }
+    };
+    let dataset = match PublishedDataset::open(folder) {
+        Ok(dataset) => dataset,
+        Err(refusal) => return damaged(refusal).map(|()| vec![]),
+    };
+    let mut episodes = vec![];
+    if let Err(refusal) = read(&dataset, &mut episodes, progress) {
+        damaged(refusal)?;
+    }
+    // Flights without frames and those that are in two tables: they count for leaks.
+    for flight in dataset.flights() {
+        if !episodes.iter().any(|it| it.id == flight.trajectory_id && it.split.as_deref() == Some(&flight.split)) {
+            episodes.push(Episode { dt_s: flight.dt_s, ..named(flight) });
+        }
+    }
+    Ok(episodes)
+}
+
+/// Appends all flights with their frames.
+fn read(dataset: &PublishedDataset, episodes: &mut Vec<Episode>, progress: &mut dyn FnMut(u64, u64)) -> Result<()> {
+    let captions = dataset.captions()?;
+    let mut vehicles: BTreeMap<String, Vec<BoxInWorld>> = BTreeMap::new();
+    let mut walls: BTreeMap<String, Walls> = BTreeMap::new();
+    for object in dataset.objects(&["car", "building", "wall"])? {
+        match object.kind.as_str() {
+            "car" => vehicles.entry(object.town).or_default().push(object.shape),
+            _ => walls.entry(object.town).or_default().entry(object.instance).or_default().push(object.shape),
+        }
+    }
+    let all = dataset.flights().len() as u64;
+    dataset.walk(&|_| true, &mut |flight, rows| {
+        progress(episodes.len() as u64, all);
+        let mut episode = episode(flight, &rows);
+        let captions = captions.get(&flight.trajectory_id).into_iter().flatten();
+        episode.captions = captions.map(|it| (it.language.clone(), it.text.clone())).collect();
+        episode.vehicles = vehicles.get(&flight.town).cloned().unwrap_or_default();
+        let walls = walls.get(&flight.town).filter(|_| episode.camera.is_some());
+        episode.looks = looks(dataset, flight, &rows, walls).unwrap_or_default();
+        episodes.push(episode);
+        Ok(())
+    })
+}
+
+fn named(flight: &PublishedFlight) -> Episode {
+    Episode {
+        id: flight.trajectory_id.clone(),
+        split: Some(flight.split.clone()),
+        group: flight.pedestrian_id.clone(),
+        place: if flight.town_geometry.is_empty() { flight.town.clone() } else { flight.town_geometry.clone() },
+        is_perturbed: flight.expert_id.is_some(),
+        ..Episode::default()
+    }
+}
+
+fn episode(flight: &PublishedFlight, rows: &[FrameRow]) -> Episode {
+    // Lenses that bend and rows that are taken one after the other move what is projected.
+    let is_plain = flight.lens.is_none() && flight.readout_s == 0.0;
+    let middle = DVec3::Z * (0.5 * flight.target_height_m);
+    let moment = |it: &FrameRow| {
+        let action = it.action_in_world;
+        Moment {
+            time_s: it.time_s,
+            drone: it.pose,
+            camera: it.camera_pose,
+            next_in_world: action.map(|step| it.pose.position_in_world + DVec3::new(step[0], step[1], step[2])),
+            turn_deg: action.map(|step| [step[3], step[4], step[5]]),
+            target_in_world: Some(it.target.feet_in_world + middle),
+            heading_and_speed: Some((it.target.heading_rad, it.target.speed_mps)),
+            in_image: it.full_box_px.map(|edges| {
+                let [left, top, right, bottom] = edges.map(f64::from);
+                (0.5 * (left + right), 0.5 * (top + bottom), bottom - top)
+            }),
+            visible_box: it.visible_box_px.map(|edges| edges.map(f64::from)),
+            visible: Some(it.visible_by_pixels),
+            clearance_m: Some(it.clearance_m),
+        }
+    };
+    Episode {
+        camera: is_plain.then_some(flight.camera),
+        target_height_m: flight.target_height_m,
+        dt_s: flight.dt_s,
+        limits: flight.limits,
+        moments: rows.iter().map(moment).collect(),
+        ..named(flight)
+    }
+}
+
+fn looks(
+    dataset: &PublishedDataset,
+    flight: &PublishedFlight,
+    rows: &[FrameRow],
+    walls: Option<&Walls>,
+) -> Result<Vec<Look>> {
+    let mut log = dataset.log(flight)?;
+    let mut looks = vec![];
+    for frame in stretch(rows.len()) {
+        let logged = log.frame_with_instances(frame)?;
+        let depth = |offset: &i64| {
+            let row = rows.get(frame.checked_add_signed(*offset as isize)?)?;
+            let edges = row.visible_box_px?.map(f64::from);
+            depth_in_box(&logged.depth_m, logged.width as usize, edges)
+        };
+        let digest = Digest::of(&logged.rgb_file).to_string();
+        let mut look = Look { frame, digest, depth_m: OFFSETS.iter().map(depth).collect(), walls_m: vec![] };
+        if let Some(walls) = walls {
+            let points = walls::points(&flight.camera, &logged.depth_m, &logged.instance, walls);
+            let gap = |offset: &i64| {
+                let row = rows.get(frame.checked_add_signed(*offset as isize)?)?;
+                walls::middle_gap_m(&points, &row.camera_pose, walls)
+            };
+            look.walls_m = OFFSETS.iter().map(gap).collect();
+        }
+        looks.push(look);
+    }
+    Ok(looks)
+}

@@ -1,0 +1,60 @@
+//! Flights of a run that is not published yet: from records to episodes.
+
+use crate::{Episode, Moment};
+use cosfly_frames::{DVec3, action};
+use cosfly_render::{PixelBox, TargetView};
+use cosfly_schema::{RenderedTrajectory, Role};
+
+/// The episode of a flight whose pictures are rendered; pictures themselves are not looked at.
+pub fn episode(record: &RenderedTrajectory) -> Episode {
+    let trajectory = &record.trajectory;
+    let is_plain = record.lens.is_none() && record.rolling_shutter.readout_s == 0.0;
+    let limits = &trajectory.certificate.limits;
+    let limits = [limits.clearance_m, limits.speed_mps, limits.acceleration_mps2, limits.jerk_mps3];
+    Episode {
+        id: record.trajectory_id.clone(),
+        group: record.pedestrian_id.clone(),
+        place: record.town.geometry_digest.clone(),
+        is_perturbed: record.role == Role::Perturbed,
+        camera: is_plain.then_some(record.camera),
+        target_height_m: trajectory.track.height_m,
+        dt_s: record.dt_s(),
+        limits: limits.map(|limit| limit.is_finite().then_some(limit)),
+        moments: (0..record.len()).map(|frame| moment(record, frame)).collect(),
+        ..Episode::default()
+    }
+}
+
+fn moment(record: &RenderedTrajectory, frame: usize) -> Moment {
+    let trajectory = &record.trajectory;
+    let (pose, state, view) = (trajectory.poses_in_world[frame], trajectory.track.states[frame], &record.views[frame]);
+    let next = trajectory.poses_in_world.get(frame + 1);
+    Moment {
+        time_s: frame as f64 * record.dt_s(),
+        drone: pose,
+        camera: record.camera_pose(frame),
+        next_in_world: next.map(|next| next.position_in_world),
+        turn_deg: next.map(|next| {
+            let [_, _, _, pitch, yaw, roll] = action::in_world(&pose, next);
+            [pitch, yaw, roll]
+        }),
+        target_in_world: Some(state.feet_in_world + DVec3::Z * (0.5 * trajectory.track.height_m)),
+        heading_and_speed: Some((state.heading_rad, state.speed_mps)),
+        in_image: view.full_box.as_ref().map(|it| {
+            let [left, top, right, bottom] = edges(it);
+            (0.5 * (left + right), 0.5 * (top + bottom), bottom - top)
+        }),
+        visible_box: view.visible_box.as_ref().map(edges),
+        visible: Some(share(view)),
+        clearance_m: Some(trajectory.clearance_m[frame]),
+    }
+}
+
+fn share(view: &TargetView) -> f64 {
+    view.visible_by_pixels
+}
+
+/// Left, top, right and bottom edge, pixels.
+fn edges(it: &PixelBox) -> [f64; 4] {
+    [it.u_min, it.v_min, it.u_max + 1, it.v_max + 1].map(f64::from)
+}

@@ -1,0 +1,208 @@
+//! The evaluation itself, step by step.
+
+use crate::join::Joined;
+use crate::methods::{Method, baselines};
+use crate::report::{DatasetFacts, Evaluation, MethodReport, RowFacts, Score, Scores, StratumReport, WindowFacts};
+use crate::scoring::{MethodTallies, clusters, score, total};
+use crate::settings::{InputRole, Settings};
+use crate::strata::{STRATA, memberships};
+use crate::study::study;
+use crate::windows::{Flights, WindowSet};
+use cosfly_diagnose::{Diagnostic, Fault, Result};
+use cosfly_metrics::{METRICS, Tally, bootstrap};
+use cosfly_read::predictions::Predictions;
+use rayon::prelude::*;
+use std::collections::{BTreeMap, BTreeSet};
+
+/// Scores the predictions of the file called `.0`, beside the baselines, on `flights`; without predictions the
+/// baselines alone.
+///
+/// # Errors
+/// A dataset that has no windows, and predictions none of which can be scored.
+pub fn evaluate(
+    flights: &Flights,
+    predictions: Option<(&str, Predictions)>,
+    settings: &Settings,
+) -> Result<Evaluation> {
+    let splits = splits(flights, predictions.as_ref().map(|(_, given)| given), settings)?;
+    let windows = WindowSet::new(flights, settings, &splits);
+    if windows.len == 0 {
+        return Err(no_windows(flights, &splits, settings));
+    }
+    let (file, mut given) = predictions.map_or((None, Predictions::default()), |(file, given)| (Some(file), given));
+    let mut joined = Joined::new(&given, flights, &windows, settings);
+    let read = given.len() + given.problems.len();
+    joined.problems.append(&mut given.problems);
+    joined.problems.sort_by_key(|problem| problem.line);
+    if file.is_some() && joined.predicted == 0 {
+        return Err(nothing_to_score(flights, &windows, &joined));
+    }
+    let memberships = memberships(flights, &windows);
+    let everything = file.is_none() || settings.missing_as_zero;
+    let wanted = |window: usize| everything || joined.row(window).is_some();
+    let scored = if everything { windows.len } else { joined.predicted };
+
+    let mut notes = vec![];
+    let mut methods: Vec<Method<'_>> = vec![];
+    methods.extend(file.is_some().then_some(Method::Predictions(&given, &joined)));
+    methods.extend(baselines(flights, settings, scored, splits.contains("train"), &mut notes));
+    let mut studied = None;
+    if settings.train {
+        match study(flights, &windows, &memberships, settings, &wanted) {
+            Some((study, network)) => {
+                studied = Some(study);
+                methods.push(Method::Network(Box::new(network)));
+            }
+            None => notes.push(
+                "no network was trained: split train has no pairs of flights, or one group of flights alone is scored"
+                    .to_owned(),
+            ),
+        }
+    }
+    let reports = methods
+        .par_iter()
+        .map(|method| {
+            let tallies = score(method, flights, &windows, &memberships, settings, &wanted);
+            method_report(method, &tallies, settings)
+        })
+        .collect();
+    let groups: BTreeSet<usize> = clusters(flights, &windows).into_iter().collect();
+    Ok(Evaluation {
+        format: "cosfly-evaluation",
+        version: 1,
+        settings: settings.clone(),
+        dataset: DatasetFacts {
+            name: flights.name.clone(),
+            splits: splits.into_iter().collect(),
+            flights: windows.flights.len(),
+            clusters: groups.len(),
+        },
+        windows: WindowFacts {
+            expected: windows.len,
+            scored,
+            without_prediction: if file.is_some() { windows.len - joined.predicted } else { 0 },
+        },
+        rows: file.map(|file| row_facts(file, read, joined)),
+        metrics: METRICS.to_vec(),
+        methods: reports,
+        study: studied,
+        notes,
+    })
+}
+
+/// The splits to score.
+fn splits(flights: &Flights, predictions: Option<&Predictions>, settings: &Settings) -> Result<BTreeSet<String>> {
+    if let Some(refusal) = unknown_split(flights, &settings.splits) {
+        return Err(refusal);
+    }
+    let there: BTreeSet<String> = flights.rows.iter().map(|row| row.split.clone()).collect();
+    if !settings.splits.is_empty() {
+        return Ok(settings.splits.iter().cloned().collect());
+    }
+    let chosen: BTreeSet<String> = match predictions {
+        Some(given) => {
+            let mut named: Vec<&str> = given.rows().map(|row| row.trajectory_id).collect();
+            named.dedup();
+            let named: BTreeSet<&str> = named.into_iter().collect();
+            let places = named.iter().filter_map(|id| flights.place(id));
+            places.map(|place| flights.rows[place].split.clone()).collect()
+        }
+        None => there.iter().filter(|split| *split != "train").cloned().collect(),
+    };
+    Ok(if chosen.is_empty() { there } else { chosen })
+}
+
+/// What to say when one of `wanted` is no split of the dataset.
+pub(crate) fn unknown_split(flights: &Flights, wanted: &[String]) -> Option<Box<Diagnostic>> {
+    let there: BTreeSet<&str> = flights.rows.iter().map(|row| row.split.as_str()).collect();
+    let unknown = wanted.iter().find(|split| !there.contains(split.as_str()))?;
+    let names: Vec<&str> = there.into_iter().collect();
+    let message = format!("the dataset has no split `{unknown}`");
+    Some(
+        Diagnostic::new("evaluation-split", Fault::Recipe, message)
+            .hint(format!("its splits are {}", names.join(", "))),
+    )
+}
+
+fn no_windows(flights: &Flights, splits: &BTreeSet<String>, settings: &Settings) -> Box<Diagnostic> {
+    let (size, folder) = (settings.window.size(), &flights.folder);
+    let role = match settings.input {
+        InputRole::Perturbed => "perturbed",
+        InputRole::Expert => "expert",
+    };
+    let names: Vec<&str> = splits.iter().map(String::as_str).collect();
+    let message =
+        format!("`{folder}` has no window to predict: no {role} flight of {size} frames in split {}", names.join(", "));
+    let refusal = Diagnostic::new("evaluation-no-windows", Fault::Input, message);
+    let experts = Settings { input: InputRole::Expert, ..settings.clone() };
+    match settings.input {
+        InputRole::Perturbed if WindowSet::new(flights, &experts, splits).len > 0 => {
+            refusal.hint("with `--input expert` windows are cut from experts' flights")
+        }
+        _ => refusal,
+    }
+}
+
+fn nothing_to_score(flights: &Flights, windows: &WindowSet, joined: &Joined) -> Box<Diagnostic> {
+    let message = match joined.problems.len() as u64 + joined.elsewhere {
+        0 => "there is no prediction in the file".to_owned(),
+        rows => format!("none of {rows} predictions fits a window of `{}`", flights.folder),
+    };
+    let mut refusal = Diagnostic::new("evaluation-no-overlap", Fault::Input, message);
+    for problem in joined.problems.iter().take(3) {
+        refusal = refusal.because(format!("line {}: {}", problem.line, problem.reason));
+    }
+    match windows.flights.first() {
+        Some((flight, _)) => {
+            let zero = vec!["[0, 0, 0, 0, 0, 0]"; windows.shape.horizon].join(", ");
+            let id = &flights.rows[*flight].trajectory_id;
+            refusal.hint(format!(
+                "a row that fits is {{\"trajectory_id\": \"{id}\", \"frame\": 0, \"waypoint_deltas\": [{zero}]}}"
+            ))
+        }
+        None => refusal,
+    }
+}
+
+fn row_facts(file: &str, read: usize, joined: Joined) -> RowFacts {
+    let mut kinds = BTreeMap::new();
+    for problem in &joined.problems {
+        *kinds.entry(problem.kind).or_default() += 1;
+    }
+    RowFacts {
+        file: file.to_owned(),
+        read: read as u64,
+        scored: joined.predicted as u64,
+        elsewhere: joined.elsewhere,
+        malformed: joined.problems.len() as u64,
+        kinds,
+        problems: joined.problems,
+    }
+}
+
+fn method_report(method: &Method<'_>, tallies: &MethodTallies, settings: &Settings) -> MethodReport {
+    let all: Vec<&Vec<Tally>> = [&tallies.overall].into_iter().chain(&tallies.strata).collect();
+    let mut scores: Vec<Scores> =
+        all.par_iter().map(|tallies| scores(tallies, settings.resamples, settings.seed)).collect();
+    let overall = scores.remove(0);
+    let mut strata: BTreeMap<_, BTreeMap<_, _>> = BTreeMap::new();
+    for (((kind, name), tallies), scores) in STRATA.iter().zip(&tallies.strata).zip(scores) {
+        if !tallies.is_empty() {
+            let windows = total(tallies).windows as usize;
+            strata.entry(*kind).or_default().insert(*name, StratumReport { windows, clusters: tallies.len(), scores });
+        }
+    }
+    MethodReport { name: method.name().to_owned(), scores: overall, by_step_m: tallies.by_step_m.clone(), strata }
+}
+
+fn scores(tallies: &[Tally], resamples: usize, seed: u64) -> Scores {
+    let intervals = bootstrap::intervals(tallies, resamples, seed);
+    let means = total(tallies).means();
+    let named = METRICS.iter().zip(means.into_iter().zip(intervals));
+    named
+        .filter_map(|(metric, (mean, interval))| {
+            let score = Score { value: mean?, low: interval.map(|it| it.0), high: interval.map(|it| it.1) };
+            Some((metric.key, score))
+        })
+        .collect()
+}

@@ -1,0 +1,153 @@
+//! The report for people.
+
+use super::PictureKind;
+use super::report::PictureEvaluation;
+use crate::report::{number, score, table, title};
+use cosfly_metrics::scores::OF_DETECTIONS;
+use std::fmt::Write;
+
+/// Malformed files or rows, and flights with missing frames, that are shown; the JSON report has all.
+const SHOWN: usize = 5;
+
+impl PictureEvaluation {
+    /// The Markdown report.
+    pub fn to_markdown(&self) -> String {
+        report(self)
+    }
+}
+
+/// The whole page.
+fn report(evaluation: &PictureEvaluation) -> String {
+    let (settings, dataset) = (&evaluation.settings, &evaluation.dataset);
+    let mut text =
+        format!("# Evaluation of {} in `{}` on `{}`\n\n", settings.kind.name(), evaluation.files.name, dataset.name);
+    text.push_str(&facts(evaluation));
+    text.push_str("\n## All frames and kinds of frames\n\n");
+    text.push_str(&strata(evaluation));
+    text.push_str(&distances(evaluation));
+    text.push_str(&classes(evaluation));
+    text.push_str(&problems(evaluation));
+    if !evaluation.notes.is_empty() {
+        text.push_str("\n## Notes\n\n");
+        evaluation.notes.iter().for_each(|note| text.push_str(&format!("- {note}\n")));
+    }
+    text
+}
+
+fn facts(evaluation: &PictureEvaluation) -> String {
+    let (settings, dataset) = (&evaluation.settings, &evaluation.dataset);
+    let (files, frames) = (&evaluation.files, &evaluation.frames);
+    let unit = if matches!(settings.kind, PictureKind::Depth | PictureKind::Semantic) { "pictures" } else { "rows" };
+    let mut text = format!(
+        "{} of {} frames ({} flights, split {}){}.\n",
+        frames.scored,
+        frames.expected,
+        dataset.flights,
+        dataset.splits.join(" and "),
+        if frames.without_prediction > 0 {
+            format!(", {} frames have no prediction and are left out", frames.without_prediction)
+        } else {
+            String::new()
+        }
+    );
+    let _ = writeln!(
+        text,
+        "{} {unit}: {} scored, {} malformed, {} of other splits, frames or classes; {} other files were passed over.",
+        files.read, files.scored, files.malformed, files.elsewhere, files.passed_over
+    );
+    if settings.kind == PictureKind::Depth {
+        let _ = writeln!(text, "Pixels count whose true depth is at most {} m.", settings.max_depth_m);
+    }
+    let _ = writeln!(
+        text,
+        "In brackets: 95 % intervals, {} resamples of {} groups of trajectories (one pedestrian each).",
+        settings.resamples, dataset.clusters
+    );
+    text
+}
+
+fn strata(evaluation: &PictureEvaluation) -> String {
+    let metrics: Vec<_> =
+        evaluation.metrics.iter().filter(|metric| evaluation.scores.contains_key(metric.key)).collect();
+    let head = ["frames of kind", "frames", "groups"].map(str::to_owned).into_iter();
+    let head: Vec<String> = head.chain(metrics.iter().map(|metric| title(metric))).collect();
+    let all = ["all".to_owned(), evaluation.frames.scored.to_string(), evaluation.dataset.clusters.to_string()];
+    let cells = metrics.iter().map(|metric| score(metric, evaluation.scores.get(metric.key), true));
+    let mut rows = vec![all.into_iter().chain(cells).collect::<Vec<_>>()];
+    for (name, stratum) in evaluation.strata_in_order() {
+        let cells = metrics.iter().map(|metric| score(metric, stratum.scores.get(metric.key), true));
+        let first = [name, stratum.frames.to_string(), stratum.clusters.to_string()];
+        rows.push(first.into_iter().chain(cells).collect());
+    }
+    table(&head, &rows)
+}
+
+fn distances(evaluation: &PictureEvaluation) -> String {
+    if evaluation.distances.is_empty() {
+        return String::new();
+    }
+    let head = ["true depth, m", "pixels", "AbsRel"].map(str::to_owned);
+    let row = |range: &super::report::DistanceReport| {
+        vec![format!("{} to {}", range.from_m, range.to_m), range.pixels.to_string(), format!("{:.4}", range.abs_rel)]
+    };
+    let rows: Vec<Vec<String>> = evaluation.distances.iter().map(row).collect();
+    format!("\n## By true depth\n\nPixels of all images at once.\n\n{}", table(&head, &rows))
+}
+
+fn classes(evaluation: &PictureEvaluation) -> String {
+    if evaluation.classes.is_empty() {
+        return String::new();
+    }
+    let is_labels = evaluation.settings.kind == PictureKind::Semantic;
+    let (truth, keys) = match is_labels {
+        true => ("true pixels", vec![("iou", "IoU".to_owned())]),
+        false => ("true things", OF_DETECTIONS.iter().map(|metric| (metric.key, title(metric))).collect()),
+    };
+    let head = ["class", "id", truth].map(str::to_owned).into_iter();
+    let head: Vec<String> = head.chain(keys.iter().map(|(_, name)| name.clone())).collect();
+    let rows: Vec<Vec<String>> = evaluation
+        .classes
+        .iter()
+        .map(|class| {
+            let cells = keys.iter().map(|(key, _)| match (class.scores.get(key), metric(key)) {
+                (Some(value), Some(metric)) => number(metric, *value),
+                (Some(value), None) => format!("{value:.3}"),
+                (None, _) => "-".to_owned(),
+            });
+            [class.name.to_owned(), class.id.to_string(), class.truth.to_string()].into_iter().chain(cells).collect()
+        })
+        .collect();
+    format!("\n## By class\n\n{}", table(&head, &rows))
+}
+
+fn metric(key: &str) -> Option<&'static cosfly_metrics::Metric> {
+    OF_DETECTIONS.iter().find(|metric| metric.key == key)
+}
+
+fn problems(evaluation: &PictureEvaluation) -> String {
+    let (files, frames) = (&evaluation.files, &evaluation.frames);
+    let mut text = String::new();
+    if files.malformed > 0 {
+        let kinds: Vec<String> = files.kinds.iter().map(|(kind, count)| format!("{count} {kind}")).collect();
+        let _ = write!(text, "\n## Malformed\n\n{} of {}: {}.\n\n", files.malformed, files.read, kinds.join(", "));
+        for problem in files.problems.iter().take(SHOWN) {
+            let _ = writeln!(text, "- {}: {}", problem.place, problem.reason);
+        }
+        more(&mut text, files.problems.len());
+    }
+    if frames.without_prediction > 0 {
+        let _ = write!(text, "\n## Frames without a prediction\n\n");
+        for (id, frames) in frames.missing.iter().take(SHOWN) {
+            let _ = writeln!(text, "- `{id}`: {frames}");
+        }
+        more(&mut text, frames.missing.len());
+        text.push_str("\nIf only some frames were meant to be predicted, say so with `--every N`.\n");
+    }
+    text
+}
+
+fn more(text: &mut String, all: usize) {
+    if all > SHOWN {
+        let _ = writeln!(text, "- and {} more, all in the JSON report", all - SHOWN);
+    }
+}

@@ -1,0 +1,169 @@
+//! The result of an evaluation of pictures, and its forms.
+
+use super::PictureSettings;
+use crate::report::{DatasetFacts, Scores};
+use cosfly_metrics::Metric;
+use serde::Serialize;
+use std::collections::BTreeMap;
+
+/// Everything that was found; serialised it is the JSON report.
+#[derive(Clone, Debug, Serialize)]
+pub struct PictureEvaluation {
+    /// `cosfly-picture-evaluation`.
+    pub format: &'static str,
+    /// Version of the format.
+    pub version: u32,
+    /// Choices.
+    pub settings: PictureSettings,
+    /// What was scored.
+    pub dataset: DatasetFacts,
+    /// What was handed in.
+    pub files: FileFacts,
+    /// Frames.
+    pub frames: FrameFacts,
+    /// Definitions.
+    pub metrics: Vec<Metric>,
+    /// Of all scored frames.
+    pub scores: Scores,
+    /// Kinds of frames in the order of tables.
+    #[serde(skip)]
+    pub kinds: Vec<(&'static str, String)>,
+    /// By kind of frame; empty ones are left out.
+    pub strata: BTreeMap<&'static str, BTreeMap<String, KindReport>>,
+    /// Class by class; none for depth.
+    pub classes: Vec<ClassReport>,
+    /// Depth by true distance; none for others.
+    pub distances: Vec<DistanceReport>,
+    /// What a reader has to know.
+    pub notes: Vec<String>,
+}
+
+/// What became of files, or of rows of a file.
+#[derive(Clone, Debug, Serialize)]
+pub struct FileFacts {
+    /// Name of what was handed in.
+    pub name: String,
+    /// Pictures, or rows.
+    pub read: u64,
+    /// Those that were scored.
+    pub scored: u64,
+    /// Those of flights in other splits, or of frames and classes that were not asked for.
+    pub elsewhere: u64,
+    /// Files that are no pictures, or pictures of another kind.
+    pub passed_over: u64,
+    /// Those that could not be scored.
+    pub malformed: u64,
+    /// How many of each kind.
+    pub kinds: BTreeMap<&'static str, u64>,
+    /// All of them.
+    pub problems: Vec<FileProblem>,
+}
+
+/// A file, or a row, that could not be scored.
+#[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize)]
+pub struct FileProblem {
+    /// Path from the folder that was handed in, or `line 7`.
+    pub place: String,
+    /// Short kebab-case name of what kind of problem it is.
+    pub kind: &'static str,
+    /// What is wrong, in words.
+    pub reason: String,
+}
+
+impl FileProblem {
+    /// A problem of what is at `place`.
+    pub fn new(place: impl std::fmt::Display, kind: &'static str, reason: impl Into<String>) -> Self {
+        Self { place: place.to_string(), kind, reason: reason.into() }
+    }
+}
+
+/// Frames.
+#[derive(Clone, Debug, Serialize)]
+pub struct FrameFacts {
+    /// Frames of the scored splits.
+    pub expected: usize,
+    /// Frames behind the scores.
+    pub scored: usize,
+    /// Frames that have no prediction, by trajectory: lists of numbers and ranges such as `0-4, 7`.
+    pub missing: BTreeMap<String, String>,
+    /// How many these are.
+    pub without_prediction: usize,
+}
+
+/// What is scored in a kind of frames.
+#[derive(Clone, Debug, Serialize)]
+pub struct KindReport {
+    /// Frames in it.
+    pub frames: usize,
+    /// Groups of flights with such frames.
+    pub clusters: usize,
+    /// Scores.
+    pub scores: Scores,
+}
+
+/// What is scored of a class.
+#[derive(Clone, Debug, Serialize)]
+pub struct ClassReport {
+    /// CARLA's label.
+    pub id: u8,
+    /// Its name.
+    pub name: &'static str,
+    /// True pixels, or true things.
+    pub truth: u64,
+    /// Scores.
+    pub scores: BTreeMap<&'static str, f64>,
+}
+
+/// Depth errors of pixels in a range of true depths, over all images at once.
+#[derive(Clone, Debug, Serialize)]
+pub struct DistanceReport {
+    /// From, metres.
+    pub from_m: f64,
+    /// To, metres.
+    pub to_m: f64,
+    /// Pixels.
+    pub pixels: u64,
+    /// Mean of |predicted - true| / true.
+    pub abs_rel: f64,
+}
+
+impl PictureEvaluation {
+    /// Kinds of frames that there are, as they are called in tables, in order.
+    pub fn strata_in_order(&self) -> impl Iterator<Item = (String, &KindReport)> {
+        let report = |(kind, name): &(&'static str, String)| {
+            Some((format!("{kind}: {name}"), self.strata.get(kind)?.get(name)?))
+        };
+        self.kinds.iter().filter_map(report)
+    }
+
+    /// The JSON report.
+    pub fn to_json(&self) -> String {
+        let mut text = serde_json::to_string_pretty(self).unwrap_or_default();
+        text.push('\n');
+        text
+    }
+}
+
+/// Numbers as a list of single ones and ranges: `0-4, 7`.
+pub fn ranges(numbers: &[usize]) -> String {
+    let mut parts: Vec<[usize; 2]> = vec![];
+    for number in numbers {
+        match parts.last_mut() {
+            Some([_, last]) if *last + 1 == *number => *last = *number,
+            _ => parts.push([*number; 2]),
+        }
+    }
+    let part = |[first, last]: &[usize; 2]| if first == last { first.to_string() } else { format!("{first}-{last}") };
+    parts.iter().map(part).collect::<Vec<_>>().join(", ")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn neighbours_are_a_range() {
+        assert_eq!(ranges(&[0, 1, 2, 5, 7, 8]), "0-2, 5, 7-8");
+        assert_eq!(ranges(&[]), "");
+    }
+}

@@ -1,0 +1,146 @@
+//! The report for people.
+
+use super::table::{score, table, title};
+use super::{Evaluation, MethodReport, RowFacts, metric};
+use crate::strata::STRATA;
+use cosfly_metrics::METRICS;
+use cosfly_metrics::baselines::Anchor;
+use std::fmt::Write;
+
+/// Malformed rows that are shown; the JSON report has all.
+const SHOWN: usize = 5;
+/// Metrics of the table of strata.
+const OF_STRATA: [&str; 6] = ["sr_1m", "ade_m", "fde_m", "rot_acc_1deg", "yaw_mae_deg", "miou"];
+
+impl Evaluation {
+    /// The Markdown report.
+    pub fn to_markdown(&self) -> String {
+        report(self)
+    }
+}
+
+/// The whole page.
+fn report(evaluation: &Evaluation) -> String {
+    let mut text = String::new();
+    let first = evaluation.methods.first();
+    let of_what = evaluation.rows.as_ref().map_or("baselines".to_owned(), |rows| format!("`{}`", rows.file));
+    let _ = writeln!(text, "# Evaluation of {of_what} on `{}`\n", evaluation.dataset.name);
+    text.push_str(&facts(evaluation));
+    let _ = writeln!(text, "\n## All windows\n");
+    text.push_str(&overall(evaluation));
+    if let Some(first) = first {
+        let _ = writeln!(text, "\n## By kind of window: {}\n", first.name);
+        text.push_str(&strata(first, evaluation));
+    }
+    if let Some(study) = &evaluation.study {
+        text.push_str(&study.to_markdown());
+    }
+    if let Some(rows) = evaluation.rows.as_ref().filter(|rows| rows.malformed > 0) {
+        text.push_str(&malformed(rows));
+    }
+    if !evaluation.notes.is_empty() {
+        let _ = writeln!(text, "\n## Notes\n");
+        evaluation.notes.iter().for_each(|note| text.push_str(&format!("- {note}\n")));
+    }
+    text
+}
+
+fn facts(evaluation: &Evaluation) -> String {
+    let (settings, dataset, windows) = (&evaluation.settings, &evaluation.dataset, &evaluation.windows);
+    let mut text = String::new();
+    let shape = &settings.window;
+    let _ = writeln!(
+        text,
+        "{} of {} windows ({} flights, split {}), {} frames in, {} waypoints out, every {} frames.",
+        windows.scored,
+        windows.expected,
+        dataset.flights,
+        dataset.splits.join(" and "),
+        shape.history,
+        shape.horizon,
+        shape.stride
+    );
+    if let Some(rows) = &evaluation.rows {
+        let _ = writeln!(
+            text,
+            "{} rows: {} scored, {} malformed, {} of other splits; {} windows have no prediction{}.",
+            rows.read,
+            rows.scored,
+            rows.malformed,
+            rows.elsewhere,
+            windows.without_prediction,
+            if windows.without_prediction == 0 {
+                ""
+            } else if settings.missing_as_zero {
+                " and count as predict-zero"
+            } else {
+                " and are left out"
+            }
+        );
+    }
+    let _ = writeln!(
+        text,
+        "Increments are along the {} axes, from the {}; the first one starts at {}.",
+        format!("{:?}", settings.delta_frame).to_lowercase(),
+        match settings.delta_origin {
+            cosfly_metrics::DeltaOrigin::Previous => "waypoint before",
+            cosfly_metrics::DeltaOrigin::Current => "current pose",
+        },
+        match settings.anchor {
+            Anchor::Input => "the pose of the input's last frame",
+            Anchor::Expert => "the expert's pose in that frame",
+        }
+    );
+    let _ = writeln!(
+        text,
+        "In brackets: 95 % intervals, {} resamples of {} groups of trajectories (one pedestrian each).",
+        settings.resamples, dataset.clusters
+    );
+    text
+}
+
+fn overall(evaluation: &Evaluation) -> String {
+    let head = ["metric".to_owned()].into_iter().chain(evaluation.methods.iter().map(|method| method.name.clone()));
+    let rows = METRICS.iter().filter(|metric| evaluation.methods.iter().any(|it| it.scores.contains_key(metric.key)));
+    let row = |metric| {
+        let cells = evaluation.methods.iter().enumerate();
+        let cells = cells.map(|(place, method)| score(metric, method.scores.get(metric.key), place == 0));
+        [title(metric)].into_iter().chain(cells).collect::<Vec<_>>()
+    };
+    table(&head.collect::<Vec<_>>(), &rows.map(row).collect::<Vec<_>>())
+}
+
+fn strata(method: &MethodReport, evaluation: &Evaluation) -> String {
+    let metrics: Vec<_> = OF_STRATA
+        .iter()
+        .filter_map(|key| metric(key))
+        .filter(|metric| method.scores.contains_key(metric.key))
+        .collect();
+    let head = ["kind".to_owned(), "windows".to_owned(), "groups".to_owned()].into_iter();
+    let head = head.chain(metrics.iter().map(|metric| title(metric))).collect::<Vec<_>>();
+    let mut rows = vec![];
+    for (kind, name) in STRATA {
+        let Some(stratum) = method.strata.get(kind).and_then(|names| names.get(name)) else { continue };
+        let cells = metrics.iter().map(|metric| score(metric, stratum.scores.get(metric.key), true));
+        let first = [format!("{kind}: {name}"), stratum.windows.to_string(), stratum.clusters.to_string()];
+        rows.push(first.into_iter().chain(cells).collect::<Vec<_>>());
+    }
+    let mut text = table(&head, &rows);
+    if evaluation.methods.len() > 1 {
+        text.push_str("\nThe JSON report has the strata of every method.\n");
+    }
+    text
+}
+
+fn malformed(rows: &RowFacts) -> String {
+    let kinds: Vec<String> = rows.kinds.iter().map(|(kind, count)| format!("{count} {kind}")).collect();
+    let mut text =
+        format!("\n## Malformed rows\n\n{} of {} rows: {}.\n\n", rows.malformed, rows.read, kinds.join(", "));
+    for problem in rows.problems.iter().take(SHOWN) {
+        let _ = writeln!(text, "- line {}: {}", problem.line, problem.reason);
+    }
+    if rows.problems.len() > SHOWN {
+        let _ = writeln!(text, "- and {} more, all in the JSON report", rows.problems.len() - SHOWN);
+    }
+    text
+}

@@ -1,0 +1,69 @@
+//! Kinds of windows that are scored separately.
+
+use crate::windows::{Flights, Window, WindowSet};
+use cosfly_metrics::{Difficulty, WindowShape};
+use cosfly_read::PublishedFlight;
+use cosfly_schema::TownLayout;
+use rayon::prelude::*;
+use std::collections::BTreeMap;
+
+/// Number of strata.
+pub const COUNT: usize = 9;
+
+/// Kind and name of each stratum; a window is in one of each kind.
+pub const STRATA: [(&str, &str); COUNT] = [
+    ("difficulty", "easy"),
+    ("difficulty", "medium"),
+    ("difficulty", "hard"),
+    ("scene", "seen"),
+    ("scene", "unseen"),
+    ("target in the input", "visible"),
+    ("target in the input", "occluded"),
+    ("target", "moving"),
+    ("target", "static"),
+];
+
+/// Places in [`STRATA`], one bit each.
+pub type Membership = u16;
+
+/// The strata of every window.
+///
+/// * difficulty: see [`cosfly_metrics::difficulty`].
+/// * scene: a town is seen when a flight of split `train` is in a town of the same ground plan, whatever its name.
+/// * target in the input: occluded when rays reach less than half of it in an input frame.
+/// * target: static when it stays within half a metre during the window.
+pub fn memberships(flights: &Flights, windows: &WindowSet) -> Vec<Membership> {
+    let seen = is_seen(flights);
+    let of_flight = |entry: &(usize, usize)| -> Vec<Membership> {
+        let row = &flights.rows[entry.0];
+        let scene = if seen[entry.0] { 3 } else { 4 };
+        let numbered = windows.of_flight(*entry, row.frames);
+        numbered.map(|(_, window)| (1 << scene) | of_window(flights, window, &windows.shape)).collect()
+    };
+    windows.flights.par_iter().flat_map_iter(of_flight).collect()
+}
+
+/// Of every flight whether a flight of split `train` is in a town of the same ground plan.
+pub fn is_seen(flights: &Flights) -> Vec<bool> {
+    let train = flights.rows.iter().filter(|row| row.split == "train");
+    let seen: BTreeMap<&str, &TownLayout> =
+        train.map(|row| (row.town_layout.digest.as_str(), &row.town_layout)).collect();
+    let is_seen = |row: &PublishedFlight| {
+        let layout = &row.town_layout;
+        seen.contains_key(layout.digest.as_str()) || seen.values().any(|it| it.is_same_place(layout))
+    };
+    flights.rows.iter().map(is_seen).collect()
+}
+
+fn of_window(flights: &Flights, window: Window, shape: &WindowShape) -> Membership {
+    let features = flights.features(window, shape);
+    let difficulty = match features.difficulty() {
+        Difficulty::Easy => 0,
+        Difficulty::Medium => 1,
+        Difficulty::Hard => 2,
+    };
+    let input = &flights.tracks[window.flight].visible[window.start..window.start + shape.history];
+    let occluded = if input.iter().any(|visible| *visible < 0.5) { 6 } else { 5 };
+    let target = if features.target_is_static() { 8 } else { 7 };
+    (1 << difficulty) | (1 << occluded) | (1 << target)
+}

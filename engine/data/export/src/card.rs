@@ -1,0 +1,138 @@
+//! The `README.md` of an export, and the licence that goes with it.
+
+use crate::folder::OutFolder;
+use crate::source::Source;
+use cosfly_diagnose::{Diagnostic, Result};
+use cosfly_read::foreign_rows;
+use std::collections::{BTreeMap, BTreeSet};
+use std::fmt::Write;
+use std::path::PathBuf;
+
+/// What the card of an export says.
+#[derive(Clone, Debug, Default)]
+pub struct Card {
+    /// Name of the format.
+    pub format: &'static str,
+    /// More lines of the front matter, such as `configs`.
+    pub front_matter: String,
+    /// How to load it, what is where, what every number means. Markdown.
+    pub body: String,
+}
+
+impl Card {
+    /// Writes `README.md`, and `LICENSE` as the dataset has it.
+    pub fn write(&self, source: &Source<'_>, out: &OutFolder) -> Result<()> {
+        let folder = source.dataset.folder();
+        let original = std::fs::read_to_string(folder.join("README.md")).unwrap_or_default();
+        let name = source.name();
+        let mut text = String::from("---\n");
+        for line in kept_lines(&original) {
+            let _ = writeln!(text, "{line}");
+        }
+        let _ = write!(text, "{}---\n\n# {name} in the format {}\n\n", self.front_matter, self.format);
+        let flights: Vec<_> = source.flights().collect();
+        let frames: usize = flights.iter().map(|flight| flight.frames).sum();
+        let _ = writeln!(
+            text,
+            "Written by `cosfly export` {} from {} flights with {frames} frames of the dataset `{name}`.\n",
+            env!("CARGO_PKG_VERSION"),
+            flights.len()
+        );
+        text.push_str(&self.body);
+        text.push_str(&optics(source)?);
+        out.put("README.md", text.as_bytes())?;
+        match std::fs::read(folder.join("LICENSE")) {
+            Ok(license) => out.put("LICENSE", &license),
+            Err(_) => Ok(()),
+        }
+    }
+}
+
+/// Weather, lens, shutter and noise of the chosen flights, which formats of others have no place for.
+fn optics(source: &Source<'_>) -> Result<String> {
+    let ids: BTreeSet<&str> = source.flights().map(|flight| &*flight.trajectory_id).collect();
+    let mut columns: BTreeMap<&str, Vec<f64>> = BTreeMap::new();
+    let folder = source.dataset.folder().join("data/trajectories");
+    let entries = std::fs::read_dir(&folder).and_then(|entries| entries.map(|it| Ok(it?.path())).collect());
+    let mut paths: Vec<PathBuf> =
+        entries.map_err(|error| Diagnostic::io(format!("read `{}`", folder.display()), &error))?;
+    paths.sort();
+    for path in paths {
+        let rows = foreign_rows(&path)?;
+        let names = rows.texts.get("trajectory_id").map_or(&[][..], Vec::as_slice);
+        for (name, _) in OPTICS {
+            let values = rows.numbers.get(*name).into_iter().flatten().zip(names);
+            let values = values.filter(|(_, id)| ids.contains(id.as_str())).filter_map(|(value, _)| value.first());
+            columns.entry(name).or_default().extend(values.copied());
+        }
+    }
+    let mut weathers: BTreeMap<&str, usize> = BTreeMap::new();
+    let mut sizes: BTreeSet<String> = BTreeSet::new();
+    for flight in source.flights() {
+        *weathers.entry(&flight.weather).or_default() += 1;
+        let fov_deg = flight.camera.horizontal_fov_rad.to_degrees();
+        sizes.insert(format!("{} x {} pixels, {fov_deg:.1}° wide", flight.camera.width, flight.camera.height));
+    }
+    let weathers: Vec<String> = weathers.iter().map(|(name, count)| format!("`{name}` ({count})")).collect();
+    let mut text = format!("\n## Camera and weather\n\n* Weather, with flights: {}.\n", weathers.join(", "));
+    let _ = writeln!(text, "* Picture: {}.", sizes.into_iter().collect::<Vec<_>>().join("; "));
+    let bends: BTreeSet<String> =
+        source.flights().filter(|it| !it.lens.is_none()).map(|it| format!("{:?}", [it.lens.k1, it.lens.k2])).collect();
+    let _ = match bends.is_empty() {
+        true => writeln!(text, "* Lens: a pinhole; nothing is bent."),
+        false => writeln!(
+            text,
+            "* Lens: bent by k1, k2 (Brown's radial terms): {}. Intrinsics are those of the pinhole.",
+            bends.into_iter().collect::<Vec<_>>().join(", ")
+        ),
+    };
+    for (name, words) in OPTICS {
+        let values = columns.get(name).map_or(&[][..], Vec::as_slice);
+        let most = values.iter().copied().fold(0.0, f64::max);
+        let least = values.iter().copied().fold(f64::INFINITY, f64::min);
+        let _ = match (most > 0.0, least == most) {
+            (false, _) => writeln!(text, "* {words}: none."),
+            (true, true) => writeln!(text, "* {words}: {most}."),
+            (true, false) => writeln!(text, "* {words}: {least} to {most}."),
+        };
+    }
+    Ok(text)
+}
+
+/// Columns of the table of flights, and what they are.
+const OPTICS: &[(&str, &str)] = &[
+    ("camera_shutter_s", "Motion blur of colours, seconds around the time of the frame"),
+    (
+        "camera_readout_s",
+        "Rolling shutter, seconds from the top row to the bottom row, the middle at the time of the frame",
+    ),
+    ("camera_noise_gaussian", "Noise of colours, deviation everywhere, steps of 8 bits"),
+    ("camera_noise_shot", "Noise that falls with the root of brightness, deviation at white, steps of 8 bits"),
+];
+
+/// Licence and language of a card's front matter.
+fn kept_lines(card: &str) -> impl Iterator<Item = &str> {
+    let front = card.strip_prefix("---\n").and_then(|rest| rest.split_once("\n---")).map_or("", |(front, _)| front);
+    let mut is_kept = false;
+    front.lines().filter(move |line| {
+        if !line.starts_with(['-', ' ']) {
+            is_kept = ["license", "language:", "pretty_name:"].iter().any(|key| line.starts_with(key));
+        }
+        is_kept
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn licence_and_language_stay_and_configs_go() {
+        let card = "---\nlicense: other\nlicense_link: LICENSE\nlanguage:\n- en\n- zh\nconfigs:\n- config_name: a\n---\n# x\n- y";
+        assert_eq!(
+            kept_lines(card).collect::<Vec<_>>(),
+            ["license: other", "license_link: LICENSE", "language:", "- en", "- zh"]
+        );
+        assert_eq!(kept_lines("# no front matter").count(), 0);
+    }
+}

@@ -1,0 +1,177 @@
+//! The job file with which `plugins/carla/replay.py` flies published flights through a CARLA server again.
+
+use cosfly_diagnose::{Diagnostic, Fault, Result};
+use cosfly_fingerprint::Digest;
+use cosfly_frames::DVec3;
+use cosfly_read::{FrameRow, PublishedDataset, PublishedFlight};
+use cosfly_render::Lens;
+use serde::Serialize;
+use std::collections::BTreeMap;
+
+/// Raised whenever older scripts would misread newer jobs.
+const VERSION: u32 = 1;
+
+/// Everything that the script is told. Lengths in metres, angles in degrees, all in the frame of CARLA's own world.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct CarlaJob {
+    format: &'static str,
+    version: u32,
+    flights: Vec<JobFlight>,
+}
+
+/// One flight.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+struct JobFlight {
+    trajectory_id: String,
+    /// CARLA's map.
+    town: String,
+    /// The log whose pictures are replaced, from the dataset's folder.
+    log: String,
+    dt_s: f64,
+    camera: JobCamera,
+    weather_preset: String,
+    /// Attributes of `carla.WeatherParameters`.
+    weather: BTreeMap<String, f64>,
+    target: JobTarget,
+    frames: Vec<JobFrame>,
+}
+
+#[derive(Clone, Debug, PartialEq, Serialize)]
+struct JobCamera {
+    width_px: u32,
+    height_px: u32,
+    fov_deg: f64,
+}
+
+#[derive(Clone, Debug, PartialEq, Serialize)]
+struct JobTarget {
+    height_m: f64,
+    radius_m: f64,
+    /// Which of the server's walkers, modulo how many it has: a draw from the pedestrian's id, so that twins look alike.
+    walker: u32,
+}
+
+#[derive(Clone, Debug, PartialEq, Serialize)]
+struct JobFrame {
+    /// x, y, z, pitch, yaw, roll of the camera.
+    camera: [f64; 6],
+    /// x, y, z of the ground between the feet, heading as yaw, speed in m/s.
+    target: [f64; 5],
+}
+
+impl CarlaJob {
+    /// A job over `flights` of `dataset`.
+    pub fn new(dataset: &PublishedDataset, flights: &[&PublishedFlight]) -> Result<Self> {
+        let wanted: BTreeMap<&str, &PublishedFlight> =
+            flights.iter().map(|flight| (flight.trajectory_id.as_str(), *flight)).collect();
+        let mut made = BTreeMap::new();
+        dataset.walk(&|flight| wanted.contains_key(&*flight.trajectory_id), &mut |flight, frames| {
+            made.insert(flight.trajectory_id.clone(), JobFlight::new(wanted[&*flight.trajectory_id], &frames)?);
+            Ok(())
+        })?;
+        let flights = flights.iter().filter_map(|flight| made.remove(&flight.trajectory_id)).collect();
+        Ok(Self { format: "cosfly-carla-job", version: VERSION, flights })
+    }
+
+    /// The file's text.
+    pub fn to_json(&self) -> String {
+        serde_json::to_string(self).expect("a job is plain JSON") + "\n"
+    }
+}
+
+impl JobFlight {
+    fn new(flight: &PublishedFlight, frames: &[FrameRow]) -> Result<Self> {
+        if !flight.lens.is_none() {
+            let Lens { k1, k2 } = flight.lens;
+            let message = format!("the lens of `{}` is bent (k1 = {k1}, k2 = {k2})", flight.trajectory_id);
+            return Err(Diagnostic::new("carla-lens", Fault::Recipe, message)
+                .hint("CARLA's lens is bent by another formula; render the flights without `lens`"));
+        }
+        let (camera, offset) = (&flight.camera, flight.town_offset_m);
+        let walker = Digest::of(flight.pedestrian_id.as_bytes()).0;
+        Ok(Self {
+            trajectory_id: flight.trajectory_id.clone(),
+            town: flight.town.clone(),
+            log: flight.mcap_path.clone(),
+            dt_s: flight.dt_s,
+            camera: JobCamera {
+                width_px: camera.width,
+                height_px: camera.height,
+                fov_deg: camera.horizontal_fov_rad.to_degrees(),
+            },
+            weather_preset: flight.weather.clone(),
+            weather: flight.weather_numbers.clone(),
+            target: JobTarget {
+                height_m: flight.target_height_m,
+                radius_m: flight.target_radius_m,
+                walker: u32::from_le_bytes([walker[0], walker[1], walker[2], 0]),
+            },
+            frames: frames.iter().map(|frame| JobFrame::new(frame, offset)).collect(),
+        })
+    }
+}
+
+impl JobFrame {
+    /// Our world lies `offset` away from CARLA's, whose x and -y are those of the map file.
+    fn new(frame: &FrameRow, offset: DVec3) -> Self {
+        let (pose, target) = (&frame.camera_pose, &frame.target);
+        let (place, feet) = (pose.position_in_world + offset, target.feet_in_world + offset);
+        let angles = [pose.pitch_rad, pose.yaw_rad, pose.roll_rad].map(f64::to_degrees);
+        Self {
+            camera: [place.x, place.y, place.z, angles[0], angles[1], angles[2]],
+            target: [feet.x, feet.y, feet.z, target.heading_rad.to_degrees(), target.speed_mps],
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use cosfly_sample as sample;
+    use cosfly_schema::{DatasetConfig, EncodingConfig};
+
+    fn published() -> (tempfile::TempDir, PublishedDataset) {
+        let folder = tempfile::tempdir().unwrap();
+        sample::write_to_folder(folder.path(), &DatasetConfig::default(), EncodingConfig::default()).unwrap();
+        let dataset = PublishedDataset::open(folder.path()).unwrap();
+        (folder, dataset)
+    }
+
+    #[test]
+    fn a_job_holds_poses_weather_and_camera_of_every_flight() {
+        let (_folder, dataset) = published();
+        let flights: Vec<_> = dataset.flights().iter().collect();
+        let job: serde_json::Value =
+            serde_json::from_str(&CarlaJob::new(&dataset, &flights).unwrap().to_json()).unwrap();
+        assert_eq!((job["format"].as_str(), job["version"].as_u64()), (Some("cosfly-carla-job"), Some(1)));
+        let flights = job["flights"].as_array().unwrap();
+        assert_eq!(flights.len(), 4);
+        let given = sample::flight(0, cosfly_schema::Role::Expert).record;
+        let first = flights.iter().find(|flight| flight["trajectory_id"] == given.trajectory_id.as_str()).unwrap();
+        assert_eq!((first["weather"].as_object().unwrap().len(), &first["weather"]["fog_density"]), (14, &2.0.into()));
+        assert_eq!(first["frames"].as_array().unwrap().len(), given.len());
+        let pose = &given.trajectory.poses_in_world[3];
+        let bent = PublishedFlight { lens: Lens { k1: 0.1, k2: 0.0 }, ..dataset.flights()[0].clone() };
+        assert_eq!(CarlaJob::new(&dataset, &[&bent]).unwrap_err().code, "carla-lens");
+        let camera = &first["frames"][3]["camera"];
+        assert_eq!(camera[1].as_f64(), Some(pose.position_in_world.y));
+        assert!((camera[4].as_f64().unwrap() - pose.yaw_rad.to_degrees()).abs() < 1e-9);
+        let twins: Vec<_> = flights.iter().filter(|it| it["log"].as_str().unwrap().contains("p00000")).collect();
+        assert!(twins.len() == 2 && twins[0]["target"] == twins[1]["target"]);
+    }
+
+    #[test]
+    fn the_offset_of_the_town_is_taken_back() {
+        let (_folder, dataset) = published();
+        let frame = FrameRow {
+            camera_pose: cosfly_frames::Pose::looking_at(DVec3::new(1.0, 2.0, 30.0), DVec3::ZERO),
+            target: cosfly_frames::TargetState { feet_in_world: DVec3::ZERO, heading_rad: 0.0, speed_mps: 1.0 },
+            ..dataset.frames(&dataset.flights()[0]).unwrap().remove(0)
+        };
+        let job = JobFrame::new(&frame, DVec3::new(100.0, -50.0, 5.0));
+        assert_eq!(
+            (job.camera[..3].to_vec(), job.target[..3].to_vec()),
+            (vec![101.0, -48.0, 35.0], vec![100.0, -50.0, 5.0])
+        );
+    }
+}

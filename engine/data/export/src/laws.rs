@@ -1,0 +1,177 @@
+//! The laws that every export keeps, over all of them.
+
+use crate::{EXPORTERS, Options, OutFolder, Source, exporter};
+use cosfly_diagnose::Result;
+use cosfly_frames::real::wrap_angle_rad;
+use cosfly_metrics::{DeltaFrame, DeltaOrigin};
+use cosfly_read::PublishedDataset;
+use cosfly_sample as sample;
+use cosfly_schema::{DatasetConfig, EncodingConfig};
+use std::cell::Cell;
+use std::collections::BTreeMap;
+use std::path::{Path, PathBuf};
+
+fn published() -> (tempfile::TempDir, PublishedDataset) {
+    let home = tempfile::tempdir().unwrap();
+    let folder = home.path().join("sample");
+    sample::write_to_folder(&folder, &DatasetConfig::default(), EncodingConfig::default()).unwrap();
+    let dataset = PublishedDataset::open(&folder).unwrap();
+    (home, dataset)
+}
+
+/// Options that fit the sample's five frames.
+fn options() -> Options {
+    let window = cosfly_metrics::WindowShape { history: 3, horizon: 2, stride: 1 };
+    Options { window, ..Options::default() }
+}
+
+fn export(dataset: &PublishedDataset, name: &str, options: &Options, out: &Path) -> Result<Vec<String>> {
+    let heard = Cell::new((0, 1));
+    let progress = |done, all| heard.set((done, all));
+    let source = Source::new(dataset, options, &progress)?;
+    let folder = OutFolder::begin(out, dataset.folder())?;
+    let remarks = exporter(name).unwrap().export(&source, &folder)?;
+    folder.finish()?;
+    assert_eq!(heard.get().0, heard.get().1, "progress of `{name}` ends where it should");
+    Ok(remarks)
+}
+
+fn files(folder: &Path) -> BTreeMap<PathBuf, Vec<u8>> {
+    let mut found = BTreeMap::new();
+    let mut folders = vec![folder.to_owned()];
+    while let Some(next) = folders.pop() {
+        for entry in std::fs::read_dir(next).unwrap().map(|entry| entry.unwrap().path()) {
+            if entry.is_dir() {
+                folders.push(entry);
+            } else {
+                let bytes = std::fs::read(&entry).unwrap();
+                found.insert(entry.strip_prefix(folder).unwrap().to_owned(), bytes);
+            }
+        }
+    }
+    found
+}
+
+#[test]
+fn every_export_has_a_card_a_licence_and_the_same_bytes_twice() {
+    let (home, dataset) = published();
+    for format in EXPORTERS {
+        let [first, second] = ["first", "second"].map(|name| home.path().join(format!("{}-{name}", format.name())));
+        export(&dataset, format.name(), &options(), &first).unwrap();
+        export(&dataset, format.name(), &options(), &second).unwrap();
+        let files = files(&first);
+        assert!(files == self::files(&second), "`{}` differs from itself", format.name());
+        let card = String::from_utf8(files[Path::new("README.md")].clone()).unwrap();
+        assert!(card.starts_with("---\n") && card.contains("license:"), "{card}");
+        assert!(files.contains_key(Path::new("LICENSE")), "`{}`", format.name());
+        assert!(!format.about().is_empty() && exporter(format.name()).is_some());
+    }
+}
+
+#[test]
+fn a_refused_export_leaves_nothing_behind() {
+    let (home, dataset) = published();
+    for flight in dataset.flights() {
+        let log = dataset.folder().join(&flight.mcap_path);
+        let bytes = std::fs::read(&log).unwrap();
+        std::fs::write(&log, &bytes[..bytes.len() / 2]).unwrap();
+    }
+    for format in EXPORTERS {
+        let refusal = export(&dataset, format.name(), &options(), &home.path().join("out")).unwrap_err();
+        assert!(refusal.code.starts_with("dataset-"), "`{}`: {refusal:?}", format.name());
+        assert_eq!(std::fs::read_dir(home.path()).unwrap().count(), 1, "`{}` left something", format.name());
+    }
+}
+
+#[test]
+fn flights_are_chosen_by_split_and_name() {
+    let (home, dataset) = published();
+    let split = dataset.flights()[0].split.clone();
+    let chosen = |splits: &[&str], trajectories: &[&str]| {
+        let owned = |names: &[&str]| names.iter().map(|name| (*name).to_owned()).collect();
+        let options = Options { splits: owned(splits), trajectories: owned(trajectories), ..options() };
+        let source = Source::new(&dataset, &options, &|_, _| {})?;
+        Ok::<_, Box<cosfly_diagnose::Diagnostic>>(source.flights().count())
+    };
+    assert_eq!(chosen(&[], &[]).unwrap(), 4);
+    let of_split = dataset.flights().iter().filter(|flight| flight.split == split).count();
+    assert_eq!(chosen(&[&split], &[]).unwrap(), of_split);
+    assert_eq!(chosen(&[&split], &[&dataset.flights()[0].trajectory_id]).unwrap(), 1);
+    assert_eq!(chosen(&[], &["expert-p00001"]).unwrap(), 1);
+    assert_eq!(chosen(&["dev"], &[]).unwrap_err().code, "export-split");
+    assert_eq!(chosen(&[], &["expert"]).unwrap_err().code, "dataset-no-flight");
+    let alone = Options { trajectories: vec!["expert-p00000".into()], ..options() };
+    assert_eq!(export(&dataset, "v7", &alone, &home.path().join("x")).unwrap_err().code, "export-pairs");
+}
+
+#[test]
+fn a_v7_export_is_read_back_by_the_strict_reader() {
+    let (home, dataset) = published();
+    let out = home.path().join("v7");
+    let remarks = export(&dataset, "v7", &options(), &out).unwrap();
+    assert!(remarks.len() == 1 && remarks[0].contains("`plain` is called `Town01`"), "{remarks:?}");
+    let root = out.join(crate::v7::ROOT);
+    let reading = crate::v7::reader::read(&root).unwrap();
+    assert_eq!((reading.pairs, reading.frames, reading.problems), (2, 4 * sample::FRAMES, vec![]));
+    let picture = files(&root).into_keys().find(|path| path.ends_with("rgb.png")).unwrap();
+    std::fs::write(root.join(picture), b"no picture").unwrap();
+    assert_eq!(crate::v7::reader::read(&root).unwrap().problems.len(), 1);
+}
+
+#[test]
+fn no_folder_of_pictures_has_more_than_a_thousand_entries() {
+    let paths: Vec<String> = (0..2500).map(|i| crate::media::picture_path(i, &format!("e{i}"), 0, "jpg")).collect();
+    let frames: Vec<String> = (0..2500).map(|i| crate::media::picture_path(7, "e7", i, "jpg")).collect();
+    let mut entries: BTreeMap<String, std::collections::BTreeSet<String>> = BTreeMap::new();
+    for path in paths.iter().chain(&frames) {
+        let parts: Vec<&str> = path.split('/').collect();
+        for (depth, part) in parts.iter().enumerate() {
+            entries.entry(parts[..depth].join("/")).or_default().insert((*part).to_owned());
+        }
+    }
+    assert!(entries.values().all(|entries| entries.len() <= crate::media::FOLDER_LIMIT));
+}
+
+#[test]
+fn what_a_vision_language_model_learns_to_say_leads_to_the_expert() {
+    let (home, dataset) = published();
+    for (delta_frame, name) in [(DeltaFrame::World, "world"), (DeltaFrame::Body, "body")] {
+        let out = home.path().join(name);
+        export(&dataset, "vlm", &Options { delta_frame, ..options() }, &out).unwrap();
+        let mut rows = 0;
+        for (path, bytes) in
+            files(&out).into_iter().filter(|(path, _)| path.extension().is_some_and(|it| it == "jsonl"))
+        {
+            let text = String::from_utf8(bytes).unwrap();
+            for line in text.lines() {
+                let row: serde_json::Value = serde_json::from_str(line).unwrap();
+                let answer = row["messages"][2]["content"].as_str().unwrap();
+                let answer: serde_json::Value = serde_json::from_str(answer).unwrap();
+                let deltas: Vec<[f64; 6]> = serde_json::from_value(answer["waypoint_deltas"].clone()).unwrap();
+                let id = row["trajectory_id"].as_str().unwrap();
+                let current = row["frame"].as_u64().unwrap() as usize + 2;
+                let own = dataset.frames(dataset.flight(id).unwrap()).unwrap();
+                let expert = dataset.frames(dataset.flight(&id.replace("perturbed", "expert")).unwrap()).unwrap();
+                let mut reached = vec![];
+                cosfly_metrics::waypoints(
+                    &own[current].pose,
+                    &deltas,
+                    delta_frame,
+                    DeltaOrigin::Previous,
+                    &mut reached,
+                );
+                for (pose, truth) in reached.iter().zip(&expert[current + 1..]) {
+                    let gap = (pose.position_in_world - truth.pose.position_in_world).length();
+                    let turn = wrap_angle_rad(pose.yaw_rad - truth.pose.yaw_rad).to_degrees();
+                    assert!(gap < 0.01 && turn.abs() < 0.02, "{}: {gap} m, {turn} degrees", path.display());
+                }
+                let images = row["images"].as_array().unwrap();
+                let prompt = row["messages"][1]["content"].as_str().unwrap();
+                assert_eq!((images.len(), prompt.matches("<image>").count()), (3, 3));
+                assert!(images.iter().all(|image| out.join(image.as_str().unwrap()).is_file()));
+                rows += 1;
+            }
+        }
+        assert_eq!(rows, 2);
+    }
+}

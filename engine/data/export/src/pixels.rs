@@ -1,0 +1,111 @@
+//! Colour images decoded, ids and depths encoded.
+
+use cosfly_diagnose::{Diagnostic, Fault, Result};
+use cosfly_read::LoggedFrame;
+use zune_jpeg::JpegDecoder;
+use zune_jpeg::zune_core::bytestream::ZCursor;
+
+pub use cosfly_images::rgb::png as rgb_png;
+
+/// Row-major RGB bytes of a frame's colour image, checked to have the frame's size.
+pub fn rgb_of(logged: &LoggedFrame) -> Result<Vec<u8>> {
+    let decoded = match logged.rgb_format.as_str() {
+        "jpeg" => JpegDecoder::new(ZCursor::new(&logged.rgb_file[..])).decode().map_err(|error| error.to_string()),
+        "png" => decode_png(&logged.rgb_file).map(|(pixels, _)| pixels),
+        other => Err(format!("`{other}` is not a known format")),
+    };
+    let bytes = 3 * logged.width as usize * logged.height as usize;
+    let checked = decoded.and_then(|rgb| match rgb.len() == bytes {
+        true => Ok(rgb),
+        false => Err(format!("it has {} bytes of colours, not {bytes}", rgb.len())),
+    });
+    checked.map_err(|cause| {
+        let message = format!("the colour image of frame {} cannot be read", logged.target.frame);
+        Diagnostic::new("export-image", Fault::Input, message).because(cause)
+    })
+}
+
+/// Pixels of an 8-bit PNG file with its width and height.
+pub fn decode_png(file: &[u8]) -> Result<(Vec<u8>, [u32; 2]), String> {
+    let mut reader = png::Decoder::new(std::io::Cursor::new(file)).read_info().map_err(|error| error.to_string())?;
+    let mut pixels = vec![0; reader.output_buffer_size().ok_or("it is too large")?];
+    let info = reader.next_frame(&mut pixels).map_err(|error| error.to_string())?;
+    pixels.truncate(info.buffer_size());
+    Ok((pixels, [info.width, info.height]))
+}
+
+/// A PNG file of one byte per pixel.
+pub fn gray8_png(values: &[u8], [width, height]: [u32; 2]) -> Result<Vec<u8>> {
+    gray_png(values, [width, height], png::BitDepth::Eight)
+}
+
+/// A PNG file of two bytes per pixel.
+pub fn gray16_png(values: impl Iterator<Item = u16>, size: [u32; 2]) -> Result<Vec<u8>> {
+    let bytes: Vec<u8> = values.flat_map(u16::to_be_bytes).collect();
+    gray_png(&bytes, size, png::BitDepth::Sixteen)
+}
+
+fn gray_png(bytes: &[u8], [width, height]: [u32; 2], depth: png::BitDepth) -> Result<Vec<u8>> {
+    let mut file = vec![];
+    let mut encoder = png::Encoder::new(&mut file, width, height);
+    encoder.set_color(png::ColorType::Grayscale);
+    encoder.set_depth(depth);
+    encoder.set_compression(png::Compression::Fast);
+    encoder.set_filter(png::Filter::Up);
+    let written = encoder.write_header().and_then(|mut writer| writer.write_image_data(bytes));
+    written
+        .map_err(|error| Diagnostic::new("image-encode", Fault::Bug, "could not encode a PNG image").because(error))?;
+    Ok(file)
+}
+
+/// A PNG file of depths in centimetres, 16 bits: at most 655.34 m, infinity (the sky) is 65,535.
+pub fn depth_png(depth_m: &[f32], size: [u32; 2]) -> Result<Vec<u8>> {
+    gray16_png(depth_m.iter().map(|depth| centimetres(*depth)), size)
+}
+
+fn centimetres(depth_m: f32) -> u16 {
+    if depth_m.is_finite() { (100.0 * depth_m).round_ties_even().clamp(0.0, 65_534.0) as u16 } else { u16::MAX }
+}
+
+/// A NumPy file of 32-bit floats with `rows` x `columns` entries.
+pub fn npy_f32(values: &[f32], [columns, rows]: [u32; 2]) -> Vec<u8> {
+    let mut header = format!("{{'descr': '<f4', 'fortran_order': False, 'shape': ({rows}, {columns}), }}");
+    // Magic, version and length take 10 bytes; everything before the data a multiple of 64.
+    let padding = (64 - (10 + header.len() + 1) % 64) % 64;
+    header.push_str(&" ".repeat(padding));
+    header.push('\n');
+    let mut file = b"\x93NUMPY\x01\x00".to_vec();
+    file.extend_from_slice(&(header.len() as u16).to_le_bytes());
+    file.extend_from_slice(header.as_bytes());
+    values.iter().for_each(|value| file.extend_from_slice(&value.to_le_bytes()));
+    file
+}
+
+/// An id in 16 bits: 0 (ground and sky) and 1 (the target) stay, ids from 65,536 on share those of others.
+pub fn id_in_16_bits(id: u32) -> u16 {
+    u16::try_from(id).unwrap_or_else(|_| (2 + (id - 2) % 65_534) as u16)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn numpy_files_begin_as_the_format_says() {
+        let file = npy_f32(&[1.0, 2.0, 3.0, 4.0, 5.0, 6.0], [3, 2]);
+        assert_eq!((file.len(), &file[..8]), (128 + 24, &b"\x93NUMPY\x01\x00"[..]));
+        assert!(String::from_utf8_lossy(&file[10..128]).contains("'shape': (2, 3)"));
+        assert_eq!(&file[128..132], &1.0f32.to_le_bytes());
+    }
+
+    #[test]
+    fn depths_are_centimetres_and_the_sky_is_the_largest_number() {
+        assert_eq!([0.0, 1.234, 655.34, 900.0, f32::INFINITY].map(centimetres), [0, 123, 65_534, 65_534, 65_535]);
+    }
+
+    #[test]
+    fn ids_beyond_16_bits_never_look_like_the_target_or_the_ground() {
+        assert_eq!([0, 1, 2, 65_535, 65_536].map(id_in_16_bits), [0, 1, 2, 65_535, 2]);
+        assert!((65_536..400_000).step_by(7).all(|id| id_in_16_bits(id) > 1));
+    }
+}

@@ -1,0 +1,207 @@
+//! The flights that are exported, one at a time, with what the tables say of them and their pictures.
+
+use crate::exporter::Options;
+use cosfly_diagnose::{Diagnostic, Fault, Result};
+use cosfly_frames::Pose;
+use cosfly_read::{FrameRow, LoggedFrame, PublishedDataset, PublishedFlight};
+use cosfly_schema::CaptionRecord;
+use rayon::prelude::*;
+use std::cell::Cell;
+use std::collections::{BTreeMap, BTreeSet};
+
+/// Frames that are read and encoded side by side, so that memory does not grow with the length of a flight.
+const BATCH: usize = 16;
+
+/// A dataset with the flights that were chosen from it.
+pub struct Source<'a> {
+    /// The dataset.
+    pub dataset: &'a PublishedDataset,
+    /// What was asked for.
+    pub options: &'a Options,
+    /// Trajectory ids of the chosen flights.
+    chosen: BTreeSet<String>,
+    captions: BTreeMap<String, Vec<CaptionRecord>>,
+    progress: &'a dyn Fn(u64, u64),
+    done: Cell<u64>,
+    all: Cell<u64>,
+}
+
+/// A flight with its frames.
+pub struct Episode<'a> {
+    /// Its row in the table of flights.
+    pub flight: &'a PublishedFlight,
+    /// Its rows in the table of frames.
+    pub frames: Vec<FrameRow>,
+    /// Its captions, in all languages.
+    pub captions: &'a [CaptionRecord],
+    source: &'a Source<'a>,
+}
+
+impl<'a> Source<'a> {
+    /// The flights of `dataset` that `options` choose. `progress` hears of frames done and frames in all.
+    ///
+    /// # Errors
+    /// `export-nothing` when no flight is chosen, `dataset-no-flight` and `export-split` for names that are none.
+    pub fn new(dataset: &'a PublishedDataset, options: &'a Options, progress: &'a dyn Fn(u64, u64)) -> Result<Self> {
+        let splits: BTreeSet<&str> = dataset.flights().iter().map(|flight| &*flight.split).collect();
+        if let Some(unknown) = options.splits.iter().find(|name| !splits.contains(name.as_str())) {
+            let names: Vec<_> = splits.iter().map(|name| format!("`{name}`")).collect();
+            return Err(Diagnostic::new("export-split", Fault::Recipe, format!("there is no split `{unknown}`"))
+                .hint(format!("the splits of this dataset are {}", names.join(", "))));
+        }
+        for id in &options.trajectories {
+            dataset.flight(id)?;
+        }
+        let is_chosen = |flight: &&PublishedFlight| {
+            (options.splits.is_empty() || options.splits.contains(&flight.split))
+                && (options.trajectories.is_empty() || options.trajectories.contains(&flight.trajectory_id))
+        };
+        let chosen: Vec<_> = dataset.flights().iter().filter(is_chosen).collect();
+        if chosen.is_empty() {
+            let message = "no flight is both in the splits and among the trajectories that were asked for";
+            return Err(Diagnostic::new("export-nothing", Fault::Recipe, message));
+        }
+        let all = chosen.iter().map(|flight| flight.frames as u64).sum();
+        Ok(Self {
+            dataset,
+            options,
+            chosen: chosen.into_iter().map(|flight| flight.trajectory_id.clone()).collect(),
+            captions: dataset.captions()?,
+            progress,
+            done: Cell::new(0),
+            all: Cell::new(all),
+        })
+    }
+
+    /// Name of the dataset's folder.
+    pub fn name(&self) -> String {
+        let folder = self.dataset.folder();
+        let folder = folder.canonicalize().unwrap_or_else(|_| folder.to_owned());
+        folder.file_name().map_or_else(|| "dataset".into(), |name| name.to_string_lossy().into_owned())
+    }
+
+    /// The chosen flights, in the dataset's order.
+    pub fn flights(&self) -> impl Iterator<Item = &'a PublishedFlight> {
+        self.dataset.flights().iter().filter(|flight| self.chosen.contains(&flight.trajectory_id))
+    }
+
+    /// Splits of the chosen flights, in the dataset's order.
+    pub fn splits(&self) -> Vec<&'a str> {
+        let mut splits: Vec<&str> = self.flights().map(|flight| &*flight.split).collect();
+        splits.dedup();
+        splits
+    }
+
+    /// The flight called `id`, chosen or not.
+    pub fn flight(&self, id: &str) -> Option<&'a PublishedFlight> {
+        self.dataset.flights().iter().find(|flight| flight.trajectory_id == id)
+    }
+
+    /// Gives the chosen flights to `visit` in the dataset's order. One is in memory at a time.
+    pub fn each_flight(&self, visit: &mut dyn FnMut(&Episode<'_>) -> Result<()>) -> Result<()> {
+        self.each_flight_of(&|_| true, visit)
+    }
+
+    /// The same for the chosen flights that are `wanted`.
+    pub fn each_flight_of(
+        &self,
+        wanted: &dyn Fn(&PublishedFlight) -> bool,
+        visit: &mut dyn FnMut(&Episode<'_>) -> Result<()>,
+    ) -> Result<()> {
+        let is_wanted = |flight: &PublishedFlight| self.chosen.contains(&flight.trajectory_id) && wanted(flight);
+        self.all.set(self.flights().filter(|flight| wanted(flight)).map(|flight| flight.frames as u64).sum());
+        self.done.set(0);
+        self.dataset.walk(&is_wanted, &mut |flight, frames| {
+            let captions = self.captions.get(&flight.trajectory_id).map_or(&[][..], |captions| &captions[..]);
+            let end = self.done.get() + frames.len() as u64;
+            visit(&Episode { flight, frames, captions, source: self })?;
+            self.set_done(end);
+            Ok(())
+        })
+    }
+
+    /// Poses of the chosen flights' experts, by trajectory id, chosen or not.
+    pub fn expert_poses(&self) -> Result<BTreeMap<String, Vec<Pose>>> {
+        let experts: BTreeSet<&str> =
+            self.flights().map(|flight| flight.expert_id.as_deref().unwrap_or(&flight.trajectory_id)).collect();
+        let mut poses = BTreeMap::new();
+        self.dataset.walk(&|flight| experts.contains(flight.trajectory_id.as_str()), &mut |flight, rows| {
+            poses.insert(flight.trajectory_id.clone(), rows.iter().map(|row| row.pose).collect());
+            Ok(())
+        })?;
+        Ok(poses)
+    }
+
+    fn set_done(&self, done: u64) {
+        self.done.set(done);
+        (self.progress)(done, self.all.get());
+    }
+}
+
+impl Episode<'_> {
+    /// Reads the pictures of the flight's frames `frames`, makes something of each side by side, and takes it in order.
+    pub fn each_picture<T: Send>(
+        &self,
+        frames: &[usize],
+        make: impl Fn(usize, LoggedFrame) -> Result<T> + Sync,
+        mut take: impl FnMut(usize, T) -> Result<()>,
+    ) -> Result<()> {
+        let (dataset, flight) = (self.source.dataset, self.flight);
+        for batch in frames.chunks(BATCH) {
+            let made: Vec<T> = batch
+                .par_iter()
+                .map_init(
+                    || dataset.log(flight),
+                    |log, frame| {
+                        let log = log.as_mut().map_err(|error| error.clone())?;
+                        make(*frame, log.frame_with_instances(*frame)?)
+                    },
+                )
+                .collect::<Result<_>>()?;
+            for (frame, made) in batch.iter().zip(made) {
+                take(*frame, made)?;
+            }
+            self.source.set_done(self.source.done.get() + batch.len() as u64);
+        }
+        Ok(())
+    }
+
+    /// The expert's pose of every frame, its own for an expert; `experts` are [`Source::expert_poses`].
+    ///
+    /// # Errors
+    /// `dataset-damaged` when the expert or one of its frames is not there.
+    pub fn expert_poses(&self, experts: &BTreeMap<String, Vec<Pose>>) -> Result<Vec<Pose>> {
+        let flight = self.flight;
+        let poses = experts.get(flight.expert_id.as_deref().unwrap_or(&flight.trajectory_id));
+        let pose = |(frame, row): (usize, &FrameRow)| {
+            let expert_frame = row.disturbance.as_ref().map_or(frame, |it| it.expert_frame as usize);
+            poses.and_then(|poses| poses.get(expert_frame)).copied().ok_or_else(|| {
+                let message = format!("the expert of frame {frame} of `{}` is not there", flight.trajectory_id);
+                Diagnostic::new("dataset-damaged", Fault::Input, message)
+            })
+        };
+        self.frames.iter().enumerate().map(pose).collect()
+    }
+
+    /// Some of its frames as an episode of their own, except for pictures: these keep the numbers of the whole flight.
+    pub fn part(&self, frames: std::ops::Range<usize>) -> Episode<'_> {
+        Episode { frames: self.frames[frames].to_vec(), ..*self }
+    }
+
+    /// Every frame.
+    pub fn all_frames(&self) -> Vec<usize> {
+        (0..self.frames.len()).collect()
+    }
+
+    /// Every so many frames as was asked for.
+    pub fn chosen_frames(&self) -> Vec<usize> {
+        (0..self.frames.len()).step_by(self.source.options.every.max(1)).collect()
+    }
+
+    /// The instruction in the language that was asked for, or in any, or a plain one.
+    pub fn instruction(&self) -> &str {
+        let language = &self.source.options.language;
+        let own = self.captions.iter().find(|caption| caption.language == *language);
+        own.or(self.captions.first()).map_or("Follow the pedestrian and keep them in view.", |caption| &caption.text)
+    }
+}

@@ -1,0 +1,97 @@
+//! The ground as the camera saw it: labels of pixels brought back to the plane through their depths.
+
+use crate::canvas::Colour;
+use cosfly_frames::DVec3;
+use cosfly_maps::SemanticLabel;
+use cosfly_read::{LoggedFrame, PublishedFlight};
+use std::collections::BTreeMap;
+
+/// Side of a cell, metres.
+pub const CELL_M: f64 = 0.25;
+/// Pixels whose place is looked at, per frame and axis.
+const SAMPLES: usize = 420;
+/// Ground that is farther away is left out: a pixel covers too much of it.
+const REACH_M: f32 = 90.0;
+
+/// Labelled cells of the ground.
+#[derive(Default)]
+pub struct SeenGround {
+    /// By column and row of the world's x and y: the label seen from nearest, and from how near.
+    cells: BTreeMap<(i32, i32), (f32, u8)>,
+}
+
+impl SeenGround {
+    /// Adds what one frame shows.
+    pub fn add(&mut self, flight: &PublishedFlight, frame: &LoggedFrame) {
+        let (width, height) = (frame.width as usize, frame.height as usize);
+        let step = |side: usize| (side / SAMPLES).max(1);
+        let focal = flight.camera.focal_px();
+        for v in (0..height).step_by(step(height)) {
+            for u in (0..width).step_by(step(width)) {
+                let at = v * width + u;
+                let (depth, label) = (frame.depth_m[at], frame.semantic[at]);
+                if depth > REACH_M || colour(label).is_none() {
+                    continue;
+                }
+                let x = (u as f64 + 0.5 - 0.5 * width as f64) / focal;
+                let y = (v as f64 + 0.5 - 0.5 * height as f64) / focal;
+                let [x, y] = straightened(x, y, [flight.lens.k1, flight.lens.k2]);
+                let ray = frame.map_from_optical * DVec3::new(x, y, 1.0);
+                let point = frame.camera_in_map + ray * f64::from(depth);
+                // The map's y is minus the world's.
+                let cell = [point.x / CELL_M, -point.y / CELL_M].map(|it| it.floor() as i32);
+                let nearest = self.cells.entry((cell[0], cell[1])).or_insert((f32::INFINITY, label));
+                if depth < nearest.0 {
+                    *nearest = (depth, label);
+                }
+            }
+        }
+    }
+
+    /// The colour at a point of the world, if it or a neighbour was seen.
+    pub fn colour_at(&self, x_m: f64, y_m: f64) -> Option<Colour> {
+        const AROUND: [(i32, i32); 9] = [(0, 0), (1, 0), (-1, 0), (0, 1), (0, -1), (1, 1), (-1, -1), (1, -1), (-1, 1)];
+        let (column, row) = ((x_m / CELL_M).floor() as i32, (y_m / CELL_M).floor() as i32);
+        let found = AROUND.iter().find_map(|(dx, dy)| self.cells.get(&(column + dx, row + dy)));
+        found.and_then(|(_, label)| colour(*label))
+    }
+}
+
+/// Where the ideal camera would see what a bent lens shows at (x, y), both at 1 m: some steps of the usual iteration.
+fn straightened(x: f64, y: f64, [k1, k2]: [f64; 2]) -> [f64; 2] {
+    let mut ideal = [x, y];
+    for _ in 0..if k1 == 0.0 && k2 == 0.0 { 0 } else { 8 } {
+        let r2 = ideal[0] * ideal[0] + ideal[1] * ideal[1];
+        let factor = 1.0 + r2 * (k1 + r2 * k2);
+        ideal = [x, y].map(|place| place / factor.max(0.1));
+    }
+    ideal
+}
+
+/// The plan's colour of a label of the ground; none for what stands on it.
+fn colour(label: u8) -> Option<Colour> {
+    Some(match SemanticLabel::ALL.get(usize::from(label))? {
+        SemanticLabel::Roads => [150, 152, 158],
+        SemanticLabel::RoadLine => [236, 236, 230],
+        SemanticLabel::SideWalks => [205, 200, 190],
+        SemanticLabel::Terrain => [176, 196, 150],
+        SemanticLabel::Ground | SemanticLabel::Other => [214, 206, 188],
+        SemanticLabel::Water => [150, 185, 214],
+        SemanticLabel::RailTrack | SemanticLabel::Bridge => [180, 170, 165],
+        _ => return None,
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn bent_places_are_straightened() {
+        let (ideal, [k1, k2]) = ([0.4, -0.3], [-0.12, 0.02]);
+        let factor = 1.0 + 0.25 * (k1 + 0.25 * k2);
+        let found = straightened(ideal[0] * factor, ideal[1] * factor, [k1, k2]);
+        assert!((found[0] - ideal[0]).abs() < 1e-6 && (found[1] - ideal[1]).abs() < 1e-6, "{found:?}");
+        assert_eq!(straightened(0.4, -0.3, [0.0; 2]), ideal);
+    }
+}

@@ -1,0 +1,190 @@
+//! A published dataset: its trajectories, and where its tables and logs are.
+
+use super::log::LogReader;
+use super::rows::read;
+use super::trajectory::PublishedFlight;
+use cosfly_diagnose::{Diagnostic, Fault, Result, nearest_name};
+use cosfly_schema::CaptionRecord;
+use cosfly_schema::Split;
+use cosfly_schema::tables::{Captions, People, Rejected};
+use std::collections::{BTreeMap, BTreeSet};
+use std::path::{Component, Path, PathBuf};
+
+/// Ids that an error lists at most.
+const LISTED: usize = 8;
+
+/// A published dataset whose table of trajectories has been read.
+#[derive(Clone, Debug)]
+pub struct PublishedDataset {
+    folder: PathBuf,
+    flights: Vec<PublishedFlight>,
+}
+
+impl PublishedDataset {
+    /// Opens the dataset in `folder`; its trajectories are in the order of its splits and tables.
+    ///
+    /// # Errors
+    /// `dataset-none` where there is no dataset, otherwise the damage of its files.
+    pub fn open(folder: &Path) -> Result<Self> {
+        let mut dataset = Self { folder: folder.to_owned(), flights: vec![] };
+        let mut flights = vec![];
+        for (split, path) in dataset.files("trajectories")? {
+            read(&path, &mut |rows| {
+                for row in 0..rows.len() {
+                    flights.push(PublishedFlight::read(rows, row, &split)?);
+                }
+                Ok(())
+            })?;
+        }
+        if flights.is_empty() {
+            return Err(no_dataset(folder));
+        }
+        dataset.flights = flights;
+        Ok(dataset)
+    }
+
+    /// The dataset's folder.
+    pub fn folder(&self) -> &Path {
+        &self.folder
+    }
+
+    /// All trajectories.
+    pub fn flights(&self) -> &[PublishedFlight] {
+        &self.flights
+    }
+
+    /// Parquet files of a table with the names of their splits, in the order of train, val, test; none of a table that the
+    /// dataset has not.
+    ///
+    /// # Errors
+    /// The folder of the table cannot be read.
+    pub fn files(&self, table: &str) -> Result<Vec<(String, PathBuf)>> {
+        let folder = self.folder.join("data").join(table);
+        let refused = |error: std::io::Error| Diagnostic::io(format!("read `{}`", folder.display()), &error);
+        let mut files = vec![];
+        if !folder.is_dir() {
+            return Ok(vec![]);
+        }
+        for entry in std::fs::read_dir(&folder).map_err(refused)? {
+            let path = entry.map_err(refused)?.path();
+            let name = path.file_name().and_then(|name| name.to_str()).unwrap_or_default();
+            if let (Some((split, _)), true) = (name.split_once('-'), name.ends_with(".parquet")) {
+                let place = Split::ALL.iter().position(|it| it.name() == split).unwrap_or(usize::MAX);
+                files.push((place, split.to_owned(), path.clone()));
+            }
+        }
+        files.sort();
+        Ok(files.into_iter().map(|(_, split, path)| (split, path)).collect())
+    }
+
+    /// Items without a trajectory, with their reasons.
+    ///
+    /// # Errors
+    /// The damage of table `rejected`.
+    pub fn rejections(&self) -> Result<BTreeMap<String, String>> {
+        let mut found = BTreeMap::new();
+        for (_, path) in self.files("rejected")? {
+            read(&path, &mut |rows| {
+                for row in 0..rows.len() {
+                    found.insert(rows.get(Rejected::trajectory_id, row)?, rows.get(Rejected::reason, row)?);
+                }
+                Ok(())
+            })?;
+        }
+        Ok(found)
+    }
+
+    /// The captions of all trajectories, by trajectory id.
+    ///
+    /// # Errors
+    /// The damage of table `captions`.
+    pub fn captions(&self) -> Result<BTreeMap<String, Vec<CaptionRecord>>> {
+        let mut captions: BTreeMap<String, Vec<CaptionRecord>> = BTreeMap::new();
+        for (_, path) in self.files("captions")? {
+            read(&path, &mut |rows| {
+                for row in 0..rows.len() {
+                    captions.entry(rows.get(Captions::trajectory_id, row)?).or_default().push(CaptionRecord {
+                        language: rows.get(Captions::language, row)?,
+                        style: rows.get(Captions::style, row)?,
+                        text: rows.get(Captions::text, row)?,
+                    });
+                }
+                Ok(())
+            })?;
+        }
+        Ok(captions)
+    }
+
+    /// The trajectory called `id`.
+    ///
+    /// # Errors
+    /// `dataset-no-flight`, which names the nearest ids.
+    pub fn flight(&self, id: &str) -> Result<&PublishedFlight> {
+        self.flights.iter().find(|flight| flight.trajectory_id == id).ok_or_else(|| {
+            let message = format!("`{}` has no trajectory `{id}`", self.folder.display());
+            let refusal = Diagnostic::new("dataset-no-flight", Fault::Recipe, message);
+            let ids: Vec<&str> = self.flights.iter().map(|flight| flight.trajectory_id.as_str()).collect();
+            let refusal = match nearest_name(id, ids.iter().copied()) {
+                Some(near) => refusal.hint(format!("did you mean `{near}`?")),
+                None => refusal,
+            };
+            let shown: Vec<String> = ids.iter().take(LISTED).map(|id| format!("`{id}`")).collect();
+            let more = if ids.len() > LISTED { format!(" and {} more", ids.len() - LISTED) } else { String::new() };
+            refusal.hint(format!("its trajectories are {}{more}", shown.join(", ")))
+        })
+    }
+
+    /// An expert and its perturbed twins, whichever of them `flight` is; the expert first.
+    pub fn family<'a>(&'a self, flight: &'a PublishedFlight) -> Vec<&'a PublishedFlight> {
+        let expert = flight.expert_id.as_deref().unwrap_or(&flight.trajectory_id);
+        let mut family: Vec<_> = self.flights.iter().filter(|it| it.trajectory_id == expert).collect();
+        family.extend(self.flights.iter().filter(|it| it.expert_id.as_deref() == Some(expert)));
+        family
+    }
+
+    /// Number of people beside the target in the pictures of some trajectories, each counted once a trajectory.
+    ///
+    /// # Errors
+    /// The damage of table `people`.
+    pub fn others_seen(&self, flights: &[&PublishedFlight]) -> Result<usize> {
+        let wanted: BTreeMap<&str, usize> =
+            flights.iter().enumerate().map(|(place, flight)| (flight.trajectory_id.as_str(), place)).collect();
+        let mut seen = BTreeSet::new();
+        for (_, path) in self.files("people")? {
+            read(&path, &mut |rows| {
+                let ids = rows.values(People::trajectory_id)?;
+                for row in 0..rows.len() {
+                    if let Some(flight) = wanted.get(ids.text(row)) {
+                        seen.insert((*flight, rows.get(People::instance, row)?));
+                    }
+                }
+                Ok(())
+            })?;
+        }
+        Ok(seen.len())
+    }
+
+    /// The log of `flight`.
+    pub fn log(&self, flight: &PublishedFlight) -> Result<LogReader> {
+        let inside = Path::new(&flight.mcap_path).components().all(|part| matches!(part, Component::Normal(_)));
+        if !inside {
+            let message = format!("the log `{}` lies outside of the dataset", flight.mcap_path);
+            return Err(Diagnostic::new("dataset-damaged", Fault::Input, message));
+        }
+        LogReader::open(&self.folder.join(&flight.mcap_path), flight.dt_s)
+    }
+}
+
+fn no_dataset(folder: &Path) -> Box<Diagnostic> {
+    let (shown, is_file) = (folder.display(), folder.is_file());
+    let message = match (folder.exists(), is_file) {
+        (false, _) => format!("`{shown}` does not exist"),
+        (true, true) => format!("`{shown}` is a file, not the folder of a dataset"),
+        (true, false) => format!("`{shown}` is not a published dataset: it has no table of flights"),
+    };
+    let refusal = Diagnostic::new("dataset-none", Fault::Input, message);
+    match folder.extension().and_then(|extension| extension.to_str()) {
+        Some("toml") => refusal.hint("run the recipe first, then give the folder that it printed, such as `out/small`"),
+        _ => refusal.hint("give the folder that `cosfly run` delivered, such as `out/carla_town`"),
+    }
+}

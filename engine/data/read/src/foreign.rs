@@ -1,0 +1,111 @@
+//! Tables that others wrote: whatever has numbers, texts or pictures, by the names of their columns.
+
+use super::damage::damaged;
+use super::plain;
+use arrow_array::cast::AsArray;
+use arrow_array::{Array, ArrayRef};
+use arrow_schema::DataType;
+use cosfly_diagnose::{Diagnostic, Result};
+use cosfly_fingerprint::Digest;
+use parquet::arrow::ProjectionMask;
+use parquet::arrow::arrow_reader::ParquetRecordBatchReaderBuilder;
+use std::collections::BTreeMap;
+use std::fs::File;
+use std::path::Path;
+
+/// Rows that are decoded at once: pictures may be large.
+const BATCH: usize = 64;
+
+/// The columns of some rows, as long as each other.
+#[derive(Clone, Debug, Default)]
+pub struct ForeignRows {
+    /// Numbers of a row: one, or those of its list; none where it is null.
+    pub numbers: BTreeMap<String, Vec<Vec<f64>>>,
+    /// Texts; lists of them, joined by line ends.
+    pub texts: BTreeMap<String, Vec<String>>,
+    /// Digests of picture files that are inside of the table; empty where it only names a file.
+    pub pictures: BTreeMap<String, Vec<String>>,
+    /// Number of rows.
+    pub rows: usize,
+}
+
+/// Reads the columns of a Parquet file that are numbers, texts or pictures.
+///
+/// # Errors
+/// When the file cannot be opened or read to its end.
+pub fn foreign_rows(path: &Path) -> Result<ForeignRows> {
+    let file = File::open(path).map_err(|error| Diagnostic::io(format!("open `{}`", path.display()), &error))?;
+    let builder =
+        ParquetRecordBatchReaderBuilder::try_new(file).map_err(|error| damaged(path, "it is not Parquet", error))?;
+    let reader = builder.with_projection(ProjectionMask::all()).with_batch_size(BATCH).build();
+    let mut all = ForeignRows::default();
+    for batch in reader.map_err(|error| damaged(path, "it cannot be read", error))? {
+        let batch = batch.map_err(|error| damaged(path, "it cannot be read", error))?;
+        for (field, column) in batch.schema_ref().fields().iter().zip(batch.columns()) {
+            let name = || field.name().clone();
+            if let Some(pictures) = pictures(column) {
+                all.pictures.entry(name()).or_default().extend(pictures);
+            } else if let Some(numbers) = numbers(column) {
+                all.numbers.entry(name()).or_default().extend(numbers);
+            } else if let Some(texts) = texts(column) {
+                all.texts.entry(name()).or_default().extend(texts);
+            }
+        }
+        all.rows += batch.num_rows();
+    }
+    Ok(all)
+}
+
+/// The values of the lists in a column, row by row; `None` when it has no lists.
+fn lists(column: &ArrayRef) -> Option<Vec<Option<ArrayRef>>> {
+    let rows = 0..column.len();
+    let valid = |row: usize, value: &dyn Fn(usize) -> ArrayRef| column.is_valid(row).then(|| value(row));
+    Some(match column.data_type() {
+        DataType::List(_) => rows.map(|row| valid(row, &|row| column.as_list::<i32>().value(row))).collect(),
+        DataType::LargeList(_) => rows.map(|row| valid(row, &|row| column.as_list::<i64>().value(row))).collect(),
+        DataType::FixedSizeList(..) => {
+            rows.map(|row| valid(row, &|row| column.as_fixed_size_list().value(row))).collect()
+        }
+        _ => return None,
+    })
+}
+
+fn plain_numbers(column: &ArrayRef) -> Option<Vec<Option<f64>>> {
+    Some(plain::reals(column)?.iter().collect())
+}
+
+fn numbers(column: &ArrayRef) -> Option<Vec<Vec<f64>>> {
+    if let Some(values) = plain_numbers(column) {
+        return Some(values.into_iter().map(|value| value.into_iter().collect()).collect());
+    }
+    let of_row = |row: Option<ArrayRef>| match row {
+        Some(row) => Some(plain_numbers(&row)?.into_iter().map(|value| value.unwrap_or(f64::NAN)).collect()),
+        None => Some(vec![]),
+    };
+    lists(column)?.into_iter().map(of_row).collect()
+}
+
+fn plain_texts(column: &ArrayRef) -> Option<Vec<String>> {
+    Some(plain::texts(column)?.iter().map(|text| text.unwrap_or_default().to_owned()).collect())
+}
+
+fn texts(column: &ArrayRef) -> Option<Vec<String>> {
+    if let Some(texts) = plain_texts(column) {
+        return Some(texts);
+    }
+    let of_row = |row: Option<ArrayRef>| match row {
+        Some(row) => Some(plain_texts(&row)?.join("\n")),
+        None => Some(String::new()),
+    };
+    lists(column)?.into_iter().map(of_row).collect()
+}
+
+fn pictures(column: &ArrayRef) -> Option<Vec<String>> {
+    let bytes = column.as_struct_opt()?.column_by_name("bytes")?;
+    Some(
+        plain::files(bytes)?
+            .iter()
+            .map(|file| file.map_or_else(String::new, |file| Digest::of(file).to_string()))
+            .collect(),
+    )
+}

@@ -1,0 +1,219 @@
+//! Rows of table `frames`, trajectory by trajectory.
+
+use super::damage::damaged;
+use super::dataset::PublishedDataset;
+use super::rows::{Rows, read};
+use super::trajectory::PublishedFlight;
+use cosfly_diagnose::{Diagnostic, Fault, Result};
+use cosfly_frames::{DVec3, Pose, TargetState};
+use cosfly_schema::tables::{Edges, Frames};
+use std::collections::{BTreeMap, BTreeSet};
+
+/// A row of table `frames`, without costs, labels and preview. World frame: CARLA's, metres, radians.
+#[derive(Clone, Debug, PartialEq)]
+pub struct FrameRow {
+    /// Number of the frame, from 0.
+    pub frame: u32,
+    /// Time of the frame, seconds.
+    pub time_s: f64,
+    /// Pose of the drone.
+    pub pose: Pose,
+    /// Pose of the camera, at the same position; it may be turned against the drone.
+    pub camera_pose: Pose,
+    /// The target.
+    pub target: TargetState,
+    /// Distance from the camera to the target's feet, metres.
+    pub distance_m: f64,
+    /// Distance from the drone to the nearest obstacle, metres.
+    pub clearance_m: f64,
+    /// Whether the body covers at least one pixel centre, occluded or not.
+    pub in_view: bool,
+    /// Share of body points reached by rays, 0..=1.
+    pub visible_by_rays: f64,
+    /// Visible pixels / pixels without obstacles, 0..=1.
+    pub visible_by_pixels: f64,
+    /// Share of hundreds of rays that reach the body; none out of view.
+    pub visible_by_dense_rays: Option<f64>,
+    /// Visible pixels of the target.
+    pub visible_pixels: u32,
+    /// Edges around the visible pixels: left, top, right, bottom.
+    pub visible_box_px: Option<Edges>,
+    /// Edges around the pixels without obstacles.
+    pub full_box_px: Option<Edges>,
+    /// Instance id of what hides most of the target; 0 when nothing does.
+    pub occluder_instance: u32,
+    /// Step to the next frame along the world's axes: dx, dy, dz (m), dpitch, dyaw, droll (degrees); none on the last.
+    pub action_in_world: Option<[f64; 6]>,
+    /// The next pose seen from this one's body frame; none on the last.
+    pub action_in_body: Option<[f64; 6]>,
+    /// Departure from the expert's frame; none in an expert's trajectory.
+    pub disturbance: Option<Disturbance>,
+}
+
+/// Departure of a perturbed trajectory's frame from the expert's.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Disturbance {
+    /// Frame of the expert.
+    pub expert_frame: u32,
+    /// Whether the position was disturbed.
+    pub position: bool,
+    /// Whether the rotation was disturbed.
+    pub rotation: bool,
+    /// Displacement of the drone, metres.
+    pub drone_offset_in_world: DVec3,
+    /// Displacement of the point aimed at, metres.
+    pub aim_offset_in_world: DVec3,
+    /// Turn added to the pitch, degrees.
+    pub pitch_offset_deg: f64,
+    /// Turn added to the yaw, degrees.
+    pub yaw_offset_deg: f64,
+}
+
+/// A trajectory, and its frames in their order.
+type Visit<'a> = &'a mut dyn FnMut(&PublishedFlight, Vec<FrameRow>) -> Result<()>;
+
+/// Frames that room is made for at most before they are there.
+const MOST_ROOM: usize = 1 << 16;
+
+impl PublishedDataset {
+    /// Gives trajectories that are `wanted` with all their frames to `visit`, in the order of table `frames`. One trajectory
+    /// is in memory at a time.
+    ///
+    /// # Errors
+    /// A column that is not there, a row without a number, frames that are missing; what `visit` says.
+    pub fn walk(&self, wanted: &dyn Fn(&PublishedFlight) -> bool, visit: Visit<'_>) -> Result<()> {
+        let mut awaited: BTreeMap<&str, &PublishedFlight> =
+            self.flights().iter().map(|it| (&*it.trajectory_id, it)).collect();
+        awaited.retain(|_, flight| wanted(flight));
+        let splits: BTreeSet<&str> = awaited.values().map(|flight| &*flight.split).collect();
+        let mut open: Option<(&PublishedFlight, Vec<FrameRow>)> = None;
+        for (split, path) in self.files("frames")? {
+            if awaited.is_empty() && open.is_none() || !splits.contains(&*split) {
+                continue;
+            }
+            read(&path, &mut |rows| {
+                let ids = rows.values(Frames::trajectory_id)?;
+                for row in 0..rows.len() {
+                    let id = ids.text(row);
+                    if open.as_ref().is_none_or(|(flight, _)| flight.trajectory_id != id) {
+                        end(open.take(), visit)?;
+                        open = awaited.remove(id).map(|it| (it, Vec::with_capacity(it.frames.min(MOST_ROOM))));
+                    }
+                    if let Some((flight, frames)) = &mut open {
+                        let frame = FrameRow::read(rows, row)?;
+                        if frame.frame as usize != frames.len() {
+                            let what = format!("frame {} of `{}` is out of order", frame.frame, flight.trajectory_id);
+                            return Err(damaged(&path, &what, format!("frame {} should be there", frames.len())));
+                        }
+                        frames.push(frame);
+                    }
+                }
+                Ok(())
+            })?;
+        }
+        end(open.take(), visit)?;
+        awaited.values().next().map_or(Ok(()), |flight| Err(incomplete(flight, 0)))
+    }
+
+    /// All frames of one trajectory, in their order.
+    ///
+    /// # Errors
+    /// As [`Self::walk`].
+    pub fn frames(&self, flight: &PublishedFlight) -> Result<Vec<FrameRow>> {
+        let mut found = vec![];
+        self.walk(&|it| it.trajectory_id == flight.trajectory_id, &mut |_, frames| {
+            found = frames;
+            Ok(())
+        })?;
+        Ok(found)
+    }
+}
+
+fn end(open: Option<(&PublishedFlight, Vec<FrameRow>)>, visit: Visit<'_>) -> Result<()> {
+    match open {
+        Some((flight, frames)) if frames.len() == flight.frames => visit(flight, frames),
+        Some((flight, frames)) => Err(incomplete(flight, frames.len())),
+        None => Ok(()),
+    }
+}
+
+fn incomplete(flight: &PublishedFlight, rows: usize) -> Box<Diagnostic> {
+    let (id, frames) = (&flight.trajectory_id, flight.frames);
+    let message = format!("table `frames` has {rows} rows of `{id}` together; the trajectory has {frames} frames");
+    Diagnostic::new("dataset-damaged", Fault::Input, message)
+        .hint("`cosfly verify` lists everything that is wrong with a dataset")
+}
+
+impl FrameRow {
+    /// A row of table `frames`.
+    ///
+    /// # Errors
+    /// A column that is not there, or holds no value.
+    pub fn read(rows: &Rows<'_>, row: usize) -> Result<Self> {
+        let pose = Pose {
+            position_in_world: DVec3::new(
+                rows.get(Frames::drone_x_m, row)?,
+                rows.get(Frames::drone_y_m, row)?,
+                rows.get(Frames::drone_z_m, row)?,
+            ),
+            pitch_rad: rows.get(Frames::drone_pitch_deg, row)?.to_radians(),
+            yaw_rad: rows.get(Frames::drone_yaw_deg, row)?.to_radians(),
+            roll_rad: rows.get(Frames::drone_roll_deg, row)?.to_radians(),
+        };
+        // Datasets from before the gimbal have cameras without an attitude of their own.
+        let camera_pose = if rows.has(Frames::camera_pitch_deg) {
+            Pose {
+                pitch_rad: rows.get(Frames::camera_pitch_deg, row)?.to_radians(),
+                yaw_rad: rows.get(Frames::camera_yaw_deg, row)?.to_radians(),
+                roll_rad: rows.get(Frames::camera_roll_deg, row)?.to_radians(),
+                ..pose
+            }
+        } else {
+            pose
+        };
+        Ok(Self {
+            frame: rows.get(Frames::frame, row)?,
+            time_s: rows.get(Frames::time_s, row)?,
+            pose,
+            camera_pose,
+            target: TargetState {
+                feet_in_world: DVec3::new(
+                    rows.get(Frames::target_x_m, row)?,
+                    rows.get(Frames::target_y_m, row)?,
+                    rows.get(Frames::target_z_m, row)?,
+                ),
+                heading_rad: rows.get(Frames::target_heading_deg, row)?.to_radians(),
+                speed_mps: rows.get(Frames::target_speed_mps, row)?,
+            },
+            distance_m: rows.get(Frames::distance_m, row)?,
+            clearance_m: rows.get(Frames::clearance_m, row)?,
+            in_view: rows.get(Frames::in_view, row)?,
+            visible_by_rays: rows.get(Frames::visible_by_rays, row)?,
+            visible_by_pixels: rows.get(Frames::visible_by_pixels, row)?,
+            visible_by_dense_rays: rows.get_or(Frames::visible_by_dense_rays, row, None)?,
+            visible_pixels: rows.get(Frames::visible_pixels, row)?,
+            visible_box_px: rows.get(Frames::visible_box_px, row)?,
+            full_box_px: rows.get(Frames::full_box_px, row)?,
+            occluder_instance: rows.get(Frames::occluder_instance, row)?,
+            action_in_world: rows.get(Frames::action_in_world, row)?,
+            action_in_body: rows.get(Frames::action_in_body, row)?,
+            disturbance: Disturbance::read(rows, row)?,
+        })
+    }
+}
+
+impl Disturbance {
+    fn read(rows: &Rows<'_>, row: usize) -> Result<Option<Self>> {
+        let Some(expert_frame) = rows.get(Frames::expert_frame, row)? else { return Ok(None) };
+        let vector = |numbers: Option<[f64; 3]>| numbers.map_or(DVec3::ZERO, DVec3::from_array);
+        Ok(Some(Self {
+            expert_frame,
+            position: rows.get(Frames::position_event, row)?.unwrap_or(false),
+            rotation: rows.get(Frames::rotation_event, row)?.unwrap_or(false),
+            drone_offset_in_world: vector(rows.get(Frames::drone_offset_in_world_m, row)?),
+            aim_offset_in_world: vector(rows.get(Frames::aim_offset_in_world_m, row)?),
+            pitch_offset_deg: rows.get(Frames::pitch_offset_deg, row)?.unwrap_or(0.0),
+            yaw_offset_deg: rows.get(Frames::yaw_offset_deg, row)?.unwrap_or(0.0),
+        }))
+    }
+}

@@ -1,0 +1,253 @@
+//! The log of one flight, read frame by frame through its index.
+
+use super::damage::damaged;
+use super::records::RECORD_LIMIT;
+use ::mcap::Summary;
+use ::mcap::sans_io::indexed_reader::{IndexedReadEvent, IndexedReader, IndexedReaderOptions};
+use ::mcap::sans_io::summary_reader::{SummaryReadEvent, SummaryReader, SummaryReaderOptions};
+use cosfly_diagnose::{Diagnostic, Fault, Result};
+use cosfly_frames::{DQuat, DVec3};
+use cosfly_schema::log::messages::{MAP_FRAME, OPTICAL_FRAME};
+use cosfly_schema::log::{TargetStateMessage, frame_time_ns, topic};
+use foxglove::messages;
+use prost::Message;
+use std::fs::File;
+use std::io::{Read, Seek, SeekFrom};
+use std::path::{Path, PathBuf};
+
+/// What a frame is made of; instance ids are the last.
+const TOPICS: [&str; 6] = [topic::RGB, topic::DEPTH, topic::SEMANTIC, topic::TF, topic::TARGET_STATE, topic::INSTANCE];
+
+/// Hears topic and bytes of a message; says what is wrong with it.
+type Visit<'a> = &'a mut dyn FnMut(&str, &[u8]) -> Result<(), String>;
+
+/// An open log.
+pub struct LogReader {
+    file: File,
+    path: PathBuf,
+    dt_s: f64,
+    summary: Summary,
+}
+
+/// What a frame's pictures are made of.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct LoggedFrame {
+    /// Pixels per row of all images.
+    pub width: u32,
+    /// Rows.
+    pub height: u32,
+    /// The colour image as a file.
+    pub rgb_file: Vec<u8>,
+    /// Its format: `jpeg` or `png`.
+    pub rgb_format: String,
+    /// Planar depth, metres, row-major; infinite for sky.
+    pub depth_m: Vec<f32>,
+    /// CARLA label ids, row-major.
+    pub semantic: Vec<u8>,
+    /// Instance ids, row-major; empty unless asked for.
+    pub instance: Vec<u32>,
+    /// Where the optical centre is, frame `map` (y is minus that of the world).
+    pub camera_in_map: DVec3,
+    /// Turns the optical axes (x right, y down, z ahead) into those of `map`.
+    pub map_from_optical: DQuat,
+    /// The target.
+    pub target: TargetStateMessage,
+}
+
+/// An obstacle of the logged scene, frame `map`.
+#[derive(Clone, Debug, PartialEq)]
+pub struct SceneBox {
+    /// CARLA's name of its label, such as `Building`.
+    pub label: String,
+    /// Its middle.
+    pub center_in_map: DVec3,
+    /// Half its size along its own axes, metres.
+    pub half_extents_m: DVec3,
+    /// Turn about z, counter-clockwise seen from above.
+    pub yaw_rad: f64,
+    /// Red, green, blue, 0..=1.
+    pub colour: [f64; 3],
+}
+
+impl LogReader {
+    /// Reads the index of the log at `path`, whose frames are `dt_s` apart.
+    pub fn open(path: &Path, dt_s: f64) -> Result<Self> {
+        let refused = |error: std::io::Error| Diagnostic::io(format!("read `{}`", path.display()), &error);
+        let mut file = File::open(path).map_err(refused)?;
+        let size = file.metadata().map_err(refused)?.len();
+        let options = SummaryReaderOptions::default().with_file_size(size).with_record_length_limit(RECORD_LIMIT);
+        let mut reader = SummaryReader::new_with_options(options);
+        while let Some(event) = reader.next_event() {
+            match event.map_err(|error| damaged(path, "its index cannot be read", error))? {
+                SummaryReadEvent::ReadRequest(wanted) => {
+                    let read = file.read(reader.insert(wanted)).map_err(refused)?;
+                    reader.notify_read(read);
+                }
+                SummaryReadEvent::SeekRequest(to) => reader.notify_seeked(file.seek(to).map_err(refused)?),
+            }
+        }
+        let summary = reader.finish().ok_or_else(|| damaged(path, "it has no index", "the file was cut short"))?;
+        Ok(Self { file, path: path.to_owned(), dt_s, summary })
+    }
+
+    /// Topics of the log, sorted.
+    pub fn topics(&self) -> Vec<String> {
+        let mut topics: Vec<String> = self.summary.channels.values().map(|channel| channel.topic.clone()).collect();
+        topics.sort();
+        topics
+    }
+
+    /// Images, camera and target of frame `frame`, without instance ids.
+    pub fn frame(&mut self, frame: usize) -> Result<LoggedFrame> {
+        self.read_frame(frame, &TOPICS[..TOPICS.len() - 1])
+    }
+
+    /// Everything of frame `frame`.
+    pub fn frame_with_instances(&mut self, frame: usize) -> Result<LoggedFrame> {
+        let logged = self.read_frame(frame, &TOPICS)?;
+        let is_whole = logged.instance.len() == logged.semantic.len();
+        if is_whole { Ok(logged) } else { Err(self.damaged(&format!("the images of frame {frame} differ in size"))) }
+    }
+
+    fn read_frame(&mut self, frame: usize, topics: &[&str]) -> Result<LoggedFrame> {
+        let time = frame_time_ns(self.dt_s, frame);
+        let mut logged = LoggedFrame::default();
+        let mut found = [false; TOPICS.len()];
+        self.messages(time, topics, &mut |topic, data| {
+            found[topics.iter().position(|it| *it == topic).unwrap_or(0)] = true;
+            logged.take(topic, data)
+        })?;
+        match topics.iter().zip(found).find(|(_, found)| !found) {
+            Some((topic, _)) => Err(self.damaged(&format!("frame {frame} has no message on `{topic}`"))),
+            None if logged.is_whole() => Ok(logged),
+            None => Err(self.damaged(&format!("the images of frame {frame} differ in size"))),
+        }
+    }
+
+    /// The obstacles near the flight.
+    pub fn scene(&mut self) -> Result<Vec<SceneBox>> {
+        let mut boxes = vec![];
+        self.messages(0, &[topic::SCENE], &mut |_, data| {
+            let update = messages::SceneUpdate::decode(data).map_err(|error| error.to_string())?;
+            for entity in update.entities.iter().filter(|entity| entity.frame_id == MAP_FRAME) {
+                let label = entity.id.rsplit('/').next().unwrap_or_default();
+                boxes.extend(entity.cubes.iter().filter_map(|cube| SceneBox::read(label, cube)));
+            }
+            Ok(())
+        })?;
+        Ok(boxes)
+    }
+
+    fn damaged(&self, what: &str) -> Box<Diagnostic> {
+        damaged(&self.path, what, "it was written by something else, or only half")
+    }
+
+    /// Gives the messages of `topics` at `time_ns` to `visit`.
+    fn messages(&mut self, time_ns: u64, topics: &[&str], visit: Visit<'_>) -> Result<()> {
+        let options = IndexedReaderOptions::new()
+            .include_topics(topics.iter().copied())
+            .starting_at(time_ns)
+            .ending_at(time_ns)
+            .with_record_length_limit(RECORD_LIMIT);
+        let path = &self.path;
+        let unreadable = |error: ::mcap::McapError| damaged(path, "a part of it cannot be read", error);
+        let mut reader = IndexedReader::new_with_options(&self.summary, options).map_err(unreadable)?;
+        let mut chunk = vec![];
+        while let Some(event) = reader.next_event() {
+            match event.map_err(unreadable)? {
+                IndexedReadEvent::ReadChunkRequest { offset, length } => {
+                    chunk.resize(length, 0);
+                    let read = self.file.seek(SeekFrom::Start(offset)).and_then(|_| self.file.read_exact(&mut chunk));
+                    read.map_err(|error| Diagnostic::io(format!("read `{}`", path.display()), &error))?;
+                    reader.insert_chunk_record_data(offset, &chunk).map_err(unreadable)?;
+                }
+                IndexedReadEvent::Message { header, data } => {
+                    let topic = self.summary.channels.get(&header.channel_id).map_or("", |channel| &channel.topic);
+                    visit(topic, data).map_err(|what| {
+                        let message = format!("`{}` has a message on `{topic}` that cannot be read", path.display());
+                        Diagnostic::new("dataset-damaged", Fault::Input, message).because(what)
+                    })?;
+                }
+            }
+        }
+        Ok(())
+    }
+}
+
+impl LoggedFrame {
+    fn take(&mut self, topic: &str, data: &[u8]) -> Result<(), String> {
+        let unreadable = |error: prost::DecodeError| error.to_string();
+        match topic {
+            topic::RGB => {
+                let image = messages::CompressedImage::decode(data).map_err(unreadable)?;
+                (self.rgb_file, self.rgb_format) = (image.data.to_vec(), image.format);
+            }
+            topic::DEPTH => {
+                let image = messages::RawImage::decode(data).map_err(unreadable)?;
+                if image.encoding != "32FC1" {
+                    return Err(format!("its encoding is `{}`, not `32FC1`", image.encoding));
+                }
+                (self.width, self.height) = (image.width, image.height);
+                let (depths, _) = image.data.as_chunks::<4>();
+                self.depth_m = depths.iter().map(|bytes| f32::from_le_bytes(*bytes)).collect();
+            }
+            topic::SEMANTIC => {
+                let image = messages::RawImage::decode(data).map_err(unreadable)?;
+                self.semantic = image.data.to_vec();
+            }
+            topic::INSTANCE => {
+                let image = messages::RawImage::decode(data).map_err(unreadable)?;
+                self.instance = match image.encoding.as_str() {
+                    "16UC1" => {
+                        image.data.as_chunks::<2>().0.iter().map(|it| u32::from(u16::from_le_bytes(*it))).collect()
+                    }
+                    "32UC1" => image.data.as_chunks::<4>().0.iter().map(|it| u32::from_le_bytes(*it)).collect(),
+                    other => return Err(format!("its encoding is `{other}`, not `16UC1` or `32UC1`")),
+                };
+            }
+            topic::TF => {
+                let transforms = messages::FrameTransforms::decode(data).map_err(unreadable)?.transforms;
+                (self.camera_in_map, self.map_from_optical) = camera_in_map(&transforms)?;
+            }
+            topic::TARGET_STATE => self.target = TargetStateMessage::decode(data).map_err(unreadable)?,
+            _ => {}
+        }
+        Ok(())
+    }
+
+    fn is_whole(&self) -> bool {
+        let pixels = self.width as usize * self.height as usize;
+        pixels > 0 && self.depth_m.len() == pixels && self.semantic.len() == pixels
+    }
+}
+
+/// The optical frame in the map's, through all frames between.
+fn camera_in_map(transforms: &[messages::FrameTransform]) -> Result<(DVec3, DQuat), String> {
+    let (mut place, mut turn, mut frame) = (DVec3::ZERO, DQuat::IDENTITY, OPTICAL_FRAME);
+    // A chain is never longer than the list: no endless way round.
+    for _ in transforms {
+        let Some(next) = transforms.iter().find(|it| it.child_frame_id == frame) else { break };
+        let (Some(t), Some(r)) = (&next.translation, &next.rotation) else { return Err("half a transform".into()) };
+        let rotation = DQuat::from_xyzw(r.x, r.y, r.z, r.w);
+        (place, turn) = (DVec3::new(t.x, t.y, t.z) + rotation * place, rotation * turn);
+        frame = &next.parent_frame_id;
+    }
+    let sound = frame == MAP_FRAME && place.is_finite() && turn.is_finite();
+    if sound { Ok((place, turn)) } else { Err(format!("`{OPTICAL_FRAME}` does not hang on `{MAP_FRAME}`")) }
+}
+
+impl SceneBox {
+    fn read(label: &str, cube: &messages::CubePrimitive) -> Option<Self> {
+        let (pose, size, colour) = (cube.pose.as_ref()?, cube.size.as_ref()?, cube.color.as_ref()?);
+        let (p, q) = (pose.position.as_ref()?, pose.orientation.as_ref()?);
+        let ahead = DQuat::from_xyzw(q.x, q.y, q.z, q.w) * DVec3::X;
+        let scene_box = Self {
+            label: label.to_owned(),
+            center_in_map: DVec3::new(p.x, p.y, p.z),
+            half_extents_m: 0.5 * DVec3::new(size.x, size.y, size.z),
+            yaw_rad: cosfly_frames::real::atan2(ahead.y, ahead.x),
+            colour: [colour.r, colour.g, colour.b],
+        };
+        (scene_box.center_in_map.is_finite() && scene_box.half_extents_m.is_finite()).then_some(scene_box)
+    }
+}

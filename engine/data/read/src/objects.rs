@@ -1,0 +1,52 @@
+//! Boxes of objects in the towns of a dataset, off table `objects`.
+
+use super::dataset::PublishedDataset;
+use super::rows::read;
+use cosfly_diagnose::Result;
+use cosfly_frames::DVec3;
+use cosfly_schema::tables::Objects;
+
+/// A box of an object.
+#[derive(Clone, Debug, PartialEq)]
+pub struct PublishedObject {
+    /// Name of the town.
+    pub town: String,
+    /// Id in instance images.
+    pub instance: u32,
+    /// Kind of object, such as `building`.
+    pub kind: String,
+    /// The box.
+    pub shape: BoxInWorld,
+}
+
+/// Middle, half lengths along the box's own axes (metres) and yaw (radians) of a box.
+pub type BoxInWorld = (DVec3, DVec3, f64);
+
+impl PublishedDataset {
+    /// The boxes of all objects of these kinds, in the order of the table.
+    ///
+    /// # Errors
+    /// The damage of the table.
+    pub fn objects(&self, kinds: &[&str]) -> Result<Vec<PublishedObject>> {
+        let mut found = vec![];
+        for (_, path) in self.files("objects")? {
+            read(&path, &mut |rows| {
+                let of_rows = rows.values(Objects::kind)?;
+                for row in (0..rows.len()).filter(|row| kinds.contains(&of_rows.text(*row))) {
+                    found.push(PublishedObject {
+                        town: rows.get(Objects::town, row)?,
+                        instance: rows.get(Objects::instance, row)?,
+                        kind: of_rows.text(row).to_owned(),
+                        shape: (
+                            DVec3::from_array(rows.get(Objects::center_in_world_m, row)?),
+                            0.5 * DVec3::from_array(rows.get(Objects::size_m, row)?),
+                            rows.get(Objects::yaw_deg, row)?.to_radians(),
+                        ),
+                    });
+                }
+                Ok(())
+            })?;
+        }
+        Ok(found)
+    }
+}

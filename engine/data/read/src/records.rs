@@ -1,0 +1,31 @@
+//! All records of an MCAP file in their order, with every checksum checked.
+
+use ::mcap::records::Record;
+use ::mcap::sans_io::linear_reader::{LinearReadEvent, LinearReader, LinearReaderOptions};
+use std::io::Read;
+
+/// Longest record that is read; a raw depth image of the largest camera fits.
+pub(crate) const RECORD_LIMIT: usize = 1 << 30;
+
+/// Gives every record to `visit`, with all checksums checked before.
+pub fn read_records(input: &mut impl Read, visit: &mut dyn FnMut(Record<'_>)) -> Result<(), String> {
+    let options = LinearReaderOptions::default()
+        .with_prevalidate_chunk_crcs(true)
+        .with_validate_data_section_crc(true)
+        .with_validate_summary_section_crc(true)
+        .with_check_finishes_after_end_magic(true)
+        .with_record_length_limit(RECORD_LIMIT);
+    let mut reader = LinearReader::new_with_options(options);
+    while let Some(event) = reader.next_event() {
+        match event.map_err(|error| format!("the log is damaged: {error}"))? {
+            LinearReadEvent::ReadRequest(wanted) => {
+                let read = input.read(reader.insert(wanted)).map_err(|error| format!("it cannot be read: {error}"))?;
+                reader.notify_read(read);
+            }
+            LinearReadEvent::Record { opcode, data } => {
+                visit(::mcap::parse_record(opcode, data).map_err(|error| format!("a record is damaged: {error}"))?);
+            }
+        }
+    }
+    Ok(())
+}

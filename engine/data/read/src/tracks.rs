@@ -1,0 +1,147 @@
+//! Poses, targets and visibility of all flights of a dataset at once, without pictures: what predictions are judged by.
+
+use super::damage::damaged;
+use super::dataset::PublishedDataset;
+use super::rows::{Rows, Values, read};
+use super::trajectory::PublishedFlight;
+use cosfly_diagnose::Result;
+use cosfly_frames::{DVec3, Pose};
+use cosfly_schema::tables::{Edges, Frames};
+use std::collections::BTreeMap;
+use std::path::Path;
+
+/// The frames of a flight, one entry of each list per frame. World frame, metres, radians.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct FlightTrack {
+    /// Poses of the drone.
+    pub poses: Vec<Pose>,
+    /// The target's feet.
+    pub feet: Vec<DVec3>,
+    /// The target's walking direction.
+    pub heading_rad: Vec<f64>,
+    /// Share of the target's body that rays from the camera reach, 0..=1.
+    pub visible: Vec<f64>,
+    /// Edges around the target's visible pixels: left, top, right, bottom.
+    pub boxes: Vec<Option<Edges>>,
+    /// The expert's frame of each frame of a perturbed flight; its own for an expert.
+    pub expert_frame: Vec<u32>,
+}
+
+/// Frames that room is made for at most before they are there.
+const MOST_ROOM: usize = 1 << 16;
+
+impl FlightTrack {
+    /// An empty one with room for `frames` frames.
+    fn with_room(frames: usize) -> Self {
+        Self {
+            poses: Vec::with_capacity(frames),
+            feet: Vec::with_capacity(frames),
+            heading_rad: Vec::with_capacity(frames),
+            visible: Vec::with_capacity(frames),
+            boxes: Vec::with_capacity(frames),
+            expert_frame: Vec::with_capacity(frames),
+        }
+    }
+}
+
+impl PublishedDataset {
+    /// The track of every trajectory, in the order of [`Self::flights`]. Reads each file of table `frames` once.
+    ///
+    /// # Errors
+    /// A column that is not there, a row without a number, frames that are missing or out of order.
+    pub fn tracks(&self) -> Result<Vec<FlightTrack>> {
+        let mut tracks: Vec<FlightTrack> =
+            self.flights().iter().map(|flight| FlightTrack::with_room(flight.frames.min(MOST_ROOM))).collect();
+        let places: BTreeMap<&str, usize> =
+            self.flights().iter().enumerate().map(|(place, flight)| (flight.trajectory_id.as_str(), place)).collect();
+        for (_, path) in self.files("frames")? {
+            let mut last: Option<(String, usize)> = None;
+            read(&path, &mut |rows| {
+                let columns = Columns::of(rows)?;
+                for row in 0..rows.len() {
+                    let id = columns.ids.text(row);
+                    let place = match &last {
+                        Some((name, place)) if name == id => *place,
+                        _ => *places.get(id).ok_or_else(|| {
+                            damaged(&path, &format!("trajectory `{id}` is in no table of trajectories"), "a stray row")
+                        })?,
+                    };
+                    if last.as_ref().is_none_or(|(_, known)| *known != place) {
+                        last = Some((id.to_owned(), place));
+                    }
+                    columns.push(row, &path, &self.flights()[place], &mut tracks[place])?;
+                }
+                Ok(())
+            })?;
+        }
+        for (flight, track) in self.flights().iter().zip(&tracks) {
+            if track.poses.len() != flight.frames {
+                let (rows, frames) = (track.poses.len(), flight.frames);
+                let what = format!("it has {rows} rows of `{}`, which has {frames} frames", flight.trajectory_id);
+                let folder = self.folder().join("data/frames");
+                return Err(damaged(&folder, &what, "rows are missing or too many"));
+            }
+        }
+        Ok(tracks)
+    }
+}
+
+/// The columns that tracks are made of, in the rows of one group.
+struct Columns<'f> {
+    ids: Values<'f, String>,
+    frame: Values<'f, u32>,
+    position: [Values<'f, f64>; 3],
+    /// Pitch, yaw, roll, degrees.
+    angles: [Values<'f, f64>; 3],
+    feet: [Values<'f, f64>; 3],
+    heading: Values<'f, f64>,
+    visible: Values<'f, f64>,
+    boxes: Values<'f, Option<Edges>>,
+    expert_frame: Values<'f, Option<u32>>,
+}
+
+impl<'f> Columns<'f> {
+    fn of(rows: &Rows<'f>) -> Result<Self> {
+        Ok(Self {
+            ids: rows.values(Frames::trajectory_id)?,
+            frame: rows.values(Frames::frame)?,
+            position: [
+                rows.values(Frames::drone_x_m)?,
+                rows.values(Frames::drone_y_m)?,
+                rows.values(Frames::drone_z_m)?,
+            ],
+            angles: [
+                rows.values(Frames::drone_pitch_deg)?,
+                rows.values(Frames::drone_yaw_deg)?,
+                rows.values(Frames::drone_roll_deg)?,
+            ],
+            feet: [
+                rows.values(Frames::target_x_m)?,
+                rows.values(Frames::target_y_m)?,
+                rows.values(Frames::target_z_m)?,
+            ],
+            heading: rows.values(Frames::target_heading_deg)?,
+            visible: rows.values(Frames::visible_by_rays)?,
+            boxes: rows.values(Frames::visible_box_px)?,
+            expert_frame: rows.values(Frames::expert_frame)?,
+        })
+    }
+
+    fn push(&self, row: usize, path: &Path, flight: &PublishedFlight, track: &mut FlightTrack) -> Result<()> {
+        let frame = self.frame.at(row)?;
+        if frame as usize != track.poses.len() {
+            let what = format!("frame {frame} of `{}` is out of order", flight.trajectory_id);
+            return Err(damaged(path, &what, format!("frame {} should be there", track.poses.len())));
+        }
+        let vector = |of: &[Values<'f, f64>; 3]| Ok::<_, Box<_>>([of[0].at(row)?, of[1].at(row)?, of[2].at(row)?]);
+        let [pitch_rad, yaw_rad, roll_rad] = vector(&self.angles)?.map(f64::to_radians);
+        let position_in_world = DVec3::from_array(vector(&self.position)?);
+        track.poses.push(Pose { position_in_world, pitch_rad, yaw_rad, roll_rad });
+        track.feet.push(DVec3::from_array(vector(&self.feet)?));
+        track.heading_rad.push(self.heading.at(row)?.to_radians());
+        track.visible.push(self.visible.at(row)?);
+        track.boxes.push(self.boxes.at(row)?);
+        track.expert_frame.push(self.expert_frame.at(row)?.unwrap_or(frame));
+        Ok(())
+    }
+}

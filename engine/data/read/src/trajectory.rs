@@ -1,0 +1,121 @@
+//! A row of table `trajectories`.
+
+use super::rows::Rows;
+use cosfly_diagnose::Result;
+use cosfly_frames::DVec3;
+use cosfly_render::{Camera, Lens, Mount};
+use cosfly_schema::TownLayout;
+use cosfly_schema::tables::{Trajectories, WEATHER_NUMBERS};
+use std::collections::BTreeMap;
+
+/// A published trajectory.
+#[derive(Clone, Debug, PartialEq)]
+pub struct PublishedFlight {
+    /// Unique in the dataset.
+    pub trajectory_id: String,
+    /// Name of the flight, the same for all weathers of a paired rendering.
+    pub flight_id: String,
+    /// The expert of a perturbed trajectory.
+    pub expert_id: Option<String>,
+    /// Pedestrian who is followed.
+    pub pedestrian_id: String,
+    /// Name of the town.
+    pub town: String,
+    /// Digest of the town's geometry; towns with the same digest are the same place. Empty in datasets from before the column.
+    pub town_geometry: String,
+    /// Ground plan of the town; without a sketch, and with the geometry's digest, in datasets from before the column.
+    pub town_layout: TownLayout,
+    /// Trajectories with the same group must stay in one split; empty in datasets from before the column.
+    pub split_group: String,
+    /// `x = x_map - x_offset`, `y = -y_map - y_offset`, `z = z_map - z_offset`, metres.
+    pub town_offset_m: DVec3,
+    /// Name of the weather preset.
+    pub weather: String,
+    /// CARLA's weather numbers by their names.
+    pub weather_numbers: BTreeMap<String, f64>,
+    /// Number of frames.
+    pub frames: usize,
+    /// Time between frames, seconds.
+    pub dt_s: f64,
+    /// The camera of all frames, without its lens.
+    pub camera: Camera,
+    /// Distortion of the lens.
+    pub lens: Lens,
+    /// Turn of the camera against the drone.
+    pub mount: Mount,
+    /// Time from the top row to the bottom row of an image, seconds.
+    pub readout_s: f64,
+    /// Height of the target's body, metres.
+    pub target_height_m: f64,
+    /// Radius of the target's body, metres.
+    pub target_radius_m: f64,
+    /// Limits of clearance (m), speed (m/s), acceleration (m/s^2) and jerk (m/s^3); none where there is no limit.
+    pub limits: [Option<f64>; 4],
+    /// Path of the log, from the dataset's folder.
+    pub mcap_path: String,
+    /// Name of the split.
+    pub split: String,
+}
+
+impl PublishedFlight {
+    /// A row of table `trajectories` of split `split`.
+    ///
+    /// # Errors
+    /// A column that is not there, or holds no value.
+    pub fn read(rows: &Rows<'_>, row: usize, split: &str) -> Result<Self> {
+        let mut weather_numbers = BTreeMap::new();
+        for number in &WEATHER_NUMBERS {
+            if rows.has(number.column) {
+                weather_numbers.insert(number.name.to_owned(), rows.get(number.column, row)?);
+            }
+        }
+        Ok(Self {
+            trajectory_id: rows.get(Trajectories::trajectory_id, row)?,
+            flight_id: rows.get_or(Trajectories::flight_id, row, String::new())?,
+            expert_id: rows.get(Trajectories::expert_id, row)?.filter(|id| !id.is_empty()),
+            pedestrian_id: rows.get(Trajectories::pedestrian_id, row)?,
+            town: rows.get(Trajectories::town, row)?,
+            town_geometry: rows.get_or(Trajectories::town_geometry_blake3, row, String::new())?,
+            town_layout: layout(rows, row)?,
+            split_group: rows.get_or(Trajectories::split_group, row, String::new())?,
+            town_offset_m: DVec3::from_array(rows.get(Trajectories::town_offset_m, row)?),
+            weather: rows.get(Trajectories::weather_preset, row)?,
+            weather_numbers,
+            frames: rows.get(Trajectories::frames, row)? as usize,
+            dt_s: rows.get(Trajectories::dt_s, row)?,
+            camera: Camera {
+                width: rows.get(Trajectories::camera_width_px, row)?,
+                height: rows.get(Trajectories::camera_height_px, row)?,
+                horizontal_fov_rad: rows.get(Trajectories::camera_fov_deg, row)?.to_radians(),
+            },
+            lens: Lens {
+                k1: rows.get_or(Trajectories::camera_k1, row, 0.0)?,
+                k2: rows.get_or(Trajectories::camera_k2, row, 0.0)?,
+            },
+            mount: Mount {
+                pitch_rad: rows.get_or(Trajectories::camera_mount_pitch_deg, row, 0.0)?.to_radians(),
+                yaw_rad: rows.get_or(Trajectories::camera_mount_yaw_deg, row, 0.0)?.to_radians(),
+            },
+            readout_s: rows.get_or(Trajectories::camera_readout_s, row, 0.0)?,
+            target_height_m: rows.get(Trajectories::target_height_m, row)?,
+            target_radius_m: rows.get(Trajectories::target_radius_m, row)?,
+            limits: [
+                rows.get_or(Trajectories::limit_clearance_m, row, None)?,
+                rows.get_or(Trajectories::limit_speed_mps, row, None)?,
+                rows.get_or(Trajectories::limit_acceleration_mps2, row, None)?,
+                rows.get_or(Trajectories::limit_jerk_mps3, row, None)?,
+            ],
+            mcap_path: rows.get(Trajectories::mcap_path, row)?,
+            split: split.to_owned(),
+        })
+    }
+}
+
+fn layout(rows: &Rows<'_>, row: usize) -> Result<TownLayout> {
+    let geometry = rows.get_or(Trajectories::town_geometry_blake3, row, String::new())?;
+    let known = if geometry.is_empty() { rows.get(Trajectories::town, row)? } else { geometry };
+    Ok(TownLayout {
+        digest: rows.get_or(Trajectories::town_layout_blake3, row, known)?,
+        sketch: rows.get_or(Trajectories::town_layout_sketch, row, vec![])?,
+    })
+}

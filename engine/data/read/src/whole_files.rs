@@ -1,0 +1,30 @@
+//! Files read to their ends: whether they can be.
+
+use super::records::read_records;
+use super::rows::TableFile;
+use std::fs::File;
+use std::io::BufReader;
+use std::path::Path;
+
+/// The reason why a Parquet file cannot be read to its end, if so.
+pub fn parquet_problem(path: &Path) -> Option<String> {
+    let read = || {
+        let file = TableFile::open(path)?;
+        for group in 0..file.groups() {
+            let rows = file.group(group)?;
+            (0..file.schema().fields().len()).try_for_each(|place| rows.array(place).map(drop))?;
+        }
+        Ok(())
+    };
+    let outcome: cosfly_diagnose::Result<()> = read();
+    outcome.err().map(|refusal| [vec![refusal.message], refusal.causes].concat().join(": "))
+}
+
+/// The reason why an MCAP file cannot be read to its end with all its checksums, if so.
+pub fn log_problem(path: &Path) -> Option<String> {
+    let file = match File::open(path) {
+        Ok(file) => file,
+        Err(error) => return Some(error.to_string()),
+    };
+    read_records(&mut BufReader::new(file), &mut |_| {}).err()
+}

@@ -1,0 +1,28 @@
+//! What a dataset is: its record model, and every table, column and topic with name, type, unit and meaning.
+//!
+//! * [`record`]: one rendered trajectory, as the stages hand it over.
+//! * [`config`]: what a recipe says about the dataset as a whole.
+//! * [`tables`]: the Parquet tables and their columns.
+//! * [`log`]: the topics and messages of a trajectory's MCAP log.
+//! * [`town_layout`]: a town's ground plan, by which towns are told apart.
+//! * [`flight_labels`], [`flight_table`], [`extras`]: labels, tables and files of plugins.
+
+pub mod config;
+pub mod extras;
+pub mod flight_labels;
+pub mod flight_table;
+pub mod log;
+pub mod record;
+mod reference;
+mod split;
+pub mod tables;
+pub mod town_layout;
+
+pub use config::{DatasetConfig, DepthEncoding, EncodingConfig, RgbEncoding};
+pub use record::{
+    CaptionRecord, LogRecord, OtherPerson, PairInfo, PreviewStrip, Rejection, RenderedTrajectory, Role, Sighting,
+    TownInfo,
+};
+pub use reference::reference;
+pub use split::Split;
+pub use town_layout::TownLayout;

@@ -1,0 +1,390 @@
+//! The record model: one rendered trajectory with everything that tables, logs and cards say about it.
+
+use cosfly_diagnose::{Diagnostic, Fault, Result};
+use cosfly_frames::{Pose, TargetState};
+use cosfly_maps::{MapOrigin, Synthetic, Town};
+use cosfly_planner::Trajectory;
+use cosfly_render::frame::TARGET_INSTANCE;
+use cosfly_render::{Camera, Lens, MotionBlur, Mount, Noise, PersonView, RollingShutter, TargetView, Weather};
+use serde::{Deserialize, Serialize, de::DeserializeOwned};
+
+/// Which of the two flights behind a pedestrian this is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
+pub enum Role {
+    /// The optimised flight.
+    Expert,
+    /// Its disturbed twin, from which to learn to recover.
+    Perturbed,
+}
+
+impl Role {
+    /// All roles, in the order of their class labels.
+    pub const ALL: [Self; 2] = [Self::Expert, Self::Perturbed];
+
+    /// The name in tables.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Expert => "expert",
+            Self::Perturbed => "perturbed",
+        }
+    }
+}
+
+/// The town as far as a trajectory's metadata need it.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct TownInfo {
+    /// Short name.
+    pub name: String,
+    /// BLAKE3 of the town's encoded geometry, 64 hex digits.
+    pub geometry_digest: String,
+    /// How its world frame lies in the map file's frame.
+    pub origin: MapOrigin,
+    /// What was invented.
+    pub synthetic: Synthetic,
+}
+
+impl TownInfo {
+    /// What `town`, whose encoded bytes have the digest `geometry_digest`, is called and was made of.
+    pub fn of(town: &Town, geometry_digest: impl ToString) -> Self {
+        Self {
+            name: town.name.clone(),
+            geometry_digest: geometry_digest.to_string(),
+            origin: town.origin.clone(),
+            synthetic: town.synthetic.clone(),
+        }
+    }
+}
+
+/// How a perturbed flight belongs to its expert.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub struct PairInfo {
+    /// Trajectory id of the expert, as it is published.
+    pub expert_id: String,
+}
+
+/// Somebody who is about beside the target.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct OtherPerson {
+    /// Id in instance images: after those of all objects, the same in all flights of a stage.
+    pub instance: u32,
+    /// Stage and item of their walk, such as `crowd-p00003`.
+    pub walk_id: String,
+    /// Body height, metres.
+    pub height_m: f64,
+    /// Body radius seen from above, metres.
+    pub radius_m: f64,
+}
+
+/// Somebody of whom a frame shows at least one pixel.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Sighting {
+    /// The frame.
+    pub frame: u32,
+    /// Their place among [`RenderedTrajectory::others`].
+    pub person: u32,
+    /// Where they are and how they move.
+    pub state: TargetState,
+    /// Their pixels.
+    pub view: PersonView,
+}
+
+/// One trajectory with all that was computed about it, except for the pixels (see [`cosfly_write::frame_pack`]).
+/// The `index` blob of the render stage. World frame: CARLA's, metres, radians.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct RenderedTrajectory {
+    /// Unique in the dataset: letters, digits, `.`, `_` and `-`, such as `expert-p00000`.
+    pub trajectory_id: String,
+    /// The flight that the pictures are of: the trajectory id without the weather that a paired rendering appends.
+    pub flight_id: String,
+    /// Expert or perturbed.
+    pub role: Role,
+    /// Item id of the pedestrian that is followed. Twins share it, and all flights behind one pedestrian go to
+    /// the same split.
+    pub pedestrian_id: String,
+    /// The town.
+    pub town: TownInfo,
+    /// Poses, target track, costs, certificate, perturbation.
+    pub trajectory: Trajectory,
+    /// The ideal camera of all frames, without its lens.
+    pub camera: Camera,
+    /// What the lens of the camera bends.
+    pub lens: Lens,
+    /// How the camera is turned against the drone, whose poses the trajectory holds.
+    pub mount: Mount,
+    /// The shutter of the camera.
+    pub motion_blur: MotionBlur,
+    /// How its rows are read.
+    pub rolling_shutter: RollingShutter,
+    /// The noise of its sensor.
+    pub noise: Noise,
+    /// The weather of all frames.
+    pub weather: Weather,
+    /// The item's seed, its first eight bytes as a number.
+    pub seed: u64,
+    /// The target in the image, per frame.
+    pub views: Vec<TargetView>,
+    /// Share of the target that hundreds of rays reach, per frame, apart from the renderer; none out of view.
+    pub visible_by_dense_rays: Vec<Option<f64>>,
+    /// Everybody who is about beside the target, by instance id.
+    pub others: Vec<OtherPerson>,
+    /// Who of them is seen in which frame, by frame and instance id.
+    pub sightings: Vec<Sighting>,
+    /// Set for a perturbed flight.
+    pub pair: Option<PairInfo>,
+}
+
+impl RenderedTrajectory {
+    /// Number of frames.
+    pub fn len(&self) -> usize {
+        self.trajectory.poses_in_world.len()
+    }
+
+    /// Whether there is no frame at all.
+    pub fn is_empty(&self) -> bool {
+        self.len() == 0
+    }
+
+    /// Time between frames, seconds.
+    pub fn dt_s(&self) -> f64 {
+        self.trajectory.track.dt_s
+    }
+
+    /// The camera's pose.
+    pub fn camera_pose(&self, frame: usize) -> Pose {
+        self.mount.camera_pose(&self.trajectory.poses_in_world[frame])
+    }
+
+    /// Who is seen in a frame beside the target.
+    pub fn seen_in(&self, frame: usize) -> impl Iterator<Item = (&OtherPerson, &Sighting)> {
+        let start = self.sightings.partition_point(|sighting| (sighting.frame as usize) < frame);
+        let seen = self.sightings[start..].iter().take_while(move |sighting| sighting.frame as usize == frame);
+        seen.map(|sighting| (&self.others[sighting.person as usize], sighting))
+    }
+
+    /// Distance from the camera to the target's feet, metres.
+    pub fn distance_m(&self, frame: usize) -> f64 {
+        let feet = self.trajectory.track.states[frame].feet_in_world;
+        (feet - self.trajectory.poses_in_world[frame].position_in_world).length()
+    }
+
+    /// The bytes of an `index` blob.
+    pub fn to_bytes(&self) -> Vec<u8> {
+        encode(TRAJECTORY_MAGIC, self)
+    }
+
+    /// Reads an `index` blob; lengths, names and numbers are checked, so that writers may rely on them.
+    pub fn from_bytes(bytes: &[u8]) -> Result<Self> {
+        let record: Self = decode("rendered trajectory", TRAJECTORY_MAGIC, bytes)?;
+        record.check()?;
+        Ok(record)
+    }
+
+    /// Refuses a record whose per-frame vectors differ in length, whose names would not make a file name, or
+    /// that holds a number that is not finite.
+    pub fn check(&self) -> Result<()> {
+        let frames = self.len();
+        let trajectory = &self.trajectory;
+        let lengths = [
+            ("track.states", trajectory.track.len()),
+            ("visibility", trajectory.visibility.len()),
+            ("clearance_m", trajectory.clearance_m.len()),
+            ("views", self.views.len()),
+            ("visible_by_dense_rays", self.visible_by_dense_rays.len()),
+            ("perturbation.frames", trajectory.perturbation.as_ref().map_or(frames, |p| p.frames.len())),
+        ];
+        let terms = trajectory.terms.iter().map(|term| (term.name.as_str(), term.per_frame.len()));
+        if let Some((name, length)) = lengths.into_iter().chain(terms).find(|(_, length)| *length != frames) {
+            return Err(self.refusal(format!("`{name}` has {length} frames; there are {frames} poses")));
+        }
+        for (what, name) in
+            [("trajectory id", &self.trajectory_id), ("flight id", &self.flight_id), ("town name", &self.town.name)]
+        {
+            if !is_plain_name(name) {
+                return Err(self.refusal(format!(
+                    "{what} `{name}` must have 1 to 120 letters, digits, `.`, `_` or `-` and not begin with `.`"
+                )));
+            }
+        }
+        let dt_s = self.dt_s();
+        if !(dt_s.is_finite() && dt_s > 0.0) {
+            return Err(self.refusal(format!("`dt_s` is `{dt_s}`; it must be more than 0 s")));
+        }
+        let optics = [self.lens.k1, self.lens.k2, self.mount.pitch_rad, self.mount.yaw_rad];
+        if !optics.iter().all(|number| number.is_finite()) {
+            return Err(self.refusal("its lens or mount holds a number that is not finite".into()));
+        }
+        for (frame, (pose, state)) in trajectory.poses_in_world.iter().zip(&trajectory.track.states).enumerate() {
+            let finite = pose.position_in_world.is_finite()
+                && [pose.pitch_rad, pose.yaw_rad, pose.roll_rad].iter().all(|angle| angle.is_finite())
+                && state.feet_in_world.is_finite()
+                && state.heading_rad.is_finite()
+                && state.speed_mps.is_finite();
+            if !finite {
+                return Err(self.refusal(format!("frame {frame} holds a number that is not finite")));
+            }
+        }
+        self.check_others()
+    }
+
+    fn check_others(&self) -> Result<()> {
+        let ids = |pair: &[OtherPerson]| pair[0].instance < pair[1].instance;
+        if !(self.others.windows(2).all(ids) && self.others.first().is_none_or(|it| it.instance > TARGET_INSTANCE)) {
+            return Err(self.refusal("its people are not in the order of their ids".into()));
+        }
+        let key = |it: &Sighting| (it.frame, it.person);
+        let is_sound = |it: &Sighting| {
+            let person = self.others.get(it.person as usize);
+            (it.frame as usize) < self.len()
+                && person.is_some_and(|person| person.instance == it.view.instance)
+                && it.state.feet_in_world.is_finite()
+                && it.state.heading_rad.is_finite()
+                && it.state.speed_mps.is_finite()
+        };
+        let is_ordered = self.sightings.windows(2).all(|pair| key(&pair[0]) < key(&pair[1]));
+        match self.sightings.iter().find(|it| !is_sound(it)) {
+            Some(it) => Err(self.refusal(format!("frame {} sees somebody who is not about", it.frame))),
+            None if !is_ordered => Err(self.refusal("people who are seen are not in the order of frames".into())),
+            None => Ok(()),
+        }
+    }
+
+    fn refusal(&self, message: String) -> Box<Diagnostic> {
+        Diagnostic::new("dataset-record", Fault::Bug, format!("trajectory `{}`: {message}", self.trajectory_id))
+    }
+}
+
+/// Whether `name` can stand in a path of the published dataset on every system.
+fn is_plain_name(name: &str) -> bool {
+    (1..=120).contains(&name.len())
+        && !name.starts_with('.')
+        && name.bytes().all(|byte| byte.is_ascii_alphanumeric() || matches!(byte, b'.' | b'_' | b'-'))
+}
+
+/// What is known of a finished log without opening it.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub struct LogRecord {
+    /// Whose log it is.
+    pub trajectory_id: String,
+    /// Expert or perturbed.
+    pub role: Role,
+    /// The pedestrian; decides the split.
+    pub pedestrian_id: String,
+    /// Town name; decides the folder.
+    pub town: String,
+    /// Frames.
+    pub frames: u64,
+    /// Messages on all channels.
+    pub messages: u64,
+    /// Bytes of the file.
+    pub bytes: u64,
+    /// SHA-256 of the file, 64 hex digits.
+    pub sha256: String,
+}
+
+/// One instruction for one trajectory.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub struct CaptionRecord {
+    /// Two-letter code: `zh` or `en`.
+    pub language: String,
+    /// Kind of text, such as `instruction`.
+    pub style: String,
+    /// The text.
+    pub text: String,
+}
+
+/// An item that gave no trajectory, published with its reason.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub struct Rejection {
+    /// The id that the trajectory would have had.
+    pub trajectory_id: String,
+    /// Stage that rejected it.
+    pub stage: String,
+    /// Item id of the pedestrian.
+    pub pedestrian_id: String,
+    /// Town name.
+    pub town: String,
+    /// Why, in words.
+    pub reason: String,
+}
+
+/// The small RGB previews of a trajectory's frames for the `frames` table; empty when previews are off.
+#[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+pub struct PreviewStrip {
+    /// One JPEG file per frame.
+    pub jpegs: Vec<Vec<u8>>,
+}
+
+impl PreviewStrip {
+    /// The bytes of a `previews` blob.
+    pub fn to_bytes(&self) -> Vec<u8> {
+        encode(PREVIEWS_MAGIC, self)
+    }
+
+    /// Reads a `previews` blob.
+    pub fn from_bytes(bytes: &[u8]) -> Result<Self> {
+        decode("preview strip", PREVIEWS_MAGIC, bytes)
+    }
+}
+
+/// The bytes of a captions blob.
+pub fn captions_to_bytes(captions: &[CaptionRecord]) -> Vec<u8> {
+    encode(CAPTIONS_MAGIC, &captions)
+}
+
+/// Reads a captions blob.
+pub fn captions_from_bytes(bytes: &[u8]) -> Result<Vec<CaptionRecord>> {
+    decode("captions", CAPTIONS_MAGIC, bytes)
+}
+
+const TRAJECTORY_MAGIC: &[u8; 8] = b"CFTRAJ\x00\x03";
+const PREVIEWS_MAGIC: &[u8; 8] = b"CFPREV\x00\x01";
+const CAPTIONS_MAGIC: &[u8; 8] = b"CFCAPT\x00\x01";
+
+/// Eight bytes of kind and version, then postcard.
+fn encode<T: Serialize>(magic: &[u8; 8], value: &T) -> Vec<u8> {
+    postcard::to_extend(value, magic.to_vec()).expect("records are plain data that postcard writes to memory")
+}
+
+fn decode<T: DeserializeOwned>(what: &str, magic: &[u8; 8], bytes: &[u8]) -> Result<T> {
+    let refuse = |message: String| Diagnostic::new("dataset-blob", Fault::Input, message);
+    let Some((head, body)) = bytes.split_first_chunk::<8>() else {
+        return Err(refuse(format!("the {what} ends after {} bytes", bytes.len())));
+    };
+    if head[..6] != magic[..6] {
+        return Err(refuse(format!("these bytes are not a {what}")));
+    }
+    if head != magic {
+        return Err(refuse(format!("the {what} has version {}; this cosfly reads version {}", head[7], magic[7])));
+    }
+    match postcard::take_from_bytes(body) {
+        Ok((value, [])) => Ok(value),
+        Ok((_, rest)) => {
+            Err(refuse(format!("the {what} is followed by {} bytes that do not belong to it", rest.len())))
+        }
+        Err(error) => Err(refuse(format!("the {what} is damaged")).because(error)),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn captions_survive_a_round_trip_and_damage_is_refused() {
+        let captions =
+            vec![CaptionRecord { language: "zh".into(), style: "instruction".into(), text: "跟随行人".into() }];
+        let bytes = captions_to_bytes(&captions);
+        assert_eq!(captions_from_bytes(&bytes).unwrap(), captions);
+        assert!(captions_from_bytes(&bytes[..bytes.len() - 1]).is_err());
+        assert!(captions_from_bytes(b"CFCAPT\x00\x02").unwrap_err().message.contains("version 2"));
+        assert!(PreviewStrip::from_bytes(&bytes).unwrap_err().message.contains("not a preview strip"));
+    }
+
+    #[test]
+    fn names_that_would_leave_their_folder_are_refused() {
+        for (name, plain) in [("expert-p00000", true), ("muco.p1", true), ("../x", false), ("", false), ("a/b", false)]
+        {
+            assert_eq!(is_plain_name(name), plain, "{name}");
+        }
+    }
+}

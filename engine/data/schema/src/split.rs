@@ -1,0 +1,43 @@
+//! The parts of a dataset: train, val, test.
+
+use crate::config::SplitShares;
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+/// A part of a dataset.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum Split {
+    /// For training.
+    Train,
+    /// For choosing between models.
+    Val,
+    /// For final figures.
+    Test,
+}
+
+impl Split {
+    /// All splits in order.
+    pub const ALL: [Self; 3] = [Self::Train, Self::Val, Self::Test];
+
+    /// The name in paths.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Train => "train",
+            Self::Val => "val",
+            Self::Test => "test",
+        }
+    }
+
+    /// The split of a draw from 0..1.
+    pub fn of_draw(draw: f64, shares: &SplitShares) -> Self {
+        let total = shares.train + shares.val + shares.test;
+        if draw * total < shares.train {
+            Self::Train
+        } else if draw * total < shares.train + shares.val || shares.test <= 0.0 {
+            if shares.val > 0.0 { Self::Val } else { Self::Train }
+        } else {
+            Self::Test
+        }
+    }
+}

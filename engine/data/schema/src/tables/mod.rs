@@ -1,0 +1,62 @@
+//! The Parquet tables: one file per table, one list of them, and what all tables share.
+//!
+//! To add a table over the trajectories, write its file and add two lines below: its `mod` and its entry in
+//! [`of_trajectories`]. Writer, checks, card, `croissant.json` and reference page follow from its columns.
+
+mod arrow_schema;
+mod captions;
+mod column;
+mod files;
+mod frames;
+mod objects;
+mod pairs;
+mod people;
+mod rejected;
+mod table;
+mod trajectories;
+mod value;
+mod waypoints;
+mod windows;
+
+pub use arrow_schema::{hugging_face_features, schema};
+pub use captions::Captions;
+pub use column::{AnyColumn, CellProblem, Column};
+pub use files::{FileRecord, Files};
+pub use frames::{Frames, ROLES};
+pub use objects::{ObjectRecord, Objects, kind_name};
+pub use pairs::Pairs;
+pub use people::People;
+pub use rejected::Rejected;
+pub use table::{DatasetItem, INLINE_SETS, Membership, Need, Table};
+pub use trajectories::{Trajectories, WEATHER_NUMBERS, WeatherNumber};
+pub use value::{Edges, ImageFile, Kind, Value};
+pub use waypoints::Waypoints;
+pub use windows::{DIFFICULTIES, SCENES, Scene, Windows};
+
+/// The tables over the trajectories, in the order of the card.
+pub fn of_trajectories() -> Vec<Table<DatasetItem>> {
+    vec![
+        trajectories::table(),
+        frames::table(),
+        waypoints::table(),
+        captions::table(),
+        pairs::table(),
+        people::table(),
+        windows::table(),
+    ]
+}
+
+/// The table of items without a trajectory.
+pub fn of_rejections() -> Table<crate::Rejection> {
+    rejected::table()
+}
+
+/// The table of what instance ids stand for.
+pub fn of_objects() -> Table<ObjectRecord> {
+    objects::table()
+}
+
+/// The table of all files with their hashes.
+pub fn of_files() -> Table<FileRecord> {
+    files::table()
+}

@@ -1,0 +1,52 @@
+//! Table `people`: everybody beside the target who is seen, frame by frame.
+
+use super::column::columns;
+use super::value::Edges;
+use super::{DatasetItem, Table};
+use crate::log::messages::edges_px;
+use crate::{OtherPerson, Sighting};
+
+/// The table.
+pub fn table() -> Table<DatasetItem> {
+    let doc =
+        "Everybody beside the target of whom a frame shows at least one pixel; empty in towns without other people.";
+    let key = &["trajectory_id", "frame", "instance"];
+    let rows = |item: &DatasetItem| item.record.sightings.len();
+    Table { per_frame: true, ..Table::new("people", doc, key, rows, People::COLUMNS) }
+}
+
+/// Columns of table `people`.
+pub struct People;
+
+columns! { People::COLUMNS of DatasetItem;
+    /// Trajectory that the frame belongs to.
+    trajectory_id: String = |item, _| item.record.trajectory_id.clone();
+    /// Number of the frame, from 0.
+    frame: u32 = |item, i| sighting(item, i).frame;
+    /// Id in instance images and in `frames.occluder_instance`: greater than those of all objects.
+    instance: u32 = |item, i| person(item, i).instance;
+    /// Stage and item of the walk, such as `crowd-p00003`; the same person in all trajectories.
+    walk_id: String = |item, i| person(item, i).walk_id.clone();
+    /// Ground point between the feet, world frame: x, y, z.
+    feet_in_world_m: [f64; 3] = |item, i| sighting(item, i).state.feet_in_world.to_array();
+    /// Walking direction, positive: x towards y.
+    heading_deg: f64 = |item, i| sighting(item, i).state.heading_rad.to_degrees();
+    /// Speed along the ground; 0 while the person stands.
+    speed_mps: f64 = |item, i| sighting(item, i).state.speed_mps;
+    /// Height of the body.
+    height_m: f64 = |item, i| person(item, i).height_m;
+    /// Radius of the body seen from above.
+    radius_m: f64 = |item, i| person(item, i).radius_m;
+    /// Number of visible pixels.
+    visible_pixels: u32 = |item, i| sighting(item, i).view.pixels;
+    /// Left, top, right, bottom edge around the visible pixels.
+    visible_box_px: Edges = |item, i| edges_px(&sighting(item, i).view.visible_box).map(|edge| edge as f32);
+}
+
+fn sighting(item: &DatasetItem, i: usize) -> &Sighting {
+    &item.record.sightings[i]
+}
+
+fn person(item: &DatasetItem, i: usize) -> &OtherPerson {
+    &item.record.others[sighting(item, i).person as usize]
+}

@@ -1,0 +1,207 @@
+//! Which flights stay together, which split they go to, and how subsets nest.
+
+use super::facts::FlightFacts;
+use super::route;
+use cosfly_frames::Seed;
+use cosfly_schema::Split;
+use cosfly_schema::TownLayout;
+use cosfly_schema::config::{SplitBy, SplitShares};
+use std::collections::{BTreeMap, BTreeSet};
+
+/// Where each flight goes, in the order of the facts.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Assignment {
+    /// The split.
+    pub splits: Vec<Split>,
+    /// Name of what stays together.
+    pub groups: Vec<String>,
+    /// A draw from the pedestrian's id, 0..1: rows below 0.25 are a quarter of all, and part of those below 0.5.
+    pub subset_ranks: Vec<f64>,
+}
+
+/// Assigns all flights. Pedestrians of a town whose ways overlap by more than `max_route_overlap` are one group; the
+/// split is a draw from the first pedestrian of a group. More pedestrians or towns move old ones only where a new walk
+/// joins two groups. A place goes to one split as a whole where the shares say so for all or for this one, and where it
+/// has several names: the draw is then from its ground plan.
+pub fn assign(facts: &[FlightFacts], shares: &SplitShares) -> Assignment {
+    let places = Places::of(facts, shares);
+    let representatives = representatives(facts, &places, shares.max_route_overlap);
+    let draw = |purpose: &str, id: &str| Seed::of_item(shares.seed, purpose, id).stream(purpose).unit();
+    let drawn = |id: &str| Split::of_draw(draw("split", id), shares);
+    let assigned = |(at, it): (usize, &FlightFacts)| {
+        let place = &places.all[places.of_flight[at]];
+        match place.split {
+            Some(split) => (split, place.name.clone()),
+            None if place.is_whole => (drawn(&place.name), place.name.clone()),
+            None => (drawn(&representatives[at]), format!("{}/{}", it.layout.short(), representatives[at])),
+        }
+    };
+    let (splits, groups) = facts.iter().enumerate().map(assigned).unzip();
+    Assignment { splits, groups, subset_ranks: facts.iter().map(|it| draw("subset", &it.pedestrian_id)).collect() }
+}
+
+/// A place that flights are in, under one or several names.
+struct Place {
+    /// The start of the digest of its ground plan, the smallest where copies of it differ.
+    name: String,
+    /// Whether all flights there go to one split.
+    is_whole: bool,
+    /// The split that the recipe gives it.
+    split: Option<Split>,
+}
+
+/// All places, and the one of each flight.
+struct Places {
+    all: Vec<Place>,
+    of_flight: Vec<usize>,
+}
+
+impl Places {
+    fn of(facts: &[FlightFacts], shares: &SplitShares) -> Self {
+        let layouts: BTreeMap<&str, &TownLayout> =
+            facts.iter().map(|it| (it.layout.digest.as_str(), &*it.layout)).collect();
+        let layouts: Vec<&TownLayout> = layouts.into_values().collect();
+        let mut parents: Vec<usize> = (0..layouts.len()).collect();
+        for (at, layout) in layouts.iter().enumerate() {
+            for other in (0..at).filter(|other| layouts[*other].is_same_place(layout)) {
+                let (a, b) = (root(&parents, at), root(&parents, other));
+                parents[a.max(b)] = a.min(b);
+            }
+        }
+        let layout_of = |it: &FlightFacts| layouts.partition_point(|known| known.digest < it.layout.digest);
+        let of_flight: Vec<usize> = facts.iter().map(|it| root(&parents, layout_of(it))).collect();
+        let mut towns: Vec<BTreeSet<&str>> = vec![BTreeSet::new(); layouts.len()];
+        for (it, place) in facts.iter().zip(&of_flight) {
+            towns[*place].insert(&it.town);
+        }
+        let place = |(layout, towns): (&&TownLayout, &BTreeSet<&str>)| Place {
+            name: layout.short().to_owned(),
+            is_whole: shares.by == SplitBy::Town || towns.len() > 1,
+            split: towns.iter().find_map(|town| shares.towns.get(*town).copied()),
+        };
+        Self { all: layouts.iter().zip(&towns).map(place).collect(), of_flight }
+    }
+}
+
+/// Representative of each flight's group: the first pedestrian in its place.
+fn representatives(facts: &[FlightFacts], places: &Places, max_overlap: f64) -> Vec<String> {
+    let mut walkers: BTreeMap<(usize, &str), usize> = BTreeMap::new();
+    for (it, place) in facts.iter().zip(&places.of_flight) {
+        walkers.entry((*place, &it.pedestrian_id)).or_default();
+    }
+    // In the order of their ids, so that the smallest of a group represents it.
+    let ids: Vec<&str> = walkers.keys().map(|(_, id)| *id).collect();
+    walkers.values_mut().zip(0..).for_each(|(number, next)| *number = next);
+    let mut parents: Vec<usize> = (0..ids.len()).collect();
+    let routes = distinct_routes(facts, places);
+    let given: Vec<(usize, &route::Route)> = routes.iter().map(|((place, _), route)| (*place, *route)).collect();
+    for (a, b, _) in route::overlaps(&given, max_overlap) {
+        let (a, b) = (root(&parents, walkers[&routes[a].0]), root(&parents, walkers[&routes[b].0]));
+        parents[a.max(b)] = a.min(b);
+    }
+    let walker = |(it, place): (&FlightFacts, &usize)| walkers[&(*place, it.pedestrian_id.as_str())];
+    facts.iter().zip(&places.of_flight).map(|it| ids[root(&parents, walker(it))].to_owned()).collect()
+}
+
+/// Place and id of a pedestrian.
+type Walker<'a> = (usize, &'a str);
+
+/// Walker and way, once for all flights behind a walk.
+fn distinct_routes<'a>(facts: &'a [FlightFacts], places: &Places) -> Vec<(Walker<'a>, &'a route::Route)> {
+    let mut routes: Vec<(Walker<'a>, &route::Route)> = vec![];
+    let mut known: BTreeMap<Walker<'a>, Vec<usize>> = BTreeMap::new();
+    for (it, place) in facts.iter().zip(&places.of_flight) {
+        let walker = (*place, it.pedestrian_id.as_str());
+        let of_walker = known.entry(walker).or_default();
+        if of_walker.iter().all(|at| *routes[*at].1 != it.route) {
+            of_walker.push(routes.len());
+            routes.push((walker, &it.route));
+        }
+    }
+    routes
+}
+
+fn root(parents: &[usize], mut at: usize) -> usize {
+    while parents[at] != at {
+        at = parents[at];
+    }
+    at
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::route::Route;
+    use cosfly_frames::DVec3;
+    use cosfly_schema::TownLayout;
+    use std::sync::Arc;
+
+    fn walker(id: usize, street: f64, from: f64) -> FlightFacts {
+        let feet: Vec<DVec3> = (0..50).map(|k| DVec3::new(from + f64::from(k), street, 0.0)).collect();
+        FlightFacts {
+            dataset: 0,
+            trajectory_id: format!("expert-p{id:05}"),
+            expert_id: None,
+            pedestrian_id: format!("p{id:05}"),
+            group: String::new(),
+            split: String::new(),
+            town: "town".into(),
+            layout: Arc::new(TownLayout { digest: "ab".repeat(32), sketch: vec![] }),
+            route: Route::of(&feet),
+            windows: vec![],
+        }
+    }
+
+    #[test]
+    fn walks_along_the_same_way_go_to_the_same_split() {
+        let facts: Vec<FlightFacts> = (0..400).map(|id| walker(id, 40.0 * (id / 2) as f64, 0.0)).collect();
+        let found = assign(&facts, &SplitShares::default());
+        assert!(found.groups.chunks(2).all(|pair| pair[0] == pair[1]));
+        assert!(found.splits.chunks(2).all(|pair| pair[0] == pair[1]));
+        let alone = assign(&facts, &SplitShares { max_route_overlap: 1.0, ..SplitShares::default() });
+        assert!(alone.splits.chunks(2).any(|pair| pair[0] != pair[1]));
+        let of_town = assign(&facts, &SplitShares { by: SplitBy::Town, ..SplitShares::default() });
+        assert!(of_town.splits.iter().all(|split| *split == of_town.splits[0]));
+    }
+
+    fn in_town(town: &str, digest: &str, mut facts: Vec<FlightFacts>) -> Vec<FlightFacts> {
+        for it in &mut facts {
+            it.town = town.into();
+            it.layout = Arc::new(TownLayout { digest: digest.repeat(32), sketch: vec![] });
+        }
+        facts
+    }
+
+    #[test]
+    fn pedestrians_of_other_towns_join_no_group_and_move_nobody() {
+        let walkers = |count| (0..count).map(|id| walker(id, 0.0, 60.0 * id as f64)).collect::<Vec<_>>();
+        let alone = assign(&walkers(40), &SplitShares::default());
+        let other = in_town("other", "cd", (0..40).map(|id| walker(id, 5.0, 60.0 * (id / 40) as f64)).collect());
+        let both = assign(&[walkers(40), other].concat(), &SplitShares::default());
+        assert_eq!((&both.splits[..40], &both.groups[..40]), (&alone.splits[..], &alone.groups[..]));
+        assert!(both.groups[40..].iter().all(|group| *group == format!("{}/p00000", "cd".repeat(6))));
+    }
+
+    #[test]
+    fn named_towns_and_towns_with_two_names_go_to_one_split() {
+        let of = |town, digest| in_town(town, digest, (0..60).map(|id| walker(id, 40.0 * id as f64, 0.0)).collect());
+        let facts = [of("north", "ab"), of("south", "cd"), of("south_copy", "cd")].concat();
+        let found = assign(&facts, &SplitShares::default());
+        assert!(found.splits[..60].contains(&Split::Train) && found.splits[..60].iter().any(|it| *it != Split::Train));
+        assert!(found.splits[60..].iter().all(|split| *split == found.splits[60]));
+        let towns = BTreeMap::from([("south_copy".to_owned(), Split::Val)]);
+        let found = assign(&facts, &SplitShares { towns, ..SplitShares::default() });
+        assert!(found.splits[60..].iter().all(|split| *split == Split::Val));
+        assert!(found.groups[60..].iter().all(|group| *group == "cd".repeat(6)));
+    }
+
+    #[test]
+    fn without_overlap_more_walkers_move_no_old_one_and_subsets_nest() {
+        let facts: Vec<FlightFacts> = (0..300).map(|id| walker(id, 40.0 * id as f64, 0.0)).collect();
+        let (all, fewer) = (assign(&facts, &SplitShares::default()), assign(&facts[..200], &SplitShares::default()));
+        assert_eq!(all.splits[..200], fewer.splits);
+        assert_eq!(all.subset_ranks[..200], fewer.subset_ranks);
+        let below = |share: f64| all.subset_ranks.iter().filter(|rank| **rank < share).count();
+        assert!((50..100).contains(&below(0.25)) && (120..180).contains(&below(0.5)), "{} {}", below(0.25), below(0.5));
+    }
+}

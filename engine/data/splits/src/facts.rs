@@ -1,0 +1,121 @@
+//! What the linter needs of a flight: who is followed, where, along which way, in which split.
+
+use super::route::Route;
+use cosfly_diagnose::Result;
+use cosfly_frames::{DVec3, Pose};
+use cosfly_read::{PublishedDataset, PublishedFlight};
+use cosfly_schema::RenderedTrajectory;
+use cosfly_schema::TownLayout;
+use std::collections::BTreeMap;
+use std::path::Path;
+use std::sync::Arc;
+
+/// How far the target gets in a window that is recognised by its target, metres; where it stands, the drone's way
+/// tells windows apart.
+const MOVING_M: f64 = 0.5;
+
+/// One flight.
+#[derive(Clone, Debug)]
+pub struct FlightFacts {
+    /// Place of its dataset among those that are compared.
+    pub dataset: usize,
+    /// Its id in that dataset.
+    pub trajectory_id: String,
+    /// Its expert, for a perturbed flight.
+    pub expert_id: Option<String>,
+    /// Whom it follows.
+    pub pedestrian_id: String,
+    /// Flights with the same one must stay together; empty before it is decided.
+    pub group: String,
+    /// Name of its split; empty before it is decided.
+    pub split: String,
+    /// Name of its town.
+    pub town: String,
+    /// What the town is without its name.
+    pub layout: Arc<TownLayout>,
+    /// The target's way.
+    pub route: Route,
+    /// What happens in the window from each frame on: equal numbers are equal windows.
+    pub windows: Vec<u64>,
+}
+
+impl FlightFacts {
+    /// The facts of a flight that is about to be published; `window` is the size of its training windows.
+    pub fn of_record(record: &RenderedTrajectory, layout: &Arc<TownLayout>, window: usize) -> Self {
+        let offset = record.town.origin.offset_m;
+        let feet: Vec<DVec3> =
+            record.trajectory.track.states.iter().map(|state| state.feet_in_world + offset).collect();
+        let drone: Vec<DVec3> =
+            record.trajectory.poses_in_world.iter().map(|pose| pose.position_in_world + offset).collect();
+        Self {
+            dataset: 0,
+            trajectory_id: record.trajectory_id.clone(),
+            expert_id: record.pair.as_ref().map(|pair| pair.expert_id.clone()),
+            pedestrian_id: record.pedestrian_id.clone(),
+            group: String::new(),
+            split: String::new(),
+            town: record.town.name.clone(),
+            layout: Arc::clone(layout),
+            route: Route::of(&feet),
+            windows: windows(&feet, &drone, window),
+        }
+    }
+
+    fn of_published(dataset: usize, flight: &PublishedFlight, poses: &[Pose], feet: &[DVec3], window: usize) -> Self {
+        let offset = flight.town_offset_m;
+        let feet: Vec<DVec3> = feet.iter().map(|feet| *feet + offset).collect();
+        let drone: Vec<DVec3> = poses.iter().map(|pose| pose.position_in_world + offset).collect();
+        Self {
+            dataset,
+            trajectory_id: flight.trajectory_id.clone(),
+            expert_id: flight.expert_id.clone(),
+            pedestrian_id: flight.pedestrian_id.clone(),
+            group: flight.split_group.clone(),
+            split: flight.split.clone(),
+            town: flight.town.clone(),
+            layout: Arc::new(flight.town_layout.clone()),
+            route: Route::of(&feet),
+            windows: windows(&feet, &drone, window),
+        }
+    }
+}
+
+/// The facts of all flights of the published dataset in `folder`, which is number `dataset` of those compared.
+///
+/// # Errors
+/// What is wrong with the tables `trajectories` and `waypoints`.
+pub fn facts_of_dataset(folder: &Path, dataset: usize, window: usize) -> Result<Vec<FlightFacts>> {
+    let published = PublishedDataset::open(folder)?;
+    let flights: BTreeMap<&str, &PublishedFlight> =
+        published.flights().iter().map(|flight| (flight.trajectory_id.as_str(), flight)).collect();
+    let mut facts = vec![];
+    published.ways(&mut |id, poses, feet| {
+        if let Some(flight) = flights.get(id) {
+            facts.push(FlightFacts::of_published(dataset, flight, poses, feet, window));
+        }
+    })?;
+    Ok(facts)
+}
+
+/// A number for what happens in the `size` frames from each frame on: the target's places to the centimetre, or the
+/// drone's where the target stands.
+fn windows(feet: &[DVec3], drone: &[DVec3], size: usize) -> Vec<u64> {
+    if size == 0 {
+        return vec![];
+    }
+    let shown = |window: (&[DVec3], &[DVec3])| {
+        let (feet, drone) = window;
+        let way_m = feet.iter().map(|place| place.distance(feet[0])).fold(0.0, f64::max);
+        if way_m >= MOVING_M { fingerprint(0, feet) } else { fingerprint(1, drone) }
+    };
+    feet.windows(size).zip(drone.windows(size)).map(shown).collect()
+}
+
+fn fingerprint(kind: u8, places: &[DVec3]) -> u64 {
+    let mut hasher = blake3::Hasher::new();
+    hasher.update(&[kind]);
+    for number in places.iter().flat_map(|place| place.to_array()) {
+        hasher.update(&((number * 100.0).round() as i64).to_le_bytes());
+    }
+    u64::from_le_bytes(hasher.finalize().as_bytes()[..8].try_into().unwrap_or_default())
+}

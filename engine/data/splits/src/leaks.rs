@@ -1,0 +1,290 @@
+//! The linter: pairs of flights or towns that a model would meet in training and again in its test.
+
+use super::facts::FlightFacts;
+use super::route;
+use cosfly_diagnose::{Diagnostic, Fault};
+use cosfly_schema::config::{DatasetConfig, SplitBy};
+use std::collections::{BTreeMap, BTreeSet};
+use std::fmt;
+
+/// Pairs of one rule that are kept; more are only counted.
+const KEPT: usize = 200;
+
+/// What counts as a leak.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct LintRules {
+    /// How much of a walk another one may repeat in another split, 0..=1.
+    pub max_route_overlap: f64,
+    /// Whether a place must be in one split only, whatever it is called.
+    pub by_town: bool,
+}
+
+impl LintRules {
+    /// The rules that a recipe promises.
+    pub fn of(config: &DatasetConfig) -> Self {
+        let by_town = config.splits.by == SplitBy::Town;
+        Self { max_route_overlap: config.splits.max_route_overlap, by_town }
+    }
+}
+
+/// Two things that should not be in different splits.
+#[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub struct Leak {
+    /// `split-town`, `split-pedestrian`, `split-twin`, `split-group`, `split-window` or `split-route`.
+    pub rule: &'static str,
+    /// The flight that the finding stands at.
+    pub trajectory_id: String,
+    /// What is wrong, with both names and both splits.
+    pub message: String,
+}
+
+impl fmt::Display for Leak {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{} [{}]", self.message, self.rule)
+    }
+}
+
+/// What the linter found.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct Leaks {
+    /// The first of each rule.
+    pub kept: Vec<Leak>,
+    /// All of them.
+    pub found: usize,
+}
+
+impl Leaks {
+    fn add(&mut self, rule: &'static str, at: &FlightFacts, message: String) {
+        self.found += 1;
+        if self.kept.iter().filter(|leak| leak.rule == rule).count() < KEPT {
+            self.kept.push(Leak { rule, trajectory_id: at.trajectory_id.clone(), message });
+        }
+    }
+}
+
+/// Everything that leaks between the splits of `facts`, which may be of several datasets.
+pub fn lint(facts: &[FlightFacts], rules: &LintRules) -> Leaks {
+    let mut leaks = Leaks::default();
+    towns(facts, rules, &mut leaks);
+    pedestrians(facts, &mut leaks);
+    windows(facts, &mut leaks);
+    routes(facts, rules, &mut leaks);
+    leaks
+}
+
+/// Why a dataset is not published, with the pairs.
+pub fn refusal(leaks: &Leaks) -> Option<Box<Diagnostic>> {
+    if leaks.found == 0 {
+        return None;
+    }
+    let pairs = if leaks.found == 1 { "a pair".to_owned() } else { format!("{} pairs", leaks.found) };
+    let refusal = Diagnostic::new("dataset-leak", Fault::Recipe, format!("the splits leak: {pairs} across them"));
+    let refusal = leaks.kept.iter().take(8).fold(refusal, |refusal, leak| refusal.because(leak));
+    Some(refusal.hint(
+        "lower `splits.max_route_overlap` so that such walks stay together, give towns with the same ground plan the \
+             same split in `splits.towns`, or put everything into one split",
+    ))
+}
+
+/// `id` in words, with the dataset where there are several.
+fn named(it: &FlightFacts) -> String {
+    let dataset = if it.dataset == 0 { String::new() } else { format!(" of dataset {}", it.dataset + 1) };
+    format!("`{}`{dataset} in `{}`", it.trajectory_id, it.split)
+}
+
+/// Places under several names, or in several splits where the rules want one.
+fn towns(facts: &[FlightFacts], rules: &LintRules, leaks: &mut Leaks) {
+    let mut towns: BTreeMap<(&str, &str), BTreeMap<&str, &FlightFacts>> = BTreeMap::new();
+    for it in facts {
+        towns.entry((&it.layout.digest, &it.town)).or_default().entry(&it.split).or_insert(it);
+    }
+    let towns: Vec<((&str, &str), Vec<&FlightFacts>)> =
+        towns.into_iter().map(|(key, splits)| (key, splits.into_values().collect())).collect();
+    for (at, ((_, name), flights)) in towns.iter().enumerate() {
+        if rules.by_town && flights.len() > 1 {
+            let message = format!("town `{name}` is in two splits: {} and {}", named(flights[0]), named(flights[1]));
+            leaks.add("split-town", flights[1], message);
+        }
+        for ((_, other), others) in &towns[at + 1..] {
+            let likeness = flights[0].layout.likeness(&others[0].layout);
+            let is_judged = rules.by_town || name != other;
+            if !is_judged || !flights[0].layout.is_same_place(&others[0].layout) {
+                continue;
+            }
+            let mut pairs = flights.iter().flat_map(|a| others.iter().map(move |b| (a, b)));
+            if let Some((a, b)) = pairs.find(|(a, b)| a.split != b.split) {
+                let alike = if a.layout.digest == b.layout.digest {
+                    format!("have the same ground plan {}", a.layout.short())
+                } else {
+                    format!("have {:.0} % of their ground plan in common", 100.0 * likeness)
+                };
+                let message = format!("towns `{name}` and `{other}` {alike}: {} and {}", named(a), named(b));
+                leaks.add("split-town", b, message);
+            }
+        }
+    }
+}
+
+/// Flights behind one pedestrian, twins, and what was published as one group.
+fn pedestrians(facts: &[FlightFacts], leaks: &mut Leaks) {
+    // Pedestrians of two towns may be called the same; groups are called after their town.
+    let mut first: BTreeMap<(usize, &str, &str, &str), &FlightFacts> = BTreeMap::new();
+    let by_id: BTreeMap<(usize, &str), &FlightFacts> =
+        facts.iter().map(|it| ((it.dataset, it.trajectory_id.as_str()), it)).collect();
+    for it in facts {
+        let mut is_apart = false;
+        for (rule, what, place, name) in [
+            ("split-pedestrian", "pedestrian", it.layout.digest.as_str(), &it.pedestrian_id),
+            ("split-group", "group", "", &it.group),
+        ] {
+            let other = *first.entry((it.dataset, rule, place, name)).or_insert(it);
+            if !is_apart && !name.is_empty() && other.split != it.split {
+                is_apart = true;
+                leaks.add(rule, it, format!("{what} `{name}` is in two splits: {} and {}", named(other), named(it)));
+            }
+        }
+        let expert = it.expert_id.as_deref().and_then(|id| by_id.get(&(it.dataset, id)));
+        if let Some(expert) = expert.filter(|expert| !is_apart && expert.split != it.split) {
+            leaks.add("split-twin", it, format!("twins are apart: {} and its expert {}", named(it), named(expert)));
+        }
+    }
+}
+
+/// Flights behind one pedestrian that are apart are found by that alone.
+fn is_one_walk(a: &FlightFacts, b: &FlightFacts) -> bool {
+    (a.dataset, &a.layout.digest, &a.pedestrian_id) == (b.dataset, &b.layout.digest, &b.pedestrian_id)
+}
+
+/// The same moments under two names.
+fn windows(facts: &[FlightFacts], leaks: &mut Leaks) {
+    let mut all: Vec<(u64, u32, u32)> = vec![];
+    for (flight, it) in facts.iter().enumerate() {
+        all.extend(it.windows.iter().enumerate().map(|(frame, hash)| (*hash, flight as u32, frame as u32)));
+    }
+    all.sort_unstable();
+    let mut pairs: BTreeMap<(u32, u32), (u32, u32, usize)> = BTreeMap::new();
+    for same in all.chunk_by(|a, b| a.0 == b.0).filter(|same| same.len() > 1) {
+        // One flight of each split is enough to name a pair; all flights behind a walk share its windows.
+        let mut of_split: BTreeMap<&str, (u32, u32)> = BTreeMap::new();
+        for (_, flight, frame) in same {
+            of_split.entry(&facts[*flight as usize].split).or_insert((*flight, *frame));
+        }
+        let of_split: Vec<(u32, u32)> = of_split.into_values().collect();
+        for (at, (a, frame_of_a)) in of_split.iter().enumerate() {
+            for (b, frame_of_b) in &of_split[at + 1..] {
+                pairs.entry((*a, *b)).or_insert((*frame_of_a, *frame_of_b, 0)).2 += 1;
+            }
+        }
+    }
+    for ((a, b), (frame_of_a, frame_of_b, count)) in pairs {
+        let (a, b) = (&facts[a as usize], &facts[b as usize]);
+        if is_one_walk(a, b) {
+            continue;
+        }
+        let message = format!(
+            "{count} windows of {} are windows of {}: from frame {frame_of_a} and from frame {frame_of_b} on",
+            named(a),
+            named(b)
+        );
+        leaks.add("split-window", b, message);
+    }
+}
+
+/// Walks that repeat one another.
+fn routes(facts: &[FlightFacts], rules: &LintRules, leaks: &mut Leaks) {
+    let mut places: Vec<&FlightFacts> = vec![];
+    let mut place_of: BTreeMap<&str, usize> = BTreeMap::new();
+    for it in facts {
+        if !place_of.contains_key(it.layout.digest.as_str()) {
+            let same = places.iter().position(|place| place.layout.is_same_place(&it.layout));
+            place_of.insert(&it.layout.digest, same.unwrap_or(places.len()));
+            places.extend(same.is_none().then_some(it));
+        }
+    }
+    // One flight for each walk of each split.
+    let mut walks: Vec<&FlightFacts> = vec![];
+    let mut seen: BTreeSet<(usize, &str, &str)> = BTreeSet::new();
+    for it in facts {
+        if seen.insert((it.dataset, &it.pedestrian_id, &it.split)) {
+            walks.push(it);
+        }
+    }
+    let given: Vec<(usize, &route::Route)> =
+        walks.iter().map(|it| (place_of[it.layout.digest.as_str()], &it.route)).collect();
+    for (a, b, share) in route::overlaps(&given, rules.max_route_overlap) {
+        let (a, b) = (walks[a], walks[b]);
+        if a.split != b.split && !is_one_walk(a, b) {
+            let message = format!(
+                "{} % of a walk is repeated in another split: {} and {}",
+                (100.0 * share).round(),
+                named(a),
+                named(b)
+            );
+            leaks.add("split-route", b, message);
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::route::Route;
+    use cosfly_frames::DVec3;
+    use cosfly_schema::TownLayout;
+    use std::sync::Arc;
+
+    fn flight(id: &str, split: &str, street: f64) -> FlightFacts {
+        let feet: Vec<DVec3> = (0..50).map(|k| DVec3::new(f64::from(k), street, 0.0)).collect();
+        FlightFacts {
+            dataset: 0,
+            trajectory_id: format!("expert-{id}"),
+            expert_id: None,
+            pedestrian_id: id.into(),
+            group: id.into(),
+            split: split.into(),
+            town: "north".into(),
+            layout: Arc::new(TownLayout { digest: "ab".repeat(32), sketch: (0..64).collect() }),
+            route: Route::of(&feet),
+            windows: (0..40).map(|k| k + (street * 1000.0) as u64).collect(),
+        }
+    }
+
+    const RULES: LintRules = LintRules { max_route_overlap: 0.5, by_town: false };
+
+    #[test]
+    fn sound_splits_have_no_leak() {
+        let facts = [flight("a", "train", 0.0), flight("b", "test", 40.0), flight("c", "train", 80.0)];
+        assert_eq!(lint(&facts, &RULES), Leaks::default());
+        assert!(refusal(&Leaks::default()).is_none());
+    }
+
+    #[test]
+    fn every_planted_leak_is_named() {
+        let (a, b) = (flight("a", "train", 0.0), flight("b", "test", 40.0));
+        let renamed = FlightFacts { town: "south".into(), ..b.clone() };
+        let mut edited = renamed.clone();
+        let sketch = (0..64).map(|k| if k < 20 { -1 } else { k }).collect();
+        edited.layout = Arc::new(TownLayout { digest: "cd".repeat(32), sketch });
+        let same_pedestrian = FlightFacts { pedestrian_id: "a".into(), ..b.clone() };
+        let same_group = FlightFacts { group: "a".into(), ..b.clone() };
+        let twin = FlightFacts { expert_id: Some("expert-a".into()), ..b.clone() };
+        let same_windows = FlightFacts { windows: a.windows[5..].to_vec(), ..b.clone() };
+        let same_way = FlightFacts { route: flight("b", "", 1.0).route, ..b.clone() };
+        for (other, rule, said) in [
+            (renamed, "split-town", "towns `north` and `south` have the same ground plan abababababab"),
+            (edited, "split-town", "have 69 % of their ground plan in common"),
+            (same_pedestrian, "split-pedestrian", "pedestrian `a` is in two splits: `expert-a` in `train`"),
+            (same_group, "split-group", "`expert-b` in `test`"),
+            (twin, "split-twin", "`expert-b` in `test` and its expert `expert-a` in `train`"),
+            (same_windows, "split-window", "from frame 0 and from frame 5 on"),
+            (same_way, "split-route", "100 % of a walk"),
+        ] {
+            let found = lint(&[a.clone(), other], &RULES);
+            assert_eq!(found.kept.iter().map(|leak| leak.rule).collect::<Vec<_>>(), [rule], "{found:?}");
+            assert!(found.kept[0].message.contains(said), "{}", found.kept[0]);
+            assert!(refusal(&found).unwrap().to_string().contains("splits leak"));
+        }
+        let by_town = LintRules { by_town: true, ..RULES };
+        assert_eq!(lint(&[a, b], &by_town).kept[0].rule, "split-town");
+    }
+}

@@ -1,0 +1,231 @@
+//! A sound dataset passes; every kind of damage is found and named.
+
+use super::*;
+use cosfly_sample as sample;
+use cosfly_sample::SampleFlight;
+use cosfly_schema::{DatasetConfig, EncodingConfig};
+use std::path::PathBuf;
+use tempfile::TempDir;
+
+fn published(flights: Vec<SampleFlight>) -> TempDir {
+    let folder = tempfile::tempdir().unwrap();
+    sample::write_flights(folder.path(), &DatasetConfig::default(), EncodingConfig::default(), flights).unwrap();
+    folder
+}
+
+fn rules_of(folder: &TempDir) -> Vec<&'static str> {
+    let report = verify(folder.path(), &mut |_, _| {}).unwrap();
+    let mut rules: Vec<&str> = report.findings.iter().map(|finding| finding.rule).collect();
+    rules.dedup();
+    rules
+}
+
+fn some_file(folder: &TempDir, below: &str) -> PathBuf {
+    let mut files: Vec<PathBuf> =
+        std::fs::read_dir(folder.path().join(below)).unwrap().map(|entry| entry.unwrap().path()).collect();
+    files.sort();
+    files.remove(0)
+}
+
+fn flip(path: &Path, at: usize) {
+    let mut bytes = std::fs::read(path).unwrap();
+    bytes[at] ^= 0x10;
+    std::fs::write(path, bytes).unwrap();
+}
+
+#[test]
+fn a_sound_dataset_passes() {
+    let folder = published(sample::flights());
+    let mut heard = vec![];
+    let report = verify(folder.path(), &mut |done, total| heard.push((done, total))).unwrap();
+    assert!(report.is_sound(), "{:#?}", report.findings);
+    assert_eq!((report.flights, report.frames, report.boxes), (4, 20, 20));
+    assert_eq!(heard.last(), Some(&(4, 4)));
+}
+
+#[test]
+fn shares_by_rays_and_pixels_that_differ_are_listed_with_a_reason_and_are_no_problem() {
+    let mut flights = sample::flights();
+    let pixels = flights[0].record.views[2].visible_by_pixels;
+    let differing = if pixels > 0.5 { pixels - 0.2 } else { pixels + 0.2 };
+    flights[0].record.visible_by_dense_rays[2] = Some(differing);
+    let report = verify(published(flights).path(), &mut |_, _| {}).unwrap();
+    assert!(report.is_sound() && (report.labels, report.gaps) == (20, 1), "{:#?}", report.findings);
+    let gap = report.label_gaps[0].to_string();
+    assert!(gap.contains("frame 2: ") && gap.contains(&format!("{differing:.2} visible by rays")), "{gap}");
+}
+
+#[test]
+fn a_flipped_byte_is_found_wherever_it_is() {
+    for name in ["README.md", "croissant.json", "files.parquet", "SHA256SUMS", "schemas/cosfly.proto"] {
+        let folder = published(sample::flights());
+        flip(&folder.path().join(name), 40);
+        assert!(rules_of(&folder).contains(&"verify-hash"), "{name}");
+    }
+    let folder = published(sample::flights());
+    let log = some_file(&folder, "mcap/plain/000");
+    flip(&log, std::fs::metadata(&log).unwrap().len() as usize / 2);
+    let rules = rules_of(&folder);
+    assert!(rules.contains(&"verify-hash") && rules.contains(&"verify-crc"), "{rules:?}");
+}
+
+#[test]
+fn truncated_missing_and_extra_files_are_found() {
+    let folder = published(sample::flights());
+    let table = some_file(&folder, "data/frames");
+    let bytes = std::fs::read(&table).unwrap();
+    std::fs::write(&table, &bytes[..bytes.len() / 2]).unwrap();
+    assert!(rules_of(&folder).contains(&"verify-size"));
+    std::fs::remove_file(&table).unwrap();
+    assert!(rules_of(&folder).contains(&"verify-missing-file"));
+    std::fs::write(folder.path().join("data/frames/more.parquet"), b"x").unwrap();
+    assert!(rules_of(&folder).contains(&"verify-extra-file"));
+}
+
+#[test]
+fn folders_and_pipes_in_the_place_of_files_are_found_and_not_waited_for() {
+    let folder = published(sample::flights());
+    let log = some_file(&folder, "mcap/plain/000");
+    std::fs::remove_file(&log).unwrap();
+    let _pipe = std::os::unix::net::UnixListener::bind(&log).unwrap();
+    std::fs::remove_file(folder.path().join("croissant.json")).unwrap();
+    std::fs::create_dir(folder.path().join("croissant.json")).unwrap();
+    let report = verify(folder.path(), &mut |_, _| {}).unwrap();
+    let found: Vec<&str> =
+        report.findings.iter().filter(|it| it.rule == "verify-not-a-file").map(|it| it.file.as_str()).collect();
+    assert_eq!(found.len(), 2, "{:#?}", report.findings);
+    assert_eq!(found[0], "croissant.json");
+}
+
+#[test]
+fn each_missing_head_of_a_dataset_is_a_finding() {
+    for name in ["files.parquet", "croissant.json", "SHA256SUMS"] {
+        let folder = published(sample::flights());
+        std::fs::remove_file(folder.path().join(name)).unwrap();
+        let report = verify(folder.path(), &mut |_, _| {}).unwrap();
+        assert!(report.findings.iter().any(|it| it.rule == "verify-missing-file" && it.file == name), "{name}");
+    }
+    let folder = published(sample::flights());
+    let sums = folder.path().join("SHA256SUMS");
+    let text = std::fs::read_to_string(&sums).unwrap();
+    std::fs::write(&sums, format!("{text}{}  README.md\n", "0".repeat(64))).unwrap();
+    assert_eq!(rules_of(&folder), ["verify-hash"]);
+}
+
+#[test]
+fn a_dataset_of_perturbed_flights_alone_is_sound() {
+    let flights = sample::flights().into_iter().filter(|flight| flight.record.pair.is_some()).collect();
+    let report = verify(published(flights).path(), &mut |_, _| {}).unwrap();
+    assert!(report.is_sound() && report.flights == 2, "{:#?}", report.findings);
+}
+
+#[test]
+fn images_of_the_next_frame_are_found() {
+    let mut flights = sample::flights();
+    flights[0].images.rotate_left(1);
+    let rules = rules_of(&published(flights));
+    assert!(rules.contains(&"verify-depth") || rules.contains(&"verify-log"), "{rules:?}");
+}
+
+#[test]
+fn a_flipped_yaw_is_found() {
+    let mut flights = sample::flights();
+    flights[1].record.trajectory.poses_in_world[3].yaw_rad *= -1.0;
+    let report = verify(published(flights).path(), &mut |_, _| {}).unwrap();
+    let found = report.findings.iter().find(|finding| finding.rule == "verify-reprojection").expect("it is found");
+    assert!(found.place.contains("`perturbed-p00000` frame 3") && found.file.starts_with("data/frames/"), "{found}");
+    assert!(report.findings.iter().any(|finding| finding.rule == "verify-pair"));
+}
+
+#[test]
+fn boxes_of_the_next_frame_are_found() {
+    let mut flights = sample::flights();
+    flights[0].record.views.rotate_left(2);
+    let rules = rules_of(&published(flights));
+    assert!(rules.contains(&"verify-log"), "{rules:?}");
+}
+
+#[test]
+fn people_who_are_not_where_their_pixels_are_are_found() {
+    type Spoil = (&'static str, fn(&mut SampleFlight));
+    let spoils: [Spoil; 5] = [
+        ("verify-log", |it| it.record.sightings[2].view.pixels += 1),
+        ("verify-log", |it| it.record.sightings.truncate(2)),
+        ("verify-reprojection", |it| it.record.sightings[1].state.feet_in_world.x += 4.0),
+        ("verify-reference", |it| {
+            it.record.others[0].instance = 6;
+            it.record.sightings.iter_mut().for_each(|sighting| sighting.view.instance = 6);
+        }),
+        ("verify-reference", |it| it.record.views[0].occluder_instance = 8),
+    ];
+    for (rule, spoil) in spoils {
+        let mut flights = sample::flights();
+        spoil(&mut flights[0]);
+        let rules = rules_of(&published(flights));
+        assert!(rules.contains(&rule), "{rule}: {rules:?}");
+    }
+}
+
+#[test]
+fn a_twin_that_is_not_its_expert_plus_its_displacement_is_found() {
+    let mut flights = sample::flights();
+    let perturbation = flights[1].record.trajectory.perturbation.as_mut().unwrap();
+    perturbation.frames[3].expert_frame = 2;
+    assert_eq!(rules_of(&published(flights)), ["verify-pair"]);
+    let mut flights = sample::flights();
+    flights[1].record.pair.as_mut().unwrap().expert_id = "expert-p00009".into();
+    assert!(rules_of(&published(flights)).contains(&"verify-pair"));
+}
+
+#[test]
+fn figures_that_do_not_follow_from_the_frames_are_found() {
+    let spoils: [fn(&mut cosfly_planner::Certificate); 5] = [
+        |it| it.mean_visibility += 1e-6,
+        |it| it.frames_half_visible = 0.9,
+        |it| it.mean_distance_m += 0.1,
+        |it| it.length_m *= 1.01,
+        |it| it.min_clearance_m = 3.1,
+    ];
+    for spoil in spoils {
+        let mut flights = sample::flights();
+        spoil(&mut flights[0].record.trajectory.certificate);
+        assert_eq!(rules_of(&published(flights)), ["verify-figures"]);
+    }
+}
+
+#[test]
+fn a_certificate_that_holds_against_its_own_limits_is_found() {
+    let mut flights = sample::flights();
+    flights[0].record.trajectory.certificate.limits.speed_mps = 1.0;
+    assert_eq!(rules_of(&published(flights)), ["verify-certificate"]);
+}
+
+#[test]
+fn a_missing_language_is_found() {
+    let mut flights = sample::flights();
+    flights[2].captions.pop();
+    assert_eq!(rules_of(&published(flights)), ["verify-caption"]);
+}
+
+#[test]
+fn an_action_that_does_not_lead_to_the_next_pose_is_found() {
+    let folder = published(sample::flights());
+    let mut report = VerifyReport::default();
+    let files = files::check(folder.path(), &mut report).unwrap();
+    let tables = tables::read(folder.path(), &files, &mut report);
+    let file = files.sound_below("data/frames/").next().unwrap();
+    let mut groups = vec![];
+    rows::frames(&folder.path().join(file), &mut |frames| groups.push(frames)).unwrap();
+    let frames = &mut groups[0];
+    frames[1].stored.action_in_world.as_mut().unwrap()[4] += 0.01;
+    flight::check_frames(file, &tables.flights[&frames[0].trajectory_id], frames, &mut report);
+    assert_eq!(report.findings.iter().map(|finding| finding.rule).collect::<Vec<_>>(), ["verify-action"]);
+}
+
+#[test]
+fn a_folder_without_a_dataset_is_refused() {
+    let folder = tempfile::tempdir().unwrap();
+    assert!(verify(folder.path(), &mut |_, _| {}).unwrap_err().message.contains("is not a finished dataset"));
+    let absent = folder.path().join("absent");
+    assert!(verify(&absent, &mut |_, _| {}).unwrap_err().message.contains("does not exist"));
+}

@@ -1,0 +1,17 @@
+//! The writers of a dataset: packed frames, logs, tables, and the dataset as a whole.
+//!
+//! * [`frame_pack`]: the images of one trajectory between rendering and publishing.
+//! * [`log`]: one MCAP file per trajectory.
+//! * [`table_file`]: Parquet files.
+//! * [`croissant`] and [`publish`]: metadata, card, hashes, and the dataset as a whole.
+
+pub mod croissant;
+pub mod frame_pack;
+mod gathered_extras;
+pub mod log;
+pub mod publish;
+pub mod table_file;
+
+pub use frame_pack::{FramePackReader, FramePackWriter, PackHeader, PackedFrame};
+pub use log::write_log;
+pub use publish::{DatasetSource, PublishedLog, Summary, write_dataset};

@@ -1,0 +1,160 @@
+//! The channels of a log: one writer with every topic declared, and messages appended by topic.
+
+use super::container::{Chunk, Container, message_head};
+use crate::frame_pack::PackedChunk;
+use cosfly_diagnose::{Diagnostic, Fault, Result};
+use cosfly_schema::log::{target_state, topic};
+use foxglove::{Encode, Schema, messages};
+use prost::Message;
+use std::collections::BTreeMap;
+use std::io::Write;
+
+/// Level of what is written once; pictures are compressed in the frame pack.
+const ZSTD_LEVEL: i32 = 3;
+
+/// An MCAP writer with all channels of [`topic`] declared. Messages gather until a chunk is ended.
+pub struct ChannelWriter<W: Write> {
+    container: Container<W>,
+    schemas: BTreeMap<String, u16>,
+    channels: BTreeMap<&'static str, (u16, u32)>,
+    /// Records of the chunk that is not ended, their channels and offsets, and the moment of all of them.
+    records: Vec<u8>,
+    messages: Vec<(u16, u64)>,
+    time_ns: u64,
+}
+
+impl<W: Write> ChannelWriter<W> {
+    /// Begins a log. `output` is only appended to. `with_previews` declares the preview topics.
+    pub fn new(output: W, with_previews: bool) -> Result<Self> {
+        let container = Container::new(output, "cosfly").map_err(|error| write_error(&error))?;
+        let (schemas, channels, records, messages) = (BTreeMap::new(), BTreeMap::new(), vec![], vec![]);
+        let mut this = Self { container, schemas, channels, records, messages, time_ns: 0 };
+        this.declare_all(with_previews)?;
+        Ok(this)
+    }
+
+    /// Those of [`topic::PACKED`] come first: their ids stand in frame packs.
+    fn declare_all(&mut self, with_previews: bool) -> Result<()> {
+        let depth = [("unit", "m"), ("depth", "planar, along the optical axis"), ("no_hit", "+inf")];
+        self.declare::<messages::RawImage>(topic::DEPTH, &depth)?;
+        self.declare::<messages::RawImage>(topic::SEMANTIC, &[("labels", "CARLA 0.9.14 and later")])?;
+        let instance = [("0", "ground and sky"), ("1", "the target"), ("2 and more", "object id + 2, then people")];
+        self.declare::<messages::RawImage>(topic::INSTANCE, &instance)?;
+        debug_assert!(topic::PACKED.iter().zip(1..).all(|(topic, id)| self.channels[topic].0 == id));
+        self.declare::<messages::CompressedImage>(topic::RGB, &[])?;
+        self.declare::<messages::CameraCalibration>(topic::CAMERA, &[])?;
+        self.declare::<messages::ImageAnnotations>(topic::ANNOTATIONS, &[])?;
+        if with_previews {
+            for preview in [topic::RGB_PREVIEW, topic::DEPTH_PREVIEW, topic::SEMANTIC_PREVIEW] {
+                self.declare::<messages::CompressedImage>(preview, &[])?;
+            }
+        }
+        self.declare::<messages::FrameTransforms>(topic::TF, &[])?;
+        self.declare::<messages::PoseInFrame>(topic::DRONE_POSE, &[])?;
+        self.declare::<messages::PoseInFrame>(topic::TARGET_POSE, &[])?;
+        self.declare::<messages::PosesInFrame>(topic::DRONE_PATH, &[])?;
+        self.declare::<messages::PosesInFrame>(topic::TARGET_PATH, &[])?;
+        self.declare::<messages::SceneUpdate>(topic::SCENE, &[])?;
+        self.declare::<messages::Log>(topic::CAPTIONS, &[])?;
+        let state = Schema::new(target_state::SCHEMA_NAME, "protobuf", target_state::descriptor_set());
+        self.declare_schema(topic::TARGET_STATE, &state, &[])
+    }
+
+    fn declare<M: Encode>(&mut self, topic: &'static str, notes: &[(&str, &str)]) -> Result<()> {
+        let schema = M::get_schema().expect("every Foxglove message has a schema");
+        self.declare_schema(topic, &schema, notes)
+    }
+
+    fn declare_schema(&mut self, topic: &'static str, schema: &Schema, notes: &[(&str, &str)]) -> Result<()> {
+        let refused = |error: std::io::Error| write_error(&error);
+        let schema_id = match self.schemas.get(&schema.name) {
+            Some(id) => *id,
+            None => {
+                let id = self.container.schema(&schema.name, &schema.encoding, &schema.data).map_err(refused)?;
+                self.schemas.insert(schema.name.clone(), id);
+                id
+            }
+        };
+        let channel = self.container.channel(schema_id, topic, "protobuf", notes).map_err(refused)?;
+        self.channels.insert(topic, (channel, 0));
+        Ok(())
+    }
+
+    /// Adds a message to the chunk; all messages of a chunk have the same time.
+    pub fn write(&mut self, topic: &'static str, time_ns: u64, message: &impl Message) -> Result<()> {
+        let (channel, sequence) = self
+            .channels
+            .get_mut(topic)
+            .ok_or_else(|| Diagnostic::new("mcap-channel", Fault::Bug, format!("topic `{topic}` was not declared")))?;
+        *sequence += 1;
+        self.messages.push((*channel, self.records.len() as u64));
+        self.records.extend_from_slice(&message_head(*channel, *sequence, time_ns, message.encoded_len()));
+        message.encode(&mut self.records).expect("a vector grows as needed");
+        self.time_ns = time_ns;
+        Ok(())
+    }
+
+    /// Ends the chunk as it is: image files do not get smaller.
+    pub fn end_plain_chunk(&mut self) -> Result<()> {
+        let crc = crc32fast::hash(&self.records);
+        let chunk = Chunk {
+            time_ns: self.time_ns,
+            compression: "",
+            plain_bytes: self.records.len() as u64,
+            plain_crc: crc,
+            stored: &self.records,
+            stored_crc: crc,
+            messages: &self.messages,
+        };
+        self.container.chunk(&chunk).map_err(|error| write_error(&error))?;
+        self.records.clear();
+        self.messages.clear();
+        Ok(())
+    }
+
+    /// Ends the chunk and compresses it.
+    pub fn end_compressed_chunk(&mut self) -> Result<()> {
+        let stored = zstd::bulk::compress(&self.records, ZSTD_LEVEL).map_err(|error| write_error(&error))?;
+        let chunk = Chunk {
+            time_ns: self.time_ns,
+            compression: "zstd",
+            plain_bytes: self.records.len() as u64,
+            plain_crc: crc32fast::hash(&self.records),
+            stored: &stored,
+            stored_crc: crc32fast::hash(&stored),
+            messages: &self.messages,
+        };
+        self.container.chunk(&chunk).map_err(|error| write_error(&error))?;
+        self.records.clear();
+        self.messages.clear();
+        Ok(())
+    }
+
+    /// Appends a chunk of a frame pack as it is.
+    pub fn packed_chunk(&mut self, time_ns: u64, packed: &PackedChunk) -> Result<()> {
+        let chunk = Chunk {
+            time_ns,
+            compression: "zstd",
+            plain_bytes: packed.plain_bytes,
+            plain_crc: packed.plain_crc,
+            stored: &packed.stored,
+            stored_crc: packed.stored_crc,
+            messages: &packed.messages,
+        };
+        self.container.chunk(&chunk).map_err(|error| write_error(&error))
+    }
+
+    /// Appends a metadata record.
+    pub fn metadata(&mut self, name: &str, entries: &BTreeMap<String, String>) -> Result<()> {
+        self.container.metadata(name, entries).map_err(|error| write_error(&error))
+    }
+
+    /// Writes the summary; gives the number of messages.
+    pub fn finish(self) -> Result<u64> {
+        self.container.finish().map_err(|error| write_error(&error))
+    }
+}
+
+fn write_error(error: &std::io::Error) -> Box<Diagnostic> {
+    Diagnostic::io("write an MCAP log", error)
+}

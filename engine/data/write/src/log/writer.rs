@@ -1,0 +1,120 @@
+//! Writes the log of one trajectory, frame by frame.
+
+use super::channels::ChannelWriter;
+use super::{metadata, scene};
+use crate::frame_pack::{FramePackReader, PackHeader, PackedFrame};
+use cosfly_diagnose::{Diagnostic, Fault, Result};
+use cosfly_fingerprint::sha256::HashingWriter;
+use cosfly_maps::Town;
+use cosfly_schema::log::{frame_time_ns, messages, topic};
+use cosfly_schema::{CaptionRecord, LogRecord, RenderedTrajectory, RgbEncoding};
+use std::io::{Read, Seek, Write};
+
+/// Writes the log of `record` with the images of `pack` to `output`, which is only appended to.
+/// Holds one frame in memory. `keep_going` is asked before every frame and its error ends the work.
+pub fn write_log<R: Read + Seek>(
+    output: &mut dyn Write,
+    record: &RenderedTrajectory,
+    pack: &mut FramePackReader<R>,
+    captions: &[CaptionRecord],
+    town: &Town,
+    keep_going: &dyn Fn() -> Result<()>,
+) -> Result<LogRecord> {
+    record.check()?;
+    check_pack(record, pack)?;
+    let mut hashing = HashingWriter::new(output);
+    let mut log = ChannelWriter::new(&mut hashing, pack.header().encoding.previews)?;
+    for (name, entries) in metadata::records(record, pack.header(), town) {
+        log.metadata(name, &entries)?;
+    }
+    write_once(&mut log, record, captions, town)?;
+    for frame in 0..record.len() {
+        keep_going()?;
+        let images = pack.frame(frame)?;
+        write_frame(&mut log, record, frame, images, pack.header())?;
+    }
+    let messages = log.finish()?;
+    let (bytes, sha256) = hashing.finish();
+    Ok(LogRecord {
+        trajectory_id: record.trajectory_id.clone(),
+        role: record.role,
+        pedestrian_id: record.pedestrian_id.clone(),
+        town: record.town.name.clone(),
+        frames: record.len() as u64,
+        messages,
+        bytes,
+        sha256,
+    })
+}
+
+fn check_pack<R: Read + Seek>(record: &RenderedTrajectory, pack: &FramePackReader<R>) -> Result<()> {
+    let (header, camera) = (pack.header(), &record.camera);
+    let same_size = (header.width, header.height) == (camera.width, camera.height);
+    if pack.len() != record.len() || !same_size || header.dt_s != record.dt_s() {
+        return Err(Diagnostic::new(
+            "mcap-pack",
+            Fault::Bug,
+            format!(
+                "trajectory `{}` has {} frames of {} x {}, {} s apart; its frame pack has {} of {} x {}, {} s apart",
+                record.trajectory_id,
+                record.len(),
+                camera.width,
+                camera.height,
+                record.dt_s(),
+                pack.len(),
+                header.width,
+                header.height,
+                header.dt_s
+            ),
+        ));
+    }
+    Ok(())
+}
+
+/// What does not change from frame to frame.
+fn write_once<W: Write>(
+    log: &mut ChannelWriter<W>,
+    record: &RenderedTrajectory,
+    captions: &[CaptionRecord],
+    town: &Town,
+) -> Result<()> {
+    log.write(topic::SCENE, 0, &scene::scene(record, town))?;
+    let poses = record.trajectory.poses_in_world.iter().copied();
+    log.write(topic::DRONE_PATH, 0, &messages::path_in_map(poses))?;
+    let targets = (0..record.len()).map(|frame| messages::target_pose(record, frame));
+    log.write(topic::TARGET_PATH, 0, &messages::path_in_map(targets))?;
+    captions.iter().try_for_each(|caption| log.write(topic::CAPTIONS, 0, &scene::caption(caption)))?;
+    log.end_compressed_chunk()
+}
+
+fn write_frame<W: Write>(
+    log: &mut ChannelWriter<W>,
+    record: &RenderedTrajectory,
+    frame: usize,
+    images: PackedFrame,
+    header: &PackHeader,
+) -> Result<()> {
+    let time = frame_time_ns(record.dt_s(), frame);
+    let camera = &record.camera;
+    let pose = &record.trajectory.poses_in_world[frame];
+    log.write(topic::TF, time, &messages::transforms(time, record, frame))?;
+    log.write(topic::DRONE_POSE, time, &messages::pose_in_map(time, pose))?;
+    log.write(topic::TARGET_POSE, time, &messages::pose_in_map(time, &messages::target_pose(record, frame)))?;
+    log.write(topic::TARGET_STATE, time, &messages::target_state(record, frame))?;
+    log.write(topic::CAMERA, time, &messages::calibration(time, camera, &record.lens))?;
+    log.write(topic::ANNOTATIONS, time, &messages::annotations(time, record, frame))?;
+    let format = match header.encoding.rgb {
+        RgbEncoding::Jpeg => "jpeg",
+        RgbEncoding::Png => "png",
+    };
+    log.write(topic::RGB, time, &messages::compressed_image(time, format, images.rgb_file))?;
+    if let Some(previews) = images.previews {
+        log.write(topic::RGB_PREVIEW, time, &messages::compressed_image(time, "jpeg", previews.rgb_jpeg))?;
+        log.write(topic::DEPTH_PREVIEW, time, &messages::compressed_image(time, "jpeg", previews.depth_jpeg))?;
+        log.write(topic::SEMANTIC_PREVIEW, time, &messages::compressed_image(time, "png", previews.semantic_png))?;
+    }
+    // Three chunks a frame: who reads one of them decodes nothing of the others.
+    log.end_plain_chunk()?;
+    log.packed_chunk(time, &images.depth)?;
+    log.packed_chunk(time, &images.ids)
+}

@@ -1,0 +1,249 @@
+//! The Hugging Face card (`README.md`) and the `LICENSE` file.
+
+use super::summary::Summary;
+use super::viewers;
+use cosfly_schema::config::{DatasetConfig, OWN_LICENSE};
+use cosfly_schema::extras::{self, ExtraShape, Kept};
+use cosfly_schema::flight_table::ColumnKind;
+use cosfly_schema::tables::{self, Table};
+use std::collections::BTreeMap;
+use std::fmt::Write;
+
+/// Licences that Hugging Face knows by name; any other needs `license_name` and `license_link`.
+const KNOWN_LICENSES: [&str; 14] = [
+    "apache-2.0",
+    "cc",
+    "cc-by-2.0",
+    "cc-by-4.0",
+    "cc-by-nc-4.0",
+    "cc-by-nc-nd-4.0",
+    "cc-by-nc-sa-4.0",
+    "cc-by-nd-4.0",
+    "cc-by-sa-4.0",
+    "cc0-1.0",
+    "cdla-permissive-2.0",
+    "mit",
+    "odbl",
+    "odc-by",
+];
+
+/// The text of `LICENSE`.
+pub fn license_text(config: &DatasetConfig) -> String {
+    let license = &config.license;
+    match (license.text.trim_end(), license.name.as_str()) {
+        ("", OWN_LICENSE) => include_str!("../../assets/LICENSE-data.txt").to_owned(),
+        ("", name) => format!("The data in this folder are licensed under {name}.\n{}\n", license.url),
+        (text, _) => format!("{text}\n"),
+    }
+}
+
+/// How to cite: the configured entry, or one made from title, creator and year.
+pub fn citation(config: &DatasetConfig) -> String {
+    if !config.citation.is_empty() {
+        return config.citation.clone();
+    }
+    let year = config.date_published.split('-').next().unwrap_or_default();
+    format!(
+        "@misc{{{},\n  title = {{{}}},\n  author = {{{}}},\n  year = {{{year}}},\n  version = {{{}}},\n  url = {{{}}}\n}}",
+        config.name, config.title, config.creator.name, config.version, config.url
+    )
+}
+
+/// The text of `README.md`.
+pub fn readme(config: &DatasetConfig, summary: &Summary) -> String {
+    let mut text = front_matter(config, summary);
+    let _ = write!(text, "\n# {}\n\n{}\n\n", config.title, config.description);
+    text.push_str(&figures(summary));
+    text.push_str(&loading(config, summary));
+    text.push_str(CONVENTIONS);
+    text.push_str("## Tables\n\n");
+    tables::of_trajectories().iter().for_each(|table| text.push_str(&table_section(table)));
+    text.push_str(&table_section(&tables::of_objects()));
+    text.push_str(&table_section(&tables::of_rejections()));
+    text.push_str(&table_section(&tables::of_files()));
+    summary.extras.iter().for_each(|kept| text.push_str(&extra_section(kept)));
+    text.push_str(&invented(summary));
+    text.push_str(&super::datasheet::section(config, summary));
+    let _ = write!(
+        text,
+        "## Responsible use\n\n{}\n\n## Licence\n\nThe data: {} ({}), see `LICENSE`. The software that made them: MIT OR \
+         Apache-2.0.\n\n## Citation\n\n```bibtex\n{}\n```\n",
+        config.license.responsible_use.trim(),
+        config.license.name,
+        config.license.url,
+        citation(config)
+    );
+    text
+}
+
+/// A JSON string is a YAML string, too.
+fn quoted(text: &str) -> String {
+    serde_json::Value::from(text).to_string()
+}
+
+fn front_matter(config: &DatasetConfig, summary: &Summary) -> String {
+    let mut text = format!("---\npretty_name: {}\n", quoted(&config.title));
+    let license = &config.license;
+    if KNOWN_LICENSES.contains(&license.name.as_str()) {
+        let _ = writeln!(text, "license: {}", license.name);
+    } else {
+        let (name, link) = (quoted(&license.name), quoted(&license.url));
+        let _ = write!(text, "license: other\nlicense_name: {name}\nlicense_link: {link}\n");
+    }
+    let size = match summary.frames {
+        0..1_000 => "n<1K",
+        1_000..10_000 => "1K<n<10K",
+        10_000..100_000 => "10K<n<100K",
+        100_000..1_000_000 => "100K<n<1M",
+        1_000_000..10_000_000 => "1M<n<10M",
+        _ => "10M<n<100M",
+    };
+    let _ = writeln!(text, "size_categories:\n- {size}\nlanguage:\n- en\n- zh\ntask_categories:\n- robotics");
+    text.push_str("- depth-estimation\n- image-segmentation\n- image-text-to-text\n");
+    text.push_str("tags:\n- croissant\n- mcap\n- drone\n- uav\n- tracking\n- trajectory\n- synthetic\nconfigs:\n");
+    table_names().iter().for_each(|name| text.push_str(&config_entry(name, summary)));
+    for Kept { source, rows, .. } in &summary.extras {
+        text.push_str(&config_of(&source.name, rows));
+    }
+    text.push_str("- config_name: files\n  data_files:\n  - split: files\n    path: files.parquet\n---\n");
+    text
+}
+
+/// All tables with splits.
+fn table_names() -> Vec<&'static str> {
+    let others = [tables::of_objects().name, tables::of_rejections().name];
+    tables::of_trajectories().iter().map(|table| table.name).chain(others).collect()
+}
+
+/// The Hugging Face config of a table; splits without rows are left out, because its loader refuses them.
+fn config_entry(table: &str, summary: &Summary) -> String {
+    summary.rows.get(table).map_or_else(String::new, |rows| config_of(table, rows))
+}
+
+fn config_of(table: &str, rows: &BTreeMap<String, u64>) -> String {
+    let splits = rows.iter().filter(|(_, rows)| **rows > 0);
+    let files: String =
+        splits.map(|(split, _)| format!("  - split: {split}\n    path: data/{table}/{split}-*.parquet\n")).collect();
+    if files.is_empty() {
+        return String::new();
+    }
+    let default = if table == "trajectories" { "  default: true\n" } else { "" };
+    format!("- config_name: {table}\n{default}  data_files:\n{files}")
+}
+
+fn figures(summary: &Summary) -> String {
+    let sizes: Vec<String> = summary.image_sizes.iter().map(|(width, height)| format!("{width} x {height}")).collect();
+    let mut text = String::from("## In figures\n\n| | |\n| --- | --- |\n");
+    let mut row = |name: &str, value: String| {
+        let _ = writeln!(text, "| {name} | {value} |");
+    };
+    row("flights", format!("{} expert, {} perturbed", summary.experts, summary.perturbed));
+    row("pedestrians", summary.pedestrians.len().to_string());
+    row("frames", summary.frames.to_string());
+    row("time flown", format!("{:.1} min", summary.duration_s / 60.0));
+    row("image size", sizes.join(", "));
+    row("mean visibility of the target (by rays)", format!("{:.3}", summary.mean_visibility()));
+    row("flights whose certificate does not hold", summary.uncertified.to_string());
+    row("items without a flight", format!("{}, each with its reason in `rejected`", summary.rejected));
+    row("logs", format!("{:.1} MB", summary.mcap_bytes as f64 / 1e6));
+    row("weather", summary.weathers.iter().cloned().collect::<Vec<_>>().join(", "));
+    row("languages of the captions", summary.languages.iter().cloned().collect::<Vec<_>>().join(", "));
+    for (town, figures) in &summary.towns {
+        row(&format!("town `{town}`"), format!("{} flights", figures.flights));
+    }
+    for split in cosfly_schema::Split::ALL {
+        let (flights, frames) = summary.splits.get(split.name()).copied().unwrap_or_default();
+        row(&format!("split `{}`", split.name()), format!("{flights} flights, {frames} frames"));
+    }
+    text.push_str("\nFlights behind one pedestrian, and behind pedestrians whose ways overlap, are always in the same split (`splits.json`). `report/index.html` shows all of this as a page: maps, \
+         curves, distributions, worst cases with their pictures.\n\n");
+    text
+}
+
+fn loading(config: &DatasetConfig, summary: &Summary) -> String {
+    let has_rows = |name: &&str| summary.rows.get(*name).into_iter().flatten().any(|(_, rows)| *rows > 0);
+    let others: Vec<&str> = table_names().into_iter().filter(has_rows).filter(|name| *name != "frames").collect();
+    format!(
+        "## How to load\n\n```python\nfrom datasets import load_dataset\nframes = load_dataset(\".\", \"frames\")  # or {}, files\n\nimport pyarrow.dataset\ntable = \
+         pyarrow.dataset.dataset(\"data/frames\").to_table()\n\nimport mlcroissant  # one Dataset object reads one record set; make another for the next\nrecords = \
+         mlcroissant.Dataset(\"croissant.json\").records(\"trajectories\")\n\nfrom mcap_protobuf.reader import \
+         read_protobuf_messages\nfor message in read_protobuf_messages(\"mcap/.../x.mcap\", \
+         topics=[\"/camera/depth/image\"]):\n    ...\n```\n\n{}\n\n`sha256sum -c SHA256SUMS` checks `files.parquet` and \
+         `croissant.json`; `files.parquet` holds the hash of every other file; `cosfly verify .` checks everything.\n\n\
+         Version {} of {}, published {}.\n\n",
+        others.join(", "),
+        viewers::USE,
+        config.version,
+        config.name,
+        config.date_published
+    )
+}
+
+const CONVENTIONS: &str = "## Conventions\n\n\
+* Tables: CARLA's world frame, left-handed, x east, y south, z up, metres; angles in degrees; positive yaw turns x \
+towards y, positive pitch lifts the nose, positive roll lowers the right side.\n\
+* Logs: right-handed frame `map` with x east, y north, z up (y changes sign); `drone` x ahead, y left, z up; \
+`camera_optical` x right, y down, z ahead. Frame i is at i * dt after time 0.\n\
+* Camera: pinhole without distortion, square pixels, optical centre in the image centre; pixel (0, 0) is the top-left \
+one and its centre is at (0.5, 0.5).\n\
+* Depth: planar, along the optical axis, metres, 32-bit float, +inf for sky.\n\
+* Semantic images: CARLA's label ids (0.9.14 and later). Instance images: 0 ground and sky, 1 the target, object id + \
+2 (table `objects`), then people (table `people`).\n\
+* Boxes: left, top, right, bottom edges in pixels; right and bottom lie outside.\n\n";
+
+fn table_section<S>(table: &Table<S>) -> String {
+    let mut text = format!("### {}\n\n{}\n\n| column | type | meaning |\n| --- | --- | --- |\n", table.name, table.doc);
+    for column in &table.columns {
+        let null = if column.nullable() { " or null" } else { "" };
+        let _ = writeln!(text, "| `{}` | {}{null} | {} |", column.name(), column.kind().words(), column.doc());
+    }
+    text.push('\n');
+    text
+}
+
+/// A table or a folder that a plugin gave.
+fn extra_section(kept: &Kept) -> String {
+    let source = &kept.source;
+    let mut text = format!(
+        "### {}\n\nGiven by the plugin `{}` {}: {}",
+        source.name, source.plugin, source.version, source.summary
+    );
+    if source.shape == ExtraShape::Files {
+        let _ = write!(
+            text,
+            "\n\n{} files, `extras/{}/TOWN/NUMBER/TRAJECTORY/...`, beside each other as the logs are.\n\n",
+            kept.files, source.name
+        );
+        return text;
+    }
+    text.push_str("\n\n| column | type | meaning |\n| --- | --- | --- |\n");
+    for column in extras::columns_of(source) {
+        let kind = match column.kind {
+            ColumnKind::Real => "float64",
+            ColumnKind::Integer => "int64",
+            ColumnKind::Boolean => "bool",
+            ColumnKind::Text => "text",
+            ColumnKind::Bytes => "bytes",
+        };
+        let _ = writeln!(text, "| `{}` | {kind} | {} |", column.name, column.doc.replace('|', "\\|"));
+    }
+    text.push('\n');
+    text
+}
+
+fn invented(summary: &Summary) -> String {
+    let mut text = String::from(
+        "## What is invented\n\nAll flights, pedestrians and images are simulated. Beyond that, of the towns:\n\n",
+    );
+    for (town, figures) in &summary.towns {
+        let _ = writeln!(text, "* `{town}` (geometry BLAKE3 `{}`)", figures.geometry_digest);
+        if figures.synthetic_notes.is_empty() {
+            text.push_str("  * nothing was added to its map file\n");
+        }
+        figures.synthetic_notes.iter().for_each(|note| {
+            let _ = writeln!(text, "  * {}", note.replace('\n', " "));
+        });
+    }
+    text.push('\n');
+    text
+}

@@ -1,0 +1,113 @@
+//! The dataset's page, `report/index.html`: what its records and previews give to the sketches that it is drawn from.
+
+use super::summary::Summary;
+use super::write::DatasetSource;
+use cosfly_diagnose::Result;
+use cosfly_frames::DVec3;
+use cosfly_report::{BoxSketch, FlightSketch, RejectionSketch, Report, TownSketch};
+use cosfly_schema::config::DatasetConfig;
+use cosfly_schema::flight_labels::costs;
+use cosfly_schema::log::messages::edges_px;
+use cosfly_schema::tables::ObjectRecord;
+use cosfly_schema::{Rejection, RenderedTrajectory, Role};
+use std::collections::BTreeSet;
+
+/// Walks on which planners are compared; more would make publishing slow.
+const COMPARED: usize = 3;
+
+/// Where the page is.
+pub const PATH: &str = "report/index.html";
+
+/// The page of a dataset whose flights were sketched in the order of `source`.
+pub fn page(
+    config: &DatasetConfig,
+    summary: &Summary,
+    flights: Vec<FlightSketch>,
+    boxes: &[ObjectRecord],
+    rejections: &[Rejection],
+    source: &dyn DatasetSource,
+) -> Result<String> {
+    let planners = source.planners(&compared(&flights))?;
+    let of_town = |name: &String| boxes.iter().filter(|it| it.town == *name).map(box_sketch).collect();
+    let report = Report {
+        title: config.title.clone(),
+        description: config.description.clone(),
+        name_and_version: format!("{} {}", config.name, config.version),
+        published: config.date_published.clone(),
+        license: config.license.name.clone(),
+        creator: config.creator.name.clone(),
+        languages: summary.languages.iter().cloned().collect(),
+        towns: summary.towns.keys().map(|name| TownSketch { name: name.clone(), boxes: of_town(name) }).collect(),
+        flights,
+        rejections: rejections.iter().map(rejection_sketch).collect(),
+        planners,
+    };
+    cosfly_report::page(&report, &mut |flight, frame| Ok(source.previews(flight)?.jpegs.into_iter().nth(frame)))
+}
+
+/// Experts behind a few pedestrians that are spread over the dataset; one of those that differ in their weather only.
+fn compared(flights: &[FlightSketch]) -> Vec<usize> {
+    let experts = || flights.iter().enumerate().filter(|(_, flight)| !flight.is_perturbed);
+    let walks: BTreeSet<(&str, &str)> = experts().map(|(_, it)| (it.town.as_str(), it.pedestrian.as_str())).collect();
+    let walks: Vec<(&str, &str)> = walks.into_iter().collect();
+    let count = COMPARED.min(walks.len());
+    let mut chosen: Vec<usize> = vec![];
+    for at in 0..count {
+        let walk = walks[(2 * at + 1) * walks.len() / (2 * count)];
+        for (index, flight) in experts().filter(|(_, it)| (it.town.as_str(), it.pedestrian.as_str()) == walk) {
+            if chosen.iter().all(|other| flights[*other].drone_m != flight.drone_m) {
+                chosen.push(index);
+            }
+        }
+    }
+    chosen
+}
+
+fn box_sketch(object: &ObjectRecord) -> BoxSketch {
+    let shape = &object.obstacle.shape;
+    BoxSketch {
+        instance: object.instance(),
+        kind: object.kind().to_owned(),
+        center_m: [shape.center_in_world.x, shape.center_in_world.y],
+        half_m: [shape.half_extents_m.x, shape.half_extents_m.y],
+        yaw_rad: shape.yaw_rad,
+    }
+}
+
+fn rejection_sketch(rejection: &Rejection) -> RejectionSketch {
+    RejectionSketch {
+        id: rejection.trajectory_id.clone(),
+        stage: rejection.stage.clone(),
+        reason: rejection.reason.clone(),
+    }
+}
+
+/// What the page shows of a flight.
+pub fn sketch(record: &RenderedTrajectory, split: &str) -> FlightSketch {
+    let trajectory = &record.trajectory;
+    let place = |it: DVec3| it.to_array().map(|metres| metres as f32);
+    FlightSketch {
+        id: record.trajectory_id.clone(),
+        is_perturbed: record.role == Role::Perturbed,
+        pedestrian: record.pedestrian_id.clone(),
+        town: record.town.name.clone(),
+        weather: record.weather.name.clone(),
+        split: split.to_owned(),
+        dt_s: record.dt_s(),
+        image_px: [record.camera.width, record.camera.height],
+        drone_m: trajectory.poses_in_world.iter().map(|pose| place(pose.position_in_world)).collect(),
+        feet_m: trajectory.track.states.iter().map(|state| place(state.feet_in_world)).collect(),
+        visible: record.views.iter().map(|view| view.visible_by_rays as f32).collect(),
+        clearance_m: trajectory.clearance_m.iter().map(|metres| *metres as f32).collect(),
+        box_px: record.views.iter().map(|view| view.full_box.as_ref().map(edges)).collect(),
+        holds: trajectory.certificate.holds,
+        violations: trajectory.certificate.violations.clone(),
+        max_jerk_mps3: trajectory.certificate.max_jerk_mps3,
+        convergence: trajectory.convergence.clone(),
+        term_costs: costs(trajectory).map(|term| (term.name.clone(), term.weight * term.sum)).collect(),
+    }
+}
+
+fn edges(it: &cosfly_render::PixelBox) -> [f32; 4] {
+    edges_px(it).map(|edge| edge as f32)
+}

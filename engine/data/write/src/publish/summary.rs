@@ -1,0 +1,101 @@
+//! The figures of a dataset that card and `croissant.json` state.
+
+use cosfly_schema::LogRecord;
+use cosfly_schema::extras::Kept;
+use cosfly_schema::tables::DatasetItem;
+use cosfly_schema::{Rejection, Role};
+use std::collections::{BTreeMap, BTreeSet};
+
+/// What the dataset holds, counted while it is written.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Summary {
+    /// Expert flights.
+    pub experts: u64,
+    /// Perturbed flights.
+    pub perturbed: u64,
+    /// Distinct pedestrians: town and id.
+    pub pedestrians: BTreeSet<(String, String)>,
+    /// Frames.
+    pub frames: u64,
+    /// Time flown, seconds.
+    pub duration_s: f64,
+    /// Items without a flight.
+    pub rejected: u64,
+    /// Flights whose certificate does not hold.
+    pub uncertified: u64,
+    /// Bytes of all logs.
+    pub mcap_bytes: u64,
+    /// Towns by name.
+    pub towns: BTreeMap<String, TownSummary>,
+    /// Languages of the captions.
+    pub languages: BTreeSet<String>,
+    /// Weather presets that occur.
+    pub weathers: BTreeSet<String>,
+    /// Image sizes that occur: width, height.
+    pub image_sizes: BTreeSet<(u32, u32)>,
+    /// Mean visibility by rays over all flights, summed (divide by the flights).
+    pub visibility_sum: f64,
+    /// Flights and frames by split name.
+    pub splits: BTreeMap<&'static str, (u64, u64)>,
+    /// Rows by table name and split name; tables over something else than flights are a split of their own name.
+    pub rows: BTreeMap<&'static str, BTreeMap<String, u64>>,
+    /// What plugins added.
+    pub extras: Vec<Kept>,
+}
+
+/// A town of a dataset.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct TownSummary {
+    /// Flights in it.
+    pub flights: u64,
+    /// BLAKE3 of its geometry.
+    pub geometry_digest: String,
+    /// What was invented, in words.
+    pub synthetic_notes: Vec<String>,
+}
+
+impl Summary {
+    /// Counts one flight of split `split`.
+    pub fn count(&mut self, item: &DatasetItem, split: &'static str) {
+        let record = &item.record;
+        match record.role {
+            Role::Expert => self.experts += 1,
+            Role::Perturbed => self.perturbed += 1,
+        }
+        self.count_log(&item.log, split);
+        self.pedestrians.insert((record.town.name.clone(), record.pedestrian_id.clone()));
+        self.duration_s += record.trajectory.track.duration_s();
+        self.uncertified += u64::from(!record.trajectory.certificate.holds);
+        self.visibility_sum += record.trajectory.certificate.mean_visibility;
+        self.weathers.insert(record.weather.name.clone());
+        self.image_sizes.insert((record.camera.width, record.camera.height));
+        self.languages.extend(item.captions.iter().map(|caption| caption.language.clone()));
+        let town = self.towns.entry(record.town.name.clone()).or_default();
+        town.flights += 1;
+        town.geometry_digest.clone_from(&record.town.geometry_digest);
+        town.synthetic_notes.clone_from(&record.town.synthetic.notes);
+    }
+
+    fn count_log(&mut self, log: &LogRecord, split: &'static str) {
+        self.frames += log.frames;
+        self.mcap_bytes += log.bytes;
+        let (flights, frames) = self.splits.entry(split).or_default();
+        *flights += 1;
+        *frames += log.frames;
+    }
+
+    /// Counts the items without a flight.
+    pub fn count_rejections(&mut self, rejections: &[Rejection]) {
+        self.rejected = rejections.len() as u64;
+    }
+
+    /// All flights.
+    pub fn flights(&self) -> u64 {
+        self.experts + self.perturbed
+    }
+
+    /// Mean visibility by rays over all flights; 0 without any.
+    pub fn mean_visibility(&self) -> f64 {
+        self.visibility_sum / (self.flights().max(1)) as f64
+    }
+}

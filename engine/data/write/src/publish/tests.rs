@@ -1,0 +1,95 @@
+//! A published dataset is complete, the same twice, and hashes to what it says.
+
+use cosfly_fingerprint::sha256::sha256_of;
+use cosfly_sample as sample;
+use cosfly_schema::{DatasetConfig, EncodingConfig};
+use std::collections::BTreeMap;
+use std::path::Path;
+
+fn files_below(folder: &Path) -> BTreeMap<String, Vec<u8>> {
+    let mut files = BTreeMap::new();
+    let mut open = vec![folder.to_owned()];
+    while let Some(next) = open.pop() {
+        for entry in std::fs::read_dir(next).unwrap() {
+            let path = entry.unwrap().path();
+            if path.is_dir() {
+                open.push(path);
+            } else {
+                let name = path.strip_prefix(folder).unwrap().to_str().unwrap().to_owned();
+                files.insert(name, std::fs::read(path).unwrap());
+            }
+        }
+    }
+    files
+}
+
+fn publish() -> BTreeMap<String, Vec<u8>> {
+    let folder = tempfile::tempdir().unwrap();
+    sample::write_to_folder(folder.path(), &DatasetConfig::default(), EncodingConfig::default()).unwrap();
+    files_below(folder.path())
+}
+
+#[test]
+fn the_same_dataset_has_the_same_bytes() {
+    assert!(publish() == publish());
+}
+
+#[test]
+fn the_layout_is_the_documented_one() {
+    let files = publish();
+    let names: Vec<&str> = files.keys().map(String::as_str).filter(|name| !name.starts_with("data/")).collect();
+    assert_eq!(
+        names,
+        [
+            "LICENSE",
+            "README.md",
+            "SHA256SUMS",
+            "croissant.json",
+            "files.parquet",
+            "layouts/foxglove.json",
+            "layouts/show_in_rerun.py",
+            "mcap/plain/000/expert-p00000.mcap",
+            "mcap/plain/000/expert-p00001.mcap",
+            "mcap/plain/000/perturbed-p00000.mcap",
+            "mcap/plain/000/perturbed-p00001.mcap",
+            "report/index.html",
+            "schemas/cosfly.proto",
+            "splits.json",
+        ]
+    );
+    for table in ["trajectories", "frames", "waypoints", "captions", "pairs", "people", "windows", "rejected"] {
+        assert!(files.keys().any(|name| name.starts_with(&format!("data/{table}/"))), "{table}");
+    }
+}
+
+#[test]
+fn the_sums_are_right_and_croissant_names_the_hash_of_the_file_table() {
+    let files = publish();
+    let sums = std::str::from_utf8(&files["SHA256SUMS"]).unwrap();
+    assert_eq!(sums.lines().count(), 2);
+    for line in sums.lines() {
+        let (sum, name) = line.split_once("  ").unwrap();
+        assert_eq!(sum, sha256_of(&files[name]), "{name}");
+    }
+    let croissant: serde_json::Value = serde_json::from_slice(&files["croissant.json"]).unwrap();
+    let objects = croissant["distribution"].as_array().unwrap();
+    let table = objects.iter().find(|object| object["@id"] == "files.parquet").unwrap();
+    assert_eq!(table["sha256"], sha256_of(&files["files.parquet"]));
+}
+
+#[test]
+fn the_card_lists_only_tables_with_rows() {
+    let experts = sample::flights().into_iter().filter(|flight| flight.record.pair.is_none()).collect();
+    let folder = tempfile::tempdir().unwrap();
+    sample::write_flights(folder.path(), &DatasetConfig::default(), EncodingConfig::default(), experts).unwrap();
+    let card = std::fs::read_to_string(folder.path().join("README.md")).unwrap();
+    assert!(card.contains("# or trajectories, waypoints, captions, people, objects, rejected, files\n"), "{card}");
+}
+
+#[test]
+fn a_dataset_without_a_flight_is_refused_with_the_reasons() {
+    let folder = tempfile::tempdir().unwrap();
+    let outcome = sample::write_flights(folder.path(), &DatasetConfig::default(), EncodingConfig::default(), vec![]);
+    let error = outcome.unwrap_err();
+    assert!(error.message.contains("no flight to publish") && error.causes[0].contains("cannot be reached"), "{error}");
+}

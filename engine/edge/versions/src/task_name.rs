@@ -1,0 +1,79 @@
+//! Name of a task in a manifest.
+
+use cosfly_stage::{ItemId, StageName};
+use serde::{Deserialize, Deserializer, Serialize, Serializer, de::Error};
+use std::borrow::Cow;
+use std::cmp::Ordering;
+use std::fmt;
+
+/// Name of a task, `expert/p00003` as text. The item is known by its text alone.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct TaskName {
+    /// Stage of the task.
+    pub stage: StageName,
+    /// Item that it makes.
+    pub item: String,
+}
+
+impl From<&ItemId> for TaskName {
+    fn from(id: &ItemId) -> Self {
+        Self { stage: id.stage.clone(), item: id.item.to_string() }
+    }
+}
+
+impl TaskName {
+    fn bytes(&self) -> impl Iterator<Item = u8> {
+        self.stage.as_str().bytes().chain([b'/']).chain(self.item.bytes())
+    }
+}
+
+/// The order of the texts, in which manifests list tasks.
+impl Ord for TaskName {
+    fn cmp(&self, other: &Self) -> Ordering {
+        self.bytes().cmp(other.bytes())
+    }
+}
+
+impl PartialOrd for TaskName {
+    fn partial_cmp(&self, other: &Self) -> Option<Ordering> {
+        Some(self.cmp(other))
+    }
+}
+
+impl fmt::Display for TaskName {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{}/{}", self.stage, self.item)
+    }
+}
+
+impl Serialize for TaskName {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        serializer.collect_str(self)
+    }
+}
+
+impl<'de> Deserialize<'de> for TaskName {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        let text = Cow::<'de, str>::deserialize(deserializer)?;
+        match text.split_once('/') {
+            Some((stage, item)) => Ok(Self { stage: StageName::read(stage), item: item.to_owned() }),
+            None => Err(D::Error::custom(format!("`{text}` is no task: it has no `/`"))),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_name_reads_back_from_its_text() {
+        let name = TaskName { stage: StageName::new("dataset", "logs"), item: "expert-p00003".to_owned() };
+        let text = serde_json::to_string(&name).unwrap();
+        assert_eq!(text, "\"dataset.logs/expert-p00003\"");
+        assert_eq!(serde_json::from_str::<TaskName>(&text).unwrap(), name);
+        assert!(serde_json::from_str::<TaskName>("\"dataset\"").is_err());
+        let whole = TaskName { stage: StageName::new("dataset", ""), item: "all".to_owned() };
+        assert!(name < whole, "as `dataset.logs/expert-p00003` and `dataset/all`");
+    }
+}

@@ -1,0 +1,48 @@
+//! Artifacts at the ports of tasks; those that all items of a stage read are made once and shared.
+
+use cosfly_recipe::{Arrival, Recipe};
+use cosfly_stage::{Artifact, Fan, Ports};
+use cosfly_store::Finished;
+use std::collections::BTreeMap;
+use std::sync::Arc;
+
+/// Results of tasks by stage and item.
+pub(crate) type Results = Vec<Vec<Option<Finished>>>;
+
+/// Artifacts of the ports that do not differ between the items of a stage.
+#[derive(Default)]
+pub(crate) struct SharedInputs {
+    /// By stage and connection.
+    known: BTreeMap<(usize, usize), Arc<[Artifact]>>,
+}
+
+impl SharedInputs {
+    /// Inputs of one task by port.
+    pub(crate) fn of_task(&mut self, recipe: &Recipe, results: &Results, stage: usize, item: usize) -> Ports {
+        let connections = recipe.stages[stage].connections.iter().enumerate();
+        let ports = connections.map(|(number, connection)| {
+            let artifacts = || connection.arrivals_for(item).iter().map(|it| artifact(recipe, results, it)).collect();
+            let artifacts = match connection.port.fan {
+                Fan::Each => artifacts(),
+                Fan::Broadcast | Fan::Gather => Arc::clone(self.known.entry((stage, number)).or_insert_with(artifacts)),
+            };
+            (connection.port.name, artifacts)
+        });
+        ports.collect()
+    }
+
+    /// Forgets inputs from `upstream`, an item of which has a new result.
+    pub(crate) fn forget(&mut self, recipe: &Recipe, upstream: usize) {
+        self.known
+            .retain(|(stage, number), _| !recipe.stages[*stage].connections[*number].upstreams.contains(&upstream));
+    }
+}
+
+fn artifact(recipe: &Recipe, results: &Results, arrival: &Arrival) -> Artifact {
+    let result = results[arrival.stage][arrival.item].as_ref();
+    Artifact {
+        id: recipe.id(arrival.stage, arrival.item),
+        name: arrival.name.clone(),
+        blobs: result.map(|finished| Arc::clone(&finished.record.outputs)).unwrap_or_default(),
+    }
+}

@@ -1,0 +1,13 @@
+//! Options of a run.
+
+use std::sync::Arc;
+use std::sync::atomic::AtomicBool;
+
+/// Options of a run.
+#[derive(Clone, Debug)]
+pub struct RunOptions {
+    /// Number of threads; no result depends on it.
+    pub jobs: usize,
+    /// Set from anywhere to stop: running tasks finish or give up, finished ones are published.
+    pub cancelled: Arc<AtomicBool>,
+}

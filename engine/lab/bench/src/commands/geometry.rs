@@ -1,0 +1,29 @@
+//! `geometry`: box queries against other libraries' trees.
+
+use super::{Outcome, print};
+use clap::Args;
+
+/// Examples of `geometry`.
+pub const EXAMPLES: &str = "\
+Examples:
+  cosfly-lab geometry           50, 200, 2,000 and 65,000 boxes of generated towns (a minute or two)
+  cosfly-lab geometry --seed 7  other towns and rays
+  cosfly-lab geometry --json    for programs";
+
+/// Arguments of `geometry`.
+#[derive(Args, Debug)]
+pub struct GeometryArguments {
+    /// Seed of the towns and rays
+    #[arg(long, value_name = "N", default_value_t = 1)]
+    pub seed: u64,
+    /// Print JSON
+    #[arg(long)]
+    pub json: bool,
+}
+
+/// Measures.
+pub fn geometry(arguments: &GeometryArguments) -> Outcome {
+    let table = cosfly_lab::geometry::geometry(arguments.seed);
+    let as_json = || serde_json::to_string_pretty(&table).unwrap_or_default() + "\n";
+    print(&if arguments.json { as_json() } else { table.to_string() })
+}

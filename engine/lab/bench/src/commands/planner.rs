@@ -1,0 +1,204 @@
+//! `planner`: our planner, the paper's, and the baselines on the same paths.
+
+use super::{Outcome, Refusals, print, town_of_recipe};
+use clap::builder::PossibleValuesParser;
+use clap::{Args, CommandFactory};
+use cosfly_diagnose::Diagnostic;
+use cosfly_lab::planner::many::{ManyOptions, many};
+use cosfly_lab::planner::phases::phases;
+use cosfly_lab::planner::scene::Ground;
+use cosfly_lab::planner::solver::solver;
+use cosfly_lab::planner::{Contender, PathOutcome, PlannerOptions, outcomes, plot, table, tabulate};
+use cosfly_planner::MucoConfig;
+use cosfly_planner::scenes::SceneKind;
+use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
+use std::io::IsTerminal;
+use std::path::{Path, PathBuf};
+
+/// Scenes of the table when none is named.
+const SCENES: [SceneKind; 5] =
+    [SceneKind::Light, SceneKind::Leafy, SceneKind::Alley, SceneKind::Canyon, SceneKind::Fine];
+
+/// Paths per scene when it is not said.
+const PATHS: usize = 20;
+/// Seed when it is not said.
+const SEED: u64 = 1;
+
+/// Examples of `planner`.
+pub const EXAMPLES: &str = "\
+Examples:
+  cosfly-lab planner                                       five scenes, 20 paths each, every planner (minutes)
+  cosfly-lab planner --scene light --paths 5 --seed 7      one scene, paths that nobody has seen
+  cosfly-lab planner --recipe recipes/carla_town.toml      a recipe's own town and walks
+  cosfly-lab planner --recipe my.toml --paths 20 --seed 9  its town, twenty other walks
+  cosfly-lab planner --planner cosfly --planner astar      two planners
+  cosfly-lab planner --plot out/plots --paths 3            pictures, too
+  cosfly-lab planner --solver --scene leafy                the paper's solver table: trees or none, one path or many
+  cosfly-lab planner --split                               where our planner's time goes
+  cosfly-lab planner --many 6000                           a dataset's worth on all cores
+  cosfly-lab planner --many 10000 --seed 1000              the same to count collisions (there should be none)";
+
+/// Arguments of `planner`.
+#[derive(Args, Debug)]
+pub struct PlannerArguments {
+    /// Scenes; light, leafy, alley, canyon and fine unless told otherwise, all of them with `--many` (repeatable)
+    #[arg(long = "scene", value_name = "NAME", value_parser = scene_names())]
+    pub scenes: Vec<String>,
+    /// The town and the walks of a recipe instead of scenes
+    #[arg(long, value_name = "FILE", conflicts_with_all = ["scenes", "many"])]
+    pub recipe: Option<PathBuf>,
+    /// Planners; all up to `dp` unless told otherwise (repeatable); a single one with `--many`, `cosfly` unless told
+    #[arg(long = "planner", value_name = "NAME", value_parser = planner_names())]
+    pub planners: Vec<String>,
+    /// Paths per scene [default: 20; as many as the recipe has walkers with `--recipe`]
+    #[arg(long, value_name = "N", allow_negative_numbers = true, value_parser = from_one)]
+    pub paths: Option<usize>,
+    /// Seed of the scenes and their walkers [default: 1; the recipe's own with `--recipe`]
+    #[arg(long, value_name = "N")]
+    pub seed: Option<u64>,
+    /// Plan this many paths on all cores, judge each, and list what came too near
+    #[arg(long, value_name = "N", allow_negative_numbers = true, value_parser = from_one, conflicts_with = "paths")]
+    pub many: Option<usize>,
+    /// Time the paper's own pipeline without a tree, with one, and with the boxes near the path
+    #[arg(long, conflicts_with_all = ["many", "planners"])]
+    pub solver: bool,
+    /// Time the steps of our planner
+    #[arg(long, conflicts_with_all = ["many", "solver", "planners"])]
+    pub split: bool,
+    /// Print JSON
+    #[arg(long)]
+    pub json: bool,
+    /// Draw every path from above, coloured by visibility, as SVG into this folder
+    #[arg(long, value_name = "DIR", conflicts_with_all = ["many", "solver", "split"])]
+    pub plot: Option<PathBuf>,
+}
+
+/// Measures.
+pub fn planner(arguments: &PlannerArguments) -> Outcome {
+    if let Some(folder) = &arguments.plot {
+        // Before minutes of work, not after them.
+        std::fs::create_dir_all(folder).map_err(|error| unwritable(folder, &error))?;
+    }
+    if arguments.many.is_some() && arguments.planners.len() > 1 {
+        let rule = "`--many` takes a single `--planner`";
+        super::Arguments::command().error(clap::error::ErrorKind::ArgumentConflict, rule).exit();
+    }
+    let bar = bar();
+    let progress = |done: usize, of: usize| {
+        bar.set_length(of as u64);
+        bar.set_position(done as u64);
+    };
+    let done = match arguments.many {
+        Some(count) => flown_in_bulk(arguments, count, &progress),
+        None => compared(arguments, &progress),
+    };
+    bar.finish_and_clear();
+    print(&done?)
+}
+
+/// `--many`: one planner, all cores.
+fn flown_in_bulk(
+    arguments: &PlannerArguments,
+    count: usize,
+    progress: &(dyn Fn(usize, usize) + Sync),
+) -> Result<String, Refusals> {
+    let contender = contenders(arguments).first().copied().unwrap_or(Contender::Cosfly);
+    let kinds = if arguments.scenes.is_empty() { SceneKind::ALL.to_vec() } else { kinds(arguments) };
+    let (seed, config) = (arguments.seed.unwrap_or(SEED), MucoConfig::default());
+    let report = many(&ManyOptions { kinds, seed, count, contender, config, progress });
+    Ok(if arguments.json { json(&report) } else { report.to_string() })
+}
+
+/// The tables: every planner on every path, our planner's steps, or the paper's solver table.
+fn compared(arguments: &PlannerArguments, progress: &(dyn Fn(usize, usize) + Sync)) -> Result<String, Refusals> {
+    let (grounds, config) = match &arguments.recipe {
+        Some(recipe) => {
+            let (ground, config) = town_of_recipe::town_of_recipe(recipe, arguments.paths, arguments.seed)?;
+            (vec![ground], config)
+        }
+        None => {
+            let (seed, paths) = (arguments.seed.unwrap_or(SEED), arguments.paths.unwrap_or(PATHS));
+            let scene = |kind| Ground::scene(kind, seed, paths);
+            (kinds(arguments).into_iter().map(scene).collect(), MucoConfig::default())
+        }
+    };
+    if arguments.split {
+        let table = phases(&grounds, &config);
+        return Ok(if arguments.json { json(&table) } else { table.to_string() });
+    }
+    if arguments.solver {
+        let tables: Vec<_> = grounds.iter().map(|ground| solver(ground, &config)).collect();
+        return Ok(if arguments.json { json(&tables) } else { tables.iter().map(ToString::to_string).collect() });
+    }
+    let options = PlannerOptions { grounds, contenders: contenders(arguments), config, progress };
+    let planned = outcomes(&options);
+    let mut words = String::new();
+    if let Some(folder) = &arguments.plot {
+        let count = pictures(&options, &planned, folder)?;
+        words = format!("\n{count} pictures in {}\n", folder.display());
+    }
+    let table = tabulate(&options, &planned);
+    Ok(if arguments.json { json(&table) } else { format!("{table}\n{}{words}", table::LEGEND) })
+}
+
+/// Writes one picture per path; how many there are.
+fn pictures(options: &PlannerOptions<'_>, planned: &[PathOutcome], folder: &Path) -> Result<usize, Refusals> {
+    for outcome in planned {
+        let ground = &options.grounds[outcome.ground];
+        let flights: Vec<_> = options.contenders.iter().map(|who| who.name()).zip(&outcome.flights).collect();
+        let file = folder.join(format!("{}-{:02}.svg", ground.name, outcome.path));
+        std::fs::write(file, plot::picture(ground, outcome.path, &flights))
+            .map_err(|error| unwritable(folder, &error))?;
+    }
+    Ok(planned.len())
+}
+
+fn unwritable(folder: &Path, error: &std::io::Error) -> Refusals {
+    vec![Diagnostic::io(format!("write pictures to `{}`", folder.display()), error)]
+}
+
+fn kinds(arguments: &PlannerArguments) -> Vec<SceneKind> {
+    if arguments.scenes.is_empty() {
+        return SCENES.to_vec();
+    }
+    let named = |kind: &SceneKind| arguments.scenes.iter().any(|name| name == kind.name());
+    SceneKind::ALL.into_iter().filter(named).collect()
+}
+
+/// All planners, or those that were named; A* off its default settings only by name.
+fn contenders(arguments: &PlannerArguments) -> Vec<Contender> {
+    if arguments.planners.is_empty() {
+        return Contender::all();
+    }
+    let named = |who: &Contender| arguments.planners.iter().any(|name| name == who.name());
+    Contender::nameable().into_iter().filter(named).collect()
+}
+
+fn json(value: &impl serde::Serialize) -> String {
+    let mut text = serde_json::to_string_pretty(value).unwrap_or_default();
+    text.push('\n');
+    text
+}
+
+/// A bar on a terminal, nothing otherwise.
+fn bar() -> ProgressBar {
+    let terminal = std::io::stderr().is_terminal();
+    let target = if terminal { ProgressDrawTarget::stderr() } else { ProgressDrawTarget::hidden() };
+    let style = ProgressStyle::with_template("planning {wide_bar:.cyan/blue} {pos}/{len} {eta:>5} left")
+        .unwrap_or_else(|_| ProgressStyle::default_bar());
+    ProgressBar::with_draw_target(Some(0), target).with_style(style)
+}
+
+/// Counts of which there must be some.
+fn from_one(text: &str) -> Result<usize, String> {
+    let count = text.parse().ok().filter(|count| *count > 0);
+    count.ok_or_else(|| "it must be a whole number from 1 on".to_owned())
+}
+
+fn scene_names() -> PossibleValuesParser {
+    PossibleValuesParser::new(SceneKind::ALL.map(SceneKind::name))
+}
+
+fn planner_names() -> PossibleValuesParser {
+    PossibleValuesParser::new(Contender::nameable().into_iter().map(Contender::name))
+}

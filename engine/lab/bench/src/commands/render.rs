@@ -1,0 +1,129 @@
+//! `render`: what pictures cost, stage by stage, and how many come out as finished logs.
+
+use super::{Outcome, Refusals, print};
+use clap::Args;
+use cosfly_diagnose::{Diagnostic, Fault};
+use cosfly_lab::render::views::Ground;
+use cosfly_lab::render::{RenderOptions, measure};
+use cosfly_render::{Camera, RenderConfig, Weather};
+use cosfly_schema::EncodingConfig;
+use std::path::{Path, PathBuf};
+
+/// Clear noon, hard rain, night.
+const WEATHERS: [&str; 3] = ["ClearNoon", "HardRainNoon", "ClearNight"];
+
+/// Examples of `render`.
+pub const EXAMPLES: &str = "\
+Examples:
+  cosfly-lab render                                        the recipes' town and one of 2,000 boxes, 1280 x 720
+  cosfly-lab render --json                                 the same for machines
+  cosfly-lab render --weather ClearSunset --rounds 3       another weather, less noise
+  cosfly-lab render --width 3840 --height 2160 --views 4   4K
+  cosfly-lab render --town my.xodr                         another town
+  cosfly-lab render --boxes boxes.json                     boxes and cameras for the scripts in tests/outside/render_anchors";
+
+/// Arguments of `render`.
+#[derive(Args, Debug)]
+pub struct RenderArguments {
+    /// An OpenDRIVE town instead of the one that `cosfly town` prints
+    #[arg(long, value_name = "FILE")]
+    pub town: Option<PathBuf>,
+    /// Weather presets; ClearNoon, HardRainNoon and ClearNight unless told otherwise (repeatable)
+    #[arg(long = "weather", value_name = "PRESET")]
+    pub weathers: Vec<String>,
+    /// Pixels per row
+    #[arg(long, value_name = "N", default_value_t = 1280)]
+    pub width: u32,
+    /// Rows
+    #[arg(long, value_name = "N", default_value_t = 720)]
+    pub height: u32,
+    /// Viewpoints per town
+    #[arg(long, value_name = "N", default_value_t = 20, value_parser = super::counts())]
+    pub views: usize,
+    /// Boxes of the second town
+    #[arg(long, value_name = "N", default_value_t = 2000, value_parser = super::counts())]
+    pub box_count: usize,
+    /// Rounds over all views; the least time counts
+    #[arg(long, value_name = "N", default_value_t = 2, value_parser = super::counts())]
+    pub rounds: usize,
+    /// Frames of the flights that are drawn, encoded and written on all threads at once
+    #[arg(long, value_name = "N", default_value_t = 60, value_parser = super::counts())]
+    pub frames: usize,
+    /// Print JSON
+    #[arg(long)]
+    pub json: bool,
+    /// Measure nothing; write the boxes and cameras of the second town as JSON
+    #[arg(long, value_name = "FILE")]
+    pub boxes: Option<PathBuf>,
+}
+
+/// Measures, or exports the boxes.
+pub fn render(arguments: &RenderArguments) -> Outcome {
+    let camera = camera(arguments)?;
+    if let Some(file) = &arguments.boxes {
+        let scene = Ground::of_boxes(arguments.box_count, camera, arguments.views).exported();
+        let text = serde_json::to_string(&scene).unwrap_or_default() + "\n";
+        std::fs::write(file, text)
+            .map_err(|error| vec![Diagnostic::io(format!("write `{}`", file.display()), &error)])?;
+        return print(&format!("{} boxes and {} views in {}\n", scene.boxes.len(), scene.views.len(), file.display()));
+    }
+    let scratch = std::env::current_dir()
+        .and_then(tempfile::tempdir_in)
+        .map_err(|error| vec![Diagnostic::io("make a scratch folder here", &error)])?;
+    let report = measure(&RenderOptions {
+        grounds: grounds(arguments, camera)?,
+        weathers: weathers(arguments)?,
+        rounds: arguments.rounds,
+        encoding: EncodingConfig::default(),
+        threads: std::thread::available_parallelism().map_or(1, usize::from),
+        flight_frames: arguments.frames,
+        scratch: scratch.path(),
+    })
+    .map_err(|refusal| vec![refusal])?;
+    let json = || serde_json::to_string_pretty(&report).unwrap_or_default() + "\n";
+    print(&if arguments.json { json() } else { report.to_string() })
+}
+
+fn camera(arguments: &RenderArguments) -> Result<Camera, Refusals> {
+    let config = RenderConfig { width: arguments.width, height: arguments.height, ..RenderConfig::default() };
+    let refused =
+        |message: String, hint: String| vec![Diagnostic::new("bench-parameters", Fault::Recipe, message).hint(hint)];
+    config.validate().map_err(|problem| refused(problem.message, problem.hint))?;
+    Ok(config.camera())
+}
+
+fn weathers(arguments: &RenderArguments) -> Result<Vec<Weather>, Refusals> {
+    let names: Vec<&str> = match arguments.weathers.is_empty() {
+        true => WEATHERS.to_vec(),
+        false => arguments.weathers.iter().map(String::as_str).collect(),
+    };
+    let weather = |name: &&str| {
+        let mut weather = Weather::preset(name).ok_or_else(|| {
+            let message = format!("there is no weather `{name}`");
+            let hint = format!("the presets are {}", Weather::PRESETS.join(", "));
+            vec![Diagnostic::new("bench-weather", Fault::Recipe, message).hint(hint)]
+        })?;
+        weather.sun_azimuth_angle = 215.0;
+        Ok(weather)
+    };
+    names.iter().map(weather).collect()
+}
+
+fn grounds(arguments: &RenderArguments, camera: Camera) -> Result<Vec<Ground>, Refusals> {
+    let unreadable = |error: &dyn std::fmt::Display| {
+        vec![Diagnostic::new("bench-town", Fault::Input, format!("the town cannot be read: {error}"))]
+    };
+    let town = match &arguments.town {
+        None => Ground::downtown(camera, arguments.views).map_err(|error| unreadable(&error))?,
+        Some(path) => {
+            let map = std::fs::read(path)
+                .map_err(|error| vec![Diagnostic::io(format!("read `{}`", path.display()), &error)])?;
+            Ground::of_map(name_of(path), &map, camera, arguments.views).map_err(|error| unreadable(&error))?
+        }
+    };
+    Ok(vec![town, Ground::of_boxes(arguments.box_count, camera, arguments.views)])
+}
+
+fn name_of(path: &Path) -> &str {
+    path.file_stem().and_then(|stem| stem.to_str()).unwrap_or("town")
+}

@@ -1,0 +1,105 @@
+//! A recipe's own town and walks, for measurements: its stages up to the planner, run in a scratch store.
+
+use super::Refusals;
+use cosfly_diagnose::{Diagnostic, Fault};
+use cosfly_geometry::BoxBvh;
+use cosfly_lab::planner::scene::Ground;
+use cosfly_maps::GroundIndex;
+use cosfly_planner::MucoConfig;
+use cosfly_recipe::{Recipe, RecipeStage};
+use cosfly_runner::{RunOptions, RunSummary};
+use cosfly_stage::{BlobSource, Blobs};
+use cosfly_stages::expert::Expert;
+use cosfly_stages::read;
+use cosfly_store::Store;
+use std::path::Path;
+use std::sync::Arc;
+
+/// The town, the walks, and the planner's parameters of the first `muco` stage of a recipe; with another number of
+/// walks or another seed where that is given.
+pub fn town_of_recipe(path: &Path, paths: Option<usize>, seed: Option<u64>) -> Result<(Ground, MucoConfig), Refusals> {
+    let registry = cosfly_stages::registry();
+    let mut overrides: Vec<String> = seed.map(|seed| format!("seed={seed}")).into_iter().collect();
+    let mut recipe = cosfly_recipe::load(path, &overrides, &registry)?;
+    let position = planner_of(&recipe)?;
+    if let (Some(count), Some(walkers)) = (paths, walkers_of(&recipe, position)) {
+        overrides.push(format!("stages.{walkers}.count={count}"));
+        recipe = cosfly_recipe::load(path, &overrides, &registry)?;
+    }
+    let planner = recipe.stages[position].clone();
+    // Inputs stand before the stage that reads them; what comes after it is not needed.
+    recipe.stages.truncate(position);
+    let scratch = std::env::current_dir()
+        .and_then(tempfile::tempdir_in)
+        .map_err(|error| vec![Diagnostic::io("make a scratch folder here", &error)])?;
+    let store = Store::open(&scratch.path().join("store")).map_err(one)?;
+    let jobs = std::thread::available_parallelism().map_or(1, usize::from);
+    let options = RunOptions { jobs, cancelled: Arc::default() };
+    let mut summary = cosfly_runner::run(&recipe, &store, &options, &|_| {}).map_err(one)?;
+    let failures: Refusals = summary.failures.drain(..).map(|failure| failure.diagnostic).collect();
+    if !failures.is_empty() {
+        return Err(failures);
+    }
+    let ground = ground(&recipe, &planner, &summary, &store).map_err(one)?;
+    let expert = Expert::read(planner.stage.properties().parameters.clone())
+        .map_err(|refused| one(Diagnostic::new("bench-parameters", Fault::Recipe, refused.message)))?;
+    Ok((ground, expert.config))
+}
+
+/// The first `muco` stage that follows somebody.
+fn planner_of(recipe: &Recipe) -> Result<usize, Refusals> {
+    let follows = |stage: &RecipeStage| {
+        stage.kind == "muco" && stage.connections.iter().any(|connection| connection.port.name == "paths")
+    };
+    recipe.stages.iter().position(follows).ok_or_else(|| {
+        let message = format!("`{}` has no stage with `use = \"muco\"` that follows walkers", recipe.name);
+        one(Diagnostic::new("bench-no-planner", Fault::Recipe, message))
+    })
+}
+
+/// The recipe's name of the stage that makes the planner's walks.
+fn walkers_of(recipe: &Recipe, planner: usize) -> Option<&str> {
+    let connection = recipe.stages[planner].connections.iter().find(|connection| connection.port.name == "paths")?;
+    let upstream = &recipe.stages[*connection.upstreams.first()?];
+    (upstream.kind == "pedestrians").then_some(upstream.name.recipe_name())
+}
+
+fn one(diagnostic: Box<Diagnostic>) -> Refusals {
+    vec![diagnostic]
+}
+
+fn ground(
+    recipe: &Recipe,
+    planner: &RecipeStage,
+    summary: &RunSummary,
+    store: &Store,
+) -> cosfly_diagnose::Result<Ground> {
+    let town = match arrived(planner, summary, "town")?.first() {
+        Some(blobs) => read::town(&store.read(&blobs[read::TOWN_BLOB])?)?,
+        None => return Err(unfinished("town")),
+    };
+    let mut tracks = Vec::new();
+    for blobs in arrived(planner, summary, "paths")? {
+        tracks.push(read::walk(&store.read(&blobs[read::WALK_BLOB])?)?.track);
+    }
+    let index = GroundIndex::new(&town);
+    Ok(Ground {
+        name: recipe.name.clone(),
+        exact_boxes: town.obstacles.len(),
+        exact: Box::new(BoxBvh::build(town.obstacles.iter().map(|obstacle| obstacle.shape).collect())),
+        planning_boxes: town.planning_boxes,
+        height: Box::new(move |x, y| index.ground_height_m(x, y).unwrap_or(0.0)),
+        tracks,
+    })
+}
+
+/// Finished blobs at a port of the planner, in its item order.
+fn arrived(planner: &RecipeStage, summary: &RunSummary, port: &str) -> cosfly_diagnose::Result<Vec<Arc<Blobs>>> {
+    let arrivals = planner.connection(port).map_or(&[][..], |connection| &connection.arrivals);
+    let finished = arrivals.iter().map(|arrival| summary.result(arrival.stage, arrival.item));
+    finished.map(|it| Ok(Arc::clone(&it.ok_or_else(|| unfinished(port))?.record.outputs))).collect()
+}
+
+fn unfinished(port: &str) -> Box<Diagnostic> {
+    Diagnostic::new("bench-unfinished", Fault::Input, format!("the recipe's `{port}` was not finished"))
+}

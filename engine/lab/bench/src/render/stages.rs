@@ -1,0 +1,199 @@
+//! CPU time of one frame on one core, split by stage: drawing, encoding by channel, writing.
+
+use super::RenderOptions;
+use super::flight::{DT_S, StoredFile, flight};
+use super::views::{Ground, View};
+use crate::clock::timed;
+use cosfly_diagnose::Result;
+use cosfly_frames::simd::Level;
+use cosfly_images::previews::SmallImages;
+use cosfly_images::{depth, ids, rgb};
+use cosfly_render::{FrameImages, FrameParts, FrameSetup, PictureLook, Renderer, Weather};
+use cosfly_write::frame_pack::chunk_compressor;
+use cosfly_write::{FramePackReader, FramePackWriter, PackHeader, write_log};
+use serde::Serialize;
+use std::fs::File;
+use std::hint::black_box;
+use std::io::BufReader;
+
+/// Frames of each view that are drawn one after the other, as in a flight: the town's shadows are drawn for the first, and
+/// again when the way leads out of them.
+const STEPS: usize = 4;
+
+/// Milliseconds of CPU per frame. The stages of a group add up to it but for rounding and clocks.
+#[derive(Clone, Copy, Debug, Default, Serialize)]
+pub struct StageTimes {
+    /// Which face is nearest at each pixel.
+    pub visibility_ms: f64,
+    /// Depth and ids of those faces, and the target's view.
+    pub ids_ms: f64,
+    /// Colours: light, materials, weather, edges.
+    pub colour_ms: f64,
+    /// The colour image as a file.
+    pub encode_rgb_ms: f64,
+    /// Depth: rounded and compressed.
+    pub encode_depth_ms: f64,
+    /// Both id images, compressed.
+    pub encode_ids_ms: f64,
+    /// The three small pictures.
+    pub encode_previews_ms: f64,
+    /// Packing whole frames into a file: all encoding, checks, hashing, writing.
+    pub pack_ms: f64,
+    /// From the pack to the finished, hashed log on disk.
+    pub log_ms: f64,
+    /// Bytes of a frame in the log.
+    pub log_bytes: f64,
+}
+
+impl StageTimes {
+    /// Drawing, all of it.
+    pub fn render_ms(&self) -> f64 {
+        self.visibility_ms + self.ids_ms + self.colour_ms
+    }
+
+    /// Everything from nothing to the frame in a finished log.
+    pub fn whole_ms(&self) -> f64 {
+        self.render_ms() + self.pack_ms + self.log_ms
+    }
+
+    /// The least of each; a stage of drawing is the difference between two least times, not the least difference.
+    fn least(self, other: Self) -> Self {
+        let drawn = |it: &Self| [it.visibility_ms, it.visibility_ms + it.ids_ms, it.render_ms()];
+        let (a, b) = (drawn(&self), drawn(&other));
+        let least: [f64; 3] = core::array::from_fn(|i| a[i].min(b[i]));
+        Self {
+            visibility_ms: least[0],
+            ids_ms: least[1] - least[0],
+            colour_ms: least[2] - least[1],
+            encode_rgb_ms: self.encode_rgb_ms.min(other.encode_rgb_ms),
+            encode_depth_ms: self.encode_depth_ms.min(other.encode_depth_ms),
+            encode_ids_ms: self.encode_ids_ms.min(other.encode_ids_ms),
+            encode_previews_ms: self.encode_previews_ms.min(other.encode_previews_ms),
+            pack_ms: self.pack_ms.min(other.pack_ms),
+            log_ms: self.log_ms.min(other.log_ms),
+            log_bytes: other.log_bytes,
+        }
+    }
+}
+
+/// The least of each stage over all rounds, each round being the mean over all views.
+pub fn times(ground: &Ground, weather: &Weather, look: PictureLook, options: &RenderOptions<'_>) -> Result<StageTimes> {
+    let mut renderer = Renderer::new(ground.camera);
+    renderer.set_look(look);
+    let mut least: Option<StageTimes> = None;
+    for _ in 0..options.rounds.max(1) {
+        let round = round(ground, weather, options, &mut renderer)?;
+        least = Some(least.map_or(round, |least| least.least(round)));
+    }
+    Ok(least.unwrap_or_default())
+}
+
+fn round(
+    ground: &Ground,
+    weather: &Weather,
+    options: &RenderOptions<'_>,
+    renderer: &mut Renderer,
+) -> Result<StageTimes> {
+    let ms_per_frame = 1e3 / ground.views.len().max(1) as f64;
+    let followed: Vec<View> = (0..ground.views.len())
+        .flat_map(|view| (0..STEPS).map(move |step| ground.followed(view, step, DT_S)))
+        .collect();
+    let drawn = [FrameParts::Visibility, FrameParts::Ids, FrameParts::All].map(|parts| {
+        let all = || {
+            for view in &followed {
+                let setup = FrameSetup { pose: view.pose, weather, target: Some(view.target), others: &[] };
+                black_box(renderer.render_parts(&ground.scene, &setup, parts));
+            }
+        };
+        ms_per_frame / STEPS as f64 * timed(all).1
+    });
+    let mut images: Vec<FrameImages> = vec![];
+    let mut views = vec![];
+    for view in &ground.views {
+        let setup = FrameSetup { pose: view.pose, weather, target: Some(view.target), others: &[] };
+        let rendered = renderer.render(&ground.scene, &setup);
+        images.push(rendered.images.clone());
+        views.push(rendered.target_view);
+    }
+    let encoded = encoding_s(&images, options)?.map(|spent_s| ms_per_frame * spent_s);
+    let flight = flight(ground, weather, &ground.views, views);
+    let header = PackHeader::new(
+        ground.camera.width,
+        ground.camera.height,
+        ground.largest_instance(),
+        options.encoding,
+        flight.dt_s(),
+    );
+    let (pack_path, log_path) = (options.scratch.join("stages.pack"), options.scratch.join("stages.mcap"));
+    let (packed, pack_s) = timed(|| -> Result<()> {
+        let mut pack = FramePackWriter::new(StoredFile::create(&pack_path)?, &header)?;
+        images.iter().try_for_each(|images| pack.frame(images))?;
+        pack.finish()?.finish();
+        Ok(())
+    });
+    packed?;
+    let (logged, log_s) = timed(|| -> Result<u64> {
+        let mut pack = FramePackReader::new(BufReader::new(StoredFile::open(&pack_path)?))?;
+        let mut output = StoredFile::create(&log_path)?;
+        write_log(&mut output, &flight, &mut pack, &[], &ground.town, &|| Ok(()))?;
+        output.finish();
+        Ok(File::open(&log_path).and_then(|file| file.metadata()).map_or(0, |data| data.len()))
+    });
+    Ok(StageTimes {
+        visibility_ms: drawn[0],
+        ids_ms: drawn[1] - drawn[0],
+        colour_ms: drawn[2] - drawn[1],
+        encode_rgb_ms: encoded[0],
+        encode_depth_ms: encoded[1],
+        encode_ids_ms: encoded[2],
+        encode_previews_ms: encoded[3],
+        pack_ms: ms_per_frame * pack_s,
+        log_ms: ms_per_frame * log_s,
+        log_bytes: logged? as f64 / images.len().max(1) as f64,
+    })
+}
+
+/// CPU seconds of encoding all images: colour, depth, ids, previews.
+fn encoding_s(images: &[FrameImages], options: &RenderOptions<'_>) -> Result<[f64; 4]> {
+    let quality = options.encoding.jpeg_quality;
+    let mut file = vec![];
+    let (encoded, rgb_s) = timed(|| -> Result<()> {
+        images.iter().try_for_each(|it| {
+            rgb::jpeg(&it.rgb, it.width, it.height, quality, &mut file)?;
+            black_box(&file);
+            Ok(())
+        })
+    });
+    encoded?;
+    let mut compressor = chunk_compressor()?;
+    let mut bytes = vec![0; 4 * images.iter().map(|it| it.depth_m.len()).max().unwrap_or(0)];
+    let mut stored = Vec::with_capacity(zstd::zstd_safe::compress_bound(bytes.len()));
+    let mut compressed = |bytes: &[u8]| {
+        stored.clear();
+        black_box(compressor.compress_to_buffer(bytes, &mut stored)).expect("room for what is compressed");
+    };
+    let ((), depth_s) = timed(|| {
+        for it in images {
+            depth::grid_bytes(Level::best(), &it.depth_m, &mut bytes);
+            compressed(&bytes);
+        }
+    });
+    let ((), ids_s) = timed(|| {
+        for it in images {
+            compressed(&it.semantic);
+            ids::u16_bytes(Level::best(), &it.instance, &mut bytes);
+            compressed(&bytes[..2 * it.instance.len()]);
+        }
+    });
+    let mut small = SmallImages::default();
+    let (encoded, previews_s) = timed(|| -> Result<()> {
+        for it in images {
+            small.rgb(it, &mut file)?;
+            small.depth(it, &mut file)?;
+            small.semantic(it, &mut file)?;
+            black_box(&file);
+        }
+        Ok(())
+    });
+    encoded.map(|()| [rgb_s, depth_s, ids_s, previews_s])
+}

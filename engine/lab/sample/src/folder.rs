@@ -1,0 +1,96 @@
+//! Writes the sample dataset into a folder.
+
+use super::{SampleFlight, flights, rejections, town};
+use cosfly_blobs::{BlobRef, OutputSink, SeekWrite};
+use cosfly_diagnose::{Diagnostic, Result};
+use cosfly_fingerprint::Digest;
+use cosfly_schema::tables::ObjectRecord;
+use cosfly_schema::{CaptionRecord, DatasetConfig, EncodingConfig, PreviewStrip, RenderedTrajectory, TownLayout};
+use cosfly_write::publish::{DatasetSource, PublishedLog, Summary, write_dataset};
+use cosfly_write::{FramePackReader, write_log};
+use std::collections::BTreeMap;
+use std::io::Cursor;
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+
+/// An output sink that writes files below a folder and knows the blobs it may link.
+struct FolderSink<'a> {
+    folder: PathBuf,
+    blobs: BTreeMap<Digest, &'a [u8]>,
+}
+
+impl OutputSink for FolderSink<'_> {
+    fn put(&mut self, name: &str, bytes: &[u8]) -> Result<()> {
+        let path = self.folder.join(name);
+        std::fs::create_dir_all(path.parent().unwrap_or(&self.folder))
+            .and_then(|()| std::fs::write(&path, bytes))
+            .map_err(|error| Diagnostic::io(format!("write `{}`", path.display()), &error))
+    }
+
+    fn stream(&mut self, name: &str, write: &mut dyn FnMut(&mut dyn SeekWrite) -> Result<()>) -> Result<BlobRef> {
+        let mut bytes = Cursor::new(vec![]);
+        write(&mut bytes)?;
+        self.put(name, bytes.get_ref())?;
+        Ok(blob_of(bytes.get_ref()))
+    }
+
+    fn link(&mut self, name: &str, blob: BlobRef) -> Result<()> {
+        let bytes = self.blobs[&blob.digest];
+        self.put(name, bytes)
+    }
+}
+
+fn blob_of(bytes: &[u8]) -> BlobRef {
+    BlobRef { digest: Digest::of(bytes), bytes: bytes.len() as u64 }
+}
+
+struct Flights(Vec<SampleFlight>, EncodingConfig);
+
+impl DatasetSource for Flights {
+    fn trajectory(&self, index: usize) -> Result<RenderedTrajectory> {
+        RenderedTrajectory::from_bytes(&self.0[index].record.to_bytes())
+    }
+
+    fn captions(&self, index: usize) -> Result<Vec<CaptionRecord>> {
+        Ok(self.0[index].captions.clone())
+    }
+
+    fn objects(&self) -> Result<Vec<ObjectRecord>> {
+        Ok(ObjectRecord::of(&town()))
+    }
+
+    fn layout(&self, _index: usize) -> Result<Arc<TownLayout>> {
+        Ok(Arc::new(TownLayout::of(&town())))
+    }
+
+    fn previews(&self, index: usize) -> Result<PreviewStrip> {
+        FramePackReader::new(Cursor::new(self.0[index].pack(self.1)))?.preview_strip()
+    }
+}
+
+/// Writes the sample dataset into `folder`.
+pub fn write_to_folder(folder: &Path, config: &DatasetConfig, encoding: EncodingConfig) -> Result<Summary> {
+    write_flights(folder, config, encoding, flights())
+}
+
+/// Writes a dataset of `flights` into `folder`.
+pub fn write_flights(
+    folder: &Path,
+    config: &DatasetConfig,
+    encoding: EncodingConfig,
+    flights: Vec<SampleFlight>,
+) -> Result<Summary> {
+    let town = town();
+    let mut files = vec![];
+    for flight in &flights {
+        let mut bytes = vec![];
+        let mut pack = FramePackReader::new(Cursor::new(flight.pack(encoding)))?;
+        let record = write_log(&mut bytes, &flight.record, &mut pack, &flight.captions, &town, &|| Ok(()))?;
+        files.push((record, bytes));
+    }
+    let logs: Vec<PublishedLog> =
+        files.iter().map(|(record, bytes)| PublishedLog { record: record.clone(), blob: blob_of(bytes) }).collect();
+    let blobs = files.iter().map(|(_, bytes)| (Digest::of(bytes), &bytes[..])).collect();
+    let mut sink = FolderSink { folder: folder.to_owned(), blobs };
+    write_dataset(&mut sink, config, &logs, &Flights(flights, encoding), &rejections(), &|| Ok(()))
+}
