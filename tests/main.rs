@@ -3,6 +3,7 @@
 mod caching;
 mod cameras;
 mod carla_job;
+mod codes;
 mod crash;
 mod diagnostics;
 mod doctor;
