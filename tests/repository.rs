@@ -41,7 +41,7 @@ fn shelves_see_what_the_law_allows() {
         ("flow", &["base", "flow"][..]),
         ("data", &["base", "sim", "data"][..]),
         ("lab", &["base", "sim", "flow", "data", "edge", "lab"][..]),
-        ("edge", &["base", "sim", "flow", "data", "edge", "lab"][..]),
+        ("edge", &["base", "sim", "flow", "data", "edge"][..]),
     ]);
     for (name, (shelf, dependencies)) in &packages {
         for dependency in dependencies {

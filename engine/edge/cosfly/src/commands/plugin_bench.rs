@@ -6,11 +6,11 @@ use crate::arguments::{PluginBenchArguments, PluginFileArguments};
 use crate::exit;
 use cosfly_diagnose::{Diagnostic, Fault};
 use cosfly_frames::{DVec3, Seed};
-use cosfly_lab::clock::thread_cpu_s;
-use cosfly_lab::planner::scene::Ground;
-use cosfly_planner::scenes::SceneKind;
+use cosfly_geometry::BoxBvh;
+use cosfly_planner::scenes::{Scene, SceneKind};
 use cosfly_planner::{CostTerm, MucoConfig, PlanOutcome, TermContext, WeightedTerm, plan_with_terms};
 use cosfly_plugin_host::{Host, Kind, NoTown, Plugin, PluginError, PluginLimits, PluginTerm, laws};
+use rustix::time::{ClockId, clock_gettime};
 use std::fmt::Write;
 use std::sync::Arc;
 use std::time::Instant;
@@ -86,6 +86,12 @@ pub fn bench(arguments: &PluginBenchArguments) -> Outcome {
     Ok(exit::SUCCESS)
 }
 
+/// CPU time of this thread so far, seconds.
+fn thread_cpu_s() -> f64 {
+    let now = clock_gettime(ClockId::ThreadCPUTime);
+    now.tv_sec as f64 + 1e-9 * now.tv_nsec as f64
+}
+
 fn median(mut values: Vec<f64>) -> f64 {
     values.sort_by(f64::total_cmp);
     values[values.len() / 2]
@@ -118,16 +124,17 @@ fn calls(twin: &Plugin, heavy: bool) -> Result<(f64, f64, &'static str), PluginE
 
 /// Milliseconds per flight, native and plugin, and how the flights compare.
 fn flights(twin: &Plugin) -> Result<(f64, f64, String), PluginError> {
-    let ground = Ground::scene(SceneKind::Leafy, 1, 1);
+    let scene = Scene::generate(SceneKind::Leafy, 1);
+    let (track, exact) = (scene.walker(1, 0), BoxBvh::build(scene.boxes.clone()));
     let config = MucoConfig::default();
     let plan = |term: Box<dyn CostTerm>| {
         let extra = vec![WeightedTerm { term, weight: 0.02 }];
         let begin = thread_cpu_s();
         let outcome = plan_with_terms(
-            &ground.tracks[0],
-            &*ground.exact,
-            &ground.planning_boxes,
-            &*ground.height,
+            &track,
+            &exact,
+            &scene.boxes,
+            &|_, _| 0.0,
             &config,
             extra,
             Seed::of_item(1, "plugin", "bench"),
