@@ -1,4 +1,4 @@
-//! World frame, poses, target tracks, seeded random streams and platform-independent real maths.
+//! World frame, poses, target tracks and platform-independent real maths.
 //!
 //! # The world frame
 //! CARLA's: **left-handed**, x forward (east on a map drawn with y down), y right, z up, metres.
@@ -8,12 +8,11 @@
 
 pub mod action;
 pub mod pose;
-pub mod random;
 pub mod real;
 pub mod simd;
 pub mod track;
 
+pub use cosfly_random::{RandomStream, Seed};
 pub use glam::{DMat3, DQuat, DVec2, DVec3};
 pub use pose::Pose;
-pub use random::{RandomStream, Seed};
 pub use track::{TargetState, TargetTrack};

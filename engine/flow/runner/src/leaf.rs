@@ -4,7 +4,7 @@ use crate::document::Definition;
 use crate::sources::HashedSource;
 use cosfly_diagnose::{Diagnostic, Fault, Result};
 use cosfly_fingerprint::Digest;
-use cosfly_frames::Seed;
+use cosfly_random::Seed;
 use cosfly_stage::{Inputs, ItemId, Ports, Produced, Stage, TaskContext, Work};
 use cosfly_store::{Finished, Store, TaskLock};
 use std::any::Any;
