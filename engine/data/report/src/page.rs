@@ -11,7 +11,7 @@ const STYLE: &str = include_str!("../assets/style.css");
 /// Pictures in the heading.
 const GALLERY: usize = 6;
 
-/// The page. `pictures` gives the small colour image of a frame of a flight, by their places, if there is one.
+/// The page, HTML. `pictures` returns the small colour image of a frame of a flight, by their indices, where there is one.
 ///
 /// # Errors
 /// Those of `pictures`.

@@ -1,4 +1,4 @@
-//! How often what occurs: visibility, distance, height, speed, clearance, size in the image, losses.
+//! Histograms: visibility, distance, height, speed, clearance, size in the image, losses.
 
 use crate::chart::Histogram;
 use crate::model::{FlightSketch, Report};

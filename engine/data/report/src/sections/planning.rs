@@ -1,4 +1,4 @@
-//! What planning cost and whether its limits hold.
+//! Costs of planning, and limits.
 
 use crate::chart;
 use crate::model::{FlightSketch, Report};
@@ -7,9 +7,9 @@ use crate::text::{escaped, percent};
 use std::collections::BTreeMap;
 use std::fmt::Write;
 
-/// Curves in the picture.
+/// Number of curves in the picture.
 const MOST_CURVES: usize = 80;
-/// Places of a refined flight whose costs are kept.
+/// Steps of planning whose costs are kept.
 const STOPS: [&str; 3] = ["lattice", "refined", "published"];
 
 /// The section.

@@ -1,4 +1,4 @@
-//! When targets are seen: a strip of colours per flight.
+//! Visibility over time: a strip of colours per flight.
 
 use super::maps::legend;
 use crate::chart;
@@ -7,7 +7,7 @@ use crate::moments::spread;
 use crate::text::{escaped, percent, short};
 use std::fmt::Write;
 
-/// Rows of the table.
+/// Number of rows of the table.
 const MOST_ROWS: usize = 40;
 
 /// The section.

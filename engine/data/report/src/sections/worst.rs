@@ -1,4 +1,4 @@
-//! The flights that are the worst in something, with pictures of where.
+//! The worst flights, with pictures.
 
 use crate::chart;
 use crate::model::Report;
