@@ -1,10 +1,10 @@
 //! The clip: an animated GIF with colours at the left, depth and labels at the right, visibility below.
 
-use crate::canvas::{Canvas, Colour, INK, WHITE};
 use crate::shot::{FULL_BOX, Shot, VISIBLE_BOX};
 use color_quant::NeuQuant;
 use cosfly_diagnose::{Diagnostic, Fault, Result};
 use cosfly_maps::SemanticLabel;
+use cosfly_plot::canvas::{Canvas, Colour, INK, WHITE};
 use cosfly_render::preview::DepthScale;
 use std::borrow::Cow;
 

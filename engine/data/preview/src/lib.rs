@@ -2,9 +2,7 @@
 //!
 //! The same dataset gives the same bytes on every machine.
 
-mod canvas;
 mod clip;
-mod font;
 mod ground;
 mod plan;
 mod selection;

@@ -1,9 +1,9 @@
 //! The plan: town, walk and flights from above, the flights coloured by how much of the target is visible.
 
-use crate::canvas::{Canvas, Colour, INK, Point, WHITE, text_width};
 use crate::clip::ramp;
 use crate::ground::SeenGround;
 use cosfly_frames::{DVec3, real};
+use cosfly_plot::canvas::{Canvas, Colour, INK, Point, WHITE, text_width};
 use cosfly_read::{FrameRow, PublishedFlight, SceneBox};
 
 /// Longest side of the drawn area, pixels.

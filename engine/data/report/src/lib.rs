@@ -5,15 +5,12 @@
 //!
 //! To add a section: one file in `sections/` and its line in the list of sections in `page.rs`.
 
-mod chart;
 mod map;
 pub mod model;
 mod moments;
 mod page;
 mod pictures;
 mod sections;
-mod statistics;
-mod text;
 
 pub use model::{BoxSketch, FlightSketch, Known, PlannerRow, RejectionSketch, Report, TownSketch};
 pub use page::page;

@@ -1,9 +1,10 @@
 //! A town from above with its flights, coloured by how much of their targets they see.
 
-use crate::chart::class_of;
 use crate::model::{BoxSketch, FlightSketch, TownSketch};
-use crate::text::escaped;
-use crate::{moments, statistics};
+use crate::moments;
+use cosfly_plot::statistics;
+use cosfly_plot::strip::class_of;
+use cosfly_plot::text::escaped;
 use std::collections::BTreeMap;
 use std::fmt::Write;
 

@@ -1,10 +1,11 @@
 //! The page as a whole: heading, contents, sections, foot.
 
 use crate::model::Report;
+use crate::moments;
 use crate::pictures::{Source, image};
 use crate::sections::{distributions, maps, numbers, planners, planning, shares, timelines, worst};
-use crate::text::escaped;
-use crate::{moments, statistics};
+use cosfly_plot::statistics;
+use cosfly_plot::text::escaped;
 use std::fmt::Write;
 
 const STYLE: &str = include_str!("../assets/style.css");

@@ -1,9 +1,9 @@
 //! Pictures inside of the page.
 
 use crate::model::FlightSketch;
-use crate::text::escaped;
 use base64::Engine;
 use base64::prelude::BASE64_STANDARD;
+use cosfly_plot::text::escaped;
 use std::fmt::Write;
 
 /// Returns the small colour image of a frame of a flight as a JPEG file, where there is one.

@@ -1,8 +1,8 @@
 //! Maps of the flights.
 
-use crate::chart::CLASSES;
 use crate::map;
 use crate::model::Report;
+use cosfly_plot::strip::CLASSES;
 use std::fmt::Write;
 
 /// Number of towns that are drawn.

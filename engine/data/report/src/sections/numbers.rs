@@ -1,7 +1,7 @@
 //! The statistics table of the paper beside the numbers of this dataset.
 
 use crate::model::{FlightSketch, Report};
-use crate::text::{escaped, grouped, short};
+use cosfly_plot::text::{escaped, grouped, short};
 use std::collections::BTreeSet;
 use std::fmt::Write;
 

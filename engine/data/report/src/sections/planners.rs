@@ -1,7 +1,7 @@
 //! Results of other planners for the same walks.
 
 use crate::model::{Known, PlannerRow, Report};
-use crate::text::{escaped, percent, short};
+use cosfly_plot::text::{escaped, percent, short};
 use std::collections::BTreeMap;
 use std::fmt::Write;
 

@@ -1,7 +1,7 @@
 //! Shares of splits, towns and weathers, and rejected items.
 
 use crate::model::{FlightSketch, Report};
-use crate::text::{escaped, grouped, percent};
+use cosfly_plot::text::{escaped, grouped, percent};
 use std::collections::BTreeMap;
 use std::fmt::Write;
 

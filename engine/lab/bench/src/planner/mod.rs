@@ -12,7 +12,6 @@ pub mod plain_bvh;
 pub mod plot;
 pub mod scene;
 pub mod solver;
-pub mod svg;
 pub mod table;
 
 pub use contender::Contender;

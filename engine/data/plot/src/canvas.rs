@@ -1,4 +1,4 @@
-//! An RGB picture to draw on: rectangles, lines, convex areas and text, edges smoothed.
+//! An RGB picture to draw on: rectangles, lines, convex areas and text with smooth edges.
 
 use crate::font;
 use cosfly_diagnose::{Diagnostic, Fault, Result};
@@ -37,7 +37,7 @@ impl Canvas {
         [self.rgb[at], self.rgb[at + 1], self.rgb[at + 2]]
     }
 
-    /// Lays `share` (0..=1) of a colour over a pixel; nothing outside.
+    /// Lays `share` (0..=1) of a colour over a pixel; does nothing outside of the picture.
     pub fn blend(&mut self, x: i64, y: i64, colour: Colour, share: f64) {
         if share <= 0.0 || x < 0 || y < 0 || x >= self.width as i64 || y >= self.height as i64 {
             return;
@@ -49,7 +49,7 @@ impl Canvas {
         }
     }
 
-    /// Copies another picture to a corner at (x, y), as far as it fits.
+    /// Copies another picture to the corner (x, y), as far as it fits.
     pub fn paste(&mut self, picture: &Self, x: usize, y: usize) {
         let columns = picture.width.min(self.width.saturating_sub(x));
         for row in 0..picture.height.min(self.height.saturating_sub(y)) {
@@ -70,12 +70,13 @@ impl Canvas {
     /// A line of `thickness` pixels with round ends.
     pub fn line(&mut self, from: Point, to: Point, thickness: f64, colour: Colour, share: f64) {
         let reach = 0.5 * thickness + 1.0;
-        let (along, length) = ([to[0] - from[0], to[1] - from[1]], (to[0] - from[0]).hypot_of(to[1] - from[1]));
+        let along = [to[0] - from[0], to[1] - from[1]];
+        let length = length_of(along);
         self.for_pixels(&[from, to], reach, |canvas, x, y, middle| {
             let offset = [middle[0] - from[0], middle[1] - from[1]];
             let t = if length > 0.0 { (offset[0] * along[0] + offset[1] * along[1]) / (length * length) } else { 0.0 };
             let t = t.clamp(0.0, 1.0);
-            let distance = (offset[0] - t * along[0]).hypot_of(offset[1] - t * along[1]);
+            let distance = length_of([offset[0] - t * along[0], offset[1] - t * along[1]]);
             canvas.blend(x, y, colour, share * (0.5 * thickness + 0.5 - distance).clamp(0.0, 1.0));
         });
     }
@@ -92,7 +93,7 @@ impl Canvas {
         self.for_pixels(corners, 1.0, |canvas, x, y, middle| {
             let inside = edges(corners).map(|(a, b)| {
                 let edge = [b[0] - a[0], b[1] - a[1]];
-                let length = edge[0].hypot_of(edge[1]).max(1e-9);
+                let length = length_of(edge).max(1e-9);
                 side * (edge[0] * (middle[1] - a[1]) - edge[1] * (middle[0] - a[0])) / length
             });
             let nearest = inside.fold(f64::INFINITY, f64::min);
@@ -107,7 +108,7 @@ impl Canvas {
         }
     }
 
-    /// Text with its top-left corner at (x, y); gives the x behind it.
+    /// Text with its top-left corner at (x, y); returns the x behind it.
     pub fn text(&mut self, x: i64, y: i64, scale: usize, colour: Colour, text: &str) -> i64 {
         let mut left = x;
         for letter in text.chars() {
@@ -145,6 +146,9 @@ impl Canvas {
     }
 
     /// The picture as a PNG file.
+    ///
+    /// # Errors
+    /// `preview-encode` when the encoder refuses the picture.
     pub fn png(&self) -> Result<Vec<u8>> {
         let mut file = Vec::new();
         let mut encoder = png::Encoder::new(&mut file, self.width as u32, self.height as u32);
@@ -167,15 +171,9 @@ fn edges(corners: &[Point]) -> impl Iterator<Item = (Point, Point)> + '_ {
     corners.iter().zip(corners.iter().cycle().skip(1)).map(|(a, b)| (*a, *b))
 }
 
-/// Length of a vector by square root alone: the same on every machine.
-trait Hypot {
-    fn hypot_of(self, other: Self) -> Self;
-}
-
-impl Hypot for f64 {
-    fn hypot_of(self, other: Self) -> Self {
-        (self * self + other * other).sqrt()
-    }
+/// Length of a vector.
+fn length_of([x, y]: Point) -> f64 {
+    (x * x + y * y).sqrt()
 }
 
 #[cfg(test)]

@@ -1,6 +1,6 @@
-//! Words and numbers as the page writes them.
+//! Text and numbers in documents.
 
-/// Text that may stand in HTML, in attributes too.
+/// Text as it stands in HTML and XML, also in attributes.
 pub fn escaped(text: &str) -> String {
     text.replace('&', "&amp;").replace('<', "&lt;").replace('>', "&gt;").replace('"', "&quot;")
 }
