@@ -1,12 +1,12 @@
 //! The experts of a recipe's finished run, to be asked again: towns, walks and parameters out of the store.
 
 use cosfly_diagnose::{Diagnostic, Fault, Result, nearest_name};
-use cosfly_frames::{Seed, TargetTrack};
+use cosfly_frames::Seed;
 use cosfly_planner::PlanOutcome;
-use cosfly_recipe::Arrival;
+use cosfly_recipe::{Arrival, RecipeStage};
 use cosfly_runner::Plan;
 use cosfly_stage::{BlobSource, Blobs, ItemName};
-use cosfly_stages::expert::{Companion, Expert, Flight, nearest_companions};
+use cosfly_stages::expert::{Companion, Expert, Flight};
 use cosfly_stages::plugins::Plugins;
 use cosfly_stages::read;
 use cosfly_stages::world::World;
@@ -69,7 +69,10 @@ impl<'a> Experts<'a> {
     fn named(&self, trajectory: &str) -> Result<(usize, usize)> {
         let mut names = Vec::new();
         let stages = self.plan.recipe.stages.iter().enumerate();
-        for (index, stage) in stages.filter(|(_, stage)| matches!(stage.kind.as_str(), "muco" | "perturb" | "wasm")) {
+        let flies = |stage: &RecipeStage| {
+            stage.name.part().is_empty() && matches!(stage.kind.as_str(), "muco" | "perturb" | "wasm")
+        };
+        for (index, stage) in stages.filter(|(_, stage)| flies(stage)) {
             let published = |item: &ItemName| item.of_stage(&stage.name).to_string() == trajectory;
             let is_meant = |item: &ItemName| published(item) || format!("{}/{item}", stage.name) == trajectory;
             if trajectory.starts_with(stage.name.as_str())
@@ -95,7 +98,7 @@ impl<'a> Experts<'a> {
             PlanOutcome::Planned(flight) => flight.track,
             PlanOutcome::Rejected { track, .. } => track,
         };
-        let companions = self.companions(stage, item, &track, expert.config.targets.companions as usize)?;
+        let companions = self.companions(stage, item)?;
         let seed = Seed::of_item(self.plan.recipe.seed, described.name.as_str(), &described.items[item].to_string());
         let paths: Vec<PathBuf> = described.sources.iter().map(|source| source.path.clone()).collect();
         let plugins = Plugins::of_expert(&expert.plugins, &paths)?.for_item(name.clone());
@@ -116,18 +119,11 @@ impl<'a> Experts<'a> {
         Ok(world)
     }
 
-    fn companions(&self, stage: usize, item: usize, track: &TargetTrack, count: usize) -> Result<Vec<Companion>> {
-        let described = &self.plan.recipe.stages[stage];
-        let Some(others) = described.connection("others").filter(|_| count > 0) else { return Ok(vec![]) };
-        let own = described.connection("paths").and_then(|paths| paths.arrivals.get(item));
-        let is_own = |other: &&Arrival| own.is_some_and(|own| (own.stage, own.item) == (other.stage, other.item));
-        let mut walks = Vec::new();
-        for other in others.arrivals.iter().filter(|other| !is_own(other)) {
-            let blobs = self.blobs(other.stage, other.item)?;
-            let walk = read::walk(&self.store.read(&blobs[read::WALK_BLOB])?)?;
-            walks.push((other.name.to_string(), walk.track));
-        }
-        Ok(nearest_companions(track, walks, count))
+    fn companions(&self, stage: usize, item: usize) -> Result<Vec<Companion>> {
+        let part = self.plan.recipe.stages[stage].connection(read::COMPANIONS_BLOB);
+        let Some(chosen) = part.and_then(|part| part.arrivals.get(item)) else { return Ok(vec![]) };
+        let blobs = self.blobs(chosen.stage, chosen.item)?;
+        read::companions(&self.store.read(&blobs[read::COMPANIONS_BLOB])?)
     }
 
     fn blobs(&self, stage: usize, item: usize) -> Result<&Blobs> {
