@@ -1,9 +1,10 @@
 //! Towns and rays for `cosfly-lab geometry`: boxes around a walker's way, cameras above it, body points below.
 
-use cosfly_frames::{DVec3, RandomStream, Seed, TargetTrack, real};
+use cosfly_frames::{DVec3, TargetTrack, real};
 use cosfly_geometry::{BoxBvh, OrientedBox, SpatialQuery};
 use cosfly_planner::scenes::{Scene, SceneKind};
 use cosfly_planner::visibility::body_points;
+use cosfly_random::{RandomStream, Seed};
 
 /// Rays of one view: the body points that visibility counts.
 pub const RAYS: usize = 8;

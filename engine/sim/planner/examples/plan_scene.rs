@@ -1,10 +1,10 @@
 //! Plans walkers in seeded scenes and prints what came out: `plan_scene [KIND ...] [--paths N] [--seed N] [--preset paper]`.
 
-use cosfly_frames::Seed;
 use cosfly_geometry::BoxBvh;
 use cosfly_planner::config::SearchEffort;
 use cosfly_planner::scenes::{Scene, SceneKind};
 use cosfly_planner::{Certificate, MucoConfig, PlanOutcome, Preset, plan};
+use cosfly_random::Seed;
 use std::time::Instant;
 
 struct Options {

@@ -1,8 +1,8 @@
 //! The final word on a flight: everything measured again in f64 against the unsimplified map.
 
-use crate::config::MucoConfig;
+use crate::config::muco::MucoConfig;
 use crate::obstacles::exact::ExactMap;
-use crate::terms::{TermContext, WeightedTerm};
+use crate::terms::term::{TermContext, WeightedTerm};
 use crate::trajectory::{Certificate, Limits, TermCost};
 use crate::walk::Walk;
 use cosfly_frames::{DVec3, TargetTrack};
@@ -58,6 +58,21 @@ pub fn swept_clearance_m(exact: ExactMap<'_>, waypoints: &[DVec3]) -> f64 {
         smallest = smallest.min(exact.segment_clearance(i, from, to, smallest));
     }
     smallest
+}
+
+/// Whether a flight may be published: clearance always holds, and speed, acceleration and jerk when the recipe requires
+/// them.
+pub fn publishable(config: &MucoConfig, certificate: &Certificate) -> bool {
+    if certificate.holds {
+        return true;
+    }
+    let kinematics = Kinematics {
+        speed_mps: certificate.max_speed_mps,
+        acceleration_mps2: certificate.max_acceleration_mps2,
+        jerk_mps3: certificate.max_jerk_mps3,
+    };
+    let kinematic = kinematics.violations(&certificate.limits);
+    !config.limits.require_kinematics && certificate.violations.iter().all(|v| kinematic.contains(v))
 }
 
 /// Per-frame measurements and the certificate they add up to.

@@ -132,7 +132,7 @@ fn inverse_cholesky(a: &DMat3) -> DMat3 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use cosfly_frames::Seed;
+    use cosfly_random::Seed;
 
     #[test]
     fn a_step_leads_to_the_minimum_of_the_squares() {

@@ -1,6 +1,6 @@
 //! The total cost of a flight and its slope: exact where a term knows it, wide differences elsewhere.
 
-use crate::terms::{CostTerm, TermContext, WeightedTerm};
+use crate::terms::term::{CostTerm, TermContext, WeightedTerm};
 use cosfly_frames::DVec3;
 
 /// Sum over frames and terms, weighted (paper, equation 1).

@@ -1,9 +1,9 @@
 //! What every part of a solver reads: target, wishes, cost.
 
-use crate::config::ViewConfig;
+use crate::config::view::ViewConfig;
 use crate::gradient::total_cost;
 use crate::obstacles::local::LocalObstacles;
-use crate::terms::{TermContext, WeightedTerm};
+use crate::terms::term::{TermContext, WeightedTerm};
 use crate::walk::Walk;
 use cosfly_frames::{DVec3, TargetTrack};
 

@@ -1,7 +1,7 @@
 //! All that a flight may be asked for: track, map, wishes, start, companions, moving occluders.
 
-use crate::config::MucoConfig;
-use crate::terms::WeightedTerm;
+use crate::config::muco::MucoConfig;
+use crate::terms::term::WeightedTerm;
 use cosfly_frames::{DVec3, TargetTrack};
 use cosfly_geometry::{OrientedBox, SpatialQuery};
 
@@ -23,7 +23,7 @@ pub struct PlanRequest<'a> {
     /// Where the drone is at the first frame, and how it moves; `None` leaves that to the planner.
     pub start: Option<StartState>,
     /// Further targets to be seen, as long as `track` and with its time step; see
-    /// [`SeveralTargets`](crate::config::SeveralTargets).
+    /// [`SeveralTargets`](crate::config::targets::SeveralTargets).
     pub companions: &'a [TargetTrack],
     /// Boxes that move: each one's place frame by frame, as long as `track`.
     pub movers: &'a [Vec<OrientedBox>],

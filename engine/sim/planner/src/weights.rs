@@ -27,21 +27,11 @@ impl Preset {
 
 /// See [`Preset::motion_factor`].
 const SHORT_MOTION_FACTOR: f64 = 8.0;
-/// Weight of the viewpoint term in [`Preset::Rear`].
-const REAR_VIEWPOINT: f64 = 30.0;
-
-impl crate::terms::Weights {
-    /// What presets that are near `cosfly` change.
-    pub(crate) fn suit(&mut self, preset: Preset) {
-        if preset == Preset::Rear {
-            self.viewpoint = REAR_VIEWPOINT;
-        }
-    }
-}
 
 /// From the one list of cost terms (in `terms/mod.rs`): weights, their overrides in recipes, and the terms themselves.
 macro_rules! cost_terms {
-    ($($(#[$doc:meta])* $name:ident: $term:expr, cosfly $cosfly:literal, paper $paper:literal;)*) => {
+    (@first $first:literal $($rest:literal)*) => { $first };
+    ($($(#[$doc:meta])* $name:ident: $term:expr, cosfly $cosfly:literal, paper $paper:literal $(, rear $rear:literal)?;)*) => {
         /// Weights that replace those of the preset; what is left out keeps the preset's value.
         #[derive(Clone, Debug, Default, PartialEq, serde::Serialize, serde::Deserialize, schemars::JsonSchema)]
         #[serde(default, deny_unknown_fields)]
@@ -61,15 +51,12 @@ macro_rules! cost_terms {
         impl Weights {
             /// The preset's weights with the overrides in their place.
             pub fn resolve(preset: Preset, overrides: &WeightOverrides) -> Self {
-                let mut weights = Self {$(
-                    $name: match preset {
-                        Preset::Cosfly | Preset::Rear | Preset::Short => $cosfly,
-                        Preset::Paper => $paper,
-                    },
-                )*};
-                weights.suit(preset);
                 Self {$(
-                    $name: overrides.$name.unwrap_or(weights.$name),
+                    $name: overrides.$name.unwrap_or(match preset {
+                        Preset::Cosfly | Preset::Short => $cosfly,
+                        Preset::Rear => crate::weights::cost_terms!(@first $($rear)? $cosfly),
+                        Preset::Paper => $paper,
+                    }),
                 )*}
             }
 

@@ -1,8 +1,9 @@
 //! Bad tracks, absurd maps and impossible wishes end in a reason or a certified flight, never in a panic.
 
-use cosfly_frames::{DVec3, Seed, TargetState, TargetTrack};
+use cosfly_frames::{DVec3, TargetState, TargetTrack};
 use cosfly_geometry::{BoxBvh, OrientedBox};
 use cosfly_planner::{MucoConfig, PlanOutcome, plan};
+use cosfly_random::Seed;
 
 fn track(feet: impl IntoIterator<Item = DVec3>) -> TargetTrack {
     let state = |feet_in_world| TargetState { feet_in_world, heading_rad: 0.0, speed_mps: 1.0 };

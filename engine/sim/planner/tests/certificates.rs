@@ -1,9 +1,10 @@
 //! Every planned flight is measured again, by other means than the planner's own.
 
-use cosfly_frames::{DVec3, Seed};
+use cosfly_frames::DVec3;
 use cosfly_geometry::{BoxBvh, BruteForce, OrientedBox, SpatialQuery};
 use cosfly_planner::scenes::{Scene, SceneKind};
 use cosfly_planner::{MucoConfig, PlanOutcome, Preset, Trajectory, aim_point, body_points, plan};
+use cosfly_random::Seed;
 
 fn planned(scene: &Scene, seed: u64, index: u64, config: &MucoConfig) -> Result<Box<Trajectory>, String> {
     let exact = BoxBvh::build(scene.boxes.clone());

@@ -1,6 +1,6 @@
 //! `engine`: the runner with cheap items.
 
-use super::{Outcome, print};
+use super::outcome::{Outcome, print};
 use clap::Args;
 use cosfly_diagnose::Diagnostic;
 

@@ -1,6 +1,6 @@
 //! `geometry`: box queries against other libraries' trees.
 
-use super::{Outcome, print};
+use super::outcome::{Outcome, print};
 use clap::Args;
 
 /// Examples of `geometry`.

@@ -1,8 +1,9 @@
 //! `planner`: our planner, the paper's, and the baselines on the same paths.
 
-use super::{Outcome, Refusals, print, town_of_recipe};
+use super::outcome::{Outcome, Refusals, print};
+use super::town_of_recipe;
+use clap::Args;
 use clap::builder::PossibleValuesParser;
-use clap::{Args, CommandFactory};
 use cosfly_diagnose::Diagnostic;
 use cosfly_lab::planner::many::{ManyOptions, many};
 use cosfly_lab::planner::phases::phases;
@@ -80,8 +81,8 @@ pub fn planner(arguments: &PlannerArguments) -> Outcome {
         std::fs::create_dir_all(folder).map_err(|error| unwritable(folder, &error))?;
     }
     if arguments.many.is_some() && arguments.planners.len() > 1 {
-        let rule = "`--many` takes a single `--planner`";
-        super::Arguments::command().error(clap::error::ErrorKind::ArgumentConflict, rule).exit();
+        let rule = "`--many` takes a single `--planner`\n";
+        clap::Error::raw(clap::error::ErrorKind::ArgumentConflict, rule).exit();
     }
     let bar = bar();
     let progress = |done: usize, of: usize| {

@@ -1,6 +1,6 @@
 //! `render`: what pictures cost, stage by stage, and how many come out as finished logs.
 
-use super::{Outcome, Refusals, print};
+use super::outcome::{Outcome, Refusals, print};
 use clap::Args;
 use cosfly_diagnose::{Diagnostic, Fault};
 use cosfly_lab::render::views::Ground;
@@ -38,16 +38,16 @@ pub struct RenderArguments {
     #[arg(long, value_name = "N", default_value_t = 720)]
     pub height: u32,
     /// Viewpoints per town
-    #[arg(long, value_name = "N", default_value_t = 20, value_parser = super::counts())]
+    #[arg(long, value_name = "N", default_value_t = 20, value_parser = super::outcome::counts())]
     pub views: usize,
     /// Boxes of the second town
-    #[arg(long, value_name = "N", default_value_t = 2000, value_parser = super::counts())]
+    #[arg(long, value_name = "N", default_value_t = 2000, value_parser = super::outcome::counts())]
     pub box_count: usize,
     /// Rounds over all views; the least time counts
-    #[arg(long, value_name = "N", default_value_t = 2, value_parser = super::counts())]
+    #[arg(long, value_name = "N", default_value_t = 2, value_parser = super::outcome::counts())]
     pub rounds: usize,
     /// Frames of the flights that are drawn, encoded and written on all threads at once
-    #[arg(long, value_name = "N", default_value_t = 60, value_parser = super::counts())]
+    #[arg(long, value_name = "N", default_value_t = 60, value_parser = super::outcome::counts())]
     pub frames: usize,
     /// Print JSON
     #[arg(long)]

@@ -1,6 +1,6 @@
 //! A recipe's own town and walks, for measurements: its stages up to the planner, run in a scratch store.
 
-use super::Refusals;
+use super::outcome::Refusals;
 use cosfly_diagnose::{Diagnostic, Fault};
 use cosfly_geometry::BoxBvh;
 use cosfly_lab::planner::scene::Ground;

@@ -1,15 +1,17 @@
 //! Who plans: our planner, the paper's, and the baselines, behind one call.
 
+use super::plain_bvh::PlainBvh;
 use super::scene::Ground;
-use cosfly_frames::{DVec3, Seed, TargetTrack};
+use cosfly_frames::{DVec3, TargetTrack};
 use cosfly_planner::baselines::grid::VoxelOptions;
-use cosfly_planner::baselines::{Baseline, BaselineInput, BaselinePath, plan_baseline, plan_baseline_with};
+use cosfly_planner::baselines::{Baseline, BaselineInput, BaselinePath, plan_astar, plan_baseline, plan_baseline_with};
 use cosfly_planner::obstacles::{ground::GroundGrid, local::LocalObstacles};
 use cosfly_planner::paper::plan_paper;
 use cosfly_planner::problem::Problem;
 use cosfly_planner::terms::built_in_terms;
 use cosfly_planner::walk::Walk;
 use cosfly_planner::{MucoConfig, PlanOutcome, Preset, plan};
+use cosfly_random::Seed;
 
 /// A planner in the table.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -20,7 +22,9 @@ pub enum Contender {
     Paper,
     /// The same as recipes get it: made flyable and certified, or refused.
     PaperFlyable,
-    /// One to be measured against.
+    /// The paper's A*, with rays through a textbook tree: the reference of the column "faster".
+    Astar,
+    /// A planner to be measured against that recipes know, too.
     Baseline(Baseline),
     /// A* with other settings; an index into [`SETTINGS`].
     Setting(usize),
@@ -72,8 +76,8 @@ pub struct Planned {
 impl Contender {
     /// All, in the order of the table.
     pub fn all() -> Vec<Self> {
-        let ours = [Self::Cosfly, Self::Paper, Self::PaperFlyable];
-        ours.into_iter().chain(Baseline::ALL.into_iter().map(Self::Baseline)).collect()
+        let first = [Self::Cosfly, Self::Paper, Self::PaperFlyable, Self::Astar];
+        first.into_iter().chain(Baseline::ALL.into_iter().map(Self::Baseline)).collect()
     }
 
     /// [`Self::all`] and the [`SETTINGS`].
@@ -88,6 +92,7 @@ impl Contender {
             Self::Cosfly => "cosfly",
             Self::Paper => "paper",
             Self::PaperFlyable => "paper_flyable",
+            Self::Astar => "astar",
             Self::Baseline(baseline) => baseline.name(),
         }
     }
@@ -98,6 +103,9 @@ impl Contender {
             Self::Cosfly => flight(ground, track, &MucoConfig { preset: Preset::Cosfly, ..config.clone() }),
             Self::Paper => Ok(paper_flight(ground, track, &MucoConfig { preset: Preset::Paper, ..config.clone() })),
             Self::PaperFlyable => flight(ground, track, &MucoConfig { preset: Preset::Paper, ..config.clone() }),
+            Self::Astar => baseline_path(ground, track, config, &|input| {
+                plan_astar(input, VoxelOptions::default(), |boxes| PlainBvh::build(&boxes))
+            }),
             Self::Baseline(baseline) => baseline_path(ground, track, config, &|input| plan_baseline(baseline, input)),
             Self::Setting(index) => setting_path(&SETTINGS[index], ground, track, config),
         }

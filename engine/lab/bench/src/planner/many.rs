@@ -4,11 +4,11 @@
 
 use super::contender::{Contender, Planned};
 use super::figures::COLLISION_M;
+use super::plain_bvh::PlainBvh;
 use super::scene::Ground;
 use crate::clock::timed;
 use cosfly_frames::{DVec3, TargetTrack};
 use cosfly_planner::MucoConfig;
-use cosfly_planner::baselines::plain_bvh::PlainBvh;
 use cosfly_planner::certificate::Kinematics;
 use cosfly_planner::scenes::SceneKind;
 use rayon::prelude::*;

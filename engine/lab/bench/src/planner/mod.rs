@@ -1,12 +1,14 @@
 //! Planners against each other, on the same paths, in one run.
 //!
-//! [`planner`] plans every path of every scene with every [`Contender`], one path after the other, and
-//! judges all flights by the same measure against the unsimplified map ([`figures`]).
+//! [`outcomes()`] plans every path of every scene with every [`Contender`], one path after the other, and
+//! judges all flights by the same measure against the unsimplified map ([`figures`]); [`tabulate`] makes rows of them.
 
 pub mod contender;
 pub mod figures;
 pub mod many;
+pub mod outcomes;
 pub mod phases;
+pub mod plain_bvh;
 pub mod plot;
 pub mod scene;
 pub mod solver;
@@ -14,74 +16,5 @@ pub mod svg;
 pub mod table;
 
 pub use contender::Contender;
-pub use table::{PlannerTable, Row};
-
-use crate::clock::timed;
-use cosfly_planner::MucoConfig;
-use figures::Flight;
-use scene::Ground;
-
-/// What is measured.
-pub struct PlannerOptions<'a> {
-    /// Where the paths come from.
-    pub grounds: Vec<Ground>,
-    /// Who plans, in the order of the table.
-    pub contenders: Vec<Contender>,
-    /// Limits, view and weights of every contender but `paper`, which has its own weights.
-    pub config: MucoConfig,
-    /// Told after every flight: how many of how many are done.
-    pub progress: &'a (dyn Fn(usize, usize) + Sync),
-}
-
-/// One path, planned by everyone.
-pub struct PathOutcome {
-    /// Index of the ground.
-    pub ground: usize,
-    /// Number of the path.
-    pub path: usize,
-    /// One per contender.
-    pub flights: Vec<Flight>,
-}
-
-/// Plans everything; rows by scene, then contender.
-pub fn planner(options: &PlannerOptions<'_>) -> PlannerTable {
-    tabulate(options, &outcomes(options))
-}
-
-/// The table of what was planned.
-pub fn tabulate(options: &PlannerOptions<'_>, outcomes: &[PathOutcome]) -> PlannerTable {
-    let rows = options.grounds.iter().enumerate().flat_map(|(index, ground)| {
-        let of_ground: Vec<&PathOutcome> = outcomes.iter().filter(|outcome| outcome.ground == index).collect();
-        table::rows(&ground.name, ground.exact_boxes, &options.contenders, &of_ground)
-    });
-    PlannerTable { rows: rows.collect() }
-}
-
-/// Plans everything and keeps every flight.
-pub fn outcomes(options: &PlannerOptions<'_>) -> Vec<PathOutcome> {
-    // One thread: what a planner would do in parallel counts as its own time, too.
-    match rayon::ThreadPoolBuilder::new().num_threads(1).build() {
-        Ok(pool) => pool.install(|| outcomes_on_this_thread(options)),
-        Err(_) => outcomes_on_this_thread(options),
-    }
-}
-
-fn outcomes_on_this_thread(options: &PlannerOptions<'_>) -> Vec<PathOutcome> {
-    let paths: usize = options.grounds.iter().map(|ground| ground.tracks.len()).sum();
-    let total = paths * options.contenders.len();
-    let mut done = 0;
-    let mut outcomes = Vec::with_capacity(paths);
-    for (index, ground) in options.grounds.iter().enumerate() {
-        for (path, track) in ground.tracks.iter().enumerate() {
-            let mut flights = Vec::with_capacity(options.contenders.len());
-            for contender in &options.contenders {
-                let (planned, cpu_s) = timed(|| contender.plan(ground, track, &options.config));
-                flights.push(Flight::judge(planned, cpu_s, track, ground.exact.as_ref(), &options.config));
-                done += 1;
-                (options.progress)(done, total);
-            }
-            outcomes.push(PathOutcome { ground: index, path, flights });
-        }
-    }
-    outcomes
-}
+pub use outcomes::{PathOutcome, PlannerOptions, outcomes};
+pub use table::{PlannerTable, Row, tabulate};

@@ -1,9 +1,8 @@
 //! The table: one row per scene and contender, means over paths and extremes over all of them.
 
-use super::PathOutcome;
 use super::contender::Contender;
 use super::figures::{Figures, Flight};
-use cosfly_planner::baselines::Baseline;
+use super::outcomes::{PathOutcome, PlannerOptions};
 use serde::Serialize;
 use std::fmt;
 
@@ -65,9 +64,18 @@ pub struct Row {
     pub reasons: Vec<String>,
 }
 
+/// The table of what was planned.
+pub fn tabulate(options: &PlannerOptions<'_>, outcomes: &[PathOutcome]) -> PlannerTable {
+    let rows = options.grounds.iter().enumerate().flat_map(|(index, ground)| {
+        let of_ground: Vec<&PathOutcome> = outcomes.iter().filter(|outcome| outcome.ground == index).collect();
+        rows(&ground.name, ground.exact_boxes, &options.contenders, &of_ground)
+    });
+    PlannerTable { rows: rows.collect() }
+}
+
 /// The rows of one scene.
-pub fn rows(scene: &str, boxes: usize, contenders: &[Contender], outcomes: &[&PathOutcome]) -> Vec<Row> {
-    let reference = contenders.iter().position(|&contender| contender == Contender::Baseline(Baseline::Astar));
+fn rows(scene: &str, boxes: usize, contenders: &[Contender], outcomes: &[&PathOutcome]) -> Vec<Row> {
+    let reference = contenders.iter().position(|&contender| contender == Contender::Astar);
     contenders
         .iter()
         .enumerate()
@@ -219,9 +227,10 @@ All flights are judged against the unsimplified map.
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::planner::outcomes::outcomes;
     use crate::planner::scene::Ground;
-    use crate::planner::{PlannerOptions, outcomes, tabulate};
     use cosfly_planner::MucoConfig;
+    use cosfly_planner::baselines::Baseline;
     use cosfly_planner::scenes::SceneKind;
 
     #[test]
@@ -233,12 +242,8 @@ mod tests {
     fn rows_are_one_per_scene_and_planner_and_judged_alike() {
         let mut ground = Ground::scene(SceneKind::Canyon, 2, 2);
         ground.tracks.iter_mut().for_each(|track| track.states.truncate(30));
-        let contenders = vec![
-            Contender::Cosfly,
-            Contender::Paper,
-            Contender::Baseline(Baseline::Astar),
-            Contender::Baseline(Baseline::AstarFast),
-        ];
+        let contenders =
+            vec![Contender::Cosfly, Contender::Paper, Contender::Astar, Contender::Baseline(Baseline::AstarFast)];
         let config = MucoConfig::default();
         let options = PlannerOptions { grounds: vec![ground], contenders, config, progress: &|_, _| {} };
         let table = tabulate(&options, &outcomes(&options));

@@ -1,11 +1,12 @@
 //! Flights as `cosfly run` makes them: someone walks the town, the planner follows.
 
 use super::views::{Ground, View};
-use cosfly_frames::{Seed, TargetState};
+use cosfly_frames::TargetState;
 use cosfly_geometry::BoxBvh;
 use cosfly_maps::GroundIndex;
 use cosfly_pedestrians::{PedestrianConfig, WalkableGrid, walk};
 use cosfly_planner::{MucoConfig, PlanOutcome, plan};
+use cosfly_random::Seed;
 use cosfly_render::{TargetSetup, gait_phase_rad};
 
 /// The expert's flights behind `count` walkers, `frames` frames each, with the defaults of all recipes. None in a town

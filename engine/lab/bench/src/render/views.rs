@@ -1,12 +1,13 @@
 //! Towns and the views of them that are measured: a follower behind a walker, and free views of many boxes.
 
-use cosfly_frames::{DVec2, DVec3, Pose, Seed, TargetState, real};
+use cosfly_frames::{DVec2, DVec3, Pose, TargetState, real};
 use cosfly_geometry::{BoxBvh, OrientedBox, SpatialQuery};
 use cosfly_maps::generate::{GenerateConfig, generate_town};
 use cosfly_maps::{
     MapConfig, MapError, MapOrigin, Obstacle, ObstacleKind, SemanticLabel, SimplificationReport, SurfaceMesh,
     Synthetic, Town, WalkableKind, read_town,
 };
+use cosfly_random::Seed;
 use cosfly_render::{Camera, Scene, TargetSetup, gait_phase_rad};
 use serde::Serialize;
 

@@ -5,9 +5,9 @@
 //! queue, distances kept across timesteps, and rays cast only when a node is first taken from the queue
 //! (its cost without them is a lower bound, so the order stays right).
 
-use super::BaselinePath;
 use super::clearance_cache::{ClearanceCache, move_is_free};
 use super::grid::{Cell, MOVES, VoxelGrid};
+use super::input::BaselinePath;
 use super::queue::RadixQueue;
 use super::sight::Sight;
 

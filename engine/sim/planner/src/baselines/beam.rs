@@ -4,9 +4,9 @@
 //! The authors name three devices: distances kept across time, a beam per layer, rays cast by configuration. All
 //! three are here; what they do not print (the width) is ours.
 
-use super::BaselinePath;
 use super::clearance_cache::{ClearanceCache, move_is_free};
 use super::grid::{Cell, MOVES, VoxelGrid};
+use super::input::BaselinePath;
 use super::sight::Sight;
 
 /// Nodes per layer that live on: as few as lose no visibility against A* in streets.

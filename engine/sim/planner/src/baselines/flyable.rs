@@ -1,6 +1,6 @@
 //! A* made flyable: its staircase smoothed to the limits by the same judge, in the same corridor, as our flights.
 
-use super::{BaselineInput, BaselinePath};
+use super::input::{BaselineInput, BaselinePath};
 use crate::muco::judge::Judge;
 use crate::muco::smoother::Objective;
 use crate::obstacles::exact::ExactMap;

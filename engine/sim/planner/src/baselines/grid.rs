@@ -1,6 +1,6 @@
 //! The voxels around a moving target, layer by layer in time, and what they cost before any ray is cast.
 
-use crate::config::MucoConfig;
+use crate::config::muco::MucoConfig;
 use crate::obstacles::ground::GroundGrid;
 use crate::problem::Problem;
 use crate::terms::{Weights, altitude::band_cost, pitch, tracking, viewpoint};

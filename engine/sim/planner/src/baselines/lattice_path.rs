@@ -1,6 +1,6 @@
 //! The way through the polar lattice with nothing after it: what the global search alone is worth.
 
-use super::{BaselineInput, BaselinePath};
+use super::input::{BaselineInput, BaselinePath};
 use crate::muco::attempts::full_effort;
 use crate::muco::search::search;
 use crate::obstacles::local::LocalObstacles;

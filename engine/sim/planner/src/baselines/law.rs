@@ -3,18 +3,18 @@
 use super::astar::astar;
 use super::beam::beam;
 use super::grid::{Cell, MOVES, VoxelGrid, VoxelOptions};
-use super::plain_bvh::PlainBvh;
 use super::{Baseline, BaselineInput, plan_baseline};
-use crate::MucoConfig;
+use crate::config::muco::MucoConfig;
 use crate::obstacles::Surroundings;
 use crate::obstacles::exact::ExactObstacles;
 use crate::obstacles::ground::GroundGrid;
 use crate::problem::Problem;
 use crate::scenes::{Scene, SceneKind};
-use crate::terms::{CostTerm, TermContext, altitude, built_in_terms, pitch, safety, tracking, viewpoint, visibility};
+use crate::terms::term::{CostTerm, TermContext};
+use crate::terms::{altitude, built_in_terms, pitch, safety, tracking, viewpoint, visibility};
 use crate::walk::Walk;
 use cosfly_frames::{DVec3, TargetTrack};
-use cosfly_geometry::{BruteForce, OrientedBox};
+use cosfly_geometry::{BoxBvh, BruteForce, OrientedBox};
 
 fn track_of(scene: &Scene, frames: usize) -> TargetTrack {
     let mut track = scene.walker(5, 1);
@@ -104,7 +104,7 @@ fn astar_finds_the_cheapest_of_all_ways_through_a_small_grid() {
             let free = |a: DVec3, b: DVec3| input.exact.segment_clearance(a, b, keep_m) >= keep_m;
             let starts = (0..grid.cells_per_layer()).map(|node| exhaustive(&grid, &costs, &free, grid.cell_of(node)));
             let best = starts.fold(f64::INFINITY, f64::min);
-            let tree = PlainBvh::build(&scene.boxes);
+            let tree = BoxBvh::build(scene.boxes.clone());
             let found = astar(&grid, &tree, keep_m, 8.0).expect("there is a way");
             assert!((found.cost - best).abs() < 1e-3 * best, "A* {} exhaustive {best}", found.cost);
             let wide = beam(&grid, &tree, keep_m, 8.0, grid.cells_per_layer()).expect("there is a way");
@@ -114,7 +114,7 @@ fn astar_finds_the_cheapest_of_all_ways_through_a_small_grid() {
 }
 
 #[test]
-fn no_voxel_path_comes_nearer_than_the_clearance_and_both_trees_find_one_cost() {
+fn no_voxel_path_comes_nearer_than_the_clearance_and_no_beam_is_cheaper_than_the_optimum() {
     let config = MucoConfig::default();
     for kind in [SceneKind::Leafy, SceneKind::Alley, SceneKind::Canyon] {
         let mut scene = Scene::generate(kind, 4);
@@ -122,7 +122,7 @@ fn no_voxel_path_comes_nearer_than_the_clearance_and_both_trees_find_one_cost() 
         let track = track_of(&scene, 25);
         with_input(&track, &scene.boxes, &config, |input| {
             let mut costs = Vec::new();
-            for baseline in [Baseline::Astar, Baseline::AstarFast, Baseline::Beam] {
+            for baseline in [Baseline::AstarFast, Baseline::Beam] {
                 let found = plan_baseline(baseline, input).expect("the way is free");
                 assert_eq!(found.waypoints.len(), track.len());
                 for pair in found.waypoints.windows(2) {
@@ -133,8 +133,7 @@ fn no_voxel_path_comes_nearer_than_the_clearance_and_both_trees_find_one_cost() 
                 }
                 costs.push(found.cost);
             }
-            assert_eq!(costs[0], costs[1], "{}", kind.name());
-            assert!(costs[2] >= costs[0] - 1e-3, "a beam cannot beat the optimum");
+            assert!(costs[1] >= costs[0] - 1e-3, "{}: a beam cannot beat the optimum", kind.name());
         });
     }
 }
@@ -146,7 +145,7 @@ fn sealed_places_long_tracks_and_broken_ones_are_refused_in_words() {
     let track = track_of(&scene, 10);
     let around = OrientedBox::from_corners(DVec3::splat(-600.0), DVec3::splat(600.0));
     with_input(&track, &[around], &config, |input| {
-        for baseline in [Baseline::Astar, Baseline::Beam] {
+        for baseline in [Baseline::AstarFast, Baseline::Beam] {
             let reason = plan_baseline(baseline, input).expect_err("no room");
             assert!(reason.contains("frame 0"), "{reason}");
         }
@@ -154,7 +153,7 @@ fn sealed_places_long_tracks_and_broken_ones_are_refused_in_words() {
     let mut long = track.clone();
     long.states = vec![track.states[0]; 100_000];
     with_input(&long, &[], &config, |input| {
-        assert!(plan_baseline(Baseline::Astar, input).expect_err("too long").contains("nodes"));
+        assert!(plan_baseline(Baseline::AstarFast, input).expect_err("too long").contains("nodes"));
     });
     let mut lost = track.clone();
     lost.states[3].feet_in_world.x = f64::NAN;
@@ -170,6 +169,6 @@ fn sealed_places_long_tracks_and_broken_ones_are_refused_in_words() {
     }
     let one = TargetTrack { states: track.states[..1].to_vec(), ..track.clone() };
     with_input(&one, &[], &config, |input| {
-        assert_eq!(plan_baseline(Baseline::Astar, input).expect("one frame").waypoints.len(), 1);
+        assert_eq!(plan_baseline(Baseline::AstarFast, input).expect("one frame").waypoints.len(), 1);
     });
 }

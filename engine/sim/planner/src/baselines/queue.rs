@@ -47,7 +47,7 @@ fn bucket(key: u32, last: u32) -> usize {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use cosfly_frames::Seed;
+    use cosfly_random::Seed;
 
     #[test]
     fn costs_come_out_sorted_while_larger_ones_go_in() {

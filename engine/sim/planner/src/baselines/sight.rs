@@ -1,6 +1,5 @@
-//! What a voxel search asks of the obstacles, and who answers: a plain tree, or the engine's own fast one.
+//! Queries of a voxel search, and the engine's own tree that answers them.
 
-use super::plain_bvh::PlainBvh;
 use cosfly_frames::DVec3;
 use cosfly_geometry::{BoxBvh, SpatialQuery};
 
@@ -30,19 +29,5 @@ impl Sight for BoxBvh {
 
     fn segment_clearance_m(&self, from: DVec3, to: DVec3, within_m: f64) -> f64 {
         self.segment_clearance(from, to, within_m)
-    }
-}
-
-impl Sight for PlainBvh {
-    fn visible_points(&self, camera: DVec3, body: &[DVec3]) -> usize {
-        PlainBvh::visible_points(self, camera, body)
-    }
-
-    fn distance_m(&self, point: DVec3, within_m: f64) -> f64 {
-        self.nearest_m(point, within_m)
-    }
-
-    fn segment_clearance_m(&self, from: DVec3, to: DVec3, within_m: f64) -> f64 {
-        PlainBvh::segment_clearance_m(self, from, to, within_m)
     }
 }

@@ -8,7 +8,9 @@ use super::search::{Effort, search};
 use super::smoother::Objective;
 use super::viterbi::SearchSpace;
 use crate::certificate::Measured;
-use crate::config::{MucoConfig, SearchEffort};
+use crate::config::muco::MucoConfig;
+use crate::config::search::SearchEffort;
+use crate::found::Found;
 use crate::obstacles::Surroundings;
 use crate::obstacles::local::LocalObstacles;
 use crate::problem::Problem;
@@ -45,16 +47,6 @@ thread_local! {
 struct Workshop {
     search: SearchSpace,
     refine: RefineSpace,
-}
-
-/// A valid flight.
-pub struct Found {
-    /// One per frame, world frame, metres.
-    pub waypoints: Vec<DVec3>,
-    /// With the certificate.
-    pub measured: Measured,
-    /// Total cost after each step of the last attempt.
-    pub convergence: Vec<f64>,
 }
 
 /// Tries lattices from fast to fine, then calmer and calmer flights, and gives the best of what is valid, or the last

@@ -3,14 +3,13 @@
 
 use super::corridor::CorridorInput;
 use super::smoother::{Objective, smooth};
-use crate::certificate::{Kinematics, Measured, certify};
-use crate::config::MucoConfig;
+use crate::certificate::{Kinematics, Measured, certify, publishable};
+use crate::config::muco::MucoConfig;
 use crate::obstacles::Surroundings;
 use crate::obstacles::exact::ExactMap;
 use crate::obstacles::local::LocalObstacles;
 use crate::obstacles::solid::HalfSpace;
 use crate::problem::Problem;
-use crate::trajectory::Certificate;
 use cosfly_frames::DVec3;
 
 /// Distance kept beyond the limit while smoothing, metres.
@@ -139,18 +138,4 @@ impl<'a> Judge<'a> {
     pub fn publishable(&self, measured: &Measured) -> bool {
         publishable(self.config, &measured.certificate)
     }
-}
-
-/// Clearance always; speed, acceleration and jerk when the recipe requires them.
-pub fn publishable(config: &MucoConfig, certificate: &Certificate) -> bool {
-    if certificate.holds {
-        return true;
-    }
-    let kinematics = Kinematics {
-        speed_mps: certificate.max_speed_mps,
-        acceleration_mps2: certificate.max_acceleration_mps2,
-        jerk_mps3: certificate.max_jerk_mps3,
-    };
-    let kinematic = kinematics.violations(&certificate.limits);
-    !config.limits.require_kinematics && certificate.violations.iter().all(|v| kinematic.contains(v))
 }

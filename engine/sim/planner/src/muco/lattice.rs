@@ -3,7 +3,7 @@
 //! A node is (azimuth, altitude, horizontal radius) around the target's feet in **world** azimuth, so that
 //! "stay" moves with the target. An (altitude, radius) pair is a *ring* of nodes at all azimuths.
 
-use crate::config::ViewConfig;
+use crate::config::view::ViewConfig;
 use cosfly_frames::{DVec3, real};
 
 /// Largest number of rings.

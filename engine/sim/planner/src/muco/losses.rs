@@ -1,7 +1,7 @@
 //! Losing the target on purpose: when, for how long, and how much of it came about.
 
 use super::viterbi::Viterbi;
-use crate::config::OcclusionConfig;
+use crate::config::occlusion::OcclusionConfig;
 
 /// What was ordered.
 #[derive(Clone, Debug, Default)]

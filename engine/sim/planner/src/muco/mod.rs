@@ -15,13 +15,8 @@ pub mod corridor;
 pub mod judge;
 pub mod lattice;
 pub mod losses;
-pub mod plan;
 pub mod refine;
 pub mod scan;
 pub mod search;
 pub mod smoother;
-pub mod stretches;
-pub mod track_check;
 pub mod viterbi;
-
-pub use plan::{plan, plan_request, plan_with_terms};

@@ -4,7 +4,7 @@
 //! the flight is held near the lattice's way, kept clear of obstacles and made smooth. Where a round ends worse than
 //! the lattice's way, the next one holds on to it more strongly.
 
-use crate::config::MucoConfig;
+use crate::config::muco::MucoConfig;
 use crate::equations::NormalEquations;
 use crate::gradient::total_gradient;
 use crate::obstacles::{Surroundings, local::LocalObstacles};

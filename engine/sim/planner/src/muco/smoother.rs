@@ -195,7 +195,7 @@ mod tests {
     use clarabel::algebra::CscMatrix;
     use clarabel::solver::SupportedConeT::{NonnegativeConeT, SecondOrderConeT};
     use clarabel::solver::{DefaultSettings, DefaultSolver, IPSolver, SolverStatus};
-    use cosfly_frames::Seed;
+    use cosfly_random::Seed;
 
     const FRAMES: usize = 24;
     const OBJECTIVE: Objective =

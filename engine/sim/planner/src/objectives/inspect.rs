@@ -8,9 +8,10 @@ use super::config::{DT_S, InspectConfig};
 use super::facade::{Coverage, Side, coverage, hull, is_free, sides};
 use super::meeting::Meeting;
 use super::{Mission, POINT_HEIGHT_M, Site};
-use crate::config::MucoConfig;
-use cosfly_frames::{DVec2, DVec3, Seed, TargetState, TargetTrack, real};
+use crate::config::muco::MucoConfig;
+use cosfly_frames::{DVec2, DVec3, TargetState, TargetTrack, real};
 use cosfly_geometry::OrientedBox;
+use cosfly_random::Seed;
 
 /// The watched point is this far in front of the wall, metres.
 const OUT_M: f64 = 0.8;
@@ -268,7 +269,7 @@ fn wishes(wanted: &InspectConfig, config: &MucoConfig) -> MucoConfig {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::muco::plan_request;
+    use crate::planning::plan_request;
     use crate::trajectory::{PlanOutcome, Trajectory};
     use cosfly_geometry::BoxBvh;
 

@@ -1,7 +1,7 @@
 //! A cost term of objectives: the drone is drawn to a place at each frame, more or less strongly.
 
 use crate::equations::NormalEquations;
-use crate::terms::{CostTerm, TermContext};
+use crate::terms::term::{CostTerm, TermContext};
 use cosfly_frames::DVec3;
 
 /// `share |w - place|^2` at each frame, metres squared.
@@ -72,7 +72,7 @@ impl CostTerm for Meeting {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::config::ViewConfig;
+    use crate::config::view::ViewConfig;
     use crate::obstacles::{exact::ExactObstacles, ground::GroundGrid};
     use crate::walk::Walk;
     use cosfly_frames::{TargetState, TargetTrack};

@@ -18,9 +18,9 @@ pub mod track;
 
 pub use config::{InspectConfig, Objective, ObjectiveConfig, PatrolConfig};
 
-use crate::config::MucoConfig;
+use crate::config::muco::MucoConfig;
 use crate::request::PlanRequest;
-use crate::terms::WeightedTerm;
+use crate::terms::term::WeightedTerm;
 use cosfly_frames::{DVec2, TargetTrack};
 use cosfly_geometry::{OrientedBox, SpatialQuery};
 use meeting::Meeting;

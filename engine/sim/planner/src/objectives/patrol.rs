@@ -7,8 +7,9 @@ use super::config::{DT_S, LONGEST_S, PatrolConfig};
 use super::facade::is_free;
 use super::meeting::Meeting;
 use super::{Mission, POINT_HEIGHT_M, Site};
-use crate::config::MucoConfig;
-use cosfly_frames::{DVec2, DVec3, Pose, Seed, TargetState, TargetTrack, real};
+use crate::config::muco::MucoConfig;
+use cosfly_frames::{DVec2, DVec3, Pose, TargetState, TargetTrack, real};
+use cosfly_random::Seed;
 
 /// Weight of a waypoint at its time.
 const WEIGHT: f64 = 60.0;
@@ -200,7 +201,7 @@ fn wishes(heights: impl Iterator<Item = f64>, wanted: &PatrolConfig, config: &Mu
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::muco::plan_request;
+    use crate::planning::plan_request;
     use crate::trajectory::PlanOutcome;
     use cosfly_geometry::{BoxBvh, OrientedBox};
 

@@ -3,7 +3,7 @@
 use super::config::DT_S;
 use super::meeting::Meeting;
 use super::{Mission, POINT_HEIGHT_M};
-use crate::config::MucoConfig;
+use crate::config::muco::MucoConfig;
 use cosfly_frames::{DVec3, Pose, TargetState, TargetTrack, real};
 
 /// Weight of a place that matters fully.
@@ -92,7 +92,7 @@ fn wishes(reference: &Reference, config: &MucoConfig) -> MucoConfig {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::muco::plan_request;
+    use crate::planning::plan_request;
     use crate::trajectory::PlanOutcome;
     use cosfly_geometry::{BoxBvh, OrientedBox};
 

@@ -1,7 +1,7 @@
 //! `track`: the walker is the point to be watched.
 
 use super::Mission;
-use crate::config::MucoConfig;
+use crate::config::muco::MucoConfig;
 use cosfly_frames::TargetTrack;
 
 /// Following a walker, with wishes as they are.

@@ -1,7 +1,7 @@
 //! Per-path obstacle filtering: the planning boxes near each stretch of the path (paper, section 3.3).
 
 use super::{Surroundings, ground::GroundGrid, solid::Solid};
-use crate::config::SeveralTargets;
+use crate::config::targets::SeveralTargets;
 use crate::visibility::{BODY_POINTS, body_points};
 use cosfly_frames::{DVec3, TargetTrack, real};
 use cosfly_geometry::OrientedBox;

@@ -266,9 +266,9 @@ impl Solid {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use cosfly_frames::Seed;
+    use cosfly_random::Seed;
 
-    fn random_solid(stream: &mut cosfly_frames::RandomStream) -> Solid {
+    fn random_solid(stream: &mut cosfly_random::RandomStream) -> Solid {
         let mut v = |low: f64, high: f64| stream.uniform(low, high);
         Solid::new(&OrientedBox {
             center_in_world: DVec3::new(v(-5.0, 5.0), v(-5.0, 5.0), v(-5.0, 5.0)),
@@ -277,7 +277,7 @@ mod tests {
         })
     }
 
-    fn random_point(stream: &mut cosfly_frames::RandomStream) -> DVec3 {
+    fn random_point(stream: &mut cosfly_random::RandomStream) -> DVec3 {
         DVec3::new(stream.uniform(-12.0, 12.0), stream.uniform(-12.0, 12.0), stream.uniform(-12.0, 12.0))
     }
 

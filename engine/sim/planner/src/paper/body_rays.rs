@@ -88,8 +88,8 @@ pub fn level() -> Level {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use cosfly_frames::{RandomStream, Seed};
     use cosfly_geometry::OrientedBox;
+    use cosfly_random::{RandomStream, Seed};
 
     #[test]
     fn it_agrees_with_one_segment_at_a_time_at_every_level() {

@@ -1,8 +1,8 @@
 //! Gradient descent with an adaptive rate and clipped displacements (paper, section 3.3, "Optimization").
 
 use super::differences::{Threads, context, gradient};
-use super::pipeline::FocusedSurroundings;
-use crate::config::DescentConfig;
+use super::focus::FocusedSurroundings;
+use crate::config::descent::DescentConfig;
 use crate::gradient::total_cost;
 use crate::obstacles::Surroundings;
 use crate::problem::Problem;
@@ -96,7 +96,7 @@ pub fn iteration(
 
 #[cfg(test)]
 mod tests {
-    use super::super::pipeline::tests::with_street;
+    use super::super::fixtures::with_street;
     use super::*;
 
     #[test]

@@ -37,7 +37,7 @@ pub fn remove_detours(surroundings: &dyn Surroundings, clearance_m: f64, waypoin
 
 #[cfg(test)]
 mod tests {
-    use super::super::pipeline::tests::Nothing;
+    use super::super::fixtures::Nothing;
     use super::*;
 
     #[test]

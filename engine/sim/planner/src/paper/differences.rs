@@ -3,7 +3,7 @@
 use super::window::Window;
 use crate::obstacles::Surroundings;
 use crate::problem::Problem;
-use crate::terms::{CostTerm, TermContext};
+use crate::terms::term::{CostTerm, TermContext};
 use core::ops::Range;
 use cosfly_frames::DVec3;
 use rayon::prelude::*;
@@ -118,7 +118,7 @@ fn add_differences(
 
 #[cfg(test)]
 mod tests {
-    use super::super::pipeline::tests::with_street;
+    use super::super::fixtures::with_street;
     use super::*;
     use crate::gradient::total_cost;
 

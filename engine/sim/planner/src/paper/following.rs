@@ -30,7 +30,7 @@ pub fn follow(problem: &Problem<'_>, ring_m: (f64, f64), longest_m: f64, waypoin
 
 #[cfg(test)]
 mod tests {
-    use super::super::pipeline::tests::with_street;
+    use super::super::fixtures::with_street;
     use super::*;
 
     #[test]

@@ -14,10 +14,13 @@
 //! the result. Where the paper is silent the choice and its effect stand in the book (The paper's ambiguities).
 
 pub mod body_rays;
-pub mod config;
+pub mod counts;
 pub mod descent;
 pub mod detours;
 pub mod differences;
+#[cfg(test)]
+mod fixtures;
+pub mod focus;
 pub mod following;
 pub mod hidden_runs;
 pub mod near_boxes;
@@ -31,8 +34,10 @@ pub mod start;
 pub mod straighten;
 pub mod window;
 
-pub use config::PaperConfig;
+pub use crate::config::paper::PaperConfig;
+pub use counts::PaperCounts;
 pub use descent::{Iteration, iteration};
 pub use differences::Threads;
+pub use focus::FocusedSurroundings;
 pub use near_boxes::NearBoxes;
-pub use pipeline::{FocusedSurroundings, PaperCounts, PaperFlight, plan_paper, plan_paper_in};
+pub use pipeline::{PaperFlight, plan_paper, plan_paper_in};

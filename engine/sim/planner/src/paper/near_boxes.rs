@@ -1,7 +1,7 @@
 //! The boxes that matter near a flight, kept ready per frame: lines of sight eight at a time, distances to few boxes.
 
 use super::body_rays::{BodyLanes, RayBox, blocked, level, seen_share};
-use super::pipeline::FocusedSurroundings;
+use super::focus::FocusedSurroundings;
 use crate::obstacles::solid::Solid;
 use crate::obstacles::{Surroundings, local::LocalObstacles};
 use cosfly_frames::{DVec3, simd::Level};
@@ -147,9 +147,9 @@ impl FocusedSurroundings for NearBoxes<'_> {
 
 #[cfg(test)]
 mod tests {
-    use super::super::pipeline::tests::with_street;
+    use super::super::fixtures::with_street;
     use super::*;
-    use cosfly_frames::Seed;
+    use cosfly_random::Seed;
 
     #[test]
     fn answers_are_those_of_all_boxes_in_and_out_of_focus() {

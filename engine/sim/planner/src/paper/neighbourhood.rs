@@ -4,7 +4,7 @@ use super::window::Window;
 use crate::gradient::total_cost;
 use crate::obstacles::Surroundings;
 use crate::problem::Problem;
-use crate::terms::WeightedTerm;
+use crate::terms::term::WeightedTerm;
 use cosfly_frames::DVec3;
 
 /// Frames on each side: twice the reach of the built-in terms, so that every frame which reads the middle one reads
@@ -41,7 +41,7 @@ impl<'a> Neighbourhood<'a> {
 #[cfg(test)]
 mod tests {
     use super::super::differences::context;
-    use super::super::pipeline::tests::with_street;
+    use super::super::fixtures::with_street;
     use super::*;
 
     #[test]

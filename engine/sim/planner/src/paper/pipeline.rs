@@ -1,66 +1,18 @@
 //! The paper's pipeline from start to final check.
 
-use super::config::PaperConfig;
+use super::counts::PaperCounts;
 use super::descent::descend;
 use super::differences::{Threads, context};
+use super::focus::FocusedSurroundings;
 use super::near_boxes::NearBoxes;
 use super::postprocess::postprocess;
 use super::start::initial_path;
-use crate::config::MucoConfig;
+use crate::config::muco::MucoConfig;
+use crate::config::paper::PaperConfig;
 use crate::gradient::total_cost;
-use crate::obstacles::{Surroundings, local::LocalObstacles};
+use crate::obstacles::local::LocalObstacles;
 use crate::problem::Problem;
 use cosfly_frames::DVec3;
-
-/// Surroundings that may get ready for queries near a set of waypoints; brute force and trees have nothing to do.
-pub trait FocusedSurroundings {
-    /// The surroundings to be asked.
-    fn answers(&self) -> &(dyn Surroundings + Sync);
-
-    /// Says that the next queries will be near these waypoints, one per frame (world frame, metres).
-    fn focus_on(&mut self, waypoints: &[DVec3]) {
-        let _ = waypoints;
-    }
-}
-
-impl FocusedSurroundings for LocalObstacles<'_> {
-    fn answers(&self) -> &(dyn Surroundings + Sync) {
-        self
-    }
-
-    fn focus_on(&mut self, waypoints: &[DVec3]) {
-        LocalObstacles::focus_on(self, waypoints);
-    }
-}
-
-/// Where the pipeline's work went, in counts.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct PaperCounts {
-    /// Searched viewpoints.
-    pub keyframes: usize,
-    /// Candidates whose rays were cast.
-    pub viewpoints_evaluated: u64,
-    /// Waypoints moved by dynamic following.
-    pub followed: usize,
-    /// Hidden runs of the start that were led aside.
-    pub bridged_runs: usize,
-    /// Gradients computed.
-    pub gradients: u32,
-    /// Steps that were taken back.
-    pub steps_taken_back: u32,
-    /// Step 1: hidden runs with a new azimuth.
-    pub straightened_runs: usize,
-    /// Step 2: detours replaced by their chords.
-    pub detours_removed: usize,
-    /// Step 3: waypoints averaged.
-    pub oscillations_averaged: usize,
-    /// Steps 4 and 7: corrections of waypoints.
-    pub projections: usize,
-    /// Step 5: waypoints held back.
-    pub spikes_spread: usize,
-    /// Step 6: waypoints whose altitude could not be smoothed.
-    pub altitudes_kept: usize,
-}
 
 /// What the paper's pipeline made of a track. Neither safe nor flyable until it is measured.
 #[derive(Clone, Debug, PartialEq)]
@@ -109,72 +61,13 @@ pub fn plan_paper_in(
 }
 
 #[cfg(test)]
-pub(super) mod tests {
+mod tests {
+    use super::super::fixtures::{paper_config, with, with_street};
     use super::*;
-    use crate::config::ViewConfig;
-    use crate::obstacles::ground::GroundGrid;
+    use crate::obstacles::Surroundings;
     use crate::scenes::{Scene, SceneKind};
-    use crate::terms::built_in_terms;
-    use crate::walk::Walk;
-    use crate::weights::Preset;
-    use cosfly_frames::{TargetState, TargetTrack};
+    use cosfly_frames::TargetTrack;
     use cosfly_geometry::OrientedBox;
-
-    /// A plain without anything.
-    pub struct Nothing;
-
-    impl Surroundings for Nothing {
-        fn visibility(&self, _: usize, _: DVec3) -> f64 {
-            1.0
-        }
-        fn nearest(&self, _: usize, _: DVec3, _: f64) -> Option<(f64, DVec3)> {
-            None
-        }
-        fn ground_z_m(&self, _: f64, _: f64) -> f64 {
-            0.0
-        }
-    }
-
-    pub fn paper_config() -> MucoConfig {
-        MucoConfig { preset: Preset::Paper, ..MucoConfig::default() }
-    }
-
-    fn with(track: &TargetTrack, boxes: &[OrientedBox], check: impl FnOnce(&Problem<'_>, &mut LocalObstacles<'_>)) {
-        let (walk, view) = (Walk::of(track), ViewConfig::default());
-        let terms = built_in_terms(&paper_config().resolved_weights());
-        let problem = Problem { track, view: &view, walk: &walk, terms: &terms, built_in: terms.len(), first_frame: 0 };
-        let ground = GroundGrid::sample(track, &|_, _| 0.0, 55.0);
-        let mut obstacles = LocalObstacles::filter(track, boxes, &ground, 45.0, view.safety_influence_m);
-        check(&problem, &mut obstacles);
-    }
-
-    /// A walk through a leafy street, and the paper's start above it.
-    pub fn with_street(check: impl FnOnce(&Problem<'_>, &mut LocalObstacles<'_>, &MucoConfig, &mut Vec<DVec3>)) {
-        let scene = Scene::generate(SceneKind::Leafy, 2);
-        let mut track = scene.walker(2, 1);
-        track.states.truncate(90);
-        with(&track, &scene.boxes, |problem, obstacles| {
-            let (config, paper) = (paper_config(), PaperConfig::default());
-            let mut path = initial_path(problem, obstacles, &config, &paper, &mut PaperCounts::default());
-            check(problem, obstacles, &config, &mut path);
-        });
-    }
-
-    /// A walk along a wall (2 m thick in the plane y = 0, 30 m high, 60 m long), watched from the other side of it.
-    pub fn with_wall(check: impl FnOnce(&Problem<'_>, &mut LocalObstacles<'_>, &mut Vec<DVec3>)) {
-        let state = |i: usize| TargetState {
-            feet_in_world: DVec3::new(0.7 * i as f64, -4.0, 0.0),
-            heading_rad: 0.0,
-            speed_mps: 1.4,
-        };
-        let states = (0..60).map(state).collect();
-        let track = TargetTrack { dt_s: 0.5, height_m: 1.75, radius_m: 0.3, states };
-        let wall = OrientedBox::from_corners(DVec3::new(-10.0, -1.0, 0.0), DVec3::new(50.0, 1.0, 30.0));
-        with(&track, &[wall], |problem, obstacles| {
-            let mut path = track.states.iter().map(|s| s.feet_in_world + DVec3::new(0.0, 16.0, 22.0)).collect();
-            check(problem, obstacles, &mut path);
-        });
-    }
 
     #[test]
     fn the_same_bytes_come_from_one_thread_and_four() {

@@ -1,13 +1,14 @@
 //! The seven post-processing steps (paper, appendix A.4), in its order, each as it is described.
 
-use super::config::PaperConfig;
+use super::counts::PaperCounts;
 use super::detours::remove_detours;
+use super::focus::FocusedSurroundings;
 use super::oscillation::remove_oscillation;
-use super::pipeline::{FocusedSurroundings, PaperCounts};
 use super::projection::project;
 use super::repair::{smooth_altitude, spread_spikes};
 use super::straighten::straighten_hidden_runs;
-use crate::config::MucoConfig;
+use crate::config::muco::MucoConfig;
+use crate::config::paper::PaperConfig;
 use crate::problem::Problem;
 use cosfly_frames::DVec3;
 
@@ -42,7 +43,7 @@ pub fn postprocess(
 
 #[cfg(test)]
 mod tests {
-    use super::super::pipeline::tests::with_wall;
+    use super::super::fixtures::with_wall;
     use super::*;
     use crate::obstacles::Surroundings;
 

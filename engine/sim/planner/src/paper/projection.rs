@@ -123,7 +123,7 @@ fn strategies(problem: &Problem<'_>, frame: usize, waypoint: DVec3, away: DVec3)
 
 #[cfg(test)]
 mod tests {
-    use super::super::pipeline::tests::with_wall;
+    use super::super::fixtures::with_wall;
     use super::*;
 
     #[test]

@@ -48,7 +48,7 @@ pub fn smooth_altitude(
 
 #[cfg(test)]
 mod tests {
-    use super::super::pipeline::tests::{Nothing, with_wall};
+    use super::super::fixtures::{Nothing, with_wall};
     use super::*;
 
     #[test]

@@ -1,10 +1,11 @@
 //! The start (paper, algorithm 2): the best viewpoint behind the walker every few frames, and what lies between.
 
-use super::config::PaperConfig;
+use super::counts::PaperCounts;
+use super::focus::FocusedSurroundings;
 use super::following::follow;
 use super::hidden_runs::{hidden_runs, ramp, safe_sight};
-use super::pipeline::{FocusedSurroundings, PaperCounts};
-use crate::config::MucoConfig;
+use crate::config::muco::MucoConfig;
+use crate::config::paper::PaperConfig;
 use crate::obstacles::Surroundings;
 use crate::problem::Problem;
 use crate::terms::{Weights, altitude, pitch, tracking, viewpoint};
@@ -238,7 +239,7 @@ fn best_side_offset_m(
 
 #[cfg(test)]
 mod tests {
-    use super::super::pipeline::tests::{with_street, with_wall};
+    use super::super::fixtures::{with_street, with_wall};
     use super::*;
 
     #[test]
@@ -246,7 +247,7 @@ mod tests {
         with_street(|problem, _, config, _| {
             let search = ViewpointSearch::new(problem, config, &PaperConfig::default());
             let (place, evaluated) =
-                search.best(&super::super::pipeline::tests::Nothing, 30, search.facing(30, DVec2::ZERO), None);
+                search.best(&super::super::fixtures::Nothing, 30, search.facing(30, DVec2::ZERO), None);
             let sight = place - problem.track.states[30].feet_in_world;
             assert!(sight.truncate().normalize().dot(problem.walk.direction[30]) < -0.999, "{sight}");
             assert!((sight.length() - 28.0).abs() < 1.5 && (sight.z - 20.0).abs() < 1e-9, "{sight}");
@@ -285,7 +286,7 @@ mod tests {
     fn of_equal_viewpoints_the_one_nearer_to_that_before_is_taken() {
         with_street(|problem, _, config, _| {
             let search = ViewpointSearch::new(problem, config, &PaperConfig::default());
-            let nothing = super::super::pipeline::tests::Nothing;
+            let nothing = super::super::fixtures::Nothing;
             let facing = search.facing(30, DVec2::ZERO);
             let feet = problem.track.states[30].feet_in_world;
             let (free, _) = search.best(&nothing, 30, facing, None);

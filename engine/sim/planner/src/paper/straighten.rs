@@ -1,7 +1,7 @@
 //! Step 1 of the clean-up: hidden stretches fly straight beside the target, where it is seen best.
 
-use super::config::PaperConfig;
 use super::hidden_runs::{hidden_runs, ramp, safe_sight};
+use crate::config::paper::PaperConfig;
 use crate::obstacles::Surroundings;
 use crate::problem::Problem;
 use core::ops::Range;
@@ -64,7 +64,7 @@ fn best_offset(
 
 #[cfg(test)]
 mod tests {
-    use super::super::pipeline::tests::with_wall;
+    use super::super::fixtures::with_wall;
     use super::*;
 
     #[test]

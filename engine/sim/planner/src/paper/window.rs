@@ -2,7 +2,7 @@
 
 use crate::obstacles::Surroundings;
 use crate::problem::Problem;
-use crate::terms::TermContext;
+use crate::terms::term::TermContext;
 use crate::walk::Walk;
 use core::ops::Range;
 use cosfly_frames::{DVec3, TargetTrack};

@@ -1,6 +1,6 @@
 //! Altitude (paper, appendix A.1): a strong penalty below the band, a light one above it, and oscillation.
 
-use super::{CostTerm, TermContext};
+use super::term::{CostTerm, TermContext};
 use crate::equations::NormalEquations;
 use cosfly_frames::DVec3;
 

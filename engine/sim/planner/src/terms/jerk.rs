@@ -1,6 +1,6 @@
 //! Jerk (paper, section 3.2): squared third differences, in metres per frame^3.
 
-use super::{CostTerm, TermContext};
+use super::term::{CostTerm, TermContext};
 use crate::equations::NormalEquations;
 use cosfly_frames::DVec3;
 

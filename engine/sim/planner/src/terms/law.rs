@@ -1,12 +1,15 @@
 //! The law of every cost term: finite, local, and its gradient is the slope of its cost.
 
-use super::{CostTerm, TermContext, built_in_terms};
-use crate::config::{MucoConfig, ViewConfig};
+use super::built_in_terms;
+use super::term::{CostTerm, TermContext};
+use crate::config::muco::MucoConfig;
+use crate::config::view::ViewConfig;
 use crate::gradient::difference_gradient;
 use crate::obstacles::{ground::GroundGrid, local::LocalObstacles};
 use crate::walk::Walk;
-use cosfly_frames::{DVec3, RandomStream, Seed, TargetState, TargetTrack};
+use cosfly_frames::{DVec3, TargetState, TargetTrack};
 use cosfly_geometry::OrientedBox;
+use cosfly_random::{RandomStream, Seed};
 
 const FRAMES: usize = 24;
 

@@ -1,6 +1,6 @@
 //! Path length (paper, appendix A.1): a tenth of the way from the frame before.
 
-use super::{CostTerm, TermContext};
+use super::term::{CostTerm, TermContext};
 use cosfly_frames::DVec3;
 
 /// `0.1 |w[i] - w[i-1]|`; the first frame has none.

@@ -1,6 +1,6 @@
 //! Pitch (paper, appendix A.1): piecewise quadratic around the target pitch, in degrees.
 
-use super::{CostTerm, TermContext};
+use super::term::{CostTerm, TermContext};
 use crate::equations::NormalEquations;
 use cosfly_frames::{DVec3, real};
 

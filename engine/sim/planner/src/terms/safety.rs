@@ -1,6 +1,6 @@
 //! Safety (paper, appendix A.1): a soft push away from obstacles within the influence radius.
 
-use super::{CostTerm, TermContext};
+use super::term::{CostTerm, TermContext};
 use crate::equations::NormalEquations;
 use cosfly_frames::DVec3;
 

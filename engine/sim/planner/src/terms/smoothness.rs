@@ -1,6 +1,6 @@
 //! Smoothness (paper, appendix A.1): squared second differences, an acceleration penalty in metres per frame^2.
 
-use super::{CostTerm, TermContext};
+use super::term::{CostTerm, TermContext};
 use crate::equations::NormalEquations;
 use cosfly_frames::DVec3;
 

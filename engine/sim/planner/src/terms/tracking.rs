@@ -1,6 +1,6 @@
 //! Tracking distance (paper, appendix A.1): squared departure from the best observation distance.
 
-use super::{CostTerm, TermContext};
+use super::term::{CostTerm, TermContext};
 use crate::equations::NormalEquations;
 use cosfly_frames::DVec3;
 

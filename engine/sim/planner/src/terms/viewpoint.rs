@@ -1,6 +1,6 @@
 //! Viewpoint (paper, section 3.2): prefer to be behind a target that walks steadily.
 
-use super::{CostTerm, TermContext};
+use super::term::{CostTerm, TermContext};
 use cosfly_frames::{DVec2, DVec3};
 
 /// `f(c) d` with c the cosine between "target to drone" (seen from above) and the walking direction, d the

@@ -1,6 +1,6 @@
 //! Visibility (paper, section 3.2): the squared share of body points that the camera cannot see.
 
-use super::{CostTerm, TermContext};
+use super::term::{CostTerm, TermContext};
 use crate::equations::NormalEquations;
 use crate::obstacles::local::GUARDED_POINTS;
 use cosfly_frames::DVec3;

@@ -1,9 +1,8 @@
 //! Long tracks, stretch by stretch: each begins with the last waypoints of the one before and looks ahead over the
 //! beginning of the next, so that memory stays that of one stretch and the whole is as smooth as its parts.
 
-use super::attempts::Found;
-use super::judge::publishable;
-use crate::certificate::certify;
+use crate::certificate::{certify, publishable};
+use crate::found::Found;
 use crate::obstacles::exact::ExactMap;
 use crate::problem::frame_number;
 use crate::request::PlanRequest;

@@ -1,12 +1,13 @@
 //! The textbook tree that the paper's baseline is given: binary, surface-area heuristic, one ray at a time.
 //!
-//! It is here so that "A* with a BVH" keeps meaning the same thing while the engine's own tree gets faster. Asked for
+//! It is kept so that "A* with a BVH" keeps meaning the same thing while the engine's own tree gets faster. Asked for
 //! the sight of a body from drones around it, it is on a par with the trees of parry and obvhs. Nodes are `f32`,
 //! rounded outward; leaves ask the exact `f64` boxes; nearer children come first.
 
-use crate::obstacles::solid::Solid;
 use cosfly_frames::DVec3;
 use cosfly_geometry::OrientedBox;
+use cosfly_planner::baselines::sight::Sight;
+use cosfly_planner::obstacles::solid::Solid;
 use glam::Vec3A;
 
 /// Most boxes in a leaf.
@@ -283,11 +284,25 @@ fn split(solids: &mut [Solid], depth: usize) -> usize {
     best.2
 }
 
+impl Sight for PlainBvh {
+    fn visible_points(&self, camera: DVec3, body: &[DVec3]) -> usize {
+        PlainBvh::visible_points(self, camera, body)
+    }
+
+    fn distance_m(&self, point: DVec3, within_m: f64) -> f64 {
+        self.nearest_m(point, within_m)
+    }
+
+    fn segment_clearance_m(&self, from: DVec3, to: DVec3, within_m: f64) -> f64 {
+        PlainBvh::segment_clearance_m(self, from, to, within_m)
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::scenes::{Scene, SceneKind};
-    use cosfly_frames::Seed;
+    use cosfly_planner::scenes::{Scene, SceneKind};
+    use cosfly_random::Seed;
 
     #[test]
     fn answers_are_those_of_every_box_in_turn() {

@@ -1,0 +1,72 @@
+//! Plans with a baseline.
+
+use super::astar::astar;
+use super::baseline::Baseline;
+use super::beam::{WIDTH, beam};
+use super::flyable::made_flyable;
+use super::grid::{VoxelGrid, VoxelOptions};
+use super::input::{BaselineInput, BaselinePath};
+use super::lattice_path::lattice_path;
+use super::near_track::near_track;
+use super::sight::Sight;
+use crate::track_check::check_track;
+use cosfly_geometry::{BoxBvh, OrientedBox};
+
+/// Plans one waypoint per frame.
+///
+/// # Errors
+/// In words, why there is no path.
+pub fn plan_baseline(kind: Baseline, input: &BaselineInput<'_>) -> Result<BaselinePath, String> {
+    plan_baseline_with(kind, input, VoxelOptions::default())
+}
+
+/// [`plan_baseline`] with other voxels.
+pub fn plan_baseline_with(
+    kind: Baseline,
+    input: &BaselineInput<'_>,
+    options: VoxelOptions,
+) -> Result<BaselinePath, String> {
+    let (keep_m, influence_m) = distances_m(input);
+    match kind {
+        Baseline::AstarFast => plan_astar(input, options, BoxBvh::build),
+        Baseline::AstarSmoothed => Ok(made_flyable(input, plan_astar(input, options, BoxBvh::build)?)),
+        Baseline::Beam => {
+            let grid = checked_grid(input, options)?;
+            beam(&grid, &BoxBvh::build(near_boxes(input)), keep_m, influence_m, WIDTH)
+        }
+        Baseline::Dp => {
+            check(input)?;
+            lattice_path(input)
+        }
+    }
+}
+
+/// A* whose rays and distances are answered by what `tree` makes of the boxes near the track.
+pub fn plan_astar<S: Sight>(
+    input: &BaselineInput<'_>,
+    options: VoxelOptions,
+    tree: impl FnOnce(Vec<OrientedBox>) -> S,
+) -> Result<BaselinePath, String> {
+    let (keep_m, influence_m) = distances_m(input);
+    let grid = checked_grid(input, options)?;
+    astar(&grid, &tree(near_boxes(input)), keep_m, influence_m)
+}
+
+/// The clearance limit and the reach of the safety term.
+fn distances_m(input: &BaselineInput<'_>) -> (f64, f64) {
+    (input.config.limits.clearance_m, input.config.view.safety_influence_m)
+}
+
+fn near_boxes(input: &BaselineInput<'_>) -> Vec<OrientedBox> {
+    near_track(input.problem.track, input.planning_boxes, input.config.search.filter_radius_m)
+}
+
+fn checked_grid<'a>(input: &BaselineInput<'a>, options: VoxelOptions) -> Result<VoxelGrid<'a>, String> {
+    check(input)?;
+    VoxelGrid::new(input.problem, input.ground, input.config, options)
+}
+
+fn check(input: &BaselineInput<'_>) -> Result<(), String> {
+    input.config.validate().map_err(|(_, rule)| rule)?;
+    check_track(input.problem.track, input.config.limits.speed_mps)
+}

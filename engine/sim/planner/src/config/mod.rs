@@ -1,0 +1,22 @@
+//! Parameters of the `muco` stage: one file per table of the recipe, with defaults, ranges and contradictions.
+
+pub mod descent;
+pub mod limits;
+pub mod muco;
+pub mod occlusion;
+pub mod paper;
+pub mod planner;
+pub(crate) mod ranges;
+pub mod search;
+pub mod targets;
+pub mod view;
+
+pub use descent::DescentConfig;
+pub use limits::LimitsConfig;
+pub use muco::MucoConfig;
+pub use occlusion::OcclusionConfig;
+pub use paper::PaperConfig;
+pub use planner::Planner;
+pub use search::{SearchConfig, SearchEffort};
+pub use targets::{SeveralTargets, TargetsConfig};
+pub use view::ViewConfig;

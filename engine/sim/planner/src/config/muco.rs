@@ -1,0 +1,137 @@
+//! All parameters of a flight, and the checks that run over several tables at once.
+
+use super::descent::DescentConfig;
+use super::limits::LimitsConfig;
+use super::occlusion::OcclusionConfig;
+use super::paper::PaperConfig;
+use super::planner::Planner;
+use super::ranges::{Refusal, in_range, ordered};
+use super::search::SearchConfig;
+use super::targets::TargetsConfig;
+use super::view::ViewConfig;
+use crate::terms::{WeightOverrides, Weights};
+use crate::trajectory::Limits;
+use crate::weights::Preset;
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+/// How the drone is to follow its target.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(default, deny_unknown_fields)]
+pub struct MucoConfig {
+    /// Named way of flying: `cosfly` (visibility first, the default), `rear` (behind the walker), `short` (short
+    /// flights) or `paper` (the paper's weights and its own pipeline).
+    pub preset: Preset,
+    /// Who plans: `muco` (the default), or a baseline to compare with. What a baseline finds is judged like any flight;
+    /// all but `astar_smoothed` bound no acceleration, so set `limits.require_kinematics = false` for them.
+    pub planner: Planner,
+    /// Single weights that replace those of the preset.
+    pub weights: WeightOverrides,
+    /// What a flight must never exceed.
+    pub limits: LimitsConfig,
+    /// Where the drone should be relative to its target.
+    pub view: ViewConfig,
+    /// The global search for the start.
+    pub search: SearchConfig,
+    /// Several targets at once.
+    pub targets: TargetsConfig,
+    /// Losing the target on purpose.
+    pub occlusion: OcclusionConfig,
+    /// The descent of `preset = "paper"`; of it the other presets use only `difference_m`, for terms without a gradient.
+    pub descent: DescentConfig,
+    /// What only `preset = "paper"` has.
+    pub paper: PaperConfig,
+}
+
+impl Default for MucoConfig {
+    fn default() -> Self {
+        Self {
+            preset: Preset::Cosfly,
+            planner: Planner::Muco,
+            weights: WeightOverrides::default(),
+            limits: LimitsConfig::default(),
+            view: ViewConfig::default(),
+            search: SearchConfig::default(),
+            targets: TargetsConfig::default(),
+            occlusion: OcclusionConfig::default(),
+            descent: DescentConfig::default(),
+            paper: PaperConfig::default(),
+        }
+    }
+}
+
+impl MucoConfig {
+    /// The weights in force.
+    pub fn resolved_weights(&self) -> Weights {
+        Weights::resolve(self.preset, &self.weights)
+    }
+
+    /// The limits that a certificate states.
+    pub fn stated_limits(&self) -> Limits {
+        Limits {
+            clearance_m: self.limits.clearance_m,
+            speed_mps: self.limits.speed_mps,
+            acceleration_mps2: self.limits.acceleration_mps2,
+            jerk_mps3: self.limits.jerk_mps3,
+        }
+    }
+
+    /// Refuses values out of range and contradictory bands.
+    ///
+    /// # Errors
+    /// The path of the parameter, and the rule that it breaks.
+    pub fn validate(&self) -> Result<(), Refusal> {
+        self.check_ranges()?;
+        self.view.check_order()?;
+        let filter_radius = ("search.filter_radius_m", self.search.filter_radius_m);
+        ordered(("view.max_radius_m", self.view.max_radius_m), filter_radius)?;
+        self.occlusion.check_order()?;
+        self.paper.validate().map_err(|(name, rule)| (format!("paper.{name}"), rule))?;
+        self.descent.check_order()
+    }
+
+    fn check_ranges(&self) -> Result<(), Refusal> {
+        let flight = self.limits.ranges().into_iter().chain(self.view.ranges()).chain(self.search.ranges());
+        let targets = self.targets.ranges().into_iter().chain(self.occlusion.ranges());
+        for (path, value, low, high) in flight.chain(targets).chain(self.descent.ranges()) {
+            in_range(path, value, low, high)?;
+        }
+        for (name, weight) in self.resolved_weights().named() {
+            in_range(&format!("weights.{name}"), weight, 0.0, 1e6)?;
+        }
+        Ok(())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn check_refused(change: impl Fn(&mut MucoConfig), path: &str) {
+        let mut config = MucoConfig::default();
+        change(&mut config);
+        let (found, message) = config.validate().expect_err(path);
+        assert_eq!(found, path, "{message}");
+        assert!(message.contains(path), "{message}");
+    }
+
+    #[test]
+    fn defaults_are_valid_and_contradictions_name_their_parameter() {
+        assert_eq!(MucoConfig::default().validate(), Ok(()));
+        check_refused(|c| c.view.min_altitude_m = 50.0, "view.min_altitude_m");
+        check_refused(|c| c.view.max_altitude_m = f64::NAN, "view.max_altitude_m");
+        check_refused(|c| c.view.min_radius_m = 39.0, "view.min_radius_m");
+        check_refused(|c| c.view.max_radius_m = 60.0, "view.max_radius_m");
+        check_refused(|c| c.weights.jerk = Some(-1.0), "weights.jerk");
+        check_refused(|c| c.descent.min_rate = 1.0, "descent.min_rate");
+        check_refused(|c| c.search.radii = 13, "search.radii");
+    }
+
+    #[test]
+    fn overrides_replace_single_weights_of_the_preset() {
+        let weights = WeightOverrides { visibility: Some(5.0), ..WeightOverrides::default() };
+        let config = MucoConfig { preset: Preset::Paper, weights, ..MucoConfig::default() };
+        let resolved = config.resolved_weights();
+        assert_eq!((resolved.visibility, resolved.tracking), (5.0, 1.0));
+    }
+}

@@ -1,0 +1,209 @@
+//! Twins: their shares of events, their bounds, their clearance, and what they depend on.
+
+use super::config::PerturbConfig;
+use super::twin::{measured, perturb};
+use crate::trajectory::{Certificate, FramePerturbation, Limits, Perturbation, PlanOutcome, Trajectory};
+use crate::visibility::aim_point;
+use cosfly_frames::{DVec3, Pose, TargetState, TargetTrack, real};
+use cosfly_geometry::{BoxBvh, OrientedBox, SpatialQuery};
+use cosfly_random::Seed;
+
+/// An expert 20 m behind and 20 m above a target that walks along x at 1 m/s.
+fn expert(count: usize) -> Trajectory {
+    let states: Vec<TargetState> = (0..count)
+        .map(|i| TargetState { feet_in_world: DVec3::new(0.5 * i as f64, 0.0, 0.0), heading_rad: 0.0, speed_mps: 1.0 })
+        .collect();
+    let track = TargetTrack { dt_s: 0.5, height_m: 1.7, radius_m: 0.25, states };
+    let poses_in_world: Vec<Pose> = track
+        .states
+        .iter()
+        .map(|s| Pose::looking_at(s.feet_in_world + DVec3::new(-20.0, 0.0, 20.0), aim_point(s, 1.7)))
+        .collect();
+    let no_twin = Perturbation {
+        expert_item: String::new(),
+        position_probability: 0.0,
+        rotation_probability: 0.0,
+        frames: vec![],
+    };
+    let mut blank = Trajectory {
+        track,
+        poses_in_world: vec![],
+        visibility: vec![],
+        clearance_m: vec![],
+        terms: vec![],
+        convergence: vec![],
+        certificate: Certificate {
+            limits: Limits { clearance_m: 1.5, speed_mps: 12.0, acceleration_mps2: 6.0, jerk_mps3: 12.0 },
+            holds: true,
+            violations: vec![],
+            mean_visibility: 0.0,
+            frames_half_visible: 0.0,
+            min_clearance_m: 0.0,
+            max_speed_mps: 0.0,
+            max_acceleration_mps2: 0.0,
+            max_jerk_mps3: 0.0,
+            mean_distance_m: 0.0,
+            mean_rear_angle_deg: 0.0,
+            length_m: 0.0,
+            length_ratio: 0.0,
+            iterations: 7,
+            filtered_boxes: 3,
+            ..Certificate::default()
+        },
+        perturbation: None,
+    };
+    blank = measured(&blank, poses_in_world, no_twin, &BoxBvh::build(vec![]), &PerturbConfig::default());
+    blank.perturbation = None;
+    blank
+}
+
+fn seed() -> Seed {
+    Seed::of_item(9, "perturbed", "p3")
+}
+
+fn twin_of(expert: &Trajectory, exact: &BoxBvh, config: &PerturbConfig, seed: Seed) -> Trajectory {
+    match perturb(expert, "p3", exact, config, seed) {
+        PlanOutcome::Planned(twin) => *twin,
+        PlanOutcome::Rejected { reason, .. } => panic!("{reason}"),
+    }
+}
+
+fn frames(twin: &Trajectory) -> &[FramePerturbation] {
+    &twin.perturbation.as_ref().unwrap().frames
+}
+
+/// A tunnel around the flight, 3.8 m wide and 3.2 m high: no room for 2 m but along it.
+fn tunnel() -> BoxBvh {
+    let slab = |y: f64, z: f64, half_y: f64, half_z: f64| OrientedBox {
+        center_in_world: DVec3::new(200.0, y, z),
+        half_extents_m: DVec3::new(400.0, half_y, half_z),
+        yaw_rad: 0.0,
+    };
+    BoxBvh::build(vec![
+        slab(2.9, 20.0, 1.0, 10.0),
+        slab(-2.9, 20.0, 1.0, 10.0),
+        slab(0.0, 22.1, 3.0, 0.5),
+        slab(0.0, 17.9, 3.0, 0.5),
+    ])
+}
+
+#[test]
+fn the_four_states_have_the_papers_shares() {
+    let twin = twin_of(&expert(8000), &BoxBvh::build(vec![]), &PerturbConfig::default(), seed());
+    for (position, rotation, share) in
+        [(false, false, 0.16), (true, false, 0.24), (false, true, 0.24), (true, true, 0.36)]
+    {
+        let found = frames(&twin).iter().filter(|f| (f.position, f.rotation) == (position, rotation)).count();
+        let sigma = (8000.0_f64 * share * (1.0 - share)).sqrt();
+        assert!((found as f64 - 8000.0 * share).abs() < 3.0 * sigma, "{position} {rotation}: {found}");
+    }
+}
+
+#[test]
+fn offsets_keep_their_bounds_and_frames_their_expert() {
+    let (expert, config) = (expert(500), PerturbConfig::default());
+    let twin = twin_of(&expert, &BoxBvh::build(vec![]), &config, seed());
+    assert_eq!(twin.poses_in_world.len(), 500);
+    for (i, frame) in frames(&twin).iter().enumerate() {
+        let (pose, original) = (twin.poses_in_world[i], expert.poses_in_world[i]);
+        assert_eq!(frame.expert_frame as usize, i);
+        let moved = pose.position_in_world - original.position_in_world;
+        assert!((moved - frame.drone_offset_in_world).length() < 1e-9);
+        let (drone_m, aim_m) = (frame.drone_offset_in_world.length(), frame.aim_offset_in_world.length());
+        if frame.position {
+            assert!((2.0..=3.0 + 1e-9).contains(&drone_m) && (2.0 - 1e-9..=3.0 + 1e-9).contains(&aim_m));
+            // Before the turn the camera looked at the displaced middle of the body.
+            let aim = aim_point(&expert.track.states[i], 1.7) + frame.aim_offset_in_world;
+            let mut unturned = pose;
+            unturned.pitch_rad -= frame.pitch_offset_rad;
+            unturned.yaw_rad -= frame.yaw_offset_rad;
+            let seen = unturned.body_from_world_point(aim);
+            assert!(seen.y.abs() < 1e-6 && seen.z.abs() < 1e-6, "{seen}");
+        } else {
+            assert_eq!((drone_m, aim_m), (0.0, 0.0));
+        }
+        let turned = real::hypot(frame.pitch_offset_rad, frame.yaw_offset_rad).to_degrees();
+        assert!(turned <= 5.0 + 1e-9 && (frame.rotation || turned == 0.0));
+        if !frame.position && !frame.rotation {
+            assert_eq!(pose, original);
+        }
+    }
+    assert!(twin.certificate.holds && twin.certificate.mean_visibility == 1.0);
+    assert_eq!(twin.perturbation.as_ref().unwrap().expert_item, "p3");
+}
+
+#[test]
+fn views_never_turn_past_the_vertical_and_record_what_was_turned() {
+    let expert = expert(400);
+    let config = PerturbConfig { position_probability: 0.0, max_rotation_deg: 90.0, ..PerturbConfig::default() };
+    let twin = twin_of(&expert, &BoxBvh::build(vec![]), &config, seed());
+    let steepest = 89.9 + 1e-9;
+    let mut stopped = 0;
+    for (i, frame) in frames(&twin).iter().enumerate() {
+        let (pose, original) = (twin.poses_in_world[i], expert.poses_in_world[i]);
+        assert!(pose.pitch_rad.to_degrees().abs() <= steepest, "{}", pose.pitch_rad.to_degrees());
+        assert!((original.pitch_rad + frame.pitch_offset_rad - pose.pitch_rad).abs() < 1e-12);
+        stopped += usize::from(pose.pitch_rad.to_degrees() < -89.8);
+    }
+    assert!(stopped > 10, "{stopped}");
+}
+
+#[test]
+fn a_twin_in_a_tunnel_keeps_its_clearance_along_the_whole_way() {
+    let (expert, exact) = (expert(700), tunnel());
+    let config = PerturbConfig::default();
+    let twin = twin_of(&expert, &exact, &config, seed());
+    let positions: Vec<DVec3> = twin.poses_in_world.iter().map(|pose| pose.position_in_world).collect();
+    for pair in positions.windows(2) {
+        assert!(exact.segment_clearance(pair[0], pair[1], 5.0) >= 1.0 - 1e-9);
+    }
+    assert!(twin.certificate.holds, "{:?}", twin.certificate.violations);
+    let shortened = frames(&twin).iter().filter(|f| f.position && f.drone_offset_in_world.length() < 2.0).count();
+    let full = frames(&twin).iter().filter(|f| f.drone_offset_in_world.length() >= 2.0).count();
+    assert!(shortened > 5 && full > 100, "{shortened} shortened, {full} full");
+    assert!(twin.clearance_m.iter().all(|clearance| *clearance >= 1.0 - 1e-9));
+}
+
+#[test]
+fn an_expert_closer_than_the_clearance_is_reported_and_not_left() {
+    let exact =
+        BoxBvh::build(vec![OrientedBox::from_corners(DVec3::new(-30.0, 0.5, 0.0), DVec3::new(90.0, 40.0, 60.0))]);
+    let (expert, config) = (expert(100), PerturbConfig::default());
+    let twin = twin_of(&expert, &exact, &config, seed());
+    assert!(!twin.certificate.holds);
+    assert!(twin.certificate.violations[0].starts_with("clearance falls to 0.50 m; the limit is 1 m"));
+    assert!(twin.clearance_m.iter().all(|clearance| *clearance >= 0.5 - 1e-9));
+}
+
+#[test]
+fn a_low_flight_is_not_pushed_into_the_ground() {
+    let mut expert = expert(300);
+    for pose in &mut expert.poses_in_world {
+        pose.position_in_world.z = 3.5;
+    }
+    let twin = twin_of(&expert, &BoxBvh::build(vec![]), &PerturbConfig::default(), seed());
+    assert!(twin.poses_in_world.iter().all(|pose| pose.position_in_world.z >= 3.0));
+}
+
+#[test]
+fn a_twin_depends_on_its_seed_alone() {
+    let (expert, exact, config) = (expert(200), tunnel(), PerturbConfig::default());
+    let twin = |seed| twin_of(&expert, &exact, &config, seed);
+    assert_eq!(twin(seed()), twin(seed()));
+    assert_ne!(twin(seed()), twin(Seed::of_item(9, "perturbed", "p4")));
+}
+
+#[test]
+fn uneven_and_touching_experts_are_rejected_and_empty_ones_have_empty_twins() {
+    let config = PerturbConfig::default();
+    let reason = |expert: &Trajectory| match perturb(expert, "p3", &tunnel(), &config, seed()) {
+        PlanOutcome::Rejected { reason, .. } => reason,
+        PlanOutcome::Planned(_) => String::new(),
+    };
+    let (mut uneven, mut touching) = (expert(10), expert(10));
+    uneven.poses_in_world.truncate(4);
+    assert_eq!(reason(&uneven), "the expert has 4 poses for 10 frames");
+    touching.poses_in_world[5].position_in_world.y = 2.5;
+    assert!(reason(&touching).starts_with("the twin comes to"), "{}", reason(&touching));
+    assert!(twin_of(&expert(0), &tunnel(), &config, seed()).poses_in_world.is_empty());
+}

@@ -1,0 +1,17 @@
+//! From a request to a certified flight, whoever plans it: the optimiser, the paper's pipeline or a baseline.
+//!
+//! ```text
+//! check the request                                                (plan)
+//! put frames before a given start                                  (start)
+//! hand the problem to the planner that the recipe names            (planners)
+//!   long tracks in stretches                                       (stretches)
+//! publish what holds, with poses and the costs of all terms        (publish)
+//! ```
+
+mod plan;
+mod planners;
+mod publish;
+mod start;
+mod stretches;
+
+pub use plan::{plan, plan_request, plan_with_terms};

@@ -1,0 +1,133 @@
+//! The neutral dispatcher: hands a problem to the planner that the recipe names, and judges what it returns.
+
+use super::stretches::{STRETCH_FRAMES, plan_stretches};
+use crate::baselines::{baseline::Baseline, input::BaselineInput, plan::plan_baseline};
+use crate::config::muco::MucoConfig;
+use crate::config::planner::Planner;
+use crate::found::Found;
+use crate::muco::attempts::{THOROUGH, escalate};
+use crate::muco::judge::Judge;
+use crate::obstacles::{exact::ExactMap, ground::GroundGrid, local::LocalObstacles};
+use crate::paper::pipeline::plan_paper;
+use crate::problem::Problem;
+use crate::request::PlanRequest;
+use crate::terms::term::WeightedTerm;
+use crate::walk::Walk;
+use crate::weights::Preset;
+use cosfly_frames::DVec3;
+
+/// The planner of a recipe.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Solver {
+    /// The optimiser.
+    Muco,
+    /// The paper's own pipeline.
+    Paper,
+    /// A planner to compare with.
+    Baseline(Baseline),
+}
+
+impl Solver {
+    fn of(config: &MucoConfig) -> Self {
+        match config.planner {
+            Planner::Muco if config.preset == Preset::Paper => Self::Paper,
+            Planner::Muco => Self::Muco,
+            Planner::Astar => Self::Baseline(Baseline::AstarFast),
+            Planner::AstarSmoothed => Self::Baseline(Baseline::AstarSmoothed),
+            Planner::Beam => Self::Baseline(Baseline::Beam),
+            Planner::Dp => Self::Baseline(Baseline::Dp),
+        }
+    }
+}
+
+/// A valid flight that begins with the waypoints `head` (world frame, metres; often none), or the reason why there is
+/// none. `built_in` of the `terms` are the paper's.
+pub(super) fn solve(
+    request: &PlanRequest<'_>,
+    terms: &[WeightedTerm],
+    built_in: usize,
+    head: &[DVec3],
+) -> Result<Found, String> {
+    let solver = Solver::of(request.config);
+    let one = |request: &PlanRequest<'_>, head: &[DVec3]| solve_at_once(solver, request, terms, built_in, head);
+    // The paper's pipeline needs little memory and no stretches; baselines refuse what is too much for them.
+    if request.track.len() <= STRETCH_FRAMES || solver != Solver::Muco {
+        one(request, head)
+    } else {
+        plan_stretches(request, head, &one)
+    }
+}
+
+fn solve_at_once(
+    solver: Solver,
+    request: &PlanRequest<'_>,
+    terms: &[WeightedTerm],
+    built_in: usize,
+    head: &[DVec3],
+) -> Result<Found, String> {
+    let (track, config) = (request.track, request.config);
+    let walk = Walk::of(track);
+    let problem = Problem { track, view: &config.view, walk: &walk, terms, built_in, first_frame: request.first_frame };
+    let (radius_m, influence_m) = (config.search.filter_radius_m, config.view.safety_influence_m);
+    let ground = GroundGrid::sample(track, request.ground, radius_m + 10.0);
+    let mut obstacles = LocalObstacles::filter(track, request.planning_boxes, &ground, radius_m, influence_m)
+        .with_companions(request.companions, config.targets.visibility)
+        .with_movers(request.movers);
+    terms.iter().for_each(|weighted| weighted.term.begin(&problem.context(&obstacles)));
+    let exact = ExactMap { query: request.exact, movers: request.movers };
+    let mut judge = Judge::new(&problem, exact, request.ground, config, head);
+    match solver {
+        Solver::Baseline(kind) => by_a_baseline(kind, request, &problem, &ground, &judge),
+        Solver::Paper if head.is_empty() => by_the_paper(&problem, &mut obstacles, config, &mut judge),
+        // The paper knows no given starts: the optimiser takes those, with the paper's weights.
+        Solver::Paper | Solver::Muco => escalate(&problem, &mut obstacles, config, &mut judge),
+    }
+}
+
+/// A baseline's path, judged like any flight.
+fn by_a_baseline(
+    kind: Baseline,
+    request: &PlanRequest<'_>,
+    problem: &Problem<'_>,
+    ground: &GroundGrid,
+    judge: &Judge<'_>,
+) -> Result<Found, String> {
+    if !(judge.head.is_empty() && request.companions.is_empty() && request.movers.is_empty()) {
+        return Err("baselines know no start states, companions or moving boxes; `planner` must be `muco`".into());
+    }
+    let PlanRequest { planning_boxes, exact, config, .. } = *request;
+    let input = BaselineInput { problem, planning_boxes, exact, ground, config };
+    let waypoints = plan_baseline(kind, &input)?.waypoints;
+    let mut measured = judge.measure(&waypoints);
+    if !judge.publishable(&measured) {
+        return Err(measured.certificate.violations.join("; "));
+    }
+    measured.certificate.attempts = 1;
+    Ok(Found { waypoints, measured, convergence: Vec::new() })
+}
+
+/// The paper's own pipeline, made flyable if the recipe leaves that on.
+fn by_the_paper(
+    problem: &Problem<'_>,
+    obstacles: &mut LocalObstacles<'_>,
+    config: &MucoConfig,
+    judge: &mut Judge<'_>,
+) -> Result<Found, String> {
+    let flight = plan_paper(problem, obstacles, config);
+    let (mut waypoints, mut measured) = (flight.waypoints.clone(), judge.measure(&flight.waypoints));
+    judge.iterations = flight.iterations;
+    if config.paper.make_flyable && !measured.certificate.holds {
+        obstacles.focus_on(&waypoints);
+        (waypoints, measured) = judge.make_flyable(obstacles, &flight.waypoints, &flight.waypoints, THOROUGH);
+    }
+    if !judge.publishable(&measured) {
+        return Err(measured.certificate.violations.join("; "));
+    }
+    measured.certificate.attempts = 1;
+    measured.certificate.iterations = judge.iterations;
+    measured.certificate.filtered_boxes = obstacles.count() as u32;
+    obstacles.focus_on(&waypoints);
+    let mut convergence = flight.convergence;
+    convergence.push(problem.cost(obstacles, &waypoints));
+    Ok(Found { waypoints, measured, convergence })
+}
