@@ -1,31 +1,12 @@
 //! Captions: facts in, texts in two languages out.
 
-use crate::{CaptionConfig, Facts, Style, chinese, english};
-use cosfly_frames::{RandomStream, Seed};
+use crate::config::{CaptionConfig, Style};
+use crate::facts::Facts;
+use crate::language::Language;
+use crate::wording::TEMPLATES;
+use crate::{chinese, english};
+use cosfly_random::{RandomStream, Seed};
 use serde::{Deserialize, Serialize};
-
-/// Language of a text.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
-#[serde(rename_all = "snake_case")]
-pub enum Language {
-    /// Chinese, simplified characters.
-    Zh,
-    /// English.
-    En,
-}
-
-impl Language {
-    /// All languages.
-    pub const ALL: [Self; 2] = [Self::Zh, Self::En];
-
-    /// The ISO 639-1 code.
-    pub fn code(self) -> &'static str {
-        match self {
-            Self::Zh => "zh",
-            Self::En => "en",
-        }
-    }
-}
 
 /// One text about one trajectory.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
@@ -60,9 +41,6 @@ pub fn captions(facts: &Facts, config: &CaptionConfig, seed: Seed) -> Vec<Captio
     captions
 }
 
-/// Templates per style and language.
-pub(crate) const TEMPLATES: usize = 6;
-
 /// The first `count` of the template numbers in random order (Fisher-Yates).
 fn template_order(stream: &mut RandomStream, count: usize) -> Vec<usize> {
     let mut order: Vec<usize> = (0..TEMPLATES).collect();
@@ -71,17 +49,6 @@ fn template_order(stream: &mut RandomStream, count: usize) -> Vec<usize> {
     }
     order.truncate(count);
     order
-}
-
-/// One of several wordings.
-pub(crate) fn one_of<'a>(words: &mut RandomStream, choices: &[&'a str]) -> &'a str {
-    choices[words.index(choices.len())]
-}
-
-/// `value` rounded to a multiple of `step`, without needless decimals.
-pub(crate) fn rounded(value: f64, step: f64) -> String {
-    let steps = (value / step).round();
-    if step < 1.0 { format!("{:.1}", steps * step) } else { format!("{:.0}", steps * step + 0.0) }
 }
 
 #[cfg(test)]
@@ -148,15 +115,6 @@ pub(crate) mod tests {
             distinct.dedup();
             assert_eq!(distinct.len(), texts.len());
             assert_eq!(texts, captions(&known, &config, seed));
-        }
-    }
-
-    #[test]
-    fn numbers_are_rounded_for_people() {
-        for (value, step, expected) in
-            [(28.284, 1.0, "28"), (1.3401, 0.1, "1.3"), (99.5, 5.0, "100"), (133.0, 10.0, "130"), (-0.2, 1.0, "0")]
-        {
-            assert_eq!(rounded(value, step), expected);
         }
     }
 }

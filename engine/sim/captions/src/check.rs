@@ -1,8 +1,10 @@
 //! The slot check: what a text claims against what the trajectory does.
 
+use crate::facts::Facts;
+use crate::language::Language;
 use crate::precision::{DISTANCE_STEP_M, PITCH_STEP_DEG, SPEED_STEP_MPS, STOP_STEP_S, duration_step_s, way_step_m};
 use crate::reading::{Claim, chinese, english};
-use crate::{Facts, Language, TurnKind};
+use crate::turns::TurnKind;
 use std::fmt;
 
 /// What a text can be wrong about.
@@ -193,7 +195,7 @@ mod tests {
     use super::*;
     use crate::caption::tests::flights;
     use crate::{CaptionConfig, Compass, captions};
-    use cosfly_frames::Seed;
+    use cosfly_random::Seed;
 
     /// Places of the numbers in a text.
     fn numbers(text: &str) -> Vec<std::ops::Range<usize>> {

@@ -1,9 +1,10 @@
 //! Chinese wordings of the facts.
 
-use crate::caption::{one_of, rounded};
+use crate::facts::Facts;
 use crate::precision::{DISTANCE_STEP_M, PITCH_STEP_DEG, SPEED_STEP_MPS, STOP_STEP_S, duration_step_s, way_step_m};
-use crate::{Facts, TurnKind};
-use cosfly_frames::RandomStream;
+use crate::turns::TurnKind;
+use crate::wording::{one_of, rounded};
+use cosfly_random::RandomStream;
 
 /// More turns than this are counted instead of listed.
 const LISTED_TURNS: usize = 4;

@@ -1,6 +1,6 @@
 //! What can be said about a trajectory: directions, turns, stops, distances, angles.
 
-use crate::Compass;
+use crate::compass::Compass;
 use crate::turns::{Turn, TurnKind, directions, turns};
 use cosfly_frames::DVec2;
 use cosfly_planner::Trajectory;

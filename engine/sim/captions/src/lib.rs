@@ -10,13 +10,16 @@ pub mod compass;
 pub mod config;
 mod english;
 pub mod facts;
+pub mod language;
 pub mod precision;
 mod reading;
 mod turns;
+mod wording;
 
-pub use caption::{Caption, Language, captions};
+pub use caption::{Caption, captions};
 pub use check::{Slot, SlotMismatch, check};
 pub use compass::Compass;
 pub use config::{CaptionConfig, Style};
 pub use facts::{Facts, Stop, facts};
+pub use language::Language;
 pub use turns::{Turn, TurnKind};

@@ -1,7 +1,8 @@
 //! Reads Chinese texts: characters and numbers, clause by clause.
 
 use super::{Claim, count};
-use crate::{Compass, TurnKind};
+use crate::compass::Compass;
+use crate::turns::TurnKind;
 
 const ALTITUDE_WORDS: [&str; 3] = ["高", "上方", "头顶"];
 const WAY_WORDS: [&str; 4] = ["全程", "路程", "行程", "走了"];

@@ -1,7 +1,8 @@
 //! Reads English texts: words and numbers, clause by clause.
 
 use super::{Claim, count};
-use crate::{Compass, TurnKind};
+use crate::compass::Compass;
+use crate::turns::TurnKind;
 
 const ALTITUDE_WORDS: [&str; 6] = ["above", "high", "higher", "height", "altitude", "overhead"];
 const WAY_WORDS: [&str; 7] = ["covers", "cover", "route", "path", "long", "length", "walked"];

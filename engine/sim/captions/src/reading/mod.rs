@@ -3,7 +3,8 @@
 pub mod chinese;
 pub mod english;
 
-use crate::{Compass, TurnKind};
+use crate::compass::Compass;
+use crate::turns::TurnKind;
 
 /// One thing that a text says.
 #[derive(Clone, Debug, PartialEq)]
