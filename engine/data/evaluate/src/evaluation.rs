@@ -2,11 +2,11 @@
 
 use crate::join::Joined;
 use crate::methods::{Method, baselines};
-use crate::report::{DatasetFacts, Evaluation, MethodReport, RowFacts, Score, Scores, StratumReport, WindowFacts};
+use crate::report::result::{DatasetFacts, Evaluation, MethodReport, RowFacts, StratumReport, WindowFacts};
+use crate::report::score::{Score, Scores};
 use crate::scoring::{MethodTallies, clusters, score, total};
 use crate::settings::{InputRole, Settings};
 use crate::strata::{STRATA, memberships};
-use crate::study::study;
 use crate::windows::{Flights, WindowSet};
 use cosfly_diagnose::{Diagnostic, Fault, Result};
 use cosfly_metrics::{METRICS, Tally, bootstrap};
@@ -46,19 +46,6 @@ pub fn evaluate(
     let mut methods: Vec<Method<'_>> = vec![];
     methods.extend(file.is_some().then_some(Method::Predictions(&given, &joined)));
     methods.extend(baselines(flights, settings, scored, splits.contains("train"), &mut notes));
-    let mut studied = None;
-    if settings.train {
-        match study(flights, &windows, &memberships, settings, &wanted) {
-            Some((study, network)) => {
-                studied = Some(study);
-                methods.push(Method::Network(Box::new(network)));
-            }
-            None => notes.push(
-                "no network was trained: split train has no pairs of flights, or one group of flights alone is scored"
-                    .to_owned(),
-            ),
-        }
-    }
     let reports = methods
         .par_iter()
         .map(|method| {
@@ -69,7 +56,7 @@ pub fn evaluate(
     let groups: BTreeSet<usize> = clusters(flights, &windows).into_iter().collect();
     Ok(Evaluation {
         format: "cosfly-evaluation",
-        version: 1,
+        version: 2,
         settings: settings.clone(),
         dataset: DatasetFacts {
             name: flights.name.clone(),
@@ -85,7 +72,6 @@ pub fn evaluate(
         rows: file.map(|file| row_facts(file, read, joined)),
         metrics: METRICS.to_vec(),
         methods: reports,
-        study: studied,
         notes,
     })
 }
@@ -112,7 +98,7 @@ fn splits(flights: &Flights, predictions: Option<&Predictions>, settings: &Setti
     Ok(if chosen.is_empty() { there } else { chosen })
 }
 
-/// What to say when one of `wanted` is no split of the dataset.
+/// The refusal of a name in `wanted` that is not a split of the dataset.
 pub(crate) fn unknown_split(flights: &Flights, wanted: &[String]) -> Option<Box<Diagnostic>> {
     let there: BTreeSet<&str> = flights.rows.iter().map(|row| row.split.as_str()).collect();
     let unknown = wanted.iter().find(|split| !there.contains(split.as_str()))?;

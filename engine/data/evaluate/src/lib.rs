@@ -1,11 +1,10 @@
 //! Scores of predictions on a published dataset, beside baselines, by strata, with intervals.
 //!
-//! * [`settings`]: what can be chosen.
+//! * [`settings`]: choices of an evaluation.
 //! * [`windows`]: the windows of a dataset that are to be predicted.
-//! * [`join`]: which prediction belongs to which window, and rows that belong to none.
+//! * [`join`]: the prediction of each window, and rows that belong to none.
 //! * [`methods`]: predictions and baselines, asked alike for the waypoints of a window.
 //! * [`strata`] and [`scoring`]: errors, added up by trajectory and stratum.
-//! * [`study`]: small networks trained to test two findings of the paper.
 //! * [`pictures`]: the same for predicted pictures: depth, labels, boxes, masks.
 //! * [`report`]: the result as JSON, Markdown and a picture.
 
@@ -16,7 +15,6 @@ pub mod report;
 pub mod scoring;
 pub mod settings;
 pub mod strata;
-pub mod study;
 pub mod windows;
 
 mod evaluation;

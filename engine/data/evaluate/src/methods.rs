@@ -1,11 +1,11 @@
 //! Predictions and baselines, asked alike for the waypoints of a window.
 
 use crate::join::Joined;
-use crate::settings::{InputRole, Settings};
+use crate::settings::Settings;
 use crate::windows::{Flights, Window, WindowSet};
 use cosfly_frames::Pose;
 use cosfly_metrics::baselines::features::Examples;
-use cosfly_metrics::baselines::{Anchor, Extrapolation, NearestNeighbour, Network, Ridge};
+use cosfly_metrics::baselines::{Anchor, Extrapolation, NearestNeighbour, Ridge};
 use cosfly_metrics::waypoints;
 use cosfly_read::predictions::Predictions;
 
@@ -17,7 +17,7 @@ const COMPARED_NUMBERS: usize = 8_000_000_000;
 
 /// Something that predicts.
 pub enum Method<'a> {
-    /// What was handed in.
+    /// Rows of a file of predictions.
     Predictions(&'a Predictions, &'a Joined),
     /// A polynomial or the target's motion.
     Extrapolation(Extrapolation),
@@ -25,8 +25,6 @@ pub enum Method<'a> {
     Ridge(Ridge),
     /// The most similar training window.
     Nearest(NearestNeighbour),
-    /// A small network.
-    Network(Box<Network>),
 }
 
 impl Method<'_> {
@@ -40,7 +38,6 @@ impl Method<'_> {
             Self::Extrapolation(Extrapolation::CopyTarget) => "copy target",
             Self::Ridge(_) => "ridge",
             Self::Nearest(_) => "nearest neighbour",
-            Self::Network(_) => "small network",
         }
     }
 
@@ -70,7 +67,6 @@ impl Method<'_> {
             Self::Extrapolation(method) => method.predict(&view),
             Self::Ridge(ridge) => ridge.predict(&view)?,
             Self::Nearest(memory) => memory.predict(&view)?,
-            Self::Network(network) => network.predict(&view)?,
             Self::Predictions(..) => return None,
         };
         Some(match settings.anchor {
@@ -101,15 +97,14 @@ impl Method<'_> {
     }
 }
 
-/// Windows of split `train` with their truth, as many as are learnt from.
-pub fn training_windows(flights: &Flights, settings: &Settings, input: InputRole) -> Vec<Window> {
-    let settings = Settings { input, ..settings.clone() };
-    let set = WindowSet::new(flights, &settings, &["train".to_owned()].into());
+/// Windows of split `train` that baselines learn from.
+fn training_windows(flights: &Flights, settings: &Settings) -> Vec<Window> {
+    let set = WindowSet::new(flights, settings, &["train".to_owned()].into());
     let every = set.len.div_ceil(LEARNT_WINDOWS).max(1);
     set.all(flights).step_by(every).collect()
 }
 
-/// All baselines that can be made; what there is to say about those that cannot goes to `notes`.
+/// All baselines that can be made; the reasons why others cannot go to `notes`.
 pub fn baselines(
     flights: &Flights,
     settings: &Settings,
@@ -119,7 +114,7 @@ pub fn baselines(
 ) -> Vec<Method<'static>> {
     let mut methods: Vec<Method<'static>> = Extrapolation::ALL.map(Method::Extrapolation).into();
     let mut examples = Examples::default();
-    for window in training_windows(flights, settings, settings.input) {
+    for window in training_windows(flights, settings) {
         let shape = &settings.window;
         let start = flights.anchor(window, shape, settings.anchor);
         examples.push(&flights.view(window, shape), &start, &flights.truth(window, shape));

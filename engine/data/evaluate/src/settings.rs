@@ -1,24 +1,23 @@
-//! What can be chosen about an evaluation.
+//! Choices of an evaluation.
 
 use cosfly_metrics::baselines::Anchor;
-use cosfly_metrics::baselines::network::Training;
 use cosfly_metrics::{DeltaFrame, DeltaOrigin, WindowShape, bootstrap};
 use serde::Serialize;
 
-/// Which flights models see.
+/// Flights that models see.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "snake_case")]
 pub enum InputRole {
-    /// Perturbed ones; the truth is their expert's.
+    /// Perturbed flights; the truth is their expert's.
     Perturbed,
-    /// Experts; the truth is their own.
+    /// Experts' flights; the truth is their own.
     Expert,
 }
 
 /// Choices; all of them are written into the report.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Settings {
-    /// How windows are cut.
+    /// Lengths and stride of windows, frames.
     pub window: WindowShape,
     /// Axes of the increments.
     pub delta_frame: DeltaFrame,
@@ -34,12 +33,8 @@ pub struct Settings {
     pub missing_as_zero: bool,
     /// Resamples behind an interval.
     pub resamples: usize,
-    /// Seed of the resamples and of networks.
+    /// Seed of the resamples.
     pub seed: u64,
-    /// Train small networks, too.
-    pub train: bool,
-    /// How; their seeds come from `seed`.
-    pub training: Training,
 }
 
 impl Default for Settings {
@@ -54,8 +49,6 @@ impl Default for Settings {
             missing_as_zero: false,
             resamples: bootstrap::RESAMPLES,
             seed: 1,
-            train: false,
-            training: Training::default(),
         }
     }
 }

@@ -4,7 +4,6 @@ use cosfly_evaluate::windows::{Flights, WindowSet};
 use cosfly_evaluate::{Evaluation, InputRole, Settings, evaluate};
 use cosfly_frames::{Pose, action};
 use cosfly_metrics::baselines::Anchor;
-use cosfly_metrics::baselines::network::Training;
 use cosfly_metrics::{DeltaFrame, DeltaOrigin, WindowShape};
 use cosfly_read::PublishedDataset;
 use cosfly_read::predictions::{Prediction, Predictions};
@@ -160,8 +159,7 @@ fn zero_increments_score_exactly_as_the_baseline_that_predicts_zero() {
 #[test]
 fn threads_do_not_change_a_byte() {
     let (_folder, dataset) = dataset();
-    let settings =
-        Settings { train: true, training: Training { hidden: 8, steps: 40, ..Training::default() }, ..settings() };
+    let settings = settings();
     let report = |threads: usize| {
         let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
         let given = perfect(&dataset, &settings, |pose| pose.position_in_world.y += 0.3);

@@ -2,7 +2,7 @@
 //! windows would make the intervals too narrow.
 
 use crate::scores::{COUNT, Tally};
-use cosfly_frames::Seed;
+use cosfly_random::Seed;
 
 /// The default number of resamples.
 pub const RESAMPLES: usize = 1000;

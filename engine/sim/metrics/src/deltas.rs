@@ -49,7 +49,8 @@ pub fn waypoints(
 #[cfg(test)]
 mod tests {
     use super::*;
-    use cosfly_frames::{DVec3, Seed};
+    use cosfly_frames::DVec3;
+    use cosfly_random::Seed;
 
     #[test]
     fn true_increments_lead_to_the_true_waypoints_in_every_frame() {

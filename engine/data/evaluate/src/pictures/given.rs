@@ -3,7 +3,7 @@
 use super::files::PredictedFiles;
 use super::raster::Refusal;
 use super::report::{FileFacts, FileProblem};
-use super::{PictureKind, PictureSettings};
+use super::settings::{PictureKind, PictureSettings};
 use crate::windows::Flights;
 use cosfly_diagnose::{Diagnostic, Fault, Result};
 use cosfly_maps::SemanticLabel;

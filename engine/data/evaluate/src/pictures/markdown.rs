@@ -1,8 +1,8 @@
 //! The report for people.
 
-use super::PictureKind;
 use super::report::PictureEvaluation;
-use crate::report::{number, score, table, title};
+use super::settings::PictureKind;
+use crate::report::table::{number, score, table, title};
 use cosfly_metrics::scores::OF_DETECTIONS;
 use std::fmt::Write;
 

@@ -2,7 +2,8 @@
 
 use super::report::PictureEvaluation;
 use crate::report::drawing::{BAR_PX, TOP_PX, WIDTH_PX, label, line, marks, opened, ticks, words};
-use crate::report::{Score, title};
+use crate::report::score::Score;
+use crate::report::table::title;
 use std::fmt::Write;
 
 /// Left edges and width of the two panels.

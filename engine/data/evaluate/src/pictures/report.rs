@@ -1,7 +1,8 @@
 //! The result of an evaluation of pictures, and its forms.
 
-use super::PictureSettings;
-use crate::report::{DatasetFacts, Scores};
+use super::settings::PictureSettings;
+use crate::report::result::DatasetFacts;
+use crate::report::score::Scores;
 use cosfly_metrics::Metric;
 use serde::Serialize;
 use std::collections::BTreeMap;

@@ -1,7 +1,7 @@
 //! What is counted of frames, by kind of frame and group of flights, and the scores of that with their intervals.
 
 use super::report::KindReport;
-use crate::report::{Score, Scores};
+use crate::report::score::{Score, Scores};
 use cosfly_metrics::{Metric, bootstrap};
 use rayon::prelude::*;
 use std::collections::BTreeMap;

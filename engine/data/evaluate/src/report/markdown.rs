@@ -1,7 +1,7 @@
 //! The report for people.
 
+use super::result::{Evaluation, MethodReport, RowFacts, metric};
 use super::table::{score, table, title};
-use super::{Evaluation, MethodReport, RowFacts, metric};
 use crate::strata::STRATA;
 use cosfly_metrics::METRICS;
 use cosfly_metrics::baselines::Anchor;
@@ -31,9 +31,6 @@ fn report(evaluation: &Evaluation) -> String {
     if let Some(first) = first {
         let _ = writeln!(text, "\n## By kind of window: {}\n", first.name);
         text.push_str(&strata(first, evaluation));
-    }
-    if let Some(study) = &evaluation.study {
-        text.push_str(&study.to_markdown());
     }
     if let Some(rows) = evaluation.rows.as_ref().filter(|rows| rows.malformed > 0) {
         text.push_str(&malformed(rows));

@@ -1,7 +1,7 @@
 //! The picture: final errors with their intervals, and errors waypoint by waypoint, method beside method.
 
 use super::drawing::{BAR_PX, TOP_PX, grid, label, line, marks, opened, ticks, words};
-use super::{Evaluation, MethodReport};
+use super::result::{Evaluation, MethodReport};
 use std::fmt::Write;
 
 const COLOURS: [&str; 9] =

@@ -1,6 +1,6 @@
 //! Markdown tables whose columns line up, and numbers in them.
 
-use super::Score;
+use super::score::Score;
 use cosfly_metrics::scores::{Metric, Unit};
 
 /// A table: the first column is words, the others are numbers.

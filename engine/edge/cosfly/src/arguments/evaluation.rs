@@ -47,13 +47,10 @@ pub struct EvalArguments {
     /// Score windows without a prediction as if all increments were zero, instead of leaving them out
     #[arg(long)]
     pub missing_as_zero: bool,
-    /// Train small networks on split train, too, and test two findings of the paper with them
-    #[arg(long)]
-    pub train: bool,
     /// Resamples behind an interval
     #[arg(long, value_name = "N", default_value_t = 1000, value_parser = counts())]
     pub resamples: usize,
-    /// Seed of resamples and networks
+    /// Seed of the resamples
     #[arg(long, value_name = "N", default_value_t = 1)]
     pub seed: u64,
     /// Print the report as JSON

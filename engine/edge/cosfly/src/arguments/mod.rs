@@ -136,7 +136,6 @@ Examples:
   cosfly eval depth-of-my-model --dataset out/carla_town                        a folder of PNG or .npy files
   cosfly eval results.json --dataset out/carla_town --images out/coco/annotations/instances_val.json
   cosfly eval --dataset out/carla_town                                          the baselines alone
-  cosfly eval --dataset out/carla_town --train                                  and small networks, in a minute
 
 A line of predictions is like
   {\"trajectory_id\": \"perturbed-p00000\", \"frame\": 3, \"waypoint_deltas\": [[0.5, 0, 0, 0, 2, 0], ... five in all]}

@@ -119,8 +119,6 @@ fn settings(arguments: &EvalArguments) -> Settings {
         missing_as_zero: arguments.missing_as_zero,
         resamples: arguments.resamples,
         seed: arguments.seed,
-        train: arguments.train,
-        ..Settings::default()
     }
 }
 

@@ -1,6 +1,6 @@
 //! Baselines without training: standing still, carrying on, moving as the target does.
 
-use super::{Prediction, View};
+use super::prediction::{Prediction, View};
 use cosfly_frames::{DVec3, Pose, real};
 
 /// Polynomials through the past.

@@ -1,6 +1,6 @@
 //! Numbers that trained baselines see, and those that they predict: seen from the current pose, turned by its yaw.
 
-use super::View;
+use super::prediction::View;
 use cosfly_frames::{DVec3, Pose, real};
 
 /// Numbers per predicted waypoint: ahead, right, up in metres, pitch, yaw and roll in radians.

@@ -1,7 +1,7 @@
 //! The waypoints of the most similar window that was learnt from.
 
 use super::features::{Examples, Scaling, push_features, waypoints_of};
-use super::{Prediction, View};
+use super::prediction::{Prediction, View};
 
 /// Lanes of a distance: sums of this many columns run side by side.
 const LANES: usize = 8;

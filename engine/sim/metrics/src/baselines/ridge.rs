@@ -1,7 +1,8 @@
 //! Ridge regression from the input frames to the waypoints, in closed form.
 
 use super::features::{Examples, Scaling, push_features, waypoints_of};
-use super::{Prediction, View, solve::solve};
+use super::prediction::{Prediction, View};
+use super::solve::solve;
 
 /// Weight of the penalty per row: enough to settle columns that depend on each other, too little to matter elsewhere.
 const PENALTY: f64 = 1e-3;
@@ -64,7 +65,8 @@ impl Ridge {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use cosfly_frames::{DVec3, Pose, Seed};
+    use cosfly_frames::{DVec3, Pose};
+    use cosfly_random::Seed;
 
     #[test]
     fn what_is_linear_is_learnt() {
