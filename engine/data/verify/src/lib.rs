@@ -3,11 +3,14 @@
 //! Every finding names the file, the place in it and the rule. Files whose hash is wrong are reported and not
 //! read further, except for logs, whose own checksums tell where the damage is.
 
+mod body;
+mod boxes;
 mod croissant;
 mod extras;
 mod figures;
 mod files;
-mod flight;
+mod flights;
+mod frames;
 mod labels;
 mod log;
 mod people;
@@ -16,6 +19,8 @@ mod rows;
 mod splits;
 mod sums;
 mod tables;
+mod twins;
+mod waypoints;
 mod windows;
 
 pub use report::{Finding, LabelGap, VerifyReport};
@@ -38,7 +43,7 @@ pub fn verify(folder: &Path, progress: &mut dyn FnMut(u64, u64)) -> Result<Verif
     windows::check(folder, &files, &tables, &mut report);
     croissant::check(folder, &files, &mut report)?;
     extras::check(folder, &files, &tables, &mut report);
-    flight::check_all(folder, &files, &tables, &mut report, progress);
+    flights::check_all(folder, &files, &tables, &mut report, progress);
     Ok(report)
 }
 

@@ -1,6 +1,6 @@
 //! The log of one flight: its own checksums, then its messages against the rows of the tables.
 
-use super::flight::Body;
+use super::body::Body;
 use super::people::PersonRow;
 use super::report::VerifyReport;
 use super::rows::{PlacedFlight, PlacedFrame};

@@ -1,7 +1,7 @@
 //! Table `people`: everybody beside the target who is seen, against frames, objects and pixels.
 
+use super::body::{Body, SLACK_PX};
 use super::files::CheckedFiles;
-use super::flight::{Body, SLACK_PX};
 use super::report::VerifyReport;
 use super::rows::{self, PlacedFlight, PlacedFrame};
 use cosfly_frames::DVec3;

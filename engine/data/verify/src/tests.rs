@@ -218,7 +218,7 @@ fn an_action_that_does_not_lead_to_the_next_pose_is_found() {
     rows::frames(&folder.path().join(file), &mut |frames| groups.push(frames)).unwrap();
     let frames = &mut groups[0];
     frames[1].stored.action_in_world.as_mut().unwrap()[4] += 0.01;
-    flight::check_frames(file, &tables.flights[&frames[0].trajectory_id], frames, &mut report);
+    frames::check_frames(file, &tables.flights[&frames[0].trajectory_id], frames, &mut report);
     assert_eq!(report.findings.iter().map(|finding| finding.rule).collect::<Vec<_>>(), ["verify-action"]);
 }
 

@@ -1,0 +1,53 @@
+//! The space that a walking body may fill, projected into the image.
+
+use super::rows::PlacedFlight;
+use cosfly_frames::{DVec3, Pose, real};
+
+/// A walking body reaches this far from its axis, in body heights: arms and legs swing beyond its radius.
+const REACH_PER_HEIGHT: f64 = 0.42;
+/// Slack of projected edges, pixels: pixels are sampled at their centres.
+pub const SLACK_PX: f64 = 1.5;
+
+/// The space a walking body may fill: an upright cylinder.
+pub struct Body {
+    /// Point on the ground between the feet, world frame, metres.
+    pub feet: DVec3,
+    /// Height, metres.
+    pub height_m: f64,
+    /// Radius of the trunk, metres.
+    pub radius_m: f64,
+}
+
+impl Body {
+    /// The point on the axis at `share` of the height.
+    pub fn on_axis(&self, share: f64) -> DVec3 {
+        self.feet + DVec3::Z * (share * self.height_m)
+    }
+
+    /// Corners of a polygonal prism around the cylinder.
+    fn corners(&self) -> impl Iterator<Item = DVec3> {
+        const SIDES: u32 = 16;
+        // A polygon around a circle is wider than it by 1 / cos(pi / sides).
+        let reach = self.radius_m.max(REACH_PER_HEIGHT * self.height_m) / real::cos(real::PI / f64::from(SIDES));
+        (0..SIDES).flat_map(move |side| {
+            let (sin, cos) = real::sin_cos(real::TAU * f64::from(side) / f64::from(SIDES));
+            [-0.02, 1.03].map(|share| self.on_axis(share) + DVec3::new(reach * cos, reach * sin, 0.0))
+        })
+    }
+
+    /// Edges of the projected prism, pixels: left, top, right, bottom; `None` when part of it is behind the camera.
+    pub fn hull(&self, flight: &PlacedFlight, pose: &Pose) -> Option<[f64; 4]> {
+        self.corners().try_fold([f64::MAX, f64::MAX, f64::MIN, f64::MIN], |hull, corner| {
+            let (u, v, depth) = flight.project(pose, corner)?;
+            (depth > 0.1).then(|| [hull[0].min(u), hull[1].min(v), hull[2].max(u), hull[3].max(v)])
+        })
+    }
+
+    /// Nearest and farthest planar depth of the prism, metres.
+    pub fn depths_m(&self, pose: &Pose) -> (f64, f64) {
+        let ahead = pose.world_from_body() * DVec3::X;
+        self.corners()
+            .map(|corner| (corner - pose.position_in_world).dot(ahead))
+            .fold((f64::MAX, f64::MIN), |(near, far), depth| (near.min(depth), far.max(depth)))
+    }
+}

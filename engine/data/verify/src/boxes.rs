@@ -1,0 +1,87 @@
+//! The stored boxes of a frame, against each other and against the body projected through the stored camera.
+
+use super::body::{Body, SLACK_PX};
+use super::rows::{PlacedFlight, PlacedFrame};
+
+/// Heights on the axis that the silhouette covers, in body heights.
+const AXIS_HEIGHTS: [f64; 3] = [0.12, 0.65, 0.93];
+/// How far the silhouette may be from a point on the axis, in body heights.
+const AXIS_SLACK_PER_HEIGHT: f64 = 0.1;
+/// Below this height of the body in pixels, head and legs are thinner than a pixel's diagonal and may miss all pixel
+/// centres.
+const THIN_LIMBS_BELOW_PX: f64 = 20.0;
+/// From each of [`AXIS_HEIGHTS`] to the trunk, in body heights: how much of the silhouette is missing without limbs.
+const LIMB_LENGTHS: [f64; 3] = [0.38, 0.0, 0.15];
+/// Below this height in pixels the trunk may miss pixel centres as well, and any single pixel may be all of the box.
+const THIN_TRUNK_BELOW_PX: f64 = 8.0;
+
+/// The fault of the stored boxes of a frame, in words; `None` for sound ones.
+pub fn box_problem(flight: &PlacedFlight, frame: &PlacedFrame) -> Option<String> {
+    if frame.in_view != frame.full_box_px.is_some() || (frame.visible_pixels > 0) != frame.visible_box_px.is_some() {
+        return Some("flags, pixel count and boxes contradict each other".into());
+    }
+    let body =
+        Body { feet: frame.target.feet_in_world, height_m: flight.target_height_m, radius_m: flight.target_radius_m };
+    let (width, height) = (f64::from(flight.camera.width), f64::from(flight.camera.height));
+    let inside_image =
+        |u: f64, v: f64| (SLACK_PX..width - SLACK_PX).contains(&u) && (SLACK_PX..height - SLACK_PX).contains(&v);
+    let Some(full) = frame.full_box() else {
+        let (u, v, depth) = flight.project(&frame.camera_pose, body.on_axis(AXIS_HEIGHTS[1]))?;
+        let large = flight.camera.focal_px() * 0.1 * body.height_m / depth > SLACK_PX;
+        return (large && inside_image(u, v))
+            .then(|| format!("it is out of view, but its middle projects to pixel ({u:.1}, {v:.1})"));
+    };
+    if let Some(seen) = frame.visible_box()
+        && !(contains(&full, seen[0], seen[1], 0.0) && contains(&full, seen[2], seen[3], 0.0))
+    {
+        return Some(format!("the visible box {seen:?} leaves the full box {full:?}"));
+    }
+    for (share, limb) in AXIS_HEIGHTS.into_iter().zip(LIMB_LENGTHS) {
+        let Some((u, v, depth)) = flight.project(&frame.camera_pose, body.on_axis(share)) else {
+            return Some("the body is behind the camera and has a box".into());
+        };
+        let slack = axis_slack_px(flight.camera.focal_px() * body.height_m / depth, limb);
+        if inside_image(u, v) && !contains(&full, u, v, slack) {
+            return Some(format!(
+                "its body at {share} of its height projects to pixel ({u:.1}, {v:.1}), outside of box {full:?}"
+            ));
+        }
+    }
+    let hull = body.hull(flight, &frame.camera_pose)?;
+    let fits = full[0] >= hull[0] - SLACK_PX
+        && full[1] >= hull[1] - SLACK_PX
+        && full[2] <= hull[2] + SLACK_PX
+        && full[3] <= hull[3] + SLACK_PX;
+    (!fits).then(|| format!("the box {full:?} is larger than the projected body {hull:.1?}"))
+}
+
+/// How far a point on the axis may lie outside of the box of a body that is `height_px` high, when it is `limb` body
+/// heights from the trunk.
+fn axis_slack_px(height_px: f64, limb: f64) -> f64 {
+    let missed = match height_px {
+        height if height < THIN_TRUNK_BELOW_PX => 0.5,
+        height if height < THIN_LIMBS_BELOW_PX => limb,
+        _ => 0.0,
+    };
+    SLACK_PX + height_px * (AXIS_SLACK_PER_HEIGHT + missed)
+}
+
+fn contains(pixel_box: &[f64; 4], u: f64, v: f64, slack: f64) -> bool {
+    (pixel_box[0] - slack..=pixel_box[2] + slack).contains(&u)
+        && (pixel_box[1] - slack..=pixel_box[3] + slack).contains(&v)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_axis_may_leave_the_box_only_as_far_as_thin_parts_can_be_missed() {
+        // A body of normal size: a box that is shifted by several pixels is found.
+        assert!(axis_slack_px(24.0, LIMB_LENGTHS[2]) < 4.0);
+        // Twelve pixels high: head and legs may be missing, the trunk may not.
+        assert!(axis_slack_px(12.0, LIMB_LENGTHS[2]) > 2.5 && axis_slack_px(12.0, LIMB_LENGTHS[1]) < 3.0);
+        // Three pixels high: one covered pixel centre anywhere on the body is a sound box.
+        assert!(axis_slack_px(3.0, 0.0) > 3.0);
+    }
+}

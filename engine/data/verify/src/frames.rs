@@ -1,0 +1,107 @@
+//! The frames of one flight: numbering, times, actions against poses, distances, boxes, occluders, and the row of its pair.
+
+use super::boxes::box_problem;
+use super::people::PersonRow;
+use super::report::VerifyReport;
+use super::rows::{PlacedFlight, PlacedFrame};
+use super::tables::PairRow;
+use std::collections::{BTreeMap, BTreeSet};
+
+/// Numbers that were computed from others in 64-bit floats may differ by this much (metres or degrees).
+pub const TOLERANCE: f64 = 1e-6;
+
+/// Numbering, times, shares, actions, distance and boxes of one flight.
+pub fn check_frames(file: &str, flight: &PlacedFlight, frames: &[PlacedFrame], report: &mut VerifyReport) {
+    let id = &flight.trajectory_id;
+    if frames.len() != flight.frames {
+        let message = format!("{} rows; table `trajectories` says {} frames", frames.len(), flight.frames);
+        report.find(file, format!("`{id}`"), "verify-count", message);
+    }
+    for (number, frame) in frames.iter().enumerate() {
+        let mut find = |rule, message: String| {
+            report.find(file, format!("row {}, `{id}` frame {number}", frame.row), rule, message);
+        };
+        let time_s = number as f64 * flight.dt_s;
+        if frame.frame as usize != number || (frame.time_s - time_s).abs() > TOLERANCE {
+            find(
+                "verify-order",
+                format!("it is frame {} at {} s; frame {number} at {time_s} s belongs here", frame.frame, frame.time_s),
+            );
+        }
+        match (frames.get(number + 1), frame.action_in_world) {
+            (Some(next), Some(_)) => match frame.action_error(next) {
+                Some(error) if error <= TOLERANCE => {}
+                error => find(
+                    "verify-action",
+                    format!("its action and the way to the next pose differ by {}", error.unwrap_or(f64::NAN)),
+                ),
+            },
+            (None, None) if frame.action_in_body.is_none() => {}
+            _ => find("verify-action", "only the last frame has no action".into()),
+        }
+        let distance_m = (frame.target.feet_in_world - frame.pose.position_in_world).length();
+        if (distance_m - frame.distance_m).is_nan() || (distance_m - frame.distance_m).abs() > TOLERANCE {
+            find(
+                "verify-distance",
+                format!("`distance_m` is {}; camera and feet are {distance_m} m apart", frame.distance_m),
+            );
+        }
+        let visible = [frame.visible_by_rays, frame.visible_by_pixels];
+        if !visible.iter().all(|share| (0.0..=1.0).contains(share)) {
+            find("verify-visibility", format!("shares {visible:?} must lie between 0 and 1"));
+        }
+        if let Some(message) = box_problem(flight, frame) {
+            find("verify-reprojection", message);
+        }
+        let turned = flight.mount.camera_pose(&frame.pose).world_from_body();
+        let stored = frame.camera_pose.world_from_body();
+        let apart = (turned.x_axis - stored.x_axis).length().max((turned.y_axis - stored.y_axis).length());
+        if apart.is_nan() || apart > TOLERANCE {
+            find("verify-camera", format!("the camera's attitude is {apart} from the drone's turned by its mount"));
+        }
+    }
+    report.boxes += frames.iter().filter(|frame| frame.full_box_px.is_some()).count() as u64;
+}
+
+/// The occluder of the target is in table `objects`, or a person who is seen in the same frame.
+pub fn check_occluders(
+    file: &str,
+    objects: Option<&BTreeSet<u32>>,
+    others: &[PersonRow],
+    frames: &[PlacedFrame],
+    report: &mut VerifyReport,
+) {
+    let people: BTreeSet<(u32, u32)> = others.iter().map(|person| (person.frame, person.instance)).collect();
+    let is_known = |frame: &&PlacedFrame| {
+        frame.occluder_instance == 0
+            || objects.is_some_and(|ids| ids.contains(&frame.occluder_instance))
+            || people.contains(&(frame.frame, frame.occluder_instance))
+    };
+    if let Some(frame) = frames.iter().find(|frame| !is_known(frame)) {
+        let message = format!("its occluder {} is neither in table `objects` nor in `people`", frame.occluder_instance);
+        let place = format!("row {}, `{}` frame {}", frame.row, frame.trajectory_id, frame.frame);
+        report.find(file, place, "verify-reference", message);
+    }
+}
+
+/// The row of a twin in table `pairs` sums up its frames.
+pub fn check_pair(
+    pairs: &BTreeMap<String, PairRow>,
+    flight: &PlacedFlight,
+    frames: &[PlacedFrame],
+    report: &mut VerifyReport,
+) {
+    let Some(pair) = pairs.get(&flight.trajectory_id) else { return };
+    let events = || frames.iter().filter_map(|frame| frame.disturbance.as_ref());
+    let expert_frames: Vec<i64> = events().map(|it| i64::from(it.expert_frame)).collect();
+    let max_offset_m = events().map(|it| it.drone_offset_in_world.length()).fold(0.0, f64::max);
+    let counts = [frames.len(), events().filter(|it| it.position).count(), events().filter(|it| it.rotation).count()];
+    let is_same = pair.expert_frames == expert_frames
+        && (pair.max_offset_m - max_offset_m).abs() <= TOLERANCE
+        && pair.counts == counts.map(|count| count as u32)
+        && pair.pedestrian_id == flight.pedestrian_id;
+    if !is_same {
+        let place = format!("row {}, `{}`", pair.place.1, flight.trajectory_id);
+        report.find(&pair.place.0, place, "verify-pair", "it does not sum up the frames of this flight");
+    }
+}
