@@ -4,11 +4,11 @@
 //! regular expression over the full path, Parquet as `application/x-parquet`, sizes as text.
 
 mod context;
-mod responsible_ai;
+pub(crate) mod responsible_ai;
 
-pub(crate) use responsible_ai::values as responsible_ai_values;
-
-use crate::publish::{LAYOUT_VERSION, Summary, TownSummary, citation};
+use crate::publish::citation::citation;
+use crate::publish::layout::LAYOUT_VERSION;
+use crate::publish::summary::{Summary, TownSummary};
 use cosfly_maps::SemanticLabel;
 use cosfly_schema::Split;
 use cosfly_schema::config::DatasetConfig;

@@ -1,6 +1,6 @@
 //! The Responsible AI terms: what was simulated, how it was checked, what it is for and what it is not.
 
-use crate::publish::Summary;
+use crate::publish::summary::Summary;
 use cosfly_schema::config::{DatasetConfig, RESPONSIBLE_AI_TERMS};
 use serde_json::{Map, Value, json};
 

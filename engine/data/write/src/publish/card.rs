@@ -1,5 +1,6 @@
 //! The Hugging Face card (`README.md`) and the `LICENSE` file.
 
+use super::citation::citation;
 use super::summary::Summary;
 use super::viewers;
 use cosfly_schema::config::{DatasetConfig, OWN_LICENSE};
@@ -35,18 +36,6 @@ pub fn license_text(config: &DatasetConfig) -> String {
         ("", name) => format!("The data in this folder are licensed under {name}.\n{}\n", license.url),
         (text, _) => format!("{text}\n"),
     }
-}
-
-/// How to cite: the configured entry, or one made from title, creator and year.
-pub fn citation(config: &DatasetConfig) -> String {
-    if !config.citation.is_empty() {
-        return config.citation.clone();
-    }
-    let year = config.date_published.split('-').next().unwrap_or_default();
-    format!(
-        "@misc{{{},\n  title = {{{}}},\n  author = {{{}}},\n  year = {{{year}}},\n  version = {{{}}},\n  url = {{{}}}\n}}",
-        config.name, config.title, config.creator.name, config.version, config.url
-    )
 }
 
 /// The text of `README.md`.

@@ -1,7 +1,7 @@
 //! The datasheet of the card: the questions of "Datasheets for Datasets", answered by the Responsible AI terms.
 
 use super::summary::Summary;
-use crate::croissant::responsible_ai_values;
+use crate::croissant::responsible_ai;
 use cosfly_schema::config::DatasetConfig;
 use serde_json::Value;
 use std::fmt::Write;
@@ -22,7 +22,7 @@ const QUESTIONS: [(&str, &[&str]); 7] = [
 
 /// The section; a recipe's own `responsible_ai` texts stand in it as in `croissant.json`.
 pub fn section(config: &DatasetConfig, summary: &Summary) -> String {
-    let values = responsible_ai_values(config, summary);
+    let values = responsible_ai::values(config, summary);
     let mut text = String::from("## Datasheet\n\n");
     for (heading, terms) in QUESTIONS {
         let _ = write!(text, "### {heading}\n\n");

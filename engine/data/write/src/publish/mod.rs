@@ -9,20 +9,22 @@
 //! `croissant.json`, which names it.
 
 mod card;
+pub(crate) mod citation;
 mod datasheet;
+pub mod layout;
 mod plan;
 mod report;
-mod summary;
+mod source;
+pub(crate) mod summary;
 mod viewers;
 mod write;
 
-pub use card::citation;
+pub use citation::citation;
+pub use layout::LAYOUT_VERSION;
 pub use plan::DatasetPlan;
+pub use source::{DatasetSource, PublishedLog};
 pub use summary::{Summary, TownSummary};
-pub use write::{DatasetSource, PublishedLog, write_dataset};
-
-/// Version of the layout of published datasets; raised when paths, tables or conventions change.
-pub const LAYOUT_VERSION: u32 = 1;
+pub use write::write_dataset;
 
 #[cfg(test)]
 mod tests;

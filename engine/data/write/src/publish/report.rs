@@ -1,7 +1,7 @@
-//! The dataset's page, `report/index.html`: what its records and previews give to the sketches that it is drawn from.
+//! The dataset's page, `report/index.html`: sketches of its records and previews.
 
+use super::source::DatasetSource;
 use super::summary::Summary;
-use super::write::DatasetSource;
 use cosfly_diagnose::Result;
 use cosfly_frames::DVec3;
 use cosfly_report::{BoxSketch, FlightSketch, RejectionSketch, Report, TownSketch};
@@ -15,7 +15,7 @@ use std::collections::BTreeSet;
 /// Walks on which planners are compared; more would make publishing slow.
 const COMPARED: usize = 3;
 
-/// Where the page is.
+/// Path of the page in the dataset.
 pub const PATH: &str = "report/index.html";
 
 /// The page of a dataset whose flights were sketched in the order of `source`.
@@ -82,7 +82,7 @@ fn rejection_sketch(rejection: &Rejection) -> RejectionSketch {
     }
 }
 
-/// What the page shows of a flight.
+/// The figures of a flight that the page shows.
 pub fn sketch(record: &RenderedTrajectory, split: &str) -> FlightSketch {
     let trajectory = &record.trajectory;
     let place = |it: DVec3| it.to_array().map(|metres| metres as f32);

@@ -1,23 +1,23 @@
 //! Writes a dataset table by table; one trajectory and one row group are in memory at a time.
 
 use super::plan::DatasetPlan;
+use super::source::{DatasetSource, PublishedLog};
 use super::summary::Summary;
 use super::{card, report, viewers};
 use crate::croissant;
 use crate::gathered_extras::{gather, path_of_file};
 use crate::table_file::{TableWriter, write_error, writer_properties};
-use cosfly_blobs::{BlobRef, OutputSink};
+use cosfly_blobs::OutputSink;
 use cosfly_diagnose::{Diagnostic, Fault, Result};
 use cosfly_fingerprint::sha256::{HashingWriter, sha256_of};
 use cosfly_metrics::WindowShape;
-use cosfly_report::{FlightSketch, PlannerRow};
+use cosfly_report::FlightSketch;
 use cosfly_schema::config::DatasetConfig;
 use cosfly_schema::extras::{self, Extra, ExtraShape, ExtraSource, Kept};
 use cosfly_schema::flight_table::Values;
 use cosfly_schema::log::target_state;
-use cosfly_schema::tables::{self, DatasetItem, FileRecord, Membership, Need, ObjectRecord, Table};
-use cosfly_schema::{CaptionRecord, LogRecord, PreviewStrip, Rejection, RenderedTrajectory, Split, TownLayout};
-use cosfly_splits;
+use cosfly_schema::tables::{self, DatasetItem, FileRecord, Membership, Need, Table};
+use cosfly_schema::{LogRecord, PreviewStrip, Rejection, RenderedTrajectory, Split, TownLayout};
 use cosfly_splits::{Assignment, FlightFacts, LintRules};
 use parquet::arrow::ArrowWriter;
 use std::collections::{BTreeMap, BTreeSet};
@@ -26,39 +26,6 @@ use std::sync::Arc;
 
 /// Rows kept together in tables of plugins.
 const EXTRA_ROWS_PER_GROUP: usize = 50_000;
-
-/// A finished log and the blob that holds it.
-#[derive(Clone, Debug)]
-pub struct PublishedLog {
-    /// What [`crate::write_log`] gave.
-    pub record: LogRecord,
-    /// The bytes, for [`OutputSink::link`].
-    pub blob: BlobRef,
-}
-
-/// Loads the trajectories of a dataset one at a time, by their place in the list of logs. Each is loaded once per
-/// table.
-pub trait DatasetSource {
-    /// The record of trajectory `index`.
-    fn trajectory(&self, index: usize) -> Result<RenderedTrajectory>;
-    /// Its captions; empty without a caption stage.
-    fn captions(&self, index: usize) -> Result<Vec<CaptionRecord>>;
-    /// What the instance ids of all images stand for, town by town.
-    fn objects(&self) -> Result<Vec<ObjectRecord>>;
-    /// The town of trajectory `index` without its name.
-    fn layout(&self, index: usize) -> Result<Arc<TownLayout>>;
-    /// What other planners make of the walks of some flights, for the report.
-    fn planners(&self, flights: &[usize]) -> Result<Vec<PlannerRow>> {
-        let _ = flights;
-        Ok(vec![])
-    }
-    /// Its previews; asked for by one table only.
-    fn previews(&self, index: usize) -> Result<PreviewStrip>;
-    /// What plugins gave of it.
-    fn extras(&self, _: usize) -> Result<Vec<Extra>> {
-        Ok(vec![])
-    }
-}
 
 /// Writes the whole dataset to `sink`: logs by link, everything else anew. `keep_going` is asked before every
 /// trajectory of every table and its error ends the work.
