@@ -1,4 +1,4 @@
-//! What is seen from each node of the lattice, and what is free, one frame at a time.
+//! Visibility from each node of the lattice, and free nodes, one frame at a time.
 //!
 //! No rays are cast: for one azimuth a box covers an interval of the horizontal ray from the target, and a
 //! few comparisons per node say whether the line of sight passes through the box there.
@@ -18,7 +18,7 @@ pub type NodeState = u8;
 pub const CLOSE: NodeState = 0x10;
 /// The node is too near an obstacle or the ground.
 pub const UNSAFE: NodeState = 0xff;
-/// See [`CLOSE`], metres.
+/// Distance below which a node is [`CLOSE`], metres.
 const CLOSE_EXTRA_M: f64 = 1.5;
 
 /// Azimuths, and rings, are handled in groups of this many.
@@ -56,7 +56,7 @@ struct Profile {
     half: [f32; 2],
     low: f32,
     high: f32,
-    /// Where its middle is, seen from above, and the radius of a disc around it when grown most.
+    /// Middle of the box seen from above, and the radius of a disc around the box when grown most.
     away: [f32; 2],
     reach: f32,
     /// Even when grown most it stays below all nodes: nothing comes near it.

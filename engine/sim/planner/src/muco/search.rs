@@ -10,8 +10,8 @@ use crate::config::muco::MucoConfig;
 use crate::config::targets::SeveralTargets;
 use crate::obstacles::local::LocalObstacles;
 use crate::problem::{Problem, frame_number};
-use crate::terms::Weights;
-use crate::terms::{altitude::band_cost, pitch, tracking, viewpoint};
+use crate::terms::place::PlaceCosts;
+use crate::terms::{Weights, viewpoint};
 use cosfly_frames::{DVec3, TargetTrack, real};
 
 /// Searches that may be needed to go round nodes whose connections are not free.
@@ -45,17 +45,17 @@ pub struct Effort {
     pub keep_out_m: f64,
 }
 
-/// What a search finds.
+/// Result of a search.
 pub struct Start {
     /// One waypoint per frame, free of obstacles at least at the layers.
     pub waypoints: Vec<DVec3>,
-    /// Mean visibility over the layers: what the best way through the lattice sees.
+    /// Mean visibility over the layers along the best way through the lattice.
     pub visibility: f64,
     /// Share of the nodes that are not free.
     pub closed_share: f64,
     /// Searches that were needed.
     pub searches: u32,
-    /// Where the target is lost on purpose.
+    /// Frames in which the target is lost on purpose.
     pub losses: LossPlan,
 }
 
@@ -240,14 +240,10 @@ fn node_costs(
     config: &MucoConfig,
 ) -> NodeCosts {
     let weights: Weights = config.resolved_weights();
+    let places = PlaceCosts { weights, view: problem.view };
     let ring = |ring: usize| {
         let (up, across) = lattice.ring_m(ring);
-        let offset = DVec3::new(across, 0.0, up);
-        let view = problem.view;
-        let cost = weights.tracking * tracking::distance_cost(offset.length(), view.distance_m)
-            + weights.pitch * pitch::pitch_cost(pitch::pitch_below_horizon_deg(offset), view.pitch_deg).0
-            + weights.altitude * band_cost(up, up, view.min_altitude_m, view.preferred_altitude_m);
-        cost as f32
+        (places.sight(DVec3::new(across, 0.0, up)) + places.altitude(up, up)) as f32
     };
     let sector = real::cos(config.view.rear_sector_deg.to_radians());
     let azimuth = |frame: usize, direction: &DVec3| {
