@@ -4,22 +4,13 @@
 //! few comparisons per node say whether the line of sight passes through the box there.
 
 use super::lattice::{Lattice, MAX_RINGS};
+use super::node_state::{CLOSE, CLOSE_EXTRA_M, NodeState, UNSAFE};
 use crate::obstacles::{Surroundings, local::LocalObstacles, solid::Solid};
 use cosfly_frames::simd::Level;
 use cosfly_frames::{DVec3, TargetState, real, simd_kernel};
 
 /// Heights of the body seen along its axis, for a body of 1.75 m, and how many body points each stands for.
 pub const BODY_HEIGHTS: [(f64, u32); 5] = [(0.12, 1), (0.5, 1), (1.05, 2), (1.42, 3), (1.7, 1)];
-
-/// State of a node: the number of hidden body points (0..=8), [`CLOSE`] added when an obstacle is near, or
-/// [`UNSAFE`].
-pub type NodeState = u8;
-/// Set when an obstacle is within the clearance plus [`CLOSE_EXTRA_M`].
-pub const CLOSE: NodeState = 0x10;
-/// The node is too near an obstacle or the ground.
-pub const UNSAFE: NodeState = 0xff;
-/// Distance below which a node is [`CLOSE`], metres.
-const CLOSE_EXTRA_M: f64 = 1.5;
 
 /// Azimuths, and rings, are handled in groups of this many.
 const VECTOR: usize = 16;

@@ -6,7 +6,7 @@
 //! way is found again from the costs of all layers.
 
 use super::lattice::Lattice;
-use super::scan::{CLOSE, NodeState, UNSAFE};
+use super::node_state::{CLOSE, NodeState, UNSAFE};
 use cosfly_frames::simd::Level;
 use cosfly_frames::{DVec3, real, simd_kernel};
 
