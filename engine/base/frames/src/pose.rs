@@ -4,7 +4,7 @@ use crate::real::{asin, atan2, sin_cos};
 use glam::{DMat3, DVec3};
 use serde::{Deserialize, Serialize};
 
-/// Where a body is and how it is turned. Angles in radians; the body's x axis looks forward, y right, z up.
+/// Position and attitude of a body. Angles in radians; the body's x axis looks forward, y right, z up.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Pose {
     /// Position of the body's origin, metres.

@@ -5,7 +5,7 @@
 //! processors), and calls the one that a
 //! [`Level`] names. Rust neither fuses nor reorders floating-point operations, so all levels give the same bytes.
 
-/// What the processor offers; only levels that are really there can be made.
+/// Vector instructions of the processor; only available levels can be constructed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Level(Kind);
 
@@ -21,7 +21,7 @@ pub enum Kind {
 }
 
 impl Level {
-    /// What every processor of the architecture has.
+    /// Instructions that every processor of the architecture has.
     pub const PLAIN: Self = Self(Kind::Plain);
 
     /// The level that kernels run at: the best of this processor, worked out once, or what [`Self::make_best`] said

@@ -186,19 +186,19 @@ fn check_planner(config: &MucoConfig) -> Result<(), ParameterError> {
     let refuse = |path: &str, message: String, hint: &str| {
         Err(ParameterError { hint: Some(hint.to_owned()), ..parameters::refused_at(path, message) })
     };
-    let (paper, baseline) = (config.preset == Preset::Paper, config.planner.baseline());
+    let (paper, is_baseline) = (config.preset == Preset::Paper, config.planner.is_baseline());
     let name = config.planner.name();
-    if paper && baseline.is_some() {
+    if paper && is_baseline {
         let message = format!("`planner` is `{name}`, but `preset = \"paper\"` is a planner of its own");
         return refuse("planner", message, "leave one of the two out; `weights` changes what a baseline weighs");
     }
-    if config.occlusion.count > 0 && (paper || baseline.is_some()) {
+    if config.occlusion.count > 0 && (paper || is_baseline) {
         let who = if paper { "preset = \"paper\"".to_owned() } else { format!("planner = \"{name}\"") };
         let count = config.occlusion.count;
         let message = format!("`occlusion.count` is {count}, but `{who}` cannot lose its target on purpose");
         return refuse("occlusion.count", message, "leave it out, or take another preset with `planner = \"muco\"`");
     }
-    if config.limits.require_kinematics && baseline.is_some_and(|baseline| !baseline.bounds_kinematics()) {
+    if config.limits.require_kinematics && !config.planner.bounds_kinematics() {
         let message = format!(
             "`planner = \"{name}\"` bounds no acceleration, and `limits.require_kinematics` is true: all its flights would be rejected"
         );

@@ -24,7 +24,7 @@ pub enum DeltaOrigin {
     Current,
 }
 
-/// Where `deltas` lead from `current`, into `waypoints`.
+/// Writes into `waypoints` the poses that `deltas` lead to from `current`.
 pub fn waypoints(
     current: &Pose,
     deltas: &[[f64; 6]],

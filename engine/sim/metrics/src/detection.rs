@@ -31,7 +31,7 @@ pub struct AveragePrecision {
 /// A detection that counts.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Ranked {
-    /// Its score.
+    /// Confidence of the detection.
     pub score: f64,
     /// Which images are drawn together with its own.
     pub cluster: u32,

@@ -3,7 +3,7 @@
 use cosfly_frames::{DVec3, Pose, real};
 use serde::Serialize;
 
-/// How hard a window is to predict.
+/// Difficulty of a window.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Difficulty {
@@ -15,7 +15,7 @@ pub enum Difficulty {
     Hard,
 }
 
-/// What a window's difficulty is read off: all of its frames, of the expert.
+/// The frames that a window's difficulty depends on: all of the window's, of the expert.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
 pub struct WindowFeatures {
     /// Turns of the target's walking direction added up, degrees.
@@ -26,7 +26,7 @@ pub struct WindowFeatures {
     pub occluded_share: f64,
     /// Mean speed of the expert, m/s.
     pub speed_mps: f64,
-    /// How far the target gets from its first place, metres.
+    /// Largest distance of the target from its first place, metres.
     pub target_way_m: f64,
 }
 
@@ -39,7 +39,7 @@ pub struct WindowFrames<'a> {
     pub feet: &'a [DVec3],
     /// The target's walking direction, radians.
     pub heading_rad: &'a [f64],
-    /// How much of the target the expert sees, 0..=1.
+    /// Share of the target that the expert sees, 0..=1.
     pub visible: &'a [f64],
     /// Time between frames, seconds.
     pub dt_s: f64,
@@ -83,7 +83,7 @@ impl WindowFeatures {
         }
     }
 
-    /// Whether the target stays where it is: it never gets half a metre away from its first place.
+    /// Whether the target stays within half a metre of its first place.
     pub fn target_is_static(&self) -> bool {
         self.target_way_m < 0.5
     }

@@ -10,7 +10,7 @@
 //! * [`boxes`], [`depth`], [`segmentation`], [`detection`], [`run_lengths`]: metrics of pictures.
 //! * [`bootstrap`]: intervals by resampling whole trajectories.
 //! * [`difficulty`]: which windows are easy, medium and hard.
-//! * [`baselines`]: what a model must beat.
+//! * [`baselines`]: predictions that a model must beat.
 
 pub mod baselines;
 pub mod bootstrap;

@@ -4,17 +4,17 @@ use crate::boxes::iou;
 use crate::waypoint::WaypointErrors;
 use serde::Serialize;
 
-/// Whether more is better.
+/// Direction of a metric.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Better {
-    /// The larger the better.
+    /// Larger values are better.
     Higher,
-    /// The smaller the better.
+    /// Smaller values are better.
     Lower,
 }
 
-/// What a metric is measured in.
+/// Unit of a metric.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Unit {

@@ -2,7 +2,7 @@
 
 use cosfly_frames::{Pose, real};
 
-/// What is wrong with the waypoints of one window. The paper defines the metrics in words only; choices where it is
+/// Errors of the waypoints of one window. The paper defines the metrics in words only; choices where it is
 /// silent: distances are in space (not in plan), angles are compared the short way round, yaw errors and mean
 /// absolute errors are means over all waypoints, and errors are of the poses reached, not of single increments.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]

@@ -2,7 +2,7 @@
 
 use serde::Serialize;
 
-/// How windows are cut from a flight. A window is `history` frames that a model sees, of the perturbed flight, and
+/// Lengths and stride of windows, frames. A window is `history` frames that a model sees, of the perturbed flight, and
 /// `horizon` frames after them; the expert's frames of all of it are the supervision: the first ones for denoising,
 /// the others for prediction.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]

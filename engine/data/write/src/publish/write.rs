@@ -242,7 +242,7 @@ impl Items<'_> {
     }
 }
 
-/// What a table reads beside the records.
+/// Inputs of a table beside the records.
 #[derive(Clone, Copy, Default)]
 struct Reading {
     previews: bool,

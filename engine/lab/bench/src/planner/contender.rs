@@ -1,4 +1,4 @@
-//! Who plans: our planner, the paper's, and the baselines, behind one call.
+//! Contenders: our planner, the paper's, and the baselines, behind one call.
 
 use super::plain_bvh::PlainBvh;
 use super::scene::Ground;
@@ -35,7 +35,7 @@ pub enum Contender {
 pub struct Setting {
     /// Name in the table and on the command line.
     pub name: &'static str,
-    /// Whether its path is made flyable.
+    /// Whether the path is made flyable.
     pub smoothed: bool,
     /// Voxels and the price of motion.
     pub options: VoxelOptions,

@@ -13,7 +13,7 @@ pub const COLLISION_M: f64 = 0.5;
 /// Clearances are measured up to here, metres.
 const CLEARANCE_CAP_M: f64 = 50.0;
 
-/// What came of one path in one contender's hands.
+/// Outcome of one path with one contender.
 pub struct Flight {
     /// One waypoint per frame; empty when there is no flight.
     pub waypoints: Vec<DVec3>,

@@ -29,15 +29,15 @@ const PAPER_S_PER_TRAJECTORY: f64 = 25.0 * 60.0 / 6000.0;
 /// Incidents that are listed; all are counted.
 const LISTED: usize = 50;
 
-/// What is planned.
+/// Scenes, planner and limits of a measurement.
 pub struct ManyOptions<'a> {
     /// Kinds of scenes, in turn.
     pub kinds: Vec<SceneKind>,
     /// Seed of the first scene of each kind; the next one's is one more.
     pub seed: u64,
-    /// How many trajectories.
+    /// Number of trajectories.
     pub count: usize,
-    /// Who plans.
+    /// The planner.
     pub contender: Contender,
     /// Limits, view and weights.
     pub config: MucoConfig,
@@ -45,7 +45,7 @@ pub struct ManyOptions<'a> {
     pub progress: &'a (dyn Fn(usize, usize) + Sync),
 }
 
-/// What came of it.
+/// Figures of all flights together.
 #[derive(Clone, Debug, Default, Serialize)]
 pub struct ManyReport {
     /// Planner.
@@ -60,7 +60,7 @@ pub struct ManyReport {
     pub planning_wall_s: f64,
     /// CPU seconds of all planning threads.
     pub planning_cpu_s: f64,
-    /// How many times faster than the paper's 25 minutes for 6,000 trajectories.
+    /// Speed as a multiple of the paper's 25 minutes for 6,000 trajectories.
     pub times_paper: f64,
     /// The same if the threads had done nothing else: by CPU time instead of seconds on the wall.
     pub times_paper_undisturbed: f64,
@@ -92,7 +92,7 @@ struct Job<'a> {
     name: String,
 }
 
-/// What the judge found in one flight.
+/// The judge's figures of one flight.
 struct Verdict {
     visibility: f64,
     clearance_m: f64,

@@ -6,11 +6,11 @@ use super::scene::Ground;
 use crate::clock::timed;
 use cosfly_planner::MucoConfig;
 
-/// What is measured.
+/// Grounds, contenders and limits of a measurement.
 pub struct PlannerOptions<'a> {
-    /// Where the paths come from.
+    /// Maps and targets.
     pub grounds: Vec<Ground>,
-    /// Who plans, in the order of the table.
+    /// Planners, in the order of the table.
     pub contenders: Vec<Contender>,
     /// Limits, view and weights of every contender but `paper`, which has its own weights.
     pub config: MucoConfig,

@@ -1,4 +1,4 @@
-//! Where our planner's time goes: its steps timed one by one on the same path, and what is left of the whole.
+//! Time of our planner by step: steps timed one by one on the same path, and the rest of the whole.
 //!
 //! The library keeps no clock. Each step is done again through its own public entry; `smooth` is what remains of the
 //! whole plan: smoothing in the corridor, measuring after it, further attempts, and handing the flight out.

@@ -66,7 +66,7 @@ impl PlainBvh {
         self.blocker(from, to).is_some()
     }
 
-    /// How many of `points` are seen from `camera`. What hid the last point often hides the next one, too.
+    /// Number of `points` seen from `camera`. The box that hid the last point often hides the next one, too.
     pub fn visible_points(&self, camera: DVec3, points: &[DVec3]) -> usize {
         let mut last: Option<&Solid> = None;
         let mut visible = 0;
@@ -201,7 +201,7 @@ impl NodeRay {
         Self { above: origin + slack_m, below: origin - slack_m, inverse }
     }
 
-    /// Where the segment enters the node's box, as a share of its length; beyond 1 when it does not.
+    /// Place where the segment enters the node's box, as a share of the segment's length; beyond 1 when it misses the box.
     #[inline(always)]
     fn entry(&self, node: &Node) -> f32 {
         let low = (node.low - self.above) * self.inverse;

@@ -1,4 +1,4 @@
-//! Where paths come from: seeded scenes, or any town with its walkers.
+//! Maps and targets: seeded scenes, or any town with its walkers.
 
 use cosfly_frames::TargetTrack;
 use cosfly_geometry::{BoxBvh, OrientedBox, SpatialQuery};
@@ -13,9 +13,9 @@ pub struct Ground {
     pub name: String,
     /// All unsimplified boxes; flights are judged against them.
     pub exact: Box<dyn SpatialQuery>,
-    /// How many they are.
+    /// Number of unsimplified boxes.
     pub exact_boxes: usize,
-    /// What planners avoid and look past.
+    /// Boxes that planners avoid and look past.
     pub planning_boxes: Vec<OrientedBox>,
     /// The ground.
     pub height: GroundHeight,

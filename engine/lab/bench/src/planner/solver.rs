@@ -23,7 +23,7 @@ const REPEATS: usize = 5;
 /// One way of asking obstacles.
 #[derive(Clone, Debug, Serialize)]
 pub struct SolverRow {
-    /// How obstacles are asked.
+    /// The structure that answers queries for obstacles.
     pub queries: String,
     /// Boxes that are asked.
     pub boxes: usize,

@@ -214,7 +214,7 @@ impl fmt::Display for PlannerTable {
     }
 }
 
-/// What the heads of [`PlannerTable`] mean, for the end of a printed table.
+/// Meanings of the heads of [`PlannerTable`], for the end of a printed table.
 pub const LEGEND: &str = "\
 vis: mean share of body points seen; opt: the same as a share of what the best way through the lattice sees;
 >=.5: share of frames that see half of them; dist: to the feet, m; len: of the flight, m; ratio: to the walk;

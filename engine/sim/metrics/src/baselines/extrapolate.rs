@@ -18,7 +18,7 @@ pub enum Extrapolation {
 }
 
 impl Extrapolation {
-    /// All of them.
+    /// All kinds.
     pub const ALL: [Self; 4] = [Self::Zero, Self::ConstantVelocity, Self::ConstantAcceleration, Self::CopyTarget];
 
     /// The waypoints of a window.

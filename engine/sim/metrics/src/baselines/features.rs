@@ -12,7 +12,7 @@ fn turned(offset: DVec3, yaw_rad: f64) -> DVec3 {
     DVec3::new(c * offset.x + s * offset.y, c * offset.y - s * offset.x, offset.z)
 }
 
-/// What is known of a window, appended to `features`: for every frame before the current one the pose relative to it,
+/// Appends the features of a window: for every frame before the current one the pose relative to the current one,
 /// its pitch and roll, and the target's place in every input frame.
 pub fn push_features(view: &View<'_>, features: &mut Vec<f64>) {
     let current = view.current();
