@@ -17,7 +17,7 @@ use cosfly_schema::extras::{self, Extra, ExtraShape, ExtraSource, Kept};
 use cosfly_schema::flight_table::Values;
 use cosfly_schema::log::target_state;
 use cosfly_schema::tables::{self, DatasetItem, FileRecord, Membership, Need, Table};
-use cosfly_schema::{PreviewStrip, Rejection, RenderedTrajectory, Split, TownLayout};
+use cosfly_schema::{LogRecord, PreviewStrip, Rejection, RenderedTrajectory, Split, TownLayout};
 use cosfly_splits::{Assignment, FlightFacts, LintRules};
 use parquet::arrow::ArrowWriter;
 use std::collections::{BTreeMap, BTreeSet};
