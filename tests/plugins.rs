@@ -214,7 +214,10 @@ fn a_failing_plugin_is_named_with_function_and_item_and_the_rest_goes_on() {
     let (code, text) = yard.refusal(&["run", "recipe.toml", "--quiet"]);
     assert_eq!(code, Some(4), "{text}");
     assert!(text.contains("plugin `keep_good.wasm` failed in `configure` for `kept/p00000`"), "{text}");
-    assert!(text.contains("it reads `cost_colour`; flights have no such column, but `frame`, `time_s`"), "{text}");
+    assert!(
+        text.contains("it reads `cost_colour`; flights have no such column; their columns are `frame`, `time_s`"),
+        "{text}"
+    );
     std::fs::write(yard.path().join("recipe.toml"), RECIPE).expect("writable");
     assert!(!yard.made().iter().any(|(stage, _)| stage == "expert"), "the experts were finished");
 }
@@ -222,7 +225,11 @@ fn a_failing_plugin_is_named_with_function_and_item_and_the_rest_goes_on() {
 #[test]
 fn what_a_stage_reads_and_makes_is_held_against_what_there_is_before_anything_runs() {
     for (from, to, words) in [
-        ("cost_no_fly_zone", "visibilty", "it reads `visibilty`; flights have no such column, but `frame`, `time_s`"),
+        (
+            "cost_no_fly_zone",
+            "visibilty",
+            "it reads `visibilty`; flights have no such column; their columns are `frame`, `time_s`",
+        ),
         ("cost_no_fly_zone", "visibilty", "did you mean `visibility`?"),
         ("cost_no_fly_zone", "frame", "it reads `frame` as real; it is integer"),
         ("cost_no_fly_zone", "box_left", "which only rendered flights have"),
@@ -288,13 +295,13 @@ fn hostile_answers_are_refused_with_plugin_function_and_item_and_the_rest_goes_o
     for (text, answer, words) in [
         (&files, file(&["../../x"]), "it returned a file `../../x`; paths are relative"),
         (&files, file(&["a", "a"]), "the file `a` twice"),
-        (&files, file(&["a"; 1001]), "1001 rows; at most 1000 are taken"),
-        (&note, arrow_stream::write(&[reals("risk", &[0.5, 0.5])]), "2 rows; one is wanted"),
+        (&files, file(&["a"; 1001]), "1001 rows; at most 1000 are allowed"),
+        (&note, arrow_stream::write(&[reals("risk", &[0.5, 0.5])]), "2 rows; one is required"),
         (&note, arrow_stream::write(&[reals("cost", &[0.5])]), "column 0 is `cost`; it declares `risk` (real)"),
         (&note, arrow_stream::write(&[texts("risk", &["high"])]), "its column `risk` holds Utf8; it declares Float64"),
         (&note, arrow_stream::write(&[reals("risk", &[f64::NAN])]), "its column `risk` is NaN at row 0"),
         (&rows, good[..good.len() - 40].to_vec(), "it returned no Arrow stream: it ends within message 1"),
-        (&rows, b"no table".to_vec(), "it returned no Arrow stream: byte 0 begins no message"),
+        (&rows, b"no table".to_vec(), "it returned no Arrow stream: no message begins at byte 0"),
     ] {
         write(&StageText { answer, ..text.clone() });
         let (code, text) = yard.refusal(&["run", "recipe.toml", "--quiet"]);
@@ -303,7 +310,7 @@ fn hostile_answers_are_refused_with_plugin_function_and_item_and_the_rest_goes_o
         assert!(text.contains(words), "{text}");
     }
     for (name, gives, words) in [
-        ("frames", ("risk", 0), "it names its table `frames`, which datasets have of their own"),
+        ("frames", ("risk", 0), "it names its table `frames`, which is reserved for the dataset's own tables"),
         ("more", ("trajectory_id", 3), "it gives a column `trajectory_id`, which the dataset adds itself"),
     ] {
         write(&StageText { name, gives: vec![gives], ..rows.clone() });

@@ -5,7 +5,7 @@ use crate::arguments::LintArguments;
 use crate::exit;
 use crate::text::count;
 use cosfly_diagnose::{Diagnostic, Fault, Result};
-use cosfly_splits::promise::Promise;
+use cosfly_splits::policy::SplitPolicy;
 use cosfly_splits::{FlightFacts, LintRules, facts_of_dataset, lint};
 use std::collections::BTreeMap;
 use std::fmt::Write;
@@ -13,17 +13,17 @@ use std::path::Path;
 
 /// Prints one line per leak and what was compared.
 pub fn dataset_lint(arguments: &LintArguments) -> Outcome {
-    let promises = arguments.dirs.iter().map(|dir| promise(dir)).collect::<Result<Vec<_>>>();
-    let promises = promises.map_err(|refusal| vec![refusal])?;
+    let policies = arguments.dirs.iter().map(|dir| policy(dir)).collect::<Result<Vec<_>>>();
+    let policies = policies.map_err(|refusal| vec![refusal])?;
     let rules = LintRules {
         max_route_overlap: match arguments.max_route_overlap {
             Some(share) if (0.0..=1.0).contains(&share) => share,
             Some(share) => return Err(vec![out_of_range(share)]),
-            None => promises.first().map_or(0.5, |promise| promise.splits.max_route_overlap),
+            None => policies.first().map_or(0.5, |policy| policy.splits.max_route_overlap),
         },
-        by_town: arguments.by_town || promises.iter().all(|promise| promise.rules().by_town),
+        by_town: arguments.by_town || policies.iter().all(|policy| policy.rules().by_town),
     };
-    let window = promises.first().map_or(10, |promise| promise.windows.shape().size());
+    let window = policies.first().map_or(10, |policy| policy.windows.shape().size());
     let mut facts = vec![];
     for (number, dir) in arguments.dirs.iter().enumerate() {
         facts.extend(facts_of_dataset(dir, number, window).map_err(|refusal| vec![refusal])?);
@@ -45,9 +45,9 @@ pub fn dataset_lint(arguments: &LintArguments) -> Outcome {
     Ok(if leaks.found == 0 { exit::SUCCESS } else { exit::FOUND_PROBLEMS })
 }
 
-fn promise(dir: &Path) -> Result<Promise> {
-    Promise::of_dataset(dir).map_err(|message| {
-        let file = dir.join(cosfly_splits::promise::FILE);
+fn policy(dir: &Path) -> Result<SplitPolicy> {
+    SplitPolicy::of_dataset(dir).map_err(|message| {
+        let file = dir.join(cosfly_splits::policy::FILE);
         Diagnostic::new("dataset-damaged", Fault::Input, format!("`{}` cannot be read", file.display()))
             .because(message)
     })
