@@ -1,4 +1,4 @@
-//! Plugins through the real binary: every recipe with one, what a changed plugin makes anew, mistakes, failures, the commands.
+//! Plugins through the real binary: every recipe with one, caching after a change, errors, failures, commands.
 
 use crate::support::{cosfly, repository_root};
 use arrow_stream::Values;
@@ -74,14 +74,14 @@ impl Yard {
         self.folder.path()
     }
 
-    /// (exit code, standard error) of a command.
+    /// Exit code and standard error of a command.
     fn refusal(&self, arguments: &[&str]) -> (Option<i32>, String) {
         let printed = cosfly(arguments).within(self.path()).run();
-        // Lines are broken where they are long.
+        // Long lines are wrapped.
         (printed.code, printed.stderr.split_whitespace().collect::<Vec<_>>().join(" "))
     }
 
-    /// Items made per stage.
+    /// Numbers of items made per stage.
     fn made(&self) -> Vec<(String, u64)> {
         let printed = cosfly(&["run", "recipe.toml", "--json"]).within(self.path()).run_ok();
         let summary: serde_json::Value = serde_json::from_str(&printed.stdout).expect("a JSON summary");
@@ -92,7 +92,7 @@ impl Yard {
     }
 }
 
-/// All that are kept.
+/// Ids of all kept flights.
 const EXAMPLES: [&str; 12] = [
     "no_fly_zone",
     "privacy",
@@ -123,7 +123,7 @@ fn every_recipe_with_a_plugin_makes_a_sound_dataset() {
     }
 }
 
-/// A column of a table, row by row, as text.
+/// A column of a table as text, row by row.
 fn column(dataset: &Path, table: &str, column: &str) -> Vec<String> {
     let mut rows = vec![];
     for file in std::fs::read_dir(dataset.join("data").join(table)).expect("a table") {
@@ -156,7 +156,7 @@ fn a_plugin_changed_by_one_byte_reruns_only_what_uses_it() {
     let yard = Yard::with(RECIPE);
     assert!(yard.made().contains(&("expert".to_owned(), 2)));
     assert!(yard.made().is_empty());
-    // A section of one's own: the same functions, other bytes.
+    // A custom section: the same functions, other bytes.
     let file = yard.path().join("no_fly_zone.wasm");
     let mut bytes = std::fs::read(&file).expect("readable");
     bytes.extend([0, 4, 1, b'n', b'e', b'w']);
@@ -266,9 +266,9 @@ fn an_exporter_adds_files_that_the_dataset_knows_and_a_changed_one_renders_nothi
     assert_eq!(text.lines().count(), 13, "{text}");
     assert!(std::fs::read_to_string(out.join("README.md")).expect("a card").contains("### tum"));
     cosfly(&["verify", "out/yard"]).within(yard.path()).run_ok();
-    // Another file than the exporter wrote is found.
+    // A file that the exporter did not write is found.
     let damaged = out.join("extras/tum/street/000/kept-p00000/camera.txt");
-    // Not through the link into the store.
+    // Not through the hard link into the store.
     std::fs::remove_file(&damaged).and_then(|()| std::fs::write(&damaged, "damaged")).expect("writable");
     let (code, _) = yard.refusal(&["verify", "out/yard"]);
     assert_ne!(code, Some(0));

@@ -21,16 +21,16 @@ struct Line<'a> {
     frame: Option<f64>,
     waypoint_deltas: Option<Vec<Waypoint>>,
     #[serde(borrow)]
-    text: Option<Said<'a>>,
+    text: Option<ModelOutput<'a>>,
     #[serde(borrow)]
-    prediction: Option<Said<'a>>,
+    prediction: Option<ModelOutput<'a>>,
     boxes: Option<Vec<Option<[f64; 4]>>>,
 }
 
 /// Output of a model: text, or the object itself.
 #[derive(Deserialize)]
 #[serde(untagged)]
-enum Said<'a> {
+enum ModelOutput<'a> {
     Object { waypoint_deltas: Vec<Waypoint> },
     Text(#[serde(borrow)] Cow<'a, str>),
 }
@@ -107,10 +107,10 @@ fn take_row(text: &[u8], line: u64, block: &mut Block) -> Result<(), Refusal> {
         return Err(("frame", format!("`frame` is {frame}; it must be a whole number from 0")));
     }
     let deltas: Vec<[f64; 6]> = match (parsed.waypoint_deltas, parsed.text.or(parsed.prediction)) {
-        (Some(waypoints), _) | (None, Some(Said::Object { waypoint_deltas: waypoints })) => {
+        (Some(waypoints), _) | (None, Some(ModelOutput::Object { waypoint_deltas: waypoints })) => {
             waypoints.into_iter().map(|waypoint| waypoint.0).collect()
         }
-        (None, Some(Said::Text(text))) => model_text::deltas_in(&text).map_err(|why| ("model-text", why))?,
+        (None, Some(ModelOutput::Text(text))) => model_text::deltas_in(&text).map_err(|why| ("model-text", why))?,
         (None, None) => return Err(missing("waypoint_deltas`, `text` or `prediction")),
     };
     let boxes = parsed.boxes.unwrap_or_default();

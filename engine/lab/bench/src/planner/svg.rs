@@ -1,4 +1,4 @@
-//! Just enough SVG: shapes, lines and words on a page, written as text.
+//! A minimal SVG writer: shapes, lines and text.
 
 use std::fmt::Write;
 
@@ -8,7 +8,7 @@ pub struct Page {
 }
 
 impl Page {
-    /// A white page.
+    /// Creates a white page.
     pub fn new(width: f64, height: f64) -> Self {
         let mut text = String::new();
         let _ = writeln!(
@@ -20,7 +20,7 @@ impl Page {
         Self { text }
     }
 
-    /// Everything until [`Self::end_clip`] shows only inside a rectangle.
+    /// Clips everything until [`Self::end_clip`] to a rectangle.
     pub fn begin_clip(&mut self, name: &str, x: f64, y: f64, width: f64, height: f64) {
         let _ = writeln!(
             self.text,
@@ -34,13 +34,13 @@ impl Page {
         self.text.push_str("</g>\n");
     }
 
-    /// A filled polygon.
+    /// Adds a filled polygon.
     pub fn polygon(&mut self, corners: &[(f64, f64)], fill: &str, opacity: f64) {
         let points = points(corners);
         let _ = writeln!(self.text, "<polygon points=\"{points}\" fill=\"{fill}\" fill-opacity=\"{opacity}\"/>");
     }
 
-    /// An open line; `dashes` as SVG writes them, empty for none.
+    /// Adds an open line; `dashes` is SVG's dash array, empty for none.
     pub fn line(&mut self, corners: &[(f64, f64)], colour: &str, width: f64, dashes: &str) {
         let points = points(corners);
         let dashes = if dashes.is_empty() { String::new() } else { format!(" stroke-dasharray=\"{dashes}\"") };
@@ -51,12 +51,12 @@ impl Page {
         );
     }
 
-    /// A disc.
+    /// Adds a disc.
     pub fn disc(&mut self, (x, y): (f64, f64), radius: f64, fill: &str) {
         let _ = writeln!(self.text, "<circle cx=\"{x:.1}\" cy=\"{y:.1}\" r=\"{radius}\" fill=\"{fill}\"/>");
     }
 
-    /// Words; `anchor` is `start`, `middle` or `end`.
+    /// Adds text; `anchor` is `start`, `middle` or `end`.
     pub fn words(&mut self, (x, y): (f64, f64), words: &str, anchor: &str, colour: &str) {
         let escaped = words.replace('&', "&amp;").replace('<', "&lt;").replace('>', "&gt;");
         let _ = writeln!(
@@ -65,7 +65,7 @@ impl Page {
         );
     }
 
-    /// The finished document.
+    /// Finished document.
     pub fn finish(mut self) -> String {
         self.text.push_str("</svg>\n");
         self.text
