@@ -24,6 +24,8 @@ fn a_dataset_is_exported_whole_or_not_at_all() {
         ("export_split", &["out/street", "--format", "v7", "--out", "x", "--split", "dev"]),
         ("export_pairs", &["out/street", "--format", "v7", "--out", "x", "--trajectory", "expert-p00000"]),
         ("export_format", &["out/street", "--format", "v8", "--out", "x"]),
+        ("export_foreign_option", &["out/street", "--format", "coco", "--out", "x", "--shard-size", "100"]),
+        ("export_option_value", &["out/street", "--format", "v7", "--out", "x", "--town", "street"]),
     ] {
         let printed = export(&street, arguments);
         let code = printed.code.unwrap_or(-1);

@@ -1,4 +1,4 @@
-//! A flight as the checks see it: what its files say, number by number, with gaps where they say nothing.
+//! A flight as the checks see it: the values of its files, absent where the files have none.
 
 use cosfly_frames::{DVec3, Pose};
 use cosfly_render::Camera;
@@ -6,64 +6,64 @@ use cosfly_render::Camera;
 /// A flight. World frame: CARLA's (x east, y south, z up), metres, radians.
 #[derive(Clone, Debug, Default)]
 pub struct Episode {
-    /// Its name.
+    /// Name.
     pub id: String,
-    /// Its split, when the data have splits.
+    /// Split, where the data have splits.
     pub split: Option<String>,
-    /// Whom it follows, or its scenario: episodes that share it belong to one split.
+    /// Pedestrian or scenario: episodes of the same group belong to one split.
     pub group: String,
-    /// Where it is; episodes with the same one share a place.
+    /// Town; episodes with the same name share a place.
     pub place: String,
-    /// Perturbed on purpose: limits of motion are not asked of it.
+    /// Whether the flight is perturbed on purpose: limits of motion do not apply.
     pub is_perturbed: bool,
-    /// The camera of all frames; none where its lens bends or nothing is known of it.
+    /// Camera of all frames; none where it is unknown or its lens is bent.
     pub camera: Option<Camera>,
     /// Height of the target's body, metres.
     pub target_height_m: f64,
-    /// Time between frames, seconds, as it is told or as most frames have it.
+    /// Time between frames, seconds: as stated, else as most frames have it.
     pub dt_s: f64,
-    /// Its limits of clearance, speed, acceleration and jerk, where it states some.
+    /// Stated limits of clearance (m), speed (m/s), acceleration (m/s^2) and jerk (m/s^3).
     pub limits: [Option<f64>; 4],
     /// The frames.
     pub moments: Vec<Moment>,
-    /// The flight to whose next pose actions lead; its own where there is none.
+    /// Poses of the flight to whose next pose actions lead; none: the own poses.
     pub followed: Option<Vec<Pose>>,
     /// Pictures of some frames.
     pub looks: Vec<Look>,
-    /// Language code and text of its instructions.
+    /// Language code and text of the instructions.
     pub captions: Vec<(String, String)>,
-    /// Vehicles that stand in its place: middle, half lengths and yaw.
+    /// Parked vehicles: middle (m), half lengths (m) and yaw (radians).
     pub vehicles: Vec<(DVec3, DVec3, f64)>,
 }
 
-/// What is told of a frame.
+/// The values of a frame.
 #[derive(Clone, Debug)]
 pub struct Moment {
     /// Time, seconds.
     pub time_s: f64,
-    /// The drone.
+    /// Pose of the drone.
     pub drone: Pose,
-    /// The camera.
+    /// Pose of the camera.
     pub camera: Pose,
-    /// Where the next frame's drone is said to be.
+    /// Stated position of the drone in the next frame.
     pub next_in_world: Option<DVec3>,
-    /// Turn to the next frame that is told: pitch, yaw, roll, degrees.
+    /// Stated turn to the next frame: pitch, yaw, roll, degrees.
     pub turn_deg: Option<[f64; 3]>,
-    /// The middle of the target's body.
+    /// Middle of the target's body.
     pub target_in_world: Option<DVec3>,
-    /// Its walking direction and speed.
+    /// Walking direction (radians) and speed (m/s) of the target.
     pub heading_and_speed: Option<(f64, f64)>,
-    /// Where the target is said to be in the image, hidden or not: middle and height, pixels.
+    /// Stated place of the target in the image, hidden or not: middle and height, pixels.
     pub in_image: Option<(f64, f64, f64)>,
-    /// The box around its visible part: left, top, right, bottom, pixels.
+    /// Box around the visible part of the target: left, top, right, bottom, pixels.
     pub visible_box: Option<[f64; 4]>,
-    /// Share of it that is visible, 0..=1.
+    /// Visible share of the target, 0..=1.
     pub visible: Option<f64>,
-    /// Distance to the nearest obstacle.
+    /// Distance to the nearest obstacle, metres.
     pub clearance_m: Option<f64>,
 }
 
-/// The pictures of a frame, as far as checks need them.
+/// Measurements of the pictures of a frame.
 #[derive(Clone, Debug, Default)]
 pub struct Look {
     /// The frame.
@@ -72,12 +72,12 @@ pub struct Look {
     pub digest: String,
     /// Depth of the target: per frame offset in [`OFFSETS`], the nearest quarter of the depths in that frame's box.
     pub depth_m: Vec<Option<f64>>,
-    /// What the depth image shows of walls, seen from the pose of the frame at each offset in [`OFFSETS`]: distance of its
+    /// Walls in the depth image, seen from the pose of the frame at each offset in [`OFFSETS`]: distance of the
     /// middle point from its wall, metres.
     pub walls_m: Vec<Option<f64>>,
 }
 
-/// The boxes of which frames a depth image is read in, against its own.
+/// Offsets of the frames whose boxes and poses a depth image is compared with; the own frame first.
 pub const OFFSETS: [i64; 5] = [0, -1, 1, -2, 2];
 
 impl Episode {
@@ -101,7 +101,7 @@ impl Episode {
     }
 }
 
-/// The 25 % least of the depths (rows of `width`) inside of a box, so that the ground behind the target does not count.
+/// Lower quartile of the depths (rows of `width`) inside of a box, so that the ground behind the target does not count.
 pub fn depth_in_box(depth_m: &[f32], width: usize, edges: [f64; 4]) -> Option<f64> {
     let height = depth_m.len().checked_div(width)?;
     let clamp = |value: f64, most: usize| value.clamp(0.0, most as f64) as usize;

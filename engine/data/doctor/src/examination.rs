@@ -1,4 +1,4 @@
-//! Reads a folder, runs all checks, and says how much of it may be kept.
+//! Reads a folder, runs all checks, and lists the episodes without a flag.
 
 use crate::sources::{lerobot, ours, v7};
 use crate::{Episode, Flag, Moment, Severity, checks};
@@ -10,7 +10,7 @@ use std::path::Path;
 /// Edges of the classes of visibility that are counted.
 const SHARES: [f64; 4] = [0.0, 0.5, 0.8, 0.95];
 
-/// Whose layout a folder has.
+/// Layout of a folder.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Layout {
@@ -25,53 +25,53 @@ pub enum Layout {
 /// A share of episodes that have a loss of a certain length.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Quota {
-    /// Share that is wanted, 0..=1.
+    /// Smallest share, 0..=1.
     pub wanted: f64,
     /// Least and greatest length of the loss, seconds.
     pub lost_s: (f64, f64),
 }
 
-/// What was looked at and found.
+/// Result of an examination.
 #[derive(Clone, Debug, Serialize)]
 pub struct Examination {
     /// Layout of the folder.
     pub layout: Layout,
-    /// Episodes that were read.
+    /// Number of episodes.
     pub episodes: usize,
-    /// Their frames.
+    /// Number of frames.
     pub frames: usize,
-    /// Everything that was found, files first, then episode by episode, then splits.
+    /// All findings: files first, then episode by episode, then splits.
     pub flags: Vec<Flag>,
     /// Ids of the episodes without a flag.
     pub kept: Vec<String>,
-    /// Episodes with flags that say no damage.
+    /// Number of episodes with flags but without damage.
     pub imperfect: usize,
-    /// Episodes with damage.
+    /// Number of episodes with damage.
     pub damaged: usize,
-    /// Least visibility of a class and its number of frames.
+    /// Lower end of each class of visibility, and its number of frames.
     pub visibility: Vec<(f64, usize)>,
-    /// Quotas with the share that was found.
+    /// Quotas, each with the share in the data.
     pub quotas: Vec<(Quota, f64)>,
-    /// What could not be checked, and why.
+    /// Checks that were impossible, with reasons.
     pub unchecked: Vec<String>,
 }
 
 impl Examination {
-    /// Whether some data say what is not so.
+    /// Whether there is a damage.
     pub fn has_damage(&self) -> bool {
         self.flags.iter().any(|flag| flag.severity == Severity::Damage)
     }
 
-    /// Imperfect ones among the episodes that are not damaged.
+    /// Share of imperfect episodes among those without damage.
     pub fn imperfect_share(&self) -> f64 {
         self.imperfect as f64 / (self.episodes - self.damaged).max(1) as f64
     }
 }
 
-/// Examines the data in `folder`. `progress` hears how many of how many episodes are read.
+/// Examines the data in `folder`. `progress` is called with the number of episodes that are read and of all.
 ///
 /// # Errors
-/// `doctor-layout` when the folder has none that is known; a refusal of the machine. What is wrong with the data is a flag.
+/// `doctor-layout` for an unknown layout; refusals of the machine. Faults of the data are flags.
 pub fn examine(folder: &Path, quotas: &[Quota], progress: &mut dyn FnMut(u64, u64)) -> Result<Examination> {
     let (layout, episodes, mut flags, mut unchecked) = if ours::recognises(folder) {
         let mut flags = ours::files(folder)?;
@@ -94,7 +94,7 @@ pub fn examine(folder: &Path, quotas: &[Quota], progress: &mut dyn FnMut(u64, u6
     Ok(Examination { unchecked, ..summed(layout, &episodes, flags, quotas) })
 }
 
-/// What no episode tells, so that its checks were passed over.
+/// Values that no episode has, whose checks were skipped.
 fn untold(layout: Layout, episodes: &[Episode]) -> Vec<String> {
     let is_told = |what: &dyn Fn(&Episode) -> bool| episodes.is_empty() || episodes.iter().any(what);
     let moments = |what: fn(&Moment) -> bool| is_told(&|it| it.moments.iter().any(what));

@@ -1,38 +1,38 @@
-//! What a check raises: a stable name, how grave it is, where, and what the numbers are.
+//! Findings of checks: a stable name, the severity, the place, and the values.
 
 use serde::Serialize;
 use std::fmt;
 
-/// How grave a flag is.
+/// Severity of a flag.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Severity {
-    /// The episode is true and not as good as others; a few of them do no harm (paper: less than 5 %).
+    /// The episode is true but worse than others; a few of them do no harm (paper: less than 5 %).
     Imperfect,
-    /// The data say what is not so.
+    /// A statement of the data is false.
     Damage,
 }
 
-/// One thing that is wrong.
+/// A finding.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Flag {
     /// Stable kebab-case name, such as `yaw-sign`.
     pub name: &'static str,
-    /// How grave it is.
+    /// Severity.
     pub severity: Severity,
     /// The episode or the file.
     pub place: String,
-    /// What is wrong, with the values.
+    /// Statement of the fault, with values.
     pub message: String,
 }
 
 impl Flag {
-    /// The data say what is not so.
+    /// A statement of the data is false.
     pub fn damage(name: &'static str, place: impl Into<String>, message: impl Into<String>) -> Self {
         Self { name, severity: Severity::Damage, place: place.into(), message: message.into() }
     }
 
-    /// True, but not good.
+    /// A flag of severity [`Severity::Imperfect`].
     pub fn imperfect(name: &'static str, place: impl Into<String>, message: impl Into<String>) -> Self {
         Self { name, severity: Severity::Imperfect, place: place.into(), message: message.into() }
     }

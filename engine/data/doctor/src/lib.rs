@@ -1,4 +1,4 @@
-//! Finds what is wrong with data of flights behind a target: ours, the published v7 layout, or LeRobot's.
+//! Finds faults in data of flights behind a target: datasets of cosfly, the published v7 layout, LeRobot's.
 //!
 //! * [`episode`]: a flight as the checks see it, whatever files it came from.
 //! * [`sources`]: one reader per layout.

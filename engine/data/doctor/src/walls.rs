@@ -1,13 +1,13 @@
-//! How far what a depth image shows of walls is from these walls, from a pose.
+//! Distance of the walls in a depth image from the walls of the town, seen from a pose.
 
 use cosfly_frames::{DVec3, Pose, real};
 use cosfly_read::BoxInWorld;
 use cosfly_render::Camera;
 use std::collections::BTreeMap;
 
-/// Pixels that are taken of an image, about.
+/// Number of pixels of an image that are used, about.
 const SAMPLES: f64 = 400.0;
-/// Pixels of walls that an image must show.
+/// Smallest number of pixels with walls.
 const ENOUGH: usize = 12;
 
 /// Boxes of a town's buildings and walls by their instance ids.
@@ -35,7 +35,7 @@ pub fn points(camera: &Camera, depth_m: &[f32], instances: &[u32], walls: &Walls
     points
 }
 
-/// Distance of the middle one of the points from its wall, seen from `pose`; none of few points.
+/// Median distance of the points from their walls, seen from `pose`, metres; none for few points.
 pub fn middle_gap_m(points: &[(u32, DVec3)], pose: &Pose, walls: &Walls) -> Option<f64> {
     let world_from_body = pose.world_from_body();
     let gap = |(id, point): &(u32, DVec3)| {

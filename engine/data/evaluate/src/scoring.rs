@@ -8,7 +8,7 @@ use cosfly_metrics::{Tally, errors};
 use rayon::prelude::*;
 use std::collections::BTreeMap;
 
-/// What a method scores.
+/// Tallies of a method.
 #[derive(Clone, Debug, PartialEq)]
 pub struct MethodTallies {
     /// Of all windows, one tally per cluster.

@@ -1,4 +1,4 @@
-//! The windows of a dataset: what models see in them, and what is true.
+//! The windows of a dataset: inputs of models, and the truth.
 
 use crate::settings::{InputRole, Settings};
 use cosfly_diagnose::{Diagnostic, Fault, Result};
@@ -38,7 +38,7 @@ impl Flights {
     /// Reads all flights of `dataset`.
     ///
     /// # Errors
-    /// What is wrong with the dataset: an expert that is not there, frames of an expert that it does not have.
+    /// Damage of the dataset: an expert that is not there, or frames that an expert does not have.
     pub fn read(dataset: &PublishedDataset) -> Result<Self> {
         let tracks = dataset.tracks()?;
         let rows = dataset.flights().to_vec();
@@ -83,7 +83,7 @@ impl Flights {
         if self.rows[flight].expert_id.is_some() { InputRole::Perturbed } else { InputRole::Expert }
     }
 
-    /// What a model sees of a window.
+    /// The inputs of a window.
     pub fn view(&self, window: Window, shape: &WindowShape) -> View<'_> {
         let (track, camera) = (&self.tracks[window.flight], &self.rows[window.flight].camera);
         let frames = window.start..window.start + shape.history;
@@ -132,7 +132,7 @@ impl Flights {
         }
     }
 
-    /// What makes a window easy or hard.
+    /// Features that make a window easy or hard.
     pub fn features(&self, window: Window, shape: &WindowShape) -> WindowFeatures {
         let track = &self.tracks[window.flight];
         let frames = window.start..window.start + shape.size();

@@ -8,14 +8,14 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::fmt::Write;
 use std::path::PathBuf;
 
-/// What the card of an export says.
+/// Content of the card of an export.
 #[derive(Clone, Debug, Default)]
 pub struct Card {
     /// Name of the format.
     pub format: &'static str,
     /// More lines of the front matter, such as `configs`.
     pub front_matter: String,
-    /// How to load it, what is where, what every number means. Markdown.
+    /// Loading, layout, meaning of every number. Markdown.
     pub body: String,
 }
 
@@ -48,7 +48,7 @@ impl Card {
     }
 }
 
-/// Weather, lens, shutter and noise of the chosen flights, which formats of others have no place for.
+/// Weather, lens, shutter and noise of the chosen flights, for which the formats have no place.
 fn optics(source: &Source<'_>) -> Result<String> {
     let ids: BTreeSet<&str> = source.flights().map(|flight| &*flight.trajectory_id).collect();
     let mut columns: BTreeMap<&str, Vec<f64>> = BTreeMap::new();
@@ -99,7 +99,7 @@ fn optics(source: &Source<'_>) -> Result<String> {
     Ok(text)
 }
 
-/// Columns of the table of flights, and what they are.
+/// Columns of the table of flights, and their meanings.
 const OPTICS: &[(&str, &str)] = &[
     ("camera_shutter_s", "Motion blur of colours, seconds around the time of the frame"),
     (

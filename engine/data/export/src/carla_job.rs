@@ -8,10 +8,10 @@ use cosfly_render::Lens;
 use serde::Serialize;
 use std::collections::BTreeMap;
 
-/// Raised whenever older scripts would misread newer jobs.
+/// Version of the file, raised when older scripts would misread newer jobs.
 const VERSION: u32 = 1;
 
-/// Everything that the script is told. Lengths in metres, angles in degrees, all in the frame of CARLA's own world.
+/// The job. Lengths in metres, angles in degrees, all in the frame of CARLA's own world.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct CarlaJob {
     format: &'static str,
@@ -25,7 +25,7 @@ struct JobFlight {
     trajectory_id: String,
     /// CARLA's map.
     town: String,
-    /// The log whose pictures are replaced, from the dataset's folder.
+    /// Path of the log whose pictures are replaced, from the dataset's folder.
     log: String,
     dt_s: f64,
     camera: JobCamera,
@@ -47,7 +47,7 @@ struct JobCamera {
 struct JobTarget {
     height_m: f64,
     radius_m: f64,
-    /// Which of the server's walkers, modulo how many it has: a draw from the pedestrian's id, so that twins look alike.
+    /// Number of a walker of the server, modulo their count: drawn from the pedestrian's id, so that twins look alike.
     walker: u32,
 }
 

@@ -5,7 +5,7 @@ use std::fs::File;
 use std::io::{BufWriter, Write};
 use std::path::{Path, PathBuf};
 
-/// Begins the name of folders that are not whole yet.
+/// Name of the file that marks an unfinished folder.
 const MARK: &str = ".cosfly-unfinished";
 
 /// A folder that is being written. Dropped before [`Self::finish`], it is removed; after a crash, it is left under a name
@@ -17,12 +17,12 @@ pub struct OutFolder {
     is_whole: bool,
 }
 
-/// What was written.
+/// Size of an export.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Written {
     /// Number of files.
     pub files: u64,
-    /// Their size.
+    /// Size of the files, bytes.
     pub bytes: u64,
 }
 
@@ -64,7 +64,7 @@ impl OutFolder {
         Ok(this)
     }
 
-    /// Where a file is until the folder is whole.
+    /// Path of a file until the folder is whole.
     pub fn path(&self, name: &str) -> PathBuf {
         self.staging.join(name)
     }
@@ -83,7 +83,7 @@ impl OutFolder {
         file.map(|file| BufWriter::with_capacity(1 << 18, file)).map_err(|error| self.refusal(name, &error))
     }
 
-    /// What to say when the file `name` cannot be written.
+    /// The refusal to write the file `name`.
     pub fn refusal(&self, name: &str, error: &std::io::Error) -> Box<Diagnostic> {
         Diagnostic::io(format!("write `{}`", self.target.join(name).display()), error)
     }

@@ -1,12 +1,13 @@
 //! The laws that every export keeps, over all of them.
 
-use crate::{EXPORTERS, Options, OutFolder, Source, exporter};
+use crate::{Choice, FORMATS, Source, joined_options, prepare};
 use cosfly_diagnose::Result;
 use cosfly_frames::real::wrap_angle_rad;
 use cosfly_metrics::{DeltaFrame, DeltaOrigin};
 use cosfly_read::PublishedDataset;
 use cosfly_sample as sample;
 use cosfly_schema::{DatasetConfig, EncodingConfig};
+use serde_json::{Map, Value, json};
 use std::cell::Cell;
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
@@ -19,19 +20,29 @@ fn published() -> (tempfile::TempDir, PublishedDataset) {
     (home, dataset)
 }
 
-/// Options that fit the sample's five frames.
-fn options() -> Options {
-    let window = cosfly_metrics::WindowShape { history: 3, horizon: 2, stride: 1 };
-    Options { window, ..Options::default() }
+/// Options of format `name` that fit the sample's five frames.
+fn options(name: &str) -> Map<String, Value> {
+    let options = match name {
+        "vlm" => json!({"history": 3, "horizon": 2, "stride": 1}),
+        _ => json!({}),
+    };
+    options.as_object().unwrap().clone()
 }
 
-fn export(dataset: &PublishedDataset, name: &str, options: &Options, out: &Path) -> Result<Vec<String>> {
+fn export(dataset: &PublishedDataset, name: &str, out: &Path) -> Result<Vec<String>> {
+    export_with(dataset, name, options(name), &Choice::default(), out)
+}
+
+fn export_with(
+    dataset: &PublishedDataset,
+    name: &str,
+    options: Map<String, Value>,
+    choice: &Choice,
+    out: &Path,
+) -> Result<Vec<String>> {
     let heard = Cell::new((0, 1));
     let progress = |done, all| heard.set((done, all));
-    let source = Source::new(dataset, options, &progress)?;
-    let folder = OutFolder::begin(out, dataset.folder())?;
-    let remarks = exporter(name).unwrap().export(&source, &folder)?;
-    folder.finish()?;
+    let (_, remarks) = prepare(name, options)?.write(dataset, choice, out, &progress)?;
     assert_eq!(heard.get().0, heard.get().1, "progress of `{name}` ends where it should");
     Ok(remarks)
 }
@@ -55,17 +66,48 @@ fn files(folder: &Path) -> BTreeMap<PathBuf, Vec<u8>> {
 #[test]
 fn every_export_has_a_card_a_licence_and_the_same_bytes_twice() {
     let (home, dataset) = published();
-    for format in EXPORTERS {
-        let [first, second] = ["first", "second"].map(|name| home.path().join(format!("{}-{name}", format.name())));
-        export(&dataset, format.name(), &options(), &first).unwrap();
-        export(&dataset, format.name(), &options(), &second).unwrap();
+    for format in FORMATS {
+        let [first, second] = ["first", "second"].map(|name| home.path().join(format!("{}-{name}", format.name)));
+        export(&dataset, format.name, &first).unwrap();
+        export(&dataset, format.name, &second).unwrap();
         let files = files(&first);
-        assert!(files == self::files(&second), "`{}` differs from itself", format.name());
+        assert!(files == self::files(&second), "`{}` differs from itself", format.name);
         let card = String::from_utf8(files[Path::new("README.md")].clone()).unwrap();
         assert!(card.starts_with("---\n") && card.contains("license:"), "{card}");
-        assert!(files.contains_key(Path::new("LICENSE")), "`{}`", format.name());
-        assert!(!format.about().is_empty() && exporter(format.name()).is_some());
+        assert!(files.contains_key(Path::new("LICENSE")), "`{}`", format.name);
+        assert!(!format.doc.is_empty());
     }
+}
+
+#[test]
+fn the_list_is_sorted_and_an_option_of_several_formats_is_the_same_in_all() {
+    assert!(FORMATS.is_sorted_by_key(|format| format.name));
+    for (option, formats) in joined_options() {
+        assert!(!option.doc.is_empty(), "`{}` has no doc", option.name);
+        for format in FORMATS {
+            let own = format.options().into_iter().find(|own| own.name == option.name);
+            assert_eq!(own.is_some(), formats.contains(&format.name));
+            assert!(own.is_none_or(|own| own == option), "`{}` of `{}` differs", option.name, format.name);
+        }
+    }
+}
+
+#[test]
+fn options_of_other_formats_and_values_out_of_range_are_refused() {
+    let refused = |format: &str, options: Value| {
+        let refusal = prepare(format, options.as_object().unwrap().clone()).err().unwrap();
+        assert_eq!(refusal.code, "export-option");
+        format!("{refusal}; {}", refusal.hints.join("; "))
+    };
+    let text = refused("v7", json!({"every": 2}));
+    assert!(
+        text.contains("`v7` has no option `--every`") && text.contains("`coco`, `imagefolder`, `webdataset`"),
+        "{text}"
+    );
+    let text = refused("v7", json!({"town": ["street"]}));
+    assert!(text.contains("`street` is not a town of the dataset and a name for it"), "{text}");
+    assert!(prepare("v7", json!({"town": ["street=Town01"]}).as_object().unwrap().clone()).is_ok());
+    assert_eq!(prepare("v8", Map::new()).err().unwrap().code, "export-format");
 }
 
 #[test]
@@ -76,10 +118,10 @@ fn a_refused_export_leaves_nothing_behind() {
         let bytes = std::fs::read(&log).unwrap();
         std::fs::write(&log, &bytes[..bytes.len() / 2]).unwrap();
     }
-    for format in EXPORTERS {
-        let refusal = export(&dataset, format.name(), &options(), &home.path().join("out")).unwrap_err();
-        assert!(refusal.code.starts_with("dataset-"), "`{}`: {refusal:?}", format.name());
-        assert_eq!(std::fs::read_dir(home.path()).unwrap().count(), 1, "`{}` left something", format.name());
+    for format in FORMATS {
+        let refusal = export(&dataset, format.name, &home.path().join("out")).unwrap_err();
+        assert!(refusal.code.starts_with("dataset-"), "`{}`: {refusal:?}", format.name);
+        assert_eq!(std::fs::read_dir(home.path()).unwrap().count(), 1, "`{}` left something", format.name);
     }
 }
 
@@ -89,8 +131,8 @@ fn flights_are_chosen_by_split_and_name() {
     let split = dataset.flights()[0].split.clone();
     let chosen = |splits: &[&str], trajectories: &[&str]| {
         let owned = |names: &[&str]| names.iter().map(|name| (*name).to_owned()).collect();
-        let options = Options { splits: owned(splits), trajectories: owned(trajectories), ..options() };
-        let source = Source::new(&dataset, &options, &|_, _| {})?;
+        let choice = Choice { splits: owned(splits), trajectories: owned(trajectories) };
+        let source = Source::new(&dataset, &choice, &|_, _| {})?;
         Ok::<_, Box<cosfly_diagnose::Diagnostic>>(source.flights().count())
     };
     assert_eq!(chosen(&[], &[]).unwrap(), 4);
@@ -100,22 +142,23 @@ fn flights_are_chosen_by_split_and_name() {
     assert_eq!(chosen(&[], &["expert-p00001"]).unwrap(), 1);
     assert_eq!(chosen(&["dev"], &[]).unwrap_err().code, "export-split");
     assert_eq!(chosen(&[], &["expert"]).unwrap_err().code, "dataset-no-flight");
-    let alone = Options { trajectories: vec!["expert-p00000".into()], ..options() };
-    assert_eq!(export(&dataset, "v7", &alone, &home.path().join("x")).unwrap_err().code, "export-pairs");
+    let alone = Choice { trajectories: vec!["expert-p00000".into()], ..Choice::default() };
+    let refusal = export_with(&dataset, "v7", Map::new(), &alone, &home.path().join("x")).unwrap_err();
+    assert_eq!(refusal.code, "export-pairs");
 }
 
 #[test]
 fn a_v7_export_is_read_back_by_the_strict_reader() {
     let (home, dataset) = published();
     let out = home.path().join("v7");
-    let remarks = export(&dataset, "v7", &options(), &out).unwrap();
+    let remarks = export(&dataset, "v7", &out).unwrap();
     assert!(remarks.len() == 1 && remarks[0].contains("`plain` is called `Town01`"), "{remarks:?}");
-    let root = out.join(crate::v7::ROOT);
-    let reading = crate::v7::reader::read(&root).unwrap();
+    let root = out.join(crate::formats::v7::ROOT);
+    let reading = crate::formats::v7::reader::read(&root).unwrap();
     assert_eq!((reading.pairs, reading.frames, reading.problems), (2, 4 * sample::FRAMES, vec![]));
     let picture = files(&root).into_keys().find(|path| path.ends_with("rgb.png")).unwrap();
     std::fs::write(root.join(picture), b"no picture").unwrap();
-    assert_eq!(crate::v7::reader::read(&root).unwrap().problems.len(), 1);
+    assert_eq!(crate::formats::v7::reader::read(&root).unwrap().problems.len(), 1);
 }
 
 #[test]
@@ -137,7 +180,9 @@ fn what_a_vision_language_model_learns_to_say_leads_to_the_expert() {
     let (home, dataset) = published();
     for (delta_frame, name) in [(DeltaFrame::World, "world"), (DeltaFrame::Body, "body")] {
         let out = home.path().join(name);
-        export(&dataset, "vlm", &Options { delta_frame, ..options() }, &out).unwrap();
+        let mut options = options("vlm");
+        options.insert("frame".into(), name.into());
+        export_with(&dataset, "vlm", options, &Choice::default(), &out).unwrap();
         let mut rows = 0;
         for (path, bytes) in
             files(&out).into_iter().filter(|(path, _)| path.extension().is_some_and(|it| it == "jsonl"))

@@ -1,6 +1,6 @@
-//! Names of picture files, so that no folder has more than a thousand entries.
+//! Names of picture files: no folder has more than a thousand entries.
 
-/// Entries of a folder at most.
+/// Largest number of entries of a folder.
 pub const FOLDER_LIMIT: usize = 1000;
 
 /// Path of a picture of frame `frame` of the `flight`-th flight, such as `000/expert-p00000/000/000012.jpg`: thousands of

@@ -1,4 +1,4 @@
-//! What is known of a frame as one JSON object, the same in all formats that have such a thing.
+//! The facts of a frame as one JSON object, the same in all formats that have it.
 
 use cosfly_frames::Pose;
 use cosfly_read::{FrameRow, PublishedFlight};

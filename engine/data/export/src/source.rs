@@ -1,6 +1,6 @@
-//! The flights that are exported, one at a time, with what the tables say of them and their pictures.
+//! The flights that are exported, one at a time, with their rows, captions and pictures.
 
-use crate::exporter::Options;
+use crate::shared_options::Language;
 use cosfly_diagnose::{Diagnostic, Fault, Result};
 use cosfly_frames::Pose;
 use cosfly_read::{FrameRow, LoggedFrame, PublishedDataset, PublishedFlight};
@@ -9,15 +9,22 @@ use rayon::prelude::*;
 use std::cell::Cell;
 use std::collections::{BTreeMap, BTreeSet};
 
-/// Frames that are read and encoded side by side, so that memory does not grow with the length of a flight.
+/// Number of frames that are read and encoded at the same time, so that memory does not grow with the length of a flight.
 const BATCH: usize = 16;
+
+/// The flights of a dataset that are exported.
+#[derive(Clone, Debug, Default)]
+pub struct Choice {
+    /// Splits to export; all when empty.
+    pub splits: Vec<String>,
+    /// Ids of the trajectories to export; all when empty.
+    pub trajectories: Vec<String>,
+}
 
 /// A dataset with the flights that were chosen from it.
 pub struct Source<'a> {
     /// The dataset.
     pub dataset: &'a PublishedDataset,
-    /// What was asked for.
-    pub options: &'a Options,
     /// Trajectory ids of the chosen flights.
     chosen: BTreeSet<String>,
     captions: BTreeMap<String, Vec<CaptionRecord>>,
@@ -28,33 +35,33 @@ pub struct Source<'a> {
 
 /// A flight with its frames.
 pub struct Episode<'a> {
-    /// Its row in the table of flights.
+    /// Row of the table of flights.
     pub flight: &'a PublishedFlight,
-    /// Its rows in the table of frames.
+    /// Rows of the table of frames.
     pub frames: Vec<FrameRow>,
-    /// Its captions, in all languages.
+    /// Captions in all languages.
     pub captions: &'a [CaptionRecord],
     source: &'a Source<'a>,
 }
 
 impl<'a> Source<'a> {
-    /// The flights of `dataset` that `options` choose. `progress` hears of frames done and frames in all.
+    /// The flights of `dataset` in `choice`. `progress` is called with the number of frames that are done and of all.
     ///
     /// # Errors
-    /// `export-nothing` when no flight is chosen, `dataset-no-flight` and `export-split` for names that are none.
-    pub fn new(dataset: &'a PublishedDataset, options: &'a Options, progress: &'a dyn Fn(u64, u64)) -> Result<Self> {
+    /// `export-nothing` when no flight is chosen, `export-split` and `dataset-no-flight` for names that the dataset lacks.
+    pub fn new(dataset: &'a PublishedDataset, choice: &Choice, progress: &'a dyn Fn(u64, u64)) -> Result<Self> {
         let splits: BTreeSet<&str> = dataset.flights().iter().map(|flight| &*flight.split).collect();
-        if let Some(unknown) = options.splits.iter().find(|name| !splits.contains(name.as_str())) {
+        if let Some(unknown) = choice.splits.iter().find(|name| !splits.contains(name.as_str())) {
             let names: Vec<_> = splits.iter().map(|name| format!("`{name}`")).collect();
             return Err(Diagnostic::new("export-split", Fault::Recipe, format!("there is no split `{unknown}`"))
                 .hint(format!("the splits of this dataset are {}", names.join(", "))));
         }
-        for id in &options.trajectories {
+        for id in &choice.trajectories {
             dataset.flight(id)?;
         }
         let is_chosen = |flight: &&PublishedFlight| {
-            (options.splits.is_empty() || options.splits.contains(&flight.split))
-                && (options.trajectories.is_empty() || options.trajectories.contains(&flight.trajectory_id))
+            (choice.splits.is_empty() || choice.splits.contains(&flight.split))
+                && (choice.trajectories.is_empty() || choice.trajectories.contains(&flight.trajectory_id))
         };
         let chosen: Vec<_> = dataset.flights().iter().filter(is_chosen).collect();
         if chosen.is_empty() {
@@ -64,7 +71,6 @@ impl<'a> Source<'a> {
         let all = chosen.iter().map(|flight| flight.frames as u64).sum();
         Ok(Self {
             dataset,
-            options,
             chosen: chosen.into_iter().map(|flight| flight.trajectory_id.clone()).collect(),
             captions: dataset.captions()?,
             progress,
@@ -97,12 +103,12 @@ impl<'a> Source<'a> {
         self.dataset.flights().iter().find(|flight| flight.trajectory_id == id)
     }
 
-    /// Gives the chosen flights to `visit` in the dataset's order. One is in memory at a time.
+    /// Calls `visit` with each chosen flight, in the dataset's order. One is in memory at a time.
     pub fn each_flight(&self, visit: &mut dyn FnMut(&Episode<'_>) -> Result<()>) -> Result<()> {
         self.each_flight_of(&|_| true, visit)
     }
 
-    /// The same for the chosen flights that are `wanted`.
+    /// Calls `visit` with each chosen flight that is `wanted`, in the dataset's order.
     pub fn each_flight_of(
         &self,
         wanted: &dyn Fn(&PublishedFlight) -> bool,
@@ -120,7 +126,7 @@ impl<'a> Source<'a> {
         })
     }
 
-    /// Poses of the chosen flights' experts, by trajectory id, chosen or not.
+    /// Poses of the chosen flights' experts by trajectory id; the experts need not be chosen.
     pub fn expert_poses(&self) -> Result<BTreeMap<String, Vec<Pose>>> {
         let experts: BTreeSet<&str> =
             self.flights().map(|flight| flight.expert_id.as_deref().unwrap_or(&flight.trajectory_id)).collect();
@@ -139,7 +145,8 @@ impl<'a> Source<'a> {
 }
 
 impl Episode<'_> {
-    /// Reads the pictures of the flight's frames `frames`, makes something of each side by side, and takes it in order.
+    /// Reads the pictures of the flight's frames `frames`, calls `make` with them on all cores, and `take` with its results
+    /// in the order of `frames`.
     pub fn each_picture<T: Send>(
         &self,
         frames: &[usize],
@@ -166,10 +173,10 @@ impl Episode<'_> {
         Ok(())
     }
 
-    /// The expert's pose of every frame, its own for an expert; `experts` are [`Source::expert_poses`].
+    /// The expert's pose of every frame (for an expert, the own poses); `experts` are [`Source::expert_poses`].
     ///
     /// # Errors
-    /// `dataset-damaged` when the expert or one of its frames is not there.
+    /// `dataset-damaged` when the expert or one of its frames is absent.
     pub fn expert_poses(&self, experts: &BTreeMap<String, Vec<Pose>>) -> Result<Vec<Pose>> {
         let flight = self.flight;
         let poses = experts.get(flight.expert_id.as_deref().unwrap_or(&flight.trajectory_id));
@@ -183,7 +190,7 @@ impl Episode<'_> {
         self.frames.iter().enumerate().map(pose).collect()
     }
 
-    /// Some of its frames as an episode of their own, except for pictures: these keep the numbers of the whole flight.
+    /// Some of the frames as an episode. Its pictures keep the frame numbers of the whole flight.
     pub fn part(&self, frames: std::ops::Range<usize>) -> Episode<'_> {
         Episode { frames: self.frames[frames].to_vec(), ..*self }
     }
@@ -193,15 +200,14 @@ impl Episode<'_> {
         (0..self.frames.len()).collect()
     }
 
-    /// Every so many frames as was asked for.
-    pub fn chosen_frames(&self) -> Vec<usize> {
-        (0..self.frames.len()).step_by(self.source.options.every.max(1)).collect()
+    /// The first frame and every `step`-th after it.
+    pub fn every_nth_frame(&self, step: usize) -> Vec<usize> {
+        (0..self.frames.len()).step_by(step.max(1)).collect()
     }
 
-    /// The instruction in the language that was asked for, or in any, or a plain one.
-    pub fn instruction(&self) -> &str {
-        let language = &self.source.options.language;
-        let own = self.captions.iter().find(|caption| caption.language == *language);
+    /// The instruction in `language`, else in any language, else a plain one.
+    pub fn instruction(&self, language: Language) -> &str {
+        let own = self.captions.iter().find(|caption| caption.language == language.code());
         own.or(self.captions.first()).map_or("Follow the pedestrian and keep them in view.", |caption| &caption.text)
     }
 }

@@ -1,10 +1,10 @@
 //! The clip: an animated GIF with colours at the left, depth and labels at the right, visibility below.
 
-use crate::canvas::{Canvas, Colour, INK, WHITE};
 use crate::shot::{FULL_BOX, Shot, VISIBLE_BOX};
 use color_quant::NeuQuant;
 use cosfly_diagnose::{Diagnostic, Fault, Result};
 use cosfly_maps::SemanticLabel;
+use cosfly_plot::canvas::{Canvas, Colour, INK, WHITE};
 use cosfly_render::preview::DepthScale;
 use std::borrow::Cow;
 
@@ -12,7 +12,7 @@ use std::borrow::Cow;
 const WIDE: usize = 480;
 /// Height of the strip with the visibility of all frames.
 const STRIP: usize = 26;
-/// Hundredths of a second that a picture stays.
+/// Duration of a picture, hundredths of a second.
 const DELAY_CS: u16 = 10;
 /// Palette entries of the colour image and of depth; labels and drawings have theirs exactly.
 const COLOURS: usize = 150;
@@ -56,7 +56,7 @@ impl Clip {
         });
     }
 
-    /// The clip as a GIF file that repeats for ever.
+    /// The clip as a GIF file that repeats forever.
     pub fn finish(self) -> Result<Vec<u8>> {
         let refused = |error: gif::EncodingError| {
             Diagnostic::new("preview-encode", Fault::Bug, "could not encode a GIF clip").because(error)
@@ -102,7 +102,7 @@ impl Clip {
         indices
     }
 
-    /// What was visible in which frame, a mark at the present one, and its number.
+    /// The visibility of all frames, a mark at the current one, and its number.
     fn strip(&self, place: usize) -> Canvas {
         let width = self.size[0] * 3 / 2;
         let mut strip = Canvas::new(width, STRIP, INK);

@@ -1,8 +1,8 @@
 //! The ground as the camera saw it: labels of pixels brought back to the plane through their depths.
 
-use crate::canvas::Colour;
 use cosfly_frames::DVec3;
 use cosfly_maps::SemanticLabel;
+use cosfly_plot::canvas::Colour;
 use cosfly_read::{LoggedFrame, PublishedFlight};
 use std::collections::BTreeMap;
 

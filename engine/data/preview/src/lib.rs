@@ -2,9 +2,7 @@
 //!
 //! The same dataset gives the same bytes on every machine.
 
-mod canvas;
 mod clip;
-mod font;
 mod ground;
 mod plan;
 mod selection;
@@ -27,7 +25,7 @@ use std::collections::BTreeSet;
 const SHEET_FRAMES: usize = 6;
 /// Pictures of a clip when no frames are asked for.
 const CLIP_FRAMES: usize = 100;
-/// Frames whose pixels the plan's ground is made of.
+/// Number of frames whose pixels make the plan's ground.
 const GROUND_FRAMES: usize = 60;
 /// Most frames of one preview: each is a row of the sheet, and the clip is in memory.
 const MOST_FRAMES: usize = 400;
@@ -46,11 +44,11 @@ pub struct Pictures {
     pub shown: [usize; 2],
 }
 
-/// Draws `flight`. Without `frames`, the sheet has six of them and the clip a hundred. `progress` hears how many frames of
-/// how many are read.
+/// Draws `flight`. Without `frames`, the sheet has six of them and the clip a hundred. `progress` is called with the number of
+/// frames that are read and of all.
 ///
 /// # Errors
-/// `preview-frame` or `preview-many` when the frames do not fit, otherwise what is wrong with the dataset's files.
+/// `preview-frame` or `preview-many` where the frames do not fit; errors of the dataset's files.
 pub fn draw(
     dataset: &PublishedDataset,
     flight: &PublishedFlight,

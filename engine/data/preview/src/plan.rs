@@ -1,16 +1,16 @@
 //! The plan: town, walk and flights from above, the flights coloured by how much of the target is visible.
 
-use crate::canvas::{Canvas, Colour, INK, Point, WHITE, text_width};
 use crate::clip::ramp;
 use crate::ground::SeenGround;
 use cosfly_frames::{DVec3, real};
+use cosfly_plot::canvas::{Canvas, Colour, INK, Point, WHITE, text_width};
 use cosfly_read::{FrameRow, PublishedFlight, SceneBox};
 
 /// Longest side of the drawn area, pixels.
 const SIDE: f64 = 1280.0;
 /// Most pixels per metre, so that short flights do not fill the sheet with one wall.
 const DENSEST: f64 = 16.0;
-/// Town around the paths, metres.
+/// Margin around the flights, metres.
 const MARGIN_M: f64 = 14.0;
 /// Smallest extent, metres.
 const SMALLEST_M: f64 = 60.0;
@@ -20,19 +20,19 @@ const LEGEND: usize = 34;
 const SIGHTS: usize = 9;
 const WALK: Colour = [70, 60, 200];
 
-/// What a plan shows.
+/// Content of a plan.
 pub struct Plan<'a> {
-    /// The flight that was asked for.
+    /// The chosen flight.
     pub flight: &'a PublishedFlight,
-    /// It and its twins with their frames, the expert first.
+    /// The expert and its twins with their frames, the expert first.
     pub family: Vec<(&'a PublishedFlight, Vec<FrameRow>)>,
-    /// Obstacles near it.
+    /// Obstacles near the flight.
     pub boxes: Vec<SceneBox>,
-    /// The ground between them.
+    /// The ground.
     pub ground: SeenGround,
 }
 
-/// How the world lies in the picture: x to the right, y down, as the world's axes are seen from above.
+/// Projection of the world to the picture: x to the right, y down, as seen from above.
 struct View {
     low: [f64; 2],
     scale: f64,
@@ -131,7 +131,7 @@ impl Plan<'_> {
         }
     }
 
-    /// From drone to target at some frames, numbered.
+    /// Numbered lines of sight from drone to target.
     fn draw_sights(&self, view: &View, canvas: &mut Canvas) {
         let Some((_, frames)) = self.family.iter().find(|(flight, _)| *flight == self.flight) else { return };
         for number in crate::selection::spread(frames.len(), SIGHTS) {

@@ -1,4 +1,4 @@
-//! Which frames of a flight are shown.
+//! Choice of the frames of a flight.
 
 use cosfly_diagnose::{Diagnostic, Fault, Result};
 use std::collections::BTreeSet;

@@ -1,7 +1,7 @@
 //! The contact sheet: some frames of a flight, one row each: colours, depth, labels, the target enlarged.
 
-use crate::canvas::{Canvas, INK, WHITE};
 use crate::shot::Shot;
+use cosfly_plot::canvas::{Canvas, INK, WHITE};
 use cosfly_read::PublishedFlight;
 use cosfly_render::preview::DepthScale;
 

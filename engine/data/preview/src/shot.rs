@@ -1,7 +1,7 @@
 //! One frame of a log as pictures of any size.
 
-use crate::canvas::{Canvas, Colour, WHITE};
 use cosfly_diagnose::{Diagnostic, Fault, Result};
+use cosfly_plot::canvas::{Canvas, Colour, WHITE};
 use cosfly_read::LoggedFrame;
 use cosfly_render::preview::palette_image;
 use zune_jpeg::JpegDecoder;

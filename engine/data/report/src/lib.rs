@@ -1,19 +1,16 @@
 //! The page of a dataset: numbers, maps, distributions and worst cases in one HTML file that opens offline.
 //!
-//! * [`model`]: what the page is made of; whoever has a dataset, in memory or on a disk, fills it.
-//! * [`page`](fn@page): writes it. No script, no address is loaded, pictures are inside; the same data give the same bytes.
+//! * [`model`]: content of the page.
+//! * [`page`](fn@page): writes it. No script, nothing is loaded, pictures are inside; the same data give the same bytes.
 //!
 //! To add a section: one file in `sections/` and its line in the list of sections in `page.rs`.
 
-mod chart;
 mod map;
 pub mod model;
 mod moments;
 mod page;
 mod pictures;
 mod sections;
-mod statistics;
-mod text;
 
 pub use model::{BoxSketch, FlightSketch, Known, PlannerRow, RejectionSketch, Report, TownSketch};
 pub use page::page;

@@ -1,23 +1,24 @@
 //! A town from above with its flights, coloured by how much of their targets they see.
 
-use crate::chart::class_of;
 use crate::model::{BoxSketch, FlightSketch, TownSketch};
-use crate::text::escaped;
-use crate::{moments, statistics};
+use crate::moments;
+use cosfly_plot::statistics;
+use cosfly_plot::strip::class_of;
+use cosfly_plot::text::escaped;
 use std::collections::BTreeMap;
 use std::fmt::Write;
 
 const WIDTH: f64 = 1000.0;
-/// Height is between these, pixels.
+/// Smallest and largest height, pixels.
 const HEIGHTS: (f64, f64) = (380.0, 760.0);
-/// Around the flights, metres.
+/// Margin around the flights, metres.
 const MARGIN_M: f64 = 18.0;
-/// More flights are not readable.
+/// Largest number of flights in a map.
 const MOST_FLIGHTS: usize = 40;
-/// More boxes of one kind are left out of the picture.
+/// Largest number of boxes of one kind in a map.
 const MOST_BOXES: usize = 6_000;
 
-/// A figure of `town` with its experts; nothing without any.
+/// A figure of `town` with experts' flights; empty without flights.
 pub fn draw(town: &TownSketch, flights: &[&FlightSketch]) -> String {
     let experts: Vec<&FlightSketch> = flights.iter().filter(|it| !it.is_perturbed).copied().collect();
     let drawn = if experts.is_empty() { flights.to_vec() } else { experts };
@@ -53,7 +54,7 @@ pub fn draw(town: &TownSketch, flights: &[&FlightSketch]) -> String {
     )
 }
 
-/// Metres to pixels.
+/// Projection from metres to pixels.
 struct Sheet {
     west_m: f64,
     north_m: f64,

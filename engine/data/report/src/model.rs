@@ -1,19 +1,19 @@
-//! What the page is made of: sketches of towns and flights, a few numbers per frame. World frame, metres, degrees.
+//! Content of the page: sketches of towns and flights, a few numbers per frame. World frame, metres, degrees.
 
-/// A dataset as its page shows it.
+/// A dataset as the page shows it.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Report {
     /// Heading of the page.
     pub title: String,
-    /// What the dataset is, in a paragraph.
+    /// Description, one paragraph.
     pub description: String,
-    /// Its short name and version.
+    /// Short name and version.
     pub name_and_version: String,
     /// Day of publication, `YYYY-MM-DD`.
     pub published: String,
     /// Name of the licence.
     pub license: String,
-    /// Who publishes it.
+    /// Publisher.
     pub creator: String,
     /// Languages of the captions.
     pub languages: Vec<String>,
@@ -23,16 +23,16 @@ pub struct Report {
     pub flights: Vec<FlightSketch>,
     /// Items without a flight.
     pub rejections: Vec<RejectionSketch>,
-    /// Planners beside each other; empty leaves the section out.
+    /// Comparison of planners; without rows there is no section.
     pub planners: Vec<PlannerRow>,
 }
 
 /// A town seen from above.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct TownSketch {
-    /// Its name.
+    /// Name.
     pub name: String,
-    /// Its obstacles.
+    /// Obstacles.
     pub boxes: Vec<BoxSketch>,
 }
 
@@ -45,20 +45,20 @@ pub struct BoxSketch {
     pub kind: String,
     /// Middle: x east, y south.
     pub center_m: [f64; 2],
-    /// Half its lengths along its own axes.
+    /// Half lengths along the box's own axes.
     pub half_m: [f64; 2],
-    /// Turn from x towards y, radians.
+    /// Yaw from x towards y, radians.
     pub yaw_rad: f64,
 }
 
 /// A flight with a few numbers per frame.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct FlightSketch {
-    /// Its id.
+    /// Id.
     pub id: String,
-    /// Perturbed, otherwise an expert.
+    /// True for a perturbed flight, false for an expert's.
     pub is_perturbed: bool,
-    /// Whom it follows.
+    /// Id of the pedestrian.
     pub pedestrian: String,
     /// Name of the town.
     pub town: String,
@@ -76,17 +76,17 @@ pub struct FlightSketch {
     pub feet_m: Vec<[f32; 3]>,
     /// Share of the target's body that rays from the camera reach, 0..=1.
     pub visible: Vec<f32>,
-    /// To the nearest obstacle.
+    /// Distance to the nearest obstacle.
     pub clearance_m: Vec<f32>,
     /// Edges of the box around the whole body in the image, hidden or not: left, top, right, bottom.
     pub box_px: Vec<Option<[f32; 4]>>,
-    /// Whether its limits hold.
+    /// Whether all limits hold.
     pub holds: bool,
-    /// Which do not, in words.
+    /// Broken limits as text.
     pub violations: Vec<String>,
     /// Largest jerk, m/s^3.
     pub max_jerk_mps3: f64,
-    /// Total cost on the way to the flight.
+    /// Total cost after each step of planning.
     pub convergence: Vec<f64>,
     /// Weighted cost of each term of the published flight.
     pub term_costs: Vec<(String, f64)>,
@@ -103,7 +103,7 @@ impl FlightSketch {
         self.drone_m.is_empty()
     }
 
-    /// From the first frame to the last, seconds.
+    /// Time from the first frame to the last, seconds.
     pub fn duration_s(&self) -> f64 {
         self.dt_s * self.len().saturating_sub(1) as f64
     }
@@ -113,7 +113,7 @@ impl FlightSketch {
         self.visible.iter().map(|share| f64::from(*share)).sum::<f64>() / self.visible.len().max(1) as f64
     }
 
-    /// From the camera to the feet, metres, frame by frame.
+    /// Distance from the camera to the feet in every frame, metres.
     pub fn distances_m(&self) -> Vec<f32> {
         let pairs = self.drone_m.iter().zip(&self.feet_m);
         pairs.map(|(drone, feet)| length([drone[0] - feet[0], drone[1] - feet[1], drone[2] - feet[2]])).collect()
@@ -161,22 +161,22 @@ fn length(v: [f32; 3]) -> f32 {
 pub struct RejectionSketch {
     /// The id that the flight would have had.
     pub id: String,
-    /// Stage that rejected it.
+    /// Stage that rejected the item.
     pub stage: String,
-    /// Why.
+    /// Reason.
     pub reason: String,
 }
 
-/// A planner's figures over the same walks as those of the others.
+/// Figures of a planner; all planners have the same walks.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct PlannerRow {
-    /// Its name.
+    /// Name.
     pub planner: String,
-    /// Walks that it was given.
+    /// Number of walks.
     pub asked: u64,
-    /// Flights that it found; the other numbers are over these.
+    /// Number of flights that were found; the other numbers are means or extremes over them.
     pub planned: u64,
-    /// Flights that keep all limits.
+    /// Number of flights that keep all limits.
     pub sound: u64,
     /// Mean visibility, 0..=1.
     pub visible: Known,
@@ -194,9 +194,9 @@ pub struct PlannerRow {
     pub jerk_mps3: Known,
     /// Weighted cost of each term per frame.
     pub costs: Vec<(String, f64)>,
-    /// Why it found no way, the first time that it found none.
+    /// Reason of the first walk without a flight.
     pub refusal: Option<String>,
 }
 
-/// A number that may not be known.
+/// A number that may be unknown.
 pub type Known = Option<f64>;

@@ -1,19 +1,19 @@
-//! Which flights and which of their frames are worth a picture.
+//! Choice of the flights and frames that the page shows.
 
 use crate::model::FlightSketch;
 
-/// Mean visibility from which on a flight is no bad case.
+/// Mean visibility from which a flight is not a bad case.
 const FULLY: f64 = 0.9995;
 
 /// A reason to look at a flight, and the frames that show it.
 pub struct Case {
     /// Place of the flight in the list.
     pub flight: usize,
-    /// What it is the worst in.
+    /// Property in which the flight is the worst.
     pub what: &'static str,
-    /// The value, in words.
+    /// The value as text.
     pub figure: String,
-    /// Frames to show, with what each shows.
+    /// Frames to show, each with a description.
     pub frames: Vec<(usize, &'static str)>,
 }
 
@@ -45,7 +45,7 @@ fn best_frame(flight: &FlightSketch, part: usize, parts: usize) -> Option<usize>
     (edge(part)..edge(part + 1)).max_by(|a, b| value(a).total_cmp(&value(b)).then(b.cmp(a)))
 }
 
-/// The flights that are the worst in something.
+/// The worst flight of each property.
 pub fn worst(flights: &[FlightSketch]) -> Vec<Case> {
     let of = |perturbed: bool| (0..flights.len()).filter(move |at| flights[*at].is_perturbed == perturbed);
     let names = ["least visible expert", "second least visible expert", "third least visible expert"];
@@ -76,7 +76,7 @@ pub fn worst(flights: &[FlightSketch]) -> Vec<Case> {
     cases
 }
 
-/// The `count` places with the least values, that of equals which comes first.
+/// Indices of the `count` smallest values; the first of equals.
 fn least(places: impl Iterator<Item = usize>, value: &dyn Fn(usize) -> f64, count: usize) -> Vec<usize> {
     let mut places: Vec<usize> = places.collect();
     places.sort_by(|a, b| value(*a).total_cmp(&value(*b)).then(a.cmp(b)));
@@ -100,7 +100,7 @@ fn hidden(flights: &[FlightSketch], at: usize, what: &'static str) -> Case {
     Case { flight: at, what, figure: format!("{:.1} % visible{lost}", 100.0 * flight.mean_visible()), frames }
 }
 
-/// The place of the least number, the first of equals.
+/// Index of the smallest number, the first of equals.
 fn lowest(numbers: &[f32]) -> usize {
     let least = |a: &usize, b: &usize| numbers[*a].total_cmp(&numbers[*b]).then(a.cmp(b));
     (0..numbers.len()).min_by(least).unwrap_or(0)

@@ -1,17 +1,18 @@
 //! The page as a whole: heading, contents, sections, foot.
 
 use crate::model::Report;
+use crate::moments;
 use crate::pictures::{Source, image};
 use crate::sections::{distributions, maps, numbers, planners, planning, shares, timelines, worst};
-use crate::text::escaped;
-use crate::{moments, statistics};
+use cosfly_plot::statistics;
+use cosfly_plot::text::escaped;
 use std::fmt::Write;
 
 const STYLE: &str = include_str!("../assets/style.css");
 /// Pictures in the heading.
 const GALLERY: usize = 6;
 
-/// The page. `pictures` gives the small colour image of a frame of a flight, by their places, if there is one.
+/// The page, HTML. `pictures` returns the small colour image of a frame of a flight, by their indices, where there is one.
 ///
 /// # Errors
 /// Those of `pictures`.

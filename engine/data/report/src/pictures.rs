@@ -1,15 +1,15 @@
 //! Pictures inside of the page.
 
 use crate::model::FlightSketch;
-use crate::text::escaped;
 use base64::Engine;
 use base64::prelude::BASE64_STANDARD;
+use cosfly_plot::text::escaped;
 use std::fmt::Write;
 
-/// Gives the small colour image of a frame of a flight as a JPEG file, if there is one.
+/// Returns the small colour image of a frame of a flight as a JPEG file, where there is one.
 pub type Source<'a, E> = &'a mut dyn FnMut(usize, usize) -> Result<Option<Vec<u8>>, E>;
 
-/// Least side of a frame around the target, share of the picture's width.
+/// Smallest side of the frame around the target, share of the picture's width.
 const LEAST_FRAME: f32 = 0.05;
 
 /// The picture of a frame with a frame around the target, hidden or not.

@@ -102,7 +102,7 @@ fn sums(folder: &Path, report: &mut VerifyReport) -> Result<BTreeMap<String, Str
     Ok(sums)
 }
 
-/// What a file must be, as far as it is known.
+/// Known size and hash of a file.
 struct Expected<'a> {
     path: &'a str,
     bytes: Option<u64>,

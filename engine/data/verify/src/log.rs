@@ -35,13 +35,13 @@ const PER_FRAME: [&str; 10] = [
     topic::TARGET_STATE,
 ];
 
-/// What tables say about a flight beside its frames.
+/// Rows of tables about a flight, beside its frames.
 pub struct Known<'a> {
     /// Language and text of its captions.
     pub captions: &'a [(String, String)],
     /// Instance ids of the town's objects.
     pub objects: Option<&'a BTreeSet<u32>>,
-    /// Who is seen beside the target, by frame.
+    /// People seen beside the target, by frame.
     pub others: &'a [PersonRow],
 }
 

@@ -1,4 +1,4 @@
-//! Table `people`: everybody beside the target who is seen, against frames, objects and pixels.
+//! Table `people`: all people seen beside the target, against frames, objects and pixels.
 
 use super::body::{Body, SLACK_PX};
 use super::files::CheckedFiles;
@@ -9,7 +9,7 @@ use cosfly_schema::tables::People;
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::Path;
 
-/// Somebody who is seen in a frame.
+/// A person seen in a frame.
 #[derive(Clone, Debug, PartialEq)]
 pub struct PersonRow {
     /// Row in its file.
@@ -20,7 +20,7 @@ pub struct PersonRow {
     pub instance: u32,
     /// Visible pixels.
     pub pixels: u32,
-    /// Edges around them.
+    /// Edges around the visible pixels: left, top, right, bottom.
     pub visible_box: [f64; 4],
     walk_id: String,
     body: [f64; 5],

@@ -1,4 +1,4 @@
-//! What a check found.
+//! Findings of a check.
 
 use std::fmt;
 
@@ -14,7 +14,7 @@ pub struct Finding {
     pub place: String,
     /// Stable kebab-case name of the rule, such as `verify-hash`.
     pub rule: &'static str,
-    /// What is wrong, with the values.
+    /// Problem, with the values.
     pub message: String,
 }
 
@@ -47,7 +47,7 @@ impl fmt::Display for LabelGap {
     }
 }
 
-/// What was checked and what was found.
+/// Numbers of checked things, and findings.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct VerifyReport {
     /// The first findings, in the order of the checks.
@@ -56,11 +56,11 @@ pub struct VerifyReport {
     pub found: u64,
     /// Files whose hash was checked.
     pub files: u64,
-    /// Their bytes.
+    /// Bytes of the checked files.
     pub bytes: u64,
     /// Flights whose frames and log were checked.
     pub flights: u64,
-    /// Their frames.
+    /// Frames of the checked flights.
     pub frames: u64,
     /// Frames whose stored boxes were compared with the reprojected body and with the images.
     pub boxes: u64,

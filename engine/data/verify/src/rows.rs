@@ -12,7 +12,7 @@ use cosfly_schema::tables::{self, DatasetItem, FileRecord, Files, Frames, Kind, 
 use std::ops::Deref;
 use std::path::Path;
 
-/// What was read, or the damage of a file, in words.
+/// A value read, or the damage of a file, in words.
 pub type ReadResult<T> = Result<T, String>;
 
 /// Gives the rows of a file of `table` to `visit`, row group by row group.

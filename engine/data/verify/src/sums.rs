@@ -79,7 +79,7 @@ pub fn check_frames(flight: &PlacedFlight, frames: &[PlacedFrame], report: &mut 
     }
 }
 
-/// What the frames give for [`MEANS`].
+/// Means of [`MEANS`] over the frames.
 fn of_frames(frames: &[PlacedFrame]) -> [f64; 5] {
     let count = frames.len().max(1) as f64;
     let mean = |value: &dyn Fn(&PlacedFrame) -> f64| frames.iter().map(value).sum::<f64>() / count;

@@ -10,7 +10,7 @@ use cosfly_schema::tables::{self, Captions, Objects, Pairs, Rejected};
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::Path;
 
-/// What later checks need of the small tables.
+/// Rows of the small tables that later checks read.
 pub struct SmallTables {
     /// Flights by name.
     pub flights: BTreeMap<String, PlacedFlight>,

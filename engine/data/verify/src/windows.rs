@@ -28,7 +28,7 @@ pub fn check(folder: &Path, files: &CheckedFiles, small: &SmallTables, report: &
     flights.check(folder, files, small, report);
 }
 
-/// What windows are held against: the tables `trajectories` and `frames`.
+/// Rows that windows are compared with, of tables `trajectories` and `frames`.
 pub struct Flights {
     shape: WindowShape,
     /// Frames by flight.
@@ -341,7 +341,7 @@ mod tests {
     use cosfly_schema::config::WindowConfig;
     use cosfly_schema::{DatasetConfig, EncodingConfig};
 
-    /// What is found when the windows of the sample dataset are held against spoiled frames.
+    /// Findings when the windows of the sample dataset are compared with spoiled frames.
     fn found(spoil: impl Fn(&mut Flights)) -> Vec<String> {
         let folder = tempfile::tempdir().unwrap();
         let windows = WindowConfig { size: 4, history: 2, stride: 1 };

@@ -3,7 +3,8 @@
 use cosfly_diagnose::{Diagnostic, Fault, Result};
 use cosfly_schema::extras::{Extra, ExtraSource};
 
-/// What the plugins gave of `flights` flights: each once, in the order of their names. `of_flight` reads one flight's.
+/// Sources of the plugins' tables and files for `flights` flights: each once, in the order of names. `of_flight` reads
+/// those of one flight.
 ///
 /// # Errors
 /// Two plugins of one name; a plugin that gave not of every flight, or something else of some.

@@ -80,7 +80,7 @@ pub(crate) fn writer_properties(rows_per_group: usize, features: Option<String>)
         .build()
 }
 
-/// What kept a table from being written.
+/// The diagnostic of a table that cannot be written.
 pub(crate) fn write_error(table: &str, error: ParquetError) -> Box<Diagnostic> {
     if let ParquetError::External(inner) = &error
         && let Some(error) = inner.downcast_ref::<std::io::Error>()

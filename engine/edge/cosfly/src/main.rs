@@ -1,66 +1,36 @@
 //! The `cosfly` command: arguments, progress, exit codes. The only code that prints or reads the environment.
 
 mod arguments;
+mod cli;
+mod command;
 mod commands;
 mod exit;
 mod interrupt;
+mod output;
+mod progress;
 mod reporter;
 mod text;
 
-#[cfg(feature = "plugins")]
-use arguments::PluginCommand;
-use arguments::{Arguments, Command, DatasetCommand, TaskCommand};
-use clap::Parser;
-use cosfly_diagnose::{Diagnostic, Fault};
 use cosfly_frames::simd::Level;
-use std::io::{ErrorKind, Write};
 use std::panic::AssertUnwindSafe;
 use std::process::ExitCode;
 
 fn main() -> ExitCode {
-    guarded(command)
+    guarded(called)
 }
 
 /// One call of the command line.
-fn command() -> ExitCode {
+fn called() -> ExitCode {
     if let Err(message) = choose_vector_level() {
         eprintln!("error: {message}");
         return ExitCode::from(exit::ARGUMENTS);
     }
-    let arguments = Arguments::parse();
+    let matches = cli::cli().get_matches();
     #[cfg(feature = "plugins")]
     cosfly_stages::plugins::keep_compiled_in(compiled_plugins());
-    let outcome = match arguments.command {
-        Command::Run(arguments) => commands::run::run(&arguments),
-        Command::Plan(arguments) => commands::plan::plan(&arguments),
-        Command::PlanFrom(arguments) => commands::plan_from::plan_from(&arguments),
-        Command::Why(arguments) => commands::why::why(&arguments),
-        Command::Graph(arguments) => commands::graph::graph(&arguments),
-        Command::Verify(arguments) => commands::verify::verify(&arguments),
-        Command::Dataset(DatasetCommand::Lint(arguments)) => commands::dataset_lint::dataset_lint(&arguments),
-        Command::Dataset(DatasetCommand::Tag(arguments)) => commands::dataset_versions::tag(&arguments),
-        Command::Dataset(DatasetCommand::List(arguments)) => commands::dataset_versions::list(&arguments),
-        Command::Dataset(DatasetCommand::Diff(arguments)) => commands::dataset_versions::diff(&arguments),
-        Command::Dataset(DatasetCommand::Checkout(arguments)) => commands::dataset_versions::checkout(&arguments),
-        Command::Eval(arguments) => commands::eval::eval(&arguments),
-        Command::Preview(arguments) => commands::preview::preview(&arguments),
-        Command::Doctor(arguments) => commands::doctor::doctor(&arguments),
-        Command::Export(arguments) => commands::export::export(&arguments),
-        Command::CarlaJob(arguments) => commands::carla_job::carla_job(&arguments),
-        Command::Gc(arguments) => commands::collect::collect(&arguments),
-        Command::Schema(arguments) => commands::schema::schema(&arguments),
-        Command::Town(arguments) => commands::town::town(&arguments),
-        #[cfg(feature = "plugins")]
-        Command::Plugin(PluginCommand::New(arguments)) => commands::plugin_new::new(&arguments),
-        #[cfg(feature = "plugins")]
-        Command::Plugin(PluginCommand::Check(arguments)) => commands::plugin_check::check(&arguments),
-        #[cfg(feature = "plugins")]
-        Command::Plugin(PluginCommand::Bench(arguments)) => commands::plugin_bench::bench(&arguments),
-        Command::Task(TaskCommand::Run { digest, store }) => commands::task::run(&digest, &store),
-    };
-    match outcome {
+    match command::dispatch(commands::COMMANDS, &matches) {
         Ok(code) => ExitCode::from(code),
-        Err(refusals) => {
+        Err(command::Refusals(refusals)) => {
             let all = refusals.iter().map(|refusal| &**refusal);
             eprintln!("{}", cosfly_diagnose::render_all(all, reporter::colour()));
             exit::code_of_all(&refusals)
@@ -68,7 +38,7 @@ fn command() -> ExitCode {
     }
 }
 
-/// Everything gives the same bytes with every vector level; `COSFLY_SIMD` chooses one to see that, empty counts as unset.
+/// All vector levels give the same bytes; `COSFLY_SIMD` chooses one to show that, empty counts as unset.
 fn choose_vector_level() -> Result<(), String> {
     let Some(name) = std::env::var("COSFLY_SIMD").ok().filter(|name| !name.is_empty()) else { return Ok(()) };
     let available = Level::available();
@@ -88,24 +58,10 @@ fn compiled_plugins() -> Option<std::path::PathBuf> {
     caches.map(|caches| caches.join("cosfly").join("plugins"))
 }
 
-/// Prints to standard output; a reader that went away (`| head`) is no error, a full disk is.
-fn print(text: &str) -> Result<(), commands::Refusals> {
-    let mut out = std::io::stdout().lock();
-    match out.write_all(text.as_bytes()).and_then(|()| out.flush()) {
-        Err(error) if error.kind() != ErrorKind::BrokenPipe => Err(vec![unwritten(&error)]),
-        Ok(()) | Err(_) => Ok(()),
-    }
-}
-
-/// What to say when standard output takes nothing more.
-fn unwritten(error: &std::io::Error) -> Box<Diagnostic> {
-    Diagnostic::new("machine-io", Fault::Machine, "could not write to standard output").because(error)
-}
-
-/// Runs `work`; a panic is cosfly's own fault and ends with the exit code for that.
+/// Runs `work`; a panic is an internal error with an exit code of its own.
 fn guarded(work: impl FnOnce() -> ExitCode) -> ExitCode {
     std::panic::catch_unwind(AssertUnwindSafe(work)).unwrap_or_else(|_| {
-        eprintln!("error: cosfly itself is wrong here; please report the lines above, with the recipe or command line");
+        eprintln!("internal error: please report the lines above, with the recipe or command line");
         ExitCode::from(exit::BUG)
     })
 }

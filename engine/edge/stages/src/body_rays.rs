@@ -3,7 +3,7 @@
 
 use cosfly_frames::{DVec3, Pose};
 use cosfly_geometry::{BoxBvh, SpatialQuery};
-use cosfly_render::{Bystander, Camera, TargetSetup, target_triangles, walker_triangles};
+use cosfly_render::{Bystander, Camera, TargetSetup, Walker, target_triangles, walker_triangles};
 
 /// Rays through the box around the body in the image; about half of them meet the body.
 const RAYS: f64 = 900.0;
@@ -44,7 +44,9 @@ impl BodyRays {
         triangles.iter().for_each(|triangle| grid.meet(triangle, &mut self.nearness));
         self.nearness_of_others.clear();
         self.nearness_of_others.resize(grid.columns * grid.rows, 0.0);
-        for other in others.iter().filter(|other| is_before(other, pose.position_in_world, target)) {
+        let target_in_world = middle(target.state.feet_in_world, target.height_m);
+        let is_before = |other: &&Bystander| is_before(&other.walker, pose.position_in_world, target_in_world);
+        for other in others.iter().filter(is_before) {
             let triangles = walker_triangles(&other.walker).into_iter().filter_map(seen);
             triangles.for_each(|triangle| grid.meet(&triangle, &mut self.nearness_of_others));
         }
@@ -63,13 +65,17 @@ impl BodyRays {
     }
 }
 
-/// True where a person may hide a part of the target from a point.
-fn is_before(other: &Bystander, eye_in_world: DVec3, target: &TargetSetup) -> bool {
-    let away = |feet: DVec3, height_m: f64| feet + DVec3::Z * (0.5 * height_m) - eye_in_world;
-    let to_target = away(target.state.feet_in_world, target.height_m);
-    let to_other = away(other.walker.state.feet_in_world, other.walker.height_m);
+/// True where a person may hide a part of the target, whose middle is given, from an eye.
+pub fn is_before(other: &Walker, eye_in_world: DVec3, target_in_world: DVec3) -> bool {
+    let to_target = target_in_world - eye_in_world;
+    let to_other = middle(other.state.feet_in_world, other.height_m) - eye_in_world;
     let along = to_other.dot(to_target) / to_target.length_squared().max(1e-9);
     (to_other - to_target * along.clamp(0.0, 1.0)).length() < APART_M
+}
+
+/// Middle of an upright body.
+pub fn middle(feet_in_world: DVec3, height_m: f64) -> DVec3 {
+    feet_in_world + DVec3::Z * (0.5 * height_m)
 }
 
 /// Pixels of rays: the middles of square cells.

@@ -186,19 +186,19 @@ fn check_planner(config: &MucoConfig) -> Result<(), ParameterError> {
     let refuse = |path: &str, message: String, hint: &str| {
         Err(ParameterError { hint: Some(hint.to_owned()), ..parameters::refused_at(path, message) })
     };
-    let (paper, baseline) = (config.preset == Preset::Paper, config.planner.baseline());
+    let (paper, is_baseline) = (config.preset == Preset::Paper, config.planner.is_baseline());
     let name = config.planner.name();
-    if paper && baseline.is_some() {
+    if paper && is_baseline {
         let message = format!("`planner` is `{name}`, but `preset = \"paper\"` is a planner of its own");
         return refuse("planner", message, "leave one of the two out; `weights` changes what a baseline weighs");
     }
-    if config.occlusion.count > 0 && (paper || baseline.is_some()) {
+    if config.occlusion.count > 0 && (paper || is_baseline) {
         let who = if paper { "preset = \"paper\"".to_owned() } else { format!("planner = \"{name}\"") };
         let count = config.occlusion.count;
         let message = format!("`occlusion.count` is {count}, but `{who}` cannot lose its target on purpose");
         return refuse("occlusion.count", message, "leave it out, or take another preset with `planner = \"muco\"`");
     }
-    if config.limits.require_kinematics && baseline.is_some_and(|baseline| !baseline.bounds_kinematics()) {
+    if config.limits.require_kinematics && !config.planner.bounds_kinematics() {
         let message = format!(
             "`planner = \"{name}\"` bounds no acceleration, and `limits.require_kinematics` is true: all its flights would be rejected"
         );
@@ -365,34 +365,9 @@ fn companion_visibility(world: &World, companion: &TargetTrack, flight: &Traject
     seen.sum::<f64>() / companion.len().max(1) as f64
 }
 
-/// The `count` walks that stay nearest to `track` on average over its frames, nearest first; equally near ones by id.
-pub fn nearest_companions(track: &TargetTrack, others: Vec<Companion>, count: usize) -> Vec<Companion> {
-    let distance = |other: &TargetTrack| {
-        let pairs = track.states.iter().zip(&other.states);
-        pairs.map(|(a, b)| a.feet_in_world.distance(b.feet_in_world)).sum::<f64>()
-    };
-    let mut ranked: Vec<(f64, Companion)> = others.into_iter().map(|other| (distance(&other.1), other)).collect();
-    ranked.sort_by(|a, b| a.0.total_cmp(&b.0).then_with(|| a.1.0.cmp(&b.1.0)));
-    ranked.into_iter().take(count).map(|(_, companion)| companion).collect()
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
-    use cosfly_frames::{DVec3, TargetState};
-
-    fn walk_at(y: f64) -> TargetTrack {
-        let state = |x: f64| TargetState { feet_in_world: DVec3::new(x, y, 0.0), heading_rad: 0.0, speed_mps: 1.0 };
-        TargetTrack { dt_s: 0.5, height_m: 1.7, radius_m: 0.3, states: (0..9).map(|x| state(f64::from(x))).collect() }
-    }
-
-    #[test]
-    fn companions_are_the_nearest_and_equals_come_by_id() {
-        let others = [("p3", 2.0), ("p1", -9.0), ("p2", 2.0), ("p4", 30.0)];
-        let others = others.map(|(id, y)| (id.to_owned(), walk_at(y))).to_vec();
-        let chosen = nearest_companions(&walk_at(0.0), others, 3);
-        assert_eq!(chosen.iter().map(|(id, _)| id.as_str()).collect::<Vec<_>>(), ["p2", "p3", "p1"]);
-    }
 
     #[test]
     fn parameters_survive_their_canonical_form_and_tracking_reads_nothing_of_other_objectives() {

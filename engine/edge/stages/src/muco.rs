@@ -1,12 +1,12 @@
 //! `muco`: expert trajectories from the multi-constraint optimiser.
 
-use crate::expert::{Companion, Expert, nearest_companions};
+use crate::expert::Expert;
 use crate::plugins::Plugins;
 use crate::ports::{self, TRAJECTORY, WALK};
 use crate::world::{check_same_town, link_town, world};
-use crate::{codec, single};
+use crate::{codec, companions};
 use cosfly_blobs::OutputSink;
-use cosfly_diagnose::{Diagnostic, Fault, ParameterError, Result};
+use cosfly_diagnose::{ParameterError, Result};
 use cosfly_frames::{Seed, TargetTrack};
 use cosfly_pedestrians::PedestrianPath;
 use cosfly_planner::PlanOutcome;
@@ -37,13 +37,13 @@ impl StageKind for Muco {
 
     fn build(&self, given: serde_json::Value) -> Result<Vec<StagePart>, ParameterError> {
         let expert = Expert::read(given)?;
-        let (inputs, items) = match expert.count() {
+        let count = expert.config.targets.companions;
+        let (mut parts, inputs, items) = match expert.count() {
             None => {
-                let optional = expert.config.targets.companions == 0;
-                let ports = vec![ports::town(), paths(), InputPort { optional, ..others() }];
-                (ports, ItemRule::PerInput("paths"))
+                let ports = vec![ports::town(), paths(), companions::port(count == 0)];
+                (vec![companions::part(count, paths(), others())], ports, ItemRule::PerInput("paths"))
             }
-            Some(count) => (vec![ports::town()], ItemRule::Count { prefix: "f", count }),
+            Some(count) => (vec![], vec![ports::town()], ItemRule::Count { prefix: "f", count }),
         };
         let properties = StageProperties {
             kind: self.name().into(),
@@ -55,7 +55,8 @@ impl StageKind for Muco {
             items,
             bytes_per_item: 60_000,
         };
-        Ok(single(MucoStage { expert, properties }))
+        parts.push(StagePart { suffix: "", stage: Box::new(MucoStage { expert, properties }) });
+        Ok(parts)
     }
 }
 
@@ -82,8 +83,7 @@ impl Stage for MucoStage {
         let (walk, companions) = if self.expert.objective.objective == Objective::Track {
             check_same_town(inputs, "paths")?;
             let walk: PedestrianPath = codec::decode(WALK, &inputs.read(inputs.one("paths")?, "walk")?)?;
-            let companions = self.companions(inputs, &walk.track)?;
-            (Some(walk.track), companions)
+            (Some(walk.track), companions::read(inputs)?)
         } else {
             (None, vec![])
         };
@@ -111,47 +111,6 @@ impl Stage for MucoStage {
         produced.notes.extend(findings.0);
         produced.warnings.extend(findings.1);
         Ok(produced)
-    }
-}
-
-impl MucoStage {
-    /// The walks that stay nearest to the one at `paths`.
-    fn companions(&self, inputs: &Inputs<'_>, track: &TargetTrack) -> Result<Vec<Companion>> {
-        let count = self.expert.config.targets.companions as usize;
-        if count == 0 {
-            return Ok(vec![]);
-        }
-        check_same_town(inputs, "others")?;
-        let own = inputs.one("paths")?;
-        let mut others = vec![];
-        for artifact in inputs.all("others").iter().filter(|it| it.id != own.id) {
-            let walk =
-                inputs.decoded(artifact, "walk", |bytes| codec::decode::<PedestrianPath>(WALK, bytes))?.track.clone();
-            if (walk.len(), walk.dt_s) != (track.len(), track.dt_s) {
-                let message = format!(
-                    "`{}` has {} steps of {} s, `{}` has {} of {} s: they cannot be companions",
-                    artifact.id,
-                    walk.len(),
-                    walk.dt_s,
-                    own.id,
-                    track.len(),
-                    track.dt_s
-                );
-                return Err(Diagnostic::new("companions-differ", Fault::Recipe, message)
-                    .hint("connect `inputs.others` to walkers with the same `steps` and `dt_s`"));
-            }
-            others.push((artifact.name.to_string(), walk));
-        }
-        if others.len() < count {
-            let message = format!(
-                "`targets.companions` is {count}, but `inputs.others` brings {} walks beside `{}`",
-                others.len(),
-                own.id
-            );
-            return Err(Diagnostic::new("companions-few", Fault::Recipe, message)
-                .hint("raise the walkers' `count`, or ask for fewer companions"));
-        }
-        Ok(nearest_companions(track, others, count))
     }
 }
 

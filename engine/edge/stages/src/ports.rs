@@ -6,8 +6,12 @@ use cosfly_stage::{Fan, InputPort, PortSource, Takes};
 pub const TOWN: &str = "town/1";
 /// Artifact of a pedestrian's walk.
 pub const WALK: &str = "walk/1";
+/// Artifact of the companions of a flight.
+pub const COMPANIONS: &str = "companions/1";
 /// Artifact of a planned or perturbed trajectory.
 pub const TRAJECTORY: &str = "trajectory/2";
+/// Artifact of the people who are near a flight.
+pub const NEARBY: &str = "nearby/1";
 /// Artifact of a rendered trajectory.
 pub const FRAMES: &str = "frames/1";
 /// Artifact of a trajectory's captions.

@@ -1,7 +1,8 @@
 //! Results of stages, read back by other tools.
 
-use crate::codec;
+use crate::expert::Companion;
 use crate::ports::{TOWN, TRAJECTORY, WALK};
+use crate::{codec, companions};
 use cosfly_diagnose::Result;
 use cosfly_maps::Town;
 use cosfly_pedestrians::PedestrianPath;
@@ -13,6 +14,9 @@ pub const TOWN_BLOB: &str = crate::world::TOWN_BLOB;
 pub const WALK_BLOB: &str = "walk";
 /// Name of the blob of a `muco` or `perturb` item that holds the trajectory.
 pub const TRAJECTORY_BLOB: &str = "trajectory";
+
+/// Name of the blob of an item of part `companions` of a `muco` stage.
+pub const COMPANIONS_BLOB: &str = companions::NAME;
 
 /// Town in a blob named [`TOWN_BLOB`].
 ///
@@ -36,4 +40,12 @@ pub fn walk(bytes: &[u8]) -> Result<PedestrianPath> {
 /// As [`town`].
 pub fn trajectory(bytes: &[u8]) -> Result<PlanOutcome> {
     codec::decode(TRAJECTORY, bytes)
+}
+
+/// Companions in a blob named [`COMPANIONS_BLOB`].
+///
+/// # Errors
+/// As [`town`].
+pub fn companions(bytes: &[u8]) -> Result<Vec<Companion>> {
+    companions::decode(bytes)
 }

@@ -1,12 +1,15 @@
-//! `render`: pictures of every trajectory, all channels of a frame from one visibility pass.
+//! `render`: pictures of every trajectory, all channels of a frame from one visibility pass; the people in them come from
+//! part `nearby`.
 
 use crate::body_rays::BodyRays;
-use crate::crowd::{Crowd, walk_seed, walked_m};
+use crate::crowd::Crowd;
 use crate::memo::Memo;
-use crate::ports::{self, FRAMES, TRAJECTORY, WALK};
+use crate::ports::{self, FRAMES, TRAJECTORY};
 use crate::rejections::reject;
+use crate::shooting::{Shooting, preset};
+use crate::walks::walked_m;
 use crate::world::{TOWN_BLOB, World, check_same_town, link_town, world};
-use crate::{backends, codec, parameters, single};
+use crate::{backends, codec, nearby, parameters};
 use cosfly_blobs::OutputSink;
 use cosfly_diagnose::{ParameterError, Result};
 use cosfly_frames::{Pose, Seed};
@@ -15,8 +18,7 @@ use cosfly_planner::{PlanOutcome, Trajectory};
 use cosfly_render::effects::{pose_at, target_state_at};
 use cosfly_render::frame::{TARGET_INSTANCE, object_instance};
 use cosfly_render::{
-    Backend, Bystander, Camera, Effects, Moment, Mount, RenderConfig, Scene, Shot, TargetSetup, TargetView, Weather,
-    gait_phase_rad,
+    Backend, Bystander, Camera, Effects, Moment, RenderConfig, Scene, Shot, TargetSetup, TargetView, gait_phase_rad,
 };
 use cosfly_schema::tables::kind_name;
 use cosfly_schema::{EncodingConfig, PairInfo, Rejection, RenderedTrajectory, Role, Sighting, TownInfo};
@@ -44,12 +46,7 @@ impl StageKind for Render {
     }
 
     fn ports(&self) -> Vec<InputPort> {
-        let others = "Walks of other people who are about while the camera flies; nobody else, when left out.";
-        vec![
-            ports::town(),
-            ports::each("trajectories", TRAJECTORY, true, "The trajectories to fly the camera along."),
-            InputPort { optional: true, ..ports::gather("others", WALK, true, others) },
-        ]
+        vec![ports::town(), nearby::trajectories(), InputPort { optional: true, ..nearby::others() }]
     }
 
     fn build(&self, given: serde_json::Value) -> Result<Vec<StagePart>, ParameterError> {
@@ -63,27 +60,29 @@ impl StageKind for Render {
             ..parameters::refused_at("backend", error.message)
         })?;
         let pixels = u64::from(config.width) * u64::from(config.height);
+        let items = match config.paired_weathers {
+            true => ItemRule::PerVariant { port: "trajectories", variants: config.weathers.clone() },
+            false => ItemRule::PerInput("trajectories"),
+        };
+        let nearby = nearby::part(&config, canonical(&config, parameters::canonical(&config)), items.clone());
         let properties = StageProperties {
             kind: self.name().into(),
-            version: 4,
-            parameters: canonical(&config, &encoding),
+            version: 5,
+            parameters: canonical(&config, parameters::joined_canonical(&config, &encoding, "encoding")),
             sources: vec![],
-            inputs: self.ports(),
+            inputs: vec![ports::town(), nearby::trajectories(), nearby::port()],
             artifact: FRAMES,
-            items: match config.paired_weathers {
-                true => ItemRule::PerVariant { port: "trajectories", variants: config.weathers.clone() },
-                false => ItemRule::PerInput("trajectories"),
-            },
+            items,
             bytes_per_item: 200 * pixels * 3 / 4,
         };
-        Ok(single(RenderStage { config, encoding, properties, scene: Memo::default(), idle: Mutex::default() }))
+        let stage = RenderStage { config, encoding, properties, scene: Memo::default(), idle: Mutex::default() };
+        Ok(vec![nearby, StagePart { suffix: "", stage: Box::new(stage) }])
     }
 }
 
 /// Parameters for keys. A paired item is named after its own weather and reads no other: one more weather renders no old
 /// one again.
-fn canonical(config: &RenderConfig, encoding: &EncodingConfig) -> serde_json::Value {
-    let mut all = parameters::joined_canonical(config, encoding, "encoding");
+fn canonical(config: &RenderConfig, mut all: serde_json::Value) -> serde_json::Value {
     if let Some(table) = all.as_object_mut().filter(|_| config.paired_weathers) {
         table.remove("weathers");
     }
@@ -127,11 +126,9 @@ impl Stage for RenderStage {
         // Buildings look the same in every flight through the town.
         let scene =
             self.scene.get(town_digest, || -> Result<_> { Ok(Scene::new(&world.town, Seed(town_digest.0))) })?;
-        // Twins follow the same walk: same clothes, same weather, same camera.
-        let preset = context.id.item.variant().filter(|_| self.config.paired_weathers);
-        let shooting = self.shooting(walk_seed(&trajectory.track)?, preset);
-        let ids = world.town.obstacles.iter().map(|obstacle| object_instance(obstacle.object_id));
-        let crowd = Crowd::around(inputs, &trajectory.track, ids.max().unwrap_or(TARGET_INSTANCE))?;
+        let shooting = Shooting::of(&self.config, &trajectory, &context.id.item)?;
+        let preset = preset(&self.config, &context.id.item);
+        let crowd = Crowd::around(inputs)?;
         let place = Place { scene: &scene, world: &world, crowd: &crowd };
         let seen = self.draw(outputs, context, &place, &trajectory, &shooting)?;
         let notes = notes_of(&crowd, &seen.sightings);
@@ -195,13 +192,11 @@ struct SeenPeople {
 
 /// Notes about the people around.
 fn notes_of(crowd: &Crowd, sightings: &[Sighting]) -> BTreeMap<String, String> {
-    if crowd.len() + crowd.left_out == 0 {
+    if crowd.len() == 0 {
         return BTreeMap::new();
     }
     let seen: BTreeSet<u32> = sightings.iter().map(|sighting| sighting.person).collect();
-    let left_out = crowd.left_out;
-    let words =
-        format!("{} of {} seen, {left_out} left out: they would walk through the target", seen.len(), crowd.len());
+    let words = format!("{} of {} nearby seen", seen.len(), crowd.len());
     BTreeMap::from([("others".to_owned(), words)])
 }
 
@@ -212,14 +207,6 @@ struct Place<'a> {
     crowd: &'a Crowd,
 }
 
-/// Settings that all frames of a flight share.
-struct Shooting {
-    camera: Camera,
-    mount: Mount,
-    weather: Weather,
-    walk_seed: Seed,
-}
-
 /// A camera with its effects and backend.
 struct Rig {
     camera: Camera,
@@ -228,16 +215,6 @@ struct Rig {
 }
 
 impl RenderStage {
-    /// Camera, mount and weather of a flight behind the walk with this seed; the weather is `preset` where that is given.
-    fn shooting(&self, walk_seed: Seed, preset: Option<&str>) -> Shooting {
-        let weather = match preset {
-            Some(preset) => self.config.weather_called(preset, &walk_seed),
-            None => self.config.draw_weather(&walk_seed),
-        };
-        let (camera, mount) = (self.config.draw_camera(&walk_seed), self.config.draw_mount(&walk_seed));
-        Shooting { camera, mount, weather, walk_seed }
-    }
-
     /// Renders frame by frame into the `pack` blob; memory does not grow with the number of frames. Gives the views of the
     /// target in each frame, and the share of it that rays reach.
     fn draw(
@@ -251,10 +228,11 @@ impl RenderStage {
         let Place { scene, world, crowd } = *place;
         let mut rig = self.take_rig(shooting.camera)?;
         let Camera { width, height, .. } = shooting.camera;
-        let header = PackHeader::new(width, height, crowd.largest_instance, self.encoding, trajectory.track.dt_s);
+        let objects = world.town.obstacles.iter().map(|obstacle| object_instance(obstacle.object_id));
+        let largest_instance = objects.max().unwrap_or(TARGET_INSTANCE).max(crowd.largest_instance());
+        let header = PackHeader::new(width, height, largest_instance, self.encoding, trajectory.track.dt_s);
         let track = &trajectory.track;
-        let poses: Vec<Pose> =
-            trajectory.poses_in_world.iter().map(|drone| shooting.mount.camera_pose(drone)).collect();
+        let poses: Vec<Pose> = shooting.poses(trajectory);
         let walked_m = walked_m(&track.states);
         let (mut seen, mut body_rays, mut about) = (SeenPeople::default(), BodyRays::default(), vec![]);
         outputs.stream("pack", &mut |file| {

@@ -115,19 +115,28 @@ fn build_kind(kind: &dyn StageKind, parameters: &Node) -> Result<Vec<BuiltPart>,
     Ok(parts.into_iter().map(|part| BuiltPart { suffix: part.suffix, stage: part.stage.into() }).collect())
 }
 
-/// Ports that the recipe connects, over all parts; parts with a port of the same name share its connection.
+/// Ports that the recipe connects, over all parts; parts with a port of the same name share its connection. A port is
+/// required where a part requires it that cannot be left out.
 fn recipe_ports(built: &BuiltStage) -> Vec<InputPort> {
     let mut ports: Vec<InputPort> = vec![];
-    for port in built.parts.iter().flat_map(|part| &part.stage.properties().inputs) {
-        if port.source != PortSource::Recipe {
-            continue;
-        }
-        match ports.iter_mut().find(|known| known.name == port.name) {
-            Some(known) => known.optional &= port.optional,
-            None => ports.push(port.clone()),
+    for part in &built.parts {
+        let is_needed = is_needed(part.suffix, &built.parts);
+        for port in part.stage.properties().inputs.iter().filter(|port| port.source == PortSource::Recipe) {
+            let optional = port.optional || !is_needed;
+            match ports.iter_mut().find(|known| known.name == port.name) {
+                Some(known) => known.optional &= optional,
+                None => ports.push(InputPort { optional, ..port.clone() }),
+            }
         }
     }
     ports
+}
+
+/// True for the stage itself and for parts that a port requires; the others are left out where one of their own required
+/// ports is not connected.
+fn is_needed(suffix: &'static str, parts: &[BuiltPart]) -> bool {
+    let mut ports = parts.iter().flat_map(|part| &part.stage.properties().inputs);
+    suffix.is_empty() || ports.any(|port| !port.optional && port.source == PortSource::Sibling(suffix))
 }
 
 fn has_refused(node: &Node) -> bool {

@@ -130,6 +130,9 @@ impl Assembly<'_> {
         let parameters = serde_json::Value::Object(crate::document::table_json(&outline.parameters));
         let mut siblings = BTreeMap::new();
         for (part, sources) in parts.iter().zip(files) {
+            if self.is_left_out(index, part) {
+                continue;
+            }
             let name = StageName::new(&outline.name, part.suffix);
             let properties = part.stage.properties();
             let wires = self.part_wires(index, part, &siblings)?;
@@ -151,6 +154,13 @@ impl Assembly<'_> {
         Ok(())
     }
 
+    /// Whether a part lacks a required input; in a valid graph, the stage works without such a part.
+    fn is_left_out(&self, index: usize, part: &BuiltPart) -> bool {
+        let is_connected = |port: &str| self.wires[index].get(port).is_some_and(|wired| !wired.is_empty());
+        let ports = &part.stage.properties().inputs;
+        ports.iter().any(|port| !port.optional && port.source == PortSource::Recipe && !is_connected(port.name))
+    }
+
     /// Connected ports of a part.
     fn part_wires(
         &self,
@@ -162,6 +172,7 @@ impl Assembly<'_> {
         let mut wires = vec![];
         for port in &part.stage.properties().inputs {
             let (upstreams, place) = match &port.source {
+                PortSource::Sibling(suffix) if port.optional && !siblings.contains_key(suffix) => continue,
                 PortSource::Sibling(suffix) => {
                     let sibling = siblings.get(suffix).ok_or_else(|| {
                         let message = format!(

@@ -25,7 +25,8 @@ pub trait StageKind: Send + Sync {
     fn build(&self, parameters: serde_json::Value) -> Result<Vec<StagePart>, ParameterError>;
 }
 
-/// One part of a recipe stage. Most kinds have one, with an empty suffix; `dataset` has `logs` beside it.
+/// One part of a recipe stage. Most kinds have one, with an empty suffix; `dataset` has `logs` beside it. A part whose
+/// required inputs a recipe leaves out is left out as well, where all ports that read it are optional.
 pub struct StagePart {
     /// Name of the part; empty for the stage itself (see [`crate::StageName`]).
     pub suffix: &'static str,

@@ -11,9 +11,9 @@ use serde::{Deserialize, Serialize};
 /// One text about one trajectory.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Caption {
-    /// Its language.
+    /// Language of the text.
     pub language: Language,
-    /// Its style.
+    /// Style of the text.
     pub style: Style,
     /// The text.
     pub text: String,

@@ -1,4 +1,4 @@
-//! The slot check: what a text claims against what the trajectory does.
+//! The slot check: claims of a text against facts of the trajectory.
 
 use crate::facts::Facts;
 use crate::language::Language;
@@ -7,7 +7,7 @@ use crate::reading::{Claim, chinese, english};
 use crate::turns::TurnKind;
 use std::fmt;
 
-/// What a text can be wrong about.
+/// Subject of a claim.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 #[expect(missing_docs, reason = "the names say it")]
 pub enum Slot {
@@ -50,11 +50,11 @@ impl Slot {
 /// One disagreement between a text and the facts.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct SlotMismatch {
-    /// About what.
+    /// Subject of the claim.
     pub slot: Slot,
-    /// What the text says.
+    /// Claim of the text.
     pub found: String,
-    /// What the trajectory does.
+    /// Fact of the trajectory.
     pub expected: String,
 }
 

@@ -1,4 +1,4 @@
-//! What a recipe can say about captions.
+//! Parameters of captions.
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};

@@ -1,4 +1,4 @@
-//! What can be said about a trajectory: directions, turns, stops, distances, angles.
+//! Facts of a trajectory: directions, turns, stops, distances, angles.
 
 use crate::compass::Compass;
 use crate::turns::{Turn, TurnKind, directions, turns};
@@ -10,7 +10,7 @@ use serde::{Deserialize, Serialize};
 const STANDING_MPS: f64 = 0.05;
 /// Shorter pauses are not worth a word, seconds.
 const LEAST_STOP_S: f64 = 1.0;
-/// Who moves less than this in all stands, metres.
+/// A target that moves less than this in all stands, metres.
 const LEAST_WALK_M: f64 = 1.0;
 /// Entries of the direction series that make a start and an end.
 const END_FRAMES: usize = 4;
@@ -59,7 +59,7 @@ impl Facts {
         self.stops.iter().map(|stop| stop.duration_s).sum()
     }
 
-    /// How many turns are of this kind.
+    /// Number of turns of a kind.
     pub fn turns_of(&self, kind: TurnKind) -> usize {
         self.turns.iter().filter(|turn| turn.kind == kind).count()
     }

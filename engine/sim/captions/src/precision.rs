@@ -1,4 +1,4 @@
-//! How exactly texts state numbers: the step to which each quantity is rounded. Templates and checker both keep to it.
+//! Precision of numbers in texts: the step to which each quantity is rounded. Templates and checker both keep to it.
 
 /// Metres between drone and target, and of altitude.
 pub const DISTANCE_STEP_M: f64 = 1.0;

@@ -36,7 +36,7 @@ impl Kinematics {
         }
     }
 
-    /// What of the limits does not hold, in words.
+    /// Violated limits, in words.
     pub fn violations(&self, limits: &Limits) -> Vec<String> {
         [
             ("speed", self.speed_mps, limits.speed_mps, "m/s"),
@@ -77,15 +77,16 @@ pub fn publishable(config: &MucoConfig, certificate: &Certificate) -> bool {
 
 /// Per-frame measurements and the certificate they add up to.
 pub struct Measured {
-    /// See [`crate::Trajectory::visibility`].
+    /// Share of the target's body points seen, 0..=1, per frame.
     pub visibility: Vec<f64>,
-    /// See [`crate::Trajectory::clearance_m`].
+    /// Distance to the nearest exact obstacle per frame, metres, capped at [`CLEARANCE_CAP_M`].
     pub clearance_m: Vec<f64>,
     /// All figures.
     pub certificate: Certificate,
 }
 
-/// Measures a path; what only the solver knows stays at 0. `ground` gives the height of the ground, above which the clearance is kept, too.
+/// Measures a path; figures that only the solver knows stay 0. `ground` gives the height of the ground, metres, above which
+/// the clearance is kept, too.
 pub fn certify(
     track: &TargetTrack,
     waypoints: &[DVec3],

@@ -11,7 +11,7 @@ const SLOPE_STEP_M: f64 = 0.5;
 /// Coefficients of differences by order; order 0 is the value itself.
 pub const DIFFERENCES: [&[f64]; 4] = [&[1.0], &[-1.0, 1.0], &[1.0, -2.0, 1.0], &[-1.0, 3.0, -3.0, 1.0]];
 
-/// See the module.
+/// Normal equations of a flight's waypoints.
 #[derive(Default)]
 pub struct NormalEquations {
     /// Per frame: the part of H of this waypoint alone.

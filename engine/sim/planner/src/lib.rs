@@ -1,7 +1,12 @@
 //! MuCO, the multi-constraint trajectory optimiser, its safety layers, and the perturbed twins.
 //!
-//! [`plan`] turns a target track into a certified [`Trajectory`] or says why there is none. What is worth seeing
-//! is in [`terms`] (one file per cost term), how it is found in [`muco`], what is promised in [`certificate`].
+//! [`plan`] turns a target track into a certified [`Trajectory`] or gives the reason why there is none.
+//!
+//! * [`planning`]: from a request to a published flight; hands the problem to the planner that the recipe names.
+//! * [`muco`], [`paper`], [`baselines`]: the optimiser, the paper's own pipeline, planners to compare with.
+//! * [`terms`]: the cost, one file per term; [`objectives`]: purposes of flights.
+//! * [`obstacles`]: the map around a path; [`certificate`]: the promises of a published flight.
+//! * [`perturb`]: perturbed twins of flights.
 
 pub mod baselines;
 pub mod certificate;

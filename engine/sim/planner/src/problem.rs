@@ -1,4 +1,4 @@
-//! What every part of a solver reads: target, wishes, cost.
+//! The problem that every part of a solver reads: target, wishes, cost.
 
 use crate::config::view::ViewConfig;
 use crate::gradient::total_cost;
@@ -7,17 +7,17 @@ use crate::terms::term::{TermContext, WeightedTerm};
 use crate::walk::Walk;
 use cosfly_frames::{DVec3, TargetTrack};
 
-/// What every part of the solver reads.
+/// Target, wishes and cost of one flight.
 pub struct Problem<'a> {
     /// The target.
     pub track: &'a TargetTrack,
-    /// Where the drone should be.
+    /// Wanted position of the drone.
     pub view: &'a ViewConfig,
     /// Walking directions.
     pub walk: &'a Walk,
     /// The cost.
     pub terms: &'a [WeightedTerm],
-    /// How many of the terms, from the first, are the paper's.
+    /// Number of terms, from the first, that are the paper's.
     pub built_in: usize,
     /// Number that reasons give the track's first frame; below 0 where frames were put before it.
     pub first_frame: i64,
@@ -29,7 +29,7 @@ pub(crate) fn frame_number(first: i64, frame: usize) -> i64 {
 }
 
 impl<'a> Problem<'a> {
-    /// What terms see with these obstacles.
+    /// The terms' context with these obstacles.
     pub fn context<'b>(&self, obstacles: &'b LocalObstacles<'b>) -> TermContext<'b>
     where
         'a: 'b,

@@ -1,17 +1,17 @@
-//! All that a flight may be asked for: track, map, wishes, start, companions, moving occluders.
+//! The request for a flight: track, map, wishes, start, companions, moving occluders.
 
 use crate::config::muco::MucoConfig;
 use crate::terms::term::WeightedTerm;
 use cosfly_frames::{DVec3, TargetTrack};
 use cosfly_geometry::{OrientedBox, SpatialQuery};
 
-/// What a flight is planned from. [`PlanRequest::new`] asks for the usual; the other fields are set by name.
+/// Inputs of a flight. [`PlanRequest::new`] sets the usual ones; the other fields are set by name.
 pub struct PlanRequest<'a> {
     /// The target to follow. The camera looks at it.
     pub track: &'a TargetTrack,
     /// All unsimplified boxes; the certificate is measured against them.
     pub exact: &'a dyn SpatialQuery,
-    /// What the solver avoids and looks past (simplified or the same).
+    /// Boxes that the solver avoids and looks past (simplified or the same).
     pub planning_boxes: &'a [OrientedBox],
     /// Height of the ground at (x, y), metres; where it is not finite the target's height is taken.
     pub ground: &'a dyn Fn(f64, f64) -> f64,
@@ -20,7 +20,7 @@ pub struct PlanRequest<'a> {
     /// Cost terms beside the paper's nine; they join the search, the refinement and the costs in the output. Tracks of
     /// more than 4,096 frames are planned in stretches, each of which terms see as a track of its own.
     pub extra_terms: Vec<WeightedTerm>,
-    /// Where the drone is at the first frame, and how it moves; `None` leaves that to the planner.
+    /// Position and velocity of the drone at the first frame; `None` leaves both to the planner.
     pub start: Option<StartState>,
     /// Further targets to be seen, as long as `track` and with its time step; see
     /// [`SeveralTargets`](crate::config::targets::SeveralTargets).
@@ -54,7 +54,10 @@ impl<'a> PlanRequest<'a> {
         Self { track, exact, planning_boxes, ground, config, extra_terms, start, companions, movers, first_frame }
     }
 
-    /// What of the request contradicts itself, in words.
+    /// Checks that the parts of the request fit each other.
+    ///
+    /// # Errors
+    /// The contradiction, in words.
     pub fn validate(&self) -> Result<(), String> {
         let frames = self.track.len();
         for (index, companion) in self.companions.iter().enumerate() {

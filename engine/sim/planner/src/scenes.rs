@@ -9,7 +9,7 @@ use cosfly_frames::{DVec2, DVec3, TargetState, TargetTrack, real};
 use cosfly_geometry::OrientedBox;
 use cosfly_random::{RandomStream, Seed};
 
-/// What a scene is like.
+/// Kind of a scene.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum SceneKind {
     /// Streets with a third of the trees.

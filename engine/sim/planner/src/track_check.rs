@@ -1,4 +1,4 @@
-//! What a target track must be before it can be followed.
+//! Checks of a target track before it is followed.
 
 use cosfly_frames::TargetTrack;
 

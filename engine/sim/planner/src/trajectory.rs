@@ -3,7 +3,7 @@
 use cosfly_frames::{DVec3, Pose, TargetTrack};
 use serde::{Deserialize, Serialize};
 
-/// What the planner gives for a target track: a certified trajectory, or the reason why there is none.
+/// The planner's answer to a target track: a certified trajectory, or the reason why there is none.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub enum PlanOutcome {
     /// Safe and complete.
@@ -12,7 +12,7 @@ pub enum PlanOutcome {
     Rejected {
         /// The track that could not be followed.
         track: TargetTrack,
-        /// In words.
+        /// Reason, in words.
         reason: String,
     },
 }
@@ -34,9 +34,9 @@ pub struct Trajectory {
     /// `preset = "paper"` after each iteration of its descent in between. Stretch by stretch on tracks that are planned so;
     /// empty for baselines.
     pub convergence: Vec<f64>,
-    /// What was checked at the end, against the unsimplified map.
+    /// Figures and limits, checked at the end against the unsimplified map.
     pub certificate: Certificate,
-    /// How it departs from its expert; `None` for an expert.
+    /// Departure from the expert; `None` for an expert.
     pub perturbation: Option<Perturbation>,
 }
 
@@ -45,7 +45,7 @@ pub struct Trajectory {
 pub struct TermCost {
     /// Name in recipes, such as `visibility`.
     pub name: String,
-    /// Its weight.
+    /// Weight of the term.
     pub weight: f64,
     /// Sum over the frames, unweighted.
     pub sum: f64,
@@ -69,11 +69,11 @@ pub struct Limits {
 /// Facts about the finished path, computed in f64 against the unsimplified boxes.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Certificate {
-    /// Limits it was checked against.
+    /// Limits that the flight was checked against.
     pub limits: Limits,
-    /// Which of the limits hold; a published expert always has clearance.
+    /// Whether all limits hold; a published expert always has clearance.
     pub holds: bool,
-    /// In words, what does not hold; empty when all does.
+    /// Violated limits, in words; empty when all hold.
     pub violations: Vec<String>,
     /// Mean visibility over the frames.
     pub mean_visibility: f64,
@@ -95,10 +95,10 @@ pub struct Certificate {
     pub length_m: f64,
     /// Path length divided by the target's; 0 when the target stands.
     pub length_ratio: f64,
-    /// What the way through the lattice that the flight was refined from sees, mean over the lattice's layers; the
+    /// Visibility along the way through the lattice that the flight was refined from, mean over the lattice's layers; the
     /// flight may see more. 0 where no lattice was searched.
     pub lattice_visibility: f64,
-    /// How much less the flight sees than that; 0 when it sees as much or more.
+    /// `lattice_visibility` minus the flight's visibility; 0 when the flight sees as much or more.
     pub visibility_regret: f64,
     /// Lattices tried, from the fast one to finer and calmer ones.
     pub attempts: u32,
@@ -108,13 +108,13 @@ pub struct Certificate {
     pub iterations: u32,
     /// Obstacle boxes left by the per-path filter.
     pub filtered_boxes: u32,
-    /// For how long the target was to be lost on purpose, seconds, and for how long it was.
+    /// Time for which the target was to be lost on purpose, seconds.
     pub occlusion_ordered_s: f64,
-    /// See [`Self::occlusion_ordered_s`].
+    /// Time for which the target was lost where that was ordered, seconds.
     pub occlusion_reached_s: f64,
 }
 
-/// How a perturbed trajectory departs from its expert (paper, dual-trajectory augmentation).
+/// Departure of a perturbed trajectory from its expert (paper, dual-trajectory augmentation).
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Perturbation {
     /// Item id of the expert in its stage.
@@ -127,7 +127,7 @@ pub struct Perturbation {
     pub frames: Vec<FramePerturbation>,
 }
 
-/// What happened to one frame.
+/// Events and displacements of one frame.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct FramePerturbation {
     /// The position event occurred.

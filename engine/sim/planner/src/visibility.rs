@@ -1,4 +1,4 @@
-//! What share of the target a camera can see: eight body points, one unoccluded ray each.
+//! Visibility, the share of the target that a camera can see: eight body points, one unoccluded ray each.
 
 use cosfly_frames::{DVec3, TargetState, real};
 use cosfly_geometry::SpatialQuery;

@@ -1,4 +1,4 @@
-//! Where the target is heading, smoothed, and how steadily (paper, section 3.2, viewpoint cost).
+//! Walking direction of the target, smoothed, and its steadiness (paper, section 3.2, viewpoint cost).
 
 use cosfly_frames::{DVec2, TargetTrack};
 

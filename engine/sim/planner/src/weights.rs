@@ -19,13 +19,13 @@ pub enum Preset {
 }
 
 impl Preset {
-    /// How much dearer moving is in the global search.
+    /// Factor on the cost of motion in the global search.
     pub fn motion_factor(self) -> f64 {
         if self == Self::Short { SHORT_MOTION_FACTOR } else { 1.0 }
     }
 }
 
-/// See [`Preset::motion_factor`].
+/// Factor of [`Preset::Short`], see [`Preset::motion_factor`].
 const SHORT_MOTION_FACTOR: f64 = 8.0;
 
 /// From the one list of cost terms (in `terms/mod.rs`): weights, their overrides in recipes, and the terms themselves.

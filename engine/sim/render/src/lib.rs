@@ -6,12 +6,14 @@
 //! from the same face at the same pixel centre, so they agree pixel by pixel; only RGB is smoothed along edges afterwards.
 
 pub mod backend;
+mod buildings;
 pub mod camera;
 pub mod config;
 pub mod effects;
 pub mod figure;
 pub mod frame;
 mod ground_polygons;
+mod outlook;
 pub mod outside;
 mod passes;
 mod people;
@@ -26,11 +28,13 @@ mod visibility;
 pub mod weather;
 
 pub use backend::{Backend, BackendError, BackendKind};
+pub use buildings::Buildings;
 pub use camera::{Camera, Mount};
 pub use config::{ConfigProblem, GimbalConfig, PictureLook, RenderConfig};
 pub use effects::{Effects, Lens, Moment, MotionBlur, Noise, RollingShutter, Shot};
 pub use figure::{Bystander, TargetSetup, Walker, gait_phase_rad, target_triangles, walker_triangles};
 pub use frame::{FrameImages, PersonView, PixelBox, TargetView};
+pub use outlook::Outlook;
 pub use renderer::{FrameParts, FrameSetup, RenderedFrame, Renderer};
 pub use scene::{Scene, SceneTriangle};
 pub use stages::Stages;

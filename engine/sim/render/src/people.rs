@@ -86,11 +86,11 @@ impl People {
     pub fn gather(&mut self, setup: &FrameSetup<'_>, eye: &Eye, screen: &Screen, to_sun: DVec3, drawn: &Nearer) {
         for other in setup.others.iter().filter(|other| other.walker.has_body()) {
             let body = Bounds::new(&other.walker);
-            let height_px = body.height_px(&other.walker, eye, screen);
-            let shaded = body.with_shadow(to_sun);
-            if height_px < LEAST_HEIGHT_PX || !shaded.is_in_view(eye, screen) || shaded.is_hidden(eye, screen, drawn) {
+            let may_matter = body.may_matter(&other.walker, eye, screen, to_sun);
+            if !may_matter || body.with_shadow(to_sun).is_hidden(eye, screen, drawn) {
                 continue;
             }
+            let height_px = body.height_px(&other.walker, eye, screen);
             let is_seen = body.is_in_view(eye, screen) && !body.is_hidden(eye, screen, drawn);
             self.add(other.walker, other.instance, is_seen, body.reach(eye, screen, to_sun), height_px);
         }
@@ -109,14 +109,14 @@ impl People {
 }
 
 /// An upright box around a body, its shadow left out.
-struct Bounds {
+pub(crate) struct Bounds {
     low: DVec3,
     high: DVec3,
     foot_m: f64,
 }
 
 impl Bounds {
-    fn new(walker: &Walker) -> Self {
+    pub fn new(walker: &Walker) -> Self {
         let side = (REACH_PER_HEIGHT * walker.height_m).max(3.0 * walker.radius_m.clamp(0.1, 2.0));
         let feet = walker.state.feet_in_world;
         Self {
@@ -135,10 +135,19 @@ impl Bounds {
         screen.focal_px * walker.height_m / away_m.max(NEAR_M)
     }
 
-    /// How the box moves along the sun's rays to the lowest ground that counts.
+    /// Whether the body is large enough to be drawn, and it or its shadow may be in view.
+    pub fn may_matter(&self, walker: &Walker, eye: &Eye, screen: &Screen, to_sun: DVec3) -> bool {
+        self.height_px(walker, eye, screen) >= LEAST_HEIGHT_PX && self.with_shadow(to_sun).is_in_view(eye, screen)
+    }
+
+    /// Way along the sun's rays down to the lowest ground that counts.
     fn fall(&self, from_m: f64, to_sun: DVec3) -> DVec3 {
-        let height_m = from_m - (self.foot_m - DROP_M);
-        -to_sun * (height_m / to_sun.z.max(0.02))
+        Self::fall_to(self.foot_m - DROP_M, from_m, to_sun)
+    }
+
+    /// Way along the sun's rays from one height down to another, metres.
+    fn fall_to(lowest_m: f64, from_m: f64, to_sun: DVec3) -> DVec3 {
+        -to_sun * ((from_m - lowest_m).max(0.0) / to_sun.z.max(0.02))
     }
 
     fn with_shadow(&self, to_sun: DVec3) -> Self {
@@ -159,6 +168,16 @@ impl Bounds {
     fn reach(&self, eye: &Eye, screen: &Screen, to_sun: DVec3) -> Reach {
         let corners = self.corners(MARGIN_M).flat_map(|corner| [corner, corner + self.fall(corner.z, to_sun)]);
         Reach::around(screen, corners.map(|corner| eye.see(corner)))
+    }
+
+    /// Corners of a hull of the body and all that it may darken above `lowest_m`.
+    pub fn hull(&self, lowest_m: f64, to_sun: DVec3) -> [DVec3; 16] {
+        let lowest_m = lowest_m.max(self.foot_m - DROP_M);
+        let mut hull = [DVec3::ZERO; 16];
+        for (pair, corner) in hull.chunks_exact_mut(2).zip(self.corners(MARGIN_M)) {
+            pair.copy_from_slice(&[corner, corner + Self::fall_to(lowest_m - MARGIN_M, corner.z, to_sun)]);
+        }
+        hull
     }
 
     fn is_hidden(&self, eye: &Eye, screen: &Screen, drawn: &Nearer) -> bool {

@@ -4,10 +4,11 @@ use crate::camera::Camera;
 use crate::config::PictureLook;
 use crate::figure::{Bystander, TargetSetup};
 use crate::frame::{FrameImages, PersonView, TARGET_INSTANCE, TargetView};
+use crate::outlook::to_sun;
 use crate::passes::ids::{SeenRuns, for_each_band};
 use crate::people::People;
 use crate::scene::{BOX_FACES, Cluster, Scene};
-use crate::shade::{Seen, Shader, light::Light, smooth};
+use crate::shade::{Seen, Shader, smooth};
 use crate::stages::{Stages, Stopwatch};
 use crate::target_view;
 use crate::visibility::{MAX_CORNERS, NEAR_M, Nearer, PlaneOnScreen, Screen, Visibility, bounds};
@@ -294,8 +295,7 @@ impl Renderer {
 
     /// People into the frame, and the target alone into its own buffer.
     fn draw_people(&mut self, eye: &Eye, setup: &FrameSetup<'_>) {
-        let to_sun = Light::new(setup.weather).to_sun;
-        let to_sun = DVec3::new(f64::from(to_sun.x), f64::from(to_sun.y), f64::from(to_sun.z));
+        let to_sun = to_sun(setup.weather);
         self.people.begin(setup, eye, &self.screen, to_sun);
         // What hides people hides the ground, too; that they hide some of it themselves is not worth another look.
         self.nearer.measure(&self.nearest);

@@ -5,9 +5,10 @@ mod small_town;
 use cosfly_frames::{DVec3, Pose, Seed, TargetState};
 use cosfly_render::frame::TARGET_INSTANCE;
 use cosfly_render::{
-    Camera, Effects, FrameImages, Lens, Moment, MotionBlur, Noise, PixelBox, Renderer, RollingShutter, Scene, Shot,
-    TargetSetup, TargetView, Weather,
+    Bystander, Camera, Effects, FrameImages, Lens, Moment, MotionBlur, Noise, PixelBox, Renderer, RollingShutter,
+    Scene, Shot, TargetSetup, TargetView, Weather,
 };
+use std::cell::RefCell;
 
 const CAMERA: Camera = Camera { width: 320, height: 180, horizontal_fov_rad: 1.4 };
 const FEET: DVec3 = DVec3::new(0.0, -24.0, 0.1);
@@ -148,5 +149,27 @@ fn through_a_lens_boxes_are_those_of_the_bent_pixels_and_labels_are_never_mixed(
             }
         }
         assert!(compared > 100);
+    }
+}
+
+#[test]
+fn a_film_looks_at_its_moments_and_at_no_other() {
+    let scene = Scene::new(&small_town::empty_town(), Seed([1; 32]));
+    let weather = Weather::preset("ClearNoon").expect("a preset");
+    let camera = Camera { width: 16, height: 12, horizontal_fov_rad: 1.2 };
+    let blur = MotionBlur { shutter_s: 0.1, samples: 3 };
+    let rolling = RollingShutter { readout_s: 0.05, strips: 4 };
+    for (blur, rolling, count) in [
+        (MotionBlur::default(), AT_ONCE, 1),
+        (blur, AT_ONCE, 3),
+        (MotionBlur::default(), rolling, 4),
+        (blur, rolling, 12),
+    ] {
+        let mut effects = Effects::new(camera, Lens::default(), blur, rolling, Noise { gaussian: 1.0, shot: 0.0 });
+        let (moments_s, asked) = (effects.moments_s(), RefCell::new(vec![]));
+        let others = |offset_s: f64, _: &mut Vec<Bystander>| asked.borrow_mut().push(offset_s);
+        let shot = Shot { weather: &weather, moment: &moment, others: &others, noise_seed: Seed([2; 32]) };
+        effects.film(&mut Renderer::new(effects.ideal_camera()), &scene, &shot).expect("the CPU renderer never fails");
+        assert_eq!((&asked.take(), moments_s.len()), (&moments_s, count));
     }
 }

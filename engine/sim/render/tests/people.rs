@@ -8,8 +8,9 @@ use cosfly_maps::{SemanticLabel, SurfaceMesh};
 use cosfly_render::figure::{Clothes, Region};
 use cosfly_render::frame::TARGET_INSTANCE;
 use cosfly_render::{
-    Bystander, Camera, Effects, FrameImages, FrameSetup, Lens, Moment, MotionBlur, Noise, PersonView, PixelBox,
-    Renderer, RollingShutter, Scene, Shot, TargetSetup, TargetView, Walker, Weather, walker_triangles,
+    Buildings, Bystander, Camera, Effects, FrameImages, FrameSetup, Lens, Moment, MotionBlur, Noise, Outlook,
+    PersonView, PixelBox, Renderer, RollingShutter, Scene, Shot, TargetSetup, TargetView, Walker, Weather,
+    walker_triangles,
 };
 
 const CAMERA: Camera = Camera { width: 640, height: 360, horizontal_fov_rad: 1.4 };
@@ -252,6 +253,36 @@ fn people_without_a_body_and_far_away_draw_nothing() {
     let odd = odd.map(|walker| Bystander { walker, instance: FIRST });
     let drawn = picture(&odd);
     assert!(drawn.images == nobody.images && drawn.others.is_empty());
+}
+
+#[test]
+fn people_whom_the_outlook_or_a_building_excludes_change_no_byte() {
+    let town = small_town::small_town(4, 5);
+    let (scene, buildings) = (Scene::new(&town, Seed([1; 32])), Buildings::of(&town));
+    let mut random = Seed([3; 32]).stream("views");
+    let (mut renderer, mut left_out, mut hidden) = (Renderer::new(CAMERA), 0, 0);
+    for (round, preset) in ["ClearNoon", "ClearSunset", "WetNight", "WetSunset"].iter().cycle().take(24).enumerate() {
+        let weather = Weather { sun_azimuth_angle: 50.0 * round as f64, ..Weather::preset(preset).expect("a preset") };
+        let mut place = |height_m: f64| DVec3::new(random.uniform(-90.0, 90.0), random.uniform(-90.0, 90.0), height_m);
+        let (eye, feet) = (place(3.0 + round as f64), place(0.14));
+        let pose = Pose::looking_at(eye, eye + (feet - eye).normalize());
+        let others: Vec<Bystander> =
+            (0..150).map(|k| Bystander { walker: walker(place(0.14), k as u8), instance: FIRST + k }).collect();
+        let outlook = Outlook::new(&CAMERA, &weather, &pose);
+        let is_near = |other: &&Bystander| {
+            let is_hidden = buildings.hide(eye, &outlook.hull(&other.walker, town.min_in_world.z));
+            outlook.may_show(&other.walker) && !is_hidden
+        };
+        let near: Vec<Bystander> = others.iter().filter(is_near).copied().collect();
+        left_out += others.len() - near.len();
+        hidden += others.iter().filter(|other| outlook.may_show(&other.walker)).count() - near.len();
+        let mut picture = |others: &[Bystander]| {
+            draw(&mut renderer, &scene, &FrameSetup { pose, weather: &weather, target: None, others })
+        };
+        let (all, some) = (picture(&others), picture(&near));
+        assert!(all.images == some.images && all.others == some.others, "round {round}");
+    }
+    assert!(left_out > 1500 && hidden > 150, "{left_out} {hidden}");
 }
 
 #[test]

@@ -1,19 +1,19 @@
-//! Whether angles can be true where no camera is known: a drone that shows its target looks towards it.
+//! Plausibility of angles where the camera is unknown: a drone that shows its target looks towards it.
 
 use crate::{Episode, Flag};
 use cosfly_frames::real;
 use std::f64::consts::{PI, TAU};
 
-/// No camera sees further to the side than this, radians.
+/// Largest angle between the optical axis and a visible target, radians.
 const MOST_RAD: f64 = 60.0 * PI / 180.0;
-/// Yaw fits where it does so in more than this share of the frames, and nowhere below the second.
+/// Yaw fits from the first share of fitting frames on; below the second, a mistake is looked for.
 const FITS: (f64, f64) = (0.7, 0.2);
-/// A mistake explains what does not fit when it makes this share of the frames fit.
+/// A mistake explains the yaw where undoing it makes this share of the frames fit.
 const EXPLAINED: f64 = 0.95;
-/// Frames that show the target, for a verdict.
+/// Smallest number of frames with the target for a verdict.
 const ENOUGH: usize = 8;
 
-/// Rule, what it says, and what the mistake makes of an angle.
+/// Name, description, and the change of an angle that undoes the mistake.
 type Mistake = (&'static str, &'static str, fn(f64) -> f64);
 
 /// Compares yaw with the direction to the target in all frames that show it.

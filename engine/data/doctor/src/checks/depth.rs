@@ -1,18 +1,18 @@
-//! The unit of depth images, and whether they are of their frames.
+//! The unit of depth images, and their assignment to frames.
 
 use super::median;
 use super::motion::frames;
 use crate::episode::OFFSETS;
 use crate::{Episode, Flag};
 
-/// Depth of a body's surface over that of its middle may lie between these.
+/// Range of the depth of a body's surface over that of its middle.
 const RATIOS: (f64, f64) = (0.8, 1.25);
-/// Frames with a target in full view that a verdict needs.
+/// Smallest number of frames with a target in full view for a verdict.
 const ENOUGH: usize = 4;
-/// Units by how many of them a metre has.
+/// Units per metre, and their names.
 const UNITS: [(f64, &str); 4] =
     [(1000.0, "millimetres"), (100.0, "centimetres"), (0.001, "kilometres"), (1.0 / 0.3048, "feet")];
-/// Spread of depths around their middle that a body and its pixels may have, metres.
+/// Largest spread of the depths of a body around their middle, metres.
 const SPREAD_M: f64 = 0.4;
 
 /// Compares depth images with distances to the target.

@@ -1,17 +1,17 @@
-//! Splits that share what they must not.
+//! Leaks between splits.
 
 use crate::{Episode, Flag};
 use cosfly_frames::DVec3;
 use std::collections::BTreeMap;
 
-/// Ways of targets are the same when all their points are this near, metres.
+/// Largest distance between points of two walks that count as the same walk, metres.
 const SAME_M: f64 = 1.0;
-/// Points that are compared of each way.
+/// Number of points of a walk that are compared.
 const POINTS: usize = 16;
-/// Pairs that are named.
+/// Number of pairs that are named.
 const NAMED: usize = 5;
 
-/// Looks for episodes, pedestrians and ways of targets in more than one split.
+/// Finds episodes, pedestrians and walks that are in more than one split.
 pub fn of_all(episodes: &[Episode]) -> Vec<Flag> {
     let mut flags = vec![];
     shared(episodes, "episode", &|it| it.id.clone(), &mut flags);
@@ -39,7 +39,7 @@ fn shared(episodes: &[Episode], what: &str, key: &dyn Fn(&Episode) -> String, fl
     }
 }
 
-/// The same way of a target in one place under two names.
+/// Finds equal walks in one place under two names.
 fn same_ways(episodes: &[Episode], flags: &mut Vec<Flag>) {
     let mut starts: BTreeMap<(&str, i64, i64), Vec<usize>> = BTreeMap::new();
     let ways: Vec<Vec<DVec3>> = episodes.iter().map(way).collect();

@@ -15,7 +15,7 @@ pub use leaks::of_all as leaks;
 
 use crate::{Episode, Flag};
 
-/// Everything that can be told from one episode.
+/// All checks of one episode.
 pub fn of_episode(episode: &Episode) -> Vec<Flag> {
     let checks: [fn(&Episode) -> Vec<Flag>; 9] = [
         time::check,
@@ -31,7 +31,7 @@ pub fn of_episode(episode: &Episode) -> Vec<Flag> {
     checks.iter().flat_map(|check| check(episode)).collect()
 }
 
-/// The middle of some values; none of none.
+/// The median; none without values.
 fn median(values: impl Iterator<Item = f64>) -> Option<f64> {
     let mut values: Vec<f64> = values.filter(|value| value.is_finite()).collect();
     values.sort_by(f64::total_cmp);

@@ -1,24 +1,24 @@
-//! Poses that freeze, actions that do not lead to the next pose, limits that are not kept.
+//! Frozen poses, actions that do not lead to the next pose, broken limits.
 
 use crate::{Episode, Flag};
 use cosfly_frames::{DVec3, Pose};
 
-/// Actions and poses agree to this, metres and degrees.
+/// Largest difference between actions and poses, metres and degrees.
 const ACTION_TOLERANCE: f64 = 1e-3;
-/// A drone that is behind a walking target does not stay in one place for so long, seconds.
+/// Time in one pose behind a walking target from which a drone counts as frozen, seconds.
 const FROZEN_S: f64 = 3.0;
-/// No drone of this kind is so fast, m/s.
+/// Largest plausible speed of a drone, m/s.
 const ABSURD_MPS: f64 = 45.0;
-/// Limits are kept to rounding.
+/// Tolerance of limits, for rounding.
 const LIMIT_TOLERANCE: f64 = 1e-3;
 
-/// Looks at poses and actions.
+/// Checks poses, actions and limits.
 pub fn check(episode: &Episode) -> Vec<Flag> {
     let parts = [frozen(episode), actions(episode)];
     parts.into_iter().flatten().chain(limits(episode)).collect()
 }
 
-/// The same pose for long while the target walks: frames were repeated.
+/// Finds a pose that stays the same for long while the target walks: repeated frames.
 fn frozen(episode: &Episode) -> Option<Flag> {
     let moments = &episode.moments;
     let (mut start, mut longest) = (0, (0, 0));
@@ -46,7 +46,7 @@ fn frozen(episode: &Episode) -> Option<Flag> {
     None
 }
 
-/// Where actions lead against where the next poses are; tells when they are those of other frames.
+/// Compares actions with the next poses; recognises actions of other frames.
 fn actions(episode: &Episode) -> Option<Flag> {
     let moments = &episode.moments;
     let error = |shift: i64| {
@@ -78,7 +78,7 @@ fn actions(episode: &Episode) -> Option<Flag> {
     Some(Flag::damage("action-mismatch", &episode.id, message))
 }
 
-/// The pose that actions of the frame before lead to.
+/// The pose that the action of the frame before leads to.
 fn led(episode: &Episode, frame: usize) -> Option<Pose> {
     match &episode.followed {
         Some(followed) => followed.get(frame).copied(),

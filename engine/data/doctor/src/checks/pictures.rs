@@ -2,7 +2,7 @@
 
 use crate::{Episode, Flag};
 
-/// Looks for the same file in neighbouring frames whose poses differ.
+/// Finds equal files in neighbouring frames whose poses differ.
 pub fn check(episode: &Episode) -> Vec<Flag> {
     let repeated: Vec<usize> = episode
         .looks

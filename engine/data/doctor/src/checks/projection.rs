@@ -1,5 +1,5 @@
-//! Whether poses and boxes belong together: the target is projected and held against where the image shows it. When it is
-//! elsewhere, the usual mistakes are tried, and the one that explains it is named.
+//! Agreement of poses and boxes: the projected target is compared with its place in the image. Where they differ, the usual
+//! mistakes are tried, and the one that explains the difference is named.
 
 use super::median;
 use super::motion::frames;
@@ -7,14 +7,14 @@ use crate::{Episode, Flag};
 use cosfly_frames::Pose;
 use cosfly_render::Camera;
 
-/// Middles of boxes of bodies may be so far from the projected middle, as a share of the box's height, and pixels.
+/// Largest distance of a box's middle from the projected middle: share of the box's height, and pixels.
 const TOLERANCE: (f64, f64) = (0.35, 3.0);
-/// A mistake explains a mismatch when it makes the error so many times smaller.
+/// A mistake explains a mismatch where undoing it makes the error this many times smaller.
 const GAIN: f64 = 2.5;
-/// Fewer frames say nothing.
+/// Smallest number of frames for a verdict.
 const ENOUGH: usize = 3;
 
-/// Name, words, and what undoes it: frames to shift the pose by, and a change of the pose.
+/// Name, description, and the change of the pose that undoes the mistake.
 type Mistake = (&'static str, &'static str, fn(Pose) -> Pose);
 
 const MISTAKES: [Mistake; 4] = [
@@ -31,7 +31,7 @@ const MISTAKES: [Mistake; 4] = [
     }),
 ];
 
-/// Looks for the mistake that explains where boxes are.
+/// Finds the mistake that explains the places of boxes.
 pub fn check(episode: &Episode) -> Vec<Flag> {
     let Some(camera) = episode.camera else { return vec![] };
     let Some(own) = error(episode, &camera, 0, |pose| pose) else { return vec![] };
@@ -57,7 +57,7 @@ pub fn check(episode: &Episode) -> Vec<Flag> {
     flag("pose-mismatch", format!("poses do not fit the boxes: the target is {own:.1} boxes away in the middle frame"))
 }
 
-/// Median distance between projected and shown middle, in units of what is tolerated. `shift` takes the pose and the target
+/// Median distance between the projected and the shown middle, in units of the tolerance. `shift` takes the pose and the target
 /// of another frame.
 fn error(episode: &Episode, camera: &Camera, shift: i64, mended: fn(Pose) -> Pose) -> Option<f64> {
     let moments = &episode.moments;
@@ -82,7 +82,7 @@ fn error(episode: &Episode, camera: &Camera, shift: i64, mended: fn(Pose) -> Pos
     if shift == 0 { Some(median(errors.iter().copied())?.max(tail(&errors))) } else { Some(tail(&errors)) }
 }
 
-/// The value below which nine tenths lie.
+/// The 0.9 quantile.
 fn tail(errors: &[f64]) -> f64 {
     let mut sorted = errors.to_vec();
     sorted.sort_by(f64::total_cmp);

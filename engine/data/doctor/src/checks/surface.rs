@@ -1,19 +1,19 @@
-//! Whether depth images are of their frames, by walls: what a depth image shows of a building lies on that building's boxes
-//! when it is seen from the right pose. Tells shifts of smooth flights, which keep their target at one distance.
+//! Assignment of depth images to frames, by walls: seen from the right pose, the points of a building in a depth image lie on
+//! the building's boxes. Finds shifts of smooth flights, whose distance to the target hardly changes.
 
 use super::median;
 use super::motion::frames;
 use crate::episode::OFFSETS;
 use crate::{Episode, Flag};
 
-/// Frames with walls in view that a verdict needs.
+/// Smallest number of frames with walls in view for a verdict.
 const ENOUGH: usize = 4;
-/// Points are on their walls up to this, metres; depth is stored in less than that.
+/// Largest distance of a point on a wall from the wall, metres; the step of stored depths is smaller.
 const ON_M: f64 = 0.03;
-/// Another frame's pose explains the gap when it makes it so many times smaller.
+/// Another frame's pose explains a gap where the gap is this many times smaller with that pose.
 const GAIN: f64 = 4.0;
 
-/// Compares poses around each depth image.
+/// Compares each depth image with the poses of frames around it.
 pub fn check(episode: &Episode) -> Vec<Flag> {
     let gap = |place: usize| {
         let gaps: Vec<f64> =

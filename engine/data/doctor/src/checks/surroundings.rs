@@ -1,12 +1,12 @@
-//! Obstacles that are too near, targets inside of vehicles, targets that are hardly ever seen.
+//! Obstacles that are too near, targets inside of vehicles, targets that are seldom visible.
 
 use crate::{Episode, Flag};
 use cosfly_frames::real;
 
-/// Half of the target is hidden for more than this share of an imperfect flight.
+/// Share of frames with less than half of the target visible from which a flight is imperfect.
 const MOSTLY_LOST: f64 = 0.5;
 
-/// Looks at clearance, overlap and visibility.
+/// Checks clearance, overlap and visibility.
 pub fn check(episode: &Episode) -> Vec<Flag> {
     [clearance(episode), overlap(episode), lost(episode)].into_iter().flatten().collect()
 }

@@ -1,11 +1,11 @@
-//! Times that go back, stand still or jump.
+//! Times that decrease, repeat or jump.
 
 use crate::{Episode, Flag};
 
-/// Steps may differ from the usual one by this share.
+/// Largest difference of a step from the usual one, as a share.
 const TOLERANCE: f64 = 0.02;
 
-/// Looks at the steps between frames.
+/// Checks the steps between frames.
 pub fn check(episode: &Episode) -> Vec<Flag> {
     let steps = || episode.moments.windows(2).map(|pair| pair[1].time_s - pair[0].time_s).enumerate();
     let flag = |message: String| vec![Flag::damage("timestamps", &episode.id, message)];

@@ -1,11 +1,11 @@
-//! Instructions that say what the flight does not do.
+//! Instructions that differ from their flights.
 
 use crate::{Episode, Flag};
 use cosfly_captions::{Language, check as check_caption, facts};
 use cosfly_frames::{DVec3, TargetState, TargetTrack};
 use cosfly_planner::{Certificate, Trajectory};
 
-/// Reads every instruction in a known language back and compares it with the facts of the flight.
+/// Parses every instruction in a known language and compares it with the facts of the flight.
 pub fn check(episode: &Episode) -> Vec<Flag> {
     let Some(trajectory) = trajectory(episode).filter(|_| !episode.captions.is_empty()) else { return vec![] };
     let facts = facts(&trajectory);
@@ -21,7 +21,7 @@ pub fn check(episode: &Episode) -> Vec<Flag> {
     flags
 }
 
-/// The flight as captions read it; none when the target is not known in every frame.
+/// The flight as captions need it; none where the target is unknown in some frames.
 fn trajectory(episode: &Episode) -> Option<Trajectory> {
     let middle = DVec3::Z * (0.5 * episode.target_height_m);
     let state = |it: &crate::Moment| {

@@ -5,10 +5,10 @@ pub mod ours;
 pub mod record;
 pub mod v7;
 
-/// Frames whose pictures are looked at: a stretch of this many, in the middle of a flight, so that shifts show.
+/// Number of consecutive frames whose pictures are read, in the middle of a flight.
 pub(crate) const LOOKS: usize = 16;
 
-/// The stretch of `frames` that is looked at.
+/// The stretch of `frames` whose pictures are read.
 pub(crate) fn stretch(frames: usize) -> std::ops::Range<usize> {
     let count = LOOKS.min(frames);
     let start = (frames - count) / 2;

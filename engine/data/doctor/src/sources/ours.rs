@@ -1,4 +1,4 @@
-//! Datasets of cosfly: tables, then a stretch of every log.
+//! Datasets of cosfly: tables, then a stretch of frames of every log.
 
 use super::stretch;
 use crate::episode::{OFFSETS, depth_in_box};
@@ -11,15 +11,15 @@ use cosfly_read::{BoxInWorld, FrameRow, PublishedDataset, PublishedFlight, log_p
 use std::collections::BTreeMap;
 use std::path::Path;
 
-/// Whether `folder` is one.
+/// Whether `folder` has this layout.
 pub fn recognises(folder: &Path) -> bool {
     folder.join("data/trajectories").is_dir()
 }
 
-/// What is wrong with the files themselves. Each is read to its end, with its checksums.
+/// Faults of the files. Each is read to its end, with its checksums.
 ///
 /// # Errors
-/// When the folder cannot be listed.
+/// Refusals of the machine where the folder cannot be listed.
 pub fn files(folder: &Path) -> Result<Vec<Flag>> {
     let mut flags = vec![];
     for path in crate::files::files_below(folder)? {
@@ -41,7 +41,7 @@ pub fn files(folder: &Path) -> Result<Vec<Flag>> {
 /// flag says so and flights have no frames.
 ///
 /// # Errors
-/// When the machine refuses.
+/// Refusals of the machine.
 pub fn episodes(folder: &Path, flags: &mut Vec<Flag>, progress: &mut dyn FnMut(u64, u64)) -> Result<Vec<Episode>> {
     let mut damaged = |refusal: Box<Diagnostic>| match refusal.fault {
         Fault::Machine => Err(refusal),
@@ -68,7 +68,7 @@ pub fn episodes(folder: &Path, flags: &mut Vec<Flag>, progress: &mut dyn FnMut(u
     Ok(episodes)
 }
 
-/// Appends all flights with their frames.
+/// Appends all flights with their frames to `episodes`.
 fn read(dataset: &PublishedDataset, episodes: &mut Vec<Episode>, progress: &mut dyn FnMut(u64, u64)) -> Result<()> {
     let captions = dataset.captions()?;
     let mut vehicles: BTreeMap<String, Vec<BoxInWorld>> = BTreeMap::new();

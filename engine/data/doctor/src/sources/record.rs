@@ -1,11 +1,11 @@
-//! Flights of a run that is not published yet: from records to episodes.
+//! Flights that are not published yet: from records to episodes.
 
 use crate::{Episode, Moment};
 use cosfly_frames::{DVec3, action};
 use cosfly_render::{PixelBox, TargetView};
 use cosfly_schema::{RenderedTrajectory, Role};
 
-/// The episode of a flight whose pictures are rendered; pictures themselves are not looked at.
+/// The episode of a rendered flight, without its pictures.
 pub fn episode(record: &RenderedTrajectory) -> Episode {
     let trajectory = &record.trajectory;
     let is_plain = record.lens.is_none() && record.rolling_shutter.readout_s == 0.0;

@@ -11,14 +11,14 @@ use serde_json::Value;
 use std::fs;
 use std::path::{Path, PathBuf};
 
-/// Height of a body where nothing tells it, metres.
+/// Height of a body where it is not stated, metres.
 const BODY_M: f64 = 1.8;
-/// Longest `trajectory.json` that is read, bytes.
+/// Size of the largest `trajectory.json` that is read, bytes.
 const JSON_LIMIT: u64 = 1 << 30;
 /// Depth that stands for the sky, metres.
 const SKY_M: f32 = 999.0;
 
-/// The folder of towns in or below `folder`, if it is of this layout.
+/// The folder of towns in or below `folder`, where it has this layout.
 pub fn root(folder: &Path) -> Option<PathBuf> {
     let has_towns = |path: &PathBuf| {
         listed(path).is_ok_and(|entries| entries.iter().any(|town| town.is_dir() && !traces(town).is_empty()))
@@ -44,10 +44,10 @@ fn traces(town: &Path) -> Vec<PathBuf> {
     traces.filter(|trace| trace.join("trajectory.json").is_file()).collect()
 }
 
-/// Reads all traces below `root`, and what is wrong with their files.
+/// Reads all traces below `root`; returns the episodes and the faults of their files.
 ///
 /// # Errors
-/// When a folder cannot be listed.
+/// Refusals of the machine where a folder cannot be listed.
 pub fn episodes(root: &Path, progress: &mut dyn FnMut(u64, u64)) -> Result<(Vec<Episode>, Vec<Flag>)> {
     let towns = listed(root).map_err(|error| Diagnostic::io(format!("read `{}`", root.display()), &error))?;
     let traces: Vec<PathBuf> = towns.iter().filter(|it| it.is_dir()).flat_map(|town| traces(town)).collect();

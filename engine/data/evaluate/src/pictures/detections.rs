@@ -53,7 +53,7 @@ pub fn compare(
     categories.iter().copied().map(of_category).filter(|it| it.objects > 0 || !it.found.is_empty()).collect()
 }
 
-/// What is counted of one class, by kind.
+/// Counts of one class, by kind.
 #[derive(Clone, Default)]
 struct OfClass {
     found: Vec<Ranked>,
@@ -99,7 +99,7 @@ impl DetectionTallies {
 /// A class's ranking, and by group its objects and the sum of their overlaps.
 type RankedClass = (Ranking, Vec<(u64, f64)>);
 
-/// What all classes are: row per kind, column per class.
+/// Counts of all classes: row per kind, column per class.
 pub struct RankedDetections {
     kinds: Vec<Vec<RankedClass>>,
 }

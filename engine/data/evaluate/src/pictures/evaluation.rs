@@ -27,7 +27,7 @@ use std::path::Path;
 /// Frames that are compared side by side.
 const BATCH: usize = 16;
 
-/// What was found in one frame.
+/// Counts of one frame.
 enum Found {
     Depth(Option<(DepthScores, Ratio)>),
     Labels(Confusion),

@@ -1,4 +1,4 @@
-//! What was handed in, and which frames it is of.
+//! Predictions by frame.
 
 use super::files::PredictedFiles;
 use super::raster::Refusal;
@@ -15,7 +15,7 @@ use std::path::Path;
 /// Place of a flight, and a frame of it.
 pub type FrameKey = (usize, usize);
 
-/// What was handed in, by frame.
+/// Predictions by frame.
 pub enum Given {
     /// Pictures.
     Files(PredictedFiles),
@@ -25,7 +25,7 @@ pub enum Given {
         of_frame: BTreeMap<FrameKey, Vec<Detection>>,
         /// All that are listed, with detections or without.
         listed: Option<BTreeSet<FrameKey>>,
-        /// What was read.
+        /// Numbers of rows.
         facts: FileFacts,
     },
 }

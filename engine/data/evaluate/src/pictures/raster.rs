@@ -17,7 +17,7 @@ enum Raster {
     Floats(Vec<f32>),
 }
 
-/// What a file holds, by its beginning.
+/// Content of a file, told by its beginning.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Content {
     /// Depth.
@@ -26,7 +26,7 @@ pub enum Content {
     Labels,
 }
 
-/// What the picture at `path` holds; `None` when it cannot be told.
+/// Content of the picture at `path`; `None` when it cannot be told.
 pub fn content(path: &Path) -> Option<Content> {
     match read(path).ok()?.0 {
         Raster::Depth16(_) | Raster::Floats(_) => Some(Content::Depth),

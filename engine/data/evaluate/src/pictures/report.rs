@@ -16,9 +16,9 @@ pub struct PictureEvaluation {
     pub version: u32,
     /// Choices.
     pub settings: PictureSettings,
-    /// What was scored.
+    /// Dataset and splits that were scored.
     pub dataset: DatasetFacts,
-    /// What was handed in.
+    /// Files or rows of predictions.
     pub files: FileFacts,
     /// Frames.
     pub frames: FrameFacts,
@@ -35,11 +35,11 @@ pub struct PictureEvaluation {
     pub classes: Vec<ClassReport>,
     /// Depth by true distance; none for others.
     pub distances: Vec<DistanceReport>,
-    /// What a reader has to know.
+    /// Remarks for the reader.
     pub notes: Vec<String>,
 }
 
-/// What became of files, or of rows of a file.
+/// Files of predictions, or rows of a file: read, scored, left out.
 #[derive(Clone, Debug, Serialize)]
 pub struct FileFacts {
     /// Name of what was handed in.
@@ -67,7 +67,7 @@ pub struct FileProblem {
     pub place: String,
     /// Short kebab-case name of what kind of problem it is.
     pub kind: &'static str,
-    /// What is wrong, in words.
+    /// Problem, in words.
     pub reason: String,
 }
 
@@ -91,7 +91,7 @@ pub struct FrameFacts {
     pub without_prediction: usize,
 }
 
-/// What is scored in a kind of frames.
+/// Scores of a kind of frames.
 #[derive(Clone, Debug, Serialize)]
 pub struct KindReport {
     /// Frames in it.
@@ -102,12 +102,12 @@ pub struct KindReport {
     pub scores: Scores,
 }
 
-/// What is scored of a class.
+/// Scores of a class.
 #[derive(Clone, Debug, Serialize)]
 pub struct ClassReport {
     /// CARLA's label.
     pub id: u8,
-    /// Its name.
+    /// Name of the class.
     pub name: &'static str,
     /// True pixels, or true things.
     pub truth: u64,

@@ -1,4 +1,4 @@
-//! What is counted of frames, by kind of frame and group of flights, and the scores of that with their intervals.
+//! Counts of frames, by kind of frame and group of flights, and their scores with intervals.
 
 use super::report::KindReport;
 use crate::report::score::{Score, Scores};
@@ -10,7 +10,7 @@ use std::collections::BTreeMap;
 pub trait Counted: Sync {
     /// The metrics of [`Self::means`].
     fn metrics(&self) -> &'static [Metric];
-    /// Their means over the frames of a kind, when group k counts `times(k)` times.
+    /// Means of the metrics over the frames of a kind, when group k counts `times(k)` times.
     fn means(&self, kind: usize, times: &dyn Fn(usize) -> u64) -> Vec<Option<f64>>;
 }
 

@@ -1,6 +1,5 @@
 //! The result of an evaluation, and its forms: JSON, Markdown, a picture.
 
-pub(crate) mod drawing;
 mod markdown;
 mod plot;
 pub mod result;

@@ -1,7 +1,7 @@
-//! How often what occurs: visibility, distance, height, speed, clearance, size in the image, losses.
+//! Histograms: visibility, distance, height, speed, clearance, size in the image, losses.
 
-use crate::chart::Histogram;
 use crate::model::{FlightSketch, Report};
+use cosfly_plot::histogram::Histogram;
 
 /// The section.
 pub fn section(report: &Report) -> String {

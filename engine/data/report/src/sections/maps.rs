@@ -1,11 +1,11 @@
-//! Where the flights are.
+//! Maps of the flights.
 
-use crate::chart::CLASSES;
 use crate::map;
 use crate::model::Report;
+use cosfly_plot::strip::CLASSES;
 use std::fmt::Write;
 
-/// Towns that are drawn; a list of the others follows from the tables.
+/// Number of towns that are drawn.
 const MOST_TOWNS: usize = 20;
 
 /// The section.
@@ -22,7 +22,7 @@ pub fn section(report: &Report) -> String {
     if maps.is_empty() { String::new() } else { legend() + &maps }
 }
 
-/// What the colours of visibility stand for.
+/// Legend of the colours of visibility.
 pub fn legend() -> String {
     let mut text = String::from("<p class=\"legend\"><span>Share of the target that is visible:</span>");
     for (class, name) in CLASSES.iter().enumerate().rev() {

@@ -1,7 +1,7 @@
-//! The statistics table of the paper, with what this dataset has in each row.
+//! The statistics table of the paper beside the numbers of this dataset.
 
 use crate::model::{FlightSketch, Report};
-use crate::text::{escaped, grouped, short};
+use cosfly_plot::text::{escaped, grouped, short};
 use std::collections::BTreeSet;
 use std::fmt::Write;
 
@@ -27,7 +27,7 @@ pub fn section(report: &Report) -> String {
     text
 }
 
-/// Name, what is here, what the paper has.
+/// Name, value of this dataset, value of the paper.
 fn rows(report: &Report) -> Vec<(&'static str, String, &'static str)> {
     let flights = &report.flights;
     let distinct = |name: fn(&FlightSketch) -> &String| flights.iter().map(name).collect::<BTreeSet<_>>().len() as u64;

@@ -1,13 +1,13 @@
-//! What other planners make of the same walks.
+//! Results of other planners for the same walks.
 
 use crate::model::{Known, PlannerRow, Report};
-use crate::text::{escaped, percent, short};
+use cosfly_plot::text::{escaped, percent, short};
 use std::collections::BTreeMap;
 use std::fmt::Write;
 
-/// Terms with a colour of their own; the others are one.
+/// Number of terms with a colour of their own; all others share one.
 const MOST_TERMS: usize = 5;
-/// A bar that is so many times longer than the shortest is cut.
+/// Length of the longest bar in lengths of the shortest; longer ones are cut.
 const LONGEST: f64 = 8.0;
 
 /// The section.
@@ -70,7 +70,7 @@ fn table(rows: &[PlannerRow]) -> String {
     text
 }
 
-/// A name in which back-ticks stand around what is code.
+/// A name whose parts in back-ticks are code, as HTML.
 fn named(name: &str) -> String {
     let parts = escaped(name);
     let mut parts = parts.split('`');

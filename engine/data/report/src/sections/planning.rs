@@ -1,15 +1,15 @@
-//! What planning cost and whether its limits hold.
+//! Costs of planning, and limits.
 
-use crate::chart;
 use crate::model::{FlightSketch, Report};
 use crate::moments::spread;
-use crate::text::{escaped, percent};
+use cosfly_plot::convergence::convergence as chart;
+use cosfly_plot::text::{escaped, percent};
 use std::collections::BTreeMap;
 use std::fmt::Write;
 
-/// Curves in the picture.
+/// Number of curves in the picture.
 const MOST_CURVES: usize = 80;
-/// Places of a refined flight whose costs are kept.
+/// Steps of planning whose costs are kept.
 const STOPS: [&str; 3] = ["lattice", "refined", "published"];
 
 /// The section.
@@ -36,7 +36,7 @@ fn convergence(flights: &[FlightSketch]) -> String {
     } else {
         "Total cost iteration by iteration and of the flight as published."
     };
-    let picture = chart::convergence(&drawn, are_stops.then_some(&STOPS[..]));
+    let picture = chart(&drawn, are_stops.then_some(&STOPS[..]));
     format!("<h3>Cost convergence</h3>{picture}<p class=\"note\">{explained}</p>")
 }
 

@@ -1,11 +1,11 @@
-//! How flights are shared among splits, towns and weathers, and what was left out.
+//! Shares of splits, towns and weathers, and rejected items.
 
 use crate::model::{FlightSketch, Report};
-use crate::text::{escaped, grouped, percent};
+use cosfly_plot::text::{escaped, grouped, percent};
 use std::collections::BTreeMap;
 use std::fmt::Write;
 
-/// Reasons that are listed.
+/// Number of reasons that are listed.
 const MOST_REASONS: usize = 20;
 
 /// The section.

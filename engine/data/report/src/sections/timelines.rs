@@ -1,13 +1,13 @@
-//! When targets are seen: a strip of colours per flight.
+//! Visibility over time: a strip of colours per flight.
 
 use super::maps::legend;
-use crate::chart;
 use crate::model::{FlightSketch, Report};
 use crate::moments::spread;
-use crate::text::{escaped, percent, short};
+use cosfly_plot::strip::strip;
+use cosfly_plot::text::{escaped, percent, short};
 use std::fmt::Write;
 
-/// Rows of the table.
+/// Number of rows of the table.
 const MOST_ROWS: usize = 40;
 
 /// The section.
@@ -35,7 +35,7 @@ pub fn section(report: &Report) -> String {
             escaped(&flight.id),
             percent(flight.mean_visible()),
             short(lost_s),
-            chart::strip(&flight.visible, longest, &name)
+            strip(&flight.visible, longest, &name)
         );
     }
     text.push_str("</tbody></table></div>");

@@ -1,10 +1,10 @@
-//! The flights that are the worst in something, with pictures of where.
+//! The worst flights, with pictures.
 
-use crate::chart;
 use crate::model::Report;
 use crate::moments;
 use crate::pictures::{Source, image};
-use crate::text::escaped;
+use cosfly_plot::strip::strip;
+use cosfly_plot::text::escaped;
 use std::fmt::Write;
 
 /// The section.
@@ -36,7 +36,7 @@ pub fn section<E>(report: &Report, pictures: Source<'_, E>) -> Result<String, E>
             }
         }
         let name = format!("{}: visibility over time", flight.id);
-        let _ = write!(text, "</div>{}</article>", chart::strip(&flight.visible, flight.len().max(1), &name));
+        let _ = write!(text, "</div>{}</article>", strip(&flight.visible, flight.len().max(1), &name));
     }
     text.push_str("</div>");
     Ok(text)

@@ -6,7 +6,7 @@ use cosfly_schema::tables::DatasetItem;
 use cosfly_schema::{Rejection, Role};
 use std::collections::{BTreeMap, BTreeSet};
 
-/// What the dataset holds, counted while it is written.
+/// Contents of a dataset, counted while it is written.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Summary {
     /// Expert flights.
@@ -39,7 +39,7 @@ pub struct Summary {
     pub splits: BTreeMap<&'static str, (u64, u64)>,
     /// Rows by table name and split name; tables over something else than flights are a split of their own name.
     pub rows: BTreeMap<&'static str, BTreeMap<String, u64>>,
-    /// What plugins added.
+    /// Tables and files of plugins.
     pub extras: Vec<ExtraSummary>,
 }
 
@@ -50,7 +50,7 @@ pub struct TownSummary {
     pub flights: u64,
     /// BLAKE3 of its geometry.
     pub geometry_digest: String,
-    /// What was invented, in words.
+    /// Invented parts, in words.
     pub synthetic_notes: Vec<String>,
 }
 

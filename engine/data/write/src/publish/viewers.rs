@@ -1,4 +1,4 @@
-//! What shows the logs in viewers: a panel layout for Foxglove and a script for Rerun.
+//! Files that show the logs in viewers: a panel layout for Foxglove and a script for Rerun.
 
 /// Path and content of each file.
 pub const FILES: [(&str, &str); 2] = [

@@ -12,6 +12,7 @@ use cosfly_diagnose::{Diagnostic, Fault, Result};
 use cosfly_fingerprint::sha256::{HashingWriter, sha256_of};
 use cosfly_metrics::WindowShape;
 use cosfly_report::FlightSketch;
+use cosfly_schema::LogRecord;
 use cosfly_schema::config::DatasetConfig;
 use cosfly_schema::extras::{self, Extra, ExtraShape, ExtraSource, ExtraSummary};
 use cosfly_schema::flight_table::Values;
@@ -242,7 +243,7 @@ impl Items<'_> {
     }
 }
 
-/// What a table reads beside the records.
+/// Inputs of a table beside the records.
 #[derive(Clone, Copy, Default)]
 struct Reading {
     previews: bool,

@@ -1,20 +1,47 @@
 //! `cosfly carla-job`: the flights of a dataset as a job for a CARLA server.
 
-use super::Outcome;
-use crate::arguments::CarlaJobArguments;
+use crate::command::{Command, Outcome};
 use crate::exit;
+use crate::output::print;
 use crate::text::count;
+use clap::Parser;
 use cosfly_diagnose::{Diagnostic, Result};
 use cosfly_export::carla_job::CarlaJob;
 use cosfly_read::{PublishedDataset, PublishedFlight};
+use std::path::PathBuf;
 
-/// Writes the job file and says how to fly it.
-pub fn carla_job(arguments: &CarlaJobArguments) -> Outcome {
-    crate::print(&written(arguments).map_err(|refusal| vec![refusal])?)?;
-    Ok(exit::SUCCESS)
+/// Write the job with which `plugins/carla/replay.py` flies a dataset's flights through a CARLA server
+#[derive(Debug, Parser)]
+#[command(
+    name = "carla-job",
+    after_help = "\
+Examples:
+  cosfly carla-job out/Town01 --out job.json
+  cosfly carla-job out/Town01 --out job.json --trajectory expert-p00000 --trajectory perturbed-p00000
+
+The job holds poses, walks, weathers and cameras. The script then makes logs with the same topics, whose pictures are the
+server's; the map must be one that the server has."
+)]
+pub struct Arguments {
+    /// Folder of the dataset that `cosfly run` delivered
+    #[arg(value_name = "DATASET")]
+    dir: PathBuf,
+    /// The job file
+    #[arg(long, value_name = "FILE")]
+    out: PathBuf,
+    /// Flights, such as expert-p00000 (repeatable) [default: all]
+    #[arg(long = "trajectory", value_name = "ID")]
+    trajectories: Vec<String>,
 }
 
-fn written(arguments: &CarlaJobArguments) -> Result<String> {
+impl Command for Arguments {
+    fn run(&self) -> Outcome {
+        print(&written(self)?)?;
+        Ok(exit::SUCCESS)
+    }
+}
+
+fn written(arguments: &Arguments) -> Result<String> {
     let dataset = PublishedDataset::open(&arguments.dir)?;
     let flights: Vec<&PublishedFlight> = if arguments.trajectories.is_empty() {
         dataset.flights().iter().collect()

@@ -1,39 +1,78 @@
-//! `cosfly doctor`: examines anyone's data.
+//! `cosfly doctor`: examines anyone's data and prints its findings.
 
-use super::Outcome;
-use crate::arguments::DoctorArguments;
+use crate::command::{Command, Outcome};
 use crate::exit;
+use crate::output::print;
+use crate::progress::Bar;
 use crate::text::count;
+use clap::Parser;
 use cosfly_diagnose::Diagnostic;
 use cosfly_doctor::{Examination, Layout, Severity, examine};
-use indicatif::{ProgressBar, ProgressStyle};
 use std::fmt::Write;
+use std::path::PathBuf;
 
 /// Flags that are printed; all of them are in the JSON file.
 const PRINTED: usize = 200;
 
-/// Prints one line per flag and a verdict.
-pub fn doctor(arguments: &DoctorArguments) -> Outcome {
-    // Draws nothing unless standard error is a terminal.
-    let style = ProgressStyle::with_template("doctor {wide_bar:.cyan/blue} {pos}/{len} episodes {eta:>5} left")
-        .unwrap_or_else(|_| ProgressStyle::default_bar());
-    let bar = ProgressBar::new(0).with_style(style);
-    let examination = examine(&arguments.dir, &arguments.quotas, &mut |done, all| {
-        bar.set_length(all);
-        bar.set_position(done);
-    });
-    bar.finish_and_clear();
-    let examination = examination.map_err(|refusal| vec![refusal])?;
-    if let Some(path) = &arguments.json {
-        let json = serde_json::to_string_pretty(&examination).unwrap_or_default();
-        std::fs::write(path, json + "\n")
-            .map_err(|error| vec![Diagnostic::io(format!("write `{}`", path.display()), &error)])?;
+/// Examine anyone's data: splits that leak, signs, units, shifts, frozen frames, times, instructions, limits
+#[derive(Debug, Parser)]
+#[command(
+    name = "doctor",
+    after_help = "\
+Examples:
+  cosfly doctor out/carla_town                       a dataset of cosfly
+  cosfly doctor CosFly/data_v7                       the published release
+  cosfly doctor my-lerobot-data                      a LeRobot dataset, exported or anyone's
+  cosfly doctor out/carla_town --quota 20:2-4        do 20 % of the episodes lose their target for 2 to 4 s?
+  cosfly doctor out/carla_town --json verdict.json   every flag, and which episodes are without one
+
+A damage is a statement of the data that is false; an imperfection is true and worse than elsewhere. Exits with 1 when there
+is a damage, more imperfect episodes than --imperfect allows, or a quota that is not met."
+)]
+pub struct Arguments {
+    /// Folder of the data
+    #[arg(value_name = "DIR")]
+    dir: PathBuf,
+    /// Share of imperfect episodes that does no harm, percent
+    #[arg(long, value_name = "PERCENT", default_value_t = 5.0)]
+    imperfect: f64,
+    /// Share of episodes, percent, that lose their target for a time between two lengths in seconds (repeatable)
+    #[arg(long = "quota", value_name = "PERCENT:FROM-TO", value_parser = quota)]
+    quotas: Vec<cosfly_doctor::Quota>,
+    /// Write all findings as JSON
+    #[arg(long, value_name = "FILE")]
+    json: Option<PathBuf>,
+}
+
+impl Command for Arguments {
+    fn run(&self) -> Outcome {
+        let bar = Bar::new("doctor", "episodes");
+        let examination = examine(&self.dir, &self.quotas, &mut |done, all| bar.show(done, all))?;
+        drop(bar);
+        if let Some(path) = &self.json {
+            let json = serde_json::to_string_pretty(&examination).unwrap_or_default();
+            std::fs::write(path, json + "\n")
+                .map_err(|error| Diagnostic::io(format!("write `{}`", path.display()), &error))?;
+        }
+        let allowed = self.imperfect / 100.0;
+        print(&text(&examination, allowed))?;
+        let quotas_are_met = examination.quotas.iter().all(|(quota, found)| *found >= quota.wanted);
+        let is_well = !examination.has_damage() && examination.imperfect_share() <= allowed && quotas_are_met;
+        Ok(if is_well { exit::SUCCESS } else { exit::FOUND_PROBLEMS })
     }
-    let allowed = arguments.imperfect / 100.0;
-    crate::print(&text(&examination, allowed))?;
-    let quotas_are_met = examination.quotas.iter().all(|(quota, found)| *found >= quota.wanted);
-    let is_well = !examination.has_damage() && examination.imperfect_share() <= allowed && quotas_are_met;
-    Ok(if is_well { exit::SUCCESS } else { exit::FOUND_PROBLEMS })
+}
+
+/// A quota such as `20:2-4`.
+fn quota(text: &str) -> Result<cosfly_doctor::Quota, String> {
+    let parts = text.split_once(':').and_then(|(share, times)| Some((share, times.split_once('-')?)));
+    let number = |text: &str| text.parse::<f64>().ok().filter(|number| number.is_finite() && *number >= 0.0);
+    let numbers = parts.and_then(|(share, (from, to))| Some((number(share)?, number(from)?, number(to)?)));
+    match numbers {
+        Some((percent, from, to)) if percent <= 100.0 && from <= to => {
+            Ok(cosfly_doctor::Quota { wanted: percent / 100.0, lost_s: (from, to) })
+        }
+        _ => Err("it must be a percentage, a colon and two times in seconds, such as 20:2-4".to_owned()),
+    }
 }
 
 fn text(examination: &Examination, allowed: f64) -> String {

@@ -1,49 +1,52 @@
-//! One file per command.
+//! The commands, one file or folder each.
+//!
+//! To add one, write its file and add two lines here: its `mod` and its entry in [`COMMANDS`].
 
-pub mod carla_job;
-pub mod collect;
-pub mod dataset_lint;
-pub mod dataset_versions;
-pub mod doctor;
-pub mod drone_state;
-pub mod eval;
-pub mod expert_of_recipe;
-pub mod export;
-pub mod graph;
-pub mod plan;
-pub mod plan_from;
+mod carla_job;
+mod dataset;
+mod doctor;
+mod eval;
+mod export;
+mod gc;
+mod graph;
+mod plan;
+mod plan_from;
 #[cfg(feature = "plugins")]
-pub mod plugin_bench;
+mod plugin;
 #[cfg(feature = "plugins")]
-pub mod plugin_check;
+mod plugin_bench;
 #[cfg(feature = "plugins")]
-pub mod plugin_new;
-pub mod preview;
-pub mod regenerate;
-pub mod run;
-pub mod schema;
-pub mod task;
-pub mod town;
-pub mod verify;
-pub mod why;
+mod plugin_check;
+#[cfg(feature = "plugins")]
+mod plugin_new;
+mod preview;
+mod run;
+mod schema;
+mod task;
+mod town;
+mod verify;
+mod why;
 
-use crate::arguments::{RecipeArguments, StoreArguments};
-use cosfly_diagnose::Diagnostic;
-use cosfly_recipe::Recipe;
-use std::path::PathBuf;
+use crate::command::Entry;
 
-/// Everything that can be wrong with a command, at least one.
-pub type Refusals = Vec<Box<Diagnostic>>;
-
-/// Where a command stops: nothing to report, or an exit code of its own.
-pub type Outcome = Result<u8, Refusals>;
-
-/// The checked recipe with its `--set` changes.
-fn recipe(arguments: &RecipeArguments) -> Result<Recipe, Refusals> {
-    cosfly_recipe::load(&arguments.recipe, &arguments.overrides, &cosfly_stages::registry())
-}
-
-/// The store's folder.
-fn store_dir(arguments: &StoreArguments) -> PathBuf {
-    arguments.store.clone().unwrap_or_else(|| PathBuf::from(".cosfly"))
-}
+/// The commands, sorted by name.
+pub const COMMANDS: &[Entry] = &[
+    Entry::of::<carla_job::Arguments>(),
+    dataset::DATASET,
+    Entry::of::<doctor::Arguments>(),
+    Entry::of::<eval::Arguments>(),
+    Entry::of::<export::Arguments>(),
+    Entry::of::<gc::Arguments>(),
+    Entry::of::<graph::Arguments>(),
+    Entry::of::<plan::Arguments>(),
+    Entry::of::<plan_from::Arguments>(),
+    #[cfg(feature = "plugins")]
+    plugin::PLUGIN,
+    Entry::of::<preview::Arguments>(),
+    Entry::of::<run::Arguments>(),
+    Entry::of::<schema::Arguments>(),
+    task::TASK,
+    Entry::of::<town::Arguments>(),
+    Entry::of::<verify::Arguments>(),
+    Entry::of::<why::Arguments>(),
+];

@@ -1,20 +1,33 @@
 //! `cosfly plan`: items of each stage, cached ones, those that would run and why, predicted size.
 
-use super::{Outcome, recipe, store_dir};
-use crate::arguments::PlanArguments;
+use crate::arguments::{RecipeArguments, StoreArguments};
+use crate::command::{Command, Outcome};
 use crate::exit;
+use crate::output::print;
 use crate::text::{bytes, count};
+use clap::Parser;
 use cosfly_runner::Plan;
 use cosfly_store::Store;
 use std::fmt::Write;
 
-/// Prints the plan.
-pub fn plan(arguments: &PlanArguments) -> Outcome {
-    let recipe = recipe(&arguments.recipe)?;
-    let store = Store::open_to_read(&store_dir(&arguments.store)).map_err(|refusal| vec![refusal])?;
-    let plan = cosfly_runner::plan(&recipe, &store).map_err(|refusal| vec![refusal])?;
-    crate::print(&table(&plan))?;
-    Ok(exit::SUCCESS)
+/// Show the DAG of a recipe: items per stage, what is cached, what would run and why, predicted size
+#[derive(Debug, Parser)]
+#[command(name = "plan")]
+pub struct Arguments {
+    #[command(flatten)]
+    recipe: RecipeArguments,
+    #[command(flatten)]
+    store: StoreArguments,
+}
+
+impl Command for Arguments {
+    fn run(&self) -> Outcome {
+        let recipe = self.recipe.load()?;
+        let store = Store::open_to_read(&self.store.folder())?;
+        let plan = cosfly_runner::plan(&recipe, &store)?;
+        print(&table(&plan))?;
+        Ok(exit::SUCCESS)
+    }
 }
 
 /// Text of a plan: aligned columns, with the reasons below each stage that has items to run.

@@ -1,9 +1,10 @@
 //! `cosfly plugin bench`: what the border costs, against the same terms in native code, side by side in one run.
 
-use super::Outcome;
 use super::plugin_check;
-use crate::arguments::{PluginBenchArguments, PluginFileArguments};
+use crate::command::{Command, Outcome, Refusals};
 use crate::exit;
+use crate::output::print;
+use clap::Parser;
 use cosfly_diagnose::{Diagnostic, Fault};
 use cosfly_frames::{DVec3, Seed};
 use cosfly_geometry::BoxBvh;
@@ -12,6 +13,7 @@ use cosfly_planner::{CostTerm, MucoConfig, PlanOutcome, TermContext, WeightedTer
 use cosfly_plugin_host::{Host, Kind, NoTown, Plugin, PluginError, PluginLimits, PluginTerm, laws};
 use rustix::time::{ClockId, clock_gettime};
 use std::fmt::Write;
+use std::path::PathBuf;
 use std::sync::Arc;
 use std::time::Instant;
 
@@ -50,9 +52,33 @@ impl CostTerm for Native {
     }
 }
 
+/// Measure what the border costs: plugins against the same terms in native code, and a cost term of your own
+#[derive(Debug, Parser)]
+#[command(
+    name = "bench",
+    after_help = "\
+Examples:
+  cosfly plugin bench
+  cosfly plugin bench recipes/plugins/wind.wasm"
+)]
+pub struct Arguments {
+    /// A cost term of your own, measured beside the others
+    #[arg(value_name = "FILE")]
+    file: Option<PathBuf>,
+    /// Its parameters as a JSON object [default: its defaults]
+    #[arg(long, value_name = "JSON")]
+    params: Option<String>,
+}
+
+impl Command for Arguments {
+    fn run(&self) -> Outcome {
+        bench(self)
+    }
+}
+
 /// Prints a table of ratios.
-pub fn bench(arguments: &PluginBenchArguments) -> Outcome {
-    let one = |error: PluginError| vec![error.diagnostic(None)];
+fn bench(arguments: &Arguments) -> Outcome {
+    let one = |error: PluginError| error.diagnostic(None);
     let host = Host::new(None);
     let limits = PluginLimits::default();
     let twin = host.load_bytes(TWIN, "twin.wasm", Some(Kind::CostTerm), limits).map_err(one)?;
@@ -82,7 +108,7 @@ pub fn bench(arguments: &PluginBenchArguments) -> Outcome {
     if let Some(file) = &arguments.file {
         text.push_str(&own(file, arguments)?);
     }
-    crate::print(&text)?;
+    print(&text)?;
     Ok(exit::SUCCESS)
 }
 
@@ -177,13 +203,13 @@ fn start_ms() -> Result<f64, PluginError> {
 }
 
 /// A term of the user's, beside the others.
-fn own(file: &std::path::Path, arguments: &PluginBenchArguments) -> Result<String, super::Refusals> {
-    let one = |error: PluginError| vec![error.diagnostic(None)];
-    let given = |fuel: u64| PluginFileArguments { file: file.to_owned(), params: arguments.params.clone(), fuel };
+fn own(file: &std::path::Path, arguments: &Arguments) -> Result<String, Refusals> {
+    let one = |error: PluginError| error.diagnostic(None);
+    let given = |fuel: u64| plugin_check::Arguments { file: file.to_owned(), params: arguments.params.clone(), fuel };
     let plugin = plugin_check::load(&given(0))?;
     if plugin.kind != Kind::CostTerm {
         let message = format!("`{}` is {}; cost terms are measured", file.display(), plugin.kind.words());
-        return Err(vec![Diagnostic::new("plugin-kind", Fault::Recipe, message)]);
+        return Err(Diagnostic::new("plugin-kind", Fault::Recipe, message).into());
     }
     let (params, _) = plugin_check::params(&given(0), &plugin)?;
     let us = plugin_check::call_us(&plugin, &params).map_err(one)?;

@@ -1,8 +1,9 @@
 //! `cosfly plugin check`: what a plugin says of itself, and whether it keeps the laws of its kind.
 
-use super::{Outcome, Refusals};
-use crate::arguments::PluginFileArguments;
+use crate::command::{Command, Outcome, Refusals};
 use crate::exit;
+use crate::output::print;
+use clap::Parser;
 use cosfly_diagnose::{Diagnostic, Fault};
 use cosfly_plugin_host::laws::{self, Finding};
 use cosfly_plugin_host::{
@@ -13,18 +14,48 @@ use cosfly_stages::plugins::config::Makes;
 use cosfly_stages::plugins::{host, tables};
 use serde_json::{Map, Value};
 use std::fmt::Write;
+use std::path::PathBuf;
 use std::sync::Arc;
 use std::time::Instant;
 
+/// Describe a plugin and its parameters, and try the laws of its kind: pure, finite, local, gradient
+#[derive(Debug, Parser)]
+#[command(
+    name = "check",
+    after_help = "\
+Examples:
+  cosfly plugin check recipes/plugins/orbit.wasm
+  cosfly plugin check recipes/plugins/wind.wasm --params '{\"speed_mps\": 9}'
+
+Exits with 1 when a law is broken."
+)]
+pub struct Arguments {
+    /// The plugin
+    #[arg(value_name = "FILE")]
+    pub file: PathBuf,
+    /// Its parameters as a JSON object [default: its defaults]
+    #[arg(long, value_name = "JSON")]
+    pub params: Option<String>,
+    /// Run it in strict mode with this many instructions per call
+    #[arg(long, value_name = "N", default_value_t = 0, hide_default_value = true)]
+    pub fuel: u64,
+}
+
+impl Command for Arguments {
+    fn run(&self) -> Outcome {
+        check(self)
+    }
+}
+
 /// Prints the description, one line per law, and a verdict.
-pub fn check(arguments: &PluginFileArguments) -> Outcome {
+fn check(arguments: &Arguments) -> Outcome {
     let started = Instant::now();
     let plugin = load(arguments)?;
     let took_ms = 1e3 * started.elapsed().as_secs_f64();
     let (params, schema) = params(arguments, &plugin)?;
     let mut text = describe(&plugin, &schema);
     let _ = writeln!(text, "loaded in {took_ms:.1} ms");
-    let one = |error: PluginError| vec![error.diagnostic(None)];
+    let one = |error: PluginError| error.diagnostic(None);
     let findings = match plugin.kind {
         Kind::CostTerm => laws::check_cost_term(&plugin, &params).map_err(one)?,
         Kind::Objective => laws::check_objective(&plugin, &params).map_err(one)?,
@@ -46,25 +77,25 @@ pub fn check(arguments: &PluginFileArguments) -> Outcome {
         0 => writeln!(text, "it keeps the laws of its kind"),
         count => writeln!(text, "{count} laws are broken"),
     };
-    crate::print(&text)?;
+    print(&text)?;
     Ok(if broken == 0 { exit::SUCCESS } else { exit::FOUND_PROBLEMS })
 }
 
 /// The plugin of a command line.
-pub fn load(arguments: &PluginFileArguments) -> Result<Plugin, Refusals> {
+pub fn load(arguments: &Arguments) -> Result<Plugin, Refusals> {
     let shown = arguments.file.display().to_string();
     let limits = cosfly_plugin_host::PluginLimits { fuel: arguments.fuel, ..Default::default() };
-    host().load(&arguments.file, &shown, None, limits).map_err(|error| vec![error.diagnostic(None)])
+    host().load(&arguments.file, &shown, None, limits).map_err(|error| error.diagnostic(None).into())
 }
 
 /// Its parameters as JSON text with defaults, and their schema.
-pub fn params(arguments: &PluginFileArguments, plugin: &Plugin) -> Result<(String, Value), Refusals> {
-    let refused = |message: String| vec![Diagnostic::new("plugin-params", Fault::Recipe, message)];
+pub fn params(arguments: &Arguments, plugin: &Plugin) -> Result<(String, Value), Refusals> {
+    let refused = |message: String| Diagnostic::new("plugin-params", Fault::Recipe, message);
     let schema = check_schema(&plugin.metadata.params_schema).map_err(refused)?;
     let given: Map<String, Value> = match &arguments.params {
         None => Map::new(),
         Some(text) => serde_json::from_str(text).map_err(|error| {
-            refused(format!("`--params` is no JSON object: {error}; write it like `{{\"radius_m\": 3}}`"))
+            refused(format!("`--params` is not a JSON object: {error}; write it like `{{\"radius_m\": 3}}`"))
         })?,
     };
     Ok((with_defaults(&schema, &given), schema))

@@ -1,11 +1,12 @@
 //! `cosfly plugin new`: the beginning of a plugin, as a project that builds.
 
-use super::Outcome;
-use crate::arguments::{PluginKind, PluginNewArguments};
+use crate::command::{Command, Outcome};
 use crate::exit;
+use crate::output::print;
+use clap::{Parser, ValueEnum};
 use cosfly_diagnose::{Diagnostic, Fault};
 use std::fs;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 /// What plugins are made of, as it is in `plugins/sdk`.
 const SDK: [(&str, &str); 17] = [
@@ -33,27 +34,55 @@ const MANIFEST: &str = include_str!("../../../../../plugins/templates/Cargo.toml
 const CARGO_CONFIG: &str = "[target.wasm32-unknown-unknown]\nrustflags = [\"-Ctarget-feature=+simd128\", \"-Cllvm-args=-inline-threshold=1000\"]\n";
 const README: &str = include_str!("../../../../../plugins/templates/README.md.txt");
 
+/// Write the beginning of a plugin: a Rust project that builds
+#[derive(Debug, Parser)]
+#[command(name = "new", after_help = "Example:\n  cosfly plugin new --kind cost-term keep_low")]
+pub struct Arguments {
+    /// Kind of the plugin
+    #[arg(long, value_enum)]
+    kind: PluginKind,
+    /// Folder to write, with the name of the plugin
+    #[arg(value_name = "NAME")]
+    path: PathBuf,
+}
+
+/// Kinds of plugins.
+#[derive(Clone, Copy, Debug, ValueEnum)]
+enum PluginKind {
+    /// A cost of a flight
+    CostTerm,
+    /// Targets to look at, with viewpoints and times
+    Objective,
+    /// A filter or labels of finished flights
+    Stage,
+}
+
+impl Command for Arguments {
+    fn run(&self) -> Outcome {
+        new(self)
+    }
+}
+
 /// Writes the project and says how to go on.
-pub fn new(arguments: &PluginNewArguments) -> Outcome {
+fn new(arguments: &Arguments) -> Outcome {
     let name = arguments.path.file_name().and_then(|name| name.to_str()).unwrap_or_default();
     let is_plain = |byte: u8| byte.is_ascii_lowercase() || byte.is_ascii_digit() || byte == b'_';
     let begins = name.bytes().next().is_some_and(|byte| byte.is_ascii_lowercase());
     if !begins || name.len() > 60 || !name.bytes().all(is_plain) {
         let message = format!("a plugin cannot be called `{name}`");
-        return Err(vec![
-            Diagnostic::new("plugin-name", Fault::Recipe, message)
-                .hint("names begin with `a-z` and go on with at most 59 of `a-z`, `0-9` and `_`"),
-        ]);
+        return Err(Diagnostic::new("plugin-name", Fault::Recipe, message)
+            .hint("names begin with `a-z` and go on with at most 59 of `a-z`, `0-9` and `_`")
+            .into());
     }
     if arguments.path.exists() {
         let message = format!("`{}` is there already", arguments.path.display());
-        return Err(vec![
-            Diagnostic::new("plugin-exists", Fault::Recipe, message).hint("choose another name or folder"),
-        ]);
+        return Err(Diagnostic::new("plugin-exists", Fault::Recipe, message)
+            .hint("choose another name or folder")
+            .into());
     }
-    write(arguments, name).map_err(|refusal| vec![refusal])?;
+    write(arguments, name)?;
     let built = format!("target/wasm32-unknown-unknown/release/{name}.wasm");
-    crate::print(&format!(
+    print(&format!(
         "wrote `{0}`: what it does is in `{0}/src/lib.rs`. Then:\n  cd {0}\n  cargo test\n  cargo build --release --target \
          wasm32-unknown-unknown     (once before: rustup target add wasm32-unknown-unknown)\n  cosfly plugin check {built}\n",
         arguments.path.display()
@@ -61,7 +90,7 @@ pub fn new(arguments: &PluginNewArguments) -> Outcome {
     Ok(exit::SUCCESS)
 }
 
-fn write(arguments: &PluginNewArguments, name: &str) -> cosfly_diagnose::Result<()> {
+fn write(arguments: &Arguments, name: &str) -> cosfly_diagnose::Result<()> {
     let (source, words, usage) = match arguments.kind {
         PluginKind::CostTerm => (
             include_str!("../../../../../plugins/templates/cost-term.rs.txt"),

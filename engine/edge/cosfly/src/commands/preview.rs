@@ -1,61 +1,74 @@
 //! `cosfly preview`: pictures of a finished flight.
 
-use super::{Outcome, Refusals};
-use crate::arguments::PreviewArguments;
+use crate::command::{Command, Outcome};
 use crate::exit;
+use crate::output::print;
+use crate::progress::Bar;
 use crate::text::{bytes, count};
-use cosfly_diagnose::Diagnostic;
-use cosfly_preview::Pictures;
+use clap::Parser;
+use cosfly_diagnose::{Diagnostic, Result};
+use cosfly_preview::{FrameList, Pictures};
 use cosfly_read::{PublishedDataset, PublishedFlight};
-use indicatif::{ProgressBar, ProgressStyle};
 use std::fmt::Write;
 use std::path::{Path, PathBuf};
 
-/// Draws the pictures and says where they are.
-pub fn preview(arguments: &PreviewArguments) -> Outcome {
-    let dataset = PublishedDataset::open(&arguments.dir).map_err(one)?;
-    let flight = match &arguments.trajectory {
-        Some(id) => dataset.flight(id).map_err(one)?,
-        None => &dataset.flights()[0],
-    };
-    let pictures = draw(&dataset, flight, arguments).map_err(one)?;
-    let out = arguments.out.clone().unwrap_or_else(|| beside(&arguments.dir));
-    let written = write(&out, flight, &pictures)?;
-    crate::print(&report(&dataset, flight, &pictures, &written))?;
-    Ok(exit::SUCCESS)
+/// Draw a finished flight: contact sheet, animated clip, plan of town and paths
+#[derive(Debug, Parser)]
+#[command(
+    name = "preview",
+    after_help = "\
+Examples:
+  cosfly preview out/carla_town                                  its first flight, into out/carla_town-preview
+  cosfly preview out/carla_town --trajectory perturbed-p00002
+  cosfly preview out/carla_town --frames 0,50,100
+  cosfly preview out/carla_town --frames 0..200:10 --out pictures
+
+A range ends before its second number: `0..200:10` is 0, 10, ... 190. Without `--frames`, the sheet shows six frames and
+the clip up to a hundred, evenly spread."
+)]
+pub struct Arguments {
+    /// Folder of the dataset that `cosfly run` delivered
+    #[arg(value_name = "DATASET")]
+    dir: PathBuf,
+    /// The flight to draw, such as expert-p00000 [default: the first one]
+    #[arg(long, value_name = "ID")]
+    trajectory: Option<String>,
+    /// Frames to show, such as 0,50,100 or 0..200:10
+    #[arg(long, value_name = "LIST")]
+    frames: Option<FrameList>,
+    /// Folder for the pictures [default: <DATASET>-preview]
+    #[arg(long, value_name = "DIR")]
+    out: Option<PathBuf>,
 }
 
-fn one(refusal: Box<Diagnostic>) -> Refusals {
-    vec![refusal]
+impl Command for Arguments {
+    fn run(&self) -> Outcome {
+        let dataset = PublishedDataset::open(&self.dir)?;
+        let flight = match &self.trajectory {
+            Some(id) => dataset.flight(id)?,
+            None => &dataset.flights()[0],
+        };
+        let bar = Bar::new("reading", "frames");
+        let pictures =
+            cosfly_preview::draw(&dataset, flight, self.frames.as_ref(), &mut |done, all| bar.show(done, all))?;
+        drop(bar);
+        let out = self.out.clone().unwrap_or_else(|| beside(&self.dir));
+        let written = write(&out, flight, &pictures)?;
+        print(&report(&dataset, flight, &pictures, &written))?;
+        Ok(exit::SUCCESS)
+    }
 }
 
-fn draw(
-    dataset: &PublishedDataset,
-    flight: &PublishedFlight,
-    arguments: &PreviewArguments,
-) -> cosfly_diagnose::Result<Pictures> {
-    // Draws nothing unless standard error is a terminal.
-    let style = ProgressStyle::with_template("reading {wide_bar:.cyan/blue} {pos}/{len} frames {eta:>5} left")
-        .unwrap_or_else(|_| ProgressStyle::default_bar());
-    let bar = ProgressBar::new(0).with_style(style);
-    let pictures = cosfly_preview::draw(dataset, flight, arguments.frames.as_ref(), &mut |done, all| {
-        bar.set_length(all);
-        bar.set_position(done);
-    });
-    bar.finish_and_clear();
-    pictures
-}
-
-/// The folder next to the dataset's: inside it, `verify` would find files that do not belong there.
+/// The folder beside the dataset's. Inside the dataset, `verify` would find files that do not belong there.
 fn beside(dataset: &Path) -> PathBuf {
     let folder = dataset.canonicalize().unwrap_or_else(|_| dataset.to_owned());
     let name = folder.file_name().map_or_else(|| "dataset".into(), |name| name.to_string_lossy().into_owned());
     folder.with_file_name(format!("{name}-preview"))
 }
 
-/// Writes the files; their paths and sizes.
-fn write(out: &Path, flight: &PublishedFlight, pictures: &Pictures) -> Result<Vec<(PathBuf, u64)>, Refusals> {
-    let refused = |error: std::io::Error| one(Diagnostic::io(format!("write pictures to `{}`", out.display()), &error));
+/// Writes the files; returns their paths and sizes.
+fn write(out: &Path, flight: &PublishedFlight, pictures: &Pictures) -> Result<Vec<(PathBuf, u64)>> {
+    let refused = |error: std::io::Error| Diagnostic::io(format!("write pictures to `{}`", out.display()), &error);
     std::fs::create_dir_all(out).map_err(refused)?;
     let files = [("sheet.png", &pictures.sheet), ("clip.gif", &pictures.clip), ("plan.png", &pictures.plan)];
     let mut written = vec![];

@@ -1,10 +1,12 @@
-//! `cosfly run`: makes everything that a recipe describes, and tells the result, its place and what to open next.
+//! `cosfly run`: makes everything that a recipe describes; prints the result, its place and what to open next.
 
-use super::{Outcome, recipe, store_dir};
-use crate::arguments::RunArguments;
+use crate::arguments::{RecipeArguments, StoreArguments};
+use crate::command::{Command, Outcome};
+use crate::output::print;
 use crate::reporter::{Reporter, colour};
 use crate::text::{bytes, count, duration};
 use crate::{exit, interrupt};
+use clap::Parser;
 use cosfly_fingerprint::Digest;
 use cosfly_recipe::{Recipe, RecipeStage};
 use cosfly_runner::{Delivery, Origin, Rejection, RunOptions, RunOutcome, RunSummary, deliver};
@@ -17,31 +19,61 @@ use std::time::Instant;
 /// Rejections that are listed.
 const MOST_REJECTIONS: usize = 10;
 
-/// Runs the recipe and delivers the dataset.
-pub fn run(arguments: &RunArguments) -> Outcome {
-    let began = Instant::now();
-    let recipe = recipe(&arguments.recipe)?;
-    let out = arguments.out.clone().unwrap_or_else(|| PathBuf::from("out").join(&recipe.name));
-    check_out_folder(&store_dir(&arguments.store), &out).map_err(|refusal| vec![refusal])?;
-    let store = Store::open(&store_dir(&arguments.store)).map_err(|refusal| vec![refusal])?;
-    let jobs = arguments.jobs.map_or_else(|| std::thread::available_parallelism().map_or(1, usize::from), usize::from);
-    let options = RunOptions { jobs, cancelled: interrupt::flag() };
-    let reporter = Reporter::new(arguments.quiet);
-    let wanted = delivered_stage(&recipe);
-    let delivery = deliver(&recipe, &store, wanted, &out, &options, &|event| reporter.show(event));
-    reporter.finish();
-    let delivery = delivery.map_err(|refusal| vec![refusal])?;
-    if arguments.json {
-        crate::print(&json(&recipe, &delivery, &out))?;
-    } else {
-        let took = duration(began.elapsed());
-        if !arguments.quiet {
-            crate::print(&stages(&delivery.summary))?;
+/// Make everything a recipe describes
+#[derive(Debug, Parser)]
+#[command(
+    name = "run",
+    after_help = "\
+Examples:
+  cosfly run recipes/small.toml
+  cosfly run recipes/carla_town.toml --jobs 1 --out /data/town
+  cosfly run recipes/carla_town.toml --set stages.expert.weights.visibility=5 --set seed=7"
+)]
+pub struct Arguments {
+    #[command(flatten)]
+    recipe: RecipeArguments,
+    #[command(flatten)]
+    store: StoreArguments,
+    /// Folder for the dataset [default: out/<recipe name>]
+    #[arg(long, value_name = "DIR")]
+    out: Option<PathBuf>,
+    /// Tasks at the same time [default: one per core]
+    #[arg(long, short, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
+    jobs: Option<u16>,
+    /// Print the summary as JSON
+    #[arg(long)]
+    json: bool,
+    /// Print errors and the last line only
+    #[arg(long, short)]
+    quiet: bool,
+}
+
+impl Command for Arguments {
+    fn run(&self) -> Outcome {
+        let began = Instant::now();
+        let recipe = self.recipe.load()?;
+        let out = self.out.clone().unwrap_or_else(|| PathBuf::from("out").join(&recipe.name));
+        check_out_folder(&self.store.folder(), &out)?;
+        let store = Store::open(&self.store.folder())?;
+        let jobs = self.jobs.map_or_else(|| std::thread::available_parallelism().map_or(1, usize::from), usize::from);
+        let options = RunOptions { jobs, cancelled: interrupt::flag() };
+        let reporter = Reporter::new(self.quiet);
+        let wanted = delivered_stage(&recipe);
+        let delivery = deliver(&recipe, &store, wanted, &out, &options, &|event| reporter.show(event));
+        reporter.finish();
+        let delivery = delivery?;
+        if self.json {
+            print(&json(&recipe, &delivery, &out))?;
+        } else {
+            let took = duration(began.elapsed());
+            if !self.quiet {
+                print(&stages(&delivery.summary))?;
+            }
+            let wanted = &recipe.stages[wanted].name;
+            print(&result(&delivery, wanted, &out, &self.store.folder(), &took, self.quiet))?;
         }
-        let wanted = &recipe.stages[wanted].name;
-        crate::print(&result(&delivery, wanted, &out, &store_dir(&arguments.store), &took, arguments.quiet))?;
+        Ok(ended(&delivery.summary))
     }
-    Ok(ended(&delivery.summary))
 }
 
 /// Index of the stage whose artifact is the result: the last `dataset`, else the last stage.

@@ -1,20 +1,41 @@
 //! `cosfly schema`: the generated schema and reference pages.
 
-use super::Outcome;
-use crate::arguments::SchemaArguments;
+use crate::command::{Command, Outcome};
 use crate::exit;
+use crate::output::print;
+use clap::Parser;
 
-/// Prints the recipe's JSON Schema, or a page of the book.
-pub fn schema(arguments: &SchemaArguments) -> Outcome {
-    let registry = cosfly_stages::registry();
-    let text = if arguments.tables {
-        cosfly_schema::reference()
-    } else if arguments.reference {
-        cosfly_recipe::reference(&registry)
-    } else {
-        let schema = cosfly_recipe::schema(&registry);
-        serde_json::to_string_pretty(&schema).expect("a schema is plain JSON") + "\n"
-    };
-    crate::print(&text)?;
-    Ok(exit::SUCCESS)
+/// Print the recipe's JSON Schema, or a generated reference page
+#[derive(Debug, Parser)]
+#[command(
+    name = "schema",
+    after_help = "\
+Examples:
+  cosfly schema > recipe.schema.json                  for editors: completion and checks of recipes
+  cosfly schema --reference > recipe.md
+  cosfly schema --tables > tables.md"
+)]
+pub struct Arguments {
+    /// Print the recipe reference as Markdown
+    #[arg(long, conflicts_with = "tables")]
+    reference: bool,
+    /// Print the tables and channels of a dataset as Markdown
+    #[arg(long)]
+    tables: bool,
+}
+
+impl Command for Arguments {
+    fn run(&self) -> Outcome {
+        let registry = cosfly_stages::registry();
+        let text = if self.tables {
+            cosfly_schema::reference()
+        } else if self.reference {
+            cosfly_recipe::reference(&registry)
+        } else {
+            let schema = cosfly_recipe::schema(&registry);
+            serde_json::to_string_pretty(&schema).expect("a schema is plain JSON") + "\n"
+        };
+        print(&text)?;
+        Ok(exit::SUCCESS)
+    }
 }

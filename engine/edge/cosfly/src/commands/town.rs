@@ -1,12 +1,23 @@
 //! `cosfly town`: a generated OpenDRIVE town.
 
-use super::Outcome;
-use crate::arguments::TownArguments;
+use crate::command::{Command, Outcome};
 use crate::exit;
+use crate::output::print;
+use clap::Parser;
 use cosfly_maps::generate::{GenerateConfig, generate_town};
 
-/// Prints the town.
-pub fn town(arguments: &TownArguments) -> Outcome {
-    crate::print(&generate_town(&GenerateConfig::default(), arguments.seed))?;
-    Ok(exit::SUCCESS)
+/// Print a generated OpenDRIVE town
+#[derive(Debug, Parser)]
+#[command(name = "town", after_help = "Example:\n  cosfly town --seed 7 > my_town.xodr")]
+pub struct Arguments {
+    /// Seed; every seed is another town
+    #[arg(long, value_name = "N", default_value_t = 1)]
+    seed: u64,
+}
+
+impl Command for Arguments {
+    fn run(&self) -> Outcome {
+        print(&generate_town(&GenerateConfig::default(), self.seed))?;
+        Ok(exit::SUCCESS)
+    }
 }

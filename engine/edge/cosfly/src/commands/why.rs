@@ -1,23 +1,45 @@
 //! `cosfly why`: the parameter or input that changed a key.
 
-use super::{Outcome, recipe, store_dir};
-use crate::arguments::WhyArguments;
+use crate::arguments::{RecipeArguments, StoreArguments};
+use crate::command::{Command, Outcome};
 use crate::exit;
+use crate::output::print;
+use clap::Parser;
 use cosfly_runner::Explanation;
 use cosfly_store::Store;
 use std::fmt::Write;
 
-/// Prints the explanation.
-pub fn why(arguments: &WhyArguments) -> Outcome {
-    let recipe = recipe(&arguments.recipe)?;
-    let store = Store::open_to_read(&store_dir(&arguments.store)).map_err(|refusal| vec![refusal])?;
-    let (stage, item) = match arguments.subject.split_once('/') {
-        Some((stage, item)) => (stage, Some(item)),
-        None => (arguments.subject.as_str(), None),
-    };
-    let explanation = cosfly_runner::why(&recipe, &store, stage, item).map_err(|refusal| vec![refusal])?;
-    crate::print(&told(&explanation))?;
-    Ok(exit::SUCCESS)
+/// Say which field or input changed since a stage or an item was last made
+#[derive(Debug, Parser)]
+#[command(
+    name = "why",
+    after_help = "\
+Examples:
+  cosfly why recipes/carla_town.toml expert
+  cosfly why recipes/carla_town.toml frames/expert-p00003"
+)]
+pub struct Arguments {
+    #[command(flatten)]
+    recipe: RecipeArguments,
+    /// A stage, or one of its items
+    #[arg(value_name = "STAGE[/ITEM]")]
+    subject: String,
+    #[command(flatten)]
+    store: StoreArguments,
+}
+
+impl Command for Arguments {
+    fn run(&self) -> Outcome {
+        let recipe = self.recipe.load()?;
+        let store = Store::open_to_read(&self.store.folder())?;
+        let (stage, item) = match self.subject.split_once('/') {
+            Some((stage, item)) => (stage, Some(item)),
+            None => (self.subject.as_str(), None),
+        };
+        let explanation = cosfly_runner::why(&recipe, &store, stage, item)?;
+        print(&told(&explanation))?;
+        Ok(exit::SUCCESS)
+    }
 }
 
 /// Text of an explanation: the chain from the task to the root cause, one indentation per step upstream.

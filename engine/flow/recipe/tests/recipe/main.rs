@@ -7,6 +7,7 @@ mod generated;
 mod graph_mistakes;
 mod item_mistakes;
 mod list_mistakes;
+mod optional_parts;
 mod overrides_mistakes;
 mod parameters_mistakes;
 mod text_mistakes;

@@ -50,7 +50,8 @@ pub fn town_of_recipe(path: &Path, paths: Option<usize>, seed: Option<u64>) -> R
 /// Index of the first `muco` stage that follows a pedestrian.
 fn planner_of(recipe: &Recipe) -> Result<usize, Refusals> {
     let follows = |stage: &RecipeStage| {
-        stage.kind == "muco" && stage.connections.iter().any(|connection| connection.port.name == "paths")
+        let is_planner = stage.kind == "muco" && stage.name.part().is_empty();
+        is_planner && stage.connections.iter().any(|connection| connection.port.name == "paths")
     };
     recipe.stages.iter().position(follows).ok_or_else(|| {
         let message = format!("`{}` has no stage with `use = \"muco\"` that follows walkers", recipe.name);

@@ -13,7 +13,6 @@ pub mod plain_bvh;
 pub mod plot;
 pub mod scene;
 pub mod solver;
-pub mod svg;
 pub mod table;
 
 pub use contender::Contender;

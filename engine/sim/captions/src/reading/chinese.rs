@@ -90,7 +90,7 @@ fn number(text: &str) -> Option<(f64, &str)> {
     Some((value, text[end..].trim_start()))
 }
 
-/// What a number says with the unit after it, and the bytes of that unit.
+/// The claim of a number with the unit after it, and the bytes of that unit.
 fn quantity(value: f64, after: &str, clause: &str, about_stops: bool) -> (Claim, usize) {
     let has = |known: &[&str]| known.iter().any(|word| clause.contains(word));
     let unit = ["米/秒", "米每秒", "米", "公尺", "度", "°", "秒", "次", "个弯"]

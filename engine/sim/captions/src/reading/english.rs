@@ -105,7 +105,7 @@ fn read_clause(tokens: &[Token]) -> Vec<Claim> {
     claims
 }
 
-/// What a number with the word after it says in its clause.
+/// The claim of a number with the word after it, in its clause.
 fn quantity(value: f64, unit: &str, words: &[&str], about_stops: bool) -> Claim {
     let has = |known: &[&str]| words.iter().any(|word| known.contains(word));
     match unit {

@@ -1,4 +1,4 @@
-//! Reading texts back: what a text claims, whoever wrote it.
+//! Reads texts back: the claims of a text, whoever wrote it.
 
 pub mod chinese;
 pub mod english;
@@ -6,7 +6,7 @@ pub mod english;
 use crate::compass::Compass;
 use crate::turns::TurnKind;
 
-/// One thing that a text says.
+/// One claim of a text.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Claim {
     /// The target goes (or faces) this way.

@@ -21,11 +21,6 @@ impl Baseline {
     /// All, in the order of tables.
     pub const ALL: [Self; 4] = [Self::AstarFast, Self::AstarSmoothed, Self::Beam, Self::Dp];
 
-    /// Whether its flights are made to hold limits of speed, acceleration and jerk.
-    pub fn bounds_kinematics(self) -> bool {
-        self == Self::AstarSmoothed
-    }
-
     /// Name in tables and on command lines.
     pub fn name(self) -> &'static str {
         match self {

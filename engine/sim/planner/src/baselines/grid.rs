@@ -3,7 +3,8 @@
 use crate::config::muco::MucoConfig;
 use crate::obstacles::ground::GroundGrid;
 use crate::problem::Problem;
-use crate::terms::{Weights, altitude::band_cost, pitch, tracking, viewpoint};
+use crate::terms::place::PlaceCosts;
+use crate::terms::{length, viewpoint};
 use crate::visibility::{BODY_POINTS, body_points};
 use cosfly_frames::{DVec3, TargetState};
 
@@ -14,7 +15,7 @@ const MAX_NODES: usize = 1 << 26;
 /// Moves per layer: stay, or one voxel along each axis.
 pub const MOVES: usize = 27;
 
-/// How voxel searches divide space and price motion.
+/// Size of voxels, and price of motion.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct VoxelOptions {
     /// Edge of a voxel, metres.
@@ -55,7 +56,7 @@ pub struct Layer {
 pub struct VoxelGrid<'a> {
     problem: &'a Problem<'a>,
     ground: &'a GroundGrid,
-    weights: Weights,
+    costs: PlaceCosts<'a>,
     clearance_m: f64,
     options: VoxelOptions,
     origin: DVec3,
@@ -99,11 +100,11 @@ impl<'a> VoxelGrid<'a> {
         let move_m: [f64; MOVES] = core::array::from_fn(|m| {
             options.voxel_m * f64::from(move_step(m).iter().map(|step| step * step).sum::<i32>()).sqrt()
         });
-        // c_len is 0.1 per metre, before its weight (paper, appendix A.1).
-        let per_m = options.motion_per_m + 0.1 * weights.length;
+        let per_m = options.motion_per_m + length::COST_PER_M * weights.length;
         let move_cost = move_m.map(|length_m| (per_m * length_m) as f32);
         let clearance_m = config.limits.clearance_m;
-        Ok(Self { problem, ground, weights, clearance_m, options, origin, size, layers, move_cost, move_m })
+        let costs = PlaceCosts { weights, view };
+        Ok(Self { problem, ground, costs, clearance_m, options, origin, size, layers, move_cost, move_m })
     }
 
     /// Voxels of one layer.
@@ -132,7 +133,7 @@ impl<'a> VoxelGrid<'a> {
         Cell { layer, at: [(rest % sx) as i32, (rest / sx % sy) as i32, (rest / (sx * sy)) as i32] }
     }
 
-    /// Where a cell's middle is, world frame, metres.
+    /// Middle of a cell, world frame, metres.
     #[inline]
     pub fn position(&self, cell: Cell) -> DVec3 {
         let low = self.layers[cell.layer].low;
@@ -170,22 +171,17 @@ impl<'a> VoxelGrid<'a> {
         if !inside || over_ground < self.clearance_m || sight.z > view.max_altitude_m + half {
             return None;
         }
-        let weights = &self.weights;
         let walk = self.problem.walk;
         let cosine = sight.truncate().dot(walk.direction[layer.frame]) / across.max(1e-9);
-        let cost = weights.tracking * tracking::distance_cost(sight.length(), view.distance_m)
-            + weights.pitch * pitch::pitch_cost(pitch::pitch_below_horizon_deg(sight), view.pitch_deg).0
-            + weights.viewpoint * viewpoint::front_cost(cosine) * walk.directness[layer.frame]
-            + weights.altitude
-                * band_cost(sight.z, sight.z.min(over_ground), view.min_altitude_m, view.preferred_altitude_m);
+        let front = self.costs.weights.viewpoint * viewpoint::front_cost(cosine) * walk.directness[layer.frame];
+        let cost = self.costs.sight(sight) + front + self.costs.altitude(sight.z, sight.z.min(over_ground));
         Some((layer.frames * cost) as f32)
     }
 
     /// The safety term at a distance from obstacles, and the visibility term, weighted.
     pub fn obstacle_cost(&self, layer: usize, distance_m: f64, visible_points: usize) -> f32 {
-        let close = (self.problem.view.safety_influence_m - distance_m).max(0.0);
         let hidden = 1.0 - visible_points as f64 / BODY_POINTS as f64;
-        let cost = self.weights.safety * 0.5 * close * close + self.weights.visibility * hidden * hidden;
+        let cost = self.costs.safety(distance_m) + self.costs.weights.visibility * hidden * hidden;
         (self.layers[layer].frames * cost) as f32
     }
 

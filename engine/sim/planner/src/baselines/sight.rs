@@ -5,7 +5,7 @@ use cosfly_geometry::{BoxBvh, SpatialQuery};
 
 /// Visibility and clearance among obstacles that stand still. World frame, metres.
 pub trait Sight {
-    /// How many of the `body` points an unoccluded ray from `camera` reaches.
+    /// Number of the `body` points that an unoccluded ray from `camera` reaches.
     fn visible_points(&self, camera: DVec3, body: &[DVec3]) -> usize;
 
     /// Signed distance to the nearest obstacle, capped at `within_m`.

@@ -4,7 +4,7 @@ use super::ranges::Range;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-/// What a flight must never exceed.
+/// Limits that a flight must never exceed.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(default, deny_unknown_fields)]
 pub struct LimitsConfig {

@@ -15,21 +15,21 @@ use crate::weights::Preset;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-/// How the drone is to follow its target.
+/// Parameters of a flight that follows a target.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(default, deny_unknown_fields)]
 pub struct MucoConfig {
     /// Named way of flying: `cosfly` (visibility first, the default), `rear` (behind the walker), `short` (short
     /// flights) or `paper` (the paper's weights and its own pipeline).
     pub preset: Preset,
-    /// Who plans: `muco` (the default), or a baseline to compare with. What a baseline finds is judged like any flight;
+    /// The planner: `muco` (the default), or a baseline to compare with. A baseline's flight is judged like any other;
     /// all but `astar_smoothed` bound no acceleration, so set `limits.require_kinematics = false` for them.
     pub planner: Planner,
     /// Single weights that replace those of the preset.
     pub weights: WeightOverrides,
-    /// What a flight must never exceed.
+    /// Limits that a flight must never exceed.
     pub limits: LimitsConfig,
-    /// Where the drone should be relative to its target.
+    /// Wanted position of the drone relative to its target.
     pub view: ViewConfig,
     /// The global search for the start.
     pub search: SearchConfig,
@@ -39,7 +39,7 @@ pub struct MucoConfig {
     pub occlusion: OcclusionConfig,
     /// The descent of `preset = "paper"`; of it the other presets use only `difference_m`, for terms without a gradient.
     pub descent: DescentConfig,
-    /// What only `preset = "paper"` has.
+    /// Parameters that only `preset = "paper"` reads.
     pub paper: PaperConfig,
 }
 

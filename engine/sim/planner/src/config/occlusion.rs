@@ -8,7 +8,7 @@ use serde::{Deserialize, Serialize};
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(default, deny_unknown_fields)]
 pub struct OcclusionConfig {
-    /// How often the target is to be lost. What could not be reached is in the certificate. Default 0.
+    /// Number of times that the target is to be lost. The certificate states the time ordered and reached. Default 0.
     #[schemars(range(min = 0, max = 100))]
     pub count: u32,
     /// Shortest loss, seconds. Default 2.

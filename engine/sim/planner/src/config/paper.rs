@@ -3,7 +3,7 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-/// How `preset = "paper"` starts and cleans up. The descent has its own table; heights, pitch, distance and limits are
+/// Start and clean-up of `preset = "paper"`. The descent has its own table; heights, pitch, distance and limits are
 /// those of `view` and `limits`.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(default, deny_unknown_fields)]
@@ -40,8 +40,8 @@ pub struct PaperConfig {
     /// Rounds of safety projection (paper: "multi-round"). Default 5.
     #[schemars(range(min = 1, max = 100))]
     pub projection_rounds: u32,
-    /// Smooths a flight that breaks its limits, as the other presets' are; if false, what the pipeline gives is judged as
-    /// it is (it bounds neither acceleration nor jerk, so set `limits.require_kinematics = false`, too). Default true.
+    /// Smooths a flight that breaks its limits, as the other presets' are; if false, the pipeline's own
+    /// flight is judged (the pipeline bounds neither acceleration nor jerk, so set `limits.require_kinematics = false`, too). Default true.
     pub make_flyable: bool,
 }
 

@@ -1,9 +1,9 @@
-//! Who plans: the optimiser or a baseline.
+//! The choice of a planner: the optimiser or a baseline.
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-/// Who plans.
+/// A planner.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum Planner {
@@ -12,7 +12,7 @@ pub enum Planner {
     Muco,
     /// The paper's A* over voxels of 2 m and time steps.
     Astar,
-    /// Its path, smoothed to the limits of speed, acceleration and jerk.
+    /// The path of `astar`, smoothed to the limits of speed, acceleration and jerk.
     AstarSmoothed,
     /// Layered beam search over the same voxels.
     Beam,
@@ -30,5 +30,15 @@ impl Planner {
             Self::Beam => "beam",
             Self::Dp => "dp",
         }
+    }
+
+    /// Whether a baseline plans in the optimiser's place.
+    pub fn is_baseline(self) -> bool {
+        self != Self::Muco
+    }
+
+    /// Whether flights are made to hold limits of speed, acceleration and jerk.
+    pub fn bounds_kinematics(self) -> bool {
+        matches!(self, Self::Muco | Self::AstarSmoothed)
     }
 }

@@ -8,7 +8,7 @@ use serde::{Deserialize, Serialize};
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(default, deny_unknown_fields)]
 pub struct SearchConfig {
-    /// How much is searched: `escalating` (the default) tries the fast lattice first, with half the altitudes, four
+    /// Effort of the search: `escalating` (the default) tries the fast lattice first, with half the altitudes, four
     /// fifths of the radii and twice the time between viewpoints, and the full one where that is not good enough.
     pub effort: SearchEffort,
     /// Directions around the target. Default 96.
@@ -35,7 +35,7 @@ pub struct SearchConfig {
     pub filter_radius_m: f64,
 }
 
-/// How much the global search does.
+/// Effort of the global search.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum SearchEffort {

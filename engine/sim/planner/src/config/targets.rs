@@ -4,7 +4,7 @@ use super::ranges::Range;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-/// What is to be seen when companions of the target are.
+/// Visibility that counts when the target has companions.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum SeveralTargets {

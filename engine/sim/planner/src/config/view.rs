@@ -1,10 +1,10 @@
-//! Where the drone should be relative to its target.
+//! Wanted position of the drone relative to its target.
 
 use super::ranges::{Range, Refusal, ordered};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-/// Where the drone should be relative to its target.
+/// Wanted position of the drone relative to its target.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(default, deny_unknown_fields)]
 pub struct ViewConfig {

@@ -28,9 +28,9 @@ const CALMER: [(f64, f64); 4] = [(1.0, 0.15), (6.0, 0.25), (40.0, 0.6), (200.0, 
 /// Distance kept beyond the limit by the first searches; the fast one looks at every second frame only.
 const FAST_EXTRA_M: f64 = 0.45;
 const FULL_EXTRA_M: f64 = 0.25;
-/// How a refined flight is made to hold its limits: it nearly does.
+/// Smoothing of a refined flight, which nearly holds its limits.
 const LIGHT: Objective = Objective { rounds: 2, iterations: 60, nearness: 0.15, acceleration: 0.2, jerk: 1.0 };
-/// How the lattice's way (or the paper's flight) is, when that was not enough.
+/// Smoothing of the lattice's way (or of the paper's flight), when light smoothing was not enough.
 pub const THOROUGH: Objective = Objective { rounds: 4, iterations: 160, nearness: 0.05, acceleration: 0.5, jerk: 2.0 };
 
 /// Times that a flight which sees nearly all that the lattice promises is refined and smoothed once more: what it lacks

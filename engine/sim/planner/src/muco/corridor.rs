@@ -8,7 +8,7 @@ use crate::obstacles::local::{GUARDED_POINTS, LocalObstacles};
 use crate::obstacles::{Surroundings, solid::HalfSpace};
 use cosfly_frames::{DVec3, TargetTrack};
 
-/// How far a waypoint may move from where its planes were taken, metres.
+/// Largest distance of a waypoint from the place where its planes were taken, metres.
 pub const TRUST_M: f64 = 4.0;
 /// The floor is this much above the lowest altitude, so that what the programme leaves open stays above that, metres.
 const FLOOR_EXTRA_M: f64 = 0.2;
@@ -28,7 +28,7 @@ pub struct FrameCorridor {
     pub soft: Vec<HalfSpace>,
 }
 
-/// What the corridor is built from.
+/// Inputs of a corridor.
 pub struct CorridorInput<'a> {
     /// The target.
     pub track: &'a TargetTrack,

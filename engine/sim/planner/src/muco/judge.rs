@@ -14,12 +14,12 @@ use cosfly_frames::DVec3;
 
 /// Distance kept beyond the limit while smoothing, metres.
 pub const KEEP_OUT_EXTRA_M: f64 = 0.1;
-/// How far below the lowest altitude a flight may be, metres.
+/// Slack of the lowest altitude, metres.
 const FLOOR_SLACK_M: f64 = 0.01;
 /// Times that planes from the unsimplified map are added when it is nearer than the planning boxes say.
 const MAX_LESSONS: usize = 4;
 
-/// See the module.
+/// Measures flights of one problem, and learns from them.
 pub struct Judge<'a> {
     problem: &'a Problem<'a>,
     exact: ExactMap<'a>,
@@ -134,7 +134,7 @@ impl<'a> Judge<'a> {
         found
     }
 
-    /// See [`publishable`].
+    /// Whether a flight may be published, see [`publishable`].
     pub fn publishable(&self, measured: &Measured) -> bool {
         publishable(self.config, &measured.certificate)
     }

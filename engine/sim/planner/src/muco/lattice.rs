@@ -67,7 +67,7 @@ impl Lattice {
         (azimuth, ring / self.radii_m.len(), ring % self.radii_m.len())
     }
 
-    /// Where a node is relative to the target's feet, metres.
+    /// Position of a node relative to the target's feet, metres.
     pub fn offset(&self, node: usize) -> DVec3 {
         let (azimuth, altitude, radius) = self.split(node);
         self.directions[azimuth] * self.radii_m[radius] + DVec3::new(0.0, 0.0, self.altitudes_m[altitude])

@@ -3,7 +3,7 @@
 use super::viterbi::Viterbi;
 use crate::config::occlusion::OcclusionConfig;
 
-/// What was ordered.
+/// The ordered losses.
 #[derive(Clone, Debug, Default)]
 pub struct LossPlan {
     /// Per frame, whether the target is to be lost; empty when it never is.

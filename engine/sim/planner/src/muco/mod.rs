@@ -3,7 +3,7 @@
 //! ```text
 //! filter boxes near the path
 //! repeat with growing effort                                        (attempts)
-//!   start   <- cheapest way through the lattice of viewpoints       (search, lattice, scan, viterbi, losses)
+//!   start   <- cheapest way through the lattice of viewpoints       (search, lattice, scan, pricing, viterbi, losses)
 //!   refined <- Gauss-Newton steps on all terms from there           (refine)
 //!   flight  <- flyable path near it, inside its safe corridor       (smoother, corridor, banded)
 //! until its certificate holds and it sees what the lattice promises (judge)
@@ -15,6 +15,8 @@ pub mod corridor;
 pub mod judge;
 pub mod lattice;
 pub mod losses;
+pub mod node_state;
+mod pricing;
 pub mod refine;
 pub mod scan;
 pub mod search;

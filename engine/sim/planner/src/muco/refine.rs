@@ -11,7 +11,7 @@ use crate::obstacles::{Surroundings, local::LocalObstacles};
 use crate::problem::Problem;
 use cosfly_frames::DVec3;
 
-/// How many rounds of how many steps.
+/// Numbers of rounds, and of steps in a round.
 #[derive(Clone, Copy, Debug)]
 pub struct Rounds {
     /// Rounds, each with stronger holds.
@@ -22,7 +22,7 @@ pub struct Rounds {
 
 /// Weight of nearness to the lattice's way.
 const HOLD: f64 = 0.02;
-/// It grows by this factor where the round ended worse than the lattice's way.
+/// Growth of the hold on the lattice's way where a round ended worse than that way.
 const HOLD_GROWTH: f64 = 30.0;
 /// Weight that holds given waypoints.
 const HOLD_FAST: f64 = 1e6;
@@ -39,7 +39,7 @@ const LONGEST_STEP_M: f64 = 2.5;
 /// Time step for which the smoothness weights are written, seconds.
 const REFERENCE_DT_S: f64 = 0.5;
 
-/// What came of it.
+/// Result of a refinement.
 pub struct Refined {
     /// Steps taken.
     pub steps: u32,

@@ -1,25 +1,16 @@
-//! What is seen from each node of the lattice, and what is free, one frame at a time.
+//! Visibility from each node of the lattice, and free nodes, one frame at a time.
 //!
 //! No rays are cast: for one azimuth a box covers an interval of the horizontal ray from the target, and a
 //! few comparisons per node say whether the line of sight passes through the box there.
 
 use super::lattice::{Lattice, MAX_RINGS};
+use super::node_state::{CLOSE, CLOSE_EXTRA_M, NodeState, UNSAFE};
 use crate::obstacles::{Surroundings, local::LocalObstacles, solid::Solid};
 use cosfly_frames::simd::Level;
 use cosfly_frames::{DVec3, TargetState, real, simd_kernel};
 
 /// Heights of the body seen along its axis, for a body of 1.75 m, and how many body points each stands for.
 pub const BODY_HEIGHTS: [(f64, u32); 5] = [(0.12, 1), (0.5, 1), (1.05, 2), (1.42, 3), (1.7, 1)];
-
-/// State of a node: the number of hidden body points (0..=8), [`CLOSE`] added when an obstacle is near, or
-/// [`UNSAFE`].
-pub type NodeState = u8;
-/// Set when an obstacle is within the clearance plus [`CLOSE_EXTRA_M`].
-pub const CLOSE: NodeState = 0x10;
-/// The node is too near an obstacle or the ground.
-pub const UNSAFE: NodeState = 0xff;
-/// See [`CLOSE`], metres.
-const CLOSE_EXTRA_M: f64 = 1.5;
 
 /// Azimuths, and rings, are handled in groups of this many.
 const VECTOR: usize = 16;
@@ -56,7 +47,7 @@ struct Profile {
     half: [f32; 2],
     low: f32,
     high: f32,
-    /// Where its middle is, seen from above, and the radius of a disc around it when grown most.
+    /// Middle of the box seen from above, and the radius of a disc around the box when grown most.
     away: [f32; 2],
     reach: f32,
     /// Even when grown most it stays below all nodes: nothing comes near it.

@@ -3,15 +3,15 @@
 
 use super::lattice::{Lattice, LatticeSize};
 use super::losses::{self, LossPlan};
-use super::scan::{CLOSE, NodeState, Scanner, UNSAFE};
-use super::viterbi::{MoveCosts, NodeCosts, SearchSpace, Viterbi};
+use super::node_state::{CLOSE, NodeState, UNSAFE};
+use super::pricing::{node_costs, start_costs};
+use super::scan::Scanner;
+use super::viterbi::{MoveCosts, SearchSpace, Viterbi};
 use crate::config::limits::LimitsConfig;
 use crate::config::muco::MucoConfig;
 use crate::config::targets::SeveralTargets;
 use crate::obstacles::local::LocalObstacles;
 use crate::problem::{Problem, frame_number};
-use crate::terms::Weights;
-use crate::terms::{altitude::band_cost, pitch, tracking, viewpoint};
 use cosfly_frames::{DVec3, TargetTrack, real};
 
 /// Searches that may be needed to go round nodes whose connections are not free.
@@ -20,13 +20,6 @@ const MAX_SEARCHES: usize = 12;
 const CUT_SHARE: f64 = 0.4;
 /// Keyframes are at least about this far apart, so that a step of the lattice is within reach, seconds.
 const SHORTEST_LAYER_S: f64 = 0.5;
-/// Cost of a viewpoint outside the sector behind the walker.
-const OUTSIDE_SECTOR: f64 = 30.0;
-/// Visibility weighs this much more than in the sum of the terms, because a node is all or nothing.
-const VISIBILITY_FACTOR: f64 = 4.0;
-/// Terms that the search prices in its own way, node by node or move by move.
-const PRICED: [&str; 9] =
-    ["tracking", "smoothness", "jerk", "safety", "visibility", "viewpoint", "pitch", "altitude", "length"];
 /// Share of the limits that leading in from a given start may take.
 const LEAD_IN_SHARE: f64 = 0.6;
 /// Share of the speed limit at which nodes may follow each other; the rest is for getting up to speed and slowing down.
@@ -45,17 +38,17 @@ pub struct Effort {
     pub keep_out_m: f64,
 }
 
-/// What a search finds.
+/// Result of a search.
 pub struct Start {
     /// One waypoint per frame, free of obstacles at least at the layers.
     pub waypoints: Vec<DVec3>,
-    /// Mean visibility over the layers: what the best way through the lattice sees.
+    /// Mean visibility over the layers along the best way through the lattice.
     pub visibility: f64,
     /// Share of the nodes that are not free.
     pub closed_share: f64,
     /// Searches that were needed.
     pub searches: u32,
-    /// Where the target is lost on purpose.
+    /// Frames in which the target is lost on purpose.
     pub losses: LossPlan,
 }
 
@@ -73,10 +66,7 @@ pub fn search(
     let lattice = Lattice::new(effort.size, &config.view);
     let stride = effort.layer_frames.max((SHORTEST_LAYER_S / track.dt_s).round() as usize).max(1);
     let first = head.len().saturating_sub(1);
-    let mut frames: Vec<usize> = (first..track.len()).step_by(stride).collect();
-    if frames.last() != Some(&(track.len() - 1)) {
-        frames.push(track.len() - 1);
-    }
+    let frames = layer_frames(first, track.len() - 1, stride);
     space.states.resize(lattice.nodes() * frames.len(), 0);
     let mut scanner = Scanner::new(&lattice, track.height_m);
     for (&frame, row) in frames.iter().zip(space.states.chunks_exact_mut(lattice.nodes())) {
@@ -87,13 +77,7 @@ pub fn search(
     let sample = || space.states.iter().step_by(17);
     let closed_share = sample().filter(|&&state| state == UNSAFE).count() as f64 / sample().len().max(1) as f64;
     let mut costs = node_costs(problem, obstacles, &lattice, &frames, config);
-    // Costs are per layer: a layer stands for `stride` frames, in each of which an even move goes 1 / stride of the way.
-    let per_layer = effort.motion_factor / (stride * stride) as f64;
-    let moves = MoveCosts {
-        relative: per_layer * config.search.relative_motion,
-        absolute: per_layer * config.search.absolute_motion,
-        longest_m: STEADY_SHARE * config.limits.speed_mps * track.dt_s * stride as f64,
-    };
+    let moves = move_costs(config, effort, track.dt_s, stride);
     if let Some(start) = head.last() {
         let keep_m = config.limits.clearance_m;
         let (relative, feet) = (moves.relative, track.states[first].feet_in_world);
@@ -128,24 +112,23 @@ pub fn search(
     Err("no way between the free viewpoints was found that keeps out of obstacles".to_owned())
 }
 
-/// Costs of the first layer's nodes when the drone is at `start` then: by the way there, as in a move to the side, and
-/// forbidden where that way is not free.
-fn start_costs(
-    lattice: &Lattice,
-    obstacles: &LocalObstacles<'_>,
-    frame: usize,
-    feet: DVec3,
-    start: DVec3,
-    (per_square_m, keep_m): (f64, f64),
-) -> Vec<f32> {
-    let cost = |node: usize| {
-        let place = feet + lattice.offset(node);
-        if obstacles.segment_clearance_m(frame, start, place, keep_m) < keep_m {
-            return f32::INFINITY;
-        }
-        (per_square_m * place.distance_squared(start)) as f32
-    };
-    (0..lattice.nodes()).map(cost).collect()
+/// Costs are per layer: a layer stands for `stride` frames, in each of which an even move goes 1 / stride of the way.
+fn move_costs(config: &MucoConfig, effort: Effort, dt_s: f64, stride: usize) -> MoveCosts {
+    let per_layer = effort.motion_factor / (stride * stride) as f64;
+    MoveCosts {
+        relative: per_layer * config.search.relative_motion,
+        absolute: per_layer * config.search.absolute_motion,
+        longest_m: STEADY_SHARE * config.limits.speed_mps * dt_s * stride as f64,
+    }
+}
+
+/// Every `stride`-th frame from `first` on, and the last one.
+fn layer_frames(first: usize, last: usize, stride: usize) -> Vec<usize> {
+    let mut frames: Vec<usize> = (first..=last).step_by(stride).collect();
+    if frames.last() != Some(&last) {
+        frames.push(last);
+    }
+    frames
 }
 
 /// Leads from the given waypoints into the way through the lattice: what is between them at first, in place and in
@@ -230,68 +213,4 @@ fn interpolate(lattice: &Lattice, track: &TargetTrack, frames: &[usize], nodes: 
         *last = state.feet_in_world + lattice.offset(node);
     }
     waypoints
-}
-
-fn node_costs(
-    problem: &Problem<'_>,
-    obstacles: &LocalObstacles<'_>,
-    lattice: &Lattice,
-    frames: &[usize],
-    config: &MucoConfig,
-) -> NodeCosts {
-    let weights: Weights = config.resolved_weights();
-    let ring = |ring: usize| {
-        let (up, across) = lattice.ring_m(ring);
-        let offset = DVec3::new(across, 0.0, up);
-        let view = problem.view;
-        let cost = weights.tracking * tracking::distance_cost(offset.length(), view.distance_m)
-            + weights.pitch * pitch::pitch_cost(pitch::pitch_below_horizon_deg(offset), view.pitch_deg).0
-            + weights.altitude * band_cost(up, up, view.min_altitude_m, view.preferred_altitude_m);
-        cost as f32
-    };
-    let sector = real::cos(config.view.rear_sector_deg.to_radians());
-    let azimuth = |frame: usize, direction: &DVec3| {
-        let cosine = direction.truncate().dot(problem.walk.direction[frame]);
-        let outside = -cosine < sector - 1e-9 && problem.walk.directness[frame] > 0.0;
-        let front = weights.viewpoint * viewpoint::front_cost(cosine) * problem.walk.directness[frame];
-        (front + if outside { OUTSIDE_SECTOR } else { 0.0 }) as f32
-    };
-    NodeCosts {
-        hidden: [0.7 / 8.0, 0.3 / 64.0].map(|share| (VISIBILITY_FACTOR * weights.visibility * share) as f32),
-        close: (4.0 * weights.safety) as f32,
-        ring: (0..lattice.rings()).map(ring).collect(),
-        azimuth: frames.iter().map(|&f| lattice.directions.iter().map(|d| azimuth(f, d)).collect()).collect(),
-        first: Vec::new(),
-        extra: extra_costs(problem, obstacles, lattice, frames),
-    }
-}
-
-/// All other terms join the search as the cost of hovering at each node throughout.
-fn extra_costs(
-    problem: &Problem<'_>,
-    obstacles: &LocalObstacles<'_>,
-    lattice: &Lattice,
-    frames: &[usize],
-) -> Vec<Vec<f32>> {
-    let priced = |index: usize, name: &str| index < problem.built_in && PRICED.contains(&name);
-    let terms = problem.terms.iter().enumerate().filter(|(index, term)| !priced(*index, term.term.name()));
-    let extra: Vec<_> = terms.map(|(_, term)| term).filter(|term| term.weight > 0.0).collect();
-    if extra.is_empty() {
-        return Vec::new();
-    }
-    let mut costs = vec![vec![0.0_f32; lattice.nodes()]; frames.len()];
-    let context = problem.context(obstacles);
-    let mut per_frame = vec![0.0; problem.track.len()];
-    for node in 0..lattice.nodes() {
-        let offset = lattice.offset(node);
-        let hover: Vec<DVec3> = problem.track.states.iter().map(|state| state.feet_in_world + offset).collect();
-        for weighted in &extra {
-            weighted.term.cost(&hover, &context, &mut per_frame);
-            for (layer, &frame) in costs.iter_mut().zip(frames) {
-                let cost = (weighted.weight * per_frame[frame]) as f32;
-                layer[node] += if cost.is_finite() { cost } else { 0.0 };
-            }
-        }
-    }
-    costs
 }

@@ -6,15 +6,15 @@
 //! way is found again from the costs of all layers.
 
 use super::lattice::Lattice;
-use super::scan::{CLOSE, NodeState, UNSAFE};
+use super::node_state::{CLOSE, NodeState, UNSAFE};
 use cosfly_frames::simd::Level;
 use cosfly_frames::{DVec3, real, simd_kernel};
 
 /// Furthest move in azimuth per layer, in directions.
 pub const MAX_AZIMUTH_STEPS: usize = 6;
-/// What forbids.
+/// Cost of a forbidden node.
 const FORBIDDEN: f32 = f32::INFINITY;
-/// What a node costs beside being seen from: see [`super::search`].
+/// Costs of nodes beside visibility: see [`super::search`].
 pub struct NodeCosts {
     /// Per hidden body point of 8 (linear) and its square.
     pub hidden: [f32; 2],
@@ -242,7 +242,7 @@ fn pull_along(lattice: &Lattice, pull: [f32; 3]) -> Vec<f32> {
     lattice.directions.iter().map(|d| pull[0] * d.x as f32 + pull[1] * d.y as f32).collect()
 }
 
-/// What one step reads.
+/// Inputs of one step.
 struct Ground<'a> {
     lattice: &'a Lattice,
     prices: &'a MovePrices,
@@ -255,7 +255,7 @@ struct Ground<'a> {
     pull_up: f32,
     /// The lowest cost of the layer before, taken off everything.
     lowest: f32,
-    /// Whether what is seen costs instead of what is hidden.
+    /// Whether visible points cost, instead of hidden ones.
     lost: bool,
 }
 

@@ -3,7 +3,7 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-/// What flights are for.
+/// Purpose of flights.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum Objective {
@@ -14,7 +14,7 @@ pub enum Objective {
     Inspect,
     /// Meet timed waypoints, one after the other.
     Patrol,
-    /// What a plugin says.
+    /// The purpose that a plugin gives.
     Plugin,
 }
 
@@ -30,24 +30,24 @@ impl Objective {
     }
 }
 
-/// What flights are for, and what that needs to be told.
+/// Purpose of flights, with its parameters.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(default, deny_unknown_fields)]
 pub struct ObjectiveConfig {
-    /// What flights are for: `track` follows a walker each (the default), `inspect` covers the facades of buildings,
+    /// Purpose of flights: `track` follows a walker each (the default), `inspect` covers the facades of buildings,
     /// `patrol` meets timed waypoints, `plugin` is what a plugin says. The last three take no `inputs.paths`.
     pub objective: Objective,
-    /// How buildings are inspected; `objective = "inspect"` only.
+    /// Inspection of buildings; `objective = "inspect"` only.
     pub inspect: InspectConfig,
-    /// Where patrols go; `objective = "patrol"` only.
+    /// Waypoints of patrols; `objective = "patrol"` only.
     pub patrol: PatrolConfig,
 }
 
-/// How buildings are inspected. Distance, pitch, altitudes and radii of `view` are set by these.
+/// Inspection of buildings. Distance, pitch, altitudes and radii of `view` are set by these.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(default, deny_unknown_fields)]
 pub struct InspectConfig {
-    /// How many flights, each around a building of its own draw. Default 1.
+    /// Number of flights, each around a building of its own draw. Default 1.
     #[schemars(range(min = 1, max = 100_000))]
     pub count: u64,
     /// Distance kept from the wall, metres. Default 12.
@@ -73,14 +73,14 @@ pub struct InspectConfig {
     pub max_duration_s: f64,
 }
 
-/// Where patrols go. Distance, pitch, altitudes and radii of `view` are set by these.
+/// Waypoints of patrols. Distance, pitch, altitudes and radii of `view` are set by these.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(default, deny_unknown_fields)]
 pub struct PatrolConfig {
-    /// Where to be and when: `[x, y, z, t]` in the world frame, metres and seconds; the first at 0 s, times growing. A
+    /// Places and times: `[x, y, z, t]` in the world frame, metres and seconds; the first at 0 s, times growing. A
     /// loop ends where it begins. Empty (the default): loops are drawn from the seed.
     pub waypoints: Vec<[f64; 4]>,
-    /// How many flights, when loops are drawn. Default 1.
+    /// Number of flights, when loops are drawn. Default 1.
     #[schemars(range(min = 1, max = 100_000))]
     pub count: u64,
     /// Waypoints of a drawn loop. Default 6.
@@ -94,7 +94,7 @@ pub struct PatrolConfig {
     /// Mean speed of a drawn loop, m/s. Default 5.
     #[schemars(range(min = 0.5, max = 20.0))]
     pub speed_mps: f64,
-    /// How far ahead of the drone the point lies that it watches, metres over ground. Default 15.
+    /// Distance ahead of the drone of the point that the camera watches, metres over ground. Default 15.
     #[schemars(range(min = 2.0, max = 100.0))]
     pub lead_m: f64,
 }
@@ -136,7 +136,7 @@ pub const SHORTEST_REACH_M: f64 = 5.0;
 pub const LONGEST_S: f64 = 2000.0;
 
 impl ObjectiveConfig {
-    /// How many flights there are, where that is neither the number of walkers nor told to a plugin.
+    /// Number of flights, where that is neither the number of walkers nor a parameter of a plugin.
     pub fn count(&self) -> Option<u64> {
         match self.objective {
             Objective::Track | Objective::Plugin => None,

@@ -18,7 +18,7 @@ const PARTY_WALL_M: f64 = 0.6;
 /// One upright side of a box.
 #[derive(Clone, Copy, Debug)]
 pub struct Side {
-    /// Its lower corner, from which `along` leads to the other one.
+    /// Lower corner of the wall, from which `along` leads to the other one.
     pub corner_in_world: DVec3,
     /// Unit vector along it, horizontal.
     pub along: DVec2,
@@ -73,7 +73,7 @@ pub fn hull(boxes: &[OrientedBox]) -> Option<OrientedBox> {
     Some(OrientedBox { center_in_world: center, half_extents_m: 0.5 * (high - low), yaw_rad })
 }
 
-/// What of a building's outer walls a flight has seen.
+/// Part of a building's outer walls that a flight has seen.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Coverage {
     /// Cells seen for the first time, per frame.
@@ -94,7 +94,7 @@ impl Coverage {
     }
 }
 
-/// How much of a building's walls the camera saw: cells of 2 m whose middle was in a picture's middle part (28 degrees
+/// Share of a building's walls that the camera saw: cells of 2 m whose middle was in a picture's middle part (28 degrees
 /// off the axis), nothing between, from within twice `standoff_m`, at 65 degrees off the wall's normal at most.
 pub fn coverage(site: &Site<'_>, boxes: &[OrientedBox], poses: &[Pose], standoff_m: f64) -> Coverage {
     let cells = cells(site, boxes);

@@ -32,16 +32,16 @@ const WEIGHT: f64 = 0.4;
 /// A building and the flight around it.
 #[derive(Clone, Debug)]
 pub struct Inspection {
-    /// What the planner is asked.
+    /// The planner's request.
     pub mission: Mission,
     /// Index of the building in [`Site::structures`].
     pub structure: usize,
-    /// How many of its four sides are flown along.
+    /// Number of the building's four sides that are flown along.
     pub sides: usize,
 }
 
 impl Inspection {
-    /// How much of the walls a flight has seen.
+    /// Share of the walls that a flight has seen.
     pub fn coverage(&self, site: &Site<'_>, poses: &[cosfly_frames::Pose], config: &InspectConfig) -> Coverage {
         coverage(site, &site.structures[self.structure], poses, config.standoff_m)
     }

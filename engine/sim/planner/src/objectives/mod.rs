@@ -40,7 +40,7 @@ pub struct Site<'a> {
     pub bounds: (DVec2, DVec2),
 }
 
-/// What an objective asks of the planner.
+/// The request of an objective to the planner.
 #[derive(Clone, Debug)]
 pub struct Mission {
     /// The point to be watched. Where nobody is there, its radius is 0 and its height [`POINT_HEIGHT_M`].
@@ -52,7 +52,7 @@ pub struct Mission {
 }
 
 impl Mission {
-    /// What the planner is asked in a town.
+    /// The request to the planner in a town.
     pub fn request<'a>(
         &'a self,
         exact: &'a dyn SpatialQuery,

@@ -27,14 +27,14 @@ pub const MET_M: f64 = 2.0;
 /// The waypoints and the flight along them.
 #[derive(Clone, Debug)]
 pub struct Patrol {
-    /// What the planner is asked.
+    /// The planner's request.
     pub mission: Mission,
     /// (place in the world frame, metres; frame) of each waypoint.
     pub waypoints: Vec<(DVec3, usize)>,
 }
 
 impl Patrol {
-    /// How far the drone is from each waypoint at its time, metres.
+    /// Distance of the drone from each waypoint at the waypoint's time, metres.
     pub fn shortfalls_m(&self, poses: &[Pose]) -> Vec<f64> {
         let miss = |(place, frame): &(DVec3, usize)| {
             poses.get(*frame).map_or(f64::INFINITY, |pose| pose.position_in_world.distance(*place))

@@ -18,9 +18,9 @@ const BAND_M: f64 = 4.0;
 pub struct Reference {
     /// Point that the camera looks at, world frame, metres.
     pub watched: Vec<DVec3>,
-    /// Where the drone should be, world frame, metres.
+    /// Wanted position of the drone, world frame, metres.
     pub places: Vec<DVec3>,
-    /// How much that matters, 0 to 1.
+    /// Weight of the wish, 0 to 1.
     pub pull: Vec<f64>,
 }
 
@@ -30,7 +30,7 @@ impl Reference {
         self.pull.iter().enumerate().filter(|(_, pull)| **pull >= 1.0).map(|(step, _)| step)
     }
 
-    /// How far the drone is from the places of its marks, metres.
+    /// Distance of the drone from the places of its marks, metres.
     pub fn shortfalls_m(&self, poses: &[Pose]) -> Vec<f64> {
         let miss = |step: usize| {
             poses.get(step).map_or(f64::INFINITY, |pose| pose.position_in_world.distance(self.places[step]))

@@ -9,7 +9,7 @@ use cosfly_geometry::{OrientedBox, SpatialQuery};
 /// All unsimplified boxes, and those that move.
 #[derive(Clone, Copy)]
 pub struct ExactMap<'a> {
-    /// What stands still.
+    /// Boxes that stand still.
     pub query: &'a dyn SpatialQuery,
     /// Places of each moving box, frame by frame; see [`crate::PlanRequest::movers`].
     pub movers: &'a [Vec<OrientedBox>],
@@ -25,7 +25,7 @@ impl<'a> ExactMap<'a> {
         self.movers.iter().filter_map(move |places| places.get(frame)).map(Solid::new)
     }
 
-    /// What the moving boxes pass from `frame` to the next.
+    /// The space that the moving boxes sweep from `frame` to the next.
     fn swept_at(&self, frame: usize) -> impl Iterator<Item = Solid> {
         self.movers.iter().filter_map(move |places| {
             let here = places.get(frame)?;
@@ -74,7 +74,7 @@ pub struct ExactObstacles<'a> {
     pub ground: &'a GroundGrid,
     /// Waypoints whose visibility is known already.
     pub known: &'a [DVec3],
-    /// It, one per waypoint.
+    /// Visibility at the known waypoints, 0..=1.
     pub known_visibility: &'a [f64],
 }
 

@@ -10,7 +10,7 @@ use cosfly_geometry::OrientedBox;
 const FRAMES_PER_LIST: usize = 8;
 /// Frames that share one coarse list, from which the fine ones are drawn.
 const FRAMES_PER_COARSE_LIST: usize = 128;
-/// How far a query may be from its frame's centre while the frame's short lists are still complete, metres.
+/// Largest distance of a query from its frame's centre at which the frame's short lists are complete, metres.
 const FOCUS_M: f64 = 2.6;
 
 /// Body points whose shadows are told: ankle, middle, head, shoulders. The others lie between them.

@@ -1,4 +1,4 @@
-//! What stands around a path: the boxes near it, asked frame by frame.
+//! Obstacles around a path: the boxes near it, queried frame by frame.
 //!
 //! [`Surroundings`] is what cost terms see. [`local::LocalObstacles`] answers from the planning boxes while
 //! the solver runs; [`exact::ExactObstacles`] answers from the unsimplified map when the result is judged.

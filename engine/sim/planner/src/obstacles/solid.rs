@@ -222,7 +222,7 @@ impl Solid {
         })
     }
 
-    /// Where the two tangents from `e` touch the rectangle in the axes `k` and `l`; `outside` says for each axis
+    /// The places where the two tangents from `e` touch the rectangle in the axes `k` and `l`; `outside` says for each axis
     /// whether `e` is beyond the faces across it.
     fn tangent_corners(&self, e: DVec3, k: (usize, bool), l: (usize, bool)) -> [Option<(f64, f64)>; 2] {
         let (hk, hl) = (self.half[k.0], self.half[l.0]);

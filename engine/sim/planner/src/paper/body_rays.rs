@@ -20,7 +20,7 @@ impl BodyLanes {
     }
 }
 
-/// What lines of sight need of a box.
+/// A box, prepared for lines of sight.
 #[derive(Clone, Copy)]
 pub struct RayBox {
     center: DVec3,

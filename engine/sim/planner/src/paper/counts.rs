@@ -1,6 +1,6 @@
 //! Counts of the pipeline's work, step by step.
 
-/// Where the pipeline's work went, in counts.
+/// Counts of the pipeline's work.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct PaperCounts {
     /// Searched viewpoints.

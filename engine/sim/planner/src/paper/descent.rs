@@ -11,7 +11,7 @@ use cosfly_frames::DVec3;
 /// Growth of the learning rate after a step that lowered the cost ("slowly recovering").
 const RECOVERY: f64 = 1.05;
 
-/// What a descent did.
+/// Result of a descent.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Descent {
     /// Total cost at the start and after each iteration; it never rises.
@@ -75,7 +75,7 @@ fn stepped(waypoints: &[DVec3], slope: &[DVec3], rate: f64, max_move_m: f64) -> 
 pub struct Iteration {
     /// The waypoints after the step, whether or not it lowers the cost.
     pub waypoints: Vec<DVec3>,
-    /// Their total cost.
+    /// Total cost of the waypoints.
     pub cost: f64,
 }
 

@@ -13,7 +13,7 @@ const FRAMES_PER_TASK: usize = 16;
 /// Frames that a single thread takes at a time, so that long flights stay in its cache.
 const FRAMES_AT_ONCE: usize = 256;
 
-/// Who computes a gradient.
+/// Threads that compute a gradient.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Threads {
     /// The calling thread: best where whole trajectories are planned in parallel.
@@ -22,7 +22,7 @@ pub enum Threads {
     Pool,
 }
 
-/// What terms see in these surroundings.
+/// The terms' context in these surroundings.
 pub fn context<'a>(problem: &Problem<'a>, surroundings: &'a dyn Surroundings) -> TermContext<'a> {
     TermContext { track: problem.track, view: problem.view, walk: problem.walk, surroundings }
 }

@@ -23,7 +23,7 @@ pub fn hidden_runs(surroundings: &dyn Surroundings, waypoints: &[DVec3], longer_
     runs
 }
 
-/// What a stretch of waypoints is worth: the sum of their visibility, nothing for those that are unsafe.
+/// Value of a stretch of waypoints: the sum of their visibility, 0 for those that are unsafe.
 pub fn safe_sight(
     surroundings: &dyn Surroundings,
     clearance_m: f64,

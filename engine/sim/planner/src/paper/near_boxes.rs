@@ -6,7 +6,7 @@ use crate::obstacles::solid::Solid;
 use crate::obstacles::{Surroundings, local::LocalObstacles};
 use cosfly_frames::{DVec3, simd::Level};
 
-/// How far a query may be from its frame's centre while the frame's lists are still complete, metres.
+/// Largest distance of a query from its frame's centre at which the frame's lists are complete, metres.
 const FOCUS_M: f64 = 2.6;
 /// Centres that have moved less keep their lists: room for the difference step and some iterations, metres.
 const KEEP_M: f64 = 1.4;
@@ -23,7 +23,7 @@ pub struct NearBoxes<'a> {
     frames: Vec<Near<'a>>,
 }
 
-/// What matters while a waypoint stays within [`FOCUS_M`] of `center`.
+/// Boxes that matter while a waypoint stays within [`FOCUS_M`] of `center`.
 #[derive(Clone)]
 struct Near<'a> {
     center: DVec3,

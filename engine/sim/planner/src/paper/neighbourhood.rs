@@ -1,4 +1,4 @@
-//! What a change of one waypoint costs: the terms of the frames around it alone.
+//! Cost of a change of one waypoint: the terms of the frames around it alone.
 
 use super::window::Window;
 use crate::gradient::total_cost;

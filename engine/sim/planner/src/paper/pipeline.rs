@@ -14,7 +14,7 @@ use crate::obstacles::local::LocalObstacles;
 use crate::problem::Problem;
 use cosfly_frames::DVec3;
 
-/// What the paper's pipeline made of a track. Neither safe nor flyable until it is measured.
+/// Flight of the paper's pipeline. Neither safe nor flyable until measured.
 #[derive(Clone, Debug, PartialEq)]
 pub struct PaperFlight {
     /// One waypoint per frame, world frame, metres.
@@ -23,7 +23,7 @@ pub struct PaperFlight {
     pub convergence: Vec<f64>,
     /// Iterations of the descent.
     pub iterations: u32,
-    /// Where the work went.
+    /// Counts of the work done.
     pub counts: PaperCounts,
     /// Waypoints nearer than the clearance limit to a planning box after the final check.
     pub unsafe_waypoints: usize,

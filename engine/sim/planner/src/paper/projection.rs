@@ -20,7 +20,7 @@ const PUSHES: u32 = 8;
 /// Pushes end this much beyond the limit, metres.
 const PUSH_EXTRA_M: f64 = 0.05;
 
-/// What a projection did.
+/// Result of a projection.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Projected {
     /// Corrections of waypoints, over all rounds.
@@ -52,7 +52,7 @@ pub fn project(
     done
 }
 
-/// How many waypoints are nearer to an obstacle than `clearance_m`.
+/// Number of waypoints nearer to an obstacle than `clearance_m`.
 pub fn count_unsafe(surroundings: &dyn Surroundings, clearance_m: f64, waypoints: &[DVec3]) -> usize {
     waypoints.iter().enumerate().filter(|(frame, w)| surroundings.nearest(*frame, **w, clearance_m).is_some()).count()
 }

@@ -8,7 +8,8 @@ use crate::config::muco::MucoConfig;
 use crate::config::paper::PaperConfig;
 use crate::obstacles::Surroundings;
 use crate::problem::Problem;
-use crate::terms::{Weights, altitude, pitch, tracking, viewpoint};
+use crate::terms::place::PlaceCosts;
+use crate::terms::viewpoint;
 use core::ops::Range;
 use cosfly_frames::{DVec2, DVec3, real};
 
@@ -65,7 +66,7 @@ struct Candidate {
 /// The candidates of the rear hemisphere and how they are judged.
 struct ViewpointSearch<'a> {
     problem: &'a Problem<'a>,
-    weights: Weights,
+    costs: PlaceCosts<'a>,
     search_visibility: f64,
     motion: f64,
     clearance_m: f64,
@@ -79,7 +80,8 @@ fn spread(index: usize, count: usize, low: f64, high: f64) -> f64 {
 
 impl<'a> ViewpointSearch<'a> {
     fn new(problem: &'a Problem<'a>, config: &MucoConfig, paper: &PaperConfig) -> Self {
-        let (view, weights) = (problem.view, config.resolved_weights());
+        let view = problem.view;
+        let costs = PlaceCosts { weights: config.resolved_weights(), view };
         let standard_m = view.distance_m * real::cos(view.pitch_deg.to_radians());
         let ring_m = (paper.nearest_share * standard_m, paper.farthest_share * standard_m);
         let sector = paper.rear_sector_deg.to_radians();
@@ -90,17 +92,14 @@ impl<'a> ViewpointSearch<'a> {
                     let turn_rad = spread(azimuth, AZIMUTHS, -sector, sector);
                     let up_m = spread(height, HEIGHTS, view.min_altitude_m, view.max_altitude_m);
                     let across_m = spread(distance, DISTANCES, ring_m.0, ring_m.1);
-                    let sight = DVec3::new(across_m, 0.0, up_m);
-                    let pitch_deg = pitch::pitch_below_horizon_deg(sight);
-                    let cost = weights.tracking * tracking::distance_cost(sight.length(), view.distance_m)
-                        + weights.pitch * pitch::pitch_cost(pitch_deg, view.pitch_deg).0;
+                    let cost = costs.sight(DVec3::new(across_m, 0.0, up_m));
                     candidates.push(Candidate { turn_rad, across_m, up_m, cost });
                 }
             }
         }
         let (search_visibility, motion, clearance_m) =
             (paper.search_visibility, paper.keyframe_motion, config.limits.clearance_m);
-        Self { problem, weights, search_visibility, motion, clearance_m, ring_m, candidates }
+        Self { problem, costs, search_visibility, motion, clearance_m, ring_m, candidates }
     }
 
     /// The walking direction; while the target stands, the one before, and at the start its heading.
@@ -139,11 +138,10 @@ impl<'a> ViewpointSearch<'a> {
             }
             evaluated += 1;
             let nearest = surroundings.nearest(frame, place, self.problem.view.safety_influence_m);
-            let close_m = nearest.map_or(0.0, |(distance, _)| self.problem.view.safety_influence_m - distance);
             let unsafe_ = nearest.is_some_and(|(distance, _)| distance < self.clearance_m);
             let hidden = 1.0 - surroundings.visibility(frame, place);
-            let cost =
-                open_cost + self.weights.safety * 0.5 * close_m * close_m + self.search_visibility * hidden * hidden;
+            let close = nearest.map_or(0.0, |(distance_m, _)| self.costs.safety(distance_m));
+            let cost = open_cost + close + self.search_visibility * hidden * hidden;
             if best.is_none_or(|(u, c, _)| (unsafe_, cost) < (u, c)) {
                 best = Some((unsafe_, cost, place));
             }
@@ -151,7 +149,7 @@ impl<'a> ViewpointSearch<'a> {
         (best.map_or(feet, |(_, _, place)| place), evaluated)
     }
 
-    /// Where a candidate is at a frame, and its cost as if there were no obstacles.
+    /// Position of a candidate at a frame, and its cost without obstacles.
     fn placed(
         &self,
         surroundings: &dyn Surroundings,
@@ -165,11 +163,10 @@ impl<'a> ViewpointSearch<'a> {
         let toward = DVec2::new(cos * behind.x - sin * behind.y, sin * behind.x + cos * behind.y);
         let place = feet + (candidate.across_m * toward).extend(candidate.up_m);
         let over_ground = place.z - surroundings.ground_z_m(place.x, place.y);
-        let view = self.problem.view;
         let lowest = candidate.up_m.min(over_ground);
         let front = viewpoint::front_cost(toward.dot(facing)) * self.problem.walk.directness[frame];
-        let band = altitude::band_cost(candidate.up_m, lowest, view.min_altitude_m, view.preferred_altitude_m);
-        (candidate.cost + self.weights.viewpoint * front + self.weights.altitude * band, place)
+        let altitude = self.costs.altitude(candidate.up_m, lowest);
+        (candidate.cost + self.costs.weights.viewpoint * front + altitude, place)
     }
 }
 

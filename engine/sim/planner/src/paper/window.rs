@@ -65,7 +65,7 @@ impl<'a> Window<'a> {
         }
     }
 
-    /// What terms see of the window.
+    /// The terms' context in the window.
     pub fn context(&self) -> TermContext<'_> {
         TermContext { track: &self.track, view: self.problem.view, walk: &self.walk, surroundings: &self.surroundings }
     }

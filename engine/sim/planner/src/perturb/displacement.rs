@@ -14,7 +14,7 @@ const DRAWS: usize = 8;
 /// Shares of the drawn lengths that are tried at last.
 const SHARES: [f64; 4] = [0.75, 0.5, 0.25, 0.125];
 
-/// Where a displaced drone may be. World frame, metres.
+/// Places where a displaced drone may be. World frame, metres.
 pub(super) struct Corridor<'a> {
     /// All unsimplified boxes.
     pub exact: &'a dyn SpatialQuery,

@@ -7,7 +7,7 @@ use cosfly_geometry::OrientedBox;
 /// Number of frames that a start state fixes before the first one.
 const FRAMES_BEFORE: usize = 2;
 
-/// What a request with a start state looks like with frames before the first one.
+/// A request whose drone starts in a given state, with frames before the first one.
 pub(super) struct LongerRequest {
     track: TargetTrack,
     companions: Vec<TargetTrack>,

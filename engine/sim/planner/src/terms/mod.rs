@@ -8,6 +8,7 @@ pub mod altitude;
 pub mod jerk;
 pub mod length;
 pub mod pitch;
+pub mod place;
 pub mod safety;
 pub mod smoothness;
 pub mod term;

@@ -10,7 +10,7 @@ use cosfly_frames::{DVec3, TargetTrack};
 pub struct TermContext<'a> {
     /// The target that is followed.
     pub track: &'a TargetTrack,
-    /// Where the drone should be.
+    /// Wanted position of the drone.
     pub view: &'a ViewConfig,
     /// Walking directions and their steadiness.
     pub walk: &'a Walk,
@@ -23,7 +23,7 @@ pub trait CostTerm: Send + Sync {
     /// Name in recipes, such as `visibility`.
     fn name(&self) -> &str;
 
-    /// How many neighbours on each side the cost of a frame reads; 0 when only its own waypoint.
+    /// Number of neighbours on each side that the cost of a frame reads; 0 for its own waypoint alone.
     fn support(&self) -> usize;
 
     /// Told before the first cost on a track, for terms that keep something per track.
@@ -65,6 +65,6 @@ pub trait CostTerm: Send + Sync {
 pub struct WeightedTerm {
     /// The term.
     pub term: Box<dyn CostTerm>,
-    /// Its weight, at least 0.
+    /// Weight of the term, at least 0.
     pub weight: f64,
 }

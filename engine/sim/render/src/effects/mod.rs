@@ -97,6 +97,13 @@ impl Effects {
         self.lens.as_ref().map_or(self.camera, LensMap::ideal_camera)
     }
 
+    /// Moments at which [`Self::film`] looks at what is in front of the camera, seconds from the middle of the shutter.
+    pub fn moments_s(&self) -> Vec<f64> {
+        let strips = self.rolling.strips(self.ideal_camera().height as usize);
+        let moments = strips.flat_map(|(_, moment_s)| self.blur.offsets_s().chain([0.0]).map(move |it| moment_s + it));
+        moments.collect()
+    }
+
     /// Takes a picture with `backend`, which draws with [`Self::ideal_camera`].
     ///
     /// # Errors

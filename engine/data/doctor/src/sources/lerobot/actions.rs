@@ -1,37 +1,37 @@
-//! What actions mean: LeRobot does not say, so the usual meanings are tried, and the one that is exact is taken.
+//! Meaning of actions: LeRobot does not state it, so the usual meanings are tried, and the exact one is taken.
 
 use super::features::Features;
 use crate::Episode;
 use cosfly_frames::{DVec3, Pose};
 use std::collections::BTreeMap;
 
-/// A meaning is taken when its middle error is no more than this, metres.
+/// Largest median error of a meaning that is taken, metres.
 const EXACT_M: f64 = 1e-3;
-/// Frames that a verdict needs.
+/// Smallest number of frames for a verdict.
 const ENOUGH: usize = 8;
-/// Frames by which actions may be shifted.
+/// Shifts of actions that are tried, frames.
 const SHIFTS: [i64; 5] = [0, -1, 1, -2, 2];
 
-/// An episode with what its actions are as numbers.
+/// An episode with the numbers of its actions.
 pub struct Recording {
-    /// All but its actions.
+    /// The episode without its actions.
     pub episode: Episode,
     /// Three numbers per frame.
     pub actions: Vec<Option<[f64; 3]>>,
     /// Three angles per frame: pitch, yaw, roll.
     pub turns: Vec<Option<[f64; 3]>>,
-    /// The episode to whose next pose actions lead; its own where there is none.
+    /// Index of the episode to whose next pose actions lead; none: the own episode.
     pub expert: Option<String>,
 }
 
-/// What the three numbers of an action are.
+/// Meaning of the three numbers of an action.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Meaning {
     /// A step along the world's axes.
     Step,
     /// A step along the drone's own axes.
     StepOfBody,
-    /// The next place.
+    /// The next position.
     Place,
     /// A velocity along the world's axes.
     Velocity,
@@ -43,7 +43,7 @@ const MEANINGS: [Meaning; 5] =
     [Meaning::Step, Meaning::StepOfBody, Meaning::Place, Meaning::Velocity, Meaning::VelocityOfBody];
 
 impl Meaning {
-    /// Where an action leads from a pose.
+    /// The position that an action leads to from a pose.
     fn target(self, from: &Pose, action: [f64; 3], dt_s: f64) -> DVec3 {
         let action = DVec3::from_array(action);
         let place = from.position_in_world;
@@ -58,7 +58,7 @@ impl Meaning {
     }
 }
 
-/// Finds the meaning of all actions and tells the episodes where they lead, or notes that no meaning fits.
+/// Finds the meaning of all actions and sets the positions that they lead to, or notes that no meaning fits.
 pub fn interpret(recordings: &mut [Recording], features: &Features, notes: &mut Vec<String>) {
     if features.action.is_none() || features.position.is_none() {
         if features.position.is_some() {
@@ -108,7 +108,7 @@ pub fn interpret(recordings: &mut [Recording], features: &Features, notes: &mut 
     }
 }
 
-/// How far actions miss the place that they lead to when each belongs to the frame `shift` after it.
+/// Errors of actions, metres, where each belongs to the frame `shift` after it.
 fn gaps<'a>(it: &'a Recording, led: &'a [Pose], meaning: Meaning, shift: i64) -> impl Iterator<Item = f64> + 'a {
     let moments = &it.episode.moments;
     let count = moments.len().min(led.len());

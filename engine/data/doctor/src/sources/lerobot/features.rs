@@ -1,9 +1,9 @@
-//! Which features of a LeRobot dataset hold what, by the names of their parts: names differ from dataset to dataset.
+//! Meanings of the features of a LeRobot dataset, from the names of their parts, which differ between datasets.
 
 use cosfly_frames::{DVec3, Pose, real};
 use serde_json::Value;
 
-/// What a number of a feature is.
+/// Meaning of a number of a feature.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Role {
     /// Along an axis: x, y, z.
@@ -16,24 +16,24 @@ enum Role {
     Edge(usize),
 }
 
-/// Some numbers of a feature.
+/// A choice of the numbers of a feature.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Parts<const N: usize> {
     /// Name of the feature.
     pub feature: String,
-    /// Places of the numbers in it.
+    /// Indices of the numbers in the feature.
     pub at: [usize; N],
 }
 
 impl<const N: usize> Parts<N> {
-    /// The numbers in a row of the feature; `None` where it is shorter or one is not finite.
+    /// The numbers in a row of the feature; `None` where the row is shorter or a number is not finite.
     pub fn of(&self, row: &[f64]) -> Option<[f64; N]> {
         let numbers = self.at.map(|at| row.get(at).copied().unwrap_or(f64::NAN));
         numbers.iter().all(|number| number.is_finite()).then_some(numbers)
     }
 }
 
-/// Where the angles are.
+/// Form of the angles.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Angles {
     /// Pitch, yaw, roll.
@@ -44,12 +44,12 @@ pub enum Angles {
     Quaternion(Parts<4>),
 }
 
-/// What was found among the features.
+/// The features with a known meaning.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Features {
     /// Position of the drone.
     pub position: Option<Parts<3>>,
-    /// Its angles.
+    /// Angles of the drone.
     pub angles: Option<Angles>,
     /// Position of the target.
     pub target: Option<Parts<3>>,
@@ -57,7 +57,7 @@ pub struct Features {
     pub edges: Option<Parts<4>>,
     /// The three numbers of actions along axes.
     pub action: Option<Parts<3>>,
-    /// Their three angles.
+    /// The three angles of actions.
     pub turn: Option<Parts<3>>,
     /// Pictures inside of tables.
     pub pictures: Vec<String>,
@@ -65,12 +65,12 @@ pub struct Features {
     pub videos: Vec<String>,
 }
 
-/// Words that make a feature something else than the drone's state.
+/// Words in the names of features that are not the drone's state.
 const OTHERS: [&str; 10] =
     ["action", "target", "goal", "image", "box", "bbox", "velocity", "vel", "acceleration", "person"];
 
 impl Features {
-    /// Of `features` in `meta/info.json`.
+    /// Meanings of `features` in `meta/info.json`.
     pub fn of(features: &Value) -> Self {
         let mut found = Self::default();
         for (name, feature) in features.as_object().into_iter().flatten() {
@@ -128,7 +128,7 @@ fn words(name: &str) -> Vec<String> {
     parts.filter(|word| !word.is_empty()).map(str::to_ascii_lowercase).collect()
 }
 
-/// What each number of a feature is: by its name, or by that of the feature where numbers have none.
+/// Meaning of each number of a feature, from its name, or from the feature's where numbers have no names.
 fn roles(feature: &Value, words: &[String], of_action: bool) -> Vec<Option<Role>> {
     let count = feature["shape"][0].as_u64().unwrap_or(0).min(1024) as usize;
     let names = &feature["names"];
@@ -148,7 +148,7 @@ fn roles(feature: &Value, words: &[String], of_action: bool) -> Vec<Option<Role>
     }
 }
 
-/// What a number with this name is; increments and velocities are something in actions only.
+/// Meaning of a number with this name; increments and velocities have one in actions only.
 fn role(name: &str, of_action: bool) -> Option<Role> {
     let words = words(name);
     let units = ["m", "mps", "deg", "rad", "metres", "meters", "degrees", "radians", "pixels"];
@@ -178,7 +178,7 @@ fn role(name: &str, of_action: bool) -> Option<Role> {
     })
 }
 
-/// A pose of a position and angles. `in_degrees` is of Euler angles and yaws.
+/// The pose of a position and angles. `in_degrees` concerns Euler angles and yaws.
 pub fn pose(position_in_world: DVec3, angles: Option<&Angles>, row: &[f64], in_degrees: bool) -> Option<Pose> {
     let radians = |angle: f64| if in_degrees { angle.to_radians() } else { angle };
     let [pitch_rad, yaw_rad, roll_rad] = match angles {

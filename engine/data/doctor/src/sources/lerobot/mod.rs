@@ -1,7 +1,7 @@
 //! LeRobot datasets (v3.0, and v2 where its tables are alike): `meta/info.json`, tables of frames, pictures or videos.
 //!
-//! * [`features`]: which of their numbers is what.
-//! * [`actions`]: what their actions mean, found by trying.
+//! * [`features`]: meanings of their numbers.
+//! * [`actions`]: meaning of their actions, found by trials.
 //! * [`video`]: video files, undecoded.
 
 pub mod actions;
@@ -20,25 +20,25 @@ use serde_json::Value;
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
-/// Longest `info.json` that is read, bytes.
+/// Size of the largest `info.json` that is read, bytes.
 const INFO_LIMIT: u64 = 1 << 26;
-/// Angles beyond this are degrees.
+/// Largest angle in radians; larger values are degrees.
 const MOST_RADIANS: f64 = 6.4;
-/// Flags of one kind about files that are listed.
+/// Number of flags of one kind that are listed.
 const NAMED: usize = 20;
 
-/// Whether `folder` is one.
+/// Whether `folder` has this layout.
 pub fn recognises(folder: &Path) -> bool {
     folder.join("meta/info.json").is_file()
 }
 
-/// Episodes, what is wrong with the files, and what could not be checked, in words.
+/// Episodes, faults of the files, and impossible checks as texts.
 pub type Read = (Vec<Episode>, Vec<Flag>, Vec<String>);
 
 /// Reads all episodes.
 ///
 /// # Errors
-/// When a folder cannot be listed.
+/// Refusals of the machine where a folder cannot be listed.
 pub fn episodes(folder: &Path, progress: &mut dyn FnMut(u64, u64)) -> Result<Read> {
     let info = match info(folder) {
         Ok(info) => info,
@@ -99,7 +99,7 @@ fn info(folder: &Path) -> Result<Value, String> {
     if info["features"].is_object() { Ok(info) } else { Err("it has no `features`".into()) }
 }
 
-/// What cannot be checked for want of a feature.
+/// Checks that are impossible because a feature is absent.
 fn gaps(features: &Features) -> Vec<String> {
     let mut notes = vec![];
     if features.position.is_none() {
@@ -295,10 +295,10 @@ impl Frames {
     }
 }
 
-/// A pose where none is told.
+/// The pose where none is stated.
 const NOWHERE: Pose = Pose { position_in_world: DVec3::ZERO, pitch_rad: 0.0, yaw_rad: 0.0, roll_rad: 0.0 };
 
-/// Columns that count; all others say something of the frame.
+/// Columns of indices; all others are values of the frame.
 const COUNTS: [&str; 4] = ["timestamp", "frame_index", "index", "next.done"];
 
 fn split(info: &Value, number: i64) -> Option<String> {
@@ -310,7 +310,7 @@ fn split(info: &Value, number: i64) -> Option<String> {
     splits.iter().find(|(_, range)| holds(range) == Some(true)).map(|(name, _)| name.clone())
 }
 
-/// What `meta/episodes` says.
+/// The rows of `meta/episodes`.
 #[derive(Default)]
 struct Listed {
     rows: Vec<(i64, BTreeMap<String, f64>)>,
@@ -354,7 +354,7 @@ impl Listed {
         }
     }
 
-    /// Whether all videos are there, whole and long enough.
+    /// Checks that all videos exist, are whole and long enough.
     fn check_videos(&self, folder: &Path, info: &Value, features: &Features, flags: &mut Vec<Flag>) {
         let Some(pattern) = info["video_path"].as_str() else { return };
         let fps = info["fps"].as_f64().filter(|fps| *fps > 0.0).unwrap_or(1.0);
@@ -386,7 +386,7 @@ impl Listed {
 }
 
 /// A path of Python's format, such as `videos/{video_key}/chunk-{chunk_index:03d}/file-{file_index:03d}.mp4`; `None` when it
-/// asks for a number that is not told, or leads out of the dataset.
+/// needs an unknown number, or leads out of the dataset.
 fn video_path(
     pattern: &str,
     key: &str,

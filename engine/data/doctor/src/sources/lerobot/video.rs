@@ -1,4 +1,4 @@
-//! Video files as far as they can be judged without decoding: whether they are whole, and how long they say they are.
+//! Video files without decoding: whether they are whole, and their stated length.
 
 use std::fs::File;
 use std::io::{Read, Seek, SeekFrom};
@@ -10,7 +10,7 @@ const MOOV_LIMIT: u64 = 1 << 28;
 /// Length of an MP4 file in seconds.
 ///
 /// # Errors
-/// In words, when the file cannot be read or is cut.
+/// A text, where the file cannot be read or is cut.
 pub fn seconds(path: &Path) -> Result<f64, String> {
     let mut file = File::open(path).map_err(|error| error.to_string())?;
     let end = file.metadata().map_err(|error| error.to_string())?.len();
@@ -55,7 +55,7 @@ fn head_of(head: &[u8; 16], rest: u64) -> (String, u64, u64) {
     }
 }
 
-/// The longest track's seconds, by its `mdhd`.
+/// Length of the longest track by its `mdhd`, seconds.
 fn longest(moov: &[u8]) -> Option<f64> {
     let mut longest: Option<f64> = None;
     for (kind, trak) in boxes(moov) {
@@ -80,7 +80,7 @@ fn duration(mdhd: &[u8]) -> Option<f64> {
     (scale > 0).then(|| duration as f64 / f64::from(scale))
 }
 
-/// The boxes in a box; what does not fit is left out.
+/// The boxes in a box, without those that do not fit.
 fn boxes(mut bytes: &[u8]) -> Vec<([u8; 4], &[u8])> {
     let mut found = vec![];
     while let Some((head, _)) = bytes.split_first_chunk::<8>() {

@@ -1,0 +1,129 @@
+//! COCO: pictures with boxes and masks of everything that has an instance id.
+
+mod mask;
+
+use crate::card::Card;
+use crate::folder::OutFolder;
+use crate::format::Format;
+use crate::media::{ending, picture_path};
+use crate::shared_options::PictureOptions;
+use crate::source::Source;
+use cosfly_diagnose::Result;
+use cosfly_maps::SemanticLabel;
+use cosfly_render::frame::TARGET_INSTANCE;
+use mask::{Mask, masks};
+use serde_json::{Value, json};
+use std::io::Write;
+
+/// Boxes and masks.
+pub struct Coco;
+
+impl Format for Coco {
+    const NAME: &'static str = "coco";
+    const DOC: &'static str = "COCO: pictures, boxes and masks of all things, a file of annotations per split";
+    type Options = PictureOptions;
+
+    fn write(options: &PictureOptions, source: &Source<'_>, out: &OutFolder) -> Result<Vec<String>> {
+        for split in source.splits() {
+            write_split(options.every, source, out, split)?;
+        }
+        Card {
+            format: "COCO",
+            front_matter: "task_categories:\n- object-detection\n- image-segmentation\n".into(),
+            body: BODY.into(),
+        }
+        .write(source, out)?;
+        Ok(vec![])
+    }
+}
+
+/// Writes the file of a split from front to end: annotations while the pictures are read, then the list of pictures.
+fn write_split(every: usize, source: &Source<'_>, out: &OutFolder, split: &str) -> Result<()> {
+    let name = format!("annotations/instances_{split}.json");
+    let mut file = out.create(&name)?;
+    let refused = |error: std::io::Error| out.refusal(&name, &error);
+    let categories: Vec<Value> = SemanticLabel::ALL
+        .iter()
+        .map(|label| json!({"id": label.id(), "name": label.name(), "supercategory": "carla"}))
+        .collect();
+    let head = json!({"description": source.name(), "contributor": "cosfly", "version": env!("CARGO_PKG_VERSION")});
+    write!(file, "{{\"info\":{head},\"licenses\":[],\"categories\":{},\"annotations\":[", json!(categories))
+        .map_err(refused)?;
+    let (mut flight, mut image_id, mut annotation_id) = (0, 0u64, 0u64);
+    let mut images: Vec<&str> = vec![];
+    source.each_flight_of(&|flight| flight.split == split, &mut |episode| {
+        let id = &episode.flight.trajectory_id;
+        episode.each_picture(
+            &episode.every_nth_frame(every),
+            |frame, logged| {
+                let ending = ending(&logged.rgb_format);
+                let path = picture_path(flight, id, frame, ending);
+                out.put(&format!("{split}/{path}"), &logged.rgb_file)?;
+                let size = [logged.width, logged.height];
+                Ok((ending, size, masks(&logged.instance, &logged.semantic, size)))
+            },
+            |_, (ending, size, masks)| {
+                image_id += 1;
+                images.push(ending);
+                for mask in masks {
+                    let separator = if annotation_id == 0 { "" } else { ",\n" };
+                    annotation_id += 1;
+                    let annotation = annotation(&mask, annotation_id, image_id, size);
+                    write!(file, "{separator}{annotation}").map_err(refused)?;
+                }
+                Ok(())
+            },
+        )?;
+        flight += 1;
+        Ok(())
+    })?;
+    write!(file, "],\n\"images\":[").map_err(refused)?;
+    let mut endings = images.into_iter().zip(1u64..);
+    for (number, flight) in source.flights().filter(|flight| flight.split == split).enumerate() {
+        for frame in (0..flight.frames).step_by(every.max(1)) {
+            let Some((ending, image_id)) = endings.next() else { break };
+            let image = json!({
+                "id": image_id,
+                "file_name": picture_path(number, &flight.trajectory_id, frame, ending),
+                "width": flight.camera.width,
+                "height": flight.camera.height,
+                "trajectory_id": flight.trajectory_id,
+                "frame": frame,
+            });
+            write!(file, "{}{image}", if image_id == 1 { "" } else { ",\n" }).map_err(refused)?;
+        }
+    }
+    file.write_all(b"]}\n").and_then(|()| file.flush()).map_err(refused)
+}
+
+fn annotation(mask: &Mask, id: u64, image_id: u64, [width, height]: [u32; 2]) -> Value {
+    json!({
+        "id": id,
+        "image_id": image_id,
+        "category_id": mask.label,
+        "bbox": mask.bbox,
+        "area": mask.area,
+        "iscrowd": 0,
+        "segmentation": {"size": [height, width], "counts": mask.counts},
+        "instance": mask.instance,
+        "is_target": mask.instance == TARGET_INSTANCE,
+    })
+}
+
+const BODY: &str = "\
+```
+annotations/instances_<split>.json
+<split>/<thousands of flights>/<flight>/<thousands of frames>/<frame>.jpg
+```
+
+```python
+from pycocotools.coco import COCO
+coco = COCO(\"annotations/instances_train.json\")
+people = coco.loadAnns(coco.getAnnIds(catIds=[12]))
+mask = coco.annToMask(people[0])
+```
+
+`file_name` is relative to the folder of the split. Category ids are CARLA's labels. Every thing with an id has an annotation
+for its visible pixels: its box, its area and its mask as compressed run lengths; ground and sky have none. `instance` is the id
+of the thing in its flight's log, `is_target` marks the one who is followed.
+";

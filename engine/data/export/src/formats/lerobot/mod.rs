@@ -1,0 +1,264 @@
+//! LeRobot v3.0: episodes in Parquet files with pictures inside, tasks as strings, statistics of every feature.
+
+mod statistics;
+mod tables;
+
+use crate::card::Card;
+use crate::folder::OutFolder;
+use crate::format::Format;
+use crate::pixels::rgb_of;
+use crate::shared_options::{IncrementOptions, InstructionOptions};
+use crate::source::{Episode, Source};
+use cosfly_diagnose::{Diagnostic, Fault, Result};
+use cosfly_frames::{Pose, action};
+use cosfly_metrics::DeltaFrame;
+use cosfly_read::PublishedFlight;
+use cosfly_schema::tables::Table;
+use cosfly_write::table_file::TableWriter;
+use schemars::JsonSchema;
+use serde::Deserialize;
+use serde_json::{Value, json};
+use statistics::Statistics;
+use std::collections::BTreeMap;
+use std::fs::File;
+use std::io::BufWriter;
+use tables::{DataRows, EpisodeRow, TaskRow, VECTORS};
+
+/// Largest number of files of a folder, and size from which a new file begins, MB.
+const CHUNK_FILES: usize = 1000;
+const FILE_MB: u64 = 100;
+/// Steps between the frames and between the pixels that count for the statistics.
+const SAMPLED_FRAMES: usize = 10;
+const SAMPLED_PIXELS: usize = 16;
+
+/// Episodes for robot learning.
+pub struct LeRobot;
+
+/// Options of `lerobot`.
+#[derive(Clone, Debug, Deserialize, JsonSchema)]
+pub struct Options {
+    #[serde(flatten)]
+    instructions: InstructionOptions,
+    #[serde(flatten)]
+    increments: IncrementOptions,
+}
+
+impl Format for LeRobot {
+    const NAME: &'static str = "lerobot";
+    const DOC: &'static str = "LeRobot v3.0: episodes with pictures, states, the expert's actions, tasks as strings";
+    type Options = Options;
+
+    fn write(options: &Options, source: &Source<'_>, out: &OutFolder) -> Result<Vec<String>> {
+        let delta_frame = options.increments.delta_frame();
+        let fps = check(source)?;
+        let experts = source.expert_poses()?;
+        let table = tables::data();
+        let mut data = DataFiles { out, table: &table, file: 0, bytes: 0, open: None };
+        let mut statistics = Statistics::default();
+        let mut tasks: BTreeMap<String, usize> = BTreeMap::new();
+        let (mut task_names, mut episodes) = (vec![], vec![]);
+        let mut index = 0;
+        source.each_flight(&mut |episode| {
+            let task = episode.instruction(options.instructions.language).to_owned();
+            let task_index = *tasks.entry(task.clone()).or_insert_with(|| {
+                task_names.push(task.clone());
+                task_names.len() - 1
+            });
+            let expert = episode.expert_poses(&experts)?;
+            let numbers = [episodes.len(), index, task_index];
+            let rows = rows_of(episode, &expert, delta_frame, numbers, &mut statistics)?;
+            let length = rows.pictures.len();
+            let file = data.append(&rows)?;
+            episodes.push(EpisodeRow {
+                trajectory_id: episode.flight.trajectory_id.clone(),
+                expert_id: episode.flight.expert_id.clone().unwrap_or_default(),
+                split: episode.flight.split.clone(),
+                episode: episodes.len(),
+                task,
+                from: index,
+                to: index + length,
+                chunk: file / CHUNK_FILES,
+                file: file % CHUNK_FILES,
+            });
+            index += length;
+            Ok(())
+        })?;
+        data.end()?;
+        write_table(out, "meta/episodes/chunk-000/file-000.parquet", &tables::episodes(), &episodes, &[])?;
+        let tasks: Vec<TaskRow> =
+            task_names.into_iter().enumerate().map(|(index, task)| TaskRow { index, task }).collect();
+        write_table(out, "meta/tasks.parquet", &tables::tasks(), &tasks, &[("pandas", tables::pandas_index())])?;
+        out.put("meta/stats.json", format!("{:#}\n", statistics.to_json()).as_bytes())?;
+        out.put("meta/info.json", format!("{:#}\n", info(source, fps, &episodes, tasks.len())).as_bytes())?;
+        card(delta_frame).write(source, out)?;
+        Ok(vec![])
+    }
+}
+
+/// Checks that all flights have one picture size and one whole number of frames per second; returns that number.
+fn check(source: &Source<'_>) -> Result<u32> {
+    let refusal = |message: String| Diagnostic::new("export-lerobot", Fault::Recipe, message);
+    let kind = |flight: &PublishedFlight| ([flight.camera.width, flight.camera.height], flight.dt_s);
+    let mut flights = source.flights();
+    let first = flights.next().map(kind).unwrap_or(([0; 2], 0.0));
+    if let Some(other) = flights.find(|flight| kind(flight) != first) {
+        let message =
+            format!("`{}` differs from the first flight in picture size or time between frames", other.trajectory_id);
+        return Err(refusal(message).hint("LeRobot has one of each; choose flights with `--trajectory` or `--split`"));
+    }
+    let fps = (1.0 / first.1).round_ties_even();
+    if !(1.0..=1000.0).contains(&fps) || (fps * first.1 - 1.0).abs() > 1e-9 {
+        return Err(refusal(format!("{} s between frames is not a whole number of frames per second", first.1)));
+    }
+    Ok(fps as u32)
+}
+
+/// The rows of a flight; its pictures and numbers count in `statistics`.
+fn rows_of(
+    episode: &Episode<'_>,
+    expert: &[Pose],
+    delta_frame: DeltaFrame,
+    [number, first, task]: [usize; 3],
+    statistics: &mut Statistics,
+) -> Result<DataRows> {
+    let dt_s = episode.flight.dt_s;
+    let mut rows = DataRows { number, first, task, dt_s, ..DataRows::default() };
+    for (frame, row) in episode.frames.iter().enumerate() {
+        let from = &row.pose;
+        let increment = expert.get(frame + 1).map_or([0.0; 6], |to| match delta_frame {
+            DeltaFrame::World => action::in_world(from, to),
+            DeltaFrame::Body => action::in_body(from, to),
+        });
+        let edges = row.visible_box_px.unwrap_or([-1.0; 4]).map(f64::from);
+        let vectors = [
+            crate::sample_text::pose_numbers(from).to_vec(),
+            row.target.feet_in_world.to_array().to_vec(),
+            edges.to_vec(),
+            increment.to_vec(),
+        ];
+        for ((name, ..), values) in VECTORS.iter().zip(&vectors) {
+            statistics.push(name, values);
+        }
+        let counts =
+            [("frame_index", frame), ("episode_index", number), ("index", first + frame), ("task_index", task)];
+        counts.into_iter().for_each(|(name, count)| statistics.push(name, &[count as f64]));
+        statistics.push("timestamp", &[frame as f64 * dt_s]);
+        rows.vectors.push(vectors);
+    }
+    episode.each_picture(
+        &episode.all_frames(),
+        |frame, logged| {
+            let sampled = if frame % SAMPLED_FRAMES == 0 { Some(rgb_of(&logged)?) } else { None };
+            Ok((logged.rgb_file, sampled))
+        },
+        |_, (file, sampled)| {
+            if let Some(rgb) = sampled {
+                statistics.push_picture(&rgb, SAMPLED_PIXELS);
+            }
+            rows.pictures.push(file);
+            Ok(())
+        },
+    )?;
+    Ok(rows)
+}
+
+/// The files of `data`, one of them open.
+struct DataFiles<'a> {
+    out: &'a OutFolder,
+    table: &'a Table<DataRows>,
+    file: usize,
+    bytes: u64,
+    open: Option<TableWriter<'a, DataRows, BufWriter<File>>>,
+}
+
+impl DataFiles<'_> {
+    /// Writes an episode; returns the number of its file.
+    fn append(&mut self, rows: &DataRows) -> Result<usize> {
+        if self.bytes >= FILE_MB * 1_000_000 {
+            self.end()?;
+            (self.file, self.bytes) = (self.file + 1, 0);
+        }
+        if self.open.is_none() {
+            let name = format!("data/chunk-{:03}/file-{:03}.parquet", self.file / CHUNK_FILES, self.file % CHUNK_FILES);
+            self.open = Some(TableWriter::new(self.table, self.out.create(&name)?)?);
+        }
+        if let Some(writer) = &mut self.open {
+            writer.append(rows)?;
+        }
+        self.bytes += rows.pictures.iter().map(|picture| picture.len() as u64).sum::<u64>();
+        Ok(self.file)
+    }
+
+    fn end(&mut self) -> Result<()> {
+        self.open.take().map_or(Ok(()), |writer| writer.finish().map(|_| ()))
+    }
+}
+
+fn write_table<S>(out: &OutFolder, name: &str, table: &Table<S>, rows: &[S], notes: &[(&str, String)]) -> Result<()> {
+    let mut writer = TableWriter::with_notes(table, out.create(name)?, notes)?;
+    rows.iter().try_for_each(|row| writer.append(row))?;
+    writer.finish().map(|_| ())
+}
+
+fn info(source: &Source<'_>, fps: u32, episodes: &[EpisodeRow], tasks: usize) -> Value {
+    let mut splits: BTreeMap<&str, [usize; 2]> = BTreeMap::new();
+    for row in episodes {
+        splits.entry(&row.split).or_insert([row.episode, 0])[1] = row.episode + 1;
+    }
+    let splits: BTreeMap<&str, String> =
+        splits.into_iter().map(|(name, [from, to])| (name, format!("{from}:{to}"))).collect();
+    let [width, height] = source.flights().next().map_or([0; 2], |flight| [flight.camera.width, flight.camera.height]);
+    let mut features = BTreeMap::from([(
+        tables::PICTURE.to_owned(),
+        json!({"dtype": "image", "shape": [height, width, 3], "names": ["height", "width", "channels"]}),
+    )]);
+    for (name, names) in VECTORS {
+        features.insert(name.to_owned(), json!({"dtype": "float32", "shape": [names.len()], "names": names}));
+    }
+    features.insert("timestamp".into(), json!({"dtype": "float32", "shape": [1], "names": null}));
+    for name in ["frame_index", "episode_index", "index", "task_index"] {
+        features.insert(name.into(), json!({"dtype": "int64", "shape": [1], "names": null}));
+    }
+    json!({
+        "codebase_version": "v3.0",
+        "robot_type": "drone",
+        "total_episodes": episodes.len(),
+        "total_frames": episodes.last().map_or(0, |row| row.to),
+        "total_tasks": tasks,
+        "chunks_size": CHUNK_FILES,
+        "data_files_size_in_mb": FILE_MB,
+        "video_files_size_in_mb": 200,
+        "fps": fps,
+        "splits": splits,
+        "data_path": "data/chunk-{chunk_index:03d}/file-{file_index:03d}.parquet",
+        "video_path": null,
+        "features": features,
+    })
+}
+
+fn card(delta_frame: DeltaFrame) -> Card {
+    let frame = match delta_frame {
+        DeltaFrame::World => "the world's axes, angles are differences",
+        DeltaFrame::Body => "the axes of the body in this frame (x ahead, y right, z up)",
+    };
+    let body = format!("{BODY}* `action`: along {frame}.\n");
+    let front_matter = "task_categories:\n- robotics\ntags:\n- LeRobot\nconfigs:\n- config_name: default\n  data_files: data/*/*.parquet\n";
+    Card { format: "LeRobot v3.0", front_matter: front_matter.into(), body }
+}
+
+const BODY: &str = "\
+```python
+from lerobot.datasets.lerobot_dataset import LeRobotDataset
+dataset = LeRobotDataset(\"cosfly\", root=\".\")
+```
+
+A repository on the hub needs the git tag `v3.0`. Episodes are flights; `meta/episodes` names them. World: CARLA's axes, metres and
+degrees.
+
+* `observation.images.rgb`: the colours. `task`: the instruction.
+* `observation.state`: the drone's x, y, z, pitch, yaw, roll.
+* `observation.target`: the place between the person's feet. `observation.box`: left, top, right, bottom edges of what can be seen
+  of them, pixels; -1 where nothing is.
+* `action`: dx, dy, dz (m), dpitch, dyaw, droll (degrees) from this pose to the expert's next one; in a perturbed flight that is the
+  way back. 0 in the last frame.
+";

@@ -1,0 +1,128 @@
+//! The three tables of LeRobot v3.0: frames, episodes, tasks.
+
+use cosfly_schema::tables::{AnyColumn, Column, ImageFile, Table};
+use serde_json::json;
+
+/// Name of the pictures' feature.
+pub const PICTURE: &str = "observation.images.rgb";
+/// Names of the features that are vectors, and of their parts.
+pub const VECTORS: [(&str, &[&str]); 4] = [
+    ("observation.state", &["x", "y", "z", "pitch", "yaw", "roll"]),
+    ("observation.target", &["x", "y", "z"]),
+    ("observation.box", &["left", "top", "right", "bottom"]),
+    ("action", &["dx", "dy", "dz", "dpitch", "dyaw", "droll"]),
+];
+
+/// The frames of an episode.
+#[derive(Default)]
+pub struct DataRows {
+    /// Number of the episode.
+    pub number: usize,
+    /// Number of the first frame in the whole dataset.
+    pub first: usize,
+    /// Number of the task.
+    pub task: usize,
+    /// Seconds between frames.
+    pub dt_s: f64,
+    /// [`VECTORS`] of every frame.
+    pub vectors: Vec<[Vec<f64>; 4]>,
+    /// Picture files.
+    pub pictures: Vec<Vec<u8>>,
+}
+
+/// An episode.
+pub struct EpisodeRow {
+    /// Id of the flight.
+    pub trajectory_id: String,
+    /// Id of the flight to whose next pose the actions lead; empty for an expert.
+    pub expert_id: String,
+    /// Split.
+    pub split: String,
+    /// Number.
+    pub episode: usize,
+    /// Task.
+    pub task: String,
+    /// First frame in the whole dataset.
+    pub from: usize,
+    /// Number behind the last frame.
+    pub to: usize,
+    /// Number of the folder of the file.
+    pub chunk: usize,
+    /// Number of the file.
+    pub file: usize,
+}
+
+/// A task.
+pub struct TaskRow {
+    /// Number.
+    pub index: usize,
+    /// The instruction.
+    pub task: String,
+}
+
+/// A row per frame.
+pub fn data() -> Table<DataRows> {
+    const COLUMNS: &[&dyn AnyColumn<DataRows>] = &[
+        &Column::named(PICTURE, "", |it: &DataRows, i| ImageFile(it.pictures[i].clone())),
+        &Column::named(VECTORS[0].0, "", |it: &DataRows, i| numbers::<6>(&it.vectors[i][0])),
+        &Column::named(VECTORS[1].0, "", |it: &DataRows, i| numbers::<3>(&it.vectors[i][1])),
+        &Column::named(VECTORS[2].0, "", |it: &DataRows, i| numbers::<4>(&it.vectors[i][2])),
+        &Column::named(VECTORS[3].0, "", |it: &DataRows, i| numbers::<6>(&it.vectors[i][3])),
+        &Column::named("timestamp", "", |it: &DataRows, i| i as f64 * it.dt_s),
+        &Column::named("frame_index", "", |_: &DataRows, i| i as u64),
+        &Column::named("episode_index", "", |it: &DataRows, _| it.number as u64),
+        &Column::named("index", "", |it: &DataRows, i| (it.first + i) as u64),
+        &Column::named("task_index", "", |it: &DataRows, _| it.task as u64),
+    ];
+    let rows = |it: &DataRows| it.pictures.len();
+    Table { rows_per_group: 200, ..Table::new("data", "", &[], rows, COLUMNS) }
+}
+
+/// The numbers of a vector, which has `N`.
+fn numbers<const N: usize>(vector: &[f64]) -> [f64; N] {
+    std::array::from_fn(|i| vector[i])
+}
+
+/// A row per episode.
+pub fn episodes() -> Table<EpisodeRow> {
+    const COLUMNS: &[&dyn AnyColumn<EpisodeRow>] = &[
+        &Column::named("episode_index", "", |it: &EpisodeRow, _| it.episode as u64),
+        &Column::named("tasks", "", |it: &EpisodeRow, _| vec![it.task.clone()]),
+        &Column::named("length", "", |it: &EpisodeRow, _| (it.to - it.from) as u64),
+        &Column::named("data/chunk_index", "", |it: &EpisodeRow, _| it.chunk as u64),
+        &Column::named("data/file_index", "", |it: &EpisodeRow, _| it.file as u64),
+        &Column::named("dataset_from_index", "", |it: &EpisodeRow, _| it.from as u64),
+        &Column::named("dataset_to_index", "", |it: &EpisodeRow, _| it.to as u64),
+        &Column::named("meta/episodes/chunk_index", "", |_: &EpisodeRow, _| 0u64),
+        &Column::named("meta/episodes/file_index", "", |_: &EpisodeRow, _| 0u64),
+        &Column::named("trajectory_id", "", |it: &EpisodeRow, _| it.trajectory_id.clone()),
+        &Column::named("expert_id", "", |it: &EpisodeRow, _| it.expert_id.clone()),
+        &Column::named("split", "", |it: &EpisodeRow, _| it.split.clone()),
+    ];
+    Table::new("episodes", "", &[], |_: &EpisodeRow| 1, COLUMNS)
+}
+
+/// A row per task.
+pub fn tasks() -> Table<TaskRow> {
+    const COLUMNS: &[&dyn AnyColumn<TaskRow>] = &[
+        &Column::named("task_index", "", |it: &TaskRow, _| it.index as u64),
+        &Column::named("task", "", |it: &TaskRow, _| it.task.clone()),
+    ];
+    Table::new("tasks", "", &[], |_: &TaskRow| 1, COLUMNS)
+}
+
+/// Metadata for pandas: `task` is the index of the tasks. Without it, LeRobot shows numbers instead of tasks.
+pub fn pandas_index() -> String {
+    let column = |name: &str, kind: &str, numpy: &str| json!({"name": name, "field_name": name, "pandas_type": kind, "numpy_type": numpy, "metadata": null});
+    json!({
+        "index_columns": ["task"],
+        "column_indexes": [{
+            "name": null, "field_name": null, "pandas_type": "unicode", "numpy_type": "object",
+            "metadata": {"encoding": "UTF-8"},
+        }],
+        "columns": [column("task_index", "int64", "int64"), column("task", "unicode", "object")],
+        "creator": {"library": "cosfly", "version": env!("CARGO_PKG_VERSION")},
+        "pandas_version": "2.2.0",
+    })
+    .to_string()
+}

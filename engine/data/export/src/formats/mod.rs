@@ -1,0 +1,23 @@
+//! All formats, one file or folder each.
+//!
+//! To add one, write its file and add two lines here: its `mod` and its entry in [`FORMATS`]. Command line, help and the
+//! laws that every export must keep follow from the list.
+
+mod coco;
+mod image_folder;
+mod lerobot;
+pub(crate) mod v7;
+mod vlm;
+mod webdataset;
+
+use crate::format::Export;
+
+/// The formats, sorted by name.
+pub static FORMATS: &[Export] = &[
+    Export::of::<coco::Coco>(),
+    Export::of::<image_folder::ImageFolder>(),
+    Export::of::<lerobot::LeRobot>(),
+    Export::of::<v7::V7>(),
+    Export::of::<vlm::Vlm>(),
+    Export::of::<webdataset::WebDataset>(),
+];

@@ -1,0 +1,122 @@
+//! The layout of the published CosFly-Track release, `drone_nav_traj_v7`: a folder per town, pair, trace and frame.
+//!
+//! What is publicly known of it is followed to the letter; what is not known is our own design, sits under keys called
+//! `cosfly` or is listed in the card, and the book's page "Exports" says which is which.
+//!
+//! * [`names`]: towns, pairs and traces as folders.
+//! * [`document`]: `trajectory.json` and `perturbation_report.json`.
+//! * [`pictures`]: the four files of a frame.
+//! * [`reader`]: a strict reader, which every export must pass before it gets its name.
+
+pub mod document;
+pub mod names;
+pub mod pictures;
+pub mod reader;
+
+use crate::card::Card;
+use crate::folder::OutFolder;
+use crate::format::Format;
+use crate::source::{Episode, Source};
+use cosfly_diagnose::{Diagnostic, Fault, Result};
+use names::{Names, Place, TownName};
+use schemars::JsonSchema;
+use serde::Deserialize;
+use std::fmt::Write;
+
+/// Folder below which the towns lie.
+pub const ROOT: &str = "data_v7";
+
+/// The layout of the published release.
+pub struct V7;
+
+/// Options of `v7`.
+#[derive(Clone, Debug, Deserialize, JsonSchema)]
+pub struct Options {
+    /// CARLA's name for a town of another name, such as downtown=Town01
+    #[serde(default)]
+    #[schemars(title = "TOWN=NAME")]
+    town: Vec<TownName>,
+}
+
+impl Format for V7 {
+    const NAME: &'static str = "v7";
+    const DOC: &'static str =
+        "the layout of the published CosFly-Track release: a folder per town, pair, trace and frame";
+    type Options = Options;
+
+    fn write(options: &Options, source: &Source<'_>, out: &OutFolder) -> Result<Vec<String>> {
+        let names = Names::of(source, &options.town)?;
+        let is_placed = |flight: &cosfly_read::PublishedFlight| names.place(&flight.trajectory_id).is_some();
+        source.each_flight_of(&is_placed, &mut |episode| match names.place(&episode.flight.trajectory_id) {
+            Some(place) => write_trace(episode, place, out),
+            None => Ok(()),
+        })?;
+        card(&names).write(source, out)?;
+        let reading = reader::read(&out.path(ROOT))?;
+        match reading.problems.first() {
+            None => Ok(names.remarks()),
+            Some(problem) => {
+                Err(Diagnostic::new("export-check", Fault::Bug, "the export breaks a rule of v7").because(problem))
+            }
+        }
+    }
+}
+
+fn write_trace(episode: &Episode<'_>, place: &Place, out: &OutFolder) -> Result<()> {
+    let frames = episode.all_frames();
+    let parts = place.ids.len();
+    frames.chunks(names::PART_FRAMES).take(parts).enumerate().try_for_each(|(part, frames)| {
+        let range = frames[0]..frames[0] + frames.len();
+        write_part(&episode.part(range), &place.of_part(part), frames, out)
+    })
+}
+
+/// A trace of some frames of a flight; `frames` are their numbers in the flight.
+fn write_part(episode: &Episode<'_>, place: &Place, frames: &[usize], out: &OutFolder) -> Result<()> {
+    let first = frames[0];
+    let folder = format!("{ROOT}/{}", place.folder());
+    let json =
+        |name: &str, value: &serde_json::Value| out.put(&format!("{folder}/{name}"), format!("{value}\n").as_bytes());
+    json("trajectory.json", &document::trajectory(episode, place))?;
+    json("perturbation_report.json", &document::perturbation_report(episode, place))?;
+    episode.each_picture(
+        frames,
+        |frame, logged| {
+            let folder = format!("{folder}/{}/frame_{:05}", document::FRAMES_DIR, frame - first);
+            pictures::write(&logged, &mut |name, bytes| out.put(&format!("{folder}/{name}"), bytes))
+        },
+        |_, ()| Ok(()),
+    )
+}
+
+fn card(names: &Names) -> Card {
+    let mut body = String::from(BODY);
+    body.push_str("\n| folder | town of the dataset |\n| --- | --- |\n");
+    for (folder, town) in names.towns() {
+        let _ = writeln!(body, "| `{folder}` | `{town}` |");
+    }
+    Card { format: "v7", front_matter: "tags:\n- drone\n- trajectory\n- synthetic\n".into(), body }
+}
+
+const BODY: &str = "\
+```
+data_v7/<Town>/trajectory_<id>/<trace>/trajectory.json
+data_v7/<Town>/trajectory_<id>/<trace>/perturbation_report.json
+data_v7/<Town>/trajectory_<id>/<trace>/frames_playback/frame_<index>/{rgb.png,depth.npy,instance.png,debug.png}
+```
+
+`ORI` is the expert's flight, `aug_001` its perturbed twin. The keys and rules are those that readers of the published
+release (`drone_nav_traj_v7`, `7.0.0`) rely on. Its full description is not public, so these choices are ours:
+
+* Everything under a key `cosfly`, and the whole of `perturbation_report.json`.
+* A flight of more than 1,000 frames becomes several trajectories with the same `source`; `cosfly.part` says which.
+* `<id>`: ten digits made from the expert's name. They look like the release's Unix times and are none.
+* `drone_pose` is the drone's; with a turned mount, `cosfly.camera_pose` is that of the pictures.
+* `target.world_location` is the middle of the body; `image_uv` and `depth` (along the optical axis) are its projection.
+* `target.visible`: at least one pixel shows the target. `bbox_2d`: the edges around those pixels.
+* `depth.npy`: 32-bit floats, rows x columns, metres along the optical axis, at most 1,000, which is also the sky, as in CARLA.
+* `instance.png`: red is CARLA's label, green + 256 blue the instance id: 0 ground and sky, 1 the target.
+* `debug.png`: the colours with the target's box, yellow without obstacles, green of what can be seen.
+
+A town that is none of CARLA's has the name of a CARLA town that was free, since readers look for `Town*`:
+";

@@ -1,0 +1,76 @@
+//! The four files of a frame: `rgb.png`, `depth.npy`, `instance.png`, `debug.png`.
+
+use crate::pixels::{id_in_16_bits, npy_f32, rgb_of, rgb_png};
+use cosfly_diagnose::Result;
+use cosfly_read::LoggedFrame;
+
+/// Depth of the sky in CARLA's depth camera, metres.
+pub const FAR_M: f32 = 1000.0;
+/// Colours of the target's boxes: of the whole body, and of its visible part.
+const COLOURS: [[u8; 3]; 2] = [[255, 220, 40], [60, 255, 90]];
+
+/// Calls `put` with names and bytes of the files.
+pub fn write(logged: &LoggedFrame, put: &mut dyn FnMut(&str, &[u8]) -> Result<()>) -> Result<()> {
+    let (width, height) = (logged.width, logged.height);
+    let mut rgb = rgb_of(logged)?;
+    let mut file = vec![];
+    rgb_png(&rgb, width, height, &mut file)?;
+    put("rgb.png", &file)?;
+    let depth_m: Vec<f32> = logged.depth_m.iter().map(|depth| depth.min(FAR_M)).collect();
+    put("depth.npy", &npy_f32(&depth_m, [width, height]))?;
+    rgb_png(&instance_bytes(logged), width, height, &mut file)?;
+    put("instance.png", &file)?;
+    for (edges, colour) in [&logged.target.full_box_px, &logged.target.visible_box_px].into_iter().zip(COLOURS) {
+        if let [left, top, right, bottom] = edges[..] {
+            outline(&mut rgb, [width, height], [left, top, right, bottom], colour);
+        }
+    }
+    rgb_png(&rgb, width, height, &mut file)?;
+    put("debug.png", &file)
+}
+
+/// Bytes of CARLA's instance camera: label, low byte of the id, high byte.
+fn instance_bytes(logged: &LoggedFrame) -> Vec<u8> {
+    let pixels = logged.semantic.iter().zip(&logged.instance);
+    pixels
+        .flat_map(|(label, id)| {
+            let [low, high] = id_in_16_bits(*id).to_le_bytes();
+            [*label, low, high]
+        })
+        .collect()
+}
+
+/// Colours the pixels on the edges of a box.
+fn outline(rgb: &mut [u8], [width, height]: [u32; 2], [left, top, right, bottom]: [u32; 4], colour: [u8; 3]) {
+    let mut paint = |x: u32, y: u32| {
+        let at = 3 * (y as usize * width as usize + x as usize);
+        rgb[at..at + 3].copy_from_slice(&colour);
+    };
+    if left >= right || top >= bottom || right > width || bottom > height {
+        return;
+    }
+    for x in left..right {
+        paint(x, top);
+        paint(x, bottom - 1);
+    }
+    for y in top..bottom {
+        paint(left, y);
+        paint(right - 1, y);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_box_is_drawn_on_its_edges_and_one_beyond_the_image_is_not() {
+        let mut rgb = vec![0; 3 * 6 * 4];
+        outline(&mut rgb, [6, 4], [1, 0, 5, 3], [9; 3]);
+        let painted: Vec<usize> = (0..24).filter(|at| rgb[3 * at] == 9).collect();
+        assert_eq!(painted, [1, 2, 3, 4, 7, 10, 13, 14, 15, 16]);
+        let before = rgb.clone();
+        outline(&mut rgb, [6, 4], [1, 0, 7, 3], [1; 3]);
+        assert_eq!(rgb, before);
+    }
+}

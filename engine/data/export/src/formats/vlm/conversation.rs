@@ -1,0 +1,130 @@
+//! A window as a conversation: system text, question, and the answer to learn.
+
+use super::options::{BoxScale, Options};
+use crate::sample_text::pose_numbers;
+use crate::shared_options::Axes;
+use crate::source::Episode;
+use cosfly_frames::{Pose, action};
+use cosfly_metrics::DeltaFrame;
+use cosfly_read::FrameRow;
+use serde_json::{Value, json};
+use std::collections::BTreeMap;
+use std::fmt::Write as _;
+
+/// The line of the window of `episode` that begins at frame `start`; `expert` has the expert's pose of every frame,
+/// `pictures` the paths of its pictures by frame.
+pub fn conversation(
+    episode: &Episode<'_>,
+    options: &Options,
+    expert: &[Pose],
+    pictures: &BTreeMap<usize, String>,
+    start: usize,
+) -> Value {
+    let window = options.window();
+    let first_unseen = start + window.history;
+    let seen = &episode.frames[start..first_unseen];
+    let current = seen[seen.len() - 1].pose;
+    let ahead = &expert[first_unseen..first_unseen + window.horizon];
+    let deltas = increments(current, ahead, options.increments.delta_frame());
+    let images: Vec<&String> = (start..first_unseen).filter_map(|frame| pictures.get(&frame)).collect();
+    json!({
+        "id": format!("{}_{start:06}", episode.flight.trajectory_id),
+        "trajectory_id": episode.flight.trajectory_id,
+        "frame": start,
+        "messages": [
+            {"role": "system", "content": system(options)},
+            {"role": "user", "content": question(episode, options, seen)},
+            {"role": "assistant", "content": json!({"waypoint_deltas": deltas}).to_string()},
+        ],
+        "images": images,
+    })
+}
+
+/// Rounded increments to the expert's poses, each from the pose that the rounded increments before lead to.
+fn increments(current: Pose, expert: &[Pose], delta_frame: DeltaFrame) -> Vec<[f64; 6]> {
+    let mut from = current;
+    let increment = |to: &Pose| {
+        let exact = match delta_frame {
+            DeltaFrame::World => action::in_world(&from, to),
+            DeltaFrame::Body => action::in_body(&from, to),
+        };
+        let [dx, dy, dz, pitch, yaw, roll] = exact;
+        let rounded =
+            [thousandths(dx), thousandths(dy), thousandths(dz), hundredths(pitch), hundredths(yaw), hundredths(roll)];
+        from = match delta_frame {
+            DeltaFrame::World => action::moved_in_world(&from, &rounded),
+            DeltaFrame::Body => action::moved_in_body(&from, &rounded),
+        };
+        rounded
+    };
+    expert.iter().map(increment).collect()
+}
+
+/// Rounded to thousandths; never minus zero.
+fn thousandths(value: f64) -> f64 {
+    (1000.0 * value).round_ties_even() / 1000.0 + 0.0
+}
+
+/// Rounded to hundredths; never minus zero.
+fn hundredths(value: f64) -> f64 {
+    (100.0 * value).round_ties_even() / 100.0 + 0.0
+}
+
+fn system(options: &Options) -> String {
+    let axes = match options.increments.frame {
+        Axes::World => "the world's axes (x east, y south, z up)",
+        Axes::Body => "the body's axes at the waypoint before (x ahead, y right, z up)",
+    };
+    format!(
+        "You steer a drone that follows a person without losing sight of them. Answer with one JSON object: \
+         {{\"waypoint_deltas\": [[dx, dy, dz, dpitch, dyaw, droll], ...]}} with {} increments, each from the waypoint \
+         before, the first from the current pose. dx, dy, dz are metres along {axes}; angles are degrees, positive: \
+         nose up, to the right, right side down.",
+        options.horizon
+    )
+}
+
+fn question(episode: &Episode<'_>, options: &Options, seen: &[FrameRow]) -> String {
+    let flight = episode.flight;
+    let dt_s = flight.dt_s;
+    let history = "<image>".repeat(seen.len() - 1);
+    let unit = match options.box_scale {
+        BoxScale::Pixels => format!("pixels of {} x {}", flight.camera.width, flight.camera.height),
+        BoxScale::Thousandths => "thousandths of width and height".into(),
+    };
+    let mut text = if seen.len() > 1 { format!("History, every {dt_s} s: {history}\n") } else { String::new() };
+    let _ = writeln!(text, "Current: <image>\nInstruction: {}", episode.instruction(options.instructions.language));
+    let _ = writeln!(
+        text,
+        "Poses, oldest first, [x, y, z, pitch, yaw, roll], metres along the world's axes from the current place, degrees:"
+    );
+    let current = seen[seen.len() - 1].pose.position_in_world;
+    for row in seen {
+        let pose = &row.pose;
+        let [x, y, z, pitch, yaw, roll] =
+            pose_numbers(&Pose { position_in_world: pose.position_in_world - current, ..*pose });
+        let numbers = [x, y, z, pitch, yaw, roll].map(hundredths);
+        let _ = writeln!(text, "{}", json!(numbers));
+    }
+    let _ =
+        writeln!(text, "Boxes of the person, [left, top, right, bottom] in {unit}, null where they cannot be seen:");
+    for row in seen {
+        let _ = writeln!(text, "{}", box_text(row, options.box_scale, flight.camera.width, flight.camera.height));
+    }
+    let _ = write!(text, "Where are the next {} waypoints, {dt_s} s apart?", options.horizon);
+    text
+}
+
+fn box_text(row: &FrameRow, scale: BoxScale, width: u32, height: u32) -> Value {
+    let Some(edges) = row.visible_box_px else { return Value::Null };
+    let size = [width, height, width, height];
+    let numbers: Vec<i64> = edges
+        .iter()
+        .zip(size)
+        .map(|(edge, size)| match scale {
+            BoxScale::Pixels => f64::from(*edge).round_ties_even() as i64,
+            BoxScale::Thousandths => (1000.0 * f64::from(*edge) / f64::from(size)).round_ties_even() as i64,
+        })
+        .collect();
+    json!(numbers)
+}

@@ -1,0 +1,144 @@
+//! Fine-tuning of vision-language models: a line of JSON per window, as LLaMA-Factory and ms-swift both read it.
+
+mod conversation;
+mod options;
+
+use crate::card::Card;
+use crate::folder::OutFolder;
+use crate::format::Format;
+use crate::media::{ending, picture_path};
+use crate::shared_options::Axes;
+use crate::source::{Episode, Source};
+use conversation::conversation;
+use cosfly_diagnose::{Diagnostic, Fault, Result};
+use cosfly_metrics::WindowShape;
+use options::{Input, Options};
+use serde_json::{Value, json};
+use std::collections::BTreeMap;
+use std::fmt::Write as _;
+use std::fs::File;
+use std::io::{BufWriter, Write as _};
+
+/// Conversations about windows.
+pub struct Vlm;
+
+impl Format for Vlm {
+    const NAME: &'static str = "vlm";
+    const DOC: &'static str =
+        "JSON lines for LLaMA-Factory and ms-swift: pictures, poses, boxes, instruction -> waypoint_deltas";
+    type Options = Options;
+
+    fn write(options: &Options, source: &Source<'_>, out: &OutFolder) -> Result<Vec<String>> {
+        let window = options.window();
+        let is_seen = |flight: &cosfly_read::PublishedFlight| {
+            flight.expert_id.is_some() == (options.input == Input::Perturbed) && window.count(flight.frames) > 0
+        };
+        if !source.flights().any(is_seen) {
+            let (size, input) = (window.size(), options.input.word());
+            let message = format!("no chosen flight is {input} and has the {size} frames of a window");
+            return Err(Diagnostic::new("export-windows", Fault::Recipe, message)
+                .hint("choose with `--input`, `--history` and `--horizon`"));
+        }
+        let experts = source.expert_poses()?;
+        let mut files: BTreeMap<String, BufWriter<File>> = BTreeMap::new();
+        let (mut flight, mut windows) = (0, 0);
+        source.each_flight_of(&is_seen, &mut |episode| {
+            let split = &episode.flight.split;
+            let name = format!("{split}.jsonl");
+            if !files.contains_key(split) {
+                files.insert(split.clone(), out.create(&name)?);
+            }
+            let pictures = write_pictures(episode, window, out, flight)?;
+            let expert = episode.expert_poses(&experts)?;
+            let Some(file) = files.get_mut(split) else { return Ok(()) };
+            for start in window.starts(episode.frames.len()) {
+                let line = conversation(episode, options, &expert, &pictures, start);
+                writeln!(file, "{line}").map_err(|error| out.refusal(&name, &error))?;
+                windows += 1;
+            }
+            flight += 1;
+            Ok(())
+        })?;
+        let mut entries = BTreeMap::new();
+        for (split, mut file) in files {
+            file.flush().map_err(|error| out.refusal(&format!("{split}.jsonl"), &error))?;
+            entries.insert(format!("cosfly_{split}"), registration(&split));
+        }
+        out.put("dataset_info.json", format!("{:#}\n", json!(entries)).as_bytes())?;
+        card(options, entries.keys().filter_map(|name| name.strip_prefix("cosfly_"))).write(source, out)?;
+        Ok(vec![format!("{windows} window{}", if windows == 1 { "" } else { "s" })])
+    }
+}
+
+/// Entry of a file in LLaMA-Factory's `dataset_info.json`.
+fn registration(split: &str) -> Value {
+    json!({
+        "file_name": format!("{split}.jsonl"),
+        "formatting": "sharegpt",
+        "columns": {"messages": "messages", "images": "images"},
+        "tags": {
+            "role_tag": "role", "content_tag": "content",
+            "user_tag": "user", "assistant_tag": "assistant", "system_tag": "system",
+        },
+    })
+}
+
+/// Writes the pictures that windows show; their paths by frame.
+fn write_pictures(
+    episode: &Episode<'_>,
+    window: WindowShape,
+    out: &OutFolder,
+    flight: usize,
+) -> Result<BTreeMap<usize, String>> {
+    let frames = episode.frames.len();
+    let mut shown: Vec<usize> = window.starts(frames).flat_map(|start| start..start + window.history).collect();
+    shown.sort_unstable();
+    shown.dedup();
+    let id = &episode.flight.trajectory_id;
+    let mut paths = BTreeMap::new();
+    episode.each_picture(
+        &shown,
+        |frame, logged| {
+            let path = format!("images/{}", picture_path(flight, id, frame, ending(&logged.rgb_format)));
+            out.put(&path, &logged.rgb_file)?;
+            Ok(path)
+        },
+        |frame, path| {
+            paths.insert(frame, path);
+            Ok(())
+        },
+    )?;
+    Ok(paths)
+}
+
+fn card<'a>(options: &Options, splits: impl Iterator<Item = &'a str>) -> Card {
+    let mut front_matter =
+        String::from("task_categories:\n- image-text-to-text\nconfigs:\n- config_name: default\n  data_files:\n");
+    for split in splits {
+        let _ = write!(front_matter, "  - split: {split}\n    path: {split}.jsonl\n");
+    }
+    let (shape, input) = (options.window(), options.input.word());
+    let frame = match options.increments.frame {
+        Axes::World => "world",
+        Axes::Body => "body",
+    };
+    let settings = format!(
+        "Windows: {} frames of {input} flights, then {} waypoints of the expert, one window every {} frames; increments in the \
+         {frame} frame. A model's answers are scored with\n\n```sh\ncosfly eval answers.jsonl --dataset DATASET --frame {frame} \
+         --input {input} --history {} --horizon {} --stride {}\n```\n\nwhere a line of answers has `trajectory_id` and `frame` of \
+         the line here, and `text`, what the model wrote.\n\n",
+        shape.history, shape.horizon, shape.stride, shape.history, shape.horizon, shape.stride
+    );
+    Card { format: "VLM fine-tuning", front_matter, body: settings + BODY }
+}
+
+const BODY: &str = "\
+```sh
+llamafactory-cli train --dataset_dir . --dataset cosfly_train --media_dir . ...   # in this folder
+swift sft --dataset train.jsonl ...                                              # in this folder, too
+```
+
+A line has `messages` (system, user, assistant), `images` (one path for each `<image>`, from this folder), and `id`,
+`trajectory_id` and `frame` (the window's first) to find it again. Metres have three decimals, degrees two; every increment is
+counted from where the rounded ones before lead, so that rounding does not add up.
+";

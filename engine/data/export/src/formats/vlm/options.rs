@@ -1,0 +1,83 @@
+//! Options of `vlm`.
+
+use crate::shared_options::{IncrementOptions, InstructionOptions};
+use cosfly_metrics::WindowShape;
+use schemars::JsonSchema;
+use serde::Deserialize;
+
+/// Options of `vlm`.
+#[derive(Clone, Debug, Deserialize, JsonSchema)]
+#[serde(default)]
+pub struct Options {
+    #[serde(flatten)]
+    pub(super) instructions: InstructionOptions,
+    #[serde(flatten)]
+    pub(super) increments: IncrementOptions,
+    /// Flights that models see
+    pub(super) input: Input,
+    /// Number of frames that a model sees
+    #[schemars(range(min = 1, max = 1_000_000))]
+    pub(super) history: usize,
+    /// Number of waypoints that a model predicts
+    #[schemars(range(min = 1, max = 1_000_000))]
+    pub(super) horizon: usize,
+    /// Distance from one window to the next, frames
+    #[schemars(range(min = 1, max = 1_000_000))]
+    pub(super) stride: usize,
+    /// Scale of boxes in texts
+    pub(super) box_scale: BoxScale,
+}
+
+impl Default for Options {
+    fn default() -> Self {
+        let WindowShape { history, horizon, stride } = WindowShape::default();
+        Self {
+            instructions: InstructionOptions::default(),
+            increments: IncrementOptions::default(),
+            input: Input::default(),
+            history,
+            horizon,
+            stride,
+            box_scale: BoxScale::default(),
+        }
+    }
+}
+
+impl Options {
+    /// Shape of the windows.
+    pub fn window(&self) -> WindowShape {
+        WindowShape { history: self.history, horizon: self.horizon, stride: self.stride }
+    }
+}
+
+/// Flights that models see.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum Input {
+    /// Perturbed flights: models learn the way back
+    #[default]
+    Perturbed,
+    /// Experts' flights
+    Expert,
+}
+
+impl Input {
+    /// The word of the command line.
+    pub fn word(self) -> &'static str {
+        match self {
+            Self::Perturbed => "perturbed",
+            Self::Expert => "expert",
+        }
+    }
+}
+
+/// Scale of boxes in texts; families of models differ.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum BoxScale {
+    /// Pixels of the pictures
+    #[default]
+    Pixels,
+    /// Thousandths of width and height
+    Thousandths,
+}

@@ -1,0 +1,160 @@
+//! WebDataset: shards of samples in tar files, read from front to end.
+
+use crate::card::Card;
+use crate::folder::OutFolder;
+use crate::format::Format;
+use crate::media::ending;
+use crate::pixels::{depth_png, gray8_png, gray16_png, id_in_16_bits};
+use crate::sample_text::frame_facts;
+use crate::shared_options::{InstructionOptions, PictureOptions};
+use crate::source::Source;
+use cosfly_diagnose::{Diagnostic, Fault, Result};
+use cosfly_read::LoggedFrame;
+use schemars::JsonSchema;
+use serde::Deserialize;
+use std::collections::BTreeMap;
+use std::fs::File;
+use std::io::{BufWriter, Write};
+
+/// Shards of samples.
+pub struct WebDataset;
+
+/// Options of `webdataset`.
+#[derive(Clone, Debug, Deserialize, JsonSchema)]
+pub struct Options {
+    #[serde(flatten)]
+    pictures: PictureOptions,
+    #[serde(flatten)]
+    instructions: InstructionOptions,
+    /// Size from which on a new file begins, MB
+    #[serde(default = "shard_size")]
+    #[schemars(range(min = 1, max = 1_000_000), title = "MB")]
+    shard_size: u64,
+}
+
+fn shard_size() -> u64 {
+    300
+}
+
+impl Format for WebDataset {
+    const NAME: &'static str = "webdataset";
+    const DOC: &'static str = "WebDataset: tar shards of colours, depth, labels, ids and facts, a sample per frame";
+    type Options = Options;
+
+    fn write(options: &Options, source: &Source<'_>, out: &OutFolder) -> Result<Vec<String>> {
+        let keys = keys(source)?;
+        for split in source.splits() {
+            let mut shards = Shards { out, split, limit: options.shard_size * 1_000_000, number: 0, open: None };
+            source.each_flight_of(&|flight| flight.split == split, &mut |episode| {
+                let key = &keys[&episode.flight.trajectory_id];
+                let (flight, rows) = (episode.flight, &episode.frames[..]);
+                let text = episode.instruction(options.instructions.language);
+                episode.each_picture(
+                    &episode.every_nth_frame(options.pictures.every),
+                    |frame, logged| files(&logged, &frame_facts(flight, &rows[frame], frame, text)),
+                    |frame, files| shards.sample(&format!("{key}_{frame:06}"), &files),
+                )
+            })?;
+            shards.end()?;
+        }
+        Card { format: "WebDataset", front_matter: front_matter(source), body: BODY.into() }.write(source, out)?;
+        Ok(vec![])
+    }
+}
+
+/// Names of samples by trajectory id. They have no dots: readers cut a name at its first dot.
+fn keys(source: &Source<'_>) -> Result<BTreeMap<String, String>> {
+    let keys: BTreeMap<String, String> =
+        source.flights().map(|flight| (flight.trajectory_id.clone(), flight.trajectory_id.replace('.', "_"))).collect();
+    let mut taken: BTreeMap<&str, &str> = BTreeMap::new();
+    for (id, key) in &keys {
+        if let Some(other) = taken.insert(key, id) {
+            let message = format!("flights `{other}` and `{id}` would have the same samples: dots of names become `_`");
+            return Err(Diagnostic::new("export-names", Fault::Recipe, message)
+                .hint("export them one after the other with `--trajectory`"));
+        }
+    }
+    Ok(keys)
+}
+
+/// Endings and bytes of a sample.
+fn files(logged: &LoggedFrame, facts: &serde_json::Value) -> Result<Vec<(String, Vec<u8>)>> {
+    let size = [logged.width, logged.height];
+    Ok(vec![
+        (format!("rgb.{}", ending(&logged.rgb_format)), logged.rgb_file.clone()),
+        ("depth.png".into(), depth_png(&logged.depth_m, size)?),
+        ("semantic.png".into(), gray8_png(&logged.semantic, size)?),
+        ("instance.png".into(), gray16_png(logged.instance.iter().map(|id| id_in_16_bits(*id)), size)?),
+        ("json".into(), format!("{facts}\n").into_bytes()),
+    ])
+}
+
+/// The shards of a split, one of them open.
+struct Shards<'a> {
+    out: &'a OutFolder,
+    split: &'a str,
+    limit: u64,
+    number: usize,
+    open: Option<(tar::Builder<BufWriter<File>>, u64)>,
+}
+
+impl Shards<'_> {
+    fn name(&self) -> String {
+        format!("data/{}-{:05}.tar", self.split, self.number)
+    }
+
+    fn sample(&mut self, key: &str, files: &[(String, Vec<u8>)]) -> Result<()> {
+        if self.open.as_ref().is_some_and(|(_, bytes)| *bytes >= self.limit) {
+            self.end()?;
+            self.number += 1;
+        }
+        let (out, name) = (self.out, self.name());
+        if self.open.is_none() {
+            self.open = Some((tar::Builder::new(out.create(&name)?), 0));
+        }
+        let Some((builder, bytes)) = &mut self.open else { return Ok(()) };
+        for (ending, file) in files {
+            // Owner, time and permissions are the same everywhere.
+            let mut header = tar::Header::new_ustar();
+            header.set_size(file.len() as u64);
+            header.set_mode(0o644);
+            header.set_mtime(0);
+            let path = format!("{key}.{ending}");
+            builder.append_data(&mut header, path, &file[..]).map_err(|error| out.refusal(&name, &error))?;
+            *bytes += file.len() as u64;
+        }
+        Ok(())
+    }
+
+    fn end(&mut self) -> Result<()> {
+        let Some((builder, _)) = self.open.take() else { return Ok(()) };
+        let ended = builder.into_inner().and_then(|mut file| file.flush());
+        ended.map_err(|error| self.out.refusal(&self.name(), &error))
+    }
+}
+
+fn front_matter(source: &Source<'_>) -> String {
+    let mut text = String::from("configs:\n- config_name: default\n  data_files:\n");
+    for split in source.splits() {
+        text.push_str(&format!("  - split: {split}\n    path: data/{split}-*.tar\n"));
+    }
+    text
+}
+
+const BODY: &str = "\
+```python
+import webdataset, datasets
+samples = webdataset.WebDataset(\"data/train-00000.tar\").decode(\"pil\")
+rows = datasets.load_dataset(\".\", split=\"train\", streaming=True)
+```
+
+A sample is a frame; its key is the flight and the frame, with `_` for dots.
+
+| part | what |
+| --- | --- |
+| `rgb.jpg` or `rgb.png` | the colours, as in the dataset's log |
+| `depth.png` | 16 bits: centimetres along the optical axis, at most 65,534; 65,535 is the sky |
+| `semantic.png` | 8 bits: CARLA's labels |
+| `instance.png` | 16 bits: 0 ground and sky, 1 the target, then objects and people; ids from 65,536 on share those of others |
+| `json` | flight, frame, time, poses (m and degrees, CARLA's axes), target, boxes (left, top, right, bottom), instruction |
+";

@@ -1,0 +1,78 @@
+//! Options that several formats have: part of their structs with `#[serde(flatten)]`, so that they are the same in all.
+
+use cosfly_metrics::DeltaFrame;
+use schemars::JsonSchema;
+use serde::Deserialize;
+
+/// Pictures of some frames.
+#[derive(Clone, Debug, Deserialize, JsonSchema)]
+#[serde(default)]
+pub struct PictureOptions {
+    /// Distance from one picture to the next, frames
+    #[schemars(range(min = 1, max = 1_000_000))]
+    pub every: usize,
+}
+
+impl Default for PictureOptions {
+    fn default() -> Self {
+        Self { every: 1 }
+    }
+}
+
+/// Instructions.
+#[derive(Clone, Debug, Default, Deserialize, JsonSchema)]
+#[serde(default)]
+pub struct InstructionOptions {
+    /// Language of instructions
+    pub language: Language,
+}
+
+/// Language of instructions.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum Language {
+    /// English
+    #[default]
+    En,
+    /// Chinese
+    Zh,
+}
+
+impl Language {
+    /// Code of the language as captions have it.
+    pub fn code(self) -> &'static str {
+        match self {
+            Self::En => "en",
+            Self::Zh => "zh",
+        }
+    }
+}
+
+/// Increments from pose to pose.
+#[derive(Clone, Debug, Default, Deserialize, JsonSchema)]
+#[serde(default)]
+pub struct IncrementOptions {
+    /// Axes of increments
+    pub frame: Axes,
+}
+
+/// Axes of increments.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum Axes {
+    /// The world: x east, y south, z up
+    #[default]
+    World,
+    /// The body that moves: x ahead, y right, z up
+    Body,
+}
+
+impl IncrementOptions {
+    /// The axes as the metrics know them.
+    pub fn delta_frame(&self) -> DeltaFrame {
+        match self.frame {
+            Axes::World => DeltaFrame::World,
+            Axes::Body => DeltaFrame::Body,
+        }
+    }
+}

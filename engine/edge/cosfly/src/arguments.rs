@@ -1,0 +1,48 @@
+//! Arguments that several commands have: the recipe, the store, values in a range.
+
+use crate::command::Refusals;
+use clap::Args;
+use clap::builder::TypedValueParser;
+use cosfly_recipe::Recipe;
+use std::path::PathBuf;
+
+/// A recipe with changes to it.
+#[derive(Args, Clone, Debug)]
+pub struct RecipeArguments {
+    /// The recipe (TOML)
+    #[arg(value_name = "RECIPE")]
+    pub recipe: PathBuf,
+    /// Change a value of the recipe, such as stages.expert.weights.visibility=5 (repeatable)
+    #[arg(long = "set", value_name = "PATH=VALUE")]
+    pub overrides: Vec<String>,
+}
+
+impl RecipeArguments {
+    /// The checked recipe with its changes.
+    ///
+    /// # Errors
+    /// All errors of the recipe.
+    pub fn load(&self) -> Result<Recipe, Refusals> {
+        Ok(cosfly_recipe::load(&self.recipe, &self.overrides, &cosfly_stages::registry())?)
+    }
+}
+
+/// Place of the store.
+#[derive(Args, Clone, Debug)]
+pub struct StoreArguments {
+    /// Folder of the store [default: $COSFLY_STORE, else .cosfly in the current folder]
+    #[arg(long, value_name = "DIR", env = "COSFLY_STORE", hide_env = true)]
+    pub store: Option<PathBuf>,
+}
+
+impl StoreArguments {
+    /// The store's folder.
+    pub fn folder(&self) -> PathBuf {
+        self.store.clone().unwrap_or_else(|| PathBuf::from(".cosfly"))
+    }
+}
+
+/// Whole numbers from 1 to a million.
+pub fn count() -> impl TypedValueParser<Value = usize> {
+    clap::value_parser!(u64).range(1..=1_000_000).map(|count| count as usize)
+}

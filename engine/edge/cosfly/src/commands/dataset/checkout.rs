@@ -1,0 +1,38 @@
+//! `cosfly dataset checkout`: a named version as a folder.
+
+use crate::arguments::StoreArguments;
+use crate::command::{Command, Outcome};
+use crate::exit;
+use crate::output::print;
+use crate::text::{bytes, count};
+use clap::Parser;
+use cosfly_store::{Store, check_out_folder, materialise};
+use cosfly_versions::shelf;
+use std::path::PathBuf;
+
+/// Write a named version into a folder, byte by byte as it was
+#[derive(Debug, Parser)]
+#[command(name = "checkout", after_help = "Example:\n  cosfly dataset checkout v1.0.0 --out out/v1")]
+pub struct Arguments {
+    /// Name of the version
+    #[arg(value_name = "NAME")]
+    name: String,
+    /// Folder for the dataset
+    #[arg(long, value_name = "DIR")]
+    out: PathBuf,
+    #[command(flatten)]
+    store: StoreArguments,
+}
+
+impl Command for Arguments {
+    fn run(&self) -> Outcome {
+        let root = self.store.folder();
+        let version = shelf::get(&root, &self.name)?;
+        check_out_folder(&root, &self.out)?;
+        let folder = materialise(&Store::open(&root)?, &version.files, &self.out)?;
+        let state = if folder.changed { "" } else { " (unchanged)" };
+        let (files, size) = (count(folder.files, "file"), bytes(folder.bytes));
+        print(&format!("{} in {files} of {size}{state}\n", self.out.display()))?;
+        Ok(exit::SUCCESS)
+    }
+}

@@ -1,0 +1,102 @@
+//! `cosfly dataset lint`: leaks between the splits of one or several datasets.
+
+use crate::command::{Command, Outcome};
+use crate::exit;
+use crate::output::print;
+use crate::text::count;
+use clap::Parser;
+use cosfly_diagnose::{Diagnostic, Fault, Result};
+use cosfly_splits::policy::SplitPolicy;
+use cosfly_splits::{FlightFacts, LintRules, facts_of_dataset, lint};
+use std::collections::BTreeMap;
+use std::fmt::Write;
+use std::path::{Path, PathBuf};
+
+/// Look for leaks between the splits of one or several datasets, and name the pairs
+#[derive(Debug, Parser)]
+#[command(
+    name = "lint",
+    after_help = "\
+Examples:
+  cosfly dataset lint out/carla_town
+  cosfly dataset lint out/Town01 out/Town02_Opt --by-town   no place may be in two splits, whatever it is called
+
+A leak is a town with the same ground plan under two names, a pedestrian or a pair of twins in two splits, a walk that repeats
+another one, or two equal windows. Each finding names both flights and both splits. Exits with 1 when there is a leak."
+)]
+pub struct Arguments {
+    /// Folders of finished datasets, judged as one dataset
+    #[arg(required = true, value_name = "DIR")]
+    dirs: Vec<PathBuf>,
+    /// A town must be in one split only, so that `val` and `test` show unseen towns
+    #[arg(long)]
+    by_town: bool,
+    /// Share of a walk that a walk of another split may repeat [default: the rule of the first dataset]
+    #[arg(long, value_name = "SHARE")]
+    max_route_overlap: Option<f64>,
+}
+
+impl Command for Arguments {
+    fn run(&self) -> Outcome {
+        let policies = self.dirs.iter().map(|dir| policy(dir)).collect::<Result<Vec<_>>>()?;
+        let rules = LintRules {
+            max_route_overlap: match self.max_route_overlap {
+                Some(share) if (0.0..=1.0).contains(&share) => share,
+                Some(share) => return Err(out_of_range(share).into()),
+                None => policies.first().map_or(0.5, |policy| policy.splits.max_route_overlap),
+            },
+            by_town: self.by_town || policies.iter().all(|policy| policy.rules().by_town),
+        };
+        let window = policies.first().map_or(10, |policy| policy.windows.shape().size());
+        let mut facts = vec![];
+        for (number, dir) in self.dirs.iter().enumerate() {
+            facts.extend(facts_of_dataset(dir, number, window)?);
+        }
+        let leaks = lint(&facts, &rules);
+        let mut text = String::new();
+        for leak in &leaks.kept {
+            let _ = writeln!(text, "{leak}");
+        }
+        if leaks.found > leaks.kept.len() {
+            let _ = writeln!(text, "... and {} more", leaks.found - leaks.kept.len());
+        }
+        text += &compared(&facts, &rules);
+        let _ = match leaks.found {
+            0 => writeln!(text, "no leak was found"),
+            found => writeln!(text, "{} found", count(found as u64, "leak")),
+        };
+        print(&text)?;
+        Ok(if leaks.found == 0 { exit::SUCCESS } else { exit::FOUND_PROBLEMS })
+    }
+}
+
+fn policy(dir: &Path) -> Result<SplitPolicy> {
+    SplitPolicy::of_dataset(dir).map_err(|message| {
+        let file = dir.join(cosfly_splits::policy::FILE);
+        Diagnostic::new("dataset-damaged", Fault::Input, format!("`{}` cannot be read", file.display()))
+            .because(message)
+    })
+}
+
+fn out_of_range(share: f64) -> Box<Diagnostic> {
+    let message = format!("`--max-route-overlap` is `{share}`; it must be from 0 to 1");
+    Diagnostic::new("dataset-lint-share", Fault::Recipe, message)
+}
+
+/// Numbers of flights by town and split.
+fn compared(facts: &[FlightFacts], rules: &LintRules) -> String {
+    let mut text = String::new();
+    let mut towns: BTreeMap<(&str, &str), BTreeMap<&str, u64>> = BTreeMap::new();
+    for it in facts {
+        *towns.entry((&it.town, it.layout.short())).or_default().entry(&it.split).or_default() += 1;
+    }
+    for ((town, layout), splits) in towns {
+        let splits: Vec<String> =
+            splits.iter().map(|(split, flights)| format!("{} in `{split}`", count(*flights, "flight"))).collect();
+        let _ = writeln!(text, "town `{town}` (ground plan {layout}): {}", splits.join(", "));
+    }
+    let places = if rules.by_town { "one split per town" } else { "towns may be in all splits" };
+    let _ =
+        writeln!(text, "rules: walks repeat at most {:.0} % of each other; {places}", 100.0 * rules.max_route_overlap);
+    text
+}

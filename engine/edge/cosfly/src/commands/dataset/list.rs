@@ -1,0 +1,25 @@
+//! `cosfly dataset list`: the named versions of a store.
+
+use super::version_line::line;
+use crate::arguments::StoreArguments;
+use crate::command::{Command, Outcome};
+use crate::exit;
+use crate::output::print;
+use clap::Parser;
+use cosfly_versions::shelf;
+
+/// List the named versions
+#[derive(Debug, Parser)]
+#[command(name = "list")]
+pub struct Arguments {
+    #[command(flatten)]
+    store: StoreArguments,
+}
+
+impl Command for Arguments {
+    fn run(&self) -> Outcome {
+        let text: String = shelf::all(&self.store.folder())?.iter().map(line).collect();
+        print(if text.is_empty() { "no version has a name yet: `cosfly dataset tag NAME RECIPE`\n" } else { &text })?;
+        Ok(exit::SUCCESS)
+    }
+}

@@ -1,0 +1,245 @@
+//! `cosfly eval`: scores of predictions on a dataset, of waypoints beside baselines, or of pictures.
+
+mod choices;
+
+use crate::arguments::count;
+use crate::command::{Command, Outcome};
+use crate::exit;
+use crate::output::print;
+use choices::{AnchorChoice, FrameChoice, KindChoice, OriginChoice, RoleChoice};
+use clap::{Args, Parser};
+use cosfly_diagnose::{Diagnostic, Result};
+use cosfly_evaluate::pictures::{self, PictureKind, PictureSettings};
+use cosfly_evaluate::windows::Flights;
+use cosfly_evaluate::{Evaluation, Settings, evaluate, name_of};
+use cosfly_metrics::WindowShape;
+use cosfly_read::PublishedDataset;
+use cosfly_read::predictions;
+use std::ffi::OsString;
+use std::path::{Path, PathBuf};
+
+/// Score a model's predictions on a finished dataset: waypoints (beside baselines), depth, labels, boxes, masks
+#[derive(Debug, Parser)]
+#[command(
+    name = "eval",
+    after_help = "\
+Examples:
+  cosfly eval predictions.jsonl --dataset out/carla_town
+  cosfly eval predictions.parquet --dataset out/carla_town --split test --out scores
+  cosfly eval answers.jsonl --dataset out/carla_town --frame body --missing-as-zero
+  cosfly eval depth-of-my-model --dataset out/carla_town                        a folder of PNG or .npy files
+  cosfly eval results.json --dataset out/carla_town --images out/coco/annotations/instances_val.json
+  cosfly eval --dataset out/carla_town                                          the baselines alone
+
+A line of predictions is like
+  {\"trajectory_id\": \"perturbed-p00000\", \"frame\": 3, \"waypoint_deltas\": [[0.5, 0, 0, 0, 2, 0], ... five in all]}
+with the first frame of a window (0, 3, 6, ...) and, per waypoint, dx, dy, dz (m), dpitch, dyaw, droll (degrees) as an
+array or an object; a missing dimension counts as 0. Instead of `waypoint_deltas`, `text` may hold what a model wrote:
+text before `</think>` is dropped, and a JSON object in the rest has `waypoint_deltas`. Optional `boxes` are the target's
+boxes in the waypoints' frames. Parquet has the same columns.
+
+Pictures: the name of a file ends in the number of its frame, in a folder with the name of the trajectory, as
+in `cosfly export --format imagefolder`: .../perturbed-p00000/000/000012.png. Depth is 16-bit PNG (centimetres unless
+`--depth-per-metre` says otherwise; 65535 is the sky) or .npy (metres); labels are 8-bit PNG of CARLA's ids. Boxes and
+masks are COCO results: an array, or lines, of
+  {\"image_id\": 7, \"category_id\": 12, \"bbox\": [left, top, width, height], \"score\": 0.9}
+where `trajectory_id` and `frame` may stand instead of `image_id`, and `segmentation` (run lengths) makes masks.
+
+Rows and files that cannot be scored are counted and named; the exit code is then 1, and 4 when none fits."
+)]
+pub struct Arguments {
+    /// Predictions: of waypoints JSON lines or Parquet, of depth or labels a folder of pictures, of boxes or masks COCO
+    /// results [default: none, the baselines alone]
+    #[arg(value_name = "PREDICTIONS")]
+    predictions: Option<PathBuf>,
+    /// Folder of the dataset that `cosfly run` delivered
+    #[arg(long, value_name = "DIR")]
+    dataset: PathBuf,
+    /// Folder for report.md, report.json and errors.svg [default: <PREDICTIONS>-evaluation]
+    #[arg(long, value_name = "DIR")]
+    out: Option<PathBuf>,
+    /// Kind of predictions [default: found from the file or folder]
+    #[arg(long, value_enum)]
+    kind: Option<KindChoice>,
+    /// Splits to score (repeatable) [default: those of the predicted flights; without predictions, all but train]
+    #[arg(long = "split", value_name = "NAME")]
+    splits: Vec<String>,
+    /// Axes of the increments: those of the world, or of the body that moves (x ahead, y right, z up)
+    #[arg(long, value_enum, default_value_t = FrameChoice::World)]
+    frame: FrameChoice,
+    /// Pose that each increment starts from: the waypoint before, or the current pose for all
+    #[arg(long, value_enum, default_value_t = OriginChoice::Previous)]
+    from: OriginChoice,
+    /// Pose that the first increment starts from: the last one of the input, or the expert's in the same frame
+    #[arg(long, value_enum, default_value_t = AnchorChoice::Input)]
+    anchor: AnchorChoice,
+    /// Flights that models see
+    #[arg(long, value_enum, default_value_t = RoleChoice::Perturbed)]
+    input: RoleChoice,
+    /// Frames that a model sees
+    #[arg(long, value_name = "N", default_value_t = 5, value_parser = count())]
+    history: usize,
+    /// Waypoints that a model predicts
+    #[arg(long, value_name = "N", default_value_t = 5, value_parser = count())]
+    horizon: usize,
+    /// Distance from one window to the next, frames
+    #[arg(long, value_name = "N", default_value_t = 3, value_parser = count())]
+    stride: usize,
+    /// Score windows without a prediction as if all increments were zero, instead of leaving them out
+    #[arg(long)]
+    missing_as_zero: bool,
+    /// Number of resamples of an interval
+    #[arg(long, value_name = "N", default_value_t = 1000, value_parser = count())]
+    resamples: usize,
+    /// Seed of the resamples
+    #[arg(long, value_name = "N", default_value_t = 1)]
+    seed: u64,
+    /// Print the report as JSON
+    #[arg(long)]
+    json: bool,
+    #[command(flatten)]
+    pictures: PictureArguments,
+}
+
+impl Command for Arguments {
+    fn run(&self) -> Outcome {
+        let reports = reports(self)?;
+        let folder = folder(self);
+        write(&folder, &reports)?;
+        if self.json {
+            print(&reports.json)?;
+        } else {
+            let text = &reports.markdown;
+            print(&format!("{text}\nwritten to {}: report.md, report.json, errors.svg\n", folder.display()))?;
+        }
+        Ok(if reports.has_malformed { exit::FOUND_PROBLEMS } else { exit::SUCCESS })
+    }
+}
+
+/// Options of `eval` for pictures.
+#[derive(Args, Debug)]
+#[command(next_help_heading = "Options for depth, labels, boxes and masks")]
+struct PictureArguments {
+    /// Distance from one prediction to the next, frames
+    #[arg(long, value_name = "N", default_value_t = 1, value_parser = count())]
+    every: usize,
+    /// Units per metre in depth pictures of whole numbers: 100 as `cosfly export` writes them, 1000 for millimetres
+    #[arg(long, value_name = "NUMBER", default_value_t = 100.0, value_parser = positive)]
+    depth_per_metre: f64,
+    /// Largest true depth of a pixel that counts, metres
+    #[arg(long, value_name = "METRES", default_value_t = 80.0, value_parser = positive)]
+    max_depth: f64,
+    /// Classes to score, such as 12 for pedestrians (repeatable) [default: all]
+    #[arg(long = "category", value_name = "ID", value_parser = clap::value_parser!(u8).range(0..=28))]
+    categories: Vec<u8>,
+    /// Frames of the `image_id`s: annotations/instances_<split>.json of `cosfly export --format coco`
+    #[arg(long, value_name = "FILE")]
+    images: Option<PathBuf>,
+}
+
+/// A number above 0.
+fn positive(text: &str) -> Result<f64, String> {
+    let number: f64 = text.parse().map_err(|_| format!("`{text}` is not a number"))?;
+    if number.is_finite() && number > 0.0 { Ok(number) } else { Err(format!("`{text}` is not more than 0")) }
+}
+
+/// A report in three forms.
+struct Reports {
+    markdown: String,
+    json: String,
+    svg: String,
+    has_malformed: bool,
+}
+
+fn reports(arguments: &Arguments) -> Result<Reports> {
+    if let Some((path, kind)) = picture_kind(arguments)? {
+        let dataset = PublishedDataset::open(&arguments.dataset)?;
+        let flights = Flights::read(&dataset)?;
+        let found = pictures::evaluate(&dataset, &flights, path, &picture_settings(kind, arguments))?;
+        let has_malformed = found.files.malformed > 0;
+        return Ok(Reports {
+            markdown: found.to_markdown(),
+            json: found.to_json(),
+            svg: found.to_svg(),
+            has_malformed,
+        });
+    }
+    let found = evaluation(arguments)?;
+    let has_malformed = found.rows.as_ref().is_some_and(|rows| rows.malformed > 0);
+    Ok(Reports { markdown: found.to_markdown(), json: found.to_json(), svg: found.to_svg(), has_malformed })
+}
+
+/// The kind that was asked for, or that the predictions look like; none for waypoints.
+fn picture_kind(arguments: &Arguments) -> Result<Option<(&Path, PictureKind)>> {
+    let Some(path) = arguments.predictions.as_deref() else { return Ok(None) };
+    let kind = match arguments.kind {
+        Some(kind) => kind.of_pictures(),
+        None => pictures::recognise(path)?,
+    };
+    Ok(kind.map(|kind| (path, kind)))
+}
+
+fn picture_settings(kind: PictureKind, arguments: &Arguments) -> PictureSettings {
+    let of_pictures = &arguments.pictures;
+    PictureSettings {
+        splits: arguments.splits.clone(),
+        every: of_pictures.every,
+        max_depth_m: of_pictures.max_depth,
+        depth_per_metre: of_pictures.depth_per_metre,
+        categories: of_pictures.categories.clone(),
+        images: of_pictures.images.clone(),
+        resamples: arguments.resamples,
+        seed: arguments.seed,
+        ..PictureSettings::new(kind)
+    }
+}
+
+fn evaluation(arguments: &Arguments) -> Result<Evaluation> {
+    // Both take seconds when they are large.
+    let (flights, given) = std::thread::scope(|scope| {
+        let reader = scope.spawn(|| PublishedDataset::open(&arguments.dataset).and_then(|it| Flights::read(&it)));
+        let given =
+            arguments.predictions.as_deref().map(|path| predictions::read(path).map(|rows| (name_of(path), rows)));
+        (reader.join().unwrap_or_else(|panic| std::panic::resume_unwind(panic)), given.transpose())
+    });
+    let (flights, given) = (flights?, given?);
+    let (name, rows) = given.unzip();
+    evaluate(&flights, name.as_deref().zip(rows), &settings(arguments))
+}
+
+fn settings(arguments: &Arguments) -> Settings {
+    Settings {
+        window: WindowShape { history: arguments.history, horizon: arguments.horizon, stride: arguments.stride },
+        delta_frame: arguments.frame.into(),
+        delta_origin: arguments.from.into(),
+        anchor: arguments.anchor.into(),
+        input: arguments.input.into(),
+        splits: arguments.splits.clone(),
+        missing_as_zero: arguments.missing_as_zero,
+        resamples: arguments.resamples,
+        seed: arguments.seed,
+    }
+}
+
+/// Beside the predictions, or beside the dataset when there are none.
+fn folder(arguments: &Arguments) -> PathBuf {
+    if let Some(out) = &arguments.out {
+        return out.clone();
+    }
+    let beside = arguments.predictions.as_deref().map_or(arguments.dataset.as_path(), |path| path);
+    let stem = if arguments.predictions.is_some() { beside.file_stem() } else { beside.file_name() };
+    let mut name = stem.map_or_else(|| OsString::from("baselines"), OsString::from);
+    name.push("-evaluation");
+    beside.with_file_name(name)
+}
+
+fn write(folder: &Path, reports: &Reports) -> Result<()> {
+    let refused = |path: &Path, error: &std::io::Error| Diagnostic::io(format!("write `{}`", path.display()), error);
+    std::fs::create_dir_all(folder).map_err(|error| refused(folder, &error))?;
+    for (name, text) in [("report.md", &reports.markdown), ("report.json", &reports.json), ("errors.svg", &reports.svg)]
+    {
+        let path = folder.join(name);
+        std::fs::write(&path, text).map_err(|error| refused(&path, &error))?;
+    }
+    Ok(())
+}

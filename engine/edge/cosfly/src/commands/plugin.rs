@@ -1,0 +1,19 @@
+//! `cosfly plugin`: begin, check and measure plugins; one file per command.
+
+use super::{plugin_bench, plugin_check, plugin_new};
+use crate::command::{Entry, dispatch, with_commands};
+
+/// The commands, sorted by name.
+const COMMANDS: &[Entry] = &[
+    Entry::of::<plugin_bench::Arguments>(),
+    Entry::of::<plugin_check::Arguments>(),
+    Entry::of::<plugin_new::Arguments>(),
+];
+
+/// The group.
+pub const PLUGIN: Entry = Entry { command: group, run: |matches| dispatch(COMMANDS, matches) };
+
+fn group() -> clap::Command {
+    let about = "Begin, check and measure plugins: cost terms, objectives and stages of your own";
+    with_commands(clap::Command::new("plugin").about(about), COMMANDS)
+}

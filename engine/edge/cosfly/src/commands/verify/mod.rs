@@ -1,0 +1,113 @@
+//! `cosfly verify`: checks a finished dataset.
+
+mod regenerate;
+
+use crate::arguments::StoreArguments;
+use crate::command::{Command, Outcome, Refusals};
+use crate::exit;
+use crate::output::print;
+use crate::progress::Bar;
+use crate::text::{bytes, count};
+use clap::Parser;
+use cosfly_recipe::Recipe;
+use cosfly_verify::VerifyReport;
+use regenerate::{recipe_of_version, regenerated};
+use std::fmt::Write;
+use std::path::PathBuf;
+
+/// Check a finished dataset: hashes, counts, CRCs, schemas, reprojection, action and pose
+#[derive(Debug, Parser)]
+#[command(
+    name = "verify",
+    after_help = "\
+Examples:
+  cosfly verify out/carla_town
+  cosfly verify out/carla_town --regenerate 2 --recipe recipes/carla_town.toml
+
+Exits with 1 when something is wrong."
+)]
+pub struct Arguments {
+    /// Folder of the dataset
+    #[arg(value_name = "DIR")]
+    dir: PathBuf,
+    /// Number of flights to make again from the recipe, in an empty store, and to compare byte by byte
+    #[arg(long, value_name = "N")]
+    regenerate: Option<u16>,
+    /// The recipe for `--regenerate` [default: the recipe of the named version that has these files]
+    #[arg(long, value_name = "RECIPE", requires = "regenerate")]
+    recipe: Option<PathBuf>,
+    /// Change a value of the recipe (repeatable)
+    #[arg(long = "set", value_name = "PATH=VALUE", requires = "recipe")]
+    overrides: Vec<String>,
+    #[command(flatten)]
+    store: StoreArguments,
+}
+
+impl Command for Arguments {
+    fn run(&self) -> Outcome {
+        let bar = Bar::new("verify", "flights");
+        let report = cosfly_verify::verify(&self.dir, &mut |done, all| bar.show(done, all))?;
+        drop(bar);
+        let mut text = told(&report);
+        let mut wrong = 0;
+        if let Some(number) = self.regenerate {
+            let (more, found) = regenerated(&self.dir, usize::from(number), &self.recipe()?)?;
+            text += &more;
+            wrong = found;
+        }
+        print(&text)?;
+        Ok(if report.is_sound() && wrong == 0 { exit::SUCCESS } else { exit::FOUND_PROBLEMS })
+    }
+}
+
+impl Arguments {
+    /// The given recipe, else that of the named version.
+    fn recipe(&self) -> Result<Recipe, Refusals> {
+        match &self.recipe {
+            Some(path) => Ok(cosfly_recipe::load(path, &self.overrides, &cosfly_stages::registry())?),
+            None => recipe_of_version(&self.dir, &self.store.folder()),
+        }
+    }
+}
+
+/// One line per finding, the size of the dataset, and a verdict.
+fn told(report: &VerifyReport) -> String {
+    let mut text = String::new();
+    for finding in &report.findings {
+        let _ = writeln!(text, "{finding}");
+    }
+    let hidden = report.found - report.findings.len() as u64;
+    if hidden > 0 {
+        let _ = writeln!(text, "... and {hidden} more");
+    }
+    let _ = writeln!(
+        text,
+        "checked {} of {}, {} with {}, {}",
+        count(report.files, "file"),
+        bytes(report.bytes),
+        count(report.flights, "flight"),
+        count(report.frames, "frame"),
+        count(report.boxes, "target box").replace("boxs", "boxes"),
+    );
+    if report.labels > 0 {
+        let _ = writeln!(
+            text,
+            "visible shares by rays and by pixels agree within 5 points in {} of {}{}",
+            report.labels - report.gaps,
+            count(report.labels, "frame"),
+            if report.gaps > 0 { "; not in these:" } else { "" }
+        );
+    }
+    for gap in &report.label_gaps {
+        let _ = writeln!(text, "  {gap}");
+    }
+    let hidden = report.gaps - report.label_gaps.len() as u64;
+    if hidden > 0 {
+        let _ = writeln!(text, "  ... and {hidden} more");
+    }
+    let _ = match report.found {
+        0 => writeln!(text, "nothing wrong was found"),
+        found => writeln!(text, "{} found", count(found, "problem")),
+    };
+    text
+}

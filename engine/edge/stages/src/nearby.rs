@@ -1,0 +1,243 @@
+//! Part `nearby` of a `render` stage: the people who may appear in the pictures of a flight, or throw a shadow into them. An
+//! item of its own per film, so that one more walker films nothing anew where that walker is never in view.
+
+use crate::memo::Memo;
+use crate::ports::{self, NEARBY, TRAJECTORY, WALK};
+use crate::shooting::Shooting;
+use crate::walks::Person;
+use crate::world::{TOWN_BLOB, World, check_same_town, world};
+use crate::{body_rays, codec};
+use cosfly_blobs::OutputSink;
+use cosfly_diagnose::{Diagnostic, Fault, Result};
+use cosfly_frames::Pose;
+use cosfly_pedestrians::PedestrianPath;
+use cosfly_planner::{PlanOutcome, Trajectory};
+use cosfly_render::effects::pose_at;
+use cosfly_render::frame::{TARGET_INSTANCE, object_instance};
+use cosfly_render::{Buildings, Camera, Outlook, RenderConfig};
+use cosfly_stage::{
+    Artifact, InputPort, Inputs, ItemRule, PortSource, Produced, Stage, StagePart, StageProperties, TaskContext,
+};
+use serde::{Deserialize, Serialize};
+use std::collections::BTreeMap;
+use std::sync::Arc;
+
+/// Name of the part and of the port that reads it.
+pub const NAME: &str = "nearby";
+/// Blob of an item with its [`NearbyPerson`]s.
+const PEOPLE: &str = "people";
+
+/// A person who is near a flight.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub struct NearbyPerson {
+    /// Id in instance images (see [`instance_of`]).
+    pub instance: u32,
+    /// Stage and item of the walk, such as `crowd-p00003`.
+    pub walk_id: String,
+}
+
+/// The part of a stage that renders as `config` says, with the same `items`.
+pub fn part(config: &RenderConfig, parameters: serde_json::Value, items: ItemRule) -> StagePart {
+    let properties = StageProperties {
+        kind: "render".into(),
+        version: 1,
+        parameters,
+        sources: vec![],
+        inputs: vec![ports::town(), trajectories(), others()],
+        artifact: NEARBY,
+        items,
+        bytes_per_item: 2_000,
+    };
+    let stage = NearbyStage { config: config.clone(), properties, buildings: Memo::default() };
+    StagePart { suffix: NAME, stage: Box::new(stage) }
+}
+
+/// Port of the people who are about.
+pub fn others() -> InputPort {
+    let doc = "Walks of other people who are about while the camera flies; nobody else, when left out.";
+    ports::gather("others", WALK, true, doc)
+}
+
+/// Port of the trajectories.
+pub fn trajectories() -> InputPort {
+    ports::each("trajectories", TRAJECTORY, true, "The trajectories to fly the camera along.")
+}
+
+/// Port through which the stage reads its part.
+pub fn port() -> InputPort {
+    let doc = "The people who are near: the part of the same stage.";
+    InputPort { optional: true, source: PortSource::Sibling(NAME), ..ports::each(NAME, NEARBY, false, doc) }
+}
+
+/// People of an item, by instance id.
+pub fn people(inputs: &Inputs<'_>, artifact: &Artifact) -> Result<Vec<NearbyPerson>> {
+    codec::decode(NEARBY, &inputs.read(artifact, PEOPLE)?)
+}
+
+/// Name of the blob of an item that holds the walk of a person.
+pub fn walk_blob(walk_id: &str) -> String {
+    format!("walk-{walk_id}")
+}
+
+/// Walk in a blob of an artifact.
+pub fn walk(inputs: &Inputs<'_>, artifact: &Artifact, blob: &str) -> Result<Arc<PedestrianPath>> {
+    inputs.decoded(artifact, blob, |bytes| codec::decode::<PedestrianPath>(WALK, bytes))
+}
+
+struct NearbyStage {
+    config: RenderConfig,
+    properties: StageProperties,
+    buildings: Memo<Buildings>,
+}
+
+impl Stage for NearbyStage {
+    fn properties(&self) -> &StageProperties {
+        &self.properties
+    }
+
+    fn run(&self, inputs: &Inputs<'_>, outputs: &mut dyn OutputSink, context: &TaskContext) -> Result<Produced> {
+        check_same_town(inputs, "trajectories")?;
+        check_same_town(inputs, "others")?;
+        let outcome: PlanOutcome = codec::decode(TRAJECTORY, &inputs.read(inputs.one("trajectories")?, "trajectory")?)?;
+        let PlanOutcome::Planned(trajectory) = outcome else {
+            outputs.put(PEOPLE, &codec::encode(NEARBY, &Vec::<NearbyPerson>::new())?)?;
+            return Ok(Produced::default());
+        };
+        let world = world(inputs)?;
+        let (candidates, left_out) = candidates(inputs, &world, &trajectory)?;
+        let about = candidates.len();
+        let buildings = self
+            .buildings
+            .get(inputs.one("town")?.blobs[TOWN_BLOB].digest, || -> Result<_> { Ok(Buildings::of(&world.town)) })?;
+        let scenery = Scenery { buildings: &buildings, lowest_m: world.town.min_in_world.z };
+        let mut near = self.near(context, &scenery, &trajectory, candidates)?;
+        near.sort_by_key(|candidate| candidate.instance);
+        for Candidate { artifact, .. } in &near {
+            outputs.link(&walk_blob(&artifact.name.to_string()), artifact.blobs["walk"])?;
+        }
+        let people: Vec<NearbyPerson> = near.iter().map(Candidate::named).collect();
+        outputs.put(PEOPLE, &codec::encode(NEARBY, &people)?)?;
+        let words =
+            format!("{} of {about} near, {left_out} left out: they would walk through the target", people.len());
+        Ok(Produced { notes: BTreeMap::from([("others".to_owned(), words)]), ..Produced::default() })
+    }
+}
+
+/// Parts of a town that hide people.
+struct Scenery<'a> {
+    buildings: &'a Buildings,
+    /// Height below which there is nothing to be seen, metres.
+    lowest_m: f64,
+}
+
+/// A person who may be near.
+struct Candidate<'a> {
+    instance: u32,
+    artifact: &'a Artifact,
+    person: Person,
+}
+
+impl Candidate<'_> {
+    fn named(&self) -> NearbyPerson {
+        NearbyPerson { instance: self.instance, walk_id: self.artifact.name.to_string() }
+    }
+}
+
+/// Everybody at port `others` but the target and those who would walk through it; and the number of the latter.
+fn candidates<'a>(
+    inputs: &'a Inputs<'_>,
+    world: &World,
+    trajectory: &Trajectory,
+) -> Result<(Vec<Candidate<'a>>, usize)> {
+    let objects = world.town.obstacles.iter().map(|obstacle| object_instance(obstacle.object_id));
+    let largest_object = objects.max().unwrap_or(TARGET_INSTANCE);
+    let (mut candidates, mut left_out) = (vec![], 0);
+    for (stage, artifacts) in inputs.all("others").chunk_by(|a, b| a.id.stage == b.id.stage).enumerate() {
+        for (item, artifact) in artifacts.iter().enumerate() {
+            let walk = walk(inputs, artifact, "walk")?;
+            let track = &walk.track;
+            if track.is_empty() || !(track.dt_s > 0.0 && track.dt_s.is_finite()) {
+                let message = format!("the walk `{}` has no steps", artifact.name);
+                return Err(Diagnostic::new("crowd-walk", Fault::Input, message));
+            }
+            if track.states == trajectory.track.states {
+                continue;
+            }
+            let instance = instance_of(stage, item).and_then(|number| largest_object.checked_add(number));
+            let instance = instance.ok_or_else(|| too_many(artifact))?;
+            let person = Person::on(walk)?;
+            if person.meets(&trajectory.track) {
+                left_out += 1;
+            } else {
+                candidates.push(Candidate { instance, artifact, person });
+            }
+        }
+    }
+    Ok((candidates, left_out))
+}
+
+/// Instance id of a person, counted after the ids of objects: a number that no other person has, and that depends on the
+/// places of the stage at the port and of the item in the stage alone. More people, and stages that are added at the end,
+/// change no id: the first stage has every second number, the next one every second of the rest, and so on. `None` beyond
+/// 32 bits.
+fn instance_of(stage: usize, item: usize) -> Option<u32> {
+    let odd = u32::try_from(item).ok()?.checked_mul(2)?.checked_add(1)?;
+    odd.checked_mul(1u32.checked_shl(u32::try_from(stage).ok()?)?)
+}
+
+fn too_many(artifact: &Artifact) -> Box<Diagnostic> {
+    let message = format!("there is no instance id left for `{}`", artifact.id);
+    Diagnostic::new("crowd-large", Fault::Recipe, message)
+        .hint("connect fewer stages to `inputs.others`, with fewer people in the last ones")
+}
+
+impl NearbyStage {
+    /// The candidates who may change a pixel or a label of a frame: the renderer draws them or their shadows, or they stand
+    /// between camera and target; and no building hides them.
+    fn near<'a>(
+        &self,
+        context: &TaskContext,
+        scenery: &Scenery<'_>,
+        trajectory: &Trajectory,
+        mut others: Vec<Candidate<'a>>,
+    ) -> Result<Vec<Candidate<'a>>> {
+        let shooting = Shooting::of(&self.config, trajectory, &context.id.item)?;
+        let effects = self.config.effects(shooting.camera);
+        let (camera, moments_s): (Camera, Vec<f64>) = (effects.ideal_camera(), effects.moments_s());
+        let poses: Vec<Pose> = shooting.poses(trajectory);
+        let track = &trajectory.track;
+        let mut near = vec![];
+        for (frame, target) in track.states.iter().enumerate() {
+            context.check_cancelled()?;
+            let target_in_world = body_rays::middle(target.feet_in_world, track.height_m);
+            for offset_s in &moments_s {
+                let pose = pose_at(&poses, frame as f64 + offset_s / track.dt_s);
+                let outlook = Outlook::new(&camera, &shooting.weather, &pose);
+                let eye_in_world = pose.position_in_world;
+                let matters = |other: &mut Candidate<'_>| {
+                    let walker = other.person.walker(frame as f64 * track.dt_s + offset_s);
+                    (outlook.may_show(&walker) || body_rays::is_before(&walker, eye_in_world, target_in_world))
+                        && !scenery.buildings.hide(eye_in_world, &outlook.hull(&walker, scenery.lowest_m))
+                };
+                near.extend(others.extract_if(.., matters));
+            }
+        }
+        Ok(near)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use std::collections::BTreeSet;
+
+    #[test]
+    fn ids_of_people_differ_and_do_not_depend_on_how_many_there_are() {
+        let ids: BTreeSet<u32> =
+            (0..6).flat_map(|stage| (0..300).map(move |item| instance_of(stage, item).unwrap())).collect();
+        assert_eq!((ids.len(), ids.first()), (1800, Some(&1)));
+        assert_eq!([0, 1, 2].map(|item| instance_of(0, item)), [Some(1), Some(3), Some(5)]);
+        assert_eq!([0, 1, 2].map(|item| instance_of(1, item)), [Some(2), Some(6), Some(10)]);
+        assert_eq!((instance_of(31, 0), instance_of(31, 1), instance_of(32, 0)), (Some(1 << 31), None, None));
+    }
+}

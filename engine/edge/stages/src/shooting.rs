@@ -1,0 +1,44 @@
+//! Settings that all frames of a flight share: camera, mount and weather.
+
+use crate::walks::walk_seed;
+use cosfly_diagnose::Result;
+use cosfly_frames::{Pose, Seed};
+use cosfly_planner::Trajectory;
+use cosfly_render::{Camera, Mount, RenderConfig, Weather};
+use cosfly_stage::ItemName;
+
+/// Settings of one flight.
+pub struct Shooting {
+    /// The ideal camera, without its lens.
+    pub camera: Camera,
+    /// Turn of the camera against the drone.
+    pub mount: Mount,
+    /// Weather, with the azimuth of its sun drawn.
+    pub weather: Weather,
+    /// Seed of the looks of the followed walker.
+    pub walk_seed: Seed,
+}
+
+impl Shooting {
+    /// Settings of the item `item`, which films `trajectory`. Twins follow the same walk: same clothes, same weather, same
+    /// camera.
+    pub fn of(config: &RenderConfig, trajectory: &Trajectory, item: &ItemName) -> Result<Self> {
+        let walk_seed = walk_seed(&trajectory.track)?;
+        let weather = match preset(config, item) {
+            Some(preset) => config.weather_called(preset, &walk_seed),
+            None => config.draw_weather(&walk_seed),
+        };
+        let (camera, mount) = (config.draw_camera(&walk_seed), config.draw_mount(&walk_seed));
+        Ok(Self { camera, mount, weather, walk_seed })
+    }
+
+    /// Poses of the camera, one per frame.
+    pub fn poses(&self, trajectory: &Trajectory) -> Vec<Pose> {
+        trajectory.poses_in_world.iter().map(|drone| self.mount.camera_pose(drone)).collect()
+    }
+}
+
+/// Weather preset that a paired rendering names the item after.
+pub fn preset<'a>(config: &RenderConfig, item: &'a ItemName) -> Option<&'a str> {
+    item.variant().filter(|_| config.paired_weathers)
+}
