@@ -1,10 +1,10 @@
-//! What is made again and what is not, seen through the summary of the real binary; and `why` names the reason.
+//! Caching through the real binary: items that are made again and items that are not; causes given by `why`.
 
 use crate::street::Street;
 use crate::support::cosfly;
 use std::collections::BTreeMap;
 
-/// Items made per stage, from the machine-readable summary.
+/// Numbers of items made per stage, from the machine-readable summary.
 fn made(street: &Street, overrides: &[&str]) -> BTreeMap<String, u64> {
     let mut arguments = vec!["run", "recipe.toml", "--json"];
     for change in overrides {

@@ -1,16 +1,16 @@
-//! Cameras and weathers through the real binary: pairs of one flight, drawn optics, and what refuses them.
+//! Cameras and weathers through the real binary: paired renderings, drawn optics, and rejected recipes.
 
 use crate::street::{RECIPE, Street, map};
 use crate::support::cosfly;
 
-/// The street with `lines` in its render stage.
+/// The street with `lines` added to its render stage.
 fn street(lines: &str) -> Street {
     let changed = RECIPE.replacen("width = 96\n", &format!("width = 96\n{lines}\n"), 1);
     assert_ne!(changed, RECIPE);
     Street::with(&changed, &map())
 }
 
-/// How often each stage ran.
+/// Numbers of runs per stage.
 fn ran(street: &Street, arguments: &[&str], stage: &str) -> u64 {
     let all = [&["run", "recipe.toml", "--json"][..], arguments].concat();
     let printed = cosfly(&all).within(street.path()).run_ok();

@@ -1,4 +1,4 @@
-//! `cosfly carla-job` through the real binary: the same job twice, chosen flights, refusals.
+//! `cosfly carla-job` through the real binary: reproducible jobs, chosen flights, errors.
 
 use crate::street::Street;
 use crate::support::cosfly;

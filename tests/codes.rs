@@ -5,21 +5,21 @@ use crate::support::repository_root;
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::Path;
 
-/// Calls that take the code of a diagnostic as their first argument.
+/// Calls whose first argument is the code of a diagnostic.
 const CODED_CALLS: [&str; 2] = ["Diagnostic::new(", ".problem("];
 
-/// One code: what the sources say with it.
+/// A code and its uses in the sources.
 #[derive(Default)]
 struct Code {
     /// Rooms that use the code, `shelf/room`.
     rooms: BTreeSet<String>,
-    /// Exit codes: a recipe's problem is 3, others have theirs in the call.
+    /// Exit codes: 3 for errors in a recipe, otherwise the one in the call.
     exits: BTreeSet<u8>,
-    /// Messages that stand in the sources as literals, with their placeholders.
+    /// Messages that are literals in the sources, with their placeholders.
     messages: BTreeSet<String>,
 }
 
-/// Codes of the engine's sources, and the first words of arguments that are no literals, with their files.
+/// Codes in the engine's sources, and first words of arguments that are not literals, with their files.
 fn codes() -> (BTreeMap<String, Code>, Vec<(String, String)>) {
     let engine = repository_root().join("engine");
     let mut files = vec![];
@@ -32,7 +32,7 @@ fn codes() -> (BTreeMap<String, Code>, Vec<(String, String)>) {
             continue;
         }
         let text = std::fs::read_to_string(&file).expect("UTF-8");
-        // Tests at the end of a file refuse things of their own.
+        // Tests at the end of a file use codes of their own.
         let text = text.split("\n#[cfg(test)]\nmod ").next().expect("the text");
         for call in CODED_CALLS {
             for (at, _) in text.match_indices(call) {
@@ -54,7 +54,7 @@ fn codes() -> (BTreeMap<String, Code>, Vec<(String, String)>) {
     (codes, others)
 }
 
-/// The text of a string literal at the start of an expression.
+/// Text of the string literal at the start of an expression.
 fn literal(expression: &str) -> Option<&str> {
     let rest = expression.strip_prefix('"')?;
     let end = rest.match_indices('"').map(|(at, _)| at).find(|at| !rest[..*at].ends_with('\\'))?;
@@ -65,7 +65,7 @@ fn first_word(expression: &str) -> String {
     expression.split(|letter: char| !letter.is_alphanumeric()).next().unwrap_or_default().to_owned()
 }
 
-/// The exit code of a call, from what follows the code.
+/// Exit code of a call, from the text after the code.
 fn exit(rest: &str) -> u8 {
     match rest.trim_start_matches([',', ' ', '\n']).strip_prefix("Fault::").map(first_word).as_deref() {
         Some("Input") => 4,
@@ -76,7 +76,7 @@ fn exit(rest: &str) -> u8 {
     }
 }
 
-/// The message of a call at `at`, where a literal can be found: among the arguments, or in the `let message` before.
+/// Message of a call at `at`, where it is a literal: among the arguments, or in the preceding `let message`.
 fn message(text: &str, at: usize, arguments: &str) -> Option<String> {
     let last = arguments.split(',').take(3).last()?;
     let begin = last.as_ptr() as usize - arguments.as_ptr() as usize;
@@ -103,7 +103,7 @@ fn codes_are_literals_of_one_form() {
             |word: &str| !word.is_empty() && word.bytes().all(|b| b.is_ascii_lowercase() || b.is_ascii_digit());
         assert!(code.split('-').all(is_word), "`{code}` in {rooms:?} is not in kebab case");
     }
-    // Functions that hand a code on call it `code`.
+    // Functions that pass a code on call it `code`.
     for (word, file) in others {
         assert_eq!(word, "code", "the code of a diagnostic in {file} is no literal");
     }
@@ -136,7 +136,7 @@ fn index(codes: &BTreeMap<String, Code>) -> String {
     page
 }
 
-/// A message with `…` for its placeholders, safe in a cell of a table.
+/// A message with `…` for its placeholders, escaped for a cell of a table.
 fn shown(message: &str) -> String {
     let mut parts = message.replace("{{", "(").replace("}}", ")");
     while let Some(begin) = parts.find('{') {

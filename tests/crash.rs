@@ -1,4 +1,5 @@
-//! Same bytes: any number of jobs, twice, after kill -9 at random moments; and nothing finished is made again.
+//! Reproducible bytes: any number of jobs, repeated runs, after kill -9 at random moments; finished items are not made
+//! again.
 
 use crate::street::Street;
 use crate::support::{cosfly, tree_digests};
@@ -23,7 +24,7 @@ fn jobs_and_repetition_change_no_byte() {
     assert_eq!(one, tree_digests(&street.path().join("again")));
 }
 
-/// Finished items of a store with the time at which they were published.
+/// Finished items of a store with their times of publication.
 fn finished(store: &std::path::Path) -> BTreeMap<String, std::time::SystemTime> {
     let mut found = BTreeMap::new();
     let Ok(shards) = std::fs::read_dir(store.join("done")) else { return found };
@@ -42,7 +43,7 @@ fn twenty_kills_lose_no_finished_item_and_change_no_byte() {
     run(&street, "undisturbed", &["--store", "store-undisturbed"]);
     let store = street.path().join("store");
     let mut seen: BTreeMap<String, std::time::SystemTime> = BTreeMap::new();
-    // Moments spread over the whole run by a fixed sequence; the machine's speed does the rest.
+    // Moments spread over the whole run by a fixed sequence; the speed of the machine varies the rest.
     for kill in 0..20u64 {
         let arguments = ["run", "recipe.toml", "--out", "out/street", "--store", "store", "--jobs", "2"];
         let mut child = cosfly(&arguments).within(street.path()).spawn();

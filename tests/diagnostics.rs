@@ -1,11 +1,12 @@
-//! What users read when something is wrong: one snapshot per mistake, through the real binary.
+//! Messages of errors: one snapshot per error, through the real binary.
 
 use crate::street::{RECIPE, Street, map};
 use crate::support::cosfly;
 use std::path::Path;
 
-/// Runs `arguments` in the street's folder and compares exit code and messages with the snapshot `name`.
-/// Redactions: the scratch folder's path becomes `<folder>`.
+/// Runs `arguments` in the street's folder and compares exit code and messages with the snapshot `name`. Redaction: the
+/// scratch
+/// folder's path becomes `<folder>`.
 fn check_refusal(name: &str, street: &Street, arguments: &[&str]) {
     let printed = cosfly(arguments).within(street.path()).run();
     let text = format!("exit code {}\n{}", printed.code.map_or("none".into(), |code| code.to_string()), printed.stderr);
@@ -109,7 +110,7 @@ fn a_folder_that_is_not_ours_is_never_replaced() {
     assert!(precious.join("thesis.txt").exists());
 }
 
-/// A small file system that fills up; `None` (with a line that says so) where mounting is not allowed.
+/// A small file system that fills up; `None` (after printing the reason) where mounting is not allowed.
 fn small_disk(folder: &Path) -> Option<SmallDisk> {
     let path = folder.join("disk");
     std::fs::create_dir_all(&path).expect("writable");

@@ -1,4 +1,4 @@
-//! `cosfly doctor` through the real binary: sound data, damaged data, other folders.
+//! `cosfly doctor` through the real binary: intact data, damaged data, other folders.
 
 use crate::street::{RECIPE, Street, map};
 use crate::support::{cosfly, tree_digests};

@@ -1,4 +1,4 @@
-//! `cosfly eval` through the real binary: scores, baselines, malformed rows, refusals.
+//! `cosfly eval` through the real binary: scores, baselines, malformed rows, errors.
 
 use crate::street::Street;
 use crate::support::{Printed, cosfly, tree_digests};

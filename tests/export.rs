@@ -1,4 +1,4 @@
-//! `cosfly export` through the real binary: what it prints, and what it says when it cannot.
+//! `cosfly export` through the real binary: output and error messages.
 
 use crate::street::Street;
 use crate::support::{Printed, cosfly, tree_digests};

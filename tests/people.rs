@@ -1,4 +1,4 @@
-//! Other people in the pictures, through the real binary: labelled, checked, and no ingredient of what is planned.
+//! Bystanders in the pictures, through the real binary: labelled and verified, and without influence on the planner.
 
 use crate::street::{RECIPE, Street, map};
 use crate::support::{cosfly, tree_digests};
@@ -7,7 +7,7 @@ use parquet::record::RowAccessor;
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::Path;
 
-/// The street with a crowd of eight and all walkers in its pictures.
+/// The street with a crowd of eight, and all walkers in its pictures.
 fn street() -> Street {
     let crowd =
         "[stages.crowd]\nuse = \"pedestrians\"\ninputs.town = \"town\"\ncount = 8\nsteps = 8\n\n[stages.frames]";
@@ -20,7 +20,7 @@ fn street() -> Street {
     Street::with(&changed, &map())
 }
 
-/// Items made per stage.
+/// Numbers of items made per stage.
 fn made(street: &Street, overrides: &[&str]) -> BTreeMap<String, u64> {
     let mut arguments = vec!["run", "recipe.toml", "--json"];
     overrides.iter().for_each(|change| arguments.extend_from_slice(&["--set", change]));
@@ -31,7 +31,7 @@ fn made(street: &Street, overrides: &[&str]) -> BTreeMap<String, u64> {
     ran.filter(|(_, ran)| *ran > 0).collect()
 }
 
-/// Of every row of a table: a text and a whole number.
+/// A text and an integer of every row of a table.
 fn rows(dataset: &Path, table: &str, text: &str, number: &str) -> Vec<(String, i64)> {
     let mut rows = vec![];
     let folder = std::fs::read_dir(dataset.join("data").join(table)).expect("the table");

@@ -1,4 +1,4 @@
-//! `plan-from`: the expert goes on from states that a drone came into, or says why not.
+//! `plan-from`: continuations by the expert from other states, or the reasons for their absence.
 
 use crate::street::Street;
 use crate::support::cosfly;
@@ -24,7 +24,7 @@ fn place(waypoint: &Value) -> [f64; 3] {
     core::array::from_fn(|axis| waypoint["position_in_world"][axis].as_f64().expect("a number"))
 }
 
-/// As arguments.
+/// Command-line arguments of the state.
 fn texts(place: [f64; 3]) -> [String; 3] {
     place.map(|value| value.to_string())
 }
@@ -110,7 +110,7 @@ fn a_full_disk_is_no_success() {
     }
 }
 
-/// Exit code and messages of a question that cannot be answered.
+/// Exit code and messages of an invalid request.
 fn check_refusal(name: &str, street: &Street, arguments: &[&str]) {
     let all = [&["plan-from", "recipe.toml"], arguments].concat();
     let printed = cosfly(&all).within(street.path()).run();

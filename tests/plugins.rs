@@ -1,4 +1,4 @@
-//! Plugins through the real binary: every recipe with one, what a changed plugin makes anew, mistakes, failures, the commands.
+//! Plugins through the real binary: every recipe with one, caching after a change, errors, failures, commands.
 
 use crate::support::{cosfly, repository_root};
 use arrow_stream::Values;
@@ -74,14 +74,14 @@ impl Yard {
         self.folder.path()
     }
 
-    /// (exit code, standard error) of a command.
+    /// Exit code and standard error of a command.
     fn refusal(&self, arguments: &[&str]) -> (Option<i32>, String) {
         let printed = cosfly(arguments).within(self.path()).run();
-        // Lines are broken where they are long.
+        // Long lines are wrapped.
         (printed.code, printed.stderr.split_whitespace().collect::<Vec<_>>().join(" "))
     }
 
-    /// Items made per stage.
+    /// Numbers of items made per stage.
     fn made(&self) -> Vec<(String, u64)> {
         let printed = cosfly(&["run", "recipe.toml", "--json"]).within(self.path()).run_ok();
         let summary: serde_json::Value = serde_json::from_str(&printed.stdout).expect("a JSON summary");
@@ -92,7 +92,7 @@ impl Yard {
     }
 }
 
-/// All that are kept.
+/// Ids of all kept flights.
 const EXAMPLES: [&str; 12] = [
     "no_fly_zone",
     "privacy",
@@ -123,7 +123,7 @@ fn every_recipe_with_a_plugin_makes_a_sound_dataset() {
     }
 }
 
-/// A column of a table, row by row, as text.
+/// A column of a table as text, row by row.
 fn column(dataset: &Path, table: &str, column: &str) -> Vec<String> {
     let mut rows = vec![];
     for file in std::fs::read_dir(dataset.join("data").join(table)).expect("a table") {
@@ -156,7 +156,7 @@ fn a_plugin_changed_by_one_byte_reruns_only_what_uses_it() {
     let yard = Yard::with(RECIPE);
     assert!(yard.made().contains(&("expert".to_owned(), 2)));
     assert!(yard.made().is_empty());
-    // A section of one's own: the same functions, other bytes.
+    // A custom section: the same functions, other bytes.
     let file = yard.path().join("no_fly_zone.wasm");
     let mut bytes = std::fs::read(&file).expect("readable");
     bytes.extend([0, 4, 1, b'n', b'e', b'w']);
@@ -214,7 +214,10 @@ fn a_failing_plugin_is_named_with_function_and_item_and_the_rest_goes_on() {
     let (code, text) = yard.refusal(&["run", "recipe.toml", "--quiet"]);
     assert_eq!(code, Some(4), "{text}");
     assert!(text.contains("plugin `keep_good.wasm` failed in `configure` for `kept/p00000`"), "{text}");
-    assert!(text.contains("it reads `cost_colour`; flights have no such column, but `frame`, `time_s`"), "{text}");
+    assert!(
+        text.contains("it reads `cost_colour`; flights have no such column; their columns are `frame`, `time_s`"),
+        "{text}"
+    );
     std::fs::write(yard.path().join("recipe.toml"), RECIPE).expect("writable");
     assert!(!yard.made().iter().any(|(stage, _)| stage == "expert"), "the experts were finished");
 }
@@ -222,7 +225,11 @@ fn a_failing_plugin_is_named_with_function_and_item_and_the_rest_goes_on() {
 #[test]
 fn what_a_stage_reads_and_makes_is_held_against_what_there_is_before_anything_runs() {
     for (from, to, words) in [
-        ("cost_no_fly_zone", "visibilty", "it reads `visibilty`; flights have no such column, but `frame`, `time_s`"),
+        (
+            "cost_no_fly_zone",
+            "visibilty",
+            "it reads `visibilty`; flights have no such column; their columns are `frame`, `time_s`",
+        ),
         ("cost_no_fly_zone", "visibilty", "did you mean `visibility`?"),
         ("cost_no_fly_zone", "frame", "it reads `frame` as real; it is integer"),
         ("cost_no_fly_zone", "box_left", "which only rendered flights have"),
@@ -259,9 +266,9 @@ fn an_exporter_adds_files_that_the_dataset_knows_and_a_changed_one_renders_nothi
     assert_eq!(text.lines().count(), 13, "{text}");
     assert!(std::fs::read_to_string(out.join("README.md")).expect("a card").contains("### tum"));
     cosfly(&["verify", "out/yard"]).within(yard.path()).run_ok();
-    // Another file than the exporter wrote is found.
+    // A file that the exporter did not write is found.
     let damaged = out.join("extras/tum/street/000/kept-p00000/camera.txt");
-    // Not through the link into the store.
+    // Not through the hard link into the store.
     std::fs::remove_file(&damaged).and_then(|()| std::fs::write(&damaged, "damaged")).expect("writable");
     let (code, _) = yard.refusal(&["verify", "out/yard"]);
     assert_ne!(code, Some(0));
@@ -288,13 +295,13 @@ fn hostile_answers_are_refused_with_plugin_function_and_item_and_the_rest_goes_o
     for (text, answer, words) in [
         (&files, file(&["../../x"]), "it returned a file `../../x`; paths are relative"),
         (&files, file(&["a", "a"]), "the file `a` twice"),
-        (&files, file(&["a"; 1001]), "1001 rows; at most 1000 are taken"),
-        (&note, arrow_stream::write(&[reals("risk", &[0.5, 0.5])]), "2 rows; one is wanted"),
+        (&files, file(&["a"; 1001]), "1001 rows; at most 1000 are allowed"),
+        (&note, arrow_stream::write(&[reals("risk", &[0.5, 0.5])]), "2 rows; one is required"),
         (&note, arrow_stream::write(&[reals("cost", &[0.5])]), "column 0 is `cost`; it declares `risk` (real)"),
         (&note, arrow_stream::write(&[texts("risk", &["high"])]), "its column `risk` holds Utf8; it declares Float64"),
         (&note, arrow_stream::write(&[reals("risk", &[f64::NAN])]), "its column `risk` is NaN at row 0"),
         (&rows, good[..good.len() - 40].to_vec(), "it returned no Arrow stream: it ends within message 1"),
-        (&rows, b"no table".to_vec(), "it returned no Arrow stream: byte 0 begins no message"),
+        (&rows, b"no table".to_vec(), "it returned no Arrow stream: no message begins at byte 0"),
     ] {
         write(&StageText { answer, ..text.clone() });
         let (code, text) = yard.refusal(&["run", "recipe.toml", "--quiet"]);
@@ -303,7 +310,7 @@ fn hostile_answers_are_refused_with_plugin_function_and_item_and_the_rest_goes_o
         assert!(text.contains(words), "{text}");
     }
     for (name, gives, words) in [
-        ("frames", ("risk", 0), "it names its table `frames`, which datasets have of their own"),
+        ("frames", ("risk", 0), "it names its table `frames`, which is reserved for the dataset's own tables"),
         ("more", ("trajectory_id", 3), "it gives a column `trajectory_id`, which the dataset adds itself"),
     ] {
         write(&StageText { name, gives: vec![gives], ..rows.clone() });

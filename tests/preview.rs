@@ -1,4 +1,4 @@
-//! `cosfly preview` through the real binary: which pictures it makes, and what it says when it cannot.
+//! `cosfly preview` through the real binary: pictures and error messages.
 
 use crate::street::Street;
 use crate::support::{Printed, cosfly, tree_digests};
@@ -42,7 +42,7 @@ fn a_dataset_has_pictures_of_its_flights_that_are_the_same_twice() {
     }
 }
 
-/// Redaction: sizes of files in brackets at the ends of lines.
+/// Redaction: file sizes in brackets at the ends of lines.
 fn without_sizes(text: &str) -> String {
     let lines = text.lines().map(|line| match line.rsplit_once(" (") {
         Some((before, size)) if size.ends_with("B)") => format!("{before} (<size>)\n"),

@@ -1,4 +1,4 @@
-//! The same bytes whatever vector instructions the processor has.
+//! Equal bytes with all vector instructions of the processor.
 
 use crate::street::Street;
 use crate::support::{cosfly, tree_digests};

@@ -5,7 +5,8 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
-/// Package name -> its shelf (`base`, `sim`, `flow`, `data`, `edge`, `lab`) and direct dependencies, dev-dependencies left out.
+/// Package name -> shelf (`base`, `sim`, `flow`, `data`, `edge`, `lab`) and direct dependencies, without
+/// dev-dependencies.
 fn packages() -> BTreeMap<String, (String, BTreeSet<String>)> {
     let output = Command::new(env!("CARGO"))
         .args(["metadata", "--format-version", "1", "--no-deps", "--offline"])
@@ -81,7 +82,7 @@ fn heavy_crates_stay_in_their_one_room() {
     }
 }
 
-/// Adds the Rust files under a folder.
+/// Appends the Rust files below a folder.
 pub fn rust_files(dir: &Path, found: &mut Vec<PathBuf>) {
     for entry in std::fs::read_dir(dir).expect("readable").map(|entry| entry.expect("entry").path()) {
         if entry.is_dir() {
@@ -137,7 +138,7 @@ fn every_link_and_page_of_the_book_exists() {
     }
 }
 
-/// Relative link and picture targets of a Markdown text.
+/// Relative targets of links and pictures in a Markdown text.
 fn links(text: &str) -> Vec<String> {
     text.split("](")
         .skip(1)

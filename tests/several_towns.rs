@@ -1,11 +1,12 @@
-//! One dataset from several towns: whole towns in one split, and what cannot be put together is said.
+//! One dataset from several towns: whole towns in one split, and errors of towns that cannot be combined.
 
 use crate::street::{RECIPE, Street, map};
 use crate::support::cosfly;
 use std::path::Path;
 
-/// The street's recipe with a second town and everything that happens there; the stages of the second one begin with
-/// `far_`. The dataset's line of inputs is `inputs`.
+/// The street's recipe with a second town and its stages, whose names begin with `far_`. The dataset's line of inputs
+/// is
+/// `inputs`.
 fn recipe_of_two_towns(inputs: &str) -> String {
     let (chain, dataset) = RECIPE.split_at(RECIPE.find("[stages.captions]").expect("it has captions"));
     let (_, chain) = chain.split_at(chain.find("[stages.town]").expect("it has a town"));
@@ -22,7 +23,7 @@ fn recipe_of_two_towns(inputs: &str) -> String {
 const BOTH: &str =
     "inputs = { town = [\"town\", \"far_town\"], frames = [\"frames\", \"far_frames\"], captions = \"captions\" }";
 
-/// The street, four kilometres and a bend away: another place.
+/// The street, four kilometres away and with a bend: another place.
 fn far_map() -> String {
     map().replace("x=\"0.0\"", "x=\"4000.0\"").replace("x=\"0\"", "x=\"4000\"")
 }
@@ -33,7 +34,7 @@ fn two_towns(inputs: &str, far: &str) -> Street {
     street
 }
 
-/// What a refused run says.
+/// Messages of a rejected run.
 fn refusal(street: &Street, changes: &[&str]) -> String {
     let mut arguments = vec!["run", "recipe.toml", "--quiet"];
     changes.iter().for_each(|change| arguments.extend_from_slice(&["--set", change]));
@@ -76,7 +77,7 @@ fn the_recipe_of_two_towns_makes_a_verified_dataset_with_an_unseen_town() {
     let names = ["downtown=Town01", "uptown=Town02"];
     cosfly(&["export", &at("out"), "--format", "v7", "--out", &at("v7"), "--town", names[0], "--town", names[1]])
         .run_ok();
-    // Any flight can be made again, alone, in an empty store.
+    // Any flight can be made again alone, in an empty store.
     let again =
         ["verify", &at("out"), "--regenerate", "3", "--recipe", "recipes/two_towns.toml", "--store", &at("store")];
     cosfly(&again).run_ok();

@@ -1,4 +1,4 @@
-//! Snapshots of what people see: help, plans of the shipped recipes, manifest and tables of the small dataset.
+//! Snapshots of user-visible output: help, plans of the shipped recipes, manifest and tables of the small dataset.
 
 use crate::street::Street;
 use crate::support::{cosfly, repository_root, tree_digests};
@@ -58,7 +58,7 @@ fn redacted(text: &str) -> String {
 fn the_street_dataset_has_this_card_and_these_files() {
     let street = Street::new();
     let printed = cosfly(&["run", "recipe.toml", "--jobs", "1"]).within(street.path()).run_ok();
-    // Redaction: the time it took.
+    // Redaction: the duration.
     let (before, after) = printed.stdout.split_once(", in ").expect("a time");
     let summary = format!("{before}, in <time>\n{}", after.split_once('\n').expect("more lines").1);
     insta::assert_snapshot!("street_summary", summary);
@@ -72,7 +72,7 @@ fn the_street_dataset_has_this_card_and_these_files() {
     insta::assert_snapshot!("street_verify", verified.stdout);
 }
 
-/// The manifest without its long texts: what it declares, one line each. Redaction: hashes are left out.
+/// Outline of the manifest without its long texts, one line per entry. Redaction: hashes are left out.
 fn outline(manifest: &str) -> String {
     let manifest: serde_json::Value = serde_json::from_str(manifest).expect("JSON");
     let mut text = String::new();
@@ -106,7 +106,7 @@ fn the_street_dataset_has_these_tables() {
     }
 }
 
-/// The first row of a table, a column per line. Redactions: digests and hashes, the size of the log.
+/// First row of a table, a column per line. Redactions: digests and hashes, the size of the log.
 fn first_row(file: &Path) -> String {
     let reader = SerializedFileReader::new(std::fs::File::open(file).expect("readable")).expect("Parquet");
     let rows = reader.metadata().file_metadata().num_rows();
@@ -120,7 +120,8 @@ fn first_row(file: &Path) -> String {
 }
 
 /// When this snapshot changes, the same recipe gives other bytes than before: raise the `version` of the stage kind
-/// whose digest changed (the first one in the recipe's order), or old stores go on giving the old bytes.
+/// whose digest
+/// changed (the first one in the recipe's order), or existing stores keep serving the old bytes.
 #[test]
 fn the_bytes_of_every_stage_change_only_with_its_version() {
     let street = Street::new();

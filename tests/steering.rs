@@ -1,4 +1,5 @@
-//! What steers the planner does what the book says, seen in the dataset's certificates; other objectives make datasets.
+//! Planner parameters have the effects described in the book, by the certificates in the dataset; other objectives
+//! work.
 
 use crate::street::{RECIPE, Street, map};
 use crate::support::{Printed, cosfly};
@@ -6,10 +7,10 @@ use parquet::file::reader::{FileReader, SerializedFileReader};
 use parquet::record::Field;
 use std::collections::BTreeMap;
 
-/// Longer walks than the street's, experts only.
+/// The street with longer walks, experts only.
 const WALKERS: &str = "stages.walkers.steps=48";
 
-/// Experts of the street with `changes`: what was printed, and per flight the numbers of table `trajectories`.
+/// Experts of the street with `changes`: the output, and per flight the numbers of table `trajectories`.
 fn flights(changes: &[&str]) -> (Printed, Vec<BTreeMap<String, f64>>) {
     let street = Street::with(&RECIPE.replace("[\"expert\", \"perturbed\"]", "[\"expert\"]"), &map());
     let mut arguments = vec!["run", "recipe.toml", "--set", WALKERS];
@@ -105,7 +106,7 @@ fn companions_are_the_other_walkers_and_change_the_flight() {
     assert_ne!(lengths(&street), lengths(&alone));
 }
 
-/// Exit code and messages of a recipe that cannot be run as it is.
+/// Exit code and messages of an invalid recipe.
 fn check_refusal(name: &str, recipe: &str, changes: &[&str]) {
     let street = Street::with(recipe, &map());
     let mut arguments = vec!["run", "recipe.toml", "--quiet", "--jobs", "1"];

@@ -1,4 +1,4 @@
-//! A tiny recipe on a tiny town: everything the pipeline does, in a second.
+//! A tiny recipe in a tiny town: the whole pipeline in a second.
 
 use std::path::{Path, PathBuf};
 
@@ -39,7 +39,7 @@ use = "dataset"
 inputs = { town = "town", frames = "frames", captions = "captions" }
 "#;
 
-/// The street's map file.
+/// Map file of the street.
 pub fn map() -> String {
     let path = crate::support::repository_root().join("tests/towns/street.xodr");
     std::fs::read_to_string(path).expect("the street is there")
@@ -51,12 +51,12 @@ pub struct Street {
 }
 
 impl Street {
-    /// The recipe and the map as they are.
+    /// Creates the recipe and the map without changes.
     pub fn new() -> Self {
         Self::with(RECIPE, &map())
     }
 
-    /// Another recipe or map text.
+    /// Creates the folder with another recipe or map text.
     pub fn with(recipe: &str, map: &str) -> Self {
         let folder = tempfile::tempdir().expect("a scratch folder");
         std::fs::write(folder.path().join("recipe.toml"), recipe).expect("writable");
@@ -64,12 +64,12 @@ impl Street {
         Self { folder }
     }
 
-    /// The folder.
+    /// Path of the folder.
     pub fn path(&self) -> &Path {
         self.folder.path()
     }
 
-    /// The dataset that a run with default options makes.
+    /// Path of the dataset of a run with default options.
     pub fn dataset(&self) -> PathBuf {
         self.folder.path().join("out/street")
     }

@@ -1,15 +1,15 @@
-//! Running the real binary, and scratch folders for it.
+//! Calls of the real binary, and scratch folders for it.
 
 use std::io::Write;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output, Stdio};
 
-/// The repository's root folder.
+/// Root folder of the repository.
 pub fn repository_root() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("../../..").canonicalize().expect("the repository is there")
 }
 
-/// The folder of shared real-world inputs, or `None` with a line that says so.
+/// Folder of shared real-world inputs, or `None` after printing the reason.
 pub fn shared_data() -> Option<PathBuf> {
     let root = std::env::var_os("COSFLY_SHARED").map_or_else(|| repository_root().join("../shared"), PathBuf::from);
     let data = root.join("data");
@@ -20,23 +20,23 @@ pub fn shared_data() -> Option<PathBuf> {
     None
 }
 
-/// One call of the binary.
+/// A call of the binary.
 pub struct Call {
     command: Command,
     input: Option<Vec<u8>>,
 }
 
-/// What a call printed.
+/// Output of a call.
 pub struct Printed {
     /// Standard output.
     pub stdout: String,
     /// Standard error.
     pub stderr: String,
-    /// Exit code; `None` when killed.
+    /// Exit code; `None` when the process was killed.
     pub code: Option<i32>,
 }
 
-/// A call of `cosfly` with `arguments`, run in the repository root.
+/// Creates a call of `cosfly` with `arguments`, run in the repository root.
 pub fn cosfly<S: AsRef<std::ffi::OsStr>>(arguments: &[S]) -> Call {
     let mut command = Command::new(env!("CARGO_BIN_EXE_cosfly"));
     command.args(arguments).current_dir(repository_root()).env_remove("COSFLY_STORE").env("NO_COLOR", "1");
@@ -50,13 +50,13 @@ impl Call {
         self
     }
 
-    /// With an environment variable.
+    /// Sets an environment variable.
     pub fn with(mut self, name: &str, value: &str) -> Self {
         self.command.env(name, value);
         self
     }
 
-    /// Gives it `text`, which need not be UTF-8, on standard input; nothing unless called.
+    /// Sets standard input to `text`, which need not be UTF-8; empty by default.
     pub fn fed(mut self, text: impl Into<Vec<u8>>) -> Self {
         self.input = Some(text.into());
         self
@@ -68,7 +68,7 @@ impl Call {
         let command = self.command.stdin(stdin).stdout(Stdio::piped()).stderr(Stdio::piped());
         let mut child = command.spawn().expect("cosfly starts");
         if let (Some(text), Some(mut pipe)) = (self.input, child.stdin.take()) {
-            // A call that refuses early does not listen to the end.
+            // A call that fails early does not read standard input to the end.
             let _ = pipe.write_all(&text);
         }
         let Output { status, stdout, stderr } = child.wait_with_output().expect("cosfly runs");
@@ -86,7 +86,7 @@ impl Call {
         printed
     }
 
-    /// Runs with standard output on a full disk: exit code and standard error.
+    /// Runs with standard output on a full disk; returns exit code and standard error.
     #[cfg(target_os = "linux")]
     pub fn run_on_a_full_disk(mut self) -> (Option<i32>, String) {
         let full = std::fs::OpenOptions::new().write(true).open("/dev/full").expect("Linux has it");
@@ -99,13 +99,13 @@ impl Call {
         (status.code(), String::from_utf8(stderr).expect("UTF-8"))
     }
 
-    /// Starts it without waiting.
+    /// Starts the process without waiting.
     pub fn spawn(mut self) -> std::process::Child {
         self.command.stdin(Stdio::null()).stdout(Stdio::null()).stderr(Stdio::null()).spawn().expect("cosfly starts")
     }
 }
 
-/// All files below `dir` with the digest of their bytes, sorted.
+/// All files below `dir` with the digests of their bytes, sorted.
 pub fn tree_digests(dir: &Path) -> Vec<(String, String)> {
     fn walk(root: &Path, dir: &Path, found: &mut Vec<(String, String)>) {
         for entry in std::fs::read_dir(dir).expect("readable").map(|entry| entry.expect("entry").path()) {

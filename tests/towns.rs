@@ -1,9 +1,9 @@
-//! Every shipped recipe and every real town that is at hand gives a whole, verified dataset.
+//! Every shipped recipe and every available real town gives a whole, verified dataset.
 
 use crate::support::{cosfly, shared_data};
 use std::path::Path;
 
-/// Runs the small recipe on `map` with `changes` and verifies what it made.
+/// Runs the small recipe on `map` with `changes` and verifies the dataset.
 fn check_town(map: &Path, changes: &[&str]) {
     let folder = tempfile::tempdir().expect("scratch");
     let (store, out) = (folder.path().join("store"), folder.path().join("out"));

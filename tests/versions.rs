@@ -45,7 +45,7 @@ fn versions_are_named_compared_with_reasons_and_written_out_again() {
     let after: Vec<_> =
         tree_digests(&street.path().join("old")).into_iter().filter(|it| !it.0.starts_with('.')).collect();
     assert!(before == after, "the version is not what was delivered");
-    // The checked out version is known by its files: no recipe need be given.
+    // The checked-out version is identified by its files: no recipe is required.
     let anew = said(&street, &["verify", "old", "--regenerate", "1"], 0);
     assert!(anew.contains("made 1 flight anew from recipe `street`: 1 the same, byte by byte"), "{anew}");
     let other = said(&street, &["verify", "old", "--regenerate", "2", "--recipe", "recipe.toml", "--set", "seed=5"], 1);

@@ -1,4 +1,4 @@
-//! Named bytes: content references, sinks that makers write files to, files that pass by once.
+//! Named bytes: content references, sinks for the files of a result, files read or written once.
 //!
 //! * [`BlobRef`]: bytes by their digest.
 //! * [`OutputSink`]: the files of one result while they are being made.

@@ -1,36 +1,39 @@
-//! Files that pass by once: pages behind the position are released from the system's file cache.
+//! Files read or written once: pages behind the position are released from the system's file cache.
 
 use std::fs::File;
 use std::io::{self, Read, Seek, SeekFrom, Write};
 
-/// Bytes that gather behind the position before they are released.
+/// Number of bytes behind the position after which they are released.
 const RELEASE_BYTES: u64 = 8 << 20;
-/// Bytes before those that are released once more: pages that were not on the disk at the last release.
+/// Number of bytes before those that are released again: pages that were not on the disk at the last release.
 const REPEATED_BYTES: u64 = 4 * RELEASE_BYTES;
 
 /// A large file that is written or read once, from front to back.
 ///
-/// Every few megabytes the system is told that the pages behind will not be needed soon. A dataset of any size passes
-/// through a small part of the memory, other files stay in the cache, and a virtual machine need not be given fresh
-/// pages all the time, which costs more than the copying. Pages that are not on the disk yet are sent there and released
-/// the next time.
+/// Every few megabytes, the pages behind the position are reported to the system as no longer needed. A dataset of any
+/// size
+/// then passes through a small part of the memory, other files stay in the cache, and a virtual machine need not supply
+/// fresh
+/// pages all the time, which costs more than copying. Pages that are not on the disk yet are sent there and released at
+/// the
+/// next call.
 #[derive(Debug)]
 pub struct PassingFile {
     file: File,
-    /// Start of the present passage: everything from here to `position` was passed.
+    /// Start of the current pass: everything from here to `position` was passed.
     passage_start: u64,
     position: u64,
-    /// End of what was released.
+    /// End of the released range.
     released: u64,
 }
 
 impl PassingFile {
-    /// A file at its start.
+    /// Wraps a file positioned at its start.
     pub fn new(file: File) -> Self {
         Self { file, passage_start: 0, position: 0, released: 0 }
     }
 
-    /// The file itself.
+    /// Underlying file.
     pub fn file(&mut self) -> &mut File {
         &mut self.file
     }
@@ -45,7 +48,7 @@ impl PassingFile {
     }
 }
 
-/// Advice only: no byte depends on it.
+/// Advises the system only: no byte depends on it.
 #[cfg(target_os = "linux")]
 fn release(file: &File, from: u64, to: u64) {
     let bytes = core::num::NonZeroU64::new(to.saturating_sub(from));

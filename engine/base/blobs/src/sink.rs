@@ -1,25 +1,24 @@
-//! Sinks that makers write files to.
+//! Sinks that the files of a result are written to.
 
 use crate::BlobRef;
 use cosfly_diagnose::Result;
 use std::io::{Seek, Write};
 
-/// A file that is being written.
+/// A file open for writing.
 pub trait SeekWrite: Write + Seek + Send {}
 
 impl<T: Write + Seek + Send> SeekWrite for T {}
 
-/// Files of one result. Nobody sees any of them until the whole result is finished.
+/// Files of one result. None is visible before the whole result is finished.
 ///
 /// Names are relative paths with `/`, each used once.
 pub trait OutputSink {
-    /// Adds a small file, given whole.
+    /// Adds a small file with the content `bytes`.
     fn put(&mut self, name: &str, bytes: &[u8]) -> Result<()>;
 
-    /// Adds a large file, written piece by piece. Where the disk refuses a write, that refusal is returned, whatever
-    /// `write` makes of it.
+    /// Adds a large file, written piece by piece. A write error of the disk is returned even where `write` ignores it.
     fn stream(&mut self, name: &str, write: &mut dyn FnMut(&mut dyn SeekWrite) -> Result<()>) -> Result<BlobRef>;
 
-    /// Adds bytes that are stored already, without copying them.
+    /// Adds bytes that are already stored, without copying them.
     fn link(&mut self, name: &str, blob: BlobRef) -> Result<()>;
 }

@@ -6,18 +6,18 @@ use std::ops::Range;
 use std::path::PathBuf;
 use std::sync::Arc;
 
-/// Kind of failure: who can mend it. Decides the exit code, and whether a run goes on.
+/// Kind of failure, by who can correct it. Decides the exit code, and whether a run continues.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Fault {
-    /// The recipe or the command line asks for something impossible.
+    /// Invalid request in the recipe or on the command line.
     Recipe,
-    /// An input file (map, track, store) is broken or does not fit.
+    /// Broken or unsuitable input file (map, track, store).
     Input,
-    /// The machine refused: no permission, no thread, a file that vanished.
+    /// Error of the operating system: no permission, no thread, a file that disappeared.
     Machine,
     /// The disk is full; the next write would fail as well.
     DiskFull,
-    /// A stored result is missing or damaged; computing it again mends that.
+    /// A stored result is missing or damaged; computing it again repairs it.
     Lost,
     /// The user stopped the program.
     Stopped,
@@ -25,12 +25,12 @@ pub enum Fault {
     Bug,
 }
 
-/// A piece of a text file that a diagnostic points at.
+/// A range of a text file that a diagnostic points at.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Label {
     /// File that the text came from.
     pub path: PathBuf,
-    /// The whole text of the file.
+    /// Whole text of the file.
     pub text: Arc<str>,
     /// Bytes of `text` to underline.
     pub span: Range<usize>,
@@ -41,17 +41,17 @@ pub struct Label {
 /// One failure, ready to be shown.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Diagnostic {
-    /// Stable kebab-case name for users, such as `recipe-unknown-key`. Programs decide by [`Self::fault`].
+    /// Stable kebab-case name, such as `recipe-unknown-key`. Programs branch on [`Self::fault`], not on the code.
     pub code: &'static str,
     /// Kind of failure.
     pub fault: Fault,
     /// Statement of the failure: a lower-case fragment, literals in back-ticks.
     pub message: String,
-    /// Places in text files; the first is where the failure is.
+    /// Places in text files; the first is the place of the failure.
     pub labels: Vec<Label>,
     /// Causes, from the nearest to the deepest.
     pub causes: Vec<String>,
-    /// Advice: what is allowed and what to do next.
+    /// Advice: allowed values and next steps.
     pub hints: Vec<String>,
 }
 
@@ -59,13 +59,12 @@ pub struct Diagnostic {
 pub type Result<T, E = Box<Diagnostic>> = std::result::Result<T, E>;
 
 impl Diagnostic {
-    /// A diagnostic with a code, a kind and a message. The code is written as a literal, so that all codes can be found.
+    /// Creates a diagnostic. The code is written as a literal, so that all codes can be found in the source.
     pub fn new(code: &'static str, fault: Fault, message: impl Into<String>) -> Box<Self> {
         Box::new(Self { code, fault, message: message.into(), labels: vec![], causes: vec![], hints: vec![] })
     }
 
-    /// A refusal of the operating system while it was asked to do `action`, such as "read `a.toml`"; a full disk has a
-    /// kind of its own.
+    /// Error of the operating system during `action`, such as "read `a.toml`"; a full disk has a kind of its own.
     pub fn io(action: impl fmt::Display, error: &Error) -> Box<Self> {
         let message = format!("could not {action}");
         let diagnostic = match error.kind() {
@@ -77,7 +76,7 @@ impl Diagnostic {
         diagnostic.because(error)
     }
 
-    /// Work on `subject`, in back-ticks in the message, that ended because the user stopped the program.
+    /// Work on `subject` (shown in back-ticks) that ended because the user stopped the program.
     pub fn stopped(subject: impl fmt::Display) -> Box<Self> {
         Diagnostic::new("cancelled", Fault::Stopped, format!("`{subject}` was stopped"))
     }
@@ -94,7 +93,7 @@ impl Diagnostic {
         self
     }
 
-    /// Adds advice: what is allowed or what to do next.
+    /// Adds advice: allowed values or next steps.
     pub fn hint(mut self: Box<Self>, hint: impl Into<String>) -> Box<Self> {
         self.hints.push(hint.into());
         self

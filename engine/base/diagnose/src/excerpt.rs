@@ -4,22 +4,23 @@ use crate::Label;
 use crate::visible::visible;
 use std::ops::Range;
 
-/// A line longer than this is cut around the label (data files may be one line of many megabytes).
+/// Longest line that is shown whole, bytes; longer ones are cut around the label (data files may be one line of many
+/// megabytes).
 const LONG_LINE_BYTES: usize = 1_000;
 /// Bytes of a long line that are kept on each side of the label.
 const KEPT_BYTES: usize = 200;
-/// A label that spans more lines than this only marks its first line.
+/// Most lines that a label may span; a longer one only marks its first line.
 const MOST_LINES: usize = 5;
 
 /// Consecutive lines of one file, with the marks of one or several labels.
 pub(crate) struct Excerpt<'a> {
     /// Path of the file, for display.
     pub(crate) path: String,
-    /// The lines, or the middle of one long line.
+    /// Lines of the file, or the middle of one long line.
     pub(crate) text: &'a str,
     /// Number of the first line of `text`, from 1.
     pub(crate) first_line: usize,
-    /// When the line was cut: column of the label (in characters, from 1) in `text` and in the file.
+    /// Where the line was cut: column of the label (in characters, from 1) in `text` and in the file.
     pub(crate) shifted_column: Option<(usize, usize)>,
     /// Places to underline.
     pub(crate) marks: Vec<Mark>,
@@ -36,7 +37,7 @@ pub(crate) struct Mark {
 }
 
 impl<'a> Excerpt<'a> {
-    /// One excerpt per file, in the order of the labels; a long line has an excerpt of its own.
+    /// Excerpts in the order of the labels, one per file; a long line has an excerpt of its own.
     pub(crate) fn of_labels(labels: &'a [Label]) -> Vec<Self> {
         let mut excerpts = vec![];
         let mut first = 0;
@@ -88,7 +89,7 @@ impl<'a> Excerpt<'a> {
             || line_end(&label.text, span.start) - line_start(&label.text, span.start) > LONG_LINE_BYTES
     }
 
-    /// The middle of a long line.
+    /// Middle part of a long line.
     fn cut_line(label: &'a Label, is_first: bool) -> Option<Self> {
         if !Self::is_in_long_line(label) {
             return None;

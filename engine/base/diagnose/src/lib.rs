@@ -1,9 +1,9 @@
-//! One diagnostic type: what was wrong, where, of which kind, what is allowed, what to do next.
+//! The type of all diagnostics: code, kind, message, places, causes, hints.
 //!
 //! * [`Diagnostic`]: one failure, ready to be shown; [`Fault`] is its kind, [`Label`] a place in a text.
 //! * [`render`], [`render_all`]: diagnostics as text for a terminal.
-//! * [`ParameterError`]: a refused parameter, before anyone knows where it is written.
-//! * [`nearest_name`]: the known name that a mistyped one was probably meant to be.
+//! * [`ParameterError`]: an invalid parameter whose place in a file is not known yet.
+//! * [`nearest_name`]: the known name most similar to a mistyped one.
 
 mod diagnostic;
 mod excerpt;

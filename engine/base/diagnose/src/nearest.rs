@@ -1,12 +1,14 @@
-//! The nearest known name to a mistyped one.
+//! The known name most similar to a mistyped one.
 
-/// Bytes of a prefix; shorter ones match too many names.
+/// Shortest prefix that is considered, bytes; shorter ones match too many names.
 const SHORTEST_PREFIX: usize = 3;
 
-/// Name in `known` that is most like `given`: a few letters apart, or else the only one that begins with `given` (a
+/// Name in `known` that is most similar to `given`: a few letters apart, or else the only one that begins with `given`
+/// (a
 /// forgotten unit, such as `speed` for `speed_mps`). `None` where no name is similar.
 pub fn nearest_name<'a>(given: &str, known: impl IntoIterator<Item = &'a str>) -> Option<&'a str> {
-    // The cost of a distance grows with the product of the lengths, and a name of a thousand letters is no typing error.
+    // The cost of an edit distance grows with the product of the lengths, and a name of a thousand letters is no typing
+    // error.
     if given.len() > 200 {
         return None;
     }
@@ -15,7 +17,7 @@ pub fn nearest_name<'a>(given: &str, known: impl IntoIterator<Item = &'a str>) -
     let letters = given.chars().count();
     let nearest = known
         .iter()
-        // A distance is at least the difference of the lengths, which costs far less.
+        // The difference of the lengths is a lower bound of the edit distance, and far cheaper.
         .filter(|name| name.chars().count().abs_diff(letters) <= most(name))
         .map(|name| (strsim::damerau_levenshtein(given, name), *name))
         .filter(|(distance, name)| *distance <= most(name))

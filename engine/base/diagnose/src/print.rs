@@ -1,4 +1,4 @@
-//! Diagnostics as the text that a terminal shows, readable without colour.
+//! Diagnostics as terminal text, readable without colour.
 
 use crate::Diagnostic;
 use crate::excerpt::Excerpt;
@@ -10,8 +10,7 @@ const COLUMNS: usize = 100;
 /// Diagnostics printed at once; the rest is only counted.
 const MOST_AT_ONCE: usize = 20;
 
-/// The diagnostic as the text that a terminal shows, without a newline at the end.
-/// `colour` only adds colour, never meaning.
+/// Text of a diagnostic for a terminal, without a newline at the end. `colour` adds colour, never meaning.
 pub fn render(diagnostic: &Diagnostic, colour: bool) -> String {
     let title = wrap(&diagnostic.message, "error[]: ".len() + diagnostic.code.len());
     let excerpts = Excerpt::of_labels(&diagnostic.labels);
@@ -37,7 +36,7 @@ pub fn render(diagnostic: &Diagnostic, colour: bool) -> String {
     if excerpts.is_empty() { without_gutter(&text, title.lines().count()) } else { text }
 }
 
-/// Several diagnostics below one another, with blank lines between them and their number at the end.
+/// Text of several diagnostics, separated by blank lines, with their number at the end.
 pub fn render_all<'a>(diagnostics: impl IntoIterator<Item = &'a Diagnostic>, colour: bool) -> String {
     let all: Vec<&Diagnostic> = diagnostics.into_iter().collect();
     let mut pieces: Vec<String> = all.iter().take(MOST_AT_ONCE).map(|diagnostic| render(diagnostic, colour)).collect();
@@ -49,7 +48,7 @@ pub fn render_all<'a>(diagnostics: impl IntoIterator<Item = &'a Diagnostic>, col
     pieces.join("\n\n")
 }
 
-/// Underlines of an excerpt: the first label is the place itself, the others say how it came about.
+/// Underlines of an excerpt: the first label is the place of the failure, the others are related places.
 fn annotations<'a>(excerpt: &'a Excerpt<'_>) -> impl Iterator<Item = Annotation<'a>> {
     excerpt.marks.iter().map(|mark| {
         let kind = if mark.is_first { AnnotationKind::Primary } else { AnnotationKind::Context };
@@ -83,7 +82,7 @@ fn wrap(text: &str, indent: usize) -> String {
     wrapped
 }
 
-/// `text` without the bar of the gutter, which means nothing where no excerpt follows.
+/// `text` without the bar of the gutter where no excerpt follows.
 fn without_gutter(text: &str, title_lines: usize) -> String {
     let kept: Vec<&str> = text
         .lines()

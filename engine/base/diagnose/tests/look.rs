@@ -1,4 +1,4 @@
-//! The look of every form of diagnostic.
+//! The printed form of every kind of diagnostic.
 
 use cosfly_diagnose::{Diagnostic, Fault, Label, render, render_all};
 

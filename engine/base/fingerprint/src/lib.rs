@@ -11,12 +11,12 @@ use std::str::FromStr;
 pub struct Digest(pub [u8; 32]);
 
 impl Digest {
-    /// The digest of `bytes`.
+    /// Digest of `bytes`.
     pub fn of(bytes: &[u8]) -> Self {
         Self(*blake3::hash(bytes).as_bytes())
     }
 
-    /// The first twelve hex digits, for people.
+    /// First twelve hex digits, for display.
     pub fn short(&self) -> String {
         let mut hex = self.to_string();
         hex.truncate(12);
@@ -57,8 +57,9 @@ impl<'de> Deserialize<'de> for Digest {
     }
 }
 
-/// JSON with sorted keys and no spaces: equal values give equal bytes, whatever their order in a file was.
-/// Relies on `serde_json::Value` keeping objects in a sorted map (the crate's default).
+/// Canonical JSON: sorted keys, no spaces. Equal values give equal bytes, whatever the order of keys in a file. Relies
+/// on
+/// `serde_json::Value` keeping objects in a sorted map (the crate's default).
 pub fn canonical_json<T: Serialize>(value: &T) -> String {
     let tree = serde_json::to_value(value).expect("configs and plan documents are plain JSON values");
     serde_json::to_string(&tree).expect("a JSON tree always prints")

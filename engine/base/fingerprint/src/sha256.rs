@@ -1,9 +1,9 @@
-//! Counts and hashes (SHA-256) what is written, on its way to the file.
+//! Length and SHA-256 of data, computed while it is written or read.
 
 use sha2::{Digest, Sha256};
 use std::io::{Read, Result, Write};
 
-/// A writer that knows the length and SHA-256 of everything written through it.
+/// A writer that computes the length and SHA-256 of everything written through it.
 pub struct HashingWriter<W: Write> {
     output: W,
     hasher: Sha256,
@@ -11,12 +11,12 @@ pub struct HashingWriter<W: Write> {
 }
 
 impl<W: Write> HashingWriter<W> {
-    /// Passes everything on to `output`.
+    /// Wraps `output`; all bytes are passed on to it.
     pub fn new(output: W) -> Self {
         Self { output, hasher: Sha256::new(), bytes: 0 }
     }
 
-    /// Bytes written and their hash as 64 hex digits.
+    /// Number of bytes written, and their SHA-256 as 64 hex digits.
     pub fn finish(self) -> (u64, String) {
         (self.bytes, hex(&self.hasher.finalize()))
     }
@@ -40,7 +40,7 @@ pub fn sha256_of(bytes: &[u8]) -> String {
     hex(&Sha256::digest(bytes))
 }
 
-/// Length and SHA-256 of everything that `input` still gives.
+/// Length and SHA-256 of the rest of `input`, read to its end.
 pub fn sha256_of_reader(input: &mut impl Read) -> Result<(u64, String)> {
     let mut hashing = HashingWriter::new(std::io::sink());
     std::io::copy(input, &mut hashing)?;

@@ -1,10 +1,11 @@
-//! Actions: the motion from one pose to the next one, in world axes and seen from the body, and back.
+//! Actions: the motion from one pose to the next, along the world's axes or in the body frame, and its inverse.
 
 use crate::{Pose, real};
 use glam::{DMat3, DVec3};
 
-/// dx, dy, dz in metres and dpitch, dyaw, droll in degrees along the world's axes: differences of the two poses,
-/// angles wrapped to (-180, 180].
+/// Difference of two poses along the world's axes: dx, dy, dz in metres, dpitch, dyaw, droll in degrees, angles wrapped
+/// to
+/// (-180, 180].
 pub fn in_world(from: &Pose, to: &Pose) -> [f64; 6] {
     let step = to.position_in_world - from.position_in_world;
     let turn = |from_rad: f64, to_rad: f64| real::wrap_angle_rad(to_rad - from_rad).to_degrees();
@@ -12,8 +13,9 @@ pub fn in_world(from: &Pose, to: &Pose) -> [f64; 6] {
     [step.x, step.y, step.z, angles[0], angles[1], angles[2]]
 }
 
-/// The next pose in the body frame of this one (x ahead, y right, z up): metres, and pitch, yaw, roll of the
-/// relative rotation in degrees.
+/// Pose `to` in the body frame of `from` (x ahead, y right, z up): dx, dy, dz in metres, and pitch, yaw, roll of the
+/// relative
+/// rotation in degrees.
 pub fn in_body(from: &Pose, to: &Pose) -> [f64; 6] {
     let body_from_world = from.world_from_body().transpose();
     let step = body_from_world * (to.position_in_world - from.position_in_world);
@@ -21,7 +23,7 @@ pub fn in_body(from: &Pose, to: &Pose) -> [f64; 6] {
     [step.x, step.y, step.z, pitch, yaw, roll]
 }
 
-/// The pose that [`in_world`] leads to.
+/// Applies an action of [`in_world`] to a pose.
 pub fn moved_in_world(from: &Pose, [dx, dy, dz, pitch, yaw, roll]: &[f64; 6]) -> Pose {
     Pose {
         position_in_world: from.position_in_world + DVec3::new(*dx, *dy, *dz),
@@ -31,7 +33,7 @@ pub fn moved_in_world(from: &Pose, [dx, dy, dz, pitch, yaw, roll]: &[f64; 6]) ->
     }
 }
 
-/// The pose that [`in_body`] leads to.
+/// Applies an action of [`in_body`] to a pose.
 pub fn moved_in_body(from: &Pose, [ahead, right, up, pitch, yaw, roll]: &[f64; 6]) -> Pose {
     let world_from_body = from.world_from_body();
     let turn = Pose {
@@ -45,7 +47,7 @@ pub fn moved_in_body(from: &Pose, [ahead, right, up, pitch, yaw, roll]: &[f64; 6
     Pose { position_in_world, pitch_rad, yaw_rad, roll_rad }
 }
 
-/// Pitch, yaw and roll of a rotation, radians.
+/// Pitch, yaw and roll of a rotation matrix, radians.
 pub fn angles_rad(rotation: &DMat3) -> [f64; 3] {
     let (ahead, right, up): (DVec3, DVec3, DVec3) = (rotation.x_axis, rotation.y_axis, rotation.z_axis);
     [real::asin(ahead.z.clamp(-1.0, 1.0)), real::atan2(ahead.y, ahead.x), real::atan2(-right.z, up.z)]

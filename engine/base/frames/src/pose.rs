@@ -4,22 +4,23 @@ use crate::real::{asin, atan2, sin_cos};
 use glam::{DMat3, DVec3};
 use serde::{Deserialize, Serialize};
 
-/// Position and attitude of a body. Angles in radians; the body's x axis looks forward, y right, z up.
+/// Position and attitude of a body. Angles in radians; the body's x axis points forward, y right, z up.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Pose {
     /// Position of the body's origin, metres.
     pub position_in_world: DVec3,
-    /// Positive = nose up.
+    /// Pitch, radians; positive: nose up.
     pub pitch_rad: f64,
-    /// Positive = x towards y (clockwise seen from above).
+    /// Yaw, radians; positive: x towards y (clockwise seen from above).
     pub yaw_rad: f64,
-    /// Positive = right side down.
+    /// Roll, radians; positive: right side down.
     pub roll_rad: f64,
 }
 
 impl Pose {
-    /// The pose at `position_in_world` whose x axis points at `target_in_world`, without roll.
-    /// When the two points coincide it looks along the world's x axis.
+    /// Pose at `position_in_world` whose x axis points at `target_in_world`, without roll. Where the two points
+    /// coincide, the x
+    /// axis points along the world's.
     pub fn looking_at(position_in_world: DVec3, target_in_world: DVec3) -> Self {
         let ray = target_in_world - position_in_world;
         let length = ray.length();
@@ -28,8 +29,8 @@ impl Pose {
         Self { position_in_world, pitch_rad, yaw_rad, roll_rad: 0.0 }
     }
 
-    /// Columns are the body's x, y and z axes in the world frame
-    /// (the rotation part of `carla.Transform.get_matrix`).
+    /// Rotation matrix whose columns are the body's x, y and z axes in the world frame (the rotation part of
+    /// `carla.Transform.get_matrix`).
     pub fn world_from_body(&self) -> DMat3 {
         let (sp, cp) = sin_cos(self.pitch_rad);
         let (sy, cy) = sin_cos(self.yaw_rad);
@@ -41,7 +42,7 @@ impl Pose {
         )
     }
 
-    /// `point_in_world` seen from the body: x ahead, y to the right, z up, metres.
+    /// `point_in_world` in the body frame: x ahead, y right, z up, metres.
     pub fn body_from_world_point(&self, point_in_world: DVec3) -> DVec3 {
         self.world_from_body().transpose() * (point_in_world - self.position_in_world)
     }

@@ -1,4 +1,4 @@
-//! Real functions with the same result on every machine (the `libm` crate), instead of the platform's.
+//! Elementary functions with the same result on every machine (from the `libm` crate, not from the platform).
 
 pub use core::f64::consts::{FRAC_PI_2, PI, TAU};
 
@@ -25,7 +25,7 @@ one_argument! {
     acos,
     /// Arc tangent, radians.
     atan,
-    /// Natural exponential.
+    /// Exponential function.
     exp,
 }
 
@@ -59,7 +59,7 @@ pub fn sin_cos(x: f64) -> (f64, f64) {
     libm::sincos(x)
 }
 
-/// The same angle in (-pi, pi].
+/// Equivalent angle in (-pi, pi], radians.
 pub fn wrap_angle_rad(angle_rad: f64) -> f64 {
     let turned = angle_rad - TAU * ((angle_rad + PI) / TAU).floor();
     if turned <= -PI { turned + TAU } else { turned }

@@ -1,17 +1,18 @@
 //! Run-time choice of vector instructions for kernels written once in plain Rust.
 //!
-//! A kernel is an ordinary loop over arrays that compilers turn into vector code. [`simd_kernel!`](crate::simd_kernel)
-//! compiles it for plain x86-64 (or any other processor), for AVX2 and for AVX-512 (both with the bit instructions of their
-//! processors), and calls the one that a
-//! [`Level`] names. Rust neither fuses nor reorders floating-point operations, so all levels give the same bytes.
+//! A kernel is an ordinary loop over arrays that compilers vectorise. [`simd_kernel!`](crate::simd_kernel) compiles it
+//! for
+//! baseline x86-64 (or any other processor), for AVX2 and for AVX-512 (both with the bit-manipulation instructions of
+//! their processors), and calls the version that a [`Level`] names. Rust neither fuses nor reorders floating-point
+//! operations, so all levels give the same bytes.
 
-/// Vector instructions of the processor; only available levels can be constructed.
+/// Vector instructions of the processor. A level exists only after its detection.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Level(Kind);
 
 static BEST: std::sync::OnceLock<Level> = std::sync::OnceLock::new();
 
-/// The levels by name; made into a [`Level`] only after detection.
+/// Levels by name; a [`Level`] is made from one only after detection.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[doc(hidden)]
 pub enum Kind {
@@ -21,21 +22,21 @@ pub enum Kind {
 }
 
 impl Level {
-    /// Instructions that every processor of the architecture has.
+    /// Baseline of the architecture, available on every processor.
     pub const PLAIN: Self = Self(Kind::Plain);
 
-    /// The level that kernels run at: the best of this processor, worked out once, or what [`Self::make_best`] said
-    /// before anyone asked.
+    /// Level that kernels run at: the best of this processor, detected once, or the one set earlier by
+    /// [`Self::make_best`].
     pub fn best() -> Self {
         *BEST.get_or_init(|| Self::available().last().copied().unwrap_or(Self::PLAIN))
     }
 
-    /// Makes this level the one that kernels run at, for comparing their bytes; false when one has run already.
+    /// Sets this level as the one that kernels run at, for comparing their bytes; false when a kernel has run already.
     pub fn make_best(self) -> bool {
         BEST.set(self).is_ok()
     }
 
-    /// All levels of this processor, from the plainest: tests run their kernels with each.
+    /// All levels of this processor, the baseline first: tests run their kernels with each.
     pub fn available() -> Vec<Self> {
         let mut levels = vec![Self::PLAIN];
         #[cfg(target_arch = "x86_64")]
@@ -58,7 +59,7 @@ impl Level {
         levels
     }
 
-    /// Name in tables.
+    /// Name for tables of benchmarks.
     pub fn name(self) -> &'static str {
         match self.0 {
             Kind::Plain => "plain",
@@ -73,8 +74,9 @@ impl Level {
     }
 }
 
-/// Compiles a kernel once per [`Level`]: `simd_kernel! { /// Doc. pub fn name(a: &[f32], b: &mut [f32]) { .. } }` becomes
-/// `name(level, a, b)`. What the body calls must be `#[inline(always)]`.
+/// Compiles a kernel once per [`Level`]: `simd_kernel! { /// Doc. pub fn name(a: &[f32], b: &mut [f32]) { .. } }`
+/// becomes
+/// `name(level, a, b)`. Functions that the body calls must be `#[inline(always)]`.
 #[macro_export]
 macro_rules! simd_kernel {
     ($(#[$meta:meta])* $vis:vis fn $name:ident($($arg:ident: $ty:ty),* $(,)?) $(-> $ret:ty)? $body:block) => {
@@ -93,7 +95,7 @@ macro_rules! simd_kernel {
                 kernel($($arg),*)
             }
             match level.kind() {
-                // SAFETY: a level above the plain one exists only after its features were detected.
+                // SAFETY: a level above the baseline exists only after its features were detected.
                 #[cfg(target_arch = "x86_64")]
                 $crate::simd::Kind::Avx512 => unsafe { avx512($($arg),*) },
                 // SAFETY: as above.

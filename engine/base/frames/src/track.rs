@@ -1,14 +1,14 @@
-//! The target's motion: one state per frame at a fixed time step.
+//! Track of the target: one state per frame at a fixed time step.
 
 use glam::DVec3;
 use serde::{Deserialize, Serialize};
 
-/// The target at one frame.
+/// State of the target in one frame.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct TargetState {
-    /// The point on the ground between the feet, metres.
+    /// Ground point between the feet, world frame, metres.
     pub feet_in_world: DVec3,
-    /// Walking direction (kept while standing), radians.
+    /// Walking direction (kept while standing), radians, signed like a yaw.
     pub heading_rad: f64,
     /// Speed along the ground, m/s; 0 while standing.
     pub speed_mps: f64,
@@ -33,7 +33,7 @@ impl TargetTrack {
         self.states.len()
     }
 
-    /// Whether there is no frame at all.
+    /// Whether the track has no frame.
     pub fn is_empty(&self) -> bool {
         self.states.is_empty()
     }
@@ -43,7 +43,7 @@ impl TargetTrack {
         self.dt_s * self.states.len().saturating_sub(1) as f64
     }
 
-    /// Way walked along the ground, metres.
+    /// Distance walked along the ground, metres.
     pub fn length_m(&self) -> f64 {
         self.states.windows(2).map(|pair| (pair[1].feet_in_world - pair[0].feet_in_world).length()).sum()
     }

@@ -1,14 +1,14 @@
-//! Seeds: one per (recipe seed, stage, item), and what is derived from them by name.
+//! Seeds: one per (recipe seed, stage, item), and the seeds and streams derived from it by name.
 
 use crate::stream::RandomStream;
 use serde::{Deserialize, Serialize};
 
-/// The seed of one item of one stage; derive streams for separate purposes from it by name.
+/// Seed of one item of one stage. Streams for separate purposes are derived from it by name.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Seed(pub [u8; 32]);
 
 impl Seed {
-    /// The seed of item `item` of stage `stage` in a recipe with seed `recipe_seed`.
+    /// Seed of item `item` of stage `stage` in a recipe with seed `recipe_seed`.
     pub fn of_item(recipe_seed: u64, stage: &str, item: &str) -> Self {
         let mut hasher = blake3::Hasher::new_derive_key("cosfly seed 1");
         hasher.update(&recipe_seed.to_le_bytes());
@@ -19,7 +19,7 @@ impl Seed {
         Self(*hasher.finalize().as_bytes())
     }
 
-    /// A seed for something inside the item (an attempt, an object, a frame).
+    /// Seed of a part of the item (an attempt, an object, a frame).
     pub fn child(&self, purpose: &str, index: u64) -> Self {
         let mut hasher = blake3::Hasher::new_keyed(&self.0);
         hasher.update(&index.to_le_bytes());
@@ -27,13 +27,14 @@ impl Seed {
         Self(*hasher.finalize().as_bytes())
     }
 
-    /// The random stream for `purpose`. Two purposes never share numbers, so adding a draw to one
-    /// does not shift the other.
+    /// Random stream for `purpose`. Streams of different purposes are independent, so adding a draw to one does not
+    /// shift the
+    /// other.
     pub fn stream(&self, purpose: &str) -> RandomStream {
         RandomStream::from_bytes(self.child(purpose, 0).0)
     }
 
-    /// The first eight bytes as a number, for readers that want an integer seed.
+    /// First eight bytes as a little-endian number, for users that need an integer seed.
     pub fn as_u64(&self) -> u64 {
         u64::from_le_bytes(self.0[..8].try_into().expect("a seed has 32 bytes"))
     }

@@ -1,4 +1,4 @@
-//! A stream of random numbers, the same on every machine.
+//! Streams of random numbers, the same on every machine.
 
 use core::f64::consts::TAU;
 use rand_chacha::ChaCha8Rng;
@@ -15,22 +15,22 @@ impl RandomStream {
         Self { generator: ChaCha8Rng::from_seed(seed) }
     }
 
-    /// A uniform integer over all of `u64`.
+    /// Uniform integer over all of `u64`.
     pub fn bits(&mut self) -> u64 {
         self.generator.next_u64()
     }
 
-    /// Uniform in [0, 1), 53 bits.
+    /// Uniform number in [0, 1), 53 bits.
     pub fn unit(&mut self) -> f64 {
         (self.bits() >> 11) as f64 * (1.0 / (1u64 << 53) as f64)
     }
 
-    /// Uniform in [`low`, `high`).
+    /// Uniform number in [`low`, `high`).
     pub fn uniform(&mut self, low: f64, high: f64) -> f64 {
         low + (high - low) * self.unit()
     }
 
-    /// Uniform in 0..`bound`; 0 when `bound` is 0.
+    /// Uniform integer in 0..`bound`; 0 when `bound` is 0.
     pub fn index(&mut self, bound: usize) -> usize {
         ((u128::from(self.bits()) * bound as u128) >> 64) as usize
     }
@@ -40,7 +40,7 @@ impl RandomStream {
         self.unit() < probability
     }
 
-    /// Normal with the given mean and standard deviation (Box-Muller).
+    /// Normally distributed number with the given mean and standard deviation (Box-Muller).
     pub fn normal(&mut self, mean: f64, deviation: f64) -> f64 {
         let radius = (-2.0 * libm::log(1.0 - self.unit())).sqrt();
         mean + deviation * radius * libm::cos(TAU * self.unit())

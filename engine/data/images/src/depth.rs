@@ -2,14 +2,17 @@
 
 use cosfly_frames::simd_kernel;
 
-/// Spacing of the depth grid: 2^-10 m, so that the error is at most 0.49 mm up to 16 km.
+/// Spacing of the depth grid: 2^-10 m; the error is at most 0.49 mm up to 16 km.
 pub const GRID_M: f32 = 1.0 / 1024.0;
 
-/// From here on all floats are whole; adding it to a smaller one rounds that to a whole number, ties to even.
+/// Smallest power of two above which all floats are whole; adding it to a smaller number rounds that to a whole number,
+/// ties
+/// to even.
 const WHOLE: f32 = 8_388_608.0;
 
-/// The nearest point of the grid to a depth of 0 m or more; infinity (sky) stays. Exact arithmetic: a scaling by a power
-/// of two and a rounding.
+/// Depth rounded to the grid, for depths of 0 m or more; infinity (sky) stays. Exact arithmetic: a scaling by a power
+/// of two
+/// and a rounding.
 #[inline(always)]
 pub fn on_grid(depth_m: f32) -> f32 {
     let steps = depth_m * 1024.0;
@@ -29,7 +32,7 @@ simd_kernel! {
 }
 
 simd_kernel! {
-    /// Row-major little-endian bytes of depths as they are; false when one of them is not 0 m or more.
+    /// Row-major little-endian bytes of unrounded depths; false when one of them is not 0 m or more.
     pub fn lossless_bytes(depth_m: &[f32], bytes: &mut [u8]) -> bool {
         let mut wrong = 0;
         for (depth, four) in depth_m.iter().zip(bytes.as_chunks_mut::<4>().0) {

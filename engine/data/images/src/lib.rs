@@ -1,4 +1,4 @@
-//! Image encoders: colour, depth, ids, and the small previews.
+//! Image encoders: colour, depth, ids, and previews.
 
 pub mod depth;
 pub mod ids;

@@ -1,4 +1,4 @@
-//! Small pictures of a frame, for viewers and for the `frames` table.
+//! Previews of a frame, for viewers and for the `frames` table.
 
 use super::rgb::{jpeg, palette_png};
 use core::ops::Range;
@@ -9,7 +9,7 @@ use cosfly_maps::SemanticLabel;
 use cosfly_render::FrameImages;
 use cosfly_render::preview::depth_preview;
 
-/// Previews are at most this wide.
+/// Largest width of a preview, pixels.
 const WIDTH: u32 = 320;
 const RGB_QUALITY: u8 = 80;
 const DEPTH_QUALITY: u8 = 75;
@@ -21,7 +21,7 @@ fn size(images: &FrameImages) -> (u32, u32) {
     (width, (height as u32).clamp(1, images.height))
 }
 
-/// Draws the small pictures; keeps its buffers from frame to frame.
+/// Draws previews; reuses its buffers from frame to frame.
 #[derive(Default)]
 pub struct SmallImages {
     rgb: Vec<u8>,
@@ -31,7 +31,7 @@ pub struct SmallImages {
 }
 
 impl SmallImages {
-    /// Fills `file` with the colour image, averaged over the middle of blocks of pixels (JPEG).
+    /// Fills `file` with the colour preview: the mean of the middle of each block of pixels (JPEG).
     pub fn rgb(&mut self, images: &FrameImages, file: &mut Vec<u8>) -> Result<()> {
         let (width, height) = size(images);
         let columns: Vec<_> = (0..width).map(|x| middle_of(block(x, width, images.width))).collect();
@@ -54,14 +54,15 @@ impl SmallImages {
         jpeg(&self.rgb, width, height, RGB_QUALITY, file)
     }
 
-    /// Fills `file` with the depth image in colours, stretched over the depths of this frame (JPEG): a picture, not data.
+    /// Fills `file` with the depth preview in colours, stretched over the depths of this frame (JPEG): for viewing, not
+    /// as data.
     pub fn depth(&mut self, images: &FrameImages, file: &mut Vec<u8>) -> Result<()> {
         let (width, height) = size(images);
         nearest(&images.depth_m, images, &mut self.depth_m);
         jpeg(&depth_preview(&self.depth_m), width, height, DEPTH_QUALITY, file)
     }
 
-    /// Fills `file` with the label image as a palette PNG: index = CARLA's id, palette = CARLA's colours.
+    /// Fills `file` with the label preview as a palette PNG: index = CARLA's id, palette = CARLA's colours.
     pub fn semantic(&mut self, images: &FrameImages, file: &mut Vec<u8>) -> Result<()> {
         let (width, height) = size(images);
         let last = SemanticLabel::ALL.len() as u8 - 1;
@@ -73,7 +74,7 @@ impl SmallImages {
 }
 
 simd_kernel! {
-    /// Sums of bytes over rows; previews take at most 128 rows together, so that 16 bits suffice.
+    /// Sums of bytes over rows; at most 128 rows are summed, so that 16 bits suffice.
     fn sum_of_rows(rows: &[u8], sums: &mut [u16]) {
         sums.fill(0);
         for row in rows.chunks_exact(sums.len().max(1)) {
@@ -85,7 +86,7 @@ simd_kernel! {
 }
 
 simd_kernel! {
-    /// The mean of the middle two of four neighbouring pixels, each a sum of two rows.
+    /// Mean of the middle two of four neighbouring pixels, each a sum of two rows.
     fn quarters(row_sums: &[u16], pixels: &mut [u8]) {
         for (pixel, four) in pixels.as_chunks_mut::<3>().0.iter_mut().zip(row_sums.as_chunks::<12>().0) {
             for channel in 0..3 {
@@ -96,7 +97,7 @@ simd_kernel! {
     }
 }
 
-/// The mean colour of some pixels of summed rows.
+/// Mean colour of a range of pixels of summed rows.
 fn average(row_sums: &[u16], columns: &Range<usize>, rows: usize) -> [u8; 3] {
     let mut total = [0u32; 3];
     for pixel in row_sums[3 * columns.start..3 * columns.end].as_chunks::<3>().0 {
@@ -106,13 +107,13 @@ fn average(row_sums: &[u16], columns: &Range<usize>, rows: usize) -> [u8; 3] {
     total.map(|sum| ((sum + count / 2) / count) as u8)
 }
 
-/// The `count` blocks of `total` pixels: the range that belongs to block `index`, never empty.
+/// Range of the pixels of block `index` when `total` pixels are divided into `count` blocks; never empty.
 fn block(index: u32, count: u32, total: u32) -> Range<usize> {
     let edge = |i: u32| (u64::from(i) * u64::from(total) / u64::from(count)) as usize;
     edge(index)..edge(index + 1)
 }
 
-/// The middle half of a block that is at least four wide: a quarter of its pixels shows what all of them would.
+/// Middle half of a block that is at least four pixels wide: a quarter of its pixels represents all.
 fn middle_of(block: Range<usize>) -> Range<usize> {
     let margin = block.len() / 4;
     block.start + margin..block.end - margin

@@ -23,7 +23,7 @@ pub fn palette_png(indices: &[u8], width: u32, height: u32, palette: Vec<u8>, fi
     write_png(indices, width, height, file, |encoder| {
         encoder.set_color(png::ColorType::Indexed);
         encoder.set_palette(palette);
-        // The fast compressor knows runs of zeros only: differences to the row above leave them.
+        // The fast compressor only compresses runs of zeros; differences to the row above produce them.
         encoder.set_filter(png::Filter::Up);
     })
 }

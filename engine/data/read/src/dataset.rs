@@ -1,4 +1,4 @@
-//! A published dataset: its trajectories, and where its tables and logs are.
+//! A published dataset: its trajectories, tables and logs.
 
 use super::log::LogReader;
 use super::rows::read;
@@ -10,7 +10,7 @@ use cosfly_schema::tables::{Captions, People, Rejected};
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Component, Path, PathBuf};
 
-/// Ids that an error lists at most.
+/// Most ids listed in an error.
 const LISTED: usize = 8;
 
 /// A published dataset whose table of trajectories has been read.
@@ -24,7 +24,7 @@ impl PublishedDataset {
     /// Opens the dataset in `folder`; its trajectories are in the order of its splits and tables.
     ///
     /// # Errors
-    /// `dataset-none` where there is no dataset, otherwise the damage of its files.
+    /// `dataset-none` where there is no dataset, otherwise damage of its files.
     pub fn open(folder: &Path) -> Result<Self> {
         let mut dataset = Self { folder: folder.to_owned(), flights: vec![] };
         let mut flights = vec![];
@@ -43,7 +43,7 @@ impl PublishedDataset {
         Ok(dataset)
     }
 
-    /// The dataset's folder.
+    /// Folder of the dataset.
     pub fn folder(&self) -> &Path {
         &self.folder
     }
@@ -53,8 +53,9 @@ impl PublishedDataset {
         &self.flights
     }
 
-    /// Parquet files of a table with the names of their splits, in the order of train, val, test; none of a table that the
-    /// dataset has not.
+    /// Parquet files of a table with the names of their splits, in the order train, val, test; none where the dataset
+    /// has no such
+    /// table.
     ///
     /// # Errors
     /// The folder of the table cannot be read.
@@ -80,7 +81,7 @@ impl PublishedDataset {
     /// Items without a trajectory, with their reasons.
     ///
     /// # Errors
-    /// The damage of table `rejected`.
+    /// Damage of table `rejected`.
     pub fn rejections(&self) -> Result<BTreeMap<String, String>> {
         let mut found = BTreeMap::new();
         for (_, path) in self.files("rejected")? {
@@ -94,10 +95,10 @@ impl PublishedDataset {
         Ok(found)
     }
 
-    /// The captions of all trajectories, by trajectory id.
+    /// Captions of all trajectories, by trajectory id.
     ///
     /// # Errors
-    /// The damage of table `captions`.
+    /// Damage of table `captions`.
     pub fn captions(&self) -> Result<BTreeMap<String, Vec<CaptionRecord>>> {
         let mut captions: BTreeMap<String, Vec<CaptionRecord>> = BTreeMap::new();
         for (_, path) in self.files("captions")? {
@@ -115,10 +116,10 @@ impl PublishedDataset {
         Ok(captions)
     }
 
-    /// The trajectory called `id`.
+    /// Trajectory with the id `id`.
     ///
     /// # Errors
-    /// `dataset-no-flight`, which names the nearest ids.
+    /// `dataset-no-flight`, with the nearest ids.
     pub fn flight(&self, id: &str) -> Result<&PublishedFlight> {
         self.flights.iter().find(|flight| flight.trajectory_id == id).ok_or_else(|| {
             let message = format!("`{}` has no trajectory `{id}`", self.folder.display());
@@ -134,7 +135,7 @@ impl PublishedDataset {
         })
     }
 
-    /// An expert and its perturbed twins, whichever of them `flight` is; the expert first.
+    /// An expert and its perturbed twins, given any of them; the expert first.
     pub fn family<'a>(&'a self, flight: &'a PublishedFlight) -> Vec<&'a PublishedFlight> {
         let expert = flight.expert_id.as_deref().unwrap_or(&flight.trajectory_id);
         let mut family: Vec<_> = self.flights.iter().filter(|it| it.trajectory_id == expert).collect();
@@ -142,10 +143,10 @@ impl PublishedDataset {
         family
     }
 
-    /// Number of people beside the target in the pictures of some trajectories, each counted once a trajectory.
+    /// Number of bystanders in the pictures of some trajectories, each counted once per trajectory.
     ///
     /// # Errors
-    /// The damage of table `people`.
+    /// Damage of table `people`.
     pub fn others_seen(&self, flights: &[&PublishedFlight]) -> Result<usize> {
         let wanted: BTreeMap<&str, usize> =
             flights.iter().enumerate().map(|(place, flight)| (flight.trajectory_id.as_str(), place)).collect();
@@ -164,11 +165,11 @@ impl PublishedDataset {
         Ok(seen.len())
     }
 
-    /// The log of `flight`.
+    /// Opens the log of `flight`.
     pub fn log(&self, flight: &PublishedFlight) -> Result<LogReader> {
         let inside = Path::new(&flight.mcap_path).components().all(|part| matches!(part, Component::Normal(_)));
         if !inside {
-            let message = format!("the log `{}` lies outside of the dataset", flight.mcap_path);
+            let message = format!("the log `{}` is outside the dataset", flight.mcap_path);
             return Err(Diagnostic::new("dataset-damaged", Fault::Input, message));
         }
         LogReader::open(&self.folder.join(&flight.mcap_path), flight.dt_s)
@@ -180,7 +181,7 @@ fn no_dataset(folder: &Path) -> Box<Diagnostic> {
     let message = match (folder.exists(), is_file) {
         (false, _) => format!("`{shown}` does not exist"),
         (true, true) => format!("`{shown}` is a file, not the folder of a dataset"),
-        (true, false) => format!("`{shown}` is not a published dataset: it has no table of flights"),
+        (true, false) => format!("`{shown}` is not a published dataset: it has no table `trajectories`"),
     };
     let refusal = Diagnostic::new("dataset-none", Fault::Input, message);
     match folder.extension().and_then(|extension| extension.to_str()) {

@@ -1,4 +1,4 @@
-//! Tables that others wrote: whatever has numbers, texts or pictures, by the names of their columns.
+//! Foreign Parquet tables: columns of numbers, texts and pictures, by name.
 
 use super::damage::damaged;
 use super::plain;
@@ -13,17 +13,17 @@ use std::collections::BTreeMap;
 use std::fs::File;
 use std::path::Path;
 
-/// Rows that are decoded at once: pictures may be large.
+/// Rows decoded at once: pictures may be large.
 const BATCH: usize = 64;
 
-/// The columns of some rows, as long as each other.
+/// Columns of the rows of a file, all of the same length.
 #[derive(Clone, Debug, Default)]
 pub struct ForeignRows {
-    /// Numbers of a row: one, or those of its list; none where it is null.
+    /// Numbers of each row: one, or those of its list; empty where it is null.
     pub numbers: BTreeMap<String, Vec<Vec<f64>>>,
-    /// Texts; lists of them, joined by line ends.
+    /// Texts; lists of texts are joined by line ends.
     pub texts: BTreeMap<String, Vec<String>>,
-    /// Digests of picture files that are inside of the table; empty where it only names a file.
+    /// Digests of picture files stored in the table; empty where the row only names a file.
     pub pictures: BTreeMap<String, Vec<String>>,
     /// Number of rows.
     pub rows: usize,
@@ -32,7 +32,7 @@ pub struct ForeignRows {
 /// Reads the columns of a Parquet file that are numbers, texts or pictures.
 ///
 /// # Errors
-/// When the file cannot be opened or read to its end.
+/// The file cannot be opened or read to its end.
 pub fn foreign_rows(path: &Path) -> Result<ForeignRows> {
     let file = File::open(path).map_err(|error| Diagnostic::io(format!("open `{}`", path.display()), &error))?;
     let builder =
@@ -56,7 +56,7 @@ pub fn foreign_rows(path: &Path) -> Result<ForeignRows> {
     Ok(all)
 }
 
-/// The values of the lists in a column, row by row; `None` when it has no lists.
+/// Values of the lists in a column, row by row; `None` when the column has no lists.
 fn lists(column: &ArrayRef) -> Option<Vec<Option<ArrayRef>>> {
     let rows = 0..column.len();
     let valid = |row: usize, value: &dyn Fn(usize) -> ArrayRef| column.is_valid(row).then(|| value(row));

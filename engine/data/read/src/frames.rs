@@ -18,9 +18,9 @@ pub struct FrameRow {
     pub time_s: f64,
     /// Pose of the drone.
     pub pose: Pose,
-    /// Pose of the camera, at the same position; it may be turned against the drone.
+    /// Pose of the camera, at the same position; its attitude may differ from the drone's.
     pub camera_pose: Pose,
-    /// The target.
+    /// State of the target.
     pub target: TargetState,
     /// Distance from the camera to the target's feet, metres.
     pub distance_m: f64,
@@ -32,25 +32,26 @@ pub struct FrameRow {
     pub visible_by_rays: f64,
     /// Visible pixels / pixels without obstacles, 0..=1.
     pub visible_by_pixels: f64,
-    /// Share of hundreds of rays that reach the body; none out of view.
+    /// Share of hundreds of rays that reach the body, 0..=1; `None` out of view.
     pub visible_by_dense_rays: Option<f64>,
-    /// Visible pixels of the target.
+    /// Number of visible pixels of the target.
     pub visible_pixels: u32,
     /// Edges around the visible pixels: left, top, right, bottom.
     pub visible_box_px: Option<Edges>,
-    /// Edges around the pixels without obstacles.
+    /// Edges around the pixels without obstacles: left, top, right, bottom.
     pub full_box_px: Option<Edges>,
-    /// Instance id of what hides most of the target; 0 when nothing does.
+    /// Instance id of the main occluder of the target; 0 when there is none.
     pub occluder_instance: u32,
-    /// Step to the next frame along the world's axes: dx, dy, dz (m), dpitch, dyaw, droll (degrees); none on the last.
+    /// Step to the next frame along the world's axes: dx, dy, dz (m), dpitch, dyaw, droll (degrees); `None` on the last
+    /// frame.
     pub action_in_world: Option<[f64; 6]>,
-    /// The next pose seen from this one's body frame; none on the last.
+    /// The next pose in this one's body frame: dx, dy, dz (m), dpitch, dyaw, droll (degrees); `None` on the last frame.
     pub action_in_body: Option<[f64; 6]>,
-    /// Departure from the expert's frame; none in an expert's trajectory.
+    /// Disturbance relative to the expert's frame; `None` in an expert's trajectory.
     pub disturbance: Option<Disturbance>,
 }
 
-/// Departure of a perturbed trajectory's frame from the expert's.
+/// Disturbance of a perturbed trajectory's frame relative to the expert's.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Disturbance {
     /// Frame of the expert.
@@ -61,26 +62,27 @@ pub struct Disturbance {
     pub rotation: bool,
     /// Displacement of the drone, metres.
     pub drone_offset_in_world: DVec3,
-    /// Displacement of the point aimed at, metres.
+    /// Displacement of the aim point of the camera, metres.
     pub aim_offset_in_world: DVec3,
-    /// Turn added to the pitch, degrees.
+    /// Rotation added to the pitch, degrees.
     pub pitch_offset_deg: f64,
-    /// Turn added to the yaw, degrees.
+    /// Rotation added to the yaw, degrees.
     pub yaw_offset_deg: f64,
 }
 
-/// A trajectory, and its frames in their order.
+/// Callback for a trajectory and its frames, in order.
 type Visit<'a> = &'a mut dyn FnMut(&PublishedFlight, Vec<FrameRow>) -> Result<()>;
 
-/// Frames that room is made for at most before they are there.
+/// Most frames for which memory is reserved in advance.
 const MOST_ROOM: usize = 1 << 16;
 
 impl PublishedDataset {
-    /// Gives trajectories that are `wanted` with all their frames to `visit`, in the order of table `frames`. One trajectory
-    /// is in memory at a time.
+    /// Calls `visit` for every `wanted` trajectory with all its frames, in the order of table `frames`. One trajectory
+    /// is in memory
+    /// at a time.
     ///
     /// # Errors
-    /// A column that is not there, a row without a number, frames that are missing; what `visit` says.
+    /// A missing column, a row without a value, missing frames, or an error of `visit`.
     pub fn walk(&self, wanted: &dyn Fn(&PublishedFlight) -> bool, visit: Visit<'_>) -> Result<()> {
         let mut awaited: BTreeMap<&str, &PublishedFlight> =
             self.flights().iter().map(|it| (&*it.trajectory_id, it)).collect();
@@ -103,7 +105,7 @@ impl PublishedDataset {
                         let frame = FrameRow::read(rows, row)?;
                         if frame.frame as usize != frames.len() {
                             let what = format!("frame {} of `{}` is out of order", frame.frame, flight.trajectory_id);
-                            return Err(damaged(&path, &what, format!("frame {} should be there", frames.len())));
+                            return Err(damaged(&path, &what, format!("frame {} was expected", frames.len())));
                         }
                         frames.push(frame);
                     }
@@ -115,10 +117,10 @@ impl PublishedDataset {
         awaited.values().next().map_or(Ok(()), |flight| Err(incomplete(flight, 0)))
     }
 
-    /// All frames of one trajectory, in their order.
+    /// All frames of one trajectory, in order.
     ///
     /// # Errors
-    /// As [`Self::walk`].
+    /// The errors of [`Self::walk`].
     pub fn frames(&self, flight: &PublishedFlight) -> Result<Vec<FrameRow>> {
         let mut found = vec![];
         self.walk(&|it| it.trajectory_id == flight.trajectory_id, &mut |_, frames| {
@@ -145,10 +147,10 @@ fn incomplete(flight: &PublishedFlight, rows: usize) -> Box<Diagnostic> {
 }
 
 impl FrameRow {
-    /// A row of table `frames`.
+    /// Reads a row of table `frames`.
     ///
     /// # Errors
-    /// A column that is not there, or holds no value.
+    /// A missing column, or a row without a value.
     pub fn read(rows: &Rows<'_>, row: usize) -> Result<Self> {
         let pose = Pose {
             position_in_world: DVec3::new(
@@ -160,7 +162,7 @@ impl FrameRow {
             yaw_rad: rows.get(Frames::drone_yaw_deg, row)?.to_radians(),
             roll_rad: rows.get(Frames::drone_roll_deg, row)?.to_radians(),
         };
-        // Datasets from before the gimbal have cameras without an attitude of their own.
+        // Datasets from before the gimbal have no separate attitude of the camera.
         let camera_pose = if rows.has(Frames::camera_pitch_deg) {
             Pose {
                 pitch_rad: rows.get(Frames::camera_pitch_deg, row)?.to_radians(),

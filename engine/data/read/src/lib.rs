@@ -1,7 +1,7 @@
-//! Reads published datasets: the trajectories, what the tables say of them, and the images in their logs; and what models
-//! predicted.
+//! Readers of published datasets (trajectories, tables, images in logs) and of predictions of models.
 //!
-//! Columns are asked for by their entries in [`cosfly_schema::tables`], so datasets with more columns than ours are read, too.
+//! Columns are requested by their entries in [`cosfly_schema::tables`], so datasets with additional columns can be
+//! read, too.
 
 mod damage;
 mod dataset;

@@ -15,10 +15,10 @@ use std::fs::File;
 use std::io::{Read, Seek, SeekFrom};
 use std::path::{Path, PathBuf};
 
-/// What a frame is made of; instance ids are the last.
+/// Topics of a frame; instance ids are the last.
 const TOPICS: [&str; 6] = [topic::RGB, topic::DEPTH, topic::SEMANTIC, topic::TF, topic::TARGET_STATE, topic::INSTANCE];
 
-/// Hears topic and bytes of a message; says what is wrong with it.
+/// Callback for the topic and bytes of a message; returns what is wrong with it.
 type Visit<'a> = &'a mut dyn FnMut(&str, &[u8]) -> Result<(), String>;
 
 /// An open log.
@@ -29,43 +29,43 @@ pub struct LogReader {
     summary: Summary,
 }
 
-/// What a frame's pictures are made of.
+/// Pictures, camera and target of one frame.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct LoggedFrame {
-    /// Pixels per row of all images.
+    /// Width of all images, pixels.
     pub width: u32,
-    /// Rows.
+    /// Height of all images, pixels.
     pub height: u32,
-    /// The colour image as a file.
+    /// Colour image as a file.
     pub rgb_file: Vec<u8>,
-    /// Its format: `jpeg` or `png`.
+    /// Format of the colour image: `jpeg` or `png`.
     pub rgb_format: String,
     /// Planar depth, metres, row-major; infinite for sky.
     pub depth_m: Vec<f32>,
     /// CARLA label ids, row-major.
     pub semantic: Vec<u8>,
-    /// Instance ids, row-major; empty unless asked for.
+    /// Instance ids, row-major; empty unless requested.
     pub instance: Vec<u32>,
-    /// Where the optical centre is, frame `map` (y is minus that of the world).
+    /// Position of the optical centre in the `map` frame (y is minus that of the world), metres.
     pub camera_in_map: DVec3,
-    /// Turns the optical axes (x right, y down, z ahead) into those of `map`.
+    /// Rotation from the optical axes (x right, y down, z ahead) to those of `map`.
     pub map_from_optical: DQuat,
-    /// The target.
+    /// State of the target.
     pub target: TargetStateMessage,
 }
 
-/// An obstacle of the logged scene, frame `map`.
+/// An obstacle of the logged scene, in the `map` frame.
 #[derive(Clone, Debug, PartialEq)]
 pub struct SceneBox {
-    /// CARLA's name of its label, such as `Building`.
+    /// CARLA's name of the obstacle's label, such as `Building`.
     pub label: String,
-    /// Its middle.
+    /// Centre of the box, metres.
     pub center_in_map: DVec3,
-    /// Half its size along its own axes, metres.
+    /// Half the size of the box along its own axes, metres.
     pub half_extents_m: DVec3,
-    /// Turn about z, counter-clockwise seen from above.
+    /// Rotation around z, counter-clockwise seen from above, radians.
     pub yaw_rad: f64,
-    /// Red, green, blue, 0..=1.
+    /// Colour: red, green, blue, 0..=1.
     pub colour: [f64; 3],
 }
 
@@ -90,7 +90,7 @@ impl LogReader {
         Ok(Self { file, path: path.to_owned(), dt_s, summary })
     }
 
-    /// Topics of the log, sorted.
+    /// Sorted topics of the log.
     pub fn topics(&self) -> Vec<String> {
         let mut topics: Vec<String> = self.summary.channels.values().map(|channel| channel.topic.clone()).collect();
         topics.sort();
@@ -102,7 +102,7 @@ impl LogReader {
         self.read_frame(frame, &TOPICS[..TOPICS.len() - 1])
     }
 
-    /// Everything of frame `frame`.
+    /// Images with instance ids, camera and target of frame `frame`.
     pub fn frame_with_instances(&mut self, frame: usize) -> Result<LoggedFrame> {
         let logged = self.read_frame(frame, &TOPICS)?;
         let is_whole = logged.instance.len() == logged.semantic.len();
@@ -124,7 +124,7 @@ impl LogReader {
         }
     }
 
-    /// The obstacles near the flight.
+    /// Obstacles near the flight.
     pub fn scene(&mut self) -> Result<Vec<SceneBox>> {
         let mut boxes = vec![];
         self.messages(0, &[topic::SCENE], &mut |_, data| {
@@ -139,10 +139,10 @@ impl LogReader {
     }
 
     fn damaged(&self, what: &str) -> Box<Diagnostic> {
-        damaged(&self.path, what, "it was written by something else, or only half")
+        damaged(&self.path, what, "it was written by another program, or incompletely")
     }
 
-    /// Gives the messages of `topics` at `time_ns` to `visit`.
+    /// Calls `visit` with the messages of `topics` at `time_ns`.
     fn messages(&mut self, time_ns: u64, topics: &[&str], visit: Visit<'_>) -> Result<()> {
         let options = IndexedReaderOptions::new()
             .include_topics(topics.iter().copied())
@@ -221,19 +221,21 @@ impl LoggedFrame {
     }
 }
 
-/// The optical frame in the map's, through all frames between.
+/// Pose of the optical frame in the `map` frame, through all frames in between.
 fn camera_in_map(transforms: &[messages::FrameTransform]) -> Result<(DVec3, DQuat), String> {
     let (mut place, mut turn, mut frame) = (DVec3::ZERO, DQuat::IDENTITY, OPTICAL_FRAME);
-    // A chain is never longer than the list: no endless way round.
+    // A chain is never longer than the list, which excludes cycles.
     for _ in transforms {
         let Some(next) = transforms.iter().find(|it| it.child_frame_id == frame) else { break };
-        let (Some(t), Some(r)) = (&next.translation, &next.rotation) else { return Err("half a transform".into()) };
+        let (Some(t), Some(r)) = (&next.translation, &next.rotation) else {
+            return Err("a transform is incomplete".into());
+        };
         let rotation = DQuat::from_xyzw(r.x, r.y, r.z, r.w);
         (place, turn) = (DVec3::new(t.x, t.y, t.z) + rotation * place, rotation * turn);
         frame = &next.parent_frame_id;
     }
     let sound = frame == MAP_FRAME && place.is_finite() && turn.is_finite();
-    if sound { Ok((place, turn)) } else { Err(format!("`{OPTICAL_FRAME}` does not hang on `{MAP_FRAME}`")) }
+    if sound { Ok((place, turn)) } else { Err(format!("`{OPTICAL_FRAME}` is not connected to `{MAP_FRAME}`")) }
 }
 
 impl SceneBox {

@@ -1,4 +1,4 @@
-//! Boxes of objects in the towns of a dataset, off table `objects`.
+//! Boxes of the objects in the towns of a dataset, from table `objects`.
 
 use super::dataset::PublishedDataset;
 use super::rows::read;
@@ -15,18 +15,18 @@ pub struct PublishedObject {
     pub instance: u32,
     /// Kind of object, such as `building`.
     pub kind: String,
-    /// The box.
+    /// Shape of the box.
     pub shape: BoxInWorld,
 }
 
-/// Middle, half lengths along the box's own axes (metres) and yaw (radians) of a box.
+/// Centre, half lengths along the box's own axes (metres) and yaw (radians) of a box in the world frame.
 pub type BoxInWorld = (DVec3, DVec3, f64);
 
 impl PublishedDataset {
-    /// The boxes of all objects of these kinds, in the order of the table.
+    /// Boxes of all objects of these kinds, in the order of the table.
     ///
     /// # Errors
-    /// The damage of the table.
+    /// Damage of the table.
     pub fn objects(&self, kinds: &[&str]) -> Result<Vec<PublishedObject>> {
         let mut found = vec![];
         for (_, path) in self.files("objects")? {

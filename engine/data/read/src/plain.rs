@@ -1,4 +1,4 @@
-//! Columns of tables that others wrote, in one type each: numbers as f64 or i64, texts as UTF-8, files as bytes.
+//! Columns of foreign tables, each converted to one type: numbers to f64 or i64, texts to UTF-8, files to bytes.
 
 use arrow_array::builder::{BinaryBuilder, StringBuilder};
 use arrow_array::cast::AsArray;
@@ -9,7 +9,7 @@ use arrow_array::types::{
 use arrow_array::{Array, ArrayRef, BinaryArray, Float64Array, Int64Array, StringArray, UInt64Array};
 use arrow_schema::DataType;
 
-/// Numbers of any width, and truths as 0 and 1; `None` for anything else.
+/// Numbers of any width, and booleans as 0 and 1; `None` for other types.
 pub fn reals(array: &ArrayRef) -> Option<Float64Array> {
     macro_rules! widened {
         ($kind:ty) => {
@@ -34,7 +34,7 @@ pub fn reals(array: &ArrayRef) -> Option<Float64Array> {
     }
 }
 
-/// Whole numbers of any width, also those stored as floats; null where a number is not whole. `None` for anything else.
+/// Integers of any width, also those stored as floats; null where a number is not whole. `None` for other types.
 pub fn integers(array: &ArrayRef) -> Option<Int64Array> {
     if *array.data_type() == DataType::Int64 {
         return Some(array.as_primitive::<Int64Type>().clone());
@@ -43,12 +43,12 @@ pub fn integers(array: &ArrayRef) -> Option<Int64Array> {
         let values = array.as_primitive::<UInt64Type>().iter();
         return Some(values.map(|value| value.and_then(|value| i64::try_from(value).ok())).collect());
     }
-    // All other integers are exact as f64.
+    // All integers below 2^53 are exact as f64.
     let whole = |value: f64| (value.fract() == 0.0 && value.abs() < 9e15).then_some(value as i64);
     Some(reals(array)?.iter().map(|value| value.and_then(whole)).collect())
 }
 
-/// Texts of any layout; `None` for anything else.
+/// Texts of any layout; `None` for other types.
 pub fn texts(array: &ArrayRef) -> Option<StringArray> {
     fn gathered<'a>(values: impl Iterator<Item = Option<&'a str>>) -> StringArray {
         let mut texts = StringBuilder::new();
@@ -64,7 +64,7 @@ pub fn texts(array: &ArrayRef) -> Option<StringArray> {
     }
 }
 
-/// Byte strings of any layout; `None` for anything else.
+/// Byte strings of any layout; `None` for other types.
 pub fn files(array: &ArrayRef) -> Option<BinaryArray> {
     fn gathered<'a>(values: impl Iterator<Item = Option<&'a [u8]>>) -> BinaryArray {
         let mut files = BinaryBuilder::new();
@@ -80,7 +80,7 @@ pub fn files(array: &ArrayRef) -> Option<BinaryArray> {
     }
 }
 
-/// The values of a dictionary, such as a category of pandas, row by row.
+/// Values of a dictionary array, such as a category of pandas, row by row.
 fn unpacked(array: &ArrayRef) -> Option<ArrayRef> {
     let dictionary = array.as_any_dictionary_opt()?;
     if dictionary.values().is_empty() {

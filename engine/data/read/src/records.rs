@@ -1,4 +1,4 @@
-//! All records of an MCAP file in their order, with every checksum checked.
+//! Reads all records of an MCAP file in order and checks every checksum.
 
 use ::mcap::records::Record;
 use ::mcap::sans_io::linear_reader::{LinearReadEvent, LinearReader, LinearReaderOptions};
@@ -7,7 +7,7 @@ use std::io::Read;
 /// Longest record that is read; a raw depth image of the largest camera fits.
 pub(crate) const RECORD_LIMIT: usize = 1 << 30;
 
-/// Gives every record to `visit`, with all checksums checked before.
+/// Calls `visit` with every record, after all its checksums are checked.
 pub fn read_records(input: &mut impl Read, visit: &mut dyn FnMut(Record<'_>)) -> Result<(), String> {
     let options = LinearReaderOptions::default()
         .with_prevalidate_chunk_crcs(true)

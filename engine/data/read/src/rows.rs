@@ -1,5 +1,6 @@
-//! Rows of a table's file, row group by row group. Columns are asked for by their entries in the schema and decoded when they
-//! are first asked for, so no reader lists what it needs.
+//! Rows of a table's file, row group by row group. Columns are requested by their entries in the schema and decoded on
+//! the first
+//! request, so that no reader lists the columns that it needs.
 
 use super::damage::damaged;
 use arrow_array::cast::AsArray;
@@ -15,12 +16,12 @@ use std::fs::File;
 use std::marker::PhantomData;
 use std::path::Path;
 
-/// A file of a table, opened.
+/// An open file of a table.
 pub struct TableFile<'p> {
     path: &'p Path,
     file: File,
     metadata: ArrowReaderMetadata,
-    /// Columns that were asked for so far: those of the next row group are decoded together.
+    /// Columns requested so far; in the next row group they are decoded together.
     wanted: RefCell<BTreeSet<usize>>,
 }
 
@@ -30,11 +31,11 @@ pub struct Rows<'f> {
     group: usize,
     rows: usize,
     decoded: RefCell<BTreeMap<usize, ArrayRef>>,
-    /// Columns that were asked for, with their checked types.
+    /// Requested columns, with their checked types.
     asked: RefCell<Vec<(&'static str, Kind, ArrayRef)>>,
 }
 
-/// The values of a column in the rows of one group.
+/// Values of a column in the rows of one group.
 pub struct Values<'f, T> {
     array: ArrayRef,
     name: &'static str,
@@ -42,10 +43,10 @@ pub struct Values<'f, T> {
     kind: PhantomData<T>,
 }
 
-/// Gives the rows of the file at `path` to `visit`, one row group after the other.
+/// Calls `visit` with the rows of the file at `path`, one row group after the other.
 ///
 /// # Errors
-/// The file is no Parquet, or what `visit` says.
+/// The file is not Parquet, or an error of `visit`.
 pub fn read(path: &Path, visit: &mut dyn FnMut(&Rows<'_>) -> Result<()>) -> Result<()> {
     let file = TableFile::open(path)?;
     (0..file.metadata.metadata().num_row_groups()).try_for_each(|group| visit(&file.group(group)?))
@@ -55,7 +56,7 @@ impl<'p> TableFile<'p> {
     /// Reads the footer of the file at `path`.
     ///
     /// # Errors
-    /// The file cannot be opened or is no Parquet.
+    /// The file cannot be opened or is not Parquet.
     pub fn open(path: &'p Path) -> Result<Self> {
         let file = File::open(path).map_err(|error| Diagnostic::io(format!("open `{}`", path.display()), &error))?;
         let metadata = ArrowReaderMetadata::load(&file, ArrowReaderOptions::default())
@@ -63,7 +64,7 @@ impl<'p> TableFile<'p> {
         Ok(Self { path, file, metadata, wanted: RefCell::default() })
     }
 
-    /// The Arrow schema of the file.
+    /// Arrow schema of the file.
     pub fn schema(&self) -> &arrow_schema::Schema {
         self.metadata.schema()
     }
@@ -73,7 +74,7 @@ impl<'p> TableFile<'p> {
         self.metadata.metadata().num_row_groups()
     }
 
-    /// A row group; the columns that earlier groups were asked for are decoded at once.
+    /// Reads a row group; the columns requested in earlier groups are decoded at once.
     ///
     /// # Errors
     /// The group cannot be decoded.
@@ -84,7 +85,7 @@ impl<'p> TableFile<'p> {
         Ok(Rows { file: self, group, rows, decoded: RefCell::new(decoded), asked: RefCell::default() })
     }
 
-    /// Some columns of a row group, each as one array.
+    /// Decodes some columns of a row group, each as one array.
     fn decode(&self, group: usize, columns: &[usize]) -> Result<Vec<ArrayRef>> {
         if columns.is_empty() {
             return Ok(vec![]);
@@ -105,7 +106,11 @@ impl<'p> TableFile<'p> {
                 let schema = self.metadata.schema();
                 Ok(columns.iter().map(|at| arrow_array::new_empty_array(schema.field(*at).data_type())).collect())
             }
-            _ => Err(damaged(self.path, "a row group has not the rows that it says", format!("row group {group}"))),
+            _ => Err(damaged(
+                self.path,
+                "a row group does not have its declared number of rows",
+                format!("row group {group}"),
+            )),
         }
     }
 }
@@ -116,17 +121,17 @@ impl<'f> Rows<'f> {
         self.rows
     }
 
-    /// Whether there is no row.
+    /// Whether there are no rows.
     pub fn is_empty(&self) -> bool {
         self.rows == 0
     }
 
-    /// Whether the file has a column; older datasets have fewer.
+    /// Whether the file has a column; older datasets have fewer columns.
     pub fn has<S, T>(&self, column: Column<S, T>) -> bool {
         self.place(column.name).is_some()
     }
 
-    /// The values of a column.
+    /// Values of a column.
     ///
     /// # Errors
     /// `dataset-column`: the file has no such column, or one of another type.
@@ -155,23 +160,23 @@ impl<'f> Rows<'f> {
         Ok(array)
     }
 
-    /// The value of a column in a row; see [`Self::values`] for many rows.
+    /// Value of a column in a row; [`Self::values`] is faster for many rows.
     ///
     /// # Errors
-    /// As [`Self::values`], and `dataset-damaged`: the row has no such value.
+    /// The errors of [`Self::values`], and `dataset-damaged`: the row has no such value.
     pub fn get<S, T: Value>(&self, column: Column<S, T>, row: usize) -> Result<T> {
         self.values(column)?.at(row)
     }
 
-    /// The value of a column in a row, or `default` in a dataset from before the column was there.
+    /// Value of a column in a row, or `default` in a dataset from before the column existed.
     ///
     /// # Errors
-    /// As [`Self::get`].
+    /// The errors of [`Self::get`].
     pub fn get_or<S, T: Value>(&self, column: Column<S, T>, row: usize, default: T) -> Result<T> {
         if self.has(column) { self.get(column, row) } else { Ok(default) }
     }
 
-    /// A column by its place in the file.
+    /// Column number `place` of the file.
     ///
     /// # Errors
     /// The column cannot be decoded.
@@ -190,7 +195,7 @@ impl<'f> Rows<'f> {
     }
 }
 
-/// Whether two types are the same apart from what lists call their items.
+/// Whether two types are equal apart from the names of list items.
 fn same_type(found: &DataType, expected: &DataType) -> bool {
     match (found, expected) {
         (DataType::List(a), DataType::List(b)) => a.data_type() == b.data_type(),
@@ -200,7 +205,7 @@ fn same_type(found: &DataType, expected: &DataType) -> bool {
 }
 
 impl<T: Value> Values<'_, T> {
-    /// The value of a row.
+    /// Value of a row.
     ///
     /// # Errors
     /// `dataset-damaged`: the row has no such value, such as null or NaN.
@@ -213,7 +218,7 @@ impl<T: Value> Values<'_, T> {
 }
 
 impl Values<'_, String> {
-    /// The text of a row; empty for null.
+    /// Text of a row; empty for null.
     pub fn text(&self, row: usize) -> &str {
         let texts = self.array.as_string_opt::<i32>().filter(|texts| texts.is_valid(row));
         texts.map_or("", |texts| texts.value(row))

@@ -1,4 +1,4 @@
-//! What is read back is what was published.
+//! Round trips: the data read equal the published data.
 
 use super::*;
 use cosfly_frames::DVec3;

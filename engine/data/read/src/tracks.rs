@@ -1,4 +1,5 @@
-//! Poses, targets and visibility of all flights of a dataset at once, without pictures: what predictions are judged by.
+//! Poses, targets and visibility of all flights of a dataset at once, without pictures: the ground truth for
+//! predictions.
 
 use super::damage::damaged;
 use super::dataset::PublishedDataset;
@@ -10,28 +11,28 @@ use cosfly_schema::tables::{Edges, Frames};
 use std::collections::BTreeMap;
 use std::path::Path;
 
-/// The frames of a flight, one entry of each list per frame. World frame, metres, radians.
+/// Frames of a flight, one entry of each list per frame. World frame, metres, radians.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct FlightTrack {
     /// Poses of the drone.
     pub poses: Vec<Pose>,
-    /// The target's feet.
+    /// Positions of the target's feet.
     pub feet: Vec<DVec3>,
-    /// The target's walking direction.
+    /// Walking directions of the target.
     pub heading_rad: Vec<f64>,
     /// Share of the target's body that rays from the camera reach, 0..=1.
     pub visible: Vec<f64>,
     /// Edges around the target's visible pixels: left, top, right, bottom.
     pub boxes: Vec<Option<Edges>>,
-    /// The expert's frame of each frame of a perturbed flight; its own for an expert.
+    /// Frame of the expert for each frame of a perturbed flight; the frame itself for an expert.
     pub expert_frame: Vec<u32>,
 }
 
-/// Frames that room is made for at most before they are there.
+/// Most frames for which memory is reserved in advance.
 const MOST_ROOM: usize = 1 << 16;
 
 impl FlightTrack {
-    /// An empty one with room for `frames` frames.
+    /// An empty track with room for `frames` frames.
     fn with_room(frames: usize) -> Self {
         Self {
             poses: Vec::with_capacity(frames),
@@ -45,10 +46,10 @@ impl FlightTrack {
 }
 
 impl PublishedDataset {
-    /// The track of every trajectory, in the order of [`Self::flights`]. Reads each file of table `frames` once.
+    /// Tracks of all trajectories, in the order of [`Self::flights`]. Reads each file of table `frames` once.
     ///
     /// # Errors
-    /// A column that is not there, a row without a number, frames that are missing or out of order.
+    /// A missing column, a row without a value, or frames that are missing or out of order.
     pub fn tracks(&self) -> Result<Vec<FlightTrack>> {
         let mut tracks: Vec<FlightTrack> =
             self.flights().iter().map(|flight| FlightTrack::with_room(flight.frames.min(MOST_ROOM))).collect();
@@ -63,7 +64,7 @@ impl PublishedDataset {
                     let place = match &last {
                         Some((name, place)) if name == id => *place,
                         _ => *places.get(id).ok_or_else(|| {
-                            damaged(&path, &format!("trajectory `{id}` is in no table of trajectories"), "a stray row")
+                            damaged(&path, &format!("table `trajectories` has no trajectory `{id}`"), "an orphaned row")
                         })?,
                     };
                     if last.as_ref().is_none_or(|(_, known)| *known != place) {
@@ -79,14 +80,14 @@ impl PublishedDataset {
                 let (rows, frames) = (track.poses.len(), flight.frames);
                 let what = format!("it has {rows} rows of `{}`, which has {frames} frames", flight.trajectory_id);
                 let folder = self.folder().join("data/frames");
-                return Err(damaged(&folder, &what, "rows are missing or too many"));
+                return Err(damaged(&folder, &what, "rows are missing or duplicated"));
             }
         }
         Ok(tracks)
     }
 }
 
-/// The columns that tracks are made of, in the rows of one group.
+/// Columns of tracks, in the rows of one group.
 struct Columns<'f> {
     ids: Values<'f, String>,
     frame: Values<'f, u32>,
@@ -131,7 +132,7 @@ impl<'f> Columns<'f> {
         let frame = self.frame.at(row)?;
         if frame as usize != track.poses.len() {
             let what = format!("frame {frame} of `{}` is out of order", flight.trajectory_id);
-            return Err(damaged(path, &what, format!("frame {} should be there", track.poses.len())));
+            return Err(damaged(path, &what, format!("frame {} was expected", track.poses.len())));
         }
         let vector = |of: &[Values<'f, f64>; 3]| Ok::<_, Box<_>>([of[0].at(row)?, of[1].at(row)?, of[2].at(row)?]);
         let [pitch_rad, yaw_rad, roll_rad] = vector(&self.angles)?.map(f64::to_radians);

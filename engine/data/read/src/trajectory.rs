@@ -11,23 +11,25 @@ use std::collections::BTreeMap;
 /// A published trajectory.
 #[derive(Clone, Debug, PartialEq)]
 pub struct PublishedFlight {
-    /// Unique in the dataset.
+    /// Id, unique in the dataset.
     pub trajectory_id: String,
     /// Name of the flight, the same for all weathers of a paired rendering.
     pub flight_id: String,
-    /// The expert of a perturbed trajectory.
+    /// Expert of a perturbed trajectory.
     pub expert_id: Option<String>,
     /// Pedestrian who is followed.
     pub pedestrian_id: String,
     /// Name of the town.
     pub town: String,
-    /// Digest of the town's geometry; towns with the same digest are the same place. Empty in datasets from before the column.
+    /// Digest of the town's geometry, equal for equal towns. Empty in datasets from before the column existed.
     pub town_geometry: String,
-    /// Ground plan of the town; without a sketch, and with the geometry's digest, in datasets from before the column.
+    /// Ground plan of the town; in datasets from before the column existed without a sketch and with the geometry's
+    /// digest.
     pub town_layout: TownLayout,
-    /// Trajectories with the same group must stay in one split; empty in datasets from before the column.
+    /// Split group: trajectories of one group must stay in one split. Empty in datasets from before the column existed.
     pub split_group: String,
-    /// `x = x_map - x_offset`, `y = -y_map - y_offset`, `z = z_map - z_offset`, metres.
+    /// Offset of the world frame in the map file, metres: `x = x_map - x_offset`, `y = -y_map - y_offset`, `z = z_map -
+    /// z_offset`.
     pub town_offset_m: DVec3,
     /// Name of the weather preset.
     pub weather: String,
@@ -37,11 +39,11 @@ pub struct PublishedFlight {
     pub frames: usize,
     /// Time between frames, seconds.
     pub dt_s: f64,
-    /// The camera of all frames, without its lens.
+    /// Ideal camera of all frames, without its lens.
     pub camera: Camera,
     /// Distortion of the lens.
     pub lens: Lens,
-    /// Turn of the camera against the drone.
+    /// Rotation of the camera relative to the drone.
     pub mount: Mount,
     /// Time from the top row to the bottom row of an image, seconds.
     pub readout_s: f64,
@@ -49,7 +51,7 @@ pub struct PublishedFlight {
     pub target_height_m: f64,
     /// Radius of the target's body, metres.
     pub target_radius_m: f64,
-    /// Limits of clearance (m), speed (m/s), acceleration (m/s^2) and jerk (m/s^3); none where there is no limit.
+    /// Limits of clearance (m), speed (m/s), acceleration (m/s^2) and jerk (m/s^3); `None` where there is no limit.
     pub limits: [Option<f64>; 4],
     /// Path of the log, from the dataset's folder.
     pub mcap_path: String,
@@ -58,10 +60,10 @@ pub struct PublishedFlight {
 }
 
 impl PublishedFlight {
-    /// A row of table `trajectories` of split `split`.
+    /// Reads a row of table `trajectories` of split `split`.
     ///
     /// # Errors
-    /// A column that is not there, or holds no value.
+    /// A missing column, or a row without a value.
     pub fn read(rows: &Rows<'_>, row: usize, split: &str) -> Result<Self> {
         let mut weather_numbers = BTreeMap::new();
         for number in &WEATHER_NUMBERS {

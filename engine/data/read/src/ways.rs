@@ -1,4 +1,4 @@
-//! Poses of the drone and positions of the target, trajectory by trajectory, off the small table `waypoints`.
+//! Poses of the drone and positions of the target, trajectory by trajectory, from the small table `waypoints`.
 
 use super::damage::damaged;
 use super::dataset::PublishedDataset;
@@ -8,14 +8,14 @@ use cosfly_frames::{DVec3, Pose};
 use cosfly_schema::tables::Waypoints;
 use std::path::Path;
 
-/// A trajectory's id, the drone's poses and the target's feet; world frame, metres, radians.
+/// Callback for a trajectory's id, the drone's poses and the target's feet; world frame, metres, radians.
 type Visit<'a> = &'a mut dyn FnMut(&str, &[Pose], &[DVec3]);
 
 impl PublishedDataset {
-    /// Gives every trajectory of table `waypoints` to `visit`; one is in memory at a time.
+    /// Calls `visit` with every trajectory of table `waypoints`; one is in memory at a time.
     ///
     /// # Errors
-    /// The damage of the table.
+    /// Damage of the table.
     pub fn ways(&self, visit: Visit<'_>) -> Result<()> {
         for (_, path) in self.files("waypoints")? {
             let mut way = Way::default();
@@ -31,7 +31,7 @@ impl PublishedDataset {
     }
 }
 
-/// The trajectory that is being read.
+/// Trajectory that is being read.
 #[derive(Default)]
 struct Way {
     id: String,
@@ -50,7 +50,7 @@ impl Way {
         let step = rows.get(Waypoints::step, row)? as usize;
         if step != self.poses.len() {
             let what = format!("step {step} of `{id}` is out of order");
-            return Err(damaged(path, &what, format!("step {} should be there", self.poses.len())));
+            return Err(damaged(path, &what, format!("step {} was expected", self.poses.len())));
         }
         let [x, y, z, pitch, yaw, roll] = rows.get(Waypoints::pose_in_world, row)?;
         self.poses.push(Pose {

@@ -1,4 +1,4 @@
-//! Files read to their ends: whether they can be.
+//! Checks whether files can be read to their ends.
 
 use super::records::read_records;
 use super::rows::TableFile;
@@ -6,7 +6,7 @@ use std::fs::File;
 use std::io::BufReader;
 use std::path::Path;
 
-/// The reason why a Parquet file cannot be read to its end, if so.
+/// Reason why a Parquet file cannot be read to its end, if any.
 pub fn parquet_problem(path: &Path) -> Option<String> {
     let read = || {
         let file = TableFile::open(path)?;
@@ -20,7 +20,7 @@ pub fn parquet_problem(path: &Path) -> Option<String> {
     outcome.err().map(|refusal| [vec![refusal.message], refusal.causes].concat().join(": "))
 }
 
-/// The reason why an MCAP file cannot be read to its end with all its checksums, if so.
+/// Reason why an MCAP file cannot be read to its end with all its checksums, if any.
 pub fn log_problem(path: &Path) -> Option<String> {
     let file = match File::open(path) {
         Ok(file) => file,

@@ -1,4 +1,4 @@
-//! The law of columns: what an entry of the schema writes, the same entry reads back.
+//! Round trip of columns: the values written by an entry of the schema are read back by the same entry.
 
 use cosfly_metrics::WindowShape;
 use cosfly_read::TableFile;
@@ -39,7 +39,7 @@ fn items() -> Vec<DatasetItem> {
     sample::flights().into_iter().map(item).collect()
 }
 
-/// Writes the records and compares every column of the file with what its entry gives.
+/// Writes the records and compares every column of the file with the values of its entry.
 fn check_table<S>(table: &Table<S>, records: &[S]) {
     let file = tempfile::NamedTempFile::new().unwrap();
     let mut writer = TableWriter::new(table, File::create(file.path()).unwrap()).unwrap();

@@ -1,4 +1,4 @@
-//! What a recipe says about a dataset: name, licence, splits, image encodings.
+//! Parameters of the `dataset` stage: name, licence, splits, windows, image encodings.
 
 use crate::Split;
 use cosfly_diagnose::ParameterError;
@@ -16,7 +16,7 @@ pub struct DatasetConfig {
     pub name: String,
     /// Title of the card.
     pub title: String,
-    /// What the dataset is, in a paragraph; the card and `croissant.json` show it.
+    /// Description of the dataset, one paragraph, for the card and `croissant.json`.
     #[schemars(length(min = 1))]
     pub description: String,
     /// Version of the data, `MAJOR.MINOR.PATCH`.
@@ -24,21 +24,21 @@ pub struct DatasetConfig {
     pub version: String,
     /// Licence of the generated data (not of cosfly).
     pub license: LicenseConfig,
-    /// Who publishes it.
+    /// Publisher of the dataset.
     pub creator: CreatorConfig,
-    /// Where it lives.
+    /// Web address of the dataset.
     #[schemars(length(min = 1))]
     pub url: String,
-    /// How to cite it (BibTeX); empty writes an entry from the title, creator and year.
+    /// Citation (BibTeX); empty writes an entry from the title, creator and year.
     pub citation: String,
-    /// Day of publication, `YYYY-MM-DD`; a parameter, because the same recipe must give the same bytes.
+    /// Day of publication, `YYYY-MM-DD`; a parameter, because equal recipes must give equal bytes.
     #[schemars(regex(pattern = r"^[0-9]{4}-(0[1-9]|1[0-2])-(0[1-9]|[12][0-9]|3[01])$"))]
     pub date_published: String,
-    /// Shares of train, validation and test, and what must stay together.
+    /// Shares of train, validation and test, and groups that must stay together.
     pub splits: SplitShares,
-    /// How training windows are cut: table `windows`.
+    /// Shape of training windows: table `windows`.
     pub windows: WindowConfig,
-    /// Texts for single terms of the Responsible AI vocabulary, such as `dataBiases`, instead of cosfly's own.
+    /// Texts for single terms of the Responsible AI vocabulary, such as `dataBiases`, instead of the generated ones.
     pub responsible_ai: BTreeMap<String, String>,
     /// Rows of the `frames` table in one Parquet file; larger tables are split into several files.
     #[schemars(range(min = 1, max = 1_000_000))]
@@ -69,7 +69,7 @@ impl Default for DatasetConfig {
 }
 
 impl DatasetConfig {
-    /// The rules that the schema cannot say.
+    /// Checks the rules that the schema cannot express.
     pub fn check(&self) -> Result<(), ParameterError> {
         let shares = [self.splits.train, self.splits.val, self.splits.test];
         if !(shares.iter().all(|share| *share >= 0.0) && shares.iter().sum::<f64>() > 0.0) {
@@ -114,7 +114,7 @@ impl DatasetConfig {
     }
 }
 
-/// The terms of the vocabulary whose text a recipe may replace (`responsible_ai` of the dataset's parameters).
+/// Terms of the vocabulary whose text a recipe may replace (`responsible_ai` of the dataset's parameters).
 pub const RESPONSIBLE_AI_TERMS: [&str; 20] = [
     "annotationsPerItem",
     "annotatorDemographics",
@@ -152,21 +152,23 @@ fn is_day(date: &str) -> bool {
     year > 0 && (1..=days).contains(&day)
 }
 
-/// A licence for data. By default cosfly's own terms: free for all, but not for unauthorised surveillance and not for
+/// Licence of the data. By default cosfly's own terms: free for all, but not for unauthorised surveillance and not for
 /// military targeting.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(default, deny_unknown_fields)]
 pub struct LicenseConfig {
     /// SPDX name in lower case as Hugging Face lists it, such as `cc-by-4.0`, or any other name.
     pub name: String,
-    /// Address of its text.
+    /// Address of the licence's text.
     #[schemars(length(min = 1))]
     pub url: String,
-    /// Content of the `LICENSE` file; empty writes cosfly's own terms under their default name, and name and address
-    /// of any other licence.
+    /// Content of the `LICENSE` file; empty writes cosfly's own terms under their default name, and name and address of
+    /// any
+    /// other licence.
     pub text: String,
-    /// What the data are not for: section "Responsible use" of the card and `usageInfo` of `croissant.json`, whatever
-    /// the licence.
+    /// Prohibited uses of the data: section "Responsible use" of the card and `usageInfo` of `croissant.json`, whatever
+    /// the
+    /// licence.
     #[schemars(length(min = 1))]
     pub responsible_use: String,
 }
@@ -188,13 +190,13 @@ impl Default for LicenseConfig {
     }
 }
 
-/// Who publishes a dataset.
+/// Publisher of a dataset.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(default, deny_unknown_fields)]
 pub struct CreatorConfig {
     /// Person or organisation.
     pub name: String,
-    /// Their address on the web.
+    /// Web address of the publisher.
     pub url: String,
 }
 
@@ -204,17 +206,18 @@ impl Default for CreatorConfig {
     }
 }
 
-/// How training windows are cut.
+/// Shape of training windows.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(default, deny_unknown_fields)]
 pub struct WindowConfig {
-    /// Frames of a window.
+    /// Number of frames of a window.
     #[schemars(range(min = 2, max = 1000))]
     pub size: u32,
-    /// Its first frames, which a model sees; the last of them is the current frame. Fewer than `size`.
+    /// Number of frames that a model sees, at the start of the window; the last of them is the current frame. Less than
+    /// `size`.
     #[schemars(range(min = 1, max = 999))]
     pub history: u32,
-    /// Frames from the start of a window to the start of the next one.
+    /// Number of frames from the start of a window to the start of the next one.
     #[schemars(range(min = 1, max = 1000))]
     pub stride: u32,
 }
@@ -226,7 +229,7 @@ impl Default for WindowConfig {
 }
 
 impl WindowConfig {
-    /// The cut.
+    /// Shape of the windows.
     pub fn shape(&self) -> WindowShape {
         WindowShape {
             history: self.history as usize,
@@ -236,19 +239,21 @@ impl WindowConfig {
     }
 }
 
-/// What goes to one split as a whole.
+/// Unit that goes to one split as a whole.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum SplitBy {
-    /// All flights behind one pedestrian, and behind all others whose ways overlap.
+    /// All flights behind one pedestrian, and behind all others whose walks overlap with theirs.
     Pedestrian,
-    /// All flights in one town, whatever it is called: a dataset of several towns then has unseen ones.
+    /// All flights in one town, whatever its name: a dataset of several towns then has unseen ones.
     Town,
 }
 
-/// Shares of the splits. The split is a draw from the id of the pedestrian (the first of those whose ways overlap) or
-/// from the town's ground plan, so that twins stay together and adding pedestrians moves old ones only where a new
-/// walk joins two groups.
+/// Shares of the splits. The split is a draw from the id of the pedestrian (the first of those whose walks overlap) or
+/// from
+/// the town's ground plan, so that twins stay together and adding pedestrians moves old ones only where a new walk
+/// joins two
+/// groups.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(default, deny_unknown_fields)]
 pub struct SplitShares {
@@ -263,14 +268,16 @@ pub struct SplitShares {
     pub test: f64,
     /// Seed of the assignment.
     pub seed: u64,
-    /// What goes to one split as a whole: `pedestrian` or `town`.
+    /// Unit that goes to one split as a whole: `pedestrian` or `town`.
     pub by: SplitBy,
-    /// Two walks stay together when one repeats more than this share of the other: the same ground within 4 m in the
-    /// same direction. Publishing refuses splits that break it.
+    /// Largest share of a walk that another one in another split may repeat: the same ground within 4 m in the same
+    /// direction.
+    /// Walks with a larger overlap stay together; publishing fails where splits violate it.
     #[schemars(range(min = 0, max = 1))]
     pub max_route_overlap: f64,
     /// Splits that towns go to as a whole, by the town's name: `{ uptown = "test" }` keeps `uptown` unseen. Towns with
-    /// the same ground plan go with it.
+    /// the same
+    /// ground plan go to the same split.
     #[serde(skip_serializing_if = "BTreeMap::is_empty")]
     pub towns: BTreeMap<String, Split>,
 }
@@ -289,7 +296,7 @@ impl Default for SplitShares {
     }
 }
 
-/// How images are stored; part of the `render` stage's parameters.
+/// Storage of images; part of the `render` stage's parameters.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(default, deny_unknown_fields)]
 pub struct EncodingConfig {
@@ -300,7 +307,7 @@ pub struct EncodingConfig {
     pub jpeg_quality: u8,
     /// Depth images: `grid` (rounded to 2^-10 m, about six times smaller) or `lossless`.
     pub depth: DepthEncoding,
-    /// Store small previews of all channels, for viewers and the `frames` table.
+    /// Whether small previews of all channels are stored, for viewers and the `frames` table.
     pub previews: bool,
 }
 
@@ -310,7 +317,7 @@ impl Default for EncodingConfig {
     }
 }
 
-/// How colour images are stored.
+/// Storage of colour images.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum RgbEncoding {
@@ -320,13 +327,13 @@ pub enum RgbEncoding {
     Png,
 }
 
-/// How depth images are stored; always as 32-bit floats in metres.
+/// Storage of depth images; always 32-bit floats in metres.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum DepthEncoding {
     /// Rounded to multiples of 2^-10 m (error at most 0.49 mm), so that they compress well.
     Grid,
-    /// As rendered.
+    /// Unrounded.
     Lossless,
 }
 

@@ -1,33 +1,35 @@
-//! Labels that stages of plugins give to the frames of a flight: with the flight until it is published, apart from its costs.
+//! Labels that plugins give to the frames of a flight. They travel with the flight until it is published, apart from
+//! its costs.
 //!
-//! In a [`Trajectory`] they travel among the terms, with weight 0 and a name that no term can have: of terms, names are
+//! In a [`Trajectory`] they are stored among the terms, with weight 0 and a name that no term can have: names of terms
+//! are
 //! `a-z`, `0-9` and `_`.
 
 use cosfly_planner::{TermCost, Trajectory};
 
-/// What stands before and between the parts of such a name.
+/// Prefix and separator of such a name.
 const MARK: &str = "label/";
 const BETWEEN: char = '/';
 
-/// A label of every frame.
+/// A label: one value per frame.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct FlightLabel<'a> {
-    /// Its name.
+    /// Name of the label.
     pub name: &'a str,
-    /// The plugin that gave it, as it calls itself.
+    /// Name of the plugin that gave it.
     pub plugin: &'a str,
-    /// Its version.
+    /// Version of the plugin.
     pub version: &'a str,
-    /// One value per frame.
+    /// Values, one per frame.
     pub per_frame: &'a [f64],
 }
 
-/// The flight's costs: its terms that are no labels.
+/// Costs of a flight: its terms that are not labels.
 pub fn costs(flight: &Trajectory) -> impl Iterator<Item = &TermCost> {
     flight.terms.iter().filter(|term| !term.name.starts_with(MARK))
 }
 
-/// The flight's labels, in the order in which they were given.
+/// Labels of a flight, in the order in which they were given.
 pub fn labels(flight: &Trajectory) -> impl Iterator<Item = FlightLabel<'_>> {
     flight.terms.iter().filter_map(|term| {
         let mut parts = term.name.strip_prefix(MARK)?.splitn(3, BETWEEN);
@@ -36,14 +38,17 @@ pub fn labels(flight: &Trajectory) -> impl Iterator<Item = FlightLabel<'_>> {
     })
 }
 
-/// Gives the flight a label.
+/// Adds a label to a flight.
 ///
 /// # Errors
-/// That it has one of that name.
+/// The flight has a label of that name already.
 pub fn add(flight: &mut Trajectory, label: FlightLabel<'_>) -> Result<(), String> {
     let FlightLabel { name, plugin, version, per_frame } = label;
     if let Some(earlier) = labels(flight).find(|earlier| earlier.name == name) {
-        return Err(format!("it returned a label `{name}`, but plugin `{}` gave one of that name", earlier.plugin));
+        return Err(format!(
+            "it returned a label `{name}`, but plugin `{}` already gave one of that name",
+            earlier.plugin
+        ));
     }
     let name = format!("{MARK}{name}{BETWEEN}{plugin}{BETWEEN}{version}");
     let sum = per_frame.iter().sum();

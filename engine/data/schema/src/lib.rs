@@ -1,10 +1,10 @@
-//! What a dataset is: its record model, and every table, column and topic with name, type, unit and meaning.
+//! The schema of datasets: the record model, and every table, column and topic with name, type, unit and meaning.
 //!
-//! * [`record`]: one rendered trajectory, as the stages hand it over.
-//! * [`config`]: what a recipe says about the dataset as a whole.
+//! * [`record`]: one rendered trajectory, as passed between stages.
+//! * [`config`]: parameters of the dataset as a whole.
 //! * [`tables`]: the Parquet tables and their columns.
 //! * [`log`]: the topics and messages of a trajectory's MCAP log.
-//! * [`town_layout`]: a town's ground plan, by which towns are told apart.
+//! * [`town_layout`]: ground plan of a town, which identifies the town.
 //! * [`flight_labels`], [`flight_table`], [`extras`]: labels, tables and files of plugins.
 
 pub mod config;

@@ -1,4 +1,4 @@
-//! The record model: one rendered trajectory with everything that tables, logs and cards say about it.
+//! The record model: one rendered trajectory with everything that tables, logs and cards contain about it.
 
 use cosfly_diagnose::{Diagnostic, Fault, Result};
 use cosfly_frames::{Pose, TargetState};
@@ -8,12 +8,12 @@ use cosfly_render::frame::TARGET_INSTANCE;
 use cosfly_render::{Camera, Lens, MotionBlur, Mount, Noise, PersonView, RollingShutter, TargetView, Weather};
 use serde::{Deserialize, Serialize, de::DeserializeOwned};
 
-/// Which of the two flights behind a pedestrian this is.
+/// Role of a flight behind a pedestrian.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
 pub enum Role {
-    /// The optimised flight.
+    /// Optimised flight.
     Expert,
-    /// Its disturbed twin, from which to learn to recover.
+    /// Disturbed twin of an expert, for learning to recover.
     Perturbed,
 }
 
@@ -21,7 +21,7 @@ impl Role {
     /// All roles, in the order of their class labels.
     pub const ALL: [Self; 2] = [Self::Expert, Self::Perturbed];
 
-    /// The name in tables.
+    /// Name in tables.
     pub fn name(self) -> &'static str {
         match self {
             Self::Expert => "expert",
@@ -30,21 +30,21 @@ impl Role {
     }
 }
 
-/// The town as far as a trajectory's metadata need it.
+/// Facts about the town for a trajectory's metadata.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct TownInfo {
     /// Short name.
     pub name: String,
     /// BLAKE3 of the town's encoded geometry, 64 hex digits.
     pub geometry_digest: String,
-    /// How its world frame lies in the map file's frame.
+    /// Position of the world frame in the map file's frame.
     pub origin: MapOrigin,
-    /// What was invented.
+    /// Synthetic parts of the town.
     pub synthetic: Synthetic,
 }
 
 impl TownInfo {
-    /// What `town`, whose encoded bytes have the digest `geometry_digest`, is called and was made of.
+    /// Facts about `town`, whose encoded bytes have the digest `geometry_digest`.
     pub fn of(town: &Town, geometry_digest: impl ToString) -> Self {
         Self {
             name: town.name.clone(),
@@ -55,19 +55,19 @@ impl TownInfo {
     }
 }
 
-/// How a perturbed flight belongs to its expert.
+/// Relation of a perturbed flight to its expert.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct PairInfo {
-    /// Trajectory id of the expert, as it is published.
+    /// Published trajectory id of the expert.
     pub expert_id: String,
 }
 
-/// Somebody who is about beside the target.
+/// A bystander.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct OtherPerson {
     /// Id in instance images: after those of all objects, the same in all flights of a stage.
     pub instance: u32,
-    /// Stage and item of their walk, such as `crowd-p00003`.
+    /// Stage and item of the walk, such as `crowd-p00003`.
     pub walk_id: String,
     /// Body height, metres.
     pub height_m: f64,
@@ -75,61 +75,62 @@ pub struct OtherPerson {
     pub radius_m: f64,
 }
 
-/// Somebody of whom a frame shows at least one pixel.
+/// A frame in which a bystander covers at least one pixel.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Sighting {
-    /// The frame.
+    /// Number of the frame.
     pub frame: u32,
-    /// Their place among [`RenderedTrajectory::others`].
+    /// Index of the person in [`RenderedTrajectory::others`].
     pub person: u32,
-    /// Where they are and how they move.
+    /// Position and motion of the person.
     pub state: TargetState,
-    /// Their pixels.
+    /// Visible pixels of the person.
     pub view: PersonView,
 }
 
-/// One trajectory with all that was computed about it, except for the pixels (see [`cosfly_write::frame_pack`]).
-/// The `index` blob of the render stage. World frame: CARLA's, metres, radians.
+/// One trajectory with everything computed about it, except for the pixels (see [`cosfly_write::frame_pack`]). The
+/// `index`
+/// blob of the render stage. World frame: CARLA's, metres, radians.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct RenderedTrajectory {
-    /// Unique in the dataset: letters, digits, `.`, `_` and `-`, such as `expert-p00000`.
+    /// Id, unique in the dataset: letters, digits, `.`, `_` and `-`, such as `expert-p00000`.
     pub trajectory_id: String,
-    /// The flight that the pictures are of: the trajectory id without the weather that a paired rendering appends.
+    /// Id of the flight in the pictures: the trajectory id without the weather that a paired rendering appends.
     pub flight_id: String,
     /// Expert or perturbed.
     pub role: Role,
-    /// Item id of the pedestrian that is followed. Twins share it, and all flights behind one pedestrian go to
-    /// the same split.
+    /// Item id of the target. Twins share it, and all flights behind one pedestrian go to the same split.
     pub pedestrian_id: String,
     /// The town.
     pub town: TownInfo,
     /// Poses, target track, costs, certificate, perturbation.
     pub trajectory: Trajectory,
-    /// The ideal camera of all frames, without its lens.
+    /// Ideal camera of all frames, without its lens.
     pub camera: Camera,
-    /// What the lens of the camera bends.
+    /// Distortion of the lens.
     pub lens: Lens,
-    /// How the camera is turned against the drone, whose poses the trajectory holds.
+    /// Rotation of the camera relative to the drone, whose poses the trajectory holds.
     pub mount: Mount,
-    /// The shutter of the camera.
+    /// Motion blur of the camera.
     pub motion_blur: MotionBlur,
-    /// How its rows are read.
+    /// Rolling shutter of the camera.
     pub rolling_shutter: RollingShutter,
-    /// The noise of its sensor.
+    /// Noise of the sensor.
     pub noise: Noise,
-    /// The weather of all frames.
+    /// Weather of all frames.
     pub weather: Weather,
-    /// The item's seed, its first eight bytes as a number.
+    /// First eight bytes of the item's seed as a number.
     pub seed: u64,
-    /// The target in the image, per frame.
+    /// View of the target in the image, per frame.
     pub views: Vec<TargetView>,
-    /// Share of the target that hundreds of rays reach, per frame, apart from the renderer; none out of view.
+    /// Share of the target that hundreds of rays reach, 0..1, per frame, computed without the renderer; `None` out of
+    /// view.
     pub visible_by_dense_rays: Vec<Option<f64>>,
-    /// Everybody who is about beside the target, by instance id.
+    /// All bystanders, by instance id.
     pub others: Vec<OtherPerson>,
-    /// Who of them is seen in which frame, by frame and instance id.
+    /// Frames in which bystanders are visible, by frame and instance id.
     pub sightings: Vec<Sighting>,
-    /// Set for a perturbed flight.
+    /// Relation to the expert; set for perturbed flights.
     pub pair: Option<PairInfo>,
 }
 
@@ -139,7 +140,7 @@ impl RenderedTrajectory {
         self.trajectory.poses_in_world.len()
     }
 
-    /// Whether there is no frame at all.
+    /// Whether the record has no frame.
     pub fn is_empty(&self) -> bool {
         self.len() == 0
     }
@@ -149,12 +150,12 @@ impl RenderedTrajectory {
         self.trajectory.track.dt_s
     }
 
-    /// The camera's pose.
+    /// Pose of the camera in a frame.
     pub fn camera_pose(&self, frame: usize) -> Pose {
         self.mount.camera_pose(&self.trajectory.poses_in_world[frame])
     }
 
-    /// Who is seen in a frame beside the target.
+    /// Bystanders visible in a frame.
     pub fn seen_in(&self, frame: usize) -> impl Iterator<Item = (&OtherPerson, &Sighting)> {
         let start = self.sightings.partition_point(|sighting| (sighting.frame as usize) < frame);
         let seen = self.sightings[start..].iter().take_while(move |sighting| sighting.frame as usize == frame);
@@ -167,20 +168,19 @@ impl RenderedTrajectory {
         (feet - self.trajectory.poses_in_world[frame].position_in_world).length()
     }
 
-    /// The bytes of an `index` blob.
+    /// Encodes an `index` blob.
     pub fn to_bytes(&self) -> Vec<u8> {
         encode(TRAJECTORY_MAGIC, self)
     }
 
-    /// Reads an `index` blob; lengths, names and numbers are checked, so that writers may rely on them.
+    /// Decodes an `index` blob; lengths, names and numbers are checked, so that writers may rely on them.
     pub fn from_bytes(bytes: &[u8]) -> Result<Self> {
         let record: Self = decode("rendered trajectory", TRAJECTORY_MAGIC, bytes)?;
         record.check()?;
         Ok(record)
     }
 
-    /// Refuses a record whose per-frame vectors differ in length, whose names would not make a file name, or
-    /// that holds a number that is not finite.
+    /// Checks that per-frame vectors have equal lengths, that names can be file names, and that all numbers are finite.
     pub fn check(&self) -> Result<()> {
         let frames = self.len();
         let trajectory = &self.trajectory;
@@ -242,8 +242,8 @@ impl RenderedTrajectory {
         };
         let is_ordered = self.sightings.windows(2).all(|pair| key(&pair[0]) < key(&pair[1]));
         match self.sightings.iter().find(|it| !is_sound(it)) {
-            Some(it) => Err(self.refusal(format!("frame {} sees somebody who is not about", it.frame))),
-            None if !is_ordered => Err(self.refusal("people who are seen are not in the order of frames".into())),
+            Some(it) => Err(self.refusal(format!("frame {} refers to a person who is not in the record", it.frame))),
+            None if !is_ordered => Err(self.refusal("sightings are not in the order of frames".into())),
             None => Ok(()),
         }
     }
@@ -253,35 +253,35 @@ impl RenderedTrajectory {
     }
 }
 
-/// Whether `name` can stand in a path of the published dataset on every system.
+/// Whether `name` can be part of a path of the published dataset on every system.
 fn is_plain_name(name: &str) -> bool {
     (1..=120).contains(&name.len())
         && !name.starts_with('.')
         && name.bytes().all(|byte| byte.is_ascii_alphanumeric() || matches!(byte, b'.' | b'_' | b'-'))
 }
 
-/// What is known of a finished log without opening it.
+/// Facts about a finished log, known without opening it.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct LogRecord {
-    /// Whose log it is.
+    /// Id of the log's trajectory.
     pub trajectory_id: String,
     /// Expert or perturbed.
     pub role: Role,
-    /// The pedestrian; decides the split.
+    /// Item id of the target; decides the split.
     pub pedestrian_id: String,
     /// Town name; decides the folder.
     pub town: String,
-    /// Frames.
+    /// Number of frames.
     pub frames: u64,
-    /// Messages on all channels.
+    /// Number of messages on all channels.
     pub messages: u64,
-    /// Bytes of the file.
+    /// Size of the file, bytes.
     pub bytes: u64,
     /// SHA-256 of the file, 64 hex digits.
     pub sha256: String,
 }
 
-/// One instruction for one trajectory.
+/// One caption of one trajectory.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct CaptionRecord {
     /// Two-letter code: `zh` or `en`.
@@ -292,10 +292,10 @@ pub struct CaptionRecord {
     pub text: String,
 }
 
-/// An item that gave no trajectory, published with its reason.
+/// An item without a trajectory, published with its reason.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Rejection {
-    /// The id that the trajectory would have had.
+    /// Id that the trajectory would have had.
     pub trajectory_id: String,
     /// Stage that rejected it.
     pub stage: String,
@@ -303,11 +303,11 @@ pub struct Rejection {
     pub pedestrian_id: String,
     /// Town name.
     pub town: String,
-    /// Why, in words.
+    /// Reason, in words.
     pub reason: String,
 }
 
-/// The small RGB previews of a trajectory's frames for the `frames` table; empty when previews are off.
+/// Small RGB previews of a trajectory's frames for the `frames` table; empty when previews are off.
 #[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub struct PreviewStrip {
     /// One JPEG file per frame.
@@ -315,23 +315,23 @@ pub struct PreviewStrip {
 }
 
 impl PreviewStrip {
-    /// The bytes of a `previews` blob.
+    /// Encodes a `previews` blob.
     pub fn to_bytes(&self) -> Vec<u8> {
         encode(PREVIEWS_MAGIC, self)
     }
 
-    /// Reads a `previews` blob.
+    /// Decodes a `previews` blob.
     pub fn from_bytes(bytes: &[u8]) -> Result<Self> {
         decode("preview strip", PREVIEWS_MAGIC, bytes)
     }
 }
 
-/// The bytes of a captions blob.
+/// Encodes a captions blob.
 pub fn captions_to_bytes(captions: &[CaptionRecord]) -> Vec<u8> {
     encode(CAPTIONS_MAGIC, &captions)
 }
 
-/// Reads a captions blob.
+/// Decodes a captions blob.
 pub fn captions_from_bytes(bytes: &[u8]) -> Result<Vec<CaptionRecord>> {
     decode("captions", CAPTIONS_MAGIC, bytes)
 }
@@ -340,7 +340,7 @@ const TRAJECTORY_MAGIC: &[u8; 8] = b"CFTRAJ\x00\x03";
 const PREVIEWS_MAGIC: &[u8; 8] = b"CFPREV\x00\x01";
 const CAPTIONS_MAGIC: &[u8; 8] = b"CFCAPT\x00\x01";
 
-/// Eight bytes of kind and version, then postcard.
+/// Encodes eight bytes of kind and version, then postcard.
 fn encode<T: Serialize>(magic: &[u8; 8], value: &T) -> Vec<u8> {
     postcard::to_extend(value, magic.to_vec()).expect("records are plain data that postcard writes to memory")
 }

@@ -8,11 +8,11 @@ use serde::{Deserialize, Serialize};
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum Split {
-    /// For training.
+    /// Training data.
     Train,
-    /// For choosing between models.
+    /// Validation data, for model selection.
     Val,
-    /// For final figures.
+    /// Test data, for final results.
     Test,
 }
 
@@ -20,7 +20,7 @@ impl Split {
     /// All splits in order.
     pub const ALL: [Self; 3] = [Self::Train, Self::Val, Self::Test];
 
-    /// The name in paths.
+    /// Name in paths.
     pub fn name(self) -> &'static str {
         match self {
             Self::Train => "train",
@@ -29,7 +29,7 @@ impl Split {
         }
     }
 
-    /// The split of a draw from 0..1.
+    /// Split of a draw from 0..1.
     pub fn of_draw(draw: f64, shares: &SplitShares) -> Self {
         let total = shares.train + shares.val + shares.test;
         if draw * total < shares.train {

@@ -1,4 +1,4 @@
-//! What a town is, apart from its name, its buildings and where its file puts the origin.
+//! Ground plans of towns: identity of a town independent of its name, its buildings and the origin of its file.
 
 use cosfly_frames::{DVec2, DVec3};
 use cosfly_maps::Town;
@@ -6,29 +6,31 @@ use std::collections::BTreeSet;
 
 /// Edge of a cell, metres.
 const CELL_M: f64 = 4.0;
-/// Numbers in a sketch.
+/// Number of hashes of a sketch.
 const SKETCH: usize = 64;
-/// From this share of equal patterns on, two towns are the same place.
+/// Similarity from which two towns are the same place.
 const SAME_FROM: f64 = 0.5;
-/// Most cells that one shape may cover; what is larger is no pavement.
+/// Most cells that one shape may cover; larger shapes are not pavements.
 const MOST_CELLS: i64 = 4_000_000;
 
-/// The ground plan of a town: the pattern of walkable ground in every neighbourhood of cells of 4 m, in the map
-/// file's own coordinates. Where a town has no walkable ground, its obstacles stand in for it.
+/// Ground plan of a town: the pattern of walkable ground in every neighbourhood of cells of 4 m, in the map file's own
+/// coordinates. Where a town has no walkable ground, its obstacles are used instead.
 ///
 /// A copy with another name, other buildings, trees or materials has the same digest; one whose ground was edited in
-/// places has a similar sketch.
+/// places
+/// has a similar sketch.
 #[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub struct TownLayout {
     /// BLAKE3 of all patterns, 64 hex digits.
     pub digest: String,
-    /// Smallest hashes of the patterns under 64 hash functions: the share of equal ones estimates how many of all
-    /// patterns two towns have in common (MinHash).
+    /// Smallest hashes of the patterns under 64 hash functions: the share of equal ones estimates the Jaccard
+    /// similarity of two
+    /// towns' patterns (MinHash).
     pub sketch: Vec<i64>,
 }
 
 impl TownLayout {
-    /// The layout of `town`.
+    /// Ground plan of `town`.
     pub fn of(town: &Town) -> Self {
         let offset = town.origin.offset_m;
         let mut cells = BTreeSet::new();
@@ -62,12 +64,12 @@ impl TownLayout {
         Self { digest: hasher.finalize().to_hex().to_string(), sketch }
     }
 
-    /// The first twelve digits, for people and names of groups.
+    /// First twelve hex digits, for display and names of groups.
     pub fn short(&self) -> &str {
         self.digest.get(..12).unwrap_or(&self.digest)
     }
 
-    /// Share of the patterns of both that they have in common, estimated: 0..=1.
+    /// Estimated Jaccard similarity of the patterns of both, 0..=1.
     pub fn likeness(&self, other: &Self) -> f64 {
         if self.digest == other.digest {
             return 1.0;
@@ -83,7 +85,7 @@ impl TownLayout {
     }
 }
 
-/// Cells at which walkable ground begins or ends, with the nine bits of their neighbourhood.
+/// Boundary cells of walkable ground, with the nine bits of their neighbourhood.
 fn patterns(cells: &BTreeSet<(i64, i64)>) -> impl Iterator<Item = ((i64, i64), u16)> {
     let around = |(i, j): (i64, i64)| (-1..=1).flat_map(move |di| (-1..=1).map(move |dj| (i + di, j + dj)));
     let near: BTreeSet<(i64, i64)> = cells.iter().flat_map(|cell| around(*cell)).collect();
@@ -93,7 +95,7 @@ fn patterns(cells: &BTreeSet<(i64, i64)>) -> impl Iterator<Item = ((i64, i64), u
     near.into_iter().map(move |cell| (cell, pattern(&cell))).filter(|(_, pattern)| *pattern != 0b1_1111_1111)
 }
 
-/// Marks the cells whose centre lies in a polygon, which is given in the world frame.
+/// Marks the cells whose centre lies in a polygon, given in the world frame.
 fn fill(outline: &[DVec3], offset_m: DVec3, cells: &mut BTreeSet<(i64, i64)>) {
     let plan: Vec<DVec2> = outline.iter().map(|corner| (*corner + offset_m).truncate() / CELL_M).collect();
     let low = plan.iter().copied().fold(DVec2::INFINITY, DVec2::min).floor();
@@ -114,7 +116,7 @@ fn fill(outline: &[DVec3], offset_m: DVec3, cells: &mut BTreeSet<(i64, i64)>) {
     }
 }
 
-/// Where the edges of a polygon cross the line at height `y`, from left to right.
+/// Positions x where the edges of a polygon cross the line at height `y`, sorted.
 fn crossings(plan: &[DVec2], y: f64) -> Vec<f64> {
     let edges = plan.iter().zip(plan.iter().cycle().skip(1));
     let mut found: Vec<f64> = edges
@@ -133,7 +135,7 @@ fn footprint(shape: &cosfly_geometry::OrientedBox) -> Vec<DVec3> {
     [(half.x, half.y), (-half.x, half.y), (-half.x, -half.y), (half.x, -half.y)].map(corner).to_vec()
 }
 
-/// A bijection of 64 bits that scatters them (SplitMix64's finaliser).
+/// A bijection on 64 bits with good mixing (SplitMix64's finaliser).
 fn mix(mut bits: u64) -> u64 {
     bits = (bits ^ (bits >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
     bits = (bits ^ (bits >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
@@ -146,7 +148,7 @@ mod tests {
     use cosfly_frames::Seed;
     use cosfly_maps::{WalkableKind, WalkablePolygon};
 
-    /// A grid of pavements with a few of them missing.
+    /// A grid of pavements, some of them missing.
     fn town(seed: u64, missing: f64) -> Town {
         let mut stream = Seed::of_item(seed, "layout", "").stream("streets");
         let mut town = cosfly_sample::town();

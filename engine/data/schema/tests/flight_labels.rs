@@ -1,4 +1,4 @@
-//! Labels of plugins lie beside the costs of a flight, and are told apart.
+//! Labels of plugins are stored beside the costs of a flight and told apart from them.
 
 use cosfly_sample as sample;
 use cosfly_schema::Role;
@@ -12,5 +12,5 @@ fn labels_and_costs_are_kept_apart() {
     add(&mut flight, label).unwrap();
     assert_eq!(labels(&flight).collect::<Vec<_>>(), [label]);
     assert_eq!(costs(&flight).map(|term| term.name.clone()).collect::<Vec<_>>(), before);
-    assert!(add(&mut flight, label).unwrap_err().contains("plugin `watch` gave one"));
+    assert!(add(&mut flight, label).unwrap_err().contains("plugin `watch` already gave one"));
 }

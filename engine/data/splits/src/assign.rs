@@ -1,4 +1,4 @@
-//! Which flights stay together, which split they go to, and how subsets nest.
+//! Groups of flights that stay together, their splits, and nested subsets.
 
 use super::facts::FlightFacts;
 use super::route;
@@ -8,21 +8,24 @@ use cosfly_schema::TownLayout;
 use cosfly_schema::config::{SplitBy, SplitShares};
 use std::collections::{BTreeMap, BTreeSet};
 
-/// Where each flight goes, in the order of the facts.
+/// Assignment of each flight, in the order of the facts.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Assignment {
-    /// The split.
+    /// Split of each flight.
     pub splits: Vec<Split>,
-    /// Name of what stays together.
+    /// Split group of each flight.
     pub groups: Vec<String>,
-    /// A draw from the pedestrian's id, 0..1: rows below 0.25 are a quarter of all, and part of those below 0.5.
+    /// Rank drawn from the pedestrian's id, 0..1: flights below 0.25 are a quarter of all, and part of those below 0.5.
     pub subset_ranks: Vec<f64>,
 }
 
-/// Assigns all flights. Pedestrians of a town whose ways overlap by more than `max_route_overlap` are one group; the
-/// split is a draw from the first pedestrian of a group. More pedestrians or towns move old ones only where a new walk
-/// joins two groups. A place goes to one split as a whole where the shares say so for all or for this one, and where it
-/// has several names: the draw is then from its ground plan.
+/// Assigns all flights. Pedestrians of a town whose walks overlap by more than `max_route_overlap` are one group; the
+/// split
+/// is a draw from the first pedestrian of a group. More pedestrians or towns move old ones only where a new walk joins
+/// two
+/// groups. A place goes to one split as a whole where the shares say so for all places or for this one, and where it
+/// has
+/// several names: the draw is then from its ground plan.
 pub fn assign(facts: &[FlightFacts], shares: &SplitShares) -> Assignment {
     let places = Places::of(facts, shares);
     let representatives = representatives(facts, &places, shares.max_route_overlap);
@@ -40,17 +43,17 @@ pub fn assign(facts: &[FlightFacts], shares: &SplitShares) -> Assignment {
     Assignment { splits, groups, subset_ranks: facts.iter().map(|it| draw("subset", &it.pedestrian_id)).collect() }
 }
 
-/// A place that flights are in, under one or several names.
+/// A place with flights, under one or several names.
 struct Place {
-    /// The start of the digest of its ground plan, the smallest where copies of it differ.
+    /// Start of the digest of its ground plan, the smallest where copies of it differ.
     name: String,
-    /// Whether all flights there go to one split.
+    /// Whether all flights of the place go to one split.
     is_whole: bool,
-    /// The split that the recipe gives it.
+    /// Split that the recipe gives the place.
     split: Option<Split>,
 }
 
-/// All places, and the one of each flight.
+/// All places, and the place of each flight.
 struct Places {
     all: Vec<Place>,
     of_flight: Vec<usize>,
@@ -83,7 +86,7 @@ impl Places {
     }
 }
 
-/// Representative of each flight's group: the first pedestrian in its place.
+/// Representative of each flight's group: the first pedestrian of the group in that place.
 fn representatives(facts: &[FlightFacts], places: &Places, max_overlap: f64) -> Vec<String> {
     let mut walkers: BTreeMap<(usize, &str), usize> = BTreeMap::new();
     for (it, place) in facts.iter().zip(&places.of_flight) {
@@ -106,7 +109,7 @@ fn representatives(facts: &[FlightFacts], places: &Places, max_overlap: f64) -> 
 /// Place and id of a pedestrian.
 type Walker<'a> = (usize, &'a str);
 
-/// Walker and way, once for all flights behind a walk.
+/// Pedestrian and route, once for all flights behind a walk.
 fn distinct_routes<'a>(facts: &'a [FlightFacts], places: &Places) -> Vec<(Walker<'a>, &'a route::Route)> {
     let mut routes: Vec<(Walker<'a>, &route::Route)> = vec![];
     let mut known: BTreeMap<Walker<'a>, Vec<usize>> = BTreeMap::new();

@@ -1,4 +1,4 @@
-//! What the linter needs of a flight: who is followed, where, along which way, in which split.
+//! Input of the linter for each flight: pedestrian, town, route, split.
 
 use super::route::Route;
 use cosfly_diagnose::Result;
@@ -10,37 +10,38 @@ use std::collections::BTreeMap;
 use std::path::Path;
 use std::sync::Arc;
 
-/// How far the target gets in a window that is recognised by its target, metres; where it stands, the drone's way
+/// Least displacement of the target, metres, for a window to be recognised by the target; below it, the drone's
+/// trajectory
 /// tells windows apart.
 const MOVING_M: f64 = 0.5;
 
-/// One flight.
+/// Facts of one flight.
 #[derive(Clone, Debug)]
 pub struct FlightFacts {
-    /// Place of its dataset among those that are compared.
+    /// Index of its dataset among those that are compared.
     pub dataset: usize,
-    /// Its id in that dataset.
+    /// Trajectory id in that dataset.
     pub trajectory_id: String,
-    /// Its expert, for a perturbed flight.
+    /// Expert of a perturbed flight.
     pub expert_id: Option<String>,
-    /// Whom it follows.
+    /// Pedestrian who is followed.
     pub pedestrian_id: String,
-    /// Flights with the same one must stay together; empty before it is decided.
+    /// Split group; flights of one group must stay together. Empty before it is decided.
     pub group: String,
-    /// Name of its split; empty before it is decided.
+    /// Name of the split; empty before it is decided.
     pub split: String,
-    /// Name of its town.
+    /// Name of the town.
     pub town: String,
-    /// What the town is without its name.
+    /// Ground plan of the town, independent of its name.
     pub layout: Arc<TownLayout>,
-    /// The target's way.
+    /// Route of the target.
     pub route: Route,
-    /// What happens in the window from each frame on: equal numbers are equal windows.
+    /// Hash of the window that starts at each frame: equal hashes are equal windows.
     pub windows: Vec<u64>,
 }
 
 impl FlightFacts {
-    /// The facts of a flight that is about to be published; `window` is the size of its training windows.
+    /// Facts of a flight that is about to be published; `window` is the size of its training windows, frames.
     pub fn of_record(record: &RenderedTrajectory, layout: &Arc<TownLayout>, window: usize) -> Self {
         let offset = record.town.origin.offset_m;
         let feet: Vec<DVec3> =
@@ -80,10 +81,10 @@ impl FlightFacts {
     }
 }
 
-/// The facts of all flights of the published dataset in `folder`, which is number `dataset` of those compared.
+/// Facts of all flights of the published dataset in `folder`, which is number `dataset` of those compared.
 ///
 /// # Errors
-/// What is wrong with the tables `trajectories` and `waypoints`.
+/// Damage of the tables `trajectories` and `waypoints`.
 pub fn facts_of_dataset(folder: &Path, dataset: usize, window: usize) -> Result<Vec<FlightFacts>> {
     let published = PublishedDataset::open(folder)?;
     let flights: BTreeMap<&str, &PublishedFlight> =
@@ -97,8 +98,9 @@ pub fn facts_of_dataset(folder: &Path, dataset: usize, window: usize) -> Result<
     Ok(facts)
 }
 
-/// A number for what happens in the `size` frames from each frame on: the target's places to the centimetre, or the
-/// drone's where the target stands.
+/// Hash of the `size` frames from each frame on: the target's positions to the centimetre, or the drone's where the
+/// target
+/// stands.
 fn windows(feet: &[DVec3], drone: &[DVec3], size: usize) -> Vec<u64> {
     if size == 0 {
         return vec![];

@@ -1,4 +1,4 @@
-//! The linter: pairs of flights or towns that a model would meet in training and again in its test.
+//! The linter: pairs of flights or towns that would be in a model's training and test data at once.
 
 use super::facts::FlightFacts;
 use super::route;
@@ -7,34 +7,34 @@ use cosfly_schema::config::{DatasetConfig, SplitBy};
 use std::collections::{BTreeMap, BTreeSet};
 use std::fmt;
 
-/// Pairs of one rule that are kept; more are only counted.
+/// Pairs kept per rule; further ones are only counted.
 const KEPT: usize = 200;
 
-/// What counts as a leak.
+/// Definition of a leak.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct LintRules {
-    /// How much of a walk another one may repeat in another split, 0..=1.
+    /// Largest share of a walk that another one in another split may repeat, 0..=1.
     pub max_route_overlap: f64,
-    /// Whether a place must be in one split only, whatever it is called.
+    /// Whether a place must be in one split only, whatever its name.
     pub by_town: bool,
 }
 
 impl LintRules {
-    /// The rules that a recipe promises.
+    /// Rules that follow from a recipe's parameters.
     pub fn of(config: &DatasetConfig) -> Self {
         let by_town = config.splits.by == SplitBy::Town;
         Self { max_route_overlap: config.splits.max_route_overlap, by_town }
     }
 }
 
-/// Two things that should not be in different splits.
+/// Two flights or towns that must not be in different splits.
 #[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub struct Leak {
     /// `split-town`, `split-pedestrian`, `split-twin`, `split-group`, `split-window` or `split-route`.
     pub rule: &'static str,
-    /// The flight that the finding stands at.
+    /// Flight that the finding is reported for.
     pub trajectory_id: String,
-    /// What is wrong, with both names and both splits.
+    /// Description with both names and both splits.
     pub message: String,
 }
 
@@ -44,12 +44,12 @@ impl fmt::Display for Leak {
     }
 }
 
-/// What the linter found.
+/// Findings of the linter.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Leaks {
-    /// The first of each rule.
+    /// First findings of each rule.
     pub kept: Vec<Leak>,
-    /// All of them.
+    /// Number of all findings.
     pub found: usize,
 }
 
@@ -62,7 +62,7 @@ impl Leaks {
     }
 }
 
-/// Everything that leaks between the splits of `facts`, which may be of several datasets.
+/// Finds everything that leaks between the splits of `facts`, which may be of several datasets.
 pub fn lint(facts: &[FlightFacts], rules: &LintRules) -> Leaks {
     let mut leaks = Leaks::default();
     towns(facts, rules, &mut leaks);
@@ -72,7 +72,7 @@ pub fn lint(facts: &[FlightFacts], rules: &LintRules) -> Leaks {
     leaks
 }
 
-/// Why a dataset is not published, with the pairs.
+/// Error that refuses to publish a dataset with leaks, with the pairs.
 pub fn refusal(leaks: &Leaks) -> Option<Box<Diagnostic>> {
     if leaks.found == 0 {
         return None;
@@ -86,13 +86,13 @@ pub fn refusal(leaks: &Leaks) -> Option<Box<Diagnostic>> {
     ))
 }
 
-/// `id` in words, with the dataset where there are several.
+/// Id and split of a flight in words, with the dataset where there are several.
 fn named(it: &FlightFacts) -> String {
     let dataset = if it.dataset == 0 { String::new() } else { format!(" of dataset {}", it.dataset + 1) };
     format!("`{}`{dataset} in `{}`", it.trajectory_id, it.split)
 }
 
-/// Places under several names, or in several splits where the rules want one.
+/// Finds places under several names, or in several splits where the rules want one.
 fn towns(facts: &[FlightFacts], rules: &LintRules, leaks: &mut Leaks) {
     let mut towns: BTreeMap<(&str, &str), BTreeMap<&str, &FlightFacts>> = BTreeMap::new();
     for it in facts {
@@ -125,9 +125,9 @@ fn towns(facts: &[FlightFacts], rules: &LintRules, leaks: &mut Leaks) {
     }
 }
 
-/// Flights behind one pedestrian, twins, and what was published as one group.
+/// Finds split pedestrians, split twins and split groups.
 fn pedestrians(facts: &[FlightFacts], leaks: &mut Leaks) {
-    // Pedestrians of two towns may be called the same; groups are called after their town.
+    // Pedestrians of two towns may have the same id; names of groups contain the town.
     let mut first: BTreeMap<(usize, &str, &str, &str), &FlightFacts> = BTreeMap::new();
     let by_id: BTreeMap<(usize, &str), &FlightFacts> =
         facts.iter().map(|it| ((it.dataset, it.trajectory_id.as_str()), it)).collect();
@@ -150,12 +150,12 @@ fn pedestrians(facts: &[FlightFacts], leaks: &mut Leaks) {
     }
 }
 
-/// Flights behind one pedestrian that are apart are found by that alone.
+/// Whether two flights follow the same pedestrian; their separation is already reported by that rule.
 fn is_one_walk(a: &FlightFacts, b: &FlightFacts) -> bool {
     (a.dataset, &a.layout.digest, &a.pedestrian_id) == (b.dataset, &b.layout.digest, &b.pedestrian_id)
 }
 
-/// The same moments under two names.
+/// Finds equal windows under two names.
 fn windows(facts: &[FlightFacts], leaks: &mut Leaks) {
     let mut all: Vec<(u64, u32, u32)> = vec![];
     for (flight, it) in facts.iter().enumerate() {
@@ -190,7 +190,7 @@ fn windows(facts: &[FlightFacts], leaks: &mut Leaks) {
     }
 }
 
-/// Walks that repeat one another.
+/// Finds walks that repeat one another.
 fn routes(facts: &[FlightFacts], rules: &LintRules, leaks: &mut Leaks) {
     let mut places: Vec<&FlightFacts> = vec![];
     let mut place_of: BTreeMap<&str, usize> = BTreeMap::new();

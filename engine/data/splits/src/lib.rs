@@ -1,18 +1,18 @@
-//! Splits that do not leak: which flights must stay together, where they go, and a linter of what was published.
+//! Splits without leaks: groups of flights, their splits, and a linter for published datasets.
 //!
-//! * [`route`]: how much of one walk another one repeats.
-//! * [`facts`]: what the linter needs of a flight.
+//! * [`route`]: overlap of two walks.
+//! * [`facts`]: input of the linter for each flight.
 //! * [`assign`]: groups of flights, their splits, nested subsets.
 //! * [`leaks`]: the linter.
-//! * [`promise`]: the file `splits.json`, which says what the splits of a dataset keep.
+//! * [`policy`]: the file `splits.json`, the split policy of a dataset.
 
 pub mod assign;
 pub mod facts;
 pub mod leaks;
-pub mod promise;
+pub mod policy;
 pub mod route;
 
 pub use assign::{Assignment, assign};
 pub use facts::{FlightFacts, facts_of_dataset};
 pub use leaks::{Leak, Leaks, LintRules, lint, refusal};
-pub use promise::promise;
+pub use policy::split_policy;

@@ -1,4 +1,4 @@
-//! How much of one walk another one repeats: the same ground in the same direction.
+//! Overlap of two walks: the share of the same ground in the same direction.
 
 use cosfly_frames::{DVec3, real};
 use rayon::prelude::*;
@@ -6,17 +6,17 @@ use std::collections::BTreeMap;
 
 /// Edge of a cell, metres.
 const CELL_M: f64 = 4.0;
-/// Directions that are told apart.
+/// Number of directions that are told apart.
 const SECTORS: i64 = 8;
-/// A step below this does not count as walking, metres.
+/// Shortest step that counts as walking, metres.
 const LEAST_STEP_M: f64 = 0.05;
 
-/// Cells and directions of a walk, packed and sorted: who stands adds nothing.
+/// Cells and directions of a walk, packed and sorted; standing adds nothing.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Route(Vec<u64>);
 
 impl Route {
-    /// The route of somebody whose feet are at `feet_in_map`, one place per frame, in the map file's coordinates.
+    /// Route of a pedestrian whose feet are at `feet_in_map`, one position per frame, in the map file's coordinates.
     pub fn of(feet_in_map: &[DVec3]) -> Self {
         let mut cells: Vec<u64> = vec![];
         for pair in feet_in_map.windows(2) {
@@ -38,7 +38,7 @@ impl Route {
         Self(cells)
     }
 
-    /// The cells within one cell and one direction of this route's.
+    /// Cells within one cell and one direction of this route's.
     fn widened(&self) -> Vec<u64> {
         let near = |cell: &u64| {
             let (i, j, sector) = unpacked(*cell);
@@ -63,8 +63,9 @@ fn unpacked(cell: u64) -> (i64, i64, i64) {
     (coordinate(cell >> 34), coordinate(cell >> 4), (cell & 15) as i64)
 }
 
-/// Pairs of routes (smaller place first) with the share of the shorter one that the other repeats, where that is more
-/// than `least`. Only routes of the same `place` are compared.
+/// Pairs of routes (smaller index first) with the share of the shorter one that the other repeats, where it exceeds
+/// `least`.
+/// Only routes of the same `place` are compared.
 pub fn overlaps(routes: &[(usize, &Route)], least: f64) -> Vec<(usize, usize, f64)> {
     let mut visits: Vec<(u64, usize)> =
         routes.iter().enumerate().flat_map(|(at, (_, route))| route.0.iter().map(move |cell| (*cell, at))).collect();

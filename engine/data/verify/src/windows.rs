@@ -10,7 +10,7 @@ use cosfly_metrics::difficulty::WindowFrames;
 use cosfly_metrics::{Difficulty, WindowFeatures, WindowShape};
 use cosfly_read::{FlightTrack, PublishedDataset, Rows};
 use cosfly_schema::tables::{Column, DatasetItem, Scene, Windows};
-use cosfly_splits::promise::Promise;
+use cosfly_splits::policy::SplitPolicy;
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::Path;
 
@@ -40,7 +40,7 @@ pub struct Flights {
 impl Flights {
     /// All flights; nothing when their tables cannot be read, which was found before.
     pub fn of(folder: &Path) -> Option<Self> {
-        let promise = Promise::of_dataset(folder).ok()?;
+        let policy = SplitPolicy::of_dataset(folder).ok()?;
         let published = PublishedDataset::open(folder).ok()?;
         let tracks = published.tracks().ok()?;
         let flights = published.flights();
@@ -50,7 +50,7 @@ impl Flights {
         };
         let id = |at: usize| flights[at].trajectory_id.clone();
         Some(Self {
-            shape: promise.windows.shape(),
+            shape: policy.windows.shape(),
             seen: (0..flights.len()).filter(is_seen).map(id).collect(),
             tracks: tracks.into_iter().enumerate().map(|(at, track)| (id(at), track)).collect(),
         })

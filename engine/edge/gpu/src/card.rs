@@ -1,4 +1,4 @@
-//! The backend: one card for all threads, one set of targets per camera.
+//! The backend: one graphics card for all threads, one set of render targets per camera.
 
 use crate::mesh::{Mesh, Vertex};
 use bytemuck::{Pod, Zeroable};
@@ -7,20 +7,20 @@ use cosfly_render::outside::NO_FACE;
 use cosfly_render::{Backend, BackendError, Camera, FrameSetup, PictureLook, RenderedFrame, Renderer, Scene};
 use std::sync::{Arc, Mutex, OnceLock, PoisonError};
 
-/// Nothing nearer than this along the optical axis is drawn, metres.
+/// Distance of the near plane along the optical axis, metres.
 const NEAR_M: f32 = 0.01;
 const NUMBERS: wgpu::TextureFormat = wgpu::TextureFormat::R32Uint;
 const DEPTH: wgpu::TextureFormat = wgpu::TextureFormat::Depth32Float;
 
-/// The first card that was found, with what all frames share.
+/// First card found, with the resources shared by all frames.
 struct Card {
     name: String,
     device: wgpu::Device,
     queue: wgpu::Queue,
-    /// For boxes, which are seen from outside only, and for ground.
+    /// Pipelines for boxes (back faces culled) and for ground.
     pipelines: [wgpu::RenderPipeline; 2],
     eyes: wgpu::BindGroupLayout,
-    /// The mesh that was drawn last, with its scene's identity: all threads draw the same town.
+    /// Last drawn mesh with its scene's identity: all threads draw the same town.
     mesh: Mutex<Option<(u64, Arc<UploadedMesh>)>>,
 }
 
@@ -30,7 +30,7 @@ struct UploadedMesh {
     middle_in_world: cosfly_frames::DVec3,
 }
 
-/// What the shader is told of a camera.
+/// Uniforms of a camera for the shader.
 #[repr(C)]
 #[derive(Clone, Copy, Pod, Zeroable)]
 struct Eye {
@@ -40,7 +40,7 @@ struct Eye {
     position: [f32; 4],
 }
 
-/// Draws with one camera on the card.
+/// Renderer backend for one camera on the card.
 pub struct GpuBackend {
     card: Arc<Card>,
     renderer: Renderer,
@@ -49,16 +49,16 @@ pub struct GpuBackend {
     eye: wgpu::Buffer,
     bound: wgpu::BindGroup,
     staging: wgpu::Buffer,
-    /// Bytes of a row in `staging`, a multiple of what cards copy.
+    /// Bytes of a row in `staging`, a multiple of the card's copy alignment.
     pitch: u32,
     nearest: Vec<u32>,
 }
 
 impl GpuBackend {
-    /// A backend for one camera.
+    /// Creates a backend for one camera.
     ///
     /// # Errors
-    /// When the machine has no usable card, or the image is too large for it.
+    /// The machine has no usable card, or the image is too large for it.
     pub fn new(camera: Camera) -> Result<Self, BackendError> {
         static CARD: OnceLock<Result<Arc<Card>, BackendError>> = OnceLock::new();
         let card = CARD.get_or_init(|| Card::open().map(Arc::new)).clone()?;
@@ -66,7 +66,7 @@ impl GpuBackend {
         if camera.width.max(camera.height) > largest {
             return Err(BackendError {
                 message: format!(
-                    "`{}` draws images of at most {largest} pixels a side; {} x {} were asked for",
+                    "`{}` draws images of at most {largest} pixels a side; {} x {} were requested",
                     card.name, camera.width, camera.height
                 ),
                 hint: "make the image smaller, or set `backend = \"cpu\"`".into(),
@@ -111,17 +111,17 @@ impl GpuBackend {
         })
     }
 
-    /// Draws colours in this look from now on.
+    /// Sets the look of colours for the following frames.
     pub fn set_look(&mut self, look: PictureLook) {
         self.renderer.set_look(look);
     }
 
-    /// The card's name and driver.
+    /// Name and driver of the card.
     pub fn card_name(&self) -> &str {
         &self.card.name
     }
 
-    /// Finds the nearest faces and reads them back.
+    /// Renders the nearest faces and reads them back.
     fn find(&mut self, mesh: &UploadedMesh, pose: &Pose) -> Result<(), BackendError> {
         let camera = self.renderer.camera();
         self.card.queue.write_buffer(&self.eye, 0, bytemuck::bytes_of(&Eye::new(&camera, pose, mesh)));
@@ -242,7 +242,7 @@ impl Card {
         Ok(Self { name, device, queue, pipelines, eyes, mesh: Mutex::new(None) })
     }
 
-    /// The mesh of a scene, uploaded once.
+    /// Mesh of a scene, uploaded once.
     fn mesh_of(&self, scene: &Scene) -> Result<Arc<UploadedMesh>, BackendError> {
         let mut kept = self.mesh.lock().unwrap_or_else(PoisonError::into_inner);
         if let Some((identity, mesh)) = &*kept

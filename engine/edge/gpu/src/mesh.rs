@@ -1,4 +1,4 @@
-//! A scene's triangles as a card reads them.
+//! Triangles of a scene for the card.
 
 use cosfly_frames::DVec3;
 use cosfly_render::Scene;
@@ -7,32 +7,32 @@ use cosfly_render::Scene;
 #[repr(C)]
 #[derive(Clone, Copy, bytemuck::Pod, bytemuck::Zeroable)]
 pub struct Vertex {
-    /// From the middle of the mesh, metres.
+    /// Position relative to the middle of the mesh, metres.
     pub place: [f32; 3],
-    /// The face's number in [`Scene::faces`].
+    /// Number of the face in [`Scene::faces`].
     pub number: u32,
-    /// Factor on the inverse depth, that decides between coplanar faces.
+    /// Factor on the inverse depth that orders coplanar faces.
     pub lift: f32,
 }
 
-/// All triangles: those of boxes first, seen from outside only, then the ground.
+/// All triangles: those of boxes first (visible from outside only), then the ground.
 pub struct Mesh {
-    /// Three a triangle.
+    /// Vertices, three per triangle.
     pub vertices: Vec<Vertex>,
-    /// How many vertices belong to boxes.
+    /// Number of vertices that belong to boxes.
     pub box_vertices: u32,
-    /// The middle, world frame: single precision is enough near it.
+    /// Middle of the mesh, world frame, metres; coordinates relative to it fit single precision.
     pub middle_in_world: DVec3,
 }
 
-/// One step between coplanar ground layers; larger than the CPU's, because cards interpolate in single precision.
+/// Depth factor between coplanar ground layers; larger than the CPU's, because cards interpolate in single precision.
 const LAYER_LIFT: f32 = 1.6e-5;
-/// One step between coplanar faces of different boxes.
+/// Depth factor between coplanar faces of different boxes.
 const BOX_LIFT: f32 = 4e-6;
 const FACES_PER_BOX: usize = 6;
 
 impl Mesh {
-    /// The faces of a scene, cut into triangles.
+    /// Cuts the faces of a scene into triangles.
     pub fn new(scene: &Scene) -> Self {
         let faces = scene.faces();
         let corners = || faces.iter().flat_map(|face| face.corners_in_world.iter().copied());
@@ -63,12 +63,12 @@ impl Mesh {
     }
 }
 
-/// A convex polygon as triangles.
+/// Triangles of a convex polygon.
 fn fan(corners: &[DVec3]) -> impl Iterator<Item = [DVec3; 3]> + '_ {
     (2..corners.len()).map(|k| [corners[0], corners[k - 1], corners[k]])
 }
 
-/// Which of two coplanar ground layers lies on top, by CARLA's label ids, as in the CPU renderer.
+/// Order of coplanar ground layers, by CARLA's label ids, as in the CPU renderer.
 fn layer_of(label: u8) -> f32 {
     const TERRAIN: u8 = 10;
     const WATER: u8 = 23;

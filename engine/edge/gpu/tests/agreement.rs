@@ -1,4 +1,4 @@
-//! The card and the CPU renderer draw the same town, on whatever adapter there is, Mesa's software one included.
+//! The card and the CPU renderer draw the same town, on any available adapter, Mesa's software renderer included.
 
 #![cfg(feature = "device")]
 
@@ -10,7 +10,7 @@ use cosfly_render::{Backend, Camera, FrameImages, FrameSetup, Renderer, Scene, T
 
 const CAMERA: Camera = Camera { width: 640, height: 360, horizontal_fov_rad: 1.5 };
 
-/// The backend, or `None` with a line that says why not.
+/// The backend, or `None` after printing the reason.
 fn backend(camera: Camera) -> Option<GpuBackend> {
     match GpuBackend::new(camera) {
         Ok(backend) => {
@@ -29,7 +29,7 @@ fn town() -> Town {
     cosfly_maps::read_town(text.as_bytes(), &MapConfig::default(), Seed([5; 32])).expect("a generated town is sound").0
 }
 
-/// Pavements here and there.
+/// Positions spread over the pavements.
 fn places(town: &Town, count: usize) -> Vec<DVec3> {
     let pavements: Vec<_> = town.walkable.iter().filter(|area| area.kind == WalkableKind::Sidewalk).collect();
     (0..count).map(|i| pavements[i * pavements.len() / count].outline_in_world[0]).collect()
@@ -46,7 +46,7 @@ fn target(feet: DVec3) -> TargetSetup {
     }
 }
 
-/// Whether a pixel and its neighbours show one thing without a jump in depth.
+/// Whether a pixel and its neighbours show one object without a jump in depth.
 fn is_inside(images: &FrameImages, u: usize, v: usize) -> bool {
     let width = images.width as usize;
     let at = v * width + u;

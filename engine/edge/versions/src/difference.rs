@@ -1,4 +1,4 @@
-//! Differences of two versions, and their reasons: by the keys of the tasks behind every flight.
+//! Differences between two versions, and their causes, from the keys of the tasks behind every flight.
 
 use crate::task_name::TaskName;
 use crate::version::Version;
@@ -7,16 +7,16 @@ use serde_json::Value;
 use std::collections::{BTreeMap, BTreeSet};
 use std::fmt;
 
-/// Change of a dataset's version number that a difference asks for.
+/// Change of a dataset's version number that a difference requires.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Bump {
     /// No change: the same files.
     None,
-    /// Records are the same, packed or described in another way.
+    /// The same records, packed or described differently.
     Patch,
-    /// Old records are unchanged, new ones came.
+    /// Unchanged old records, and new ones.
     Minor,
-    /// Records changed, went, or moved to another split.
+    /// Records changed, removed, or moved to another split.
     Major,
 }
 
@@ -31,7 +31,7 @@ impl Bump {
         }
     }
 
-    /// True where the step from `old` to `new`, both `MAJOR.MINOR.PATCH`, is at least this change.
+    /// Whether the step from `old` to `new`, both `MAJOR.MINOR.PATCH`, is at least this change.
     pub fn is_kept(self, old: &str, new: &str) -> bool {
         let parts = |version: &str| -> Option<[u64; 3]> {
             let parts: Vec<u64> = version.split('.').map(|part| part.parse().ok()).collect::<Option<_>>()?;
@@ -50,13 +50,13 @@ impl Bump {
 /// Difference of one flight or file.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Fate {
-    /// It is new.
+    /// New in the second version.
     Added,
-    /// It is gone.
+    /// Missing in the second version.
     Dropped,
-    /// It has other bytes.
+    /// Different bytes.
     Changed,
-    /// It has the same bytes, in another split.
+    /// The same bytes, in another split.
     Moved,
 }
 
@@ -72,16 +72,16 @@ impl Fate {
     }
 }
 
-/// Differences of two versions.
+/// Differences between two versions.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Difference {
-    /// Flights that are not the same, and the reasons.
+    /// Flights that differ, with their causes.
     pub flights: BTreeMap<String, (Fate, Vec<String>)>,
-    /// Number of flights that are the same.
+    /// Number of flights that are equal.
     pub same: usize,
-    /// Files that are new, gone or changed, without the logs.
+    /// Files that were added, removed or changed, without the logs.
     pub files: Vec<(String, Fate)>,
-    /// Changes in the stages that pack the dataset.
+    /// Changes of the stages that pack the dataset.
     pub packing: Vec<String>,
 }
 
@@ -92,7 +92,7 @@ impl fmt::Display for Fate {
 }
 
 impl Difference {
-    /// Change of the version number that the differences ask for.
+    /// Required change of the version number.
     pub fn bump(&self) -> Bump {
         let of_fate = |(fate, _): &(Fate, Vec<String>)| if *fate == Fate::Added { Bump::Minor } else { Bump::Major };
         let files = if self.files.is_empty() { Bump::None } else { Bump::Patch };
@@ -100,7 +100,7 @@ impl Difference {
     }
 }
 
-/// Differences from `old` to `new`.
+/// Computes the differences from `old` to `new`.
 pub fn difference(old: &Version, new: &Version) -> Difference {
     let mut found = Difference::default();
     let ids: BTreeSet<&String> = old.flights.keys().chain(new.flights.keys()).collect();
@@ -136,14 +136,14 @@ pub fn difference(old: &Version, new: &Version) -> Difference {
     found
 }
 
-/// Reasons why a flight is in `with` and not in `without`.
+/// Causes why a flight is in `with` and not in `without`.
 fn appearance(without: &Version, with: &Version, id: &str, task: &TaskName) -> Vec<String> {
     if let Some(reason) = without.rejected.get(id) {
         let mut why = vec![format!("it was rejected in `{}`: {reason}", without.name)];
         why.extend(causes(without, with, task, task).into_iter().filter(|_| without.tasks.contains_key(task)));
         return why;
     }
-    // The number of items depends on settings that no item's own key reads, such as a number of walkers.
+    // The number of items depends on settings that no item's own key contains, such as a number of walkers.
     let mut open = vec![task];
     let mut seen: BTreeSet<&TaskName> = BTreeSet::from([task]);
     let mut why = vec![];
@@ -169,7 +169,7 @@ fn appearance(without: &Version, with: &Version, id: &str, task: &TaskName) -> V
         open.extend(reads.iter().filter(|read| seen.insert(*read)));
     }
     if why.is_empty() {
-        why.push(format!("nothing that `{}` and `{}` record tells why", without.name, with.name));
+        why.push(format!("neither `{}` nor `{}` records the cause", without.name, with.name));
     }
     why
 }
@@ -185,7 +185,7 @@ fn setting_changes(old: &Value, new: &Value) -> Vec<(String, Option<Value>, Opti
     changes.into_iter().filter_map(parameter).collect()
 }
 
-/// Changes in the stages where two tasks began to differ.
+/// Changes of the stages where two tasks begin to differ.
 fn causes(old: &Version, new: &Version, old_task: &TaskName, new_task: &TaskName) -> Vec<String> {
     let mut open = vec![(old_task, new_task)];
     let mut seen: BTreeSet<(&TaskName, &TaskName)> = open.iter().copied().collect();
@@ -215,7 +215,7 @@ fn causes(old: &Version, new: &Version, old_task: &TaskName, new_task: &TaskName
     if why.is_empty() {
         let tools =
             if old.cosfly == new.cosfly { String::new() } else { format!(" ({} and {})", old.cosfly, new.cosfly) };
-        why.push(format!("recipe and inputs are the same: cosfly itself{tools} or a plugin made other bytes"));
+        why.push(format!("recipe and inputs are the same: cosfly{tools} or a plugin made other bytes"));
     }
     why
 }
@@ -227,7 +227,7 @@ fn stage_changes(old: &Version, new: &Version, stage: &str) -> Vec<String> {
     }
 }
 
-/// Changes in the stages that pack, by name: splits, tables and texts.
+/// Changes of the stages that pack, by name: splits, tables and texts.
 fn packing(old: &Version, new: &Version) -> Vec<String> {
     let is_dataset = |(_, it): &(&String, &Value)| it["kind"] == "dataset";
     let stages: Vec<&String> = new.definitions.iter().filter(is_dataset).map(|(name, _)| name).collect();

@@ -1,10 +1,10 @@
-//! Named versions of datasets: manifests of content hashes with the recipe and the tool that made them.
+//! Named versions of datasets: manifests of content hashes with the recipe and the version of cosfly.
 //!
 //! * [`version`]: the manifest.
-//! * [`record`]: a finished dataset of a store as a version.
-//! * [`shelf`]: the versions of a store: named, listed, found.
-//! * [`difference`]: flights that differ between two versions, and why.
-//! * [`regenerate`]: flights made again from the recipe alone, compared with the published ones.
+//! * [`record`]: creates a version of a finished dataset in a store.
+//! * [`shelf`]: adds, lists and finds the versions of a store.
+//! * [`difference`]: flights that differ between two versions, with the causes.
+//! * [`regenerate`]: makes flights again from the recipe alone and compares them with the published ones.
 
 pub mod difference;
 pub mod record;

@@ -1,4 +1,4 @@
-//! A finished dataset of a store as a version.
+//! Creates a version of a finished dataset in a store.
 
 use crate::task_name::TaskName;
 use crate::version::{Flight, RecipeText, SCHEMA, Task, Version};
@@ -23,10 +23,11 @@ pub fn dataset_stage(recipe: &Recipe) -> Result<usize> {
     })
 }
 
-/// Version of the finished dataset of `recipe`, read with `overrides`, in `store`; `cosfly` is the tool's version.
+/// Creates the version of the finished dataset of `recipe`, read with `overrides`, in `store`; `cosfly` is the tool's
+/// version.
 ///
 /// # Errors
-/// `version-unfinished`, or failures of the store.
+/// `version-unfinished`, or an error of the store.
 pub fn record(name: &str, recipe: &Recipe, overrides: &[String], store: &Store, cosfly: &str) -> Result<Version> {
     let stage = dataset_stage(recipe)?;
     let plan = plan(recipe, store)?;
@@ -80,7 +81,7 @@ pub fn record(name: &str, recipe: &Recipe, overrides: &[String], store: &Store, 
 
 type Published = (BTreeMap<String, Flight>, BTreeMap<String, String>, Digest);
 
-/// Flights and rejections from the dataset's tables, read from a copy of those tables alone.
+/// Flights and rejections, read from a copy of the dataset's tables alone.
 fn flights(store: &Store, files: &Blobs, logs: &StageName) -> Result<Published> {
     let refused = |error: std::io::Error| Diagnostic::io("make a folder for the table of flights", &error);
     let scratch = tempfile::tempdir().map_err(refused)?;

@@ -1,4 +1,4 @@
-//! Flights made again from the recipe alone, in an empty store, and compared with the published ones.
+//! Makes flights again from the recipe alone, in an empty store, and compares them with the published ones.
 
 use crate::record::{dataset_stage, logs_of, reads};
 use cosfly_diagnose::{Diagnostic, Fault, Result};
@@ -21,15 +21,16 @@ pub struct Regenerated {
     pub trajectory_id: String,
     /// Path of its log in the dataset's folder.
     pub mcap_path: String,
-    /// Difference to the published log; `None` where the bytes are the same.
+    /// Difference from the published log; `None` where the bytes are equal.
     pub problem: Option<String>,
 }
 
 /// Makes `number` flights of the dataset in `folder`, spread evenly over it, again in the empty store `scratch` and
-/// compares their logs with the published ones byte by byte (by BLAKE3).
+/// compares
+/// their logs with the published ones byte by byte (by BLAKE3).
 ///
 /// # Errors
-/// Mistakes in the dataset or the recipe, or a refusal of a stage or the machine.
+/// Errors in the dataset or the recipe, errors of a stage, or `machine-io`.
 pub fn regenerate(
     folder: &Path,
     number: usize,
@@ -64,7 +65,7 @@ pub fn regenerate(
     Ok(found)
 }
 
-/// Runs a task and everything that it needs; gives the digest of its log.
+/// Runs a task and everything that it needs; returns the digest of its log.
 fn made(
     recipe: &Recipe,
     registry: &Registry,

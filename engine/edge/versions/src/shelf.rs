@@ -13,17 +13,17 @@ fn folder(store: &Path) -> PathBuf {
     store.join("versions")
 }
 
-/// True where `name` can name a version: letters, digits, `.`, `_` and `-`, not beginning with a dot.
+/// Whether `name` can name a version: letters, digits, `.`, `_` and `-`, not beginning with a dot.
 fn is_name(name: &str) -> bool {
     (1..=100).contains(&name.len())
         && !name.starts_with('.')
         && name.bytes().all(|byte| byte.is_ascii_alphanumeric() || matches!(byte, b'.' | b'_' | b'-'))
 }
 
-/// Adds a version. The same version may be added twice.
+/// Adds a version. Adding an equal version again has no effect.
 ///
 /// # Errors
-/// `version-bad-name`, `version-taken` where the name belongs to another version, or a refusal of the machine.
+/// `version-bad-name`, `version-taken` where the name belongs to another version, or `machine-io`.
 pub fn put(store: &Path, version: &Version) -> Result<()> {
     let name = &version.name;
     if !is_name(name) {
@@ -50,10 +50,10 @@ pub fn put(store: &Path, version: &Version) -> Result<()> {
     Ok(())
 }
 
-/// The version called `name`.
+/// Reads the version called `name`.
 ///
 /// # Errors
-/// `version-unknown` with the nearest name, or mistakes in its manifest.
+/// `version-unknown` with the nearest name, or damage of its manifest.
 pub fn get(store: &Path, name: &str) -> Result<Version> {
     let path = folder(store).join(format!("{name}.json"));
     if is_name(name) && path.exists() {
@@ -69,18 +69,18 @@ pub fn get(store: &Path, name: &str) -> Result<Version> {
     })
 }
 
-/// All versions by name.
+/// Reads all versions, in the order of their names.
 ///
 /// # Errors
-/// Refusals of the machine, and damaged manifests.
+/// `machine-io`, or damaged manifests.
 pub fn all(store: &Path) -> Result<Vec<Version>> {
     names(store)?.iter().map(|name| read(&folder(store).join(format!("{name}.json")))).collect()
 }
 
-/// A version with exactly the files of a delivered folder, by the digest that the folder is marked with.
+/// Finds the version with exactly the files of a delivered folder, by the digest in the folder's marker.
 ///
 /// # Errors
-/// As [`all`].
+/// The errors of [`all`].
 pub fn of_content(store: &Path, content: &Digest) -> Result<Option<Version>> {
     Ok(all(store)?.into_iter().find(|version| version.content == *content))
 }

@@ -6,12 +6,12 @@ use std::borrow::Cow;
 use std::cmp::Ordering;
 use std::fmt;
 
-/// Name of a task, `expert/p00003` as text. The item is known by its text alone.
+/// Name of a task, `expert/p00003` as text. The item is known by its text only.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct TaskName {
     /// Stage of the task.
     pub stage: StageName,
-    /// Item that it makes.
+    /// Name of the item that the task makes.
     pub item: String,
 }
 
@@ -27,7 +27,7 @@ impl TaskName {
     }
 }
 
-/// The order of the texts, in which manifests list tasks.
+/// Orders by text, the order of tasks in manifests.
 impl Ord for TaskName {
     fn cmp(&self, other: &Self) -> Ordering {
         self.bytes().cmp(other.bytes())
@@ -57,7 +57,7 @@ impl<'de> Deserialize<'de> for TaskName {
         let text = Cow::<'de, str>::deserialize(deserializer)?;
         match text.split_once('/') {
             Some((stage, item)) => Ok(Self { stage: StageName::read(stage), item: item.to_owned() }),
-            None => Err(D::Error::custom(format!("`{text}` is no task: it has no `/`"))),
+            None => Err(D::Error::custom(format!("`{text}` does not name a task: it has no `/`"))),
         }
     }
 }

@@ -11,11 +11,11 @@ use std::path::PathBuf;
 /// Format of the manifest.
 pub const SCHEMA: &str = "cosfly.version/1";
 
-/// A named version. Nothing in it depends on when or where it was named, except for the recipe's path.
+/// A named version. Its content does not depend on when or where it was named, except for the recipe's path.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Version {
-    /// [`SCHEMA`].
+    /// Format of the manifest: [`SCHEMA`].
     pub schema: String,
     /// Name of the version.
     pub name: String,
@@ -23,11 +23,11 @@ pub struct Version {
     pub dataset: String,
     /// Version of the dataset, from the recipe: `MAJOR.MINOR.PATCH`.
     pub dataset_version: String,
-    /// Version of cosfly that named it.
+    /// Version of cosfly that created the manifest.
     pub cosfly: String,
-    /// The recipe.
+    /// Recipe of the dataset.
     pub recipe: RecipeText,
-    /// BLAKE3 of all files of the recipe and of plugins, by stage and parameter, such as `expert.use`.
+    /// BLAKE3 of all source files of the recipe and of plugins, by stage and parameter, such as `expert.use`.
     pub sources: BTreeMap<String, Digest>,
     /// BLAKE3 over path, hash and size of all files.
     pub content: Digest,
@@ -43,11 +43,11 @@ pub struct Version {
     pub rejected: BTreeMap<String, String>,
 }
 
-/// A recipe as it was read.
+/// The recipe as it was read.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct RecipeText {
-    /// Path of the recipe; files that it names are looked for beside it.
+    /// Path of the recipe; files that it names are resolved relative to it.
     pub path: PathBuf,
     /// Text of the recipe.
     pub text: String,
@@ -57,23 +57,23 @@ pub struct RecipeText {
     pub settings: BTreeMap<String, Value>,
 }
 
-/// One task.
+/// A task behind a flight.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Task {
     /// Key of the task: equal keys give equal bytes.
     pub key: Digest,
-    /// Tasks that it reads.
+    /// Tasks that the task reads.
     pub reads: Vec<TaskName>,
 }
 
-/// One flight.
+/// A published flight.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Flight {
-    /// Split that it is in.
+    /// Split of the flight.
     pub split: String,
-    /// BLAKE3 of its log.
+    /// BLAKE3 of the flight's log.
     pub log: Digest,
     /// Task that wrote the log.
     pub task: TaskName,

@@ -1,4 +1,4 @@
-//! The recipe as a tree of values that remember where they were written.
+//! The recipe as a tree of values with their places in the text.
 
 use cosfly_diagnose::{Diagnostic, Fault, Label};
 use serde_json::{Map, Number};
@@ -8,18 +8,18 @@ use std::ops::Range;
 use std::path::PathBuf;
 use std::sync::Arc;
 
-/// A text with values in it.
+/// A text that values come from.
 #[derive(Clone, Debug)]
 struct Text {
     path: PathBuf,
     text: Arc<str>,
 }
 
-/// The recipe (first) and the `--set` arguments.
+/// The recipe's text (first) and the `--set` arguments.
 #[derive(Clone, Debug)]
 pub(crate) struct Texts(Vec<Text>);
 
-/// Span of bytes in one of the texts.
+/// Range of bytes in one of the texts.
 #[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub(crate) struct Place {
     pub(crate) text: usize,
@@ -43,7 +43,7 @@ pub(crate) enum Value {
     Text(String),
     Array(Vec<Node>),
     Table(Table),
-    /// A value that was reported already; every check lets it pass.
+    /// A value with an error that is already reported; every check accepts it.
     Refused,
 }
 
@@ -57,7 +57,7 @@ pub(crate) struct Entry {
     pub(crate) node: Node,
 }
 
-/// Mistakes found so far.
+/// Errors found so far.
 pub(crate) type Problems = Vec<Box<Diagnostic>>;
 
 impl Texts {
@@ -76,7 +76,7 @@ impl Texts {
         Label { path: path.clone(), text: text.clone(), span: place.start..place.end, note: note.into() }
     }
 
-    /// Text at `place`, cut to one short line for a message.
+    /// Text at `place`, shortened to one line for a message.
     pub(crate) fn written(&self, place: &Place) -> String {
         let text = self.0[place.text].text.get(place.start..place.end).unwrap_or_default();
         let line = text.lines().next().unwrap_or_default().trim_end();
@@ -84,7 +84,7 @@ impl Texts {
         if short.len() < text.len() { format!("{short}...") } else { short }
     }
 
-    /// A mistake in the recipe at `place`.
+    /// Creates a diagnostic for an error in the recipe at `place`.
     pub(crate) fn problem(&self, code: &'static str, place: &Place, message: impl Into<String>) -> Box<Diagnostic> {
         Diagnostic::new(code, Fault::Recipe, message).at(self.label(place, ""))
     }
@@ -111,7 +111,7 @@ impl Node {
         }
     }
 
-    /// Type of the value, in words.
+    /// Type of the value in words.
     pub(crate) fn type_words(&self) -> &'static str {
         match self.value {
             Value::Bool(_) => "a boolean",
@@ -124,7 +124,7 @@ impl Node {
         }
     }
 
-    /// The value without places; tables have sorted keys.
+    /// The value as JSON, without places; tables have sorted keys.
     pub(crate) fn json(&self) -> serde_json::Value {
         match &self.value {
             Value::Bool(value) => (*value).into(),
@@ -137,7 +137,7 @@ impl Node {
         }
     }
 
-    /// The node at `path` below this one, or the deepest one on the way there.
+    /// Node at `path` below this one, or the deepest existing one on the way there.
     pub(crate) fn deepest<'a>(&self, path: impl IntoIterator<Item = &'a str>) -> &Node {
         let mut node = self;
         for key in path {
@@ -155,12 +155,12 @@ impl Node {
     }
 }
 
-/// A table without places.
+/// A table as JSON, without places.
 pub(crate) fn table_json(table: &Table) -> Map<String, serde_json::Value> {
     table.iter().map(|(key, entry)| (key.clone(), entry.node.json())).collect()
 }
 
-/// Names in back-ticks, separated by commas; at most `most` of them.
+/// Names in back-ticks, separated by commas, at most `most` of them.
 pub(crate) fn list<T: fmt::Display>(names: impl IntoIterator<Item = T>, most: usize) -> String {
     let names: Vec<T> = names.into_iter().collect();
     let mut shown: Vec<String> = names.iter().take(most).map(|name| format!("`{name}`")).collect();

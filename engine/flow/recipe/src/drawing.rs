@@ -1,9 +1,9 @@
-//! The graph of a recipe as a drawing: Mermaid for Markdown pages, DOT for Graphviz.
+//! The graph of a recipe as Mermaid (for Markdown pages) or DOT (for Graphviz).
 
 use crate::model::{Recipe, RecipeStage};
 use std::fmt::Write;
 
-/// Language of a drawing.
+/// Language of a graph drawing.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Format {
     /// <https://mermaid.js.org>, drawn by GitHub and mdBook.
@@ -12,7 +12,8 @@ pub enum Format {
     Dot,
 }
 
-/// Drawing of the recipe's stages and connections. Edges carry the port's name where it differs from the stage's.
+/// Text of the drawing of a recipe's stages and connections. Edges carry the port's name where it differs from the
+/// stage's.
 pub fn graph(recipe: &Recipe, format: Format) -> String {
     let mut text = String::new();
     // Writing to a String cannot fail.

@@ -1,4 +1,4 @@
-//! Items of every stage, and what each of them reads; all known before anything runs.
+//! Items of every stage and their inputs, computed before any stage runs.
 
 use crate::document::{Place, Texts, list};
 use crate::model::{Arrival, Connection, ItemNames, RecipeStage};
@@ -7,10 +7,10 @@ use cosfly_stage::{Fan, InputPort, ItemName, ItemRule, StageProperties, Takes};
 use std::collections::{BTreeMap, BTreeSet};
 use std::sync::Arc;
 
-/// Items that a stage may have; the names of more would fill the memory.
+/// Most items of a stage; the names of more would fill the memory.
 const MOST_ITEMS: u64 = 1_000_000;
 
-/// A port, the stages that are connected to it, and the place in the recipe that says so.
+/// A port, the stages connected to it, and the place of the connection in the recipe.
 pub(crate) struct Wire {
     pub(crate) port: InputPort,
     pub(crate) upstreams: Vec<usize>,
@@ -18,7 +18,7 @@ pub(crate) struct Wire {
     pub(crate) place: Place,
 }
 
-/// Gives items and arrivals to one stage, all of whose upstreams are in `done`.
+/// Computes items and arrivals of one stage, all of whose upstream stages are in `done`.
 pub(crate) struct ItemReader<'a> {
     pub(crate) done: &'a [RecipeStage],
     pub(crate) texts: &'a Texts,
@@ -61,7 +61,7 @@ impl ItemReader<'_> {
         Ok(Arranged { items, connections })
     }
 
-    /// Items by the stage's rule; `leading` are those of the port that the rule names.
+    /// Items by the stage's rule; `leading` are the items of the port that the rule names.
     fn own_items(&self, rule: &ItemRule, leading: &ItemNames) -> Result<ItemNames, Box<Diagnostic>> {
         let count = match rule {
             ItemRule::Count { count, .. } => *count,
@@ -83,7 +83,7 @@ impl ItemReader<'_> {
         })
     }
 
-    /// Index of the wire of the port that gives the stage its items.
+    /// Index of the wire of the port that defines the stage's items.
     fn leader(&self, wires: &[Wire], port: &str) -> Result<usize, Box<Diagnostic>> {
         wires.iter().position(|wire| wire.port.name == port).ok_or_else(|| {
             let message = format!("`{}` has one item for each of `inputs.{port}`, which is not connected", self.stage);
@@ -115,7 +115,7 @@ impl ItemReader<'_> {
         Ok(PortItems { names, arrivals })
     }
 
-    /// Refuses stages with items of the same name at a port where items keep their names.
+    /// Rejects stages with items of the same name at a port where items keep their names.
     fn check_distinct(&self, wire: &Wire, arrivals: &[Arrival]) -> Result<(), Box<Diagnostic>> {
         let mut first: BTreeMap<&ItemName, usize> = BTreeMap::new();
         for arrival in arrivals {
@@ -134,7 +134,7 @@ impl ItemReader<'_> {
         Ok(())
     }
 
-    /// The only item of a broadcast port.
+    /// Only item at a broadcast port.
     fn single(&self, wire: &Wire, at_port: PortItems) -> Result<Vec<Arrival>, Box<Diagnostic>> {
         if at_port.arrivals.len() == 1 {
             return Ok(at_port.arrivals);
@@ -151,8 +151,8 @@ impl ItemReader<'_> {
         Err(problem.hint(format!("every item of `{}` reads the same one: connect a stage that makes one", self.stage)))
     }
 
-    /// Arrivals in the order of the stage's own items. An item that is not at the port reads the item that it is a
-    /// variant of.
+    /// Arrivals in the order of the stage's own items. An item that is not at the port reads the item of which it is a
+    /// variant.
     fn aligned(
         &self,
         items: &ItemNames,
@@ -180,7 +180,7 @@ impl ItemReader<'_> {
         Err(self.differing(leading, wire, &lacking, &extra))
     }
 
-    /// Two ports whose items should be the same, or a port and the stage's own items.
+    /// Error for two ports that must have the same items, or for a port and the stage's own items.
     fn differing(
         &self,
         leading: Option<&Wire>,

@@ -1,4 +1,4 @@
-//! From a stage's kind and parameters to its built parts.
+//! Builds the parts of a stage from its kind and parameters.
 
 use crate::document::{Node, Place, Problems, Texts, Value, list};
 use crate::outline::StageOutline;
@@ -22,15 +22,15 @@ pub(crate) struct BuiltPart {
     pub(crate) stage: Arc<dyn Stage>,
 }
 
-/// Knowledge of a recipe stage's kind.
+/// Kind of a recipe stage, and its built parts.
 pub(crate) struct KnownStage {
     /// Ports that the recipe may connect.
     pub(crate) ports: Vec<InputPort>,
-    /// Absent when its parameters were refused.
+    /// Built parts; `None` when the parameters have errors.
     pub(crate) built: Option<BuiltStage>,
 }
 
-/// Builds stages; the schema of a kind is made once.
+/// Builds stages; the schema of each kind is computed once.
 pub(crate) struct Builder<'a> {
     registry: &'a Registry,
     texts: &'a Texts,
@@ -38,7 +38,7 @@ pub(crate) struct Builder<'a> {
 }
 
 impl BuiltStage {
-    /// Kind of artifact that other stages read.
+    /// Kind of artifact that the stage makes.
     pub(crate) fn artifact(&self) -> Option<&'static str> {
         self.parts.last().map(|part| part.stage.properties().artifact)
     }
@@ -148,7 +148,7 @@ fn has_refused(node: &Node) -> bool {
     }
 }
 
-/// Kinds whose stages make `artifact` with their default parameters (required ones invented); for hints.
+/// Kinds whose stages make `artifact` with their default parameters (required ones get placeholder values); for hints.
 pub(crate) fn kinds_that_make(registry: &Registry, artifact: &str) -> Vec<&'static str> {
     registry
         .iter()
@@ -160,7 +160,7 @@ pub(crate) fn kinds_that_make(registry: &Registry, artifact: &str) -> Vec<&'stat
         .collect()
 }
 
-/// A value for every required parameter.
+/// Placeholder values for all required parameters.
 fn smallest_parameters(schema: &serde_json::Value) -> serde_json::Value {
     let required = schema.get("required").and_then(serde_json::Value::as_array).into_iter().flatten();
     let parameters: serde_json::Map<_, _> = required

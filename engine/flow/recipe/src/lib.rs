@@ -1,10 +1,10 @@
-//! From TOML text to a checked graph of stages.
+//! Reads TOML recipes into checked graphs of stages.
 //!
-//! * [`load`], [`read`]: the entry points; a [`Recipe`], or all mistakes in it.
+//! * [`load`], [`read`]: the entry points; a [`Recipe`], or all errors in it.
 //! * `toml_text` -> `document`: the text as a tree with places; `overrides` applies `--set` to it.
 //! * `outline` -> `kinds` -> `wiring` -> `order` -> `sources` -> `items`: the checks, in this order.
 //! * `parameters`: the parameters of a stage against the JSON Schema of its kind.
-//! * [`schema`], [`reference`], [`graph`]: for editors, the book and people.
+//! * [`schema`], [`reference`], [`graph`]: schema for editors, reference page, drawing of the graph.
 
 mod document;
 mod drawing;

@@ -16,17 +16,18 @@ use std::collections::BTreeMap;
 use std::path::Path;
 use std::sync::Arc;
 
-/// The recipe at `path`, with `overrides` (the arguments of `--set`) applied, checked.
+/// Reads and checks the recipe at `path`, with `overrides` (the arguments of `--set`) applied.
 ///
 /// # Errors
-/// All independent mistakes, in the order of the text.
+/// All independent errors, in the order of the text.
 pub fn load(path: &Path, overrides: &[String], registry: &Registry) -> Result<Recipe, Vec<Box<Diagnostic>>> {
     let bytes = std::fs::read(path).map_err(|error| vec![unreadable(path, &error)])?;
     let text = String::from_utf8(bytes).map_err(|error| vec![not_text(path, &error)])?;
     read(path, &text, overrides, registry)
 }
 
-/// As [`load`] for a `text` instead of the file at `path`; the files that it names are looked for beside that path.
+/// Like [`load`], for a `text` instead of the file at `path`; the files that it names are resolved relative to that
+/// path.
 ///
 /// # Errors
 /// As [`load`].
@@ -64,7 +65,7 @@ fn check(
     let known: Vec<Option<KnownStage>> = outline.stages.iter().map(|stage| builder.build(stage, problems)).collect();
     let mut connected = Wiring::new(&outline, &known, registry, texts).connect(problems);
     let order = dependency_order(&outline, &connected.reads, texts).unwrap_or_else(|cycles| {
-        // A connection of a cycle is wrong anyway, whatever would flow through it.
+        // A connection in a cycle is an error anyway, whatever the artifact.
         let in_cycle = |place: &Label| cycles.iter().flat_map(|cycle| &cycle.labels).any(|it| it.span == place.span);
         connected.mismatches.retain(|problem| !problem.labels.first().is_some_and(in_cycle));
         problems.extend(cycles);
@@ -88,7 +89,7 @@ fn check(
     Some(Recipe { name: outline.name, seed: outline.seed, path: path.to_path_buf(), text: text.into(), stages })
 }
 
-/// Files that are read, by stage of the outline and part.
+/// Resolved source files by stage of the outline and part.
 fn find_files(
     outline: &Outline,
     known: &[Option<KnownStage>],
@@ -112,7 +113,7 @@ fn find_files(
     files
 }
 
-/// Stages that are ready so far, in dependency order.
+/// Finished stages, in dependency order.
 struct Assembly<'a> {
     outline: &'a Outline,
     wires: &'a Wires,
@@ -153,14 +154,14 @@ impl Assembly<'_> {
         Ok(())
     }
 
-    /// True for a part that lacks an input; in a sound graph, the stage can do without such a part.
+    /// Whether a part lacks a required input; in a valid graph, the stage works without such a part.
     fn is_left_out(&self, index: usize, part: &BuiltPart) -> bool {
         let is_connected = |port: &str| self.wires[index].get(port).is_some_and(|wired| !wired.is_empty());
         let ports = &part.stage.properties().inputs;
         ports.iter().any(|port| !port.optional && port.source == PortSource::Recipe && !is_connected(port.name))
     }
 
-    /// The connected ports of a part.
+    /// Connected ports of a part.
     fn part_wires(
         &self,
         index: usize,

@@ -1,4 +1,4 @@
-//! The checked recipe: stages in dependency order, connected, with their items and files known.
+//! The checked recipe: connected stages in dependency order, with their items and files.
 
 use cosfly_stage::{Fan, InputPort, ItemId, ItemName, Stage, StageName};
 use std::fmt;
@@ -8,7 +8,7 @@ use std::sync::Arc;
 /// Names of a stage's items, shared by all stages that have the same ones.
 pub type ItemNames = Arc<[ItemName]>;
 
-/// A recipe that can be run: everything that can be known before running is checked.
+/// A checked recipe, ready to run: everything that can be checked before running is checked.
 #[derive(Clone, Debug)]
 pub struct Recipe {
     /// Name of the recipe, `[a-z0-9_-]+`.
@@ -34,15 +34,16 @@ pub struct RecipeStage {
     pub stage: Arc<dyn Stage>,
     /// Connected ports, in the order of the stage's properties; optional ports that are left out are absent.
     pub connections: Vec<Connection>,
-    /// Files that it reads, in the order of [`cosfly_stage::StageProperties::sources`]; they existed when the recipe was read.
+    /// Files that the stage reads, in the order of [`cosfly_stage::StageProperties::sources`]; they existed when the
+    /// recipe was read.
     pub sources: Vec<SourceFile>,
-    /// Names of its items.
+    /// Names of the stage's items.
     pub items: ItemNames,
     /// Parameters as the recipe and `--set` give them: without defaults, `use` and `inputs`.
     pub parameters: serde_json::Value,
 }
 
-/// A port and what is connected to it.
+/// A port and the stages connected to it.
 #[derive(Clone, Debug)]
 pub struct Connection {
     /// The port as the stage declares it.
@@ -59,7 +60,7 @@ pub struct Connection {
 pub struct Arrival {
     /// Name at the port (see [`cosfly_stage::Takes`]).
     pub name: ItemName,
-    /// Stage that makes it, as an index into [`Recipe::stages`].
+    /// Stage that makes the item, as an index into [`Recipe::stages`].
     pub stage: usize,
     /// Index in that stage's [`RecipeStage::items`].
     pub item: usize,
@@ -68,14 +69,14 @@ pub struct Arrival {
 /// A file outside the store that a stage reads.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct SourceFile {
-    /// Parameter that names it, keys joined by dots.
+    /// Parameter that names the file, keys joined by dots.
     pub parameter: String,
     /// Path, resolved against the recipe's folder.
     pub path: PathBuf,
 }
 
 impl Recipe {
-    /// Index of the stage called `name`, with its part.
+    /// Index of the stage (or stage part) called `name`.
     pub fn position(&self, name: &str) -> Option<usize> {
         self.stages.iter().position(|stage| stage.name == *name)
     }
@@ -88,7 +89,7 @@ impl Recipe {
 }
 
 impl RecipeStage {
-    /// The connection of port `name`.
+    /// Connection of port `name`.
     pub fn connection(&self, name: &str) -> Option<&Connection> {
         self.connections.iter().find(|connection| connection.port.name == name)
     }

@@ -1,4 +1,4 @@
-//! Dependency order of the stages, and the cycles that forbid one.
+//! Dependency order of the stages, and cycles that prevent one.
 
 use crate::document::{Place, Problems, Texts};
 use crate::outline::Outline;
@@ -8,7 +8,7 @@ use std::collections::BTreeSet;
 /// Stages that each stage reads: number and place in the recipe, for every name that exists.
 pub(crate) type Reads = Vec<Vec<(usize, Place)>>;
 
-/// Stage numbers, inputs first; among those that are ready the first in the file goes first.
+/// Stage numbers in dependency order, inputs first; stages that are ready at the same time keep the order of the file.
 ///
 /// # Errors
 /// All cycles.
@@ -33,7 +33,7 @@ pub(crate) fn dependency_order(outline: &Outline, reads: &Reads, texts: &Texts) 
     if order.len() == reads.len() { Ok(order) } else { Err(cycles(outline, reads, &waits, texts)) }
 }
 
-/// Walks upstream from every stage that never became ready: each walk ends in a cycle.
+/// Walks upstream from every stage that never became ready; each walk ends in a cycle.
 fn cycles(outline: &Outline, reads: &Reads, waits: &[BTreeSet<usize>], texts: &Texts) -> Problems {
     let mut found = Problems::new();
     let mut seen = vec![false; reads.len()];

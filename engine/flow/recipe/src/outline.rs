@@ -1,9 +1,9 @@
-//! Outline of a recipe, before any stage kind is asked: name, seed, stages, kinds and connections.
+//! Outline of a recipe, before its stage kinds are looked up: name, seed, stages, kinds and connections.
 
 use crate::document::{Entry, Node, Place, Problems, Table, Texts, Value, list};
 use cosfly_diagnose::nearest_name;
 
-/// A recipe as it is written, with its keys checked.
+/// A recipe as written, with checked keys.
 pub(crate) struct Outline {
     pub(crate) name: String,
     pub(crate) seed: u64,
@@ -16,7 +16,7 @@ pub(crate) struct StageOutline {
     pub(crate) name: String,
     /// Place of the name.
     pub(crate) place: Place,
-    /// Kind and its place; absent when its lack was reported.
+    /// Kind and its place; `None` when its absence is already reported.
     pub(crate) kind: Option<(String, Place)>,
     pub(crate) inputs: Vec<InputOutline>,
     /// Table of the stage without `use` and `inputs`.
@@ -29,7 +29,7 @@ pub(crate) struct InputOutline {
     pub(crate) place: Place,
     /// Names of stages and their places.
     pub(crate) stages: Vec<(String, Place)>,
-    /// True where they are written as a list.
+    /// Whether the names are written as a list.
     pub(crate) listed: bool,
 }
 
@@ -212,7 +212,7 @@ impl Reader<'_> {
     }
 }
 
-/// `name` for a message, cut when it is very long.
+/// `name` for a message, shortened when it is very long.
 fn short(name: &str) -> String {
     let cut: String = name.chars().take(60).collect();
     if cut.len() < name.len() { format!("{cut}...") } else { cut }

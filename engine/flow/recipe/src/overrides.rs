@@ -4,10 +4,10 @@ use crate::document::{Entry, Node, Place, Problems, Table, Texts, Value, list};
 use crate::toml_text::parse_value;
 use cosfly_diagnose::nearest_name;
 
-/// Longest path, keys: no parameter lies deeper.
+/// Most keys of a path: no parameter lies deeper.
 const MOST_KEYS: usize = 16;
 
-/// Applies every override to `root`, in the order given; those that cannot be applied are reported.
+/// Applies every override to `root`, in the order given; invalid ones are reported.
 pub(crate) fn apply(root: &mut Table, overrides: &[String], texts: &mut Texts, problems: &mut Problems) {
     for argument in overrides {
         let text = texts.add_override(argument);

@@ -44,7 +44,7 @@ Every other key of a stage is a parameter of its kind. Paths begin at the recipe
 Where a port takes many stages, its items are called `STAGE-ITEM`; those of a dataset keep their names.
 ";
 
-/// Reference page in Markdown: inputs and parameters of each kind with type, default, range and meaning.
+/// Text of the reference page in Markdown: inputs and parameters of each kind with type, default, range and meaning.
 pub fn reference(registry: &Registry) -> String {
     let mut page = INTRODUCTION.to_owned();
     for kind in registry.iter() {
@@ -99,7 +99,7 @@ struct Row {
     what: String,
 }
 
-/// One row per parameter of the table `schema`; nested tables as `a.b`.
+/// Appends one row per parameter of the table `schema`; nested tables as `a.b`.
 fn collect_rows(
     root: &Value,
     schema: &Value,
@@ -131,7 +131,7 @@ fn collect_rows(
     }
 }
 
-/// Tables inside lists, maps and alternatives.
+/// Appends the rows of tables inside lists, maps and alternatives.
 fn collect_inner_rows(root: &Value, target: &Value, name: &str, depth: usize, rows: &mut Vec<Row>) {
     for (keyword, mark) in [("items", "[]."), ("additionalProperties", ".*.")] {
         if let Some(inner) = target.get(keyword).filter(|inner| inner.is_object()) {
@@ -177,7 +177,7 @@ fn row(root: &Value, rule: &Value, name: &str, default: Option<&Value>, required
     Row { name: name.to_owned(), kind: kind_words(root, rule), default, range: cell(&range), what }
 }
 
-/// A description without the closing sentence that only repeats the column beside it.
+/// A description without a last sentence that only repeats the column of defaults.
 fn without_default<'a>(description: &'a str, default: &str) -> &'a str {
     let trimmed = description.trim_end();
     match trimmed.rfind("Default ") {
@@ -188,7 +188,7 @@ fn without_default<'a>(description: &'a str, default: &str) -> &'a str {
     }
 }
 
-/// The type in words; lists name what they hold.
+/// Type in words; lists name the type of their entries.
 fn kind_words(root: &Value, rule: &Value) -> String {
     let target = nullable_target(root, rule);
     let words = type_words_of(root, rule);
@@ -207,7 +207,7 @@ fn kind_words(root: &Value, rule: &Value) -> String {
     format!("a list of {plural}")
 }
 
-/// Values of the tag that tells the alternatives of a table apart: `kind`: `none`, `random`.
+/// Values of the tag that distinguishes the alternatives of a table: `kind`: `none`, `random`.
 fn tag_values(root: &Value, rule: &Value) -> Option<String> {
     let mut key = None;
     let mut values = vec![];
@@ -259,7 +259,7 @@ fn range(root: &Value, rule: &Value) -> String {
     words.join(", ")
 }
 
-/// The schema behind `$ref` and `anyOf [X, null]`.
+/// Schema behind `$ref` and `anyOf [X, null]`.
 fn nullable_target<'a>(root: &'a Value, rule: &'a Value) -> &'a Value {
     let target = resolve(root, rule);
     let mut others = alternatives(target)

@@ -10,9 +10,9 @@ const STAGE_NAME: &str = "^[a-z][a-z0-9_]*$";
 /// Schema (draft 2020-12) of recipes over the kinds of `registry`: each stage is checked against the parameters and
 /// inputs of the kind that its `use` names.
 ///
-/// Precise errors come from `allOf` with one `if`/`then` per kind. The `anyOf` beside it never refuses anything
-/// (its last alternative is empty): editors such as Taplo take completions and hovers from it, because they do not
-/// look into `if`/`then`.
+/// Precise errors come from `allOf` with one `if`/`then` per kind. The `anyOf` beside it accepts everything (its last
+/// alternative is empty): editors such as Taplo take completions and hovers from it, because they do not evaluate
+/// `if`/`then`.
 pub fn schema(registry: &Registry) -> Value {
     let mut definitions = Map::new();
     let mut rules = vec![];
@@ -72,7 +72,7 @@ pub fn schema(registry: &Registry) -> Value {
     })
 }
 
-/// Rule for the value of `use` of a kind.
+/// Schema for the value of `use` of a kind.
 fn written_use(kind: &str) -> Value {
     if kind == FILE_KIND { json!({ "pattern": format!("^{FILE_KIND}:.") }) } else { json!({ "const": kind }) }
 }
@@ -82,7 +82,7 @@ fn described(mut rule: Value, kind: &dyn StageKind) -> Value {
     rule
 }
 
-/// Adds the kind's own schema with `use` and `inputs`, and the definitions that it refers to as `KIND.DEFINITION`.
+/// Adds the kind's own schema with `use` and `inputs`, and its definitions as `KIND.DEFINITION`.
 fn add_definitions(kind: &dyn StageKind, definitions: &mut Map<String, Value>) {
     let name = kind.name();
     let mut own = kind.schema();
@@ -147,7 +147,7 @@ fn inputs(ports: &[InputPort]) -> Value {
     })
 }
 
-/// `#/$defs/X` becomes `#/$defs/KIND.X`, and `#` the kind itself.
+/// Renames `#/$defs/X` to `#/$defs/KIND.X`, and `#` to the kind itself.
 fn rename_references(schema: &mut Value, kind: &str) {
     match schema {
         Value::Object(keywords) => {

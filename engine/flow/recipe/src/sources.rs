@@ -1,4 +1,4 @@
-//! Files that stages read: resolved against the recipe's folder, and checked before anything runs.
+//! Files that stages read: resolved against the recipe's folder, and checked before any stage runs.
 
 use crate::document::{Node, Place, Problems, Texts};
 use crate::model::SourceFile;
@@ -15,7 +15,7 @@ pub(crate) struct SourceFinder<'a> {
     /// Folder of the recipe.
     pub(crate) directory: &'a Path,
     pub(crate) texts: &'a Texts,
-    /// Folders that were searched for similar names.
+    /// Names in the folders that were searched for similar names.
     pub(crate) neighbours: Neighbours,
 }
 
@@ -50,7 +50,7 @@ impl SourceFinder<'_> {
         files
     }
 
-    /// Mistakes that only the content of a file shows.
+    /// Errors that depend on the content of a file.
     fn check_content(
         &self,
         source: &Source,
@@ -136,10 +136,10 @@ fn place_of<'a>(source: &Source, parameters: &'a Node) -> Option<&'a Place> {
 pub(crate) struct Neighbours(BTreeMap<PathBuf, Vec<String>>);
 
 impl Neighbours {
-    /// Entries of a folder that are read at most.
+    /// Most entries of a folder that are read.
     const MOST_ENTRIES: usize = 10_000;
 
-    /// Name of the file beside `path` that is most like it.
+    /// Name of the most similar file in the folder of `path`.
     pub(crate) fn similar_file(&mut self, path: &Path) -> Option<String> {
         let name = path.file_name()?.to_str()?;
         let folder = shown_folder(path.parent()?);

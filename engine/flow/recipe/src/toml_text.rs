@@ -1,4 +1,4 @@
-//! From TOML text to the tree with places; the only file that knows the `toml` crate.
+//! Parses TOML text into the tree with places; the only file that uses the `toml` crate.
 
 use crate::document::{Entry, Node, Place, Problems, Table, Texts, Value};
 use cosfly_diagnose::Diagnostic;
@@ -10,10 +10,10 @@ use toml::de::{DeTable, DeValue, Error};
 const MOST_LEVELS: usize = 32;
 /// Longest text, bytes.
 const MOST_BYTES: usize = 4 << 20;
-/// Syntax errors that are reported: a broken text often breaks again further down.
+/// Most syntax errors that are reported: one error often causes others further down.
 const MOST_SYNTAX_ERRORS: usize = 5;
 
-/// The recipe's root table.
+/// Parses the recipe's root table.
 pub(crate) fn parse_document(text: &str, texts: &Texts, problems: &mut Problems) -> Option<Table> {
     if let Some(message) = too_long(text) {
         problems.push(texts.problem("recipe-syntax", &Place::new(0, 0..0), message));
@@ -28,7 +28,7 @@ pub(crate) fn parse_document(text: &str, texts: &Texts, problems: &mut Problems)
     Some(reader.table(root.get_ref(), &mut vec![]))
 }
 
-/// The value of a `--set`, which starts at byte `offset` of text number `text`.
+/// Parses the value of a `--set`, which starts at byte `offset` of text number `text`.
 pub(crate) fn parse_value(
     value: &str,
     path: &[String],
@@ -47,7 +47,7 @@ pub(crate) fn parse_value(
         None => DeValue::parse(value).map_err(|error| error.message().to_owned()),
     };
     match parsed {
-        // Quotes inside of shell quotes are easily forgotten: `--set stages.tables.released=2026-05-01` means the text.
+        // Quotes inside shell quotes are easily forgotten: `--set stages.tables.released=2026-05-01` means the text.
         Ok(parsed) if parsed.get_ref().is_datetime() => {
             Some(Node { place: whole, value: Value::Text(value.to_owned()) })
         }
@@ -65,12 +65,12 @@ pub(crate) fn parse_value(
     }
 }
 
-/// Message for a text that is too long to be read. (The parser limits the depth itself.)
+/// Message for a text that is too long. (The parser limits the depth itself.)
 fn too_long(text: &str) -> Option<String> {
     (text.len() > MOST_BYTES).then(|| format!("the text has {} bytes; a recipe may have {MOST_BYTES}", text.len()))
 }
 
-/// First mistake of every line, without those that follow from a broken table header above them.
+/// First error of every line, without those that follow from a broken table header above them.
 fn syntax_problems(errors: &[Error], text: &str, texts: &Texts) -> Problems {
     let mut problems = Problems::new();
     let (mut last_line, mut broken_table) = (None, None);
@@ -96,7 +96,7 @@ fn syntax_problems(errors: &[Error], text: &str, texts: &Texts) -> Problems {
     problems
 }
 
-/// A key that is given twice in its table; the first place is shown as well, where a line begins with it.
+/// Error of a key that is given twice in its table; the first place is shown as well, where a line begins with the key.
 fn given_twice(place: &Place, line_start: usize, text: &str, texts: &Texts) -> Box<Diagnostic> {
     let problem = texts.problem("recipe-syntax", place, format!("`{}` is given twice", texts.written(place)));
     let Some(key) = text.get(line_start..place.end) else { return problem };

@@ -1,4 +1,4 @@
-//! Connections between stages: names, ports and artifacts fit.
+//! Connections between stages: checks of names, ports and artifacts.
 
 use crate::document::{Place, Problems, Texts, list};
 use crate::kinds::{KnownStage, kinds_that_make};
@@ -12,7 +12,7 @@ use std::collections::BTreeMap;
 /// Connected stages by stage of the outline and port, in the order of the recipe.
 pub(crate) type Wires = Vec<BTreeMap<String, Vec<(usize, Place)>>>;
 
-/// Connections as the recipe writes them.
+/// Connections as written in the recipe.
 pub(crate) struct Wiring<'a> {
     outline: &'a Outline,
     known: &'a [Option<KnownStage>],
@@ -20,15 +20,15 @@ pub(crate) struct Wiring<'a> {
     texts: &'a Texts,
     /// Numbers of the stages of the outline.
     positions: BTreeMap<&'a str, usize>,
-    /// Kinds that make an artifact, by artifact: building all kinds takes long.
+    /// Kinds that make an artifact, by artifact; cached, because building all kinds takes long.
     makers: RefCell<BTreeMap<&'static str, Vec<&'static str>>>,
 }
 
-/// The graph, as far as it exists.
+/// Existing connections of the graph.
 pub(crate) struct Connected {
     pub(crate) wires: Wires,
     pub(crate) reads: Reads,
-    /// Connections of stages that exist, but make another artifact.
+    /// Errors of connections whose upstream stage makes another artifact.
     pub(crate) mismatches: Problems,
 }
 
@@ -44,7 +44,7 @@ impl<'a> Wiring<'a> {
         Self { outline, known, registry, texts, positions, makers: RefCell::default() }
     }
 
-    /// Checks every connection: those that exist are returned, mistakes are reported.
+    /// Checks every connection: returns the existing ones, and reports errors.
     pub(crate) fn connect(&self, problems: &mut Problems) -> Connected {
         let (mut wires, mut reads, mut mismatches) = (vec![], vec![], vec![]);
         for (stage, known) in self.outline.stages.iter().zip(self.known) {
@@ -139,7 +139,7 @@ impl<'a> Wiring<'a> {
         }
     }
 
-    /// Connections of stages that make another artifact than the port takes.
+    /// Errors of connections whose upstream stage makes another artifact than the port takes.
     fn mismatches(
         &self,
         stage: &StageOutline,
@@ -171,7 +171,7 @@ impl<'a> Wiring<'a> {
         self.connectable(problem, stage, port)
     }
 
-    /// Adds the makers of the artifact that `port` takes: stages of this recipe, and kinds.
+    /// Adds hints with the stages of this recipe and the kinds that make the artifact of `port`.
     fn connectable(&self, problem: Box<Diagnostic>, reader: &StageOutline, port: &InputPort) -> Box<Diagnostic> {
         let makers: Vec<&str> = self
             .outline
@@ -199,7 +199,7 @@ impl<'a> Wiring<'a> {
     }
 }
 
-/// Ports that an unknown one was probably meant to be: they are not reported as missing, too.
+/// Ports that an unknown name was probably meant to be: they are not reported as missing as well.
 fn mistyped_ports(stage: &StageOutline, ports: &[InputPort]) -> Vec<&'static str> {
     let names = || ports.iter().map(|port| port.name);
     let unknown = stage.inputs.iter().filter(|input| names().all(|name| name != input.port));

@@ -1,4 +1,4 @@
-//! Finished items as stages read them: named blobs, with their digest checked.
+//! Finished items as stages read them: named blobs with checked digests.
 
 use crate::{ItemId, ItemName};
 use cosfly_blobs::BlobRef;
@@ -14,7 +14,7 @@ pub type Blobs = BTreeMap<String, BlobRef>;
 /// A finished item at a port.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Artifact {
-    /// Item of the stage that made it.
+    /// Item that the artifact is the output of.
     pub id: ItemId,
     /// Name at the port that it is read through (see [`crate::Takes`]).
     pub name: ItemName,
@@ -22,16 +22,16 @@ pub struct Artifact {
     pub blobs: Arc<Blobs>,
 }
 
-/// A decoded blob, of the type that its reader asked for.
+/// A decoded blob, of the type that its reader requested.
 pub type Decoded = Arc<dyn Any + Send + Sync>;
 
-/// Reads blobs, and remembers decoded ones that several tasks share. Implemented by the store.
+/// Source of blobs that caches decoded ones shared by several tasks. Implemented by the store.
 pub trait BlobSource: Send + Sync {
-    /// All bytes of a blob, digest checked.
+    /// Reads all bytes of a blob; the digest is checked.
     fn read(&self, blob: &BlobRef) -> Result<Vec<u8>>;
-    /// The blob as a file; size and digest are checked once per process.
+    /// Opens the blob as a file; size and digest are checked once per process.
     fn open(&self, blob: &BlobRef) -> Result<File>;
-    /// `decode` of the blob's bytes, of type `kind`; computed once per process while tasks use it.
+    /// Decoded value of the blob, of type `kind`; `decode` runs once per process while tasks use the value.
     fn decoded(&self, blob: &BlobRef, kind: TypeId, decode: &dyn Fn(&[u8]) -> Result<Decoded>) -> Result<Decoded>;
 }
 
@@ -41,7 +41,7 @@ pub type Ports = BTreeMap<&'static str, Arc<[Artifact]>>;
 
 /// Inputs of one task.
 pub struct Inputs<'a> {
-    /// Artifacts that the task reads.
+    /// Artifacts that the task reads, by port.
     pub ports: Ports,
     /// Storage of their bytes.
     pub blobs: &'a dyn BlobSource,
@@ -53,24 +53,24 @@ impl Inputs<'_> {
         self.ports.get(port).map_or(&[], |artifacts| artifacts)
     }
 
-    /// The only artifact at an `Each` or `Broadcast` port.
+    /// Artifact at an `Each` or `Broadcast` port.
     pub fn one(&self, port: &str) -> Result<&Artifact> {
         self.all(port).first().ok_or_else(|| {
             Diagnostic::new("stage-port-empty", Fault::Bug, format!("nothing is connected to port `{port}`"))
         })
     }
 
-    /// Bytes of blob `name` of `artifact`.
+    /// Reads the bytes of blob `name` of `artifact`.
     pub fn read(&self, artifact: &Artifact, name: &str) -> Result<Vec<u8>> {
         self.blobs.read(Self::blob(artifact, name)?)
     }
 
-    /// Blob `name` of `artifact` as a file.
+    /// Opens blob `name` of `artifact` as a file.
     pub fn open(&self, artifact: &Artifact, name: &str) -> Result<File> {
         self.blobs.open(Self::blob(artifact, name)?)
     }
 
-    /// Blob `name` of `artifact`, decoded once for all tasks that share it.
+    /// Decodes blob `name` of `artifact`, once for all tasks that share it.
     pub fn decoded<T: Any + Send + Sync>(
         &self,
         artifact: &Artifact,

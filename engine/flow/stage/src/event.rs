@@ -1,21 +1,21 @@
-//! Everything a run tells its reporters: one closed list. Reporters are the only code that prints.
+//! Events of a run, a closed list. Reporters are the only code that prints.
 
 use crate::{ItemId, Produced, StageName};
 use cosfly_diagnose::Diagnostic;
 use std::time::Duration;
 
-/// Work that a finished task took.
+/// Work that a finished task needed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Work {
-    /// None: it was finished before, or by another process meanwhile.
+    /// None: the item was finished before, or by another process meanwhile.
     Cached,
-    /// It was computed.
+    /// The item was computed.
     Ran,
-    /// None: its inputs turned out equal to those of an earlier run.
+    /// None: the inputs are equal to those of an earlier run.
     Reused,
 }
 
-/// Something that happened in a run.
+/// An event of a run.
 #[derive(Clone, Debug)]
 pub enum RunEvent {
     /// The plan is known.
@@ -25,22 +25,22 @@ pub enum RunEvent {
     },
     /// A task is finished and its output is on the disk.
     Finished {
-        /// Item that it made.
+        /// Finished item.
         id: ItemId,
-        /// Work that it took.
+        /// Work that the task needed.
         work: Work,
         /// Wall time.
         took: Duration,
         /// Notes, warnings and rejection.
         produced: Produced,
     },
-    /// A task failed; what depends on it will not run, everything else will.
+    /// A task failed; items that depend on it do not run, all others do.
     Failed {
-        /// Item that it should have made.
+        /// Item of the failed task.
         id: ItemId,
         /// Reason.
         diagnostic: Box<Diagnostic>,
     },
-    /// The run was asked to stop; running tasks are ending.
+    /// The run is stopping; running tasks are ending.
     Stopping,
 }

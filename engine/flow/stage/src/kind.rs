@@ -6,12 +6,13 @@ use std::collections::BTreeMap;
 
 /// A kind of stage that recipes name with `use = "..."`.
 pub trait StageKind: Send + Sync {
-    /// Name in recipes.
+    /// Name in recipes (`use = "..."`).
     fn name(&self) -> &'static str;
     /// Description for the reference and `cosfly schema`, one sentence.
     fn doc(&self) -> &'static str;
-    /// JSON Schema of its parameters (an object), with descriptions, defaults and ranges. The recipe reader checks
-    /// parameters against it and points at the offending place; `build` may rely on that.
+    /// JSON Schema of the parameters (an object), with descriptions, defaults and ranges. The recipe reader checks
+    /// parameters
+    /// against it and points at the offending place; `build` may rely on that.
     fn schema(&self) -> serde_json::Value;
     /// Every port that a recipe may connect, for any parameters; for editors and the reference. The ports of the built
     /// parts together are a subset of them, apart from ports between siblings.
@@ -40,12 +41,12 @@ pub struct Registry {
 }
 
 impl Registry {
-    /// A registry of `kinds`; a later kind replaces an earlier one of the same name.
+    /// Creates a registry of `kinds`; a later kind replaces an earlier one of the same name.
     pub fn new(kinds: Vec<Box<dyn StageKind>>) -> Self {
         Self { kinds: kinds.into_iter().map(|kind| (kind.name(), kind)).collect() }
     }
 
-    /// The kind called `name`.
+    /// Kind called `name`.
     pub fn get(&self, name: &str) -> Option<&dyn StageKind> {
         self.kinds.get(name).map(|kind| &**kind)
     }

@@ -1,10 +1,10 @@
-//! The stage contract: what a stage declares, what it is given, what it makes, and what a run reports.
+//! The stage contract: declaration of a stage, its inputs, its outputs, and the events of a run.
 //!
-//! * [`StageKind`]: one entry of the registry; turns a stage's checked parameters into stages.
+//! * [`StageKind`]: an entry of the registry; builds stages from checked parameters.
 //! * [`Stage`]: declares its [`StageProperties`] as data, then makes one item at a time.
-//! * [`StageName`], [`ItemName`], [`ItemId`]: who is who.
-//! * [`Inputs`], [`TaskContext`], [`cosfly_blobs::OutputSink`]: everything a stage may touch while it runs.
-//! * [`RunEvent`]: everything a run tells its reporters.
+//! * [`StageName`], [`ItemName`], [`ItemId`]: identities of stages and items.
+//! * [`Inputs`], [`TaskContext`], [`cosfly_blobs::OutputSink`]: everything that a stage may access while it runs.
+//! * [`RunEvent`]: the events of a run.
 
 mod artifact;
 mod event;

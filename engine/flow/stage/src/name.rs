@@ -1,4 +1,4 @@
-//! Identity of stages and items. Names are made here and compared as values; their text is never taken apart.
+//! Identity of stages and items. Names are built here and compared as values; their text is never split.
 
 use std::fmt;
 use std::sync::Arc;
@@ -7,14 +7,14 @@ use std::sync::Arc;
 #[derive(Clone, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub struct StageName {
     text: Arc<str>,
-    /// Bytes of `text` that are the name in the recipe.
+    /// Number of bytes of `text` that are the stage's name in the recipe.
     recipe_bytes: usize,
 }
 
 /// Name of an item among the items of a stage, as text:
 ///
-/// * `all` or `p00003`, as the stage calls it that it began in,
-/// * `expert-p00003` behind a port that names items after their stages,
+/// * `all` or `p00003`, the name in the stage where the item begins,
+/// * `expert-p00003` at a port that names items after their stages,
 /// * `expert-p00003-HardRainNoon` for a variant of it.
 ///
 /// Clones share their memory.
@@ -31,20 +31,20 @@ enum Form {
 /// Identity of an item in a recipe, `expert/p00003` as text.
 #[derive(Clone, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub struct ItemId {
-    /// Stage that makes it.
+    /// Stage that makes the item.
     pub stage: StageName,
     /// Name among the items of that stage.
     pub item: ItemName,
 }
 
 impl StageName {
-    /// The part `part` of the recipe's stage `recipe_name`; an empty part is the stage itself.
+    /// Name of the part `part` of the recipe's stage `recipe_name`; an empty part is the stage itself.
     pub fn new(recipe_name: &str, part: &str) -> Self {
         let text = if part.is_empty() { recipe_name.into() } else { format!("{recipe_name}.{part}").into() };
         Self { text, recipe_bytes: recipe_name.len() }
     }
 
-    /// Reads the text of a name in a stored document. Names in recipes have no dot.
+    /// Parses a name from a stored document. Names in recipes have no dot.
     pub fn read(text: &str) -> Self {
         Self { text: text.into(), recipe_bytes: text.find('.').unwrap_or(text.len()) }
     }
@@ -76,12 +76,12 @@ impl ItemName {
         Self::own(format!("{prefix}{number:05}"))
     }
 
-    /// Name in the stage that the item begins in, from its text.
+    /// Name of an item in the stage where it begins, from its text.
     pub fn own(text: impl Into<Arc<str>>) -> Self {
         Self(Form::Own(text.into()))
     }
 
-    /// Name of this item of `stage` behind a port that names items after their stages.
+    /// Name of this item of `stage` at a port that names items after their stages.
     pub fn of_stage(&self, stage: &StageName) -> Self {
         Self(Form::OfStage(Arc::new((stage.clone(), self.clone()))))
     }
@@ -91,7 +91,7 @@ impl ItemName {
         Self(Form::Variant(Arc::new((self.clone(), variant.into()))))
     }
 
-    /// Stage that the item is named after, the last one where there are several.
+    /// Stage that the item is named after; the last one where there are several.
     pub fn stage(&self) -> Option<&StageName> {
         match &self.0 {
             Form::Own(_) => None,
@@ -100,7 +100,7 @@ impl ItemName {
         }
     }
 
-    /// Variant that the item is, the last one where there are several.
+    /// Variant of the item; the last one where there are several.
     pub fn variant(&self) -> Option<&str> {
         match &self.0 {
             Form::Own(_) => None,
@@ -109,7 +109,7 @@ impl ItemName {
         }
     }
 
-    /// Name of the item that this one is the last variant of.
+    /// Name of the item that this one is a variant of, without its last variant.
     pub fn without_variant(&self) -> Option<Self> {
         match &self.0 {
             Form::Own(_) => None,

@@ -5,7 +5,7 @@ use std::fmt;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-/// Everything the engine knows about a stage before running it.
+/// Declaration of a stage, known to the engine before the stage runs.
 #[derive(Clone, Debug)]
 pub struct StageProperties {
     /// Kind, such as `map`; part of every key, together with [`Self::version`].
@@ -16,14 +16,15 @@ pub struct StageProperties {
     pub parameters: serde_json::Value,
     /// Files outside the store that the stage reads; their content is part of the key.
     pub sources: Vec<Source>,
-    /// Ports through which it reads other stages.
+    /// Ports through which the stage reads other stages.
     pub inputs: Vec<InputPort>,
-    /// Kind of its output, as `name/format-version`, such as `town/1`.
+    /// Kind of the output, as `name/format-version`, such as `town/1`.
     pub artifact: &'static str,
-    /// Rule that gives its items.
+    /// Rule that defines the items.
     pub items: ItemRule,
-    /// Rough size of one item's output, bytes, for `cosfly plan` before any is made; 0 where it is about as large as
-    /// the items at its [`Fan::Each`] ports.
+    /// Estimated size of one item's output, bytes, for `cosfly plan` before any item is made; 0 where it is about as
+    /// large as the
+    /// items at the [`Fan::Each`] ports.
     pub bytes_per_item: u64,
 }
 
@@ -34,29 +35,30 @@ pub struct Source {
     pub parameter: String,
     /// Path of the file, absolute or relative to the recipe's folder (the recipe reader resolves it).
     pub path: PathBuf,
-    /// Check of the file before anything runs.
+    /// Check of the file before any stage runs.
     pub check: Option<SourceCheck>,
 }
 
-/// Check of a file while the recipe is read: it may refuse the file, and says which parameters the file wants.
+/// Check of a file while the recipe is read: it may reject the file, and gives the schema of the parameters that the
+/// file takes.
 #[derive(Clone)]
 pub struct SourceCheck {
     /// Parameter that the file itself describes, keys joined by dots, such as `terms.0.params`.
     pub describes: String,
     /// Function from the file's path to the JSON Schema of that parameter.
     pub read: Arc<ReadSchema>,
-    /// Function that decides, once the parameter fits that schema, if the file can do what is asked of it.
+    /// Function that decides, once the parameter fits that schema, whether the file can do what the parameters request.
     pub settle: Option<Arc<Settle>>,
 }
 
-/// Type of [`SourceCheck::read`]. Its refusal is shown at the parameter that names the file.
+/// Type of [`SourceCheck::read`]. An error is shown at the parameter that names the file.
 pub type ReadSchema = dyn Fn(&Path) -> Result<serde_json::Value, Box<Diagnostic>> + Send + Sync;
 
-/// Type of [`SourceCheck::settle`]. Its refusal is shown at the parameter that names the file.
+/// Type of [`SourceCheck::settle`]. An error is shown at the parameter that names the file.
 pub type Settle = dyn Fn(&Path) -> Result<(), Box<Diagnostic>> + Send + Sync;
 
 impl Source {
-    /// A file that is not checked.
+    /// A source without a check.
     pub fn new(parameter: impl Into<String>, path: impl Into<PathBuf>) -> Self {
         Self { parameter: parameter.into(), path: path.into(), check: None }
     }
@@ -77,7 +79,7 @@ pub struct InputPort {
     pub artifact: &'static str,
     /// Relation of its items to the stage's own items.
     pub fan: Fan,
-    /// Number of stages that it takes, and the names of their items.
+    /// Whether the port may be left unconnected.
     pub takes: Takes,
     /// True where the port may be left out.
     pub optional: bool,
@@ -87,7 +89,7 @@ pub struct InputPort {
     pub doc: &'static str,
 }
 
-/// Number of stages that a port takes, and the names of their items behind it.
+/// Number of stages that a port takes, and the names of their items at the port.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Takes {
     /// One stage, whose items keep their names.
@@ -118,14 +120,14 @@ pub enum Fan {
     Gather,
 }
 
-/// Rule that gives the items of a stage, before anything runs.
+/// Rule that defines the items of a stage, before any stage runs.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum ItemRule {
-    /// A single item, `all`.
+    /// One item, `all`.
     One,
-    /// `<prefix>00000`, `<prefix>00001` ...: asking for more never renames the old ones.
+    /// `<prefix>00000`, `<prefix>00001` ...: a higher count never renames items.
     Count {
-        /// Beginning of every name.
+        /// Prefix of every name.
         prefix: &'static str,
         /// Number of items.
         count: u64,
@@ -133,7 +135,7 @@ pub enum ItemRule {
     /// The items of the named [`Fan::Each`] port.
     PerInput(&'static str),
     /// Every item of the named [`Fan::Each`] port once per variant, as `<item>-<variant>`: a new variant renames nothing.
-    /// All variants read that item, here and at the [`Fan::Each`] ports of later stages that only have the item itself.
+    /// Name of the port.
     PerVariant {
         /// The port.
         port: &'static str,

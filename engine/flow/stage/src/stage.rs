@@ -1,4 +1,4 @@
-//! A stage, the context it runs in, and what it says about the items it makes.
+//! A stage, its context, and the statements that it makes about its items.
 
 use crate::{Inputs, ItemId, StageProperties};
 use cosfly_blobs::OutputSink;
@@ -18,25 +18,25 @@ pub trait Stage: Send + Sync {
     fn run(&self, inputs: &Inputs<'_>, outputs: &mut dyn OutputSink, context: &TaskContext) -> Result<Produced>;
 }
 
-/// Everything a running task knows beside its inputs.
+/// Context of a running task, apart from its inputs.
 #[derive(Clone, Debug)]
 pub struct TaskContext {
-    /// Item that is being made.
+    /// Item to be made.
     pub id: ItemId,
-    /// 32 bytes derived from the recipe's seed, the stage and the item.
+    /// Seed of the item: 32 bytes derived from the recipe's seed, the stage and the item.
     pub seed: [u8; 32],
     /// Source files that the stage declared, in the order of [`StageProperties::sources`].
     pub sources: Vec<PathBuf>,
-    /// Set when the run is being stopped; long stages look at it between frames.
+    /// Set when the run is stopping; long stages check it between frames.
     pub cancelled: Arc<AtomicBool>,
 }
 
-/// Statement of a task about its item. It is stored beside the blobs and shown again when the item is cached.
+/// Facts, warnings and rejection of an item. Stored beside the blobs and shown again when the item is cached.
 #[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Produced {
     /// Short facts for the summary, such as `boxes` = `65638 -> 2011`.
     pub notes: BTreeMap<String, String>,
-    /// Warnings for people; never about lost data.
+    /// Warnings for users; never about lost data.
     pub warnings: Vec<String>,
     /// Reason why the item holds no usable result; published. An item whose input was rejected is rejected as well; the
     /// runner knows from the graph where a rejection began.
@@ -44,7 +44,7 @@ pub struct Produced {
 }
 
 impl TaskContext {
-    /// Fails when the run is being stopped, for `?` between pieces of long work.
+    /// Fails when the run is stopping, for `?` between pieces of long work.
     ///
     /// # Errors
     /// [`cosfly_diagnose::Fault::Stopped`].
@@ -54,7 +54,7 @@ impl TaskContext {
 }
 
 impl Produced {
-    /// An item without a usable result.
+    /// Item without a usable result.
     pub fn rejected(reason: impl Into<String>) -> Self {
         Self { rejected: Some(reason.into()), ..Self::default() }
     }

@@ -1,4 +1,4 @@
-//! Reading blobs: the size is checked always, the digest once per process; a damaged blob is removed at once.
+//! Reads blobs. The size is checked every time, the digest once per process; a damaged blob is removed immediately.
 
 use crate::layout::Area;
 use crate::mutex::locked;
@@ -64,7 +64,7 @@ impl Store {
         locked(&self.checked).insert(digest);
     }
 
-    /// File of a blob, at its start; `None` where its bytes do not match its name.
+    /// Opens the file of a blob at its start; `None` where its bytes do not match its digest.
     fn open_checked(&self, blob: &BlobRef) -> io::Result<Option<File>> {
         let mut file = File::open(self.blob_path(blob))?;
         if file.metadata()?.len() != blob.bytes {
@@ -90,7 +90,7 @@ impl Store {
         }
     }
 
-    /// Removes a damaged blob, so that no other reader meets it.
+    /// Removes a damaged blob, so that no other reader opens it.
     fn damaged(&self, blob: &BlobRef) -> Box<Diagnostic> {
         locked(&self.checked).remove(&blob.digest);
         let path = self.blob_path(blob);

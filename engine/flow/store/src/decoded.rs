@@ -1,4 +1,4 @@
-//! Decoded blobs that many tasks share, such as the town.
+//! Cache of decoded blobs that many tasks share, such as the town.
 
 use crate::mutex::locked;
 use cosfly_diagnose::Result;
@@ -12,15 +12,16 @@ type Value = Arc<dyn Any + Send + Sync>;
 type Slot = Arc<Mutex<Option<Weak<dyn Any + Send + Sync>>>>;
 type Key = (Digest, TypeId);
 
-/// Values that stay although no task uses them at the moment. A run of one task at a time would otherwise decode the
-/// town anew for every item.
+/// Number of values kept while no task uses them. Otherwise a run of one task at a time would decode the town anew for
+/// every item.
 const KEPT: usize = 8;
-/// Slots before empty ones are first removed.
+/// Number of slots above which empty ones are removed for the first time.
 const FEW_SLOTS: usize = 256;
 
 thread_local! {
-    /// Depth of decodes on this thread. Inside of one it never waits for another: a decode may run work of a thread
-    /// pool, and a thread of the pool that waits inside of its own task would wait for ever.
+    /// Depth of decodes on this thread. A nested decode never waits for another one: a decode may run tasks of a thread
+    /// pool,
+    /// and a thread of the pool that waits inside its own task would wait for ever.
     static DEPTH: Cell<u32> = const { Cell::new(0) };
 }
 
@@ -28,12 +29,13 @@ thread_local! {
 #[derive(Default)]
 struct Slots {
     by_key: BTreeMap<Key, Slot>,
-    /// Number of slots above which empty ones are removed: twice as many as were in use the last time, so that looking
-    /// through them costs a constant time per slot.
+    /// Number of slots above which empty ones are removed: twice the number in use at the last removal, so that the
+    /// scan costs a
+    /// constant time per slot.
     limit: usize,
 }
 
-/// Values by blob and type: weak references to all, strong ones to the last few.
+/// Values by blob and type: weak references to all, strong ones to the most recent.
 #[derive(Default)]
 pub(crate) struct DecodeCache {
     slots: Mutex<Slots>,
@@ -41,7 +43,7 @@ pub(crate) struct DecodeCache {
 }
 
 impl DecodeCache {
-    /// Value of a blob, from memory or by `decode`; two threads that ask at once decode it once.
+    /// Value of a blob, from the cache or by `decode`; concurrent requests of one value decode it once.
     pub(crate) fn get_or_decode(
         &self,
         digest: Digest,
@@ -84,7 +86,7 @@ impl DecodeCache {
         recent.retain(|(other, _)| *other != key);
         recent.push_back((key, Arc::clone(value)));
         let dropped = if recent.len() > KEPT { recent.pop_front() } else { None };
-        // A large value is freed outside of the lock.
+        // A large value is freed outside the lock.
         drop(recent);
         drop(dropped);
     }

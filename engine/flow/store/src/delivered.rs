@@ -1,6 +1,6 @@
-//! Sizes and times of the files of a materialised folder, from when they were last known to be right.
+//! Sizes and times of the files of a delivered folder, recorded when they were last verified.
 //!
-//! The record is in the store, not in the folder: two folders of one artifact are the same to the byte.
+//! The record is in the store, not in the folder, so that two folders of one artifact are equal to the byte.
 
 use crate::fault::Step;
 use crate::store::Store;
@@ -14,11 +14,12 @@ use std::time::{SystemTime, UNIX_EPOCH};
 
 const HEADER: &str = "cosfly-out 1 ";
 
-/// Size, time of change of the bytes, time of change of the file, device and number of the file. While all of them stay,
-/// the bytes stay. Times in nanoseconds since 1970.
+/// Size, time of last modification, time of last status change, device and inode of a file. While all of them are
+/// unchanged,
+/// the bytes are unchanged. Times in nanoseconds since 1970.
 type Stamp = [u64; 5];
 
-/// Files of one folder, from when they were last found right.
+/// Stamps of the files of one folder, from the last time they were verified.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub(crate) struct Delivered {
     /// Version of the whole folder.
@@ -27,13 +28,13 @@ pub(crate) struct Delivered {
 }
 
 impl Delivered {
-    /// The files `names` of `folder` as they are now; absent ones are left out.
+    /// Stamps of the files `names` of `folder` now; absent files are left out.
     pub(crate) fn look<'n>(version: Digest, folder: &Path, names: impl Iterator<Item = &'n String>) -> Self {
         let stamps = names.filter_map(|name| Some((name.clone(), stamp(&folder.join(name))?)));
         Self { version, stamps: stamps.collect() }
     }
 
-    /// True where both are of one version and the file has the same size and times in both.
+    /// Whether both records are of one version and have the same stamp for the file.
     pub(crate) fn agrees(&self, other: &Self, name: &str) -> bool {
         self.version == other.version
             && self.stamps.get(name).is_some_and(|stamp| other.stamps.get(name) == Some(stamp))
@@ -53,7 +54,7 @@ impl Delivered {
         format!("{HEADER}{}\n{body}", Digest::of(body.as_bytes()))
     }
 
-    /// Reads a record; `None` where it is not exactly as it was written.
+    /// Parses a record; `None` where it is not exactly as written.
     fn decode(text: &str) -> Option<Self> {
         let (digest, body) = text.strip_prefix(HEADER)?.split_once('\n')?;
         if digest.parse::<Digest>().ok()? != Digest::of(body.as_bytes()) {
@@ -79,7 +80,7 @@ impl Store {
         Delivered::decode(&fs::read_to_string(self.delivered_path(folder)).ok()?)
     }
 
-    /// Records that the files of `folder` are right. Without the record they are read once more.
+    /// Records that the files of `folder` are verified. Without the record they are read again.
     pub(crate) fn remember_delivered(&self, folder: &Path, delivered: &Delivered) -> Result<()> {
         let path = self.delivered_path(folder);
         self.write_file(&path, delivered.encode().as_bytes(), Step::WriteRun, Step::RenameRun)

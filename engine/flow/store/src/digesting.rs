@@ -1,4 +1,4 @@
-//! A file that is hashed while it is being written.
+//! A file that is hashed while it is written.
 
 use crate::blobs::digest_of_file;
 use cosfly_blobs::{BlobRef, PassingFile};
@@ -6,16 +6,17 @@ use cosfly_fingerprint::Digest;
 use std::fs::File;
 use std::io::{self, Seek, SeekFrom, Write};
 
-/// A file that is hashed while it is written from front to back, and read again only where it was not.
+/// A file that is hashed while it is written from front to back, and read again only where it was written in another
+/// order.
 pub(crate) struct DigestingFile {
     file: PassingFile,
     hasher: blake3::Hasher,
-    /// Place of the next write.
+    /// Position of the next write.
     position: u64,
-    /// Number of bytes that are hashed, all from the front.
+    /// Number of bytes hashed, all from the front.
     hashed: u64,
     in_order: bool,
-    /// First refusal of a write; the stage may have wrapped it in words of its own.
+    /// First error of a write; the stage may have wrapped it in a message of its own.
     pub(crate) refused: Option<io::Error>,
 }
 
@@ -25,7 +26,7 @@ impl DigestingFile {
         Self { file, hasher: blake3::Hasher::new(), position: 0, hashed: 0, in_order: true, refused: None }
     }
 
-    /// Reference to the bytes that were written.
+    /// Reference to the written bytes.
     pub(crate) fn finish(mut self) -> io::Result<BlobRef> {
         let bytes = self.file.file().metadata()?.len();
         let digest = if self.in_order && bytes == self.hashed {

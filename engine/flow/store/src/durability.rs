@@ -1,4 +1,4 @@
-//! Making a group of files durable with one call.
+//! Makes a group of files durable with one system call.
 
 use crate::layout::Layout;
 use crate::mutex::locked;
@@ -9,12 +9,12 @@ use std::io;
 use std::path::{Path, PathBuf};
 use std::sync::Mutex;
 
-/// Syncs the file system of the store; where that call is missing, the written files one by one.
+/// Syncs the file system of the store; where `syncfs` is missing, syncs the written files one by one.
 #[derive(Debug)]
 pub(crate) struct Durability {
     #[cfg(target_os = "linux")]
     root: File,
-    /// Files put into place since the last sync.
+    /// Files renamed into place since the last sync.
     unsynced: Mutex<Vec<PathBuf>>,
 }
 
@@ -32,12 +32,12 @@ impl Durability {
         })
     }
 
-    /// Notes a file that was put into place.
+    /// Registers a file that was renamed into place.
     pub(crate) fn note(&self, path: &Path) {
         locked(&self.unsynced).push(path.to_owned());
     }
 
-    /// Makes everything that was noted before the call durable.
+    /// Makes all files registered before the call durable.
     pub(crate) fn sync(&self) -> io::Result<()> {
         let files = std::mem::take(&mut *locked(&self.unsynced));
         #[cfg(target_os = "linux")]
@@ -55,7 +55,7 @@ fn sync_one_by_one(files: &[PathBuf]) -> io::Result<()> {
     for path in files {
         match File::open(path) {
             Ok(file) => file.sync_all()?,
-            // Replaced or collected meanwhile.
+            // The file was replaced or collected meanwhile.
             Err(error) if error.kind() == io::ErrorKind::NotFound => {}
             Err(error) => return Err(error),
         }

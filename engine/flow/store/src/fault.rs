@@ -1,41 +1,41 @@
-//! Steps of publishing, so that tests can interrupt it between every two of them.
+//! Steps of publishing, at which tests can inject faults.
 
 use std::io;
 
 /// A step of publishing.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Step {
-    /// A blob is written to a temporary file.
+    /// Writes a blob to a temporary file.
     WriteBlob,
-    /// A finished temporary becomes a blob.
+    /// Renames a finished temporary file to a blob.
     RenameBlob,
-    /// An action record is written to a temporary file.
+    /// Writes an action record to a temporary file.
     WriteAction,
-    /// The action record becomes visible.
+    /// Makes the action record visible.
     RenameAction,
-    /// Everything written so far is made durable.
+    /// Makes everything written so far durable.
     Sync,
-    /// A plan document is written to a temporary file.
+    /// Writes a plan document to a temporary file.
     WriteDocument,
-    /// The plan document becomes visible.
+    /// Makes the plan document visible.
     RenameDocument,
-    /// A done record is written to a temporary file.
+    /// Writes a done record to a temporary file.
     WriteDone,
-    /// The done record becomes visible.
+    /// Makes the done record visible.
     RenameDone,
-    /// History or index is written to a temporary file.
+    /// Writes the history or an index to a temporary file.
     WriteRun,
-    /// History or index becomes visible.
+    /// Makes the history or index visible.
     RenameRun,
 }
 
-/// Source of faults: it may refuse a step, as a full or broken disk would.
+/// Source of faults: it may fail a step, as a full or broken disk would.
 pub trait FaultPoints: Send + Sync {
-    /// Called before every step.
+    /// Called before every step; an error fails the step.
     fn before(&self, step: Step) -> io::Result<()>;
 }
 
-/// No faults.
+/// Source without faults.
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct NoFaults;
 

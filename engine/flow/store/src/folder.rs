@@ -1,4 +1,4 @@
-//! Folders on disk: built beside, exchanged in one step, searched for foreign files.
+//! Folders on disk: built in a sibling folder, exchanged in one step, searched for foreign files.
 
 use std::collections::BTreeSet;
 use std::fs;
@@ -7,7 +7,7 @@ use std::fs::File;
 use std::io;
 use std::path::{Path, PathBuf};
 
-/// First file below `folder` that is not in `known`, by its path from the top.
+/// First file below `folder` that is not in `known`, as a path relative to `folder`.
 pub(crate) fn first_foreign(folder: &Path, prefix: &str, known: &BTreeSet<&str>) -> io::Result<Option<String>> {
     for entry in fs::read_dir(folder)? {
         let entry = entry?;
@@ -24,8 +24,9 @@ pub(crate) fn first_foreign(folder: &Path, prefix: &str, known: &BTreeSet<&str>)
     Ok(None)
 }
 
-/// Creates an empty folder next to `folder`, on the same file system; leftovers of a killed run there are removed.
-/// `None` where `folder` has no name of its own.
+/// Creates an empty folder next to `folder`, on the same file system; leftovers of killed runs there are removed.
+/// `None`
+/// where `folder` has no name of its own.
 pub(crate) fn fresh_beside(folder: &Path) -> Option<io::Result<PathBuf>> {
     let (parent, name) = (folder.parent()?, folder.file_name()?);
     let beside = parent.join(format!(".{}.cosfly-tmp", name.to_string_lossy()));
@@ -50,10 +51,10 @@ pub(crate) fn sync_file_system(folder: &Path) -> io::Result<()> {
     Ok(())
 }
 
-/// Exchanges the new folder with the old one, in one step where the system is able to.
+/// Exchanges the new folder with the old one, in one step where the system supports it.
 pub(crate) fn put_in_place(new: &Path, folder: &Path) -> io::Result<()> {
     match fs::rename(new, folder) {
-        // There was nothing, or an empty folder.
+        // The folder did not exist or was empty.
         Ok(()) => return Ok(()),
         Err(error) if fs::symlink_metadata(folder).is_err() => return Err(error),
         Err(_) => {}

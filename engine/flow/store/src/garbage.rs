@@ -1,4 +1,4 @@
-//! Garbage collection: removal of everything that no recent run and no pin needs.
+//! Garbage collection: removes everything that no recent run and no pin needs.
 
 use crate::history::{newest_runs, read_run, run_numbers};
 use crate::layout::{Area, Layout, read_dir_or_nothing};
@@ -14,20 +14,20 @@ use std::io;
 use std::path::Path;
 use std::time::{Duration, SystemTime};
 
-/// Rules for what is kept.
+/// Rules of garbage collection.
 #[derive(Clone, Debug)]
 pub struct GarbageOptions {
-    /// Number of the newest runs of every recipe that are kept.
+    /// Number of the newest runs kept of every recipe.
     pub keep_runs: usize,
-    /// Files younger than this are kept, needed or not.
+    /// Age below which files are kept, needed or not.
     pub keep_age: Duration,
-    /// Present time.
+    /// Current time.
     pub now: SystemTime,
-    /// True to count only.
+    /// Whether to count only.
     pub dry_run: bool,
 }
 
-/// Counts of what was removed, or would be in a dry run.
+/// Counts of removed files, or of files that would be removed in a dry run.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct GarbageReport {
     /// Blobs removed.

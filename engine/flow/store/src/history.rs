@@ -1,4 +1,4 @@
-//! Tasks of earlier runs of a recipe: for `cosfly why`, and as the roots of garbage collection.
+//! Tasks of earlier runs of a recipe, for `cosfly why` and as roots of garbage collection.
 
 use crate::fault::Step;
 use crate::layout::read_dir_or_nothing;
@@ -11,7 +11,7 @@ use std::fs;
 use std::io;
 use std::path::Path;
 
-/// Number of runs of a recipe that are remembered.
+/// Number of runs of a recipe that are kept.
 const REMEMBERED: usize = 10;
 const HEADER: &str = "cosfly-run 1 ";
 
@@ -34,7 +34,7 @@ pub struct PastStage {
 }
 
 impl PastRun {
-    /// The stage called `name`.
+    /// Stage called `name`.
     pub fn stage(&self, name: &str) -> Option<&PastStage> {
         self.stages.iter().find(|stage| stage.name == name)
     }
@@ -51,7 +51,7 @@ impl PastRun {
         format!("{HEADER}{}\n{body}", Digest::of(body.as_bytes()))
     }
 
-    /// Reads the file of a run; `None` where it is not exactly as it was written.
+    /// Parses the file of a run; `None` where it is not exactly as written.
     pub(crate) fn decode(text: &str) -> Option<Self> {
         let (digest, body) = text.strip_prefix(HEADER)?.split_once('\n')?;
         if digest.parse::<Digest>().ok()? != Digest::of(body.as_bytes()) {
@@ -78,14 +78,14 @@ impl PastRun {
 }
 
 impl Store {
-    /// Remembered runs of `recipe`, newest first, each read when it is asked for. Damaged ones are skipped.
+    /// Kept runs of `recipe`, newest first, each read on demand. Damaged ones are skipped.
     pub fn past_runs(&self, recipe: &str) -> impl Iterator<Item = PastRun> {
         let folder = self.layout.folder("runs").join(recipe);
         let numbers = run_numbers(&folder).unwrap_or_default();
         numbers.into_iter().rev().filter_map(move |n| read_run(&folder.join(file_name(n))))
     }
 
-    /// Remembers a run, unless it equals the newest one.
+    /// Records a run, unless it equals the newest one.
     pub fn record_run(&self, recipe: &str, run: &PastRun) -> Result<()> {
         let folder = self.layout.folder("runs").join(recipe);
         let failed = |error: io::Error| Diagnostic::io(format!("write `{}`", folder.display()), &error);

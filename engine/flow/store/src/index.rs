@@ -1,8 +1,9 @@
-//! A cache of finished tasks in one file, so that a run with everything cached reads one file and not thousands.
+//! A cache of finished tasks in one file, so that a run with everything cached reads one file instead of thousands.
 //!
-//! It holds the records of the latest run of a recipe and, for each folder of `done` and `cas`, the time of its last
-//! change. A folder that did not change since then lost no file, so its files need not be looked at one by one.
-//! (Damage inside of a file is found when the file is read.)
+//! It holds the records of the latest run of a recipe and the time of last change of each folder of `done` and `cas`. A
+//! folder unchanged since then has lost no file, so its files need not be checked one by one. (Damage inside a file is
+//! found
+//! when the file is read.)
 
 use crate::fault::Step;
 use crate::layout::{Area, Layout};
@@ -19,27 +20,28 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Arc, OnceLock};
 use std::time::{Duration, SystemTime, UNIX_EPOCH};
 
-/// Beginning of the file; the digest of the body and the body follow.
+/// Magic bytes of the file; the digest of the body and the body follow.
 const HEADER: &[u8] = b"cosfly-index 1\n";
 const SHARDS: usize = 256;
-/// Resolution of the file system's clock: a folder that changed this shortly before may change again at the same time.
+/// Resolution of the file system's clock: a folder that changed within this time may change again with the same time
+/// stamp.
 const CLOCK_STEP: Duration = Duration::from_millis(20);
 /// Number of changed folders above which a new index is written.
 const MOST_CHANGED: usize = SHARDS / 4;
 
-/// Times of last change of the folders of an area, nanoseconds since 1970; 0 where they cannot be relied on.
+/// Times of last change of the folders of an area, nanoseconds since 1970; 0 where they are not reliable.
 type Stamps = Vec<u64>;
 
-/// Tasks that are known to be finished, from the index of a recipe and from the records themselves.
+/// Finished tasks, from the index of a recipe and from the records themselves.
 pub struct KnownTasks<'s> {
     store: &'s Store,
     run: Option<Digest>,
     /// Results sorted by plan digest.
     entries: Vec<(Digest, Finished)>,
-    /// By folder: true where nothing went missing since the index was written.
+    /// Per folder: whether no file went missing since the index was written.
     done_is_whole: Vec<bool>,
     blobs_are_whole: Vec<bool>,
-    /// Names in the folders of `done`, each read when it is first needed.
+    /// Names in the folders of `done`, each read on demand.
     done: Vec<OnceLock<Vec<Digest>>>,
     missed: AtomicBool,
 }
@@ -53,7 +55,7 @@ struct Index {
 }
 
 impl Store {
-    /// Finished tasks; quick for those of the latest run of `recipe`.
+    /// Finished tasks; fast for those of the latest run of `recipe`.
     pub fn known_tasks(&self, recipe: &str) -> KnownTasks<'_> {
         let bytes = fs::read(self.layout.folder("index").join(recipe)).unwrap_or_default();
         let mut index = decode(&bytes).unwrap_or_default();
@@ -83,7 +85,7 @@ impl Store {
         run: &Digest,
         entries: impl Iterator<Item = (&'e Digest, &'e Finished)>,
     ) -> Result<()> {
-        // First the times, then the files: a file that goes missing in between changes a time.
+        // The times are read before the files: a file that goes missing in between changes a time.
         let now = self.file_system_time()?;
         let reliable = |stamps: Stamps| -> Stamps {
             let limit = now.saturating_sub(nanoseconds(CLOCK_STEP));
@@ -99,7 +101,7 @@ impl Store {
         self.write_file(&self.layout.folder("index").join(recipe), &bytes, Step::WriteRun, Step::RenameRun)
     }
 
-    /// Present time by the clock of the store's file system.
+    /// Current time by the clock of the store's file system.
     fn file_system_time(&self) -> Result<u64> {
         let probe = self.write_temporary(b"", 0o644, Step::WriteRun)?;
         let now = stamp(&probe);
@@ -127,7 +129,7 @@ impl KnownTasks<'_> {
         Some(finished)
     }
 
-    /// True where the index is of the run `run` and as good as a new one.
+    /// Whether the index is of the run `run` and as good as a new one.
     pub fn is_current(&self, run: &Digest) -> bool {
         let changed = |whole: &[bool]| whole.iter().filter(|whole| !**whole).count() > MOST_CHANGED;
         self.run.as_ref() == Some(run)
@@ -142,7 +144,7 @@ impl KnownTasks<'_> {
     }
 
     fn done_in(&self, shard: usize) -> &[Digest] {
-        // A folder that cannot be read counts as empty.
+        // An unreadable folder counts as empty.
         self.done[shard].get_or_init(|| self.store.layout.list_shard(Area::Done, shard as u8).unwrap_or_default())
     }
 }
@@ -156,7 +158,7 @@ fn stamps(layout: &Layout, area: Area) -> Stamps {
 fn stamp(path: &Path) -> u64 {
     let changed = fs::symlink_metadata(path).and_then(|metadata| metadata.modified()).unwrap_or(UNIX_EPOCH);
     let since = changed.duration_since(SystemTime::UNIX_EPOCH).unwrap_or_default();
-    // A file system that only counts whole seconds is too coarse to rely on.
+    // A file system that stores whole seconds only is too coarse.
     if since.subsec_nanos() == 0 { 0 } else { nanoseconds(since) }
 }
 
@@ -207,7 +209,7 @@ fn put_text(bytes: &mut Vec<u8>, text: &str) {
     bytes.extend(text.as_bytes());
 }
 
-/// Reads an index; `None` where it is not exactly as [`encode`] wrote it.
+/// Parses an index; `None` where it is not exactly as [`encode`] wrote it.
 fn decode(bytes: &[u8]) -> Option<Index> {
     let (digest, body) = bytes.strip_prefix(HEADER)?.split_first_chunk()?;
     if Digest::of(body) != Digest(*digest) {

@@ -1,4 +1,4 @@
-//! Layout of a store, and its version.
+//! Layout of a store, and the version of the layout.
 
 use cosfly_diagnose::{Diagnostic, Fault, Result};
 use cosfly_fingerprint::Digest;
@@ -77,7 +77,7 @@ impl Layout {
         Ok(digests)
     }
 
-    /// Makes `root` a store, or checks that it is one that this version of cosfly reads.
+    /// Makes `root` a store, or checks that it is one of a supported version.
     pub(crate) fn create_or_check(root: &Path) -> Result<Self> {
         if !is_a_store(root)? {
             create(root)?;
@@ -90,13 +90,13 @@ impl Layout {
         Ok(Self { root: root.to_owned() })
     }
 
-    /// As [`Self::create_or_check`] for an existing store, writing nothing; `None` where there is none.
+    /// Like [`Self::create_or_check`] for an existing store, without writing; `None` where there is none.
     pub(crate) fn check(root: &Path) -> Result<Option<Self>> {
         Ok(is_a_store(root)?.then(|| Self { root: root.to_owned() }))
     }
 }
 
-/// True where `root` is a store of this version, false where it has no format; an error where it is something else.
+/// Whether `root` is a store of this version (false where it has no format file); an error where it is anything else.
 fn is_a_store(root: &Path) -> Result<bool> {
     if root.as_os_str().is_empty() {
         return Err(not_a_store("the path of the store is empty"));
@@ -117,7 +117,7 @@ fn not_a_store(message: impl Into<String>) -> Box<Diagnostic> {
     Diagnostic::new("store-not-a-store", Fault::Input, message).hint("choose an empty or a new folder with `--store`")
 }
 
-/// Entries of a folder; none where it is absent or no folder.
+/// Entries of a folder; none where it is absent or not a folder.
 pub(crate) fn read_dir_or_nothing(path: &Path) -> io::Result<impl Iterator<Item = io::Result<fs::DirEntry>>> {
     match fs::read_dir(path) {
         Ok(entries) => Ok(Some(entries).into_iter().flatten()),
@@ -128,11 +128,11 @@ pub(crate) fn read_dir_or_nothing(path: &Path) -> io::Result<impl Iterator<Item 
     }
 }
 
-/// Makes `root` a store. The format is written first and in one step: a store with anything in it has a format.
+/// Makes `root` a store. The format file is written first and in one step: a store with any content has one.
 fn create(root: &Path) -> Result<()> {
     let failed = |error: io::Error| Diagnostic::io(format!("create the store `{}`", root.display()), &error);
     fs::create_dir_all(root).map_err(failed)?;
-    // Between looking for the format and listing the folder, another process may have made it a store.
+    // Between the check of the format and the listing of the folder, another process may have made it a store.
     if !could_be_a_store(root).map_err(failed)? && !is_a_store(root)? {
         return Err(not_a_store(format!("`{}` is not empty and holds no cosfly store", root.display())));
     }
@@ -142,7 +142,7 @@ fn create(root: &Path) -> Result<()> {
     fs::rename(&temporary, root.join("format")).map_err(failed)
 }
 
-/// True where a folder without a format is empty, or a store that lost only its format.
+/// Whether a folder without a format file is empty, or a store that lost only its format file.
 fn could_be_a_store(root: &Path) -> io::Result<bool> {
     let (mut folders, mut has_locks) = (0, false);
     for entry in fs::read_dir(root)? {
@@ -159,7 +159,7 @@ fn could_be_a_store(root: &Path) -> io::Result<bool> {
             _ => return Ok(false),
         }
     }
-    // A store has locks from its beginning; a folder with only a `build` or a `tmp` belongs to another program.
+    // A store always has locks; a folder with only a `build` or a `tmp` belongs to another program.
     Ok(folders == 0 || has_locks)
 }
 

@@ -1,4 +1,4 @@
-//! Content-addressed artifacts on disk: finished results stay, and nothing broken is ever trusted.
+//! Content-addressed artifacts on disk: finished results are kept, damaged ones are detected and never used.
 //!
 //! ```text
 //! STORE/format                     `cosfly-store 1`
@@ -11,7 +11,7 @@
 //! STORE/index/<recipe>             a cache of `done` and `ac` for quick starts; may be deleted
 //! STORE/out/<path digest>          sizes and times of the files of a delivered folder; may be deleted
 //! STORE/pins/<name>                a copy of a run that garbage collection keeps
-//! STORE/divergence/<action>-<n>    two executions of one action that gave different bytes
+//! STORE/divergence/<action>-<n>    two executions of one action with different bytes
 //! STORE/tmp/<pid>-<n>/             files that a living process is writing
 //! STORE/locks/                     advisory locks; the system frees them when their process dies
 //! ```
@@ -21,8 +21,8 @@
 //!
 //! * [`Store`]: opening, reading ([`cosfly_stage::BlobSource`]), records, syncing.
 //! * [`TaskSink`]: sink for the blobs of a running task ([`cosfly_blobs::OutputSink`]).
-//! * [`materialise`]: an artifact as an ordinary folder; [`check_out_folder`]: folders that it may be.
-//! * [`collect_garbage`]: removal of everything that no recent run needs.
+//! * [`materialise`]: writes an artifact as an ordinary folder; [`check_out_folder`]: checks the place of that folder.
+//! * [`collect_garbage`]: removes everything that no recent run needs.
 
 mod blobs;
 mod decoded;

@@ -1,4 +1,4 @@
-//! Advisory locks that die with their process: one per running task, one for garbage collection.
+//! Advisory locks, released when their process ends: one per running task, one for garbage collection.
 
 use crate::layout::Layout;
 use cosfly_diagnose::{Diagnostic, Result};
@@ -12,12 +12,13 @@ pub(crate) fn lock_file(path: &Path) -> io::Result<File> {
     OpenOptions::new().read(true).write(true).create(true).truncate(false).open(path)
 }
 
-/// Lock of one task while a process computes it, so that others compute something else meanwhile. Without it tasks would
-/// be computed twice, with the same result.
+/// Lock of one task while a process computes it, so that other processes compute other tasks meanwhile. Without it
+/// tasks
+/// would be computed twice, with the same result.
 #[derive(Debug)]
 pub struct TaskLock {
     path: PathBuf,
-    /// File that is open as long as the lock is held.
+    /// File that is open while the lock is held.
     _file: File,
 }
 
@@ -33,7 +34,8 @@ impl TaskLock {
                 Err(TryLockError::WouldBlock) => return Ok(None),
                 Err(TryLockError::Error(error)) => return Err(failed(&error)),
             }
-            // The last holder may have removed the file while it was being opened here; then the lock is on no file.
+            // The previous holder may have removed the file while it was being opened here; the lock then holds no
+            // file.
             if is_still_there(&file, &path) {
                 return Ok(Some(Self { path, _file: file }));
             }
@@ -43,7 +45,7 @@ impl TaskLock {
 
 impl Drop for TaskLock {
     fn drop(&mut self) {
-        // Removed before it is freed, so that no process can lock a file that is about to vanish.
+        // Removed before the release, so that no process can lock a file that is about to be removed.
         let _ = fs::remove_file(&self.path);
     }
 }

@@ -1,4 +1,4 @@
-//! An artifact as an ordinary folder: built beside, then put in place in one step.
+//! Writes an artifact as an ordinary folder: built in a sibling folder, then exchanged in one step.
 
 use crate::blobs::digest_of_file;
 use crate::delivered::Delivered;
@@ -25,22 +25,26 @@ pub const VERSION_FILE: &str = ".cosfly-version";
 pub struct Materialised {
     /// Digest over the sorted (path, digest, size) of all files.
     pub version: Digest,
-    /// Number of its files.
+    /// Number of files in the folder.
     pub files: u64,
     /// Bytes of all files.
     pub bytes: u64,
-    /// True where anything was written; false where the folder held this version already.
+    /// Whether anything was written; false where the folder held this version already.
     pub changed: bool,
 }
 
-/// Makes `folder` hold exactly `blobs`, by name. Files are hard links into the store where the file system allows it
+/// Makes `folder` hold exactly `blobs`, by name. Files are hard links into the store where the file system supports
+/// them
 /// (they are read-only), copies elsewhere. A reader of `folder` sees the old version or the new one, never a mixture.
-/// Where the folder holds this version already, every file whose size or times changed since it was last known to be
-/// right is read and compared; a wrong one makes the folder be built again.
+/// Where the
+/// folder holds this version already, every file whose size or times changed since its last verification is read and
+/// compared;
+/// a wrong file makes the folder be built again.
 ///
 /// # Errors
-/// [`Fault::Lost`] when a blob is missing or damaged, `out-not-ours` when `folder` holds something else,
-/// `out-in-store` when one of folder and store is inside of the other, or a refusal of the machine.
+/// [`Fault::Lost`] when a blob is missing or damaged, `out-not-ours` when `folder` holds other files, `out-in-store`
+/// when one
+/// of folder and store is inside the other, `machine-io` or `disk-full` from the operating system.
 pub fn materialise(store: &Store, blobs: &Blobs, folder: &Path) -> Result<Materialised> {
     check_names(blobs)?;
     check_out_folder(store.root(), folder)?;
@@ -64,12 +68,12 @@ pub fn materialise(store: &Store, blobs: &Blobs, folder: &Path) -> Result<Materi
         let _ = fs::remove_dir_all(&beside);
         return Err(diagnostic);
     }
-    // Without this record the files are read once more.
+    // Without this record the files are read again.
     let _ = store.remember_delivered(&folder, &Delivered::look(version, &folder, blobs.keys()));
     Ok(result(true))
 }
 
-/// True where every file of `folder` is as it should be. A file with the size and times of `before` is not read.
+/// Whether every file of `folder` is correct. A file with the size and times of `before` is not read.
 fn is_right(store: &Store, blobs: &Blobs, version: &Digest, folder: &Path, before: Option<&Delivered>) -> bool {
     let now = Delivered::look(*version, folder, blobs.keys());
     if before == Some(&now) && blobs.len() == now.names().count() {
@@ -80,7 +84,7 @@ fn is_right(store: &Store, blobs: &Blobs, version: &Digest, folder: &Path, befor
         let known = before.is_some_and(|before| before.agrees(&now, name));
         if !known && !holds_bytes(&folder.join(name), blob) {
             right = false;
-            // It may be a link to the blob itself, which then has to be checked again.
+            // It may be a hard link to the blob itself, which then has to be checked again.
             locked(&store.checked).remove(&blob.digest);
         }
     }
@@ -135,7 +139,7 @@ fn has_size(path: &Path, bytes: u64) -> bool {
     fs::symlink_metadata(path).is_ok_and(|metadata| metadata.is_file() && metadata.len() == bytes)
 }
 
-/// Lock of a folder, so that two processes that fill it come one after the other.
+/// Lock of a folder: two processes that write it take turns.
 fn take_turn(store: &Store, folder: &Path) -> Result<File> {
     let name = format!("out-{}", Digest::of(folder.as_os_str().as_encoded_bytes()));
     let path = store.root().join("locks").join(name);
@@ -143,7 +147,7 @@ fn take_turn(store: &Store, folder: &Path) -> Result<File> {
     locked.map_err(|error| Diagnostic::io(format!("lock `{}`", path.display()), &error))
 }
 
-/// Refuses to replace anything that a run did not write.
+/// Rejects a folder with anything in it that a run did not write.
 fn check_ours(folder: &Path, marker: Option<&str>, before: Option<&Delivered>) -> Result<()> {
     let not_ours = |message: String| {
         Err(Diagnostic::new("out-not-ours", Fault::Recipe, message)
@@ -231,7 +235,7 @@ mod tests {
         assert_eq!((made.changed, made.files, made.bytes), (true, 1, 5));
         assert!(!out.join("b").exists());
         assert_eq!(fs::read_dir(out.parent().unwrap()).unwrap().count(), 1, "nothing is left beside");
-        // A file that was removed or cut is put back.
+        // A file that was removed or truncated is restored.
         fs::remove_file(out.join("a.txt")).unwrap();
         assert!(materialise(&store, &second, &out).unwrap().changed);
         assert_eq!(fs::read_to_string(out.join("a.txt")).unwrap(), "three");

@@ -1,6 +1,6 @@
-//! File names that stay inside the folder they are put in.
+//! File names that stay inside their folder.
 
-/// True for a relative path of plain names with `/` between them: nothing that could leave its folder on any system.
+/// Whether `name` is a relative path of plain names with `/` between them, which cannot leave its folder on any system.
 pub(crate) fn is_relative_path(name: &str) -> bool {
     name.len() <= 1024
         && !name.contains(['\\', ':'])

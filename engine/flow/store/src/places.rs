@@ -1,14 +1,15 @@
-//! Places where the folder of a dataset may be with respect to the store.
+//! Allowed places of a dataset's folder relative to the store.
 
 use cosfly_diagnose::{Diagnostic, Fault, Result};
 use std::fs;
 use std::path::{Component, Path, PathBuf};
 
-/// Refuses a dataset's folder inside of the store and a store inside of the dataset's folder: files of one would be taken
-/// for files of the other. Symbolic links are followed as far as they lead to something.
+/// Rejects a dataset's folder inside the store and a store inside the dataset's folder: files of one would be taken for
+/// files
+/// of the other. Symbolic links are followed as far as they lead to something that exists.
 ///
 /// # Errors
-/// `out-in-store`, or a refusal of the machine.
+/// `out-in-store`, or `machine-io`.
 pub fn check_out_folder(store_root: &Path, out: &Path) -> Result<()> {
     let (store, folder) = (resolved(store_root)?, resolved(out)?);
     let message = if folder == store {
@@ -24,7 +25,7 @@ pub fn check_out_folder(store_root: &Path, out: &Path) -> Result<()> {
         .hint("choose two folders side by side with `--out` and `--store`"))
 }
 
-/// Absolute path without links, `.` and `..`; parts that do not exist are taken as they are written.
+/// Absolute path without links, `.` and `..`; components that do not exist are kept as written.
 fn resolved(path: &Path) -> Result<PathBuf> {
     let absolute = std::path::absolute(path)
         .map_err(|error| Diagnostic::io(format!("find the folder `{}`", path.display()), &error))?;

@@ -1,4 +1,4 @@
-//! Action and done records, each bound to its key by a check line: a torn, edited or exchanged record is never believed.
+//! Action and done records, each bound to its key by a check line: a torn, edited or exchanged record is detected.
 
 use cosfly_fingerprint::{Digest, canonical_json};
 use cosfly_stage::{Blobs, Produced};
@@ -19,12 +19,12 @@ pub struct ActionRecord {
 }
 
 impl ActionRecord {
-    /// A record of these outputs.
+    /// Creates a record.
     pub fn new(outputs: Blobs, produced: Produced) -> Self {
         Self { outputs: Arc::new(outputs), produced, schema: SCHEMA.to_owned() }
     }
 
-    /// Bytes of all blobs together.
+    /// Total number of bytes of all blobs.
     pub fn bytes(&self) -> u64 {
         self.outputs.values().fold(0, |sum, blob| sum.saturating_add(blob.bytes))
     }
@@ -55,7 +55,7 @@ fn with_check(mut body: String) -> Vec<u8> {
     body.into_bytes()
 }
 
-/// Text before the key and the check line; `None` where the file is not whole or belongs to another key.
+/// Text before the key and the check line; `None` where the file is incomplete or belongs to another key.
 fn content_for<'b>(key: &Digest, bytes: &'b [u8]) -> Option<&'b str> {
     let lines = std::str::from_utf8(bytes).ok()?.strip_suffix('\n')?;
     let (body, check) = lines.split_at(lines.rfind('\n')? + 1);
@@ -66,13 +66,13 @@ fn content_for<'b>(key: &Digest, bytes: &'b [u8]) -> Option<&'b str> {
     (written_key.parse::<Digest>().ok()? == *key).then_some(content)
 }
 
-/// Reads the record of `action`; `None` where it is not exactly as [`encode`] wrote it.
+/// Parses the record of `action`; `None` where it is not exactly as [`encode`] wrote it.
 pub(crate) fn decode(action: &Digest, bytes: &[u8]) -> Option<ActionRecord> {
     let record: ActionRecord = serde_json::from_str(content_for(action, bytes)?).ok()?;
     (record.schema == SCHEMA).then_some(record)
 }
 
-/// Reads the done record of `plan`; `None` where it is not exactly as [`encode_done`] wrote it.
+/// Parses the done record of `plan`; `None` where it is not exactly as [`encode_done`] wrote it.
 pub(crate) fn decode_done(plan: &Digest, bytes: &[u8]) -> Option<Digest> {
     content_for(plan, bytes)?.parse().ok()
 }

@@ -15,12 +15,12 @@ const OWNER: &str = "owner";
 pub(crate) struct Scratch {
     folder: PathBuf,
     next: AtomicU64,
-    /// File that is locked as long as the owner lives; `None` in a store that is only read.
+    /// File that is locked while the owner lives; `None` in a store opened for reading.
     owner: Option<File>,
 }
 
 impl Scratch {
-    /// A new folder of this process.
+    /// Creates a new folder of this process.
     pub(crate) fn create(layout: &Layout) -> Result<Self> {
         Self::try_create(layout).map_err(|error| {
             Diagnostic::io(format!("create a temporary folder in `{}`", layout.folder("tmp").display()), &error)
@@ -43,12 +43,12 @@ impl Scratch {
         Ok(Self { folder, next: AtomicU64::new(0), owner: Some(owner) })
     }
 
-    /// Folder of a store that is only read: it does not exist, so that nothing can be written into it.
+    /// Placeholder for a store opened for reading: the folder does not exist, so that nothing can be written into it.
     pub(crate) fn none(layout: &Layout) -> Self {
         Self { folder: layout.folder("tmp").join("read-only"), next: AtomicU64::new(0), owner: None }
     }
 
-    /// A path in the folder that was not used before.
+    /// An unused path in the folder.
     pub(crate) fn next_path(&self) -> PathBuf {
         self.folder.join(self.next.fetch_add(1, Ordering::Relaxed).to_string())
     }
@@ -79,11 +79,11 @@ pub(crate) fn sweep_orphans(layout: &Layout, dry_run: bool) -> io::Result<(u64, 
     Ok((folders, bytes))
 }
 
-/// Removes a folder whose owner may be closing the store, and removing it, at this moment.
+/// Removes a folder whose owner may be closing the store, and removing it, at the same time.
 fn remove_unless_gone(folder: &Path) -> io::Result<()> {
     for _ in 0..100 {
         match fs::remove_dir_all(folder) {
-            // A file in it is gone, or the folder itself; look again.
+            // A file in it disappeared, or the folder itself; try again.
             Err(error) if matches!(error.kind(), io::ErrorKind::NotFound | io::ErrorKind::DirectoryNotEmpty) => {}
             other => return other,
         }
@@ -98,12 +98,12 @@ fn is_orphan(folder: &Path) -> bool {
     if !folder.file_name().and_then(|name| name.to_str()).is_some_and(is_our_name) {
         return false;
     }
-    // Without an owner file its maker died between making the folder and locking it (makers hold the guard).
+    // Without an owner file the process died between creating the folder and locking it (creators hold the guard).
     File::open(folder.join(OWNER))
         .map_or_else(|error| error.kind() == io::ErrorKind::NotFound && folder.is_dir(), |file| file.try_lock().is_ok())
 }
 
-/// True for names of the form `<process>-<attempt>`.
+/// Whether a name has the form `<process>-<attempt>`.
 fn is_our_name(name: &str) -> bool {
     let is_number = |text: &str| !text.is_empty() && text.bytes().all(|byte| byte.is_ascii_digit());
     name.split_once('-').is_some_and(|(process, attempt)| is_number(process) && is_number(attempt))
@@ -114,7 +114,7 @@ fn folder_bytes(folder: &Path) -> u64 {
     entries.flatten().filter_map(|entry| entry.metadata().ok()).map(|metadata| metadata.len()).sum()
 }
 
-/// Lock by which makers and sweepers of temporary folders take turns.
+/// Lock by which creators and removers of temporary folders take turns.
 fn guard(layout: &Layout) -> io::Result<File> {
     let file = lock_file(&layout.root.join("locks/tmp"))?;
     file.lock()?;

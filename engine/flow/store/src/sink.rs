@@ -1,4 +1,4 @@
-//! Sink for the blobs of a running task, and the moment its action becomes visible.
+//! Sink for the blobs of a running task, and the publication of its action.
 
 use crate::digesting::DigestingFile;
 use crate::fault::Step;
@@ -22,18 +22,19 @@ pub struct TaskSink<'s> {
     outputs: BTreeMap<String, (BlobRef, Option<PathBuf>)>,
 }
 
-/// Outcome of an action, from now on.
+/// Final outcome of an action.
 #[derive(Clone, Debug)]
 pub struct Settled {
     /// Record of the outcome.
     pub record: Arc<ActionRecord>,
-    /// Set where another execution of the same action gave other bytes (`nondeterministic-stage`).
+    /// Set where another execution of the same action gave different bytes (`nondeterministic-stage`).
     pub divergence: Option<Box<Diagnostic>>,
 }
 
 impl<'s> TaskSink<'s> {
     /// Moves the blobs into the store and records them as the outcome of `action`. An earlier outcome with other bytes
-    /// wins while it is intact.
+    /// is kept
+    /// while it is intact.
     pub fn settle(mut self, action: &Digest, produced: Produced) -> Result<Settled> {
         let outputs = self.outputs.iter().map(|(name, (blob, _))| (name.clone(), *blob)).collect();
         let record = ActionRecord::new(outputs, produced);
@@ -135,12 +136,12 @@ impl Drop for TaskSink<'_> {
 }
 
 impl Store {
-    /// A sink for the outputs of one task.
+    /// Creates a sink for the outputs of one task.
     pub fn sink(&self) -> TaskSink<'_> {
         TaskSink { store: self, outputs: BTreeMap::new() }
     }
 
-    /// Makes `record` the outcome of `action`, unless another process was faster with other bytes.
+    /// Makes `record` the outcome of `action`, unless another process recorded other bytes first.
     fn settle_record(&self, action: &Digest, record: ActionRecord) -> Result<Settled> {
         let path = self.layout.file(Area::Actions, action);
         let temporary = self.write_temporary(&records::encode(action, &record), 0o644, Step::WriteAction)?;
@@ -154,7 +155,7 @@ impl Store {
             self.durability.note(&path);
             return settled(record);
         }
-        // There is a record already, or this file system knows no hard links.
+        // A record exists already, or this file system has no hard links.
         match self.action(action) {
             Some(earlier) if earlier == record => {
                 let _ = fs::remove_file(&temporary);
@@ -177,7 +178,7 @@ impl Store {
         }
     }
 
-    /// True where every blob of a record exists with the right bytes.
+    /// Whether every blob of a record exists with the right bytes.
     fn is_intact(&self, record: &ActionRecord) -> bool {
         record.outputs.values().all(|blob| self.open(blob).is_ok())
     }
@@ -287,7 +288,7 @@ mod tests {
         assert_eq!(second.divergence.unwrap().code, "nondeterministic-stage");
         assert_eq!(second.record, first.record);
         assert_eq!(fs::read_dir(root.path().join("divergence")).unwrap().count(), 1);
-        // When the first bytes are lost, the later ones take their place, and that is said too.
+        // When the first bytes are lost, the later ones replace them, and the divergence is reported too.
         fs::remove_file(store.blob_path(&first.record.outputs["a"])).unwrap();
         let third = settle(b"two");
         assert!(third.divergence.is_some() && third.record != first.record);

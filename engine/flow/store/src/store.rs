@@ -16,7 +16,7 @@ use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 use std::sync::{Arc, Mutex};
 
-/// A store that this process has open. Any number of processes may have it open at once.
+/// A store opened by this process. Any number of processes may have it open at once.
 pub struct Store {
     pub(crate) layout: Layout,
     pub(crate) scratch: Scratch,
@@ -25,20 +25,20 @@ pub struct Store {
     /// Blobs whose size and digest this process has checked, or that it wrote itself.
     pub(crate) checked: Mutex<BTreeSet<Digest>>,
     pub(crate) decoded: DecodeCache,
-    /// Lock that runs share, and that garbage collection takes alone.
+    /// Lock that runs share, and that garbage collection holds exclusively.
     _garbage_lock: Option<File>,
 }
 
 impl Store {
-    /// Opens the store at `root`, creating it where there is nothing yet. Waits while garbage is being collected.
+    /// Opens the store at `root`, creating it where nothing exists yet. Waits while garbage is being collected.
     ///
     /// # Errors
-    /// `store-newer-version`, `store-damaged-format`, `store-not-a-store`, or a refusal of the machine.
+    /// `store-newer-version`, `store-damaged-format`, `store-not-a-store`, or `machine-io`.
     pub fn open(root: &Path) -> Result<Self> {
         Self::open_with_faults(root, Arc::new(NoFaults))
     }
 
-    /// As [`Self::open`], with `faults` that may refuse steps of publishing.
+    /// Like [`Self::open`], with `faults` that may fail steps of publishing.
     pub fn open_with_faults(root: &Path, faults: Arc<dyn FaultPoints>) -> Result<Self> {
         let layout = Layout::create_or_check(root)?;
         let failed = |error: io::Error| Diagnostic::io(format!("lock the store `{}`", root.display()), &error);
@@ -59,10 +59,10 @@ impl Store {
         })
     }
 
-    /// As [`Self::open`], for reading: a store on a disk that cannot be written is opened as well.
+    /// Like [`Self::open`], for reading: also opens a store on a read-only disk.
     ///
     /// # Errors
-    /// As [`Self::open`].
+    /// The errors of [`Self::open`].
     pub fn open_to_read(root: &Path) -> Result<Self> {
         match Self::open(root) {
             Err(refusal) if matches!(refusal.fault, Fault::Machine | Fault::DiskFull) => {
@@ -72,7 +72,7 @@ impl Store {
         }
     }
 
-    /// Opens an existing store without writing anything; later writes get the machine's refusal.
+    /// Opens an existing store without writing anything; later writes return the error of the operating system.
     fn open_as_it_is(root: &Path) -> Result<Option<Self>> {
         let Some(layout) = Layout::check(root)? else { return Ok(None) };
         // A store that cannot be locked cannot be cleaned either.
@@ -98,12 +98,12 @@ impl Store {
         TaskLock::try_take(&self.layout, plan)
     }
 
-    /// True where the task was finished once, whether or not its output is whole.
+    /// Whether the task was finished once, whether or not its output is complete.
     pub fn was_finished(&self, plan: &Digest) -> bool {
         fs::symlink_metadata(self.layout.file(Area::Done, plan)).is_ok()
     }
 
-    /// Result of a task; `None` where it is not finished or a record of it is damaged.
+    /// Result of a task; `None` where it is not finished or one of its records is damaged.
     pub fn finished(&self, plan: &Digest) -> Option<Finished> {
         let action = records::decode_done(plan, &fs::read(self.layout.file(Area::Done, plan)).ok()?)?;
         Some(Finished { action, record: Arc::new(self.action(&action)?) })
@@ -114,19 +114,20 @@ impl Store {
         records::decode(action, &fs::read(self.layout.file(Area::Actions, action)).ok()?)
     }
 
-    /// True where all blobs of a record exist with the right size. Their bytes are checked when they are read.
+    /// Whether all blobs of a record exist with the right size. Their bytes are checked when they are read.
     pub fn holds(&self, record: &ActionRecord) -> bool {
         record.outputs.values().all(|blob| self.holds_blob(blob))
     }
 
-    /// True where a blob exists with the right size.
+    /// Whether a blob exists with the right size.
     pub fn holds_blob(&self, blob: &BlobRef) -> bool {
         fs::symlink_metadata(self.layout.file(Area::Blobs, &blob.digest))
             .is_ok_and(|metadata| metadata.is_file() && metadata.len() == blob.bytes)
     }
 
-    /// Records that the task `plan` is finished by `action`. To be called after a [`Self::sync`] that began after the
-    /// action was settled; another sync makes the record itself durable.
+    /// Records that the task `plan` is finished by `action`. Call it after a [`Self::sync`] that began after the action
+    /// was
+    /// settled; another sync makes the record itself durable.
     pub fn publish_done(&self, plan: &Digest, document: &str, action: &Digest) -> Result<()> {
         self.put_document(plan, document)?;
         let path = self.layout.file(Area::Done, plan);
@@ -143,7 +144,7 @@ impl Store {
         self.write_file(&path, document.as_bytes(), Step::WriteDocument, Step::RenameDocument)
     }
 
-    /// A plan document; `None` where it is absent or damaged.
+    /// Plan document; `None` where it is absent or damaged.
     pub fn document(&self, digest: &Digest) -> Option<serde_json::Value> {
         let bytes = fs::read(self.layout.file(Area::Plans, digest)).ok()?;
         if Digest::of(&bytes) != *digest {
@@ -152,13 +153,13 @@ impl Store {
         serde_json::from_slice(&bytes).ok()
     }
 
-    /// Stores how the stage of a plan definition is built; the latest one counts.
+    /// Stores the description by which the stage of a plan definition is built; the latest one counts.
     pub fn put_build(&self, definition: &Digest, document: &str) -> Result<()> {
         let path = self.layout.file(Area::Builds, definition);
         self.write_file(&path, document.as_bytes(), Step::WriteDocument, Step::RenameDocument)
     }
 
-    /// Document about building the stage of a plan definition; `None` where it is absent or damaged.
+    /// Description by which the stage of a plan definition is built; `None` where it is absent or damaged.
     pub fn build(&self, definition: &Digest) -> Option<serde_json::Value> {
         serde_json::from_slice(&fs::read(self.layout.file(Area::Builds, definition)).ok()?).ok()
     }
@@ -190,7 +191,7 @@ impl Store {
     pub(crate) fn move_into_place(&self, temporary: &Path, path: &Path, step: Step) -> Result<()> {
         let moved = self.faults.before(step).and_then(|()| {
             let moved = with_folder_of(path, || fs::rename(temporary, path));
-            // There may be a folder in place of the file.
+            // A folder may exist in place of the file.
             moved.or_else(|error| if self.clear_away(path) { fs::rename(temporary, path) } else { Err(error) })
         });
         self.durability.note(path);
@@ -202,7 +203,8 @@ impl Store {
     }
 
     /// Moves a folder that is in the place of a file into the temporary folder, which is removed when the store is
-    /// closed. True where there was one.
+    /// closed. True
+    /// where there was one.
     pub(crate) fn clear_away(&self, path: &Path) -> bool {
         fs::symlink_metadata(path).is_ok_and(|metadata| metadata.is_dir())
             && fs::rename(path, self.scratch.next_path()).is_ok()

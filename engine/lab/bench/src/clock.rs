@@ -1,18 +1,18 @@
-//! CPU time: what a computation cost, however busy the machine is.
+//! CPU time, which does not depend on the load of the machine.
 
 use rustix::time::{ClockId, clock_gettime};
 
-/// CPU seconds that this thread has used so far.
+/// CPU time of this thread, seconds.
 pub fn thread_cpu_s() -> f64 {
     seconds(ClockId::ThreadCPUTime)
 }
 
-/// CPU seconds of all threads of this process.
+/// CPU time of all threads of this process, seconds.
 pub fn process_cpu_s() -> f64 {
     seconds(ClockId::ProcessCPUTime)
 }
 
-/// Seconds since some moment.
+/// Wall time since an arbitrary moment, seconds.
 pub fn wall_s() -> f64 {
     seconds(ClockId::Monotonic)
 }
@@ -22,7 +22,7 @@ fn seconds(clock: ClockId) -> f64 {
     now.tv_sec as f64 + 1e-9 * now.tv_nsec as f64
 }
 
-/// A result and the CPU seconds of this thread that it took.
+/// Result of `work` and its CPU time on this thread, seconds.
 pub fn timed<T>(work: impl FnOnce() -> T) -> (T, f64) {
     let begin = thread_cpu_s();
     let result = work();

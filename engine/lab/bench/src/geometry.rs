@@ -1,4 +1,5 @@
-//! `cosfly-lab geometry`: rays and distances per second of our box tree, of other libraries' and of a plain loop.
+//! `cosfly-lab geometry`: rays and distances per second of cosfly's box tree, of other libraries' trees and of a
+//! brute-force loop.
 
 use crate::clock::{thread_cpu_s, timed};
 use crate::geometry_contenders::{Contender, Obvhs2, ObvhsCw, Parry, ParryWalk};
@@ -10,90 +11,90 @@ use serde::Serialize;
 use std::fmt;
 use std::hint::black_box;
 
-/// Boxes of the towns.
+/// Numbers of boxes of the towns.
 pub const SIZES: [usize; 4] = [50, 200, 2_000, 65_000];
-/// Rounds of every measurement, contenders taking turns.
+/// Rounds of every measurement; contenders take turns.
 const ROUNDS: usize = 7;
 /// CPU time of one contender's part of a round, seconds.
 const SLICE_S: f64 = 1.5e-3;
-/// Views on which the plain loop checks our answers.
+/// Views on which the brute-force loop checks cosfly's answers.
 const CHECKED_VIEWS: usize = 128;
 
-/// Rows of all towns.
+/// Table of all towns.
 #[derive(Clone, Debug, Serialize)]
 pub struct GeometryTable {
     /// Seed of the towns.
     pub seed: u64,
-    /// Vector instructions of this processor that are used.
+    /// Vector instructions in use.
     pub level: &'static str,
-    /// One per town.
+    /// Rows, one per town.
     pub rows: Vec<GeometryRow>,
 }
 
-/// What was measured in one town.
+/// Measurements in one town.
 #[derive(Clone, Debug, Serialize)]
 pub struct GeometryRow {
-    /// Boxes of the town.
+    /// Number of boxes of the town.
     pub boxes: usize,
-    /// Whether they are turned.
+    /// Whether the boxes are rotated.
     pub turned: bool,
     /// Views with at least five of eight rays hidden.
     pub hidden: RayFigures,
     /// Views with at most one ray hidden.
     pub free: RayFigures,
-    /// Millions of distances within 50 m per second.
+    /// Distance queries within 50 m, millions per second.
     pub distances: Vec<Figure>,
-    /// Millions of clearances of segments of two metres per second, capped at 5 m.
+    /// Clearance queries of segments of two metres, capped at 5 m, millions per second.
     pub segments: Vec<Figure>,
-    /// Microseconds to build.
+    /// Build time, microseconds.
     pub build_us: Vec<Figure>,
 }
 
-/// Rays in one set of views.
+/// Ray queries in one set of views.
 #[derive(Clone, Debug, Serialize)]
 pub struct RayFigures {
-    /// Rays of the set.
+    /// Number of rays of the set.
     pub rays: usize,
-    /// Share of them that is hidden.
+    /// Share of occluded rays.
     pub hidden_share: f64,
-    /// Millions of rays per second.
+    /// Rays, millions per second.
     pub rates: Vec<Figure>,
-    /// Rays on which a contender and ours disagree, by f32 rounding of grazing rays.
+    /// Number of rays on which a contender and cosfly disagree, by f32 rounding of grazing rays.
     pub disagreements: Vec<Figure>,
-    /// Rays on which ours and the plain f64 loop disagree.
+    /// Number of rays on which cosfly and the brute-force f64 loop disagree.
     pub wrong: usize,
 }
 
-/// A number of a contender.
+/// A figure of a contender.
 #[derive(Clone, Debug, Serialize)]
 pub struct Figure {
-    /// Who.
+    /// Name of the contender.
     pub name: &'static str,
-    /// What.
+    /// Value of the figure.
     pub value: f64,
 }
 
-/// Names of ours in the tables.
+/// Names of cosfly's queries in the tables.
 const OURS: &str = "cosfly";
 const OURS_EIGHT: &str = "cosfly, 8 rays";
 const LOOP: &str = "plain loop f64";
 
-/// Measures everything; some seconds on one core.
+/// Measures everything; takes some seconds on one core.
 pub fn geometry(seed: u64) -> GeometryTable {
     let towns = SIZES.iter().flat_map(|&count| [(count, false), (count, true)]);
     let rows = towns.map(|(count, turned)| row(&BenchTown::generate(seed, count, turned))).collect();
     GeometryTable { seed, level: Level::best().name(), rows }
 }
 
-/// All who take part.
-struct Field {
+/// All contenders.
+struct Contenders {
     ours: BoxBvh,
     others: Vec<(&'static str, Box<dyn Contest>)>,
 }
 
 fn row(town: &BenchTown) -> GeometryRow {
     let boxes = &town.boxes;
-    let field = Field {
+    let contenders = Contenders {
         ours: BoxBvh::build(boxes.clone()),
         others: vec![
             ("parry cast_ray", Box::new(Parry::build(boxes))),
@@ -108,15 +109,15 @@ fn row(town: &BenchTown) -> GeometryRow {
     GeometryRow {
         boxes: boxes.len(),
         turned: town.is_turned,
-        hidden: rays(&field, &town.hidden_views),
-        free: rays(&field, &town.free_views),
-        distances: distances(&field, &cameras),
-        segments: segments(&field, boxes, &cameras),
+        hidden: rays(&contenders, &town.hidden_views),
+        free: rays(&contenders, &town.free_views),
+        distances: distances(&contenders, &cameras),
+        segments: segments(&contenders, boxes, &cameras),
         build_us: builds(town),
     }
 }
 
-/// A contender behind one call per many queries, so that its own code is compiled in one piece.
+/// A contender with one call per many queries, so that its code is compiled as one unit.
 trait Contest {
     fn hidden_rays(&self, views: &[View]) -> usize;
     fn answers(&self, views: &[View]) -> Vec<bool>;
@@ -147,25 +148,25 @@ fn hidden_by_eights(ours: &BoxBvh, views: &[View]) -> usize {
     views.iter().map(one).sum()
 }
 
-fn rays(field: &Field, views: &[View]) -> RayFigures {
+fn rays(contenders: &Contenders, views: &[View]) -> RayFigures {
     let mut tasks: Vec<Task<'_>> = vec![
-        Task::new(OURS, |part| Contest::hidden_rays(&field.ours, &views[part])),
-        Task::new(OURS_EIGHT, |part| hidden_by_eights(&field.ours, &views[part])),
+        Task::new(OURS, |part| Contest::hidden_rays(&contenders.ours, &views[part])),
+        Task::new(OURS_EIGHT, |part| hidden_by_eights(&contenders.ours, &views[part])),
     ];
-    for (name, other) in &field.others {
+    for (name, other) in &contenders.others {
         tasks.push(Task::new(name, |part| other.hidden_rays(&views[part])));
     }
     let rates = measure(&mut tasks, views.len(), RAYS);
-    let answers = Contest::answers(&field.ours, views);
+    let answers = Contest::answers(&contenders.ours, views);
     let checked = CHECKED_VIEWS.min(views.len());
     let mut by_eights = vec![false; RAYS];
     let mut wrong = 0;
     for (index, view) in views.iter().enumerate() {
-        field.ours.blocked_batch(view.camera_in_world, &view.points_in_world, &mut by_eights);
+        contenders.ours.blocked_batch(view.camera_in_world, &view.points_in_world, &mut by_eights);
         wrong += differences(&by_eights, &answers[RAYS * index..RAYS * (index + 1)]);
     }
     let mut disagreements = Vec::new();
-    for (name, other) in &field.others {
+    for (name, other) in &contenders.others {
         if *name == LOOP {
             wrong += differences(&other.answers(&views[..checked]), &answers[..RAYS * checked]);
         } else {
@@ -186,10 +187,10 @@ fn differences(a: &[bool], b: &[bool]) -> usize {
     a.iter().zip(b).filter(|(a, b)| a != b).count()
 }
 
-fn distances(field: &Field, points: &[DVec3]) -> Vec<Figure> {
+fn distances(contenders: &Contenders, points: &[DVec3]) -> Vec<Figure> {
     let mut tasks =
-        vec![Task::new(OURS, |part| Contest::sum_of_distances(&field.ours, &points[part]).is_some() as usize)];
-    for (name, other) in &field.others {
+        vec![Task::new(OURS, |part| Contest::sum_of_distances(&contenders.ours, &points[part]).is_some() as usize)];
+    for (name, other) in &contenders.others {
         if other.sum_of_distances(&points[..1.min(points.len())]).is_some() {
             tasks.push(Task::new(name, |part| {
                 black_box(other.sum_of_distances(&points[part]));
@@ -200,7 +201,7 @@ fn distances(field: &Field, points: &[DVec3]) -> Vec<Figure> {
     measure(&mut tasks, points.len(), 1)
 }
 
-fn segments(field: &Field, boxes: &[cosfly_geometry::OrientedBox], points: &[DVec3]) -> Vec<Figure> {
+fn segments(contenders: &Contenders, boxes: &[cosfly_geometry::OrientedBox], points: &[DVec3]) -> Vec<Figure> {
     const CAP_M: f64 = 5.0;
     let plain = BruteForce::new(boxes);
     let sum = |query: &dyn SpatialQuery, part: std::ops::Range<usize>| {
@@ -208,7 +209,8 @@ fn segments(field: &Field, boxes: &[cosfly_geometry::OrientedBox], points: &[DVe
         black_box(points[part].iter().map(ends).sum::<f64>());
         0
     };
-    let mut tasks = vec![Task::new(OURS, |part| sum(&field.ours, part)), Task::new(LOOP, |part| sum(&plain, part))];
+    let mut tasks =
+        vec![Task::new(OURS, |part| sum(&contenders.ours, part)), Task::new(LOOP, |part| sum(&plain, part))];
     measure(&mut tasks, points.len(), 1)
 }
 
@@ -227,11 +229,11 @@ fn builds(town: &BenchTown) -> Vec<Figure> {
     all.into_iter().map(|(name, build)| Figure { name, value: micros(build) }).collect()
 }
 
-/// Something to time on a part of the queries.
+/// A query to time on a part of the inputs.
 struct Task<'a> {
     name: &'static str,
     run: Box<dyn Fn(std::ops::Range<usize>) -> usize + 'a>,
-    /// Millions of answers per second, round by round.
+    /// Answers, millions per second, round by round.
     rates: Vec<f64>,
 }
 
@@ -241,7 +243,8 @@ impl<'a> Task<'a> {
     }
 }
 
-/// Medians of millions of answers per second; `count` queries of `answers` each. Slow contenders get fewer queries.
+/// Median rates in millions of answers per second; `count` queries of `answers` each. Slow contenders get fewer
+/// queries.
 fn measure(tasks: &mut [Task<'_>], count: usize, answers: usize) -> Vec<Figure> {
     let mut parts: Vec<usize> = Vec::new();
     for task in tasks.iter() {
@@ -270,7 +273,7 @@ fn median(mut values: Vec<f64>) -> f64 {
     values.get(values.len() / 2).copied().unwrap_or(0.0)
 }
 
-/// The largest figure that is not ours.
+/// Largest figure of a contender other than cosfly.
 fn best_other(figures: &[Figure]) -> f64 {
     figures.iter().filter(|f| !f.name.starts_with(OURS)).map(|f| f.value).fold(0.0, f64::max)
 }

@@ -1,7 +1,7 @@
-//! Who answers box queries in `cosfly-lab geometry`: ours, parry's and obvhs's trees, and a plain loop.
+//! Contenders of `cosfly-lab geometry`: the trees of cosfly, parry and obvhs, and a brute-force loop.
 //!
-//! Other libraries' trees hold bounds; what is asked at their leaves is the same f32 box for all, with the direction's
-//! inverse at hand. Their inlined traversals are compiled for the vector instructions of this processor, too.
+//! Trees of other libraries hold bounds; at their leaves all test the same f32 box, with the precomputed inverse of the
+//! direction. Their inlined traversals are compiled for the vector instructions of this processor as well.
 
 use cosfly_frames::DVec3;
 use cosfly_frames::simd::Level;
@@ -14,7 +14,7 @@ use parry3d::math::Vector;
 use parry3d::partitioning::{Bvh, BvhBuildStrategy, TraversalAction};
 use std::time::Duration;
 
-/// A box of other libraries' leaves.
+/// A box in the leaves of other libraries' trees.
 #[derive(Clone, Copy)]
 pub struct PlainBox {
     center: Vec3A,
@@ -44,7 +44,7 @@ impl PlainBox {
         Vec3A::new(self.cos * v.x + self.sin * v.y, self.cos * v.y - self.sin * v.x, v.z)
     }
 
-    /// Where the ray enters between 0 and 1; infinity when it does not.
+    /// Parameter between 0 and 1 where the ray enters; infinity when it does not.
     #[inline(always)]
     fn entry(&self, ray: &PlainRay) -> f32 {
         if self.sin == 0.0 {
@@ -68,7 +68,7 @@ fn slab(low: Vec3A, high: Vec3A, inverse: Vec3A) -> f32 {
     if enter <= leave { enter } else { f32::INFINITY }
 }
 
-/// One over a direction, without infinities.
+/// Inverse of a direction, without infinities.
 #[inline(always)]
 fn inverse(direction: Vec3A) -> Vec3A {
     direction.signum() / direction.abs().max(Vec3A::splat(1e-20))
@@ -90,15 +90,15 @@ impl PlainRay {
     }
 }
 
-/// Answers the questions of the benchmark.
+/// Queries of the benchmark.
 pub trait Contender {
-    /// Whether something stands between two points.
+    /// Whether a box lies between two points.
     fn blocked(&self, from: DVec3, to: DVec3) -> bool;
-    /// Signed distance to the nearest box within 50 m; `None` where the library has no such query.
+    /// Signed distance to the nearest box within 50 m, metres; `None` where the library has no such query.
     fn distance_m(&self, point: DVec3) -> Option<f64>;
 }
 
-/// Farthest distance asked for, metres.
+/// Largest distance of distance queries, metres.
 const WITHIN_M: f64 = 50.0;
 
 impl Contender for BoxBvh {
@@ -131,7 +131,7 @@ fn from_parry(v: Vector) -> Vec3A {
     Vec3A::new(v.x, v.y, v.z)
 }
 
-/// parry's tree, through its own closest-hit query.
+/// parry's tree with its own closest-hit query.
 pub struct Parry {
     tree: Bvh,
     boxes: Vec<PlainBox>,
@@ -139,7 +139,7 @@ pub struct Parry {
 }
 
 impl Parry {
-    /// Built with its default strategy.
+    /// Builds the tree with the default strategy.
     pub fn build(boxes: &[OrientedBox]) -> Self {
         let boxes: Vec<PlainBox> = boxes.iter().map(PlainBox::new).collect();
         let bounds: Vec<parry3d::bounding_volume::Aabb> =
@@ -164,7 +164,7 @@ simd_kernel! {
         let own = |node: &parry3d::partitioning::BvhNode, _: f32| {
             let (min, max) = (from_parry(node.mins()), from_parry(node.maxs()));
             let gap = (min - point).max(point - max);
-            // Inside the bounds a solid may hold the point at any depth.
+            // Inside the bounds, a solid may contain the point at any depth.
             if gap.max_element() <= 0.0 { f32::MIN } else { gap.max(Vec3A::ZERO).length() }
         };
         let found = of.tree.find_best(WITHIN_M as f32, own, |index, _| Some(of.boxes[index as usize].signed_distance(point)));
@@ -183,7 +183,7 @@ impl Contender for Parry {
     }
 }
 
-/// parry's tree, walked until the first hit.
+/// parry's tree, traversed until the first hit.
 pub struct ParryWalk(pub Parry);
 
 simd_kernel! {
@@ -236,7 +236,7 @@ pub struct Obvhs2 {
 }
 
 impl Obvhs2 {
-    /// Built with its middle settings.
+    /// Builds the tree with medium settings.
     pub fn build(boxes: &[OrientedBox]) -> Self {
         let boxes: Vec<PlainBox> = boxes.iter().map(PlainBox::new).collect();
         let bounded: Vec<BoundedBox<'_>> = boxes.iter().map(BoundedBox).collect();
@@ -264,7 +264,7 @@ impl Contender for Obvhs2 {
     }
 }
 
-/// obvhs's compressed tree of eight children.
+/// obvhs's compressed wide BVH (eight children).
 pub struct ObvhsCw {
     tree: CwBvh,
     boxes: Vec<PlainBox>,
@@ -272,7 +272,7 @@ pub struct ObvhsCw {
 }
 
 impl ObvhsCw {
-    /// Built with its middle settings.
+    /// Builds the tree with medium settings.
     pub fn build(boxes: &[OrientedBox]) -> Self {
         let boxes: Vec<PlainBox> = boxes.iter().map(PlainBox::new).collect();
         let bounded: Vec<BoundedBox<'_>> = boxes.iter().map(BoundedBox).collect();

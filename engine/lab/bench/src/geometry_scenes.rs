@@ -1,4 +1,4 @@
-//! Towns and rays for `cosfly-lab geometry`: boxes around a walker's way, cameras above it, body points below.
+//! Towns and rays for `cosfly-lab geometry`: boxes around a walk, cameras above it, body points below.
 
 use cosfly_frames::{DVec3, TargetTrack, real};
 use cosfly_geometry::{BoxBvh, OrientedBox, SpatialQuery};
@@ -6,37 +6,38 @@ use cosfly_planner::scenes::{Scene, SceneKind};
 use cosfly_planner::visibility::body_points;
 use cosfly_random::{RandomStream, Seed};
 
-/// Rays of one view: the body points that visibility counts.
+/// Rays of one view: the body points of visibility.
 pub const RAYS: usize = 8;
-/// Views of each set of a town.
+/// Number of views of each set of a town.
 pub const VIEWS: usize = 1024;
-/// Turn of the towns whose boxes are not axis-aligned, radians.
+/// Yaw of the towns whose boxes are not axis-aligned, radians.
 const TURN_RAD: f64 = 0.5;
 
-/// One camera and the body points that it looks at.
+/// A camera and the body points that it looks at.
 #[derive(Clone, Copy, Debug)]
 pub struct View {
-    /// 20 to 40 m from the target.
+    /// Position of the camera, 20 to 40 m from the target.
     pub camera_in_world: DVec3,
-    /// See [`body_points`].
+    /// Body points of the target, see [`body_points`].
     pub points_in_world: [DVec3; RAYS],
 }
 
-/// Boxes around a walker's way, and what is asked about them.
+/// Boxes around a walk, and queries about them.
 pub struct BenchTown {
     /// All boxes.
     pub boxes: Vec<OrientedBox>,
-    /// Whether the whole town is turned, so that no box is axis-aligned.
+    /// Whether the whole town is rotated, so that no box is axis-aligned.
     pub is_turned: bool,
-    /// Views with at least five of eight rays hidden.
+    /// Views with at least five of eight rays occluded.
     pub hidden_views: Vec<View>,
-    /// Views with at most one ray hidden.
+    /// Views with at most one ray occluded.
     pub free_views: Vec<View>,
 }
 
 impl BenchTown {
-    /// The `count` boxes nearest to a walker's way, or as many as there are: up to 1,000 of a leafy town, up to 2,500 of
-    /// one with tree tunnels, beyond that of a leafy town cut into small boxes.
+    /// The `count` boxes nearest to a walk, or all where there are fewer: up to 1,000 of a leafy town, up to 2,500 of
+    /// one with tree
+    /// tunnels, beyond that of a leafy town cut into small boxes.
     pub fn generate(seed: u64, count: usize, is_turned: bool) -> Self {
         let kind = if count <= 1_000 {
             SceneKind::Leafy
@@ -51,7 +52,7 @@ impl BenchTown {
         let mut stream = Seed::of_item(seed, "bench", "geometry").stream("views");
         let tree = BoxBvh::build(boxes.clone());
         let (mut hidden_views, mut free_views) = (Vec::new(), Vec::new());
-        // A town in which one kind of view is hardly ever found is measured with fewer of them.
+        // A town in which one kind of view is rare is measured with fewer of them.
         for _ in 0..200 * VIEWS {
             let view = view(&track, &mut stream);
             let mut hidden = [false; RAYS];
@@ -88,7 +89,7 @@ fn nearest_boxes(boxes: Vec<OrientedBox>, track: &TargetTrack, count: usize) -> 
     ranked.into_iter().take(count).map(|(_, shape)| shape).collect()
 }
 
-/// A camera 20 to 40 m away at 25 to 75 degrees above the horizon, anywhere around.
+/// A camera 20 to 40 m away at an elevation of 25 to 75 degrees, at any azimuth.
 fn view(track: &TargetTrack, stream: &mut RandomStream) -> View {
     let state = &track.states[stream.index(track.states.len())];
     let distance_m = stream.uniform(20.0, 40.0);

@@ -1,6 +1,6 @@
-//! Measurements behind `cosfly-lab`: planners against each other, box queries against other libraries, the renderer.
+//! Measurements of `cosfly-lab`: planners, box queries of several libraries, the renderer.
 //!
-//! Everything is timed in thread CPU time, contenders interleaved in one run, so that ratios survive a busy machine.
+//! All times are thread CPU time, with contenders interleaved in one run, so that ratios do not depend on the load.
 
 pub mod clock;
 pub mod geometry;

@@ -1,4 +1,4 @@
-//! The cost of the engine itself: six stages of very cheap items, as other engines are measured.
+//! Overhead of the engine: six stages of very cheap items, as other engines are measured.
 
 use crate::toy::{Toy, toy_recipe};
 use cosfly_diagnose::{Diagnostic, Fault, Result};
@@ -12,32 +12,32 @@ use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
 use std::time::{Duration, Instant};
 
-/// Bytes that each item writes.
+/// Bytes written by each item.
 const BYTES: u64 = 16 << 10;
-/// The stage whose parameter is changed (counted from 0), of six.
+/// Index of the stage whose parameter is changed, of six.
 const CHANGED: usize = 2;
 
-/// Wall times of a six-stage recipe. Each includes opening the store, planning and publishing durably.
+/// Wall times of a six-stage recipe. Each includes opening the store, planning and durable publishing.
 #[derive(Clone, Debug)]
 pub struct EngineFigures {
-    /// Items of all stages together.
+    /// Number of items of all stages together.
     pub tasks: u64,
-    /// Everything is computed.
+    /// Time with an empty store.
     pub cold: Duration,
-    /// Everything is cached.
+    /// Time with everything cached.
     pub no_op: Duration,
-    /// After a parameter of the third stage changed.
+    /// Time after a parameter of the third stage changed.
     pub change: Duration,
-    /// Tasks that ran then.
+    /// Number of tasks that ran after the change.
     pub change_ran: u64,
-    /// After it was changed back.
+    /// Time after the parameter was changed back.
     pub change_back: Duration,
-    /// Tasks that ran then.
+    /// Number of tasks that ran after the change back.
     pub change_back_ran: u64,
 }
 
 impl EngineFigures {
-    /// Wall time of the cold run per task, in milliseconds.
+    /// Wall time of the cold run per task, milliseconds.
     pub fn cold_ms_per_task(&self) -> f64 {
         self.cold.as_secs_f64() * 1e3 / (self.tasks.max(1)) as f64
     }
@@ -46,7 +46,7 @@ impl EngineFigures {
 /// Runs six stages of `items` items each in a store at `folder`, which must be empty or absent.
 ///
 /// # Errors
-/// Refusals of the machine, and `bench-failed` where the store is not empty.
+/// `machine-io`, and `bench-failed` where the store is not empty.
 pub fn bench_engine(folder: &Path, items: usize, jobs: usize) -> Result<EngineFigures> {
     let before = bench_recipe(items, 0.5)?;
     let after = bench_recipe(items, 0.7)?;

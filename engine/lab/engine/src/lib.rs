@@ -1,6 +1,6 @@
-//! Toy stages, and the cost of the engine itself.
+//! Toy stages, and the overhead of the engine.
 //!
-//! * [`Toy`], [`toy_recipe`]: recipes of cheap stages, for the engine's laws and for measuring it.
+//! * [`Toy`], [`toy_recipe`]: recipes of cheap stages, for tests and measurements of the engine.
 //! * [`bench_engine`]: wall times of a six-stage recipe of them.
 
 mod bench;

@@ -1,4 +1,4 @@
-//! Cheap stages, for the laws of the engine and for measuring it.
+//! Cheap stages, for tests and measurements of the engine.
 
 use cosfly_blobs::OutputSink;
 use cosfly_diagnose::{Diagnostic, Fault, Result};
@@ -15,7 +15,7 @@ use std::sync::Arc;
 /// Called at the start of an item, to count, wait or fail.
 pub type Hook = Arc<dyn Fn(&TaskContext) -> Result<()> + Send + Sync>;
 
-/// Writes bytes that depend on everything it is given.
+/// Stage that writes bytes that depend on all of its inputs.
 struct ToyStage {
     properties: StageProperties,
     hook: Hook,
@@ -48,7 +48,7 @@ impl Stage for ToyStage {
             text.push_str(&format!("{:?} ", Digest::of(&bytes)));
         }
         if let Some(path) = parameters["undeclared"].as_str() {
-            // Forbidden to stages: the law of equal bytes catches it.
+            // Forbidden to stages: the test of equal bytes detects it.
             text.push_str(&std::fs::read_to_string(path).map_err(|error| Diagnostic::io("read a toy's file", &error))?);
         }
         let wanted = usize::try_from(parameters["bytes"].as_u64().unwrap_or(0)).unwrap_or(0);
@@ -65,27 +65,28 @@ impl Stage for ToyStage {
 pub struct Toy {
     /// Name of the stage.
     pub name: &'static str,
-    /// Version of its kind.
+    /// Version of the kind.
     pub version: u32,
-    /// Parameters. Those that toys know: `constant` (bytes depend on the inputs alone), `bytes` (size of the output),
-    /// `undeclared` (a file read behind the engine's back), `warning`, `rejected`.
+    /// Parameters. Known ones: `constant` (bytes depend on the inputs alone), `bytes` (size of the output),
+    /// `undeclared` (a file read
+    /// without declaration), `warning`, `rejected`.
     pub parameters: Value,
-    /// Inputs: index of the stage, and how its items meet ours.
+    /// Inputs: index of the stage, and the fan of its items.
     pub inputs: Vec<(usize, Fan)>,
-    /// Number of items, unless an input of [`Fan::Each`] gives them.
+    /// Number of items, unless an input of [`Fan::Each`] defines them.
     pub items: usize,
-    /// Names of the items of its inputs.
+    /// Names of items at the inputs.
     pub takes: Takes,
-    /// Variants of each item; none for the item itself.
+    /// Variants of each item; without variants, the item itself.
     pub variants: Vec<&'static str>,
-    /// Files that it reads.
+    /// Files that the stage reads.
     pub sources: Vec<PathBuf>,
     /// Called at the start of every item.
     pub hook: Hook,
 }
 
 impl Toy {
-    /// A stage that only writes down its inputs.
+    /// Creates a stage that writes a description of its inputs.
     pub fn new(name: &'static str, items: usize, inputs: &[(usize, Fan)]) -> Self {
         Self {
             name,
@@ -100,7 +101,7 @@ impl Toy {
         }
     }
 
-    /// All ports that toys have.
+    /// All ports of toys.
     pub fn ports(fan: Fan, takes: Takes) -> [InputPort; 4] {
         PORTS.map(|name| toy_port(name, fan, takes))
     }
@@ -109,7 +110,7 @@ impl Toy {
 /// Names of the ports of toys: one per input.
 const PORTS: [&str; 4] = ["a", "b", "c", "d"];
 
-/// A recipe of toys, in dependency order.
+/// Builds a recipe of toys, given in dependency order.
 pub fn toy_recipe(name: &str, seed: u64, toys: &[Toy]) -> Result<Recipe> {
     let mut stages: Vec<RecipeStage> = Vec::new();
     for toy in toys {

@@ -1,4 +1,4 @@
-//! Writes a tiny dataset into the folder given as the first argument, for readers by outsiders.
+//! Writes a tiny dataset into the folder given as the first argument, for tests of independent readers.
 
 use cosfly_sample as sample;
 use cosfly_schema::{DatasetConfig, EncodingConfig};

@@ -1,5 +1,6 @@
-//! Cuts the training windows of 12,000 made-up flights of 200 frames (2.4 million time steps) into the Parquet file given
-//! as the first argument; prints time and peak memory.
+//! Writes the training windows of 12,000 synthetic flights of 200 frames (2.4 million time steps) into the Parquet file
+//! given as
+//! the first argument; prints time and peak memory.
 
 use cosfly_frames::{DVec3, Pose, Seed};
 use cosfly_metrics::WindowShape;
@@ -52,7 +53,7 @@ fn main() {
     );
 }
 
-/// `pattern` with as many frames as wanted, along a way of its own; `spread_m` displaces every frame.
+/// Flight like `pattern` with another number of frames, on its own trajectory; `spread_m` displaces every frame.
 fn long_flight(pattern: &RenderedTrajectory, number: usize, spread_m: f64) -> RenderedTrajectory {
     let mut stream = Seed::of_item(number as u64, "windows", pattern.role.name()).stream("way");
     let mut record = pattern.clone();

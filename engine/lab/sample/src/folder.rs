@@ -13,7 +13,7 @@ use std::io::Cursor;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-/// An output sink that writes files below a folder and knows the blobs it may link.
+/// An output sink that writes files below a folder and stores the blobs that it may link.
 struct FolderSink<'a> {
     folder: PathBuf,
     blobs: BTreeMap<Digest, &'a [u8]>,

@@ -1,5 +1,6 @@
-//! A tiny made-up dataset for tests and examples: two pedestrians on a plane, each with an expert and a
-//! perturbed flight, ray-cast into very small images.
+//! A tiny synthetic dataset for tests and examples: two pedestrians on a plane, each with an expert and a perturbed
+//! flight, with
+//! very small ray-cast images.
 
 mod folder;
 
@@ -18,25 +19,25 @@ use cosfly_schema::{
 };
 use cosfly_write::frame_pack::{FramePackWriter, PackHeader};
 
-/// Frames of every flight.
+/// Number of frames of every flight.
 pub const FRAMES: usize = 5;
 const HEIGHT_M: f64 = 1.8;
 const RADIUS_M: f64 = 0.35;
-/// Instance id of the one who walks ahead of every target.
+/// Instance id of the bystander who walks ahead of every target.
 const COMPANION: u32 = 7;
 
 /// One flight with its pixels and captions.
 pub struct SampleFlight {
-    /// The record.
+    /// Record of the flight.
     pub record: RenderedTrajectory,
-    /// Its images, one per frame.
+    /// Images, one per frame.
     pub images: Vec<FrameImages>,
-    /// Its captions.
+    /// Captions of the flight.
     pub captions: Vec<CaptionRecord>,
 }
 
 impl SampleFlight {
-    /// The flight's frame pack.
+    /// Frame pack of the flight.
     pub fn pack(&self, encoding: EncodingConfig) -> Vec<u8> {
         let camera = &self.record.camera;
         let header = PackHeader::new(camera.width, camera.height, 9, encoding, self.record.dt_s());
@@ -82,7 +83,7 @@ pub fn flights() -> Vec<SampleFlight> {
     (0..2).flat_map(|pedestrian| [Role::Expert, Role::Perturbed].map(|role| flight(pedestrian, role))).collect()
 }
 
-/// A pedestrian that got no flight.
+/// A pedestrian without a flight.
 pub fn rejections() -> Vec<Rejection> {
     vec![Rejection {
         trajectory_id: "expert-p00002".into(),
@@ -93,7 +94,7 @@ pub fn rejections() -> Vec<Rejection> {
     }]
 }
 
-/// The flight of one role behind one pedestrian.
+/// Flight of one role behind one pedestrian.
 pub fn flight(pedestrian: usize, role: Role) -> SampleFlight {
     let camera = Camera { width: 64, height: 48, horizontal_fov_rad: 1.2 };
     let track = track(pedestrian);
@@ -159,14 +160,14 @@ fn track(pedestrian: usize) -> TargetTrack {
     TargetTrack { dt_s: 0.5, height_m: HEIGHT_M, radius_m: RADIUS_M, states: (0..FRAMES).map(state).collect() }
 }
 
-/// Somebody 2.5 m ahead and 1.5 m to the right.
+/// State of a bystander 2.5 m ahead and 1.5 m to the right.
 fn ahead_of(state: &TargetState) -> TargetState {
     let (sin, cos) = real::sin_cos(state.heading_rad);
     let away = DVec3::new(2.5 * cos - 1.5 * sin, 2.5 * sin + 1.5 * cos, 0.0);
     TargetState { feet_in_world: state.feet_in_world + away, ..*state }
 }
 
-/// A camera 4 m above the feet and 6 m and more behind, falling back, that looks at the body's middle.
+/// Pose of a camera 4 m above the feet and at least 6 m behind, falling back, that looks at the middle of the body.
 fn behind(state: &TargetState, frame: usize, offset: DVec3) -> Pose {
     let (sin, cos) = real::sin_cos(state.heading_rad);
     let back_m = 6.0 + 0.8 * frame as f64;
@@ -256,7 +257,7 @@ fn weather() -> Weather {
     }
 }
 
-/// Ray-casts ground, wall, target and who walks ahead of it.
+/// Ray-casts ground, wall, target and bystander.
 fn look(
     camera: &Camera,
     pose: &Pose,
@@ -325,7 +326,7 @@ fn bounds(pixels: &[(u32, u32)]) -> Option<PixelBox> {
     })
 }
 
-/// First hit with the body, a standing cylinder on the origin, as a multiple of `ray`; infinite without one.
+/// First hit with the body, a vertical cylinder at the origin, as a multiple of `ray`; infinite without a hit.
 fn cylinder_hit(from: DVec3, ray: DVec3) -> f64 {
     let (a, b) = (ray.x * ray.x + ray.y * ray.y, from.x * ray.x + from.y * ray.y);
     let c = from.x * from.x + from.y * from.y - RADIUS_M * RADIUS_M;
@@ -342,7 +343,7 @@ fn cylinder_hit(from: DVec3, ray: DVec3) -> f64 {
     }
 }
 
-/// First hit with a box (slabs in its own axes); infinite without one.
+/// First hit with a box (slab test in its own axes), as a multiple of `ray`; infinite without a hit.
 fn box_hit(shape: &OrientedBox, from: DVec3, ray: DVec3) -> f64 {
     let (sin, cos) = real::sin_cos(shape.yaw_rad);
     let local = |v: DVec3| DVec3::new(cos * v.x + sin * v.y, cos * v.y - sin * v.x, v.z);

@@ -21,7 +21,7 @@ fn town(count: usize) -> BoxBvh {
     BoxBvh::build(boxes.collect())
 }
 
-/// A drone 20 m up and 20 m behind a walker: (drone, body point, next drone).
+/// Views of a drone 20 m above and 20 m behind a pedestrian: (drone, body point, next drone).
 fn follow_queries(scene: &BoxBvh) -> Vec<(DVec3, DVec3, DVec3)> {
     let mut stream = Seed::of_item(2, "bench", "town").stream("queries");
     let side_m = 12.0 * (scene.len() as f64).sqrt();

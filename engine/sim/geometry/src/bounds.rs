@@ -1,8 +1,8 @@
-//! Axis-aligned bounds: the currency of the tree.
+//! Axis-aligned bounds, the nodes of trees.
 
 use cosfly_frames::DVec3;
 
-/// A closed axis-aligned box between two corners, metres. [`Bounds::EMPTY`] holds nothing.
+/// A closed axis-aligned box between two corners, metres. [`Bounds::EMPTY`] contains nothing.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Bounds {
     /// Smallest corner.
@@ -12,10 +12,10 @@ pub struct Bounds {
 }
 
 impl Bounds {
-    /// Bounds of nothing: the neutral element of [`Bounds::union`].
+    /// Empty bounds: the neutral element of [`Bounds::union`].
     pub const EMPTY: Self = Self { min_in_world: DVec3::INFINITY, max_in_world: DVec3::NEG_INFINITY };
 
-    /// The smallest bounds around two others.
+    /// Smallest bounds around two others.
     #[inline]
     pub fn union(&self, other: &Self) -> Self {
         Self {
@@ -24,7 +24,7 @@ impl Bounds {
         }
     }
 
-    /// The smallest bounds around these and a point.
+    /// Smallest bounds around these and a point.
     #[inline]
     pub fn with_point(&self, point_in_world: DVec3) -> Self {
         Self {
@@ -33,14 +33,14 @@ impl Bounds {
         }
     }
 
-    /// Grown by `margin_m` on every side.
+    /// Bounds enlarged by `margin_m` on every side.
     #[inline]
     pub fn grown(&self, margin_m: f64) -> Self {
         let margin = DVec3::splat(margin_m);
         Self { min_in_world: self.min_in_world - margin, max_in_world: self.max_in_world + margin }
     }
 
-    /// Whether the two share a point (faces included).
+    /// Whether both have a common point (faces included).
     #[inline]
     pub fn meets(&self, other: &Self) -> bool {
         self.min_in_world.cmple(other.max_in_world).all() && other.min_in_world.cmple(self.max_in_world).all()
@@ -51,7 +51,7 @@ impl Bounds {
         self.min_in_world.cmple(other.min_in_world).all() && other.max_in_world.cmple(self.max_in_world).all()
     }
 
-    /// The middle.
+    /// Centre.
     #[inline]
     pub fn center_in_world(&self) -> DVec3 {
         0.5 * (self.min_in_world + self.max_in_world)
@@ -64,23 +64,23 @@ impl Bounds {
         size.x * size.y + size.y * size.z + size.z * size.x
     }
 
-    /// Squared distance from a point, 0 inside.
+    /// Squared distance from a point, square metres; 0 inside.
     #[inline]
     pub fn distance_squared_m2(&self, point_in_world: DVec3) -> f64 {
         (self.min_in_world - point_in_world).max(point_in_world - self.max_in_world).max(DVec3::ZERO).length_squared()
     }
 }
 
-/// A ray made ready for slab tests against many [`Bounds`].
+/// A ray with the inverse of its direction, for slab tests against many [`Bounds`].
 #[derive(Clone, Copy, Debug)]
 pub struct SlabRay {
     origin_in_world: DVec3,
-    /// One over the direction; a huge number where the direction has no component, so that 0 * inf never arises.
+    /// Inverse of the direction; a huge number where a component is 0, so that 0 * inf never occurs.
     inverse: DVec3,
 }
 
 impl SlabRay {
-    /// For the ray `origin + t * direction`.
+    /// Creates the ray `origin + t * direction`.
     #[inline]
     pub fn new(origin_in_world: DVec3, direction_in_world: DVec3) -> Self {
         let one_over = |d: f64| if d.abs() < 1e-250 { 1e250 } else { 1.0 / d };
@@ -89,7 +89,7 @@ impl SlabRay {
         Self { origin_in_world, inverse }
     }
 
-    /// The smallest `0 <= t <= max_t` inside the bounds grown by `margin_m`, a hair too small rather than too large.
+    /// Smallest `0 <= t <= max_t` inside the bounds enlarged by `margin_m`, rounded down.
     #[inline]
     pub fn entry(&self, bounds: &Bounds, margin_m: f64, max_t: f64) -> Option<f64> {
         let margin = DVec3::splat(margin_m);

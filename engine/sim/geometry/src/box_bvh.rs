@@ -1,4 +1,4 @@
-//! [`SpatialQuery`] over solid boxes: f32 sorts out what is clearly met or missed, f64 decides the rest.
+//! [`SpatialQuery`] over solid boxes: f32 decides clear hits and misses, f64 all others.
 
 use crate::bounds::Bounds;
 use crate::shape::Shape;
@@ -11,12 +11,13 @@ use crate::{Hit, Nearest, OrientedBox, SpatialQuery};
 use cosfly_frames::DVec3;
 use cosfly_frames::simd::Level;
 
-/// Turned solid boxes under a tree of sixteen children. Boxes with a number that is not finite are counted but never
-/// met. Answers are those of [`crate::BruteForce`], bit for bit, whatever the processor; queries allocate nothing.
+/// A wide BVH (sixteen children) over solid boxes, rotated around z. Boxes with a number that is not finite are counted
+/// but never
+/// hit. Answers are equal to those of [`crate::BruteForce`], bit for bit, on every processor; queries do not allocate.
 #[derive(Clone, Debug)]
 pub struct BoxBvh {
     given: Vec<OrientedBox>,
-    /// The boxes ready for exact queries: those of the tree in its order, then those too far away for it.
+    /// Boxes prepared for exact queries: those of the tree in its order, then those too far away for f32.
     slots: Vec<TurnedBox>,
     /// Index in `given` of each slot.
     primitives: Vec<u32>,
@@ -27,7 +28,7 @@ pub struct BoxBvh {
 }
 
 impl BoxBvh {
-    /// Builds the tree over boxes; the same boxes in the same order give the same tree.
+    /// Builds the tree; deterministic.
     pub fn build(boxes: Vec<OrientedBox>) -> Self {
         let (mut usable, mut shapes) = (Vec::with_capacity(boxes.len()), Vec::with_capacity(boxes.len()));
         for (index, one) in boxes.iter().enumerate() {
@@ -45,17 +46,17 @@ impl BoxBvh {
         Self { given: boxes, slots, primitives, bounds, has_wild: !wild.is_empty(), tree, level: Level::best() }
     }
 
-    /// The same tree asked with the instructions of a level; answers stay the same.
+    /// The same tree, queried with the instructions of a level; answers do not change.
     pub fn at_level(self, level: Level) -> Self {
         Self { level, ..self }
     }
 
-    /// The boxes, in the order given.
+    /// Boxes in the order given.
     pub fn boxes(&self) -> &[OrientedBox] {
         &self.given
     }
 
-    /// Bounds of everything; `None` when there is nothing.
+    /// Bounds of all boxes; `None` when there are none.
     pub fn bounds(&self) -> Option<&Bounds> {
         self.bounds.as_ref()
     }
@@ -63,7 +64,7 @@ impl BoxBvh {
     /// Checks the tree.
     ///
     /// # Panics
-    /// When a box is lost or sticks out of its block.
+    /// When a box is missing or exceeds the bounds of its block.
     pub fn assert_well_formed(&self) {
         let mut bounds = vec![Bounds::EMPTY; self.slots.len()];
         for (shape, &original) in self.slots.iter().zip(&self.tree.order) {
@@ -72,20 +73,20 @@ impl BoxBvh {
         self.tree.assert_well_formed(&bounds);
     }
 
-    /// Slots that f32 is never asked about.
+    /// Slots too far away for f32.
     #[inline]
     fn wild(&self) -> std::ops::Range<usize> {
         self.tree.order.len()..self.slots.len()
     }
 
-    /// A point about the tree's origin; `None` when f32 cannot be asked of it.
+    /// Point relative to the tree's origin; `None` when it is too far away for f32.
     #[inline(always)]
     fn local(&self, point_in_world: DVec3) -> Option<DVec3> {
         let local = point_in_world - self.tree.origin_in_world;
         (local.abs().max_element() <= REACH_M).then_some(local)
     }
 
-    /// Whether one of the slots stands between two points, exactly.
+    /// Whether one of the slots lies between two points, exactly.
     #[cold]
     fn blocked_by(&self, mut slots: std::ops::Range<usize>, from_in_world: DVec3, to_in_world: DVec3) -> bool {
         let step = to_in_world - from_in_world;
@@ -134,8 +135,9 @@ impl SpatialQuery for BoxBvh {
             self.visit_all(|slot| _ = exact(slot));
             return (best.primitive != u32::MAX).then_some(best);
         }
-        // The tree's ray moves one metre along its fastest axis per unit of its parameter. Components that exact
-        // kernels take for none are none.
+        // The tree's ray moves one metre along its fastest axis per unit of its parameter. Components that the exact
+        // kernels treat as 0
+        // are 0 here, too.
         let step = DVec3::from_array(direction_in_world.to_array().map(|d| if d.abs() < 1e-250 { 0.0 } else { d }));
         let speed = step.abs().max_element();
         let (unit, speed) = if speed > 0.0 { (step / speed, speed) } else { (DVec3::ZERO, 1.0) };
@@ -227,7 +229,8 @@ impl SpatialQuery for BoxBvh {
 }
 
 impl BoxBvh {
-    /// Calls `exact` with at least the slots that lie nearer to the segment than it last gave, at first `within_m`.
+    /// Calls `exact` with at least the slots nearer to the segment than the last distance that it returned, at first
+    /// `within_m`.
     #[inline]
     fn around(&self, from_in_world: DVec3, to_in_world: DVec3, within_m: f64, exact: &mut dyn FnMut(usize) -> f64) {
         let within_m = if self.has_wild { self.wild().fold(within_m, |_, slot| exact(slot)) } else { within_m };

@@ -1,4 +1,4 @@
-//! [`SpatialQuery`] by looking at every shape: the oracle of the law test, and right for a handful of shapes.
+//! [`SpatialQuery`] by testing every shape: the oracle of the tests, and suitable for a handful of shapes.
 
 use crate::bounds::Bounds;
 use crate::shape::Shape;
@@ -7,21 +7,21 @@ use crate::turned_box::TurnedBox;
 use crate::{Hit, Nearest, SpatialQuery};
 use cosfly_frames::DVec3;
 
-/// Every shape in turn.
+/// Brute-force queries over shapes.
 #[derive(Clone, Debug)]
 pub struct ShapeBruteForce<S: Shape> {
-    /// `None` where a number is not finite.
+    /// Prepared shapes; `None` where a number is not finite.
     shapes: Vec<Option<S>>,
 }
 
-/// Every box in turn.
+/// Brute-force queries over boxes.
 pub type BruteForce = ShapeBruteForce<TurnedBox>;
 
-/// Every triangle in turn.
+/// Brute-force queries over triangles.
 pub type TriangleBruteForce = ShapeBruteForce<Triangle>;
 
 impl<S: Shape> ShapeBruteForce<S> {
-    /// Over the given shapes.
+    /// Prepares the given shapes.
     pub fn new(given: &[S::Given]) -> Self {
         Self { shapes: given.iter().map(S::prepare).collect() }
     }

@@ -1,17 +1,17 @@
-//! The tree behind the queries: a binary bounding-volume hierarchy built by the surface-area heuristic.
+//! A binary bounding volume hierarchy (BVH) built by the surface-area heuristic.
 
 use crate::bounds::Bounds;
 
-/// Most primitives in a leaf that the heuristic would rather not split.
+/// Largest leaf, primitives, that the heuristic may leave unsplit.
 const LEAF_SIZE: usize = 4;
 /// Bins per axis of the surface-area heuristic.
 const BINS: usize = 12;
-/// Below this depth nodes are halved by count, which bounds the depth of the whole tree.
+/// Depth below which nodes are split at the median, which bounds the depth of the whole tree.
 const SAH_DEPTH: usize = 24;
-/// Entries of the traversal stack: `SAH_DEPTH` plus 32 halvings of at most 2^32 primitives, and the root.
+/// Entries of the traversal stack: `SAH_DEPTH` plus 32 median splits of at most 2^32 primitives, and the root.
 const STACK: usize = 64;
 
-/// A node: an inner one has its two children at `first` and `first + 1`, a leaf holds `count` primitives.
+/// A node: an inner node has its two children at `first` and `first + 1`, a leaf holds `count` primitives.
 #[derive(Clone, Copy, Debug)]
 struct Node {
     bounds: Bounds,
@@ -19,27 +19,29 @@ struct Node {
     count: u32,
 }
 
-/// A tree over the bounds of primitives. It keeps the primitives' order in leaves ([`Bvh::order`]);
-/// owners store their primitives in that order and hand slots out to a [`Visitor`].
+/// A BVH over the bounds of primitives. It stores the primitives' order in leaves ([`Bvh::order`]); owners store their
+/// primitives
+/// in that order, and a [`Visitor`] gets slots.
 #[derive(Clone, Debug)]
 pub struct Bvh {
     nodes: Vec<Node>,
     order: Vec<u32>,
 }
 
-/// What a query does at the nodes it meets.
+/// Decisions of a query during traversal.
 pub trait Visitor {
-    /// A key that is no larger than that of anything inside the bounds; `None` to skip them.
+    /// Lower bound of the keys of everything inside the bounds; `None` to skip them.
     fn key(&mut self, bounds: &Bounds) -> Option<f64>;
-    /// Whether a node with this key can still matter, asked again when its turn comes.
+    /// Whether a node with this key is still relevant; called again when the node is popped.
     fn matters(&self, key: f64) -> bool;
-    /// Looks at the primitive in `slot` (an index into [`Bvh::order`]); true ends the query.
+    /// Tests the primitive in `slot` (an index into [`Bvh::order`]); true ends the query.
     fn visit(&mut self, slot: usize) -> bool;
 }
 
 impl Bvh {
-    /// Builds the tree; deterministic. Bounds are grown by a billionth of the scene's size, so that rounding in a
-    /// primitive's own arithmetic never lets it stick out.
+    /// Builds the tree; deterministic. Bounds are enlarged by a billionth of the scene's size, so that rounding in a
+    /// primitive's own
+    /// arithmetic never exceeds them.
     pub fn build(bounds: &[Bounds]) -> Self {
         let mut tree = Self { nodes: Vec::new(), order: (0..bounds.len() as u32).collect() };
         if bounds.is_empty() {
@@ -72,12 +74,12 @@ impl Bvh {
         &self.order
     }
 
-    /// Bounds of everything; `None` when there is nothing.
+    /// Bounds of all primitives; `None` when there are none.
     pub fn bounds(&self) -> Option<&Bounds> {
         self.nodes.first().map(|root| &root.bounds)
     }
 
-    /// Walks the tree, smaller keys first, without allocation or recursion.
+    /// Traverses the tree, smaller keys first, without allocation or recursion.
     #[inline]
     pub fn traverse(&self, visitor: &mut impl Visitor) {
         let Some(root) = self.nodes.first() else { return };
@@ -88,7 +90,7 @@ impl Bvh {
         while height > 0 {
             height -= 1;
             let (mut at, mut key) = stack[height];
-            // Go down along the nearer child, leaving the farther one on the stack.
+            // Descend into the nearer child and push the farther one onto the stack.
             loop {
                 if !visitor.matters(key) {
                     break;
@@ -123,8 +125,9 @@ impl Bvh {
     /// Checks the tree against the bounds it was built from.
     ///
     /// # Panics
-    /// When a primitive is lost or doubled, sticks out of its node, a child sticks out of its parent, or the tree is
-    /// deeper than the traversal stack.
+    /// When a primitive is missing or duplicated, exceeds its node, a child exceeds its parent, or the tree is deeper
+    /// than the
+    /// traversal stack.
     pub fn assert_well_formed(&self, bounds: &[Bounds]) {
         let mut seen = vec![false; bounds.len()];
         let mut open = Vec::new();
@@ -156,7 +159,7 @@ impl Bvh {
     }
 }
 
-/// Reorders `slots` into a left and a right part and gives the left part's length; `None` to keep a leaf.
+/// Reorders `slots` into a left and a right part and returns the left part's length; `None` to keep a leaf.
 fn split(bounds: &[Bounds], slots: &mut [u32], depth: usize) -> Option<usize> {
     let count = slots.len();
     if count <= 1 {
@@ -189,7 +192,7 @@ fn split(bounds: &[Bounds], slots: &mut [u32], depth: usize) -> Option<usize> {
     Some(if left == 0 || left == count { halve(bounds, slots, size) } else { left })
 }
 
-/// Median split along the widest axis, by count.
+/// Median split along the widest axis.
 fn halve(bounds: &[Bounds], slots: &mut [u32], size: cosfly_frames::DVec3) -> usize {
     let axis = (0..3).fold(0, |best, axis| if size[axis] > size[best] { axis } else { best });
     let middle = slots.len() / 2;
@@ -203,7 +206,7 @@ fn halve(bounds: &[Bounds], slots: &mut [u32], size: cosfly_frames::DVec3) -> us
 struct BinSplit {
     axis: usize,
     last_left_bin: usize,
-    /// Sum over both sides of count times half area.
+    /// Sum over both sides of count times half area, square metres.
     cost: f64,
 }
 

@@ -1,8 +1,10 @@
-//! Sixteen numbers at a time: the few operations that processors' vector levels do differently, and their choice.
+//! Sixteen numbers at a time: the operations that differ between vector levels, and the choice of the level.
 //!
-//! What kernels over these lanes decide never reaches an answer: they sort out what is clearly met or missed, with a
-//! margin for every rounding, and exact arithmetic decides the rest. So levels may round differently here (AVX-512
-//! fuses products and sums) and still give the same answers.
+//! Kernels over these lanes never determine an answer: they decide clear hits and misses, with a margin for every
+//! rounding, and
+//! exact arithmetic decides all others. So levels may round differently here (AVX-512 fuses products and sums) and
+//! still give
+//! the same answers.
 
 use cosfly_frames::simd::Level;
 
@@ -12,20 +14,21 @@ pub const LANES: usize = 16;
 /// One number per lane.
 pub type Lane = [f32; LANES];
 
-/// What differs between vector levels.
+/// Operations that differ between vector levels.
 pub trait Lanes: Copy {
-    /// Which level this is.
+    /// The vector level.
     fn level(self) -> Level;
     /// `a * b + c`, fused where that is one instruction.
     fn multiply_add(self, a: f32, b: f32, c: f32) -> f32;
-    /// Bit i tells whether `a[i] <= b[i]`.
+    /// Mask whose bit i is set where `a[i] <= b[i]`.
     fn at_most(self, a: &Lane, b: &Lane) -> u32;
-    /// Bit i tells whether `a[i] <= b[i]`.
+    /// Mask whose bit i is set where `a[i] <= b[i]`.
     fn at_most_f64(self, a: &[f64; 8], b: &[f64; 8]) -> u32;
 }
 
-/// A level put together from its comparisons. Closures take over the vector features of the function they stand in,
-/// which is what makes their intrinsics safe to call.
+/// A level built from its comparisons. Closures inherit the vector features of the function that creates them, which
+/// makes
+/// their intrinsics safe to call.
 #[derive(Clone, Copy)]
 pub struct LevelLanes<F32, F64, const FUSED: bool> {
     /// See [`Lanes::at_most`].
@@ -59,7 +62,7 @@ where
     }
 }
 
-/// The level of every processor.
+/// The level available on every processor.
 #[derive(Clone, Copy)]
 pub struct PlainLanes;
 
@@ -82,19 +85,19 @@ impl Lanes for PlainLanes {
     }
 }
 
-/// The larger one in a single instruction; `b` when either is not a number.
+/// The larger number in a single instruction; `b` when either is NaN.
 #[inline(always)]
 pub fn larger<T: PartialOrd>(a: T, b: T) -> T {
     if a > b { a } else { b }
 }
 
-/// The smaller one in a single instruction; `b` when either is not a number.
+/// The smaller number in a single instruction; `b` when either is NaN.
 #[inline(always)]
 pub fn smaller<T: PartialOrd>(a: T, b: T) -> T {
     if a < b { a } else { b }
 }
 
-/// The lowest set bit of a mask that is not 0, taken out of it.
+/// Removes the lowest set bit of a mask that is not 0, and returns its index.
 #[inline(always)]
 pub fn take_lane(mask: &mut u32) -> usize {
     let lane = mask.trailing_zeros() as usize % LANES;
@@ -102,8 +105,9 @@ pub fn take_lane(mask: &mut u32) -> usize {
     lane
 }
 
-/// `fn name(a: A) -> R = kernel;` makes `name(level, a)`, which runs the generic `kernel(lanes, a)`, an
-/// `#[inline(always)]` function, compiled for the level.
+/// `fn name(a: A) -> R = kernel;` defines `name(level, a)`, which runs the generic `kernel(lanes, a)`, an
+/// `#[inline(always)]`
+/// function, compiled for the level.
 macro_rules! at_level {
     ($(#[$meta:meta])* $vis:vis fn $name:ident($($arg:ident: $ty:ty),* $(,)?) -> $ret:ty = $kernel:path;) => {
         $(#[$meta])*
@@ -158,7 +162,7 @@ macro_rules! at_level {
                 $kernel(lanes, $($arg),*)
             }
             match level.kind() {
-                // SAFETY: a level above the plain one exists only after its features were detected.
+                // SAFETY: a level above the baseline exists only after its features were detected.
                 #[cfg(target_arch = "x86_64")]
                 cosfly_frames::simd::Kind::Avx512 => unsafe { avx512(level, $($arg),*) },
                 // SAFETY: as above.

@@ -1,4 +1,4 @@
-//! Boxes, triangles, BVH, and the one query seam everything else asks: [`SpatialQuery`].
+//! Boxes, triangles, BVHs, and the interface of all geometric queries: [`SpatialQuery`].
 
 pub mod bounds;
 pub mod box_bvh;

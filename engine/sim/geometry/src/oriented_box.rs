@@ -1,21 +1,21 @@
-//! A solid box turned about the vertical axis: the shape of every obstacle.
+//! A solid box rotated around the vertical axis: the shape of every obstacle.
 
 use cosfly_frames::{DVec3, real};
 use serde::{Deserialize, Serialize};
 
-/// A closed solid box. With `yaw_rad` 0 it is axis-aligned.
+/// A closed solid box; axis-aligned when `yaw_rad` is 0.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct OrientedBox {
-    /// Centre, metres.
+    /// Centre, world frame, metres.
     pub center_in_world: DVec3,
-    /// Half its size along its own x, y and z axes, metres, all at least 0.
+    /// Half the size along its own x, y and z axes, metres, all at least 0.
     pub half_extents_m: DVec3,
-    /// Turn about z, x towards y, radians.
+    /// Rotation around z, radians; positive: x towards y.
     pub yaw_rad: f64,
 }
 
 impl OrientedBox {
-    /// An axis-aligned box between two corners.
+    /// Axis-aligned box between two corners.
     pub fn from_corners(min_in_world: DVec3, max_in_world: DVec3) -> Self {
         Self {
             center_in_world: 0.5 * (min_in_world + max_in_world),
@@ -24,7 +24,7 @@ impl OrientedBox {
         }
     }
 
-    /// The eight corners; bit 0 of the index is +x, bit 1 +y, bit 2 +z in the box's own axes.
+    /// Eight corners; bit 0 of the index is +x, bit 1 +y, bit 2 +z in the box's own axes.
     pub fn corners_in_world(&self) -> [DVec3; 8] {
         let (sin, cos) = real::sin_cos(self.yaw_rad);
         let half = self.half_extents_m;

@@ -1,4 +1,4 @@
-//! [`SpatialQuery`] through a binary tree, for every [`Shape`]: [`TriangleBvh`] over ground.
+//! [`SpatialQuery`] with a binary BVH, for every [`Shape`]; [`TriangleBvh`] over ground.
 
 use crate::bounds::{Bounds, SlabRay};
 use crate::bvh::{Bvh, Visitor};
@@ -7,15 +7,15 @@ use crate::triangle::Triangle;
 use crate::{Hit, Nearest, SpatialQuery};
 use cosfly_frames::DVec3;
 
-/// Two-sided triangles without thickness under a tree: distances are unsigned, rays hit both sides.
+/// BVH over two-sided triangles without thickness: distances are unsigned, rays hit both sides.
 pub type TriangleBvh = ShapeBvh<Triangle>;
 
-/// Shapes under a bounding-volume hierarchy. Shapes with a number that is not finite are counted but never met.
-/// Queries neither allocate nor recurse.
+/// BVH over shapes. Shapes with a number that is not finite are counted but never hit. Queries neither allocate nor
+/// recurse.
 #[derive(Clone, Debug)]
 pub struct ShapeBvh<S: Shape> {
     given: Vec<S::Given>,
-    /// The shapes ready for queries, in the tree's leaf order.
+    /// Shapes prepared for queries, in the tree's leaf order.
     slots: Vec<S>,
     /// Index in `given` of each slot.
     primitives: Vec<u32>,
@@ -23,13 +23,13 @@ pub struct ShapeBvh<S: Shape> {
 }
 
 impl TriangleBvh {
-    /// Builds the tree over an indexed mesh; a triangle with an index out of range is never met.
+    /// Builds the tree over an indexed mesh; a triangle with an index out of range is never hit.
     pub fn build(vertices_in_world: &[DVec3], triangles: &[[u32; 3]]) -> Self {
         let corner = |index: u32| vertices_in_world.get(index as usize).copied().unwrap_or(DVec3::NAN);
         Self::over(triangles.iter().map(|corners| Triangle { corners_in_world: corners.map(corner) }).collect())
     }
 
-    /// The triangles, in the order given.
+    /// Triangles in the order given.
     pub fn triangles(&self) -> &[Triangle] {
         &self.given
     }
@@ -51,7 +51,7 @@ impl<S: Shape> ShapeBvh<S> {
         Self { given, slots, primitives, tree }
     }
 
-    /// Bounds of everything, a hair too large; `None` when there is nothing.
+    /// Bounds of all shapes, slightly enlarged; `None` when there are none.
     pub fn bounds(&self) -> Option<&Bounds> {
         self.tree.bounds()
     }
@@ -59,7 +59,7 @@ impl<S: Shape> ShapeBvh<S> {
     /// Checks the tree.
     ///
     /// # Panics
-    /// When a shape is lost or sticks out of its node.
+    /// When a shape is missing or exceeds its node.
     pub fn assert_well_formed(&self) {
         let mut bounds = vec![Bounds::EMPTY; self.slots.len()];
         for (shape, &original) in self.slots.iter().zip(self.tree.order()) {
@@ -68,7 +68,7 @@ impl<S: Shape> ShapeBvh<S> {
         self.tree.assert_well_formed(&bounds);
     }
 
-    /// A slot that meets the segment, if there is one.
+    /// Slot of a shape that meets the segment, if any.
     #[inline]
     fn any_blocker(&self, from: DVec3, to: DVec3) -> Option<usize> {
         let step = to - from;
@@ -133,7 +133,7 @@ impl<S: Shape> SpatialQuery for ShapeBvh<S> {
     }
 
     fn blocked_batch(&self, from_in_world: DVec3, to_in_world: &[DVec3], blocked: &mut [bool]) {
-        // What hid the last point often hides the next one, too.
+        // The occluder of the last point often hides the next one as well.
         let mut last: Option<usize> = None;
         for (&to, out) in to_in_world.iter().zip(blocked) {
             if !from_in_world.is_finite() || !to.is_finite() {
@@ -225,7 +225,7 @@ impl<S: Shape> Visitor for NearestShape<'_, S> {
     #[inline]
     fn matters(&self, key: f64) -> bool {
         let best = self.best.distance_m;
-        // Key 0: the point is in the bounds, where it may be deep inside a solid.
+        // Key 0: the point is inside the bounds, where it may be deep inside a solid.
         key == 0.0 || (best > 0.0 && key <= best * best)
     }
     #[inline]
@@ -252,7 +252,7 @@ struct SegmentClearance<'a, S: Shape> {
 impl<S: Shape> Visitor for SegmentClearance<'_, S> {
     #[inline]
     fn key(&mut self, bounds: &Bounds) -> Option<f64> {
-        // Bounds grown by the best distance hold every point that is closer: a segment that misses them is farther.
+        // Bounds enlarged by the best distance contain every closer point: a segment that misses them is farther away.
         self.ray.entry(bounds, self.best, 1.0)?;
         Some(bounds.distance_squared_m2(self.middle))
     }

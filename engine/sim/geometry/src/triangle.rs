@@ -1,13 +1,13 @@
-//! One triangle: exact ray, point and segment kernels, all two-sided and safe for triangles without area.
+//! Triangles: exact ray, point and segment kernels, all two-sided and safe for degenerate triangles.
 
 use crate::bounds::Bounds;
 use crate::shape::Shape;
 use cosfly_frames::DVec3;
 
-/// A triangle in the world, metres.
+/// A triangle in the world frame.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Triangle {
-    /// Its corners.
+    /// Corners, metres.
     pub corners_in_world: [DVec3; 3],
 }
 
@@ -18,13 +18,14 @@ impl Triangle {
         (b - a).cross(c - a).try_normalize().unwrap_or(DVec3::Z)
     }
 
-    /// The point of the triangle closest to a point (Ericson, Real-Time Collision Detection, 5.1.5).
+    /// Point of the triangle closest to a point (Ericson, Real-Time Collision Detection, 5.1.5).
     #[inline]
     pub fn closest_point(&self, point_in_world: DVec3) -> DVec3 {
         let [a, b, c] = self.corners_in_world;
         let (ab, ac) = (b - a, c - a);
         let normal = ab.cross(ac);
-        // Inside the prism over the triangle the foot of the perpendicular counts, else the nearest edge.
+        // Inside the prism over the triangle the foot of the perpendicular is closest, otherwise a point of the nearest
+        // edge.
         let inside = |from: DVec3, edge: DVec3| normal.dot(edge.cross(point_in_world - from)) >= 0.0;
         let area_squared = normal.length_squared();
         if area_squared > 0.0 && inside(a, ab) && inside(b, c - b) && inside(c, a - c) {
@@ -68,10 +69,11 @@ impl Shape for Triangle {
         self.corners_in_world.iter().fold(Bounds::EMPTY, |sum, &corner| sum.with_point(corner))
     }
 
-    /// From either side (Moeller and Trumbore). A ray in the triangle's plane does not cross it. Edges belong to both neighbours.
+    /// Two-sided (Moeller and Trumbore). A ray in the triangle's plane does not cross it. Edges belong to both
+    /// neighbours.
     #[inline]
     fn ray_entry(&self, origin_in_world: DVec3, direction_in_world: DVec3, max_t: f64) -> Option<f64> {
-        /// Barycentric slack, so that a ray through a shared edge never slips between two triangles.
+        /// Barycentric tolerance, so that a ray through a shared edge never passes between two triangles.
         const SLACK: f64 = 1e-12;
         let [a, b, c] = self.corners_in_world;
         let (ab, ac) = (b - a, c - a);
@@ -95,7 +97,7 @@ impl Shape for Triangle {
         (t >= 0.0 && t <= max_t).then_some(t)
     }
 
-    /// On the triangle itself its normal points away.
+    /// On the triangle itself, the direction is its normal.
     #[inline]
     fn signed_distance(&self, point_in_world: DVec3) -> (f64, DVec3) {
         let gap = point_in_world - self.closest_point(point_in_world);
@@ -118,8 +120,9 @@ fn parameter_on_segment(point: DVec3, from: DVec3, to: DVec3) -> f64 {
     if squared > 0.0 { ((point - from).dot(step) / squared).clamp(0.0, 1.0) } else { 0.0 }
 }
 
-/// Squared distance of two segments: the four ends against the other segment, and the interior solution where there
-/// is one. The ends alone are right for parallel and for zero-length segments.
+/// Squared distance of two segments: the four ends against the other segment, and the interior solution where it
+/// exists. The ends
+/// suffice for parallel and for zero-length segments.
 fn segments_distance_squared(a: DVec3, b: DVec3, c: DVec3, d: DVec3) -> f64 {
     let point_to = |point: DVec3, from: DVec3, to: DVec3| {
         point.distance_squared(from + (to - from) * parameter_on_segment(point, from, to))

@@ -1,11 +1,11 @@
-//! A box ready for queries: sine and cosine of its turn at hand, and the exact kernels in its own frame.
+//! A box prepared for queries: precomputed sine and cosine of its yaw, and the exact kernels in its own axes.
 
 use crate::OrientedBox;
 use crate::bounds::Bounds;
 use crate::shape::Shape;
 use cosfly_frames::{DVec3, real};
 
-/// An [`OrientedBox`] with what its queries need computed once.
+/// An [`OrientedBox`] with the precomputed data of queries.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct TurnedBox {
     center_in_world: DVec3,
@@ -15,43 +15,43 @@ pub struct TurnedBox {
 }
 
 impl TurnedBox {
-    /// Its middle.
+    /// Centre, world frame, metres.
     #[inline(always)]
     pub fn center_in_world(&self) -> DVec3 {
         self.center_in_world
     }
 
-    /// Half its size along its own axes, metres.
+    /// Half the size along its own axes, metres.
     #[inline(always)]
     pub fn half_extents_m(&self) -> DVec3 {
         self.half_extents_m
     }
 
-    /// Sine and cosine of its turn.
+    /// Sine and cosine of its yaw.
     #[inline(always)]
     pub fn sin_cos(&self) -> (f64, f64) {
         (self.sin, self.cos)
     }
 
-    /// Whether its axes are the world's, to the last bit.
+    /// Whether its axes are exactly the world's.
     #[inline(always)]
     pub fn is_axis_aligned(&self) -> bool {
         self.sin == 0.0 && self.cos == 1.0
     }
 
-    /// Whether it fills its bounds but for a ten-billionth of its size: it is turned by quarters.
+    /// Whether it fills its bounds up to a ten-billionth of its size: its yaw is a multiple of 90 degrees.
     #[inline]
     pub fn is_along_axes(&self) -> bool {
         self.sin.abs().min(self.cos.abs()) < 1e-10
     }
 
-    /// A world vector in the box's axes.
+    /// Vector of the world frame in the box's axes.
     #[inline(always)]
     pub fn local_from_world_vector(&self, vector: DVec3) -> DVec3 {
         DVec3::new(self.cos * vector.x + self.sin * vector.y, self.cos * vector.y - self.sin * vector.x, vector.z)
     }
 
-    /// A vector of the box's axes in the world.
+    /// Vector of the box's axes in the world frame.
     #[inline]
     fn world_from_local_vector(&self, vector: DVec3) -> DVec3 {
         DVec3::new(self.cos * vector.x - self.sin * vector.y, self.sin * vector.x + self.cos * vector.y, vector.z)
@@ -83,7 +83,7 @@ impl Shape for TurnedBox {
         slab_entry(origin, direction, self.half_extents_m, max_t)
     }
 
-    /// On the inner medial surface the first of the tied axes counts.
+    /// On the inner medial surface the first of the tied axes is chosen.
     #[inline]
     fn signed_distance(&self, point_in_world: DVec3) -> (f64, DVec3) {
         let point = self.local_from_world_vector(point_in_world - self.center_in_world);
@@ -107,9 +107,11 @@ impl Shape for TurnedBox {
         (beyond[axis], self.world_from_local_vector(away))
     }
 
-    /// The squared distance is convex and piecewise quadratic along the segment. Its derivative is monotone and
-    /// bends only where the segment crosses one of the six face planes; bisecting over those leaves one linear
-    /// piece, whose root is the closest point.
+    /// The squared distance is convex and piecewise quadratic along the segment. Its derivative is monotone and has
+    /// kinks only where
+    /// the segment crosses one of the six face planes; bisection over those leaves one linear piece, whose root is the
+    /// closest
+    /// point.
     #[inline]
     fn segment_distance(&self, from_in_world: DVec3, to_in_world: DVec3, within_m: f64) -> Option<f64> {
         let from = self.local_from_world_vector(from_in_world - self.center_in_world);
@@ -122,14 +124,15 @@ impl Shape for TurnedBox {
         }
         let distance = (from + closest_parameter(from, step, half) * step).abs() - half;
         let distance = distance.max(DVec3::ZERO).length();
-        // Rounding may leave a hair of distance where the two touch; the slab test decides.
+        // Rounding may leave a tiny distance where the two touch; the slab test decides.
         let touches = distance < 1e-9 * (1.0 + from.abs().max_element()) && slab_entry(from, step, half, 1.0).is_some();
         let distance = if touches { 0.0 } else { distance };
         (distance < within_m).then_some(distance)
     }
 }
 
-/// Where along `from + t * step`, `0 <= t <= 1`, the box of half extents `half` about the origin is closest.
+/// Parameter of the point of `from + t * step`, `0 <= t <= 1`, closest to the box of half extents `half` around the
+/// origin.
 #[inline]
 fn closest_parameter(from: DVec3, step: DVec3, half: DVec3) -> f64 {
     let slope = |t: f64| {
@@ -164,7 +167,7 @@ fn closest_parameter(from: DVec3, step: DVec3, half: DVec3) -> f64 {
     if rise > 0.0 { low + (high - low) * (-slope_low / rise) } else { low }
 }
 
-/// First `0 <= t <= max_t` of a ray in the closed box of half extents `half` about the origin.
+/// First `0 <= t <= max_t` of a ray in the closed box of half extents `half` around the origin.
 #[inline]
 fn slab_entry(origin: DVec3, direction: DVec3, half: DVec3, max_t: f64) -> Option<f64> {
     let (mut enter, mut leave) = (0.0_f64, max_t);

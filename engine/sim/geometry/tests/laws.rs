@@ -1,5 +1,6 @@
-//! The law of [`SpatialQuery`]: every implementation answers as brute force does, bit for bit, on scenes made to be
-//! awkward; and the kernels agree with `parry3d`, written by others.
+//! Every implementation of [`SpatialQuery`] gives the answers of brute force, bit for bit, on degenerate scenes; and
+//! the kernels
+//! agree with `parry3d`, an independent library.
 
 use cosfly_frames::simd::Level;
 use cosfly_frames::{DVec3, RandomStream, Seed, real};
@@ -15,7 +16,7 @@ fn point(stream: &mut RandomStream, reach_m: f64) -> DVec3 {
     DVec3::new(one(), one(), one())
 }
 
-/// Whole-metre coordinates, so that rays run along faces, edges and corners.
+/// Integer coordinates in metres, so that rays run along faces, edges and corners.
 fn grid_point(stream: &mut RandomStream, reach: i64) -> DVec3 {
     let mut one = || (stream.index(2 * reach as usize + 1) as i64 - reach) as f64;
     DVec3::new(one(), one(), one())

@@ -1,4 +1,5 @@
-//! The law again where planners ask: towns of thousands of boxes, body points seen from cameras, far origins, edges.
+//! The same test for the planner's queries: towns of thousands of boxes, body points seen from cameras, far origins,
+//! edges.
 
 use cosfly_frames::simd::Level;
 use cosfly_frames::{DVec3, RandomStream, Seed};
@@ -8,7 +9,7 @@ fn random(seed: u64) -> RandomStream {
     Seed::of_item(seed, "geometry", "towns").stream("scene")
 }
 
-/// Houses, trunks and crowns on whole and on odd coordinates, some turned, about `origin`.
+/// Houses, trunks and crowns on integer and on random coordinates, some rotated, around `origin`.
 fn town(stream: &mut RandomStream, count: usize, origin: DVec3, turned_share: f64) -> Vec<OrientedBox> {
     let side_m = 9.0 * (count as f64).sqrt();
     (0..count)
@@ -27,7 +28,7 @@ fn town(stream: &mut RandomStream, count: usize, origin: DVec3, turned_share: f6
         .collect()
 }
 
-/// A camera above and eight points of a body, every fourth time on whole coordinates and along an axis.
+/// A camera above eight points of a body; every fourth view has integer coordinates along an axis.
 fn view(stream: &mut RandomStream, side_m: f64, origin: DVec3, kind: usize) -> (DVec3, [DVec3; 8]) {
     let mut feet = DVec3::new(stream.uniform(0.0, side_m), stream.uniform(0.0, side_m), 0.0);
     let mut camera =

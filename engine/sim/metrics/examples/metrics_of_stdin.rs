@@ -1,4 +1,4 @@
-//! Metrics of a JSON document on standard input, as JSON: what the outside check compares with other people's software.
+//! Metrics of a JSON document on standard input, as JSON; the outside check compares them with independent software.
 
 use cosfly_frames::{DVec3, Pose};
 use cosfly_metrics::detection::{ImageDetections, average_precision};

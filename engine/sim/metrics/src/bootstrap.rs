@@ -1,18 +1,21 @@
-//! Intervals by resampling whole trajectories: windows of one flight overlap and resemble each other, so resampling
-//! windows would make the intervals too narrow.
+//! Bootstrap intervals by resampling whole trajectories: windows of one flight overlap and are correlated, so
+//! resampling windows
+//! would give too narrow intervals.
 
 use crate::scores::{COUNT, Tally};
 use cosfly_random::Seed;
 
-/// The default number of resamples.
+/// Default number of resamples.
 pub const RESAMPLES: usize = 1000;
 
-/// The middle 95 % of a score over resamples, `None` where it is not defined.
+/// Central 95 % of each score over resamples, `None` where it is not defined.
 pub type Intervals = [Option<(f64, f64)>; COUNT];
 
-/// 95 % percentile intervals of all scores. Every resample draws as many of `clusters` as there are, with
-/// replacement, and takes the means over all that the drawn ones counted. The draws depend on `seed` and the number
-/// of clusters alone, so that methods scored on the same clusters are resampled alike.
+/// 95 % percentile intervals of all scores. Every resample draws as many of `clusters` as there are, with replacement,
+/// and
+/// computes the means over all windows of the drawn ones. The draws depend on `seed` and the number of clusters only,
+/// so that
+/// methods scored on the same clusters are resampled alike.
 pub fn intervals(clusters: &[Tally], resamples: usize, seed: u64) -> Intervals {
     let merged = merged(clusters);
     let found = resampled(merged.len(), resamples, seed, COUNT, &mut |times| {
@@ -26,11 +29,11 @@ pub fn intervals(clusters: &[Tally], resamples: usize, seed: u64) -> Intervals {
     core::array::from_fn(|_| found.next().flatten())
 }
 
-/// Clusters that are resampled at most; more are put together, so that a million windows take no longer. The spread of
-/// [`MOST_CLUSTERS`] sums of several clusters says the same of the spread of the mean, to some percent of its width.
+/// Most clusters that are resampled; further ones are merged, so that a million windows take no longer. The spread of
+/// [`MOST_CLUSTERS`] sums of several clusters estimates the spread of the mean to some percent of its width.
 pub const MOST_CLUSTERS: usize = 1000;
 
-/// At most [`MOST_CLUSTERS`] tallies with the same total.
+/// Merges tallies to at most [`MOST_CLUSTERS`] with the same total.
 fn merged(clusters: &[Tally]) -> Vec<Tally> {
     let mut merged = clusters[..clusters.len().min(MOST_CLUSTERS)].to_vec();
     for (place, cluster) in clusters.iter().enumerate().skip(MOST_CLUSTERS) {
@@ -39,7 +42,8 @@ fn merged(clusters: &[Tally]) -> Vec<Tally> {
     merged
 }
 
-/// 95 % percentile intervals of `scores` numbers that `score` makes of how often each of `clusters` clusters was drawn.
+/// 95 % percentile intervals of `scores` numbers that `score` computes from how often each of `clusters` clusters was
+/// drawn.
 pub fn resampled(
     clusters: usize,
     resamples: usize,
@@ -67,7 +71,7 @@ pub fn resampled(
     found.into_iter().map(interval).collect()
 }
 
-/// The `share` quantile of sorted values, linear between neighbours (numpy's default); 0 of none.
+/// The `share` quantile of sorted values, linear between neighbours (numpy's default); 0 for an empty list.
 pub fn quantile(sorted: &[f64], share: f64) -> f64 {
     let Some(last) = sorted.len().checked_sub(1) else { return 0.0 };
     let place = share.clamp(0.0, 1.0) * last as f64;

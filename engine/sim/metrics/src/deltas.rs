@@ -1,30 +1,31 @@
-//! From the increments that a model predicts to waypoints.
+//! Waypoints from predicted increments.
 
 use cosfly_frames::{Pose, action};
 use serde::Serialize;
 
-/// Axes of increments (dx, dy, dz in metres, dpitch, dyaw, droll in degrees). The paper does not say which ones it
-/// means; the `frames` and `waypoints` tables hold actions in both.
+/// Axes of increments (dx, dy, dz in metres, dpitch, dyaw, droll in degrees). The paper does not specify them; the
+/// `frames` and
+/// `waypoints` tables hold actions in both.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "snake_case")]
 pub enum DeltaFrame {
     /// The world's axes; angles are differences of pitch, yaw and roll.
     World,
-    /// The body's axes of the pose that the increment starts from: x ahead, y right, z up.
+    /// The body axes of the pose where the increment starts: x ahead, y right, z up.
     Body,
 }
 
-/// The pose that an increment starts from.
+/// Pose where an increment starts.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "snake_case")]
 pub enum DeltaOrigin {
-    /// The waypoint before: increments add up, as actions do.
+    /// The preceding waypoint: increments add up, as actions do.
     Previous,
-    /// The current pose, for all of them.
+    /// The current pose, for all increments.
     Current,
 }
 
-/// Writes into `waypoints` the poses that `deltas` lead to from `current`.
+/// Writes the waypoints reached from `current` by `deltas` into `waypoints`.
 pub fn waypoints(
     current: &Pose,
     deltas: &[[f64; 6]],

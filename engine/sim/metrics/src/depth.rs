@@ -1,22 +1,24 @@
 //! Metrics of depth images: AbsRel, RMSE and delta1 (paper, table "Downstream task transfer").
 
-/// Smallest depth that predictions are raised to, metres.
+/// Lower limit to which predictions are clamped, metres.
 pub const MIN_DEPTH_M: f64 = 1e-3;
 
-/// Scores of one image, or means of them over images. The paper does not say how it masks and averages; here pixels
-/// count whose true depth is finite, positive and at most the cap, predictions are clamped to [0.001 m, cap], and
-/// every image weighs the same.
+/// Scores of one image, or means of them over images. The paper does not specify mask and average; here pixels are
+/// scored whose
+/// true depth is finite, positive and at most the cap, predictions are clamped to [0.001 m, cap], and every image has
+/// the same
+/// weight.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct DepthScores {
     /// Mean of |predicted - true| / true.
     pub abs_rel: f64,
-    /// Root of the mean squared difference, metres.
+    /// Root mean squared difference, metres.
     pub rmse_m: f64,
     /// Share of pixels with max(predicted / true, true / predicted) < 1.25.
     pub delta1: f64,
 }
 
-/// Scores of an image; `None` when no pixel counts. A prediction that is not a number counts as the cap.
+/// Scores of an image; `None` when no pixel is scored. A NaN in the prediction counts as the cap.
 pub fn depth_scores(predicted_m: &[f32], true_m: &[f32], cap_m: f64) -> Option<DepthScores> {
     let (mut sum, mut pixels) = (DepthScores::default(), 0_u64);
     for (predicted, truth) in predicted_m.iter().zip(true_m) {

@@ -1,46 +1,46 @@
 //! Average precision as COCO defines it: matching by overlap, interpolated at 101 recalls.
 
-/// Detections that count per image, the ones with the best scores.
+/// Most detections scored per image, those with the best scores.
 pub const MAX_DETECTIONS: usize = 100;
 
-/// Overlaps that COCO averages over: 0.5, 0.55 ... 0.95.
+/// Number of overlaps that COCO averages over: 0.5, 0.55 ... 0.95.
 pub const THRESHOLDS: usize = 10;
 
-/// Detections of one class in one image, and how they overlap what is there.
+/// Detections of one class in one image, and their overlaps with the true objects.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct ImageDetections {
     /// Score of each detection.
     pub scores: Vec<f64>,
-    /// Intersection over union: row per detection, column per true object. Of boxes or of masks.
+    /// Intersection over union of boxes or masks: a row per detection, a column per true object.
     pub overlaps: Vec<Vec<f64>>,
-    /// True objects.
+    /// Number of true objects.
     pub objects: usize,
 }
 
 /// Average precisions over images.
 #[derive(Clone, Debug, PartialEq)]
 pub struct AveragePrecision {
-    /// At an overlap of 0.5.
+    /// Average precision at an overlap of 0.5.
     pub ap50: f64,
-    /// At 0.75.
+    /// Average precision at an overlap of 0.75.
     pub ap75: f64,
     /// Mean over overlaps 0.5, 0.55 ... 0.95: COCO's AP.
     pub ap: f64,
 }
 
-/// A detection that counts.
+/// A scored detection.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Ranked {
-    /// Confidence of the detection.
+    /// Score of the detection.
     pub score: f64,
-    /// Which images are drawn together with its own.
+    /// Cluster of its image; images of one cluster are resampled together.
     pub cluster: u32,
-    /// Bit k: it found an object at overlap k of the ten that no better one had found.
+    /// Bit k: at overlap k of the ten it matches an object that no better detection matches.
     pub hits: u16,
 }
 
 impl ImageDetections {
-    /// The detections that count, best first.
+    /// Scored detections, best first.
     pub fn ranked(&self, cluster: u32) -> Vec<Ranked> {
         let mut order: Vec<usize> = (0..self.scores.len().min(self.overlaps.len())).collect();
         order.sort_by(|a, b| self.scores[*b].total_cmp(&self.scores[*a]));
@@ -65,7 +65,7 @@ impl ImageDetections {
         found
     }
 
-    /// Sum over the objects of the overlap of the detection that overlaps each most.
+    /// Sum over the objects of the largest overlap with a detection.
     pub fn best_overlaps(&self) -> f64 {
         let best = |object: usize| self.overlaps.iter().filter_map(|row| row.get(object)).copied().fold(0.0, f64::max);
         (0..self.objects).map(best).sum()
@@ -76,14 +76,14 @@ impl ImageDetections {
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Ranking {
     cluster: Vec<u32>,
-    /// Places of the hits at each overlap.
+    /// Indices of the hits at each overlap.
     hits: [Vec<u32>; THRESHOLDS],
-    /// True objects by cluster.
+    /// Numbers of true objects by cluster.
     objects: Vec<u64>,
 }
 
 impl Ranking {
-    /// Of detections in the order of their images, and the number of true objects by cluster.
+    /// Ranks detections, given in the order of their images; `objects` are the numbers of true objects by cluster.
     pub fn new(mut found: Vec<Ranked>, objects: Vec<u64>) -> Self {
         found.sort_by(|a, b| b.score.total_cmp(&a.score));
         let at = |bit: usize| {
@@ -93,7 +93,7 @@ impl Ranking {
         Self { hits: core::array::from_fn(at), cluster: found.iter().map(|ranked| ranked.cluster).collect(), objects }
     }
 
-    /// Average precision when cluster k counts `times(k)` times; `None` without any object.
+    /// Average precision when cluster k counts `times(k)` times; `None` without objects.
     pub fn precision(&self, times: &dyn Fn(usize) -> u64) -> Option<AveragePrecision> {
         let weights: Vec<u64> = (0..self.objects.len()).map(times).collect();
         let objects: u64 = self.objects.iter().zip(&weights).map(|(objects, times)| objects * times).sum();
@@ -120,7 +120,7 @@ impl Ranking {
     }
 }
 
-/// Mean over 101 recalls of the best precision at this recall or more; `curve` has recall and precision at every hit.
+/// Mean over 101 recalls of the best precision at this recall or above; `curve` has recall and precision at every hit.
 fn interpolated(curve: &mut [(f64, f64)]) -> f64 {
     for number in (1..curve.len()).rev() {
         curve[number - 1].1 = curve[number - 1].1.max(curve[number].1);
@@ -136,12 +136,12 @@ fn interpolated(curve: &mut [(f64, f64)]) -> f64 {
     sum / 101.0
 }
 
-/// The ten overlaps.
+/// Overlaps 0.5, 0.55 ... 0.95.
 fn thresholds() -> [f64; THRESHOLDS] {
     core::array::from_fn(|k| if k == 9 { 0.95 } else { 0.5 + k as f64 * ((0.95 - 0.5) / 9.0) })
 }
 
-/// Average precision of one class; `None` when there is no object at all.
+/// Average precision of one class; `None` without objects.
 pub fn average_precision(images: &[ImageDetections]) -> Option<AveragePrecision> {
     let objects = images.iter().map(|image| image.objects as u64).sum();
     Ranking::new(images.iter().flat_map(|image| image.ranked(0)).collect(), vec![objects]).precision(&|_| 1)

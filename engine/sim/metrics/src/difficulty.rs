@@ -1,43 +1,43 @@
-//! Which windows are easy, medium and hard, from stated features.
+//! Difficulty of windows, from defined features.
 
 use cosfly_frames::{DVec3, Pose, real};
 use serde::Serialize;
 
-/// Difficulty of a window.
+/// Difficulty of predicting a window.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Difficulty {
-    /// Nothing much happens.
+    /// All features are below [`EASY_BELOW`].
     Easy,
-    /// Neither easy nor hard.
+    /// All other windows.
     Medium,
-    /// A tight turn, a change of height, a fast drone or a target out of sight.
+    /// A feature reaches [`HARD_FROM`]: a tight turn, a change of height, a fast drone or an occluded target.
     Hard,
 }
 
-/// The frames that a window's difficulty depends on: all of the window's, of the expert.
+/// Features of a window's difficulty, over all of its frames, of the expert.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
 pub struct WindowFeatures {
-    /// Turns of the target's walking direction added up, degrees.
+    /// Sum of the turns of the target's walking direction, degrees.
     pub turn_deg: f64,
-    /// Highest minus lowest place of the expert, metres.
+    /// Difference of the highest and lowest position of the expert, metres.
     pub height_change_m: f64,
-    /// Frames in which the expert sees less than half of the target, 0..=1.
+    /// Share of frames in which the expert sees less than half of the target, 0..=1.
     pub occluded_share: f64,
     /// Mean speed of the expert, m/s.
     pub speed_mps: f64,
-    /// Largest distance of the target from its first place, metres.
+    /// Largest distance of the target from its first position, metres.
     pub target_way_m: f64,
 }
 
-/// Frames of a window, as many of each.
+/// Frames of a window; all lists have the same length.
 #[derive(Clone, Copy, Debug)]
 pub struct WindowFrames<'a> {
-    /// The expert's poses.
+    /// Poses of the expert.
     pub expert: &'a [Pose],
-    /// The target's feet.
+    /// Positions of the target's feet, metres.
     pub feet: &'a [DVec3],
-    /// The target's walking direction, radians.
+    /// Walking directions of the target, radians.
     pub heading_rad: &'a [f64],
     /// Share of the target that the expert sees, 0..=1.
     pub visible: &'a [f64],
@@ -45,14 +45,14 @@ pub struct WindowFrames<'a> {
     pub dt_s: f64,
 }
 
-/// Below all of these a window is easy: degrees, metres, share of frames, m/s.
+/// Upper limits of an easy window, all of which must hold: degrees, metres, share of frames, m/s.
 pub const EASY_BELOW: [f64; 4] = [30.0, 0.5, 0.05, 2.0];
 
-/// From any of these on it is hard.
+/// Lower limits of a hard window, one of which suffices: degrees, metres, share of frames, m/s.
 pub const HARD_FROM: [f64; 4] = [90.0, 2.5, 0.5, 4.0];
 
 impl WindowFeatures {
-    /// The features of a window.
+    /// Features of a window.
     pub fn of(frames: &WindowFrames<'_>) -> Self {
         let turns = frames.heading_rad.windows(2).map(|pair| real::wrap_angle_rad(pair[1] - pair[0]).abs());
         let heights = frames.expert.iter().map(|pose| pose.position_in_world.z);
@@ -70,8 +70,9 @@ impl WindowFeatures {
         }
     }
 
-    /// Hard from any of [`HARD_FROM`] on, easy below all of [`EASY_BELOW`], otherwise medium. The paper names "tight
-    /// turns and height changes" only; features and borders are ours.
+    /// Hard from any of [`HARD_FROM`] on, easy below all of [`EASY_BELOW`], otherwise medium. The paper only names
+    /// "tight turns and
+    /// height changes"; features and limits are cosfly's.
     pub fn difficulty(&self) -> Difficulty {
         let values = [self.turn_deg, self.height_change_m, self.occluded_share, self.speed_mps];
         if values.iter().zip(HARD_FROM).any(|(value, from)| *value >= from) {
@@ -83,7 +84,7 @@ impl WindowFeatures {
         }
     }
 
-    /// Whether the target stays within half a metre of its first place.
+    /// Whether the target stays within half a metre of its first position.
     pub fn target_is_static(&self) -> bool {
         self.target_way_m < 0.5
     }

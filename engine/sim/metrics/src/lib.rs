@@ -1,15 +1,16 @@
-//! Windows that models are trained and judged on, the metrics of their predictions, and baselines to beat.
+//! Windows for training and evaluation, metrics of predictions, and baselines.
 //!
-//! Everything is pure arithmetic on poses and pixels; the definitions that the paper leaves open are stated where
-//! they are made, and in the book's page "Metrics". An outside script compares every number with other people's
-//! software (`tests/outside/check_metrics.py`).
+//! All functions are pure arithmetic on poses and pixels. Definitions that the paper leaves open are stated in their
+//! docs and in
+//! the book's page "Metrics". An outside script compares every number with independent software
+//! (`tests/outside/check_metrics.py`).
 //!
-//! * [`windows`]: where the windows of a flight start.
-//! * [`deltas`]: from a model's increments to waypoints.
-//! * [`waypoint`]: errors of waypoints; [`scores`]: the means of them that are reported.
+//! * [`windows`]: starts of the windows of a flight.
+//! * [`deltas`]: waypoints from predicted increments.
+//! * [`waypoint`]: errors of waypoints; [`scores`]: their reported means.
 //! * [`boxes`], [`depth`], [`segmentation`], [`detection`], [`run_lengths`]: metrics of pictures.
 //! * [`bootstrap`]: intervals by resampling whole trajectories.
-//! * [`difficulty`]: which windows are easy, medium and hard.
+//! * [`difficulty`]: easy, medium and hard windows.
 //! * [`baselines`]: predictions that a model must beat.
 
 pub mod baselines;

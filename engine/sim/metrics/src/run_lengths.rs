@@ -1,16 +1,16 @@
-//! Masks as the runs of their pixels down the columns, and COCO's texts of them.
+//! Masks as run lengths of their pixels along columns, and COCO's text encoding of them.
 
 use std::collections::BTreeMap;
 
-/// Sorted, separate runs of places (first, one past the last) of an image that is read column by column.
+/// Sorted, separate runs of pixels (first, one past the last) of an image in column-major order.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Runs(pub Vec<[u32; 2]>);
 
 impl Runs {
-    /// Of COCO's lengths of runs: background first, then by turns. They must fill `pixels` exactly.
+    /// Runs from COCO's run lengths: background first, then alternating. They must fill `pixels` exactly.
     ///
     /// # Errors
-    /// In words, when they do not.
+    /// The violation, in words.
     pub fn of_counts(counts: impl IntoIterator<Item = u64>, pixels: u64) -> Result<Self, String> {
         let (mut runs, mut at): (Vec<[u32; 2]>, u64) = (vec![], 0);
         for (number, count) in counts.into_iter().enumerate() {
@@ -29,16 +29,19 @@ impl Runs {
         if at == pixels { Ok(Self(runs)) } else { Err(format!("the runs have {at} of {pixels} pixels")) }
     }
 
-    /// Of COCO's compressed text: five bits a letter, lowest first; from the fourth number on differences to the
-    /// second before.
+    /// Runs from COCO's compressed text: five bits a character, lowest first; from the fourth number on, differences to
+    /// the second
+    /// number before.
     ///
     /// # Errors
-    /// In words, when the text is none.
+    /// Invalid text, in words.
     pub fn of_text(text: &str, pixels: u64) -> Result<Self, String> {
         let (mut counts, mut value, mut shift) = (Vec::<i64>::new(), 0_i64, 0_u32);
         for letter in text.bytes() {
-            let bits =
-                letter.checked_sub(48).filter(|bits| *bits < 64).ok_or("it has a letter that is none of COCO's")?;
+            let bits = letter
+                .checked_sub(48)
+                .filter(|bits| *bits < 64)
+                .ok_or("it has a character that is not one of COCO's")?;
             if shift > 40 {
                 return Err("it has a number that is too long".to_owned());
             }
@@ -62,12 +65,12 @@ impl Runs {
         Self::of_counts(counts.ok_or("it has a negative run")?, pixels)
     }
 
-    /// Number of pixels.
+    /// Number of pixels of the mask.
     pub fn area(&self) -> u64 {
         self.0.iter().map(|[start, end]| u64::from(end - start)).sum()
     }
 
-    /// Left, top, right and bottom edge in an image of `height` rows; zeros for none.
+    /// Left, top, right and bottom edge in an image of `height` rows; zeros for an empty mask.
     pub fn edges(&self, height: u32) -> [u32; 4] {
         let (mut low, mut high) = ([u32::MAX; 2], [0; 2]);
         for [start, end] in &self.0 {
@@ -96,7 +99,8 @@ impl Runs {
     }
 }
 
-/// Everything but ground and sky (id 0) in row-major images of `width` x `height` pixels, by instance id and label.
+/// Masks of everything but ground and sky (id 0) in row-major images of `width` x `height` pixels, by instance id and
+/// label.
 pub fn things(instance: &[u32], labels: &[u8], [width, height]: [u32; 2]) -> BTreeMap<(u32, u8), Runs> {
     let (width, height) = (width as usize, height as usize);
     let mut found: BTreeMap<(u32, u8), Runs> = BTreeMap::new();
@@ -127,12 +131,13 @@ mod tests {
 
     #[test]
     fn texts_are_those_of_pycocotools() {
-        // What `mask.encode` gives of a 4 x 3 image with the middle column's lower three pixels and the next one's first.
+        // The text that `mask.encode` gives for a 4 x 3 image with the middle column's lower three pixels and the next
+        // one's first.
         let runs = Runs::of_text("543", 12).unwrap();
         assert_eq!((runs.0.clone(), runs.area(), runs.edges(4)), (vec![[5, 9]], 4, [1, 0, 3, 4]));
         assert_eq!(Runs::of_text("T33j2U1XM", 235).unwrap(), Runs::of_counts([100, 3, 90, 40, 2], 235).unwrap());
         for (text, expected) in
-            [("54", "of 12 pixels"), ("5433", "longer"), ("5 3", "none of COCO's"), ("54S", "within")]
+            [("54", "of 12 pixels"), ("5433", "longer"), ("5 3", "not one of COCO's"), ("54S", "within")]
         {
             let why = Runs::of_text(text, 12).unwrap_err();
             assert!(why.contains(expected), "{text}: {why}");

@@ -18,7 +18,7 @@ pub enum Better {
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Unit {
-    /// A share, 0..=1; shown in percent.
+    /// Share, 0..=1; shown in percent.
     Share,
     /// Metres.
     Metres,
@@ -26,20 +26,20 @@ pub enum Unit {
     Degrees,
     /// Metres and degrees in one number.
     Mixed,
-    /// A number without unit, 0..=1.
+    /// Number without unit, 0..=1.
     Plain,
 }
 
-/// A metric's names and meaning.
+/// Names and meaning of a metric.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct Metric {
     /// Key in JSON.
     pub key: &'static str,
     /// Name in tables.
     pub name: &'static str,
-    /// Unit.
+    /// Unit of the values.
     pub unit: Unit,
-    /// Direction.
+    /// Direction of the metric.
     pub better: Better,
     /// Definition in one line.
     pub meaning: &'static str,
@@ -52,7 +52,7 @@ const fn metric(key: &'static str, name: &'static str, unit: Unit, better: Bette
 /// Number of metrics.
 pub const COUNT: usize = 17;
 
-/// Metrics of boxes are the last ones, from here.
+/// Index of the first metric of boxes; these are the last ones.
 pub const FIRST_OF_BOXES: usize = 15;
 
 /// All metrics, in the order of tables.
@@ -82,9 +82,9 @@ pub const METRICS: [Metric; COUNT] = {
             Higher,
             "within 1 m and 5 degrees of yaw at the last waypoint",
         ),
-        metric("mae", "MAE", Mixed, Lower, "mean absolute error of all six dimensions, metres and degrees mixed"),
-        metric("position_mae_m", "MAE position", Metres, Lower, "its part of x, y, z"),
-        metric("rotation_mae_deg", "MAE rotation", Degrees, Lower, "its part of pitch, yaw, roll"),
+        metric("mae", "MAE", Mixed, Lower, "mean absolute error of all six numbers, metres and degrees mixed"),
+        metric("position_mae_m", "MAE position", Metres, Lower, "mean absolute error of x, y, z"),
+        metric("rotation_mae_deg", "MAE rotation", Degrees, Lower, "mean absolute error of pitch, yaw, roll"),
         metric("final_yaw_mae_deg", "Yaw MAE final", Degrees, Lower, "mean absolute yaw error at the last waypoint"),
         metric("hard_fail", "HardFail", Share, Lower, "windows with a final error of more than 10 m"),
         metric("miou", "mIoU", Plain, Higher, "mean intersection over union of predicted and true target boxes"),
@@ -92,19 +92,19 @@ pub const METRICS: [Metric; COUNT] = {
     ]
 };
 
-/// Sums and numbers of values per metric; the means of these are the scores.
+/// Sums and numbers of values per metric; their means are the scores.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Tally {
     /// Sum of the values of each metric.
     pub sums: [f64; COUNT],
-    /// Windows.
+    /// Number of windows.
     pub windows: f64,
-    /// Boxes.
+    /// Number of boxes.
     pub boxes: f64,
 }
 
 impl Tally {
-    /// Counts the waypoints of a window.
+    /// Adds the waypoints of a window.
     pub fn add_window(&mut self, errors: &WaypointErrors) {
         let share = |holds: bool| f64::from(u8::from(holds));
         let (fde, yaw) = (errors.fde_m, errors.final_yaw_deg);
@@ -131,7 +131,7 @@ impl Tally {
         self.windows += 1.0;
     }
 
-    /// Counts a predicted box; none overlaps nothing.
+    /// Adds a predicted box; a missing one has an overlap of 0.
     pub fn add_box(&mut self, predicted: Option<&[f64; 4]>, truth: &[f64; 4]) {
         let overlap = predicted.map_or(0.0, |predicted| iou(predicted, truth));
         self.sums[FIRST_OF_BOXES] += overlap;
@@ -139,12 +139,12 @@ impl Tally {
         self.boxes += 1.0;
     }
 
-    /// Adds all that `other` has counted.
+    /// Adds another tally.
     pub fn add(&mut self, other: &Self) {
         self.add_times(other, 1.0);
     }
 
-    /// Adds all that `other` has counted, `times` over.
+    /// Adds another tally `times` times.
     pub fn add_times(&mut self, other: &Self, times: f64) {
         for (sum, more) in self.sums.iter_mut().zip(&other.sums) {
             *sum += times * more;
@@ -153,7 +153,7 @@ impl Tally {
         self.boxes += times * other.boxes;
     }
 
-    /// The scores; `None` for metrics of which there is nothing.
+    /// Scores; `None` for metrics without values.
     pub fn means(&self) -> [Option<f64>; COUNT] {
         core::array::from_fn(|metric| {
             let number = if metric < FIRST_OF_BOXES { self.windows } else { self.boxes };
@@ -193,13 +193,13 @@ pub const OF_LABELS: [Metric; 2] = {
     ]
 };
 
-/// Metrics of detected boxes or masks: means over the classes that are there.
+/// Metrics of detected boxes or masks: means over the classes with true objects.
 pub const OF_DETECTIONS: [Metric; 4] = {
     use Better::Higher;
     [
         metric("ap50", "AP50", Unit::Share, Higher, "COCO's average precision at an overlap of 0.5"),
-        metric("ap75", "AP75", Unit::Share, Higher, "at an overlap of 0.75"),
-        metric("ap", "AP", Unit::Share, Higher, "mean over overlaps 0.5, 0.55 ... 0.95"),
+        metric("ap75", "AP75", Unit::Share, Higher, "COCO's average precision at an overlap of 0.75"),
+        metric("ap", "AP", Unit::Share, Higher, "COCO's average precision, mean over overlaps 0.5, 0.55 ... 0.95"),
         metric(
             "mean_overlap",
             "mIoU",

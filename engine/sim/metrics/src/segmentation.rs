@@ -1,6 +1,6 @@
 //! Metrics of label images: IoU per class and their mean.
 
-/// Pixels by class: what truth and prediction have in common, and what each of them has.
+/// Numbers of pixels by class: in the intersection, in the truth, and in the prediction.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Confusion {
     common: Vec<u64>,
@@ -9,16 +9,17 @@ pub struct Confusion {
 }
 
 impl Confusion {
-    /// Nothing counted yet, for labels 0..`classes`.
+    /// Creates empty counts for labels 0..`classes`.
     pub fn new(classes: usize) -> Self {
         Self { common: vec![0; classes], truth: vec![0; classes], predicted: vec![0; classes] }
     }
 
-    /// Counts the pixels of an image. A predicted label that is out of range counts as wrong for its true class;
-    /// pixels whose truth is out of range are left out.
+    /// Adds the pixels of an image. A predicted label that is out of range counts as wrong for its true class; pixels
+    /// whose true label
+    /// is out of range are skipped.
     pub fn add(&mut self, predicted: &[u8], truth: &[u8]) {
         let classes = self.truth.len();
-        // Neighbours mostly have the same pair of labels: a run is counted at once.
+        // Neighbouring pixels mostly have the same pair of labels: runs are counted at once.
         let mut run: ([u8; 2], u64) = ([0, 0], 0);
         for pair in predicted.iter().zip(truth).map(|(predicted, truth)| [*predicted, *truth]) {
             if pair == run.0 {
@@ -45,7 +46,7 @@ impl Confusion {
         }
     }
 
-    /// Adds all that `other` has counted, `times` over.
+    /// Adds other counts `times` times.
     pub fn add_times(&mut self, other: &Self, times: u64) {
         for (sum, more) in [
             (&mut self.common, &other.common),
@@ -56,7 +57,7 @@ impl Confusion {
         }
     }
 
-    /// Intersection over union of every class; `None` where it occurs in neither.
+    /// Intersection over union of every class; `None` where it occurs in neither truth nor prediction.
     pub fn class_iou(&self) -> Vec<Option<f64>> {
         let counts = self.common.iter().zip(&self.truth).zip(&self.predicted);
         counts
@@ -73,13 +74,13 @@ impl Confusion {
         (!scores.is_empty()).then(|| scores.iter().sum::<f64>() / scores.len() as f64)
     }
 
-    /// Share of pixels whose label is right.
+    /// Share of pixels with the right label.
     pub fn accuracy(&self) -> Option<f64> {
         let pixels: u64 = self.truth.iter().sum();
         (pixels > 0).then(|| self.common.iter().sum::<u64>() as f64 / pixels as f64)
     }
 
-    /// True pixels of every class.
+    /// Numbers of true pixels by class.
     pub fn true_pixels(&self) -> &[u64] {
         &self.truth
     }
@@ -109,7 +110,7 @@ mod tests {
         assert_eq!(Confusion::new(3).mean_iou(), None);
         let mut confusion = Confusion::new(2);
         confusion.add(&[200, 0], &[0, 0]);
-        assert_eq!(confusion.class_iou(), [Some(0.5), None], "a label out of range is a miss and nothing else");
+        assert_eq!(confusion.class_iou(), [Some(0.5), None], "a label out of range is only a miss");
     }
 
     #[test]

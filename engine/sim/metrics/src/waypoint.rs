@@ -2,9 +2,11 @@
 
 use cosfly_frames::{Pose, real};
 
-/// Errors of the waypoints of one window. The paper defines the metrics in words only; choices where it is
-/// silent: distances are in space (not in plan), angles are compared the short way round, yaw errors and mean
-/// absolute errors are means over all waypoints, and errors are of the poses reached, not of single increments.
+/// Errors of the waypoints of one window. The paper defines the metrics in words only. Choices where it is silent:
+/// distances are
+/// in space (not in plan), angular errors are at most 180 degrees, yaw errors and mean absolute errors are means over
+/// all
+/// waypoints, and errors are of the poses reached, not of single increments.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct WaypointErrors {
     /// Average displacement error: mean distance over the waypoints, metres.
@@ -19,16 +21,18 @@ pub struct WaypointErrors {
     pub position_mae_m: f64,
     /// Mean absolute error of pitch, yaw and roll, degrees.
     pub rotation_mae_deg: f64,
-    /// Mean absolute error of all six: metres and degrees in one number, as in the paper.
+    /// Mean absolute error of all six numbers: metres and degrees mixed, as in the paper.
     pub mae: f64,
 }
 
-/// Difference of two angles the short way round, 0..=180 degrees.
+/// Smallest difference of two angles, 0..=180 degrees.
 pub fn angle_error_deg(a_rad: f64, b_rad: f64) -> f64 {
     real::wrap_angle_rad(a_rad - b_rad).abs().to_degrees()
 }
 
-/// Errors of `predicted` against `truth`; what only one of them has is left out, and nothing in common gives zeros.
+/// Errors of `predicted` against `truth`; waypoints that only one of them has are ignored, and without common waypoints
+/// all
+/// errors are 0.
 pub fn errors(predicted: &[Pose], truth: &[Pose]) -> WaypointErrors {
     let mut sum = WaypointErrors::default();
     let steps = predicted.len().min(truth.len());

@@ -2,33 +2,34 @@
 
 use serde::Serialize;
 
-/// Lengths and stride of windows, frames. A window is `history` frames that a model sees, of the perturbed flight, and
-/// `horizon` frames after them; the expert's frames of all of it are the supervision: the first ones for denoising,
-/// the others for prediction.
+/// Shape of training windows. A window is `history` frames of the perturbed flight, the input of a model, and `horizon`
+/// frames after
+/// them; the expert's frames of the whole window are the supervision: the first ones for denoising, the others for
+/// prediction.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 pub struct WindowShape {
-    /// Frames that a model sees; the last one is the current frame.
+    /// Number of input frames; the last one is the current frame.
     pub history: usize,
-    /// Waypoints that it predicts.
+    /// Number of waypoints to predict.
     pub horizon: usize,
-    /// Frames from one window's start to the next one's.
+    /// Number of frames from the start of a window to the start of the next one.
     pub stride: usize,
 }
 
 impl Default for WindowShape {
-    /// The paper's: size 10, the first 5 as input, stride 3.
+    /// The paper's shape: size 10, the first 5 as input, stride 3.
     fn default() -> Self {
         Self { history: 5, horizon: 5, stride: 3 }
     }
 }
 
 impl WindowShape {
-    /// Frames of a window.
+    /// Number of frames of a window.
     pub fn size(&self) -> usize {
         self.history + self.horizon
     }
 
-    /// Whether windows can be cut at all: at least one frame on both sides, and a step.
+    /// Whether the shape is valid: at least one frame on both sides, and a stride of at least 1.
     pub fn is_possible(&self) -> bool {
         self.history > 0 && self.horizon > 0 && self.stride > 0
     }
@@ -38,13 +39,13 @@ impl WindowShape {
         if !self.is_possible() || frames < self.size() { 0 } else { (frames - self.size()) / self.stride + 1 }
     }
 
-    /// First frames of the windows of a flight of `frames` frames, in order. Windows never reach past its end.
+    /// First frames of the windows of a flight of `frames` frames, in order. Windows never exceed its end.
     pub fn starts(&self, frames: usize) -> impl Iterator<Item = usize> + use<> {
         let stride = self.stride;
         (0..self.count(frames)).map(move |window| window * stride)
     }
 
-    /// Which window starts at frame `start` of a flight of `frames` frames.
+    /// Index of the window that starts at frame `start` of a flight of `frames` frames.
     pub fn number(&self, start: usize, frames: usize) -> Option<usize> {
         let stride = self.stride.max(1);
         (start.is_multiple_of(stride) && start / stride < self.count(frames)).then_some(start / stride)

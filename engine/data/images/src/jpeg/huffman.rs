@@ -3,20 +3,20 @@
 use super::transform::{Coefficients, LANES};
 use cosfly_frames::simd_kernel;
 
-/// How many codes have each length, and the symbols in the order of their codes.
+/// Numbers of codes of each length, and the symbols in the order of their codes.
 pub struct CodeTable {
-    /// Codes of 1 to 16 bits.
+    /// Numbers of codes of 1 to 16 bits.
     pub counts: [u8; 16],
     /// Symbols.
     pub symbols: &'static [u8],
 }
 
-/// Tables of DC and AC coefficients, luma and chroma.
+/// Tables of DC coefficients, luma and chroma.
 pub const DC: [CodeTable; 2] = [
     CodeTable { counts: [0, 1, 5, 1, 1, 1, 1, 1, 1, 0, 0, 0, 0, 0, 0, 0], symbols: &DC_SYMBOLS },
     CodeTable { counts: [0, 3, 1, 1, 1, 1, 1, 1, 1, 1, 1, 0, 0, 0, 0, 0], symbols: &DC_SYMBOLS },
 ];
-/// See [`DC`].
+/// Tables of AC coefficients, luma and chroma.
 pub const AC: [CodeTable; 2] = [
     CodeTable { counts: [0, 2, 1, 3, 3, 2, 4, 3, 5, 5, 4, 4, 0, 0, 1, 0x7d], symbols: &AC_LUMA_SYMBOLS },
     CodeTable { counts: [0, 2, 1, 2, 4, 4, 3, 4, 7, 5, 4, 4, 0, 1, 2, 0x77], symbols: &AC_CHROMA_SYMBOLS },
@@ -52,7 +52,7 @@ const AC_CHROMA_SYMBOLS: [u8; 162] = [
 const END: usize = 0x00;
 const SIXTEEN_ZEROS: usize = 0xf0;
 
-/// The code of each symbol.
+/// Code of each symbol.
 pub struct Codes {
     /// Code above [`LENGTH_BITS`] bits of its length.
     entries: [u32; 256],
@@ -61,7 +61,7 @@ pub struct Codes {
 const LENGTH_BITS: u32 = 8;
 
 impl Codes {
-    /// Codes are counted up, shortest first.
+    /// Assigns codes in increasing order, shortest first.
     pub fn of(table: &CodeTable) -> Self {
         let mut codes = Self { entries: [0; 256] };
         let (mut next, mut symbols) = (0u32, table.symbols.iter());
@@ -75,7 +75,7 @@ impl Codes {
         codes
     }
 
-    /// Code and length.
+    /// Code of a symbol, and its length in bits.
     #[inline(always)]
     fn get(&self, symbol: usize) -> (u32, u32) {
         let entry = self.entries[symbol % 256];
@@ -83,32 +83,32 @@ impl Codes {
     }
 }
 
-/// Most bytes that one block can take: 64 codes of 16 bits with 11 bits each.
+/// Most bytes of one block: 64 codes of 16 bits with 11 bits each.
 const BLOCK_BYTES: usize = 64 * 27 / 8;
-/// Most bytes of [`LANES`] blocks of three components, and what is written ahead of the end.
+/// Most bytes of [`LANES`] blocks of three components, and the bytes written ahead of the end.
 const ROOM_BYTES: usize = 3 * LANES * BLOCK_BYTES + 16;
 
-/// Bits on their way into a file.
+/// Writer of bits into a file.
 pub struct BitWriter {
-    /// The highest `held` (less than 8) bits wait for company; the others are 0.
+    /// Bits not written yet: the highest `held` (less than 8) bits; the others are 0.
     bits: u64,
     held: u32,
-    /// What was written since the last [`Self::flush`].
+    /// Bytes written since the last [`Self::flush`].
     room: [u8; ROOM_BYTES],
     written: usize,
 }
 
 impl BitWriter {
-    /// Nothing written.
+    /// Writer with nothing written.
     pub const EMPTY: Self = Self { bits: 0, held: 0, room: [0; ROOM_BYTES], written: 0 };
 
-    /// Moves what was written to `output`.
+    /// Moves the bytes written so far to `output`.
     pub fn flush(&mut self, output: &mut Vec<u8>) {
         put_stuffed(&self.room[..self.written], output);
         self.written = 0;
     }
 
-    /// Fills the last byte with ones and ends.
+    /// Pads the last byte with ones and moves all bytes to `output`.
     pub fn finish(mut self, output: &mut Vec<u8>) {
         self.flush(output);
         if self.held > 0 {
@@ -118,7 +118,7 @@ impl BitWriter {
     }
 }
 
-/// Appends `bytes`, each byte of ones followed by a byte of zeros, as the standard demands.
+/// Appends `bytes`, each 0xFF followed by a 0x00 (byte stuffing of the standard).
 fn put_stuffed(bytes: &[u8], output: &mut Vec<u8>) {
     for chunk in bytes.chunks(32) {
         if chunk.iter().fold(false, |any, byte| any | (*byte == 0xff)) {
@@ -135,8 +135,9 @@ fn put_stuffed(bytes: &[u8], output: &mut Vec<u8>) {
 }
 
 simd_kernel! {
-    /// Appends the first `lanes` blocks of all components; `previous_dc` are the DC values of the blocks before. May be
-    /// called once between two calls of [`BitWriter::flush`].
+    /// Appends the first `lanes` blocks of all components; `previous_dc` are the DC values of the preceding blocks. May
+    /// be called
+    /// once between two calls of [`BitWriter::flush`].
     pub fn write_blocks(
         writer: &mut BitWriter,
         coefficients: &[Coefficients; 3],
@@ -190,8 +191,9 @@ impl OpenBits<'_> {
         }
     }
 
-    /// Appends a code and the bits after it. There is no branch to be foreseen wrongly: eight bytes are written every
-    /// time, and as many of them count as are full.
+    /// Appends a code and the bits after it. No branch can be mispredicted: eight bytes are written every time, and the
+    /// full ones
+    /// are counted.
     #[inline(always)]
     fn symbol(&mut self, codes: &Codes, symbol: usize, bits: u32, size: u32) {
         let (code, length) = codes.get(symbol);
@@ -207,7 +209,7 @@ impl OpenBits<'_> {
     }
 }
 
-/// The bits that say which value of its size a coefficient has, and that size.
+/// Additional bits of a coefficient within its size category, and that category.
 #[inline(always)]
 fn magnitude(value: i32) -> (u32, u32) {
     let sign = value >> 31;

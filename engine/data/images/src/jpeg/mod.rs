@@ -15,7 +15,7 @@ pub const MAX_SIDE: u32 = 65_535;
 static CODES: LazyLock<[[Codes; 2]; 2]> =
     LazyLock::new(|| [[Codes::of(&DC[0]), Codes::of(&AC[0])], [Codes::of(&DC[1]), Codes::of(&AC[1])]]);
 
-/// The standard's example steps (Annex K.1) for quality 50, row by row: luma, chroma.
+/// Example steps of the standard (Annex K.1) for quality 50, row by row: luma, chroma.
 #[rustfmt::skip]
 const STEPS: [[u16; 64]; 2] = [
     [
@@ -28,7 +28,8 @@ const STEPS: [[u16; 64]; 2] = [
     ],
 ];
 
-/// Fills `file` with a JPEG file of row-major sRGB pixels, without chroma subsampling; `quality` is libjpeg's, 1 to 100.
+/// Fills `file` with a JPEG file of row-major sRGB pixels, without chroma subsampling; `quality` is libjpeg's, 1 to
+/// 100.
 ///
 /// `rgb` must hold `3 * width * height` bytes, and both sides must be 1 to [`MAX_SIDE`].
 pub fn encode(rgb: &[u8], width: u32, height: u32, quality: u8, file: &mut Vec<u8>) {
@@ -70,7 +71,7 @@ fn encode_at(level: Level, rgb: &[u8], width: u32, height: u32, quality: u8, fil
     file.extend_from_slice(&[0xff, 0xd9]);
 }
 
-/// The bytes of `image_row` from `start` on; beyond its end, its last pixel again and again.
+/// Copies the pixels of `image_row` from `start` on; beyond its end, repeats its last pixel.
 fn copy_pixels(image_row: &[u8], start: usize, row: &mut [u8; ROW_BYTES]) {
     let there = &image_row[start..image_row.len().min(start + ROW_BYTES)];
     row[..there.len()].copy_from_slice(there);
@@ -78,7 +79,7 @@ fn copy_pixels(image_row: &[u8], start: usize, row: &mut [u8; ROW_BYTES]) {
     row[there.len()..].chunks_exact_mut(3).for_each(|pixel| pixel.copy_from_slice(last));
 }
 
-/// libjpeg's scaling of the example steps, in zigzag order.
+/// Example steps scaled as in libjpeg, in zigzag order.
 fn scaled_steps(steps: &[u16; 64], quality: u8) -> [u8; 64] {
     let quality = u32::from(quality.clamp(1, 100));
     let percent = if quality < 50 { 5000 / quality } else { 200 - 2 * quality };
@@ -88,7 +89,7 @@ fn scaled_steps(steps: &[u16; 64], quality: u8) -> [u8; 64] {
     })
 }
 
-/// Everything before the entropy-coded bits: JFIF, steps, size, code tables, start of scan.
+/// Writes everything before the entropy-coded bits: JFIF, steps, size, code tables, start of scan.
 fn write_head(file: &mut Vec<u8>, width: u16, height: u16, steps: &[[u8; 64]; 2]) {
     file.extend_from_slice(&[0xff, 0xd8]);
     segment(file, 0xe0, &[b"JFIF\0", &[1, 1, 0, 0, 1, 0, 1, 0, 0]]);
@@ -118,7 +119,7 @@ mod tests {
     use cosfly_frames::Seed;
     use std::io::Cursor;
 
-    /// Gradients, edges and noise.
+    /// Test picture with gradients, edges and noise.
     fn picture(width: u32, height: u32) -> Vec<u8> {
         let mut random = Seed([3; 32]).stream("picture");
         let mut rgb = vec![];
@@ -145,7 +146,7 @@ mod tests {
         (pixels, width, height)
     }
 
-    /// Root of the mean squared difference.
+    /// Root mean squared difference.
     fn error(a: &[u8], b: &[u8]) -> f64 {
         assert_eq!(a.len(), b.len());
         let sum: f64 =

@@ -1,11 +1,12 @@
 //! From pixels to quantised coefficients, sixteen neighbouring blocks at a time.
 //!
-//! Every vector lane is a block: no step moves data between lanes, so that plain loops over lanes become vector code.
-//! Sums and products of floats in a written order give the same bits on every processor.
+//! Every vector lane is a block: no step moves data between lanes, so that compilers vectorise plain loops over lanes.
+//! Sums
+//! and products of floats in a written order give the same bits on every processor.
 
 use cosfly_frames::simd_kernel;
 
-/// Blocks that are transformed at once.
+/// Number of blocks transformed at once.
 pub const LANES: usize = 16;
 /// Bytes of one row of pixels of all lanes.
 pub const ROW_BYTES: usize = 24 * LANES;
@@ -17,15 +18,15 @@ type Lane<T> = [T; LANES];
 /// 64 values per block, row by row.
 type Blocks = [Lane<f32>; 64];
 
-/// Room for the components of a strip: clearing it anew for each would take a tenth of the time.
+/// Buffers for the components of a strip: clearing them anew for each would take a tenth of the time.
 pub struct Planes([Blocks; 3]);
 
 impl Planes {
-    /// Nothing in it.
+    /// Zeroed buffers.
     pub const ZERO: Self = Self([[[0.0; LANES]; 64]; 3]);
 }
 
-/// Position in a row-by-row block of the coefficients in their order of storage.
+/// Position in a row-by-row block of each coefficient in zigzag order.
 pub const ZIGZAG: [u8; 64] = [
     0, 1, 8, 16, 9, 2, 3, 10, 17, 24, 32, 25, 18, 11, 4, 5, 12, 19, 26, 33, 40, 48, 41, 34, 27, 20, 13, 6, 7, 14, 21,
     28, 35, 42, 49, 56, 57, 50, 43, 36, 29, 22, 15, 23, 30, 37, 44, 51, 58, 59, 52, 45, 38, 31, 39, 46, 53, 60, 61, 54,
@@ -35,14 +36,14 @@ pub const ZIGZAG: [u8; 64] = [
 /// Quantised coefficients of [`LANES`] blocks of one component.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Coefficients {
-    /// In zigzag order.
+    /// Coefficients in zigzag order.
     pub values: [Lane<i32>; 64],
     /// Bit k says that coefficient k of a block is not 0; the first 32, then the others.
     occupied: [Lane<u32>; 2],
 }
 
 impl Coefficients {
-    /// All zero.
+    /// All coefficients 0.
     pub const ZERO: Self = Self { values: [[0; LANES]; 64], occupied: [[0; LANES]; 2] };
 
     /// Bit k says that coefficient k of block `lane` is not 0.
@@ -52,7 +53,7 @@ impl Coefficients {
     }
 }
 
-/// What a coefficient of [`forward_dct`] is multiplied by, in zigzag order: the quantiser step and the transform's scale.
+/// Factors of the coefficients of [`forward_dct`], in zigzag order: the quantiser step and the transform's scale.
 pub fn factors(steps: &[u8; 64]) -> [f32; 64] {
     // Arai, Agui and Nakajima leave a factor of 2 sqrt(2) cos(k pi / 16) per direction, and 1 for k = 0.
     const SCALES: [f64; 8] = [
@@ -72,7 +73,7 @@ pub fn factors(steps: &[u8; 64]) -> [f32; 64] {
 }
 
 simd_kernel! {
-    /// Colours, transforms and quantises a strip; `factors` are those of luma and chroma.
+    /// Converts colours, transforms and quantises a strip; `factors` are those of luma and chroma.
     pub fn transform(
         strip: &Strip<'_>,
         factors: &[[f32; 64]; 2],
@@ -87,10 +88,10 @@ simd_kernel! {
     }
 }
 
-/// Luma and chroma (ITU-R BT.601, full range), luma moved to -128..128.
+/// Converts to luma and chroma (ITU-R BT.601, full range), luma shifted to -128..128.
 #[inline(always)]
 fn colour(strip: &Strip<'_>, planes: &mut [Blocks; 3]) {
-    // The rows of all blocks as words, through memory: lane by lane into vector registers would take far longer.
+    // The rows of all blocks as words, through memory: filling vector registers lane by lane would take far longer.
     let mut words = [[[0u64; LANES]; 3]; 8];
     for (words, bytes) in words.iter_mut().zip(strip) {
         for (lane, pixels) in bytes.as_chunks::<24>().0.iter().enumerate() {
@@ -132,7 +133,7 @@ fn pixel_of_row<const X: usize>(words: &[Lane<u32>; 6], row: usize, planes: &mut
     }
 }
 
-/// The cosine transform in both directions, up to the scales of [`factors`].
+/// Cosine transform in both directions, up to the scales of [`factors`].
 #[expect(clippy::needless_range_loop, reason = "one loop over lanes reads and writes several arrays")]
 #[inline(always)]
 fn forward_dct(blocks: &mut Blocks) {
@@ -182,15 +183,16 @@ fn dct_of_eight(v: [f32; 8]) -> [f32; 8] {
     ]
 }
 
-/// Adding this to a float below 2^22 and taking its bits rounds it to the nearest integer, ties to even.
+/// Adding this to a float below 2^22 and taking the bits of the sum rounds it to the nearest integer, ties to even.
 const ROUNDER: f32 = 12_582_912.0;
 
 #[inline(always)]
 fn quantise(blocks: &Blocks, factors: &[f32; 64], coefficients: &mut Coefficients) {
     for half in 0..2 {
         let mut occupied = [0u32; LANES];
-        // A bit that is shifted on from coefficient to coefficient keeps compilers from taking sixteen coefficients of
-        // one lane together, which they would have to gather and scatter.
+        // A bit that is shifted from coefficient to coefficient keeps compilers from combining sixteen coefficients of
+        // one lane, which
+        // would need gathers and scatters.
         let mut bit = 1u32;
         for k in 32 * half..32 * half + 32 {
             let (block, factor) = (&blocks[usize::from(ZIGZAG[k])], factors[k]);

@@ -1,4 +1,4 @@
-//! Detections as COCO writes results (a JSON array) or as JSON lines of the same objects, row by row.
+//! Detections in COCO's format of results (a JSON array) or as JSON lines of the same objects, row by row.
 
 use super::RowProblem;
 use cosfly_diagnose::{Diagnostic, Fault, Result};
@@ -9,51 +9,51 @@ use serde_json::Value;
 use std::fmt;
 use std::path::Path;
 
-/// Where a detection was made.
+/// Image of a detection.
 #[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum ImageKey {
-    /// By a number that a list of images explains.
+    /// Number of an image in a COCO list of images.
     Number(i64),
-    /// By flight and frame.
+    /// Trajectory id and frame.
     Frame(String, u64),
 }
 
 /// A mask with the size of its image, `[width, height]`.
 #[derive(Clone, Debug, PartialEq)]
 pub struct DetectedMask {
-    /// Its pixels.
+    /// Pixels of the mask.
     pub runs: Runs,
-    /// Of its image.
+    /// Size of the image.
     pub size: [u32; 2],
 }
 
-/// A detection that could be read.
+/// A valid detection.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Detection {
-    /// Line of the file, or place in its array, from 1.
+    /// Line of the file, or index in its array, from 1.
     pub line: u64,
-    /// Its picture.
+    /// Image of the detection.
     pub image: ImageKey,
-    /// CARLA's label.
+    /// CARLA's label id.
     pub category: i64,
-    /// How sure the model is.
+    /// Confidence score.
     pub score: f64,
-    /// Left, top, right and bottom edge, pixels.
+    /// Left, top, right, bottom edge, pixels.
     pub edges: Option<[f64; 4]>,
-    /// Its mask.
+    /// Mask of the detection.
     pub mask: Option<DetectedMask>,
 }
 
-/// What is in a file, in its order.
+/// Rows of a file, in their order.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Detections {
-    /// Rows that could be read.
+    /// Valid rows.
     pub rows: Vec<Detection>,
-    /// Rows that could not.
+    /// Invalid rows.
     pub problems: Vec<RowProblem>,
 }
 
-/// Whether the beginning of a file looks like one of detections: `Some(true)` for masks, `Some(false)` for boxes.
+/// Whether the start of a file looks like a file of detections: `Some(true)` for masks, `Some(false)` for boxes.
 pub fn recognise(start: &[u8]) -> Option<bool> {
     let text = String::from_utf8_lossy(start);
     let text = text.trim_start();
@@ -68,7 +68,7 @@ pub fn recognise(start: &[u8]) -> Option<bool> {
 /// Reads the file at `path`.
 ///
 /// # Errors
-/// The file cannot be read, or is an array that is not JSON. Bad rows are no error, see [`Detections::problems`].
+/// The file cannot be read, or is an array that is not JSON. Invalid rows are no error, see [`Detections::problems`].
 pub fn read(path: &Path) -> Result<Detections> {
     let refused = |error: std::io::Error| Diagnostic::io(format!("read `{}`", path.display()), &error);
     let bytes = std::fs::read(path).map_err(refused)?;
@@ -101,7 +101,7 @@ impl Detections {
     }
 }
 
-/// An array whose elements are taken one at a time.
+/// A JSON array whose elements are parsed one at a time.
 struct Array(Detections);
 
 impl<'de> Deserialize<'de> for Array {
@@ -144,18 +144,18 @@ fn detection(row: &Value, line: u64) -> std::result::Result<Detection, Refusal> 
     };
     let category = row.get("category_id").and_then(whole).ok_or_else(|| missing("category_id"))?;
     let score = row.get("score").and_then(Value::as_f64).ok_or_else(|| missing("score"))?;
-    // Polygons, which pycocotools adds to boxes, are no masks of ours; a row with a box is one without them.
+    // Polygons, which pycocotools adds to boxes, are not read as masks; a row with a box is a detection without a mask.
     let mask = row.get("segmentation").filter(|it| it.is_object()).map(mask).transpose()?;
     let edges = row.get("bbox").filter(|it| !it.is_null()).map(edges).transpose()?;
     if mask.is_none() && edges.is_none() {
-        // Polygons alone: says that they are none.
+        // A row with polygons alone is reported.
         row.get("segmentation").map(self::mask).transpose()?;
         return Err(missing("bbox` or `segmentation"));
     }
     Ok(Detection { line, image, category, score, edges, mask })
 }
 
-/// A whole number, also one that is written as 3.0.
+/// An integer, also one written as 3.0.
 fn whole(value: &Value) -> Option<i64> {
     value.as_i64().or_else(|| value.as_f64().filter(|it| it.fract() == 0.0 && it.abs() < 9e15).map(|it| it as i64))
 }
@@ -192,7 +192,7 @@ fn mask(value: &Value) -> std::result::Result<DetectedMask, Refusal> {
         Some(Value::String(text)) => Runs::of_text(text, pixels),
         Some(Value::Array(counts)) => {
             let counts: Option<Vec<u64>> = counts.iter().map(Value::as_u64).collect();
-            counts.ok_or("has a run that is no number".to_owned()).and_then(|counts| Runs::of_counts(counts, pixels))
+            counts.ok_or("has a run that is not a number".to_owned()).and_then(|counts| Runs::of_counts(counts, pixels))
         }
         _ => return Err(refusal("has no `counts`")),
     };
@@ -200,21 +200,21 @@ fn mask(value: &Value) -> std::result::Result<DetectedMask, Refusal> {
     Ok(DetectedMask { runs, size: [columns, rows] })
 }
 
-/// An image of a COCO file of annotations that `cosfly export --format coco` wrote.
+/// An image of a COCO annotations file that `cosfly export --format coco` wrote.
 #[derive(Clone, Debug, Deserialize, PartialEq)]
 pub struct ListedImage {
-    /// Its number.
+    /// Image number.
     pub id: i64,
-    /// Its flight.
+    /// Trajectory id.
     pub trajectory_id: String,
-    /// Its frame.
+    /// Frame.
     pub frame: u64,
 }
 
-/// The images of the file of annotations at `path`.
+/// Images of the annotations file at `path`.
 ///
 /// # Errors
-/// The file cannot be read, or its images do not say which frames they are.
+/// The file cannot be read, or its images have no trajectory and frame.
 pub fn read_images(path: &Path) -> Result<Vec<ListedImage>> {
     #[derive(Deserialize)]
     struct Annotations {

@@ -7,11 +7,11 @@ use serde::Deserialize;
 use std::borrow::Cow;
 use std::io::Read;
 
-/// Bytes of the file that are in memory at once, as long as lines are shorter.
+/// Bytes of the file that are in memory at once, while lines are shorter.
 const SEGMENT: usize = 1 << 24;
-/// Bytes that one task reads, about.
+/// Approximate number of bytes that one task reads.
 const PART: usize = 1 << 20;
-/// Length of a line, bytes; longer ones are refused unread.
+/// Longest line that is read, bytes.
 const LONGEST_LINE: usize = 1 << 24;
 
 #[derive(Deserialize)]
@@ -21,21 +21,21 @@ struct Line<'a> {
     frame: Option<f64>,
     waypoint_deltas: Option<Vec<Waypoint>>,
     #[serde(borrow)]
-    text: Option<Said<'a>>,
+    text: Option<ModelOutput<'a>>,
     #[serde(borrow)]
-    prediction: Option<Said<'a>>,
+    prediction: Option<ModelOutput<'a>>,
     boxes: Option<Vec<Option<[f64; 4]>>>,
 }
 
-/// What a model wrote, or the object itself.
+/// Output of a model: text, or the object itself.
 #[derive(Deserialize)]
 #[serde(untagged)]
-enum Said<'a> {
+enum ModelOutput<'a> {
     Object { waypoint_deltas: Vec<Waypoint> },
     Text(#[serde(borrow)] Cow<'a, str>),
 }
 
-/// Reads all lines, a segment of the file at a time; empty ones are passed over.
+/// Reads all lines, a segment of the file at a time; empty lines are skipped.
 pub fn read(file: &mut dyn Read) -> std::io::Result<Predictions> {
     let (mut all, mut text, mut lines) = (Predictions::default(), vec![], 0);
     loop {
@@ -61,7 +61,7 @@ pub fn read(file: &mut dyn Read) -> std::io::Result<Predictions> {
     }
 }
 
-/// Whole lines of about [`PART`] bytes each.
+/// Ranges of whole lines of about [`PART`] bytes each.
 fn parts(text: &[u8]) -> Vec<&[u8]> {
     let (mut parts, mut rest) = (vec![], text);
     while !rest.is_empty() {
@@ -73,7 +73,7 @@ fn parts(text: &[u8]) -> Vec<&[u8]> {
     parts
 }
 
-/// What is in some lines, numbered from 1.
+/// Rows of some lines, numbered from 1.
 struct Part {
     block: Block,
     problems: Vec<RowProblem>,
@@ -107,21 +107,21 @@ fn take_row(text: &[u8], line: u64, block: &mut Block) -> Result<(), Refusal> {
         return Err(("frame", format!("`frame` is {frame}; it must be a whole number from 0")));
     }
     let deltas: Vec<[f64; 6]> = match (parsed.waypoint_deltas, parsed.text.or(parsed.prediction)) {
-        (Some(waypoints), _) | (None, Some(Said::Object { waypoint_deltas: waypoints })) => {
+        (Some(waypoints), _) | (None, Some(ModelOutput::Object { waypoint_deltas: waypoints })) => {
             waypoints.into_iter().map(|waypoint| waypoint.0).collect()
         }
-        (None, Some(Said::Text(text))) => model_text::deltas_in(&text).map_err(|why| ("model-text", why))?,
+        (None, Some(ModelOutput::Text(text))) => model_text::deltas_in(&text).map_err(|why| ("model-text", why))?,
         (None, None) => return Err(missing("waypoint_deltas`, `text` or `prediction")),
     };
     let boxes = parsed.boxes.unwrap_or_default();
     block.take(line, &trajectory_id, frame as u64, &deltas, &boxes)
 }
 
-/// Why a line is no row.
+/// Kind and reason of an invalid line.
 fn refusal(text: &[u8], error: &serde_json::Error) -> Refusal {
     let has = |word: &[u8]| text.windows(word.len()).any(|part| part == word);
     let words = error.to_string();
-    // Every line is a document of its own.
+    // Every line is a separate document.
     let words = words.replace(" at line 1 column ", " at column ");
     if error.is_syntax() && (has(b"NaN") || has(b"Infinity")) || words.starts_with("number out of range") {
         return ("not-finite", format!("a number is not finite, which JSON cannot hold: {words}"));

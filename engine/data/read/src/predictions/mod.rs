@@ -1,4 +1,4 @@
-//! Files of predictions: JSON lines or Parquet, read row by row; what is wrong with a row is kept, never skipped.
+//! Files of predictions: JSON lines or Parquet, read row by row; problems of rows are recorded, never skipped.
 //!
 //! A row names the flight that the model saw, the first frame of the window, and what the model predicts:
 //!
@@ -7,7 +7,7 @@
 //! | `trajectory_id` | the flight |
 //! | `frame` | first frame of the window |
 //! | `waypoint_deltas` | a list of increments, each an array or an object of dx, dy, dz (m), dpitch, dyaw, droll (degrees); a missing dimension counts as 0 |
-//! | `text` or `prediction` | instead of `waypoint_deltas`: what a language model wrote, see [`model_text`] |
+//! | `text` or `prediction` | instead of `waypoint_deltas`: output of a language model, see [`model_text`] |
 //! | `boxes` | optional: left, top, right, bottom edge (pixels) of the target in the frame of each waypoint, or null |
 
 pub mod detections;
@@ -22,67 +22,69 @@ use std::fs::File;
 use std::io::Read;
 use std::path::Path;
 
-/// A prediction that could be read.
+/// A valid prediction.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Prediction {
-    /// Line of the file (of Parquet: row), from 1.
+    /// Line of the file (Parquet: row), from 1.
     pub line: u64,
-    /// The flight.
+    /// Trajectory id.
     pub trajectory_id: String,
     /// First frame of the window.
     pub frame: u64,
-    /// Increments, as many as were written.
+    /// Increments: dx, dy, dz (m), dpitch, dyaw, droll (degrees).
     pub deltas: Vec<[f64; 6]>,
-    /// The target's box in the frames of the waypoints; empty when none was given.
+    /// Box of the target in the frame of each waypoint: left, top, right, bottom edge (pixels); empty when none was
+    /// given.
     pub boxes: Vec<Option<[f64; 4]>>,
 }
 
 /// A row that cannot be scored.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct RowProblem {
-    /// Line of the file (of Parquet: row), from 1.
+    /// Line of the file (Parquet: row), from 1.
     pub line: u64,
-    /// Short kebab-case name of what kind of problem it is.
+    /// Short kebab-case name of the kind of problem.
     pub kind: &'static str,
-    /// What is wrong, in words.
+    /// Description of the problem.
     pub reason: String,
 }
 
 impl RowProblem {
-    /// A problem of line `line`.
+    /// Creates a problem of line `line`.
     pub fn new(line: u64, kind: &'static str, reason: impl Into<String>) -> Self {
         Self { line, kind, reason: reason.into() }
     }
 }
 
-/// What is in a file, in its order, stored without a piece of memory per row.
+/// Rows of a file, in order, stored in blocks without allocations per row.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Predictions {
     blocks: Vec<Block>,
     /// Number of the first row of each block.
     first: Vec<usize>,
     len: usize,
-    /// Rows that could not be read.
+    /// Invalid rows.
     pub problems: Vec<RowProblem>,
 }
 
 /// A row of [`Predictions`].
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct PredictionRow<'a> {
-    /// Line of the file (of Parquet: row), from 1.
+    /// Line of the file (Parquet: row), from 1.
     pub line: u64,
-    /// The flight.
+    /// Trajectory id.
     pub trajectory_id: &'a str,
     /// First frame of the window.
     pub frame: u64,
-    /// Increments, as many as were written.
+    /// Increments: dx, dy, dz (m), dpitch, dyaw, droll (degrees).
     pub deltas: &'a [[f64; 6]],
-    /// The target's box in the frames of the waypoints; empty when none was given.
+    /// Box of the target in the frame of each waypoint: left, top, right, bottom edge (pixels); empty when none was
+    /// given.
     pub boxes: &'a [Option<[f64; 4]>],
 }
 
 impl Predictions {
-    /// Of rows in memory.
+    /// Predictions from rows in memory.
     pub fn of(rows: &[Prediction], problems: Vec<RowProblem>) -> Self {
         let mut block = Block::default();
         rows.iter().for_each(|row| block.push(row.line, &row.trajectory_id, row.frame, &row.deltas, &row.boxes));
@@ -91,17 +93,17 @@ impl Predictions {
         all
     }
 
-    /// Number of rows that could be read.
+    /// Number of valid rows.
     pub fn len(&self) -> usize {
         self.len
     }
 
-    /// Whether no row could be read.
+    /// Whether there is no valid row.
     pub fn is_empty(&self) -> bool {
         self.len == 0
     }
 
-    /// Row number `row`, which must be there.
+    /// Row number `row`, which must exist.
     pub fn row(&self, row: usize) -> PredictionRow<'_> {
         let block = self.first.partition_point(|first| *first <= row) - 1;
         self.blocks[block].row(row - self.first[block])
@@ -121,17 +123,17 @@ impl Predictions {
     }
 }
 
-/// Rows that were read together.
+/// A block of rows.
 #[derive(Clone, Debug, Default, PartialEq)]
 struct Block {
     rows: Vec<BlockRow>,
-    /// Names; neighbouring rows of one flight share theirs.
+    /// Trajectory ids; neighbouring rows of one flight share theirs.
     ids: Vec<String>,
     deltas: Vec<[f64; 6]>,
     boxes: Vec<Option<[f64; 4]>>,
 }
 
-/// Where the parts of a row are: first and one past the last.
+/// Ranges of a row's parts: first, and one past the last.
 #[derive(Clone, Debug, PartialEq)]
 struct BlockRow {
     line: u64,
@@ -158,7 +160,7 @@ impl Block {
         });
     }
 
-    /// Gives room back that is not needed.
+    /// Releases unused memory.
     fn shrink(&mut self) {
         self.rows.shrink_to_fit();
         self.ids.shrink_to_fit();
@@ -177,7 +179,7 @@ impl Block {
         }
     }
 
-    /// Puts a row in; `Err` is kind and reason.
+    /// Appends a row; `Err` is kind and reason of a problem.
     fn take(
         &mut self,
         line: u64,
@@ -201,13 +203,14 @@ impl Block {
     }
 }
 
-/// Kind and reason of what is wrong with a row.
+/// Kind and reason of a problem.
 type Refusal = (&'static str, String);
 
 /// Reads a file of predictions: Parquet if it begins like one, otherwise JSON lines.
 ///
 /// # Errors
-/// The file cannot be read, or is Parquet without the columns. Bad rows are no error, see [`Predictions::problems`].
+/// The file cannot be read, or is Parquet without the columns. Invalid rows are no error, see
+/// [`Predictions::problems`].
 pub fn read(path: &Path) -> Result<Predictions> {
     let refused = |error: std::io::Error| Diagnostic::io(format!("read `{}`", path.display()), &error);
     let mut file = File::open(path).map_err(refused)?;

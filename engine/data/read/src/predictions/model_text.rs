@@ -1,11 +1,12 @@
-//! Increments in the text of a language model, read as the published evaluation scripts do: text before `</think>` is
-//! dropped, and one JSON object has a list `waypoint_deltas`.
+//! Increments in the text of a language model, parsed as in the published evaluation scripts: text before `</think>` is
+//! dropped,
+//! and one JSON object has a list `waypoint_deltas`.
 
 use super::waypoint::Waypoint;
 use serde::Deserialize;
 
 const KEY: &str = "\"waypoint_deltas\"";
-/// Objects around the key that are tried, from the innermost one.
+/// Most enclosing objects that are tried, from the innermost one.
 const TRIES: usize = 32;
 
 #[derive(Deserialize)]
@@ -13,11 +14,12 @@ struct Answer {
     waypoint_deltas: Vec<Waypoint>,
 }
 
-/// The increments in `text`: those of the first JSON object that has them. Words around it, code fences and objects
-/// around that one do not matter.
+/// Parses the increments in `text`: those of the first JSON object that has them. Surrounding words, code fences and
+/// enclosing
+/// objects are ignored.
 ///
 /// # Errors
-/// Why there are none, in words.
+/// Reason why there are none.
 pub fn deltas_in(text: &str) -> Result<Vec<[f64; 6]>, String> {
     let said = text.rsplit_once("</think>").map_or(text, |(_, after)| after);
     let Some(key) = said.find(KEY) else {

@@ -11,7 +11,7 @@ use parquet::arrow::arrow_reader::ParquetRecordBatchReaderBuilder;
 use std::fs::File;
 use std::path::Path;
 
-/// Rows that are read at once.
+/// Rows read at once.
 const ROWS_AT_ONCE: usize = 8192;
 
 /// Reads all rows of `file`, which is at `path`.
@@ -39,12 +39,12 @@ pub fn read(path: &Path, file: File) -> Result<Predictions> {
     Ok(found)
 }
 
-/// The columns of some rows, in the types that they are read as.
+/// Columns of some rows, converted to common types.
 struct Columns {
     trajectory_id: StringArray,
     frame: Int64Array,
     deltas: Option<ArrayRef>,
-    /// The same, when all of it is lists of lists of numbers.
+    /// The same, where all of it is lists of lists of numbers.
     plain: Option<PlainDeltas>,
     text: Option<StringArray>,
     boxes: Option<ArrayRef>,
@@ -101,9 +101,9 @@ impl Columns {
     }
 }
 
-/// Increments as lists of lists without a null, taken apart once for all rows.
+/// Increments as lists of lists without nulls, unpacked once for all rows.
 struct PlainDeltas {
-    /// Waypoints of each row, and numbers of each waypoint: where they start; one more for the end.
+    /// Offsets of each row's waypoints and of each waypoint's numbers, with one more for the end.
     rows: Vec<usize>,
     waypoints: Vec<usize>,
     numbers: Vec<f64>,
@@ -125,7 +125,7 @@ impl PlainDeltas {
     }
 }
 
-/// Where each list starts, and the end of the last one, with all that is in the lists.
+/// Offsets of the lists, with the end of the last one, and the values of all lists.
 fn taken_apart(column: &ArrayRef) -> Option<(Vec<usize>, ArrayRef)> {
     match column.data_type() {
         DataType::List(_) => {
@@ -144,7 +144,7 @@ fn taken_apart(column: &ArrayRef) -> Option<(Vec<usize>, ArrayRef)> {
     }
 }
 
-/// The list in row `row`.
+/// List in row `row`.
 fn item(column: &ArrayRef, row: usize) -> std::result::Result<ArrayRef, Refusal> {
     match column.data_type() {
         DataType::List(_) => Ok(column.as_list::<i32>().value(row)),
@@ -154,7 +154,7 @@ fn item(column: &ArrayRef, row: usize) -> std::result::Result<ArrayRef, Refusal>
     }
 }
 
-/// Numbers of a flat array; null is none.
+/// Numbers of a flat array; nulls are an error.
 fn numbers(array: &ArrayRef) -> std::result::Result<Vec<f64>, Refusal> {
     let unfit = || ("field-type", format!("numbers were expected, not {}", array.data_type()));
     let values = plain::reals(array).ok_or_else(unfit)?;

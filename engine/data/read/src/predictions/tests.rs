@@ -1,4 +1,4 @@
-//! Rows that are read, and rows that are refused with a reason.
+//! Valid rows, and invalid rows with their reasons.
 
 use super::*;
 use arrow_array::builder::{Float32Builder, ListBuilder};

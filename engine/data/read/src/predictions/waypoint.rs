@@ -3,7 +3,7 @@
 use serde::de::{Deserialize, Deserializer, Error, MapAccess, SeqAccess, Visitor};
 use std::fmt;
 
-/// Names of the six numbers, in their order.
+/// Names of the six numbers, in order.
 pub const DIMENSIONS: [&str; 6] = ["dx", "dy", "dz", "dpitch", "dyaw", "droll"];
 
 /// dx, dy, dz in metres, dpitch, dyaw, droll in degrees.

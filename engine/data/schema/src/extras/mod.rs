@@ -1,7 +1,7 @@
-//! What plugins add to a dataset beside its own tables: annotations of flights, tables of rows, files.
+//! Outputs of plugins beside the dataset's own tables: annotations of flights, tables of rows, files.
 //!
-//! * [`Extra`]: what one plugin gave of one flight, between its stage and the dataset.
-//! * [`Kept`]: what all flights of a dataset have of one plugin, for card, manifest and checks.
+//! * [`Extra`]: output of one plugin for one flight, between its stage and the dataset.
+//! * [`ExtraSummary`]: output of one plugin for all flights of a dataset, for card, manifest and checks.
 
 mod table;
 
@@ -12,7 +12,7 @@ use crate::tables;
 use serde::{Deserialize, Serialize};
 use std::collections::{BTreeMap, BTreeSet};
 
-/// What is made of a flight.
+/// Form of a plugin's output for one flight.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub enum ExtraShape {
     /// One row of a table.
@@ -23,62 +23,62 @@ pub enum ExtraShape {
     Files,
 }
 
-/// What one plugin gave of one flight.
+/// Output of one plugin for one flight.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Extra {
-    /// What it is.
+    /// Plugin and declaration of the output.
     pub source: ExtraSource,
-    /// The values of its columns, in their order.
+    /// Values of the declared columns, in their order.
     pub values: Vec<Values>,
 }
 
-/// What all flights have in common.
+/// Plugin and declaration of an output, the same for all flights.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct ExtraSource {
     /// Name of the table or the folder.
     pub name: String,
-    /// What it is.
+    /// Form of the output.
     pub shape: ExtraShape,
-    /// Its columns.
+    /// Declared columns.
     pub columns: Vec<DeclaredColumn>,
-    /// The plugin, as it calls itself.
+    /// Name of the plugin.
     pub plugin: String,
-    /// Its version.
+    /// Version of the plugin.
     pub version: String,
-    /// What it says that it does.
+    /// Description of the plugin.
     pub summary: String,
 }
 
-/// What a dataset has of one plugin.
+/// Output of one plugin for all flights of a dataset.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Kept {
-    /// Where it is from.
+pub struct ExtraSummary {
+    /// Plugin and declaration of the output.
     pub source: ExtraSource,
-    /// Rows by split, of tables.
+    /// Numbers of rows by split, for tables.
     pub rows: BTreeMap<String, u64>,
-    /// Files.
+    /// Number of files.
     pub files: u64,
-    /// In how many folders below the flight's own they lie.
+    /// Depths of the files, in folders below the flight's own.
     pub depths: BTreeSet<usize>,
 }
 
-/// Names that tables of plugins cannot have: those of the dataset's own.
+/// Whether a table name is reserved for the dataset's own tables.
 pub fn is_taken(name: &str) -> bool {
     let own = tables::of_trajectories().iter().map(|table| table.name).collect::<Vec<_>>();
     let others = [tables::of_objects().name, tables::of_rejections().name, tables::of_files().name];
     own.into_iter().chain(others).chain(crate::tables::INLINE_SETS).any(|taken| taken == name)
 }
 
-/// Columns that the dataset itself gives such tables.
+/// Columns that the dataset adds to tables of plugins.
 pub const OWN_COLUMNS: [&str; 3] = ["trajectory_id", "row", "split"];
 
-/// Why a plugin may not give such a table, if so.
+/// Checks the names of a plugin's table and columns.
 ///
 /// # Errors
-/// The name that is taken.
+/// The reserved name.
 pub fn check_names(name: &str, columns: &[DeclaredColumn]) -> Result<(), String> {
     if is_taken(name) {
-        return Err(format!("it names its table `{name}`, which datasets have of their own"));
+        return Err(format!("it names its table `{name}`, which is reserved for the dataset's own tables"));
     }
     match columns.iter().find(|column| OWN_COLUMNS.contains(&column.name.as_str())) {
         Some(column) => Err(format!("it gives a column `{}`, which the dataset adds itself", column.name)),

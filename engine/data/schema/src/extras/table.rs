@@ -1,4 +1,4 @@
-//! Tables of plugins as Parquet: the flight, the number of the row where there may be several, then the declared columns.
+//! Tables of plugins as Parquet: the flight, the row number where there may be several rows, then the declared columns.
 
 use super::{Extra, ExtraShape, ExtraSource};
 use crate::flight_table::{ColumnKind, DeclaredColumn, Values};
@@ -7,7 +7,7 @@ use arrow_schema::ArrowError;
 use arrow_schema::{DataType, Field, Schema};
 use std::sync::Arc;
 
-/// All columns, those of the dataset first.
+/// All columns; those added by the dataset first.
 pub fn columns_of(source: &ExtraSource) -> Vec<DeclaredColumn> {
     let own = |name: &str, kind, doc: &str| DeclaredColumn { name: name.to_owned(), kind, doc: doc.to_owned() };
     let mut columns = vec![own("trajectory_id", ColumnKind::Text, "the flight")];
@@ -18,7 +18,7 @@ pub fn columns_of(source: &ExtraSource) -> Vec<DeclaredColumn> {
     columns
 }
 
-/// The Arrow schema.
+/// Arrow schema of the table.
 pub fn schema_of(source: &ExtraSource) -> Arc<Schema> {
     let field = |column: &DeclaredColumn| {
         let kind = match column.kind {
@@ -33,7 +33,7 @@ pub fn schema_of(source: &ExtraSource) -> Arc<Schema> {
     Arc::new(Schema::new(columns_of(source).iter().map(field).collect::<Vec<_>>()))
 }
 
-/// The rows of one flight.
+/// Record batch with the rows of one flight.
 pub fn write_batch(trajectory_id: &str, extra: &Extra) -> Result<RecordBatch, ArrowError> {
     let rows = extra.values.first().map_or(0, Values::len);
     let mut arrays: Vec<ArrayRef> = vec![Arc::new(StringArray::from(vec![trajectory_id; rows]))];

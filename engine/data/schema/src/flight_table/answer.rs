@@ -1,4 +1,4 @@
-//! Answers of stages that are plugins. They come from strangers: framing, sizes and schema are looked at before anything is decoded.
+//! Answers of plugin stages. They are untrusted: framing, sizes and schema are checked before anything is decoded.
 
 use super::{ColumnKind, DeclaredColumn, Values};
 use arrow_array::cast::AsArray;
@@ -11,7 +11,7 @@ use std::collections::BTreeSet;
 use std::ops::RangeInclusive;
 use std::panic::AssertUnwindSafe;
 
-/// Most rows of an answer, and most files.
+/// Most rows of an answer.
 pub const MOST_ROWS: usize = 1_000_000;
 /// Most files of an answer.
 pub const MOST_FILES: usize = 1_000;
@@ -23,19 +23,19 @@ const MOST_TEXT_BYTES: usize = 1 << 20;
 const MOST_PATH_BYTES: usize = 200;
 const MOST_FOLDERS: usize = 8;
 
-/// What a filter says of a flight.
+/// Verdict of a filter on a flight.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Verdict {
-    /// Whether it is kept.
+    /// Whether the flight is kept.
     pub keep: bool,
-    /// Why not.
+    /// Reason for a rejection.
     pub reason: String,
 }
 
-/// What a filter answered.
+/// Reads the answer of a filter.
 ///
 /// # Errors
-/// What the answer should have been, in words.
+/// The violated rule, in words.
 pub fn verdict(answer: &[u8], gives: &[DeclaredColumn]) -> Result<Verdict, String> {
     match <[Values; 2]>::try_from(read_answer(answer, gives, 1..=1)?) {
         Ok([Values::Booleans(keep), Values::Texts(reason)]) => {
@@ -43,34 +43,36 @@ pub fn verdict(answer: &[u8], gives: &[DeclaredColumn]) -> Result<Verdict, Strin
             let reason = if reason.is_empty() { "no reason is given".to_owned() } else { reason };
             Ok(Verdict { keep: keep[0], reason })
         }
-        _ => Err("it declares another answer than a filter's".to_owned()),
+        _ => Err("the columns that it declares are not those of a filter".to_owned()),
     }
 }
 
-/// The labels of a flight of `frames`, by name.
+/// Reads the labels of a flight of `frames` frames, by name.
 ///
 /// # Errors
-/// What the answer should have been, in words.
+/// The violated rule, in words.
 pub fn labels(answer: &[u8], gives: &[DeclaredColumn], frames: usize) -> Result<Vec<(String, Vec<f64>)>, String> {
     let columns = read_answer(answer, gives, frames..=frames)?;
     let named = gives.iter().zip(columns).map(|(column, values)| match values {
         Values::Reals(values) => Ok((column.name.clone(), values)),
-        _ => Err(format!("its label `{}` holds no floats", column.name)),
+        _ => Err(format!("its label `{}` does not hold floats", column.name)),
     });
     named.collect()
 }
 
-/// The columns of an answer, which must be those of `gives`, with as many `rows`; paths of files are held against the rules, too.
+/// Reads the columns of an answer, which must be those of `gives`, with a number of rows within `rows`. Paths of files
+/// are
+/// checked, too.
 ///
 /// # Errors
-/// What the answer should have been, in words.
+/// The violated rule, in words.
 pub fn read_answer(
     answer: &[u8],
     gives: &[DeclaredColumn],
     rows: RangeInclusive<usize>,
 ) -> Result<Vec<Values>, String> {
     check_framing(answer, &rows)?;
-    // The reader is made for streams of friends; a hostile one must not end the run.
+    // The Arrow reader may panic on malformed streams, which must not end the run.
     let read = || decode(answer, gives);
     let batch =
         std::panic::catch_unwind(AssertUnwindSafe(read)).unwrap_or_else(|_| Err(unreadable("it is damaged")))?;
@@ -93,19 +95,19 @@ fn check_rows(found: u64, rows: &RangeInclusive<usize>) -> Result<(), String> {
         return Ok(());
     }
     Err(match (least, most) {
-        (1, 1) => format!("it returned {found} rows; one is wanted"),
-        (0, most) => format!("it returned {found} rows; at most {most} are taken"),
+        (1, 1) => format!("it returned {found} rows; one is required"),
+        (0, most) => format!("it returned {found} rows; at most {most} are allowed"),
         (frames, _) => format!("it returned {found} rows for {frames} frames"),
     })
 }
 
-/// One schema, one record batch with a fitting number of rows, and as many bytes as they say.
+/// Checks for one schema, one record batch with an allowed number of rows, and as many bytes as they declare.
 fn check_framing(answer: &[u8], rows: &RangeInclusive<usize>) -> Result<(), String> {
     let number = |at: usize| answer.get(at..)?.first_chunk().map(|bytes| u32::from_le_bytes(*bytes));
     let (mut at, mut messages) = (0, 0);
     while at < answer.len() {
         let (Some(u32::MAX), Some(length)) = (number(at), number(at + 4)) else {
-            return Err(unreadable(format!("byte {at} begins no message")));
+            return Err(unreadable(format!("no message begins at byte {at}")));
         };
         if length == 0 {
             break;
@@ -127,7 +129,7 @@ fn check_framing(answer: &[u8], rows: &RangeInclusive<usize>) -> Result<(), Stri
             (_, other) => {
                 let kind = other.variant_name().unwrap_or("unknown message");
                 return Err(unreadable(format!(
-                    "message {messages} is a {kind}; a schema and one record batch are wanted"
+                    "message {messages} is a {kind}; a schema and one record batch are required"
                 )));
             }
         }
@@ -141,7 +143,7 @@ fn check_framing(answer: &[u8], rows: &RangeInclusive<usize>) -> Result<(), Stri
     if messages == 2 { Ok(()) } else { Err("it returned an Arrow stream without a record batch".to_owned()) }
 }
 
-/// The batch, whose schema is the declared one.
+/// Decodes the record batch; its schema must be the declared one.
 fn decode(answer: &[u8], gives: &[DeclaredColumn]) -> Result<RecordBatch, String> {
     let mut reader = StreamReader::try_new(answer, None).map_err(unreadable)?;
     let schema = reader.schema();
@@ -167,7 +169,7 @@ fn decode(answer: &[u8], gives: &[DeclaredColumn]) -> Result<RecordBatch, String
     }
     let batch = reader.next().ok_or_else(|| unreadable("there is no record batch"))?;
     let batch = batch.map_err(unreadable)?;
-    // What was put together without checks is checked as a whole.
+    // The array was built without checks and is validated as a whole.
     batch.columns().iter().try_for_each(|array| array.to_data().validate_full()).map_err(unreadable)?;
     Ok(batch)
 }
@@ -202,7 +204,7 @@ fn values(array: &dyn Array, column: &DeclaredColumn) -> Result<Values, String> 
             if let Some(row) = (0..texts.len()).find(|row| texts.value(*row).len() > MOST_TEXT_BYTES) {
                 let bytes = texts.value(row).len();
                 return Err(format!(
-                    "its text `{name}` at row {row} has {bytes} bytes; at most {MOST_TEXT_BYTES} are taken"
+                    "its text `{name}` at row {row} has {bytes} bytes; at most {MOST_TEXT_BYTES} are allowed"
                 ));
             }
             Values::Texts((0..texts.len()).map(|row| texts.value(row).to_owned()).collect())
@@ -217,7 +219,7 @@ fn values(array: &dyn Array, column: &DeclaredColumn) -> Result<Values, String> 
 fn check_files(paths: &[String], contents: &[Vec<u8>]) -> Result<(), String> {
     let bytes: usize = contents.iter().map(Vec::len).sum();
     if bytes > MOST_FILE_BYTES {
-        return Err(format!("its files have {} MiB; at most {} are taken", bytes >> 20, MOST_FILE_BYTES >> 20));
+        return Err(format!("its files have {} MiB; at most {} are allowed", bytes >> 20, MOST_FILE_BYTES >> 20));
     }
     let mut seen: BTreeSet<String> = BTreeSet::new();
     for path in paths {
@@ -225,7 +227,7 @@ fn check_files(paths: &[String], contents: &[Vec<u8>]) -> Result<(), String> {
             let shown: String = path.chars().take(80).collect();
             return Err(format!("it returned a file `{}`; {rule}", shown.escape_debug()));
         }
-        // Some file systems do not tell capitals from small letters.
+        // Some file systems do not distinguish upper and lower case.
         if !seen.insert(path.to_ascii_lowercase()) {
             return Err(format!("it returned the file `{path}` twice"));
         }
@@ -240,14 +242,14 @@ fn check_files(paths: &[String], contents: &[Vec<u8>]) -> Result<(), String> {
     }
 }
 
-/// What is wrong with the path of a file.
+/// Violated rule of the path of a file, if any.
 fn broken_rule(path: &str) -> Option<String> {
     let is_plain = |byte: u8| byte.is_ascii_alphanumeric() || matches!(byte, b'.' | b'_' | b'-' | b'/');
     if !(1..=MOST_PATH_BYTES).contains(&path.len()) {
-        return Some(format!("paths have 1 to {MOST_PATH_BYTES} letters"));
+        return Some(format!("paths have 1 to {MOST_PATH_BYTES} characters"));
     }
     if !path.bytes().all(is_plain) {
-        return Some("paths are of letters, digits, `.`, `_`, `-` and `/`".to_owned());
+        return Some("paths consist of letters, digits, `.`, `_`, `-` and `/`".to_owned());
     }
     if path.split('/').any(|part| part.is_empty() || part.starts_with('.') || part.ends_with('.')) {
         return Some("paths are relative, and no part of them is empty or begins or ends with a dot".to_owned());

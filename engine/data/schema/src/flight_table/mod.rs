@@ -1,24 +1,24 @@
-//! Flights as tables for stages that are plugins, and their answers read back: Arrow streams of one record batch.
+//! Flights as tables for plugin stages, and the stages' answers: Arrow streams of one record batch.
 //!
-//! * [`FlightColumns`]: what there is to be read of a flight, as a stream of the columns that a plugin declares.
-//! * [`read_answer`], [`verdict`], [`labels`]: answers, held against what the plugin declares to give.
+//! * [`FlightColumns`]: columns of a flight, as a stream of those that a plugin declares to read.
+//! * [`read_answer`], [`verdict`], [`labels`]: readers of answers, checked against what the plugin declares to return.
 
 mod answer;
 mod offered;
 
 pub use answer::{MOST_FILE_BYTES, MOST_FILES, MOST_ROWS, Verdict, labels, read_answer, verdict};
-pub use offered::{FlightColumns, NoColumn, SAMPLE_FRAMES, check_names};
+pub use offered::{ColumnError, FlightColumns, SAMPLE_FRAMES, check_names};
 
 use serde::{Deserialize, Serialize};
 
-/// What a column holds.
+/// Type of a column's values.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub enum ColumnKind {
     /// 64-bit floats.
     Real,
     /// 64-bit integers.
     Integer,
-    /// Truths.
+    /// Booleans.
     Boolean,
     /// Texts.
     Text,
@@ -27,7 +27,7 @@ pub enum ColumnKind {
 }
 
 impl ColumnKind {
-    /// As in the interface of plugins.
+    /// Name of the type in the plugin interface.
     pub fn name(self) -> &'static str {
         match self {
             Self::Real => "real",
@@ -39,25 +39,25 @@ impl ColumnKind {
     }
 }
 
-/// A column that a plugin declares to read or to give.
+/// A column that a plugin declares to read or to return.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct DeclaredColumn {
-    /// Its name.
+    /// Name of the column.
     pub name: String,
-    /// What it holds.
+    /// Type of the values.
     pub kind: ColumnKind,
-    /// What it means.
+    /// Meaning of the column.
     pub doc: String,
 }
 
-/// The values of a column.
+/// Values of a column.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub enum Values {
     /// Finite floats.
     Reals(Vec<f64>),
     /// Integers.
     Integers(Vec<i64>),
-    /// Truths.
+    /// Booleans.
     Booleans(Vec<bool>),
     /// Texts.
     Texts(Vec<String>),
@@ -66,7 +66,7 @@ pub enum Values {
 }
 
 impl Values {
-    /// How many there are.
+    /// Number of values.
     pub fn len(&self) -> usize {
         match self {
             Self::Reals(values) => values.len(),
@@ -77,12 +77,12 @@ impl Values {
         }
     }
 
-    /// Whether there is none.
+    /// Whether there are no values.
     pub fn is_empty(&self) -> bool {
         self.len() == 0
     }
 
-    /// What they are.
+    /// Type of the values.
     pub fn kind(&self) -> ColumnKind {
         match self {
             Self::Reals(_) => ColumnKind::Real,

@@ -1,4 +1,4 @@
-//! What there is to be read of a flight: named columns with one value per frame, and facts.
+//! Columns of a flight that plugins can read: one value per frame, and facts about the flight.
 
 use super::{ColumnKind, DeclaredColumn, Values};
 use crate::flight_labels;
@@ -13,7 +13,7 @@ use serde_json::json;
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
-/// Columns of every flight.
+/// Columns of all flights.
 const OF_FLIGHTS: [(&str, ColumnKind); 15] = [
     ("frame", ColumnKind::Integer),
     ("time_s", ColumnKind::Real),
@@ -31,7 +31,7 @@ const OF_FLIGHTS: [(&str, ColumnKind); 15] = [
     ("visibility", ColumnKind::Real),
     ("clearance", ColumnKind::Real),
 ];
-/// Columns of rendered ones only.
+/// Columns of rendered flights only.
 const OF_RENDERED: [(&str, ColumnKind); 11] = [
     ("camera_yaw", ColumnKind::Real),
     ("camera_pitch", ColumnKind::Real),
@@ -45,26 +45,27 @@ const OF_RENDERED: [(&str, ColumnKind); 11] = [
     ("box_bottom", ColumnKind::Real),
     ("occluder_instance", ColumnKind::Integer),
 ];
-/// What columns begin with whose names depend on earlier stages.
+/// Prefixes of columns whose names depend on earlier stages.
 const OPEN: [&str; 2] = ["cost_", "label_"];
-/// Frames of [`FlightColumns::sample`].
+/// Number of frames of [`FlightColumns::sample`].
 pub const SAMPLE_FRAMES: usize = 40;
 
-/// A column that is to be read and cannot be.
+/// A requested column that cannot be read.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub struct NoColumn {
-    /// What is wrong, and what there is.
+pub struct ColumnError {
+    /// The problem, and the existing columns.
     pub message: String,
-    /// The name that was meant, perhaps.
+    /// Probably intended name.
     pub hint: Option<String>,
 }
 
-/// Whether flights have the columns that are to be read, as far as that is known before there are any: which costs and labels
-/// there are depends on the stages before.
+/// Checks that flights have the requested columns, as far as known before a flight exists: names of costs and labels
+/// depend
+/// on earlier stages.
 ///
 /// # Errors
-/// The first column that there is not.
-pub fn check_names(wanted: &[DeclaredColumn], is_rendered: bool) -> Result<(), NoColumn> {
+/// The first column that does not exist or has another type.
+pub fn check_names(wanted: &[DeclaredColumn], is_rendered: bool) -> Result<(), ColumnError> {
     let mut known: Vec<(&str, ColumnKind)> = OF_FLIGHTS.to_vec();
     if is_rendered {
         known.extend(OF_RENDERED);
@@ -72,7 +73,7 @@ pub fn check_names(wanted: &[DeclaredColumn], is_rendered: bool) -> Result<(), N
     let is_open = |column: &&DeclaredColumn| !OPEN.iter().any(|start| column.name.starts_with(start));
     for column in wanted.iter().filter(is_open) {
         find(&known, column).map_err(|refusal| match OF_RENDERED.iter().any(|(name, _)| *name == column.name) {
-            true if !is_rendered => NoColumn {
+            true if !is_rendered => ColumnError {
                 message: format!("it reads `{}`, which only rendered flights have", column.name),
                 hint: Some("stages with `makes = \"extras\"` read rendered flights".to_owned()),
             },
@@ -87,21 +88,25 @@ pub fn check_names(wanted: &[DeclaredColumn], is_rendered: bool) -> Result<(), N
     Ok(())
 }
 
-fn wrong_kind(column: &DeclaredColumn, kind: ColumnKind) -> NoColumn {
+fn wrong_kind(column: &DeclaredColumn, kind: ColumnKind) -> ColumnError {
     let message = format!("it reads `{}` as {}; it is {}", column.name, column.kind.name(), kind.name());
-    NoColumn { message, hint: None }
+    ColumnError { message, hint: None }
 }
 
-/// The place of a column among those that are known.
-fn find(known: &[(&str, ColumnKind)], column: &DeclaredColumn) -> Result<usize, NoColumn> {
+/// Index of a column among the known ones.
+fn find(known: &[(&str, ColumnKind)], column: &DeclaredColumn) -> Result<usize, ColumnError> {
     match known.iter().position(|(name, _)| *name == column.name) {
         Some(place) if known[place].1 == column.kind => Ok(place),
         Some(place) => Err(wrong_kind(column, known[place].1)),
         None => {
             let all: Vec<&str> = known.iter().map(|(name, _)| *name).collect();
             let near = nearest_name(&column.name, all.iter().copied());
-            Err(NoColumn {
-                message: format!("it reads `{}`; flights have no such column, but `{}`", column.name, all.join("`, `")),
+            Err(ColumnError {
+                message: format!(
+                    "it reads `{}`; flights have no such column; their columns are `{}`",
+                    column.name,
+                    all.join("`, `")
+                ),
                 hint: near.map(|near| format!("did you mean `{near}`?")),
             })
         }
@@ -117,7 +122,7 @@ pub struct FlightColumns {
 }
 
 impl FlightColumns {
-    /// Of a flight that is not rendered yet.
+    /// Columns of a flight before rendering.
     pub fn of_flight(flight: &Trajectory, item: &str) -> Self {
         let frames = flight.track.len();
         let (poses, states) = (&flight.poses_in_world, &flight.track.states);
@@ -150,7 +155,7 @@ impl FlightColumns {
         Self { facts, columns, frames }
     }
 
-    /// Of a rendered flight with its captions.
+    /// Columns of a rendered flight with its captions.
     pub fn of_rendered(record: &RenderedTrajectory, captions: &[CaptionRecord]) -> Self {
         let mut all = Self::of_flight(&record.trajectory, &record.trajectory_id);
         let views = &record.views;
@@ -191,7 +196,7 @@ impl FlightColumns {
         all
     }
 
-    /// A flight that is none, for trying stages: a straight way past a standing target that is hidden for a while.
+    /// A synthetic flight for trying stages: a straight trajectory past a standing target that is occluded for a while.
     pub fn sample() -> Self {
         let frames = SAMPLE_FRAMES;
         let of_frame = |name: &str, k: f64| match name {
@@ -234,16 +239,17 @@ impl FlightColumns {
         Self { facts, columns: all.map(column).collect(), frames }
     }
 
-    /// A stream of the wanted columns, in their order.
+    /// Encodes the requested columns as an Arrow stream, in their order.
     ///
     /// # Errors
-    /// The first that there is not.
-    pub fn encode(&self, wanted: &[DeclaredColumn]) -> Result<Vec<u8>, NoColumn> {
+    /// The first column that does not exist.
+    pub fn encode(&self, wanted: &[DeclaredColumn]) -> Result<Vec<u8>, ColumnError> {
         let known: Vec<(&str, ColumnKind)> =
             self.columns.iter().map(|(name, values)| (name.as_str(), values.kind())).collect();
         let places = wanted.iter().map(|column| find(&known, column)).collect::<Result<Vec<_>, _>>()?;
         let columns = places.into_iter().map(|place| &self.columns[place]);
-        self.stream(columns).map_err(|error| NoColumn { message: format!("no table: {error}"), hint: None })
+        self.stream(columns)
+            .map_err(|error| ColumnError { message: format!("the table cannot be built: {error}"), hint: None })
     }
 
     fn stream<'a>(

@@ -1,4 +1,4 @@
-//! Answers of friends and of strangers.
+//! Valid and malformed answers of plugins.
 
 use super::*;
 use arrow_array::types::{Int32Type, Int64Type};
@@ -43,7 +43,7 @@ fn answers_are_read_and_wrong_ones_say_what_is_declared() {
     let label = stream(vec![("risk", reals(&[0.5, 1.0]))]);
     assert_eq!(labels(&label, &gives, 2).unwrap(), [("risk".to_owned(), vec![0.5, 1.0])]);
     assert!(labels(&label, &gives, 3).unwrap_err().contains("2 rows for 3 frames"));
-    assert!(read_answer(&label, &gives, 1..=1).unwrap_err().contains("2 rows; one is wanted"));
+    assert!(read_answer(&label, &gives, 1..=1).unwrap_err().contains("2 rows; one is required"));
     assert!(read_answer(&label, &gives, 0..=1).unwrap_err().contains("2 rows; at most 1"));
     let endless = stream(vec![("risk", reals(&[0.5, f64::NAN]))]);
     assert!(labels(&endless, &gives, 2).unwrap_err().contains("NaN at row 1"));
@@ -123,7 +123,7 @@ fn damaged_streams_are_refused_without_a_panic_and_without_the_memory_that_they_
             }
         }
     }
-    // Eight bytes at every place as large as they can be: lengths, offsets, row counts.
+    // Sets eight bytes at every position to their maximum: lengths, offsets, row counts.
     for at in 0..good.len() - 8 {
         for wild in [i64::MAX, i64::MIN, 10 << 30, -1] {
             let mut damaged = good.clone();
@@ -145,13 +145,16 @@ fn flights_give_the_columns_that_are_asked_for_and_name_those_that_there_are() {
     let columns = columns.unwrap();
     assert_eq!(columns[1], Values::Integers((0..SAMPLE_FRAMES as i64).collect()));
     let refused = read(&[("visibilty", ColumnKind::Real)]).unwrap_err();
-    assert!(refused.message.contains("`visibilty`; flights have no such column, but `frame`, `time_s`"), "{refused:?}");
+    assert!(
+        refused.message.contains("`visibilty`; flights have no such column; their columns are `frame`, `time_s`"),
+        "{refused:?}"
+    );
     assert_eq!(refused.hint.as_deref(), Some("did you mean `visibility`?"));
     assert!(read(&[("frame", ColumnKind::Real)]).unwrap_err().message.contains("as real; it is integer"));
     assert_eq!(check_names(&declared(&[("cost_mine", ColumnKind::Real)]), false), Ok(()));
     assert!(check_names(&declared(&[("cost_mine", ColumnKind::Text)]), false).is_err());
     let unrendered = check_names(&declared(&[("in_view", ColumnKind::Boolean)]), false).unwrap_err();
     assert!(unrendered.message.contains("only rendered flights"), "{unrendered:?}");
-    // Nothing at all is read, too.
+    // A stage may read no column at all.
     sample.encode(&[]).unwrap();
 }

@@ -1,4 +1,4 @@
-//! The messages of one frame: images, calibration, transforms, poses, annotations, target state.
+//! Messages of one frame: images, calibration, transforms, poses, annotations, target state.
 
 use super::right_handed::{self, map_from_world_point};
 use super::target_state::TargetStateMessage;
@@ -8,12 +8,12 @@ use cosfly_render::{Camera, Lens, PixelBox};
 use foxglove::bytes::Bytes;
 use foxglove::messages::{self, Timestamp};
 
-/// Frame of the images.
+/// Coordinate frame of the images.
 pub const OPTICAL_FRAME: &str = "camera_optical";
-/// Frame of the world.
+/// Coordinate frame of the world, right-handed.
 pub const MAP_FRAME: &str = "map";
 
-/// A time of a log as a message.
+/// Time of a log as a message.
 pub fn timestamp(time_ns: u64) -> Timestamp {
     Timestamp::new((time_ns / 1_000_000_000) as u32, (time_ns % 1_000_000_000) as u32)
 }
@@ -28,7 +28,7 @@ pub fn compressed_image(time_ns: u64, format: &str, file: Bytes) -> messages::Co
     }
 }
 
-/// The camera with its lens.
+/// Calibration of the camera with its lens.
 pub fn calibration(time_ns: u64, camera: &Camera, lens: &Lens) -> messages::CameraCalibration {
     let focal = camera.focal_px();
     let (cx, cy) = (0.5 * f64::from(camera.width), 0.5 * f64::from(camera.height));
@@ -45,7 +45,7 @@ pub fn calibration(time_ns: u64, camera: &Camera, lens: &Lens) -> messages::Came
     }
 }
 
-/// The target's feet with its heading as a pose.
+/// Pose at the target's feet, with the target's heading.
 pub fn target_pose(record: &RenderedTrajectory, frame: usize) -> Pose {
     let state = &record.trajectory.track.states[frame];
     Pose { position_in_world: state.feet_in_world, pitch_rad: 0.0, yaw_rad: state.heading_rad, roll_rad: 0.0 }
@@ -82,7 +82,7 @@ pub fn pose_in_map(time_ns: u64, pose: &Pose) -> messages::PoseInFrame {
     }
 }
 
-/// A whole path in the `map` frame.
+/// Trajectory or walk in the `map` frame.
 pub fn path_in_map(poses: impl Iterator<Item = Pose>) -> messages::PosesInFrame {
     messages::PosesInFrame {
         timestamp: Some(timestamp(0)),
@@ -96,7 +96,8 @@ pub fn edges_px(pixel_box: &PixelBox) -> [u32; 4] {
     [pixel_box.u_min, pixel_box.v_min, pixel_box.u_max.saturating_add(1), pixel_box.v_max.saturating_add(1)]
 }
 
-/// The target's boxes (visible: green; without obstacles: yellow) and how much of it is seen; other people's boxes (blue).
+/// Boxes of the target (visible: green; without obstacles: yellow) with its visibility, and boxes of other people
+/// (blue).
 pub fn annotations(time_ns: u64, record: &RenderedTrajectory, frame: usize) -> messages::ImageAnnotations {
     let view = &record.views[frame];
     let outline = |pixel_box: &PixelBox, [r, g, b]: [f64; 3], thickness: f64| {
@@ -133,7 +134,7 @@ pub fn annotations(time_ns: u64, record: &RenderedTrajectory, frame: usize) -> m
     }
 }
 
-/// Everything known about the target at one frame.
+/// State of the target in one frame.
 pub fn target_state(record: &RenderedTrajectory, frame: usize) -> TargetStateMessage {
     let trajectory = &record.trajectory;
     let (state, view) = (&trajectory.track.states[frame], &record.views[frame]);

@@ -1,7 +1,7 @@
-//! The log of a trajectory: its topics, and the messages on them.
+//! The log of a trajectory: topics and messages.
 //!
-//! This is the border where the world frame (left-handed, y right) becomes the right-handed `map` frame of
-//! robotics tools; [`right_handed`] does it and nothing else does. Frame `i` is at `i * dt_s` after time 0.
+//! Here the world frame (left-handed, y right) is converted to the right-handed `map` frame of robotics tools, by
+//! [`right_handed`] and nowhere else. Frame `i` is at `i * dt_s` after time 0.
 
 pub mod messages;
 pub mod right_handed;
@@ -35,7 +35,7 @@ pub mod topic {
     pub const DRONE_POSE: &str = "/drone/pose";
     /// `foxglove.PoseInFrame` of the target's feet.
     pub const TARGET_POSE: &str = "/target/pose";
-    /// `foxglove.PosesInFrame`: the whole flight, once.
+    /// `foxglove.PosesInFrame`: the whole trajectory of the drone, once.
     pub const DRONE_PATH: &str = "/drone/path";
     /// `foxglove.PosesInFrame`: the whole walk, once.
     pub const TARGET_PATH: &str = "/target/path";
@@ -46,7 +46,7 @@ pub mod topic {
     /// `cosfly.TargetState`.
     pub const TARGET_STATE: &str = "/target/state";
 
-    /// Channels whose messages are made with the frame pack; their ids in every log are 1, 2, 3.
+    /// Channels whose messages are encoded with the frame pack; their channel ids in every log are 1, 2, 3.
     pub const PACKED: [&str; 3] = [DEPTH, SEMANTIC, INSTANCE];
 
     /// All topics with schema and meaning, in the order above.

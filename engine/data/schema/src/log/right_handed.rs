@@ -1,16 +1,17 @@
-//! From the world frame (left-handed, y right) to the right-handed `map` frame, and back.
+//! Conversion from the world frame (left-handed, y right) to the right-handed `map` frame, and back.
 //!
-//! A point (x, y, z) becomes (x, -y, z). A rotation keeps its meaning when y is negated on both sides:
-//! Rz(-yaw) * Ry(-pitch) * Rx(roll). The body frame becomes x ahead, y left, z up.
+//! A point (x, y, z) becomes (x, -y, z). A rotation is conjugated by the reflection of y: Rz(-yaw) * Ry(-pitch) *
+//! Rx(roll). The
+//! body frame becomes x ahead, y left, z up.
 
 use cosfly_frames::{DQuat, DVec3, Pose, real};
 use cosfly_render::Mount;
 use foxglove::messages;
 
-/// Turns the right-handed body axes (x ahead, y left, z up) into the optical ones (x right, y down, z ahead).
+/// Rotation from the optical axes (x right, y down, z ahead) to the right-handed body axes (x ahead, y left, z up).
 pub const BODY_FROM_OPTICAL: DQuat = DQuat::from_xyzw(-0.5, 0.5, -0.5, 0.5);
 
-/// Turns the optical axes of a camera in this mount into the drone's right-handed body axes.
+/// Rotation from the optical axes of a camera in this mount to the drone's right-handed body axes.
 pub fn body_from_optical(mount: &Mount) -> DQuat {
     if *mount == Mount::default() {
         return BODY_FROM_OPTICAL;
@@ -20,12 +21,12 @@ pub fn body_from_optical(mount: &Mount) -> DQuat {
     map_from_body(&turn) * BODY_FROM_OPTICAL
 }
 
-/// A point of the world frame in the `map` frame; its own inverse.
+/// Point of the world frame in the `map` frame; the function is its own inverse.
 pub fn map_from_world_point(point_in_world: DVec3) -> DVec3 {
     DVec3::new(point_in_world.x, -point_in_world.y, point_in_world.z)
 }
 
-/// The attitude of a pose of the world frame, in the `map` frame.
+/// Attitude of a world-frame pose, in the `map` frame.
 pub fn map_from_body(pose_in_world: &Pose) -> DQuat {
     let half_turn = |axis: DVec3, angle_rad: f64| {
         let (sin, cos) = real::sin_cos(0.5 * angle_rad);
@@ -36,7 +37,7 @@ pub fn map_from_body(pose_in_world: &Pose) -> DQuat {
         * half_turn(DVec3::X, pose_in_world.roll_rad)
 }
 
-/// The pose of the world frame that has this position and attitude in the `map` frame.
+/// World-frame pose with this position and attitude in the `map` frame.
 pub fn world_pose_from_map(position_in_map: DVec3, map_from_body: DQuat) -> Pose {
     let ahead = map_from_world_point(map_from_body * DVec3::X);
     let right = map_from_world_point(map_from_body * DVec3::NEG_Y);
@@ -49,17 +50,17 @@ pub fn world_pose_from_map(position_in_map: DVec3, map_from_body: DQuat) -> Pose
     }
 }
 
-/// A vector as a message.
+/// Vector as a message.
 pub fn vector(vector: DVec3) -> messages::Vector3 {
     messages::Vector3 { x: vector.x, y: vector.y, z: vector.z }
 }
 
-/// A rotation as a message.
+/// Rotation as a message.
 pub fn quaternion(rotation: DQuat) -> messages::Quaternion {
     messages::Quaternion { x: rotation.x, y: rotation.y, z: rotation.z, w: rotation.w }
 }
 
-/// A pose of the world frame as a message in the `map` frame.
+/// World-frame pose as a message in the `map` frame.
 pub fn pose(pose_in_world: &Pose) -> messages::Pose {
     messages::Pose {
         position: Some(vector(map_from_world_point(pose_in_world.position_in_world))),

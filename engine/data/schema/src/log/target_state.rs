@@ -1,4 +1,4 @@
-//! The one message of our own, `cosfly.TargetState`: its fields, descriptor and `.proto` text from one list.
+//! The only message type defined by cosfly, `cosfly.TargetState`: fields, descriptor and `.proto` text from one list.
 
 use prost::Message;
 use prost_types::field_descriptor_proto::{Label, Type};
@@ -7,7 +7,7 @@ use prost_types::{DescriptorProto, FieldDescriptorProto, FileDescriptorProto, Fi
 /// Name of the schema in logs.
 pub const SCHEMA_NAME: &str = "cosfly.TargetState";
 
-/// The target at one frame, in the right-handed `map` frame. Field documentation: see [`FIELDS`].
+/// State of the target in one frame, in the right-handed `map` frame. Field documentation: see [`FIELDS`].
 #[derive(Clone, PartialEq, Message)]
 #[expect(missing_docs, reason = "the list of fields documents them, for the .proto file as well")]
 pub struct TargetStateMessage {
@@ -55,7 +55,7 @@ pub struct TargetStateMessage {
     pub rotation_event: bool,
 }
 
-/// Name, kind, whether repeated, and meaning of each field; its number is its place, from 1.
+/// Name, type, repetition and meaning of each field; its number is its position in the list, from 1.
 pub const FIELDS: [(&str, Type, bool, &str); 21] = [
     ("frame", Type::Uint32, false, "frame number, from 0"),
     ("time_s", Type::Double, false, "frame * dt, seconds"),
@@ -72,7 +72,7 @@ pub const FIELDS: [(&str, Type, bool, &str); 21] = [
     ("visible_pixels", Type::Uint32, false, "number of visible pixels"),
     ("visible_box_px", Type::Uint32, true, "left, top, right, bottom edge of the visible pixels; empty when none"),
     ("full_box_px", Type::Uint32, true, "the same without obstacles; empty when out of view"),
-    ("occluder_instance", Type::Uint32, false, "instance id of what hides most of the target; 0 when nothing does"),
+    ("occluder_instance", Type::Uint32, false, "instance id of the main occluder of the target; 0 when there is none"),
     ("distance_m", Type::Double, false, "from the camera to the feet"),
     ("drone_clearance_m", Type::Double, false, "from the drone to the nearest obstacle, at most 50"),
     ("expert_frame", Type::Uint32, false, "frame of the expert flight that this frame belongs to"),
@@ -80,7 +80,7 @@ pub const FIELDS: [(&str, Type, bool, &str); 21] = [
     ("rotation_event", Type::Bool, false, "the rotation disturbance occurred at this frame"),
 ];
 
-/// The encoded `FileDescriptorSet` that logs carry.
+/// Encoded `FileDescriptorSet` that logs carry.
 pub fn descriptor_set() -> Vec<u8> {
     let field = |(i, (name, kind, repeated, _)): (usize, &(&str, Type, bool, &str))| FieldDescriptorProto {
         name: Some((*name).into()),
@@ -104,7 +104,7 @@ pub fn descriptor_set() -> Vec<u8> {
     FileDescriptorSet { file: vec![file] }.encode_to_vec()
 }
 
-/// The text of `schemas/cosfly.proto`.
+/// Text of `schemas/cosfly.proto`.
 pub fn proto_text() -> String {
     let mut text = String::from(
         "// Messages of cosfly's own in MCAP logs. Frame `map`: right-handed, x east, y north, z up, metres.\n\

@@ -1,10 +1,10 @@
-//! The Arrow schema of a table, with what Hugging Face is to make of labels and images.
+//! The Arrow schema of a table, with Hugging Face features of labels and images.
 
 use super::{Kind, Table};
 use arrow_schema::{Field, Schema};
 use std::collections::BTreeMap;
 
-/// The Arrow schema of a table. Columns with a Hugging Face feature must be nullable for `datasets` to find them.
+/// Arrow schema of a table. Columns with a Hugging Face feature must be nullable for `datasets` to recognise them.
 pub fn schema<S>(table: &Table<S>) -> Schema {
     let field = |column: &&dyn super::AnyColumn<S>| {
         let kind = column.kind();
@@ -15,7 +15,7 @@ pub fn schema<S>(table: &Table<S>) -> Schema {
         .with_metadata(features.into_iter().collect::<BTreeMap<_, _>>())
 }
 
-/// The `huggingface` metadata of a table with labels or images.
+/// `huggingface` metadata of a table with labels or images.
 pub fn hugging_face_features<S>(table: &Table<S>) -> Option<String> {
     let feature = |kind: Kind| match kind {
         Kind::Label(names) => Some(serde_json::json!({"names": names, "_type": "ClassLabel"})),

@@ -3,7 +3,7 @@
 use super::column::columns;
 use super::{DatasetItem, Table};
 
-/// The table.
+/// Definition of the table.
 pub fn table() -> Table<DatasetItem> {
     let doc = "Instructions in Chinese and English, checked against the facts of the trajectory.";
     let key = &["trajectory_id", "language", "style"];
@@ -16,7 +16,7 @@ pub struct Captions;
 columns! { Captions::COLUMNS of DatasetItem;
     /// Name of the caption: `<trajectory_id>/<language>/<number>`.
     caption_id: String = id;
-    /// Trajectory that the caption tells of.
+    /// Trajectory that the caption describes.
     trajectory_id: String = |item, _| item.record.trajectory_id.clone();
     /// Language: `zh` or `en`.
     language: String = |item, i| item.captions[i].language.clone();
@@ -26,7 +26,7 @@ columns! { Captions::COLUMNS of DatasetItem;
     text: String = |item, i| item.captions[i].text.clone();
 }
 
-/// Unique in the dataset: the number counts the trajectory's captions in all languages.
+/// Caption id, unique in the dataset: the number counts the trajectory's captions in all languages.
 pub fn id(item: &DatasetItem, place: usize) -> String {
     format!("{}/{}/{place}", item.record.trajectory_id, item.captions[place].language)
 }

@@ -1,5 +1,6 @@
-//! Columns: name, unit, type, meaning and the way from a record to a value, said once. Writers, readers, the checker, card,
-//! manifest and reference page all take a column from its entry.
+//! Columns, defined once: name, unit, type, meaning and the function from a record to a value. Writers, readers,
+//! checker, card,
+//! manifest and reference page all use the column's entry.
 
 use super::value::{Kind, Value};
 use arrow_array::ArrayRef;
@@ -13,7 +14,7 @@ pub struct Column<S, T> {
     pub unit: Option<&'static str>,
     /// Meaning, with frame and convention.
     pub doc: &'static str,
-    /// The value of row `usize` of a record.
+    /// Function from a record and a row number to the value.
     pub cell: fn(&S, usize) -> T,
 }
 
@@ -26,7 +27,7 @@ impl<S, T> Clone for Column<S, T> {
 impl<S, T> Copy for Column<S, T> {}
 
 impl<S, T> Column<S, T> {
-    /// A column whose name is no identifier of Rust, such as those of other people's formats.
+    /// A column whose name is not a Rust identifier, such as those of foreign formats.
     pub const fn named(name: &'static str, doc: &'static str, cell: fn(&S, usize) -> T) -> Self {
         Self { name, unit: None, doc, cell }
     }
@@ -35,7 +36,7 @@ impl<S, T> Column<S, T> {
 /// A value that a column cannot hold: row and rule.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct CellProblem {
-    /// Row among those of the record.
+    /// Row number among those of the record.
     pub row: usize,
     /// The violated rule.
     pub rule: String,
@@ -51,9 +52,9 @@ pub trait AnyColumn<S>: Sync {
     fn doc(&self) -> &'static str;
     /// Type of the values.
     fn kind(&self) -> Kind;
-    /// Whether a row may have no value.
+    /// Whether rows may be null.
     fn nullable(&self) -> bool;
-    /// The values of the first `rows` rows of a record.
+    /// Array of the first `rows` rows of a record.
     ///
     /// # Errors
     /// The first value that the column cannot hold, such as NaN.
@@ -90,7 +91,7 @@ impl<S, T: Value> AnyColumn<S> for Column<S, T> {
     }
 }
 
-/// Endings of names and their units.
+/// Suffixes of names and their units.
 const UNITS: [(&str, &str); 7] = [
     ("_m", "m"),
     ("_s", "s"),
@@ -101,15 +102,16 @@ const UNITS: [(&str, &str); 7] = [
     ("_mps3", "m/s^3"),
 ];
 
-/// The unit that a name ends in.
+/// Unit given by the suffix of a name.
 fn unit_of(name: &str) -> Option<&'static str> {
     UNITS.iter().find(|(ending, _)| name.ends_with(ending)).map(|(_, unit)| *unit)
 }
 
-/// The columns of a table, one entry each: meaning, name, type, unit where the name does not end in it, value.
+/// Defines the columns of a table, one entry each: meaning, name, type, unit where the name does not end in it, value.
 ///
-/// `columns! { Frames::COLUMNS of DatasetItem; ... }` makes each an associated constant [`Column`] of the type `Frames`, by
-/// which readers ask for it, such as `Frames::drone_x_m`, and the list of all of them, `Frames::COLUMNS`.
+/// `columns! { Frames::COLUMNS of DatasetItem; ... }` makes each an associated constant [`Column`] of the type
+/// `Frames`, such as
+/// `Frames::drone_x_m`, by which readers request it, and the list of all of them, `Frames::COLUMNS`.
 macro_rules! columns {
     ($table:ident::$list:ident of $source:ty; $($(#[doc = $doc:literal])+ $name:ident: $kind:ty $([$unit:literal])? = $cell:expr;)*) => {
         #[expect(non_upper_case_globals, reason = "the constants bear the names of the columns")]

@@ -8,13 +8,13 @@ use super::column::columns;
 pub struct FileRecord {
     /// Path from the dataset's folder, with `/`.
     pub path: String,
-    /// Size.
+    /// Size of the file, bytes.
     pub bytes: u64,
     /// SHA-256, 64 hex digits.
     pub sha256: String,
 }
 
-/// The table.
+/// Definition of the table.
 pub fn table() -> Table<FileRecord> {
     let doc = "Every file with its size and SHA-256, except for this one, `croissant.json` and `SHA256SUMS`.";
     Table::new("files", doc, &["path"], |_: &FileRecord| 1, Files::COLUMNS)

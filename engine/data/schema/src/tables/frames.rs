@@ -11,7 +11,7 @@ use cosfly_frames::{Pose, TargetState, action};
 use cosfly_planner::FramePerturbation;
 use cosfly_render::{PixelBox, TargetView};
 
-/// The table. Previews make its rows heavy, so few of them are kept together.
+/// Definition of the table. Previews make its rows large, so that row groups are small.
 pub fn table() -> Table<DatasetItem> {
     let doc = "One row per image: camera pose, target state, visibility, boxes, action, disturbance, small preview.";
     let (per_frame, rows_per_group, needs) = (true, 200, &[Need::Previews][..]);
@@ -67,14 +67,15 @@ columns! { Frames::COLUMNS of DatasetItem;
     /// Distance from the drone to the nearest obstacle, at most 50.
     clearance_m: f64 = |item, i| item.record.trajectory.clearance_m[i];
 
-    /// The target's body covers at least one pixel centre of the image, occluded or not.
+    /// Whether the target's body covers at least one pixel centre of the image, occluded or not.
     in_view: bool = |item, i| view(item, i).in_view;
     /// Share of the target's body points that unoccluded rays from the camera reach, 0..1.
     visible_by_rays: f64 = |item, i| view(item, i).visible_by_rays;
     /// Visible pixels of the target / pixels without obstacles, inside the image, 0..1; 0 out of view.
     visible_by_pixels: f64 = |item, i| view(item, i).visible_by_pixels;
-    /// Share of some 400 rays to the part of the body inside the image that reach it, cast apart from the renderer; null
-    /// out of view.
+    /// Share of about 400 rays, cast without the renderer to the part of the body inside the image, that reach it; null
+    /// out of
+    /// view.
     visible_by_dense_rays: Option<f64> = |item, i| item.record.visible_by_dense_rays[i];
     /// Number of visible pixels of the target.
     visible_pixels: u32 = |item, i| view(item, i).pixels;
@@ -82,8 +83,9 @@ columns! { Frames::COLUMNS of DatasetItem;
     visible_box_px: Option<Edges> = |item, i| view(item, i).visible_box.as_ref().map(edges);
     /// Left, top, right, bottom edge around the target's pixels without obstacles; null out of view.
     full_box_px: Option<Edges> = |item, i| view(item, i).full_box.as_ref().map(edges);
-    /// Instance id of the obstacle or person that hides most of the target, see tables `objects` and `people`; 0: nothing
-    /// hides it, or only ground.
+    /// Instance id of the obstacle or person that hides most of the target, see tables `objects` and `people`; 0: no
+    /// occluder, or
+    /// only ground.
     occluder_instance: u32 = |item, i| view(item, i).occluder_instance;
 
     /// Step to the next frame along the world's axes: dx, dy, dz (m), dpitch, dyaw, droll (degrees); null on the last frame.
@@ -102,21 +104,21 @@ columns! { Frames::COLUMNS of DatasetItem;
 
     /// Frame of the expert that this frame belongs to; null for experts.
     expert_frame: Option<u32> = |item, i| event(item, i).map(|event| event.expert_frame);
-    /// The position was disturbed at this frame; null for experts.
+    /// Whether the position was disturbed at this frame; null for experts.
     position_event: Option<bool> = |item, i| event(item, i).map(|event| event.position);
-    /// The rotation was disturbed at this frame; null for experts.
+    /// Whether the rotation was disturbed at this frame; null for experts.
     rotation_event: Option<bool> = |item, i| event(item, i).map(|event| event.rotation);
     /// Displacement of the drone, world frame; null for experts.
     drone_offset_in_world_m: Option<[f64; 3]> = |item, i| {
         event(item, i).map(|event| event.drone_offset_in_world.to_array())
     };
-    /// Displacement of the point that the camera aims at, world frame; null for experts.
+    /// Displacement of the aim point of the camera, world frame; null for experts.
     aim_offset_in_world_m: Option<[f64; 3]> = |item, i| {
         event(item, i).map(|event| event.aim_offset_in_world.to_array())
     };
-    /// Turn added to the pitch; null for experts.
+    /// Rotation added to the pitch; null for experts.
     pitch_offset_deg: Option<f64> = |item, i| event(item, i).map(|event| event.pitch_offset_rad.to_degrees());
-    /// Turn added to the yaw; null for experts.
+    /// Rotation added to the yaw; null for experts.
     yaw_offset_deg: Option<f64> = |item, i| event(item, i).map(|event| event.yaw_offset_rad.to_degrees());
     /// The colour image, 320 pixels wide, JPEG; null where the recipe switches previews off.
     preview: Option<ImageFile> = |item, i| item.previews.jpegs.get(i).cloned().map(ImageFile);

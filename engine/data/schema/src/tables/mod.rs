@@ -1,4 +1,4 @@
-//! The Parquet tables: one file per table, one list of them, and what all tables share.
+//! The Parquet tables: one file per table, one list of them, and their common types.
 //!
 //! To add a table over the trajectories, write its file and add two lines below: its `mod` and its entry in
 //! [`of_trajectories`]. Writer, checks, card, `croissant.json` and reference page follow from its columns.
@@ -33,7 +33,7 @@ pub use value::{Edges, ImageFile, Kind, Value};
 pub use waypoints::Waypoints;
 pub use windows::{DIFFICULTIES, SCENES, Scene, Windows};
 
-/// The tables over the trajectories, in the order of the card.
+/// Tables over the trajectories, in the order of the card.
 pub fn of_trajectories() -> Vec<Table<DatasetItem>> {
     vec![
         trajectories::table(),
@@ -46,17 +46,17 @@ pub fn of_trajectories() -> Vec<Table<DatasetItem>> {
     ]
 }
 
-/// The table of items without a trajectory.
+/// Table of items without a trajectory.
 pub fn of_rejections() -> Table<crate::Rejection> {
     rejected::table()
 }
 
-/// The table of what instance ids stand for.
+/// Table of the objects behind instance ids.
 pub fn of_objects() -> Table<ObjectRecord> {
     objects::table()
 }
 
-/// The table of all files with their hashes.
+/// Table of all files with their hashes.
 pub fn of_files() -> Table<FileRecord> {
     files::table()
 }

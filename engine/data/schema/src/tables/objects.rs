@@ -1,4 +1,4 @@
-//! Table `objects`: what the instance ids of the images stand for, box by box.
+//! Table `objects`: the objects behind the instance ids of images, box by box.
 
 use super::Table;
 use super::column::columns;
@@ -9,11 +9,11 @@ use cosfly_render::frame::object_instance;
 /// One box of an object of a town.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ObjectRecord {
-    /// The town's name.
+    /// Name of the town.
     pub town: String,
     /// Number of the box among those of its object, from 0.
     pub part: u32,
-    /// The box.
+    /// Obstacle with its shape and kind.
     pub obstacle: Obstacle,
 }
 
@@ -31,18 +31,18 @@ impl ObjectRecord {
         groups.flat_map(|group| group.iter().enumerate().map(record)).collect()
     }
 
-    /// The id in instance images.
+    /// Id in instance images.
     pub fn instance(&self) -> u32 {
         object_instance(self.obstacle.object_id)
     }
 
-    /// Kind of object, as text.
+    /// Kind of the object as text.
     pub fn kind(&self) -> &'static str {
         kind_name(self.obstacle.kind)
     }
 }
 
-/// The name of a kind in tables.
+/// Name of a kind in tables.
 pub fn kind_name(kind: ObstacleKind) -> &'static str {
     match kind {
         ObstacleKind::Building => "building",
@@ -62,7 +62,7 @@ pub fn kind_name(kind: ObstacleKind) -> &'static str {
     }
 }
 
-/// The names of all CARLA labels; a label's id is its place.
+/// Names of all CARLA labels, indexed by label id.
 const LABELS: [&str; SemanticLabel::ALL.len()] = {
     let mut names = [""; SemanticLabel::ALL.len()];
     let mut i = 0;
@@ -73,7 +73,7 @@ const LABELS: [&str; SemanticLabel::ALL.len()] = {
     names
 };
 
-/// The table.
+/// Definition of the table.
 pub fn table() -> Table<ObjectRecord> {
     let doc = "The boxes behind the instance ids of images and of `frames.occluder_instance`: all obstacles of the town. \
                Id 0 is ground and sky, 1 the target; ids after those of all objects are people, see table `people`.";
@@ -94,13 +94,13 @@ columns! { Objects::COLUMNS of ObjectRecord;
     kind: String = |it, _| it.kind().to_owned();
     /// CARLA's label id in semantic images.
     label: SemanticLabel = |it, _| it.obstacle.kind.label();
-    /// Middle of the box, world frame: x, y, z.
+    /// Centre of the box, world frame: x, y, z.
     center_in_world_m: [f64; 3] = |it, _| it.obstacle.shape.center_in_world.to_array();
-    /// Length of the box along its own x, y and z axis.
+    /// Size of the box along its own x, y and z axis.
     size_m: [f64; 3] = |it, _| (2.0 * it.obstacle.shape.half_extents_m).to_array();
-    /// Turn of the box around z, positive: x towards y.
+    /// Rotation of the box around z; positive: x towards y.
     yaw_deg: f64 = |it, _| it.obstacle.shape.yaw_rad.to_degrees();
-    /// The object was invented, not in the map file.
+    /// Whether the object was generated, not read from the map file.
     synthetic: bool = |it, _| it.obstacle.synthetic;
 }
 

@@ -4,7 +4,7 @@ use super::column::columns;
 use super::{DatasetItem, Table};
 use cosfly_planner::{FramePerturbation, Perturbation};
 
-/// The table.
+/// Definition of the table.
 pub fn table() -> Table<DatasetItem> {
     let doc = "Expert and perturbed trajectories behind the same pedestrian, aligned frame by frame.";
     let rows = |item: &DatasetItem| usize::from(item.record.pair.is_some());
@@ -17,9 +17,9 @@ pub struct Pairs;
 columns! { Pairs::COLUMNS of DatasetItem;
     /// The perturbed trajectory.
     perturbed_id: String = |item, _| item.record.trajectory_id.clone();
-    /// The expert that it departs from.
+    /// Expert of the perturbed trajectory.
     expert_id: String = |item, _| item.record.pair.as_ref().map_or_else(String::new, |pair| pair.expert_id.clone());
-    /// Pedestrian whom both follow.
+    /// Pedestrian followed by both.
     pedestrian_id: String = |item, _| item.record.pedestrian_id.clone();
     /// Name of the town of both.
     town: String = |item, _| item.record.town.name.clone();

@@ -1,4 +1,4 @@
-//! Table `people`: everybody beside the target who is seen, frame by frame.
+//! Table `people`: all visible bystanders, frame by frame.
 
 use super::column::columns;
 use super::value::Edges;
@@ -6,10 +6,10 @@ use super::{DatasetItem, Table};
 use crate::log::messages::edges_px;
 use crate::{OtherPerson, Sighting};
 
-/// The table.
+/// Definition of the table.
 pub fn table() -> Table<DatasetItem> {
     let doc =
-        "Everybody beside the target of whom a frame shows at least one pixel; empty in towns without other people.";
+        "Bystanders, one row for each frame that shows at least one pixel of them; empty in towns without bystanders.";
     let key = &["trajectory_id", "frame", "instance"];
     let rows = |item: &DatasetItem| item.record.sightings.len();
     Table { per_frame: true, ..Table::new("people", doc, key, rows, People::COLUMNS) }

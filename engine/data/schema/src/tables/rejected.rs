@@ -4,9 +4,9 @@ use super::Table;
 use super::column::columns;
 use crate::Rejection;
 
-/// The table.
+/// Definition of the table.
 pub fn table() -> Table<Rejection> {
-    let doc = "Items without a trajectory, with the reason: never a silent gap.";
+    let doc = "Items without a trajectory, with the reason.";
     Table::new("rejected", doc, &["trajectory_id"], |_: &Rejection| 1, Rejected::COLUMNS)
 }
 
@@ -18,7 +18,7 @@ columns! { Rejected::COLUMNS of Rejection;
     trajectory_id: String = |it, _| it.trajectory_id.clone();
     /// Stage of the recipe that rejected the item.
     stage: String = |it, _| it.stage.clone();
-    /// Pedestrian whom the trajectory would have followed.
+    /// Pedestrian who would have been followed.
     pedestrian_id: String = |it, _| it.pedestrian_id.clone();
     /// Name of the town.
     town: String = |it, _| it.town.clone();

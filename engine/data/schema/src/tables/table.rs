@@ -1,24 +1,24 @@
-//! A table: its columns and how its rows come from a record.
+//! Definition of a table: its columns, and the rows of a record.
 
 use super::column::AnyColumn;
 use crate::{CaptionRecord, LogRecord, PreviewStrip, RenderedTrajectory, TownLayout};
 use cosfly_metrics::WindowShape;
 use std::sync::Arc;
 
-/// One trajectory with everything that tables say about it.
+/// One trajectory with everything that tables contain about it.
 #[derive(Clone, Debug)]
 pub struct DatasetItem {
-    /// The record of the render stage.
+    /// Record of the render stage.
     pub record: RenderedTrajectory,
     /// Captions of the trajectory.
     pub captions: Vec<CaptionRecord>,
-    /// Previews of the frames; empty unless a table asks for them.
+    /// Previews of the frames; empty unless a table needs them.
     pub previews: PreviewStrip,
-    /// The trajectory's log.
+    /// Log of the trajectory.
     pub log: LogRecord,
     /// Path of the log in the dataset.
     pub mcap_path: String,
-    /// The expert of a perturbed trajectory, for tables that ask for it; none where it is not in the dataset.
+    /// Expert of a perturbed trajectory, for tables that need it; `None` where it is not in the dataset.
     pub expert: Option<Box<RenderedTrajectory>>,
     /// Split group and subset of the trajectory.
     pub membership: Membership,
@@ -28,18 +28,18 @@ pub struct DatasetItem {
     pub windows: WindowShape,
 }
 
-/// The place of a trajectory among all others.
+/// Split group and subset of a trajectory.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Membership {
-    /// Trajectories with the same group are in one split.
+    /// Name of the group; trajectories of one group are in one split.
     pub split_group: String,
-    /// Split `train` has trajectories in the same town.
+    /// Whether split `train` has trajectories in the same town.
     pub is_seen: bool,
-    /// 0..1: those below 0.25 are a quarter of all.
+    /// Rank in nested subsets, 0..1: trajectories below 0.25 are a quarter of all.
     pub subset_rank: f64,
 }
 
-/// Parts of a [`DatasetItem`] that are read only for tables that ask for them.
+/// Parts of a [`DatasetItem`] that are read only for tables that need them.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Need {
     /// [`DatasetItem::previews`].
@@ -52,24 +52,24 @@ pub enum Need {
 pub struct Table<S: 'static> {
     /// Name: folder under `data/` and name of the Hugging Face config.
     pub name: &'static str,
-    /// One sentence for the card.
+    /// Description for the card, one sentence.
     pub doc: &'static str,
-    /// Columns that together name a row.
+    /// Columns that together identify a row.
     pub key: &'static [&'static str],
     /// Number of rows of one record.
     pub rows: fn(&S) -> usize,
     /// The columns, in their order.
     pub columns: Vec<&'static dyn AnyColumn<S>>,
-    /// Whether there is a row per frame, so that large datasets split the table into several files.
+    /// Whether the table has a row per frame, so that large datasets split it into several files.
     pub per_frame: bool,
-    /// Rows kept together in a file.
+    /// Rows per row group.
     pub rows_per_group: usize,
     /// Parts of the record that the cells read.
     pub needs: &'static [Need],
 }
 
 impl<S> Table<S> {
-    /// A small table: not per frame, 50,000 rows together, in need of nothing; other tables change these fields.
+    /// A small table: not per frame, 50,000 rows per row group, without needs; other tables change these fields.
     pub fn new(
         name: &'static str,
         doc: &'static str,
@@ -86,5 +86,5 @@ impl<S> Table<S> {
     }
 }
 
-/// Record sets whose rows stand in the manifest itself.
+/// Record sets whose rows are in the manifest itself.
 pub const INLINE_SETS: [&str; 5] = ["splits", "semantic_labels", "roles", "scenes", "difficulties"];

@@ -1,4 +1,4 @@
-//! The types of values: how each is stored in Arrow, checked, written and read back.
+//! Types of values: how each is stored in Arrow, checked, written and read.
 
 use arrow_array::builder::{
     BinaryBuilder, BooleanBuilder, FixedSizeListBuilder, Float32Builder, Float64Builder, Int64Builder, ListBuilder,
@@ -10,7 +10,7 @@ use arrow_array::{Array, ArrayRef};
 use arrow_schema::{DataType, Field, Fields};
 use std::sync::Arc;
 
-/// The type of a column's values, apart from whether there may be none.
+/// Type of a column's values, apart from nullability.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Kind {
     /// Text.
@@ -40,7 +40,7 @@ pub enum Kind {
 }
 
 impl Kind {
-    /// The Arrow type.
+    /// Arrow type.
     pub fn data_type(self) -> DataType {
         match self {
             Self::Text => DataType::Utf8,
@@ -57,7 +57,7 @@ impl Kind {
         }
     }
 
-    /// The type in words, for cards and reference pages.
+    /// Type in words, for cards and reference pages.
     pub fn words(self) -> String {
         match self {
             Self::Text => "text".into(),
@@ -75,7 +75,7 @@ impl Kind {
         }
     }
 
-    /// Whether Hugging Face is told how to read the column; such columns are nullable for its `datasets` to find them.
+    /// Whether the column has a Hugging Face feature; such columns are nullable for `datasets` to recognise them.
     pub fn is_featured(self) -> bool {
         matches!(self, Self::Label(_) | Self::Image)
     }
@@ -92,26 +92,27 @@ fn image_fields() -> Fields {
 
 /// A value of a column.
 pub trait Value: Sized + 'static {
-    /// The type in tables.
+    /// Type in tables.
     const KIND: Kind;
-    /// Whether a row may have no value.
+    /// Whether rows may be null.
     const NULLABLE: bool = false;
 
-    /// The rule that this value breaks, such as that numbers are finite.
+    /// Rule that the value breaks, if any, such as that numbers are finite.
     fn problem(&self) -> Option<String> {
         None
     }
 
-    /// All values as one array.
+    /// Array of all values.
     fn array(values: Vec<Self>) -> ArrayRef {
         Self::array_of(values.into_iter().map(Some))
     }
 
-    /// The values as one array, null where there is none.
+    /// Array of all values, null for `None`.
     fn array_of(values: impl Iterator<Item = Option<Self>>) -> ArrayRef;
 
-    /// The value of a row of an array of [`Kind::data_type`]; `None` where the row holds nothing of this type: null, NaN,
-    /// a number out of range.
+    /// Value in a row of an array of [`Kind::data_type`]; `None` where the row holds no value of this type: null, NaN,
+    /// a number
+    /// out of range.
     fn read(array: &dyn Array, row: usize) -> Option<Self>;
 }
 
@@ -132,7 +133,7 @@ impl<T: Value> Value for Option<T> {
     }
 }
 
-/// The one rule of floats.
+/// Violated rule where a float is not finite.
 fn finite(values: impl IntoIterator<Item = f64>) -> Option<String> {
     let wrong = values.into_iter().find(|value| !value.is_finite())?;
     Some(format!("`{wrong}` is not a finite number"))
@@ -257,7 +258,7 @@ impl<const N: usize> Value for [f64; N] {
     }
 }
 
-/// Edges of a pixel box: left, top, right, bottom, from the top-left corner of the image.
+/// Edges of a pixel box: left, top, right, bottom; the origin is the top-left corner of the image.
 pub type Edges = [f32; 4];
 
 impl Value for Edges {
@@ -282,7 +283,7 @@ impl Value for Edges {
     }
 }
 
-/// The bytes of an image file, such as JPEG.
+/// Bytes of an image file, such as JPEG.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct ImageFile(pub Vec<u8>);
 
@@ -308,7 +309,7 @@ impl Value for ImageFile {
     }
 }
 
-/// One of a few named classes, stored as the place of its name.
+/// One of a few named classes, stored as the index of its name.
 macro_rules! class_value {
     ($class:ty, $all:expr, $names:expr) => {
         impl $crate::tables::Value for $class {

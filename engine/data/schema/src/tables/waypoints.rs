@@ -4,7 +4,7 @@ use super::column::columns;
 use super::{DatasetItem, Table};
 use cosfly_frames::{Pose, action};
 
-/// The table.
+/// Definition of the table.
 pub fn table() -> Table<DatasetItem> {
     let doc = "Poses and actions alone, one row per step: small, for training and statistics without images.";
     let rows = |item: &DatasetItem| item.record.len();
@@ -35,14 +35,14 @@ columns! { Waypoints::COLUMNS of DatasetItem;
     };
 }
 
-/// x, y, z in metres, pitch, yaw, roll in degrees.
+/// Pose as x, y, z in metres, pitch, yaw, roll in degrees.
 pub fn pose_numbers(pose: &Pose) -> [f64; 6] {
     let position = pose.position_in_world;
     let [pitch, yaw, roll] = [pose.pitch_rad, pose.yaw_rad, pose.roll_rad].map(f64::to_degrees);
     [position.x, position.y, position.z, pitch, yaw, roll]
 }
 
-/// The action from step `i` to the next one; none on the last.
+/// Action from step `i` to the next one; `None` on the last step.
 pub fn action_from(item: &DatasetItem, i: usize, action: fn(&Pose, &Pose) -> [f64; 6]) -> Option<[f64; 6]> {
     let poses = &item.record.trajectory.poses_in_world;
     poses.get(i + 1).map(|next| action(&poses[i], next))

@@ -1,4 +1,4 @@
-//! Table `windows`: what to learn from, cut from every flight (paper, section "Dual-Trajectory Augmentation").
+//! Table `windows`: training windows of every flight (paper, section "Dual-Trajectory Augmentation").
 
 use super::column::columns;
 use super::value::class_value;
@@ -12,7 +12,7 @@ use cosfly_metrics::{Difficulty, WindowFeatures};
 use cosfly_render::TargetView;
 use std::ops::Range;
 
-/// Whether training sees a town.
+/// Whether the town is part of the training data.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Scene {
     /// Split `train` has trajectories in the same town.
@@ -29,10 +29,10 @@ pub const DIFFICULTIES: [&str; 3] = ["easy", "medium", "hard"];
 class_value!(Scene, [Scene::Seen, Scene::Unseen], SCENES);
 class_value!(Difficulty, [Difficulty::Easy, Difficulty::Medium, Difficulty::Hard], DIFFICULTIES);
 
-/// An increment: from one pose to another.
+/// Increment from one pose to another.
 type Step = fn(&Pose, &Pose) -> [f64; 6];
 
-/// The table.
+/// Definition of the table.
 pub fn table() -> Table<DatasetItem> {
     let doc = "Training windows without pixels, one row per window: what the drone did (`input`), where its expert was \
                in the same frames (`correction`) and goes next (`waypoint_deltas`). Increments are dx, dy, dz (m), \
@@ -48,38 +48,39 @@ pub struct Windows;
 columns! { Windows::COLUMNS of DatasetItem;
     /// Name of the window: `<trajectory_id>/<start_frame>`.
     window_id: String = |item, row| format!("{}/{}", item.record.trajectory_id, start(item, row));
-    /// Trajectory that a model sees.
+    /// Trajectory that is the input of a model.
     trajectory_id: String = |item, _| item.record.trajectory_id.clone();
-    /// Trajectory that a model learns: the expert of `trajectory_id`, itself for an expert's window.
+    /// Trajectory that a model learns: the expert of `trajectory_id`; the trajectory itself for an expert's window.
     expert_id: String = |item, _| {
         item.record.pair.as_ref().map_or(&item.record.trajectory_id, |pair| &pair.expert_id).clone()
     };
-    /// Role of the trajectory that a model sees.
+    /// Role of the input trajectory.
     role: Role = |item, _| item.record.role;
     /// First frame of the window.
     start_frame: u32 = |item, row| start(item, row) as u32;
     /// Instructions of the trajectory: `captions.caption_id`.
     caption_ids: Vec<String> = |item, _| (0..item.captions.len()).map(|place| super::captions::id(item, place)).collect();
-    /// Rank in nested subsets, 0..1, the same for all trajectories behind a pedestrian: windows below 0.25 are a quarter of
-    /// all.
+    /// Rank in nested subsets, 0..1, the same for all trajectories behind a pedestrian: windows below 0.25 are a
+    /// quarter of all.
     subset_rank: f64 = |item, _| item.membership.subset_rank;
 
     /// Seen: split `train` of this dataset has trajectories in the same town, by the town's ground plan.
     scene: Scene = |item, _| scene_of(item);
-    /// Hard from a turn of 90 degrees, a climb of 2.5 m, half of the frames occluded or 4 m/s on; easy below 30 degrees, 0.5 m,
-    /// 5 % and 2 m/s.
+    /// Hard: a turn of at least 90 degrees, a height change of at least 2.5 m, at least half of the frames occluded, or
+    /// at least 4
+    /// m/s; easy: below 30 degrees, 0.5 m, 5 % and 2 m/s.
     difficulty: Difficulty = |item, row| features(item, frames(item, row)).difficulty();
-    /// Turns of the target's walking direction, added up.
+    /// Sum of the turns of the target's walking direction.
     turn_deg: f64 = |item, row| features(item, frames(item, row)).turn_deg;
-    /// Highest minus lowest position of the expert.
+    /// Difference of the highest and lowest position of the expert.
     height_change_m: f64 = |item, row| features(item, frames(item, row)).height_change_m;
     /// Share of frames in which the expert sees less than half of the target, 0..1.
     occluded_share: f64 = |item, row| features(item, frames(item, row)).occluded_share;
     /// Mean speed of the expert.
     speed_mps: f64 = |item, row| features(item, frames(item, row)).speed_mps;
-    /// The target stays within half a metre.
+    /// Whether the target stays within half a metre.
     target_is_static: bool = |item, row| features(item, frames(item, row)).target_is_static();
-    /// Rays reach less than half of the target in a frame of the input.
+    /// Whether rays reach less than half of the target in a frame of the input.
     target_is_occluded: bool = |item, row| {
         input(item, row).any(|frame| item.record.views[frame].visible_by_rays < 0.5)
     };
@@ -88,7 +89,7 @@ columns! { Windows::COLUMNS of DatasetItem;
     current_pose_in_world: [f64; 6] = |item, row| super::waypoints::pose_numbers(current(item, row));
     /// Steps between the input's poses along the world's axes.
     input_steps_in_world: Vec<f32> = |item, row| input_steps(item, row, action::in_world);
-    /// Steps between the input's poses in the body frame of the pose that each starts from: x ahead, y right, z up.
+    /// Steps between the input's poses in the body frame of the pose where each starts: x ahead, y right, z up.
     input_steps_in_body: Vec<f32> = |item, row| input_steps(item, row, action::in_body);
     /// Step from each pose of the input to the expert's in the same frame, along the world's axes (denoising); zeros for an
     /// expert.
@@ -98,27 +99,30 @@ columns! { Windows::COLUMNS of DatasetItem;
     /// Steps from the input's last pose to the expert's next one, and from there on along the expert, along the world's axes
     /// (prediction): the target of `cosfly eval`.
     waypoint_deltas_in_world: Vec<f32> = |item, row| waypoint_deltas(item, row, action::in_world);
-    /// Steps from the input's last pose to the expert's next one, and from there on along the expert, in the body frame of
-    /// the pose that each starts from.
+    /// Steps from the input's last pose to the expert's next one, and from there on along the expert, in the body frame
+    /// of the
+    /// pose where each starts.
     waypoint_deltas_in_body: Vec<f32> = |item, row| waypoint_deltas(item, row, action::in_body);
     /// Steps between the expert's poses in all frames of the window, along the world's axes.
     expert_steps_in_world: Vec<f32> = |item, row| expert_steps(item, row, action::in_world);
     /// Steps between the expert's poses in all frames of the window, in the expert's body frames.
     expert_steps_in_body: Vec<f32> = |item, row| expert_steps(item, row, action::in_body);
 
-    /// Left, top, right, bottom edge of the target's visible pixels in each picture of the input; zeros where the target is
-    /// not seen.
+    /// Left, top, right, bottom edge of the target's visible pixels in each picture of the input; zeros where the
+    /// target is not
+    /// visible.
     input_boxes_px: Vec<f32> = |item, row| {
         input(item, row).flat_map(|frame| box_px(&item.record.views[frame])).collect()
     };
-    /// Left, top, right, bottom edge of the target's visible pixels in the expert's pictures of all frames of the window;
-    /// zeros where the target is not seen.
+    /// Left, top, right, bottom edge of the target's visible pixels in the expert's pictures of all frames of the
+    /// window; zeros
+    /// where the target is not visible.
     expert_boxes_px: Vec<f32> = |item, row| {
         frames(item, row).flat_map(|frame| box_px(expert_view(item, frame))).collect()
     };
 }
 
-/// Number of windows: none where the expert of a perturbed flight is not in the dataset.
+/// Number of windows; 0 where the expert of a perturbed flight is not in the dataset.
 pub fn count(item: &DatasetItem) -> usize {
     let perturbation = item.record.trajectory.perturbation.as_ref();
     let is_whole = match (&item.record.pair, &item.expert, perturbation) {
@@ -141,7 +145,7 @@ fn input(item: &DatasetItem, row: usize) -> Range<usize> {
     start(item, row)..start(item, row) + item.windows.history
 }
 
-/// The expert's frame of a frame; the flight itself for an expert.
+/// Frame of the expert that belongs to a frame; the frame itself for an expert.
 fn expert_frame(item: &DatasetItem, frame: usize) -> usize {
     let perturbation = item.record.trajectory.perturbation.as_ref();
     perturbation.map_or(frame, |it| it.frames[frame].expert_frame as usize)
@@ -161,7 +165,7 @@ fn current(item: &DatasetItem, row: usize) -> &Pose {
     &item.record.trajectory.poses_in_world[input(item, row).end - 1]
 }
 
-/// What makes the frames easy or hard: the expert's flight, the target's walk.
+/// Difficulty features of the frames: the expert's flight and the target's walk.
 pub fn features(item: &DatasetItem, frames: Range<usize>) -> WindowFeatures {
     let states = &item.record.trajectory.track.states[frames.clone()];
     let expert: Vec<Pose> = frames.clone().map(|frame| *expert_pose(item, frame)).collect();
@@ -178,7 +182,7 @@ pub fn features(item: &DatasetItem, frames: Range<usize>) -> WindowFeatures {
     })
 }
 
-/// Features of every window; of the whole flight when it is too short for one or has no expert here.
+/// Features of every window; of the whole flight when it is too short for a window or its expert is missing.
 pub fn all_features(item: &DatasetItem) -> Vec<WindowFeatures> {
     match count(item) {
         0 if item.record.pair.is_none() || item.expert.is_some() => vec![features(item, 0..item.record.len())],
@@ -187,7 +191,7 @@ pub fn all_features(item: &DatasetItem) -> Vec<WindowFeatures> {
     }
 }
 
-/// Whether training sees the town of a trajectory.
+/// Whether the town of a trajectory is part of the training data.
 pub fn scene_of(item: &DatasetItem) -> Scene {
     if item.membership.is_seen { Scene::Seen } else { Scene::Unseen }
 }

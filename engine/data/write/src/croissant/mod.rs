@@ -12,7 +12,7 @@ use crate::publish::summary::{Summary, TownSummary};
 use cosfly_maps::SemanticLabel;
 use cosfly_schema::Split;
 use cosfly_schema::config::DatasetConfig;
-use cosfly_schema::extras::{self, ExtraShape, ExtraSource, Kept};
+use cosfly_schema::extras::{self, ExtraShape, ExtraSource, ExtraSummary};
 use cosfly_schema::flight_table::{ColumnKind, DeclaredColumn};
 use cosfly_schema::tables::{self, DIFFICULTIES, FileRecord, Kind, SCENES, Table};
 use serde_json::{Value, json};
@@ -180,7 +180,7 @@ fn record_set<S>(table: &Table<S>, source: &Value, has_splits: bool) -> Value {
 }
 
 /// Files of a plugin's table, or of its folder.
-fn extra_set(kept: &Kept) -> Value {
+fn extra_set(kept: &ExtraSummary) -> Value {
     let name = &kept.source.name;
     let (id, format, includes) = match kept.source.shape {
         ExtraShape::Files => {

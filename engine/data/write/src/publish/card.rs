@@ -4,7 +4,7 @@ use super::citation::citation;
 use super::summary::Summary;
 use super::viewers;
 use cosfly_schema::config::{DatasetConfig, OWN_LICENSE};
-use cosfly_schema::extras::{self, ExtraShape, Kept};
+use cosfly_schema::extras::{self, ExtraShape, ExtraSummary};
 use cosfly_schema::flight_table::ColumnKind;
 use cosfly_schema::tables::{self, Table};
 use std::collections::BTreeMap;
@@ -91,7 +91,7 @@ fn front_matter(config: &DatasetConfig, summary: &Summary) -> String {
     text.push_str("- depth-estimation\n- image-segmentation\n- image-text-to-text\n");
     text.push_str("tags:\n- croissant\n- mcap\n- drone\n- uav\n- tracking\n- trajectory\n- synthetic\nconfigs:\n");
     table_names().iter().for_each(|name| text.push_str(&config_entry(name, summary)));
-    for Kept { source, rows, .. } in &summary.extras {
+    for ExtraSummary { source, rows, .. } in &summary.extras {
         text.push_str(&config_of(&source.name, rows));
     }
     text.push_str("- config_name: files\n  data_files:\n  - split: files\n    path: files.parquet\n---\n");
@@ -191,7 +191,7 @@ fn table_section<S>(table: &Table<S>) -> String {
 }
 
 /// A table or a folder that a plugin gave.
-fn extra_section(kept: &Kept) -> String {
+fn extra_section(kept: &ExtraSummary) -> String {
     let source = &kept.source;
     let mut text = format!(
         "### {}\n\nGiven by the plugin `{}` {}: {}",

@@ -1,7 +1,7 @@
 //! The figures of a dataset that card and `croissant.json` state.
 
 use cosfly_schema::LogRecord;
-use cosfly_schema::extras::Kept;
+use cosfly_schema::extras::ExtraSummary;
 use cosfly_schema::tables::DatasetItem;
 use cosfly_schema::{Rejection, Role};
 use std::collections::{BTreeMap, BTreeSet};
@@ -40,7 +40,7 @@ pub struct Summary {
     /// Rows by table name and split name; tables over something else than flights are a split of their own name.
     pub rows: BTreeMap<&'static str, BTreeMap<String, u64>>,
     /// Tables and files of plugins.
-    pub extras: Vec<Kept>,
+    pub extras: Vec<ExtraSummary>,
 }
 
 /// A town of a dataset.

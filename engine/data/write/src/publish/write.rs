@@ -12,8 +12,9 @@ use cosfly_diagnose::{Diagnostic, Fault, Result};
 use cosfly_fingerprint::sha256::{HashingWriter, sha256_of};
 use cosfly_metrics::WindowShape;
 use cosfly_report::FlightSketch;
+use cosfly_schema::LogRecord;
 use cosfly_schema::config::DatasetConfig;
-use cosfly_schema::extras::{self, Extra, ExtraShape, ExtraSource, Kept};
+use cosfly_schema::extras::{self, Extra, ExtraShape, ExtraSource, ExtraSummary};
 use cosfly_schema::flight_table::Values;
 use cosfly_schema::log::target_state;
 use cosfly_schema::tables::{self, DatasetItem, FileRecord, Membership, Need, Table};
@@ -73,7 +74,7 @@ pub fn write_dataset(
     dataset.table(&rejected, &format!("data/{0}/{0}-00000-of-00001.parquet", rejected.name), rejections)?;
     summary.rows.insert(rejected.name, BTreeMap::from([(rejected.name.to_owned(), summary.rejected)]));
     summary.extras = dataset.extras(&items)?;
-    dataset.put("splits.json", cosfly_splits::promise(config).as_bytes())?;
+    dataset.put("splits.json", cosfly_splits::split_policy(config).as_bytes())?;
     for (path, text) in viewers::FILES {
         dataset.put(path, text.as_bytes())?;
     }
@@ -277,13 +278,13 @@ impl Publishing<'_> {
     }
 
     /// Tables and files of plugins.
-    fn extras(&mut self, items: &Items<'_>) -> Result<Vec<Kept>> {
+    fn extras(&mut self, items: &Items<'_>) -> Result<Vec<ExtraSummary>> {
         let sources = gather(items.logs.len(), &|flight| items.source.extras(flight))?;
         sources.into_iter().map(|source| self.extra(source, items)).collect()
     }
 
-    fn extra(&mut self, source: ExtraSource, items: &Items<'_>) -> Result<Kept> {
-        let mut kept = Kept { source, rows: BTreeMap::new(), files: 0, depths: BTreeSet::new() };
+    fn extra(&mut self, source: ExtraSource, items: &Items<'_>) -> Result<ExtraSummary> {
+        let mut kept = ExtraSummary { source, rows: BTreeMap::new(), files: 0, depths: BTreeSet::new() };
         let name = kept.source.name.clone();
         let of_flight = |index: usize| -> Result<Option<Extra>> {
             (items.keep_going)()?;

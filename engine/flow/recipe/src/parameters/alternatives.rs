@@ -1,4 +1,4 @@
-//! `oneOf` and `anyOf`: which alternative was meant, and what is wrong with it.
+//! `oneOf` and `anyOf`: the intended alternative and its errors.
 
 use super::context::Context;
 use super::scalars::not_allowed;
@@ -6,8 +6,9 @@ use super::schema_words::{allowed_values, resolve};
 use crate::document::{Node, Problems, Value};
 use serde_json::Value as Json;
 
-/// Mistakes to report when none of `candidates` fits: those that were `found` against the one that was probably meant, or
-/// one that names the alternatives.
+/// Errors to report when none of `candidates` fits: those `found` against the intended alternative, or one error that
+/// lists the
+/// alternatives.
 pub(super) fn mistakes_of_the_meant(
     context: &Context<'_>,
     candidates: &[&Json],
@@ -61,7 +62,7 @@ fn meant_alternative(context: &Context<'_>, candidates: &[&Json], node: &Node) -
     }
 }
 
-/// The mistake of a table that lacks the tag which all alternatives carry, or gives it an unknown value.
+/// Error of a table without the tag that all alternatives have, or with an unknown value of it.
 fn wrong_tag(
     context: &Context<'_>,
     candidates: &[&Json],
@@ -90,7 +91,7 @@ fn wrong_tag(
     }
 }
 
-/// Properties of a table alternative with one fixed text, and that text.
+/// Properties of a table alternative that allow one text only, and that text.
 fn tags<'a>(root: &'a Json, candidate: &'a Json) -> Vec<(&'a str, &'a str)> {
     let properties = resolve(root, candidate).get("properties").and_then(Json::as_object);
     properties
@@ -100,7 +101,7 @@ fn tags<'a>(root: &'a Json, candidate: &'a Json) -> Vec<(&'a str, &'a str)> {
         .collect()
 }
 
-/// The only key of an alternative such as `{ fixed = {...} }`.
+/// Only key of an alternative such as `{ fixed = {...} }`.
 fn externally_tagged<'a>(root: &'a Json, candidate: &'a Json) -> Option<&'a str> {
     let candidate = resolve(root, candidate);
     let properties = candidate.get("properties")?.as_object()?;

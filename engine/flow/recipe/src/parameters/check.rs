@@ -1,4 +1,4 @@
-//! The walk over a value and its schema.
+//! Checks a value against a schema.
 
 use super::alternatives::mistakes_of_the_meant;
 use super::context::{Context, Subject};
@@ -17,7 +17,7 @@ pub(crate) fn check_parameters(schema: &Json, parameters: &Node, subject: &Subje
 }
 
 impl Context<'_> {
-    /// Checks `node` at `path` and appends the mistakes.
+    /// Checks `node` at `path` and appends the errors.
     fn check(&self, schema: &Json, node: &Node, path: &mut Vec<String>, problems: &mut Problems) {
         let Json::Object(keywords) = schema else {
             if schema == &Json::Bool(false) {
@@ -63,7 +63,7 @@ impl Context<'_> {
         }
     }
 
-    /// Passes when one alternative fits; reports the mistakes against the one that was probably meant otherwise.
+    /// Passes when one alternative fits; otherwise reports the errors against the intended one.
     fn check_alternatives(&self, alternatives: &[Json], node: &Node, path: &mut Vec<String>, problems: &mut Problems) {
         // TOML cannot write null.
         let candidates: Vec<&Json> = alternatives.iter().filter(|it| !is_null(self.root, it)).collect();

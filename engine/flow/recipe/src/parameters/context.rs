@@ -1,11 +1,11 @@
-//! Context of a check, and the messages that all checks share.
+//! Context of a check, and the messages shared by all checks.
 
 use super::schema_words::{first_sentence, resolve, rule_at, show_toml, type_words_of};
 use crate::document::{Node, Place, Texts, Value};
 use cosfly_diagnose::Diagnostic;
 use serde_json::Value as Json;
 
-/// The stage whose parameters are checked, for messages.
+/// Stage whose parameters are checked, for messages.
 pub(crate) struct Subject<'a> {
     /// Name of the stage in the recipe.
     pub(crate) stage: &'a str,
@@ -13,11 +13,11 @@ pub(crate) struct Subject<'a> {
     pub(crate) kind: &'a str,
     /// Place of the stage's name.
     pub(crate) place: &'a Place,
-    /// Ports of the kind, for the hint where one is written among the parameters.
+    /// Ports of the kind, for the hint where a port is written among the parameters.
     pub(crate) ports: &'a [&'a str],
 }
 
-/// Schema, subject and texts, which every check needs.
+/// Schema, subject and texts for all checks.
 pub(super) struct Context<'a> {
     pub(super) root: &'a Json,
     pub(super) subject: &'a Subject<'a>,
@@ -25,7 +25,8 @@ pub(super) struct Context<'a> {
 }
 
 impl Context<'_> {
-    /// A message that begins with the value's path in back-ticks, at `place`, with the parameter's documentation.
+    /// Creates a diagnostic at `place` whose message begins with the value's path in back-ticks, with the parameter's
+    /// documentation.
     pub(super) fn problem(
         &self,
         code: &'static str,
@@ -41,7 +42,7 @@ impl Context<'_> {
         if path.is_empty() { format!("stages.{}", self.subject.stage) } else { path.join(".") }
     }
 
-    /// A value of the wrong type: the given one and the wanted one.
+    /// Error of a value of the wrong type: the given and the expected type.
     pub(super) fn wrong_type(&self, schema: &Json, node: &Node, path: &[String]) -> Box<Diagnostic> {
         let wanted = type_words_of(self.root, schema);
         let given = match &node.value {

@@ -1,9 +1,9 @@
-//! Parameters of a stage against the JSON Schema of its kind, every violation at its own place.
+//! Checks of a stage's parameters against the JSON Schema of its kind; every violation has its own place.
 //!
-//! * `check`: the walk over a value and its schema.
-//! * `alternatives`: the alternative of `oneOf` and `anyOf` that was meant.
+//! * `check`: checks a value against a schema.
+//! * `alternatives`: the intended alternative of `oneOf` and `anyOf`.
 //! * `scalars`: ranges, lengths and allowed values.
-//! * `context`: the messages that all checks share.
+//! * `context`: messages shared by all checks.
 //! * `schema_words`: schemas in words.
 
 mod alternatives;

@@ -64,7 +64,7 @@ pub(super) fn check_text(
     Some(context.documented(context.problem("recipe-out-of-range", &node.place, path, rest), schema, path))
 }
 
-/// True where a piece of `text` matches `pattern`. An invalid pattern lets everything pass; `build` decides then.
+/// Whether a part of `text` matches `pattern`. An invalid pattern accepts everything; `build` decides then.
 fn matches(pattern: &str, text: &str) -> bool {
     regex_lite::Regex::new(pattern).map_or(true, |pattern| pattern.is_match(text))
 }
@@ -122,7 +122,7 @@ pub(super) fn check_allowed(
     (!fits).then(|| not_allowed(context, schema, &values, node, path))
 }
 
-/// Mistake of a value that is not among `values`; names the nearest one.
+/// Error of a value that is not among `values`; names the nearest one.
 pub(super) fn not_allowed(
     context: &Context<'_>,
     schema: &Json,

@@ -1,11 +1,11 @@
-//! Schemas in words: types, allowed values, descriptions.
+//! Descriptions of schemas in words: types, allowed values, documentation.
 
 use serde_json::Value as Json;
 
 /// Longest chain of `$ref` that is followed.
 const MOST_REFERENCES: usize = 16;
 
-/// Schema that `$ref`s lead to; `schema` itself where it has none or they lead nowhere.
+/// Schema that `$ref`s lead to; `schema` itself where there is none or they cannot be resolved.
 pub(crate) fn resolve<'a>(root: &'a Json, schema: &'a Json) -> &'a Json {
     let mut schema = schema;
     for _ in 0..MOST_REFERENCES {
@@ -36,7 +36,7 @@ pub(super) fn rule_at<'a>(root: &'a Json, path: &[String]) -> Option<&'a Json> {
     Some(rule)
 }
 
-/// True where tables may have keys that the schema does not list.
+/// Whether tables may have keys that the schema does not list.
 pub(super) fn is_open(schema: &Json) -> bool {
     match schema.get("additionalProperties") {
         Some(rule) => rule != &Json::Bool(false),
@@ -44,12 +44,12 @@ pub(super) fn is_open(schema: &Json) -> bool {
     }
 }
 
-/// True for a schema that only allows null.
+/// Whether the schema only allows null.
 pub(super) fn is_null(root: &Json, schema: &Json) -> bool {
     resolve(root, schema).get("type").and_then(Json::as_str) == Some("null")
 }
 
-/// Types that a schema allows: `a number`, `a string or a table` ...
+/// Types that a schema allows, such as `a number` or `a string or a table`.
 pub(crate) fn type_words_of(root: &Json, schema: &Json) -> String {
     let mut words = vec![];
     collect_type_words(root, schema, &mut words, 0);
@@ -121,7 +121,7 @@ fn collect_allowed<'a>(root: &'a Json, schema: &'a Json, values: &mut Vec<(&'a J
     }
 }
 
-/// The first sentence of a description, on one line.
+/// First sentence of a description, on one line.
 pub(super) fn first_sentence(description: &str) -> String {
     let paragraph = description.split("\n\n").next().unwrap_or_default();
     let line = paragraph.split_whitespace().collect::<Vec<_>>().join(" ");
@@ -155,7 +155,7 @@ pub(crate) fn show_json(value: &Json) -> String {
         Json::String(text) => text.clone(),
         Json::Number(number) => match number.as_f64() {
             Some(float) if number.is_f64() && float.fract() == 0.0 && float.abs() < 1e15 => format!("{float:.0}"),
-            // Defaults of 32-bit fields arrive widened: `0.1` as `0.10000000149011612`.
+            // Defaults of 32-bit fields are widened to 64 bits: `0.1` is `0.10000000149011612`.
             Some(float) if number.is_f64() && f64::from(float as f32) == float => (float as f32).to_string(),
             _ => number.to_string(),
         },

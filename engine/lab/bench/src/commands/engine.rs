@@ -12,7 +12,7 @@ pub struct EngineArguments {
     pub items: u64,
 }
 
-/// The engine with cheap items, in a scratch store on the disk of the current folder.
+/// Measures the engine with cheap items, in a scratch store on the disk of the current folder.
 pub fn engine(arguments: &EngineArguments) -> Outcome {
     let one = |refusal| vec![refusal];
     let scratch = std::env::current_dir()

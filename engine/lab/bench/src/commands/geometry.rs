@@ -1,4 +1,4 @@
-//! `geometry`: box queries against other libraries' trees.
+//! `geometry`: box queries compared with other libraries.
 
 use super::outcome::{Outcome, print};
 use clap::Args;
@@ -21,7 +21,7 @@ pub struct GeometryArguments {
     pub json: bool,
 }
 
-/// Measures.
+/// Measures and prints the table.
 pub fn geometry(arguments: &GeometryArguments) -> Outcome {
     let table = cosfly_lab::geometry::geometry(arguments.seed);
     let as_json = || serde_json::to_string_pretty(&table).unwrap_or_default() + "\n";

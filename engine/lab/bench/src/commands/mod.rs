@@ -10,7 +10,7 @@ mod town_of_recipe;
 use clap::{Parser, Subcommand};
 use outcome::Outcome;
 
-/// Measurements of cosfly beside its rivals.
+/// Measurements of cosfly and of other libraries
 #[derive(Debug, Parser)]
 #[command(name = "cosfly-lab", version, about, max_term_width = 100)]
 pub struct Arguments {
@@ -23,13 +23,13 @@ pub struct Arguments {
 enum Command {
     /// The engine with cheap items: cold overhead, everything cached, one parameter changed and changed back
     Engine(engine::EngineArguments),
-    /// Box queries of our tree, of parry's and obvhs's trees and of a plain loop, per second on one core
+    /// Box queries per second on one core: cosfly's tree, the trees of parry and obvhs, and a brute-force loop
     #[command(after_help = geometry::EXAMPLES)]
     Geometry(geometry::GeometryArguments),
-    /// Planners against each other on the same paths: visibility, distance, length, time, nodes, clearance, limits
+    /// Planners compared on the same paths: visibility, distance, length, time, nodes, clearance, limits
     #[command(after_help = planner::EXAMPLES)]
     Planner(planner::PlannerArguments),
-    /// The renderer: CPU time of a frame by stage, frames per second as finished logs, distance to the memory's limits
+    /// The renderer: CPU time of a frame by stage, frames per second as finished logs, comparison with memory bandwidth
     #[command(after_help = render::EXAMPLES)]
     Render(render::RenderArguments),
 }

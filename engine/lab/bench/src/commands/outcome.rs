@@ -1,16 +1,16 @@
-//! The end of a measurement, its output, and its counts.
+//! Outcomes of measurements, their output, and counts as arguments.
 
 use clap::builder::TypedValueParser;
 use cosfly_diagnose::Diagnostic;
 use std::io::{ErrorKind, Write};
 
-/// Everything that can be wrong with a measurement's parameters, at least one.
+/// Errors in a measurement's parameters, at least one.
 pub type Refusals = Vec<Box<Diagnostic>>;
 
-/// The end of a measurement.
+/// Outcome of a measurement.
 pub type Outcome = Result<(), Refusals>;
 
-/// Prints to standard output; a reader that went away (`| head`) is no error.
+/// Prints to standard output; a closed pipe (`| head`) is not an error.
 pub fn print(text: &str) -> Outcome {
     let mut out = std::io::stdout().lock();
     match out.write_all(text.as_bytes()).and_then(|()| out.flush()) {
@@ -21,7 +21,7 @@ pub fn print(text: &str) -> Outcome {
     }
 }
 
-/// A number from 1 to a million.
+/// Parser of a count from 1 to a million.
 pub fn counts() -> impl TypedValueParser<Value = usize> {
     clap::value_parser!(u64).range(1..=1_000_000).map(|count| count as usize)
 }

@@ -1,4 +1,4 @@
-//! `planner`: our planner, the paper's, and the baselines on the same paths.
+//! `planner`: cosfly's planner, the paper's, and the baselines on the same paths.
 
 use super::outcome::{Outcome, Refusals, print};
 use super::town_of_recipe;
@@ -16,13 +16,13 @@ use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 use std::io::IsTerminal;
 use std::path::{Path, PathBuf};
 
-/// Scenes of the table when none is named.
+/// Default scenes of the table.
 const SCENES: [SceneKind; 5] =
     [SceneKind::Light, SceneKind::Leafy, SceneKind::Alley, SceneKind::Canyon, SceneKind::Fine];
 
-/// Paths per scene when it is not said.
+/// Default number of paths per scene.
 const PATHS: usize = 20;
-/// Seed when it is not said.
+/// Default seed.
 const SEED: u64 = 1;
 
 /// Examples of `planner`.
@@ -42,13 +42,13 @@ Examples:
 /// Arguments of `planner`.
 #[derive(Args, Debug)]
 pub struct PlannerArguments {
-    /// Scenes; light, leafy, alley, canyon and fine unless told otherwise, all of them with `--many` (repeatable)
+    /// Scenes; by default light, leafy, alley, canyon and fine, with `--many` all scenes (repeatable)
     #[arg(long = "scene", value_name = "NAME", value_parser = scene_names())]
     pub scenes: Vec<String>,
     /// The town and the walks of a recipe instead of scenes
     #[arg(long, value_name = "FILE", conflicts_with_all = ["scenes", "many"])]
     pub recipe: Option<PathBuf>,
-    /// Planners; all up to `dp` unless told otherwise (repeatable); a single one with `--many`, `cosfly` unless told
+    /// Planners; by default all up to `dp` (repeatable); with `--many` a single one, by default `cosfly`
     #[arg(long = "planner", value_name = "NAME", value_parser = planner_names())]
     pub planners: Vec<String>,
     /// Paths per scene [default: 20; as many as the recipe has walkers with `--recipe`]
@@ -57,13 +57,13 @@ pub struct PlannerArguments {
     /// Seed of the scenes and their walkers [default: 1; the recipe's own with `--recipe`]
     #[arg(long, value_name = "N")]
     pub seed: Option<u64>,
-    /// Plan this many paths on all cores, judge each, and list what came too near
+    /// Plan this many paths on all cores, check each, and list flights that come too near to obstacles
     #[arg(long, value_name = "N", allow_negative_numbers = true, value_parser = from_one, conflicts_with = "paths")]
     pub many: Option<usize>,
-    /// Time the paper's own pipeline without a tree, with one, and with the boxes near the path
+    /// Time the paper's pipeline without a tree, with a tree, and with the boxes near the path
     #[arg(long, conflicts_with_all = ["many", "planners"])]
     pub solver: bool,
-    /// Time the steps of our planner
+    /// Time the steps of cosfly's planner
     #[arg(long, conflicts_with_all = ["many", "solver", "planners"])]
     pub split: bool,
     /// Print JSON
@@ -74,10 +74,10 @@ pub struct PlannerArguments {
     pub plot: Option<PathBuf>,
 }
 
-/// Measures.
+/// Measures and prints the tables.
 pub fn planner(arguments: &PlannerArguments) -> Outcome {
     if let Some(folder) = &arguments.plot {
-        // Before minutes of work, not after them.
+        // The folder is created before minutes of work, not after them.
         std::fs::create_dir_all(folder).map_err(|error| unwritable(folder, &error))?;
     }
     if arguments.many.is_some() && arguments.planners.len() > 1 {
@@ -97,7 +97,7 @@ pub fn planner(arguments: &PlannerArguments) -> Outcome {
     print(&done?)
 }
 
-/// `--many`: one planner, all cores.
+/// Runs `--many`: one planner, all cores.
 fn flown_in_bulk(
     arguments: &PlannerArguments,
     count: usize,
@@ -110,7 +110,7 @@ fn flown_in_bulk(
     Ok(if arguments.json { json(&report) } else { report.to_string() })
 }
 
-/// The tables: every planner on every path, our planner's steps, or the paper's solver table.
+/// Prints the tables: every planner on every path, the planner's steps, or the paper's solver table.
 fn compared(arguments: &PlannerArguments, progress: &(dyn Fn(usize, usize) + Sync)) -> Result<String, Refusals> {
     let (grounds, config) = match &arguments.recipe {
         Some(recipe) => {
@@ -142,7 +142,7 @@ fn compared(arguments: &PlannerArguments, progress: &(dyn Fn(usize, usize) + Syn
     Ok(if arguments.json { json(&table) } else { format!("{table}\n{}{words}", table::LEGEND) })
 }
 
-/// Writes one picture per path; how many there are.
+/// Writes one picture per path; returns their number.
 fn pictures(options: &PlannerOptions<'_>, planned: &[PathOutcome], folder: &Path) -> Result<usize, Refusals> {
     for outcome in planned {
         let ground = &options.grounds[outcome.ground];
@@ -166,7 +166,7 @@ fn kinds(arguments: &PlannerArguments) -> Vec<SceneKind> {
     SceneKind::ALL.into_iter().filter(named).collect()
 }
 
-/// All planners, or those that were named; A* off its default settings only by name.
+/// All planners, or the named ones; A* with non-default settings only by name.
 fn contenders(arguments: &PlannerArguments) -> Vec<Contender> {
     if arguments.planners.is_empty() {
         return Contender::all();
@@ -181,7 +181,7 @@ fn json(value: &impl serde::Serialize) -> String {
     text
 }
 
-/// A bar on a terminal, nothing otherwise.
+/// Progress bar on a terminal, hidden otherwise.
 fn bar() -> ProgressBar {
     let terminal = std::io::stderr().is_terminal();
     let target = if terminal { ProgressDrawTarget::stderr() } else { ProgressDrawTarget::hidden() };
@@ -190,7 +190,7 @@ fn bar() -> ProgressBar {
     ProgressBar::with_draw_target(Some(0), target).with_style(style)
 }
 
-/// Counts of which there must be some.
+/// Parses a count of at least 1.
 fn from_one(text: &str) -> Result<usize, String> {
     let count = text.parse().ok().filter(|count| *count > 0);
     count.ok_or_else(|| "it must be a whole number from 1 on".to_owned())

@@ -1,4 +1,4 @@
-//! `render`: what pictures cost, stage by stage, and how many come out as finished logs.
+//! `render`: cost of pictures by stage, and throughput of finished logs.
 
 use super::outcome::{Outcome, Refusals, print};
 use clap::Args;
@@ -9,7 +9,7 @@ use cosfly_render::{Camera, RenderConfig, Weather};
 use cosfly_schema::EncodingConfig;
 use std::path::{Path, PathBuf};
 
-/// Clear noon, hard rain, night.
+/// Default weathers: clear noon, hard rain, night.
 const WEATHERS: [&str; 3] = ["ClearNoon", "HardRainNoon", "ClearNight"];
 
 /// Examples of `render`.
@@ -25,25 +25,25 @@ Examples:
 /// Arguments of `render`.
 #[derive(Args, Debug)]
 pub struct RenderArguments {
-    /// An OpenDRIVE town instead of the one that `cosfly town` prints
+    /// An OpenDRIVE town instead of the one printed by `cosfly town`
     #[arg(long, value_name = "FILE")]
     pub town: Option<PathBuf>,
-    /// Weather presets; ClearNoon, HardRainNoon and ClearNight unless told otherwise (repeatable)
+    /// Weather presets; by default ClearNoon, HardRainNoon and ClearNight (repeatable)
     #[arg(long = "weather", value_name = "PRESET")]
     pub weathers: Vec<String>,
-    /// Pixels per row
+    /// Width of the images, pixels
     #[arg(long, value_name = "N", default_value_t = 1280)]
     pub width: u32,
-    /// Rows
+    /// Height of the images, pixels
     #[arg(long, value_name = "N", default_value_t = 720)]
     pub height: u32,
-    /// Viewpoints per town
+    /// Number of viewpoints per town
     #[arg(long, value_name = "N", default_value_t = 20, value_parser = super::outcome::counts())]
     pub views: usize,
-    /// Boxes of the second town
+    /// Number of boxes of the second town
     #[arg(long, value_name = "N", default_value_t = 2000, value_parser = super::outcome::counts())]
     pub box_count: usize,
-    /// Rounds over all views; the least time counts
+    /// Rounds over all views; the minimum time counts
     #[arg(long, value_name = "N", default_value_t = 2, value_parser = super::outcome::counts())]
     pub rounds: usize,
     /// Frames of the flights that are drawn, encoded and written on all threads at once

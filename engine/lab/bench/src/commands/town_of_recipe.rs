@@ -1,4 +1,4 @@
-//! A recipe's own town and walks, for measurements: its stages up to the planner, run in a scratch store.
+//! Town and walks of a recipe, for measurements: the stages before the planner, run in a scratch store.
 
 use super::outcome::Refusals;
 use cosfly_diagnose::{Diagnostic, Fault};
@@ -15,8 +15,9 @@ use cosfly_store::Store;
 use std::path::Path;
 use std::sync::Arc;
 
-/// The town, the walks, and the planner's parameters of the first `muco` stage of a recipe; with another number of
-/// walks or another seed where that is given.
+/// Town, walks, and planner parameters of the first `muco` stage of a recipe; `paths` and `seed` replace the number of
+/// walks and
+/// the recipe's seed where given.
 pub fn town_of_recipe(path: &Path, paths: Option<usize>, seed: Option<u64>) -> Result<(Ground, MucoConfig), Refusals> {
     let registry = cosfly_stages::registry();
     let mut overrides: Vec<String> = seed.map(|seed| format!("seed={seed}")).into_iter().collect();
@@ -27,7 +28,7 @@ pub fn town_of_recipe(path: &Path, paths: Option<usize>, seed: Option<u64>) -> R
         recipe = cosfly_recipe::load(path, &overrides, &registry)?;
     }
     let planner = recipe.stages[position].clone();
-    // Inputs stand before the stage that reads them; what comes after it is not needed.
+    // Inputs come before the stage that reads them; later stages are not needed.
     recipe.stages.truncate(position);
     let scratch = std::env::current_dir()
         .and_then(tempfile::tempdir_in)
@@ -46,7 +47,7 @@ pub fn town_of_recipe(path: &Path, paths: Option<usize>, seed: Option<u64>) -> R
     Ok((ground, expert.config))
 }
 
-/// The first `muco` stage that follows somebody.
+/// Index of the first `muco` stage that follows a pedestrian.
 fn planner_of(recipe: &Recipe) -> Result<usize, Refusals> {
     let follows = |stage: &RecipeStage| {
         let is_planner = stage.kind == "muco" && stage.name.part().is_empty();
@@ -58,7 +59,7 @@ fn planner_of(recipe: &Recipe) -> Result<usize, Refusals> {
     })
 }
 
-/// The recipe's name of the stage that makes the planner's walks.
+/// Name of the recipe stage that makes the planner's walks.
 fn walkers_of(recipe: &Recipe, planner: usize) -> Option<&str> {
     let connection = recipe.stages[planner].connections.iter().find(|connection| connection.port.name == "paths")?;
     let upstream = &recipe.stages[*connection.upstreams.first()?];

@@ -1,4 +1,4 @@
-//! Contenders: our planner, the paper's, and the baselines, behind one call.
+//! Contenders: cosfly's planner, the paper's, and the baselines, behind one interface.
 
 use super::plain_bvh::PlainBvh;
 use super::scene::Ground;
@@ -13,35 +13,35 @@ use cosfly_planner::walk::Walk;
 use cosfly_planner::{MucoConfig, PlanOutcome, Preset, plan};
 use cosfly_random::Seed;
 
-/// A planner in the table.
+/// A planner of the table.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Contender {
-    /// Ours, with its default preset.
+    /// Cosfly's planner with its default preset.
     Cosfly,
-    /// The paper's own pipeline, as it comes: neither certified nor refused.
+    /// The paper's pipeline alone: neither certified nor rejected.
     Paper,
-    /// The same as recipes get it: made flyable and certified, or refused.
+    /// The paper's pipeline as recipes use it: made flyable and certified, or rejected.
     PaperFlyable,
-    /// The paper's A*, with rays through a textbook tree: the reference of the column "faster".
+    /// The paper's A*, with rays through a textbook BVH: the reference of the column "faster".
     Astar,
-    /// A planner to be measured against that recipes know, too.
+    /// A baseline that recipes offer, too.
     Baseline(Baseline),
     /// A* with other settings; an index into [`SETTINGS`].
     Setting(usize),
 }
 
-/// A* off its default settings: the points that a fair comparison must look at, too.
+/// A* with non-default settings, for a fair comparison.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Setting {
     /// Name in the table and on the command line.
     pub name: &'static str,
     /// Whether the path is made flyable.
     pub smoothed: bool,
-    /// Voxels and the price of motion.
+    /// Voxels and the weight of motion.
     pub options: VoxelOptions,
-    /// Weight of visibility, when it is not the recipe's.
+    /// Weight of visibility, where it differs from the recipe's.
     pub visibility: Option<f64>,
-    /// Weight of the soft safety term, when it is not the recipe's; the hard constraint stays.
+    /// Weight of the soft safety term, where it differs from the recipe's; the hard constraint stays.
     pub safety: Option<f64>,
 }
 
@@ -49,7 +49,7 @@ const fn setting(name: &'static str, smoothed: bool, voxel_m: f64, motion_per_m:
     Setting { name, smoothed, options: VoxelOptions { voxel_m, motion_per_m }, visibility: None, safety: None }
 }
 
-/// Not in the table unless they are asked for by name.
+/// Settings, in the table only on request.
 pub const SETTINGS: [Setting; 8] = [
     setting("astar_move_0.1", false, 2.0, 0.1),
     setting("astar_move_4", false, 2.0, 4.0),
@@ -61,20 +61,20 @@ pub const SETTINGS: [Setting; 8] = [
     setting("astar_1m", false, 1.0, 1.0),
 ];
 
-/// A path, before anyone has judged it.
+/// A planned path, before evaluation.
 pub struct Planned {
-    /// One per frame.
+    /// Positions, one per frame, metres.
     pub waypoints: Vec<DVec3>,
-    /// Nodes expanded by the search; 0 where there is none.
+    /// Nodes expanded by the search; 0 for planners without a search.
     pub nodes: u64,
-    /// Total cost after each iteration of the solver; empty where there is none.
+    /// Total cost after each iteration of the solver; empty for planners without one.
     pub convergence: Vec<f64>,
-    /// Mean visibility of the best way through the lattice that the flight came from.
+    /// Mean visibility of the lattice's cheapest path, from which the flight was refined.
     pub lattice_visibility: Option<f64>,
 }
 
 impl Contender {
-    /// All, in the order of the table.
+    /// All contenders of the default table, in order.
     pub fn all() -> Vec<Self> {
         let first = [Self::Cosfly, Self::Paper, Self::PaperFlyable, Self::Astar];
         first.into_iter().chain(Baseline::ALL.into_iter().map(Self::Baseline)).collect()
@@ -97,7 +97,7 @@ impl Contender {
         }
     }
 
-    /// Plans one path; the reason when there is none.
+    /// Plans one path; the error is the reason for a missing flight.
     pub fn plan(self, ground: &Ground, track: &TargetTrack, config: &MucoConfig) -> Result<Planned, String> {
         match self {
             Self::Cosfly => flight(ground, track, &MucoConfig { preset: Preset::Cosfly, ..config.clone() }),
@@ -126,7 +126,7 @@ fn flight(ground: &Ground, track: &TargetTrack, config: &MucoConfig) -> Result<P
     }
 }
 
-/// The paper's flight as it comes, neither certified nor refused.
+/// Flight of the paper's pipeline alone, neither certified nor rejected.
 fn paper_flight(ground: &Ground, track: &TargetTrack, config: &MucoConfig) -> Planned {
     let terms = built_in_terms(&config.resolved_weights());
     let walk = Walk::of(track);

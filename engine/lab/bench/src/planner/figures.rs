@@ -1,4 +1,4 @@
-//! One measure for all flights: in `f64`, against the unsimplified map, whoever planned them.
+//! Evaluation of flights, the same for all planners: in `f64`, against the unsimplified map.
 
 use super::contender::Planned;
 use cosfly_frames::{DVec3, TargetTrack, real};
@@ -8,43 +8,43 @@ use cosfly_planner::walk::Walk;
 use cosfly_planner::{MucoConfig, visibility};
 use serde::Serialize;
 
-/// A swept path nearer than this has collided, metres: the radius of the drone.
+/// Clearance below which a swept path collides, metres: the radius of the drone.
 pub const COLLISION_M: f64 = 0.5;
-/// Clearances are measured up to here, metres.
+/// Largest clearance that is measured, metres.
 const CLEARANCE_CAP_M: f64 = 50.0;
 
-/// Outcome of one path with one contender.
+/// Result of one contender on one path.
 pub struct Flight {
-    /// One waypoint per frame; empty when there is no flight.
+    /// Positions, one per frame, metres; empty when there is no flight.
     pub waypoints: Vec<DVec3>,
-    /// Visibility per frame.
+    /// Visibility per frame, 0..1.
     pub visibility: Vec<f64>,
     /// Total cost after each iteration.
     pub convergence: Vec<f64>,
-    /// CPU seconds of the planning thread, also when no flight came of it.
+    /// CPU time of the planning thread, seconds, also when there is no flight.
     pub cpu_s: f64,
-    /// The figures, or why there is no flight.
+    /// Figures, or the reason for a missing flight.
     pub figures: Result<Figures, String>,
 }
 
 /// Figures of one flight.
 #[derive(Clone, Copy, Debug, Serialize)]
 pub struct Figures {
-    /// Mean share of body points seen.
+    /// Mean share of visible body points, 0..1.
     pub visibility: f64,
-    /// Share of frames that see at least half of them.
+    /// Share of frames with at least half of them visible, 0..1.
     pub frames_half_visible: f64,
     /// Mean distance from drone to the target's feet, metres.
     pub distance_m: f64,
-    /// Way of the drone, metres.
+    /// Path length of the drone, metres.
     pub length_m: f64,
-    /// Way of the target, metres.
+    /// Path length of the target, metres.
     pub target_length_m: f64,
     /// Smallest distance of the swept path to a box, metres.
     pub min_clearance_m: f64,
-    /// Segments nearer than [`COLLISION_M`].
+    /// Number of segments nearer than [`COLLISION_M`].
     pub collisions: u32,
-    /// Segments nearer than the clearance limit.
+    /// Number of segments nearer than the clearance limit.
     pub margin_violations: u32,
     /// Largest speed, m/s.
     pub max_speed_mps: f64,
@@ -52,16 +52,16 @@ pub struct Figures {
     pub max_acceleration_mps2: f64,
     /// Largest jerk, m/s^3.
     pub max_jerk_mps3: f64,
-    /// Mean angle off the rear of the walker, degrees; `None` when the target never walks.
+    /// Mean angle from straight behind the walker, degrees; `None` when the target never walks.
     pub rear_angle_deg: Option<f64>,
-    /// Visibility as a share of what the best way through the planner's lattice sees; `None` without a lattice.
+    /// Visibility as a share of that of the lattice's best path; `None` without a lattice.
     pub share_of_lattice: Option<f64>,
-    /// Nodes expanded.
+    /// Number of expanded nodes.
     pub nodes: u64,
 }
 
 impl Flight {
-    /// Measures what was planned.
+    /// Evaluates a planned path.
     pub fn judge(
         planned: Result<Planned, String>,
         cpu_s: f64,
@@ -125,13 +125,13 @@ fn figures(
     }
 }
 
-/// Distance of each segment to the nearest box, metres; the last waypoint is a segment of its own.
+/// Distances of each segment to the nearest box, metres; the last waypoint is a segment of its own.
 pub fn swept_clearances_m(exact: &dyn SpatialQuery, waypoints: &[DVec3]) -> Vec<f64> {
     let ends = waypoints.iter().skip(1).chain(waypoints.last());
     waypoints.iter().zip(ends).map(|(&from, &to)| exact.segment_clearance(from, to, CLEARANCE_CAP_M)).collect()
 }
 
-/// Mean angle between "target to drone" and "against the walking direction", from above, while the target walks.
+/// Mean horizontal angle between "target to drone" and "against the walking direction" while the target walks, degrees.
 fn rear_angle_deg(track: &TargetTrack, waypoints: &[DVec3]) -> Option<f64> {
     let walk = Walk::of(track);
     let (mut sum, mut count) = (0.0, 0.0);

@@ -1,6 +1,6 @@
-//! Many trajectories on all cores: how long a whole dataset takes, and whether any of its flights comes too near.
+//! Many trajectories on all cores: time of a whole dataset, and flights that come too near to obstacles.
 //!
-//! Every flight is judged again by another tree than the planner's own, in `f64`, against the unsimplified map.
+//! Every flight is checked with another tree than the planner's own, in `f64`, against the unsimplified map.
 
 use super::contender::{Contender, Planned};
 use super::figures::COLLISION_M;
@@ -18,53 +18,53 @@ use std::time::Instant;
 
 /// Walkers per generated scene.
 const WALKERS: usize = 20;
-/// Scenes that are held at once.
+/// Number of scenes in memory at once.
 const SCENES_PER_ROUND: usize = 24;
-/// Clearances are measured up to here, metres.
+/// Largest clearance that is measured, metres.
 const CAP_M: f64 = 5.0;
-/// Slack of the checks for rounding, metres and m/s.
+/// Tolerance of the checks for rounding, metres and m/s.
 const ROUNDING: f64 = 1e-9;
-/// The paper: 6,000 trajectories in 25 minutes.
+/// Time per trajectory in the paper: 6,000 trajectories in 25 minutes.
 const PAPER_S_PER_TRAJECTORY: f64 = 25.0 * 60.0 / 6000.0;
-/// Incidents that are listed; all are counted.
+/// Most incidents that are listed; all are counted.
 const LISTED: usize = 50;
 
-/// Scenes, planner and limits of a measurement.
+/// Options of the measurement.
 pub struct ManyOptions<'a> {
     /// Kinds of scenes, in turn.
     pub kinds: Vec<SceneKind>,
-    /// Seed of the first scene of each kind; the next one's is one more.
+    /// Seed of the first scene of each kind; later ones have consecutive seeds.
     pub seed: u64,
     /// Number of trajectories.
     pub count: usize,
-    /// The planner.
+    /// Planner.
     pub contender: Contender,
     /// Limits, view and weights.
     pub config: MucoConfig,
-    /// Told after every round: how many of how many are done.
+    /// Callback after every round: finished and total numbers.
     pub progress: &'a (dyn Fn(usize, usize) + Sync),
 }
 
-/// Figures of all flights together.
+/// Results of the measurement.
 #[derive(Clone, Debug, Default, Serialize)]
 pub struct ManyReport {
     /// Planner.
     pub planner: String,
-    /// Paths.
+    /// Number of paths.
     pub paths: usize,
-    /// Paths with a flight.
+    /// Number of paths with a flight.
     pub planned: usize,
-    /// Threads that planned.
+    /// Number of planning threads.
     pub threads: usize,
-    /// Seconds on the wall, planning only: scenes are made and flights judged outside it.
+    /// Wall time of planning alone, seconds; scene generation and evaluation are excluded.
     pub planning_wall_s: f64,
-    /// CPU seconds of all planning threads.
+    /// CPU time of all planning threads, seconds.
     pub planning_cpu_s: f64,
-    /// Speed as a multiple of the paper's 25 minutes for 6,000 trajectories.
+    /// Speed relative to the paper's 25 minutes for 6,000 trajectories.
     pub times_paper: f64,
-    /// The same if the threads had done nothing else: by CPU time instead of seconds on the wall.
+    /// The same by CPU time instead of wall time, as on an idle machine.
     pub times_paper_undisturbed: f64,
-    /// Mean visibility over all flights, as the planner's tree sees it.
+    /// Mean visibility over all flights, by the planner's tree.
     pub visibility: f64,
     /// Smallest clearance of all swept paths, metres, capped at 5.
     pub min_clearance_m: f64,
@@ -74,17 +74,17 @@ pub struct ManyReport {
     pub max_acceleration_mps2: f64,
     /// Largest jerk, m/s^3.
     pub max_jerk_mps3: f64,
-    /// Flights whose swept path collides.
+    /// Number of flights whose swept path collides.
     pub collisions: usize,
-    /// Flights that come nearer than the clearance limit.
+    /// Number of flights nearer than the clearance limit.
     pub margin_violations: usize,
-    /// Flights beyond a limit of speed, acceleration or jerk.
+    /// Number of flights beyond a limit of speed, acceleration or jerk.
     pub limit_violations: usize,
-    /// The first of all these, and of the paths without a flight, each in words.
+    /// First incidents (such flights, and paths without a flight), each in words.
     pub incidents: Vec<String>,
 }
 
-/// One planned path with the place that it can be found again by.
+/// A planned path with the scene and number that identify it.
 struct Job<'a> {
     ground: &'a Ground,
     judge: &'a PlainBvh,
@@ -92,14 +92,14 @@ struct Job<'a> {
     name: String,
 }
 
-/// The judge's figures of one flight.
+/// Evaluation of one flight.
 struct Verdict {
     visibility: f64,
     clearance_m: f64,
     kinematics: Kinematics,
 }
 
-/// Plans and judges `count` paths.
+/// Plans and evaluates `count` paths.
 pub fn many(options: &ManyOptions<'_>) -> ManyReport {
     let mut report = ManyReport {
         planner: options.contender.name().to_owned(),
@@ -119,7 +119,7 @@ pub fn many(options: &ManyOptions<'_>) -> ManyReport {
     report
 }
 
-/// (kind, seed, walkers) of every scene that is needed.
+/// (kind, seed, walkers) of every required scene.
 fn scenes(options: &ManyOptions<'_>) -> Vec<(SceneKind, u64, usize)> {
     let kinds = options.kinds.len().max(1);
     let scene = |index: usize| {

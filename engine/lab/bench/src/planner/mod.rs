@@ -1,7 +1,8 @@
-//! Planners against each other, on the same paths, in one run.
+//! Planners compared on the same paths, in one run.
 //!
-//! [`outcomes()`] plans every path of every scene with every [`Contender`], one path after the other, and
-//! judges all flights by the same measure against the unsimplified map ([`figures`]); [`tabulate`] makes rows of them.
+//! [`outcomes()`] plans every path of every scene with every [`Contender`], one path after the other, and evaluates all
+//! flights
+//! against the unsimplified map ([`figures`]); [`tabulate`] summarises them in rows.
 
 pub mod contender;
 pub mod figures;

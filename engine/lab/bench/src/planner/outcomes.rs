@@ -6,31 +6,31 @@ use super::scene::Ground;
 use crate::clock::timed;
 use cosfly_planner::MucoConfig;
 
-/// Grounds, contenders and limits of a measurement.
+/// Options of the measurement.
 pub struct PlannerOptions<'a> {
-    /// Maps and targets.
+    /// Scenes with their paths.
     pub grounds: Vec<Ground>,
     /// Planners, in the order of the table.
     pub contenders: Vec<Contender>,
     /// Limits, view and weights of every contender but `paper`, which has its own weights.
     pub config: MucoConfig,
-    /// Told after every flight: how many of how many are done.
+    /// Callback after every flight: finished and total numbers.
     pub progress: &'a (dyn Fn(usize, usize) + Sync),
 }
 
-/// One path, planned by everyone.
+/// One path, planned by every contender.
 pub struct PathOutcome {
     /// Index of the ground.
     pub ground: usize,
     /// Number of the path.
     pub path: usize,
-    /// One per contender.
+    /// Flights, one per contender.
     pub flights: Vec<Flight>,
 }
 
-/// Plans everything and keeps every flight.
+/// Plans all paths and keeps every flight.
 pub fn outcomes(options: &PlannerOptions<'_>) -> Vec<PathOutcome> {
-    // One thread: what a planner would do in parallel counts as its own time, too.
+    // One thread: parallel work of a planner counts as its own time as well.
     match rayon::ThreadPoolBuilder::new().num_threads(1).build() {
         Ok(pool) => pool.install(|| outcomes_on_this_thread(options)),
         Err(_) => outcomes_on_this_thread(options),

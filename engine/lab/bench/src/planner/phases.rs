@@ -1,7 +1,8 @@
-//! Time of our planner by step: steps timed one by one on the same path, and the rest of the whole.
+//! Time of the planner's steps, each timed separately on the same path, and the rest of the whole plan.
 //!
-//! The library keeps no clock. Each step is done again through its own public entry; `smooth` is what remains of the
-//! whole plan: smoothing in the corridor, measuring after it, further attempts, and handing the flight out.
+//! The library has no clock. Each step is repeated through its public function; `smooth` is the rest of the whole plan:
+//! smoothing in
+//! the corridor, its measurement, further attempts, and the output of the flight.
 
 use super::contender::Contender;
 use super::scene::Ground;
@@ -27,46 +28,46 @@ use std::fmt;
 /// Rounds and steps of an attempt's refinement.
 const ROUNDS: Rounds = Rounds { rounds: 2, steps: 3 };
 
-/// Mean CPU milliseconds per path of each step.
+/// Mean CPU time of each step per path, milliseconds.
 #[derive(Clone, Copy, Debug, Default, Serialize)]
 pub struct Phases {
-    /// Boxes near the path.
+    /// Filter of the boxes near the path.
     pub filter_ms: f64,
     /// Visibility and clearance of all viewpoints of the lattice.
     pub lattice_ms: f64,
-    /// The search through them.
+    /// Search through the viewpoints.
     pub search_ms: f64,
-    /// Gauss-Newton.
+    /// Refinement by Gauss-Newton.
     pub refine_ms: f64,
     /// One measurement for the certificate.
     pub certificate_ms: f64,
-    /// Everything else: smoothing in the corridor, mostly.
+    /// Rest, mostly smoothing in the corridor.
     pub smooth_ms: f64,
-    /// The whole plan.
+    /// Whole plan.
     pub whole_ms: f64,
 }
 
-/// The split of one lattice in one scene.
+/// Times of one lattice in one scene.
 #[derive(Clone, Debug, Serialize)]
 pub struct PhaseRow {
-    /// Scene.
+    /// Name of the scene.
     pub scene: String,
     /// `fast` or `quality`.
     pub lattice: String,
-    /// Paths.
+    /// Number of paths.
     pub paths: usize,
-    /// Means.
+    /// Mean times.
     pub phases: Phases,
 }
 
-/// All splits; prints as a table.
+/// Table of all times.
 #[derive(Clone, Debug, Serialize)]
 pub struct PhaseTable {
-    /// By scene, then lattice.
+    /// Rows by scene, then lattice.
     pub rows: Vec<PhaseRow>,
 }
 
-/// Times the steps in every ground, for the fast and for the full lattice.
+/// Times the steps in every scene, for the fast and for the full lattice.
 pub fn phases(grounds: &[Ground], config: &MucoConfig) -> PhaseTable {
     let (fast, full) = (fast(config), only(config));
     let lattices = [("fast", &fast), ("quality", &full)];
@@ -74,14 +75,14 @@ pub fn phases(grounds: &[Ground], config: &MucoConfig) -> PhaseTable {
     PhaseTable { rows: rows.collect() }
 }
 
-/// The full lattice alone.
+/// Config with the full lattice alone.
 fn only(config: &MucoConfig) -> MucoConfig {
     let mut own = config.clone();
     own.search.effort = SearchEffort::Quality;
     own
 }
 
-/// A lattice of the size that escalation tries first, as if it were the full one.
+/// Config with a lattice of the size that escalation tries first, as the full one.
 fn fast(config: &MucoConfig) -> MucoConfig {
     let mut own = only(config);
     own.search.altitudes = own.search.altitudes.div_ceil(2);
@@ -128,7 +129,7 @@ fn phases_of(ground: &Ground, track: &TargetTrack, config: &MucoConfig) -> Phase
     let (mut obstacles, filter_s) = timed(filter);
     let lattice_s = lattice_s(track, &obstacles, config);
     let mut space = SearchSpace::default();
-    // Once for the buffers, which the planner keeps from flight to flight.
+    // One run to fill the buffers, which the planner reuses from flight to flight.
     let effort = full_effort(config);
     let _ = search(&problem, &obstacles, config, effort, &[], &mut space);
     let (found, search_s) = timed(|| search(&problem, &obstacles, config, effort, &[], &mut space));
@@ -156,7 +157,7 @@ fn phases_of(ground: &Ground, track: &TargetTrack, config: &MucoConfig) -> Phase
     }
 }
 
-/// CPU seconds of evaluating the lattice at all of its layers.
+/// CPU time of evaluating all layers of the lattice, seconds.
 fn lattice_s(track: &TargetTrack, obstacles: &LocalObstacles<'_>, config: &MucoConfig) -> f64 {
     let effort = full_effort(config);
     let lattice = Lattice::new(effort.size, &config.view);
@@ -172,9 +173,9 @@ fn lattice_s(track: &TargetTrack, obstacles: &LocalObstacles<'_>, config: &MucoC
 
 impl fmt::Display for PhaseTable {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let heads = ["filter", "lattice", "search", "refine", "certify", "smooth", "whole"];
+        let headings = ["filter", "lattice", "search", "refine", "certify", "smooth", "whole"];
         write!(f, "{:8} {:8} {:>5}", "scene", "lattice", "paths")?;
-        heads.iter().try_for_each(|head| write!(f, " {head:>8}"))?;
+        headings.iter().try_for_each(|heading| write!(f, " {heading:>8}"))?;
         writeln!(f, "   ms of CPU per path")?;
         for row in &self.rows {
             let p = &row.phases;

@@ -1,8 +1,10 @@
-//! The textbook tree that the paper's baseline is given: binary, surface-area heuristic, one ray at a time.
+//! A textbook BVH for the paper's baseline: binary, surface-area heuristic, one ray at a time.
 //!
-//! It is kept so that "A* with a BVH" keeps meaning the same thing while the engine's own tree gets faster. Asked for
-//! the sight of a body from drones around it, it is on a par with the trees of parry and obvhs. Nodes are `f32`,
-//! rounded outward; leaves ask the exact `f64` boxes; nearer children come first.
+//! It is kept so that "A* with a BVH" does not change while the engine's own tree gets faster. For the visibility of a
+//! body from
+//! drones around it, it is as fast as the trees of parry and obvhs. Nodes are `f32`, rounded outward; leaves test the
+//! exact
+//! `f64` boxes; nearer children come first.
 
 use cosfly_frames::DVec3;
 use cosfly_geometry::OrientedBox;
@@ -12,29 +14,29 @@ use glam::Vec3A;
 
 /// Most boxes in a leaf.
 const LEAF_SIZE: usize = 1;
-/// Entries of the traversal stack; deeper trees than this are cut short by halving.
+/// Entries of the traversal stack; deeper trees are limited by median splits.
 const STACK: usize = 64;
-/// Depth beyond which ranges are halved by count, which keeps the tree within the stack.
+/// Depth beyond which ranges are split at the median, which bounds the depth by the stack.
 const SAH_DEPTH: usize = 28;
 
 #[derive(Clone, Copy)]
 struct Node {
     low: Vec3A,
     high: Vec3A,
-    /// First child of an inner node (the second follows it), first box of a leaf.
+    /// First child of an inner node (the second follows it), or first box of a leaf.
     first: u32,
-    /// Boxes of a leaf; 0 marks an inner node.
+    /// Number of boxes of a leaf; 0 marks an inner node.
     count: u32,
 }
 
-/// Boxes under a binary tree.
+/// A binary BVH over boxes.
 pub struct PlainBvh {
     nodes: Vec<Node>,
     solids: Vec<Solid>,
 }
 
 impl PlainBvh {
-    /// Builds the tree; deterministic. Boxes that are not finite are left out.
+    /// Builds the tree; deterministic. Boxes with numbers that are not finite are skipped.
     pub fn build(boxes: &[OrientedBox]) -> Self {
         let finite = |shape: &&OrientedBox| {
             shape.center_in_world.is_finite() && shape.half_extents_m.is_finite() && shape.yaw_rad.is_finite()
@@ -61,12 +63,12 @@ impl PlainBvh {
         Self { nodes, solids }
     }
 
-    /// Whether anything stands between two points.
+    /// Whether a box lies between two points.
     pub fn blocked(&self, from: DVec3, to: DVec3) -> bool {
         self.blocker(from, to).is_some()
     }
 
-    /// Number of `points` seen from `camera`. The box that hid the last point often hides the next one, too.
+    /// Number of `points` visible from `camera`. The occluder of the last point is tested first.
     pub fn visible_points(&self, camera: DVec3, points: &[DVec3]) -> usize {
         let mut last: Option<&Solid> = None;
         let mut visible = 0;
@@ -82,7 +84,7 @@ impl PlainBvh {
         visible
     }
 
-    /// A box that meets the segment, if there is one.
+    /// A box that meets the segment, if any.
     fn blocker(&self, from: DVec3, to: DVec3) -> Option<&Solid> {
         let ray = NodeRay::new(from, to);
         let mut stack = [0_u32; STACK];
@@ -119,11 +121,11 @@ impl PlainBvh {
         }
     }
 
-    /// Signed distance to the nearest box, capped at `within_m`.
+    /// Signed distance to the nearest box, metres, capped at `within_m`.
     pub fn nearest_m(&self, point: DVec3, within_m: f64) -> f64 {
         let (low, high) = (rounded_down(point), rounded_up(point));
         let mut best = within_m;
-        // Inside one box another may be deeper: nodes that hold the point (gap 0) always count.
+        // Inside one box another may be deeper: nodes that contain the point (gap 0) are always visited.
         self.walk(
             within_m,
             |node| gap_m(node, low, high),
@@ -135,7 +137,7 @@ impl PlainBvh {
         best
     }
 
-    /// Smallest distance of the segment to a box, capped at `within_m`; 0 or less when they touch.
+    /// Smallest distance of the segment to a box, metres, capped at `within_m`; 0 or less when they touch.
     pub fn segment_clearance_m(&self, from: DVec3, to: DVec3, within_m: f64) -> f64 {
         let (low, high) = (from.min(to), from.max(to));
         let (node_low, node_high) = (rounded_down(low), rounded_up(high));
@@ -153,7 +155,7 @@ impl PlainBvh {
         best
     }
 
-    /// Visits leaves, nearer ones first, while their distance is not above the limit that the last visit returned.
+    /// Visits leaves, nearer ones first, while their distance is at most the limit that the last visit returned.
     #[inline(always)]
     fn walk(&self, limit: f64, gap_m: impl Fn(&Node) -> f32, mut visit: impl FnMut(&Solid) -> f64) {
         let mut limit = next_up(limit);
@@ -183,10 +185,9 @@ impl PlainBvh {
     }
 }
 
-/// A segment made ready for the nodes' boxes.
+/// A segment prepared for the nodes' boxes.
 struct NodeRay {
-    /// The origin, moved by a hair for what `f32` loses at these coordinates: up against lower faces, down against
-    /// upper ones.
+    /// Origin, shifted to cover the `f32` rounding of these coordinates: up for lower faces, down for upper ones.
     above: Vec3A,
     below: Vec3A,
     inverse: Vec3A,
@@ -201,7 +202,7 @@ impl NodeRay {
         Self { above: origin + slack_m, below: origin - slack_m, inverse }
     }
 
-    /// Place where the segment enters the node's box, as a share of the segment's length; beyond 1 when it misses the box.
+    /// Parameter where the segment enters the node's box, as a share of its length; beyond 1 when it does not.
     #[inline(always)]
     fn entry(&self, node: &Node) -> f32 {
         let low = (node.low - self.above) * self.inverse;
@@ -214,24 +215,24 @@ impl NodeRay {
     }
 }
 
-/// The smaller; one instruction, since nothing here is not a number.
+/// Smaller number, in one instruction; neither number is NaN.
 #[inline(always)]
 fn near_of(a: f32, b: f32) -> f32 {
     if a < b { a } else { b }
 }
 
-/// The larger.
+/// Larger number.
 #[inline(always)]
 fn far_of(a: f32, b: f32) -> f32 {
     if a > b { a } else { b }
 }
 
-/// The next `f32` that is not below a distance.
+/// Next `f32` that is not below a distance.
 fn next_up(value_m: f64) -> f32 {
     (value_m as f32).next_up()
 }
 
-/// A lower bound of the distance between a node and an axis-aligned box, metres.
+/// Lower bound of the distance between a node and an axis-aligned box, metres.
 #[inline(always)]
 fn gap_m(node: &Node, low: Vec3A, high: Vec3A) -> f32 {
     (node.low - high).max(low - node.high).max(Vec3A::ZERO).length() * (1.0 - 1e-5)

@@ -1,4 +1,4 @@
-//! Pictures of one path: a plan view of every planner's flight coloured by visibility, and the cost while it falls.
+//! Pictures of one path: a plan view of every flight, coloured by visibility, and the cost by iteration.
 
 use super::figures::Flight;
 use super::scene::Ground;
@@ -8,21 +8,21 @@ use cosfly_plot::document::{Anchor, Document};
 
 /// Width of one plan view, pixels.
 const VIEW_PX: f64 = 460.0;
-/// Ground around the paths that is shown, metres.
+/// Margin of ground around the paths, metres.
 const MARGIN_M: f64 = 12.0;
-/// Height of the words above a view, pixels.
+/// Height of the title above a view, pixels.
 const TITLE_PX: f64 = 44.0;
 /// Plan views side by side.
 const VIEWS_PER_ROW: usize = 4;
-/// Width of the chart of costs at most, pixels.
+/// Largest width of the chart of costs, pixels.
 const CHART_WIDTH_PX: f64 = 900.0;
 /// Height of the chart of costs, pixels.
 const CHART_PX: f64 = 220.0;
-/// Colours from nothing seen to everything seen.
+/// Colour scale of visibility, 0 to 1.
 const SCALE: [(f64, [f64; 3]); 4] =
     [(0.0, [165.0, 0.0, 38.0]), (0.5, [244.0, 109.0, 67.0]), (0.85, [217.0, 180.0, 40.0]), (1.0, [26.0, 152.0, 80.0])];
 
-/// The colour of a visibility.
+/// Colour of a visibility.
 fn colour(visibility: f64) -> String {
     let above = SCALE.iter().position(|(at, _)| visibility <= *at).unwrap_or(SCALE.len() - 1).max(1);
     let ((low, from), (high, to)) = (SCALE[above - 1], SCALE[above]);
@@ -31,7 +31,7 @@ fn colour(visibility: f64) -> String {
     format!("#{:02x}{:02x}{:02x}", mix(0), mix(1), mix(2))
 }
 
-/// From metres on the map to pixels of a view.
+/// Projection from metres on the map to pixels of a view.
 struct Projection {
     low: DVec2,
     scale: f64,
@@ -50,7 +50,7 @@ impl Projection {
     }
 }
 
-/// One picture: a plan view per flight, and below them the cost of those that have a solver.
+/// Picture of one path: a plan view per flight, and below them the costs of planners with a solver.
 pub fn picture(ground: &Ground, path: usize, flights: &[(&str, &Flight)]) -> String {
     let track = &ground.tracks[path];
     let (low, high) = extent(track, flights);
@@ -103,7 +103,7 @@ fn titles(page: &mut Document, (left, top): (f64, f64), name: &str, flight: &Fli
     page.words((left, top + 35.0), &words, Anchor::Start, "#555555");
 }
 
-/// Obstacles from above; the higher the darker.
+/// Obstacles from above; higher ones are darker.
 fn footprint(page: &mut Document, view: &Projection, shape: &OrientedBox, low: DVec2, high: DVec2) {
     let (min, max) = shape.bounds_in_world();
     if min.x > high.x || min.y > high.y || max.x < low.x || max.y < low.y {
@@ -126,7 +126,7 @@ fn walk(page: &mut Document, view: &Projection, track: &TargetTrack) {
     }
 }
 
-/// The flight in runs of one colour.
+/// Flight in segments of one colour.
 fn flown(page: &mut Document, view: &Projection, flight: &Flight) {
     let mut run: Vec<(f64, f64)> = Vec::new();
     let mut shade = String::new();
@@ -163,7 +163,7 @@ fn legend(page: &mut Document, left: f64, y: f64, scale: f64) {
     page.words((x + 116.0 + 20.0 * scale, y), "20 m", Anchor::Start, "#333333");
 }
 
-/// Cost by iteration, each solver in its own colour, on a logarithmic scale.
+/// Cost by iteration, one colour per solver, on a logarithmic scale.
 fn chart(page: &mut Document, left: f64, top: f64, width: f64, solvers: &[&(&str, &Flight)]) {
     let (plot_left, plot_width, plot_height) = (left + 60.0, width - 180.0, CHART_PX - 70.0);
     let costs = || solvers.iter().flat_map(|(_, flight)| flight.convergence.iter().copied()).filter(|c| *c > 0.0);

@@ -1,30 +1,30 @@
-//! Maps and targets: seeded scenes, or any town with its walkers.
+//! Scenes with paths: seeded scenes, or any town with its walkers.
 
 use cosfly_frames::TargetTrack;
 use cosfly_geometry::{BoxBvh, OrientedBox, SpatialQuery};
 use cosfly_planner::scenes::{Scene, SceneKind};
 
-/// Height of the ground at (x, y), metres.
+/// Function of the height of the ground at (x, y), metres.
 pub type GroundHeight = Box<dyn Fn(f64, f64) -> f64 + Send + Sync>;
 
 /// A map and the targets that walk in it.
 pub struct Ground {
     /// Name in tables.
     pub name: String,
-    /// All unsimplified boxes; flights are judged against them.
+    /// Unsimplified boxes, for evaluation.
     pub exact: Box<dyn SpatialQuery>,
     /// Number of unsimplified boxes.
     pub exact_boxes: usize,
-    /// Boxes that planners avoid and look past.
+    /// Boxes for planning.
     pub planning_boxes: Vec<OrientedBox>,
-    /// The ground.
+    /// Height of the ground.
     pub height: GroundHeight,
-    /// The targets.
+    /// Tracks of the targets.
     pub tracks: Vec<TargetTrack>,
 }
 
 impl Ground {
-    /// The first `paths` walkers of a seeded scene. `fine` is planned on its coarse twin and judged on all its boxes.
+    /// First `paths` walkers of a seeded scene. `fine` is planned on its coarse twin and evaluated on all its boxes.
     pub fn scene(kind: SceneKind, seed: u64, paths: usize) -> Self {
         Self::scene_and_boxes(kind, seed, paths).0
     }

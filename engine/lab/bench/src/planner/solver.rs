@@ -1,7 +1,8 @@
-//! The paper's solver table: its pipeline without a tree, with one, and with the boxes near the path alone.
+//! The paper's solver table: the pipeline without a tree, with a tree, and with the boxes near the path alone.
 //!
-//! `without a tree` asks every box of the town in turn, `tree` asks a hierarchy over all of them, `near the path`
-//! keeps the boxes within 45 m with short lists per frame, and asks eight lines of sight at a time.
+//! `without a tree` tests every box of the town, `tree` queries a BVH over all of them, `near the path` keeps the boxes
+//! within 45 m
+//! with short lists per frame, and tests eight lines of sight at a time.
 
 use super::scene::Ground;
 use crate::clock::timed;
@@ -17,36 +18,37 @@ use cosfly_planner::{MucoConfig, Preset};
 use serde::Serialize;
 use std::fmt;
 
-/// Iterations of which the fastest counts.
+/// Number of timed iterations, of which the fastest counts.
 const REPEATS: usize = 5;
 
-/// One way of asking obstacles.
+/// Times of one kind of obstacle queries.
 #[derive(Clone, Debug, Serialize)]
 pub struct SolverRow {
-    /// The structure that answers queries for obstacles.
+    /// Kind of obstacle queries.
     pub queries: String,
-    /// Boxes that are asked.
+    /// Number of queried boxes.
     pub boxes: usize,
-    /// CPU seconds of the first path.
+    /// CPU time of the first path, seconds.
     pub single_s: f64,
-    /// CPU seconds of all paths.
+    /// CPU time of all paths, seconds.
     pub batch_s: f64,
-    /// Whether the batch was run; otherwise it is the single path times the number of paths (as in the paper).
+    /// Whether the batch was run; otherwise its time is the first path's times the number of paths (as in the paper).
     pub batch_was_run: bool,
-    /// CPU milliseconds of one iteration (gradient, step, cost) at the waypoints of the first path, the fastest of five.
+    /// CPU time of one iteration (gradient, step, cost) at the waypoints of the first path, milliseconds, the fastest
+    /// of five.
     pub iteration_ms: f64,
 }
 
-/// The table.
+/// The solver table of a scene.
 #[derive(Clone, Debug, Serialize)]
 pub struct SolverTable {
-    /// Scene.
+    /// Name of the scene.
     pub scene: String,
-    /// Waypoints of the first path.
+    /// Number of waypoints of the first path.
     pub waypoints: usize,
-    /// Paths of the batch.
+    /// Number of paths of the batch.
     pub paths: usize,
-    /// One per way of asking.
+    /// Rows, one per kind of obstacle queries.
     pub rows: Vec<SolverRow>,
 }
 
@@ -58,7 +60,7 @@ impl FocusedSurroundings for Asked<'_> {
     }
 }
 
-/// Ways of asking obstacles.
+/// Kinds of obstacle queries.
 #[derive(Clone, Copy, PartialEq)]
 enum Queries {
     Every,
@@ -117,7 +119,7 @@ fn fastest_iteration_s(
     (0..REPEATS).map(|_| one()).fold(f64::INFINITY, f64::min)
 }
 
-/// Calls `run` with the problem, the surroundings, and how many boxes they ask.
+/// Calls `run` with the problem, the surroundings, and their number of boxes.
 fn with_surroundings(
     ground: &Ground,
     track: &TargetTrack,

@@ -1,4 +1,4 @@
-//! The table: one row per scene and contender, means over paths and extremes over all of them.
+//! The planner table: one row per scene and contender, with means and extremes over paths.
 
 use super::contender::Contender;
 use super::figures::{Figures, Flight};
@@ -6,43 +6,43 @@ use super::outcomes::{PathOutcome, PlannerOptions};
 use serde::Serialize;
 use std::fmt;
 
-/// All rows; prints as a table.
+/// All rows, printed as a table.
 #[derive(Clone, Debug, Serialize)]
 pub struct PlannerTable {
-    /// By scene, then contender.
+    /// Rows by scene, then contender.
     pub rows: Vec<Row>,
 }
 
-/// One contender in one scene: means over the planned paths, extremes over all of their frames.
+/// Figures of one contender in one scene: means over the planned paths, extremes over all of their frames.
 #[derive(Clone, Debug, Serialize)]
 pub struct Row {
-    /// Scene or recipe.
+    /// Name of the scene or recipe.
     pub scene: String,
-    /// Unsimplified boxes.
+    /// Number of unsimplified boxes.
     pub boxes: usize,
-    /// Planner.
+    /// Name of the planner.
     pub planner: String,
-    /// Paths with a flight.
+    /// Number of paths with a flight.
     pub planned: usize,
-    /// Paths without one.
+    /// Number of paths without a flight.
     pub infeasible: usize,
-    /// Mean visibility.
+    /// Mean visibility, 0..1.
     pub visibility: f64,
-    /// Mean share of frames that see at least half of the target.
+    /// Mean share of frames with at least half of the target visible, 0..1.
     pub frames_half_visible: f64,
-    /// Mean visibility as a share of the lattice optimum; `None` for planners without a lattice.
+    /// Mean visibility as a share of that of the lattice's best path; `None` for planners without a lattice.
     pub share_of_lattice: Option<f64>,
     /// Mean distance, metres.
     pub distance_m: f64,
-    /// Mean length, metres.
+    /// Mean path length, metres.
     pub length_m: f64,
     /// Length of all flights divided by that of their targets.
     pub length_ratio: f64,
     /// Smallest clearance, metres.
     pub min_clearance_m: f64,
-    /// Segments that collide.
+    /// Number of colliding segments.
     pub collisions: u32,
-    /// Segments below the clearance limit.
+    /// Number of segments below the clearance limit.
     pub margin_violations: u32,
     /// Largest speed, m/s.
     pub max_speed_mps: f64,
@@ -50,21 +50,21 @@ pub struct Row {
     pub max_acceleration_mps2: f64,
     /// Largest jerk, m/s^3.
     pub max_jerk_mps3: f64,
-    /// Mean angle off the rear, degrees.
+    /// Mean angle from straight behind the target, degrees.
     pub rear_angle_deg: f64,
-    /// Mean CPU time of a path, milliseconds, those without a flight included.
+    /// Mean CPU time per path, milliseconds, including paths without a flight.
     pub mean_ms: f64,
-    /// Median of the same.
+    /// Median CPU time per path, milliseconds.
     pub median_ms: f64,
-    /// Mean number of nodes expanded.
+    /// Mean number of expanded nodes.
     pub nodes: f64,
     /// Median over paths of A*'s time divided by this planner's; `None` without `astar` in the run.
     pub speed_up: Option<f64>,
-    /// Reasons of the paths without a flight.
+    /// Reasons for missing flights.
     pub reasons: Vec<String>,
 }
 
-/// The table of what was planned.
+/// Summarises outcomes in a table.
 pub fn tabulate(options: &PlannerOptions<'_>, outcomes: &[PathOutcome]) -> PlannerTable {
     let rows = options.grounds.iter().enumerate().flat_map(|(index, ground)| {
         let of_ground: Vec<&PathOutcome> = outcomes.iter().filter(|outcome| outcome.ground == index).collect();
@@ -73,7 +73,7 @@ pub fn tabulate(options: &PlannerOptions<'_>, outcomes: &[PathOutcome]) -> Plann
     PlannerTable { rows: rows.collect() }
 }
 
-/// The rows of one scene.
+/// Rows of one scene.
 fn rows(scene: &str, boxes: usize, contenders: &[Contender], outcomes: &[&PathOutcome]) -> Vec<Row> {
     let reference = contenders.iter().position(|&contender| contender == Contender::Astar);
     contenders
@@ -126,7 +126,7 @@ fn row(planner: &str, flights: &[&Flight], outcomes: &[&PathOutcome]) -> Row {
     }
 }
 
-/// The middle value; the mean of the two middle ones of an even number; 0 of none.
+/// Median; the mean of the two middle values of an even number; 0 for an empty list.
 fn median(mut values: Vec<f64>) -> f64 {
     values.sort_by(f64::total_cmp);
     match values.len() {
@@ -136,8 +136,8 @@ fn median(mut values: Vec<f64>) -> f64 {
     }
 }
 
-/// Column heads and their widths, after scene and planner.
-const HEADS: [(&str, usize); 18] = [
+/// Column headings and widths, after scene and planner.
+const HEADINGS: [(&str, usize); 18] = [
     ("vis", 5),
     ("opt", 5),
     (">=.5", 5),
@@ -159,8 +159,8 @@ const HEADS: [(&str, usize); 18] = [
 ];
 
 impl Row {
-    /// The figures under [`HEADS`].
-    fn cells(&self) -> [String; HEADS.len()] {
+    /// Cells under [`HEADINGS`].
+    fn cells(&self) -> [String; HEADINGS.len()] {
         let faster = |times: f64| if times < 10.0 { format!("{times:.1}x") } else { format!("{times:.0}x") };
         [
             format!("{:.3}", self.visibility),
@@ -191,7 +191,7 @@ impl fmt::Display for PlannerTable {
         let scene = widest(&|row| row.scene.len(), "scene");
         let planner = widest(&|row| row.planner.len(), "planner");
         write!(f, "{:scene$}  {:planner$}", "scene", "planner")?;
-        for (head, width) in HEADS {
+        for (head, width) in HEADINGS {
             write!(f, " {head:>width$}")?;
         }
         writeln!(f)?;
@@ -200,7 +200,7 @@ impl fmt::Display for PlannerTable {
                 writeln!(f)?;
             }
             write!(f, "{:scene$}  {:planner$}", row.scene, row.planner)?;
-            for (cell, (_, width)) in row.cells().iter().zip(HEADS) {
+            for (cell, (_, width)) in row.cells().iter().zip(HEADINGS) {
                 write!(f, " {cell:>width$}")?;
             }
             writeln!(f)?;
@@ -214,14 +214,14 @@ impl fmt::Display for PlannerTable {
     }
 }
 
-/// Meanings of the heads of [`PlannerTable`], for the end of a printed table.
+/// Legend of [`PlannerTable`], for the end of a printed table.
 pub const LEGEND: &str = "\
-vis: mean share of body points seen; opt: the same as a share of what the best way through the lattice sees;
->=.5: share of frames that see half of them; dist: to the feet, m; len: of the flight, m; ratio: to the walk;
-clear: least distance of the swept path to any box, m; hit, near: segments closer than 0.5 m and than the limit;
+vis: mean share of visible body points; opt: the same relative to the best path through the lattice;
+>=.5: share of frames with half of them visible; dist: to the feet, m; len: of the flight, m; ratio: to the walk;
+clear: smallest distance of the swept path to any box, m; hit, near: segments closer than 0.5 m and than the limit;
 v, a, j: largest speed, acceleration, jerk (m, s); rear: degrees off the walker's back; none: paths without a flight;
-ms: CPU time of the planning thread, mean and median; faster: median over paths of A*'s time by this one's.
-All flights are judged against the unsimplified map.
+ms: CPU time of the planning thread, mean and median; faster: median over paths of A*'s time divided by this planner's.
+All flights are evaluated against the unsimplified map.
 ";
 
 #[cfg(test)]
@@ -252,6 +252,6 @@ mod tests {
         assert_eq!((ours.collisions, ours.margin_violations, slow.collisions), (0, 0, 0), "{table}");
         assert_eq!((slow.visibility, slow.nodes, slow.length_m), (fast.visibility, fast.nodes, fast.length_m));
         assert_eq!(slow.speed_up, Some(1.0));
-        assert!(table.to_string().lines().next().is_some_and(|heads| heads.contains("faster")));
+        assert!(table.to_string().lines().next().is_some_and(|headings| headings.contains("faster")));
     }
 }

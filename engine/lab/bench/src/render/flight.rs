@@ -1,4 +1,4 @@
-//! A flight record around measured frames, and files that are hashed while they are written, as in a store.
+//! Flight records for measured frames, and files that are hashed while they are written, as in a store.
 
 use super::views::{Ground, View};
 use cosfly_blobs::PassingFile;
@@ -12,7 +12,7 @@ use std::path::Path;
 /// Time between frames, seconds.
 pub const DT_S: f64 = 0.5;
 
-/// A record of frames `shown`; `views` says how the target looks in them.
+/// Record of the frames `shown`; `views` are the target's views in them.
 pub fn flight(ground: &Ground, weather: &Weather, shown: &[View], views: Vec<TargetView>) -> RenderedTrajectory {
     let mut record = cosfly_sample::flight(0, Role::Expert).record;
     record.town = TownInfo::of(&ground.town, "0".repeat(64));
@@ -32,33 +32,33 @@ pub fn flight(ground: &Ground, weather: &Weather, shown: &[View], views: Vec<Tar
 }
 
 impl Ground {
-    /// The largest instance id in its pictures.
+    /// Largest instance id in the pictures.
     pub fn largest_instance(&self) -> u32 {
         self.town.obstacles.iter().map(|obstacle| obstacle.object_id).max().unwrap_or(0).saturating_add(2)
     }
 }
 
-/// A file with the BLAKE3 of what was written to it; written through when finished.
+/// A file with the BLAKE3 of its written bytes; synced when finished.
 pub struct StoredFile {
     file: PassingFile,
     hasher: blake3::Hasher,
 }
 
 impl StoredFile {
-    /// An empty file at `path`.
+    /// Creates an empty file at `path`.
     pub fn create(path: &Path) -> Result<Self> {
         let file = File::create(path);
         let file = file.map_err(|error| Diagnostic::io(format!("write `{}`", path.display()), &error))?;
         Ok(Self { file: PassingFile::new(file), hasher: blake3::Hasher::new() })
     }
 
-    /// The file at `path`, to be read.
+    /// Opens the file at `path` for reading.
     pub fn open(path: &Path) -> Result<Self> {
         let file = File::open(path).map_err(|error| Diagnostic::io(format!("read `{}`", path.display()), &error))?;
         Ok(Self { file: PassingFile::new(file), hasher: blake3::Hasher::new() })
     }
 
-    /// The hash of what was written.
+    /// Syncs the file and returns the hash of the written bytes.
     pub fn finish(self) -> blake3::Hash {
         self.hasher.finalize()
     }

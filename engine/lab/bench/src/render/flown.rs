@@ -1,4 +1,4 @@
-//! Flights as `cosfly run` makes them: someone walks the town, the planner follows.
+//! Flights as `cosfly run` makes them: pedestrians walk the town, the planner follows.
 
 use super::views::{Ground, View};
 use cosfly_frames::TargetState;
@@ -9,8 +9,9 @@ use cosfly_planner::{MucoConfig, PlanOutcome, plan};
 use cosfly_random::Seed;
 use cosfly_render::{TargetSetup, gait_phase_rad};
 
-/// The expert's flights behind `count` walkers, `frames` frames each, with the defaults of all recipes. None in a town
-/// where nobody can walk.
+/// Expert flights behind `count` walkers, `frames` frames each, with the defaults of all recipes. Empty in a town
+/// without walkable
+/// ground.
 pub fn flown(ground: &Ground, frames: usize, count: u64) -> Vec<Vec<View>> {
     let town = &ground.town;
     let steps = u32::try_from(frames).unwrap_or(u32::MAX);
@@ -20,7 +21,7 @@ pub fn flown(ground: &Ground, frames: usize, count: u64) -> Vec<Vec<View>> {
     let exact = BoxBvh::build(town.obstacles.iter().map(|obstacle| obstacle.shape).collect());
     let index = GroundIndex::new(town);
     let height = |x: f64, y: f64| index.ground_height_m(x, y).unwrap_or(0.0);
-    // A walk that cannot be followed is passed over.
+    // Walks without a feasible flight are skipped.
     let flight = |number: u64| {
         let seed = Seed([3; 32]).child("flights", number);
         let path = walk(&grid, &config, seed).ok()?;
@@ -48,7 +49,7 @@ pub fn flown(ground: &Ground, frames: usize, count: u64) -> Vec<Vec<View>> {
     (0..4 * count).filter_map(flight).take(count as usize).collect()
 }
 
-/// Metres walked up to each state.
+/// Distance walked up to each state, metres.
 fn walked_m(states: &[TargetState]) -> impl Iterator<Item = f64> {
     let mut before = states.first().map(|state| state.feet_in_world);
     states.iter().scan(0.0, move |sum_m, state| {

@@ -1,4 +1,4 @@
-//! What the machine's memory could do: filling, copying, and the plainest depth test, in the bytes of a frame.
+//! Limits of the machine's memory: filling, copying, and the simplest depth test, in the bytes of a frame.
 
 use crate::clock::timed;
 use cosfly_frames::simd::Level;
@@ -6,30 +6,30 @@ use cosfly_frames::simd_kernel;
 use serde::Serialize;
 use std::hint::black_box;
 
-/// Bytes of a pixel in memory: colour 3, depth 4, semantic 1, instance 4.
+/// Bytes per pixel of all channels: colour 3, depth 4, semantic 1, instance 4.
 pub const PIXEL_BYTES: usize = 12;
-/// Larger than the caches that one core has to itself.
+/// Buffer size beyond the caches of one core, bytes.
 const FAR_BYTES: usize = 256 << 20;
 
 /// Limits of one core.
 #[derive(Clone, Copy, Debug, Serialize)]
 pub struct Machine {
-    /// Filling memory beyond the core's own caches, GB/s.
+    /// Fill rate beyond the core's own caches, GB/s.
     pub far_fill_gbps: f64,
-    /// Copying there, GB/s of copied bytes.
+    /// Copy rate beyond the core's own caches, GB/s of copied bytes.
     pub far_copy_gbps: f64,
-    /// Filling a frame's channels again and again, GB/s.
+    /// Fill rate of a frame's channels, again and again, GB/s.
     pub frame_fill_gbps: f64,
-    /// Writing every channel of a frame once, milliseconds: no renderer can be faster.
+    /// Time to write every channel of a frame once, milliseconds: a lower limit for any renderer.
     pub frame_fill_ms: f64,
-    /// Depth tests of vector code: read, compare and replace depth and face, millions of pixels a second.
+    /// Rate of vectorised depth tests (read, compare and replace depth and face), millions of pixels per second.
     pub depth_tests_mpps: f64,
-    /// One such test per pixel of a frame, milliseconds.
+    /// Time of one depth test per pixel of a frame, milliseconds.
     pub frame_depth_test_ms: f64,
 }
 
 impl Machine {
-    /// Measures; half a second or so.
+    /// Measures the limits; takes about half a second.
     pub fn measure(pixels: usize) -> Self {
         let frame_bytes = PIXEL_BYTES * pixels;
         let mut far = vec![1u8; FAR_BYTES];
@@ -43,7 +43,7 @@ impl Machine {
         let mut tested_s = f64::INFINITY;
         for round in 0..20 {
             depth.fill(f32::INFINITY);
-            // Each pixel is drawn over twice: once nearer, once farther.
+            // Each pixel is drawn twice: once nearer, once farther.
             let once = timed(|| {
                 test_depths(Level::best(), &mut depth, &mut face, 10.0, 1e-3, round);
                 test_depths(Level::best(), &mut depth, &mut face, 20.0, 1e-3, round + 1);
@@ -67,7 +67,7 @@ fn least_s(rounds: u32, mut work: impl FnMut(u32)) -> f64 {
 }
 
 simd_kernel! {
-    /// Draws a slanted plane over everything.
+    /// Draws a slanted plane over all pixels.
     fn test_depths(depth: &mut [f32], face: &mut [u32], first: f32, step: f32, number: u32) {
         let ramp: [f32; 64] = core::array::from_fn(|i| i as f32);
         let blocks = depth.as_chunks_mut::<64>().0.iter_mut().zip(face.as_chunks_mut::<64>().0);

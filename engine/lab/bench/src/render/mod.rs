@@ -1,7 +1,8 @@
-//! The renderer: what a frame costs on one core, stage by stage, how many frames a second come out as finished logs,
-//! and how far both are from what the machine's memory could do.
+//! The renderer: CPU time of a frame on one core by stage, throughput of finished logs, and comparison of both with the
+//! limits of
+//! the machine's memory.
 //!
-//! [`measure`] does it all in one run; [`views`] holds the towns and the cameras, and exports them for other renderers.
+//! [`measure`] runs all measurements; [`views`] holds the towns and the cameras, and exports them for other renderers.
 
 pub mod flight;
 pub mod flown;
@@ -21,59 +22,59 @@ use std::path::Path;
 use throughput::Throughput;
 use views::{Ground, View};
 
-/// What is measured.
+/// Options of the measurement.
 pub struct RenderOptions<'a> {
-    /// The towns, each with its views.
+    /// Towns, each with its views.
     pub grounds: Vec<Ground>,
-    /// Every view is drawn in each of these.
+    /// Weathers in which every view is drawn.
     pub weathers: Vec<Weather>,
-    /// Rounds over all views; the least time of each stage counts.
+    /// Number of rounds over all views; the minimum time of each stage counts.
     pub rounds: usize,
-    /// How images are stored.
+    /// Storage of images.
     pub encoding: EncodingConfig,
-    /// Threads of the throughput.
+    /// Number of threads of the throughput measurement.
     pub threads: usize,
-    /// Frames of each flight of the throughput.
+    /// Number of frames of each flight of the throughput measurement.
     pub flight_frames: usize,
-    /// An empty folder on the disk that is written to.
+    /// An empty folder on the measured disk.
     pub scratch: &'a Path,
 }
 
-/// One town in one weather and look.
+/// Times of one town in one weather and look.
 #[derive(Clone, Debug, Serialize)]
 pub struct RenderRow {
-    /// The town.
+    /// Name of the town.
     pub town: String,
-    /// Boxes in it.
+    /// Number of boxes in the town.
     pub boxes: usize,
-    /// Triangles with a face of boxes, figures and ground.
+    /// Number of triangles of boxes, figures and ground.
     pub triangles: usize,
-    /// The weather.
+    /// Name of the weather.
     pub weather: String,
-    /// How colours look.
+    /// Look of the colours.
     pub look: PictureLook,
-    /// CPU time of one frame on one core.
+    /// CPU times of one frame on one core.
     pub times: StageTimes,
 }
 
-/// Everything that was measured; prints as a table.
+/// All measurements, printed as a table.
 #[derive(Clone, Debug, Serialize)]
 pub struct RenderReport {
-    /// Size of the images.
+    /// Width of the images, pixels.
     pub width: u32,
-    /// See `width`.
+    /// Height of the images, pixels.
     pub height: u32,
-    /// Views per town.
+    /// Number of views per town.
     pub views: usize,
-    /// By town, then weather; the first weather of each town in the simple look, too.
+    /// Rows by town, then weather; the first weather of each town in the simple look, too.
     pub rows: Vec<RenderRow>,
-    /// Whole frames a second, of the first town, in the full look and in the simple one.
+    /// Throughput of the first town, in the full look and in the simple one.
     pub throughput: [Throughput; 2],
     /// Limits of the machine.
     pub machine: Machine,
 }
 
-/// Measures everything.
+/// Runs all measurements.
 pub fn measure(options: &RenderOptions<'_>) -> Result<RenderReport> {
     let first = options.grounds.first().expect("a town to draw");
     let mut rows = vec![];
@@ -93,7 +94,7 @@ pub fn measure(options: &RenderOptions<'_>) -> Result<RenderReport> {
     Ok(RenderReport { width, height, views: first.views.len(), rows, throughput, machine })
 }
 
-/// A flight for each thread: planned ones where people can walk, or steps around the views.
+/// A flight for each thread: planned ones where people can walk, otherwise steps around the views.
 fn flights(ground: &Ground, options: &RenderOptions<'_>) -> Vec<Vec<View>> {
     let (threads, frames) = (options.threads.max(1), options.flight_frames.max(1));
     let mut flights = flown::flown(ground, frames, threads as u64);

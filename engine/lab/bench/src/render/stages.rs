@@ -16,47 +16,48 @@ use std::fs::File;
 use std::hint::black_box;
 use std::io::BufReader;
 
-/// Frames of each view that are drawn one after the other, as in a flight: the town's shadows are drawn for the first, and
-/// again when the way leads out of them.
+/// Consecutive frames of each view, as in a flight: the town's shadows are drawn for the first, and again when the
+/// camera leaves
+/// their area.
 const STEPS: usize = 4;
 
-/// Milliseconds of CPU per frame. The stages of a group add up to it but for rounding and clocks.
+/// CPU time per frame, milliseconds. The stages of a group add up to its total except for rounding and clocks.
 #[derive(Clone, Copy, Debug, Default, Serialize)]
 pub struct StageTimes {
-    /// Which face is nearest at each pixel.
+    /// Nearest face at each pixel.
     pub visibility_ms: f64,
     /// Depth and ids of those faces, and the target's view.
     pub ids_ms: f64,
     /// Colours: light, materials, weather, edges.
     pub colour_ms: f64,
-    /// The colour image as a file.
+    /// Encoding of the colour image.
     pub encode_rgb_ms: f64,
-    /// Depth: rounded and compressed.
+    /// Encoding of depth: rounding and compression.
     pub encode_depth_ms: f64,
-    /// Both id images, compressed.
+    /// Compression of both id images.
     pub encode_ids_ms: f64,
-    /// The three small pictures.
+    /// Encoding of the three previews.
     pub encode_previews_ms: f64,
-    /// Packing whole frames into a file: all encoding, checks, hashing, writing.
+    /// Packing of whole frames into a file: all encoding, checks, hashing, writing.
     pub pack_ms: f64,
-    /// From the pack to the finished, hashed log on disk.
+    /// Conversion of the pack into the finished, hashed log on disk.
     pub log_ms: f64,
-    /// Bytes of a frame in the log.
+    /// Size of a frame in the log, bytes.
     pub log_bytes: f64,
 }
 
 impl StageTimes {
-    /// Drawing, all of it.
+    /// Total time of drawing, milliseconds.
     pub fn render_ms(&self) -> f64 {
         self.visibility_ms + self.ids_ms + self.colour_ms
     }
 
-    /// Everything from nothing to the frame in a finished log.
+    /// Total time of a frame in a finished log, milliseconds.
     pub fn whole_ms(&self) -> f64 {
         self.render_ms() + self.pack_ms + self.log_ms
     }
 
-    /// The least of each; a stage of drawing is the difference between two least times, not the least difference.
+    /// Minimum of each stage; a stage of drawing is the difference of two minima, not the minimum of differences.
     fn least(self, other: Self) -> Self {
         let drawn = |it: &Self| [it.visibility_ms, it.visibility_ms + it.ids_ms, it.render_ms()];
         let (a, b) = (drawn(&self), drawn(&other));
@@ -76,7 +77,7 @@ impl StageTimes {
     }
 }
 
-/// The least of each stage over all rounds, each round being the mean over all views.
+/// Minimum of each stage over all rounds; a round is the mean over all views.
 pub fn times(ground: &Ground, weather: &Weather, look: PictureLook, options: &RenderOptions<'_>) -> Result<StageTimes> {
     let mut renderer = Renderer::new(ground.camera);
     renderer.set_look(look);
@@ -153,7 +154,7 @@ fn round(
     })
 }
 
-/// CPU seconds of encoding all images: colour, depth, ids, previews.
+/// CPU time of encoding all images: colour, depth, ids, previews, seconds.
 fn encoding_s(images: &[FrameImages], options: &RenderOptions<'_>) -> Result<[f64; 4]> {
     let quality = options.encoding.jpeg_quality;
     let mut file = vec![];

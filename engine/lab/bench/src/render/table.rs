@@ -11,10 +11,10 @@ impl fmt::Display for RenderReport {
             "{} x {}, {} views per town; CPU milliseconds per frame on one core",
             self.width, self.height, self.views
         )?;
-        let heads =
+        let headings =
             ["visible", "+ ids", "+ colour", "drawn", "rgb", "depth", "ids", "previews", "pack", "log", "whole"];
         write!(f, "{:14} {:>6} {:20}", "town", "boxes", "weather")?;
-        heads.iter().try_for_each(|head| write!(f, " {head:>8}"))?;
+        headings.iter().try_for_each(|heading| write!(f, " {heading:>8}"))?;
         writeln!(f, " {:>8}", "kB")?;
         for row in &self.rows {
             let t = &row.times;

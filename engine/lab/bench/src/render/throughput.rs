@@ -1,4 +1,4 @@
-//! Whole frames a second on several threads: drawn, encoded, packed, and written as finished logs.
+//! Throughput of several threads: frames drawn, encoded, packed, and written as finished logs.
 
 use super::RenderOptions;
 use super::flight::{DT_S, StoredFile, flight};
@@ -10,26 +10,26 @@ use cosfly_write::{FramePackReader, FramePackWriter, PackHeader, write_log};
 use serde::Serialize;
 use std::io::BufReader;
 
-/// How fast finished frames come out.
+/// Throughput of finished frames.
 #[derive(Clone, Copy, Debug, Serialize)]
 pub struct Throughput {
-    /// How colours look.
+    /// Look of the colours.
     pub look: PictureLook,
-    /// Threads that worked; each made a flight in every weather.
+    /// Number of threads; each made one flight in every weather.
     pub threads: usize,
-    /// Frames of all flights.
+    /// Number of frames of all flights.
     pub frames: usize,
-    /// Frames per second of wall time, whatever else ran on the machine.
+    /// Frames per second of wall time, on the machine as loaded.
     pub frames_per_s: f64,
-    /// CPU milliseconds of a frame, all threads and the system's share included.
+    /// CPU time per frame, milliseconds, of all threads and including the system's share.
     pub cpu_ms: f64,
-    /// Frames per second that the threads would give undisturbed.
+    /// Frames per second of CPU time, as on an idle machine.
     pub undisturbed_frames_per_s: f64,
-    /// Bytes of a frame on disk.
+    /// Bytes per frame on disk.
     pub bytes: f64,
 }
 
-/// Makes logs of flights on all threads at once, one flight each, in one weather after the other.
+/// Makes logs of flights on all threads at once, one flight per thread, in one weather after the other.
 pub fn throughput(
     ground: &Ground,
     flights: &[Vec<View>],
@@ -37,7 +37,7 @@ pub fn throughput(
     options: &RenderOptions<'_>,
 ) -> Result<Throughput> {
     let threads = flights.len();
-    // Once before, so that code, fonts of memory and the disk's cache are warm.
+    // One run to warm up code, memory pages and the disk's cache.
     let warm = &flights[0][..flights[0].len().min(20)];
     fly(ground, (&options.weathers[0], look), warm, 0, options)?;
     let (began_s, cpu_began_s) = (wall_s(), process_cpu_s());
@@ -63,7 +63,7 @@ pub fn throughput(
     })
 }
 
-/// One flight from nothing to its log; how many bytes that has.
+/// Makes one flight's log; returns its size in bytes.
 fn fly(
     ground: &Ground,
     (weather, look): (&Weather, PictureLook),

@@ -1,4 +1,4 @@
-//! Towns and the views of them that are measured: a follower behind a walker, and free views of many boxes.
+//! Towns and views for measurements: a follower behind a walker, and free views of many boxes.
 
 use cosfly_frames::{DVec2, DVec3, Pose, TargetState, real};
 use cosfly_geometry::{BoxBvh, OrientedBox, SpatialQuery};
@@ -11,44 +11,44 @@ use cosfly_random::Seed;
 use cosfly_render::{Camera, Scene, TargetSetup, gait_phase_rad};
 use serde::Serialize;
 
-/// Distance from the camera to the target, metres, and how steeply it looks down.
+/// Distance from the camera to the target, metres.
 const DISTANCE_M: f64 = 28.0;
 const PITCH_DEG: f64 = 45.0;
 const HEIGHT_M: f64 = 1.75;
 /// Frames of a flight around each view: few, so that nobody walks into a house.
 const STRETCH_FRAMES: usize = 12;
 
-/// A town, ready to be drawn from some viewpoints.
+/// A town prepared for drawing, with its views.
 pub struct Ground {
     /// Name in tables.
     pub name: String,
-    /// The town.
+    /// Town.
     pub town: Town,
-    /// The same for the renderer.
+    /// Scene of the town for the renderer.
     pub scene: Scene,
-    /// The camera of all views.
+    /// Camera of all views.
     pub camera: Camera,
-    /// Where it stands, and whom it looks at.
+    /// Poses of the camera, with their targets.
     pub views: Vec<View>,
 }
 
 /// A viewpoint.
 #[derive(Clone, Copy, Debug)]
 pub struct View {
-    /// The camera.
+    /// Pose of the camera.
     pub pose: Pose,
-    /// The target.
+    /// Target in the view.
     pub target: TargetSetup,
 }
 
 impl Ground {
-    /// The town of `cosfly town`, which the recipes use, too.
+    /// Town of `cosfly town`, which the recipes use as well.
     pub fn downtown(camera: Camera, views: usize) -> Result<Self, MapError> {
         let map = generate_town(&GenerateConfig::default(), 1);
         Self::of_map("downtown", map.as_bytes(), camera, views)
     }
 
-    /// The town of a map file: followers of walkers on its pavements, from the middle outwards.
+    /// Town of a map file: followers of walkers on its pavements, from the centre outwards.
     pub fn of_map(name: &str, map: &[u8], camera: Camera, views: usize) -> Result<Self, MapError> {
         let (town, _) = read_town(map, &MapConfig::default(), Seed([5; 32]))?;
         let middle = 0.5 * (town.min_in_world + town.max_in_world);
@@ -69,7 +69,7 @@ impl Ground {
         Ok(Self::new(name.to_owned(), town, camera, &spots))
     }
 
-    /// A grid of streets between about `boxes` boxes on flat ground: houses and trees.
+    /// A grid of streets with about `boxes` boxes on flat ground: houses and trees.
     pub fn of_boxes(boxes: usize, camera: Camera, views: usize) -> Self {
         let town = box_town(boxes);
         let side = BLOCK_M * f64::from(blocks_of(boxes));
@@ -94,8 +94,9 @@ impl Ground {
         self.followed(frame / STRETCH_FRAMES, frame % STRETCH_FRAMES, dt_s)
     }
 
-    /// View `view` (modulo their number) some steps on, `dt_s` apart: the walker goes away from the follower, who comes after,
-    /// and is in the view's place half way through a stretch.
+    /// View `view` (modulo their number) after `step` steps of `dt_s` seconds: the walker moves away from the follower
+    /// and passes the
+    /// view's position halfway through the flight.
     pub fn followed(&self, view: usize, step: usize, dt_s: f64) -> View {
         let mut view = self.views[view % self.views.len()];
         let away = view.target.state.feet_in_world - view.pose.position_in_world;
@@ -108,7 +109,7 @@ impl Ground {
         view
     }
 
-    /// The boxes and views for other renderers.
+    /// Boxes and views for other renderers.
     pub fn exported(&self) -> ExportedScene {
         let boxes = self.town.obstacles.iter().map(|obstacle| ExportedBox {
             center_m: obstacle.shape.center_in_world.to_array(),
@@ -132,7 +133,7 @@ impl Ground {
     }
 }
 
-/// A follower of someone at `feet`: the first of eight directions from which nothing hides the target.
+/// Follower of a target at `feet`: the first of eight directions without an occluder.
 fn follower(tree: &BoxBvh, feet: DVec3, index: usize) -> View {
     let (sin, cos) = real::sin_cos(PITCH_DEG.to_radians());
     let from = |turn: usize| {
@@ -153,7 +154,7 @@ fn follower(tree: &BoxBvh, feet: DVec3, index: usize) -> View {
     View { pose: Pose::looking_at(from(turn), chest), target }
 }
 
-/// Side of a block with its streets, metres; a block has this many boxes.
+/// Side of a block with its streets, metres.
 const BLOCK_M: f64 = 40.0;
 const BOXES_PER_BLOCK: usize = 5;
 
@@ -165,7 +166,7 @@ fn blocks_of(boxes: usize) -> u32 {
     side
 }
 
-/// `boxes` boxes: per block three houses and a tree of two boxes.
+/// Town of `boxes` boxes: per block three houses and a tree of two boxes.
 fn box_town(boxes: usize) -> Town {
     let side = blocks_of(boxes);
     let mut random = Seed([7; 32]).stream("boxes");
@@ -209,44 +210,44 @@ fn box_town(boxes: usize) -> Town {
     }
 }
 
-/// A town as other renderers read it.
+/// A town exported for other renderers.
 #[derive(Clone, Debug, Serialize)]
 pub struct ExportedScene {
-    /// What the axes mean.
+    /// Meaning of the axes.
     pub frame: &'static str,
-    /// Pixels per row.
+    /// Width, pixels.
     pub width: u32,
-    /// Rows.
+    /// Height, pixels.
     pub height: u32,
-    /// Focal length, pixels; the optical axis goes through the middle of the image.
+    /// Focal length, pixels; the optical axis goes through the centre of the image.
     pub focal_px: f64,
-    /// Corners of the town; the ground lies at the height of the first.
+    /// Corners of the town, metres; the ground is at the height of the first.
     pub ground_m: [[f64; 3]; 2],
-    /// Boxes, turned about the vertical.
+    /// Boxes, rotated around the vertical axis.
     pub boxes: Vec<ExportedBox>,
     /// Cameras.
     pub views: Vec<ExportedView>,
 }
 
-/// A box.
+/// An exported box.
 #[derive(Clone, Debug, Serialize)]
 pub struct ExportedBox {
-    /// Its middle.
+    /// Centre, metres.
     pub center_m: [f64; 3],
-    /// Half its size along its own axes.
+    /// Half the size along its own axes, metres.
     pub half_extents_m: [f64; 3],
-    /// Turn about z, from x to y.
+    /// Rotation around z, radians; positive: x towards y.
     pub yaw_rad: f64,
-    /// Its instance id.
+    /// Instance id.
     pub instance: u32,
 }
 
-/// A camera.
+/// An exported camera.
 #[derive(Clone, Debug, Serialize)]
 pub struct ExportedView {
-    /// Its optical centre.
+    /// Position of the optical centre, metres.
     pub position_m: [f64; 3],
-    /// Its axes: three columns.
+    /// Rotation matrix: the camera's axes as three columns.
     pub world_from_body: [[f64; 3]; 3],
 }
 

@@ -1,7 +1,8 @@
-//! Building the tree: sets of boxes are split by the surface-area heuristic until sixteen of them fill a block.
+//! Builds the tree: sets of boxes are split by the surface-area heuristic until each fits one block of sixteen.
 //!
-//! A block costs the same however many lanes it uses, so a set is priced by the area of its bounds times the number of
-//! blocks that it needs, and spare lanes go to splits that shrink the areas most.
+//! A block costs the same however many lanes it uses, so the cost of a set is the area of its bounds times the number
+//! of blocks
+//! that it needs, and spare lanes go to splits that reduce the areas most.
 
 use super::tree::{Block, MAX_DEPTH, REACH_M, WideTree};
 use super::turned::TurnedLanes;
@@ -14,12 +15,12 @@ use std::ops::Range;
 
 /// Bins per axis of the surface-area heuristic.
 const BINS: usize = 12;
-/// Below this level sets are halved by count, which bounds the depth of the whole tree.
+/// Level below which sets are split at the median, which bounds the depth of the whole tree.
 const SAH_LEVELS: usize = 8;
-/// A set that fits into one block is split only when that takes away this share of its area.
+/// Least share of its area by which a split must reduce a set that fits into one block.
 const WORTHWHILE: f32 = 0.15;
 
-/// Bounds in f32 about the local origin.
+/// Bounds in f32 relative to the local origin.
 #[derive(Clone, Copy)]
 struct Around {
     min: Vec3A,
@@ -40,7 +41,7 @@ impl Around {
         (size * Vec3A::new(size.y, size.z, size.x)).element_sum()
     }
 
-    /// Twice the middle.
+    /// Twice the centre.
     #[inline(always)]
     fn twice_center(&self) -> Vec3A {
         self.min + self.max
@@ -53,7 +54,7 @@ struct Item {
     original: u32,
 }
 
-/// Some items and the best way to part them.
+/// A range of items and its best split.
 struct Set {
     items: Range<usize>,
     around: Around,
@@ -66,12 +67,13 @@ struct Split {
     last_left_bin: usize,
     low: Vec3A,
     scale: Vec3A,
-    /// Sum over both sides of area times blocks needed.
+    /// Sum over both sides of area times number of blocks.
     cost: f32,
 }
 
-/// The tree over boxes, and the indices of the boxes that are too far from the others for f32; deterministic.
-/// Slot i of the tree is box `order[i]`.
+/// Builds the tree over boxes, and lists the indices of boxes too far from the others for f32; deterministic. Slot i of
+/// the tree
+/// is box `order[i]`.
 pub fn build(boxes: &[TurnedBox], bounds: &[Bounds]) -> (WideTree, Vec<u32>) {
     let origin = origin_of(bounds);
     let (mut items, mut wild, mut size_m) = (Vec::with_capacity(boxes.len()), Vec::new(), 0.0_f64);
@@ -117,7 +119,7 @@ pub fn build(boxes: &[TurnedBox], bounds: &[Bounds]) -> (WideTree, Vec<u32>) {
     (tree, wild)
 }
 
-/// The middle of everything, or of the crowd where some boxes lie impossibly far away.
+/// Local origin: the centre of all boxes, or of most of them where some are extremely far away.
 fn origin_of(bounds: &[Bounds]) -> DVec3 {
     let all = bounds.iter().fold(Bounds::EMPTY, |sum, one| sum.union(one));
     let middle = all.center_in_world();
@@ -156,7 +158,7 @@ fn fill_lane(block: &mut Block, lane: usize, around: &Around) {
     block.valid |= 1 << lane;
 }
 
-/// Gives every leaf with turned boxes their own axes.
+/// Adds the own axes of rotated boxes to every leaf that has any.
 fn add_turned(tree: &mut WideTree, boxes: &[TurnedBox]) {
     for block in tree.blocks.iter_mut().filter(|block| block.is_leaf) {
         let of_lane = |lane: usize| &boxes[tree.order[block.first as usize + lane] as usize];
@@ -173,7 +175,7 @@ fn add_turned(tree: &mut WideTree, boxes: &[TurnedBox]) {
     }
 }
 
-/// Parts more than [`LANES`] items into 2 to [`LANES`] sets, reordering them so that each set is a range.
+/// Partitions more than [`LANES`] items into 2 to [`LANES`] sets, reordering them so that each set is a range.
 fn part(items: &mut [Item], range: Range<usize>, depth: usize) -> Vec<Set> {
     let by_area = depth < SAH_LEVELS;
     let mut sets = Vec::with_capacity(LANES);
@@ -200,7 +202,8 @@ fn blocks_of(count: usize) -> f32 {
     count.div_ceil(LANES) as f32
 }
 
-/// Sets that fit into no block come first, the largest by area and blocks; then the ones whose split saves most.
+/// Set to split next: sets too large for a block first, the largest by area and blocks; then the set whose split saves
+/// most.
 fn next_to_split(sets: &[Set], by_area: bool) -> Option<usize> {
     let mut best: Option<(usize, (bool, f32))> = None;
     for (at, set) in sets.iter().enumerate() {
@@ -222,14 +225,14 @@ fn next_to_split(sets: &[Set], by_area: bool) -> Option<usize> {
     best.map(|(at, _)| at)
 }
 
-/// The bin of a center along every axis.
+/// Bin of a centre along every axis.
 #[inline(always)]
 fn bins_of(center: Vec3A, low: Vec3A, scale: Vec3A) -> [usize; 3] {
     let at = ((center - low) * scale).to_array();
     [0, 1, 2].map(|axis| (at[axis] as usize).min(BINS - 1))
 }
 
-/// Reorders the items into a left and a right part and gives the left part's length, neither 0 nor all.
+/// Reorders the items into a left and a right part and returns the left part's length, neither 0 nor all.
 fn divide(items: &mut [Item], split: Option<Split>, around: &Around) -> usize {
     let mut left = 0;
     if let Some(Split { axis, last_left_bin, low, scale, .. }) = split {
@@ -261,7 +264,7 @@ fn best_split(items: &[Item]) -> Option<Split> {
     }
     let (low, size) = (centers.min, centers.max - centers.min);
     let scale = Vec3A::splat(BINS as f32) / size;
-    // Along an axis without extent everything falls into one bin, which is no split.
+    // Along an axis without extent all items fall into one bin, which is not a split.
     let scale = Vec3A::select(size.cmpgt(Vec3A::ZERO) & scale.cmplt(Vec3A::INFINITY), scale, Vec3A::ZERO);
     let mut bins = [[(Around::EMPTY, 0_u32); BINS]; 3];
     for item in items {

@@ -1,34 +1,34 @@
-//! Distances of a segment from sixteen boxes, bracketed: squares that are no larger and no smaller than the true ones.
+//! Bracketed distances of a segment from sixteen boxes: lower and upper bounds of the squared distances.
 
 use super::near::SQUARE_SHARE;
 use super::tree::{Block, WideTree};
 use crate::lanes::{LANES, Lane, Lanes, larger, smaller};
 use glam::Vec3A;
 
-/// Steps between the segment and the box before the distance is bracketed.
+/// Number of projections between the segment and the box before the distance is bracketed.
 const STEPS: usize = 2;
 
-/// A segment, a point or a window made ready for blocks.
+/// A segment, a point or a window, prepared for blocks.
 pub struct Segment {
     from: [f32; 3],
     to: [f32; 3],
-    /// Its bounds, grown by the margin.
+    /// Bounds of the segment, enlarged by the margin.
     low: [f32; 3],
     high: [f32; 3],
     margin: f32,
     is_point: bool,
 }
 
-/// Squared distances that are no larger and no smaller than the true ones.
+/// Lower and upper bounds of squared distances, one per lane, square metres.
 pub struct Bracket {
-    /// No larger.
+    /// Lower bounds.
     pub least: Lane,
-    /// No smaller.
+    /// Upper bounds.
     pub most: Lane,
 }
 
 impl Segment {
-    /// Between two points in local coordinates, which may be the same.
+    /// Segment between two points in local coordinates, which may be equal.
     #[inline(always)]
     pub fn new(from: Vec3A, to: Vec3A, margin: f32) -> Self {
         let margins = Vec3A::splat(margin);
@@ -42,13 +42,13 @@ impl Segment {
         }
     }
 
-    /// Everything between two corners; only [`Segment::least_squares`] makes sense of it.
+    /// Window between two corners; only [`Segment::least_squares`] is valid for it.
     #[inline(always)]
     pub fn window(min: Vec3A, max: Vec3A, margin: f32) -> Self {
         Self::new(min, max, margin)
     }
 
-    /// For each lane a squared distance between bounds that is no larger than the true one.
+    /// For each lane a lower bound of the squared distance between the bounds.
     #[inline(always)]
     pub fn least_squares(&self, lanes: impl Lanes, block: &Block) -> Lane {
         let mut squares = [0.0; LANES];
@@ -65,7 +65,7 @@ impl Segment {
         squares
     }
 
-    /// Brackets the distances from the boxes of a leaf. `squares` are those of [`Segment::least_squares`].
+    /// Brackets the distances from the boxes of a leaf. `squares` is the result of [`Segment::least_squares`].
     #[inline(always)]
     pub fn bracket(&self, lanes: impl Lanes, tree: &WideTree, block: &Block, squares: &Lane) -> Bracket {
         let (mut low, mut high) = ([[0.0; LANES]; 3], [[0.0; LANES]; 3]);
@@ -110,9 +110,10 @@ impl Segment {
         Bracket { least, most }
     }
 
-    /// Any point of the segment is no nearer than the nearest one. Any plane that touches the box bounds the distance
-    /// from below, by that of the segment's nearer end from the plane. Both meet at the closest points, to which
-    /// projecting back and forth leads.
+    /// The distance of any point of the segment is an upper bound. Any plane that touches the box gives a lower bound:
+    /// the distance
+    /// of the segment's nearer end from the plane. Both meet at the closest points, to which alternating projection
+    /// converges.
     #[inline(always)]
     fn of_segment(
         &self,

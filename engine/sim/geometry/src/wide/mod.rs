@@ -1,7 +1,8 @@
-//! A tree of sixteen children over boxes, in f32 about a local origin; each query is a file.
+//! A wide BVH (sixteen children) over boxes, in f32 relative to a local origin; one file per query.
 //!
-//! The tree never answers by itself. For each query it tells which boxes are met beyond doubt, which are missed beyond
-//! doubt, and which need exact arithmetic. Its margin, [`tree::WideTree::margin`], covers every rounding.
+//! The tree never determines an answer. For each query it classifies boxes as certainly hit, certainly missed, or in
+//! need of exact
+//! arithmetic. Its margin, [`tree::WideTree::margin`], covers every rounding.
 
 pub mod build;
 pub mod closest;

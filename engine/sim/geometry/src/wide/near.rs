@@ -1,14 +1,14 @@
-//! What is close to a point or a segment, and what meets a window, through the tree.
+//! Boxes near a point or a segment, and boxes that meet a window, found with the tree.
 
 use super::closest::Segment;
 use super::tree::{MAX_DEPTH, WideTree};
 use crate::lanes::{LANES, Lane, Lanes, at_level, larger, smaller, take_lane};
 use cosfly_frames::DVec3;
 
-/// Share by which squared distances are moved for their own rounding.
+/// Relative error by which squared distances are widened.
 pub const SQUARE_SHARE: f32 = 8.0 / 16_777_216.0;
 
-/// A squared distance in f32 that is no smaller; 0 for negative distances.
+/// Upper bound in f32 of a squared distance; 0 for negative distances.
 #[inline(always)]
 pub fn most_square(distance_m: f64) -> f32 {
     let distance = larger(distance_m, 0.0);
@@ -16,16 +16,16 @@ pub fn most_square(distance_m: f64) -> f32 {
     if distance == f64::INFINITY { f32::INFINITY } else { square * (1.0 + SQUARE_SHARE) }
 }
 
-/// Children of a block that still have to be looked at.
+/// Children of a block that remain to be tested.
 #[derive(Clone, Copy)]
 struct Open {
     first: u32,
     lanes: u32,
-    /// Squared distances that are no larger than the true ones.
+    /// Lower bounds of squared distances.
     squares: Lane,
 }
 
-/// Boxes that may be the nearest one, with squared distances that are no larger than the true ones.
+/// Boxes that may be the nearest one, with lower bounds of squared distances.
 struct Candidates {
     slots: [(u32, f32); Self::MOST],
     count: usize,
@@ -34,7 +34,7 @@ struct Candidates {
 impl Candidates {
     const MOST: usize = 48;
 
-    /// Asks `exact` about those that may be nearer than `best`, the most promising one first.
+    /// Calls `exact` for candidates that may be nearer than `best`, the nearest lower bound first.
     #[inline(always)]
     fn settle(&mut self, mut best: f32, exact: &mut dyn FnMut(usize) -> f32) -> f32 {
         let own = &mut self.slots[..self.count];
@@ -53,8 +53,9 @@ impl Candidates {
 }
 
 at_level! {
-    /// Calls `exact` with at least the slots whose squared distance from the segment is at most what it last gave, at
-    /// first `within`; false when f32 cannot be asked. Both ends may be the same.
+    /// Calls `exact` with at least the slots whose squared distance from the segment is at most the value that it last
+    /// returned, at
+    /// first `within`; false when f32 is not applicable. Both ends may be equal.
     pub fn around(tree: &WideTree, from_in_world: DVec3, to_in_world: DVec3, within: f32, exact: &mut dyn FnMut(usize) -> f32) -> bool = around_kernel;
 }
 
@@ -93,7 +94,7 @@ fn around_kernel(
                 candidates.count += 1;
             }
         } else if met != 0 {
-            // The nearest child first; the others will mostly be too far away after that.
+            // The nearest child first; most others will be too far away after that.
             let mut nearest = met & lanes.at_most(&squares, &[smallest(&squares); LANES]);
             let lane = take_lane(&mut nearest);
             open[height] = Open { first: block.first, lanes: met & !(1 << lane), squares };
@@ -108,7 +109,7 @@ fn around_kernel(
     true
 }
 
-/// A child within `best` of the topmost block that has one, taken out.
+/// Removes a child within `best` from the topmost block that has one.
 #[inline(always)]
 fn next_open(lanes: impl Lanes, open: &mut [Open; MAX_DEPTH], height: &mut usize, best: f32) -> Option<usize> {
     while *height > 0 {
@@ -122,7 +123,7 @@ fn next_open(lanes: impl Lanes, open: &mut [Open; MAX_DEPTH], height: &mut usize
     None
 }
 
-/// The smallest of the lanes. Empty ones are infinite.
+/// Smallest lane. Empty lanes are infinite.
 #[inline(always)]
 fn smallest(numbers: &Lane) -> f32 {
     let (mut eight, mut four) = ([0.0; 8], [0.0; 4]);

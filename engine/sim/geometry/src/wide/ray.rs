@@ -1,44 +1,46 @@
-//! Rays through the tree: whether anything stands in the way, and what comes first.
+//! Rays through the tree: occlusion and first hits.
 
 use super::tree::{Block, MAX_DEPTH, WideTree};
-use super::turned::{self, Way};
+use super::turned::{self, Motion};
 use crate::lanes::{LANES, Lane, Lanes, at_level, larger, smaller, take_lane};
 use crate::shape::Shape;
 use crate::turned_box::TurnedBox;
 use cosfly_frames::DVec3;
 use glam::Vec3A;
 
-/// Share by which parameters are widened: a direction, its inverse, the widening itself and the crossing are each
-/// rounded once, by 2^-24.
+/// Relative widening of parameters: a direction, its inverse, the widening itself and the crossing are each rounded
+/// once, by
+/// 2^-24.
 pub const PARAMETER_SHARE: f32 = 8.0 / 16_777_216.0;
-/// Stands for one over a direction that does not move along an axis: with faces within reach it stays finite.
+/// Inverse of a direction component that is 0: finite when multiplied by coordinates within reach.
 const STANDING: f32 = 1e30;
-/// Directions below this move nowhere in f32.
+/// Smallest direction component that moves in f32.
 const LEAST_STEP: f32 = 1e-30;
 
-/// One over a direction, axis by axis.
+/// Inverse of a direction, axis by axis.
 #[inline(always)]
 pub fn inverse(step: Vec3A) -> Vec3A {
     Vec3A::select(step.abs().cmplt(Vec3A::splat(LEAST_STEP)), Vec3A::splat(STANDING), step.recip())
 }
 
-/// A ray made ready for blocks: it crosses a face at `x` where its parameter is `x * scale + offset`. Near faces are
-/// moved outwards by the margin, and so are far ones.
+/// A ray prepared for blocks: it crosses a face at `x` at the parameter `x * scale + offset`. Near and far faces are
+/// moved
+/// outwards by the margin.
 #[derive(Clone, Copy)]
 struct WideRay {
     near_scale: [f32; 3],
     near_offset: [f32; 3],
     far_scale: [f32; 3],
     far_offset: [f32; 3],
-    /// How much later the ray surely is behind a near face.
+    /// Widening after which the ray is certainly behind a near face.
     doubt: [f32; 3],
-    /// Which of an axis's two faces comes first.
+    /// Index of the axis's near face.
     first: [usize; 3],
-    way: Way,
+    motion: Motion,
 }
 
 impl WideRay {
-    /// For the ray `from + t * step` in local coordinates.
+    /// Creates the ray `from + t * step` in local coordinates.
     #[inline(always)]
     fn new(from: Vec3A, step: Vec3A, margin: f32) -> Self {
         let inverse = inverse(step);
@@ -56,7 +58,7 @@ impl WideRay {
             far_offset: ((-outwards - from) * more * inverse).to_array(),
             doubt: doubt.to_array(),
             first: [mask & 1, mask >> 1 & 1, mask >> 2 & 1],
-            way: Way {
+            motion: Motion {
                 from: [from_array[0], from_array[1]],
                 step: [step_array[0], step_array[1]],
                 reach: [2.0 * margin; 2],
@@ -64,8 +66,9 @@ impl WideRay {
         }
     }
 
-    /// Bits of the lanes whose bounds the ray may meet at a parameter of at most `max_t`, where, and bits of those
-    /// that it meets beyond doubt.
+    /// Masks and parameters of the lanes whose bounds the ray may meet at a parameter of at most `max_t`, and the mask
+    /// of those that
+    /// it certainly meets.
     #[inline(always)]
     fn met<const SURELY: bool>(&self, lanes: impl Lanes, block: &Block, max_t: f32) -> Met {
         let (mut enter, mut leave) = ([0.0; LANES], [max_t; LANES]);
@@ -88,7 +91,7 @@ impl WideRay {
     }
 }
 
-/// Lanes that a ray meets.
+/// Lanes met by a ray.
 struct Met {
     maybe: u32,
     surely: u32,
@@ -97,7 +100,7 @@ struct Met {
 }
 
 at_level! {
-    /// Whether a box stands between two points; `None` when f32 cannot be asked. `slots` are the boxes in the tree's
+    /// Whether a box lies between two points; `None` when f32 is not applicable. `slots` are the boxes in the tree's
     /// order.
     pub fn blocked(tree: &WideTree, slots: &[TurnedBox], from_in_world: DVec3, to_in_world: DVec3) -> Option<bool> = blocked_kernel;
 }
@@ -118,7 +121,7 @@ fn blocked_kernel(
     let mut open = [(0_u32, 0_u32); MAX_DEPTH];
     let (mut height, mut at) = (0, 0_usize);
     while let Some(block) = tree.blocks.get(at) {
-        // Most rays meet two or three blocks: spreading the ray over lanes ahead of the loop costs more than it saves.
+        // Most rays meet two or three blocks: broadcasting the ray to lanes before the loop costs more than it saves.
         let ray = core::hint::black_box(&ray);
         if block.is_leaf {
             let mut met = ray.met::<true>(lanes, block, 1.0 + PARAMETER_SHARE);
@@ -128,7 +131,7 @@ fn blocked_kernel(
             if met.maybe & block.turned != 0 {
                 let (enter, leave, doubt) = (&met.enter, &met.leave, ray.doubt[2]);
                 let (maybe, surely) =
-                    turned::maybe_and_surely::<true>(lanes, tree, block, &ray.way, enter, leave, doubt);
+                    turned::maybe_and_surely::<true>(lanes, tree, block, &ray.motion, enter, leave, doubt);
                 if met.maybe & surely != 0 {
                     return Some(true);
                 }
@@ -157,12 +160,13 @@ fn blocked_kernel(
     Some(false)
 }
 
-/// Blocks that wait with the parameter or distance at which they begin.
+/// Most waiting blocks, each with the parameter or distance at which it begins.
 const WAITING: usize = (MAX_DEPTH + 1) * LANES;
 
 at_level! {
-    /// Calls `exact` with the slots that the ray `from + t * step`, in local coordinates, may meet, roughly in order,
-    /// up to the parameter that it last gave, at first `max_t`.
+    /// Calls `exact` with the slots that the ray `from + t * step`, in local coordinates, may meet, approximately in
+    /// order, up to the
+    /// parameter that it last returned, at first `max_t`.
     pub fn along(tree: &WideTree, from: Vec3A, step: Vec3A, max_t: f32, exact: &mut dyn FnMut(usize) -> f32) -> () = along_kernel;
 }
 
@@ -192,7 +196,7 @@ fn along_kernel(
             continue;
         }
         if met.maybe & block.turned != 0 {
-            met.maybe &= turned::met(lanes.level(), tree, block, &ray.way, &met.enter, &met.leave);
+            met.maybe &= turned::met(lanes.level(), tree, block, &ray.motion, &met.enter, &met.leave);
         }
         while met.maybe != 0 {
             let lane = take_lane(&mut met.maybe);
@@ -203,7 +207,7 @@ fn along_kernel(
     }
 }
 
-/// Adds children to the waiting blocks such that those with smaller keys come off first.
+/// Pushes children onto the waiting blocks such that those with smaller keys are popped first.
 #[inline(always)]
 fn push_nearest_last(
     waiting: &mut [(u32, f32); WAITING],

@@ -1,21 +1,21 @@
-//! Eight rays from one point at once: the hull of all of them through the tree, then eight exact answers per box.
+//! Eight rays from one point at once: their hull is traced through the tree, then eight exact answers per box.
 
 use super::ray::{PARAMETER_SHARE, inverse};
 use super::tree::{Block, MAX_DEPTH, REACH_M, WideTree};
-use super::turned::{self, Way};
+use super::turned::{self, Motion};
 use crate::lanes::{LANES, Lane, Lanes, at_level, larger, smaller, take_lane};
 use crate::turned_box::TurnedBox;
 use cosfly_frames::DVec3;
 use glam::Vec3A;
 
-/// Rays of a shaft.
+/// Number of rays of a shaft.
 pub const RAYS: usize = 8;
-/// All rays of a shaft.
+/// Mask of all rays of a shaft.
 const ALL: u32 = (1 << RAYS) - 1;
-/// A direction component below this never leaves a slab: the exact test's own limit.
+/// Direction component below which a ray is parallel to a slab, as in the exact test.
 const PARALLEL: f64 = 1e-250;
 
-/// A number for each ray.
+/// One number per ray.
 type PerRay = [f64; RAYS];
 
 /// Eight rays from one point, axis by axis.
@@ -24,11 +24,11 @@ pub struct Shaft {
     from_in_world: DVec3,
     step: [PerRay; 3],
     inverse: [PerRay; 3],
-    /// Whether some ray does not move along an axis.
+    /// Whether a ray is parallel to an axis's slabs.
     has_parallel: bool,
 }
 
-/// The smallest and the largest of eight.
+/// Smallest and largest of eight numbers.
 #[inline(always)]
 fn extremes(a: &PerRay) -> (f64, f64) {
     let (mut low, mut high) = ([0.0; 4], [0.0; 4]);
@@ -40,19 +40,21 @@ fn extremes(a: &PerRay) -> (f64, f64) {
     (low, larger(larger(high[0], high[2]), larger(high[1], high[3])))
 }
 
-/// The hull of a shaft made ready for blocks. At the parameter t it is a box between `from + t * low` and
-/// `from + t * high`; it meets bounds where `t * high >= min - from` and `t * low <= max - from`, two crossings per
-/// axis, each a beginning or an end after the sign of its step. The hull crosses a face at `x * scale + offset`.
+/// Hull of a shaft, prepared for blocks. At the parameter t it is a box between `from + t * low` and `from + t * high`;
+/// it meets
+/// bounds where `t * high >= min - from` and `t * low <= max - from`, two crossings per axis, each a beginning or an
+/// end
+/// depending on the sign of its step. The hull crosses a face at `x * scale + offset`.
 struct Hull {
     near_scale: [f32; 3],
     near_offset: [f32; 3],
     far_scale: [f32; 3],
     far_offset: [f32; 3],
-    /// Infinite where an axis's second face is a beginning, too; less than any parameter elsewhere.
+    /// Infinite where an axis's second face is a beginning as well; less than any parameter elsewhere.
     spreads: [f32; 3],
-    /// Which of an axis's two faces comes first.
+    /// Index of the axis's first face.
     first: [usize; 3],
-    way: Way,
+    motion: Motion,
 }
 
 impl Hull {
@@ -76,11 +78,11 @@ impl Hull {
             far_offset: Vec3A::select(begins_low, offset_high, offset_low).to_array(),
             spreads: spreads.to_array(),
             first: [mask & 1, mask >> 1 & 1, mask >> 2 & 1],
-            way: Way { from: [from[0], from[1]], step: [middle[0], middle[1]], reach: [half[0], half[1]] },
+            motion: Motion { from: [from[0], from[1]], step: [middle[0], middle[1]], reach: [half[0], half[1]] },
         }
     }
 
-    /// Bits of the lanes whose bounds the hull may meet, and where.
+    /// Mask and parameters of the lanes whose bounds the hull may meet.
     #[inline(always)]
     fn met(&self, lanes: impl Lanes, block: &Block) -> (u32, Lane, Lane) {
         let (mut enter, mut leave) = ([0.0; LANES], [1.0 + PARAMETER_SHARE; LANES]);
@@ -98,8 +100,9 @@ impl Hull {
 }
 
 at_level! {
-    /// Bit per ray from one point to eight that a box stands in the way of. `None` when f32 cannot be asked or the
-    /// rays are too far apart; `slots` are the boxes in the tree's order.
+    /// Mask of the rays from one point to eight that a box blocks. `None` when f32 is not applicable or the rays are
+    /// too far apart;
+    /// `slots` are the boxes in the tree's order.
     pub fn blocked(tree: &WideTree, slots: &[TurnedBox], from_in_world: DVec3, to_in_world: &[DVec3; RAYS]) -> Option<u32> = blocked_kernel;
 }
 
@@ -125,7 +128,7 @@ fn blocked_kernel(
             size[axis][ray] = step[axis][ray].abs();
         }
         moving &= lanes.at_most_f64(&[PARALLEL; RAYS], &size[axis]);
-        // Numbers that are not finite fail this, too.
+        // Numbers that are not finite fail this test as well.
         within &= lanes.at_most_f64(&size[axis], &[REACH_M; RAYS]);
         (low[axis], high[axis]) = extremes(&step[axis]);
     }
@@ -143,7 +146,7 @@ fn blocked_kernel(
         let (mut met, enter, leave) = hull.met(lanes, block);
         if block.is_leaf {
             if met & block.turned != 0 {
-                met &= turned::met(lanes.level(), tree, block, &hull.way, &enter, &leave);
+                met &= turned::met(lanes.level(), tree, block, &hull.motion, &enter, &leave);
             }
             while met != 0 {
                 let shape = &slots[block.first as usize + take_lane(&mut met)];
@@ -176,23 +179,23 @@ fn blocked_kernel(
     Some(hidden)
 }
 
-/// Whether rays stay close enough together for their hull to say much of them.
+/// Whether rays are close enough together for their hull to be selective.
 #[inline(always)]
 fn is_slender(low: Vec3A, high: Vec3A) -> bool {
     /// Largest distance of two ends along an axis, metres.
     const WIDTH_M: f32 = 4.0;
-    /// The same per metre of length, beyond half a metre.
+    /// Largest distance of two ends per metre of length, beyond half a metre.
     const SLOPE: f32 = 0.3;
     let (width, length) = ((high - low).max_element(), high.max(-low).max_element());
     width <= WIDTH_M && width <= 0.5 + SLOPE * length
 }
 
 at_level! {
-    /// Bit per ray that meets a box, turned or not.
+    /// Mask of the rays that meet a box, rotated or not.
     fn rays_through_turned(shaft: &Shaft, shape: &TurnedBox) -> u32 = rays_through_turned_kernel;
 }
 
-/// The operations of [`crate::shape::Shape::ray_entry`], the same for every ray.
+/// Operations of [`crate::shape::Shape::ray_entry`], the same for every ray.
 #[inline(always)]
 fn rays_through_turned_kernel(lanes: impl Lanes, shaft: &Shaft, shape: &TurnedBox) -> u32 {
     let origin = shape.local_from_world_vector(shaft.from_in_world - shape.center_in_world());
@@ -212,7 +215,7 @@ fn rays_through_turned_kernel(lanes: impl Lanes, shaft: &Shaft, shape: &TurnedBo
     slabs::<true>(lanes, origin, &step, &inverse, shape)
 }
 
-/// The slab test of [`crate::shape::Shape::ray_entry`] for eight rays, whose origin and steps are in the box's axes.
+/// Slab test of [`crate::shape::Shape::ray_entry`] for eight rays, whose origin and steps are in the box's axes.
 #[inline(always)]
 fn slabs<const PARALLEL_RAYS: bool>(
     lanes: impl Lanes,

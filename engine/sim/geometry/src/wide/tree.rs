@@ -1,4 +1,4 @@
-//! The tree: blocks of sixteen bounds, each the parent of blocks or of boxes.
+//! The wide tree: blocks of sixteen bounds, each the parent of blocks or of boxes.
 
 use super::turned::TurnedLanes;
 use crate::bounds::Bounds;
@@ -6,40 +6,40 @@ use crate::lanes::{LANES, Lane};
 use cosfly_frames::DVec3;
 use glam::Vec3A;
 
-/// Levels of the largest tree: eight by surface area, and 2^32 boxes eighth by eighth.
+/// Levels of the largest tree: eight by surface area, and 2^32 boxes split into eighths.
 pub const MAX_DEPTH: usize = 20;
-/// Farther than this from the local origin, metres, f32 is not asked.
+/// Largest distance from the local origin at which f32 is applicable, metres.
 pub const REACH_M: f64 = 4e6;
 
-/// Share of coordinates that rounding may take away.
+/// Relative rounding error of coordinates in f32.
 const F32_SHARE: f32 = 16.0 / 16_777_216.0;
 
-/// Sixteen bounds about the local origin and what they bound. Lanes beyond `valid` are empty.
+/// Sixteen bounds relative to the local origin, and their children. Lanes beyond `valid` are empty.
 #[derive(Clone, Debug)]
 #[repr(align(64))]
 pub struct Block {
-    /// For each axis the lower and the upper faces, metres.
+    /// Lower and upper faces for each axis, metres.
     pub faces: [[Lane; 2]; 3],
-    /// First child block, or first slot of a leaf; lane i stands for number `first + i`.
+    /// First child block, or first slot of a leaf; lane i is number `first + i`.
     pub first: u32,
-    /// Bit per lane in use.
+    /// Mask of lanes in use.
     pub valid: u32,
-    /// Bit per lane that holds a turned box, whose bounds say little of it.
+    /// Mask of lanes with rotated boxes, whose bounds are loose.
     pub turned: u32,
-    /// Index into [`WideTree::turned`], if a lane is turned.
+    /// Index into [`WideTree::turned`], if any lane is rotated.
     pub turned_lanes: u32,
     /// Whether the lanes are boxes.
     pub is_leaf: bool,
 }
 
 impl Block {
-    /// A block without lanes.
+    /// Block without lanes.
     pub fn empty(is_leaf: bool) -> Self {
         let faces = [[[f32::INFINITY; LANES], [f32::NEG_INFINITY; LANES]]; 3];
         Self { faces, first: 0, valid: 0, turned: 0, turned_lanes: 0, is_leaf }
     }
 
-    /// The faces of an axis, the lower ones first when `first` is 0, the upper ones when it is 1.
+    /// Faces of an axis, the lower ones first when `first` is 0, the upper ones first when it is 1.
     #[inline(always)]
     pub fn near_and_far(&self, axis: usize, first: usize) -> (&Lane, &Lane) {
         let faces = &self.faces[axis];
@@ -50,26 +50,26 @@ impl Block {
 /// Sixteen-way tree over bounds; the root is block 0.
 #[derive(Clone, Debug)]
 pub struct WideTree {
-    /// All blocks; children of a block lie next to each other.
+    /// All blocks; children of a block are contiguous.
     pub blocks: Vec<Block>,
-    /// The boxes of leaves with turned ones, in their own axes.
+    /// Own axes of the boxes of leaves with rotated boxes.
     pub turned: Vec<TurnedLanes>,
-    /// Where the blocks' zero lies.
+    /// Local origin of the blocks, world frame, metres.
     pub origin_in_world: DVec3,
-    /// Levels of blocks.
+    /// Number of levels of blocks.
     pub depth: usize,
-    /// See [`WideTree::margin`].
+    /// Constant part of [`WideTree::margin`], metres.
     pub least_margin: f32,
-    /// Reach of queries close by: twice that of the boxes.
+    /// Reach of queries near the boxes, metres: twice that of the boxes.
     pub home: f32,
-    /// The margin of queries close by.
+    /// Margin of queries within `home`, metres.
     pub home_margin: f32,
     /// Original index of each slot.
     pub order: Vec<u32>,
 }
 
 impl WideTree {
-    /// The largest coordinate of two points about the local origin; `None` when f32 cannot be asked of them.
+    /// Largest coordinate of two points relative to the local origin; `None` when f32 is not applicable to them.
     #[inline(always)]
     pub fn reach_of(a: Vec3A, b: Vec3A) -> Option<f32> {
         let (a, b, most) = (a.abs(), b.abs(), Vec3A::splat(REACH_M as f32));
@@ -77,18 +77,20 @@ impl WideTree {
         (a.cmple(most) & b.cmple(most)).all().then(|| a.max(b).max_element())
     }
 
-    /// What rounding may move a face or a point of a query that stays within `reach` of the local origin, metres.
+    /// Bound of the rounding error of a face or a point of a query within `reach` of the local origin, metres.
     ///
     /// A face, a point, its sum with the margin, the inverse direction and its products with them are each off by at
-    /// most half a unit in the last place, 2^-24 of the coordinates: ten in all at the most. This is 16.
-    /// World coordinates are rounded in f64 on both sides, which `least_margin` covers.
+    /// most half a unit
+    /// in the last place, 2^-24 of the coordinates: at most ten in all. The bound is 16. World coordinates are rounded
+    /// in f64 on
+    /// both sides, which `least_margin` covers.
     #[inline(always)]
     pub fn margin(&self, reach: f32) -> f32 {
-        // Close by the margin is a constant, which need not wait for the reach.
+        // Near the boxes the margin is a constant, which does not depend on the reach.
         if reach <= self.home { self.home_margin } else { self.least_margin + F32_SHARE * reach }
     }
 
-    /// The margin of queries that stay within the boxes.
+    /// Margin of queries that stay within the boxes, metres.
     pub fn least_margin_of(size_m: f64, origin_in_world: DVec3) -> f32 {
         (f64::from(F32_SHARE) * (1e-3 + size_m) + 1e-14 * origin_in_world.abs().max_element()) as f32
     }
@@ -96,8 +98,9 @@ impl WideTree {
     /// Checks the tree against the bounds it was built from.
     ///
     /// # Panics
-    /// When a box is lost or doubled, sticks out of its lane by more than the margin, a child sticks out of its
-    /// parent's lane, a block is unreachable, or the tree is deeper than it says.
+    /// When a box is missing or duplicated, exceeds its lane by more than the margin, a child exceeds its parent's
+    /// lane, a block is
+    /// unreachable, or the tree is deeper than `depth`.
     pub fn assert_well_formed(&self, bounds: &[Bounds]) {
         let mut seen = vec![false; bounds.len()];
         let mut open: Vec<(usize, usize, Option<Bounds>)> = vec![(0, 1, None)];

@@ -1,11 +1,11 @@
-//! Sixteen boxes in their own axes: sorts out turned boxes of which only the bounds are met.
+//! Sixteen boxes in their own axes: rejects rotated boxes of which only the bounds are met.
 
 use super::tree::{Block, WideTree};
 use crate::lanes::{LANES, Lane, Lanes, at_level, larger, smaller};
 use crate::turned_box::TurnedBox;
 use cosfly_frames::DVec3;
 
-/// Middles, half sizes and turns of the boxes of a leaf, seen from above, about the local origin.
+/// Centres, half sizes and rotations of the boxes of a leaf, seen from above, relative to the local origin.
 #[derive(Clone, Debug)]
 #[repr(align(64))]
 pub struct TurnedLanes {
@@ -16,11 +16,11 @@ pub struct TurnedLanes {
 }
 
 impl TurnedLanes {
-    /// Boxes of no size; their lanes are not valid in the block.
+    /// Boxes without size; their lanes are not valid in the block.
     pub const EMPTY: Self =
         Self { center: [[0.0; LANES]; 2], half: [[0.0; LANES]; 2], sin: [0.0; LANES], cos: [1.0; LANES] };
 
-    /// Puts a box into a lane.
+    /// Sets the box of a lane.
     pub fn set(&mut self, lane: usize, shape: &TurnedBox, origin_in_world: DVec3) {
         let (center, half) = (shape.center_in_world() - origin_in_world, shape.half_extents_m());
         for axis in 0..2 {
@@ -31,7 +31,8 @@ impl TurnedLanes {
         (self.sin[lane], self.cos[lane]) = (sin as f32, cos as f32);
     }
 
-    /// Puts a segment's start and step and the boxes' lower and upper faces into the boxes' axes, seen from above.
+    /// Transforms a segment's start and step and the boxes' lower and upper faces into the boxes' axes, seen from
+    /// above.
     #[inline(always)]
     pub fn in_own_axes(
         &self,
@@ -54,42 +55,44 @@ impl TurnedLanes {
     }
 }
 
-/// The way of a rectangle seen from above: its middle goes from `from` by `step`, it reaches `reach` to each side.
+/// Motion of a rectangle seen from above: its centre moves from `from` by `step`, its half size is `reach`.
 #[derive(Clone, Copy)]
-pub struct Way {
-    /// Where its middle begins.
+pub struct Motion {
+    /// Start of the centre.
     pub from: [f32; 2],
-    /// Where it goes while the parameter goes from 0 to 1.
+    /// Displacement of the centre while the parameter goes from 0 to 1.
     pub step: [f32; 2],
-    /// Half its size, and twice the margin.
+    /// Half the size, plus twice the margin.
     pub reach: [f32; 2],
 }
 
 at_level! {
-    /// Bits of the lanes of a leaf with turned boxes that may be met on a way between the parameters `enter` and
-    /// `leave`, and of all lanes that are not turned.
-    pub fn met(tree: &WideTree, block: &Block, way: &Way, enter: &Lane, leave: &Lane) -> u32 = met_kernel;
+    /// Mask of the lanes of a leaf with rotated boxes that may be met by a motion between the parameters `enter` and
+    /// `leave`, and of
+    /// all lanes that are not rotated.
+    pub fn met(tree: &WideTree, block: &Block, motion: &Motion, enter: &Lane, leave: &Lane) -> u32 = met_kernel;
 }
 
 #[inline(always)]
-fn met_kernel(lanes: impl Lanes, tree: &WideTree, block: &Block, way: &Way, enter: &Lane, leave: &Lane) -> u32 {
-    maybe_and_surely::<false>(lanes, tree, block, way, enter, leave, 0.0).0
+fn met_kernel(lanes: impl Lanes, tree: &WideTree, block: &Block, motion: &Motion, enter: &Lane, leave: &Lane) -> u32 {
+    maybe_and_surely::<false>(lanes, tree, block, motion, enter, leave, 0.0).0
 }
 
-/// The bits of [`met`] and, if asked for, those of the lanes that are met beyond doubt. The way lasts from 0 to 1 and
-/// lies between the bounds' upper and lower faces for certain from `enter + doubt` to `leave - doubt`.
+/// Masks of [`met`] and, on request, of the lanes that are certainly met. The motion lasts from 0 to 1 and is certainly
+/// between
+/// the bounds' upper and lower faces from `enter + doubt` to `leave - doubt`.
 #[inline(always)]
 pub fn maybe_and_surely<const SURELY: bool>(
     lanes: impl Lanes,
     tree: &WideTree,
     block: &Block,
-    way: &Way,
+    motion: &Motion,
     enter: &Lane,
     leave: &Lane,
     doubt: f32,
 ) -> (u32, u32) {
     let of = &tree.turned[block.turned_lanes as usize];
-    let Way { from, step, reach } = *way;
+    let Motion { from, step, reach } = *motion;
     let (mut apart, mut surely_apart) = ([0.0; LANES], [0.0; LANES]);
     for i in 0..LANES {
         let (sin, cos) = (of.sin[i], of.cos[i]);
@@ -106,7 +109,7 @@ pub fn maybe_and_surely<const SURELY: bool>(
             let shrunk = [half_u - reach_u, half_v - reach_v];
             let part = [enter[i] + doubt, leave[i] - doubt];
             let gap = gap(lanes, start, [step_u, step_v], part, shrunk);
-            // A part or a box of which nothing is left says nothing.
+            // Empty parts and boxes decide nothing.
             surely_apart[i] = larger(larger(gap, part[0] - part[1]), larger(-shrunk[0], -shrunk[1]));
         }
     }
@@ -114,9 +117,11 @@ pub fn maybe_and_surely<const SURELY: bool>(
     (!block.turned | lanes.at_most(&apart, &[0.0; LANES]), surely)
 }
 
-/// More than 0 when a segment misses a rectangle about the origin. Separating axes: those of the rectangle and the
-/// normal of the segment. The segment's ends are worked out first and the test uses nothing but them, so that its
-/// rounding is that of the ends, however short the segment.
+/// Positive when a segment misses a rectangle around the origin. Separating axes: those of the rectangle and the normal
+/// of the
+/// segment. The test uses nothing but the segment's ends, so that its rounding error is that of the ends, however short
+/// the
+/// segment.
 #[inline(always)]
 fn gap(lanes: impl Lanes, start: [f32; 2], step: [f32; 2], part: [f32; 2], half: [f32; 2]) -> f32 {
     let (u0, v0) = (lanes.multiply_add(part[0], step[0], start[0]), lanes.multiply_add(part[0], step[1], start[1]));

@@ -1,27 +1,27 @@
-//! Baselines without training: standing still, carrying on, moving as the target does.
+//! Baselines without training: constant pose, constant velocity, constant acceleration, copying the target's motion.
 
 use super::prediction::{Prediction, View};
 use cosfly_frames::{DVec3, Pose, real};
 
-/// Polynomials through the past.
+/// Extrapolation by polynomials through the past poses.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Extrapolation {
-    /// The drone stays as it is: all increments are zero.
+    /// Constant pose: all increments are zero.
     Zero,
-    /// The straight line that fits the input poses best (least squares, angles too): noise averages out.
+    /// Line through the input poses by least squares, angles included; averages out noise.
     ConstantVelocity,
-    /// The parabola that fits them best.
+    /// Parabola through the input poses by least squares.
     ConstantAcceleration,
-    /// The drone moves on from where it is with the mean velocity of the target over the input frames; its attitude
-    /// stays.
+    /// From its current position the drone moves with the target's mean velocity over the input frames; its attitude is
+    /// constant.
     CopyTarget,
 }
 
 impl Extrapolation {
-    /// All kinds.
+    /// All methods.
     pub const ALL: [Self; 4] = [Self::Zero, Self::ConstantVelocity, Self::ConstantAcceleration, Self::CopyTarget];
 
-    /// The waypoints of a window.
+    /// Predicts the waypoints of a window.
     pub fn predict(self, view: &View<'_>) -> Prediction {
         let current = view.current();
         match self {
@@ -41,7 +41,8 @@ impl Extrapolation {
     }
 }
 
-/// Polynomials of `degree` through the six numbers of the poses, continued. Fewer poses than it needs lower the degree.
+/// Polynomials of `degree` through the six numbers of the poses, extrapolated. Fewer poses than required lower the
+/// degree.
 fn fitted(view: &View<'_>, degree: usize) -> Prediction {
     let current = view.current();
     let degree = degree.min(view.poses.len().saturating_sub(1));
@@ -69,7 +70,7 @@ fn fitted(view: &View<'_>, degree: usize) -> Prediction {
     Prediction { current: pose_at(0.0), waypoints: (1..=view.horizon).map(|step| pose_at(step as f64)).collect() }
 }
 
-/// Least squares through values at the times 1 - n ..= 0, by orthogonal polynomials (Gram's).
+/// Least-squares fit of values at the times 1 - n ..= 0 by orthogonal polynomials (Gram's).
 struct Fit {
     first: f64,
     middle: f64,
@@ -97,7 +98,7 @@ impl Fit {
         [1.0, from_middle, from_middle * from_middle - self.spread]
     }
 
-    /// With which weight value `number` makes up the polynomial's value at `time`: sum of p(t) p(time) / |p|^2.
+    /// Weight of value `number` in the polynomial's value at `time`: sum of p(t) p(time) / |p|^2.
     fn weight(&self, number: usize, time: f64) -> f64 {
         let (here, there) = (self.polynomials(self.first + number as f64), self.polynomials(time));
         let terms = (0..=self.degree).filter(|degree| self.squares[*degree] > 0.0);

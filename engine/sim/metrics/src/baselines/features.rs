@@ -1,4 +1,4 @@
-//! Numbers that trained baselines see, and those that they predict: seen from the current pose, turned by its yaw.
+//! Features and outcomes of trained baselines, relative to the current pose and rotated by its yaw.
 
 use super::prediction::View;
 use cosfly_frames::{DVec3, Pose, real};
@@ -6,14 +6,15 @@ use cosfly_frames::{DVec3, Pose, real};
 /// Numbers per predicted waypoint: ahead, right, up in metres, pitch, yaw and roll in radians.
 pub const PER_WAYPOINT: usize = 6;
 
-/// Turns horizontal offsets so that the drone's heading is ahead; the inverse for `-yaw_rad`.
+/// Rotates horizontal offsets so that the drone's heading is ahead; the inverse for `-yaw_rad`.
 fn turned(offset: DVec3, yaw_rad: f64) -> DVec3 {
     let (s, c) = real::sin_cos(yaw_rad);
     DVec3::new(c * offset.x + s * offset.y, c * offset.y - s * offset.x, offset.z)
 }
 
-/// Appends the features of a window: for every frame before the current one the pose relative to the current one,
-/// its pitch and roll, and the target's place in every input frame.
+/// Appends the features of a window to `features`: for every frame before the current one the pose relative to it, the
+/// current
+/// pitch and roll, and the target's position in every input frame.
 pub fn push_features(view: &View<'_>, features: &mut Vec<f64>) {
     let current = view.current();
     for pose in &view.poses[..view.poses.len().saturating_sub(1)] {
@@ -25,7 +26,7 @@ pub fn push_features(view: &View<'_>, features: &mut Vec<f64>) {
     }
 }
 
-/// `pose` seen from `current`.
+/// `pose` relative to `current`.
 pub fn relative(current: &Pose, pose: &Pose) -> [f64; PER_WAYPOINT] {
     let offset = turned(pose.position_in_world - current.position_in_world, current.yaw_rad);
     let turn = |angle: f64, from: f64| real::wrap_angle_rad(angle - from);
@@ -39,14 +40,14 @@ pub fn relative(current: &Pose, pose: &Pose) -> [f64; PER_WAYPOINT] {
     ]
 }
 
-/// `pose` seen from `start`, but along the axes of the current pose, which is the one that a model knows.
+/// `pose` relative to `start`, but along the axes of the current pose, which a model knows.
 pub fn outcome(view: &View<'_>, start: &Pose, pose: &Pose) -> [f64; PER_WAYPOINT] {
     let mut numbers = relative(&Pose { yaw_rad: view.current().yaw_rad, ..*start }, pose);
     numbers[4] = real::wrap_angle_rad(pose.yaw_rad - start.yaw_rad);
     numbers
 }
 
-/// The pose that is `relative` to `current`.
+/// Pose that is `relative` to `current`.
 pub fn absolute(current: &Pose, [ahead, right, up, pitch, yaw, roll]: [f64; PER_WAYPOINT]) -> Pose {
     Pose {
         position_in_world: current.position_in_world + turned(DVec3::new(ahead, right, up), -current.yaw_rad),
@@ -56,29 +57,29 @@ pub fn absolute(current: &Pose, [ahead, right, up, pitch, yaw, roll]: [f64; PER_
     }
 }
 
-/// Poses of a flat list of [`PER_WAYPOINT`] numbers each.
+/// Poses from a flat list of [`PER_WAYPOINT`] numbers each.
 pub fn waypoints_of(current: &Pose, outcomes: &[f64]) -> Vec<Pose> {
     let (waypoints, _) = outcomes.as_chunks::<PER_WAYPOINT>();
     waypoints.iter().map(|numbers| absolute(current, *numbers)).collect()
 }
 
-/// Features and true outcomes of windows to learn from, row by row.
+/// Features and true outcomes of training windows, row by row.
 #[derive(Clone, Debug, Default)]
 pub struct Examples {
-    /// Numbers of a row of features.
+    /// Numbers in a row of features.
     pub width: usize,
-    /// Numbers of a row of outcomes.
+    /// Numbers in a row of outcomes.
     pub depth: usize,
-    /// All rows of features.
+    /// Features, row-major.
     pub features: Vec<f64>,
-    /// All rows of outcomes.
+    /// Outcomes, row-major.
     pub outcomes: Vec<f64>,
 }
 
 impl Examples {
-    /// Adds a window whose true waypoints are `truth`; `start` is the pose that they are learnt relative to, the
-    /// view's current one unless increments are anchored elsewhere. Windows of another shape than the first are
-    /// left out.
+    /// Adds a window with the true waypoints `truth`; `start` is the pose to which they are relative: the view's
+    /// current pose unless
+    /// increments start elsewhere. Windows of another shape than the first are skipped.
     pub fn push(&mut self, view: &View<'_>, start: &Pose, truth: &[Pose]) {
         let (features, outcomes) = (self.features.len(), self.outcomes.len());
         push_features(view, &mut self.features);
@@ -99,22 +100,22 @@ impl Examples {
         self.features.len().checked_div(self.width).unwrap_or(0)
     }
 
-    /// Whether there is no row.
+    /// Whether there are no rows.
     pub fn is_empty(&self) -> bool {
         self.len() == 0
     }
 }
 
-/// Means and spreads of the columns of a table, for features of the same size.
+/// Means and spreads of the columns of a table, for scaling features.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Scaling {
     means: Vec<f64>,
-    /// 1 / deviation; 0 for columns that are always the same.
+    /// 1 / deviation; 0 for constant columns.
     factors: Vec<f64>,
 }
 
 impl Scaling {
-    /// Of a table with rows of `width` numbers.
+    /// Computes the scaling of a table with rows of `width` numbers.
     pub fn of(table: &[f64], width: usize) -> Self {
         let rows = (table.len().checked_div(width).unwrap_or(0) as f64).max(1.0);
         let (mut means, mut squares) = (vec![0.0; width], vec![0.0; width]);

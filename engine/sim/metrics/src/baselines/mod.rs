@@ -1,7 +1,7 @@
-//! Baselines that a model must beat: predictions that need no pictures.
+//! Baselines for models: predictions without pictures.
 //!
-//! A prediction is an estimate of the current pose and the waypoints after it. The estimate matters for increments
-//! (see `Anchor`): a line through a noisy history does not pass through its last pose.
+//! A prediction is an estimate of the current pose and the waypoints after it. The estimate matters for increments (see
+//! `Anchor`): a line fitted to a noisy history does not pass through its last pose.
 
 pub mod extrapolate;
 pub mod features;

@@ -1,24 +1,24 @@
-//! The waypoints of the most similar window that was learnt from.
+//! Nearest-neighbour baseline: the waypoints of the most similar training window.
 
 use super::features::{Examples, Scaling, push_features, waypoints_of};
 use super::prediction::{Prediction, View};
 
-/// Lanes of a distance: sums of this many columns run side by side.
+/// Number of columns summed in parallel.
 const LANES: usize = 8;
 
-/// Windows to copy from.
+/// Nearest-neighbour model over training windows.
 #[derive(Clone, Debug, PartialEq)]
 pub struct NearestNeighbour {
     scaling: Scaling,
     width: usize,
     depth: usize,
-    /// Scaled features, rows filled up to whole lanes with zeros.
+    /// Scaled features, rows padded to whole lanes with zeros.
     rows: Vec<f32>,
     outcomes: Vec<f64>,
 }
 
 impl NearestNeighbour {
-    /// Remembers at most `limit` of `examples`, evenly spread; `None` without any.
+    /// Stores at most `limit` of `examples`, evenly spread; `None` without any.
     pub fn fit(examples: &Examples, limit: usize) -> Option<Self> {
         let (width, depth) = (examples.width, examples.depth);
         let kept = examples.len().min(limit);
@@ -37,18 +37,19 @@ impl NearestNeighbour {
         Some(Self { scaling, width, depth, rows, outcomes })
     }
 
-    /// Windows that are remembered.
+    /// Number of stored windows.
     pub fn len(&self) -> usize {
         self.outcomes.len().checked_div(self.depth).unwrap_or(0)
     }
 
-    /// Whether nothing is remembered.
+    /// Whether no window is stored.
     pub fn is_empty(&self) -> bool {
         self.len() == 0
     }
 
-    /// The waypoints of the nearest window, by the distance between scaled features; the first of equally near ones.
-    /// `None` for a window of another shape.
+    /// Waypoints of the nearest window, by the distance between scaled features; the first of equally near ones. `None`
+    /// for a window
+    /// of another shape.
     pub fn predict(&self, view: &View<'_>) -> Option<Prediction> {
         let mut features = Vec::with_capacity(self.width);
         push_features(view, &mut features);

@@ -1,31 +1,31 @@
-//! A window as baselines see it, and their predictions.
+//! Input of baselines, and their predictions.
 
 use cosfly_frames::{DVec3, Pose};
 use serde::Serialize;
 
-/// The input frames of a window; the last one is the current one.
+/// Input frames of a window; the last one is the current frame.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct View<'a> {
-    /// Poses of the drone.
+    /// Poses of the drone, world frame.
     pub poses: &'a [Pose],
-    /// The target's feet in the same frames.
+    /// Positions of the target's feet, world frame, metres.
     pub feet: &'a [DVec3],
-    /// Edges around the target's visible pixels in their images, pixels: left, top, right, bottom.
+    /// Edges around the target's visible pixels, pixels: left, top, right, bottom.
     pub boxes: &'a [Option<[f32; 4]>],
     /// Width and height of the images, pixels.
     pub image_px: [f32; 2],
-    /// Waypoints to predict.
+    /// Number of waypoints to predict.
     pub horizon: usize,
 }
 
 impl View<'_> {
-    /// The drone's pose in the current frame.
+    /// Pose of the drone in the current frame.
     pub fn current(&self) -> Pose {
         self.poses.last().copied().unwrap_or(Pose::looking_at(DVec3::ZERO, DVec3::X))
     }
 }
 
-/// A prediction in the world.
+/// A prediction in the world frame.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Prediction {
     /// Estimated pose of the drone in the current frame.
@@ -34,18 +34,18 @@ pub struct Prediction {
     pub waypoints: Vec<Pose>,
 }
 
-/// The pose that true and predicted increments start from. The paper does not say; scores differ widely.
+/// Pose where true and predicted increments start. The paper does not specify it; scores differ widely.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Anchor {
-    /// The current pose of the input: where the drone is. The first increment brings a disturbed drone back.
+    /// The current pose of the input: the first increment brings a disturbed drone back.
     Input,
     /// The expert's pose in the same frame: increments are the expert's own.
     Expert,
 }
 
 impl Prediction {
-    /// The waypoints when the prediction's increments start at `anchor` instead of the pose thought to be current.
+    /// Waypoints when the prediction's increments start at `anchor` instead of the estimated current pose.
     pub fn started_at(mut self, anchor: &Pose) -> Vec<Pose> {
         let shift = anchor.position_in_world - self.current.position_in_world;
         for pose in &mut self.waypoints {

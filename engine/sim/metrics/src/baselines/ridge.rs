@@ -4,7 +4,7 @@ use super::features::{Examples, Scaling, push_features, waypoints_of};
 use super::prediction::{Prediction, View};
 use super::solve::solve;
 
-/// Weight of the penalty per row: enough to settle columns that depend on each other, too little to matter elsewhere.
+/// Weight of the penalty per row: large enough for collinear columns, negligible otherwise.
 const PENALTY: f64 = 1e-3;
 
 /// A linear model of the waypoints.
@@ -13,13 +13,14 @@ pub struct Ridge {
     scaling: Scaling,
     width: usize,
     depth: usize,
-    /// Row per scaled feature, then one for the constant.
+    /// Weights: a row per scaled feature, then one for the constant.
     weights: Vec<f64>,
 }
 
 impl Ridge {
-    /// Fits `examples`: W = (X'X + rows * penalty * I)^-1 X'Y over scaled features and a constant that is not
-    /// penalised. `None` without examples.
+    /// Fits `examples`: W = (X'X + rows * penalty * I)^-1 X'Y over scaled features and an unpenalised constant. `None`
+    /// without
+    /// examples.
     pub fn fit(examples: &Examples) -> Option<Self> {
         let (width, depth) = (examples.width, examples.depth);
         if examples.is_empty() || depth == 0 {
@@ -44,7 +45,7 @@ impl Ridge {
         Some(Self { scaling, width, depth, weights: right })
     }
 
-    /// The waypoints of a window; `None` for one of another shape than those learnt from.
+    /// Predicts the waypoints of a window; `None` for one of another shape than the training windows.
     pub fn predict(&self, view: &View<'_>) -> Option<Prediction> {
         let mut features = Vec::with_capacity(self.width + 1);
         push_features(view, &mut features);

@@ -1,4 +1,4 @@
-//! Symmetric positive definite systems by Cholesky's method.
+//! Solves symmetric positive definite systems by Cholesky's method.
 
 /// Solves A X = B in place of `right`, for `matrix` A (n x n, its lower triangle is read) and B with rows of `columns`
 /// numbers; `None` when A is not positive definite.

@@ -1,4 +1,4 @@
-//! The camera of a trajectory, and the target before it.
+//! The camera of a trajectory, and its target.
 
 use super::columns::Trajectories;
 use crate::tables::DatasetItem;
@@ -21,18 +21,19 @@ columns! { Trajectories::CAMERA of DatasetItem;
     camera_k1: f64 = |item, _| item.record.lens.k1;
     /// Lens distortion, OpenCV's k2.
     camera_k2: f64 = |item, _| item.record.lens.k2;
-    /// Turn of the camera against the drone around the drone's up axis, positive to the right; before the pitch.
+    /// Yaw of the camera relative to the drone, around the drone's up axis, positive to the right; before the pitch.
     camera_mount_yaw_deg: f64 = |item, _| item.record.mount.yaw_rad.to_degrees();
-    /// Turn of the camera against the drone, positive upwards; after the yaw.
+    /// Pitch of the camera relative to the drone, positive upwards; after the yaw.
     camera_mount_pitch_deg: f64 = |item, _| item.record.mount.pitch_rad.to_degrees();
-    /// Exposure around `time_s` over which colour is blurred; depth and ids are of `time_s`; 0: no blur.
+    /// Exposure time, centred on `time_s`, over which colour is blurred; depth and ids are of `time_s`; 0: no blur.
     camera_shutter_s: f64 = |item, _| item.record.motion_blur.shutter_s;
     /// Time from the top row to the bottom row, the middle row at `time_s`, in all channels; 0: all rows at once.
     camera_readout_s: f64 = |item, _| item.record.rolling_shutter.readout_s;
-    /// Standard deviation of the noise of colour that is the same everywhere, in steps of 8 bits.
+    /// Standard deviation of the signal-independent noise of colour, in steps of 8 bits.
     camera_noise_gaussian: f64 = |item, _| item.record.noise.gaussian;
-    /// Standard deviation of the noise of colour at white, falling with the root of brightness, in steps of 8 bits; both
-    /// noises add in squares.
+    /// Standard deviation of the noise of colour at white, proportional to the square root of brightness, in steps of 8
+    /// bits;
+    /// variances of both noises add up.
     camera_noise_shot: f64 = |item, _| item.record.noise.shot;
 
     /// Height of the target's body.

@@ -1,4 +1,4 @@
-//! The certificate of a trajectory: limits, what was reached, and how the planner came to it.
+//! The certificate of a trajectory: limits, reached values, and figures of the planner.
 
 use super::columns::Trajectories;
 use crate::flight_labels;
@@ -7,7 +7,7 @@ use crate::tables::column::columns;
 use cosfly_planner::{Certificate, Perturbation};
 
 columns! { Trajectories::CERTIFICATE of DatasetItem;
-    /// All limits hold, checked against the unsimplified map.
+    /// Whether all limits hold, checked against the unsimplified map.
     certificate_holds: bool = |item, _| certificate(item).holds;
     /// Violated limits, in words.
     certificate_violations: Vec<String> = |item, _| certificate(item).violations.clone();
@@ -33,7 +33,7 @@ columns! { Trajectories::CERTIFICATE of DatasetItem;
     max_jerk_mps3: f64 = |item, _| certificate(item).max_jerk_mps3;
     /// Mean distance to the target's feet.
     mean_distance_m: f64 = |item, _| certificate(item).mean_distance_m;
-    /// Mean horizontal angle from straight behind the target; frames in which the target stands are left out.
+    /// Mean horizontal angle from straight behind the target; frames in which the target stands are excluded.
     mean_rear_angle_deg: f64 = |item, _| certificate(item).mean_rear_angle_deg;
     /// Path length of the drone.
     length_m: f64 = |item, _| certificate(item).length_m;
@@ -44,9 +44,9 @@ columns! { Trajectories::CERTIFICATE of DatasetItem;
     iterations: u32 = |item, _| certificate(item).iterations;
     /// Mean visibility of the lattice's cheapest path, from which the trajectory was refined; 0 without a lattice.
     lattice_visibility: f64 = |item, _| certificate(item).lattice_visibility;
-    /// Visibility lost against the lattice's path; 0 when the trajectory sees as much or more.
+    /// Visibility lost relative to the lattice's path; 0 when the trajectory sees as much or more.
     visibility_regret: f64 = |item, _| certificate(item).visibility_regret;
-    /// Number of lattices tried, from the fast one to finer and calmer ones.
+    /// Number of lattices tried, from the coarsest to finer ones.
     attempts: u32 = |item, _| certificate(item).attempts;
     /// Number of searches through the last lattice.
     searches: u32 = |item, _| certificate(item).searches;
@@ -64,16 +64,17 @@ columns! { Trajectories::CERTIFICATE of DatasetItem;
     term_weights: Vec<f64> = |item, _| flight_labels::costs(&item.record.trajectory).map(|term| term.weight).collect();
     /// Unweighted costs of the planner's terms over all frames; empty for perturbed trajectories.
     term_sums: Vec<f64> = |item, _| flight_labels::costs(&item.record.trajectory).map(|term| term.sum).collect();
-    /// Names of the labels that plugins gave to the frames, see `frames.labels`; empty without such plugins.
+    /// Names of the labels given by plugins, see `frames.labels`; empty without such plugins.
     label_names: Vec<String> = |item, _| {
         flight_labels::labels(&item.record.trajectory).map(|it| it.name.to_owned()).collect()
     };
-    /// Plugin that gave each label, and its version.
+    /// Plugin of each label, with its version.
     label_plugins: Vec<String> = |item, _| {
         flight_labels::labels(&item.record.trajectory).map(|it| format!("{} {}", it.plugin, it.version)).collect()
     };
-    /// Total cost against the planning boxes before and after refinement (preset `paper`: after each iteration of descent) and
-    /// of the published trajectory; empty for baselines and perturbed trajectories.
+    /// Total cost against the planning boxes before and after refinement (preset `paper`: after each iteration of
+    /// descent) and of
+    /// the published trajectory; empty for baselines and perturbed trajectories.
     convergence: Vec<f64> = |item, _| item.record.trajectory.convergence.clone();
     /// Probability of the position event per frame; null for experts.
     position_probability: Option<f64> = |item, _| perturbation(item).map(|it| it.position_probability);
@@ -85,7 +86,7 @@ fn certificate(item: &DatasetItem) -> &Certificate {
     &item.record.trajectory.certificate
 }
 
-/// A limit; none where it is infinite.
+/// Limit as a value; `None` where it is infinite.
 fn limit(value: f64) -> Option<f64> {
     value.is_finite().then_some(value)
 }

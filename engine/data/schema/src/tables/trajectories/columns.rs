@@ -1,4 +1,4 @@
-//! The type whose constants are the columns of table `trajectories`; its groups stand in files of their own.
+//! The type whose constants are the columns of table `trajectories`; groups of columns are in separate files.
 
 /// Columns of table `trajectories`.
 pub struct Trajectories;

@@ -10,7 +10,7 @@ use cosfly_metrics::{Difficulty, WindowFeatures};
 columns! { Trajectories::IDENTITY of DatasetItem;
     /// Name of the trajectory, unique in the dataset.
     trajectory_id: String = |item, _| item.record.trajectory_id.clone();
-    /// Name of the flight: rows with the same one have the same poses, target and ids in different weathers.
+    /// Name of the flight: rows with the same name have the same poses, target and ids in different weathers.
     flight_id: String = |item, _| item.record.flight_id.clone();
     /// Expert or perturbed trajectory.
     role: Role = |item, _| item.record.role;
@@ -35,18 +35,20 @@ columns! { Trajectories::IDENTITY of DatasetItem;
     town_offset_m: [f64; 3] = |item, _| item.record.town.origin.offset_m.to_array();
     /// Projection text of the map file; null where the file has none.
     town_geo_reference: Option<String> = |item, _| item.record.town.origin.geo_reference.clone();
-    /// Buildings were invented, not in the map file.
+    /// Whether buildings were generated, not read from the map file.
     synthetic_buildings: bool = |item, _| item.record.town.synthetic.buildings;
-    /// Trees were invented, not in the map file.
+    /// Whether trees were generated, not read from the map file.
     synthetic_trees: bool = |item, _| item.record.town.synthetic.trees;
-    /// Street furniture was invented, not in the map file.
+    /// Whether street furniture was generated, not read from the map file.
     synthetic_furniture: bool = |item, _| item.record.town.synthetic.furniture;
-    /// List of everything that was invented, in words.
+    /// List of all generated parts, in words.
     synthetic_notes: Vec<String> = |item, _| item.record.town.synthetic.notes.clone();
 
     /// BLAKE3 of the ground plan of the walkable surface, the same for copies of a town with other names or buildings.
     town_layout_blake3: String = |item, _| item.layout.digest.clone();
-    /// Sketch of the ground plan, 64 numbers; the share that two towns have in common says how alike their plans are (MinHash).
+    /// Sketch of the ground plan, 64 numbers; the share of numbers that two towns have in common estimates the
+    /// similarity of their
+    /// plans (MinHash).
     town_layout_sketch: Vec<i64> = |item, _| item.layout.sketch.clone();
     /// Split group: all trajectories of one group are in one split.
     split_group: String = |item, _| item.membership.split_group.clone();

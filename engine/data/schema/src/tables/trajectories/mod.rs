@@ -12,7 +12,7 @@ pub use weather::{WEATHER_NUMBERS, WeatherNumber};
 
 use super::{AnyColumn, DatasetItem, Need, Table};
 
-/// The table.
+/// Definition of the table.
 pub fn table() -> Table<DatasetItem> {
     let doc = "One row per trajectory: town, weather, camera, certificate, costs, and where its log is.";
     let weather = WEATHER_NUMBERS.iter().map(|number| &number.column as &dyn AnyColumn<DatasetItem>);

@@ -6,17 +6,17 @@ use crate::tables::{Column, DatasetItem};
 use cosfly_render::Weather;
 
 columns! { Trajectories::WEATHER of DatasetItem;
-    /// CARLA's preset that the numbers start from.
+    /// CARLA's preset on which the numbers are based.
     weather_preset: String = |item, _| item.record.weather.name.clone();
 }
 
-/// One of CARLA's weather numbers, as tables, logs and cards have it.
+/// One of CARLA's weather numbers, as in tables, logs and cards.
 pub struct WeatherNumber {
     /// CARLA's name, such as `cloudiness`.
     pub name: &'static str,
-    /// The column, named like the number after `weather_`.
+    /// Column `weather_<name>`.
     pub column: Column<DatasetItem, f64>,
-    /// The number of a weather.
+    /// Function from a weather to the number.
     pub of: fn(&Weather) -> f64,
 }
 

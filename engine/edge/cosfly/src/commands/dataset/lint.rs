@@ -6,7 +6,7 @@ use crate::output::print;
 use crate::text::count;
 use clap::Parser;
 use cosfly_diagnose::{Diagnostic, Fault, Result};
-use cosfly_splits::promise::Promise;
+use cosfly_splits::policy::SplitPolicy;
 use cosfly_splits::{FlightFacts, LintRules, facts_of_dataset, lint};
 use std::collections::BTreeMap;
 use std::fmt::Write;
@@ -38,16 +38,16 @@ pub struct Arguments {
 
 impl Command for Arguments {
     fn run(&self) -> Outcome {
-        let promises = self.dirs.iter().map(|dir| promise(dir)).collect::<Result<Vec<_>>>()?;
+        let policies = self.dirs.iter().map(|dir| policy(dir)).collect::<Result<Vec<_>>>()?;
         let rules = LintRules {
             max_route_overlap: match self.max_route_overlap {
                 Some(share) if (0.0..=1.0).contains(&share) => share,
                 Some(share) => return Err(out_of_range(share).into()),
-                None => promises.first().map_or(0.5, |promise| promise.splits.max_route_overlap),
+                None => policies.first().map_or(0.5, |policy| policy.splits.max_route_overlap),
             },
-            by_town: self.by_town || promises.iter().all(|promise| promise.rules().by_town),
+            by_town: self.by_town || policies.iter().all(|policy| policy.rules().by_town),
         };
-        let window = promises.first().map_or(10, |promise| promise.windows.shape().size());
+        let window = policies.first().map_or(10, |policy| policy.windows.shape().size());
         let mut facts = vec![];
         for (number, dir) in self.dirs.iter().enumerate() {
             facts.extend(facts_of_dataset(dir, number, window)?);
@@ -70,9 +70,9 @@ impl Command for Arguments {
     }
 }
 
-fn promise(dir: &Path) -> Result<Promise> {
-    Promise::of_dataset(dir).map_err(|message| {
-        let file = dir.join(cosfly_splits::promise::FILE);
+fn policy(dir: &Path) -> Result<SplitPolicy> {
+    SplitPolicy::of_dataset(dir).map_err(|message| {
+        let file = dir.join(cosfly_splits::policy::FILE);
         Diagnostic::new("dataset-damaged", Fault::Input, format!("`{}` cannot be read", file.display()))
             .because(message)
     })
