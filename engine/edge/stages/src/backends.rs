@@ -12,12 +12,6 @@ pub fn check(kind: BackendKind) -> Result<(), BackendError> {
             message: "`backend` is `gpu`, but this cosfly was built without it".into(),
             hint: "build it with `cargo build --release -p cosfly --features gpu`, or leave `backend` out".into(),
         }),
-        BackendKind::Carla => Err(BackendError {
-            message: "`backend` is `carla`, but no run waits for a CARLA server".into(),
-            hint: "run the recipe with `backend = \"cpu\"`, write a job with `cosfly carla-job DATASET --out job.json` and \
-                   fly it with `plugins/carla/replay.py`"
-                .into(),
-        }),
     }
 }
 
@@ -51,6 +45,5 @@ mod tests {
         if !cfg!(feature = "gpu") {
             assert!(check(BackendKind::Gpu).unwrap_err().hint.contains("--features gpu"));
         }
-        assert!(check(BackendKind::Carla).unwrap_err().hint.contains("carla-job"));
     }
 }

@@ -1,8 +1,8 @@
-//! What a recipe says about pictures: camera and weathers.
+//! Parameters of a recipe's pictures: renderer, camera, effects, weathers.
 
-use crate::backend::BackendKind;
 use crate::camera::{Camera, Mount};
 use crate::effects::{Effects, Lens, MotionBlur, Noise, RollingShutter};
+use crate::look::PictureLook;
 use crate::weather::{Weather, WeatherRanges};
 use cosfly_frames::Seed;
 use schemars::JsonSchema;
@@ -13,9 +13,8 @@ use std::fmt;
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(default, deny_unknown_fields)]
 pub struct RenderConfig {
-    /// What draws the pictures: `cpu` (cosfly's own renderer, the same bytes on every machine), `gpu` (a graphics card;
-    /// needs a cosfly built with the feature `gpu`) or `carla` (a CARLA server; see the guide, it is driven from outside
-    /// of a run).
+    /// Renderer of the pictures: `cpu` (cosfly's own, the same bytes on every machine) or `gpu` (a graphics card; needs a
+    /// cosfly built with the feature `gpu`); a CARLA server draws a finished dataset anew, see `cosfly carla-job`.
     pub backend: BackendKind,
     /// How colours look: `full` (shadows, textures, weather, smooth edges) or `simple` (plain colours and windows in the
     /// light of sun, sky and haze, in about a third of the time). Depth, labels and ids are the same in both.
@@ -75,14 +74,24 @@ impl Default for RenderConfig {
     }
 }
 
-/// How the colours of pictures look.
+/// Renderer of the pictures.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
-pub enum PictureLook {
-    /// Sun and shadows, light of the sky between houses, textures, wetness, puddles and rain, lamps, smooth edges.
-    Full,
-    /// Plain colours and windows, light of the sun and the open sky, haze; no shadows, textures or smooth edges.
-    Simple,
+pub enum BackendKind {
+    /// cosfly's own renderer: exact, the same bytes on every machine.
+    Cpu,
+    /// A graphics card through wgpu; needs a cosfly built with the feature `gpu`.
+    Gpu,
+}
+
+impl BackendKind {
+    /// The name in recipes.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Cpu => "cpu",
+            Self::Gpu => "gpu",
+        }
+    }
 }
 
 /// Ranges of the camera's turn against the drone.

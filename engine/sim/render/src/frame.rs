@@ -20,6 +20,18 @@ pub struct FrameImages {
     pub instance: Vec<u32>,
 }
 
+/// A finished frame; the images belong to the renderer and are overwritten by its next frame.
+pub struct RenderedFrame<'a> {
+    /// All channels.
+    pub images: &'a FrameImages,
+    /// How the target looks in them; all zero without a target.
+    pub target_view: TargetView,
+    /// Indices of the pixels that the target would cover without obstacles, ascending.
+    pub target_pixels: &'a [u32],
+    /// What is seen of the others, by instance id; those of whom no pixel is seen are left out.
+    pub others: &'a [PersonView],
+}
+
 /// Instance id of the followed target.
 pub const TARGET_INSTANCE: u32 = 1;
 

@@ -1,8 +1,9 @@
 //! The people of a frame: who of them can be seen, or throws a shadow that can, and their figures.
 
+use crate::eye::Eye;
 use crate::figure::{Clothes, FigureTriangle, Walker, figure};
 use crate::frame::TARGET_INSTANCE;
-use crate::renderer::{Eye, FrameSetup};
+use crate::setup::FrameSetup;
 use crate::visibility::{NEAR_M, Nearer, Screen};
 use cosfly_frames::DVec3;
 use std::ops::Range;

@@ -1,7 +1,7 @@
 //! Planar depth, semantic and instance ids in bands of rows, from the faces seen in them.
 
+use crate::faces::{DrawnFace, FaceSource};
 use crate::frame::FrameImages;
-use crate::renderer::{DrawnFace, FaceSource};
 use crate::visibility::NO_FACE;
 use cosfly_frames::simd::Level;
 use cosfly_frames::simd_kernel;

@@ -1,6 +1,6 @@
 //! Light that stays in place: how much sky the ground sees, and how much lamps give, on a coarse grid over the town.
 
-use crate::scene::{Cluster, SceneBox};
+use crate::scene_parts::{Cluster, SceneBox};
 use crate::shade::pattern::{blend, fixed_size, floor_int, four_bytes, least, lerp, most, nearest_index, share};
 use cosfly_frames::DVec3;
 use cosfly_maps::ObstacleKind;

@@ -3,11 +3,12 @@
 //! A point (x, y, z) and every point on its ray towards the sun fall on the same place of the map,
 //! `(x, y) - (z - reference) * sun.xy / sun.z`; it is in shadow when the map's height there is above z.
 
+use crate::eye::Eye;
 use crate::figure::FigureTriangle;
 use crate::frame::TARGET_INSTANCE;
 use crate::people::People;
-use crate::renderer::Eye;
-use crate::scene::{BOX_FACES, Scene};
+use crate::scene::Scene;
+use crate::scene_parts::BOX_FACES;
 use crate::shade::lanes::{Block, FOUR, WIDE, get};
 use crate::shade::pattern::{NoiseTexture, Noises, fixed_size, floor_int, least, lerp, most, one_if, smoothstep};
 use crate::shade::shadow_region::{Region, for_seen_points};

@@ -1,0 +1,14 @@
+//! How the colours of pictures look.
+
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+/// How the colours of pictures look.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum PictureLook {
+    /// Sun and shadows, light of the sky between houses, textures, wetness, puddles and rain, lamps, smooth edges.
+    Full,
+    /// Plain colours and windows, light of the sun and the open sky, haze; no shadows, textures or smooth edges.
+    Simple,
+}
