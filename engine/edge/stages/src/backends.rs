@@ -1,7 +1,7 @@
 //! Rendering backends of this build, and how to get the others.
 
 use cosfly_diagnose::{Diagnostic, Fault};
-use cosfly_render::{Backend, BackendError, BackendKind, Camera, PictureLook, Renderer};
+use cosfly_render::{Backend, BackendError, BackendKind, Camera, RenderConfig, Renderer};
 
 /// Refuses a backend that this build does not have, before anything runs.
 pub fn check(kind: BackendKind) -> Result<(), BackendError> {
@@ -15,17 +15,19 @@ pub fn check(kind: BackendKind) -> Result<(), BackendError> {
     }
 }
 
-/// A backend of this kind for one camera and look.
-pub fn open(kind: BackendKind, camera: Camera, look: PictureLook) -> Result<Box<dyn Backend>, BackendError> {
-    check(kind)?;
+/// A backend for one camera with the look and the channels of a recipe.
+pub fn open(config: &RenderConfig, camera: Camera) -> Result<Box<dyn Backend>, BackendError> {
+    check(config.backend)?;
     #[cfg(feature = "gpu")]
-    if kind == BackendKind::Gpu {
+    if config.backend == BackendKind::Gpu {
         let mut backend = cosfly_gpu::GpuBackend::new(camera)?;
-        backend.set_look(look);
+        backend.set_look(config.look);
+        backend.set_channels(&config.channels);
         return Ok(Box::new(backend));
     }
     let mut renderer = Renderer::new(camera);
-    renderer.set_look(look);
+    renderer.set_look(config.look);
+    renderer.set_channels(&config.channels);
     Ok(Box::new(renderer))
 }
 

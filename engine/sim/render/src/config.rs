@@ -1,6 +1,7 @@
 //! Parameters of a recipe's pictures: renderer, camera, effects, weathers.
 
 use crate::camera::{Camera, Mount};
+use crate::channel_set::ChannelSet;
 use crate::effects::{Effects, Lens, MotionBlur, Noise, RollingShutter};
 use crate::look::PictureLook;
 use crate::weather::{Weather, WeatherRanges};
@@ -19,6 +20,9 @@ pub struct RenderConfig {
     /// How colours look: `full` (shadows, textures, weather, smooth edges) or `simple` (plain colours and windows in the
     /// light of sun, sky and haze, in about a third of the time). Depth, labels and ids are the same in both.
     pub look: PictureLook,
+    /// Channels to draw: `rgb`, `depth`, `semantic` and `instance` always, others on request, such as `normals`.
+    #[serde(skip_serializing_if = "ChannelSet::is_default")]
+    pub channels: ChannelSet,
     /// Image width, pixels.
     #[schemars(range(min = 16, max = 7680))]
     pub width: u32,
@@ -58,6 +62,7 @@ impl Default for RenderConfig {
         Self {
             backend: BackendKind::Cpu,
             look: PictureLook::Full,
+            channels: ChannelSet::default(),
             width: 1280,
             height: 720,
             fov_deg: 90.0,
@@ -131,6 +136,11 @@ impl RenderConfig {
     pub fn validate(&self) -> Result<(), ConfigProblem> {
         let problem =
             |path: &str, message: String, hint: String| Err(ConfigProblem { path: path.into(), message, hint });
+        if let Some(missing) = self.channels.missing() {
+            let every: Vec<&str> = ChannelSet::default().iter().map(|channel| channel.name).collect();
+            let hint = format!("{} are part of every frame: add channels to them", every.join(", "));
+            return problem("channels", format!("the list leaves out `{}`", missing.name), hint);
+        }
         if !(16..=7680).contains(&self.width) {
             return problem("width", format!("the width is `{}`", self.width), "16 to 7680 pixels".into());
         }

@@ -1,13 +1,15 @@
 //! One frame from start to end: cull, draw, resolve, shade, measure the target.
 
 use crate::camera::Camera;
+use crate::channel_set::ChannelSet;
 use crate::eye::Eye;
 use crate::faces::{DrawnFace, FaceSource};
-use crate::frame::{FrameImages, PersonView, RenderedFrame, TARGET_INSTANCE, TargetView};
+use crate::frame::{ChannelImage, FrameImages, PersonView, RenderedFrame, TARGET_INSTANCE, TargetView};
 use crate::look::PictureLook;
 use crate::outlook::to_sun;
 use crate::outside::Found;
 use crate::passes::ids::{SeenRuns, for_each_band};
+use crate::passes::on_request;
 use crate::people::People;
 use crate::scene::Scene;
 use crate::scene_parts::{BOX_FACES, Cluster};
@@ -73,6 +75,7 @@ impl Renderer {
                 depth_m: vec![f32::INFINITY; pixels],
                 semantic: vec![SemanticLabel::Sky.id(); pixels],
                 instance: vec![0; pixels],
+                on_request: Vec::new(),
             },
             nearest: Visibility::new(screen.width, screen.height),
             alone: Visibility::new(screen.width, screen.height),
@@ -111,6 +114,13 @@ impl Renderer {
     pub fn set_look(&mut self, look: PictureLook) {
         self.look = look;
         self.shader.set_look(look);
+    }
+
+    /// Draws these channels from now on; the channels of every frame are always among them.
+    pub fn set_channels(&mut self, channels: &ChannelSet) {
+        let (on_request, pixels) =
+            (channels.iter().filter(|channel| channel.is_on_request()), self.images.depth_m.len());
+        self.images.on_request = on_request.map(|channel| ChannelImage::new(channel, pixels)).collect();
     }
 
     /// Spreads frames over the threads of the rayon pool that calls, from now on; the bytes are the same. Off at first:
@@ -194,6 +204,9 @@ impl Renderer {
         self.view = target_view::NOT_IN_VIEW;
         if parts != FrameParts::Visibility {
             self.fill_channels(scene, parts == FrameParts::All);
+            if !self.images.on_request.is_empty() {
+                on_request::draw(&mut self.images, &self.nearest.face, &self.faces, &eye, &self.screen);
+            }
             watch.lap(3);
             if let Some(target) = &setup.target {
                 target_view::covered_pixels(&self.alone, self.screen.width, &mut self.covered);

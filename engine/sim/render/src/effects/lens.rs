@@ -1,7 +1,7 @@
 //! Radial distortion after Brown: `r_seen = r (1 + k1 r^2 + k2 r^4)`, with r the tangent of the angle from the optical axis.
 
 use crate::camera::Camera;
-use crate::frame::FrameImages;
+use crate::frame::{ChannelImage, FrameImages};
 use cosfly_frames::real;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -186,6 +186,12 @@ impl LensMap {
         out.depth_m.resize(pixels, f32::INFINITY);
         out.semantic.resize(pixels, 0);
         out.instance.resize(pixels, 0);
+        ChannelImage::match_channels(&mut out.on_request, &ideal.on_request, pixels);
+        for (out, ideal) in out.on_request.iter_mut().zip(&ideal.on_request) {
+            for (pixel, sample) in self.samples.iter().enumerate() {
+                out.copy_pixel(pixel, ideal, self.nearest(sample));
+            }
+        }
         let row = 3 * self.ideal.width as usize;
         for (pixel, sample) in self.samples.iter().enumerate() {
             let nearest = self.nearest(sample);

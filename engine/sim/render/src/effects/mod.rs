@@ -2,7 +2,7 @@
 //! default.
 //!
 //! Colour goes through the blur (a mean of light over the shutter), then the lens (bilinear), then the sensor (noise).
-//! Depth and ids are those of the middle of the shutter, seen through the lens at the nearest sample: they are never mixed.
+//! Depth and ids are those of the middle of the shutter, seen through the lens at the nearest sample: they are never mixed; so are channels on request.
 //! A rolling shutter takes all channels of a strip of rows at the strip's moment, so that they still agree.
 
 mod lens;
@@ -18,7 +18,7 @@ pub use rolling_shutter::RollingShutter;
 use crate::backend::{Backend, BackendError};
 use crate::camera::Camera;
 use crate::figure::{Bystander, TargetSetup};
-use crate::frame::{FrameImages, PersonView, RenderedFrame};
+use crate::frame::{ChannelImage, FrameImages, PersonView, RenderedFrame};
 use crate::scene::Scene;
 use crate::setup::FrameSetup;
 use crate::target_view;
@@ -176,5 +176,11 @@ fn add_rows(from: &FrameImages, rgb: &[u8], rows: Range<usize>, to: &mut FrameIm
     to.rgb[colours.clone()].copy_from_slice(&rgb[colours]);
     to.depth_m[pixels.clone()].copy_from_slice(&from.depth_m[pixels.clone()]);
     to.semantic[pixels.clone()].copy_from_slice(&from.semantic[pixels.clone()]);
-    to.instance[pixels.clone()].copy_from_slice(&from.instance[pixels]);
+    to.instance[pixels.clone()].copy_from_slice(&from.instance[pixels.clone()]);
+    ChannelImage::match_channels(&mut to.on_request, &from.on_request, from.depth_m.len());
+    for (to, from) in to.on_request.iter_mut().zip(&from.on_request) {
+        let size = from.channel.bytes_on_request();
+        let bytes = size * pixels.start..size * pixels.end;
+        to.bytes[bytes.clone()].copy_from_slice(&from.bytes[bytes]);
+    }
 }

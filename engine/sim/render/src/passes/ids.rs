@@ -244,6 +244,7 @@ mod tests {
             depth_m: vec![0.0; ids.len()],
             semantic: vec![0; ids.len()],
             instance: vec![0; ids.len()],
+            on_request: vec![],
         };
         let mut seen = SeenRuns::default();
         for_each_band(false, &ids, &mut images, &mut seen, |mut band| band.resolve(Level::best(), &[]));
