@@ -19,16 +19,16 @@ pub trait Backend: Send {
     /// Draws all channels of one frame.
     ///
     /// # Errors
-    /// What the device says; the CPU renderer never fails.
+    /// Failure of the device; the CPU renderer never fails.
     fn render(&mut self, scene: &Scene, setup: &FrameSetup<'_>) -> Result<RenderedFrame<'_>, BackendError>;
 }
 
 /// Why a backend cannot draw.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct BackendError {
-    /// What happened: a lower-case fragment.
+    /// The failure: a lower-case fragment.
     pub message: String,
-    /// What to do about it.
+    /// A way out.
     pub hint: String,
 }
 

@@ -17,7 +17,7 @@ pub struct RenderConfig {
     /// Renderer of the pictures: `cpu` (cosfly's own, the same bytes on every machine) or `gpu` (a graphics card; needs a
     /// cosfly built with the feature `gpu`); a CARLA server draws a finished dataset anew, see `cosfly carla-job`.
     pub backend: BackendKind,
-    /// How colours look: `full` (shadows, textures, weather, smooth edges) or `simple` (plain colours and windows in the
+    /// Look of colours: `full` (shadows, textures, weather, smooth edges) or `simple` (plain colours and windows in the
     /// light of sun, sky and haze, in about a third of the time). Depth, labels and ids are the same in both.
     pub look: PictureLook,
     /// Channels to draw: `rgb`, `depth`, `semantic` and `instance` always, others on request, such as `normals`.
@@ -36,7 +36,7 @@ pub struct RenderConfig {
     /// flights behind it share it.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub fov_range_deg: Option<[f64; 2]>,
-    /// How the camera is turned against the drone; drawn once per walk, the same for all of its flights and frames.
+    /// Turn of the camera against the drone; drawn once per walk, the same for all of its flights and frames.
     pub gimbal: GimbalConfig,
     /// Distortion of the lens; the focal length is that of the undistorted camera.
     pub lens: Lens,
@@ -112,11 +112,11 @@ pub struct GimbalConfig {
 /// A value that the schema cannot refuse but the renderer must.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct ConfigProblem {
-    /// Where in the stage's table, such as `weathers[1]`.
+    /// Path in the stage's table, such as `weathers[1]`.
     pub path: String,
-    /// What is wrong: a lower-case fragment.
+    /// The refused value and the violated rule: a lower-case fragment.
     pub message: String,
-    /// What is allowed, or the nearest valid value.
+    /// Allowed values, or the nearest valid one.
     pub hint: String,
 }
 
@@ -221,7 +221,7 @@ impl RenderConfig {
         Camera { horizontal_fov_rad: fov_deg.to_radians(), ..self.camera() }
     }
 
-    /// How the camera is turned against the drone on all flights behind one walk.
+    /// Turn of the camera against the drone on all flights behind one walk.
     pub fn draw_mount(&self, walk_seed: &Seed) -> Mount {
         Mount {
             pitch_rad: draw(walk_seed, "gimbal-pitch", self.gimbal.pitch_range_deg).to_radians(),
@@ -248,7 +248,7 @@ impl RenderConfig {
         weather
     }
 
-    /// What is added to ideal pictures of `camera`.
+    /// Effects on ideal pictures of `camera`.
     pub fn effects(&self, camera: Camera) -> Effects {
         Effects::new(camera, self.lens, self.motion_blur, self.rolling_shutter, self.noise)
     }

@@ -12,7 +12,7 @@ pub(crate) struct DrawnFace {
     pub instance: u32,
 }
 
-/// Where a drawn face comes from.
+/// Origin of a drawn face.
 #[derive(Clone, Copy, PartialEq, Eq)]
 pub(crate) enum FaceSource {
     /// Box number, face number.

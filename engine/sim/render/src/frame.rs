@@ -1,4 +1,4 @@
-//! One rendered frame, and how the target looks in it.
+//! One rendered frame: images, and views of the target and of other people.
 
 use crate::channels::Channel;
 use serde::{Deserialize, Serialize};
@@ -57,11 +57,11 @@ impl ChannelImage {
 pub struct RenderedFrame<'a> {
     /// All channels.
     pub images: &'a FrameImages,
-    /// How the target looks in them; all zero without a target.
+    /// View of the target; all zero without a target.
     pub target_view: TargetView,
     /// Indices of the pixels that the target would cover without obstacles, ascending.
     pub target_pixels: &'a [u32],
-    /// What is seen of the others, by instance id; those of whom no pixel is seen are left out.
+    /// Views of the others, by instance id; those of whom no pixel is seen are left out.
     pub others: &'a [PersonView],
 }
 
@@ -89,7 +89,7 @@ pub struct PixelBox {
 /// The target in one frame.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct TargetView {
-    /// Its body covers at least one pixel centre of the image, occluded or not.
+    /// Whether the body covers at least one pixel centre of the image, occluded or not.
     pub in_view: bool,
     /// Share of body points reached by unoccluded rays, whether or not in the image, 0..=1.
     pub visible_by_rays: f64,

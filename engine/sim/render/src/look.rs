@@ -1,9 +1,9 @@
-//! How the colours of pictures look.
+//! Looks of the colours of pictures.
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-/// How the colours of pictures look.
+/// Look of the colours of pictures.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum PictureLook {

@@ -50,7 +50,7 @@ impl Scene {
     }
 }
 
-/// What a camera found: a position and turn, a screen, and the faces as drawing them here would have noted them.
+/// A scene seen by a camera, whose faces are noted as if they had been drawn here.
 pub(crate) struct Found<'a> {
     pub scene: &'a Scene,
     pub eye: &'a Eye,

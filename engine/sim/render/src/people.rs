@@ -22,11 +22,11 @@ pub(crate) struct Person {
     pub walker: Walker,
     pub clothes: Clothes,
     pub instance: u32,
-    /// Their triangles among those of all.
+    /// Triangles of the figure among those of all.
     pub triangles: Range<usize>,
     /// Whether the body itself may be seen.
     pub is_seen: bool,
-    /// Where their body and what it darkens may be seen.
+    /// Part of the screen where the body and its shadow may be seen.
     pub reach: Reach,
     /// Height of the body, pixels.
     pub height_px: f64,

@@ -1,4 +1,4 @@
-//! What a town looks like to the renderer: boxes with faces, ground polygons in small bounded clusters, seeds for looks.
+//! A town prepared for the renderer: boxes with faces, ground polygons in small bounded clusters, seeds for looks.
 
 use crate::ground_polygons::{GroundPolygon, GroundPolygons};
 use crate::scene_parts::{BOX_FACES, Cluster, ClusterPolygon, SceneBox};

@@ -52,7 +52,7 @@ pub(crate) struct Cluster {
 /// A ground polygon.
 #[derive(Clone, Copy)]
 pub(crate) struct ClusterPolygon {
-    /// Its place in the cluster's corners.
+    /// First corner in the cluster's list.
     pub first: u32,
     pub count: u32,
     pub label: SemanticLabel,
@@ -62,7 +62,7 @@ pub(crate) struct ClusterPolygon {
 }
 
 impl ClusterPolygon {
-    /// Its corners in the cluster's list.
+    /// Corners in the cluster's list.
     pub fn range(&self) -> core::ops::Range<usize> {
         self.first as usize..(self.first + self.count) as usize
     }

@@ -1,10 +1,10 @@
-//! Everything that one frame shows: pose, weather, people.
+//! The content of one frame: pose, weather, people.
 
 use crate::figure::{Bystander, TargetSetup};
 use crate::weather::Weather;
 use cosfly_frames::Pose;
 
-/// What one frame shows.
+/// Camera, weather and people of one frame.
 #[derive(Clone, Copy, Debug)]
 pub struct FrameSetup<'a> {
     /// The camera's pose.

@@ -85,7 +85,8 @@ impl Lens {
         (cx + focal * x * scale, cy + focal * y * scale)
     }
 
-    /// Where an ideal camera would see what this lens shows at pixel coordinates (u, v); `None` outside of its reach.
+    /// Pixel coordinates in an ideal camera of the point that this lens shows at (u, v); `None` outside of the lens's
+    /// reach.
     pub fn unbend(&self, camera: &Camera, (u, v): (f64, f64)) -> Option<(f64, f64)> {
         if self.is_none() {
             return Some((u, v));
@@ -100,7 +101,7 @@ impl Lens {
         Some((cx + focal * x * scale, cy + focal * y * scale))
     }
 
-    /// How many times wider than the picture the ideal picture is that this lens needs; `None` when there is none.
+    /// Width of the ideal picture that this lens needs, in widths of the picture; `None` when there is none.
     pub fn widening(&self, camera: &Camera) -> Option<f64> {
         let corner = self.unbend(camera, (0.0, 0.0))?;
         let (cx, cy, _) = centre_and_focal(camera);
@@ -112,7 +113,7 @@ fn centre_and_focal(camera: &Camera) -> (f64, f64, f64) {
     (0.5 * f64::from(camera.width), 0.5 * f64::from(camera.height), camera.focal_px())
 }
 
-/// Where each pixel of the finished picture comes from in the ideal one.
+/// Place in the ideal picture of each pixel of the finished one.
 pub(crate) struct LensMap {
     camera: Camera,
     ideal: Camera,

@@ -33,7 +33,7 @@ pub(crate) struct SeenRuns(Vec<BandRuns>);
 pub(crate) struct BandRuns {
     /// Row by row.
     pub all: Vec<Run>,
-    /// Where each row's runs end.
+    /// End of each row's runs.
     row_ends: Vec<usize>,
     /// Bits of the places where a row's faces change.
     changes: Vec<u64>,

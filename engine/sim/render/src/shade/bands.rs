@@ -27,7 +27,7 @@ const SHARED_GROUPS: usize = 64;
 /// No run follows.
 const END: u32 = u32::MAX;
 
-/// What one thread needs to shade bands.
+/// Buffers of one thread that shades bands.
 pub(crate) struct Worker {
     stage: Box<Stage>,
     shared: Box<[Shared; GROUPS]>,
@@ -59,7 +59,7 @@ struct Link {
 struct Piece {
     /// First pixel, from the start of the band.
     start: usize,
-    /// Its place in the blocks.
+    /// Place of that pixel in the blocks.
     lane: usize,
     /// Pixels.
     length: usize,
@@ -74,7 +74,7 @@ struct Piece {
     normal: [f32; 3],
 }
 
-/// What the pixels of a group are made of.
+/// Material of the pixels of a group.
 enum Material {
     Sky,
     Ground(SemanticLabel),
@@ -529,7 +529,7 @@ impl Material {
 #[derive(Clone, Copy, Debug)]
 struct Cloth {
     colour: Vec3,
-    /// Its middle line.
+    /// Middle line.
     from: Vec3,
     along: Vec3,
 }

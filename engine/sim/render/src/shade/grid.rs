@@ -12,7 +12,7 @@ const TABLE_SIDE: usize = 512;
 /// Lamp light of a byte's step.
 const LAMP_STEP: f32 = 1.0 / 64.0;
 
-/// What the grid says at one place.
+/// Values of the grid at one place.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct GridSample {
     /// Height of the ground, metres.
@@ -67,7 +67,7 @@ impl GridPlace {
     }
 }
 
-/// Where the tables lie.
+/// Place of the tables in the world.
 #[derive(Clone, Copy, Debug)]
 pub struct GridFrame {
     min: [f32; 2],
@@ -144,7 +144,7 @@ impl LightGrid {
         &self.tables
     }
 
-    /// Where they lie.
+    /// Place of the tables in the world.
     pub fn frame(&self) -> GridFrame {
         let last = [self.columns, self.rows].map(|count| count as f32 - 1.501);
         GridFrame { min: self.min, cells_per_m: self.cells_per_m, last }

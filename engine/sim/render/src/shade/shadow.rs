@@ -38,11 +38,11 @@ const LEAST_HALF_WIDTH_M: f64 = 0.13;
 /// Places this near what the view shows are drawn, too, metres: shading moves points a little.
 const MARGIN_M: f64 = 3.0;
 
-/// What stands in a texel of the town's map.
+/// Content of a texel of the town's map.
 const SOLID: u32 = 0;
 const LEAVES: u32 = 1;
 
-/// Where a map lies. Its v axis runs along the sun's direction over the ground, so that upright edges,
+/// Place of a map. The v axis runs along the sun's direction over the ground, so that upright edges,
 /// whose shadows run that way, follow the texels and do not turn into stairs.
 #[derive(Clone, Copy, Debug, PartialEq)]
 struct Frame {
@@ -114,12 +114,12 @@ struct Packed {
 /// A figure's own map, and where it lies; nowhere without a shadow.
 struct FigureShadow {
     map: Box<FigureMap>,
-    /// How many of its rows and columns are in use.
+    /// Number of rows and columns in use.
     side: usize,
     rows: Option<[[f32; 4]; 2]>,
 }
 
-/// Where the town's map lies.
+/// Place of the town's map.
 #[derive(Clone, Copy, Debug, Default)]
 struct Places {
     rows: [[f32; 4]; 2],
