@@ -135,7 +135,7 @@ fn channels_on_request_are_files_of_every_export_of_pictures() {
     let dataset = PublishedDataset::open(&home.path().join("given")).unwrap();
     let [shards, folder] = ["webdataset", "imagefolder"].map(|name| {
         let out = home.path().join(name);
-        export(&dataset, name, &options(), &out).unwrap();
+        export(&dataset, name, &out).unwrap();
         files(&out)
     });
     let tar = shards.iter().find(|(path, _)| path.extension().is_some_and(|it| it == "tar")).unwrap().1;

@@ -13,7 +13,6 @@ use cosfly_fingerprint::sha256::{HashingWriter, sha256_of};
 use cosfly_metrics::WindowShape;
 use cosfly_render::{Channel, ChannelSet};
 use cosfly_report::FlightSketch;
-use cosfly_schema::LogRecord;
 use cosfly_schema::config::DatasetConfig;
 use cosfly_schema::extras::{self, Extra, ExtraShape, ExtraSource, ExtraSummary};
 use cosfly_schema::flight_table::Values;
