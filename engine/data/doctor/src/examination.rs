@@ -90,27 +90,27 @@ pub fn examine(folder: &Path, quotas: &[Quota], progress: &mut dyn FnMut(u64, u6
         flags.extend(checks::of_episode(episode));
     }
     flags.extend(checks::leaks(&episodes));
-    unchecked.extend(untold(layout, &episodes));
+    unchecked.extend(unstated(layout, &episodes));
     Ok(Examination { unchecked, ..summed(layout, &episodes, flags, quotas) })
 }
 
 /// Values that no episode has, whose checks were skipped.
-fn untold(layout: Layout, episodes: &[Episode]) -> Vec<String> {
-    let is_told = |what: &dyn Fn(&Episode) -> bool| episodes.is_empty() || episodes.iter().any(what);
-    let moments = |what: fn(&Moment) -> bool| is_told(&|it| it.moments.iter().any(what));
+fn unstated(layout: Layout, episodes: &[Episode]) -> Vec<String> {
+    let is_stated = |what: &dyn Fn(&Episode) -> bool| episodes.is_empty() || episodes.iter().any(what);
+    let moments = |what: fn(&Moment) -> bool| is_stated(&|it| it.moments.iter().any(what));
     let mut gaps = vec![
-        (is_told(&|it| it.split.is_some()), "leaks between splits: no splits are told"),
-        (is_told(&|it| it.limits[1..].iter().any(Option::is_some)), "limits of motion: none are stated"),
-        (is_told(&|it| !it.captions.is_empty()), "instructions: there are none that can be read back"),
+        (is_stated(&|it| it.split.is_some()), "leaks between splits: no splits are stated"),
+        (is_stated(&|it| it.limits[1..].iter().any(Option::is_some)), "limits of motion: none are stated"),
+        (is_stated(&|it| !it.captions.is_empty()), "instructions: none can be parsed"),
     ];
     if layout != Layout::Lerobot {
         gaps.extend([
-            (is_told(&|it| it.camera.is_some()), "projection of the target: no camera without a bent lens is told"),
-            (moments(|it| it.clearance_m.is_some()), "clearance: it is not told"),
-            (moments(|it| it.visible.is_some()), "visibility: it is not told"),
+            (is_stated(&|it| it.camera.is_some()), "projection of the target: no camera without a bent lens is stated"),
+            (moments(|it| it.clearance_m.is_some()), "clearance: it is not stated"),
+            (moments(|it| it.visible.is_some()), "visibility: it is not stated"),
         ]);
     }
-    gaps.into_iter().filter(|(is_told, _)| !is_told).map(|(_, gap)| gap.to_owned()).collect()
+    gaps.into_iter().filter(|(is_stated, _)| !is_stated).map(|(_, gap)| gap.to_owned()).collect()
 }
 
 fn summed(layout: Layout, episodes: &[Episode], flags: Vec<Flag>, quotas: &[Quota]) -> Examination {
@@ -123,10 +123,10 @@ fn summed(layout: Layout, episodes: &[Episode], flags: Vec<Flag>, quotas: &[Quot
     let of = |severity: Severity| ids.iter().filter(|id| worst.get(**id) == Some(&severity)).count();
     let (imperfect, damaged) = (of(Severity::Imperfect), of(Severity::Damage));
     let kept = ids.iter().filter(|id| !worst.contains_key(**id)).map(|id| (*id).to_owned()).collect();
-    let told: Vec<f64> = episodes.iter().flat_map(|it| &it.moments).filter_map(|it| it.visible).collect();
+    let stated: Vec<f64> = episodes.iter().flat_map(|it| &it.moments).filter_map(|it| it.visible).collect();
     let visibility = SHARES.iter().enumerate().map(|(at, least)| {
         let below = SHARES.get(at + 1).copied().unwrap_or(f64::INFINITY);
-        (*least, told.iter().filter(|share| (*least..below).contains(*share)).count())
+        (*least, stated.iter().filter(|share| (*least..below).contains(*share)).count())
     });
     let share = |quota: &Quota| {
         let has = |it: &&Episode| it.losses_s().iter().any(|lost| *lost >= quota.lost_s.0 && *lost <= quota.lost_s.1);

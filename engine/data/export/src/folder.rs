@@ -30,7 +30,7 @@ impl OutFolder {
     /// Begins the folder that will be `target`, for an export of the dataset in `dataset`.
     ///
     /// # Errors
-    /// `export-exists` where something is there already, `export-inside` within the dataset itself.
+    /// `export-exists` where the folder exists already, `export-inside` within the dataset itself.
     pub fn begin(target: &Path, dataset: &Path) -> Result<Self> {
         let shown = target.display();
         let is_free = match std::fs::read_dir(target) {
@@ -38,7 +38,7 @@ impl OutFolder {
             Err(error) => error.kind() == std::io::ErrorKind::NotFound,
         };
         if !is_free {
-            return Err(Diagnostic::new("export-exists", Fault::Recipe, format!("`{shown}` is there already"))
+            return Err(Diagnostic::new("export-exists", Fault::Recipe, format!("`{shown}` exists already"))
                 .hint("an export is a whole new folder; give another one with `--out`, or remove this one"));
         }
         let name = target.file_name().map(|name| name.to_string_lossy().into_owned());

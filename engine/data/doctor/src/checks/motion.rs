@@ -53,9 +53,9 @@ fn actions(episode: &Episode) -> Option<Flag> {
         let mut worst: f64 = 0.0;
         let mut count = 0;
         for (frame, moment) in moments.iter().enumerate() {
-            let Some(told) = moment.next_in_world else { continue };
-            // The step that is told, moved to the frame that it may belong to.
-            let step = told - moment.drone.position_in_world;
+            let Some(stated) = moment.next_in_world else { continue };
+            // The step that is stated, moved to the frame that it may belong to.
+            let step = stated - moment.drone.position_in_world;
             let Some(from) = frame.checked_add_signed(shift as isize).filter(|at| at + 1 < moments.len()) else {
                 continue;
             };
@@ -94,15 +94,15 @@ pub fn frames(shift: i64) -> String {
 
 fn turns(episode: &Episode) -> Option<Flag> {
     for (frame, pair) in episode.moments.windows(2).enumerate() {
-        let Some(told) = pair[0].turn_deg else { continue };
+        let Some(stated) = pair[0].turn_deg else { continue };
         let Some(next) = led(episode, frame + 1) else { continue };
         let now = pair[0].drone;
         let taken = [next.pitch_rad - now.pitch_rad, next.yaw_rad - now.yaw_rad, next.roll_rad - now.roll_rad];
-        for (name, (told, taken)) in ["pitch", "yaw", "roll"].into_iter().zip(told.into_iter().zip(taken)) {
-            let gap = (told - taken.to_degrees()).rem_euclid(360.0);
+        for (name, (stated, taken)) in ["pitch", "yaw", "roll"].into_iter().zip(stated.into_iter().zip(taken)) {
+            let gap = (stated - taken.to_degrees()).rem_euclid(360.0);
             if gap.min(360.0 - gap) > ACTION_TOLERANCE {
                 let message = format!(
-                    "the action of frame {frame} turns {name} by {told:.3}°; the poses by {:.3}°",
+                    "the action of frame {frame} turns {name} by {stated:.3}°; the poses by {:.3}°",
                     taken.to_degrees()
                 );
                 return Some(Flag::damage("action-mismatch", &episode.id, message));

@@ -40,9 +40,9 @@ fn overlap(episode: &Episode) -> Option<Flag> {
 }
 
 fn lost(episode: &Episode) -> Option<Flag> {
-    let told: Vec<f64> = episode.moments.iter().filter_map(|it| it.visible).collect();
-    let lost = told.iter().filter(|share| **share < 0.5).count();
-    let is_lost = !told.is_empty() && lost as f64 > MOSTLY_LOST * told.len() as f64;
-    let message = || format!("less than half of the target is visible in {lost} of {} frames", told.len());
+    let stated: Vec<f64> = episode.moments.iter().filter_map(|it| it.visible).collect();
+    let lost = stated.iter().filter(|share| **share < 0.5).count();
+    let is_lost = !stated.is_empty() && lost as f64 > MOSTLY_LOST * stated.len() as f64;
+    let message = || format!("less than half of the target is visible in {lost} of {} frames", stated.len());
     is_lost.then(|| Flag::imperfect("mostly-lost", &episode.id, message()))
 }

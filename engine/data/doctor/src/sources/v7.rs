@@ -73,7 +73,7 @@ fn document(trace: &Path) -> Result<Value, String> {
         return Err(format!("it has {size} bytes"));
     }
     let bytes = fs::read(path).map_err(|error| format!("it cannot be read: {error}"))?;
-    serde_json::from_slice(&bytes).map_err(|error| format!("it is no JSON: {error}"))
+    serde_json::from_slice(&bytes).map_err(|error| format!("not JSON: {error}"))
 }
 
 fn episode(id: &str, document: &Value) -> Result<Episode, String> {
@@ -84,7 +84,7 @@ fn episode(id: &str, document: &Value) -> Result<Episode, String> {
         .iter()
         .enumerate()
         .map(|(index, point)| {
-            moment(point).ok_or_else(|| format!("point {index} has a pose or a time that is no number"))
+            moment(point).ok_or_else(|| format!("point {index} has a pose or a time that is not a number"))
         })
         .collect::<Result<Vec<Moment>, String>>()?;
     let mut steps: Vec<f64> = moments.windows(2).map(|pair| pair[1].time_s - pair[0].time_s).collect();

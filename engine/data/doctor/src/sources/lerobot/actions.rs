@@ -89,7 +89,7 @@ pub fn interpret(recordings: &mut [Recording], features: &Features, notes: &mut 
         notes.push(match best {
             Some((error, _)) => format!(
                 "actions: as steps, places or velocities, along the world's axes or the drone's, they miss the next place \
-                 by {error:.3} m or more in the middle frame; what they mean is not told"
+                 by {error:.3} m or more in the middle frame; their meaning is not stated"
             ),
             None => "actions: there are too few".to_owned(),
         });

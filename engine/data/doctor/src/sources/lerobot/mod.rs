@@ -95,7 +95,7 @@ fn info(folder: &Path) -> Result<Value, String> {
         return Err(format!("it has {size} bytes"));
     }
     let bytes = std::fs::read(path).map_err(|error| format!("it cannot be read: {error}"))?;
-    let info: Value = serde_json::from_slice(&bytes).map_err(|error| format!("it is no JSON: {error}"))?;
+    let info: Value = serde_json::from_slice(&bytes).map_err(|error| format!("not JSON: {error}"))?;
     if info["features"].is_object() { Ok(info) } else { Err("it has no `features`".into()) }
 }
 
@@ -194,18 +194,18 @@ impl Frames {
             match self.moment(row, frame, fps, features, in_degrees, changes) {
                 Some(moment) => moments.push(moment),
                 None => {
-                    let message = format!("frame {frame} has a pose or a time that is no number");
+                    let message = format!("frame {frame} has a pose or a time that is not a number");
                     flags.push(Flag::damage("not-finite", &id, message));
                     break;
                 }
             }
         }
         if let Some(frame) = (0..rows.len())
-            .find(|frame| self.number("frame_index", rows[*frame]).is_some_and(|told| told as i64 != *frame as i64))
+            .find(|frame| self.number("frame_index", rows[*frame]).is_some_and(|stated| stated as i64 != *frame as i64))
         {
-            let told = self.number("frame_index", rows[frame]).unwrap_or_default();
+            let stated = self.number("frame_index", rows[frame]).unwrap_or_default();
             let message =
-                format!("row {frame} of the episode is called frame {told}: rows are missing or out of order");
+                format!("row {frame} of the episode is called frame {stated}: rows are missing or out of order");
             flags.push(Flag::damage("index-mismatch", &id, message));
         }
         let digest = |frame: usize| {
@@ -339,8 +339,8 @@ impl Listed {
     fn check(&self, info: &Value, recordings: &[Recording], rows: usize, flags: &mut Vec<Flag>) {
         let mut flag = |place: &str, message: String| flags.push(Flag::damage("index-mismatch", place, message));
         for (key, found) in [("total_frames", rows), ("total_episodes", recordings.len())] {
-            if let Some(told) = info[key].as_u64().filter(|told| *told != found as u64) {
-                flag("meta/info.json", format!("`{key}` is {told}; the tables have {found}"));
+            if let Some(stated) = info[key].as_u64().filter(|stated| *stated != found as u64) {
+                flag("meta/info.json", format!("`{key}` is {stated}; the tables have {found}"));
             }
         }
         let lengths: BTreeMap<&str, usize> =
@@ -348,8 +348,8 @@ impl Listed {
         for (episode, numbers) in &self.rows {
             let name = self.name(*episode);
             let found = lengths.get(name.as_str()).copied().unwrap_or(0);
-            if let Some(told) = numbers.get("length").filter(|told| **told != found as f64) {
-                flag(&name, format!("its `length` is {told}; the tables have {found} frames of it"));
+            if let Some(stated) = numbers.get("length").filter(|stated| **stated != found as f64) {
+                flag(&name, format!("its `length` is {stated}; the tables have {found} frames of it"));
             }
         }
     }
@@ -368,12 +368,12 @@ impl Listed {
                     let found = if file.is_file() { video::seconds(&file) } else { Err("it is not there".into()) };
                     found.map_err(|problem| problems.push((path.display().to_string(), problem))).ok()
                 });
-                let told = numbers.get(&format!("videos/{key}/to_timestamp"));
-                let told = told.copied().or(numbers.get("length").map(|frames| frames / fps));
-                if let (Some(length), Some(told)) = (*length, told)
-                    && told > length + 1.5 / fps
+                let stated = numbers.get(&format!("videos/{key}/to_timestamp"));
+                let stated = stated.copied().or(numbers.get("length").map(|frames| frames / fps));
+                if let (Some(length), Some(stated)) = (*length, stated)
+                    && stated > length + 1.5 / fps
                 {
-                    let message = format!("its video `{}` has {length:.2} s; {told:.2} are told", path.display());
+                    let message = format!("its video `{}` has {length:.2} s; {stated:.2} are stated", path.display());
                     flags.push(Flag::damage("video-length", self.name(*episode), message));
                 }
             }

@@ -39,7 +39,7 @@ pub fn seconds(path: &Path) -> Result<f64, String> {
         }
         at += size;
     }
-    found.ok_or_else(|| "it has no index of frames: it is no MP4 or was never finished".to_owned())
+    found.ok_or_else(|| "it has no index of frames: it is not an MP4 file or is unfinished".to_owned())
 }
 
 /// Kind, size and length of the head of a box.

@@ -110,7 +110,7 @@ release (`drone_nav_traj_v7`, `7.0.0`) rely on. Its full description is not publ
 
 * Everything under a key `cosfly`, and the whole of `perturbation_report.json`.
 * A flight of more than 1,000 frames becomes several trajectories with the same `source`; `cosfly.part` says which.
-* `<id>`: ten digits made from the expert's name. They look like the release's Unix times and are none.
+* `<id>`: ten digits made from the expert's name. They look like the release's Unix times but are not.
 * `drone_pose` is the drone's; with a turned mount, `cosfly.camera_pose` is that of the pictures.
 * `target.world_location` is the middle of the body; `image_uv` and `depth` (along the optical axis) are its projection.
 * `target.visible`: at least one pixel shows the target. `bbox_2d`: the edges around those pixels.
@@ -118,5 +118,5 @@ release (`drone_nav_traj_v7`, `7.0.0`) rely on. Its full description is not publ
 * `instance.png`: red is CARLA's label, green + 256 blue the instance id: 0 ground and sky, 1 the target.
 * `debug.png`: the colours with the target's box, yellow without obstacles, green of what can be seen.
 
-A town that is none of CARLA's has the name of a CARLA town that was free, since readers look for `Town*`:
+A town that is not one of CARLA's has the name of a free CARLA town, since readers look for `Town*`:
 ";

@@ -142,12 +142,12 @@ fn check_point(point: &Value, index: usize, before: Option<&Value>, next: Option
         return Err(format!("`index` is {}", point["index"]));
     }
     let time = |point: &Value| point["timing"]["trace_timestamp"].as_f64();
-    let time_s = time(point).ok_or("`trace_timestamp` is no number")?;
+    let time_s = time(point).ok_or("`trace_timestamp` is not a number")?;
     if before.and_then(time).is_some_and(|before_s| before_s >= time_s) {
         return Err("`trace_timestamp` does not increase".into());
     }
     for key in ["x", "y", "z", "yaw"] {
-        point["drone_pose"][key].as_f64().ok_or_else(|| format!("`drone_pose.{key}` is no number"))?;
+        point["drone_pose"][key].as_f64().ok_or_else(|| format!("`drone_pose.{key}` is not a number"))?;
     }
     let waypoint = &point["nav_waypoint"]["t1_world"];
     match next {
