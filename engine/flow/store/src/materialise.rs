@@ -151,13 +151,13 @@ fn take_turn(store: &Store, folder: &Path) -> Result<File> {
 fn check_ours(folder: &Path, marker: Option<&str>, before: Option<&Delivered>) -> Result<()> {
     let not_ours = |message: String| {
         Err(Diagnostic::new("out-not-ours", Fault::Recipe, message)
-            .hint("choose another folder with `--out`, or move what is there out of the way"))
+            .hint("choose another folder with `--out`, or move the existing files elsewhere"))
     };
     match fs::symlink_metadata(folder) {
         Err(error) if error.kind() == io::ErrorKind::NotFound => return Ok(()),
         Err(error) => return Err(refused(folder, &error)),
         Ok(metadata) if !metadata.is_dir() => {
-            return not_ours(format!("`{}` is there and is not a folder", folder.display()));
+            return not_ours(format!("`{}` exists and is not a folder", folder.display()));
         }
         Ok(_) => {}
     }

@@ -15,9 +15,9 @@ pub fn check_out_folder(store_root: &Path, out: &Path) -> Result<()> {
     let message = if folder == store {
         format!("`{}` is the folder of the store; a dataset cannot be put there", out.display())
     } else if folder.starts_with(&store) {
-        format!("`{}` is inside of the store `{}`", out.display(), store_root.display())
+        format!("`{}` is inside the store `{}`", out.display(), store_root.display())
     } else if store.starts_with(&folder) {
-        format!("the store `{}` is inside of `{}`, where the dataset would be put", store_root.display(), out.display())
+        format!("the store `{}` is inside `{}`, where the dataset would be put", store_root.display(), out.display())
     } else {
         return Ok(());
     };

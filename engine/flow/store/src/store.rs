@@ -167,7 +167,7 @@ impl Store {
     /// Makes everything published so far durable.
     pub fn sync(&self) -> Result<()> {
         let synced = self.faults.before(Step::Sync).and_then(|()| self.durability.sync());
-        synced.map_err(|error| Diagnostic::io(format!("force `{}` to the disk", self.root().display()), &error))
+        synced.map_err(|error| Diagnostic::io(format!("sync `{}` to disk", self.root().display()), &error))
     }
 
     /// Writes a small temporary file and renames it into place.

@@ -210,7 +210,7 @@ inputs.trajectories = []
         &[],
     );
     insta::assert_snapshot!(text, @r#"
-    error[recipe-missing-input]: `inputs.trajectories` of `frames` names no stage
+    error[recipe-missing-input]: `inputs.trajectories` of `frames` does not name a stage
       --> a.toml:10:8
        |
     10 | inputs.trajectories = []
