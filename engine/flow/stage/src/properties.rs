@@ -23,8 +23,7 @@ pub struct StageProperties {
     /// Rule that defines the items.
     pub items: ItemRule,
     /// Estimated size of one item's output, bytes, for `cosfly plan` before any item is made; 0 where it is about as
-    /// large as the
-    /// items at the [`Fan::Each`] ports.
+    /// large as the items at the [`Fan::Each`] ports.
     pub bytes_per_item: u64,
 }
 

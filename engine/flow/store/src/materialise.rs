@@ -34,17 +34,13 @@ pub struct Materialised {
 }
 
 /// Makes `folder` hold exactly `blobs`, by name. Files are hard links into the store where the file system supports
-/// them
-/// (they are read-only), copies elsewhere. A reader of `folder` sees the old version or the new one, never a mixture.
-/// Where the
-/// folder holds this version already, every file whose size or times changed since its last verification is read and
-/// compared;
-/// a wrong file makes the folder be built again.
+/// them (they are read-only), copies elsewhere. A reader of `folder` sees the old version or the new one, never a
+/// mixture. Where the folder holds this version already, every file whose size or times changed since its last
+/// verification is read and compared; a wrong file makes the folder be built again.
 ///
 /// # Errors
 /// [`Fault::Lost`] when a blob is missing or damaged, `out-not-ours` when `folder` holds other files, `out-in-store`
-/// when one
-/// of folder and store is inside the other, `machine-io` or `disk-full` from the operating system.
+/// when one of folder and store is inside the other, `machine-io` or `disk-full` from the operating system.
 pub fn materialise(store: &Store, blobs: &Blobs, folder: &Path) -> Result<Materialised> {
     check_names(blobs)?;
     check_out_folder(store.root(), folder)?;

@@ -5,8 +5,7 @@ use std::fs;
 use std::path::{Component, Path, PathBuf};
 
 /// Rejects a dataset's folder inside the store and a store inside the dataset's folder: files of one would be taken for
-/// files
-/// of the other. Symbolic links are followed as far as they lead to something that exists.
+/// files of the other. Symbolic links are followed as far as they lead to something that exists.
 ///
 /// # Errors
 /// `out-in-store`, or `machine-io`.

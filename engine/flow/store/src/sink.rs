@@ -33,8 +33,7 @@ pub struct Settled {
 
 impl<'s> TaskSink<'s> {
     /// Moves the blobs into the store and records them as the outcome of `action`. An earlier outcome with other bytes
-    /// is kept
-    /// while it is intact.
+    /// is kept while it is intact.
     pub fn settle(mut self, action: &Digest, produced: Produced) -> Result<Settled> {
         let outputs = self.outputs.iter().map(|(name, (blob, _))| (name.clone(), *blob)).collect();
         let record = ActionRecord::new(outputs, produced);

@@ -1,6 +1,5 @@
 //! A tiny synthetic dataset for tests and examples: two pedestrians on a plane, each with an expert and a perturbed
-//! flight, with
-//! very small ray-cast images.
+//! flight, with very small ray-cast images.
 
 mod folder;
 
