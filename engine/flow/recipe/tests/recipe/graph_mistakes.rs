@@ -1,4 +1,4 @@
-//! Messages about stages that do not fit together: kinds, connections, cycles.
+//! Messages about stages that are not compatible: kinds, connections, cycles.
 
 use crate::toys::complaint;
 
