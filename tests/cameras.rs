@@ -54,6 +54,21 @@ fn drawn_cameras_with_lens_blur_and_noise_pass_every_check_of_the_dataset() {
 }
 
 #[test]
+fn normals_are_logged_checked_shown_and_exported_where_a_recipe_asks_for_them() {
+    let street = street("channels = [\"normals\", \"rgb\", \"depth\", \"semantic\", \"instance\"]");
+    cosfly(&["run", "recipe.toml", "--quiet"]).within(street.path()).run_ok();
+    let dataset = street.dataset();
+    let folder = dataset.to_str().expect("UTF-8");
+    cosfly(&["verify", folder]).within(street.path()).run_ok();
+    cosfly(&["preview", folder]).within(street.path()).run_ok();
+    let card = std::fs::read_to_string(dataset.join("README.md")).expect("a card");
+    assert!(card.contains("Channel `normals`: unit normals"), "{card}");
+    cosfly(&["export", folder, "--format", "imagefolder", "--out", "pictures"]).within(street.path()).run_ok();
+    let card = std::fs::read_to_string(street.path().join("pictures/README.md")).expect("a card");
+    assert!(card.contains("`normals`: unit normals"), "{card}");
+}
+
+#[test]
 fn impossible_cameras_and_backends_are_refused_with_their_place() {
     for (lines, place, way_out) in [
         ("fov_range_deg = [100.0, 60.0]", "fov_range_deg", "lower value first"),
@@ -67,6 +82,8 @@ fn impossible_cameras_and_backends_are_refused_with_their_place() {
         ("backend = \"gpu\"", "backend", "--features gpu"),
         ("backend = \"carla\"", "backend", "carla-job"),
         ("backend = \"vulkan\"", "backend", "cpu"),
+        ("channels = [\"rgb\", \"depth\"]", "channels", "semantic"),
+        ("channels = [\"rgb\", \"normal\"]", "channels", "normals"),
         ("weathers = [\"ClearNoon\", \"ClearNoon\"]\npaired_weathers = true", "weathers", "once"),
     ] {
         let street = street(lines);

@@ -27,7 +27,9 @@ FRAME_TOPICS = [
     "/camera/rgb/image", "/camera/rgb/camera_info", "/camera/rgb/annotations", "/camera/depth/image",
     "/camera/semantic/image", "/camera/instance/image", "/tf", "/drone/pose", "/target/pose", "/target/state",
 ]
-PREVIEW_TOPICS = ["/camera/rgb/preview", "/camera/depth/preview", "/camera/semantic/preview"]
+# Channels that a recipe may ask for: encoding and bytes of a pixel.
+ON_REQUEST = {"/camera/normals/image": ("rgb8", 3)}
+PREVIEW_TOPICS = ["/camera/rgb/preview", "/camera/depth/preview", "/camera/semantic/preview", "/camera/normals/preview"]
 ONCE_TOPICS = ["/drone/path", "/target/path", "/scene"]
 
 
@@ -149,7 +151,7 @@ def check_mcap(folder, trajectories):
                 check_message(row, topic, decoded, path)
         for topic in FRAME_TOPICS:
             require(counts.get(topic) == row["frames"], f"{path}: {counts.get(topic)} messages on {topic}")
-        for topic in PREVIEW_TOPICS:
+        for topic in [*PREVIEW_TOPICS, *ON_REQUEST]:
             require(counts.get(topic, 0) in (0, row["frames"]), f"{path}: {counts.get(topic)} messages on {topic}")
         for topic in ONCE_TOPICS:
             require(counts.get(topic) == 1, f"{path}: {counts.get(topic)} messages on {topic}")
@@ -164,6 +166,9 @@ def check_message(row, topic, decoded, path):
     elif topic == "/camera/semantic/image":
         require(decoded.encoding == "mono8" and len(decoded.data) == pixels, f"{path}: semantic")
         require(max(decoded.data) <= 28, f"{path}: label {max(decoded.data)}")
+    elif topic in ON_REQUEST:
+        encoding, size = ON_REQUEST[topic]
+        require(decoded.encoding == encoding and len(decoded.data) == size * pixels, f"{path}: {topic}")
     elif topic == "/camera/rgb/image":
         from PIL import Image
 

@@ -126,6 +126,28 @@ fn a_refused_export_leaves_nothing_behind() {
 }
 
 #[test]
+fn channels_on_request_are_files_of_every_export_of_pictures() {
+    let home = tempfile::tempdir().unwrap();
+    let mut flights = sample::flights();
+    flights.iter_mut().for_each(sample::SampleFlight::draw_on_request);
+    let (config, encoding) = (DatasetConfig::default(), EncodingConfig::default());
+    sample::write_flights(&home.path().join("given"), &config, encoding, flights).unwrap();
+    let dataset = PublishedDataset::open(&home.path().join("given")).unwrap();
+    let [shards, folder] = ["webdataset", "imagefolder"].map(|name| {
+        let out = home.path().join(name);
+        export(&dataset, name, &out).unwrap();
+        files(&out)
+    });
+    let tar = shards.iter().find(|(path, _)| path.extension().is_some_and(|it| it == "tar")).unwrap().1;
+    assert!(tar.windows(12).any(|name| name == b".normals.png"));
+    assert!(folder.keys().any(|path| path.components().any(|part| part.as_os_str() == "normals")));
+    for files in [shards, folder] {
+        let card = String::from_utf8_lossy(&files[Path::new("README.md")]).into_owned();
+        assert!(card.contains("unit normals"), "{card}");
+    }
+}
+
+#[test]
 fn flights_are_chosen_by_split_and_name() {
     let (home, dataset) = published();
     let split = dataset.flights()[0].split.clone();

@@ -2,6 +2,8 @@
 
 use cosfly_diagnose::{Diagnostic, Fault, Result};
 use cosfly_read::LoggedFrame;
+use cosfly_render::channels::Element;
+use cosfly_render::{Channel, ChannelImage};
 use zune_jpeg::JpegDecoder;
 use zune_jpeg::zune_core::bytestream::ZCursor;
 
@@ -79,6 +81,22 @@ pub fn npy_f32(values: &[f32], [columns, rows]: [u32; 2]) -> Vec<u8> {
     file.extend_from_slice(header.as_bytes());
     values.iter().for_each(|value| file.extend_from_slice(&value.to_le_bytes()));
     file
+}
+
+/// Ending of files of a channel on request: three bytes a pixel are PNG, numbers NumPy files.
+pub fn ending_on_request(channel: &Channel) -> &'static str {
+    if channel.element() == Element::Float { "npy" } else { "png" }
+}
+
+/// File of a channel on request.
+pub fn file_on_request(image: &ChannelImage, [width, height]: [u32; 2]) -> Result<Vec<u8>> {
+    if image.channel.element() == Element::Float {
+        let numbers = image.bytes.as_chunks::<4>().0.iter().map(|number| f32::from_le_bytes(*number));
+        return Ok(npy_f32(&numbers.collect::<Vec<_>>(), [width, height]));
+    }
+    let mut file = vec![];
+    rgb_png(&image.bytes, width, height, &mut file)?;
+    Ok(file)
 }
 
 /// An id in 16 bits: 0 (ground and sky) and 1 (the target) stay, ids from 65,536 on share those of others.

@@ -4,6 +4,7 @@ use crate::shared_options::Language;
 use cosfly_diagnose::{Diagnostic, Fault, Result};
 use cosfly_frames::Pose;
 use cosfly_read::{FrameRow, LoggedFrame, PublishedDataset, PublishedFlight};
+use cosfly_render::channels::{self, Channel};
 use cosfly_schema::CaptionRecord;
 use rayon::prelude::*;
 use std::cell::Cell;
@@ -96,6 +97,19 @@ impl<'a> Source<'a> {
         let mut splits: Vec<&str> = self.flights().map(|flight| &*flight.split).collect();
         splits.dedup();
         splits
+    }
+
+    /// The channels on request of the chosen flights' logs, all of them together.
+    ///
+    /// # Errors
+    /// A log that cannot be opened.
+    pub fn channels_on_request(&self) -> Result<Vec<&'static Channel>> {
+        let mut found = BTreeSet::new();
+        for flight in self.flights() {
+            found.extend(self.dataset.log(flight)?.channels().iter().map(|channel| channel.name));
+        }
+        let is_found = |channel: &&Channel| channel.is_on_request() && found.contains(channel.name);
+        Ok(channels::ALL.iter().copied().filter(is_found).collect())
     }
 
     /// The flight called `id`, chosen or not.

@@ -1,13 +1,14 @@
 //! Previews of a frame, for viewers and for the `frames` table.
 
-use super::rgb::{jpeg, palette_png};
+use super::rgb::{jpeg, palette_png, png};
 use core::ops::Range;
 use cosfly_diagnose::Result;
 use cosfly_frames::simd::Level;
 use cosfly_frames::simd_kernel;
 use cosfly_maps::SemanticLabel;
-use cosfly_render::FrameImages;
-use cosfly_render::preview::depth_preview;
+use cosfly_render::channels::{Channel, Element, Source};
+use cosfly_render::preview::{depth_preview, picture_on_request};
+use cosfly_render::{ChannelImage, FrameImages};
 
 /// Largest width of a preview, pixels.
 const WIDTH: u32 = 320;
@@ -31,8 +32,28 @@ pub struct SmallImages {
 }
 
 impl SmallImages {
+    /// Fills `file` with the preview of a channel; nothing for ids and for channels that the frame does not have.
+    ///
+    /// # Errors
+    /// The picture cannot be encoded.
+    pub fn draw(&mut self, channel: &Channel, images: &FrameImages, file: &mut Vec<u8>) -> Result<()> {
+        file.clear();
+        match channel.source {
+            Source::Colour => self.rgb(images, file),
+            Source::Depth => self.depth(images, file),
+            Source::Labels => self.semantic(images, file),
+            Source::Ids => Ok(()),
+            Source::Number(_) | Source::Bytes(_) => {
+                match images.on_request.iter().find(|image| image.channel == channel) {
+                    Some(image) => self.on_request(image, images, file),
+                    None => Ok(()),
+                }
+            }
+        }
+    }
+
     /// Fills `file` with the colour preview: the mean of the middle of each block of pixels (JPEG).
-    pub fn rgb(&mut self, images: &FrameImages, file: &mut Vec<u8>) -> Result<()> {
+    fn rgb(&mut self, images: &FrameImages, file: &mut Vec<u8>) -> Result<()> {
         let (width, height) = size(images);
         let columns: Vec<_> = (0..width).map(|x| middle_of(block(x, width, images.width))).collect();
         self.rgb.resize(3 * (width * height) as usize, 0);
@@ -56,20 +77,42 @@ impl SmallImages {
 
     /// Fills `file` with the depth preview in colours, stretched over the depths of this frame (JPEG): for viewing, not
     /// as data.
-    pub fn depth(&mut self, images: &FrameImages, file: &mut Vec<u8>) -> Result<()> {
+    fn depth(&mut self, images: &FrameImages, file: &mut Vec<u8>) -> Result<()> {
         let (width, height) = size(images);
         nearest(&images.depth_m, images, &mut self.depth_m);
         jpeg(&depth_preview(&self.depth_m), width, height, DEPTH_QUALITY, file)
     }
 
     /// Fills `file` with the label preview as a palette PNG: index = CARLA's id, palette = CARLA's colours.
-    pub fn semantic(&mut self, images: &FrameImages, file: &mut Vec<u8>) -> Result<()> {
+    fn semantic(&mut self, images: &FrameImages, file: &mut Vec<u8>) -> Result<()> {
         let (width, height) = size(images);
         let last = SemanticLabel::ALL.len() as u8 - 1;
         nearest(&images.semantic, images, &mut self.labels);
         self.labels.iter_mut().for_each(|index| *index = (*index).min(last));
         let palette = SemanticLabel::ALL.iter().flat_map(|label| label.colour()).collect();
         palette_png(&self.labels, width, height, palette, file)
+    }
+
+    /// Numbers in colours as depth is, bytes as they are.
+    fn on_request(&self, image: &ChannelImage, images: &FrameImages, file: &mut Vec<u8>) -> Result<()> {
+        let (width, height) = size(images);
+        let small = match image.channel.element() {
+            Element::Float => sampled(image.bytes.as_chunks::<4>().0, images),
+            _ => sampled(image.bytes.as_chunks::<3>().0, images),
+        };
+        let picture = picture_on_request(image.channel, &small);
+        match format(image.channel) {
+            "jpeg" => jpeg(&picture, width, height, DEPTH_QUALITY, file),
+            _ => png(&picture, width, height, file),
+        }
+    }
+}
+
+/// Format of the previews of a channel: `jpeg` or `png`.
+pub fn format(channel: &Channel) -> &'static str {
+    match channel.element() {
+        Element::Colour | Element::Float => "jpeg",
+        Element::Label | Element::Id | Element::Bytes => "png",
     }
 }
 
@@ -132,6 +175,13 @@ fn nearest<T: Copy>(values: &[T], images: &FrameImages, small: &mut Vec<T>) {
     }
 }
 
+/// The bytes of the pixels that [`nearest`] takes.
+fn sampled<const N: usize>(pixels: &[[u8; N]], images: &FrameImages) -> Vec<u8> {
+    let mut small = vec![];
+    nearest(pixels, images, &mut small);
+    small.into_flattened()
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -140,7 +190,7 @@ mod tests {
     fn a_quarter_of_the_size_is_averaged_like_any_other() {
         let (width, height) = (1280, 720);
         let rgb: Vec<u8> = (0..3 * width * height).map(|i: u32| (i.wrapping_mul(i) / 7 + i / 3840) as u8).collect();
-        let images = FrameImages { width, height, rgb, depth_m: vec![], semantic: vec![], instance: vec![] };
+        let images = FrameImages { width, height, rgb, ..FrameImages::default() };
         let mut small = SmallImages::default();
         small.rgb(&images, &mut vec![]).unwrap();
         for (x, y) in [(0, 0), (319, 0), (17, 91), (319, 179)] {
@@ -154,14 +204,7 @@ mod tests {
 
     #[test]
     fn previews_keep_the_aspect_and_never_grow() {
-        let frame = |width, height| FrameImages {
-            width,
-            height,
-            rgb: vec![],
-            depth_m: vec![],
-            semantic: vec![],
-            instance: vec![],
-        };
+        let frame = |width, height| FrameImages { width, height, ..FrameImages::default() };
         assert_eq!(size(&frame(1280, 720)), (320, 180));
         assert_eq!(size(&frame(64, 48)), (64, 48));
         assert_eq!(size(&frame(4000, 1)), (320, 1));

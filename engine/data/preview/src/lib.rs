@@ -127,6 +127,24 @@ mod tests {
     }
 
     #[test]
+    fn channels_on_request_widen_the_sheet() {
+        let sheet_width = |draw: bool| {
+            let folder = tempfile::tempdir().expect("a scratch folder");
+            let mut flights = sample::flights();
+            if draw {
+                flights.iter_mut().for_each(sample::SampleFlight::draw_on_request);
+            }
+            let (config, encoding) = (DatasetConfig::default(), EncodingConfig::default());
+            sample::write_flights(folder.path(), &config, encoding, flights).expect("the sample is sound");
+            let dataset = PublishedDataset::open(folder.path()).expect("published");
+            let flight = dataset.flight("expert-p00000").expect("a flight");
+            let pictures = super::draw(&dataset, flight, None, &mut |_, _| {}).expect("pictures");
+            u32::from_be_bytes(pictures.sheet[16..20].try_into().expect("four bytes"))
+        };
+        assert!(sheet_width(true) > sheet_width(false) + 300);
+    }
+
+    #[test]
     fn frames_beyond_the_end_are_refused() {
         let error = drawn(EncodingConfig::default(), Some("0..6")).err().expect("refused");
         assert_eq!(error.code, "preview-frame");

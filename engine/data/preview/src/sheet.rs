@@ -1,4 +1,5 @@
-//! The contact sheet: some frames of a flight, one row each: colours, depth, labels, the target enlarged.
+//! The contact sheet: some frames of a flight, one row each: colours, depth, labels, channels on
+//! request, the target enlarged.
 
 use crate::shot::Shot;
 use cosfly_plot::canvas::{Canvas, INK, WHITE};
@@ -27,10 +28,12 @@ impl<'a> Sheet<'a> {
         let (width, height) = cell(shot.rgb.width, shot.rgb.height);
         let side = height.clamp(CELL / 4, CELL);
         let tall = height.max(side);
-        let mut row = Canvas::new(3 * (width + GAP) + side, tall, WHITE);
         let depths = shot.depths(width, height);
         let depth = Canvas { width, height, rgb: DepthScale::of(depths.iter().copied()).colours(&depths) };
-        let pictures = [shot.colour(width, height), depth, shot.labels(width, height), shot.target(side)];
+        let mut pictures = vec![shot.colour(width, height), depth, shot.labels(width, height)];
+        pictures.extend(shot.on_request(width, height));
+        let mut row = Canvas::new(pictures.len() * (width + GAP) + side, tall, WHITE);
+        pictures.push(shot.target(side));
         for (place, picture) in pictures.iter().enumerate() {
             row.paste(picture, place * (width + GAP), 0);
         }

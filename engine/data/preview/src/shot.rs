@@ -3,7 +3,7 @@
 use cosfly_diagnose::{Diagnostic, Fault, Result};
 use cosfly_plot::canvas::{Canvas, Colour, WHITE};
 use cosfly_read::LoggedFrame;
-use cosfly_render::preview::palette_image;
+use cosfly_render::preview::{palette_image, picture_on_request};
 use zune_jpeg::JpegDecoder;
 use zune_jpeg::zune_core::bytestream::ZCursor;
 
@@ -14,7 +14,7 @@ pub const VISIBLE_BOX: Colour = [60, 255, 90];
 
 /// A frame whose colour image is decoded.
 pub struct Shot {
-    /// What the log holds.
+    /// Images, camera and target of the log.
     pub logged: LoggedFrame,
     /// The colour image.
     pub rgb: Canvas,
@@ -65,6 +65,16 @@ impl Shot {
     pub fn labels(&self, width: usize, height: usize) -> Canvas {
         let ids: Vec<u8> = self.cells(width, height).map(|at| self.logged.semantic[at]).collect();
         Canvas { width, height, rgb: palette_image(&ids) }
+    }
+
+    /// The channels on request.
+    pub fn on_request(&self, width: usize, height: usize) -> impl Iterator<Item = Canvas> {
+        self.logged.on_request.iter().map(move |image| {
+            let size = image.channel.bytes_on_request();
+            let bytes: Vec<&[u8]> =
+                self.cells(width, height).map(|at| &image.bytes[size * at..size * (at + 1)]).collect();
+            Canvas { width, height, rgb: picture_on_request(image.channel, &bytes.concat()) }
+        })
     }
 
     /// Whether a point without extent is watched: it is not drawn and has no pixels.

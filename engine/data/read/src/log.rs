@@ -7,16 +7,15 @@ use ::mcap::sans_io::indexed_reader::{IndexedReadEvent, IndexedReader, IndexedRe
 use ::mcap::sans_io::summary_reader::{SummaryReadEvent, SummaryReader, SummaryReaderOptions};
 use cosfly_diagnose::{Diagnostic, Fault, Result};
 use cosfly_frames::{DQuat, DVec3};
+use cosfly_render::ChannelImage;
+use cosfly_render::channels::{self, Channel, Element, Source};
 use cosfly_schema::log::messages::{MAP_FRAME, OPTICAL_FRAME};
-use cosfly_schema::log::{TargetStateMessage, frame_time_ns, topic};
+use cosfly_schema::log::{TargetStateMessage, formats, frame_time_ns, topic};
 use foxglove::messages;
 use prost::Message;
 use std::fs::File;
 use std::io::{Read, Seek, SeekFrom};
 use std::path::{Path, PathBuf};
-
-/// Topics of a frame; instance ids are the last.
-const TOPICS: [&str; 6] = [topic::RGB, topic::DEPTH, topic::SEMANTIC, topic::TF, topic::TARGET_STATE, topic::INSTANCE];
 
 /// Callback for the topic and bytes of a message; returns what is wrong with it.
 type Visit<'a> = &'a mut dyn FnMut(&str, &[u8]) -> Result<(), String>;
@@ -27,9 +26,11 @@ pub struct LogReader {
     path: PathBuf,
     dt_s: f64,
     summary: Summary,
+    /// The channels of every frame, and those on request that the log has.
+    channels: Vec<&'static Channel>,
 }
 
-/// Pictures, camera and target of one frame.
+/// Images, camera and target of one frame.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct LoggedFrame {
     /// Width of all images, pixels.
@@ -46,6 +47,8 @@ pub struct LoggedFrame {
     pub semantic: Vec<u8>,
     /// Instance ids, row-major; empty unless requested.
     pub instance: Vec<u32>,
+    /// Channels on request that the log has.
+    pub on_request: Vec<ChannelImage>,
     /// Position of the optical centre in the `map` frame (y is minus that of the world), metres.
     pub camera_in_map: DVec3,
     /// Rotation from the optical axes (x right, y down, z ahead) to those of `map`.
@@ -87,7 +90,10 @@ impl LogReader {
             }
         }
         let summary = reader.finish().ok_or_else(|| damaged(path, "it has no index", "the file was cut short"))?;
-        Ok(Self { file, path: path.to_owned(), dt_s, summary })
+        let is_logged = |name: &str| summary.channels.values().any(|channel| channel.topic == name);
+        let is_needed = |channel: &&Channel| !channel.is_on_request() || is_logged(&topic::images(channel));
+        let channels = channels::ALL.iter().copied().filter(is_needed).collect();
+        Ok(Self { file, path: path.to_owned(), dt_s, summary, channels })
     }
 
     /// Sorted topics of the log.
@@ -97,23 +103,31 @@ impl LogReader {
         topics
     }
 
+    /// The log's channels.
+    pub fn channels(&self) -> &[&'static Channel] {
+        &self.channels
+    }
+
     /// Images, camera and target of frame `frame`, without instance ids.
     pub fn frame(&mut self, frame: usize) -> Result<LoggedFrame> {
-        self.read_frame(frame, &TOPICS[..TOPICS.len() - 1])
+        self.read_frame(frame, |channel| channel.element() != Element::Id)
     }
 
     /// Images with instance ids, camera and target of frame `frame`.
     pub fn frame_with_instances(&mut self, frame: usize) -> Result<LoggedFrame> {
-        let logged = self.read_frame(frame, &TOPICS)?;
+        let logged = self.read_frame(frame, |_| true)?;
         let is_whole = logged.instance.len() == logged.semantic.len();
         if is_whole { Ok(logged) } else { Err(self.damaged(&format!("the images of frame {frame} differ in size"))) }
     }
 
-    fn read_frame(&mut self, frame: usize, topics: &[&str]) -> Result<LoggedFrame> {
+    fn read_frame(&mut self, frame: usize, is_wanted: impl Fn(&Channel) -> bool) -> Result<LoggedFrame> {
         let time = frame_time_ns(self.dt_s, frame);
         let mut logged = LoggedFrame::default();
-        let mut found = [false; TOPICS.len()];
-        self.messages(time, topics, &mut |topic, data| {
+        let images = self.channels.iter().filter(|channel| is_wanted(channel)).map(|channel| topic::images(channel));
+        let topics: Vec<String> = images.chain([topic::TF.to_owned(), topic::TARGET_STATE.to_owned()]).collect();
+        let topics: Vec<&str> = topics.iter().map(String::as_str).collect();
+        let mut found = vec![false; topics.len()];
+        self.messages(time, &topics, &mut |topic, data| {
             found[topics.iter().position(|it| *it == topic).unwrap_or(0)] = true;
             logged.take(topic, data)
         })?;
@@ -178,46 +192,58 @@ impl LoggedFrame {
     fn take(&mut self, topic: &str, data: &[u8]) -> Result<(), String> {
         let unreadable = |error: prost::DecodeError| error.to_string();
         match topic {
-            topic::RGB => {
-                let image = messages::CompressedImage::decode(data).map_err(unreadable)?;
-                (self.rgb_file, self.rgb_format) = (image.data.to_vec(), image.format);
-            }
-            topic::DEPTH => {
-                let image = messages::RawImage::decode(data).map_err(unreadable)?;
-                if image.encoding != "32FC1" {
-                    return Err(format!("its encoding is `{}`, not `32FC1`", image.encoding));
-                }
-                (self.width, self.height) = (image.width, image.height);
-                let (depths, _) = image.data.as_chunks::<4>();
-                self.depth_m = depths.iter().map(|bytes| f32::from_le_bytes(*bytes)).collect();
-            }
-            topic::SEMANTIC => {
-                let image = messages::RawImage::decode(data).map_err(unreadable)?;
-                self.semantic = image.data.to_vec();
-            }
-            topic::INSTANCE => {
-                let image = messages::RawImage::decode(data).map_err(unreadable)?;
-                self.instance = match image.encoding.as_str() {
-                    "16UC1" => {
-                        image.data.as_chunks::<2>().0.iter().map(|it| u32::from(u16::from_le_bytes(*it))).collect()
-                    }
-                    "32UC1" => image.data.as_chunks::<4>().0.iter().map(|it| u32::from_le_bytes(*it)).collect(),
-                    other => return Err(format!("its encoding is `{other}`, not `16UC1` or `32UC1`")),
-                };
-            }
             topic::TF => {
                 let transforms = messages::FrameTransforms::decode(data).map_err(unreadable)?.transforms;
                 (self.camera_in_map, self.map_from_optical) = camera_in_map(&transforms)?;
             }
             topic::TARGET_STATE => self.target = TargetStateMessage::decode(data).map_err(unreadable)?,
-            _ => {}
+            _ => match topic::channel_of(topic) {
+                Some(channel) if channel.element() == Element::Colour => {
+                    let image = messages::CompressedImage::decode(data).map_err(unreadable)?;
+                    (self.rgb_file, self.rgb_format) = (image.data.to_vec(), image.format);
+                }
+                Some(channel) => self.take_raw(channel, messages::RawImage::decode(data).map_err(unreadable)?)?,
+                None => {}
+            },
+        }
+        Ok(())
+    }
+
+    fn take_raw(&mut self, channel: &'static Channel, image: messages::RawImage) -> Result<(), String> {
+        let format = formats(channel).iter().find(|format| format.encoding == image.encoding).ok_or_else(|| {
+            let known: Vec<String> = formats(channel).iter().map(|format| format!("`{}`", format.encoding)).collect();
+            format!("its encoding is `{}`, not {}", image.encoding, known.join(" or "))
+        })?;
+        match channel.source {
+            Source::Depth => {
+                (self.width, self.height) = (image.width, image.height);
+                let (depths, _) = image.data.as_chunks::<4>();
+                self.depth_m = depths.iter().map(|bytes| f32::from_le_bytes(*bytes)).collect();
+            }
+            Source::Labels => self.semantic = image.data.to_vec(),
+            Source::Ids if format.pixel_bytes == 2 => {
+                let (ids, _) = image.data.as_chunks::<2>();
+                self.instance = ids.iter().map(|bytes| u32::from(u16::from_le_bytes(*bytes))).collect();
+            }
+            Source::Ids => {
+                let (ids, _) = image.data.as_chunks::<4>();
+                self.instance = ids.iter().map(|bytes| u32::from_le_bytes(*bytes)).collect();
+            }
+            Source::Number(_) | Source::Bytes(_) => {
+                self.on_request.push(ChannelImage { channel, bytes: image.data.to_vec() });
+            }
+            Source::Colour => {}
         }
         Ok(())
     }
 
     fn is_whole(&self) -> bool {
         let pixels = self.width as usize * self.height as usize;
-        pixels > 0 && self.depth_m.len() == pixels && self.semantic.len() == pixels
+        let has_all = |image: &ChannelImage| image.bytes.len() == image.channel.bytes_on_request() * pixels;
+        pixels > 0
+            && self.depth_m.len() == pixels
+            && self.semantic.len() == pixels
+            && self.on_request.iter().all(has_all)
     }
 }
 

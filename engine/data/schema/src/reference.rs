@@ -1,7 +1,8 @@
 //! The generated reference page of all tables and topics, from the same lists as schema and card.
 
-use crate::log::topic;
+use crate::log::topics;
 use crate::tables::{self, Table};
+use cosfly_render::ChannelSet;
 use std::fmt::Write;
 
 /// Text of the page in Markdown.
@@ -17,8 +18,8 @@ pub fn reference() -> String {
     section(&mut text, &tables::of_rejections());
     section(&mut text, &tables::of_files());
     text.push_str("\n# Topics of the logs\n\n| topic | schema and meaning |\n| --- | --- |\n");
-    for (name, meaning) in topic::ALL {
-        let _ = writeln!(text, "| `{name}` | {meaning} |");
+    for topic in topics(&ChannelSet::of(|_| true)) {
+        let _ = writeln!(text, "| `{}` | {} |", topic.name, topic.doc);
     }
     text
 }

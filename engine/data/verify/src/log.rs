@@ -8,8 +8,10 @@ use ::mcap::records::Record;
 use cosfly_frames::{DQuat, DVec3};
 use cosfly_maps::SemanticLabel;
 use cosfly_read::read_records;
+use cosfly_render::ChannelSet;
+use cosfly_render::channels::{self, Channel, Element, Source, depth};
 use cosfly_render::frame::TARGET_INSTANCE;
-use cosfly_schema::log::{TargetStateMessage, frame_time_ns, right_handed, topic};
+use cosfly_schema::log::{Rhythm, TargetStateMessage, formats, frame_time_ns, right_handed, topic, topics};
 use foxglove::messages;
 use prost::Message;
 use std::collections::{BTreeMap, BTreeSet};
@@ -21,20 +23,6 @@ use std::path::Path;
 const POSE_TOLERANCE: f64 = 1e-6;
 /// Half the depth grid, and rounding of 32-bit floats at some hundred metres.
 const DEPTH_SLACK_M: f64 = 1e-3;
-/// Topics with a message at every frame.
-const PER_FRAME: [&str; 10] = [
-    topic::RGB,
-    topic::CAMERA,
-    topic::ANNOTATIONS,
-    topic::DEPTH,
-    topic::SEMANTIC,
-    topic::INSTANCE,
-    topic::TF,
-    topic::DRONE_POSE,
-    topic::TARGET_POSE,
-    topic::TARGET_STATE,
-];
-
 /// Rows of tables about a flight, beside its frames.
 pub struct Known<'a> {
     /// Language and text of its captions.
@@ -61,9 +49,10 @@ pub fn check(
         known,
         report,
         topics: BTreeMap::new(),
+        at_every_frame: at_every_frame(),
         counts: BTreeMap::new(),
         messages: 0,
-        instance: None,
+        depth: None,
         is_ours: false,
     };
     if let Err(message) = read_records(&mut BufReader::new(input), &mut |record| log.record(record)) {
@@ -73,16 +62,23 @@ pub fn check(
     log.finish();
 }
 
+fn at_every_frame() -> BTreeSet<String> {
+    let topics = topics(&ChannelSet::default());
+    topics.into_iter().filter(|topic| topic.rhythm == Rhythm::EveryFrame).map(|topic| topic.name).collect()
+}
+
 struct LogCheck<'a> {
     flight: &'a PlacedFlight,
     frames: &'a [PlacedFrame],
     known: &'a Known<'a>,
     report: &'a mut VerifyReport,
     topics: BTreeMap<u16, String>,
+    /// Topics with a message at every frame of every log.
+    at_every_frame: BTreeSet<String>,
     counts: BTreeMap<String, usize>,
     messages: u64,
-    /// Pixels of the target at the frame being read.
-    instance: Option<(usize, Vec<usize>)>,
+    /// The last depth image and its frame, kept until the ids of the same frame say which pixels are the target's.
+    depth: Option<(usize, messages::RawImage)>,
     is_ours: bool,
 }
 
@@ -119,8 +115,9 @@ impl LogCheck<'_> {
             }
             return;
         }
-        let frames = self.frames;
-        let (Some(row), true) = (frames.get(frame), PER_FRAME.contains(&topic)) else { return };
+        let (frames, channel) = (self.frames, topic::channel_of(topic));
+        let is_at_every_frame = channel.is_some() || self.at_every_frame.contains(topic);
+        let (Some(row), true) = (frames.get(frame), is_at_every_frame) else { return };
         let place = format!("`{topic}` frame {frame}");
         if time_ns != frame_time_ns(self.flight.dt_s, frame) {
             self.find(place.clone(), "verify-time", format!("it is at {time_ns} ns"));
@@ -130,15 +127,46 @@ impl LogCheck<'_> {
             topic::TARGET_STATE => state_problem(data, row),
             topic::CAMERA => self.camera_problem(data),
             topic::TF => camera_turn_problem(data, row),
-            topic::INSTANCE => self.instance_problem(frame, data, row),
-            topic::SEMANTIC | topic::DEPTH => None,
             _ => None,
         };
         if let Some(message) = problem {
-            self.find(place.clone(), "verify-log", message);
+            self.find(place, "verify-log", message);
+        } else if let Some(channel) = channel.filter(|channel| channel.element() != Element::Colour) {
+            match self.image(channel, data) {
+                Some(image) => self.check_pixels(channel, frame, image, row, place),
+                None => self.find(place, "verify-log", UNREADABLE.into()),
+            }
         }
-        if [topic::SEMANTIC, topic::DEPTH].contains(&topic) {
-            self.keep_or_check_pixels(topic, frame, data, row, place);
+    }
+
+    /// The pixels of a raw image against the tables, or each on its own where tables say nothing of the channel.
+    fn check_pixels(
+        &mut self,
+        channel: &Channel,
+        frame: usize,
+        image: messages::RawImage,
+        row: &PlacedFrame,
+        place: String,
+    ) {
+        match channel.source {
+            Source::Ids => {
+                let (of_target, problem) = self.people_in(&image, row);
+                if let Some(message) = problem {
+                    self.find(place, "verify-log", message);
+                }
+                if let Some((_, depth)) = self.depth.take().filter(|(of, _)| *of == frame) {
+                    self.check_depth(&depth, &of_target, row);
+                }
+            }
+            Source::Labels => self.check_labels(&image, row, place),
+            Source::Depth => self.depth = Some((frame, image)),
+            Source::Number(_) | Source::Bytes(_) => {
+                let mut pixels = image.data.chunks_exact(channel.bytes_on_request());
+                if let Some(at) = pixels.position(|pixel| !(channel.is_value)(pixel)) {
+                    self.find(place, "verify-pixels", format!("pixel {at} holds no value of `{}`", channel.name));
+                }
+            }
+            Source::Colour => {}
         }
     }
 
@@ -151,10 +179,9 @@ impl LogCheck<'_> {
         (!same).then(|| "size, focal length or distortion differ from table `trajectories`".into())
     }
 
-    /// The pixels of the target and of others in the instance image against counts and boxes of the tables; no other
-    /// ids than those of objects.
-    fn instance_problem(&mut self, frame: usize, data: &[u8], row: &PlacedFrame) -> Option<String> {
-        let Some(image) = self.image(data) else { return Some(UNREADABLE.into()) };
+    /// The target's pixels in the instance image; and what is wrong with them or with those of others against counts and
+    /// boxes of the tables, or ids that are of no object.
+    fn people_in(&self, image: &messages::RawImage, row: &PlacedFrame) -> (Vec<usize>, Option<String>) {
         let bytes = if image.encoding == "32UC1" { 4 } else { 2 };
         let width = self.flight.camera.width as usize;
         let ids: Vec<u32> = image
@@ -173,83 +200,79 @@ impl LogCheck<'_> {
         }
         let of_target = pixels.remove(&TARGET_INSTANCE).unwrap_or_default();
         let (count, found) = (of_target.len() as u32, edges(&of_target, width));
-        self.instance = Some((frame, of_target));
         let others = self.known.others;
         let first = others.partition_point(|person| person.frame < row.frame);
         for person in others[first..].iter().take_while(|person| person.frame == row.frame) {
             let seen = pixels.remove(&person.instance).unwrap_or_default();
             let (count, found) = (seen.len() as u32, edges(&seen, width));
             if (count, found) != (person.pixels, Some(person.visible_box)) {
-                return Some(format!(
+                let message = format!(
                     "{count} pixels of id {} in {found:?}; table `people` says {} in {:?}",
                     person.instance, person.pixels, person.visible_box
-                ));
+                );
+                return (of_target, Some(message));
             }
         }
         if let Some((id, seen)) = pixels.first_key_value() {
             let count = seen.len();
-            return Some(format!("{count} pixels have the id {id}, which is neither in `objects` nor in `people`"));
+            let message = format!("{count} pixels have the id {id}, which is neither in `objects` nor in `people`");
+            return (of_target, Some(message));
         }
-        (count != row.visible_pixels || found != row.visible_box()).then(|| {
+        let problem = (count != row.visible_pixels || found != row.visible_box()).then(|| {
             format!(
                 "{count} pixels of the target in {found:?}; table `frames` says {} in {:?}",
                 row.visible_pixels,
                 row.visible_box()
             )
-        })
+        });
+        (of_target, problem)
     }
 
-    /// Labels and depths of the target's pixels. Instance images come first at every frame but labels, which
-    /// come before, are compared by their own count.
-    fn keep_or_check_pixels(&mut self, topic: &str, frame: usize, data: &[u8], row: &PlacedFrame, place: String) {
-        let Some(image) = self.image(data) else {
-            self.find(place, "verify-log", UNREADABLE.into());
-            return;
-        };
-        if topic == topic::SEMANTIC {
-            let last = SemanticLabel::ALL.len() as u8;
-            let people = image.data.iter().filter(|label| **label == SemanticLabel::Pedestrian.id()).count();
-            if image.data.iter().any(|label| *label >= last) || people < row.visible_pixels as usize {
-                self.find(place, "verify-pixels", "labels are unknown, or too few of them are pedestrian".into());
-            }
+    /// Labels by their number alone: they come before the ids, which say whose pixels are whose.
+    fn check_labels(&mut self, image: &messages::RawImage, row: &PlacedFrame, place: String) {
+        let last = SemanticLabel::ALL.len() as u8;
+        let people = image.data.iter().filter(|label| **label == SemanticLabel::Pedestrian.id()).count();
+        if image.data.iter().any(|label| *label >= last) || people < row.visible_pixels as usize {
+            self.find(place, "verify-pixels", "labels are unknown, or too few of them are pedestrian".into());
+        }
+    }
+
+    /// Depths of the target's pixels against the space that its body may fill.
+    fn check_depth(&mut self, image: &messages::RawImage, of_target: &[usize], row: &PlacedFrame) {
+        // Rows of a rolling shutter see the body from other poses than the frame's.
+        if self.flight.readout_s > 0.0 {
             return;
         }
-        let Some((_, pixels)) = self.instance.take().filter(|(of, _)| *of == frame) else { return };
         let body = Body {
             feet: row.target.feet_in_world,
             height_m: self.flight.target_height_m,
             radius_m: self.flight.target_radius_m,
         };
         let (near, far) = body.depths_m(&row.camera_pose);
-        let depth = |at: usize| {
+        let depth_m = |at: usize| {
             image
                 .data
                 .get(4 * at..4 * at + 4)
                 .map(|it| f64::from(f32::from_le_bytes(it.try_into().expect("four bytes"))))
         };
-        let wrong = pixels
+        let wrong = of_target
             .iter()
-            .filter_map(|at| depth(*at))
+            .filter_map(|at| depth_m(*at))
             .find(|d| !(near - DEPTH_SLACK_M..=far + DEPTH_SLACK_M).contains(d));
         if let Some(depth_m) = wrong {
             let message =
                 format!("a pixel of the target is {depth_m} m deep; its body lies between {near:.3} and {far:.3} m");
-            self.find(place, "verify-depth", message);
+            self.find(format!("`{}` frame {}", topic::images(&depth::CHANNEL), row.frame), "verify-depth", message);
         }
     }
 
-    /// A raw image of the flight's size with all its bytes.
-    fn image(&self, data: &[u8]) -> Option<messages::RawImage> {
+    /// A raw image of the channel with the flight's size and all its bytes.
+    fn image(&self, channel: &Channel, data: &[u8]) -> Option<messages::RawImage> {
         let image = messages::RawImage::decode(data).ok()?;
-        let bytes = match image.encoding.as_str() {
-            "mono8" => 1,
-            "16UC1" => 2,
-            "32FC1" | "32UC1" => 4,
-            _ => return None,
-        };
+        let format = formats(channel).iter().find(|format| format.encoding == image.encoding)?;
         let camera = &self.flight.camera;
         let fits = (image.width, image.height) == (camera.width, camera.height)
-            && image.data.len() == bytes * camera.width as usize * camera.height as usize;
+            && image.data.len() == format.pixel_bytes * camera.width as usize * camera.height as usize;
         fits.then_some(image)
     }
 
@@ -257,7 +280,10 @@ impl LogCheck<'_> {
         if !self.is_ours {
             self.find(String::new(), "verify-log", format!("it is not the log of `{}`", self.flight.trajectory_id));
         }
-        for topic in PER_FRAME {
+        let declared = |channel: &&Channel| self.topics.values().any(|topic| *topic == topic::images(channel));
+        let on_request = channels::ALL.iter().copied().filter(|channel| channel.is_on_request()).filter(declared);
+        let on_request: Vec<String> = on_request.map(topic::images).collect();
+        for topic in self.at_every_frame.clone().iter().chain(&on_request) {
             let count = self.counts.get(topic).copied().unwrap_or(0);
             if count != self.frames.len() {
                 self.find(

@@ -128,6 +128,33 @@ fn images_of_the_next_frame_are_found() {
 }
 
 #[test]
+fn channels_on_request_are_sound_until_a_pixel_holds_no_value_or_a_frame_has_none() {
+    let mut flights = sample::flights();
+    flights[0].draw_on_request();
+    let folder = published(flights);
+    let report = verify(folder.path(), &mut |_, _| {}).unwrap();
+    assert!(report.is_sound(), "{:#?}", report.findings);
+    let card = std::fs::read_to_string(folder.path().join("README.md")).unwrap();
+    assert!(card.contains("* Channel `normals`: unit normals"), "{card}");
+    let mut flights = sample::flights();
+    flights[0].draw_on_request();
+    let normals = flights[0].images[2].on_request.iter_mut().find(|image| image.channel.name == "normals");
+    normals.unwrap().bytes[3..6].fill(255);
+    let report = verify(published(flights).path(), &mut |_, _| {}).unwrap();
+    let messages: Vec<&str> = report.findings.iter().map(|finding| finding.message.as_str()).collect();
+    assert_eq!(messages, ["pixel 1 holds no value of `normals`"]);
+}
+
+#[test]
+fn depths_outside_of_the_target_s_body_are_found() {
+    let mut flights = sample::flights();
+    let images = &mut flights[0].images[1];
+    let at = images.instance.iter().position(|id| *id == 1).unwrap();
+    images.depth_m[at] += 3.0;
+    assert_eq!(rules_of(&published(flights)), ["verify-depth"]);
+}
+
+#[test]
 fn a_flipped_yaw_is_found() {
     let mut flights = sample::flights();
     flights[1].record.trajectory.poses_in_world[3].yaw_rad *= -1.0;

@@ -9,6 +9,7 @@ pub mod croissant;
 pub mod frame_pack;
 mod gathered_extras;
 pub mod log;
+mod message_head;
 pub mod publish;
 pub mod table_file;
 

@@ -4,7 +4,9 @@ use crate::mesh::{Mesh, Vertex};
 use bytemuck::{Pod, Zeroable};
 use cosfly_frames::Pose;
 use cosfly_render::outside::NO_FACE;
-use cosfly_render::{Backend, BackendError, Camera, FrameSetup, PictureLook, RenderedFrame, Renderer, Scene};
+use cosfly_render::{
+    Backend, BackendError, Camera, ChannelSet, FrameSetup, PictureLook, RenderedFrame, Renderer, Scene,
+};
 use std::sync::{Arc, Mutex, OnceLock, PoisonError};
 
 /// Distance of the near plane along the optical axis, metres.
@@ -114,6 +116,11 @@ impl GpuBackend {
     /// Sets the look of colours for the following frames.
     pub fn set_look(&mut self, look: PictureLook) {
         self.renderer.set_look(look);
+    }
+
+    /// Draws these channels from now on.
+    pub fn set_channels(&mut self, channels: &ChannelSet) {
+        self.renderer.set_channels(channels);
     }
 
     /// Name and driver of the card.

@@ -1,7 +1,7 @@
 //! Rendering backends of this build, and how to get the others.
 
 use cosfly_diagnose::{Diagnostic, Fault};
-use cosfly_render::{Backend, BackendError, BackendKind, Camera, PictureLook, Renderer};
+use cosfly_render::{Backend, BackendError, BackendKind, Camera, RenderConfig, Renderer};
 
 /// Refuses a backend that this build does not have, before anything runs.
 pub fn check(kind: BackendKind) -> Result<(), BackendError> {
@@ -12,26 +12,22 @@ pub fn check(kind: BackendKind) -> Result<(), BackendError> {
             message: "`backend` is `gpu`, but this cosfly was built without it".into(),
             hint: "build it with `cargo build --release -p cosfly --features gpu`, or leave `backend` out".into(),
         }),
-        BackendKind::Carla => Err(BackendError {
-            message: "`backend` is `carla`, but no run waits for a CARLA server".into(),
-            hint: "run the recipe with `backend = \"cpu\"`, write a job with `cosfly carla-job DATASET --out job.json` and \
-                   fly it with `plugins/carla/replay.py`"
-                .into(),
-        }),
     }
 }
 
-/// A backend of this kind for one camera and look.
-pub fn open(kind: BackendKind, camera: Camera, look: PictureLook) -> Result<Box<dyn Backend>, BackendError> {
-    check(kind)?;
+/// A backend for one camera with the look and the channels of a recipe.
+pub fn open(config: &RenderConfig, camera: Camera) -> Result<Box<dyn Backend>, BackendError> {
+    check(config.backend)?;
     #[cfg(feature = "gpu")]
-    if kind == BackendKind::Gpu {
+    if config.backend == BackendKind::Gpu {
         let mut backend = cosfly_gpu::GpuBackend::new(camera)?;
-        backend.set_look(look);
+        backend.set_look(config.look);
+        backend.set_channels(&config.channels);
         return Ok(Box::new(backend));
     }
     let mut renderer = Renderer::new(camera);
-    renderer.set_look(look);
+    renderer.set_look(config.look);
+    renderer.set_channels(&config.channels);
     Ok(Box::new(renderer))
 }
 
@@ -51,6 +47,5 @@ mod tests {
         if !cfg!(feature = "gpu") {
             assert!(check(BackendKind::Gpu).unwrap_err().hint.contains("--features gpu"));
         }
-        assert!(check(BackendKind::Carla).unwrap_err().hint.contains("carla-job"));
     }
 }

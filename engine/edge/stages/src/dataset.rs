@@ -9,6 +9,7 @@ use crate::world::world_of;
 use crate::{codec, parameters};
 use cosfly_blobs::{OutputSink, PassingFile};
 use cosfly_diagnose::{Diagnostic, Fault, ParameterError, Result};
+use cosfly_render::ChannelSet;
 use cosfly_report::PlannerRow;
 use cosfly_schema::extras::Extra;
 use cosfly_schema::record::captions_from_bytes;
@@ -22,6 +23,11 @@ use cosfly_write::{DatasetSource, FramePackReader, PublishedLog, write_dataset, 
 use std::collections::BTreeMap;
 use std::io::BufReader;
 use std::sync::Arc;
+
+/// Blob of a log's channels, where there are more than those of every frame.
+const CHANNELS_BLOB: &str = "channels";
+/// Kind of the blob.
+const CHANNELS: &str = "channels/1";
 
 /// Stage kind `dataset`.
 pub struct Dataset;
@@ -125,6 +131,10 @@ impl Stage for LogStage {
             Ok(())
         })?;
         outputs.put("log", &codec::encode(LOG, &log)?)?;
+        let channels = &pack.header().channels;
+        if !channels.is_default() {
+            outputs.put(CHANNELS_BLOB, &codec::encode(CHANNELS, channels)?)?;
+        }
         outputs.put("previews", &pack.preview_strip()?.to_bytes())?;
         Ok(Produced::default())
     }
@@ -159,7 +169,11 @@ impl Stage for DatasetStage {
             let record = record.ok_or_else(|| {
                 Diagnostic::new("dataset-log", Fault::Bug, format!("the log of `{}` has no record", log.name))
             })?;
-            logs.push(PublishedLog { record, blob: log.blobs["mcap"] });
+            let channels = match log.blobs.contains_key(CHANNELS_BLOB) {
+                true => codec::decode(CHANNELS, &inputs.read(log, CHANNELS_BLOB)?)?,
+                false => ChannelSet::default(),
+            };
+            logs.push(PublishedLog { record, blob: log.blobs["mcap"], channels });
             // One weather of a paired rendering has the captions of its flight.
             let of_flight = || captions.get(&frames.name.without_variant()?);
             let captions = captions.get(&frames.name).or_else(of_flight).copied();

@@ -230,7 +230,10 @@ impl RenderStage {
         let Camera { width, height, .. } = shooting.camera;
         let objects = world.town.obstacles.iter().map(|obstacle| object_instance(obstacle.object_id));
         let largest_instance = objects.max().unwrap_or(TARGET_INSTANCE).max(crowd.largest_instance());
-        let header = PackHeader::new(width, height, largest_instance, self.encoding, trajectory.track.dt_s);
+        let header = PackHeader {
+            channels: self.config.channels.clone(),
+            ..PackHeader::new(width, height, largest_instance, self.encoding, trajectory.track.dt_s)
+        };
         let track = &trajectory.track;
         let poses: Vec<Pose> = shooting.poses(trajectory);
         let walked_m = walked_m(&track.states);
@@ -288,7 +291,7 @@ impl RenderStage {
         idle.pop();
         drop(idle);
         let effects = self.config.effects(camera);
-        let backend = backends::open(self.config.backend, effects.ideal_camera(), self.config.look)
+        let backend = backends::open(&self.config, effects.ideal_camera())
             .map_err(|error| backends::failure(self.config.backend, &error))?;
         Ok(Rig { camera, effects, backend })
     }

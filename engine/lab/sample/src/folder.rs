@@ -4,8 +4,11 @@ use super::{SampleFlight, flights, rejections, town};
 use cosfly_blobs::{BlobRef, OutputSink, SeekWrite};
 use cosfly_diagnose::{Diagnostic, Result};
 use cosfly_fingerprint::Digest;
+use cosfly_render::ChannelSet;
 use cosfly_schema::tables::ObjectRecord;
-use cosfly_schema::{CaptionRecord, DatasetConfig, EncodingConfig, PreviewStrip, RenderedTrajectory, TownLayout};
+use cosfly_schema::{
+    CaptionRecord, DatasetConfig, EncodingConfig, LogRecord, PreviewStrip, RenderedTrajectory, TownLayout,
+};
 use cosfly_write::publish::{DatasetSource, PublishedLog, Summary, write_dataset};
 use cosfly_write::{FramePackReader, write_log};
 use std::collections::BTreeMap;
@@ -86,11 +89,15 @@ pub fn write_flights(
         let mut bytes = vec![];
         let mut pack = FramePackReader::new(Cursor::new(flight.pack(encoding)))?;
         let record = write_log(&mut bytes, &flight.record, &mut pack, &flight.captions, &town, &|| Ok(()))?;
-        files.push((record, bytes));
+        files.push((record, bytes, flight.channels()));
     }
-    let logs: Vec<PublishedLog> =
-        files.iter().map(|(record, bytes)| PublishedLog { record: record.clone(), blob: blob_of(bytes) }).collect();
-    let blobs = files.iter().map(|(_, bytes)| (Digest::of(bytes), &bytes[..])).collect();
+    let published = |(record, bytes, channels): &(LogRecord, Vec<u8>, ChannelSet)| PublishedLog {
+        record: record.clone(),
+        blob: blob_of(bytes),
+        channels: channels.clone(),
+    };
+    let logs: Vec<PublishedLog> = files.iter().map(published).collect();
+    let blobs = files.iter().map(|(_, bytes, _)| (Digest::of(bytes), &bytes[..])).collect();
     let mut sink = FolderSink { folder: folder.to_owned(), blobs };
     write_dataset(&mut sink, config, &logs, &Flights(flights, encoding), &rejections(), &|| Ok(()))
 }

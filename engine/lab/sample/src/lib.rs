@@ -9,9 +9,11 @@ use cosfly_frames::{DVec3, Pose, TargetState, TargetTrack, real};
 use cosfly_geometry::OrientedBox;
 use cosfly_maps::{MapOrigin, Obstacle, ObstacleKind, SemanticLabel, SimplificationReport, Synthetic, Town};
 use cosfly_planner::{Certificate, FramePerturbation, Limits, Perturbation, TermCost, Trajectory};
+use cosfly_render::channels::{ALL, SeenPoint};
 use cosfly_render::frame::TARGET_INSTANCE;
 use cosfly_render::{
-    Camera, FrameImages, Lens, MotionBlur, Mount, Noise, PersonView, PixelBox, RollingShutter, TargetView, Weather,
+    Camera, ChannelImage, ChannelSet, FrameImages, Lens, MotionBlur, Mount, Noise, PersonView, PixelBox,
+    RollingShutter, TargetView, Weather,
 };
 use cosfly_schema::{
     CaptionRecord, EncodingConfig, OtherPerson, PairInfo, Rejection, RenderedTrajectory, Role, Sighting, TownInfo,
@@ -36,13 +38,50 @@ pub struct SampleFlight {
 }
 
 impl SampleFlight {
+    /// Channels of the images.
+    pub fn channels(&self) -> ChannelSet {
+        let drawn = self.images.first().map_or(&[][..], |images| &images.on_request[..]);
+        ChannelSet::of(|channel| !channel.is_on_request() || drawn.iter().any(|image| image.channel == channel))
+    }
+
+    /// Draws all channels on request, as if every surface were level.
+    pub fn draw_on_request(&mut self) {
+        let camera = &self.record.camera;
+        for (images, pose) in self.images.iter_mut().zip(&self.record.trajectory.poses_in_world) {
+            let points: Vec<SeenPoint> = (0..images.depth_m.len()).map(|at| point(images, camera, pose, at)).collect();
+            let on_request = ALL.iter().copied().filter(|channel| channel.is_on_request());
+            images.on_request = on_request.map(|channel| ChannelImage::new(channel, points.len())).collect();
+            for image in &mut images.on_request {
+                let pixels = image.bytes.chunks_exact_mut(image.channel.bytes_on_request());
+                pixels.zip(&points).for_each(|(pixel, point)| image.channel.draw(point, pixel));
+            }
+        }
+    }
+
     /// Frame pack of the flight.
     pub fn pack(&self, encoding: EncodingConfig) -> Vec<u8> {
         let camera = &self.record.camera;
-        let header = PackHeader::new(camera.width, camera.height, 9, encoding, self.record.dt_s());
+        let header = PackHeader {
+            channels: self.channels(),
+            ..PackHeader::new(camera.width, camera.height, 9, encoding, self.record.dt_s())
+        };
         let mut writer = FramePackWriter::new(vec![], &header).expect("memory takes every byte");
         self.images.iter().for_each(|images| writer.frame(images).expect("sample images are sound"));
         writer.finish().expect("memory takes every byte")
+    }
+}
+
+/// The surface at a pixel, taken for level.
+fn point(images: &FrameImages, camera: &Camera, pose: &Pose, at: usize) -> SeenPoint {
+    let (column, row) = (at as u32 % images.width, at as u32 / images.width);
+    let depth_m = images.depth_m[at];
+    SeenPoint {
+        depth_m,
+        label: images.semantic[at],
+        instance: images.instance[at],
+        normal_in_world: if depth_m.is_finite() { DVec3::Z } else { DVec3::ZERO },
+        ray_in_world: camera.ray_in_world(pose, f64::from(column) + 0.5, f64::from(row) + 0.5),
+        camera_in_world: pose.position_in_world,
     }
 }
 
@@ -264,7 +303,7 @@ fn look(
     town: &Town,
 ) -> (FrameImages, TargetView, Option<PersonView>) {
     let (width, height) = (camera.width, camera.height);
-    let mut images = FrameImages { width, height, rgb: vec![], depth_m: vec![], semantic: vec![], instance: vec![] };
+    let mut images = FrameImages { width, height, ..FrameImages::default() };
     let (mut full, mut visible, mut companion) = (vec![], vec![], vec![]);
     let wall = &town.obstacles[0];
     for v in 0..height {

@@ -44,7 +44,7 @@ impl Camera {
     }
 }
 
-/// How the camera is turned against the drone that carries it; it sits in the drone's origin.
+/// Turn of the camera against the drone, in whose origin it sits.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Mount {
     /// Turn upwards, after the yaw, radians.

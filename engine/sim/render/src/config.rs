@@ -1,8 +1,9 @@
-//! What a recipe says about pictures: camera and weathers.
+//! Parameters of a recipe's pictures: renderer, camera, effects, weathers.
 
-use crate::backend::BackendKind;
 use crate::camera::{Camera, Mount};
+use crate::channel_set::ChannelSet;
 use crate::effects::{Effects, Lens, MotionBlur, Noise, RollingShutter};
+use crate::look::PictureLook;
 use crate::weather::{Weather, WeatherRanges};
 use cosfly_frames::Seed;
 use schemars::JsonSchema;
@@ -13,13 +14,15 @@ use std::fmt;
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(default, deny_unknown_fields)]
 pub struct RenderConfig {
-    /// What draws the pictures: `cpu` (cosfly's own renderer, the same bytes on every machine), `gpu` (a graphics card;
-    /// needs a cosfly built with the feature `gpu`) or `carla` (a CARLA server; see the guide, it is driven from outside
-    /// of a run).
+    /// Renderer of the pictures: `cpu` (cosfly's own, the same bytes on every machine) or `gpu` (a graphics card; needs a
+    /// cosfly built with the feature `gpu`); a CARLA server draws a finished dataset anew, see `cosfly carla-job`.
     pub backend: BackendKind,
-    /// How colours look: `full` (shadows, textures, weather, smooth edges) or `simple` (plain colours and windows in the
+    /// Look of colours: `full` (shadows, textures, weather, smooth edges) or `simple` (plain colours and windows in the
     /// light of sun, sky and haze, in about a third of the time). Depth, labels and ids are the same in both.
     pub look: PictureLook,
+    /// Channels to draw: `rgb`, `depth`, `semantic` and `instance` always, others on request, such as `normals`.
+    #[serde(skip_serializing_if = "ChannelSet::is_default")]
+    pub channels: ChannelSet,
     /// Image width, pixels.
     #[schemars(range(min = 16, max = 7680))]
     pub width: u32,
@@ -33,7 +36,7 @@ pub struct RenderConfig {
     /// flights behind it share it.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub fov_range_deg: Option<[f64; 2]>,
-    /// How the camera is turned against the drone; drawn once per walk, the same for all of its flights and frames.
+    /// Turn of the camera against the drone; drawn once per walk, the same for all of its flights and frames.
     pub gimbal: GimbalConfig,
     /// Distortion of the lens; the focal length is that of the undistorted camera.
     pub lens: Lens,
@@ -59,6 +62,7 @@ impl Default for RenderConfig {
         Self {
             backend: BackendKind::Cpu,
             look: PictureLook::Full,
+            channels: ChannelSet::default(),
             width: 1280,
             height: 720,
             fov_deg: 90.0,
@@ -75,14 +79,24 @@ impl Default for RenderConfig {
     }
 }
 
-/// How the colours of pictures look.
+/// Renderer of the pictures.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
-pub enum PictureLook {
-    /// Sun and shadows, light of the sky between houses, textures, wetness, puddles and rain, lamps, smooth edges.
-    Full,
-    /// Plain colours and windows, light of the sun and the open sky, haze; no shadows, textures or smooth edges.
-    Simple,
+pub enum BackendKind {
+    /// cosfly's own renderer: exact, the same bytes on every machine.
+    Cpu,
+    /// A graphics card through wgpu; needs a cosfly built with the feature `gpu`.
+    Gpu,
+}
+
+impl BackendKind {
+    /// The name in recipes.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Cpu => "cpu",
+            Self::Gpu => "gpu",
+        }
+    }
 }
 
 /// Ranges of the camera's turn against the drone.
@@ -98,11 +112,11 @@ pub struct GimbalConfig {
 /// A value that the schema cannot refuse but the renderer must.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct ConfigProblem {
-    /// Where in the stage's table, such as `weathers[1]`.
+    /// Path in the stage's table, such as `weathers[1]`.
     pub path: String,
-    /// What is wrong: a lower-case fragment.
+    /// The refused value and the violated rule: a lower-case fragment.
     pub message: String,
-    /// What is allowed, or the nearest valid value.
+    /// Allowed values, or the nearest valid one.
     pub hint: String,
 }
 
@@ -122,6 +136,11 @@ impl RenderConfig {
     pub fn validate(&self) -> Result<(), ConfigProblem> {
         let problem =
             |path: &str, message: String, hint: String| Err(ConfigProblem { path: path.into(), message, hint });
+        if let Some(missing) = self.channels.missing() {
+            let every: Vec<&str> = ChannelSet::default().iter().map(|channel| channel.name).collect();
+            let hint = format!("{} are part of every frame: add channels to them", every.join(", "));
+            return problem("channels", format!("the list leaves out `{}`", missing.name), hint);
+        }
         if !(16..=7680).contains(&self.width) {
             return problem("width", format!("the width is `{}`", self.width), "16 to 7680 pixels".into());
         }
@@ -202,7 +221,7 @@ impl RenderConfig {
         Camera { horizontal_fov_rad: fov_deg.to_radians(), ..self.camera() }
     }
 
-    /// How the camera is turned against the drone on all flights behind one walk.
+    /// Turn of the camera against the drone on all flights behind one walk.
     pub fn draw_mount(&self, walk_seed: &Seed) -> Mount {
         Mount {
             pitch_rad: draw(walk_seed, "gimbal-pitch", self.gimbal.pitch_range_deg).to_radians(),
@@ -229,7 +248,7 @@ impl RenderConfig {
         weather
     }
 
-    /// What is added to ideal pictures of `camera`.
+    /// Effects on ideal pictures of `camera`.
     pub fn effects(&self, camera: Camera) -> Effects {
         Effects::new(camera, self.lens, self.motion_blur, self.rolling_shutter, self.noise)
     }

@@ -5,7 +5,7 @@ use cosfly_frames::{DVec3, RandomStream, Seed, TargetState, real};
 /// The target of one frame.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct TargetSetup {
-    /// Where it is and how it moves.
+    /// Position, heading and speed.
     pub state: TargetState,
     /// Body height, metres.
     pub height_m: f64,
@@ -35,7 +35,7 @@ impl TargetSetup {
 /// Somebody in the picture.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Walker {
-    /// Where they are and how they move.
+    /// Position, heading and speed.
     pub state: TargetState,
     /// Body height, metres.
     pub height_m: f64,
@@ -61,9 +61,9 @@ impl Walker {
 /// Somebody in the picture beside the target.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Bystander {
-    /// Where they are and what they look like.
+    /// Position and looks.
     pub walker: Walker,
-    /// Their id in instance images: not 0, not [`crate::frame::TARGET_INSTANCE`], not that of an object.
+    /// Id in instance images: not 0, not [`crate::frame::TARGET_INSTANCE`], not that of an object.
     pub instance: u32,
 }
 
@@ -72,7 +72,7 @@ pub fn gait_phase_rad(walked_m: f64, height_m: f64) -> f64 {
     real::wrap_angle_rad(real::TAU * walked_m / (0.83 * height_m.max(0.1)))
 }
 
-/// What a part of the figure is made of.
+/// Material of a part of the figure.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Region {
     /// Face, neck, hands.
@@ -98,7 +98,7 @@ pub struct FigureTriangle {
     pub normal_in_world: DVec3,
     /// The ends of its part's middle line: the part is round around it.
     pub middle_in_world: [DVec3; 2],
-    /// What it is made of.
+    /// Material.
     pub region: Region,
     /// Whose it is: a number among the people of a frame.
     pub person: u32,
@@ -144,7 +144,7 @@ const TOPS: [[f32; 3]; 10] = [
     [0.90, 0.22, 0.05],
     [0.05, 0.40, 0.10],
 ];
-/// What most people wear who are just about, linear RGB.
+/// Common colours of clothes, linear RGB.
 const EVERYDAY_TOPS: [[f32; 3]; 12] = [
     [0.03, 0.03, 0.035],
     [0.08, 0.085, 0.09],

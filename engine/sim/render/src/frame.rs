@@ -1,5 +1,6 @@
-//! One rendered frame, and how the target looks in it.
+//! One rendered frame: images, and views of the target and of other people.
 
+use crate::channels::Channel;
 use serde::{Deserialize, Serialize};
 
 /// All channels of one frame, row-major from the top-left pixel, sampled at pixel centres.
@@ -18,6 +19,50 @@ pub struct FrameImages {
     /// Instance ids: 0 for ground and sky, [`TARGET_INSTANCE`] for the target, [`object_instance`] for
     /// objects, and for other people what [`crate::Bystander`] says.
     pub instance: Vec<u32>,
+    /// Channels that were asked for, in the order of [`crate::channels::ALL`].
+    pub on_request: Vec<ChannelImage>,
+}
+
+/// The pixels of a channel on request.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct ChannelImage {
+    /// The channel.
+    pub channel: &'static Channel,
+    /// Row-major from the top-left pixel, little-endian.
+    pub bytes: Vec<u8>,
+}
+
+impl ChannelImage {
+    /// An image of `pixels` pixels, all bytes 0.
+    pub fn new(channel: &'static Channel, pixels: usize) -> Self {
+        Self { channel, bytes: vec![0; channel.bytes_on_request() * pixels] }
+    }
+
+    /// Copies pixel `from` of another image of the same channel to pixel `to`.
+    pub fn copy_pixel(&mut self, to: usize, image: &Self, from: usize) {
+        let size = self.channel.bytes_on_request();
+        self.bytes[size * to..size * (to + 1)].copy_from_slice(&image.bytes[size * from..size * (from + 1)]);
+    }
+
+    /// Gives `images` the channels of `like` at `pixels` pixels each; nothing is allocated when they have them.
+    pub fn match_channels(images: &mut Vec<Self>, like: &[Self], pixels: usize) {
+        let is_same = images.iter().map(|image| image.channel).eq(like.iter().map(|image| image.channel));
+        if !is_same || images.iter().any(|image| image.bytes.len() != image.channel.bytes_on_request() * pixels) {
+            *images = like.iter().map(|image| Self::new(image.channel, pixels)).collect();
+        }
+    }
+}
+
+/// A finished frame; the images belong to the renderer and are overwritten by its next frame.
+pub struct RenderedFrame<'a> {
+    /// All channels.
+    pub images: &'a FrameImages,
+    /// View of the target; all zero without a target.
+    pub target_view: TargetView,
+    /// Indices of the pixels that the target would cover without obstacles, ascending.
+    pub target_pixels: &'a [u32],
+    /// Views of the others, by instance id; those of whom no pixel is seen are left out.
+    pub others: &'a [PersonView],
 }
 
 /// Instance id of the followed target.
@@ -44,7 +89,7 @@ pub struct PixelBox {
 /// The target in one frame.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct TargetView {
-    /// Its body covers at least one pixel centre of the image, occluded or not.
+    /// Whether the body covers at least one pixel centre of the image, occluded or not.
     pub in_view: bool,
     /// Share of body points reached by unoccluded rays, whether or not in the image, 0..=1.
     pub visible_by_rays: f64,

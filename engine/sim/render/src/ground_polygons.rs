@@ -4,9 +4,9 @@ use cosfly_frames::DVec3;
 use cosfly_maps::{SemanticLabel, Town};
 use std::collections::BTreeMap;
 
-/// How far a corner may lie off its polygon's plane, metres.
+/// Largest distance of a corner from its polygon's plane, metres.
 const OFF_PLANE_M: f64 = 1e-3;
-/// How far a corner may lie inside the line through its neighbours, metres.
+/// Largest distance of a corner inside of the line through its neighbours, metres.
 const INSIDE_LINE_M: f64 = 1e-3;
 /// Most corners of a joined polygon.
 const MAX_CORNERS: usize = 16;
@@ -17,7 +17,7 @@ const ROUNDS: usize = 4;
 pub struct GroundPolygon {
     /// Numbers of points, in order around it.
     pub corners: Vec<u32>,
-    /// What it is.
+    /// Label.
     pub label: SemanticLabel,
     /// Upward unit normal.
     pub normal_in_world: DVec3,

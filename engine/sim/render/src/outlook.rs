@@ -1,9 +1,9 @@
 //! People who may change a picture, told without drawing it.
 
 use crate::camera::Camera;
+use crate::eye::Eye;
 use crate::figure::Walker;
 use crate::people::Bounds;
-use crate::renderer::Eye;
 use crate::shade::light::Light;
 use crate::visibility::Screen;
 use crate::weather::Weather;

@@ -1,8 +1,10 @@
 //! Frames whose nearest static faces were found elsewhere, such as on a graphics card: everything after visibility is ours.
 
-use crate::renderer::{DrawnFace, Eye, FaceSource, Renderer};
-use crate::scene::{BOX_FACES, Scene};
-use crate::visibility::PlaneOnScreen;
+use crate::eye::Eye;
+use crate::faces::{DrawnFace, FaceSource};
+use crate::scene::Scene;
+use crate::scene_parts::BOX_FACES;
+use crate::visibility::{PlaneOnScreen, Screen, Visibility};
 use cosfly_frames::DVec3;
 
 pub use crate::visibility::NO_FACE;
@@ -48,9 +50,17 @@ impl Scene {
     }
 }
 
-impl Renderer {
-    /// Takes over the faces found, numbers as in [`Scene::faces`].
-    pub(crate) fn adopt(&mut self, scene: &Scene, eye: &Eye, nearest: &[u32]) {
+/// A scene seen by a camera, whose faces are noted as if they had been drawn here.
+pub(crate) struct Found<'a> {
+    pub scene: &'a Scene,
+    pub eye: &'a Eye,
+    pub screen: &'a Screen,
+}
+
+impl Found<'_> {
+    /// Puts the faces that are `nearest` at each pixel, numbered as in [`Scene::faces`], into an empty frame.
+    pub fn adopt(&self, nearest: &[u32], frame: &mut Visibility, faces: &mut Vec<DrawnFace>) {
+        let scene = self.scene;
         let mut count = BOX_FACES.len() * scene.boxes.len();
         let mut ends = Vec::with_capacity(scene.clusters.len());
         for cluster in &scene.clusters {
@@ -67,19 +77,20 @@ impl Renderer {
                 let found = run[0] as usize;
                 let Some(number) = numbers.get_mut(found) else { continue };
                 if *number == NO_FACE {
-                    let Some(face) = self.face_of(scene, eye, found, &ends) else { continue };
-                    *number = self.faces.len() as u32;
-                    self.faces.push(face);
+                    let Some(face) = self.face(found, &ends) else { continue };
+                    *number = faces.len() as u32;
+                    faces.push(face);
                 }
-                let plane = self.faces[*number as usize].plane;
-                self.nearest.adopt_run(row, pixels, &plane, *number);
+                let plane = faces[*number as usize].plane;
+                frame.adopt_run(row, pixels, &plane, *number);
             }
         }
     }
 
-    /// What drawing a face here would have noted of it.
-    fn face_of(&self, scene: &Scene, eye: &Eye, found: usize, ends: &[usize]) -> Option<DrawnFace> {
-        let plane = |normal, point| PlaneOnScreen::new(&self.screen, eye.turn(normal), eye.see(point));
+    /// A face by its number; `ends` are the numbers at which the faces of each cluster end.
+    fn face(&self, found: usize, ends: &[usize]) -> Option<DrawnFace> {
+        let Self { scene, eye, screen } = self;
+        let plane = |normal, point| PlaneOnScreen::new(screen, eye.turn(normal), eye.see(point));
         if let Some(b) = scene.boxes.get(found / BOX_FACES.len()) {
             let (index, face) = ((found / BOX_FACES.len()) as u32, found % BOX_FACES.len());
             let normal = b.normal_in_world(face);

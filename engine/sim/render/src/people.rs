@@ -1,8 +1,9 @@
 //! The people of a frame: who of them can be seen, or throws a shadow that can, and their figures.
 
+use crate::eye::Eye;
 use crate::figure::{Clothes, FigureTriangle, Walker, figure};
 use crate::frame::TARGET_INSTANCE;
-use crate::renderer::{Eye, FrameSetup};
+use crate::setup::FrameSetup;
 use crate::visibility::{NEAR_M, Nearer, Screen};
 use cosfly_frames::DVec3;
 use std::ops::Range;
@@ -21,11 +22,11 @@ pub(crate) struct Person {
     pub walker: Walker,
     pub clothes: Clothes,
     pub instance: u32,
-    /// Their triangles among those of all.
+    /// Triangles of the figure among those of all.
     pub triangles: Range<usize>,
     /// Whether the body itself may be seen.
     pub is_seen: bool,
-    /// Where their body and what it darkens may be seen.
+    /// Part of the screen where the body and its shadow may be seen.
     pub reach: Reach,
     /// Height of the body, pixels.
     pub height_px: f64,

@@ -1,5 +1,6 @@
-//! Pictures of channels that are not pictures: semantic colours and coloured depth.
+//! Pictures of channels that are not pictures: semantic colours, coloured depth, channels on request.
 
+use crate::channels::{Channel, Element};
 use cosfly_maps::SemanticLabel;
 
 /// CARLA's palette applied to label ids; unknown ids are black. 3 bytes a pixel.
@@ -7,6 +8,16 @@ pub fn palette_image(semantic: &[u8]) -> Vec<u8> {
     let palette: [[u8; 3]; 256] =
         core::array::from_fn(|id| SemanticLabel::ALL.get(id).map_or([0, 0, 0], |label| label.colour()));
     semantic.iter().flat_map(|&id| palette[usize::from(id)]).collect()
+}
+
+/// Stored pixels of a channel on request as a picture: numbers in colours as [`depth_preview`] has them, bytes as they
+/// are. 3 bytes a pixel.
+pub fn picture_on_request(channel: &Channel, bytes: &[u8]) -> Vec<u8> {
+    if channel.element() != Element::Float {
+        return bytes.to_vec();
+    }
+    let numbers: Vec<f32> = bytes.as_chunks::<4>().0.iter().map(|number| f32::from_le_bytes(*number)).collect();
+    depth_preview(&numbers)
 }
 
 /// Nearest and farthest depth that previews tell apart, metres.

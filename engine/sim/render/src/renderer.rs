@@ -1,67 +1,28 @@
 //! One frame from start to end: cull, draw, resolve, shade, measure the target.
 
 use crate::camera::Camera;
-use crate::config::PictureLook;
-use crate::figure::{Bystander, TargetSetup};
-use crate::frame::{FrameImages, PersonView, TARGET_INSTANCE, TargetView};
+use crate::channel_set::ChannelSet;
+use crate::eye::Eye;
+use crate::faces::{DrawnFace, FaceSource};
+use crate::frame::{ChannelImage, FrameImages, PersonView, RenderedFrame, TARGET_INSTANCE, TargetView};
+use crate::look::PictureLook;
 use crate::outlook::to_sun;
+use crate::outside::Found;
 use crate::passes::ids::{SeenRuns, for_each_band};
+use crate::passes::on_request;
 use crate::people::People;
-use crate::scene::{BOX_FACES, Cluster, Scene};
-use crate::shade::{Seen, Shader, smooth};
+use crate::scene::Scene;
+use crate::scene_parts::{BOX_FACES, Cluster};
+use crate::setup::FrameSetup;
+use crate::shade::setting::Seen;
+use crate::shade::shader::Shader;
+use crate::shade::smooth;
 use crate::stages::{Stages, Stopwatch};
 use crate::target_view;
 use crate::visibility::{MAX_CORNERS, NEAR_M, Nearer, PlaneOnScreen, Screen, Visibility, bounds};
-use crate::weather::Weather;
+use cosfly_frames::DVec3;
 use cosfly_frames::simd::Level;
-use cosfly_frames::{DMat3, DVec3, Pose};
 use cosfly_maps::SemanticLabel;
-
-/// What one frame shows.
-#[derive(Clone, Copy, Debug)]
-pub struct FrameSetup<'a> {
-    /// The camera's pose.
-    pub pose: Pose,
-    /// Weather with its sun azimuth drawn (see [`crate::RenderConfig::draw_weather`]).
-    pub weather: &'a Weather,
-    /// The followed target, if there is one.
-    pub target: Option<TargetSetup>,
-    /// Everybody else who is about. They are drawn like the target, hide it and are hidden by it.
-    pub others: &'a [Bystander],
-}
-
-/// A finished frame; the images belong to the renderer and are overwritten by its next frame.
-pub struct RenderedFrame<'a> {
-    /// All channels.
-    pub images: &'a FrameImages,
-    /// How the target looks in them; all zero without a target.
-    pub target_view: TargetView,
-    /// Indices of the pixels that the target would cover without obstacles, ascending.
-    pub target_pixels: &'a [u32],
-    /// What is seen of the others, by instance id; those of whom no pixel is seen are left out.
-    pub others: &'a [PersonView],
-}
-
-/// A face drawn in this frame.
-pub(crate) struct DrawnFace {
-    pub plane: PlaneOnScreen,
-    /// Unit normal in the world, any side.
-    pub normal: [f32; 3],
-    pub source: FaceSource,
-    pub label: u8,
-    pub instance: u32,
-}
-
-/// Where a drawn face comes from.
-#[derive(Clone, Copy, PartialEq, Eq)]
-pub(crate) enum FaceSource {
-    /// Box number, face number.
-    Box { index: u32, face: u8 },
-    /// Cluster number, polygon number in it.
-    Ground { cluster: u32, polygon: u16 },
-    /// Triangle of the figures, and the first face drawn of the same part of a body.
-    Figure { triangle: u32, first_face: u32 },
-}
 
 /// Which parts of a frame [`Renderer::render_parts`] makes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -77,12 +38,12 @@ pub enum FrameParts {
 /// Draws frames with one camera. Owns every buffer; keep one per thread.
 pub struct Renderer {
     camera: Camera,
-    pub(crate) screen: Screen,
+    screen: Screen,
     images: FrameImages,
-    pub(crate) nearest: Visibility,
+    nearest: Visibility,
     alone: Visibility,
     nearer: Nearer,
-    pub(crate) faces: Vec<DrawnFace>,
+    faces: Vec<DrawnFace>,
     visible: Vec<(u64, u32)>,
     /// A cluster's points in body axes and on the screen.
     seen_points: Vec<(DVec3, [f64; 2])>,
@@ -114,6 +75,7 @@ impl Renderer {
                 depth_m: vec![f32::INFINITY; pixels],
                 semantic: vec![SemanticLabel::Sky.id(); pixels],
                 instance: vec![0; pixels],
+                on_request: Vec::new(),
             },
             nearest: Visibility::new(screen.width, screen.height),
             alone: Visibility::new(screen.width, screen.height),
@@ -152,6 +114,13 @@ impl Renderer {
     pub fn set_look(&mut self, look: PictureLook) {
         self.look = look;
         self.shader.set_look(look);
+    }
+
+    /// Draws these channels from now on; the channels of every frame are always among them.
+    pub fn set_channels(&mut self, channels: &ChannelSet) {
+        let (on_request, pixels) =
+            (channels.iter().filter(|channel| channel.is_on_request()), self.images.depth_m.len());
+        self.images.on_request = on_request.map(|channel| ChannelImage::new(channel, pixels)).collect();
     }
 
     /// Spreads frames over the threads of the rayon pool that calls, from now on; the bytes are the same. Off at first:
@@ -216,7 +185,10 @@ impl Renderer {
         self.covered.clear();
         self.others.clear();
         match found {
-            Some(nearest) => self.adopt(scene, &eye, nearest),
+            Some(nearest) => {
+                let found = Found { scene, eye: &eye, screen: &self.screen };
+                found.adopt(nearest, &mut self.nearest, &mut self.faces);
+            }
             None => self.draw_boxes(scene, &eye),
         }
         self.draw_people(&eye, setup);
@@ -232,6 +204,9 @@ impl Renderer {
         self.view = target_view::NOT_IN_VIEW;
         if parts != FrameParts::Visibility {
             self.fill_channels(scene, parts == FrameParts::All);
+            if !self.images.on_request.is_empty() {
+                on_request::draw(&mut self.images, &self.nearest.face, &self.faces, &eye, &self.screen);
+            }
             watch.lap(3);
             if let Some(target) = &setup.target {
                 target_view::covered_pixels(&self.alone, self.screen.width, &mut self.covered);
@@ -414,59 +389,5 @@ fn layer_of(label: SemanticLabel) -> f64 {
         SemanticLabel::Roads => 1.0,
         SemanticLabel::RoadLine => 3.0,
         _ => 2.0,
-    }
-}
-
-/// The camera's position and turn.
-#[derive(Clone, Copy)]
-pub(crate) struct Eye {
-    pub position_in_world: DVec3,
-    pub world_from_body: DMat3,
-    body_from_world: DMat3,
-}
-
-impl Eye {
-    pub fn new(pose: &Pose) -> Self {
-        let world_from_body = pose.world_from_body();
-        Self {
-            position_in_world: pose.position_in_world,
-            world_from_body,
-            body_from_world: world_from_body.transpose(),
-        }
-    }
-
-    /// A world point in body axes.
-    #[inline]
-    pub fn see(&self, point_in_world: DVec3) -> DVec3 {
-        self.body_from_world * (point_in_world - self.position_in_world)
-    }
-
-    /// A world direction in body axes.
-    #[inline]
-    pub fn turn(&self, direction_in_world: DVec3) -> DVec3 {
-        self.body_from_world * direction_in_world
-    }
-
-    /// A drawing order (near first) of an axis-aligned box, or `None` when it lies outside the view.
-    pub fn order_if_seen(&self, screen: &Screen, center_in_world: DVec3, half: DVec3) -> Option<u64> {
-        let center = self.see(center_in_world);
-        let rows = self.world_from_body;
-        // Reach of the box along a body direction: |R^T axis| against its half sizes.
-        let reach = |direction: DVec3| (rows * direction).abs().dot(half);
-        let across = 0.5 * screen.width as f64 / screen.focal_px;
-        let up = 0.5 * screen.height as f64 / screen.focal_px;
-        for plane in [
-            DVec3::X,
-            DVec3::new(across, 1.0, 0.0),
-            DVec3::new(across, -1.0, 0.0),
-            DVec3::new(up, 0.0, 1.0),
-            DVec3::new(up, 0.0, -1.0),
-        ] {
-            if plane.dot(center) + reach(plane) < 0.0 {
-                return None;
-            }
-        }
-        let nearest = ((center_in_world - self.position_in_world).abs() - half).max(DVec3::ZERO);
-        Some((nearest.length_squared() * 1024.0) as u64)
     }
 }

@@ -1,11 +1,11 @@
-//! What a town looks like to the renderer: boxes with faces, ground polygons in small bounded clusters, seeds for looks.
+//! A town prepared for the renderer: boxes with faces, ground polygons in small bounded clusters, seeds for looks.
 
 use crate::ground_polygons::{GroundPolygon, GroundPolygons};
+use crate::scene_parts::{BOX_FACES, Cluster, ClusterPolygon, SceneBox};
 use crate::shade::grid::LightGrid;
 use crate::shade::pattern::{NoiseTexture, noise_texture};
 use cosfly_frames::{DVec3, Seed, real};
-use cosfly_maps::{ObstacleKind, SemanticLabel, Town};
-use glam::Vec3A as Vec3;
+use cosfly_maps::{ObstacleKind, Town};
 use std::collections::BTreeMap;
 use std::sync::atomic::{AtomicU64, Ordering};
 
@@ -20,76 +20,6 @@ pub struct Scene {
     pub(crate) grid: LightGrid,
     /// Tells scenes of one process apart; buffers that outlive a frame remember it.
     pub(crate) identity: u64,
-}
-
-/// An obstacle's box with what drawing it needs.
-pub(crate) struct SceneBox {
-    pub corners_in_world: [DVec3; 8],
-    pub center_in_world: DVec3,
-    pub half_bounds_m: DVec3,
-    pub half_extents_m: Vec3,
-    /// Unit vectors of the box's own x and y axes.
-    pub axes_in_world: [DVec3; 2],
-    pub kind: ObstacleKind,
-    pub label: u8,
-    pub instance: u32,
-    /// The same for all boxes of one thing.
-    pub seed: u32,
-    /// Middle and half size of the whole crown that a crown's box belongs to; of the box itself for other kinds.
-    pub whole: [Vec3; 2],
-}
-
-/// A box's six faces: outward axis (0 x, 1 y, 2 z), its sign, and the corner numbers around it.
-pub(crate) const BOX_FACES: [(usize, f64, [usize; 4]); 6] = [
-    (0, -1.0, [0, 2, 6, 4]),
-    (0, 1.0, [1, 3, 7, 5]),
-    (1, -1.0, [0, 1, 5, 4]),
-    (1, 1.0, [2, 3, 7, 6]),
-    (2, -1.0, [0, 1, 3, 2]),
-    (2, 1.0, [4, 5, 7, 6]),
-];
-
-impl SceneBox {
-    /// Outward unit normal of face `face`.
-    pub fn normal_in_world(&self, face: usize) -> DVec3 {
-        let (axis, sign, _) = BOX_FACES[face];
-        sign * if axis == 2 { DVec3::Z } else { self.axes_in_world[axis] }
-    }
-}
-
-/// Neighbouring ground polygons with shared points and a bounding box.
-pub(crate) struct Cluster {
-    pub center_in_world: DVec3,
-    pub half_bounds_m: DVec3,
-    pub points_in_world: Vec<DVec3>,
-    pub polygons: Vec<ClusterPolygon>,
-    /// Corners of all polygons, point numbers within the cluster.
-    pub corners: Vec<u16>,
-}
-
-/// A ground polygon.
-#[derive(Clone, Copy)]
-pub(crate) struct ClusterPolygon {
-    /// Its place in the cluster's corners.
-    pub first: u32,
-    pub count: u32,
-    pub label: SemanticLabel,
-    pub normal_in_world: DVec3,
-    /// A point of its plane.
-    pub middle_in_world: DVec3,
-}
-
-impl ClusterPolygon {
-    /// Its corners in the cluster's list.
-    pub fn range(&self) -> core::ops::Range<usize> {
-        self.first as usize..(self.first + self.count) as usize
-    }
-
-    /// The point of its plane above or below a point.
-    fn on_plane(&self, point: DVec3) -> DVec3 {
-        let off = (point - self.middle_in_world).dot(self.normal_in_world);
-        point - self.normal_in_world * off
-    }
 }
 
 /// A triangle of the static scene as rays see it.

@@ -1,4 +1,4 @@
-//! How long the stages of a frame took, by a clock that the caller brings.
+//! Durations of the stages of a frame, by a clock that the caller brings.
 
 /// Nanoseconds (or whatever the clock counts) spent in each stage of a frame.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -9,7 +9,7 @@ impl Stages {
     /// the target measured, edges, rain.
     pub const NAMES: [&'static str; 7] = ["boxes", "ground", "shadows", "shading", "target", "smoothing", "overlay"];
 
-    /// What each took, in the order of the names.
+    /// Duration of each, in the order of the names.
     pub fn ns(&self) -> [u64; Stages::NAMES.len()] {
         self.0
     }

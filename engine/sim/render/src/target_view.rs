@@ -1,4 +1,4 @@
-//! How much of people a frame shows, counted in pixels; of the target, against the target drawn alone.
+//! Visible part of people in a frame, counted in pixels; of the target, against the target drawn alone.
 
 use crate::figure::Bystander;
 use crate::frame::{FrameImages, PersonView, PixelBox, TARGET_INSTANCE, TargetView};
@@ -25,7 +25,7 @@ pub(crate) fn covered_pixels(alone: &Visibility, width: usize, covered: &mut Vec
     covered.extend(pixels.filter(|pixel| alone.face[*pixel] != NO_FACE).map(|pixel| pixel as u32));
 }
 
-/// How the target looks in `images`, when it would cover the pixels `covered` without obstacles; `visible_by_rays` is
+/// View of the target in `images`, when it would cover the pixels `covered` without obstacles; `visible_by_rays` is
 /// left 0. `occluders` is scratch.
 pub fn measure(images: &FrameImages, covered: &[u32], occluders: &mut Vec<u32>) -> TargetView {
     let width = images.width.max(1);
@@ -53,7 +53,7 @@ pub fn measure(images: &FrameImages, covered: &[u32], occluders: &mut Vec<u32>) 
     }
 }
 
-/// What is seen of `others` in `images`, by instance id.
+/// Views of `others` in `images`, by instance id.
 pub(crate) fn measure_people(level: Level, images: &FrameImages, others: &[Bystander], views: &mut Vec<PersonView>) {
     views.clear();
     // People's ids come after those of objects: most pixels are told by one comparison.

@@ -286,7 +286,7 @@ fn whole(number: f64) -> usize {
 /// Size of a tile of [`Nearer`], pixels.
 const TILE: [usize; 2] = [32, 8];
 
-/// What is drawn so far, coarsely: the least inverse depth in each tile. What is nowhere nearer is hidden.
+/// The frame so far, coarsely: the least inverse depth in each tile. Shapes that are nowhere nearer are hidden.
 pub struct Nearer {
     columns: usize,
     least: Vec<f32>,

@@ -74,10 +74,10 @@ pub struct WeatherRanges {
     /// Fog, percent: lowest and highest value to draw, 0 to 100; left out: the preset's.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub fog_density: Option<[f64; 2]>,
-    /// Where fog begins, metres: lowest and highest value to draw, 0 to 10000; left out: the preset's.
+    /// Distance at which fog begins, metres: lowest and highest value to draw, 0 to 10000; left out: the preset's.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub fog_distance: Option<[f64; 2]>,
-    /// How fast fog thins out with height: lowest and highest value to draw, 0 to 100; left out: the preset's.
+    /// Falloff of fog with height: lowest and highest value to draw, 0 to 100; left out: the preset's.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub fog_falloff: Option<[f64; 2]>,
     /// Wet surfaces, percent: lowest and highest value to draw, 0 to 100; left out: the preset's.

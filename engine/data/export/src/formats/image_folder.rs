@@ -4,7 +4,7 @@ use crate::card::Card;
 use crate::folder::OutFolder;
 use crate::format::Format;
 use crate::media::{ending, picture_path};
-use crate::pixels::{depth_png, gray8_png};
+use crate::pixels::{depth_png, ending_on_request, file_on_request, gray8_png};
 use crate::sample_text::frame_facts;
 use crate::shared_options::{InstructionOptions, PictureOptions};
 use crate::source::Source;
@@ -39,7 +39,11 @@ impl Format for ImageFolder {
         for split in source.splits() {
             front_matter.push_str(&format!("  - split: {split}\n    path: {split}/**\n"));
         }
-        Card { format: "ImageFolder", front_matter, body: BODY.into() }.write(source, out)?;
+        let mut body = String::from(BODY);
+        for channel in source.channels_on_request()? {
+            body.push_str(&format!("\n`{}`: {}\n", channel.name, channel.doc));
+        }
+        Card { format: "ImageFolder", front_matter, body }.write(source, out)?;
         Ok(vec![])
     }
 }
@@ -56,11 +60,17 @@ fn write_split(options: &Options, source: &Source<'_>, out: &OutFolder, split: &
             |frame, logged| {
                 let size = [logged.width, logged.height];
                 let mut line = frame_facts(flight, &rows[frame], frame, text);
-                let pictures = [
-                    ("image_file_name", "rgb", ending(&logged.rgb_format), logged.rgb_file.clone()),
-                    ("depth_file_name", "depth", "png", depth_png(&logged.depth_m, size)?),
-                    ("semantic_file_name", "semantic", "png", gray8_png(&logged.semantic, size)?),
+                let mut pictures = vec![
+                    ("image_file_name".to_owned(), "rgb", ending(&logged.rgb_format), logged.rgb_file.clone()),
+                    ("depth_file_name".to_owned(), "depth", "png", depth_png(&logged.depth_m, size)?),
+                    ("semantic_file_name".to_owned(), "semantic", "png", gray8_png(&logged.semantic, size)?),
                 ];
+                for image in &logged.on_request {
+                    let (ending, file) = (ending_on_request(image.channel), file_on_request(image, size)?);
+                    // Columns called `..._file_name` are read as pictures.
+                    let key = if ending == "png" { "file_name" } else { "path" };
+                    pictures.push((format!("{}_{key}", image.channel.name), image.channel.name, ending, file));
+                }
                 for (key, kind, ending, bytes) in pictures {
                     let path = format!("{kind}/{}", picture_path(number, &flight.trajectory_id, frame, ending));
                     out.put(&format!("{split}/{path}"), &bytes)?;

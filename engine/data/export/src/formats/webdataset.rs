@@ -4,7 +4,7 @@ use crate::card::Card;
 use crate::folder::OutFolder;
 use crate::format::Format;
 use crate::media::ending;
-use crate::pixels::{depth_png, gray8_png, gray16_png, id_in_16_bits};
+use crate::pixels::{depth_png, ending_on_request, file_on_request, gray8_png, gray16_png, id_in_16_bits};
 use crate::sample_text::frame_facts;
 use crate::shared_options::{InstructionOptions, PictureOptions};
 use crate::source::Source;
@@ -57,7 +57,11 @@ impl Format for WebDataset {
             })?;
             shards.end()?;
         }
-        Card { format: "WebDataset", front_matter: front_matter(source), body: BODY.into() }.write(source, out)?;
+        let mut body = String::from(BODY);
+        for channel in source.channels_on_request()? {
+            body.push_str(&format!("| `{}.{}` | {} |\n", channel.name, ending_on_request(channel), channel.doc));
+        }
+        Card { format: "WebDataset", front_matter: front_matter(source), body }.write(source, out)?;
         Ok(vec![])
     }
 }
@@ -80,13 +84,20 @@ fn keys(source: &Source<'_>) -> Result<BTreeMap<String, String>> {
 /// Endings and bytes of a sample.
 fn files(logged: &LoggedFrame, facts: &serde_json::Value) -> Result<Vec<(String, Vec<u8>)>> {
     let size = [logged.width, logged.height];
-    Ok(vec![
+    let mut files = vec![
         (format!("rgb.{}", ending(&logged.rgb_format)), logged.rgb_file.clone()),
         ("depth.png".into(), depth_png(&logged.depth_m, size)?),
         ("semantic.png".into(), gray8_png(&logged.semantic, size)?),
         ("instance.png".into(), gray16_png(logged.instance.iter().map(|id| id_in_16_bits(*id)), size)?),
-        ("json".into(), format!("{facts}\n").into_bytes()),
-    ])
+    ];
+    for image in &logged.on_request {
+        files.push((
+            format!("{}.{}", image.channel.name, ending_on_request(image.channel)),
+            file_on_request(image, size)?,
+        ));
+    }
+    files.push(("json".into(), format!("{facts}\n").into_bytes()));
+    Ok(files)
 }
 
 /// The shards of a split, one of them open.

@@ -1,10 +1,11 @@
 //! Reads a frame pack, one frame at a time; truncated and damaged packs are refused.
 
-use super::image_record::{ChunkRecords, depth_records, id_records};
-use super::{
-    END_MAGIC, ENTRY_BYTES, FOOTER_BYTES, MAGIC, MAX_FRAMES, PackHeader, SECTIONS, Section, VERSION, check_of, damaged,
-};
+use super::header::{PackHeader, damaged};
+use super::image_record::{ImageRecord, length_of, messages_of, records_of};
+use super::layout::{END_MAGIC, ENTRY_BYTES, FOOTER_BYTES, MAGIC, MAX_FRAMES, Part, Section, VERSION, check_of, parts};
 use cosfly_diagnose::{Diagnostic, Result};
+use cosfly_render::Channel;
+use cosfly_render::channels::rgb;
 use cosfly_schema::record::PreviewStrip;
 use foxglove::bytes::Bytes;
 use std::io::{Read, Seek, SeekFrom};
@@ -13,14 +14,12 @@ use std::io::{Read, Seek, SeekFrom};
 /// dropped.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct PackedFrame {
-    /// A JPEG or PNG file, as the header's encoding says.
-    pub rgb_file: Bytes,
-    /// The depth image.
-    pub depth: PackedChunk,
-    /// Both id images.
-    pub ids: PackedChunk,
-    /// Previews, unless they are switched off.
-    pub previews: Option<Previews>,
+    /// JPEG or PNG files, as the header's encoding says.
+    pub files: Vec<(&'static Channel, Bytes)>,
+    /// Raw images.
+    pub chunks: Vec<PackedChunk>,
+    /// Small pictures for viewers, 320 pixels wide: JPEG or PNG files; none where previews are switched off.
+    pub previews: Vec<(&'static Channel, Bytes)>,
 }
 
 /// Message records of a log, compressed with zstd.
@@ -38,33 +37,13 @@ pub struct PackedChunk {
     pub messages: Vec<(u16, u64)>,
 }
 
-/// Pixels of a frame's raw images.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct RawPixels {
-    /// Row-major f32, little-endian, metres along the optical axis; infinite for sky.
-    pub depth_le: Vec<u8>,
-    /// Row-major CARLA label ids.
-    pub semantic: Vec<u8>,
-    /// Row-major u16 or u32, little-endian, as the header's instance format says.
-    pub instance_le: Vec<u8>,
-}
-
-/// Small pictures of a frame for viewers.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Previews {
-    /// JPEG file, 320 pixels wide.
-    pub rgb_jpeg: Bytes,
-    /// JPEG file, 320 pixels wide, logarithmic colours.
-    pub depth_jpeg: Bytes,
-    /// PNG file, 320 pixels wide, index = label id, palette = CARLA's colours.
-    pub semantic_png: Bytes,
-}
-
 /// Reads one pack.
 pub struct FramePackReader<R: Read + Seek> {
     input: R,
     header: PackHeader,
-    sections: Vec<[Section; SECTIONS]>,
+    parts: Vec<Part>,
+    /// One for each part of each frame.
+    sections: Vec<Section>,
     /// The last frame.
     buffer: Bytes,
 }
@@ -84,7 +63,11 @@ impl<R: Read + Seek> FramePackReader<R> {
             return Err(damaged("it was cut short: its end mark is missing".into()));
         }
         let (index_offset, frames) = (u64_at(&footer, 0), u64_at(&footer, 8));
-        let index_bytes = frames.min(MAX_FRAMES + 1) * (SECTIONS * ENTRY_BYTES) as u64;
+        let header: PackHeader =
+            serde_json::from_slice(&header_bytes).map_err(|error| damaged(format!("its header: {error}")))?;
+        header.check()?;
+        let parts = parts(&header);
+        let index_bytes = frames.min(MAX_FRAMES + 1) * (parts.len() * ENTRY_BYTES) as u64;
         if frames > MAX_FRAMES || index_offset < data_start || index_offset.checked_add(index_bytes) != Some(footer_at)
         {
             return Err(damaged(format!("its index of {frames} frames does not fit its {length} bytes")));
@@ -93,11 +76,8 @@ impl<R: Read + Seek> FramePackReader<R> {
         if check_of(&[&header_bytes[..], &index].concat()) != footer[16..24] {
             return Err(damaged("its header or index does not match its check".into()));
         }
-        let header: PackHeader =
-            serde_json::from_slice(&header_bytes).map_err(|error| damaged(format!("its header: {error}")))?;
-        header.check()?;
         let sections = read_index(&index, data_start, index_offset)?;
-        Ok(Self { input, header, sections, buffer: Bytes::new() })
+        Ok(Self { input, header, parts, sections, buffer: Bytes::new() })
     }
 
     /// What all frames share.
@@ -107,7 +87,7 @@ impl<R: Read + Seek> FramePackReader<R> {
 
     /// Number of frames.
     pub fn len(&self) -> usize {
-        self.sections.len()
+        self.sections.len() / self.parts.len()
     }
 
     /// Whether there is no frame.
@@ -116,53 +96,72 @@ impl<R: Read + Seek> FramePackReader<R> {
     }
 
     /// All images of frame `frame`.
+    ///
+    /// # Errors
+    /// No such frame, or damage.
     pub fn frame(&mut self, frame: usize) -> Result<PackedFrame> {
-        let row = *self.row(frame)?;
+        let row = self.row(frame)?.to_vec();
         let bytes: u64 = row.iter().map(|section| section.bytes).sum();
         let mut buffer = core::mem::take(&mut self.buffer).try_into_mut().unwrap_or_default();
         buffer.resize(bytes as usize, 0);
         fill_at(&mut self.input, row[0].offset, &mut buffer)?;
         self.buffer = buffer.freeze();
         let mut left = self.buffer.clone();
-        let mut parts = [const { Bytes::new() }; SECTIONS];
-        for (number, (part, section)) in parts.iter_mut().zip(&row).enumerate() {
-            *part = left.split_to(section.bytes as usize);
-            section.check(part, frame, number)?;
+        let mut packed = PackedFrame { files: vec![], chunks: vec![], previews: vec![] };
+        for (number, (part, section)) in self.parts.iter().zip(&row).enumerate() {
+            let bytes = left.split_to(section.bytes as usize);
+            section.check(&bytes, frame, number)?;
+            match part {
+                Part::File(channel) => packed.files.push((*channel, bytes)),
+                Part::Chunk(channels) => {
+                    let records = records_of(&self.header, channels, frame);
+                    packed.chunks.push(section.chunk(bytes, &records, frame)?);
+                }
+                Part::Preview(channel) if self.header.encoding.previews => packed.previews.push((*channel, bytes)),
+                Part::Preview(_) => {}
+            }
         }
-        let [rgb_file, depth, ids, rgb_jpeg, depth_jpeg, semantic_png] = parts;
-        let previews = self.header.encoding.previews;
-        Ok(PackedFrame {
-            rgb_file,
-            depth: row[1].chunk(depth, &depth_records(&self.header, frame), frame)?,
-            ids: row[2].chunk(ids, &id_records(&self.header, frame), frame)?,
-            previews: previews.then_some(Previews { rgb_jpeg, depth_jpeg, semantic_png }),
-        })
+        Ok(packed)
     }
 
-    /// The RGB previews of all frames; empty when previews are off.
+    /// The colour previews of all frames; empty when previews are off.
+    ///
+    /// # Errors
+    /// Damage.
     pub fn preview_strip(&mut self) -> Result<PreviewStrip> {
-        if !self.header.encoding.previews {
+        let is_colour = |part: &Part| *part == Part::Preview(&rgb::CHANNEL);
+        let Some(part) = self.parts.iter().position(is_colour).filter(|_| self.header.encoding.previews) else {
             return Ok(PreviewStrip::default());
-        }
-        Ok(PreviewStrip { jpegs: (0..self.len()).map(|frame| self.section(frame, 3)).collect::<Result<_>>()? })
+        };
+        Ok(PreviewStrip { jpegs: (0..self.len()).map(|frame| self.section(frame, part)).collect::<Result<_>>()? })
     }
 
-    /// The pixels of a frame's raw images, decompressed.
-    pub fn raw_pixels(&mut self, frame: usize) -> Result<RawPixels> {
-        let (depth, ids) = (depth_records(&self.header, frame), id_records(&self.header, frame));
+    /// The pixels of a frame's raw image of `channel`, decompressed: row-major, little-endian, in the format that the
+    /// header gives the channel. Empty for channels that the pack does not have as raw images.
+    ///
+    /// # Errors
+    /// No such frame, or damage.
+    pub fn raw_pixels(&mut self, channel: &Channel, frame: usize) -> Result<Vec<u8>> {
         let packed = self.frame(frame)?;
-        let (depth_bytes, id_bytes) = (unpacked(&packed.depth, frame)?, unpacked(&packed.ids, frame)?);
-        let (semantic, instance) = id_bytes.split_at(ids.records[0].len());
-        Ok(RawPixels {
-            depth_le: depth_bytes[depth.records[0].pixels()].to_vec(),
-            semantic: semantic[ids.records[0].pixels()].to_vec(),
-            instance_le: instance[ids.records[1].pixels()].to_vec(),
-        })
+        let chunks = self.parts.iter().filter_map(|part| match part {
+            Part::Chunk(channels) => Some(channels),
+            _ => None,
+        });
+        for (channels, chunk) in chunks.zip(&packed.chunks) {
+            let records = records_of(&self.header, channels, frame);
+            let Some(at) = records.iter().position(|record| record.channel == channel) else { continue };
+            let begin = length_of(&records[..at]);
+            let place = records[at].pixels();
+            return Ok(unpacked(chunk, frame)?[begin + place.start..begin + place.end].to_vec());
+        }
+        Ok(vec![])
     }
 
-    fn row(&self, frame: usize) -> Result<&[Section; SECTIONS]> {
-        let missing = || damaged(format!("it has {} frames, no frame {frame}", self.sections.len()));
-        self.sections.get(frame).ok_or_else(missing)
+    /// The sections of a frame.
+    fn row(&self, frame: usize) -> Result<&[Section]> {
+        let parts = self.parts.len();
+        let missing = || damaged(format!("it has {} frames, no frame {frame}", self.len()));
+        self.sections.chunks_exact(parts).nth(frame).ok_or_else(missing)
     }
 
     fn section(&mut self, frame: usize, number: usize) -> Result<Vec<u8>> {
@@ -182,12 +181,12 @@ impl Section {
     }
 
     /// This section, which holds `records`.
-    fn chunk<const N: usize>(&self, stored: Bytes, records: &ChunkRecords<N>, frame: usize) -> Result<PackedChunk> {
-        let (plain_bytes, expected) = (u64::from(self.plain_bytes), records.len());
+    fn chunk(&self, stored: Bytes, records: &[ImageRecord], frame: usize) -> Result<PackedChunk> {
+        let (plain_bytes, expected) = (u64::from(self.plain_bytes), length_of(records));
         if plain_bytes != expected as u64 {
             return Err(damaged(format!("frame {frame}: images of {plain_bytes} bytes, not {expected}")));
         }
-        let messages = records.messages.clone();
+        let messages = messages_of(records);
         Ok(PackedChunk { stored, stored_crc: self.crc, plain_bytes, plain_crc: self.plain_crc, messages })
     }
 }
@@ -222,19 +221,16 @@ fn read_header(input: &mut (impl Read + Seek), length: u64) -> Result<(Vec<u8>, 
     Ok((read_at(input, 16, header_bytes as usize)?, data_start))
 }
 
-fn read_index(index: &[u8], data_start: u64, data_end: u64) -> Result<Vec<[Section; SECTIONS]>> {
+fn read_index(index: &[u8], data_start: u64, data_end: u64) -> Result<Vec<Section>> {
     let mut sections = vec![];
     let mut offset = data_start;
-    for frame in index.chunks_exact(SECTIONS * ENTRY_BYTES) {
-        let mut row = [Section::default(); SECTIONS];
-        for (section, entry) in row.iter_mut().zip(frame.chunks_exact(ENTRY_BYTES)) {
-            let bytes = u64_at(entry, 0);
-            let [crc, plain_bytes, plain_crc] = [8, 12, 16].map(|at| u32_at(entry, at));
-            *section = Section { offset, bytes, crc, plain_bytes, plain_crc };
-            let end = offset.checked_add(bytes).filter(|end| *end <= data_end);
-            offset = end.ok_or_else(|| damaged(format!("frame {} lies outside of it", sections.len())))?;
-        }
-        sections.push(row);
+    for entry in index.chunks_exact(ENTRY_BYTES) {
+        let bytes = u64_at(entry, 0);
+        let [crc, plain_bytes, plain_crc] = [8, 12, 16].map(|at| u32_at(entry, at));
+        let end = offset.checked_add(bytes).filter(|end| *end <= data_end);
+        let end = end.ok_or_else(|| damaged(format!("section {} lies outside of it", sections.len())))?;
+        sections.push(Section { offset, bytes, crc, plain_bytes, plain_crc });
+        offset = end;
     }
     if offset != data_end {
         return Err(damaged(format!("its frames end at byte {offset}, its index begins at {data_end}")));

@@ -1,10 +1,10 @@
-//! The channels of a log: one writer with every topic declared, and messages appended by topic.
+//! The topics of a log: one writer with every topic declared, and messages appended by topic.
 
-use super::container::{Chunk, Container, message_head};
+use super::container::{Chunk, Container};
 use crate::frame_pack::PackedChunk;
+use crate::message_head::message_head;
 use cosfly_diagnose::{Diagnostic, Fault, Result};
-use cosfly_schema::log::{target_state, topic};
-use foxglove::{Encode, Schema, messages};
+use cosfly_schema::log::Topic;
 use prost::Message;
 use std::collections::BTreeMap;
 use std::io::Write;
@@ -12,11 +12,11 @@ use std::io::Write;
 /// Level of what is written once; pictures are compressed in the frame pack.
 const ZSTD_LEVEL: i32 = 3;
 
-/// An MCAP writer with all channels of [`topic`] declared. Messages gather until a chunk is ended.
+/// An MCAP writer with all topics declared. Messages gather until a chunk is ended.
 pub struct ChannelWriter<W: Write> {
     container: Container<W>,
     schemas: BTreeMap<String, u16>,
-    channels: BTreeMap<&'static str, (u16, u32)>,
+    channels: BTreeMap<String, (u16, u32)>,
     /// Records of the chunk that is not ended, their channels and offsets, and the moment of all of them.
     records: Vec<u8>,
     messages: Vec<(u16, u64)>,
@@ -24,49 +24,21 @@ pub struct ChannelWriter<W: Write> {
 }
 
 impl<W: Write> ChannelWriter<W> {
-    /// Begins a log. `output` is only appended to. `with_previews` declares the preview topics.
-    pub fn new(output: W, with_previews: bool) -> Result<Self> {
+    /// Begins a log with these topics. `output` is only appended to.
+    ///
+    /// # Errors
+    /// The output cannot be written.
+    pub fn new(output: W, topics: &[Topic]) -> Result<Self> {
         let container = Container::new(output, "cosfly").map_err(|error| write_error(&error))?;
         let (schemas, channels, records, messages) = (BTreeMap::new(), BTreeMap::new(), vec![], vec![]);
         let mut this = Self { container, schemas, channels, records, messages, time_ns: 0 };
-        this.declare_all(with_previews)?;
+        topics.iter().try_for_each(|topic| this.declare(topic))?;
         Ok(this)
     }
 
-    /// Those of [`topic::PACKED`] come first: their ids stand in frame packs.
-    fn declare_all(&mut self, with_previews: bool) -> Result<()> {
-        let depth = [("unit", "m"), ("depth", "planar, along the optical axis"), ("no_hit", "+inf")];
-        self.declare::<messages::RawImage>(topic::DEPTH, &depth)?;
-        self.declare::<messages::RawImage>(topic::SEMANTIC, &[("labels", "CARLA 0.9.14 and later")])?;
-        let instance = [("0", "ground and sky"), ("1", "the target"), ("2 and more", "object id + 2, then people")];
-        self.declare::<messages::RawImage>(topic::INSTANCE, &instance)?;
-        debug_assert!(topic::PACKED.iter().zip(1..).all(|(topic, id)| self.channels[topic].0 == id));
-        self.declare::<messages::CompressedImage>(topic::RGB, &[])?;
-        self.declare::<messages::CameraCalibration>(topic::CAMERA, &[])?;
-        self.declare::<messages::ImageAnnotations>(topic::ANNOTATIONS, &[])?;
-        if with_previews {
-            for preview in [topic::RGB_PREVIEW, topic::DEPTH_PREVIEW, topic::SEMANTIC_PREVIEW] {
-                self.declare::<messages::CompressedImage>(preview, &[])?;
-            }
-        }
-        self.declare::<messages::FrameTransforms>(topic::TF, &[])?;
-        self.declare::<messages::PoseInFrame>(topic::DRONE_POSE, &[])?;
-        self.declare::<messages::PoseInFrame>(topic::TARGET_POSE, &[])?;
-        self.declare::<messages::PosesInFrame>(topic::DRONE_PATH, &[])?;
-        self.declare::<messages::PosesInFrame>(topic::TARGET_PATH, &[])?;
-        self.declare::<messages::SceneUpdate>(topic::SCENE, &[])?;
-        self.declare::<messages::Log>(topic::CAPTIONS, &[])?;
-        let state = Schema::new(target_state::SCHEMA_NAME, "protobuf", target_state::descriptor_set());
-        self.declare_schema(topic::TARGET_STATE, &state, &[])
-    }
-
-    fn declare<M: Encode>(&mut self, topic: &'static str, notes: &[(&str, &str)]) -> Result<()> {
-        let schema = M::get_schema().expect("every Foxglove message has a schema");
-        self.declare_schema(topic, &schema, notes)
-    }
-
-    fn declare_schema(&mut self, topic: &'static str, schema: &Schema, notes: &[(&str, &str)]) -> Result<()> {
+    fn declare(&mut self, topic: &Topic) -> Result<()> {
         let refused = |error: std::io::Error| write_error(&error);
+        let schema = &topic.schema;
         let schema_id = match self.schemas.get(&schema.name) {
             Some(id) => *id,
             None => {
@@ -75,13 +47,13 @@ impl<W: Write> ChannelWriter<W> {
                 id
             }
         };
-        let channel = self.container.channel(schema_id, topic, "protobuf", notes).map_err(refused)?;
-        self.channels.insert(topic, (channel, 0));
+        let channel = self.container.channel(schema_id, &topic.name, "protobuf", topic.notes).map_err(refused)?;
+        self.channels.insert(topic.name.clone(), (channel, 0));
         Ok(())
     }
 
     /// Adds a message to the chunk; all messages of a chunk have the same time.
-    pub fn write(&mut self, topic: &'static str, time_ns: u64, message: &impl Message) -> Result<()> {
+    pub fn write(&mut self, topic: &str, time_ns: u64, message: &impl Message) -> Result<()> {
         let (channel, sequence) = self
             .channels
             .get_mut(topic)

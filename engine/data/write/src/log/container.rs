@@ -14,7 +14,6 @@ mod opcode {
     pub const FOOTER: u8 = 0x02;
     pub const SCHEMA: u8 = 0x03;
     pub const CHANNEL: u8 = 0x04;
-    pub const MESSAGE: u8 = 0x05;
     pub const CHUNK: u8 = 0x06;
     pub const MESSAGE_INDEX: u8 = 0x07;
     pub const CHUNK_INDEX: u8 = 0x08;
@@ -23,21 +22,6 @@ mod opcode {
     pub const METADATA_INDEX: u8 = 0x0d;
     pub const SUMMARY_OFFSET: u8 = 0x0e;
     pub const DATA_END: u8 = 0x0f;
-}
-
-/// Bytes of a message record before its payload: opcode, length, channel, sequence, two times.
-pub const MESSAGE_HEAD_BYTES: usize = 31;
-
-/// The head of a message record; its payload of `payload_bytes` bytes follows.
-pub fn message_head(channel: u16, sequence: u32, time_ns: u64, payload_bytes: usize) -> [u8; MESSAGE_HEAD_BYTES] {
-    let mut head = [0; MESSAGE_HEAD_BYTES];
-    head[0] = opcode::MESSAGE;
-    head[1..9].copy_from_slice(&((MESSAGE_HEAD_BYTES - 9 + payload_bytes) as u64).to_le_bytes());
-    head[9..11].copy_from_slice(&channel.to_le_bytes());
-    head[11..15].copy_from_slice(&sequence.to_le_bytes());
-    head[15..23].copy_from_slice(&time_ns.to_le_bytes());
-    head[23..31].copy_from_slice(&time_ns.to_le_bytes());
-    head
 }
 
 /// Message records of one moment, compressed or not.
@@ -267,6 +251,7 @@ impl Fields {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::message_head::{MESSAGE_HEAD_BYTES, message_head};
     use ::mcap::sans_io::linear_reader::{LinearReadEvent, LinearReader, LinearReaderOptions};
 
     fn file() -> Vec<u8> {

@@ -1,7 +1,8 @@
-//! The metadata records of a log: what it is, weather, camera, conventions, labels.
+//! The metadata records of a log: trajectory, weather, camera, conventions, labels, instances.
 
 use crate::frame_pack::PackHeader;
 use cosfly_maps::{Obstacle, SemanticLabel, Town};
+use cosfly_render::channels::instance;
 use cosfly_render::frame::{TARGET_INSTANCE, object_instance};
 use cosfly_schema::tables::kind_name;
 use cosfly_schema::{DepthEncoding, OtherPerson, RenderedTrajectory};
@@ -104,7 +105,7 @@ fn conventions(header: &PackHeader) -> BTreeMap<String, String> {
         DepthEncoding::Grid => "rounded to multiples of 2^-10 m",
         DepthEncoding::Lossless => "as rendered",
     };
-    entries([
+    let mut conventions = entries([
         ("time", "frame i is at i * dt_s; time 0 is the first frame".into()),
         ("map_frame", "right-handed, metres: x = x of CARLA, y = -y of CARLA, z up".into()),
         ("drone_frame", "x ahead, y left, z up; the camera sits in its origin and looks along x, turned by its mount".into()),
@@ -114,10 +115,13 @@ fn conventions(header: &PackHeader) -> BTreeMap<String, String> {
         ("depth_values", depth_grid.into()),
         ("semantic", "CARLA label ids of 0.9.14 and later".into()),
         ("instance", "0 ground and sky, 1 the target, object id + 2, then people; unsigned, little-endian".into()),
-        ("instance_encoding", header.instance.encoding().into()),
+        ("instance_encoding", header.format_of(&instance::CHANNEL).encoding.into()),
         ("pixels", "row-major from the top-left pixel, sampled at pixel centres; through a lens, depth and ids are the nearest sample".into()),
         ("boxes", "left, top, right, bottom edges in pixels from the top-left corner of the image".into()),
-    ])
+    ]);
+    let on_request = header.channels.iter().filter(|channel| channel.is_on_request());
+    conventions.extend(on_request.map(|channel| (channel.name.to_owned(), channel.doc.to_owned())));
+    conventions
 }
 
 fn labels() -> BTreeMap<String, String> {

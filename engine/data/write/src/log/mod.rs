@@ -8,7 +8,5 @@ mod writer;
 
 pub use writer::write_log;
 
-pub(crate) use container::message_head;
-
 #[cfg(test)]
 mod tests;

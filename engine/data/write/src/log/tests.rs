@@ -2,8 +2,9 @@
 
 use super::*;
 use crate::frame_pack::FramePackReader;
+use cosfly_render::ChannelSet;
 use cosfly_sample as sample;
-use cosfly_schema::log::{TargetStateMessage, right_handed, topic};
+use cosfly_schema::log::{Rhythm, TargetStateMessage, right_handed, topic, topics};
 use cosfly_schema::{EncodingConfig, LogRecord, RenderedTrajectory, Role};
 use prost::Message;
 use std::io::Cursor;
@@ -43,26 +44,13 @@ fn every_frame_has_every_channel_at_its_time() {
     let record = sample::flight(0, Role::Perturbed).record;
     let (bytes, log_record) = log(&record);
     let times: Vec<u64> = (0..5).map(|i| i * 500_000_000).collect();
-    for topic in [
-        topic::RGB,
-        topic::CAMERA,
-        topic::ANNOTATIONS,
-        topic::RGB_PREVIEW,
-        topic::DEPTH,
-        topic::DEPTH_PREVIEW,
-        topic::SEMANTIC,
-        topic::SEMANTIC_PREVIEW,
-        topic::INSTANCE,
-        topic::TF,
-        topic::DRONE_POSE,
-        topic::TARGET_POSE,
-        topic::TARGET_STATE,
-    ] {
-        let found: Vec<u64> = messages_of(&bytes, topic).iter().map(|message| message.0).collect();
-        assert_eq!(found, times, "{topic}");
-    }
-    for (topic, count) in [(topic::DRONE_PATH, 1), (topic::TARGET_PATH, 1), (topic::SCENE, 1), (topic::CAPTIONS, 2)] {
-        assert_eq!(messages_of(&bytes, topic).len(), count, "{topic}");
+    for topic in topics(&ChannelSet::default()) {
+        let found: Vec<u64> = messages_of(&bytes, &topic.name).iter().map(|message| message.0).collect();
+        match topic.rhythm {
+            Rhythm::EveryFrame | Rhythm::Previews => assert_eq!(found, times, "{}", topic.name),
+            Rhythm::Once => assert_eq!(found, [0], "{}", topic.name),
+            Rhythm::Captions => assert_eq!(found, [0, 0], "{}", topic.name),
+        }
     }
     assert_eq!(log_record.messages, 13 * 5 + 5);
 }

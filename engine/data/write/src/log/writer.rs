@@ -5,8 +5,9 @@ use super::{metadata, scene};
 use crate::frame_pack::{FramePackReader, PackHeader, PackedFrame};
 use cosfly_diagnose::{Diagnostic, Fault, Result};
 use cosfly_fingerprint::sha256::HashingWriter;
+use cosfly_images::previews;
 use cosfly_maps::Town;
-use cosfly_schema::log::{frame_time_ns, messages, topic};
+use cosfly_schema::log::{Rhythm, frame_time_ns, messages, topic, topics};
 use cosfly_schema::{CaptionRecord, LogRecord, RenderedTrajectory, RgbEncoding};
 use std::io::{Read, Seek, Write};
 
@@ -23,7 +24,10 @@ pub fn write_log<R: Read + Seek>(
     record.check()?;
     check_pack(record, pack)?;
     let mut hashing = HashingWriter::new(output);
-    let mut log = ChannelWriter::new(&mut hashing, pack.header().encoding.previews)?;
+    let with_previews = pack.header().encoding.previews;
+    let mut topics = topics(&pack.header().channels);
+    topics.retain(|topic| with_previews || topic.rhythm != Rhythm::Previews);
+    let mut log = ChannelWriter::new(&mut hashing, &topics)?;
     for (name, entries) in metadata::records(record, pack.header(), town) {
         log.metadata(name, &entries)?;
     }
@@ -107,14 +111,14 @@ fn write_frame<W: Write>(
         RgbEncoding::Jpeg => "jpeg",
         RgbEncoding::Png => "png",
     };
-    log.write(topic::RGB, time, &messages::compressed_image(time, format, images.rgb_file))?;
-    if let Some(previews) = images.previews {
-        log.write(topic::RGB_PREVIEW, time, &messages::compressed_image(time, "jpeg", previews.rgb_jpeg))?;
-        log.write(topic::DEPTH_PREVIEW, time, &messages::compressed_image(time, "jpeg", previews.depth_jpeg))?;
-        log.write(topic::SEMANTIC_PREVIEW, time, &messages::compressed_image(time, "png", previews.semantic_png))?;
+    for (channel, file) in images.files {
+        log.write(&topic::images(channel), time, &messages::compressed_image(time, format, file))?;
     }
-    // Three chunks a frame: who reads one of them decodes nothing of the others.
+    for (channel, file) in images.previews {
+        let message = messages::compressed_image(time, previews::format(channel), file);
+        log.write(&topic::previews(channel), time, &message)?;
+    }
+    // A chunk for the files and one for each kind of raw images: who reads one of them decodes nothing of the others.
     log.end_plain_chunk()?;
-    log.packed_chunk(time, &images.depth)?;
-    log.packed_chunk(time, &images.ids)
+    images.chunks.iter().try_for_each(|chunk| log.packed_chunk(time, chunk))
 }

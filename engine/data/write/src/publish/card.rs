@@ -45,6 +45,10 @@ pub fn readme(config: &DatasetConfig, summary: &Summary) -> String {
     text.push_str(&figures(summary));
     text.push_str(&loading(config, summary));
     text.push_str(CONVENTIONS);
+    for channel in summary.channels.iter().filter(|channel| channel.is_on_request()) {
+        let _ = writeln!(text, "* Channel `{}`: {}", channel.name, channel.doc);
+    }
+    text.push('\n');
     text.push_str("## Tables\n\n");
     tables::of_trajectories().iter().for_each(|table| text.push_str(&table_section(table)));
     text.push_str(&table_section(&tables::of_objects()));
@@ -178,7 +182,7 @@ one and its centre is at (0.5, 0.5).\n\
 * Depth: planar, along the optical axis, metres, 32-bit float, +inf for sky.\n\
 * Semantic images: CARLA's label ids (0.9.14 and later). Instance images: 0 ground and sky, 1 the target, object id + \
 2 (table `objects`), then people (table `people`).\n\
-* Boxes: left, top, right, bottom edges in pixels; right and bottom lie outside.\n\n";
+* Boxes: left, top, right, bottom edges in pixels; right and bottom lie outside.\n";
 
 fn table_section<S>(table: &Table<S>) -> String {
     let mut text = format!("### {}\n\n{}\n\n| column | type | meaning |\n| --- | --- | --- |\n", table.name, table.doc);

@@ -2,6 +2,7 @@
 
 use cosfly_blobs::BlobRef;
 use cosfly_diagnose::Result;
+use cosfly_render::ChannelSet;
 use cosfly_report::PlannerRow;
 use cosfly_schema::extras::Extra;
 use cosfly_schema::tables::ObjectRecord;
@@ -15,6 +16,8 @@ pub struct PublishedLog {
     pub record: LogRecord,
     /// The bytes, for [`OutputSink::link`].
     pub blob: BlobRef,
+    /// Channels of the log.
+    pub channels: ChannelSet,
 }
 
 /// Loads the trajectories of a dataset one at a time, by their place in the list of logs. Each is loaded once per

@@ -1,5 +1,6 @@
 //! The figures of a dataset that card and `croissant.json` state.
 
+use cosfly_render::ChannelSet;
 use cosfly_schema::LogRecord;
 use cosfly_schema::extras::ExtraSummary;
 use cosfly_schema::tables::DatasetItem;
@@ -39,6 +40,8 @@ pub struct Summary {
     pub splits: BTreeMap<&'static str, (u64, u64)>,
     /// Rows by table name and split name; tables over something else than flights are a split of their own name.
     pub rows: BTreeMap<&'static str, BTreeMap<String, u64>>,
+    /// Channels of the logs, all of them together.
+    pub channels: ChannelSet,
     /// Tables and files of plugins.
     pub extras: Vec<ExtraSummary>,
 }

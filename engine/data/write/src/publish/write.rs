@@ -11,6 +11,7 @@ use cosfly_blobs::OutputSink;
 use cosfly_diagnose::{Diagnostic, Fault, Result};
 use cosfly_fingerprint::sha256::{HashingWriter, sha256_of};
 use cosfly_metrics::WindowShape;
+use cosfly_render::{Channel, ChannelSet};
 use cosfly_report::FlightSketch;
 use cosfly_schema::config::DatasetConfig;
 use cosfly_schema::extras::{self, Extra, ExtraShape, ExtraSource, ExtraSummary};
@@ -178,6 +179,8 @@ fn summarise(items: &Items<'_>, rejections: &[Rejection]) -> Result<(Summary, Ve
     let splits = Split::ALL.iter().map(|split| (split.name(), (0, 0))).collect();
     let mut summary = Summary { splits, ..Summary::default() };
     summary.count_rejections(rejections);
+    let is_logged = |channel: &Channel| items.logs.iter().any(|log| log.channels.iter().any(|it| it == channel));
+    summary.channels = ChannelSet::of(is_logged);
     let mut flights = vec![];
     for index in 0..items.logs.len() {
         let (item, split) = (items.load(index, Reading::default())?, items.plan.splits[index].name());

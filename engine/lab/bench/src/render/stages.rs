@@ -8,7 +8,7 @@ use cosfly_diagnose::Result;
 use cosfly_frames::simd::Level;
 use cosfly_images::previews::SmallImages;
 use cosfly_images::{depth, ids, rgb};
-use cosfly_render::{FrameImages, FrameParts, FrameSetup, PictureLook, Renderer, Weather};
+use cosfly_render::{ChannelSet, FrameImages, FrameParts, FrameSetup, PictureLook, Renderer, Weather};
 use cosfly_write::frame_pack::chunk_compressor;
 use cosfly_write::{FramePackReader, FramePackWriter, PackHeader, write_log};
 use serde::Serialize;
@@ -188,10 +188,10 @@ fn encoding_s(images: &[FrameImages], options: &RenderOptions<'_>) -> Result<[f6
     let mut small = SmallImages::default();
     let (encoded, previews_s) = timed(|| -> Result<()> {
         for it in images {
-            small.rgb(it, &mut file)?;
-            small.depth(it, &mut file)?;
-            small.semantic(it, &mut file)?;
-            black_box(&file);
+            for channel in ChannelSet::default().iter() {
+                small.draw(channel, it, &mut file)?;
+                black_box(&file);
+            }
         }
         Ok(())
     });

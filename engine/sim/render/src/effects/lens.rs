@@ -1,7 +1,7 @@
 //! Radial distortion after Brown: `r_seen = r (1 + k1 r^2 + k2 r^4)`, with r the tangent of the angle from the optical axis.
 
 use crate::camera::Camera;
-use crate::frame::FrameImages;
+use crate::frame::{ChannelImage, FrameImages};
 use cosfly_frames::real;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -85,7 +85,8 @@ impl Lens {
         (cx + focal * x * scale, cy + focal * y * scale)
     }
 
-    /// Where an ideal camera would see what this lens shows at pixel coordinates (u, v); `None` outside of its reach.
+    /// Pixel coordinates in an ideal camera of the point that this lens shows at (u, v); `None` outside of the lens's
+    /// reach.
     pub fn unbend(&self, camera: &Camera, (u, v): (f64, f64)) -> Option<(f64, f64)> {
         if self.is_none() {
             return Some((u, v));
@@ -100,7 +101,7 @@ impl Lens {
         Some((cx + focal * x * scale, cy + focal * y * scale))
     }
 
-    /// How many times wider than the picture the ideal picture is that this lens needs; `None` when there is none.
+    /// Width of the ideal picture that this lens needs, in widths of the picture; `None` when there is none.
     pub fn widening(&self, camera: &Camera) -> Option<f64> {
         let corner = self.unbend(camera, (0.0, 0.0))?;
         let (cx, cy, _) = centre_and_focal(camera);
@@ -112,7 +113,7 @@ fn centre_and_focal(camera: &Camera) -> (f64, f64, f64) {
     (0.5 * f64::from(camera.width), 0.5 * f64::from(camera.height), camera.focal_px())
 }
 
-/// Where each pixel of the finished picture comes from in the ideal one.
+/// Place in the ideal picture of each pixel of the finished one.
 pub(crate) struct LensMap {
     camera: Camera,
     ideal: Camera,
@@ -186,6 +187,12 @@ impl LensMap {
         out.depth_m.resize(pixels, f32::INFINITY);
         out.semantic.resize(pixels, 0);
         out.instance.resize(pixels, 0);
+        ChannelImage::match_channels(&mut out.on_request, &ideal.on_request, pixels);
+        for (out, ideal) in out.on_request.iter_mut().zip(&ideal.on_request) {
+            for (pixel, sample) in self.samples.iter().enumerate() {
+                out.copy_pixel(pixel, ideal, self.nearest(sample));
+            }
+        }
         let row = 3 * self.ideal.width as usize;
         for (pixel, sample) in self.samples.iter().enumerate() {
             let nearest = self.nearest(sample);

@@ -1,8 +1,9 @@
-//! What a real camera adds to an ideal picture: lens distortion, motion blur, a rolling shutter, sensor noise. All off by
+//! Effects of a real camera on an ideal picture: lens distortion, motion blur, a rolling shutter, sensor noise. All off by
 //! default.
 //!
 //! Colour goes through the blur (a mean of light over the shutter), then the lens (bilinear), then the sensor (noise).
-//! Depth and ids are those of the middle of the shutter, seen through the lens at the nearest sample: they are never mixed.
+//! Depth, ids and channels on request are those of the middle of the shutter, seen through the lens at the nearest sample:
+//! they are never mixed.
 //! A rolling shutter takes all channels of a strip of rows at the strip's moment, so that they still agree.
 
 mod lens;
@@ -18,9 +19,9 @@ pub use rolling_shutter::RollingShutter;
 use crate::backend::{Backend, BackendError};
 use crate::camera::Camera;
 use crate::figure::{Bystander, TargetSetup};
-use crate::frame::{FrameImages, PersonView};
-use crate::renderer::{FrameSetup, RenderedFrame};
+use crate::frame::{ChannelImage, FrameImages, PersonView, RenderedFrame};
 use crate::scene::Scene;
+use crate::setup::FrameSetup;
 use crate::target_view;
 use crate::weather::Weather;
 use cosfly_frames::simd::Level;
@@ -29,7 +30,7 @@ use lens::LensMap;
 use motion_blur::Exposure;
 use std::ops::Range;
 
-/// What is in front of the camera at a moment.
+/// Camera and target at a moment.
 #[derive(Clone, Copy, Debug)]
 pub struct Moment {
     /// The camera's pose.
@@ -42,9 +43,9 @@ pub struct Moment {
 pub struct Shot<'a> {
     /// Weather with its sun azimuth drawn.
     pub weather: &'a Weather,
-    /// What is to be seen this many seconds after the middle of the shutter (before it, when negative).
+    /// The moment this many seconds after the middle of the shutter (before it, when negative).
     pub moment: &'a dyn Fn(f64) -> Moment,
-    /// Adds everybody else who is about then to an empty list.
+    /// Adds everybody else at that time to an empty list.
     pub others: &'a dyn Fn(f64, &mut Vec<Bystander>),
     /// Seed of the sensor's noise; another one per frame.
     pub noise_seed: Seed,
@@ -107,7 +108,7 @@ impl Effects {
     /// Takes a picture with `backend`, which draws with [`Self::ideal_camera`].
     ///
     /// # Errors
-    /// What the backend says.
+    /// Failure of the backend.
     pub fn film<'a>(
         &'a mut self,
         backend: &'a mut dyn Backend,
@@ -176,5 +177,11 @@ fn add_rows(from: &FrameImages, rgb: &[u8], rows: Range<usize>, to: &mut FrameIm
     to.rgb[colours.clone()].copy_from_slice(&rgb[colours]);
     to.depth_m[pixels.clone()].copy_from_slice(&from.depth_m[pixels.clone()]);
     to.semantic[pixels.clone()].copy_from_slice(&from.semantic[pixels.clone()]);
-    to.instance[pixels.clone()].copy_from_slice(&from.instance[pixels]);
+    to.instance[pixels.clone()].copy_from_slice(&from.instance[pixels.clone()]);
+    ChannelImage::match_channels(&mut to.on_request, &from.on_request, from.depth_m.len());
+    for (to, from) in to.on_request.iter_mut().zip(&from.on_request) {
+        let size = from.channel.bytes_on_request();
+        let bytes = size * pixels.start..size * pixels.end;
+        to.bytes[bytes.clone()].copy_from_slice(&from.bytes[bytes]);
+    }
 }

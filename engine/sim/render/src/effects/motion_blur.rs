@@ -8,7 +8,7 @@ use serde::{Deserialize, Serialize};
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(default, deny_unknown_fields)]
 pub struct MotionBlur {
-    /// How long the shutter is open around a frame's time, seconds; 0: no blur.
+    /// Exposure time around a frame's time, seconds; 0: no blur.
     #[schemars(range(min = 0, max = 0.5))]
     pub shutter_s: f64,
     /// Pictures that a frame is the mean of; each costs a rendering. One of them is the middle: an even number

@@ -18,7 +18,7 @@ pub struct Noise {
 
 /// Standard deviation of the sum of four uniform 16-bit numbers: 65536 / sqrt(3).
 const SUM_DEVIATION: f32 = 37_837.227;
-/// Their mean sum.
+/// Mean of their sum.
 const SUM_MEAN: i32 = 2 * 65535;
 
 impl Noise {

@@ -1,7 +1,7 @@
 //! Planar depth, semantic and instance ids in bands of rows, from the faces seen in them.
 
+use crate::faces::{DrawnFace, FaceSource};
 use crate::frame::FrameImages;
-use crate::renderer::{DrawnFace, FaceSource};
 use crate::visibility::NO_FACE;
 use cosfly_frames::simd::Level;
 use cosfly_frames::simd_kernel;
@@ -33,7 +33,7 @@ pub(crate) struct SeenRuns(Vec<BandRuns>);
 pub(crate) struct BandRuns {
     /// Row by row.
     pub all: Vec<Run>,
-    /// Where each row's runs end.
+    /// End of each row's runs.
     row_ends: Vec<usize>,
     /// Bits of the places where a row's faces change.
     changes: Vec<u64>,
@@ -244,6 +244,7 @@ mod tests {
             depth_m: vec![0.0; ids.len()],
             semantic: vec![0; ids.len()],
             instance: vec![0; ids.len()],
+            on_request: vec![],
         };
         let mut seen = SeenRuns::default();
         for_each_band(false, &ids, &mut images, &mut seen, |mut band| band.resolve(Level::best(), &[]));

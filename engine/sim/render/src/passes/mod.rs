@@ -1,3 +1,4 @@
 //! Channels that follow exactly from the face nearest at each pixel centre.
 
 pub mod ids;
+pub mod on_request;

@@ -7,18 +7,18 @@ use super::lanes::{Block, FOUR, FOURS, GROUPS, LANES, Shared, Stage, WIDE, get, 
 use super::light::Light;
 use super::lighting::{self, Answers};
 use super::pattern::{NoiseTexture, Noises, share};
+use super::setting::{Seen, Setting};
+use super::simple;
 use super::surface::Look;
 use super::things::{Thing, swell, things};
 use super::vector::Vec3;
-use super::{Seen, Shader, simple};
-use crate::config::PictureLook;
+use crate::faces::{DrawnFace, FaceSource};
+use crate::look::PictureLook;
 use crate::passes::ids::{Band, Run};
-use crate::renderer::{DrawnFace, FaceSource};
-use crate::scene::{BOX_FACES, SceneBox};
+use crate::scene_parts::{BOX_FACES, SceneBox};
 use crate::visibility::{NO_FACE, PlaneOnScreen};
 use cosfly_frames::simd_kernel;
 use cosfly_maps::{ObstacleKind, SemanticLabel};
-use std::sync::PoisonError;
 
 /// Groups of pixels that are not of a single face: the sky, and ground by label. Faces of one part of a body are a group,
 /// too, named after the first of them.
@@ -27,7 +27,7 @@ const SHARED_GROUPS: usize = 64;
 /// No run follows.
 const END: u32 = u32::MAX;
 
-/// What one thread needs to shade bands.
+/// Buffers of one thread that shades bands.
 pub(crate) struct Worker {
     stage: Box<Stage>,
     shared: Box<[Shared; GROUPS]>,
@@ -59,7 +59,7 @@ struct Link {
 struct Piece {
     /// First pixel, from the start of the band.
     start: usize,
-    /// Its place in the blocks.
+    /// Place of that pixel in the blocks.
     lane: usize,
     /// Pixels.
     length: usize,
@@ -74,7 +74,7 @@ struct Piece {
     normal: [f32; 3],
 }
 
-/// What the pixels of a group are made of.
+/// Material of the pixels of a group.
 enum Material {
     Sky,
     Ground(SemanticLabel),
@@ -82,15 +82,6 @@ enum Material {
     Roof(Roof),
     Thing(Thing),
     Cloth(Cloth),
-}
-
-/// Shades a band from its runs.
-pub(super) fn shade(shader: &Shader, seen: &Seen<'_>, band: &mut Band<'_>) {
-    let idle = || shader.idle.lock().unwrap_or_else(PoisonError::into_inner);
-    let mut worker = idle().pop().unwrap_or_else(Worker::new);
-    worker.shade(shader, seen, band);
-    bytes(shader.level, &worker.picture, band.rgb);
-    idle().push(worker);
 }
 
 simd_kernel! {
@@ -113,7 +104,7 @@ simd_kernel! {
 }
 
 impl Worker {
-    fn new() -> Self {
+    pub fn new() -> Self {
         Self {
             stage: Box::new(Stage::EMPTY),
             shared: Box::new([Shared::EMPTY; GROUPS]),
@@ -129,7 +120,8 @@ impl Worker {
         }
     }
 
-    fn shade(&mut self, shader: &Shader, seen: &Seen<'_>, band: &Band<'_>) {
+    /// Shades a band from its runs.
+    pub fn shade(&mut self, setting: &Setting, seen: &Seen<'_>, band: &mut Band<'_>) {
         self.picture.resize(band.rgb.len() / 3, 0);
         self.gather(seen, band);
         let rows = band.first_row..band.first_row + self.picture.len() / band.width.max(1);
@@ -138,11 +130,12 @@ impl Worker {
         self.near_band.extend(people.filter(|(_, person)| person.reach.meets_rows(rows.clone())).map(|(k, _)| k));
         for position in 0..self.present.len() {
             let group = self.present[position] as usize;
-            self.shade_group(shader, seen, band, group);
+            self.shade_group(setting, seen, band, group);
             self.first[group] = END;
         }
         self.present.clear();
         self.runs.clear();
+        bytes(setting.level, &self.picture, band.rgb);
     }
 
     /// Lists the band's runs by group; neighbours in a row that are alike to the kernels become one.
@@ -173,10 +166,10 @@ impl Worker {
         }
     }
 
-    fn shade_group(&mut self, shader: &Shader, seen: &Seen<'_>, band: &Band<'_>, group: usize) {
+    fn shade_group(&mut self, setting: &Setting, seen: &Seen<'_>, band: &Band<'_>, group: usize) {
         let mut next = self.first[group];
         let first = self.runs[next as usize].run;
-        let (material, axes) = material_of(shader, seen, first.face);
+        let (material, axes) = material_of(setting, seen, first.face);
         let mut lanes = 0;
         while next != END {
             let Link { run, next: after } = self.runs[next as usize];
@@ -200,13 +193,13 @@ impl Worker {
                 lanes += length.next_multiple_of(FOUR);
                 start += length;
                 if lanes == LANES {
-                    self.flush(shader, seen, &material, &axes, lanes);
+                    self.flush(setting, seen, &material, &axes, lanes);
                     lanes = 0;
                 }
             }
         }
         if lanes > 0 {
-            self.flush(shader, seen, &material, &axes, lanes);
+            self.flush(setting, seen, &material, &axes, lanes);
         }
     }
 
@@ -235,17 +228,17 @@ impl Worker {
     }
 
     /// Takes the filled lanes through the kernels and writes their pixels.
-    fn flush(&mut self, shader: &Shader, seen: &Seen<'_>, material: &Material, axes: &FaceAxes, lanes: usize) {
+    fn flush(&mut self, setting: &Setting, seen: &Seen<'_>, material: &Material, axes: &FaceAxes, lanes: usize) {
         let groups = lanes.div_ceil(FOUR * WIDE);
         self.find_near(seen);
-        fill(shader.level, &self.pieces, &mut self.stage);
+        fill(setting.level, &self.pieces, &mut self.stage);
         let (shared, blocks) = (&mut self.shared[..groups], &mut self.blocks[..FOUR * groups]);
         let blocks = (shared, blocks);
-        match shader.look {
-            PictureLook::Full => run_kernels(shader, seen, material, axes, &self.stage, blocks, &self.near),
-            PictureLook::Simple => run_simple_kernels(shader, material, axes, &self.stage, blocks),
+        match setting.look {
+            PictureLook::Full => run_kernels(setting, seen, material, axes, &self.stage, blocks, &self.near),
+            PictureLook::Simple => run_simple_kernels(setting, material, axes, &self.stage, blocks),
         }
-        put_back(shader.level, &self.pieces, &self.blocks[..FOUR * groups], &mut self.developed, &mut self.picture);
+        put_back(setting.level, &self.pieces, &self.blocks[..FOUR * groups], &mut self.developed, &mut self.picture);
         self.pieces.clear();
     }
 }
@@ -347,7 +340,7 @@ simd_kernel! {
 }
 
 fn run_kernels(
-    shader: &Shader,
+    setting: &Setting,
     seen: &Seen<'_>,
     material: &Material,
     axes: &FaceAxes,
@@ -355,14 +348,14 @@ fn run_kernels(
     (shared, blocks): (&mut [Shared], &mut [Block]),
     near: &[u32],
 ) {
-    let (level, light, noise) = (shader.level, &shader.light, &seen.scene.noise);
+    let (level, light, noise) = (setting.level, &setting.light, &seen.scene.noise);
     if let Material::Sky = material {
-        lighting::sky(level, blocks, stage, &shader.view, light, &shader.tone, noise);
+        lighting::sky(level, blocks, stage, &setting.view, light, &setting.tone, noise);
         return;
     }
     let grid = &seen.scene.grid;
-    place(level, shared, stage, &shader.view, axes, light);
-    points(level, shared, blocks, stage, &shader.view);
+    place(level, shared, stage, &setting.view, axes, light);
+    points(level, shared, blocks, stage, &setting.view);
     open(level, shared, grid.tables(), &grid.frame(), light.night > 0.0);
     if let Material::Ground(_) = material {
         for person in near {
@@ -374,12 +367,12 @@ fn run_kernels(
     if let Material::Thing(thing) = material
         && is_bent
     {
-        swell(level, blocks, thing, shader.view.position);
+        swell(level, blocks, thing, setting.view.position);
     }
     if material.faces_away(stage, light) {
         blocks.iter_mut().for_each(|block| block.sunlight = [0.0; WIDE]);
     } else {
-        shader.shadows.sunlight(level, blocks, !is_bent, noise, near);
+        setting.shadows.sunlight(level, blocks, !is_bent, noise, near);
     }
     match material {
         Material::Sky => {}
@@ -389,9 +382,9 @@ fn run_kernels(
         Material::Thing(thing) => things(level, shared, blocks, thing, noise),
         Material::Cloth(look) => cloth(level, shared, blocks, look, noise),
     }
-    lighting::arriving(level, shared, light, shader.haze);
+    lighting::arriving(level, shared, light, setting.haze);
     if is_bent {
-        lighting::develop_bent(level, shared, blocks, light, &shader.tone);
+        lighting::develop_bent(level, shared, blocks, light, &setting.tone);
         return;
     }
     let answers = material.answers();
@@ -403,33 +396,33 @@ fn run_kernels(
     if is_shiny {
         lighting::mirrored(level, shared, light);
     }
-    lighting::develop(level, shared, blocks, light, &shader.tone, answers.glows && light.night > 0.0, is_shiny);
+    lighting::develop(level, shared, blocks, light, &setting.tone, answers.glows && light.night > 0.0, is_shiny);
 }
 
 /// Draws a group in the simple look.
 fn run_simple_kernels(
-    shader: &Shader,
+    setting: &Setting,
     material: &Material,
     axes: &FaceAxes,
     stage: &Stage,
     (shared, blocks): (&mut [Shared], &mut [Block]),
 ) {
-    let (level, light, tone) = (shader.level, &shader.light, &shader.tone);
+    let (level, light, tone) = (setting.level, &setting.light, &setting.tone);
     if let Material::Sky = material {
-        simple::sky(level, blocks, stage, &shader.view, light, tone);
+        simple::sky(level, blocks, stage, &setting.view, light, tone);
         return;
     }
-    place(level, shared, stage, &shader.view, axes, light);
+    place(level, shared, stage, &setting.view, axes, light);
     simple::open_sky(level, shared);
-    lighting::arriving(level, shared, light, shader.haze);
+    lighting::arriving(level, shared, light, setting.haze);
     match material {
         Material::Facade(look, face) => {
-            points(level, shared, blocks, stage, &shader.view);
+            points(level, shared, blocks, stage, &setting.view);
             simple::windows(level, shared, blocks, look, face, light, tone);
         }
         Material::Thing(thing) if material.is_bent() => {
-            points(level, shared, blocks, stage, &shader.view);
-            swell(level, blocks, thing, shader.view.position);
+            points(level, shared, blocks, stage, &setting.view);
+            swell(level, blocks, thing, setting.view.position);
             simple::crown(level, blocks, thing.colour());
             lighting::develop_bent(level, shared, blocks, light, tone);
         }
@@ -453,7 +446,7 @@ fn group_of(faces: &[DrawnFace], face: u32) -> usize {
     }
 }
 
-fn material_of(shader: &Shader, seen: &Seen<'_>, face: u32) -> (Material, FaceAxes) {
+fn material_of(setting: &Setting, seen: &Seen<'_>, face: u32) -> (Material, FaceAxes) {
     let flat = FaceAxes { along: Vec3::new(1.0, 0.0, 0.0), up: Vec3::new(0.0, 1.0, 0.0) };
     let Some(face) = seen.faces.get(face as usize) else { return (Material::Sky, flat) };
     match face.source {
@@ -468,7 +461,7 @@ fn material_of(shader: &Shader, seen: &Seen<'_>, face: u32) -> (Material, FaceAx
             (Material::Cloth(Cloth { colour: Vec3::new(r, g, b), from, along: to - from }), flat)
         }
         FaceSource::Box { index, face } => {
-            box_material(&seen.scene.boxes[index as usize], usize::from(face), shader.light.night)
+            box_material(&seen.scene.boxes[index as usize], usize::from(face), setting.light.night)
         }
     }
 }
@@ -536,7 +529,7 @@ impl Material {
 #[derive(Clone, Copy, Debug)]
 struct Cloth {
     colour: Vec3,
-    /// Its middle line.
+    /// Middle line.
     from: Vec3,
     along: Vec3,
 }

@@ -33,7 +33,7 @@ const SIGNS: [Vec3; 8] = [
 ];
 const GLASS: Vec3 = Vec3::new(0.035, 0.045, 0.055);
 
-/// What all points of one facade share.
+/// Properties of a whole facade.
 #[derive(Clone, Copy, Debug)]
 pub struct Facade {
     seed: u32,
@@ -232,7 +232,7 @@ impl Facade {
     }
 }
 
-/// Where on a box's upright face a point is.
+/// Place of a point on a box's upright face.
 #[derive(Clone, Copy, Debug)]
 pub struct BoxFace {
     /// The face's horizontal.
@@ -284,7 +284,7 @@ simd_kernel! {
     }
 }
 
-/// What all points of one roof share.
+/// Properties of a whole roof.
 #[derive(Clone, Copy, Debug)]
 pub struct Roof {
     seed: u32,
@@ -303,7 +303,7 @@ impl Roof {
         Self { seed, tone, shift: unit(seed) * 99.0, center, axes, half_m }
     }
 
-    /// Its colour without patterns.
+    /// Colour without patterns.
     pub fn colour(&self) -> Vec3 {
         self.tone
     }

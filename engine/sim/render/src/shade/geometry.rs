@@ -10,11 +10,11 @@ use cosfly_frames::simd_kernel;
 /// The camera for shading, f32.
 #[derive(Clone, Copy, Debug)]
 pub struct View {
-    /// Where it is, metres.
+    /// Position, metres.
     pub position: Vec3,
     /// Direction through pixel coordinates (0, 0), depth 1.
     pub corner: Vec3,
-    /// Its change per pixel to the right.
+    /// Change of the direction per pixel to the right.
     pub across: Vec3,
     /// And down.
     pub down: Vec3,

@@ -1,6 +1,6 @@
 //! Light that stays in place: how much sky the ground sees, and how much lamps give, on a coarse grid over the town.
 
-use crate::scene::{Cluster, SceneBox};
+use crate::scene_parts::{Cluster, SceneBox};
 use crate::shade::pattern::{blend, fixed_size, floor_int, four_bytes, least, lerp, most, nearest_index, share};
 use cosfly_frames::DVec3;
 use cosfly_maps::ObstacleKind;
@@ -12,7 +12,7 @@ const TABLE_SIDE: usize = 512;
 /// Lamp light of a byte's step.
 const LAMP_STEP: f32 = 1.0 / 64.0;
 
-/// What the grid says at one place.
+/// Values of the grid at one place.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct GridSample {
     /// Height of the ground, metres.
@@ -67,7 +67,7 @@ impl GridPlace {
     }
 }
 
-/// Where the tables lie.
+/// Place of the tables in the world.
 #[derive(Clone, Copy, Debug)]
 pub struct GridFrame {
     min: [f32; 2],
@@ -144,7 +144,7 @@ impl LightGrid {
         &self.tables
     }
 
-    /// Where they lie.
+    /// Place of the tables in the world.
     pub fn frame(&self) -> GridFrame {
         let last = [self.columns, self.rows].map(|count| count as f32 - 1.501);
         GridFrame { min: self.min, cells_per_m: self.cells_per_m, last }

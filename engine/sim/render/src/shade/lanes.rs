@@ -1,6 +1,6 @@
 //! Pixels on their way through the shading kernels: sixteen fours of neighbours, one array per quantity.
 //!
-//! What changes slowly over a surface (light, haze, pixel sizes) is worked out once for the four pixels of a [`Shared`]
+//! Values that change slowly over a surface (light, haze, pixel sizes) are worked out once for the four pixels of a [`Shared`]
 //! lane; textures and shadow edges for each pixel of the four [`Block`]s beside it.
 
 use super::surface::{Look, SurfacePoint};
@@ -32,7 +32,7 @@ pub struct Stage {
     pub v: StageRow,
     /// Inverse planar depth there, 1/m.
     pub inverse: StageRow,
-    /// Its change per pixel to the right.
+    /// Change per pixel to the right.
     pub across: StageRow,
     /// And down.
     pub down: StageRow,
@@ -58,7 +58,7 @@ impl Stage {
     }
 }
 
-/// What the pixels of sixteen fours share. Lanes that no pixel fills hold whatever they held.
+/// Values that the pixels of sixteen fours share. Lanes that no pixel fills hold whatever they held.
 #[repr(align(64))]
 #[derive(Clone, Debug)]
 pub struct Shared {
@@ -80,17 +80,17 @@ pub struct Shared {
     pub lamps: Lane,
     /// Share of light that haze lets through, exposed.
     pub kept: Lane,
-    /// What haze adds, exposed.
+    /// Light that haze adds, exposed.
     pub fog: Lane3,
     /// Light on the surface where the sun reaches it.
     pub sunny: Lane3,
     /// All other light on it.
     pub soft: Lane3,
-    /// What a mirror there shows.
+    /// Light in a mirror there.
     pub mirrored: Lane3,
     /// Strength of the sun's image in it.
     pub glint: Lane,
-    /// How much of a mirror the surface is when it is one.
+    /// Share of mirrored light, for surfaces that mirror.
     pub fresnel: Lane,
 }
 
@@ -136,7 +136,7 @@ pub struct Block {
     pub world: Lane3,
     /// Share of the sun's light that no shadow takes.
     pub sunlight: Lane,
-    /// What the material answers.
+    /// Looks of the material.
     pub albedo: Lane3,
     /// Light of its own.
     pub emission: Lane3,
@@ -164,7 +164,7 @@ impl Block {
         bytes: [0; WIDE],
     };
 
-    /// What a material is told about pixel `k`.
+    /// Input of a material at pixel `k`.
     #[inline(always)]
     pub fn point(&self, shared: &Shared, k: usize) -> SurfacePoint {
         SurfacePoint {
@@ -175,7 +175,7 @@ impl Block {
         }
     }
 
-    /// What a flat one answered about pixel `k`.
+    /// Output of a flat material at pixel `k`.
     #[inline(always)]
     pub fn look(&self, k: usize) -> Look {
         Look {

@@ -13,9 +13,9 @@ use cosfly_frames::simd_kernel;
 pub struct Answers {
     /// Rain makes it dark and shiny, puddles gather on it.
     pub wettable: bool,
-    /// It mirrors a little, dry too.
+    /// A little mirroring, dry too.
     pub shiny: bool,
-    /// It shines by itself.
+    /// Light of its own.
     pub glows: bool,
 }
 
@@ -59,7 +59,7 @@ simd_kernel! {
 }
 
 simd_kernel! {
-    /// What flat surfaces mirror.
+    /// The sky as flat surfaces mirror it.
     pub fn mirrored(shared: &mut [Shared], light: &Light) {
         let light = *light;
         for shared in shared.iter_mut() {

@@ -3,11 +3,12 @@
 //! A point (x, y, z) and every point on its ray towards the sun fall on the same place of the map,
 //! `(x, y) - (z - reference) * sun.xy / sun.z`; it is in shadow when the map's height there is above z.
 
+use crate::eye::Eye;
 use crate::figure::FigureTriangle;
 use crate::frame::TARGET_INSTANCE;
 use crate::people::People;
-use crate::renderer::Eye;
-use crate::scene::{BOX_FACES, Scene};
+use crate::scene::Scene;
+use crate::scene_parts::BOX_FACES;
 use crate::shade::lanes::{Block, FOUR, WIDE, get};
 use crate::shade::pattern::{NoiseTexture, Noises, fixed_size, floor_int, least, lerp, most, one_if, smoothstep};
 use crate::shade::shadow_region::{Region, for_seen_points};
@@ -37,11 +38,11 @@ const LEAST_HALF_WIDTH_M: f64 = 0.13;
 /// Places this near what the view shows are drawn, too, metres: shading moves points a little.
 const MARGIN_M: f64 = 3.0;
 
-/// What stands in a texel of the town's map.
+/// Content of a texel of the town's map.
 const SOLID: u32 = 0;
 const LEAVES: u32 = 1;
 
-/// Where a map lies. Its v axis runs along the sun's direction over the ground, so that upright edges,
+/// Place of a map. The v axis runs along the sun's direction over the ground, so that upright edges,
 /// whose shadows run that way, follow the texels and do not turn into stairs.
 #[derive(Clone, Copy, Debug, PartialEq)]
 struct Frame {
@@ -113,12 +114,12 @@ struct Packed {
 /// A figure's own map, and where it lies; nowhere without a shadow.
 struct FigureShadow {
     map: Box<FigureMap>,
-    /// How many of its rows and columns are in use.
+    /// Number of rows and columns in use.
     side: usize,
     rows: Option<[[f32; 4]; 2]>,
 }
 
-/// Where the town's map lies.
+/// Place of the town's map.
 #[derive(Clone, Copy, Debug, Default)]
 struct Places {
     rows: [[f32; 4]; 2],

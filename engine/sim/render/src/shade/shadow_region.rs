@@ -1,6 +1,6 @@
 //! Which part of a shadow map a view can need.
 
-use crate::renderer::Eye;
+use crate::eye::Eye;
 use crate::visibility::Screen;
 use cosfly_frames::{DVec2, DVec3};
 

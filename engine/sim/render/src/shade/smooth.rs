@@ -25,9 +25,9 @@ pub(crate) struct Smoother {
     changes: Vec<Change>,
 }
 
-/// What smoothing adds to a pixel.
+/// Change of a pixel by smoothing.
 struct Change {
-    /// Its first byte.
+    /// First byte of the pixel.
     at: usize,
     added: [i16; 3],
 }

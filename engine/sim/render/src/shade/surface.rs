@@ -1,4 +1,4 @@
-//! What materials are told about a pixel, and what they answer.
+//! Input and output of materials at a pixel.
 
 use super::vector::Vec3;
 
@@ -15,7 +15,7 @@ pub struct SurfacePoint {
     pub footprints_m: [f32; 2],
 }
 
-/// How a surface looks. Colours are linear RGB.
+/// Looks of a surface. Colours are linear RGB.
 #[derive(Clone, Copy, Debug)]
 pub struct Look {
     /// Share of light sent back.

@@ -22,11 +22,11 @@ const PAINTS: [Vec3; 8] = [
 /// The box a thing is made of, and one of its faces.
 #[derive(Clone, Copy, Debug)]
 pub struct Thing {
-    /// What it is.
+    /// Kind.
     pub kind: ObstacleKind,
     /// The box's middle, metres.
     pub center: Vec3,
-    /// Its own horizontal axes.
+    /// Horizontal axes.
     pub axes: [Vec3; 2],
     /// Half its size.
     pub half: Vec3,
@@ -38,7 +38,7 @@ pub struct Thing {
     pub whole: [Vec3; 2],
     /// 0 by day, 1 at night.
     pub night: f32,
-    /// Its own colour, drawn from the seed.
+    /// Colour, drawn from the seed.
     tint: Vec3,
     /// Which of several looks it has, drawn from the seed.
     choice: usize,
@@ -111,7 +111,7 @@ impl Thing {
         Self { kind, center, axes, half, seed, axis, whole, night, tint, choice, shrink }
     }
 
-    /// Its colour without patterns.
+    /// Colour without patterns.
     pub fn colour(&self) -> Vec3 {
         match self.kind {
             ObstacleKind::TreeCrown | ObstacleKind::Bush => self.tint * 1.2,

@@ -1,0 +1,26 @@
+//! Raw images in a log: encoding and bytes per pixel of each element type.
+
+use cosfly_render::channels::{Channel, Element};
+
+/// Layout of a raw image's pixels: row-major, little-endian.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct RawFormat {
+    /// Name in Foxglove's messages.
+    pub encoding: &'static str,
+    /// Bytes of a pixel.
+    pub pixel_bytes: usize,
+}
+
+/// The formats that raw images of a channel may have; none for channels that are image files. Ids are `16UC1`, or `32UC1`
+/// where a town has more objects than 16 bits can name (not in Foxglove's list: `step` / `width` = 4 tells the size).
+pub fn formats(channel: &Channel) -> &'static [RawFormat] {
+    match channel.element() {
+        Element::Colour => &[],
+        Element::Float => &[RawFormat { encoding: "32FC1", pixel_bytes: 4 }],
+        Element::Label => &[RawFormat { encoding: "mono8", pixel_bytes: 1 }],
+        Element::Id => {
+            &[RawFormat { encoding: "16UC1", pixel_bytes: 2 }, RawFormat { encoding: "32UC1", pixel_bytes: 4 }]
+        }
+        Element::Bytes => &[RawFormat { encoding: "rgb8", pixel_bytes: 3 }],
+    }
+}

@@ -1,0 +1,158 @@
+//! Topics of a log: two for each channel (images, previews), and those of everything beside the images.
+
+use super::raw_format::formats;
+use super::target_state;
+use cosfly_render::ChannelSet;
+use cosfly_render::channels::{self, Channel, Element};
+use foxglove::{Encode, Schema, messages};
+
+/// Calibration of all images.
+pub const CAMERA: &str = "/camera/rgb/camera_info";
+/// Boxes of the target and of other people.
+pub const ANNOTATIONS: &str = "/camera/rgb/annotations";
+/// Transforms between `map`, drone, camera and target.
+pub const TF: &str = "/tf";
+/// Pose of the drone.
+pub const DRONE_POSE: &str = "/drone/pose";
+/// Pose of the target's feet.
+pub const TARGET_POSE: &str = "/target/pose";
+/// The whole flight.
+pub const DRONE_PATH: &str = "/drone/path";
+/// The whole walk.
+pub const TARGET_PATH: &str = "/target/path";
+/// Obstacles near the flight, and the target.
+pub const SCENE: &str = "/scene";
+/// Captions.
+pub const CAPTIONS: &str = "/captions";
+/// State of the target.
+pub const TARGET_STATE: &str = "/target/state";
+
+/// Topic of a channel's images.
+pub fn images(channel: &Channel) -> String {
+    format!("/camera/{}/image", channel.name)
+}
+
+/// Topic of a channel's previews.
+pub fn previews(channel: &Channel) -> String {
+    format!("/camera/{}/preview", channel.name)
+}
+
+/// The channel whose images are on `topic`.
+pub fn channel_of(topic: &str) -> Option<&'static Channel> {
+    let name = topic.strip_prefix("/camera/")?.strip_suffix("/image")?;
+    channels::called(name)
+}
+
+/// How often a topic has a message.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Rhythm {
+    /// At every frame.
+    EveryFrame,
+    /// At every frame of logs with previews.
+    Previews,
+    /// At time 0.
+    Once,
+    /// At time 0, one message for each caption.
+    Captions,
+}
+
+/// A topic of a log.
+#[derive(Clone, Debug)]
+pub struct Topic {
+    /// Name.
+    pub name: String,
+    /// Meaning: schema, then what the messages hold.
+    pub doc: String,
+    /// Schema of the messages.
+    pub schema: Schema,
+    /// Keys and texts that a log carries beside the topic.
+    pub notes: &'static [(&'static str, &'static str)],
+    /// How often there is a message.
+    pub rhythm: Rhythm,
+}
+
+impl Topic {
+    fn new<M: Encode>(name: impl Into<String>, doc: &str, rhythm: Rhythm) -> Self {
+        let schema = M::get_schema().expect("every Foxglove message has a schema");
+        let doc = format!("`{}`{doc}", schema.name);
+        Self { name: name.into(), doc, schema, notes: &[], rhythm }
+    }
+}
+
+/// All topics of a log with these channels, in the order in which logs declare them. Raw images come first: their numbers
+/// stand in frame packs.
+pub fn topics(channels: &ChannelSet) -> Vec<Topic> {
+    let is_raw = |channel: &&Channel| channel.element() != Element::Colour;
+    let mut topics: Vec<Topic> = channels.iter().filter(is_raw).map(raw_images).collect();
+    for channel in channels.iter().filter(|channel| !is_raw(channel)) {
+        let doc = format!(": {}", channel.doc);
+        topics.push(Topic::new::<messages::CompressedImage>(images(channel), &doc, Rhythm::EveryFrame));
+    }
+    topics.push(Topic::new::<messages::CameraCalibration>(CAMERA, " of all images.", Rhythm::EveryFrame));
+    let boxes = ": boxes of the target and of other people.";
+    topics.push(Topic::new::<messages::ImageAnnotations>(ANNOTATIONS, boxes, Rhythm::EveryFrame));
+    for channel in channels.iter() {
+        if let Some(doc) = preview_doc(channel) {
+            let doc = format!(": {doc}");
+            topics.push(Topic::new::<messages::CompressedImage>(previews(channel), &doc, Rhythm::Previews));
+        }
+    }
+    topics.push(Topic::new::<messages::FrameTransforms>(TF, ".", Rhythm::EveryFrame));
+    topics.push(Topic::new::<messages::PoseInFrame>(DRONE_POSE, " of the drone.", Rhythm::EveryFrame));
+    topics.push(Topic::new::<messages::PoseInFrame>(TARGET_POSE, " of the target's feet.", Rhythm::EveryFrame));
+    topics.push(Topic::new::<messages::PosesInFrame>(DRONE_PATH, ": the whole flight, once.", Rhythm::Once));
+    topics.push(Topic::new::<messages::PosesInFrame>(TARGET_PATH, ": the whole walk, once.", Rhythm::Once));
+    let scene = ": obstacles near the flight and the target, once.";
+    topics.push(Topic::new::<messages::SceneUpdate>(SCENE, scene, Rhythm::Once));
+    topics.push(Topic::new::<messages::Log>(CAPTIONS, ": captions, once.", Rhythm::Captions));
+    topics.push(Topic {
+        name: TARGET_STATE.into(),
+        doc: format!("`{}`.", target_state::SCHEMA_NAME),
+        schema: Schema::new(target_state::SCHEMA_NAME, "protobuf", target_state::descriptor_set()),
+        notes: &[],
+        rhythm: Rhythm::EveryFrame,
+    });
+    topics
+}
+
+fn raw_images(channel: &Channel) -> Topic {
+    let encodings: Vec<String> = formats(channel).iter().map(|format| format!("`{}`", format.encoding)).collect();
+    let on_request = if channel.is_on_request() { " On request." } else { "" };
+    let doc = format!(" {}: {}{on_request}", encodings.join(" or "), channel.doc);
+    let topic = Topic::new::<messages::RawImage>(images(channel), &doc, Rhythm::EveryFrame);
+    Topic { notes: channel.notes, ..topic }
+}
+
+/// What previews of a channel show; nothing for channels without previews.
+fn preview_doc(channel: &Channel) -> Option<String> {
+    match channel.element() {
+        Element::Colour => Some("small colour image.".into()),
+        Element::Float => Some(format!("{} in logarithmic colours.", channel.name)),
+        Element::Label => Some("labels as palette PNG.".into()),
+        Element::Bytes => Some(format!("{} as PNG.", channel.name)),
+        Element::Id => None,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_channel_is_found_by_the_topic_of_its_images() {
+        for channel in channels::ALL {
+            assert_eq!(channel_of(&images(channel)), Some(*channel));
+            assert_eq!(channel_of(&previews(channel)), None);
+        }
+        assert_eq!(channel_of("/camera/sound/image"), None);
+    }
+
+    #[test]
+    fn every_topic_has_a_name_of_its_own() {
+        let mut names: Vec<String> = topics(&ChannelSet::of(|_| true)).into_iter().map(|topic| topic.name).collect();
+        let count = names.len();
+        names.sort();
+        names.dedup();
+        assert_eq!(names.len(), count);
+    }
+}

@@ -1,0 +1,118 @@
+//! The entry of a channel: name, meaning, element type, and how a pixel is drawn and checked.
+
+use cosfly_frames::DVec3;
+
+/// A channel: one image per frame.
+#[derive(Debug)]
+pub struct Channel {
+    /// Name in recipes, topics and files: lower-case letters and `_`.
+    pub name: &'static str,
+    /// Meaning with unit and frame, a sentence without its first capital.
+    pub doc: &'static str,
+    /// Origin of the pixels, and with it their element type.
+    pub source: Source,
+    /// Keys and texts that a log carries beside the channel's topic.
+    pub notes: &'static [(&'static str, &'static str)],
+    /// Whether the stored bytes of a pixel are a value of the channel, for channels on request; `cosfly verify` compares
+    /// the channels of every frame with the tables instead.
+    pub is_value: fn(&[u8]) -> bool,
+}
+
+/// Origin of a channel's pixels.
+#[derive(Clone, Copy, Debug)]
+pub enum Source {
+    /// Shading: sRGB, three bytes a pixel; part of every frame.
+    Colour,
+    /// Planar depth, metres; part of every frame.
+    Depth,
+    /// CARLA label ids; part of every frame.
+    Labels,
+    /// Instance ids; part of every frame.
+    Ids,
+    /// A number for each pixel, drawn where a recipe asks for the channel.
+    Number(fn(&SeenPoint) -> f32),
+    /// Three bytes for each pixel, drawn where a recipe asks for the channel.
+    Bytes(fn(&SeenPoint) -> [u8; 3]),
+}
+
+/// Element type of a pixel as it is stored.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Element {
+    /// Three bytes, stored as an image file.
+    Colour,
+    /// A 32-bit float.
+    Float,
+    /// A label id, one byte.
+    Label,
+    /// An instance id, two or four bytes.
+    Id,
+    /// Three bytes.
+    Bytes,
+}
+
+/// The surface that is nearest at a pixel centre. World frame.
+#[derive(Clone, Copy, Debug)]
+pub struct SeenPoint {
+    /// Planar depth, metres; infinite for the sky.
+    pub depth_m: f32,
+    /// CARLA label id.
+    pub label: u8,
+    /// Instance id.
+    pub instance: u32,
+    /// Unit normal of the surface on the camera's side; zero for the sky.
+    pub normal_in_world: DVec3,
+    /// Direction from the camera through the pixel centre, of length 1 along the optical axis: the surface is at
+    /// `camera_in_world + depth_m * ray_in_world`.
+    pub ray_in_world: DVec3,
+    /// Position of the camera, metres.
+    pub camera_in_world: DVec3,
+}
+
+impl Channel {
+    /// Element type of the pixels.
+    pub fn element(&self) -> Element {
+        match self.source {
+            Source::Colour => Element::Colour,
+            Source::Depth | Source::Number(_) => Element::Float,
+            Source::Labels => Element::Label,
+            Source::Ids => Element::Id,
+            Source::Bytes(_) => Element::Bytes,
+        }
+    }
+
+    /// Whether the channel is drawn only where a recipe asks for it.
+    pub fn is_on_request(&self) -> bool {
+        matches!(self.source, Source::Number(_) | Source::Bytes(_))
+    }
+
+    /// Whether a log may hold small pictures of the channel: of all but ids, whose numbers are no picture.
+    pub fn has_previews(&self) -> bool {
+        self.element() != Element::Id
+    }
+
+    /// Writes the stored bytes of one pixel of a channel on request; `pixel` has [`Self::bytes_on_request`] bytes.
+    pub fn draw(&self, point: &SeenPoint, pixel: &mut [u8]) {
+        match self.source {
+            Source::Number(number) => pixel.copy_from_slice(&number(point).to_le_bytes()),
+            Source::Bytes(three) => pixel.copy_from_slice(&three(point)),
+            Source::Colour | Source::Depth | Source::Labels | Source::Ids => {}
+        }
+    }
+
+    /// Bytes of a pixel of a channel on request; 0 for the channels of every frame.
+    pub fn bytes_on_request(&self) -> usize {
+        match self.source {
+            Source::Number(_) => 4,
+            Source::Bytes(_) => 3,
+            _ => 0,
+        }
+    }
+}
+
+impl PartialEq for Channel {
+    fn eq(&self, other: &Self) -> bool {
+        self.name == other.name
+    }
+}
+
+impl Eq for Channel {}

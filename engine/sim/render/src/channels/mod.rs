@@ -1,0 +1,41 @@
+//! The channels of a frame: one file and one entry each. What is drawn, stored, read, checked, shown and exported goes
+//! through the list [`ALL`].
+
+mod channel;
+pub mod depth;
+pub mod instance;
+pub mod normals;
+pub mod rgb;
+pub mod semantic;
+
+pub use channel::{Channel, Element, SeenPoint, Source};
+
+/// All channels: those of every frame in the order of logs, then those that are drawn on request, sorted by name.
+pub static ALL: &[&Channel] =
+    &[&rgb::CHANNEL, &depth::CHANNEL, &semantic::CHANNEL, &instance::CHANNEL, &normals::CHANNEL];
+
+/// The channel called `name`.
+pub fn called(name: &str) -> Option<&'static Channel> {
+    ALL.iter().copied().find(|channel| channel.name == name)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn names_are_words_and_each_stands_once() {
+        for (place, channel) in ALL.iter().enumerate() {
+            assert!(channel.name.bytes().all(|byte| byte.is_ascii_lowercase() || byte == b'_'), "{}", channel.name);
+            assert!(ALL[..place].iter().all(|other| other.name != channel.name), "{}", channel.name);
+            assert!(channel.doc.ends_with('.'), "{}", channel.doc);
+        }
+    }
+
+    #[test]
+    fn channels_of_every_frame_come_first_and_the_others_are_sorted() {
+        assert!(ALL.is_sorted_by_key(|channel| channel.is_on_request()));
+        let on_request = || ALL.iter().filter(|channel| channel.is_on_request()).map(|channel| channel.name);
+        assert!(on_request().is_sorted(), "{:?}", on_request().collect::<Vec<_>>());
+    }
+}

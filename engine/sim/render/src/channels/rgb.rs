@@ -1,0 +1,7 @@
+//! Channel `rgb`: colours.
+
+use super::channel::{Channel, Source};
+
+/// Colours, sRGB.
+pub static CHANNEL: Channel =
+    Channel { name: "rgb", doc: "the colour image.", source: Source::Colour, notes: &[], is_value: |_| true };

@@ -1,0 +1,80 @@
+//! Everything that shading reads: view and light of a frame, shadows, tone; and the scene, faces and people seen.
+
+use super::geometry::View;
+use super::light::Light;
+use super::pattern::hash;
+use super::shadow::Shadows;
+use super::tone::ToneCurve;
+use super::vector::Vec3;
+use crate::eye::Eye;
+use crate::faces::DrawnFace;
+use crate::look::PictureLook;
+use crate::people::People;
+use crate::scene::Scene;
+use crate::setup::FrameSetup;
+use crate::visibility::Screen;
+use cosfly_frames::simd::Level;
+use cosfly_frames::{DVec3, Pose};
+
+/// Camera, light and shadows of a frame.
+pub struct Setting {
+    pub screen: Screen,
+    pub level: Level,
+    pub look: PictureLook,
+    pub view: View,
+    pub light: Light,
+    pub haze: Vec3,
+    pub shadows: Shadows,
+    pub tone: ToneCurve,
+}
+
+/// Scene, faces and people of a frame.
+#[derive(Clone, Copy)]
+pub(crate) struct Seen<'a> {
+    pub scene: &'a Scene,
+    pub faces: &'a [DrawnFace],
+    pub people: &'a People,
+}
+
+impl Setting {
+    /// A clear noon over the world's origin, for one image size.
+    pub fn new(screen: &Screen) -> Self {
+        let pose = Pose { position_in_world: DVec3::ZERO, pitch_rad: 0.0, yaw_rad: 0.0, roll_rad: 0.0 };
+        Self {
+            screen: *screen,
+            level: Level::best(),
+            look: PictureLook::Full,
+            view: View::new(screen, &Eye::new(&pose)),
+            light: Light::new(&crate::presets::clear_noon()),
+            haze: Vec3::ZERO,
+            shadows: Shadows::new(),
+            tone: ToneCurve::new(),
+        }
+    }
+
+    /// Takes over a frame's light, camera and shadows.
+    pub(crate) fn prepare(&mut self, scene: &Scene, setup: &FrameSetup<'_>, eye: &Eye, people: &People) {
+        self.light = Light::new(setup.weather);
+        self.view = View::new(&self.screen, eye);
+        self.haze =
+            self.light.horizon * (0.8 - 0.2 * self.light.rain) + self.light.zenith * 0.2 + self.light.lamp * 0.02;
+        if self.look == PictureLook::Full {
+            self.shadows.prepare(self.level, scene, (eye, &self.screen), self.light.to_sun, people);
+        }
+    }
+}
+
+impl View {
+    fn new(screen: &Screen, eye: &Eye) -> Self {
+        let [forward, right, up] = [eye.world_from_body.x_axis, eye.world_from_body.y_axis, eye.world_from_body.z_axis];
+        let across = right / screen.focal_px;
+        let down = -up / screen.focal_px;
+        let corner = forward - across * screen.center_u - down * screen.center_v;
+        let position = eye.position_in_world;
+        let seed = [position.x, position.y, position.z, forward.x, forward.y].iter().fold(17, |seed, value| {
+            let bits = value.to_bits();
+            hash(hash(seed, bits as u32), (bits >> 32) as u32)
+        });
+        Self { position: position.into(), corner: corner.into(), across: across.into(), down: down.into(), seed }
+    }
+}

@@ -1,0 +1,57 @@
+//! Shades whole frames band by band.
+
+use super::bands::Worker;
+use super::setting::{Seen, Setting};
+use super::sky;
+use crate::eye::Eye;
+use crate::frame::FrameImages;
+use crate::look::PictureLook;
+use crate::passes::ids::Band;
+use crate::people::People;
+use crate::scene::Scene;
+use crate::setup::FrameSetup;
+use crate::visibility::Screen;
+use cosfly_frames::simd::Level;
+use std::sync::{Mutex, PoisonError};
+
+/// Shades whole frames; owns the shadow maps.
+pub struct Shader {
+    setting: Setting,
+    /// Buffers that no thread uses now.
+    idle: Mutex<Vec<Worker>>,
+}
+
+impl Shader {
+    /// A shader for one image size.
+    pub fn new(screen: &Screen) -> Self {
+        Self { setting: Setting::new(screen), idle: Mutex::new(Vec::new()) }
+    }
+
+    /// Shades with these vector instructions from now on.
+    pub fn set_level(&mut self, level: Level) {
+        self.setting.level = level;
+    }
+
+    /// Shades in this look from now on.
+    pub fn set_look(&mut self, look: PictureLook) {
+        self.setting.look = look;
+    }
+
+    /// Takes over a frame's light, camera and shadows.
+    pub(crate) fn prepare(&mut self, scene: &Scene, setup: &FrameSetup<'_>, eye: &Eye, people: &People) {
+        self.setting.prepare(scene, setup, eye, people);
+    }
+
+    /// Shades the faces seen in a band, without smoothing.
+    pub(crate) fn shade(&self, seen: &Seen<'_>, band: &mut Band<'_>) {
+        let idle = || self.idle.lock().unwrap_or_else(PoisonError::into_inner);
+        let mut worker = idle().pop().unwrap_or_else(Worker::new);
+        worker.shade(&self.setting, seen, band);
+        idle().push(worker);
+    }
+
+    /// Rain in front of everything.
+    pub(crate) fn overlay(&mut self, images: &mut FrameImages) {
+        sky::rain(&self.setting.light, self.setting.view.seed, images);
+    }
+}
