@@ -5,8 +5,7 @@ use crate::support::cosfly;
 use std::path::Path;
 
 /// Runs `arguments` in the street's folder and compares exit code and messages with the snapshot `name`. Redaction: the
-/// scratch
-/// folder's path becomes `<folder>`.
+/// scratch folder's path becomes `<folder>`.
 fn check_refusal(name: &str, street: &Street, arguments: &[&str]) {
     let printed = cosfly(arguments).within(street.path()).run();
     let text = format!("exit code {}\n{}", printed.code.map_or("none".into(), |code| code.to_string()), printed.stderr);

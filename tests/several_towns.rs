@@ -5,8 +5,7 @@ use crate::support::cosfly;
 use std::path::Path;
 
 /// The street's recipe with a second town and its stages, whose names begin with `far_`. The dataset's line of inputs
-/// is
-/// `inputs`.
+/// is `inputs`.
 fn recipe_of_two_towns(inputs: &str) -> String {
     let (chain, dataset) = RECIPE.split_at(RECIPE.find("[stages.captions]").expect("it has captions"));
     let (_, chain) = chain.split_at(chain.find("[stages.town]").expect("it has a town"));

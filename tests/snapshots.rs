@@ -120,8 +120,7 @@ fn first_row(file: &Path) -> String {
 }
 
 /// When this snapshot changes, the same recipe gives other bytes than before: raise the `version` of the stage kind
-/// whose digest
-/// changed (the first one in the recipe's order), or existing stores keep serving the old bytes.
+/// whose digest changed (the first one in the recipe's order), or existing stores keep serving the old bytes.
 #[test]
 fn the_bytes_of_every_stage_change_only_with_its_version() {
     let street = Street::new();

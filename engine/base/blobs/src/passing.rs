@@ -11,12 +11,9 @@ const REPEATED_BYTES: u64 = 4 * RELEASE_BYTES;
 /// A large file that is written or read once, from front to back.
 ///
 /// Every few megabytes, the pages behind the position are reported to the system as no longer needed. A dataset of any
-/// size
-/// then passes through a small part of the memory, other files stay in the cache, and a virtual machine need not supply
-/// fresh
-/// pages all the time, which costs more than copying. Pages that are not on the disk yet are sent there and released at
-/// the
-/// next call.
+/// size then passes through a small part of the memory, other files stay in the cache, and a virtual machine need not
+/// supply fresh pages all the time, which costs more than copying. Pages that are not on the disk yet are sent there
+/// and released at the next call.
 #[derive(Debug)]
 pub struct PassingFile {
     file: File,

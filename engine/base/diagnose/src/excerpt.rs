@@ -32,7 +32,7 @@ pub(crate) struct Mark {
     pub(crate) span: Range<usize>,
     /// Text beside the underline; may be empty.
     pub(crate) note: String,
-    /// True for the diagnostic's first label.
+    /// Whether it is the diagnostic's first label.
     pub(crate) is_first: bool,
 }
 

@@ -4,8 +4,7 @@
 const SHORTEST_PREFIX: usize = 3;
 
 /// Name in `known` that is most similar to `given`: a few letters apart, or else the only one that begins with `given`
-/// (a
-/// forgotten unit, such as `speed` for `speed_mps`). `None` where no name is similar.
+/// (a forgotten unit, such as `speed` for `speed_mps`). `None` where no name is similar.
 pub fn nearest_name<'a>(given: &str, known: impl IntoIterator<Item = &'a str>) -> Option<&'a str> {
     // The cost of an edit distance grows with the product of the lengths, and a name of a thousand letters is no typing
     // error.

@@ -1,8 +1,7 @@
 //! Errors of configuration parameters, located by their path.
 
 /// Violation of a rule between parameters that a schema cannot express. The reader of the configuration knows the place
-/// of
-/// the parameter in the file and converts the error into a [`crate::Diagnostic`].
+/// of the parameter in the file and converts the error into a [`crate::Diagnostic`].
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct ParameterError {
     /// Keys from the configuration's table to the offending value, such as `["speed", "min_mps"]`.

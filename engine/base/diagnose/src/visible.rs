@@ -1,8 +1,7 @@
 //! Characters of foreign text, made harmless for a terminal.
 
 /// `character`, or a visible replacement where it would control the terminal: control characters and marks that reverse
-/// the
-/// direction of writing.
+/// the direction of writing.
 pub(crate) fn visible(character: char) -> char {
     match character {
         '\t' => ' ',

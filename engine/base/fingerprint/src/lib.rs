@@ -58,8 +58,7 @@ impl<'de> Deserialize<'de> for Digest {
 }
 
 /// Canonical JSON: sorted keys, no spaces. Equal values give equal bytes, whatever the order of keys in a file. Relies
-/// on
-/// `serde_json::Value` keeping objects in a sorted map (the crate's default).
+/// on `serde_json::Value` keeping objects in a sorted map (the crate's default).
 pub fn canonical_json<T: Serialize>(value: &T) -> String {
     let tree = serde_json::to_value(value).expect("configs and plan documents are plain JSON values");
     serde_json::to_string(&tree).expect("a JSON tree always prints")

@@ -4,8 +4,7 @@ use crate::{Pose, real};
 use glam::{DMat3, DVec3};
 
 /// Difference of two poses along the world's axes: dx, dy, dz in metres, dpitch, dyaw, droll in degrees, angles wrapped
-/// to
-/// (-180, 180].
+/// to (-180, 180].
 pub fn in_world(from: &Pose, to: &Pose) -> [f64; 6] {
     let step = to.position_in_world - from.position_in_world;
     let turn = |from_rad: f64, to_rad: f64| real::wrap_angle_rad(to_rad - from_rad).to_degrees();
@@ -14,8 +13,7 @@ pub fn in_world(from: &Pose, to: &Pose) -> [f64; 6] {
 }
 
 /// Pose `to` in the body frame of `from` (x ahead, y right, z up): dx, dy, dz in metres, and pitch, yaw, roll of the
-/// relative
-/// rotation in degrees.
+/// relative rotation in degrees.
 pub fn in_body(from: &Pose, to: &Pose) -> [f64; 6] {
     let body_from_world = from.world_from_body().transpose();
     let step = body_from_world * (to.position_in_world - from.position_in_world);

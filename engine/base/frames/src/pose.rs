@@ -19,8 +19,7 @@ pub struct Pose {
 
 impl Pose {
     /// Pose at `position_in_world` whose x axis points at `target_in_world`, without roll. Where the two points
-    /// coincide, the x
-    /// axis points along the world's.
+    /// coincide, the x axis points along the world's.
     pub fn looking_at(position_in_world: DVec3, target_in_world: DVec3) -> Self {
         let ray = target_in_world - position_in_world;
         let length = ray.length();

@@ -1,9 +1,8 @@
 //! Run-time choice of vector instructions for kernels written once in plain Rust.
 //!
 //! A kernel is an ordinary loop over arrays that compilers vectorise. [`simd_kernel!`](crate::simd_kernel) compiles it
-//! for
-//! baseline x86-64 (or any other processor), for AVX2 and for AVX-512 (both with the bit-manipulation instructions of
-//! their processors), and calls the version that a [`Level`] names. Rust neither fuses nor reorders floating-point
+//! for baseline x86-64 (or any other processor), for AVX2 and for AVX-512 (both with the bit-manipulation instructions
+//! of their processors), and calls the version that a [`Level`] names. Rust neither fuses nor reorders floating-point
 //! operations, so all levels give the same bytes.
 
 /// Vector instructions of the processor. A level exists only after its detection.
@@ -75,8 +74,7 @@ impl Level {
 }
 
 /// Compiles a kernel once per [`Level`]: `simd_kernel! { /// Doc. pub fn name(a: &[f32], b: &mut [f32]) { .. } }`
-/// becomes
-/// `name(level, a, b)`. Functions that the body calls must be `#[inline(always)]`.
+/// becomes `name(level, a, b)`. Functions that the body calls must be `#[inline(always)]`.
 #[macro_export]
 macro_rules! simd_kernel {
     ($(#[$meta:meta])* $vis:vis fn $name:ident($($arg:ident: $ty:ty),* $(,)?) $(-> $ret:ty)? $body:block) => {

@@ -28,8 +28,7 @@ impl Seed {
     }
 
     /// Random stream for `purpose`. Streams of different purposes are independent, so adding a draw to one does not
-    /// shift the
-    /// other.
+    /// shift the other.
     pub fn stream(&self, purpose: &str) -> RandomStream {
         RandomStream::from_bytes(self.child(purpose, 0).0)
     }

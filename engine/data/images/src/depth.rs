@@ -6,13 +6,11 @@ use cosfly_frames::simd_kernel;
 pub const GRID_M: f32 = 1.0 / 1024.0;
 
 /// Smallest power of two above which all floats are whole; adding it to a smaller number rounds that to a whole number,
-/// ties
-/// to even.
+/// ties to even.
 const WHOLE: f32 = 8_388_608.0;
 
 /// Depth rounded to the grid, for depths of 0 m or more; infinity (sky) stays. Exact arithmetic: a scaling by a power
-/// of two
-/// and a rounding.
+/// of two and a rounding.
 #[inline(always)]
 pub fn on_grid(depth_m: f32) -> f32 {
     let steps = depth_m * 1024.0;

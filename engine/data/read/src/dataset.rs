@@ -54,8 +54,7 @@ impl PublishedDataset {
     }
 
     /// Parquet files of a table with the names of their splits, in the order train, val, test; none where the dataset
-    /// has no such
-    /// table.
+    /// has no such table.
     ///
     /// # Errors
     /// The folder of the table cannot be read.

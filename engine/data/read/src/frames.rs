@@ -78,8 +78,7 @@ const MOST_ROOM: usize = 1 << 16;
 
 impl PublishedDataset {
     /// Calls `visit` for every `wanted` trajectory with all its frames, in the order of table `frames`. One trajectory
-    /// is in memory
-    /// at a time.
+    /// is in memory at a time.
     ///
     /// # Errors
     /// A missing column, a row without a value, missing frames, or an error of `visit`.

@@ -1,6 +1,5 @@
 //! Rows of a table's file, row group by row group. Columns are requested by their entries in the schema and decoded on
-//! the first
-//! request, so that no reader lists the columns that it needs.
+//! the first request, so that no reader lists the columns that it needs.
 
 use super::damage::damaged;
 use arrow_array::cast::AsArray;

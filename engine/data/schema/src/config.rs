@@ -163,12 +163,10 @@ pub struct LicenseConfig {
     #[schemars(length(min = 1))]
     pub url: String,
     /// Content of the `LICENSE` file; empty writes cosfly's own terms under their default name, and name and address of
-    /// any
-    /// other licence.
+    /// any other licence.
     pub text: String,
     /// Prohibited uses of the data: section "Responsible use" of the card and `usageInfo` of `croissant.json`, whatever
-    /// the
-    /// licence.
+    /// the licence.
     #[schemars(length(min = 1))]
     pub responsible_use: String,
 }
@@ -250,10 +248,8 @@ pub enum SplitBy {
 }
 
 /// Shares of the splits. The split is a draw from the id of the pedestrian (the first of those whose walks overlap) or
-/// from
-/// the town's ground plan, so that twins stay together and adding pedestrians moves old ones only where a new walk
-/// joins two
-/// groups.
+/// from the town's ground plan, so that twins stay together and adding pedestrians moves old ones only where a new walk
+/// joins two groups.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(default, deny_unknown_fields)]
 pub struct SplitShares {
@@ -271,13 +267,11 @@ pub struct SplitShares {
     /// Unit that goes to one split as a whole: `pedestrian` or `town`.
     pub by: SplitBy,
     /// Largest share of a walk that another one in another split may repeat: the same ground within 4 m in the same
-    /// direction.
-    /// Walks with a larger overlap stay together; publishing fails where splits violate it.
+    /// direction. Walks with a larger overlap stay together; publishing fails where splits violate it.
     #[schemars(range(min = 0, max = 1))]
     pub max_route_overlap: f64,
     /// Splits that towns go to as a whole, by the town's name: `{ uptown = "test" }` keeps `uptown` unseen. Towns with
-    /// the same
-    /// ground plan go to the same split.
+    /// the same ground plan go to the same split.
     #[serde(skip_serializing_if = "BTreeMap::is_empty")]
     pub towns: BTreeMap<String, Split>,
 }

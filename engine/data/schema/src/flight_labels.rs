@@ -2,8 +2,7 @@
 //! its costs.
 //!
 //! In a [`Trajectory`] they are stored among the terms, with weight 0 and a name that no term can have: names of terms
-//! are
-//! `a-z`, `0-9` and `_`.
+//! are `a-z`, `0-9` and `_`.
 
 use cosfly_planner::{TermCost, Trajectory};
 

@@ -89,8 +89,7 @@ pub struct Sighting {
 }
 
 /// One trajectory with everything computed about it, except for the pixels (see [`cosfly_write::frame_pack`]). The
-/// `index`
-/// blob of the render stage. World frame: CARLA's, metres, radians.
+/// `index` blob of the render stage. World frame: CARLA's, metres, radians.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct RenderedTrajectory {
     /// Id, unique in the dataset: letters, digits, `.`, `_` and `-`, such as `expert-p00000`.

@@ -17,15 +17,13 @@ const MOST_CELLS: i64 = 4_000_000;
 /// coordinates. Where a town has no walkable ground, its obstacles are used instead.
 ///
 /// A copy with another name, other buildings, trees or materials has the same digest; one whose ground was edited in
-/// places
-/// has a similar sketch.
+/// places has a similar sketch.
 #[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub struct TownLayout {
     /// BLAKE3 of all patterns, 64 hex digits.
     pub digest: String,
     /// Smallest hashes of the patterns under 64 hash functions: the share of equal ones estimates the Jaccard
-    /// similarity of two
-    /// towns' patterns (MinHash).
+    /// similarity of two towns' patterns (MinHash).
     pub sketch: Vec<i64>,
 }
 

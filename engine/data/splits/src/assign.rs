@@ -20,12 +20,9 @@ pub struct Assignment {
 }
 
 /// Assigns all flights. Pedestrians of a town whose walks overlap by more than `max_route_overlap` are one group; the
-/// split
-/// is a draw from the first pedestrian of a group. More pedestrians or towns move old ones only where a new walk joins
-/// two
-/// groups. A place goes to one split as a whole where the shares say so for all places or for this one, and where it
-/// has
-/// several names: the draw is then from its ground plan.
+/// split is a draw from the first pedestrian of a group. More pedestrians or towns move old ones only where a new walk
+/// joins two groups. A place goes to one split as a whole where the shares say so for all places or for this one, and
+/// where it has several names: the draw is then from its ground plan.
 pub fn assign(facts: &[FlightFacts], shares: &SplitShares) -> Assignment {
     let places = Places::of(facts, shares);
     let representatives = representatives(facts, &places, shares.max_route_overlap);

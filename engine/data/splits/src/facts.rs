@@ -11,8 +11,7 @@ use std::path::Path;
 use std::sync::Arc;
 
 /// Least displacement of the target, metres, for a window to be recognised by the target; below it, the drone's
-/// trajectory
-/// tells windows apart.
+/// trajectory tells windows apart.
 const MOVING_M: f64 = 0.5;
 
 /// Facts of one flight.
@@ -99,8 +98,7 @@ pub fn facts_of_dataset(folder: &Path, dataset: usize, window: usize) -> Result<
 }
 
 /// Hash of the `size` frames from each frame on: the target's positions to the centimetre, or the drone's where the
-/// target
-/// stands.
+/// target stands.
 fn windows(feet: &[DVec3], drone: &[DVec3], size: usize) -> Vec<u64> {
     if size == 0 {
         return vec![];

@@ -64,8 +64,7 @@ fn unpacked(cell: u64) -> (i64, i64, i64) {
 }
 
 /// Pairs of routes (smaller index first) with the share of the shorter one that the other repeats, where it exceeds
-/// `least`.
-/// Only routes of the same `place` are compared.
+/// `least`. Only routes of the same `place` are compared.
 pub fn overlaps(routes: &[(usize, &Route)], least: f64) -> Vec<(usize, usize, f64)> {
     let mut visits: Vec<(u64, usize)> =
         routes.iter().enumerate().flat_map(|(at, (_, route))| route.0.iter().map(move |cell| (*cell, at))).collect();

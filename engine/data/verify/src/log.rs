@@ -11,7 +11,7 @@ use cosfly_read::read_records;
 use cosfly_render::ChannelSet;
 use cosfly_render::channels::{self, Channel, Element, Source, depth};
 use cosfly_render::frame::TARGET_INSTANCE;
-use cosfly_schema::log::{Rhythm, TargetStateMessage, formats, frame_time_ns, right_handed, topic, topics};
+use cosfly_schema::log::{Frequency, TargetStateMessage, formats, frame_time_ns, right_handed, topic, topics};
 use foxglove::messages;
 use prost::Message;
 use std::collections::{BTreeMap, BTreeSet};
@@ -64,7 +64,7 @@ pub fn check(
 
 fn at_every_frame() -> BTreeSet<String> {
     let topics = topics(&ChannelSet::default());
-    topics.into_iter().filter(|topic| topic.rhythm == Rhythm::EveryFrame).map(|topic| topic.name).collect()
+    topics.into_iter().filter(|topic| topic.frequency == Frequency::EveryFrame).map(|topic| topic.name).collect()
 }
 
 struct LogCheck<'a> {

@@ -26,8 +26,7 @@ pub struct Regenerated {
 }
 
 /// Makes `number` flights of the dataset in `folder`, spread evenly over it, again in the empty store `scratch` and
-/// compares
-/// their logs with the published ones byte by byte (by BLAKE3).
+/// compares their logs with the published ones byte by byte (by BLAKE3).
 ///
 /// # Errors
 /// Errors in the dataset or the recipe, errors of a stage, or `machine-io`.

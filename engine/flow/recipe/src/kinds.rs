@@ -132,7 +132,7 @@ fn recipe_ports(built: &BuiltStage) -> Vec<InputPort> {
     ports
 }
 
-/// True for the stage itself and for parts that a port requires; the others are left out where one of their own required
+/// Whether a part is the stage itself or required by a port; other parts are omitted where one of their own required
 /// ports is not connected.
 fn is_needed(suffix: &'static str, parts: &[BuiltPart]) -> bool {
     let mut ports = parts.iter().flat_map(|part| &part.stage.properties().inputs);

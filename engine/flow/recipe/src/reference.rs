@@ -14,7 +14,7 @@ const INTRODUCTION: &str = "\
 
 <!-- Generated from the stage kinds of the binary. Do not edit. -->
 
-A recipe is one TOML file. It names a dataset, seeds it and wires stages together:
+A recipe is one TOML file: the name and seed of a dataset, and connected stages:
 
 ```toml
 #:schema ../schemas/recipe.schema.json
@@ -22,8 +22,8 @@ name = \"carla_town\"
 seed = 42
 
 [stages.town]
-use = \"map\"                       # which kind of stage
-source = \"towns/downtown.xodr\"    # its parameters
+use = \"map\"                       # kind of the stage
+source = \"towns/downtown.xodr\"    # parameters of the kind
 
 [stages.walkers]
 use = \"pedestrians\"
@@ -31,17 +31,17 @@ inputs.town = \"town\"              # port = name of a stage
 count = 4
 ```
 
-| key | type | default | what |
+| key | type | default | meaning |
 |---|---|---|---|
 | `name` | a string of `a-z`, `0-9`, `_`, `-` | required | Name of the dataset and its folder. |
 | `seed` | a whole number, at least `0` | `0` | Root of all randomness. |
 | `stages.NAME` | a table | at least one | A stage; names are `a-z`, `0-9`, `_` and begin with a letter. |
-| `stages.NAME.use` | a string | required | Its kind: one of those below. |
-| `stages.NAME.inputs.PORT` | the name of a stage, or a list of names where many are allowed | | What it reads. |
+| `stages.NAME.use` | a string | required | Kind of the stage: one of those below. |
+| `stages.NAME.inputs.PORT` | the name of a stage, or a list of names where many are allowed | | Upstream stages of a port. |
 
-Every other key of a stage is a parameter of its kind. Paths begin at the recipe's folder.
-`--set stages.walkers.count=8` on the command line replaces one value; what is not TOML is taken as a string.
-Where a port takes many stages, its items are called `STAGE-ITEM`; those of a dataset keep their names.
+Every other key of a stage is a parameter of its kind. Paths are relative to the recipe's folder.
+`--set stages.walkers.count=8` on the command line replaces one value; a value that is not TOML is taken as a string.
+At a port that takes many stages, items are called `STAGE-ITEM`; at the ports of a dataset they keep their names.
 ";
 
 /// Text of the reference page in Markdown: inputs and parameters of each kind with type, default, range and meaning.
@@ -59,7 +59,7 @@ fn write_kind(kind: &dyn StageKind, page: &mut String) -> std::fmt::Result {
     writeln!(page, "\n## `{name}`\n\n{}", kind.doc())?;
     let ports = kind.ports();
     if !ports.is_empty() {
-        writeln!(page, "\n| input | takes | items | what |\n|---|---|---|---|")?;
+        writeln!(page, "\n| input | takes | items | meaning |\n|---|---|---|---|")?;
         for port in &ports {
             writeln!(page, "| `{}` | {} | {} | {} |", port.name, takes(port), fan_words(port.fan), cell(port.doc))?;
         }
@@ -68,9 +68,9 @@ fn write_kind(kind: &dyn StageKind, page: &mut String) -> std::fmt::Result {
     let mut rows = vec![];
     collect_rows(&schema, &schema, None, "", 0, &mut rows);
     if rows.is_empty() {
-        return writeln!(page, "\nIt has no parameters.");
+        return writeln!(page, "\nNo parameters.");
     }
-    writeln!(page, "\n| parameter | type | default | range | what |\n|---|---|---|---|---|")?;
+    writeln!(page, "\n| parameter | type | default | range | meaning |\n|---|---|---|---|---|")?;
     for row in rows {
         writeln!(page, "| `{}` | {} | {} | {} | {} |", row.name, row.kind, row.default, row.range, row.what)?;
     }

@@ -31,7 +31,7 @@ impl SourceFinder<'_> {
         for source in declared {
             let place = place_of(source, parameters).unwrap_or(subject.place);
             if source.path.as_os_str().is_empty() {
-                let message = format!("`{}` names no file", source.parameter);
+                let message = format!("`{}` does not name a file", source.parameter);
                 let hint = format!("write `{} = \"...\"`; paths are relative to the recipe's folder", source.parameter);
                 problems.push(self.texts.problem("recipe-missing-key", place, message).hint(hint));
                 continue;

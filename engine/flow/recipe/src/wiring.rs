@@ -133,7 +133,7 @@ impl<'a> Wiring<'a> {
             problems.push(self.texts.problem("recipe-input-twice", place, message).hint("connect one of them"));
         }
         if input.listed && input.stages.is_empty() && !port.optional {
-            let message = format!("`inputs.{}` of `{}` names no stage", port.name, stage.name);
+            let message = format!("`inputs.{}` of `{}` does not name a stage", port.name, stage.name);
             let problem = self.texts.problem("recipe-missing-input", &input.place, message);
             problems.push(self.connectable(problem, stage, port));
         }

@@ -11,8 +11,7 @@ pub trait StageKind: Send + Sync {
     /// Description for the reference and `cosfly schema`, one sentence.
     fn doc(&self) -> &'static str;
     /// JSON Schema of the parameters (an object), with descriptions, defaults and ranges. The recipe reader checks
-    /// parameters
-    /// against it and points at the offending place; `build` may rely on that.
+    /// parameters against it and points at the offending place; `build` may rely on that.
     fn schema(&self) -> serde_json::Value;
     /// Every port that a recipe may connect, for any parameters; for editors and the reference. The ports of the built
     /// parts together are a subset of them, apart from ports between siblings.

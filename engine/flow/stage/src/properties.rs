@@ -23,8 +23,7 @@ pub struct StageProperties {
     /// Rule that defines the items.
     pub items: ItemRule,
     /// Estimated size of one item's output, bytes, for `cosfly plan` before any item is made; 0 where it is about as
-    /// large as the
-    /// items at the [`Fan::Each`] ports.
+    /// large as the items at the [`Fan::Each`] ports.
     pub bytes_per_item: u64,
 }
 
@@ -79,9 +78,9 @@ pub struct InputPort {
     pub artifact: &'static str,
     /// Relation of its items to the stage's own items.
     pub fan: Fan,
-    /// Whether the port may be left unconnected.
+    /// Number of stages that the port takes, and the names of their items.
     pub takes: Takes,
-    /// True where the port may be left out.
+    /// Whether the port may be left unconnected.
     pub optional: bool,
     /// Origin of its input.
     pub source: PortSource,
@@ -135,9 +134,9 @@ pub enum ItemRule {
     /// The items of the named [`Fan::Each`] port.
     PerInput(&'static str),
     /// Every item of the named [`Fan::Each`] port once per variant, as `<item>-<variant>`: a new variant renames nothing.
-    /// Name of the port.
+    /// All variants read that item, here and at the [`Fan::Each`] ports of later stages that only have the item itself.
     PerVariant {
-        /// The port.
+        /// Name of the port.
         port: &'static str,
         /// Variants, such as `HardRainNoon`; at least one.
         variants: Vec<String>,

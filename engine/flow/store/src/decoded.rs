@@ -20,8 +20,7 @@ const FEW_SLOTS: usize = 256;
 
 thread_local! {
     /// Depth of decodes on this thread. A nested decode never waits for another one: a decode may run tasks of a thread
-    /// pool,
-    /// and a thread of the pool that waits inside its own task would wait for ever.
+    /// pool, and a thread of the pool that waits inside its own task would wait for ever.
     static DEPTH: Cell<u32> = const { Cell::new(0) };
 }
 
@@ -30,8 +29,7 @@ thread_local! {
 struct Slots {
     by_key: BTreeMap<Key, Slot>,
     /// Number of slots above which empty ones are removed: twice the number in use at the last removal, so that the
-    /// scan costs a
-    /// constant time per slot.
+    /// scan costs a constant time per slot.
     limit: usize,
 }
 

@@ -15,8 +15,7 @@ use std::time::{SystemTime, UNIX_EPOCH};
 const HEADER: &str = "cosfly-out 1 ";
 
 /// Size, time of last modification, time of last status change, device and inode of a file. While all of them are
-/// unchanged,
-/// the bytes are unchanged. Times in nanoseconds since 1970.
+/// unchanged, the bytes are unchanged. Times in nanoseconds since 1970.
 type Stamp = [u64; 5];
 
 /// Stamps of the files of one folder, from the last time they were verified.

@@ -25,8 +25,7 @@ pub(crate) fn first_foreign(folder: &Path, prefix: &str, known: &BTreeSet<&str>)
 }
 
 /// Creates an empty folder next to `folder`, on the same file system; leftovers of killed runs there are removed.
-/// `None`
-/// where `folder` has no name of its own.
+/// `None` where `folder` has no name of its own.
 pub(crate) fn fresh_beside(folder: &Path) -> Option<io::Result<PathBuf>> {
     let (parent, name) = (folder.parent()?, folder.file_name()?);
     let beside = parent.join(format!(".{}.cosfly-tmp", name.to_string_lossy()));

@@ -17,7 +17,7 @@ use std::time::{Duration, SystemTime};
 /// Rules of garbage collection.
 #[derive(Clone, Debug)]
 pub struct GarbageOptions {
-    /// Number of the newest runs kept of every recipe.
+    /// Number of newest runs kept of every recipe.
     pub keep_runs: usize,
     /// Age below which files are kept, needed or not.
     pub keep_age: Duration,
@@ -48,11 +48,10 @@ pub struct GarbageReport {
     pub kept_blob_bytes: u64,
 }
 
-/// Removes (or counts) everything in the store at `root` that is neither young nor needed by a recent run or a pin.
+/// Removes (or counts) everything in the store at `root` that is older than the limit and needed by no recent run or pin.
 ///
 /// # Errors
-/// `store-in-use` while a run is going on (not in a dry run), the refusals of opening a store, or a refusal of the
-/// machine.
+/// `store-in-use` while a run is active (not in a dry run), the errors of opening a store, or `machine-io`.
 pub fn collect_garbage(root: &Path, options: &GarbageOptions) -> Result<GarbageReport> {
     let layout = Layout::create_or_check(root)?;
     let failed = |error: io::Error| Diagnostic::io(format!("clean the store `{}`", root.display()), &error);
@@ -103,17 +102,17 @@ fn lock(layout: &Layout, dry_run: bool) -> Result<File> {
         Err(TryLockError::WouldBlock) => Err(Diagnostic::new(
             "store-in-use",
             Fault::Machine,
-            format!("another cosfly is using the store `{}`", layout.root.display()),
+            format!("another cosfly process is using the store `{}`", layout.root.display()),
         )
-        .hint("collect garbage when no run is going on")),
+        .hint("collect garbage while no run is active")),
         Err(TryLockError::Error(error)) => Err(failed(&error)),
     }
 }
 
-/// Digests that must stay.
+/// Digests to keep.
 #[derive(Default)]
 struct Needed {
-    /// Plans, definitions and every document that they name.
+    /// Plans, definitions and all documents that they name.
     documents: BTreeSet<Digest>,
     actions: BTreeSet<Digest>,
     blobs: BTreeSet<Digest>,

@@ -2,8 +2,7 @@
 //!
 //! It holds the records of the latest run of a recipe and the time of last change of each folder of `done` and `cas`. A
 //! folder unchanged since then has lost no file, so its files need not be checked one by one. (Damage inside a file is
-//! found
-//! when the file is read.)
+//! found when the file is read.)
 
 use crate::fault::Step;
 use crate::layout::{Area, Layout};

@@ -13,8 +13,7 @@ pub(crate) fn lock_file(path: &Path) -> io::Result<File> {
 }
 
 /// Lock of one task while a process computes it, so that other processes compute other tasks meanwhile. Without it
-/// tasks
-/// would be computed twice, with the same result.
+/// tasks would be computed twice, with the same result.
 #[derive(Debug)]
 pub struct TaskLock {
     path: PathBuf,

@@ -34,17 +34,13 @@ pub struct Materialised {
 }
 
 /// Makes `folder` hold exactly `blobs`, by name. Files are hard links into the store where the file system supports
-/// them
-/// (they are read-only), copies elsewhere. A reader of `folder` sees the old version or the new one, never a mixture.
-/// Where the
-/// folder holds this version already, every file whose size or times changed since its last verification is read and
-/// compared;
-/// a wrong file makes the folder be built again.
+/// them (they are read-only), copies elsewhere. A reader of `folder` sees the old version or the new one, never a
+/// mixture. Where the folder holds this version already, every file whose size or times changed since its last
+/// verification is read and compared; a wrong file makes the folder be built again.
 ///
 /// # Errors
 /// [`Fault::Lost`] when a blob is missing or damaged, `out-not-ours` when `folder` holds other files, `out-in-store`
-/// when one
-/// of folder and store is inside the other, `machine-io` or `disk-full` from the operating system.
+/// when one of folder and store is inside the other, `machine-io` or `disk-full` from the operating system.
 pub fn materialise(store: &Store, blobs: &Blobs, folder: &Path) -> Result<Materialised> {
     check_names(blobs)?;
     check_out_folder(store.root(), folder)?;
@@ -151,13 +147,13 @@ fn take_turn(store: &Store, folder: &Path) -> Result<File> {
 fn check_ours(folder: &Path, marker: Option<&str>, before: Option<&Delivered>) -> Result<()> {
     let not_ours = |message: String| {
         Err(Diagnostic::new("out-not-ours", Fault::Recipe, message)
-            .hint("choose another folder with `--out`, or move what is there out of the way"))
+            .hint("choose another folder with `--out`, or move the existing files elsewhere"))
     };
     match fs::symlink_metadata(folder) {
         Err(error) if error.kind() == io::ErrorKind::NotFound => return Ok(()),
         Err(error) => return Err(refused(folder, &error)),
         Ok(metadata) if !metadata.is_dir() => {
-            return not_ours(format!("`{}` is there and is not a folder", folder.display()));
+            return not_ours(format!("`{}` exists and is not a folder", folder.display()));
         }
         Ok(_) => {}
     }

@@ -5,8 +5,7 @@ use std::fs;
 use std::path::{Component, Path, PathBuf};
 
 /// Rejects a dataset's folder inside the store and a store inside the dataset's folder: files of one would be taken for
-/// files
-/// of the other. Symbolic links are followed as far as they lead to something that exists.
+/// files of the other. Symbolic links are followed as far as they lead to something that exists.
 ///
 /// # Errors
 /// `out-in-store`, or `machine-io`.
@@ -15,9 +14,9 @@ pub fn check_out_folder(store_root: &Path, out: &Path) -> Result<()> {
     let message = if folder == store {
         format!("`{}` is the folder of the store; a dataset cannot be put there", out.display())
     } else if folder.starts_with(&store) {
-        format!("`{}` is inside of the store `{}`", out.display(), store_root.display())
+        format!("`{}` is inside the store `{}`", out.display(), store_root.display())
     } else if store.starts_with(&folder) {
-        format!("the store `{}` is inside of `{}`, where the dataset would be put", store_root.display(), out.display())
+        format!("the store `{}` is inside `{}`, where the dataset would be put", store_root.display(), out.display())
     } else {
         return Ok(());
     };

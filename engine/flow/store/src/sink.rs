@@ -33,8 +33,7 @@ pub struct Settled {
 
 impl<'s> TaskSink<'s> {
     /// Moves the blobs into the store and records them as the outcome of `action`. An earlier outcome with other bytes
-    /// is kept
-    /// while it is intact.
+    /// is kept while it is intact.
     pub fn settle(mut self, action: &Digest, produced: Produced) -> Result<Settled> {
         let outputs = self.outputs.iter().map(|(name, (blob, _))| (name.clone(), *blob)).collect();
         let record = ActionRecord::new(outputs, produced);
@@ -62,13 +61,13 @@ impl<'s> TaskSink<'s> {
             return wrong("it must be a relative path of plain names with `/` between them");
         }
         if self.outputs.contains_key(name) {
-            return wrong("there is one of that name already");
+            return wrong("an output of that name exists already");
         }
         let parents = name.match_indices('/').any(|(end, _)| self.outputs.contains_key(&name[..end]));
         let below = format!("{name}/");
         let children = self.outputs.range(below.clone()..).next().is_some_and(|(other, _)| other.starts_with(&below));
         if parents || children {
-            return wrong("another output needs that name as a folder, or the other way round");
+            return wrong("another output uses that name as a folder, or vice versa");
         }
         Ok(())
     }
@@ -198,7 +197,7 @@ impl Store {
         Ok(Diagnostic::new(
             "nondeterministic-stage",
             Fault::Bug,
-            "the same stage with the same inputs and seed gave other bytes than before",
+            "the same stage with the same inputs and seed gave different bytes than before",
         )
         .because(format!("{} differs", first_difference(kept, other)))
         .hint(format!("the earlier result is kept; both are described in `{}`", path.display()))

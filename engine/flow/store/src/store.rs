@@ -126,8 +126,7 @@ impl Store {
     }
 
     /// Records that the task `plan` is finished by `action`. Call it after a [`Self::sync`] that began after the action
-    /// was
-    /// settled; another sync makes the record itself durable.
+    /// was settled; another sync makes the record itself durable.
     pub fn publish_done(&self, plan: &Digest, document: &str, action: &Digest) -> Result<()> {
         self.put_document(plan, document)?;
         let path = self.layout.file(Area::Done, plan);
@@ -167,7 +166,7 @@ impl Store {
     /// Makes everything published so far durable.
     pub fn sync(&self) -> Result<()> {
         let synced = self.faults.before(Step::Sync).and_then(|()| self.durability.sync());
-        synced.map_err(|error| Diagnostic::io(format!("force `{}` to the disk", self.root().display()), &error))
+        synced.map_err(|error| Diagnostic::io(format!("sync `{}` to disk", self.root().display()), &error))
     }
 
     /// Writes a small temporary file and renames it into place.
@@ -203,8 +202,7 @@ impl Store {
     }
 
     /// Moves a folder that is in the place of a file into the temporary folder, which is removed when the store is
-    /// closed. True
-    /// where there was one.
+    /// closed. True where there was one.
     pub(crate) fn clear_away(&self, path: &Path) -> bool {
         fs::symlink_metadata(path).is_ok_and(|metadata| metadata.is_dir())
             && fs::rename(path, self.scratch.next_path()).is_ok()

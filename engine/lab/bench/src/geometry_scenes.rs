@@ -36,8 +36,7 @@ pub struct BenchTown {
 
 impl BenchTown {
     /// The `count` boxes nearest to a walk, or all where there are fewer: up to 1,000 of a leafy town, up to 2,500 of
-    /// one with tree
-    /// tunnels, beyond that of a leafy town cut into small boxes.
+    /// one with tree tunnels, beyond that of a leafy town cut into small boxes.
     pub fn generate(seed: u64, count: usize, is_turned: bool) -> Self {
         let kind = if count <= 1_000 {
             SceneKind::Leafy

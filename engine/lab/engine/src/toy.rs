@@ -68,8 +68,7 @@ pub struct Toy {
     /// Version of the kind.
     pub version: u32,
     /// Parameters. Known ones: `constant` (bytes depend on the inputs alone), `bytes` (size of the output),
-    /// `undeclared` (a file read
-    /// without declaration), `warning`, `rejected`.
+    /// `undeclared` (a file read without declaration), `warning`, `rejected`.
     pub parameters: Value,
     /// Inputs: index of the stage, and the fan of its items.
     pub inputs: Vec<(usize, Fan)>,

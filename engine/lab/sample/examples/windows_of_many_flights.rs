@@ -1,6 +1,5 @@
 //! Writes the training windows of 12,000 synthetic flights of 200 frames (2.4 million time steps) into the Parquet file
-//! given as
-//! the first argument; prints time and peak memory.
+//! given as the first argument; prints time and peak memory.
 
 use cosfly_frames::{DVec3, Pose, Seed};
 use cosfly_metrics::WindowShape;

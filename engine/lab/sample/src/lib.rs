@@ -1,6 +1,5 @@
 //! A tiny synthetic dataset for tests and examples: two pedestrians on a plane, each with an expert and a perturbed
-//! flight, with
-//! very small ray-cast images.
+//! flight, with very small ray-cast images.
 
 mod folder;
 
@@ -45,7 +44,7 @@ impl SampleFlight {
         ChannelSet::of(|channel| !channel.is_on_request() || drawn.iter().any(|image| image.channel == channel))
     }
 
-    /// Draws all channels on request, as if every surface were level.
+    /// Draws all optional channels, as if every surface were level.
     pub fn draw_on_request(&mut self) {
         let camera = &self.record.camera;
         for (images, pose) in self.images.iter_mut().zip(&self.record.trajectory.poses_in_world) {
@@ -72,7 +71,7 @@ impl SampleFlight {
     }
 }
 
-/// The surface at a pixel, taken for level.
+/// Point of the surface at a pixel, assumed level.
 fn point(images: &FrameImages, camera: &Camera, pose: &Pose, at: usize) -> SeenPoint {
     let (column, row) = (at as u32 % images.width, at as u32 / images.width);
     let depth_m = images.depth_m[at];

@@ -12,8 +12,8 @@ use cosfly_frames::DVec3;
 use cosfly_frames::simd::Level;
 
 /// A wide BVH (sixteen children) over solid boxes, rotated around z. Boxes with a number that is not finite are counted
-/// but never
-/// hit. Answers are equal to those of [`crate::BruteForce`], bit for bit, on every processor; queries do not allocate.
+/// but never hit. Answers are equal to those of [`crate::BruteForce`], bit for bit, on every processor; queries do not
+/// allocate.
 #[derive(Clone, Debug)]
 pub struct BoxBvh {
     given: Vec<OrientedBox>,
@@ -136,8 +136,7 @@ impl SpatialQuery for BoxBvh {
             return (best.primitive != u32::MAX).then_some(best);
         }
         // The tree's ray moves one metre along its fastest axis per unit of its parameter. Components that the exact
-        // kernels treat as 0
-        // are 0 here, too.
+        // kernels treat as 0 are 0 here, too.
         let step = DVec3::from_array(direction_in_world.to_array().map(|d| if d.abs() < 1e-250 { 0.0 } else { d }));
         let speed = step.abs().max_element();
         let (unit, speed) = if speed > 0.0 { (step / speed, speed) } else { (DVec3::ZERO, 1.0) };

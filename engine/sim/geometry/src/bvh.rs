@@ -20,8 +20,7 @@ struct Node {
 }
 
 /// A BVH over the bounds of primitives. It stores the primitives' order in leaves ([`Bvh::order`]); owners store their
-/// primitives
-/// in that order, and a [`Visitor`] gets slots.
+/// primitives in that order, and a [`Visitor`] gets slots.
 #[derive(Clone, Debug)]
 pub struct Bvh {
     nodes: Vec<Node>,
@@ -40,8 +39,7 @@ pub trait Visitor {
 
 impl Bvh {
     /// Builds the tree; deterministic. Bounds are enlarged by a billionth of the scene's size, so that rounding in a
-    /// primitive's own
-    /// arithmetic never exceeds them.
+    /// primitive's own arithmetic never exceeds them.
     pub fn build(bounds: &[Bounds]) -> Self {
         let mut tree = Self { nodes: Vec::new(), order: (0..bounds.len() as u32).collect() };
         if bounds.is_empty() {
@@ -126,8 +124,7 @@ impl Bvh {
     ///
     /// # Panics
     /// When a primitive is missing or duplicated, exceeds its node, a child exceeds its parent, or the tree is deeper
-    /// than the
-    /// traversal stack.
+    /// than the traversal stack.
     pub fn assert_well_formed(&self, bounds: &[Bounds]) {
         let mut seen = vec![false; bounds.len()];
         let mut open = Vec::new();

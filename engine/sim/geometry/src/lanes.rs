@@ -1,10 +1,8 @@
 //! Sixteen numbers at a time: the operations that differ between vector levels, and the choice of the level.
 //!
 //! Kernels over these lanes never determine an answer: they decide clear hits and misses, with a margin for every
-//! rounding, and
-//! exact arithmetic decides all others. So levels may round differently here (AVX-512 fuses products and sums) and
-//! still give
-//! the same answers.
+//! rounding, and exact arithmetic decides all others. So levels may round differently here (AVX-512 fuses products and
+//! sums) and still give the same answers.
 
 use cosfly_frames::simd::Level;
 
@@ -27,8 +25,7 @@ pub trait Lanes: Copy {
 }
 
 /// A level built from its comparisons. Closures inherit the vector features of the function that creates them, which
-/// makes
-/// their intrinsics safe to call.
+/// makes their intrinsics safe to call.
 #[derive(Clone, Copy)]
 pub struct LevelLanes<F32, F64, const FUSED: bool> {
     /// See [`Lanes::at_most`].
@@ -106,8 +103,7 @@ pub fn take_lane(mask: &mut u32) -> usize {
 }
 
 /// `fn name(a: A) -> R = kernel;` defines `name(level, a)`, which runs the generic `kernel(lanes, a)`, an
-/// `#[inline(always)]`
-/// function, compiled for the level.
+/// `#[inline(always)]` function, compiled for the level.
 macro_rules! at_level {
     ($(#[$meta:meta])* $vis:vis fn $name:ident($($arg:ident: $ty:ty),* $(,)?) -> $ret:ty = $kernel:path;) => {
         $(#[$meta])*

@@ -26,8 +26,7 @@ pub struct Nearest {
 /// force.
 ///
 /// Points that are not finite get safe answers: nothing is hit or near, but segments are blocked and have no clearance.
-/// Among
-/// equal primitives the one with the smallest index is returned.
+/// Among equal primitives the one with the smallest index is returned.
 pub trait SpatialQuery: Send + Sync {
     /// Number of primitives.
     fn len(&self) -> usize;
@@ -47,8 +46,7 @@ pub trait SpatialQuery: Send + Sync {
     fn nearest(&self, point_in_world: DVec3, within_m: f64) -> Option<Nearest>;
 
     /// Smallest distance between the segment and any primitive, metres, capped at `within_m`; 0 or less when they
-    /// touch. A sphere of
-    /// radius r swept along the segment is free exactly when this exceeds r.
+    /// touch. A sphere of radius r swept along the segment is free exactly when this exceeds r.
     fn segment_clearance(&self, from_in_world: DVec3, to_in_world: DVec3, within_m: f64) -> f64;
 
     /// [`Self::blocked`] from one point to many.

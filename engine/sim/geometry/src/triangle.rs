@@ -121,8 +121,7 @@ fn parameter_on_segment(point: DVec3, from: DVec3, to: DVec3) -> f64 {
 }
 
 /// Squared distance of two segments: the four ends against the other segment, and the interior solution where it
-/// exists. The ends
-/// suffice for parallel and for zero-length segments.
+/// exists. The ends suffice for parallel and for zero-length segments.
 fn segments_distance_squared(a: DVec3, b: DVec3, c: DVec3, d: DVec3) -> f64 {
     let point_to = |point: DVec3, from: DVec3, to: DVec3| {
         point.distance_squared(from + (to - from) * parameter_on_segment(point, from, to))

@@ -108,10 +108,8 @@ impl Shape for TurnedBox {
     }
 
     /// The squared distance is convex and piecewise quadratic along the segment. Its derivative is monotone and has
-    /// kinks only where
-    /// the segment crosses one of the six face planes; bisection over those leaves one linear piece, whose root is the
-    /// closest
-    /// point.
+    /// kinks only where the segment crosses one of the six face planes; bisection over those leaves one linear piece,
+    /// whose root is the closest point.
     #[inline]
     fn segment_distance(&self, from_in_world: DVec3, to_in_world: DVec3, within_m: f64) -> Option<f64> {
         let from = self.local_from_world_vector(from_in_world - self.center_in_world);

@@ -1,6 +1,5 @@
 //! Every implementation of [`SpatialQuery`] gives the answers of brute force, bit for bit, on degenerate scenes; and
-//! the kernels
-//! agree with `parry3d`, an independent library.
+//! the kernels agree with `parry3d`, an independent library.
 
 use cosfly_frames::simd::Level;
 use cosfly_frames::{DVec3, RandomStream, Seed, real};

@@ -1,6 +1,5 @@
 //! Bootstrap intervals by resampling whole trajectories: windows of one flight overlap and are correlated, so
-//! resampling windows
-//! would give too narrow intervals.
+//! resampling windows would give too narrow intervals.
 
 use crate::scores::{COUNT, Tally};
 use cosfly_random::Seed;
@@ -12,10 +11,8 @@ pub const RESAMPLES: usize = 1000;
 pub type Intervals = [Option<(f64, f64)>; COUNT];
 
 /// 95 % percentile intervals of all scores. Every resample draws as many of `clusters` as there are, with replacement,
-/// and
-/// computes the means over all windows of the drawn ones. The draws depend on `seed` and the number of clusters only,
-/// so that
-/// methods scored on the same clusters are resampled alike.
+/// and computes the means over all windows of the drawn ones. The draws depend on `seed` and the number of clusters
+/// only, so that methods scored on the same clusters are resampled alike.
 pub fn intervals(clusters: &[Tally], resamples: usize, seed: u64) -> Intervals {
     let merged = merged(clusters);
     let found = resampled(merged.len(), resamples, seed, COUNT, &mut |times| {

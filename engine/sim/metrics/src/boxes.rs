@@ -1,8 +1,7 @@
 //! Overlap of pixel boxes.
 
 /// Intersection over union (IoU) of two boxes given by their left, top, right and bottom edges: areas between
-/// continuous edges,
-/// without an added pixel. Boxes without area have an IoU of 0.
+/// continuous edges, without an added pixel. Boxes without area have an IoU of 0.
 pub fn iou(a: &[f64; 4], b: &[f64; 4]) -> f64 {
     let side = |low: f64, high: f64| (high - low).max(0.0);
     let area = |edges: &[f64; 4]| side(edges[0], edges[2]) * side(edges[1], edges[3]);

@@ -4,8 +4,7 @@ use cosfly_frames::{Pose, action};
 use serde::Serialize;
 
 /// Axes of increments (dx, dy, dz in metres, dpitch, dyaw, droll in degrees). The paper does not specify them; the
-/// `frames` and
-/// `waypoints` tables hold actions in both.
+/// `frames` and `waypoints` tables hold actions in both.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "snake_case")]
 pub enum DeltaFrame {

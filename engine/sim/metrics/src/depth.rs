@@ -4,10 +4,8 @@
 pub const MIN_DEPTH_M: f64 = 1e-3;
 
 /// Scores of one image, or means of them over images. The paper does not specify mask and average; here pixels are
-/// scored whose
-/// true depth is finite, positive and at most the cap, predictions are clamped to [0.001 m, cap], and every image has
-/// the same
-/// weight.
+/// scored whose true depth is finite, positive and at most the cap, predictions are clamped to [0.001 m, cap], and
+/// every image has the same weight.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct DepthScores {
     /// Mean of |predicted - true| / true.

@@ -71,8 +71,7 @@ impl WindowFeatures {
     }
 
     /// Hard from any of [`HARD_FROM`] on, easy below all of [`EASY_BELOW`], otherwise medium. The paper only names
-    /// "tight turns and
-    /// height changes"; features and limits are cosfly's.
+    /// "tight turns and height changes"; features and limits are cosfly's.
     pub fn difficulty(&self) -> Difficulty {
         let values = [self.turn_deg, self.height_change_m, self.occluded_share, self.speed_mps];
         if values.iter().zip(HARD_FROM).any(|(value, from)| *value >= from) {

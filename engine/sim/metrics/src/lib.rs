@@ -1,8 +1,7 @@
 //! Windows for training and evaluation, metrics of predictions, and baselines.
 //!
 //! All functions are pure arithmetic on poses and pixels. Definitions that the paper leaves open are stated in their
-//! docs and in
-//! the book's page "Metrics". An outside script compares every number with independent software
+//! docs and in the book's page "Metrics". An outside script compares every number with independent software
 //! (`tests/outside/check_metrics.py`).
 //!
 //! * [`windows`]: starts of the windows of a flight.

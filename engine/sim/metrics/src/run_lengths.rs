@@ -30,8 +30,7 @@ impl Runs {
     }
 
     /// Runs from COCO's compressed text: five bits a character, lowest first; from the fourth number on, differences to
-    /// the second
-    /// number before.
+    /// the second number before.
     ///
     /// # Errors
     /// Invalid text, in words.

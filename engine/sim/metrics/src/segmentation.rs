@@ -15,8 +15,7 @@ impl Confusion {
     }
 
     /// Adds the pixels of an image. A predicted label that is out of range counts as wrong for its true class; pixels
-    /// whose true label
-    /// is out of range are skipped.
+    /// whose true label is out of range are skipped.
     pub fn add(&mut self, predicted: &[u8], truth: &[u8]) {
         let classes = self.truth.len();
         // Neighbouring pixels mostly have the same pair of labels: runs are counted at once.

@@ -3,10 +3,8 @@
 use cosfly_frames::{Pose, real};
 
 /// Errors of the waypoints of one window. The paper defines the metrics in words only. Choices where it is silent:
-/// distances are
-/// in space (not in plan), angular errors are at most 180 degrees, yaw errors and mean absolute errors are means over
-/// all
-/// waypoints, and errors are of the poses reached, not of single increments.
+/// distances are in space (not in plan), angular errors are at most 180 degrees, yaw errors and mean absolute errors
+/// are means over all waypoints, and errors are of the poses reached, not of single increments.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct WaypointErrors {
     /// Average displacement error: mean distance over the waypoints, metres.
@@ -31,8 +29,7 @@ pub fn angle_error_deg(a_rad: f64, b_rad: f64) -> f64 {
 }
 
 /// Errors of `predicted` against `truth`; waypoints that only one of them has are ignored, and without common waypoints
-/// all
-/// errors are 0.
+/// all errors are 0.
 pub fn errors(predicted: &[Pose], truth: &[Pose]) -> WaypointErrors {
     let mut sum = WaypointErrors::default();
     let steps = predicted.len().min(truth.len());

@@ -3,9 +3,8 @@
 use serde::Serialize;
 
 /// Shape of training windows. A window is `history` frames of the perturbed flight, the input of a model, and `horizon`
-/// frames after
-/// them; the expert's frames of the whole window are the supervision: the first ones for denoising, the others for
-/// prediction.
+/// frames after them; the expert's frames of the whole window are the supervision: the first ones for denoising, the
+/// others for prediction.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 pub struct WindowShape {
     /// Number of input frames; the last one is the current frame.

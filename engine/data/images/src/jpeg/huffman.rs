@@ -136,8 +136,7 @@ fn put_stuffed(bytes: &[u8], output: &mut Vec<u8>) {
 
 simd_kernel! {
     /// Appends the first `lanes` blocks of all components; `previous_dc` are the DC values of the preceding blocks. May
-    /// be called
-    /// once between two calls of [`BitWriter::flush`].
+    /// be called once between two calls of [`BitWriter::flush`].
     pub fn write_blocks(
         writer: &mut BitWriter,
         coefficients: &[Coefficients; 3],
@@ -192,8 +191,7 @@ impl OpenBits<'_> {
     }
 
     /// Appends a code and the bits after it. No branch can be mispredicted: eight bytes are written every time, and the
-    /// full ones
-    /// are counted.
+    /// full ones are counted.
     #[inline(always)]
     fn symbol(&mut self, codes: &Codes, symbol: usize, bits: u32, size: u32) {
         let (code, length) = codes.get(symbol);

@@ -1,8 +1,7 @@
 //! From pixels to quantised coefficients, sixteen neighbouring blocks at a time.
 //!
 //! Every vector lane is a block: no step moves data between lanes, so that compilers vectorise plain loops over lanes.
-//! Sums
-//! and products of floats in a written order give the same bits on every processor.
+//! Sums and products of floats in a written order give the same bits on every processor.
 
 use cosfly_frames::simd_kernel;
 
@@ -191,8 +190,7 @@ fn quantise(blocks: &Blocks, factors: &[f32; 64], coefficients: &mut Coefficient
     for half in 0..2 {
         let mut occupied = [0u32; LANES];
         // A bit that is shifted from coefficient to coefficient keeps compilers from combining sixteen coefficients of
-        // one lane, which
-        // would need gathers and scatters.
+        // one lane, which would need gathers and scatters.
         let mut bit = 1u32;
         for k in 32 * half..32 * half + 32 {
             let (block, factor) = (&blocks[usize::from(ZIGZAG[k])], factors[k]);

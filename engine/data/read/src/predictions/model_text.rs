@@ -1,6 +1,5 @@
 //! Increments in the text of a language model, parsed as in the published evaluation scripts: text before `</think>` is
-//! dropped,
-//! and one JSON object has a list `waypoint_deltas`.
+//! dropped, and one JSON object has a list `waypoint_deltas`.
 
 use super::waypoint::Waypoint;
 use serde::Deserialize;
@@ -15,8 +14,7 @@ struct Answer {
 }
 
 /// Parses the increments in `text`: those of the first JSON object that has them. Surrounding words, code fences and
-/// enclosing
-/// objects are ignored.
+/// enclosing objects are ignored.
 ///
 /// # Errors
 /// Reason why there are none.

@@ -61,8 +61,7 @@ pub fn labels(answer: &[u8], gives: &[DeclaredColumn], frames: usize) -> Result<
 }
 
 /// Reads the columns of an answer, which must be those of `gives`, with a number of rows within `rows`. Paths of files
-/// are
-/// checked, too.
+/// are checked, too.
 ///
 /// # Errors
 /// The violated rule, in words.

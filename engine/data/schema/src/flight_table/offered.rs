@@ -60,8 +60,7 @@ pub struct ColumnError {
 }
 
 /// Checks that flights have the requested columns, as far as known before a flight exists: names of costs and labels
-/// depend
-/// on earlier stages.
+/// depend on earlier stages.
 ///
 /// # Errors
 /// The first column that does not exist or has another type.

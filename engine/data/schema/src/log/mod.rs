@@ -11,7 +11,7 @@ pub mod topic;
 
 pub use raw_format::{RawFormat, formats};
 pub use target_state::TargetStateMessage;
-pub use topic::{Rhythm, Topic, topics};
+pub use topic::{Frequency, Topic, topics};
 
 /// Time of frame `frame`, nanoseconds after the file's time 0.
 pub fn frame_time_ns(dt_s: f64, frame: usize) -> u64 {

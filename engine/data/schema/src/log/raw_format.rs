@@ -5,14 +5,14 @@ use cosfly_render::channels::{Channel, Element};
 /// Layout of a raw image's pixels: row-major, little-endian.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct RawFormat {
-    /// Name in Foxglove's messages.
+    /// Name of the encoding in Foxglove's messages.
     pub encoding: &'static str,
-    /// Bytes of a pixel.
+    /// Number of bytes per pixel.
     pub pixel_bytes: usize,
 }
 
-/// The formats that raw images of a channel may have; none for channels that are image files. Ids are `16UC1`, or `32UC1`
-/// where a town has more objects than 16 bits can name (not in Foxglove's list: `step` / `width` = 4 tells the size).
+/// Possible formats of a channel's raw images; none for channels stored as image files. Ids are `16UC1`, or `32UC1`
+/// where a town has more objects than 16 bits can number (not in Foxglove's list: `step` / `width` = 4 gives the size).
 pub fn formats(channel: &Channel) -> &'static [RawFormat] {
     match channel.element() {
         Element::Colour => &[],

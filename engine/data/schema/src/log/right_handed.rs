@@ -1,8 +1,7 @@
 //! Conversion from the world frame (left-handed, y right) to the right-handed `map` frame, and back.
 //!
 //! A point (x, y, z) becomes (x, -y, z). A rotation is conjugated by the reflection of y: Rz(-yaw) * Ry(-pitch) *
-//! Rx(roll). The
-//! body frame becomes x ahead, y left, z up.
+//! Rx(roll). The body frame becomes x ahead, y left, z up.
 
 use cosfly_frames::{DQuat, DVec3, Pose, real};
 use cosfly_render::Mount;

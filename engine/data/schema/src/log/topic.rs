@@ -1,4 +1,4 @@
-//! Topics of a log: two for each channel (images, previews), and those of everything beside the images.
+//! Topics of a log: two for each channel (images, previews), and the other topics.
 
 use super::raw_format::formats;
 use super::target_state;
@@ -8,7 +8,7 @@ use foxglove::{Encode, Schema, messages};
 
 /// Calibration of all images.
 pub const CAMERA: &str = "/camera/rgb/camera_info";
-/// Boxes of the target and of other people.
+/// Boxes of the target and of bystanders.
 pub const ANNOTATIONS: &str = "/camera/rgb/annotations";
 /// Transforms between `map`, drone, camera and target.
 pub const TF: &str = "/tf";
@@ -16,7 +16,7 @@ pub const TF: &str = "/tf";
 pub const DRONE_POSE: &str = "/drone/pose";
 /// Pose of the target's feet.
 pub const TARGET_POSE: &str = "/target/pose";
-/// The whole flight.
+/// Trajectory of the drone.
 pub const DRONE_PATH: &str = "/drone/path";
 /// The whole walk.
 pub const TARGET_PATH: &str = "/target/path";
@@ -37,15 +37,15 @@ pub fn previews(channel: &Channel) -> String {
     format!("/camera/{}/preview", channel.name)
 }
 
-/// The channel whose images are on `topic`.
+/// Channel whose images are on `topic`.
 pub fn channel_of(topic: &str) -> Option<&'static Channel> {
     let name = topic.strip_prefix("/camera/")?.strip_suffix("/image")?;
     channels::called(name)
 }
 
-/// How often a topic has a message.
+/// Frequency of a topic's messages.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Rhythm {
+pub enum Frequency {
     /// At every frame.
     EveryFrame,
     /// At every frame of logs with previews.
@@ -59,58 +59,58 @@ pub enum Rhythm {
 /// A topic of a log.
 #[derive(Clone, Debug)]
 pub struct Topic {
-    /// Name.
+    /// Name of the topic.
     pub name: String,
-    /// Meaning: schema, then what the messages hold.
+    /// Schema, then meaning of the messages.
     pub doc: String,
     /// Schema of the messages.
     pub schema: Schema,
-    /// Keys and texts that a log carries beside the topic.
+    /// Keys and texts that a log contains for the topic.
     pub notes: &'static [(&'static str, &'static str)],
-    /// How often there is a message.
-    pub rhythm: Rhythm,
+    /// Frequency of the messages.
+    pub frequency: Frequency,
 }
 
 impl Topic {
-    fn new<M: Encode>(name: impl Into<String>, doc: &str, rhythm: Rhythm) -> Self {
+    fn new<M: Encode>(name: impl Into<String>, doc: &str, frequency: Frequency) -> Self {
         let schema = M::get_schema().expect("every Foxglove message has a schema");
         let doc = format!("`{}`{doc}", schema.name);
-        Self { name: name.into(), doc, schema, notes: &[], rhythm }
+        Self { name: name.into(), doc, schema, notes: &[], frequency }
     }
 }
 
-/// All topics of a log with these channels, in the order in which logs declare them. Raw images come first: their numbers
-/// stand in frame packs.
+/// All topics of a log with these channels, in the order of their declaration in logs. Raw images come first: their
+/// numbers are in frame packs.
 pub fn topics(channels: &ChannelSet) -> Vec<Topic> {
     let is_raw = |channel: &&Channel| channel.element() != Element::Colour;
     let mut topics: Vec<Topic> = channels.iter().filter(is_raw).map(raw_images).collect();
     for channel in channels.iter().filter(|channel| !is_raw(channel)) {
         let doc = format!(": {}", channel.doc);
-        topics.push(Topic::new::<messages::CompressedImage>(images(channel), &doc, Rhythm::EveryFrame));
+        topics.push(Topic::new::<messages::CompressedImage>(images(channel), &doc, Frequency::EveryFrame));
     }
-    topics.push(Topic::new::<messages::CameraCalibration>(CAMERA, " of all images.", Rhythm::EveryFrame));
+    topics.push(Topic::new::<messages::CameraCalibration>(CAMERA, " of all images.", Frequency::EveryFrame));
     let boxes = ": boxes of the target and of other people.";
-    topics.push(Topic::new::<messages::ImageAnnotations>(ANNOTATIONS, boxes, Rhythm::EveryFrame));
+    topics.push(Topic::new::<messages::ImageAnnotations>(ANNOTATIONS, boxes, Frequency::EveryFrame));
     for channel in channels.iter() {
         if let Some(doc) = preview_doc(channel) {
             let doc = format!(": {doc}");
-            topics.push(Topic::new::<messages::CompressedImage>(previews(channel), &doc, Rhythm::Previews));
+            topics.push(Topic::new::<messages::CompressedImage>(previews(channel), &doc, Frequency::Previews));
         }
     }
-    topics.push(Topic::new::<messages::FrameTransforms>(TF, ".", Rhythm::EveryFrame));
-    topics.push(Topic::new::<messages::PoseInFrame>(DRONE_POSE, " of the drone.", Rhythm::EveryFrame));
-    topics.push(Topic::new::<messages::PoseInFrame>(TARGET_POSE, " of the target's feet.", Rhythm::EveryFrame));
-    topics.push(Topic::new::<messages::PosesInFrame>(DRONE_PATH, ": the whole flight, once.", Rhythm::Once));
-    topics.push(Topic::new::<messages::PosesInFrame>(TARGET_PATH, ": the whole walk, once.", Rhythm::Once));
+    topics.push(Topic::new::<messages::FrameTransforms>(TF, ".", Frequency::EveryFrame));
+    topics.push(Topic::new::<messages::PoseInFrame>(DRONE_POSE, " of the drone.", Frequency::EveryFrame));
+    topics.push(Topic::new::<messages::PoseInFrame>(TARGET_POSE, " of the target's feet.", Frequency::EveryFrame));
+    topics.push(Topic::new::<messages::PosesInFrame>(DRONE_PATH, ": the whole flight, once.", Frequency::Once));
+    topics.push(Topic::new::<messages::PosesInFrame>(TARGET_PATH, ": the whole walk, once.", Frequency::Once));
     let scene = ": obstacles near the flight and the target, once.";
-    topics.push(Topic::new::<messages::SceneUpdate>(SCENE, scene, Rhythm::Once));
-    topics.push(Topic::new::<messages::Log>(CAPTIONS, ": captions, once.", Rhythm::Captions));
+    topics.push(Topic::new::<messages::SceneUpdate>(SCENE, scene, Frequency::Once));
+    topics.push(Topic::new::<messages::Log>(CAPTIONS, ": captions, once.", Frequency::Captions));
     topics.push(Topic {
         name: TARGET_STATE.into(),
         doc: format!("`{}`.", target_state::SCHEMA_NAME),
         schema: Schema::new(target_state::SCHEMA_NAME, "protobuf", target_state::descriptor_set()),
         notes: &[],
-        rhythm: Rhythm::EveryFrame,
+        frequency: Frequency::EveryFrame,
     });
     topics
 }
@@ -119,11 +119,11 @@ fn raw_images(channel: &Channel) -> Topic {
     let encodings: Vec<String> = formats(channel).iter().map(|format| format!("`{}`", format.encoding)).collect();
     let on_request = if channel.is_on_request() { " On request." } else { "" };
     let doc = format!(" {}: {}{on_request}", encodings.join(" or "), channel.doc);
-    let topic = Topic::new::<messages::RawImage>(images(channel), &doc, Rhythm::EveryFrame);
+    let topic = Topic::new::<messages::RawImage>(images(channel), &doc, Frequency::EveryFrame);
     Topic { notes: channel.notes, ..topic }
 }
 
-/// What previews of a channel show; nothing for channels without previews.
+/// Description of a channel's previews; `None` for channels without previews.
 fn preview_doc(channel: &Channel) -> Option<String> {
     match channel.element() {
         Element::Colour => Some("small colour image.".into()),

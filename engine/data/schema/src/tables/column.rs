@@ -1,6 +1,5 @@
 //! Columns, defined once: name, unit, type, meaning and the function from a record to a value. Writers, readers,
-//! checker, card,
-//! manifest and reference page all use the column's entry.
+//! checker, card, manifest and reference page all use the column's entry.
 
 use super::value::{Kind, Value};
 use arrow_array::ArrayRef;
@@ -110,8 +109,7 @@ fn unit_of(name: &str) -> Option<&'static str> {
 /// Defines the columns of a table, one entry each: meaning, name, type, unit where the name does not end in it, value.
 ///
 /// `columns! { Frames::COLUMNS of DatasetItem; ... }` makes each an associated constant [`Column`] of the type
-/// `Frames`, such as
-/// `Frames::drone_x_m`, by which readers request it, and the list of all of them, `Frames::COLUMNS`.
+/// `Frames`, such as `Frames::drone_x_m`, by which readers request it, and the list of all of them, `Frames::COLUMNS`.
 macro_rules! columns {
     ($table:ident::$list:ident of $source:ty; $($(#[doc = $doc:literal])+ $name:ident: $kind:ty $([$unit:literal])? = $cell:expr;)*) => {
         #[expect(non_upper_case_globals, reason = "the constants bear the names of the columns")]

@@ -74,8 +74,7 @@ columns! { Frames::COLUMNS of DatasetItem;
     /// Visible pixels of the target / pixels without obstacles, inside the image, 0..1; 0 out of view.
     visible_by_pixels: f64 = |item, i| view(item, i).visible_by_pixels;
     /// Share of about 400 rays, cast without the renderer to the part of the body inside the image, that reach it; null
-    /// out of
-    /// view.
+    /// out of view.
     visible_by_dense_rays: Option<f64> = |item, i| item.record.visible_by_dense_rays[i];
     /// Number of visible pixels of the target.
     visible_pixels: u32 = |item, i| view(item, i).pixels;
@@ -84,8 +83,7 @@ columns! { Frames::COLUMNS of DatasetItem;
     /// Left, top, right, bottom edge around the target's pixels without obstacles; null out of view.
     full_box_px: Option<Edges> = |item, i| view(item, i).full_box.as_ref().map(edges);
     /// Instance id of the obstacle or person that hides most of the target, see tables `objects` and `people`; 0: no
-    /// occluder, or
-    /// only ground.
+    /// occluder, or only ground.
     occluder_instance: u32 = |item, i| view(item, i).occluder_instance;
 
     /// Step to the next frame along the world's axes: dx, dy, dz (m), dpitch, dyaw, droll (degrees); null on the last frame.

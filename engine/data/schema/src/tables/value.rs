@@ -111,8 +111,7 @@ pub trait Value: Sized + 'static {
     fn array_of(values: impl Iterator<Item = Option<Self>>) -> ArrayRef;
 
     /// Value in a row of an array of [`Kind::data_type`]; `None` where the row holds no value of this type: null, NaN,
-    /// a number
-    /// out of range.
+    /// a number out of range.
     fn read(array: &dyn Array, row: usize) -> Option<Self>;
 }
 

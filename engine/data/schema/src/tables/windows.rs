@@ -67,8 +67,7 @@ columns! { Windows::COLUMNS of DatasetItem;
     /// Seen: split `train` of this dataset has trajectories in the same town, by the town's ground plan.
     scene: Scene = |item, _| scene_of(item);
     /// Hard: a turn of at least 90 degrees, a height change of at least 2.5 m, at least half of the frames occluded, or
-    /// at least 4
-    /// m/s; easy: below 30 degrees, 0.5 m, 5 % and 2 m/s.
+    /// at least 4 m/s; easy: below 30 degrees, 0.5 m, 5 % and 2 m/s.
     difficulty: Difficulty = |item, row| features(item, frames(item, row)).difficulty();
     /// Sum of the turns of the target's walking direction.
     turn_deg: f64 = |item, row| features(item, frames(item, row)).turn_deg;
@@ -100,8 +99,7 @@ columns! { Windows::COLUMNS of DatasetItem;
     /// (prediction): the target of `cosfly eval`.
     waypoint_deltas_in_world: Vec<f32> = |item, row| waypoint_deltas(item, row, action::in_world);
     /// Steps from the input's last pose to the expert's next one, and from there on along the expert, in the body frame
-    /// of the
-    /// pose where each starts.
+    /// of the pose where each starts.
     waypoint_deltas_in_body: Vec<f32> = |item, row| waypoint_deltas(item, row, action::in_body);
     /// Steps between the expert's poses in all frames of the window, along the world's axes.
     expert_steps_in_world: Vec<f32> = |item, row| expert_steps(item, row, action::in_world);
@@ -109,14 +107,12 @@ columns! { Windows::COLUMNS of DatasetItem;
     expert_steps_in_body: Vec<f32> = |item, row| expert_steps(item, row, action::in_body);
 
     /// Left, top, right, bottom edge of the target's visible pixels in each picture of the input; zeros where the
-    /// target is not
-    /// visible.
+    /// target is not visible.
     input_boxes_px: Vec<f32> = |item, row| {
         input(item, row).flat_map(|frame| box_px(&item.record.views[frame])).collect()
     };
     /// Left, top, right, bottom edge of the target's visible pixels in the expert's pictures of all frames of the
-    /// window; zeros
-    /// where the target is not visible.
+    /// window; zeros where the target is not visible.
     expert_boxes_px: Vec<f32> = |item, row| {
         frames(item, row).flat_map(|frame| box_px(expert_view(item, frame))).collect()
     };

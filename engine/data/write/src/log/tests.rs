@@ -4,7 +4,7 @@ use super::*;
 use crate::frame_pack::FramePackReader;
 use cosfly_render::ChannelSet;
 use cosfly_sample as sample;
-use cosfly_schema::log::{Rhythm, TargetStateMessage, right_handed, topic, topics};
+use cosfly_schema::log::{Frequency, TargetStateMessage, right_handed, topic, topics};
 use cosfly_schema::{EncodingConfig, LogRecord, RenderedTrajectory, Role};
 use prost::Message;
 use std::io::Cursor;
@@ -46,10 +46,10 @@ fn every_frame_has_every_channel_at_its_time() {
     let times: Vec<u64> = (0..5).map(|i| i * 500_000_000).collect();
     for topic in topics(&ChannelSet::default()) {
         let found: Vec<u64> = messages_of(&bytes, &topic.name).iter().map(|message| message.0).collect();
-        match topic.rhythm {
-            Rhythm::EveryFrame | Rhythm::Previews => assert_eq!(found, times, "{}", topic.name),
-            Rhythm::Once => assert_eq!(found, [0], "{}", topic.name),
-            Rhythm::Captions => assert_eq!(found, [0, 0], "{}", topic.name),
+        match topic.frequency {
+            Frequency::EveryFrame | Frequency::Previews => assert_eq!(found, times, "{}", topic.name),
+            Frequency::Once => assert_eq!(found, [0], "{}", topic.name),
+            Frequency::Captions => assert_eq!(found, [0, 0], "{}", topic.name),
         }
     }
     assert_eq!(log_record.messages, 13 * 5 + 5);

@@ -7,7 +7,7 @@ use cosfly_diagnose::{Diagnostic, Fault, Result};
 use cosfly_fingerprint::sha256::HashingWriter;
 use cosfly_images::previews;
 use cosfly_maps::Town;
-use cosfly_schema::log::{Rhythm, frame_time_ns, messages, topic, topics};
+use cosfly_schema::log::{Frequency, frame_time_ns, messages, topic, topics};
 use cosfly_schema::{CaptionRecord, LogRecord, RenderedTrajectory, RgbEncoding};
 use std::io::{Read, Seek, Write};
 
@@ -26,7 +26,7 @@ pub fn write_log<R: Read + Seek>(
     let mut hashing = HashingWriter::new(output);
     let with_previews = pack.header().encoding.previews;
     let mut topics = topics(&pack.header().channels);
-    topics.retain(|topic| with_previews || topic.rhythm != Rhythm::Previews);
+    topics.retain(|topic| with_previews || topic.frequency != Frequency::Previews);
     let mut log = ChannelWriter::new(&mut hashing, &topics)?;
     for (name, entries) in metadata::records(record, pack.header(), town) {
         log.metadata(name, &entries)?;

@@ -7,8 +7,7 @@ use crate::document::{Node, Problems, Value};
 use serde_json::Value as Json;
 
 /// Errors to report when none of `candidates` fits: those `found` against the intended alternative, or one error that
-/// lists the
-/// alternatives.
+/// lists the alternatives.
 pub(super) fn mistakes_of_the_meant(
     context: &Context<'_>,
     candidates: &[&Json],

@@ -28,7 +28,7 @@ source = "twon.xodr"
 fn a_file_that_is_not_named() {
     let text = complaint("name = \"t\"\n[stages.people]\nuse = \"tracks\"\n", &[]);
     insta::assert_snapshot!(text, @r#"
-    error[recipe-missing-key]: `file` names no file
+    error[recipe-missing-key]: `file` does not name a file
      --> a.toml:2:9
       |
     2 | [stages.people]

@@ -4,7 +4,7 @@ use crate::toys::WHOLE;
 use cosfly_diagnose::render_all;
 use proptest::prelude::*;
 
-/// Pieces that bring the reader further than random letters do.
+/// Fragments that pass more checks of the reader than random letters.
 const PIECES: [&str; 44] = [
     "\n",
     " ",
@@ -65,7 +65,7 @@ fn pieces(most: usize) -> impl Strategy<Value = String> {
     prop::collection::vec(prop::sample::select(&PIECES[..]), 0..most).prop_map(|pieces| pieces.concat())
 }
 
-/// [`WHOLE`] with a few short stretches replaced by pieces.
+/// [`WHOLE`] with a few short ranges replaced by fragments.
 fn mutilated() -> impl Strategy<Value = String> {
     let change = (any::<prop::sample::Index>(), 0..12_usize, prop::sample::select(&PIECES[..]));
     prop::collection::vec(change, 1..6).prop_map(|changes| {

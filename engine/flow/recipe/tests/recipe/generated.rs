@@ -64,11 +64,11 @@ fn the_reference_of_a_kind() {
     insta::assert_snapshot!(kind, @r#"
     People who walk.
 
-    | input | takes | items | what |
+    | input | takes | items | meaning |
     |---|---|---|---|
     | `town` | `town/1` | its one item, for all | The town. |
 
-    | parameter | type | default | range | what |
+    | parameter | type | default | range | meaning |
     |---|---|---|---|---|
     | `colour` | a list of whole numbers | none | exactly `3` entries, each at least `0`, at most `255` | A colour as red, green, blue. |
     | `count` | a whole number | `4` | at least `1` | Number of paths. Asking for more renames none. |
@@ -91,12 +91,12 @@ fn the_reference_of_a_kind() {
 
     Draws each trajectory in several weathers.
 
-    | input | takes | items | what |
+    | input | takes | items | meaning |
     |---|---|---|---|
     | `trajectories` | one or more of `trajectory/1` | item by item | What is shown. |
     | `also` | one or more of `trajectory/1`, optional | item by item | What is shown. |
 
-    It has no parameters.
+    No parameters.
     "#);
 }
 

@@ -1,4 +1,4 @@
-//! Messages about stages that do not fit together: kinds, connections, cycles.
+//! Messages about stages that are not compatible: kinds, connections, cycles.
 
 use crate::toys::complaint;
 
@@ -210,7 +210,7 @@ inputs.trajectories = []
         &[],
     );
     insta::assert_snapshot!(text, @r#"
-    error[recipe-missing-input]: `inputs.trajectories` of `frames` names no stage
+    error[recipe-missing-input]: `inputs.trajectories` of `frames` does not name a stage
       --> a.toml:10:8
        |
     10 | inputs.trajectories = []

@@ -1,4 +1,4 @@
-//! Messages about items that do not meet.
+//! Messages about items that do not match.
 
 use crate::toys::{WHOLE, complaint};
 

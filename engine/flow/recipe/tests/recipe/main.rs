@@ -1,4 +1,4 @@
-//! Recipes of toy stages through the whole reader: what is checked, what is said, what is generated.
+//! Recipes of toy stages through the whole reader: checks, messages, generated texts.
 
 mod checked_recipes;
 mod file_mistakes;

@@ -1,4 +1,4 @@
-//! Parts of a stage that are left out where the recipe leaves out what they need.
+//! Parts of a stage that are omitted where the recipe omits their inputs.
 
 use crate::toys::{ToyStage, port};
 use cosfly_diagnose::{Diagnostic, ParameterError};
@@ -8,7 +8,7 @@ use std::path::Path;
 
 /// A film of each of its two tracks; part `near` cuts down the tracks at port `others`.
 struct Film {
-    /// True where the film requires its part.
+    /// Whether the film requires its part.
     needs_others: bool,
 }
 

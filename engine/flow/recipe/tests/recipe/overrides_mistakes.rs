@@ -1,4 +1,4 @@
-//! Messages about `--set` arguments that do not fit.
+//! Messages about invalid `--set` arguments.
 
 use crate::toys::{PEOPLE, complaint};
 

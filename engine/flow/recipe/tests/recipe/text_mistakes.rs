@@ -1,4 +1,4 @@
-//! Messages about a recipe whose text, keys or names are wrong.
+//! Messages about invalid text, keys or names of a recipe.
 
 use crate::toys::complaint;
 

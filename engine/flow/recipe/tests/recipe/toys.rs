@@ -1,4 +1,4 @@
-//! Small stage kinds that declare everything and do nothing, and recipes of them.
+//! Small stage kinds with declarations and without work, and recipes of them.
 
 use crate::toy_configs::{MapConfig, NoConfig, Speed, TracksConfig, WalkersConfig};
 use cosfly_blobs::OutputSink;
@@ -25,7 +25,7 @@ impl Stage for ToyStage {
 
 type Build = fn(&Toy, serde_json::Value) -> Result<Vec<StagePart>, ParameterError>;
 
-/// A stage kind made of data.
+/// A stage kind defined by data.
 pub struct Toy {
     pub name: &'static str,
     pub doc: &'static str,
@@ -244,7 +244,7 @@ pub fn registry() -> Registry {
     Registry::new(toys.into_iter().map(|toy| Box::new(toy) as Box<dyn StageKind>).collect())
 }
 
-/// A recipe with every toy in it.
+/// A recipe with all toys.
 pub const WHOLE: &str = r#"name = "whole"
 seed = 7
 
@@ -275,17 +275,17 @@ use = "dataset"
 inputs.frames = "frames"
 "#;
 
-/// Mistakes that [`cosfly_recipe::read`] reports.
+/// Errors that [`cosfly_recipe::read`] reports.
 type Complaints = Vec<Box<cosfly_diagnose::Diagnostic>>;
 
-/// Checks `text` as if it stood in a folder with the file `town.xodr`.
+/// Reads `text` as if it were in a folder with the file `town.xodr`.
 pub fn check(text: &str, overrides: &[&str]) -> Result<Recipe, Complaints> {
     let overrides: Vec<String> = overrides.iter().map(|text| (*text).to_owned()).collect();
     let folder = tempfile::tempdir().unwrap();
     std::fs::write(folder.path().join("town.xodr"), "<OpenDRIVE/>").unwrap();
     std::fs::create_dir(folder.path().join("folder")).unwrap();
     cosfly_recipe::read(&folder.path().join("a.toml"), text, &overrides, &registry()).map_err(|mut problems| {
-        // Snapshots do not know the temporary folder.
+        // Redaction: the temporary folder.
         let gone = format!("{}/", folder.path().display());
         let bare = gone.trim_end_matches('/').to_owned();
         for problem in &mut problems {
@@ -299,7 +299,7 @@ pub fn check(text: &str, overrides: &[&str]) -> Result<Recipe, Complaints> {
     })
 }
 
-/// Mistakes in `text` as the user reads them.
+/// Errors of `text` as printed for users.
 pub fn complaint(text: &str, overrides: &[&str]) -> String {
     match check(text, overrides) {
         Ok(recipe) => format!("no complaint about {recipe:?}"),
@@ -317,7 +317,7 @@ use = "walkers"
 inputs.town = "town"
 "#;
 
-/// Mistakes in [`PEOPLE`] with the parameters `more`, as the user reads them.
+/// Errors of [`PEOPLE`] with the parameters `more`, as printed for users.
 pub fn complaint_about_people(more: &str) -> String {
     complaint(&format!("{PEOPLE}{more}"), &[])
 }

@@ -1,4 +1,4 @@
-//! Messages about values that no recipe can have.
+//! Messages about values that are invalid in any recipe.
 
 use crate::toys::complaint_about_people;
 

@@ -16,8 +16,7 @@ use std::path::Path;
 use std::sync::Arc;
 
 /// Town, walks, and planner parameters of the first `muco` stage of a recipe; `paths` and `seed` replace the number of
-/// walks and
-/// the recipe's seed where given.
+/// walks and the recipe's seed where given.
 pub fn town_of_recipe(path: &Path, paths: Option<usize>, seed: Option<u64>) -> Result<(Ground, MucoConfig), Refusals> {
     let registry = cosfly_stages::registry();
     let mut overrides: Vec<String> = seed.map(|seed| format!("seed={seed}")).into_iter().collect();

@@ -1,8 +1,7 @@
 //! Planners compared on the same paths, in one run.
 //!
 //! [`outcomes()`] plans every path of every scene with every [`Contender`], one path after the other, and evaluates all
-//! flights
-//! against the unsimplified map ([`figures`]); [`tabulate`] summarises them in rows.
+//! flights against the unsimplified map ([`figures`]); [`tabulate`] summarises them in rows.
 
 pub mod contender;
 pub mod figures;

@@ -1,8 +1,7 @@
 //! Time of the planner's steps, each timed separately on the same path, and the rest of the whole plan.
 //!
 //! The library has no clock. Each step is repeated through its public function; `smooth` is the rest of the whole plan:
-//! smoothing in
-//! the corridor, its measurement, further attempts, and the output of the flight.
+//! smoothing in the corridor, its measurement, further attempts, and the output of the flight.
 
 use super::contender::Contender;
 use super::scene::Ground;

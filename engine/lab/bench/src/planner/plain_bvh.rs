@@ -1,10 +1,8 @@
 //! A textbook BVH for the paper's baseline: binary, surface-area heuristic, one ray at a time.
 //!
 //! It is kept so that "A* with a BVH" does not change while the engine's own tree gets faster. For the visibility of a
-//! body from
-//! drones around it, it is as fast as the trees of parry and obvhs. Nodes are `f32`, rounded outward; leaves test the
-//! exact
-//! `f64` boxes; nearer children come first.
+//! body from drones around it, it is as fast as the trees of parry and obvhs. Nodes are `f32`, rounded outward; leaves
+//! test the exact `f64` boxes; nearer children come first.
 
 use cosfly_frames::DVec3;
 use cosfly_geometry::OrientedBox;

@@ -1,8 +1,7 @@
 //! The paper's solver table: the pipeline without a tree, with a tree, and with the boxes near the path alone.
 //!
 //! `without a tree` tests every box of the town, `tree` queries a BVH over all of them, `near the path` keeps the boxes
-//! within 45 m
-//! with short lists per frame, and tests eight lines of sight at a time.
+//! within 45 m with short lists per frame, and tests eight lines of sight at a time.
 
 use super::scene::Ground;
 use crate::clock::timed;

@@ -10,8 +10,7 @@ use cosfly_random::Seed;
 use cosfly_render::{TargetSetup, gait_phase_rad};
 
 /// Expert flights behind `count` walkers, `frames` frames each, with the defaults of all recipes. Empty in a town
-/// without walkable
-/// ground.
+/// without walkable ground.
 pub fn flown(ground: &Ground, frames: usize, count: u64) -> Vec<Vec<View>> {
     let town = &ground.town;
     let steps = u32::try_from(frames).unwrap_or(u32::MAX);

@@ -1,6 +1,5 @@
 //! The renderer: CPU time of a frame on one core by stage, throughput of finished logs, and comparison of both with the
-//! limits of
-//! the machine's memory.
+//! limits of the machine's memory.
 //!
 //! [`measure`] runs all measurements; [`views`] holds the towns and the cameras, and exports them for other renderers.
 

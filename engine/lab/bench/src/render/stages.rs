@@ -17,8 +17,7 @@ use std::hint::black_box;
 use std::io::BufReader;
 
 /// Consecutive frames of each view, as in a flight: the town's shadows are drawn for the first, and again when the
-/// camera leaves
-/// their area.
+/// camera leaves their area.
 const STEPS: usize = 4;
 
 /// CPU time per frame, milliseconds. The stages of a group add up to its total except for rounding and clocks.

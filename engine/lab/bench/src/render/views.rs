@@ -95,8 +95,7 @@ impl Ground {
     }
 
     /// View `view` (modulo their number) after `step` steps of `dt_s` seconds: the walker moves away from the follower
-    /// and passes the
-    /// view's position halfway through the flight.
+    /// and passes the view's position halfway through the flight.
     pub fn followed(&self, view: usize, step: usize, dt_s: f64) -> View {
         let mut view = self.views[view % self.views.len()];
         let away = view.target.state.feet_in_world - view.pose.position_in_world;

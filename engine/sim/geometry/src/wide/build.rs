@@ -1,8 +1,7 @@
 //! Builds the tree: sets of boxes are split by the surface-area heuristic until each fits one block of sixteen.
 //!
 //! A block costs the same however many lanes it uses, so the cost of a set is the area of its bounds times the number
-//! of blocks
-//! that it needs, and spare lanes go to splits that reduce the areas most.
+//! of blocks that it needs, and spare lanes go to splits that reduce the areas most.
 
 use super::tree::{Block, MAX_DEPTH, REACH_M, WideTree};
 use super::turned::TurnedLanes;
@@ -72,8 +71,7 @@ struct Split {
 }
 
 /// Builds the tree over boxes, and lists the indices of boxes too far from the others for f32; deterministic. Slot i of
-/// the tree
-/// is box `order[i]`.
+/// the tree is box `order[i]`.
 pub fn build(boxes: &[TurnedBox], bounds: &[Bounds]) -> (WideTree, Vec<u32>) {
     let origin = origin_of(bounds);
     let (mut items, mut wild, mut size_m) = (Vec::with_capacity(boxes.len()), Vec::new(), 0.0_f64);

@@ -111,9 +111,8 @@ impl Segment {
     }
 
     /// The distance of any point of the segment is an upper bound. Any plane that touches the box gives a lower bound:
-    /// the distance
-    /// of the segment's nearer end from the plane. Both meet at the closest points, to which alternating projection
-    /// converges.
+    /// the distance of the segment's nearer end from the plane. Both meet at the closest points, to which alternating
+    /// projection converges.
     #[inline(always)]
     fn of_segment(
         &self,

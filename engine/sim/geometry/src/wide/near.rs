@@ -54,8 +54,7 @@ impl Candidates {
 
 at_level! {
     /// Calls `exact` with at least the slots whose squared distance from the segment is at most the value that it last
-    /// returned, at
-    /// first `within`; false when f32 is not applicable. Both ends may be equal.
+    /// returned, at first `within`; false when f32 is not applicable. Both ends may be equal.
     pub fn around(tree: &WideTree, from_in_world: DVec3, to_in_world: DVec3, within: f32, exact: &mut dyn FnMut(usize) -> f32) -> bool = around_kernel;
 }
 

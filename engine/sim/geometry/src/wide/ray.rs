@@ -9,8 +9,7 @@ use cosfly_frames::DVec3;
 use glam::Vec3A;
 
 /// Relative widening of parameters: a direction, its inverse, the widening itself and the crossing are each rounded
-/// once, by
-/// 2^-24.
+/// once, by 2^-24.
 pub const PARAMETER_SHARE: f32 = 8.0 / 16_777_216.0;
 /// Inverse of a direction component that is 0: finite when multiplied by coordinates within reach.
 const STANDING: f32 = 1e30;
@@ -24,8 +23,7 @@ pub fn inverse(step: Vec3A) -> Vec3A {
 }
 
 /// A ray prepared for blocks: it crosses a face at `x` at the parameter `x * scale + offset`. Near and far faces are
-/// moved
-/// outwards by the margin.
+/// moved outwards by the margin.
 #[derive(Clone, Copy)]
 struct WideRay {
     near_scale: [f32; 3],
@@ -67,8 +65,7 @@ impl WideRay {
     }
 
     /// Masks and parameters of the lanes whose bounds the ray may meet at a parameter of at most `max_t`, and the mask
-    /// of those that
-    /// it certainly meets.
+    /// of those that it certainly meets.
     #[inline(always)]
     fn met<const SURELY: bool>(&self, lanes: impl Lanes, block: &Block, max_t: f32) -> Met {
         let (mut enter, mut leave) = ([0.0; LANES], [max_t; LANES]);
@@ -165,8 +162,7 @@ const WAITING: usize = (MAX_DEPTH + 1) * LANES;
 
 at_level! {
     /// Calls `exact` with the slots that the ray `from + t * step`, in local coordinates, may meet, approximately in
-    /// order, up to the
-    /// parameter that it last returned, at first `max_t`.
+    /// order, up to the parameter that it last returned, at first `max_t`.
     pub fn along(tree: &WideTree, from: Vec3A, step: Vec3A, max_t: f32, exact: &mut dyn FnMut(usize) -> f32) -> () = along_kernel;
 }
 

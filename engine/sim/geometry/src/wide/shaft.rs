@@ -41,10 +41,8 @@ fn extremes(a: &PerRay) -> (f64, f64) {
 }
 
 /// Hull of a shaft, prepared for blocks. At the parameter t it is a box between `from + t * low` and `from + t * high`;
-/// it meets
-/// bounds where `t * high >= min - from` and `t * low <= max - from`, two crossings per axis, each a beginning or an
-/// end
-/// depending on the sign of its step. The hull crosses a face at `x * scale + offset`.
+/// it meets bounds where `t * high >= min - from` and `t * low <= max - from`, two crossings per axis, each a beginning
+/// or an end depending on the sign of its step. The hull crosses a face at `x * scale + offset`.
 struct Hull {
     near_scale: [f32; 3],
     near_offset: [f32; 3],
@@ -101,8 +99,7 @@ impl Hull {
 
 at_level! {
     /// Mask of the rays from one point to eight that a box blocks. `None` when f32 is not applicable or the rays are
-    /// too far apart;
-    /// `slots` are the boxes in the tree's order.
+    /// too far apart; `slots` are the boxes in the tree's order.
     pub fn blocked(tree: &WideTree, slots: &[TurnedBox], from_in_world: DVec3, to_in_world: &[DVec3; RAYS]) -> Option<u32> = blocked_kernel;
 }
 

@@ -80,10 +80,8 @@ impl WideTree {
     /// Bound of the rounding error of a face or a point of a query within `reach` of the local origin, metres.
     ///
     /// A face, a point, its sum with the margin, the inverse direction and its products with them are each off by at
-    /// most half a unit
-    /// in the last place, 2^-24 of the coordinates: at most ten in all. The bound is 16. World coordinates are rounded
-    /// in f64 on
-    /// both sides, which `least_margin` covers.
+    /// most half a unit in the last place, 2^-24 of the coordinates: at most ten in all. The bound is 16. World
+    /// coordinates are rounded in f64 on both sides, which `least_margin` covers.
     #[inline(always)]
     pub fn margin(&self, reach: f32) -> f32 {
         // Near the boxes the margin is a constant, which does not depend on the reach.
@@ -99,8 +97,7 @@ impl WideTree {
     ///
     /// # Panics
     /// When a box is missing or duplicated, exceeds its lane by more than the margin, a child exceeds its parent's
-    /// lane, a block is
-    /// unreachable, or the tree is deeper than `depth`.
+    /// lane, a block is unreachable, or the tree is deeper than `depth`.
     pub fn assert_well_formed(&self, bounds: &[Bounds]) {
         let mut seen = vec![false; bounds.len()];
         let mut open: Vec<(usize, usize, Option<Bounds>)> = vec![(0, 1, None)];

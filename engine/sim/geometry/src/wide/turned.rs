@@ -68,8 +68,7 @@ pub struct Motion {
 
 at_level! {
     /// Mask of the lanes of a leaf with rotated boxes that may be met by a motion between the parameters `enter` and
-    /// `leave`, and of
-    /// all lanes that are not rotated.
+    /// `leave`, and of all lanes that are not rotated.
     pub fn met(tree: &WideTree, block: &Block, motion: &Motion, enter: &Lane, leave: &Lane) -> u32 = met_kernel;
 }
 
@@ -79,8 +78,7 @@ fn met_kernel(lanes: impl Lanes, tree: &WideTree, block: &Block, motion: &Motion
 }
 
 /// Masks of [`met`] and, on request, of the lanes that are certainly met. The motion lasts from 0 to 1 and is certainly
-/// between
-/// the bounds' upper and lower faces from `enter + doubt` to `leave - doubt`.
+/// between the bounds' upper and lower faces from `enter + doubt` to `leave - doubt`.
 #[inline(always)]
 pub fn maybe_and_surely<const SURELY: bool>(
     lanes: impl Lanes,
@@ -118,10 +116,8 @@ pub fn maybe_and_surely<const SURELY: bool>(
 }
 
 /// Positive when a segment misses a rectangle around the origin. Separating axes: those of the rectangle and the normal
-/// of the
-/// segment. The test uses nothing but the segment's ends, so that its rounding error is that of the ends, however short
-/// the
-/// segment.
+/// of the segment. The test uses nothing but the segment's ends, so that its rounding error is that of the ends,
+/// however short the segment.
 #[inline(always)]
 fn gap(lanes: impl Lanes, start: [f32; 2], step: [f32; 2], part: [f32; 2], half: [f32; 2]) -> f32 {
     let (u0, v0) = (lanes.multiply_add(part[0], step[0], start[0]), lanes.multiply_add(part[0], step[1], start[1]));

@@ -13,8 +13,7 @@ fn turned(offset: DVec3, yaw_rad: f64) -> DVec3 {
 }
 
 /// Appends the features of a window to `features`: for every frame before the current one the pose relative to it, the
-/// current
-/// pitch and roll, and the target's position in every input frame.
+/// current pitch and roll, and the target's position in every input frame.
 pub fn push_features(view: &View<'_>, features: &mut Vec<f64>) {
     let current = view.current();
     for pose in &view.poses[..view.poses.len().saturating_sub(1)] {
@@ -78,8 +77,7 @@ pub struct Examples {
 
 impl Examples {
     /// Adds a window with the true waypoints `truth`; `start` is the pose to which they are relative: the view's
-    /// current pose unless
-    /// increments start elsewhere. Windows of another shape than the first are skipped.
+    /// current pose unless increments start elsewhere. Windows of another shape than the first are skipped.
     pub fn push(&mut self, view: &View<'_>, start: &Pose, truth: &[Pose]) {
         let (features, outcomes) = (self.features.len(), self.outcomes.len());
         push_features(view, &mut self.features);

@@ -48,8 +48,7 @@ impl NearestNeighbour {
     }
 
     /// Waypoints of the nearest window, by the distance between scaled features; the first of equally near ones. `None`
-    /// for a window
-    /// of another shape.
+    /// for a window of another shape.
     pub fn predict(&self, view: &View<'_>) -> Option<Prediction> {
         let mut features = Vec::with_capacity(self.width);
         push_features(view, &mut features);

@@ -19,8 +19,7 @@ pub struct Ridge {
 
 impl Ridge {
     /// Fits `examples`: W = (X'X + rows * penalty * I)^-1 X'Y over scaled features and an unpenalised constant. `None`
-    /// without
-    /// examples.
+    /// without examples.
     pub fn fit(examples: &Examples) -> Option<Self> {
         let (width, depth) = (examples.width, examples.depth);
         if examples.is_empty() || depth == 0 {

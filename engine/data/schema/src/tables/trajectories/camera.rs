@@ -32,8 +32,7 @@ columns! { Trajectories::CAMERA of DatasetItem;
     /// Standard deviation of the signal-independent noise of colour, in steps of 8 bits.
     camera_noise_gaussian: f64 = |item, _| item.record.noise.gaussian;
     /// Standard deviation of the noise of colour at white, proportional to the square root of brightness, in steps of 8
-    /// bits;
-    /// variances of both noises add up.
+    /// bits; variances of both noises add up.
     camera_noise_shot: f64 = |item, _| item.record.noise.shot;
 
     /// Height of the target's body.

@@ -73,8 +73,7 @@ columns! { Trajectories::CERTIFICATE of DatasetItem;
         flight_labels::labels(&item.record.trajectory).map(|it| format!("{} {}", it.plugin, it.version)).collect()
     };
     /// Total cost against the planning boxes before and after refinement (preset `paper`: after each iteration of
-    /// descent) and of
-    /// the published trajectory; empty for baselines and perturbed trajectories.
+    /// descent) and of the published trajectory; empty for baselines and perturbed trajectories.
     convergence: Vec<f64> = |item, _| item.record.trajectory.convergence.clone();
     /// Probability of the position event per frame; null for experts.
     position_probability: Option<f64> = |item, _| perturbation(item).map(|it| it.position_probability);

@@ -47,8 +47,7 @@ columns! { Trajectories::IDENTITY of DatasetItem;
     /// BLAKE3 of the ground plan of the walkable surface, the same for copies of a town with other names or buildings.
     town_layout_blake3: String = |item, _| item.layout.digest.clone();
     /// Sketch of the ground plan, 64 numbers; the share of numbers that two towns have in common estimates the
-    /// similarity of their
-    /// plans (MinHash).
+    /// similarity of their plans (MinHash).
     town_layout_sketch: Vec<i64> = |item, _| item.layout.sketch.clone();
     /// Split group: all trajectories of one group are in one split.
     split_group: String = |item, _| item.membership.split_group.clone();
