@@ -17,6 +17,7 @@ mod preview;
 mod processors;
 mod repository;
 mod several_towns;
+mod shared;
 mod snapshots;
 mod steering;
 mod street;

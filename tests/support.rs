@@ -9,17 +9,6 @@ pub fn repository_root() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("../../..").canonicalize().expect("the repository is there")
 }
 
-/// The folder of shared real-world inputs, or `None` with a line that says so.
-pub fn shared_data() -> Option<PathBuf> {
-    let root = std::env::var_os("COSFLY_SHARED").map_or_else(|| repository_root().join("../shared"), PathBuf::from);
-    let data = root.join("data");
-    if data.is_dir() {
-        return Some(data);
-    }
-    eprintln!("skipped: the shared inputs are absent (set COSFLY_SHARED to their folder)");
-    None
-}
-
 /// One call of the binary.
 pub struct Call {
     command: Command,

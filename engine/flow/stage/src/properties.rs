@@ -41,7 +41,7 @@ pub struct Source {
 /// Check of a file while the recipe is read: it may refuse the file, and says which parameters the file wants.
 #[derive(Clone)]
 pub struct SourceCheck {
-    /// Parameter that the file itself describes, keys joined by dots, such as `terms.0.params`.
+    /// Parameter that the file itself describes, keys joined by dots, such as `terms.0.params`; empty for all parameters.
     pub describes: String,
     /// Function from the file's path to the JSON Schema of that parameter.
     pub read: Arc<ReadSchema>,

@@ -6,7 +6,7 @@ use cosfly_geometry::OrientedBox;
 use serde::{Deserialize, Serialize};
 
 /// A town. World frame: CARLA's (left-handed, x forward, y right, z up, metres), shifted by [`MapOrigin`].
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Town {
     /// Short name, from the recipe or the file.
     pub name: String,
@@ -33,7 +33,7 @@ pub struct Town {
 
 /// `x_world = x_map - offset.x`, `y_world = -y_map - offset.y`, `z_world = z_map - offset.z`
 /// (OpenDRIVE and other map files are right-handed, so y changes sign).
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct MapOrigin {
     /// Offset after the sign change; zero for files near their own origin, whole metres otherwise.
     pub offset_m: DVec3,

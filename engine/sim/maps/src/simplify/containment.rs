@@ -8,6 +8,8 @@ use cosfly_geometry::{Bounds, OrientedBox, TurnedBox};
 
 /// A corner may stick out by so much through rounding, metres.
 const ROUNDING_M: f64 = 1e-9;
+/// Boxes that are asked per box at most; bounds the work in a heap of boxes.
+const MOST_MEETINGS: usize = 4096;
 
 /// Drops every box that lies inside another one; of equal boxes the first stays.
 pub fn drop_contained(boxes: &mut Vec<Candidate>) {
@@ -35,6 +37,7 @@ pub fn covered_by_another(shapes: &[OrientedBox], may_cover: impl Fn(usize) -> b
                 index,
                 corners,
                 margin_m,
+                met: 0,
                 found: false,
             };
             tree.traverse(&mut search);
@@ -66,6 +69,7 @@ struct AnyCover<'a> {
     index: usize,
     corners: [DVec3; 8],
     margin_m: f64,
+    met: usize,
     found: bool,
 }
 
@@ -87,6 +91,10 @@ impl Visitor for AnyCover<'_> {
         let other = self.order[slot] as usize;
         if other == self.index || !self.is_covering[other] || !self.bounds_can_cover(&self.bounds[other]) {
             return false;
+        }
+        self.met += 1;
+        if self.met > MOST_MEETINGS {
+            return true;
         }
         let Some(cover) = &self.turned[other] else { return false };
         // Two boxes can only cover each other when they are equal within rounding: then the first one stays.

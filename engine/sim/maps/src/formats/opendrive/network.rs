@@ -3,6 +3,7 @@
 use super::plan_view::PlanElement;
 use super::polynomial::CubicProfile;
 use core::ops::Range;
+use cosfly_frames::DVec2;
 
 /// Everything the reader takes from an OpenDRIVE file.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -13,6 +14,13 @@ pub struct RoadNetwork {
     pub geo_reference: Option<String>,
     /// Roads in file order.
     pub roads: Vec<Road>,
+}
+
+impl RoadNetwork {
+    /// First points of all pieces of all reference lines, map frame, metres.
+    pub fn plan_points(&self) -> impl Iterator<Item = DVec2> {
+        self.roads.iter().flat_map(|road| &road.plan).map(|element| element.start.position_in_map)
+    }
 }
 
 /// A road: a reference line with lanes and things beside it.
