@@ -1,9 +1,11 @@
 //! Distances of a segment from sixteen boxes, bracketed: squares that are no larger and no smaller than the true ones.
 
-use super::near::SQUARE_SHARE;
 use super::tree::{Block, WideTree};
 use crate::lanes::{LANES, Lane, Lanes, larger, smaller};
 use glam::Vec3A;
+
+/// Share by which squared distances are moved for their own rounding.
+pub const SQUARE_SHARE: f32 = 8.0 / 16_777_216.0;
 
 /// Steps between the segment and the box before the distance is bracketed.
 const STEPS: usize = 2;

@@ -1,12 +1,9 @@
 //! What is close to a point or a segment, and what meets a window, through the tree.
 
-use super::closest::Segment;
+use super::closest::{SQUARE_SHARE, Segment};
 use super::tree::{MAX_DEPTH, WideTree};
 use crate::lanes::{LANES, Lane, Lanes, at_level, larger, smaller, take_lane};
 use cosfly_frames::DVec3;
-
-/// Share by which squared distances are moved for their own rounding.
-pub const SQUARE_SHARE: f32 = 8.0 / 16_777_216.0;
 
 /// A squared distance in f32 that is no smaller; 0 for negative distances.
 #[inline(always)]

@@ -1,6 +1,6 @@
 //! The tree: blocks of sixteen bounds, each the parent of blocks or of boxes.
 
-use super::turned::TurnedLanes;
+use super::turned_lanes::TurnedLanes;
 use crate::bounds::Bounds;
 use crate::lanes::{LANES, Lane};
 use cosfly_frames::DVec3;

@@ -1,8 +1,9 @@
 //! Invented buildings: boxes in line with the street, set back from its edge.
 
+use super::FillConfig;
 use super::frontage::Front;
 use super::land::{Land, Plot, Use};
-use super::{FillConfig, Site};
+use super::site::Site;
 use crate::ObstacleKind;
 use cosfly_frames::{DVec2, RandomStream};
 use cosfly_geometry::OrientedBox;

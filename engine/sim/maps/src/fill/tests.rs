@@ -4,9 +4,9 @@ use super::*;
 use crate::formats::opendrive::OpenDriveOptions;
 use crate::generate::{GenerateConfig, generate_town};
 use crate::polygons::triangulated;
-use crate::{FormatOptions, MapConfig, read_town};
+use crate::{FormatOptions, GroundIndex, MapConfig, Obstacle, ObstacleKind, SemanticLabel, read_town};
 use cosfly_frames::DVec2;
-use cosfly_geometry::{BoxBvh, SpatialQuery};
+use cosfly_geometry::{BoxBvh, OrientedBox, SpatialQuery};
 
 #[path = "../../../../../tests/shared.rs"]
 mod shared;

@@ -1,6 +1,6 @@
 //! Containment: a box inside another adds nothing.
 
-use super::Candidate;
+use super::candidate::Candidate;
 use cosfly_frames::DVec3;
 use cosfly_geometry::bvh::{Bvh, Visitor};
 use cosfly_geometry::shape::Shape;

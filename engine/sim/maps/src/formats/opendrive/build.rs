@@ -18,7 +18,7 @@ use crate::formats::text::Lines;
 use crate::formats::world::WorldFromMap;
 use crate::polygons::PolygonIndex;
 use crate::{GroundIndex, MapError, Obstacle, ObstacleKind, Synthetic, Town, WalkablePolygon};
-use cosfly_frames::{DVec2, DVec3};
+use cosfly_frames::DVec2;
 
 /// Reads a file into a town without planning boxes and bounds.
 pub(super) fn town(bytes: &[u8], options: &OpenDriveOptions) -> Result<(Town, Vec<String>), MapError> {
