@@ -9,6 +9,7 @@ mod diagnostics;
 mod doctor;
 mod evaluation;
 mod export;
+mod fuzzing;
 mod people;
 mod plan_from;
 #[cfg(feature = "plugins")]

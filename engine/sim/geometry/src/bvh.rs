@@ -27,7 +27,7 @@ pub struct Bvh {
     order: Vec<u32>,
 }
 
-/// What a query does at the nodes it meets.
+/// Steps of a query at the nodes of the tree.
 pub trait Visitor {
     /// A key that is no larger than that of anything inside the bounds; `None` to skip them.
     fn key(&mut self, bounds: &Bounds) -> Option<f64>;

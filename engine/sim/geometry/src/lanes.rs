@@ -12,9 +12,9 @@ pub const LANES: usize = 16;
 /// One number per lane.
 pub type Lane = [f32; LANES];
 
-/// What differs between vector levels.
+/// Operations that differ between vector levels.
 pub trait Lanes: Copy {
-    /// Which level this is.
+    /// The level itself.
     fn level(self) -> Level;
     /// `a * b + c`, fused where that is one instruction.
     fn multiply_add(self, a: f32, b: f32, c: f32) -> f32;

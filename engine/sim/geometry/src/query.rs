@@ -2,7 +2,7 @@
 
 use cosfly_frames::DVec3;
 
-/// Where a ray first meets something.
+/// First point of a ray on something solid.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Hit {
     /// Along the ray, in lengths of its direction vector; 0 when it starts inside a solid.

@@ -5,7 +5,7 @@ use cosfly_frames::DVec3;
 
 /// A shape made ready for queries.
 pub trait Shape: Copy + Send + Sync {
-    /// What callers hand in.
+    /// Form in which callers give the shape.
     type Given: Copy + Send + Sync;
 
     /// Computes once what queries need; `None` when a number is not finite.

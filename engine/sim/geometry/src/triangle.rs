@@ -7,7 +7,7 @@ use cosfly_frames::DVec3;
 /// A triangle in the world, metres.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Triangle {
-    /// Its corners.
+    /// Corners, metres.
     pub corners_in_world: [DVec3; 3],
 }
 

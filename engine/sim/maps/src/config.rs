@@ -1,4 +1,4 @@
-//! [`MapConfig`]: what a recipe says about a map.
+//! [`MapConfig`]: the parameters of a map in a recipe.
 
 use crate::FormatOptions;
 use crate::fill::FillConfig;
@@ -6,7 +6,7 @@ use crate::simplify::SimplifyConfig;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-/// How a map file becomes a town.
+/// Rules by which a map file becomes a town.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(default, deny_unknown_fields)]
 pub struct MapConfig {
@@ -14,7 +14,7 @@ pub struct MapConfig {
     pub source: String,
     /// Name of the town in all metadata and of its folder: letters, digits, `.`, `_`, `-`. Default: the file's name without its extension.
     pub name: Option<String>,
-    /// What to invent beside the streets of a town whose file has nothing there. Nothing by default.
+    /// Things to invent beside the streets of a town whose file has nothing there. None by default.
     pub fill: FillConfig,
     /// Merge, crop and prune of the boxes that the planner sees.
     pub simplify: SimplifyConfig,

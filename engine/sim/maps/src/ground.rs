@@ -1,4 +1,4 @@
-//! [`GroundIndex`]: how high the ground is under a point, from the town's surfaces, fast.
+//! [`GroundIndex`]: height of the ground under a point, from the town's surfaces.
 
 use crate::{SemanticLabel, SurfaceMesh, Town};
 use cosfly_frames::{DVec2, DVec3};
@@ -17,7 +17,7 @@ const SEAM_M: f64 = 1e-6;
 pub struct GroundPoint {
     /// Height in the world, metres.
     pub height_m: f64,
-    /// What the ground is.
+    /// Label of the ground.
     pub label: SemanticLabel,
 }
 

@@ -14,7 +14,7 @@ const STEPS: usize = 2;
 pub struct Segment {
     from: [f32; 3],
     to: [f32; 3],
-    /// Its bounds, grown by the margin.
+    /// Bounds, grown by the margin.
     low: [f32; 3],
     high: [f32; 3],
     margin: f32,

@@ -30,9 +30,9 @@ struct WideRay {
     near_offset: [f32; 3],
     far_scale: [f32; 3],
     far_offset: [f32; 3],
-    /// How much later the ray surely is behind a near face.
+    /// Delay after which the ray is surely behind a near face.
     doubt: [f32; 3],
-    /// Which of an axis's two faces comes first.
+    /// Number of the face of each axis that comes first.
     first: [usize; 3],
     way: Way,
 }

@@ -54,7 +54,7 @@ pub struct WideTree {
     pub blocks: Vec<Block>,
     /// The boxes of leaves with turned ones, in their own axes.
     pub turned: Vec<TurnedLanes>,
-    /// Where the blocks' zero lies.
+    /// Place of the local origin.
     pub origin_in_world: DVec3,
     /// Levels of blocks.
     pub depth: usize,
@@ -77,7 +77,7 @@ impl WideTree {
         (a.cmple(most) & b.cmple(most)).all().then(|| a.max(b).max_element())
     }
 
-    /// What rounding may move a face or a point of a query that stays within `reach` of the local origin, metres.
+    /// Largest effect of rounding on a face or a point of a query within `reach` of the local origin, metres.
     ///
     /// A face, a point, its sum with the margin, the inverse direction and its products with them are each off by at
     /// most half a unit in the last place, 2^-24 of the coordinates: ten in all at the most. This is 16.

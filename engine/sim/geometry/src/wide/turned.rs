@@ -3,12 +3,12 @@
 use super::tree::{Block, WideTree};
 use crate::lanes::{LANES, Lane, Lanes, at_level, larger, smaller};
 
-/// The way of a rectangle seen from above: its middle goes from `from` by `step`, it reaches `reach` to each side.
+/// Sweep of a rectangle seen from above: its middle goes from `from` by `step`, it reaches `reach` to each side.
 #[derive(Clone, Copy)]
 pub struct Way {
-    /// Where its middle begins.
+    /// First place of the middle.
     pub from: [f32; 2],
-    /// Where it goes while the parameter goes from 0 to 1.
+    /// Movement of the middle while the parameter goes from 0 to 1.
     pub step: [f32; 2],
     /// Half its size, and twice the margin.
     pub reach: [f32; 2],

@@ -18,7 +18,7 @@ pub fn drop_contained(boxes: &mut Vec<Candidate>) {
     retain_by(boxes, |index| !is_inside[index]);
 }
 
-/// Which boxes lie inside one other box grown by `margin_m`; only boxes for which `may_cover` holds count as the
+/// Flags of the boxes that lie inside one other box grown by `margin_m`; only boxes for which `may_cover` holds count as the
 /// other one.
 pub fn covered_by_another(shapes: &[OrientedBox], may_cover: impl Fn(usize) -> bool, margin_m: f64) -> Vec<bool> {
     let bounds: Vec<Bounds> = shapes.iter().map(bounds_of).collect();

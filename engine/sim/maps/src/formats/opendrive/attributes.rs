@@ -5,7 +5,7 @@ use crate::formats::text::Lines;
 use core::cell::{Cell, RefCell};
 use roxmltree::{Document, Node};
 
-/// What a number in the file may be.
+/// Range of a number in the file.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Limits {
     low: f64,

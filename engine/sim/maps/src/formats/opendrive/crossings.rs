@@ -139,7 +139,7 @@ impl Crosswalk {
     }
 }
 
-/// How far a pavement is from a point in a direction, and which one it is; `None` when the point is on one.
+/// Distance from a point to the first pavement in a direction, metres, and its number; `None` when the point is on one.
 fn first_pavement(pavements: &PolygonIndex, from: DVec2, direction: DVec2) -> Option<(f64, usize)> {
     let step_m = 0.2;
     let steps = (JOINT_REACH_M / step_m) as usize;

@@ -13,7 +13,7 @@ use std::collections::BTreeMap;
 const LONGEST_M: f64 = 25.0;
 /// Width of a strip, metres.
 const WIDTH_M: f64 = 2.5;
-/// How far a strip reaches into the ground that it joins, metres.
+/// Overlap of a strip and the ground that it joins, metres.
 const OVERLAP_M: f64 = 0.8;
 /// Corners closer than this, in plan and in height, touch, metres.
 const TOUCHING_M: [f64; 2] = [0.05, 0.6];
