@@ -103,7 +103,7 @@ fn canonical(config: &MapConfig) -> Result<Value, ParameterError> {
 
 /// Refuses files of no known format and, at their places in the recipe, options of other formats than the file's.
 fn own_options_only() -> SourceCheck {
-    let read = |path: &Path| {
+    let read = |path: &Path| -> Result<Value> {
         let mut head = Vec::new();
         std::fs::File::open(path)
             .and_then(|file| file.take(Format::HEAD_BYTES as u64).read_to_end(&mut head))
