@@ -39,6 +39,7 @@ fn recipe_mistakes_point_at_the_place_and_name_the_way_out() {
     check_recipe("unknown_weather", "width = 96", "weathers = [\"ClearNun\"]\nwidth = 96");
     check_recipe("not_a_number", "seed = 3", "seed = nan");
     check_recipe("town_name", "source", "name = \"Zürich\"\nsource");
+    check_recipe("map_foreign_option", "source", "terrain_margin_m = 20\nsource");
 }
 
 #[test]

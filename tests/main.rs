@@ -9,6 +9,7 @@ mod diagnostics;
 mod doctor;
 mod evaluation;
 mod export;
+mod fuzzing;
 mod people;
 mod plan_from;
 #[cfg(feature = "plugins")]
@@ -17,6 +18,7 @@ mod preview;
 mod processors;
 mod repository;
 mod several_towns;
+mod shared;
 mod snapshots;
 mod steering;
 mod street;

@@ -9,18 +9,7 @@ pub fn repository_root() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("../../..").canonicalize().expect("the repository is there")
 }
 
-/// Folder of shared real-world inputs, or `None` after printing the reason.
-pub fn shared_data() -> Option<PathBuf> {
-    let root = std::env::var_os("COSFLY_SHARED").map_or_else(|| repository_root().join("../shared"), PathBuf::from);
-    let data = root.join("data");
-    if data.is_dir() {
-        return Some(data);
-    }
-    eprintln!("skipped: the shared inputs are absent (set COSFLY_SHARED to their folder)");
-    None
-}
-
-/// A call of the binary.
+/// One call of the binary.
 pub struct Call {
     command: Command,
     input: Option<Vec<u8>>,

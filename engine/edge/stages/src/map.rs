@@ -6,11 +6,16 @@ use crate::{codec, parameters, single};
 use cosfly_blobs::OutputSink;
 use cosfly_diagnose::{Diagnostic, Fault, Label, ParameterError, Result};
 use cosfly_frames::Seed;
-use cosfly_maps::{MapConfig, MapError, read_town};
+use cosfly_maps::formats::opendrive::OpenDrive;
+use cosfly_maps::{FORMATS, Format, FormatOptions, MapConfig, MapError, MapFormat, read_town, recognise};
 use cosfly_stage::{
-    InputPort, Inputs, ItemRule, Produced, Source, Stage, StageKind, StagePart, StageProperties, TaskContext,
+    InputPort, Inputs, ItemRule, Produced, Source, SourceCheck, Stage, StageKind, StagePart, StageProperties,
+    TaskContext,
 };
-use std::path::PathBuf;
+use serde_json::{Value, json};
+use std::io::Read;
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
 
 /// Stage kind `map`.
 pub struct Map;
@@ -21,19 +26,21 @@ impl StageKind for Map {
     }
 
     fn doc(&self) -> &'static str {
-        "Reads a town from a map file (OpenDRIVE `.xodr`): obstacles, walkable ground, surfaces; fills and simplifies it on request."
+        "Reads a town from a map file: obstacles, walkable ground, surfaces; fills and simplifies it on request."
     }
 
-    fn schema(&self) -> serde_json::Value {
-        parameters::schema_of::<MapConfig>()
+    fn schema(&self) -> Value {
+        let common = parameters::schema_of::<MapConfig>();
+        FORMATS.iter().fold(common, |all, format| parameters::merged_into(all, named_schema(format)))
     }
 
     fn ports(&self) -> Vec<InputPort> {
         vec![]
     }
 
-    fn build(&self, given: serde_json::Value) -> Result<Vec<StagePart>, ParameterError> {
-        let mut config: MapConfig = parameters::read(given)?;
+    fn build(&self, mut given: Value) -> Result<Vec<StagePart>, ParameterError> {
+        let mut config: MapConfig = parameters::take(&mut given)?;
+        config.options = given.as_object().cloned().unwrap_or_default().into();
         let fill = &config.fill;
         for (path, low, high) in [
             ("fill.max_height_m", fill.min_height_m, fill.max_height_m),
@@ -55,8 +62,8 @@ impl StageKind for Map {
         let properties = StageProperties {
             kind: self.name().into(),
             version: 1,
-            parameters: parameters::canonical(&config),
-            sources: vec![Source::new("source", source)],
+            parameters: canonical(&config)?,
+            sources: vec![Source { check: Some(own_options_only()), ..Source::new("source", source) }],
             inputs: self.ports(),
             artifact: TOWN,
             items: ItemRule::One,
@@ -64,6 +71,67 @@ impl StageKind for Map {
         };
         Ok(single(MapStage { config, properties }))
     }
+}
+
+/// Schema of the options of a format; their descriptions begin with its name.
+fn named_schema(format: &Format) -> Value {
+    let mut schema = format.schema();
+    for (_, option) in schema["properties"].as_object_mut().into_iter().flatten() {
+        let description = option["description"].as_str().unwrap_or_default();
+        option["description"] = format!("{}: {description}", format.name()).into();
+    }
+    schema
+}
+
+/// Parameters for keys. An option at its default is left out, so that a new format moves no key; those of OpenDRIVE
+/// are in all keys since the time when there was no other format.
+fn canonical(config: &MapConfig) -> Result<Value, ParameterError> {
+    let filled = |format: &Format, options: &FormatOptions| {
+        format.filled(options).map_err(|error| parameters::refused_at("", error.message))
+    };
+    let mut all = parameters::canonical(config);
+    for format in FORMATS {
+        let (own, defaults) = (filled(format, &config.options)?, filled(format, &FormatOptions::default())?);
+        for ((name, value), (_, default)) in own.iter().zip(defaults.iter()) {
+            if format.name() == OpenDrive::NAME || value != default {
+                all[name] = value.clone();
+            }
+        }
+    }
+    Ok(all)
+}
+
+/// Refuses files of no known format and, at their places in the recipe, options of other formats than the file's.
+fn own_options_only() -> SourceCheck {
+    let read = |path: &Path| -> Result<Value> {
+        let mut head = Vec::new();
+        std::fs::File::open(path)
+            .and_then(|file| file.take(Format::HEAD_BYTES as u64).read_to_end(&mut head))
+            .map_err(|error| unreadable(path, &error))?;
+        let format = recognise(&head).map_err(|error| refusal(error, path.to_owned(), &head))?;
+        Ok(without_foreign_options(format, path))
+    };
+    SourceCheck { describes: String::new(), read: Arc::new(read), settle: None }
+}
+
+/// Schema that allows all options but those of other formats than `own`.
+fn without_foreign_options(own: &Format, path: &Path) -> Value {
+    let mut properties = serde_json::Map::new();
+    for foreign in FORMATS.iter().filter(|format| format.name() != own.name()) {
+        let reason = format!(
+            "is an option of maps in the format {}, but `{}` is in the format {}",
+            foreign.name(),
+            path.display(),
+            own.name()
+        );
+        properties
+            .extend(foreign.option_names().into_iter().map(|name| (name, json!({ "not": {}, "description": reason }))));
+    }
+    json!({ "properties": properties })
+}
+
+fn unreadable(path: &Path, error: &std::io::Error) -> Box<Diagnostic> {
+    Diagnostic::io(format!("read the map `{}`", path.display()), error)
 }
 
 /// True for names that can be folders of the dataset and values in its tables.
@@ -105,8 +173,7 @@ impl Stage for MapStage {
 
     fn run(&self, _inputs: &Inputs<'_>, outputs: &mut dyn OutputSink, context: &TaskContext) -> Result<Produced> {
         let path = &context.sources[0];
-        let bytes = std::fs::read(path)
-            .map_err(|error| Diagnostic::io(format!("read the map `{}`", path.display()), &error))?;
+        let bytes = std::fs::read(path).map_err(|error| unreadable(path, &error))?;
         let (town, warnings) = read_town(&bytes, &self.config, Seed(context.seed))
             .map_err(|error| refusal(error, path.clone(), &bytes))?;
         outputs.put(TOWN_BLOB, &codec::encode(TOWN, &town)?)?;
@@ -146,4 +213,37 @@ fn refusal(error: MapError, path: PathBuf, bytes: &[u8]) -> Box<Diagnostic> {
         None => diagnostic.because(format!("in `{}`", path.display())),
     };
     error.hints.into_iter().fold(diagnostic, |diagnostic, hint| diagnostic.hint(hint))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn keys_of(parameters: Value) -> Value {
+        let parts = Map.build(parameters).unwrap_or_else(|error| panic!("{error:?}"));
+        parts[0].stage.properties().parameters.clone()
+    }
+
+    #[test]
+    fn options_at_their_defaults_move_no_key() {
+        let plain = keys_of(json!({ "source": "town.xodr" }));
+        for option in [json!({ "signals": true }), json!({ "sample_step_m": 50 }), json!({ "terrain_margin_m": 60 })] {
+            let mut given = json!({ "source": "town.xodr" });
+            given.as_object_mut().expect("a table").append(&mut option.as_object().expect("a table").clone());
+            assert_eq!(keys_of(given), plain, "{option}");
+        }
+        assert_eq!(plain["unmarked_crossings"], true);
+        assert_eq!(plain.get("terrain_margin_m"), None);
+        let changed = keys_of(json!({ "source": "town.xodr", "terrain_margin_m": 20, "signals": false }));
+        assert_eq!((&changed["terrain_margin_m"], &changed["signals"]), (&json!(20.0), &json!(false)));
+    }
+
+    #[test]
+    fn the_schema_names_the_format_that_owns_an_option_and_no_option_twice() {
+        let common = parameters::schema_of::<MapConfig>()["properties"].as_object().expect("a table").len();
+        let options: usize = FORMATS.iter().map(|format| format.option_names().len()).sum();
+        let schema = Map.schema();
+        assert_eq!(schema["properties"].as_object().expect("a table").len(), common + options);
+        assert!(schema["properties"]["signals"]["description"].as_str().expect("text").starts_with("OpenDRIVE: "));
+    }
 }

@@ -105,10 +105,11 @@ impl SourceFinder<'_> {
     }
 }
 
-/// Schema of a stage's table in which only the parameter at `path` is described, by `schema`.
+/// Schema of a stage's table in which only the parameter at `path` is described, by `schema`; an empty path is the table
+/// itself.
 fn schema_at(path: &str, mut schema: Json) -> Json {
     let definitions = schema.as_object_mut().and_then(|table| table.remove("$defs"));
-    for key in path.split('.').rev() {
+    for key in path.split('.').rev().filter(|key| !key.is_empty()) {
         let needs_it = schema.get("required").and_then(Json::as_array).is_some_and(|keys| !keys.is_empty());
         schema = match key.parse::<usize>() {
             Ok(index) => {

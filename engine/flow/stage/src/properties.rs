@@ -42,7 +42,7 @@ pub struct Source {
 /// file takes.
 #[derive(Clone)]
 pub struct SourceCheck {
-    /// Parameter that the file itself describes, keys joined by dots, such as `terms.0.params`.
+    /// Parameter that the file itself describes, keys joined by dots, such as `terms.0.params`; empty for all parameters.
     pub describes: String,
     /// Function from the file's path to the JSON Schema of that parameter.
     pub read: Arc<ReadSchema>,

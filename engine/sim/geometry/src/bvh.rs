@@ -27,7 +27,7 @@ pub struct Bvh {
     order: Vec<u32>,
 }
 
-/// Decisions of a query during traversal.
+/// Steps of a query at the nodes of the tree.
 pub trait Visitor {
     /// Lower bound of the keys of everything inside the bounds; `None` to skip them.
     fn key(&mut self, bounds: &Bounds) -> Option<f64>;

@@ -5,7 +5,7 @@ use cosfly_frames::DVec3;
 
 /// A shape prepared for queries.
 pub trait Shape: Copy + Send + Sync {
-    /// The shape as callers give it.
+    /// Form in which callers give the shape.
     type Given: Copy + Send + Sync;
 
     /// Precomputes the data of queries; `None` when a number is not finite.

@@ -15,7 +15,7 @@ pub struct TurnedBox {
 }
 
 impl TurnedBox {
-    /// Centre, world frame, metres.
+    /// Middle, metres.
     #[inline(always)]
     pub fn center_in_world(&self) -> DVec3 {
         self.center_in_world

@@ -2,8 +2,8 @@
 //! `dump_lanes FILE [STEP_M] [shoulders]`. Positions are in the map's own origin with y negated (CARLA's frame).
 
 use cosfly_frames::{DVec3, Seed};
-use cosfly_maps::formats::opendrive::RoadMap;
-use cosfly_maps::{MapConfig, SemanticLabel, read_town};
+use cosfly_maps::formats::opendrive::{OpenDriveOptions, RoadMap};
+use cosfly_maps::{FormatOptions, MapConfig, SemanticLabel, read_town};
 use serde_json::{Value, json};
 use std::error::Error;
 
@@ -14,8 +14,9 @@ fn main() -> Result<(), Box<dyn Error>> {
     let shoulders_as_sidewalks = arguments.next().is_some_and(|text| text == "shoulders");
     let bytes = std::fs::read(&path)?;
     let (map, _) = RoadMap::read(&bytes)?;
-    let options = MapConfig { shoulders_as_sidewalks, ..MapConfig::default() };
-    let town = read_town(&bytes, &options, Seed::of_item(0, "dump", "town"));
+    let options = OpenDriveOptions { shoulders_as_sidewalks, ..OpenDriveOptions::default() };
+    let config = MapConfig { options: FormatOptions::of(&options), ..MapConfig::default() };
+    let town = read_town(&bytes, &config, Seed::of_item(0, "dump", "town"));
     let offset_m = map.world.offset_m;
     let point = |point: DVec3| (point + offset_m).to_array();
     let polygons: Vec<Value> = town

@@ -131,7 +131,7 @@ fn join(pieces: &mut Vec<(DVec2, DVec2)>, low: DVec2, high: DVec2) {
     }
 }
 
-/// Where the sides of the polygon that pass through a strip cross its lower and upper level.
+/// Crossings of the polygon's sides with the lower and the upper level of a strip.
 fn crossings(local: &[DVec2], low_y: f64, high_y: f64) -> Vec<(f64, f64)> {
     let middle_y = 0.5 * (low_y + high_y);
     let mut out = Vec::new();

@@ -8,9 +8,9 @@ use std::fmt;
 pub struct MapError {
     /// The value that was found and the rule it breaks.
     pub message: String,
-    /// Where in the file, when it is about a place in it.
+    /// Place in the file, where the error is about one.
     pub place: Option<Place>,
-    /// What the user can do, one sentence each.
+    /// Advice for the user, one sentence each.
     pub hints: Vec<String>,
 }
 
@@ -33,7 +33,7 @@ impl MapError {
         Self { message: message.into(), place: None, hints: Vec::new() }
     }
 
-    /// The same with one more thing that the user can do.
+    /// The same with one more piece of advice.
     #[must_use]
     pub fn hint(mut self, hint: impl Into<String>) -> Self {
         self.hints.push(hint.into());

@@ -1,4 +1,4 @@
-//! [`GroundIndex`]: how high the ground is under a point, from the town's surfaces, fast.
+//! [`GroundIndex`]: height of the ground under a point, from the town's surfaces.
 
 use crate::{SemanticLabel, SurfaceMesh, Town};
 use cosfly_frames::{DVec2, DVec3};
@@ -7,6 +7,8 @@ use cosfly_frames::{DVec2, DVec3};
 const MOST_CELLS: f64 = 1024.0;
 /// Smallest side of a cell, metres.
 const SMALLEST_CELL_M: f64 = 4.0;
+/// Most entries in the lists of the cells; absurdly wide ground gets larger cells.
+const MOST_ENTRIES: f64 = 1e8;
 /// A point this far outside a triangle still lies on it, so that seams have no gaps, metres.
 const SEAM_M: f64 = 1e-6;
 
@@ -15,7 +17,7 @@ const SEAM_M: f64 = 1e-6;
 pub struct GroundPoint {
     /// Height in the world, metres.
     pub height_m: f64,
-    /// What the ground is.
+    /// Label of the ground.
     pub label: SemanticLabel,
 }
 
@@ -63,7 +65,10 @@ impl GroundIndex {
         let low = corners().fold(DVec2::INFINITY, DVec2::min);
         let high = corners().fold(DVec2::NEG_INFINITY, DVec2::max);
         let size = if triangles.is_empty() { DVec2::ZERO } else { high - low };
-        let cell_m = (size.max_element() / MOST_CELLS).max(SMALLEST_CELL_M);
+        let mut cell_m = (size.max_element() / MOST_CELLS).max(SMALLEST_CELL_M);
+        while entries(&triangles, cell_m) > MOST_ENTRIES && cell_m < size.max_element() {
+            cell_m *= 2.0;
+        }
         let [columns, rows] = size.to_array().map(|side| (side / cell_m) as usize + 1);
         let mut index = Self { triangles, low, cell_m, columns, rows, starts: Vec::new(), members: Vec::new() };
         index.sort_into_cells();
@@ -169,6 +174,15 @@ impl Town {
     pub fn ground_height_m(&self, x_m: f64, y_m: f64) -> Option<f64> {
         GroundIndex::new(self).ground_height_m(x_m, y_m)
     }
+}
+
+/// About how many cells of a side the triangles touch, over all triangles.
+fn entries(triangles: &[GroundTriangle], cell_m: f64) -> f64 {
+    let touched = |triangle: &GroundTriangle| {
+        let [a, b, c] = triangle.corners.map(|corner| corner.truncate() / cell_m);
+        1.0 + 0.5 * twice_area([a, b, c]).abs() + a.distance(b) + b.distance(c) + c.distance(a)
+    };
+    triangles.iter().map(touched).sum()
 }
 
 fn twice_area([a, b, c]: [DVec2; 3]) -> f64 {

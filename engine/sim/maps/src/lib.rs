@@ -8,6 +8,7 @@ pub mod fill;
 pub mod formats;
 pub mod generate;
 pub mod ground;
+pub mod options;
 pub mod polygons;
 pub mod read;
 pub mod semantics;
@@ -16,9 +17,10 @@ pub mod town;
 
 pub use config::MapConfig;
 pub use error::{MapError, Place};
-pub use formats::{FORMATS, MapFormat};
+pub use formats::{FORMATS, Format, MapFormat};
 pub use ground::{GroundIndex, GroundPoint};
-pub use read::read_town;
+pub use options::FormatOptions;
+pub use read::{read_town, recognise};
 pub use semantics::SemanticLabel;
 pub use town::{
     MapOrigin, Obstacle, ObstacleKind, SimplificationReport, SurfaceMesh, Synthetic, Town, WalkableKind,

@@ -6,24 +6,24 @@ use cosfly_geometry::OrientedBox;
 use serde::{Deserialize, Serialize};
 
 /// A town. World frame: CARLA's (left-handed, x forward, y right, z up, metres), shifted by [`MapOrigin`].
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Town {
     /// Short name, from the recipe or the file.
     pub name: String,
-    /// How the world frame lies in the map file's frame.
+    /// Place of the world frame in the map file's frame.
     pub origin: MapOrigin,
     /// Every solid thing, exact. Certificates and pictures use these. Index = primitive index of queries.
     pub obstacles: Vec<Obstacle>,
     /// A conservative simplification of `obstacles` for planning: every point of an obstacle lies in one
     /// of these boxes or within the tolerance in `simplification` of one.
     pub planning_boxes: Vec<OrientedBox>,
-    /// What simplification did.
+    /// Outcome of the simplification.
     pub simplification: SimplificationReport,
     /// Ground the pedestrians may use.
     pub walkable: Vec<WalkablePolygon>,
     /// Roads, pavements, crossings, road marks, terrain: thin, not obstacles, but visible and hit by depth rays.
     pub surfaces: Vec<SurfaceMesh>,
-    /// What in this town was invented and not in the file.
+    /// Parts of this town that were invented and are not in the file.
     pub synthetic: Synthetic,
     /// Smallest corner of everything, metres.
     pub min_in_world: DVec3,
@@ -33,7 +33,7 @@ pub struct Town {
 
 /// `x_world = x_map - offset.x`, `y_world = -y_map - offset.y`, `z_world = z_map - offset.z`
 /// (OpenDRIVE and other map files are right-handed, so y changes sign).
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct MapOrigin {
     /// Offset after the sign change; zero for files near their own origin, whole metres otherwise.
     pub offset_m: DVec3,
@@ -44,9 +44,9 @@ pub struct MapOrigin {
 /// One solid box of the town. A tree, a lamp or a building of several wings is several boxes with one `object_id`.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Obstacle {
-    /// Its space.
+    /// Space of the box.
     pub shape: OrientedBox,
-    /// What it is.
+    /// Kind of the thing.
     pub kind: ObstacleKind,
     /// Boxes of one thing share this; instance ids of pictures come from it.
     pub object_id: u32,
@@ -88,7 +88,7 @@ pub enum ObstacleKind {
 }
 
 impl ObstacleKind {
-    /// CARLA's label for it.
+    /// CARLA's label of the kind.
     pub fn label(self) -> SemanticLabel {
         match self {
             Self::Building => SemanticLabel::Building,
@@ -106,7 +106,7 @@ impl ObstacleKind {
     }
 }
 
-/// What merge, crop and prune did to the boxes (the paper: 65 K -> 2 K).
+/// Outcome of merging, cropping and pruning the boxes (the paper: 65 K -> 2 K).
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct SimplificationReport {
     /// Boxes before.
@@ -125,7 +125,7 @@ pub struct SimplificationReport {
     pub added_volume_share: f64,
 }
 
-/// What kind of ground a pedestrian walks on.
+/// Kind of ground that a pedestrian walks on.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
 pub enum WalkableKind {
     /// Pavement beside a road.
@@ -143,7 +143,7 @@ pub enum WalkableKind {
 /// A simple polygon of walkable ground; z varies along it.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct WalkablePolygon {
-    /// What it is.
+    /// Kind of the ground.
     pub kind: WalkableKind,
     /// Corners in order, not repeated at the end.
     pub outline_in_world: Vec<DVec3>,
@@ -166,7 +166,7 @@ pub struct SurfaceMesh {
     pub synthetic: bool,
 }
 
-/// What a town has that its file had not. Goes into every dataset's metadata.
+/// Parts of a town that its file does not have. Every dataset's metadata states them.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Synthetic {
     /// Buildings were filled in.
@@ -180,12 +180,12 @@ pub struct Synthetic {
 }
 
 impl WalkablePolygon {
-    /// Its corners in plan.
+    /// Corners in plan, metres.
     pub fn plan(&self) -> Vec<DVec2> {
         self.outline_in_world.iter().map(|corner| corner.truncate()).collect()
     }
 
-    /// Mean height of its corners, metres.
+    /// Mean height of the corners, metres.
     pub fn mean_height_m(&self) -> f64 {
         self.outline_in_world.iter().map(|corner| corner.z).sum::<f64>() / self.outline_in_world.len().max(1) as f64
     }
@@ -215,8 +215,8 @@ impl Town {
         }
     }
 
-    /// Checks every promise of the type: finite numbers, indices in range, sizes not negative, polygons with at
-    /// least three corners, everything within the bounds. The error says which promise is broken, and where.
+    /// Checks every rule of the type: finite numbers, indices in range, sizes not negative, polygons with at
+    /// least three corners, everything within the bounds. The error names the broken rule and the place.
     pub fn assert_well_formed(&self) -> Result<(), String> {
         let near = |point: DVec3| point.is_finite() && point.abs().max_element() <= FARTHEST_M;
         for (i, obstacle) in self.obstacles.iter().enumerate() {

@@ -1,23 +1,18 @@
 //! Real map files of `../shared`: each is read, is well formed and has what it is known to have.
 
 use cosfly_frames::{DVec2, DVec3, Seed};
+use cosfly_maps::formats::opendrive::OpenDriveOptions;
 use cosfly_maps::polygons::contains;
 use cosfly_maps::{
-    GroundIndex, MapConfig, MapError, ObstacleKind, SemanticLabel, SurfaceMesh, Town, WalkableKind, read_town,
+    FormatOptions, GroundIndex, MapConfig, MapError, ObstacleKind, SemanticLabel, SurfaceMesh, Town, WalkableKind,
+    read_town,
 };
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 use std::time::Instant;
 
-fn shared() -> Option<PathBuf> {
-    let beside = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../../../shared");
-    let folder = std::env::var_os("COSFLY_SHARED").map_or(beside, PathBuf::from).join("data");
-    if !folder.is_dir() {
-        println!("skipped: the shared data folder is absent");
-        return None;
-    }
-    Some(folder)
-}
+#[path = "../../../../tests/shared.rs"]
+mod shared;
 
 fn try_read(path: &Path, options: &MapConfig) -> Result<(Town, Vec<String>), MapError> {
     read_town(&std::fs::read(path).expect("the listed file can be read"), options, Seed::of_item(1, "town", "town"))
@@ -39,7 +34,8 @@ fn files(folder: &Path) -> Vec<PathBuf> {
 }
 
 fn with_shoulders() -> MapConfig {
-    MapConfig { shoulders_as_sidewalks: true, ..MapConfig::default() }
+    let options = OpenDriveOptions { shoulders_as_sidewalks: true, ..OpenDriveOptions::default() };
+    MapConfig { options: FormatOptions::of(&options), ..MapConfig::default() }
 }
 
 /// Share of walkable area in the largest connected part, on a half-metre grid.
@@ -108,7 +104,7 @@ fn check_ground(town: &Town) {
 
 #[test]
 fn terrain_stays_below_roads_and_pavements_lie_on_the_ground() {
-    let Some(folder) = shared() else { return };
+    let Some(folder) = shared::shared_input("") else { return };
     for name in [
         "carla_xodr/Town01.xodr",
         "carla_xodr/Town04.xodr",
@@ -122,7 +118,7 @@ fn terrain_stays_below_roads_and_pavements_lie_on_the_ground() {
 
 #[test]
 fn walkable_ground_hangs_together() {
-    let Some(folder) = shared() else { return };
+    let Some(folder) = shared::shared_input("") else { return };
     for (name, least) in [
         ("carla_xodr/Town01.xodr", 0.99),
         ("carla_xodr/Town03_2019-04.xodr", 0.95),
@@ -138,7 +134,7 @@ fn walkable_ground_hangs_together() {
 
 #[test]
 fn a_town_without_pavements_is_refused_with_the_option_that_helps() {
-    let Some(folder) = shared() else { return };
+    let Some(folder) = shared::shared_input("") else { return };
     let path = folder.join("carla_xodr/Town06.xodr");
     let error = try_read(&path, &MapConfig::default()).expect_err("Town06 has no pavements");
     assert!(error.hints.iter().any(|hint| hint.contains("shoulders_as_sidewalks = true")), "{error:?}");
@@ -148,7 +144,7 @@ fn a_town_without_pavements_is_refused_with_the_option_that_helps() {
 
 #[test]
 fn the_surveyed_city_keeps_its_buildings_trees_and_lamps() {
-    let Some(folder) = shared() else { return };
+    let Some(folder) = shared::shared_input("") else { return };
     let town = read(&folder.join("xodr_city/Ingolstadt_CityHall.xodr"), &MapConfig::default());
     let things = |kind| {
         let ids = town.obstacles.iter().filter(|obstacle| obstacle.kind == kind).map(|obstacle| obstacle.object_id);
@@ -168,7 +164,7 @@ fn triangles(town: &Town) -> usize {
 
 #[test]
 fn every_shared_town_reads_and_is_well_formed() {
-    let Some(folder) = shared() else { return };
+    let Some(folder) = shared::shared_input("") else { return };
     for path in files(&folder) {
         let name = path.file_name().expect("a file has a name").to_string_lossy().into_owned();
         let start = Instant::now();

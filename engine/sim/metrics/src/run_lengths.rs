@@ -51,7 +51,8 @@ impl Runs {
                     value |= -1_i64 << shift;
                 }
                 if counts.len() > 2 {
-                    value += counts[counts.len() - 2];
+                    let before = counts[counts.len() - 2];
+                    value = value.checked_add(before).ok_or("it has a number that is too large")?;
                 }
                 counts.push(value);
                 (value, shift) = (0, 0);

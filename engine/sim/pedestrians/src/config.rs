@@ -1,10 +1,10 @@
-//! What a recipe can say about pedestrians, and the rules between those values.
+//! [`PedestrianConfig`]: the parameters of pedestrians in a recipe, and the rules between them.
 
 use crate::ConfigRule;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-/// Simulated pedestrians: how many, how long, how they walk.
+/// Simulated pedestrians: number, length of the walks, manner of walking.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(default, deny_unknown_fields)]
 pub struct PedestrianConfig {
@@ -19,7 +19,7 @@ pub struct PedestrianConfig {
     pub dt_s: f64,
     /// Walking speed.
     pub speed: SpeedConfig,
-    /// How much a bend slows the walk: speed is divided by 1 + `turn_slowdown_m` x curvature (1/m). Metres. Default 1.
+    /// Slowdown in bends: speed is divided by 1 + `turn_slowdown_m` x curvature (1/m). Metres. Default 1.
     #[schemars(range(min = 0.0, max = 100.0))]
     pub turn_slowdown_m: f64,
     /// Random variation of the speed, as a share of it. Default 0.1.
@@ -29,12 +29,12 @@ pub struct PedestrianConfig {
     pub stops: StopConfig,
     /// Body height.
     pub height: HeightRange,
-    /// Body radius seen from above; nobody comes closer to an obstacle than the largest.
+    /// Body radius seen from above; the largest is the least distance from obstacles for all.
     pub radius: RadiusRange,
     /// Cell size of the walkable grid, metres. Default 0.5.
     #[schemars(range(min = 0.1, max = 2.0))]
     pub grid_m: f64,
-    /// How far the simplified route may leave the grid route (Douglas-Peucker), metres. Default 0.2.
+    /// Largest distance of the simplified route from the grid route (Douglas-Peucker), metres. Default 0.2.
     #[schemars(range(min = 0.0, max = 5.0))]
     pub simplify_m: f64,
     /// Distance from the edge of the walkable ground that pedestrians like to keep, metres. Default 0.8.
@@ -93,7 +93,7 @@ impl Default for SpeedConfig {
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(default, deny_unknown_fields)]
 pub struct StopConfig {
-    /// Mean number of stops in 100 m of way. Default 1.
+    /// Mean number of stops in 100 m of walk. Default 1.
     #[schemars(range(min = 0.0, max = 50.0))]
     pub per_100m: f64,
     /// Shortest stop, seconds. Default 2.

@@ -1,4 +1,4 @@
-//! Why there is no pedestrian: broken rules, ground that cannot be walked on; each with what helps.
+//! [`PedestrianError`]: broken rules and ground that cannot be walked on, each with advice.
 
 use std::fmt;
 
@@ -32,7 +32,7 @@ impl ConfigRule {
     }
 }
 
-/// Why a town has no place for pedestrians, or a config cannot be used.
+/// Reason why a town has no place for pedestrians, or why a config cannot be used.
 #[derive(Clone, Debug, PartialEq)]
 pub enum PedestrianError {
     /// A config rule is broken.
@@ -79,12 +79,12 @@ pub enum PedestrianError {
 }
 
 impl PedestrianError {
-    /// What the user can do.
+    /// Advice for the user.
     pub fn hint(&self) -> String {
         match self {
             Self::Config(_) => "change the value in the recipe".into(),
             Self::BrokenPolygon { .. } | Self::BrokenObstacle { .. } => {
-                "the map has a value that is no number there; repair the map file".into()
+                "the map has a value there that is not a number; repair the map file".into()
             }
             Self::NoGround => {
                 "choose a map with pavements, or set `shoulders_as_sidewalks = true` in the `map` stage".into()

@@ -1,4 +1,4 @@
-//! The exact walkable ground: what lies under a point, and whether a step stays on it.
+//! The exact walkable ground: kind and height under a point, and whether a step stays on it.
 
 use crate::polygon::{Cut, Polygon};
 use crate::{PedestrianError, polygon::Interval};
@@ -25,7 +25,7 @@ pub struct Ground {
     buckets: Vec<Vec<u32>>,
 }
 
-/// Which kind decides where polygons overlap; lower wins.
+/// Rank of a kind where polygons overlap; the lowest decides.
 pub(crate) fn rank(kind: WalkableKind) -> u8 {
     match kind {
         WalkableKind::Sidewalk => 0,

@@ -11,9 +11,9 @@ const KNOT_M: f64 = 0.5;
 /// A pause on the way.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Stop {
-    /// Where, along the path, metres.
+    /// Place along the path, metres.
     pub at_m: f64,
-    /// How long, seconds.
+    /// Duration, seconds.
     pub duration_s: f64,
 }
 
@@ -98,8 +98,8 @@ pub(crate) fn knot_speeds(path: &ArcPath, config: &PedestrianConfig, cruise_mps:
         .collect()
 }
 
-/// Random stops: exponential distances between them, uniform durations. A place where nobody should stand
-/// (`may_stand` is false) moves the stop on to the next one where they may.
+/// Random stops: exponential distances between them, uniform durations. A stop at a place where
+/// standing is not allowed (`may_stand` is false) moves on to the next place where it is.
 pub(crate) fn random_stops(
     length_m: f64,
     config: &PedestrianConfig,

@@ -1,10 +1,10 @@
-//! Obstacles as a walking body meets them: rectangles in plan with a height range.
+//! Obstacles to a walking body: rectangles in plan with a height range.
 
 use crate::PedestrianError;
 use cosfly_frames::{DVec2, DVec3, real};
 use cosfly_maps::Town;
 
-/// What a foot steps over, metres.
+/// Highest thing that a foot steps over, metres.
 const STEP_OVER_M: f64 = 0.05;
 
 /// Side of a bucket of the index, metres.

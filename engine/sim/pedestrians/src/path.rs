@@ -1,4 +1,4 @@
-//! What the pedestrian simulation gives: a track, and what it walked on.
+//! [`PedestrianPath`]: track of a pedestrian and the ground under it.
 
 use cosfly_frames::TargetTrack;
 use cosfly_maps::WalkableKind;
@@ -11,6 +11,6 @@ pub struct PedestrianPath {
     pub track: TargetTrack,
     /// Ground under the feet per frame.
     pub ground: Vec<WalkableKind>,
-    /// Frames at which the pedestrian stands.
+    /// Whether the pedestrian stands, per frame.
     pub standing: Vec<bool>,
 }

@@ -9,12 +9,12 @@ const CHUNK: usize = 16;
 /// A polygon by the nonzero winding rule, so strips that overlap themselves have no holes.
 #[derive(Clone, Debug)]
 pub struct Polygon {
-    /// What it is.
+    /// Kind of the ground.
     pub kind: WalkableKind,
     corners: Vec<DVec3>,
     /// Centre and half size of the bounds of each run of edges.
     chunks: Vec<(DVec2, DVec2)>,
-    /// Smallest and largest corner.
+    /// Smallest corner.
     pub min: DVec3,
     /// Largest corner.
     pub max: DVec3,
@@ -23,9 +23,9 @@ pub struct Polygon {
 /// A piece of a line inside a polygon, with the outline's heights at its two ends.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Interval {
-    /// Where it starts, along the line.
+    /// Start along the line, metres.
     pub from: f64,
-    /// Where it ends.
+    /// End along the line, metres.
     pub to: f64,
     /// Height at the start, metres.
     pub z_from: f64,
@@ -42,7 +42,7 @@ impl Interval {
     }
 }
 
-/// Where a line passes an edge: place along the line, height, change of the winding number.
+/// Crossing of a line and an edge: place along the line, height, change of the winding number.
 type Crossing = (f64, f64, i32);
 
 /// Scratch space and result of cutting a polygon with a line.

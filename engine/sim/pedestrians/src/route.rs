@@ -1,4 +1,4 @@
-//! A* over the grid: eight neighbours, ground costs, a liking for the middle of the way, deterministic ties.
+//! A* over the grid: eight neighbours, ground costs, a preference for the middle of the ground, deterministic ties.
 
 use crate::WalkableGrid;
 use cosfly_frames::{RandomStream, Seed};
@@ -6,17 +6,17 @@ use cosfly_maps::WalkableKind;
 use std::cmp::Reverse;
 use std::collections::BinaryHeap;
 
-/// Side of the lattice of personal taste, metres, and its number of points per side (it repeats).
+/// Spacing of the lattice of personal preference, metres, and its number of points per side (it repeats).
 const TASTE_M: f64 = 5.0;
 const TASTE_POINTS: usize = 32;
 
-/// How much dearer ground may be by personal taste, as a share.
+/// Largest extra cost of ground by personal preference, as a share.
 const TASTE_SHARE: f32 = 0.3;
 
-/// How much dearer the very edge of the ground is than its middle, as a share.
+/// Extra cost of the very edge of the ground over its middle, as a share.
 const EDGE_SHARE: f32 = 1.5;
 
-/// How much dearer it is to go back over the way just come.
+/// Factor on the cost of going back over the last part of the route.
 const BACK_FACTOR: f32 = 4.0;
 
 /// Cost of a metre on each kind of ground; never below 1, so that straight distance is a lower bound.
@@ -29,12 +29,12 @@ fn ground_cost(kind: WalkableKind) -> f32 {
     }
 }
 
-/// Route searches of one pedestrian, with its taste in ways; scratch space is kept between legs.
+/// Route searches of one pedestrian with personal preferences; scratch space is kept between legs.
 pub(crate) struct RouteSearch<'a> {
     grid: &'a WalkableGrid,
     edge_distance_m: f32,
     taste: Vec<f32>,
-    /// Which search last wrote the entries of a node.
+    /// Number of the search that last wrote the entries of a node.
     written: Vec<u32>,
     search: u32,
     cost: Vec<f32>,
@@ -62,8 +62,8 @@ impl<'a> RouteSearch<'a> {
         }
     }
 
-    /// The cheapest way from `start` to `goal`, both included; `None` when no way leads there.
-    /// Ways over `recent` nodes cost more, so that a walk goes on rather than back.
+    /// Nodes of the cheapest route from `start` to `goal`, both included; `None` when no route leads there.
+    /// Routes over `recent` nodes cost more, so that a walk goes on rather than back.
     pub fn find(&mut self, start: u32, goal: u32, recent: &[u32]) -> Option<Vec<u32>> {
         self.search += 1;
         for &node in recent {
@@ -109,14 +109,14 @@ impl<'a> RouteSearch<'a> {
         }
     }
 
-    /// Octile distance: no way on ground of cost 1 is shorter.
+    /// Octile distance: no route on ground of cost 1 is shorter.
     fn bound(&self, node: u32, goal: u32) -> f32 {
         let (a, b) = (self.grid.column_row(node), self.grid.column_row(goal));
         let (x, y) = (a.0.abs_diff(b.0) as f32, a.1.abs_diff(b.1) as f32);
         self.grid.cell_m as f32 * (x.max(y) + (core::f32::consts::SQRT_2 - 1.0) * x.min(y))
     }
 
-    /// Cost of a metre at a node: kind x distance from the edge x personal taste.
+    /// Cost of a metre at a node: kind x distance from the edge x personal preference.
     fn ground_at(&self, node: u32) -> f32 {
         let own = &self.grid.nodes[node as usize];
         let edge =

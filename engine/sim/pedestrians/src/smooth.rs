@@ -1,4 +1,4 @@
-//! From a grid route to a smooth path: evening out, Douglas-Peucker, centripetal Catmull-Rom, and the proof that it is free.
+//! From a grid route to a smooth path: evening out, Douglas-Peucker, centripetal Catmull-Rom, and the check that it is free.
 
 use crate::WalkableGrid;
 use cosfly_frames::DVec2;
@@ -62,7 +62,7 @@ fn distance_to_segment(point: DVec2, from: DVec2, to: DVec2) -> f64 {
     (from + share * step - point).length()
 }
 
-/// How a span between two control points is walked.
+/// Course of a span between two control points.
 #[derive(Clone, Copy, PartialEq)]
 enum Span {
     /// On the spline, after this many halvings.

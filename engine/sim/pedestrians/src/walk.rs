@@ -11,13 +11,13 @@ use cosfly_maps::WalkableKind;
 const LONGEST_LEG_M: f64 = 120.0;
 const SHORTEST_LEG_M: f64 = 15.0;
 
-/// A goal may lie this far to either side of the way that the walk came, radians.
+/// Largest angle between the direction of the walk so far and that to the next goal, radians.
 const AHEAD_RAD: f64 = 1.9;
 
-/// Nodes of the way behind that a new leg avoids.
+/// Last nodes of the route that a new leg avoids.
 const BEHIND_NODES: usize = 60;
 
-/// A way that begins by going back this many steps is given up for another goal, this often.
+/// A route that begins by going back this many steps is given up for another goal, at most so many times.
 const TURNING_BACK_STEPS: usize = 6;
 const TURNING_BACK_REFUSALS: usize = 3;
 
@@ -30,9 +30,9 @@ const ROUNDS: usize = 6;
 
 /// Walks one pedestrian over the grid for exactly `steps` frames.
 ///
-/// The seed decides the person, the start, every goal, the liking for ways, the speeds and the stops. Every point
+/// The seed decides the person, the start, every goal, the preferences, the speeds and the stops. Every point
 /// between two frames lies on walkable ground, at least the largest body radius from every obstacle. A walk whose
-/// goal is near goes on to another; it ends standing only where no way leads on.
+/// goal is near goes on to another; it ends standing only where no route leads on.
 ///
 /// # Errors
 /// When the config breaks its rules or no connected piece of ground is `min_route_m` across.
@@ -81,7 +81,7 @@ fn timed(
     PedestrianPath { track, ground, standing: frames.iter().map(|frame| frame.standing).collect() }
 }
 
-/// Who walks.
+/// Body and cruise speed of the person who walks.
 struct Person {
     cruise_mps: f64,
     height_m: f64,
@@ -109,7 +109,7 @@ struct GoalChain<'a> {
     component: u32,
     nodes: Vec<u32>,
     length_m: f64,
-    /// No way leads on.
+    /// No route leads on.
     ended: bool,
 }
 
@@ -125,7 +125,7 @@ impl<'a> GoalChain<'a> {
             let largest_m = grid.components.iter().map(|piece| piece.extent_m).fold(0.0, f64::max);
             return Err(PedestrianError::NoRoom { largest_m, min_route_m: config.min_route_m });
         }
-        // Every square metre is as likely a start as any other; crossings and carriageways only when nothing else comes.
+        // Every square metre is as likely a start as any other; crossings and carriageways only when nothing else is drawn.
         let mut start = (0, 0);
         for _ in 0..GOAL_ATTEMPTS {
             let mut place = stream.index(total);
@@ -169,7 +169,7 @@ impl<'a> GoalChain<'a> {
         route
     }
 
-    /// Adds the way to one more goal; false when none was found.
+    /// Adds the route to one more goal; false when none was found.
     fn grow(&mut self, leg_m: f64) -> bool {
         let here = self.nodes[self.nodes.len() - 1];
         let mut refusals = 0;
@@ -221,7 +221,7 @@ impl<'a> GoalChain<'a> {
     }
 }
 
-/// Whether a walk may start or change its mind here.
+/// Whether a walk may start or choose a new goal here.
 fn is_goal(grid: &WalkableGrid, node: u32) -> bool {
     !matches!(grid.nodes[node as usize].kind, WalkableKind::Crossing | WalkableKind::Road)
 }

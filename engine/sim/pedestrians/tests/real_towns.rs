@@ -1,24 +1,14 @@
 //! Walks on real towns: CARLA's own and a surveyed city. Skipped where the shared data is absent.
 
 use cosfly_frames::{DVec2, Seed};
-use cosfly_maps::{MapConfig, Town, WalkableKind, read_town};
+use cosfly_maps::formats::opendrive::OpenDriveOptions;
+use cosfly_maps::{FormatOptions, MapConfig, Town, WalkableKind, read_town};
 use cosfly_pedestrians::{PedestrianConfig, PedestrianPath, WalkableGrid, walk};
+use shared::shared_input;
 use std::path::{Path, PathBuf};
 
-/// A file of the shared data; `None` when it is absent.
-fn shared_file(file: &str) -> Option<Vec<u8>> {
-    let root = std::env::var_os("COSFLY_SHARED")
-        .map_or_else(|| PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("../../../../shared"), PathBuf::from);
-    file_or_skip(&root.join("data").join(file))
-}
-
-fn file_or_skip(path: &Path) -> Option<Vec<u8>> {
-    let bytes = std::fs::read(path).ok();
-    if bytes.is_none() {
-        println!("skipped: {} is absent", path.display());
-    }
-    bytes
-}
+#[path = "../../../../tests/shared.rs"]
+mod shared;
 
 /// Distance in plan from a point to the nearest obstacle that a body would meet there.
 fn free_m(town: &Town, walked: &PedestrianPath, frame: usize) -> f64 {
@@ -37,10 +27,11 @@ fn free_m(town: &Town, walked: &PedestrianPath, frame: usize) -> f64 {
 }
 
 /// Walks of one town: on its ground, off its things, and most of them somewhere.
-fn check_town(name: &str, bytes: Option<Vec<u8>>, options: &MapConfig) {
+fn check_town(name: &str, path: Option<PathBuf>, config: &MapConfig) {
     const WALKS: u32 = 20;
-    let Some(bytes) = bytes else { return };
-    let town = read_town(&bytes, options, Seed::of_item(1, "town", "town")).unwrap().0;
+    let Some(path) = path else { return };
+    let bytes = std::fs::read(path).expect("the map can be read");
+    let town = read_town(&bytes, config, Seed::of_item(1, "town", "town")).unwrap().0;
     let config = PedestrianConfig::default();
     let grid = WalkableGrid::build(&town, &config).unwrap();
     let (mut ended, mut crossed, mut way_m) = (0, 0, 0.0);
@@ -72,31 +63,32 @@ fn check_town(name: &str, bytes: Option<Vec<u8>>, options: &MapConfig) {
 #[test]
 fn carla_towns_are_walked() {
     for file in ["Town01.xodr", "Town03_2019-04.xodr", "Town04.xodr", "Town07.xodr"] {
-        check_town(file, shared_file(&format!("carla_xodr/{file}")), &MapConfig::default());
+        check_town(file, shared_input(&format!("carla_xodr/{file}")), &MapConfig::default());
     }
 }
 
 #[test]
 fn filled_towns_are_walked_between_their_trees() {
-    let mut options = MapConfig::default();
-    (options.fill.buildings, options.fill.trees) = (true, true);
-    check_town("Town01.xodr, filled", shared_file("carla_xodr/Town01.xodr"), &options);
+    let mut config = MapConfig::default();
+    (config.fill.buildings, config.fill.trees) = (true, true);
+    check_town("Town01.xodr, filled", shared_input("carla_xodr/Town01.xodr"), &config);
 }
 
 #[test]
 fn a_surveyed_city_is_walked() {
     let name = "Ingolstadt_CityHall.xodr";
-    check_town(name, shared_file(&format!("xodr_city/{name}")), &MapConfig::default());
+    check_town(name, shared_input(&format!("xodr_city/{name}")), &MapConfig::default());
 }
 
 #[test]
 fn our_own_town_is_walked() {
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../../recipes/towns/downtown.xodr");
-    check_town("downtown.xodr", file_or_skip(&path), &MapConfig::default());
+    check_town("downtown.xodr", Some(path), &MapConfig::default());
 }
 
 #[test]
 fn a_town_without_pavements_is_walked_on_its_shoulders() {
-    let options = MapConfig { shoulders_as_sidewalks: true, ..MapConfig::default() };
-    check_town("Town06.xodr, shoulders", shared_file("carla_xodr/Town06.xodr"), &options);
+    let options = OpenDriveOptions { shoulders_as_sidewalks: true, ..OpenDriveOptions::default() };
+    let config = MapConfig { options: FormatOptions::of(&options), ..MapConfig::default() };
+    check_town("Town06.xodr, shoulders", shared_input("carla_xodr/Town06.xodr"), &config);
 }

@@ -28,6 +28,12 @@ impl Context<'_> {
         if matches!(node.value, Value::Refused) {
             return;
         }
+        if keywords.get("not").and_then(Json::as_object).is_some_and(serde_json::Map::is_empty) {
+            // The way to say `false` with a reason.
+            let reason = keywords.get("description").and_then(Json::as_str).unwrap_or("may not be given");
+            problems.push(self.problem("recipe-unknown-key", &node.place, path, reason));
+            return;
+        }
         if keywords.contains_key("$ref") {
             let target = resolve(self.root, schema);
             if target.get("$ref").is_none() {

@@ -4,7 +4,7 @@
 //! of blocks that it needs, and spare lanes go to splits that reduce the areas most.
 
 use super::tree::{Block, MAX_DEPTH, REACH_M, WideTree};
-use super::turned::TurnedLanes;
+use super::turned_lanes::TurnedLanes;
 use crate::bounds::Bounds;
 use crate::lanes::LANES;
 use crate::turned_box::TurnedBox;

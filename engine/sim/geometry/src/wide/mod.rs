@@ -10,3 +10,4 @@ pub mod ray;
 pub mod shaft;
 pub mod tree;
 pub mod turned;
+pub mod turned_lanes;

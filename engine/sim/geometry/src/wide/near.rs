@@ -1,14 +1,11 @@
 //! Boxes near a point or a segment, and boxes that meet a window, found with the tree.
 
-use super::closest::Segment;
+use super::closest::{SQUARE_SHARE, Segment};
 use super::tree::{MAX_DEPTH, WideTree};
 use crate::lanes::{LANES, Lane, Lanes, at_level, larger, smaller, take_lane};
 use cosfly_frames::DVec3;
 
-/// Relative error by which squared distances are widened.
-pub const SQUARE_SHARE: f32 = 8.0 / 16_777_216.0;
-
-/// Upper bound in f32 of a squared distance; 0 for negative distances.
+/// A squared distance in f32 that is no smaller; 0 for negative distances.
 #[inline(always)]
 pub fn most_square(distance_m: f64) -> f32 {
     let distance = larger(distance_m, 0.0);

@@ -30,9 +30,9 @@ struct WideRay {
     near_offset: [f32; 3],
     far_scale: [f32; 3],
     far_offset: [f32; 3],
-    /// Widening after which the ray is certainly behind a near face.
+    /// Delay after which the ray is surely behind a near face.
     doubt: [f32; 3],
-    /// Index of the axis's near face.
+    /// Number of the face of each axis that comes first.
     first: [usize; 3],
     motion: Motion,
 }

@@ -50,7 +50,7 @@ struct Hull {
     far_offset: [f32; 3],
     /// Infinite where an axis's second face is a beginning as well; less than any parameter elsewhere.
     spreads: [f32; 3],
-    /// Index of the axis's first face.
+    /// Number of the face of each axis that comes first.
     first: [usize; 3],
     motion: Motion,
 }

@@ -1,6 +1,6 @@
 //! The wide tree: blocks of sixteen bounds, each the parent of blocks or of boxes.
 
-use super::turned::TurnedLanes;
+use super::turned_lanes::TurnedLanes;
 use crate::bounds::Bounds;
 use crate::lanes::{LANES, Lane};
 use cosfly_frames::DVec3;
@@ -54,7 +54,7 @@ pub struct WideTree {
     pub blocks: Vec<Block>,
     /// Own axes of the boxes of leaves with rotated boxes.
     pub turned: Vec<TurnedLanes>,
-    /// Local origin of the blocks, world frame, metres.
+    /// Place of the local origin.
     pub origin_in_world: DVec3,
     /// Number of levels of blocks.
     pub depth: usize,
@@ -77,7 +77,7 @@ impl WideTree {
         (a.cmple(most) & b.cmple(most)).all().then(|| a.max(b).max_element())
     }
 
-    /// Bound of the rounding error of a face or a point of a query within `reach` of the local origin, metres.
+    /// Largest effect of rounding on a face or a point of a query within `reach` of the local origin, metres.
     ///
     /// A face, a point, its sum with the margin, the inverse direction and its products with them are each off by at
     /// most half a unit in the last place, 2^-24 of the coordinates: at most ten in all. The bound is 16. World

@@ -1,66 +1,14 @@
-//! Sixteen boxes in their own axes: rejects rotated boxes of which only the bounds are met.
+//! Sorts out turned boxes of which only the bounds are met, sixteen at a time.
 
 use super::tree::{Block, WideTree};
 use crate::lanes::{LANES, Lane, Lanes, at_level, larger, smaller};
-use crate::turned_box::TurnedBox;
-use cosfly_frames::DVec3;
 
-/// Centres, half sizes and rotations of the boxes of a leaf, seen from above, relative to the local origin.
-#[derive(Clone, Debug)]
-#[repr(align(64))]
-pub struct TurnedLanes {
-    center: [Lane; 2],
-    half: [Lane; 2],
-    sin: Lane,
-    cos: Lane,
-}
-
-impl TurnedLanes {
-    /// Boxes without size; their lanes are not valid in the block.
-    pub const EMPTY: Self =
-        Self { center: [[0.0; LANES]; 2], half: [[0.0; LANES]; 2], sin: [0.0; LANES], cos: [1.0; LANES] };
-
-    /// Sets the box of a lane.
-    pub fn set(&mut self, lane: usize, shape: &TurnedBox, origin_in_world: DVec3) {
-        let (center, half) = (shape.center_in_world() - origin_in_world, shape.half_extents_m());
-        for axis in 0..2 {
-            self.center[axis][lane] = center[axis] as f32;
-            self.half[axis][lane] = half[axis] as f32;
-        }
-        let (sin, cos) = shape.sin_cos();
-        (self.sin[lane], self.cos[lane]) = (sin as f32, cos as f32);
-    }
-
-    /// Transforms a segment's start and step and the boxes' lower and upper faces into the boxes' axes, seen from
-    /// above.
-    #[inline(always)]
-    pub fn in_own_axes(
-        &self,
-        lanes: impl Lanes,
-        from: [f32; 3],
-        to: [f32; 3],
-        [start, step, low, high]: [&mut [Lane; 3]; 4],
-    ) {
-        let (step_x, step_y) = (to[0] - from[0], to[1] - from[1]);
-        for i in 0..LANES {
-            let (sin, cos) = (self.sin[i], self.cos[i]);
-            let (x, y) = (from[0] - self.center[0][i], from[1] - self.center[1][i]);
-            start[0][i] = lanes.multiply_add(cos, x, sin * y);
-            start[1][i] = lanes.multiply_add(cos, y, -(sin * x));
-            step[0][i] = lanes.multiply_add(cos, step_x, sin * step_y);
-            step[1][i] = lanes.multiply_add(cos, step_y, -(sin * step_x));
-            (low[0][i], low[1][i]) = (-self.half[0][i], -self.half[1][i]);
-            (high[0][i], high[1][i]) = (self.half[0][i], self.half[1][i]);
-        }
-    }
-}
-
-/// Motion of a rectangle seen from above: its centre moves from `from` by `step`, its half size is `reach`.
+/// Sweep of a rectangle seen from above: its middle goes from `from` by `step`, it reaches `reach` to each side.
 #[derive(Clone, Copy)]
-pub struct Motion {
-    /// Start of the centre.
+pub struct Way {
+    /// First place of the middle.
     pub from: [f32; 2],
-    /// Displacement of the centre while the parameter goes from 0 to 1.
+    /// Movement of the middle while the parameter goes from 0 to 1.
     pub step: [f32; 2],
     /// Half the size, plus twice the margin.
     pub reach: [f32; 2],

@@ -1,8 +1,9 @@
 //! Invented buildings: boxes in line with the street, set back from its edge.
 
+use super::FillConfig;
 use super::frontage::Front;
 use super::land::{Land, Plot, Use};
-use super::{FillConfig, Site};
+use super::site::Site;
 use crate::ObstacleKind;
 use cosfly_frames::{DVec2, RandomStream};
 use cosfly_geometry::OrientedBox;
@@ -11,7 +12,7 @@ use cosfly_geometry::OrientedBox;
 const STEP_M: f64 = 1.0;
 /// Gap between invented things, metres.
 const GAP_M: f64 = 0.3;
-/// How deep a building reaches into the lowest ground under it, metres.
+/// Depth of a building below the lowest ground under it, metres.
 const FOUNDATION_M: f64 = 0.5;
 /// Shares of the wanted front and depth that are tried, largest first.
 const SIZES: [(f64, f64); 5] = [(1.0, 1.0), (0.85, 0.9), (0.7, 0.8), (0.55, 0.7), (0.45, 0.6)];

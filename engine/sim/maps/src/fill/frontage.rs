@@ -5,15 +5,15 @@ use crate::{SemanticLabel, Town, WalkableKind};
 use cosfly_frames::{DVec2, DVec3, real};
 use std::collections::BTreeSet;
 
-/// How near a road must be to walkable ground to count as part of the town, metres (up to twice as far).
+/// Distance to walkable ground within which a road counts as part of the town, metres (up to twice as far).
 const NEAR_M: f64 = 32.0;
 
 /// A piece of a street's edge with open land behind it.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Front {
-    /// Where it begins, on the edge.
+    /// First point, on the edge.
     pub start_in_world: DVec3,
-    /// Where it ends.
+    /// Last point, on the edge.
     pub end_in_world: DVec3,
     /// Unit vector away from the street, seen from above.
     pub away: DVec2,

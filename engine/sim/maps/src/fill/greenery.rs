@@ -1,8 +1,9 @@
 //! Invented street trees and lamps, just beyond the pavement's outer edge so that walkers keep all of it.
 
+use super::FillConfig;
 use super::frontage::Front;
 use super::land::{Land, Plot, Use};
-use super::{FillConfig, Site};
+use super::site::Site;
 use crate::ObstacleKind;
 use crate::crown::crown_boxes;
 use cosfly_frames::{DVec2, DVec3, Seed};

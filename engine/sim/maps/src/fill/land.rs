@@ -9,7 +9,7 @@ const CELL_M: f64 = 0.25;
 /// Most cells; larger towns get larger cells.
 const MOST_CELLS: f64 = 32e6;
 
-/// Who uses a cell.
+/// Use of a cell.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Use {
     /// A road, pavement, crossing or something that the file has.
@@ -30,16 +30,16 @@ impl Use {
 /// A rectangle seen from above.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Plot {
-    /// Its middle.
+    /// Middle, metres.
     pub center: DVec2,
-    /// Half its sides, metres.
+    /// Half the lengths of the sides, metres.
     pub half_m: DVec2,
-    /// Direction of its first side, radians.
+    /// Direction of the first side, radians.
     pub yaw_rad: f64,
 }
 
 impl Plot {
-    /// Its corners in order, grown by `margin_m`.
+    /// Corners in order, grown by `margin_m`.
     pub fn corners(&self, margin_m: f64) -> [DVec2; 4] {
         let (sin, cos) = real::sin_cos(self.yaw_rad);
         let half = self.half_m + DVec2::splat(margin_m);

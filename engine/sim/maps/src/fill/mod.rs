@@ -8,13 +8,12 @@ pub mod config;
 pub mod frontage;
 pub mod greenery;
 pub mod land;
+pub mod site;
 
 pub use config::FillConfig;
 
-use crate::ground::GroundIndex;
-use crate::{Obstacle, ObstacleKind, SemanticLabel, Town};
-use cosfly_frames::{DVec3, Seed};
-use cosfly_geometry::OrientedBox;
+use crate::Town;
+use cosfly_frames::Seed;
 
 /// Adds to `town` what `config` asks for, flags it in `town.synthetic`, and gives warnings for the user. Reads the
 /// town's walkable polygons, surfaces and obstacles; leaves `planning_boxes` to be computed afterwards.
@@ -25,8 +24,7 @@ pub fn fill(town: &mut Town, config: &FillConfig, seed: Seed) -> Vec<String> {
     let mut land = land::Land::of_town(town);
     let fronts = frontage::pavement_fronts(town, &land);
     let road_fronts = frontage::road_fronts(town, &land);
-    let terrain = GroundIndex::of_surfaces(&town.surfaces, |mesh| mesh.label == SemanticLabel::Terrain);
-    let mut site = Site { town, terrain, added: 0 };
+    let mut site = site::Site::new(town);
     let mut counts = [0; 3];
     // Greenery first: it takes little, and buildings stand back from it.
     if config.lamps {
@@ -40,7 +38,7 @@ pub fn fill(town: &mut Town, config: &FillConfig, seed: Seed) -> Vec<String> {
             counts[0] += buildings::put_up_buildings(&mut site, &mut land, fronts, config, seed.stream(purpose));
         }
     }
-    note_what_was_made(town, config, seed, counts)
+    note_what_was_made(site.town, config, seed, counts)
 }
 
 fn note_what_was_made(town: &mut Town, config: &FillConfig, seed: Seed, counts: [usize; 3]) -> Vec<String> {
@@ -62,33 +60,6 @@ fn note_what_was_made(town: &mut Town, config: &FillConfig, seed: Seed, counts: 
         }
     }
     warnings
-}
-
-/// The town while it is being filled.
-pub struct Site<'a> {
-    town: &'a mut Town,
-    terrain: GroundIndex,
-    added: u32,
-}
-
-impl Site<'_> {
-    /// A new thing's id.
-    fn next_object_id(&mut self) -> u32 {
-        if self.added == 0 {
-            self.added = self.town.obstacles.iter().map(|one| one.object_id).max().unwrap_or(0);
-        }
-        self.added = self.added.saturating_add(1);
-        self.added
-    }
-
-    /// Height of the open ground at a place; of the pavement beside it where the town has no terrain there.
-    fn ground_m(&self, at: DVec3) -> f64 {
-        self.terrain.ground_height_m(at.x, at.y).unwrap_or(at.z)
-    }
-
-    fn add(&mut self, kind: ObstacleKind, object_id: u32, shape: OrientedBox) {
-        self.town.obstacles.push(Obstacle { shape, kind, object_id, synthetic: true });
-    }
 }
 
 #[cfg(test)]

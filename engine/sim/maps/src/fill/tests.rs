@@ -1,11 +1,15 @@
 //! Filled towns: nothing invented stands on a street, everything is flagged, and real towns fill quickly.
 
 use super::*;
+use crate::formats::opendrive::OpenDriveOptions;
 use crate::generate::{GenerateConfig, generate_town};
 use crate::polygons::triangulated;
-use crate::{MapConfig, read_town};
+use crate::{FormatOptions, GroundIndex, MapConfig, Obstacle, ObstacleKind, SemanticLabel, read_town};
 use cosfly_frames::DVec2;
-use cosfly_geometry::{BoxBvh, SpatialQuery};
+use cosfly_geometry::{BoxBvh, OrientedBox, SpatialQuery};
+
+#[path = "../../../../../tests/shared.rs"]
+mod shared;
 
 fn seed() -> Seed {
     Seed::of_item(1, "town", "fill")
@@ -139,14 +143,11 @@ fn a_town_without_open_land_gives_a_warning_instead_of_nothing() {
 
 #[test]
 fn carla_towns_fill_with_hundreds_of_buildings() {
-    let shared = std::env::var("COSFLY_SHARED")
-        .unwrap_or_else(|_| concat!(env!("CARGO_MANIFEST_DIR"), "/../../../../shared").to_owned());
     for name in ["Town01", "Town03_2019-04", "Town04", "Town06", "Town07"] {
-        let Ok(bytes) = std::fs::read(format!("{shared}/data/carla_xodr/{name}.xodr")) else {
-            println!("skipped: {name}.xodr is absent");
-            continue;
-        };
-        let config = MapConfig { shoulders_as_sidewalks: name == "Town06", ..MapConfig::default() };
+        let Some(path) = shared::shared_input(&format!("carla_xodr/{name}.xodr")) else { continue };
+        let options = OpenDriveOptions { shoulders_as_sidewalks: name == "Town06", ..OpenDriveOptions::default() };
+        let config = MapConfig { options: FormatOptions::of(&options), ..MapConfig::default() };
+        let bytes = std::fs::read(path).expect("it can be read");
         let (mut town, _) = read_town(&bytes, &config, seed()).expect("it reads");
         assert_eq!(fill(&mut town, &everything(), seed()), Vec::<String>::new(), "{name}");
         check_nothing_invented_stands_in_the_way(&town);

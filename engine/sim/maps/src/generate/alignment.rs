@@ -51,11 +51,11 @@ pub enum Curve {
 /// One piece of a reference line.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Piece {
-    /// Where it starts.
+    /// First point and direction.
     pub start: Pose2,
-    /// Its length along the line.
+    /// Length along the line, metres.
     pub length_m: f64,
-    /// Its shape.
+    /// Shape of the curve.
     pub curve: Curve,
 }
 
@@ -96,7 +96,7 @@ impl Piece {
 #[derive(Clone, Debug, PartialEq)]
 pub struct Alignment {
     start: Pose2,
-    /// Its pieces, end to end.
+    /// Pieces, end to end.
     pub pieces: Vec<Piece>,
 }
 
@@ -177,7 +177,7 @@ impl Alignment {
         self.pieces.iter().map(|piece| piece.length_m).sum()
     }
 
-    /// Where it ends.
+    /// Last point and direction.
     pub fn end(&self) -> Pose2 {
         self.pieces.last().map_or(self.start, |piece| piece.pose_at(piece.length_m))
     }
@@ -200,7 +200,7 @@ impl Alignment {
     }
 }
 
-/// Where the growing `function` takes `value`.
+/// Argument at which the growing `function` takes `value`.
 fn bisect(mut low: f64, mut high: f64, value: f64, function: impl Fn(f64) -> f64) -> f64 {
     for _ in 0..60 {
         let middle = 0.5 * (low + high);

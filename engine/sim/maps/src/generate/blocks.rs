@@ -8,9 +8,9 @@ use cosfly_frames::{DVec2, RandomStream, Seed, real};
 
 /// Gap between buildings and pavements, metres.
 const SETBACK_M: f64 = 0.6;
-/// How far a front keeps from the ends of its block, where the pavement rounds the corner, metres.
+/// Distance of a front from the ends of its block, where the pavement rounds the corner, metres.
 const CORNER_INSET_M: f64 = 1.7;
-/// How far the curves at the town's corners reach along its sides, metres.
+/// Length of the curves at the town's corners along its sides, metres.
 const CURVE_REACH_M: f64 = 54.0;
 /// Lots shallower than this are not built on, metres.
 const MIN_DEPTH_M: f64 = 7.0;

@@ -307,7 +307,7 @@ fn objects_by_street(network: &Network, things: &[Thing]) -> Vec<String> {
 struct Foot {
     s_m: f64,
     t_m: f64,
-    /// What remains along the street when the point lies beyond its ends.
+    /// Distance along the street from the nearer end, for points beyond the ends, metres.
     beyond_m: f64,
     origin: DVec2,
     heading_rad: f64,

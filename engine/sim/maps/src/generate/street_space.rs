@@ -7,7 +7,7 @@ use cosfly_frames::{DVec2, real};
 /// A rectangle on the ground, map frame.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Lot {
-    /// Its middle.
+    /// Middle, metres.
     pub center: DVec2,
     /// Half its length and width along its own axes, metres.
     pub half_m: DVec2,
@@ -16,13 +16,13 @@ pub struct Lot {
 }
 
 impl Lot {
-    /// Its unit axes.
+    /// Unit axes.
     pub fn axes(&self) -> [DVec2; 2] {
         let (sin, cos) = real::sin_cos(self.heading_rad);
         [DVec2::new(cos, sin), DVec2::new(-sin, cos)]
     }
 
-    /// Its corners, counter-clockwise.
+    /// Corners, counter-clockwise.
     pub fn corners(&self) -> [DVec2; 4] {
         let [along, across] = self.axes();
         [(-1.0, -1.0), (1.0, -1.0), (1.0, 1.0), (-1.0, 1.0)]

@@ -6,7 +6,7 @@ use cosfly_frames::{DVec2, Seed, real};
 
 /// Width of every driving lane, metres.
 pub const LANE_WIDTH_M: f64 = 3.5;
-/// How far a junction reaches beyond the pavement of the crossing street, metres.
+/// Length of a junction beyond the pavement of the crossing street, metres.
 const CORNER_M: f64 = 2.5;
 
 /// Cross-section of a street, the same on both sides.
@@ -30,7 +30,7 @@ impl Profile {
     }
 }
 
-/// Which end of a road meets a junction.
+/// End of a road that meets a junction.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Contact {
     /// The start of its reference line.
@@ -42,9 +42,9 @@ pub enum Contact {
 /// A street between two junctions.
 #[derive(Clone, Debug)]
 pub struct Street {
-    /// Its reference line.
+    /// Reference line.
     pub line: Alignment,
-    /// Its cross-section.
+    /// Cross-section.
     pub profile: Profile,
     /// Indices of the junctions at its start and end.
     pub junctions: [usize; 2],
@@ -57,7 +57,7 @@ pub struct Street {
 pub struct Arm {
     /// Index of the street.
     pub street: usize,
-    /// Which of its ends.
+    /// End of the street.
     pub contact: Contact,
 }
 
@@ -80,7 +80,7 @@ pub struct Network {
     grid: Grid,
 }
 
-/// Where the streets cross.
+/// Crossings of the streets, in columns and rows.
 #[derive(Clone, Debug)]
 struct Grid {
     columns: usize,

@@ -43,9 +43,9 @@ pub enum Footprint {
     Polygon(Vec<DVec2>),
     /// A disc.
     Disc {
-        /// Its middle.
+        /// Middle, metres.
         center: DVec2,
-        /// Its radius, metres.
+        /// Radius, metres.
         radius_m: f64,
     },
 }
@@ -64,18 +64,18 @@ impl Footprint {
 /// A tree's crown.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Crown {
-    /// Its radius, metres.
+    /// Radius, metres.
     pub radius_m: f64,
-    /// Its lower edge above the ground, metres.
+    /// Height of the lower edge above the ground, metres.
     pub base_m: f64,
 }
 
 /// One thing.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Thing {
-    /// What it is.
+    /// Kind of the thing.
     pub kind: ThingKind,
-    /// Where it stands.
+    /// Place of the foot.
     pub footprint: Footprint,
     /// From the ground to its top, metres.
     pub height_m: f64,

@@ -13,9 +13,9 @@ pub struct Turn {
     pub from: Arm,
     /// The arm it leads into.
     pub to: Arm,
-    /// Its reference line.
+    /// Reference line.
     pub line: Alignment,
-    /// Its driving lanes.
+    /// Driving lanes.
     pub lanes: u32,
     /// Lanes of either arm between the middle of the street and this way's first lane.
     pub skipped_lanes: [u32; 2],

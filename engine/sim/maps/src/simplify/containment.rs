@@ -1,6 +1,6 @@
 //! Containment: a box inside another adds nothing.
 
-use super::Candidate;
+use super::candidate::Candidate;
 use cosfly_frames::DVec3;
 use cosfly_geometry::bvh::{Bvh, Visitor};
 use cosfly_geometry::shape::Shape;
@@ -8,6 +8,8 @@ use cosfly_geometry::{Bounds, OrientedBox, TurnedBox};
 
 /// A corner may stick out by so much through rounding, metres.
 const ROUNDING_M: f64 = 1e-9;
+/// Boxes that are asked per box at most; bounds the work in a heap of boxes.
+const MOST_MEETINGS: usize = 4096;
 
 /// Drops every box that lies inside another one; of equal boxes the first stays.
 pub fn drop_contained(boxes: &mut Vec<Candidate>) {
@@ -16,7 +18,7 @@ pub fn drop_contained(boxes: &mut Vec<Candidate>) {
     retain_by(boxes, |index| !is_inside[index]);
 }
 
-/// Which boxes lie inside one other box grown by `margin_m`; only boxes for which `may_cover` holds count as the
+/// Flags of the boxes that lie inside one other box grown by `margin_m`; only boxes for which `may_cover` holds count as the
 /// other one.
 pub fn covered_by_another(shapes: &[OrientedBox], may_cover: impl Fn(usize) -> bool, margin_m: f64) -> Vec<bool> {
     let bounds: Vec<Bounds> = shapes.iter().map(bounds_of).collect();
@@ -35,6 +37,7 @@ pub fn covered_by_another(shapes: &[OrientedBox], may_cover: impl Fn(usize) -> b
                 index,
                 corners,
                 margin_m,
+                met: 0,
                 found: false,
             };
             tree.traverse(&mut search);
@@ -66,6 +69,7 @@ struct AnyCover<'a> {
     index: usize,
     corners: [DVec3; 8],
     margin_m: f64,
+    met: usize,
     found: bool,
 }
 
@@ -87,6 +91,10 @@ impl Visitor for AnyCover<'_> {
         let other = self.order[slot] as usize;
         if other == self.index || !self.is_covering[other] || !self.bounds_can_cover(&self.bounds[other]) {
             return false;
+        }
+        self.met += 1;
+        if self.met > MOST_MEETINGS {
+            return true;
         }
         let Some(cover) = &self.turned[other] else { return false };
         // Two boxes can only cover each other when they are equal within rounding: then the first one stays.

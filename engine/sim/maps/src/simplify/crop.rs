@@ -1,6 +1,6 @@
 //! Crop: boxes far from all walkable ground never matter to a drone that follows a walker.
 
-use super::Candidate;
+use super::candidate::Candidate;
 use crate::WalkablePolygon;
 use cosfly_frames::DVec3;
 use cosfly_geometry::Bounds;

@@ -1,6 +1,6 @@
 //! Merging: boxes of one orientation that together nearly fill a box become that box.
 
-use super::Candidate;
+use super::candidate::Candidate;
 use cosfly_frames::{DVec3, real};
 use cosfly_geometry::bvh::{Bvh, Visitor};
 use cosfly_geometry::{Bounds, OrientedBox};

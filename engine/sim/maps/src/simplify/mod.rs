@@ -3,35 +3,18 @@
 //! Crop drops what is far from all walkable ground. Containment drops boxes inside others. Merging joins neighbours of
 //! one orientation. Prune drops specks beside a kept box.
 
+pub mod candidate;
 pub mod config;
 pub mod containment;
 pub mod crop;
 pub mod merging;
 pub mod prune;
 
+pub use candidate::Candidate;
 pub use config::SimplifyConfig;
 
 use crate::{Obstacle, SimplificationReport, WalkablePolygon};
 use cosfly_geometry::OrientedBox;
-
-/// A box on its way through simplification.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Candidate {
-    /// The box.
-    pub shape: OrientedBox,
-    /// Volume of it that originals fill, cubic metres; never more than is true.
-    pub filled_m3: f64,
-    /// No point of the box is farther than this from an original, metres.
-    pub growth_m: f64,
-    /// Smallest index of the originals in it.
-    pub first: usize,
-}
-
-impl Candidate {
-    fn volume_m3(&self) -> f64 {
-        8.0 * self.shape.half_extents_m.abs().element_product()
-    }
-}
 
 /// Boxes for planning and what was done to get them; `walkable` is the region that `crop` keeps the surroundings of.
 ///

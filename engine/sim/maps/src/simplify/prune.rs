@@ -1,6 +1,6 @@
 //! Prune: specks beside a kept box.
 
-use super::Candidate;
+use super::candidate::Candidate;
 use super::containment::{covered_by_another, retain_by};
 use cosfly_geometry::OrientedBox;
 

@@ -5,7 +5,7 @@ use crate::polygon::{Cut, Polygon};
 use cosfly_frames::DVec2;
 use cosfly_maps::WalkableKind;
 
-/// What the polygons say about each cell, while the grid is built.
+/// Ground of each cell by the polygons, while the grid is built.
 pub(super) struct Cells {
     pub kinds: Vec<Option<WalkableKind>>,
     pub z: Vec<f32>,

@@ -1,11 +1,11 @@
 //! Numbers and names out of XML attributes; each refusal says its line, column, element and rule.
 
-use super::text::Lines;
 use crate::error::{MapError, Place};
+use crate::formats::text::Lines;
 use core::cell::{Cell, RefCell};
 use roxmltree::{Document, Node};
 
-/// What a number in the file may be.
+/// Range of a number in the file.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Limits {
     low: f64,
@@ -40,6 +40,8 @@ impl Limits {
 }
 
 const WARNINGS_WITH_PLACES: usize = 100;
+/// Most lanes over all lane sections of a file.
+const MOST_LANES: usize = 1_000_000;
 
 /// The document that is read, and the warnings about it.
 pub(super) struct Source<'d> {
@@ -47,11 +49,23 @@ pub(super) struct Source<'d> {
     lines: &'d Lines<'d>,
     warnings: RefCell<Vec<String>>,
     left_out: Cell<usize>,
+    lanes: Cell<usize>,
 }
 
 impl<'d> Source<'d> {
     pub(super) fn new(document: &'d Document<'d>, lines: &'d Lines<'d>) -> Self {
-        Self { document, lines, warnings: RefCell::default(), left_out: Cell::new(0) }
+        Self { document, lines, warnings: RefCell::default(), left_out: Cell::new(0), lanes: Cell::new(0) }
+    }
+
+    /// Counts lanes of a lane section; refuses more than any map has.
+    pub(super) fn count_lanes(&self, section: Node, lanes: usize) -> Result<(), MapError> {
+        self.lanes.set(self.lanes.get() + lanes);
+        if self.lanes.get() > MOST_LANES {
+            return Err(
+                self.refuse(section, format!("the map has more than {MOST_LANES} lanes over all lane sections"))
+            );
+        }
+        Ok(())
     }
 
     /// Notes something the reader coped with. Only the first hundred are kept, then they are counted.

@@ -1,104 +1,27 @@
-//! The order of work: text, XML, network, then surfaces, walkable ground and obstacles.
+//! From the network to a town: surfaces, walkable ground, obstacles.
 
-use super::attributes::Source;
+use super::OpenDriveOptions;
 use super::crossings::{Crosswalk, crosswalks, unmarked_crossings};
+use super::document::with_source;
 use super::joining::joining_strips;
-use super::network::{Road, RoadNetwork};
+use super::network::{LaneKind, Road, RoadNetwork};
 use super::objects::{MOST_OBSTACLES, ObstacleBuilder};
 use super::parse_road;
 use super::road_marks::{LinePainter, MOST_STROKES};
 use super::signals;
 use super::stations::{StationBudget, cross_sections};
-use super::surfaces::{self, DEFAULT_KERB_M, MeshBuilder};
-use super::terrain;
-use super::text::{Lines, decoded};
+use super::surfaces::{self, DEFAULT_KERB_M};
 use super::walkable;
-use super::world::WorldFromMap;
+use crate::formats::mesh::MeshBuilder;
+use crate::formats::terrain;
+use crate::formats::text::Lines;
+use crate::formats::world::WorldFromMap;
 use crate::polygons::PolygonIndex;
-use crate::{
-    GroundIndex, MapConfig, MapError, Obstacle, ObstacleKind, SimplificationReport, Synthetic, Town, WalkablePolygon,
-};
-use cosfly_frames::{DVec2, DVec3};
-use roxmltree::{Document, ParsingOptions};
-
-/// Most XML nodes of one file.
-const MOST_NODES: u32 = 30_000_000;
-
-/// A parsed road network in the world frame; answers questions about lanes.
-#[derive(Clone, Debug, PartialEq)]
-pub struct RoadMap {
-    /// The network, in the file's frame.
-    pub network: RoadNetwork,
-    /// From the file's frame to the world.
-    pub world: WorldFromMap,
-}
-
-/// The middle of a lane.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct LanePoint {
-    /// World frame, metres.
-    pub position_in_world: DVec3,
-    /// Yaw in the world frame of the direction in which s grows, radians: the road's, turned by `drift`.
-    pub yaw_rad: f64,
-    /// Sideways movement of the lane's middle for each metre of the road (to the left).
-    pub drift: f64,
-    /// Width of the lane, metres.
-    pub width_m: f64,
-}
-
-impl RoadMap {
-    /// Reads the network only; the second value holds warnings.
-    pub fn read(bytes: &[u8]) -> Result<(Self, Vec<String>), MapError> {
-        with_source(bytes, |source, _| {
-            let network = parse_road::network(source)?;
-            let world = WorldFromMap::of(&network);
-            Ok(Self { network, world })
-        })
-    }
-
-    /// The middle of lane `lane_id` of road `road_id` at `s_m`; `None` when there is no such road or lane.
-    pub fn lane_point(&self, road_id: &str, lane_id: i32, s_m: f64) -> Option<LanePoint> {
-        let road = self.network.roads.iter().find(|road| road.id == road_id)?;
-        let (position_in_map, heading_rad, drift, width_m) = road.lane_middle(lane_id, s_m)?;
-        let position_in_world = self.world.point(position_in_map);
-        Some(LanePoint { position_in_world, yaw_rad: self.world.yaw_rad(heading_rad), drift, width_m })
-    }
-}
-
-/// Parses the XML and hands it on; collects the warnings.
-fn with_source<T>(
-    bytes: &[u8],
-    work: impl FnOnce(&Source<'_>, &Lines<'_>) -> Result<T, MapError>,
-) -> Result<(T, Vec<String>), MapError> {
-    let text = decoded(bytes)?;
-    let lines = Lines::new(&text);
-    let options = ParsingOptions { allow_dtd: false, nodes_limit: MOST_NODES, ..ParsingOptions::default() };
-    let document = Document::parse_with_options(&text, options).map_err(|error| broken_xml(&error, &text, &lines))?;
-    let source = Source::new(&document, &lines);
-    let done = work(&source, &lines)?;
-    Ok((done, source.into_warnings()))
-}
-
-fn broken_xml(error: &roxmltree::Error, text: &str, lines: &Lines<'_>) -> MapError {
-    // For a file that just stops the parser has no position.
-    let stops = matches!(error, roxmltree::Error::UnclosedRootNode | roxmltree::Error::UnexpectedEndOfStream);
-    let position = error.pos();
-    let at = if stops { text.trim_end().len().saturating_sub(1) } else { lines.byte_at(position.row, position.col) };
-    // The parser's own text ends with the position, which the place says better.
-    let reason = error.to_string();
-    let reason = reason.rsplit_once(" at ").map_or(reason.as_str(), |(before, _)| before);
-    let truncated = stops || at + 1 >= text.trim_end().len();
-    let hint = if truncated {
-        "the file seems to be cut off: fetch or export it again"
-    } else {
-        "repair the XML at this place, or export the map again"
-    };
-    let place = lines.place(at..at + 1, String::new());
-    MapError::new(format!("broken XML: {reason}")).at(place).hint(hint)
-}
+use crate::{GroundIndex, MapError, Obstacle, ObstacleKind, Synthetic, Town, WalkablePolygon};
+use cosfly_frames::DVec2;
 
 /// Reads a file into a town without planning boxes and bounds.
-pub(super) fn town(bytes: &[u8], options: &MapConfig) -> Result<(Town, Vec<String>), MapError> {
+pub(super) fn town(bytes: &[u8], options: &OpenDriveOptions) -> Result<(Town, Vec<String>), MapError> {
     let mut notes = Vec::new();
     let ((town, more), mut warnings) = with_source(bytes, |source, lines| {
         let mut network = parse_road::network(source)?;
@@ -114,11 +37,11 @@ pub(super) fn town(bytes: &[u8], options: &MapConfig) -> Result<(Town, Vec<Strin
 
 fn build(
     network: RoadNetwork,
-    options: &MapConfig,
+    options: &OpenDriveOptions,
     lines: &Lines<'_>,
     notes: Vec<String>,
 ) -> Result<(Town, Vec<String>), MapError> {
-    let mut parts = Parts { world: WorldFromMap::of(&network), notes, ..Parts::default() };
+    let mut parts = Parts { world: WorldFromMap::around(network.plan_points()), notes, ..Parts::default() };
     for road in &network.roads {
         parts.add_lanes(road, options).map_err(|error| match error.place {
             Some(_) => error,
@@ -135,7 +58,7 @@ fn build(
         parts.add_signals(&network);
     }
     parts.add_crossings(&network, options);
-    terrain::add_terrain(&mut parts.meshes, &parts.obstacles.obstacles);
+    terrain::add_terrain(&mut parts.meshes, &parts.obstacles.obstacles, terrain::USUAL_MARGIN_M)?;
     parts.finish(network)
 }
 
@@ -154,7 +77,7 @@ struct Parts {
 
 impl Parts {
     /// Surfaces, lane lines and pavements of a road.
-    fn add_lanes(&mut self, road: &Road, options: &MapConfig) -> Result<(), MapError> {
+    fn add_lanes(&mut self, road: &Road, options: &OpenDriveOptions) -> Result<(), MapError> {
         let longest_m = options.sample_step_m.clamp(0.5, 1000.0);
         let world = self.world;
         for (index, section) in road.sections.iter().enumerate() {
@@ -172,7 +95,7 @@ impl Parts {
     }
 
     /// Marked crossings with their paint and joints; then what pedestrians need to get across where the file has none.
-    fn add_crossings(&mut self, network: &RoadNetwork, options: &MapConfig) {
+    fn add_crossings(&mut self, network: &RoadNetwork, options: &OpenDriveOptions) {
         let world = self.world;
         let marked: Vec<Crosswalk> = network.roads.iter().flat_map(|road| crosswalks(road, &world)).collect();
         let outlines = self.walkable.iter().map(WalkablePolygon::plan).collect();
@@ -257,13 +180,10 @@ impl Parts {
             name: network.name.unwrap_or_else(|| "town".to_owned()),
             origin: self.world.origin(network.geo_reference),
             obstacles,
-            planning_boxes: Vec::new(),
-            simplification: SimplificationReport::default(),
             walkable: self.walkable,
             surfaces,
             synthetic: Synthetic { notes: self.notes, ..Synthetic::default() },
-            min_in_world: DVec3::ZERO,
-            max_in_world: DVec3::ZERO,
+            ..Town::default()
         };
         Ok((town, self.warnings))
     }
@@ -289,9 +209,11 @@ fn settle(obstacles: &mut [Obstacle], ground: &GroundIndex) {
 }
 
 fn no_walkable_ground(network: &RoadNetwork) -> MapError {
-    let has_shoulders = network.roads.iter().flat_map(|road| &road.sections).any(|section| {
-        section.left.iter().chain(&section.right).any(|lane| lane.kind == super::network::LaneKind::Shoulder)
-    });
+    let has_shoulders = network
+        .roads
+        .iter()
+        .flat_map(|road| &road.sections)
+        .any(|section| section.left.iter().chain(&section.right).any(|lane| lane.kind == LaneKind::Shoulder));
     let error = MapError::new("the map has no walkable ground: it has no lane of type `sidewalk`");
     if has_shoulders {
         error.hint("set `shoulders_as_sidewalks = true` in this stage to let pedestrians use the road shoulders")

@@ -5,9 +5,9 @@ use super::object_kind::{ObjectKind, kind_of};
 use super::objects::outline_in_map;
 use super::road_geometry::LaneSpan;
 use super::road_marks::PAINT_ABOVE_M;
-use super::surfaces::MeshBuilder;
 use super::walkable::without_repeats;
-use super::world::WorldFromMap;
+use crate::formats::mesh::MeshBuilder;
+use crate::formats::world::WorldFromMap;
 use crate::polygons::{PolygonIndex, clipped_to_band, triangulated};
 use crate::{GroundIndex, SemanticLabel, WalkableKind, WalkablePolygon};
 use cosfly_frames::{DVec2, DVec3, real};
@@ -139,7 +139,7 @@ impl Crosswalk {
     }
 }
 
-/// How far a pavement is from a point in a direction, and which one it is; `None` when the point is on one.
+/// Distance from a point to the first pavement in a direction, metres, and its number; `None` when the point is on one.
 fn first_pavement(pavements: &PolygonIndex, from: DVec2, direction: DVec2) -> Option<(f64, usize)> {
     let step_m = 0.2;
     let steps = (JOINT_REACH_M / step_m) as usize;

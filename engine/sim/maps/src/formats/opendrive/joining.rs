@@ -3,7 +3,7 @@
 //! Files often leave out the pavement at junction corners, or give an arm pavement on one side only; pedestrians
 //! walk there all the same. Every strip is synthetic.
 
-use super::surfaces::MeshBuilder;
+use crate::formats::mesh::MeshBuilder;
 use crate::polygons::PolygonIndex;
 use crate::{GroundIndex, Obstacle, SemanticLabel, WalkableKind, WalkablePolygon};
 use cosfly_frames::{DVec2, DVec3};
@@ -13,7 +13,7 @@ use std::collections::BTreeMap;
 const LONGEST_M: f64 = 25.0;
 /// Width of a strip, metres.
 const WIDTH_M: f64 = 2.5;
-/// How far a strip reaches into the ground that it joins, metres.
+/// Overlap of a strip and the ground that it joins, metres.
 const OVERLAP_M: f64 = 0.8;
 /// Corners closer than this, in plan and in height, touch, metres.
 const TOUCHING_M: [f64; 2] = [0.05, 0.6];
@@ -197,7 +197,7 @@ fn candidates<'s>(parts: &mut Parts, samples: &'s [Sample]) -> Vec<(&'s Sample, 
 
 /// Footprints of everything a pedestrian would run into.
 fn footprints(obstacles: &[Obstacle]) -> PolygonIndex {
-    let standing = obstacles.iter().filter(|obstacle| super::terrain::stands_on_ground(obstacle.kind));
+    let standing = obstacles.iter().filter(|obstacle| crate::formats::terrain::stands_on_ground(obstacle.kind));
     let outlines = standing.map(|obstacle| {
         let corners = obstacle.shape.corners_in_world();
         [0, 1, 3, 2].map(|corner| corners[corner].truncate()).to_vec()

@@ -1,15 +1,17 @@
 //! OpenDRIVE 1.4 to 1.8: roads, lanes, objects and signals into a [`Town`].
 //!
 //! [`network`] is the file as it stands; [`plan_view`] and [`road_geometry`] evaluate it; the other rooms build the
-//! town's parts from it. Everything stays in the file's right-handed frame until [`world`] turns it over.
+//! town's parts from it. Everything stays in the file's right-handed frame until [`super::world`] turns it over.
 
 mod attributes;
 mod build;
 mod crossings;
+mod document;
 mod joining;
 pub mod network;
 mod object_kind;
 mod objects;
+mod options;
 mod parse_lanes;
 mod parse_objects;
 mod parse_road;
@@ -17,37 +19,38 @@ pub mod plan_view;
 pub mod polynomial;
 mod quadrature;
 pub mod road_geometry;
+mod road_map;
 mod road_marks;
 mod signals;
 mod stations;
 mod surfaces;
-mod terrain;
-mod text;
 mod walkable;
-pub mod world;
+mod xml_bounds;
 
-pub use build::{LanePoint, RoadMap};
+pub use options::OpenDriveOptions;
+pub use road_map::{LanePoint, RoadMap};
 
-use super::MapFormat;
-use crate::{MapConfig, MapError, Town};
+use super::format::MapFormat;
+use crate::{MapError, Town};
 
-/// The OpenDRIVE reader.
+/// The OpenDRIVE format.
 #[derive(Clone, Copy, Debug)]
 pub struct OpenDrive;
 
 impl MapFormat for OpenDrive {
-    fn name(&self) -> &'static str {
-        "OpenDRIVE"
-    }
+    type Options = OpenDriveOptions;
 
-    fn recognises(&self, bytes: &[u8]) -> bool {
-        let head = &bytes[..bytes.len().min(4096)];
+    const NAME: &'static str = "OpenDRIVE";
+
+    const EXAMPLE: &'static str = include_str!("every_feature.xodr");
+
+    fn recognises(head: &[u8]) -> bool {
         // UTF-16 is recognised, too, so that its refusal can say what to do.
         let plain: Vec<u8> = head.iter().copied().filter(|byte| *byte != 0).collect();
         plain.windows(10).any(|window| window == b"<OpenDRIVE")
     }
 
-    fn read(&self, bytes: &[u8], options: &MapConfig) -> Result<(Town, Vec<String>), MapError> {
+    fn read(bytes: &[u8], options: &OpenDriveOptions) -> Result<(Town, Vec<String>), MapError> {
         build::town(bytes, options)
     }
 }

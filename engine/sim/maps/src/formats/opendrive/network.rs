@@ -3,6 +3,7 @@
 use super::plan_view::PlanElement;
 use super::polynomial::CubicProfile;
 use core::ops::Range;
+use cosfly_frames::DVec2;
 
 /// Everything the reader takes from an OpenDRIVE file.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -13,6 +14,13 @@ pub struct RoadNetwork {
     pub geo_reference: Option<String>,
     /// Roads in file order.
     pub roads: Vec<Road>,
+}
+
+impl RoadNetwork {
+    /// First points of all pieces of all reference lines, map frame, metres.
+    pub fn plan_points(&self) -> impl Iterator<Item = DVec2> {
+        self.roads.iter().flat_map(|road| &road.plan).map(|element| element.start.position_in_map)
+    }
 }
 
 /// A road: a reference line with lanes and things beside it.
@@ -44,14 +52,14 @@ pub struct Road {
     pub objects: Vec<RoadObject>,
     /// Signs and lights.
     pub signals: Vec<RoadSignal>,
-    /// Its start tag in the text.
+    /// Bytes of the start tag in the text.
     pub byte_span: Range<usize>,
 }
 
 /// Heights across the road at one s.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ShapeSection {
-    /// Where, metres along the road.
+    /// Place along the road, metres.
     pub s_m: f64,
     /// Height over t; the starts of the records are values of t.
     pub over_t: CubicProfile,
@@ -60,9 +68,9 @@ pub struct ShapeSection {
 /// A stretch of road with a fixed set of lanes.
 #[derive(Clone, Debug, PartialEq)]
 pub struct LaneSection {
-    /// Its start, metres along the road.
+    /// Start, metres along the road.
     pub start_s_m: f64,
-    /// Its end: the start of the next one or the end of the road.
+    /// End, metres along the road: the start of the next section or the end of the road.
     pub end_s_m: f64,
     /// Lanes 1, 2, ... from the centre outwards.
     pub left: Vec<Lane>,
@@ -84,11 +92,11 @@ impl LaneSection {
 pub struct Lane {
     /// `id`: positive to the left, negative to the right.
     pub id: i32,
-    /// What it is for.
+    /// Use of the lane.
     pub kind: LaneKind,
     /// Kept level: the road's roll does not apply.
     pub level: bool,
-    /// How its outer edge runs.
+    /// Course of the outer edge.
     pub edge: LaneEdge,
     /// Heights above the road surface, sorted by s; between records they change linearly.
     pub heights: Vec<LaneHeight>,
@@ -96,7 +104,7 @@ pub struct Lane {
     pub marks: Vec<RoadMark>,
 }
 
-/// How the outer edge of a lane is given.
+/// Course of the outer edge of a lane, as the file gives it.
 #[derive(Clone, Debug, PartialEq)]
 pub enum LaneEdge {
     /// Width of the lane.
@@ -108,7 +116,7 @@ pub enum LaneEdge {
 /// `<height>` of a lane.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct LaneHeight {
-    /// Where, metres along the road.
+    /// Place along the road, metres.
     pub s_m: f64,
     /// At the inner edge, metres above the road surface.
     pub inner_m: f64,
@@ -116,7 +124,7 @@ pub struct LaneHeight {
     pub outer_m: f64,
 }
 
-/// What a lane is for, as far as towns care.
+/// Use of a lane, as far as it matters to a town.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum LaneKind {
     /// Any carriageway: driving, parking, bus, bicycle, ramp and so on.
@@ -138,13 +146,13 @@ pub enum LaneKind {
 /// `<roadMark>`: a painted line on the outer edge of a lane.
 #[derive(Clone, Debug, PartialEq)]
 pub struct RoadMark {
-    /// Where it begins, metres along the road.
+    /// Start, metres along the road.
     pub s_m: f64,
-    /// Which line; `None` for kinds without paint.
+    /// Paint of the line; `None` for kinds without paint.
     pub paint: Option<Paint>,
 }
 
-/// What is painted on a lane edge.
+/// Paint on a lane edge.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Paint {
     /// Width of one line, metres.
@@ -173,7 +181,7 @@ pub struct RoadObject {
     pub type_name: String,
     /// `name` and `subtype`, lower case.
     pub name: String,
-    /// Where its origin is.
+    /// Place of the object's origin.
     pub at: RoadPosition,
     /// Turn against the road, radians.
     pub heading_rad: f64,
@@ -185,7 +193,7 @@ pub struct RoadObject {
     pub outlines: Vec<Outline>,
     /// Our own extension: `<userData code=... value=...>` of a tree's crown.
     pub crown: Crown,
-    /// Its start tag in the text.
+    /// Bytes of the start tag in the text.
     pub byte_span: Range<usize>,
 }
 
@@ -244,7 +252,7 @@ pub struct Repeat {
 pub struct Outline {
     /// An area, not a line.
     pub closed: bool,
-    /// Its corners.
+    /// Corners in order.
     pub corners: Vec<Corner>,
 }
 
@@ -276,7 +284,7 @@ pub enum Corner {
 pub struct RoadSignal {
     /// `id` in the file.
     pub id: String,
-    /// Where its plate hangs.
+    /// Place of the plate.
     pub at: RoadPosition,
     /// Turn of the plate, radians against the road (orientation included).
     pub heading_rad: f64,

@@ -3,7 +3,7 @@
 use super::network::RoadObject;
 use crate::ObstacleKind;
 
-/// What becomes of an object.
+/// Part of the town that an object becomes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum ObjectKind {
     /// Something solid.

@@ -2,9 +2,9 @@
 
 use super::network::{Corner, Outline, Repeat, Road, RoadObject};
 use super::object_kind::{ObjectKind, kind_of};
-use super::world::WorldFromMap;
 use crate::cover::cover_polygon;
 use crate::crown::crown_boxes;
+use crate::formats::world::WorldFromMap;
 use crate::{Obstacle, ObstacleKind};
 use cosfly_frames::{DVec2, DVec3, real};
 use cosfly_geometry::OrientedBox;
@@ -29,7 +29,9 @@ pub(super) struct ObstacleBuilder {
     pub(super) bare_signs: usize,
     /// Objects that gave no usable size.
     pub(super) without_size: usize,
-    /// Boxes beyond [`MOST_OBSTACLES`].
+    /// Copies of repeated objects, with or without a box.
+    copies: usize,
+    /// Boxes or copies beyond [`MOST_OBSTACLES`].
     pub(super) left_out: usize,
 }
 
@@ -88,6 +90,9 @@ impl ObstacleBuilder {
     /// Adds one `<object>`; flat and painted things give nothing.
     pub(super) fn add(&mut self, road: &Road, object: &RoadObject, world: &WorldFromMap) {
         let ObjectKind::Solid(kind) = kind_of(object) else { return };
+        if self.left_out > 0 {
+            return;
+        }
         self.begin_object();
         let before = self.obstacles.len();
         if !object.repeats.is_empty() {
@@ -209,6 +214,8 @@ impl ObstacleBuilder {
                 if copy > 0 {
                     self.begin_object();
                 }
+                self.copies += 1;
+                self.left_out += usize::from(self.copies > MOST_OBSTACLES);
                 self.add_single(
                     object,
                     kind,

@@ -42,6 +42,7 @@ pub(super) fn lane_sections<'d>(
                 section.right = before.right.clone();
             }
         }
+        source.count_lanes(node, section.left.len() + section.right.len())?;
         sections.push(section);
     }
     sections.sort_by(|a, b| a.start_s_m.total_cmp(&b.start_s_m));

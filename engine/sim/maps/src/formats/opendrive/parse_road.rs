@@ -89,11 +89,17 @@ fn curve<'d>(source: &Source<'d>, geometry: Node<'d, 'd>, length_m: f64) -> Resu
     };
     match node.tag_name().name() {
         "line" => Ok(Curve::Line),
-        "arc" => Ok(Curve::Arc { curvature_per_m: source.number(node, "curvature", CURVATURE)? }),
-        "spiral" => Ok(Curve::Spiral {
-            start_per_m: source.number(node, "curvStart", CURVATURE)?,
-            end_per_m: source.number(node, "curvEnd", CURVATURE)?,
-        }),
+        "arc" => {
+            let arc = Curve::Arc { curvature_per_m: source.number(node, "curvature", CURVATURE)? };
+            check_turn(source, node, arc, length_m)
+        }
+        "spiral" => {
+            let spiral = Curve::Spiral {
+                start_per_m: source.number(node, "curvStart", CURVATURE)?,
+                end_per_m: source.number(node, "curvEnd", CURVATURE)?,
+            };
+            check_turn(source, node, spiral, length_m)
+        }
         "poly3" => Ok(Curve::poly3(source.coefficients(node, "")?, length_m)),
         "paramPoly3" => {
             let (u, v) = (source.coefficients(node, "U")?, source.coefficients(node, "V")?);
@@ -107,6 +113,24 @@ fn curve<'d>(source: &Source<'d>, geometry: Node<'d, 'd>, length_m: f64) -> Resu
         }
         other => Err(source.refuse(node, format!("`{other}` is not a known shape of a geometry")).hint(SHAPES)),
     }
+}
+
+/// Largest turn of one geometry, radians: sixteen times round.
+const MOST_TURN_RAD: f64 = 100.0;
+
+/// Refuses curvatures that no road has.
+fn check_turn<'d>(source: &Source<'d>, node: Node<'d, 'd>, curve: Curve, length_m: f64) -> Result<Curve, MapError> {
+    let turn_rad = match &curve {
+        Curve::Arc { curvature_per_m } => curvature_per_m.abs() * length_m,
+        Curve::Spiral { start_per_m, end_per_m } => start_per_m.abs().max(end_per_m.abs()) * length_m,
+        Curve::Line | Curve::Cubic { .. } => 0.0,
+    };
+    if turn_rad > MOST_TURN_RAD {
+        let name = node.tag_name().name();
+        let message = format!("the {name} turns by {turn_rad:.0} rad; a geometry turns by at most {MOST_TURN_RAD} rad");
+        return Err(source.refuse(node, message));
+    }
+    Ok(curve)
 }
 
 const SHAPES: &str = "known shapes are line, arc, spiral, poly3 and paramPoly3";

@@ -15,13 +15,13 @@ pub struct PlanPoint {
 /// One `<geometry>` record.
 #[derive(Clone, Debug, PartialEq)]
 pub struct PlanElement {
-    /// Where it begins along the road, metres.
+    /// Start along the road, metres.
     pub start_s_m: f64,
-    /// Its length, metres.
+    /// Length, metres.
     pub length_m: f64,
-    /// Its first point.
+    /// First point.
     pub start: PlanPoint,
-    /// Its curve.
+    /// Shape of the curve.
     pub curve: Curve,
 }
 

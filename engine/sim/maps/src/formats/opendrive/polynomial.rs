@@ -3,7 +3,7 @@
 /// `value(s) = a + b ds + c ds^2 + d ds^3` with `ds = s - start_s_m`.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Cubic {
-    /// Where the record begins to hold, metres along the road.
+    /// Start of the record, metres along the road.
     pub start_s_m: f64,
     /// a, b, c, d.
     pub coefficients: [f64; 4],

@@ -2,9 +2,9 @@
 
 use super::network::{Lane, LaneSection, Paint, Road, RoadMark};
 use super::stations::CrossSection;
-use super::surfaces::MeshBuilder;
-use super::world::WorldFromMap;
 use crate::SemanticLabel;
+use crate::formats::mesh::MeshBuilder;
+use crate::formats::world::WorldFromMap;
 use cosfly_frames::{DVec2, DVec3, real};
 
 /// Paint lies this far above the surface below it, metres.
@@ -54,6 +54,9 @@ impl LinePainter {
         world: &WorldFromMap,
     ) {
         for (i, mark) in marks.iter().enumerate() {
+            if self.strokes >= MOST_STROKES {
+                return;
+            }
             let Some(paint) = mark.paint else { continue };
             let from_s_m = mark.s_m.max(section.start_s_m);
             let to_s_m = marks.get(i + 1).map_or(section.end_s_m, |next| next.s_m).min(section.end_s_m);

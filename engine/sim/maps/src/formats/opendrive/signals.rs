@@ -2,8 +2,8 @@
 
 use super::network::{Road, RoadSignal};
 use super::objects::ObstacleBuilder;
-use super::world::WorldFromMap;
 use crate::ObstacleKind;
+use crate::formats::world::WorldFromMap;
 use cosfly_frames::{DVec2, DVec3};
 
 /// A pole of the file this close to a signal carries it, metres.

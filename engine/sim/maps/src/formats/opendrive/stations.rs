@@ -9,8 +9,10 @@ use cosfly_frames::DVec3;
 const CHORD_ERROR_M: f64 = 0.02;
 /// Shortest piece that is still divided, metres.
 const SHORTEST_M: f64 = 0.05;
-/// Most cross-sections of one file; far more than any city needs.
-const MOST_STATIONS: usize = 1_000_000;
+/// Most lane edges over all cross-sections of one file; far more than any city needs.
+const MOST_LANE_EDGES: usize = 8_000_000;
+/// Most places that are looked at as ends of cross-sections.
+const MOST_BREAKS: usize = 200_000_000;
 
 /// A cross-section: every lane edge of a section at one s.
 #[derive(Clone, Debug, PartialEq)]
@@ -22,10 +24,11 @@ pub(super) struct CrossSection {
     pub(super) points: [Vec<[DVec3; 2]>; 2],
 }
 
-/// Counts cross-sections over the whole file and refuses to go on without end.
+/// Counts the work on cross-sections over the whole file and refuses absurd maps.
 #[derive(Debug, Default)]
 pub(super) struct StationBudget {
-    used: usize,
+    lane_edges: usize,
+    breaks: usize,
 }
 
 /// The cross-sections of a lane section from its start to its end, none farther than `longest_m` from the next.
@@ -36,7 +39,8 @@ pub(super) fn cross_sections(
     budget: &mut StationBudget,
 ) -> Result<Vec<CrossSection>, MapError> {
     let mut out: Vec<CrossSection> = Vec::new();
-    for s_m in breaks(road, section) {
+    for s_m in breaks(road, section, budget)? {
+        budget.take_cross_section(road, section)?;
         let next = cross_section(road, section, s_m)?;
         if let Some(before) = out.last().cloned() {
             divide(road, section, before, &next, longest_m, &mut out, budget)?;
@@ -47,7 +51,7 @@ pub(super) fn cross_sections(
 }
 
 /// Sorted stations at which some polynomial of the section begins or ends.
-fn breaks(road: &Road, section: &LaneSection) -> Vec<f64> {
+fn breaks(road: &Road, section: &LaneSection, budget: &mut StationBudget) -> Result<Vec<f64>, MapError> {
     let (start, end) = (section.start_s_m, section.end_s_m);
     let mut stations = vec![start, end];
     stations.extend(road.plan.iter().map(|element| element.start_s_m));
@@ -60,6 +64,7 @@ fn breaks(road: &Road, section: &LaneSection) -> Vec<f64> {
         stations.extend(profile.records().iter().map(|record| record.start_s_m));
         stations.extend(lane.heights.iter().map(|height| height.s_m));
     }
+    budget.take_breaks(road, stations.len())?;
     stations.retain(|s_m| (start..=end).contains(s_m));
     stations.sort_by(f64::total_cmp);
     // Breaks closer than a centimetre make no visible difference; both ends always stay.
@@ -75,7 +80,7 @@ fn breaks(road: &Road, section: &LaneSection) -> Vec<f64> {
     if kept.last().is_some_and(|last| *last < end) {
         kept.push(end);
     }
-    kept
+    Ok(kept)
 }
 
 /// Adds the cross-sections between two neighbours by halving until every edge is straight enough.
@@ -92,7 +97,7 @@ fn divide(
     // The stack holds the ends still to be reached, nearest last; each is at least halved, so it stays short.
     let mut ends = vec![to.clone()];
     while let Some(high) = ends.last() {
-        budget.take(road)?;
+        budget.take_cross_section(road, section)?;
         let length_m = high.s_m - low.s_m;
         let middle = cross_section(road, section, 0.5 * (low.s_m + high.s_m))?;
         if length_m > SHORTEST_M && (length_m > longest_m || !is_straight(road, section, &low, &middle, high)?) {
@@ -108,14 +113,21 @@ fn divide(
 }
 
 impl StationBudget {
-    fn take(&mut self, road: &Road) -> Result<(), MapError> {
-        self.used += 1;
-        if self.used <= MOST_STATIONS {
-            return Ok(());
-        }
-        let message = format!("the map needs more than {MOST_STATIONS} cross-sections (road `{}`)", road.id);
-        Err(MapError::new(message).hint("curvatures or widths of this file may be absurd; cut it into smaller pieces"))
+    fn take_cross_section(&mut self, road: &Road, section: &LaneSection) -> Result<(), MapError> {
+        self.lane_edges += 1 + section.left.len() + section.right.len();
+        if self.lane_edges <= MOST_LANE_EDGES { Ok(()) } else { Err(too_much(road)) }
     }
+
+    fn take_breaks(&mut self, road: &Road, count: usize) -> Result<(), MapError> {
+        self.breaks += count;
+        if self.breaks <= MOST_BREAKS { Ok(()) } else { Err(too_much(road)) }
+    }
+}
+
+fn too_much(road: &Road) -> MapError {
+    let message =
+        format!("the map needs more than {MOST_LANE_EDGES} lane edges in cross-sections (road `{}`)", road.id);
+    MapError::new(message).hint("curvatures or widths of this file may be absurd; cut it into smaller pieces")
 }
 
 fn is_straight(

@@ -1,66 +1,17 @@
 //! Meshes of the lanes: carriageway, raised pavements with kerb faces, green strips, skirts at the road's edge.
 
-use super::network::{Lane, LaneKind, Road};
+use super::network::{Lane, LaneHeight, LaneKind, Road};
 use super::road_geometry::LaneSpan;
 use super::stations::CrossSection;
-use super::world::WorldFromMap;
-use crate::{SemanticLabel, SurfaceMesh};
+use crate::SemanticLabel;
+use crate::formats::mesh::MeshBuilder;
+use crate::formats::world::WorldFromMap;
 use cosfly_frames::{DVec2, DVec3};
-use std::collections::BTreeMap;
 
-/// How far the side of a road's edge reaches down, so that no gap opens towards the terrain, metres.
+/// Height of the skirt below a road's edge, so that no gap opens towards the terrain, metres.
 const SKIRT_M: f64 = 1.5;
 /// Height of pavements in files that give none, metres.
 pub(super) const DEFAULT_KERB_M: f64 = 0.15;
-
-/// One growing mesh for each label.
-#[derive(Debug, Default)]
-pub(super) struct MeshBuilder {
-    meshes: BTreeMap<(SemanticLabel, bool), SurfaceMesh>,
-}
-
-impl MeshBuilder {
-    /// Adds a quad; corners in order around it, each with its place along and across the road.
-    pub(super) fn quad(&mut self, label: SemanticLabel, synthetic: bool, corners: [(DVec3, DVec2); 4]) {
-        self.polygon(label, synthetic, &corners, &[[0, 1, 2], [0, 2, 3]]);
-    }
-
-    /// Adds triangles over some vertices.
-    pub(super) fn polygon(
-        &mut self,
-        label: SemanticLabel,
-        synthetic: bool,
-        vertices: &[(DVec3, DVec2)],
-        triangles: &[[u32; 3]],
-    ) {
-        let mesh = self.meshes.entry((label, synthetic)).or_insert_with(|| SurfaceMesh {
-            label,
-            vertices_in_world: Vec::new(),
-            along_across_m: Vec::new(),
-            triangles: Vec::new(),
-            synthetic,
-        });
-        let first = mesh.vertices_in_world.len() as u32;
-        mesh.vertices_in_world.extend(vertices.iter().map(|(point, _)| *point));
-        mesh.along_across_m.extend(vertices.iter().map(|(_, along_across)| *along_across));
-        mesh.triangles.extend(triangles.iter().map(|triangle| triangle.map(|corner| first + corner)));
-    }
-
-    /// Goes on with finished meshes.
-    pub(super) fn from_meshes(meshes: Vec<SurfaceMesh>) -> Self {
-        Self { meshes: meshes.into_iter().map(|mesh| ((mesh.label, mesh.synthetic), mesh)).collect() }
-    }
-
-    /// The meshes made so far.
-    pub(super) fn meshes(&self) -> impl Iterator<Item = &SurfaceMesh> {
-        self.meshes.values()
-    }
-
-    /// The meshes in the order of their labels.
-    pub(super) fn finish(self) -> Vec<SurfaceMesh> {
-        self.meshes.into_values().collect()
-    }
-}
 
 /// The label under which lane `index` of a side is seen. A lane without a kind that lies between paved ones (closed
 /// roads of CARLA's towns) is paved as well; elsewhere it is green.
@@ -90,8 +41,7 @@ pub(super) fn raise_default_kerbs(road: &mut Road) -> bool {
         for lane in section.left.iter_mut().chain(&mut section.right) {
             if lane.kind == LaneKind::Sidewalk && lane.heights.is_empty() {
                 let s_m = section.start_s_m;
-                lane.heights =
-                    vec![super::network::LaneHeight { s_m, inner_m: DEFAULT_KERB_M, outer_m: DEFAULT_KERB_M }];
+                lane.heights = vec![LaneHeight { s_m, inner_m: DEFAULT_KERB_M, outer_m: DEFAULT_KERB_M }];
                 raised = true;
             }
         }

@@ -2,7 +2,7 @@
 
 use super::network::{Lane, LaneKind, LaneSection, Road};
 use super::stations::CrossSection;
-use super::world::WorldFromMap;
+use crate::formats::world::WorldFromMap;
 use crate::{WalkableKind, WalkablePolygon};
 use cosfly_frames::DVec3;
 
@@ -13,7 +13,7 @@ const KERB_STRIP_M: f64 = 0.6;
 /// Narrower pieces than this are no ground to walk on, metres.
 const NARROWEST_M: f64 = 0.05;
 
-/// Which lanes of one side are walkable, and as what.
+/// Kind of walkable ground of each lane of one side; `None` for lanes that are not walkable.
 pub(super) fn walkable_lanes(
     lanes: &[Lane],
     rows: &[CrossSection],

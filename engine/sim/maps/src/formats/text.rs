@@ -36,7 +36,7 @@ fn declares_latin1(bytes: &[u8]) -> bool {
     ["iso-8859-1", "latin1", "windows-1252"].iter().any(|name| declaration.contains(name))
 }
 
-/// Where lines begin, so that a position becomes a line and a column in little time.
+/// Starts of the lines, so that a position becomes a line and a column in little time.
 pub(super) struct Lines<'t> {
     text: &'t str,
     starts: Vec<usize>,
@@ -48,7 +48,7 @@ impl<'t> Lines<'t> {
         Self { text, starts: core::iter::once(0).chain(ends).collect() }
     }
 
-    /// The place of some bytes; `element` says what stands there.
+    /// The place of some bytes; `element` names the element there.
     pub(super) fn place(&self, byte_span: Range<usize>, element: String) -> Place {
         let line = self.starts.partition_point(|start| *start <= byte_span.start).max(1);
         let before = self.text.get(self.starts[line - 1]..byte_span.start).unwrap_or_default();

@@ -2,13 +2,13 @@
 //!
 //! Heights are solved on a fine grid, so that grass meets pavements at their edge; open land is meshed in larger cells.
 
-use super::surfaces::MeshBuilder;
-use crate::{Obstacle, ObstacleKind, SemanticLabel, SurfaceMesh};
+use super::mesh::MeshBuilder;
+use crate::{MapError, Obstacle, ObstacleKind, SemanticLabel, SurfaceMesh};
 use cosfly_frames::{DVec2, DVec3};
 
-/// How far the terrain reaches beyond everything else, metres.
-const MARGIN_M: f64 = 60.0;
-/// How far the terrain stays below roads and pavements, metres.
+/// Distance that the terrain usually reaches beyond everything else, metres.
+pub(super) const USUAL_MARGIN_M: f64 = 60.0;
+/// Distance of the terrain below roads and pavements, metres.
 const BELOW_ROADS_M: f64 = 0.11;
 /// Cells along one side that are aimed at; 2 to 4 m wide in towns of usual size.
 const AIMED_CELLS: f64 = 400.0;
@@ -18,6 +18,8 @@ const MOST_CELLS: f64 = 800.0;
 const BLOCK: usize = 4;
 /// Passes that smooth the land between the roads.
 const SMOOTHING_PASSES: usize = 80;
+/// Most samples over all roads and pavements; a hundred times what a large city takes.
+const MOST_SAMPLES: f64 = 1e9;
 /// Distance of the samples that bind cells to a road, as a share of the cell's width.
 const SAMPLE_SHARE: f64 = 0.5;
 
@@ -33,14 +35,26 @@ struct HeightGrid {
     feet: Vec<(f64, u32)>,
 }
 
-/// Adds the terrain (synthetic, label Terrain) under all meshes made so far.
-pub(super) fn add_terrain(builder: &mut MeshBuilder, obstacles: &[Obstacle]) {
-    let Some(mut grid) = HeightGrid::around(builder.meshes(), obstacles) else { return };
+/// Adds the terrain (synthetic, label Terrain) under all meshes made so far, and `margin_m` beyond them and `obstacles`.
+///
+/// # Errors
+/// Roads and pavements of absurd area.
+pub(super) fn add_terrain(builder: &mut MeshBuilder, obstacles: &[Obstacle], margin_m: f64) -> Result<(), MapError> {
+    let Some(mut grid) = HeightGrid::around(builder.meshes(), obstacles, margin_m) else { return Ok(()) };
+    let mut samples = 0.0;
     for mesh in builder.meshes().filter(|mesh| mesh.label != SemanticLabel::RoadLine) {
         for triangle in &mesh.triangles {
             let corners = triangle.map(|corner| mesh.vertices_in_world[corner as usize]);
             if !is_upright(corners) {
-                grid.lower_below(corners);
+                samples += grid.lower_below(corners);
+            }
+            if samples > MOST_SAMPLES {
+                let message = format!(
+                    "the roads and pavements of the map are too large: more than {MOST_SAMPLES} samples of their heights"
+                );
+                return Err(
+                    MapError::new(message).hint("widths of this file may be absurd; cut it into smaller pieces")
+                );
             }
         }
     }
@@ -49,6 +63,7 @@ pub(super) fn add_terrain(builder: &mut MeshBuilder, obstacles: &[Obstacle]) {
     }
     let heights_m = grid.solved();
     grid.add_mesh(builder, heights_m);
+    Ok(())
 }
 
 /// Whether a triangle is a kerb's face or a skirt: what lies above it binds the terrain, not its lower edge.
@@ -66,7 +81,11 @@ pub(super) fn stands_on_ground(kind: ObstacleKind) -> bool {
 }
 
 impl HeightGrid {
-    fn around<'m>(meshes: impl Iterator<Item = &'m SurfaceMesh>, obstacles: &[Obstacle]) -> Option<Self> {
+    fn around<'m>(
+        meshes: impl Iterator<Item = &'m SurfaceMesh>,
+        obstacles: &[Obstacle],
+        margin_m: f64,
+    ) -> Option<Self> {
         let mut low = DVec2::INFINITY;
         let mut high = DVec2::NEG_INFINITY;
         for point in meshes.flat_map(|mesh| &mesh.vertices_in_world) {
@@ -81,7 +100,7 @@ impl HeightGrid {
         if !(low.is_finite() && high.is_finite()) {
             return None;
         }
-        let (low, high) = (low - MARGIN_M, high + MARGIN_M);
+        let (low, high) = (low - margin_m, high + margin_m);
         let longest_m = (high - low).max_element();
         let cell_m = (longest_m / AIMED_CELLS).clamp(2.0, 4.0).max(longest_m / MOST_CELLS);
         let cells = |side_m: f64| ((side_m / cell_m).ceil() as usize).next_multiple_of(BLOCK);
@@ -99,13 +118,13 @@ impl HeightGrid {
         [first, first + 1, first + self.columns, first + self.columns + 1]
     }
 
-    /// Keeps the cells under a triangle below it: close samples, each binding its whole cell.
-    fn lower_below(&mut self, [a, b, c]: [DVec3; 3]) {
+    /// Keeps the cells under a triangle below it: close samples, each binding its whole cell. Gives their number.
+    fn lower_below(&mut self, [a, b, c]: [DVec3; 3]) -> f64 {
         let sides = [(a, b, c), (b, c, a), (c, a, b)];
         let length_m = |(from, to, _): &(DVec3, DVec3, DVec3)| from.distance_squared(*to);
         // Few steps along the shortest side, many away from it: triangles of roads are long and thin.
         let Some(&(a, b, c)) = sides.iter().min_by(|one, other| length_m(one).total_cmp(&length_m(other))) else {
-            return;
+            return 0.0;
         };
         let steps = |side: DVec3| (side.length() / (SAMPLE_SHARE * self.cell_m)).ceil().clamp(1.0, 4096.0) as usize;
         let (across, along) = (steps(b - a), steps(c - a).max(steps(c - b)));
@@ -120,6 +139,7 @@ impl HeightGrid {
                 }
             }
         }
+        (across + 1) as f64 * (along + 1) as f64
     }
 
     fn note_foot(&mut self, obstacle: &Obstacle) {

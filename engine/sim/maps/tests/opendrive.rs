@@ -1,20 +1,23 @@
-//! Laws of every map reader: it refuses bad input with a place and never panics, whatever the bytes.
+//! OpenDRIVE: every feature of a file reaches the town, and bad input is refused at its place.
 
-use cosfly_frames::{RandomStream, Seed};
-use cosfly_maps::formats::opendrive::RoadMap;
-use cosfly_maps::{MapConfig, MapError, ObstacleKind, SemanticLabel, Town, WalkableKind, read_town};
+use cosfly_frames::Seed;
+use cosfly_maps::formats::opendrive::{OpenDrive, OpenDriveOptions, RoadMap};
+use cosfly_maps::{
+    FormatOptions, MapConfig, MapError, MapFormat, ObstacleKind, SemanticLabel, Town, WalkableKind, read_town,
+};
 use std::time::{Duration, Instant};
 
 /// A road of every curve, with every kind of profile, object and signal.
-const STREET: &str = include_str!("every_feature.xodr");
+const STREET: &str = OpenDrive::EXAMPLE;
 
 fn read(text: &str) -> Result<Town, MapError> {
     read_bytes(text.as_bytes())
 }
 
 fn read_bytes(bytes: &[u8]) -> Result<Town, MapError> {
-    let options = MapConfig { shoulders_as_sidewalks: true, ..MapConfig::default() };
-    let (town, _) = read_town(bytes, &options, Seed::of_item(1, "town", "town"))?;
+    let options = OpenDriveOptions { shoulders_as_sidewalks: true, ..OpenDriveOptions::default() };
+    let config = MapConfig { options: FormatOptions::of(&options), ..MapConfig::default() };
+    let (town, _) = read_town(bytes, &config, Seed::of_item(1, "town", "town"))?;
     town.assert_well_formed().expect("a town that was read is well formed");
     Ok(town)
 }
@@ -38,9 +41,6 @@ fn check_refused(text: &str, expected: &str, line: Option<u32>) {
 fn line_of(text: &str, what: &str) -> Option<u32> {
     text.lines().position(|line| line.contains(what)).map(|line| line as u32 + 1)
 }
-
-/// Far beyond what any input takes: a guard against hanging, not a measurement.
-const HANGS_AFTER: Duration = Duration::from_secs(300);
 
 #[test]
 fn a_file_with_every_feature_gives_every_part_of_a_town() {
@@ -172,103 +172,4 @@ fn a_town_without_pavements_names_the_option_that_helps() {
     assert!(refused.hints[0].contains("shoulders_as_sidewalks = true"), "{:?}", refused.hints);
     let town = read(&text).unwrap();
     assert!(town.walkable.iter().any(|polygon| polygon.kind == WalkableKind::Shoulder));
-}
-
-#[test]
-fn deep_nesting_is_refused_or_ignored_in_bounded_time() {
-    for depth in [1_000, 200_000] {
-        let text = STREET.replacen(
-            "<lateralProfile>",
-            &format!("{}{}<lateralProfile>", "<a>".repeat(depth), "</a>".repeat(depth)),
-            1,
-        );
-        let start = Instant::now();
-        let _ = read(&text);
-        assert!(start.elapsed() < HANGS_AFTER, "depth {depth}");
-    }
-}
-
-#[test]
-fn hostile_sizes_end_in_an_error_or_a_town_but_end() {
-    for (from, to) in [
-        ("distance=\"8\"", "distance=\"1e-9\""),
-        ("length=\"40\"><line/>", "length=\"999999\"><arc curvature=\"999\"/>"),
-        ("curvStart=\"0.02\"", "curvStart=\"-1000\""),
-        (
-            "<width sOffset=\"0\" a=\"3.5\" b=\"0\" c=\"0\" d=\"0\"/>",
-            "<width sOffset=\"0\" a=\"3.5\" b=\"1e7\" c=\"-1e8\" d=\"1e8\"/>",
-        ),
-        ("space=\"4\"", "space=\"0\""),
-        ("x=\"0\" y=\"0\"", "x=\"1e8\" y=\"-1e8\""),
-        ("u=\"-6\"", "u=\"-99999\""),
-    ] {
-        let start = Instant::now();
-        let result = read(&with(from, to));
-        println!(
-            "{to}: {:.2} s, {}",
-            start.elapsed().as_secs_f64(),
-            result.map_or_else(|e| e.to_string(), |_| "a town".into())
-        );
-        assert!(start.elapsed() < HANGS_AFTER, "{to}");
-    }
-}
-
-fn mutated(bytes: &[u8], stream: &mut RandomStream) -> Vec<u8> {
-    const PIECES: &[&str] = &[
-        "", "-", "1e9", "nan", "inf", "\"", "<", ">", "/>", "0", "999999", "-1", "s=\"", "<road>", "\u{0}", "e308", " ",
-    ];
-    let mut out = bytes.to_vec();
-    for _ in 0..=stream.index(4) {
-        let at = stream.index(out.len());
-        match stream.index(4) {
-            0 => out[at] = stream.index(256) as u8,
-            1 => drop(out.splice(at..at, PIECES[stream.index(PIECES.len())].bytes())),
-            2 => {
-                let end = (at + stream.index(40)).min(out.len());
-                out.drain(at..end);
-            }
-            _ => {
-                // Digits become other digits, so that the file stays well formed and the numbers turn wild.
-                let digit = b"0123456789.e-"[stream.index(13)];
-                if let Some(found) = out[at..].iter().position(u8::is_ascii_digit) {
-                    out[at + found] = digit;
-                }
-            }
-        }
-        if out.is_empty() {
-            return out;
-        }
-    }
-    out
-}
-
-#[test]
-fn random_damage_never_panics() {
-    let mut stream = Seed::of_item(1, "maps", "mutations").stream("damage");
-    let (mut towns, mut errors) = (0, 0);
-    let start = Instant::now();
-    for round in 0..400 {
-        let bytes = mutated(STREET.as_bytes(), &mut stream);
-        let begun = Instant::now();
-        match read_bytes(&bytes) {
-            Ok(_) => towns += 1,
-            Err(_) => errors += 1,
-        }
-        assert!(begun.elapsed() < HANGS_AFTER, "round {round} took {:?}", begun.elapsed());
-    }
-    println!("{towns} towns, {errors} errors in {:.1} s", start.elapsed().as_secs_f64());
-    assert!(towns > 30 && errors > 30);
-}
-
-#[test]
-fn garbage_and_every_truncation_never_panic() {
-    let mut stream = Seed::of_item(1, "maps", "garbage").stream("bytes");
-    for _ in 0..200 {
-        let mut bytes = b"<OpenDRIVE".to_vec();
-        bytes.extend((0..stream.index(400)).map(|_| stream.index(256) as u8));
-        assert!(read_bytes(&bytes).is_err());
-    }
-    for end in (0..STREET.len()).step_by(101) {
-        assert!(read_bytes(&STREET.as_bytes()[..end]).is_err() || STREET[end..].trim().is_empty(), "cut at {end}");
-    }
 }

@@ -1,0 +1,34 @@
+//! Options of OpenDRIVE maps.
+
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+/// Options of OpenDRIVE maps.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(default, deny_unknown_fields)]
+pub struct OpenDriveOptions {
+    /// Let pedestrians use road shoulders in a town that has no pavements. Off by default: such a town is refused.
+    pub shoulders_as_sidewalks: bool,
+    /// Make poles and plates of the file's signals (signs and traffic lights). On by default.
+    pub signals: bool,
+    /// Paint lane lines and crossings. On by default.
+    pub road_marks: bool,
+    /// Let pedestrians cross the carriageway where a junction arm has pavements but no marked crossing, and join
+    /// parts of the walkable ground that are at most 25 m apart (all flagged as synthetic). On by default.
+    pub unmarked_crossings: bool,
+    /// Longest piece of road surface in one quad, metres; bends are cut finer by themselves. 0.5 to 1000, default 50.
+    #[schemars(range(min = 0.5, max = 1000.0))]
+    pub sample_step_m: f64,
+}
+
+impl Default for OpenDriveOptions {
+    fn default() -> Self {
+        Self {
+            shoulders_as_sidewalks: false,
+            signals: true,
+            road_marks: true,
+            unmarked_crossings: true,
+            sample_step_m: 50.0,
+        }
+    }
+}

@@ -1,0 +1,4 @@
+//! `arrow_answers` for libFuzzer.
+#![no_main]
+
+libfuzzer_sys::fuzz_target!(|bytes: &[u8]| cosfly_fuzz::target("arrow_answers")(bytes));

@@ -1,0 +1,4 @@
+//! `mp4` for libFuzzer.
+#![no_main]
+
+libfuzzer_sys::fuzz_target!(|bytes: &[u8]| cosfly_fuzz::target("mp4")(bytes));

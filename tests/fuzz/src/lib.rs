@@ -1,0 +1,114 @@
+//! Fuzz targets: every reader of foreign bytes as a function that must not panic, hang or take memory without bound.
+//!
+//! `fuzz_targets/NAME.rs` hands them to libFuzzer; `tests/fuzzing.rs` runs them over damaged files of `corpus/NAME`.
+
+use cosfly_frames::Seed;
+use cosfly_maps::{MapConfig, read_town};
+use cosfly_metrics::Runs;
+use cosfly_schema::flight_table::{ColumnKind, DeclaredColumn, MOST_ROWS, read_answer};
+use cosfly_write::FramePackReader;
+use std::io::{Cursor, Write};
+use std::path::Path;
+
+/// A fuzz target.
+pub type Target = fn(&[u8]);
+
+/// All targets, sorted by name.
+pub const TARGETS: &[(&str, Target)] = &[
+    ("arrow_answers", arrow_answers),
+    ("boxes", map),
+    ("frame_pack", frame_pack),
+    ("mcap", mcap),
+    ("mp4", mp4),
+    ("opendrive", map),
+    ("predictions", predictions),
+    ("recipes", recipes),
+    ("run_lengths", run_lengths),
+];
+
+/// The target called `name`.
+///
+/// # Panics
+/// When there is none.
+pub fn target(name: &str) -> Target {
+    TARGETS.iter().find(|(known, _)| *known == name).expect("targets are listed").1
+}
+
+/// A map of any format.
+fn map(bytes: &[u8]) {
+    if let Ok((town, _)) = read_town(bytes, &MapConfig::default(), Seed::of_item(1, "fuzz", "town")) {
+        town.assert_well_formed().expect("a town that was read is well formed");
+    }
+}
+
+/// A pack of rendered frames.
+fn frame_pack(bytes: &[u8]) {
+    let Ok(mut pack) = FramePackReader::new(Cursor::new(bytes)) else { return };
+    for frame in 0..pack.len().min(8) {
+        let _ = pack.frame(frame);
+        let _ = pack.raw_pixels(frame);
+    }
+    let _ = pack.preview_strip();
+}
+
+/// The log of a flight.
+fn mcap(bytes: &[u8]) {
+    let _ = cosfly_read::read_records(&mut Cursor::new(bytes), &mut |_| {});
+    in_a_file(bytes, "mcap", |path| {
+        if let Ok(mut log) = cosfly_read::LogReader::open(path, 0.5) {
+            let _ = (log.topics(), log.frame(0), log.frame_with_instances(1));
+        }
+    });
+}
+
+/// The boxes of a video file.
+fn mp4(bytes: &[u8]) {
+    in_a_file(bytes, "mp4", |path| drop(cosfly_doctor::sources::lerobot::video::seconds(path)));
+}
+
+/// Predictions of models: waypoints, and detections with masks.
+fn predictions(bytes: &[u8]) {
+    in_a_file(bytes, "jsonl", |path| {
+        let _ = cosfly_read::predictions::read(path);
+        let _ = cosfly_read::predictions::detections::read(path);
+        let _ = cosfly_read::predictions::detections::read_images(path);
+    });
+}
+
+/// A recipe, checked against the stages of the binary.
+fn recipes(bytes: &[u8]) {
+    let Ok(text) = std::str::from_utf8(bytes) else { return };
+    let _ = cosfly_recipe::read(Path::new("fuzz/recipe.toml"), text, &[], &cosfly_stages::registry());
+}
+
+/// COCO's run lengths: the first two bytes are the number of pixels, the rest is the text.
+fn run_lengths(bytes: &[u8]) {
+    let Some((pixels, text)) = bytes.split_first_chunk::<2>() else { return };
+    let pixels = u64::from(u16::from_le_bytes(*pixels));
+    if let Ok(text) = std::str::from_utf8(text)
+        && let Ok(runs) = Runs::of_text(text, pixels)
+    {
+        assert!(runs.0.iter().all(|[from, to]| from < to && u64::from(*to) <= pixels), "runs lie in the image");
+    }
+}
+
+/// The answer of a plugin: an Arrow stream of declared columns.
+fn arrow_answers(bytes: &[u8]) {
+    let column = |name: &str, kind| DeclaredColumn { name: name.into(), kind, doc: String::new() };
+    let declared = [
+        column("real", ColumnKind::Real),
+        column("integer", ColumnKind::Integer),
+        column("flag", ColumnKind::Boolean),
+        column("words", ColumnKind::Text),
+    ];
+    for count in 1..=declared.len() {
+        let _ = read_answer(bytes, &declared[..count], 0..=MOST_ROWS);
+    }
+}
+
+/// Calls `read` with the path of a file of these bytes.
+fn in_a_file(bytes: &[u8], extension: &str, read: impl FnOnce(&Path)) {
+    let mut file = tempfile::Builder::new().suffix(&format!(".{extension}")).tempfile().expect("a scratch file");
+    file.write_all(bytes).expect("a scratch file can be written");
+    read(file.path());
+}
