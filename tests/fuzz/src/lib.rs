@@ -4,7 +4,8 @@
 
 use cosfly_frames::Seed;
 use cosfly_maps::{MapConfig, read_town};
-use cosfly_metrics::Runs;
+use cosfly_metrics::run_lengths::Runs;
+use cosfly_render::channels;
 use cosfly_schema::flight_table::{ColumnKind, DeclaredColumn, MOST_ROWS, read_answer};
 use cosfly_write::FramePackReader;
 use std::io::{Cursor, Write};
@@ -46,7 +47,9 @@ fn frame_pack(bytes: &[u8]) {
     let Ok(mut pack) = FramePackReader::new(Cursor::new(bytes)) else { return };
     for frame in 0..pack.len().min(8) {
         let _ = pack.frame(frame);
-        let _ = pack.raw_pixels(frame);
+        for channel in channels::ALL {
+            let _ = pack.raw_pixels(channel, frame);
+        }
     }
     let _ = pack.preview_strip();
 }

@@ -3,9 +3,9 @@
 use super::tree::{Block, WideTree};
 use crate::lanes::{LANES, Lane, Lanes, at_level, larger, smaller};
 
-/// Sweep of a rectangle seen from above: its middle goes from `from` by `step`, it reaches `reach` to each side.
+/// Sweep of a rectangle in plan: the centre moves from `from` by `step`; half the extents are `reach`.
 #[derive(Clone, Copy)]
-pub struct Way {
+pub struct Motion {
     /// First place of the middle.
     pub from: [f32; 2],
     /// Movement of the middle while the parameter goes from 0 to 1.
