@@ -15,7 +15,7 @@ pub enum TermBorder {
     /// In a component.
     Component(ComponentTerm),
     /// In a core module.
-    Direct(DirectTerm),
+    Direct(Box<DirectTerm>),
 }
 
 impl TermBorder {
@@ -25,7 +25,9 @@ impl TermBorder {
     /// The refusal or failure of the plugin.
     pub fn open(plugin: &Plugin, town: Arc<dyn TownView>, params: &str) -> Result<(Self, TermShape), PluginError> {
         match &plugin.compiled.code {
-            Code::Module(_) => DirectTerm::open(plugin, town, params).map(|(term, shape)| (Self::Direct(term), shape)),
+            Code::Module(_) => {
+                DirectTerm::open(plugin, town, params).map(|(term, shape)| (Self::Direct(Box::new(term)), shape))
+            }
             Code::Component(_) => {
                 ComponentTerm::open(plugin, town, params).map(|(term, shape)| (Self::Component(term), shape))
             }
