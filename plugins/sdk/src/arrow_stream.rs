@@ -1,7 +1,9 @@
-//! The little of Arrow streams that stages need: one record batch of floats, integers and truths in; of those, texts or bytes out.
+//! The part of Arrow streams that stages need: one record batch of floats, integers and booleans in; of those, texts or bytes out.
 //!
 //! The whole library would make plugins of a hundred kilobytes into some of two megabytes. Layout: Arrow columnar format 1.5,
 //! IPC streams; messages are Flatbuffers.
+
+use crate::flatbuffers::{Builder, Cell, Node, i64_at, u32_at};
 
 /// The values of a column.
 #[derive(Clone, Debug, PartialEq)]
@@ -10,7 +12,7 @@ pub enum Values {
     Reals(Vec<f64>),
     /// 64-bit integers.
     Integers(Vec<i64>),
-    /// Truths.
+    /// Booleans.
     Booleans(Vec<bool>),
     /// Texts.
     Texts(Vec<String>),
@@ -18,7 +20,7 @@ pub enum Values {
     Bytes(Vec<Vec<u8>>),
 }
 
-/// What is read: the schema's metadata, and the columns.
+/// A batch as it is read, with the metadata of the schema.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Table {
     /// How many rows there are.
@@ -45,9 +47,9 @@ const V5: i16 = 4;
 /// Reads a stream of one batch.
 ///
 /// # Errors
-/// What of it is not as in the interface.
+/// That the stream is another one than in the interface.
 pub fn read(stream: &[u8]) -> Result<Table, String> {
-    read_checked(stream).ok_or_else(|| "the flight is no Arrow stream of floats, integers and truths".to_owned())
+    read_checked(stream).ok_or_else(|| "the flight is no Arrow stream of floats, integers and booleans".to_owned())
 }
 
 fn read_checked(stream: &[u8]) -> Option<Table> {
@@ -119,65 +121,6 @@ fn values(kind: u8, data: &[u8], rows: usize) -> Values {
     }
 }
 
-fn u32_at(bytes: &[u8], at: usize) -> Option<u32> {
-    Some(u32::from_le_bytes(*bytes.get(at..)?.first_chunk()?))
-}
-
-fn i64_at(bytes: &[u8], at: usize) -> Option<i64> {
-    Some(i64::from_le_bytes(*bytes.get(at..)?.first_chunk()?))
-}
-
-fn u16_at(bytes: &[u8], at: usize) -> Option<usize> {
-    Some(usize::from(u16::from_le_bytes(*bytes.get(at..)?.first_chunk()?)))
-}
-
-/// A Flatbuffers table.
-#[derive(Clone, Copy)]
-struct Node<'a> {
-    bytes: &'a [u8],
-    at: usize,
-}
-
-impl<'a> Node<'a> {
-    /// Where a slot's value is; none when it has its default.
-    fn slot(&self, slot: usize) -> Option<usize> {
-        let back = u32_at(self.bytes, self.at)? as i32;
-        let directory = usize::try_from(i64::try_from(self.at).ok()? - i64::from(back)).ok()?;
-        if 4 + 2 * slot >= u16_at(self.bytes, directory)? {
-            return None;
-        }
-        let offset = u16_at(self.bytes, directory + 4 + 2 * slot)?;
-        (offset > 0).then_some(self.at + offset)
-    }
-
-    /// What a slot's offset leads to.
-    fn vector(&self, slot: usize) -> Option<usize> {
-        let at = self.slot(slot)?;
-        at.checked_add(u32_at(self.bytes, at)? as usize)
-    }
-
-    fn table(&self, slot: usize) -> Option<Node<'a>> {
-        Some(Node { bytes: self.bytes, at: self.vector(slot)? })
-    }
-
-    fn tables(&self, slot: usize) -> Option<Vec<Node<'a>>> {
-        let start = self.vector(slot)?;
-        let count = u32_at(self.bytes, start)? as usize;
-        (0..count)
-            .map(|k| {
-                let at = start + 4 + 4 * k;
-                Some(Node { bytes: self.bytes, at: at.checked_add(u32_at(self.bytes, at)? as usize)? })
-            })
-            .collect()
-    }
-
-    fn text(&self, slot: usize) -> Option<String> {
-        let start = self.vector(slot)?;
-        let length = u32_at(self.bytes, start)? as usize;
-        String::from_utf8(self.bytes.get(start + 4..(start + 4).checked_add(length)?)?.to_vec()).ok()
-    }
-}
-
 /// Writes a stream of one batch; the columns are of one length.
 pub fn write(columns: &[(String, Values)]) -> Vec<u8> {
     let mut stream = Vec::new();
@@ -197,108 +140,16 @@ fn push_message(stream: &mut Vec<u8>, mut message: Vec<u8>, body: &[u8]) {
     stream.extend_from_slice(body);
 }
 
-/// The value of a table's slot.
-#[derive(Clone, Copy)]
-enum Cell {
-    Absent,
-    Byte(u8),
-    Short(i16),
-    Word(i32),
-    Long(i64),
-    /// Filled in when its target is written.
-    Offset,
-}
-
-/// Writes Flatbuffers from front to back: every value in a cell of eight bytes, offsets filled in later.
-struct Builder(Vec<u8>);
-
-impl Builder {
-    /// A buffer whose root is the next table.
-    fn new() -> Self {
-        Self(vec![0; 8])
-    }
-
-    fn align(&mut self, to: usize, extra: usize) {
-        while !(self.0.len() + extra).is_multiple_of(to) {
-            self.0.push(0);
-        }
-    }
-
-    /// Writes a table; its cells begin 8 bytes after the place that is returned.
-    fn table(&mut self, cells: &[Cell]) -> usize {
-        let directory_bytes = 4 + 2 * cells.len();
-        self.align(8, directory_bytes);
-        let directory = self.0.len();
-        self.0.extend_from_slice(&(directory_bytes as u16).to_le_bytes());
-        self.0.extend_from_slice(&(8 * (cells.len() + 1) as u16).to_le_bytes());
-        for (k, cell) in cells.iter().enumerate() {
-            let offset = if matches!(cell, Cell::Absent) { 0 } else { 8 * (k + 1) as u16 };
-            self.0.extend_from_slice(&offset.to_le_bytes());
-        }
-        let at = self.0.len();
-        self.0.extend_from_slice(&((at - directory) as i32).to_le_bytes());
-        self.0.extend_from_slice(&[0; 4]);
-        for cell in cells {
-            let mut bytes = [0; 8];
-            match cell {
-                Cell::Byte(value) => bytes[0] = *value,
-                Cell::Short(value) => bytes[..2].copy_from_slice(&value.to_le_bytes()),
-                Cell::Word(value) => bytes[..4].copy_from_slice(&value.to_le_bytes()),
-                Cell::Long(value) => bytes = value.to_le_bytes(),
-                Cell::Absent | Cell::Offset => {}
-            }
-            self.0.extend_from_slice(&bytes);
-        }
-        at
-    }
-
-    /// Lets the offset at a place lead to what is written next or was just written at `to`.
-    fn link(&mut self, from: usize, to: usize) {
-        self.0[from..from + 4].copy_from_slice(&((to - from) as u32).to_le_bytes());
-    }
-
-    fn link_cell(&mut self, table: usize, slot: usize, to: usize) {
-        self.link(table + 8 * (slot + 1), to);
-    }
-
-    fn text(&mut self, text: &str) -> usize {
-        self.align(4, 0);
-        let at = self.0.len();
-        self.0.extend_from_slice(&(text.len() as u32).to_le_bytes());
-        self.0.extend_from_slice(text.as_bytes());
-        self.0.push(0);
-        at
-    }
-
-    /// A vector of offsets, filled in later.
-    fn offsets(&mut self, count: usize) -> usize {
-        self.align(4, 0);
-        let at = self.0.len();
-        self.0.extend_from_slice(&(count as u32).to_le_bytes());
-        self.0.resize(at + 4 + 4 * count, 0);
-        at
-    }
-
-    /// A vector of pairs of 64-bit numbers.
-    fn pairs(&mut self, pairs: &[[i64; 2]]) -> usize {
-        self.align(8, 4);
-        let at = self.0.len();
-        self.0.extend_from_slice(&(pairs.len() as u32).to_le_bytes());
-        pairs.iter().flatten().for_each(|number| self.0.extend_from_slice(&number.to_le_bytes()));
-        at
-    }
-
-    /// The message table with its header of a kind, still to be linked.
-    fn message(&mut self, kind: u8, body_bytes: i64) -> usize {
-        let at = self.table(&[Cell::Short(V5), Cell::Byte(kind), Cell::Offset, Cell::Long(body_bytes)]);
-        self.link(0, at);
-        at
-    }
+/// Writes the message table with a header of a kind, still to be linked.
+fn message(out: &mut Builder, kind: u8, body_bytes: i64) -> usize {
+    let at = out.table(&[Cell::Short(V5), Cell::Byte(kind), Cell::Offset, Cell::Long(body_bytes)]);
+    out.link(0, at);
+    at
 }
 
 fn schema(columns: &[(String, Values)]) -> Vec<u8> {
     let mut out = Builder::new();
-    let message = out.message(SCHEMA, 0);
+    let message = message(&mut out, SCHEMA, 0);
     let schema = out.table(&[Cell::Absent, Cell::Offset]);
     out.link_cell(message, 2, schema);
     let fields = out.offsets(columns.len());
@@ -366,7 +217,7 @@ fn batch(columns: &[(String, Values)]) -> (Vec<u8>, Vec<u8>) {
         }
     }
     let mut out = Builder::new();
-    let message = out.message(RECORD_BATCH, body.len() as i64);
+    let message = message(&mut out, RECORD_BATCH, body.len() as i64);
     let batch = out.table(&[Cell::Long(rows as i64), Cell::Offset, Cell::Offset]);
     out.link_cell(message, 2, batch);
     let nodes = out.pairs(&vec![[rows as i64, 0]; columns.len()]);

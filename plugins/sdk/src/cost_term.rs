@@ -1,10 +1,10 @@
-//! Cost terms: a trait for authors, and what stands between it and the interface.
+//! Cost terms: a trait for authors, and the functions of the interface behind it.
 
-use crate::bindings::cost_term::exports::cosfly::plugin::cost as wire;
+use crate::abi::{Answer, Refusal};
 use crate::running::Running;
 use crate::{Metadata, Params, Point};
 
-/// What a configured term is.
+/// The properties of a configured term.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Shape {
     /// How many neighbours on each side the cost of a waypoint reads.
@@ -13,10 +13,10 @@ pub struct Shape {
     pub gradients: bool,
 }
 
-/// What stays the same while a flight is planned.
+/// The constants of a planned flight; world frame, metres.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Run {
-    /// Of the recipe, the stage and the item.
+    /// The seed of the recipe, the stage and the item.
     pub seed: u64,
     /// Seconds between frames.
     pub dt: f64,
@@ -32,15 +32,15 @@ pub struct Run {
 
 /// A cost term of the planner: a cost per waypoint of a whole flight.
 pub trait CostTerm: Sized + 'static {
-    /// Its parameters; [`NoParams`](crate::NoParams) for none.
+    /// The parameters; [`NoParams`](crate::NoParams) for none.
     type Params: Params;
 
-    /// What it says of itself.
+    /// Name, version and purpose.
     fn describe() -> Metadata;
     /// A configured term.
     ///
     /// # Errors
-    /// What of the parameters contradicts itself.
+    /// Parameters that contradict each other.
     fn new(params: Self::Params) -> Result<Self, String>;
     /// Support and gradients; by default, the own waypoint only and none.
     fn shape(&self) -> Shape {
@@ -81,35 +81,61 @@ pub fn per_waypoint<T>(waypoints: &[Point], beside: &[T], costs: &mut [f64], cos
     }
 }
 
-impl<T: CostTerm> Running<T> {
-    pub fn configure_term(&mut self, text: &str) -> Result<wire::Shape, wire::Error> {
-        let Shape { support, gradients } = self.put(text, T::new)?.shape();
-        Ok(wire::Shape { support, gradients })
+/// A plugin that is a cost term, and room for its answers, which are thousands per flight.
+#[doc(hidden)]
+pub struct RunningTerm<T> {
+    term: Running<T>,
+    costs: Vec<f64>,
+    gradients: Vec<Point>,
+    /// Of costs and gradients: 0 for success, then address and count of each.
+    answer: [usize; 5],
+}
+
+impl<T: CostTerm> RunningTerm<T> {
+    pub const fn new() -> Self {
+        Self { term: Running::new(), costs: vec![], gradients: vec![], answer: [0; 5] }
     }
 
-    pub fn begin(&mut self, run: wire::RunContext) -> Result<(), wire::Error> {
-        let term = self.get_mut()?;
-        let points = |flat: &[f64]| flat.as_chunks::<3>().0.to_vec();
-        let bodies = points(&run.body_points);
-        let run = Run {
-            seed: run.seed,
-            dt: run.dt,
-            targets: points(&run.targets),
-            headings: run.headings,
-            directions: run.directions.as_chunks::<2>().0.to_vec(),
-            body_points: bodies.as_chunks::<8>().0.to_vec(),
-        };
-        term.begin(run).map_err(wire::Error::Failed)
+    pub fn configure(&mut self, text: &str) -> Answer {
+        let shape = self.term.put(text, T::new).map(T::shape);
+        Answer::outcome(shape, |all, shape| all.word(shape.support as usize).word(usize::from(shape.gradients)))
     }
 
-    pub fn evaluate(&self, waypoints: &[f64], want_gradients: bool) -> Result<wire::Evaluation, wire::Error> {
-        let term = self.get()?;
-        let (points, _) = waypoints.as_chunks::<3>();
-        let mut costs = vec![0.0; points.len()];
-        let mut gradients = vec![[0.0; 3]; if want_gradients { points.len() } else { 0 }];
+    pub fn begin(&mut self, run: Run) -> Answer {
+        let begun = self.term.get_mut().and_then(|term| term.begin(run).map_err(Refusal::Failed));
+        Answer::outcome(begun, |all, ()| all)
+    }
+
+    pub fn evaluate(&mut self, waypoints: &[Point], want_gradients: bool) -> *const usize {
+        let Self { term, costs, gradients, answer } = self;
+        costs.clear();
+        costs.resize(waypoints.len(), 0.0);
+        gradients.clear();
+        gradients.resize(if want_gradients { waypoints.len() } else { 0 }, [0.0; 3]);
         let wanted = want_gradients.then_some(&mut gradients[..]);
-        term.evaluate(points, &mut costs, wanted).map_err(wire::Error::Failed)?;
-        Ok(wire::Evaluation { costs, gradients: gradients.into_flattened() })
+        let evaluated = term.get().and_then(|term| term.evaluate(waypoints, costs, wanted).map_err(Refusal::Failed));
+        if evaluated.is_err() {
+            return Answer::outcome(evaluated, |all, ()| all).leave();
+        }
+        let places = [costs.as_ptr().expose_provenance(), gradients.as_ptr().expose_provenance()];
+        *answer = [0, places[0], costs.len(), places[1], 3 * gradients.len()];
+        answer.as_ptr()
+    }
+}
+
+impl Run {
+    /// A run as it crosses the border.
+    #[doc(hidden)]
+    pub fn of(seed: u64, dt: f64, targets: &[f64], headings: Vec<f64>, directions: &[f64], body: &[f64]) -> Self {
+        let points = |flat: &[f64]| flat.as_chunks::<3>().0.to_vec();
+        Self {
+            seed,
+            dt,
+            targets: points(targets),
+            headings,
+            directions: directions.as_chunks::<2>().0.to_vec(),
+            body_points: points(body).as_chunks::<8>().0.to_vec(),
+        }
     }
 }
 
@@ -119,29 +145,52 @@ macro_rules! cost_term {
     ($term:ty) => {
         #[cfg(target_family = "wasm")]
         const _: () = {
-            use $crate::bindings::cost_term::exports::cosfly::plugin::cost as wire;
-            $crate::macros::thread_local! {
-                static RUNNING: $crate::macros::RefCell<$crate::macros::Running<$term>> =
-                    const { $crate::macros::RefCell::new($crate::macros::Running::new()) };
+            use $crate::macros::{RefCell, RunningTerm, abi, description, thread_local};
+            $crate::border!();
+            thread_local! {
+                static RUNNING: RefCell<RunningTerm<$term>> = const { RefCell::new(RunningTerm::new()) };
             }
-            struct Plugin;
-            impl wire::Guest for Plugin {
-                fn describe() -> wire::Metadata {
-                    $crate::macros::Running::<$term>::describe::<<$term as $crate::CostTerm>::Params>(
-                        <$term as $crate::CostTerm>::describe(),
-                    )
-                }
-                fn configure(params: String) -> Result<wire::Shape, wire::Error> {
-                    RUNNING.with_borrow_mut(|running| running.configure_term(&params))
-                }
-                fn begin(run: wire::RunContext) -> Result<(), wire::Error> {
-                    RUNNING.with_borrow_mut(|running| running.begin(run))
-                }
-                fn evaluate(waypoints: Vec<f64>, want_gradients: bool) -> Result<wire::Evaluation, wire::Error> {
-                    RUNNING.with_borrow(|running| running.evaluate(&waypoints, want_gradients))
-        }
+
+            #[unsafe(export_name = "cosfly:plugin/cost@0.1.0#describe")]
+            extern "C" fn describe() -> *const usize {
+                description::<<$term as $crate::CostTerm>::Params>(<$term as $crate::CostTerm>::describe()).leave()
             }
-            $crate::bindings::cost_term::export_cost_term!(Plugin with_types_in $crate::bindings::cost_term);
+
+            #[unsafe(export_name = "cosfly:plugin/cost@0.1.0#configure")]
+            unsafe extern "C" fn configure(text: *mut u8, bytes: usize) -> *const usize {
+                // SAFETY: the host keeps to the canonical ABI, here and below.
+                let text = unsafe { abi::text(text, bytes) };
+                RUNNING.with_borrow_mut(|running| running.configure(&text)).leave()
+            }
+
+            // Address and count of the feet, headings, directions, points of the body and channels.
+            #[unsafe(export_name = "cosfly:plugin/cost@0.1.0#begin")]
+            unsafe extern "C" fn begin(
+                seed: u64,
+                dt: f64,
+                feet: *mut f64,
+                f: usize,
+                headings: *mut f64,
+                h: usize,
+                directions: *mut f64,
+                d: usize,
+                body: *mut f64,
+                b: usize,
+                _: *mut u8,
+                _: usize,
+            ) -> *const usize {
+                let (feet, headings, directions, body) = unsafe {
+                    (abi::list(feet, f), abi::list(headings, h), abi::list(directions, d), abi::list(body, b))
+                };
+                let run = $crate::Run::of(seed, dt, &feet, headings, &directions, &body);
+                RUNNING.with_borrow_mut(|running| running.begin(run)).leave()
+            }
+
+            #[unsafe(export_name = "cosfly:plugin/cost@0.1.0#evaluate")]
+            unsafe extern "C" fn evaluate(numbers: *mut f64, count: usize, want_gradients: bool) -> *const usize {
+                let numbers = unsafe { abi::list(numbers, count) };
+                RUNNING.with_borrow_mut(|running| running.evaluate(numbers.as_chunks().0, want_gradients))
+            }
         };
     };
 }

@@ -1,4 +1,4 @@
-//! What plugins of cosfly are made of: one trait, one macro.
+//! The kit for plugins of cosfly: one trait, one macro.
 //!
 //! * [`CostTerm`] and [`cost_term!`]: a cost term of the planner.
 //! * [`Objective`] and [`objective!`]: what to look at, from where, when.
@@ -47,10 +47,12 @@
 //! # fn main() {}
 //! ```
 
-mod arrow_stream;
 #[doc(hidden)]
-pub mod bindings;
+pub mod abi;
+mod arrow_stream;
 mod cost_term;
+mod flatbuffers;
+mod flight;
 mod geometry;
 mod json;
 pub mod log;
@@ -64,6 +66,7 @@ mod stage;
 pub mod town;
 
 pub use cost_term::{CostTerm, Run, Shape, per_waypoint};
+pub use flight::Flight;
 pub use geometry::{Point, add, cross_2d, distance, dot, length, scale, sub};
 pub use json::Json;
 pub use libm;
@@ -72,27 +75,29 @@ pub use params::{NoParams, Param, Params};
 #[doc(hidden)]
 pub use params::{quoted as __private_quoted, sentence as __private_sentence};
 pub use random::Random;
-pub use stage::{Answer, Column, File, Flight, Gives, Kind, Stage, Value, reals};
+pub use stage::{Answer, Column, File, Gives, Kind, Stage, Value, reals};
 
 #[cfg(target_family = "wasm")]
 #[global_allocator]
 static ALLOCATOR: recent_blocks::RecentBlocks = recent_blocks::RecentBlocks::new();
 
-/// What a plugin says of itself.
+/// The description of a plugin.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Metadata {
     /// Name in tables and messages: `a-z`, `0-9`, `_`.
     pub name: &'static str,
-    /// Its own version.
+    /// The version of the plugin.
     pub version: &'static str,
-    /// One sentence.
+    /// The purpose, one sentence.
     pub summary: &'static str,
 }
 
-/// What the macros need; no part of the interface for authors.
+/// For the macros; no part of the interface for authors.
 #[doc(hidden)]
 pub mod macros {
-    pub use crate::running::Running;
+    pub use crate::abi;
+    pub use crate::cost_term::RunningTerm;
+    pub use crate::running::{Running, description};
     pub use std::cell::RefCell;
     pub use std::thread_local;
 }

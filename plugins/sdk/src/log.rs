@@ -1,37 +1,37 @@
 //! Messages to the user: `warn` and `error` come with the item's warnings; the others with `cosfly plugin check` only.
 
-macro_rules! level {
-    ($(#[$doc:meta])* $name:ident, $level:ident) => {
-        $(#[$doc])*
-        pub fn $name(text: &str) {
-            #[cfg(target_family = "wasm")]
-            crate::bindings::cost_term::cosfly::plugin::log::message(crate::bindings::cost_term::cosfly::plugin::log::Level::$level, text);
-            #[cfg(not(target_family = "wasm"))]
-            eprintln!("{}: {text}", stringify!($name));
-        }
-    };
+#[cfg(target_family = "wasm")]
+#[link(wasm_import_module = "cosfly:plugin/log@0.1.0")]
+unsafe extern "C" {
+    safe fn message(level: usize, text: *const u8, bytes: usize);
 }
 
-level!(
-    /// For authors, in detail.
-    debug,
-    Debug
-);
-level!(
-    /// For authors.
-    info,
-    Info
-);
-level!(
-    /// For users: something to know about.
-    warn,
-    Warn
-);
-level!(
-    /// For users: why it goes no further.
-    error,
-    Error
-);
+fn say(level: usize, text: &str) {
+    #[cfg(target_family = "wasm")]
+    message(level, text.as_ptr(), text.len());
+    #[cfg(not(target_family = "wasm"))]
+    eprintln!("{}: {text}", ["debug", "info", "warn", "error"][level]);
+}
+
+/// For authors, in detail.
+pub fn debug(text: &str) {
+    say(0, text);
+}
+
+/// For authors.
+pub fn info(text: &str) {
+    say(1, text);
+}
+
+/// For users: something to know about.
+pub fn warn(text: &str) {
+    say(2, text);
+}
+
+/// For users: why it goes no further.
+pub fn error(text: &str) {
+    say(3, text);
+}
 
 /// Makes panics messages, once.
 #[doc(hidden)]

@@ -1,13 +1,13 @@
-//! Objectives: a trait for authors, and what stands between it and the interface.
+//! Objectives: a trait for authors, and the functions of the interface behind it.
 
-use crate::bindings::objective::exports::cosfly::plugin::reference as wire;
+use crate::abi::{Answer, Refusal};
 use crate::running::Running;
 use crate::{Metadata, Params, Point};
 
 /// Where a flight is to be.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Site {
-    /// Of the recipe, the stage and the item: other items are to be other flights.
+    /// The seed of the recipe, the stage and the item: other items are to be other flights.
     pub seed: u64,
     /// Seconds between steps.
     pub dt: f64,
@@ -21,7 +21,7 @@ pub struct Site {
     pub max_speed: f64,
 }
 
-/// What to look at, from where, step by step.
+/// The points to look at and the places to be, step by step.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Plan {
     watched: Vec<Point>,
@@ -58,7 +58,7 @@ impl Plan {
         &self.places
     }
 
-    /// What to look at at each step.
+    /// The point to look at at each step.
     pub fn watched(&self) -> &[Point] {
         &self.watched
     }
@@ -71,15 +71,15 @@ impl Plan {
 
 /// An objective.
 pub trait Objective: Sized + 'static {
-    /// Its parameters; [`NoParams`](crate::NoParams) for none.
+    /// The parameters; [`NoParams`](crate::NoParams) for none.
     type Params: Params;
 
-    /// What it says of itself.
+    /// Name, version and purpose.
     fn describe() -> Metadata;
     /// A configured objective.
     ///
     /// # Errors
-    /// What of the parameters contradicts itself.
+    /// Parameters that contradict each other.
     fn new(params: Self::Params) -> Result<Self, String>;
     /// The reference of one flight.
     ///
@@ -89,26 +89,15 @@ pub trait Objective: Sized + 'static {
 }
 
 impl<T: Objective> Running<T> {
-    pub fn configure_objective(&mut self, text: &str) -> Result<(), wire::Error> {
-        self.put(text, T::new).map(drop)
+    pub fn configure_objective(&mut self, text: &str) -> Answer {
+        Answer::outcome(self.put(text, T::new).map(drop), |all, ()| all)
     }
 
-    pub fn produce(&self, site: wire::Site) -> Result<wire::Plan, wire::Error> {
-        let objective = self.get()?;
-        let site = Site {
-            seed: site.seed,
-            dt: site.dt,
-            max_steps: site.max_steps as usize,
-            bounds: site.bounds.try_into().unwrap_or_default(),
-            clearance: site.clearance,
-            max_speed: site.max_speed,
-        };
-        let plan = objective.produce(&site).map_err(wire::Error::Failed)?;
-        Ok(wire::Plan {
-            watched: plan.watched.into_flattened(),
-            places: plan.places.into_flattened(),
-            pull: plan.pull,
-            notes: plan.notes,
+    pub fn produce(&self, site: &Site) -> Answer {
+        let plan = self.get().and_then(|objective| objective.produce(site).map_err(Refusal::Failed));
+        Answer::outcome(plan, |all, plan| {
+            let all = all.list(plan.watched.into_flattened()).list(plan.places.into_flattened()).list(plan.pull);
+            all.records(plan.notes, |all, (name, value)| all.text(name).text(value))
         })
     }
 }
@@ -119,26 +108,42 @@ macro_rules! objective {
     ($objective:ty) => {
         #[cfg(target_family = "wasm")]
         const _: () = {
-            use $crate::bindings::objective::exports::cosfly::plugin::reference as wire;
-            $crate::macros::thread_local! {
-                static RUNNING: $crate::macros::RefCell<$crate::macros::Running<$objective>> =
-                    const { $crate::macros::RefCell::new($crate::macros::Running::new()) };
+            use $crate::macros::{RefCell, Running, abi, description, thread_local};
+            $crate::border!();
+            thread_local! {
+                static RUNNING: RefCell<Running<$objective>> = const { RefCell::new(Running::new()) };
             }
-            struct Plugin;
-            impl wire::Guest for Plugin {
-                fn describe() -> wire::Metadata {
-                    $crate::macros::Running::<$objective>::describe::<<$objective as $crate::Objective>::Params>(
-                        <$objective as $crate::Objective>::describe(),
-                    )
-                }
-                fn configure(params: String) -> Result<(), wire::Error> {
-                    RUNNING.with_borrow_mut(|running| running.configure_objective(&params))
-                }
-                fn produce(site: wire::Site) -> Result<wire::Plan, wire::Error> {
-                    RUNNING.with_borrow(|running| running.produce(site))
-        }
+
+            #[unsafe(export_name = "cosfly:plugin/reference@0.1.0#describe")]
+            extern "C" fn describe() -> *const usize {
+                let metadata = <$objective as $crate::Objective>::describe();
+                description::<<$objective as $crate::Objective>::Params>(metadata).leave()
             }
-            $crate::bindings::objective::export_objective!(Plugin with_types_in $crate::bindings::objective);
+
+            #[unsafe(export_name = "cosfly:plugin/reference@0.1.0#configure")]
+            unsafe extern "C" fn configure(text: *mut u8, bytes: usize) -> *const usize {
+                // SAFETY: the host keeps to the canonical ABI, here and below.
+                let text = unsafe { abi::text(text, bytes) };
+                RUNNING.with_borrow_mut(|running| running.configure_objective(&text)).leave()
+            }
+
+            // Address and count of the bounds, and of the channels.
+            #[unsafe(export_name = "cosfly:plugin/reference@0.1.0#produce")]
+            unsafe extern "C" fn produce(
+                seed: u64,
+                dt: f64,
+                max_steps: usize,
+                bounds: *mut f64,
+                b: usize,
+                clearance: f64,
+                max_speed: f64,
+                _: *mut u8,
+                _: usize,
+            ) -> *const usize {
+                let bounds = unsafe { abi::list(bounds, b) }.try_into().unwrap_or_default();
+                let site = $crate::Site { seed, dt, max_steps, bounds, clearance, max_speed };
+                RUNNING.with_borrow(|running| running.produce(&site)).leave()
+            }
         };
     };
 }

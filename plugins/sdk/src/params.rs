@@ -4,12 +4,12 @@ use crate::Json;
 
 /// A type that parameters can have.
 pub trait Param: Sized {
-    /// Its JSON Schema without the braces, such as `"type":"number"`.
+    /// The JSON Schema without the braces, such as `"type":"number"`.
     fn schema() -> String;
     /// Reads a value that fits the schema.
     ///
     /// # Errors
-    /// What is wanted instead.
+    /// The kind of value that is wanted.
     fn read(value: &Json) -> Result<Self, String>;
     /// As JSON.
     fn show(&self) -> String;

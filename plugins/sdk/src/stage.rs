@@ -1,11 +1,11 @@
-//! Stages: a trait for authors, and the tables between it and the interface.
+//! Stages: a trait for authors, and the functions and tables of the interface behind it.
 
+use crate::abi::{Answer as Told, Refusal};
 use crate::arrow_stream::{self, Values};
-use crate::bindings::stage::exports::cosfly::plugin::tables as wire;
 use crate::running::Running;
-use crate::{Json, Metadata, Params};
+use crate::{Flight, Metadata, Params};
 
-/// What a column holds.
+/// The type of a column.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Kind {
     /// 64-bit floats.
@@ -23,9 +23,9 @@ pub enum Kind {
 pub struct Column {
     /// `a-z`, `0-9` and `_`.
     pub name: String,
-    /// What it holds.
+    /// The type.
     pub kind: Kind,
-    /// What it means, with its unit; for what is given only.
+    /// The meaning, with the unit; for columns of answers only.
     pub doc: String,
 }
 
@@ -40,7 +40,7 @@ impl Column {
         Self { kind: Kind::Integer, ..Self::real(name, doc) }
     }
 
-    /// A column of truths.
+    /// A column of booleans.
     pub fn boolean(name: &str, doc: &str) -> Self {
         Self { kind: Kind::Boolean, ..Self::real(name, doc) }
     }
@@ -56,10 +56,10 @@ pub fn reals<const N: usize>(names: [&str; N]) -> Vec<Column> {
     names.map(|name| Column::real(name, "")).into()
 }
 
-/// What a stage gives of each flight.
+/// The kind of answer that a stage gives to each flight.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Gives {
-    /// Whether it is kept: [`Answer::Keep`] or [`Answer::Reject`].
+    /// Whether the flight is kept: [`Answer::Keep`] or [`Answer::Reject`].
     Verdict,
     /// Labels of its frames, columns of floats: [`Answer::Labels`].
     Labels(Vec<Column>),
@@ -69,112 +69,6 @@ pub enum Gives {
     Rows(&'static str, Vec<Column>),
     /// Files, in the dataset's folder `extras/NAME`: [`Answer::Files`].
     Files(&'static str),
-}
-
-/// A finished flight: facts, and named columns with one value per frame. It holds the columns that the stage reads.
-#[derive(Clone, Debug, Default, PartialEq)]
-pub struct Flight {
-    /// Id of the flight.
-    pub item: String,
-    frames: usize,
-    facts: Vec<(String, String)>,
-    columns: Vec<(String, Values)>,
-}
-
-impl Flight {
-    /// A flight of your own with columns of floats, for tests.
-    pub fn new(item: &str, columns: &[(&str, &[f64])]) -> Self {
-        let frames = columns.first().map_or(0, |(_, values)| values.len());
-        let columns = columns.iter().map(|(name, values)| ((*name).to_owned(), Values::Reals(values.to_vec())));
-        Self { item: item.to_owned(), frames, facts: vec![], columns: columns.collect() }
-    }
-
-    /// The same with a column of integers, for tests.
-    pub fn with_integers(mut self, name: &str, values: &[i64]) -> Self {
-        self.columns.push((name.to_owned(), Values::Integers(values.to_vec())));
-        self
-    }
-
-    /// The same with a column of truths, for tests.
-    pub fn with_booleans(mut self, name: &str, values: &[bool]) -> Self {
-        self.columns.push((name.to_owned(), Values::Booleans(values.to_vec())));
-        self
-    }
-
-    /// The same with a fact, for tests.
-    pub fn with_fact(mut self, name: &str, value: &str) -> Self {
-        self.facts.push((name.to_owned(), value.to_owned()));
-        self
-    }
-
-    /// A fact, such as `trajectory_id`; `plugins/wit/stage.wit` lists them.
-    pub fn fact(&self, name: &str) -> Option<&str> {
-        self.facts.iter().find(|(known, _)| known == name).map(|(_, value)| value.as_str())
-    }
-
-    /// The first instruction in a language, such as `en`; none where no captions are connected.
-    pub fn instruction(&self, language: &str) -> Option<String> {
-        let Json::List(captions) = Json::parse(self.fact("captions")?).ok()? else { return None };
-        let of = |caption: &Json, key: &str| match caption.get(key) {
-            Some(Json::Text(text)) => text.clone(),
-            _ => String::new(),
-        };
-        let found = captions.iter().find(|it| of(it, "language") == language && of(it, "style") == "instruction")?;
-        Some(of(found, "text"))
-    }
-
-    /// A column of floats, such as `visibility`.
-    ///
-    /// # Errors
-    /// That the stage does not read it, and what it reads.
-    pub fn column(&self, name: &str) -> Result<&[f64], String> {
-        match self.values(name)? {
-            Values::Reals(values) => Ok(values),
-            _ => Err(format!("`{name}` holds no floats")),
-        }
-    }
-
-    /// A column of integers, such as `frame`.
-    ///
-    /// # Errors
-    /// As [`Self::column`].
-    pub fn integers(&self, name: &str) -> Result<&[i64], String> {
-        match self.values(name)? {
-            Values::Integers(values) => Ok(values),
-            _ => Err(format!("`{name}` holds no integers")),
-        }
-    }
-
-    /// A column of truths, such as `in_view`.
-    ///
-    /// # Errors
-    /// As [`Self::column`].
-    pub fn booleans(&self, name: &str) -> Result<&[bool], String> {
-        match self.values(name)? {
-            Values::Booleans(values) => Ok(values),
-            _ => Err(format!("`{name}` holds no truths")),
-        }
-    }
-
-    fn values(&self, name: &str) -> Result<&Values, String> {
-        match self.columns.iter().find(|(known, _)| known == name) {
-            Some((_, values)) => Ok(values),
-            None => {
-                let known: Vec<&str> = self.columns.iter().map(|(name, _)| name.as_str()).collect();
-                Err(format!("it does not read `{name}`; it reads `{}`", known.join("`, `")))
-            }
-        }
-    }
-
-    /// How many frames it has.
-    pub fn len(&self) -> usize {
-        self.frames
-    }
-
-    /// Whether it has none.
-    pub fn is_empty(&self) -> bool {
-        self.frames == 0
-    }
 }
 
 /// A value of a row.
@@ -211,16 +105,16 @@ values! {
 pub struct File {
     /// Where in the flight's own folder, such as `camera.txt`.
     pub path: String,
-    /// What is in it.
+    /// The content.
     pub content: Vec<u8>,
 }
 
-/// What a stage says of a flight.
+/// The answer of a stage to a flight.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Answer {
-    /// It is kept.
+    /// The flight is kept.
     Keep,
-    /// It is rejected, for this reason.
+    /// The flight is rejected, for this reason.
     Reject(String),
     /// One number per frame for each label, in the order in which they are declared.
     Labels(Vec<Vec<f64>>),
@@ -234,19 +128,19 @@ pub enum Answer {
 
 /// A stage.
 pub trait Stage: Sized + 'static {
-    /// Its parameters; [`NoParams`](crate::NoParams) for none.
+    /// The parameters; [`NoParams`](crate::NoParams) for none.
     type Params: Params;
 
-    /// What it says of itself.
+    /// Name, version and purpose.
     fn describe() -> Metadata;
     /// A configured stage.
     ///
     /// # Errors
-    /// What of the parameters contradicts itself.
+    /// Parameters that contradict each other.
     fn new(params: Self::Params) -> Result<Self, String>;
     /// The columns that it reads; `plugins/wit/stage.wit` lists what there is. Another one is refused before anything runs.
     fn reads(&self) -> Vec<Column>;
-    /// What it gives of each flight.
+    /// The kind of answer that it gives to each flight.
     fn gives(&self) -> Gives;
     /// Looks at a flight.
     ///
@@ -255,49 +149,51 @@ pub trait Stage: Sized + 'static {
     fn run(&self, flight: &Flight) -> Result<Answer, String>;
 }
 
+/// Numbers of kinds in the interface; [`Kind`] has the first ones.
+const BYTES: usize = 4;
+
 impl<T: Stage> Running<T> {
-    pub fn configure_stage(&mut self, text: &str) -> Result<wire::Declaration, wire::Error> {
-        let stage = self.put(text, T::new)?;
-        let (effect, name, gives) = match stage.gives() {
-            Gives::Verdict => {
-                let gives = vec![Column::boolean("keep", "whether it is kept"), Column::text("reason", "why not")];
-                (wire::Effect::Filter, "", wired(gives))
-            }
-            Gives::Labels(columns) => (wire::Effect::Label, "", wired(columns)),
-            Gives::Annotation(name, columns) => (wire::Effect::Annotate, name, wired(columns)),
-            Gives::Rows(name, columns) => (wire::Effect::Rows, name, wired(columns)),
-            Gives::Files(name) => {
-                let mut gives = wired(vec![Column::text("path", ""), Column::text("content", "")]);
-                gives[1].kind = wire::Kind::Bytes;
-                (wire::Effect::Files, name, gives)
-            }
-        };
-        Ok(wire::Declaration { effect, name: name.to_owned(), reads: wired(stage.reads()), gives })
+    pub fn configure_stage(&mut self, text: &str) -> Told {
+        let declared = self.put(text, T::new).map(|stage| (stage.gives(), stage.reads()));
+        Told::outcome(declared, |all, (gives, reads)| {
+            let (effect, name, gives): (usize, &str, Vec<(Column, usize)>) = match gives {
+                Gives::Verdict => {
+                    let keep = Column::boolean("keep", "whether it is kept");
+                    (0, "", numbered(vec![keep, Column::text("reason", "why not")]))
+                }
+                Gives::Labels(columns) => (1, "", numbered(columns)),
+                Gives::Annotation(name, columns) => (2, name, numbered(columns)),
+                Gives::Rows(name, columns) => (3, name, numbered(columns)),
+                Gives::Files(name) => {
+                    let mut gives = numbered(vec![Column::text("path", ""), Column::text("content", "")]);
+                    gives[1].1 = BYTES;
+                    (4, name, gives)
+                }
+            };
+            let write = |all: Told, (column, kind): (Column, usize)| all.text(column.name).word(kind).text(column.doc);
+            all.word(effect).text(name).records(numbered(reads), write).records(gives, write)
+        })
     }
 
-    pub fn run(&self, flight: &[u8]) -> Result<Vec<u8>, wire::Error> {
-        let stage = self.get()?;
-        let table = arrow_stream::read(flight).map_err(wire::Error::Failed)?;
-        let item = table.metadata.iter().find(|(name, _)| name == "item").map(|(_, item)| item.clone());
-        let (frames, facts, columns) = (table.rows, table.metadata, table.columns);
-        let flight = Flight { item: item.unwrap_or_default(), frames, facts, columns };
-        let answer = stage.run(&flight).and_then(|answer| written(answer, stage.gives()));
-        Ok(arrow_stream::write(&answer.map_err(wire::Error::Failed)?))
+    pub fn run(&self, flight: &[u8]) -> Told {
+        let answer = self.get().and_then(|stage| answer_of(stage, flight).map_err(Refusal::Failed));
+        Told::outcome(answer, Told::list)
     }
 }
 
-fn wired(columns: Vec<Column>) -> Vec<wire::Column> {
-    let wired = |column: Column| wire::Column {
-        name: column.name,
-        doc: column.doc,
-        kind: match column.kind {
-            Kind::Real => wire::Kind::Real,
-            Kind::Integer => wire::Kind::Integer,
-            Kind::Boolean => wire::Kind::Boolean,
-            Kind::Text => wire::Kind::Text,
-        },
-    };
-    columns.into_iter().map(wired).collect()
+/// Columns with the numbers of their kinds.
+fn numbered(columns: Vec<Column>) -> Vec<(Column, usize)> {
+    columns.into_iter().map(|column| (column.kind as usize, column)).map(|(kind, column)| (column, kind)).collect()
+}
+
+/// The answer of a stage to a flight, both as Arrow streams.
+fn answer_of<T: Stage>(stage: &T, flight: &[u8]) -> Result<Vec<u8>, String> {
+    let table = arrow_stream::read(flight)?;
+    let item = table.metadata.iter().find(|(name, _)| name == "item").map(|(_, item)| item.clone());
+    let (frames, facts, columns) = (table.rows, table.metadata, table.columns);
+    let flight = Flight { item: item.unwrap_or_default(), frames, facts, columns };
+    let answer = stage.run(&flight)?;
+    Ok(arrow_stream::write(&written(answer, stage.gives())?))
 }
 
 /// The answer as a table, if it is of the kind that was declared.
@@ -356,26 +252,29 @@ macro_rules! stage {
     ($stage:ty) => {
         #[cfg(target_family = "wasm")]
         const _: () = {
-            use $crate::bindings::stage::exports::cosfly::plugin::tables as wire;
-            $crate::macros::thread_local! {
-                static RUNNING: $crate::macros::RefCell<$crate::macros::Running<$stage>> =
-                    const { $crate::macros::RefCell::new($crate::macros::Running::new()) };
+            use $crate::macros::{RefCell, Running, abi, description, thread_local};
+            $crate::border!();
+            thread_local! {
+                static RUNNING: RefCell<Running<$stage>> = const { RefCell::new(Running::new()) };
             }
-            struct Plugin;
-            impl wire::Guest for Plugin {
-                fn describe() -> wire::Metadata {
-                    $crate::macros::Running::<$stage>::describe::<<$stage as $crate::Stage>::Params>(
-                        <$stage as $crate::Stage>::describe(),
-                    )
-                }
-                fn configure(params: String) -> Result<wire::Declaration, wire::Error> {
-                    RUNNING.with_borrow_mut(|running| running.configure_stage(&params))
-                }
-                fn run(flight: Vec<u8>) -> Result<Vec<u8>, wire::Error> {
-                    RUNNING.with_borrow(|running| running.run(&flight))
-        }
+
+            #[unsafe(export_name = "cosfly:plugin/tables@0.1.0#describe")]
+            extern "C" fn describe() -> *const usize {
+                description::<<$stage as $crate::Stage>::Params>(<$stage as $crate::Stage>::describe()).leave()
             }
-            $crate::bindings::stage::export_stage!(Plugin with_types_in $crate::bindings::stage);
+
+            #[unsafe(export_name = "cosfly:plugin/tables@0.1.0#configure")]
+            unsafe extern "C" fn configure(text: *mut u8, bytes: usize) -> *const usize {
+                // SAFETY: the host keeps to the canonical ABI, here and below.
+                let text = unsafe { abi::text(text, bytes) };
+                RUNNING.with_borrow_mut(|running| running.configure_stage(&text)).leave()
+            }
+
+            #[unsafe(export_name = "cosfly:plugin/tables@0.1.0#run")]
+            unsafe extern "C" fn run(flight: *mut u8, bytes: usize) -> *const usize {
+                let flight = unsafe { abi::list(flight, bytes) };
+                RUNNING.with_borrow(|running| running.run(&flight)).leave()
+            }
         };
     };
 }
@@ -399,13 +298,5 @@ mod tests {
         );
         let error = written(Answer::Keep, Gives::Labels(vec![])).unwrap_err();
         assert!(error.contains("`Keep`") && error.contains("`Labels`"), "{error}");
-    }
-
-    #[test]
-    fn instructions_are_found_by_their_language() {
-        let captions = r#"[{"language":"zh","style":"instruction","text":"跟随"},{"language":"en","style":"instruction","text":"Follow"}]"#;
-        let flight = Flight::default().with_fact("captions", captions);
-        assert_eq!(flight.instruction("en").as_deref(), Some("Follow"));
-        assert_eq!(Flight::default().instruction("en"), None);
     }
 }

@@ -8,21 +8,21 @@ use std::path::{Path, PathBuf};
 use wasmtime::component::Component;
 use wasmtime::{Engine, Module};
 
-/// A form that plugins are compiled to.
+/// A form of compiled plugins.
 pub trait Compiled: Sized {
     /// Ending of the files that it is kept in.
     const ENDING: &str;
     /// Compiles `bytes`.
     ///
     /// # Errors
-    /// What the compiler refuses.
+    /// The refusal of the compiler.
     fn compile(engine: &Engine, bytes: &[u8]) -> wasmtime::Result<Self>;
     /// Its machine code.
     ///
     /// # Errors
     /// What the compiler says.
     fn code(&self) -> wasmtime::Result<Vec<u8>>;
-    /// What [`Self::code`] gave.
+    /// The plugin whose machine code [`Self::code`] gave.
     ///
     /// # Errors
     /// That it is of another form, version or engine.
@@ -70,7 +70,7 @@ impl Compiled for Module {
 /// passed over: the plugin is then compiled every time.
 ///
 /// # Errors
-/// What the compiler refuses.
+/// The refusal of the compiler.
 pub fn compile<C: Compiled>(
     engine: &Engine,
     folder: Option<&Path>,
@@ -93,7 +93,7 @@ fn file<C: Compiled>(engine: &Engine, folder: &Path, digest: Digest) -> PathBuf 
     folder.join(format!("{}.{}", key(engine, digest), C::ENDING))
 }
 
-/// Of the plugin, the compiler and all its settings.
+/// The digest of the plugin, the compiler and all its settings.
 fn key(engine: &Engine, digest: Digest) -> Digest {
     struct Gather(Vec<u8>);
     impl Hasher for Gather {

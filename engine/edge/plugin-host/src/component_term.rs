@@ -5,7 +5,6 @@ use crate::interface_0_1::{Evaluation, Refusal, RunContext, TermShape};
 use crate::plugin::Plugin;
 use crate::sandbox::Sandbox;
 use crate::session::Session;
-use crate::term_border::TermBorder;
 use crate::town::TownView;
 use cosfly_frames::DVec3;
 use std::sync::Arc;
@@ -34,14 +33,21 @@ impl ComponentTerm {
         let shape = shape.map_err(|refusal| PluginError::failed(&plugin.shown, "configure", refusal.words()))?;
         Ok((Self { session, begin, evaluate, flat: Vec::new() }, shape))
     }
-}
 
-impl TermBorder for ComponentTerm {
-    fn begin(&mut self, run: RunContext) -> Result<Result<(), Refusal>, PluginError> {
+    /// Tells it of a track.
+    ///
+    /// # Errors
+    /// The failure of the plugin; its own refusal inside.
+    pub fn begin(&mut self, run: RunContext) -> Result<Result<(), Refusal>, PluginError> {
         self.session.call("begin", &self.begin, (run,)).map(|(outcome,)| outcome)
     }
 
-    fn evaluate(
+    /// Writes the costs of `waypoints` and, where wanted, their gradients; the number of costs that the plugin gives. They are written
+    /// only if it is the wanted one.
+    ///
+    /// # Errors
+    /// The failure of the plugin; its own refusal inside.
+    pub fn evaluate(
         &mut self,
         waypoints: &[DVec3],
         want_gradients: bool,
@@ -62,7 +68,8 @@ impl TermBorder for ComponentTerm {
         }))
     }
 
-    fn sandbox(&self) -> &Sandbox {
+    /// The sandbox that it runs in.
+    pub fn sandbox(&self) -> &Sandbox {
         self.session.sandbox()
     }
 }

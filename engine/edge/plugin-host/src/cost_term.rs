@@ -3,14 +3,14 @@
 use crate::failure::PluginError;
 use crate::interface_0_1::{RunContext, TermShape};
 use crate::plugin::Plugin;
-use crate::term_border::{self, TermBorder};
+use crate::term_border::TermBorder;
 use crate::town::TownView;
 use cosfly_frames::{DVec3, TargetTrack};
 use cosfly_planner::walk::Walk;
 use cosfly_planner::{CostTerm, TermContext, body_points};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
-/// What is done with gradients.
+/// The receiver of gradients.
 type Take<'a> = dyn FnMut(&[f64]) + 'a;
 
 /// One configured instance of a plugin, for one flight. Costs nothing more after a failure, which [`Began::failure`] tells.
@@ -21,12 +21,12 @@ pub struct PluginTerm {
     running: Arc<Mutex<Running>>,
 }
 
-/// What is left of a term when the planner has taken it.
+/// The handle that is left of a term once the planner has taken it.
 #[derive(Clone)]
 pub struct Began(Arc<Mutex<Running>>);
 
 struct Running {
-    border: Box<dyn TermBorder>,
+    border: TermBorder,
     /// The last gradients; kept, because some hundreds of calls need room for them.
     gradients: Vec<f64>,
     /// Address and length of the track that it was told of.
@@ -38,7 +38,7 @@ impl PluginTerm {
     /// Opens `plugin` as the term `name`, with parameters as JSON text.
     ///
     /// # Errors
-    /// What the plugin refuses or does wrong.
+    /// The refusal or failure of the plugin.
     pub fn open(
         plugin: &Plugin,
         town: Arc<dyn TownView>,
@@ -46,17 +46,17 @@ impl PluginTerm {
         params: &str,
         seed: u64,
     ) -> Result<Self, PluginError> {
-        let (border, shape) = term_border::open(plugin, town, params)?;
+        let (border, shape) = TermBorder::open(plugin, town, params)?;
         let running = Running { border, gradients: Vec::new(), told: None, failure: None };
         Ok(Self { name: name.to_owned(), shape, seed, running: Arc::new(Mutex::new(running)) })
     }
 
-    /// For asking how it went, later.
+    /// A handle for asking later how it went.
     pub fn began(&self) -> Began {
         Began(Arc::clone(&self.running))
     }
 
-    /// What it is.
+    /// The properties.
     pub fn shape(&self) -> TermShape {
         self.shape
     }
@@ -90,22 +90,22 @@ impl PluginTerm {
 }
 
 impl Began {
-    /// Why it gave up, if it did.
+    /// The failure, where there was one.
     pub fn failure(&self) -> Option<PluginError> {
         self.0.lock().unwrap_or_else(PoisonError::into_inner).failure.clone()
     }
 
-    /// What it said that users are to read.
+    /// The messages that users are to read.
     pub fn warnings(&self) -> Vec<String> {
         self.0.lock().unwrap_or_else(PoisonError::into_inner).border.sandbox().warnings()
     }
 
-    /// What its last call took.
+    /// The effort of the last call.
     pub fn effort(&self) -> crate::Effort {
         self.0.lock().unwrap_or_else(PoisonError::into_inner).border.sandbox().effort()
     }
 
-    /// All that it said.
+    /// All messages.
     pub fn said(&self) -> Vec<crate::Said> {
         self.0.lock().unwrap_or_else(PoisonError::into_inner).border.sandbox().said()
     }
@@ -173,7 +173,7 @@ fn first_wrong(numbers: &[f64], mask: u64, right: impl Fn(&f64) -> bool) -> Opti
     if any & SIGN == 0 { None } else { numbers.iter().position(|number| !right(number)) }
 }
 
-/// What a plugin is told of a track.
+/// A track as plugins are told of it.
 fn run_context(track: &TargetTrack, walk: &Walk, seed: u64) -> RunContext {
     let bodies = track.states.iter().flat_map(|state| body_points(state, track.height_m));
     RunContext {

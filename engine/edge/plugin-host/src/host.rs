@@ -2,18 +2,19 @@
 
 use crate::failure::PluginError;
 use crate::interface_0_1::Metadata;
+use crate::kind::Kind;
+use crate::layer::{component_of, is_cost_term};
 use crate::limits::PluginLimits;
-use crate::plugin::{Code, Compiled, Kind, Plugin, foreign_import, kinds_of, wrong_kind};
+use crate::plugin::{Code, Compiled, Plugin, foreign_import, kinds_of, wrong_kind};
 use crate::sandbox::{Guest, TICK};
 use crate::session::Session;
 use crate::town::NoTown;
-use crate::{compiled_code, component, direct_term, imports, parameters, signature};
+use crate::{compiled_code, direct_term, imports, parameters};
 use cosfly_fingerprint::Digest;
 use std::collections::BTreeMap;
 use std::io::Read;
 use std::path::{Path, PathBuf};
 use std::sync::{Arc, Mutex, OnceLock, PoisonError};
-use wasmparser::Parser;
 use wasmtime::component::Linker;
 use wasmtime::{Config, Engine, Inlining, Module};
 
@@ -116,14 +117,13 @@ impl Host {
         let component = match compiled_code::find(engine, folder, digest) {
             Some(component) => component,
             None => {
-                let compiler =
-                    |error: wasmtime::Error| refused(component::first_line(&format!("{error:#}")).to_owned());
-                let encoded = component::of_bytes(bytes).map_err(refused)?;
-                if is_term && !Parser::is_component(bytes) && signature::is_direct_term(bytes) {
-                    let module = compiled_code::compile(engine, folder, digest, bytes).map_err(compiler)?;
+                let component = component_of(bytes).map_err(refused)?;
+                if is_term && is_cost_term(bytes) {
+                    let module = compiled_code::compile(engine, folder, digest, bytes);
+                    let module = module.map_err(|error| refused(invalid(&error)))?;
                     return workshop.term(&module).map_err(|error| refused(format!("{error:#}")));
                 }
-                compiled_code::compile(engine, folder, digest, &encoded).map_err(compiler)?
+                compiled_code::compile(engine, folder, digest, &component).map_err(|error| refused(invalid(&error)))?
             }
         };
         let kind = kinds_of(&component).into_iter().find(|kind| wanted.is_none_or(|wanted| wanted == *kind));
@@ -147,6 +147,12 @@ impl Workshop {
         let code = Code::Module(self.direct_linker.instantiate_pre(module)?);
         Ok((Kind::CostTerm, Arc::new(Compiled { engine: self.engine.clone(), code })))
     }
+}
+
+/// The compiler's refusal in one line.
+fn invalid(error: &wasmtime::Error) -> String {
+    let words = format!("{error:#}");
+    format!("it is not valid WebAssembly: {}", words.lines().next().unwrap_or_default())
 }
 
 fn workshop(strict: bool) -> wasmtime::Result<Workshop> {
@@ -186,7 +192,7 @@ fn read(path: &Path, shown: &str) -> Result<Vec<u8>, PluginError> {
     Ok(bytes)
 }
 
-/// What a plugin says of itself, checked.
+/// The description that a plugin gives, checked.
 fn describe(plugin: &Plugin) -> Result<Metadata, PluginError> {
     let metadata = match &plugin.compiled.code {
         Code::Module(_) => direct_term::describe(plugin, Arc::new(NoTown))?,

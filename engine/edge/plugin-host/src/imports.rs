@@ -1,4 +1,4 @@
-//! What plugins may call: messages and questions about the town, from components and from core modules.
+//! The functions that plugins may call: messages and questions about the town, from components and from core modules.
 
 use crate::direct_abi::DirectAbi;
 use crate::interface_0_1::Severity;
@@ -12,9 +12,6 @@ const LOG: &str = "cosfly:plugin/log@0.1.0";
 const TOWN: &str = "cosfly:plugin/town@0.1.0";
 /// The interfaces offered, as plugins import them.
 pub const OFFERED: [&str; 2] = [LOG, TOWN];
-/// Their functions, as core modules import them.
-pub const OFFERED_FUNCTIONS: [(&str, &str); 5] =
-    [(LOG, "message"), (TOWN, "rays"), (TOWN, "distances"), (TOWN, "ground"), (TOWN, "buildings")];
 
 /// All offered functions for components.
 pub fn linker(engine: &Engine) -> Result<Linker<Guest>> {

@@ -2,30 +2,27 @@
 
 use wasmtime::component::{ComponentType, Lift, Lower};
 
-/// The texts of the interface, for modules that carry none.
-pub const WIT: [(&str, &str); 5] = [
-    ("types.wit", include_str!("../../../../plugins/wit/types.wit")),
-    ("host.wit", include_str!("../../../../plugins/wit/host.wit")),
-    ("cost-term.wit", include_str!("../../../../plugins/wit/cost-term.wit")),
-    ("objective.wit", include_str!("../../../../plugins/wit/objective.wit")),
-    ("stage.wit", include_str!("../../../../plugins/wit/stage.wit")),
-];
-/// Package of all its interfaces.
+/// The package of all interfaces.
 pub const PACKAGE: &str = "cosfly:plugin/";
-/// Its version.
+/// The version of the interface.
 pub const VERSION: &str = "0.1.0";
 
-/// What a plugin says of itself.
+/// Whether the version in a name, where there is one, is 0.1.x.
+pub fn is_same_track(name: &str) -> bool {
+    name.split('@').nth(1).is_none_or(|version| version.starts_with("0.1."))
+}
+
+/// The description of a plugin.
 #[derive(Clone, Debug, PartialEq, Eq, ComponentType, Lift)]
 #[component(record)]
 pub struct Metadata {
-    /// Name in tables and messages.
+    /// The name in tables and messages.
     pub name: String,
-    /// Its own version.
+    /// The version of the plugin.
     pub version: String,
-    /// One sentence.
+    /// The purpose, one sentence.
     pub summary: String,
-    /// JSON Schema of its parameters; empty when it has none.
+    /// JSON Schema of the parameters; empty where there are none.
     #[component(name = "params-schema")]
     pub params_schema: String,
 }
@@ -37,16 +34,16 @@ pub enum Refusal {
     /// Parameters contradict each other.
     #[component(name = "invalid-params")]
     InvalidParams(String),
-    /// Beyond the plugin.
+    /// The task is beyond the plugin.
     #[component(name = "unsupported")]
     Unsupported(String),
-    /// Anything else.
+    /// Any other reason.
     #[component(name = "failed")]
     Failed(String),
 }
 
 impl Refusal {
-    /// In words.
+    /// The reason in words.
     pub fn words(&self) -> String {
         match self {
             Self::InvalidParams(words) => format!("parameters: {words}"),
@@ -56,11 +53,11 @@ impl Refusal {
     }
 }
 
-/// Numbers beside the fixed ones.
+/// Further numbers for each frame.
 #[derive(Clone, Debug, PartialEq, ComponentType, Lower)]
 #[component(record)]
 pub struct Channel {
-    /// Name.
+    /// The name.
     pub name: String,
     /// Numbers per frame.
     pub width: u32,
@@ -68,34 +65,34 @@ pub struct Channel {
     pub data: Vec<f64>,
 }
 
-/// What a configured cost term is.
+/// Properties of a configured cost term.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ComponentType, Lift)]
 #[component(record)]
 pub struct TermShape {
-    /// Neighbours that the cost of a waypoint reads, on each side.
+    /// Neighbours on each side that the cost of a waypoint reads.
     pub support: u32,
-    /// Whether gradients are given when asked for.
+    /// Whether it computes gradients.
     pub gradients: bool,
 }
 
-/// What stays the same while a flight is planned.
+/// The constants of a planned flight; world frame, metres, n frames.
 #[derive(Clone, Debug, PartialEq, ComponentType, Lower)]
 #[component(record)]
 pub struct RunContext {
-    /// Of the item.
+    /// The seed of the item.
     pub seed: u64,
     /// Seconds between frames.
     pub dt: f64,
-    /// Feet, 3 per frame.
+    /// Feet of the target, 3n.
     pub targets: Vec<f64>,
-    /// Radians, one per frame.
+    /// Headings of the target, n, radians.
     pub headings: Vec<f64>,
-    /// Walking directions, 2 per frame.
+    /// Walking directions, unit vectors, 2n.
     pub directions: Vec<f64>,
-    /// Points of the body, 24 per frame.
+    /// Eight points of the body, 24n.
     #[component(name = "body-points")]
     pub body_points: Vec<f64>,
-    /// None.
+    /// Always empty in 0.1.0.
     pub channels: Vec<Channel>,
 }
 
@@ -105,29 +102,29 @@ pub struct RunContext {
 pub struct Evaluation {
     /// One per waypoint.
     pub costs: Vec<f64>,
-    /// Three per waypoint, or none.
+    /// Three per waypoint, or empty.
     pub gradients: Vec<f64>,
 }
 
-/// Where a flight is to be.
+/// The place of a flight.
 #[derive(Clone, Debug, PartialEq, ComponentType, Lower)]
 #[component(record)]
 pub struct SiteContext {
-    /// Of the item.
+    /// The seed of the item.
     pub seed: u64,
     /// Seconds between steps.
     pub dt: f64,
     /// Most steps.
     #[component(name = "max-steps")]
     pub max_steps: u32,
-    /// Smallest x and y, largest x and y.
+    /// Smallest x and y, largest x and y, metres.
     pub bounds: Vec<f64>,
-    /// Metres.
+    /// Distance to obstacles, metres.
     pub clearance: f64,
-    /// Metres per second.
+    /// Largest speed, metres per second.
     #[component(name = "max-speed")]
     pub max_speed: f64,
-    /// None.
+    /// Always empty in 0.1.0.
     pub channels: Vec<Channel>,
 }
 
@@ -135,17 +132,17 @@ pub struct SiteContext {
 #[derive(Clone, Debug, PartialEq, ComponentType, Lift)]
 #[component(record)]
 pub struct Plan {
-    /// Three per step.
+    /// Points that the camera looks at, three numbers per step, metres.
     pub watched: Vec<f64>,
-    /// Three per step.
+    /// Wished places of the drone, three numbers per step, metres.
     pub places: Vec<f64>,
-    /// One per step.
+    /// Weights of the places, one per step, 0 to 1.
     pub pull: Vec<f64>,
-    /// Names and values.
+    /// Facts for the summary: names and values.
     pub notes: Vec<(String, String)>,
 }
 
-/// What a column holds.
+/// The type of a column.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ComponentType, Lift)]
 #[component(enum)]
 #[repr(u8)]
@@ -156,7 +153,7 @@ pub enum ValueKind {
     /// 64-bit integers.
     #[component(name = "integer")]
     Integer,
-    /// Truths.
+    /// True or false.
     #[component(name = "boolean")]
     Boolean,
     /// Texts.
@@ -168,7 +165,7 @@ pub enum ValueKind {
 }
 
 impl ValueKind {
-    /// As in the interface.
+    /// The name of the type in the interface.
     pub fn words(self) -> &'static str {
         match self {
             Self::Real => "real",
@@ -180,33 +177,33 @@ impl ValueKind {
     }
 }
 
-/// A column that a stage reads or gives.
+/// A column that a stage reads or writes.
 #[derive(Clone, Debug, PartialEq, Eq, ComponentType, Lift)]
 #[component(record)]
 pub struct Column {
     /// Name.
     pub name: String,
-    /// What it holds.
+    /// The type.
     pub kind: ValueKind,
-    /// What it means.
+    /// The meaning, with the unit.
     pub doc: String,
 }
 
-/// What becomes of a stage's answers.
+/// The use of a stage's answers.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ComponentType, Lift)]
 #[component(enum)]
 #[repr(u8)]
 pub enum Effect {
-    /// Keeps or rejects flights.
+    /// Flights are kept or rejected.
     #[component(name = "filter")]
     Filter,
-    /// Labels their frames.
+    /// Frames are labelled.
     #[component(name = "label")]
     Label,
-    /// One row about each, in a table of the dataset.
+    /// One row per flight in a table of the dataset.
     #[component(name = "annotate")]
     Annotate,
-    /// Any number of rows.
+    /// Any number of rows in a table of the dataset.
     #[component(name = "rows")]
     Rows,
     /// Files of the dataset.
@@ -215,7 +212,7 @@ pub enum Effect {
 }
 
 impl Effect {
-    /// What has this effect, in words.
+    /// A stage with this effect, in words.
     pub fn words(self) -> &'static str {
         match self {
             Self::Filter => "a filter",
@@ -227,21 +224,21 @@ impl Effect {
     }
 }
 
-/// What a configured stage reads and gives.
+/// The columns of a configured stage.
 #[derive(Clone, Debug, PartialEq, Eq, ComponentType, Lift)]
 #[component(record)]
 pub struct Declaration {
-    /// What becomes of its answers.
+    /// The use of the answers.
     pub effect: Effect,
     /// Table or folder of the dataset; empty where there is none.
     pub name: String,
-    /// The columns that it reads.
+    /// Columns of the flights that are read.
     pub reads: Vec<Column>,
-    /// The columns that it gives.
+    /// Columns of the answers.
     pub gives: Vec<Column>,
 }
 
-/// How serious a message is.
+/// The severity of a message.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, ComponentType, Lift)]
 #[component(enum)]
 #[repr(u8)]

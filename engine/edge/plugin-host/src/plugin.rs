@@ -1,7 +1,8 @@
-//! A compiled plugin: what it is, what it says of itself, what it may use.
+//! A compiled plugin: kind, description, limits.
 
 use crate::imports::OFFERED;
-use crate::interface_0_1::{Metadata, PACKAGE, VERSION};
+use crate::interface_0_1::{Metadata, PACKAGE, VERSION, is_same_track};
+use crate::kind::Kind;
 use crate::limits::PluginLimits;
 use crate::sandbox::Guest;
 use cosfly_fingerprint::Digest;
@@ -9,61 +10,17 @@ use std::sync::Arc;
 use wasmtime::Engine;
 use wasmtime::component::{Component, InstancePre};
 
-/// The three things that a plugin can be.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
-pub enum Kind {
-    /// A cost term of the planner.
-    CostTerm,
-    /// An objective.
-    Objective,
-    /// A stage.
-    Stage,
-}
-
-impl Kind {
-    /// All of them.
-    pub const ALL: [Self; 3] = [Self::CostTerm, Self::Objective, Self::Stage];
-
-    /// Its world, as on the command line.
-    pub fn world(self) -> &'static str {
-        match self {
-            Self::CostTerm => "cost-term",
-            Self::Objective => "objective",
-            Self::Stage => "stage",
-        }
-    }
-
-    /// The interface that it exports.
-    pub fn interface(self) -> String {
-        let name = match self {
-            Self::CostTerm => "cost",
-            Self::Objective => "reference",
-            Self::Stage => "tables",
-        };
-        format!("{PACKAGE}{name}@{VERSION}")
-    }
-
-    /// What it is, in words.
-    pub fn words(self) -> &'static str {
-        match self {
-            Self::CostTerm => "a cost term",
-            Self::Objective => "an objective",
-            Self::Stage => "a stage",
-        }
-    }
-}
-
-/// What is compiled once, whatever its limits.
+/// The compiled code of a file.
 pub(crate) struct Compiled {
     pub(crate) engine: Engine,
     pub(crate) code: Code,
 }
 
-/// In which form it is compiled.
+/// The form of compiled code.
 pub(crate) enum Code {
-    /// As a component.
+    /// A component.
     Component(InstancePre<Guest>),
-    /// A cost term, as the core module that it is in its file: calls are quicker.
+    /// A cost term in a core module, which is called directly: sooner.
     Module(wasmtime::InstancePre<Guest>),
 }
 
@@ -72,23 +29,23 @@ pub(crate) enum Code {
 pub struct Plugin {
     /// The file, as the user wrote it.
     pub shown: String,
-    /// Of the file's bytes.
+    /// The digest of the file.
     pub digest: Digest,
-    /// What it is used as.
+    /// The kind that it is used as.
     pub kind: Kind,
-    /// What it may use.
+    /// Limits of memory and time.
     pub limits: PluginLimits,
-    /// What it says of itself.
+    /// The description that it gives.
     pub metadata: Metadata,
     pub(crate) compiled: Arc<Compiled>,
 }
 
-/// Which kinds a component is; or what it exports instead.
+/// The kinds that a component is.
 pub(crate) fn kinds_of(component: &Component) -> Vec<Kind> {
     Kind::ALL.into_iter().filter(|kind| component.get_export_index(None, kind.interface().as_str()).is_some()).collect()
 }
 
-/// What a component that is not of the wanted kind should be told.
+/// Why a component is not of the wanted kind: the interfaces that it exports and the ones that it should.
 pub(crate) fn wrong_kind(component: &Component, engine: &Engine, wanted: Option<Kind>) -> String {
     let found = kinds_of(component);
     if let (Some(wanted), Some(found)) = (wanted, found.first()) {
@@ -109,13 +66,8 @@ pub(crate) fn foreign_import(component: &Component, engine: &Engine) -> Option<S
     let is_known = |name: &str| {
         let base = name.split('@').next().unwrap_or(name);
         let offered = OFFERED.iter().any(|offered| offered.split('@').next() == Some(base));
-        base == "cosfly:plugin/types" || name.starts_with("wasi:") || (offered && same_track(name))
+        base == "cosfly:plugin/types" || name.starts_with("wasi:") || (offered && is_same_track(name))
     };
     let component_type = component.component_type();
     component_type.imports(engine).map(|(name, _)| name.to_owned()).find(|name| !is_known(name))
-}
-
-/// Whether a versioned name is of the track 0.1.
-fn same_track(name: &str) -> bool {
-    name.split('@').nth(1).is_none_or(|version| version.starts_with("0.1."))
 }

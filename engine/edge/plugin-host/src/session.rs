@@ -7,7 +7,7 @@ use crate::town::TownView;
 use std::sync::Arc;
 use wasmtime::component::{ComponentExportIndex, ComponentNamedList, Instance, Lift, Lower, TypedFunc};
 
-/// See the module.
+/// An instance of a plugin.
 pub struct Session {
     sandbox: Sandbox,
     instance: Instance,
@@ -18,14 +18,14 @@ impl Session {
     /// A new instance of `plugin` that sees `town`.
     ///
     /// # Errors
-    /// What it did wrong while it started.
+    /// The failure while it started.
     pub fn open(plugin: &Plugin, town: Arc<dyn TownView>) -> Result<Self, PluginError> {
         let refused = |message: String| PluginError::refused(&plugin.shown, message);
-        let Code::Component(ready) = &plugin.compiled.code else {
+        let Code::Component(component) = &plugin.compiled.code else {
             return Err(refused("it is not compiled as a component".to_owned()));
         };
         let mut sandbox = Sandbox::new(&plugin.compiled.engine, &plugin.shown, plugin.limits, town);
-        let instance = sandbox.within("start", |store| ready.instantiate(store))?;
+        let instance = sandbox.within("start", |store| component.instantiate(store))?;
         let interface = instance.get_export_index(sandbox.store(), None, plugin.kind.interface().as_str());
         let interface = interface.ok_or_else(|| refused(format!("it has no `{}`", plugin.kind.interface())))?;
         Ok(Self { sandbox, instance, interface })
@@ -60,17 +60,17 @@ impl Session {
         self.sandbox.within(name, |store| function.call(store, given))
     }
 
-    /// Where it runs.
+    /// The sandbox that it runs in.
     pub(crate) fn sandbox(&self) -> &Sandbox {
         &self.sandbox
     }
 
-    /// What it said so far.
+    /// All messages so far.
     pub fn said(&self) -> Vec<Said> {
         self.sandbox.said()
     }
 
-    /// What it said that users are to read.
+    /// The messages that users are to read.
     pub fn warnings(&self) -> Vec<String> {
         self.sandbox.warnings()
     }

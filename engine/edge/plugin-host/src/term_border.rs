@@ -1,4 +1,4 @@
-//! The border to a cost term: the interface's functions, however they are called.
+//! The border to a cost term: the functions of the interface, through the component model or directly.
 
 use crate::component_term::ComponentTerm;
 use crate::direct_term::DirectTerm;
@@ -11,47 +11,63 @@ use cosfly_frames::DVec3;
 use std::sync::Arc;
 
 /// A configured instance of a cost term.
-pub trait TermBorder: Send {
+pub enum TermBorder {
+    /// In a component.
+    Component(ComponentTerm),
+    /// In a core module.
+    Direct(Box<DirectTerm>),
+}
+
+impl TermBorder {
+    /// A new instance with parameters as JSON text, and its properties.
+    ///
+    /// # Errors
+    /// The refusal or failure of the plugin.
+    pub fn open(plugin: &Plugin, town: Arc<dyn TownView>, params: &str) -> Result<(Self, TermShape), PluginError> {
+        match &plugin.compiled.code {
+            Code::Module(_) => {
+                DirectTerm::open(plugin, town, params).map(|(term, shape)| (Self::Direct(Box::new(term)), shape))
+            }
+            Code::Component(_) => {
+                ComponentTerm::open(plugin, town, params).map(|(term, shape)| (Self::Component(term), shape))
+            }
+        }
+    }
+
     /// Tells it of a track.
     ///
     /// # Errors
-    /// What the plugin did wrong; its own words inside.
-    fn begin(&mut self, run: RunContext) -> Result<Result<(), Refusal>, PluginError>;
+    /// The failure of the plugin; its own refusal inside.
+    pub fn begin(&mut self, run: RunContext) -> Result<Result<(), Refusal>, PluginError> {
+        match self {
+            Self::Component(term) => term.begin(run),
+            Self::Direct(term) => term.begin(run),
+        }
+    }
 
-    /// Writes the costs of `waypoints` and, when wanted, their gradients, as the plugin gives them; how many costs that are. They
-    /// are written only when that is how many are wanted.
+    /// Writes the costs of `waypoints` and, where wanted, their gradients; the number of costs that the plugin gives. They are written
+    /// only if it is the wanted one.
     ///
     /// # Errors
-    /// What the plugin did wrong; its own words inside.
-    fn evaluate(
+    /// The failure of the plugin; its own refusal inside.
+    pub fn evaluate(
         &mut self,
         waypoints: &[DVec3],
         want_gradients: bool,
         costs: &mut [f64],
         gradients: &mut Vec<f64>,
-    ) -> Result<Result<usize, Refusal>, PluginError>;
-
-    /// Where it runs.
-    fn sandbox(&self) -> &Sandbox;
-}
-
-/// A new instance with parameters as JSON text.
-///
-/// # Errors
-/// What the plugin refuses or does wrong.
-pub fn open(
-    plugin: &Plugin,
-    town: Arc<dyn TownView>,
-    params: &str,
-) -> Result<(Box<dyn TermBorder>, TermShape), PluginError> {
-    Ok(match &plugin.compiled.code {
-        Code::Module(_) => {
-            let (term, shape) = DirectTerm::open(plugin, town, params)?;
-            (Box::new(term), shape)
+    ) -> Result<Result<usize, Refusal>, PluginError> {
+        match self {
+            Self::Component(term) => term.evaluate(waypoints, want_gradients, costs, gradients),
+            Self::Direct(term) => term.evaluate(waypoints, want_gradients, costs, gradients),
         }
-        Code::Component(_) => {
-            let (term, shape) = ComponentTerm::open(plugin, town, params)?;
-            (Box::new(term), shape)
+    }
+
+    /// The sandbox that it runs in.
+    pub fn sandbox(&self) -> &Sandbox {
+        match self {
+            Self::Component(term) => term.sandbox(),
+            Self::Direct(term) => term.sandbox(),
         }
-    })
+    }
 }

@@ -8,27 +8,32 @@ use cosfly_diagnose::{Diagnostic, Fault};
 use std::fs;
 use std::path::{Path, PathBuf};
 
-/// What plugins are made of, as it is in `plugins/sdk`.
-const SDK: [(&str, &str); 17] = [
-    ("Cargo.toml", include_str!("../../../../../plugins/sdk/Cargo.toml")),
-    ("src/lib.rs", include_str!("../../../../../plugins/sdk/src/lib.rs")),
-    ("src/arrow_stream.rs", include_str!("../../../../../plugins/sdk/src/arrow_stream.rs")),
-    ("src/bindings/mod.rs", include_str!("../../../../../plugins/sdk/src/bindings/mod.rs")),
-    ("src/bindings/cost_term.rs", include_str!("../../../../../plugins/sdk/src/bindings/cost_term.rs")),
-    ("src/bindings/objective.rs", include_str!("../../../../../plugins/sdk/src/bindings/objective.rs")),
-    ("src/bindings/stage.rs", include_str!("../../../../../plugins/sdk/src/bindings/stage.rs")),
-    ("src/cost_term.rs", include_str!("../../../../../plugins/sdk/src/cost_term.rs")),
-    ("src/geometry.rs", include_str!("../../../../../plugins/sdk/src/geometry.rs")),
-    ("src/json.rs", include_str!("../../../../../plugins/sdk/src/json.rs")),
-    ("src/objective.rs", include_str!("../../../../../plugins/sdk/src/objective.rs")),
-    ("src/params.rs", include_str!("../../../../../plugins/sdk/src/params.rs")),
-    ("src/random.rs", include_str!("../../../../../plugins/sdk/src/random.rs")),
-    ("src/recent_blocks.rs", include_str!("../../../../../plugins/sdk/src/recent_blocks.rs")),
-    ("src/running.rs", include_str!("../../../../../plugins/sdk/src/running.rs")),
-    ("src/stage.rs", include_str!("../../../../../plugins/sdk/src/stage.rs")),
-    ("src/town.rs", include_str!("../../../../../plugins/sdk/src/town.rs")),
+/// Paths below `plugins/sdk` and the texts there.
+macro_rules! sdk {
+    ($($path:literal),* $(,)?) => {
+        [$(($path, include_str!(concat!("../../../../../plugins/sdk/", $path)))),*]
+    };
+}
+/// The kit for plugins.
+const SDK: [(&str, &str); 17] = sdk![
+    "Cargo.toml",
+    "src/lib.rs",
+    "src/abi.rs",
+    "src/arrow_stream.rs",
+    "src/cost_term.rs",
+    "src/flatbuffers.rs",
+    "src/flight.rs",
+    "src/geometry.rs",
+    "src/json.rs",
+    "src/log.rs",
+    "src/objective.rs",
+    "src/params.rs",
+    "src/random.rs",
+    "src/recent_blocks.rs",
+    "src/running.rs",
+    "src/stage.rs",
+    "src/town.rs",
 ];
-const SDK_LOG: (&str, &str) = ("src/log.rs", include_str!("../../../../../plugins/sdk/src/log.rs"));
 const MANIFEST: &str = include_str!("../../../../../plugins/templates/Cargo.toml.txt");
 /// Vectors are part of WebAssembly, but the compiler wants to be told; calls cost more in it than in native code.
 const CARGO_CONFIG: &str = "[target.wasm32-unknown-unknown]\nrustflags = [\"-Ctarget-feature=+simd128\", \"-Cllvm-args=-inline-threshold=1000\"]\n";
@@ -114,7 +119,7 @@ fn write(arguments: &Arguments, name: &str) -> cosfly_diagnose::Result<()> {
     put(&arguments.path.join("README.md"), &named(&README.replace("KIND", words).replace("USE", usage)))?;
     put(&arguments.path.join(".cargo/config.toml"), CARGO_CONFIG)?;
     put(&arguments.path.join(".gitignore"), "/target\n")?;
-    for (file, text) in SDK.iter().chain([&SDK_LOG]) {
+    for (file, text) in SDK {
         put(&arguments.path.join("sdk").join(file), text)?;
     }
     Ok(())

@@ -58,14 +58,7 @@ impl TermText {
 
     /// The same as a component, where it can be made one.
     pub fn component(&self) -> Option<Vec<u8>> {
-        let folder = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("../../../plugins/wit");
-        let mut resolve = wit_parser::Resolve::default();
-        let (package, _) = resolve.push_dir(folder).expect("the interface is well-formed");
-        let world = resolve.select_world(&[package], Some("cost-term")).expect("it has the world");
-        let mut module = self.bytes();
-        let utf8 = wit_component::StringEncoding::UTF8;
-        wit_component::embed_component_metadata(&mut module, &resolve, world, utf8).ok()?;
-        wit_component::ComponentEncoder::default().module(&module).ok()?.encode().ok()
+        component(self.bytes())
     }
 
     fn text(&self) -> String {
@@ -137,6 +130,17 @@ impl TermText {
     pub fn costs(&self, waypoints: &[DVec3]) -> Result<Vec<f64>, PluginError> {
         costs_of(&self.load()?, waypoints)
     }
+}
+
+/// The component that the usual tool makes of a core module that is a cost term, where it can.
+pub fn component(mut module: Vec<u8>) -> Option<Vec<u8>> {
+    let folder = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("../../../plugins/wit");
+    let mut resolve = wit_parser::Resolve::default();
+    let (package, _) = resolve.push_dir(folder).expect("the interface is well-formed");
+    let world = resolve.select_world(&[package], Some("cost-term")).expect("it has the world");
+    let utf8 = wit_component::StringEncoding::UTF8;
+    wit_component::embed_component_metadata(&mut module, &resolve, world, utf8).ok()?;
+    wit_component::ComponentEncoder::default().module(&module).ok()?.encode().ok()
 }
 
 /// A cost term of these bytes within the usual limits, but shorter time.

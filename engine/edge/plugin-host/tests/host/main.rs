@@ -1,6 +1,5 @@
 //! The host against plugins of every kind: good ones, hostile ones, damaged ones. All are written as text here.
 
-mod bindings;
 mod border;
 mod fixtures;
 mod hostile;

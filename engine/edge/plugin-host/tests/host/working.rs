@@ -1,6 +1,6 @@
 //! Plugins that do what they should.
 
-use crate::fixtures::{TermText, costs_of, flight};
+use crate::fixtures::{TermText, component, costs_of, flight};
 use cosfly_plugin_host::{Host, Kind, PluginLimits};
 
 #[test]
@@ -52,7 +52,7 @@ fn a_module_and_the_component_around_it_give_the_same_bits() {
     let mut tried = 0;
     for name in ["no_fly_zone", "privacy", "sun_glare", "wind"] {
         let bytes = std::fs::read(folder.join(format!("{name}.wasm"))).unwrap();
-        let component = wit_component::ComponentEncoder::default().module(&bytes).unwrap().encode().unwrap();
+        let component = component(bytes.clone()).expect("it is a cost term");
         let flight = flight(50);
         let both = [bytes, component].map(|bytes| {
             let plugin = Host::new(None).load_bytes(&bytes, name, None, PluginLimits::default()).unwrap();
