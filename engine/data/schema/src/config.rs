@@ -1,6 +1,6 @@
 //! Parameters of the `dataset` stage: name, licence, splits, windows, image encodings.
 
-use crate::Split;
+use crate::split::Split;
 use cosfly_diagnose::ParameterError;
 use cosfly_metrics::WindowShape;
 use schemars::JsonSchema;
@@ -274,6 +274,20 @@ pub struct SplitShares {
     /// the same ground plan go to the same split.
     #[serde(skip_serializing_if = "BTreeMap::is_empty")]
     pub towns: BTreeMap<String, Split>,
+}
+
+impl SplitShares {
+    /// The split of a draw from 0..1.
+    pub fn split_of(&self, draw: f64) -> Split {
+        let total = self.train + self.val + self.test;
+        if draw * total < self.train {
+            Split::Train
+        } else if draw * total < self.train + self.val || self.test <= 0.0 {
+            if self.val > 0.0 { Split::Val } else { Split::Train }
+        } else {
+            Split::Test
+        }
+    }
 }
 
 impl Default for SplitShares {

@@ -1,6 +1,5 @@
 //! The parts of a dataset: train, val, test.
 
-use crate::config::SplitShares;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
@@ -26,18 +25,6 @@ impl Split {
             Self::Train => "train",
             Self::Val => "val",
             Self::Test => "test",
-        }
-    }
-
-    /// Split of a draw from 0..1.
-    pub fn of_draw(draw: f64, shares: &SplitShares) -> Self {
-        let total = shares.train + shares.val + shares.test;
-        if draw * total < shares.train {
-            Self::Train
-        } else if draw * total < shares.train + shares.val || shares.test <= 0.0 {
-            if shares.val > 0.0 { Self::Val } else { Self::Train }
-        } else {
-            Self::Test
         }
     }
 }

@@ -27,7 +27,7 @@ pub fn assign(facts: &[FlightFacts], shares: &SplitShares) -> Assignment {
     let places = Places::of(facts, shares);
     let representatives = representatives(facts, &places, shares.max_route_overlap);
     let draw = |purpose: &str, id: &str| Seed::of_item(shares.seed, purpose, id).stream(purpose).unit();
-    let drawn = |id: &str| Split::of_draw(draw("split", id), shares);
+    let drawn = |id: &str| shares.split_of(draw("split", id));
     let assigned = |(at, it): (usize, &FlightFacts)| {
         let place = &places.all[places.of_flight[at]];
         match place.split {

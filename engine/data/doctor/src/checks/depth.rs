@@ -1,6 +1,6 @@
 //! The unit of depth images, and their assignment to frames.
 
-use super::median;
+use super::median::median;
 use super::motion::frames;
 use crate::episode::OFFSETS;
 use crate::{Episode, Flag};

@@ -3,6 +3,7 @@
 mod bearing;
 mod depth;
 mod leaks;
+mod median;
 mod motion;
 mod pictures;
 mod projection;
@@ -29,11 +30,4 @@ pub fn of_episode(episode: &Episode) -> Vec<Flag> {
         words::check,
     ];
     checks.iter().flat_map(|check| check(episode)).collect()
-}
-
-/// The median; none without values.
-fn median(values: impl Iterator<Item = f64>) -> Option<f64> {
-    let mut values: Vec<f64> = values.filter(|value| value.is_finite()).collect();
-    values.sort_by(f64::total_cmp);
-    values.get(values.len() / 2).copied()
 }

@@ -1,7 +1,7 @@
 //! Agreement of poses and boxes: the projected target is compared with its place in the image. Where they differ, the usual
 //! mistakes are tried, and the one that explains the difference is named.
 
-use super::median;
+use super::median::median;
 use super::motion::frames;
 use crate::{Episode, Flag};
 use cosfly_frames::Pose;

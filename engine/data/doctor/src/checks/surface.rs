@@ -1,7 +1,7 @@
 //! Assignment of depth images to frames, by walls: seen from the right pose, the points of a building in a depth image lie on
 //! the building's boxes. Finds shifts of smooth flights, whose distance to the target hardly changes.
 
-use super::median;
+use super::median::median;
 use super::motion::frames;
 use crate::episode::OFFSETS;
 use crate::{Episode, Flag};

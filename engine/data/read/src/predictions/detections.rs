@@ -1,6 +1,6 @@
 //! Detections in COCO's format of results (a JSON array) or as JSON lines of the same objects, row by row.
 
-use super::RowProblem;
+use super::rows::RowProblem;
 use cosfly_diagnose::{Diagnostic, Fault, Result};
 use cosfly_metrics::run_lengths::Runs;
 use serde::Deserialize;

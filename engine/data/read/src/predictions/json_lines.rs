@@ -1,7 +1,8 @@
 //! Predictions as JSON lines, read on all cores.
 
+use super::model_text;
+use super::rows::{Block, Predictions, Refusal, RowProblem};
 use super::waypoint::Waypoint;
-use super::{Block, Predictions, Refusal, RowProblem, model_text};
 use rayon::prelude::*;
 use serde::Deserialize;
 use std::borrow::Cow;
@@ -48,7 +49,7 @@ pub fn read(file: &mut dyn Read) -> std::io::Result<Predictions> {
         };
         let parts: Vec<Part> = parts(&text[..end]).par_iter().map(|part| part_of(part)).collect();
         for mut part in parts {
-            part.block.rows.iter_mut().for_each(|row| row.line += lines);
+            part.block.begin_after(lines);
             part.problems.iter_mut().for_each(|problem| problem.line += lines);
             lines += part.lines;
             all.append(part.block);

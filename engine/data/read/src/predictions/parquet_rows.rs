@@ -1,7 +1,8 @@
 //! Predictions in a Parquet file: the same fields as columns, lists as nested or flat lists of any float type.
 
+use super::model_text;
+use super::rows::{Block, Predictions, Refusal, RowProblem};
 use super::waypoint::DIMENSIONS;
-use super::{Block, Predictions, Refusal, RowProblem, model_text};
 use crate::plain;
 use arrow_array::cast::AsArray;
 use arrow_array::{Array, ArrayRef, Int64Array, RecordBatch, StringArray};

@@ -105,7 +105,7 @@ mod tests {
         let shares = SplitShares::default();
         let draw = |log: &LogRecord| Seed::of_item(0, "split", &log.pedestrian_id).stream("split").unit();
         Assignment {
-            splits: logs.iter().map(|log| Split::of_draw(draw(log), &shares)).collect(),
+            splits: logs.iter().map(|log| shares.split_of(draw(log))).collect(),
             groups: vec![],
             subset_ranks: vec![],
         }
@@ -127,9 +127,9 @@ mod tests {
     #[test]
     fn a_share_of_zero_gets_nothing() {
         let shares = SplitShares { train: 0.5, val: 0.0, test: 0.5, ..SplitShares::default() };
-        assert!((0..500).all(|i| Split::of_draw(f64::from(i) / 500.0, &shares) != Split::Val));
+        assert!((0..500).all(|i| shares.split_of(f64::from(i) / 500.0) != Split::Val));
         let shares = SplitShares { train: 1.0, val: 0.0, test: 0.0, ..SplitShares::default() };
-        assert!((0..500).all(|i| Split::of_draw(f64::from(i) / 500.0, &shares) == Split::Train));
+        assert!((0..500).all(|i| shares.split_of(f64::from(i) / 500.0) == Split::Train));
     }
 
     #[test]
