@@ -10,9 +10,16 @@ pub mod semantic;
 
 pub use channel::{Channel, Element, SeenPoint, Source};
 
-/// All channels: those of every frame in the order of logs, then those that are drawn on request, sorted by name.
-pub static ALL: &[&Channel] =
-    &[&rgb::CHANNEL, &depth::CHANNEL, &semantic::CHANNEL, &instance::CHANNEL, &normals::CHANNEL];
+/// All channels.
+pub static ALL: &[&Channel] = &[
+    // Of every frame, in the order of logs.
+    &rgb::CHANNEL,
+    &depth::CHANNEL,
+    &semantic::CHANNEL,
+    &instance::CHANNEL,
+    // On request, sorted by name.
+    &normals::CHANNEL,
+];
 
 /// The channel called `name`.
 pub fn called(name: &str) -> Option<&'static Channel> {
