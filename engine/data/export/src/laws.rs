@@ -1,6 +1,6 @@
 //! The laws that every export keeps, over all of them.
 
-use crate::{Choice, FORMATS, Source, joined_options, prepare};
+use crate::{Choice, FORMATS, OptionKind, Source, joined_options, prepare};
 use cosfly_diagnose::Result;
 use cosfly_frames::real::wrap_angle_rad;
 use cosfly_metrics::{DeltaFrame, DeltaOrigin};
@@ -84,6 +84,8 @@ fn the_list_is_sorted_and_an_option_of_several_formats_is_the_same_in_all() {
     assert!(FORMATS.is_sorted_by_key(|format| format.name));
     for (option, formats) in joined_options() {
         assert!(!option.doc.is_empty(), "`{}` has no doc", option.name);
+        let has_default = option.kind == OptionKind::Texts || !option.default.is_null();
+        assert!(has_default, "`{}` shows no default", option.name);
         for format in FORMATS {
             let own = format.options().into_iter().find(|own| own.name == option.name);
             assert_eq!(own.is_some(), formats.contains(&format.name));

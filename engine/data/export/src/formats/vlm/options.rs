@@ -3,7 +3,7 @@
 use crate::shared_options::{IncrementOptions, InstructionOptions};
 use cosfly_metrics::WindowShape;
 use schemars::JsonSchema;
-use serde::Deserialize;
+use serde::{Deserialize, Serialize};
 
 /// Options of `vlm`.
 #[derive(Clone, Debug, Deserialize, JsonSchema)]
@@ -51,7 +51,7 @@ impl Options {
 }
 
 /// Flights that models see.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize, JsonSchema)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum Input {
     /// Perturbed flights: models learn the way back
@@ -72,7 +72,7 @@ impl Input {
 }
 
 /// Scale of boxes in texts; families of models differ.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize, JsonSchema)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum BoxScale {
     /// Pixels of the pictures
