@@ -7,6 +7,8 @@ use std::path::{Path, PathBuf};
 
 #[path = "../plugins/sdk/src/arrow_stream.rs"]
 mod arrow_stream;
+#[path = "../plugins/sdk/src/flatbuffers.rs"]
+mod flatbuffers;
 #[path = "../engine/edge/plugin-host/tests/host/stage_text.rs"]
 mod stage_text;
 

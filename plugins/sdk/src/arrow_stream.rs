@@ -3,7 +3,7 @@
 //! The whole library would make plugins of a hundred kilobytes into some of two megabytes. Layout: Arrow columnar format 1.5,
 //! IPC streams; messages are Flatbuffers.
 
-use crate::flatbuffers::{Builder, Cell, Node, i64_at, u32_at};
+use super::flatbuffers::{Builder, Cell, Node, i64_at, u32_at};
 
 /// The values of a column.
 #[derive(Clone, Debug, PartialEq)]

@@ -5,7 +5,6 @@ use cosfly_maps::formats::opendrive::{OpenDrive, OpenDriveOptions, RoadMap};
 use cosfly_maps::{
     FormatOptions, MapConfig, MapError, MapFormat, ObstacleKind, SemanticLabel, Town, WalkableKind, read_town,
 };
-use std::time::{Duration, Instant};
 
 /// A road of every curve, with every kind of profile, object and signal.
 const STREET: &str = OpenDrive::EXAMPLE;
