@@ -9,6 +9,7 @@ mod diagnostics;
 mod doctor;
 mod evaluation;
 mod export;
+mod more_walkers;
 mod people;
 mod plan_from;
 #[cfg(feature = "plugins")]
@@ -23,3 +24,5 @@ mod street;
 mod support;
 mod towns;
 mod versions;
+#[cfg(feature = "plugins")]
+mod versions_held;
