@@ -38,12 +38,13 @@ fn only_what_depends_on_a_change_runs_and_changing_back_runs_nothing() {
             ("frames", 6),
             ("captions", 6),
             ("dataset.logs", 6),
+            ("dataset.planners", 1),
             ("dataset", 1)
         ])
     );
     assert_eq!(made(&street, &[]), stages(&[]));
     let reworded = ["stages.dataset.title=Another title"];
-    assert_eq!(made(&street, &reworded), stages(&[("dataset", 1)]));
+    assert_eq!(made(&street, &reworded), stages(&[("dataset", 1)]), "a new title plans nothing");
     let disturbed = ["stages.perturbed.rotation_probability=0.9"];
     let after = made(&street, &disturbed);
     assert_eq!(after.get("perturbed"), Some(&3));

@@ -1,5 +1,7 @@
 //! Content of the page: sketches of towns and flights, a few numbers per frame. World frame, metres, degrees.
 
+use serde::{Deserialize, Serialize};
+
 /// A dataset as the page shows it.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Report {
@@ -168,7 +170,7 @@ pub struct RejectionSketch {
 }
 
 /// Figures of a planner; all planners have the same walks.
-#[derive(Clone, Debug, Default, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct PlannerRow {
     /// Name.
     pub planner: String,

@@ -2,7 +2,7 @@
 //! one more walker plans no flight anew whose companions stay the same.
 
 use crate::codec;
-use crate::expert::Companion;
+use crate::flight::Companion;
 use crate::ports::{self, COMPANIONS, WALK};
 use crate::world::check_same_town;
 use cosfly_blobs::OutputSink;

@@ -1,33 +1,24 @@
-//! `dataset`: one MCAP log per trajectory (part `logs`), then tables, manifest and card over all of them.
+//! `dataset`: one MCAP log per trajectory (part `logs`) and a comparison of planners (part `planners`), then tables, manifest
+//! and card over all of them.
 
-use crate::planner_comparison::{self, ComparedFlight};
 use crate::plugins::stage::EXTRA;
 use crate::ports::{self, CAPTIONS, DATASET, EXTRAS, FRAMES, LOG};
 use crate::published_towns::PublishedTowns;
-use crate::rejections::{handed_on, rejection};
-use crate::world::world_of;
-use crate::{codec, parameters};
-use cosfly_blobs::{OutputSink, PassingFile};
+use crate::rejections::rejection;
+use crate::{codec, logs, parameters, planners};
+use cosfly_blobs::OutputSink;
 use cosfly_diagnose::{Diagnostic, Fault, ParameterError, Result};
-use cosfly_render::ChannelSet;
 use cosfly_report::PlannerRow;
 use cosfly_schema::extras::Extra;
-use cosfly_schema::record::captions_from_bytes;
 use cosfly_schema::tables::ObjectRecord;
 use cosfly_schema::{CaptionRecord, DatasetConfig, LogRecord, PreviewStrip, Rejection, RenderedTrajectory, TownLayout};
 use cosfly_stage::{
-    Artifact, Fan, InputPort, Inputs, ItemName, ItemRule, PortSource, Produced, Stage, StageKind, StagePart,
-    StageProperties, Takes, TaskContext,
+    Artifact, Fan, InputPort, Inputs, ItemName, ItemRule, Produced, Stage, StageKind, StagePart, StageProperties,
+    Takes, TaskContext,
 };
-use cosfly_write::{DatasetSource, FramePackReader, PublishedLog, write_dataset, write_log};
+use cosfly_write::{DatasetSource, PublishedLog, write_dataset};
 use std::collections::BTreeMap;
-use std::io::BufReader;
 use std::sync::Arc;
-
-/// Blob of a log's channels, where there are more than those of every frame.
-const CHANNELS_BLOB: &str = "channels";
-/// Kind of the blob.
-const CHANNELS: &str = "channels/1";
 
 /// Stage kind `dataset`.
 pub struct Dataset;
@@ -52,22 +43,9 @@ impl StageKind for Dataset {
     fn build(&self, given: serde_json::Value) -> Result<Vec<StagePart>, ParameterError> {
         let config: DatasetConfig = parameters::read(given)?;
         config.check()?;
-        let logs = StageProperties {
-            kind: self.name().into(),
-            version: 3,
-            // Logs read no parameter: another title or split rewrites no log.
-            parameters: serde_json::json!({}),
-            sources: vec![],
-            inputs: vec![frames(Fan::Each), captions(Fan::Each)],
-            artifact: LOG,
-            items: ItemRule::PerInput("frames"),
-            bytes_per_item: 0,
-        };
         let mut inputs: Vec<InputPort> = self.ports();
-        inputs.push(InputPort {
-            source: PortSource::Sibling("logs"),
-            ..ports::gather("logs", LOG, false, "The logs of the same stage.")
-        });
+        inputs.push(logs::port());
+        inputs.push(planners::port());
         let gather = StageProperties {
             kind: self.name().into(),
             version: 6,
@@ -79,7 +57,8 @@ impl StageKind for Dataset {
             bytes_per_item: 10_000_000,
         };
         Ok(vec![
-            StagePart { suffix: "logs", stage: Box::new(LogStage { properties: logs }) },
+            logs::part(frames(Fan::Each), captions(Fan::Each)),
+            planners::part(frames(Fan::Gather)),
             StagePart { suffix: "", stage: Box::new(DatasetStage { config, properties: gather }) },
         ])
     }
@@ -105,41 +84,6 @@ fn extras() -> InputPort {
     InputPort { optional: true, ..ports::gather("extras", EXTRAS, true, doc) }
 }
 
-struct LogStage {
-    properties: StageProperties,
-}
-
-impl Stage for LogStage {
-    fn properties(&self) -> &StageProperties {
-        &self.properties
-    }
-
-    fn run(&self, inputs: &Inputs<'_>, outputs: &mut dyn OutputSink, context: &TaskContext) -> Result<Produced> {
-        let frames = inputs.one("frames")?;
-        if let Some(rejected) = handed_on(inputs, outputs, frames)? {
-            return Ok(rejected);
-        }
-        let record = RenderedTrajectory::from_bytes(&inputs.read(frames, "index")?)?;
-        let captions = captions_of(inputs, inputs.all("captions").first())?;
-        let world = world_of(inputs, frames)?;
-        let mut pack = FramePackReader::new(BufReader::new(PassingFile::new(inputs.open(frames, "pack")?)))?;
-        let mut log = None;
-        outputs.stream("mcap", &mut |file| {
-            let written =
-                write_log(&mut *file, &record, &mut pack, &captions, &world.town, &|| context.check_cancelled())?;
-            log = Some(written);
-            Ok(())
-        })?;
-        outputs.put("log", &codec::encode(LOG, &log)?)?;
-        let channels = &pack.header().channels;
-        if !channels.is_default() {
-            outputs.put(CHANNELS_BLOB, &codec::encode(CHANNELS, channels)?)?;
-        }
-        outputs.put("previews", &pack.preview_strip()?.to_bytes())?;
-        Ok(Produced::default())
-    }
-}
-
 struct DatasetStage {
     config: DatasetConfig,
     properties: StageProperties,
@@ -159,7 +103,7 @@ impl Stage for DatasetStage {
             extras.entry(&artifact.id.item).or_default().push(artifact);
         }
         let mut gathered = Gathered { inputs, towns: PublishedTowns::of(inputs)?, flights: vec![] };
-        let (mut logs, mut rejections): (Vec<PublishedLog>, Vec<Rejection>) = (vec![], vec![]);
+        let (mut published, mut rejections): (Vec<PublishedLog>, Vec<Rejection>) = (vec![], vec![]);
         for (frames, log) in inputs.all("frames").iter().zip(inputs.all("logs")) {
             if let Some(rejection) = rejection(inputs, log)? {
                 rejections.push(rejection);
@@ -169,22 +113,19 @@ impl Stage for DatasetStage {
             let record = record.ok_or_else(|| {
                 Diagnostic::new("dataset-log", Fault::Bug, format!("the log of `{}` has no record", log.name))
             })?;
-            let channels = match log.blobs.contains_key(CHANNELS_BLOB) {
-                true => codec::decode(CHANNELS, &inputs.read(log, CHANNELS_BLOB)?)?,
-                false => ChannelSet::default(),
-            };
-            logs.push(PublishedLog { record, blob: log.blobs["mcap"], channels });
+            let channels = logs::channels_of(inputs, log)?;
+            published.push(PublishedLog { record, blob: log.blobs["mcap"], channels });
             // One weather of a paired rendering has the captions of its flight.
             let of_flight = || captions.get(&frames.name.without_variant()?);
             let captions = captions.get(&frames.name).or_else(of_flight).copied();
             let extras = extras.remove(&frames.name).unwrap_or_default();
             gathered.flights.push(Flight { frames, log, captions, extras });
         }
-        if logs.is_empty() {
+        if published.is_empty() {
             return Err(nothing_left(&rejections));
         }
         let summary =
-            write_dataset(outputs, &self.config, &logs, &gathered, &rejections, &|| context.check_cancelled())?;
+            write_dataset(outputs, &self.config, &published, &gathered, &rejections, &|| context.check_cancelled())?;
         let flights = summary.experts + summary.perturbed;
         let notes = BTreeMap::from([
             ("flights".to_owned(), format!("{} expert, {} perturbed", summary.experts, summary.perturbed)),
@@ -234,7 +175,7 @@ impl DatasetSource for Gathered<'_> {
     }
 
     fn captions(&self, index: usize) -> Result<Vec<CaptionRecord>> {
-        captions_of(self.inputs, self.flights[index].captions)
+        logs::captions_of(self.inputs, self.flights[index].captions)
     }
 
     fn extras(&self, index: usize) -> Result<Vec<Extra>> {
@@ -250,20 +191,11 @@ impl DatasetSource for Gathered<'_> {
         self.towns.layout(self.flights[index].frames)
     }
 
-    fn planners(&self, flights: &[usize]) -> Result<Vec<PlannerRow>> {
-        let flights = flights.iter().map(|index| {
-            let frames = self.flights[*index].frames;
-            let planner = frames.name.stage().map(ToString::to_string).unwrap_or_default();
-            Ok(ComparedFlight { flight: self.trajectory(*index)?, world: world_of(self.inputs, frames)?, planner })
-        });
-        Ok(planner_comparison::compared(&flights.collect::<Result<Vec<_>>>()?))
+    fn planners(&self) -> Result<Vec<PlannerRow>> {
+        planners::read(self.inputs)
     }
 
     fn previews(&self, index: usize) -> Result<PreviewStrip> {
         PreviewStrip::from_bytes(&self.inputs.read(self.flights[index].log, "previews")?)
     }
-}
-
-fn captions_of(inputs: &Inputs<'_>, artifact: Option<&Artifact>) -> Result<Vec<CaptionRecord>> {
-    artifact.map_or(Ok(vec![]), |artifact| captions_from_bytes(&inputs.read(artifact, "captions")?))
 }

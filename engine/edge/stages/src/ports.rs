@@ -20,6 +20,10 @@ pub const CAPTIONS: &str = "captions/1";
 pub const LOG: &str = "log/1";
 /// Artifact of extras that a plugin made of a trajectory.
 pub const EXTRAS: &str = "extras/1";
+/// Artifact of the comparison of planners in a dataset's report.
+pub const PLANNERS: &str = "planners/1";
+/// Artifact of the verdict over all inspected flights.
+pub const VERDICT: &str = "verdict/1";
 /// Artifact of a whole dataset.
 pub const DATASET: &str = "dataset/1";
 

@@ -1,6 +1,6 @@
 //! Results of stages, read back by other tools.
 
-use crate::expert::Companion;
+use crate::flight::Companion;
 use crate::ports::{TOWN, TRAJECTORY, WALK};
 use crate::{codec, companions};
 use cosfly_diagnose::Result;

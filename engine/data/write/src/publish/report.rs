@@ -10,10 +10,6 @@ use cosfly_schema::flight_labels::costs;
 use cosfly_schema::log::messages::edges_px;
 use cosfly_schema::tables::ObjectRecord;
 use cosfly_schema::{Rejection, RenderedTrajectory, Role};
-use std::collections::BTreeSet;
-
-/// Walks on which planners are compared; more would make publishing slow.
-const COMPARED: usize = 3;
 
 /// Path of the page in the dataset.
 pub const PATH: &str = "report/index.html";
@@ -27,7 +23,6 @@ pub fn page(
     rejections: &[Rejection],
     source: &dyn DatasetSource,
 ) -> Result<String> {
-    let planners = source.planners(&compared(&flights))?;
     let of_town = |name: &String| boxes.iter().filter(|it| it.town == *name).map(box_sketch).collect();
     let report = Report {
         title: config.title.clone(),
@@ -40,27 +35,9 @@ pub fn page(
         towns: summary.towns.keys().map(|name| TownSketch { name: name.clone(), boxes: of_town(name) }).collect(),
         flights,
         rejections: rejections.iter().map(rejection_sketch).collect(),
-        planners,
+        planners: source.planners()?,
     };
     cosfly_report::page(&report, &mut |flight, frame| Ok(source.previews(flight)?.jpegs.into_iter().nth(frame)))
-}
-
-/// Experts behind a few pedestrians that are spread over the dataset; one of those that differ in their weather only.
-fn compared(flights: &[FlightSketch]) -> Vec<usize> {
-    let experts = || flights.iter().enumerate().filter(|(_, flight)| !flight.is_perturbed);
-    let walks: BTreeSet<(&str, &str)> = experts().map(|(_, it)| (it.town.as_str(), it.pedestrian.as_str())).collect();
-    let walks: Vec<(&str, &str)> = walks.into_iter().collect();
-    let count = COMPARED.min(walks.len());
-    let mut chosen: Vec<usize> = vec![];
-    for at in 0..count {
-        let walk = walks[(2 * at + 1) * walks.len() / (2 * count)];
-        for (index, flight) in experts().filter(|(_, it)| (it.town.as_str(), it.pedestrian.as_str()) == walk) {
-            if chosen.iter().all(|other| flights[*other].drone_m != flight.drone_m) {
-                chosen.push(index);
-            }
-        }
-    }
-    chosen
 }
 
 fn box_sketch(object: &ObjectRecord) -> BoxSketch {

@@ -31,9 +31,8 @@ pub trait DatasetSource {
     fn objects(&self) -> Result<Vec<ObjectRecord>>;
     /// The town of trajectory `index` without its name.
     fn layout(&self, index: usize) -> Result<Arc<TownLayout>>;
-    /// Flights of other planners behind the same walks as `flights`, for the report.
-    fn planners(&self, flights: &[usize]) -> Result<Vec<PlannerRow>> {
-        let _ = flights;
+    /// Figures of planners behind the walks of some flights, for the report.
+    fn planners(&self) -> Result<Vec<PlannerRow>> {
         Ok(vec![])
     }
     /// Previews of trajectory `index`; asked for by one table only.

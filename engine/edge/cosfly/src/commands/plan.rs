@@ -6,7 +6,7 @@ use crate::exit;
 use crate::output::print;
 use crate::text::{bytes, count};
 use clap::Parser;
-use cosfly_runner::Plan;
+use cosfly_runner::{Plan, Reason};
 use cosfly_store::Store;
 use std::fmt::Write;
 
@@ -59,14 +59,21 @@ fn table(plan: &Plan<'_>) -> String {
             }
         }
     }
-    let _ = match plan.to_run() {
-        0 => writeln!(text, "\nEverything is cached."),
-        left => writeln!(
+    let written = bytes(plan.stages.iter().map(|stage| stage.predicted_bytes).sum());
+    let mut reasons = plan.stages.iter().flat_map(|stage| &stage.reasons);
+    let is_bound = reasons.any(|(reason, _)| matches!(reason, Reason::Upstream(_)));
+    let _ = match (plan.to_run(), shared) {
+        (0, _) => writeln!(text, "\nEverything is cached."),
+        (left, _) if is_bound => writeln!(
             text,
-            "\n{} would run{}; about {} would be written.",
+            "\nAt most {} would run: items whose inputs turn out as they were are kept. At most about {written} would be written.",
+            count(left, "task"),
+        ),
+        (left, shared) => writeln!(
+            text,
+            "\n{} would run{}; about {written} would be written.",
             count(left, "task"),
             shared.map_or(String::new(), |reason| format!(", because {reason}")),
-            bytes(plan.stages.iter().map(|stage| stage.predicted_bytes).sum())
         ),
     };
     text

@@ -1,0 +1,96 @@
+//! Part `logs` of a `dataset` stage: one MCAP log per trajectory.
+
+use crate::codec;
+use crate::ports::{self, LOG};
+use crate::rejections::handed_on;
+use crate::world::world_of;
+use cosfly_blobs::{OutputSink, PassingFile};
+use cosfly_diagnose::Result;
+use cosfly_render::ChannelSet;
+use cosfly_schema::record::captions_from_bytes;
+use cosfly_schema::{CaptionRecord, RenderedTrajectory};
+use cosfly_stage::{
+    Artifact, InputPort, Inputs, ItemRule, PortSource, Produced, Stage, StagePart, StageProperties, TaskContext,
+};
+use cosfly_write::{FramePackReader, write_log};
+use std::io::BufReader;
+
+/// Name of the part and of the port that reads it.
+const NAME: &str = "logs";
+
+/// Blob of a log's channels, where there are more than those of every frame.
+const CHANNELS_BLOB: &str = "channels";
+/// Kind of the blob.
+const CHANNELS: &str = "channels/1";
+
+/// The part of a stage that meets pictures at `frames` and their captions at `captions`, item by item.
+pub fn part(frames: InputPort, captions: InputPort) -> StagePart {
+    let properties = StageProperties {
+        kind: "dataset".into(),
+        version: 3,
+        // Logs read no parameter: another title or split rewrites no log.
+        parameters: serde_json::json!({}),
+        sources: vec![],
+        inputs: vec![frames, captions],
+        artifact: LOG,
+        items: ItemRule::PerInput("frames"),
+        bytes_per_item: 0,
+    };
+    StagePart { suffix: NAME, stage: Box::new(LogStage { properties }) }
+}
+
+/// Port through which the stage reads its part.
+pub fn port() -> InputPort {
+    InputPort {
+        source: PortSource::Sibling(NAME),
+        ..ports::gather(NAME, LOG, false, "The logs: the part of the same stage.")
+    }
+}
+
+/// Captions in an artifact; none where there is no artifact.
+pub fn captions_of(inputs: &Inputs<'_>, artifact: Option<&Artifact>) -> Result<Vec<CaptionRecord>> {
+    artifact.map_or(Ok(vec![]), |artifact| captions_from_bytes(&inputs.read(artifact, "captions")?))
+}
+
+/// Channels of a log.
+pub fn channels_of(inputs: &Inputs<'_>, log: &Artifact) -> Result<ChannelSet> {
+    match log.blobs.contains_key(CHANNELS_BLOB) {
+        true => codec::decode(CHANNELS, &inputs.read(log, CHANNELS_BLOB)?),
+        false => Ok(ChannelSet::default()),
+    }
+}
+
+struct LogStage {
+    properties: StageProperties,
+}
+
+impl Stage for LogStage {
+    fn properties(&self) -> &StageProperties {
+        &self.properties
+    }
+
+    fn run(&self, inputs: &Inputs<'_>, outputs: &mut dyn OutputSink, context: &TaskContext) -> Result<Produced> {
+        let frames = inputs.one("frames")?;
+        if let Some(rejected) = handed_on(inputs, outputs, frames)? {
+            return Ok(rejected);
+        }
+        let record = RenderedTrajectory::from_bytes(&inputs.read(frames, "index")?)?;
+        let captions = captions_of(inputs, inputs.all("captions").first())?;
+        let world = world_of(inputs, frames)?;
+        let mut pack = FramePackReader::new(BufReader::new(PassingFile::new(inputs.open(frames, "pack")?)))?;
+        let mut log = None;
+        outputs.stream("mcap", &mut |file| {
+            let written =
+                write_log(&mut *file, &record, &mut pack, &captions, &world.town, &|| context.check_cancelled())?;
+            log = Some(written);
+            Ok(())
+        })?;
+        outputs.put("log", &codec::encode(LOG, &log)?)?;
+        let channels = &pack.header().channels;
+        if !channels.is_default() {
+            outputs.put(CHANNELS_BLOB, &codec::encode(CHANNELS, channels)?)?;
+        }
+        outputs.put("previews", &pack.preview_strip()?.to_bytes())?;
+        Ok(Produced::default())
+    }
+}

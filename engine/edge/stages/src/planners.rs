@@ -1,0 +1,94 @@
+//! Part `planners` of a `dataset` stage: other planners behind the walks of a few published flights, for the report. An item
+//! of its own, so that a new title plans nothing anew.
+
+use crate::codec;
+use crate::planner_comparison::{ComparedFlight, compared};
+use crate::ports::{self, PLANNERS};
+use crate::rejections::is_rejected;
+use crate::world::world_of;
+use cosfly_blobs::OutputSink;
+use cosfly_diagnose::Result;
+use cosfly_report::PlannerRow;
+use cosfly_schema::{RenderedTrajectory, Role};
+use cosfly_stage::{
+    Artifact, Fan, InputPort, Inputs, ItemRule, PortSource, Produced, Stage, StagePart, StageProperties, TaskContext,
+};
+use std::collections::BTreeMap;
+
+/// Name of the part, of the port that reads it and of its blob.
+const NAME: &str = "planners";
+/// Walks on which planners are compared; more would make publishing slow.
+const COMPARED: usize = 3;
+
+/// The part of a stage that gathers pictures at the port `frames`.
+pub fn part(frames: InputPort) -> StagePart {
+    let properties = StageProperties {
+        kind: "dataset".into(),
+        version: 1,
+        parameters: serde_json::json!({}),
+        sources: vec![],
+        inputs: vec![frames],
+        artifact: PLANNERS,
+        items: ItemRule::One,
+        bytes_per_item: 2_000,
+    };
+    StagePart { suffix: NAME, stage: Box::new(PlannersStage { properties }) }
+}
+
+/// Port through which the stage reads its part.
+pub fn port() -> InputPort {
+    let doc = "The comparison of planners: the part of the same stage.";
+    let port = ports::gather(NAME, PLANNERS, false, doc);
+    InputPort { fan: Fan::Broadcast, source: PortSource::Sibling(NAME), ..port }
+}
+
+/// Rows at the port of [`port`].
+pub fn read(inputs: &Inputs<'_>) -> Result<Vec<PlannerRow>> {
+    codec::decode(PLANNERS, &inputs.read(inputs.one(NAME)?, NAME)?)
+}
+
+struct PlannersStage {
+    properties: StageProperties,
+}
+
+impl Stage for PlannersStage {
+    fn properties(&self) -> &StageProperties {
+        &self.properties
+    }
+
+    fn run(&self, inputs: &Inputs<'_>, outputs: &mut dyn OutputSink, context: &TaskContext) -> Result<Produced> {
+        let rows = compared(&chosen(inputs, context)?);
+        outputs.put(NAME, &codec::encode(PLANNERS, &rows)?)?;
+        Ok(Produced::default())
+    }
+}
+
+/// Experts behind a few pedestrians that are spread over the dataset; one of those that differ in their weather only.
+fn chosen(inputs: &Inputs<'_>, context: &TaskContext) -> Result<Vec<ComparedFlight>> {
+    let record = |frames: &Artifact| RenderedTrajectory::from_bytes(&inputs.read(frames, "index")?);
+    // By town and pedestrian.
+    let mut experts: BTreeMap<(String, String), Vec<&Artifact>> = BTreeMap::new();
+    for frames in inputs.all("frames").iter().filter(|frames| !is_rejected(frames)) {
+        context.check_cancelled()?;
+        let flight = record(frames)?;
+        if flight.role == Role::Expert {
+            experts.entry((flight.town.name, flight.pedestrian_id)).or_default().push(frames);
+        }
+    }
+    let experts: Vec<Vec<&Artifact>> = experts.into_values().collect();
+    let count = COMPARED.min(experts.len());
+    let mut chosen: Vec<ComparedFlight> = vec![];
+    for at in 0..count {
+        for frames in &experts[(2 * at + 1) * experts.len() / (2 * count)] {
+            let flight = record(frames)?;
+            let way = |flight: &RenderedTrajectory| -> Vec<_> {
+                flight.trajectory.poses_in_world.iter().map(|pose| pose.position_in_world).collect()
+            };
+            if chosen.iter().all(|other| way(&other.flight) != way(&flight)) {
+                let planner = frames.name.stage().map(ToString::to_string).unwrap_or_default();
+                chosen.push(ComparedFlight { flight, world: world_of(inputs, frames)?, planner });
+            }
+        }
+    }
+    Ok(chosen)
+}
