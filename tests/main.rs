@@ -10,6 +10,7 @@ mod doctor;
 mod evaluation;
 mod export;
 mod fuzzing;
+mod more_walkers;
 mod people;
 mod plan_from;
 #[cfg(feature = "plugins")]
@@ -25,3 +26,5 @@ mod street;
 mod support;
 mod towns;
 mod versions;
+#[cfg(feature = "plugins")]
+mod versions_held;
