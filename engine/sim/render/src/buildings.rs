@@ -77,7 +77,7 @@ mod tests {
         };
         assert!(hides(20.0, 0.0, 0.0) && hides(20.0, -6.0, 6.0));
         // Before it, beside it, above it, half behind it.
-        assert!(!hides(3.0, 0.0, 0.0) && !hides(20.0, 30.0, 0.0) && !hides(20.0, 0.0, 30.0) && !hides(20.0, 0.0, 15.0));
+        assert!(!hides(3.0, 0.0, 0.0) && !hides(20.0, 30.0, 0.0) && !hides(20.0, 0.0, 30.0) && !hides(20.0, 0.0, 17.0));
     }
 
     #[test]
