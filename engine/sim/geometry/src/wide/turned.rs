@@ -1,4 +1,4 @@
-//! Sorts out turned boxes of which only the bounds are met, sixteen at a time.
+//! Rejects rotated boxes of which only the bounds are met, sixteen at a time.
 
 use super::tree::{Block, WideTree};
 use crate::lanes::{LANES, Lane, Lanes, at_level, larger, smaller};
@@ -6,9 +6,9 @@ use crate::lanes::{LANES, Lane, Lanes, at_level, larger, smaller};
 /// Sweep of a rectangle in plan: the centre moves from `from` by `step`; half the extents are `reach`.
 #[derive(Clone, Copy)]
 pub struct Motion {
-    /// First place of the middle.
+    /// Start of the centre.
     pub from: [f32; 2],
-    /// Movement of the middle while the parameter goes from 0 to 1.
+    /// Displacement of the centre while the parameter goes from 0 to 1.
     pub step: [f32; 2],
     /// Half the size, plus twice the margin.
     pub reach: [f32; 2],
