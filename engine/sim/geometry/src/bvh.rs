@@ -27,7 +27,7 @@ pub struct Bvh {
     order: Vec<u32>,
 }
 
-/// Steps of a query at the nodes of the tree.
+/// Decisions of a query during traversal.
 pub trait Visitor {
     /// Lower bound of the keys of everything inside the bounds; `None` to skip them.
     fn key(&mut self, bounds: &Bounds) -> Option<f64>;

@@ -14,7 +14,7 @@ pub type Lane = [f32; LANES];
 
 /// Operations that differ between vector levels.
 pub trait Lanes: Copy {
-    /// The level itself.
+    /// The vector level.
     fn level(self) -> Level;
     /// `a * b + c`, fused where that is one instruction.
     fn multiply_add(self, a: f32, b: f32, c: f32) -> f32;

@@ -2,7 +2,7 @@
 
 use cosfly_frames::DVec3;
 
-/// First point of a ray on something solid.
+/// First hit of a ray.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Hit {
     /// Parameter along the ray, in lengths of its direction vector; 0 when the ray starts inside a solid.

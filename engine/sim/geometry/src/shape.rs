@@ -5,7 +5,7 @@ use cosfly_frames::DVec3;
 
 /// A shape prepared for queries.
 pub trait Shape: Copy + Send + Sync {
-    /// Form in which callers give the shape.
+    /// The shape as callers give it.
     type Given: Copy + Send + Sync;
 
     /// Precomputes the data of queries; `None` when a number is not finite.

@@ -15,7 +15,7 @@ pub struct TurnedBox {
 }
 
 impl TurnedBox {
-    /// Middle, metres.
+    /// Centre, world frame, metres.
     #[inline(always)]
     pub fn center_in_world(&self) -> DVec3 {
         self.center_in_world

@@ -4,17 +4,17 @@ use super::tree::{Block, WideTree};
 use crate::lanes::{LANES, Lane, Lanes, larger, smaller};
 use glam::Vec3A;
 
-/// Share by which squared distances are moved for their own rounding.
+/// Relative error by which squared distances are widened.
 pub const SQUARE_SHARE: f32 = 8.0 / 16_777_216.0;
 
-/// Steps between the segment and the box before the distance is bracketed.
+/// Number of projections between the segment and the box before the distance is bracketed.
 const STEPS: usize = 2;
 
 /// A segment, a point or a window, prepared for blocks.
 pub struct Segment {
     from: [f32; 3],
     to: [f32; 3],
-    /// Bounds, grown by the margin.
+    /// Bounds of the segment, enlarged by the margin.
     low: [f32; 3],
     high: [f32; 3],
     margin: f32,

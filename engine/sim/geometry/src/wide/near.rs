@@ -5,7 +5,7 @@ use super::tree::{MAX_DEPTH, WideTree};
 use crate::lanes::{LANES, Lane, Lanes, at_level, larger, smaller, take_lane};
 use cosfly_frames::DVec3;
 
-/// A squared distance in f32 that is no smaller; 0 for negative distances.
+/// Upper bound in f32 of a squared distance; 0 for negative distances.
 #[inline(always)]
 pub fn most_square(distance_m: f64) -> f32 {
     let distance = larger(distance_m, 0.0);

@@ -1,4 +1,4 @@
-//! Sorts out turned boxes of which only the bounds are met, sixteen at a time.
+//! Rejects rotated boxes of which only the bounds are met, sixteen at a time.
 
 use super::tree::{Block, WideTree};
 use crate::lanes::{LANES, Lane, Lanes, at_level, larger, smaller};
@@ -8,7 +8,7 @@ use crate::lanes::{LANES, Lane, Lanes, at_level, larger, smaller};
 pub struct Motion {
     /// First place of the middle.
     pub from: [f32; 2],
-    /// Movement of the middle while the parameter goes from 0 to 1.
+    /// Displacement of the centre while the parameter goes from 0 to 1.
     pub step: [f32; 2],
     /// Half the size, plus twice the margin.
     pub reach: [f32; 2],

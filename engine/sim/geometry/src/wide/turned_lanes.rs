@@ -1,4 +1,4 @@
-//! Sixteen turned boxes side by side, in their own axes.
+//! Sixteen rotated boxes side by side, in their own axes.
 
 use crate::lanes::{LANES, Lane, Lanes};
 use crate::turned_box::TurnedBox;
