@@ -210,7 +210,7 @@ fn refusal(error: &serde_json::Error, text: &str) -> MapError {
     let hint = if error.is_eof() {
         "the file seems to be cut off: fetch or export it again"
     } else {
-        "the book's chapter `Bring a real town` describes the format"
+        "the book's chapter `Real towns` describes the format"
     };
     MapError::new(message).at(lines.place(at..(at + 1).min(text.len()).max(at), String::new())).hint(hint)
 }
