@@ -6,7 +6,7 @@ use crate::lanes::{LANES, Lane, Lanes, at_level, larger, smaller};
 /// Sweep of a rectangle in plan: the centre moves from `from` by `step`; half the extents are `reach`.
 #[derive(Clone, Copy)]
 pub struct Motion {
-    /// First place of the middle.
+    /// Start of the centre.
     pub from: [f32; 2],
     /// Displacement of the centre while the parameter goes from 0 to 1.
     pub step: [f32; 2],
