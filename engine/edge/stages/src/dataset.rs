@@ -8,6 +8,7 @@ use crate::rejections::rejection;
 use crate::{codec, logs, parameters, planners};
 use cosfly_blobs::OutputSink;
 use cosfly_diagnose::{Diagnostic, Fault, ParameterError, Result};
+use cosfly_fingerprint::Digest;
 use cosfly_report::PlannerRow;
 use cosfly_schema::extras::Extra;
 use cosfly_schema::tables::ObjectRecord;
@@ -46,10 +47,13 @@ impl StageKind for Dataset {
         let mut inputs: Vec<InputPort> = self.ports();
         inputs.push(logs::port());
         inputs.push(planners::port());
+        let mut parameters = parameters::canonical(&config);
+        // A new column or table makes the dataset anew without a raised version.
+        parameters["tables"] = Digest::of(cosfly_schema::reference().as_bytes()).short().into();
         let gather = StageProperties {
             kind: self.name().into(),
             version: 6,
-            parameters: parameters::canonical(&config),
+            parameters,
             sources: vec![],
             inputs,
             artifact: DATASET,
