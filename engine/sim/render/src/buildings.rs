@@ -21,7 +21,7 @@ impl Buildings {
 
     /// True where one building hides the convex hull of `corners_in_world` from an eye. The points behind a convex body are
     /// a convex set: a building that hides all corners hides the hull. Several buildings that hide it together do not
-    /// count.
+    /// count, and neither does a building that the eye is in.
     pub fn hide(&self, eye_in_world: DVec3, corners_in_world: &[DVec3]) -> bool {
         let middle_in_world = corners_in_world.iter().sum::<DVec3>() / corners_in_world.len().max(1) as f64;
         let way = middle_in_world - eye_in_world;
@@ -29,19 +29,29 @@ impl Buildings {
         let farthest = || self.0.closest_hit(middle_in_world, -way, 1.0);
         let hides_all = |hit: cosfly_geometry::Hit| {
             let shape = &self.0.boxes()[hit.primitive as usize];
-            corners_in_world.iter().all(|corner| is_between(shape, eye_in_world, *corner))
+            !is_around(shape, eye_in_world)
+                && corners_in_world.iter().all(|corner| is_between(shape, eye_in_world, *corner))
         };
         nearest.is_some_and(|hit| hides_all(hit) || farthest().is_some_and(hides_all))
     }
 }
 
+/// A vector from world axes to those of a box.
+fn own_axes(shape: &OrientedBox, vector: DVec3) -> DVec3 {
+    let (sin, cos) = real::sin_cos(shape.yaw_rad);
+    DVec3::new(cos * vector.x + sin * vector.y, cos * vector.y - sin * vector.x, vector.z)
+}
+
+/// True where a building of this box, in its full size, has the point within.
+fn is_around(shape: &OrientedBox, point_in_world: DVec3) -> bool {
+    let from = own_axes(shape, point_in_world - shape.center_in_world);
+    from.abs().cmple(shape.half_extents_m + 2.0 * EDGE_M).all()
+}
+
 /// True where the way between two points meets a box.
 fn is_between(shape: &OrientedBox, from_in_world: DVec3, to_in_world: DVec3) -> bool {
-    let (sin, cos) = real::sin_cos(shape.yaw_rad);
-    let own_axes =
-        |vector: DVec3| DVec3::new(cos * vector.x + sin * vector.y, cos * vector.y - sin * vector.x, vector.z);
-    let from = own_axes(from_in_world - shape.center_in_world);
-    let way = own_axes(to_in_world - from_in_world);
+    let from = own_axes(shape, from_in_world - shape.center_in_world);
+    let way = own_axes(shape, to_in_world - from_in_world);
     let (mut enter, mut leave) = (0.0f64, 1.0f64);
     for axis in 0..3 {
         let (start, step, half) = (from[axis], way[axis], shape.half_extents_m[axis]);
