@@ -53,7 +53,7 @@ fn made() -> BTreeMap<String, Held> {
     for recipe in recipes() {
         let options = RunOptions { jobs, cancelled: Default::default() };
         let summary = cosfly_runner::run(&recipe, &store, &options, &|_| {}).expect("it runs");
-        for failure in &summary.failures {
+        if let Some(failure) = summary.failures.first() {
             panic!("`{}` of recipe `{}`: {}", failure.id, recipe.name, failure.diagnostic.message);
         }
         for (index, stage) in recipe.stages.iter().enumerate() {

@@ -24,7 +24,7 @@ pub fn read<S>(
     table: &Table<S>,
     visit: &mut dyn FnMut(&Rows<'_>) -> cosfly_diagnose::Result<()>,
 ) -> ReadResult<()> {
-    let file = TableFile::open(path).map_err(in_words)?;
+    let file = TableFile::open(path).map_err(|refusal| in_words(&refusal))?;
     let expected = tables::schema(table);
     if file.schema().fields() != expected.fields() {
         let found = file.schema();
@@ -36,14 +36,14 @@ pub fn read<S>(
     }
     let mut first = 0;
     for group in 0..file.groups() {
-        let rows = file.group(group).map_err(in_words)?;
+        let rows = file.group(group).map_err(|refusal| in_words(&refusal))?;
         for (place, column) in table.columns.iter().enumerate().filter(|(_, column)| column.kind() != Kind::Image) {
-            if !is_finite(rows.array(place).map_err(in_words)?.as_ref()) {
+            if !is_finite(rows.array(place).map_err(|refusal| in_words(&refusal))?.as_ref()) {
                 let name = column.name();
                 return Err(format!("column `{name}` has a number that is not finite, in row {first} or after it"));
             }
         }
-        visit(&rows).map_err(in_words)?;
+        visit(&rows).map_err(|refusal| in_words(&refusal))?;
         first += rows.len();
     }
     Ok(())
@@ -54,9 +54,8 @@ pub fn table(name: &str) -> Table<DatasetItem> {
     tables::of_trajectories().into_iter().find(|table| table.name == name).expect("the schema has the table")
 }
 
-fn in_words(refusal: Box<Diagnostic>) -> String {
-    let Diagnostic { message, causes, .. } = *refusal;
-    [vec![message], causes].concat().join(": ")
+fn in_words(refusal: &Diagnostic) -> String {
+    [std::slice::from_ref(&refusal.message), &refusal.causes].concat().join(": ")
 }
 
 /// Whether no number of a column, in lists or not, is NaN or infinite.

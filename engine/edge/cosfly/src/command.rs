@@ -17,6 +17,7 @@ pub type Outcome = Result<u8, Refusals>;
 
 /// The reasons why a command cannot be carried out, at least one.
 #[derive(Debug)]
+#[expect(clippy::vec_box, reason = "diagnostics come boxed, in `Result`s")]
 pub struct Refusals(pub Vec<Box<Diagnostic>>);
 
 impl From<Box<Diagnostic>> for Refusals {

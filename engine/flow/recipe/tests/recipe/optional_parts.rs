@@ -55,6 +55,7 @@ impl StageKind for Film {
     }
 }
 
+#[expect(clippy::vec_box, reason = "the type of `read`")]
 fn checked(needs_others: bool, inputs: &str) -> Result<Recipe, Vec<Box<Diagnostic>>> {
     let text = format!("name = \"t\"\n[stages.first]\nuse = \"film\"\n[stages.second]\nuse = \"film\"\n{inputs}");
     read(Path::new("t.toml"), &text, &[], &Registry::new(vec![Box::new(Film { needs_others })]))

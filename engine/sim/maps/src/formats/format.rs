@@ -32,13 +32,16 @@ pub trait MapFormat {
     fn read(bytes: &[u8], options: &Self::Options) -> Result<(Town, Vec<String>), MapError>;
 }
 
+/// [`MapFormat::read`] of any format.
+type Read = fn(&[u8], &FormatOptions) -> Result<(Town, Vec<String>), MapError>;
+
 /// A [`MapFormat`] without its types.
 #[derive(Clone, Copy)]
 pub struct Format {
     name: &'static str,
     example: &'static str,
     recognises: fn(&[u8]) -> bool,
-    read: fn(&[u8], &FormatOptions) -> Result<(Town, Vec<String>), MapError>,
+    read: Read,
     schema: fn() -> Value,
     filled: fn(&FormatOptions) -> Result<FormatOptions, MapError>,
 }

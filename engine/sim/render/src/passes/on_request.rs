@@ -10,13 +10,12 @@ use cosfly_frames::DVec3;
 /// Fills the channels on request of a frame whose other channels are finished; `nearest` are the faces seen.
 pub(crate) fn draw(images: &mut FrameImages, nearest: &[u32], faces: &[DrawnFace], eye: &Eye, screen: &Screen) {
     let turn = eye.world_from_body;
-    for at in 0..nearest.len() {
+    for (at, &face) in nearest.iter().enumerate() {
         let (column, row) = ((at % screen.width) as f64, (at / screen.width) as f64);
         let across = (column + 0.5 - screen.center_u) / screen.focal_px;
         let up = (screen.center_v - row - 0.5) / screen.focal_px;
         let ray_in_world = turn * DVec3::new(1.0, across, up);
-        let any_side =
-            faces.get(nearest[at] as usize).map_or(DVec3::ZERO, |face| DVec3::from(face.normal.map(f64::from)));
+        let any_side = faces.get(face as usize).map_or(DVec3::ZERO, |face| DVec3::from(face.normal.map(f64::from)));
         let point = SeenPoint {
             depth_m: images.depth_m[at],
             label: images.semantic[at],
