@@ -26,7 +26,7 @@ Exit codes:
     2  the command line is invalid
     3  the recipe or the command line asks for something impossible
     4  an input file, the store or a given state is broken or does not fit
-    5  the machine refused: disk full, no permission, a file vanished
+    5  system error: disk full, no permission, a file vanished
    70  internal error: please report it
   130  stopped by Ctrl-C; finished items are kept
 

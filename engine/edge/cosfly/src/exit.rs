@@ -13,7 +13,7 @@ pub const ARGUMENTS: u8 = 2;
 pub const RECIPE: u8 = 3;
 /// An input file, the store or a given state is broken or does not fit.
 pub const INPUT: u8 = 4;
-/// The machine refused: disk full, no permission, a file vanished.
+/// System error: disk full, no permission, a file vanished.
 pub const MACHINE: u8 = 5;
 /// Internal error.
 pub const BUG: u8 = 70;
