@@ -5,6 +5,8 @@
 use cosfly_frames::Seed;
 use cosfly_maps::{MapConfig, read_town};
 use cosfly_metrics::run_lengths::Runs;
+#[cfg(feature = "plugins")]
+use cosfly_plugin_host::{Host, PluginLimits};
 use cosfly_render::channels;
 use cosfly_schema::flight_table::{ColumnKind, DeclaredColumn, MOST_ROWS, read_answer};
 use cosfly_write::FramePackReader;
@@ -22,6 +24,8 @@ pub const TARGETS: &[(&str, Target)] = &[
     ("mcap", mcap),
     ("mp4", mp4),
     ("opendrive", map),
+    #[cfg(feature = "plugins")]
+    ("plugins", plugins),
     ("predictions", predictions),
     ("recipes", recipes),
     ("run_lengths", run_lengths),
@@ -67,6 +71,16 @@ fn mcap(bytes: &[u8]) {
 /// The boxes of a video file.
 fn mp4(bytes: &[u8]) {
     in_a_file(bytes, "mp4", |path| drop(cosfly_doctor::sources::lerobot::video::seconds(path)));
+}
+
+/// A plugin, a core module or a component: its code runs, and its answers are read by the canonical ABI.
+#[cfg(feature = "plugins")]
+fn plugins(bytes: &[u8]) {
+    let limits = PluginLimits { memory_mib: 4, call_ms: 1000, fuel: 100_000 };
+    if let Ok(plugin) = Host::new(None).load_bytes(bytes, "fuzz.wasm", None, limits) {
+        let metadata = &plugin.metadata;
+        let _ = cosfly_plugin_host::check_schema(&metadata.params_schema);
+    }
 }
 
 /// Predictions of models: waypoints, and detections with masks.
