@@ -23,7 +23,7 @@ fn settings() -> Settings {
     Settings { window, resamples: 20, ..Settings::default() }
 }
 
-/// What a perfect model says, with `mistake` made to every pose that it means.
+/// Predictions of a perfect model, with `mistake` made to every pose that it means.
 fn perfect(dataset: &PublishedDataset, settings: &Settings, mistake: impl Fn(&mut Pose)) -> Vec<Prediction> {
     let flights = Flights::read(dataset).unwrap();
     let splits = flights.rows.iter().map(|row| row.split.clone()).collect();

@@ -25,7 +25,7 @@ pub trait Format {
     /// Writes the chosen flights into `out`; returns remarks for the user.
     ///
     /// # Errors
-    /// What the format cannot hold, and what is wrong with the dataset or the machine.
+    /// Data that the format cannot hold, a fault of the dataset, a system error.
     fn write(options: &Self::Options, source: &Source<'_>, out: &OutFolder) -> Result<Vec<String>>;
 }
 
@@ -83,7 +83,7 @@ impl Prepared {
     /// `progress` is called with the number of frames that are done and of all.
     ///
     /// # Errors
-    /// What does not fit the format, and what is wrong with the dataset, the choice or the machine. No folder is left then.
+    /// Data that do not fit the format, a fault of the dataset or the choice, a system error. No folder is left then.
     pub fn write(
         &self,
         dataset: &PublishedDataset,

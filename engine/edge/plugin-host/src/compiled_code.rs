@@ -20,7 +20,7 @@ pub trait Compiled: Sized {
     /// Its machine code.
     ///
     /// # Errors
-    /// What the compiler says.
+    /// Message of the compiler.
     fn code(&self) -> wasmtime::Result<Vec<u8>>;
     /// The plugin whose machine code [`Self::code`] gave.
     ///

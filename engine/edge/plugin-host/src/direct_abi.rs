@@ -63,7 +63,7 @@ impl DirectAbi {
         Ok(())
     }
 
-    /// What the plugin answers at `at`, aligned for pointers.
+    /// Answer of the plugin at `at`, aligned for pointers.
     pub fn read<'a, T: 'static>(&self, store: impl Into<wasmtime::StoreContext<'a, T>>, at: u32) -> Result<Answer<'a>> {
         if !at.is_multiple_of(4) {
             bail!("its answer is at the address {at}, which is not a multiple of 4");
@@ -154,7 +154,7 @@ impl Answer<'_> {
         }))
     }
 
-    /// What it says of itself.
+    /// Metadata of the plugin.
     pub fn metadata(&self) -> Result<Metadata> {
         let (name, version) = (self.text(0)?, self.text(8)?);
         Ok(Metadata { name, version, summary: self.text(16)?, params_schema: self.text(24)? })

@@ -1,4 +1,4 @@
-//! What a plugin did wrong: which plugin, in which function, at which limit.
+//! Faults of plugins: the plugin, the function, the limit.
 
 use cosfly_diagnose::{Diagnostic, Fault};
 
@@ -9,9 +9,9 @@ pub struct PluginError {
     pub plugin: String,
     /// The function of the interface, when one was running.
     pub function: Option<&'static str>,
-    /// What happened: the value and the limit or rule.
+    /// The fault: the value and the limit or rule.
     pub message: String,
-    /// What to do next.
+    /// Remedy.
     pub hint: Option<String>,
 }
 
@@ -31,7 +31,7 @@ impl PluginError {
         Self { hint: Some(hint.into()), ..self }
     }
 
-    /// What a user is told; `item` is what it failed for.
+    /// Diagnostic for users; `item` is the item that failed.
     pub fn diagnostic(&self, item: Option<&str>) -> Box<Diagnostic> {
         let place = item.map_or_else(String::new, |item| format!(" for `{item}`"));
         let diagnostic = match self.function {

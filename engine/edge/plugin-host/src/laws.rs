@@ -24,12 +24,12 @@ const FLIGHTS: usize = 6;
 /// Step of the differences that gradients are held against, metres.
 const STEP_M: f64 = 1e-5;
 
-/// What came of trying a law.
+/// Result of checking a law.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Finding {
     /// The law.
     pub law: &'static str,
-    /// What was seen; how it was broken, if it was.
+    /// The observation; how the law was broken, if it was.
     pub words: String,
     /// Whether it holds.
     pub holds: bool,
@@ -67,7 +67,7 @@ pub fn random_flight(stream: &mut RandomStream, track: &TargetTrack) -> Vec<DVec
 /// Tries all laws of cost terms.
 ///
 /// # Errors
-/// What the plugin did wrong.
+/// Fault of the plugin.
 pub fn check_cost_term(plugin: &Plugin, params: &str) -> Result<Vec<Finding>, PluginError> {
     let mut findings = vec![];
     for frames in [1, 2, 3, FRAMES] {
@@ -209,7 +209,7 @@ fn check_gradient(
 /// Tries all laws of objectives, in an empty town.
 ///
 /// # Errors
-/// What the plugin did wrong.
+/// Fault of the plugin.
 pub fn check_objective(plugin: &Plugin, params: &str) -> Result<Vec<Finding>, PluginError> {
     let site = |seed: u64| SiteContext {
         seed,
@@ -257,13 +257,13 @@ fn plan_bits(plan: &Plan) -> Vec<u64> {
 
 /// The sample flight with the columns that are declared.
 pub type EncodeSample<'a> = dyn Fn(&Declaration) -> Result<Vec<u8>, PluginError> + 'a;
-/// What an answer says, or what it should have said.
+/// Answer, or the expected answer.
 pub type ReadAnswer<'a> = dyn Fn(&Declaration, &[u8]) -> Result<String, String> + 'a;
 
 /// Tries all laws of stages on a flight.
 ///
 /// # Errors
-/// What the plugin did wrong.
+/// Fault of the plugin.
 pub fn check_stage(
     plugin: &Plugin,
     params: &str,

@@ -1,6 +1,6 @@
-//! What a plugin may use: memory, time, and on request an exact number of steps.
+//! Limits of plugins: memory, time, and on request an exact number of instructions.
 
-/// What a plugin may use.
+/// Limits of a plugin.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct PluginLimits {
     /// Most memory, MiB.

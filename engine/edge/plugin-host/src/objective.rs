@@ -12,12 +12,12 @@ use wasmtime::component::TypedFunc;
 type Configure = TypedFunc<(String,), (Result<(), Refusal>,)>;
 type Produce = TypedFunc<(SiteContext,), (Result<Plan, Refusal>,)>;
 
-/// What came of it.
+/// Result of drawing a reference.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Drawn {
     /// The reference; lengths and numbers are checked.
     pub plan: Plan,
-    /// What the plugin said that users are to read.
+    /// Messages of the plugin to users.
     pub warnings: Vec<String>,
     /// All that it said.
     pub said: Vec<Said>,
@@ -26,7 +26,7 @@ pub struct Drawn {
 /// Asks `plugin` for a reference, with parameters as JSON text.
 ///
 /// # Errors
-/// What the plugin refuses or does wrong; `Err` inside is its own word that there is nothing to fly.
+/// Refusal or fault of the plugin; `Err` inside is its own word that there is nothing to fly.
 pub fn draw_reference(
     plugin: &Plugin,
     town: Arc<dyn TownView>,

@@ -26,7 +26,7 @@ pub struct Said {
     pub text: String,
 }
 
-/// What a call took, where instructions are counted.
+/// Instructions of a call, where they are counted.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Effort {
     /// Instructions of the last call.
@@ -35,7 +35,7 @@ pub struct Effort {
     pub memory_bytes: usize,
 }
 
-/// What belongs to one instance.
+/// State of one instance.
 pub struct Guest {
     pub(crate) town: Arc<dyn TownView>,
     said: Vec<(Severity, String)>,
@@ -131,18 +131,18 @@ impl Sandbox {
         &self.shown
     }
 
-    /// What the last call took.
+    /// Instructions of the last call.
     pub(crate) fn effort(&self) -> Effort {
         Effort { fuel: self.fuel_used, memory_bytes: self.store.data().memory }
     }
 
-    /// What it said so far.
+    /// Messages so far.
     pub(crate) fn said(&self) -> Vec<Said> {
         let said = self.store.data().said.iter();
         said.map(|(severity, text)| Said { severity: severity_name(*severity), text: text.clone() }).collect()
     }
 
-    /// What it said that users are to read.
+    /// Messages to users.
     pub(crate) fn warnings(&self) -> Vec<String> {
         let said = self.store.data().said.iter().filter(|(severity, _)| *severity >= Severity::Warn);
         said.map(|(_, text)| text.clone()).collect()

@@ -18,19 +18,19 @@ const MOST_GIVEN: usize = 64;
 /// Longest description of a column.
 const MOST_DOC: usize = 300;
 
-/// What came of a flight.
+/// Result for a flight.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Answered {
     /// An Arrow stream, not looked at yet.
     pub answer: Vec<u8>,
-    /// What the plugin said that users are to read.
+    /// Messages of the plugin to users.
     pub warnings: Vec<String>,
 }
 
-/// What `plugin` reads and gives with these parameters, JSON text.
+/// Columns that `plugin` reads and gives with these parameters, JSON text.
 ///
 /// # Errors
-/// What the plugin refuses, or which rule its declaration breaks.
+/// Refusal of the plugin, or the rule that its declaration breaks.
 pub fn declaration(plugin: &Plugin, town: Arc<dyn TownView>, params: &str) -> Result<Declaration, PluginError> {
     configured(&mut Session::open(plugin, town)?, plugin, params)
 }
@@ -39,7 +39,7 @@ pub fn declaration(plugin: &Plugin, town: Arc<dyn TownView>, params: &str) -> Re
 /// declared, or says why it cannot.
 ///
 /// # Errors
-/// What the plugin refuses or does wrong.
+/// Refusal or fault of the plugin.
 pub fn run_stage(
     plugin: &Plugin,
     town: Arc<dyn TownView>,

@@ -3,7 +3,7 @@
 use cosfly_frames::DVec3;
 use cosfly_geometry::OrientedBox;
 
-/// What plugins may ask of a town. World frame, metres.
+/// Queries of plugins to a town. World frame, metres.
 pub trait TownView: Send + Sync {
     /// Where the straight way between two points first meets an obstacle, as a share of the way; `None` where it is free.
     fn first_hit(&self, from: DVec3, to: DVec3) -> Option<f64>;

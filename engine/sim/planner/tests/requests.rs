@@ -1,4 +1,4 @@
-//! What may be asked for beside a plain flight: start states, companions, moving boxes, ordered losses, presets.
+//! Requests beside a plain flight: start states, companions, moving boxes, ordered losses, presets.
 
 use cosfly_frames::{DVec3, TargetState, TargetTrack};
 use cosfly_geometry::{BoxBvh, OrientedBox, SpatialQuery};

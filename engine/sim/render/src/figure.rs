@@ -100,7 +100,7 @@ pub struct FigureTriangle {
     pub middle_in_world: [DVec3; 2],
     /// Material.
     pub region: Region,
-    /// Whose it is: a number among the people of a frame.
+    /// Owner: index among the people of a frame.
     pub person: u32,
     /// The part of the body that it belongs to.
     pub part: u32,

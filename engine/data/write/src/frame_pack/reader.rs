@@ -80,7 +80,7 @@ impl<R: Read + Seek> FramePackReader<R> {
         Ok(Self { input, header, parts, sections, buffer: Bytes::new() })
     }
 
-    /// What all frames share.
+    /// Parts that all frames share.
     pub fn header(&self) -> &PackHeader {
         &self.header
     }

@@ -134,7 +134,7 @@ fn labels() -> BTreeMap<String, String> {
         .collect()
 }
 
-/// What each instance id stands for: kind, CARLA label id, and corners of the space that its boxes fill, frame `map`; of
+/// Object of each instance id: kind, CARLA label id, and corners of the space that its boxes fill, frame `map`; of
 /// people, their walk and height.
 fn instances(town: &Town, record: &RenderedTrajectory) -> BTreeMap<String, String> {
     let mut obstacles: Vec<&Obstacle> = town.obstacles.iter().collect();

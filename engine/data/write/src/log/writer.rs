@@ -75,7 +75,7 @@ fn check_pack<R: Read + Seek>(record: &RenderedTrajectory, pack: &FramePackReade
     Ok(())
 }
 
-/// What does not change from frame to frame.
+/// Parts of messages that are the same in every frame.
 fn write_once<W: Write>(
     log: &mut ChannelWriter<W>,
     record: &RenderedTrajectory,

@@ -17,7 +17,7 @@ pub struct TermText {
     pub version: &'static str,
     /// Imports and other fields of the module.
     pub fields: String,
-    /// What `describe`, `configure`, `begin` and `evaluate` do first.
+    /// First instructions of `describe`, `configure`, `begin` and `evaluate`.
     pub first: [&'static str; 4],
     /// Cost of the waypoint at address `$p`.
     pub cost: &'static str,

@@ -22,7 +22,7 @@ pub struct StageText {
     pub given: Option<i32>,
     /// How many bytes it says that the answer has, if not as many as there are.
     pub answered: Option<i32>,
-    /// What `configure` and `run` do first.
+    /// First instructions of `configure` and `run`.
     pub first: [&'static str; 2],
     /// The interface that it exports.
     pub interface: &'static str,

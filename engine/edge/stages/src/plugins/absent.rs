@@ -28,7 +28,7 @@ pub fn source(parameter: &str, role: Role, setting: &Setting) -> Source {
     }
 }
 
-/// What a column holds.
+/// Type of a column's values.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[expect(missing_docs, reason = "never made here; as in the interface")]
 pub enum ValueKind {
@@ -43,13 +43,13 @@ pub enum ValueKind {
 pub struct Column {
     /// Name.
     pub name: String,
-    /// What it holds.
+    /// Type of the values.
     pub kind: ValueKind,
-    /// What it means.
+    /// Meaning of the column.
     pub doc: String,
 }
 
-/// What becomes of a stage's answers.
+/// Use of a stage's answers.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[expect(missing_docs, reason = "never made here; as in the interface")]
 pub enum Effect {
@@ -67,9 +67,9 @@ impl Effect {
     }
 }
 
-/// What a stage reads and gives.
+/// Columns that a stage reads and gives.
 pub struct Declaration {
-    /// What becomes of its answers.
+    /// Use of its answers.
     pub effect: Effect,
     /// Table or folder of the dataset.
     pub name: String,
@@ -79,7 +79,7 @@ pub struct Declaration {
     pub gives: Vec<Column>,
 }
 
-/// What came of a flight.
+/// Result for a flight.
 pub struct Answered {
     /// An Arrow stream.
     pub answer: Vec<u8>,

@@ -5,7 +5,7 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use serde_json::{Map, Value};
 
-/// What a file of a plugin begins with in recipes.
+/// Prefix of a plugin's file in recipes.
 pub const PREFIX: &str = "wasm:";
 /// Stands for the file in parameters that go into keys: its content is there instead.
 const CONTENT: &str = "wasm:(content)";
@@ -40,7 +40,7 @@ pub struct TermPlugin {
     /// Its parameters, checked against what the plugin declares (`cosfly plugin check FILE` lists them).
     #[serde(default)]
     pub params: Map<String, Value>,
-    /// What it may use.
+    /// Limits: memory, time, instructions.
     #[serde(default)]
     pub limits: PluginLimits,
     /// SHA-256 of the file; another file is refused. Not checked when left out.
@@ -64,7 +64,7 @@ pub struct ObjectivePlugin {
     /// Its parameters, checked against what the plugin declares (`cosfly plugin check FILE` lists them).
     #[serde(default)]
     pub params: Map<String, Value>,
-    /// What it may use.
+    /// Limits: memory, time, instructions.
     #[serde(default)]
     pub limits: PluginLimits,
     /// SHA-256 of the file; another file is refused. Not checked when left out.
@@ -82,31 +82,31 @@ pub struct StagePlugin {
     /// Its parameters, checked against what the plugin declares (`cosfly plugin check FILE` lists them).
     #[serde(default)]
     pub params: Map<String, Value>,
-    /// What it may use.
+    /// Limits: memory, time, instructions.
     #[serde(default)]
     pub limits: PluginLimits,
     /// SHA-256 of the file; another file is refused. Not checked when left out.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schemars(regex(pattern = "^[0-9a-f]{64}$"))]
     pub sha256: Option<String>,
-    /// What it makes: `flights`, the ones that arrive at `trajectories`, judged or labelled; or `extras` of rendered flights, those
+    /// Outputs: `flights`, the ones that arrive at `trajectories`, judged or labelled; or `extras` of rendered flights, those
     /// that arrive at `frames`, for the dataset's `inputs.extras`: annotations, tables, files. Default `flights`.
     #[serde(default)]
     pub makes: Makes,
 }
 
-/// What a stage from a plugin makes.
+/// Outputs of a stage from a plugin.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum Makes {
     /// Flights, judged or labelled.
     #[default]
     Flights,
-    /// What datasets hold beside their own tables.
+    /// Additions to datasets beside their own tables.
     Extras,
 }
 
-/// What a plugin may use.
+/// Limits of a plugin: memory, time, instructions.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(default, deny_unknown_fields)]
 pub struct PluginLimits {
@@ -117,7 +117,7 @@ pub struct PluginLimits {
     #[schemars(range(min = 10, max = 600_000))]
     pub call_ms: u32,
     /// Most instructions of one call, counted exactly, so that the same plugin fails at the same place on every machine; 0 does
-    /// not count. With it the plugin runs in strict mode: what is not a number has the same bits everywhere, too. Costs a
+    /// not count. With it the plugin runs in strict mode: NaNs have the same bits everywhere. Costs a
     /// factor of two to three. Default 0.
     #[schemars(range(min = 0, max = 1_000_000_000_000u64))]
     pub fuel: u64,
@@ -137,14 +137,14 @@ impl Default for PluginLimits {
     }
 }
 
-/// What all uses of plugins have in common.
+/// Parameters that all uses of plugins have in common.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Setting {
     /// The file as written, without `wasm:`.
     pub file: String,
     /// Its parameters.
     pub params: Map<String, Value>,
-    /// What it may use.
+    /// Limits: memory, time, instructions.
     pub limits: PluginLimits,
     /// Of the file, if that is to be checked.
     pub sha256: Option<String>,
@@ -155,7 +155,7 @@ fn without_prefix(file: &str) -> String {
 }
 
 impl TermPlugin {
-    /// What it has in common with other uses.
+    /// Parameters in common with other uses.
     pub fn setting(&self) -> Setting {
         let (params, sha256) = (self.params.clone(), self.sha256.clone());
         Setting { file: without_prefix(&self.file), params, limits: self.limits, sha256 }
@@ -163,7 +163,7 @@ impl TermPlugin {
 }
 
 impl ObjectivePlugin {
-    /// What it has in common with other uses.
+    /// Parameters in common with other uses.
     pub fn setting(&self) -> Setting {
         let (params, sha256) = (self.params.clone(), self.sha256.clone());
         Setting { file: without_prefix(&self.file), params, limits: self.limits, sha256 }
@@ -171,13 +171,13 @@ impl ObjectivePlugin {
 }
 
 impl StagePlugin {
-    /// What it has in common with other uses.
+    /// Parameters in common with other uses.
     pub fn setting(&self) -> Setting {
         let (params, sha256) = (self.params.clone(), self.sha256.clone());
         Setting { file: self.file.clone(), params, limits: self.limits, sha256 }
     }
 
-    /// What goes into keys.
+    /// Ingredients of keys.
     pub fn canonical(&self) -> Self {
         Self { file: CONTENT.to_owned(), sha256: None, ..self.clone() }
     }
@@ -191,7 +191,7 @@ impl ExpertPlugins {
         terms.chain(objective).collect()
     }
 
-    /// What goes into keys: not where files lie, and not how many flights there are.
+    /// Ingredients of keys, without places of files and the number of flights.
     pub fn canonical(&self) -> Self {
         let mut all = self.clone();
         for term in &mut all.terms {

@@ -1,4 +1,4 @@
-//! What to invent in a town whose file has streets and nothing beside them.
+//! Additions to a town whose file has streets and nothing beside them.
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};

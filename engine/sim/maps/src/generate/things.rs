@@ -1,4 +1,4 @@
-//! What stands in a generated town: a list of things in map coordinates, each with its footprint and height.
+//! Objects of a generated town: a list of things in map coordinates, each with its footprint and height.
 
 use super::street_space::Lot;
 use cosfly_frames::DVec2;

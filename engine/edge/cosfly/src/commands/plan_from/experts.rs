@@ -28,7 +28,7 @@ pub struct Experts<'a> {
 pub struct KnownFlight {
     /// The town.
     pub world: Arc<World>,
-    /// What was planned.
+    /// Planned flights.
     pub flight: Flight,
 }
 

@@ -1,4 +1,4 @@
-//! What an `<object>` is, from its type and name.
+//! Kind of an `<object>`, from its type and name.
 
 use super::network::RoadObject;
 use crate::ObstacleKind;
