@@ -35,7 +35,7 @@ pub enum Claim {
     Turns(usize),
     /// So many turns to this side.
     TurnsOf(TurnKind, usize),
-    /// It goes straight.
+    /// Straight on.
     NoTurns,
     /// The target stays where it is.
     Stays,

@@ -1,6 +1,6 @@
 //! The layout of the published CosFly-Track release, `drone_nav_traj_v7`: a folder per town, pair, trace and frame.
 //!
-//! What is publicly known of it is followed to the letter; what is not known is our own design, sits under keys called
+//! The published parts of the format are followed to the letter; the other parts are our own design and sit under keys called
 //! `cosfly` or is listed in the card, and the book's page "Exports" says which is which.
 //!
 //! * [`names`]: towns, pairs and traces as folders.
