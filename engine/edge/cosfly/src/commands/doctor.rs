@@ -1,9 +1,8 @@
 //! `cosfly doctor`: examines anyone's data and prints its findings.
 
 use crate::command::{Command, Outcome};
+use crate::console::Console;
 use crate::exit;
-use crate::output::print;
-use crate::progress::Bar;
 use crate::text::count;
 use clap::Parser;
 use cosfly_diagnose::Diagnostic;
@@ -45,17 +44,17 @@ pub struct Arguments {
 }
 
 impl Command for Arguments {
-    fn run(&self) -> Outcome {
-        let bar = Bar::new("doctor", "episodes");
-        let examination = examine(&self.dir, &self.quotas, &mut |done, all| bar.show(done, all))?;
-        drop(bar);
+    fn run(&self, console: &dyn Console) -> Outcome {
+        let progress = console.progress("doctor", "episodes");
+        let examination = examine(&self.dir, &self.quotas, &mut |done, all| progress(done, all))?;
+        drop(progress);
         if let Some(path) = &self.json {
             let json = serde_json::to_string_pretty(&examination).unwrap_or_default();
             std::fs::write(path, json + "\n")
                 .map_err(|error| Diagnostic::io(format!("write `{}`", path.display()), &error))?;
         }
         let allowed = self.imperfect / 100.0;
-        print(&text(&examination, allowed))?;
+        console.print(&text(&examination, allowed))?;
         let quotas_are_met = examination.quotas.iter().all(|(quota, found)| *found >= quota.wanted);
         let is_well = !examination.has_damage() && examination.imperfect_share() <= allowed && quotas_are_met;
         Ok(if is_well { exit::SUCCESS } else { exit::FOUND_PROBLEMS })

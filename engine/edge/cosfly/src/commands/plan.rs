@@ -2,8 +2,8 @@
 
 use crate::arguments::{RecipeArguments, StoreArguments};
 use crate::command::{Command, Outcome};
+use crate::console::Console;
 use crate::exit;
-use crate::output::print;
 use crate::text::{bytes, count};
 use clap::Parser;
 use cosfly_runner::{Plan, Reason};
@@ -21,11 +21,11 @@ pub struct Arguments {
 }
 
 impl Command for Arguments {
-    fn run(&self) -> Outcome {
-        let recipe = self.recipe.load()?;
+    fn run(&self, console: &dyn Console) -> Outcome {
+        let recipe = self.recipe.load(console)?;
         let store = Store::open_to_read(&self.store.folder())?;
         let plan = cosfly_runner::plan(&recipe, &store)?;
-        print(&table(&plan))?;
+        console.print(&table(&plan))?;
         Ok(exit::SUCCESS)
     }
 }

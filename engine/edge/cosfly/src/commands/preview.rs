@@ -1,9 +1,8 @@
 //! `cosfly preview`: pictures of a finished flight.
 
 use crate::command::{Command, Outcome};
+use crate::console::Console;
 use crate::exit;
-use crate::output::print;
-use crate::progress::Bar;
 use crate::text::{bytes, count};
 use clap::Parser;
 use cosfly_diagnose::{Diagnostic, Result};
@@ -42,19 +41,19 @@ pub struct Arguments {
 }
 
 impl Command for Arguments {
-    fn run(&self) -> Outcome {
+    fn run(&self, console: &dyn Console) -> Outcome {
         let dataset = PublishedDataset::open(&self.dir)?;
         let flight = match &self.trajectory {
             Some(id) => dataset.flight(id)?,
             None => &dataset.flights()[0],
         };
-        let bar = Bar::new("reading", "frames");
+        let progress = console.progress("reading", "frames");
         let pictures =
-            cosfly_preview::draw(&dataset, flight, self.frames.as_ref(), &mut |done, all| bar.show(done, all))?;
-        drop(bar);
+            cosfly_preview::draw(&dataset, flight, self.frames.as_ref(), &mut |done, all| progress(done, all))?;
+        drop(progress);
         let out = self.out.clone().unwrap_or_else(|| beside(&self.dir));
         let written = write(&out, flight, &pictures)?;
-        print(&report(&dataset, flight, &pictures, &written))?;
+        console.print(&report(&dataset, flight, &pictures, &written))?;
         Ok(exit::SUCCESS)
     }
 }

@@ -2,8 +2,8 @@
 
 use crate::arguments::{RecipeArguments, StoreArguments};
 use crate::command::{Command, Outcome};
+use crate::console::Console;
 use crate::exit;
-use crate::output::print;
 use clap::Parser;
 use cosfly_runner::Explanation;
 use cosfly_store::Store;
@@ -29,15 +29,15 @@ pub struct Arguments {
 }
 
 impl Command for Arguments {
-    fn run(&self) -> Outcome {
-        let recipe = self.recipe.load()?;
+    fn run(&self, console: &dyn Console) -> Outcome {
+        let recipe = self.recipe.load(console)?;
         let store = Store::open_to_read(&self.store.folder())?;
         let (stage, item) = match self.subject.split_once('/') {
             Some((stage, item)) => (stage, Some(item)),
             None => (self.subject.as_str(), None),
         };
         let explanation = cosfly_runner::why(&recipe, &store, stage, item)?;
-        print(&told(&explanation))?;
+        console.print(&told(&explanation))?;
         Ok(exit::SUCCESS)
     }
 }

@@ -2,7 +2,7 @@
 
 use super::facade::{BoxFace, Facade, Roof};
 use super::geometry::FaceAxes;
-use super::lanes::{Block, Shared, Stage, groups};
+use super::lanes::{Block, Shared, Stage, WIDE, groups};
 use super::light::Light;
 use super::lighting::Answers;
 use super::pattern::{NoiseTexture, Noises, share};

@@ -3,9 +3,8 @@
 mod format_options;
 
 use crate::command::{Command, Outcome};
+use crate::console::Console;
 use crate::exit;
-use crate::output::print;
-use crate::progress::Bar;
 use crate::text::{bytes, count};
 use clap::Parser;
 use clap::builder::{PossibleValue, PossibleValuesParser};
@@ -50,19 +49,19 @@ pub struct Arguments {
 }
 
 impl Command for Arguments {
-    fn run(&self) -> Outcome {
+    fn run(&self, console: &dyn Console) -> Outcome {
         let format = prepare(&self.format, self.options.0.clone())?;
         let dataset = PublishedDataset::open(&self.dir)?;
         let choice = Choice { splits: self.splits.clone(), trajectories: self.trajectories.clone() };
-        let bar = Bar::new("export", "frames");
-        let (written, remarks) = format.write(&dataset, &choice, &self.out, &|done, all| bar.show(done, all))?;
-        drop(bar);
+        let progress = console.progress("export", "frames");
+        let (written, remarks) = format.write(&dataset, &choice, &self.out, &*progress)?;
+        drop(progress);
         let (files, size) = (count(written.files, "file"), bytes(written.bytes));
         let mut text = format!("{}: {files} of {size}, format {}\n", self.out.display(), format.name);
         for remark in remarks {
             let _ = writeln!(text, "  {remark}");
         }
-        print(&text)?;
+        console.print(&text)?;
         Ok(exit::SUCCESS)
     }
 }

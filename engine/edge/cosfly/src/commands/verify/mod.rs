@@ -4,9 +4,8 @@ mod regenerate;
 
 use crate::arguments::StoreArguments;
 use crate::command::{Command, Outcome, Refusals};
+use crate::console::Console;
 use crate::exit;
-use crate::output::print;
-use crate::progress::Bar;
 use crate::text::{bytes, count};
 use clap::Parser;
 use cosfly_recipe::Recipe;
@@ -44,18 +43,18 @@ pub struct Arguments {
 }
 
 impl Command for Arguments {
-    fn run(&self) -> Outcome {
-        let bar = Bar::new("verify", "flights");
-        let report = cosfly_verify::verify(&self.dir, &mut |done, all| bar.show(done, all))?;
-        drop(bar);
+    fn run(&self, console: &dyn Console) -> Outcome {
+        let progress = console.progress("verify", "flights");
+        let report = cosfly_verify::verify(&self.dir, &mut |done, all| progress(done, all))?;
+        drop(progress);
         let mut text = told(&report);
         let mut wrong = 0;
         if let Some(number) = self.regenerate {
-            let (more, found) = regenerated(&self.dir, usize::from(number), &self.recipe()?)?;
+            let (more, found) = regenerated(&self.dir, usize::from(number), &self.recipe()?, console)?;
             text += &more;
             wrong = found;
         }
-        print(&text)?;
+        console.print(&text)?;
         Ok(if report.is_sound() && wrong == 0 { exit::SUCCESS } else { exit::FOUND_PROBLEMS })
     }
 }
