@@ -1,5 +1,6 @@
 //! Pictures from image files, whole or scaled.
 
+use crate::jpeg::{Decoded, decode};
 use cosfly_diagnose::{Diagnostic, Fault, Result};
 use std::io::Cursor;
 use zune_jpeg::JpegDecoder;
@@ -18,14 +19,16 @@ pub struct Picture {
     pub rgb: Vec<u8>,
 }
 
-/// Decodes an image file of format `jpeg` or `png`; with a size, each pixel is the mean of its area.
+/// Decodes an image file of format `jpeg` or `png`; with a size, each pixel is the mean of its area. JPEG files are scaled
+/// in part while they are decoded, from the low frequencies of their blocks.
 ///
 /// # Errors
 /// `image-decode`.
 pub fn picture(file: &[u8], format: &str, size: Option<[usize; 2]>) -> Result<Picture> {
-    let whole = match format {
-        "png" => png(file),
-        _ => jpeg(file),
+    let whole = match (format, size) {
+        ("png", _) => png(file),
+        (_, Some(size)) => scaled_jpeg(file, size),
+        (_, None) => jpeg(file),
     };
     let whole = whole.map_err(|why| {
         Diagnostic::new("image-decode", Fault::Input, format!("a picture of format `{format}` cannot be read"))
@@ -35,6 +38,14 @@ pub fn picture(file: &[u8], format: &str, size: Option<[usize; 2]>) -> Result<Pi
         Some(size) => Picture { size, rgb: averaged(&whole, size) },
         None => whole,
     })
+}
+
+/// A picture of at least the wanted size; its area is averaged while the file is decoded.
+fn scaled_jpeg(file: &[u8], size: [usize; 2]) -> Result<Picture, String> {
+    match decode(file, size) {
+        Some(Decoded { size, rgb }) => Ok(Picture { size, rgb }),
+        None => jpeg(file),
+    }
 }
 
 fn jpeg(file: &[u8]) -> Result<Picture, String> {
@@ -150,8 +161,14 @@ mod tests {
         let read = picture(&file, "jpeg", None).unwrap();
         assert!(read.rgb.iter().zip(&rgb).all(|(a, b)| a.abs_diff(*b) < 24));
         assert_eq!(picture(&file, "jpeg", Some([8, 4])).unwrap().size, [8, 4]);
+        // Fractions of smooth pictures are their means; the whole is that of the general decoder.
+        for size in [[32, 16], [16, 8], [8, 4], [4, 2]] {
+            let small = picture(&file, "jpeg", Some(size)).unwrap().rgb;
+            let means = averaged(&read, size);
+            assert!(small.iter().zip(&means).all(|(a, b)| a.abs_diff(*b) <= 8), "{size:?}: {small:?} {means:?}");
+        }
         for cut in 0..file.len() {
-            let _ = picture(&file[..cut], "jpeg", None);
+            let _ = (picture(&file[..cut], "jpeg", None), picture(&file[..cut], "jpeg", Some([9, 5])));
         }
     }
 }

@@ -103,6 +103,12 @@ fn plain(arrays: &[ArrayRef]) -> Option<Column> {
     let all_files = || arrays.iter().map(super::plain::files).collect::<Option<Vec<_>>>();
     match first.data_type() {
         DataType::List(_) | DataType::FixedSizeList(..) => lists(arrays),
+        // The hub's images: a file and its path.
+        DataType::Struct(_) => {
+            let files: Option<Vec<_>> =
+                arrays.iter().map(|it| it.as_struct().column_by_name("bytes").cloned()).collect();
+            plain(&files?)
+        }
         kind if kind.is_integer() || *kind == DataType::Boolean => {
             let parts: Option<Vec<_>> = arrays.iter().map(integers).collect();
             Some(Column::Integers(parts?.iter().flat_map(|part| part.iter().map(Option::unwrap_or_default)).collect()))

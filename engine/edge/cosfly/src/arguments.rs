@@ -11,7 +11,7 @@ use std::path::{Path, PathBuf};
 /// A recipe with changes to it.
 #[derive(Args, Clone, Debug)]
 pub struct RecipeArguments {
-    /// The recipe (TOML); - for standard input, with files relative to the current folder
+    /// The recipe (TOML), or a folder with a recipe.toml; - for standard input, with files relative to the current folder
     #[arg(value_name = "RECIPE")]
     pub recipe: PathBuf,
     /// Change a value of the recipe, such as stages.expert.weights.visibility=5 (repeatable)
@@ -27,7 +27,8 @@ impl RecipeArguments {
     pub fn load(&self, console: &dyn Console) -> Result<Recipe, Refusals> {
         let registry = cosfly_stages::registry();
         if self.recipe != Path::new("-") {
-            return Ok(cosfly_recipe::load(&self.recipe, &self.overrides, &registry)?);
+            let path = if self.recipe.is_dir() { self.recipe.join("recipe.toml") } else { self.recipe.clone() };
+            return Ok(cosfly_recipe::load(&path, &self.overrides, &registry)?);
         }
         let mut text = String::new();
         let read = console.input().read_to_string(&mut text);

@@ -1,7 +1,13 @@
-//! A baseline JPEG encoder whose bytes are the same on every processor and at every vector level.
+//! A baseline JPEG encoder whose bytes are the same on every processor and at every vector level, and a decoder for
+//! small pictures.
 
+mod bits;
+mod decode;
 mod huffman;
+mod inverse;
 mod transform;
+
+pub use decode::{Decoded, decode};
 
 use cosfly_frames::simd::Level;
 use huffman::{AC, BitWriter, Codes, DC, write_blocks};

@@ -8,7 +8,7 @@ use clap::Parser;
 use cosfly_diagnose::Diagnostic;
 use cosfly_doctor::{Examination, Layout, Severity, examine};
 use std::fmt::Write;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 /// Flags that are printed; all of them are in the JSON file.
 const PRINTED: usize = 200;
@@ -38,7 +38,7 @@ pub struct Arguments {
     /// Share of episodes, percent, that lose their target for a time between two lengths in seconds (repeatable)
     #[arg(long = "quota", value_name = "PERCENT:FROM-TO", value_parser = quota)]
     quotas: Vec<cosfly_doctor::Quota>,
-    /// Write all findings as JSON
+    /// Write all findings as JSON; - for standard output, instead of the text
     #[arg(long, value_name = "FILE")]
     json: Option<PathBuf>,
 }
@@ -48,13 +48,14 @@ impl Command for Arguments {
         let progress = console.progress("doctor", "episodes");
         let examination = examine(&self.dir, &self.quotas, &mut |done, all| progress(done, all))?;
         drop(progress);
-        if let Some(path) = &self.json {
-            let json = serde_json::to_string_pretty(&examination).unwrap_or_default();
-            std::fs::write(path, json + "\n")
+        let json = || serde_json::to_string_pretty(&examination).unwrap_or_default();
+        let is_printed = self.json.as_deref() == Some(Path::new("-"));
+        if let Some(path) = self.json.as_ref().filter(|_| !is_printed) {
+            std::fs::write(path, json() + "\n")
                 .map_err(|error| Diagnostic::io(format!("write `{}`", path.display()), &error))?;
         }
         let allowed = self.imperfect / 100.0;
-        console.print(&text(&examination, allowed))?;
+        console.print(&if is_printed { json() + "\n" } else { text(&examination, allowed) })?;
         let quotas_are_met = examination.quotas.iter().all(|(quota, found)| *found >= quota.wanted);
         let is_well = !examination.has_damage() && examination.imperfect_share() <= allowed && quotas_are_met;
         Ok(if is_well { exit::SUCCESS } else { exit::FOUND_PROBLEMS })

@@ -11,6 +11,7 @@ use clap::builder::{PossibleValue, PossibleValuesParser};
 use cosfly_export::{Choice, FORMATS, prepare};
 use cosfly_read::PublishedDataset;
 use format_options::FormatOptions;
+use serde_json::json;
 use std::fmt::Write;
 use std::path::PathBuf;
 
@@ -44,6 +45,9 @@ pub struct Arguments {
     /// Flights to export, such as expert-p00000 (repeatable) [default: all]
     #[arg(long = "trajectory", value_name = "ID")]
     trajectories: Vec<String>,
+    /// Print JSON
+    #[arg(long)]
+    json: bool,
     #[command(flatten)]
     options: FormatOptions,
 }
@@ -56,6 +60,14 @@ impl Command for Arguments {
         let progress = console.progress("export", "frames");
         let (written, remarks) = format.write(&dataset, &choice, &self.out, &*progress)?;
         drop(progress);
+        if self.json {
+            let out = self.out.display().to_string();
+            let whole = json!({
+                "out": out, "format": format.name, "files": written.files, "bytes": written.bytes, "remarks": remarks,
+            });
+            console.print(&format!("{whole:#}\n"))?;
+            return Ok(exit::SUCCESS);
+        }
         let (files, size) = (count(written.files, "file"), bytes(written.bytes));
         let mut text = format!("{}: {files} of {size}, format {}\n", self.out.display(), format.name);
         for remark in remarks {
