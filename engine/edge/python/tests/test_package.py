@@ -127,7 +127,9 @@ def test_frames_are_bit_for_bit_those_of_the_log():
     small = dataset.frame(name, 3, size=(64, 36))
     whole = Image.fromarray(dataset.frame(name, 3)["rgb"]).resize((64, 36), Image.BOX)
     assert small["rgb"].shape == (36, 64, 3) and small["depth"].shape == (36, 64)
-    assert np.abs(small["rgb"].astype(int) - np.array(whole)).max() <= 6
+    # Fractions of JPEG files come from their low frequencies, which is close to the mean of the area.
+    difference = np.abs(small["rgb"].astype(int) - np.array(whole))
+    assert difference.mean() <= 4 and difference.max() <= 48
 
 
 def test_windows_align_with_their_frames():
