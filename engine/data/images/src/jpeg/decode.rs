@@ -5,6 +5,8 @@
 //! size. Everything else is left to a general decoder. Integers only: the same pixels on every processor.
 
 use super::bits::{Bits, Table};
+use cosfly_frames::simd::Level;
+use cosfly_frames::simd_kernel;
 
 /// Natural place (row * 8 + column) of the coefficients in the order of the file.
 const ORDER: [u8; 64] = [
@@ -77,8 +79,8 @@ pub fn decode(file: &[u8], least: [usize; 2]) -> Option<Decoded> {
             previous_dc: 0,
         });
     }
-    read_scan(&file[start..], &header, &mut channels, units)?;
-    Some(Decoded { size: scaled(side), rgb: colours(&channels, scaled(side)) })
+    read_scan(Level::best(), &file[start..], &header, &mut channels, units)?;
+    Some(Decoded { size: scaled(side), rgb: colours(Level::best(), &channels, scaled(side)) })
 }
 
 /// Headers, the Huffman tables of each channel, and the start of the scan.
@@ -164,52 +166,57 @@ fn read_quantities(mut body: &[u8], header: &mut Header) -> Option<()> {
     Some(())
 }
 
-/// Decodes the scan into the channels' pixels.
-fn read_scan(scan: &[u8], header: &Header, channels: &mut [Channel], units: [usize; 2]) -> Option<()> {
-    // Places of the coefficients within a block, 64 for those that a small block does not have.
-    let places = |side: usize| {
-        ORDER.map(|natural| if natural & 7 < side as u8 && natural >> 3 < side as u8 { natural } else { 64 })
-    };
-    let places: Vec<[u8; 64]> = channels.iter().map(|channel| places(channel.side)).collect();
-    let mut bits = Bits::new(scan);
-    let mut coefficients = [0i32; 65];
-    for unit in 0..units[0] * units[1] {
-        if header.restart_interval > 0 && unit > 0 && unit % header.restart_interval == 0 {
-            bits.restart()?;
-            channels.iter_mut().for_each(|channel| channel.previous_dc = 0);
-        }
-        for (channel, places) in channels.iter_mut().zip(&places) {
-            let (dc, ac) = (header.dc[channel.tables[0]].as_ref()?, header.ac[channel.tables[1]].as_ref()?);
-            for block in 0..channel.blocks[0] * channel.blocks[1] {
-                let column = unit % units[0] * channel.blocks[0] + block % channel.blocks[0];
-                let row = unit / units[0] * channel.blocks[1] + block / channel.blocks[0];
-                channel.previous_dc = channel.previous_dc.wrapping_add(bits.dc(dc)?);
-                coefficients[0] = channel.previous_dc.wrapping_mul(i32::from(channel.quantities[0]));
-                let has_more = bits.ac(ac, &channel.quantities, places, &mut coefficients)?;
-                let at = (row * channel.stride + column) * channel.side;
-                let pixels = channel.pixels.get_mut(at..)?;
-                super::inverse::block(channel.side, &coefficients, has_more, pixels, channel.stride);
-                if has_more {
-                    coefficients.fill(0);
+simd_kernel! {
+    /// Decodes the scan into the channels' pixels.
+    fn read_scan(scan: &[u8], header: &Header, channels: &mut [Channel], units: [usize; 2]) -> Option<()> {
+        // Places of the coefficients within a block, 64 for those that a small block does not have.
+        let places = |side: usize| {
+            ORDER.map(|natural| if natural & 7 < side as u8 && natural >> 3 < side as u8 { natural } else { 64 })
+        };
+        let places: Vec<[u8; 64]> = channels.iter().map(|channel| places(channel.side)).collect();
+        let mut bits = Bits::new(scan);
+        let mut coefficients = [0i32; 65];
+        for unit in 0..units[0] * units[1] {
+            if header.restart_interval > 0 && unit > 0 && unit % header.restart_interval == 0 {
+                bits.restart()?;
+                channels.iter_mut().for_each(|channel| channel.previous_dc = 0);
+            }
+            for (channel, places) in channels.iter_mut().zip(&places) {
+                let (dc, ac) = (header.dc[channel.tables[0]].as_ref()?, header.ac[channel.tables[1]].as_ref()?);
+                for block in 0..channel.blocks[0] * channel.blocks[1] {
+                    let column = unit % units[0] * channel.blocks[0] + block % channel.blocks[0];
+                    let row = unit / units[0] * channel.blocks[1] + block / channel.blocks[0];
+                    channel.previous_dc = channel.previous_dc.wrapping_add(bits.dc(dc)?);
+                    coefficients[0] = channel.previous_dc.wrapping_mul(i32::from(channel.quantities[0]));
+                    let has_more = bits.ac(ac, &channel.quantities, places, &mut coefficients)?;
+                    let at = (row * channel.stride + column) * channel.side;
+                    let pixels = channel.pixels.get_mut(at..)?;
+                    super::inverse::block(channel.side, &coefficients, has_more, pixels, channel.stride);
+                    if has_more {
+                        coefficients.fill(0);
+                    }
                 }
             }
         }
+        bits.is_sound().then_some(())
     }
-    bits.is_sound().then_some(())
 }
 
-/// Pixels of equally large channels, converted from YCbCr (JFIF).
-fn colours(channels: &[Channel], [width, height]: [usize; 2]) -> Vec<u8> {
-    let mut rgb = vec![0; 3 * width * height];
-    for (row, pixels) in rgb.chunks_exact_mut(3 * width).enumerate() {
-        let line = |channel: usize| &channels[channel].pixels[row * channels[channel].stride..][..width];
-        let (luma, blue, red) = (line(0), line(1), line(2));
-        for (((pixel, y), b), r) in pixels.as_chunks_mut::<3>().0.iter_mut().zip(luma).zip(blue).zip(red) {
-            // 1.402, 0.344136, 0.714136 and 1.772 in 16 bits, and a half for rounding.
-            let (y, b, r) = ((i32::from(*y) << 16) + 32_768, i32::from(*b) - 128, i32::from(*r) - 128);
-            let whole = |value: i32| (value >> 16).clamp(0, 255) as u8;
-            *pixel = [whole(y + 91_881 * r), whole(y - 22_554 * b - 46_802 * r), whole(y + 116_130 * b)];
+simd_kernel! {
+    /// Pixels of equally large channels, converted from YCbCr (JFIF).
+    fn colours(channels: &[Channel], size: [usize; 2]) -> Vec<u8> {
+        let [width, height] = size;
+        let mut rgb = vec![0; 3 * width * height];
+        for (row, pixels) in rgb.chunks_exact_mut(3 * width).enumerate() {
+            let line = |channel: usize| &channels[channel].pixels[row * channels[channel].stride..][..width];
+            let (luma, blue, red) = (line(0), line(1), line(2));
+            for (((pixel, y), b), r) in pixels.as_chunks_mut::<3>().0.iter_mut().zip(luma).zip(blue).zip(red) {
+                // 1.402, 0.344136, 0.714136 and 1.772 in 16 bits, and a half for rounding.
+                let (y, b, r) = ((i32::from(*y) << 16) + 32_768, i32::from(*b) - 128, i32::from(*r) - 128);
+                let whole = |value: i32| (value >> 16).clamp(0, 255) as u8;
+                *pixel = [whole(y + 91_881 * r), whole(y - 22_554 * b - 46_802 * r), whole(y + 116_130 * b)];
+            }
         }
+        rgb
     }
-    rgb
 }
