@@ -12,8 +12,7 @@ from typing import Any, Dict, List, Mapping, Optional, Sequence
 import numpy as np
 
 from . import _cosfly
-from ._calls import PathLike, Recipe, Settings, _options, _settings
-from . import _toml
+from ._calls import PathLike, Settings, _options, _settings
 
 
 @dataclass(frozen=True)
@@ -41,10 +40,7 @@ class Answer:
 class Expert:
     """The expert of a finished recipe: run the recipe first, with the same settings and store."""
 
-    def __init__(self, recipe: Recipe, *, set: Settings = None, store: Optional[PathLike] = None):
-        self._text = _toml.dumps(recipe).encode() if isinstance(recipe, Mapping) else b""
-        if self._text:
-            raise TypeError("plan_from needs the path of a recipe: states come on standard input")
+    def __init__(self, recipe: PathLike, *, set: Settings = None, store: Optional[PathLike] = None):
         self._arguments = ["plan-from", os.fspath(recipe), "--batch", *_settings(set), *_options(store=store)]
 
     def plan_from(self, states: Sequence[Mapping[str, Any]], *, threads: Optional[int] = None) -> List[Answer]:
