@@ -33,6 +33,10 @@ for folder in sorted(root.glob("Town*/trajectory_*")):
         K = np.array(camera["intrinsic"], float)
         assert K.shape == (3, 3) and np.isfinite(K).all() and K[0, 0] == K[1, 1] == camera["focal_length_px"]
         assert points and report["num_points"] == len(points)
+        # Some readers look for `waypoints` and `timing.timestamp`.
+        for point, waypoint in zip(points, document["waypoints"], strict=True):
+            assert waypoint["drone_pose"] == point["drone_pose"] and waypoint["timing"] == point["timing"]
+            assert waypoint["timing"]["timestamp"] == point["timing"]["trace_timestamp"]
         last_time = -1.0
         for i, point in enumerate(points):
             frames += 1

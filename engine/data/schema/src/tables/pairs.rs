@@ -23,6 +23,8 @@ columns! { Pairs::COLUMNS of DatasetItem;
     pedestrian_id: String = |item, _| item.record.pedestrian_id.clone();
     /// Name of the town of both.
     town: String = |item, _| item.record.town.name.clone();
+    /// Split: `train`, `val` or `test`; that of the file.
+    split: String = |item, _| item.membership.split.name().to_owned();
     /// Number of frames of the perturbed trajectory.
     frames: u32 = |item, _| item.record.len() as u32;
     /// Probability of the position event per frame.

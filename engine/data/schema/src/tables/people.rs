@@ -21,6 +21,8 @@ pub struct People;
 columns! { People::COLUMNS of DatasetItem;
     /// Trajectory that the frame belongs to.
     trajectory_id: String = |item, _| item.record.trajectory_id.clone();
+    /// Split: `train`, `val` or `test`; that of the file.
+    split: String = |item, _| item.membership.split.name().to_owned();
     /// Number of the frame, from 0.
     frame: u32 = |item, i| sighting(item, i).frame;
     /// Id in instance images and in `frames.occluder_instance`: greater than those of all objects.

@@ -2,6 +2,7 @@
 
 use cosfly_render::ChannelSet;
 use cosfly_schema::LogRecord;
+use cosfly_schema::card_text::counted;
 use cosfly_schema::extras::ExtraSummary;
 use cosfly_schema::tables::DatasetItem;
 use cosfly_schema::{Rejection, Role};
@@ -95,6 +96,22 @@ impl Summary {
     /// All flights.
     pub fn flights(&self) -> u64 {
         self.experts + self.perturbed
+    }
+
+    /// The facts that texts of the card may name ([`card_text::FACTS`]), in words.
+    pub fn facts(&self) -> BTreeMap<&'static str, String> {
+        let towns: Vec<&str> = self.towns.keys().map(String::as_str).collect();
+        let towns = match &towns[..] {
+            [others @ .., last] if !others.is_empty() => format!("{} and {last}", others.join(", ")),
+            few => few.concat(),
+        };
+        BTreeMap::from([
+            ("towns", towns),
+            ("pedestrians", counted(self.pedestrians.len() as u64, "pedestrian")),
+            ("flights", counted(self.flights(), "flight")),
+            ("frames", counted(self.frames, "frame")),
+            ("minutes", format!("{:.1} minutes", self.duration_s / 60.0)),
+        ])
     }
 
     /// Mean visibility by rays over all flights; 0 without any.

@@ -49,6 +49,8 @@ columns! { Trajectories::IDENTITY of DatasetItem;
     /// Sketch of the ground plan, 64 numbers; the share of numbers that two towns have in common estimates the
     /// similarity of their plans (MinHash).
     town_layout_sketch: Vec<i64> = |item, _| item.layout.sketch.clone();
+    /// Split: `train`, `val` or `test`; that of the file.
+    split: String = |item, _| item.membership.split.name().to_owned();
     /// Split group: all trajectories of one group are in one split.
     split_group: String = |item, _| item.membership.split_group.clone();
     /// Rank in nested subsets, 0..1, the same for all trajectories behind a pedestrian: those below 0.25 are a quarter of

@@ -48,6 +48,9 @@ pub struct Arguments {
     /// Print JSON
     #[arg(long)]
     json: bool,
+    /// Number of frames that are written at the same time [default: all cores]
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
+    jobs: Option<u16>,
     #[command(flatten)]
     options: FormatOptions,
 }
@@ -55,6 +58,7 @@ pub struct Arguments {
 impl Command for Arguments {
     fn run(&self, console: &dyn Console) -> Outcome {
         let format = prepare(&self.format, self.options.0.clone())?;
+        cosfly_export::use_threads(self.jobs);
         let dataset = PublishedDataset::open(&self.dir)?;
         let choice = Choice { splits: self.splits.clone(), trajectories: self.trajectories.clone() };
         let progress = console.progress("export", "frames");
