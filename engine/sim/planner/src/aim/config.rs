@@ -9,20 +9,20 @@ use serde::{Deserialize, Serialize};
 #[serde(default, deny_unknown_fields)]
 pub struct AimConfig {
     /// Standard deviation of the framing, degrees, along each axis of the picture: the slow wander of the optical axis away
-    /// from the target (an Ornstein-Uhlenbeck process). Default 8.5.
+    /// from the target (an Ornstein-Uhlenbeck process, smoothed so that its rate is continuous). Default 8.5.
     #[schemars(range(min = 0.0, max = 30.0))]
     pub framing_deg: f64,
-    /// Time constant of the framing, seconds. Default 12.
+    /// Time constant of the framing, seconds. Default 20.
     #[schemars(range(min = 0.1, max = 1000.0))]
     pub framing_s: f64,
     /// Standard deviation of the quick error of the aim, degrees, along each axis of the picture; its time constant is 1 s.
-    /// Default 0.3.
+    /// Default 0.2.
     #[schemars(range(min = 0.0, max = 10.0))]
     pub tremor_deg: f64,
     /// Mean time by which the aim is behind the target, seconds; negative values lead. Default 0.3.
     #[schemars(range(min = -3.0, max = 3.0))]
     pub lag_s: f64,
-    /// Standard deviation of that time, seconds: above `lag_s` the aim leads at times. Default 0.3.
+    /// Standard deviation of that time, seconds: above `lag_s` the aim leads at times. Default 0.2.
     #[schemars(range(min = 0.0, max = 3.0))]
     pub lag_spread_s: f64,
     /// Largest angle of framing and quick error together, degrees. Default 18.
@@ -37,10 +37,10 @@ impl Default for AimConfig {
     fn default() -> Self {
         Self {
             framing_deg: 8.5,
-            framing_s: 12.0,
-            tremor_deg: 0.3,
+            framing_s: 20.0,
+            tremor_deg: 0.2,
             lag_s: 0.3,
-            lag_spread_s: 0.3,
+            lag_spread_s: 0.2,
             max_deg: 18.0,
             max_rate_deg_s: 60.0,
         }

@@ -1,7 +1,7 @@
 //! The pilot: aims at the target a little late or early, frames it off the middle, and turns the camera no faster than it can.
 
 use super::config::AimConfig;
-use super::wander::Wander;
+use super::wander::{Wander, smooth};
 use crate::visibility::aim_point;
 use cosfly_frames::{DVec3, Pose, TargetState, TargetTrack, real};
 use cosfly_random::Seed;
@@ -30,7 +30,7 @@ pub fn aimed(
     let dt_s = track.dt_s;
     let wander = |purpose, deviation, time_s| Wander::new(seed.stream(purpose), deviation, time_s, dt_s);
     let axis = |framing, tremor| {
-        let slow = wander(framing, config.framing_deg.to_radians(), config.framing_s);
+        let slow = smooth(seed.stream(framing), config.framing_deg.to_radians(), config.framing_s, dt_s);
         slow.zip(wander(tremor, config.tremor_deg.to_radians(), TREMOR_S)).map(|(slow, quick)| slow + quick)
     };
     let (across, upwards) = (axis("framing across", "tremor across"), axis("framing upwards", "tremor upwards"));
