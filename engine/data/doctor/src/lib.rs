@@ -12,6 +12,7 @@ pub mod episode;
 mod examination;
 mod files;
 pub mod flag;
+mod shortcuts;
 pub mod sources;
 #[cfg(test)]
 mod tests;
@@ -19,4 +20,5 @@ pub mod walls;
 
 pub use episode::{Episode, Look, Moment};
 pub use examination::{Examination, Layout, Quota, examine};
+pub use cosfly_metrics::shortcuts::ShortcutFigures;
 pub use flag::{Flag, Severity};

@@ -1,5 +1,7 @@
 //! The figures of a dataset that card and `croissant.json` state.
 
+use super::shortcuts;
+use cosfly_metrics::shortcuts::Shortcuts;
 use cosfly_render::ChannelSet;
 use cosfly_schema::LogRecord;
 use cosfly_schema::card_text::counted;
@@ -43,6 +45,8 @@ pub struct Summary {
     pub rows: BTreeMap<&'static str, BTreeMap<String, u64>>,
     /// Channels of the logs, all of them together.
     pub channels: ChannelSet,
+    /// Signs that give targets away.
+    pub shortcuts: Shortcuts,
     /// Tables and files of plugins.
     pub extras: Vec<ExtraSummary>,
 }
@@ -67,6 +71,7 @@ impl Summary {
             Role::Perturbed => self.perturbed += 1,
         }
         self.count_log(&item.log, split);
+        shortcuts::count(record, &mut self.shortcuts);
         self.pedestrians.insert((record.town.name.clone(), record.pedestrian_id.clone()));
         self.duration_s += record.trajectory.track.duration_s();
         self.uncertified += u64::from(!record.trajectory.certificate.holds);

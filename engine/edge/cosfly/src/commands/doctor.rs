@@ -6,7 +6,7 @@ use crate::exit;
 use crate::text::count;
 use clap::Parser;
 use cosfly_diagnose::Diagnostic;
-use cosfly_doctor::{Examination, Layout, Severity, examine};
+use cosfly_doctor::{Examination, Layout, Severity, ShortcutFigures, examine};
 use std::fmt::Write;
 use std::path::{Path, PathBuf};
 
@@ -100,6 +100,7 @@ fn text(examination: &Examination, allowed: f64) -> String {
         let shares = shares.map(|(name, (_, frames))| format!("{name}: {:.1} %", 100.0 * *frames as f64 / told as f64));
         let _ = writeln!(text, "frames by visible share of the target: {}", shares.collect::<Vec<_>>().join(", "));
     }
+    text.push_str(&examination.shortcuts.as_ref().map_or_else(String::new, shortcuts));
     for gap in &examination.unchecked {
         let _ = writeln!(text, "not checked: {gap}");
     }
@@ -124,5 +125,28 @@ fn text(examination: &Examination, allowed: f64) -> String {
         100.0 * allowed,
         examination.damaged
     );
+    text
+}
+
+/// Signs that give targets away, a line each.
+fn shortcuts(figures: &ShortcutFigures) -> String {
+    let mut text = String::new();
+    if let (Some(share), Some(nearer)) = (figures.target_nearest_the_centre, figures.mean_people_nearer) {
+        let _ = writeln!(
+            text,
+            "the target is the person nearest to the picture's centre in {:.1} % of {}; {nearer:.2} people are nearer on average",
+            100.0 * share,
+            count(figures.frames, "expert frame")
+        );
+    }
+    let (colourful, bright) = (figures.clothes_auc_colourfulness, figures.clothes_auc_brightness);
+    if let (Some(colourful), Some(bright), Some(error)) = (colourful, bright, figures.clothes_auc_standard_error) {
+        let _ = writeln!(
+            text,
+            "clothes tell {} from {} with AUC {colourful:.2} by colourfulness, {bright:.2} by brightness; 0.50 +- {error:.2} is chance",
+            count(figures.targets as u64, "target"),
+            count(figures.others as u64, "bystander")
+        );
+    }
     text
 }

@@ -5,6 +5,7 @@ pub mod english;
 
 use crate::compass::Compass;
 use crate::turns::TurnKind;
+use cosfly_render::Colour;
 
 /// One claim of a text.
 #[derive(Clone, Debug, PartialEq)]
@@ -37,6 +38,12 @@ pub enum Claim {
     TurnsOf(TurnKind, usize),
     /// Straight on.
     NoTurns,
+    /// The target wears a top of this colour.
+    Top(Colour),
+    /// The target wears trousers of this colour.
+    Trousers(Colour),
+    /// The target wears a backpack.
+    Backpack,
     /// The target stays where it is.
     Stays,
     /// A number that says nothing this reader knows.
