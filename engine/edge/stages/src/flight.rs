@@ -2,12 +2,12 @@
 
 use crate::plugins::{DrawnReference, Plugins};
 use crate::world::World;
-use cosfly_frames::{DVec2, Seed, TargetTrack};
+use cosfly_frames::{DVec2, DVec3, Seed, TargetTrack};
 use cosfly_geometry::OrientedBox;
 use cosfly_maps::ObstacleKind;
-use cosfly_planner::objectives::inspect::{self, Inspection};
-use cosfly_planner::objectives::patrol::{self, MET_M, Patrol};
-use cosfly_planner::objectives::{Mission, Objective, ObjectiveConfig, Site, reference, track};
+use cosfly_objectives::inspect::{self, Inspection};
+use cosfly_objectives::patrol::{self, MET_M, Patrol};
+use cosfly_objectives::{Mission, Objective, ObjectiveConfig, Site, reference, track};
 use cosfly_planner::{MucoConfig, PlanOutcome, StartState, TermCost, Trajectory, plan_request, visibility};
 use std::collections::BTreeMap;
 use std::sync::Arc;
@@ -112,7 +112,8 @@ impl Flight {
         Ok((outcome, warnings))
     }
 
-    /// Rest of the flight from `frame` on, at most `frames` long, of a drone that is at `start` then.
+    /// Rest of the flight from `frame` on, at most `frames` long, of a drone that is at `start` then. It joins `flown`, the
+    /// whole flight as it is published (one position per frame; empty where there is none), wherever it can.
     ///
     /// # Errors
     /// Failures of a plugin.
@@ -122,6 +123,7 @@ impl Flight {
         frame: usize,
         frames: usize,
         start: StartState,
+        flown: &[DVec3],
     ) -> cosfly_diagnose::Result<PlanOutcome> {
         let mission = self.mission.part(frame, frames);
         let end = frame + mission.track.len();
@@ -130,7 +132,8 @@ impl Flight {
             ..companion.clone()
         };
         let companions: Vec<TargetTrack> = self.companions.iter().map(part).collect();
-        Ok(self.plan_mission(world, &mission, &companions, Some((frame, start)))?.0)
+        let known = flown.get(frame..end);
+        Ok(self.plan_mission(world, &mission, &companions, Some((frame, start, known)))?.0)
     }
 
     fn plan_mission(
@@ -138,13 +141,13 @@ impl Flight {
         world: &Arc<World>,
         mission: &Mission,
         companions: &[TargetTrack],
-        start: Option<(usize, StartState)>,
+        start: Option<(usize, StartState, Option<&[DVec3]>)>,
     ) -> cosfly_diagnose::Result<(PlanOutcome, Vec<String>)> {
         let ground = |x: f64, y: f64| world.ground.ground_height_m(x, y).unwrap_or(0.0);
         let mut request = mission.request(&world.exact, &world.town.planning_boxes, &ground);
         request.companions = companions;
-        if let Some((frame, state)) = start {
-            request.start = Some(state);
+        if let Some((frame, state, known)) = start {
+            (request.start, request.flight) = (Some(state), known);
             request.first_frame = i64::try_from(frame).unwrap_or(i64::MAX);
         }
         let (terms, after) = self.plugins.open_terms(world, self.seed)?;
