@@ -25,8 +25,8 @@ pub struct Episode {
     pub wear: Option<Wear>,
     /// Time between frames, seconds: as stated, else as most frames have it.
     pub dt_s: f64,
-    /// Stated limits of clearance (m), speed (m/s), acceleration (m/s^2) and jerk (m/s^3).
-    pub limits: [Option<f64>; 4],
+    /// Stated limits of clearance (m), speed (m/s), acceleration (m/s^2), jerk (m/s^3), yaw and pitch rate (degrees/s).
+    pub limits: [Option<f64>; 6],
     /// The frames.
     pub moments: Vec<Moment>,
     /// Poses of the flight to whose next pose actions lead; none: the own poses.

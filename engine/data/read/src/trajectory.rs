@@ -54,8 +54,9 @@ pub struct PublishedFlight {
     /// Colours of the target's top and trousers in words, and whether it wears a backpack; `None` without a body, and in
     /// datasets from before the columns existed.
     pub target_clothes: Option<(String, String, bool)>,
-    /// Limits of clearance (m), speed (m/s), acceleration (m/s^2) and jerk (m/s^3); `None` where there is no limit.
-    pub limits: [Option<f64>; 4],
+    /// Limits of clearance (m), speed (m/s), acceleration (m/s^2), jerk (m/s^3), yaw and pitch rate (degrees/s); `None` where
+    /// there is no limit.
+    pub limits: [Option<f64>; 6],
     /// Path of the log, from the dataset's folder.
     pub mcap_path: String,
     /// Name of the split.
@@ -110,6 +111,8 @@ impl PublishedFlight {
                 rows.get_or(Trajectories::limit_speed_mps, row, None)?,
                 rows.get_or(Trajectories::limit_acceleration_mps2, row, None)?,
                 rows.get_or(Trajectories::limit_jerk_mps3, row, None)?,
+                rows.get_or(Trajectories::limit_yaw_rate_deg_s, row, None)?,
+                rows.get_or(Trajectories::limit_pitch_rate_deg_s, row, None)?,
             ],
             mcap_path: rows.get(Trajectories::mcap_path, row)?,
             split: split.to_owned(),

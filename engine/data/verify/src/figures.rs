@@ -19,7 +19,7 @@ pub struct Figures {
     /// Smallest distance of the swept path to an obstacle, metres.
     pub min_clearance_m: f64,
     /// Values of [`MAXIMA`].
-    pub maxima: [f64; 3],
+    pub maxima: [f64; 5],
     /// Whether the certificate holds.
     pub holds: bool,
 }
@@ -32,9 +32,14 @@ pub const MEANS: [Column<DatasetItem, f64>; 5] = [
     Trajectories::mean_distance_m,
     Trajectories::length_m,
 ];
-/// Largest speed, acceleration, jerk.
-pub const MAXIMA: [Column<DatasetItem, f64>; 3] =
-    [Trajectories::max_speed_mps, Trajectories::max_acceleration_mps2, Trajectories::max_jerk_mps3];
+/// Largest speed, acceleration, jerk, yaw rate, pitch rate.
+pub const MAXIMA: [Column<DatasetItem, f64>; 5] = [
+    Trajectories::max_speed_mps,
+    Trajectories::max_acceleration_mps2,
+    Trajectories::max_jerk_mps3,
+    Trajectories::max_yaw_rate_deg_s,
+    Trajectories::max_pitch_rate_deg_s,
+];
 const CAMERA: [Column<DatasetItem, f64>; 3] =
     [Trajectories::camera_focal_px, Trajectories::camera_cx_px, Trajectories::camera_cy_px];
 
@@ -50,10 +55,19 @@ impl Figures {
             frames_in_view: rows.get(Trajectories::frames_in_view, row)?,
             means: numbers(rows, row, &MEANS)?,
             min_clearance_m: rows.get(Trajectories::min_clearance_m, row)?,
-            maxima: numbers(rows, row, &MAXIMA)?,
+            maxima: maxima(rows, row)?,
             holds: rows.get(Trajectories::certificate_holds, row)?,
         })
     }
+}
+
+/// Values of [`MAXIMA`]; 0 for those of rates of turning in datasets from before these columns.
+fn maxima(rows: &Rows<'_>, row: usize) -> Result<[f64; 5]> {
+    let mut maxima = [0.0; 5];
+    for (number, column) in maxima.iter_mut().zip(MAXIMA) {
+        *number = if column.name.ends_with("_deg_s") { rows.get_or(column, row, 0.0)? } else { rows.get(column, row)? };
+    }
+    Ok(maxima)
 }
 
 fn numbers<const N: usize>(rows: &Rows<'_>, row: usize, columns: &[Column<DatasetItem, f64>; N]) -> Result<[f64; N]> {

@@ -5,10 +5,11 @@ use crate::world::World;
 use cosfly_frames::{DVec2, DVec3, Seed, TargetTrack};
 use cosfly_geometry::OrientedBox;
 use cosfly_maps::ObstacleKind;
+use cosfly_objectives::inspect::{self, Inspection};
+use cosfly_objectives::patrol::{self, MET_M, Patrol};
+use cosfly_objectives::{Mission, Objective, ObjectiveConfig, Site, reference, track};
 use cosfly_planner::aim::{AimConfig, aimed};
-use cosfly_planner::objectives::inspect::{self, Inspection};
-use cosfly_planner::objectives::patrol::{self, MET_M, Patrol};
-use cosfly_planner::objectives::{Mission, Objective, ObjectiveConfig, Site, reference, track};
+use cosfly_planner::certificate::view_rates_deg_s;
 use cosfly_planner::{MucoConfig, PlanOutcome, StartState, TermCost, Trajectory, plan_request, visibility};
 use std::collections::BTreeMap;
 use std::sync::Arc;
@@ -123,7 +124,8 @@ impl Flight {
         Ok((outcome, warnings))
     }
 
-    /// Rest of the flight from `frame` on, at most `frames` long, of a drone that is at `start` then.
+    /// Rest of the flight from `frame` on, at most `frames` long, of a drone that is at `start` then. It joins `flown`, the
+    /// whole flight as it is published (one position per frame; empty where there is none), wherever it can.
     ///
     /// # Errors
     /// Failures of a plugin.
@@ -133,6 +135,7 @@ impl Flight {
         frame: usize,
         frames: usize,
         start: StartState,
+        flown: &[DVec3],
     ) -> cosfly_diagnose::Result<PlanOutcome> {
         let mission = self.mission.part(frame, frames);
         let end = frame + mission.track.len();
@@ -141,17 +144,24 @@ impl Flight {
             ..companion.clone()
         };
         let companions: Vec<TargetTrack> = self.companions.iter().map(part).collect();
-        let mut outcome = self.plan_mission(world, &mission, &companions, Some((frame, start)))?.0;
+        let known = flown.get(frame..end);
+        let mut outcome = self.plan_mission(world, &mission, &companions, Some((frame, start, known)))?.0;
         self.take_aim(&mut outcome, frame);
         Ok(outcome)
     }
 
-    /// Turns the views of a planned flight, whose first frame is `first_frame` of the mission, as the pilot aims.
+    /// Turns the views of a planned flight, whose first frame is `first_frame` of the mission, as the pilot aims, within the
+    /// flight's limits; the certificate states the rates of the result.
     fn take_aim(&self, outcome: &mut PlanOutcome, first_frame: usize) {
         if let (PlanOutcome::Planned(flight), Some(aim)) = (outcome, &self.aim) {
+            let limits = &flight.certificate.limits;
+            let fastest = aim.max_rate_deg_s.min(limits.yaw_rate_deg_s).min(limits.pitch_rate_deg_s);
+            let aim = AimConfig { max_rate_deg_s: fastest, ..aim.clone() };
             let positions: Vec<DVec3> = flight.poses_in_world.iter().map(|pose| pose.position_in_world).collect();
-            let seed = self.seed.child("aim", 0);
-            flight.poses_in_world = aimed(&positions, &self.mission.track, first_frame, None, aim, seed);
+            let (track, seed) = (&self.mission.track, self.seed.child("aim", 0));
+            flight.poses_in_world = aimed(&positions, track, first_frame, None, &aim, seed);
+            let [yaw, pitch] = view_rates_deg_s(&flight.poses_in_world, track.dt_s);
+            (flight.certificate.max_yaw_rate_deg_s, flight.certificate.max_pitch_rate_deg_s) = (yaw, pitch);
         }
     }
 
@@ -160,13 +170,13 @@ impl Flight {
         world: &Arc<World>,
         mission: &Mission,
         companions: &[TargetTrack],
-        start: Option<(usize, StartState)>,
+        start: Option<(usize, StartState, Option<&[DVec3]>)>,
     ) -> cosfly_diagnose::Result<(PlanOutcome, Vec<String>)> {
         let ground = |x: f64, y: f64| world.ground.ground_height_m(x, y).unwrap_or(0.0);
         let mut request = mission.request(&world.exact, &world.town.planning_boxes, &ground);
         request.companions = companions;
-        if let Some((frame, state)) = start {
-            request.start = Some(state);
+        if let Some((frame, state, known)) = start {
+            (request.start, request.flight) = (Some(state), known);
             request.first_frame = i64::try_from(frame).unwrap_or(i64::MAX);
         }
         let (terms, after) = self.plugins.open_terms(world, self.seed)?;

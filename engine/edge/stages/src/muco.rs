@@ -8,10 +8,10 @@ use crate::{codec, companions};
 use cosfly_blobs::OutputSink;
 use cosfly_diagnose::{ParameterError, Result};
 use cosfly_frames::{Seed, TargetTrack};
+use cosfly_objectives::Objective;
+use cosfly_objectives::config::DT_S;
 use cosfly_pedestrians::PedestrianPath;
 use cosfly_planner::PlanOutcome;
-use cosfly_planner::objectives::Objective;
-use cosfly_planner::objectives::config::DT_S;
 use cosfly_stage::{InputPort, Inputs, ItemRule, Produced, Stage, StageKind, StagePart, StageProperties, TaskContext};
 
 /// Stage kind `muco`.

@@ -101,13 +101,16 @@ impl<'a> Task<'a> {
         let mut track = flight.trajectory.track.clone();
         track.states.truncate(MOST_FRAMES);
         let mut config = MucoConfig::default();
-        let Limits { clearance_m, speed_mps, acceleration_mps2, jerk_mps3 } = flight.trajectory.certificate.limits;
+        let Limits { clearance_m, speed_mps, acceleration_mps2, jerk_mps3, yaw_rate_deg_s, pitch_rate_deg_s } =
+            flight.trajectory.certificate.limits;
         let told = |limit: f64, default: f64| if limit.is_finite() && limit > 0.0 { limit } else { default };
         let limits = &mut config.limits;
         limits.clearance_m = told(clearance_m, limits.clearance_m);
         limits.speed_mps = told(speed_mps, limits.speed_mps);
         limits.acceleration_mps2 = told(acceleration_mps2, limits.acceleration_mps2);
         limits.jerk_mps3 = told(jerk_mps3, limits.jerk_mps3);
+        limits.yaw_rate_deg_s = told(yaw_rate_deg_s, limits.yaw_rate_deg_s);
+        limits.pitch_rate_deg_s = told(pitch_rate_deg_s, limits.pitch_rate_deg_s);
         let terms = built_in_terms(&config.resolved_weights());
         let reach_m = config.search.filter_radius_m + 10.0;
         let ground = GroundGrid::sample(&track, &|x, y| world.ground.ground_height_m(x, y).unwrap_or(0.0), reach_m);
@@ -204,7 +207,7 @@ impl Column {
         };
         let ground = |x: f64, y: f64| task.world.ground.ground_height_m(x, y).unwrap_or(0.0);
         let exact = ExactMap::still(&task.world.exact);
-        let certificate = certify(&task.track, &waypoints, exact, &ground, &task.config).certificate;
+        let certificate = certify(&task.track, &waypoints, 0, exact, &ground, &task.config).certificate;
         let search = &task.config.search;
         let influence_m = task.config.view.safety_influence_m;
         let boxes = &task.world.town.planning_boxes;

@@ -2,9 +2,9 @@
 
 use cosfly_frames::{DVec3, TargetTrack, real};
 use cosfly_geometry::{BoxBvh, OrientedBox, SpatialQuery};
-use cosfly_planner::scenes::{Scene, SceneKind};
 use cosfly_planner::visibility::body_points;
 use cosfly_random::{RandomStream, Seed};
+use cosfly_scenes::{Scene, SceneKind};
 
 /// Rays of one view: the body points of visibility.
 pub const RAYS: usize = 8;

@@ -13,8 +13,8 @@ use cosfly_planner::{Certificate, FramePerturbation, Limits, Perturbation, TermC
 use cosfly_render::channels::{ALL, SeenPoint};
 use cosfly_render::frame::TARGET_INSTANCE;
 use cosfly_render::{
-    Camera, ChannelImage, ChannelSet, Clothes, FrameImages, Lens, MotionBlur, Mount, Noise, Outfit, PersonView, PixelBox,
-    RollingShutter, TargetView, Weather,
+    Camera, ChannelImage, ChannelSet, Clothes, FrameImages, Lens, MotionBlur, Mount, Noise, Outfit, PersonView,
+    PixelBox, RollingShutter, TargetView, Weather,
 };
 use cosfly_schema::{
     CaptionRecord, EncodingConfig, OtherPerson, PairInfo, Rejection, RenderedTrajectory, Role, Sighting, TownInfo,
@@ -265,7 +265,14 @@ fn certificate(track: &TargetTrack, poses: &[Pose], views: &[TargetView]) -> Cer
     let distances = positions.iter().zip(&track.states).map(|(position, state)| position.distance(state.feet_in_world));
     let length_m = positions.windows(2).map(|pair| pair[1].distance(pair[0])).sum::<f64>();
     Certificate {
-        limits: Limits { clearance_m: 1.0, speed_mps: 15.0, acceleration_mps2: 8.0, jerk_mps3: 40.0 },
+        limits: Limits {
+            clearance_m: 1.0,
+            speed_mps: 15.0,
+            acceleration_mps2: 8.0,
+            jerk_mps3: 40.0,
+            yaw_rate_deg_s: 90.0,
+            pitch_rate_deg_s: 90.0,
+        },
         holds: true,
         violations: vec![],
         mean_visibility: seen.iter().sum::<f64>() / count,

@@ -181,7 +181,7 @@ pub(crate) mod test_flights {
             terms: vec![],
             convergence: vec![],
             certificate: Certificate {
-                limits: Limits { clearance_m: 1.5, speed_mps: 12.0, acceleration_mps2: 6.0, jerk_mps3: 12.0 },
+                limits: Limits { clearance_m: 1.5, speed_mps: 12.0, acceleration_mps2: 6.0, ..Limits::default() },
                 holds: true,
                 violations: vec![],
                 mean_visibility: 0.9,

@@ -7,10 +7,10 @@ use cosfly_planner::certificate::{Kinematics, certify, swept_clearance_m};
 use cosfly_planner::obstacles::{exact::ExactMap, ground::GroundGrid, local::LocalObstacles};
 use cosfly_planner::paper::{FocusedSurroundings, NearBoxes, PaperFlight, Threads, iteration, plan_paper_in};
 use cosfly_planner::problem::Problem;
-use cosfly_planner::scenes::{Scene, SceneKind};
 use cosfly_planner::terms::built_in_terms;
 use cosfly_planner::walk::Walk;
 use cosfly_planner::{Certificate, MucoConfig, Preset};
+use cosfly_scenes::{Scene, SceneKind};
 use std::time::Instant;
 
 /// A clearance below this is a collision of a body of half a metre, metres.
@@ -107,7 +107,7 @@ fn fly(track: &TargetTrack, exact: &BoxBvh, boxes: &[OrientedBox], options: &Opt
         1e3 * begin.elapsed().as_secs_f64()
     });
     let iteration_ms = times.fold(f64::INFINITY, f64::min);
-    let certificate = certify(track, &flight.waypoints, ExactMap::still(exact), &flat, config).certificate;
+    let certificate = certify(track, &flight.waypoints, 0, ExactMap::still(exact), &flat, config).certificate;
     let closer = |limit_m: f64| {
         let near = |pair: &&[DVec3]| exact.segment_clearance(pair[0], pair[1], limit_m + 1.0) < limit_m;
         flight.waypoints.windows(2).filter(near).count()
@@ -120,7 +120,7 @@ fn fly(track: &TargetTrack, exact: &BoxBvh, boxes: &[OrientedBox], options: &Opt
 }
 
 fn print_split(problem: &Problem<'_>, obstacles: &LocalObstacles<'_>, exact: &BoxBvh, flight: &PaperFlight) {
-    let kinematics = Kinematics::of(&flight.waypoints, problem.track.dt_s);
+    let kinematics = Kinematics::of(problem.track, &flight.waypoints, 0);
     println!("    {:?}", flight.counts);
     let (first, last) = (flight.convergence.first(), flight.convergence.iter().rev().nth(1));
     println!("    cost {first:.0?} -> {last:.0?} -> after clean-up {:.0?}", flight.convergence.last());

@@ -2,9 +2,9 @@
 
 use cosfly_geometry::BoxBvh;
 use cosfly_planner::config::SearchEffort;
-use cosfly_planner::scenes::{Scene, SceneKind};
 use cosfly_planner::{Certificate, MucoConfig, PlanOutcome, Preset, plan};
 use cosfly_random::Seed;
+use cosfly_scenes::{Scene, SceneKind};
 use std::time::Instant;
 
 struct Options {

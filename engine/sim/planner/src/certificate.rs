@@ -4,15 +4,16 @@ use crate::config::muco::MucoConfig;
 use crate::obstacles::exact::ExactMap;
 use crate::terms::term::{TermContext, WeightedTerm};
 use crate::trajectory::{Certificate, Limits, TermCost};
+use crate::visibility::aim_point;
 use crate::walk::Walk;
-use cosfly_frames::{DVec3, TargetTrack};
+use cosfly_frames::{DVec3, Pose, TargetState, TargetTrack, real};
 
 /// Distances from obstacles are reported up to here, metres.
 pub const CLEARANCE_CAP_M: f64 = 50.0;
 /// Slack of the kinematic checks for rounding.
 const ROUNDING: f64 = 1e-9;
 
-/// Largest finite-difference speed, acceleration and jerk of a path.
+/// Largest finite-difference speed, acceleration, jerk and rates of view of a path.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Kinematics {
     /// m/s.
@@ -21,18 +22,40 @@ pub struct Kinematics {
     pub acceleration_mps2: f64,
     /// m/s^3.
     pub jerk_mps3: f64,
+    /// Yaw of the camera, which looks at the target, degrees per second.
+    pub yaw_rate_deg_s: f64,
+    /// Pitch of the camera, degrees per second.
+    pub pitch_rate_deg_s: f64,
 }
 
 impl Kinematics {
-    /// Of waypoints `dt_s` apart; 0 where there are too few.
-    pub fn of(waypoints: &[DVec3], dt_s: f64) -> Self {
+    /// Of waypoints behind `track`; 0 where there are too few. Rates of view count from the last of the `given` first
+    /// waypoints on: before that the target is not where it was.
+    pub fn of(track: &TargetTrack, waypoints: &[DVec3], given: usize) -> Self {
+        let dt_s = track.dt_s;
         let largest = |order: usize, difference: &dyn Fn(&[DVec3]) -> DVec3| {
             waypoints.windows(order + 1).map(|w| difference(w).length()).fold(0.0, f64::max)
         };
+        let look = |(w, state): (&DVec3, &TargetState)| Pose::looking_at(*w, aim_point(state, track.height_m));
+        let views: Vec<Pose> = waypoints.iter().zip(&track.states).skip(given.saturating_sub(1)).map(look).collect();
+        let [yaw_rate_deg_s, pitch_rate_deg_s] = view_rates_deg_s(&views, dt_s);
         Self {
             speed_mps: largest(1, &|w| w[1] - w[0]) / dt_s,
             acceleration_mps2: largest(2, &|w| w[2] - 2.0 * w[1] + w[0]) / (dt_s * dt_s),
             jerk_mps3: largest(3, &|w| w[3] - 3.0 * w[2] + 3.0 * w[1] - w[0]) / (dt_s * dt_s * dt_s),
+            yaw_rate_deg_s,
+            pitch_rate_deg_s,
+        }
+    }
+
+    /// As a certificate states them.
+    fn stated(certificate: &Certificate) -> Self {
+        Self {
+            speed_mps: certificate.max_speed_mps,
+            acceleration_mps2: certificate.max_acceleration_mps2,
+            jerk_mps3: certificate.max_jerk_mps3,
+            yaw_rate_deg_s: certificate.max_yaw_rate_deg_s,
+            pitch_rate_deg_s: certificate.max_pitch_rate_deg_s,
         }
     }
 
@@ -42,12 +65,23 @@ impl Kinematics {
             ("speed", self.speed_mps, limits.speed_mps, "m/s"),
             ("acceleration", self.acceleration_mps2, limits.acceleration_mps2, "m/s^2"),
             ("jerk", self.jerk_mps3, limits.jerk_mps3, "m/s^3"),
+            ("yaw rate", self.yaw_rate_deg_s, limits.yaw_rate_deg_s, "degrees/s"),
+            ("pitch rate", self.pitch_rate_deg_s, limits.pitch_rate_deg_s, "degrees/s"),
         ]
         .into_iter()
         .filter(|(_, value, limit, _)| value.is_nan() || *value > limit + ROUNDING)
         .map(|(name, value, limit, unit)| format!("{name} reaches {value:.2} {unit}; the limit is {limit} {unit}"))
         .collect()
     }
+}
+
+/// Largest rates of yaw and pitch from pose to pose, degrees per second; 0 where there are too few.
+pub fn view_rates_deg_s(views: &[Pose], dt_s: f64) -> [f64; 2] {
+    let angles: [fn(&Pose) -> f64; 2] = [|view| view.yaw_rad, |view| view.pitch_rad];
+    angles.map(|angle| {
+        let turn = |pair: &[Pose]| real::wrap_angle_rad(angle(&pair[1]) - angle(&pair[0])).abs().to_degrees();
+        views.windows(2).map(turn).fold(0.0, f64::max) / dt_s
+    })
 }
 
 /// Smallest distance of the swept path to the exact obstacles, capped at [`CLEARANCE_CAP_M`].
@@ -60,18 +94,12 @@ pub fn swept_clearance_m(exact: ExactMap<'_>, waypoints: &[DVec3]) -> f64 {
     smallest
 }
 
-/// Whether a flight may be published: clearance always holds, and speed, acceleration and jerk when the recipe requires
-/// them.
+/// Whether a flight may be published: clearance always holds, and the limits of motion when the recipe requires them.
 pub fn publishable(config: &MucoConfig, certificate: &Certificate) -> bool {
     if certificate.holds {
         return true;
     }
-    let kinematics = Kinematics {
-        speed_mps: certificate.max_speed_mps,
-        acceleration_mps2: certificate.max_acceleration_mps2,
-        jerk_mps3: certificate.max_jerk_mps3,
-    };
-    let kinematic = kinematics.violations(&certificate.limits);
+    let kinematic = Kinematics::stated(certificate).violations(&certificate.limits);
     !config.limits.require_kinematics && certificate.violations.iter().all(|v| kinematic.contains(v))
 }
 
@@ -85,11 +113,12 @@ pub struct Measured {
     pub certificate: Certificate,
 }
 
-/// Measures a path; figures that only the solver knows stay 0. `ground` gives the height of the ground, metres, above which
-/// the clearance is kept, too.
+/// Measures a path whose first `given` waypoints were given; figures that only the solver knows stay 0. `ground` gives the
+/// height of the ground, metres, above which the clearance is kept, too.
 pub fn certify(
     track: &TargetTrack,
     waypoints: &[DVec3],
+    given: usize,
     exact: ExactMap<'_>,
     ground: &dyn Fn(f64, f64) -> f64,
     config: &MucoConfig,
@@ -100,7 +129,7 @@ pub fn certify(
     let near = |i: usize, w: DVec3| exact.nearest(i, w, CLEARANCE_CAP_M).map_or(CLEARANCE_CAP_M, |near| near.0);
     let clearance_m: Vec<f64> = waypoints.iter().enumerate().map(|(i, &w)| near(i, w)).collect();
     let swept = clearance_m.iter().copied().fold(swept_clearance_m(exact, waypoints), f64::min);
-    let kinematics = Kinematics::of(waypoints, track.dt_s);
+    let kinematics = Kinematics::of(track, waypoints, given);
     let mut violations = Vec::new();
     if swept.is_nan() || swept < limits.clearance_m {
         violations.push(format!("clearance falls to {swept:.2} m; the limit is {} m", limits.clearance_m));
@@ -123,6 +152,8 @@ pub fn certify(
         max_speed_mps: kinematics.speed_mps,
         max_acceleration_mps2: kinematics.acceleration_mps2,
         max_jerk_mps3: kinematics.jerk_mps3,
+        max_yaw_rate_deg_s: kinematics.yaw_rate_deg_s,
+        max_pitch_rate_deg_s: kinematics.pitch_rate_deg_s,
         mean_distance_m: distances(track, waypoints).sum::<f64>() / frames,
         mean_rear_angle_deg: mean_rear_angle_deg(track, waypoints),
         length_m,
@@ -152,7 +183,7 @@ fn mean_rear_angle_deg(track: &TargetTrack, waypoints: &[DVec3]) -> f64 {
         .filter_map(|((w, state), direction)| {
             let toward = (w - state.feet_in_world).truncate().normalize_or_zero();
             let defined = toward.length_squared() > 0.5 && direction.length_squared() > 0.5;
-            defined.then(|| cosfly_frames::real::acos((-toward.dot(*direction)).clamp(-1.0, 1.0)).to_degrees())
+            defined.then(|| real::acos((-toward.dot(*direction)).clamp(-1.0, 1.0)).to_degrees())
         })
         .collect();
     if angles.is_empty() { 0.0 } else { angles.iter().sum::<f64>() / angles.len() as f64 }

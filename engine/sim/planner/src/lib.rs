@@ -4,7 +4,7 @@
 //!
 //! * [`planning`]: from a request to a published flight; hands the problem to the planner that the recipe names.
 //! * [`muco`], [`paper`], [`baselines`]: the optimiser, the paper's own pipeline, planners to compare with.
-//! * [`terms`]: the cost, one file per term; [`objectives`]: purposes of flights.
+//! * [`terms`]: the cost, one file per term.
 //! * [`obstacles`]: the map around a path; [`certificate`]: the promises of a published flight.
 //! * [`aim`]: aim of the camera; [`perturb`]: perturbed twins of flights.
 
@@ -16,14 +16,12 @@ pub mod equations;
 pub mod found;
 pub mod gradient;
 pub mod muco;
-pub mod objectives;
 pub mod obstacles;
 pub mod paper;
 pub mod perturb;
 pub mod planning;
 pub mod problem;
 pub mod request;
-pub mod scenes;
 pub mod terms;
 mod track_check;
 pub mod trajectory;

@@ -22,6 +22,9 @@ pub struct PlanRequest<'a> {
     pub extra_terms: Vec<WeightedTerm>,
     /// Position and velocity of the drone at the first frame; `None` leaves both to the planner.
     pub start: Option<StartState>,
+    /// A valid flight behind `track`, one waypoint per frame, world frame, metres: from `start`, the drone joins it where it can,
+    /// and a new flight is planned only where it cannot. Without `start` it is not read.
+    pub flight: Option<&'a [DVec3]>,
     /// Further targets to be seen, as long as `track` and with its time step; see
     /// [`SeveralTargets`](crate::config::targets::SeveralTargets).
     pub companions: &'a [TargetTrack],
@@ -50,8 +53,20 @@ impl<'a> PlanRequest<'a> {
         config: &'a MucoConfig,
     ) -> Self {
         let (extra_terms, companions, movers) = (Vec::new(), &[] as &[_], &[] as &[_]);
-        let (start, first_frame) = (None, 0);
-        Self { track, exact, planning_boxes, ground, config, extra_terms, start, companions, movers, first_frame }
+        let (start, flight, first_frame) = (None, None, 0);
+        Self {
+            track,
+            exact,
+            planning_boxes,
+            ground,
+            config,
+            extra_terms,
+            start,
+            flight,
+            companions,
+            movers,
+            first_frame,
+        }
     }
 
     /// Checks that the parts of the request fit each other.
@@ -87,6 +102,9 @@ impl<'a> PlanRequest<'a> {
             if let Some(frame) = places.iter().position(|shape| !finite(shape)) {
                 return Err(format!("moving box {index} is not a finite box at frame {frame}"));
             }
+        }
+        if let Some(flight) = self.flight.filter(|flight| flight.len() != frames) {
+            return Err(format!("the flight to join has {} waypoints; the target has {frames} frames", flight.len()));
         }
         self.check_start()
     }

@@ -65,6 +65,10 @@ pub struct Limits {
     pub acceleration_mps2: f64,
     /// Jerk, m/s^3.
     pub jerk_mps3: f64,
+    /// Yaw rate, degrees per second.
+    pub yaw_rate_deg_s: f64,
+    /// Pitch rate, degrees per second.
+    pub pitch_rate_deg_s: f64,
 }
 
 /// Facts about the finished path, computed in f64 against the unsimplified boxes.
@@ -88,6 +92,10 @@ pub struct Certificate {
     pub max_acceleration_mps2: f64,
     /// Largest finite-difference jerk, m/s^3.
     pub max_jerk_mps3: f64,
+    /// Largest yaw rate of the camera from frame to frame, degrees per second.
+    pub max_yaw_rate_deg_s: f64,
+    /// Largest pitch rate of the camera from frame to frame, degrees per second.
+    pub max_pitch_rate_deg_s: f64,
     /// Mean 3-D distance from drone to target's feet, metres.
     pub mean_distance_m: f64,
     /// Mean angle between "target to drone" and "against the walking direction", degrees, horizontal.

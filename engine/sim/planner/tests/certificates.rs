@@ -1,10 +1,11 @@
 //! Every planned flight is measured again, by other means than the planner's own.
 
-use cosfly_frames::DVec3;
+use core::f64::consts::PI;
+use cosfly_frames::{DVec3, Pose};
 use cosfly_geometry::{BoxBvh, BruteForce, OrientedBox, SpatialQuery};
-use cosfly_planner::scenes::{Scene, SceneKind};
 use cosfly_planner::{MucoConfig, PlanOutcome, Preset, Trajectory, aim_point, body_points, plan};
 use cosfly_random::Seed;
+use cosfly_scenes::{Scene, SceneKind};
 
 fn planned(scene: &Scene, seed: u64, index: u64, config: &MucoConfig) -> Result<Box<Trajectory>, String> {
     let exact = BoxBvh::build(scene.boxes.clone());
@@ -83,6 +84,15 @@ fn check_kinematics(flight: &Trajectory, p: &[DVec3], config: &MucoConfig, label
         (&jerk, certificate.max_jerk_mps3, config.limits.jerk_mps3),
     ] {
         let largest = values.iter().map(|v| v.length()).fold(0.0, f64::max);
+        assert!((largest - stated).abs() < 1e-6 && largest <= limit + 1e-6, "{label}: {largest} {stated} {limit}");
+    }
+    let angles = |angle: fn(&Pose) -> f64| flight.poses_in_world.iter().map(angle).collect::<Vec<f64>>();
+    for (angles, stated, limit) in [
+        (angles(|pose| pose.yaw_rad), certificate.max_yaw_rate_deg_s, config.limits.yaw_rate_deg_s),
+        (angles(|pose| pose.pitch_rad), certificate.max_pitch_rate_deg_s, config.limits.pitch_rate_deg_s),
+    ] {
+        let turn = |pair: &[f64]| (pair[1] - pair[0] + PI).rem_euclid(2.0 * PI) - PI;
+        let largest = angles.windows(2).map(|pair| turn(pair).abs().to_degrees() / dt).fold(0.0, f64::max);
         assert!((largest - stated).abs() < 1e-6 && largest <= limit + 1e-6, "{label}: {largest} {stated} {limit}");
     }
 }

@@ -4,10 +4,10 @@ use cosfly_frames::{DVec3, TargetState, TargetTrack};
 use cosfly_geometry::{BoxBvh, OrientedBox, SpatialQuery};
 use cosfly_planner::certificate::Kinematics;
 use cosfly_planner::config::{Planner, SeveralTargets};
-use cosfly_planner::scenes::{Scene, SceneKind};
 use cosfly_planner::{
     MucoConfig, PlanOutcome, PlanRequest, Preset, StartState, Trajectory, body_points, plan_request, visibility,
 };
+use cosfly_scenes::{Scene, SceneKind};
 
 fn flown(outcome: PlanOutcome) -> Trajectory {
     match outcome {
@@ -57,13 +57,49 @@ fn any_state_on_a_flight_can_be_continued_from_within_all_limits() {
         ];
         with_before.extend(positions(&flight));
         assert!(with_before[2].distance(start.position_in_world) < 1e-9);
-        let kinematics = Kinematics::of(&with_before, track.dt_s);
+        let states = [&[rest.states[0]; 2][..], &rest.states].concat();
+        let longer = TargetTrack { states, ..rest.clone() };
+        let kinematics = Kinematics::of(&longer, &with_before, 3);
         assert!(kinematics.violations(&flight.certificate.limits).is_empty(), "{frame}: {kinematics:?}");
         for pair in with_before[2..].windows(2) {
             assert!(exact.segment_clearance(pair[0], pair[1], 5.0) >= config.limits.clearance_m);
         }
     }
     assert!(planned >= 5, "{planned} of 7");
+}
+
+#[test]
+fn a_state_on_a_known_flight_goes_on_along_it_and_one_beside_it_joins_it() {
+    let scene = Scene::generate(SceneKind::Leafy, 4);
+    let exact = BoxBvh::build(scene.boxes.clone());
+    let config = MucoConfig::default();
+    let track = scene.walker(4, 0);
+    let flight = positions(&flown(plan_request(PlanRequest::new(&track, &exact, &scene.boxes, &|_, _| 0.0, &config))));
+    let mut joined = 0;
+    for frame in (2..150).step_by(7) {
+        let rest = TargetTrack { states: track.states[frame..].to_vec(), ..track.clone() };
+        let velocities = [flight[frame] - flight[frame - 1], 0.5 * (flight[frame + 1] - flight[frame - 1])];
+        for (offset, velocity) in
+            velocities.iter().map(|it| (DVec3::ZERO, *it)).chain([(DVec3::new(1.0, -2.0, 1.0), velocities[0])])
+        {
+            let velocity_in_world = velocity / track.dt_s;
+            let start = StartState { position_in_world: flight[frame] + offset, velocity_in_world };
+            let mut request = PlanRequest::new(&rest, &exact, &scene.boxes, &|_, _| 0.0, &config);
+            (request.start, request.flight) = (Some(start), Some(&flight[frame..]));
+            let answer = flown(plan_request(request));
+            assert!(answer.certificate.holds, "{frame}: {:?}", answer.certificate.violations);
+            let way = positions(&answer);
+            assert!(way[0].distance(start.position_in_world) < 1e-9);
+            let gap = way[16].distance(flight[frame + 16]);
+            let is_on_it = offset == DVec3::ZERO;
+            assert!(!is_on_it || way[5].distance(flight[frame + 5]) < 0.1, "{frame}: {gap}");
+            joined += usize::from(gap < 1e-9);
+        }
+    }
+    assert!(joined >= 60, "{joined} of 66");
+    let mut request = PlanRequest::new(&track, &exact, &scene.boxes, &|_, _| 0.0, &config);
+    request.flight = Some(&flight[1..]);
+    refused(plan_request(request), "the flight to join has");
 }
 
 #[test]

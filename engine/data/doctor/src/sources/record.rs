@@ -11,7 +11,14 @@ pub fn episode(record: &RenderedTrajectory) -> Episode {
     let trajectory = &record.trajectory;
     let is_plain = record.lens.is_none() && record.rolling_shutter.readout_s == 0.0;
     let limits = &trajectory.certificate.limits;
-    let limits = [limits.clearance_m, limits.speed_mps, limits.acceleration_mps2, limits.jerk_mps3];
+    let limits = [
+        limits.clearance_m,
+        limits.speed_mps,
+        limits.acceleration_mps2,
+        limits.jerk_mps3,
+        limits.yaw_rate_deg_s,
+        limits.pitch_rate_deg_s,
+    ];
     Episode {
         id: record.trajectory_id.clone(),
         group: record.pedestrian_id.clone(),

@@ -90,9 +90,10 @@ impl<S, T: Value> AnyColumn<S> for Column<S, T> {
     }
 }
 
-/// Suffixes of names and their units.
-const UNITS: [(&str, &str); 7] = [
+/// Suffixes of names and their units; the first that fits counts.
+const UNITS: [(&str, &str); 8] = [
     ("_m", "m"),
+    ("_deg_s", "degrees/s"),
     ("_s", "s"),
     ("_deg", "degrees"),
     ("_px", "pixels"),

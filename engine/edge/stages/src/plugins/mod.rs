@@ -20,7 +20,7 @@ pub use running::{AfterPlanning, Plugins, host, keep_compiled_in, source};
 #[cfg(feature = "plugins")]
 pub use cosfly_plugin_host::{Answered, Column, Declaration, Effect, ValueKind};
 
-use cosfly_planner::objectives::reference::Reference;
+use cosfly_objectives::reference::Reference;
 
 /// Reference drawn by an objective's plugin.
 pub struct DrawnReference {

@@ -7,8 +7,8 @@ use cosfly_diagnose::{Diagnostic, Fault, Result};
 use cosfly_frames::{DVec3, Seed};
 use cosfly_geometry::{OrientedBox, SpatialQuery};
 use cosfly_maps::ObstacleKind;
-use cosfly_planner::objectives::config::{DT_S, LONGEST_S};
-use cosfly_planner::objectives::reference::Reference;
+use cosfly_objectives::config::{DT_S, LONGEST_S};
+use cosfly_objectives::reference::Reference;
 use cosfly_planner::{MucoConfig, WeightedTerm};
 use cosfly_plugin_host::{
     Answered, Began, Declaration, Host, Kind, NoTown, Plugin, PluginError, PluginLimits, PluginTerm, SiteContext,

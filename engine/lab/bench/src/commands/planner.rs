@@ -9,9 +9,9 @@ use cosfly_lab::planner::many::{ManyOptions, many};
 use cosfly_lab::planner::phases::phases;
 use cosfly_lab::planner::scene::Ground;
 use cosfly_lab::planner::solver::solver;
-use cosfly_lab::planner::{Contender, PathOutcome, PlannerOptions, outcomes, plot, table, tabulate};
+use cosfly_lab::planner::{Contender, PathOutcome, PlannerOptions, front, outcomes, plot, table, tabulate};
 use cosfly_planner::MucoConfig;
-use cosfly_planner::scenes::SceneKind;
+use cosfly_scenes::SceneKind;
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 use std::io::IsTerminal;
 use std::path::{Path, PathBuf};
@@ -34,6 +34,7 @@ Examples:
   cosfly-lab planner --recipe my.toml --paths 20 --seed 9  its town, twenty other walks
   cosfly-lab planner --planner cosfly --planner astar      two planners
   cosfly-lab planner --plot out/plots --paths 3            pictures, too
+  cosfly-lab planner --front --recipe recipes/carla_town.toml --paths 60   visibility against learnability
   cosfly-lab planner --solver --scene leafy                the paper's solver table: trees or none, one path or many
   cosfly-lab planner --split                               where our planner's time goes
   cosfly-lab planner --many 6000                           a dataset's worth on all cores
@@ -66,6 +67,12 @@ pub struct PlannerArguments {
     /// Time the steps of cosfly's planner
     #[arg(long, conflicts_with_all = ["many", "solver", "planners"])]
     pub split: bool,
+    /// Set visibility against learnability: presets, A* and the paper's pipeline, unless `--planner` names others
+    #[arg(long, conflicts_with_all = ["many", "solver", "split", "plot"])]
+    pub front: bool,
+    /// Set a value of the recipe, such as stages.expert.search.relative_motion=4 (repeatable)
+    #[arg(long = "set", value_name = "KEY=VALUE", requires = "recipe")]
+    pub set: Vec<String>,
     /// Print JSON
     #[arg(long)]
     pub json: bool,
@@ -114,7 +121,8 @@ fn flown_in_bulk(
 fn compared(arguments: &PlannerArguments, progress: &(dyn Fn(usize, usize) + Sync)) -> Result<String, Refusals> {
     let (grounds, config) = match &arguments.recipe {
         Some(recipe) => {
-            let (ground, config) = town_of_recipe::town_of_recipe(recipe, arguments.paths, arguments.seed)?;
+            let (ground, config) =
+                town_of_recipe::town_of_recipe(recipe, &arguments.set, arguments.paths, arguments.seed)?;
             (vec![ground], config)
         }
         None => {
@@ -133,6 +141,10 @@ fn compared(arguments: &PlannerArguments, progress: &(dyn Fn(usize, usize) + Syn
     }
     let options = PlannerOptions { grounds, contenders: contenders(arguments), config, progress };
     let planned = outcomes(&options);
+    if arguments.front {
+        let front = front::front(&options, &planned);
+        return Ok(if arguments.json { json(&front) } else { format!("{front}\n{}", front::FRONT_LEGEND) });
+    }
     let mut words = String::new();
     if let Some(folder) = &arguments.plot {
         let count = pictures(&options, &planned, folder)?;
@@ -169,7 +181,7 @@ fn kinds(arguments: &PlannerArguments) -> Vec<SceneKind> {
 /// All planners, or the named ones; A* with non-default settings only by name.
 fn contenders(arguments: &PlannerArguments) -> Vec<Contender> {
     if arguments.planners.is_empty() {
-        return Contender::all();
+        return if arguments.front { Contender::of_front() } else { Contender::all() };
     }
     let named = |who: &Contender| arguments.planners.iter().any(|name| name == who.name());
     Contender::nameable().into_iter().filter(named).collect()

@@ -15,11 +15,17 @@ use cosfly_store::Store;
 use std::path::Path;
 use std::sync::Arc;
 
-/// Town, walks, and planner parameters of the first `muco` stage of a recipe; `paths` and `seed` replace the number of
-/// walks and the recipe's seed where given.
-pub fn town_of_recipe(path: &Path, paths: Option<usize>, seed: Option<u64>) -> Result<(Ground, MucoConfig), Refusals> {
+/// Town, walks, and planner parameters of the first `muco` stage of a recipe with the values of `set`; `paths` and `seed`
+/// replace the number of walks and the recipe's seed where given.
+pub fn town_of_recipe(
+    path: &Path,
+    set: &[String],
+    paths: Option<usize>,
+    seed: Option<u64>,
+) -> Result<(Ground, MucoConfig), Refusals> {
     let registry = cosfly_stages::registry();
-    let mut overrides: Vec<String> = seed.map(|seed| format!("seed={seed}")).into_iter().collect();
+    let mut overrides = set.to_vec();
+    overrides.extend(seed.map(|seed| format!("seed={seed}")));
     let mut recipe = cosfly_recipe::load(path, &overrides, &registry)?;
     let position = planner_of(&recipe)?;
     if let (Some(count), Some(walkers)) = (paths, walkers_of(&recipe, position)) {

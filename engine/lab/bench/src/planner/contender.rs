@@ -18,6 +18,8 @@ use cosfly_random::Seed;
 pub enum Contender {
     /// Cosfly's planner with its default preset.
     Cosfly,
+    /// Cosfly's planner with another of its presets.
+    Preset(Preset),
     /// The paper's pipeline alone: neither certified nor rejected.
     Paper,
     /// The paper's pipeline as recipes use it: made flyable and certified, or rejected.
@@ -61,6 +63,9 @@ pub const SETTINGS: [Setting; 8] = [
     setting("astar_1m", false, 1.0, 1.0),
 ];
 
+/// Presets beside the default one, with their names.
+const PRESETS: [(Preset, &str); 2] = [(Preset::Rear, "rear"), (Preset::Short, "short")];
+
 /// A planned path, before evaluation.
 pub struct Planned {
     /// Positions, one per frame, metres.
@@ -80,9 +85,18 @@ impl Contender {
         first.into_iter().chain(Baseline::ALL.into_iter().map(Self::Baseline)).collect()
     }
 
-    /// [`Self::all`] and the [`SETTINGS`].
+    /// The contenders of the table of visibility against learnability, in order.
+    pub fn of_front() -> Vec<Self> {
+        let presets = PRESETS.map(|(preset, _)| Self::Preset(preset));
+        let rivals = [Self::Baseline(Baseline::AstarFast), Self::Baseline(Baseline::AstarSmoothed)];
+        let paper = [Self::Paper, Self::PaperFlyable];
+        [Self::Cosfly].into_iter().chain(presets).chain(rivals).chain(paper).collect()
+    }
+
+    /// [`Self::all`], the other presets, and the [`SETTINGS`].
     pub fn nameable() -> Vec<Self> {
-        Self::all().into_iter().chain((0..SETTINGS.len()).map(Self::Setting)).collect()
+        let presets = PRESETS.map(|(preset, _)| Self::Preset(preset));
+        Self::all().into_iter().chain(presets).chain((0..SETTINGS.len()).map(Self::Setting)).collect()
     }
 
     /// Name in the table and on the command line.
@@ -90,6 +104,7 @@ impl Contender {
         match self {
             Self::Setting(index) => SETTINGS[index].name,
             Self::Cosfly => "cosfly",
+            Self::Preset(preset) => PRESETS.iter().find(|(known, _)| *known == preset).map_or("preset", |it| it.1),
             Self::Paper => "paper",
             Self::PaperFlyable => "paper_flyable",
             Self::Astar => "astar",
@@ -101,6 +116,7 @@ impl Contender {
     pub fn plan(self, ground: &Ground, track: &TargetTrack, config: &MucoConfig) -> Result<Planned, String> {
         match self {
             Self::Cosfly => flight(ground, track, &MucoConfig { preset: Preset::Cosfly, ..config.clone() }),
+            Self::Preset(preset) => flight(ground, track, &MucoConfig { preset, ..config.clone() }),
             Self::Paper => Ok(paper_flight(ground, track, &MucoConfig { preset: Preset::Paper, ..config.clone() })),
             Self::PaperFlyable => flight(ground, track, &MucoConfig { preset: Preset::Paper, ..config.clone() }),
             Self::Astar => baseline_path(ground, track, config, &|input| {

@@ -103,7 +103,7 @@ fn figures(
     let waypoints = &planned.waypoints;
     let frames = waypoints.len().max(1) as f64;
     let clearances: Vec<f64> = swept_clearances_m(exact, waypoints);
-    let kinematics = Kinematics::of(waypoints, track.dt_s);
+    let kinematics = Kinematics::of(track, waypoints, 0);
     let nearer = |limit_m: f64| clearances.iter().filter(|&&clearance| clearance < limit_m - 1e-9).count() as u32;
     let distances = waypoints.iter().zip(&track.states).map(|(w, state)| w.distance(state.feet_in_world));
     let visibility = seen.iter().sum::<f64>() / frames;

@@ -10,7 +10,7 @@ use crate::clock::timed;
 use cosfly_frames::{DVec3, TargetTrack};
 use cosfly_planner::MucoConfig;
 use cosfly_planner::certificate::Kinematics;
-use cosfly_planner::scenes::SceneKind;
+use cosfly_scenes::SceneKind;
 use rayon::prelude::*;
 use serde::Serialize;
 use std::fmt;
@@ -78,7 +78,11 @@ pub struct ManyReport {
     pub collisions: usize,
     /// Number of flights nearer than the clearance limit.
     pub margin_violations: usize,
-    /// Number of flights beyond a limit of speed, acceleration or jerk.
+    /// Largest yaw rate, degrees per second.
+    pub max_yaw_rate_deg_s: f64,
+    /// Largest pitch rate, degrees per second.
+    pub max_pitch_rate_deg_s: f64,
+    /// Number of flights beyond a limit of speed, acceleration, jerk, yaw rate or pitch rate.
     pub limit_violations: usize,
     /// First incidents (such flights, and paths without a flight), each in words.
     pub incidents: Vec<String>,
@@ -175,7 +179,7 @@ fn judge(job: &Job<'_>, planned: &Result<Planned, String>) -> Result<Verdict, St
         cosfly_planner::visibility(job.ground.exact.as_ref(), *waypoint, state, job.track.height_m)
     };
     let visibility = waypoints.iter().zip(&job.track.states).map(seen).sum::<f64>() / waypoints.len().max(1) as f64;
-    Ok(Verdict { visibility, clearance_m, kinematics: Kinematics::of(waypoints, job.track.dt_s) })
+    Ok(Verdict { visibility, clearance_m, kinematics: Kinematics::of(job.track, waypoints, 0) })
 }
 
 impl ManyReport {
@@ -187,10 +191,12 @@ impl ManyReport {
         self.planned += 1;
         self.visibility += verdict.visibility;
         self.min_clearance_m = self.min_clearance_m.min(verdict.clearance_m);
-        let (found, limits) = (verdict.kinematics, &config.limits);
+        let (found, limits) = (verdict.kinematics, config.stated_limits());
         self.max_speed_mps = self.max_speed_mps.max(found.speed_mps);
         self.max_acceleration_mps2 = self.max_acceleration_mps2.max(found.acceleration_mps2);
         self.max_jerk_mps3 = self.max_jerk_mps3.max(found.jerk_mps3);
+        self.max_yaw_rate_deg_s = self.max_yaw_rate_deg_s.max(found.yaw_rate_deg_s);
+        self.max_pitch_rate_deg_s = self.max_pitch_rate_deg_s.max(found.pitch_rate_deg_s);
         if verdict.clearance_m < COLLISION_M - ROUNDING {
             self.collisions += 1;
             self.incident(format!("collision: {}: clearance {:.3} m", job.name, verdict.clearance_m));
@@ -198,15 +204,10 @@ impl ManyReport {
             self.margin_violations += 1;
             self.incident(format!("too near: {}: clearance {:.3} m", job.name, verdict.clearance_m));
         }
-        if found.speed_mps > limits.speed_mps + ROUNDING
-            || found.acceleration_mps2 > limits.acceleration_mps2 + ROUNDING
-            || found.jerk_mps3 > limits.jerk_mps3 + ROUNDING
-        {
+        let beyond = found.violations(&limits);
+        if !beyond.is_empty() {
             self.limit_violations += 1;
-            self.incident(format!(
-                "beyond the limits: {}: {:.2} m/s, {:.2} m/s^2, {:.2} m/s^3",
-                job.name, found.speed_mps, found.acceleration_mps2, found.jerk_mps3
-            ));
+            self.incident(format!("beyond the limits: {}: {}", job.name, beyond.join("; ")));
         }
     }
 
@@ -245,6 +246,8 @@ impl fmt::Display for ManyReport {
             "beyond the limits = {}; largest speed {:.2} m/s, acceleration {:.2} m/s^2, jerk {:.2} m/s^3",
             self.limit_violations, self.max_speed_mps, self.max_acceleration_mps2, self.max_jerk_mps3
         )?;
+        let (yaw, pitch) = (self.max_yaw_rate_deg_s, self.max_pitch_rate_deg_s);
+        writeln!(f, "largest yaw rate {yaw:.1} degrees/s, pitch rate {pitch:.1} degrees/s")?;
         self.incidents.iter().try_for_each(|incident| writeln!(f, "  {incident}"))
     }
 }

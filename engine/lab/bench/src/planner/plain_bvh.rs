@@ -300,8 +300,8 @@ impl Sight for PlainBvh {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use cosfly_planner::scenes::{Scene, SceneKind};
     use cosfly_random::Seed;
+    use cosfly_scenes::{Scene, SceneKind};
 
     #[test]
     fn answers_are_those_of_every_box_in_turn() {

@@ -2,7 +2,7 @@
 
 use cosfly_frames::TargetTrack;
 use cosfly_geometry::{BoxBvh, OrientedBox, SpatialQuery};
-use cosfly_planner::scenes::{Scene, SceneKind};
+use cosfly_scenes::{Scene, SceneKind};
 
 /// Function of the height of the ground at (x, y), metres.
 pub type GroundHeight = Box<dyn Fn(f64, f64) -> f64 + Send + Sync>;

@@ -231,7 +231,7 @@ mod tests {
     use crate::planner::scene::Ground;
     use cosfly_planner::MucoConfig;
     use cosfly_planner::baselines::Baseline;
-    use cosfly_planner::scenes::SceneKind;
+    use cosfly_scenes::SceneKind;
 
     #[test]
     fn medians_are_middle_values() {

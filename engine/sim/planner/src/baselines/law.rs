@@ -9,12 +9,12 @@ use crate::obstacles::Surroundings;
 use crate::obstacles::exact::ExactObstacles;
 use crate::obstacles::ground::GroundGrid;
 use crate::problem::Problem;
-use crate::scenes::{Scene, SceneKind};
 use crate::terms::term::{CostTerm, TermContext};
 use crate::terms::{altitude, built_in_terms, pitch, safety, tracking, viewpoint, visibility};
 use crate::walk::Walk;
 use cosfly_frames::{DVec3, TargetTrack};
 use cosfly_geometry::{BoxBvh, BruteForce, OrientedBox};
+use cosfly_scenes::{Scene, SceneKind};
 
 fn track_of(scene: &Scene, frames: usize) -> TargetTrack {
     let mut track = scene.walker(5, 1);

@@ -20,24 +20,40 @@ pub struct LimitsConfig {
     /// Largest jerk, m/s^3. Default 12.
     #[schemars(range(min = 0.1, max = 1000.0))]
     pub jerk_mps3: f64,
-    /// Reject flights beyond the speed, acceleration or jerk limits; if false they are published with the
-    /// violation in their certificate. Clearance is always required. Default true.
+    /// Largest yaw rate of the camera, degrees per second from frame to frame. Default 60.
+    #[schemars(range(min = 1.0, max = 3600.0))]
+    pub yaw_rate_deg_s: f64,
+    /// Largest pitch rate of the camera, degrees per second from frame to frame. Default 60.
+    #[schemars(range(min = 1.0, max = 3600.0))]
+    pub pitch_rate_deg_s: f64,
+    /// Reject flights beyond the limits of speed, acceleration, jerk, yaw rate or pitch rate; if false they are published
+    /// with the violation in their certificate. Clearance is always required. Default true.
     pub require_kinematics: bool,
 }
 
 impl Default for LimitsConfig {
     fn default() -> Self {
-        Self { clearance_m: 1.5, speed_mps: 12.0, acceleration_mps2: 6.0, jerk_mps3: 12.0, require_kinematics: true }
+        Self {
+            clearance_m: 1.5,
+            speed_mps: 12.0,
+            acceleration_mps2: 6.0,
+            jerk_mps3: 12.0,
+            yaw_rate_deg_s: 60.0,
+            pitch_rate_deg_s: 60.0,
+            require_kinematics: true,
+        }
     }
 }
 
 impl LimitsConfig {
-    pub(super) fn ranges(&self) -> [Range; 4] {
+    pub(super) fn ranges(&self) -> [Range; 6] {
         [
             ("limits.clearance_m", self.clearance_m, 0.1, 10.0),
             ("limits.speed_mps", self.speed_mps, 0.5, 50.0),
             ("limits.acceleration_mps2", self.acceleration_mps2, 0.1, 100.0),
             ("limits.jerk_mps3", self.jerk_mps3, 0.1, 1000.0),
+            ("limits.yaw_rate_deg_s", self.yaw_rate_deg_s, 1.0, 3600.0),
+            ("limits.pitch_rate_deg_s", self.pitch_rate_deg_s, 1.0, 3600.0),
         ]
     }
 }

@@ -17,6 +17,7 @@ pub use muco::MucoConfig;
 pub use occlusion::OcclusionConfig;
 pub use paper::PaperConfig;
 pub use planner::Planner;
+pub use ranges::{Refusal, in_range};
 pub use search::{SearchConfig, SearchEffort};
 pub use targets::{SeveralTargets, TargetsConfig};
 pub use view::ViewConfig;

@@ -73,6 +73,8 @@ impl MucoConfig {
             speed_mps: self.limits.speed_mps,
             acceleration_mps2: self.limits.acceleration_mps2,
             jerk_mps3: self.limits.jerk_mps3,
+            yaw_rate_deg_s: self.limits.yaw_rate_deg_s,
+            pitch_rate_deg_s: self.limits.pitch_rate_deg_s,
         }
     }
 

@@ -4,10 +4,13 @@
 pub(super) type Range = (&'static str, f64, f64, f64);
 
 /// Path of a parameter, and the rule that it breaks.
-pub(crate) type Refusal = (String, String);
+pub type Refusal = (String, String);
 
 /// Refuses a value out of range, or one that is not a number.
-pub(crate) fn in_range(path: &str, value: f64, low: f64, high: f64) -> Result<(), Refusal> {
+///
+/// # Errors
+/// The path, and the rule that it breaks.
+pub fn in_range(path: &str, value: f64, low: f64, high: f64) -> Result<(), Refusal> {
     if value >= low && value <= high {
         return Ok(());
     }

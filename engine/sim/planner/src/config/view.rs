@@ -36,6 +36,10 @@ pub struct ViewConfig {
     /// (the viewpoint weight still prefers the rear). Default 180.
     #[schemars(range(min = 10.0, max = 180.0))]
     pub rear_sector_deg: f64,
+    /// Half-angle of the sector behind the walker in which flights start, degrees (paper: 60); 180 allows every side.
+    /// Default 60.
+    #[schemars(range(min = 10.0, max = 180.0))]
+    pub start_sector_deg: f64,
 }
 
 impl Default for ViewConfig {
@@ -50,12 +54,13 @@ impl Default for ViewConfig {
             max_radius_m: 38.0,
             safety_influence_m: 8.0,
             rear_sector_deg: 180.0,
+            start_sector_deg: 60.0,
         }
     }
 }
 
 impl ViewConfig {
-    pub(super) fn ranges(&self) -> [Range; 9] {
+    pub(super) fn ranges(&self) -> [Range; 10] {
         [
             ("view.distance_m", self.distance_m, 2.0, 200.0),
             ("view.pitch_deg", self.pitch_deg, 5.0, 85.0),
@@ -66,6 +71,7 @@ impl ViewConfig {
             ("view.max_radius_m", self.max_radius_m, 1.0, 400.0),
             ("view.safety_influence_m", self.safety_influence_m, 0.1, 50.0),
             ("view.rear_sector_deg", self.rear_sector_deg, 10.0, 180.0),
+            ("view.start_sector_deg", self.start_sector_deg, 10.0, 180.0),
         ]
     }
 

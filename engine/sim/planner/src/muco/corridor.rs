@@ -44,6 +44,10 @@ pub struct CorridorInput<'a> {
     pub learned: &'a [Vec<HalfSpace>],
     /// The first waypoints, where they are given.
     pub head: &'a [DVec3],
+    /// Least horizontal distance from the target, metres.
+    pub min_radius_m: f64,
+    /// Largest turns of yaw and pitch from frame to frame, radians.
+    pub turn_rad: [f64; 2],
 }
 
 /// Builds the corridor around `waypoints`.

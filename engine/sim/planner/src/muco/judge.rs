@@ -65,6 +65,9 @@ impl<'a> Judge<'a> {
                 wished,
                 learned: &self.learned,
                 head: self.head,
+                min_radius_m: self.config.view.min_radius_m,
+                turn_rad: [limits.yaw_rate_deg_s, limits.pitch_rate_deg_s]
+                    .map(|rate| rate.to_radians() * self.problem.track.dt_s),
             };
             let smoothed = smooth(&input, &from, &limits, objective);
             self.iterations += smoothed.iterations;
@@ -81,14 +84,14 @@ impl<'a> Judge<'a> {
 
     /// Everything about a flight, in f64 against the unsimplified map.
     pub fn measure(&self, waypoints: &[DVec3]) -> Measured {
-        certify(self.problem.track, waypoints, self.exact, self.ground, self.config)
+        certify(self.problem.track, waypoints, self.head.len(), self.exact, self.ground, self.config)
     }
 
     /// Whether a flight has no need of smoothing: it is smooth enough, high enough and clear of the
     /// planning boxes.
     pub fn needs_nothing(&self, obstacles: &LocalObstacles<'_>, waypoints: &[DVec3]) -> bool {
         let limits = self.config.stated_limits();
-        let kinematics = Kinematics::of(waypoints, self.problem.track.dt_s);
+        let kinematics = Kinematics::of(self.problem.track, waypoints, self.head.len());
         let keep_m = limits.clearance_m;
         let clear = |(i, w): (usize, &[DVec3])| obstacles.segment_clearance_m(i, w[0], w[1], keep_m) >= keep_m;
         let above_floor = |(i, w): (usize, &DVec3)| w.z >= self.floor_m(obstacles, i, *w) - FLOOR_SLACK_M;

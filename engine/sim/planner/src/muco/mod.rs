@@ -5,7 +5,7 @@
 //! repeat with growing effort                                        (attempts)
 //!   start   <- cheapest way through the lattice of viewpoints       (search, lattice, scan, pricing, viterbi, losses)
 //!   refined <- Gauss-Newton steps on all terms from there           (refine)
-//!   flight  <- flyable path near it, inside its safe corridor       (smoother, corridor, banded)
+//!   flight  <- flyable path near it, inside its safe corridor       (smoother, corridor, turning, banded)
 //! until its certificate holds and it sees what the lattice promises (judge)
 //! ```
 
@@ -14,6 +14,7 @@ pub mod banded;
 pub mod corridor;
 pub mod judge;
 pub mod lattice;
+pub(crate) mod lead_in;
 pub mod losses;
 pub mod node_state;
 mod pricing;
@@ -21,4 +22,5 @@ pub mod refine;
 pub mod scan;
 pub mod search;
 pub mod smoother;
+mod turning;
 pub mod viterbi;

@@ -34,6 +34,8 @@ const CLEARANCE_WEIGHT: f64 = 40.0;
 const CLEARANCE_EXTRA_M: f64 = 0.4;
 /// The same for the lowest altitude.
 const FLOOR_EXTRA_M: f64 = 0.2;
+/// The same for the least horizontal distance from the target.
+const RADIUS_EXTRA_M: f64 = 0.5;
 /// No waypoint moves further in one step, metres.
 const LONGEST_STEP_M: f64 = 2.5;
 /// Time step for which the smoothness weights are written, seconds.
@@ -123,6 +125,11 @@ fn assemble(
         let below = ground + config.view.min_altitude_m + FLOOR_EXTRA_M - waypoint.z;
         if below > 0.0 && lattice_way[frame].z >= ground + config.view.min_altitude_m {
             equations.add(frame, CLEARANCE_WEIGHT, below, -DVec3::Z);
+        }
+        let across = (waypoint - problem.track.states[frame].feet_in_world).with_z(0.0);
+        let missing = config.view.min_radius_m + RADIUS_EXTRA_M - across.length();
+        if missing > 0.0 {
+            equations.add(frame, CLEARANCE_WEIGHT, missing, -across.try_normalize().unwrap_or(DVec3::X));
         }
         if let Some((distance, away)) = obstacles.nearest(frame, waypoint, keep) {
             equations.add(frame, CLEARANCE_WEIGHT, keep - distance, -away);

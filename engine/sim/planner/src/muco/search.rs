@@ -2,12 +2,12 @@
 //! (paper, algorithm 2, made global).
 
 use super::lattice::{Lattice, LatticeSize};
+use super::lead_in::{frames as frames_of_lead_in, lead_in};
 use super::losses::{self, LossPlan};
 use super::node_state::{CLOSE, NodeState, UNSAFE};
-use super::pricing::{node_costs, start_costs};
+use super::pricing::{node_costs, sector_costs, start_costs};
 use super::scan::Scanner;
 use super::viterbi::{MoveCosts, SearchSpace, Viterbi};
-use crate::config::limits::LimitsConfig;
 use crate::config::muco::MucoConfig;
 use crate::config::targets::SeveralTargets;
 use crate::obstacles::local::LocalObstacles;
@@ -20,10 +20,10 @@ const MAX_SEARCHES: usize = 12;
 const CUT_SHARE: f64 = 0.4;
 /// Keyframes are at least about this far apart, so that a step of the lattice is within reach, seconds.
 const SHORTEST_LAYER_S: f64 = 0.5;
-/// Share of the limits that leading in from a given start may take.
-const LEAD_IN_SHARE: f64 = 0.6;
 /// Share of the speed limit at which nodes may follow each other; the rest is for getting up to speed and slowing down.
 const STEADY_SHARE: f64 = 0.66;
+/// Share of the limit of yaw rate at which nodes may follow each other.
+const TURN_SHARE: f64 = 0.8;
 
 /// The lattice of one search, and how it differs from the recipe's when that fails.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -78,6 +78,9 @@ pub fn search(
     let closed_share = sample().filter(|&&state| state == UNSAFE).count() as f64 / sample().len().max(1) as f64;
     let mut costs = node_costs(problem, obstacles, &lattice, &frames, config);
     let moves = move_costs(config, effort, track.dt_s, stride);
+    if head.is_empty() {
+        costs.first = sector_costs(problem, &lattice, config.view.start_sector_deg);
+    }
     if let Some(start) = head.last() {
         let keep_m = config.limits.clearance_m;
         let (relative, feet) = (moves.relative, track.states[first].feet_in_world);
@@ -96,7 +99,7 @@ pub fn search(
             )
         })?;
         let mut waypoints = interpolate(&lattice, track, &frames, &nodes);
-        lead_in(head, &config.limits, track.dt_s, &mut waypoints);
+        lead_in(head, frames_of_lead_in(head, &config.limits, track.dt_s, &waypoints), &mut waypoints);
         let cut = cut_layers(obstacles, &waypoints, &frames, CUT_SHARE * config.limits.clearance_m);
         let Some(&first) = cut.first() else {
             let hidden = |(layer, &node): (usize, &usize)| f64::from(viterbi.state(layer, node) & !CLOSE);
@@ -119,6 +122,7 @@ fn move_costs(config: &MucoConfig, effort: Effort, dt_s: f64, stride: usize) -> 
         relative: per_layer * config.search.relative_motion,
         absolute: per_layer * config.search.absolute_motion,
         longest_m: STEADY_SHARE * config.limits.speed_mps * dt_s * stride as f64,
+        widest_rad: TURN_SHARE * config.limits.yaw_rate_deg_s.to_radians() * dt_s * stride as f64,
     }
 }
 
@@ -129,32 +133,6 @@ fn layer_frames(first: usize, last: usize, stride: usize) -> Vec<usize> {
         frames.push(last);
     }
     frames
-}
-
-/// Leads from the given waypoints into the way through the lattice: what is between them at first, in place and in
-/// velocity, dies away along a cubic, slowly enough for the limits of speed and acceleration.
-fn lead_in(head: &[DVec3], limits: &LimitsConfig, dt_s: f64, waypoints: &mut [DVec3]) {
-    let [.., before, start] = head else { return };
-    let first = head.len() - 1;
-    if waypoints.len() <= first + 1 {
-        return waypoints[..head.len()].copy_from_slice(head);
-    }
-    let gap = start - waypoints[first];
-    // Metres per frame.
-    let drift = (start - before) - (waypoints[first + 1] - waypoints[first]);
-    let (fastest, steepest) =
-        (LEAD_IN_SHARE * limits.speed_mps * dt_s, LEAD_IN_SHARE * limits.acceleration_mps2 * dt_s * dt_s);
-    // The cubic's steepest step is 1.5 gap / frames, its strongest bend 6 gap / frames^2 + 4 drift / frames.
-    let by_speed = 1.5 * gap.length() / fastest;
-    let half = 2.0 * drift.length() / steepest;
-    let by_bend = half + (half * half + 6.0 * gap.length() / steepest).sqrt();
-    let frames = by_speed.max(by_bend).ceil().clamp(1.0, waypoints.len() as f64);
-    for (i, waypoint) in waypoints.iter_mut().skip(first).enumerate() {
-        let t = (i as f64 / frames).min(1.0);
-        let left = 1.0 - t;
-        *waypoint += gap * (left * left * (1.0 + 2.0 * t)) + drift * (frames * t * left * left);
-    }
-    waypoints[..head.len()].copy_from_slice(head);
 }
 
 /// Counts the hidden body points of companions into the states.

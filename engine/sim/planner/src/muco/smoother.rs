@@ -6,6 +6,7 @@
 
 use super::banded::{Banded, Factor, add_transposed, differences};
 use super::corridor::{self, CorridorInput, FrameCorridor};
+use super::turning::add_turning;
 use crate::obstacles::Surroundings;
 use crate::trajectory::Limits;
 use cosfly_frames::DVec3;
@@ -61,7 +62,8 @@ pub fn smooth(input: &CorridorInput<'_>, start: &[DVec3], limits: &Limits, objec
     nearness[..input.head.len()].fill(HOLD_FAST);
     let mut iterations = 0;
     for round in 0..objective.rounds {
-        let corridor = corridor::build(input, &waypoints);
+        let mut corridor = corridor::build(input, &waypoints);
+        add_turning(input, &waypoints, &mut corridor);
         let mut programme = Programme::new(&nearness, objective, input.wished, &waypoints, reach, scale);
         iterations += programme.run(&corridor, objective.iterations);
         waypoints = programme.x;

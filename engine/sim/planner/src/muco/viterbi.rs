@@ -39,6 +39,8 @@ pub struct MoveCosts {
     pub absolute: f64,
     /// Longest move relative to the target in one layer, metres.
     pub longest_m: f64,
+    /// Widest change of azimuth in one layer, radians.
+    pub widest_rad: f64,
 }
 
 /// Buffers of a search, worth keeping from one to the next.
@@ -94,8 +96,8 @@ impl MovePrices {
         let chord = |steps: usize| 2.0 * real::sin(0.5 * angle * steps as f64);
         let possible = (lattice.directions.len() - 1) / 2;
         let nearest = lattice.radii_m.first().copied().unwrap_or(0.0);
-        let steps = (0..=MAX_AZIMUTH_STEPS.min(possible)).rev().find(|&k| chord(k) * nearest <= moves.longest_m);
-        let steps = steps.unwrap_or(0);
+        let is_allowed = |k: &usize| chord(*k) * nearest <= moves.longest_m && angle * *k as f64 <= moves.widest_rad;
+        let steps = (0..=MAX_AZIMUTH_STEPS.min(possible)).rev().find(is_allowed).unwrap_or(0);
         let turn = |ring: usize| (1..=steps).map(|k| square(chord(k) * lattice.ring_m(ring).1)).collect();
         Self {
             radii,

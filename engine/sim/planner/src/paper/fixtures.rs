@@ -9,12 +9,12 @@ use crate::obstacles::Surroundings;
 use crate::obstacles::ground::GroundGrid;
 use crate::obstacles::local::LocalObstacles;
 use crate::problem::Problem;
-use crate::scenes::{Scene, SceneKind};
 use crate::terms::built_in_terms;
 use crate::walk::Walk;
 use crate::weights::Preset;
 use cosfly_frames::{DVec3, TargetState, TargetTrack};
 use cosfly_geometry::OrientedBox;
+use cosfly_scenes::{Scene, SceneKind};
 
 /// A plain without anything.
 pub struct Nothing;

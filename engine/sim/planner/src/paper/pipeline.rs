@@ -65,9 +65,9 @@ mod tests {
     use super::super::fixtures::{paper_config, with, with_street};
     use super::*;
     use crate::obstacles::Surroundings;
-    use crate::scenes::{Scene, SceneKind};
     use cosfly_frames::TargetTrack;
     use cosfly_geometry::OrientedBox;
+    use cosfly_scenes::{Scene, SceneKind};
 
     #[test]
     fn the_same_bytes_come_from_one_thread_and_four() {

@@ -3,7 +3,8 @@
 use super::config::{FlyableConfig, PerturbConfig};
 use super::kind::{Kind, Mixture};
 use super::twin::{measured, perturb};
-use crate::trajectory::{Certificate, FramePerturbation, Limits, Perturbation, PlanOutcome, Trajectory};
+use crate::config::muco::MucoConfig;
+use crate::trajectory::{Certificate, FramePerturbation, Perturbation, PlanOutcome, Trajectory};
 use crate::visibility::aim_point;
 use cosfly_frames::{DVec3, Pose, TargetState, TargetTrack, real};
 use cosfly_geometry::{BoxBvh, OrientedBox, SpatialQuery};
@@ -35,7 +36,7 @@ fn expert(count: usize) -> Trajectory {
         terms: vec![],
         convergence: vec![],
         certificate: Certificate {
-            limits: Limits { clearance_m: 1.5, speed_mps: 12.0, acceleration_mps2: 6.0, jerk_mps3: 12.0 },
+            limits: MucoConfig::default().stated_limits(),
             holds: true,
             violations: vec![],
             mean_visibility: 0.0,

@@ -166,12 +166,14 @@ pub(super) fn measured(
         speed_mps: flyable.map_or(f64::INFINITY, |limits| limits.max_speed_mps),
         acceleration_mps2: flyable.map_or(f64::INFINITY, |limits| limits.max_acceleration_mps2),
         jerk_mps3: f64::INFINITY,
+        yaw_rate_deg_s: f64::INFINITY,
+        pitch_rate_deg_s: f64::INFINITY,
         require_kinematics: false,
     };
     // Height is kept above the target's feet while displacing; no ground below is known here.
     let no_ground = |_: f64, _: f64| f64::NEG_INFINITY;
     let muco = MucoConfig { limits, ..MucoConfig::default() };
-    let mut measured = certify(&expert.track, &positions, ExactMap::still(exact), &no_ground, &muco);
+    let mut measured = certify(&expert.track, &positions, 0, ExactMap::still(exact), &no_ground, &muco);
     measured.certificate.filtered_boxes = expert.certificate.filtered_boxes;
     Trajectory {
         track: expert.track.clone(),

@@ -3,11 +3,13 @@
 //! ```text
 //! check the request                                                (plan)
 //! put frames before a given start                                  (start)
+//! join a known flight from there, or                               (join)
 //! hand the problem to the planner that the recipe names            (planners)
 //!   long tracks in stretches                                       (stretches)
 //! publish what holds, with poses and the costs of all terms        (publish)
 //! ```
 
+mod join;
 mod plan;
 mod planners;
 mod publish;

@@ -1,5 +1,6 @@
 //! The planner's main function: from a request to a certified flight, or the reason why there is none.
 
+use super::join::join;
 use super::planners::solve;
 use super::publish::publish;
 use super::start::LongerRequest;
@@ -62,7 +63,11 @@ pub fn plan_request(mut request: PlanRequest<'_>) -> PlanOutcome {
     terms.append(&mut request.extra_terms);
     let found = match request.start.map(|start| LongerRequest::new(&request, start)) {
         None => solve(&request, &terms, built_in, &[]),
-        Some(longer) => solve(&longer.request(&request), &terms, built_in, &longer.head),
+        Some(longer) => {
+            let asked = longer.request(&request);
+            let joined = request.flight.and_then(|flight| join(&asked, &longer.head, flight));
+            joined.map_or_else(|| solve(&asked, &terms, built_in, &longer.head), Ok)
+        }
     };
     match found {
         Ok(found) => publish(&request, &terms, found),

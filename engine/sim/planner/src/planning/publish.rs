@@ -1,6 +1,6 @@
 //! From a valid flight to the trajectory that is handed out.
 
-use crate::certificate::{Kinematics, Measured, certify, term_costs};
+use crate::certificate::{Measured, certify, term_costs};
 use crate::found::Found;
 use crate::obstacles::{exact::ExactMap, exact::ExactObstacles, ground::GroundGrid};
 use crate::problem::frame_number;
@@ -46,12 +46,10 @@ pub(super) fn publish(request: &PlanRequest<'_>, terms: &[WeightedTerm], found: 
 /// stay those of the whole flight.
 fn measured_again(request: &PlanRequest<'_>, map: ExactMap<'_>, found: &Found, waypoints: &[DVec3]) -> Measured {
     let whole = &found.measured.certificate;
-    let mut measured = certify(request.track, waypoints, map, request.ground, request.config);
-    let kinematics = Kinematics::of(&found.waypoints, request.track.dt_s);
+    let mut measured = certify(request.track, waypoints, 0, map, request.ground, request.config);
     let certificate = &mut measured.certificate;
-    certificate.max_speed_mps = kinematics.speed_mps;
-    certificate.max_acceleration_mps2 = kinematics.acceleration_mps2;
-    certificate.max_jerk_mps3 = kinematics.jerk_mps3;
+    (certificate.max_speed_mps, certificate.max_acceleration_mps2, certificate.max_jerk_mps3) =
+        (whole.max_speed_mps, whole.max_acceleration_mps2, whole.max_jerk_mps3);
     (certificate.holds, certificate.violations) = (whole.holds, whole.violations.clone());
     (certificate.lattice_visibility, certificate.visibility_regret) =
         (whole.lattice_visibility, whole.visibility_regret);

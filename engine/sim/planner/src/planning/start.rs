@@ -35,6 +35,7 @@ impl LongerRequest {
             track: &self.track,
             extra_terms: Vec::new(),
             start: None,
+            flight: None,
             companions: &self.companions,
             movers: &self.movers,
             first_frame: original.first_frame.saturating_sub(FRAMES_BEFORE as i64),

@@ -45,7 +45,7 @@ pub fn plan_stretches(request: &PlanRequest<'_>, head: &[DVec3], plan_one: &Plan
         }
     }
     let exact = ExactMap { query: request.exact, movers: request.movers };
-    let mut measured = certify(request.track, &waypoints, exact, request.ground, request.config);
+    let mut measured = certify(request.track, &waypoints, head.len(), exact, request.ground, request.config);
     let certificate = &mut measured.certificate;
     certificate.lattice_visibility = sum.lattice_visibility / seen_frames;
     certificate.visibility_regret = (certificate.lattice_visibility - certificate.mean_visibility).max(0.0);
@@ -73,6 +73,7 @@ fn plan_stretch(
         track: &track,
         extra_terms: Vec::new(),
         start: None,
+        flight: None,
         companions: &companions,
         movers: &movers,
         first_frame: request.first_frame.saturating_add(i64::try_from(frames.start).unwrap_or(i64::MAX)),

@@ -20,6 +20,10 @@ columns! { Trajectories::CERTIFICATE of DatasetItem;
     limit_acceleration_mps2: Option<f64> = |item, _| limit(certificate(item).limits.acceleration_mps2);
     /// Largest allowed jerk; null: no limit.
     limit_jerk_mps3: Option<f64> = |item, _| limit(certificate(item).limits.jerk_mps3);
+    /// Largest allowed yaw rate of the drone; null: no limit.
+    limit_yaw_rate_deg_s: Option<f64> = |item, _| limit(certificate(item).limits.yaw_rate_deg_s);
+    /// Largest allowed pitch rate of the drone; null: no limit.
+    limit_pitch_rate_deg_s: Option<f64> = |item, _| limit(certificate(item).limits.pitch_rate_deg_s);
     /// Mean visibility by rays, 0..1.
     mean_visibility: f64 = |item, _| certificate(item).mean_visibility;
     /// Share of frames with a visibility of at least one half, 0..1.
@@ -32,6 +36,10 @@ columns! { Trajectories::CERTIFICATE of DatasetItem;
     max_acceleration_mps2: f64 = |item, _| certificate(item).max_acceleration_mps2;
     /// Largest jerk of the drone.
     max_jerk_mps3: f64 = |item, _| certificate(item).max_jerk_mps3;
+    /// Largest yaw rate of the drone as planned, from frame to frame.
+    max_yaw_rate_deg_s: f64 = |item, _| certificate(item).max_yaw_rate_deg_s;
+    /// Largest pitch rate of the drone as planned, from frame to frame.
+    max_pitch_rate_deg_s: f64 = |item, _| certificate(item).max_pitch_rate_deg_s;
     /// Mean distance to the target's feet.
     mean_distance_m: f64 = |item, _| certificate(item).mean_distance_m;
     /// Mean horizontal angle from straight behind the target; frames in which the target stands are excluded.

@@ -1,7 +1,7 @@
 //! The experts of a recipe's finished run, to be asked again: towns, walks and parameters out of the store.
 
 use cosfly_diagnose::{Diagnostic, Fault, Result, nearest_name};
-use cosfly_frames::Seed;
+use cosfly_frames::{DVec3, Seed};
 use cosfly_planner::PlanOutcome;
 use cosfly_recipe::{Arrival, RecipeStage};
 use cosfly_runner::Plan;
@@ -30,6 +30,8 @@ pub struct KnownFlight {
     pub world: Arc<World>,
     /// Planned flights.
     pub flight: Flight,
+    /// Position of the drone in every frame of the published flight; empty where there is none. World frame, metres.
+    pub flown: Vec<DVec3>,
 }
 
 impl<'a> Experts<'a> {
@@ -94,9 +96,12 @@ impl<'a> Experts<'a> {
         let world = self.world(&town.ok_or_else(|| broken(format!("`{name}` has no town")))?)?;
         let blobs = self.blobs(stage, item)?;
         let outcome = read::trajectory(&self.store.read(&blobs[read::TRAJECTORY_BLOB])?)?;
-        let track = match outcome {
-            PlanOutcome::Planned(flight) => flight.track,
-            PlanOutcome::Rejected { track, .. } => track,
+        let (track, flown) = match outcome {
+            PlanOutcome::Planned(flight) => {
+                let flown = flight.poses_in_world.iter().map(|pose| pose.position_in_world).collect();
+                (flight.track, flown)
+            }
+            PlanOutcome::Rejected { track, .. } => (track, vec![]),
         };
         let companions = self.companions(stage, item)?;
         let seed = Seed::of_item(self.plan.recipe.seed, described.name.as_str(), &described.items[item].to_string());
@@ -106,7 +111,7 @@ impl<'a> Experts<'a> {
             Diagnostic::new("plan-from-nothing", Fault::Recipe, format!("`{name}` has no flight to go on from"))
                 .because(reason)
         })?;
-        Ok(KnownFlight { world, flight })
+        Ok(KnownFlight { world, flight, flown })
     }
 
     fn world(&mut self, town: &Arrival) -> Result<Arc<World>> {

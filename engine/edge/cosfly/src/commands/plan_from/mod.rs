@@ -188,7 +188,7 @@ fn answer(experts: &mut Experts<'_>, state: &State) -> cosfly_diagnose::Result<A
         StartState { position_in_world: DVec3::from(state.position), velocity_in_world: DVec3::from(state.velocity) };
     let (mut reason, mut waypoints, mut certificate) = (None, Vec::new(), None);
     let planned_frames = frames.max(frames_of(LOOK_AHEAD_S));
-    match known.flight.plan_from(&known.world, state.frame, planned_frames, start)? {
+    match known.flight.plan_from(&known.world, state.frame, planned_frames, start, &known.flown)? {
         PlanOutcome::Planned(flight) => {
             waypoints = waypoints_of(&flight, state.frame);
             waypoints.truncate(frames);
@@ -237,12 +237,13 @@ fn told(answer: &Answer) -> String {
     }
     let _ = writeln!(
         text,
-        "visibility {:.3}, clearance {:.2} m, at most {:.2} m/s, {:.2} m/s^2, {:.2} m/s^3",
+        "visibility {:.3}, clearance {:.2} m, at most {:.2} m/s, {:.2} m/s^2, {:.2} m/s^3, yaw {:.1} degrees/s",
         certificate.mean_visibility,
         certificate.min_clearance_m,
         certificate.max_speed_mps,
         certificate.max_acceleration_mps2,
-        certificate.max_jerk_mps3
+        certificate.max_jerk_mps3,
+        certificate.max_yaw_rate_deg_s
     );
     text
 }

@@ -10,7 +10,7 @@ const LAYERS: usize = 3;
 fn setting() -> (Lattice, Vec<DVec3>, MoveCosts) {
     let size = LatticeSize { azimuths: 12, altitudes: 2, radii: 3 };
     let feet = (0..LAYERS).map(|i| DVec3::new(1.5 * i as f64, 0.5 * i as f64, 0.2 * i as f64)).collect();
-    let moves = MoveCosts { relative: 0.02, absolute: 0.03, longest_m: 25.0 };
+    let moves = MoveCosts { relative: 0.02, absolute: 0.03, longest_m: 25.0, widest_rad: 9.0 };
     (Lattice::new(size, &ViewConfig::default()), feet, moves)
 }
 
@@ -104,7 +104,7 @@ fn the_search_finds_what_an_exhaustive_one_finds_at_every_level() {
 #[test]
 fn a_resumed_search_equals_a_fresh_one_and_closed_layers_are_named() {
     let lattice = Lattice::new(LatticeSize { azimuths: 24, altitudes: 2, radii: 3 }, &ViewConfig::default());
-    let moves = MoveCosts { relative: 0.2, absolute: 0.3, longest_m: 9.0 };
+    let moves = MoveCosts { relative: 0.2, absolute: 0.3, longest_m: 9.0, widest_rad: 9.0 };
     let costs = || NodeCosts {
         hidden: [10.0, 0.0],
         close: 0.0,

@@ -1,8 +1,8 @@
 //! A cost term of objectives: the drone is drawn to a place at each frame, more or less strongly.
 
-use crate::equations::NormalEquations;
-use crate::terms::term::{CostTerm, TermContext};
 use cosfly_frames::DVec3;
+use cosfly_planner::equations::NormalEquations;
+use cosfly_planner::{CostTerm, TermContext};
 
 /// `share |w - place|^2` at each frame, metres squared.
 #[derive(Clone, Debug, PartialEq)]
@@ -72,11 +72,11 @@ impl CostTerm for Meeting {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::config::view::ViewConfig;
-    use crate::obstacles::{exact::ExactObstacles, ground::GroundGrid};
-    use crate::walk::Walk;
     use cosfly_frames::{TargetState, TargetTrack};
     use cosfly_geometry::BoxBvh;
+    use cosfly_planner::config::view::ViewConfig;
+    use cosfly_planner::obstacles::{exact::ExactObstacles, ground::GroundGrid};
+    use cosfly_planner::walk::Walk;
 
     #[test]
     fn places_are_those_of_the_last_frames_and_the_slope_is_that_of_the_cost() {

@@ -7,8 +7,8 @@ use super::config::{DT_S, LONGEST_S, PatrolConfig};
 use super::facade::is_free;
 use super::meeting::Meeting;
 use super::{Mission, POINT_HEIGHT_M, Site};
-use crate::config::muco::MucoConfig;
 use cosfly_frames::{DVec2, DVec3, Pose, TargetState, TargetTrack, real};
+use cosfly_planner::MucoConfig;
 use cosfly_random::Seed;
 
 /// Weight of a waypoint at its time.
@@ -192,7 +192,7 @@ fn wishes(heights: impl Iterator<Item = f64>, wanted: &PatrolConfig, config: &Mu
     view.max_altitude_m = (high + 4.0).clamp(view.preferred_altitude_m, 400.0);
     view.min_radius_m = (0.3 * wanted.lead_m).max(0.5);
     view.max_radius_m = 1.8 * wanted.lead_m;
-    view.rear_sector_deg = 180.0;
+    (view.rear_sector_deg, view.start_sector_deg) = (180.0, 180.0);
     config.weights.visibility = config.weights.visibility.or(Some(VISIBILITY_WEIGHT));
     config.search.filter_radius_m = config.search.filter_radius_m.max(view.max_radius_m + 10.0);
     config
@@ -201,9 +201,9 @@ fn wishes(heights: impl Iterator<Item = f64>, wanted: &PatrolConfig, config: &Mu
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::planning::plan_request;
-    use crate::trajectory::PlanOutcome;
     use cosfly_geometry::{BoxBvh, OrientedBox};
+    use cosfly_planner::PlanOutcome;
+    use cosfly_planner::plan_request;
 
     fn tower(x: f64, y: f64, height: f64) -> OrientedBox {
         OrientedBox {

@@ -163,7 +163,7 @@ impl ObjectiveConfig {
             ("patrol.speed_mps", p.speed_mps, 0.5, 20.0),
             ("patrol.lead_m", p.lead_m, 2.0, 100.0),
         ] {
-            crate::config::ranges::in_range(path, value, low, high)?;
+            cosfly_planner::config::in_range(path, value, low, high)?;
         }
         if i.min_height_m > i.max_height_m {
             return refuse(

@@ -8,9 +8,9 @@ use super::config::{DT_S, InspectConfig};
 use super::facade::{Coverage, Side, coverage, hull, is_free, sides};
 use super::meeting::Meeting;
 use super::{Mission, POINT_HEIGHT_M, Site};
-use crate::config::muco::MucoConfig;
 use cosfly_frames::{DVec2, DVec3, TargetState, TargetTrack, real};
 use cosfly_geometry::OrientedBox;
+use cosfly_planner::MucoConfig;
 use cosfly_random::Seed;
 
 /// The watched point is this far in front of the wall, metres.
@@ -260,7 +260,7 @@ fn wishes(wanted: &InspectConfig, config: &MucoConfig) -> MucoConfig {
     view.max_altitude_m = standoff + 1.0;
     view.min_radius_m = (0.5 * standoff).max(0.5);
     view.max_radius_m = 1.5 * standoff;
-    view.rear_sector_deg = 180.0;
+    (view.rear_sector_deg, view.start_sector_deg) = (180.0, 180.0);
     config.search.filter_radius_m = config.search.filter_radius_m.max(2.0 * standoff);
     config.weights.viewpoint = config.weights.viewpoint.or(Some(0.0));
     config
@@ -269,9 +269,9 @@ fn wishes(wanted: &InspectConfig, config: &MucoConfig) -> MucoConfig {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::planning::plan_request;
-    use crate::trajectory::{PlanOutcome, Trajectory};
     use cosfly_geometry::BoxBvh;
+    use cosfly_planner::plan_request;
+    use cosfly_planner::{PlanOutcome, Trajectory};
 
     fn house(center: DVec3, half: DVec3) -> OrientedBox {
         OrientedBox { center_in_world: center, half_extents_m: half, yaw_rad: 0.3 }
@@ -310,7 +310,7 @@ mod tests {
         };
         let states = (0..130).map(walker).collect();
         let track = TargetTrack { dt_s: 0.5, height_m: 1.75, radius_m: 0.3, states };
-        let passing = flown(&super::super::track::mission(track, &config), &exact, &boxes);
+        let passing = flown(&crate::track::mission(track, &config), &exact, &boxes);
         let passed = inspection.coverage(&site, &passing.poses_in_world, &wanted).share();
         assert!(passed < 0.5 * covered, "{passed} against {covered}");
     }

@@ -18,11 +18,11 @@ pub mod track;
 
 pub use config::{InspectConfig, Objective, ObjectiveConfig, PatrolConfig};
 
-use crate::config::muco::MucoConfig;
-use crate::request::PlanRequest;
-use crate::terms::term::WeightedTerm;
 use cosfly_frames::{DVec2, TargetTrack};
 use cosfly_geometry::{OrientedBox, SpatialQuery};
+use cosfly_planner::MucoConfig;
+use cosfly_planner::PlanRequest;
+use cosfly_planner::WeightedTerm;
 use meeting::Meeting;
 
 /// Body height of a point to be watched that is nobody, metres: the smallest that can be followed.

@@ -3,8 +3,8 @@
 use super::config::DT_S;
 use super::meeting::Meeting;
 use super::{Mission, POINT_HEIGHT_M};
-use crate::config::muco::MucoConfig;
 use cosfly_frames::{DVec3, Pose, TargetState, TargetTrack, real};
+use cosfly_planner::MucoConfig;
 
 /// Weight of a place that matters fully.
 const WEIGHT: f64 = 60.0;
@@ -81,7 +81,7 @@ fn wishes(reference: &Reference, config: &MucoConfig) -> MucoConfig {
     view.max_altitude_m = (high + BAND_M).clamp(view.preferred_altitude_m, 400.0);
     view.min_radius_m = (0.5 * nearest).clamp(0.5, 200.0);
     view.max_radius_m = (1.5 * furthest + 2.0).clamp(view.min_radius_m + 1.0, 400.0);
-    view.rear_sector_deg = 180.0;
+    (view.rear_sector_deg, view.start_sector_deg) = (180.0, 180.0);
     config.weights.visibility = config.weights.visibility.or(Some(VISIBILITY_WEIGHT));
     config.weights.viewpoint = config.weights.viewpoint.or(Some(0.0));
     let reach_m = (view.max_radius_m + 10.0).min(500.0);
@@ -92,9 +92,9 @@ fn wishes(reference: &Reference, config: &MucoConfig) -> MucoConfig {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::planning::plan_request;
-    use crate::trajectory::PlanOutcome;
     use cosfly_geometry::{BoxBvh, OrientedBox};
+    use cosfly_planner::PlanOutcome;
+    use cosfly_planner::plan_request;
 
     #[test]
     fn marks_are_met_and_a_tower_on_the_way_is_flown_round() {
