@@ -168,7 +168,7 @@ impl Way<'_> {
 
     fn is_flyable(&self, offsets: &[DVec3]) -> bool {
         let places: Vec<DVec3> = self.places.iter().zip(offsets).map(|(place, offset)| *place + *offset).collect();
-        let reached = Kinematics::of(&places, self.expert.track.dt_s);
+        let reached = Kinematics::of(&self.expert.track, &places, 0);
         let limits = &self.config.flyable;
         reached.speed_mps <= limits.max_speed_mps && reached.acceleration_mps2 <= limits.max_acceleration_mps2
     }

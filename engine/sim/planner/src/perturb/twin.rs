@@ -5,7 +5,7 @@ use super::config::PerturbConfig;
 use super::displacement::{Corridor, free_offset, horizontal_offset};
 use super::flyable;
 use super::kind::Kind;
-use crate::certificate::certify;
+use crate::certificate::{certify, view_rates_deg_s};
 use crate::config::limits::LimitsConfig;
 use crate::config::muco::MucoConfig;
 use crate::obstacles::exact::ExactMap;
@@ -174,7 +174,10 @@ pub(super) fn measured(
     let no_ground = |_: f64, _: f64| f64::NEG_INFINITY;
     let muco = MucoConfig { limits, ..MucoConfig::default() };
     let mut measured = certify(&expert.track, &positions, 0, ExactMap::still(exact), &no_ground, &muco);
-    measured.certificate.filtered_boxes = expert.certificate.filtered_boxes;
+    let certificate = &mut measured.certificate;
+    certificate.filtered_boxes = expert.certificate.filtered_boxes;
+    let [yaw, pitch] = view_rates_deg_s(&poses, expert.track.dt_s);
+    (certificate.max_yaw_rate_deg_s, certificate.max_pitch_rate_deg_s) = (yaw, pitch);
     Trajectory {
         track: expert.track.clone(),
         poses_in_world: poses,
