@@ -47,7 +47,7 @@ impl StageKind for Muco {
         };
         let properties = StageProperties {
             kind: self.name().into(),
-            version: 2,
+            version: 3,
             parameters: expert.canonical(),
             sources: expert.sources(),
             inputs,
