@@ -250,7 +250,7 @@ fn timed(stops: &[Stop], wanted: &InspectConfig, config: &MucoConfig) -> Option<
 
 /// The drone is near the stand-off distance, a little above what it looks at; there is no "behind" of a wall.
 fn wishes(wanted: &InspectConfig, config: &MucoConfig) -> MucoConfig {
-    let mut config = config.clone();
+    let mut config = super::agile(config);
     let standoff = wanted.standoff_m;
     let view = &mut config.view;
     view.distance_m = standoff;

@@ -20,9 +20,9 @@ pub use config::{InspectConfig, Objective, ObjectiveConfig, PatrolConfig};
 
 use cosfly_frames::{DVec2, TargetTrack};
 use cosfly_geometry::{OrientedBox, SpatialQuery};
-use cosfly_planner::MucoConfig;
 use cosfly_planner::PlanRequest;
 use cosfly_planner::WeightedTerm;
+use cosfly_planner::{MucoConfig, Preset};
 use meeting::Meeting;
 
 /// Body height of a point to be watched that is nobody, metres: the smallest that can be followed.
@@ -38,6 +38,12 @@ pub struct Site<'a> {
     pub ground: &'a dyn Fn(f64, f64) -> f64,
     /// Corners of the ground that people use, seen from above: (smallest, largest).
     pub bounds: (DVec2, DVec2),
+}
+
+/// Flights that have places to be at fly as `agile`, where the recipe leaves the preset as it is: calm ones would miss them.
+fn agile(config: &MucoConfig) -> MucoConfig {
+    let preset = if config.preset == Preset::Cosfly { Preset::Agile } else { config.preset };
+    MucoConfig { preset, ..config.clone() }
 }
 
 /// The request of an objective to the planner.

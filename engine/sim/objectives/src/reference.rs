@@ -72,7 +72,7 @@ fn wishes(reference: &Reference, config: &MucoConfig) -> MucoConfig {
     let (nearest, furthest) = offsets().map(across).fold((f64::INFINITY, 0.0_f64), |(a, b), r| (a.min(r), b.max(r)));
     let mean = offsets().sum::<DVec3>() / count;
     let (mean_up, mean_across) = (mean.z, offsets().map(across).sum::<f64>() / count);
-    let mut config = config.clone();
+    let mut config = super::agile(config);
     let view = &mut config.view;
     view.distance_m = real::hypot(mean_up, mean_across).clamp(2.0, 200.0);
     view.pitch_deg = real::atan2(mean_up, mean_across).to_degrees().clamp(5.0, 85.0);

@@ -7,9 +7,11 @@ use serde::{Deserialize, Serialize};
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum Preset {
-    /// Visibility first: an unseen target costs more than any viewpoint.
+    /// Visibility first, at a calm pace: a restless flight must show much more. Its future follows from its past.
     #[default]
     Cosfly,
+    /// Visibility at any pace: dashes round obstacles, hard to learn from.
+    Agile,
     /// `cosfly`, but behind the walker wherever that costs little visibility.
     Rear,
     /// `cosfly`, but with short flights: moving costs more.
@@ -21,17 +23,23 @@ pub enum Preset {
 impl Preset {
     /// Factor on the cost of motion in the global search.
     pub fn motion_factor(self) -> f64 {
-        if self == Self::Short { SHORT_MOTION_FACTOR } else { 1.0 }
+        match self {
+            Self::Agile | Self::Paper => 1.0,
+            Self::Cosfly | Self::Rear => 2.0,
+            Self::Short => 16.0,
+        }
+    }
+
+    /// Whether smoothing to the limits flattens a flight beyond what they ask.
+    pub fn is_calm(self) -> bool {
+        !matches!(self, Self::Agile | Self::Paper)
     }
 }
-
-/// Factor of [`Preset::Short`], see [`Preset::motion_factor`].
-const SHORT_MOTION_FACTOR: f64 = 8.0;
 
 /// From the one list of cost terms (in `terms/mod.rs`): weights, their overrides in recipes, and the terms themselves.
 macro_rules! cost_terms {
     (@first $first:literal $($rest:literal)*) => { $first };
-    ($($(#[$doc:meta])* $name:ident: $term:expr, cosfly $cosfly:literal, paper $paper:literal $(, rear $rear:literal)?;)*) => {
+    ($($(#[$doc:meta])* $name:ident: $term:expr, cosfly $cosfly:literal, paper $paper:literal $(, rear $rear:literal)? $(, agile $agile:literal)?;)*) => {
         /// Weights that replace those of the preset; what is left out keeps the preset's value.
         #[derive(Clone, Debug, Default, PartialEq, serde::Serialize, serde::Deserialize, schemars::JsonSchema)]
         #[serde(default, deny_unknown_fields)]
@@ -55,6 +63,7 @@ macro_rules! cost_terms {
                     $name: overrides.$name.unwrap_or(match preset {
                         Preset::Cosfly | Preset::Short => $cosfly,
                         Preset::Rear => crate::weights::cost_terms!(@first $($rear)? $cosfly),
+                        Preset::Agile => crate::weights::cost_terms!(@first $($agile)? $cosfly),
                         Preset::Paper => $paper,
                     }),
                 )*}

@@ -64,7 +64,7 @@ pub const SETTINGS: [Setting; 8] = [
 ];
 
 /// Presets beside the default one, with their names.
-const PRESETS: [(Preset, &str); 2] = [(Preset::Rear, "rear"), (Preset::Short, "short")];
+const PRESETS: [(Preset, &str); 3] = [(Preset::Agile, "agile"), (Preset::Rear, "rear"), (Preset::Short, "short")];
 
 /// A planned path, before evaluation.
 pub struct Planned {

@@ -25,7 +25,7 @@ use serde::Serialize;
 use std::fmt;
 
 /// Rounds and steps of an attempt's refinement.
-const ROUNDS: Rounds = Rounds { rounds: 2, steps: 3 };
+const ROUNDS: Rounds = Rounds { rounds: 2, steps: 5 };
 
 /// Mean CPU time of each step per path, milliseconds.
 #[derive(Clone, Copy, Debug, Default, Serialize)]

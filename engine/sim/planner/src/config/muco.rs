@@ -19,8 +19,8 @@ use serde::{Deserialize, Serialize};
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(default, deny_unknown_fields)]
 pub struct MucoConfig {
-    /// Named way of flying: `cosfly` (visibility first, the default), `rear` (behind the walker), `short` (short
-    /// flights) or `paper` (the paper's weights and its own pipeline).
+    /// Named way of flying: `cosfly` (visibility first at a calm pace, the default), `agile` (visibility at any pace), `rear`
+    /// (behind the walker), `short` (short flights) or `paper` (the paper's weights and its own pipeline).
     pub preset: Preset,
     /// The planner: `muco` (the default), or a baseline to compare with. A baseline's flight is judged like any other;
     /// all but `astar_smoothed` bound no acceleration, so set `limits.require_kinematics = false` for them.

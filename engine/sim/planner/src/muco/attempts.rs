@@ -32,6 +32,12 @@ const FULL_EXTRA_M: f64 = 0.25;
 const LIGHT: Objective = Objective { rounds: 2, iterations: 60, nearness: 0.15, acceleration: 0.2, jerk: 1.0 };
 /// Smoothing of the lattice's way (or of the paper's flight), when light smoothing was not enough.
 pub const THOROUGH: Objective = Objective { rounds: 4, iterations: 160, nearness: 0.05, acceleration: 0.5, jerk: 2.0 };
+/// The same for calm presets, which are flattened beyond what the limits ask.
+const CALM_LIGHT: Objective = Objective { acceleration: 10.0, jerk: 20.0, ..LIGHT };
+const CALM_THOROUGH: Objective = Objective { acceleration: 2.0, jerk: 5.0, ..THOROUGH };
+/// Steps of refinement per round: heavy weights of smoothness need more of them.
+const STEPS: usize = 3;
+const CALM_STEPS: usize = 5;
 
 /// Times that a flight which sees nearly all that the lattice promises is refined and smoothed once more: what it lacks
 /// are single frames between layers. Where much is hidden, that gains little for half as much time again.
@@ -41,6 +47,23 @@ const NEARLY_ALL: f64 = 0.95;
 thread_local! {
     /// Buffers kept from one flight to the next; every use fills them anew.
     static WORKSHOP: RefCell<Workshop> = RefCell::default();
+}
+
+/// What depends on the pace of the preset.
+struct Pace {
+    steps: usize,
+    light: Objective,
+    thorough: Objective,
+}
+
+impl Pace {
+    fn of(config: &MucoConfig) -> Self {
+        if config.preset.is_calm() {
+            Self { steps: CALM_STEPS, light: CALM_LIGHT, thorough: CALM_THOROUGH }
+        } else {
+            Self { steps: STEPS, light: LIGHT, thorough: THOROUGH }
+        }
+    }
 }
 
 #[derive(Default)]
@@ -129,13 +152,15 @@ fn attempt(
     let losses: LossPlan = start.losses;
     obstacles.order_losses(losses.lost.clone());
     let mut waypoints = start.waypoints.clone();
-    let rounds = Rounds { rounds: 2, steps: 3 };
+    let pace = Pace::of(config);
+    let rounds = Rounds { rounds: 2, steps: pace.steps };
+
     let refined = refine(problem, obstacles, config, rounds, head, &mut workshop.refine, &mut waypoints);
     judge.iterations += refined.steps;
     let mut measured;
     (waypoints, measured) = finish(config, obstacles, judge, waypoints, &start.waypoints);
     if !judge.publishable(&measured) {
-        (waypoints, measured) = judge.make_flyable(obstacles, &start.waypoints, &start.waypoints, THOROUGH);
+        (waypoints, measured) = judge.make_flyable(obstacles, &start.waypoints, &start.waypoints, pace.thorough);
     }
     if !judge.publishable(&measured) {
         return Err(measured.certificate.violations.join("; "));
@@ -219,7 +244,7 @@ fn finish(
     }
     let keep_m = config.limits.clearance_m + KEEP_OUT_EXTRA_M;
     let safe = led_back(obstacles, &refined, safe, keep_m);
-    judge.make_flyable(obstacles, &refined, &safe, LIGHT)
+    judge.make_flyable(obstacles, &refined, &safe, Pace::of(config).light)
 }
 
 /// `waypoints`, led back to the safe way over stretches that come too near an obstacle.

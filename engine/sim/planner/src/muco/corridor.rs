@@ -44,6 +44,8 @@ pub struct CorridorInput<'a> {
     pub learned: &'a [Vec<HalfSpace>],
     /// The first waypoints, where they are given.
     pub head: &'a [DVec3],
+    /// Planes of the first frame: sides of the sector in which flights start.
+    pub start: &'a [HalfSpace],
     /// Least horizontal distance from the target, metres.
     pub min_radius_m: f64,
     /// Largest turns of yaw and pitch from frame to frame, radians.
@@ -61,6 +63,9 @@ pub fn build(input: &CorridorInput<'_>, waypoints: &[DVec3]) -> Vec<FrameCorrido
             add_sight(input, waypoints[frame], frame, &mut corridor[frame]);
         }
         corridor[frame].hard.extend_from_slice(&input.learned[frame]);
+    }
+    if let Some(first) = corridor.first_mut() {
+        first.hard.extend_from_slice(input.start);
     }
     corridor
 }

@@ -3,6 +3,7 @@
 
 use super::corridor::CorridorInput;
 use super::smoother::{Objective, smooth};
+use super::start_sector;
 use crate::certificate::{Kinematics, Measured, certify, publishable};
 use crate::config::muco::MucoConfig;
 use crate::obstacles::Surroundings;
@@ -54,6 +55,8 @@ impl<'a> Judge<'a> {
         objective: Objective,
     ) -> (Vec<DVec3>, Measured) {
         let limits = self.config.stated_limits();
+        let is_chosen = self.head.is_empty() && !start.is_empty();
+        let sides = if is_chosen { start_sector::sides(self.problem, &self.config.view, start[0]) } else { vec![] };
         let mut from = start.to_vec();
         let mut lessons = 0;
         loop {
@@ -65,6 +68,7 @@ impl<'a> Judge<'a> {
                 wished,
                 learned: &self.learned,
                 head: self.head,
+                start: &sides,
                 min_radius_m: self.config.view.min_radius_m,
                 turn_rad: [limits.yaw_rate_deg_s, limits.pitch_rate_deg_s]
                     .map(|rate| rate.to_radians() * self.problem.track.dt_s),

@@ -3,7 +3,7 @@
 //! ```text
 //! filter boxes near the path
 //! repeat with growing effort                                        (attempts)
-//!   start   <- cheapest way through the lattice of viewpoints       (search, lattice, scan, pricing, viterbi, losses)
+//!   start   <- cheapest way through the lattice of viewpoints       (search, lattice, scan, pricing, start_sector, viterbi, losses)
 //!   refined <- Gauss-Newton steps on all terms from there           (refine)
 //!   flight  <- flyable path near it, inside its safe corridor       (smoother, corridor, turning, banded)
 //! until its certificate holds and it sees what the lattice promises (judge)
@@ -22,5 +22,6 @@ pub mod refine;
 pub mod scan;
 pub mod search;
 pub mod smoother;
+mod start_sector;
 mod turning;
 pub mod viterbi;

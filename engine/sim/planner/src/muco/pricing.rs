@@ -11,11 +11,6 @@ use cosfly_frames::{DVec3, real};
 
 /// Cost of a viewpoint outside the sector behind the walker.
 const OUTSIDE_SECTOR: f64 = 30.0;
-/// Cost of a first viewpoint outside the sector in which flights start: more than hiding for many frames, so that only closed
-/// viewpoints lead outside.
-const OUTSIDE_START: f32 = 1e5;
-/// Flights start this much within their sector, so that refinement does not lead out of it, degrees.
-const START_MARGIN_DEG: f64 = 5.0;
 /// Visibility weighs this much more than in the sum of the terms, because a node is all or nothing.
 const VISIBILITY_FACTOR: f64 = 4.0;
 /// Terms that the search prices in its own way, node by node or move by move.
@@ -81,19 +76,6 @@ fn extra_costs(
         }
     }
     costs
-}
-
-/// Costs of the first layer's nodes when nothing is given: the flight starts in the sector behind the walker. Empty where
-/// that is the whole circle or the target stands.
-pub(super) fn sector_costs(problem: &Problem<'_>, lattice: &Lattice, sector_deg: f64) -> Vec<f32> {
-    let Some(walks) = problem.walk.direction.first().filter(|it| it.length_squared() > 0.5) else { return Vec::new() };
-    if sector_deg >= 180.0 {
-        return Vec::new();
-    }
-    let sector = real::cos((sector_deg - START_MARGIN_DEG).max(0.0).to_radians());
-    let outside = |direction: &DVec3| -direction.truncate().dot(*walks) < sector - 1e-9;
-    let costs: Vec<f32> = lattice.directions.iter().map(|it| if outside(it) { OUTSIDE_START } else { 0.0 }).collect();
-    (0..lattice.nodes()).map(|node| costs[lattice.split(node).0]).collect()
 }
 
 /// Costs of the first layer's nodes when the drone is at `start` then: by the way there, as in a move to the side, and

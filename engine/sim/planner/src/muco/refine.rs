@@ -4,6 +4,7 @@
 //! the flight is held near the lattice's way, kept clear of obstacles and made smooth. Where a round ends worse than
 //! the lattice's way, the next one holds on to it more strongly.
 
+use super::start_sector;
 use crate::config::muco::MucoConfig;
 use crate::equations::NormalEquations;
 use crate::gradient::total_gradient;
@@ -36,6 +37,9 @@ const CLEARANCE_EXTRA_M: f64 = 0.4;
 const FLOOR_EXTRA_M: f64 = 0.2;
 /// The same for the least horizontal distance from the target.
 const RADIUS_EXTRA_M: f64 = 0.5;
+/// Weight of leaving the sector in which flights start, and how far before its side it begins, metres.
+const START_WEIGHT: f64 = 400.0;
+const START_EXTRA_M: f64 = 1.0;
 /// No waypoint moves further in one step, metres.
 const LONGEST_STEP_M: f64 = 2.5;
 /// Time step for which the smoothness weights are written, seconds.
@@ -118,6 +122,15 @@ fn assemble(
     let ratio = (REFERENCE_DT_S / problem.track.dt_s).clamp(0.05, 20.0);
     equations.add_differences(2, EXTRA_ACCELERATION * ratio * ratio, waypoints);
     equations.add_differences(3, EXTRA_JERK * ratio * ratio * ratio, waypoints);
+    // Sides are kept where the start is free, which a given one is not.
+    if hold.first().is_some_and(|hold| *hold < HOLD_FAST) {
+        for side in start_sector::sides(problem, &config.view, lattice_way[0]) {
+            let missing = START_EXTRA_M - side.slack_m(waypoints[0]);
+            if missing > 0.0 {
+                equations.add(0, START_WEIGHT, missing, -side.normal);
+            }
+        }
+    }
     let keep = config.limits.clearance_m + CLEARANCE_EXTRA_M;
     for (frame, &waypoint) in waypoints.iter().enumerate() {
         equations.add_anchor(frame, hold[frame], waypoint - lattice_way[frame]);

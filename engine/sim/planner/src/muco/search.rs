@@ -5,8 +5,9 @@ use super::lattice::{Lattice, LatticeSize};
 use super::lead_in::{frames as frames_of_lead_in, lead_in};
 use super::losses::{self, LossPlan};
 use super::node_state::{CLOSE, NodeState, UNSAFE};
-use super::pricing::{node_costs, sector_costs, start_costs};
+use super::pricing::{node_costs, start_costs};
 use super::scan::Scanner;
+use super::start_sector;
 use super::viterbi::{MoveCosts, SearchSpace, Viterbi};
 use crate::config::muco::MucoConfig;
 use crate::config::targets::SeveralTargets;
@@ -79,7 +80,7 @@ pub fn search(
     let mut costs = node_costs(problem, obstacles, &lattice, &frames, config);
     let moves = move_costs(config, effort, track.dt_s, stride);
     if head.is_empty() {
-        costs.first = sector_costs(problem, &lattice, config.view.start_sector_deg);
+        costs.first = start_sector::costs(problem, &lattice);
     }
     if let Some(start) = head.last() {
         let keep_m = config.limits.clearance_m;

@@ -20,15 +20,15 @@ use crate::weights::{Preset, cost_terms};
 
 pub use term::{CostTerm, TermContext, WeightedTerm};
 
-// The terms of the paper, in the order of its equation, with their weights in the presets: `rear` and `short` have those
-// of `cosfly` unless the line says otherwise.
+// The terms of the paper, in the order of its equation, with their weights in the presets: `rear`, `short` and
+// `agile` have those of `cosfly` unless the line says otherwise.
 cost_terms! {
     /// Distance from the best observation distance (lambda 1); cosfly 0.05, paper 1.
     tracking: tracking::Tracking, cosfly 0.05, paper 1.0;
-    /// Acceleration (lambda 2); 0.5 in all presets.
-    smoothness: smoothness::Smoothness, cosfly 0.5, paper 0.5;
-    /// Jerk (lambda 3); 0.3 in all presets.
-    jerk: jerk::Jerk, cosfly 0.3, paper 0.3;
+    /// Acceleration (lambda 2); cosfly 300, agile and paper 0.5.
+    smoothness: smoothness::Smoothness, cosfly 300.0, paper 0.5, agile 0.5;
+    /// Jerk (lambda 3); cosfly 300, agile and paper 0.3.
+    jerk: jerk::Jerk, cosfly 300.0, paper 0.3, agile 0.3;
     /// Nearness of obstacles (lambda 4); 2 in all presets.
     safety: safety::Safety, cosfly 2.0, paper 2.0;
     /// Hidden body points (lambda 5); cosfly 60, paper 3.
