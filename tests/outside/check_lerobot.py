@@ -56,6 +56,19 @@ def gap(a, b):
     return max(np.abs(a[:3] - b[:3]).max(), np.abs((a[3:] - b[3:] + 180) % 360 - 180).max())
 
 
+def as_lerobot_reads(root, info):
+    """How version 0.6 of the package opens the frames: its features of `datasets`, 32-bit floats in vectors of fixed lengths."""
+    def feature(it):
+        if it["dtype"] == "image":
+            return datasets.Image()
+        value = datasets.Value(it["dtype"])
+        return value if it["shape"] == [1] else datasets.Sequence(length=it["shape"][0], feature=value)
+
+    features = datasets.Features({name: feature(it) for name, it in info["features"].items()})
+    paths = sorted(map(str, root.glob("data/*/*.parquet")))
+    return datasets.Dataset.from_parquet(paths, features=features, cache_dir=cache)
+
+
 def check(split):
     root = export / split
     info = json.loads((root / "meta/info.json").read_text())
@@ -70,6 +83,8 @@ def check(split):
     assert sorted(inputs) == ["observation.images.rgb", "observation.state"], "policies take these as inputs"
 
     rows = datasets.load_dataset("parquet", data_files=str(root / "data/*/*.parquet"), split="train", cache_dir=cache)
+    typed = as_lerobot_reads(root, info)
+    assert len(typed) == len(rows) and np.abs(np.array(typed["action"]) - np.array(rows["action"])).max() < 1e-4
     assert len(rows) == info["total_frames"] and rows["index"][:] == list(range(len(rows)))
     for row in rows:
         episode = episodes.iloc[row["episode_index"]]
