@@ -54,7 +54,7 @@ def main():
             first, last = (round((start + k) * row["dt_s"] * 1e9) for k in (0, 4))
             topics = ["/camera/rgb/image", "/camera/depth/image"]
             found = []
-            for _, channel, _, it in readers[name].iter_decoded_messages(topics, first, last + 1):
+            for _, channel, _, it in readers[name].iter_decoded_messages(topics, starting_at=first, ending_at=last):
                 if channel.topic == topics[0]:
                     image = Image.open(io.BytesIO(it.data))
                     if draft:
