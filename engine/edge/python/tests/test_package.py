@@ -218,6 +218,25 @@ def test_broken_logs_are_errors(tmp_path):
             pass
 
 
+def test_notebooks_show_pictures():
+    pictures = cosfly.preview("data", "expert-p00001", out="pictures", progress=False)
+    assert Image.open(pictures.sheet).width > 100 and pictures.clip.suffix == ".gif" and pictures.plan.exists()
+    assert pictures._repr_html_().count("<img") == 3 and "<img" in cosfly.Dataset("data")._repr_html_()
+
+
+def test_logs_that_change_under_the_reader_are_errors(tmp_path):
+    import shutil
+
+    shutil.copytree("data", tmp_path / "changing")
+    dataset = cosfly.Dataset(tmp_path / "changing", channels=("depth",))
+    dataset[0]
+    for log in (tmp_path / "changing" / "mcap").rglob("*.mcap"):
+        log.write_bytes(log.read_bytes()[:5000])
+    with pytest.raises(cosfly.Error, match="damaged"):
+        for sample in dataset:
+            assert sample["depth"].shape
+
+
 def test_forks_and_pickles_read_on():
     dataset = cosfly.Dataset("data", size=(32, 18))
     expected = dataset[5]["rgb"]

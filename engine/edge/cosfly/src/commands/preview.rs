@@ -38,6 +38,9 @@ pub struct Arguments {
     /// Folder for the pictures [default: <DATASET>-preview]
     #[arg(long, value_name = "DIR")]
     out: Option<PathBuf>,
+    /// Print JSON
+    #[arg(long)]
+    json: bool,
 }
 
 impl Command for Arguments {
@@ -53,7 +56,8 @@ impl Command for Arguments {
         drop(progress);
         let out = self.out.clone().unwrap_or_else(|| beside(&self.dir));
         let written = write(&out, flight, &pictures)?;
-        console.print(&report(&dataset, flight, &pictures, &written))?;
+        let text = if self.json { json(flight, &written) } else { report(&dataset, flight, &pictures, &written) };
+        console.print(&text)?;
         Ok(exit::SUCCESS)
     }
 }
@@ -83,6 +87,12 @@ fn write(out: &Path, flight: &PublishedFlight, pictures: &Pictures) -> Result<Ve
         written.push((path, file.len() as u64));
     }
     Ok(written)
+}
+
+/// The pictures for programs.
+fn json(flight: &PublishedFlight, written: &[(PathBuf, u64)]) -> String {
+    let paths: Vec<String> = written.iter().map(|(path, _)| path.display().to_string()).collect();
+    format!("{:#}\n", serde_json::json!({ "trajectory": flight.trajectory_id, "files": paths }))
 }
 
 fn report(

@@ -25,6 +25,7 @@ from ._calls import (
     Evaluation,
     Exported,
     Made,
+    Pictures,
     Plan,
     PlannedStage,
     Stage,
@@ -34,6 +35,7 @@ from ._calls import (
     export,
     init,
     plan,
+    preview,
     run,
     verify,
     why,
@@ -47,6 +49,6 @@ from ._show import rerun
 
 __all__ = [
     "Answer", "Check", "Dataset", "Doctor", "Error", "Evaluation", "Expert", "Exported", "Loader", "Made", "Pack",
-    "Plan", "PlannedStage", "Problem", "Stage", "Table", "Why", "__version__", "decode_rgb", "doctor", "evaluate",
-    "export", "init", "pack", "plan", "rerun", "run", "verify", "why",
+    "Pictures", "Plan", "PlannedStage", "Problem", "Stage", "Table", "Why", "__version__", "decode_rgb", "doctor", "evaluate",
+    "export", "init", "pack", "plan", "preview", "rerun", "run", "verify", "why",
 ]  # fmt: skip

@@ -159,6 +159,24 @@ class Evaluation:
 
 
 @dataclass(frozen=True)
+class Pictures:
+    """Result of :func:`preview`."""
+
+    trajectory: str
+    sheet: Path
+    """Contact sheet: colours, depth, labels, the target enlarged (PNG)."""
+    clip: Path
+    """Animated clip (GIF)."""
+    plan: Path
+    """Town, walk, flights coloured by visibility (PNG)."""
+
+    def _repr_html_(self) -> str:
+        from ._show import image_html
+
+        return image_html(self.sheet) + image_html(self.plan) + image_html(self.clip)
+
+
+@dataclass(frozen=True)
 class Exported:
     """Result of :func:`export`."""
 
@@ -260,6 +278,20 @@ def export(dataset: PathLike, format: str, out: PathLike, *, progress: Progress 
     _, text, _ = _call(arguments + _options(**options), b"", progress)
     found = json.loads(text)
     return Exported(Path(found.pop("out")), **found)
+
+
+def preview(
+    dataset: PathLike, trajectory: Optional[str] = None, *, frames: Optional[str] = None,
+    out: Optional[PathLike] = None, progress: Progress = True,
+) -> Pictures:  # fmt: skip
+    """Draw a flight: contact sheet, animated clip, plan of the town with the paths. Notebooks show the result.
+
+    ``frames`` is like ``"0,50,100"`` or ``"0..200:10"``; the pictures go to ``out``, beside the dataset by default.
+    """
+    arguments = ["preview", os.fspath(dataset), "--json", *_options(trajectory=trajectory, frames=frames, out=out)]
+    _, text, _ = _call(arguments, b"", progress)
+    found = json.loads(text)
+    return Pictures(found["trajectory"], *(Path(path) for path in found["files"]))
 
 
 def _with_recipe(

@@ -67,6 +67,13 @@ def dataset_html(dataset: Any, pictures: int = 4) -> str:
     return f"<p>{html.escape(repr(dataset))}</p>{''.join(cells)}"
 
 
+def image_html(path: Any) -> str:
+    """A picture file inside a page."""
+    kind = {".png": "png", ".gif": "gif"}.get(path.suffix, "jpeg")
+    code = base64.b64encode(path.read_bytes()).decode()
+    return f"<img style='max-width:100%' src='data:image/{kind};base64,{code}'>"
+
+
 def rerun(dataset: Any, trajectory_id: str) -> None:
     """Show a trajectory in Rerun's viewer; needs the package ``rerun-sdk``."""
     import rerun as viewer
