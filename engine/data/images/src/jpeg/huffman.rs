@@ -1,6 +1,7 @@
 //! The entropy coder: coefficients of a block to bits, with the example tables of the JPEG standard (Annex K.3).
 
 use super::transform::{Coefficients, LANES};
+use core::ops::Range;
 use cosfly_frames::simd_kernel;
 
 /// Numbers of codes of each length, and the symbols in the order of their codes.
@@ -159,27 +160,27 @@ simd_kernel! {
 pub const UNITS: usize = LANES / 2;
 
 simd_kernel! {
-    /// Appends the first `units` units of group `group`: four blocks of luma, and one of each chroma component, which cover both
-    /// groups. May be called once between two calls of [`BitWriter::flush`].
+    /// Appends units of one group: four blocks of luma, and one of each chroma component, which cover both groups; the units of the
+    /// second group are numbered on from [`UNITS`]. May be called once between two calls of [`BitWriter::flush`].
     pub fn write_units(
         writer: &mut BitWriter,
         luma: &[[Coefficients; 2]; 2],
         chroma: &[Coefficients; 2],
         codes: &[&[Codes; 2]; 2],
-        group: usize,
-        units: usize,
+        units: Range<usize>,
         previous_dc: &mut [i32; 3],
     ) {
         let mut open =
             OpenBits { bits: writer.bits, held: writer.held, written: writer.written, room: &mut writer.room };
         let [of_luma, of_blue, of_red] = previous_dc;
-        for unit in 0..units.min(UNITS) {
+        for unit in units {
+            let (group, first) = (unit / UNITS % 2, 2 * (unit % UNITS));
             for half in luma {
-                open.block(&half[group % 2], 2 * unit, codes[0], of_luma);
-                open.block(&half[group % 2], 2 * unit + 1, codes[0], of_luma);
+                open.block(&half[group], first, codes[0], of_luma);
+                open.block(&half[group], first + 1, codes[0], of_luma);
             }
-            open.block(&chroma[0], UNITS * group + unit, codes[1], of_blue);
-            open.block(&chroma[1], UNITS * group + unit, codes[1], of_red);
+            open.block(&chroma[0], unit, codes[1], of_blue);
+            open.block(&chroma[1], unit, codes[1], of_red);
         }
         (writer.bits, writer.held, writer.written) = (open.bits, open.held, open.written);
     }

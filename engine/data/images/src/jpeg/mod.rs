@@ -132,8 +132,9 @@ fn write_halved(level: Level, image: Image<'_>, factors: &[[f32; 64]; 2], bits: 
             ];
             transform_halved(level, &strips, factors, &mut planes, &mut luma, &mut chroma);
             for group in 0..2 {
-                let units = units_across.saturating_sub(first + UNITS * group);
-                write_units(level, bits, &luma, &chroma, &codes, group, units, &mut previous_dc);
+                let from = UNITS * group;
+                let units = from..from + units_across.saturating_sub(first + from).min(UNITS);
+                write_units(level, bits, &luma, &chroma, &codes, units, &mut previous_dc);
                 bits.flush(file);
             }
         }

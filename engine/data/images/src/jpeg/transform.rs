@@ -105,15 +105,15 @@ simd_kernel! {
                 quantise(&planes[0], &factors[0], &mut luma[half][group]);
             }
         }
-        for component in 0..2 {
+        for (component, chroma) in chroma.iter_mut().enumerate() {
             let mut blocks = [[0.0; LANES]; 64];
-            for half in 0..2 {
-                for group in 0..2 {
-                    halve(&planes[half][group].0[1 + component], half, group, &mut blocks);
+            for (half, groups) in planes.iter().enumerate() {
+                for (group, planes) in groups.iter().enumerate() {
+                    halve(&planes.0[1 + component], half, group, &mut blocks);
                 }
             }
             forward_dct(&mut blocks);
-            quantise(&blocks, &factors[1], &mut chroma[component]);
+            quantise(&blocks, &factors[1], chroma);
         }
     }
 }
