@@ -142,8 +142,8 @@ pub(super) fn measured(
         speed_mps: f64::INFINITY,
         acceleration_mps2: f64::INFINITY,
         jerk_mps3: f64::INFINITY,
-        yaw_rate_deg_s: f64::INFINITY,
-        pitch_rate_deg_s: f64::INFINITY,
+        yaw_rate_deg_s: Some(f64::INFINITY),
+        pitch_rate_deg_s: Some(f64::INFINITY),
         require_kinematics: false,
     };
     // Height is kept above the target's feet while displacing; no ground below is known here.
