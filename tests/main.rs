@@ -1,5 +1,6 @@
 //! End-to-end tests through the real binary: runs, resume, determinism, diagnostics, snapshots, repository rules.
 
+mod book;
 mod caching;
 mod cameras;
 mod carla_job;

@@ -70,6 +70,8 @@ fn heavy_crates_stay_in_their_one_room() {
         ("wasmtime", &["cosfly-plugin-host"][..]),
         ("wgpu", &["cosfly-gpu"][..]),
         ("parry3d", &["cosfly-lab"][..]),
+        ("pyo3", &["cosfly-python"][..]),
+        ("numpy", &["cosfly-python"][..]),
     ]);
     for (name, (shelf, dependencies)) in packages() {
         let places = [name.clone(), format!("shelf {shelf}")];

@@ -12,7 +12,7 @@ use std::path::PathBuf;
 /// Set while generated files are to be written anew, by `.ci/generate`.
 const GENERATE: &str = "COSFLY_GENERATE";
 
-/// What is held of a stage in a recipe.
+/// Held bytes of a stage in a recipe.
 #[derive(Debug, PartialEq, Eq)]
 struct Held {
     kind: String,

@@ -186,7 +186,7 @@ def lerobot_actions(rows):
 
 def lerobot_yaw(rows):
     for row in rows:
-        row["observation.state"][4] *= -1
+        row["privileged.pose"][4] *= -1
 
 
 def lerobot_repeated(rows):
@@ -298,8 +298,9 @@ with tempfile.TemporaryDirectory() as place:
     planted("image-shift", v7, work, shift_pictures)
     planted("duplicate-frames", v7, work, repeat_pictures)
 
-    ours = work / "lerobot"
-    subprocess.run([cosfly, "export", dataset, "--format", "lerobot", "--out", ours], check=True, capture_output=True)
+    export = work / "lerobot"
+    subprocess.run([cosfly, "export", dataset, "--format", "lerobot", "--out", export], check=True, capture_output=True)
+    ours = next(path for path in sorted(export.iterdir()) if path.is_dir())  # the dataset of one split
     planted(None, ours, work, lambda folder: None)
     planted("timestamps", ours, work, lambda folder: lerobot(folder, lerobot_jump))
     planted("action-mismatch", ours, work, lambda folder: lerobot(folder, lerobot_actions))

@@ -4,6 +4,7 @@ python check_exports.py DATASET FOLDER CACHE     FOLDER has coco/, webdataset/, 
 """
 
 import glob
+import importlib.util
 import json
 import sys
 from pathlib import Path
@@ -20,12 +21,13 @@ dataset, folder, cache = Path(sys.argv[1]), Path(sys.argv[2]), sys.argv[3]
 frames = {}
 flights = {}
 for path in sorted(glob.glob(str(dataset / "data/frames/*.parquet"))):
-    split = Path(path).name.split("-")[0]
     for row in parquet.read_table(path).drop(["preview"]).to_pylist():
-        frames[row["trajectory_id"], row["frame"]] = row | {"split": split}
+        assert row["split"] == Path(path).name.split("-")[0]
+        frames[row["trajectory_id"], row["frame"]] = row
 for path in sorted(glob.glob(str(dataset / "data/trajectories/*.parquet"))):
     for row in parquet.read_table(path).to_pylist():
         flights[row["trajectory_id"]] = row
+torch_is_there = importlib.util.find_spec("torch") is not None
 splits = sorted({row["split"] for row in frames.values()})
 
 
@@ -65,27 +67,41 @@ def web_dataset():
     root, samples = folder / "webdataset", 0
     shards = sorted(glob.glob(str(root / "data/*.tar")))
     assert len(shards) >= len(splits)
-    for sample in webdataset.WebDataset(shards, shardshuffle=False).decode("pil"):
+    whole = webdataset.WebDataset(shards, shardshuffle=False)
+    for sample in whole.decode("pil"):
         facts = sample["json"]
         row = frames[facts["trajectory_id"], facts["frame"]]
         size = flights[facts["trajectory_id"]]["camera_width_px"], flights[facts["trajectory_id"]]["camera_height_px"]
         assert sample["rgb.jpg"].size == size
         assert sample["__key__"] == f"{facts['trajectory_id'].replace('.', '_')}_{facts['frame']:06d}"
         assert abs(facts["drone_pose"][0] - row["drone_x_m"]) < 1e-9 and facts["split"] == row["split"]
+        labels_of(sample, row, size)
         samples += 1
     assert samples == len(frames)
+    # Whatever the pictures are decoded to, numbers stay as they are.
+    for decoded in (whole.decode(), whole.decode("rgb"), whole.decode("pil"), whole.decode("torchrgb8") if torch_is_there else whole.decode("rgb8")):
+        sample = next(iter(decoded))
+        row = frames[sample["json"]["trajectory_id"], sample["json"]["frame"]]
+        labels_of(sample, row, sample["depth.npy.gz"].shape[::-1])
     rows = datasets.load_dataset(str(root), split=splits[0], streaming=True, cache_dir=cache)
     first = next(iter(rows))
-    depth, ids = np.asarray(first["depth.png"]), np.asarray(first["instance.png"])
-    facts = first["json"]
-    row = frames[facts["trajectory_id"], facts["frame"]]
-    assert depth.dtype == ids.dtype == np.uint16, "16 bits stay 16 bits"
-    target = ids == 1
-    assert target.sum() == row["visible_pixels"]
-    if target.any():
-        assert abs(np.median(depth[target]) / 100 - row["distance_m"]) < 3
-    assert set(np.unique(np.asarray(first["semantic.png"])[target])) <= {12}
+    row = frames[first["json"]["trajectory_id"], first["json"]["frame"]]
+    kinds = {"depth.npy.gz": np.float32, "semantic.npy.gz": np.uint8, "instance.npy.gz": np.uint32}
+    parts = {name: np.array(first[name], kind) for name, kind in kinds.items()}
+    labels_of(parts, row, first["rgb.jpg"].size)
     return f"{samples} samples in {len(shards)} shards"
+
+
+def labels_of(sample, row, size):
+    """Depths, labels and ids of a sample against the row of the frame."""
+    depth, labels, ids = (sample[f"{name}.npy.gz"] for name in ("depth", "semantic", "instance"))
+    assert (depth.dtype, labels.dtype, ids.dtype) == (np.float32, np.uint8, np.uint32)
+    assert depth.shape == labels.shape == ids.shape == size[::-1]
+    target = ids == 1
+    assert target.sum() == row["visible_pixels"] and set(np.unique(labels[target])) <= {12}
+    assert np.isinf(depth[labels == 11]).all() and depth[np.isfinite(depth)].max() > 2.55
+    if target.any():
+        assert abs(np.median(depth[target]) - row["distance_m"]) < 3
 
 
 def image_folder():
@@ -147,6 +163,7 @@ def vlm():
             assert text.count("<image>") == len(row["images"]) == 5
             for image in row["images"]:
                 with Image.open(root / image) as picture:
+                    assert picture.width <= 448 and f"pixels of {picture.width} x {picture.height}" in text
                     picture.verify()
             deltas = json.loads(row["messages"][2]["content"])["waypoint_deltas"]
             assert len(deltas) == 5 and all(len(delta) == 6 for delta in deltas)

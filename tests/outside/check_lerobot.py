@@ -13,29 +13,15 @@ import numpy as np
 import pandas as pd
 import pyarrow.parquet as parquet
 
-dataset, root, cache = Path(sys.argv[1]), Path(sys.argv[2]), sys.argv[3]
-info = json.loads((root / "meta/info.json").read_text())
-assert info["codebase_version"] == "v3.0" and isinstance(info["fps"], int)
-tasks = pd.read_parquet(root / "meta/tasks.parquet")
-assert tasks.index.name == "task" and list(tasks.columns) == ["task_index"] and len(tasks) == info["total_tasks"]
-episodes = pd.concat(pd.read_parquet(path) for path in sorted(glob.glob(str(root / "meta/episodes/*/*.parquet"))))
-assert len(episodes) == info["total_episodes"] and episodes["length"].sum() == info["total_frames"]
-assert sorted(info["splits"]) == sorted(set(episodes["split"]))
-for split, span in info["splits"].items():
-    first, end = map(int, span.split(":"))
-    assert set(episodes["split"].iloc[first:end]) == {split}
-
-rows = datasets.load_dataset("parquet", data_files=str(root / "data/*/*.parquet"), split="train", cache_dir=cache)
-assert len(rows) == info["total_frames"] and rows["index"][:] == list(range(len(rows)))
-poses = {}
+dataset, export, cache = Path(sys.argv[1]), Path(sys.argv[2]), sys.argv[3]
+QUANTILES = {"q01": 0.01, "q10": 0.1, "q50": 0.5, "q90": 0.9, "q99": 0.99}
+poses, flights = {}, {}
 for path in glob.glob(str(dataset / "data/frames/*.parquet")):
     for row in parquet.read_table(path).drop(["preview"]).to_pylist():
         poses[row["trajectory_id"], row["frame"]] = row
-experts = {
-    row["trajectory_id"]: row["expert_id"] or row["trajectory_id"]
-    for path in glob.glob(str(dataset / "data/trajectories/*.parquet"))
-    for row in parquet.read_table(path).to_pylist()
-}
+for path in glob.glob(str(dataset / "data/trajectories/*.parquet")):
+    for row in parquet.read_table(path).to_pylist():
+        flights[row["trajectory_id"]] = row
 
 
 def state(flight, frame):
@@ -43,37 +29,118 @@ def state(flight, frame):
     return np.array([row[f"drone_{name}"] for name in ("x_m", "y_m", "z_m", "pitch_deg", "yaw_deg", "roll_deg")])
 
 
-stats = json.loads((root / "meta/stats.json").read_text())
-for row in rows:
-    episode = episodes.iloc[row["episode_index"]]
-    flight, frame = episode["trajectory_id"], row["frame_index"]
-    assert episode["dataset_from_index"] + frame == row["index"] and abs(row["timestamp"] * info["fps"] - frame) < 1e-5
-    assert row["observation.images.rgb"].size == tuple(info["features"]["observation.images.rgb"]["shape"][1::-1])
-    assert np.abs(state(flight, frame) - row["observation.state"]).max() < 1e-9
-    if frame + 1 < episode["length"]:
-        gap = state(flight, frame) + row["action"] - state(experts[flight], frame + 1)
-        assert np.abs(gap[:3]).max() < 1e-9 and np.abs((gap[3:] + 180) % 360 - 180).max() < 1e-9
-    else:
-        assert not any(row["action"])
-for name in ("observation.state", "action"):
-    values = np.array(rows[name])
-    for key, want in (("mean", values.mean(0)), ("std", values.std(0)), ("min", values.min(0)), ("max", values.max(0))):
-        assert np.abs(np.array(stats[name][key]) - want).max() < 1e-6, (name, key)
-print(f"lerobot, file by file: {len(rows)} frames of {len(episodes)} episodes, {len(tasks)} tasks")
+def expert(flight, frame):
+    """The expert's pose that belongs to a frame of a flight; at the end of the flight, the expert waits."""
+    row = poses[flight, min(frame, flights[flight]["frames"] - 1)]
+    expert_id = flights[flight]["expert_id"] or flight
+    return state(expert_id, row["expert_frame"] if row["expert_frame"] is not None else row["frame"])
 
-try:
+
+def world_from_body(pitch, yaw, roll):
+    """CARLA's matrix: columns are the body's axes ahead, right and up in the world."""
+    (cp, cy, cr), (sp, sy, sr) = np.cos(np.radians([pitch, yaw, roll])), np.sin(np.radians([pitch, yaw, roll]))
+    return np.array([
+        [cp * cy, cy * sp * sr - sy * cr, -cy * sp * cr - sy * sr],
+        [cp * sy, sy * sp * sr + cy * cr, -sy * sp * cr + cy * sr],
+        [sp, -cp * sr, cp * cr],
+    ])
+
+
+def moved(pose, increment):
+    """A pose moved along the axes of its own body; angles are differences."""
+    return np.concatenate([pose[:3] + world_from_body(*pose[3:]) @ increment[:3], pose[3:] + increment[3:]])
+
+
+def gap(a, b):
+    """Largest difference of two poses, metres and degrees."""
+    return max(np.abs(a[:3] - b[:3]).max(), np.abs((a[3:] - b[3:] + 180) % 360 - 180).max())
+
+
+def as_lerobot_reads(root, info):
+    """How version 0.6 of the package opens the frames: its features of `datasets`, 32-bit floats in vectors of fixed lengths."""
+    def feature(it):
+        if it["dtype"] == "image":
+            return datasets.Image()
+        value = datasets.Value(it["dtype"])
+        return value if it["shape"] == [1] else datasets.Sequence(length=it["shape"][0], feature=value)
+
+    features = datasets.Features({name: feature(it) for name, it in info["features"].items()})
+    paths = sorted(map(str, root.glob("data/*/*.parquet")))
+    return datasets.Dataset.from_parquet(paths, features=features, cache_dir=cache)
+
+
+def check(split):
+    root = export / split
+    info = json.loads((root / "meta/info.json").read_text())
+    assert info["codebase_version"] == "v3.0" and isinstance(info["fps"], int)
+    tasks = pd.read_parquet(root / "meta/tasks.parquet")
+    assert tasks.index.name == "task" and list(tasks.columns) == ["task_index"] and len(tasks) == info["total_tasks"]
+    episodes = pd.concat(pd.read_parquet(path) for path in sorted(glob.glob(str(root / "meta/episodes/*/*.parquet"))))
+    assert len(episodes) == info["total_episodes"] and episodes["length"].sum() == info["total_frames"]
+    assert info["splits"] == {split: f"0:{len(episodes)}"} and set(episodes["split"]) == {split}
+    assert all(flights[flight]["split"] == split for flight in episodes["trajectory_id"])
+    inputs = [name for name in info["features"] if name.startswith("observation")]
+    assert sorted(inputs) == ["observation.images.rgb", "observation.state"], "policies take these as inputs"
+
+    rows = datasets.load_dataset("parquet", data_files=str(root / "data/*/*.parquet"), split="train", cache_dir=cache)
+    typed = as_lerobot_reads(root, info)
+    assert len(typed) == len(rows) and np.abs(np.array(typed["action"]) - np.array(rows["action"])).max() < 1e-4
+    assert len(rows) == info["total_frames"] and rows["index"][:] == list(range(len(rows)))
+    for row in rows:
+        episode = episodes.iloc[row["episode_index"]]
+        flight, frame = episode["trajectory_id"], row["frame_index"]
+        assert episode["dataset_from_index"] + frame == row["index"] and abs(row["timestamp"] * info["fps"] - frame) < 1e-5
+        assert row["observation.images.rgb"].size == tuple(info["features"]["observation.images.rgb"]["shape"][1::-1])
+        own, seen = state(flight, frame), np.array(row["observation.state"])
+        assert np.abs(own - row["privileged.pose"]).max() < 1e-9
+        assert np.abs(seen[6:] - own[[3, 5]]).max() < 1e-9
+        before = state(flight, max(frame - 1, 0))
+        step = world_from_body(*own[3:]) @ seen[:3]
+        assert gap(before + np.concatenate([step, seen[3:6]]), own) < 1e-9
+        # The sum of the first k increments leads from the own pose to the expert's, k frames later.
+        sums = np.cumsum(np.array(row["action"]).reshape(5, 6), axis=0)
+        for ahead, increment in enumerate(sums, 1):
+            assert gap(moved(own, increment), expert(flight, frame + ahead)) < 1e-6, (flight, frame, ahead)
+
+    stats = json.loads((root / "meta/stats.json").read_text())
+    assert set(stats) == set(info["features"])
+    for name in ("observation.state", "action", "privileged.target"):
+        values = np.array(rows[name])
+        wanted = {"mean": values.mean(0), "std": values.std(0), "min": values.min(0), "max": values.max(0)}
+        wanted |= {key: np.quantile(values, share, axis=0) for key, share in QUANTILES.items()}
+        assert stats[name]["count"] == [len(rows)] and set(stats[name]) == {*wanted, "count"}
+        for key, want in wanted.items():
+            assert np.abs(np.array(stats[name][key]) - want).max() < 1e-6, (name, key)
+    for key in ("min", "max", "mean", "std", *QUANTILES):
+        assert np.array(stats["observation.images.rgb"][key]).shape == (3, 1, 1)
+    print(f"lerobot, {split}, file by file: {len(rows)} frames of {len(episodes)} episodes, {len(tasks)} tasks")
+    return info, tasks
+
+
+def load(split, info, tasks):
+    """The package itself: windows of five pictures, and chunks."""
     from lerobot.datasets.lerobot_dataset import LeRobotDataset
+
+    loaded = LeRobotDataset(
+        f"cosfly/{split}", root=export / split, delta_timestamps={"observation.images.rgb": [step / info["fps"] for step in range(-4, 1)]}
+    )
+    assert loaded.num_frames == info["total_frames"] and loaded.num_episodes == info["total_episodes"]
+    item = loaded[6]
+    height, width, _ = info["features"]["observation.images.rgb"]["shape"]
+    assert tuple(item["observation.images.rgb"].shape) == (5, 3, height, width), item["observation.images.rgb"].shape
+    assert tuple(item["action"].shape) == (30,) and str(item["action"].dtype) == "torch.float32"
+    assert item["task"] in tasks.index, item["task"]
+    assert {"q01", "q99"} <= set(loaded.meta.stats["action"])
+    print(f"lerobot, {split}, with the package: windows of {tuple(item['observation.images.rgb'].shape)}, task {item['task']!r}")
+
+
+splits = sorted(path.name for path in export.iterdir() if path.is_dir())
+assert splits == sorted({flight["split"] for flight in flights.values()})
+checked = {split: check(split) for split in splits}
+try:
+    import lerobot
 except ImportError:
     print("skipped: the package lerobot is not installed")
     sys.exit()
-steps = [step / info["fps"] for step in range(-4, 6)]
-loaded = LeRobotDataset(
-    "cosfly/export", root=root, delta_timestamps={"observation.images.rgb": steps[:5], "action": steps[5:]}
-)
-assert loaded.num_frames == info["total_frames"] and loaded.num_episodes == info["total_episodes"]
-item = loaded[6]
-height, width, _ = info["features"]["observation.images.rgb"]["shape"]
-assert tuple(item["observation.images.rgb"].shape) == (5, 3, height, width), item["observation.images.rgb"].shape
-assert tuple(item["action"].shape) == (5, 6) and str(item["action"].dtype) == "torch.float32"
-assert item["task"] in tasks.index, item["task"]
-print(f"lerobot, with the package: windows of {tuple(item['observation.images.rgb'].shape)}, task {item['task']!r}")
+for split, (info, tasks) in checked.items():
+    load(split, info, tasks)

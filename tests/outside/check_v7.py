@@ -16,7 +16,7 @@ from PIL import Image
 TOWN = re.compile(r"(Town0[1-7]|Town10HD)(_Opt)?")
 root = Path(sys.argv[1]) / "data_v7"
 groups = defaultdict(set)
-pairs = frames = seen = 0
+pairs = frames = seen = debugs = 0
 for folder in sorted(root.glob("Town*/trajectory_*")):
     pairs += 1
     town = folder.parent.name
@@ -33,6 +33,10 @@ for folder in sorted(root.glob("Town*/trajectory_*")):
         K = np.array(camera["intrinsic"], float)
         assert K.shape == (3, 3) and np.isfinite(K).all() and K[0, 0] == K[1, 1] == camera["focal_length_px"]
         assert points and report["num_points"] == len(points)
+        # Some readers look for `waypoints` and `timing.timestamp`.
+        for point, waypoint in zip(points, document["waypoints"], strict=True):
+            assert waypoint["drone_pose"] == point["drone_pose"] and waypoint["timing"] == point["timing"]
+            assert waypoint["timing"]["timestamp"] == point["timing"]["trace_timestamp"]
         last_time = -1.0
         for i, point in enumerate(points):
             frames += 1
@@ -59,7 +63,9 @@ for folder in sorted(root.glob("Town*/trajectory_*")):
             instance = np.asarray(Image.open(here / "instance.png")).astype(int)
             assert instance.shape == (height, width, 3) and instance[..., 0].max() <= 28
             ids = instance[..., 1] + 256 * instance[..., 2]
-            assert Image.open(here / "debug.png").size == (width, height)
+            if (here / "debug.png").exists():  # not in exports with `--no-debug`
+                assert Image.open(here / "debug.png").size == (width, height)
+                debugs += 1
             # The target: id 1 has CARLA's label for people, lies in its box, at its depth, and where its middle projects to.
             target = point["target"]
             rows, columns = np.nonzero(ids == 1)
@@ -93,5 +99,6 @@ for folder in sorted(root.glob("Town*/trajectory_*")):
     assert source == tuple(aug["source"][key] for key in ("path_index", "scenario_id", "scenario_name"))
     groups[(town.removesuffix("_Opt"), *source)].add(ori["cosfly"]["split"])
 assert pairs and seen, "nothing was found"
+assert debugs in (0, frames), "some frames alone have `debug.png`"
 assert all(len(splits) == 1 for splits in groups.values()), "a scenario straddles a split"
 print(f"v7: {pairs} pairs, {frames} frames, the target seen in {seen}: every rule holds")

@@ -31,7 +31,7 @@ impl<'a> Node<'a> {
         (offset > 0).then_some(self.at + offset)
     }
 
-    /// What a slot's offset leads to.
+    /// Target of a slot's offset.
     pub fn vector(&self, slot: usize) -> Option<usize> {
         let at = self.slot(slot)?;
         at.checked_add(u32_at(self.bytes, at)? as usize)

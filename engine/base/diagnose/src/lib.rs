@@ -3,6 +3,7 @@
 //! * [`Diagnostic`]: one failure, ready to be shown; [`Fault`] is its kind, [`Label`] a place in a text.
 //! * [`render`], [`render_all`]: diagnostics as text for a terminal.
 //! * [`ParameterError`]: an invalid parameter whose place in a file is not known yet.
+//! * [`visible_text`]: foreign text, made harmless for a terminal.
 //! * [`nearest_name`]: the known name most similar to a mistyped one.
 
 mod diagnostic;
@@ -16,3 +17,4 @@ pub use diagnostic::{Diagnostic, Fault, Label, Result};
 pub use nearest::nearest_name;
 pub use parameter::ParameterError;
 pub use print::{render, render_all};
+pub use visible::visible_text;

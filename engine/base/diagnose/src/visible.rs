@@ -11,6 +11,11 @@ pub(crate) fn visible(character: char) -> char {
     }
 }
 
+/// `text` without anything that would control the terminal: what does becomes visible. For foreign text where it enters.
+pub fn visible_text(text: &str) -> String {
+    text.chars().map(|it| if it == '\n' { it } else { visible(it) }).collect()
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -19,5 +24,6 @@ mod tests {
     fn control_characters_become_visible() {
         let shown: String = "a\u{1b}[31mb\u{7}\u{202e}".chars().map(visible).collect();
         assert_eq!(shown, "a\u{241b}[31mb\u{2407}\u{fffd}");
+        assert_eq!(visible_text("a\u{1b}[2J\nb"), "a\u{241b}[2J\nb");
     }
 }

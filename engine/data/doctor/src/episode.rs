@@ -1,5 +1,6 @@
 //! A flight as the checks see it: the values of its files, absent where the files have none.
 
+use cosfly_captions::Wear;
 use cosfly_frames::{DVec3, Pose};
 use cosfly_render::Camera;
 
@@ -20,6 +21,8 @@ pub struct Episode {
     pub camera: Option<Camera>,
     /// Height of the target's body, metres.
     pub target_height_m: f64,
+    /// Clothes of the target, where they are known.
+    pub wear: Option<Wear>,
     /// Time between frames, seconds: as stated, else as most frames have it.
     pub dt_s: f64,
     /// Stated limits of clearance (m), speed (m/s), acceleration (m/s^2), jerk (m/s^3), yaw and pitch rate (degrees/s).

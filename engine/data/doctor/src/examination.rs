@@ -1,8 +1,10 @@
 //! Reads a folder, runs all checks, and lists the episodes without a flag.
 
 use crate::sources::{lerobot, ours, v7};
-use crate::{Episode, Flag, Moment, Severity, checks};
+use crate::{Episode, Flag, Moment, Severity, checks, shortcuts};
 use cosfly_diagnose::{Diagnostic, Fault, Result};
+use cosfly_metrics::shortcuts::ShortcutFigures;
+use cosfly_read::PublishedDataset;
 use serde::Serialize;
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::Path;
@@ -52,6 +54,8 @@ pub struct Examination {
     pub visibility: Vec<(f64, usize)>,
     /// Quotas, each with the share in the data.
     pub quotas: Vec<(Quota, f64)>,
+    /// Signs that give targets away; datasets of cosfly only.
+    pub shortcuts: Option<ShortcutFigures>,
     /// Checks that were impossible, with reasons.
     pub unchecked: Vec<String>,
 }
@@ -91,7 +95,10 @@ pub fn examine(folder: &Path, quotas: &[Quota], progress: &mut dyn FnMut(u64, u6
     }
     flags.extend(checks::leaks(&episodes));
     unchecked.extend(unstated(layout, &episodes));
-    Ok(Examination { unchecked, ..summed(layout, &episodes, flags, quotas) })
+    // Damage of the tables has its flag.
+    let figures = || shortcuts::figures(&PublishedDataset::open(folder).ok()?).ok();
+    let shortcuts = if layout == Layout::Cosfly { figures() } else { None };
+    Ok(Examination { unchecked, shortcuts, ..summed(layout, &episodes, flags, quotas) })
 }
 
 /// Values that no episode has, whose checks were skipped.
@@ -141,6 +148,7 @@ fn summed(layout: Layout, episodes: &[Episode], flags: Vec<Flag>, quotas: &[Quot
         damaged,
         visibility: visibility.collect(),
         quotas: quotas.iter().map(|quota| (quota.clone(), share(quota))).collect(),
+        shortcuts: None,
         unchecked: vec![],
         flags,
     }

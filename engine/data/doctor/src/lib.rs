@@ -12,11 +12,13 @@ pub mod episode;
 mod examination;
 mod files;
 pub mod flag;
+mod shortcuts;
 pub mod sources;
 #[cfg(test)]
 mod tests;
 pub mod walls;
 
+pub use cosfly_metrics::shortcuts::ShortcutFigures;
 pub use episode::{Episode, Look, Moment};
 pub use examination::{Examination, Layout, Quota, examine};
 pub use flag::{Flag, Severity};

@@ -2,13 +2,16 @@
 
 use crate::join::Joined;
 use crate::methods::{Method, baselines};
-use crate::report::result::{DatasetFacts, Evaluation, MethodReport, RowFacts, StratumReport, WindowFacts};
+use crate::report::result::{
+    AnchorReport, AnchoredMethod, DatasetFacts, Evaluation, MethodReport, RowFacts, StratumReport, WindowFacts,
+};
 use crate::report::score::{Score, Scores};
 use crate::scoring::{MethodTallies, clusters, score, total};
 use crate::settings::{InputRole, Settings};
-use crate::strata::{STRATA, memberships};
+use crate::strata::{Membership, STRATA, memberships};
 use crate::windows::{Flights, WindowSet};
 use cosfly_diagnose::{Diagnostic, Fault, Result};
+use cosfly_metrics::baselines::Anchor;
 use cosfly_metrics::{METRICS, Tally, bootstrap};
 use cosfly_read::predictions::Predictions;
 use rayon::prelude::*;
@@ -53,10 +56,11 @@ pub fn evaluate(
             method_report(method, &tallies, settings)
         })
         .collect();
+    let beside = other_anchor(flights, &windows, &memberships, (&given, &joined, file), settings, &wanted, scored);
     let groups: BTreeSet<usize> = clusters(flights, &windows).into_iter().collect();
     Ok(Evaluation {
         format: "cosfly-evaluation",
-        version: 2,
+        version: 3,
         settings: settings.clone(),
         dataset: DatasetFacts {
             name: flights.name.clone(),
@@ -72,8 +76,35 @@ pub fn evaluate(
         rows: file.map(|file| row_facts(file, read, joined)),
         metrics: METRICS.to_vec(),
         methods: reports,
+        other_anchor: beside,
         notes,
     })
+}
+
+/// The scores of the same methods over all windows with the other anchor.
+fn other_anchor(
+    flights: &Flights,
+    windows: &WindowSet,
+    memberships: &[Membership],
+    (given, joined, file): (&Predictions, &Joined, Option<&str>),
+    settings: &Settings,
+    wanted: &(dyn Fn(usize) -> bool + Sync),
+    scored: usize,
+) -> AnchorReport {
+    let anchor = match settings.anchor {
+        Anchor::Input => Anchor::Expert,
+        Anchor::Expert => Anchor::Input,
+    };
+    let settings = Settings { anchor, ..settings.clone() };
+    let mut methods: Vec<Method<'_>> = vec![];
+    methods.extend(file.is_some().then_some(Method::Predictions(given, joined)));
+    methods.extend(baselines(flights, &settings, scored, false, &mut vec![]));
+    let report = |method: &Method<'_>| {
+        let tallies = score(method, flights, windows, memberships, &settings, wanted);
+        let scores = scores(&tallies.overall, settings.resamples, settings.seed);
+        AnchoredMethod { name: method.name().to_owned(), scores }
+    };
+    AnchorReport { anchor, methods: methods.par_iter().map(report).collect() }
 }
 
 /// The splits to score.

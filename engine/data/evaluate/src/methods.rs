@@ -4,7 +4,7 @@ use crate::join::Joined;
 use crate::settings::Settings;
 use crate::windows::{Flights, Window, WindowSet};
 use cosfly_frames::Pose;
-use cosfly_metrics::baselines::features::Examples;
+use cosfly_metrics::baselines::features::{Examples, Known};
 use cosfly_metrics::baselines::{Anchor, Extrapolation, NearestNeighbour, Ridge};
 use cosfly_metrics::waypoints;
 use cosfly_read::predictions::Predictions;
@@ -21,7 +21,7 @@ pub enum Method<'a> {
     Predictions(&'a Predictions, &'a Joined),
     /// A polynomial or the target's motion.
     Extrapolation(Extrapolation),
-    /// Ridge autoregression.
+    /// Ridge autoregression, from boxes or from the target's true places.
     Ridge(Ridge),
     /// The most similar training window.
     Nearest(NearestNeighbour),
@@ -36,7 +36,8 @@ impl Method<'_> {
             Self::Extrapolation(Extrapolation::ConstantVelocity) => "constant velocity",
             Self::Extrapolation(Extrapolation::ConstantAcceleration) => "constant acceleration",
             Self::Extrapolation(Extrapolation::CopyTarget) => "copy target",
-            Self::Ridge(_) => "ridge",
+            Self::Ridge(ridge) if ridge.known() == Known::Boxes => "ridge",
+            Self::Ridge(_) => "ridge, true target",
             Self::Nearest(_) => "nearest neighbour",
         }
     }
@@ -104,6 +105,17 @@ fn training_windows(flights: &Flights, settings: &Settings) -> Vec<Window> {
     set.all(flights).step_by(every).collect()
 }
 
+/// Training windows as features and outcomes.
+fn examples(flights: &Flights, settings: &Settings, known: Known) -> Examples {
+    let shape = &settings.window;
+    let mut examples = Examples { known, ..Examples::default() };
+    for window in training_windows(flights, settings) {
+        let start = flights.anchor(window, shape, settings.anchor);
+        examples.push(&flights.view(window, shape), &start, &flights.truth(window, shape));
+    }
+    examples
+}
+
 /// All baselines that can be made; the reasons why others cannot go to `notes`.
 pub fn baselines(
     flights: &Flights,
@@ -113,12 +125,7 @@ pub fn baselines(
     notes: &mut Vec<String>,
 ) -> Vec<Method<'static>> {
     let mut methods: Vec<Method<'static>> = Extrapolation::ALL.map(Method::Extrapolation).into();
-    let mut examples = Examples::default();
-    for window in training_windows(flights, settings) {
-        let shape = &settings.window;
-        let start = flights.anchor(window, shape, settings.anchor);
-        examples.push(&flights.view(window, shape), &start, &flights.truth(window, shape));
-    }
+    let examples = examples(flights, settings, Known::Places);
     if examples.is_empty() {
         notes.push("ridge and nearest neighbour are left out: split train has no window to learn from".to_owned());
         return methods;
@@ -128,6 +135,7 @@ pub fn baselines(
             .push("ridge and nearest neighbour have learnt from windows that are scored here (split train)".to_owned());
     }
     let limit = COMPARED_NUMBERS / windows.max(1) / examples.width.max(1);
+    methods.extend(Ridge::fit(&self::examples(flights, settings, Known::Boxes)).map(Method::Ridge));
     methods.extend(Ridge::fit(&examples).map(Method::Ridge));
     methods.extend(NearestNeighbour::fit(&examples, limit.max(64)).map(Method::Nearest));
     methods

@@ -1,9 +1,12 @@
-//! Colour images decoded, ids and depths encoded.
+//! Colour images decoded and made smaller; labels, ids and depths encoded as pictures and as NumPy files.
 
 use cosfly_diagnose::{Diagnostic, Fault, Result};
 use cosfly_read::LoggedFrame;
 use cosfly_render::channels::Element;
 use cosfly_render::{Channel, ChannelImage};
+use flate2::Compression;
+use flate2::write::GzEncoder;
+use std::io::Write;
 use zune_jpeg::JpegDecoder;
 use zune_jpeg::zune_core::bytestream::ZCursor;
 
@@ -27,6 +30,56 @@ pub fn rgb_of(logged: &LoggedFrame) -> Result<Vec<u8>> {
     })
 }
 
+/// A JPEG file of row-major RGB bytes.
+pub fn rgb_jpeg(rgb: &[u8], [width, height]: [u32; 2], quality: u8) -> Result<Vec<u8>> {
+    let mut file = vec![];
+    cosfly_images::rgb::jpeg(rgb, width, height, quality, &mut file)?;
+    Ok(file)
+}
+
+/// Size of a picture that is at most `most` pixels wide, with the aspect of `[width, height]`.
+pub fn smaller_size([width, height]: [u32; 2], most: u32) -> [u32; 2] {
+    if width <= most {
+        return [width, height];
+    }
+    let (most, width) = (u64::from(most), u64::from(width));
+    [most as u32, ((2 * u64::from(height) * most + width) / (2 * width)).max(1) as u32]
+}
+
+/// Row-major RGB bytes of a picture of size `full` made smaller: each pixel is the mean of its area.
+pub fn smaller(rgb: &[u8], full: [u32; 2], size: [u32; 2]) -> Vec<u8> {
+    let [columns, rows] = [shares(full[0], size[0]), shares(full[1], size[1])];
+    let area = u64::from(full[0]) * u64::from(full[1]);
+    let row_bytes = 3 * full[0] as usize;
+    let mut made = Vec::with_capacity(3 * size[0] as usize * size[1] as usize);
+    let mut sums = vec![0u64; row_bytes];
+    for parts in &rows {
+        sums.fill(0);
+        for (row, share) in parts {
+            let pixels = &rgb[row * row_bytes..(row + 1) * row_bytes];
+            sums.iter_mut().zip(pixels).for_each(|(sum, value)| *sum += share * u64::from(*value));
+        }
+        for parts in &columns {
+            for channel in 0..3 {
+                let sum: u64 = parts.iter().map(|(column, share)| share * sums[3 * column + channel]).sum();
+                made.push(((sum + area / 2) / area) as u8);
+            }
+        }
+    }
+    made
+}
+
+/// For each of `count` pixels, the pixels of `total` that it covers, with their parts; the parts of one add up to `total`.
+fn shares(total: u32, count: u32) -> Vec<Vec<(usize, u64)>> {
+    let (total, count) = (u64::from(total), u64::from(count));
+    let part = |of: u64, pixel: u64| {
+        let (from, to) = ((of * total).max(pixel * count), ((of + 1) * total).min((pixel + 1) * count));
+        (pixel as usize, to.saturating_sub(from))
+    };
+    let covered = |of: u64| (of * total / count..((of + 1) * total).div_ceil(count)).map(move |pixel| part(of, pixel));
+    (0..count).map(|of| covered(of).collect()).collect()
+}
+
 /// Pixels of an 8-bit PNG file with its width and height.
 pub fn decode_png(file: &[u8]) -> Result<(Vec<u8>, [u32; 2]), String> {
     let mut reader = png::Decoder::new(std::io::Cursor::new(file)).read_info().map_err(|error| error.to_string())?;
@@ -42,7 +95,7 @@ pub fn gray8_png(values: &[u8], [width, height]: [u32; 2]) -> Result<Vec<u8>> {
 }
 
 /// A PNG file of two bytes per pixel.
-pub fn gray16_png(values: impl Iterator<Item = u16>, size: [u32; 2]) -> Result<Vec<u8>> {
+fn gray16_png(values: impl Iterator<Item = u16>, size: [u32; 2]) -> Result<Vec<u8>> {
     let bytes: Vec<u8> = values.flat_map(u16::to_be_bytes).collect();
     gray_png(&bytes, size, png::BitDepth::Sixteen)
 }
@@ -69,18 +122,56 @@ fn centimetres(depth_m: f32) -> u16 {
     if depth_m.is_finite() { (100.0 * depth_m).round_ties_even().clamp(0.0, 65_534.0) as u16 } else { u16::MAX }
 }
 
-/// A NumPy file of 32-bit floats with `rows` x `columns` entries.
-pub fn npy_f32(values: &[f32], [columns, rows]: [u32; 2]) -> Vec<u8> {
-    let mut header = format!("{{'descr': '<f4', 'fortran_order': False, 'shape': ({rows}, {columns}), }}");
+/// A number of NumPy files.
+pub trait Number: Copy {
+    /// Type in the file's header.
+    const DESCRIPTION: &'static str;
+    /// Appends the bytes of the number, little-endian.
+    fn append(self, file: &mut Vec<u8>);
+}
+
+impl Number for u8 {
+    const DESCRIPTION: &'static str = "|u1";
+    fn append(self, file: &mut Vec<u8>) {
+        file.push(self);
+    }
+}
+
+impl Number for u32 {
+    const DESCRIPTION: &'static str = "<u4";
+    fn append(self, file: &mut Vec<u8>) {
+        file.extend_from_slice(&self.to_le_bytes());
+    }
+}
+
+impl Number for f32 {
+    const DESCRIPTION: &'static str = "<f4";
+    fn append(self, file: &mut Vec<u8>) {
+        file.extend_from_slice(&self.to_le_bytes());
+    }
+}
+
+/// A NumPy file with `rows` x `columns` numbers.
+pub fn npy<T: Number>(values: &[T], [columns, rows]: [u32; 2]) -> Vec<u8> {
+    let kind = T::DESCRIPTION;
+    let mut header = format!("{{'descr': '{kind}', 'fortran_order': False, 'shape': ({rows}, {columns}), }}");
     // Magic, version and length take 10 bytes; everything before the data a multiple of 64.
     let padding = (64 - (10 + header.len() + 1) % 64) % 64;
     header.push_str(&" ".repeat(padding));
     header.push('\n');
-    let mut file = b"\x93NUMPY\x01\x00".to_vec();
+    let mut file = Vec::with_capacity(10 + header.len() + size_of_val(values));
+    file.extend_from_slice(b"\x93NUMPY\x01\x00");
     file.extend_from_slice(&(header.len() as u16).to_le_bytes());
     file.extend_from_slice(header.as_bytes());
-    values.iter().for_each(|value| file.extend_from_slice(&value.to_le_bytes()));
+    values.iter().for_each(|value| value.append(&mut file));
     file
+}
+
+/// A file compressed by gzip, without a time or a name in its header.
+pub fn gzip(file: &[u8]) -> Result<Vec<u8>> {
+    let mut encoder = GzEncoder::new(vec![], Compression::fast());
+    let packed = encoder.write_all(file).and_then(|()| encoder.finish());
+    packed.map_err(|error| Diagnostic::new("image-encode", Fault::Bug, "could not compress an image").because(error))
 }
 
 /// Ending of files of a channel on request: three bytes a pixel are PNG, numbers NumPy files.
@@ -92,7 +183,7 @@ pub fn ending_on_request(channel: &Channel) -> &'static str {
 pub fn file_on_request(image: &ChannelImage, [width, height]: [u32; 2]) -> Result<Vec<u8>> {
     if image.channel.element() == Element::Float {
         let numbers = image.bytes.as_chunks::<4>().0.iter().map(|number| f32::from_le_bytes(*number));
-        return Ok(npy_f32(&numbers.collect::<Vec<_>>(), [width, height]));
+        return Ok(npy(&numbers.collect::<Vec<_>>(), [width, height]));
     }
     let mut file = vec![];
     rgb_png(&image.bytes, width, height, &mut file)?;
@@ -110,10 +201,22 @@ mod tests {
 
     #[test]
     fn numpy_files_begin_as_the_format_says() {
-        let file = npy_f32(&[1.0, 2.0, 3.0, 4.0, 5.0, 6.0], [3, 2]);
+        let file = npy(&[1.0f32, 2.0, 3.0, 4.0, 5.0, 6.0], [3, 2]);
         assert_eq!((file.len(), &file[..8]), (128 + 24, &b"\x93NUMPY\x01\x00"[..]));
         assert!(String::from_utf8_lossy(&file[10..128]).contains("'shape': (2, 3)"));
         assert_eq!(&file[128..132], &1.0f32.to_le_bytes());
+        assert_eq!((npy(&[7u8, 8], [2, 1]).len(), npy(&[70_000u32], [1, 1]).len()), (128 + 2, 128 + 4));
+    }
+
+    #[test]
+    fn smaller_pictures_keep_the_aspect_and_are_means_of_areas() {
+        assert_eq!(smaller_size([1280, 720], 448), [448, 252]);
+        assert_eq!((smaller_size([320, 180], 448), smaller_size([4000, 1], 448)), ([320, 180], [448, 1]));
+        let rgb: Vec<u8> = [10, 40, 100].iter().flat_map(|value| [*value, 2 * value, 0]).collect();
+        // Two of three pixels: one and a half pixels each.
+        assert_eq!(smaller(&rgb, [3, 1], [2, 1]), [20, 40, 0, 80, 160, 0]);
+        assert_eq!(smaller(&[7; 3 * 5 * 4], [5, 4], [3, 3]), [7; 27]);
+        assert!(shares(1280, 448).iter().all(|parts| parts.iter().map(|(_, part)| part).sum::<u64>() == 1280));
     }
 
     #[test]

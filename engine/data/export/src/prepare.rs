@@ -61,6 +61,14 @@ pub fn joined_options() -> Vec<(ExportOption, Vec<&'static str>)> {
     joined
 }
 
+/// Limits the number of threads of all exports of this process, before the first of them; without a number, there is one per core.
+pub fn use_threads(count: Option<u16>) {
+    if let Some(count) = count {
+        // An error says that the threads have begun already; their number changes no byte.
+        let _ = rayon::ThreadPoolBuilder::new().num_threads(usize::from(count)).build_global();
+    }
+}
+
 /// The option `name` on a command line.
 pub fn flag(name: &str) -> String {
     format!("--{}", name.replace('_', "-"))

@@ -4,4 +4,5 @@ pub mod depth;
 pub mod ids;
 pub mod jpeg;
 pub mod previews;
+pub mod read;
 pub mod rgb;

@@ -1,15 +1,20 @@
 //! Colour images as JPEG or PNG files.
 
-use super::jpeg;
+use super::jpeg::{self, Chroma};
 use cosfly_diagnose::{Diagnostic, Fault, Result};
 
 /// Fills `file` with a JPEG file of row-major sRGB pixels, without chroma subsampling.
 pub fn jpeg(rgb: &[u8], width: u32, height: u32, quality: u8, file: &mut Vec<u8>) -> Result<()> {
+    jpeg_with(rgb, width, height, quality, Chroma::Full, file)
+}
+
+/// Fills `file` with a JPEG file of row-major sRGB pixels.
+pub fn jpeg_with(rgb: &[u8], width: u32, height: u32, quality: u8, chroma: Chroma, file: &mut Vec<u8>) -> Result<()> {
     if width.max(height) > jpeg::MAX_SIDE || width.min(height) == 0 {
         let message = format!("{width} x {height} does not fit a JPEG file");
         return Err(Diagnostic::new("image-size", Fault::Recipe, message));
     }
-    jpeg::encode(rgb, width, height, quality, file);
+    jpeg::encode(rgb, width, height, quality, chroma, file);
     Ok(())
 }
 

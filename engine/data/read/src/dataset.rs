@@ -1,5 +1,6 @@
 //! A published dataset: its trajectories, tables and logs.
 
+use super::image_log::ImageLog;
 use super::log::LogReader;
 use super::rows::read;
 use super::trajectory::PublishedFlight;
@@ -166,12 +167,22 @@ impl PublishedDataset {
 
     /// Opens the log of `flight`.
     pub fn log(&self, flight: &PublishedFlight) -> Result<LogReader> {
+        LogReader::open(&self.log_path(flight)?, flight.dt_s)
+    }
+
+    /// Opens the log of `flight` for random access to its images.
+    pub fn image_log(&self, flight: &PublishedFlight) -> Result<ImageLog> {
+        ImageLog::open(&self.log_path(flight)?, flight.dt_s)
+    }
+
+    /// Path of a log, inside the dataset.
+    fn log_path(&self, flight: &PublishedFlight) -> Result<PathBuf> {
         let inside = Path::new(&flight.mcap_path).components().all(|part| matches!(part, Component::Normal(_)));
         if !inside {
             let message = format!("the log `{}` is outside the dataset", flight.mcap_path);
             return Err(Diagnostic::new("dataset-damaged", Fault::Input, message));
         }
-        LogReader::open(&self.folder.join(&flight.mcap_path), flight.dt_s)
+        Ok(self.folder.join(&flight.mcap_path))
     }
 }
 

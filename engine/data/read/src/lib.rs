@@ -3,10 +3,12 @@
 //! Columns are requested by their entries in [`cosfly_schema::tables`], so datasets with additional columns can be
 //! read, too.
 
+pub mod columns;
 mod damage;
 mod dataset;
 mod foreign;
 mod frames;
+mod image_log;
 mod log;
 mod objects;
 mod plain;
@@ -21,6 +23,7 @@ mod whole_files;
 pub use dataset::PublishedDataset;
 pub use foreign::{ForeignRows, foreign_rows};
 pub use frames::{Disturbance, FrameRow};
+pub use image_log::{ImageLog, StoredImage};
 pub use log::{LogReader, LoggedFrame, SceneBox};
 pub use objects::{BoxInWorld, PublishedObject};
 pub use records::read_records;

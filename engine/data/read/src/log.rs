@@ -75,21 +75,7 @@ pub struct SceneBox {
 impl LogReader {
     /// Reads the index of the log at `path`, whose frames are `dt_s` apart.
     pub fn open(path: &Path, dt_s: f64) -> Result<Self> {
-        let refused = |error: std::io::Error| Diagnostic::io(format!("read `{}`", path.display()), &error);
-        let mut file = File::open(path).map_err(refused)?;
-        let size = file.metadata().map_err(refused)?.len();
-        let options = SummaryReaderOptions::default().with_file_size(size).with_record_length_limit(RECORD_LIMIT);
-        let mut reader = SummaryReader::new_with_options(options);
-        while let Some(event) = reader.next_event() {
-            match event.map_err(|error| damaged(path, "its index cannot be read", error))? {
-                SummaryReadEvent::ReadRequest(wanted) => {
-                    let read = file.read(reader.insert(wanted)).map_err(refused)?;
-                    reader.notify_read(read);
-                }
-                SummaryReadEvent::SeekRequest(to) => reader.notify_seeked(file.seek(to).map_err(refused)?),
-            }
-        }
-        let summary = reader.finish().ok_or_else(|| damaged(path, "it has no index", "the file was cut short"))?;
+        let (file, summary) = summary(path)?;
         let is_logged = |name: &str| summary.channels.values().any(|channel| channel.topic == name);
         let is_needed = |channel: &&Channel| !channel.is_on_request() || is_logged(&topic::images(channel));
         let channels = channels::ALL.iter().copied().filter(is_needed).collect();
@@ -186,6 +172,26 @@ impl LogReader {
         }
         Ok(())
     }
+}
+
+/// Opens the log at `path` and reads its index.
+pub(super) fn summary(path: &Path) -> Result<(File, Summary)> {
+    let refused = |error: std::io::Error| Diagnostic::io(format!("read `{}`", path.display()), &error);
+    let mut file = File::open(path).map_err(refused)?;
+    let size = file.metadata().map_err(refused)?.len();
+    let options = SummaryReaderOptions::default().with_file_size(size).with_record_length_limit(RECORD_LIMIT);
+    let mut reader = SummaryReader::new_with_options(options);
+    while let Some(event) = reader.next_event() {
+        match event.map_err(|error| damaged(path, "its index cannot be read", error))? {
+            SummaryReadEvent::ReadRequest(wanted) => {
+                let read = file.read(reader.insert(wanted)).map_err(refused)?;
+                reader.notify_read(read);
+            }
+            SummaryReadEvent::SeekRequest(to) => reader.notify_seeked(file.seek(to).map_err(refused)?),
+        }
+    }
+    let summary = reader.finish().ok_or_else(|| damaged(path, "it has no index", "the file was cut short"))?;
+    Ok((file, summary))
 }
 
 impl LoggedFrame {

@@ -51,6 +51,9 @@ pub struct PublishedFlight {
     pub target_height_m: f64,
     /// Radius of the target's body, metres.
     pub target_radius_m: f64,
+    /// Colours of the target's top and trousers in words, and whether it wears a backpack; `None` without a body, and in
+    /// datasets from before the columns existed.
+    pub target_clothes: Option<(String, String, bool)>,
     /// Limits of clearance (m), speed (m/s), acceleration (m/s^2), jerk (m/s^3), yaw and pitch rate (degrees/s); `None` where
     /// there is no limit.
     pub limits: [Option<f64>; 6],
@@ -102,6 +105,7 @@ impl PublishedFlight {
             readout_s: rows.get_or(Trajectories::camera_readout_s, row, 0.0)?,
             target_height_m: rows.get(Trajectories::target_height_m, row)?,
             target_radius_m: rows.get(Trajectories::target_radius_m, row)?,
+            target_clothes: clothes(rows, row)?,
             limits: [
                 rows.get_or(Trajectories::limit_clearance_m, row, None)?,
                 rows.get_or(Trajectories::limit_speed_mps, row, None)?,
@@ -114,6 +118,13 @@ impl PublishedFlight {
             split: split.to_owned(),
         })
     }
+}
+
+fn clothes(rows: &Rows<'_>, row: usize) -> Result<Option<(String, String, bool)>> {
+    let top = rows.get_or(Trajectories::target_top_colour, row, None)?;
+    let trousers = rows.get_or(Trajectories::target_trousers_colour, row, None)?;
+    let backpack = rows.get_or(Trajectories::target_has_backpack, row, None)?;
+    Ok(top.zip(trousers).zip(backpack).map(|((top, trousers), backpack)| (top, trousers, backpack)))
 }
 
 fn layout(rows: &Rows<'_>, row: usize) -> Result<TownLayout> {

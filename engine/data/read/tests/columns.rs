@@ -7,7 +7,7 @@ use cosfly_schema::tables::{
     DatasetItem, Edges, Frames, ImageFile, Kind, Membership, Table, Trajectories, Windows, of_files, of_objects,
     of_rejections, of_trajectories,
 };
-use cosfly_schema::{LogRecord, PreviewStrip, Role, TownLayout};
+use cosfly_schema::{LogRecord, PreviewStrip, Role, Split, TownLayout};
 use cosfly_write::table_file::TableWriter;
 use std::fs::File;
 use std::sync::Arc;
@@ -31,7 +31,12 @@ fn items() -> Vec<DatasetItem> {
             sha256: "00".into(),
         },
         mcap_path: "mcap/x.mcap".into(),
-        membership: Membership { split_group: "plain/p00000".into(), is_seen: true, subset_rank: 0.5 },
+        membership: Membership {
+            split: Split::Train,
+            split_group: "plain/p00000".into(),
+            is_seen: true,
+            subset_rank: 0.5,
+        },
         layout: Arc::new(TownLayout::of(&sample::town())),
         windows: WindowShape { history: 2, horizon: 2, stride: 1 },
         record: flight.record,

@@ -1,5 +1,6 @@
 //! Content of the page: sketches of towns and flights, a few numbers per frame. World frame, metres, degrees.
 
+use cosfly_metrics::shortcuts::ShortcutFigures;
 use serde::{Deserialize, Serialize};
 
 /// A dataset as the page shows it.
@@ -27,6 +28,8 @@ pub struct Report {
     pub rejections: Vec<RejectionSketch>,
     /// Comparison of planners; without rows there is no section.
     pub planners: Vec<PlannerRow>,
+    /// Signs that give targets away; without frames there is no section.
+    pub shortcuts: Option<ShortcutFigures>,
 }
 
 /// A town seen from above.

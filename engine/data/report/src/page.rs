@@ -3,7 +3,7 @@
 use crate::model::Report;
 use crate::moments;
 use crate::pictures::{Source, image};
-use crate::sections::{distributions, maps, numbers, planners, planning, shares, timelines, worst};
+use crate::sections::{distributions, maps, numbers, planners, planning, shares, shortcuts, timelines, worst};
 use cosfly_plot::statistics;
 use cosfly_plot::text::escaped;
 use std::fmt::Write;
@@ -22,6 +22,7 @@ pub fn page<E>(report: &Report, pictures: Source<'_, E>) -> Result<String, E> {
         ("maps", ["Maps", "Where they fly"], maps::section(report)),
         ("time", ["Visibility", "When the target is seen"], timelines::section(report)),
         ("distributions", ["Distributions"; 2], distributions::section(report)),
+        ("shortcuts", ["Shortcuts", "What gives the target away"], shortcuts::section(report)),
         ("planning", ["Planning"; 2], planning::section(report)),
         ("planners", ["Planners", "Planners beside each other"], planners::section(report)),
         ("worst", ["Worst cases"; 2], worst::section(report, pictures)?),
@@ -107,6 +108,7 @@ fn foot(report: &Report) -> String {
 mod tests {
     use super::*;
     use crate::model::{BoxSketch, FlightSketch, RejectionSketch, TownSketch};
+    use cosfly_metrics::shortcuts::{ShortcutFigures, Shortcuts};
     use std::convert::Infallible;
 
     fn flight(number: usize, is_perturbed: bool) -> FlightSketch {
@@ -132,6 +134,14 @@ mod tests {
         }
     }
 
+    fn shortcuts() -> ShortcutFigures {
+        let mut shortcuts = Shortcuts::default();
+        shortcuts.add_frame([64.0, 48.0], [30.0, 10.0, 40.0, 30.0], [[32.0, 20.0, 33.0, 24.0]].into_iter());
+        shortcuts.add_target("p1", [0.5, 0.1, 0.1]);
+        shortcuts.add_other("p2", [0.2, 0.2, 0.2]);
+        shortcuts.figures()
+    }
+
     fn report() -> Report {
         let shape =
             BoxSketch { instance: 3, kind: "building".into(), center_m: [5.0, 5.0], half_m: [4.0, 2.0], yaw_rad: 0.3 };
@@ -139,6 +149,7 @@ mod tests {
             title: "A <dataset>".into(),
             towns: vec![TownSketch { name: "plain".into(), boxes: vec![shape] }],
             flights: (0..4).map(|i| flight(i / 2, i % 2 == 1)).collect(),
+            shortcuts: Some(shortcuts()),
             rejections: vec![RejectionSketch { id: "p9".into(), stage: "expert".into(), reason: "no way".into() }],
             ..Report::default()
         }
@@ -174,6 +185,13 @@ mod tests {
         assert!(written(&report()) == written(&report()));
         let empty = written(&Report::default());
         assert!(empty.contains("<main") && !empty.contains("NaN") && !empty.contains("inf"), "{empty}");
+    }
+
+    #[test]
+    fn shortcuts_have_a_section_where_targets_are_seen() {
+        let html = written(&report());
+        assert!(html.contains("What gives the target away") && html.contains("of 1 expert frames"), "{html}");
+        assert!(!written(&Report::default()).contains("What gives the target away"));
     }
 
     #[test]

@@ -1,5 +1,6 @@
 //! Parameters of the `dataset` stage: name, licence, splits, windows, image encodings.
 
+use crate::card_text::{FACTS, unknown_fact};
 use crate::split::Split;
 use cosfly_diagnose::ParameterError;
 use cosfly_metrics::WindowShape;
@@ -14,9 +15,10 @@ pub struct DatasetConfig {
     /// Short name: letters, digits, `-` and `_`; also the name in `croissant.json`.
     #[schemars(regex(pattern = r"^[A-Za-z0-9][A-Za-z0-9_-]{0,95}$"))]
     pub name: String,
-    /// Title of the card.
+    /// Title of the card. `{towns}`, `{pedestrians}`, `{flights}`, `{frames}` and `{minutes}` stand for the facts of the
+    /// dataset, such as `Town02`, `4 pedestrians`, `8 flights`, `1600 frames` and `13.3 minutes`.
     pub title: String,
-    /// Description of the dataset, one paragraph, for the card and `croissant.json`.
+    /// Description of the dataset, one paragraph, for the card and `croissant.json`, with facts in braces as in `title`.
     #[schemars(length(min = 1))]
     pub description: String,
     /// Version of the data, `MAJOR.MINOR.PATCH`.
@@ -49,9 +51,9 @@ impl Default for DatasetConfig {
     fn default() -> Self {
         Self {
             name: "cosfly-dataset".into(),
-            title: "Aerial tracking flights by cosfly".into(),
-            description: "Simulated flights of a drone that keeps a walking pedestrian in view between buildings and \
-                          trees: expert and perturbed trajectories with RGB, metric depth, semantic and instance \
+            title: "Aerial tracking flights in {towns}".into(),
+            description: "{flights} of a simulated drone that keeps a walking pedestrian in view between buildings and \
+                          trees, behind {pedestrians} in {towns}: expert and perturbed trajectories with RGB, metric depth, semantic and instance \
                           images, 6-DoF camera poses, target states and bilingual instructions."
                 .into(),
             version: "1.0.0".into(),
@@ -98,6 +100,16 @@ impl DatasetConfig {
                 message: format!("`{}` is not a day of the calendar", self.date_published),
                 hint: Some("write it as `YYYY-MM-DD`, such as `2026-01-31`".into()),
             });
+        }
+        for (key, text) in [("title", &self.title), ("description", &self.description)] {
+            if let Some(name) = unknown_fact(text) {
+                let names: Vec<String> = FACTS.iter().map(|(name, _)| format!("`{{{name}}}`")).collect();
+                return Err(ParameterError {
+                    path: vec![key.into()],
+                    message: format!("`{{{name}}}` is not a fact of datasets"),
+                    hint: Some(format!("facts are {}", names.join(", "))),
+                });
+            }
         }
         let known = RESPONSIBLE_AI_TERMS;
         match self.responsible_ai.keys().find(|term| !known.contains(&term.as_str())) {
@@ -308,11 +320,13 @@ impl Default for SplitShares {
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(default, deny_unknown_fields)]
 pub struct EncodingConfig {
-    /// Colour images: `jpeg` (4:4:4, small) or `png` (lossless).
+    /// Colour images: `jpeg` (small) or `png` (lossless).
     pub rgb: RgbEncoding,
     /// Quality of JPEG images.
     #[schemars(range(min = 50, max = 100))]
     pub jpeg_quality: u8,
+    /// Resolution of the colours of JPEG images beside that of their brightness: `full` (4:4:4) or `half` (4:2:0).
+    pub jpeg_chroma: JpegChroma,
     /// Depth images: `grid` (rounded to 2^-10 m, about six times smaller) or `lossless`.
     pub depth: DepthEncoding,
     /// Whether small previews of all channels are stored, for viewers and the `frames` table.
@@ -321,7 +335,13 @@ pub struct EncodingConfig {
 
 impl Default for EncodingConfig {
     fn default() -> Self {
-        Self { rgb: RgbEncoding::Jpeg, jpeg_quality: 95, depth: DepthEncoding::Grid, previews: true }
+        Self {
+            rgb: RgbEncoding::Jpeg,
+            jpeg_quality: 90,
+            jpeg_chroma: JpegChroma::Half,
+            depth: DepthEncoding::Grid,
+            previews: true,
+        }
     }
 }
 
@@ -329,10 +349,20 @@ impl Default for EncodingConfig {
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum RgbEncoding {
-    /// JPEG without chroma subsampling.
+    /// JPEG.
     Jpeg,
     /// Lossless PNG.
     Png,
+}
+
+/// Resolution of the colours of JPEG images beside that of their brightness.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum JpegChroma {
+    /// The same (4:4:4).
+    Full,
+    /// Half in both directions (4:2:0).
+    Half,
 }
 
 /// Storage of depth images; always 32-bit floats in metres.

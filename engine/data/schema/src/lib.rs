@@ -2,11 +2,13 @@
 //!
 //! * [`record`]: one rendered trajectory, as passed between stages.
 //! * [`config`]: parameters of the dataset as a whole.
+//! * [`card_text`]: texts of the card with names for facts.
 //! * [`tables`]: the Parquet tables and their columns.
 //! * [`log`]: the topics and messages of a trajectory's MCAP log.
 //! * [`town_layout`]: ground plan of a town, which identifies the town.
 //! * [`flight_labels`], [`flight_table`], [`extras`]: labels, tables and files of plugins.
 
+pub mod card_text;
 pub mod config;
 pub mod extras;
 pub mod flight_labels;
@@ -18,7 +20,7 @@ mod split;
 pub mod tables;
 pub mod town_layout;
 
-pub use config::{DatasetConfig, DepthEncoding, EncodingConfig, RgbEncoding};
+pub use config::{DatasetConfig, DepthEncoding, EncodingConfig, JpegChroma, RgbEncoding};
 pub use record::{
     CaptionRecord, LogRecord, OtherPerson, PairInfo, PreviewStrip, Rejection, RenderedTrajectory, Role, Sighting,
     TownInfo,

@@ -5,7 +5,7 @@ use cosfly_frames::{Pose, TargetState};
 use cosfly_maps::{MapOrigin, Synthetic, Town};
 use cosfly_planner::Trajectory;
 use cosfly_render::frame::TARGET_INSTANCE;
-use cosfly_render::{Camera, Lens, MotionBlur, Mount, Noise, PersonView, RollingShutter, TargetView, Weather};
+use cosfly_render::{Camera, Lens, MotionBlur, Mount, Noise, Outfit, PersonView, RollingShutter, TargetView, Weather};
 use serde::{Deserialize, Serialize, de::DeserializeOwned};
 
 /// Role of a flight behind a pedestrian.
@@ -73,6 +73,8 @@ pub struct OtherPerson {
     pub height_m: f64,
     /// Body radius seen from above, metres.
     pub radius_m: f64,
+    /// Clothes.
+    pub outfit: Outfit,
 }
 
 /// A frame in which a bystander covers at least one pixel.
@@ -125,6 +127,8 @@ pub struct RenderedTrajectory {
     /// Share of the target that hundreds of rays reach, 0..1, per frame, computed without the renderer; `None` out of
     /// view.
     pub visible_by_dense_rays: Vec<Option<f64>>,
+    /// Clothes of the target; `None` for a target without a body.
+    pub outfit: Option<Outfit>,
     /// All bystanders, by instance id.
     pub others: Vec<OtherPerson>,
     /// Frames in which bystanders are visible, by frame and instance id.
@@ -335,7 +339,7 @@ pub fn captions_from_bytes(bytes: &[u8]) -> Result<Vec<CaptionRecord>> {
     decode("captions", CAPTIONS_MAGIC, bytes)
 }
 
-const TRAJECTORY_MAGIC: &[u8; 8] = b"CFTRAJ\x00\x03";
+const TRAJECTORY_MAGIC: &[u8; 8] = b"CFTRAJ\x00\x04";
 const PREVIEWS_MAGIC: &[u8; 8] = b"CFPREV\x00\x01";
 const CAPTIONS_MAGIC: &[u8; 8] = b"CFCAPT\x00\x01";
 

@@ -2,7 +2,8 @@
 
 use super::files::CheckedFiles;
 use super::report::VerifyReport;
-use super::tables::{SmallTables, split_of};
+use super::rows::split_of;
+use super::tables::SmallTables;
 use arrow_array::cast::AsArray;
 use arrow_schema::DataType;
 use cosfly_schema::extras::is_taken;

@@ -34,6 +34,7 @@ pub fn read<S>(
             differs.map_or("the order of its columns".to_owned(), |field| format!("column `{}`", field.name()));
         return Err(format!("{column} is not as table `{}` has it", table.name));
     }
+    let split = path.file_name().and_then(|name| name.to_str()).map_or("", split_of);
     let mut first = 0;
     for group in 0..file.groups() {
         let rows = file.group(group).map_err(|refusal| in_words(&refusal))?;
@@ -42,11 +43,24 @@ pub fn read<S>(
                 let name = column.name();
                 return Err(format!("column `{name}` has a number that is not finite, in row {first} or after it"));
             }
+            if column.name() == "split" && !is_all(rows.array(place).map_err(|it| in_words(&it))?.as_ref(), split) {
+                return Err(format!("column `split` is not `{split}`, in row {first} or after it"));
+            }
         }
         visit(&rows).map_err(|refusal| in_words(&refusal))?;
         first += rows.len();
     }
     Ok(())
+}
+
+/// The split that a file belongs to.
+pub fn split_of(path: &str) -> &str {
+    path.rsplit('/').next().and_then(|name| name.split('-').next()).unwrap_or_default()
+}
+
+/// Whether all texts of a column are `text`.
+fn is_all(column: &dyn Array, text: &str) -> bool {
+    column.as_string_opt::<i32>().is_some_and(|texts| texts.iter().all(|it| it == Some(text)))
 }
 
 /// The table over the trajectories called `name`.

@@ -2,7 +2,7 @@
 
 use super::files::CheckedFiles;
 use super::report::VerifyReport;
-use super::rows::{self, PlacedFlight, ReadResult};
+use super::rows::{self, PlacedFlight, ReadResult, split_of};
 use super::sums;
 use cosfly_diagnose::Result;
 use cosfly_read::Rows;
@@ -55,11 +55,6 @@ pub fn read(folder: &Path, files: &CheckedFiles, report: &mut VerifyReport) -> S
     read_captions(folder, files, &mut small, report);
     read_pairs(folder, files, &mut small, report);
     small
-}
-
-/// The split that a file belongs to.
-pub fn split_of(path: &str) -> &str {
-    path.rsplit('/').next().and_then(|name| name.split('-').next()).unwrap_or_default()
 }
 
 fn note<T>(report: &mut VerifyReport, file: &str, outcome: ReadResult<T>) -> Option<T> {

@@ -3,7 +3,8 @@
 use super::files::CheckedFiles;
 use super::report::VerifyReport;
 use super::rows;
-use super::tables::{SmallTables, split_of};
+use super::rows::split_of;
+use super::tables::SmallTables;
 use cosfly_frames::Pose;
 use cosfly_frames::action;
 use cosfly_metrics::difficulty::WindowFrames;

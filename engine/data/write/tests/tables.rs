@@ -6,7 +6,7 @@ use cosfly_metrics::Difficulty;
 use cosfly_metrics::WindowShape;
 use cosfly_sample as sample;
 use cosfly_schema::tables::{Column, DatasetItem, Membership, Table, Trajectories, Windows, of_trajectories};
-use cosfly_schema::{LogRecord, PreviewStrip, Role, TownLayout};
+use cosfly_schema::{LogRecord, PreviewStrip, Role, Split, TownLayout};
 use cosfly_write::table_file::TableWriter;
 use parquet::arrow::arrow_reader::ParquetRecordBatchReaderBuilder;
 use std::sync::Arc;
@@ -30,7 +30,12 @@ fn item(role: Role) -> DatasetItem {
         log,
         mcap_path: "mcap/x".into(),
         expert: (role == Role::Perturbed).then(|| Box::new(sample::flight(0, Role::Expert).record)),
-        membership: Membership { split_group: "plain/p00000".into(), is_seen: true, subset_rank: 0.5 },
+        membership: Membership {
+            split: Split::Train,
+            split_group: "plain/p00000".into(),
+            is_seen: true,
+            subset_rank: 0.5,
+        },
         layout: Arc::new(TownLayout::of(&sample::town())),
         windows: WindowShape { history: 2, horizon: 2, stride: 1 },
     }

@@ -1,15 +1,17 @@
 //! Arguments that several commands have: the recipe, the store, values in a range.
 
 use crate::command::Refusals;
+use crate::console::Console;
 use clap::Args;
 use clap::builder::TypedValueParser;
+use cosfly_diagnose::Diagnostic;
 use cosfly_recipe::Recipe;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 /// A recipe with changes to it.
 #[derive(Args, Clone, Debug)]
 pub struct RecipeArguments {
-    /// The recipe (TOML)
+    /// The recipe (TOML), or a folder with a recipe.toml; - for standard input, with files relative to the current folder
     #[arg(value_name = "RECIPE")]
     pub recipe: PathBuf,
     /// Change a value of the recipe, such as stages.expert.weights.visibility=5 (repeatable)
@@ -22,8 +24,16 @@ impl RecipeArguments {
     ///
     /// # Errors
     /// All errors of the recipe.
-    pub fn load(&self) -> Result<Recipe, Refusals> {
-        Ok(cosfly_recipe::load(&self.recipe, &self.overrides, &cosfly_stages::registry())?)
+    pub fn load(&self, console: &dyn Console) -> Result<Recipe, Refusals> {
+        let registry = cosfly_stages::registry();
+        if self.recipe != Path::new("-") {
+            let path = if self.recipe.is_dir() { self.recipe.join("recipe.toml") } else { self.recipe.clone() };
+            return Ok(cosfly_recipe::load(&path, &self.overrides, &registry)?);
+        }
+        let mut text = String::new();
+        let read = console.input().read_to_string(&mut text);
+        read.map_err(|error| Diagnostic::io("read standard input", &error))?;
+        Ok(cosfly_recipe::read(Path::new("standard input"), &text, &self.overrides, &registry)?)
     }
 }
 

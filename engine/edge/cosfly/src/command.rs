@@ -1,5 +1,6 @@
 //! The seam: what a command of the command line is.
 
+use crate::console::Console;
 use clap::{ArgMatches, CommandFactory, FromArgMatches};
 use cosfly_diagnose::Diagnostic;
 
@@ -9,7 +10,7 @@ pub trait Command: CommandFactory + FromArgMatches {
     ///
     /// # Errors
     /// The reasons why the work cannot be done; their kinds decide the exit code.
-    fn run(&self) -> Outcome;
+    fn run(&self, console: &dyn Console) -> Outcome;
 }
 
 /// Exit code of a command, or why there is none.
@@ -37,7 +38,7 @@ pub struct Entry {
     /// Name, help and arguments.
     pub command: fn() -> clap::Command,
     /// Work.
-    pub run: fn(&ArgMatches) -> Outcome,
+    pub run: fn(&ArgMatches, &dyn Console) -> Outcome,
 }
 
 impl Entry {
@@ -47,8 +48,8 @@ impl Entry {
     }
 }
 
-fn run<C: Command>(matches: &ArgMatches) -> Outcome {
-    C::from_arg_matches(matches).unwrap_or_else(|error| error.format(&mut C::command()).exit()).run()
+fn run<C: Command>(matches: &ArgMatches, console: &dyn Console) -> Outcome {
+    C::from_arg_matches(matches).unwrap_or_else(|error| error.format(&mut C::command()).exit()).run(console)
 }
 
 /// `group` with the commands of a list.
@@ -60,8 +61,8 @@ pub fn with_commands(group: clap::Command, commands: &[Entry]) -> clap::Command 
 }
 
 /// Runs the command of a list that was asked for.
-pub fn dispatch(commands: &[Entry], matches: &ArgMatches) -> Outcome {
+pub fn dispatch(commands: &[Entry], matches: &ArgMatches, console: &dyn Console) -> Outcome {
     let (name, matches) = matches.subcommand().expect("a subcommand is required");
     let entry = commands.iter().find(|entry| (entry.command)().get_name() == name);
-    (entry.expect("clap knows the commands of the list alone").run)(matches)
+    (entry.expect("clap knows the commands of the list alone").run)(matches, console)
 }

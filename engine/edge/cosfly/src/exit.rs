@@ -1,7 +1,6 @@
 //! Exit codes, as the help documents them.
 
 use cosfly_diagnose::{Diagnostic, Fault};
-use std::process::ExitCode;
 
 /// Success.
 pub const SUCCESS: u8 = 0;
@@ -32,6 +31,6 @@ pub fn code_of(diagnostic: &Diagnostic) -> u8 {
 }
 
 /// Exit code for several diagnostics: the highest of their codes.
-pub fn code_of_all<'a>(diagnostics: impl IntoIterator<Item = &'a Box<Diagnostic>>) -> ExitCode {
-    ExitCode::from(diagnostics.into_iter().map(|diagnostic| code_of(diagnostic)).max().unwrap_or(SUCCESS))
+pub fn code_of_all<'a>(diagnostics: impl IntoIterator<Item = &'a Box<Diagnostic>>) -> u8 {
+    diagnostics.into_iter().map(|diagnostic| code_of(diagnostic)).max().unwrap_or(SUCCESS)
 }

@@ -85,7 +85,7 @@ impl Reporter {
     }
 
     /// Removes the bars, and prints the number of failures that were not shown.
-    pub fn finish(&self) {
+    fn finish(&self) {
         for ((stage, code), alike) in self.failures.lock().unwrap_or_else(PoisonError::into_inner).iter() {
             if *alike > SHOWN_ALIKE {
                 self.always(&format!("{} of `{stage}` failed with `{code}`", count(alike - SHOWN_ALIKE, "more item")));
@@ -147,6 +147,12 @@ impl Reporter {
         } else {
             eprintln!("{text}");
         }
+    }
+}
+
+impl Drop for Reporter {
+    fn drop(&mut self) {
+        self.finish();
     }
 }
 

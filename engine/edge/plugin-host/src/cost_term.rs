@@ -139,7 +139,7 @@ impl Running {
     }
 }
 
-/// That all costs and gradients are numbers, and as many as wanted; or what is wrong with them.
+/// Checks that all costs and gradients are finite and complete; otherwise the fault.
 fn check(costs: &[f64], gradients: Option<&[f64]>, waypoints: &[DVec3]) -> Result<(), String> {
     let is_cost = |cost: &f64| *cost >= 0.0 && *cost < f64::INFINITY;
     if let Some(frame) = first_wrong(costs, 0, is_cost) {

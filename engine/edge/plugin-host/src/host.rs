@@ -10,6 +10,7 @@ use crate::sandbox::{Guest, TICK};
 use crate::session::Session;
 use crate::town::NoTown;
 use crate::{compiled_code, direct_term, imports, parameters};
+use cosfly_diagnose::visible_text;
 use cosfly_fingerprint::Digest;
 use std::collections::BTreeMap;
 use std::io::Read;
@@ -194,7 +195,7 @@ fn read(path: &Path, shown: &str) -> Result<Vec<u8>, PluginError> {
 
 /// The description that a plugin gives, checked.
 fn describe(plugin: &Plugin) -> Result<Metadata, PluginError> {
-    let metadata = match &plugin.compiled.code {
+    let mut metadata = match &plugin.compiled.code {
         Code::Module(_) => direct_term::describe(plugin, Arc::new(NoTown))?,
         Code::Component(_) => {
             let mut session = Session::open(plugin, Arc::new(NoTown))?;
@@ -202,6 +203,9 @@ fn describe(plugin: &Plugin) -> Result<Metadata, PluginError> {
             session.call("describe", &function, ())?.0
         }
     };
+    for text in [&mut metadata.name, &mut metadata.version, &mut metadata.summary] {
+        *text = visible_text(text);
+    }
     let refused = |message: String| PluginError::failed(&plugin.shown, "describe", message);
     let is_plain = |byte: u8| byte.is_ascii_lowercase() || byte.is_ascii_digit() || byte == b'_';
     let name = &metadata.name;

@@ -1,5 +1,6 @@
 //! Version 0.1 of the interface: names and records as in `plugins/wit`.
 
+use cosfly_diagnose::visible_text;
 use wasmtime::component::{ComponentType, Lift, Lower};
 
 /// The package of all interfaces.
@@ -43,12 +44,12 @@ pub enum Refusal {
 }
 
 impl Refusal {
-    /// The reason in words.
+    /// The reason in words that cannot control a terminal.
     pub fn words(&self) -> String {
         match self {
-            Self::InvalidParams(words) => format!("parameters: {words}"),
-            Self::Unsupported(words) => format!("unsupported: {words}"),
-            Self::Failed(words) => words.clone(),
+            Self::InvalidParams(words) => format!("parameters: {}", visible_text(words)),
+            Self::Unsupported(words) => format!("unsupported: {}", visible_text(words)),
+            Self::Failed(words) => visible_text(words),
         }
     }
 }

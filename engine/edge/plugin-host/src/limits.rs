@@ -8,7 +8,7 @@ pub struct PluginLimits {
     /// Longest call of a function, milliseconds.
     pub call_ms: u32,
     /// Most instructions of one call, counted exactly, so that the same plugin fails at the same place on every machine; 0 does
-    /// not count. With it the plugin runs in strict mode: numbers that are none have the same bits everywhere, too.
+    /// not count. With it the plugin runs in strict mode: NaNs have the same bits on every processor, too.
     pub fuel: u64,
 }
 
@@ -19,7 +19,7 @@ impl Default for PluginLimits {
 }
 
 impl PluginLimits {
-    /// Whether instructions are counted and numbers that are none made canonical.
+    /// Whether instructions are counted and NaNs made canonical.
     pub fn is_strict(&self) -> bool {
         self.fuel > 0
     }

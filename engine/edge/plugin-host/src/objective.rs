@@ -6,6 +6,7 @@ use crate::plugin::Plugin;
 use crate::sandbox::Said;
 use crate::session::Session;
 use crate::town::TownView;
+use cosfly_diagnose::visible_text;
 use std::sync::Arc;
 use wasmtime::component::TypedFunc;
 
@@ -40,11 +41,14 @@ pub fn draw_reference(
     configured.map_err(|refusal| PluginError::failed(&plugin.shown, "configure", refusal.words()))?;
     let max_steps = site.max_steps as usize;
     let (plan,) = session.call("produce", &produce, (site,))?;
-    let plan = match plan {
+    let mut plan = match plan {
         Ok(plan) => plan,
-        Err(Refusal::Failed(reason)) => return Ok(Err(reason)),
+        Err(refusal @ Refusal::Failed(_)) => return Ok(Err(refusal.words())),
         Err(refusal) => return Err(PluginError::failed(&plugin.shown, "produce", refusal.words())),
     };
+    for text in plan.notes.iter_mut().flat_map(|(name, value)| [name, value]) {
+        *text = visible_text(text);
+    }
     check(&plan, max_steps).map_err(|message| PluginError::failed(&plugin.shown, "produce", message))?;
     Ok(Ok(Drawn { plan, warnings: session.warnings(), said: session.said() }))
 }

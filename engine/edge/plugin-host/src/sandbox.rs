@@ -5,6 +5,7 @@ use crate::failure::PluginError;
 use crate::interface_0_1::Severity;
 use crate::limits::PluginLimits;
 use crate::town::TownView;
+use cosfly_diagnose::visible_text;
 use std::sync::Arc;
 use std::time::Duration;
 use wasmtime::{Engine, ResourceLimiter, Store, Trap};
@@ -50,7 +51,8 @@ pub struct Guest {
 impl Guest {
     pub(crate) fn say(&mut self, severity: Severity, text: &str) {
         if self.said.len() < MAX_MESSAGES {
-            self.said.push((severity, text.chars().take(MAX_MESSAGE_CHARS).collect()));
+            let text: String = text.chars().take(MAX_MESSAGE_CHARS).collect();
+            self.said.push((severity, visible_text(&text)));
         }
     }
 }

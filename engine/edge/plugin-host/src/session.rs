@@ -34,7 +34,7 @@ impl Session {
     /// A function of its interface.
     ///
     /// # Errors
-    /// When there is none, or it is another one than the interface's.
+    /// When the export is missing, or has another type than the interface's.
     pub fn function<P, R>(&mut self, name: &'static str) -> Result<TypedFunc<P, R>, PluginError>
     where
         P: ComponentNamedList + Lower,

@@ -1,12 +1,14 @@
 //! `caption`: instructions in Chinese and English, checked against the facts of the trajectory.
 
 use crate::ports::{self, CAPTIONS, TRAJECTORY};
+use crate::walks::walk_seed;
 use crate::{codec, parameters, single};
 use cosfly_blobs::OutputSink;
-use cosfly_captions::{Caption as Text, CaptionConfig, captions, check, facts};
+use cosfly_captions::{Caption as Text, CaptionConfig, Wear, captions, check, facts};
 use cosfly_diagnose::{Diagnostic, Fault, ParameterError, Result};
 use cosfly_frames::Seed;
 use cosfly_planner::PlanOutcome;
+use cosfly_render::Clothes;
 use cosfly_schema::CaptionRecord;
 use cosfly_schema::record::captions_to_bytes;
 use cosfly_stage::{InputPort, Inputs, ItemRule, Produced, Stage, StageKind, StagePart, StageProperties, TaskContext};
@@ -35,7 +37,7 @@ impl StageKind for Caption {
         let config: CaptionConfig = parameters::read(given)?;
         let properties = StageProperties {
             kind: self.name().into(),
-            version: 2,
+            version: 3,
             parameters: parameters::canonical(&config),
             sources: vec![],
             inputs: self.ports(),
@@ -71,7 +73,8 @@ impl Stage for CaptionStage {
             outputs.put("captions", &captions_to_bytes(&[]))?;
             return Ok(Produced::default());
         }
-        let facts = facts(&trajectory);
+        let outfit = Clothes::draw(&walk_seed(&trajectory.track)?).outfit;
+        let facts = facts(&trajectory).wearing(self.config.clothes.then(|| Wear::from(&outfit)));
         let texts: Vec<Text> = captions(&facts, &self.config, Seed(context.seed));
         let mut records = Vec::with_capacity(texts.len());
         for text in texts {

@@ -20,7 +20,9 @@ impl Crowd {
         let read = |NearbyPerson { instance, walk_id }: NearbyPerson| {
             let walk = nearby::walk(inputs, artifact, &nearby::walk_blob(&walk_id))?;
             let (height_m, radius_m) = (walk.track.height_m, walk.track.radius_m);
-            Ok((OtherPerson { instance, walk_id, height_m, radius_m }, Person::on(walk)?))
+            let person = Person::on(walk)?;
+            let outfit = person.outfit();
+            Ok((OtherPerson { instance, walk_id, height_m, radius_m, outfit }, person))
         };
         Ok(Self { members: nearby::people(inputs, artifact)?.into_iter().map(read).collect::<Result<_>>()? })
     }

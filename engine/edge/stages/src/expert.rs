@@ -11,9 +11,12 @@ use cosfly_diagnose::ParameterError;
 use cosfly_frames::{Seed, TargetTrack};
 use cosfly_objectives::{Objective, ObjectiveConfig};
 use cosfly_planner::MucoConfig;
+use cosfly_planner::aim::AimConfig;
 use cosfly_planner::config::Planner;
 use cosfly_planner::weights::Preset;
 use cosfly_stage::Source;
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
 use std::sync::Arc;
 
 /// Parameters of a `muco` stage.
@@ -25,13 +28,24 @@ pub struct Expert {
     pub objective: ObjectiveConfig,
     /// Cost terms and objective from plugins.
     pub plugins: ExpertPlugins,
+    /// Aim at a walker.
+    pub aim: AimConfig,
+}
+
+/// The pilot of a `muco` stage.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(default, deny_unknown_fields)]
+struct Pilot {
+    /// Aim of the camera at a walker: framing, lag and lead, and the largest rates of turning.
+    aim: AimConfig,
 }
 
 impl Expert {
     /// Schema of all parameters in one table.
     pub fn schema() -> serde_json::Value {
         let own = parameters::merged_schema::<MucoConfig, ObjectiveConfig>();
-        parameters::merged_into(own, parameters::schema_of::<ExpertPlugins>())
+        let own = parameters::merged_into(own, parameters::schema_of::<ExpertPlugins>());
+        parameters::merged_into(own, parameters::schema_of::<Pilot>())
     }
 
     /// Reads parameters as recipes give them, or as [`Self::canonical`] gives them.
@@ -41,10 +55,12 @@ impl Expert {
     pub fn read(mut given: serde_json::Value) -> Result<Self, ParameterError> {
         let named = ["inspect", "patrol", "plugin"].map(|key| given.get(key).map(|_| key));
         let plugins: ExpertPlugins = parameters::take(&mut given)?;
+        let Pilot { aim } = parameters::take(&mut given)?;
         let (config, objective) = parameters::read_merged::<MucoConfig, ObjectiveConfig>(given)?;
         plugins.validate()?;
         let refused = |(path, message): (String, String)| parameters::refused_at(&path, message);
         config.validate().map_err(refused)?;
+        aim.validate().map_err(|(path, message)| refused((format!("aim.{path}"), message)))?;
         objective.validate(config.limits.speed_mps).map_err(refused)?;
         let asked = objective.objective.name();
         if let Some(key) = named.into_iter().flatten().find(|key| *key != asked) {
@@ -70,7 +86,7 @@ impl Expert {
             return Err(parameters::refused_at("targets.companions", message));
         }
         check_planner(&config)?;
-        Ok(Self { config, objective, plugins })
+        Ok(Self { config, objective, plugins, aim })
     }
 
     /// Number of flights, where that is not the number of walkers.
@@ -99,6 +115,7 @@ impl Expert {
         }
         let mut objective = parameters::canonical(&self.objective);
         if self.objective.objective == Objective::Track {
+            all["aim"] = parameters::canonical(&self.aim);
             return all;
         }
         let key = self.objective.objective.name();
@@ -125,7 +142,8 @@ impl Expert {
         seed: Seed,
         plugins: Plugins,
     ) -> cosfly_diagnose::Result<Result<Flight, String>> {
-        Flight::of((&self.config, &self.objective), world, walk, companions, seed, plugins)
+        let flight = Flight::of((&self.config, &self.objective), world, walk, companions, seed, plugins)?;
+        Ok(flight.map(|flight| flight.aiming(&self.aim)))
     }
 }
 
@@ -168,7 +186,9 @@ mod tests {
         assert_eq!((again.objective.patrol.corners, again.objective.patrol.count), (5, 1));
         assert_eq!((again.config, again.objective.objective), (read.config, Objective::Patrol));
         let track = Expert::read(serde_json::json!({ "objective": "track" })).unwrap().canonical();
-        assert_eq!(track, parameters::canonical(&MucoConfig::default()));
+        let mut defaults = parameters::canonical(&MucoConfig::default());
+        defaults["aim"] = parameters::canonical(&AimConfig::default());
+        assert_eq!(track, defaults);
     }
 
     #[test]
@@ -180,6 +200,7 @@ mod tests {
             serde_json::json!({ "objective": "inspect", "targets": { "companions": 1 } }),
             &["targets", "companions"],
         );
+        check(serde_json::json!({ "aim": { "lag_s": 9.0 } }), &["aim", "lag_s"]);
         check(serde_json::json!({ "inspect": { "row_m": 2.0 } }), &["inspect"]);
         check(serde_json::json!({ "objective": "inspect", "patrol": {} }), &["patrol"]);
         check(serde_json::json!({ "planner": "astar" }), &["planner"]);

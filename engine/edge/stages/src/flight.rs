@@ -8,6 +8,8 @@ use cosfly_maps::ObstacleKind;
 use cosfly_objectives::inspect::{self, Inspection};
 use cosfly_objectives::patrol::{self, MET_M, Patrol};
 use cosfly_objectives::{Mission, Objective, ObjectiveConfig, Site, reference, track};
+use cosfly_planner::aim::{AimConfig, aimed};
+use cosfly_planner::certificate::view_rates_deg_s;
 use cosfly_planner::{MucoConfig, PlanOutcome, StartState, TermCost, Trajectory, plan_request, visibility};
 use std::collections::BTreeMap;
 use std::sync::Arc;
@@ -30,12 +32,15 @@ pub struct Flight {
     companions: Vec<TargetTrack>,
     purpose: Purpose,
     objective: ObjectiveConfig,
+    /// Aim at a walker; `None` where the flight follows nobody.
+    aim: Option<AimConfig>,
     plugins: Plugins,
     seed: Seed,
 }
 
 impl Flight {
-    /// Flight behind `walk` and its companions, or one that the objective draws from `seed`, as `config` and `objective` ask.
+    /// Flight behind `walk` and its companions, or one that the objective draws from `seed`, as `config` and `objective` ask;
+    /// see [`Self::aiming`].
     /// `Err` inside is the reason why there is nothing to fly.
     ///
     /// # Errors
@@ -91,7 +96,13 @@ impl Flight {
         };
         let (companion_ids, companions) = companions.into_iter().unzip();
         let objective = objective.clone();
-        Ok(Self { mission, companion_ids, companions, purpose, objective, plugins, seed })
+        Ok(Self { mission, companion_ids, companions, purpose, objective, aim: None, plugins, seed })
+    }
+
+    /// The same flight with a pilot who aims at the walker as `aim` says; flights that follow nobody stay as they are.
+    pub fn aiming(mut self, aim: &AimConfig) -> Self {
+        self.aim = matches!(self.purpose, Purpose::Walker).then(|| aim.clone());
+        self
     }
 
     /// The whole flight, and warnings of plugins for users. An inspection lists its coverage beside its costs, as `coverage`
@@ -101,6 +112,7 @@ impl Flight {
     /// Failures of a plugin.
     pub fn plan(&self, world: &Arc<World>) -> cosfly_diagnose::Result<(PlanOutcome, Vec<String>)> {
         let (mut outcome, warnings) = self.plan_mission(world, &self.mission, &self.companions, None)?;
+        self.take_aim(&mut outcome, 0);
         if let (PlanOutcome::Planned(flight), Purpose::Walls(inspection)) = (&mut outcome, &self.purpose) {
             let ground = |x: f64, y: f64| world.ground.ground_height_m(x, y).unwrap_or(0.0);
             let structures = buildings(world);
@@ -133,7 +145,24 @@ impl Flight {
         };
         let companions: Vec<TargetTrack> = self.companions.iter().map(part).collect();
         let known = flown.get(frame..end);
-        Ok(self.plan_mission(world, &mission, &companions, Some((frame, start, known)))?.0)
+        let mut outcome = self.plan_mission(world, &mission, &companions, Some((frame, start, known)))?.0;
+        self.take_aim(&mut outcome, frame);
+        Ok(outcome)
+    }
+
+    /// Turns the views of a planned flight, whose first frame is `first_frame` of the mission, as the pilot aims, within the
+    /// flight's limits; the certificate states the rates of the result.
+    fn take_aim(&self, outcome: &mut PlanOutcome, first_frame: usize) {
+        if let (PlanOutcome::Planned(flight), Some(aim)) = (outcome, &self.aim) {
+            let limits = &flight.certificate.limits;
+            let fastest = aim.max_rate_deg_s.min(limits.yaw_rate_deg_s).min(limits.pitch_rate_deg_s);
+            let aim = AimConfig { max_rate_deg_s: fastest, ..aim.clone() };
+            let positions: Vec<DVec3> = flight.poses_in_world.iter().map(|pose| pose.position_in_world).collect();
+            let (track, seed) = (&self.mission.track, self.seed.child("aim", 0));
+            flight.poses_in_world = aimed(&positions, track, first_frame, None, &aim, seed);
+            let [yaw, pitch] = view_rates_deg_s(&flight.poses_in_world, track.dt_s);
+            (flight.certificate.max_yaw_rate_deg_s, flight.certificate.max_pitch_rate_deg_s) = (yaw, pitch);
+        }
     }
 
     fn plan_mission(

@@ -5,7 +5,8 @@ use crate::ports::{self, LOG};
 use crate::rejections::handed_on;
 use crate::world::world_of;
 use cosfly_blobs::{OutputSink, PassingFile};
-use cosfly_diagnose::Result;
+use cosfly_captions::{Language, Wear, check_clothes as clothes_in};
+use cosfly_diagnose::{Diagnostic, Fault, Result};
 use cosfly_render::ChannelSet;
 use cosfly_schema::record::captions_from_bytes;
 use cosfly_schema::{CaptionRecord, RenderedTrajectory};
@@ -76,6 +77,7 @@ impl Stage for LogStage {
         }
         let record = RenderedTrajectory::from_bytes(&inputs.read(frames, "index")?)?;
         let captions = captions_of(inputs, inputs.all("captions").first())?;
+        check_clothes(&record, &captions)?;
         let world = world_of(inputs, frames)?;
         let mut pack = FramePackReader::new(BufReader::new(PassingFile::new(inputs.open(frames, "pack")?)))?;
         let mut log = None;
@@ -93,4 +95,20 @@ impl Stage for LogStage {
         outputs.put("previews", &pack.preview_strip()?.to_bytes())?;
         Ok(Produced::default())
     }
+}
+
+/// Refuses texts that name other clothes than the target wears in the pictures.
+fn check_clothes(record: &RenderedTrajectory, captions: &[CaptionRecord]) -> Result<()> {
+    let Some(wear) = record.outfit.as_ref().map(Wear::from) else { return Ok(()) };
+    for caption in captions {
+        let language = [Language::Zh, Language::En].into_iter().find(|it| it.code() == caption.language);
+        let checked = language.map_or(Ok(()), |language| clothes_in(&caption.text, language, wear));
+        checked.map_err(|mismatch| {
+            let message = format!("a text of `{}` names other clothes than the pictures show", record.trajectory_id);
+            Diagnostic::new("caption-clothes", Fault::Recipe, message)
+                .because(mismatch)
+                .hint("set `clothes = false` in the `caption` stage, or `target_stands_out = 0` in the `render` stage")
+        })?;
+    }
+    Ok(())
 }

@@ -143,7 +143,7 @@ impl Candidate<'_> {
     }
 }
 
-/// Everybody at port `others` but the target and those who would walk through it; and the number of the latter.
+/// All people at port `others` except the target and those whose path crosses the target's body; and the number of the latter.
 fn candidates<'a>(
     inputs: &'a Inputs<'_>,
     world: &World,

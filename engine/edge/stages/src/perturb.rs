@@ -1,4 +1,4 @@
-//! `perturb`: the twin of every expert trajectory, with realistic position and rotation errors.
+//! `perturb`: the twin of every expert trajectory, with errors of position and rotation.
 
 use crate::muco::produced;
 use crate::ports::{self, TRAJECTORY};
@@ -20,7 +20,7 @@ impl StageKind for Perturb {
     }
 
     fn doc(&self) -> &'static str {
-        "Gives every expert trajectory a twin with realistic errors: two independent events per frame, position and rotation."
+        "Gives every expert trajectory a twin with errors: the paper's jumps, or drift, gusts, late turns, a coarse aim and losses that a drone could fly."
     }
 
     fn schema(&self) -> serde_json::Value {
@@ -36,7 +36,7 @@ impl StageKind for Perturb {
         config.validate().map_err(|(path, message)| parameters::refused_at(&path, message))?;
         let properties = StageProperties {
             kind: self.name().into(),
-            version: 2,
+            version: 3,
             parameters: parameters::canonical(&config),
             sources: vec![],
             inputs: self.ports(),

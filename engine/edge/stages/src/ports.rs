@@ -9,7 +9,7 @@ pub const WALK: &str = "walk/1";
 /// Artifact of the companions of a flight.
 pub const COMPANIONS: &str = "companions/1";
 /// Artifact of a planned or perturbed trajectory.
-pub const TRAJECTORY: &str = "trajectory/2";
+pub const TRAJECTORY: &str = "trajectory/3";
 /// Artifact of the people who are near a flight.
 pub const NEARBY: &str = "nearby/1";
 /// Artifact of a rendered trajectory.

@@ -18,7 +18,8 @@ use cosfly_planner::{PlanOutcome, Trajectory};
 use cosfly_render::effects::{pose_at, target_state_at};
 use cosfly_render::frame::{TARGET_INSTANCE, object_instance};
 use cosfly_render::{
-    Backend, Bystander, Camera, Effects, Moment, RenderConfig, Scene, Shot, TargetSetup, TargetView, gait_phase_rad,
+    Backend, Bystander, Camera, Clothes, Effects, Moment, RenderConfig, Scene, Shot, TargetSetup, TargetView,
+    gait_phase_rad,
 };
 use cosfly_schema::tables::kind_name;
 use cosfly_schema::{EncodingConfig, PairInfo, Rejection, RenderedTrajectory, Role, Sighting, TownInfo};
@@ -67,7 +68,7 @@ impl StageKind for Render {
         let nearby = nearby::part(&config, canonical(&config, parameters::canonical(&config)), items.clone());
         let properties = StageProperties {
             kind: self.name().into(),
-            version: 5,
+            version: 6,
             parameters: canonical(&config, parameters::joined_canonical(&config, &encoding, "encoding")),
             sources: vec![],
             inputs: vec![ports::town(), nearby::trajectories(), nearby::port()],
@@ -137,6 +138,7 @@ impl Stage for RenderStage {
             // The expert is published in the same weather.
             PairInfo { expert_id: preset.map_or(expert.clone(), |preset| expert.with_variant(preset)).to_string() }
         });
+        let has_body = trajectory.track.radius_m > 0.0;
         let record = RenderedTrajectory {
             trajectory_id: context.id.item.to_string(),
             flight_id: artifact.name.to_string(),
@@ -155,6 +157,7 @@ impl Stage for RenderStage {
             seed: Seed(context.seed).as_u64(),
             views: seen.views,
             visible_by_dense_rays: seen.by_dense_rays,
+            outfit: has_body.then(|| Clothes::draw(&shooting.clothes_seed).outfit),
             others: crowd.into_people(),
             sightings: seen.sightings,
             pair,
@@ -250,7 +253,7 @@ impl RenderStage {
                         state,
                         height_m: track.height_m,
                         radius_m: track.radius_m,
-                        clothes_seed: shooting.walk_seed,
+                        clothes_seed: shooting.clothes_seed,
                         gait_phase_rad: gait_phase_rad(walked_m[frame] + offset_s * state.speed_mps, track.height_m),
                         visible_by_rays,
                     };

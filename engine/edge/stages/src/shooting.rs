@@ -4,7 +4,7 @@ use crate::walks::walk_seed;
 use cosfly_diagnose::Result;
 use cosfly_frames::{Pose, Seed};
 use cosfly_planner::Trajectory;
-use cosfly_render::{Camera, Mount, RenderConfig, Weather};
+use cosfly_render::{Camera, Mount, RenderConfig, Weather, clothes_seed_of_target};
 use cosfly_stage::ItemName;
 
 /// Settings of one flight.
@@ -15,8 +15,8 @@ pub struct Shooting {
     pub mount: Mount,
     /// Weather, with the azimuth of its sun drawn.
     pub weather: Weather,
-    /// Seed of the looks of the followed walker.
-    pub walk_seed: Seed,
+    /// Seed of the clothes of the followed walker.
+    pub clothes_seed: Seed,
 }
 
 impl Shooting {
@@ -29,7 +29,8 @@ impl Shooting {
             None => config.draw_weather(&walk_seed),
         };
         let (camera, mount) = (config.draw_camera(&walk_seed), config.draw_mount(&walk_seed));
-        Ok(Self { camera, mount, weather, walk_seed })
+        let clothes_seed = clothes_seed_of_target(&walk_seed, config.target_stands_out);
+        Ok(Self { camera, mount, weather, clothes_seed })
     }
 
     /// Poses of the camera, one per frame.

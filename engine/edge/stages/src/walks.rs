@@ -6,7 +6,7 @@ use cosfly_fingerprint::Digest;
 use cosfly_frames::{Seed, TargetState, TargetTrack};
 use cosfly_pedestrians::PedestrianPath;
 use cosfly_render::effects::target_state_at;
-use cosfly_render::{Walker, gait_phase_rad};
+use cosfly_render::{Clothes, Outfit, Walker, gait_phase_rad};
 use std::sync::Arc;
 
 /// Distance between the axes of two bodies below which one would walk through the other, metres.
@@ -23,6 +23,11 @@ impl Person {
     /// The person on `walk`.
     pub fn on(walk: Arc<PedestrianPath>) -> Result<Self> {
         Ok(Self { walked_m: walked_m(&walk.track.states), seed: walk_seed(&walk.track)?, walk })
+    }
+
+    /// Clothes of the person.
+    pub fn outfit(&self) -> Outfit {
+        Clothes::draw(&self.seed).outfit
     }
 
     /// State at a time, seconds from the flight's first frame; at the end of the walk the person stands still.

@@ -75,7 +75,7 @@ fn with_known(problem: Box<Diagnostic>, given: &str, known: &[&str]) -> Box<Diag
 
 /// Beginning of an explanation, from the history of a task.
 enum Start {
-    /// It never had another key.
+    /// The task never had another key.
     Same,
     /// The whole answer.
     Known(Change),

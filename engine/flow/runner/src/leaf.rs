@@ -27,7 +27,7 @@ pub(crate) struct Task<'a> {
 
 /// State of a task after [`execute`].
 pub(crate) enum Ended {
-    /// It is finished already, by another process.
+    /// Already finished by another process.
     AlreadyDone(Finished),
     /// Another process is working on it.
     Contended,
@@ -47,7 +47,7 @@ pub(crate) struct Settlement {
     pub(crate) lock: Option<TaskLock>,
 }
 
-/// Does what is left to do of a task. Work that any process finished is not repeated.
+/// Does the unfinished part of a task. Work that any process finished is not repeated.
 pub(crate) fn execute(store: &Store, task: &Task<'_>) -> Result<Ended> {
     let already_done = || store.finished(&task.plan).filter(|finished| store.holds(&finished.record));
     if let Some(finished) = already_done() {

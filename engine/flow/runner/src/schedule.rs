@@ -12,13 +12,13 @@ pub(crate) type TaskIndex = usize;
 pub(crate) enum State {
     /// Its inputs are not finished.
     Waiting,
-    /// It may start.
+    /// Ready to start.
     Ready,
-    /// It is on a thread.
+    /// Running on a thread.
     Running,
     /// Its blobs can be read.
     Finished,
-    /// It ended with a diagnostic.
+    /// Ended with a diagnostic.
     Failed,
     /// A task that it reads failed.
     Skipped,

@@ -20,15 +20,15 @@ pub enum RunOutcome {
 /// End of a task.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum TaskEnd {
-    /// It is finished, with a usable result.
+    /// Finished, with a usable result.
     Done(Work),
-    /// It is finished, with a published reason why there is no usable result.
+    /// Finished without a usable result; the reason is published.
     Rejected(Work, Rejection),
-    /// It failed.
+    /// Failed.
     Failed,
-    /// It was not tried, because something that it reads failed.
+    /// Not tried: one of its inputs failed.
     Skipped,
-    /// It was not tried or given up, because the run stopped.
+    /// Not tried or given up: the run stopped.
     Cancelled,
 }
 

@@ -1,6 +1,6 @@
 //! A cache of finished tasks in one file, so that a run with everything cached reads one file instead of thousands.
 //!
-//! It holds the records of the latest run of a recipe and the time of last change of each folder of `done` and `cas`. A
+//! The index holds the records of the latest run of a recipe and the time of last change of each folder of `done` and `cas`. A
 //! folder unchanged since then has lost no file, so its files need not be checked one by one. (Damage inside a file is
 //! found when the file is read.)
 

@@ -6,7 +6,7 @@ use cosfly_metrics::WindowShape;
 use cosfly_sample as sample;
 use cosfly_schema::TownLayout;
 use cosfly_schema::tables::{self, DatasetItem, Membership};
-use cosfly_schema::{LogRecord, PreviewStrip, RenderedTrajectory, Role};
+use cosfly_schema::{LogRecord, PreviewStrip, RenderedTrajectory, Role, Split};
 use cosfly_write::table_file::TableWriter;
 use std::fs::File;
 use std::io::BufWriter;
@@ -34,7 +34,12 @@ fn main() {
                 log: log_of(&record),
                 mcap_path: String::new(),
                 expert: record.pair.is_some().then(|| Box::new(expert.clone())),
-                membership: Membership { split_group: String::new(), is_seen: true, subset_rank: 0.5 },
+                membership: Membership {
+                    split: Split::Train,
+                    split_group: String::new(),
+                    is_seen: true,
+                    subset_rank: 0.5,
+                },
                 layout: Arc::clone(&layout),
                 windows: WindowShape::default(),
                 record,

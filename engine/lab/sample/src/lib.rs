@@ -5,15 +5,16 @@ mod folder;
 
 pub use folder::{write_flights, write_to_folder};
 
-use cosfly_frames::{DVec3, Pose, TargetState, TargetTrack, real};
+use cosfly_frames::{DVec3, Pose, Seed, TargetState, TargetTrack, real};
 use cosfly_geometry::OrientedBox;
 use cosfly_maps::{MapOrigin, Obstacle, ObstacleKind, SemanticLabel, SimplificationReport, Synthetic, Town};
+use cosfly_planner::perturb::Kind;
 use cosfly_planner::{Certificate, FramePerturbation, Limits, Perturbation, TermCost, Trajectory};
 use cosfly_render::channels::{ALL, SeenPoint};
 use cosfly_render::frame::TARGET_INSTANCE;
 use cosfly_render::{
-    Camera, ChannelImage, ChannelSet, FrameImages, Lens, MotionBlur, Mount, Noise, PersonView, PixelBox,
-    RollingShutter, TargetView, Weather,
+    Camera, ChannelImage, ChannelSet, Clothes, FrameImages, Lens, MotionBlur, Mount, Noise, Outfit, PersonView,
+    PixelBox, RollingShutter, TargetView, Weather,
 };
 use cosfly_schema::{
     CaptionRecord, EncodingConfig, OtherPerson, PairInfo, Rejection, RenderedTrajectory, Role, Sighting, TownInfo,
@@ -177,7 +178,9 @@ pub fn flight(pedestrian: usize, role: Role) -> SampleFlight {
             walk_id: "crowd-p00000".into(),
             height_m: HEIGHT_M,
             radius_m: RADIUS_M,
+            outfit: outfit(9),
         }],
+        outfit: Some(outfit(pedestrian as u8)),
         sightings,
         pair: (role == Role::Perturbed).then(|| PairInfo { expert_id: format!("expert-p{pedestrian:05}") }),
     };
@@ -188,6 +191,11 @@ pub fn flight(pedestrian: usize, role: Role) -> SampleFlight {
     };
     let captions = vec![caption("en", "Follow the pedestrian for 2 metres."), caption("zh", "跟随行人前进2米。")];
     SampleFlight { record, images, captions }
+}
+
+/// Clothes of a person.
+fn outfit(number: u8) -> Outfit {
+    Clothes::draw(&Seed([number; 32])).outfit
 }
 
 fn track(pedestrian: usize) -> TargetTrack {
@@ -242,6 +250,7 @@ fn trajectory(
         certificate,
         perturbation: (role == Role::Perturbed).then(|| Perturbation {
             expert_item: format!("p{pedestrian:05}"),
+            kind: Kind::Jumps,
             position_probability: 0.3,
             rotation_probability: 0.3,
             frames: (0..frames).map(perturbed).collect(),

@@ -55,7 +55,8 @@ fn template_order(stream: &mut RandomStream, count: usize) -> Vec<usize> {
 pub(crate) mod tests {
     use super::*;
     use crate::check::check;
-    use crate::facts::{facts, test_flights::flight};
+    use crate::facts::{Wear, facts, test_flights::flight};
+    use cosfly_render::Colour;
 
     /// Walks of every shape: straight, bent, many turns, with and without stops, standing, seen from below.
     pub(crate) fn flights() -> Vec<Facts> {
@@ -65,7 +66,13 @@ pub(crate) mod tests {
         }
         let mut flights = walks();
         flights.push(facts(&from_below));
-        flights
+        let wear = |top, backpack| Some(Wear { top, trousers: Colour::Black, backpack });
+        let dressed = |(at, facts): (usize, Facts)| match at % 3 {
+            0 => facts.wearing(wear(Colour::Red, false)),
+            1 => facts.wearing(wear(Colour::Orange, true)),
+            _ => facts,
+        };
+        flights.into_iter().enumerate().map(dressed).collect()
     }
 
     fn walks() -> Vec<Facts> {

@@ -1,6 +1,6 @@
 //! The slot check: claims of a text against facts of the trajectory.
 
-use crate::facts::Facts;
+use crate::facts::{Facts, Wear};
 use crate::language::Language;
 use crate::precision::{DISTANCE_STEP_M, PITCH_STEP_DEG, SPEED_STEP_MPS, STOP_STEP_S, duration_step_s, way_step_m};
 use crate::reading::{Claim, chinese, english};
@@ -23,6 +23,7 @@ pub enum Slot {
     Standing,
     Turns,
     Walking,
+    Clothes,
     Number,
 }
 
@@ -42,6 +43,7 @@ impl Slot {
             Self::Standing => "time of standing",
             Self::Turns => "turns",
             Self::Walking => "walking",
+            Self::Clothes => "clothes",
             Self::Number => "number",
         }
     }
@@ -66,17 +68,14 @@ impl fmt::Display for SlotMismatch {
 
 /// Compares every number, direction, turn and stop that a text claims with the facts.
 ///
-/// A text must name a direction, a distance and a pitch; whatever else it claims must be true to the step in
-/// [`crate::precision`]. The first direction is where the walk sets out, a second one where it ends. Listed turns must
+/// A text must name a distance and a pitch; whatever else it claims must be true to the step in
+/// [`crate::precision`]. Clothes are judged where the facts know them. The first direction is where the walk sets out, a second one where it ends. Listed turns must
 /// be all turns, in order. The text must be in the script of its language.
 ///
 /// # Errors
 /// All disagreements, in the order of the text; missing slots come last.
 pub fn check(text: &str, language: Language, facts: &Facts) -> Result<(), Vec<SlotMismatch>> {
-    let claims = match language {
-        Language::Zh => chinese::read(text),
-        Language::En => english::read(text),
-    };
+    let claims = claims_of(text, language);
     let mut checker = Checker { facts, mismatches: vec![] };
     checker.script(text, language);
     checker.directions(&claims);
@@ -86,6 +85,33 @@ pub fn check(text: &str, language: Language, facts: &Facts) -> Result<(), Vec<Sl
     checker.turns(&claims);
     checker.required(&claims);
     if checker.mismatches.is_empty() { Ok(()) } else { Err(checker.mismatches) }
+}
+
+/// Compares what a text claims of the target's clothes alone, with the clothes.
+///
+/// # Errors
+/// The first disagreement.
+pub fn check_clothes(text: &str, language: Language, wear: Wear) -> Result<(), SlotMismatch> {
+    claims_of(text, language).iter().find_map(|claim| clothes_mismatch(claim, &wear)).map_or(Ok(()), Err)
+}
+
+/// Disagreement of a claim about clothes with the clothes; `None` for other claims.
+fn clothes_mismatch(claim: &Claim, wear: &Wear) -> Option<SlotMismatch> {
+    let (garment, found, expected) = match claim {
+        Claim::Top(colour) => ("top", colour.name(), wear.top.name()),
+        Claim::Trousers(colour) => ("trousers", colour.name(), wear.trousers.name()),
+        Claim::Backpack => ("backpack", "one", if wear.backpack { "one" } else { "none" }),
+        _ => return None,
+    };
+    let told = |words: &str| format!("{garment}: {words}");
+    (found != expected).then(|| SlotMismatch { slot: Slot::Clothes, found: told(found), expected: told(expected) })
+}
+
+fn claims_of(text: &str, language: Language) -> Vec<Claim> {
+    match language {
+        Language::Zh => chinese::read(text),
+        Language::En => english::read(text),
+    }
 }
 
 struct Checker<'a> {
@@ -152,6 +178,9 @@ impl Checker<'_> {
                 let expected = facts.turns_of(kind);
                 self.expect(count == expected, Slot::Turns, format_args!("{count} {kind:?}"), expected);
             }
+            Claim::Top(_) | Claim::Trousers(_) | Claim::Backpack => {
+                self.mismatches.extend(facts.wear.as_ref().and_then(|wear| clothes_mismatch(claim, wear)));
+            }
             Claim::Stays => self.expect(!facts.walks, Slot::Walking, "stands", "walks"),
             Claim::Unknown(ref words) => self.expect(false, Slot::Number, words, "nothing of the kind"),
             Claim::Direction(_) | Claim::Turn(_) => {}
@@ -181,8 +210,6 @@ impl Checker<'_> {
     fn required(&mut self, claims: &[Claim]) {
         let has = |wanted: fn(&Claim) -> bool| claims.iter().any(wanted);
         let facts = self.facts;
-        let direction = facts.start_direction.english();
-        self.expect(has(|claim| matches!(claim, Claim::Direction(_))), Slot::Direction, "", direction);
         self.expect(has(|claim| matches!(claim, Claim::Distance(_))), Slot::Distance, "", facts.distance_m);
         self.expect(has(|claim| matches!(claim, Claim::Pitch(_))), Slot::Pitch, "", facts.pitch_down_deg);
         let stays = has(|claim| matches!(claim, Claim::Stays));
@@ -236,8 +263,26 @@ mod tests {
             }
         }
         let sides = match language {
-            Language::En => [("left", "right"), ("right", "left"), ("around", "left"), ("no stops", "2 stops")],
-            Language::Zh => [("左转", "右转"), ("右转", "左转"), ("掉头", "左转"), ("没有停留", "停留2次")],
+            Language::En => [
+                ("left", "right"),
+                ("right", "left"),
+                ("around", "left"),
+                ("no stops", "2 stops"),
+                ("red", "blue"),
+                ("black", "white"),
+                ("without a", "with 1"),
+                ("turns", "turns left, then"),
+            ],
+            Language::Zh => [
+                ("左转", "右转"),
+                ("右转", "左转"),
+                ("掉头", "左转"),
+                ("没有停留", "停留2次"),
+                ("红色", "蓝色"),
+                ("黑色", "白色"),
+                ("连续两次", "连续三次"),
+                ("连续三次", "连续两次"),
+            ],
         };
         let letter = |c: char| c.is_ascii_alphabetic() || "东南西北".contains(c);
         for direction in Compass::ALL {
@@ -285,8 +330,8 @@ mod tests {
         assert_eq!(check(chinese, Language::Zh, facts), Ok(()));
         assert!(slots(chinese, Language::En).contains(&Slot::Language));
         assert_eq!(slots("跟随向东行走的行人，保持约28m距离，俯仰角约45度。", Language::Zh)[0], Slot::Language);
-        assert_eq!(slots("Follow the pedestrian.", Language::En), [Slot::Direction, Slot::Distance, Slot::Pitch]);
-        assert_eq!(slots("", Language::En), [Slot::Language, Slot::Direction, Slot::Distance, Slot::Pitch]);
+        assert_eq!(slots("Follow the pedestrian.", Language::En), [Slot::Distance, Slot::Pitch]);
+        assert_eq!(slots("", Language::En), [Slot::Language, Slot::Distance, Slot::Pitch]);
     }
 
     #[test]

@@ -10,6 +10,9 @@ pub struct CaptionConfig {
     /// Different wordings per style and language. Default 2.
     #[schemars(range(min = 1, max = 6))]
     pub variants_per_style: u32,
+    /// Name the target's clothes. Default true; set it to false where `target_stands_out` of the pictures is above 0, which
+    /// dresses targets in other clothes than their walk's.
+    pub clothes: bool,
     /// Styles to write. Default `["instruction", "description"]`.
     #[schemars(length(min = 1, max = 2), extend("uniqueItems" = true))]
     pub styles: Vec<Style>,
@@ -17,7 +20,7 @@ pub struct CaptionConfig {
 
 impl Default for CaptionConfig {
     fn default() -> Self {
-        Self { variants_per_style: 2, styles: Style::ALL.to_vec() }
+        Self { variants_per_style: 2, clothes: true, styles: Style::ALL.to_vec() }
     }
 }
 
@@ -25,7 +28,8 @@ impl Default for CaptionConfig {
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum Style {
-    /// One sentence that tells the pilot what to do.
+    /// One sentence that tells the pilot what to do: whom to follow, at which distance and angle. It holds in every part of
+    /// the flight.
     Instruction,
     /// Several sentences: the route with turns and stops, its length and time, and how the drone flies.
     Description,

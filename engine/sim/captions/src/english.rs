@@ -2,7 +2,7 @@
 
 use crate::facts::Facts;
 use crate::precision::{DISTANCE_STEP_M, PITCH_STEP_DEG, SPEED_STEP_MPS, STOP_STEP_S, duration_step_s, way_step_m};
-use crate::turns::TurnKind;
+use crate::turns::{Turn, TurnKind};
 use crate::wording::{one_of, rounded};
 use cosfly_random::RandomStream;
 
@@ -11,45 +11,42 @@ const LISTED_TURNS: usize = 4;
 
 /// One sentence for the pilot: whom to follow, how far away, at which angle.
 pub(crate) fn instruction(facts: &Facts, template: usize, words: &mut RandomStream) -> String {
-    let who = who(facts, words);
+    let standing = if facts.walks { "" } else { " who stands still" };
+    let who = format!("{}{standing}", who(facts, words));
     let distance = rounded(facts.distance_m, DISTANCE_STEP_M);
     let (at, by) = (view(facts, "at"), view(facts, "by"));
     match template {
-        0 => format!("Follow the pedestrian {who}; keep about {distance} m away and look {at}."),
-        1 => format!("Track the person {who} from a distance of about {distance} m, with the camera tilted {by}."),
-        2 => format!("Stay about {distance} m from the pedestrian {who}, and keep the camera pitched {by}."),
-        3 => format!("Keep the person {who} in view from about {distance} m away, camera pointing {at}."),
-        4 => format!("Your target is the pedestrian {who}: hold a distance of about {distance} m and look {at}."),
-        _ => format!("Looking {at}, escort the person {who} at a distance of about {distance} m."),
+        0 => format!("Follow the {who}; keep about {distance} m away and look {at}."),
+        1 => format!("Track the {who} from a distance of about {distance} m, with the camera tilted {by}."),
+        2 => format!("Stay about {distance} m from the {who}, and keep the camera pitched {by}."),
+        3 => format!("Keep the {who} in view from about {distance} m away, camera pointing {at}."),
+        4 => format!("Your target is the {who}: hold a distance of about {distance} m and look {at}."),
+        _ => format!("Looking {at}, escort the {who} at a distance of about {distance} m."),
     }
 }
 
 /// Several sentences: route, stops, length, and how the drone flies.
 pub(crate) fn description(facts: &Facts, template: usize, words: &mut RandomStream) -> String {
     let drone = drone(facts, template % 3);
+    let target = who(facts, words);
     let walk = if facts.walks {
-        format!("{} {} {}", route(facts, words), stops(facts, words), length(facts, words))
+        format!("The {target} {} {} {}", route(facts), stops(facts, words), length(facts, words))
     } else {
         let duration = rounded(facts.duration_s, duration_step_s(facts.duration_s));
-        format!("The pedestrian stands still for about {duration} seconds, facing {}.", facts.start_direction.english())
+        format!("The {target} stands still for about {duration} seconds.")
     };
     if template < 3 { format!("{walk} {drone}") } else { format!("{drone} {walk}") }
 }
 
-/// The relative clause that says which way the target goes.
+/// The target with clothes: `pedestrian in a red top and blue trousers`.
 fn who(facts: &Facts, words: &mut RandomStream) -> String {
-    let (start, end) = (facts.start_direction.english(), facts.end_direction.english());
-    if !facts.walks {
-        let pattern = one_of(words, &["standing still and facing {}", "who stands still and faces {}"]);
-        return pattern.replace("{}", start);
-    }
-    if start != end {
-        let pattern = one_of(words, &["who sets off {} and finally heads", "who first walks {} and later"]);
-        return format!("{} {end}", pattern.replace("{}", start));
-    }
-    let patterns: &[&str] =
-        if facts.turns.is_empty() { &["walking", "heading", "who walks"] } else { &["who sets off", "who starts out"] };
-    format!("{} {start}", one_of(words, patterns))
+    let who = one_of(words, &["pedestrian", "person"]);
+    let Some(wear) = &facts.wear else { return who.to_owned() };
+    let (top, trousers) = (wear.top.name(), wear.trousers.name());
+    let article = if top.starts_with(['a', 'e', 'i', 'o', 'u']) { "an" } else { "a" };
+    let backpack = if wear.backpack { " with a backpack" } else { "" };
+    let pattern = one_of(words, &["in # {} top and {} trousers", "wearing # {} top and {} trousers"]);
+    format!("{who}{backpack} {}", pattern.replace('#', article).replacen("{}", top, 1).replacen("{}", trousers, 1))
 }
 
 /// `down at about 45 degrees`.
@@ -58,16 +55,12 @@ fn view(facts: &Facts, preposition: &str) -> String {
     format!("{side} {preposition} about {} degrees", rounded(facts.pitch_down_deg.abs(), PITCH_STEP_DEG))
 }
 
-fn route(facts: &Facts, words: &mut RandomStream) -> String {
-    let (start, end) = (facts.start_direction.english(), facts.end_direction.english());
-    let who = one_of(words, &["The pedestrian", "The person"]);
+/// The way: what a picture can show of it, without directions of the compass.
+fn route(facts: &Facts) -> String {
     match facts.turns.len() {
-        0 if start == end => format!("{who} walks straight {start}."),
-        0 => format!("{who} walks {start} at first and {end} at the end."),
-        listed if listed <= LISTED_TURNS => {
-            let sides: Vec<&str> = facts.turns.iter().map(|turn| side(turn.kind)).collect();
-            format!("{who} sets off {start}, turns {}, and finally heads {end}.", sides.join(", then "))
-        }
+        0 if facts.start_direction == facts.end_direction => "walks straight on.".to_owned(),
+        0 => "walks on without a sharp turn.".to_owned(),
+        listed if listed <= LISTED_TURNS => format!("sets off, turns {}, and walks on.", listed_turns(facts)),
         count => {
             let counts: Vec<String> = [TurnKind::Left, TurnKind::Right, TurnKind::Around]
                 .iter()
@@ -75,9 +68,19 @@ fn route(facts: &Facts, words: &mut RandomStream) -> String {
                 .filter(|(count, _)| *count > 0)
                 .map(|(count, side)| format!("{count} {side}"))
                 .collect();
-            format!("{who} sets off {start}, makes {count} turns ({}) and finally heads {end}.", counts.join(", "))
+            format!("sets off, makes {count} turns ({}) and walks on.", counts.join(", "))
         }
     }
+}
+
+/// `right twice, then left`.
+fn listed_turns(facts: &Facts) -> String {
+    let runs = facts.turns.chunk_by(|a, b| a.kind == b.kind);
+    let run = |turns: &[Turn]| match turns.len() {
+        1 => side(turns[0].kind).to_owned(),
+        count => format!("{} {}", side(turns[0].kind), times(count)),
+    };
+    runs.map(run).collect::<Vec<_>>().join(", then ")
 }
 
 fn side(kind: TurnKind) -> &'static str {

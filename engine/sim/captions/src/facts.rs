@@ -4,6 +4,7 @@ use crate::compass::Compass;
 use crate::turns::{Turn, TurnKind, directions, turns};
 use cosfly_frames::DVec2;
 use cosfly_planner::Trajectory;
+use cosfly_render::{Colour, Outfit};
 use serde::{Deserialize, Serialize};
 
 /// Slower than this is standing, m/s.
@@ -22,6 +23,23 @@ pub struct Stop {
     pub frame: u32,
     /// Standing frames x time step, seconds.
     pub duration_s: f64,
+}
+
+/// Clothes of the target, as words name them.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub struct Wear {
+    /// Colour of the shirt or jacket.
+    pub top: Colour,
+    /// Colour of the trousers.
+    pub trousers: Colour,
+    /// Wears a backpack.
+    pub backpack: bool,
+}
+
+impl From<&Outfit> for Wear {
+    fn from(outfit: &Outfit) -> Self {
+        Self { top: outfit.top.name, trousers: outfit.trousers.name, backpack: outfit.backpack }
+    }
 }
 
 /// Typed facts of one trajectory.
@@ -51,9 +69,16 @@ pub struct Facts {
     pub altitude_m: f64,
     /// Mean share of the target that is unoccluded, 0..=1.
     pub visibility: f64,
+    /// Clothes of the target; `None` where they are unknown: texts do not name them, and claims about them are not judged.
+    pub wear: Option<Wear>,
 }
 
 impl Facts {
+    /// The same facts with the target's clothes.
+    pub fn wearing(self, wear: Option<Wear>) -> Self {
+        Self { wear, ..self }
+    }
+
     /// Time of all stops together, seconds.
     pub fn standing_s(&self) -> f64 {
         self.stops.iter().map(|stop| stop.duration_s).sum()
@@ -96,6 +121,7 @@ pub fn facts(trajectory: &Trajectory) -> Facts {
         altitude_m: pairs().map(|(pose, target)| pose.position_in_world.z - target.feet_in_world.z).sum::<f64>()
             / count,
         visibility: trajectory.visibility.iter().sum::<f64>() / trajectory.visibility.len().max(1) as f64,
+        wear: None,
     }
 }
 

@@ -17,9 +17,9 @@ mod turns;
 mod wording;
 
 pub use caption::{Caption, captions};
-pub use check::{Slot, SlotMismatch, check};
+pub use check::{Slot, SlotMismatch, check, check_clothes};
 pub use compass::Compass;
 pub use config::{CaptionConfig, Style};
-pub use facts::{Facts, Stop, facts};
+pub use facts::{Facts, Stop, Wear, facts};
 pub use language::Language;
 pub use turns::{Turn, TurnKind};

@@ -5,6 +5,8 @@ use cosfly_frames::simd::Level;
 use cosfly_frames::{DVec3, RandomStream, Seed, real};
 use cosfly_geometry::{BoxBvh, BruteForce, OrientedBox, SpatialQuery, Triangle, TriangleBruteForce, TriangleBvh};
 use parry3d_f64::query::{PointQuery, Ray, RayCast};
+use proptest::collection::vec;
+use proptest::prelude::*;
 
 fn random(seed: u64) -> RandomStream {
     Seed::of_item(seed, "geometry", "laws").stream("scene")
@@ -12,12 +14,6 @@ fn random(seed: u64) -> RandomStream {
 
 fn point(stream: &mut RandomStream, reach_m: f64) -> DVec3 {
     let mut one = || stream.uniform(-reach_m, reach_m);
-    DVec3::new(one(), one(), one())
-}
-
-/// Integer coordinates in metres, so that rays run along faces, edges and corners.
-fn grid_point(stream: &mut RandomStream, reach: i64) -> DVec3 {
-    let mut one = || (stream.index(2 * reach as usize + 1) as i64 - reach) as f64;
     DVec3::new(one(), one(), one())
 }
 
@@ -30,11 +26,6 @@ fn random_box(stream: &mut RandomStream, reach_m: f64) -> OrientedBox {
     }
     let yaw_rad = if stream.chance(0.3) { 0.0 } else { stream.uniform(-7.0, 7.0) };
     OrientedBox { center_in_world: point(stream, reach_m), half_extents_m: size, yaw_rad }
-}
-
-fn grid_box(stream: &mut RandomStream) -> OrientedBox {
-    let half_extents_m = grid_point(stream, 2).abs();
-    OrientedBox { center_in_world: grid_point(stream, 8), half_extents_m, yaw_rad: 0.0 }
 }
 
 fn check_same(name: &str, tested: &dyn SpatialQuery, oracle: &dyn SpatialQuery, queries: &[(DVec3, DVec3)]) {
@@ -73,59 +64,63 @@ fn check_same(name: &str, tested: &dyn SpatialQuery, oracle: &dyn SpatialQuery, 
     assert_eq!(blocked, expected, "{name}: batch");
 }
 
-fn queries(stream: &mut RandomStream, count: usize) -> Vec<(DVec3, DVec3)> {
-    (0..count)
-        .map(|i| match i % 5 {
-            0 => (point(stream, 20.0), point(stream, 20.0)),
-            1 => (grid_point(stream, 10), grid_point(stream, 10)),
-            2 => {
-                let from = grid_point(stream, 10);
-                let axis = [DVec3::X, DVec3::Y, DVec3::Z][stream.index(3)];
-                (from, from + axis * stream.uniform(-20.0, 20.0))
-            }
-            3 => {
-                let from = point(stream, 12.0);
-                (from, from)
-            }
-            _ => (point(stream, 2.0), point(stream, 200.0)),
-        })
-        .collect()
+/// A coordinate, metres: half of them whole numbers, so that rays run along faces, edges and corners.
+fn coordinate(reach: i32) -> impl Strategy<Value = f64> {
+    prop_oneof![(-reach..=reach).prop_map(f64::from), -f64::from(reach)..f64::from(reach)]
 }
 
-#[test]
-fn a_tree_of_boxes_answers_as_brute_force_does() {
-    for (seed, count) in [0, 1, 2, 3, 17, 200].into_iter().enumerate() {
-        let mut stream = random(seed as u64);
-        for reach_m in [4.0, 30.0] {
-            let boxes: Vec<OrientedBox> = (0..count)
-                .map(|i| if i % 3 == 0 { grid_box(&mut stream) } else { random_box(&mut stream, reach_m) })
-                .collect();
-            let oracle = BruteForce::new(&boxes);
-            let asked = queries(&mut stream, 400);
-            for level in Level::available() {
-                let tree = BoxBvh::build(boxes.clone()).at_level(level);
-                tree.assert_well_formed();
-                check_same(&format!("boxes, {}", level.name()), &tree, &oracle, &asked);
-            }
+fn points(reach: i32) -> impl Strategy<Value = DVec3> {
+    [coordinate(reach), coordinate(reach), coordinate(reach)].prop_map(DVec3::from_array)
+}
+
+/// Boxes, some without extent along an axis, turned or along the axes.
+fn boxes(reach: i32) -> impl Strategy<Value = OrientedBox> {
+    let yaw = prop_oneof![Just(0.0), -7.0..7.0];
+    (points(reach), points(3), yaw).prop_map(|(center_in_world, size, yaw_rad)| OrientedBox {
+        center_in_world,
+        half_extents_m: size.abs(),
+        yaw_rad,
+    })
+}
+
+/// Pairs of points: far apart, equal, or along an axis.
+fn segments() -> impl Strategy<Value = (DVec3, DVec3)> {
+    (points(20), points(20), 0..8).prop_map(|(from, to, shape)| match shape {
+        0 => (from, from),
+        axis @ 1..=3 => (from, from + DVec3::AXES[axis as usize - 1] * to.x),
+        4 => (from * 0.1, to * 10.0),
+        _ => (from, to),
+    })
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig { cases: 300, failure_persistence: None, ..ProptestConfig::default() })]
+
+    #[test]
+    fn a_tree_of_boxes_answers_as_brute_force_does(
+        boxes in prop_oneof![vec(boxes(8), 0..20), vec(boxes(30), 0..120)],
+        asked in vec(segments(), 1..20),
+    ) {
+        let oracle = BruteForce::new(&boxes);
+        for level in Level::available() {
+            let tree = BoxBvh::build(boxes.clone()).at_level(level);
+            tree.assert_well_formed();
+            check_same(&format!("boxes, {}", level.name()), &tree, &oracle, &asked);
         }
     }
-}
 
-#[test]
-fn a_tree_of_triangles_answers_as_brute_force_does() {
-    for (seed, count) in [0, 1, 2, 40, 150].into_iter().enumerate() {
-        let mut stream = random(100 + seed as u64);
-        let mut vertices = Vec::new();
-        for i in 0..3 * count {
-            vertices.push(if i % 2 == 0 { grid_point(&mut stream, 9) } else { point(&mut stream, 10.0) });
-        }
-        // Random triples: long, thin, doubled-corner and far triangles.
+    /// Random triples of corners: long, thin, doubled-corner and far triangles.
+    #[test]
+    fn a_tree_of_triangles_answers_as_brute_force_does(
+        vertices in vec(points(10), 3..300),
+        corners in vec(any::<[prop::sample::Index; 3]>(), 0..150),
+        asked in vec(segments(), 1..20),
+    ) {
         let triangles: Vec<[u32; 3]> =
-            (0..count).map(|_| core::array::from_fn(|_| stream.index(vertices.len()) as u32)).collect();
+            corners.iter().map(|three| three.map(|corner| corner.index(vertices.len()) as u32)).collect();
         let tree = TriangleBvh::build(&vertices, &triangles);
         tree.assert_well_formed();
-        let oracle = TriangleBruteForce::new(tree.triangles());
-        check_same("triangles", &tree, &oracle, &queries(&mut stream, 200));
+        check_same("triangles", &tree, &TriangleBruteForce::new(tree.triangles()), &asked);
     }
 }
 

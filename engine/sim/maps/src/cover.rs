@@ -34,7 +34,7 @@ pub fn cover_polygon(outline: &[DVec2]) -> Vec<TurnedRectangle> {
         .map(|angle| bounding(outline, *angle))
         .min_by(|a, b| rectangle_area_m2(a).total_cmp(&rectangle_area_m2(b)));
     let Some(smallest) = smallest else { return Vec::new() };
-    // What a rectangle may add: its tolerance along half its edge.
+    // Allowed addition of a rectangle: its tolerance along half its edge.
     let spare_m2 = 0.5 * COVER_TOLERANCE_M * (smallest.half_extents_m.x + smallest.half_extents_m.y);
     if outline.len() < 4 && area_m2 <= 0.0
         || rectangle_area_m2(&smallest) - area_m2 <= spare_m2.min(0.05 * rectangle_area_m2(&smallest)) + 1e-9

@@ -10,6 +10,7 @@
 //! * [`boxes`], [`depth`], [`segmentation`], [`detection`], [`run_lengths`]: metrics of pictures.
 //! * [`bootstrap`]: intervals by resampling whole trajectories.
 //! * [`difficulty`]: easy, medium and hard windows.
+//! * [`shortcuts`]: signs that give the target away.
 //! * [`baselines`]: predictions that a model must beat.
 
 pub mod baselines;
@@ -22,6 +23,7 @@ pub mod difficulty;
 pub mod run_lengths;
 pub mod scores;
 pub mod segmentation;
+pub mod shortcuts;
 pub mod waypoint;
 pub mod windows;
 

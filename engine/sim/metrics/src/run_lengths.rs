@@ -128,6 +128,8 @@ pub fn things(instance: &[u32], labels: &[u8], [width, height]: [u32; 2]) -> BTr
 #[cfg(test)]
 mod tests {
     use super::*;
+    use proptest::collection::vec;
+    use proptest::prelude::*;
 
     #[test]
     fn texts_are_those_of_pycocotools() {
@@ -145,11 +147,38 @@ mod tests {
         assert!(Runs::of_text(&"o".repeat(100), 12).is_err());
     }
 
-    #[test]
-    fn masks_overlap_by_their_common_pixels() {
-        let of = |runs: &[[u32; 2]]| Runs(runs.to_vec());
-        assert_eq!(of(&[[0, 4], [6, 8]]).iou(&of(&[[2, 7]])), 3.0 / 8.0);
-        assert_eq!((of(&[]).iou(&of(&[])), of(&[[0, 1]]).iou(&of(&[[1, 2]]))), (0.0, 0.0));
+    /// Runs of an image's pixels in column-major order.
+    fn drawn(pixels: &[bool]) -> Runs {
+        let mut counts = vec![0];
+        for (at, pixel) in pixels.iter().enumerate() {
+            if at > 0 && *pixel != pixels[at - 1] || at == 0 && *pixel {
+                counts.push(0);
+            }
+            *counts.last_mut().unwrap() += 1;
+        }
+        Runs::of_counts(counts, pixels.len() as u64).unwrap()
+    }
+
+    proptest! {
+        #![proptest_config(ProptestConfig { failure_persistence: None, ..ProptestConfig::default() })]
+
+        #[test]
+        fn runs_measure_what_pixels_measure(
+            height in 1..9_u32,
+            pixels in vec(any::<(bool, bool)>(), 0..40),
+        ) {
+            let whole = pixels.len() / height as usize * height as usize;
+            let (a, b): (Vec<bool>, Vec<bool>) = pixels.into_iter().take(whole).unzip();
+            let (of_a, of_b) = (drawn(&a), drawn(&b));
+            let count = |mask: &dyn Fn(usize) -> bool| (0..whole).filter(|at| mask(*at)).count();
+            prop_assert_eq!(of_a.area(), count(&|at| a[at]) as u64);
+            let (common, union) = (count(&|at| a[at] && b[at]), count(&|at| a[at] || b[at]));
+            prop_assert_eq!(of_a.iou(&of_b), if union > 0 { common as f64 / union as f64 } else { 0.0 });
+            let places = || (0..whole as u32).filter(|at| a[*at as usize]).map(|at| [at / height, at % height]);
+            let low = |axis: usize| places().map(|place| place[axis]).min().unwrap_or(0);
+            let high = |axis: usize| places().map(|place| place[axis] + 1).max().unwrap_or(0);
+            prop_assert_eq!(of_a.edges(height), [low(0), low(1), high(0), high(1)]);
+        }
     }
 
     #[test]

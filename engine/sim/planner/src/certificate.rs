@@ -38,16 +38,13 @@ impl Kinematics {
         };
         let look = |(w, state): (&DVec3, &TargetState)| Pose::looking_at(*w, aim_point(state, track.height_m));
         let views: Vec<Pose> = waypoints.iter().zip(&track.states).skip(given.saturating_sub(1)).map(look).collect();
-        let fastest = |angle: fn(&Pose) -> f64| {
-            let turn = |pair: &[Pose]| real::wrap_angle_rad(angle(&pair[1]) - angle(&pair[0])).abs().to_degrees();
-            views.windows(2).map(turn).fold(0.0, f64::max) / dt_s
-        };
+        let [yaw_rate_deg_s, pitch_rate_deg_s] = view_rates_deg_s(&views, dt_s);
         Self {
             speed_mps: largest(1, &|w| w[1] - w[0]) / dt_s,
             acceleration_mps2: largest(2, &|w| w[2] - 2.0 * w[1] + w[0]) / (dt_s * dt_s),
             jerk_mps3: largest(3, &|w| w[3] - 3.0 * w[2] + 3.0 * w[1] - w[0]) / (dt_s * dt_s * dt_s),
-            yaw_rate_deg_s: fastest(|view| view.yaw_rad),
-            pitch_rate_deg_s: fastest(|view| view.pitch_rad),
+            yaw_rate_deg_s,
+            pitch_rate_deg_s,
         }
     }
 
@@ -76,6 +73,15 @@ impl Kinematics {
         .map(|(name, value, limit, unit)| format!("{name} reaches {value:.2} {unit}; the limit is {limit} {unit}"))
         .collect()
     }
+}
+
+/// Largest rates of yaw and pitch from pose to pose, degrees per second; 0 where there are too few.
+pub fn view_rates_deg_s(views: &[Pose], dt_s: f64) -> [f64; 2] {
+    let angles: [fn(&Pose) -> f64; 2] = [|view| view.yaw_rad, |view| view.pitch_rad];
+    angles.map(|angle| {
+        let turn = |pair: &[Pose]| real::wrap_angle_rad(angle(&pair[1]) - angle(&pair[0])).abs().to_degrees();
+        views.windows(2).map(turn).fold(0.0, f64::max) / dt_s
+    })
 }
 
 /// Smallest distance of the swept path to the exact obstacles, capped at [`CLEARANCE_CAP_M`].

@@ -6,8 +6,9 @@
 //! * [`muco`], [`paper`], [`baselines`]: the optimiser, the paper's own pipeline, planners to compare with.
 //! * [`terms`]: the cost, one file per term.
 //! * [`obstacles`]: the map around a path; [`certificate`]: the promises of a published flight.
-//! * [`perturb`]: perturbed twins of flights.
+//! * [`aim`]: aim of the camera; [`perturb`]: perturbed twins of flights.
 
+pub mod aim;
 pub mod baselines;
 pub mod certificate;
 pub mod config;

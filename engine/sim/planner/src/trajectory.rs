@@ -1,5 +1,6 @@
 //! A finished flight: camera poses frame by frame, what it cost, and what was verified about it.
 
+use crate::perturb::kind::Kind;
 use cosfly_frames::{DVec3, Pose, TargetTrack};
 use serde::{Deserialize, Serialize};
 
@@ -127,9 +128,11 @@ pub struct Certificate {
 pub struct Perturbation {
     /// Item id of the expert in its stage.
     pub expert_item: String,
-    /// Probability of the position event per frame.
+    /// Kind of the departure.
+    pub kind: Kind,
+    /// Probability of the position event per frame; 0 for all kinds but `jumps`.
     pub position_probability: f64,
-    /// Probability of the rotation event per frame.
+    /// Probability of the rotation event per frame; 0 for all kinds but `jumps`.
     pub rotation_probability: f64,
     /// One entry per frame.
     pub frames: Vec<FramePerturbation>,
@@ -138,9 +141,9 @@ pub struct Perturbation {
 /// Events and displacements of one frame.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct FramePerturbation {
-    /// The position event occurred.
+    /// The position event occurred: the drone is displaced.
     pub position: bool,
-    /// The rotation event occurred.
+    /// The rotation event occurred: the view is turned.
     pub rotation: bool,
     /// Displacement of the drone, metres; zero without the event.
     pub drone_offset_in_world: DVec3,

@@ -46,6 +46,11 @@ pub struct RenderConfig {
     pub rolling_shutter: RollingShutter,
     /// Sensor noise on colour.
     pub noise: Noise,
+    /// Probability that a followed person wears a colour that stands out from asphalt, pavement and grass, beyond the quarter
+    /// of all people who do. Default 0: everybody's clothes are drawn from one palette and stay the same in all flights, so
+    /// that colour does not tell whom the drone follows; above 0 people may change clothes when followed.
+    #[schemars(range(min = 0.0, max = 1.0))]
+    pub target_stands_out: f64,
     /// Names of CARLA weather presets; each walk draws one, and the sun's azimuth with it.
     #[schemars(length(min = 1))]
     pub weathers: Vec<String>,
@@ -72,6 +77,7 @@ impl Default for RenderConfig {
             motion_blur: MotionBlur::default(),
             rolling_shutter: RollingShutter::default(),
             noise: Noise::default(),
+            target_stands_out: 0.0,
             weathers: weathers.map(str::to_owned).to_vec(),
             paired_weathers: false,
             weather: WeatherRanges::default(),
@@ -149,6 +155,10 @@ impl RenderConfig {
         }
         if !(5.0..=150.0).contains(&self.fov_deg) {
             return problem("fov_deg", format!("the field of view is `{}`", self.fov_deg), "5 to 150 degrees".into());
+        }
+        if !(0.0..=1.0).contains(&self.target_stands_out) {
+            let message = format!("the probability is `{}`", self.target_stands_out);
+            return problem("target_stands_out", message, "0 to 1".into());
         }
         if let Some(range) = self.fov_range_deg {
             check_range("fov_range_deg", range, [5.0, 150.0])?;
@@ -300,6 +310,7 @@ mod tests {
             (RenderConfig { width: 0, ..good.clone() }, "width"),
             (RenderConfig { height: 9000, ..good.clone() }, "height"),
             (RenderConfig { fov_deg: f64::NAN, ..good.clone() }, "fov_deg"),
+            (RenderConfig { target_stands_out: 1.5, ..good.clone() }, "target_stands_out"),
             (RenderConfig { fov_range_deg: Some([60.0, 200.0]), ..good.clone() }, "fov_range_deg"),
             (RenderConfig { fov_range_deg: Some([90.0, 60.0]), ..good.clone() }, "fov_range_deg"),
             (

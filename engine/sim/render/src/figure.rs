@@ -1,6 +1,7 @@
 //! People: jointed figures of frustums whose limbs swing with the gait.
 
-use cosfly_frames::{DVec3, RandomStream, Seed, TargetState, real};
+use crate::clothes::{Clothes, Region};
+use cosfly_frames::{DVec3, Seed, TargetState, real};
 
 /// The target of one frame.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -72,23 +73,6 @@ pub fn gait_phase_rad(walked_m: f64, height_m: f64) -> f64 {
     real::wrap_angle_rad(real::TAU * walked_m / (0.83 * height_m.max(0.1)))
 }
 
-/// Material of a part of the figure.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Region {
-    /// Face, neck, hands.
-    Skin,
-    /// Hair or hat.
-    Hair,
-    /// Shirt or jacket.
-    Top,
-    /// Trousers or skirt.
-    Trousers,
-    /// Shoes.
-    Shoes,
-    /// Backpack.
-    Bag,
-}
-
 /// A triangle of the figure, corners in the world frame.
 #[derive(Clone, Copy, Debug)]
 pub struct FigureTriangle {
@@ -118,90 +102,6 @@ pub fn walker_triangles(walker: &Walker) -> Vec<[DVec3; 3]> {
     triangles.iter().map(|triangle| triangle.corners_in_world).collect()
 }
 
-/// Colours of a figure, linear RGB.
-#[derive(Clone, Copy, Debug)]
-pub struct Clothes {
-    /// Indexed by [`Region`].
-    pub colours: [[f32; 3]; 6],
-    /// Wears a backpack.
-    pub backpack: bool,
-    /// Bare forearms.
-    pub short_sleeves: bool,
-    /// Width of the trunk relative to the usual.
-    pub build: f64,
-}
-
-/// Shirts that stand out from asphalt, pavement and grass, linear RGB.
-const TOPS: [[f32; 3]; 10] = [
-    [0.72, 0.03, 0.03],
-    [0.85, 0.45, 0.02],
-    [0.80, 0.78, 0.72],
-    [0.03, 0.16, 0.70],
-    [0.75, 0.08, 0.35],
-    [0.02, 0.45, 0.55],
-    [0.85, 0.70, 0.05],
-    [0.35, 0.05, 0.50],
-    [0.90, 0.22, 0.05],
-    [0.05, 0.40, 0.10],
-];
-/// Common colours of clothes, linear RGB.
-const EVERYDAY_TOPS: [[f32; 3]; 12] = [
-    [0.03, 0.03, 0.035],
-    [0.08, 0.085, 0.09],
-    [0.20, 0.20, 0.20],
-    [0.45, 0.45, 0.44],
-    [0.62, 0.60, 0.55],
-    [0.03, 0.045, 0.10],
-    [0.10, 0.16, 0.27],
-    [0.30, 0.38, 0.48],
-    [0.07, 0.09, 0.05],
-    [0.16, 0.09, 0.05],
-    [0.38, 0.29, 0.19],
-    [0.20, 0.04, 0.045],
-];
-const TROUSERS: [[f32; 3]; 6] = [
-    [0.02, 0.03, 0.08],
-    [0.015, 0.015, 0.02],
-    [0.05, 0.09, 0.22],
-    [0.30, 0.24, 0.15],
-    [0.12, 0.12, 0.13],
-    [0.10, 0.05, 0.03],
-];
-const HAIR: [[f32; 3]; 5] =
-    [[0.01, 0.008, 0.006], [0.04, 0.02, 0.01], [0.10, 0.05, 0.02], [0.30, 0.20, 0.08], [0.25, 0.25, 0.25]];
-const SKIN: [[f32; 3]; 4] = [[0.62, 0.38, 0.27], [0.50, 0.28, 0.18], [0.28, 0.14, 0.08], [0.12, 0.06, 0.035]];
-const SHOES: [[f32; 3]; 3] = [[0.02, 0.02, 0.02], [0.60, 0.60, 0.58], [0.12, 0.06, 0.03]];
-
-impl Clothes {
-    /// The clothes that a seed draws.
-    pub fn draw(seed: &Seed) -> Self {
-        let mut stream = seed.stream("clothes");
-        let one_of = |stream: &mut RandomStream, palette: &[[f32; 3]]| palette[stream.index(palette.len())];
-        let skin = one_of(&mut stream, &SKIN);
-        let hair = one_of(&mut stream, &HAIR);
-        let top_index = stream.index(TOPS.len());
-        let trousers = one_of(&mut stream, &TROUSERS);
-        let shoes = one_of(&mut stream, &SHOES);
-        let bag = TOPS[(top_index + 1 + stream.index(TOPS.len() - 1)) % TOPS.len()].map(|c| 0.5 * c);
-        let backpack = stream.chance(0.35);
-        let build = stream.uniform(0.92, 1.12);
-        let short_sleeves = stream.chance(0.45);
-        Self { colours: [skin, hair, TOPS[top_index], trousers, shoes, bag], backpack, short_sleeves, build }
-    }
-
-    /// The clothes of somebody who is not followed: the same, but for a top that mostly does not stand out.
-    pub fn of_bystander(seed: &Seed) -> Self {
-        let mut clothes = Self::draw(seed);
-        let mut stream = seed.stream("everyday");
-        if stream.chance(0.75) {
-            clothes.colours[Region::Top as usize] = EVERYDAY_TOPS[stream.index(EVERYDAY_TOPS.len())];
-            let bag = EVERYDAY_TOPS[stream.index(EVERYDAY_TOPS.len())];
-            clothes.colours[Region::Bag as usize] = bag.map(|c| 0.5 * c);
-        }
-        clothes
-    }
-}
-
 /// Appends the figure of `person` to `triangles`. All limbs stay near the upright cylinder of the walker.
 pub fn figure(walker: &Walker, clothes: &Clothes, person: u32, triangles: &mut Vec<FigureTriangle>) {
     if !walker.has_body() {
@@ -222,7 +122,7 @@ pub fn figure(walker: &Walker, clothes: &Clothes, person: u32, triangles: &mut V
         triangles,
     };
     let swing = 0.5 * (walker.state.speed_mps / 1.3).clamp(0.0, 1.2);
-    body.trunk(clothes.backpack);
+    body.trunk(clothes.outfit.backpack);
     for side in [-1.0, 1.0] {
         body.leg(side, walker.gait_phase_rad + if side < 0.0 { 0.0 } else { real::PI }, swing);
         body.arm(side, walker.gait_phase_rad + if side < 0.0 { real::PI } else { 0.0 }, 0.8 * swing + 0.08);

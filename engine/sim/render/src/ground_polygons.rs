@@ -35,7 +35,7 @@ pub struct GroundPolygons {
 }
 
 impl GroundPolygons {
-    /// Joins the town's ground triangles; what is not finite or has no area is left out.
+    /// Joins the town's ground triangles; triangles that are not finite or have no area are left out.
     pub fn of(town: &Town) -> Self {
         let mut mesh = Mesh::of(town);
         mesh.join();

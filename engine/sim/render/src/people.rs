@@ -1,7 +1,8 @@
 //! The people of a frame: who of them can be seen, or throws a shadow that can, and their figures.
 
+use crate::clothes::Clothes;
 use crate::eye::Eye;
-use crate::figure::{Clothes, FigureTriangle, Walker, figure};
+use crate::figure::{FigureTriangle, Walker, figure};
 use crate::frame::TARGET_INSTANCE;
 use crate::setup::FrameSetup;
 use crate::visibility::{NEAR_M, Nearer, Screen};
@@ -99,10 +100,7 @@ impl People {
 
     fn add(&mut self, walker: Walker, instance: u32, is_seen: bool, reach: Reach, height_px: f64) {
         let first = self.triangles.len();
-        let clothes = match instance {
-            TARGET_INSTANCE => Clothes::draw(&walker.clothes_seed),
-            _ => Clothes::of_bystander(&walker.clothes_seed),
-        };
+        let clothes = Clothes::draw(&walker.clothes_seed);
         figure(&walker, &clothes, self.members.len() as u32, &mut self.triangles);
         let triangles = first..self.triangles.len();
         self.members.push(Person { walker, clothes, instance, triangles, is_seen, reach, height_px });

@@ -13,6 +13,6 @@ pub struct FrameSetup<'a> {
     pub weather: &'a Weather,
     /// The followed target, if there is one.
     pub target: Option<TargetSetup>,
-    /// Everybody else who is about. They are drawn like the target, hide it and are hidden by it.
+    /// All other people. They are drawn like the target, occlude it and are occluded by it.
     pub others: &'a [Bystander],
 }

@@ -86,7 +86,7 @@ simd_kernel! {
 }
 
 fn add_pixel(views: &mut Vec<PersonView>, instance: u32, u: u32, v: u32) {
-    // Who was seen last comes first in the search.
+    // The person seen last comes first in the search.
     match views.iter_mut().rev().find(|view| view.instance == instance) {
         Some(view) => {
             view.pixels += 1;

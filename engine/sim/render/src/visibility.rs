@@ -298,7 +298,7 @@ impl Nearer {
         Self { columns: 0, least: Vec::new() }
     }
 
-    /// Takes over what is drawn.
+    /// Measures the tiles of a drawing.
     pub fn measure(&mut self, drawn: &Visibility) {
         self.columns = drawn.width.div_ceil(TILE[0]);
         self.least.clear();

@@ -5,7 +5,6 @@ mod small_town;
 use cosfly_frames::simd::Level;
 use cosfly_frames::{DVec3, Pose, RandomStream, Seed, TargetState, real};
 use cosfly_maps::{SemanticLabel, SurfaceMesh};
-use cosfly_render::figure::{Clothes, Region};
 use cosfly_render::frame::TARGET_INSTANCE;
 use cosfly_render::{
     Buildings, Bystander, Camera, Effects, FrameImages, FrameSetup, Lens, Moment, MotionBlur, Noise, Outlook,
@@ -152,25 +151,6 @@ fn somebody_before_the_target_hides_it_and_somebody_behind_does_not() {
     assert_eq!(view(&[at(-3.0, FIRST)]), alone, "somebody behind the camera is not seen");
 }
 
-/// A seed that gives the target the same clothes as anybody else.
-fn dressed_alike() -> Seed {
-    let colours = |clothes: Clothes| clothes.colours;
-    let is_alike = |seed: &Seed| colours(Clothes::draw(seed)) == colours(Clothes::of_bystander(seed));
-    (0..100).map(|number| Seed([number; 32])).find(is_alike).expect("every fourth seed")
-}
-
-#[test]
-fn most_people_beside_the_target_are_dressed_less_brightly() {
-    let brightest = |clothes: Clothes| {
-        let [r, g, b] = clothes.colours[Region::Top as usize];
-        r.max(g).max(b) - r.min(g).min(b)
-    };
-    let count = |clothes: fn(&Seed) -> Clothes| {
-        (0..100).filter(|number| brightest(clothes(&Seed([*number; 32]))) > 0.2).count()
-    };
-    assert!(count(Clothes::draw) > 80 && count(Clothes::of_bystander) < 40);
-}
-
 #[test]
 fn people_throw_shadows_like_the_target_also_from_outside_of_the_picture() {
     let mut town = small_town::empty_town();
@@ -195,7 +175,7 @@ fn people_throw_shadows_like_the_target_also_from_outside_of_the_picture() {
             yaw_rad: 1.57,
             roll_rad: 0.0,
         };
-        let somebody = TargetSetup { clothes_seed: dressed_alike(), ..target(feet) };
+        let somebody = target(feet);
         let other = [Bystander { walker: somebody.walker(), instance: FIRST }];
         let mut picture = |target: Option<TargetSetup>, others: &[Bystander]| {
             draw(&mut renderer, &scene, &FrameSetup { pose, weather: &weather, target, others })

@@ -7,19 +7,19 @@ params! {
     pub struct Rule {
         /// The column, such as `visibility`, `clearance`, `drone_z` or `cost_length`.
         column: String = String::new();
-        /// What of it counts: `mean`, `min`, `max` or `share_above` (the share of frames above `level`).
+        /// Statistic of the column: `mean`, `min`, `max` or `share_above` (the share of frames above `level`).
         of: String = String::from("mean");
         /// See `share_above`.
         level: f64 = 0.0, [-1e9, 1e9];
-        /// It must be at least this.
+        /// Least allowed value.
         at_least: f64 = -1e9, [-1e9, 1e9];
-        /// It must be at most this.
+        /// Greatest allowed value.
         at_most: f64 = 1e9, [-1e9, 1e9];
     }
 }
 
 params! {
-    /// What flights must be like.
+    /// Conditions on flights.
     pub struct Params {
         /// The rules; all must hold.
         rules: Vec<Rule> = vec![];

@@ -8,7 +8,7 @@ use cosfly_planner::{Certificate, Trajectory};
 /// Parses every instruction in a known language and compares it with the facts of the flight.
 pub fn check(episode: &Episode) -> Vec<Flag> {
     let Some(trajectory) = trajectory(episode).filter(|_| !episode.captions.is_empty()) else { return vec![] };
-    let facts = facts(&trajectory);
+    let facts = facts(&trajectory).wearing(episode.wear);
     let mut flags = vec![];
     for (code, text) in &episode.captions {
         let Some(language) = [Language::Zh, Language::En].into_iter().find(|it| it.code() == code) else { continue };

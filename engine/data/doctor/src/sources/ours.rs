@@ -4,10 +4,12 @@ use super::stretch;
 use crate::episode::{OFFSETS, depth_in_box};
 use crate::walls::{self, Walls};
 use crate::{Episode, Flag, Look, Moment};
+use cosfly_captions::Wear;
 use cosfly_diagnose::{Diagnostic, Fault, Result};
 use cosfly_fingerprint::Digest;
 use cosfly_frames::DVec3;
 use cosfly_read::{BoxInWorld, FrameRow, PublishedDataset, PublishedFlight, log_problem, parquet_problem};
+use cosfly_render::Colour;
 use std::collections::BTreeMap;
 use std::path::Path;
 
@@ -104,6 +106,13 @@ fn named(flight: &PublishedFlight) -> Episode {
     }
 }
 
+/// Clothes of the target of a flight.
+fn wear(flight: &PublishedFlight) -> Option<Wear> {
+    let (top, trousers, backpack) = flight.target_clothes.as_ref()?;
+    let colour = |name: &str| Colour::ALL.into_iter().find(|colour| colour.name() == name);
+    Some(Wear { top: colour(top)?, trousers: colour(trousers)?, backpack: *backpack })
+}
+
 fn episode(flight: &PublishedFlight, rows: &[FrameRow]) -> Episode {
     // Lenses that bend and rows that are taken one after the other move what is projected.
     let is_plain = flight.lens.is_none() && flight.readout_s == 0.0;
@@ -130,6 +139,7 @@ fn episode(flight: &PublishedFlight, rows: &[FrameRow]) -> Episode {
     Episode {
         camera: is_plain.then_some(flight.camera),
         target_height_m: flight.target_height_m,
+        wear: wear(flight),
         dt_s: flight.dt_s,
         limits: flight.limits,
         moments: rows.iter().map(moment).collect(),

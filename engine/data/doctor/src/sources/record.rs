@@ -1,6 +1,7 @@
 //! Flights that are not published yet: from records to episodes.
 
 use crate::{Episode, Moment};
+use cosfly_captions::Wear;
 use cosfly_frames::{DVec3, action};
 use cosfly_render::{PixelBox, TargetView};
 use cosfly_schema::{RenderedTrajectory, Role};
@@ -25,6 +26,7 @@ pub fn episode(record: &RenderedTrajectory) -> Episode {
         is_perturbed: record.role == Role::Perturbed,
         camera: is_plain.then_some(record.camera),
         target_height_m: trajectory.track.height_m,
+        wear: record.outfit.as_ref().map(Wear::from),
         dt_s: record.dt_s(),
         limits: limits.map(|limit| limit.is_finite().then_some(limit)),
         moments: (0..record.len()).map(|frame| moment(record, frame)).collect(),

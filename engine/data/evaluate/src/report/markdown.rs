@@ -1,10 +1,11 @@
 //! The report for people.
 
 use super::result::{Evaluation, MethodReport, RowFacts, metric};
+use super::score::Scores;
 use super::table::{score, table, title};
 use crate::strata::STRATA;
-use cosfly_metrics::METRICS;
 use cosfly_metrics::baselines::Anchor;
+use cosfly_metrics::{METRICS, Metric};
 use std::fmt::Write;
 
 /// Malformed rows that are shown; the JSON report has all.
@@ -27,7 +28,18 @@ fn report(evaluation: &Evaluation) -> String {
     let _ = writeln!(text, "# Evaluation of {of_what} on `{}`\n", evaluation.dataset.name);
     text.push_str(&facts(evaluation));
     let _ = writeln!(text, "\n## All windows\n");
-    text.push_str(&overall(evaluation));
+    let methods = evaluation.methods.iter().map(|method| (method.name.as_str(), &method.scores));
+    text.push_str(&overall(&methods.collect::<Vec<_>>()));
+    let other = &evaluation.other_anchor;
+    let _ = writeln!(
+        text,
+        "\n## The same windows with `--anchor {}`\n\nThe first increment starts at {}; the rotation and the displacement of a \
+         perturbed input count or not. The paper does not say which; its figures of untrained models are those of `expert`.\n",
+        format!("{:?}", other.anchor).to_lowercase(),
+        start_of(other.anchor)
+    );
+    let methods = other.methods.iter().map(|method| (method.name.as_str(), &method.scores));
+    text.push_str(&overall(&methods.collect::<Vec<_>>()));
     if let Some(first) = first {
         let _ = writeln!(text, "\n## By kind of window: {}\n", first.name);
         text.push_str(&strata(first, evaluation));
@@ -83,10 +95,7 @@ fn facts(evaluation: &Evaluation) -> String {
             cosfly_metrics::DeltaOrigin::Previous => "waypoint before",
             cosfly_metrics::DeltaOrigin::Current => "current pose",
         },
-        match settings.anchor {
-            Anchor::Input => "the pose of the input's last frame",
-            Anchor::Expert => "the expert's pose in that frame",
-        }
+        start_of(settings.anchor)
     );
     let _ = writeln!(
         text,
@@ -96,12 +105,21 @@ fn facts(evaluation: &Evaluation) -> String {
     text
 }
 
-fn overall(evaluation: &Evaluation) -> String {
-    let head = ["metric".to_owned()].into_iter().chain(evaluation.methods.iter().map(|method| method.name.clone()));
-    let rows = METRICS.iter().filter(|metric| evaluation.methods.iter().any(|it| it.scores.contains_key(metric.key)));
-    let row = |metric| {
-        let cells = evaluation.methods.iter().enumerate();
-        let cells = cells.map(|(place, method)| score(metric, method.scores.get(metric.key), place == 0));
+/// Words for the pose that the first increment starts from.
+fn start_of(anchor: Anchor) -> &'static str {
+    match anchor {
+        Anchor::Input => "the pose of the input's last frame",
+        Anchor::Expert => "the expert's pose in that frame",
+    }
+}
+
+/// Scores of methods, a column each.
+fn overall(methods: &[(&str, &Scores)]) -> String {
+    let head = ["metric".to_owned()].into_iter().chain(methods.iter().map(|(name, _)| (*name).to_owned()));
+    let rows = METRICS.iter().filter(|metric| methods.iter().any(|(_, scores)| scores.contains_key(metric.key)));
+    let row = |metric: &Metric| {
+        let cells = methods.iter().enumerate();
+        let cells = cells.map(|(place, (_, scores))| score(metric, scores.get(metric.key), place == 0));
         [title(metric)].into_iter().chain(cells).collect::<Vec<_>>()
     };
     table(&head.collect::<Vec<_>>(), &rows.map(row).collect::<Vec<_>>())

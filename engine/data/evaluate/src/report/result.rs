@@ -2,6 +2,7 @@
 
 use super::score::Scores;
 use crate::settings::Settings;
+use cosfly_metrics::baselines::Anchor;
 use cosfly_metrics::{METRICS, Metric};
 use cosfly_read::predictions::RowProblem;
 use serde::Serialize;
@@ -26,6 +27,8 @@ pub struct Evaluation {
     pub metrics: Vec<Metric>,
     /// Predictions first, then baselines.
     pub methods: Vec<MethodReport>,
+    /// The same methods with increments that start at the other pose: input's or expert's.
+    pub other_anchor: AnchorReport,
     /// Remarks for the reader, such as baselines that are left out.
     pub notes: Vec<String>,
 }
@@ -84,6 +87,24 @@ pub struct MethodReport {
     pub by_step_m: Vec<f64>,
     /// By kind of stratum, then by stratum; empty ones are left out.
     pub strata: BTreeMap<&'static str, BTreeMap<&'static str, StratumReport>>,
+}
+
+/// Scores over all windows with another anchor than that of the settings.
+#[derive(Clone, Debug, Serialize)]
+pub struct AnchorReport {
+    /// Pose that the first increment starts from.
+    pub anchor: Anchor,
+    /// Predictions first, then baselines.
+    pub methods: Vec<AnchoredMethod>,
+}
+
+/// Scores of a method over all windows.
+#[derive(Clone, Debug, Serialize)]
+pub struct AnchoredMethod {
+    /// Name of the method.
+    pub name: String,
+    /// Scores over all windows.
+    pub scores: Scores,
 }
 
 /// Scores of a method in a stratum.

@@ -39,7 +39,7 @@ impl Format for ImageFolder {
         for split in source.splits() {
             front_matter.push_str(&format!("  - split: {split}\n    path: {split}/**\n"));
         }
-        let mut body = String::from(BODY);
+        let mut body = BODY.replace("SPLIT", source.splits().first().copied().unwrap_or_default());
         for channel in source.channels_on_request()? {
             body.push_str(&format!("\n`{}`: {}\n", channel.name, channel.doc));
         }
@@ -89,7 +89,7 @@ fn write_split(options: &Options, source: &Source<'_>, out: &OutFolder, split: &
 const BODY: &str = "\
 ```python
 import datasets
-rows = datasets.load_dataset(\".\", split=\"train\")
+rows = datasets.load_dataset(\"imagefolder\", data_files={\"SPLIT\": \"SPLIT/**\"}, split=\"SPLIT\")
 rows[0][\"image\"], rows[0][\"depth\"], rows[0][\"semantic\"], rows[0][\"instruction\"]
 ```
 

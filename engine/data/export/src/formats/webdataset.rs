@@ -4,12 +4,13 @@ use crate::card::Card;
 use crate::folder::OutFolder;
 use crate::format::Format;
 use crate::media::ending;
-use crate::pixels::{depth_png, ending_on_request, file_on_request, gray8_png, gray16_png, id_in_16_bits};
+use crate::pixels::{ending_on_request, file_on_request, gzip, npy};
 use crate::sample_text::frame_facts;
 use crate::shared_options::{InstructionOptions, PictureOptions};
 use crate::source::Source;
 use cosfly_diagnose::{Diagnostic, Fault, Result};
 use cosfly_read::LoggedFrame;
+use cosfly_render::Channel;
 use schemars::JsonSchema;
 use serde::Deserialize;
 use std::collections::BTreeMap;
@@ -57,9 +58,9 @@ impl Format for WebDataset {
             })?;
             shards.end()?;
         }
-        let mut body = String::from(BODY);
+        let mut body = body(source)?;
         for channel in source.channels_on_request()? {
-            body.push_str(&format!("| `{}.{}` | {} |\n", channel.name, ending_on_request(channel), channel.doc));
+            body.push_str(&format!("| `{}` | {} |\n", part_on_request(channel), channel.doc));
         }
         Card { format: "WebDataset", front_matter: front_matter(source), body }.write(source, out)?;
         Ok(vec![])
@@ -81,23 +82,30 @@ fn keys(source: &Source<'_>) -> Result<BTreeMap<String, String>> {
     Ok(keys)
 }
 
-/// Endings and bytes of a sample.
+/// Endings and bytes of a sample. Numbers are NumPy files: decoders of pictures make 8 bits of all PNG files.
 fn files(logged: &LoggedFrame, facts: &serde_json::Value) -> Result<Vec<(String, Vec<u8>)>> {
     let size = [logged.width, logged.height];
     let mut files = vec![
         (format!("rgb.{}", ending(&logged.rgb_format)), logged.rgb_file.clone()),
-        ("depth.png".into(), depth_png(&logged.depth_m, size)?),
-        ("semantic.png".into(), gray8_png(&logged.semantic, size)?),
-        ("instance.png".into(), gray16_png(logged.instance.iter().map(|id| id_in_16_bits(*id)), size)?),
+        ("depth.npy.gz".into(), gzip(&npy(&logged.depth_m, size))?),
+        ("semantic.npy.gz".into(), gzip(&npy(&logged.semantic, size))?),
+        ("instance.npy.gz".into(), gzip(&npy(&logged.instance, size))?),
     ];
     for image in &logged.on_request {
-        files.push((
-            format!("{}.{}", image.channel.name, ending_on_request(image.channel)),
-            file_on_request(image, size)?,
-        ));
+        let file = file_on_request(image, size)?;
+        let is_numbers = ending_on_request(image.channel) == "npy";
+        files.push((part_on_request(image.channel), if is_numbers { gzip(&file)? } else { file }));
     }
     files.push(("json".into(), format!("{facts}\n").into_bytes()));
     Ok(files)
+}
+
+/// Name of the part of a channel on request.
+fn part_on_request(channel: &Channel) -> String {
+    match ending_on_request(channel) {
+        "npy" => format!("{}.npy.gz", channel.name),
+        ending => format!("{}.{ending}", channel.name),
+    }
 }
 
 /// The shards of a split, one of them open.
@@ -152,20 +160,49 @@ fn front_matter(source: &Source<'_>) -> String {
     text
 }
 
+/// The card's body, with the names of a split and of its pictures.
+fn body(source: &Source<'_>) -> Result<String> {
+    let split = source.splits().first().copied().unwrap_or_default();
+    let Some(first) = source.flights().next() else { return Ok(String::new()) };
+    let rgb = ending(&source.dataset.log(first)?.frame(0)?.rgb_format);
+    Ok(BODY.replace("SPLIT", split).replace("RGB", rgb))
+}
+
 const BODY: &str = "\
 ```python
-import webdataset, datasets
-samples = webdataset.WebDataset(\"data/train-00000.tar\").decode(\"pil\")
-rows = datasets.load_dataset(\".\", split=\"train\", streaming=True)
+import glob
+import webdataset
+
+shards = sorted(glob.glob(\"data/SPLIT-*.tar\"))
+for sample in webdataset.WebDataset(shards, shardshuffle=False).decode(\"pil\"):
+    rgb = sample[\"rgb.RGB\"]                 # a picture of PIL; `.decode()` leaves the bytes of the file
+    depth_m = sample[\"depth.npy.gz\"]        # float32, rows x columns, metres
+    labels = sample[\"semantic.npy.gz\"]      # uint8
+    instances = sample[\"instance.npy.gz\"]   # uint32
+    facts = sample[\"json\"]
 ```
 
-A sample is a frame; its key is the flight and the frame, with `_` for dots.
+The same with `datasets`, which makes lists of arrays:
+
+```python
+import datasets
+import numpy
+
+rows = datasets.load_dataset(\"webdataset\", data_files={\"SPLIT\": \"data/SPLIT-*.tar\"}, split=\"SPLIT\", streaming=True)
+for row in rows:
+    rgb = row[\"rgb.RGB\"]
+    depth_m = numpy.array(row[\"depth.npy.gz\"], numpy.float32)
+    facts = row[\"json\"]
+```
+
+A sample is a frame; its key is the flight and the frame, with `_` for dots. A shard has frames of one split. Depths, labels and ids
+are NumPy files, not pictures: decoders of pictures make three times 8 bits of every PNG file.
 
 | part | what |
 | --- | --- |
 | `rgb.jpg` or `rgb.png` | the colours, as in the dataset's log |
-| `depth.png` | 16 bits: centimetres along the optical axis, at most 65,534; 65,535 is the sky |
-| `semantic.png` | 8 bits: CARLA's labels |
-| `instance.png` | 16 bits: 0 ground and sky, 1 the target, then objects and people; ids from 65,536 on share those of others |
-| `json` | flight, frame, time, poses (m and degrees, CARLA's axes), target, boxes (left, top, right, bottom), instruction |
+| `depth.npy.gz` | 32-bit floats, rows x columns: metres along the optical axis; infinity is the sky |
+| `semantic.npy.gz` | 8 bits: CARLA's labels |
+| `instance.npy.gz` | 32 bits: 0 ground and sky, 1 the target, then objects and people, as in the dataset's tables |
+| `json` | flight, frame, time, split, poses (m and degrees, CARLA's axes), target, boxes (left, top, right, bottom), instruction |
 ";

@@ -155,6 +155,36 @@ simd_kernel! {
     }
 }
 
+/// Units of 16 x 16 pixels in a group of blocks.
+pub const UNITS: usize = LANES / 2;
+
+simd_kernel! {
+    /// Appends the first `units` units of group `group`: four blocks of luma, and one of each chroma component, which cover both
+    /// groups. May be called once between two calls of [`BitWriter::flush`].
+    pub fn write_units(
+        writer: &mut BitWriter,
+        luma: &[[Coefficients; 2]; 2],
+        chroma: &[Coefficients; 2],
+        codes: &[&[Codes; 2]; 2],
+        group: usize,
+        units: usize,
+        previous_dc: &mut [i32; 3],
+    ) {
+        let mut open =
+            OpenBits { bits: writer.bits, held: writer.held, written: writer.written, room: &mut writer.room };
+        let [of_luma, of_blue, of_red] = previous_dc;
+        for unit in 0..units.min(UNITS) {
+            for half in luma {
+                open.block(&half[group % 2], 2 * unit, codes[0], of_luma);
+                open.block(&half[group % 2], 2 * unit + 1, codes[0], of_luma);
+            }
+            open.block(&chroma[0], UNITS * group + unit, codes[1], of_blue);
+            open.block(&chroma[1], UNITS * group + unit, codes[1], of_red);
+        }
+        (writer.bits, writer.held, writer.written) = (open.bits, open.held, open.written);
+    }
+}
+
 /// The state of a [`BitWriter`] while blocks are written: small enough to stay in registers.
 struct OpenBits<'a> {
     bits: u64,

@@ -1,12 +1,18 @@
-//! A baseline JPEG encoder whose bytes are the same on every processor and at every vector level.
+//! A baseline JPEG encoder whose bytes are the same on every processor and at every vector level, and a decoder for
+//! small pictures.
 
+mod bits;
+mod decode;
 mod huffman;
+mod inverse;
 mod transform;
 
+pub use decode::{Decoded, decode};
+
 use cosfly_frames::simd::Level;
-use huffman::{AC, BitWriter, Codes, DC, write_blocks};
+use huffman::{AC, BitWriter, Codes, DC, UNITS, write_blocks, write_units};
 use std::sync::LazyLock;
-use transform::{Coefficients, LANES, Planes, ROW_BYTES, Strip, ZIGZAG, factors, transform};
+use transform::{Coefficients, LANES, Planes, ROW_BYTES, Strip, ZIGZAG, factors, transform, transform_halved};
 
 /// Largest width and height of a JPEG file.
 pub const MAX_SIDE: u32 = 65_535;
@@ -28,47 +34,110 @@ const STEPS: [[u16; 64]; 2] = [
     ],
 ];
 
-/// Fills `file` with a JPEG file of row-major sRGB pixels, without chroma subsampling; `quality` is libjpeg's, 1 to
-/// 100.
-///
-/// `rgb` must hold `3 * width * height` bytes, and both sides must be 1 to [`MAX_SIDE`].
-pub fn encode(rgb: &[u8], width: u32, height: u32, quality: u8, file: &mut Vec<u8>) {
-    encode_at(Level::best(), rgb, width, height, quality, file);
+/// Resolution of the colours of a JPEG file beside that of its brightness.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Chroma {
+    /// The same (4:4:4).
+    Full,
+    /// Half in both directions (4:2:0).
+    Half,
 }
 
-fn encode_at(level: Level, rgb: &[u8], width: u32, height: u32, quality: u8, file: &mut Vec<u8>) {
+/// Fills `file` with a JPEG file of row-major sRGB pixels; `quality` is libjpeg's, 1 to 100.
+///
+/// `rgb` must hold `3 * width * height` bytes, and both sides must be 1 to [`MAX_SIDE`].
+pub fn encode(rgb: &[u8], width: u32, height: u32, quality: u8, chroma: Chroma, file: &mut Vec<u8>) {
+    encode_at(Level::best(), rgb, width, height, quality, chroma, file);
+}
+
+fn encode_at(level: Level, rgb: &[u8], width: u32, height: u32, quality: u8, chroma: Chroma, file: &mut Vec<u8>) {
     let steps = [0, 1].map(|table| scaled_steps(&STEPS[table], quality));
     let factors = [factors(&steps[0]), factors(&steps[1])];
     file.clear();
-    write_head(file, width as u16, height as u16, &steps);
+    write_head(file, width as u16, height as u16, &steps, chroma);
+    let image = Image { rgb, width: width as usize, height: height as usize };
     let mut bits = BitWriter::EMPTY;
+    match chroma {
+        Chroma::Full => write_full(level, image, &factors, &mut bits, file),
+        Chroma::Half => write_halved(level, image, &factors, &mut bits, file),
+    }
+    bits.finish(file);
+    file.extend_from_slice(&[0xff, 0xd9]);
+}
+
+/// Row-major pixels.
+#[derive(Clone, Copy)]
+struct Image<'a> {
+    rgb: &'a [u8],
+    width: usize,
+    height: usize,
+}
+
+/// Eight rows of pixels of [`LANES`] blocks.
+type Margin = [[u8; ROW_BYTES]; 8];
+
+impl Image<'_> {
+    /// The strip of the blocks from block column `first` on and row `top` on; `margin` holds it where it leaves the image, whose last
+    /// pixels are repeated there. Part of the strip must be in the image's columns.
+    fn strip<'a>(&'a self, top: usize, first: usize, margin: &'a mut Margin) -> Strip<'a> {
+        let row_bytes = 3 * self.width;
+        let rows: [&[u8]; 8] = core::array::from_fn(|y| {
+            let start = row_bytes * (top + y).min(self.height - 1);
+            &self.rgb[start..start + row_bytes]
+        });
+        let inside = 24 * first..24 * first + ROW_BYTES;
+        if inside.end > row_bytes {
+            margin.iter_mut().zip(rows).for_each(|(row, pixels)| copy_pixels(pixels, inside.start, row));
+        }
+        let margin = &*margin;
+        core::array::from_fn(|y| rows[y].get(inside.clone()).and_then(<[u8]>::first_chunk).unwrap_or(&margin[y]))
+    }
+}
+
+fn write_full(level: Level, image: Image<'_>, factors: &[[f32; 64]; 2], bits: &mut BitWriter, file: &mut Vec<u8>) {
     let [luma, chroma] = &*CODES;
     let codes = [luma, chroma, chroma];
-    let (row_bytes, blocks_across) = (3 * width as usize, (width as usize).div_ceil(8));
+    let blocks_across = image.width.div_ceil(8);
     let mut margin = [[0; ROW_BYTES]; 8];
     let mut planes = Planes::ZERO;
     let mut coefficients = [Coefficients::ZERO; 3];
     let mut previous_dc = [0; 3];
-    for top in (0..height as usize).step_by(8) {
-        let rows: [&[u8]; 8] = core::array::from_fn(|y| {
-            let start = row_bytes * (top + y).min(height as usize - 1);
-            &rgb[start..start + row_bytes]
-        });
+    for top in (0..image.height).step_by(8) {
         for first in (0..blocks_across).step_by(LANES) {
-            let inside = 24 * first..24 * first + ROW_BYTES;
-            if inside.end > row_bytes {
-                margin.iter_mut().zip(rows).for_each(|(row, pixels)| copy_pixels(pixels, inside.start, row));
-            }
-            let strip: Strip<'_> = core::array::from_fn(|y| {
-                rows[y].get(inside.clone()).and_then(<[u8]>::first_chunk).unwrap_or(&margin[y])
-            });
-            transform(level, &strip, &factors, &mut planes, &mut coefficients);
-            write_blocks(level, &mut bits, &coefficients, &codes, blocks_across - first, &mut previous_dc);
+            let strip = image.strip(top, first, &mut margin);
+            transform(level, &strip, factors, &mut planes, &mut coefficients);
+            write_blocks(level, bits, &coefficients, &codes, blocks_across - first, &mut previous_dc);
             bits.flush(file);
         }
     }
-    bits.finish(file);
-    file.extend_from_slice(&[0xff, 0xd9]);
+}
+
+fn write_halved(level: Level, image: Image<'_>, factors: &[[f32; 64]; 2], bits: &mut BitWriter, file: &mut Vec<u8>) {
+    let [luma_codes, chroma_codes] = &*CODES;
+    let codes = [luma_codes, chroma_codes];
+    let units_across = image.width.div_ceil(16);
+    let mut margins = [[[[0; ROW_BYTES]; 8]; 2]; 2];
+    let mut planes = [const { [const { Planes::ZERO }; 2] }; 2];
+    let mut luma = [const { [const { Coefficients::ZERO }; 2] }; 2];
+    let mut chroma = [const { Coefficients::ZERO }; 2];
+    let mut previous_dc = [0; 3];
+    for top in (0..image.height).step_by(16) {
+        for first in (0..units_across).step_by(2 * UNITS) {
+            // A second group outside of the image is never written.
+            let second = if first + UNITS < units_across { first + UNITS } else { first };
+            let [[a, b], [c, d]] = &mut margins;
+            let strips = [
+                [image.strip(top, 2 * first, a), image.strip(top, 2 * second, b)],
+                [image.strip(top + 8, 2 * first, c), image.strip(top + 8, 2 * second, d)],
+            ];
+            transform_halved(level, &strips, factors, &mut planes, &mut luma, &mut chroma);
+            for group in 0..2 {
+                let units = units_across.saturating_sub(first + UNITS * group);
+                write_units(level, bits, &luma, &chroma, &codes, group, units, &mut previous_dc);
+                bits.flush(file);
+            }
+        }
+    }
 }
 
 /// Copies the pixels of `image_row` from `start` on; beyond its end, repeats its last pixel.
@@ -90,14 +159,15 @@ fn scaled_steps(steps: &[u16; 64], quality: u8) -> [u8; 64] {
 }
 
 /// Writes everything before the entropy-coded bits: JFIF, steps, size, code tables, start of scan.
-fn write_head(file: &mut Vec<u8>, width: u16, height: u16, steps: &[[u8; 64]; 2]) {
+fn write_head(file: &mut Vec<u8>, width: u16, height: u16, steps: &[[u8; 64]; 2], chroma: Chroma) {
     file.extend_from_slice(&[0xff, 0xd8]);
     segment(file, 0xe0, &[b"JFIF\0", &[1, 1, 0, 0, 1, 0, 1, 0, 0]]);
     for (table, steps) in (0u8..).zip(steps) {
         segment(file, 0xdb, &[&[table], steps]);
     }
     let [[h1, h0], [w1, w0]] = [height.to_be_bytes(), width.to_be_bytes()];
-    segment(file, 0xc0, &[&[8, h1, h0, w1, w0, 3], &[1, 0x11, 0], &[2, 0x11, 1], &[3, 0x11, 1]]);
+    let blocks = if chroma == Chroma::Half { 0x22 } else { 0x11 };
+    segment(file, 0xc0, &[&[8, h1, h0, w1, w0, 3], &[1, blocks, 0], &[2, 0x11, 1], &[3, 0x11, 1]]);
     for table in 0..2u8 {
         let (dc, ac) = (&DC[usize::from(table)], &AC[usize::from(table)]);
         segment(file, 0xc4, &[&[table], &dc.counts, dc.symbols]);
@@ -133,9 +203,9 @@ mod tests {
         rgb
     }
 
-    fn encoded(level: Level, rgb: &[u8], width: u32, height: u32, quality: u8) -> Vec<u8> {
+    fn encoded(level: Level, rgb: &[u8], [width, height]: [u32; 2], quality: u8, chroma: Chroma) -> Vec<u8> {
         let mut file = b"something else".to_vec();
-        encode_at(level, rgb, width, height, quality, &mut file);
+        encode_at(level, rgb, width, height, quality, chroma, &mut file);
         file
     }
 
@@ -156,14 +226,16 @@ mod tests {
 
     #[test]
     fn another_library_reads_any_size_as_well_as_its_fellow_would_write_it() {
-        for (width, height) in [(1, 1), (8, 8), (127, 9), (128, 16), (129, 33), (320, 180), (3, 70)] {
+        use jpeg_encoder::SamplingFactor::{R_4_2_0, R_4_4_4};
+        for (width, height) in [(1, 1), (8, 8), (127, 9), (128, 16), (129, 33), (257, 40), (320, 180), (3, 70)] {
             let rgb = picture(width, height);
-            for quality in [50, 95, 100] {
-                let (pixels, w, h) = decoded(&encoded(Level::best(), &rgb, width, height, quality));
+            let samplings = [(Chroma::Full, R_4_4_4), (Chroma::Half, R_4_2_0)];
+            for (quality, (chroma, sampling)) in [50, 95, 100].into_iter().flat_map(|it| samplings.map(|of| (it, of))) {
+                let (pixels, w, h) = decoded(&encoded(Level::best(), &rgb, [width, height], quality, chroma));
                 assert_eq!((w, h), (width as usize, height as usize));
                 let mut other = vec![];
                 let mut encoder = jpeg_encoder::Encoder::new(&mut other, quality);
-                encoder.set_sampling_factor(jpeg_encoder::SamplingFactor::R_4_4_4);
+                encoder.set_sampling_factor(sampling);
                 encoder.encode(&rgb, width as u16, height as u16, jpeg_encoder::ColorType::Rgb).expect("a file");
                 let (ours, theirs) = (error(&pixels, &rgb), error(&decoded(&other).0, &rgb));
                 assert!(ours < 1.02 * theirs + 0.3, "{width} x {height} at {quality}: {ours} {theirs}");
@@ -174,9 +246,11 @@ mod tests {
     #[test]
     fn all_vector_levels_give_the_same_file() {
         let rgb = picture(210, 60);
-        let plain = encoded(Level::PLAIN, &rgb, 210, 60, 90);
-        for level in Level::available() {
-            assert!(encoded(level, &rgb, 210, 60, 90) == plain, "{}", level.name());
+        for chroma in [Chroma::Full, Chroma::Half] {
+            let plain = encoded(Level::PLAIN, &rgb, [210, 60], 90, chroma);
+            for level in Level::available() {
+                assert!(encoded(level, &rgb, [210, 60], 90, chroma) == plain, "{}", level.name());
+            }
         }
     }
 }

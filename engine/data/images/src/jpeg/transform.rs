@@ -1,6 +1,6 @@
 //! From pixels to quantised coefficients, sixteen neighbouring blocks at a time.
 //!
-//! Every vector lane is a block: no step moves data between lanes, so that compilers vectorise plain loops over lanes.
+//! Every vector lane is a block: no step but the halving of chroma moves data between lanes, so that compilers vectorise plain loops over lanes.
 //! Sums and products of floats in a written order give the same bits on every processor.
 
 use cosfly_frames::simd_kernel;
@@ -83,6 +83,59 @@ simd_kernel! {
         for component in 0..3 {
             forward_dct(&mut planes.0[component]);
             quantise(&planes.0[component], &factors[component.min(1)], &mut coefficients[component]);
+        }
+    }
+}
+
+simd_kernel! {
+    /// Converts colours, transforms and quantises four strips: two below each other, of two neighbouring groups of blocks. Chroma has
+    /// half the resolution in both directions: the sixteen blocks of a component cover both groups.
+    pub fn transform_halved(
+        strips: &[[Strip<'_>; 2]; 2],
+        factors: &[[f32; 64]; 2],
+        planes: &mut [[Planes; 2]; 2],
+        luma: &mut [[Coefficients; 2]; 2],
+        chroma: &mut [Coefficients; 2],
+    ) {
+        for half in 0..2 {
+            for group in 0..2 {
+                let planes = &mut planes[half][group].0;
+                colour(&strips[half][group], planes);
+                forward_dct(&mut planes[0]);
+                quantise(&planes[0], &factors[0], &mut luma[half][group]);
+            }
+        }
+        for component in 0..2 {
+            let mut blocks = [[0.0; LANES]; 64];
+            for half in 0..2 {
+                for group in 0..2 {
+                    halve(&planes[half][group].0[1 + component], half, group, &mut blocks);
+                }
+            }
+            forward_dct(&mut blocks);
+            quantise(&blocks, &factors[1], &mut chroma[component]);
+        }
+    }
+}
+
+/// Fills a quarter of chroma blocks with the means of two by two values of a group of blocks.
+#[expect(clippy::needless_range_loop, reason = "one loop over lanes reads four arrays")]
+#[inline(always)]
+fn halve(plane: &Blocks, half: usize, group: usize, blocks: &mut Blocks) {
+    for row in 0..4 {
+        for column in 0..4 {
+            let at = 16 * row + 2 * column;
+            let mut means = [0.0; LANES];
+            for lane in 0..LANES {
+                means[lane] =
+                    0.25 * ((plane[at][lane] + plane[at + 1][lane]) + (plane[at + 8][lane] + plane[at + 9][lane]));
+            }
+            // Two neighbouring blocks become the left and the right side of one.
+            for (place, pair) in means.as_chunks::<2>().0.iter().enumerate() {
+                let (at, lane) = (8 * (4 * half + row) + column, 8 * group + place);
+                blocks[at][lane] = pair[0];
+                blocks[at + 4][lane] = pair[1];
+            }
         }
     }
 }

@@ -6,5 +6,6 @@ pub mod numbers;
 pub mod planners;
 pub mod planning;
 pub mod shares;
+pub mod shortcuts;
 pub mod timelines;
 pub mod worst;

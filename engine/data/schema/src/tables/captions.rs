@@ -18,6 +18,8 @@ columns! { Captions::COLUMNS of DatasetItem;
     caption_id: String = id;
     /// Trajectory that the caption describes.
     trajectory_id: String = |item, _| item.record.trajectory_id.clone();
+    /// Split: `train`, `val` or `test`; that of the file.
+    split: String = |item, _| item.membership.split.name().to_owned();
     /// Language: `zh` or `en`.
     language: String = |item, i| item.captions[i].language.clone();
     /// Kind of text, such as `instruction`.

@@ -26,6 +26,8 @@ pub struct Frames;
 columns! { Frames::COLUMNS of DatasetItem;
     /// Trajectory that the frame belongs to.
     trajectory_id: String = |item, _| item.record.trajectory_id.clone();
+    /// Split: `train`, `val` or `test`; that of the file.
+    split: String = |item, _| item.membership.split.name().to_owned();
     /// Number of the frame, from 0.
     frame: u32 = |_, i| i as u32;
     /// Time of the frame, `frame * dt_s`; the same as in the log.

@@ -2,6 +2,7 @@
 
 use super::column::columns;
 use super::{DatasetItem, Table};
+use cosfly_planner::perturb::Kind;
 use cosfly_planner::{FramePerturbation, Perturbation};
 
 /// Definition of the table.
@@ -23,12 +24,16 @@ columns! { Pairs::COLUMNS of DatasetItem;
     pedestrian_id: String = |item, _| item.record.pedestrian_id.clone();
     /// Name of the town of both.
     town: String = |item, _| item.record.town.name.clone();
+    /// Split: `train`, `val` or `test`; that of the file.
+    split: String = |item, _| item.membership.split.name().to_owned();
     /// Number of frames of the perturbed trajectory.
     frames: u32 = |item, _| item.record.len() as u32;
-    /// Probability of the position event per frame.
-    position_probability: Option<f64> = |item, _| perturbation(item).map(|it| it.position_probability);
-    /// Probability of the rotation event per frame.
-    rotation_probability: Option<f64> = |item, _| perturbation(item).map(|it| it.rotation_probability);
+    /// Kind of the perturbation, such as `jumps` (the paper's) or `drift`.
+    perturbation: Option<String> = |item, _| perturbation(item).map(|it| it.kind.name().to_owned());
+    /// Probability of the position event per frame; null for kinds of perturbation but `jumps`.
+    position_probability: Option<f64> = |item, _| jumps(item).map(|it| it.position_probability);
+    /// Probability of the rotation event per frame; null for kinds of perturbation but `jumps`.
+    rotation_probability: Option<f64> = |item, _| jumps(item).map(|it| it.rotation_probability);
     /// Number of frames with a position event.
     position_events: u32 = |item, _| events(item).filter(|frame| frame.position).count() as u32;
     /// Number of frames with a rotation event.
@@ -41,6 +46,10 @@ columns! { Pairs::COLUMNS of DatasetItem;
 
 fn perturbation(item: &DatasetItem) -> Option<&Perturbation> {
     item.record.trajectory.perturbation.as_ref()
+}
+
+fn jumps(item: &DatasetItem) -> Option<&Perturbation> {
+    perturbation(item).filter(|it| it.kind == Kind::Jumps)
 }
 
 fn events(item: &DatasetItem) -> impl Iterator<Item = &FramePerturbation> {

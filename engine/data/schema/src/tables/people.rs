@@ -21,6 +21,8 @@ pub struct People;
 columns! { People::COLUMNS of DatasetItem;
     /// Trajectory that the frame belongs to.
     trajectory_id: String = |item, _| item.record.trajectory_id.clone();
+    /// Split: `train`, `val` or `test`; that of the file.
+    split: String = |item, _| item.membership.split.name().to_owned();
     /// Number of the frame, from 0.
     frame: u32 = |item, i| sighting(item, i).frame;
     /// Id in instance images and in `frames.occluder_instance`: greater than those of all objects.
@@ -37,6 +39,14 @@ columns! { People::COLUMNS of DatasetItem;
     height_m: f64 = |item, i| person(item, i).height_m;
     /// Radius of the body seen from above.
     radius_m: f64 = |item, i| person(item, i).radius_m;
+    /// Colour of the shirt or jacket in words.
+    top_colour: String = |item, i| person(item, i).outfit.top.name.name().to_owned();
+    /// Colour of the shirt or jacket: share of light that it reflects, linear red, green, blue.
+    top_linear_rgb: [f64; 3] = |item, i| person(item, i).outfit.top.linear_rgb.map(f64::from);
+    /// Colour of the trousers in words.
+    trousers_colour: String = |item, i| person(item, i).outfit.trousers.name.name().to_owned();
+    /// Whether the person wears a backpack.
+    has_backpack: bool = |item, i| person(item, i).outfit.backpack;
     /// Number of visible pixels.
     visible_pixels: u32 = |item, i| sighting(item, i).view.pixels;
     /// Left, top, right, bottom edge around the visible pixels.

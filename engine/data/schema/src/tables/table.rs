@@ -1,7 +1,7 @@
 //! Definition of a table: its columns, and the rows of a record.
 
 use super::column::AnyColumn;
-use crate::{CaptionRecord, LogRecord, PreviewStrip, RenderedTrajectory, TownLayout};
+use crate::{CaptionRecord, LogRecord, PreviewStrip, RenderedTrajectory, Split, TownLayout};
 use cosfly_metrics::WindowShape;
 use std::sync::Arc;
 
@@ -20,7 +20,7 @@ pub struct DatasetItem {
     pub mcap_path: String,
     /// Expert of a perturbed trajectory, for tables that need it; `None` where it is not in the dataset.
     pub expert: Option<Box<RenderedTrajectory>>,
-    /// Split group and subset of the trajectory.
+    /// Split, split group and subset of the trajectory.
     pub membership: Membership,
     /// Ground plan of the trajectory's town.
     pub layout: Arc<TownLayout>,
@@ -28,9 +28,11 @@ pub struct DatasetItem {
     pub windows: WindowShape,
 }
 
-/// Split group and subset of a trajectory.
+/// Split, split group and subset of a trajectory.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Membership {
+    /// Split, that of the files with the trajectory's rows.
+    pub split: Split,
     /// Name of the group; trajectories of one group are in one split.
     pub split_group: String,
     /// Whether split `train` has trajectories in the same town.

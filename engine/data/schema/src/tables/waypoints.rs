@@ -17,6 +17,8 @@ pub struct Waypoints;
 columns! { Waypoints::COLUMNS of DatasetItem;
     /// Trajectory that the step belongs to.
     trajectory_id: String = |item, _| item.record.trajectory_id.clone();
+    /// Split: `train`, `val` or `test`; that of the file.
+    split: String = |item, _| item.membership.split.name().to_owned();
     /// Number of the step, from 0; the frame of the same number.
     step: u32 = |_, i| i as u32;
     /// Pose of the drone, world frame (CARLA's): x, y, z (m), pitch, yaw, roll (degrees).

@@ -50,6 +50,8 @@ columns! { Windows::COLUMNS of DatasetItem;
     window_id: String = |item, row| format!("{}/{}", item.record.trajectory_id, start(item, row));
     /// Trajectory that is the input of a model.
     trajectory_id: String = |item, _| item.record.trajectory_id.clone();
+    /// Split: `train`, `val` or `test`; that of the file.
+    split: String = |item, _| item.membership.split.name().to_owned();
     /// Trajectory that a model learns: the expert of `trajectory_id`; the trajectory itself for an expert's window.
     expert_id: String = |item, _| {
         item.record.pair.as_ref().map_or(&item.record.trajectory_id, |pair| &pair.expert_id).clone()

@@ -144,7 +144,9 @@ fn record_set<S>(table: &Table<S>, source: &Value, has_splits: bool) -> Value {
     if has_splits {
         fields.push(split_field(name, source));
     }
-    fields.extend(table.columns.iter().map(|column| {
+    // Loaders filter by a split that they read from paths of files; the column says the same.
+    let columns = table.columns.iter().filter(|column| !(has_splits && column.name() == "split"));
+    fields.extend(columns.map(|column| {
         let mut extract = source.clone();
         extract["extract"] = json!({"column": column.name()});
         if column.kind() == Kind::Image {

@@ -42,7 +42,7 @@ pub fn parts(header: &PackHeader) -> Vec<Part> {
     let channels = || header.channels.iter();
     let is_file = |channel: &&Channel| channel.element() == Element::Colour;
     let raw: Vec<(u16, &'static Channel)> = (1..).zip(channels().filter(|channel| !is_file(channel))).collect();
-    // Who reads labels mostly reads ids, too: they share a chunk.
+    // Readers of labels mostly read ids, too: both share a chunk.
     let share =
         |a: &(u16, &Channel), b: &(u16, &Channel)| [a.1.element(), b.1.element()] == [Element::Label, Element::Id];
     let files = channels().filter(is_file).map(Part::File);

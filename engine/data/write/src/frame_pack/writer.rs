@@ -5,10 +5,11 @@ use super::image_record::{length_of, records_of};
 use super::layout::{END_MAGIC, ENTRY_BYTES, MAGIC, Part, Section, VERSION, check_of, parts};
 use super::pixels;
 use cosfly_diagnose::{Diagnostic, Fault, Result};
+use cosfly_images::jpeg::Chroma;
 use cosfly_images::previews::SmallImages;
 use cosfly_images::rgb;
 use cosfly_render::{Channel, FrameImages};
-use cosfly_schema::config::RgbEncoding;
+use cosfly_schema::config::{JpegChroma, RgbEncoding};
 use std::io::Write;
 
 /// Level of all zstd sections: higher ones take longer and gain little on rendered depth.
@@ -169,7 +170,13 @@ impl<W: Write> FramePackWriter<W> {
         let FrameImages { width, height, rgb: pixels, .. } = images;
         let encoding = self.header.encoding;
         self.file_section(|_, file| match encoding.rgb {
-            RgbEncoding::Jpeg => rgb::jpeg(pixels, *width, *height, encoding.jpeg_quality, file),
+            RgbEncoding::Jpeg => {
+                let chroma = match encoding.jpeg_chroma {
+                    JpegChroma::Full => Chroma::Full,
+                    JpegChroma::Half => Chroma::Half,
+                };
+                rgb::jpeg_with(pixels, *width, *height, encoding.jpeg_quality, chroma, file)
+            }
             RgbEncoding::Png => rgb::png(pixels, *width, *height, file),
         })
     }

@@ -153,24 +153,69 @@ fn figures(summary: &Summary) -> String {
     text
 }
 
+/// How to load: everything in ```python``` runs as it stands in the dataset's folder; `tests/outside/check_snippets.py` does it.
 fn loading(config: &DatasetConfig, summary: &Summary) -> String {
-    let has_rows = |name: &&str| summary.rows.get(*name).into_iter().flatten().any(|(_, rows)| *rows > 0);
-    let others: Vec<&str> = table_names().into_iter().filter(has_rows).filter(|name| *name != "frames").collect();
-    format!(
-        "## How to load\n\n```python\nfrom datasets import load_dataset\nframes = load_dataset(\".\", \"frames\")  # or {}, files\n\nimport pyarrow.dataset\ntable = \
-         pyarrow.dataset.dataset(\"data/frames\").to_table()\n\nimport mlcroissant  # one Dataset object reads one record set; make another for the next\nrecords = \
-         mlcroissant.Dataset(\"croissant.json\").records(\"trajectories\")\n\nfrom mcap_protobuf.reader import \
-         read_protobuf_messages\nfor message in read_protobuf_messages(\"mcap/.../x.mcap\", \
-         topics=[\"/camera/depth/image\"]):\n    ...\n```\n\n{}\n\n`sha256sum -c SHA256SUMS` checks `files.parquet` and \
-         `croissant.json`; `files.parquet` holds the hash of every other file; `cosfly verify .` checks everything.\n\n\
-         Version {} of {}, published {}.\n\n",
-        others.join(", "),
+    let rows =
+        |table: &str, split: &str| summary.rows.get(table).and_then(|rows| rows.get(split)).copied().unwrap_or(0);
+    let used = |table: &str| cosfly_schema::Split::ALL.iter().map(|it| it.name()).find(|split| rows(table, split) > 0);
+    let others: Vec<&str> =
+        table_names().into_iter().filter(|name| *name != "frames" && used(name).is_some()).collect();
+    let mut text = String::from("## How to load\n\nIn this folder:\n\n```python\n");
+    text.push_str(&LOADING.replace("SPLIT", used("frames").unwrap_or("train")).replace("OTHERS", &others.join(", ")));
+    text.push_str("```\n\n");
+    if let Some(split) = used("windows").filter(|split| rows("captions", split) > 0) {
+        text.push_str("Training windows with their instructions and pictures:\n\n```python\n");
+        text.push_str(&JOINING.replace("SPLIT", split).replace("HISTORY", &config.windows.history.to_string()));
+        text.push_str("```\n\n");
+    }
+    let _ = write!(
+        text,
+        "{}\n\n`sha256sum -c SHA256SUMS` checks `files.parquet` and `croissant.json`; `files.parquet` holds the hash of every \
+         other file; `cosfly verify .` checks everything.\n\nVersion {} of {}, published {}.\n\n",
         viewers::USE,
         config.version,
         config.name,
         config.date_published
-    )
+    );
+    text
 }
+
+const LOADING: &str = "\
+from datasets import load_dataset
+frames = load_dataset(\"parquet\", data_files={\"SPLIT\": \"data/frames/SPLIT-*.parquet\"}, split=\"SPLIT\")
+# tables: frames, OTHERS
+
+import pyarrow.dataset as ds
+table = ds.dataset(\"data/frames\").to_table(filter=ds.field(\"split\") == \"SPLIT\")
+
+import mlcroissant  # one Dataset object reads one record set; make another for the next
+records = mlcroissant.Dataset(\"croissant.json\").records(\"trajectories\")
+
+import glob
+from mcap.reader import make_reader
+from mcap_protobuf.decoder import DecoderFactory
+with open(sorted(glob.glob(\"mcap/*/*/*.mcap\"))[0], \"rb\") as log:
+    reader = make_reader(log, decoder_factories=[DecoderFactory()])
+    for schema, channel, message, depth in reader.iter_decoded_messages([\"/camera/depth/image\"], starting_at=0):
+        print(depth.width, depth.height, depth.encoding, len(depth.data))  # `32FC1`: 32-bit floats, metres
+        break
+";
+
+const JOINING: &str = "\
+import io
+import pyarrow.dataset as ds
+from PIL import Image
+
+windows = ds.dataset(\"data/windows\").to_table(filter=ds.field(\"split\") == \"SPLIT\")
+captions = {row[\"caption_id\"]: row for row in ds.dataset(\"data/captions\").to_table().to_pylist()}
+for window in windows.slice(0, 4).to_pylist():
+    instructions = [captions[it][\"text\"] for it in window[\"caption_ids\"]]
+    seen = [window[\"start_frame\"] + i for i in range(HISTORY)]
+    is_seen = (ds.field(\"trajectory_id\") == window[\"trajectory_id\"]) & ds.field(\"frame\").isin(seen)
+    rows = ds.dataset(\"data/frames\").to_table(columns=[\"frame\", \"preview\"], filter=is_seen).sort_by(\"frame\").to_pylist()
+    pictures = [Image.open(io.BytesIO(row[\"preview\"][\"bytes\"])) for row in rows if row[\"preview\"]]
+    print(instructions, [picture.size for picture in pictures])
+";
 
 const CONVENTIONS: &str = "## Conventions\n\n\
 * Tables: CARLA's world frame, left-handed, x east, y south, z up, metres; angles in degrees; positive yaw turns x \

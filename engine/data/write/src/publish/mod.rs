@@ -14,6 +14,7 @@ mod datasheet;
 pub mod layout;
 mod plan;
 mod report;
+mod shortcuts;
 mod source;
 pub(crate) mod summary;
 mod viewers;

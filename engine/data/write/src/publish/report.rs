@@ -36,6 +36,7 @@ pub fn page(
         flights,
         rejections: rejections.iter().map(rejection_sketch).collect(),
         planners: source.planners()?,
+        shortcuts: Some(summary.shortcuts.figures()),
     };
     cosfly_report::page(&report, &mut |flight, frame| Ok(source.previews(flight)?.jpegs.into_iter().nth(frame)))
 }

@@ -1,7 +1,10 @@
 //! The figures of a dataset that card and `croissant.json` state.
 
+use super::shortcuts;
+use cosfly_metrics::shortcuts::Shortcuts;
 use cosfly_render::ChannelSet;
 use cosfly_schema::LogRecord;
+use cosfly_schema::card_text::counted;
 use cosfly_schema::extras::ExtraSummary;
 use cosfly_schema::tables::DatasetItem;
 use cosfly_schema::{Rejection, Role};
@@ -42,6 +45,8 @@ pub struct Summary {
     pub rows: BTreeMap<&'static str, BTreeMap<String, u64>>,
     /// Channels of the logs, all of them together.
     pub channels: ChannelSet,
+    /// Signs that give targets away.
+    pub shortcuts: Shortcuts,
     /// Tables and files of plugins.
     pub extras: Vec<ExtraSummary>,
 }
@@ -66,6 +71,7 @@ impl Summary {
             Role::Perturbed => self.perturbed += 1,
         }
         self.count_log(&item.log, split);
+        shortcuts::count(record, &mut self.shortcuts);
         self.pedestrians.insert((record.town.name.clone(), record.pedestrian_id.clone()));
         self.duration_s += record.trajectory.track.duration_s();
         self.uncertified += u64::from(!record.trajectory.certificate.holds);
@@ -95,6 +101,22 @@ impl Summary {
     /// All flights.
     pub fn flights(&self) -> u64 {
         self.experts + self.perturbed
+    }
+
+    /// The facts that texts of the card may name ([`card_text::FACTS`]), in words.
+    pub fn facts(&self) -> BTreeMap<&'static str, String> {
+        let towns: Vec<&str> = self.towns.keys().map(String::as_str).collect();
+        let towns = match &towns[..] {
+            [others @ .., last] if !others.is_empty() => format!("{} and {last}", others.join(", ")),
+            few => few.concat(),
+        };
+        BTreeMap::from([
+            ("towns", towns),
+            ("pedestrians", counted(self.pedestrians.len() as u64, "pedestrian")),
+            ("flights", counted(self.flights(), "flight")),
+            ("frames", counted(self.frames, "frame")),
+            ("minutes", format!("{:.1} minutes", self.duration_s / 60.0)),
+        ])
     }
 
     /// Mean visibility by rays over all flights; 0 without any.

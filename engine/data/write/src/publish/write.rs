@@ -13,6 +13,7 @@ use cosfly_fingerprint::sha256::{HashingWriter, sha256_of};
 use cosfly_metrics::WindowShape;
 use cosfly_render::{Channel, ChannelSet};
 use cosfly_report::FlightSketch;
+use cosfly_schema::card_text::filled;
 use cosfly_schema::config::DatasetConfig;
 use cosfly_schema::extras::{self, Extra, ExtraShape, ExtraSource, ExtraSummary};
 use cosfly_schema::flight_table::Values;
@@ -61,6 +62,7 @@ pub fn write_dataset(
         keep_going,
     };
     let (mut summary, flights) = summarise(&items, rejections)?;
+    let config = &with_facts(config, &summary);
     for table in tables::of_trajectories() {
         let rows = dataset.trajectory_table(&table, &items)?;
         summary.rows.insert(table.name, rows);
@@ -86,6 +88,13 @@ pub fn write_dataset(
     dataset.put("README.md", card::readme(config, &summary).as_bytes())?;
     dataset.finish(config, &summary)?;
     Ok(summary)
+}
+
+/// The configuration with facts instead of their names in title and description.
+fn with_facts(config: &DatasetConfig, summary: &Summary) -> DatasetConfig {
+    let facts = summary.facts();
+    let [title, description] = [&config.title, &config.description].map(|text| filled(text, &facts));
+    DatasetConfig { title, description, ..config.clone() }
 }
 
 /// One pass over all trajectories for their splits, which must not leak.
@@ -234,6 +243,7 @@ impl Items<'_> {
             mcap_path: self.plan.mcap_paths[index].clone(),
             expert: if reading.expert { self.expert_of(&record)? } else { None },
             membership: Membership {
+                split: self.plan.splits[index],
                 split_group: self.assignment.groups[index].clone(),
                 is_seen: self.is_seen[index],
                 subset_rank: self.assignment.subset_ranks[index],

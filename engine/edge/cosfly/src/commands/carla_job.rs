@@ -1,8 +1,8 @@
 //! `cosfly carla-job`: the flights of a dataset as a job for a CARLA server.
 
 use crate::command::{Command, Outcome};
+use crate::console::Console;
 use crate::exit;
-use crate::output::print;
 use crate::text::count;
 use clap::Parser;
 use cosfly_diagnose::{Diagnostic, Result};
@@ -35,8 +35,8 @@ pub struct Arguments {
 }
 
 impl Command for Arguments {
-    fn run(&self) -> Outcome {
-        print(&written(self)?)?;
+    fn run(&self, console: &dyn Console) -> Outcome {
+        console.print(&written(self)?)?;
         Ok(exit::SUCCESS)
     }
 }

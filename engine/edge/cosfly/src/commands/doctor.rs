@@ -1,15 +1,14 @@
 //! `cosfly doctor`: examines anyone's data and prints its findings.
 
 use crate::command::{Command, Outcome};
+use crate::console::Console;
 use crate::exit;
-use crate::output::print;
-use crate::progress::Bar;
 use crate::text::count;
 use clap::Parser;
 use cosfly_diagnose::Diagnostic;
-use cosfly_doctor::{Examination, Layout, Severity, examine};
+use cosfly_doctor::{Examination, Layout, Severity, ShortcutFigures, examine};
 use std::fmt::Write;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 /// Flags that are printed; all of them are in the JSON file.
 const PRINTED: usize = 200;
@@ -39,23 +38,24 @@ pub struct Arguments {
     /// Share of episodes, percent, that lose their target for a time between two lengths in seconds (repeatable)
     #[arg(long = "quota", value_name = "PERCENT:FROM-TO", value_parser = quota)]
     quotas: Vec<cosfly_doctor::Quota>,
-    /// Write all findings as JSON
+    /// Write all findings as JSON; - for standard output, instead of the text
     #[arg(long, value_name = "FILE")]
     json: Option<PathBuf>,
 }
 
 impl Command for Arguments {
-    fn run(&self) -> Outcome {
-        let bar = Bar::new("doctor", "episodes");
-        let examination = examine(&self.dir, &self.quotas, &mut |done, all| bar.show(done, all))?;
-        drop(bar);
-        if let Some(path) = &self.json {
-            let json = serde_json::to_string_pretty(&examination).unwrap_or_default();
-            std::fs::write(path, json + "\n")
+    fn run(&self, console: &dyn Console) -> Outcome {
+        let progress = console.progress("doctor", "episodes");
+        let examination = examine(&self.dir, &self.quotas, &mut |done, all| progress(done, all))?;
+        drop(progress);
+        let json = || serde_json::to_string_pretty(&examination).unwrap_or_default();
+        let is_printed = self.json.as_deref() == Some(Path::new("-"));
+        if let Some(path) = self.json.as_ref().filter(|_| !is_printed) {
+            std::fs::write(path, json() + "\n")
                 .map_err(|error| Diagnostic::io(format!("write `{}`", path.display()), &error))?;
         }
         let allowed = self.imperfect / 100.0;
-        print(&text(&examination, allowed))?;
+        console.print(&if is_printed { json() + "\n" } else { text(&examination, allowed) })?;
         let quotas_are_met = examination.quotas.iter().all(|(quota, found)| *found >= quota.wanted);
         let is_well = !examination.has_damage() && examination.imperfect_share() <= allowed && quotas_are_met;
         Ok(if is_well { exit::SUCCESS } else { exit::FOUND_PROBLEMS })
@@ -100,6 +100,7 @@ fn text(examination: &Examination, allowed: f64) -> String {
         let shares = shares.map(|(name, (_, frames))| format!("{name}: {:.1} %", 100.0 * *frames as f64 / told as f64));
         let _ = writeln!(text, "frames by visible share of the target: {}", shares.collect::<Vec<_>>().join(", "));
     }
+    text.push_str(&examination.shortcuts.as_ref().map_or_else(String::new, shortcuts));
     for gap in &examination.unchecked {
         let _ = writeln!(text, "not checked: {gap}");
     }
@@ -124,5 +125,28 @@ fn text(examination: &Examination, allowed: f64) -> String {
         100.0 * allowed,
         examination.damaged
     );
+    text
+}
+
+/// Signs that give targets away, a line each.
+fn shortcuts(figures: &ShortcutFigures) -> String {
+    let mut text = String::new();
+    if let (Some(share), Some(nearer)) = (figures.target_nearest_the_centre, figures.mean_people_nearer) {
+        let _ = writeln!(
+            text,
+            "the target is the person nearest to the picture's centre in {:.1} % of {}; {nearer:.2} people are nearer on average",
+            100.0 * share,
+            count(figures.frames, "expert frame")
+        );
+    }
+    let (colourful, bright) = (figures.clothes_auc_colourfulness, figures.clothes_auc_brightness);
+    if let (Some(colourful), Some(bright), Some(error)) = (colourful, bright, figures.clothes_auc_standard_error) {
+        let _ = writeln!(
+            text,
+            "clothes tell {} from {} with AUC {colourful:.2} by colourfulness, {bright:.2} by brightness; 0.50 +- {error:.2} is chance",
+            count(figures.targets as u64, "target"),
+            count(figures.others as u64, "bystander")
+        );
+    }
     text
 }

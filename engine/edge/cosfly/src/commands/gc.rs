@@ -2,8 +2,8 @@
 
 use crate::arguments::StoreArguments;
 use crate::command::{Command, Outcome};
+use crate::console::Console;
 use crate::exit;
-use crate::output::print;
 use crate::text::{bytes, count};
 use clap::Parser;
 use cosfly_store::{GarbageOptions, collect_garbage};
@@ -35,7 +35,7 @@ pub struct Arguments {
 }
 
 impl Command for Arguments {
-    fn run(&self) -> Outcome {
+    fn run(&self, console: &dyn Console) -> Outcome {
         let root = self.store.folder();
         let options = GarbageOptions {
             keep_runs: self.keep_runs,
@@ -45,7 +45,7 @@ impl Command for Arguments {
         };
         let report = collect_garbage(&root, &options)?;
         let verb = if self.delete { "removed" } else { "would remove" };
-        print(&format!(
+        console.print(&format!(
             "{verb} {} ({}), {} ({}), {} of dead processes ({})\n{} stay ({})\n",
             count(report.blobs, "blob"),
             bytes(report.blob_bytes),
@@ -57,7 +57,7 @@ impl Command for Arguments {
             bytes(report.kept_blob_bytes),
         ))?;
         if !self.delete {
-            print("nothing was deleted; add `--delete` to do it\n")?;
+            console.print("nothing was deleted; add `--delete` to do it\n")?;
         }
         Ok(exit::SUCCESS)
     }

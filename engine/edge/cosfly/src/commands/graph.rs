@@ -2,8 +2,8 @@
 
 use crate::arguments::RecipeArguments;
 use crate::command::{Command, Outcome};
+use crate::console::Console;
 use crate::exit;
-use crate::output::print;
 use clap::{Parser, ValueEnum};
 use cosfly_recipe::Format;
 
@@ -28,13 +28,13 @@ enum GraphFormat {
 }
 
 impl Command for Arguments {
-    fn run(&self) -> Outcome {
-        let recipe = self.recipe.load()?;
+    fn run(&self, console: &dyn Console) -> Outcome {
+        let recipe = self.recipe.load(console)?;
         let format = match self.format {
             GraphFormat::Mermaid => Format::Mermaid,
             GraphFormat::Dot => Format::Dot,
         };
-        print(&cosfly_recipe::graph(&recipe, format))?;
+        console.print(&cosfly_recipe::graph(&recipe, format))?;
         Ok(exit::SUCCESS)
     }
 }

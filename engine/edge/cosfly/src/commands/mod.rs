@@ -9,6 +9,7 @@ mod eval;
 mod export;
 mod gc;
 mod graph;
+mod init;
 mod plan;
 mod plan_from;
 #[cfg(feature = "plugins")]
@@ -38,6 +39,7 @@ pub const COMMANDS: &[Entry] = &[
     Entry::of::<export::Arguments>(),
     Entry::of::<gc::Arguments>(),
     Entry::of::<graph::Arguments>(),
+    Entry::of::<init::Arguments>(),
     Entry::of::<plan::Arguments>(),
     Entry::of::<plan_from::Arguments>(),
     #[cfg(feature = "plugins")]

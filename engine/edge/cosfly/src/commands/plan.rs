@@ -2,12 +2,13 @@
 
 use crate::arguments::{RecipeArguments, StoreArguments};
 use crate::command::{Command, Outcome};
+use crate::console::Console;
 use crate::exit;
-use crate::output::print;
 use crate::text::{bytes, count};
 use clap::Parser;
 use cosfly_runner::{Plan, Reason};
 use cosfly_store::Store;
+use serde_json::json;
 use std::fmt::Write;
 
 /// Show the DAG of a recipe: items per stage, what is cached, what would run and why, predicted size
@@ -18,16 +19,34 @@ pub struct Arguments {
     recipe: RecipeArguments,
     #[command(flatten)]
     store: StoreArguments,
+    /// Print JSON
+    #[arg(long)]
+    json: bool,
 }
 
 impl Command for Arguments {
-    fn run(&self) -> Outcome {
-        let recipe = self.recipe.load()?;
+    fn run(&self, console: &dyn Console) -> Outcome {
+        let recipe = self.recipe.load(console)?;
         let store = Store::open_to_read(&self.store.folder())?;
         let plan = cosfly_runner::plan(&recipe, &store)?;
-        print(&table(&plan))?;
+        console.print(&if self.json { json(&plan) } else { table(&plan) })?;
         Ok(exit::SUCCESS)
     }
+}
+
+/// The plan for programs.
+fn json(plan: &Plan<'_>) -> String {
+    let stages = plan.stages.iter().map(|stage| {
+        let reasons =
+            stage.reasons.iter().map(|(reason, items)| json!({ "reason": reason.to_string(), "items": items }));
+        json!({
+            "stage": stage.name.as_str(), "uses": stage.kind, "items": stage.items(), "cached": stage.cached(),
+            "to_run": stage.to_run(), "predicted_bytes": stage.predicted_bytes, "reasons": reasons.collect::<Vec<_>>(),
+        })
+    });
+    let predicted: u64 = plan.stages.iter().map(|stage| stage.predicted_bytes).sum();
+    let whole = json!({ "to_run": plan.to_run(), "predicted_bytes": predicted, "stages": stages.collect::<Vec<_>>() });
+    format!("{whole:#}\n")
 }
 
 /// Text of a plan: aligned columns, with the reasons below each stage that has items to run.

@@ -11,7 +11,7 @@ const COMMANDS: &[Entry] = &[
 ];
 
 /// The group.
-pub const PLUGIN: Entry = Entry { command: group, run: |matches| dispatch(COMMANDS, matches) };
+pub const PLUGIN: Entry = Entry { command: group, run: |matches, console| dispatch(COMMANDS, matches, console) };
 
 fn group() -> clap::Command {
     let about = "Begin, check and measure plugins: cost terms, objectives and stages of your own";

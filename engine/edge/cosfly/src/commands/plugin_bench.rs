@@ -2,8 +2,8 @@
 
 use super::plugin_check;
 use crate::command::{Command, Outcome, Refusals};
+use crate::console::Console;
 use crate::exit;
-use crate::output::print;
 use clap::Parser;
 use cosfly_diagnose::{Diagnostic, Fault};
 use cosfly_frames::{DVec3, Seed};
@@ -71,13 +71,13 @@ pub struct Arguments {
 }
 
 impl Command for Arguments {
-    fn run(&self) -> Outcome {
-        bench(self)
+    fn run(&self, console: &dyn Console) -> Outcome {
+        bench(self, console)
     }
 }
 
 /// Prints a table of ratios.
-fn bench(arguments: &Arguments) -> Outcome {
+fn bench(arguments: &Arguments, console: &dyn Console) -> Outcome {
     let one = |error: PluginError| error.diagnostic(None);
     let host = Host::new(None);
     let limits = PluginLimits::default();
@@ -108,7 +108,7 @@ fn bench(arguments: &Arguments) -> Outcome {
     if let Some(file) = &arguments.file {
         text.push_str(&own(file, arguments)?);
     }
-    print(&text)?;
+    console.print(&text)?;
     Ok(exit::SUCCESS)
 }
 

@@ -1,8 +1,8 @@
 //! `cosfly plugin check`: what a plugin says of itself, and whether it keeps the laws of its kind.
 
 use crate::command::{Command, Outcome, Refusals};
+use crate::console::Console;
 use crate::exit;
-use crate::output::print;
 use clap::Parser;
 use cosfly_diagnose::{Diagnostic, Fault};
 use cosfly_plugin_host::laws::{self, Finding};
@@ -42,13 +42,13 @@ pub struct Arguments {
 }
 
 impl Command for Arguments {
-    fn run(&self) -> Outcome {
-        check(self)
+    fn run(&self, console: &dyn Console) -> Outcome {
+        check(self, console)
     }
 }
 
 /// Prints the description, one line per law, and a verdict.
-fn check(arguments: &Arguments) -> Outcome {
+fn check(arguments: &Arguments, console: &dyn Console) -> Outcome {
     let started = Instant::now();
     let plugin = load(arguments)?;
     let took_ms = 1e3 * started.elapsed().as_secs_f64();
@@ -77,7 +77,7 @@ fn check(arguments: &Arguments) -> Outcome {
         0 => writeln!(text, "it keeps the laws of its kind"),
         count => writeln!(text, "{count} laws are broken"),
     };
-    print(&text)?;
+    console.print(&text)?;
     Ok(if broken == 0 { exit::SUCCESS } else { exit::FOUND_PROBLEMS })
 }
 

@@ -1,8 +1,8 @@
 //! `cosfly plugin new`: the beginning of a plugin, as a project that builds.
 
 use crate::command::{Command, Outcome};
+use crate::console::Console;
 use crate::exit;
-use crate::output::print;
 use clap::{Parser, ValueEnum};
 use cosfly_diagnose::{Diagnostic, Fault};
 use std::fs;
@@ -63,13 +63,13 @@ enum PluginKind {
 }
 
 impl Command for Arguments {
-    fn run(&self) -> Outcome {
-        new(self)
+    fn run(&self, console: &dyn Console) -> Outcome {
+        new(self, console)
     }
 }
 
 /// Writes the project and says how to go on.
-fn new(arguments: &Arguments) -> Outcome {
+fn new(arguments: &Arguments, console: &dyn Console) -> Outcome {
     let name = arguments.path.file_name().and_then(|name| name.to_str()).unwrap_or_default();
     let is_plain = |byte: u8| byte.is_ascii_lowercase() || byte.is_ascii_digit() || byte == b'_';
     let begins = name.bytes().next().is_some_and(|byte| byte.is_ascii_lowercase());
@@ -87,7 +87,7 @@ fn new(arguments: &Arguments) -> Outcome {
     }
     write(arguments, name)?;
     let built = format!("target/wasm32-unknown-unknown/release/{name}.wasm");
-    print(&format!(
+    console.print(&format!(
         "wrote `{0}`: what it does is in `{0}/src/lib.rs`. Then:\n  cd {0}\n  cargo test\n  cargo build --release --target \
          wasm32-unknown-unknown     (once before: rustup target add wasm32-unknown-unknown)\n  cosfly plugin check {built}\n",
         arguments.path.display()

@@ -1,9 +1,8 @@
 //! `cosfly preview`: pictures of a finished flight.
 
 use crate::command::{Command, Outcome};
+use crate::console::Console;
 use crate::exit;
-use crate::output::print;
-use crate::progress::Bar;
 use crate::text::{bytes, count};
 use clap::Parser;
 use cosfly_diagnose::{Diagnostic, Result};
@@ -39,22 +38,26 @@ pub struct Arguments {
     /// Folder for the pictures [default: <DATASET>-preview]
     #[arg(long, value_name = "DIR")]
     out: Option<PathBuf>,
+    /// Print JSON
+    #[arg(long)]
+    json: bool,
 }
 
 impl Command for Arguments {
-    fn run(&self) -> Outcome {
+    fn run(&self, console: &dyn Console) -> Outcome {
         let dataset = PublishedDataset::open(&self.dir)?;
         let flight = match &self.trajectory {
             Some(id) => dataset.flight(id)?,
             None => &dataset.flights()[0],
         };
-        let bar = Bar::new("reading", "frames");
+        let progress = console.progress("reading", "frames");
         let pictures =
-            cosfly_preview::draw(&dataset, flight, self.frames.as_ref(), &mut |done, all| bar.show(done, all))?;
-        drop(bar);
+            cosfly_preview::draw(&dataset, flight, self.frames.as_ref(), &mut |done, all| progress(done, all))?;
+        drop(progress);
         let out = self.out.clone().unwrap_or_else(|| beside(&self.dir));
         let written = write(&out, flight, &pictures)?;
-        print(&report(&dataset, flight, &pictures, &written))?;
+        let text = if self.json { json(flight, &written) } else { report(&dataset, flight, &pictures, &written) };
+        console.print(&text)?;
         Ok(exit::SUCCESS)
     }
 }
@@ -84,6 +87,12 @@ fn write(out: &Path, flight: &PublishedFlight, pictures: &Pictures) -> Result<Ve
         written.push((path, file.len() as u64));
     }
     Ok(written)
+}
+
+/// The pictures for programs.
+fn json(flight: &PublishedFlight, written: &[(PathBuf, u64)]) -> String {
+    let paths: Vec<String> = written.iter().map(|(path, _)| path.display().to_string()).collect();
+    format!("{:#}\n", serde_json::json!({ "trajectory": flight.trajectory_id, "files": paths }))
 }
 
 fn report(

@@ -2,10 +2,9 @@
 
 use crate::arguments::{RecipeArguments, StoreArguments};
 use crate::command::{Command, Outcome};
-use crate::output::print;
-use crate::reporter::{Reporter, colour};
+use crate::console::Console;
+use crate::exit;
 use crate::text::{bytes, count, duration};
-use crate::{exit, interrupt};
 use clap::Parser;
 use cosfly_fingerprint::Digest;
 use cosfly_recipe::{Recipe, RecipeStage};
@@ -49,30 +48,30 @@ pub struct Arguments {
 }
 
 impl Command for Arguments {
-    fn run(&self) -> Outcome {
+    fn run(&self, console: &dyn Console) -> Outcome {
         let began = Instant::now();
-        let recipe = self.recipe.load()?;
+        let recipe = self.recipe.load(console)?;
         let out = self.out.clone().unwrap_or_else(|| PathBuf::from("out").join(&recipe.name));
         check_out_folder(&self.store.folder(), &out)?;
         let store = Store::open(&self.store.folder())?;
         let jobs = self.jobs.map_or_else(|| std::thread::available_parallelism().map_or(1, usize::from), usize::from);
-        let options = RunOptions { jobs, cancelled: interrupt::flag() };
-        let reporter = Reporter::new(self.quiet);
+        let options = RunOptions { jobs, cancelled: console.cancelled() };
+        let progress = console.run_progress(self.quiet);
         let wanted = delivered_stage(&recipe);
-        let delivery = deliver(&recipe, &store, wanted, &out, &options, &|event| reporter.show(event));
-        reporter.finish();
+        let delivery = deliver(&recipe, &store, wanted, &out, &options, &*progress);
+        drop(progress);
         let delivery = delivery?;
         if self.json {
-            print(&json(&recipe, &delivery, &out))?;
+            console.print(&json(&recipe, &delivery, &out))?;
         } else {
             let took = duration(began.elapsed());
             if !self.quiet {
-                print(&stages(&delivery.summary))?;
+                console.print(&stages(&delivery.summary))?;
             }
             let wanted = &recipe.stages[wanted].name;
-            print(&result(&delivery, wanted, &out, &self.store.folder(), &took, self.quiet))?;
+            console.print(&result(&delivery, wanted, &out, &self.store.folder(), &took, self.quiet))?;
         }
-        Ok(ended(&delivery.summary))
+        Ok(ended(&delivery.summary, console))
     }
 }
 
@@ -83,12 +82,12 @@ fn delivered_stage(recipe: &Recipe) -> usize {
 }
 
 /// Exit code, after printing the failures that belong to no task (failed tasks were reported as they failed).
-fn ended(summary: &RunSummary) -> u8 {
+fn ended(summary: &RunSummary, console: &dyn Console) -> u8 {
     if summary.outcome == RunOutcome::Cancelled {
         return exit::STOPPED;
     }
     for diagnostic in &summary.diagnostics {
-        eprintln!("{}", cosfly_diagnose::render(diagnostic, colour()));
+        console.tell(&cosfly_diagnose::render(diagnostic, console.colour()));
     }
     let failed = summary.failures.iter().map(|failure| exit::code_of(&failure.diagnostic));
     failed.chain(summary.diagnostics.iter().map(|diagnostic| exit::code_of(diagnostic))).max().unwrap_or(exit::SUCCESS)

@@ -1,8 +1,8 @@
 //! `cosfly schema`: the generated schema and reference pages.
 
 use crate::command::{Command, Outcome};
+use crate::console::Console;
 use crate::exit;
-use crate::output::print;
 use clap::Parser;
 
 /// Print the recipe's JSON Schema, or a generated reference page
@@ -25,7 +25,7 @@ pub struct Arguments {
 }
 
 impl Command for Arguments {
-    fn run(&self) -> Outcome {
+    fn run(&self, console: &dyn Console) -> Outcome {
         let registry = cosfly_stages::registry();
         let text = if self.tables {
             cosfly_schema::reference()
@@ -35,7 +35,7 @@ impl Command for Arguments {
             let schema = cosfly_recipe::schema(&registry);
             serde_json::to_string_pretty(&schema).expect("a schema is plain JSON") + "\n"
         };
-        print(&text)?;
+        console.print(&text)?;
         Ok(exit::SUCCESS)
     }
 }

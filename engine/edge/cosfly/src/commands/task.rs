@@ -2,8 +2,8 @@
 
 use crate::arguments::StoreArguments;
 use crate::command::{Command, Entry, Outcome, dispatch, with_commands};
-use crate::output::print;
-use crate::{exit, interrupt};
+use crate::console::Console;
+use crate::exit;
 use clap::Parser;
 use cosfly_diagnose::{Diagnostic, Fault};
 use cosfly_fingerprint::Digest;
@@ -13,7 +13,7 @@ use cosfly_store::Store;
 const COMMANDS: &[Entry] = &[Entry::of::<Arguments>()];
 
 /// The group.
-pub const TASK: Entry = Entry { command: group, run: |matches| dispatch(COMMANDS, matches) };
+pub const TASK: Entry = Entry { command: group, run: |matches, console| dispatch(COMMANDS, matches, console) };
 
 fn group() -> clap::Command {
     with_commands(clap::Command::new("task").about("Run one planned task (for schedulers)"), COMMANDS)
@@ -31,14 +31,14 @@ struct Arguments {
 }
 
 impl Command for Arguments {
-    fn run(&self) -> Outcome {
+    fn run(&self, console: &dyn Console) -> Outcome {
         let plan: Digest = self.digest.parse().map_err(|_| {
             Diagnostic::new("task-digest", Fault::Recipe, format!("`{}` is not a plan digest", self.digest))
                 .hint("a plan digest has 64 hex digits")
         })?;
         let store = Store::open(&self.store.folder())?;
-        let work = cosfly_runner::run_task(&store, &cosfly_stages::registry(), &plan, interrupt::flag())?;
-        print(match work {
+        let work = cosfly_runner::run_task(&store, &cosfly_stages::registry(), &plan, console.cancelled())?;
+        console.print(match work {
             Work::Ran => "ran\n",
             Work::Cached | Work::Reused => "already done\n",
         })?;

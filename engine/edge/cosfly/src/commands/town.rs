@@ -1,8 +1,8 @@
 //! `cosfly town`: a generated OpenDRIVE town.
 
 use crate::command::{Command, Outcome};
+use crate::console::Console;
 use crate::exit;
-use crate::output::print;
 use clap::Parser;
 use cosfly_maps::generate::{GenerateConfig, generate_town};
 
@@ -16,8 +16,8 @@ pub struct Arguments {
 }
 
 impl Command for Arguments {
-    fn run(&self) -> Outcome {
-        print(&generate_town(&GenerateConfig::default(), self.seed))?;
+    fn run(&self, console: &dyn Console) -> Outcome {
+        console.print(&generate_town(&GenerateConfig::default(), self.seed))?;
         Ok(exit::SUCCESS)
     }
 }

@@ -2,11 +2,12 @@
 
 use crate::arguments::{RecipeArguments, StoreArguments};
 use crate::command::{Command, Outcome};
+use crate::console::Console;
 use crate::exit;
-use crate::output::print;
 use clap::Parser;
 use cosfly_runner::Explanation;
 use cosfly_store::Store;
+use serde_json::json;
 use std::fmt::Write;
 
 /// Say which field or input changed since a stage or an item was last made
@@ -26,20 +27,35 @@ pub struct Arguments {
     subject: String,
     #[command(flatten)]
     store: StoreArguments,
+    /// Print JSON
+    #[arg(long)]
+    json: bool,
 }
 
 impl Command for Arguments {
-    fn run(&self) -> Outcome {
-        let recipe = self.recipe.load()?;
+    fn run(&self, console: &dyn Console) -> Outcome {
+        let recipe = self.recipe.load(console)?;
         let store = Store::open_to_read(&self.store.folder())?;
         let (stage, item) = match self.subject.split_once('/') {
             Some((stage, item)) => (stage, Some(item)),
             None => (self.subject.as_str(), None),
         };
         let explanation = cosfly_runner::why(&recipe, &store, stage, item)?;
-        print(&told(&explanation))?;
+        console.print(&if self.json { json(&explanation) } else { told(&explanation) })?;
         Ok(exit::SUCCESS)
     }
+}
+
+/// The explanation for programs.
+fn json(explanation: &Explanation) -> String {
+    let chain = explanation.chain.iter().map(|link| {
+        let changes: Vec<String> = link.changes.iter().map(ToString::to_string).collect();
+        json!({ "task": link.id.to_string(), "changes": changes })
+    });
+    let whole = json!({
+        "task": explanation.id.to_string(), "cached": explanation.finished, "chain": chain.collect::<Vec<_>>(),
+    });
+    format!("{whole:#}\n")
 }
 
 /// Text of an explanation: the chain from the task to the root cause, one indentation per step upstream.

@@ -16,7 +16,7 @@ use wasmparser::Parser;
 /// The component in `bytes`, the contents of a file.
 ///
 /// # Errors
-/// Why there is none, in words.
+/// The reason for its absence, in words.
 pub fn component_of(bytes: &[u8]) -> Result<Cow<'_, [u8]>, String> {
     if Parser::is_component(bytes) {
         return Ok(bytes.into());

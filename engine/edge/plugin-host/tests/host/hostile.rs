@@ -51,6 +51,16 @@ fn endless_recursion_and_traps_are_named() {
 }
 
 #[test]
+fn words_of_plugins_do_not_control_the_terminal() {
+    let text = TermText { name: "\\1b[2J\\07red", ..TermText::default() };
+    for bytes in [Some(text.bytes()), text.component()].into_iter().flatten() {
+        let error = load(&bytes).err().expect("the name is refused");
+        assert!(error.message.contains("\u{241b}[2J\u{2407}red"), "{error:?}");
+        assert!(!error.message.chars().any(char::is_control), "{error:?}");
+    }
+}
+
+#[test]
 fn wrong_answers_are_named_with_their_place() {
     for (more, words) in [(-1, "5 costs for 6 waypoints"), (1, "7 costs for 6 waypoints")] {
         check(TermText { more, ..TermText::default() }, Some("evaluate"), words);

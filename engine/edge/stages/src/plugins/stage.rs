@@ -133,7 +133,7 @@ fn judged(flight: Trajectory, declared: &Declaration, answer: &[u8]) -> Result<P
     Ok(if verdict.keep {
         PlanOutcome::Planned(Box::new(flight))
     } else {
-        PlanOutcome::Rejected { track: flight.track, reason: verdict.reason }
+        PlanOutcome::Rejected { track: flight.track, reason: cosfly_diagnose::visible_text(&verdict.reason) }
     })
 }
 

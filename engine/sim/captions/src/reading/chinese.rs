@@ -3,6 +3,7 @@
 use super::{Claim, count};
 use crate::compass::Compass;
 use crate::turns::TurnKind;
+use cosfly_render::Colour;
 
 const ALTITUDE_WORDS: [&str; 3] = ["高", "上方", "头顶"];
 const WAY_WORDS: [&str; 4] = ["全程", "路程", "行程", "走了"];
@@ -10,9 +11,32 @@ const DISTANCE_WORDS: [&str; 6] = ["距", "保持", "间隔", "外", "远", "后
 const STANDING_WORDS: [&str; 4] = ["站立", "站着", "静止", "原地"];
 const STRAIGHT_WORDS: [&str; 4] = ["直行", "笔直", "径直", "直走"];
 
+const COLOURS: [(&str, Colour); 12] = [
+    ("黑", Colour::Black),
+    ("灰", Colour::Grey),
+    ("白", Colour::White),
+    ("红", Colour::Red),
+    ("橙", Colour::Orange),
+    ("黄", Colour::Yellow),
+    ("绿", Colour::Green),
+    ("蓝", Colour::Blue),
+    ("紫", Colour::Purple),
+    ("粉", Colour::Pink),
+    ("棕", Colour::Brown),
+    ("米", Colour::Beige),
+];
+
 /// Everything that the text claims, in order.
 pub fn read(text: &str) -> Vec<Claim> {
-    clauses(text).iter().flat_map(|clause| read_clause(clause)).collect()
+    let mut after_stop = false;
+    let read = |clause: &Vec<char>| {
+        let words: String = clause.iter().collect();
+        // `途中停留一次，约3秒`: the time belongs to the stop.
+        let about_stops = words.contains('停') || after_stop && ["约", "共约"].iter().any(|it| words.starts_with(it));
+        after_stop = words.contains('停');
+        read_clause(&words, about_stops)
+    };
+    clauses(text).iter().flat_map(read).collect()
 }
 
 fn clauses(text: &str) -> Vec<Vec<char>> {
@@ -29,14 +53,18 @@ fn clauses(text: &str) -> Vec<Vec<char>> {
     clauses
 }
 
-fn read_clause(chars: &[char]) -> Vec<Claim> {
-    let clause: String = chars.iter().collect();
-    let about_stops = clause.contains('停');
+fn read_clause(clause: &str, about_stops: bool) -> Vec<Claim> {
     let mut claims = vec![];
-    let mut rest = clause.as_str();
+    let mut rest = clause;
     while let Some(first) = rest.chars().next() {
-        if let Some((value, after)) = number(rest) {
-            let (claim, used) = quantity(value, after, &clause, about_stops);
+        if let Some((kind, times, after)) = repeated_turn(rest) {
+            claims.extend(core::iter::repeat_n(Claim::Turn(kind), times));
+            rest = after;
+        } else if let Some((claim, after)) = garment(rest) {
+            claims.push(claim);
+            rest = after;
+        } else if let Some((value, after)) = number(rest) {
+            let (claim, used) = quantity(value, after, clause, about_stops);
             claims.push(claim);
             rest = &after[used..];
         } else if let Some((direction, length)) = compass(rest) {
@@ -58,15 +86,35 @@ fn read_clause(chars: &[char]) -> Vec<Claim> {
     if STANDING_WORDS.iter().any(|word| clause.contains(word)) {
         claims.push(Claim::Stays);
     }
-    if STRAIGHT_WORDS.iter().any(|word| clause.contains(word)) || denied(&clause, '转') {
+    if STRAIGHT_WORDS.iter().any(|word| clause.contains(word)) || denied(clause, '转') {
         claims.push(Claim::NoTurns);
     }
-    if denied(&clause, '停') {
+    if denied(clause, '停') {
         claims.push(Claim::Stops(0));
     } else if about_stops && !claims.iter().any(|claim| matches!(claim, Claim::Stops(_) | Claim::Standing(_))) {
         claims.push(Claim::SomeStops);
     }
     claims
+}
+
+/// `两次右转` at the start of `text`: the turn, its repetitions, and what follows.
+fn repeated_turn(text: &str) -> Option<(TurnKind, usize, &str)> {
+    let (value, after) = number(text)?;
+    let after = after.strip_prefix('次')?;
+    let (kind, length) = turn(after)?;
+    (value.fract() == 0.0 && value < 100.0).then(|| (kind, value as usize, &after[length..]))
+}
+
+/// A colour before a garment at the start of `text`, or luggage; and what follows.
+fn garment(text: &str) -> Option<(Claim, &str)> {
+    if let Some(after) = text.strip_prefix("背包") {
+        return Some((Claim::Backpack, after));
+    }
+    let (colour, after) = COLOURS.iter().find_map(|(name, colour)| Some((*colour, text.strip_prefix(name)?)))?;
+    let after = after.strip_prefix('色').unwrap_or(after).trim_start_matches('的');
+    let starts = |garments: &[&str]| garments.iter().find_map(|garment| after.strip_prefix(garment));
+    let top = starts(&["上衣", "外套", "衬衫"]).map(|after| (Claim::Top(colour), after));
+    top.or_else(|| starts(&["裤子", "长裤"]).map(|after| (Claim::Trousers(colour), after)))
 }
 
 /// Whether a negation comes before the word in the clause.
@@ -166,6 +214,15 @@ mod tests {
                 vec![Claim::TurnsOf(TurnKind::Left, 2), Claim::Turn(TurnKind::Right), Claim::Turn(TurnKind::Around)],
             ),
             ("向北东走，3只猫", vec![Claim::Unknown("北东".into()), Claim::Unknown("3".into())]),
+            (
+                "出发后连续两次右转，再左转",
+                vec![Claim::Turn(TurnKind::Right), Claim::Turn(TurnKind::Right), Claim::Turn(TurnKind::Left)],
+            ),
+            ("途中停留一次，约3秒，历时约20秒", vec![Claim::Stops(1), Claim::Standing(3.0), Claim::Duration(20.0)]),
+            (
+                "身穿红色上衣、蓝色裤子、背着背包的行人",
+                vec![Claim::Top(Colour::Red), Claim::Trousers(Colour::Blue), Claim::Backpack],
+            ),
             ("在目标上方20米", vec![Claim::Altitude(20.0)]),
         ] {
             assert_eq!(read(text), expected, "{text}");

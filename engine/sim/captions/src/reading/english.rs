@@ -3,6 +3,7 @@
 use super::{Claim, count};
 use crate::compass::Compass;
 use crate::turns::TurnKind;
+use cosfly_render::Colour;
 
 const ALTITUDE_WORDS: [&str; 6] = ["above", "high", "higher", "height", "altitude", "overhead"];
 const WAY_WORDS: [&str; 7] = ["covers", "cover", "route", "path", "long", "length", "walked"];
@@ -83,13 +84,15 @@ fn read_clause(tokens: &[Token]) -> Vec<Claim> {
             _ => "",
         };
         match token {
-            Token::Number(value) => claims.push(quantity(*value, next, &words, about_stops)),
+            Token::Number(value) => claims.extend(quantity(*value, next, &words, about_stops)),
             Token::Word(word) => {
                 if let Some(value) = number_word(word).filter(|_| is_unit(next)) {
-                    claims.push(quantity(value, next, &words, about_stops));
+                    claims.extend(quantity(value, next, &words, about_stops));
                 } else {
                     let counted = i > 0 && matches!(&tokens[i - 1], Token::Number(_));
-                    claims.extend(word_claim(word, counted, about_stops));
+                    let claim = garment_claim(word, next).or_else(|| word_claim(word, counted, about_stops));
+                    let repeated = matches!(claim, Some(Claim::Turn(_))).then(|| repetitions(&tokens[i + 1..]));
+                    claims.extend(core::iter::repeat_n(claim, repeated.unwrap_or(1)).flatten());
                 }
             }
         }
@@ -105,10 +108,35 @@ fn read_clause(tokens: &[Token]) -> Vec<Claim> {
     claims
 }
 
+/// A colour before a garment, and luggage.
+fn garment_claim(word: &str, next: &str) -> Option<Claim> {
+    if word == "backpack" {
+        return Some(Claim::Backpack);
+    }
+    let colour = Colour::ALL.into_iter().find(|colour| colour.name() == word)?;
+    match next {
+        "top" | "shirt" | "jacket" | "coat" => Some(Claim::Top(colour)),
+        "trousers" | "pants" | "jeans" => Some(Claim::Trousers(colour)),
+        _ => None,
+    }
+}
+
+/// How often the turn before these tokens is made: `twice`, `three times`, or once.
+fn repetitions(after: &[Token]) -> usize {
+    match after {
+        [Token::Word(word), ..] if word == "twice" => 2,
+        [Token::Word(number), Token::Word(times), ..] if times == "times" => {
+            number_word(number).map_or(1, |number| number as usize)
+        }
+        [Token::Number(number), Token::Word(times), ..] if times == "times" => *number as usize,
+        _ => 1,
+    }
+}
+
 /// The claim of a number with the word after it, in its clause.
-fn quantity(value: f64, unit: &str, words: &[&str], about_stops: bool) -> Claim {
+fn quantity(value: f64, unit: &str, words: &[&str], about_stops: bool) -> Option<Claim> {
     let has = |known: &[&str]| words.iter().any(|word| known.contains(word));
-    match unit {
+    Some(match unit {
         "m/s" => Claim::Speed(value),
         "m" | "metre" | "metres" | "meter" | "meters" => match () {
             () if has(&ALTITUDE_WORDS) => Claim::Altitude(value),
@@ -125,13 +153,15 @@ fn quantity(value: f64, unit: &str, words: &[&str], about_stops: bool) -> Claim 
             }
         }
         "time" | "times" if about_stops => count(value, unit, Claim::Stops),
+        // Repetitions of a turn, which the turn's own claims contain.
+        "time" | "times" if words.iter().any(|word| turn_word(word).is_some()) => return None,
         "turn" | "turns" => count(value, unit, Claim::Turns),
         stop if is_stop(stop) => count(value, unit, Claim::Stops),
         side => match turn_word(side) {
             Some(kind) => count(value, unit, |count| Claim::TurnsOf(kind, count)),
             None => Claim::Unknown(format!("{value} {unit}").trim_end().to_owned()),
         },
-    }
+    })
 }
 
 fn word_claim(word: &str, counted: bool, about_stops: bool) -> Option<Claim> {
@@ -200,6 +230,15 @@ mod tests {
             ("They stop", vec![Claim::SomeStops]),
             ("Go south-east at 1.4 m/s.", vec![Claim::Direction(Compass::Southeast), Claim::Speed(1.4)]),
             ("turns left, then right", vec![Claim::Turn(TurnKind::Left), Claim::Turn(TurnKind::Right)]),
+            (
+                "turns right twice, then left",
+                [vec![Claim::Turn(TurnKind::Right); 2], vec![Claim::Turn(TurnKind::Left)]].concat(),
+            ),
+            ("turns left three times", vec![Claim::Turn(TurnKind::Left); 3]),
+            (
+                "a person with a backpack in a red shirt and blue trousers",
+                vec![Claim::Backpack, Claim::Top(Colour::Red), Claim::Trousers(Colour::Blue)],
+            ),
             ("7 bananas", vec![Claim::Unknown("7 bananas".into())]),
             ("2.5 turns -3 m", vec![Claim::Unknown("2.5 turns".into()), Claim::Unknown("-3 m".into())]),
         ] {

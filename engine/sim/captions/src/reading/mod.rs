@@ -5,6 +5,7 @@ pub mod english;
 
 use crate::compass::Compass;
 use crate::turns::TurnKind;
+use cosfly_render::Colour;
 
 /// One claim of a text.
 #[derive(Clone, Debug, PartialEq)]
@@ -35,8 +36,14 @@ pub enum Claim {
     Turns(usize),
     /// So many turns to this side.
     TurnsOf(TurnKind, usize),
-    /// It goes straight.
+    /// Straight on.
     NoTurns,
+    /// The target wears a top of this colour.
+    Top(Colour),
+    /// The target wears trousers of this colour.
+    Trousers(Colour),
+    /// The target wears a backpack.
+    Backpack,
     /// The target stays where it is.
     Stays,
     /// A number that says nothing this reader knows.

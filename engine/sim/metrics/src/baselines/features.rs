@@ -12,17 +12,40 @@ fn turned(offset: DVec3, yaw_rad: f64) -> DVec3 {
     DVec3::new(c * offset.x + s * offset.y, c * offset.y - s * offset.x, offset.z)
 }
 
+/// What a trained baseline knows of the target.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Known {
+    /// Its true place in the world: no sensor of a drone gives it, and no model sees it.
+    #[default]
+    Places,
+    /// The box around its visible pixels.
+    Boxes,
+}
+
 /// Appends the features of a window to `features`: for every frame before the current one the pose relative to it, the
-/// current pitch and roll, and the target's position in every input frame.
-pub fn push_features(view: &View<'_>, features: &mut Vec<f64>) {
+/// current pitch and roll, and in every input frame the target's position, or middle, height and presence of its box in
+/// shares of the image.
+pub fn push_features(view: &View<'_>, known: Known, features: &mut Vec<f64>) {
     let current = view.current();
     for pose in &view.poses[..view.poses.len().saturating_sub(1)] {
         features.extend(relative(&current, pose));
     }
     features.extend([current.pitch_rad, current.roll_rad]);
-    for feet in view.feet {
-        features.extend(turned(*feet - current.position_in_world, current.yaw_rad).to_array());
+    match known {
+        Known::Places => {
+            for feet in view.feet {
+                features.extend(turned(*feet - current.position_in_world, current.yaw_rad).to_array());
+            }
+        }
+        Known::Boxes => features.extend(view.boxes.iter().flat_map(|edges| box_features(*edges, view.image_px))),
     }
+}
+
+/// Middle from the image's middle, height, and presence of a box.
+fn box_features(edges: Option<[f32; 4]>, [width, height]: [f32; 2]) -> [f64; 4] {
+    let Some([left, top, right, bottom]) = edges else { return [0.0; 4] };
+    let [across, down] = [0.5 * (left + right) / width - 0.5, 0.5 * (top + bottom) / height - 0.5];
+    [across, down, (bottom - top) / height, 1.0].map(f64::from)
 }
 
 /// `pose` relative to `current`.
@@ -65,6 +88,8 @@ pub fn waypoints_of(current: &Pose, outcomes: &[f64]) -> Vec<Pose> {
 /// Features and true outcomes of training windows, row by row.
 #[derive(Clone, Debug, Default)]
 pub struct Examples {
+    /// What features say of the target.
+    pub known: Known,
     /// Numbers in a row of features.
     pub width: usize,
     /// Numbers in a row of outcomes.
@@ -80,7 +105,7 @@ impl Examples {
     /// current pose unless increments start elsewhere. Windows of another shape than the first are skipped.
     pub fn push(&mut self, view: &View<'_>, start: &Pose, truth: &[Pose]) {
         let (features, outcomes) = (self.features.len(), self.outcomes.len());
-        push_features(view, &mut self.features);
+        push_features(view, self.known, &mut self.features);
         for pose in truth {
             self.outcomes.extend(outcome(view, start, pose));
         }
@@ -155,6 +180,16 @@ mod tests {
                 .length()
                 < 1e-12
         );
+    }
+
+    #[test]
+    fn boxes_are_shares_of_the_image_and_absent_ones_are_zeros() {
+        let poses = [Pose::looking_at(DVec3::ZERO, DVec3::X)];
+        let boxes = [Some([30.0, 10.0, 50.0, 30.0]), None];
+        let view = View { poses: &poses, boxes: &boxes, image_px: [80.0, 40.0], ..View::default() };
+        let mut features = vec![];
+        push_features(&view, Known::Boxes, &mut features);
+        assert_eq!(features[2..], [0.0, 0.0, 0.5, 1.0, 0.0, 0.0, 0.0, 0.0]);
     }
 
     #[test]

@@ -1,6 +1,6 @@
 //! Nearest-neighbour baseline: the waypoints of the most similar training window.
 
-use super::features::{Examples, Scaling, push_features, waypoints_of};
+use super::features::{Examples, Known, Scaling, push_features, waypoints_of};
 use super::prediction::{Prediction, View};
 
 /// Number of columns summed in parallel.
@@ -9,6 +9,7 @@ const LANES: usize = 8;
 /// Nearest-neighbour model over training windows.
 #[derive(Clone, Debug, PartialEq)]
 pub struct NearestNeighbour {
+    known: Known,
     scaling: Scaling,
     width: usize,
     depth: usize,
@@ -34,7 +35,7 @@ impl NearestNeighbour {
             rows.extend(lanes_of(&row));
             outcomes.extend_from_slice(&examples.outcomes[at * depth..][..depth]);
         }
-        Some(Self { scaling, width, depth, rows, outcomes })
+        Some(Self { known: examples.known, scaling, width, depth, rows, outcomes })
     }
 
     /// Number of stored windows.
@@ -51,7 +52,7 @@ impl NearestNeighbour {
     /// for a window of another shape.
     pub fn predict(&self, view: &View<'_>) -> Option<Prediction> {
         let mut features = Vec::with_capacity(self.width);
-        push_features(view, &mut features);
+        push_features(view, self.known, &mut features);
         if features.len() != self.width {
             return None;
         }

@@ -1,6 +1,6 @@
 //! Ridge regression from the input frames to the waypoints, in closed form.
 
-use super::features::{Examples, Scaling, push_features, waypoints_of};
+use super::features::{Examples, Known, Scaling, push_features, waypoints_of};
 use super::prediction::{Prediction, View};
 use super::solve::solve;
 
@@ -10,6 +10,7 @@ const PENALTY: f64 = 1e-3;
 /// A linear model of the waypoints.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Ridge {
+    known: Known,
     scaling: Scaling,
     width: usize,
     depth: usize,
@@ -41,13 +42,18 @@ impl Ridge {
             matrix[i * n + i] += PENALTY * examples.len() as f64;
         }
         solve(&matrix, n, &mut right, depth)?;
-        Some(Self { scaling, width, depth, weights: right })
+        Some(Self { known: examples.known, scaling, width, depth, weights: right })
+    }
+
+    /// What it knows of the target.
+    pub fn known(&self) -> Known {
+        self.known
     }
 
     /// Predicts the waypoints of a window; `None` for one of another shape than the training windows.
     pub fn predict(&self, view: &View<'_>) -> Option<Prediction> {
         let mut features = Vec::with_capacity(self.width + 1);
-        push_features(view, &mut features);
+        push_features(view, self.known, &mut features);
         if features.len() != self.width {
             return None;
         }

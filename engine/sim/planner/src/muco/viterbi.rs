@@ -133,7 +133,7 @@ impl<'a> Viterbi<'a> {
         self.feet.len()
     }
 
-    /// Orders the target to be lost at a layer, or no longer: there, what is seen costs instead of what is hidden.
+    /// Requires the target to be lost at a layer, or no longer: at such a layer visibility costs instead of occlusion.
     pub fn lose(&mut self, layer: usize, lost: bool) {
         self.lost[layer] = lost;
     }

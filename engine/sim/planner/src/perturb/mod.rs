@@ -1,10 +1,15 @@
-//! Perturbed twins of expert flights: parameters, displacements, and the twin itself.
+//! Perturbed twins of expert flights: parameters, kinds, displacements, and the twin itself.
 
 pub mod config;
 mod displacement;
+mod flyable;
+pub mod kind;
+mod motion;
+mod search;
 mod twin;
 
-pub use config::{OffsetRange, PerturbConfig};
+pub use config::{FlyableConfig, OffsetRange, PerturbConfig};
+pub use kind::{Kind, Mixture};
 pub use twin::perturb;
 
 #[cfg(test)]

@@ -1,6 +1,7 @@
 //! Twins: their shares of events, their bounds, their clearance, and what they depend on.
 
-use super::config::PerturbConfig;
+use super::config::{FlyableConfig, PerturbConfig};
+use super::kind::{Kind, Mixture};
 use super::twin::{measured, perturb};
 use crate::config::muco::MucoConfig;
 use crate::trajectory::{Certificate, FramePerturbation, Perturbation, PlanOutcome, Trajectory};
@@ -22,6 +23,7 @@ fn expert(count: usize) -> Trajectory {
         .collect();
     let no_twin = Perturbation {
         expert_item: String::new(),
+        kind: Kind::Jumps,
         position_probability: 0.0,
         rotation_probability: 0.0,
         frames: vec![],
@@ -207,4 +209,74 @@ fn uneven_and_touching_experts_are_rejected_and_empty_ones_have_empty_twins() {
     touching.poses_in_world[5].position_in_world.y = 2.5;
     assert!(reason(&touching).starts_with("the twin comes to"), "{}", reason(&touching));
     assert!(twin_of(&expert(0), &tunnel(), &config, seed()).poses_in_world.is_empty());
+}
+
+/// Parameters that give every flight one kind.
+fn only(kind: Kind) -> PerturbConfig {
+    let share = |of: Kind| if of == kind { 1.0 } else { 0.0 };
+    let [jumps, drift, gusts, timing, aim, search] = Kind::ALL.map(share);
+    PerturbConfig { mixture: Mixture { jumps, drift, gusts, timing, aim, search }, ..PerturbConfig::default() }
+}
+
+const FLYABLE: [Kind; 5] = [Kind::Drift, Kind::Gusts, Kind::Timing, Kind::Aim, Kind::Search];
+
+/// Largest rate of yaw or pitch, degrees/s.
+fn largest_rate_deg_s(twin: &Trajectory) -> f64 {
+    let turn = |pair: &[Pose]| {
+        let yaw = real::wrap_angle_rad(pair[1].yaw_rad - pair[0].yaw_rad).abs();
+        yaw.max((pair[1].pitch_rad - pair[0].pitch_rad).abs()).to_degrees() / 0.5
+    };
+    twin.poses_in_world.windows(2).map(turn).fold(0.0, f64::max)
+}
+
+#[test]
+fn flyable_twins_keep_their_limits_in_the_open_and_in_a_tunnel() {
+    let (expert, config) = (expert(500), FlyableConfig::default());
+    for (exact, is_open) in [(BoxBvh::build(vec![]), true), (tunnel(), false)] {
+        for kind in FLYABLE {
+            let twin = twin_of(&expert, &exact, &only(kind), seed());
+            let certificate = &twin.certificate;
+            assert!(certificate.holds && certificate.min_clearance_m >= 1.0, "{kind:?} {:?}", certificate.violations);
+            assert_eq!(certificate.limits.speed_mps, config.max_speed_mps);
+            assert!(certificate.max_acceleration_mps2 <= config.max_acceleration_mps2, "{kind:?}");
+            assert!(largest_rate_deg_s(&twin) <= config.max_rate_deg_s + 1e-6, "{kind:?}");
+            let displaced = frames(&twin).iter().map(|it| it.drone_offset_in_world.length()).fold(0.0, f64::max);
+            let turned = frames(&twin).iter().filter(|it| it.rotation).count();
+            match kind {
+                Kind::Aim | Kind::Search => assert!(displaced == 0.0 && turned > 50, "{kind:?} {turned}"),
+                _ => assert!(displaced > if is_open { 0.5 } else { 0.05 }, "{kind:?} {displaced}"),
+            }
+        }
+    }
+}
+
+#[test]
+fn flyable_twins_record_what_was_flown_and_depend_on_their_seed_alone() {
+    let (expert, exact) = (expert(200), tunnel());
+    for kind in FLYABLE {
+        let config = only(kind);
+        let twin = twin_of(&expert, &exact, &config, seed());
+        assert_eq!(twin.perturbation.as_ref().unwrap().kind, kind);
+        for (frame, (pose, original)) in twin.poses_in_world.iter().zip(&expert.poses_in_world).enumerate() {
+            let moved = pose.position_in_world - original.position_in_world;
+            assert!((moved - frames(&twin)[frame].drone_offset_in_world).length() < 1e-9, "{kind:?} {frame}");
+        }
+        assert_eq!(twin, twin_of(&expert, &exact, &config, seed()));
+        assert_ne!(twin, twin_of(&expert, &exact, &config, Seed::of_item(9, "perturbed", "p4")));
+    }
+}
+
+#[test]
+fn a_tight_limit_of_acceleration_makes_displacements_smaller() {
+    let (expert, exact) = (expert(400), BoxBvh::build(vec![]));
+    let mut config = only(Kind::Gusts);
+    let largest = |config: &PerturbConfig| {
+        let twin = twin_of(&expert, &exact, config, seed());
+        assert!(twin.certificate.max_acceleration_mps2 <= config.flyable.max_acceleration_mps2);
+        frames(&twin).iter().map(|it| it.drone_offset_in_world.length()).fold(0.0, f64::max)
+    };
+    let wide = largest(&config);
+    config.flyable.max_acceleration_mps2 = 0.5;
+    let narrow = largest(&config);
+    assert!(0.0 < narrow && narrow < 0.7 * wide, "{narrow} {wide}");
 }

@@ -1,9 +1,11 @@
-//! The perturbed twin of an expert flight: two independent events per frame, with safe displacements
-//! (paper, section "Dual-Trajectory Augmentation").
+//! The perturbed twin of an expert flight: one that a drone could fly, or the paper's two independent events per frame, with
+//! safe displacements (paper, section "Dual-Trajectory Augmentation").
 
 use super::config::PerturbConfig;
 use super::displacement::{Corridor, free_offset, horizontal_offset};
-use crate::certificate::certify;
+use super::flyable;
+use super::kind::Kind;
+use crate::certificate::{certify, view_rates_deg_s};
 use crate::config::limits::LimitsConfig;
 use crate::config::muco::MucoConfig;
 use crate::obstacles::exact::ExactMap;
@@ -16,16 +18,19 @@ use cosfly_random::{RandomStream, Seed};
 /// Steepest pitch of a turned view, radians (89.9 degrees): at 90 a pose has no unique yaw.
 const STEEPEST_PITCH_RAD: f64 = 89.9 * (real::PI / 180.0);
 
-/// The perturbed twin of `expert`, frame by frame.
+/// The perturbed twin of `expert`, of the kind that the seed draws from the mixture.
 ///
-/// With probability `position_probability` the drone is displaced and aims at a displaced point; independently, with
+/// Twins of all kinds but `jumps` could be flown: the certificate states their limits of speed and acceleration; a
+/// displacement that would break them, or that comes too near to an obstacle, is made smaller, smoothly in time.
+///
+/// Kind `jumps`: with probability `position_probability` the drone is displaced and aims at a displaced point; independently, with
 /// probability `rotation_probability`, its view is turned. A displacement that would come nearer to an obstacle than
 /// `clearance_m`, there or on the way from the frame before or to the expert's next position, is drawn again, then
 /// shortened, at last zero; the event stays recorded with the displacement that was flown. So the swept path of the
 /// twin keeps `clearance_m` wherever the expert does.
 ///
 /// Frames without events are the expert's, to the bit. `terms` is empty: costs belong to the expert's optimisation.
-/// The certificate states infinite kinematic limits, since jumps from frame to frame are the point of a twin.
+/// The certificate states infinite kinematic limits.
 ///
 /// Rejected are only a config that breaks its rules, an expert whose frames do not match its track, and a twin that
 /// touches an obstacle, which takes an expert that does.
@@ -44,6 +49,34 @@ pub fn perturb(
     if expert.poses_in_world.len() != count {
         return rejected(format!("the expert has {} poses for {count} frames", expert.poses_in_world.len()));
     }
+    let kind = config.mixture.draw(&seed);
+    let (poses, frames) = match kind {
+        Kind::Jumps => jumps(expert, exact, config, &seed),
+        _ => flyable::twin(expert, kind, exact, config, &seed),
+    };
+    let probability = |probability| if kind == Kind::Jumps { probability } else { 0.0 };
+    let perturbation = Perturbation {
+        expert_item: expert_item.to_owned(),
+        kind,
+        position_probability: probability(config.position_probability),
+        rotation_probability: probability(config.rotation_probability),
+        frames,
+    };
+    let twin = measured(expert, poses, perturbation, exact, config);
+    match twin.certificate.min_clearance_m {
+        free if free > 0.0 => PlanOutcome::Planned(Box::new(twin)),
+        touching => rejected(format!("the twin comes to {touching:.2} m from an obstacle, as its expert does")),
+    }
+}
+
+/// Poses and events of kind `jumps`.
+fn jumps(
+    expert: &Trajectory,
+    exact: &dyn SpatialQuery,
+    config: &PerturbConfig,
+    seed: &Seed,
+) -> (Vec<Pose>, Vec<FramePerturbation>) {
+    let count = expert.track.len();
     let mut frames = Vec::with_capacity(count);
     let mut poses: Vec<Pose> = Vec::with_capacity(count);
     let (mut position_events, mut rotation_events) = (seed.stream("position event"), seed.stream("rotation event"));
@@ -63,17 +96,7 @@ pub fn perturb(
         poses.push(pose);
         frames.push(applied);
     }
-    let perturbation = Perturbation {
-        expert_item: expert_item.to_owned(),
-        position_probability: config.position_probability,
-        rotation_probability: config.rotation_probability,
-        frames,
-    };
-    let twin = measured(expert, poses, perturbation, exact, config);
-    match twin.certificate.min_clearance_m {
-        free if free > 0.0 => PlanOutcome::Planned(Box::new(twin)),
-        touching => rejected(format!("the twin comes to {touching:.2} m from an obstacle, as its expert does")),
-    }
+    (poses, frames)
 }
 
 /// The pose of a frame after the events that `applied` names, whose displacements and turns are written there.
@@ -137,10 +160,11 @@ pub(super) fn measured(
     config: &PerturbConfig,
 ) -> Trajectory {
     let positions: Vec<DVec3> = poses.iter().map(|pose| pose.position_in_world).collect();
+    let flyable = Some(&config.flyable).filter(|_| perturbation.kind.is_flyable());
     let limits = LimitsConfig {
         clearance_m: config.clearance_m,
-        speed_mps: f64::INFINITY,
-        acceleration_mps2: f64::INFINITY,
+        speed_mps: flyable.map_or(f64::INFINITY, |limits| limits.max_speed_mps),
+        acceleration_mps2: flyable.map_or(f64::INFINITY, |limits| limits.max_acceleration_mps2),
         jerk_mps3: f64::INFINITY,
         yaw_rate_deg_s: Some(f64::INFINITY),
         pitch_rate_deg_s: Some(f64::INFINITY),
@@ -150,7 +174,10 @@ pub(super) fn measured(
     let no_ground = |_: f64, _: f64| f64::NEG_INFINITY;
     let muco = MucoConfig { limits, ..MucoConfig::default() };
     let mut measured = certify(&expert.track, &positions, 0, ExactMap::still(exact), &no_ground, &muco);
-    measured.certificate.filtered_boxes = expert.certificate.filtered_boxes;
+    let certificate = &mut measured.certificate;
+    certificate.filtered_boxes = expert.certificate.filtered_boxes;
+    let [yaw, pitch] = view_rates_deg_s(&poses, expert.track.dt_s);
+    (certificate.max_yaw_rate_deg_s, certificate.max_pitch_rate_deg_s) = (yaw, pitch);
     Trajectory {
         track: expert.track.clone(),
         poses_in_world: poses,

@@ -1,24 +1,21 @@
 //! Bands of rows: pixels gathered by face, taken through the kernels, put back.
 
-use super::facade::{BoxFace, Facade, Roof, facade, roofs};
+use super::facade::{facade, roofs};
 use super::geometry::{FaceAxes, open, place, points};
 use super::ground::ground;
-use super::lanes::{Block, FOUR, FOURS, GROUPS, LANES, Shared, Stage, WIDE, get, groups};
-use super::light::Light;
-use super::lighting::{self, Answers};
-use super::pattern::{NoiseTexture, Noises, share};
+use super::lanes::{Block, FOUR, FOURS, GROUPS, LANES, Shared, Stage, WIDE, get};
+use super::lighting;
+use super::material::{Material, cloth, material_of};
+use super::pattern::share;
 use super::setting::{Seen, Setting};
 use super::simple;
-use super::surface::Look;
-use super::things::{Thing, swell, things};
+use super::things::{swell, things};
 use super::vector::Vec3;
 use crate::faces::{DrawnFace, FaceSource};
 use crate::look::PictureLook;
 use crate::passes::ids::{Band, Run};
-use crate::scene_parts::{BOX_FACES, SceneBox};
 use crate::visibility::{NO_FACE, PlaneOnScreen};
 use cosfly_frames::simd_kernel;
-use cosfly_maps::{ObstacleKind, SemanticLabel};
 
 /// Groups of pixels that are not of a single face: the sky, and ground by label. Faces of one part of a body are a group,
 /// too, named after the first of them.
@@ -72,16 +69,6 @@ struct Piece {
     down: f32,
     /// Unit normal of the face, any side.
     normal: [f32; 3],
-}
-
-/// Material of the pixels of a group.
-enum Material {
-    Sky,
-    Ground(SemanticLabel),
-    Facade(Facade, BoxFace),
-    Roof(Roof),
-    Thing(Thing),
-    Cloth(Cloth),
 }
 
 simd_kernel! {
@@ -443,115 +430,6 @@ fn group_of(faces: &[DrawnFace], face: u32) -> usize {
         FaceSource::Ground { .. } => usize::from(drawn.label).min(SKY - 1),
         FaceSource::Figure { first_face, .. } => SHARED_GROUPS + first_face as usize,
         FaceSource::Box { .. } => SHARED_GROUPS + face as usize,
-    }
-}
-
-fn material_of(setting: &Setting, seen: &Seen<'_>, face: u32) -> (Material, FaceAxes) {
-    let flat = FaceAxes { along: Vec3::new(1.0, 0.0, 0.0), up: Vec3::new(0.0, 1.0, 0.0) };
-    let Some(face) = seen.faces.get(face as usize) else { return (Material::Sky, flat) };
-    match face.source {
-        FaceSource::Ground { cluster, polygon } => {
-            let polygon = seen.scene.clusters[cluster as usize].polygons[usize::from(polygon)];
-            (Material::Ground(polygon.label), flat)
-        }
-        FaceSource::Figure { triangle, .. } => {
-            let part = &seen.people.triangles[triangle as usize];
-            let [r, g, b] = seen.people.members[part.person as usize].clothes.colours[part.region as usize];
-            let [from, to] = part.middle_in_world.map(Vec3::from);
-            (Material::Cloth(Cloth { colour: Vec3::new(r, g, b), from, along: to - from }), flat)
-        }
-        FaceSource::Box { index, face } => {
-            box_material(&seen.scene.boxes[index as usize], usize::from(face), setting.light.night)
-        }
-    }
-}
-
-fn box_material(b: &SceneBox, face: usize, night: f32) -> (Material, FaceAxes) {
-    let axis = BOX_FACES[face].0;
-    let center: Vec3 = b.center_in_world.into();
-    let axes = b.axes_in_world.map(Vec3::from);
-    let half = Vec3::new(b.half_extents_m.x, b.half_extents_m.y, b.half_extents_m.z);
-    let along = axes[usize::from(axis == 0)];
-    let up = if axis == 2 { axes[1] } else { Vec3::new(0.0, 0.0, 1.0) };
-    let material = if b.kind != ObstacleKind::Building {
-        let whole = b.whole.map(|v| Vec3::new(v.x, v.y, v.z));
-        Material::Thing(Thing::new(b.kind, center, axes, half, b.seed, axis, whole, night))
-    } else if axis == 2 {
-        Material::Roof(Roof::new(b.seed, center, axes, [half.x, half.y]))
-    } else {
-        let half_width = if axis == 0 { half.y } else { half.x };
-        let look = Facade::new(b.seed, face as u32, 2.0 * half_width, 2.0 * half.z);
-        let edge_m = center.dot(Vec3::new(along.x, along.y, 0.0)) - half_width;
-        Material::Facade(look, BoxFace { along, edge_m, foot_m: center.z - half.z })
-    };
-    (material, FaceAxes { along, up })
-}
-
-impl Material {
-    /// Whether it has normals of its own.
-    fn is_bent(&self) -> bool {
-        match self {
-            Self::Thing(thing) => matches!(thing.kind, ObstacleKind::TreeCrown | ObstacleKind::Bush),
-            Self::Cloth(_) => true,
-            Self::Sky | Self::Ground(_) | Self::Facade(..) | Self::Roof(_) => false,
-        }
-    }
-
-    /// Whether the sun shines on the back of a flat face: no shadow matters there. Faces of boxes show their outside.
-    fn faces_away(&self, stage: &Stage, light: &Light) -> bool {
-        let is_flat = matches!(self, Self::Facade(..) | Self::Roof(_) | Self::Thing(_)) && !self.is_bent();
-        let [x, y, z] = stage.normal.each_ref().map(|row| row[0]);
-        is_flat && Vec3::new(x, y, z).dot(light.to_sun) <= 0.0
-    }
-
-    fn answers(&self) -> Answers {
-        let matt = Answers { wettable: false, shiny: false, glows: false };
-        match self {
-            // Rain soaks into grass: no puddles there.
-            Self::Ground(label) => {
-                let shiny = *label == SemanticLabel::Water;
-                Answers { wettable: *label != SemanticLabel::Terrain, shiny, glows: false }
-            }
-            Self::Facade(..) => Answers { wettable: false, shiny: true, glows: true },
-            Self::Roof(_) => Answers { wettable: true, shiny: false, glows: false },
-            Self::Thing(thing) => match thing.kind {
-                ObstacleKind::Car | ObstacleKind::Lamp | ObstacleKind::TrafficLight | ObstacleKind::Pole => {
-                    Answers { wettable: false, shiny: true, glows: true }
-                }
-                _ => matt,
-            },
-            Self::Sky | Self::Cloth(_) => matt,
-        }
-    }
-}
-
-/// A part of a figure.
-#[derive(Clone, Copy, Debug)]
-struct Cloth {
-    colour: Vec3,
-    /// Middle line.
-    from: Vec3,
-    along: Vec3,
-}
-
-simd_kernel! {
-    /// Clothes, skin and hair, round around the part's middle line.
-    fn cloth(shared: &[Shared], blocks: &mut [Block], look: &Cloth, noise: &NoiseTexture) {
-        let Cloth { colour, from, along } = *look;
-        let per_length2 = 1.0 / (along.dot(along) + 1e-9);
-        for (shared, four) in groups(shared, blocks) {
-            for block in four {
-                for k in 0..WIDE {
-                    let point = block.point(shared, k);
-                    let weave = noise.grain(point.world.x * 40.0, point.world.z * 40.0, point.footprint_m * 40.0);
-                    let fold = noise.clumps(point.world.x * 55.0, point.world.z * 35.0, point.footprint_m * 45.0);
-                    let away = point.world - from;
-                    let round = (away - along * share(away.dot(along) * per_length2)).unit();
-                    let normal = (round + point.normal * 0.4).unit();
-                    block.put_bent(k, &Look::matt(colour * (0.62 + 0.25 * weave + 0.5 * fold), normal));
-                }
-            }
-        }
     }
 }
 

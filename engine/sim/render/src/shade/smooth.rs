@@ -68,7 +68,7 @@ impl Smoother {
             core::mem::swap(&mut self.above, &mut self.below);
             number += 1;
         }
-        // What reaches the last row ends there.
+        // Edges that reach the last row end there.
         for_each_bit(&self.right_above, |column| {
             let (first, step) = self.first[column];
             borders.blend(&Piece::upright(column, first as usize..height, width), step, false);
@@ -217,7 +217,7 @@ fn set_bits(bits: &mut [u64], from: usize, to: usize) {
     bits[last] |= high;
 }
 
-/// The image before smoothing, and what is to be added to it.
+/// The image before smoothing, and the changes to add.
 struct Borders<'a> {
     rgb: &'a [u8],
     width: usize,

@@ -152,7 +152,9 @@ fn roles(feature: &Value, words: &[String], of_action: bool) -> Vec<Option<Role>
 fn role(name: &str, of_action: bool) -> Option<Role> {
     let words = words(name);
     let units = ["m", "mps", "deg", "rad", "metres", "meters", "degrees", "radians", "pixels"];
-    let word = words.iter().rev().find(|word| !units.contains(&word.as_str()))?;
+    // Steps of chunks of actions have numbers: the first of a name counts.
+    let is_number = |word: &str| word.bytes().all(|byte| byte.is_ascii_digit());
+    let word = words.iter().rev().find(|word| !units.contains(&word.as_str()) && !is_number(word))?;
     Some(match word.as_str() {
         "dx" | "vx" if of_action => Role::Along(0),
         "dy" | "vy" if of_action => Role::Along(1),
@@ -204,16 +206,17 @@ mod tests {
         let vector = |names: &[&str]| json!({"dtype": "float32", "shape": [names.len()], "names": names});
         let found = Features::of(&json!({
             "observation.images.rgb": {"dtype": "image", "shape": [4, 4, 3], "names": ["height", "width", "channels"]},
-            "observation.state": vector(&["x", "y", "z", "pitch", "yaw", "roll"]),
-            "observation.target": vector(&["x", "y", "z"]),
-            "observation.box": vector(&["left", "top", "right", "bottom"]),
-            "action": vector(&["dx", "dy", "dz", "dpitch", "dyaw", "droll"]),
+            "observation.state": vector(&["dx", "dy", "dz", "dpitch", "dyaw", "droll", "pitch", "roll"]),
+            "privileged.pose": vector(&["x", "y", "z", "pitch", "yaw", "roll"]),
+            "privileged.target": vector(&["x", "y", "z"]),
+            "privileged.box": vector(&["left", "top", "right", "bottom"]),
+            "action": vector(&["dx_1", "dy_1", "dz_1", "dpitch_1", "dyaw_1", "droll_1", "dx_2", "dy_2", "dz_2"]),
             "timestamp": {"dtype": "float32", "shape": [1], "names": null},
         }));
-        let state = |at| Parts { feature: "observation.state".into(), at };
+        let state = |at| Parts { feature: "privileged.pose".into(), at };
         assert_eq!(found.position, Some(state([0, 1, 2])));
         assert_eq!(found.angles, Some(Angles::Euler(state([3, 4, 5]))));
-        assert_eq!(found.target.map(|it| it.feature), Some("observation.target".into()));
+        assert_eq!(found.target.map(|it| it.feature), Some("privileged.target".into()));
         assert_eq!(found.edges.map(|it| it.at), Some([0, 1, 2, 3]));
         assert_eq!((found.action.map(|it| it.at), found.turn.map(|it| it.at)), (Some([0, 1, 2]), Some([3, 4, 5])));
         assert_eq!(found.pictures, ["observation.images.rgb"]);

@@ -1,5 +1,6 @@
 //! LeRobot v3.0: episodes in Parquet files with pictures inside, tasks as strings, statistics of every feature.
 
+mod motion;
 mod statistics;
 mod tables;
 
@@ -7,16 +8,14 @@ use crate::card::Card;
 use crate::folder::OutFolder;
 use crate::format::Format;
 use crate::pixels::rgb_of;
-use crate::shared_options::{IncrementOptions, InstructionOptions};
+use crate::sample_text::pose_numbers;
+use crate::shared_options::{InstructionOptions, Language};
 use crate::source::{Episode, Source};
 use cosfly_diagnose::{Diagnostic, Fault, Result};
-use cosfly_frames::{Pose, action};
-use cosfly_metrics::DeltaFrame;
+use cosfly_frames::Pose;
 use cosfly_read::PublishedFlight;
 use cosfly_schema::tables::Table;
 use cosfly_write::table_file::TableWriter;
-use schemars::JsonSchema;
-use serde::Deserialize;
 use serde_json::{Value, json};
 use statistics::Statistics;
 use std::collections::BTreeMap;
@@ -34,65 +33,69 @@ const SAMPLED_PIXELS: usize = 16;
 /// Episodes for robot learning.
 pub struct LeRobot;
 
-/// Options of `lerobot`.
-#[derive(Clone, Debug, Deserialize, JsonSchema)]
-pub struct Options {
-    #[serde(flatten)]
-    instructions: InstructionOptions,
-    #[serde(flatten)]
-    increments: IncrementOptions,
-}
-
 impl Format for LeRobot {
     const NAME: &'static str = "lerobot";
-    const DOC: &'static str = "LeRobot v3.0: episodes with pictures, states, the expert's actions, tasks as strings";
-    type Options = Options;
+    const DOC: &'static str =
+        "LeRobot v3.0: a dataset per split; episodes with pictures, motion, the way to the expert, tasks as strings";
+    type Options = InstructionOptions;
 
-    fn write(options: &Options, source: &Source<'_>, out: &OutFolder) -> Result<Vec<String>> {
-        let delta_frame = options.increments.delta_frame();
+    fn write(options: &InstructionOptions, source: &Source<'_>, out: &OutFolder) -> Result<Vec<String>> {
         let fps = check(source)?;
         let experts = source.expert_poses()?;
-        let table = tables::data();
-        let mut data = DataFiles { out, table: &table, file: 0, bytes: 0, open: None };
-        let mut statistics = Statistics::default();
-        let mut tasks: BTreeMap<String, usize> = BTreeMap::new();
-        let (mut task_names, mut episodes) = (vec![], vec![]);
-        let mut index = 0;
-        source.each_flight(&mut |episode| {
-            let task = episode.instruction(options.instructions.language).to_owned();
-            let task_index = *tasks.entry(task.clone()).or_insert_with(|| {
-                task_names.push(task.clone());
-                task_names.len() - 1
-            });
-            let expert = episode.expert_poses(&experts)?;
-            let numbers = [episodes.len(), index, task_index];
-            let rows = rows_of(episode, &expert, delta_frame, numbers, &mut statistics)?;
-            let length = rows.pictures.len();
-            let file = data.append(&rows)?;
-            episodes.push(EpisodeRow {
-                trajectory_id: episode.flight.trajectory_id.clone(),
-                expert_id: episode.flight.expert_id.clone().unwrap_or_default(),
-                split: episode.flight.split.clone(),
-                episode: episodes.len(),
-                task,
-                from: index,
-                to: index + length,
-                chunk: file / CHUNK_FILES,
-                file: file % CHUNK_FILES,
-            });
-            index += length;
-            Ok(())
-        })?;
-        data.end()?;
-        write_table(out, "meta/episodes/chunk-000/file-000.parquet", &tables::episodes(), &episodes, &[])?;
-        let tasks: Vec<TaskRow> =
-            task_names.into_iter().enumerate().map(|(index, task)| TaskRow { index, task }).collect();
-        write_table(out, "meta/tasks.parquet", &tables::tasks(), &tasks, &[("pandas", tables::pandas_index())])?;
-        out.put("meta/stats.json", format!("{:#}\n", statistics.to_json()).as_bytes())?;
-        out.put("meta/info.json", format!("{:#}\n", info(source, fps, &episodes, tasks.len())).as_bytes())?;
-        card(delta_frame).write(source, out)?;
+        for split in source.splits() {
+            write_split(options.language, source, out, split, fps, &experts)?;
+        }
+        card(&source.splits()).write(source, out)?;
         Ok(vec![])
     }
+}
+
+/// Writes the dataset of a split, into a folder of its own: LeRobot reads all episodes of a folder, whatever their split.
+fn write_split(
+    language: Language,
+    source: &Source<'_>,
+    out: &OutFolder,
+    split: &str,
+    fps: u32,
+    experts: &BTreeMap<String, Vec<Pose>>,
+) -> Result<()> {
+    let table = tables::data();
+    let mut data = DataFiles { out, split, table: &table, file: 0, bytes: 0, open: None };
+    let mut statistics = Statistics::default();
+    let mut tasks: BTreeMap<String, usize> = BTreeMap::new();
+    let (mut task_names, mut episodes) = (vec![], vec![]);
+    let mut index = 0;
+    source.each_flight_of(&|flight| flight.split == split, &mut |episode| {
+        let task = episode.instruction(language).to_owned();
+        let task_index = *tasks.entry(task.clone()).or_insert_with(|| {
+            task_names.push(task.clone());
+            task_names.len() - 1
+        });
+        let expert = episode.expert_poses(experts)?;
+        let rows = rows_of(episode, &expert, [episodes.len(), index, task_index], &mut statistics)?;
+        let length = rows.pictures.len();
+        let file = data.append(&rows)?;
+        episodes.push(EpisodeRow {
+            trajectory_id: episode.flight.trajectory_id.clone(),
+            expert_id: episode.flight.expert_id.clone().unwrap_or_default(),
+            split: episode.flight.split.clone(),
+            episode: episodes.len(),
+            task,
+            from: index,
+            to: index + length,
+            chunk: file / CHUNK_FILES,
+            file: file % CHUNK_FILES,
+        });
+        index += length;
+        Ok(())
+    })?;
+    data.end()?;
+    let path = |name: &str| format!("{split}/meta/{name}");
+    write_table(out, &path("episodes/chunk-000/file-000.parquet"), &tables::episodes(), &episodes, &[])?;
+    let tasks: Vec<TaskRow> = task_names.into_iter().enumerate().map(|(index, task)| TaskRow { index, task }).collect();
+    write_table(out, &path("tasks.parquet"), &tables::tasks(), &tasks, &[("pandas", tables::pandas_index())])?;
+    out.put(&path("stats.json"), format!("{:#}\n", statistics.to_json()).as_bytes())?;
+    out.put(&path("info.json"), format!("{:#}\n", info(source, split, fps, &episodes, tasks.len())).as_bytes())
 }
 
 /// Checks that all flights have one picture size and one whole number of frames per second; returns that number.
@@ -113,28 +116,28 @@ fn check(source: &Source<'_>) -> Result<u32> {
     Ok(fps as u32)
 }
 
-/// The rows of a flight; its pictures and numbers count in `statistics`.
+/// The rows of a flight; its pictures and numbers count in `statistics`. `numbers` are those of the episode, of its first frame and
+/// of its task.
 fn rows_of(
     episode: &Episode<'_>,
     expert: &[Pose],
-    delta_frame: DeltaFrame,
-    [number, first, task]: [usize; 3],
+    numbers: [usize; 3],
     statistics: &mut Statistics,
 ) -> Result<DataRows> {
+    let [number, first, task] = numbers;
     let dt_s = episode.flight.dt_s;
     let mut rows = DataRows { number, first, task, dt_s, ..DataRows::default() };
     for (frame, row) in episode.frames.iter().enumerate() {
-        let from = &row.pose;
-        let increment = expert.get(frame + 1).map_or([0.0; 6], |to| match delta_frame {
-            DeltaFrame::World => action::in_world(from, to),
-            DeltaFrame::Body => action::in_body(from, to),
-        });
+        let pose = &row.pose;
+        let numbers = pose_numbers(pose);
+        let before = frame.checked_sub(1).map_or(pose, |before| &episode.frames[before].pose);
         let edges = row.visible_box_px.unwrap_or([-1.0; 4]).map(f64::from);
         let vectors = [
-            crate::sample_text::pose_numbers(from).to_vec(),
+            [&motion::along(pose, before, pose)[..], &[numbers[3], numbers[5]]].concat(),
+            numbers.to_vec(),
             row.target.feet_in_world.to_array().to_vec(),
             edges.to_vec(),
-            increment.to_vec(),
+            motion::chunk(pose, expert, frame),
         ];
         for ((name, ..), values) in VECTORS.iter().zip(&vectors) {
             statistics.push(name, values);
@@ -165,6 +168,7 @@ fn rows_of(
 /// The files of `data`, one of them open.
 struct DataFiles<'a> {
     out: &'a OutFolder,
+    split: &'a str,
     table: &'a Table<DataRows>,
     file: usize,
     bytes: u64,
@@ -179,7 +183,8 @@ impl DataFiles<'_> {
             (self.file, self.bytes) = (self.file + 1, 0);
         }
         if self.open.is_none() {
-            let name = format!("data/chunk-{:03}/file-{:03}.parquet", self.file / CHUNK_FILES, self.file % CHUNK_FILES);
+            let (split, chunk, file) = (self.split, self.file / CHUNK_FILES, self.file % CHUNK_FILES);
+            let name = format!("{split}/data/chunk-{chunk:03}/file-{file:03}.parquet");
             self.open = Some(TableWriter::new(self.table, self.out.create(&name)?)?);
         }
         if let Some(writer) = &mut self.open {
@@ -200,13 +205,7 @@ fn write_table<S>(out: &OutFolder, name: &str, table: &Table<S>, rows: &[S], not
     writer.finish().map(|_| ())
 }
 
-fn info(source: &Source<'_>, fps: u32, episodes: &[EpisodeRow], tasks: usize) -> Value {
-    let mut splits: BTreeMap<&str, [usize; 2]> = BTreeMap::new();
-    for row in episodes {
-        splits.entry(&row.split).or_insert([row.episode, 0])[1] = row.episode + 1;
-    }
-    let splits: BTreeMap<&str, String> =
-        splits.into_iter().map(|(name, [from, to])| (name, format!("{from}:{to}"))).collect();
+fn info(source: &Source<'_>, split: &str, fps: u32, episodes: &[EpisodeRow], tasks: usize) -> Value {
     let [width, height] = source.flights().next().map_or([0; 2], |flight| [flight.camera.width, flight.camera.height]);
     let mut features = BTreeMap::from([(
         tables::PICTURE.to_owned(),
@@ -229,36 +228,43 @@ fn info(source: &Source<'_>, fps: u32, episodes: &[EpisodeRow], tasks: usize) ->
         "data_files_size_in_mb": FILE_MB,
         "video_files_size_in_mb": 200,
         "fps": fps,
-        "splits": splits,
+        "splits": {split: format!("0:{}", episodes.len())},
         "data_path": "data/chunk-{chunk_index:03d}/file-{file_index:03d}.parquet",
         "video_path": null,
         "features": features,
     })
 }
 
-fn card(delta_frame: DeltaFrame) -> Card {
-    let frame = match delta_frame {
-        DeltaFrame::World => "the world's axes, angles are differences",
-        DeltaFrame::Body => "the axes of the body in this frame (x ahead, y right, z up)",
-    };
-    let body = format!("{BODY}* `action`: along {frame}.\n");
-    let front_matter = "task_categories:\n- robotics\ntags:\n- LeRobot\nconfigs:\n- config_name: default\n  data_files: data/*/*.parquet\n";
-    Card { format: "LeRobot v3.0", front_matter: front_matter.into(), body }
+fn card(splits: &[&str]) -> Card {
+    let mut front_matter = String::from(
+        "task_categories:\n- robotics\ntags:\n- LeRobot\nconfigs:\n- config_name: default\n  data_files:\n",
+    );
+    let mut loading = String::new();
+    for split in splits {
+        front_matter.push_str(&format!("  - split: {split}\n    path: {split}/data/*/*.parquet\n"));
+        loading.push_str(&format!("{split} = LeRobotDataset(\"cosfly/{split}\", root=\"{split}\")\n"));
+    }
+    Card { format: "LeRobot v3.0", front_matter, body: BODY.replace("LOADING\n", &loading) }
 }
 
 const BODY: &str = "\
 ```python
 from lerobot.datasets.lerobot_dataset import LeRobotDataset
-dataset = LeRobotDataset(\"cosfly\", root=\".\")
+LOADING
 ```
 
-A repository on the hub needs the git tag `v3.0`. Episodes are flights; `meta/episodes` names them. World: CARLA's axes, metres and
-degrees.
+Each folder is a whole dataset of LeRobot with its own statistics: train with the folder of one split, and normalise with its
+statistics. On the hub, each folder is a repository of its own, with the git tag `v3.0`. Episodes are flights; `meta/episodes` names
+them. Metres and degrees.
 
 * `observation.images.rgb`: the colours. `task`: the instruction.
-* `observation.state`: the drone's x, y, z, pitch, yaw, roll.
-* `observation.target`: the place between the person's feet. `observation.box`: left, top, right, bottom edges of what can be seen
-  of them, pixels; -1 where nothing is.
-* `action`: dx, dy, dz (m), dpitch, dyaw, droll (degrees) from this pose to the expert's next one; in a perturbed flight that is the
-  way back. 0 in the last frame.
+* `observation.state`: dx, dy, dz, dpitch, dyaw, droll since the frame before, along the axes of the body in this frame (x ahead, y
+  right, z up), 0 in the first frame; then pitch and roll. No place and no direction of the map.
+* `action`: five increments of dx, dy, dz, dpitch, dyaw, droll, all of them along the axes of the body in *this* frame; angles
+  are differences. The first one leads from this pose to the expert's next pose, the others on along the expert, so that the sum of
+  the first k leads to the expert's pose k frames later, from perturbed poses, too. An action is a whole chunk: policies of
+  chunks use a chunk of 1, and `action.reshape(5, 6)` has the steps. Behind the end of a flight the expert waits.
+* `privileged.pose`: the drone's x, y, z, pitch, yaw, roll. `privileged.target`: the place between the person's feet. `privileged.box`:
+  left, top, right, bottom edges of what can be seen of the person, pixels; -1 where nothing is. World: CARLA's axes. These are
+  labels that no drone has; policies of LeRobot take only features called `observation...` as inputs.
 ";

@@ -1,45 +1,111 @@
-//! Smallest, largest, mean and deviation of every feature, gathered frame by frame.
+//! Smallest, largest, mean, deviation and quantiles of every feature, gathered frame by frame in bounded memory.
 
 use super::tables::PICTURE;
-use serde_json::{Value, json};
+use serde_json::{Map, Value, json};
 use std::collections::BTreeMap;
+
+/// Names and places of the quantiles, LeRobot's.
+const QUANTILES: [(&str, f64); 5] = [("q01", 0.01), ("q10", 0.1), ("q50", 0.5), ("q90", 0.9), ("q99", 0.99)];
+/// Largest number of values that quantiles are taken from; even.
+const KEPT: usize = 1 << 15;
 
 /// Statistics of all features.
 #[derive(Clone, Debug, Default)]
 pub struct Statistics {
     features: BTreeMap<String, Vec<Moments>>,
-    pictures: [Moments; 3],
+    pictures: [Histogram; 3],
     picture_count: u64,
 }
 
-/// Statistics of one number. Mean and deviation by Welford's update.
-#[derive(Clone, Copy, Debug)]
+/// Statistics of one number. Mean and deviation by Welford's update; quantiles from every `step`-th value.
+#[derive(Clone, Debug)]
 struct Moments {
-    count: f64,
+    count: u64,
     min: f64,
     max: f64,
     mean: f64,
     squares: f64,
+    step: u64,
+    kept: Vec<f64>,
 }
 
 impl Default for Moments {
     fn default() -> Self {
-        Self { count: 0.0, min: f64::INFINITY, max: f64::NEG_INFINITY, mean: 0.0, squares: 0.0 }
+        Self { count: 0, min: f64::INFINITY, max: f64::NEG_INFINITY, mean: 0.0, squares: 0.0, step: 1, kept: vec![] }
     }
 }
 
 impl Moments {
     fn push(&mut self, value: f64) {
-        self.count += 1.0;
+        if self.count.is_multiple_of(self.step) {
+            self.kept.push(value);
+        }
+        if self.kept.len() == KEPT {
+            let mut place = 0;
+            self.kept.retain(|_| {
+                place += 1;
+                place % 2 == 1
+            });
+            self.step *= 2;
+        }
+        self.count += 1;
         (self.min, self.max) = (self.min.min(value), self.max.max(value));
         let gap = value - self.mean;
-        self.mean += gap / self.count;
+        self.mean += gap / self.count as f64;
         self.squares += gap * (value - self.mean);
     }
 
-    fn deviation(&self) -> f64 {
-        (self.squares / self.count.max(1.0)).sqrt()
+    /// min, max, mean, deviation, quantiles.
+    fn figures(&self) -> Vec<f64> {
+        let mut sorted = self.kept.clone();
+        sorted.sort_by(f64::total_cmp);
+        let deviation = (self.squares / self.count.max(1) as f64).sqrt();
+        let mut figures = vec![self.min, self.max, self.mean, deviation];
+        let at = |rank: u64| sorted.get(rank as usize).copied().unwrap_or_default();
+        figures.extend(QUANTILES.map(|(_, share)| quantile(share, sorted.len() as u64, at)));
+        figures
     }
+}
+
+/// Counts of the 256 values of a colour.
+#[derive(Clone, Debug)]
+struct Histogram([u64; 256]);
+
+impl Default for Histogram {
+    fn default() -> Self {
+        Self([0; 256])
+    }
+}
+
+impl Histogram {
+    /// min, max, mean, deviation, quantiles, as shares of full brightness.
+    fn figures(&self) -> Vec<f64> {
+        let count: u64 = self.0.iter().sum();
+        let sum = |of: &dyn Fn(f64) -> f64| {
+            let terms = self.0.iter().enumerate().map(|(value, count)| *count as f64 * of(value as f64 / 255.0));
+            terms.sum::<f64>() / count.max(1) as f64
+        };
+        let at = |rank: u64| {
+            let mut seen = 0u64;
+            let value = self.0.iter().position(|count| {
+                seen += count;
+                seen > rank
+            });
+            value.unwrap_or_default() as f64 / 255.0
+        };
+        let mean = sum(&|value| value);
+        let deviation = sum(&|value| (value - mean) * (value - mean)).sqrt();
+        let mut figures = vec![at(0), at(count.saturating_sub(1)), mean, deviation];
+        figures.extend(QUANTILES.map(|(_, share)| quantile(share, count, at)));
+        figures
+    }
+}
+
+/// A quantile of `count` sorted values, linear between neighbours, as NumPy's.
+fn quantile(share: f64, count: u64, at: impl Fn(u64) -> f64) -> f64 {
+    let place = share * count.saturating_sub(1) as f64;
+    let below = at(place.floor() as u64);
+    below + (place - place.floor()) * (at(place.ceil() as u64) - below)
 }
 
 impl Statistics {
@@ -56,30 +122,33 @@ impl Statistics {
     pub fn push_picture(&mut self, rgb: &[u8], step: usize) {
         self.picture_count += 1;
         for pixel in rgb.chunks_exact(3).step_by(step.max(1)) {
-            self.pictures.iter_mut().zip(pixel).for_each(|(moments, value)| moments.push(f64::from(*value) / 255.0));
+            self.pictures.iter_mut().zip(pixel).for_each(|(histogram, value)| histogram.0[usize::from(*value)] += 1);
         }
     }
 
     /// The content of `meta/stats.json`.
     pub fn to_json(&self) -> Value {
-        let of = |moments: &[Moments], wrap: fn(f64) -> Value, count: u64| {
-            let list = |number: fn(&Moments) -> f64| moments.iter().map(|it| wrap(number(it))).collect::<Vec<Value>>();
-            json!({
-                "min": list(|it| it.min), "max": list(|it| it.max), "mean": list(|it| it.mean),
-                "std": list(Moments::deviation), "count": [count],
-            })
-        };
-        let mut all: BTreeMap<&str, Value> = self
-            .features
-            .iter()
-            .map(|(name, moments)| {
-                let count = moments.first().map_or(0.0, |it| it.count) as u64;
-                (name.as_str(), of(moments, |number| json!(number), count))
-            })
-            .collect();
-        all.insert(PICTURE, of(&self.pictures, |number| json!([[number]]), self.picture_count));
-        json!(all)
+        let mut all = Map::new();
+        for (name, moments) in &self.features {
+            let figures: Vec<Vec<f64>> = moments.iter().map(Moments::figures).collect();
+            let count = moments.first().map_or(0, |it| it.count);
+            all.insert(name.clone(), entry(&figures, |number| json!(number), count));
+        }
+        let pictures: Vec<Vec<f64>> = self.pictures.iter().map(Histogram::figures).collect();
+        all.insert(PICTURE.to_owned(), entry(&pictures, |number| json!([[number]]), self.picture_count));
+        Value::Object(all)
     }
+}
+
+/// The entry of a feature whose numbers have `figures`.
+fn entry(figures: &[Vec<f64>], wrap: fn(f64) -> Value, count: u64) -> Value {
+    let names = ["min", "max", "mean", "std"].into_iter().chain(QUANTILES.map(|(name, _)| name));
+    let mut entry: Map<String, Value> = names
+        .enumerate()
+        .map(|(place, name)| (name.to_owned(), figures.iter().map(|it| wrap(it[place])).collect()))
+        .collect();
+    entry.insert("count".into(), json!([count]));
+    Value::Object(entry)
 }
 
 #[cfg(test)]
@@ -97,6 +166,21 @@ mod tests {
             (&json!([3.0, 5.0]), &json!([6.0, 5.0]), &json!([3]))
         );
         assert!((json["a"]["std"][0].as_f64().unwrap() - (14.0f64 / 3.0).sqrt()).abs() < 1e-12);
+        assert_eq!((&json["a"]["q50"], &json["a"]["q90"][1]), (&json!([2.0, 5.0]), &json!(5.0)));
+        assert!((json["a"]["q90"][0].as_f64().unwrap() - 5.2).abs() < 1e-12, "between 2 and 6");
         assert_eq!(json[PICTURE]["mean"], json!([[[1.0]], [[0.0]], [[0.2]]]));
+        assert_eq!(json[PICTURE]["q99"], json!([[[1.0]], [[0.0]], [[0.2]]]));
+    }
+
+    #[test]
+    fn quantiles_of_many_values_are_those_of_an_even_choice() {
+        let mut statistics = Statistics::default();
+        (0..100_000).for_each(|value| statistics.push("a", &[f64::from(value)]));
+        let json = statistics.to_json();
+        for (name, share) in QUANTILES {
+            let found = json["a"][name][0].as_f64().unwrap();
+            assert!((found - share * 100_000.0).abs() < 10.0, "{name}: {found}");
+        }
+        assert!(statistics.features["a"][0].kept.len() < KEPT);
     }
 }

@@ -1,16 +1,25 @@
 //! The three tables of LeRobot v3.0: frames, episodes, tasks.
 
+use super::motion::STEPS;
 use cosfly_schema::tables::{AnyColumn, Column, ImageFile, Table};
 use serde_json::json;
 
 /// Name of the pictures' feature.
 pub const PICTURE: &str = "observation.images.rgb";
-/// Names of the features that are vectors, and of their parts.
-pub const VECTORS: [(&str, &[&str]); 4] = [
-    ("observation.state", &["x", "y", "z", "pitch", "yaw", "roll"]),
-    ("observation.target", &["x", "y", "z"]),
-    ("observation.box", &["left", "top", "right", "bottom"]),
-    ("action", &["dx", "dy", "dz", "dpitch", "dyaw", "droll"]),
+/// Names of the features that are vectors, and of their parts. Policies take all features whose names begin with
+/// `observation` as inputs, so that names of what a drone does not know begin with `privileged`.
+pub const VECTORS: [(&str, &[&str]); 5] = [
+    ("observation.state", &["dx", "dy", "dz", "dpitch", "dyaw", "droll", "pitch", "roll"]),
+    ("privileged.pose", &["x", "y", "z", "pitch", "yaw", "roll"]),
+    ("privileged.target", &["x", "y", "z"]),
+    ("privileged.box", &["left", "top", "right", "bottom"]),
+    ("action", &ACTION),
+];
+/// Names of the parts of actions.
+const ACTION: [&str; 6 * STEPS] = [
+    "dx_1", "dy_1", "dz_1", "dpitch_1", "dyaw_1", "droll_1", "dx_2", "dy_2", "dz_2", "dpitch_2", "dyaw_2", "droll_2",
+    "dx_3", "dy_3", "dz_3", "dpitch_3", "dyaw_3", "droll_3", "dx_4", "dy_4", "dz_4", "dpitch_4", "dyaw_4", "droll_4",
+    "dx_5", "dy_5", "dz_5", "dpitch_5", "dyaw_5", "droll_5",
 ];
 
 /// The frames of an episode.
@@ -18,14 +27,14 @@ pub const VECTORS: [(&str, &[&str]); 4] = [
 pub struct DataRows {
     /// Number of the episode.
     pub number: usize,
-    /// Number of the first frame in the whole dataset.
+    /// Number of the first frame among those of all episodes.
     pub first: usize,
     /// Number of the task.
     pub task: usize,
     /// Seconds between frames.
     pub dt_s: f64,
     /// [`VECTORS`] of every frame.
-    pub vectors: Vec<[Vec<f64>; 4]>,
+    pub vectors: Vec<[Vec<f64>; 5]>,
     /// Picture files.
     pub pictures: Vec<Vec<u8>>,
 }
@@ -34,7 +43,7 @@ pub struct DataRows {
 pub struct EpisodeRow {
     /// Id of the flight.
     pub trajectory_id: String,
-    /// Id of the flight to whose next pose the actions lead; empty for an expert.
+    /// Id of the flight that the actions lead to; empty for an expert.
     pub expert_id: String,
     /// Split.
     pub split: String,
@@ -64,10 +73,11 @@ pub struct TaskRow {
 pub fn data() -> Table<DataRows> {
     const COLUMNS: &[&dyn AnyColumn<DataRows>] = &[
         &Column::named(PICTURE, "", |it: &DataRows, i| ImageFile(it.pictures[i].clone())),
-        &Column::named(VECTORS[0].0, "", |it: &DataRows, i| numbers::<6>(&it.vectors[i][0])),
-        &Column::named(VECTORS[1].0, "", |it: &DataRows, i| numbers::<3>(&it.vectors[i][1])),
-        &Column::named(VECTORS[2].0, "", |it: &DataRows, i| numbers::<4>(&it.vectors[i][2])),
-        &Column::named(VECTORS[3].0, "", |it: &DataRows, i| numbers::<6>(&it.vectors[i][3])),
+        &Column::named(VECTORS[0].0, "", |it: &DataRows, i| numbers::<8>(&it.vectors[i][0])),
+        &Column::named(VECTORS[1].0, "", |it: &DataRows, i| numbers::<6>(&it.vectors[i][1])),
+        &Column::named(VECTORS[2].0, "", |it: &DataRows, i| numbers::<3>(&it.vectors[i][2])),
+        &Column::named(VECTORS[3].0, "", |it: &DataRows, i| numbers::<4>(&it.vectors[i][3])),
+        &Column::named(VECTORS[4].0, "", |it: &DataRows, i| numbers::<{ 6 * STEPS }>(&it.vectors[i][4])),
         &Column::named("timestamp", "", |it: &DataRows, i| i as f64 * it.dt_s),
         &Column::named("frame_index", "", |_: &DataRows, i| i as u64),
         &Column::named("episode_index", "", |it: &DataRows, _| it.number as u64),

@@ -19,6 +19,7 @@ pub const FRAMES_DIR: &str = "frames_playback";
 pub fn trajectory(episode: &Episode<'_>, place: &Place) -> Value {
     let flight = episode.flight;
     let points: Vec<Value> = (0..episode.frames.len()).map(|index| point(episode, index)).collect();
+    let waypoints: Vec<Value> = (0..episode.frames.len()).map(|index| waypoint(episode, index)).collect();
     json!({
         "schema": SCHEMA,
         "schema_version": SCHEMA_VERSION,
@@ -38,6 +39,7 @@ pub fn trajectory(episode: &Episode<'_>, place: &Place) -> Value {
             "is_original": place.aug_index == 0,
         },
         "points": points,
+        "waypoints": waypoints,
         "cosfly": own_part(episode, place),
     })
 }
@@ -86,11 +88,10 @@ fn middle_px(camera: &Camera) -> [f64; 2] {
 
 fn point(episode: &Episode<'_>, index: usize) -> Value {
     let (flight, row) = (episode.flight, &episode.frames[index]);
-    let time_s = index as f64 * flight.dt_s;
     let next = episode.frames.get(index + 1).map(|next| next.pose.position_in_world + flight.town_offset_m);
     json!({
         "index": index,
-        "timing": {"trace_timestamp": time_s, "sim_timestamp": time_s},
+        "timing": timing(episode, index),
         "drone_pose": pose_value(&row.pose, flight.town_offset_m),
         "nav_waypoint": {"t1_world": next.map(place_value)},
         "is_perturbed": row.disturbance.as_ref().is_some_and(|it| it.position || it.rotation),
@@ -110,6 +111,21 @@ fn point(episode: &Episode<'_>, index: usize) -> Value {
             "expert_index": row.disturbance.as_ref().map(|it| it.expert_frame),
         },
     })
+}
+
+/// Time and pose of a point again: some readers look for `waypoints` instead of `points`.
+fn waypoint(episode: &Episode<'_>, index: usize) -> Value {
+    json!({
+        "index": index,
+        "timing": timing(episode, index),
+        "drone_pose": pose_value(&episode.frames[index].pose, episode.flight.town_offset_m),
+    })
+}
+
+/// Seconds since the first frame, by all names that readers know.
+fn timing(episode: &Episode<'_>, index: usize) -> Value {
+    let time_s = index as f64 * episode.flight.dt_s;
+    json!({"timestamp": time_s, "trace_timestamp": time_s, "sim_timestamp": time_s})
 }
 
 fn target(flight: &PublishedFlight, row: &FrameRow) -> Value {

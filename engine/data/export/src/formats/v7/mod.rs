@@ -1,11 +1,11 @@
 //! The layout of the published CosFly-Track release, `drone_nav_traj_v7`: a folder per town, pair, trace and frame.
 //!
-//! What is publicly known of it is followed to the letter; what is not known is our own design, sits under keys called
+//! The published parts of the format are followed to the letter; the other parts are our own design and sit under keys called
 //! `cosfly` or is listed in the card, and the book's page "Exports" says which is which.
 //!
 //! * [`names`]: towns, pairs and traces as folders.
 //! * [`document`]: `trajectory.json` and `perturbation_report.json`.
-//! * [`pictures`]: the four files of a frame.
+//! * [`pictures`]: the files of a frame.
 //! * [`reader`]: a strict reader, which every export must pass before it gets its name.
 
 pub mod document;
@@ -36,6 +36,9 @@ pub struct Options {
     #[serde(default)]
     #[schemars(title = "TOWN=NAME")]
     town: Vec<TownName>,
+    /// Leave out `debug.png`, the colours with the target's box
+    #[serde(default)]
+    no_debug: bool,
 }
 
 impl Format for V7 {
@@ -48,7 +51,7 @@ impl Format for V7 {
         let names = Names::of(source, &options.town)?;
         let is_placed = |flight: &cosfly_read::PublishedFlight| names.place(&flight.trajectory_id).is_some();
         source.each_flight_of(&is_placed, &mut |episode| match names.place(&episode.flight.trajectory_id) {
-            Some(place) => write_trace(episode, place, out),
+            Some(place) => write_trace(episode, place, !options.no_debug, out),
             None => Ok(()),
         })?;
         card(&names).write(source, out)?;
@@ -62,17 +65,17 @@ impl Format for V7 {
     }
 }
 
-fn write_trace(episode: &Episode<'_>, place: &Place, out: &OutFolder) -> Result<()> {
+fn write_trace(episode: &Episode<'_>, place: &Place, with_debug: bool, out: &OutFolder) -> Result<()> {
     let frames = episode.all_frames();
     let parts = place.ids.len();
     frames.chunks(names::PART_FRAMES).take(parts).enumerate().try_for_each(|(part, frames)| {
         let range = frames[0]..frames[0] + frames.len();
-        write_part(&episode.part(range), &place.of_part(part), frames, out)
+        write_part(&episode.part(range), &place.of_part(part), frames, with_debug, out)
     })
 }
 
 /// A trace of some frames of a flight; `frames` are their numbers in the flight.
-fn write_part(episode: &Episode<'_>, place: &Place, frames: &[usize], out: &OutFolder) -> Result<()> {
+fn write_part(episode: &Episode<'_>, place: &Place, frames: &[usize], with_debug: bool, out: &OutFolder) -> Result<()> {
     let first = frames[0];
     let folder = format!("{ROOT}/{}", place.folder());
     let json =
@@ -83,7 +86,7 @@ fn write_part(episode: &Episode<'_>, place: &Place, frames: &[usize], out: &OutF
         frames,
         |frame, logged| {
             let folder = format!("{folder}/{}/frame_{:05}", document::FRAMES_DIR, frame - first);
-            pictures::write(&logged, &mut |name, bytes| out.put(&format!("{folder}/{name}"), bytes))
+            pictures::write(&logged, with_debug, &mut |name, bytes| out.put(&format!("{folder}/{name}"), bytes))
         },
         |_, ()| Ok(()),
     )
@@ -109,6 +112,7 @@ data_v7/<Town>/trajectory_<id>/<trace>/frames_playback/frame_<index>/{rgb.png,de
 release (`drone_nav_traj_v7`, `7.0.0`) rely on. Its full description is not public, so these choices are ours:
 
 * Everything under a key `cosfly`, and the whole of `perturbation_report.json`.
+* `waypoints` repeats index, timing and pose of `points`, and `timing` has the time by three names: readers differ in what they look for.
 * A flight of more than 1,000 frames becomes several trajectories with the same `source`; `cosfly.part` says which.
 * `<id>`: ten digits made from the expert's name. They look like the release's Unix times but are not.
 * `drone_pose` is the drone's; with a turned mount, `cosfly.camera_pose` is that of the pictures.
@@ -116,7 +120,8 @@ release (`drone_nav_traj_v7`, `7.0.0`) rely on. Its full description is not publ
 * `target.visible`: at least one pixel shows the target. `bbox_2d`: the edges around those pixels.
 * `depth.npy`: 32-bit floats, rows x columns, metres along the optical axis, at most 1,000, which is also the sky, as in CARLA.
 * `instance.png`: red is CARLA's label, green + 256 blue the instance id: 0 ground and sky, 1 the target.
-* `debug.png`: the colours with the target's box, yellow without obstacles, green of what can be seen.
+* `debug.png`: the colours with the target's box, yellow without obstacles, green of what can be seen; absent from exports with
+  `--no-debug`.
 
 A town that is not one of CARLA's has the name of a free CARLA town, since readers look for `Town*`:
 ";

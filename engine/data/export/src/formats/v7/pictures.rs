@@ -1,6 +1,6 @@
-//! The four files of a frame: `rgb.png`, `depth.npy`, `instance.png`, `debug.png`.
+//! The files of a frame: `rgb.png`, `depth.npy`, `instance.png`, `debug.png`.
 
-use crate::pixels::{id_in_16_bits, npy_f32, rgb_of, rgb_png};
+use crate::pixels::{id_in_16_bits, npy, rgb_of, rgb_png};
 use cosfly_diagnose::Result;
 use cosfly_read::LoggedFrame;
 
@@ -9,17 +9,20 @@ pub const FAR_M: f32 = 1000.0;
 /// Colours of the target's boxes: of the whole body, and of its visible part.
 const COLOURS: [[u8; 3]; 2] = [[255, 220, 40], [60, 255, 90]];
 
-/// Calls `put` with names and bytes of the files.
-pub fn write(logged: &LoggedFrame, put: &mut dyn FnMut(&str, &[u8]) -> Result<()>) -> Result<()> {
+/// Calls `put` with names and bytes of the files; `debug.png` is one of them if `with_debug`.
+pub fn write(logged: &LoggedFrame, with_debug: bool, put: &mut dyn FnMut(&str, &[u8]) -> Result<()>) -> Result<()> {
     let (width, height) = (logged.width, logged.height);
     let mut rgb = rgb_of(logged)?;
     let mut file = vec![];
     rgb_png(&rgb, width, height, &mut file)?;
     put("rgb.png", &file)?;
     let depth_m: Vec<f32> = logged.depth_m.iter().map(|depth| depth.min(FAR_M)).collect();
-    put("depth.npy", &npy_f32(&depth_m, [width, height]))?;
+    put("depth.npy", &npy(&depth_m, [width, height]))?;
     rgb_png(&instance_bytes(logged), width, height, &mut file)?;
     put("instance.png", &file)?;
+    if !with_debug {
+        return Ok(());
+    }
     for (edges, colour) in [&logged.target.full_box_px, &logged.target.visible_box_px].into_iter().zip(COLOURS) {
         if let [left, top, right, bottom] = edges[..] {
             outline(&mut rgb, [width, height], [left, top, right, bottom], colour);

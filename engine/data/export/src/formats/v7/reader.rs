@@ -123,6 +123,13 @@ pub fn check_document(document: &Value, trace: &str) -> Vec<String> {
     if points.is_empty() {
         problems.push("`points` is empty".into());
     }
+    let again = document["waypoints"].as_array().map_or(&[][..], |waypoints| &waypoints[..]);
+    let same = |(point, waypoint): (&Value, &Value)| {
+        ["index", "timing", "drone_pose"].iter().all(|key| point[key] == waypoint[key])
+    };
+    if again.len() != points.len() || !points.iter().zip(again).all(same) {
+        problems.push("`waypoints` are not index, timing and pose of `points`".into());
+    }
     for (index, point) in points.iter().enumerate() {
         let before = index.checked_sub(1).map(|before| &points[before]);
         if let Err(problem) = check_point(point, index, before, points.get(index + 1)) {
@@ -145,6 +152,9 @@ fn check_point(point: &Value, index: usize, before: Option<&Value>, next: Option
     let time_s = time(point).ok_or("`trace_timestamp` is not a number")?;
     if before.and_then(time).is_some_and(|before_s| before_s >= time_s) {
         return Err("`trace_timestamp` does not increase".into());
+    }
+    if point["timing"]["timestamp"] != point["timing"]["trace_timestamp"] {
+        return Err("`timestamp` is not `trace_timestamp`".into());
     }
     for key in ["x", "y", "z", "yaw"] {
         point["drone_pose"][key].as_f64().ok_or_else(|| format!("`drone_pose.{key}` is not a number"))?;
@@ -184,7 +194,7 @@ mod tests {
             let next = if index < 2 { json!({"x": index + 1, "y": 0, "z": 9.5}) } else { Value::Null };
             json!({
                 "index": index,
-                "timing": {"trace_timestamp": 0.5 * index as f64},
+                "timing": {"trace_timestamp": 0.5 * index as f64, "timestamp": 0.5 * index as f64},
                 "drone_pose": {"x": index, "y": 0, "z": 9.5, "yaw": 3.0},
                 "nav_waypoint": {"t1_world": next},
                 "target": {"image_uv": [1, 2], "bbox_2d": null},
@@ -194,16 +204,19 @@ mod tests {
             "schema": SCHEMA, "schema_version": SCHEMA_VERSION, "trace_dir": "ORI",
             "camera": {"width": 4, "height": 3, "intrinsic": [[1, 0, 2], [0, 1, 1.5], [0, 0, 1]]},
             "points": [point(0), point(1), point(2)],
+            "waypoints": [point(0), point(1), point(2)],
         })
     }
 
     #[test]
     fn every_breach_of_a_rule_is_named() {
         assert_eq!(check_document(&document(), "ORI"), Vec::<String>::new());
-        let breaches: [(&str, Value, &str); 10] = [
+        let breaches: [(&str, Value, &str); 12] = [
             ("/schema_version", json!("7.0.1"), "schema_version"),
             ("/trace_dir", json!("aug_001"), "trace_dir"),
             ("/points", json!([]), "empty"),
+            ("/waypoints/1/drone_pose/x", json!(9), "`waypoints`"),
+            ("/points/1/timing/timestamp", json!(9), "`timestamp`"),
             ("/camera/intrinsic", json!([[1, 0], [0, 1]]), "3 x 3"),
             ("/points/1/index", json!(7), "index"),
             ("/points/1/timing/trace_timestamp", json!(0.0), "increase"),

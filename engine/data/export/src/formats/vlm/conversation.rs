@@ -1,6 +1,7 @@
 //! A window as a conversation: system text, question, and the answer to learn.
 
 use super::options::{BoxScale, Options};
+use crate::pixels::smaller_size;
 use crate::sample_text::pose_numbers;
 use crate::shared_options::Axes;
 use crate::source::Episode;
@@ -88,8 +89,10 @@ fn question(episode: &Episode<'_>, options: &Options, seen: &[FrameRow]) -> Stri
     let flight = episode.flight;
     let dt_s = flight.dt_s;
     let history = "<image>".repeat(seen.len() - 1);
+    let full = [flight.camera.width, flight.camera.height];
+    let size = smaller_size(full, options.width);
     let unit = match options.box_scale {
-        BoxScale::Pixels => format!("pixels of {} x {}", flight.camera.width, flight.camera.height),
+        BoxScale::Pixels => format!("pixels of {} x {}", size[0], size[1]),
         BoxScale::Thousandths => "thousandths of width and height".into(),
     };
     let mut text = if seen.len() > 1 { format!("History, every {dt_s} s: {history}\n") } else { String::new() };
@@ -109,22 +112,21 @@ fn question(episode: &Episode<'_>, options: &Options, seen: &[FrameRow]) -> Stri
     let _ =
         writeln!(text, "Boxes of the person, [left, top, right, bottom] in {unit}, null where they cannot be seen:");
     for row in seen {
-        let _ = writeln!(text, "{}", box_text(row, options.box_scale, flight.camera.width, flight.camera.height));
+        let _ = writeln!(text, "{}", box_text(row, options.box_scale, full, size));
     }
     let _ = write!(text, "Where are the next {} waypoints, {dt_s} s apart?", options.horizon);
     text
 }
 
-fn box_text(row: &FrameRow, scale: BoxScale, width: u32, height: u32) -> Value {
+/// The visible box of the target in pictures that are `full` large in the log and `size` large here.
+fn box_text(row: &FrameRow, scale: BoxScale, full: [u32; 2], size: [u32; 2]) -> Value {
     let Some(edges) = row.visible_box_px else { return Value::Null };
-    let size = [width, height, width, height];
-    let numbers: Vec<i64> = edges
-        .iter()
-        .zip(size)
-        .map(|(edge, size)| match scale {
-            BoxScale::Pixels => f64::from(*edge).round_ties_even() as i64,
-            BoxScale::Thousandths => (1000.0 * f64::from(*edge) / f64::from(size)).round_ties_even() as i64,
-        })
-        .collect();
-    json!(numbers)
+    let numbers = edges.iter().enumerate().map(|(place, edge)| {
+        let scaled = match scale {
+            BoxScale::Pixels => f64::from(size[place % 2]),
+            BoxScale::Thousandths => 1000.0,
+        };
+        (scaled * f64::from(*edge) / f64::from(full[place % 2])).round_ties_even() as i64
+    });
+    json!(numbers.collect::<Vec<i64>>())
 }

@@ -7,11 +7,11 @@ use crate::card::Card;
 use crate::folder::OutFolder;
 use crate::format::Format;
 use crate::media::{ending, picture_path};
+use crate::pixels::{rgb_jpeg, rgb_of, smaller, smaller_size};
 use crate::shared_options::Axes;
 use crate::source::{Episode, Source};
 use conversation::conversation;
 use cosfly_diagnose::{Diagnostic, Fault, Result};
-use cosfly_metrics::WindowShape;
 use options::{Input, Options};
 use serde_json::{Value, json};
 use std::collections::BTreeMap;
@@ -21,6 +21,9 @@ use std::io::{BufWriter, Write as _};
 
 /// Conversations about windows.
 pub struct Vlm;
+
+/// JPEG quality of pictures that are made smaller.
+const QUALITY: u8 = 90;
 
 impl Format for Vlm {
     const NAME: &'static str = "vlm";
@@ -48,7 +51,7 @@ impl Format for Vlm {
             if !files.contains_key(split) {
                 files.insert(split.clone(), out.create(&name)?);
             }
-            let pictures = write_pictures(episode, window, out, flight)?;
+            let pictures = write_pictures(episode, options, out, flight)?;
             let expert = episode.expert_poses(&experts)?;
             let Some(file) = files.get_mut(split) else { return Ok(()) };
             for start in window.starts(episode.frames.len()) {
@@ -86,11 +89,11 @@ fn registration(split: &str) -> Value {
 /// Writes the pictures that windows show; their paths by frame.
 fn write_pictures(
     episode: &Episode<'_>,
-    window: WindowShape,
+    options: &Options,
     out: &OutFolder,
     flight: usize,
 ) -> Result<BTreeMap<usize, String>> {
-    let frames = episode.frames.len();
+    let (frames, window) = (episode.frames.len(), options.window());
     let mut shown: Vec<usize> = window.starts(frames).flat_map(|start| start..start + window.history).collect();
     shown.sort_unstable();
     shown.dedup();
@@ -99,8 +102,14 @@ fn write_pictures(
     episode.each_picture(
         &shown,
         |frame, logged| {
-            let path = format!("images/{}", picture_path(flight, id, frame, ending(&logged.rgb_format)));
-            out.put(&path, &logged.rgb_file)?;
+            let full = [logged.width, logged.height];
+            let size = smaller_size(full, options.width);
+            let (ending, file) = match size == full {
+                true => (ending(&logged.rgb_format), logged.rgb_file),
+                false => ("jpg", rgb_jpeg(&smaller(&rgb_of(&logged)?, full, size), size, QUALITY)?),
+            };
+            let path = format!("images/{}", picture_path(flight, id, frame, ending));
+            out.put(&path, &file)?;
             Ok(path)
         },
         |frame, path| {
@@ -129,7 +138,14 @@ fn card<'a>(options: &Options, splits: impl Iterator<Item = &'a str>) -> Card {
          the line here, and `text`, what the model wrote.\n\n",
         shape.history, shape.horizon, shape.stride, shape.history, shape.horizon, shape.stride
     );
-    Card { format: "VLM fine-tuning", front_matter, body: settings + BODY }
+    let pictures = format!(
+        "\nPictures are at most {} pixels wide (`--width` of `cosfly export`), and boxes are in pixels of these pictures or in \
+         thousandths. With patches of 28 x 28 pixels, as Qwen2-VL has them, a picture of 448 x 252 takes 144 tokens, and one of \
+         1280 x 720 takes 777 after LLaMA-Factory's own limit. Five small ones with their texts fit into 2,048 tokens, LLaMA-Factory's default `cutoff_len`, \
+         beyond which it drops the end of the question without a word: set `cutoff_len` for larger ones.\n",
+        options.width
+    );
+    Card { format: "VLM fine-tuning", front_matter, body: settings + BODY + &pictures }
 }
 
 const BODY: &str = "\

@@ -26,7 +26,13 @@ pub struct Options {
     pub(super) stride: usize,
     /// Scale of boxes in texts
     pub(super) box_scale: BoxScale,
+    /// Largest width of pictures, pixels; wider ones are made smaller
+    #[schemars(range(min = 28, max = 65_535), title = "PIXELS")]
+    pub(super) width: u32,
 }
+
+/// Width of pictures of which five and their texts fit into 2,048 tokens: 16 x 9 patches of 28 x 28 pixels at 16:9.
+const WIDTH: u32 = 448;
 
 impl Default for Options {
     fn default() -> Self {
@@ -39,6 +45,7 @@ impl Default for Options {
             horizon,
             stride,
             box_scale: BoxScale::default(),
+            width: WIDTH,
         }
     }
 }

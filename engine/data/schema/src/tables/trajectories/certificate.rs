@@ -4,6 +4,7 @@ use super::columns::Trajectories;
 use crate::flight_labels;
 use crate::tables::DatasetItem;
 use crate::tables::column::columns;
+use cosfly_planner::perturb::Kind;
 use cosfly_planner::{Certificate, Perturbation};
 
 columns! { Trajectories::CERTIFICATE of DatasetItem;
@@ -83,10 +84,12 @@ columns! { Trajectories::CERTIFICATE of DatasetItem;
     /// Total cost against the planning boxes before and after refinement (preset `paper`: after each iteration of
     /// descent) and of the published trajectory; empty for baselines and perturbed trajectories.
     convergence: Vec<f64> = |item, _| item.record.trajectory.convergence.clone();
-    /// Probability of the position event per frame; null for experts.
-    position_probability: Option<f64> = |item, _| perturbation(item).map(|it| it.position_probability);
-    /// Probability of the rotation event per frame; null for experts.
-    rotation_probability: Option<f64> = |item, _| perturbation(item).map(|it| it.rotation_probability);
+    /// Kind of the perturbation, such as `jumps` (the paper's) or `drift`; null for experts.
+    perturbation: Option<String> = |item, _| perturbation(item).map(|it| it.kind.name().to_owned());
+    /// Probability of the position event per frame; null for experts and for kinds of perturbation but `jumps`.
+    position_probability: Option<f64> = |item, _| jumps(item).map(|it| it.position_probability);
+    /// Probability of the rotation event per frame; null for experts and for kinds of perturbation but `jumps`.
+    rotation_probability: Option<f64> = |item, _| jumps(item).map(|it| it.rotation_probability);
 }
 
 fn certificate(item: &DatasetItem) -> &Certificate {
@@ -100,4 +103,8 @@ fn limit(value: f64) -> Option<f64> {
 
 fn perturbation(item: &DatasetItem) -> Option<&Perturbation> {
     item.record.trajectory.perturbation.as_ref()
+}
+
+fn jumps(item: &DatasetItem) -> Option<&Perturbation> {
+    perturbation(item).filter(|it| it.kind == Kind::Jumps)
 }

@@ -6,6 +6,7 @@ use crate::tables::DatasetItem;
 use crate::tables::column::columns;
 use crate::tables::windows::{self, Scene};
 use cosfly_metrics::{Difficulty, WindowFeatures};
+use cosfly_render::Outfit;
 
 columns! { Trajectories::IDENTITY of DatasetItem;
     /// Name of the trajectory, unique in the dataset.
@@ -18,6 +19,15 @@ columns! { Trajectories::IDENTITY of DatasetItem;
     expert_id: Option<String> = |item, _| item.record.pair.as_ref().map(|pair| pair.expert_id.clone());
     /// Pedestrian who is followed; all trajectories behind one pedestrian are in the same split.
     pedestrian_id: String = |item, _| item.record.pedestrian_id.clone();
+    /// Colour of the target's shirt or jacket in words, the same in all flights behind the pedestrian unless the recipe says
+    /// otherwise; null for a target without a body.
+    target_top_colour: Option<String> = |item, _| outfit(item).map(|it| it.top.name.name().to_owned());
+    /// Colour of the target's shirt or jacket: share of light that it reflects, linear red, green, blue.
+    target_top_linear_rgb: Option<[f64; 3]> = |item, _| outfit(item).map(|it| it.top.linear_rgb.map(f64::from));
+    /// Colour of the target's trousers in words.
+    target_trousers_colour: Option<String> = |item, _| outfit(item).map(|it| it.trousers.name.name().to_owned());
+    /// Whether the target wears a backpack.
+    target_has_backpack: Option<bool> = |item, _| outfit(item).map(|it| it.backpack);
     /// Seed of the item, decimal.
     seed: String = |item, _| item.record.seed.to_string();
     /// Number of frames.
@@ -49,6 +59,8 @@ columns! { Trajectories::IDENTITY of DatasetItem;
     /// Sketch of the ground plan, 64 numbers; the share of numbers that two towns have in common estimates the
     /// similarity of their plans (MinHash).
     town_layout_sketch: Vec<i64> = |item, _| item.layout.sketch.clone();
+    /// Split: `train`, `val` or `test`; that of the file.
+    split: String = |item, _| item.membership.split.name().to_owned();
     /// Split group: all trajectories of one group are in one split.
     split_group: String = |item, _| item.membership.split_group.clone();
     /// Rank in nested subsets, 0..1, the same for all trajectories behind a pedestrian: those below 0.25 are a quarter of
@@ -75,4 +87,8 @@ columns! { Trajectories::IDENTITY of DatasetItem;
 fn mean_of_windows(item: &DatasetItem, feature: fn(&WindowFeatures) -> f64) -> Option<f64> {
     let all = windows::all_features(item);
     (!all.is_empty()).then(|| all.iter().map(feature).sum::<f64>() / all.len() as f64)
+}
+
+fn outfit(item: &DatasetItem) -> Option<&Outfit> {
+    item.record.outfit.as_ref()
 }

@@ -2,8 +2,8 @@
 
 use crate::arguments::StoreArguments;
 use crate::command::{Command, Outcome};
+use crate::console::Console;
 use crate::exit;
-use crate::output::print;
 use crate::text::{bytes, count};
 use clap::Parser;
 use cosfly_store::{Store, check_out_folder, materialise};
@@ -25,14 +25,14 @@ pub struct Arguments {
 }
 
 impl Command for Arguments {
-    fn run(&self) -> Outcome {
+    fn run(&self, console: &dyn Console) -> Outcome {
         let root = self.store.folder();
         let version = shelf::get(&root, &self.name)?;
         check_out_folder(&root, &self.out)?;
         let folder = materialise(&Store::open(&root)?, &version.files, &self.out)?;
         let state = if folder.changed { "" } else { " (unchanged)" };
         let (files, size) = (count(folder.files, "file"), bytes(folder.bytes));
-        print(&format!("{} in {files} of {size}{state}\n", self.out.display()))?;
+        console.print(&format!("{} in {files} of {size}{state}\n", self.out.display()))?;
         Ok(exit::SUCCESS)
     }
 }

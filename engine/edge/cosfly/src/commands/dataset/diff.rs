@@ -2,8 +2,8 @@
 
 use crate::arguments::StoreArguments;
 use crate::command::{Command, Outcome};
+use crate::console::Console;
 use crate::exit;
-use crate::output::print;
 use crate::text::count;
 use clap::Parser;
 use cosfly_versions::difference::{Bump, Difference};
@@ -32,10 +32,10 @@ pub struct Arguments {
 }
 
 impl Command for Arguments {
-    fn run(&self) -> Outcome {
+    fn run(&self, console: &dyn Console) -> Outcome {
         let root = self.store.folder();
         let (old, new) = (shelf::get(&root, &self.old)?, shelf::get(&root, &self.new)?);
-        print(&told(&old, &new, &difference(&old, &new), self.all))?;
+        console.print(&told(&old, &new, &difference(&old, &new), self.all))?;
         Ok(exit::SUCCESS)
     }
 }

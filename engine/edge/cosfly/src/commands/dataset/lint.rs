@@ -1,8 +1,8 @@
 //! `cosfly dataset lint`: leaks between the splits of one or several datasets.
 
 use crate::command::{Command, Outcome};
+use crate::console::Console;
 use crate::exit;
-use crate::output::print;
 use crate::text::count;
 use clap::Parser;
 use cosfly_diagnose::{Diagnostic, Fault, Result};
@@ -37,7 +37,7 @@ pub struct Arguments {
 }
 
 impl Command for Arguments {
-    fn run(&self) -> Outcome {
+    fn run(&self, console: &dyn Console) -> Outcome {
         let policies = self.dirs.iter().map(|dir| policy(dir)).collect::<Result<Vec<_>>>()?;
         let rules = LintRules {
             max_route_overlap: match self.max_route_overlap {
@@ -65,7 +65,7 @@ impl Command for Arguments {
             0 => writeln!(text, "no leak was found"),
             found => writeln!(text, "{} found", count(found as u64, "leak")),
         };
-        print(&text)?;
+        console.print(&text)?;
         Ok(if leaks.found == 0 { exit::SUCCESS } else { exit::FOUND_PROBLEMS })
     }
 }

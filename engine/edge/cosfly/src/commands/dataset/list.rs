@@ -3,8 +3,8 @@
 use super::version_line::line;
 use crate::arguments::StoreArguments;
 use crate::command::{Command, Outcome};
+use crate::console::Console;
 use crate::exit;
-use crate::output::print;
 use clap::Parser;
 use cosfly_versions::shelf;
 
@@ -17,9 +17,13 @@ pub struct Arguments {
 }
 
 impl Command for Arguments {
-    fn run(&self) -> Outcome {
+    fn run(&self, console: &dyn Console) -> Outcome {
         let text: String = shelf::all(&self.store.folder())?.iter().map(line).collect();
-        print(if text.is_empty() { "no version has a name yet: `cosfly dataset tag NAME RECIPE`\n" } else { &text })?;
+        console.print(if text.is_empty() {
+            "no version has a name yet: `cosfly dataset tag NAME RECIPE`\n"
+        } else {
+            &text
+        })?;
         Ok(exit::SUCCESS)
     }
 }

@@ -19,7 +19,7 @@ const COMMANDS: &[Entry] = &[
 ];
 
 /// The group.
-pub const DATASET: Entry = Entry { command: group, run: |matches| dispatch(COMMANDS, matches) };
+pub const DATASET: Entry = Entry { command: group, run: |matches, console| dispatch(COMMANDS, matches, console) };
 
 fn group() -> clap::Command {
     let about = "Work with finished datasets: lint their splits, name versions, compare them, write them out again";

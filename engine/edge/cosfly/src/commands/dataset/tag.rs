@@ -3,8 +3,8 @@
 use super::version_line::line;
 use crate::arguments::{RecipeArguments, StoreArguments};
 use crate::command::{Command, Outcome};
+use crate::console::Console;
 use crate::exit;
-use crate::output::print;
 use clap::Parser;
 use cosfly_diagnose::{Diagnostic, Fault, Result};
 use cosfly_fingerprint::Digest;
@@ -38,9 +38,9 @@ pub struct Arguments {
 }
 
 impl Command for Arguments {
-    fn run(&self) -> Outcome {
-        let recipe = self.recipe.load()?;
-        print(&tagged(self, &recipe, &self.store.folder())?)?;
+    fn run(&self, console: &dyn Console) -> Outcome {
+        let recipe = self.recipe.load(console)?;
+        console.print(&tagged(self, &recipe, &self.store.folder())?)?;
         Ok(exit::SUCCESS)
     }
 }

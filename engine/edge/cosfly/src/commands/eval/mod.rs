@@ -4,8 +4,8 @@ mod choices;
 
 use crate::arguments::count;
 use crate::command::{Command, Outcome};
+use crate::console::Console;
 use crate::exit;
-use crate::output::print;
 use choices::{AnchorChoice, FrameChoice, KindChoice, OriginChoice, RoleChoice};
 use clap::{Args, Parser};
 use cosfly_diagnose::{Diagnostic, Result};
@@ -102,15 +102,15 @@ pub struct Arguments {
 }
 
 impl Command for Arguments {
-    fn run(&self) -> Outcome {
+    fn run(&self, console: &dyn Console) -> Outcome {
         let reports = reports(self)?;
         let folder = folder(self);
         write(&folder, &reports)?;
         if self.json {
-            print(&reports.json)?;
+            console.print(&reports.json)?;
         } else {
             let text = &reports.markdown;
-            print(&format!("{text}\nwritten to {}: report.md, report.json, errors.svg\n", folder.display()))?;
+            console.print(&format!("{text}\nwritten to {}: report.md, report.json, errors.svg\n", folder.display()))?;
         }
         Ok(if reports.has_malformed { exit::FOUND_PROBLEMS } else { exit::SUCCESS })
     }

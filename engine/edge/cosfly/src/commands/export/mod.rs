@@ -3,15 +3,15 @@
 mod format_options;
 
 use crate::command::{Command, Outcome};
+use crate::console::Console;
 use crate::exit;
-use crate::output::print;
-use crate::progress::Bar;
 use crate::text::{bytes, count};
 use clap::Parser;
 use clap::builder::{PossibleValue, PossibleValuesParser};
 use cosfly_export::{Choice, FORMATS, prepare};
 use cosfly_read::PublishedDataset;
 use format_options::FormatOptions;
+use serde_json::json;
 use std::fmt::Write;
 use std::path::PathBuf;
 
@@ -45,24 +45,39 @@ pub struct Arguments {
     /// Flights to export, such as expert-p00000 (repeatable) [default: all]
     #[arg(long = "trajectory", value_name = "ID")]
     trajectories: Vec<String>,
+    /// Print JSON
+    #[arg(long)]
+    json: bool,
+    /// Number of frames that are written at the same time [default: all cores]
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
+    jobs: Option<u16>,
     #[command(flatten)]
     options: FormatOptions,
 }
 
 impl Command for Arguments {
-    fn run(&self) -> Outcome {
+    fn run(&self, console: &dyn Console) -> Outcome {
         let format = prepare(&self.format, self.options.0.clone())?;
+        cosfly_export::use_threads(self.jobs);
         let dataset = PublishedDataset::open(&self.dir)?;
         let choice = Choice { splits: self.splits.clone(), trajectories: self.trajectories.clone() };
-        let bar = Bar::new("export", "frames");
-        let (written, remarks) = format.write(&dataset, &choice, &self.out, &|done, all| bar.show(done, all))?;
-        drop(bar);
+        let progress = console.progress("export", "frames");
+        let (written, remarks) = format.write(&dataset, &choice, &self.out, &*progress)?;
+        drop(progress);
+        if self.json {
+            let out = self.out.display().to_string();
+            let whole = json!({
+                "out": out, "format": format.name, "files": written.files, "bytes": written.bytes, "remarks": remarks,
+            });
+            console.print(&format!("{whole:#}\n"))?;
+            return Ok(exit::SUCCESS);
+        }
         let (files, size) = (count(written.files, "file"), bytes(written.bytes));
         let mut text = format!("{}: {files} of {size}, format {}\n", self.out.display(), format.name);
         for remark in remarks {
             let _ = writeln!(text, "  {remark}");
         }
-        print(&text)?;
+        console.print(&text)?;
         Ok(exit::SUCCESS)
     }
 }

@@ -5,8 +5,8 @@ mod state;
 
 use crate::arguments::{RecipeArguments, StoreArguments};
 use crate::command::{Command, Outcome};
+use crate::console::Console;
 use crate::exit;
-use crate::output::{self, print};
 use clap::Parser;
 use cosfly_diagnose::{Diagnostic, Fault};
 use cosfly_frames::DVec3;
@@ -16,7 +16,7 @@ use experts::Experts;
 use serde::Serialize;
 use state::State;
 use std::fmt::Write as _;
-use std::io::{BufRead, ErrorKind, Write as _};
+use std::io::BufRead;
 use std::path::Path;
 
 /// Shorter horizons are planned as far as this and cut off, so that no way ends in a dead end, seconds.
@@ -67,8 +67,8 @@ pub struct Arguments {
 }
 
 impl Command for Arguments {
-    fn run(&self) -> Outcome {
-        let recipe = self.recipe.load()?;
+    fn run(&self, console: &dyn Console) -> Outcome {
+        let recipe = self.recipe.load(console)?;
         let folder = self.store.folder();
         if !folder.exists() {
             return Err(no_store(&self.recipe.recipe, &folder).into());
@@ -77,7 +77,7 @@ impl Command for Arguments {
         let plan = cosfly_runner::plan(&recipe, &store)?;
         let mut experts = Experts::new(plan, &store);
         let (Some(trajectory), Some(frame), Some(position)) = (&self.trajectory, self.frame, &self.position) else {
-            return Ok(batch(&mut experts)?);
+            return Ok(batch(&mut experts, console)?);
         };
         let state = State {
             trajectory: trajectory.clone(),
@@ -87,7 +87,7 @@ impl Command for Arguments {
             horizon_s: self.horizon,
         };
         let answer = answer(&mut experts, &state)?;
-        print(&if self.json { json_line(&answer) } else { told(&answer) })?;
+        console.print(&if self.json { json_line(&answer) } else { told(&answer) })?;
         Ok(if answer.planned { exit::SUCCESS } else { exit::FOUND_PROBLEMS })
     }
 }
@@ -150,9 +150,9 @@ fn triple(values: &[f64]) -> [f64; 3] {
 }
 
 /// One answer per line of standard input, each at once, so that a program may ask and listen in turn.
-fn batch(experts: &mut Experts<'_>) -> cosfly_diagnose::Result<u8> {
+fn batch(experts: &mut Experts<'_>, console: &dyn Console) -> cosfly_diagnose::Result<u8> {
     let mut code = exit::SUCCESS;
-    let (mut input, mut line, mut number) = (std::io::stdin().lock(), Vec::new(), 0);
+    let (mut input, mut line, mut number) = (console.input(), Vec::new(), 0);
     loop {
         line.clear();
         number += 1;
@@ -172,12 +172,8 @@ fn batch(experts: &mut Experts<'_>) -> cosfly_diagnose::Result<u8> {
                 json_line(&LineError { line: number, error })
             }
         };
-        let mut out = std::io::stdout().lock();
-        match out.write_all(text.as_bytes()).and_then(|()| out.flush()) {
-            Ok(()) => {}
-            // Nobody listens any more.
-            Err(error) if error.kind() == ErrorKind::BrokenPipe => return Ok(code),
-            Err(error) => return Err(output::refusal(&error)),
+        if !console.print(&text)? {
+            return Ok(code);
         }
     }
 }

@@ -4,14 +4,14 @@ mod regenerate;
 
 use crate::arguments::StoreArguments;
 use crate::command::{Command, Outcome, Refusals};
+use crate::console::Console;
 use crate::exit;
-use crate::output::print;
-use crate::progress::Bar;
 use crate::text::{bytes, count};
 use clap::Parser;
 use cosfly_recipe::Recipe;
 use cosfly_verify::VerifyReport;
 use regenerate::{recipe_of_version, regenerated};
+use serde_json::json;
 use std::fmt::Write;
 use std::path::PathBuf;
 
@@ -41,21 +41,25 @@ pub struct Arguments {
     overrides: Vec<String>,
     #[command(flatten)]
     store: StoreArguments,
+    /// Print JSON
+    #[arg(long)]
+    json: bool,
 }
 
 impl Command for Arguments {
-    fn run(&self) -> Outcome {
-        let bar = Bar::new("verify", "flights");
-        let report = cosfly_verify::verify(&self.dir, &mut |done, all| bar.show(done, all))?;
-        drop(bar);
+    fn run(&self, console: &dyn Console) -> Outcome {
+        let progress = console.progress("verify", "flights");
+        let report = cosfly_verify::verify(&self.dir, &mut |done, all| progress(done, all))?;
+        drop(progress);
         let mut text = told(&report);
-        let mut wrong = 0;
+        let (mut wrong, mut regenerated_flights) = (0, None);
         if let Some(number) = self.regenerate {
-            let (more, found) = regenerated(&self.dir, usize::from(number), &self.recipe()?)?;
+            let (more, found) = regenerated(&self.dir, usize::from(number), &self.recipe()?, console)?;
             text += &more;
             wrong = found;
+            regenerated_flights = Some(more);
         }
-        print(&text)?;
+        console.print(&if self.json { json(&report, regenerated_flights, wrong) } else { text })?;
         Ok(if report.is_sound() && wrong == 0 { exit::SUCCESS } else { exit::FOUND_PROBLEMS })
     }
 }
@@ -68,6 +72,19 @@ impl Arguments {
             None => recipe_of_version(&self.dir, &self.store.folder()),
         }
     }
+}
+
+/// The report for programs.
+fn json(report: &VerifyReport, regenerated: Option<String>, wrong: usize) -> String {
+    let findings: Vec<String> = report.findings.iter().map(ToString::to_string).collect();
+    let whole = json!({
+        "sound": report.is_sound() && wrong == 0,
+        "found": report.found, "findings": findings,
+        "files": report.files, "bytes": report.bytes, "flights": report.flights, "frames": report.frames,
+        "target_boxes": report.boxes, "visibility_labels": report.labels, "visibility_gaps": report.gaps,
+        "regenerated": regenerated, "regenerated_wrong": wrong,
+    });
+    format!("{whole:#}\n")
 }
 
 /// One line per finding, the size of the dataset, and a verdict.

@@ -1,7 +1,7 @@
 //! `cosfly verify --regenerate`: flights made again and compared with the published ones.
 
 use crate::command::Refusals;
-use crate::interrupt;
+use crate::console::Console;
 use crate::text::count;
 use cosfly_diagnose::{Diagnostic, Fault, Result};
 use cosfly_fingerprint::Digest;
@@ -16,11 +16,11 @@ use std::path::Path;
 ///
 /// # Errors
 /// Those of the dataset, the recipe and its stages, and the machine.
-pub fn regenerated(dir: &Path, number: usize, recipe: &Recipe) -> Result<(String, usize)> {
+pub fn regenerated(dir: &Path, number: usize, recipe: &Recipe, console: &dyn Console) -> Result<(String, usize)> {
     let scratch = tempfile::tempdir()
         .map_err(|error| Diagnostic::io("make a folder for the store of regenerated flights", &error))?;
     let store = scratch.path().join("store");
-    let found = regenerate(dir, number, recipe, &cosfly_stages::registry(), &store, &interrupt::flag())?;
+    let found = regenerate(dir, number, recipe, &cosfly_stages::registry(), &store, &console.cancelled())?;
     let mut text = String::new();
     for flight in &found {
         if let Some(problem) = &flight.problem {

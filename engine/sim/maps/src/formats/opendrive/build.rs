@@ -3,6 +3,7 @@
 use super::OpenDriveOptions;
 use super::crossings::{Crosswalk, crosswalks, unmarked_crossings};
 use super::document::with_source;
+use super::gaps::{self, JunctionArea};
 use super::joining::joining_strips;
 use super::network::{LaneKind, Road, RoadNetwork};
 use super::objects::{MOST_OBSTACLES, ObstacleBuilder};
@@ -19,6 +20,7 @@ use crate::formats::world::WorldFromMap;
 use crate::polygons::PolygonIndex;
 use crate::{GroundIndex, MapError, Obstacle, ObstacleKind, Synthetic, Town, WalkablePolygon};
 use cosfly_frames::DVec2;
+use std::collections::BTreeMap;
 
 /// Reads a file into a town without planning boxes and bounds.
 pub(super) fn town(bytes: &[u8], options: &OpenDriveOptions) -> Result<(Town, Vec<String>), MapError> {
@@ -57,6 +59,7 @@ fn build(
     if options.signals {
         parts.add_signals(&network);
     }
+    parts.pave_gaps();
     parts.add_crossings(&network, options);
     terrain::add_terrain(&mut parts.meshes, &parts.obstacles.obstacles, terrain::USUAL_MARGIN_M)?;
     parts.finish(network)
@@ -71,6 +74,7 @@ struct Parts {
     walkable: Vec<WalkablePolygon>,
     obstacles: ObstacleBuilder,
     budget: StationBudget,
+    junctions: BTreeMap<String, JunctionArea>,
     notes: Vec<String>,
     warnings: Vec<String>,
 }
@@ -82,6 +86,12 @@ impl Parts {
         let world = self.world;
         for (index, section) in road.sections.iter().enumerate() {
             let rows = cross_sections(road, section, longest_m, &mut self.budget)?;
+            if let Some(junction) = &road.junction {
+                let area = self.junctions.entry(junction.clone()).or_insert(JunctionArea::EMPTY);
+                rows.iter()
+                    .flat_map(|row| row.points.iter().flatten().flatten())
+                    .for_each(|it| area.add(world.point(*it)));
+            }
             surfaces::add_section(&mut self.meshes, section.sides().map(|(_, lanes)| lanes), &rows, &world);
             if options.road_marks {
                 self.painter.paint_section(&mut self.meshes, road, section, &rows, &world);
@@ -92,6 +102,17 @@ impl Parts {
             }
         }
         Ok(())
+    }
+
+    /// Paves the gaps between the ways through junctions.
+    fn pave_gaps(&mut self) {
+        let surfaces = core::mem::take(&mut self.meshes).finish();
+        let ground = GroundIndex::of_surfaces(&surfaces, |_| true);
+        self.meshes = MeshBuilder::from_meshes(surfaces);
+        let count: usize = self.junctions.values().map(|area| gaps::pave(&mut self.meshes, &ground, area)).sum();
+        if count > 0 {
+            self.notes.push(format!("{count} gaps between the lanes of junctions are paved"));
+        }
     }
 
     /// Marked crossings with their paint and joints; then what pedestrians need to get across where the file has none.

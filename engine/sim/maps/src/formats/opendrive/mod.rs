@@ -7,6 +7,7 @@ mod attributes;
 mod build;
 mod crossings;
 mod document;
+mod gaps;
 mod joining;
 pub mod network;
 mod object_kind;

@@ -1,0 +1,153 @@
+//! Whole columns of a table as plain values, and whole tables as Arrow streams.
+
+use super::damage::damaged;
+use super::plain::{integers, reals, texts};
+use arrow_array::cast::AsArray;
+use arrow_array::ffi_stream::FFI_ArrowArrayStream;
+use arrow_array::{Array, ArrayRef, RecordBatch, RecordBatchIterator};
+use arrow_schema::{ArrowError, DataType, SchemaRef};
+use cosfly_diagnose::{Diagnostic, Result};
+use parquet::arrow::ProjectionMask;
+use parquet::arrow::arrow_reader::ParquetRecordBatchReaderBuilder;
+use std::fs::File;
+use std::path::{Path, PathBuf};
+
+/// A table as a stream of Arrow's C data interface.
+pub type ArrowStream = FFI_ArrowArrayStream;
+
+/// Values of a column; null numbers are NaN or 0, null texts `None`.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Column {
+    /// Numbers with fractions.
+    Reals(Vec<f64>),
+    /// Whole numbers, class labels, and booleans as 0 and 1.
+    Integers(Vec<i64>),
+    /// Texts.
+    Texts(Vec<Option<String>>),
+    /// Byte strings, such as image files.
+    Files(Vec<Option<Vec<u8>>>),
+    /// Lists of numbers: all values, and the number of values up to the end of each row.
+    Lists(Vec<f64>, Vec<usize>),
+    /// Lists of texts.
+    TextLists(Vec<Vec<String>>),
+}
+
+/// Names of the columns of a table's file.
+///
+/// # Errors
+/// The file cannot be opened or is not Parquet.
+pub fn column_names(path: &Path) -> Result<Vec<String>> {
+    let schema = builder(path)?.schema().clone();
+    Ok(schema.fields().iter().map(|field| field.name().clone()).collect())
+}
+
+/// Number of rows of a table's file.
+///
+/// # Errors
+/// The file cannot be opened or is not Parquet.
+pub fn row_count(path: &Path) -> Result<usize> {
+    Ok(usize::try_from(builder(path)?.metadata().file_metadata().num_rows()).unwrap_or(0))
+}
+
+/// Column `name` of files of one table, file after file.
+///
+/// # Errors
+/// A file is not Parquet, lacks the column, or the column has a type without a plain form.
+pub fn column(paths: &[PathBuf], name: &str) -> Result<Column> {
+    let mut arrays = vec![];
+    for path in paths {
+        let builder = builder(path)?;
+        let at = builder.schema().index_of(name);
+        let at = at.map_err(|_| damaged(path, "a column is missing", format!("`{name}`")))?;
+        let mask = ProjectionMask::roots(builder.parquet_schema(), [at]);
+        let reader = builder.with_projection(mask).build();
+        for batch in reader.map_err(|error| damaged(path, "it cannot be read", error))? {
+            let batch = batch.map_err(|error| damaged(path, "it cannot be read", error))?;
+            arrays.extend(batch.columns().first().cloned());
+        }
+    }
+    plain(&arrays).ok_or_else(|| {
+        let path = paths.first().map_or(Path::new(""), PathBuf::as_path);
+        damaged(path, "a column has a type without a plain form", format!("`{name}`"))
+    })
+}
+
+/// Files of one table as one stream; nothing is read before it is asked for.
+///
+/// # Errors
+/// A file is not Parquet.
+pub fn stream(paths: &[PathBuf]) -> Result<ArrowStream> {
+    let mut schema: Option<SchemaRef> = None;
+    let mut readers = vec![];
+    for path in paths {
+        let reader = builder(path)?.build().map_err(|error| damaged(path, "it cannot be read", error))?;
+        schema.get_or_insert_with(|| arrow_array::RecordBatchReader::schema(&reader));
+        readers.push(reader);
+    }
+    let schema = schema.unwrap_or_else(|| SchemaRef::new(arrow_schema::Schema::empty()));
+    let known = SchemaRef::clone(&schema);
+    let batches = readers.into_iter().flatten().map(move |batch: std::result::Result<RecordBatch, ArrowError>| {
+        batch.and_then(|batch| batch.with_schema(SchemaRef::clone(&known)))
+    });
+    Ok(FFI_ArrowArrayStream::new(Box::new(RecordBatchIterator::new(batches, schema))))
+}
+
+fn builder(path: &Path) -> Result<ParquetRecordBatchReaderBuilder<File>> {
+    let file = File::open(path).map_err(|error| Diagnostic::io(format!("open `{}`", path.display()), &error))?;
+    ParquetRecordBatchReaderBuilder::try_new(file).map_err(|error| damaged(path, "it is not Parquet", error))
+}
+
+/// Plain values of the arrays of one column; `None` for other types.
+fn plain(arrays: &[ArrayRef]) -> Option<Column> {
+    let Some(first) = arrays.first() else { return Some(Column::Reals(vec![])) };
+    let all_files = || arrays.iter().map(super::plain::files).collect::<Option<Vec<_>>>();
+    match first.data_type() {
+        DataType::List(_) | DataType::FixedSizeList(..) => lists(arrays),
+        // The hub's images: a file and its path.
+        DataType::Struct(_) => {
+            let files: Option<Vec<_>> =
+                arrays.iter().map(|it| it.as_struct().column_by_name("bytes").cloned()).collect();
+            plain(&files?)
+        }
+        kind if kind.is_integer() || *kind == DataType::Boolean => {
+            let parts: Option<Vec<_>> = arrays.iter().map(integers).collect();
+            Some(Column::Integers(parts?.iter().flat_map(|part| part.iter().map(Option::unwrap_or_default)).collect()))
+        }
+        kind if kind.is_floating() => {
+            let parts: Option<Vec<_>> = arrays.iter().map(reals).collect();
+            Some(Column::Reals(parts?.iter().flat_map(|it| it.iter().map(|it| it.unwrap_or(f64::NAN))).collect()))
+        }
+        _ => match arrays.iter().map(texts).collect::<Option<Vec<_>>>() {
+            Some(parts) => {
+                let all = parts.iter().flat_map(|part| part.iter().map(|text| text.map(str::to_owned)));
+                Some(Column::Texts(all.collect()))
+            }
+            None => {
+                let parts = all_files()?;
+                Some(Column::Files(parts.iter().flat_map(|it| it.iter().map(|it| it.map(<[u8]>::to_vec))).collect()))
+            }
+        },
+    }
+}
+
+fn lists(arrays: &[ArrayRef]) -> Option<Column> {
+    let mut rows: Vec<ArrayRef> = vec![];
+    for array in arrays {
+        for row in 0..array.len() {
+            rows.push(match array.data_type() {
+                DataType::List(_) => array.as_list::<i32>().value(row),
+                _ => array.as_fixed_size_list().value(row),
+            });
+        }
+    }
+    if rows.iter().any(|row| texts(row).is_some()) {
+        let all = rows.iter().map(|row| Some(texts(row)?.iter().flatten().map(str::to_owned).collect()));
+        return Some(Column::TextLists(all.collect::<Option<_>>()?));
+    }
+    let (mut values, mut ends) = (vec![], vec![]);
+    for row in &rows {
+        values.extend(reals(row)?.iter().map(|value| value.unwrap_or(f64::NAN)));
+        ends.push(values.len());
+    }
+    Some(Column::Lists(values, ends))
+}

@@ -1,0 +1,54 @@
+"""cosfly: datasets that teach drones to follow a moving target.
+
+Make a dataset::
+
+    import cosfly
+    made = cosfly.run("recipe.toml", set={"stages.walkers.count": 8})
+    print(made.out, cosfly.verify(made.out).sound)
+
+Load a dataset::
+
+    windows = cosfly.Dataset(made.out, split="train", windows=True, size=(224, 126))
+    sample = windows[0]          # rgb (5, 126, 224, 3) uint8, depth (5, 126, 224) float32 metres, ...
+
+Ask the expert how to go on from any state of a drone::
+
+    answers = cosfly.Expert("recipe.toml").plan_from([{"trajectory": "expert-p00000", "frame": 40, "position": [1, 2, 9]}])
+
+World frame: CARLA's, left-handed, x forward, y right, z up, metres; angles in degrees. Everything that fails raises
+:class:`cosfly.Error` with a code, a message, the place in the file and advice.
+"""
+
+from ._calls import (
+    Check,
+    Doctor,
+    Evaluation,
+    Exported,
+    Made,
+    Pictures,
+    Plan,
+    PlannedStage,
+    Stage,
+    Why,
+    doctor,
+    evaluate,
+    export,
+    init,
+    plan,
+    preview,
+    run,
+    verify,
+    why,
+)
+from ._cosfly import Table, __version__, decode_rgb
+from ._dataset import Dataset, Loader
+from ._errors import Error, Problem
+from ._expert import Answer, Expert
+from ._pack import Pack, pack
+from ._show import rerun
+
+__all__ = [
+    "Answer", "Check", "Dataset", "Doctor", "Error", "Evaluation", "Expert", "Exported", "Loader", "Made", "Pack",
+    "Pictures", "Plan", "PlannedStage", "Problem", "Stage", "Table", "Why", "__version__", "decode_rgb", "doctor", "evaluate",
+    "export", "init", "pack", "plan", "preview", "rerun", "run", "verify", "why",
+]  # fmt: skip

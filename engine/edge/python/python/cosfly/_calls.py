@@ -1,0 +1,328 @@
+"""The commands of cosfly as functions with typed results."""
+
+from __future__ import annotations
+
+import json
+import os
+import sys
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import Any, Callable, Dict, List, Mapping, Optional, Sequence, Tuple, Union
+
+from . import _cosfly, _toml
+from ._show import Bars
+
+PathLike = Union[str, "os.PathLike[str]"]
+Recipe = Union[PathLike, Mapping[str, Any]]
+"""The path of a recipe (or of a folder with a ``recipe.toml``), or the recipe itself as a dictionary."""
+Settings = Union[None, Mapping[str, Any], Sequence[str]]
+"""Changes to a recipe: ``{"stages.walkers.count": 8}`` or ``["stages.walkers.count=8"]``."""
+Progress = Union[bool, Callable[[Dict[str, Tuple[int, int]]], None]]
+"""True for bars (terminal or notebook), False for none, or a function that gets {name of the work: (done, all)}."""
+
+
+@dataclass(frozen=True)
+class Stage:
+    """A stage of a finished run."""
+
+    stage: str
+    items: int
+    cached: int
+    ran: int
+    reused: int
+    failed: int
+    skipped: int
+    unfinished: int
+    digest: str
+    """Digest over the outputs of all items: equal exactly when all bytes are equal."""
+
+
+@dataclass(frozen=True)
+class Made:
+    """Result of :func:`run`."""
+
+    recipe: str
+    outcome: str
+    """``complete``, ``failed`` or ``stopped``; finished items are kept in the store in any case."""
+    stages: List[Stage]
+    rejected: List[Dict[str, str]]
+    """Items without a usable result: stage, item, reason."""
+    out: Optional[Path]
+    """Folder of the dataset; None unless the run is complete."""
+    version: Optional[str]
+    """Digest of the dataset."""
+    files: Optional[int]
+    bytes: Optional[int]
+    messages: List[str] = field(default_factory=list, repr=False)
+    """Warnings and failures, as the command line prints them."""
+
+    def dataset(self, **options: Any) -> "Any":
+        """The dataset, as :class:`cosfly.Dataset` with the given options."""
+        from ._dataset import Dataset
+
+        if self.out is None:
+            raise ValueError(f"the run is {self.outcome}, so there is no dataset; `messages` says why")
+        return Dataset(self.out, **options)
+
+    def _repr_html_(self) -> str:
+        rows = "".join(
+            f"<tr><td>{s.stage}</td><td>{s.items}</td><td>{s.cached}</td><td>{s.ran}</td><td>{s.failed}</td></tr>"
+            for s in self.stages
+        )
+        heads = "<tr><th>stage</th><th>items</th><th>cached</th><th>made</th><th>failed</th></tr>"
+        return f"<p>{self.recipe}: {self.outcome}, {self.out or ''}</p><table>{heads}{rows}</table>"
+
+
+@dataclass(frozen=True)
+class PlannedStage:
+    """A stage of a plan."""
+
+    stage: str
+    uses: str
+    items: int
+    cached: int
+    to_run: int
+    predicted_bytes: int
+    reasons: List[Dict[str, Any]]
+    """Why items would run, with their number."""
+
+
+@dataclass(frozen=True)
+class Plan:
+    """Result of :func:`plan`."""
+
+    to_run: int
+    predicted_bytes: int
+    stages: List[PlannedStage]
+
+
+@dataclass(frozen=True)
+class Why:
+    """Result of :func:`why`."""
+
+    task: str
+    cached: bool
+    chain: List[Dict[str, Any]]
+    """Tasks from the asked one to the root cause, each with its changes."""
+
+
+@dataclass(frozen=True)
+class Check:
+    """Result of :func:`verify`."""
+
+    sound: bool
+    """Whether nothing wrong was found."""
+    found: int
+    findings: List[str]
+    files: int
+    bytes: int
+    flights: int
+    frames: int
+    target_boxes: int
+    visibility_labels: int
+    """Frames whose visible shares by rays and by pixels were compared."""
+    visibility_gaps: int
+    """Frames in which they differ by more than 5 points."""
+    regenerated: Optional[str]
+    regenerated_wrong: int
+
+    def __bool__(self) -> bool:
+        return self.sound
+
+
+@dataclass(frozen=True)
+class Doctor:
+    """Result of :func:`doctor`."""
+
+    well: bool
+    """No damage, no more imperfect episodes than allowed, and all quotas met."""
+    report: Dict[str, Any]
+    """All findings, as ``cosfly doctor --json`` writes them."""
+
+    def __bool__(self) -> bool:
+        return self.well
+
+
+@dataclass(frozen=True)
+class Evaluation:
+    """Result of :func:`evaluate`."""
+
+    report: Dict[str, Any]
+    """Scores, intervals and baselines, as in report.json."""
+    folder: Path
+    """Folder with report.md, report.json and errors.svg."""
+    complete: bool
+    """Whether all rows could be scored."""
+
+    def _repr_markdown_(self) -> str:
+        return (self.folder / "report.md").read_text(encoding="utf-8")
+
+
+@dataclass(frozen=True)
+class Pictures:
+    """Result of :func:`preview`."""
+
+    trajectory: str
+    sheet: Path
+    """Contact sheet: colours, depth, labels, the target enlarged (PNG)."""
+    clip: Path
+    """Animated clip (GIF)."""
+    plan: Path
+    """Town, walk, flights coloured by visibility (PNG)."""
+
+    def _repr_html_(self) -> str:
+        from ._show import image_html
+
+        return image_html(self.sheet) + image_html(self.plan) + image_html(self.clip)
+
+
+@dataclass(frozen=True)
+class Exported:
+    """Result of :func:`export`."""
+
+    out: Path
+    format: str
+    files: int
+    bytes: int
+    remarks: List[str]
+
+
+def init(folder: PathLike = "town", start: Optional[str] = None) -> Path:
+    """Write a folder to begin with: a recipe, its town, a page. ``start`` is ``town`` or ``small``."""
+    _call(["init", os.fspath(folder)] + (["--from", start] if start else []), b"", False)
+    return Path(folder)
+
+
+def run(
+    recipe: Recipe,
+    *,
+    set: Settings = None,
+    out: Optional[PathLike] = None,
+    store: Optional[PathLike] = None,
+    jobs: Optional[int] = None,
+    progress: Progress = True,
+) -> Made:
+    """Make everything that a recipe describes. Finished items are never made again, and Ctrl-C keeps them.
+
+    Raises :class:`cosfly.Error` where the recipe is wrong. Items that fail do not raise: ``outcome`` is then ``failed``.
+    """
+    options = _options(out=out, store=store, jobs=jobs)
+    _, text, messages = _with_recipe(["run", "--json"], recipe, set, options, progress)
+    found = json.loads(text)
+    stages = [Stage(**stage) for stage in found.pop("stages")]
+    folder = found.pop("out")
+    return Made(stages=stages, out=Path(folder) if folder else None, messages=messages, **found)
+
+
+def plan(recipe: Recipe, *, set: Settings = None, store: Optional[PathLike] = None) -> Plan:
+    """What :func:`run` would do, and why."""
+    _, text, _ = _with_recipe(["plan", "--json"], recipe, set, _options(store=store), False)
+    found = json.loads(text)
+    return Plan(found["to_run"], found["predicted_bytes"], [PlannedStage(**stage) for stage in found["stages"]])
+
+
+def why(recipe: Recipe, subject: str, *, set: Settings = None, store: Optional[PathLike] = None) -> Why:
+    """Which field or input changed since a stage or an item (``expert/p00003``) was last made."""
+    _, text, _ = _with_recipe(["why", "--json"], recipe, set, _options(store=store), False, [subject])
+    return Why(**json.loads(text))
+
+
+def verify(
+    dataset: PathLike,
+    *,
+    regenerate: Optional[int] = None,
+    recipe: Optional[PathLike] = None,
+    set: Settings = None,
+    store: Optional[PathLike] = None,
+    progress: Progress = True,
+) -> Check:
+    """Check a finished dataset: hashes, counts, schemas, reprojection, actions; ``regenerate`` makes flights again."""
+    arguments = ["verify", os.fspath(dataset), "--json", *_options(regenerate=regenerate, recipe=recipe, store=store)]
+    _, text, _ = _call(arguments + _settings(set), b"", progress)
+    return Check(**json.loads(text))
+
+
+def doctor(
+    data: PathLike, *, imperfect: float = 5.0, quotas: Sequence[str] = (), progress: Progress = True
+) -> Doctor:
+    """Examine anyone's data (cosfly, v7, LeRobot): leaks, signs, units, shifts, frozen frames, limits.
+
+    ``imperfect`` is the share of imperfect episodes that does no harm, percent; a quota is like ``"20:2-4"``.
+    """
+    arguments = ["doctor", os.fspath(data), "--json", "-", "--imperfect", str(imperfect)]
+    for quota in quotas:
+        arguments += ["--quota", quota]
+    code, text, _ = _call(arguments, b"", progress)
+    return Doctor(code == 0, json.loads(text))
+
+
+def evaluate(
+    predictions: Optional[PathLike], dataset: PathLike, *, out: Optional[PathLike] = None, **options: Any
+) -> Evaluation:
+    """Score predictions on a dataset, beside baselines; with None the baselines alone.
+
+    ``options`` are those of ``cosfly eval``, with underscores: ``split="test"``, ``frame="body"``, ``anchor="expert"``,
+    ``missing_as_zero=True``. A list repeats an option.
+    """
+    given = [] if predictions is None else [os.fspath(predictions)]
+    default = f"{os.path.splitext(given[0])[0]}-evaluation" if given else "baselines-evaluation"
+    folder = Path(out) if out is not None else Path(default)
+    arguments = ["eval", *given, "--dataset", os.fspath(dataset), "--out", os.fspath(folder), "--json"]
+    code, text, _ = _call(arguments + _options(**options), b"", False)
+    return Evaluation(json.loads(text), folder, code == 0)
+
+
+def export(dataset: PathLike, format: str, out: PathLike, *, progress: Progress = True, **options: Any) -> Exported:
+    """Write a dataset in another format. ``options`` are those of ``cosfly export --format``, with underscores."""
+    arguments = ["export", os.fspath(dataset), "--format", format, "--out", os.fspath(out), "--json"]
+    _, text, _ = _call(arguments + _options(**options), b"", progress)
+    found = json.loads(text)
+    return Exported(Path(found.pop("out")), **found)
+
+
+def preview(
+    dataset: PathLike, trajectory: Optional[str] = None, *, frames: Optional[str] = None,
+    out: Optional[PathLike] = None, progress: Progress = True,
+) -> Pictures:  # fmt: skip
+    """Draw a flight: contact sheet, animated clip, plan of the town with the paths. Notebooks show the result.
+
+    ``frames`` is like ``"0,50,100"`` or ``"0..200:10"``; the pictures go to ``out``, beside the dataset by default.
+    """
+    arguments = ["preview", os.fspath(dataset), "--json", *_options(trajectory=trajectory, frames=frames, out=out)]
+    _, text, _ = _call(arguments, b"", progress)
+    found = json.loads(text)
+    return Pictures(found["trajectory"], *(Path(path) for path in found["files"]))
+
+
+def _with_recipe(
+    command: List[str], recipe: Recipe, changes: Settings, options: List[str], progress: Progress,
+    more: Sequence[str] = (),
+) -> Tuple[int, str, List[str]]:  # fmt: skip
+    given, text = ("-", _toml.dumps(recipe)) if isinstance(recipe, Mapping) else (os.fspath(recipe), "")
+    return _call([*command, given, *more, *_settings(changes), *options], text.encode(), progress)
+
+
+def _settings(changes: Settings) -> List[str]:
+    if isinstance(changes, Mapping):
+        # Texts stay bare, as on the command line; other values are TOML.
+        changes = [f"{key}={it if isinstance(it, str) else _toml.value_text(it)}" for key, it in changes.items()]
+    return [part for change in changes or () for part in ("--set", change)]
+
+
+def _options(**options: Any) -> List[str]:
+    arguments: List[str] = []
+    for name, value in options.items():
+        flag = "--" + name.replace("_", "-")
+        for one in value if isinstance(value, (list, tuple)) else [value]:
+            if one is True:
+                arguments.append(flag)
+            elif one is not None and one is not False:
+                arguments.append(f"{flag}={os.fspath(one) if hasattr(one, '__fspath__') else one}")
+    return arguments
+
+
+def _call(arguments: List[str], text: bytes, progress: Progress) -> Tuple[int, str, List[str]]:
+    if callable(progress):
+        return _cosfly.call(arguments, text, progress)
+    with Bars(arguments[0], bool(progress), sys.stderr) as bars:
+        return _cosfly.call(arguments, text, bars.show if bars.visible else None)

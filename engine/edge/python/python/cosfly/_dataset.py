@@ -1,0 +1,287 @@
+"""Samples of a dataset: pictures from the logs, and rows of its tables, as numpy arrays."""
+
+from __future__ import annotations
+
+import os
+from pathlib import Path
+from typing import Any, Dict, Iterator, List, Optional, Sequence, Tuple, Union
+
+import numpy as np
+
+from ._calls import PathLike
+from ._cosfly import Reader, Table
+
+ROLES = ("expert", "perturbed")
+WINDOW_LISTS = {
+    # Column of table `windows`: numbers per row of the array.
+    "current_pose_in_world": 6,
+    "input_steps_in_world": 6,
+    "input_steps_in_body": 6,
+    "correction_in_world": 6,
+    "correction_in_body": 6,
+    "waypoint_deltas_in_world": 6,
+    "waypoint_deltas_in_body": 6,
+    "input_boxes_px": 4,
+}
+
+Sample = Dict[str, Any]
+
+
+class Dataset:
+    """Frames or training windows of a dataset, by number.
+
+    ``dataset[i]`` is a dictionary. Pictures are read from the logs at random, decoded and scaled in Rust:
+
+    * ``rgb``: uint8, (H, W, 3); for windows (frames of the input, H, W, 3);
+    * ``depth``: float32 metres, planar, infinite for the sky; ``semantic``: uint8, CARLA's labels; ``instance``: uint32;
+    * for windows ``trajectory_id``, ``start_frame``, ``role``, and the columns of table ``windows`` as arrays of rows:
+      steps are dx, dy, dz (m), dpitch, dyaw, droll (degrees); boxes left, top, right, bottom in pixels of the scaled
+      pictures;
+    * for frames ``trajectory_id``, ``frame``, and each of ``columns`` of table ``frames``;
+    * ``caption`` where ``captions`` is a language.
+
+    Scaled colours are the mean over each pixel's area; other channels are sampled at the middle of each pixel. Without
+    ``size`` all channels are bit for bit what the logs hold. The object is map-style: ``torch.utils.data.DataLoader``
+    takes it as it is, workers included (each process opens its own files).
+
+    ``split`` is ``train``, ``val``, ``test`` or None for all; ``role`` is ``expert``, ``perturbed`` or None for both;
+    ``size`` is (width, height); ``threads`` decode the pictures of one call.
+    """
+
+    def __init__(
+        self,
+        path: PathLike,
+        *,
+        split: Optional[str] = None,
+        windows: bool = False,
+        role: Optional[str] = None,
+        channels: Sequence[str] = ("rgb", "depth"),
+        size: Optional[Tuple[int, int]] = None,
+        columns: Sequence[str] = (),
+        captions: Optional[str] = None,
+        threads: int = 1,
+    ):
+        self.path = Path(path)
+        self.split, self.windows, self.role = split, windows, role
+        self.channels, self.size, self.threads = tuple(channels), size, threads
+        self._opened: Tuple[int, Optional[Reader]] = (-1, None)
+        if split not in (None, "train", "val", "test"):
+            raise ValueError(f"the split is {split!r}; splits are 'train', 'val' and 'test'")
+        if role not in (None, *ROLES):
+            raise ValueError(f"the role is {role!r}; roles are 'expert' and 'perturbed'")
+        ids = self._reader.trajectory_ids
+        self._number = {name: number for number, name in enumerate(ids)}
+        self.trajectory_ids: List[str] = [name for name, of in zip(ids, self._reader.splits) if split in (None, of)]
+        """Ids of the trajectories of the split."""
+        self._columns: Dict[str, Any] = {}
+        self._index = self._windows_index() if windows else self._frames_index(columns)
+        self._captions = self._read_captions(captions) if captions else {}
+
+    # Tables and frames
+
+    def table(self, name: str) -> Table:
+        """A table of the split: ``table("trajectories")["town"]``, or ``pyarrow.table(dataset.table("frames"))``."""
+        return self._reader.table(name, self.split)
+
+    def frame(
+        self, trajectory_id: str, frame: int, channels: Optional[Sequence[str]] = None,
+        size: Optional[Tuple[int, int]] = None,
+    ) -> Dict[str, np.ndarray]:  # fmt: skip
+        """Images of one frame, by channel."""
+        images = self._images([(trajectory_id, frame)], channels or self.channels, size or self.size)
+        return {name: arrays[0] for name, arrays in images.items()}
+
+    def channels_of(self, trajectory_id: str) -> List[str]:
+        """Names of the channels that the log of a trajectory has."""
+        return self._reader.channels(self._number[trajectory_id])
+
+    # Samples
+
+    def __len__(self) -> int:
+        return len(self._index)
+
+    def __getitem__(self, index: Union[int, np.integer]) -> Sample:
+        number = int(index)
+        if number < 0:
+            number += len(self)
+        if not 0 <= number < len(self):
+            raise IndexError(f"sample {index} of {len(self)}")
+        return self._window(number) if self.windows else self._frame(number)
+
+    def __iter__(self) -> Iterator[Sample]:
+        return (self[index] for index in range(len(self)))
+
+    def order(self, seed: int = 0, epoch: int = 0, shard: Tuple[int, int] = (0, 1)) -> np.ndarray:
+        """Numbers of all samples in the shuffled order of an epoch; of shard (k, n) every n-th from the k-th on.
+
+        The order depends on seed, epoch and the number of samples alone, so ``order(...)[done:]`` goes on where a
+        training run stopped. Shards have equal lengths: the last samples are left out where they do not divide.
+        """
+        first, count = shard
+        if not 0 <= first < count:
+            raise ValueError(f"the shard is {shard}; it must be (k, n) with 0 <= k < n")
+        order = np.random.Generator(np.random.PCG64([seed, epoch])).permutation(len(self))
+        return order[: len(self) // count * count][first::count]
+
+    def loader(self, batch_size: int = 1, **options: Any) -> "Loader":
+        """Shuffled batches, as :class:`cosfly.Loader`."""
+        return Loader(self, batch_size, **options)
+
+    # Inside
+
+    @property
+    def _reader(self) -> Reader:
+        process, reader = self._opened
+        if reader is None or process != os.getpid():  # a fork opens its own files
+            reader = Reader(os.fspath(self.path))
+            self._opened = (os.getpid(), reader)
+        return reader
+
+    def __getstate__(self) -> Dict[str, Any]:
+        return {**self.__dict__, "_opened": (-1, None)}
+
+    def _images(
+        self, frames: Sequence[Tuple[str, int]], channels: Sequence[str], size: Optional[Tuple[int, int]]
+    ) -> Dict[str, List[np.ndarray]]:
+        wanted = [(self._number[name], int(frame)) for name, frame in frames]
+        return self._reader.images(wanted, list(channels), size, self.threads)
+
+    def _windows_index(self) -> List[Tuple[str, int]]:
+        table = self.table("windows")
+        kept = np.ones(len(table), bool) if self.role is None else table["role"] == ROLES.index(self.role)
+        kept = np.flatnonzero(kept)
+        names, starts = table["trajectory_id"], table["start_frame"]
+        self._columns = {"role": table["role"][kept]}
+        for name in WINDOW_LISTS:
+            self._columns[name] = _taken(table[name], kept)
+        self._columns["image_px"] = dict(zip(self._reader.trajectory_ids, self._reader.sizes))
+        return [(names[row], int(starts[row])) for row in kept]
+
+    def _frames_index(self, columns: Sequence[str]) -> List[Tuple[str, int]]:
+        reader = self._reader
+        roles = dict(zip(self.table("trajectories")["trajectory_id"], self.table("trajectories")["role"]))
+        names = [name for name in self.trajectory_ids if self.role in (None, ROLES[int(roles[name])])]
+        frames = dict(zip(reader.trajectory_ids, reader.frames))
+        if columns:
+            table = self.table("frames")
+            place = {key: row for row, key in enumerate(zip(table["trajectory_id"], table["frame"].tolist()))}
+            rows = np.array([place[name, frame] for name in names for frame in range(frames[name])], dtype=int)
+            self._columns = {name: _taken(table[name], rows) for name in columns}
+        return [(name, frame) for name in names for frame in range(frames[name])]
+
+    def _read_captions(self, language: str) -> Dict[str, str]:
+        table = self.table("captions")
+        rows = zip(table["trajectory_id"], table["language"], table["text"])
+        found: Dict[str, str] = {}
+        for name, of, text in rows:
+            if of == language:
+                found.setdefault(name, text)
+        if not found:
+            languages = sorted({str(of) for of in table["language"]})
+            raise ValueError(f"no caption is in {language!r}; the languages are {', '.join(languages)}")
+        return found
+
+    def _frame(self, number: int) -> Sample:
+        name, frame = self._index[number]
+        images = self._images([(name, frame)], self.channels, self.size) if self.channels else {}
+        sample: Sample = {channel: arrays[0] for channel, arrays in images.items()}
+        sample.update(trajectory_id=name, frame=frame)
+        sample.update({column: values[number] for column, values in self._columns.items()})
+        return self._captioned(sample, name)
+
+    def _window(self, number: int) -> Sample:
+        name, start = self._index[number]
+        rows = {
+            column: np.asarray(self._columns[column][number]).reshape(-1, width).astype(np.float32)
+            for column, width in WINDOW_LISTS.items()
+        }
+        rows["current_pose_in_world"] = np.asarray(self._columns["current_pose_in_world"][number])
+        history = len(rows["input_boxes_px"])
+        frames = [(name, start + frame) for frame in range(history)]
+        images = self._images(frames, self.channels, self.size) if self.channels else {}
+        sample: Sample = {channel: np.stack(arrays) for channel, arrays in images.items()}
+        if self.size:
+            width, height = self._columns["image_px"][name]
+            across, down = self.size[0] / width, self.size[1] / height
+            rows["input_boxes_px"] = rows["input_boxes_px"] * np.array([across, down, across, down], np.float32)
+        sample.update(trajectory_id=name, start_frame=start, role=int(self._columns["role"][number]), **rows)
+        return self._captioned(sample, name)
+
+    def _captioned(self, sample: Sample, name: str) -> Sample:
+        if self._captions:
+            sample["caption"] = self._captions.get(name, "")
+        return sample
+
+    def __repr__(self) -> str:
+        what = "windows" if self.windows else "frames"
+        return f"<cosfly.Dataset {self.path}: {len(self)} {what} of {len(self.trajectory_ids)} trajectories>"
+
+    def _repr_html_(self) -> str:
+        from ._show import dataset_html
+
+        return dataset_html(self)
+
+
+class Loader:
+    """Shuffled batches of a dataset, deterministic and resumable to the batch.
+
+    Iterating gives the rest of the current epoch; the next iteration gives the next epoch. ``state_dict()`` and
+    ``load_state_dict()`` keep the place. Arrays are stacked, other values become lists. ``shard=(rank, world_size)``
+    splits every epoch between processes; ``threads`` decode pictures side by side.
+    """
+
+    def __init__(
+        self, dataset: Dataset, batch_size: int = 1, *, seed: int = 0, shuffle: bool = True,
+        shard: Tuple[int, int] = (0, 1), drop_last: bool = False,
+    ):  # fmt: skip
+        if batch_size < 1:
+            raise ValueError(f"the batch size is {batch_size}; it must be at least 1")
+        self.dataset, self.batch_size, self.seed, self.shuffle = dataset, batch_size, seed, shuffle
+        self.shard, self.drop_last = shard, drop_last
+        self.epoch, self.batch = 0, 0
+
+    def _order(self) -> np.ndarray:
+        if self.shuffle:
+            return self.dataset.order(self.seed, self.epoch, self.shard)
+        first, count = self.shard
+        return np.arange(len(self.dataset) // count * count)[first::count]
+
+    def __len__(self) -> int:
+        samples = len(self.dataset) // self.shard[1]
+        return samples // self.batch_size if self.drop_last else -(-samples // self.batch_size)
+
+    def __iter__(self) -> Iterator[Sample]:
+        order = self._order()
+        while self.batch < len(self):
+            numbers = order[self.batch * self.batch_size :][: self.batch_size]
+            samples = [self.dataset[number] for number in numbers]
+            self.batch += 1
+            yield collated(samples)
+        self.epoch, self.batch = self.epoch + 1, 0
+
+    def state_dict(self) -> Dict[str, int]:
+        """Place in the data: the next batch of the current epoch."""
+        return {"epoch": self.epoch, "batch": self.batch, "seed": self.seed, "samples": len(self.dataset)}
+
+    def load_state_dict(self, state: Dict[str, int]) -> None:
+        """Go on where ``state_dict()`` was taken; the dataset must have the same number of samples."""
+        if state["samples"] != len(self.dataset):
+            raise ValueError(
+                f"the state is of a dataset of {state['samples']} samples; this one has {len(self.dataset)}"
+            )
+        self.epoch, self.batch, self.seed = state["epoch"], state["batch"], state["seed"]
+
+
+def collated(samples: Sequence[Sample]) -> Sample:
+    """One batch of samples: arrays and numbers stacked, other values in lists."""
+    batch: Sample = {}
+    for name, first in samples[0].items():
+        values = [sample[name] for sample in samples]
+        stacks = isinstance(first, (np.ndarray, np.generic, int, float))
+        same = stacks and all(np.shape(value) == np.shape(first) for value in values)
+        batch[name] = np.stack(values) if same else values
+    return batch
+
+
+def _taken(values: Any, rows: np.ndarray) -> Any:
+    return values[rows] if isinstance(values, np.ndarray) else [values[row] for row in rows]

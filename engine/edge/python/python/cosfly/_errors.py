@@ -1,0 +1,50 @@
+"""Exceptions of the package."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Optional, Sequence, Tuple
+
+
+@dataclass(frozen=True)
+class Problem:
+    """One problem that an :class:`Error` reports."""
+
+    code: str
+    """Stable name, such as ``recipe-unknown-key``; the book's index of codes lists all."""
+    message: str
+    """Statement of the problem, with its causes."""
+    hints: Tuple[str, ...]
+    """Allowed values and next steps."""
+    place: Optional[Tuple[str, int, int]]
+    """File, line and column (from 1), where the problem has a place in a file."""
+
+
+class Error(Exception):
+    """A call that cannot be carried out; the text is the one that the command line prints."""
+
+    def __init__(self, text: str, problems: Sequence[dict]):
+        super().__init__(text)
+        self.problems: Tuple[Problem, ...] = tuple(
+            Problem(it["code"], it["message"], tuple(it["hints"]), tuple(it["place"]) if it["place"] else None)
+            for it in problems
+        )
+
+    @property
+    def code(self) -> str:
+        """Code of the first problem."""
+        return self.problems[0].code if self.problems else "unknown"
+
+    @property
+    def hints(self) -> Tuple[str, ...]:
+        """Allowed values and next steps, of all problems."""
+        return tuple(hint for problem in self.problems for hint in problem.hints)
+
+    @property
+    def place(self) -> Optional[Tuple[str, int, int]]:
+        """File, line and column (from 1) of the first problem that has a place."""
+        return next((problem.place for problem in self.problems if problem.place), None)
+
+    def __reduce__(self):
+        problems = [dict(code=p.code, message=p.message, hints=p.hints, place=p.place) for p in self.problems]
+        return Error, (str(self), problems)

@@ -1,0 +1,80 @@
+//! Calls of the command line from Python.
+
+use crate::console::{Embedded, Stopped};
+use crate::errors::exception;
+use cosfly::Refusal;
+use pyo3::exceptions::{PyRuntimeError, PyValueError};
+use pyo3::prelude::*;
+use std::ffi::OsString;
+use std::panic::AssertUnwindSafe;
+use std::sync::mpsc::{RecvTimeoutError, channel};
+use std::time::Duration;
+
+/// Time between two looks at signals and progress.
+const POLL: Duration = Duration::from_millis(50);
+
+/// The process `cosfly` with the given arguments; returns its exit code.
+#[pyfunction]
+pub fn main(py: Python<'_>, arguments: Vec<OsString>) -> u8 {
+    py.detach(|| cosfly::main(arguments))
+}
+
+/// Runs a command and returns its exit code, its output and its messages. `progress` is called with a dictionary from the
+/// name of the work to the number of finished and of all parts.
+#[pyfunction]
+#[pyo3(signature = (arguments, input = Vec::new(), progress = None))]
+pub fn call(
+    py: Python<'_>,
+    arguments: Vec<OsString>,
+    input: Vec<u8>,
+    progress: Option<Py<PyAny>>,
+) -> PyResult<(u8, String, Vec<String>)> {
+    let console = Embedded::new(input);
+    let (send, mut receive) = channel();
+    let ended = std::thread::scope(|scope| {
+        let console = &console;
+        scope.spawn(move || {
+            let work = AssertUnwindSafe(|| cosfly::call(arguments, console));
+            let _ = send.send(std::panic::catch_unwind(work));
+        });
+        let mut shown = Default::default();
+        let mut interruption = None;
+        loop {
+            let waited = &mut receive;
+            let ended = py.detach(move || waited.recv_timeout(POLL));
+            let polled = py.check_signals().and_then(|()| match &progress {
+                Some(progress) => {
+                    let now = console.state().progress.clone();
+                    if now == shown {
+                        return Ok(());
+                    }
+                    shown = now.clone();
+                    progress.call1(py, (now,)).map(drop)
+                }
+                None => Ok(()),
+            });
+            if let Err(error) = polled {
+                console.cancel();
+                interruption.get_or_insert(error);
+            }
+            match (ended, interruption) {
+                (Err(RecvTimeoutError::Timeout), waiting) => interruption = waiting,
+                (_, Some(error)) => return Err(error),
+                (Ok(ended), None) => return Ok(ended),
+                (Err(RecvTimeoutError::Disconnected), None) => {
+                    return Err(PyRuntimeError::new_err("the thread of the command is gone"));
+                }
+            }
+        }
+    })?;
+    match ended {
+        Ok(Ok(code)) => {
+            let mut state = console.state();
+            Ok((code, std::mem::take(&mut state.printed), std::mem::take(&mut state.messages)))
+        }
+        Ok(Err(Refusal::Arguments(error))) => Err(PyValueError::new_err(error.to_string())),
+        Ok(Err(Refusal::Work(refusals))) => Err(exception(py, &refusals)),
+        Err(payload) if payload.is::<Stopped>() => Err(pyo3::exceptions::PyKeyboardInterrupt::new_err(())),
+        Err(_) => Err(PyRuntimeError::new_err("internal error of cosfly: please report it, with the message above")),
+    }
+}

@@ -1,0 +1,36 @@
+//! Diagnostics as exceptions of the class `cosfly.Error`.
+
+use cosfly_diagnose::{Diagnostic, Label, render_all};
+use pyo3::prelude::*;
+use pyo3::types::{PyDict, PyList};
+
+/// The exception for some diagnostics; the first one decides its code.
+pub fn exception(py: Python<'_>, refusals: &[Box<Diagnostic>]) -> PyErr {
+    let build = || -> PyResult<PyErr> {
+        let class = py.import("cosfly._errors")?.getattr("Error")?;
+        let problems = PyList::empty(py);
+        for refusal in refusals {
+            let problem = PyDict::new(py);
+            problem.set_item("code", refusal.code)?;
+            problem.set_item("message", refusal.to_string())?;
+            problem.set_item("hints", &refusal.hints)?;
+            problem.set_item("place", refusal.labels.first().map(place))?;
+            problems.append(problem)?;
+        }
+        let text = render_all(refusals.iter().map(|refusal| &**refusal), false);
+        Ok(PyErr::from_value(class.call1((text, problems))?))
+    };
+    build().unwrap_or_else(|error| error)
+}
+
+/// File, line and column (from 1) of a label.
+fn place(label: &Label) -> (String, usize, usize) {
+    let before = label.text.get(..label.span.start).unwrap_or_default();
+    let line = before.rsplit('\n').next().unwrap_or_default();
+    (label.path.display().to_string(), before.matches('\n').count() + 1, line.chars().count() + 1)
+}
+
+/// Diagnostics of a reader as an exception.
+pub fn raised<T>(py: Python<'_>, result: cosfly_diagnose::Result<T>) -> PyResult<T> {
+    result.map_err(|refusal| exception(py, &[refusal]))
+}

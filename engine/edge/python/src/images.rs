@@ -1,0 +1,120 @@
+//! Images of a log as pixels, whole or scaled.
+
+use cosfly_diagnose::{Diagnostic, Fault, Result};
+use cosfly_images::read::{self, Picture};
+use cosfly_read::StoredImage;
+use cosfly_render::channels::{Channel, Element};
+use numpy::{PyArray1, PyArray3, PyArrayMethods};
+use pyo3::exceptions::PyValueError;
+use pyo3::prelude::*;
+
+/// Pixels of an image.
+pub enum Pixels {
+    /// Colours or other bytes: three per pixel.
+    Bytes(Vec<u8>),
+    /// Labels: one byte per pixel.
+    Labels(Vec<u8>),
+    /// Depth, metres.
+    Depth(Vec<f32>),
+    /// Ids.
+    Ids(Vec<u32>),
+}
+
+/// Pixels with their size.
+pub struct Image {
+    /// Width and height, pixels.
+    pub size: [usize; 2],
+    /// Pixels, row-major.
+    pub pixels: Pixels,
+}
+
+impl Image {
+    /// Unpacks a stored image; colours are averaged over the source's area when scaled, other channels are sampled at
+    /// the middle of each pixel.
+    ///
+    /// # Errors
+    /// An image file that cannot be decoded.
+    pub fn unpack(channel: &Channel, stored: StoredImage, size: Option<[usize; 2]>) -> Result<Self> {
+        match stored {
+            StoredImage::File(file, format) => {
+                let Picture { size, rgb } = read::picture(&file, &format, size)?;
+                Ok(Self { size, pixels: Pixels::Bytes(rgb) })
+            }
+            StoredImage::Raw { data, width, height, pixel_bytes } => {
+                let from = [width as usize, height as usize];
+                let size = size.unwrap_or(from);
+                let pixels = match (channel.element(), pixel_bytes) {
+                    (Element::Label, 1) => {
+                        Pixels::Labels(read::sampled(data.as_chunks::<1>().0, from, size).into_flattened())
+                    }
+                    (Element::Float, 4) => Pixels::Depth(numbers(&data, from, size, f32::from_le_bytes)),
+                    (Element::Id, 2) => {
+                        Pixels::Ids(numbers(&data, from, size, |two| u32::from(u16::from_le_bytes(two))))
+                    }
+                    (Element::Id, 4) => Pixels::Ids(numbers(&data, from, size, u32::from_le_bytes)),
+                    (_, 3) => Pixels::Bytes(read::sampled(data.as_chunks::<3>().0, from, size).into_flattened()),
+                    _ => {
+                        return Err(Diagnostic::new(
+                            "dataset-damaged",
+                            Fault::Input,
+                            "an image has pixels of an unknown kind",
+                        ));
+                    }
+                };
+                Ok(Self { size, pixels })
+            }
+        }
+    }
+
+    /// The pixels as a numpy array of height x width (x 3).
+    pub fn into_array(self, py: Python<'_>) -> PyResult<Py<PyAny>> {
+        let [width, height] = self.size;
+        Ok(match self.pixels {
+            Pixels::Bytes(values) => PyArray1::from_vec(py, values).reshape([height, width, 3])?.into_any().unbind(),
+            Pixels::Labels(values) => PyArray1::from_vec(py, values).reshape([height, width])?.into_any().unbind(),
+            Pixels::Depth(values) => PyArray1::from_vec(py, values).reshape([height, width])?.into_any().unbind(),
+            Pixels::Ids(values) => PyArray1::from_vec(py, values).reshape([height, width])?.into_any().unbind(),
+        })
+    }
+}
+
+fn numbers<const N: usize, T>(
+    data: &[u8],
+    from: [usize; 2],
+    size: [usize; 2],
+    number: impl Fn([u8; N]) -> T,
+) -> Vec<T> {
+    let pixels = data.as_chunks::<N>().0;
+    if from == size {
+        return pixels.iter().map(|bytes| number(*bytes)).collect();
+    }
+    read::sampled(pixels, from, size).into_iter().map(number).collect()
+}
+
+/// Decodes a JPEG or PNG file; with `size` (width, height) scaled by averaging over each pixel's area.
+#[pyfunction]
+#[pyo3(signature = (file, size = None))]
+pub fn decode_rgb<'py>(
+    py: Python<'py>,
+    file: &[u8],
+    size: Option<(usize, usize)>,
+) -> PyResult<Bound<'py, PyArray3<u8>>> {
+    let format = if file.starts_with(b"\x89PNG") { "png" } else { "jpeg" };
+    let size = checked(size)?;
+    let picture = py.detach(|| read::picture(file, format, size));
+    let Picture { size: [width, height], rgb } = crate::errors::raised(py, picture)?;
+    PyArray1::from_vec(py, rgb).reshape([height, width, 3])
+}
+
+/// A size of pictures, width and height.
+///
+/// # Errors
+/// A side that is 0 or above 16,384.
+pub fn checked(size: Option<(usize, usize)>) -> PyResult<Option<[usize; 2]>> {
+    match size {
+        Some((width, height)) if [width, height].iter().any(|side| !(1..=16_384).contains(side)) => {
+            Err(PyValueError::new_err(format!("the size is {width} x {height}; sides are from 1 to 16384 pixels")))
+        }
+        size => Ok(size.map(|(width, height)| [width, height])),
+    }
+}

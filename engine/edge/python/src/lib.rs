@@ -1,0 +1,24 @@
+//! The extension module `cosfly._cosfly`: calls of the command line, tables and images of datasets for Python.
+//!
+//! The Python half of the package (`python/cosfly`) gives these functions their types, documentation and names.
+
+mod calls;
+mod console;
+mod dataset;
+mod errors;
+mod images;
+mod table;
+
+use pyo3::prelude::*;
+
+/// Functions behind the package `cosfly`.
+#[pymodule]
+fn _cosfly(module: &Bound<'_, PyModule>) -> PyResult<()> {
+    cosfly::prepare().map_err(pyo3::exceptions::PyValueError::new_err)?;
+    module.add("__version__", env!("CARGO_PKG_VERSION"))?;
+    module.add_function(wrap_pyfunction!(calls::main, module)?)?;
+    module.add_function(wrap_pyfunction!(calls::call, module)?)?;
+    module.add_function(wrap_pyfunction!(images::decode_rgb, module)?)?;
+    module.add_class::<dataset::Reader>()?;
+    module.add_class::<table::Table>()
+}

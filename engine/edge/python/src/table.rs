@@ -1,0 +1,81 @@
+//! A table of a dataset: columns as numpy arrays, the whole as an Arrow stream.
+
+use crate::errors::raised;
+use cosfly_read::columns::{self, Column};
+use numpy::{PyArray1, PyArrayMethods, ToPyArray};
+use pyo3::exceptions::PyKeyError;
+use pyo3::prelude::*;
+use pyo3::types::{PyCapsule, PyList};
+use std::path::PathBuf;
+
+/// A table of a dataset. `table["column"]` is a numpy array, or a list for texts and files; pyarrow, pandas and polars
+/// take the whole table through Arrow's PyCapsule interface.
+#[pyclass(frozen, module = "cosfly")]
+pub struct Table {
+    /// Parquet files, in the order of their rows.
+    pub files: Vec<PathBuf>,
+}
+
+#[pymethods]
+impl Table {
+    /// Names of the columns.
+    #[getter]
+    fn columns(&self, py: Python<'_>) -> PyResult<Vec<String>> {
+        self.files.first().map_or(Ok(vec![]), |file| raised(py, columns::column_names(file)))
+    }
+
+    /// Parquet files of the table, in the order of their rows.
+    #[getter]
+    fn files(&self) -> Vec<PathBuf> {
+        self.files.clone()
+    }
+
+    fn __len__(&self, py: Python<'_>) -> PyResult<usize> {
+        let counts: PyResult<Vec<usize>> = self.files.iter().map(|it| raised(py, columns::row_count(it))).collect();
+        Ok(counts?.into_iter().sum())
+    }
+
+    fn __getitem__(&self, py: Python<'_>, name: &str) -> PyResult<Py<PyAny>> {
+        let known = self.columns(py)?;
+        if !known.iter().any(|column| column == name) {
+            return Err(PyKeyError::new_err(format!("no column `{name}`; the columns are {}", known.join(", "))));
+        }
+        let column = raised(py, py.detach(|| columns::column(&self.files, name)))?;
+        values(py, column)
+    }
+
+    #[pyo3(signature = (requested_schema = None))]
+    fn __arrow_c_stream__<'py>(
+        &self,
+        py: Python<'py>,
+        requested_schema: Option<Py<PyAny>>,
+    ) -> PyResult<Bound<'py, PyCapsule>> {
+        let _ = requested_schema; // Consumers convert types themselves.
+        PyCapsule::new_with_value(py, raised(py, columns::stream(&self.files))?, c"arrow_array_stream")
+    }
+
+    fn __repr__(&self, py: Python<'_>) -> PyResult<String> {
+        Ok(format!("<cosfly.Table of {} rows: {}>", self.__len__(py)?, self.columns(py)?.join(", ")))
+    }
+}
+
+/// Values of a column for Python; lists of one length as an array with two axes.
+fn values(py: Python<'_>, column: Column) -> PyResult<Py<PyAny>> {
+    Ok(match column {
+        Column::Reals(values) => PyArray1::from_vec(py, values).into_any().unbind(),
+        Column::Integers(values) => PyArray1::from_vec(py, values).into_any().unbind(),
+        Column::Texts(values) => PyList::new(py, values)?.into_any().unbind(),
+        Column::Files(values) => PyList::new(py, values)?.into_any().unbind(),
+        Column::TextLists(values) => PyList::new(py, values)?.into_any().unbind(),
+        Column::Lists(values, ends) => {
+            let width = ends.first().copied().unwrap_or(0);
+            let is_even = width > 0 && ends.iter().enumerate().all(|(row, end)| *end == (row + 1) * width);
+            if is_even {
+                return Ok(PyArray1::from_vec(py, values).reshape([ends.len(), width])?.into_any().unbind());
+            }
+            let starts = std::iter::once(0).chain(ends.iter().copied());
+            let rows = starts.zip(&ends).map(|(start, end)| values[start..*end].to_pyarray(py));
+            PyList::new(py, rows.collect::<Vec<_>>())?.into_any().unbind()
+        }
+    })
+}

@@ -1,0 +1,261 @@
+"""The package against the command line and other readers. Needs the package, numpy, pyarrow, pillow, mcap, pytest."""
+
+import io
+import os
+import pickle
+import signal
+import subprocess
+import sys
+import threading
+import time
+from pathlib import Path
+
+import numpy as np
+import pyarrow as pa
+import pyarrow.parquet as pq
+import pytest
+from mcap.reader import make_reader
+from mcap_protobuf.decoder import DecoderFactory
+from PIL import Image
+
+import cosfly
+
+
+@pytest.fixture(scope="session")
+def folder(tmp_path_factory):
+    """A folder with the small recipe, run once."""
+    place = tmp_path_factory.mktemp("small")
+    os.chdir(place)
+    cosfly.init("small")
+    made = cosfly.run("small", out="data", jobs=2, progress=False)
+    assert made.outcome == "complete" and made.out == Path("data"), made
+    return place
+
+
+@pytest.fixture(autouse=True)
+def inside(folder):
+    os.chdir(folder)
+
+
+def logged(dataset, trajectory, frame):
+    """Images of a frame by the mcap package and Pillow."""
+    rows = pq.read_table(f"{dataset}/data/trajectories").to_pylist()
+    row = next(row for row in rows if row["trajectory_id"] == trajectory)
+    time_ns, found = round(frame * row["dt_s"] * 1e9), {}
+    with open(f"{dataset}/{row['mcap_path']}", "rb") as file:
+        reader = make_reader(file, decoder_factories=[DecoderFactory()])
+        for _, channel, message, decoded in reader.iter_decoded_messages():
+            if message.log_time == time_ns:
+                found[channel.topic] = decoded
+    raw = lambda topic, kind: np.frombuffer(found[topic].data, kind).reshape(found[topic].height, found[topic].width)
+    return {
+        "rgb": np.array(Image.open(io.BytesIO(found["/camera/rgb/image"].data))),
+        "depth": raw("/camera/depth/image", "<f4"),
+        "semantic": raw("/camera/semantic/image", "u1"),
+        "instance": raw("/camera/instance/image", {"16UC1": "<u2", "32UC1": "<u4"}[found["/camera/instance/image"].encoding]),
+    }
+
+
+def test_run_is_the_command_line(folder):
+    again = cosfly.run("small", out="data", progress=False)
+    assert [stage.ran for stage in again.stages] == [0] * len(again.stages)
+    text = subprocess.run(
+        [sys.executable, "-m", "cosfly", "run", "small", "--out", "data2", "--json"], check=True, capture_output=True
+    ).stdout
+    assert again.version in text.decode()
+    assert cosfly.plan("small").to_run == 0
+    of_cargo = os.environ.get("COSFLY_DATASET_OF_CARGO")
+    if of_cargo:  # the same recipe, run by the command line that cargo built
+        files = lambda folder: {path.relative_to(folder): path for path in Path(folder).rglob("*") if path.is_file()}
+        ours, theirs = files("data"), files(of_cargo)
+        assert ours.keys() == theirs.keys() and all(ours[it].read_bytes() == theirs[it].read_bytes() for it in ours)
+    assert cosfly.plan("small", set={"stages.walkers.steps": 25}).to_run > 0
+    assert cosfly.why("small", "expert").cached
+    assert cosfly.verify("data", progress=False)
+
+
+def test_recipes_are_dictionaries_too():
+    recipe = {
+        "name": "dict", "seed": 1,
+        "stages": {
+            "town": {"use": "map", "source": "small/towns/downtown.xodr"},
+            "walkers": {"use": "pedestrians", "inputs": {"town": "town"}, "count": 1, "steps": 20},
+        },
+    }  # fmt: skip
+    seen = []
+    made = cosfly.run(recipe, set={"seed": 2}, progress=lambda progress: seen.append(progress))
+    assert made.outcome == "complete" and [stage.items for stage in made.stages] == [1, 1]
+    assert seen and seen[-1]["walkers"] == (1, 1) or list(seen[-1]["walkers"]) == [1, 1]
+
+
+def test_errors_are_those_of_the_command_line():
+    with pytest.raises(cosfly.Error) as caught:
+        cosfly.run("small", set={"stages.walkers.cuont": 3}, progress=False)
+    assert "count" in str(caught.value) and caught.value.code.startswith("recipe"), caught.value
+    assert pickle.loads(pickle.dumps(caught.value)).problems == caught.value.problems
+    with pytest.raises(cosfly.Error, match="does not exist") as caught:
+        cosfly.Dataset("nowhere")
+    assert caught.value.code == "dataset-none" and caught.value.hints
+    with pytest.raises(ValueError):
+        cosfly.export("data", "no-such-format", "x", progress=False)
+    with pytest.raises(cosfly.Error):
+        cosfly.run({"name": "x", "stages": {"a": {"use": "nothing"}}}, progress=False)
+
+
+def test_ctrl_c_stops_and_keeps_finished_items():
+    began = time.time()
+    threading.Timer(1.0, lambda: signal.raise_signal(signal.SIGINT)).start()
+    with pytest.raises(KeyboardInterrupt):
+        cosfly.run("small", set={"stages.walkers.count": 60, "seed": 5}, out="long", progress=False)
+    assert time.time() - began < 60 and not Path("long").exists()
+
+
+def test_tables_are_those_of_pyarrow():
+    dataset = cosfly.Dataset("data")
+    for name in ("trajectories", "frames", "windows", "captions"):
+        theirs, ours = pq.read_table(f"data/data/{name}"), pa.table(dataset.table(name))
+        assert ours.num_rows == theirs.num_rows == len(dataset.table(name)) and ours.column_names == theirs.column_names
+    frames = dataset.table("frames")
+    assert np.array_equal(frames["frame"], pa.table(frames)["frame"].to_numpy())
+    with pytest.raises(KeyError, match="drone_x_m"):
+        frames["nothing"]
+
+
+def test_frames_are_bit_for_bit_those_of_the_log():
+    dataset = cosfly.Dataset("data", channels=("rgb", "depth", "semantic", "instance"))
+    name = dataset.trajectory_ids[-1]
+    for frame in (0, 7):
+        ours, theirs = dataset.frame(name, frame), logged("data", name, frame)
+        for channel in ("depth", "semantic", "instance"):
+            assert np.array_equal(ours[channel], theirs[channel]), channel
+        assert np.abs(ours["rgb"].astype(int) - theirs["rgb"]).max() <= 4  # two JPEG decoders
+    small = dataset.frame(name, 3, size=(64, 36))
+    whole = Image.fromarray(dataset.frame(name, 3)["rgb"]).resize((64, 36), Image.BOX)
+    assert small["rgb"].shape == (36, 64, 3) and small["depth"].shape == (36, 64)
+    # Fractions of JPEG files come from their low frequencies, which is close to the mean of the area.
+    difference = np.abs(small["rgb"].astype(int) - np.array(whole))
+    assert difference.mean() <= 4 and difference.max() <= 48
+
+
+def test_windows_align_with_their_frames():
+    windows = cosfly.Dataset("data", windows=True, channels=("rgb", "depth"), size=(80, 45), captions="en")
+    rows = pq.read_table("data/data/windows").to_pylist()
+    assert len(windows) == len(rows)
+    sample = windows[3]
+    assert sample["rgb"].shape == (5, 45, 80, 3) and sample["depth"].dtype == np.float32 and sample["caption"]
+    row = next(it for it in rows if it["trajectory_id"] == sample["trajectory_id"] and it["start_frame"] == sample["start_frame"])
+    assert np.allclose(sample["waypoint_deltas_in_world"].ravel(), row["waypoint_deltas_in_world"])
+    assert np.allclose(sample["input_boxes_px"].ravel(), np.array(row["input_boxes_px"]) / 4)
+    alone = windows.frame(sample["trajectory_id"], sample["start_frame"] + 2)
+    assert np.array_equal(sample["rgb"][2], alone["rgb"])
+    experts = cosfly.Dataset("data", windows=True, role="expert")
+    assert 0 < len(experts) < len(windows) and experts[0]["role"] == 0
+
+
+def test_orders_and_loaders_are_deterministic_and_resume():
+    windows = cosfly.Dataset("data", windows=True, channels=())
+    assert sorted(windows.order(3)) == list(range(len(windows))) and list(windows.order(3)) != list(windows.order(4))
+    shards = [set(windows.order(3, 1, (rank, 3)).tolist()) for rank in range(3)]
+    assert len(set().union(*shards)) == 3 * len(shards[0])
+    key = lambda batch: list(zip(batch["trajectory_id"], batch["start_frame"].tolist()))
+    loader = windows.loader(4, seed=9)
+    first, state = next(iter(loader)), loader.state_dict()
+    rest = [key(batch) for batch in loader]
+    resumed = cosfly.Loader(windows, 4)
+    resumed.load_state_dict(state)
+    assert [key(batch) for batch in resumed] == rest and key(first) not in rest
+    with pytest.raises(ValueError, match="samples"):
+        resumed.load_state_dict({**state, "samples": 1})
+
+
+def test_packs_give_the_same_samples():
+    pack = cosfly.pack("data", "packed", size=(80, 45), channels=("rgb", "depth"), progress=False)
+    assert len(pack) == len(cosfly.Dataset("data"))
+    windows = cosfly.Pack("packed", "data", windows=True)
+    plain = cosfly.Dataset("data", windows=True, size=(80, 45))
+    a, b = windows[5], plain[5]
+    assert np.array_equal(a["rgb"], b["rgb"]) and np.allclose(a["depth"], b["depth"], rtol=1e-3)
+    with pytest.raises(FileExistsError):
+        cosfly.pack("data", "packed", progress=False)
+
+
+def test_the_expert_answers_batches():
+    expert = cosfly.Expert("small")
+    poses = pq.read_table("data/data/frames").to_pylist()
+    row = next(it for it in poses if it["trajectory_id"] == "expert-p00000" and it["frame"] == 4)
+    place = [row["drone_x_m"], row["drone_y_m"], row["drone_z_m"]]
+    states = [{"trajectory": "expert-p00000", "frame": 4, "position": np.array(place), "horizon_s": 2}] * 3
+    states.append({"trajectory": "expert-p00000", "frame": 4, "position": [float("nan"), 0, 0]})
+    answers = expert.plan_from(states, threads=2)
+    assert [answer.planned for answer in answers] == [True, True, True, False]
+    assert answers[0].poses.shape[1] == 5 and np.allclose(answers[0].poses[0, :3], place, atol=1e-6)
+    assert "position" in answers[3].error
+
+
+def test_broken_logs_are_errors(tmp_path):
+    import shutil
+
+    shutil.copytree("data", tmp_path / "broken")
+    log = next((tmp_path / "broken" / "mcap").rglob("*.mcap"))
+    dataset = cosfly.Dataset(tmp_path / "broken", channels=("rgb", "depth"))
+    frames = [place for place, (name, _) in enumerate(dataset._index) if name == log.stem]
+    whole = log.read_bytes()
+    for cut in (0, 100, len(whole) // 2, len(whole) - 1):
+        log.write_bytes(whole[:cut])
+        fresh = cosfly.Dataset(tmp_path / "broken", channels=("rgb", "depth"))
+        with pytest.raises(cosfly.Error):
+            for place in frames:
+                fresh[place]
+    rng = np.random.default_rng(1)
+    for _ in range(100):
+        bad = bytearray(whole)
+        for place in rng.integers(0, len(bad), 20):
+            bad[place] = rng.integers(256)
+        log.write_bytes(bad)
+        try:
+            cosfly.Dataset(tmp_path / "broken", channels=("rgb", "depth"))[frames[0]]
+        except cosfly.Error:
+            pass
+
+
+def test_notebooks_show_pictures():
+    pictures = cosfly.preview("data", "expert-p00001", out="pictures", progress=False)
+    assert Image.open(pictures.sheet).width > 100 and pictures.clip.suffix == ".gif" and pictures.plan.exists()
+    assert pictures._repr_html_().count("<img") == 3 and "<img" in cosfly.Dataset("data")._repr_html_()
+
+
+def test_logs_that_change_under_the_reader_are_errors(tmp_path):
+    import shutil
+
+    shutil.copytree("data", tmp_path / "changing")
+    dataset = cosfly.Dataset(tmp_path / "changing", channels=("depth",))
+    dataset[0]
+    for log in (tmp_path / "changing" / "mcap").rglob("*.mcap"):
+        log.write_bytes(log.read_bytes()[:5000])
+    with pytest.raises(cosfly.Error, match="damaged"):
+        for sample in dataset:
+            assert sample["depth"].shape
+
+
+def test_forks_and_pickles_read_on():
+    dataset = cosfly.Dataset("data", size=(32, 18))
+    expected = dataset[5]["rgb"]
+    child = os.fork()
+    if child == 0:
+        os._exit(0 if np.array_equal(dataset[5]["rgb"], expected) else 1)
+    assert os.waitstatus_to_exitcode(os.waitpid(child, 0)[1]) == 0
+    assert np.array_equal(pickle.loads(pickle.dumps(dataset))[5]["rgb"], expected)
+
+
+def test_many_random_accesses_need_no_more_memory_and_descriptors():
+    import resource
+
+    dataset = cosfly.Dataset("data", channels=("semantic",), size=(32, 18))
+    order = np.random.default_rng(0).integers(0, len(dataset), 3000)
+    for place in order[:500]:
+        dataset[place]
+    memory, descriptors = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss, len(os.listdir("/proc/self/fd"))
+    for place in order:
+        dataset[place]
+    assert resource.getrusage(resource.RUSAGE_SELF).ru_maxrss < memory + 20_000
+    assert len(os.listdir("/proc/self/fd")) <= descriptors + 1

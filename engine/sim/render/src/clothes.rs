@@ -1,0 +1,233 @@
+//! Clothes: one palette for everybody, drawn from a person's own seed, so that nobody changes clothes when followed.
+
+use cosfly_frames::{RandomStream, Seed};
+use serde::{Deserialize, Serialize};
+
+/// Material of a part of the figure.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Region {
+    /// Face, neck, hands.
+    Skin,
+    /// Hair or hat.
+    Hair,
+    /// Shirt or jacket.
+    Top,
+    /// Trousers or skirt.
+    Trousers,
+    /// Shoes.
+    Shoes,
+    /// Backpack.
+    Bag,
+}
+
+/// Colours of a figure, linear RGB.
+#[derive(Clone, Copy, Debug)]
+pub struct Clothes {
+    /// Indexed by [`Region`].
+    pub colours: [[f32; 3]; 6],
+    /// What texts may say of them.
+    pub outfit: Outfit,
+    /// Bare forearms.
+    pub short_sleeves: bool,
+    /// Width of the trunk relative to the usual.
+    pub build: f64,
+}
+
+/// Clothes as people name them.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Outfit {
+    /// Shirt or jacket.
+    pub top: Dye,
+    /// Trousers.
+    pub trousers: Dye,
+    /// Wears a backpack.
+    pub backpack: bool,
+}
+
+/// Colour of a piece of clothing.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Dye {
+    /// Name of the colour.
+    pub name: Colour,
+    /// Reflected share of light, linear RGB.
+    pub linear_rgb: [f32; 3],
+}
+
+/// Names of colours.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
+#[expect(missing_docs, reason = "the names say it")]
+pub enum Colour {
+    Black,
+    Grey,
+    White,
+    Red,
+    Orange,
+    Yellow,
+    Green,
+    Blue,
+    Purple,
+    Pink,
+    Brown,
+    Beige,
+}
+
+impl Colour {
+    /// All names.
+    pub const ALL: [Self; 12] = [
+        Self::Black,
+        Self::Grey,
+        Self::White,
+        Self::Red,
+        Self::Orange,
+        Self::Yellow,
+        Self::Green,
+        Self::Blue,
+        Self::Purple,
+        Self::Pink,
+        Self::Brown,
+        Self::Beige,
+    ];
+
+    /// The name in tables and in English texts.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Black => "black",
+            Self::Grey => "grey",
+            Self::White => "white",
+            Self::Red => "red",
+            Self::Orange => "orange",
+            Self::Yellow => "yellow",
+            Self::Green => "green",
+            Self::Blue => "blue",
+            Self::Purple => "purple",
+            Self::Pink => "pink",
+            Self::Brown => "brown",
+            Self::Beige => "beige",
+        }
+    }
+}
+
+const fn dye(name: Colour, linear_rgb: [f32; 3]) -> Dye {
+    Dye { name, linear_rgb }
+}
+
+/// Tops that stand out from asphalt, pavement and grass, linear RGB.
+const BRIGHT_TOPS: [Dye; 10] = [
+    dye(Colour::Red, [0.72, 0.03, 0.03]),
+    dye(Colour::Orange, [0.85, 0.45, 0.02]),
+    dye(Colour::White, [0.80, 0.78, 0.72]),
+    dye(Colour::Blue, [0.03, 0.16, 0.70]),
+    dye(Colour::Pink, [0.75, 0.08, 0.35]),
+    dye(Colour::Blue, [0.02, 0.45, 0.55]),
+    dye(Colour::Yellow, [0.85, 0.70, 0.05]),
+    dye(Colour::Purple, [0.35, 0.05, 0.50]),
+    dye(Colour::Orange, [0.90, 0.22, 0.05]),
+    dye(Colour::Green, [0.05, 0.40, 0.10]),
+];
+/// Common colours of tops, linear RGB.
+const EVERYDAY_TOPS: [Dye; 12] = [
+    dye(Colour::Black, [0.03, 0.03, 0.035]),
+    dye(Colour::Grey, [0.08, 0.085, 0.09]),
+    dye(Colour::Grey, [0.20, 0.20, 0.20]),
+    dye(Colour::Grey, [0.45, 0.45, 0.44]),
+    dye(Colour::White, [0.62, 0.60, 0.55]),
+    dye(Colour::Blue, [0.03, 0.045, 0.10]),
+    dye(Colour::Blue, [0.10, 0.16, 0.27]),
+    dye(Colour::Blue, [0.30, 0.38, 0.48]),
+    dye(Colour::Green, [0.07, 0.09, 0.05]),
+    dye(Colour::Brown, [0.16, 0.09, 0.05]),
+    dye(Colour::Beige, [0.38, 0.29, 0.19]),
+    dye(Colour::Red, [0.20, 0.04, 0.045]),
+];
+const TROUSERS: [Dye; 6] = [
+    dye(Colour::Blue, [0.02, 0.03, 0.08]),
+    dye(Colour::Black, [0.015, 0.015, 0.02]),
+    dye(Colour::Blue, [0.05, 0.09, 0.22]),
+    dye(Colour::Beige, [0.30, 0.24, 0.15]),
+    dye(Colour::Grey, [0.12, 0.12, 0.13]),
+    dye(Colour::Brown, [0.10, 0.05, 0.03]),
+];
+const HAIR: [[f32; 3]; 5] =
+    [[0.01, 0.008, 0.006], [0.04, 0.02, 0.01], [0.10, 0.05, 0.02], [0.30, 0.20, 0.08], [0.25, 0.25, 0.25]];
+const SKIN: [[f32; 3]; 4] = [[0.62, 0.38, 0.27], [0.50, 0.28, 0.18], [0.28, 0.14, 0.08], [0.12, 0.06, 0.035]];
+const SHOES: [[f32; 3]; 3] = [[0.02, 0.02, 0.02], [0.60, 0.60, 0.58], [0.12, 0.06, 0.03]];
+
+/// Share of people with a top from [`BRIGHT_TOPS`].
+const BRIGHT_SHARE: f64 = 0.25;
+
+impl Clothes {
+    /// The clothes that a seed draws.
+    pub fn draw(seed: &Seed) -> Self {
+        let mut stream = seed.stream("clothes");
+        let tops: &[Dye] = if stream.chance(BRIGHT_SHARE) { &BRIGHT_TOPS } else { &EVERYDAY_TOPS };
+        let [top, bag] = [(); 2].map(|()| one_of(&mut stream, tops));
+        let trousers = one_of(&mut stream, &TROUSERS);
+        let [skin, hair, shoes] = [&SKIN[..], &HAIR, &SHOES].map(|palette| one_of(&mut stream, palette));
+        let outfit = Outfit { top, trousers, backpack: stream.chance(0.35) };
+        let build = stream.uniform(0.92, 1.12);
+        let short_sleeves = stream.chance(0.45);
+        let bag = bag.linear_rgb.map(|c| 0.5 * c);
+        let colours = [skin, hair, top.linear_rgb, trousers.linear_rgb, shoes, bag];
+        Self { colours, outfit, short_sleeves, build }
+    }
+
+    /// True for a top that stands out from asphalt, pavement and grass.
+    pub fn stand_out(&self) -> bool {
+        BRIGHT_TOPS.contains(&self.outfit.top)
+    }
+}
+
+/// Seed of the clothes of somebody who is followed: with the probability `stands_out` a seed whose clothes stand out, else
+/// the person's own. The first draws decide and do not depend on `stands_out`: a higher value changes the clothes of more
+/// people, and of no other.
+pub fn clothes_seed_of_target(own: &Seed, stands_out: f64) -> Seed {
+    if !own.stream("stands out").chance(stands_out) {
+        return *own;
+    }
+    let mut drawn = (0..100).map(|number| own.child("bright clothes", number));
+    drawn.find(|seed| Clothes::draw(seed).stand_out()).unwrap_or(*own)
+}
+
+fn one_of<T: Copy>(stream: &mut RandomStream, palette: &[T]) -> T {
+    palette[stream.index(palette.len())]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn seeds() -> impl Iterator<Item = Seed> {
+        (0..400).map(|number| Seed([5; 32]).child("person", number))
+    }
+
+    #[test]
+    fn a_quarter_of_all_people_stand_out_and_targets_as_many_as_asked_for() {
+        let share = |stands_out: f64| {
+            let clothes = seeds().map(|own| Clothes::draw(&clothes_seed_of_target(&own, stands_out)));
+            clothes.filter(Clothes::stand_out).count() as f64 / 400.0
+        };
+        assert!((share(0.0) - BRIGHT_SHARE).abs() < 0.08, "{}", share(0.0));
+        assert!((share(0.5) - 0.625).abs() < 0.08, "{}", share(0.5));
+        assert_eq!(share(1.0), 1.0);
+    }
+
+    #[test]
+    fn nobody_changes_clothes_when_followed_unless_that_is_asked_for() {
+        assert!(seeds().all(|own| clothes_seed_of_target(&own, 0.0) == own));
+    }
+
+    #[test]
+    fn names_fit_their_colours() {
+        let brightness = |rgb: [f32; 3]| 0.21 * rgb[0] + 0.72 * rgb[1] + 0.07 * rgb[2];
+        for Dye { name, linear_rgb: rgb } in BRIGHT_TOPS.iter().chain(&EVERYDAY_TOPS).chain(&TROUSERS) {
+            match name {
+                Colour::Black => assert!(brightness(*rgb) < 0.05),
+                Colour::White => assert!(brightness(*rgb) > 0.5),
+                Colour::Red => assert!(rgb[0] > 2.0 * rgb[1].max(rgb[2])),
+                Colour::Green => assert!(rgb[1] > rgb[0].max(rgb[2])),
+                Colour::Blue => assert!(rgb[2] > rgb[0].max(rgb[1])),
+                _ => {}
+            }
+        }
+    }
+}

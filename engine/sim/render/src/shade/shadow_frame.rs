@@ -1,0 +1,55 @@
+//! Places in a shadow map: ground coordinates sheared along the sun's light.
+
+use super::shadow_region::Region;
+use cosfly_frames::{DVec2, DVec3};
+
+/// Heights in the maps are above this level below the reference, so that all are positive.
+pub(super) const DEPTH_M: f64 = 1000.0;
+
+/// Place of a map. The v axis runs along the sun's direction over the ground, so that upright edges,
+/// whose shadows run that way, follow the texels and do not turn into stairs.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Frame {
+    /// Sheared ground coordinates of texel (0, 0), along `axes`, metres.
+    pub(super) corner_m: DVec2,
+    pub(super) reference_m: f64,
+    pub(super) shear: DVec2,
+    pub(super) axes: [DVec2; 2],
+    pub(super) texels_m: DVec2,
+}
+
+impl Frame {
+    /// Sheared ground coordinates along the axes, metres.
+    pub(super) fn sheared(&self, point: DVec3) -> DVec2 {
+        let at = point.truncate() - (point.z - self.reference_m) * self.shear;
+        DVec2::new(at.dot(self.axes[0]), at.dot(self.axes[1]))
+    }
+
+    pub(super) fn place(&self, point: DVec3) -> [f64; 2] {
+        ((self.sheared(point) - self.corner_m) / self.texels_m).to_array()
+    }
+
+    /// Whether a box around `center`, `half` its size along the world's axes, casts no shadow into a part of the map.
+    pub(super) fn misses(&self, part: &Region, center: DVec3, half: DVec3) -> bool {
+        let at = self.place(center);
+        (0..2).any(|k| {
+            let axis = self.axes[k] / self.texels_m[k];
+            let reach = axis.abs().dot(half.truncate()) + self.shear.dot(axis).abs() * half.z + 1.0;
+            !(at[k] + reach > part.first[k] as f64 && at[k] - reach < part.end[k] as f64)
+        })
+    }
+
+    pub(super) fn height(&self, point: DVec3) -> f64 {
+        point.z - self.reference_m + DEPTH_M
+    }
+
+    /// `place` as an affine map in f32: rows of (x, y, z, 1).
+    pub(super) fn rows(&self) -> [[f32; 4]; 2] {
+        [0, 1].map(|k| {
+            let axis = self.axes[k] / self.texels_m[k];
+            let slope = -self.shear.dot(axis);
+            let constant = -slope * self.reference_m - self.corner_m[k] / self.texels_m[k];
+            [axis.x as f32, axis.y as f32, slope as f32, constant as f32]
+        })
+    }
+}

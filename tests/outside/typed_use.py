@@ -1,0 +1,30 @@
+"""Use of the package under pyright's strict mode; the names and types that users rely on."""
+
+# pyright: strict
+
+from pathlib import Path
+from typing import Any, Dict, List, Optional
+
+import numpy as np
+import numpy.typing as npt
+
+import cosfly
+
+
+def use(folder: Path) -> Optional[float]:
+    made: cosfly.Made = cosfly.run(folder, set={"seed": 3}, jobs=2, progress=False)
+    stages: List[str] = [stage.stage for stage in made.stages if stage.ran > 0]
+    check: cosfly.Check = cosfly.verify(folder)
+    plan: cosfly.Plan = cosfly.plan({"name": "x", "stages": {}})
+    windows = cosfly.Dataset(folder, split="train", windows=True, channels=("rgb",), size=(80, 45))
+    sample: Dict[str, Any] = windows[0]
+    order: npt.NDArray[np.int64] = windows.order(seed=1, shard=(0, 2))
+    for batch in windows.loader(8, seed=1):
+        print(sorted(batch), sample["rgb"], order[:3], stages, plan.to_run)
+    answers = cosfly.Expert(folder).plan_from([{"trajectory": "a", "frame": 1, "position": [0.0, 1.0, 2.0]}])
+    picture = cosfly.decode_rgb(b"", size=(8, 8))
+    try:
+        cosfly.evaluate("mine.jsonl", folder)
+    except cosfly.Error as error:
+        print(error.code, error.hints, error.place, picture.shape)
+    return float(answers[0].poses[0, 0]) if check.sound else None
