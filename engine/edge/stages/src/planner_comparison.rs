@@ -109,8 +109,8 @@ impl<'a> Task<'a> {
         limits.speed_mps = told(speed_mps, limits.speed_mps);
         limits.acceleration_mps2 = told(acceleration_mps2, limits.acceleration_mps2);
         limits.jerk_mps3 = told(jerk_mps3, limits.jerk_mps3);
-        limits.yaw_rate_deg_s = told(yaw_rate_deg_s, limits.yaw_rate_deg_s);
-        limits.pitch_rate_deg_s = told(pitch_rate_deg_s, limits.pitch_rate_deg_s);
+        limits.yaw_rate_deg_s = Some(yaw_rate_deg_s).filter(|limit| limit.is_finite() && *limit > 0.0);
+        limits.pitch_rate_deg_s = Some(pitch_rate_deg_s).filter(|limit| limit.is_finite() && *limit > 0.0);
         let terms = built_in_terms(&config.resolved_weights());
         let reach_m = config.search.filter_radius_m + 10.0;
         let ground = GroundGrid::sample(&track, &|x, y| world.ground.ground_height_m(x, y).unwrap_or(0.0), reach_m);

@@ -88,8 +88,8 @@ fn check_kinematics(flight: &Trajectory, p: &[DVec3], config: &MucoConfig, label
     }
     let angles = |angle: fn(&Pose) -> f64| flight.poses_in_world.iter().map(angle).collect::<Vec<f64>>();
     for (angles, stated, limit) in [
-        (angles(|pose| pose.yaw_rad), certificate.max_yaw_rate_deg_s, config.limits.yaw_rate_deg_s),
-        (angles(|pose| pose.pitch_rad), certificate.max_pitch_rate_deg_s, config.limits.pitch_rate_deg_s),
+        (angles(|pose| pose.yaw_rad), certificate.max_yaw_rate_deg_s, config.stated_limits().yaw_rate_deg_s),
+        (angles(|pose| pose.pitch_rad), certificate.max_pitch_rate_deg_s, config.stated_limits().pitch_rate_deg_s),
     ] {
         let turn = |pair: &[f64]| (pair[1] - pair[0] + PI).rem_euclid(2.0 * PI) - PI;
         let largest = angles.windows(2).map(|pair| turn(pair).abs().to_degrees() / dt).fold(0.0, f64::max);

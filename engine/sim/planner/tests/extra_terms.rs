@@ -96,8 +96,8 @@ fn any_valid_configuration_ends_without_a_panic() {
                 speed_mps: any(0.5, 20.0),
                 acceleration_mps2: any(0.1, 10.0),
                 jerk_mps3: any(0.1, 20.0),
-                yaw_rate_deg_s: any(10.0, 200.0),
-                pitch_rate_deg_s: any(10.0, 200.0),
+                yaw_rate_deg_s: Some(any(10.0, 200.0)),
+                pitch_rate_deg_s: Some(any(10.0, 200.0)),
                 require_kinematics: any(0.0, 1.0) < 0.5,
             },
             view: ViewConfig {

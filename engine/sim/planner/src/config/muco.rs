@@ -1,7 +1,7 @@
 //! All parameters of a flight, and the checks that run over several tables at once.
 
 use super::descent::DescentConfig;
-use super::limits::LimitsConfig;
+use super::limits::{LimitsConfig, VIEW_RATE_DEG_S};
 use super::occlusion::OcclusionConfig;
 use super::paper::PaperConfig;
 use super::planner::Planner;
@@ -68,13 +68,15 @@ impl MucoConfig {
 
     /// The limits that a certificate states.
     pub fn stated_limits(&self) -> Limits {
+        // The paper bounds no rates of view, and its flights do not keep them.
+        let view_rate_deg_s = if self.preset == Preset::Paper { f64::INFINITY } else { VIEW_RATE_DEG_S };
         Limits {
             clearance_m: self.limits.clearance_m,
             speed_mps: self.limits.speed_mps,
             acceleration_mps2: self.limits.acceleration_mps2,
             jerk_mps3: self.limits.jerk_mps3,
-            yaw_rate_deg_s: self.limits.yaw_rate_deg_s,
-            pitch_rate_deg_s: self.limits.pitch_rate_deg_s,
+            yaw_rate_deg_s: self.limits.yaw_rate_deg_s.unwrap_or(view_rate_deg_s),
+            pitch_rate_deg_s: self.limits.pitch_rate_deg_s.unwrap_or(view_rate_deg_s),
         }
     }
 

@@ -123,7 +123,7 @@ fn move_costs(config: &MucoConfig, effort: Effort, dt_s: f64, stride: usize) -> 
         relative: per_layer * config.search.relative_motion,
         absolute: per_layer * config.search.absolute_motion,
         longest_m: STEADY_SHARE * config.limits.speed_mps * dt_s * stride as f64,
-        widest_rad: TURN_SHARE * config.limits.yaw_rate_deg_s.to_radians() * dt_s * stride as f64,
+        widest_rad: TURN_SHARE * config.stated_limits().yaw_rate_deg_s.to_radians() * dt_s * stride as f64,
     }
 }
 

@@ -166,8 +166,8 @@ pub(super) fn measured(
         speed_mps: flyable.map_or(f64::INFINITY, |limits| limits.max_speed_mps),
         acceleration_mps2: flyable.map_or(f64::INFINITY, |limits| limits.max_acceleration_mps2),
         jerk_mps3: f64::INFINITY,
-        yaw_rate_deg_s: f64::INFINITY,
-        pitch_rate_deg_s: f64::INFINITY,
+        yaw_rate_deg_s: Some(f64::INFINITY),
+        pitch_rate_deg_s: Some(f64::INFINITY),
         require_kinematics: false,
     };
     // Height is kept above the target's feet while displacing; no ground below is known here.
