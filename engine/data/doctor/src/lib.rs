@@ -18,7 +18,7 @@ pub mod sources;
 mod tests;
 pub mod walls;
 
+pub use cosfly_metrics::shortcuts::ShortcutFigures;
 pub use episode::{Episode, Look, Moment};
 pub use examination::{Examination, Layout, Quota, examine};
-pub use cosfly_metrics::shortcuts::ShortcutFigures;
 pub use flag::{Flag, Severity};

@@ -24,7 +24,8 @@ pub fn figures(dataset: &PublishedDataset) -> Result<ShortcutFigures> {
             for row in 0..rows.len() {
                 if let Some(top) = rows.get_or(Trajectories::target_top_linear_rgb, row, None)? {
                     let id = rows.get(Trajectories::trajectory_id, row)?;
-                    shortcuts.add_target(&format!("{} {}", town(&id), rows.get(Trajectories::pedestrian_id, row)?), top);
+                    shortcuts
+                        .add_target(&format!("{} {}", town(&id), rows.get(Trajectories::pedestrian_id, row)?), top);
                 }
             }
             Ok(())

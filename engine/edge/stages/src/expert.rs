@@ -70,7 +70,8 @@ impl Expert {
             return Err(ParameterError { hint, ..parameters::refused_at(key, message) });
         }
         if aims && objective.objective != Objective::Track {
-            let message = format!("`aim` is the aim at a walker; this stage's objective is `{asked}`, which follows nobody");
+            let message =
+                format!("`aim` is the aim at a walker; this stage's objective is `{asked}`, which follows nobody");
             let hint = Some("leave `aim` out".to_owned());
             return Err(ParameterError { hint, ..parameters::refused_at("aim", message) });
         }

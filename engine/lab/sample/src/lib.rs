@@ -13,8 +13,8 @@ use cosfly_planner::{Certificate, FramePerturbation, Limits, Perturbation, TermC
 use cosfly_render::channels::{ALL, SeenPoint};
 use cosfly_render::frame::TARGET_INSTANCE;
 use cosfly_render::{
-    Camera, ChannelImage, ChannelSet, Clothes, FrameImages, Lens, MotionBlur, Mount, Noise, Outfit, PersonView, PixelBox,
-    RollingShutter, TargetView, Weather,
+    Camera, ChannelImage, ChannelSet, Clothes, FrameImages, Lens, MotionBlur, Mount, Noise, Outfit, PersonView,
+    PixelBox, RollingShutter, TargetView, Weather,
 };
 use cosfly_schema::{
     CaptionRecord, EncodingConfig, OtherPerson, PairInfo, Rejection, RenderedTrajectory, Role, Sighting, TownInfo,

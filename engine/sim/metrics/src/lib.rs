@@ -23,8 +23,8 @@ pub mod difficulty;
 pub mod run_lengths;
 pub mod scores;
 pub mod segmentation;
-pub mod waypoint;
 pub mod shortcuts;
+pub mod waypoint;
 pub mod windows;
 
 pub use deltas::{DeltaFrame, DeltaOrigin, waypoints};

@@ -1,7 +1,7 @@
 //! The people of a frame: who of them can be seen, or throws a shadow that can, and their figures.
 
-use crate::eye::Eye;
 use crate::clothes::Clothes;
+use crate::eye::Eye;
 use crate::figure::{FigureTriangle, Walker, figure};
 use crate::frame::TARGET_INSTANCE;
 use crate::setup::FrameSetup;

@@ -8,8 +8,8 @@ use cosfly_captions::Wear;
 use cosfly_diagnose::{Diagnostic, Fault, Result};
 use cosfly_fingerprint::Digest;
 use cosfly_frames::DVec3;
-use cosfly_render::Colour;
 use cosfly_read::{BoxInWorld, FrameRow, PublishedDataset, PublishedFlight, log_problem, parquet_problem};
+use cosfly_render::Colour;
 use std::collections::BTreeMap;
 use std::path::Path;
 

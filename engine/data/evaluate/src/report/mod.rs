@@ -6,5 +6,7 @@ pub mod result;
 pub mod score;
 pub(crate) mod table;
 
-pub use result::{AnchorReport, AnchoredMethod, DatasetFacts, Evaluation, MethodReport, RowFacts, StratumReport, WindowFacts};
+pub use result::{
+    AnchorReport, AnchoredMethod, DatasetFacts, Evaluation, MethodReport, RowFacts, StratumReport, WindowFacts,
+};
 pub use score::{Score, Scores};

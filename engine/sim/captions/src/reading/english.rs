@@ -230,7 +230,10 @@ mod tests {
             ("They stop", vec![Claim::SomeStops]),
             ("Go south-east at 1.4 m/s.", vec![Claim::Direction(Compass::Southeast), Claim::Speed(1.4)]),
             ("turns left, then right", vec![Claim::Turn(TurnKind::Left), Claim::Turn(TurnKind::Right)]),
-            ("turns right twice, then left", [vec![Claim::Turn(TurnKind::Right); 2], vec![Claim::Turn(TurnKind::Left)]].concat()),
+            (
+                "turns right twice, then left",
+                [vec![Claim::Turn(TurnKind::Right); 2], vec![Claim::Turn(TurnKind::Left)]].concat(),
+            ),
             ("turns left three times", vec![Claim::Turn(TurnKind::Left); 3]),
             (
                 "a person with a backpack in a red shirt and blue trousers",

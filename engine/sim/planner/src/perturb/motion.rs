@@ -124,10 +124,7 @@ fn on_way(places: &[DVec3], frame: f64) -> DVec3 {
     let (from, to) = (place(0), place(1));
     let (leaves, arrives) = (0.5 * (to - place(-1)), 0.5 * (place(2) - from));
     let (t2, t3) = (t * t, t * t * t);
-    (2.0 * t3 - 3.0 * t2 + 1.0) * from
-        + (t3 - 2.0 * t2 + t) * leaves
-        + (3.0 * t2 - 2.0 * t3) * to
-        + (t3 - t2) * arrives
+    (2.0 * t3 - 3.0 * t2 + 1.0) * from + (t3 - 2.0 * t2 + t) * leaves + (3.0 * t2 - 2.0 * t3) * to + (t3 - t2) * arrives
 }
 
 #[cfg(test)]
@@ -147,9 +144,8 @@ mod tests {
     #[test]
     fn displacements_have_the_asked_sizes() {
         let (config, seed) = (FlyableConfig::default(), Seed([4; 32]));
-        let spread = |offsets: &[DVec3]| {
-            (offsets.iter().map(|it| it.x * it.x).sum::<f64>() / offsets.len() as f64).sqrt()
-        };
+        let spread =
+            |offsets: &[DVec3]| (offsets.iter().map(|it| it.x * it.x).sum::<f64>() / offsets.len() as f64).sqrt();
         let drifting = drift(20_000, 0.5, &config, &seed);
         assert!((1.0..1.6).contains(&spread(&drifting)), "{}", spread(&drifting));
         let gusty = gusts(20_000, 0.5, &config, &seed);
