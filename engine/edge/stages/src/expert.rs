@@ -55,6 +55,7 @@ impl Expert {
     pub fn read(mut given: serde_json::Value) -> Result<Self, ParameterError> {
         let named = ["inspect", "patrol", "plugin"].map(|key| given.get(key).map(|_| key));
         let plugins: ExpertPlugins = parameters::take(&mut given)?;
+        let aims = given.get("aim").is_some();
         let Pilot { aim } = parameters::take(&mut given)?;
         let (config, objective) = parameters::read_merged::<MucoConfig, ObjectiveConfig>(given)?;
         plugins.validate()?;
@@ -67,6 +68,12 @@ impl Expert {
             let message = format!("`{key}` is for `objective = \"{key}\"`; this stage's objective is `{asked}`");
             let hint = Some(format!("set `objective = \"{key}\"`, or leave `{key}` out"));
             return Err(ParameterError { hint, ..parameters::refused_at(key, message) });
+        }
+        if aims && objective.objective != Objective::Track {
+            let message =
+                format!("`aim` is the aim at a walker; this stage's objective is `{asked}`, which follows nobody");
+            let hint = Some("leave `aim` out".to_owned());
+            return Err(ParameterError { hint, ..parameters::refused_at("aim", message) });
         }
         if objective.objective == Objective::Plugin && plugins.plugin.is_none() {
             let hint = Some("add `plugin.use = \"wasm:FILE\"`, and what it is told as `plugin.params`".to_owned());
@@ -201,6 +208,7 @@ mod tests {
             &["targets", "companions"],
         );
         check(serde_json::json!({ "aim": { "lag_s": 9.0 } }), &["aim", "lag_s"]);
+        check(serde_json::json!({ "objective": "patrol", "aim": {} }), &["aim"]);
         check(serde_json::json!({ "inspect": { "row_m": 2.0 } }), &["inspect"]);
         check(serde_json::json!({ "objective": "inspect", "patrol": {} }), &["patrol"]);
         check(serde_json::json!({ "planner": "astar" }), &["planner"]);

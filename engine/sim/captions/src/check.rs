@@ -68,9 +68,9 @@ impl fmt::Display for SlotMismatch {
 
 /// Compares every number, direction, turn and stop that a text claims with the facts.
 ///
-/// A text must name a distance and a pitch; whatever else it claims must be true to the step in
-/// [`crate::precision`]. Clothes are judged where the facts know them. The first direction is where the walk sets out, a second one where it ends. Listed turns must
-/// be all turns, in order. The text must be in the script of its language.
+/// A text must name a distance and a pitch; whatever else it claims must be true to the step in [`crate::precision`]. Clothes
+/// are judged where the facts know them. The first direction is where the walk sets out, a second one where it ends. Listed
+/// turns must be all turns, in order. The text must be in the script of its language.
 ///
 /// # Errors
 /// All disagreements, in the order of the text; missing slots come last.

@@ -33,8 +33,9 @@ fn report(evaluation: &Evaluation) -> String {
     let other = &evaluation.other_anchor;
     let _ = writeln!(
         text,
-        "\n## The same windows with `--anchor {}`\n\nThe first increment starts at {}; the rotation and the displacement of a \
-         perturbed input count or not. The paper does not say which; its figures of untrained models are those of `expert`.\n",
+        "\n## The same windows with `--anchor {}`\n\nThe first increment starts at {}. With `expert` the \
+         displacement of a perturbed input does not count. The paper does not say which it takes; its untrained models \
+         have the scores of `expert`.\n",
         format!("{:?}", other.anchor).to_lowercase(),
         start_of(other.anchor)
     );
