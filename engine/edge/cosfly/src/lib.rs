@@ -21,7 +21,6 @@ use std::panic::AssertUnwindSafe;
 
 /// The reason why a call did no work.
 #[derive(Debug)]
-#[expect(clippy::vec_box, reason = "diagnostics come boxed, in `Result`s")]
 pub enum Refusal {
     /// The arguments are invalid, or ask for help: the text for the user.
     Arguments(Box<clap::Error>),

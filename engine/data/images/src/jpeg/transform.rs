@@ -119,7 +119,6 @@ simd_kernel! {
 }
 
 /// Fills a quarter of chroma blocks with the means of two by two values of a group of blocks.
-#[expect(clippy::needless_range_loop, reason = "one loop over lanes reads four arrays")]
 #[inline(always)]
 fn halve(plane: &Blocks, half: usize, group: usize, blocks: &mut Blocks) {
     for row in 0..4 {

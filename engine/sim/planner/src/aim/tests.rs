@@ -59,6 +59,7 @@ fn a_lag_looks_where_the_target_was_and_a_lead_where_it_will_be() {
     for (lag_s, behind) in [(1.0, -2_i64), (-1.0, 2)] {
         let config = AimConfig { lag_s, ..AimConfig::exact() };
         let poses = aimed(&positions, &track, 0, None, &config, seed());
+        #[expect(clippy::needless_range_loop, reason = "frames number three lists")]
         for frame in 2..38_usize {
             let then = frame.saturating_add_signed(behind as isize);
             assert!(off_axis_deg(&poses[frame], &track, then) < 1e-5, "{lag_s} {frame}");
