@@ -47,7 +47,7 @@ class Expert:
         """Ask about states, in their order, over all cores.
 
         A state is a dictionary: ``trajectory`` (id), ``frame``, ``position`` (x, y, z in the world frame, metres), and
-        optionally ``velocity`` (m/s) and ``horizon_s``. A state that is not allowed gives an answer with ``error``; only
+        optionally ``velocity`` (m/s; that of the published flight in this frame unless given) and ``horizon_s``. A state that is not allowed gives an answer with ``error``; only
         a recipe that was not run raises :class:`cosfly.Error`.
         """
         lines = [json.dumps({key: _plain(value) for key, value in state.items()}) for state in states]

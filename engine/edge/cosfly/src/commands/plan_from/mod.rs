@@ -52,8 +52,8 @@ pub struct Arguments {
     /// Position of the drone, metres
     #[arg(long, num_args = 3, value_names = ["X", "Y", "Z"], allow_negative_numbers = true, required_unless_present = "batch")]
     position: Option<Vec<f64>>,
-    /// Velocity of the drone, m/s
-    #[arg(long, num_args = 3, value_names = ["X", "Y", "Z"], allow_negative_numbers = true, default_values_t = [0.0, 0.0, 0.0], hide_default_value = true)]
+    /// Velocity of the drone, m/s [default: that of the flight in this frame]
+    #[arg(long, num_args = 3, value_names = ["X", "Y", "Z"], allow_negative_numbers = true)]
     velocity: Vec<f64>,
     /// Length of the answer [default: to the trajectory's end]
     #[arg(long, value_name = "SECONDS", allow_negative_numbers = true)]
@@ -83,7 +83,7 @@ impl Command for Arguments {
             trajectory: trajectory.clone(),
             frame,
             position: triple(position),
-            velocity: triple(&self.velocity),
+            velocity: (!self.velocity.is_empty()).then(|| triple(&self.velocity)),
             horizon_s: self.horizon,
         };
         let answer = answer(&mut experts, &state)?;
@@ -184,8 +184,12 @@ fn answer(experts: &mut Experts<'_>, state: &State) -> cosfly_diagnose::Result<A
     state.check(track)?;
     let frames_of = |seconds: f64| ((seconds / track.dt_s).ceil() as usize).saturating_add(1);
     let frames = state.horizon_s.map_or(usize::MAX, frames_of);
-    let start =
-        StartState { position_in_world: DVec3::from(state.position), velocity_in_world: DVec3::from(state.velocity) };
+    let start = StartState {
+        position_in_world: DVec3::from(state.position),
+        velocity_in_world: state
+            .velocity
+            .map_or_else(|| own_velocity(&known.flown, state.frame, track.dt_s), DVec3::from),
+    };
     let (mut reason, mut waypoints, mut certificate) = (None, Vec::new(), None);
     let planned_frames = frames.max(frames_of(LOOK_AHEAD_S));
     match known.flight.plan_from(&known.world, state.frame, planned_frames, start, &known.flown)? {
@@ -198,6 +202,15 @@ fn answer(experts: &mut Experts<'_>, state: &State) -> cosfly_diagnose::Result<A
     }
     let planned = certificate.is_some();
     Ok(Answer { trajectory: state.trajectory.clone(), frame: state.frame, planned, reason, waypoints, certificate })
+}
+
+/// Velocity of the published flight in a frame, m/s: backward difference, forward in the first frame; 0 without a flight.
+fn own_velocity(flown: &[DVec3], frame: usize, dt_s: f64) -> DVec3 {
+    let before = frame.saturating_sub(1);
+    match (flown.get(before), flown.get(before + 1)) {
+        (Some(from), Some(to)) => (*to - *from) / dt_s,
+        _ => DVec3::ZERO,
+    }
 }
 
 fn waypoints_of(flight: &Trajectory, first: usize) -> Vec<Waypoint> {

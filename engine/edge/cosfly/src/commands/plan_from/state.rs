@@ -26,8 +26,8 @@ pub struct State {
     pub frame: usize,
     /// Position in the world frame, metres.
     pub position: [f64; 3],
-    /// Velocity in the world frame, m/s.
-    pub velocity: [f64; 3],
+    /// Velocity in the world frame, m/s; that of the published flight in this frame where it is not given.
+    pub velocity: Option<[f64; 3]>,
     /// Length of the answer, seconds; to the end of the trajectory where it is not given.
     pub horizon_s: Option<f64>,
 }
@@ -80,7 +80,7 @@ impl State {
             trajectory,
             frame: index.ok_or_else(|| refused(wrong("frame", &frame, "a whole number from 0 on")))?,
             position: place,
-            velocity: velocity.as_ref().map_or(Ok([0.0; 3]), still)?,
+            velocity: velocity.as_ref().map(still).transpose()?,
             horizon_s: horizon.as_ref().map(seconds).transpose()?,
         })
     }
@@ -96,7 +96,7 @@ impl State {
             let message = format!("frame {frame} is beyond `{}`, which has {frames} frames", self.trajectory);
             return Err(Diagnostic::new("plan-from-frame", Fault::Input, message).hint("frames count from 0"));
         };
-        let (place, velocity) = (self.position, self.velocity);
+        let (place, velocity) = (self.position, self.velocity.unwrap_or_default());
         if !place.iter().all(|value| value.is_finite()) {
             return state_refused(format!("the position is {place:?}; it must be three finite numbers"));
         }
@@ -184,11 +184,11 @@ mod tests {
         let whole =
             br#"{"trajectory": "e-p0", "frame": 4, "position": [1, 2.5, 3], "velocity": [0, -1, 0], "horizon_s": 2}"#;
         let state = State::of_line(whole).unwrap();
-        assert_eq!((state.frame, state.position, state.velocity), (4, [1.0, 2.5, 3.0], [0.0, -1.0, 0.0]));
+        assert_eq!((state.frame, state.position, state.velocity), (4, [1.0, 2.5, 3.0], Some([0.0, -1.0, 0.0])));
         assert_eq!(state.horizon_s, Some(2.0));
         let null =
             br#"{"trajectory": "e-p0", "frame": 4, "position": [1, 2.5, 3], "velocity": null, "horizon_s": null}"#;
-        assert_eq!(State::of_line(null).unwrap(), State { velocity: [0.0; 3], horizon_s: None, ..state });
+        assert_eq!(State::of_line(null).unwrap(), State { velocity: None, horizon_s: None, ..state });
     }
 
     #[test]
