@@ -1,24 +1,19 @@
 //! Colour images decoded and made smaller; labels, ids and depths encoded as pictures and as NumPy files.
 
 use cosfly_diagnose::{Diagnostic, Fault, Result};
+use cosfly_images::read::decoded;
 use cosfly_read::LoggedFrame;
 use cosfly_render::channels::Element;
 use cosfly_render::{Channel, ChannelImage};
 use flate2::Compression;
 use flate2::write::GzEncoder;
 use std::io::Write;
-use zune_jpeg::JpegDecoder;
-use zune_jpeg::zune_core::bytestream::ZCursor;
 
 pub use cosfly_images::rgb::png as rgb_png;
 
 /// Row-major RGB bytes of a frame's colour image, checked to have the frame's size.
 pub fn rgb_of(logged: &LoggedFrame) -> Result<Vec<u8>> {
-    let decoded = match logged.rgb_format.as_str() {
-        "jpeg" => JpegDecoder::new(ZCursor::new(&logged.rgb_file[..])).decode().map_err(|error| error.to_string()),
-        "png" => decode_png(&logged.rgb_file).map(|(pixels, _)| pixels),
-        other => Err(format!("`{other}` is not a known format")),
-    };
+    let decoded = decoded(&logged.rgb_file, &logged.rgb_format).map(|picture| picture.rgb);
     let bytes = 3 * logged.width as usize * logged.height as usize;
     let checked = decoded.and_then(|rgb| match rgb.len() == bytes {
         true => Ok(rgb),
@@ -44,40 +39,6 @@ pub fn smaller_size([width, height]: [u32; 2], most: u32) -> [u32; 2] {
     }
     let (most, width) = (u64::from(most), u64::from(width));
     [most as u32, ((2 * u64::from(height) * most + width) / (2 * width)).max(1) as u32]
-}
-
-/// Row-major RGB bytes of a picture of size `full` made smaller: each pixel is the mean of its area.
-pub fn smaller(rgb: &[u8], full: [u32; 2], size: [u32; 2]) -> Vec<u8> {
-    let [columns, rows] = [shares(full[0], size[0]), shares(full[1], size[1])];
-    let area = u64::from(full[0]) * u64::from(full[1]);
-    let row_bytes = 3 * full[0] as usize;
-    let mut made = Vec::with_capacity(3 * size[0] as usize * size[1] as usize);
-    let mut sums = vec![0u64; row_bytes];
-    for parts in &rows {
-        sums.fill(0);
-        for (row, share) in parts {
-            let pixels = &rgb[row * row_bytes..(row + 1) * row_bytes];
-            sums.iter_mut().zip(pixels).for_each(|(sum, value)| *sum += share * u64::from(*value));
-        }
-        for parts in &columns {
-            for channel in 0..3 {
-                let sum: u64 = parts.iter().map(|(column, share)| share * sums[3 * column + channel]).sum();
-                made.push(((sum + area / 2) / area) as u8);
-            }
-        }
-    }
-    made
-}
-
-/// For each of `count` pixels, the pixels of `total` that it covers, with their parts; the parts of one add up to `total`.
-fn shares(total: u32, count: u32) -> Vec<Vec<(usize, u64)>> {
-    let (total, count) = (u64::from(total), u64::from(count));
-    let part = |of: u64, pixel: u64| {
-        let (from, to) = ((of * total).max(pixel * count), ((of + 1) * total).min((pixel + 1) * count));
-        (pixel as usize, to.saturating_sub(from))
-    };
-    let covered = |of: u64| (of * total / count..((of + 1) * total).div_ceil(count)).map(move |pixel| part(of, pixel));
-    (0..count).map(|of| covered(of).collect()).collect()
 }
 
 /// Pixels of an 8-bit PNG file with its width and height.
@@ -209,14 +170,9 @@ mod tests {
     }
 
     #[test]
-    fn smaller_pictures_keep_the_aspect_and_are_means_of_areas() {
+    fn smaller_pictures_keep_the_aspect() {
         assert_eq!(smaller_size([1280, 720], 448), [448, 252]);
         assert_eq!((smaller_size([320, 180], 448), smaller_size([4000, 1], 448)), ([320, 180], [448, 1]));
-        let rgb: Vec<u8> = [10, 40, 100].iter().flat_map(|value| [*value, 2 * value, 0]).collect();
-        // Two of three pixels: one and a half pixels each.
-        assert_eq!(smaller(&rgb, [3, 1], [2, 1]), [20, 40, 0, 80, 160, 0]);
-        assert_eq!(smaller(&[7; 3 * 5 * 4], [5, 4], [3, 3]), [7; 27]);
-        assert!(shares(1280, 448).iter().all(|parts| parts.iter().map(|(_, part)| part).sum::<u64>() == 1280));
     }
 
     #[test]

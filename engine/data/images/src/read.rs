@@ -26,18 +26,29 @@ pub struct Picture {
 /// `image-decode`.
 pub fn picture(file: &[u8], format: &str, size: Option<[usize; 2]>) -> Result<Picture> {
     let whole = match (format, size) {
-        ("png", _) => png(file),
-        (_, Some(size)) => scaled_jpeg(file, size),
-        (_, None) => jpeg(file),
+        ("jpeg", Some(size)) => scaled_jpeg(file, size),
+        _ => decoded(file, format),
     };
     let whole = whole.map_err(|why| {
         Diagnostic::new("image-decode", Fault::Input, format!("a picture of format `{format}` cannot be read"))
             .because(why)
     })?;
     Ok(match size.filter(|size| *size != whole.size) {
-        Some(size) => Picture { size, rgb: averaged(&whole, size) },
+        Some(size) => Picture { size, rgb: averaged(&whole.rgb, whole.size, size) },
         None => whole,
     })
+}
+
+/// All pixels of an image file of format `jpeg` or `png`.
+///
+/// # Errors
+/// The reason, in words.
+pub fn decoded(file: &[u8], format: &str) -> Result<Picture, String> {
+    match format {
+        "jpeg" => jpeg(file),
+        "png" => png(file),
+        other => Err(format!("`{other}` is not a known format")),
+    }
 }
 
 /// A picture of at least the wanted size; its area is averaged while the file is decoded.
@@ -110,15 +121,16 @@ fn weights(from: usize, to: usize) -> Vec<(usize, Vec<u32>)> {
         .collect()
 }
 
-/// Mean over the area of each pixel of a scaled picture, exactly weighted at the edges; magnified pictures repeat pixels.
-fn averaged(whole: &Picture, size: [usize; 2]) -> Vec<u8> {
-    let [columns, rows] = [weights(whole.size[0], size[0]), weights(whole.size[1], size[1])];
-    let mut sums = vec![0u32; 3 * whole.size[0]];
-    let mut rgb = Vec::with_capacity(3 * size[0] * size[1]);
+/// Mean over the area of each pixel of a picture of size `from` scaled to `size`, exactly weighted at the edges; magnified
+/// pictures repeat pixels.
+pub fn averaged(rgb: &[u8], from: [usize; 2], size: [usize; 2]) -> Vec<u8> {
+    let [columns, rows] = [weights(from[0], size[0]), weights(from[1], size[1])];
+    let mut sums = vec![0u32; 3 * from[0]];
+    let mut made = Vec::with_capacity(3 * size[0] * size[1]);
     for (first, weights) in &rows {
         sums.fill(0);
         for (row, weight) in weights.iter().enumerate() {
-            let pixels = &whole.rgb[(first + row) * sums.len()..][..sums.len()];
+            let pixels = &rgb[(first + row) * sums.len()..][..sums.len()];
             for (sum, value) in sums.iter_mut().zip(pixels) {
                 *sum += u32::from(*value) * weight;
             }
@@ -129,10 +141,10 @@ fn averaged(whole: &Picture, size: [usize; 2]) -> Vec<u8> {
             for (pixel, weight) in pixels.as_chunks::<3>().0.iter().zip(weights) {
                 total.iter_mut().zip(pixel).for_each(|(sum, value)| *sum += u64::from(*value) * u64::from(*weight));
             }
-            rgb.extend(total.map(|sum| ((sum + (1 << 31)) >> 32) as u8));
+            made.extend(total.map(|sum| ((sum + (1 << 31)) >> 32) as u8));
         }
     }
-    rgb
+    made
 }
 
 #[cfg(test)]
@@ -142,12 +154,12 @@ mod tests {
     #[test]
     fn scaling_keeps_even_pictures_and_averages_areas() {
         let even = Picture { size: [7, 5], rgb: vec![200; 105] };
-        assert!(averaged(&even, [3, 2]).iter().all(|value| *value == 200));
-        assert!(averaged(&even, [16, 9]).iter().all(|value| *value == 200));
+        assert!(averaged(&even.rgb, even.size, [3, 2]).iter().all(|value| *value == 200));
+        assert!(averaged(&even.rgb, even.size, [16, 9]).iter().all(|value| *value == 200));
         let two = Picture { size: [2, 2], rgb: [[0; 3], [100; 3], [50; 3], [250; 3]].concat() };
-        assert_eq!(averaged(&two, [1, 1]), [100; 3]);
+        assert_eq!(averaged(&two.rgb, two.size, [1, 1]), [100; 3]);
         let three = Picture { size: [3, 1], rgb: [[0; 3], [90; 3], [180; 3]].concat() };
-        assert_eq!(averaged(&three, [2, 1]), [[30; 3], [150; 3]].concat());
+        assert_eq!(averaged(&three.rgb, three.size, [2, 1]), [[30; 3], [150; 3]].concat());
         assert_eq!(sampled(&[1, 2, 3, 4], [4, 1], [2, 1]), [2, 4]);
     }
 
@@ -164,7 +176,7 @@ mod tests {
         // Fractions of smooth pictures are their means; the whole is that of the general decoder.
         for size in [[32, 16], [16, 8], [8, 4], [4, 2]] {
             let small = picture(&file, "jpeg", Some(size)).unwrap().rgb;
-            let means = averaged(&read, size);
+            let means = averaged(&read.rgb, read.size, size);
             assert!(small.iter().zip(&means).all(|(a, b)| a.abs_diff(*b) <= 8), "{size:?}: {small:?} {means:?}");
         }
         for cut in 0..file.len() {

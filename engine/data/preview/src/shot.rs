@@ -1,11 +1,10 @@
 //! One frame of a log as pictures of any size.
 
 use cosfly_diagnose::{Diagnostic, Fault, Result};
+use cosfly_images::read::{Picture, decoded};
 use cosfly_plot::canvas::{Canvas, Colour, WHITE};
 use cosfly_read::LoggedFrame;
 use cosfly_render::preview::{palette_image, picture_on_request};
-use zune_jpeg::JpegDecoder;
-use zune_jpeg::zune_core::bytestream::ZCursor;
 
 /// Box of the target without obstacles.
 pub const FULL_BOX: Colour = [255, 220, 40];
@@ -23,11 +22,8 @@ pub struct Shot {
 impl Shot {
     /// Decodes the colour image.
     pub fn new(logged: LoggedFrame) -> Result<Self> {
-        let decoded = match logged.rgb_format.as_str() {
-            "jpeg" => decode_jpeg(&logged.rgb_file),
-            "png" => decode_png(&logged.rgb_file),
-            other => Err(format!("`{other}` is not a known format")),
-        };
+        let decoded = decoded(&logged.rgb_file, &logged.rgb_format);
+        let decoded = decoded.map(|Picture { size: [width, height], rgb }| Canvas { width, height, rgb });
         let size = (logged.width as usize, logged.height as usize);
         let rgb = decoded.and_then(|canvas| match (canvas.width, canvas.height) == size {
             true => Ok(canvas),
@@ -144,29 +140,6 @@ fn resized(picture: &Canvas, [left, top, wide, high]: [usize; 4], width: usize, 
     canvas
 }
 
-fn decode_jpeg(file: &[u8]) -> Result<Canvas, String> {
-    let mut decoder = JpegDecoder::new(ZCursor::new(file));
-    let rgb = decoder.decode().map_err(|error| error.to_string())?;
-    let info = decoder.info().ok_or("it has no size")?;
-    whole(rgb, usize::from(info.width), usize::from(info.height))
-}
-
-fn decode_png(file: &[u8]) -> Result<Canvas, String> {
-    let mut reader = png::Decoder::new(std::io::Cursor::new(file)).read_info().map_err(|error| error.to_string())?;
-    let mut rgb = vec![0; reader.output_buffer_size().ok_or("it is too large")?];
-    let info = reader.next_frame(&mut rgb).map_err(|error| error.to_string())?;
-    rgb.truncate(info.buffer_size());
-    whole(rgb, info.width as usize, info.height as usize)
-}
-
-fn whole(rgb: Vec<u8>, width: usize, height: usize) -> Result<Canvas, String> {
-    if rgb.len() == 3 * width * height {
-        Ok(Canvas { width, height, rgb })
-    } else {
-        Err("it does not have three bytes a pixel".into())
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -183,7 +156,7 @@ mod tests {
 
     #[test]
     fn files_that_are_no_images_are_refused() {
-        assert!(decode_jpeg(b"no image").is_err() && decode_png(&[0; 40]).is_err());
+        assert!(decoded(b"no image", "jpeg").is_err() && decoded(&[0; 40], "png").is_err());
         let logged = LoggedFrame { rgb_format: "bmp".into(), ..LoggedFrame::default() };
         assert!(Shot::new(logged).err().is_some_and(|error| error.causes[0].contains("`bmp`")));
     }

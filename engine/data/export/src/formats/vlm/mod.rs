@@ -7,11 +7,12 @@ use crate::card::Card;
 use crate::folder::OutFolder;
 use crate::format::Format;
 use crate::media::{ending, picture_path};
-use crate::pixels::{rgb_jpeg, rgb_of, smaller, smaller_size};
+use crate::pixels::{rgb_jpeg, rgb_of, smaller_size};
 use crate::shared_options::Axes;
 use crate::source::{Episode, Source};
 use conversation::conversation;
 use cosfly_diagnose::{Diagnostic, Fault, Result};
+use cosfly_images::read::averaged;
 use options::{Input, Options};
 use serde_json::{Value, json};
 use std::collections::BTreeMap;
@@ -104,9 +105,12 @@ fn write_pictures(
         |frame, logged| {
             let full = [logged.width, logged.height];
             let size = smaller_size(full, options.width);
+            let in_usize = |size: [u32; 2]| size.map(|side| side as usize);
             let (ending, file) = match size == full {
                 true => (ending(&logged.rgb_format), logged.rgb_file),
-                false => ("jpg", rgb_jpeg(&smaller(&rgb_of(&logged)?, full, size), size, QUALITY)?),
+                false => {
+                    ("jpg", rgb_jpeg(&averaged(&rgb_of(&logged)?, in_usize(full), in_usize(size)), size, QUALITY)?)
+                }
             };
             let path = format!("images/{}", picture_path(flight, id, frame, ending));
             out.put(&path, &file)?;
