@@ -44,6 +44,7 @@ impl StageKind for Caption {
             artifact: CAPTIONS,
             items: ItemRule::PerInput("trajectories"),
             bytes_per_item: 2_000,
+            intermediate: &[],
         };
         Ok(single(CaptionStage { config, properties }))
     }

@@ -38,7 +38,7 @@ impl StageKind for Dataset {
     }
 
     fn ports(&self) -> Vec<InputPort> {
-        vec![towns(), frames(Fan::Gather), captions(Fan::Gather), extras()]
+        vec![towns(), ports::without_pictures(frames(Fan::Gather)), captions(Fan::Gather), extras()]
     }
 
     fn build(&self, given: serde_json::Value) -> Result<Vec<StagePart>, ParameterError> {
@@ -59,10 +59,11 @@ impl StageKind for Dataset {
             artifact: DATASET,
             items: ItemRule::One,
             bytes_per_item: 10_000_000,
+            intermediate: &[],
         };
         Ok(vec![
             logs::part(frames(Fan::Each), captions(Fan::Each)),
-            planners::part(frames(Fan::Gather)),
+            planners::part(ports::without_pictures(frames(Fan::Gather))),
             StagePart { suffix: "", stage: Box::new(DatasetStage { config, properties: gather }) },
         ])
     }

@@ -1,7 +1,7 @@
 //! `inspect`: examines rendered flights and leaves out what is damaged, more imperfect than allowed, or beyond a quota.
 
 use crate::parameters;
-use crate::ports::{self, FRAMES};
+use crate::ports::{self, FRAMES, PACK};
 use crate::rejections::{handed_on, reject};
 use crate::verdict::{self, InspectConfig};
 use crate::world::link_town;
@@ -48,6 +48,7 @@ impl StageKind for Inspect {
             artifact: FRAMES,
             items: ItemRule::PerInput("frames"),
             bytes_per_item: 0,
+            intermediate: &[PACK],
         };
         Ok(vec![verdict::part(config), StagePart { suffix: "", stage: Box::new(KeepStage { properties: kept }) }])
     }

@@ -1,7 +1,7 @@
 //! Part `logs` of a `dataset` stage: one MCAP log per trajectory.
 
 use crate::codec;
-use crate::ports::{self, LOG};
+use crate::ports::{self, LOG, PACK};
 use crate::rejections::handed_on;
 use crate::world::world_of;
 use cosfly_blobs::{OutputSink, PassingFile};
@@ -36,6 +36,7 @@ pub fn part(frames: InputPort, captions: InputPort) -> StagePart {
         artifact: LOG,
         items: ItemRule::PerInput("frames"),
         bytes_per_item: 0,
+        intermediate: &[],
     };
     StagePart { suffix: NAME, stage: Box::new(LogStage { properties }) }
 }
@@ -79,7 +80,7 @@ impl Stage for LogStage {
         let captions = captions_of(inputs, inputs.all("captions").first())?;
         check_clothes(&record, &captions)?;
         let world = world_of(inputs, frames)?;
-        let mut pack = FramePackReader::new(BufReader::new(PassingFile::new(inputs.open(frames, "pack")?)))?;
+        let mut pack = FramePackReader::new(BufReader::new(PassingFile::new(inputs.open(frames, PACK)?)))?;
         let mut log = None;
         outputs.stream("mcap", &mut |file| {
             let written =

@@ -68,6 +68,7 @@ impl StageKind for Map {
             artifact: TOWN,
             items: ItemRule::One,
             bytes_per_item: 4_000_000,
+            intermediate: &[],
         };
         Ok(single(MapStage { config, properties }))
     }

@@ -54,6 +54,7 @@ impl StageKind for Muco {
             artifact: TRAJECTORY,
             items,
             bytes_per_item: 60_000,
+            intermediate: &[],
         };
         parts.push(StagePart { suffix: "", stage: Box::new(MucoStage { expert, properties }) });
         Ok(parts)

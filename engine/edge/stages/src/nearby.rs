@@ -47,6 +47,7 @@ pub fn part(config: &RenderConfig, parameters: serde_json::Value, items: ItemRul
         artifact: NEARBY,
         items,
         bytes_per_item: 2_000,
+        intermediate: &[],
     };
     let stage = NearbyStage { config: config.clone(), properties, buildings: Memo::default() };
     StagePart { suffix: NAME, stage: Box::new(stage) }

@@ -43,6 +43,7 @@ impl StageKind for Perturb {
             artifact: TRAJECTORY,
             items: ItemRule::PerInput("trajectories"),
             bytes_per_item: 80_000,
+            intermediate: &[],
         };
         Ok(single(PerturbStage { config, properties }))
     }

@@ -1,5 +1,7 @@
 //! Ports that built-in stages share, declared once.
 
+use crate::rejections::REJECTION;
+use crate::world::TOWN_BLOB;
 use cosfly_stage::{Fan, InputPort, PortSource, Takes};
 
 /// Artifact of a town.
@@ -14,6 +16,8 @@ pub const TRAJECTORY: &str = "trajectory/3";
 pub const NEARBY: &str = "nearby/1";
 /// Artifact of a rendered trajectory.
 pub const FRAMES: &str = "frames/1";
+/// Blob of a rendered trajectory: its packed pictures, which its log holds as well.
+pub const PACK: &str = "pack";
 /// Artifact of a trajectory's captions.
 pub const CAPTIONS: &str = "captions/1";
 /// Artifact of a trajectory's MCAP log.
@@ -36,18 +40,42 @@ pub fn town() -> InputPort {
         takes: Takes::One,
         optional: false,
         source: PortSource::Recipe,
+        blobs: None,
         doc: "The town that everything happens in.",
     }
 }
 
 /// A port that meets the stage item by item.
 pub fn each(name: &'static str, artifact: &'static str, many: bool, doc: &'static str) -> InputPort {
-    InputPort { name, artifact, fan: Fan::Each, takes: takes(many), optional: false, source: PortSource::Recipe, doc }
+    InputPort {
+        name,
+        artifact,
+        fan: Fan::Each,
+        takes: takes(many),
+        optional: false,
+        source: PortSource::Recipe,
+        blobs: None,
+        doc,
+    }
 }
 
 /// A port that brings all items of an input at once.
 pub fn gather(name: &'static str, artifact: &'static str, many: bool, doc: &'static str) -> InputPort {
-    InputPort { name, artifact, fan: Fan::Gather, takes: takes(many), optional: false, source: PortSource::Recipe, doc }
+    InputPort {
+        name,
+        artifact,
+        fan: Fan::Gather,
+        takes: takes(many),
+        optional: false,
+        source: PortSource::Recipe,
+        blobs: None,
+        doc,
+    }
+}
+
+/// A port of rendered trajectories whose stage does not see the pictures.
+pub fn without_pictures(port: InputPort) -> InputPort {
+    InputPort { blobs: Some(&["index", REJECTION, TOWN_BLOB]), ..port }
 }
 
 /// One stage, or several with items named after them.

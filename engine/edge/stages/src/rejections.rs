@@ -8,7 +8,7 @@ use cosfly_schema::Rejection;
 use cosfly_stage::{Artifact, Inputs, Produced};
 
 /// Blob of a rejected flight; `index` and `pack` are absent then.
-const REJECTION: &str = "rejection";
+pub const REJECTION: &str = "rejection";
 
 /// True for the artifact of a rejected flight.
 pub fn is_rejected(artifact: &Artifact) -> bool {

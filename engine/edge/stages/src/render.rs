@@ -4,7 +4,7 @@
 use crate::body_rays::BodyRays;
 use crate::crowd::Crowd;
 use crate::memo::Memo;
-use crate::ports::{self, FRAMES, TRAJECTORY};
+use crate::ports::{self, FRAMES, PACK, TRAJECTORY};
 use crate::rejections::reject;
 use crate::shooting::{Shooting, preset};
 use crate::walks::walked_m;
@@ -75,6 +75,7 @@ impl StageKind for Render {
             artifact: FRAMES,
             items,
             bytes_per_item: 200 * pixels * 3 / 4,
+            intermediate: &[PACK],
         };
         let stage = RenderStage { config, encoding, properties, scene: Memo::default(), idle: Mutex::default() };
         Ok(vec![nearby, StagePart { suffix: "", stage: Box::new(stage) }])
@@ -241,7 +242,7 @@ impl RenderStage {
         let poses: Vec<Pose> = shooting.poses(trajectory);
         let walked_m = walked_m(&track.states);
         let (mut seen, mut body_rays, mut about) = (SeenPeople::default(), BodyRays::default(), vec![]);
-        outputs.stream("pack", &mut |file| {
+        outputs.stream(PACK, &mut |file| {
             seen = SeenPeople::default();
             let mut pack = FramePackWriter::new(file, &header)?;
             for (frame, visible_by_rays) in trajectory.visibility.iter().copied().enumerate() {

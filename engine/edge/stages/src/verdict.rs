@@ -64,15 +64,17 @@ const NAME: &str = "verdict";
 
 /// The part of a stage that keeps flights as `config` says.
 pub fn part(config: InspectConfig) -> StagePart {
+    let doc = "The rendered flights.";
     let properties = StageProperties {
         kind: "inspect".into(),
         version: 1,
         parameters: parameters::canonical(&config),
         sources: vec![],
-        inputs: vec![ports::town(), ports::gather("frames", FRAMES, false, "The rendered flights.")],
+        inputs: vec![ports::town(), ports::without_pictures(ports::gather("frames", FRAMES, false, doc))],
         artifact: VERDICT,
         items: ItemRule::One,
         bytes_per_item: 10_000,
+        intermediate: &[],
     };
     StagePart { suffix: NAME, stage: Box::new(VerdictStage { config, properties }) }
 }

@@ -86,7 +86,14 @@ fn check(
         }
     }
     let stages = assembly.stages;
-    Some(Recipe { name: outline.name, seed: outline.seed, path: path.to_path_buf(), text: text.into(), stages })
+    Some(Recipe {
+        name: outline.name,
+        seed: outline.seed,
+        remove_intermediates: outline.remove_intermediates,
+        path: path.to_path_buf(),
+        text: text.into(),
+        stages,
+    })
 }
 
 /// Resolved source files by stage of the outline and part.

@@ -15,6 +15,8 @@ pub struct Recipe {
     pub name: String,
     /// Root of all randomness.
     pub seed: u64,
+    /// Whether intermediate blobs are removed as soon as everything that reads them is finished.
+    pub remove_intermediates: bool,
     /// Path of the recipe file as it was given.
     pub path: PathBuf,
     /// Text of the recipe.

@@ -7,6 +7,7 @@ use cosfly_diagnose::nearest_name;
 pub(crate) struct Outline {
     pub(crate) name: String,
     pub(crate) seed: u64,
+    pub(crate) remove_intermediates: bool,
     /// Stages in the order of the file.
     pub(crate) stages: Vec<StageOutline>,
 }
@@ -36,7 +37,9 @@ pub(crate) struct InputOutline {
 /// Kind whose stages are files: `use = "wasm:FILE"` means `use = "wasm"` with `file = "FILE"`.
 pub(crate) const FILE_KIND: &str = "wasm";
 
-const TOP_KEYS: [&str; 3] = ["name", "seed", "stages"];
+const TOP_KEYS: [&str; 4] = ["name", "seed", "intermediates", "stages"];
+/// Values of `intermediates`.
+pub(crate) const INTERMEDIATES: [&str; 2] = ["keep", "remove"];
 
 impl Outline {
     /// Reads the root table; `None` when nothing more can be checked.
@@ -45,8 +48,9 @@ impl Outline {
         reader.check_top_keys(&root);
         let name = reader.name(root.get("name"));
         let seed = reader.seed(root.get("seed"));
+        let remove_intermediates = reader.intermediates(root.get("intermediates"));
         let stages = reader.stages(root)?;
-        Some(Self { name, seed, stages })
+        Some(Self { name, seed, remove_intermediates, stages })
     }
 }
 
@@ -65,7 +69,7 @@ impl Reader<'_> {
                 None if entry.node.as_table().is_some() => problem.hint(format!("did you mean `[stages.{key}]`?")),
                 None => problem,
             };
-            self.problems.push(problem.hint(format!("a recipe has {}", list(TOP_KEYS, 3))));
+            self.problems.push(problem.hint(format!("a recipe has {}", list(TOP_KEYS, TOP_KEYS.len()))));
         }
     }
 
@@ -101,6 +105,16 @@ impl Reader<'_> {
             _ => self.wrong_type("seed", node, "a whole number"),
         }
         0
+    }
+
+    fn intermediates(&mut self, entry: Option<&Entry>) -> bool {
+        let Some(node) = entry.map(|entry| &entry.node) else { return false };
+        let Some(text) = self.text("intermediates", node) else { return false };
+        if !INTERMEDIATES.contains(&text.as_str()) {
+            let message = format!("`intermediates` is `{}`; it must be {}", short(&text), list(INTERMEDIATES, 2));
+            self.problems.push(self.texts.problem("recipe-not-offered", &node.place, message));
+        }
+        text == INTERMEDIATES[1]
     }
 
     fn stages(&mut self, mut root: Table) -> Option<Vec<StageOutline>> {

@@ -1,6 +1,6 @@
 //! JSON Schema of whole recipes, for editors.
 
-use crate::outline::FILE_KIND;
+use crate::outline::{FILE_KIND, INTERMEDIATES};
 use cosfly_stage::{InputPort, Registry, StageKind, Takes};
 use serde_json::{Map, Value, json};
 
@@ -57,6 +57,11 @@ pub fn schema(registry: &Registry) -> Value {
                 "maximum": i64::MAX,
                 "default": 0,
                 "description": "Root of all randomness; every stage and item draws from its own stream below it.",
+            },
+            "intermediates": {
+                "enum": INTERMEDIATES,
+                "default": INTERMEDIATES[0],
+                "description": "Whether intermediate files in the store, such as packed pictures, are removed as soon as everything that reads them is finished.",
             },
             "stages": {
                 "type": "object",

@@ -25,6 +25,8 @@ pub struct Link {
 pub struct Explanation {
     /// Item of the task.
     pub id: ItemId,
+    /// False where nothing needs the task: everything that is made of its result is finished.
+    pub needed: bool,
     /// True where the task is finished as the recipe is now; the chain is then about the run that finished it.
     pub finished: bool,
     /// The task itself, then upstream to the root cause. Empty where nothing ever changed.
@@ -54,7 +56,11 @@ pub fn why(recipe: &Recipe, store: &Store, stage: &str, item: Option<&str>) -> R
                 Diagnostic::new("why-unknown-item", Fault::Recipe, format!("stage `{stage}` has no item `{item}`"));
             with_known(problem, item, &names)
         })?,
-        None => plan.stages[position].finished.iter().position(Option::is_none).unwrap_or(0),
+        None => {
+            let planned = &plan.stages[position];
+            let first = (0..items.len()).find(|item| planned.will_run(*item));
+            first.or_else(|| planned.finished.iter().position(Option::is_none)).unwrap_or(0)
+        }
     };
     let id = recipe.id(position, index);
     let finished = plan.stages[position].finished[index].is_some();
@@ -63,7 +69,7 @@ pub fn why(recipe: &Recipe, store: &Store, stage: &str, item: Option<&str>) -> R
         Start::Known(change) => vec![Link { id: id.clone(), changes: vec![change] }],
         Start::Earlier(key) => follow(&plan, store, position, index, key),
     };
-    Ok(Explanation { id, finished, chain })
+    Ok(Explanation { id, needed: plan.stages[position].needed[index], finished, chain })
 }
 
 fn with_known(problem: Box<Diagnostic>, given: &str, known: &[&str]) -> Box<Diagnostic> {

@@ -1,7 +1,7 @@
 //! Artifacts at the ports of tasks; those that all items of a stage read are made once and shared.
 
 use cosfly_recipe::{Arrival, Recipe};
-use cosfly_stage::{Artifact, Fan, Ports};
+use cosfly_stage::{Artifact, Blobs, Fan, InputPort, Ports};
 use cosfly_store::Finished;
 use std::collections::BTreeMap;
 use std::sync::Arc;
@@ -21,7 +21,8 @@ impl SharedInputs {
     pub(crate) fn of_task(&mut self, recipe: &Recipe, results: &Results, stage: usize, item: usize) -> Ports {
         let connections = recipe.stages[stage].connections.iter().enumerate();
         let ports = connections.map(|(number, connection)| {
-            let artifacts = || connection.arrivals_for(item).iter().map(|it| artifact(recipe, results, it)).collect();
+            let seen = |arrival| artifact(recipe, results, &connection.port, arrival);
+            let artifacts = || connection.arrivals_for(item).iter().map(seen).collect();
             let artifacts = match connection.port.fan {
                 Fan::Each => artifacts(),
                 Fan::Broadcast | Fan::Gather => Arc::clone(self.known.entry((stage, number)).or_insert_with(artifacts)),
@@ -38,11 +39,16 @@ impl SharedInputs {
     }
 }
 
-fn artifact(recipe: &Recipe, results: &Results, arrival: &Arrival) -> Artifact {
+fn artifact(recipe: &Recipe, results: &Results, port: &InputPort, arrival: &Arrival) -> Artifact {
     let result = results[arrival.stage][arrival.item].as_ref();
-    Artifact {
-        id: recipe.id(arrival.stage, arrival.item),
-        name: arrival.name.clone(),
-        blobs: result.map(|finished| Arc::clone(&finished.record.outputs)).unwrap_or_default(),
+    let outputs = result.map(|finished| Arc::clone(&finished.record.outputs)).unwrap_or_default();
+    Artifact { id: recipe.id(arrival.stage, arrival.item), name: arrival.name.clone(), blobs: seen_at(port, outputs) }
+}
+
+/// The blobs of an item that a stage sees at `port`.
+pub(crate) fn seen_at(port: &InputPort, outputs: Arc<Blobs>) -> Arc<Blobs> {
+    if outputs.keys().all(|name| port.sees(name)) {
+        return outputs;
     }
+    Arc::new(outputs.iter().filter(|(name, _)| port.sees(name)).map(|(name, blob)| (name.clone(), *blob)).collect())
 }

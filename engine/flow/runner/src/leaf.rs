@@ -6,7 +6,7 @@ use cosfly_diagnose::{Diagnostic, Fault, Result};
 use cosfly_fingerprint::Digest;
 use cosfly_random::Seed;
 use cosfly_stage::{Inputs, ItemId, Ports, Produced, Stage, TaskContext, Work};
-use cosfly_store::{Finished, Store, TaskLock};
+use cosfly_store::{ActionRecord, Finished, Store, TaskLock};
 use std::any::Any;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::Arc;
@@ -22,7 +22,17 @@ pub(crate) struct Task<'a> {
     pub(crate) definition: &'a Definition,
     pub(crate) sources: &'a [HashedSource],
     pub(crate) ports: Ports,
+    /// Whether its intermediate blobs are needed as well, so that a result without them does not do.
+    pub(crate) whole: bool,
     pub(crate) cancelled: Arc<AtomicBool>,
+}
+
+impl Task<'_> {
+    /// Whether the store holds all blobs of a result that are needed.
+    fn is_held(&self, store: &Store, record: &ActionRecord) -> bool {
+        let intermediate = self.stage.properties().intermediate;
+        store.holds_lasting(record, if self.whole { &[] } else { intermediate })
+    }
 }
 
 /// State of a task after [`execute`].
@@ -49,7 +59,7 @@ pub(crate) struct Settlement {
 
 /// Does the unfinished part of a task. Work that any process finished is not repeated.
 pub(crate) fn execute(store: &Store, task: &Task<'_>) -> Result<Ended> {
-    let already_done = || store.finished(&task.plan).filter(|finished| store.holds(&finished.record));
+    let already_done = || store.finished(&task.plan).filter(|finished| task.is_held(store, &finished.record));
     if let Some(finished) = already_done() {
         return Ok(Ended::AlreadyDone(finished));
     }
@@ -58,14 +68,14 @@ pub(crate) fn execute(store: &Store, task: &Task<'_>) -> Result<Ended> {
     if let Some(finished) = already_done() {
         return Ok(Ended::AlreadyDone(finished));
     }
-    if !inputs_are_there(store, task) {
-        return Ok(Ended::InputsLost);
-    }
     let seed = Seed::of_item(task.recipe_seed, task.id.stage.as_str(), &task.id.item.to_string()).0;
     let action = task.definition.action_key(&task.id, &seed, &task.ports);
-    if let Some(record) = store.action(&action).filter(|record| store.holds(record)) {
+    if let Some(record) = store.action(&action).filter(|record| task.is_held(store, record)) {
         let finished = Finished { action, record: Arc::new(record) };
         return Ok(Ended::Settled(Settlement { finished, work: Work::Reused, divergence: None, lock: Some(lock) }));
+    }
+    if !inputs_are_there(store, task) {
+        return Ok(Ended::InputsLost);
     }
     let mut sink = store.sink();
     let produced = match run_stage(store, task, seed, &mut sink) {

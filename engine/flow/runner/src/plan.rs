@@ -31,12 +31,19 @@ pub struct PlannedStage {
     pub kind: String,
     /// Plan digest of each item.
     pub plans: Vec<Digest>,
-    /// Result of each item that is finished and has all its blobs.
+    /// Result of each item that is finished and has all its blobs but intermediate ones, which may be gone.
     pub finished: Vec<Option<Finished>>,
+    /// Whether each item is needed: it is asked for, or something that will run reads it.
+    pub needed: Vec<bool>,
+    /// Number of finished items without some intermediate blob that an item to run may read; they are made again where it
+    /// does.
+    pub spent: u64,
     /// Expected bytes of the items that are left to do.
     pub predicted_bytes: u64,
     /// Reasons why items will run, with the number of items; empty where all are finished.
     pub reasons: Vec<(Reason, u64)>,
+    /// Whether some intermediate blob of each finished item is gone.
+    pub(crate) spent_items: Vec<bool>,
     pub(crate) definition: Definition,
     pub(crate) sources: Vec<HashedSource>,
     pub(crate) ports: Vec<PortDocument>,
@@ -62,7 +69,17 @@ impl PlannedStage {
 
     /// Number of items that are left to do.
     pub fn to_run(&self) -> u64 {
-        self.items() - self.cached()
+        (0..self.plans.len()).filter(|item| self.will_run(*item)).count() as u64
+    }
+
+    /// Number of unfinished items that nothing needs: everything that is made of them is finished.
+    pub fn not_needed(&self) -> u64 {
+        self.items() - self.cached() - self.to_run()
+    }
+
+    /// Whether an item is left to do.
+    pub fn will_run(&self, item: usize) -> bool {
+        self.needed[item] && self.finished[item].is_none()
     }
 
     /// Document that all items share: kind, version, parameters with their defaults, digests of files.
@@ -112,18 +129,32 @@ impl Plan<'_> {
             if planned.to_run() > 0 {
                 self.publish_stage(store, stage)?;
             }
-            for item in (0..planned.plans.len()).filter(|item| planned.finished[*item].is_none()) {
+            for item in (0..planned.plans.len()).filter(|item| planned.will_run(*item)) {
                 store.put_document(&planned.plans[item], &self.document(stage, item))?;
             }
         }
         store.sync()
     }
 
+    /// Intermediate blobs of a stage that every reader is done with; none where nothing reads them.
+    fn spent_blobs(&self, stage: usize) -> Vec<String> {
+        let is_spent = |name: &&&'static str| {
+            let readers = self.recipe.stages.iter().zip(&self.stages).filter(|(described, _)| {
+                described.connections.iter().any(|it| it.upstreams.contains(&stage) && it.port.sees(name))
+            });
+            let finished: Vec<bool> = readers.map(|(_, planned)| planned.cached() == planned.items()).collect();
+            !finished.is_empty() && finished.into_iter().all(|it| it)
+        };
+        let names = self.recipe.stages[stage].stage.properties().intermediate.iter();
+        names.filter(is_spent).map(|name| (*name).to_owned()).collect()
+    }
+
     /// Finished tasks of this plan, for the history.
     pub(crate) fn as_past_run(&self) -> PastRun {
-        let stage = |(planned, described): (&PlannedStage, &RecipeStage)| PastStage {
+        let stage = |(index, (planned, described)): (usize, (&PlannedStage, &RecipeStage))| PastStage {
             name: planned.name.to_string(),
             definition: planned.definition.digest,
+            spent: self.spent_blobs(index),
             items: described
                 .items
                 .iter()
@@ -132,7 +163,7 @@ impl Plan<'_> {
                 .map(|(item, (plan, _))| (item.to_string(), *plan))
                 .collect(),
         };
-        PastRun { stages: self.stages.iter().zip(&self.recipe.stages).map(stage).collect() }
+        PastRun { stages: self.stages.iter().zip(&self.recipe.stages).enumerate().map(stage).collect() }
     }
 }
 

@@ -6,21 +6,31 @@ use crate::reasons;
 use crate::sources::{HashedSource, SourceReader};
 use cosfly_diagnose::Result;
 use cosfly_fingerprint::Digest;
-use cosfly_recipe::{Recipe, RecipeStage};
+use cosfly_recipe::{Arrival, Recipe, RecipeStage};
 use cosfly_stage::{Fan, ItemName};
-use cosfly_store::Store;
+use cosfly_store::{Known, Store};
 use rayon::prelude::*;
+use std::collections::BTreeSet;
 
 /// Fewer items than this are not worth another thread.
 const PER_THREAD: usize = 256;
 
-/// Plan of a recipe against a store. All stages are wanted.
+/// Plan of a recipe against a store. The stages that no other reads are asked for.
 ///
 /// # Errors
 /// Refusals of the machine while sources are hashed.
 pub fn plan<'r>(recipe: &'r Recipe, store: &Store) -> Result<Plan<'r>> {
+    plan_for(recipe, store, None)
+}
+
+/// Plan of a recipe for the stage number `asked`; without one, for all stages that no other reads.
+///
+/// # Errors
+/// Refusals of the machine while sources are hashed.
+pub fn plan_for<'r>(recipe: &'r Recipe, store: &Store, asked: Option<usize>) -> Result<Plan<'r>> {
     let mut plan = digest_tasks(recipe)?;
     find_finished(&mut plan, store);
+    find_needed(&mut plan, asked);
     predict(&mut plan);
     reasons::give_reasons(&mut plan, store);
     Ok(plan)
@@ -64,6 +74,9 @@ fn digest_stage(
         name: stage.name.clone(),
         kind: stage.kind.clone(),
         finished: vec![None; plans.len()],
+        needed: vec![false; plans.len()],
+        spent: 0,
+        spent_items: Vec::new(),
         plans,
         predicted_bytes: 0,
         reasons: Vec::new(),
@@ -75,10 +88,47 @@ fn digest_stage(
 
 fn find_finished(plan: &mut Plan<'_>, store: &Store) {
     let known = store.known_tasks(&plan.recipe_id);
-    for stage in &mut plan.stages {
-        stage.finished = stage.plans.par_iter().with_min_len(PER_THREAD).map(|digest| known.finished(digest)).collect();
+    for (stage, described) in plan.stages.iter_mut().zip(&plan.recipe.stages) {
+        let intermediate = described.stage.properties().intermediate;
+        let plans = stage.plans.par_iter().with_min_len(PER_THREAD);
+        let found: Vec<Option<Known>> = plans.map(|digest| known.finished(digest, intermediate)).collect();
+        stage.spent_items = found.iter().map(|known| known.as_ref().is_some_and(|known| !known.whole)).collect();
+        stage.finished = found.into_iter().map(|known| known.map(|known| known.finished)).collect();
     }
     plan.index_is_current = known.is_current(&plan.run_digest());
+}
+
+/// Walks from what is asked for to what it reads: an item is needed where something that will run reads it.
+fn find_needed(plan: &mut Plan<'_>, asked: Option<usize>) {
+    let recipe = plan.recipe;
+    let read: BTreeSet<usize> =
+        recipe.stages.iter().flat_map(|stage| &stage.connections).flat_map(|it| it.upstreams.iter().copied()).collect();
+    let is_asked = |stage: usize| asked.map_or_else(|| !read.contains(&stage), |asked| asked == stage);
+    let mut spent: Vec<BTreeSet<usize>> = vec![BTreeSet::new(); recipe.stages.len()];
+    for (stage, described) in recipe.stages.iter().enumerate().rev() {
+        if is_asked(stage) {
+            plan.stages[stage].needed.fill(true);
+        }
+        for connection in &described.connections {
+            let will_run: Vec<usize> =
+                (0..described.items.len()).filter(|item| plan.stages[stage].will_run(*item)).collect();
+            let mut mark = |arrival: &Arrival| {
+                let upstream = &mut plan.stages[arrival.stage];
+                upstream.needed[arrival.item] = true;
+                let properties = recipe.stages[arrival.stage].stage.properties();
+                let sees = properties.intermediate.iter().any(|name| connection.port.sees(name));
+                if sees && upstream.spent_items[arrival.item] {
+                    spent[arrival.stage].insert(arrival.item);
+                }
+            };
+            match connection.port.fan {
+                Fan::Each => will_run.iter().flat_map(|item| connection.arrivals_for(*item)).for_each(&mut mark),
+                Fan::Broadcast | Fan::Gather if will_run.is_empty() => {}
+                Fan::Broadcast | Fan::Gather => connection.arrivals.iter().for_each(&mut mark),
+            }
+        }
+    }
+    plan.stages.iter_mut().zip(spent).for_each(|(stage, spent)| stage.spent = spent.len() as u64);
 }
 
 /// Predicts the bytes of the items left to do: as many as the stage's finished items have, else as it states itself.

@@ -57,7 +57,7 @@ fn reasons_of(
     };
     let definition = definition_reason(planned, past, store);
     let mut reasons: Vec<(Reason, u64)> = Vec::new();
-    for item in (0..planned.plans.len()).filter(|item| planned.finished[*item].is_none()) {
+    for item in (0..planned.plans.len()).filter(|item| planned.will_run(*item)) {
         let reason = item_reason(plan, run, past, stage, item, definition.as_ref());
         match reasons.iter_mut().find(|(known, _)| *known == reason) {
             Some((_, count)) => *count += 1,

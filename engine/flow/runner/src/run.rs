@@ -2,7 +2,7 @@
 
 use crate::options::RunOptions;
 use crate::plan::Plan;
-use crate::planning::plan;
+use crate::planning::plan_for;
 use crate::summary::{Ending, RunOutcome, RunSummary, StageSummary};
 use crate::workers::{AfterWork, do_the_rest};
 use cosfly_diagnose::Result;
@@ -20,8 +20,9 @@ pub fn run(
     options: &RunOptions,
     report: &(dyn Fn(RunEvent) + Sync),
 ) -> Result<RunSummary> {
-    let mut plan = plan(recipe, store)?;
-    let stages = plan.stages.iter().map(|stage| (stage.name.clone(), stage.items(), stage.cached()));
+    let mut plan = plan_for(recipe, store, options.asked)?;
+    let stages =
+        plan.stages.iter().map(|stage| (stage.name.clone(), stage.items() - stage.not_needed(), stage.cached()));
     report(RunEvent::Planned { stages: stages.collect() });
     let work = if plan.to_run() == 0 { None } else { Some(do_the_rest(&mut plan, store, options, report)?) };
     let remembered = if work.is_some() || !plan.index_is_current { remember(&plan, store) } else { Ok(()) };
@@ -40,13 +41,18 @@ pub fn run(
 }
 
 fn all_cached(plan: &Plan<'_>) -> Vec<Vec<Ending>> {
-    plan.stages.iter().map(|stage| vec![Ending::Finished(Work::Cached); stage.plans.len()]).collect()
+    let ending = |finished: &Option<_>| finished.as_ref().map_or(Ending::NotNeeded, |_| Ending::Finished(Work::Cached));
+    plan.stages.iter().map(|stage| stage.finished.iter().map(ending).collect()).collect()
 }
 
 /// Writes the history for `why` and garbage collection, and the index for the next quick start.
 fn remember(plan: &Plan<'_>, store: &Store) -> Result<()> {
     store.record_run(&plan.recipe_id, &plan.as_past_run())?;
-    let finished = plan.stages.iter().flat_map(|stage| stage.plans.iter().zip(&stage.finished));
-    let entries = finished.filter_map(|(plan, finished)| Some((plan, finished.as_ref()?)));
+    let stages = plan.stages.iter().zip(&plan.recipe.stages);
+    let entries = stages.flat_map(|(stage, described)| {
+        let intermediate = described.stage.properties().intermediate;
+        let finished = stage.plans.iter().zip(&stage.finished);
+        finished.filter_map(move |(plan, finished)| Some((plan, finished.as_ref()?, intermediate)))
+    });
     store.write_index(&plan.recipe_id, &plan.run_digest(), entries)
 }

@@ -2,6 +2,7 @@
 
 use crate::change::definition_changes;
 use crate::document::{DEFINITION_SCHEMA, Definition, StoredPlan};
+use crate::inputs::seen_at;
 use crate::leaf::{Ended, Task, execute};
 use crate::names::NameReader;
 use crate::sources::{HashedSource, SourceReader};
@@ -55,6 +56,7 @@ pub fn run_task(store: &Store, registry: &Registry, plan: &Digest, cancelled: Ar
         definition: &rebuilt,
         sources: &sources,
         ports,
+        whole: false,
         cancelled,
     };
     finish(store, &task, &document)
@@ -117,7 +119,7 @@ fn read_inputs(
             let upstream = StageName::read(&input.stage);
             let finished = store.finished(&input.plan).ok_or_else(|| input_missing(&upstream, &input.item))?;
             let (Some(item), Some(name)) = (names.of_task(&input.plan), names.at_port(input)) else { return Ok(None) };
-            let blobs = Arc::clone(&finished.record.outputs);
+            let blobs = seen_at(port, Arc::clone(&finished.record.outputs));
             artifacts.push(Artifact { id: ItemId { stage: upstream, item }, name, blobs });
         }
         ports.insert(port.name, artifacts.into());

@@ -30,6 +30,8 @@ pub enum TaskEnd {
     Skipped,
     /// Not tried or given up: the run stopped.
     Cancelled,
+    /// Not made: nothing needs it.
+    NotNeeded,
 }
 
 /// Reason why an item holds no usable result.
@@ -78,6 +80,8 @@ pub struct StageSummary {
     pub skipped: u64,
     /// Items that were not tried or given up, because the run stopped.
     pub unfinished: u64,
+    /// Items that were not made, because nothing needs them: everything that is made of them is finished.
+    pub not_needed: u64,
 }
 
 /// State of a task at the end of a run.
@@ -87,6 +91,7 @@ pub(crate) enum Ending {
     Failed,
     Skipped,
     Cancelled,
+    NotNeeded,
 }
 
 /// Items of one stage: names, connections, endings and results.
@@ -122,12 +127,13 @@ impl StageSummary {
             failed: count(Ending::Failed),
             skipped: count(Ending::Skipped),
             unfinished: count(Ending::Cancelled),
+            not_needed: count(Ending::NotNeeded),
         }
     }
 
-    /// True where all items are finished.
+    /// True where all items that are needed are finished.
     pub fn is_whole(&self) -> bool {
-        self.cached + self.ran + self.reused == self.total
+        self.cached + self.ran + self.reused + self.not_needed == self.total
     }
 }
 
@@ -189,6 +195,7 @@ impl RunSummary {
             (Ending::Failed, _) => TaskEnd::Failed,
             (Ending::Skipped, _) => TaskEnd::Skipped,
             (Ending::Cancelled, _) => TaskEnd::Cancelled,
+            (Ending::NotNeeded, _) => TaskEnd::NotNeeded,
         }
     }
 

@@ -1,6 +1,7 @@
 //! Workers that take ready tasks, and one thread that publishes what they finish.
 
 use crate::inputs::{Results, SharedInputs};
+use crate::intermediates::Intermediates;
 use crate::leaf::{Ended, Settlement, Task, execute};
 use crate::options::RunOptions;
 use crate::plan::Plan;
@@ -8,9 +9,9 @@ use crate::publisher::{Publication, Publisher};
 use crate::schedule::{Schedule, State, TaskIndex};
 use crate::summary::{Ending, Failure, RunSummary};
 use cosfly_diagnose::{Diagnostic, Fault, Result};
-use cosfly_recipe::Recipe;
+use cosfly_recipe::{Arrival, Recipe};
 use cosfly_stage::{ItemId, Produced, RunEvent, Work};
-use cosfly_store::{Finished, Store};
+use cosfly_store::{ActionRecord, Finished, Store};
 use std::collections::{BTreeMap, BTreeSet};
 use std::sync::atomic::Ordering;
 use std::sync::{Arc, Condvar, Mutex, MutexGuard, PoisonError};
@@ -51,6 +52,10 @@ struct Shared<'r> {
     /// Tasks that another process was working on.
     contended: Vec<TaskIndex>,
     healings: BTreeMap<TaskIndex, u32>,
+    /// Tasks whose intermediate blobs are needed again.
+    wanted_whole: BTreeSet<TaskIndex>,
+    /// Set where intermediate blobs are removed.
+    intermediates: Option<Intermediates<'r>>,
     failures: Vec<Failure>,
     #[expect(clippy::vec_box, reason = "diagnostics are boxed wherever they go")]
     diagnostics: Vec<Box<Diagnostic>>,
@@ -78,7 +83,8 @@ pub(crate) fn do_the_rest(
     report: &(dyn Fn(RunEvent) + Sync),
 ) -> Result<AfterWork> {
     let jobs = options.jobs.clamp(1, 1024);
-    for stage in (0..plan.stages.len()).filter(|stage| plan.stages[*stage].to_run() > 0) {
+    // What nothing needs now may turn out to be needed.
+    for stage in (0..plan.stages.len()).filter(|stage| plan.stages[*stage].cached() < plan.stages[*stage].items()) {
         plan.publish_stage(store, stage)?;
     }
     let results: Results = plan.stages.iter_mut().map(|stage| std::mem::take(&mut stage.finished)).collect();
@@ -87,7 +93,7 @@ pub(crate) fn do_the_rest(
         Diagnostic::new("machine-threads", Fault::Machine, format!("could not start {jobs} threads")).because(error)
     })?;
     let workers = Workers {
-        shared: Mutex::new(Shared::new(plan.recipe, results)),
+        shared: Mutex::new(Shared::new(plan, results)),
         plan,
         store,
         options,
@@ -111,16 +117,22 @@ pub(crate) fn do_the_rest(
 }
 
 impl<'r> Shared<'r> {
-    fn new(recipe: &'r Recipe, results: Results) -> Self {
+    fn new(plan: &Plan<'r>, results: Results) -> Self {
+        let recipe = plan.recipe;
         let work = results.iter().flatten().map(|finished| finished.as_ref().map(|_| Work::Cached)).collect();
+        let will_run = |stage: usize, item: usize| plan.stages[stage].needed[item] && results[stage][item].is_none();
+        let schedule = Schedule::new(recipe, |stage, item| !will_run(stage, item));
+        let intermediates = || Intermediates::new(recipe, &schedule, &results);
         Self {
+            intermediates: recipe.remove_intermediates.then(intermediates),
             recipe,
-            schedule: Schedule::new(recipe, |stage, item| results[stage][item].is_some()),
+            schedule,
             results,
             inputs: SharedInputs::default(),
             work,
             contended: Vec::new(),
             healings: BTreeMap::new(),
+            wanted_whole: BTreeSet::new(),
             failures: Vec::new(),
             diagnostics: Vec::new(),
             broken: false,
@@ -137,14 +149,42 @@ impl<'r> Shared<'r> {
         self.schedule.finish(task);
     }
 
+    /// Removes the intermediate blobs that nothing needs any more now that `task` is durable.
+    fn remove_spent(&mut self, store: &Store, task: TaskIndex, record: &ActionRecord) {
+        let Some(intermediates) = &mut self.intermediates else { return };
+        for blob in intermediates.finished(&self.schedule, &self.results, task, record) {
+            if let Err(diagnostic) = store.remove_blob(&blob) {
+                self.diagnostics.push(diagnostic);
+            }
+        }
+    }
+
     /// Tasks that `task` reads and whose blobs are gone.
     fn lost_inputs(&self, store: &Store, task: TaskIndex) -> Vec<TaskIndex> {
         let (stage, item) = self.schedule.place(task);
-        let is_lost = |finished: Option<&Finished>| finished.is_none_or(|finished| !store.holds(&finished.record));
-        let reads = self.recipe.stages[stage].reads(item);
-        let lost = reads.filter(|arrival| is_lost(self.results[arrival.stage][arrival.item].as_ref()));
-        let lost: BTreeSet<TaskIndex> = lost.map(|arrival| self.schedule.task(arrival.stage, arrival.item)).collect();
+        let mut lost = BTreeSet::new();
+        for connection in &self.recipe.stages[stage].connections {
+            let is_lost = |arrival: &&Arrival| {
+                let Some(finished) = &self.results[arrival.stage][arrival.item] else { return true };
+                let mut seen = finished.record.outputs.iter().filter(|(name, _)| connection.port.sees(name));
+                seen.any(|(_, blob)| !store.holds_blob(blob))
+            };
+            let arrivals = connection.arrivals_for(item).iter().filter(is_lost);
+            lost.extend(arrivals.map(|arrival| self.schedule.task(arrival.stage, arrival.item)));
+        }
         lost.into_iter().collect()
+    }
+
+    /// Whether a task reads one that nothing needed when the run was planned, and that has no result.
+    fn lacks_results(&self, task: TaskIndex) -> bool {
+        let (stage, item) = self.schedule.place(task);
+        self.recipe.stages[stage].reads(item).any(|arrival| self.results[arrival.stage][arrival.item].is_none())
+    }
+
+    /// Whether a task has a result.
+    fn has_result(&self, task: TaskIndex) -> bool {
+        let (stage, item) = self.schedule.place(task);
+        self.results[stage][item].is_some()
     }
 
     fn endings(&self) -> Vec<Vec<Ending>> {
@@ -152,6 +192,7 @@ impl<'r> Shared<'r> {
             (State::Failed, _) => Ending::Failed,
             (State::Skipped, _) => Ending::Skipped,
             (_, Some(work)) => Ending::Finished(work),
+            (State::Finished, None) if !self.has_result(task) => Ending::NotNeeded,
             (_, None) => Ending::Cancelled,
         };
         let of_stage = |(stage, results): (usize, &Vec<Option<Finished>>)| {
@@ -215,6 +256,9 @@ impl<'r> Workers<'_, 'r> {
     }
 
     fn attempt(&self, index: TaskIndex) {
+        if self.lock().lacks_results(index) {
+            return self.heal(index);
+        }
         let task = self.task(index);
         let started = Instant::now();
         match self.pool.install(|| execute(self.store, &task)) {
@@ -246,6 +290,7 @@ impl<'r> Workers<'_, 'r> {
             definition: &planned.definition,
             sources: &planned.sources,
             ports: shared.inputs.of_task(recipe, &shared.results, stage, item),
+            whole: shared.wanted_whole.contains(&index),
             cancelled: Arc::clone(&self.options.cancelled),
         }
     }
@@ -302,6 +347,7 @@ impl<'r> Workers<'_, 'r> {
         if lost.is_empty() {
             shared.contended.push(index);
         } else {
+            shared.wanted_whole.extend(&lost);
             shared.schedule.wait_again(index, &lost);
         }
     }
@@ -313,7 +359,12 @@ impl<'r> Workers<'_, 'r> {
         };
         let durable = |publication: Publication| {
             let Publication { task, settlement, took } = publication;
-            self.lock().work[task] = Some(settlement.work);
+            let mut shared = self.lock();
+            let is_first = shared.work[task].replace(settlement.work).is_none();
+            if is_first {
+                shared.remove_spent(self.store, task, &settlement.finished.record);
+            }
+            drop(shared);
             self.report_finished(task, settlement.work, took, settlement.finished.record.produced.clone());
         };
         let refused = |diagnostic: Box<Diagnostic>| {

@@ -25,6 +25,9 @@ pub struct StageProperties {
     /// Estimated size of one item's output, bytes, for `cosfly plan` before any item is made; 0 where it is about as
     /// large as the items at the [`Fan::Each`] ports.
     pub bytes_per_item: u64,
+    /// Blobs that only other stages need: they may be removed once everything that reads them is finished. A reader that
+    /// needs a removed blob has the item made again.
+    pub intermediate: &'static [&'static str],
 }
 
 /// A file that a stage reads from outside the store.
@@ -84,6 +87,8 @@ pub struct InputPort {
     pub optional: bool,
     /// Origin of its input.
     pub source: PortSource,
+    /// Blobs that the stage sees at the port, and that its key depends on; `None` for all blobs.
+    pub blobs: Option<&'static [&'static str]>,
     /// Description for the reference, one sentence.
     pub doc: &'static str,
 }
@@ -97,6 +102,13 @@ pub enum Takes {
     Named,
     /// One stage or a list. Items keep their names, so stages with items of the same name cannot be connected together.
     Distinct,
+}
+
+impl InputPort {
+    /// Whether the stage sees the blob `name` of the items at the port.
+    pub fn sees(&self, name: &str) -> bool {
+        self.blobs.is_none_or(|blobs| blobs.contains(&name))
+    }
 }
 
 /// Origin of the input of a port.

@@ -80,6 +80,21 @@ impl Store {
         Ok(Some(file))
     }
 
+    /// Removes a blob. Whatever needs it has it made again.
+    ///
+    /// # Errors
+    /// `machine-io`.
+    pub fn remove_blob(&self, blob: &BlobRef) -> Result<()> {
+        locked(&self.checked).remove(&blob.digest);
+        let path = self.blob_path(blob);
+        match fs::remove_file(&path) {
+            Err(error) if error.kind() != io::ErrorKind::NotFound => {
+                Err(Diagnostic::io(format!("remove `{}`", path.display()), &error))
+            }
+            _ => Ok(()),
+        }
+    }
+
     fn unreadable(&self, blob: &BlobRef, error: &io::Error) -> Box<Diagnostic> {
         if error.kind() == io::ErrorKind::NotFound {
             lost(blob, "is missing")

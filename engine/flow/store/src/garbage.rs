@@ -1,6 +1,6 @@
-//! Garbage collection: removes everything that no recent run and no pin needs.
+//! Garbage collection: removes everything that no recent run and no pin needs, and spent blobs of those runs.
 
-use crate::history::{newest_runs, read_run, run_numbers};
+use crate::history::{PastRun, newest_runs, read_run, run_numbers};
 use crate::layout::{Area, Layout, read_dir_or_nothing};
 use crate::locks::lock_file;
 use crate::names::is_relative_path;
@@ -8,7 +8,7 @@ use crate::records;
 use crate::scratch::sweep_orphans;
 use cosfly_diagnose::{Diagnostic, Fault, Result};
 use cosfly_fingerprint::Digest;
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 use std::fs::{self, File, TryLockError};
 use std::io;
 use std::path::Path;
@@ -109,13 +109,30 @@ fn lock(layout: &Layout, dry_run: bool) -> Result<File> {
     }
 }
 
-/// Digests to keep.
+/// Digests to keep, and blobs to remove whatever their age.
 #[derive(Default)]
 struct Needed {
     /// Plans, definitions and all documents that they name.
     documents: BTreeSet<Digest>,
     actions: BTreeSet<Digest>,
     blobs: BTreeSet<Digest>,
+    /// Blobs of finished tasks that nothing reads any more.
+    spent: BTreeSet<Digest>,
+}
+
+/// Names of the spent blobs of each task: those that are spent in every run with the task.
+fn spent_names(runs: &[PastRun]) -> BTreeMap<Digest, BTreeSet<&str>> {
+    let mut names: BTreeMap<Digest, BTreeSet<&str>> = BTreeMap::new();
+    for stage in runs.iter().flat_map(|run| &run.stages) {
+        for plan in stage.items.values() {
+            let here = || stage.spent.iter().map(String::as_str);
+            names
+                .entry(*plan)
+                .and_modify(|known| known.retain(|name| here().any(|it| it == *name)))
+                .or_insert_with(|| here().collect());
+        }
+    }
+    names
 }
 
 fn mark(layout: &Layout, keep_runs: usize) -> io::Result<Needed> {
@@ -126,24 +143,28 @@ fn mark(layout: &Layout, keep_runs: usize) -> io::Result<Needed> {
     for pin in read_dir_or_nothing(&layout.folder("pins"))? {
         roots.extend(read_run(&pin?.path()));
     }
+    let spent = spent_names(&roots);
     let mut needed = Needed::default();
     let mut waiting: Vec<Digest> = roots.iter().flat_map(|run| run.digests()).collect();
     while let Some(document) = waiting.pop() {
         if needed.documents.insert(document) {
             waiting.extend(documents_named_in(layout, &document));
-            mark_finished(layout, &document, &mut needed);
+            mark_finished(layout, &document, spent.get(&document), &mut needed);
         }
     }
+    let Needed { blobs, spent, .. } = &mut needed;
+    spent.retain(|blob| !blobs.contains(blob));
     Ok(needed)
 }
 
-fn mark_finished(layout: &Layout, plan: &Digest, needed: &mut Needed) {
+fn mark_finished(layout: &Layout, plan: &Digest, spent: Option<&BTreeSet<&str>>, needed: &mut Needed) {
     let done = fs::read(layout.file(Area::Done, plan)).ok();
     let Some(action) = done.and_then(|bytes| records::decode_done(plan, &bytes)) else { return };
-    if needed.actions.insert(action) {
-        let record =
-            fs::read(layout.file(Area::Actions, &action)).ok().and_then(|bytes| records::decode(&action, &bytes));
-        needed.blobs.extend(record.iter().flat_map(|record| record.outputs.values().map(|blob| blob.digest)));
+    needed.actions.insert(action);
+    let record = fs::read(layout.file(Area::Actions, &action)).ok().and_then(|bytes| records::decode(&action, &bytes));
+    for (name, blob) in record.iter().flat_map(|record| record.outputs.iter()) {
+        let is_spent = spent.is_some_and(|names| names.contains(name.as_str()));
+        if is_spent { &mut needed.spent } else { &mut needed.blobs }.insert(blob.digest);
     }
 }
 
@@ -183,7 +204,8 @@ fn sweep(
             metadata => metadata?,
         };
         let young = age_of(&metadata, options) < options.keep_age;
-        let keep = young || wanted.contains(&digest);
+        let spent = area == Area::Blobs && needed.spent.contains(&digest);
+        let keep = (young && !spent) || wanted.contains(&digest);
         if !keep && !options.dry_run {
             remove(&path, &metadata)?;
         }
@@ -247,6 +269,10 @@ mod tests {
 
     /// A run of one task with one blob, remembered.
     fn run(store: &Store, text: &str) {
+        run_with_spent(store, text, vec![]);
+    }
+
+    fn run_with_spent(store: &Store, text: &str, spent: Vec<String>) {
         let definition = format!("{{\"what\":\"{text}\"}}");
         let definition_digest = Digest::of(definition.as_bytes());
         let document = format!("{{\"definition\":\"{definition_digest}\"}}");
@@ -258,7 +284,7 @@ mod tests {
         store.put_document(&definition_digest, &definition).unwrap();
         store.publish_done(&plan, &document, &action).unwrap();
         let items = BTreeMap::from([("all".to_owned(), plan)]);
-        let stage = PastStage { name: "s".to_owned(), definition: definition_digest, items };
+        let stage = PastStage { items, spent, ..PastStage::new("s".to_owned(), definition_digest) };
         store.record_run("r", &PastRun { stages: vec![stage] }).unwrap();
     }
 
@@ -266,6 +292,20 @@ mod tests {
         let now = SystemTime::now() + Duration::from_secs(3600);
         let keep_age = Duration::from_secs(age_s);
         collect_garbage(root, &GarbageOptions { keep_runs, keep_age, now, dry_run }).unwrap()
+    }
+
+    #[test]
+    fn spent_blobs_go_whatever_their_age_unless_a_run_needs_them() {
+        let root = tempfile::tempdir().unwrap();
+        let root = root.path();
+        let spent = || vec!["a".to_owned()];
+        let store = Store::open(root).unwrap();
+        run_with_spent(&store, "one", spent());
+        run_with_spent(&store, "two", spent());
+        run(&store, "two");
+        drop(store);
+        let report = collect(root, 10, 7200, false);
+        assert_eq!((report.blobs, report.kept_blobs, report.records), (1, 1, 0));
     }
 
     #[test]

@@ -13,7 +13,7 @@ use std::path::Path;
 
 /// Number of runs of a recipe that are kept.
 const REMEMBERED: usize = 10;
-const HEADER: &str = "cosfly-run 1 ";
+const HEADER: &str = "cosfly-run 2 ";
 
 /// Finished tasks of one run.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
@@ -31,6 +31,15 @@ pub struct PastStage {
     pub definition: Digest,
     /// Plan digests by the names of items, as text.
     pub items: BTreeMap<String, Digest>,
+    /// Blobs of the items that nothing needs any more: everything that reads them is finished.
+    pub spent: Vec<String>,
+}
+
+impl PastStage {
+    /// A stage without finished items.
+    pub fn new(name: String, definition: Digest) -> Self {
+        Self { name, definition, items: BTreeMap::new(), spent: Vec::new() }
+    }
 }
 
 impl PastRun {
@@ -44,6 +53,9 @@ impl PastRun {
         let mut body = String::new();
         for stage in &self.stages {
             let _ = writeln!(body, "stage {} {}", stage.definition, quoted(&stage.name));
+            for blob in &stage.spent {
+                let _ = writeln!(body, "spent {} {}", stage.definition, quoted(blob));
+            }
             for (item, plan) in &stage.items {
                 let _ = writeln!(body, "item {plan} {}", quoted(item));
             }
@@ -62,10 +74,10 @@ impl PastRun {
             let mut words = line.splitn(3, ' ');
             let (what, digest, name) = (words.next()?, words.next()?.parse().ok()?, words.next()?);
             let name: String = serde_json::from_str(name).ok()?;
-            if what == "stage" {
-                run.stages.push(PastStage { name, definition: digest, items: BTreeMap::new() });
-            } else {
-                run.stages.last_mut()?.items.insert(name, digest);
+            match what {
+                "stage" => run.stages.push(PastStage::new(name, digest)),
+                "spent" => run.stages.last_mut()?.spent.push(name),
+                _ => drop(run.stages.last_mut()?.items.insert(name, digest)),
             }
         }
         Some(run)
@@ -139,6 +151,7 @@ mod tests {
             name: "walkers".to_owned(),
             definition: Digest::of(&seed.to_le_bytes()),
             items: items.collect(),
+            spent: vec!["pack".to_owned()],
         };
         PastRun { stages: vec![stage] }
     }

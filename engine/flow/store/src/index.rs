@@ -20,7 +20,7 @@ use std::sync::{Arc, OnceLock};
 use std::time::{Duration, SystemTime, UNIX_EPOCH};
 
 /// Magic bytes of the file; the digest of the body and the body follow.
-const HEADER: &[u8] = b"cosfly-index 1\n";
+const HEADER: &[u8] = b"cosfly-index 2\n";
 const SHARDS: usize = 256;
 /// Resolution of the file system's clock: a folder that changed within this time may change again with the same time
 /// stamp.
@@ -36,7 +36,7 @@ pub struct KnownTasks<'s> {
     store: &'s Store,
     run: Option<Digest>,
     /// Results sorted by plan digest.
-    entries: Vec<(Digest, Finished)>,
+    entries: Vec<(Digest, Entry)>,
     /// Per folder: whether no file went missing since the index was written.
     done_is_whole: Vec<bool>,
     blobs_are_whole: Vec<bool>,
@@ -45,12 +45,29 @@ pub struct KnownTasks<'s> {
     missed: AtomicBool,
 }
 
+/// An indexed result.
+#[derive(Clone, Debug, PartialEq)]
+struct Entry {
+    finished: Finished,
+    /// Whether all blobs were there when the index was written, those that may be removed as well.
+    whole: bool,
+}
+
+/// A finished task.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Known {
+    /// Result of the task.
+    pub finished: Finished,
+    /// Whether all blobs are there, those that may be removed as well.
+    pub whole: bool,
+}
+
 #[derive(Default)]
 struct Index {
     run: Option<Digest>,
     done_stamps: Stamps,
     blob_stamps: Stamps,
-    entries: Vec<(Digest, Finished)>,
+    entries: Vec<(Digest, Entry)>,
 }
 
 impl Store {
@@ -77,12 +94,13 @@ impl Store {
         }
     }
 
-    /// Replaces the index of `recipe` by the finished tasks of its run `run`.
+    /// Replaces the index of `recipe` by the finished tasks of its run `run`, each with the names of blobs that may be
+    /// removed.
     pub fn write_index<'e>(
         &self,
         recipe: &str,
         run: &Digest,
-        entries: impl Iterator<Item = (&'e Digest, &'e Finished)>,
+        entries: impl Iterator<Item = (&'e Digest, &'e Finished, &'e [&'e str])>,
     ) -> Result<()> {
         // The times are read before the files: a file that goes missing in between changes a time.
         let now = self.file_system_time()?;
@@ -92,10 +110,12 @@ impl Store {
         };
         let done_stamps = reliable(stamps(&self.layout, Area::Done));
         let blob_stamps = reliable(stamps(&self.layout, Area::Blobs));
-        let there = |plan: &Digest, finished: &Finished| {
-            fs::symlink_metadata(self.layout.file(Area::Done, plan)).is_ok() && self.holds(&finished.record)
+        let there = |plan: &Digest, finished: &Finished, removable: &[&str]| {
+            fs::symlink_metadata(self.layout.file(Area::Done, plan)).is_ok()
+                && self.holds_lasting(&finished.record, removable)
         };
-        let entries = entries.filter(|(plan, finished)| there(plan, finished));
+        let entries = entries.filter(|(plan, finished, removable)| there(plan, finished, removable));
+        let entries = entries.map(|(plan, finished, _)| (plan, finished, self.holds(&finished.record)));
         let bytes = encode(run, &done_stamps, &blob_stamps, entries);
         self.write_file(&self.layout.folder("index").join(recipe), &bytes, Step::WriteRun, Step::RenameRun)
     }
@@ -110,8 +130,8 @@ impl Store {
 }
 
 impl KnownTasks<'_> {
-    /// Result of a task that is finished and has all its blobs.
-    pub fn finished(&self, plan: &Digest) -> Option<Finished> {
+    /// A task that is finished and has all its blobs but those named in `removable`.
+    pub fn finished(&self, plan: &Digest, removable: &[&str]) -> Option<Known> {
         let shard = usize::from(plan.0[0]);
         let indexed = self.entries.binary_search_by_key(plan, |(plan, _)| *plan).ok();
         let indexed = indexed.map(|position| &self.entries[position].1);
@@ -120,12 +140,16 @@ impl KnownTasks<'_> {
         if !is_done {
             return None;
         }
-        if let Some(finished) = indexed.filter(|finished| self.holds(&finished.record)) {
-            return Some(finished.clone());
+        if let Some(known) = indexed.and_then(|entry| self.known(entry, removable)) {
+            return Some(known);
         }
-        let finished = self.store.finished(plan).filter(|finished| self.store.holds(&finished.record))?;
+        let finished = self.store.finished(plan)?;
+        if !self.store.holds_lasting(&finished.record, removable) {
+            return None;
+        }
         self.missed.store(true, Ordering::Relaxed);
-        Some(finished)
+        let whole = removable.is_empty() || self.store.holds(&finished.record);
+        Some(Known { finished, whole })
     }
 
     /// Whether the index is of the run `run` and as good as a new one.
@@ -137,9 +161,20 @@ impl KnownTasks<'_> {
             && !changed(&self.blobs_are_whole)
     }
 
-    fn holds(&self, record: &ActionRecord) -> bool {
+    /// State of an indexed result; `None` where a lasting blob is missing.
+    fn known(&self, Entry { finished, whole }: &Entry, removable: &[&str]) -> Option<Known> {
         let holds = |blob: &BlobRef| self.blobs_are_whole[usize::from(blob.digest.0[0])] || self.store.holds_blob(blob);
-        record.outputs.values().all(holds)
+        if !*whole && removable.is_empty() {
+            return None;
+        }
+        // Where one was missing when the index was written, an unchanged folder says nothing.
+        let still_holds = |blob: &BlobRef| if *whole { holds(blob) } else { self.store.holds_blob(blob) };
+        let may_go = |name: &String| removable.contains(&name.as_str());
+        let outputs = &finished.record.outputs;
+        outputs.iter().all(|(name, blob)| may_go(name) || holds(blob)).then(|| Known {
+            finished: finished.clone(),
+            whole: outputs.iter().all(|(name, blob)| !may_go(name) || still_holds(blob)),
+        })
     }
 
     fn done_in(&self, shard: usize) -> &[Digest] {
@@ -169,13 +204,14 @@ fn encode<'e>(
     run: &Digest,
     done: &Stamps,
     blobs: &Stamps,
-    entries: impl Iterator<Item = (&'e Digest, &'e Finished)>,
+    entries: impl Iterator<Item = (&'e Digest, &'e Finished, bool)>,
 ) -> Vec<u8> {
     let mut body = run.0.to_vec();
     done.iter().chain(blobs).for_each(|stamp| body.extend(stamp.to_le_bytes()));
-    for (plan, finished) in entries {
+    for (plan, finished, whole) in entries {
         body.extend(plan.0);
         body.extend(finished.action.0);
+        body.push(u8::from(whole));
         let record = &finished.record;
         put_count(&mut body, record.outputs.len());
         for (name, blob) in record.outputs.iter() {
@@ -248,8 +284,9 @@ impl Reader<'_> {
         Some(std::str::from_utf8(text).ok()?.to_owned())
     }
 
-    fn entry(&mut self) -> Option<(Digest, Finished)> {
+    fn entry(&mut self) -> Option<(Digest, Entry)> {
         let (plan, action) = (self.digest()?, self.digest()?);
+        let whole = self.take::<1>()? == [1];
         let mut outputs = BTreeMap::new();
         for _ in 0..self.number()? {
             outputs.insert(self.text()?, BlobRef { digest: self.digest()?, bytes: self.number()? });
@@ -264,7 +301,8 @@ impl Reader<'_> {
         for _ in 0..self.number()? {
             produced.rejected = Some(self.text()?);
         }
-        Some((plan, Finished { action, record: Arc::new(ActionRecord::new(outputs, produced)) }))
+        let finished = Finished { action, record: Arc::new(ActionRecord::new(outputs, produced)) };
+        Some((plan, Entry { finished, whole }))
     }
 }
 
@@ -277,6 +315,7 @@ mod tests {
         let action = Digest::of(text.as_bytes());
         let mut sink = store.sink();
         sink.put("a", text.as_bytes()).unwrap();
+        sink.put("means", format!("means of {text}").as_bytes()).unwrap();
         let produced = Produced {
             notes: BTreeMap::from([("boxes".to_owned(), text.to_owned())]),
             warnings: vec!["one".to_owned(), String::new()],
@@ -289,13 +328,17 @@ mod tests {
         (plan, Finished { action, record })
     }
 
+    const REMOVABLE: &[&str] = &["means"];
+
     fn store_with_index() -> (tempfile::TempDir, Vec<(Digest, Finished)>) {
         let root = tempfile::tempdir().unwrap();
         let store = Store::open(root.path()).unwrap();
         let entries: Vec<_> = (0..5).map(|n| finish(&store, &n.to_string())).collect();
         // Older than the step of the file system's clock, so that the index relies on the folders' times.
         std::thread::sleep(2 * CLOCK_STEP);
-        store.write_index("r", &Digest::of(b"run"), entries.iter().map(|(plan, finished)| (plan, finished))).unwrap();
+        store
+            .write_index("r", &Digest::of(b"run"), entries.iter().map(|(plan, finished)| (plan, finished, REMOVABLE)))
+            .unwrap();
         (root, entries)
     }
 
@@ -305,8 +348,10 @@ mod tests {
         let store = Store::open(root.path()).unwrap();
         for recipe in ["r", "another"] {
             let known = store.known_tasks(recipe);
-            assert!(entries.iter().all(|(plan, finished)| known.finished(plan).as_ref() == Some(finished)));
-            assert_eq!(known.finished(&Digest::of(b"unknown")), None);
+            assert!(entries.iter().all(|(plan, finished)| {
+                known.finished(plan, &[]) == Some(Known { finished: finished.clone(), whole: true })
+            }));
+            assert_eq!(known.finished(&Digest::of(b"unknown"), &[]), None);
             assert_eq!(known.missed.load(Ordering::Relaxed), recipe == "another");
         }
     }
@@ -318,8 +363,26 @@ mod tests {
         fs::remove_file(store.layout.file(Area::Done, &entries[0].0)).unwrap();
         fs::remove_file(store.blob_path(&entries[1].1.record.outputs["a"])).unwrap();
         let known = store.known_tasks("r");
-        let finished: Vec<bool> = entries.iter().map(|(plan, _)| known.finished(plan).is_some()).collect();
+        let finished: Vec<bool> = entries.iter().map(|(plan, _)| known.finished(plan, &[]).is_some()).collect();
         assert_eq!(finished, [false, false, true, true, true]);
+    }
+
+    #[test]
+    fn a_removed_blob_is_missed_before_and_after_the_index_is_written() {
+        let (root, entries) = store_with_index();
+        let store = Store::open(root.path()).unwrap();
+        let whole = |store: &Store| -> Vec<Option<bool>> {
+            let known = store.known_tasks("r");
+            entries.iter().map(|(plan, _)| known.finished(plan, REMOVABLE).map(|known| known.whole)).collect()
+        };
+        store.remove_blob(&entries[2].1.record.outputs["means"]).unwrap();
+        let expected = [true, true, false, true, true].map(Some);
+        assert_eq!(whole(&store), expected);
+        std::thread::sleep(2 * CLOCK_STEP);
+        let given = entries.iter().map(|(plan, finished)| (plan, finished, REMOVABLE));
+        store.write_index("r", &Digest::of(b"run"), given).unwrap();
+        assert_eq!(whole(&store), expected);
+        assert_eq!(store.known_tasks("r").finished(&entries[2].0, &[]), None);
     }
 
     #[test]
@@ -327,7 +390,9 @@ mod tests {
         let (root, entries) = store_with_index();
         let path = root.path().join("index/r");
         let bytes = fs::read(&path).unwrap();
-        assert_eq!(decode(&bytes).unwrap().entries, entries);
+        let read = decode(&bytes).unwrap().entries;
+        let read: Vec<_> = read.into_iter().map(|(plan, entry)| (plan, entry.finished)).collect();
+        assert_eq!(read, entries);
         for position in (0..bytes.len()).step_by(11) {
             assert!(decode(&bytes[..position]).is_none());
             let mut changed = bytes.clone();

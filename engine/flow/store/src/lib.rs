@@ -49,7 +49,7 @@ pub use blobs::digest_of_file;
 pub use fault::{FaultPoints, Step};
 pub use garbage::{GarbageOptions, GarbageReport, collect_garbage, pin};
 pub use history::{PastRun, PastStage};
-pub use index::KnownTasks;
+pub use index::{Known, KnownTasks};
 pub use locks::TaskLock;
 pub use materialise::{Materialised, VERSION_FILE, content_of, materialise};
 pub use places::check_out_folder;

@@ -119,6 +119,11 @@ impl Store {
         record.outputs.values().all(|blob| self.holds_blob(blob))
     }
 
+    /// Whether all blobs of a record but those named in `removable` exist with the right size.
+    pub fn holds_lasting(&self, record: &ActionRecord, removable: &[&str]) -> bool {
+        record.outputs.iter().all(|(name, blob)| removable.contains(&name.as_str()) || self.holds_blob(blob))
+    }
+
     /// Whether a blob exists with the right size.
     pub fn holds_blob(&self, blob: &BlobRef) -> bool {
         fs::symlink_metadata(self.layout.file(Area::Blobs, &blob.digest))

@@ -77,7 +77,7 @@ fn ran(summary: &RunSummary) -> u64 {
 fn timed(folder: &Path, recipe: &Recipe, jobs: usize) -> Result<(Duration, RunSummary)> {
     let start = Instant::now();
     let store = Store::open(folder)?;
-    let options = RunOptions { jobs, cancelled: Arc::new(AtomicBool::new(false)) };
+    let options = RunOptions { jobs, cancelled: Arc::new(AtomicBool::new(false)), ..RunOptions::default() };
     let summary = run(recipe, &store, &options, &|_| {})?;
     let took = start.elapsed();
     if summary.outcome != RunOutcome::Complete {

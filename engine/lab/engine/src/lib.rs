@@ -7,4 +7,4 @@ mod bench;
 mod toy;
 
 pub use bench::{EngineFigures, bench_engine};
-pub use toy::{Hook, Toy, toy_recipe};
+pub use toy::{Hook, PACK, Toy, toy_recipe};

@@ -15,6 +15,9 @@ use std::sync::Arc;
 /// Called at the start of an item, to count, wait or fail.
 pub type Hook = Arc<dyn Fn(&TaskContext) -> Result<()> + Send + Sync>;
 
+/// Name of the intermediate blob of toys.
+pub const PACK: &str = "pack";
+
 /// Stage that writes bytes that depend on all of its inputs.
 struct ToyStage {
     properties: StageProperties,
@@ -55,6 +58,9 @@ impl Stage for ToyStage {
         let mut bytes = text.into_bytes();
         bytes.resize(bytes.len().max(wanted), b'.');
         outputs.put("out", &bytes)?;
+        if self.properties.intermediate.contains(&PACK) {
+            outputs.put(PACK, &[b"pack of ", &bytes[..]].concat())?;
+        }
         let warnings = parameters["warning"].as_str().map(str::to_owned).into_iter().collect();
         let rejected = parameters["rejected"].as_str().map(str::to_owned);
         Ok(Produced { warnings, rejected, ..Produced::default() })
@@ -78,6 +84,10 @@ pub struct Toy {
     pub takes: Takes,
     /// Variants of each item; without variants, the item itself.
     pub variants: Vec<&'static str>,
+    /// Whether the stage writes an intermediate blob `pack` beside `out`.
+    pub packs: bool,
+    /// Blobs that the stage sees at its ports; `None` for all.
+    pub sees: Option<&'static [&'static str]>,
     /// Files that the stage reads.
     pub sources: Vec<PathBuf>,
     /// Called at the start of every item.
@@ -95,6 +105,8 @@ impl Toy {
             items,
             takes: Takes::One,
             variants: Vec::new(),
+            packs: false,
+            sees: None,
             sources: Vec::new(),
             hook: Arc::new(|_| Ok(())),
         }
@@ -119,6 +131,7 @@ pub fn toy_recipe(name: &str, seed: u64, toys: &[Toy]) -> Result<Recipe> {
     Ok(Recipe {
         name: name.to_owned(),
         seed,
+        remove_intermediates: false,
         path: Path::new(name).with_extension("toml"),
         text: Arc::from(""),
         stages,
@@ -153,7 +166,7 @@ fn toy_stage(toy: &Toy, earlier: &[RecipeStage]) -> Result<RecipeStage> {
             let copies = toy.variants.len().max(1);
             arrivals = arrivals.into_iter().flat_map(|arrival| std::iter::repeat_n(arrival, copies)).collect();
         }
-        let port = toy_port(port, *fan, toy.takes);
+        let port = InputPort { blobs: toy.sees, ..toy_port(port, *fan, toy.takes) };
         connections.push(Connection { port, upstreams: vec![*upstream], arrivals: arrivals.into() });
     }
     let sources = toy.sources.iter().enumerate().map(|(n, path)| (format!("source{n}"), path.clone()));
@@ -166,6 +179,7 @@ fn toy_stage(toy: &Toy, earlier: &[RecipeStage]) -> Result<RecipeStage> {
         artifact: "toy/1",
         items: ItemRule::One,
         bytes_per_item: 1000,
+        intermediate: if toy.packs { &[PACK] } else { &[] },
     };
     let files = sources.map(|(parameter, path)| SourceFile { parameter, path });
     Ok(RecipeStage {
@@ -180,5 +194,14 @@ fn toy_stage(toy: &Toy, earlier: &[RecipeStage]) -> Result<RecipeStage> {
 }
 
 fn toy_port(name: &'static str, fan: Fan, takes: Takes) -> InputPort {
-    InputPort { name, artifact: "toy/1", fan, takes, optional: false, source: PortSource::Recipe, doc: "what it reads" }
+    InputPort {
+        name,
+        artifact: "toy/1",
+        fan,
+        takes,
+        optional: false,
+        source: PortSource::Recipe,
+        blobs: None,
+        doc: "what it reads",
+    }
 }

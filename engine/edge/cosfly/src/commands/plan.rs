@@ -41,7 +41,8 @@ fn json(plan: &Plan<'_>) -> String {
             stage.reasons.iter().map(|(reason, items)| json!({ "reason": reason.to_string(), "items": items }));
         json!({
             "stage": stage.name.as_str(), "uses": stage.kind, "items": stage.items(), "cached": stage.cached(),
-            "to_run": stage.to_run(), "predicted_bytes": stage.predicted_bytes, "reasons": reasons.collect::<Vec<_>>(),
+            "to_run": stage.to_run(), "not_needed": stage.not_needed(), "made_again": stage.spent,
+            "predicted_bytes": stage.predicted_bytes, "reasons": reasons.collect::<Vec<_>>(),
         })
     });
     let predicted: u64 = plan.stages.iter().map(|stage| stage.predicted_bytes).sum();
@@ -72,6 +73,14 @@ fn table(plan: &Plan<'_>) -> String {
             stage.cached(),
             stage.to_run(),
         );
+        if stage.not_needed() > 0 {
+            let lost = count(stage.not_needed(), "item");
+            let _ = writeln!(text, "{:names$}  {lost} not in the store, and not needed: what is made of them is", "");
+        }
+        if stage.spent > 0 {
+            let spent = count(stage.spent, "item");
+            let _ = writeln!(text, "{:names$}  {spent} may be made again: intermediate files were removed", "");
+        }
         if shared.is_none() {
             for (reason, items) in &stage.reasons {
                 let _ = writeln!(text, "{:names$}  because {reason} ({})", "", count(*items, "item"));

@@ -6,6 +6,7 @@ use crate::console::Console;
 use crate::exit;
 use crate::text::{bytes, count, duration};
 use clap::Parser;
+use cosfly_diagnose::{Diagnostic, Fault, Result};
 use cosfly_fingerprint::Digest;
 use cosfly_recipe::{Recipe, RecipeStage};
 use cosfly_runner::{Delivery, Origin, Rejection, RunOptions, RunOutcome, RunSummary, deliver};
@@ -26,6 +27,7 @@ const MOST_REJECTIONS: usize = 10;
 Examples:
   cosfly run recipes/small.toml
   cosfly run recipes/carla_town.toml --jobs 1 --out /data/town
+  cosfly run recipes/carla_town.toml --stage expert
   cosfly run recipes/carla_town.toml --set stages.expert.weights.visibility=5 --set seed=7"
 )]
 pub struct Arguments {
@@ -36,6 +38,9 @@ pub struct Arguments {
     /// Folder for the dataset [default: out/<recipe name>]
     #[arg(long, value_name = "DIR")]
     out: Option<PathBuf>,
+    /// Make this stage and what it needs, nothing else [default: every stage that no other reads]
+    #[arg(long, value_name = "NAME")]
+    stage: Option<String>,
     /// Tasks at the same time [default: one per core]
     #[arg(long, short, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
     jobs: Option<u16>,
@@ -51,13 +56,16 @@ impl Command for Arguments {
     fn run(&self, console: &dyn Console) -> Outcome {
         let began = Instant::now();
         let recipe = self.recipe.load(console)?;
-        let out = self.out.clone().unwrap_or_else(|| PathBuf::from("out").join(&recipe.name));
+        let asked = self.stage.as_deref().map(|name| asked_stage(&recipe, name)).transpose()?;
+        let folder =
+            self.stage.as_ref().map_or_else(|| recipe.name.clone(), |stage| format!("{}.{stage}", recipe.name));
+        let out = self.out.clone().unwrap_or_else(|| PathBuf::from("out").join(folder));
         check_out_folder(&self.store.folder(), &out)?;
         let store = Store::open(&self.store.folder())?;
         let jobs = self.jobs.map_or_else(|| std::thread::available_parallelism().map_or(1, usize::from), usize::from);
-        let options = RunOptions { jobs, cancelled: console.cancelled() };
+        let options = RunOptions { jobs, asked, cancelled: console.cancelled() };
         let progress = console.run_progress(self.quiet);
-        let wanted = delivered_stage(&recipe);
+        let wanted = asked.unwrap_or_else(|| delivered_stage(&recipe));
         let delivery = deliver(&recipe, &store, wanted, &out, &options, &*progress);
         drop(progress);
         let delivery = delivery?;
@@ -73,6 +81,18 @@ impl Command for Arguments {
         }
         Ok(ended(&delivery.summary, console))
     }
+}
+
+/// Index of the stage called `name`.
+fn asked_stage(recipe: &Recipe, name: &str) -> Result<usize> {
+    recipe.position(name).ok_or_else(|| {
+        let names: Vec<&str> = recipe.stages.iter().map(|stage| stage.name.as_str()).collect();
+        let problem = Diagnostic::new("run-unknown-stage", Fault::Recipe, format!("the recipe has no stage `{name}`"));
+        match cosfly_diagnose::nearest_name(name, names.iter().copied()) {
+            Some(near) => problem.hint(format!("did you mean `{near}`?")),
+            None => problem.hint(format!("its stages are `{}`", names.join("`, `"))),
+        }
+    })
 }
 
 /// Index of the stage whose artifact is the result: the last `dataset`, else the last stage.
@@ -105,6 +125,7 @@ fn stages(run: &RunSummary) -> String {
             (stage.failed, "failed"),
             (stage.skipped, "skipped"),
             (stage.unfinished, "not finished"),
+            (stage.not_needed, "not needed"),
         ]
         .into_iter()
         .filter(|(number, _)| *number > 0)
@@ -193,6 +214,7 @@ fn json(recipe: &Recipe, delivery: &Delivery, out: &Path) -> String {
             serde_json::json!({
                 "stage": stage.name.as_str(), "items": stage.total, "cached": stage.cached, "ran": stage.ran,
                 "reused": stage.reused, "failed": stage.failed, "skipped": stage.skipped, "unfinished": stage.unfinished,
+                "not_needed": stage.not_needed,
                 "digest": digest_of(run, index).to_string(),
             })
         })

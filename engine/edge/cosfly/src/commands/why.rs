@@ -53,7 +53,8 @@ fn json(explanation: &Explanation) -> String {
         json!({ "task": link.id.to_string(), "changes": changes })
     });
     let whole = json!({
-        "task": explanation.id.to_string(), "cached": explanation.finished, "chain": chain.collect::<Vec<_>>(),
+        "task": explanation.id.to_string(), "cached": explanation.finished,
+        "needed": explanation.needed, "chain": chain.collect::<Vec<_>>(),
     });
     format!("{whole:#}\n")
 }
@@ -64,6 +65,9 @@ fn told(explanation: &Explanation) -> String {
     let mut text = match (explanation.finished, explanation.chain.is_empty()) {
         (true, true) => format!("`{subject}` is cached; nothing has changed since it was first made\n"),
         (true, false) => format!("`{subject}` is cached; the last time it was made, it was because\n"),
+        (false, _) if !explanation.needed => {
+            format!("`{subject}` would not run: everything that is made of it is finished; it is not cached, because\n")
+        }
         (false, _) => format!("`{subject}` would run, because\n"),
     };
     for (depth, link) in explanation.chain.iter().enumerate() {

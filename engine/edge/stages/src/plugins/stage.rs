@@ -59,6 +59,7 @@ impl StageKind for Wasm {
             artifact,
             items: ItemRule::PerInput(items),
             bytes_per_item,
+            intermediate: &[],
         };
         Ok(single(WasmStage { config, properties }))
     }
@@ -72,7 +73,7 @@ fn ports_of(makes: Makes) -> Vec<InputPort> {
         Makes::Flights => vec![ports::town(), ports::each("trajectories", TRAJECTORY, false, judged)],
         Makes::Extras => vec![
             ports::town(),
-            ports::each("frames", FRAMES, false, rendered),
+            ports::without_pictures(ports::each("frames", FRAMES, false, rendered)),
             InputPort { optional: true, ..ports::each("captions", CAPTIONS, false, captions) },
         ],
     }

@@ -65,6 +65,7 @@ impl Toy {
             artifact: self.artifact,
             items: self.items.clone(),
             bytes_per_item: 1,
+            intermediate: &[],
         }
     }
 
@@ -135,7 +136,7 @@ pub fn port(name: &'static str, artifact: &'static str, fan: Fan) -> InputPort {
         "target" => "Who is followed.",
         _ => "What is shown.",
     };
-    InputPort { name, artifact, fan, takes: Takes::One, optional: false, source: PortSource::Recipe, doc }
+    InputPort { name, artifact, fan, takes: Takes::One, optional: false, source: PortSource::Recipe, blobs: None, doc }
 }
 
 fn gather(port: InputPort) -> InputPort {
