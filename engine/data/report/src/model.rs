@@ -57,7 +57,7 @@ pub struct BoxSketch {
 }
 
 /// A flight with a few numbers per frame.
-#[derive(Clone, Debug, Default, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct FlightSketch {
     /// Id.
     pub id: String,

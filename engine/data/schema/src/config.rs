@@ -45,6 +45,10 @@ pub struct DatasetConfig {
     /// Rows of the `frames` table in one Parquet file; larger tables are split into several files.
     #[schemars(range(min = 1, max = 1_000_000))]
     pub frames_per_file: u32,
+    /// Walks whose flights share files of tables: further walks write files of their own and change no earlier one, unless
+    /// splits move.
+    #[schemars(range(min = 1, max = 1_000_000))]
+    pub walks_per_file: u32,
 }
 
 impl Default for DatasetConfig {
@@ -66,6 +70,7 @@ impl Default for DatasetConfig {
             windows: WindowConfig::default(),
             responsible_ai: BTreeMap::new(),
             frames_per_file: 20_000,
+            walks_per_file: 200,
         }
     }
 }

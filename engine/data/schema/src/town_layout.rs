@@ -2,6 +2,7 @@
 
 use cosfly_frames::{DVec2, DVec3};
 use cosfly_maps::Town;
+use serde::{Deserialize, Serialize};
 use std::collections::BTreeSet;
 
 /// Edge of a cell, metres.
@@ -18,7 +19,7 @@ const MOST_CELLS: i64 = 4_000_000;
 ///
 /// A copy with another name, other buildings, trees or materials has the same digest; one whose ground was edited in
 /// places has a similar sketch.
-#[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
+#[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
 pub struct TownLayout {
     /// BLAKE3 of all patterns, 64 hex digits.
     pub digest: String,

@@ -2,6 +2,7 @@
 
 use cosfly_frames::{DVec3, real};
 use rayon::prelude::*;
+use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 
 /// Edge of a cell, metres.
@@ -12,7 +13,7 @@ const SECTORS: i64 = 8;
 const LEAST_STEP_M: f64 = 0.05;
 
 /// Cells and directions of a walk, packed and sorted; standing adds nothing.
-#[derive(Clone, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Route(Vec<u64>);
 
 impl Route {

@@ -1,7 +1,7 @@
 //! Collects what plugins gave of all flights: the same from each, under names of its own.
 
 use cosfly_diagnose::{Diagnostic, Fault, Result};
-use cosfly_schema::extras::{Extra, ExtraSource};
+use cosfly_schema::extras::{Extra, ExtraSource, ExtraSummary};
 
 /// Sources of the plugins' tables and files for `flights` flights: each once, in the order of names. `of_flight` reads
 /// those of one flight.
@@ -25,6 +25,28 @@ pub fn gather(flights: usize, of_flight: &dyn Fn(usize) -> Result<Vec<Extra>>) -
     }
     all.sort_by(|a, b| a.0.name.cmp(&b.0.name));
     Ok(all.into_iter().map(|(source, _)| source).collect())
+}
+
+/// Summaries over the flights of both: each plugin gave of all of them, and the same.
+///
+/// # Errors
+/// As [`gather`].
+pub fn merged(first: Vec<ExtraSummary>, second: Vec<ExtraSummary>) -> Result<Vec<ExtraSummary>> {
+    let other = |all: &[ExtraSummary], name: &str| all.iter().position(|it| it.source.name == name);
+    if let Some(alone) = second.iter().find(|it| other(&first, &it.source.name).is_none()) {
+        return Err(not_of_all(&alone.source));
+    }
+    let add = |mut it: ExtraSummary| {
+        let more = other(&second, &it.source.name).map(|at| &second[at]).ok_or_else(|| not_of_all(&it.source))?;
+        if more.source != it.source {
+            return Err(conflict(&it.source, &more.source, false));
+        }
+        more.rows.iter().for_each(|(split, rows)| *it.rows.entry(split.clone()).or_default() += rows);
+        it.files += more.files;
+        it.depths.extend(&more.depths);
+        Ok(it)
+    };
+    first.into_iter().map(add).collect()
 }
 
 fn conflict(known: &ExtraSource, other: &ExtraSource, is_twice: bool) -> Box<Diagnostic> {

@@ -15,4 +15,7 @@ pub mod table_file;
 
 pub use frame_pack::{FramePackReader, FramePackWriter, PackHeader, PackedFrame};
 pub use log::write_log;
-pub use publish::{DatasetSource, PublishedLog, Summary, write_dataset};
+pub use publish::{
+    DatasetSource, FlightNote, GroupFlights, GroupPlan, GroupSource, PublishedLog, Shard, Summary, plan_groups,
+    write_dataset, write_shard,
+};

@@ -56,6 +56,17 @@ impl<'t, S: 'static, W: Write + Send> TableWriter<'t, S, W> {
         Ok(())
     }
 
+    /// Name of the table.
+    pub fn name(&self) -> &'static str {
+        self.table.name
+    }
+
+    /// Ends the file; gives its number of rows and what it was written to.
+    pub fn into_inner(self) -> Result<(u64, W)> {
+        let output = self.writer.into_inner().map_err(|error| write_error(self.table.name, error))?;
+        Ok((self.rows, output))
+    }
+
     /// Ends the file; gives its number of rows.
     pub fn finish(self) -> Result<u64> {
         self.writer.close().map_err(|error| write_error(self.table.name, error))?;

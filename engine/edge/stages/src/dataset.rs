@@ -1,25 +1,20 @@
-//! `dataset`: one MCAP log per trajectory (part `logs`) and a comparison of planners (part `planners`), then tables, manifest
-//! and card over all of them.
+//! `dataset`: an MCAP log per trajectory (part `logs`), notes per group of walks (`notes`), splits of all flights (`splits`),
+//! tables per group (`tables`), a comparison of planners (`planners`), then manifest, card and page over all of them.
 
-use crate::plugins::stage::EXTRA;
-use crate::ports::{self, CAPTIONS, DATASET, EXTRAS, FRAMES, LOG};
+use crate::ports::{self, CAPTIONS, DATASET, EXTRAS, FRAMES};
 use crate::published_towns::PublishedTowns;
-use crate::rejections::rejection;
-use crate::{codec, logs, parameters, planners};
+use crate::{group_notes, group_splits, logs, parameters, planners, shards};
 use cosfly_blobs::OutputSink;
-use cosfly_diagnose::{Diagnostic, Fault, ParameterError, Result};
+use cosfly_diagnose::{ParameterError, Result};
 use cosfly_fingerprint::Digest;
 use cosfly_report::PlannerRow;
-use cosfly_schema::extras::Extra;
 use cosfly_schema::tables::ObjectRecord;
-use cosfly_schema::{CaptionRecord, DatasetConfig, LogRecord, PreviewStrip, Rejection, RenderedTrajectory, TownLayout};
+use cosfly_schema::{DatasetConfig, PreviewStrip};
 use cosfly_stage::{
-    Artifact, Fan, InputPort, Inputs, ItemName, ItemRule, Produced, Stage, StageKind, StagePart, StageProperties,
-    Takes, TaskContext,
+    Fan, InputPort, Inputs, ItemRule, Produced, Sees, Stage, StageKind, StagePart, StageProperties, Takes, TaskContext,
 };
-use cosfly_write::{DatasetSource, PublishedLog, write_dataset};
+use cosfly_write::{DatasetSource, write_dataset};
 use std::collections::BTreeMap;
-use std::sync::Arc;
 
 /// Stage kind `dataset`.
 pub struct Dataset;
@@ -44,27 +39,37 @@ impl StageKind for Dataset {
     fn build(&self, given: serde_json::Value) -> Result<Vec<StagePart>, ParameterError> {
         let config: DatasetConfig = parameters::read(given)?;
         config.check()?;
-        let mut inputs: Vec<InputPort> = self.ports();
-        inputs.push(logs::port());
-        inputs.push(planners::port());
         let mut parameters = parameters::canonical(&config);
-        // A new column or table makes the dataset anew without a raised version.
+        // Tables are written by a part.
+        for key in ["windows", "frames_per_file", "walks_per_file"] {
+            parameters.as_object_mut().map(|table| table.remove(key));
+        }
+        // A new column or table makes manifest and card anew without a raised version.
         parameters["tables"] = Digest::of(cosfly_schema::reference().as_bytes()).short().into();
-        let gather = StageProperties {
+        let whole = StageProperties {
             kind: self.name().into(),
-            version: 7,
+            version: 8,
             parameters,
             sources: vec![],
-            inputs,
+            inputs: vec![
+                towns(),
+                shards::port(),
+                InputPort { fan: Fan::Gather, sees: Sees::Only(&["previews"]), ..logs::port() },
+                planners::port(),
+            ],
             artifact: DATASET,
             items: ItemRule::One,
-            bytes_per_item: 10_000_000,
+            bytes_per_item: 1_000_000,
             intermediate: &[],
         };
+        let records = |fan| ports::without_pictures(frames(fan));
         Ok(vec![
             logs::part(frames(Fan::Each), captions(Fan::Each)),
-            planners::part(ports::without_pictures(frames(Fan::Gather))),
-            StagePart { suffix: "", stage: Box::new(DatasetStage { config, properties: gather }) },
+            group_notes::part(&config, records(Fan::Group)),
+            group_splits::part(&config, towns()),
+            shards::part(&config, [records(Fan::Group), captions(Fan::Group), extras()]),
+            planners::part(records(Fan::Gather)),
+            StagePart { suffix: "", stage: Box::new(DatasetStage { config, properties: whole }) },
         ])
     }
 }
@@ -100,107 +105,43 @@ impl Stage for DatasetStage {
     }
 
     fn run(&self, inputs: &Inputs<'_>, outputs: &mut dyn OutputSink, context: &TaskContext) -> Result<Produced> {
-        let captions: BTreeMap<&ItemName, &Artifact> =
-            inputs.all("captions").iter().map(|artifact| (&artifact.name, artifact)).collect();
-        // Extras are items of the same names as the frames that they were made of.
-        let mut extras: BTreeMap<&ItemName, Vec<&Artifact>> = BTreeMap::new();
-        for artifact in inputs.all("extras").iter().filter(|artifact| artifact.blobs.contains_key(EXTRA)) {
-            extras.entry(&artifact.id.item).or_default().push(artifact);
+        let mut shards = vec![];
+        for (shard, files) in shards::read(inputs)? {
+            files.iter().try_for_each(|(path, blob)| outputs.link(path, *blob))?;
+            shards.push(shard);
         }
-        let mut gathered = Gathered { inputs, towns: PublishedTowns::of(inputs)?, flights: vec![] };
-        let (mut published, mut rejections): (Vec<PublishedLog>, Vec<Rejection>) = (vec![], vec![]);
-        for (frames, log) in inputs.all("frames").iter().zip(inputs.all("logs")) {
-            if let Some(rejection) = rejection(inputs, log)? {
-                rejections.push(rejection);
-                continue;
-            }
-            let record: Option<LogRecord> = codec::decode(LOG, &inputs.read(log, "log")?)?;
-            let record = record.ok_or_else(|| {
-                Diagnostic::new("dataset-log", Fault::Bug, format!("the log of `{}` has no record", log.name))
-            })?;
-            let channels = logs::channels_of(inputs, log)?;
-            published.push(PublishedLog { record, blob: log.blobs["mcap"], channels });
-            // One weather of a paired rendering has the captions of its flight.
-            let of_flight = || captions.get(&frames.name.without_variant()?);
-            let captions = captions.get(&frames.name).or_else(of_flight).copied();
-            let extras = extras.remove(&frames.name).unwrap_or_default();
-            gathered.flights.push(Flight { frames, log, captions, extras });
-        }
-        if published.is_empty() {
-            return Err(nothing_left(&rejections));
-        }
-        let summary =
-            write_dataset(outputs, &self.config, &published, &gathered, &rejections, &|| context.check_cancelled())?;
-        let flights = summary.experts + summary.perturbed;
+        context.check_cancelled()?;
+        let whole = Whole { inputs, towns: PublishedTowns::of(inputs)? };
+        let summary = write_dataset(outputs, &self.config, shards, &whole)?;
         let notes = BTreeMap::from([
             ("flights".to_owned(), format!("{} expert, {} perturbed", summary.experts, summary.perturbed)),
             ("frames".to_owned(), summary.frames.to_string()),
             ("rejected".to_owned(), summary.rejected.to_string()),
-            ("mean visibility".to_owned(), format!("{:.3}", summary.visibility_sum / flights.max(1) as f64)),
+            ("mean visibility".to_owned(), format!("{:.3}", summary.mean_visibility())),
         ]);
         Ok(Produced { notes, ..Produced::default() })
     }
 }
 
-/// Refusal of a dataset without a flight, with the first reasons.
-fn nothing_left(rejections: &[Rejection]) -> Box<Diagnostic> {
-    let refusal =
-        Diagnostic::new("dataset-empty", Fault::Input, "every trajectory was rejected: there is nothing to publish");
-    let refusal = rejections
-        .iter()
-        .take(3)
-        .fold(refusal, |refusal, rejection| {
-            refusal.because(format!("`{}`: {}", rejection.trajectory_id, rejection.reason))
-        })
-        .hint("the planner found no safe view of any target: look at the reasons, loosen the limits of the `muco` stage, or choose other walks (another `seed`) or another town");
-    if rejections.iter().any(|rejection| ["m/s^2", "m/s^3"].iter().any(|unit| rejection.reason.contains(unit))) {
-        return refusal.hint("flights of a planner that bounds no acceleration or jerk (`paper.make_flyable = false`, say) are published with `limits.require_kinematics = false`");
-    }
-    refusal
-}
-
-/// Artifacts of one flight.
-struct Flight<'a> {
-    frames: &'a Artifact,
-    log: &'a Artifact,
-    captions: Option<&'a Artifact>,
-    extras: Vec<&'a Artifact>,
-}
-
-/// Inputs of a dataset, read one flight at a time.
-struct Gathered<'a> {
+/// What belongs to the dataset as a whole.
+struct Whole<'a> {
     inputs: &'a Inputs<'a>,
     towns: PublishedTowns,
-    flights: Vec<Flight<'a>>,
 }
 
-impl DatasetSource for Gathered<'_> {
-    fn trajectory(&self, index: usize) -> Result<RenderedTrajectory> {
-        RenderedTrajectory::from_bytes(&self.inputs.read(self.flights[index].frames, "index")?)
-    }
-
-    fn captions(&self, index: usize) -> Result<Vec<CaptionRecord>> {
-        logs::captions_of(self.inputs, self.flights[index].captions)
-    }
-
-    fn extras(&self, index: usize) -> Result<Vec<Extra>> {
-        let read = |artifact: &&Artifact| codec::decode(EXTRAS, &self.inputs.read(artifact, EXTRA)?);
-        self.flights[index].extras.iter().map(read).collect()
-    }
-
+impl DatasetSource for Whole<'_> {
     fn objects(&self) -> Result<Vec<ObjectRecord>> {
         self.towns.objects(self.inputs)
-    }
-
-    fn layout(&self, index: usize) -> Result<Arc<TownLayout>> {
-        self.towns.layout(self.flights[index].frames)
     }
 
     fn planners(&self) -> Result<Vec<PlannerRow>> {
         planners::read(self.inputs)
     }
 
-    fn previews(&self, index: usize) -> Result<PreviewStrip> {
-        PreviewStrip::from_bytes(&self.inputs.read(self.flights[index].log, "previews")?)
+    fn picture(&self, trajectory_id: &str, frame: usize) -> Result<Option<Vec<u8>>> {
+        // A flight is called like its item.
+        let log = self.inputs.all("logs").iter().find(|log| log.name.to_string() == trajectory_id);
+        let previews = log.map(|log| PreviewStrip::from_bytes(&self.inputs.read(log, "previews")?)).transpose()?;
+        Ok(previews.and_then(|previews| previews.jpegs.into_iter().nth(frame)))
     }
 }

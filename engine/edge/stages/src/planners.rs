@@ -1,15 +1,14 @@
 //! Part `planners` of a `dataset` stage: other planners behind the walks of a few published flights, for the report. An item
 //! of its own, so that a new title plans nothing anew.
 
-use crate::codec;
 use crate::planner_comparison::{ComparedFlight, compared};
 use crate::ports::{self, PLANNERS};
-use crate::rejections::is_rejected;
 use crate::world::world_of;
+use crate::{codec, group_notes};
 use cosfly_blobs::OutputSink;
 use cosfly_diagnose::Result;
 use cosfly_report::PlannerRow;
-use cosfly_schema::{RenderedTrajectory, Role};
+use cosfly_schema::RenderedTrajectory;
 use cosfly_stage::{
     Artifact, Fan, InputPort, Inputs, ItemRule, PortSource, Produced, Stage, StagePart, StageProperties, TaskContext,
 };
@@ -27,7 +26,7 @@ pub fn part(frames: InputPort) -> StagePart {
         version: 1,
         parameters: serde_json::json!({}),
         sources: vec![],
-        inputs: vec![frames],
+        inputs: vec![frames, group_notes::port()],
         artifact: PLANNERS,
         items: ItemRule::One,
         bytes_per_item: 2_000,
@@ -67,15 +66,18 @@ impl Stage for PlannersStage {
 /// Experts behind a few pedestrians that are spread over the dataset; one of those that differ in their weather only.
 fn chosen(inputs: &Inputs<'_>, context: &TaskContext) -> Result<Vec<ComparedFlight>> {
     let record = |frames: &Artifact| RenderedTrajectory::from_bytes(&inputs.read(frames, "index")?);
+    // A flight is called like its item.
+    let items: BTreeMap<String, &Artifact> =
+        inputs.all("frames").iter().map(|frames| (frames.name.to_string(), frames)).collect();
     // By town and pedestrian.
     let mut experts: BTreeMap<(String, String), Vec<&Artifact>> = BTreeMap::new();
-    for frames in inputs.all("frames").iter().filter(|frames| !is_rejected(frames)) {
-        context.check_cancelled()?;
-        let flight = record(frames)?;
-        if flight.role == Role::Expert {
-            experts.entry((flight.town.name, flight.pedestrian_id)).or_default().push(frames);
+    for flight in group_notes::read(inputs)?.into_iter().flat_map(|group| group.flights) {
+        let frames = items.get(&flight.trajectory_id).filter(|_| flight.expert_id.is_none());
+        if let Some(frames) = frames {
+            experts.entry((flight.town, flight.pedestrian_id)).or_default().push(frames);
         }
     }
+    context.check_cancelled()?;
     let experts: Vec<Vec<&Artifact>> = experts.into_values().collect();
     let count = COMPARED.min(experts.len());
     let mut chosen: Vec<ComparedFlight> = vec![];

@@ -2,7 +2,7 @@
 
 use crate::rejections::REJECTION;
 use crate::world::TOWN_BLOB;
-use cosfly_stage::{Fan, InputPort, PortSource, Takes};
+use cosfly_stage::{Fan, InputPort, PortSource, Sees, Takes};
 
 /// Artifact of a town.
 pub const TOWN: &str = "town/1";
@@ -26,6 +26,12 @@ pub const LOG: &str = "log/1";
 pub const EXTRAS: &str = "extras/1";
 /// Artifact of the comparison of planners in a dataset's report.
 pub const PLANNERS: &str = "planners/1";
+/// Artifact of the notes about the flights of a group of walks.
+pub const NOTES: &str = "notes/1";
+/// Artifact of the splits of all flights, by group.
+pub const SPLITS: &str = "splits/1";
+/// Artifact of the tables and logs of a group of walks.
+pub const SHARD: &str = "shard/1";
 /// Artifact of the verdict over all inspected flights.
 pub const VERDICT: &str = "verdict/1";
 /// Artifact of a whole dataset.
@@ -40,7 +46,7 @@ pub fn town() -> InputPort {
         takes: Takes::One,
         optional: false,
         source: PortSource::Recipe,
-        blobs: None,
+        sees: Sees::All,
         doc: "The town that everything happens in.",
     }
 }
@@ -54,7 +60,7 @@ pub fn each(name: &'static str, artifact: &'static str, many: bool, doc: &'stati
         takes: takes(many),
         optional: false,
         source: PortSource::Recipe,
-        blobs: None,
+        sees: Sees::All,
         doc,
     }
 }
@@ -68,14 +74,24 @@ pub fn gather(name: &'static str, artifact: &'static str, many: bool, doc: &'sta
         takes: takes(many),
         optional: false,
         source: PortSource::Recipe,
-        blobs: None,
+        sees: Sees::All,
         doc,
     }
 }
 
 /// A port of rendered trajectories whose stage does not see the pictures.
 pub fn without_pictures(port: InputPort) -> InputPort {
-    InputPort { blobs: Some(&["index", REJECTION, TOWN_BLOB]), ..port }
+    InputPort { sees: Sees::Only(&["index", REJECTION, TOWN_BLOB]), ..port }
+}
+
+/// A port that brings the items of a group at once.
+pub fn group(port: InputPort) -> InputPort {
+    InputPort { fan: Fan::Group, ..port }
+}
+
+/// The port through which a stage reads one of its own parts.
+pub fn sibling(part: &'static str, artifact: &'static str, fan: Fan, doc: &'static str) -> InputPort {
+    InputPort { fan, source: PortSource::Sibling(part), ..each(part, artifact, false, doc) }
 }
 
 /// One stage, or several with items named after them.

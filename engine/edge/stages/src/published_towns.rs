@@ -20,11 +20,18 @@ struct PublishedTown {
     layout: Arc<TownLayout>,
 }
 
+impl PublishedTown {
+    /// Digest of its artifact, hex digits.
+    fn digest(&self) -> String {
+        self.artifact.blobs.get(TOWN_BLOB).map(|blob| blob.digest.to_string()).unwrap_or_default()
+    }
+}
+
 impl PublishedTowns {
-    /// Reads the towns and compares them with those that the pictures at port `frames` show.
+    /// Reads the towns.
     ///
     /// # Errors
-    /// `towns-same-name`, `towns-differ`, `town-without-pictures`, or failures of reading.
+    /// `towns-same-name`, or failures of reading.
     pub fn of(inputs: &Inputs<'_>) -> Result<Self> {
         let mut towns: BTreeMap<String, PublishedTown> = BTreeMap::new();
         for artifact in inputs.all("town") {
@@ -39,9 +46,7 @@ impl PublishedTowns {
                 }
             }
         }
-        let towns = Self(towns.into_values().collect());
-        towns.check_pictures(inputs)?;
-        Ok(towns)
+        Ok(Self(towns.into_values().collect()))
     }
 
     /// All boxes of all towns, by town.
@@ -53,24 +58,29 @@ impl PublishedTowns {
         Ok(objects)
     }
 
-    /// Ground plan of the town that `frames` show.
-    pub fn layout(&self, frames: &Artifact) -> Result<Arc<TownLayout>> {
-        self.town_of(frames).map(|town| Arc::clone(&town.layout)).ok_or_else(|| self.elsewhere(frames))
+    /// Ground plan of the town whose artifact has a digest, hex digits.
+    pub fn layout(&self, digest: &str) -> Result<Arc<TownLayout>> {
+        self.town_of(digest).map(|town| Arc::clone(&town.layout)).ok_or_else(|| self.elsewhere(digest))
     }
 
-    fn town_of(&self, frames: &Artifact) -> Option<&PublishedTown> {
-        self.0.iter().find(|town| town.artifact.blobs.get(TOWN_BLOB) == frames.blobs.get(TOWN_BLOB))
+    fn town_of(&self, digest: &str) -> Option<&PublishedTown> {
+        self.0.iter().find(|town| town.digest() == digest)
     }
 
-    /// Refuses pictures of a town that is not connected, and towns without pictures.
-    fn check_pictures(&self, inputs: &Inputs<'_>) -> Result<()> {
-        let frames = inputs.all("frames");
-        if let Some(stray) = frames.iter().find(|artifact| self.town_of(artifact).is_none()) {
+    /// Refuses pictures of a town that is not connected, and towns without pictures. `pictures` are items with the digests of
+    /// their towns.
+    ///
+    /// # Errors
+    /// `towns-differ`, `town-without-pictures`.
+    pub fn check_pictures<'p>(&self, pictures: impl Iterator<Item = &'p (String, String)>) -> Result<()> {
+        let mut shown: BTreeMap<&str, &str> = BTreeMap::new();
+        for (item, digest) in pictures {
+            shown.entry(digest).or_insert(item);
+        }
+        if let Some((_, stray)) = shown.iter().find(|(digest, _)| self.town_of(digest).is_none()) {
             return Err(self.elsewhere(stray));
         }
-        let is_shown = |town: &PublishedTown| {
-            frames.iter().any(|artifact| artifact.blobs.get(TOWN_BLOB) == town.artifact.blobs.get(TOWN_BLOB))
-        };
+        let is_shown = |town: &PublishedTown| shown.contains_key(town.digest().as_str());
         match self.0.iter().find(|town| !is_shown(town)) {
             None => Ok(()),
             Some(town) => {
@@ -84,10 +94,10 @@ impl PublishedTowns {
         }
     }
 
-    fn elsewhere(&self, frames: &Artifact) -> Box<Diagnostic> {
+    fn elsewhere(&self, pictures: &str) -> Box<Diagnostic> {
         let stages: Vec<String> = self.0.iter().map(|town| format!("`{}`", town.artifact.id.stage)).collect();
         let message =
-            format!("`{}` was made in another town than {}, connected to `inputs.town`", frames.id, stages.join(", "));
+            format!("`{pictures}` was made in another town than {}, connected to `inputs.town`", stages.join(", "));
         Diagnostic::new("towns-differ", Fault::Recipe, message)
             .hint("connect to `inputs.town` the `map` stage of every town that `inputs.frames` shows")
     }

@@ -1,6 +1,7 @@
 //! Items of every stage and their inputs, computed before any stage runs.
 
 use crate::document::{Place, Texts, list};
+use crate::groups;
 use crate::model::{Arrival, Connection, ItemNames, RecipeStage};
 use cosfly_diagnose::{Diagnostic, Fault};
 use cosfly_stage::{Fan, InputPort, ItemName, ItemRule, StageProperties, Takes};
@@ -32,6 +33,9 @@ pub(crate) struct Arranged {
     pub(crate) connections: Vec<Connection>,
 }
 
+/// Groups by the names of items.
+type Groups = BTreeMap<ItemName, u64>;
+
 /// Items at one port.
 struct PortItems {
     names: ItemNames,
@@ -42,21 +46,33 @@ impl ItemReader<'_> {
     pub(crate) fn read(&self, properties: &StageProperties, wires: Vec<Wire>) -> Result<Arranged, Box<Diagnostic>> {
         let arriving: Vec<PortItems> = wires.iter().map(|wire| self.port_items(wire)).collect::<Result<_, _>>()?;
         let leader = match &properties.items {
-            ItemRule::PerInput(port) | ItemRule::PerVariant { port, .. } => Some(self.leader(&wires, port)?),
+            ItemRule::PerInput(port) | ItemRule::PerVariant { port, .. } | ItemRule::Groups { port, .. } => {
+                Some(self.leader(&wires, port)?)
+            }
             ItemRule::One | ItemRule::Count { .. } => None,
         };
         let leading = leader.map(|at| &arriving[at].names);
         let items = self.own_items(&properties.items, leading.unwrap_or(&ItemNames::default()))?;
+        let groups = match (&properties.items, leader) {
+            (ItemRule::Groups { size, .. }, Some(at)) => self.groups_of(&arriving[at], *size),
+            _ => Groups::default(),
+        };
         let mut connections = vec![];
         for (wire, at_port) in wires.iter().zip(arriving) {
+            let mut bounds = vec![];
             let arrivals = match wire.port.fan {
                 Fan::Gather => at_port.arrivals,
+                Fan::Group => {
+                    let grouped = self.grouped(&groups, items.len(), at_port);
+                    bounds = grouped.1;
+                    grouped.0
+                }
                 Fan::Broadcast => self.single(wire, at_port)?,
                 Fan::Each => self.aligned(&items, leader.map(|at| &wires[at]), wire, at_port)?,
             };
             let Wire { port, upstreams, .. } = wire;
             let (port, upstreams) = (port.clone(), upstreams.clone());
-            connections.push(Connection { port, upstreams, arrivals: arrivals.into() });
+            connections.push(Connection { port, upstreams, arrivals: arrivals.into(), bounds: bounds.into() });
         }
         Ok(Arranged { items, connections })
     }
@@ -66,7 +82,7 @@ impl ItemReader<'_> {
         let count = match rule {
             ItemRule::Count { count, .. } => *count,
             ItemRule::PerVariant { variants, .. } => (leading.len() as u64).saturating_mul(variants.len() as u64),
-            ItemRule::One | ItemRule::PerInput(_) => 0,
+            ItemRule::One | ItemRule::PerInput(_) | ItemRule::Groups { .. } => 0,
         };
         if count > MOST_ITEMS {
             return Err(self.too_many(count));
@@ -75,12 +91,57 @@ impl ItemReader<'_> {
             ItemRule::One => [ItemName::only()].into(),
             ItemRule::Count { prefix, count } => (0..*count).map(|number| ItemName::numbered(prefix, number)).collect(),
             ItemRule::PerInput(_) => leading.clone(),
+            ItemRule::Groups { prefix, size, .. } => {
+                let last = groups::ranks(leading).into_iter().max();
+                let count = last.map_or(0, |last| last / size + 1);
+                (0..count).map(|number| ItemName::numbered(prefix, number)).collect()
+            }
             ItemRule::PerVariant { variants, .. } => {
                 let variants: Vec<Arc<str>> = variants.iter().map(|variant| variant.as_str().into()).collect();
                 let of_item = |item: &ItemName| variants.iter().map(|it| item.with_variant(it.clone())).collect();
                 leading.iter().flat_map(|item| -> Vec<ItemName> { of_item(item) }).collect()
             }
         })
+    }
+
+    /// Group of each item at the leading port, by its name in its own stage and by its name at the port.
+    fn groups_of(&self, leading: &PortItems, size: u64) -> Groups {
+        let ranks = groups::ranks(&leading.names);
+        let mut groups = Groups::default();
+        for (arrival, rank) in leading.arrivals.iter().zip(ranks) {
+            groups.insert(arrival.name.clone(), rank / size);
+            groups.entry(self.own_name(arrival).clone()).or_insert(rank / size);
+        }
+        groups
+    }
+
+    fn own_name(&self, arrival: &Arrival) -> &ItemName {
+        &self.done[arrival.stage].items[arrival.item]
+    }
+
+    /// Arrivals by group, and where each group begins. An item of which the leading port has only a variant is in the group
+    /// of that; items that the leading port does not have are left out.
+    fn grouped(&self, groups: &Groups, count: usize, at_port: PortItems) -> (Vec<Arrival>, Vec<usize>) {
+        let mut of_original = Groups::new();
+        for (name, group) in groups {
+            for original in std::iter::successors(name.without_variant(), ItemName::without_variant) {
+                of_original.entry(original).or_insert(*group);
+            }
+        }
+        let group_of = |name: &ItemName| groups.get(name).or_else(|| of_original.get(name)).copied();
+        let mut members: Vec<Vec<Arrival>> = vec![vec![]; count];
+        for arrival in at_port.arrivals {
+            let group = group_of(&arrival.name).or_else(|| group_of(self.own_name(&arrival)));
+            if let Some(members) = group.and_then(|group| members.get_mut(group as usize)) {
+                members.push(arrival);
+            }
+        }
+        let mut bounds = vec![0];
+        bounds.extend(members.iter().scan(0, |end, members| {
+            *end += members.len();
+            Some(*end)
+        }));
+        (members.into_iter().flatten().collect(), bounds)
     }
 
     /// Index of the wire of the port that defines the stage's items.

@@ -8,6 +8,7 @@
 
 mod document;
 mod drawing;
+mod groups;
 mod items;
 mod kinds;
 mod load;

@@ -53,8 +53,10 @@ pub struct Connection {
     /// Connected stages, as indices into [`Recipe::stages`], in the order of the recipe.
     pub upstreams: Vec<usize>,
     /// Items at the port. [`Fan::Each`]: entry `i` feeds the stage's item `i`. [`Fan::Broadcast`]: exactly one entry.
-    /// [`Fan::Gather`]: all entries, by stage and then in its item order.
+    /// [`Fan::Gather`]: all entries, by stage and then in its item order. [`Fan::Group`]: group by group.
     pub arrivals: Arc<[Arrival]>,
+    /// [`Fan::Group`]: the stage's item `i` reads the arrivals from entry `i` to entry `i + 1`. Empty for other fans.
+    pub bounds: Arc<[usize]>,
 }
 
 /// One item at a port.
@@ -108,6 +110,10 @@ impl Connection {
         match self.port.fan {
             Fan::Each => self.arrivals.get(item..=item).unwrap_or(&[]),
             Fan::Broadcast | Fan::Gather => &self.arrivals,
+            Fan::Group => match self.bounds.get(item..item + 2) {
+                Some([start, end]) => &self.arrivals[*start..*end],
+                _ => &[],
+            },
         }
     }
 }

@@ -88,6 +88,7 @@ fn fan_words(fan: Fan) -> &'static str {
         Fan::Each => "item by item",
         Fan::Broadcast => "its one item, for all",
         Fan::Gather => "all together",
+        Fan::Group => "in groups",
     }
 }
 

@@ -44,7 +44,7 @@ pub(crate) struct PlannedInput<'a> {
 pub(crate) enum PortDocument {
     /// Text for all items: a broadcast, or the digest of a gather document.
     Shared { port: &'static str, text: String, gather: Option<(Digest, String)> },
-    /// One input per item, of the connection with this index.
+    /// Inputs of each item, of the connection with this index.
     Each { port: &'static str, connection: usize },
 }
 
@@ -123,7 +123,7 @@ pub(crate) fn port_document<'a>(
     inputs: impl Iterator<Item = PlannedInput<'a>>,
 ) -> PortDocument {
     match fan {
-        Fan::Each => PortDocument::Each { port, connection },
+        Fan::Each | Fan::Group => PortDocument::Each { port, connection },
         Fan::Broadcast => PortDocument::Shared { port, text: list_text(inputs), gather: None },
         Fan::Gather => {
             let json = format!("{{\"inputs\":{},\"schema\":\"{GATHER_SCHEMA}\"}}", list_text(inputs));
@@ -134,12 +134,12 @@ pub(crate) fn port_document<'a>(
     }
 }
 
-/// Plan document of one item. `ports` are sorted by name; `each` gives the item's input at a connection.
-pub(crate) fn plan_document<'a>(
+/// Plan document of one item. `ports` are sorted by name; `each` gives the item's inputs at a connection.
+pub(crate) fn plan_document<'a, I: Iterator<Item = PlannedInput<'a>>>(
     definition: &Digest,
     item: &ItemName,
     ports: &[PortDocument],
-    each: impl Fn(usize) -> Option<PlannedInput<'a>>,
+    each: impl Fn(usize) -> I,
 ) -> String {
     let mut text = format!("{{\"definition\":\"{definition}\",\"inputs\":{{");
     for (index, port) in ports.iter().enumerate() {
@@ -148,7 +148,7 @@ pub(crate) fn plan_document<'a>(
         text.push(':');
         match port {
             PortDocument::Shared { text: shared, .. } => text.push_str(shared),
-            PortDocument::Each { connection, .. } => push_list(&mut text, each(*connection).into_iter()),
+            PortDocument::Each { connection, .. } => push_list(&mut text, each(*connection)),
         }
     }
     text.push_str("},\"item\":");
@@ -253,7 +253,7 @@ mod tests {
             port_document("town", Fan::Broadcast, 2, [input(2)].into_iter()),
         ];
         let definition = Digest::of(b"definition");
-        let text = plan_document(&definition, &ItemName::own("é\\"), &ports, |_| Some(input(3)));
+        let text = plan_document(&definition, &ItemName::own("é\\"), &ports, |_| std::iter::once(input(3)));
         let value: Value = serde_json::from_str(&text).unwrap();
         assert_eq!(canonical_json(&value), text);
         let PortDocument::Shared { gather: Some((gather, json)), .. } = &ports[0] else { panic!("no gather") };

@@ -1,7 +1,7 @@
 //! Artifacts at the ports of tasks; those that all items of a stage read are made once and shared.
 
 use cosfly_recipe::{Arrival, Recipe};
-use cosfly_stage::{Artifact, Blobs, Fan, InputPort, Ports};
+use cosfly_stage::{Artifact, Blobs, Fan, ItemName, Ports, Sees};
 use cosfly_store::Finished;
 use std::collections::BTreeMap;
 use std::sync::Arc;
@@ -21,10 +21,12 @@ impl SharedInputs {
     pub(crate) fn of_task(&mut self, recipe: &Recipe, results: &Results, stage: usize, item: usize) -> Ports {
         let connections = recipe.stages[stage].connections.iter().enumerate();
         let ports = connections.map(|(number, connection)| {
-            let seen = |arrival| artifact(recipe, results, &connection.port, arrival);
+            let reader = &recipe.stages[stage].items[item];
+            let seen = |arrival| artifact(recipe, results, connection.port.sees, reader, arrival);
             let artifacts = || connection.arrivals_for(item).iter().map(seen).collect();
             let artifacts = match connection.port.fan {
-                Fan::Each => artifacts(),
+                Fan::Each | Fan::Group => artifacts(),
+                Fan::Broadcast | Fan::Gather if connection.port.sees == Sees::Own => artifacts(),
                 Fan::Broadcast | Fan::Gather => Arc::clone(self.known.entry((stage, number)).or_insert_with(artifacts)),
             };
             (connection.port.name, artifacts)
@@ -39,16 +41,25 @@ impl SharedInputs {
     }
 }
 
-fn artifact(recipe: &Recipe, results: &Results, port: &InputPort, arrival: &Arrival) -> Artifact {
+fn artifact(recipe: &Recipe, results: &Results, sees: Sees, reader: &ItemName, arrival: &Arrival) -> Artifact {
     let result = results[arrival.stage][arrival.item].as_ref();
     let outputs = result.map(|finished| Arc::clone(&finished.record.outputs)).unwrap_or_default();
-    Artifact { id: recipe.id(arrival.stage, arrival.item), name: arrival.name.clone(), blobs: seen_at(port, outputs) }
+    Artifact {
+        id: recipe.id(arrival.stage, arrival.item),
+        name: arrival.name.clone(),
+        blobs: seen_by(reader, sees, outputs),
+    }
 }
 
-/// The blobs of an item that a stage sees at `port`.
-pub(crate) fn seen_at(port: &InputPort, outputs: Arc<Blobs>) -> Arc<Blobs> {
-    if outputs.keys().all(|name| port.sees(name)) {
-        return outputs;
-    }
-    Arc::new(outputs.iter().filter(|(name, _)| port.sees(name)).map(|(name, blob)| (name.clone(), *blob)).collect())
+/// The blobs of an item that the item `reader` of a stage sees.
+pub(crate) fn seen_by(reader: &ItemName, sees: Sees, outputs: Arc<Blobs>) -> Arc<Blobs> {
+    let seen: Blobs = match sees {
+        Sees::All => return outputs,
+        Sees::Only(names) => names.iter().filter_map(|name| Some(((*name).to_owned(), *outputs.get(*name)?))).collect(),
+        Sees::Own => {
+            let name = reader.to_string();
+            outputs.get(&name).map(|blob| (name, *blob)).into_iter().collect()
+        }
+    };
+    Arc::new(seen)
 }

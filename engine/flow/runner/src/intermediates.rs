@@ -1,6 +1,7 @@
 //! Intermediate blobs of a run: each is removed once everything that reads it is finished.
 
 use crate::inputs::Results;
+use crate::plan::sees;
 use crate::schedule::{Schedule, TaskIndex};
 use cosfly_blobs::BlobRef;
 use cosfly_fingerprint::Digest;
@@ -44,7 +45,7 @@ impl<'r> Intermediates<'r> {
         recipe.stages[stage].connections.iter().flat_map(move |connection| {
             let sees = |arrival: &&Arrival| {
                 let names = recipe.stages[arrival.stage].stage.properties().intermediate;
-                names.iter().any(|name| connection.port.sees(name))
+                names.iter().any(|name| sees(connection, name))
             };
             connection.arrivals_for(item).iter().filter(sees)
         })

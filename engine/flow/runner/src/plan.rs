@@ -5,8 +5,8 @@ use crate::reason::Reason;
 use crate::sources::HashedSource;
 use cosfly_diagnose::Result;
 use cosfly_fingerprint::{Digest, canonical_json};
-use cosfly_recipe::{Arrival, Recipe, RecipeStage};
-use cosfly_stage::StageName;
+use cosfly_recipe::{Arrival, Connection, Recipe, RecipeStage};
+use cosfly_stage::{Sees, StageName};
 use cosfly_store::{Finished, PastRun, PastStage, Store};
 use serde_json::json;
 use std::path::Path;
@@ -105,8 +105,8 @@ impl Plan<'_> {
         let described = &self.recipe.stages[stage];
         let planned = &self.stages[stage];
         let each = |connection: usize| {
-            let arrival = described.connections[connection].arrivals.get(item)?;
-            Some(planned_input(self.recipe, &self.stages, arrival))
+            let arrivals = described.connections[connection].arrivals_for(item).iter();
+            arrivals.map(|arrival| planned_input(self.recipe, &self.stages, arrival))
         };
         plan_document(&planned.definition.digest, &described.items[item], &planned.ports, each)
     }
@@ -140,7 +140,7 @@ impl Plan<'_> {
     fn spent_blobs(&self, stage: usize) -> Vec<String> {
         let is_spent = |name: &&&'static str| {
             let readers = self.recipe.stages.iter().zip(&self.stages).filter(|(described, _)| {
-                described.connections.iter().any(|it| it.upstreams.contains(&stage) && it.port.sees(name))
+                described.connections.iter().any(|it| it.upstreams.contains(&stage) && sees(it, name))
             });
             let finished: Vec<bool> = readers.map(|(_, planned)| planned.cached() == planned.items()).collect();
             !finished.is_empty() && finished.into_iter().all(|it| it)
@@ -164,6 +164,16 @@ impl Plan<'_> {
                 .collect(),
         };
         PastRun { stages: self.stages.iter().zip(&self.recipe.stages).enumerate().map(stage).collect() }
+    }
+}
+
+/// Whether some item of a stage sees the intermediate blob `name` through `connection`. No intermediate blob is called
+/// like an item.
+pub(crate) fn sees(connection: &Connection, name: &str) -> bool {
+    match connection.port.sees {
+        Sees::All => true,
+        Sees::Only(names) => names.contains(&name),
+        Sees::Own => false,
     }
 }
 

@@ -1,7 +1,7 @@
 //! Planning: a recipe against a store.
 
 use crate::document::{Definition, PortDocument, plan_document, port_document};
-use crate::plan::{Plan, PlannedStage, planned_input, recipe_id};
+use crate::plan::{Plan, PlannedStage, planned_input, recipe_id, sees};
 use crate::reasons;
 use crate::sources::{HashedSource, SourceReader};
 use cosfly_diagnose::Result;
@@ -65,8 +65,8 @@ fn digest_stage(
         .collect();
     ports.sort_by_key(PortDocument::port);
     let plan_of = |(index, item): (usize, &ItemName)| {
-        let arrival = |connection: usize| stage.connections[connection].arrivals.get(index);
-        let each = |connection: usize| arrival(connection).map(|arrival| planned_input(recipe, earlier, arrival));
+        let arrivals = |connection: usize| stage.connections[connection].arrivals_for(index).iter();
+        let each = |connection: usize| arrivals(connection).map(|arrival| planned_input(recipe, earlier, arrival));
         Digest::of(plan_document(&definition.digest, item, &ports, each).as_bytes())
     };
     let plans: Vec<Digest> = stage.items.par_iter().enumerate().with_min_len(PER_THREAD).map(plan_of).collect();
@@ -116,13 +116,15 @@ fn find_needed(plan: &mut Plan<'_>, asked: Option<usize>) {
                 let upstream = &mut plan.stages[arrival.stage];
                 upstream.needed[arrival.item] = true;
                 let properties = recipe.stages[arrival.stage].stage.properties();
-                let sees = properties.intermediate.iter().any(|name| connection.port.sees(name));
+                let sees = properties.intermediate.iter().any(|name| sees(connection, name));
                 if sees && upstream.spent_items[arrival.item] {
                     spent[arrival.stage].insert(arrival.item);
                 }
             };
             match connection.port.fan {
-                Fan::Each => will_run.iter().flat_map(|item| connection.arrivals_for(*item)).for_each(&mut mark),
+                Fan::Each | Fan::Group => {
+                    will_run.iter().flat_map(|item| connection.arrivals_for(*item)).for_each(&mut mark)
+                }
                 Fan::Broadcast | Fan::Gather if will_run.is_empty() => {}
                 Fan::Broadcast | Fan::Gather => connection.arrivals.iter().for_each(&mut mark),
             }

@@ -91,12 +91,16 @@ impl Schedule {
         for connection in &recipe.stages[downstream].connections {
             // Pairs of (upstream item, downstream item) by upstream stage.
             let mut arriving: BTreeMap<usize, Vec<(u32, u32)>> = BTreeMap::new();
-            for (item, arrival) in connection.arrivals.iter().enumerate() {
-                arriving.entry(arrival.stage).or_default().push((arrival.item as u32, item as u32));
+            let is_paired = matches!(connection.port.fan, Fan::Each | Fan::Group);
+            let items = if is_paired { recipe.stages[downstream].items.len() } else { 1 };
+            for item in 0..items {
+                for arrival in connection.arrivals_for(item) {
+                    arriving.entry(arrival.stage).or_default().push((arrival.item as u32, item as u32));
+                }
             }
             for (upstream, mut pairs) in arriving {
                 pairs.sort_unstable();
-                if connection.port.fan == Fan::Each {
+                if is_paired {
                     for (from, to) in &pairs {
                         let open = !self.counted[self.task(upstream, *from as usize)];
                         let to = self.task(downstream, *to as usize);

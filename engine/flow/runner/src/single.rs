@@ -2,13 +2,13 @@
 
 use crate::change::definition_changes;
 use crate::document::{DEFINITION_SCHEMA, Definition, StoredPlan};
-use crate::inputs::seen_at;
+use crate::inputs::seen_by;
 use crate::leaf::{Ended, Task, execute};
 use crate::names::NameReader;
 use crate::sources::{HashedSource, SourceReader};
 use cosfly_diagnose::{Diagnostic, Fault, Result};
 use cosfly_fingerprint::{Digest, canonical_json};
-use cosfly_stage::{Artifact, ItemId, Ports, Registry, Stage, StageName, Work};
+use cosfly_stage::{Artifact, ItemId, ItemName, Ports, Registry, Stage, StageName, Work};
 use cosfly_store::Store;
 use serde_json::Value;
 use std::fmt::Display;
@@ -46,8 +46,8 @@ pub fn run_task(store: &Store, registry: &Registry, plan: &Digest, cancelled: Ar
     }
     let mut names = NameReader::new(store);
     let missing = || input_missing(&name, &stored.item);
-    let ports = read_inputs(store, &*stage, &stored, &mut names)?.ok_or_else(missing)?;
     let item = names.of_task(plan).ok_or_else(missing)?;
+    let ports = read_inputs(store, &*stage, &stored, &item, &mut names)?.ok_or_else(missing)?;
     let task = Task {
         plan: *plan,
         stage: &*stage,
@@ -104,6 +104,7 @@ fn read_inputs(
     store: &Store,
     stage: &dyn Stage,
     stored: &StoredPlan,
+    reader: &ItemName,
     names: &mut NameReader<'_>,
 ) -> Result<Option<Ports>> {
     let declared = &stage.properties().inputs;
@@ -119,7 +120,7 @@ fn read_inputs(
             let upstream = StageName::read(&input.stage);
             let finished = store.finished(&input.plan).ok_or_else(|| input_missing(&upstream, &input.item))?;
             let (Some(item), Some(name)) = (names.of_task(&input.plan), names.at_port(input)) else { return Ok(None) };
-            let blobs = seen_at(port, Arc::clone(&finished.record.outputs));
+            let blobs = seen_by(reader, port.sees, Arc::clone(&finished.record.outputs));
             artifacts.push(Artifact { id: ItemId { stage: upstream, item }, name, blobs });
         }
         ports.insert(port.name, artifacts.into());

@@ -214,7 +214,10 @@ impl RunSummary {
 
     /// First rejected item that an item reads at a port that brings it a single one.
     fn rejected_input(&self, stage: usize, item: usize) -> Option<&Arrival> {
-        let single = self.items[stage].connections.iter().filter(|connection| connection.port.fan != Fan::Gather);
+        let single = self.items[stage]
+            .connections
+            .iter()
+            .filter(|connection| matches!(connection.port.fan, Fan::Each | Fan::Broadcast));
         let mut inputs = single.flat_map(|connection| connection.arrivals_for(item));
         inputs.find(|arrival| self.reason(arrival.stage, arrival.item).is_some())
     }

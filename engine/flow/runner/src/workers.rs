@@ -163,10 +163,12 @@ impl<'r> Shared<'r> {
     fn lost_inputs(&self, store: &Store, task: TaskIndex) -> Vec<TaskIndex> {
         let (stage, item) = self.schedule.place(task);
         let mut lost = BTreeSet::new();
+        let reader = &self.recipe.stages[stage].items[item];
         for connection in &self.recipe.stages[stage].connections {
             let is_lost = |arrival: &&Arrival| {
                 let Some(finished) = &self.results[arrival.stage][arrival.item] else { return true };
-                let mut seen = finished.record.outputs.iter().filter(|(name, _)| connection.port.sees(name));
+                let mut seen =
+                    finished.record.outputs.iter().filter(|(name, _)| connection.port.sees.shows(name, reader));
                 seen.any(|(_, blob)| !store.holds_blob(blob))
             };
             let arrivals = connection.arrivals_for(item).iter().filter(is_lost);

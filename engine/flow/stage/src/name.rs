@@ -109,6 +109,22 @@ impl ItemName {
         }
     }
 
+    /// Names of the stages that the item is named after, the last one first, and its name in the stage where it began,
+    /// without variants.
+    pub fn origin(&self) -> (Vec<&str>, &str) {
+        let (mut stages, mut form) = (vec![], self);
+        loop {
+            match &form.0 {
+                Form::Own(text) => return (stages, text),
+                Form::OfStage(named) => {
+                    stages.push(named.0.as_str());
+                    form = &named.1;
+                }
+                Form::Variant(variant) => form = &variant.0,
+            }
+        }
+    }
+
     /// Name of the item that this one is a variant of, without its last variant.
     pub fn without_variant(&self) -> Option<Self> {
         match &self.0 {

@@ -1,5 +1,6 @@
 //! Declaration of a stage: ports, items, sources, version. Data, not methods.
 
+use crate::ItemName;
 use cosfly_diagnose::Diagnostic;
 use std::fmt;
 use std::path::{Path, PathBuf};
@@ -87,8 +88,8 @@ pub struct InputPort {
     pub optional: bool,
     /// Origin of its input.
     pub source: PortSource,
-    /// Blobs that the stage sees at the port, and that its key depends on; `None` for all blobs.
-    pub blobs: Option<&'static [&'static str]>,
+    /// Blobs that the stage sees at the port, and that its key depends on.
+    pub sees: Sees,
     /// Description for the reference, one sentence.
     pub doc: &'static str,
 }
@@ -104,10 +105,25 @@ pub enum Takes {
     Distinct,
 }
 
-impl InputPort {
-    /// Whether the stage sees the blob `name` of the items at the port.
-    pub fn sees(&self, name: &str) -> bool {
-        self.blobs.is_none_or(|blobs| blobs.contains(&name))
+/// Blobs of the items at a port that the stage sees.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Sees {
+    /// All blobs.
+    All,
+    /// Blobs of these names.
+    Only(&'static [&'static str]),
+    /// The blob with the name of the stage's own item: one item that holds a part for each item of the stage.
+    Own,
+}
+
+impl Sees {
+    /// Whether the item `reader` of the stage sees the blob `name`.
+    pub fn shows(self, name: &str, reader: &ItemName) -> bool {
+        match self {
+            Self::All => true,
+            Self::Only(names) => names.contains(&name),
+            Self::Own => reader.to_string() == name,
+        }
     }
 }
 
@@ -129,6 +145,8 @@ pub enum Fan {
     Broadcast,
     /// All items of the input feed each item of the stage.
     Gather,
+    /// The items of a group feed the stage's item for that group (see [`ItemRule::Groups`]).
+    Group,
 }
 
 /// Rule that defines the items of a stage, before any stage runs.
@@ -145,6 +163,17 @@ pub enum ItemRule {
     },
     /// The items of the named [`Fan::Each`] port.
     PerInput(&'static str),
+    /// `<prefix>00000`, `<prefix>00001` ...: one item for each `size` items of the named [`Fan::Group`] port, counted where
+    /// they began. Items that began as the same one, such as an expert and its perturbed twin, are in one group, and further
+    /// items change no earlier group.
+    Groups {
+        /// Name of the port.
+        port: &'static str,
+        /// Prefix of every name.
+        prefix: &'static str,
+        /// Number of first items in a group, at least 1.
+        size: u64,
+    },
     /// Every item of the named [`Fan::Each`] port once per variant, as `<item>-<variant>`: a new variant renames nothing.
     /// All variants read that item, here and at the [`Fan::Each`] ports of later stages that only have the item itself.
     PerVariant {

@@ -5,8 +5,8 @@ use cosfly_diagnose::{Diagnostic, Fault, Result};
 use cosfly_fingerprint::Digest;
 use cosfly_recipe::{Arrival, Connection, ItemNames, Recipe, RecipeStage, SourceFile};
 use cosfly_stage::{
-    Fan, InputPort, Inputs, ItemName, ItemRule, PortSource, Produced, Source, Stage, StageName, StageProperties, Takes,
-    TaskContext,
+    Fan, InputPort, Inputs, ItemName, ItemRule, PortSource, Produced, Sees, Source, Stage, StageName, StageProperties,
+    Takes, TaskContext,
 };
 use serde_json::Value;
 use std::path::{Path, PathBuf};
@@ -86,8 +86,8 @@ pub struct Toy {
     pub variants: Vec<&'static str>,
     /// Whether the stage writes an intermediate blob `pack` beside `out`.
     pub packs: bool,
-    /// Blobs that the stage sees at its ports; `None` for all.
-    pub sees: Option<&'static [&'static str]>,
+    /// Blobs that the stage sees at its ports.
+    pub sees: Sees,
     /// Files that the stage reads.
     pub sources: Vec<PathBuf>,
     /// Called at the start of every item.
@@ -106,7 +106,7 @@ impl Toy {
             takes: Takes::One,
             variants: Vec::new(),
             packs: false,
-            sees: None,
+            sees: Sees::All,
             sources: Vec::new(),
             hook: Arc::new(|_| Ok(())),
         }
@@ -166,8 +166,9 @@ fn toy_stage(toy: &Toy, earlier: &[RecipeStage]) -> Result<RecipeStage> {
             let copies = toy.variants.len().max(1);
             arrivals = arrivals.into_iter().flat_map(|arrival| std::iter::repeat_n(arrival, copies)).collect();
         }
-        let port = InputPort { blobs: toy.sees, ..toy_port(port, *fan, toy.takes) };
-        connections.push(Connection { port, upstreams: vec![*upstream], arrivals: arrivals.into() });
+        let port = InputPort { sees: toy.sees, ..toy_port(port, *fan, toy.takes) };
+        let upstreams = vec![*upstream];
+        connections.push(Connection { port, upstreams, arrivals: arrivals.into(), bounds: Arc::default() });
     }
     let sources = toy.sources.iter().enumerate().map(|(n, path)| (format!("source{n}"), path.clone()));
     let properties = StageProperties {
@@ -201,7 +202,7 @@ fn toy_port(name: &'static str, fan: Fan, takes: Takes) -> InputPort {
         takes,
         optional: false,
         source: PortSource::Recipe,
-        blobs: None,
+        sees: Sees::All,
         doc: "what it reads",
     }
 }

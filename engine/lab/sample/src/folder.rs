@@ -9,7 +9,10 @@ use cosfly_schema::tables::ObjectRecord;
 use cosfly_schema::{
     CaptionRecord, DatasetConfig, EncodingConfig, LogRecord, PreviewStrip, RenderedTrajectory, TownLayout,
 };
-use cosfly_write::publish::{DatasetSource, PublishedLog, Summary, write_dataset};
+use cosfly_write::publish::{
+    DatasetSource, FlightNote, GroupFlights, GroupSource, PublishedLog, Summary, plan_groups, write_dataset,
+    write_shard,
+};
 use cosfly_write::{FramePackReader, write_log};
 use std::collections::BTreeMap;
 use std::io::Cursor;
@@ -49,7 +52,7 @@ fn blob_of(bytes: &[u8]) -> BlobRef {
 
 struct Flights(Vec<SampleFlight>, EncodingConfig);
 
-impl DatasetSource for Flights {
+impl GroupSource for Flights {
     fn trajectory(&self, index: usize) -> Result<RenderedTrajectory> {
         RenderedTrajectory::from_bytes(&self.0[index].record.to_bytes())
     }
@@ -58,16 +61,20 @@ impl DatasetSource for Flights {
         Ok(self.0[index].captions.clone())
     }
 
+    fn previews(&self, index: usize) -> Result<PreviewStrip> {
+        FramePackReader::new(Cursor::new(self.0[index].pack(self.1)))?.preview_strip()
+    }
+}
+
+impl DatasetSource for Flights {
     fn objects(&self) -> Result<Vec<ObjectRecord>> {
         Ok(ObjectRecord::of(&town()))
     }
 
-    fn layout(&self, _index: usize) -> Result<Arc<TownLayout>> {
-        Ok(Arc::new(TownLayout::of(&town())))
-    }
-
-    fn previews(&self, index: usize) -> Result<PreviewStrip> {
-        FramePackReader::new(Cursor::new(self.0[index].pack(self.1)))?.preview_strip()
+    fn picture(&self, trajectory_id: &str, frame: usize) -> Result<Option<Vec<u8>>> {
+        let index = self.0.iter().position(|flight| flight.record.trajectory_id == trajectory_id);
+        let previews = index.map(|index| self.previews(index)).transpose()?;
+        Ok(previews.and_then(|previews| previews.jpegs.into_iter().nth(frame)))
     }
 }
 
@@ -99,5 +106,12 @@ pub fn write_flights(
     let logs: Vec<PublishedLog> = files.iter().map(published).collect();
     let blobs = files.iter().map(|(_, bytes, _)| (Digest::of(bytes), &bytes[..])).collect();
     let mut sink = FolderSink { folder: folder.to_owned(), blobs };
-    write_dataset(&mut sink, config, &logs, &Flights(flights, encoding), &rejections(), &|| Ok(()))
+    let layout = Arc::new(TownLayout::of(&town));
+    let note = |flight: &SampleFlight| FlightNote::of(&flight.record, config.windows.shape().size(), String::new());
+    let notes = flights.iter().map(note).collect();
+    let plans = plan_groups(config, vec![notes], &|_| Ok(Arc::clone(&layout)))?;
+    let source = Flights(flights, encoding);
+    let group = GroupFlights::new(config, &plans[0], &logs, &source, &|| Ok(()))?;
+    let shard = write_shard(&mut sink, config, &group, rejections())?;
+    write_dataset(&mut sink, config, vec![shard], &source)
 }

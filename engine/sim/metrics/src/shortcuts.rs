@@ -1,14 +1,14 @@
 //! Shortcuts: signs by which a model may tell the target from others without following it, the middle of the picture and the
 //! clothes.
 
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 
 /// Left, top, right and bottom edge of a box, pixels.
 pub type Edges = [f64; 4];
 
 /// Counts over frames and people; [`Self::figures`] are their figures.
-#[derive(Clone, Debug, Default, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Shortcuts {
     frames: u64,
     nearest: u64,
@@ -57,6 +57,15 @@ impl Shortcuts {
     /// Adds a bystander who is seen.
     pub fn add_other(&mut self, id: &str, top: [f64; 3]) {
         self.others.insert(id.to_owned(), top);
+    }
+
+    /// Adds the counts of other frames and people.
+    pub fn merge(&mut self, other: Self) {
+        self.frames += other.frames;
+        self.nearest += other.nearest;
+        self.rank_sum += other.rank_sum;
+        self.targets.extend(other.targets);
+        self.others.extend(other.others);
     }
 
     /// The figures.

@@ -50,7 +50,7 @@ pub struct ExtraSource {
 }
 
 /// Output of one plugin for all flights of a dataset.
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct ExtraSummary {
     /// Plugin and declaration of the output.
     pub source: ExtraSource,

@@ -2,9 +2,10 @@
 
 use super::Table;
 use super::column::columns;
+use serde::{Deserialize, Serialize};
 
 /// One file of the dataset.
-#[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
+#[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
 pub struct FileRecord {
     /// Path from the dataset's folder, with `/`.
     pub path: String,

@@ -3,6 +3,7 @@
 use super::column::AnyColumn;
 use crate::{CaptionRecord, LogRecord, PreviewStrip, RenderedTrajectory, Split, TownLayout};
 use cosfly_metrics::WindowShape;
+use serde::{Deserialize, Serialize};
 use std::sync::Arc;
 
 /// One trajectory with everything that tables contain about it.
@@ -29,7 +30,7 @@ pub struct DatasetItem {
 }
 
 /// Split, split group and subset of a trajectory.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Membership {
     /// Split, that of the files with the trajectory's rows.
     pub split: Split,

@@ -1,83 +1,100 @@
-//! Decides which split, which file and which folder every trajectory goes to.
+//! Where every flight of a group goes: split, files of tables, place of its log.
 
 use cosfly_diagnose::{Diagnostic, Fault, Result};
-use cosfly_schema::LogRecord;
-use cosfly_schema::Split;
-use cosfly_schema::config::DatasetConfig;
-use cosfly_splits::Assignment;
+use cosfly_schema::tables::Membership;
+use cosfly_schema::{Split, TownLayout};
+use serde::{Deserialize, Serialize};
 use std::collections::{BTreeMap, BTreeSet};
 
 /// Logs in one folder; hosts of datasets refuse folders with many thousand files.
 const LOGS_PER_FOLDER: usize = 1_000;
 
-/// Where everything goes; computed from the log records alone.
-#[derive(Clone, Debug)]
-pub struct DatasetPlan {
-    /// Split of each trajectory.
-    pub splits: Vec<Split>,
-    /// Path of each trajectory's log.
-    pub mcap_paths: Vec<String>,
-    frames: Vec<u64>,
-    frames_per_file: u64,
+/// A flight of a group.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct FlightPlan {
+    /// Trajectory id.
+    pub trajectory_id: String,
+    /// Name of the town.
+    pub town: String,
+    /// Path of the log.
+    pub mcap_path: String,
+    /// Split, split group and subset.
+    pub membership: Membership,
+    /// Whether the report draws the flight.
+    pub is_drawn: bool,
 }
 
-impl DatasetPlan {
-    /// Plans a dataset of the trajectories of `logs`, in their order.
-    pub fn new(config: &DatasetConfig, logs: &[&LogRecord], assignment: &Assignment) -> Result<Self> {
-        let mut seen = BTreeSet::new();
-        let mut per_town: BTreeMap<&str, usize> = BTreeMap::new();
-        let mut mcap_paths = vec![];
-        for log in logs {
-            if !seen.insert(&log.trajectory_id) {
-                let message = format!("two trajectories are called `{}`", log.trajectory_id);
-                return Err(Diagnostic::new("dataset-duplicate", Fault::Recipe, message)
-                    .hint("ids begin with the stage that a flight comes from: give every chain stages of its own"));
-            }
-            let number = per_town.entry(&log.town).or_default();
-            let folder = *number / LOGS_PER_FOLDER;
-            *number += 1;
-            mcap_paths.push(format!("mcap/{}/{folder:03}/{}.mcap", log.town, log.trajectory_id));
-        }
-        Ok(Self {
-            splits: assignment.splits.clone(),
-            mcap_paths,
-            frames: logs.iter().map(|log| log.frames).collect(),
-            frames_per_file: u64::from(config.frames_per_file.max(1)),
-        })
-    }
+/// The flights of a group of walks, whose tables are written together.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct GroupPlan {
+    /// Number of the group.
+    pub number: u64,
+    /// The flights that are published, in the order of the group.
+    pub flights: Vec<FlightPlan>,
+    /// Ground plans of their towns, by name.
+    pub layouts: BTreeMap<String, TownLayout>,
+}
 
-    /// The splits that have trajectories.
-    pub fn used_splits(&self) -> Vec<Split> {
-        Split::ALL.into_iter().filter(|split| self.splits.contains(split)).collect()
-    }
+/// A file of tables: the split, the number of the part within the group, and the flights whose rows it holds.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) struct Part {
+    pub(crate) number: usize,
+    pub(crate) members: Vec<usize>,
+}
 
-    /// The files of a table: split, path, and the trajectories whose rows it holds.
-    pub fn files(&self, table: &str, per_frame: bool) -> Vec<(Split, String, Vec<usize>)> {
-        let mut files = vec![];
-        for split in self.used_splits() {
-            let members: Vec<usize> = (0..self.splits.len()).filter(|i| self.splits[*i] == split).collect();
-            let shards = if per_frame { self.shards(&members) } else { vec![members] };
-            let count = shards.len();
-            files.extend(shards.into_iter().enumerate().map(|(number, shard)| {
-                (split, format!("data/{table}/{}-{number:05}-of-{count:05}.parquet", split.name()), shard)
-            }));
-        }
-        files
-    }
-
-    /// Consecutive trajectories with about `frames_per_file` frames together.
-    fn shards(&self, members: &[usize]) -> Vec<Vec<usize>> {
-        let mut shards: Vec<Vec<usize>> = vec![vec![]];
-        let mut frames = 0;
+impl GroupPlan {
+    /// Flights of a split, in parts with about `frames_per_file` frames; `frames` are those of each flight.
+    pub(crate) fn parts(&self, split: Split, frames: &[u64], frames_per_file: u32) -> Vec<Part> {
+        let limit = u64::from(frames_per_file.max(1));
+        let members = (0..self.flights.len()).filter(|index| self.flights[*index].membership.split == split);
+        let mut parts: Vec<Part> = vec![];
+        let mut sum = 0;
         for member in members {
-            if frames > 0 && frames + self.frames[*member] > self.frames_per_file {
-                shards.push(vec![]);
-                frames = 0;
+            if parts.is_empty() || (sum > 0 && sum + frames[member] > limit) {
+                parts.push(Part { number: parts.len(), members: vec![] });
+                sum = 0;
             }
-            frames += self.frames[*member];
-            shards.last_mut().expect("there is always one shard").push(*member);
+            sum += frames[member];
+            parts.last_mut().expect("there is a part").members.push(member);
         }
-        shards
+        parts
+    }
+}
+
+/// Path of a file of a table with a row per frame: part `part` of group `group`.
+pub(crate) fn path_of_part(table: &str, split: Split, group: u64, part: usize) -> String {
+    format!("data/{table}/{}-{group:05}-{part:03}.parquet", split.name())
+}
+
+/// Path of the file of another table for group `group`.
+pub(crate) fn path_of_group(table: &str, split: Split, group: u64) -> String {
+    format!("data/{table}/{}-{group:05}.parquet", split.name())
+}
+
+/// Path of the only file of a table without splits.
+pub(crate) fn path_of_table(table: &str) -> String {
+    format!("data/{table}/{table}-00000.parquet")
+}
+
+/// Gives out the paths of logs, folder by folder.
+#[derive(Default)]
+pub(crate) struct LogPaths {
+    ids: BTreeSet<String>,
+    per_town: BTreeMap<String, usize>,
+}
+
+impl LogPaths {
+    /// Path of the log of the next flight.
+    pub(crate) fn next(&mut self, town: &str, trajectory_id: &str) -> Result<String> {
+        if !self.ids.insert(trajectory_id.to_owned()) {
+            let message = format!("two trajectories are called `{trajectory_id}`");
+            return Err(Diagnostic::new("dataset-duplicate", Fault::Recipe, message)
+                .hint("ids begin with the stage that a flight comes from: give every chain stages of its own"));
+        }
+        let number = self.per_town.entry(town.to_owned()).or_default();
+        let folder = *number / LOGS_PER_FOLDER;
+        *number += 1;
+        Ok(format!("mcap/{town}/{folder:03}/{trajectory_id}.mcap"))
     }
 }
 
@@ -85,43 +102,38 @@ impl DatasetPlan {
 mod tests {
     use super::*;
     use cosfly_frames::Seed;
-    use cosfly_schema::Role;
     use cosfly_schema::config::SplitShares;
 
-    fn log(id: usize, pedestrian: usize) -> LogRecord {
-        LogRecord {
-            trajectory_id: format!("t{id}"),
-            role: Role::Expert,
-            pedestrian_id: format!("p{pedestrian:05}"),
-            town: "town".into(),
-            frames: 200,
-            messages: 0,
-            bytes: 0,
-            sha256: String::new(),
-        }
-    }
-
-    fn drawn(logs: &[LogRecord]) -> Assignment {
+    fn group(count: usize) -> GroupPlan {
         let shares = SplitShares::default();
-        let draw = |log: &LogRecord| Seed::of_item(0, "split", &log.pedestrian_id).stream("split").unit();
-        Assignment {
-            splits: logs.iter().map(|log| shares.split_of(draw(log))).collect(),
-            groups: vec![],
-            subset_ranks: vec![],
-        }
+        let flight = |number: usize| {
+            let walk = format!("p{:05}", number / 2);
+            let split = shares.split_of(Seed::of_item(0, "split", &walk).stream("split").unit());
+            FlightPlan {
+                trajectory_id: format!("t{number}"),
+                town: "town".into(),
+                mcap_path: String::new(),
+                membership: Membership { split, split_group: walk, is_seen: true, subset_rank: 0.0 },
+                is_drawn: true,
+            }
+        };
+        GroupPlan { flights: (0..count).map(flight).collect(), ..GroupPlan::default() }
     }
 
     #[test]
-    fn splits_have_about_their_shares_and_files_a_bounded_size() {
-        let logs: Vec<LogRecord> = (0..4000).map(|i| log(i, i / 2)).collect();
-        let assignment = drawn(&logs);
-        let plan = DatasetPlan::new(&DatasetConfig::default(), &logs.iter().collect::<Vec<_>>(), &assignment).unwrap();
-        let train = plan.splits.iter().filter(|split| **split == Split::Train).count();
-        assert!((3100..3300).contains(&train), "{train}");
-        let files = plan.files("frames", true);
-        assert!(files.iter().all(|(_, _, members)| (1..=100).contains(&members.len())));
-        assert_eq!(files.iter().map(|file| file.2.len()).sum::<usize>(), 4000);
-        assert_eq!(plan.mcap_paths[3999], "mcap/town/003/t3999.mcap");
+    fn files_have_a_bounded_size_and_hold_every_flight_once() {
+        let plan = group(4000);
+        let mut all = vec![];
+        for split in Split::ALL {
+            let parts = plan.parts(split, &[200; 4000], 20_000);
+            assert!(parts.iter().all(|part| (1..=100).contains(&part.members.len())));
+            assert!(parts.iter().enumerate().all(|(number, part)| part.number == number));
+            all.extend(parts.into_iter().flat_map(|part| part.members));
+        }
+        all.sort_unstable();
+        assert!(all.into_iter().eq(0..4000));
+        // A flight with more frames than a file may have is alone.
+        assert_eq!(group(2).parts(plan.flights[0].membership.split, &[500, 500], 100).len(), 2);
     }
 
     #[test]
@@ -133,10 +145,10 @@ mod tests {
     }
 
     #[test]
-    fn two_trajectories_of_one_name_are_refused() {
-        let (a, b) = (log(1, 1), log(1, 2));
-        let assignment = drawn(&[a.clone(), b.clone()]);
-        let error = DatasetPlan::new(&DatasetConfig::default(), &[&a, &b], &assignment).unwrap_err();
-        assert!(error.message.contains("`t1`"));
+    fn logs_lie_in_folders_of_a_thousand_and_two_of_one_name_are_refused() {
+        let mut paths = LogPaths::default();
+        let given: Vec<String> = (0..1001).map(|number| paths.next("town", &format!("t{number}")).unwrap()).collect();
+        assert_eq!([&given[999], &given[1000]], ["mcap/town/000/t999.mcap", "mcap/town/001/t1000.mcap"]);
+        assert!(paths.next("town", "t1").unwrap_err().message.contains("`t1`"));
     }
 }

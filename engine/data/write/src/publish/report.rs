@@ -14,7 +14,7 @@ use cosfly_schema::{Rejection, RenderedTrajectory, Role};
 /// Path of the page in the dataset.
 pub const PATH: &str = "report/index.html";
 
-/// The page of a dataset whose flights were sketched in the order of `source`.
+/// The page of a dataset, of whose flights `flights` are drawn.
 pub fn page(
     config: &DatasetConfig,
     summary: &Summary,
@@ -38,7 +38,7 @@ pub fn page(
         planners: source.planners()?,
         shortcuts: Some(summary.shortcuts.figures()),
     };
-    cosfly_report::page(&report, &mut |flight, frame| Ok(source.previews(flight)?.jpegs.into_iter().nth(frame)))
+    cosfly_report::page(&report, &mut |flight, frame| source.picture(&report.flights[flight].id, frame))
 }
 
 fn box_sketch(object: &ObjectRecord) -> BoxSketch {

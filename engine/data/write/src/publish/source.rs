@@ -1,4 +1,4 @@
-//! Where a dataset comes from: its records, one trajectory at a time, and its finished logs.
+//! Where a dataset comes from: the flights of one group at a time, and what belongs to all of them.
 
 use cosfly_blobs::BlobRef;
 use cosfly_diagnose::Result;
@@ -6,39 +6,41 @@ use cosfly_render::ChannelSet;
 use cosfly_report::PlannerRow;
 use cosfly_schema::extras::Extra;
 use cosfly_schema::tables::ObjectRecord;
-use cosfly_schema::{CaptionRecord, LogRecord, PreviewStrip, RenderedTrajectory, TownLayout};
-use std::sync::Arc;
+use cosfly_schema::{CaptionRecord, LogRecord, PreviewStrip, RenderedTrajectory};
 
 /// A finished log and the blob that holds it.
 #[derive(Clone, Debug)]
 pub struct PublishedLog {
     /// Row of the log: path, bytes, hash, messages.
     pub record: LogRecord,
-    /// The bytes, for [`OutputSink::link`].
+    /// The bytes, for [`cosfly_blobs::OutputSink::link`].
     pub blob: BlobRef,
     /// Channels of the log.
     pub channels: ChannelSet,
 }
 
-/// Loads the trajectories of a dataset one at a time, by their place in the list of logs. Each is loaded once per
-/// table.
-pub trait DatasetSource {
-    /// The record of trajectory `index`.
+/// Loads the flights of a group, by their place among its logs: once for all tables, and the expert of a twin once more.
+pub trait GroupSource {
+    /// The record of flight `index`.
     fn trajectory(&self, index: usize) -> Result<RenderedTrajectory>;
-    /// Captions of trajectory `index`; empty without a caption stage.
+    /// Captions of flight `index`; empty without a caption stage.
     fn captions(&self, index: usize) -> Result<Vec<CaptionRecord>>;
+    /// Previews of flight `index`.
+    fn previews(&self, index: usize) -> Result<PreviewStrip>;
+    /// Tables and files of plugins for flight `index`.
+    fn extras(&self, _: usize) -> Result<Vec<Extra>> {
+        Ok(vec![])
+    }
+}
+
+/// What belongs to the dataset as a whole.
+pub trait DatasetSource {
     /// Boxes behind the instance ids of all images, town by town.
     fn objects(&self) -> Result<Vec<ObjectRecord>>;
-    /// The town of trajectory `index` without its name.
-    fn layout(&self, index: usize) -> Result<Arc<TownLayout>>;
     /// Figures of planners behind the walks of some flights, for the report.
     fn planners(&self) -> Result<Vec<PlannerRow>> {
         Ok(vec![])
     }
-    /// Previews of trajectory `index`; asked for by one table only.
-    fn previews(&self, index: usize) -> Result<PreviewStrip>;
-    /// Tables and files of plugins for a trajectory.
-    fn extras(&self, _: usize) -> Result<Vec<Extra>> {
-        Ok(vec![])
-    }
+    /// Small colour image of a frame of a flight, JPEG, for the report.
+    fn picture(&self, trajectory_id: &str, frame: usize) -> Result<Option<Vec<u8>>>;
 }

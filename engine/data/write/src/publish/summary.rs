@@ -1,6 +1,8 @@
 //! The figures of a dataset that card and `croissant.json` state.
 
 use super::shortcuts;
+use crate::gathered_extras::merged;
+use cosfly_diagnose::Result;
 use cosfly_metrics::shortcuts::Shortcuts;
 use cosfly_render::ChannelSet;
 use cosfly_schema::LogRecord;
@@ -8,10 +10,11 @@ use cosfly_schema::card_text::counted;
 use cosfly_schema::extras::ExtraSummary;
 use cosfly_schema::tables::DatasetItem;
 use cosfly_schema::{Rejection, Role};
+use serde::{Deserialize, Serialize};
 use std::collections::{BTreeMap, BTreeSet};
 
 /// Contents of a dataset, counted while it is written.
-#[derive(Clone, Debug, Default, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Summary {
     /// Expert flights.
     pub experts: u64,
@@ -40,9 +43,9 @@ pub struct Summary {
     /// Mean visibility by rays over all flights, summed (divide by the flights).
     pub visibility_sum: f64,
     /// Flights and frames by split name.
-    pub splits: BTreeMap<&'static str, (u64, u64)>,
+    pub splits: BTreeMap<String, (u64, u64)>,
     /// Rows by table name and split name; tables over something else than flights are a split of their own name.
-    pub rows: BTreeMap<&'static str, BTreeMap<String, u64>>,
+    pub rows: BTreeMap<String, BTreeMap<String, u64>>,
     /// Channels of the logs, all of them together.
     pub channels: ChannelSet,
     /// Signs that give targets away.
@@ -52,7 +55,7 @@ pub struct Summary {
 }
 
 /// A town of a dataset.
-#[derive(Clone, Debug, Default, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct TownSummary {
     /// Flights in it.
     pub flights: u64,
@@ -64,7 +67,7 @@ pub struct TownSummary {
 
 impl Summary {
     /// Counts one flight of split `split`.
-    pub fn count(&mut self, item: &DatasetItem, split: &'static str) {
+    pub fn count(&mut self, item: &DatasetItem, split: &str) {
         let record = &item.record;
         match record.role {
             Role::Expert => self.experts += 1,
@@ -85,10 +88,10 @@ impl Summary {
         town.synthetic_notes.clone_from(&record.town.synthetic.notes);
     }
 
-    fn count_log(&mut self, log: &LogRecord, split: &'static str) {
+    fn count_log(&mut self, log: &LogRecord, split: &str) {
         self.frames += log.frames;
         self.mcap_bytes += log.bytes;
-        let (flights, frames) = self.splits.entry(split).or_default();
+        let (flights, frames) = self.splits.entry(split.to_owned()).or_default();
         *flights += 1;
         *frames += log.frames;
     }
@@ -96,6 +99,51 @@ impl Summary {
     /// Counts the items without a flight.
     pub fn count_rejections(&mut self, rejections: &[Rejection]) {
         self.rejected = rejections.len() as u64;
+    }
+
+    /// Counts rows of a table.
+    pub fn count_rows(&mut self, table: &str, split: &str, rows: u64) {
+        *self.rows.entry(table.to_owned()).or_default().entry(split.to_owned()).or_default() += rows;
+    }
+
+    /// Adds the figures of other flights. `has_flights` is true where flights were added before; plugins give of all flights
+    /// or of none.
+    ///
+    /// # Errors
+    /// Plugins that gave of some flights only, or something else of some.
+    pub fn merge(&mut self, other: Self, has_flights: bool) -> Result<()> {
+        if other.flights() > 0 {
+            let extras = std::mem::take(&mut self.extras);
+            self.extras = if has_flights { merged(extras, other.extras)? } else { other.extras };
+        }
+        self.experts += other.experts;
+        self.perturbed += other.perturbed;
+        self.pedestrians.extend(other.pedestrians);
+        self.frames += other.frames;
+        self.duration_s += other.duration_s;
+        self.rejected += other.rejected;
+        self.uncertified += other.uncertified;
+        self.mcap_bytes += other.mcap_bytes;
+        for (name, town) in other.towns {
+            let flights = self.towns.get(&name).map_or(0, |known| known.flights);
+            self.towns.insert(name, TownSummary { flights: flights + town.flights, ..town });
+        }
+        self.languages.extend(other.languages);
+        self.weathers.extend(other.weathers);
+        self.image_sizes.extend(other.image_sizes);
+        self.visibility_sum += other.visibility_sum;
+        for (split, (flights, frames)) in other.splits {
+            let sums = self.splits.entry(split).or_default();
+            *sums = (sums.0 + flights, sums.1 + frames);
+        }
+        for (table, rows) in other.rows {
+            rows.into_iter().for_each(|(split, rows)| self.count_rows(&table, &split, rows));
+        }
+        let channels = std::mem::take(&mut self.channels);
+        self.channels =
+            ChannelSet::of(|channel| [&channels, &other.channels].iter().any(|set| set.iter().any(|it| it == channel)));
+        self.shortcuts.merge(other.shortcuts);
+        Ok(())
     }
 
     /// All flights.

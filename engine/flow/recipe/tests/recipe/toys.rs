@@ -5,7 +5,7 @@ use cosfly_blobs::OutputSink;
 use cosfly_diagnose::ParameterError;
 use cosfly_recipe::Recipe;
 use cosfly_stage::{
-    Fan, InputPort, Inputs, ItemRule, PortSource, Produced, Registry, Source, Stage, StageKind, StagePart,
+    Fan, InputPort, Inputs, ItemRule, PortSource, Produced, Registry, Sees, Source, Stage, StageKind, StagePart,
     StageProperties, Takes, TaskContext,
 };
 use schemars::JsonSchema;
@@ -136,7 +136,16 @@ pub fn port(name: &'static str, artifact: &'static str, fan: Fan) -> InputPort {
         "target" => "Who is followed.",
         _ => "What is shown.",
     };
-    InputPort { name, artifact, fan, takes: Takes::One, optional: false, source: PortSource::Recipe, blobs: None, doc }
+    InputPort {
+        name,
+        artifact,
+        fan,
+        takes: Takes::One,
+        optional: false,
+        source: PortSource::Recipe,
+        sees: Sees::All,
+        doc,
+    }
 }
 
 fn gather(port: InputPort) -> InputPort {

@@ -3,6 +3,7 @@
 use super::*;
 use cosfly_lab_engine::PACK;
 use cosfly_runner::{RunOutcome, plan};
+use cosfly_stage::Sees;
 use cosfly_store::{GarbageOptions, collect_garbage};
 use std::path::Path;
 use std::time::{Duration, SystemTime};
@@ -17,7 +18,7 @@ fn film_toys(log: &Log) -> Vec<Toy> {
         Toy::new("album", 1, &[(1, Fan::Gather), (3, Fan::Gather)]),
     ];
     toys[1].packs = true;
-    toys[4].sees = Some(&["out"]);
+    toys[4].sees = Sees::Only(&["out"]);
     toys.iter_mut().for_each(|toy| toy.hook = log.hook());
     toys
 }

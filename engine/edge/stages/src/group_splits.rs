@@ -1,0 +1,92 @@
+//! Part `splits` of a `dataset` stage: the splits of all flights at once, in a blob of its own for each group of walks, so
+//! that a group whose splits stay keeps its tables.
+
+use crate::group_notes::{self, GroupNotes};
+use crate::ports::{self, SPLITS};
+use crate::published_towns::PublishedTowns;
+use crate::{codec, parameters};
+use cosfly_blobs::OutputSink;
+use cosfly_diagnose::{Diagnostic, Fault, Result};
+use cosfly_schema::{DatasetConfig, Rejection};
+use cosfly_stage::{
+    Fan, InputPort, Inputs, ItemName, ItemRule, Produced, Sees, Stage, StagePart, StageProperties, TaskContext,
+};
+use cosfly_write::{GroupPlan, plan_groups};
+
+/// Name of the part and of the port that reads it.
+const NAME: &str = "splits";
+
+/// The part of a stage that gathers towns at the port `town`.
+pub fn part(config: &DatasetConfig, towns: InputPort) -> StagePart {
+    let config = DatasetConfig { splits: config.splits.clone(), windows: config.windows, ..DatasetConfig::default() };
+    let parameters = parameters::canonical(&config);
+    let properties = StageProperties {
+        kind: "dataset".into(),
+        version: 1,
+        parameters: serde_json::json!({ "splits": parameters["splits"], "windows": parameters["windows"] }),
+        sources: vec![],
+        inputs: vec![towns, group_notes::port()],
+        artifact: SPLITS,
+        items: ItemRule::One,
+        bytes_per_item: 100_000,
+        intermediate: &[],
+    };
+    StagePart { suffix: NAME, stage: Box::new(SplitsStage { config, properties }) }
+}
+
+/// Port through which an item of the stage reads the plan of its own group.
+pub fn port() -> InputPort {
+    let doc = "The splits of the flights of the group: the part of the same stage.";
+    InputPort { sees: Sees::Own, ..ports::sibling(NAME, SPLITS, Fan::Broadcast, doc) }
+}
+
+/// Plan of the group `item` at the port of [`port`].
+pub fn read(inputs: &Inputs<'_>, item: &ItemName) -> Result<GroupPlan> {
+    codec::decode(SPLITS, &inputs.read(inputs.one(NAME)?, &item.to_string())?)
+}
+
+struct SplitsStage {
+    config: DatasetConfig,
+    properties: StageProperties,
+}
+
+impl Stage for SplitsStage {
+    fn properties(&self) -> &StageProperties {
+        &self.properties
+    }
+
+    fn run(&self, inputs: &Inputs<'_>, outputs: &mut dyn OutputSink, context: &TaskContext) -> Result<Produced> {
+        let towns = PublishedTowns::of(inputs)?;
+        let groups = group_notes::read(inputs)?;
+        context.check_cancelled()?;
+        towns.check_pictures(groups.iter().flat_map(|group| &group.pictures))?;
+        if groups.iter().all(|group| group.flights.is_empty()) {
+            return Err(nothing_left(&groups));
+        }
+        let names: Vec<String> = inputs.all("notes").iter().map(|artifact| artifact.id.item.to_string()).collect();
+        let flights = groups.into_iter().map(|group| group.flights).collect();
+        let plans = plan_groups(&self.config, flights, &|note| towns.layout(&note.town_digest))?;
+        for (name, plan) in names.iter().zip(&plans) {
+            outputs.put(name, &codec::encode(SPLITS, plan)?)?;
+        }
+        Ok(Produced::default())
+    }
+}
+
+/// Refusal of a dataset without a flight, with the first reasons.
+fn nothing_left(groups: &[GroupNotes]) -> Box<Diagnostic> {
+    let rejections: Vec<&Rejection> = groups.iter().flat_map(|group| &group.rejections).collect();
+    let refusal =
+        Diagnostic::new("dataset-empty", Fault::Input, "every trajectory was rejected: there is nothing to publish");
+    let refusal = rejections
+        .iter()
+        .take(3)
+        .fold(refusal, |refusal, rejection| {
+            refusal.because(format!("`{}`: {}", rejection.trajectory_id, rejection.reason))
+        })
+        .hint("the planner found no safe view of any target: look at the reasons, loosen the limits of the `muco` stage, or choose other walks (another `seed`) or another town");
+    if rejections.iter().any(|rejection| ["m/s^2", "m/s^3"].iter().any(|unit| rejection.reason.contains(unit))) {
+        return refusal.hint("flights of a planner that bounds no acceleration or jerk (`paper.make_flyable = false`, say) are published with `limits.require_kinematics = false`");
+    }
+    refusal
+}
