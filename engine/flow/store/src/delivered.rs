@@ -6,13 +6,14 @@ use crate::fault::Step;
 use crate::store::Store;
 use cosfly_diagnose::Result;
 use cosfly_fingerprint::Digest;
+use cosfly_stage::Blobs;
 use std::collections::BTreeMap;
 use std::fmt::Write as _;
 use std::fs;
 use std::path::Path;
 use std::time::{SystemTime, UNIX_EPOCH};
 
-const HEADER: &str = "cosfly-out 1 ";
+const HEADER: &str = "cosfly-out 2 ";
 
 /// Size, time of last modification, time of last status change, device and inode of a file. While all of them are
 /// unchanged, the bytes are unchanged. Times in nanoseconds since 1970.
@@ -23,32 +24,38 @@ type Stamp = [u64; 5];
 pub(crate) struct Delivered {
     /// Version of the whole folder.
     pub(crate) version: Digest,
-    stamps: BTreeMap<String, Stamp>,
+    /// Digest of the bytes and stamp of each file.
+    files: BTreeMap<String, (Digest, Stamp)>,
 }
 
 impl Delivered {
-    /// Stamps of the files `names` of `folder` now; absent files are left out.
-    pub(crate) fn look<'n>(version: Digest, folder: &Path, names: impl Iterator<Item = &'n String>) -> Self {
-        let stamps = names.filter_map(|name| Some((name.clone(), stamp(&folder.join(name))?)));
-        Self { version, stamps: stamps.collect() }
+    /// Stamps of the files of `folder` now, which hold `blobs` by name; absent files are left out.
+    pub(crate) fn look(version: Digest, folder: &Path, blobs: &Blobs) -> Self {
+        let files =
+            blobs.iter().filter_map(|(name, blob)| Some((name.clone(), (blob.digest, stamp(&folder.join(name))?))));
+        Self { version, files: files.collect() }
     }
 
-    /// Whether both records are of one version and have the same stamp for the file.
+    /// Whether both records have the same bytes and the same stamp for the file.
     pub(crate) fn agrees(&self, other: &Self, name: &str) -> bool {
-        self.version == other.version
-            && self.stamps.get(name).is_some_and(|stamp| other.stamps.get(name) == Some(stamp))
+        self.files.get(name).is_some_and(|file| other.files.get(name) == Some(file))
     }
 
     /// Names of all files.
     pub(crate) fn names(&self) -> impl Iterator<Item = &str> {
-        self.stamps.keys().map(String::as_str)
+        self.files.keys().map(String::as_str)
+    }
+
+    /// Stamps of verified files by the digests of their bytes: a blob that is still the same file need not be read.
+    pub(crate) fn verified(&self) -> Verified {
+        Verified(self.files.values().copied().collect())
     }
 
     fn encode(&self) -> String {
         let mut body = format!("{}\n", self.version);
-        for (name, [size, modified, changed, device, number]) in &self.stamps {
+        for (name, (digest, [size, modified, changed, device, number])) in &self.files {
             let name = serde_json::Value::from(name.as_str());
-            let _ = writeln!(body, "{size} {modified} {changed} {device} {number} {name}");
+            let _ = writeln!(body, "{digest} {size} {modified} {changed} {device} {number} {name}");
         }
         format!("{HEADER}{}\n{body}", Digest::of(body.as_bytes()))
     }
@@ -60,16 +67,28 @@ impl Delivered {
             return None;
         }
         let mut lines = body.lines();
-        let mut delivered = Self { version: lines.next()?.parse().ok()?, stamps: BTreeMap::new() };
+        let mut delivered = Self { version: lines.next()?.parse().ok()?, files: BTreeMap::new() };
         for line in lines {
-            let mut words = line.splitn(6, ' ');
+            let mut words = line.splitn(7, ' ');
+            let digest = words.next()?.parse().ok()?;
             let mut stamp = Stamp::default();
             for number in &mut stamp {
                 *number = words.next()?.parse().ok()?;
             }
-            delivered.stamps.insert(serde_json::from_str(words.next()?).ok()?, stamp);
+            delivered.files.insert(serde_json::from_str(words.next()?).ok()?, (digest, stamp));
         }
         Some(delivered)
+    }
+}
+
+/// Stamps of files by the digests of their bytes.
+#[derive(Default)]
+pub(crate) struct Verified(BTreeMap<Digest, Stamp>);
+
+impl Verified {
+    /// Whether the file at `path` is the one whose bytes were verified to have `digest`.
+    pub(crate) fn is_same_file(&self, digest: &Digest, path: &Path) -> bool {
+        self.0.get(digest).is_some_and(|known| stamp(path).as_ref() == Some(known))
     }
 }
 
@@ -108,13 +127,15 @@ fn stamp(path: &Path) -> Option<Stamp> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use cosfly_blobs::BlobRef;
 
     #[test]
     fn a_record_reads_back_and_a_damaged_one_is_passed_over() {
         let folder = tempfile::tempdir().unwrap();
         fs::write(folder.path().join("a \"b\""), "x").unwrap();
-        let names = ["a \"b\"".to_owned(), "gone".to_owned()];
-        let delivered = Delivered::look(Digest::of(b"v"), folder.path(), names.iter());
+        let blob = |text: &str| BlobRef { digest: Digest::of(text.as_bytes()), bytes: text.len() as u64 };
+        let blobs = Blobs::from([("a \"b\"".to_owned(), blob("x")), ("gone".to_owned(), blob("y"))]);
+        let delivered = Delivered::look(Digest::of(b"v"), folder.path(), &blobs);
         assert_eq!(delivered.names().collect::<Vec<_>>(), ["a \"b\""]);
         let text = delivered.encode();
         assert_eq!(Delivered::decode(&text), Some(delivered));

@@ -1,7 +1,7 @@
 //! Writes an artifact as an ordinary folder: built in a sibling folder, then exchanged in one step.
 
 use crate::blobs::digest_of_file;
-use crate::delivered::Delivered;
+use crate::delivered::{Delivered, Verified};
 use crate::folder::{first_foreign, fresh_beside, put_in_place, sync_file_system};
 use crate::locks::lock_file;
 use crate::mutex::locked;
@@ -58,20 +58,21 @@ pub fn materialise(store: &Store, blobs: &Blobs, folder: &Path) -> Result<Materi
     }
     check_ours(&folder, marker.as_deref(), before.as_ref())?;
     let beside = beside(&folder)?;
-    let built = build(store, blobs, &new_marker, &beside)
+    let verified = before.as_ref().map(Delivered::verified).unwrap_or_default();
+    let built = build(store, blobs, &verified, &new_marker, &beside)
         .and_then(|()| put_in_place(&beside, &folder).map_err(|error| refused(&folder, &error)));
     if let Err(diagnostic) = built {
         let _ = fs::remove_dir_all(&beside);
         return Err(diagnostic);
     }
     // Without this record the files are read again.
-    let _ = store.remember_delivered(&folder, &Delivered::look(version, &folder, blobs.keys()));
+    let _ = store.remember_delivered(&folder, &Delivered::look(version, &folder, blobs));
     Ok(result(true))
 }
 
 /// Whether every file of `folder` is correct. A file with the size and times of `before` is not read.
 fn is_right(store: &Store, blobs: &Blobs, version: &Digest, folder: &Path, before: Option<&Delivered>) -> bool {
-    let now = Delivered::look(*version, folder, blobs.keys());
+    let now = Delivered::look(*version, folder, blobs);
     if before == Some(&now) && blobs.len() == now.names().count() {
         return true;
     }
@@ -180,7 +181,8 @@ fn beside(folder: &Path) -> Result<PathBuf> {
     made.map_err(|error| refused(folder, &error))
 }
 
-fn build(store: &Store, blobs: &Blobs, marker: &str, folder: &Path) -> Result<()> {
+/// Fills an empty folder. A blob that is the file that was verified in the folder before is linked without being read.
+fn build(store: &Store, blobs: &Blobs, verified: &Verified, marker: &str, folder: &Path) -> Result<()> {
     let mut made = BTreeSet::new();
     for (name, blob) in blobs {
         let path = folder.join(name);
@@ -189,9 +191,13 @@ fn build(store: &Store, blobs: &Blobs, marker: &str, folder: &Path) -> Result<()
         {
             fs::create_dir_all(folder.join(parent)).map_err(|error| refused(folder, &error))?;
         }
+        let stored = store.blob_path(blob);
+        if verified.is_same_file(&blob.digest, &stored) && fs::hard_link(&stored, &path).is_ok() {
+            continue;
+        }
         let mut source = store.open(blob)?;
-        let placed = fs::hard_link(store.blob_path(blob), &path)
-            .or_else(|_| io::copy(&mut source, &mut File::create_new(&path)?).map(|_| ()));
+        let placed =
+            fs::hard_link(&stored, &path).or_else(|_| io::copy(&mut source, &mut File::create_new(&path)?).map(|_| ()));
         placed.map_err(|error| refused(&path, &error))?;
     }
     fs::write(folder.join(VERSION_FILE), marker)
@@ -235,6 +241,32 @@ mod tests {
         fs::remove_file(out.join("a.txt")).unwrap();
         assert!(materialise(&store, &second, &out).unwrap().changed);
         assert_eq!(fs::read_to_string(out.join("a.txt")).unwrap(), "three");
+    }
+
+    #[test]
+    fn a_file_of_the_last_version_is_not_read_again_unless_it_was_touched() {
+        for touched in [false, true] {
+            let (root, store, out) = open();
+            let (one, two) = ([("a", "one"), ("b", "same")], [("a", "two"), ("b", "same")]);
+            let (first, second) = (artifact(&store, &one), artifact(&store, &two));
+            materialise(&store, &first, &out).unwrap();
+            drop(store);
+            let store = Store::open(&root.path().join("store")).unwrap();
+            if touched {
+                let path = store.blob_path(&first["b"]);
+                let mut permissions = fs::metadata(&path).unwrap().permissions();
+                #[expect(clippy::permissions_set_readonly_false, reason = "a file of this test")]
+                permissions.set_readonly(false);
+                fs::set_permissions(&path, permissions).unwrap();
+                fs::write(&path, "SAME").unwrap();
+                assert_eq!(materialise(&store, &second, &out).unwrap_err().fault, Fault::Lost);
+                continue;
+            }
+            assert!(materialise(&store, &second, &out).unwrap().changed);
+            let read = ["a", "b"].map(|name| store.is_checked(&second[name].digest));
+            assert_eq!(read, [true, false]);
+            assert_eq!(fs::read_to_string(out.join("b")).unwrap(), "same");
+        }
     }
 
     #[test]
