@@ -1,6 +1,7 @@
 //! The linter: pairs of flights or towns that would be in a model's training and test data at once.
 
 use super::facts::FlightFacts;
+use super::overlap::overlaps;
 use super::route;
 use cosfly_diagnose::{Diagnostic, Fault};
 use cosfly_schema::config::{DatasetConfig, SplitBy};
@@ -51,12 +52,16 @@ pub struct Leaks {
     pub kept: Vec<Leak>,
     /// Number of all findings.
     pub found: usize,
+    /// Numbers of kept findings by rule.
+    kept_by_rule: BTreeMap<&'static str, usize>,
 }
 
 impl Leaks {
     fn add(&mut self, rule: &'static str, at: &FlightFacts, message: String) {
         self.found += 1;
-        if self.kept.iter().filter(|leak| leak.rule == rule).count() < KEPT {
+        let kept = self.kept_by_rule.entry(rule).or_default();
+        if *kept < KEPT {
+            *kept += 1;
             self.kept.push(Leak { rule, trajectory_id: at.trajectory_id.clone(), message });
         }
     }
@@ -211,17 +216,21 @@ fn routes(facts: &[FlightFacts], rules: &LintRules, leaks: &mut Leaks) {
     }
     let given: Vec<(usize, &route::Route)> =
         walks.iter().map(|it| (place_of[it.layout.digest.as_str()], &it.route)).collect();
-    for (a, b, share) in route::overlaps(&given, rules.max_route_overlap) {
+    let splits: BTreeSet<&str> = walks.iter().map(|it| it.split.as_str()).collect();
+    let splits: BTreeMap<&str, u32> = splits.into_iter().zip(0..).collect();
+    let colours: Vec<u32> = walks.iter().map(|it| splits[it.split.as_str()]).collect();
+    let is_judged = |a: usize, b: usize| !is_one_walk(walks[a], walks[b]);
+    let found = overlaps(&given, &colours, rules.max_route_overlap, &is_judged, KEPT);
+    leaks.found += found.found - found.kept.len();
+    for (a, b, share) in found.kept {
         let (a, b) = (walks[a], walks[b]);
-        if a.split != b.split && !is_one_walk(a, b) {
-            let message = format!(
-                "{} % of a walk is repeated in another split: {} and {}",
-                (100.0 * share).round(),
-                named(a),
-                named(b)
-            );
-            leaks.add("split-route", b, message);
-        }
+        let message = format!(
+            "{} % of a walk is repeated in another split: {} and {}",
+            (100.0 * share).round(),
+            named(a),
+            named(b)
+        );
+        leaks.add("split-route", b, message);
     }
 }
 
