@@ -74,15 +74,13 @@ fn problem(it: &FlightFacts, shares: &SplitShares) -> Option<String> {
         return None;
     }
     let cut = shares.areas.get(&it.town)?;
-    let axis = ["x", "y"][cut.axis as usize];
-    let Some(extent) = it.route.extent_m else { return Some("its walk has no position in any area".into()) };
-    let [low, high] = extent[cut.axis as usize];
+    if it.route.extent_m.is_none() {
+        return Some("its walk has no position in any area".into());
+    }
     split_of(cut, shares.guard_m, &it.route).is_none().then(|| {
-        format!(
-            "its walk, {axis} from {low:.1} to {high:.1} m, enters a guard band of {} m along the lines at {:?} m between \
-             areas of splits",
-            shares.guard_m, cut.at_m
-        )
+        // The same text for all flights of a town: reports count equal reasons.
+        let (axis, lines) = (["x", "y"][cut.axis as usize], &cut.at_m);
+        format!("its walk enters a guard band of {} m between areas of splits: {axis} = {lines:?} m", shares.guard_m)
     })
 }
 

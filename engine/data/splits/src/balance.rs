@@ -1,6 +1,5 @@
 //! Shares asked for and shares reached, with the reasons for differences.
 
-use super::assign::Assignment;
 use super::facts::FlightFacts;
 use cosfly_diagnose::{Diagnostic, Fault};
 use cosfly_schema::Split;
@@ -39,13 +38,12 @@ pub struct Balance {
 }
 
 impl Balance {
-    /// Counts the flights that were kept; `left_out` were not.
-    pub fn of(facts: &[FlightFacts], assignment: &Assignment, shares: &SplitShares, left_out: usize) -> Self {
+    /// Counts the flights, whose splits and groups are known; `left_out` others were left out.
+    pub fn of(facts: &[FlightFacts], shares: &SplitShares, left_out: usize) -> Self {
         let flights = facts.len();
-        let in_split = |split: Split| assignment.splits.iter().filter(|it| **it == split).count();
-        let walks: BTreeSet<(&str, &str, &str)> = (facts.iter().zip(&assignment.groups))
-            .map(|(it, group)| (group.as_str(), it.layout.digest.as_str(), it.pedestrian_id.as_str()))
-            .collect();
+        let in_split = |split: Split| facts.iter().filter(|it| it.split == split.name()).count();
+        let walks: BTreeSet<(&str, &str, &str)> =
+            facts.iter().map(|it| (group(it), it.layout.digest.as_str(), it.pedestrian_id.as_str())).collect();
         let mut groups: BTreeMap<&str, usize> = BTreeMap::new();
         walks.iter().for_each(|walk| *groups.entry(walk.0).or_default() += 1);
         // The first of the largest.
@@ -118,6 +116,14 @@ impl Balance {
         }
     }
 
+    /// Shares asked for and reached, in one line.
+    pub fn told(&self) -> String {
+        let of = |at: usize| {
+            format!("{} of {} in `{}`", percent(self.reached[at]), percent(self.asked[at]), Split::ALL[at].name())
+        };
+        format!("shares reached: {}, {}, {}; {} groups of {} walks", of(0), of(1), of(2), self.groups, self.walks)
+    }
+
     /// Refuses to publish where a share is missed by more than `splits.max_share_error`.
     pub fn refusal(&self, shares: &SplitShares) -> Option<Box<Diagnostic>> {
         let at = (0..3).find(|at| (self.asked[*at] - self.reached[*at]).abs() > shares.max_share_error)?;
@@ -134,6 +140,11 @@ impl Balance {
              `splits.max_share_error`",
         ))
     }
+}
+
+/// Name of the group of a flight; datasets from before groups were stored have the pedestrian only.
+fn group(it: &FlightFacts) -> &str {
+    if it.group.is_empty() { &it.pedestrian_id } else { &it.group }
 }
 
 fn percent(share: f64) -> String {
@@ -171,7 +182,12 @@ mod tests {
     }
 
     fn balance(facts: &[FlightFacts], shares: &SplitShares) -> Balance {
-        Balance::of(facts, &assign(facts, shares), shares, 0)
+        let assignment = assign(facts, shares);
+        let mut facts = facts.to_vec();
+        for ((it, split), group) in facts.iter_mut().zip(assignment.splits).zip(assignment.groups) {
+            (it.split, it.group) = (split.name().to_owned(), group);
+        }
+        Balance::of(&facts, shares, 0)
     }
 
     #[test]

@@ -1,10 +1,11 @@
 //! The linter: pairs of flights or towns that would be in a model's training and test data at once.
 
+use super::area;
 use super::facts::FlightFacts;
 use super::overlap::overlaps;
 use super::route;
 use cosfly_diagnose::{Diagnostic, Fault};
-use cosfly_schema::config::{DatasetConfig, SplitBy};
+use cosfly_schema::config::{DatasetConfig, SplitBy, SplitShares};
 use std::collections::{BTreeMap, BTreeSet};
 use std::fmt;
 
@@ -31,7 +32,7 @@ impl LintRules {
 /// Two flights or towns that must not be in different splits.
 #[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub struct Leak {
-    /// `split-town`, `split-pedestrian`, `split-twin`, `split-group`, `split-window` or `split-route`.
+    /// `split-town`, `split-pedestrian`, `split-twin`, `split-group`, `split-window`, `split-route` or `split-area`.
     pub rule: &'static str,
     /// Flight that the finding is reported for.
     pub trajectory_id: String,
@@ -57,6 +58,13 @@ pub struct Leaks {
 }
 
 impl Leaks {
+    /// Adds the flights of one dataset that are not in the split of their area.
+    pub fn of_areas(&mut self, facts: &[FlightFacts], shares: &SplitShares) {
+        for (it, message) in area::broken(facts, shares) {
+            self.add("split-area", it, format!("{}: {message}", named(it)));
+        }
+    }
+
     fn add(&mut self, rule: &'static str, at: &FlightFacts, message: String) {
         self.found += 1;
         let kept = self.kept_by_rule.entry(rule).or_default();

@@ -14,7 +14,8 @@ pub fn check(folder: &Path, tables: &SmallTables, report: &mut VerifyReport) {
     };
     // Tables that cannot be read were found before.
     let Ok(facts) = facts_of_dataset(folder, 0, policy.windows.shape().size()) else { return };
-    let leaks = splits::lint(&facts, &policy.rules());
+    let mut leaks = splits::lint(&facts, &policy.rules());
+    leaks.of_areas(&facts, &policy.splits);
     for leak in &leaks.kept {
         let place = tables.flights.get(&leak.trajectory_id).map(|flight| &flight.place);
         let (file, row) = place.map_or(("data/trajectories", 0), |(file, row)| (file, *row));

@@ -137,7 +137,7 @@ impl Stage for DatasetStage {
             ("rejected".to_owned(), summary.rejected.to_string()),
             ("mean visibility".to_owned(), format!("{:.3}", summary.visibility_sum / flights.max(1) as f64)),
         ]);
-        Ok(Produced { notes, ..Produced::default() })
+        Ok(Produced { notes, warnings: summary.warnings, ..Produced::default() })
     }
 }
 

@@ -11,6 +11,7 @@
 mod card;
 pub(crate) mod citation;
 mod datasheet;
+mod kept;
 pub mod layout;
 mod plan;
 mod report;

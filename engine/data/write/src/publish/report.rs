@@ -4,7 +4,7 @@ use super::source::DatasetSource;
 use super::summary::Summary;
 use cosfly_diagnose::Result;
 use cosfly_frames::DVec3;
-use cosfly_report::{BoxSketch, FlightSketch, RejectionSketch, Report, TownSketch};
+use cosfly_report::{BoxSketch, Figures, FlightSketch, RejectionSketch, Report, TownSketch};
 use cosfly_schema::config::DatasetConfig;
 use cosfly_schema::flight_labels::costs;
 use cosfly_schema::log::messages::edges_px;
@@ -14,11 +14,11 @@ use cosfly_schema::{Rejection, RenderedTrajectory, Role};
 /// Path of the page in the dataset.
 pub const PATH: &str = "report/index.html";
 
-/// The page of a dataset whose flights were sketched in the order of `source`.
+/// The page of a dataset whose flights have their places in `source` as numbers.
 pub fn page(
     config: &DatasetConfig,
     summary: &Summary,
-    flights: Vec<FlightSketch>,
+    figures: Figures,
     boxes: &[ObjectRecord],
     rejections: &[Rejection],
     source: &dyn DatasetSource,
@@ -33,12 +33,14 @@ pub fn page(
         creator: config.creator.name.clone(),
         languages: summary.languages.iter().cloned().collect(),
         towns: summary.towns.keys().map(|name| TownSketch { name: name.clone(), boxes: of_town(name) }).collect(),
-        flights,
+        figures,
         rejections: rejections.iter().map(rejection_sketch).collect(),
         planners: source.planners()?,
         shortcuts: Some(summary.shortcuts.figures()),
     };
-    cosfly_report::page(&report, &mut |flight, frame| Ok(source.previews(flight)?.jpegs.into_iter().nth(frame)))
+    cosfly_report::page(&report, &mut |flight, frame| {
+        Ok(source.previews(flight.number as usize)?.jpegs.into_iter().nth(frame))
+    })
 }
 
 fn box_sketch(object: &ObjectRecord) -> BoxSketch {
@@ -60,11 +62,12 @@ fn rejection_sketch(rejection: &Rejection) -> RejectionSketch {
     }
 }
 
-/// The figures of a flight that the page shows.
-pub fn sketch(record: &RenderedTrajectory, split: &str) -> FlightSketch {
+/// The figures of flight `number` that the page shows.
+pub fn sketch(number: usize, record: &RenderedTrajectory, split: &str) -> FlightSketch {
     let trajectory = &record.trajectory;
     let place = |it: DVec3| it.to_array().map(|metres| metres as f32);
     FlightSketch {
+        number: number as u64,
         id: record.trajectory_id.clone(),
         is_perturbed: record.role == Role::Perturbed,
         pedestrian: record.pedestrian_id.clone(),

@@ -1,5 +1,6 @@
 //! Writes a dataset table by table; one trajectory and one row group are in memory at a time.
 
+use super::kept::Kept;
 use super::plan::DatasetPlan;
 use super::source::{DatasetSource, PublishedLog};
 use super::summary::Summary;
@@ -12,7 +13,7 @@ use cosfly_diagnose::{Diagnostic, Fault, Result};
 use cosfly_fingerprint::sha256::{HashingWriter, sha256_of};
 use cosfly_metrics::WindowShape;
 use cosfly_render::{Channel, ChannelSet};
-use cosfly_report::FlightSketch;
+use cosfly_report::Figures;
 use cosfly_schema::card_text::filled;
 use cosfly_schema::config::DatasetConfig;
 use cosfly_schema::extras::{self, Extra, ExtraShape, ExtraSource, ExtraSummary};
@@ -20,7 +21,7 @@ use cosfly_schema::flight_table::Values;
 use cosfly_schema::log::target_state;
 use cosfly_schema::tables::{self, DatasetItem, FileRecord, Membership, Need, Table};
 use cosfly_schema::{LogRecord, PreviewStrip, Rejection, RenderedTrajectory, Split, TownLayout};
-use cosfly_splits::{Assignment, FlightFacts, LintRules};
+use cosfly_splits::{Assignment, Balance, FlightFacts, LintRules};
 use parquet::arrow::ArrowWriter;
 use std::collections::{BTreeMap, BTreeSet};
 use std::io::Write;
@@ -39,12 +40,28 @@ pub fn write_dataset(
     rejections: &[Rejection],
     keep_going: &dyn Fn() -> Result<()>,
 ) -> Result<Summary> {
+    match Kept::of(config, logs, source, rejections)? {
+        Some(kept) => write_kept(sink, &kept.config, &kept.logs, &kept, &kept.rejections, kept.left_out, keep_going),
+        None => write_kept(sink, config, logs, source, rejections, 0, keep_going),
+    }
+}
+
+/// Writes a dataset of all the given flights; `left_out` others are among the rejections.
+fn write_kept(
+    sink: &mut dyn OutputSink,
+    config: &DatasetConfig,
+    logs: &[PublishedLog],
+    source: &dyn DatasetSource,
+    rejections: &[Rejection],
+    left_out: usize,
+    keep_going: &dyn Fn() -> Result<()>,
+) -> Result<Summary> {
     if logs.is_empty() {
         return Err(nothing_to_publish(rejections));
     }
     let records: Vec<&LogRecord> = logs.iter().map(|log| &log.record).collect();
     let layouts: Vec<Arc<TownLayout>> = (0..logs.len()).map(|index| source.layout(index)).collect::<Result<_>>()?;
-    let assignment = split(config, logs, source, &layouts, keep_going)?;
+    let (assignment, balance) = split(config, logs, source, &layouts, left_out, keep_going)?;
     let plan = DatasetPlan::new(config, &records, &assignment)?;
     let mut dataset = Publishing { sink, files: vec![] };
     for (log, path) in logs.iter().zip(&plan.mcap_paths) {
@@ -61,7 +78,8 @@ pub fn write_dataset(
         source,
         keep_going,
     };
-    let (mut summary, flights) = summarise(&items, rejections)?;
+    let (mut summary, figures) = summarise(&items, rejections)?;
+    summary.warnings = balance.warnings();
     let config = &with_facts(config, &summary);
     for table in tables::of_trajectories() {
         let rows = dataset.trajectory_table(&table, &items)?;
@@ -81,7 +99,7 @@ pub fn write_dataset(
         dataset.put(path, text.as_bytes())?;
     }
     keep_going()?;
-    let page = report::page(config, &summary, flights, &boxes, rejections, source)?;
+    let page = report::page(config, &summary, figures, &boxes, rejections, source)?;
     dataset.put(report::PATH, page.as_bytes())?;
     dataset.put("schemas/cosfly.proto", target_state::proto_text().as_bytes())?;
     dataset.put("LICENSE", card::license_text(config).as_bytes())?;
@@ -103,8 +121,9 @@ fn split(
     logs: &[PublishedLog],
     source: &dyn DatasetSource,
     layouts: &[Arc<TownLayout>],
+    left_out: usize,
     keep_going: &dyn Fn() -> Result<()>,
-) -> Result<Assignment> {
+) -> Result<(Assignment, Balance)> {
     let size = config.windows.shape().size();
     let of_flight = |index| {
         keep_going()?;
@@ -120,8 +139,12 @@ fn split(
         (it.split, it.group) = (split.name().to_owned(), group.clone());
     }
     check_promises(&facts, config)?;
+    let balance = Balance::of(&facts, &config.splits, left_out);
+    if let Some(refusal) = balance.refusal(&config.splits) {
+        return Err(refusal);
+    }
     match cosfly_splits::refusal(&cosfly_splits::lint(&facts, &LintRules::of(config))) {
-        None => Ok(assignment),
+        None => Ok((assignment, balance)),
         Some(refusal) => Err(refusal),
     }
 }
@@ -184,19 +207,19 @@ fn nothing_to_publish(rejections: &[Rejection]) -> Box<Diagnostic> {
 }
 
 /// One pass over all trajectories for the figures of the card and the sketches of the report.
-fn summarise(items: &Items<'_>, rejections: &[Rejection]) -> Result<(Summary, Vec<FlightSketch>)> {
+fn summarise(items: &Items<'_>, rejections: &[Rejection]) -> Result<(Summary, Figures)> {
     let splits = Split::ALL.iter().map(|split| (split.name(), (0, 0))).collect();
     let mut summary = Summary { splits, ..Summary::default() };
     summary.count_rejections(rejections);
     let is_logged = |channel: &Channel| items.logs.iter().any(|log| log.channels.iter().any(|it| it == channel));
     summary.channels = ChannelSet::of(is_logged);
-    let mut flights = vec![];
+    let mut figures = Figures::default();
     for index in 0..items.logs.len() {
         let (item, split) = (items.load(index, Reading::default())?, items.plan.splits[index].name());
         summary.count(&item, split);
-        flights.push(report::sketch(&item.record, split));
+        figures.add(report::sketch(index, &item.record, split));
     }
-    Ok((summary, flights))
+    Ok((summary, figures))
 }
 
 /// The trajectories in the order of their logs.
