@@ -24,10 +24,7 @@ struct FolderSink<'a> {
 
 impl OutputSink for FolderSink<'_> {
     fn put(&mut self, name: &str, bytes: &[u8]) -> Result<()> {
-        let path = self.folder.join(name);
-        std::fs::create_dir_all(path.parent().unwrap_or(&self.folder))
-            .and_then(|()| std::fs::write(&path, bytes))
-            .map_err(|error| Diagnostic::io(format!("write `{}`", path.display()), &error))
+        put(&self.folder.join(name), bytes)
     }
 
     fn stream(&mut self, name: &str, write: &mut dyn FnMut(&mut dyn SeekWrite) -> Result<()>) -> Result<BlobRef> {
@@ -43,7 +40,14 @@ impl OutputSink for FolderSink<'_> {
     }
 }
 
-fn blob_of(bytes: &[u8]) -> BlobRef {
+/// Writes a file and the folders above it.
+pub(crate) fn put(path: &Path, bytes: &[u8]) -> Result<()> {
+    std::fs::create_dir_all(path.parent().unwrap_or(path))
+        .and_then(|()| std::fs::write(path, bytes))
+        .map_err(|error| Diagnostic::io(format!("write `{}`", path.display()), &error))
+}
+
+pub(crate) fn blob_of(bytes: &[u8]) -> BlobRef {
     BlobRef { digest: Digest::of(bytes), bytes: bytes.len() as u64 }
 }
 

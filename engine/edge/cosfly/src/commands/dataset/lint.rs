@@ -50,9 +50,10 @@ impl Command for Arguments {
         let window = policies.first().map_or(10, |policy| policy.windows.shape().size());
         let mut facts = vec![];
         for (number, dir) in self.dirs.iter().enumerate() {
-            facts.extend(facts_of_dataset(dir, number, window)?);
+            facts.extend(facts_of_dataset(dir, number, 0)?);
         }
         let mut leaks = lint(&facts, &rules);
+        leaks.of_windows(&facts, &self.dirs.iter().map(PathBuf::as_path).collect::<Vec<_>>(), window)?;
         if let [policy] = &policies[..] {
             leaks.of_areas(&facts, &policy.splits);
         }
