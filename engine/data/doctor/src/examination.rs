@@ -1,7 +1,8 @@
 //! Reads a folder, runs all checks, and lists the episodes without a flag.
 
+use crate::checks::Trace;
 use crate::sources::{lerobot, ours, v7};
-use crate::{Episode, Flag, Moment, Severity, checks, shortcuts};
+use crate::{Episode, Flag, Severity, checks, shortcuts};
 use cosfly_diagnose::{Diagnostic, Fault, Result};
 use cosfly_metrics::shortcuts::ShortcutFigures;
 use cosfly_read::PublishedDataset;
@@ -77,80 +78,134 @@ impl Examination {
 /// # Errors
 /// `doctor-layout` for an unknown layout; refusals of the machine. Faults of the data are flags.
 pub fn examine(folder: &Path, quotas: &[Quota], progress: &mut dyn FnMut(u64, u64)) -> Result<Examination> {
-    let (layout, episodes, mut flags, mut unchecked) = if ours::recognises(folder) {
+    let mut tally = Tally::new(quotas);
+    let (layout, flags, notes) = if ours::recognises(folder) {
         let mut flags = ours::files(folder)?;
-        let episodes = ours::episodes(folder, &mut flags, progress)?;
-        (Layout::Cosfly, episodes, flags, vec![])
+        ours::episodes(folder, &mut flags, &mut |episode| tally.add(&episode), progress)?;
+        (Layout::Cosfly, flags, vec![])
     } else if let Some(root) = v7::root(folder) {
-        let (episodes, flags) = v7::episodes(&root, progress)?;
-        (Layout::V7, episodes, flags, vec![])
+        (Layout::V7, v7::episodes(&root, &mut |episode| tally.add(&episode), progress)?, vec![])
     } else if lerobot::recognises(folder) {
         let (episodes, flags, notes) = lerobot::episodes(folder, progress)?;
-        (Layout::Lerobot, episodes, flags, notes)
+        episodes.iter().for_each(|episode| tally.add(episode));
+        (Layout::Lerobot, flags, notes)
     } else {
         return Err(unknown(folder));
     };
-    for episode in episodes.iter().filter(|it| !it.moments.is_empty()) {
-        flags.extend(checks::of_episode(episode));
-    }
-    flags.extend(checks::leaks(&episodes));
-    unchecked.extend(unstated(layout, &episodes));
     // Damage of the tables has its flag.
     let figures = || shortcuts::figures(&PublishedDataset::open(folder).ok()?).ok();
     let shortcuts = if layout == Layout::Cosfly { figures() } else { None };
-    Ok(Examination { unchecked, shortcuts, ..summed(layout, &episodes, flags, quotas) })
+    Ok(Examination { shortcuts, ..tally.summed(layout, flags, notes) })
 }
 
-/// Values that no episode has, whose checks were skipped.
-fn unstated(layout: Layout, episodes: &[Episode]) -> Vec<String> {
-    let is_stated = |what: &dyn Fn(&Episode) -> bool| episodes.is_empty() || episodes.iter().any(what);
-    let moments = |what: fn(&Moment) -> bool| is_stated(&|it| it.moments.iter().any(what));
-    let mut gaps = vec![
-        (is_stated(&|it| it.split.is_some()), "leaks between splits: no splits are stated"),
-        (is_stated(&|it| it.limits[1..].iter().any(Option::is_some)), "limits of motion: none are stated"),
-        (is_stated(&|it| !it.captions.is_empty()), "instructions: none can be parsed"),
-    ];
-    if layout != Layout::Lerobot {
-        gaps.extend([
-            (is_stated(&|it| it.camera.is_some()), "projection of the target: no camera without a bent lens is stated"),
-            (moments(|it| it.clearance_m.is_some()), "clearance: it is not stated"),
-            (moments(|it| it.visible.is_some()), "visibility: it is not stated"),
-        ]);
-    }
-    gaps.into_iter().filter(|(is_stated, _)| !is_stated).map(|(_, gap)| gap.to_owned()).collect()
+/// What is kept of the episodes: each is checked when it is read, and gone before the next.
+struct Tally<'a> {
+    quotas: &'a [Quota],
+    flags: Vec<Flag>,
+    traces: Vec<Trace>,
+    frames: usize,
+    visibility: [usize; SHARES.len()],
+    /// Episodes that meet each quota.
+    kept_quotas: Vec<usize>,
+    stated: Stated,
 }
 
-fn summed(layout: Layout, episodes: &[Episode], flags: Vec<Flag>, quotas: &[Quota]) -> Examination {
-    let mut worst: BTreeMap<&str, Severity> = BTreeMap::new();
-    for flag in &flags {
-        let severity = worst.entry(&flag.place).or_insert(flag.severity);
-        *severity = flag.severity.max(*severity);
+/// Values that some episode has.
+#[derive(Default)]
+struct Stated {
+    split: bool,
+    limits: bool,
+    captions: bool,
+    camera: bool,
+    clearance: bool,
+    visible: bool,
+}
+
+impl<'a> Tally<'a> {
+    fn new(quotas: &'a [Quota]) -> Self {
+        Self {
+            quotas,
+            flags: vec![],
+            traces: vec![],
+            frames: 0,
+            visibility: [0; SHARES.len()],
+            kept_quotas: vec![0; quotas.len()],
+            stated: Stated::default(),
+        }
     }
-    let ids: BTreeSet<&str> = episodes.iter().map(|it| it.id.as_str()).collect();
-    let of = |severity: Severity| ids.iter().filter(|id| worst.get(**id) == Some(&severity)).count();
-    let (imperfect, damaged) = (of(Severity::Imperfect), of(Severity::Damage));
-    let kept = ids.iter().filter(|id| !worst.contains_key(**id)).map(|id| (*id).to_owned()).collect();
-    let stated: Vec<f64> = episodes.iter().flat_map(|it| &it.moments).filter_map(|it| it.visible).collect();
-    let visibility = SHARES.iter().enumerate().map(|(at, least)| {
-        let below = SHARES.get(at + 1).copied().unwrap_or(f64::INFINITY);
-        (*least, stated.iter().filter(|share| (*least..below).contains(*share)).count())
-    });
-    let share = |quota: &Quota| {
-        let has = |it: &&Episode| it.losses_s().iter().any(|lost| *lost >= quota.lost_s.0 && *lost <= quota.lost_s.1);
-        episodes.iter().filter(has).count() as f64 / ids.len().max(1) as f64
-    };
-    Examination {
-        layout,
-        episodes: ids.len(),
-        frames: episodes.iter().map(|it| it.moments.len()).sum(),
-        kept,
-        imperfect,
-        damaged,
-        visibility: visibility.collect(),
-        quotas: quotas.iter().map(|quota| (quota.clone(), share(quota))).collect(),
-        shortcuts: None,
-        unchecked: vec![],
-        flags,
+
+    /// Checks an episode and counts it.
+    fn add(&mut self, episode: &Episode) {
+        if !episode.moments.is_empty() {
+            self.flags.extend(checks::of_episode(episode));
+        }
+        self.traces.push(Trace::of(episode));
+        self.frames += episode.moments.len();
+        for share in episode.moments.iter().filter_map(|it| it.visible) {
+            if let Some(class) = SHARES.iter().rposition(|least| share >= *least) {
+                self.visibility[class] += 1;
+            }
+        }
+        let losses_s = episode.losses_s();
+        for (kept, quota) in self.kept_quotas.iter_mut().zip(self.quotas) {
+            let (least, most) = quota.lost_s;
+            *kept += usize::from(losses_s.iter().any(|lost| (least..=most).contains(lost)));
+        }
+        let stated = &mut self.stated;
+        stated.split |= episode.split.is_some();
+        stated.limits |= episode.limits[1..].iter().any(Option::is_some);
+        stated.captions |= !episode.captions.is_empty();
+        stated.camera |= episode.camera.is_some();
+        stated.clearance |= episode.moments.iter().any(|it| it.clearance_m.is_some());
+        stated.visible |= episode.moments.iter().any(|it| it.visible.is_some());
+    }
+
+    /// Values that no episode has, whose checks were skipped.
+    fn unstated(&self, layout: Layout) -> Vec<String> {
+        let stated = &self.stated;
+        let mut gaps = vec![
+            (stated.split, "leaks between splits: no splits are stated"),
+            (stated.limits, "limits of motion: none are stated"),
+            (stated.captions, "instructions: none can be parsed"),
+        ];
+        if layout != Layout::Lerobot {
+            gaps.extend([
+                (stated.camera, "projection of the target: no camera without a bent lens is stated"),
+                (stated.clearance, "clearance: it is not stated"),
+                (stated.visible, "visibility: it is not stated"),
+            ]);
+        }
+        let is_gap = |is_stated: bool| !is_stated && !self.traces.is_empty();
+        gaps.into_iter().filter(|(is_stated, _)| is_gap(*is_stated)).map(|(_, gap)| gap.to_owned()).collect()
+    }
+
+    /// The examination, with flags of files and notes on checks that were impossible.
+    fn summed(self, layout: Layout, flags_of_files: Vec<Flag>, notes: Vec<String>) -> Examination {
+        let unchecked = [notes, self.unstated(layout)].concat();
+        let flags = [flags_of_files, self.flags, checks::leaks(&self.traces)].concat();
+        let mut worst: BTreeMap<&str, Severity> = BTreeMap::new();
+        for flag in &flags {
+            let severity = worst.entry(&flag.place).or_insert(flag.severity);
+            *severity = flag.severity.max(*severity);
+        }
+        let ids: BTreeSet<&str> = self.traces.iter().map(Trace::id).collect();
+        let of = |severity: Severity| ids.iter().filter(|id| worst.get(**id) == Some(&severity)).count();
+        let (imperfect, damaged) = (of(Severity::Imperfect), of(Severity::Damage));
+        let kept = ids.iter().filter(|id| !worst.contains_key(**id)).map(|id| (*id).to_owned()).collect();
+        let share = |count: usize| count as f64 / ids.len().max(1) as f64;
+        Examination {
+            layout,
+            episodes: ids.len(),
+            frames: self.frames,
+            kept,
+            imperfect,
+            damaged,
+            visibility: SHARES.into_iter().zip(self.visibility).collect(),
+            quotas: self.quotas.iter().cloned().zip(self.kept_quotas.into_iter().map(share)).collect(),
+            shortcuts: None,
+            unchecked,
+            flags,
+        }
     }
 }
 

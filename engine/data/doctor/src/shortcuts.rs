@@ -2,12 +2,9 @@
 
 use cosfly_diagnose::Result;
 use cosfly_metrics::shortcuts::{Edges, ShortcutFigures, Shortcuts};
-use cosfly_read::PublishedDataset;
+use cosfly_read::{PublishedDataset, PublishedFlight, RowIndex};
 use cosfly_schema::tables::{People, Trajectories};
-use std::collections::{BTreeMap, BTreeSet};
-
-/// Boxes of people by trajectory and frame.
-type Boxes = BTreeMap<(String, u32), Vec<Edges>>;
+use std::collections::BTreeMap;
 
 /// Figures over all flights; experts alone count for places in the picture. Datasets from before the columns of clothes existed
 /// have figures of places alone.
@@ -16,9 +13,7 @@ type Boxes = BTreeMap<(String, u32), Vec<Edges>>;
 /// Damage of the tables.
 pub fn figures(dataset: &PublishedDataset) -> Result<ShortcutFigures> {
     let mut shortcuts = Shortcuts::default();
-    let towns: BTreeMap<&str, &str> =
-        dataset.flights().iter().map(|it| (it.trajectory_id.as_str(), it.town.as_str())).collect();
-    let town = |id: &str| towns.get(id).copied().unwrap_or_default();
+    let town = |id: &str| dataset.place(id).map_or("", |place| &dataset.flights()[place].town);
     for (_, path) in dataset.files("trajectories")? {
         cosfly_read::read(&path, &mut |rows| {
             for row in 0..rows.len() {
@@ -31,34 +26,69 @@ pub fn figures(dataset: &PublishedDataset) -> Result<ShortcutFigures> {
             Ok(())
         })?;
     }
-    let experts: BTreeSet<&str> =
-        dataset.flights().iter().filter(|it| it.expert_id.is_none()).map(|it| it.trajectory_id.as_str()).collect();
-    let mut boxes = Boxes::new();
     for (_, path) in dataset.files("people")? {
         cosfly_read::read(&path, &mut |rows| {
             for row in 0..rows.len() {
-                let id = rows.get(People::trajectory_id, row)?;
                 if rows.has(People::top_linear_rgb) {
+                    let id = rows.get(People::trajectory_id, row)?;
                     let walk = format!("{} {}", town(&id), rows.get(People::walk_id, row)?);
                     shortcuts.add_other(&walk, rows.get(People::top_linear_rgb, row)?);
-                }
-                if experts.contains(id.as_str()) {
-                    let edges = rows.get(People::visible_box_px, row)?.map(f64::from);
-                    boxes.entry((id, rows.get(People::frame, row)?)).or_default().push(edges);
                 }
             }
             Ok(())
         })?;
     }
+    let mut people = PeopleBoxes::of(dataset)?;
     dataset.walk(&|flight| flight.expert_id.is_none(), &mut |flight, rows| {
         let image_px = [flight.camera.width, flight.camera.height].map(f64::from);
+        let boxes = people.boxes(flight)?;
         for (frame, row) in rows.iter().enumerate() {
             if let Some(target) = row.visible_box_px {
-                let others = boxes.remove(&(flight.trajectory_id.clone(), frame as u32)).unwrap_or_default();
-                shortcuts.add_frame(image_px, target.map(f64::from), others.into_iter());
+                let others = boxes.get(&(frame as u32)).into_iter().flatten().copied();
+                shortcuts.add_frame(image_px, target.map(f64::from), others);
             }
         }
         Ok(())
     })?;
     Ok(shortcuts.figures())
+}
+
+/// Boxes of people by frame.
+type Boxes = BTreeMap<u32, Vec<Edges>>;
+
+/// Boxes of people, flight by flight; those of neighbouring flights are read together.
+struct PeopleBoxes<'a> {
+    dataset: &'a PublishedDataset,
+    index: RowIndex,
+    known: BTreeMap<usize, Boxes>,
+}
+
+impl<'a> PeopleBoxes<'a> {
+    fn of(dataset: &'a PublishedDataset) -> Result<Self> {
+        Ok(Self { dataset, index: dataset.row_index("people")?, known: BTreeMap::new() })
+    }
+
+    fn boxes(&mut self, flight: &PublishedFlight) -> Result<Boxes> {
+        let Some(place) = self.dataset.place(&flight.trajectory_id).filter(|it| self.index.has(*it)) else {
+            return Ok(Boxes::new());
+        };
+        if !self.known.contains_key(&place) {
+            let wanted = self.index.beside(place);
+            let mut known: BTreeMap<usize, Boxes> = BTreeMap::new();
+            self.index.visit(&wanted, &mut |rows, _| {
+                let ids = rows.values(People::trajectory_id)?;
+                let (frames, edges) = (rows.values(People::frame)?, rows.values(People::visible_box_px)?);
+                for row in 0..rows.len() {
+                    let Some(place) = self.dataset.place(ids.text(row)).filter(|it| wanted.contains(it)) else {
+                        continue;
+                    };
+                    let of_frame = known.entry(place).or_default().entry(frames.at(row)?).or_default();
+                    of_frame.push(edges.at(row)?.map(f64::from));
+                }
+                Ok(())
+            })?;
+            self.known = known;
+        }
+        Ok(self.known.remove(&place).unwrap_or_default())
+    }
 }

@@ -40,7 +40,8 @@ impl Flights {
     /// # Errors
     /// Damage of the dataset: an expert that is not there, or frames that an expert does not have.
     pub fn read(dataset: &PublishedDataset) -> Result<Self> {
-        let tracks = dataset.tracks()?;
+        let all = (0..dataset.flights().len()).collect();
+        let tracks: Vec<FlightTrack> = dataset.tracks(&dataset.row_index("frames")?, &all)?.into_values().collect();
         let rows = dataset.flights().to_vec();
         let places: BTreeMap<String, usize> =
             rows.iter().enumerate().map(|(place, row)| (row.trajectory_id.clone(), place)).collect();

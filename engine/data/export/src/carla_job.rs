@@ -100,7 +100,7 @@ impl JobFlight {
                 fov_deg: camera.horizontal_fov_rad.to_degrees(),
             },
             weather_preset: flight.weather.clone(),
-            weather: flight.weather_numbers.clone(),
+            weather: (*flight.weather_numbers).clone(),
             target: JobTarget {
                 height_m: flight.target_height_m,
                 radius_m: flight.target_radius_m,
@@ -166,7 +166,7 @@ mod tests {
         let frame = FrameRow {
             camera_pose: cosfly_frames::Pose::looking_at(DVec3::new(1.0, 2.0, 30.0), DVec3::ZERO),
             target: cosfly_frames::TargetState { feet_in_world: DVec3::ZERO, heading_rad: 0.0, speed_mps: 1.0 },
-            ..dataset.frames(&dataset.flights()[0]).unwrap().remove(0)
+            ..dataset.frames(&dataset.row_index("frames").unwrap(), &dataset.flights()[0]).unwrap().remove(0)
         };
         let job = JobFrame::new(&frame, DVec3::new(100.0, -50.0, 5.0));
         assert_eq!(

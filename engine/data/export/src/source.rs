@@ -3,12 +3,13 @@
 use crate::shared_options::Language;
 use cosfly_diagnose::{Diagnostic, Fault, Result};
 use cosfly_frames::Pose;
-use cosfly_read::{FrameRow, LoggedFrame, PublishedDataset, PublishedFlight};
+use cosfly_read::{CaptionReader, FrameRow, LogReader, LoggedFrame, PublishedDataset, PublishedFlight, RowIndex};
 use cosfly_render::channels::{self, Channel};
 use cosfly_schema::CaptionRecord;
 use rayon::prelude::*;
-use std::cell::Cell;
-use std::collections::{BTreeMap, BTreeSet};
+use std::cell::{Cell, OnceCell, RefCell};
+use std::collections::BTreeSet;
+use std::sync::{Mutex, PoisonError};
 
 /// Number of frames that are read and encoded at the same time, so that memory does not grow with the length of a flight.
 const BATCH: usize = 16;
@@ -28,7 +29,9 @@ pub struct Source<'a> {
     pub dataset: &'a PublishedDataset,
     /// Trajectory ids of the chosen flights.
     chosen: BTreeSet<String>,
-    captions: BTreeMap<String, Vec<CaptionRecord>>,
+    captions: RefCell<CaptionReader<'a>>,
+    /// Places of the rows of table `frames`.
+    index: OnceCell<RowIndex>,
     progress: &'a dyn Fn(u64, u64),
     done: Cell<u64>,
     all: Cell<u64>,
@@ -41,8 +44,10 @@ pub struct Episode<'a> {
     /// Rows of the table of frames.
     pub frames: Vec<FrameRow>,
     /// Captions in all languages.
-    pub captions: &'a [CaptionRecord],
+    pub captions: Vec<CaptionRecord>,
     source: &'a Source<'a>,
+    /// Open logs of the flight that no thread reads now.
+    logs: Mutex<Vec<LogReader>>,
 }
 
 impl<'a> Source<'a> {
@@ -73,7 +78,8 @@ impl<'a> Source<'a> {
         Ok(Self {
             dataset,
             chosen: chosen.into_iter().map(|flight| flight.trajectory_id.clone()).collect(),
-            captions: dataset.captions()?,
+            captions: RefCell::new(CaptionReader::of(dataset)?),
+            index: OnceCell::new(),
             progress,
             done: Cell::new(0),
             all: Cell::new(all),
@@ -114,7 +120,7 @@ impl<'a> Source<'a> {
 
     /// The flight called `id`, chosen or not.
     pub fn flight(&self, id: &str) -> Option<&'a PublishedFlight> {
-        self.dataset.flights().iter().find(|flight| flight.trajectory_id == id)
+        self.dataset.place(id).map(|place| &self.dataset.flights()[place])
     }
 
     /// Calls `visit` with each chosen flight, in the dataset's order. One is in memory at a time.
@@ -132,24 +138,30 @@ impl<'a> Source<'a> {
         self.all.set(self.flights().filter(|flight| wanted(flight)).map(|flight| flight.frames as u64).sum());
         self.done.set(0);
         self.dataset.walk(&is_wanted, &mut |flight, frames| {
-            let captions = self.captions.get(&flight.trajectory_id).map_or(&[][..], |captions| &captions[..]);
+            let place = self.dataset.place(&flight.trajectory_id).unwrap_or_default();
+            let captions = self.captions.borrow_mut().at(place)?.to_vec();
             let end = self.done.get() + frames.len() as u64;
-            visit(&Episode { flight, frames, captions, source: self })?;
+            visit(&Episode { flight, frames, captions, source: self, logs: Mutex::default() })?;
             self.set_done(end);
             Ok(())
         })
     }
 
-    /// Poses of the chosen flights' experts by trajectory id; the experts need not be chosen.
-    pub fn expert_poses(&self) -> Result<BTreeMap<String, Vec<Pose>>> {
-        let experts: BTreeSet<&str> =
-            self.flights().map(|flight| flight.expert_id.as_deref().unwrap_or(&flight.trajectory_id)).collect();
-        let mut poses = BTreeMap::new();
-        self.dataset.walk(&|flight| experts.contains(flight.trajectory_id.as_str()), &mut |flight, rows| {
-            poses.insert(flight.trajectory_id.clone(), rows.iter().map(|row| row.pose).collect());
-            Ok(())
-        })?;
-        Ok(poses)
+    /// Poses of a flight's expert, which need not be chosen; none where the dataset lacks it.
+    ///
+    /// # Errors
+    /// Damage of table `frames`.
+    pub fn expert_poses(&self, flight: &PublishedFlight) -> Result<Vec<Pose>> {
+        let expert = flight.expert_id.as_deref().unwrap_or(&flight.trajectory_id);
+        let Some(place) = self.dataset.place(expert) else { return Ok(vec![]) };
+        let index = match self.index.get() {
+            Some(index) => index,
+            None => {
+                let index = self.dataset.row_index("frames")?;
+                self.index.get_or_init(|| index)
+            }
+        };
+        Ok(self.dataset.tracks(index, &[place].into())?.remove(&place).map_or(vec![], |track| track.poses))
     }
 
     fn set_done(&self, done: u64) {
@@ -167,18 +179,14 @@ impl Episode<'_> {
         make: impl Fn(usize, LoggedFrame) -> Result<T> + Sync,
         mut take: impl FnMut(usize, T) -> Result<()>,
     ) -> Result<()> {
-        let (dataset, flight) = (self.source.dataset, self.flight);
+        let made_of = |frame: &usize| {
+            let mut log = self.log()?;
+            let made = make(*frame, log.frame_with_instances(*frame)?);
+            self.logs.lock().unwrap_or_else(PoisonError::into_inner).push(log);
+            made
+        };
         for batch in frames.chunks(BATCH) {
-            let made: Vec<T> = batch
-                .par_iter()
-                .map_init(
-                    || dataset.log(flight),
-                    |log, frame| {
-                        let log = log.as_mut().map_err(|error| error.clone())?;
-                        make(*frame, log.frame_with_instances(*frame)?)
-                    },
-                )
-                .collect::<Result<_>>()?;
+            let made: Vec<T> = batch.par_iter().map(made_of).collect::<Result<_>>()?;
             for (frame, made) in batch.iter().zip(made) {
                 take(*frame, made)?;
             }
@@ -187,16 +195,22 @@ impl Episode<'_> {
         Ok(())
     }
 
-    /// The expert's pose of every frame (for an expert, the own poses); `experts` are [`Source::expert_poses`].
+    /// An open log of the flight that nobody reads: each thread opens one at most.
+    fn log(&self) -> Result<LogReader> {
+        let open = self.logs.lock().unwrap_or_else(PoisonError::into_inner).pop();
+        open.map_or_else(|| self.source.dataset.log(self.flight), Ok)
+    }
+
+    /// The expert's pose of every frame (for an expert, the own poses).
     ///
     /// # Errors
     /// `dataset-damaged` when the expert or one of its frames is absent.
-    pub fn expert_poses(&self, experts: &BTreeMap<String, Vec<Pose>>) -> Result<Vec<Pose>> {
+    pub fn expert_poses(&self) -> Result<Vec<Pose>> {
         let flight = self.flight;
-        let poses = experts.get(flight.expert_id.as_deref().unwrap_or(&flight.trajectory_id));
+        let poses = self.source.expert_poses(flight)?;
         let pose = |(frame, row): (usize, &FrameRow)| {
             let expert_frame = row.disturbance.as_ref().map_or(frame, |it| it.expert_frame as usize);
-            poses.and_then(|poses| poses.get(expert_frame)).copied().ok_or_else(|| {
+            poses.get(expert_frame).copied().ok_or_else(|| {
                 let message = format!("the expert of frame {frame} of `{}` is not there", flight.trajectory_id);
                 Diagnostic::new("dataset-damaged", Fault::Input, message)
             })
@@ -206,7 +220,13 @@ impl Episode<'_> {
 
     /// Some of the frames as an episode. Its pictures keep the frame numbers of the whole flight.
     pub fn part(&self, frames: std::ops::Range<usize>) -> Episode<'_> {
-        Episode { frames: self.frames[frames].to_vec(), ..*self }
+        Episode {
+            flight: self.flight,
+            frames: self.frames[frames].to_vec(),
+            captions: self.captions.clone(),
+            source: self.source,
+            logs: Mutex::default(),
+        }
     }
 
     /// Every frame.

@@ -1,6 +1,7 @@
 //! Histograms of experts' and perturbed flights as figures, with a table of their numbers.
 
 use crate::axes::{Axes, open};
+use crate::distribution::Distribution;
 use crate::statistics;
 use crate::text::{escaped, percent, short};
 use std::fmt::Write;
@@ -12,9 +13,9 @@ pub struct Histogram<'a> {
     /// Quantity with its unit, below the axis.
     pub axis: &'a str,
     /// Values of experts' flights.
-    pub experts: Vec<f32>,
+    pub experts: &'a Distribution,
     /// Values of perturbed flights.
-    pub perturbed: Vec<f32>,
+    pub perturbed: &'a Distribution,
     /// Least and greatest value on the axis; from the values where it is absent.
     pub range: Option<(f64, f64)>,
     /// Smallest width of a bin.
@@ -24,17 +25,15 @@ pub struct Histogram<'a> {
 impl Histogram<'_> {
     /// The figure, HTML; empty without values.
     pub fn draw(&self) -> String {
-        let mut all: Vec<f64> =
-            self.experts.iter().chain(&self.perturbed).map(|it| f64::from(*it)).filter(|it| it.is_finite()).collect();
+        let mut all = self.experts.clone();
+        all.merge(self.perturbed);
         if all.is_empty() {
             return String::new();
         }
-        all.sort_by(f64::total_cmp);
-        let (low, high) =
-            self.range.unwrap_or_else(|| (statistics::quantile(&all, 0.0), statistics::quantile(&all, 0.995)));
+        let (low, high) = self.range.unwrap_or_else(|| (all.quantile(0.0), all.quantile(0.995)));
         let wanted = ((high - low) / self.least_step.max(1e-9) + 1.0).min(16.0);
         let edges = statistics::edges(low, high, wanted as usize);
-        let series = [("expert", &self.experts), ("perturbed", &self.perturbed)];
+        let series = [("expert", self.experts), ("perturbed", self.perturbed)];
         let series: Vec<(&str, Vec<f64>)> = series
             .into_iter()
             .filter(|(_, numbers)| !numbers.is_empty())
@@ -58,13 +57,11 @@ impl Histogram<'_> {
     }
 
     fn summary(&self) -> String {
-        let of = |name: &str, numbers: &[f32]| {
-            let mut sorted: Vec<f64> = numbers.iter().map(|it| f64::from(*it)).filter(|it| it.is_finite()).collect();
-            sorted.sort_by(f64::total_cmp);
-            let [p5, p50, p95] = [0.05, 0.5, 0.95].map(|at| short(statistics::quantile(&sorted, at)));
-            (!sorted.is_empty()).then(|| format!("{name}: median {p50}, 5 to 95 %: {p5} to {p95}"))
+        let of = |name: &str, numbers: &Distribution| {
+            let [p5, p50, p95] = [0.05, 0.5, 0.95].map(|at| short(numbers.quantile(at)));
+            (!numbers.is_empty()).then(|| format!("{name}: median {p50}, 5 to 95 %: {p5} to {p95}"))
         };
-        let parts = [of("experts", &self.experts), of("perturbed", &self.perturbed)];
+        let parts = [of("experts", self.experts), of("perturbed", self.perturbed)];
         parts.into_iter().flatten().collect::<Vec<_>>().join("; ")
     }
 }

@@ -1,5 +1,7 @@
 //! Histograms and quantiles.
 
+use crate::distribution::Distribution;
+
 /// The value below which a share `at` of the sorted values lies; 0 without any.
 pub fn quantile(sorted: &[f64], at: f64) -> f64 {
     let place = (at * sorted.len().saturating_sub(1) as f64).round() as usize;
@@ -28,12 +30,12 @@ pub fn round_step(least: f64) -> f64 {
 }
 
 /// Share of `values` in each bin; what lies outside counts to the outer bins.
-pub fn shares(values: &[f32], edges: &[f64]) -> Vec<f64> {
+pub fn shares(values: &Distribution, edges: &[f64]) -> Vec<f64> {
     let bins = edges.len().saturating_sub(1).max(1);
     let mut counts = vec![0_u64; bins];
-    for value in values.iter().filter(|value| value.is_finite()) {
-        let bin = edges.partition_point(|edge| *edge <= f64::from(*value));
-        counts[bin.saturating_sub(1).min(bins - 1)] += 1;
+    for (value, count) in values.values() {
+        let bin = edges.partition_point(|edge| *edge <= value);
+        counts[bin.saturating_sub(1).min(bins - 1)] += count;
     }
     let all = counts.iter().sum::<u64>().max(1) as f64;
     counts.into_iter().map(|count| count as f64 / all).collect()
@@ -48,7 +50,9 @@ mod tests {
         let edges = edges(0.3, 97.0, 10);
         assert_eq!(edges.first(), Some(&0.0));
         assert_eq!(edges.last(), Some(&100.0));
-        let shares = shares(&[0.3, 10.0, 10.1, 97.0, 1e9], &edges);
+        let mut values = Distribution::default();
+        [0.3, 10.0, 10.1, 97.0, 1e9].into_iter().for_each(|value| values.add(value));
+        let shares = shares(&values, &edges);
         assert!((shares.iter().sum::<f64>() - 1.0).abs() < 1e-12);
         assert_eq!((shares[0], shares[9]), (0.2, 0.4));
         assert_eq!(quantile(&[1.0, 2.0, 3.0], 0.5), 2.0);

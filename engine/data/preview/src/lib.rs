@@ -13,13 +13,13 @@ pub use selection::FrameList;
 
 use clip::Clip;
 use cosfly_diagnose::{Diagnostic, Fault, Result};
-use cosfly_read::{PublishedDataset, PublishedFlight};
+use cosfly_read::{FrameRow, PublishedDataset, PublishedFlight};
 use ground::SeenGround;
 use plan::Plan;
 use selection::spread;
 use sheet::Sheet;
 use shot::Shot;
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 
 /// Rows of a sheet when no frames are asked for.
 const SHEET_FRAMES: usize = 6;
@@ -88,10 +88,14 @@ pub fn draw(
         }
     }
     progress(needed.len() as u64, needed.len() as u64);
-    let mut family = vec![];
-    for member in dataset.family(flight) {
-        family.push((member, dataset.frames(member)?));
-    }
+    let members: Vec<&PublishedFlight> = dataset.family(flight);
+    let ids: BTreeSet<&str> = members.iter().map(|it| it.trajectory_id.as_str()).collect();
+    let mut frames_of: BTreeMap<String, Vec<FrameRow>> = BTreeMap::new();
+    dataset.walk(&|it| ids.contains(it.trajectory_id.as_str()), &mut |it, frames| {
+        frames_of.insert(it.trajectory_id.clone(), frames);
+        Ok(())
+    })?;
+    let family = members.into_iter().filter_map(|it| Some((it, frames_of.remove(&it.trajectory_id)?))).collect();
     let plan = Plan { flight, family, boxes: log.scene()?, ground };
     let shown = [of_sheet.len(), of_clip.len()];
     Ok(Pictures { sheet: sheet.finish().png()?, clip: clip.finish()?, plan: plan.draw().png()?, shown })

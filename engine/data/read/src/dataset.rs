@@ -3,11 +3,10 @@
 use super::image_log::ImageLog;
 use super::log::LogReader;
 use super::rows::read;
-use super::trajectory::PublishedFlight;
+use super::trajectory::{PublishedFlight, Shared};
 use cosfly_diagnose::{Diagnostic, Fault, Result, nearest_name};
-use cosfly_schema::CaptionRecord;
 use cosfly_schema::Split;
-use cosfly_schema::tables::{Captions, People, Rejected};
+use cosfly_schema::tables::{People, Rejected};
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Component, Path, PathBuf};
 
@@ -19,6 +18,8 @@ const LISTED: usize = 8;
 pub struct PublishedDataset {
     folder: PathBuf,
     flights: Vec<PublishedFlight>,
+    /// Places of the flights in the order of their ids.
+    by_id: Vec<u32>,
 }
 
 impl PublishedDataset {
@@ -27,12 +28,14 @@ impl PublishedDataset {
     /// # Errors
     /// `dataset-none` where there is no dataset, otherwise damage of its files.
     pub fn open(folder: &Path) -> Result<Self> {
-        let mut dataset = Self { folder: folder.to_owned(), flights: vec![] };
-        let mut flights = vec![];
+        let mut dataset = Self { folder: folder.to_owned(), flights: vec![], by_id: vec![] };
+        let (mut flights, mut shared): (Vec<PublishedFlight>, _) = (vec![], Shared::default());
         for (split, path) in dataset.files("trajectories")? {
             read(&path, &mut |rows| {
                 for row in 0..rows.len() {
-                    flights.push(PublishedFlight::read(rows, row, &split)?);
+                    let mut flight = PublishedFlight::read(rows, row, &split)?;
+                    shared.share(&mut flight);
+                    flights.push(flight);
                 }
                 Ok(())
             })?;
@@ -40,6 +43,8 @@ impl PublishedDataset {
         if flights.is_empty() {
             return Err(no_dataset(folder));
         }
+        dataset.by_id = (0..flights.len() as u32).collect();
+        dataset.by_id.sort_by(|a, b| flights[*a as usize].trajectory_id.cmp(&flights[*b as usize].trajectory_id));
         dataset.flights = flights;
         Ok(dataset)
     }
@@ -95,25 +100,11 @@ impl PublishedDataset {
         Ok(found)
     }
 
-    /// Captions of all trajectories, by trajectory id.
-    ///
-    /// # Errors
-    /// Damage of table `captions`.
-    pub fn captions(&self) -> Result<BTreeMap<String, Vec<CaptionRecord>>> {
-        let mut captions: BTreeMap<String, Vec<CaptionRecord>> = BTreeMap::new();
-        for (_, path) in self.files("captions")? {
-            read(&path, &mut |rows| {
-                for row in 0..rows.len() {
-                    captions.entry(rows.get(Captions::trajectory_id, row)?).or_default().push(CaptionRecord {
-                        language: rows.get(Captions::language, row)?,
-                        style: rows.get(Captions::style, row)?,
-                        text: rows.get(Captions::text, row)?,
-                    });
-                }
-                Ok(())
-            })?;
-        }
-        Ok(captions)
+    /// Place of the trajectory `id` in [`Self::flights`].
+    pub fn place(&self, id: &str) -> Option<usize> {
+        let id_of = |place: &u32| self.flights[*place as usize].trajectory_id.as_str();
+        let first = self.by_id.partition_point(|place| id_of(place) < id);
+        self.by_id.get(first).filter(|place| id_of(place) == id).map(|place| *place as usize)
     }
 
     /// Trajectory with the id `id`.
@@ -121,7 +112,7 @@ impl PublishedDataset {
     /// # Errors
     /// `dataset-no-flight`, with the nearest ids.
     pub fn flight(&self, id: &str) -> Result<&PublishedFlight> {
-        self.flights.iter().find(|flight| flight.trajectory_id == id).ok_or_else(|| {
+        self.place(id).map(|place| &self.flights[place]).ok_or_else(|| {
             let message = format!("`{}` has no trajectory `{id}`", self.folder.display());
             let refusal = Diagnostic::new("dataset-no-flight", Fault::Recipe, message);
             let ids: Vec<&str> = self.flights.iter().map(|flight| flight.trajectory_id.as_str()).collect();

@@ -2,12 +2,14 @@
 
 use super::damage::damaged;
 use super::dataset::PublishedDataset;
+use super::row_index::RowIndex;
 use super::rows::{Rows, read};
 use super::trajectory::PublishedFlight;
 use cosfly_diagnose::{Diagnostic, Fault, Result};
 use cosfly_frames::{DVec3, Pose, TargetState};
 use cosfly_schema::tables::{Edges, Frames};
 use std::collections::{BTreeMap, BTreeSet};
+use std::path::Path;
 
 /// A row of table `frames`, without costs, labels and preview. World frame: CARLA's, metres, radians.
 #[derive(Clone, Debug, PartialEq)]
@@ -101,12 +103,7 @@ impl PublishedDataset {
                         open = awaited.remove(id).map(|it| (it, Vec::with_capacity(it.frames.min(MOST_ROOM))));
                     }
                     if let Some((flight, frames)) = &mut open {
-                        let frame = FrameRow::read(rows, row)?;
-                        if frame.frame as usize != frames.len() {
-                            let what = format!("frame {} of `{}` is out of order", frame.frame, flight.trajectory_id);
-                            return Err(damaged(&path, &what, format!("frame {} was expected", frames.len())));
-                        }
-                        frames.push(frame);
+                        push(frames, FrameRow::read(rows, row)?, flight, &path)?;
                     }
                 }
                 Ok(())
@@ -119,15 +116,28 @@ impl PublishedDataset {
     /// All frames of one trajectory, in order.
     ///
     /// # Errors
-    /// The errors of [`Self::walk`].
-    pub fn frames(&self, flight: &PublishedFlight) -> Result<Vec<FrameRow>> {
-        let mut found = vec![];
-        self.walk(&|it| it.trajectory_id == flight.trajectory_id, &mut |_, frames| {
-            found = frames;
+    /// A missing column, a row without a value, or missing frames.
+    pub fn frames(&self, index: &RowIndex, flight: &PublishedFlight) -> Result<Vec<FrameRow>> {
+        let place = self.place(&flight.trajectory_id);
+        let mut frames: Vec<FrameRow> = Vec::with_capacity(flight.frames.min(MOST_ROOM));
+        index.visit(&place.into_iter().collect(), &mut |rows, path| {
+            let ids = rows.values(Frames::trajectory_id)?;
+            for row in (0..rows.len()).filter(|row| ids.text(*row) == flight.trajectory_id) {
+                push(&mut frames, FrameRow::read(rows, row)?, flight, path)?;
+            }
             Ok(())
         })?;
-        Ok(found)
+        if frames.len() == flight.frames { Ok(frames) } else { Err(incomplete(flight, frames.len())) }
     }
+}
+
+fn push(frames: &mut Vec<FrameRow>, frame: FrameRow, flight: &PublishedFlight, path: &Path) -> Result<()> {
+    if frame.frame as usize != frames.len() {
+        let what = format!("frame {} of `{}` is out of order", frame.frame, flight.trajectory_id);
+        return Err(damaged(path, &what, format!("frame {} was expected", frames.len())));
+    }
+    frames.push(frame);
+    Ok(())
 }
 
 fn end(open: Option<(&PublishedFlight, Vec<FrameRow>)>, visit: Visit<'_>) -> Result<()> {

@@ -3,6 +3,7 @@
 //! Columns are requested by their entries in [`cosfly_schema::tables`], so datasets with additional columns can be
 //! read, too.
 
+mod captions;
 pub mod columns;
 mod damage;
 mod dataset;
@@ -14,12 +15,14 @@ mod objects;
 mod plain;
 pub mod predictions;
 mod records;
+mod row_index;
 mod rows;
 mod tracks;
 mod trajectory;
 mod ways;
 mod whole_files;
 
+pub use captions::CaptionReader;
 pub use dataset::PublishedDataset;
 pub use foreign::{ForeignRows, foreign_rows};
 pub use frames::{Disturbance, FrameRow};
@@ -27,9 +30,10 @@ pub use image_log::{ImageLog, StoredImage};
 pub use log::{LogReader, LoggedFrame, SceneBox};
 pub use objects::{BoxInWorld, PublishedObject};
 pub use records::read_records;
+pub use row_index::RowIndex;
 pub use rows::{Rows, TableFile, Values, read};
 pub use tracks::FlightTrack;
-pub use trajectory::PublishedFlight;
+pub use trajectory::{PublishedFlight, Shared};
 pub use whole_files::{log_problem, parquet_problem};
 
 #[cfg(test)]

@@ -17,13 +17,14 @@ fn published() -> (tempfile::TempDir, PublishedDataset) {
 fn flights_and_frames_come_back_as_they_were() {
     let (_folder, dataset) = published();
     assert_eq!(dataset.flights().len(), 4);
+    let index = dataset.row_index("frames").unwrap();
     for given in sample::flights() {
         let record = &given.record;
         let flight = dataset.flight(&record.trajectory_id).unwrap();
         assert_eq!(flight.expert_id, record.pair.as_ref().map(|pair| pair.expert_id.clone()));
         assert_eq!((flight.frames, flight.dt_s, flight.camera.width), (record.len(), record.dt_s(), 64));
         assert_eq!((flight.weather_numbers.len(), flight.weather_numbers["cloudiness"]), (14, 5.0));
-        for (read, frame) in dataset.frames(flight).unwrap().iter().zip(0..) {
+        for (read, frame) in dataset.frames(&index, flight).unwrap().iter().zip(0..) {
             let (pose, state) = (&record.trajectory.poses_in_world[frame], &record.trajectory.track.states[frame]);
             assert_eq!(
                 (read.pose.position_in_world, read.target.feet_in_world),
@@ -86,8 +87,11 @@ fn what_is_no_dataset_or_is_cut_short_is_refused() {
 #[test]
 fn all_tracks_at_once_are_those_of_the_single_flights() {
     let (_folder, dataset) = published();
-    for (flight, track) in dataset.flights().iter().zip(dataset.tracks().unwrap()) {
-        let frames = dataset.frames(flight).unwrap();
+    let index = dataset.row_index("frames").unwrap();
+    let all = dataset.tracks(&index, &(0..4).collect()).unwrap();
+    assert_eq!(dataset.tracks(&index, &[2].into()).unwrap()[&2], all[&2]);
+    for (flight, track) in dataset.flights().iter().zip(all.values()) {
+        let frames = dataset.frames(&index, flight).unwrap();
         assert_eq!(track.poses, frames.iter().map(|frame| frame.pose).collect::<Vec<_>>());
         assert_eq!(track.boxes, frames.iter().map(|frame| frame.visible_box_px).collect::<Vec<_>>());
         assert_eq!(track.expert_frame, (0..frames.len() as u32).collect::<Vec<_>>());
@@ -99,9 +103,10 @@ fn all_tracks_at_once_are_those_of_the_single_flights() {
 #[test]
 fn flights_are_walked_one_after_the_other_with_all_that_is_said_of_their_frames() {
     let (_folder, dataset) = published();
+    let index = dataset.row_index("frames").unwrap();
     let mut walked = vec![];
     let mut visit = |flight: &PublishedFlight, rows: Vec<FrameRow>| {
-        assert_eq!(rows, dataset.frames(flight).unwrap());
+        assert_eq!(rows, dataset.frames(&index, flight).unwrap());
         assert!(rows.iter().all(|row| row.disturbance.is_some() == flight.expert_id.is_some()));
         walked.push(flight.trajectory_id.clone());
         Ok(())
@@ -117,7 +122,11 @@ fn flights_are_walked_one_after_the_other_with_all_that_is_said_of_their_frames(
         })
         .unwrap();
     assert_eq!(twins, [("perturbed-p00000".to_owned(), 1), ("perturbed-p00001".to_owned(), 1)]);
-    assert_eq!(dataset.captions().unwrap().len(), 4);
+    let mut captions = CaptionReader::of(&dataset).unwrap();
+    for given in sample::flights() {
+        let place = dataset.place(&given.record.trajectory_id).unwrap();
+        assert_eq!(captions.at(place).unwrap(), given.captions);
+    }
 }
 
 #[test]

@@ -1,14 +1,13 @@
-//! Poses, targets and visibility of all flights of a dataset at once, without pictures: the ground truth for
-//! predictions.
+//! Poses, targets and visibility of some flights of a dataset, without pictures: the ground truth for predictions.
 
 use super::damage::damaged;
 use super::dataset::PublishedDataset;
-use super::rows::{Rows, Values, read};
-use super::trajectory::PublishedFlight;
+use super::row_index::RowIndex;
+use super::rows::{Rows, Values};
 use cosfly_diagnose::Result;
 use cosfly_frames::{DVec3, Pose};
 use cosfly_schema::tables::{Edges, Frames};
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 use std::path::Path;
 
 /// Frames of a flight, one entry of each list per frame. World frame, metres, radians.
@@ -28,61 +27,53 @@ pub struct FlightTrack {
     pub expert_frame: Vec<u32>,
 }
 
-/// Most frames for which memory is reserved in advance.
-const MOST_ROOM: usize = 1 << 16;
-
-impl FlightTrack {
-    /// An empty track with room for `frames` frames.
-    fn with_room(frames: usize) -> Self {
-        Self {
-            poses: Vec::with_capacity(frames),
-            feet: Vec::with_capacity(frames),
-            heading_rad: Vec::with_capacity(frames),
-            visible: Vec::with_capacity(frames),
-            boxes: Vec::with_capacity(frames),
-            expert_frame: Vec::with_capacity(frames),
-        }
-    }
-}
-
 impl PublishedDataset {
-    /// Tracks of all trajectories, in the order of [`Self::flights`]. Reads each file of table `frames` once.
+    /// Tracks of some trajectories, by their places in [`Self::flights`]. Reads only the row groups that hold them.
     ///
     /// # Errors
     /// A missing column, a row without a value, or frames that are missing or out of order.
-    pub fn tracks(&self) -> Result<Vec<FlightTrack>> {
-        let mut tracks: Vec<FlightTrack> =
-            self.flights().iter().map(|flight| FlightTrack::with_room(flight.frames.min(MOST_ROOM))).collect();
-        let places: BTreeMap<&str, usize> =
-            self.flights().iter().enumerate().map(|(place, flight)| (flight.trajectory_id.as_str(), place)).collect();
-        for (_, path) in self.files("frames")? {
-            let mut last: Option<(String, usize)> = None;
-            read(&path, &mut |rows| {
-                let columns = Columns::of(rows)?;
-                for row in 0..rows.len() {
-                    let id = columns.ids.text(row);
-                    let place = match &last {
-                        Some((name, place)) if name == id => *place,
-                        _ => *places.get(id).ok_or_else(|| {
-                            damaged(&path, &format!("table `trajectories` has no trajectory `{id}`"), "an orphaned row")
-                        })?,
-                    };
-                    if last.as_ref().is_none_or(|(_, known)| *known != place) {
-                        last = Some((id.to_owned(), place));
-                    }
-                    columns.push(row, &path, &self.flights()[place], &mut tracks[place])?;
-                }
-                Ok(())
-            })?;
-        }
-        for (flight, track) in self.flights().iter().zip(&tracks) {
-            if track.poses.len() != flight.frames {
-                let (rows, frames) = (track.poses.len(), flight.frames);
+    pub fn tracks(&self, index: &RowIndex, wanted: &BTreeSet<usize>) -> Result<BTreeMap<usize, FlightTrack>> {
+        let tracks = index.tracks(wanted, &|id| self.place(id))?;
+        for place in wanted {
+            let (flight, rows) = (&self.flights()[*place], tracks.get(place).map_or(0, |track| track.poses.len()));
+            if rows != flight.frames {
+                let frames = flight.frames;
                 let what = format!("it has {rows} rows of `{}`, which has {frames} frames", flight.trajectory_id);
                 let folder = self.folder().join("data/frames");
                 return Err(damaged(&folder, &what, "rows are missing or duplicated"));
             }
         }
+        Ok(tracks)
+    }
+}
+
+impl RowIndex {
+    /// Tracks of some trajectories, by the numbers that `number_of` gives their ids.
+    ///
+    /// # Errors
+    /// A missing column, a row without a value, or frames that are out of order.
+    pub fn tracks(
+        &self,
+        wanted: &BTreeSet<usize>,
+        number_of: &dyn Fn(&str) -> Option<usize>,
+    ) -> Result<BTreeMap<usize, FlightTrack>> {
+        let mut tracks: BTreeMap<usize, FlightTrack> = BTreeMap::new();
+        self.visit(wanted, &mut |rows, path| {
+            let columns = Columns::of(rows)?;
+            let mut last: Option<(&str, Option<usize>)> = None;
+            for row in 0..rows.len() {
+                let id = columns.ids.text(row);
+                let number = match last {
+                    Some((name, number)) if name == id => number,
+                    _ => number_of(id).filter(|number| wanted.contains(number)),
+                };
+                last = Some((id, number));
+                if let Some(number) = number {
+                    columns.push(row, path, id, tracks.entry(number).or_default())?;
+                }
+            }
+            Ok(())
+        })?;
         Ok(tracks)
     }
 }
@@ -128,10 +119,10 @@ impl<'f> Columns<'f> {
         })
     }
 
-    fn push(&self, row: usize, path: &Path, flight: &PublishedFlight, track: &mut FlightTrack) -> Result<()> {
+    fn push(&self, row: usize, path: &Path, id: &str, track: &mut FlightTrack) -> Result<()> {
         let frame = self.frame.at(row)?;
         if frame as usize != track.poses.len() {
-            let what = format!("frame {frame} of `{}` is out of order", flight.trajectory_id);
+            let what = format!("frame {frame} of `{id}` is out of order");
             return Err(damaged(path, &what, format!("frame {} was expected", track.poses.len())));
         }
         let vector = |of: &[Values<'f, f64>; 3]| Ok::<_, Box<_>>([of[0].at(row)?, of[1].at(row)?, of[2].at(row)?]);

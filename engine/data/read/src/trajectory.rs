@@ -6,7 +6,8 @@ use cosfly_frames::DVec3;
 use cosfly_render::{Camera, Lens, Mount};
 use cosfly_schema::TownLayout;
 use cosfly_schema::tables::{Trajectories, WEATHER_NUMBERS};
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
+use std::sync::Arc;
 
 /// A published trajectory.
 #[derive(Clone, Debug, PartialEq)]
@@ -25,7 +26,7 @@ pub struct PublishedFlight {
     pub town_geometry: String,
     /// Ground plan of the town; in datasets from before the column existed without a sketch and with the geometry's
     /// digest.
-    pub town_layout: TownLayout,
+    pub town_layout: Arc<TownLayout>,
     /// Split group: trajectories of one group must stay in one split. Empty in datasets from before the column existed.
     pub split_group: String,
     /// Offset of the world frame in the map file, metres: `x = x_map - x_offset`, `y = -y_map - y_offset`, `z = z_map -
@@ -34,7 +35,7 @@ pub struct PublishedFlight {
     /// Name of the weather preset.
     pub weather: String,
     /// CARLA's weather numbers by their names.
-    pub weather_numbers: BTreeMap<String, f64>,
+    pub weather_numbers: Arc<BTreeMap<String, f64>>,
     /// Number of frames.
     pub frames: usize,
     /// Time between frames, seconds.
@@ -82,11 +83,11 @@ impl PublishedFlight {
             pedestrian_id: rows.get(Trajectories::pedestrian_id, row)?,
             town: rows.get(Trajectories::town, row)?,
             town_geometry: rows.get_or(Trajectories::town_geometry_blake3, row, String::new())?,
-            town_layout: layout(rows, row)?,
+            town_layout: Arc::new(layout(rows, row)?),
             split_group: rows.get_or(Trajectories::split_group, row, String::new())?,
             town_offset_m: DVec3::from_array(rows.get(Trajectories::town_offset_m, row)?),
             weather: rows.get(Trajectories::weather_preset, row)?,
-            weather_numbers,
+            weather_numbers: Arc::new(weather_numbers),
             frames: rows.get(Trajectories::frames, row)? as usize,
             dt_s: rows.get(Trajectories::dt_s, row)?,
             camera: Camera {
@@ -119,6 +120,30 @@ impl PublishedFlight {
         })
     }
 }
+
+/// Contents that many flights have, each kept once.
+#[derive(Debug, Default)]
+pub struct Shared {
+    layouts: BTreeSet<Arc<TownLayout>>,
+    weathers: Vec<Arc<BTreeMap<String, f64>>>,
+}
+
+impl Shared {
+    /// Replaces the contents of a flight by equal ones of earlier flights.
+    pub fn share(&mut self, flight: &mut PublishedFlight) {
+        match self.layouts.get(&flight.town_layout) {
+            Some(known) => flight.town_layout = Arc::clone(known),
+            None => drop(self.layouts.insert(Arc::clone(&flight.town_layout))),
+        }
+        match self.weathers.iter().rev().take(MOST_WEATHERS).find(|it| **it == flight.weather_numbers) {
+            Some(known) => flight.weather_numbers = Arc::clone(known),
+            None => self.weathers.push(Arc::clone(&flight.weather_numbers)),
+        }
+    }
+}
+
+/// Weathers that a flight's is compared with; datasets have some dozen.
+const MOST_WEATHERS: usize = 64;
 
 fn clothes(rows: &Rows<'_>, row: usize) -> Result<Option<(String, String, bool)>> {
     let top = rows.get_or(Trajectories::target_top_colour, row, None)?;

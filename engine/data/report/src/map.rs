@@ -18,8 +18,8 @@ const MOST_FLIGHTS: usize = 40;
 /// Largest number of boxes of one kind in a map.
 const MOST_BOXES: usize = 6_000;
 
-/// A figure of `town` with experts' flights; empty without flights.
-pub fn draw(town: &TownSketch, flights: &[&FlightSketch]) -> String {
+/// A figure of `town` with some of its `all` flights, experts' where there are some; empty without flights.
+pub fn draw(town: &TownSketch, flights: &[&FlightSketch], all: u64) -> String {
     let experts: Vec<&FlightSketch> = flights.iter().filter(|it| !it.is_perturbed).copied().collect();
     let drawn = if experts.is_empty() { flights.to_vec() } else { experts };
     let chosen: Vec<&FlightSketch> =
@@ -40,7 +40,7 @@ pub fn draw(town: &TownSketch, flights: &[&FlightSketch]) -> String {
     chosen.iter().for_each(|flight| sheet.flight(&mut svg, flight));
     sheet.scale_bar(&mut svg);
     svg.push_str("</svg>");
-    let shown = match (chosen.len(), drawn.len()) {
+    let shown = match (chosen.len() as u64, all.max(chosen.len() as u64)) {
         (some, all) if some < all => format!("{some} of {all} expert flights"),
         (1, _) => "1 flight".to_owned(),
         (all, _) => format!("{all} flights"),

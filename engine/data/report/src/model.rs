@@ -1,5 +1,6 @@
 //! Content of the page: sketches of towns and flights, a few numbers per frame. World frame, metres, degrees.
 
+use crate::figures::Figures;
 use cosfly_metrics::shortcuts::ShortcutFigures;
 use serde::{Deserialize, Serialize};
 
@@ -22,8 +23,8 @@ pub struct Report {
     pub languages: Vec<String>,
     /// Towns by name.
     pub towns: Vec<TownSketch>,
-    /// Flights, in the order of the tables.
-    pub flights: Vec<FlightSketch>,
+    /// Figures over all flights, and sketches of some.
+    pub figures: Figures,
     /// Items without a flight.
     pub rejections: Vec<RejectionSketch>,
     /// Comparison of planners; without rows there is no section.
@@ -59,6 +60,8 @@ pub struct BoxSketch {
 /// A flight with a few numbers per frame.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct FlightSketch {
+    /// Place in the order of the tables.
+    pub number: u64,
     /// Id.
     pub id: String,
     /// True for a perturbed flight, false for an expert's.
@@ -106,6 +109,11 @@ impl FlightSketch {
     /// Whether it has no frame.
     pub fn is_empty(&self) -> bool {
         self.drone_m.is_empty()
+    }
+
+    /// Whether all costs of planning are known and can be drawn.
+    pub fn is_planned(&self) -> bool {
+        self.convergence.len() > 1 && self.convergence.iter().all(|cost| cost.is_finite() && *cost > 0.0)
     }
 
     /// Time from the first frame to the last, seconds.

@@ -1,14 +1,15 @@
 //! Choice of the flights and frames that the page shows.
 
 use crate::model::FlightSketch;
+use crate::sample::Worst;
 
 /// Mean visibility from which a flight is not a bad case.
 const FULLY: f64 = 0.9995;
 
 /// A reason to look at a flight, and the frames that show it.
-pub struct Case {
-    /// Place of the flight in the list.
-    pub flight: usize,
+pub struct Case<'a> {
+    /// The flight.
+    pub flight: &'a FlightSketch,
     /// Property in which the flight is the worst.
     pub what: &'static str,
     /// The value as text.
@@ -19,14 +20,14 @@ pub struct Case {
 
 /// Pictures in the heading: `count` moments spread over the flights, those that show their target large; fewer when there
 /// are not enough frames. Few flights are shown at several of their moments.
-pub fn gallery(flights: &[FlightSketch], count: usize) -> Vec<(usize, usize)> {
-    let experts: Vec<usize> = (0..flights.len()).filter(|at| !flights[*at].is_perturbed).collect();
-    let chosen: Vec<usize> = if experts.is_empty() { (0..flights.len()).collect() } else { experts };
+pub fn gallery<'a>(flights: &[&'a FlightSketch], count: usize) -> Vec<(&'a FlightSketch, usize)> {
+    let experts: Vec<&FlightSketch> = flights.iter().filter(|it| !it.is_perturbed).copied().collect();
+    let chosen: Vec<&FlightSketch> = if experts.is_empty() { flights.to_vec() } else { experts };
     let shown = spread(chosen.len(), count);
     let rounds = count.div_ceil(shown.len().max(1));
     let moments = |round: usize| {
-        let of_round = shown.iter().map(|at| chosen[*at]).collect::<Vec<usize>>().into_iter();
-        of_round.filter_map(move |at| Some((at, best_frame(&flights[at], round, rounds)?)))
+        let of_round = shown.iter().map(|at| chosen[*at]).collect::<Vec<&FlightSketch>>().into_iter();
+        of_round.filter_map(move |flight| Some((flight, best_frame(flight, round, rounds)?)))
     };
     (0..rounds).flat_map(moments).take(count).collect()
 }
@@ -46,46 +47,29 @@ fn best_frame(flight: &FlightSketch, part: usize, parts: usize) -> Option<usize>
 }
 
 /// The worst flight of each property.
-pub fn worst(flights: &[FlightSketch]) -> Vec<Case> {
-    let of = |perturbed: bool| (0..flights.len()).filter(move |at| flights[*at].is_perturbed == perturbed);
+pub fn worst(flights: &Worst) -> Vec<Case<'_>> {
     let names = ["least visible expert", "second least visible expert", "third least visible expert"];
-    let mut cases: Vec<Case> = least(of(false), &|at| flights[at].mean_visible(), names.len())
-        .into_iter()
-        .zip(names)
-        .enumerate()
-        // The first is shown whatever it is; others only where something is hidden.
-        .filter(|(rank, (at, _))| *rank == 0 || flights[*at].mean_visible() < FULLY)
-        .map(|(_, (at, name))| hidden(flights, at, name))
+    let experts = flights.hidden_experts.iter().map(|it| &it.1).zip(names).enumerate();
+    // The first is shown whatever it is; others only where something is hidden.
+    let mut cases: Vec<Case<'_>> = experts
+        .filter(|(rank, (flight, _))| *rank == 0 || flight.mean_visible() < FULLY)
+        .map(|(_, (flight, name))| hidden(flight, name))
         .collect();
-    cases.extend(
-        least(of(true), &|at| flights[at].mean_visible(), 1)
-            .into_iter()
-            .map(|at| hidden(flights, at, "least visible perturbed flight")),
-    );
-    let nearest = |at: usize| flights[at].clearance_m.iter().copied().fold(f32::INFINITY, f32::min);
-    cases.extend(least(of(false), &|at| f64::from(nearest(at)), 1).into_iter().map(|at| {
-        let frame = lowest(&flights[at].clearance_m);
-        let figure = format!("{:.2} m to the nearest obstacle", nearest(at));
-        Case { flight: at, what: "closest to an obstacle", figure, frames: vec![(frame, "the nearest frame")] }
+    cases.extend(flights.hidden_perturbed.iter().map(|(_, flight)| hidden(flight, "least visible perturbed flight")));
+    cases.extend(flights.nearest.iter().map(|(_, flight)| {
+        let frame = lowest(&flight.clearance_m);
+        let nearest_m = flight.clearance_m.get(frame).copied().unwrap_or(f32::INFINITY);
+        let figure = format!("{nearest_m:.2} m to the nearest obstacle");
+        Case { flight, what: "closest to an obstacle", figure, frames: vec![(frame, "the nearest frame")] }
     }));
-    cases.extend(least(of(false), &|at| -flights[at].max_jerk_mps3, 1).into_iter().map(|at| {
-        let flight = &flights[at];
+    cases.extend(flights.roughest.iter().map(|(_, flight)| {
         let figure = format!("jerk up to {:.1} m/s³", flight.max_jerk_mps3);
-        Case { flight: at, what: "roughest expert", figure, frames: vec![(roughest(flight), "where the jerk peaks")] }
+        Case { flight, what: "roughest expert", figure, frames: vec![(roughest(flight), "where the jerk peaks")] }
     }));
     cases
 }
 
-/// Indices of the `count` smallest values; the first of equals.
-fn least(places: impl Iterator<Item = usize>, value: &dyn Fn(usize) -> f64, count: usize) -> Vec<usize> {
-    let mut places: Vec<usize> = places.collect();
-    places.sort_by(|a, b| value(*a).total_cmp(&value(*b)).then(a.cmp(b)));
-    places.truncate(count);
-    places
-}
-
-fn hidden(flights: &[FlightSketch], at: usize, what: &'static str) -> Case {
-    let flight = &flights[at];
+fn hidden<'a>(flight: &'a FlightSketch, what: &'static str) -> Case<'a> {
     let longest = flight.occlusions().into_iter().max_by(|a, b| a.1.cmp(&b.1).then(b.0.cmp(&a.0)));
     let frames = match longest {
         Some((start, count)) => {
@@ -97,7 +81,7 @@ fn hidden(flights: &[FlightSketch], at: usize, what: &'static str) -> Case {
         None => vec![(lowest(&flight.visible), "least visible")],
     };
     let lost = longest.map_or(String::new(), |(_, count)| format!(", lost for {:.1} s", count as f64 * flight.dt_s));
-    Case { flight: at, what, figure: format!("{:.1} % visible{lost}", 100.0 * flight.mean_visible()), frames }
+    Case { flight, what, figure: format!("{:.1} % visible{lost}", 100.0 * flight.mean_visible()), frames }
 }
 
 /// Index of the smallest number, the first of equals.
@@ -138,16 +122,18 @@ mod tests {
 
     #[test]
     fn the_least_visible_flight_is_shown_where_it_loses_its_target() {
-        let flights = [flight(&[1.0; 6]), flight(&[1.0, 1.0, 0.1, 0.0, 0.2, 1.0])];
+        let mut flights = Worst::default();
+        flights.add(&flight(&[1.0; 6]));
+        flights.add(&FlightSketch { number: 1, ..flight(&[1.0, 1.0, 0.1, 0.0, 0.2, 1.0]) });
         let cases = worst(&flights);
-        assert_eq!(cases[0].flight, 1);
+        assert_eq!(cases[0].flight.number, 1);
         assert_eq!(cases[0].frames, [(1, "just before it is lost"), (3, "lost")]);
         assert!(cases[0].figure.ends_with("lost for 1.5 s"), "{}", cases[0].figure);
     }
 
     #[test]
     fn nothing_is_shown_of_nothing() {
-        assert!(worst(&[]).is_empty() && gallery(&[], 6).is_empty());
+        assert!(worst(&Worst::default()).is_empty() && gallery(&[], 6).is_empty());
     }
 
     #[test]

@@ -4,7 +4,6 @@ use crate::model::Report;
 use crate::moments;
 use crate::pictures::{Source, image};
 use crate::sections::{distributions, maps, numbers, planners, planning, shares, shortcuts, timelines, worst};
-use cosfly_plot::statistics;
 use cosfly_plot::text::escaped;
 use std::fmt::Write;
 
@@ -12,7 +11,7 @@ const STYLE: &str = include_str!("../assets/style.css");
 /// Pictures in the heading.
 const GALLERY: usize = 6;
 
-/// The page, HTML. `pictures` returns the small colour image of a frame of a flight, by their indices, where there is one.
+/// The page, HTML. `pictures` returns the small colour image of a frame of a flight, where there is one.
 ///
 /// # Errors
 /// Those of `pictures`.
@@ -60,26 +59,23 @@ fn heading<E>(report: &Report, pictures: Source<'_, E>) -> Result<String, E> {
         escaped(&report.title),
         escaped(report.description.trim())
     );
-    let mut visible: Vec<f64> =
-        report.flights.iter().filter(|it| !it.is_perturbed).map(crate::FlightSketch::mean_visible).collect();
-    visible.sort_by(f64::total_cmp);
+    let visible = &report.figures.visible_by_expert;
     if !visible.is_empty() {
-        let mean = visible.iter().sum::<f64>() / visible.len() as f64;
+        let sum: f64 = visible.values().map(|(value, count)| value * count as f64).sum();
         let _ = write!(
             html,
             "<p class=\"headline\"><b>{:.1} %</b> of the target is visible on average over expert flights; {:.1} % in the \
              median flight.</p>",
-            100.0 * mean,
-            100.0 * statistics::quantile(&visible, 0.5)
+            100.0 * sum / visible.len() as f64,
+            100.0 * visible.quantile(0.5)
         );
     }
     let facts = [&report.name_and_version, &report.published, &report.creator, &report.license];
     let facts: Vec<String> = facts.into_iter().filter(|it| !it.is_empty()).map(|it| escaped(it)).collect();
     let _ = write!(html, "<p class=\"facts\">{}</p></div>", facts.join("<span aria-hidden=\"true\"> · </span>"));
     let mut gallery = String::new();
-    for (flight, frame) in moments::gallery(&report.flights, GALLERY) {
-        let Some(jpeg) = pictures(flight, frame)? else { continue };
-        let sketch = &report.flights[flight];
+    for (sketch, frame) in moments::gallery(&report.figures.drawn(), GALLERY) {
+        let Some(jpeg) = pictures(sketch, frame)? else { continue };
         let alternative = format!("A pedestrian from the air: {}, frame {frame}, {}", sketch.id, sketch.weather);
         let _ = write!(gallery, "<li>{}</li>", image(&jpeg, sketch, frame, &alternative));
     }
@@ -107,6 +103,7 @@ fn foot(report: &Report) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::figures::Figures;
     use crate::model::{BoxSketch, FlightSketch, RejectionSketch, TownSketch};
     use cosfly_metrics::shortcuts::{ShortcutFigures, Shortcuts};
     use std::convert::Infallible;
@@ -134,6 +131,14 @@ mod tests {
         }
     }
 
+    fn figures() -> Figures {
+        let mut figures = Figures::default();
+        for number in 0..4 {
+            figures.add(FlightSketch { number: number as u64, ..flight(number / 2, number % 2 == 1) });
+        }
+        figures
+    }
+
     fn shortcuts() -> ShortcutFigures {
         let mut shortcuts = Shortcuts::default();
         shortcuts.add_frame([64.0, 48.0], [30.0, 10.0, 40.0, 30.0], [[32.0, 20.0, 33.0, 24.0]].into_iter());
@@ -148,7 +153,7 @@ mod tests {
         Report {
             title: "A <dataset>".into(),
             towns: vec![TownSketch { name: "plain".into(), boxes: vec![shape] }],
-            flights: (0..4).map(|i| flight(i / 2, i % 2 == 1)).collect(),
+            figures: figures(),
             shortcuts: Some(shortcuts()),
             rejections: vec![RejectionSketch { id: "p9".into(), stage: "expert".into(), reason: "no way".into() }],
             ..Report::default()

@@ -7,7 +7,7 @@ use cosfly_plot::text::escaped;
 use std::fmt::Write;
 
 /// Returns the small colour image of a frame of a flight as a JPEG file, where there is one.
-pub type Source<'a, E> = &'a mut dyn FnMut(usize, usize) -> Result<Option<Vec<u8>>, E>;
+pub type Source<'a, E> = &'a mut dyn FnMut(&FlightSketch, usize) -> Result<Option<Vec<u8>>, E>;
 
 /// Smallest side of the frame around the target, share of the picture's width.
 const LEAST_FRAME: f32 = 0.05;

@@ -1,6 +1,9 @@
 //! Groups of flights that stay together, their splits, and nested subsets.
 
+use super::area;
+use super::disjoint_sets::DisjointSets;
 use super::facts::FlightFacts;
+use super::overlap::join_overlapping;
 use super::route;
 use cosfly_frames::Seed;
 use cosfly_schema::Split;
@@ -22,12 +25,15 @@ pub struct Assignment {
 /// Assigns all flights. Pedestrians of a town whose walks overlap by more than `max_route_overlap` are one group; the
 /// split is a draw from the first pedestrian of a group. More pedestrians or towns move old ones only where a new walk
 /// joins two groups. A place goes to one split as a whole where the shares say so for all places or for this one, and
-/// where it has several names: the draw is then from its ground plan.
+/// where it has several names: the draw is then from its ground plan. With areas, a flight goes to the split of the area
+/// that holds its walk; [`area::left_out`] names those that no area holds.
 pub fn assign(facts: &[FlightFacts], shares: &SplitShares) -> Assignment {
     let places = Places::of(facts, shares);
+    if shares.by == SplitBy::Area {
+        return of_areas(facts, shares, &places);
+    }
     let representatives = representatives(facts, &places, shares.max_route_overlap);
-    let draw = |purpose: &str, id: &str| Seed::of_item(shares.seed, purpose, id).stream(purpose).unit();
-    let drawn = |id: &str| shares.split_of(draw("split", id));
+    let drawn = |id: &str| shares.split_of(draw(shares.seed, "split", id));
     let assigned = |(at, it): (usize, &FlightFacts)| {
         let place = &places.all[places.of_flight[at]];
         match place.split {
@@ -37,39 +43,62 @@ pub fn assign(facts: &[FlightFacts], shares: &SplitShares) -> Assignment {
         }
     };
     let (splits, groups) = facts.iter().enumerate().map(assigned).unzip();
-    Assignment { splits, groups, subset_ranks: facts.iter().map(|it| draw("subset", &it.pedestrian_id)).collect() }
+    Assignment { splits, groups, subset_ranks: subset_ranks(facts, shares) }
+}
+
+fn draw(seed: u64, purpose: &str, id: &str) -> f64 {
+    Seed::of_item(seed, purpose, id).stream(purpose).unit()
+}
+
+fn subset_ranks(facts: &[FlightFacts], shares: &SplitShares) -> Vec<f64> {
+    facts.iter().map(|it| draw(shares.seed, "subset", &it.pedestrian_id)).collect()
+}
+
+/// Splits by the area of each walk; an area is a group.
+fn of_areas(facts: &[FlightFacts], shares: &SplitShares, places: &Places) -> Assignment {
+    let shares = area::resolved(facts, shares);
+    let split = |(it, place): (&FlightFacts, &usize)| {
+        let given = places.all[*place].split;
+        let in_area = || shares.areas.get(&it.town).and_then(|cut| area::split_of(cut, shares.guard_m, &it.route));
+        let split = given.or_else(in_area).unwrap_or(Split::Train);
+        (split, format!("{}/{}", it.layout.short(), split.name()))
+    };
+    let (splits, groups) = facts.iter().zip(&places.of_flight).map(split).unzip();
+    Assignment { splits, groups, subset_ranks: subset_ranks(facts, &shares) }
 }
 
 /// A place with flights, under one or several names.
-struct Place {
+pub struct Place {
     /// Start of the digest of its ground plan, the smallest where copies of it differ.
-    name: String,
+    pub name: String,
     /// Whether all flights of the place go to one split.
     is_whole: bool,
     /// Split that the recipe gives the place.
-    split: Option<Split>,
+    pub split: Option<Split>,
 }
 
 /// All places, and the place of each flight.
-struct Places {
-    all: Vec<Place>,
-    of_flight: Vec<usize>,
+pub struct Places {
+    /// Places, of which some have no flights.
+    pub all: Vec<Place>,
+    /// Number of the place of each flight.
+    pub of_flight: Vec<usize>,
 }
 
 impl Places {
-    fn of(facts: &[FlightFacts], shares: &SplitShares) -> Self {
+    /// Places of the flights.
+    pub fn of(facts: &[FlightFacts], shares: &SplitShares) -> Self {
         let layouts: BTreeMap<&str, &TownLayout> =
             facts.iter().map(|it| (it.layout.digest.as_str(), &*it.layout)).collect();
         let layouts: Vec<&TownLayout> = layouts.into_values().collect();
-        let mut parents: Vec<usize> = (0..layouts.len()).collect();
+        let mut same = DisjointSets::new(layouts.len());
         for (at, layout) in layouts.iter().enumerate() {
             for other in (0..at).filter(|other| layouts[*other].is_same_place(layout)) {
-                let (a, b) = (root(&parents, at), root(&parents, other));
-                parents[a.max(b)] = a.min(b);
+                same.join(at, other);
             }
         }
         let layout_of = |it: &FlightFacts| layouts.partition_point(|known| known.digest < it.layout.digest);
-        let of_flight: Vec<usize> = facts.iter().map(|it| root(&parents, layout_of(it))).collect();
+        let of_flight: Vec<usize> = facts.iter().map(|it| same.smallest(layout_of(it))).collect();
         let mut towns: Vec<BTreeSet<&str>> = vec![BTreeSet::new(); layouts.len()];
         for (it, place) in facts.iter().zip(&of_flight) {
             towns[*place].insert(&it.town);
@@ -92,15 +121,13 @@ fn representatives(facts: &[FlightFacts], places: &Places, max_overlap: f64) -> 
     // In the order of their ids, so that the smallest of a group represents it.
     let ids: Vec<&str> = walkers.keys().map(|(_, id)| *id).collect();
     walkers.values_mut().zip(0..).for_each(|(number, next)| *number = next);
-    let mut parents: Vec<usize> = (0..ids.len()).collect();
+    let mut sets = DisjointSets::new(ids.len());
     let routes = distinct_routes(facts, places);
     let given: Vec<(usize, &route::Route)> = routes.iter().map(|((place, _), route)| (*place, *route)).collect();
-    for (a, b, _) in route::overlaps(&given, max_overlap) {
-        let (a, b) = (root(&parents, walkers[&routes[a].0]), root(&parents, walkers[&routes[b].0]));
-        parents[a.max(b)] = a.min(b);
-    }
+    let owners: Vec<usize> = routes.iter().map(|(walker, _)| walkers[walker]).collect();
+    join_overlapping(&given, &owners, max_overlap, &mut sets);
     let walker = |(it, place): (&FlightFacts, &usize)| walkers[&(*place, it.pedestrian_id.as_str())];
-    facts.iter().zip(&places.of_flight).map(|it| ids[root(&parents, walker(it))].to_owned()).collect()
+    facts.iter().zip(&places.of_flight).map(|it| ids[sets.smallest(walker(it))].to_owned()).collect()
 }
 
 /// Place and id of a pedestrian.
@@ -119,13 +146,6 @@ fn distinct_routes<'a>(facts: &'a [FlightFacts], places: &Places) -> Vec<(Walker
         }
     }
     routes
-}
-
-fn root(parents: &[usize], mut at: usize) -> usize {
-    while parents[at] != at {
-        at = parents[at];
-    }
-    at
 }
 
 #[cfg(test)]

@@ -6,7 +6,6 @@ use cosfly_frames::{DVec3, Pose};
 use cosfly_read::{PublishedDataset, PublishedFlight};
 use cosfly_schema::RenderedTrajectory;
 use cosfly_schema::TownLayout;
-use std::collections::BTreeMap;
 use std::path::Path;
 use std::sync::Arc;
 
@@ -62,9 +61,7 @@ impl FlightFacts {
     }
 
     fn of_published(dataset: usize, flight: &PublishedFlight, poses: &[Pose], feet: &[DVec3], window: usize) -> Self {
-        let offset = flight.town_offset_m;
-        let feet: Vec<DVec3> = feet.iter().map(|feet| *feet + offset).collect();
-        let drone: Vec<DVec3> = poses.iter().map(|pose| pose.position_in_world + offset).collect();
+        let in_map: Vec<DVec3> = feet.iter().map(|feet| *feet + flight.town_offset_m).collect();
         Self {
             dataset,
             trajectory_id: flight.trajectory_id.clone(),
@@ -73,25 +70,32 @@ impl FlightFacts {
             group: flight.split_group.clone(),
             split: flight.split.clone(),
             town: flight.town.clone(),
-            layout: Arc::new(flight.town_layout.clone()),
-            route: Route::of(&feet),
-            windows: windows(&feet, &drone, window),
+            layout: Arc::clone(&flight.town_layout),
+            route: Route::of(&in_map),
+            windows: published_windows(flight, poses, feet, window),
         }
     }
 }
 
-/// Facts of all flights of the published dataset in `folder`, which is number `dataset` of those compared.
+/// Hashes of the windows of `size` frames of a published flight.
+pub(crate) fn published_windows(flight: &PublishedFlight, poses: &[Pose], feet: &[DVec3], size: usize) -> Vec<u64> {
+    let offset = flight.town_offset_m;
+    let feet: Vec<DVec3> = feet.iter().map(|feet| *feet + offset).collect();
+    let drone: Vec<DVec3> = poses.iter().map(|pose| pose.position_in_world + offset).collect();
+    windows(&feet, &drone, size)
+}
+
+/// Facts of all flights of the published dataset in `folder`, which is number `dataset` of those compared. Without windows
+/// where `window` is 0: [`Leaks::of_windows`](super::leaks::Leaks::of_windows) compares those of large datasets.
 ///
 /// # Errors
 /// Damage of the tables `trajectories` and `waypoints`.
 pub fn facts_of_dataset(folder: &Path, dataset: usize, window: usize) -> Result<Vec<FlightFacts>> {
     let published = PublishedDataset::open(folder)?;
-    let flights: BTreeMap<&str, &PublishedFlight> =
-        published.flights().iter().map(|flight| (flight.trajectory_id.as_str(), flight)).collect();
     let mut facts = vec![];
     published.ways(&mut |id, poses, feet| {
-        if let Some(flight) = flights.get(id) {
-            facts.push(FlightFacts::of_published(dataset, flight, poses, feet, window));
+        if let Some(place) = published.place(id) {
+            facts.push(FlightFacts::of_published(dataset, &published.flights()[place], poses, feet, window));
         }
     })?;
     Ok(facts)

@@ -1,11 +1,15 @@
 //! The linter: pairs of flights or towns that would be in a model's training and test data at once.
 
-use super::facts::FlightFacts;
+use super::area;
+use super::facts::{FlightFacts, published_windows};
+use super::overlap::overlaps;
 use super::route;
-use cosfly_diagnose::{Diagnostic, Fault};
-use cosfly_schema::config::{DatasetConfig, SplitBy};
+use cosfly_diagnose::{Diagnostic, Fault, Result};
+use cosfly_read::PublishedDataset;
+use cosfly_schema::config::{DatasetConfig, SplitBy, SplitShares};
 use std::collections::{BTreeMap, BTreeSet};
 use std::fmt;
+use std::path::Path;
 
 /// Pairs kept per rule; further ones are only counted.
 const KEPT: usize = 200;
@@ -30,7 +34,7 @@ impl LintRules {
 /// Two flights or towns that must not be in different splits.
 #[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub struct Leak {
-    /// `split-town`, `split-pedestrian`, `split-twin`, `split-group`, `split-window` or `split-route`.
+    /// `split-town`, `split-pedestrian`, `split-twin`, `split-group`, `split-window`, `split-route` or `split-area`.
     pub rule: &'static str,
     /// Flight that the finding is reported for.
     pub trajectory_id: String,
@@ -51,12 +55,23 @@ pub struct Leaks {
     pub kept: Vec<Leak>,
     /// Number of all findings.
     pub found: usize,
+    /// Numbers of kept findings by rule.
+    kept_by_rule: BTreeMap<&'static str, usize>,
 }
 
 impl Leaks {
+    /// Adds the flights of one dataset that are not in the split of their area.
+    pub fn of_areas(&mut self, facts: &[FlightFacts], shares: &SplitShares) {
+        for (it, message) in area::broken(facts, shares) {
+            self.add("split-area", it, format!("{}: {message}", named(it)));
+        }
+    }
+
     fn add(&mut self, rule: &'static str, at: &FlightFacts, message: String) {
         self.found += 1;
-        if self.kept.iter().filter(|leak| leak.rule == rule).count() < KEPT {
+        let kept = self.kept_by_rule.entry(rule).or_default();
+        if *kept < KEPT {
+            *kept += 1;
             self.kept.push(Leak { rule, trajectory_id: at.trajectory_id.clone(), message });
         }
     }
@@ -155,14 +170,74 @@ fn is_one_walk(a: &FlightFacts, b: &FlightFacts) -> bool {
     (a.dataset, &a.layout.digest, &a.pedestrian_id) == (b.dataset, &b.layout.digest, &b.pedestrian_id)
 }
 
+/// Windows that are compared at a time: 64 MB of them.
+const WINDOWS_AT_ONCE: u64 = 4_000_000;
+
+impl Leaks {
+    /// Adds equal windows of `size` frames in the flights of the datasets in `folders`. Memory is bounded: large datasets are
+    /// read several times, each time for a part of the hashes.
+    ///
+    /// # Errors
+    /// Damage of the datasets.
+    pub fn of_windows(&mut self, facts: &[FlightFacts], folders: &[&Path], size: usize) -> Result<()> {
+        let places: BTreeMap<(usize, &str), u32> =
+            facts.iter().zip(0..).map(|(it, place)| ((it.dataset, it.trajectory_id.as_str()), place)).collect();
+        let datasets: Vec<PublishedDataset> =
+            folders.iter().map(|it| PublishedDataset::open(it)).collect::<Result<_>>()?;
+        let frames: u64 = datasets.iter().flat_map(PublishedDataset::flights).map(|it| it.frames as u64).sum();
+        let passes = frames.div_ceil(WINDOWS_AT_ONCE).max(1);
+        let mut pairs = Pairs::new();
+        for pass in 0..passes {
+            let mut all: Vec<(u64, u32, u32)> = vec![];
+            for (number, dataset) in datasets.iter().enumerate() {
+                dataset.ways(&mut |id, poses, feet| {
+                    let flight = dataset.place(id).map(|place| &dataset.flights()[place]);
+                    let Some((flight, place)) = flight.zip(places.get(&(number, id))) else { return };
+                    let hashes = published_windows(flight, poses, feet, size).into_iter().zip(0..);
+                    all.extend(
+                        hashes.filter(|(hash, _)| hash % passes == pass).map(|(hash, frame)| (hash, *place, frame)),
+                    );
+                })?;
+            }
+            compare(&mut all, facts, &mut pairs);
+        }
+        self.add_windows(facts, pairs);
+        Ok(())
+    }
+
+    fn add_windows(&mut self, facts: &[FlightFacts], pairs: Pairs) {
+        for ((a, b), (frame_of_a, frame_of_b, count)) in pairs {
+            let (a, b) = (&facts[a as usize], &facts[b as usize]);
+            if is_one_walk(a, b) {
+                continue;
+            }
+            let message = format!(
+                "{count} windows of {} are windows of {}: from frame {frame_of_a} and from frame {frame_of_b} on",
+                named(a),
+                named(b)
+            );
+            self.add("split-window", b, message);
+        }
+    }
+}
+
+/// Pairs of flights in different splits with equal windows: the first of each, and their number.
+type Pairs = BTreeMap<(u32, u32), (u32, u32, usize)>;
+
 /// Finds equal windows under two names.
 fn windows(facts: &[FlightFacts], leaks: &mut Leaks) {
     let mut all: Vec<(u64, u32, u32)> = vec![];
     for (flight, it) in facts.iter().enumerate() {
         all.extend(it.windows.iter().enumerate().map(|(frame, hash)| (*hash, flight as u32, frame as u32)));
     }
+    let mut pairs = Pairs::new();
+    compare(&mut all, facts, &mut pairs);
+    leaks.add_windows(facts, pairs);
+}
+
+/// Adds the pairs of equal windows: hash, flight, first frame.
+fn compare(all: &mut [(u64, u32, u32)], facts: &[FlightFacts], pairs: &mut Pairs) {
     all.sort_unstable();
-    let mut pairs: BTreeMap<(u32, u32), (u32, u32, usize)> = BTreeMap::new();
     for same in all.chunk_by(|a, b| a.0 == b.0).filter(|same| same.len() > 1) {
         // One flight of each split is enough to name a pair; all flights behind a walk share its windows.
         let mut of_split: BTreeMap<&str, (u32, u32)> = BTreeMap::new();
@@ -172,21 +247,12 @@ fn windows(facts: &[FlightFacts], leaks: &mut Leaks) {
         let of_split: Vec<(u32, u32)> = of_split.into_values().collect();
         for (at, (a, frame_of_a)) in of_split.iter().enumerate() {
             for (b, frame_of_b) in &of_split[at + 1..] {
-                pairs.entry((*a, *b)).or_insert((*frame_of_a, *frame_of_b, 0)).2 += 1;
+                let pair = pairs.entry((*a, *b)).or_insert((*frame_of_a, *frame_of_b, 0));
+                // Parts of the hashes come in any order of frames.
+                (pair.0, pair.1) = (pair.0, pair.1).min((*frame_of_a, *frame_of_b));
+                pair.2 += 1;
             }
         }
-    }
-    for ((a, b), (frame_of_a, frame_of_b, count)) in pairs {
-        let (a, b) = (&facts[a as usize], &facts[b as usize]);
-        if is_one_walk(a, b) {
-            continue;
-        }
-        let message = format!(
-            "{count} windows of {} are windows of {}: from frame {frame_of_a} and from frame {frame_of_b} on",
-            named(a),
-            named(b)
-        );
-        leaks.add("split-window", b, message);
     }
 }
 
@@ -211,17 +277,21 @@ fn routes(facts: &[FlightFacts], rules: &LintRules, leaks: &mut Leaks) {
     }
     let given: Vec<(usize, &route::Route)> =
         walks.iter().map(|it| (place_of[it.layout.digest.as_str()], &it.route)).collect();
-    for (a, b, share) in route::overlaps(&given, rules.max_route_overlap) {
+    let splits: BTreeSet<&str> = walks.iter().map(|it| it.split.as_str()).collect();
+    let splits: BTreeMap<&str, u32> = splits.into_iter().zip(0..).collect();
+    let colours: Vec<u32> = walks.iter().map(|it| splits[it.split.as_str()]).collect();
+    let is_judged = |a: usize, b: usize| !is_one_walk(walks[a], walks[b]);
+    let found = overlaps(&given, &colours, rules.max_route_overlap, &is_judged, KEPT);
+    leaks.found += found.found - found.kept.len();
+    for (a, b, share) in found.kept {
         let (a, b) = (walks[a], walks[b]);
-        if a.split != b.split && !is_one_walk(a, b) {
-            let message = format!(
-                "{} % of a walk is repeated in another split: {} and {}",
-                (100.0 * share).round(),
-                named(a),
-                named(b)
-            );
-            leaks.add("split-route", b, message);
-        }
+        let message = format!(
+            "{} % of a walk is repeated in another split: {} and {}",
+            (100.0 * share).round(),
+            named(a),
+            named(b)
+        );
+        leaks.add("split-route", b, message);
     }
 }
 

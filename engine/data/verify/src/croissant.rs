@@ -1,6 +1,6 @@
 //! `croissant.json` against the tables and files it describes.
 
-use super::files::CheckedFiles;
+use super::files::{CheckedFiles, State};
 use super::report::VerifyReport;
 use cosfly_diagnose::Result;
 use cosfly_fingerprint::sha256::sha256_of_reader;
@@ -14,7 +14,7 @@ const FILE: &str = "croissant.json";
 
 /// Checks versions, required properties, file objects and fields.
 pub fn check(folder: &Path, files: &CheckedFiles, report: &mut VerifyReport) -> Result<()> {
-    if !files.sound.contains(FILE) {
+    if files.state(FILE) != State::Sound {
         return Ok(());
     }
     let bytes =
@@ -54,7 +54,8 @@ fn check_file_objects(folder: &Path, files: &CheckedFiles, document: &Value, rep
         let path = object["contentUrl"].as_str().unwrap_or_default();
         names_files |= path == "files.parquet";
         // Only files that were looked at before are opened: no pipes, no paths that lead out.
-        let outcome = files.regular.get(path).and_then(|path| File::open(folder.join(path)).ok());
+        let is_regular = files.state(path) >= State::Regular;
+        let outcome = is_regular.then(|| File::open(folder.join(path)).ok()).flatten();
         let Some((bytes, sha256)) = outcome.and_then(|mut file| sha256_of_reader(&mut file).ok()) else {
             report.find(FILE, format!("file object `{path}`"), "verify-missing-file", "it is not there");
             continue;

@@ -1,6 +1,6 @@
 //! Tables of plugins: as `croissant.json` describes them, each row of a flight of its split.
 
-use super::files::CheckedFiles;
+use super::files::{CheckedFiles, State};
 use super::report::VerifyReport;
 use super::rows::split_of;
 use super::tables::SmallTables;
@@ -36,7 +36,8 @@ pub fn check(folder: &Path, files: &CheckedFiles, tables: &SmallTables, report: 
 
 /// The columns of the tables that are described, by name.
 fn described(folder: &Path, files: &CheckedFiles) -> BTreeMap<String, Vec<String>> {
-    let text = files.sound.get("croissant.json").and_then(|file| std::fs::read(folder.join(file)).ok());
+    let file = "croissant.json";
+    let text = (files.state(file) == State::Sound).then(|| std::fs::read(folder.join(file)).ok()).flatten();
     let document: Value = text.and_then(|text| serde_json::from_slice(&text).ok()).unwrap_or_default();
     let list = |value: &Value| value.as_array().cloned().unwrap_or_default();
     let name_of = |value: &Value| value["name"].as_str().unwrap_or_default().to_owned();

@@ -1,62 +1,170 @@
-//! All flights, one at a time: table `frames` with the tables beside it, and the log of each flight.
+//! All flights, side by side: table `frames` with the tables beside it, and the log of each flight.
 
-use super::files::CheckedFiles;
+use super::files::{CheckedFiles, State};
 use super::frames::{check_frames, check_occluders, check_pair};
 use super::log::{self, Known};
+use super::options::Wanted;
+use super::people::PersonRow;
 use super::report::VerifyReport;
-use super::rows;
+use super::resume::ResumeFile;
+use super::rows::{self, PlacedFrame};
 use super::tables::SmallTables;
-use super::twins::Twins;
-use super::{labels, people, sums, waypoints};
-use std::collections::BTreeMap;
+use super::{labels, people, sums, twins, waypoints};
+use cosfly_diagnose::Result;
+use cosfly_read::{FlightTrack, RowIndex};
+use rayon::prelude::*;
+use std::collections::{BTreeMap, BTreeSet};
 use std::path::Path;
+use std::sync::atomic::{AtomicU64, Ordering};
 
-/// Checks all flights: rows of `frames`, then the log of each, then `waypoints` and twins.
-pub fn check_all(
-    folder: &Path,
-    files: &CheckedFiles,
-    tables: &SmallTables,
-    report: &mut VerifyReport,
-    progress: &mut dyn FnMut(u64, u64),
-) {
-    let total = tables.flights.len() as u64;
-    let mut motions: BTreeMap<String, blake3::Hasher> = BTreeMap::new();
-    let mut twins = Twins::of(tables);
-    for file in files.sound_below("data/frames/") {
-        let mut others = people::read(folder, files, file, report);
+/// Flights of one file that are checked side by side.
+const TOGETHER: usize = 16;
+/// Files of table `frames` whose findings are joined at a time, per thread.
+const FILES_PER_THREAD: usize = 4;
+
+/// Digest of the motion of a flight.
+pub type Motion = [u8; 16];
+
+/// The digest that a hasher holds.
+pub fn motion_of(hasher: &blake3::Hasher) -> Motion {
+    hasher.finalize().as_bytes()[..16].try_into().unwrap_or_default()
+}
+
+/// The flights of a dataset and all that is known of them.
+pub struct Flights<'a> {
+    /// Folder of the dataset.
+    pub folder: &'a Path,
+    /// Its files.
+    pub files: &'a CheckedFiles,
+    /// Its small tables.
+    pub tables: &'a SmallTables,
+    /// The flights that are checked in full.
+    pub wanted: &'a Wanted,
+    resume: Option<ResumeFile>,
+    index: RowIndex,
+}
+
+/// A flight that was checked.
+struct Checked {
+    number: usize,
+    first_row: usize,
+    motion: Motion,
+    report: VerifyReport,
+    /// Size and time of change of the log, where it was read.
+    log: Option<[u64; 2]>,
+}
+
+/// Rows of a flight in table `frames`, and those of the people seen.
+type Rows = (Vec<PlacedFrame>, Vec<PersonRow>);
+
+impl<'a> Flights<'a> {
+    /// The flights; finds their rows in table `frames`.
+    pub fn new(
+        folder: &'a Path,
+        files: &'a CheckedFiles,
+        tables: &'a SmallTables,
+        wanted: &'a Wanted,
+        resume: Option<ResumeFile>,
+    ) -> Self {
+        let mut index = RowIndex::default();
+        for file in files.sound_below("data/frames/") {
+            // Damage is found again, and reported, when all columns are read.
+            let _ = index.add(folder.join(file), &|id| tables.flights.number(id));
+        }
+        Self { folder, files, tables, wanted, resume, index }
+    }
+
+    /// Tracks of some flights; those whose rows are damaged are left out.
+    pub fn tracks(&self, wanted: &BTreeSet<usize>) -> BTreeMap<usize, FlightTrack> {
+        let number_of = |id: &str| self.tables.flights.number(id);
+        self.index.tracks(wanted, &number_of).unwrap_or_else(|_| {
+            let single = |number: &usize| self.index.tracks(&[*number].into(), &number_of).unwrap_or_default();
+            wanted.iter().flat_map(single).collect()
+        })
+    }
+
+    /// Whether table `frames` has rows of a flight.
+    pub fn has_frames(&self, number: usize) -> bool {
+        self.index.has(number)
+    }
+
+    /// Checks all wanted flights: rows of `frames`, the log of each, then `waypoints` and other logs.
+    ///
+    /// # Errors
+    /// A log is there and cannot be read, or the notes of the check cannot be written.
+    pub fn check_all(&self, report: &mut VerifyReport, progress: &(dyn Fn(u64, u64) + Sync)) -> Result<()> {
+        report.sample = self.wanted.sample();
+        let all = report.sample.unwrap_or(self.tables.flights.len() as u64);
+        let done = AtomicU64::new(0);
+        let count = || progress(done.fetch_add(1, Ordering::Relaxed) + 1, all);
+        let mut motions: Vec<Option<Motion>> = vec![None; self.tables.flights.len()];
+        let files: Vec<&str> = self.files.sound_below("data/frames/").collect();
+        for together in files.chunks(FILES_PER_THREAD * rayon::current_num_threads()) {
+            let checked: Vec<Result<(Vec<Checked>, VerifyReport)>> =
+                together.par_iter().map(|file| self.check_file(file, &count)).collect();
+            for (file, checked) in together.iter().zip(checked) {
+                let (flights, of_file) = checked?;
+                for flight in flights {
+                    let id = &self.tables.flights.at(flight.number).trajectory_id;
+                    if motions[flight.number].is_some() {
+                        let place = format!("row {}, `{id}`", flight.first_row);
+                        report.find(file, place, "verify-duplicate", "its rows are apart");
+                        continue;
+                    }
+                    motions[flight.number] = Some(flight.motion);
+                    if let (Some(resume), Some(log)) = (&self.resume, flight.log) {
+                        resume.note(id, log, &flight.report)?;
+                    }
+                    report.absorb(flight.report);
+                }
+                report.absorb(of_file);
+            }
+        }
+        self.check_missing(&motions, report);
+        self.check_other_logs(&motions, report)?;
+        waypoints::check(self, &motions, report);
+        Ok(())
+    }
+
+    /// Checks the flights of one file of table `frames`.
+    fn check_file(&self, file: &str, count: &(dyn Fn() + Sync)) -> Result<(Vec<Checked>, VerifyReport)> {
+        let (mut report, mut checked) = (VerifyReport::default(), vec![]);
+        let path = self.folder.join(file);
+        if self.wanted.sample().is_some() && !self.has_wanted(&path) {
+            if let Err(message) = rows::check_columns(&path, &rows::table("frames")) {
+                report.find(file, "", "verify-schema", message);
+            }
+            return Ok((checked, report));
+        }
+        let mut others = people::read(self.folder, self.files, file, &mut report);
         let people_file = people::file_beside(file);
-        let outcome = rows::frames(&folder.join(file), &mut |frames| {
-            let id = frames[0].trajectory_id.clone();
-            let Some(flight) = tables.flights.get(&id) else {
-                let place = format!("row {}, `{id}`", frames[0].row);
-                report.find(file, place, "verify-reference", "there is no such flight");
-                return;
+        let mut batch: Vec<Rows> = vec![];
+        let mut seen: BTreeSet<usize> = BTreeSet::new();
+        let mut outcome_of_logs = Ok(());
+        let mut work =
+            |batch: &mut Vec<Rows>| match self.check_together(file, &people_file, std::mem::take(batch), count) {
+                Ok(flights) => checked.extend(flights),
+                Err(refusal) => outcome_of_logs = Err(refusal),
             };
-            if motions.contains_key(&id) {
-                report.find(file, format!("row {}, `{id}`", frames[0].row), "verify-duplicate", "its rows are apart");
-                return;
+        let outcome = rows::frames(&path, &mut |frames| {
+            let id = &frames[0].trajectory_id;
+            let place = || format!("row {}, `{id}`", frames[0].row);
+            let Some(number) = self.tables.flights.number(id) else {
+                return report.find(file, place(), "verify-reference", "there is no such flight");
+            };
+            let people = others.remove(id).unwrap_or_default();
+            if !seen.insert(number) {
+                return report.find(file, place(), "verify-duplicate", "its rows are apart");
             }
-            let mut motion = blake3::Hasher::new();
-            for frame in &frames {
-                motion.update(&frame.motion_bytes());
+            if self.wanted.has(number) {
+                batch.push((frames, people));
+                if batch.len() == TOGETHER {
+                    work(&mut batch);
+                }
             }
-            motions.insert(id.clone(), motion);
-            check_frames(file, flight, &frames, report);
-            sums::check_frames(flight, &frames, report);
-            labels::compare(file, flight, &frames, report);
-            let (others, objects) = (others.remove(&id).unwrap_or_default(), tables.instances.get(&flight.town));
-            people::check(&people_file, flight, &frames, &others, objects, report);
-            check_occluders(file, objects, &others, &frames, report);
-            check_pair(&tables.pairs, flight, &frames, report);
-            twins.keep(&frames);
-            if files.regular.contains(&flight.mcap_path) {
-                let captions = tables.captions.get(&id).map_or(&[][..], Vec::as_slice);
-                log::check(folder, flight, &frames, &Known { captions, objects, others: &others }, report);
-            }
-            report.flights += 1;
-            report.frames += frames.len() as u64;
-            progress(report.flights, total);
         });
+        work(&mut batch);
+        outcome_of_logs?;
         if let Err(message) = outcome {
             report.find(file, "", "verify-schema", message);
         }
@@ -64,11 +172,111 @@ pub fn check_all(
             let place = format!("row {}, `{id}`", rows[0].row);
             report.find(&people_file, place, "verify-reference", "its frames are not in the file of this name");
         }
+        Ok((checked, report))
     }
-    for (id, flight) in tables.flights.iter().filter(|(id, _)| !motions.contains_key(*id)) {
-        let place = format!("row {}, `{id}`", flight.place.1);
-        report.find(&flight.place.0, place, "verify-count", "table `frames` has no readable rows of it");
+
+    /// Whether a file of table `frames` holds a flight of the sample.
+    fn has_wanted(&self, path: &Path) -> bool {
+        let file = self.index.files().iter().position(|it| it == path);
+        file.is_none_or(|file| self.index.numbers_in(file).iter().any(|number| self.wanted.has(*number as usize)))
     }
-    waypoints::check(folder, files, &motions, report);
-    twins.check(tables, report);
+
+    fn check_together(
+        &self,
+        file: &str,
+        people_file: &str,
+        batch: Vec<Rows>,
+        count: &(dyn Fn() + Sync),
+    ) -> Result<Vec<Checked>> {
+        let flights = &self.tables.flights;
+        let expert = |rows: &Rows| flights.number(flights.get(&rows.0[0].trajectory_id)?.expert_id.as_ref()?);
+        let experts = self.tracks(&batch.iter().filter_map(expert).collect());
+        let check = |rows: &Rows| {
+            let track = expert(rows).and_then(|number| experts.get(&number));
+            let checked = self.check_flight(file, people_file, rows, track);
+            count();
+            checked
+        };
+        batch.par_iter().map(check).collect()
+    }
+
+    /// Checks the rows and the log of a flight.
+    fn check_flight(
+        &self,
+        file: &str,
+        people_file: &str,
+        (frames, others): &Rows,
+        expert: Option<&FlightTrack>,
+    ) -> Result<Checked> {
+        let id = &frames[0].trajectory_id;
+        let number = self.tables.flights.number(id).unwrap_or_default();
+        let flight = self.tables.flights.at(number);
+        let mut hasher = blake3::Hasher::new();
+        for frame in frames {
+            hasher.update(&frame.motion_bytes());
+        }
+        let mut checked = Checked {
+            number,
+            first_row: frames[0].row,
+            motion: motion_of(&hasher),
+            report: VerifyReport::default(),
+            log: None,
+        };
+        let log = self.resume.as_ref().and_then(|_| ResumeFile::log_state(&self.folder.join(&flight.mcap_path)));
+        if let Some(known) = self.resume.as_ref().zip(log).and_then(|(resume, log)| resume.known(id, log)) {
+            checked.report = known;
+            return Ok(checked);
+        }
+        checked.log = log;
+        let report = &mut checked.report;
+        check_frames(file, flight, frames, report);
+        sums::check_frames(flight, frames, report);
+        labels::compare(file, flight, frames, report);
+        let objects = self.tables.instances.get(&flight.town);
+        people::check(people_file, flight, frames, others, objects, report);
+        check_occluders(file, objects, others, frames, report);
+        check_pair(&self.tables.pairs, flight, frames, report);
+        if let Some(expert) = expert {
+            twins::check(file, flight, frames, expert, report);
+        }
+        if self.files.check_log(self.folder, &flight.mcap_path, report)? >= State::Regular {
+            let captions = self.tables.captions.of(number);
+            log::check(self.folder, flight, frames, &Known { captions, objects, others }, report);
+        }
+        report.flights += 1;
+        report.frames += frames.len() as u64;
+        Ok(checked)
+    }
+
+    fn check_missing(&self, motions: &[Option<Motion>], report: &mut VerifyReport) {
+        for (number, flight) in self.tables.flights.iter().enumerate() {
+            let is_missing = if self.wanted.has(number) { motions[number].is_none() } else { !self.has_frames(number) };
+            if is_missing {
+                let place = format!("row {}, `{}`", flight.place.1, flight.trajectory_id);
+                report.find(&flight.place.0, place, "verify-count", "table `frames` has no readable rows of it");
+            }
+        }
+    }
+
+    /// Checks the logs that were not read with a flight: sizes outside of the sample, otherwise hashes.
+    fn check_other_logs(&self, motions: &[Option<Motion>], report: &mut VerifyReport) -> Result<()> {
+        let flights = || self.tables.flights.iter().enumerate();
+        let of = |chosen: &dyn Fn(usize) -> bool| -> BTreeSet<&str> {
+            flights().filter(|(number, _)| chosen(*number)).map(|(_, flight)| flight.mcap_path.as_str()).collect()
+        };
+        let read = of(&|number| motions[number].is_some());
+        let by_size = of(&|number| !self.wanted.has(number));
+        let others: Vec<&str> = self.files.logs().filter(|path| !read.contains(path)).collect();
+        let check = |path: &&str| {
+            let mut report = VerifyReport::default();
+            if by_size.contains(path) {
+                self.files.check_size(self.folder, path, &mut report)?;
+            } else {
+                self.files.check_log(self.folder, path, &mut report)?;
+            }
+            Ok(report)
+        };
+        let checked: Vec<Result<VerifyReport>> = others.par_iter().map(check).collect();
+        checked.into_iter().try_for_each(|checked| checked.map(|checked| report.absorb(checked)))
+    }
 }

@@ -1,6 +1,7 @@
 //! The log of one flight: its own checksums, then its messages against the rows of the tables.
 
 use super::body::Body;
+use super::captions::Caption;
 use super::people::PersonRow;
 use super::report::VerifyReport;
 use super::rows::{PlacedFlight, PlacedFrame};
@@ -25,8 +26,8 @@ const POSE_TOLERANCE: f64 = 1e-6;
 const DEPTH_SLACK_M: f64 = 1e-3;
 /// Rows of tables about a flight, beside its frames.
 pub struct Known<'a> {
-    /// Language and text of its captions.
-    pub captions: &'a [(String, String)],
+    /// Its captions.
+    pub captions: &'a [Caption],
     /// Instance ids of the town's objects.
     pub objects: Option<&'a BTreeSet<u32>>,
     /// People seen beside the target, by frame.
@@ -110,7 +111,7 @@ impl LogCheck<'_> {
     fn message(&mut self, topic: &str, frame: usize, time_ns: u64, data: &[u8]) {
         if topic == topic::CAPTIONS {
             let text = messages::Log::decode(data).map(|log| log.message).unwrap_or_default();
-            if !self.known.captions.iter().any(|caption| caption.1 == text) {
+            if !self.known.captions.iter().any(|caption| caption.is(&text)) {
                 self.find(format!("caption {frame}"), "verify-caption", "table `captions` does not have it".into());
             }
             return;

@@ -1,7 +1,7 @@
 //! Table `people`: all people seen beside the target, against frames, objects and pixels.
 
 use super::body::{Body, SLACK_PX};
-use super::files::CheckedFiles;
+use super::files::{CheckedFiles, State};
 use super::report::VerifyReport;
 use super::rows::{self, PlacedFlight, PlacedFrame};
 use cosfly_frames::DVec3;
@@ -40,8 +40,8 @@ pub type PeopleOfFlights = BTreeMap<String, Vec<PersonRow>>;
 pub fn read(folder: &Path, files: &CheckedFiles, frames_file: &str, report: &mut VerifyReport) -> PeopleOfFlights {
     let mut people = PeopleOfFlights::new();
     let file = file_beside(frames_file);
-    if !files.sound.contains(&file) {
-        if !files.listed.contains_key(&file) {
+    if files.state(&file) != State::Sound {
+        if files.listed(&file).is_none() {
             report.find(&file, "", "verify-missing-file", "there is none beside the file of table `frames`");
         }
         return people;

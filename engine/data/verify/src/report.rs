@@ -1,5 +1,6 @@
 //! Findings of a check.
 
+use serde::{Deserialize, Serialize};
 use std::fmt;
 
 /// Findings that are kept; more are only counted.
@@ -26,7 +27,7 @@ impl fmt::Display for Finding {
 }
 
 /// A frame in which rays and pixels tell different shares of the target visible: no problem, but worth a look.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct LabelGap {
     /// File, from the dataset's folder.
     pub file: String,
@@ -60,6 +61,12 @@ pub struct VerifyReport {
     pub bytes: u64,
     /// Flights whose frames and log were checked.
     pub flights: u64,
+    /// Flights of the dataset.
+    pub flights_of_dataset: u64,
+    /// Number of flights in the sample, where only a sample was checked in full.
+    pub sample: Option<u64>,
+    /// Flights of these that an earlier check had found sound.
+    pub resumed: u64,
     /// Frames of the checked flights.
     pub frames: u64,
     /// Frames whose stored boxes were compared with the reprojected body and with the images.
@@ -76,6 +83,23 @@ impl VerifyReport {
     /// Whether nothing was found.
     pub fn is_sound(&self) -> bool {
         self.found == 0
+    }
+
+    /// Adds the numbers and findings of a later part of the check.
+    pub(super) fn absorb(&mut self, part: Self) {
+        self.found += part.found;
+        let room = KEPT_FINDINGS.saturating_sub(self.findings.len());
+        self.findings.extend(part.findings.into_iter().take(room));
+        self.files += part.files;
+        self.bytes += part.bytes;
+        self.flights += part.flights;
+        self.frames += part.frames;
+        self.boxes += part.boxes;
+        self.labels += part.labels;
+        self.gaps += part.gaps;
+        self.resumed += part.resumed;
+        let room = KEPT_FINDINGS.saturating_sub(self.label_gaps.len());
+        self.label_gaps.extend(part.label_gaps.into_iter().take(room));
     }
 
     /// Notes a frame whose labels differ.

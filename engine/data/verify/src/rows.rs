@@ -7,10 +7,11 @@ use arrow_array::types::{Float32Type, Float64Type};
 use arrow_schema::DataType;
 use cosfly_diagnose::Diagnostic;
 use cosfly_frames::{DVec3, Pose, action};
-use cosfly_read::{FrameRow, PublishedFlight, Rows, TableFile};
+use cosfly_read::{FrameRow, PublishedFlight, Rows, Shared, TableFile};
 use cosfly_schema::tables::{self, DatasetItem, FileRecord, Files, Frames, Kind, Table, Trajectories, Waypoints};
 use std::ops::Deref;
 use std::path::Path;
+use std::sync::Arc;
 
 /// A value read, or the damage of a file, in words.
 pub type ReadResult<T> = Result<T, String>;
@@ -25,15 +26,7 @@ pub fn read<S>(
     visit: &mut dyn FnMut(&Rows<'_>) -> cosfly_diagnose::Result<()>,
 ) -> ReadResult<()> {
     let file = TableFile::open(path).map_err(|refusal| in_words(&refusal))?;
-    let expected = tables::schema(table);
-    if file.schema().fields() != expected.fields() {
-        let found = file.schema();
-        let differs =
-            expected.fields().iter().find(|field| found.field_with_name(field.name()).ok() != Some(&***field));
-        let column =
-            differs.map_or("the order of its columns".to_owned(), |field| format!("column `{}`", field.name()));
-        return Err(format!("{column} is not as table `{}` has it", table.name));
-    }
+    check_schema(&file, table)?;
     let split = path.file_name().and_then(|name| name.to_str()).map_or("", split_of);
     let mut first = 0;
     for group in 0..file.groups() {
@@ -51,6 +44,25 @@ pub fn read<S>(
         first += rows.len();
     }
     Ok(())
+}
+
+/// Checks the columns of a file alone.
+///
+/// # Errors
+/// Columns that are not those of the table.
+pub fn check_columns<S>(path: &Path, table: &Table<S>) -> ReadResult<()> {
+    check_schema(&TableFile::open(path).map_err(|refusal| in_words(&refusal))?, table)
+}
+
+fn check_schema<S>(file: &TableFile<'_>, table: &Table<S>) -> ReadResult<()> {
+    let expected = tables::schema(table);
+    if file.schema().fields() == expected.fields() {
+        return Ok(());
+    }
+    let found = file.schema();
+    let differs = expected.fields().iter().find(|field| found.field_with_name(field.name()).ok() != Some(&***field));
+    let column = differs.map_or("the order of its columns".to_owned(), |field| format!("column `{}`", field.name()));
+    Err(format!("{column} is not as table `{}` has it", table.name))
 }
 
 /// The split that a file belongs to.
@@ -103,9 +115,7 @@ pub fn files(path: &Path) -> ReadResult<Vec<FileRecord>> {
 #[derive(Clone, Debug, PartialEq)]
 pub struct PlacedFlight {
     /// File and row.
-    pub place: (String, usize),
-    /// Size and SHA-256 of the log.
-    pub mcap: (u64, String),
+    pub place: (Arc<str>, usize),
     /// Number of messages in the log.
     pub mcap_messages: u64,
     /// Sums over the frames, and limits.
@@ -130,22 +140,30 @@ impl PlacedFlight {
     }
 }
 
-/// The rows of a file of `trajectories`; `name` is its path from the dataset's folder.
-pub fn flights(path: &Path, name: &str) -> ReadResult<Vec<PlacedFlight>> {
-    let mut flights = vec![];
+/// Gives the rows of a file of `trajectories` with size and SHA-256 of their logs to `visit`; `name` is the file's path from
+/// the dataset's folder.
+pub fn flights(
+    path: &Path,
+    name: &str,
+    shared: &mut Shared,
+    visit: &mut dyn FnMut(PlacedFlight, (u64, String)),
+) -> ReadResult<()> {
+    let (name, mut number): (Arc<str>, usize) = (name.into(), 0);
     read(path, &table("trajectories"), &mut |rows| {
         for row in 0..rows.len() {
-            flights.push(PlacedFlight {
-                place: (name.to_owned(), flights.len()),
-                mcap: (rows.get(Trajectories::mcap_bytes, row)?, rows.get(Trajectories::mcap_sha256, row)?),
+            let mut flight = PublishedFlight::read(rows, row, "")?;
+            shared.share(&mut flight);
+            let placed = PlacedFlight {
+                place: (Arc::clone(&name), number),
                 mcap_messages: rows.get(Trajectories::mcap_messages, row)?,
                 figures: Figures::read(rows, row)?,
-                flight: PublishedFlight::read(rows, row, "")?,
-            });
+                flight,
+            };
+            visit(placed, (rows.get(Trajectories::mcap_bytes, row)?, rows.get(Trajectories::mcap_sha256, row)?));
+            number += 1;
         }
         Ok(())
-    })?;
-    Ok(flights)
+    })
 }
 
 /// A row of table `frames` and its place.
@@ -243,17 +261,22 @@ pub fn frames(path: &Path, visit: &mut dyn FnMut(Vec<PlacedFrame>)) -> ReadResul
     Ok(())
 }
 
-/// Gives trajectory, step and motion of each row of a file of `waypoints` to `visit`.
-pub fn waypoints(path: &Path, visit: &mut dyn FnMut(String, u32, Vec<u8>)) -> ReadResult<()> {
+/// Gives trajectory, step and motion of each row of a file of `waypoints` to `visit`; of `wanted` trajectories only.
+pub fn waypoints(
+    path: &Path,
+    wanted: &dyn Fn(&str) -> bool,
+    visit: &mut dyn FnMut(&str, u32, Vec<u8>),
+) -> ReadResult<()> {
     read(path, &table("waypoints"), &mut |rows| {
-        for row in 0..rows.len() {
+        let ids = rows.values(Waypoints::trajectory_id)?;
+        for row in (0..rows.len()).filter(|row| wanted(ids.text(*row))) {
             let world = rows.get(Waypoints::action_in_world, row)?;
             let body = rows.get(Waypoints::action_in_body, row)?;
             let (pose, target) =
                 (rows.get(Waypoints::pose_in_world, row)?, rows.get(Waypoints::target_feet_in_world, row)?);
             let expert_step = rows.get(Waypoints::expert_step, row)?;
             let motion = motion_bytes(&pose, target, expert_step, world.as_ref(), body.as_ref());
-            visit(rows.get(Waypoints::trajectory_id, row)?, rows.get(Waypoints::step, row)?, motion);
+            visit(ids.text(row), rows.get(Waypoints::step, row)?, motion);
         }
         Ok(())
     })

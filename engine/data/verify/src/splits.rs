@@ -13,11 +13,15 @@ pub fn check(folder: &Path, tables: &SmallTables, report: &mut VerifyReport) {
         Err(message) => return report.find(policy::FILE, "", "verify-schema", message),
     };
     // Tables that cannot be read were found before.
-    let Ok(facts) = facts_of_dataset(folder, 0, policy.windows.shape().size()) else { return };
-    let leaks = splits::lint(&facts, &policy.rules());
+    let Ok(facts) = facts_of_dataset(folder, 0, 0) else { return };
+    let mut leaks = splits::lint(&facts, &policy.rules());
+    if leaks.of_windows(&facts, &[folder], policy.windows.shape().size()).is_err() {
+        return;
+    }
+    leaks.of_areas(&facts, &policy.splits);
     for leak in &leaks.kept {
         let place = tables.flights.get(&leak.trajectory_id).map(|flight| &flight.place);
-        let (file, row) = place.map_or(("data/trajectories", 0), |(file, row)| (file, *row));
+        let (file, row) = place.map_or(("data/trajectories", 0), |(file, row)| (&**file, *row));
         report.find(file, format!("row {row}, `{}`", leak.trajectory_id), leak.rule, leak.message.clone());
     }
     for it in &facts {
@@ -25,7 +29,7 @@ pub fn check(folder: &Path, tables: &SmallTables, report: &mut VerifyReport) {
             continue;
         };
         let place = tables.flights.get(&it.trajectory_id).map(|flight| &flight.place);
-        let (file, row) = place.map_or(("data/trajectories", 0), |(file, row)| (file, *row));
+        let (file, row) = place.map_or(("data/trajectories", 0), |(file, row)| (&**file, *row));
         let message = format!("it is in `{}`; `splits.json` promises `{}` for its town", it.split, assigned.name());
         report.find(file, format!("row {row}, `{}`", it.trajectory_id), "split-town", message);
     }

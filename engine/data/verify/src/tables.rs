@@ -1,23 +1,26 @@
 //! Tables against each other: references, splits, counts, captions.
 
+use super::captions::CaptionList;
 use super::files::CheckedFiles;
+use super::flight_list::FlightList;
 use super::report::VerifyReport;
-use super::rows::{self, PlacedFlight, ReadResult, split_of};
+use super::rows::{self, PlacedFlight, ReadResult};
 use super::sums;
 use cosfly_diagnose::Result;
-use cosfly_read::Rows;
-use cosfly_schema::tables::{self, Captions, Objects, Pairs, Rejected};
+use cosfly_read::{Rows, Shared};
+use cosfly_schema::tables::{self, Objects, Pairs, Rejected};
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::Path;
+use std::sync::Arc;
 
 /// Rows of the small tables that later checks read.
 pub struct SmallTables {
     /// Flights by name.
-    pub flights: BTreeMap<String, PlacedFlight>,
+    pub flights: FlightList,
     /// Twins by name.
     pub pairs: BTreeMap<String, PairRow>,
-    /// Captions by flight: language and text.
-    pub captions: BTreeMap<String, Vec<(String, String)>>,
+    /// Captions by flight.
+    pub captions: CaptionList,
     /// Instance ids by town.
     pub instances: BTreeMap<String, BTreeSet<u32>>,
 }
@@ -25,7 +28,7 @@ pub struct SmallTables {
 /// A row of table `pairs`.
 pub struct PairRow {
     /// File and row it stands in.
-    pub place: (String, usize),
+    pub place: (Arc<str>, usize),
     expert_id: String,
     /// The pedestrian of both.
     pub pedestrian_id: String,
@@ -33,26 +36,35 @@ pub struct PairRow {
     pub counts: [u32; 3],
     /// Largest displacement, metres.
     pub max_offset_m: f64,
-    /// The expert's frame of each frame.
-    pub expert_frames: Vec<i64>,
+    /// Digest of the expert's frames of all frames.
+    pub expert_frames: blake3::Hash,
+}
+
+/// Digest of frames of an expert.
+pub fn digest(frames: impl Iterator<Item = i64>) -> blake3::Hash {
+    let mut hasher = blake3::Hasher::new();
+    for frame in frames {
+        hasher.update(&frame.to_le_bytes());
+    }
+    hasher.finalize()
 }
 
 /// Reads the small tables and checks them against each other.
 pub fn read(folder: &Path, files: &CheckedFiles, report: &mut VerifyReport) -> SmallTables {
-    let mut small = SmallTables {
-        flights: BTreeMap::new(),
-        pairs: BTreeMap::new(),
-        captions: BTreeMap::new(),
-        instances: BTreeMap::new(),
-    };
-    read_flights(folder, files, &mut small, report);
+    let flights = read_flights(folder, files, report);
+    let captions = CaptionList::read(folder, files, &flights, report);
+    let mut small = SmallTables { flights, pairs: BTreeMap::new(), captions, instances: BTreeMap::new() };
     let rejected = read_rejected(folder, files, report);
-    for id in small.flights.keys().filter(|id| rejected.contains(*id)) {
-        report.find("data/rejected", id.clone(), "verify-reference", "it is rejected and has a flight");
+    for flight in small.flights.iter().filter(|flight| rejected.contains(&flight.trajectory_id)) {
+        report.find(
+            "data/rejected",
+            flight.trajectory_id.clone(),
+            "verify-reference",
+            "it is rejected and has a flight",
+        );
     }
     read_objects(folder, files, &mut small, report);
     check_weathers(&small, report);
-    read_captions(folder, files, &mut small, report);
     read_pairs(folder, files, &mut small, report);
     small
 }
@@ -61,26 +73,27 @@ fn note<T>(report: &mut VerifyReport, file: &str, outcome: ReadResult<T>) -> Opt
     outcome.map_err(|message| report.find(file, "", "verify-schema", message)).ok()
 }
 
-fn read_flights(folder: &Path, files: &CheckedFiles, small: &mut SmallTables, report: &mut VerifyReport) {
+fn read_flights(folder: &Path, files: &CheckedFiles, report: &mut VerifyReport) -> FlightList {
+    let (mut flights, mut shared): (Vec<PlacedFlight>, _) = (vec![], Shared::default());
     for file in files.sound_below("data/trajectories/") {
-        for flight in note(report, file, rows::flights(&folder.join(file), file)).unwrap_or_default() {
-            let (id, row) = (flight.trajectory_id.clone(), flight.place.1);
-            let listed = files.listed.get(&flight.mcap_path);
-            if listed.is_none_or(|it| (it.bytes, &it.sha256) != (flight.mcap.0, &flight.mcap.1)) {
+        let outcome = rows::flights(&folder.join(file), file, &mut shared, &mut |flight, mcap| {
+            if files.listed(&flight.mcap_path).is_none_or(|listed| listed != (mcap.0, &*mcap.1)) {
                 let message = format!("`{}` is not in `files.parquet` with this size and hash", flight.mcap_path);
-                report.find(file, format!("row {row}, `{id}`"), "verify-reference", message);
+                let place = format!("row {}, `{}`", flight.place.1, flight.trajectory_id);
+                report.find(file, place, "verify-reference", message);
             }
             sums::check_row(&flight, report);
-            if small.flights.insert(id.clone(), flight).is_some() {
-                report.find(file, format!("row {row}"), "verify-duplicate", format!("a second flight `{id}`"));
-            }
-        }
+            flights.push(flight);
+        });
+        note(report, file, outcome);
     }
-    let logs = files.listed.keys().filter(|path| path.starts_with("mcap/")).count();
-    if logs != small.flights.len() {
-        let message = format!("{} flights, but {logs} logs in `files.parquet`", small.flights.len());
+    let flights = FlightList::of(flights, report);
+    let logs = files.logs().count();
+    if logs != flights.len() {
+        let message = format!("{} flights, but {logs} logs in `files.parquet`", flights.len());
         report.find("data/trajectories", "", "verify-count", message);
     }
+    flights
 }
 
 fn read_rejected(folder: &Path, files: &CheckedFiles, report: &mut VerifyReport) -> BTreeSet<String> {
@@ -119,7 +132,8 @@ fn read_objects(folder: &Path, files: &CheckedFiles, small: &mut SmallTables, re
 /// Rows of the same flight are in different weathers, else one of them is there twice.
 fn check_weathers(small: &SmallTables, report: &mut VerifyReport) {
     let mut seen: BTreeMap<(&str, &str), &str> = BTreeMap::new();
-    for (id, flight) in &small.flights {
+    for flight in small.flights.iter() {
+        let id = &flight.trajectory_id;
         if let Some(first) = seen.insert((&flight.flight_id, &flight.weather), id) {
             let place = format!("row {}, `{id}`", flight.place.1);
             let message = format!("it shows flight `{}` in the same weather as `{first}`", flight.flight_id);
@@ -128,56 +142,9 @@ fn check_weathers(small: &SmallTables, report: &mut VerifyReport) {
     }
 }
 
-fn read_captions(folder: &Path, files: &CheckedFiles, small: &mut SmallTables, report: &mut VerifyReport) {
-    let mut keys = BTreeSet::new();
-    for file in files.sound_below("data/captions/") {
-        let mut all = vec![];
-        let outcome = rows::read(&folder.join(file), &rows::table("captions"), &mut |rows| {
-            for row in 0..rows.len() {
-                all.push([
-                    rows.get(Captions::trajectory_id, row)?,
-                    rows.get(Captions::language, row)?,
-                    rows.get(Captions::style, row)?,
-                    rows.get(Captions::text, row)?,
-                ]);
-            }
-            Ok(())
-        });
-        note(report, file, outcome);
-        for (row, [id, language, style, text]) in all.into_iter().enumerate() {
-            let place = format!("row {row}, `{id}`");
-            if text.trim().is_empty() {
-                report.find(file, place.clone(), "verify-caption", "the text is empty");
-            }
-            if !keys.insert((id.clone(), language.clone(), style, text.clone())) {
-                report.find(file, place.clone(), "verify-duplicate", "the same caption twice");
-            }
-            match small.flights.get(&id) {
-                None => report.find(file, place, "verify-reference", "there is no such flight"),
-                Some(flight) if split_of(&flight.place.0) != split_of(file) => {
-                    report.find(file, place, "verify-split", "its flight is in another split");
-                }
-                Some(_) => {}
-            }
-            small.captions.entry(id).or_default().push((language, text));
-        }
-    }
-    if small.captions.is_empty() {
-        return;
-    }
-    for (id, flight) in &small.flights {
-        for language in ["en", "zh"] {
-            let captions = small.captions.get(id);
-            if !captions.is_some_and(|captions| captions.iter().any(|caption| caption.0 == language)) {
-                let place = format!("row {}, `{id}`", flight.place.1);
-                report.find(&flight.place.0, place, "verify-caption", format!("it has no caption in `{language}`"));
-            }
-        }
-    }
-}
-
 fn read_pairs(folder: &Path, files: &CheckedFiles, small: &mut SmallTables, report: &mut VerifyReport) {
     for file in files.sound_below("data/pairs/") {
+        let name: Arc<str> = file.into();
         let mut all = vec![];
         let outcome = rows::read(&folder.join(file), &rows::table("pairs"), &mut |rows| {
             (0..rows.len()).try_for_each(|row| {
@@ -187,7 +154,7 @@ fn read_pairs(folder: &Path, files: &CheckedFiles, small: &mut SmallTables, repo
         });
         note(report, file, outcome);
         for (row, (perturbed, mut pair)) in all.into_iter().enumerate() {
-            pair.place = (file.to_owned(), row);
+            pair.place = (Arc::clone(&name), row);
             let (place, expert) = (format!("row {row}, `{perturbed}`"), pair.expert_id.clone());
             let twin = small.flights.get(&perturbed);
             if twin.is_none_or(|twin| twin.expert_id.as_ref() != Some(&expert)) {
@@ -208,7 +175,7 @@ fn read_pairs(folder: &Path, files: &CheckedFiles, small: &mut SmallTables, repo
 
 fn pair_row(rows: &Rows<'_>, row: usize) -> Result<(String, PairRow)> {
     let pair = PairRow {
-        place: (String::new(), row),
+        place: (Arc::default(), row),
         expert_id: rows.get(Pairs::expert_id, row)?,
         pedestrian_id: rows.get(Pairs::pedestrian_id, row)?,
         counts: [
@@ -217,7 +184,7 @@ fn pair_row(rows: &Rows<'_>, row: usize) -> Result<(String, PairRow)> {
             rows.get(Pairs::rotation_events, row)?,
         ],
         max_offset_m: rows.get(Pairs::max_offset_m, row)?,
-        expert_frames: rows.get(Pairs::expert_frames, row)?,
+        expert_frames: digest(rows.get(Pairs::expert_frames, row)?.into_iter()),
     };
     Ok((rows.get(Pairs::perturbed_id, row)?, pair))
 }
@@ -225,8 +192,9 @@ fn pair_row(rows: &Rows<'_>, row: usize) -> Result<(String, PairRow)> {
 /// Every twin has its expert and its row in `pairs`.
 fn check_experts(small: &SmallTables, report: &mut VerifyReport) {
     // A dataset may consist of perturbed trajectories alone; then there is none to compare them with.
-    let has_experts = small.flights.values().any(|flight| flight.expert_id.is_none());
-    for (id, flight) in &small.flights {
+    let has_experts = small.flights.iter().any(|flight| flight.expert_id.is_none());
+    for flight in small.flights.iter() {
+        let id = &flight.trajectory_id;
         let Some(expert_id) = &flight.expert_id else { continue };
         let place = format!("row {}, `{id}`", flight.place.1);
         match small.flights.get(expert_id) {

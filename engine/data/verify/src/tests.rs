@@ -14,7 +14,7 @@ fn published(flights: Vec<SampleFlight>) -> TempDir {
 }
 
 fn rules_of(folder: &TempDir) -> Vec<&'static str> {
-    let report = verify(folder.path(), &mut |_, _| {}).unwrap();
+    let report = verify(folder.path(), &Options::default(), &mut |_, _| {}).unwrap();
     let mut rules: Vec<&str> = report.findings.iter().map(|finding| finding.rule).collect();
     rules.dedup();
     rules
@@ -37,7 +37,7 @@ fn flip(path: &Path, at: usize) {
 fn a_sound_dataset_passes() {
     let folder = published(sample::flights());
     let mut heard = vec![];
-    let report = verify(folder.path(), &mut |done, total| heard.push((done, total))).unwrap();
+    let report = verify(folder.path(), &Options::default(), &mut |done, total| heard.push((done, total))).unwrap();
     assert!(report.is_sound(), "{:#?}", report.findings);
     assert_eq!((report.flights, report.frames, report.boxes), (4, 20, 20));
     assert_eq!(heard.last(), Some(&(4, 4)));
@@ -49,7 +49,7 @@ fn shares_by_rays_and_pixels_that_differ_are_listed_with_a_reason_and_are_no_pro
     let pixels = flights[0].record.views[2].visible_by_pixels;
     let differing = if pixels > 0.5 { pixels - 0.2 } else { pixels + 0.2 };
     flights[0].record.visible_by_dense_rays[2] = Some(differing);
-    let report = verify(published(flights).path(), &mut |_, _| {}).unwrap();
+    let report = verify(published(flights).path(), &Options::default(), &mut |_, _| {}).unwrap();
     assert!(report.is_sound() && (report.labels, report.gaps) == (20, 1), "{:#?}", report.findings);
     let gap = report.label_gaps[0].to_string();
     assert!(gap.contains("frame 2: ") && gap.contains(&format!("{differing:.2} visible by rays")), "{gap}");
@@ -90,7 +90,7 @@ fn folders_and_pipes_in_the_place_of_files_are_found_and_not_waited_for() {
     let _pipe = std::os::unix::net::UnixListener::bind(&log).unwrap();
     std::fs::remove_file(folder.path().join("croissant.json")).unwrap();
     std::fs::create_dir(folder.path().join("croissant.json")).unwrap();
-    let report = verify(folder.path(), &mut |_, _| {}).unwrap();
+    let report = verify(folder.path(), &Options::default(), &mut |_, _| {}).unwrap();
     let found: Vec<&str> =
         report.findings.iter().filter(|it| it.rule == "verify-not-a-file").map(|it| it.file.as_str()).collect();
     assert_eq!(found.len(), 2, "{:#?}", report.findings);
@@ -102,7 +102,7 @@ fn each_missing_head_of_a_dataset_is_a_finding() {
     for name in ["files.parquet", "croissant.json", "SHA256SUMS"] {
         let folder = published(sample::flights());
         std::fs::remove_file(folder.path().join(name)).unwrap();
-        let report = verify(folder.path(), &mut |_, _| {}).unwrap();
+        let report = verify(folder.path(), &Options::default(), &mut |_, _| {}).unwrap();
         assert!(report.findings.iter().any(|it| it.rule == "verify-missing-file" && it.file == name), "{name}");
     }
     let folder = published(sample::flights());
@@ -115,7 +115,7 @@ fn each_missing_head_of_a_dataset_is_a_finding() {
 #[test]
 fn a_dataset_of_perturbed_flights_alone_is_sound() {
     let flights = sample::flights().into_iter().filter(|flight| flight.record.pair.is_some()).collect();
-    let report = verify(published(flights).path(), &mut |_, _| {}).unwrap();
+    let report = verify(published(flights).path(), &Options::default(), &mut |_, _| {}).unwrap();
     assert!(report.is_sound() && report.flights == 2, "{:#?}", report.findings);
 }
 
@@ -132,7 +132,7 @@ fn channels_on_request_are_sound_until_a_pixel_holds_no_value_or_a_frame_has_non
     let mut flights = sample::flights();
     flights[0].draw_on_request();
     let folder = published(flights);
-    let report = verify(folder.path(), &mut |_, _| {}).unwrap();
+    let report = verify(folder.path(), &Options::default(), &mut |_, _| {}).unwrap();
     assert!(report.is_sound(), "{:#?}", report.findings);
     let card = std::fs::read_to_string(folder.path().join("README.md")).unwrap();
     assert!(card.contains("* Channel `normals`: unit normals"), "{card}");
@@ -140,7 +140,7 @@ fn channels_on_request_are_sound_until_a_pixel_holds_no_value_or_a_frame_has_non
     flights[0].draw_on_request();
     let normals = flights[0].images[2].on_request.iter_mut().find(|image| image.channel.name == "normals");
     normals.unwrap().bytes[3..6].fill(255);
-    let report = verify(published(flights).path(), &mut |_, _| {}).unwrap();
+    let report = verify(published(flights).path(), &Options::default(), &mut |_, _| {}).unwrap();
     let messages: Vec<&str> = report.findings.iter().map(|finding| finding.message.as_str()).collect();
     assert_eq!(messages, ["pixel 1 holds no value of `normals`"]);
 }
@@ -158,7 +158,7 @@ fn depths_outside_of_the_target_s_body_are_found() {
 fn a_flipped_yaw_is_found() {
     let mut flights = sample::flights();
     flights[1].record.trajectory.poses_in_world[3].yaw_rad *= -1.0;
-    let report = verify(published(flights).path(), &mut |_, _| {}).unwrap();
+    let report = verify(published(flights).path(), &Options::default(), &mut |_, _| {}).unwrap();
     let found = report.findings.iter().find(|finding| finding.rule == "verify-reprojection").expect("it is found");
     assert!(found.place.contains("`perturbed-p00000` frame 3") && found.file.starts_with("data/frames/"), "{found}");
     assert!(report.findings.iter().any(|finding| finding.rule == "verify-pair"));
@@ -245,14 +245,75 @@ fn an_action_that_does_not_lead_to_the_next_pose_is_found() {
     rows::frames(&folder.path().join(file), &mut |frames| groups.push(frames)).unwrap();
     let frames = &mut groups[0];
     frames[1].stored.action_in_world.as_mut().unwrap()[4] += 0.01;
-    frames::check_frames(file, &tables.flights[&frames[0].trajectory_id], frames, &mut report);
+    frames::check_frames(file, tables.flights.get(&frames[0].trajectory_id).unwrap(), frames, &mut report);
     assert_eq!(report.findings.iter().map(|finding| finding.rule).collect::<Vec<_>>(), ["verify-action"]);
 }
 
 #[test]
 fn a_folder_without_a_dataset_is_refused() {
     let folder = tempfile::tempdir().unwrap();
-    assert!(verify(folder.path(), &mut |_, _| {}).unwrap_err().message.contains("is not a finished dataset"));
+    assert!(
+        verify(folder.path(), &Options::default(), &mut |_, _| {})
+            .unwrap_err()
+            .message
+            .contains("is not a finished dataset")
+    );
     let absent = folder.path().join("absent");
-    assert!(verify(&absent, &mut |_, _| {}).unwrap_err().message.contains("does not exist"));
+    assert!(verify(&absent, &Options::default(), &mut |_, _| {}).unwrap_err().message.contains("does not exist"));
+}
+
+#[test]
+fn the_report_is_the_same_for_any_number_of_threads() {
+    let mut flights = sample::flights();
+    flights[0].images.rotate_left(1);
+    flights[1].record.trajectory.poses_in_world[3].yaw_rad *= -1.0;
+    flights[2].captions.pop();
+    let folder = published(flights);
+    let found = [1, 2, 5].map(|jobs| {
+        verify(folder.path(), &Options { jobs: Some(jobs), ..Options::default() }, &mut |_, _| {}).unwrap()
+    });
+    assert!(found[0].found > 3 && found[0] == found[1] && found[0] == found[2]);
+}
+
+#[test]
+fn a_sample_is_checked_in_full_and_says_what_it_is() {
+    let mut flights = sample::flights();
+    flights.iter_mut().for_each(|flight| flight.images.rotate_left(1));
+    let folder = published(flights);
+    let options = Options { sample: Some(1), ..Options::default() };
+    let report = verify(folder.path(), &options, &mut |_, all| assert_eq!(all, 1)).unwrap();
+    assert_eq!((report.sample, report.flights, report.flights_of_dataset, report.frames), (Some(1), 1, 4, 5));
+    let files: std::collections::BTreeSet<&str> = report.findings.iter().map(|it| it.file.as_str()).collect();
+    assert_eq!(files.iter().filter(|file| file.starts_with("mcap/")).count(), 1, "{:#?}", report.findings);
+    let log = some_file(&folder, "mcap/plain/000");
+    std::fs::write(&log, b"short").unwrap();
+    let again = verify(folder.path(), &options, &mut |_, _| {}).unwrap();
+    assert!(again.findings.iter().any(|it| it.rule == "verify-size"));
+    let all = verify(folder.path(), &Options { sample: Some(9), ..Options::default() }, &mut |_, _| {}).unwrap();
+    assert_eq!((all.sample, all.flights), (None, 4));
+}
+
+#[test]
+fn an_interrupted_check_goes_on_and_reads_changed_logs_again() {
+    let folder = published(sample::flights());
+    let notes = tempfile::tempdir().unwrap();
+    let path = notes.path().join("notes.jsonl");
+    let options = Options { resume: Some(path.clone()), ..Options::default() };
+    let first = verify(folder.path(), &options, &mut |_, _| {}).unwrap();
+    assert_eq!(first, verify(folder.path(), &Options::default(), &mut |_, _| {}).unwrap());
+    // Two flights were noted, the line of a third was cut short.
+    let text = std::fs::read_to_string(&path).unwrap();
+    let lines: Vec<&str> = text.lines().collect();
+    assert_eq!(lines.len(), 5);
+    std::fs::write(&path, format!("{}\n{}", lines[..3].join("\n"), &lines[3][..20])).unwrap();
+    let second = verify(folder.path(), &options, &mut |_, _| {}).unwrap();
+    assert_eq!(second, VerifyReport { resumed: 2, ..first.clone() });
+    assert_eq!(verify(folder.path(), &options, &mut |_, _| {}).unwrap().resumed, 4);
+    let log = some_file(&folder, "mcap/plain/000");
+    flip(&log, std::fs::metadata(&log).unwrap().len() as usize / 2);
+    std::fs::File::options().append(true).open(&log).unwrap().set_modified(std::time::UNIX_EPOCH).unwrap();
+    let third = verify(folder.path(), &options, &mut |_, _| {}).unwrap();
+    assert!(third.resumed == 3 && third.findings.iter().any(|it| it.rule == "verify-hash"));
+    let other = published(sample::flights().into_iter().take(2).collect());
+    assert_eq!(verify(other.path(), &options, &mut |_, _| {}).unwrap_err().code, "verify-resume");
 }

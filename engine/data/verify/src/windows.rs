@@ -1,19 +1,19 @@
 //! Table `windows` against the flights it was cut from: places, increments, boxes, kinds.
 
-use super::files::CheckedFiles;
+use super::flight_list::FlightList;
+use super::flights::Flights;
 use super::report::VerifyReport;
-use super::rows;
-use super::rows::split_of;
-use super::tables::SmallTables;
+use super::rows::{self, split_of};
 use cosfly_frames::Pose;
 use cosfly_frames::action;
 use cosfly_metrics::difficulty::WindowFrames;
 use cosfly_metrics::{Difficulty, WindowFeatures, WindowShape};
-use cosfly_read::{FlightTrack, PublishedDataset, Rows};
-use cosfly_schema::tables::{Column, DatasetItem, Scene, Windows};
+use cosfly_read::{FlightTrack, Rows};
+use cosfly_schema::TownLayout;
+use cosfly_schema::tables::{self, Column, DatasetItem, Scene};
 use cosfly_splits::policy::SplitPolicy;
+use rayon::prelude::*;
 use std::collections::{BTreeMap, BTreeSet};
-use std::path::Path;
 
 /// How far a 32-bit float may be from the number it stands for, as a share and at least.
 const ROUNDING: f64 = 1e-5;
@@ -23,88 +23,106 @@ const TOLERANCE: f64 = 1e-6;
 /// An increment: from one pose to another.
 type Step = fn(&Pose, &Pose) -> [f64; 6];
 
-/// Checks every window: its flights, its place, its increments and boxes, what kind of window it is.
-pub fn check(folder: &Path, files: &CheckedFiles, small: &SmallTables, report: &mut VerifyReport) {
-    let Some(flights) = Flights::of(folder) else { return };
-    flights.check(folder, files, small, report);
+/// Checks every window of the wanted flights: its flights, its place, its increments and boxes, what kind of window it is.
+pub fn check(flights: &Flights<'_>, report: &mut VerifyReport) {
+    let Ok(policy) = SplitPolicy::of_dataset(flights.folder) else { return };
+    let load = |wanted: &BTreeSet<usize>| flights.tracks(wanted);
+    let list = &flights.tables.flights;
+    let mut windows = Windows { flights, shape: policy.windows.shape(), seen: seen(list), counts: vec![0; list.len()] };
+    for file in flights.files.sound_below("data/windows/") {
+        windows.check_file(file, &load, report);
+    }
+    windows.check_counts(report);
 }
 
-/// Rows that windows are compared with, of tables `trajectories` and `frames`.
-pub struct Flights {
-    shape: WindowShape,
-    /// Frames by flight.
-    tracks: BTreeMap<String, FlightTrack>,
-    /// Flights in towns that split `train` has flights in, too.
-    seen: BTreeSet<String>,
-}
-
-impl Flights {
-    /// All flights; nothing when their tables cannot be read, which was found before.
-    pub fn of(folder: &Path) -> Option<Self> {
-        let policy = SplitPolicy::of_dataset(folder).ok()?;
-        let published = PublishedDataset::open(folder).ok()?;
-        let tracks = published.tracks().ok()?;
-        let flights = published.flights();
-        let is_seen = |at: &usize| {
-            let mut train = flights.iter().filter(|it| it.split == "train");
-            train.any(|it| it.town_layout.is_same_place(&flights[*at].town_layout))
-        };
-        let id = |at: usize| flights[at].trajectory_id.clone();
-        Some(Self {
-            shape: policy.windows.shape(),
-            seen: (0..flights.len()).filter(is_seen).map(id).collect(),
-            tracks: tracks.into_iter().enumerate().map(|(at, track)| (id(at), track)).collect(),
-        })
+/// Of every flight whether split `train` has flights in its town.
+fn seen(flights: &FlightList) -> Vec<bool> {
+    let mut layouts: BTreeMap<&str, (&TownLayout, bool)> = BTreeMap::new();
+    for flight in flights.iter() {
+        let known = layouts.entry(&flight.town_layout.digest).or_insert((&flight.town_layout, false));
+        known.1 |= split_of(&flight.place.0) == "train";
     }
-
-    fn check(self, folder: &Path, files: &CheckedFiles, small: &SmallTables, report: &mut VerifyReport) {
-        let mut windows = Held { flights: self, small, counts: BTreeMap::new() };
-        for file in files.sound_below("data/windows/") {
-            let mut findings: Vec<(usize, String, &'static str, String)> = vec![];
-            let mut first = 0;
-            let outcome = rows::read(&folder.join(file), &rows::table("windows"), &mut |rows| {
-                for row in 0..rows.len() {
-                    if let Err((rule, message)) = windows.check(&WindowRow::read(rows, row)?, file) {
-                        findings.push((first + row, rows.get(Windows::window_id, row)?, rule, message));
-                    }
-                }
-                first += rows.len();
-                Ok(())
-            });
-            for (row, id, rule, message) in findings {
-                report.find(file, format!("row {row}, `{id}`"), rule, message);
-            }
-            if let Err(message) = outcome {
-                report.find(file, "", "verify-schema", message);
-            }
-        }
-        windows.check_counts(report);
-    }
+    let train: Vec<&TownLayout> =
+        layouts.values().filter(|(_, is_train)| *is_train).map(|(layout, _)| *layout).collect();
+    let is_seen = |layout: &TownLayout| train.iter().any(|it| it.is_same_place(layout));
+    let seen: BTreeMap<&str, bool> = layouts.iter().map(|(digest, (layout, _))| (*digest, is_seen(layout))).collect();
+    flights.iter().map(|flight| seen[flight.town_layout.digest.as_str()]).collect()
 }
 
 /// Windows held against their trajectories.
-struct Held<'a> {
-    flights: Flights,
-    small: &'a SmallTables,
-    counts: BTreeMap<String, usize>,
+struct Windows<'a> {
+    flights: &'a Flights<'a>,
+    shape: WindowShape,
+    /// Flights in towns that split `train` has flights in, too.
+    seen: Vec<bool>,
+    /// Windows of each flight so far.
+    counts: Vec<u32>,
+}
+
+/// Reads the tracks of some flights.
+type Load<'a> = &'a dyn Fn(&BTreeSet<usize>) -> BTreeMap<usize, FlightTrack>;
+
+impl Windows<'_> {
+    /// Checks the windows of one file, row group by row group.
+    fn check_file(&mut self, file: &str, load: Load<'_>, report: &mut VerifyReport) {
+        let mut findings: Vec<(usize, String, &'static str, String)> = vec![];
+        let mut first = 0;
+        let outcome = rows::read(&self.flights.folder.join(file), &rows::table("windows"), &mut |rows| {
+            let (ids, window_ids) =
+                (rows.values(tables::Windows::trajectory_id)?, rows.values(tables::Windows::window_id)?);
+            let list = &self.flights.tables.flights;
+            let mut windows: Vec<(usize, u32, WindowRow)> = vec![];
+            for row in 0..rows.len() {
+                let number = list.number(ids.text(row));
+                if number.is_some_and(|number| !self.flights.wanted.has(number)) {
+                    continue;
+                }
+                let mut count = 0;
+                if let Some(number) = number {
+                    count = self.counts[number];
+                    self.counts[number] += 1;
+                }
+                windows.push((row, count, WindowRow::read(rows, row)?));
+            }
+            let numbers = windows.iter().flat_map(|(_, _, it)| [&it.trajectory_id, &it.expert_id]);
+            let tracks = load(&numbers.filter_map(|id| list.number(id)).collect());
+            let wrong: Vec<(usize, Wrong)> = windows
+                .par_iter()
+                .filter_map(|(row, count, window)| Some((*row, self.problem(window, *count, &tracks, file)?)))
+                .collect();
+            findings.extend(
+                wrong
+                    .into_iter()
+                    .map(|(row, (rule, message))| (first + row, window_ids.text(row).to_owned(), rule, message)),
+            );
+            first += rows.len();
+            Ok(())
+        });
+        for (row, id, rule, message) in findings {
+            report.find(file, format!("row {row}, `{id}`"), rule, message);
+        }
+        if let Err(message) = outcome {
+            report.find(file, "", "verify-schema", message);
+        }
+    }
 }
 
 /// Steps along the world's axes, then in body frames: of the input, to the expert, ahead, of the expert.
 const STEPS: [[Column<DatasetItem, Vec<f32>>; 4]; 2] = [
     [
-        Windows::input_steps_in_world,
-        Windows::correction_in_world,
-        Windows::waypoint_deltas_in_world,
-        Windows::expert_steps_in_world,
+        tables::Windows::input_steps_in_world,
+        tables::Windows::correction_in_world,
+        tables::Windows::waypoint_deltas_in_world,
+        tables::Windows::expert_steps_in_world,
     ],
     [
-        Windows::input_steps_in_body,
-        Windows::correction_in_body,
-        Windows::waypoint_deltas_in_body,
-        Windows::expert_steps_in_body,
+        tables::Windows::input_steps_in_body,
+        tables::Windows::correction_in_body,
+        tables::Windows::waypoint_deltas_in_body,
+        tables::Windows::expert_steps_in_body,
     ],
 ];
-const BOXES: [Column<DatasetItem, Vec<f32>>; 2] = [Windows::input_boxes_px, Windows::expert_boxes_px];
+const BOXES: [Column<DatasetItem, Vec<f32>>; 2] = [tables::Windows::input_boxes_px, tables::Windows::expert_boxes_px];
 
 /// A row of table `windows`.
 struct WindowRow {
@@ -136,20 +154,20 @@ impl WindowRow {
             lists.insert(column.name, rows.get(column, row)?);
         }
         Ok(Self {
-            trajectory_id: rows.get(Windows::trajectory_id, row)?,
-            expert_id: rows.get(Windows::expert_id, row)?,
-            start_frame: rows.get(Windows::start_frame, row)?,
-            scene: rows.get(Windows::scene, row)?,
-            difficulty: rows.get(Windows::difficulty, row)?,
+            trajectory_id: rows.get(tables::Windows::trajectory_id, row)?,
+            expert_id: rows.get(tables::Windows::expert_id, row)?,
+            start_frame: rows.get(tables::Windows::start_frame, row)?,
+            scene: rows.get(tables::Windows::scene, row)?,
+            difficulty: rows.get(tables::Windows::difficulty, row)?,
             features: StoredFeatures {
-                turn_deg: rows.get(Windows::turn_deg, row)?,
-                height_change_m: rows.get(Windows::height_change_m, row)?,
-                occluded_share: rows.get(Windows::occluded_share, row)?,
-                speed_mps: rows.get(Windows::speed_mps, row)?,
+                turn_deg: rows.get(tables::Windows::turn_deg, row)?,
+                height_change_m: rows.get(tables::Windows::height_change_m, row)?,
+                occluded_share: rows.get(tables::Windows::occluded_share, row)?,
+                speed_mps: rows.get(tables::Windows::speed_mps, row)?,
             },
-            target_is_static: rows.get(Windows::target_is_static, row)?,
-            target_is_occluded: rows.get(Windows::target_is_occluded, row)?,
-            current_pose: rows.get(Windows::current_pose_in_world, row)?,
+            target_is_static: rows.get(tables::Windows::target_is_static, row)?,
+            target_is_occluded: rows.get(tables::Windows::target_is_occluded, row)?,
+            current_pose: rows.get(tables::Windows::current_pose_in_world, row)?,
             lists,
         })
     }
@@ -169,23 +187,41 @@ struct Cut<'a> {
     expert_frames: Vec<usize>,
 }
 
-impl Held<'_> {
-    fn check(&mut self, window: &WindowRow, file: &str) -> Result<(), Wrong> {
+impl Windows<'_> {
+    /// What is wrong with a window, `count` others of whose flight come before.
+    fn problem(
+        &self,
+        window: &WindowRow,
+        count: u32,
+        tracks: &BTreeMap<usize, FlightTrack>,
+        file: &str,
+    ) -> Option<Wrong> {
+        self.compare(window, count as usize, tracks, file).err()
+    }
+
+    fn compare(
+        &self,
+        window: &WindowRow,
+        count: usize,
+        tracks: &BTreeMap<usize, FlightTrack>,
+        file: &str,
+    ) -> Result<(), Wrong> {
         let (id, expert_id) = (&window.trajectory_id, &window.expert_id);
-        let (Some(flight), Some(own)) = (self.small.flights.get(id), self.flights.tracks.get(id)) else {
+        let list = &self.flights.tables.flights;
+        let number = list.number(id).unwrap_or(usize::MAX);
+        let (Some(flight), Some(own)) = (list.get(id), tracks.get(&number)) else {
             return Err(("verify-reference", format!("there is no flight `{id}`")));
         };
         if split_of(&flight.place.0) != split_of(file) {
             return Err(("split-window", format!("its flight `{id}` is in split `{}`", split_of(&flight.place.0))));
         }
         let expected_expert = flight.expert_id.as_ref().unwrap_or(id);
-        let Some(expert) = self.flights.tracks.get(expert_id).filter(|_| expert_id == expected_expert) else {
+        let expert = list.number(expert_id).and_then(|number| tracks.get(&number));
+        let Some(expert) = expert.filter(|_| expert_id == expected_expert) else {
             return Err(("verify-reference", format!("its expert is `{expert_id}`, not `{expected_expert}`")));
         };
-        let shape = self.flights.shape;
-        let number = self.counts.entry(id.clone()).or_default();
-        let start = *number * shape.stride;
-        *number += 1;
+        let shape = self.shape;
+        let start = count * shape.stride;
         let found = window.start_frame;
         if found as usize != start || start + shape.size() > own.poses.len() {
             return Err(("verify-window", format!("it starts at frame {found}; the next window starts at {start}")));
@@ -198,7 +234,7 @@ impl Held<'_> {
         cut.check_steps(window)?;
         cut.check_boxes(window)?;
         cut.check_kinds(window)?;
-        let scene = if self.flights.seen.contains(id) { Scene::Seen } else { Scene::Unseen };
+        let scene = if self.seen[number] { Scene::Seen } else { Scene::Unseen };
         if window.scene != scene {
             return Err(("verify-window", format!("`scene` must be `{scene:?}`").to_lowercase()));
         }
@@ -207,12 +243,14 @@ impl Held<'_> {
 
     /// Every flight that has its expert has all its windows.
     fn check_counts(&self, report: &mut VerifyReport) {
-        for (id, flight) in &self.small.flights {
-            let has_expert = flight.expert_id.as_ref().is_none_or(|expert| self.flights.tracks.contains_key(expert));
-            let expected = if has_expert { self.flights.shape.count(flight.frames) } else { 0 };
-            let found = self.counts.get(id).copied().unwrap_or(0);
+        let list = &self.flights.tables.flights;
+        for (number, flight) in list.iter().enumerate().filter(|(number, _)| self.flights.wanted.has(*number)) {
+            let has_frames = |id: &String| list.number(id).is_some_and(|number| self.flights.has_frames(number));
+            let expected =
+                if flight.expert_id.as_ref().is_none_or(has_frames) { self.shape.count(flight.frames) } else { 0 };
+            let found = self.counts[number] as usize;
             if found != expected {
-                let place = format!("row {}, `{id}`", flight.place.1);
+                let place = format!("row {}, `{}`", flight.place.1, flight.trajectory_id);
                 let message = format!("table `windows` has {found} windows of it; there are {expected}");
                 report.find(&flight.place.0, place, "verify-count", message);
             }
@@ -296,10 +334,10 @@ impl Cut<'_> {
         });
         let stored = window.features;
         for (name, found, expected) in [
-            (Windows::turn_deg.name, stored.turn_deg, features.turn_deg),
-            (Windows::height_change_m.name, stored.height_change_m, features.height_change_m),
-            (Windows::occluded_share.name, stored.occluded_share, features.occluded_share),
-            (Windows::speed_mps.name, stored.speed_mps, features.speed_mps),
+            (tables::Windows::turn_deg.name, stored.turn_deg, features.turn_deg),
+            (tables::Windows::height_change_m.name, stored.height_change_m, features.height_change_m),
+            (tables::Windows::occluded_share.name, stored.occluded_share, features.occluded_share),
+            (tables::Windows::speed_mps.name, stored.speed_mps, features.speed_mps),
         ] {
             if (found - expected).is_nan() || (found - expected).abs() > TOLERANCE {
                 return Err(("verify-window", format!("`{name}` is {found}; the frames give {expected}")));
@@ -311,9 +349,9 @@ impl Cut<'_> {
         let stored = WindowFeatures { turn_deg, height_change_m, occluded_share, speed_mps, ..features };
         let is_occluded = self.input().any(|frame| self.own.visible[frame] < 0.5);
         for (name, is_so) in [
-            (Windows::difficulty.name, window.difficulty == stored.difficulty()),
-            (Windows::target_is_static.name, window.target_is_static == features.target_is_static()),
-            (Windows::target_is_occluded.name, window.target_is_occluded == is_occluded),
+            (tables::Windows::difficulty.name, window.difficulty == stored.difficulty()),
+            (tables::Windows::target_is_static.name, window.target_is_static == features.target_is_static()),
+            (tables::Windows::target_is_occluded.name, window.target_is_occluded == is_occluded),
         ] {
             if !is_so {
                 return Err(("verify-window", format!("`{name}` does not follow from the frames")));
@@ -335,6 +373,7 @@ fn same(found: &[f32], expected: Vec<f64>) -> Result<(), usize> {
 
 #[cfg(test)]
 mod tests {
+    use super::super::options::Wanted;
     use super::super::{files, tables};
     use super::*;
     use cosfly_frames::DVec3;
@@ -342,8 +381,11 @@ mod tests {
     use cosfly_schema::config::WindowConfig;
     use cosfly_schema::{DatasetConfig, EncodingConfig};
 
+    /// Spoils the tracks of flights and whether their towns are seen.
+    type Spoil<'a> = &'a dyn Fn(&str, &mut FlightTrack);
+
     /// Findings when the windows of the sample dataset are compared with spoiled frames.
-    fn found(spoil: impl Fn(&mut Flights)) -> Vec<String> {
+    fn found(spoil: Spoil<'_>, is_seen: bool) -> Vec<String> {
         let folder = tempfile::tempdir().unwrap();
         let windows = WindowConfig { size: 4, history: 2, stride: 1 };
         let config = DatasetConfig { windows, ..DatasetConfig::default() };
@@ -351,35 +393,52 @@ mod tests {
         let mut report = VerifyReport::default();
         let files = files::check(folder.path(), &mut report).unwrap();
         let small = tables::read(folder.path(), &files, &mut report);
-        let mut flights = Flights::of(folder.path()).unwrap();
-        spoil(&mut flights);
-        flights.check(folder.path(), &files, &small, &mut report);
+        let wanted = Wanted::of(&small.flights, None);
+        let flights = Flights::new(folder.path(), &files, &small, &wanted, None);
+        let load = |wanted: &BTreeSet<usize>| {
+            let mut tracks = flights.tracks(wanted);
+            tracks.iter_mut().for_each(|(number, track)| spoil(&small.flights.at(*number).trajectory_id, track));
+            tracks
+        };
+        let count = small.flights.len();
+        let shape = config.windows.shape();
+        let mut windows = Windows { flights: &flights, shape, seen: vec![is_seen; count], counts: vec![0; count] };
+        for file in files.sound_below("data/windows/") {
+            windows.check_file(file, &load, &mut report);
+        }
+        windows.check_counts(&mut report);
         report.findings.iter().map(|it| it.message.clone()).collect()
     }
 
     #[test]
     fn windows_that_are_not_of_their_frames_are_found() {
-        assert_eq!(found(|_| {}), <[String; 0]>::default());
-        let own = |it: &mut Flights, spoil: &dyn Fn(&mut FlightTrack)| {
-            spoil(it.tracks.get_mut("perturbed-p00000").expect("the sample has it"));
-        };
-        type Spoil = Box<dyn Fn(&mut FlightTrack)>;
-        let spoils: [(&str, Spoil); 5] = [
-            ("of `input_boxes_px` is", Box::new(|it| it.boxes.rotate_left(1))),
-            ("`input_steps_in_world` is not", Box::new(|it| it.poses[2].position_in_world += DVec3::X)),
-            ("`input_steps_in_world` is not", Box::new(|it| it.poses[1].yaw_rad += 0.01)),
-            (
-                "`target_is_occluded` does not",
-                Box::new(|it| it.visible.iter_mut().for_each(|share| *share = 1.0 - share.round())),
-            ),
-            ("`turn_deg` is", Box::new(|it| it.heading_rad[1] += 0.3)),
+        assert_eq!(found(&|_, _| {}, true), <[String; 0]>::default());
+        type OfTrack = fn(&mut FlightTrack);
+        let spoils: [(&str, OfTrack); 5] = [
+            ("of `input_boxes_px` is", |it| it.boxes.rotate_left(1)),
+            ("`input_steps_in_world` is not", |it| it.poses[2].position_in_world += DVec3::X),
+            ("`input_steps_in_world` is not", |it| it.poses[1].yaw_rad += 0.01),
+            ("`target_is_occluded` does not", |it| {
+                it.visible.iter_mut().for_each(|share| *share = 1.0 - share.round())
+            }),
+            ("`turn_deg` is", |it| it.heading_rad[1] += 0.3),
         ];
         for (expected, spoil) in spoils {
-            let messages = found(|it| own(it, &spoil));
+            let of_twin = |id: &str, track: &mut FlightTrack| {
+                if id == "perturbed-p00000" {
+                    spoil(track);
+                }
+            };
+            let messages = found(&of_twin, true);
             assert!(messages.iter().any(|it| it.contains(expected)), "{expected}: {messages:?}");
         }
-        let of_expert = found(|it| it.tracks.get_mut("expert-p00000").expect("the sample has it").boxes[1] = None);
-        assert!(of_expert.iter().any(|it| it.contains("box 1 of `expert_boxes_px` is")), "{of_expert:?}");
-        assert!(found(|it| it.seen.clear())[0].contains("`scene` must be `unseen`"));
+        let of_expert = |id: &str, track: &mut FlightTrack| {
+            if id == "expert-p00000" {
+                track.boxes[1] = None;
+            }
+        };
+        let messages = found(&of_expert, true);
+        assert!(messages.iter().any(|it| it.contains("box 1 of `expert_boxes_px` is")), "{messages:?}");
+        assert!(found(&|_, _| {}, false)[0].contains("`scene` must be `unseen`"));
     }
 }

@@ -53,6 +53,7 @@ impl StageKind for Dataset {
             sources: vec![],
             inputs: vec![
                 towns(),
+                group_splits::policy_port(),
                 shards::port(),
                 InputPort { fan: Fan::Gather, sees: Sees::Only(&["previews"]), ..logs::port() },
                 planners::port(),
@@ -112,14 +113,15 @@ impl Stage for DatasetStage {
         }
         context.check_cancelled()?;
         let whole = Whole { inputs, towns: PublishedTowns::of(inputs)? };
-        let summary = write_dataset(outputs, &self.config, shards, &whole)?;
+        let config = DatasetConfig { splits: group_splits::policy(inputs)?, ..self.config.clone() };
+        let summary = write_dataset(outputs, &config, shards, &whole)?;
         let notes = BTreeMap::from([
             ("flights".to_owned(), format!("{} expert, {} perturbed", summary.experts, summary.perturbed)),
             ("frames".to_owned(), summary.frames.to_string()),
             ("rejected".to_owned(), summary.rejected.to_string()),
             ("mean visibility".to_owned(), format!("{:.3}", summary.mean_visibility())),
         ]);
-        Ok(Produced { notes, ..Produced::default() })
+        Ok(Produced { notes, warnings: summary.warnings, ..Produced::default() })
     }
 }
 

@@ -7,6 +7,7 @@ use crate::published_towns::PublishedTowns;
 use crate::{codec, parameters};
 use cosfly_blobs::OutputSink;
 use cosfly_diagnose::{Diagnostic, Fault, Result};
+use cosfly_schema::config::SplitShares;
 use cosfly_schema::{DatasetConfig, Rejection};
 use cosfly_stage::{
     Fan, InputPort, Inputs, ItemName, ItemRule, Produced, Sees, Stage, StagePart, StageProperties, TaskContext,
@@ -15,6 +16,8 @@ use cosfly_write::{GroupPlan, plan_groups};
 
 /// Name of the part and of the port that reads it.
 const NAME: &str = "splits";
+/// Blob with the policy; all other blobs are called like the groups.
+const POLICY: &str = "policy";
 
 /// The part of a stage that gathers towns at the port `town`.
 pub fn part(config: &DatasetConfig, towns: InputPort) -> StagePart {
@@ -38,6 +41,17 @@ pub fn part(config: &DatasetConfig, towns: InputPort) -> StagePart {
 pub fn port() -> InputPort {
     let doc = "The splits of the flights of the group: the part of the same stage.";
     InputPort { sees: Sees::Own, ..ports::sibling(NAME, SPLITS, Fan::Broadcast, doc) }
+}
+
+/// Port through which the stage reads the policy of all splits.
+pub fn policy_port() -> InputPort {
+    let doc = "The policy of the splits: the part of the same stage.";
+    InputPort { sees: Sees::Only(&[POLICY]), ..ports::sibling(NAME, SPLITS, Fan::Broadcast, doc) }
+}
+
+/// Policy at the port of [`policy_port`], with the areas of all towns.
+pub fn policy(inputs: &Inputs<'_>) -> Result<SplitShares> {
+    codec::decode(SPLITS, &inputs.read(inputs.one(NAME)?, POLICY)?)
 }
 
 /// Plan of the group `item` at the port of [`port`].
@@ -65,11 +79,12 @@ impl Stage for SplitsStage {
         }
         let names: Vec<String> = inputs.all("notes").iter().map(|artifact| artifact.id.item.to_string()).collect();
         let flights = groups.into_iter().map(|group| group.flights).collect();
-        let plans = plan_groups(&self.config, flights, &|note| towns.layout(&note.town_digest))?;
-        for (name, plan) in names.iter().zip(&plans) {
-            outputs.put(name, &codec::encode(SPLITS, plan)?)?;
+        let plan = plan_groups(&self.config, flights, &|note| towns.layout(&note.town_digest))?;
+        for (name, group) in names.iter().zip(&plan.groups) {
+            outputs.put(name, &codec::encode(SPLITS, group)?)?;
         }
-        Ok(Produced::default())
+        outputs.put(POLICY, &codec::encode(SPLITS, &plan.splits)?)?;
+        Ok(Produced { warnings: plan.warnings, ..Produced::default() })
     }
 }
 

@@ -8,7 +8,7 @@ use cosfly_blobs::OutputSink;
 use cosfly_diagnose::{Diagnostic, Fault, Result};
 use cosfly_fingerprint::Digest;
 use cosfly_schema::extras::Extra;
-use cosfly_schema::{CaptionRecord, DatasetConfig, LogRecord, PreviewStrip, RenderedTrajectory};
+use cosfly_schema::{CaptionRecord, DatasetConfig, LogRecord, PreviewStrip, Rejection, RenderedTrajectory};
 use cosfly_stage::{
     Artifact, Blobs, Fan, InputPort, Inputs, ItemName, Produced, Stage, StagePart, StageProperties, TaskContext,
 };
@@ -79,6 +79,9 @@ impl Stage for TablesStage {
         for artifact in inputs.all("extras").iter().filter(|artifact| artifact.blobs.contains_key(EXTRA)) {
             extras.entry(&artifact.id.item).or_default().push(artifact);
         }
+        let plan = group_splits::read(inputs, &context.id.item)?;
+        let left_out: BTreeMap<&str, &Rejection> =
+            plan.left_out.iter().map(|it| (it.trajectory_id.as_str(), it)).collect();
         let mut gathered = Gathered { inputs, flights: vec![] };
         let (mut published, mut rejections) = (vec![], vec![]);
         for (frames, log) in inputs.all("frames").iter().zip(inputs.all("logs")) {
@@ -90,6 +93,10 @@ impl Stage for TablesStage {
             let record = record.ok_or_else(|| {
                 Diagnostic::new("dataset-log", Fault::Bug, format!("the log of `{}` has no record", log.name))
             })?;
+            if let Some(left_out) = left_out.get(record.trajectory_id.as_str()) {
+                rejections.push((*left_out).clone());
+                continue;
+            }
             let channels = logs::channels_of(inputs, log)?;
             published.push(PublishedLog { record, blob: log.blobs["mcap"], channels });
             // One weather of a paired rendering has the captions of its flight.
@@ -98,7 +105,6 @@ impl Stage for TablesStage {
             let extras = extras.remove(&frames.name).unwrap_or_default();
             gathered.flights.push(Flight { frames, log, captions, extras });
         }
-        let plan = group_splits::read(inputs, &context.id.item)?;
         let keep_going = || context.check_cancelled();
         let flights = GroupFlights::new(&self.config, &plan, &published, &gathered, &keep_going)?;
         let shard = write_shard(outputs, &self.config, &flights, rejections)?;

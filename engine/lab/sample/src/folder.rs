@@ -27,10 +27,7 @@ struct FolderSink<'a> {
 
 impl OutputSink for FolderSink<'_> {
     fn put(&mut self, name: &str, bytes: &[u8]) -> Result<()> {
-        let path = self.folder.join(name);
-        std::fs::create_dir_all(path.parent().unwrap_or(&self.folder))
-            .and_then(|()| std::fs::write(&path, bytes))
-            .map_err(|error| Diagnostic::io(format!("write `{}`", path.display()), &error))
+        put(&self.folder.join(name), bytes)
     }
 
     fn stream(&mut self, name: &str, write: &mut dyn FnMut(&mut dyn SeekWrite) -> Result<()>) -> Result<BlobRef> {
@@ -46,7 +43,14 @@ impl OutputSink for FolderSink<'_> {
     }
 }
 
-fn blob_of(bytes: &[u8]) -> BlobRef {
+/// Writes a file and the folders above it.
+pub(crate) fn put(path: &Path, bytes: &[u8]) -> Result<()> {
+    std::fs::create_dir_all(path.parent().unwrap_or(path))
+        .and_then(|()| std::fs::write(path, bytes))
+        .map_err(|error| Diagnostic::io(format!("write `{}`", path.display()), &error))
+}
+
+pub(crate) fn blob_of(bytes: &[u8]) -> BlobRef {
     BlobRef { digest: Digest::of(bytes), bytes: bytes.len() as u64 }
 }
 
@@ -109,9 +113,16 @@ pub fn write_flights(
     let layout = Arc::new(TownLayout::of(&town));
     let note = |flight: &SampleFlight| FlightNote::of(&flight.record, config.windows.shape().size(), String::new());
     let notes = flights.iter().map(note).collect();
-    let plans = plan_groups(config, vec![notes], &|_| Ok(Arc::clone(&layout)))?;
+    let plan = plan_groups(config, vec![notes], &|_| Ok(Arc::clone(&layout)))?;
+    let group = &plan.groups[0];
+    let is_kept = |id: &str| group.flights.iter().any(|flight| flight.trajectory_id == id);
+    let logs: Vec<PublishedLog> = logs.into_iter().filter(|log| is_kept(&log.record.trajectory_id)).collect();
+    let flights = flights.into_iter().filter(|flight| is_kept(&flight.record.trajectory_id)).collect();
     let source = Flights(flights, encoding);
-    let group = GroupFlights::new(config, &plans[0], &logs, &source, &|| Ok(()))?;
-    let shard = write_shard(&mut sink, config, &group, rejections())?;
-    write_dataset(&mut sink, config, vec![shard], &source)
+    let rejections = [rejections(), group.left_out.clone()].concat();
+    let flights = GroupFlights::new(config, group, &logs, &source, &|| Ok(()))?;
+    let shard = write_shard(&mut sink, config, &flights, rejections)?;
+    let config = DatasetConfig { splits: plan.splits, ..config.clone() };
+    let summary = write_dataset(&mut sink, &config, vec![shard], &source)?;
+    Ok(Summary { warnings: plan.warnings, ..summary })
 }

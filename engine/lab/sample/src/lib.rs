@@ -2,8 +2,10 @@
 //! flight, with very small ray-cast images.
 
 mod folder;
+mod many;
 
 pub use folder::{write_flights, write_to_folder};
+pub use many::{ManyFlights, write_many};
 
 use cosfly_frames::{DVec3, Pose, Seed, TargetState, TargetTrack, real};
 use cosfly_geometry::OrientedBox;

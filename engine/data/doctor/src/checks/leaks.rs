@@ -8,11 +8,41 @@ use std::collections::BTreeMap;
 const SAME_M: f64 = 1.0;
 /// Number of points of a walk that are compared.
 const POINTS: usize = 16;
+/// Number of earlier walks that a walk is compared with before it is noted.
+const RECENT: usize = 64;
 /// Number of pairs that are named.
 const NAMED: usize = 5;
 
+/// What is kept of an episode to find leaks.
+pub struct Trace {
+    id: String,
+    split: Option<String>,
+    group: String,
+    place: String,
+    /// Some points of the target's walk, metres.
+    way: Vec<[f32; 3]>,
+}
+
+impl Trace {
+    /// The trace of an episode.
+    pub fn of(episode: &Episode) -> Self {
+        Self {
+            id: episode.id.clone(),
+            split: episode.split.clone(),
+            group: episode.group.clone(),
+            place: episode.place.clone(),
+            way: way(episode).into_iter().map(|point| point.as_vec3().to_array()).collect(),
+        }
+    }
+
+    /// Name of the episode.
+    pub fn id(&self) -> &str {
+        &self.id
+    }
+}
+
 /// Finds episodes, pedestrians and walks that are in more than one split.
-pub fn of_all(episodes: &[Episode]) -> Vec<Flag> {
+pub fn of_all(episodes: &[Trace]) -> Vec<Flag> {
     let mut flags = vec![];
     shared(episodes, "episode", &|it| it.id.clone(), &mut flags);
     shared(episodes, "pedestrian or scenario", &|it| format!("{}/{}", it.place, it.group), &mut flags);
@@ -20,8 +50,8 @@ pub fn of_all(episodes: &[Episode]) -> Vec<Flag> {
     flags
 }
 
-fn shared(episodes: &[Episode], what: &str, key: &dyn Fn(&Episode) -> String, flags: &mut Vec<Flag>) {
-    let mut first: BTreeMap<String, &Episode> = BTreeMap::new();
+fn shared(episodes: &[Trace], what: &str, key: &dyn Fn(&Trace) -> String, flags: &mut Vec<Flag>) {
+    let mut first: BTreeMap<String, &Trace> = BTreeMap::new();
     let mut leaks: BTreeMap<String, (&str, &str)> = BTreeMap::new();
     for episode in episodes {
         let Some(split) = &episode.split else { continue };
@@ -40,21 +70,23 @@ fn shared(episodes: &[Episode], what: &str, key: &dyn Fn(&Episode) -> String, fl
 }
 
 /// Finds equal walks in one place under two names.
-fn same_ways(episodes: &[Episode], flags: &mut Vec<Flag>) {
+fn same_ways(episodes: &[Trace], flags: &mut Vec<Flag>) {
     let mut starts: BTreeMap<(&str, i64, i64), Vec<usize>> = BTreeMap::new();
-    let ways: Vec<Vec<DVec3>> = episodes.iter().map(way).collect();
     let mut named = 0;
     for (at, episode) in episodes.iter().enumerate() {
-        let Some(start) = ways[at].first() else { continue };
-        let [x, y] = [start.x, start.y].map(|it| (it / SAME_M).floor() as i64);
+        let Some(start) = episode.way.first() else { continue };
+        let [x, y] = [start[0], start[1]].map(|it| (f64::from(it) / SAME_M).floor() as i64);
+        if named == NAMED {
+            break;
+        }
         let near = (-1..=1).flat_map(|i| (-1..=1).map(move |j| (x + i, y + j)));
         let near = near.filter_map(|(x, y)| starts.get(&(episode.place.as_str(), x, y))).flatten();
         let twin = near.copied().find(|other| {
             let other_one = &episodes[*other];
             let split_differs = episode.split.is_some() && other_one.split != episode.split;
-            split_differs && other_one.group != episode.group && is_same(&ways[at], &ways[*other])
+            split_differs && other_one.group != episode.group && is_same(&episode.way, &other_one.way)
         });
-        if let Some(other) = twin.filter(|_| named < NAMED) {
+        if let Some(other) = twin {
             named += 1;
             let (a, b) = (&episodes[other], episode);
             let message = format!(
@@ -65,7 +97,15 @@ fn same_ways(episodes: &[Episode], flags: &mut Vec<Flag>) {
             );
             flags.push(Flag::damage("split-leak", &b.id, message));
         }
-        starts.entry((episode.place.as_str(), x, y)).or_default().push(at);
+        // Flights of one split behind one walk are alike: the first stands for all.
+        let others = starts.entry((episode.place.as_str(), x, y)).or_default();
+        let is_known = |other: &usize| {
+            let other = &episodes[*other];
+            (&other.split, &other.group) == (&episode.split, &episode.group) && other.way == episode.way
+        };
+        if !others.iter().rev().take(RECENT).any(is_known) {
+            others.push(at);
+        }
     }
 }
 
@@ -75,6 +115,7 @@ fn way(episode: &Episode) -> Vec<DVec3> {
     points.filter_map(|at| episode.moments.get(at)?.target_in_world).collect()
 }
 
-fn is_same(a: &[DVec3], b: &[DVec3]) -> bool {
-    a.len() == b.len() && a.iter().zip(b).all(|(a, b)| a.distance(*b) <= SAME_M)
+fn is_same(a: &[[f32; 3]], b: &[[f32; 3]]) -> bool {
+    let vector = |point: &[f32; 3]| DVec3::from_array(point.map(f64::from));
+    a.len() == b.len() && a.iter().zip(b).all(|(a, b)| vector(a).distance(vector(b)) <= SAME_M)
 }

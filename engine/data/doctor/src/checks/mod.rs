@@ -12,7 +12,7 @@ mod surroundings;
 mod time;
 mod words;
 
-pub use leaks::of_all as leaks;
+pub use leaks::{Trace, of_all as leaks};
 
 use crate::{Episode, Flag};
 

@@ -8,9 +8,11 @@ use cosfly_captions::Wear;
 use cosfly_diagnose::{Diagnostic, Fault, Result};
 use cosfly_fingerprint::Digest;
 use cosfly_frames::DVec3;
-use cosfly_read::{BoxInWorld, FrameRow, PublishedDataset, PublishedFlight, log_problem, parquet_problem};
+use cosfly_read::{
+    BoxInWorld, CaptionReader, FrameRow, PublishedDataset, PublishedFlight, log_problem, parquet_problem,
+};
 use cosfly_render::Colour;
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 use std::path::Path;
 
 /// Whether `folder` has this layout.
@@ -39,12 +41,17 @@ pub fn files(folder: &Path) -> Result<Vec<Flag>> {
     Ok(flags)
 }
 
-/// Reads all flights; logs that cannot be read were flagged by [`files`] and are passed over. Where tables are damaged, a
-/// flag says so and flights have no frames.
+/// Gives all flights to `visit`, one at a time; logs that cannot be read were flagged by [`files`] and are passed over. Where
+/// tables are damaged, a flag says so and flights have no frames.
 ///
 /// # Errors
 /// Refusals of the machine.
-pub fn episodes(folder: &Path, flags: &mut Vec<Flag>, progress: &mut dyn FnMut(u64, u64)) -> Result<Vec<Episode>> {
+pub fn episodes(
+    folder: &Path,
+    flags: &mut Vec<Flag>,
+    visit: &mut dyn FnMut(Episode),
+    progress: &mut dyn FnMut(u64, u64),
+) -> Result<()> {
     let mut damaged = |refusal: Box<Diagnostic>| match refusal.fault {
         Fault::Machine => Err(refusal),
         _ => {
@@ -55,24 +62,26 @@ pub fn episodes(folder: &Path, flags: &mut Vec<Flag>, progress: &mut dyn FnMut(u
     };
     let dataset = match PublishedDataset::open(folder) {
         Ok(dataset) => dataset,
-        Err(refusal) => return damaged(refusal).map(|()| vec![]),
+        Err(refusal) => return damaged(refusal),
     };
-    let mut episodes = vec![];
-    if let Err(refusal) = read(&dataset, &mut episodes, progress) {
-        damaged(refusal)?;
-    }
+    let mut read_ones: BTreeSet<(String, String)> = BTreeSet::new();
+    let outcome = read(&dataset, progress, &mut |episode| {
+        read_ones.insert((episode.id.clone(), episode.split.clone().unwrap_or_default()));
+        visit(episode);
+    });
+    outcome.or_else(&mut damaged)?;
     // Flights without frames and those that are in two tables: they count for leaks.
     for flight in dataset.flights() {
-        if !episodes.iter().any(|it| it.id == flight.trajectory_id && it.split.as_deref() == Some(&flight.split)) {
-            episodes.push(Episode { dt_s: flight.dt_s, ..named(flight) });
+        if read_ones.insert((flight.trajectory_id.clone(), flight.split.clone())) {
+            visit(Episode { dt_s: flight.dt_s, ..named(flight) });
         }
     }
-    Ok(episodes)
+    Ok(())
 }
 
-/// Appends all flights with their frames to `episodes`.
-fn read(dataset: &PublishedDataset, episodes: &mut Vec<Episode>, progress: &mut dyn FnMut(u64, u64)) -> Result<()> {
-    let captions = dataset.captions()?;
+/// Gives all flights with their frames to `visit`.
+fn read(dataset: &PublishedDataset, progress: &mut dyn FnMut(u64, u64), visit: &mut dyn FnMut(Episode)) -> Result<()> {
+    let mut captions = CaptionReader::of(dataset)?;
     let mut vehicles: BTreeMap<String, Vec<BoxInWorld>> = BTreeMap::new();
     let mut walls: BTreeMap<String, Walls> = BTreeMap::new();
     for object in dataset.objects(&["car", "building", "wall"])? {
@@ -81,16 +90,17 @@ fn read(dataset: &PublishedDataset, episodes: &mut Vec<Episode>, progress: &mut 
             _ => walls.entry(object.town).or_default().entry(object.instance).or_default().push(object.shape),
         }
     }
-    let all = dataset.flights().len() as u64;
+    let (mut done, all) = (0, dataset.flights().len() as u64);
     dataset.walk(&|_| true, &mut |flight, rows| {
-        progress(episodes.len() as u64, all);
+        progress(done, all);
+        done += 1;
         let mut episode = episode(flight, &rows);
-        let captions = captions.get(&flight.trajectory_id).into_iter().flatten();
-        episode.captions = captions.map(|it| (it.language.clone(), it.text.clone())).collect();
+        let place = dataset.place(&flight.trajectory_id).unwrap_or_default();
+        episode.captions = captions.at(place)?.iter().map(|it| (it.language.clone(), it.text.clone())).collect();
         episode.vehicles = vehicles.get(&flight.town).cloned().unwrap_or_default();
         let walls = walls.get(&flight.town).filter(|_| episode.camera.is_some());
         episode.looks = looks(dataset, flight, &rows, walls).unwrap_or_default();
-        episodes.push(episode);
+        visit(episode);
         Ok(())
     })
 }

@@ -48,22 +48,22 @@ fn traces(town: &Path) -> Vec<PathBuf> {
 ///
 /// # Errors
 /// Refusals of the machine where a folder cannot be listed.
-pub fn episodes(root: &Path, progress: &mut dyn FnMut(u64, u64)) -> Result<(Vec<Episode>, Vec<Flag>)> {
+pub fn episodes(root: &Path, visit: &mut dyn FnMut(Episode), progress: &mut dyn FnMut(u64, u64)) -> Result<Vec<Flag>> {
     let towns = listed(root).map_err(|error| Diagnostic::io(format!("read `{}`", root.display()), &error))?;
     let traces: Vec<PathBuf> = towns.iter().filter(|it| it.is_dir()).flat_map(|town| traces(town)).collect();
-    let (mut episodes, mut flags) = (vec![], vec![]);
+    let mut flags = vec![];
     for (done, trace) in traces.iter().enumerate() {
         progress(done as u64, traces.len() as u64);
         let id = trace.strip_prefix(root).unwrap_or(trace).display().to_string();
         match document(trace).and_then(|document| episode(&id, &document)) {
             Ok(mut episode) => {
                 looks(trace, &mut episode, &mut flags);
-                episodes.push(episode);
+                visit(episode);
             }
             Err(problem) => flags.push(Flag::damage("json-damaged", format!("{id}/trajectory.json"), problem)),
         }
     }
-    Ok((episodes, flags))
+    Ok(flags)
 }
 
 fn document(trace: &Path) -> Result<Value, String> {

@@ -2,21 +2,21 @@
 
 use crate::map;
 use crate::model::Report;
+use crate::sample::TOWNS;
 use cosfly_plot::strip::CLASSES;
 use std::fmt::Write;
 
-/// Number of towns that are drawn.
-const MOST_TOWNS: usize = 20;
-
 /// The section.
 pub fn section(report: &Report) -> String {
+    let drawn = report.figures.drawn();
     let maps: String = report
         .towns
         .iter()
-        .take(MOST_TOWNS)
+        .take(TOWNS)
         .map(|town| {
-            let flights: Vec<_> = report.flights.iter().filter(|flight| flight.town == town.name).collect();
-            map::draw(town, &flights)
+            let flights: Vec<_> = drawn.iter().filter(|flight| flight.town == town.name).copied().collect();
+            let [experts, perturbed] = report.figures.groups[1].get(&town.name).map_or([0; 2], |group| group.flights);
+            map::draw(town, &flights, if experts > 0 { experts } else { perturbed })
         })
         .collect();
     if maps.is_empty() { String::new() } else { legend() + &maps }

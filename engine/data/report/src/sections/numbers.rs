@@ -1,8 +1,7 @@
 //! The statistics table of the paper beside the numbers of this dataset.
 
-use crate::model::{FlightSketch, Report};
+use crate::model::Report;
 use cosfly_plot::text::{escaped, grouped, short};
-use std::collections::BTreeSet;
 use std::fmt::Write;
 
 /// RGB, depth, segmentation, drone pose, target state (paper, section on the dataset: five channels per timestep).
@@ -29,21 +28,19 @@ pub fn section(report: &Report) -> String {
 
 /// Name, value of this dataset, value of the paper.
 fn rows(report: &Report) -> Vec<(&'static str, String, &'static str)> {
-    let flights = &report.flights;
-    let distinct = |name: fn(&FlightSketch) -> &String| flights.iter().map(name).collect::<BTreeSet<_>>().len() as u64;
-    let walks: BTreeSet<_> = flights.iter().map(|flight| (&flight.town, &flight.pedestrian)).collect();
-    let perturbed = flights.iter().filter(|flight| flight.is_perturbed).count();
-    let frames: u64 = flights.iter().map(|flight| flight.len() as u64).sum();
-    let seconds: f64 = flights.iter().map(FlightSketch::duration_s).sum();
-    let count = flights.len().max(1) as f64;
+    let figures = &report.figures;
+    let [experts, perturbed] = figures.flights;
+    let [_, towns, weathers] = figures.groups.each_ref().map(|groups| groups.len() as u64);
+    let (frames, seconds) = (figures.frames, figures.duration_s);
+    let count = figures.all().max(1) as f64;
     vec![
-        ("Unique pedestrian paths", grouped(walks.len() as u64), "~6,000"),
-        ("Expert and perturbed trajectories", format!("{} + {perturbed}", flights.len() - perturbed), "~12,000"),
+        ("Unique pedestrian paths", grouped(figures.walks.len() as u64), "~6,000"),
+        ("Expert and perturbed trajectories", format!("{experts} + {perturbed}"), "~12,000"),
         ("Timesteps", grouped(frames), "2.4M"),
         ("Annotation samples", grouped(frames * CHANNELS), "~10M"),
         ("Total tracking duration", duration(seconds), "~334 hours"),
-        ("Urban scenes", grouped(distinct(|flight| &flight.town)), "16"),
-        ("Weather and lighting conditions", grouped(distinct(|flight| &flight.weather)), "8+"),
+        ("Urban scenes", grouped(towns), "16"),
+        ("Weather and lighting conditions", grouped(weathers), "8+"),
         (
             "Average trajectory",
             format!("{} steps / {} s", short(frames as f64 / count), short(seconds / count)),

@@ -1,6 +1,7 @@
 //! Costs of planning, and limits.
 
-use crate::model::{FlightSketch, Report};
+use crate::figures::{Figures, Limits};
+use crate::model::Report;
 use crate::moments::spread;
 use cosfly_plot::convergence::convergence as chart;
 use cosfly_plot::text::{escaped, percent};
@@ -14,22 +15,22 @@ const STOPS: [&str; 3] = ["lattice", "refined", "published"];
 
 /// The section.
 pub fn section(report: &Report) -> String {
-    let parts = [convergence(&report.flights), terms(&report.flights), limits(&report.flights)];
+    let figures = &report.figures;
+    let parts = [convergence(figures), terms(&figures.term_costs), limits(figures)];
     let cards: Vec<&String> = parts.iter().filter(|part| !part.is_empty()).collect();
     let cards: String = cards.into_iter().map(|part| format!("<figure class=\"card\">{part}</figure>")).collect();
     if cards.is_empty() { cards } else { format!("<div class=\"grid\">{cards}</div>") }
 }
 
-fn convergence(flights: &[FlightSketch]) -> String {
-    let usable = |flight: &&FlightSketch| {
-        flight.convergence.len() > 1 && flight.convergence.iter().all(|cost| cost.is_finite() && *cost > 0.0)
-    };
-    let curves: Vec<&[f64]> = flights.iter().filter(usable).map(|flight| flight.convergence.as_slice()).collect();
+fn convergence(figures: &Figures) -> String {
+    let flights = figures.drawn();
+    let curves: Vec<&[f64]> =
+        flights.iter().filter(|flight| flight.is_planned()).map(|flight| flight.convergence.as_slice()).collect();
     if curves.is_empty() {
         return String::new();
     }
     let drawn: Vec<&[f64]> = spread(curves.len(), MOST_CURVES).into_iter().map(|at| curves[at]).collect();
-    let are_stops = curves.iter().all(|curve| curve.len() == STOPS.len());
+    let are_stops = figures.planned[0] == figures.planned[1];
     let explained = if are_stops {
         "Total cost of the lattice's way, after its refinement, and of the flight as published, which is made safe last and \
          may cost more for it."
@@ -40,13 +41,9 @@ fn convergence(flights: &[FlightSketch]) -> String {
     format!("<h3>Cost convergence</h3>{picture}<p class=\"note\">{explained}</p>")
 }
 
-fn terms(flights: &[FlightSketch]) -> String {
-    let mut sums: BTreeMap<&str, f64> = BTreeMap::new();
-    for (name, cost) in flights.iter().flat_map(|flight| &flight.term_costs) {
-        *sums.entry(name).or_default() += cost;
-    }
+fn terms(sums: &BTreeMap<String, f64>) -> String {
     let total: f64 = sums.values().sum();
-    let mut order: Vec<(&str, f64)> = sums.into_iter().collect();
+    let mut order: Vec<(&str, f64)> = sums.iter().map(|(name, cost)| (name.as_str(), *cost)).collect();
     order.sort_by(|a, b| b.1.total_cmp(&a.1).then(a.0.cmp(b.0)));
     if order.is_empty() || total.is_nan() || total <= 0.0 {
         return String::new();
@@ -69,27 +66,20 @@ fn terms(flights: &[FlightSketch]) -> String {
     text
 }
 
-fn limits(flights: &[FlightSketch]) -> String {
-    let checked: Vec<&FlightSketch> = flights.iter().filter(|flight| !flight.is_perturbed).collect();
-    if checked.is_empty() {
+fn limits(figures: &Figures) -> String {
+    let experts = figures.flights[0];
+    if experts == 0 {
         return String::new();
     }
-    let sound = checked.iter().filter(|flight| flight.holds).count();
-    let nearest = checked.iter().flat_map(|flight| &flight.clearance_m).copied().fold(f32::INFINITY, f32::min);
-    let fastest = checked.iter().flat_map(|flight| flight.speeds_mps()).fold(0.0, f32::max);
-    let jerk = checked.iter().map(|flight| flight.max_jerk_mps3).fold(0.0, f64::max);
+    let Limits { sound, nearest_m, fastest_mps: fastest, jerk_mps3: jerk, broken } = &figures.limits;
+    let nearest = nearest_m.unwrap_or(f32::INFINITY);
     let mut text = format!(
         "<h3>Limits</h3><p class=\"big\">{sound} of {}</p><p>experts keep all limits of clearance, speed, acceleration and jerk.</p>\
          <ul><li>nearest obstacle: {nearest:.2} m</li><li>fastest: {fastest:.1} m/s</li><li>largest jerk: {jerk:.1} m/s³</li></ul>",
-        checked.len()
+        experts
     );
-    let broken: Vec<String> = checked
-        .iter()
-        .flat_map(|flight| flight.violations.iter().map(|it| format!("{}: {it}", flight.id)))
-        .take(5)
-        .collect();
     if !broken.is_empty() {
-        let items: String = broken.iter().map(|it| format!("<li>{}</li>", escaped(it))).collect();
+        let items: String = broken.iter().map(|(_, _, it)| format!("<li>{}</li>", escaped(it))).collect();
         let _ = write!(text, "<p>Not kept:</p><ul>{items}</ul>");
     }
     text

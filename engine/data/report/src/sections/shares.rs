@@ -1,6 +1,7 @@
 //! Shares of splits, towns and weathers, and rejected items.
 
-use crate::model::{FlightSketch, Report};
+use crate::figures::Group;
+use crate::model::Report;
 use cosfly_plot::text::{escaped, grouped, percent};
 use std::collections::BTreeMap;
 use std::fmt::Write;
@@ -10,34 +11,29 @@ const MOST_REASONS: usize = 20;
 
 /// The section.
 pub fn section(report: &Report) -> String {
+    let [splits, towns, weathers] = &report.figures.groups;
     let cards = [
-        table("Splits", "split", report, &|flight| &flight.split),
-        table("Towns", "town", report, &|flight| &flight.town),
-        table("Weather", "weather", report, &|flight| &flight.weather),
+        table("Splits", "split", splits),
+        table("Towns", "town", towns),
+        table("Weather", "weather", weathers),
         rejected(report),
     ];
     format!("<div class=\"grid small\">{}</div>", cards.concat())
 }
 
-fn table(title: &str, heading: &str, report: &Report, of: &dyn Fn(&FlightSketch) -> &str) -> String {
-    let mut groups: BTreeMap<&str, (u64, u64, f64)> = BTreeMap::new();
-    for flight in &report.flights {
-        let (flights, frames, visible) = groups.entry(of(flight)).or_default();
-        *flights += 1;
-        *frames += flight.len() as u64;
-        *visible += flight.mean_visible();
-    }
+fn table(title: &str, heading: &str, groups: &BTreeMap<String, Group>) -> String {
     let mut text = format!(
         "<section class=\"card\"><h3>{title}</h3><table><thead><tr><th scope=\"col\">{heading}</th><th scope=\"col\">flights\
          </th><th scope=\"col\">frames</th><th scope=\"col\">visible</th></tr></thead><tbody>"
     );
-    for (name, (flights, frames, visible)) in groups {
+    for (name, Group { flights, frames, visible }) in groups {
+        let flights: u64 = flights.iter().sum();
         let _ = write!(
             text,
             "<tr><th scope=\"row\">{}</th><td>{}</td><td>{}</td><td>{}</td></tr>",
             escaped(name),
             grouped(flights),
-            grouped(frames),
+            grouped(*frames),
             percent(visible / flights.max(1) as f64)
         );
     }

@@ -12,15 +12,14 @@ const MOST_ROWS: usize = 40;
 
 /// The section.
 pub fn section(report: &Report) -> String {
-    let flights = &report.flights;
-    let longest = flights.iter().map(FlightSketch::len).max().unwrap_or(1).max(1);
+    let longest = report.figures.longest.max(1);
     let mut text = legend();
     text.push_str(
         "<div class=\"scroll card\" tabindex=\"0\" role=\"region\" aria-label=\"Visibility over time\"><table class=\"strips\">\
          <thead><tr><th scope=\"col\">flight</th><th scope=\"col\">visible</th><th scope=\"col\">lost, longest</th>\
          <th scope=\"col\">over time</th></tr></thead><tbody>",
     );
-    let mut order: Vec<&FlightSketch> = flights.iter().collect();
+    let mut order: Vec<&FlightSketch> = report.figures.drawn();
     order.sort_by(|a, b| {
         let key = |it: &FlightSketch| (it.town.clone(), it.pedestrian.clone(), it.is_perturbed, it.id.clone());
         key(a).cmp(&key(b))
@@ -39,8 +38,9 @@ pub fn section(report: &Report) -> String {
         );
     }
     text.push_str("</tbody></table></div>");
-    if rows.len() < order.len() {
-        let _ = write!(text, "<p class=\"note\">{} of {} flights.</p>", rows.len(), order.len());
+    let all = report.figures.all();
+    if (rows.len() as u64) < all {
+        let _ = write!(text, "<p class=\"note\">{} of {all} flights.</p>", rows.len());
     }
     text
 }

@@ -10,8 +10,8 @@ use std::fmt::Write;
 /// The section.
 pub fn section<E>(report: &Report, pictures: Source<'_, E>) -> Result<String, E> {
     let mut text = String::from("<div class=\"grid cases\">");
-    for case in moments::worst(&report.flights) {
-        let flight = &report.flights[case.flight];
+    for case in moments::worst(&report.figures.worst) {
+        let flight = case.flight;
         let _ = write!(text, "<article class=\"card\"><h3>{}</h3>", capitalised(case.what));
         let _ = write!(
             text,
@@ -24,7 +24,7 @@ pub fn section<E>(report: &Report, pictures: Source<'_, E>) -> Result<String, E>
         for (frame, what) in &case.frames {
             let share = 100.0 * f64::from(flight.visible.get(*frame).copied().unwrap_or_default());
             let words = format!("frame {frame}: {what}, {share:.0} % visible");
-            if let Some(jpeg) = pictures(case.flight, *frame)? {
+            if let Some(jpeg) = pictures(flight, *frame)? {
                 let alternative = format!("{} of {}", words, flight.id);
                 let _ = write!(
                     text,

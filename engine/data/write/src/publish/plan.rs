@@ -2,7 +2,7 @@
 
 use cosfly_diagnose::{Diagnostic, Fault, Result};
 use cosfly_schema::tables::Membership;
-use cosfly_schema::{Split, TownLayout};
+use cosfly_schema::{Rejection, Split, TownLayout};
 use serde::{Deserialize, Serialize};
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -20,8 +20,6 @@ pub struct FlightPlan {
     pub mcap_path: String,
     /// Split, split group and subset.
     pub membership: Membership,
-    /// Whether the report draws the flight.
-    pub is_drawn: bool,
 }
 
 /// The flights of a group of walks, whose tables are written together.
@@ -31,6 +29,8 @@ pub struct GroupPlan {
     pub number: u64,
     /// The flights that are published, in the order of the group.
     pub flights: Vec<FlightPlan>,
+    /// Flights that the splits leave out.
+    pub left_out: Vec<Rejection>,
     /// Ground plans of their towns, by name.
     pub layouts: BTreeMap<String, TownLayout>,
 }
@@ -114,7 +114,6 @@ mod tests {
                 town: "town".into(),
                 mcap_path: String::new(),
                 membership: Membership { split, split_group: walk, is_seen: true, subset_rank: 0.0 },
-                is_drawn: true,
             }
         };
         GroupPlan { flights: (0..count).map(flight).collect(), ..GroupPlan::default() }

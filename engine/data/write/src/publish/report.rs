@@ -4,7 +4,7 @@ use super::source::DatasetSource;
 use super::summary::Summary;
 use cosfly_diagnose::Result;
 use cosfly_frames::DVec3;
-use cosfly_report::{BoxSketch, FlightSketch, RejectionSketch, Report, TownSketch};
+use cosfly_report::{BoxSketch, Figures, FlightSketch, RejectionSketch, Report, TownSketch};
 use cosfly_schema::config::DatasetConfig;
 use cosfly_schema::flight_labels::costs;
 use cosfly_schema::log::messages::edges_px;
@@ -14,11 +14,11 @@ use cosfly_schema::{Rejection, RenderedTrajectory, Role};
 /// Path of the page in the dataset.
 pub const PATH: &str = "report/index.html";
 
-/// The page of a dataset, of whose flights `flights` are drawn.
+/// The page of a dataset.
 pub fn page(
     config: &DatasetConfig,
     summary: &Summary,
-    flights: Vec<FlightSketch>,
+    figures: Figures,
     boxes: &[ObjectRecord],
     rejections: &[Rejection],
     source: &dyn DatasetSource,
@@ -33,12 +33,12 @@ pub fn page(
         creator: config.creator.name.clone(),
         languages: summary.languages.iter().cloned().collect(),
         towns: summary.towns.keys().map(|name| TownSketch { name: name.clone(), boxes: of_town(name) }).collect(),
-        flights,
+        figures,
         rejections: rejections.iter().map(rejection_sketch).collect(),
         planners: source.planners()?,
         shortcuts: Some(summary.shortcuts.figures()),
     };
-    cosfly_report::page(&report, &mut |flight, frame| source.picture(&report.flights[flight].id, frame))
+    cosfly_report::page(&report, &mut |flight, frame| source.picture(&flight.id, frame))
 }
 
 fn box_sketch(object: &ObjectRecord) -> BoxSketch {
@@ -60,11 +60,12 @@ fn rejection_sketch(rejection: &Rejection) -> RejectionSketch {
     }
 }
 
-/// The figures of a flight that the page shows.
-pub fn sketch(record: &RenderedTrajectory, split: &str) -> FlightSketch {
+/// The figures of flight `number` that the page shows.
+pub fn sketch(number: u64, record: &RenderedTrajectory, split: &str) -> FlightSketch {
     let trajectory = &record.trajectory;
     let place = |it: DVec3| it.to_array().map(|metres| metres as f32);
     FlightSketch {
+        number,
         id: record.trajectory_id.clone(),
         is_perturbed: record.role == Role::Perturbed,
         pedestrian: record.pedestrian_id.clone(),

@@ -10,7 +10,7 @@ use crate::table_file::{TableWriter, write_error, writer_properties};
 use cosfly_blobs::OutputSink;
 use cosfly_diagnose::{Diagnostic, Fault, Result};
 use cosfly_render::{Channel, ChannelSet};
-use cosfly_report::FlightSketch;
+use cosfly_report::Figures;
 use cosfly_schema::config::DatasetConfig;
 use cosfly_schema::extras::{self, Extra, ExtraShape, ExtraSource, ExtraSummary};
 use cosfly_schema::flight_table::Values;
@@ -30,8 +30,8 @@ pub struct Shard {
     pub summary: Summary,
     /// Its files: tables and logs.
     pub files: Vec<FileRecord>,
-    /// The flights that the report draws.
-    pub sketches: Vec<FlightSketch>,
+    /// Figures for the report.
+    pub figures: Figures,
     /// Items without a flight.
     pub rejections: Vec<Rejection>,
 }
@@ -94,16 +94,15 @@ impl Writing<'_> {
         let number = self.plan.number;
         for part in parts {
             let mut of_part = growing(&per_frame)?;
-            let Self { files, shard, flights, plan } = self;
+            let Self { files, shard, flights, .. } = self;
             let mut rows = 0;
             files.hashed(&path_of_part(streamed.name, split, number, part.number), &mut |output| {
                 let mut writer = TableWriter::new(streamed, output)?;
                 for index in &part.members {
                     let item = flights.load(*index)?;
                     shard.summary.count(&item, split.name());
-                    if plan.flights[*index].is_drawn {
-                        shard.sketches.push(report::sketch(&item.record, split.name()));
-                    }
+                    let place = (number << 32) + *index as u64;
+                    shard.figures.add(report::sketch(place, &item.record, split.name()));
                     writer.append(&item)?;
                     of_part.iter_mut().chain(&mut of_split).try_for_each(|table| table.append(&item))?;
                 }

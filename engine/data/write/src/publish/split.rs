@@ -3,16 +3,26 @@
 use super::notes::FlightNote;
 use super::plan::{FlightPlan, GroupPlan, LogPaths};
 use cosfly_diagnose::{Diagnostic, Fault, Result};
-use cosfly_frames::Seed;
-use cosfly_schema::config::DatasetConfig;
+use cosfly_schema::config::{DatasetConfig, SplitBy, SplitShares};
 use cosfly_schema::tables::Membership;
-use cosfly_schema::{Split, TownLayout};
-use cosfly_splits::{FlightFacts, LintRules};
+use cosfly_schema::{Rejection, Split, TownLayout};
+use cosfly_splits::{Balance, FlightFacts, LintRules, area};
 use std::collections::{BTreeMap, BTreeSet};
 use std::sync::Arc;
 
-/// Flights that the report draws one by one; of more, a sample.
-const MOST_DRAWN: usize = 400;
+/// Name of the stage in rows of flights that are left out.
+const STAGE: &str = "dataset";
+
+/// The splits of a dataset.
+#[derive(Clone, Debug, PartialEq)]
+pub struct SplitPlan {
+    /// The groups of walks.
+    pub groups: Vec<GroupPlan>,
+    /// The policy, with the areas of all towns.
+    pub splits: SplitShares,
+    /// Notes on the splits for the user: shares that are missed, walks that chain, flights left out.
+    pub warnings: Vec<String>,
+}
 
 /// Plans of all groups, from the notes about their flights. `layout_of` gives the ground plan of the town of a flight.
 ///
@@ -22,28 +32,42 @@ pub fn plan_groups(
     config: &DatasetConfig,
     groups: Vec<Vec<FlightNote>>,
     layout_of: &dyn Fn(&FlightNote) -> Result<Arc<TownLayout>>,
-) -> Result<Vec<GroupPlan>> {
-    let sizes: Vec<usize> = groups.iter().map(Vec::len).collect();
-    let notes: Vec<FlightNote> = groups.into_iter().flatten().collect();
+) -> Result<SplitPlan> {
+    let of_group = |(number, notes): (usize, Vec<FlightNote>)| notes.into_iter().map(move |note| (number, note));
+    let count = groups.len();
+    let (places, notes): (Vec<usize>, Vec<FlightNote>) = groups.into_iter().enumerate().flat_map(of_group).unzip();
     check_rates(&notes)?;
     let layouts: Vec<Arc<TownLayout>> = notes.iter().map(layout_of).collect::<Result<_>>()?;
-    let mut facts: Vec<FlightFacts> =
-        notes.into_iter().zip(&layouts).map(|(note, layout)| note.into_facts(Arc::clone(layout))).collect();
+    let facts: Vec<FlightFacts> =
+        notes.into_iter().zip(layouts).map(|(note, layout)| note.into_facts(layout)).collect();
+    let mut plans: Vec<GroupPlan> =
+        (0..count as u64).map(|number| GroupPlan { number, ..GroupPlan::default() }).collect();
+    let splits = match config.splits.by {
+        SplitBy::Area => area::resolved(&facts, &config.splits),
+        _ => config.splits.clone(),
+    };
+    let config = &DatasetConfig { splits, ..config.clone() };
+    let (places, mut facts) = leave_out(facts, places, config, &mut plans);
     check_towns(&facts, config)?;
     let assignment = cosfly_splits::assign(&facts, &config.splits);
     for ((it, split), group) in facts.iter_mut().zip(&assignment.splits).zip(&assignment.groups) {
         (it.split, it.group) = (split.name().to_owned(), group.clone());
     }
     check_promises(&facts, config)?;
+    let left_out = plans.iter().map(|plan| plan.left_out.len()).sum();
+    let balance = Balance::of(&facts, &config.splits, left_out);
+    if let Some(refusal) = balance.refusal(&config.splits) {
+        return Err(refusal);
+    }
     if let Some(refusal) = cosfly_splits::refusal(&cosfly_splits::lint(&facts, &LintRules::of(config))) {
         return Err(refusal);
     }
-    let is_seen = seen(&assignment.splits, &layouts);
-    let is_drawn = drawn(&facts);
+    check_twins(&facts, &places)?;
+    let is_seen = seen(&assignment.splits, &facts);
     let mut paths = LogPaths::default();
-    let mut flights = vec![];
-    for (at, it) in facts.iter().enumerate() {
-        flights.push(FlightPlan {
+    for (at, (it, place)) in facts.iter().zip(places).enumerate() {
+        plans[place].layouts.entry(it.town.clone()).or_insert_with(|| (*it.layout).clone());
+        plans[place].flights.push(FlightPlan {
             trajectory_id: it.trajectory_id.clone(),
             town: it.town.clone(),
             mcap_path: paths.next(&it.town, &it.trajectory_id)?,
@@ -53,19 +77,36 @@ pub fn plan_groups(
                 is_seen: is_seen[at],
                 subset_rank: assignment.subset_ranks[at],
             },
-            is_drawn: is_drawn[at],
         });
     }
-    check_twins(&facts, &sizes)?;
-    let mut flights = flights.into_iter();
-    let mut of_flight = layouts.iter();
-    let group = |(number, size): (u64, &usize)| {
-        let flights: Vec<FlightPlan> = flights.by_ref().take(*size).collect();
-        let towns = flights.iter().map(|flight| flight.town.clone());
-        let layouts = towns.zip(of_flight.by_ref().take(*size)).map(|(town, layout)| (town, (**layout).clone()));
-        GroupPlan { number, layouts: layouts.collect(), flights }
-    };
-    Ok((0..).zip(&sizes).map(group).collect())
+    Ok(SplitPlan { groups: plans, splits: config.splits.clone(), warnings: balance.warnings() })
+}
+
+/// The flights that an area of the splits holds, with the numbers of their groups; the others are noted in the plans.
+fn leave_out(
+    facts: Vec<FlightFacts>,
+    places: Vec<usize>,
+    config: &DatasetConfig,
+    plans: &mut [GroupPlan],
+) -> (Vec<usize>, Vec<FlightFacts>) {
+    if config.splits.by != SplitBy::Area {
+        return (places, facts);
+    }
+    let reasons = area::left_out(&facts, &config.splits);
+    let mut kept = vec![];
+    for ((it, place), reason) in facts.into_iter().zip(places).zip(reasons) {
+        match reason {
+            None => kept.push((place, it)),
+            Some(reason) => plans[place].left_out.push(Rejection {
+                trajectory_id: it.trajectory_id,
+                stage: STAGE.to_owned(),
+                pedestrian_id: it.pedestrian_id,
+                town: it.town,
+                reason,
+            }),
+        }
+    }
+    kept.into_iter().unzip()
 }
 
 /// Increments from frame to frame are one quantity in tables only if all frames are equally far apart.
@@ -81,9 +122,9 @@ fn check_rates(notes: &[FlightNote]) -> Result<()> {
 }
 
 /// Twins are in one group, whose tables compare them.
-fn check_twins(facts: &[FlightFacts], sizes: &[usize]) -> Result<()> {
-    let groups = sizes.iter().enumerate().flat_map(|(group, size)| std::iter::repeat_n(group, *size));
-    let groups: BTreeMap<&str, usize> = facts.iter().map(|it| it.trajectory_id.as_str()).zip(groups).collect();
+fn check_twins(facts: &[FlightFacts], places: &[usize]) -> Result<()> {
+    let groups: BTreeMap<&str, usize> =
+        facts.iter().map(|it| it.trajectory_id.as_str()).zip(places.iter().copied()).collect();
     let is_apart = |it: &&FlightFacts| {
         let expert = it.expert_id.as_deref().and_then(|id| groups.get(id));
         expert.is_some_and(|group| groups[it.trajectory_id.as_str()] != *group)
@@ -95,17 +136,6 @@ fn check_twins(facts: &[FlightFacts], sizes: &[usize]) -> Result<()> {
             Err(Diagnostic::new("dataset-twins-apart", Fault::Bug, message))
         }
     }
-}
-
-/// Flights that the report draws: all of them, or a share drawn from their ids that halves whenever the flights double, so
-/// that a few further flights change no earlier choice.
-fn drawn(facts: &[FlightFacts]) -> Vec<bool> {
-    let mut share = 1.0;
-    while facts.len() as f64 * share > MOST_DRAWN as f64 {
-        share *= 0.5;
-    }
-    let draw = |it: &FlightFacts| Seed::of_item(0, "report", &it.trajectory_id).stream("report").unit();
-    facts.iter().map(|it| draw(it) < share).collect()
 }
 
 /// Towns that a recipe gives a split are there.
@@ -137,12 +167,12 @@ fn check_promises(facts: &[FlightFacts], config: &DatasetConfig) -> Result<()> {
 }
 
 /// Whether split `train` has flights in the town of each flight.
-fn seen(splits: &[Split], layouts: &[Arc<TownLayout>]) -> Vec<bool> {
-    let train: BTreeMap<&str, &TownLayout> = (splits.iter().zip(layouts))
+fn seen(splits: &[Split], facts: &[FlightFacts]) -> Vec<bool> {
+    let train: BTreeMap<&str, &TownLayout> = (splits.iter().zip(facts))
         .filter(|(split, _)| **split == Split::Train)
-        .map(|(_, layout)| (layout.digest.as_str(), &**layout))
+        .map(|(_, it)| (it.layout.digest.as_str(), &*it.layout))
         .collect();
     let mut known: BTreeMap<&str, bool> = BTreeMap::new();
     let is_seen = |layout: &TownLayout| train.values().any(|seen| seen.is_same_place(layout));
-    layouts.iter().map(|layout| *known.entry(&layout.digest).or_insert_with(|| is_seen(layout))).collect()
+    facts.iter().map(|it| *known.entry(&it.layout.digest).or_insert_with(|| is_seen(&it.layout))).collect()
 }

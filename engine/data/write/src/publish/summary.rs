@@ -52,6 +52,8 @@ pub struct Summary {
     pub shortcuts: Shortcuts,
     /// Tables and files of plugins.
     pub extras: Vec<ExtraSummary>,
+    /// Notes on the splits for the user: shares that are missed, walks that chain, flights left out.
+    pub warnings: Vec<String>,
 }
 
 /// A town of a dataset.

@@ -93,3 +93,28 @@ fn a_dataset_without_a_flight_is_refused_with_the_reasons() {
     let error = outcome.unwrap_err();
     assert!(error.message.contains("no flight to publish") && error.causes[0].contains("cannot be reached"), "{error}");
 }
+
+#[test]
+fn flights_in_a_guard_band_are_left_out_with_a_reason_and_the_areas_are_written_down() {
+    use cosfly_schema::Split;
+    use cosfly_schema::config::{AreaCut, CutAxis, SplitBy, SplitShares};
+    let cut = |at_m| AreaCut { axis: CutAxis::X, splits: vec![Split::Train, Split::Test], at_m: vec![at_m] };
+    let config = |at_m, guard_m| DatasetConfig {
+        splits: SplitShares {
+            by: SplitBy::Area,
+            guard_m,
+            areas: BTreeMap::from([("plain".to_owned(), cut(at_m))]),
+            ..SplitShares::default()
+        },
+        ..DatasetConfig::default()
+    };
+    // Both pedestrians start at x = 0; one walks to x = 2.4 m, the other to 0.5 m.
+    let folder = tempfile::tempdir().unwrap();
+    let summary = sample::write_to_folder(folder.path(), &config(1.0, 0.2), EncodingConfig::default()).unwrap();
+    assert_eq!((summary.experts, summary.perturbed, summary.rejected), (1, 1, 3));
+    assert!(summary.warnings[0].starts_with("2 of 4 flights were left out"), "{:?}", summary.warnings);
+    let policy = std::fs::read_to_string(folder.path().join("splits.json")).unwrap();
+    assert!(policy.contains("\"plain\""), "{policy}");
+    let refusal = sample::write_to_folder(folder.path(), &config(0.3, 0.2), EncodingConfig::default()).unwrap_err();
+    assert!(refusal.to_string().contains("no flight to publish"), "{refusal}");
+}

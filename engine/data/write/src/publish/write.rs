@@ -9,7 +9,7 @@ use super::{card, report, viewers};
 use crate::croissant;
 use cosfly_blobs::OutputSink;
 use cosfly_diagnose::{Diagnostic, Fault, Result};
-use cosfly_report::FlightSketch;
+use cosfly_report::Figures;
 use cosfly_schema::Rejection;
 use cosfly_schema::card_text::filled;
 use cosfly_schema::config::DatasetConfig;
@@ -24,7 +24,7 @@ pub fn write_dataset(
     shards: Vec<Shard>,
     source: &dyn DatasetSource,
 ) -> Result<Summary> {
-    let Merged { mut summary, mut listed, sketches, rejections } = merge(shards)?;
+    let Merged { mut summary, mut listed, figures, rejections } = merge(shards)?;
     if summary.flights() == 0 {
         return Err(nothing_to_publish(&rejections));
     }
@@ -41,7 +41,7 @@ pub fn write_dataset(
     for (path, text) in viewers::FILES {
         files.put(path, text.as_bytes())?;
     }
-    let page = report::page(config, &summary, sketches, &boxes, &rejections, source)?;
+    let page = report::page(config, &summary, figures, &boxes, &rejections, source)?;
     files.put(report::PATH, page.as_bytes())?;
     files.put("schemas/cosfly.proto", target_state::proto_text().as_bytes())?;
     files.put("LICENSE", card::license_text(config).as_bytes())?;
@@ -54,19 +54,20 @@ pub fn write_dataset(
 struct Merged {
     summary: Summary,
     listed: Vec<FileRecord>,
-    sketches: Vec<FlightSketch>,
+    figures: Figures,
     rejections: Vec<Rejection>,
 }
 
 fn merge(shards: Vec<Shard>) -> Result<Merged> {
-    let mut merged = Merged { summary: Summary::default(), listed: vec![], sketches: vec![], rejections: vec![] };
+    let mut merged =
+        Merged { summary: Summary::default(), listed: vec![], figures: Figures::default(), rejections: vec![] };
     let mut with_flights = 0;
     for shard in shards {
         let has_flights = shard.summary.flights() > 0;
         merged.summary.merge(shard.summary, with_flights > 0)?;
         with_flights += u32::from(has_flights);
         merged.listed.extend(shard.files);
-        merged.sketches.extend(shard.sketches);
+        merged.figures.merge(shard.figures);
         merged.rejections.extend(shard.rejections);
     }
     Ok(merged)

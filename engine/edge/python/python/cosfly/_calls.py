@@ -117,6 +117,11 @@ class Check:
     files: int
     bytes: int
     flights: int
+    flights_of_dataset: int
+    sample: Optional[int]
+    """Number of flights in the sample, where only a sample was checked in full."""
+    resumed: int
+    """Flights that an earlier check had found sound."""
     frames: int
     target_boxes: int
     visibility_labels: int
@@ -230,14 +235,24 @@ def why(recipe: Recipe, subject: str, *, set: Settings = None, store: Optional[P
 def verify(
     dataset: PathLike,
     *,
+    sample: Optional[int] = None,
+    resume: Optional[PathLike] = None,
+    jobs: Optional[int] = None,
     regenerate: Optional[int] = None,
     recipe: Optional[PathLike] = None,
     set: Settings = None,
     store: Optional[PathLike] = None,
     progress: Progress = True,
 ) -> Check:
-    """Check a finished dataset: hashes, counts, schemas, reprojection, actions; ``regenerate`` makes flights again."""
-    arguments = ["verify", os.fspath(dataset), "--json", *_options(regenerate=regenerate, recipe=recipe, store=store)]
+    """Check a finished dataset: hashes, counts, schemas, reprojection, actions; ``regenerate`` makes flights again.
+
+    ``sample`` flights are checked in full instead of all; ``resume`` is a file of notes with which an interrupted check
+    goes on.
+    """
+    options = _options(
+        sample=sample, resume=resume, jobs=jobs, regenerate=regenerate, recipe=recipe, store=store
+    )
+    arguments = ["verify", os.fspath(dataset), "--json", *options]
     _, text, _ = _call(arguments + _settings(set), b"", progress)
     return Check(**json.loads(text))
 

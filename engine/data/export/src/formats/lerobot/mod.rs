@@ -41,9 +41,8 @@ impl Format for LeRobot {
 
     fn write(options: &InstructionOptions, source: &Source<'_>, out: &OutFolder) -> Result<Vec<String>> {
         let fps = check(source)?;
-        let experts = source.expert_poses()?;
         for split in source.splits() {
-            write_split(options.language, source, out, split, fps, &experts)?;
+            write_split(options.language, source, out, split, fps)?;
         }
         card(&source.splits()).write(source, out)?;
         Ok(vec![])
@@ -51,14 +50,7 @@ impl Format for LeRobot {
 }
 
 /// Writes the dataset of a split, into a folder of its own: LeRobot reads all episodes of a folder, whatever their split.
-fn write_split(
-    language: Language,
-    source: &Source<'_>,
-    out: &OutFolder,
-    split: &str,
-    fps: u32,
-    experts: &BTreeMap<String, Vec<Pose>>,
-) -> Result<()> {
+fn write_split(language: Language, source: &Source<'_>, out: &OutFolder, split: &str, fps: u32) -> Result<()> {
     let table = tables::data();
     let mut data = DataFiles { out, split, table: &table, file: 0, bytes: 0, open: None };
     let mut statistics = Statistics::default();
@@ -71,7 +63,7 @@ fn write_split(
             task_names.push(task.clone());
             task_names.len() - 1
         });
-        let expert = episode.expert_poses(experts)?;
+        let expert = episode.expert_poses()?;
         let rows = rows_of(episode, &expert, [episodes.len(), index, task_index], &mut statistics)?;
         let length = rows.pictures.len();
         let file = data.append(&rows)?;
@@ -142,8 +134,7 @@ fn rows_of(
         for ((name, ..), values) in VECTORS.iter().zip(&vectors) {
             statistics.push(name, values);
         }
-        let counts =
-            [("frame_index", frame), ("episode_index", number), ("index", first + frame), ("task_index", task)];
+        let counts = [("row_index", frame), ("episode_index", number), ("index", first + frame), ("task_index", task)];
         counts.into_iter().for_each(|(name, count)| statistics.push(name, &[count as f64]));
         statistics.push("timestamp", &[frame as f64 * dt_s]);
         rows.vectors.push(vectors);
@@ -215,7 +206,7 @@ fn info(source: &Source<'_>, split: &str, fps: u32, episodes: &[EpisodeRow], tas
         features.insert(name.to_owned(), json!({"dtype": "float32", "shape": [names.len()], "names": names}));
     }
     features.insert("timestamp".into(), json!({"dtype": "float32", "shape": [1], "names": null}));
-    for name in ["frame_index", "episode_index", "index", "task_index"] {
+    for name in ["row_index", "episode_index", "index", "task_index"] {
         features.insert(name.into(), json!({"dtype": "int64", "shape": [1], "names": null}));
     }
     json!({

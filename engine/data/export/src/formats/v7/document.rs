@@ -65,7 +65,7 @@ fn own_part(episode: &Episode<'_>, place: &Place) -> Value {
             "first_frame": place.part * PART_FRAMES,
         },
         "dt_s": flight.dt_s,
-        "weather": {"preset": flight.weather, "numbers": flight.weather_numbers},
+        "weather": {"preset": flight.weather, "numbers": *flight.weather_numbers},
         "target": {"height_m": flight.target_height_m, "radius_m": flight.target_radius_m},
         "captions": captions,
     })

@@ -43,7 +43,6 @@ impl Format for Vlm {
             return Err(Diagnostic::new("export-windows", Fault::Recipe, message)
                 .hint("choose with `--input`, `--history` and `--horizon`"));
         }
-        let experts = source.expert_poses()?;
         let mut files: BTreeMap<String, BufWriter<File>> = BTreeMap::new();
         let (mut flight, mut windows) = (0, 0);
         source.each_flight_of(&is_seen, &mut |episode| {
@@ -53,7 +52,7 @@ impl Format for Vlm {
                 files.insert(split.clone(), out.create(&name)?);
             }
             let pictures = write_pictures(episode, options, out, flight)?;
-            let expert = episode.expert_poses(&experts)?;
+            let expert = episode.expert_poses()?;
             let Some(file) = files.get_mut(split) else { return Ok(()) };
             for start in window.starts(episode.frames.len()) {
                 let line = conversation(episode, options, &expert, &pictures, start);

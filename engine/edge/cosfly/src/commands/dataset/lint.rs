@@ -7,7 +7,7 @@ use crate::text::count;
 use clap::Parser;
 use cosfly_diagnose::{Diagnostic, Fault, Result};
 use cosfly_splits::policy::SplitPolicy;
-use cosfly_splits::{FlightFacts, LintRules, facts_of_dataset, lint};
+use cosfly_splits::{Balance, FlightFacts, LintRules, facts_of_dataset, lint};
 use std::collections::BTreeMap;
 use std::fmt::Write;
 use std::path::{Path, PathBuf};
@@ -50,9 +50,13 @@ impl Command for Arguments {
         let window = policies.first().map_or(10, |policy| policy.windows.shape().size());
         let mut facts = vec![];
         for (number, dir) in self.dirs.iter().enumerate() {
-            facts.extend(facts_of_dataset(dir, number, window)?);
+            facts.extend(facts_of_dataset(dir, number, 0)?);
         }
-        let leaks = lint(&facts, &rules);
+        let mut leaks = lint(&facts, &rules);
+        leaks.of_windows(&facts, &self.dirs.iter().map(PathBuf::as_path).collect::<Vec<_>>(), window)?;
+        if let [policy] = &policies[..] {
+            leaks.of_areas(&facts, &policy.splits);
+        }
         let mut text = String::new();
         for leak in &leaks.kept {
             let _ = writeln!(text, "{leak}");
@@ -61,6 +65,14 @@ impl Command for Arguments {
             let _ = writeln!(text, "... and {} more", leaks.found - leaks.kept.len());
         }
         text += &compared(&facts, &rules);
+        // The shares are those of one dataset.
+        if let [policy] = &policies[..] {
+            let balance = Balance::of(&facts, &policy.splits, 0);
+            let _ = writeln!(text, "{}", balance.told());
+            balance.warnings().iter().for_each(|warning| {
+                let _ = writeln!(text, "{warning}");
+            });
+        }
         let _ = match leaks.found {
             0 => writeln!(text, "no leak was found"),
             found => writeln!(text, "{} found", count(found as u64, "leak")),

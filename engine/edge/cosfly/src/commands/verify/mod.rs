@@ -9,7 +9,7 @@ use crate::exit;
 use crate::text::{bytes, count};
 use clap::Parser;
 use cosfly_recipe::Recipe;
-use cosfly_verify::VerifyReport;
+use cosfly_verify::{Options, VerifyReport};
 use regenerate::{recipe_of_version, regenerated};
 use serde_json::json;
 use std::fmt::Write;
@@ -22,6 +22,8 @@ use std::path::PathBuf;
     after_help = "\
 Examples:
   cosfly verify out/carla_town
+  cosfly verify /data/large --sample 500             some flights in full, all tables, sizes of all logs
+  cosfly verify /data/large --resume large.notes     goes on where an interrupted check ended
   cosfly verify out/carla_town --regenerate 2 --recipe recipes/carla_town.toml
 
 Exits with 1 when something is wrong."
@@ -30,6 +32,15 @@ pub struct Arguments {
     /// Folder of the dataset
     #[arg(value_name = "DIR")]
     dir: PathBuf,
+    /// Number of flights that are checked in full; of other logs only the sizes
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..))]
+    sample: Option<u32>,
+    /// File with notes of the flights found sound: written while checking, read by the next check
+    #[arg(long, value_name = "FILE")]
+    resume: Option<PathBuf>,
+    /// Number of threads [default: all cores]
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..))]
+    jobs: Option<u16>,
     /// Number of flights to make again from the recipe, in an empty store, and to compare byte by byte
     #[arg(long, value_name = "N")]
     regenerate: Option<u16>,
@@ -49,7 +60,12 @@ pub struct Arguments {
 impl Command for Arguments {
     fn run(&self, console: &dyn Console) -> Outcome {
         let progress = console.progress("verify", "flights");
-        let report = cosfly_verify::verify(&self.dir, &mut |done, all| progress(done, all))?;
+        let options = Options {
+            jobs: self.jobs.map(usize::from),
+            sample: self.sample.map(|sample| sample as usize),
+            resume: self.resume.clone(),
+        };
+        let report = cosfly_verify::verify(&self.dir, &options, &mut |done, all| progress(done, all))?;
         drop(progress);
         let mut text = told(&report);
         let (mut wrong, mut regenerated_flights) = (0, None);
@@ -80,6 +96,7 @@ fn json(report: &VerifyReport, regenerated: Option<String>, wrong: usize) -> Str
     let whole = json!({
         "sound": report.is_sound() && wrong == 0,
         "found": report.found, "findings": findings,
+        "sample": report.sample, "flights_of_dataset": report.flights_of_dataset, "resumed": report.resumed,
         "files": report.files, "bytes": report.bytes, "flights": report.flights, "frames": report.frames,
         "target_boxes": report.boxes, "visibility_labels": report.labels, "visibility_gaps": report.gaps,
         "regenerated": regenerated, "regenerated_wrong": wrong,
@@ -122,7 +139,21 @@ fn told(report: &VerifyReport) -> String {
     if hidden > 0 {
         let _ = writeln!(text, "  ... and {hidden} more");
     }
+    if report.resumed > 0 {
+        let _ = writeln!(text, "{} of these were found sound by an earlier check", count(report.resumed, "flight"));
+    }
+    if let Some(sample) = report.sample {
+        let others = report.flights_of_dataset - sample;
+        let _ = writeln!(
+            text,
+            "a sample: {} of {} in full, with all tables; of {} only the size",
+            sample,
+            count(report.flights_of_dataset, "flight"),
+            count(others, "other log"),
+        );
+    }
     let _ = match report.found {
+        0 if report.sample.is_some() => writeln!(text, "nothing wrong was found in the sample"),
         0 => writeln!(text, "nothing wrong was found"),
         found => writeln!(text, "{} found", count(found, "problem")),
     };
