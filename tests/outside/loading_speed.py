@@ -1,14 +1,19 @@
 #!/usr/bin/env python3
 """Frames per second of CPU time of random windows (5 frames, RGB and depth, 224 x 126) from a dataset, on one core.
 
-    python tests/outside/loading_speed.py out/carla_town [--windows 20]
+    python tests/outside/loading_speed.py out/carla_town [--windows 20] [--trajectories 8]
 
 Compared are the package `cosfly` (logs, and a training pack) and the pure-Python way: the `mcap` package, Pillow, numpy.
 Pillow's scaled decoding (`draft`) is libjpeg-turbo's. Needs cosfly, mcap, mcap-protobuf-support, numpy, pillow, pyarrow.
+
+Beside the pack stand the loaders of LeRobot, webdataset and litdata, where they are installed, on the same frames at the
+same size (`loading_of_others.py`), of the first trajectories only: they take long to write. Each way must give windows
+with the same shapes; the process has one thread.
 """
 
 import argparse
 import io
+import os
 import shutil
 import tempfile
 import time
@@ -20,7 +25,11 @@ from mcap.reader import make_reader
 from mcap_protobuf.decoder import DecoderFactory
 from PIL import Image
 
+for name in ("OMP_NUM_THREADS", "MKL_NUM_THREADS", "RAYON_NUM_THREADS"):
+    os.environ[name] = "1"
+
 import cosfly
+import loading_of_others
 
 SIZE = (224, 126)
 
@@ -38,6 +47,7 @@ def main():
     parser = argparse.ArgumentParser()
     parser.add_argument("dataset", type=Path)
     parser.add_argument("--windows", type=int, default=20)
+    parser.add_argument("--trajectories", type=int, default=8)
     options = parser.parse_args()
     rows = {row["trajectory_id"]: row for row in pq.read_table(options.dataset / "data/trajectories").to_pylist()}
     windows = cosfly.Dataset(options.dataset, windows=True, size=SIZE)
@@ -90,6 +100,19 @@ def main():
         packed = cosfly.Pack(scratch / "pack", options.dataset, windows=True)
         many = [(int(number),) for number in np.random.default_rng(8).integers(0, len(windows), 20 * options.windows)]
         measure("cosfly.Pack", lambda number: packed[number], many)
+        few = set(packed.trajectory_ids[: options.trajectories])
+        for made in (packed, frames := cosfly.Dataset(options.dataset, size=SIZE)):
+            made._index, kept = [it for it in made._index if it[0] in few], [it[0] in few for it in made._index]
+            for column, values in made._columns.items():
+                if column != "image_px":
+                    made._columns[column] = cosfly._dataset._taken(values, np.flatnonzero(kept))
+        print(f"on {len(packed)} windows of {len(few)} trajectories:")
+        many = [(int(number),) for number in np.random.default_rng(8).integers(0, len(packed), 20 * options.windows)]
+        measure("cosfly.Pack", lambda number: packed[number], many)
+        for name, function in loading_of_others.all_of().items():
+            windows = function(packed, frames, scratch / name.split()[0])
+            measure(name, lambda *_: next(windows), many)
+        measure("cosfly.Pack, again", lambda number: packed[number], many)
     finally:
         shutil.rmtree(scratch)
 

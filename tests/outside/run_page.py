@@ -1,13 +1,23 @@
 #!/usr/bin/env python3
-"""Runs the Python examples of a page of the book, one after the other, as a reader would: python run_page.py PAGE"""
+"""Runs the Python examples of pages of the book, one after the other, as a reader would: python run_page.py PAGE...
 
+A page with `<!-- needs: MODULE -->` is skipped, with a line that says so, where the module is not installed.
+"""
+
+import importlib.util
 import re
 import sys
 from pathlib import Path
 
-page = Path(sys.argv[1]).read_text(encoding="utf-8")
-blocks = re.findall(r"^```python\n(.*?)^```", page, re.S | re.M)
-space = {}
-for number, block in enumerate(blocks, 1):
-    print(f"--- example {number} of {len(blocks)}", flush=True)
-    exec(compile(block, f"{sys.argv[1]}, example {number}", "exec"), space)
+for path in sys.argv[1:]:
+    page = Path(path).read_text(encoding="utf-8")
+    absent = [name for name in re.findall(r"<!-- needs: (\S+) -->", page) if importlib.util.find_spec(name) is None]
+    if absent:
+        print(f"--- {path}: skipped, {', '.join(absent)} is not installed")
+        continue
+    blocks = re.findall(r"^```python\n(.*?)^```", page, re.S | re.M)
+    assert blocks, f"{path} has no example"
+    space = {"__name__": "__main__"}
+    for number, block in enumerate(blocks, 1):
+        print(f"--- {path}: example {number} of {len(blocks)}", flush=True)
+        exec(compile(block, f"{path}, example {number}", "exec"), space)

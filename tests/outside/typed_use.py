@@ -9,6 +9,7 @@ import numpy as np
 import numpy.typing as npt
 
 import cosfly
+import cosfly.torch
 
 
 def use(folder: Path) -> Optional[float]:
@@ -23,6 +24,11 @@ def use(folder: Path) -> Optional[float]:
         print(sorted(batch), sample["rgb"], order[:3], stages, plan.to_run)
     answers = cosfly.Expert(folder).plan_from([{"trajectory": "a", "frame": 1, "position": [0.0, 1.0, 2.0]}])
     picture = cosfly.decode_rgb(b"", size=(8, 8))
+    flight: cosfly.Trajectory = windows.trajectory("expert-p00000")
+    frame: cosfly.Frame = flight[3]
+    print(len(flight), frame.png("rgb"), windows.town().name, windows.size_of("expert-p00000"))
+    loader = cosfly.torch.Loader(windows, 8, workers=2, seed=1)
+    loader.load_state_dict(loader.state_dict())
     try:
         cosfly.evaluate("mine.jsonl", folder)
     except cosfly.Error as error:

@@ -58,7 +58,7 @@ fn optics(source: &Source<'_>) -> Result<String> {
         entries.map_err(|error| Diagnostic::io(format!("read `{}`", folder.display()), &error))?;
     paths.sort();
     for path in paths {
-        let rows = foreign_rows(&path)?;
+        let rows = foreign_rows(&path, false)?;
         let names = rows.texts.get("trajectory_id").map_or(&[][..], Vec::as_slice);
         for (name, _) in OPTICS {
             let values = rows.numbers.get(*name).into_iter().flatten().zip(names);

@@ -29,7 +29,7 @@ pub use folder::{OutFolder, Written};
 pub use format::{Export, Format, Prepared};
 pub use formats::FORMATS;
 pub use option::{ExportOption, OptionKind};
-pub use prepare::{flag, joined_options, prepare, use_threads};
+pub use prepare::{flag, joined_options, on_threads, prepare};
 pub use source::{Choice, Source};
 
 #[cfg(test)]

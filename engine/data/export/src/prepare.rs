@@ -61,12 +61,17 @@ pub fn joined_options() -> Vec<(ExportOption, Vec<&'static str>)> {
     joined
 }
 
-/// Limits the number of threads of all exports of this process, before the first of them; without a number, there is one per core.
-pub fn use_threads(count: Option<u16>) {
-    if let Some(count) = count {
-        // An error says that the threads have begun already; their number changes no byte.
-        let _ = rayon::ThreadPoolBuilder::new().num_threads(usize::from(count)).build_global();
-    }
+/// Does `work` on threads of its own, `count` of them; without a number, on those of the process, one per core.
+///
+/// # Errors
+/// `machine-threads`.
+pub fn on_threads<R: Send>(count: Option<u16>, work: impl FnOnce() -> R + Send) -> Result<R> {
+    let Some(count) = count else { return Ok(work()) };
+    let pool = rayon::ThreadPoolBuilder::new().num_threads(usize::from(count)).build();
+    let pool = pool.map_err(|error| {
+        Diagnostic::new("machine-threads", Fault::Machine, format!("could not start {count} threads")).because(error)
+    })?;
+    Ok(pool.install(work))
 }
 
 /// The option `name` on a command line.

@@ -32,6 +32,75 @@ pub enum Column {
     TextLists(Vec<Vec<String>>),
 }
 
+/// A table: files, or rows in memory.
+#[derive(Clone, Debug)]
+pub enum TableData {
+    /// Parquet files, in the order of their rows.
+    Files(Vec<PathBuf>),
+    /// Rows.
+    Rows(RecordBatch),
+}
+
+impl TableData {
+    /// Parquet files of the table.
+    pub fn files(&self) -> &[PathBuf] {
+        match self {
+            Self::Files(files) => files,
+            Self::Rows(_) => &[],
+        }
+    }
+
+    /// Names of the columns.
+    ///
+    /// # Errors
+    /// A file cannot be opened or is not Parquet.
+    pub fn columns(&self) -> Result<Vec<String>> {
+        match self {
+            Self::Files(files) => files.first().map_or(Ok(vec![]), |file| column_names(file)),
+            Self::Rows(rows) => Ok(rows.schema_ref().fields().iter().map(|field| field.name().clone()).collect()),
+        }
+    }
+
+    /// Number of rows.
+    ///
+    /// # Errors
+    /// A file cannot be opened or is not Parquet.
+    pub fn rows(&self) -> Result<usize> {
+        match self {
+            Self::Files(files) => files.iter().map(|file| row_count(file)).sum(),
+            Self::Rows(rows) => Ok(rows.num_rows()),
+        }
+    }
+
+    /// Values of column `name`.
+    ///
+    /// # Errors
+    /// As of [`column`].
+    pub fn column(&self, name: &str) -> Result<Column> {
+        match self {
+            Self::Files(files) => column(files, name),
+            Self::Rows(rows) => {
+                let arrays: Vec<ArrayRef> = rows.column_by_name(name).into_iter().cloned().collect();
+                plain(&arrays).ok_or_else(|| damaged(Path::new(name), "it has a type without a plain form", name))
+            }
+        }
+    }
+
+    /// The table as one stream.
+    ///
+    /// # Errors
+    /// As of [`stream`].
+    pub fn stream(&self) -> Result<ArrowStream> {
+        match self {
+            Self::Files(files) => stream(files),
+            Self::Rows(rows) => {
+                let batches = RecordBatchIterator::new([Ok(rows.clone())], rows.schema());
+                Ok(FFI_ArrowArrayStream::new(Box::new(batches)))
+            }
+        }
+    }
+}
+
 /// Names of the columns of a table's file.
 ///
 /// # Errors

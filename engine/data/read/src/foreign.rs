@@ -29,15 +29,18 @@ pub struct ForeignRows {
     pub rows: usize,
 }
 
-/// Reads the columns of a Parquet file that are numbers, texts or pictures.
+/// Reads the columns of a Parquet file that are numbers, texts or, if asked for, pictures.
 ///
 /// # Errors
 /// The file cannot be opened or read to its end.
-pub fn foreign_rows(path: &Path) -> Result<ForeignRows> {
+pub fn foreign_rows(path: &Path, with_pictures: bool) -> Result<ForeignRows> {
     let file = File::open(path).map_err(|error| Diagnostic::io(format!("open `{}`", path.display()), &error))?;
     let builder =
         ParquetRecordBatchReaderBuilder::try_new(file).map_err(|error| damaged(path, "it is not Parquet", error))?;
-    let reader = builder.with_projection(ProjectionMask::all()).with_batch_size(BATCH).build();
+    let fields = builder.schema().fields().iter().enumerate();
+    let wanted = fields.filter(|(_, field)| with_pictures || !matches!(field.data_type(), DataType::Struct(_)));
+    let mask = ProjectionMask::roots(builder.parquet_schema(), wanted.map(|(at, _)| at));
+    let reader = builder.with_projection(mask).with_batch_size(BATCH).build();
     let mut all = ForeignRows::default();
     for batch in reader.map_err(|error| damaged(path, "it cannot be read", error))? {
         let batch = batch.map_err(|error| damaged(path, "it cannot be read", error))?;

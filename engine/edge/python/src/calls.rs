@@ -3,6 +3,7 @@
 use crate::console::{Embedded, Stopped};
 use crate::errors::exception;
 use cosfly::Refusal;
+use cosfly_diagnose::{Diagnostic, Fault};
 use pyo3::exceptions::{PyRuntimeError, PyValueError};
 use pyo3::prelude::*;
 use std::ffi::OsString;
@@ -34,7 +35,7 @@ pub fn call(
     let ended = std::thread::scope(|scope| {
         let console = &console;
         scope.spawn(move || {
-            let work = AssertUnwindSafe(|| cosfly::call(arguments, console));
+            let work = AssertUnwindSafe(|| on_own_threads(|| cosfly::call(arguments, console)));
             let _ = send.send(std::panic::catch_unwind(work));
         });
         let mut shown = Default::default();
@@ -77,4 +78,16 @@ pub fn call(
         Err(payload) if payload.is::<Stopped>() => Err(pyo3::exceptions::PyKeyboardInterrupt::new_err(())),
         Err(_) => Err(PyRuntimeError::new_err("internal error of cosfly: please report it, with the message above")),
     }
+}
+
+/// Bytes of the stack of a thread, as the engine's runs have.
+const STACK_BYTES: usize = 8 << 20;
+
+/// Does `work` on threads of its own, one per core: those of the process would not survive a fork.
+fn on_own_threads<R: Send>(work: impl FnOnce() -> Result<R, Refusal> + Send) -> Result<R, Refusal> {
+    let pool = rayon::ThreadPoolBuilder::new().stack_size(STACK_BYTES).build().map_err(|error| {
+        let refusal = Diagnostic::new("machine-threads", Fault::Machine, "could not start threads").because(error);
+        Refusal::Work(vec![refusal])
+    })?;
+    pool.install(work)
 }

@@ -1,6 +1,7 @@
 //! Diagnostics as exceptions of the class `cosfly.Error`.
 
-use cosfly_diagnose::{Diagnostic, Label, render_all};
+use cosfly_diagnose::{Diagnostic, Fault, Label, render_all};
+use pyo3::exceptions::PyBaseException;
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyList};
 
@@ -33,4 +34,19 @@ fn place(label: &Label) -> (String, usize, usize) {
 /// Diagnostics of a reader as an exception.
 pub fn raised<T>(py: Python<'_>, result: cosfly_diagnose::Result<T>) -> PyResult<T> {
     result.map_err(|refusal| exception(py, &[refusal]))
+}
+
+/// The refusal for a file of a training pack.
+#[pyfunction]
+pub fn damaged_pack(py: Python<'_>, path: &str, cause: &str) -> Py<PyBaseException> {
+    let refusal = Diagnostic::new("dataset-damaged", Fault::Input, format!("`{path}` is damaged"))
+        .because(cause)
+        .hint("`cosfly.pack` makes a new pack");
+    exception(py, &[refusal]).into_value(py)
+}
+
+/// The refusal for an error of the system, by its number.
+#[pyfunction]
+pub fn refused_by_machine(py: Python<'_>, action: &str, errno: i32) -> Py<PyBaseException> {
+    exception(py, &[Diagnostic::io(action, &std::io::Error::from_raw_os_error(errno))]).into_value(py)
 }

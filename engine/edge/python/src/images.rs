@@ -1,9 +1,11 @@
 //! Images of a log as pixels, whole or scaled.
 
+use crate::errors::raised;
 use cosfly_diagnose::{Diagnostic, Fault, Result};
 use cosfly_images::read::{self, Picture};
 use cosfly_read::StoredImage;
 use cosfly_render::channels::{Channel, Element};
+use cosfly_render::preview::{palette_image, picture_on_request};
 use numpy::{PyArray1, PyArray3, PyArrayMethods};
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
@@ -102,8 +104,30 @@ pub fn decode_rgb<'py>(
     let format = if file.starts_with(b"\x89PNG") { "png" } else { "jpeg" };
     let size = checked(size)?;
     let picture = py.detach(|| read::picture(file, format, size));
-    let Picture { size: [width, height], rgb } = crate::errors::raised(py, picture)?;
+    let Picture { size: [width, height], rgb } = raised(py, picture)?;
     PyArray1::from_vec(py, rgb).reshape([height, width, 3])
+}
+
+/// A PNG file that shows an image: colours as they are, depth from warm (near) to cold (far), labels in CARLA's colours, ids
+/// in a colour each. `pixels` are the bytes of the array.
+#[pyfunction]
+pub fn shown(py: Python<'_>, channel: &str, pixels: &[u8], width: u32, height: u32) -> PyResult<Vec<u8>> {
+    let (count, channel) = (width as usize * height as usize, raised(py, crate::dataset::channel(channel))?);
+    let rgb = match (channel.element(), pixels.len().checked_div(count)) {
+        (_, Some(3)) => pixels.to_vec(),
+        (Element::Float, Some(4)) => picture_on_request(channel, pixels),
+        (Element::Label, Some(1)) => palette_image(pixels),
+        (Element::Id, Some(4)) => {
+            let ids = pixels.as_chunks::<4>().0.iter().map(|id| u32::from_le_bytes(*id));
+            // Far apart for ids side by side; 0 is black.
+            ids.flat_map(|id| [id.wrapping_mul(97), id.wrapping_mul(57), id.wrapping_mul(151)].map(|it| it as u8))
+                .collect()
+        }
+        _ => return Err(PyValueError::new_err(format!("{} bytes are no image of {width} x {height}", pixels.len()))),
+    };
+    let mut file = vec![];
+    raised(py, cosfly_images::rgb::png(&rgb, width, height, &mut file))?;
+    Ok(file)
 }
 
 /// A size of pictures, width and height.

@@ -19,6 +19,9 @@ fn _cosfly(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add_function(wrap_pyfunction!(calls::main, module)?)?;
     module.add_function(wrap_pyfunction!(calls::call, module)?)?;
     module.add_function(wrap_pyfunction!(images::decode_rgb, module)?)?;
+    module.add_function(wrap_pyfunction!(images::shown, module)?)?;
+    module.add_function(wrap_pyfunction!(errors::damaged_pack, module)?)?;
+    module.add_function(wrap_pyfunction!(errors::refused_by_machine, module)?)?;
     module.add_class::<dataset::Reader>()?;
     module.add_class::<table::Table>()
 }

@@ -1,7 +1,7 @@
 //! A table of a dataset: columns as numpy arrays, the whole as an Arrow stream.
 
 use crate::errors::raised;
-use cosfly_read::columns::{self, Column};
+use cosfly_read::columns::{Column, TableData};
 use numpy::{PyArray1, PyArrayMethods, ToPyArray};
 use pyo3::exceptions::PyKeyError;
 use pyo3::prelude::*;
@@ -11,28 +11,24 @@ use std::path::PathBuf;
 /// A table of a dataset. `table["column"]` is a numpy array, or a list for texts and files; pyarrow, pandas and polars
 /// take the whole table through Arrow's PyCapsule interface.
 #[pyclass(frozen, module = "cosfly")]
-pub struct Table {
-    /// Parquet files, in the order of their rows.
-    pub files: Vec<PathBuf>,
-}
+pub struct Table(pub TableData);
 
 #[pymethods]
 impl Table {
     /// Names of the columns.
     #[getter]
     fn columns(&self, py: Python<'_>) -> PyResult<Vec<String>> {
-        self.files.first().map_or(Ok(vec![]), |file| raised(py, columns::column_names(file)))
+        raised(py, self.0.columns())
     }
 
-    /// Parquet files of the table, in the order of their rows.
+    /// Parquet files of the table, in the order of their rows; none for tables that are made from other layouts.
     #[getter]
     fn files(&self) -> Vec<PathBuf> {
-        self.files.clone()
+        self.0.files().to_vec()
     }
 
     fn __len__(&self, py: Python<'_>) -> PyResult<usize> {
-        let counts: PyResult<Vec<usize>> = self.files.iter().map(|it| raised(py, columns::row_count(it))).collect();
-        Ok(counts?.into_iter().sum())
+        raised(py, self.0.rows())
     }
 
     fn __getitem__(&self, py: Python<'_>, name: &str) -> PyResult<Py<PyAny>> {
@@ -40,7 +36,7 @@ impl Table {
         if !known.iter().any(|column| column == name) {
             return Err(PyKeyError::new_err(format!("no column `{name}`; the columns are {}", known.join(", "))));
         }
-        let column = raised(py, py.detach(|| columns::column(&self.files, name)))?;
+        let column = raised(py, py.detach(|| self.0.column(name)))?;
         values(py, column)
     }
 
@@ -51,7 +47,7 @@ impl Table {
         requested_schema: Option<Py<PyAny>>,
     ) -> PyResult<Bound<'py, PyCapsule>> {
         let _ = requested_schema; // Consumers convert types themselves.
-        PyCapsule::new_with_value(py, raised(py, columns::stream(&self.files))?, c"arrow_array_stream")
+        PyCapsule::new_with_value(py, raised(py, self.0.stream())?, c"arrow_array_stream")
     }
 
     fn __repr__(&self, py: Python<'_>) -> PyResult<String> {

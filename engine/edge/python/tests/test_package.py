@@ -21,22 +21,6 @@ from PIL import Image
 import cosfly
 
 
-@pytest.fixture(scope="session")
-def folder(tmp_path_factory):
-    """A folder with the small recipe, run once."""
-    place = tmp_path_factory.mktemp("small")
-    os.chdir(place)
-    cosfly.init("small")
-    made = cosfly.run("small", out="data", jobs=2, progress=False)
-    assert made.outcome == "complete" and made.out == Path("data"), made
-    return place
-
-
-@pytest.fixture(autouse=True)
-def inside(folder):
-    os.chdir(folder)
-
-
 def logged(dataset, trajectory, frame):
     """Images of a frame by the mcap package and Pillow."""
     rows = pq.read_table(f"{dataset}/data/trajectories").to_pylist()

@@ -49,6 +49,25 @@ fn traces(town: &Path) -> Vec<PathBuf> {
 /// # Errors
 /// Refusals of the machine where a folder cannot be listed.
 pub fn episodes(root: &Path, visit: &mut dyn FnMut(Episode), progress: &mut dyn FnMut(u64, u64)) -> Result<Vec<Flag>> {
+    read(root, true, visit, progress)
+}
+
+/// Reads the documents of all traces; pictures are not looked at.
+///
+/// # Errors
+/// As of [`episodes`].
+pub fn motions(root: &Path) -> Result<(Vec<Episode>, Vec<Flag>)> {
+    let mut episodes = vec![];
+    let flags = read(root, false, &mut |episode| episodes.push(episode), &mut |_, _| {})?;
+    Ok((episodes, flags))
+}
+
+fn read(
+    root: &Path,
+    with_pictures: bool,
+    visit: &mut dyn FnMut(Episode),
+    progress: &mut dyn FnMut(u64, u64),
+) -> Result<Vec<Flag>> {
     let towns = listed(root).map_err(|error| Diagnostic::io(format!("read `{}`", root.display()), &error))?;
     let traces: Vec<PathBuf> = towns.iter().filter(|it| it.is_dir()).flat_map(|town| traces(town)).collect();
     let mut flags = vec![];
@@ -57,7 +76,9 @@ pub fn episodes(root: &Path, visit: &mut dyn FnMut(Episode), progress: &mut dyn 
         let id = trace.strip_prefix(root).unwrap_or(trace).display().to_string();
         match document(trace).and_then(|document| episode(&id, &document)) {
             Ok(mut episode) => {
-                looks(trace, &mut episode, &mut flags);
+                if with_pictures {
+                    looks(trace, &mut episode, &mut flags);
+                }
                 visit(episode);
             }
             Err(problem) => flags.push(Flag::damage("json-damaged", format!("{id}/trajectory.json"), problem)),
@@ -170,7 +191,7 @@ fn moment(point: &Value) -> Option<Moment> {
 /// Pictures of a stretch of frames.
 fn looks(trace: &Path, episode: &mut Episode, flags: &mut Vec<Flag>) {
     for frame in stretch(episode.moments.len()) {
-        let folder = trace.join(format!("frames_playback/frame_{frame:05}"));
+        let folder = frame_folder(trace, frame);
         let Ok(colour) = fs::read(folder.join("rgb.png")) else {
             flags.push(Flag::damage("picture-missing", &episode.id, format!("frame {frame} has no `rgb.png`")));
             return;
@@ -196,8 +217,16 @@ fn looks(trace: &Path, episode: &mut Episode, flags: &mut Vec<Flag>) {
     }
 }
 
+/// Folder of a frame of a trace.
+pub fn frame_folder(trace: &Path, frame: usize) -> PathBuf {
+    trace.join(format!("frames_playback/frame_{frame:05}"))
+}
+
 /// Rows of 32-bit floats and their width; the sky is infinite.
-fn depth_of_npy(bytes: &[u8]) -> Result<(Vec<f32>, usize), String> {
+///
+/// # Errors
+/// The reason, in words.
+pub fn depth_of_npy(bytes: &[u8]) -> Result<(Vec<f32>, usize), String> {
     let head =
         bytes.get(..10).filter(|head| head.starts_with(b"\x93NUMPY\x01")).ok_or("it is not NumPy's version 1")?;
     let length = usize::from(u16::from_le_bytes([head[8], head[9]]));

@@ -45,10 +45,10 @@ from ._dataset import Dataset, Loader
 from ._errors import Error, Problem
 from ._expert import Answer, Expert
 from ._pack import Pack, pack
-from ._show import rerun
+from ._show import Frame, Town, Trajectory, rerun
 
 __all__ = [
-    "Answer", "Check", "Dataset", "Doctor", "Error", "Evaluation", "Expert", "Exported", "Loader", "Made", "Pack",
-    "Pictures", "Plan", "PlannedStage", "Problem", "Stage", "Table", "Why", "__version__", "decode_rgb", "doctor", "evaluate",
-    "export", "init", "pack", "plan", "preview", "rerun", "run", "verify", "why",
+    "Answer", "Check", "Dataset", "Doctor", "Error", "Evaluation", "Expert", "Exported", "Frame", "Loader",
+    "Made", "Pack", "Pictures", "Plan", "PlannedStage", "Problem", "Stage", "Table", "Town", "Trajectory", "Why", "__version__",
+    "decode_rgb", "doctor", "evaluate", "export", "init", "pack", "plan", "preview", "rerun", "run", "verify", "why",
 ]  # fmt: skip

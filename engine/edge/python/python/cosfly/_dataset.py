@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import difflib
 import os
 from pathlib import Path
 from typing import Any, Dict, Iterator, List, Optional, Sequence, Tuple, Union
@@ -10,6 +11,7 @@ import numpy as np
 
 from ._calls import PathLike
 from ._cosfly import Reader, Table
+from ._show import Frame, Town, Trajectory
 
 ROLES = ("expert", "perturbed")
 WINDOW_LISTS = {
@@ -30,7 +32,8 @@ Sample = Dict[str, Any]
 class Dataset:
     """Frames or training windows of a dataset, by number.
 
-    ``dataset[i]`` is a dictionary. Pictures are read from the logs at random, decoded and scaled in Rust:
+    ``path`` is a dataset of cosfly, a folder of the published v7 layout, or one of LeRobot (with pictures, not videos; of
+    ``cosfly export`` or of others). ``dataset[i]`` is a dictionary. Pictures are read at random, decoded and scaled in Rust:
 
     * ``rgb``: uint8, (H, W, 3); for windows (frames of the input, H, W, 3);
     * ``depth``: float32 metres, planar, infinite for the sky; ``semantic``: uint8, CARLA's labels; ``instance``: uint32;
@@ -40,8 +43,11 @@ class Dataset:
     * for frames ``trajectory_id``, ``frame``, and each of ``columns`` of table ``frames``;
     * ``caption`` where ``captions`` is a language.
 
+    Foreign layouts give the tables ``trajectories``, ``frames``, ``captions`` and ``windows`` (of the default shape) with
+    the columns whose values they hold: v7 has all channels but ``normals``, LeRobot has ``rgb`` alone.
+
     Scaled colours are the mean over each pixel's area; other channels are sampled at the middle of each pixel. Without
-    ``size`` all channels are bit for bit what the logs hold. The object is map-style: ``torch.utils.data.DataLoader``
+    ``size`` all channels are bit for bit what the files hold. The object is map-style: ``torch.utils.data.DataLoader``
     takes it as it is, workers included (each process opens its own files).
 
     ``split`` is ``train``, ``val``, ``test`` or None for all; ``role`` is ``expert``, ``perturbed`` or None for both;
@@ -70,6 +76,8 @@ class Dataset:
         if role not in (None, *ROLES):
             raise ValueError(f"the role is {role!r}; roles are 'expert' and 'perturbed'")
         ids = self._reader.trajectory_ids
+        if split and not any(self._reader.splits):
+            raise ValueError(f"the data in {self.path} state no splits; leave out `split`")
         self._number = {name: number for number, name in enumerate(ids)}
         self.trajectory_ids: List[str] = [name for name, of in zip(ids, self._reader.splits) if split in (None, of)]
         """Ids of the trajectories of the split."""
@@ -86,14 +94,32 @@ class Dataset:
     def frame(
         self, trajectory_id: str, frame: int, channels: Optional[Sequence[str]] = None,
         size: Optional[Tuple[int, int]] = None,
-    ) -> Dict[str, np.ndarray]:  # fmt: skip
-        """Images of one frame, by channel."""
+    ) -> Frame:  # fmt: skip
+        """Images of one frame, by channel: a dictionary that notebooks show."""
         images = self._images([(trajectory_id, frame)], channels or self.channels, size or self.size)
-        return {name: arrays[0] for name, arrays in images.items()}
+        return Frame({name: arrays[0] for name, arrays in images.items()})
+
+    def trajectory(self, trajectory_id: str) -> Trajectory:
+        """One flight: its frames by number; notebooks show its contact sheet, plan and clip."""
+        return Trajectory(self, trajectory_id, self._reader.frames[self._number_of(trajectory_id)])
+
+    def town(self, name: Optional[str] = None) -> Town:
+        """A town of a dataset of cosfly, the first by default; notebooks show its plan."""
+        table = self.table("trajectories")
+        if "town" not in table.columns:
+            raise ValueError(f"the data in {self.path} state no town that could be drawn")
+        for of, trajectory_id in zip(table["town"], table["trajectory_id"]):
+            if name in (None, of):
+                return Town(self.path, of, trajectory_id)
+        raise ValueError(f"there is no town {name!r}; the towns are {', '.join(sorted(set(table['town'])))}")
+
+    def size_of(self, trajectory_id: str) -> Tuple[int, int]:
+        """Width and height of the images of a trajectory as they are stored, pixels."""
+        return self._reader.sizes[self._number_of(trajectory_id)]
 
     def channels_of(self, trajectory_id: str) -> List[str]:
         """Names of the channels that the log of a trajectory has."""
-        return self._reader.channels(self._number[trajectory_id])
+        return self._reader.channels(self._number_of(trajectory_id))
 
     # Samples
 
@@ -143,8 +169,15 @@ class Dataset:
     def _images(
         self, frames: Sequence[Tuple[str, int]], channels: Sequence[str], size: Optional[Tuple[int, int]]
     ) -> Dict[str, List[np.ndarray]]:
-        wanted = [(self._number[name], int(frame)) for name, frame in frames]
+        wanted = [(self._number_of(name), int(frame)) for name, frame in frames]
         return self._reader.images(wanted, list(channels), size, self.threads)
+
+    def _number_of(self, trajectory_id: str) -> int:
+        number = self._number.get(trajectory_id)
+        if number is None:
+            near = difflib.get_close_matches(str(trajectory_id), self._number, 3) or list(self._number)[:3]
+            raise KeyError(f"{self.path} has no trajectory {trajectory_id!r}; it has {', '.join(near)} ...")
+        return number
 
     def _windows_index(self) -> List[Tuple[str, int]]:
         table = self.table("windows")
@@ -177,8 +210,8 @@ class Dataset:
             if of == language:
                 found.setdefault(name, text)
         if not found:
-            languages = sorted({str(of) for of in table["language"]})
-            raise ValueError(f"no caption is in {language!r}; the languages are {', '.join(languages)}")
+            languages = ", ".join(sorted({str(of) for of in table["language"]}))
+            raise ValueError(f"no caption is in {language!r}; the languages are {languages or 'not stated: there are no captions'}")
         return found
 
     def _frame(self, number: int) -> Sample:
@@ -191,7 +224,7 @@ class Dataset:
 
     def _window(self, number: int) -> Sample:
         name, start = self._index[number]
-        rows = {
+        rows: Dict[str, np.ndarray] = {
             column: np.asarray(self._columns[column][number]).reshape(-1, width).astype(np.float32)
             for column, width in WINDOW_LISTS.items()
         }
@@ -199,7 +232,7 @@ class Dataset:
         history = len(rows["input_boxes_px"])
         frames = [(name, start + frame) for frame in range(history)]
         images = self._images(frames, self.channels, self.size) if self.channels else {}
-        sample: Sample = {channel: np.stack(arrays) for channel, arrays in images.items()}
+        sample: Sample = {channel: np.stack(them) if isinstance(them, list) else them for channel, them in images.items()}
         if self.size:
             width, height = self._columns["image_px"][name]
             across, down = self.size[0] / width, self.size[1] / height

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from dataclasses import dataclass
 from typing import Optional, Sequence, Tuple
 
@@ -23,8 +24,8 @@ class Problem:
 class Error(Exception):
     """A call that cannot be carried out; the text is the one that the command line prints."""
 
-    def __init__(self, text: str, problems: Sequence[dict]):
-        super().__init__(text)
+    def __init__(self, text: str, problems: Sequence[dict] = ()):
+        super().__init__(text)  # PyTorch gives the text of a worker's error alone
         self.problems: Tuple[Problem, ...] = tuple(
             Problem(it["code"], it["message"], tuple(it["hints"]), tuple(it["place"]) if it["place"] else None)
             for it in problems
@@ -33,7 +34,8 @@ class Error(Exception):
     @property
     def code(self) -> str:
         """Code of the first problem."""
-        return self.problems[0].code if self.problems else "unknown"
+        found = re.search(r"error\[([a-z0-9-]+)\]", str(self))
+        return self.problems[0].code if self.problems else found[1] if found else "unknown"
 
     @property
     def hints(self) -> Tuple[str, ...]:

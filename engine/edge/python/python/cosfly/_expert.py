@@ -21,6 +21,7 @@ class Answer:
 
     trajectory: str
     frame: int
+    """Frame of the state; -1 where the state has none that is a number."""
     planned: bool
     """Whether there is a flight from this state within all limits."""
     reason: Optional[str]
@@ -79,10 +80,10 @@ def _answer(found: Dict[str, Any], asked: Dict[str, Any]) -> Answer:
     waypoints = found.get("waypoints") or []
     position = lambda it: it.get("position_in_world") or it.get("position")
     poses = [[*position(it), it["pitch_deg"], it["yaw_deg"]] for it in waypoints]
-    error = found.get("error")
+    error, frame = found.get("error"), found.get("frame", asked.get("frame"))
     return Answer(
         trajectory=str(found.get("trajectory", asked.get("trajectory"))),
-        frame=int(found.get("frame", asked.get("frame") or 0)),
+        frame=frame if isinstance(frame, int) else -1,
         planned=bool(found.get("planned", False)),
         reason=found.get("reason"),
         frames=np.array([it["frame"] for it in waypoints], dtype=np.int64),

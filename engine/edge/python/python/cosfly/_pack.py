@@ -1,4 +1,4 @@
-"""Training packs: small pictures, decoded once, in plain .npy files that are mapped into memory."""
+"""Training packs: small pictures, decoded once, in plain .npy files."""
 
 from __future__ import annotations
 
@@ -6,11 +6,13 @@ import json
 import os
 import shutil
 import tempfile
+import threading
 from pathlib import Path
-from typing import Any, Dict, Optional, Sequence, Tuple
+from typing import Any, Dict, List, Optional, Sequence, Tuple
 
 import numpy as np
 
+from . import _cosfly
 from ._calls import PathLike, Progress
 from ._dataset import Dataset
 from ._show import Bars
@@ -37,41 +39,51 @@ def pack(
     out, frames = Path(out), Dataset(dataset, channels=channels, size=size, threads=threads or os.cpu_count() or 1)
     if out.exists():
         raise FileExistsError(f"{out} is there already; choose another folder")
-    out.parent.mkdir(parents=True, exist_ok=True)
-    scratch = Path(tempfile.mkdtemp(prefix=".cosfly-pack-", dir=out.parent))
     try:
-        shape = (len(frames), size[1], size[0])
-        arrays = {
-            name: np.lib.format.open_memmap(
-                scratch / f"{name}.npy", mode="w+", dtype=TYPES[name],
-                shape=(*shape, 3) if name in ("rgb", "normals") else shape,
-            )  # fmt: skip
-            for name in channels
-        }
+        out.parent.mkdir(parents=True, exist_ok=True)
+        scratch = Path(tempfile.mkdtemp(prefix=".cosfly-pack-", dir=out.parent))
+    except OSError as error:
+        raise _refused(f"write into `{out.parent}`", error) from None
+    try:
         with Bars("pack", bool(progress)) as bars:
-            for start in range(0, len(frames), CHUNK):
-                wanted = frames._index[start : start + CHUNK]
-                for name, images in frames._images(wanted, channels, size).items():
-                    arrays[name][start : start + len(wanted)] = np.stack(images)
-                done = start + len(wanted)
-                if callable(progress):
-                    progress({"pack": (done, len(frames))})
-                elif bars.visible:
-                    bars.show({"pack": (done, len(frames))})
-        for array in arrays.values():
-            array.flush()
-        first, places = 0, {}
-        counts = dict(zip(frames._reader.trajectory_ids, frames._reader.frames))
-        for name in frames.trajectory_ids:
-            places[name], first = first, first + counts[name]
-        about = {"format": "cosfly-pack-1", "size": list(size), "channels": list(channels), "first_frame": places}
-        (scratch / "pack.json").write_text(json.dumps(about, indent=1) + "\n", encoding="utf-8")
+            _write(frames, scratch, progress if callable(progress) else bars.show if bars.visible else None)
         os.chmod(scratch, 0o755)
         os.rename(scratch, out)
+    except OSError as error:
+        shutil.rmtree(scratch, ignore_errors=True)
+        raise _refused(f"write the pack `{out}`", error) from None
     except BaseException:
         shutil.rmtree(scratch, ignore_errors=True)
         raise
     return Pack(out, dataset)
+
+
+def _write(frames: Dataset, folder: Path, progress: Any) -> None:
+    """Writes the files of a pack with plain writes: a full disk is an error of a write, but a crash of a mapped file."""
+    width, height = frames.size or (0, 0)
+    files = {name: open(folder / f"{name}.npy", "wb") for name in frames.channels}
+    try:
+        for name, file in files.items():
+            shape = (len(frames), height, width, *((3,) if name in ("rgb", "normals") else ()))
+            about = {"descr": np.lib.format.dtype_to_descr(np.dtype(TYPES[name])), "fortran_order": False, "shape": shape}
+            np.lib.format.write_array_header_1_0(file, about)
+        for start in range(0, len(frames), CHUNK):
+            wanted = frames._index[start : start + CHUNK]
+            for name, images in frames._images(wanted, frames.channels, frames.size).items():
+                files[name].write(np.stack(images).astype(TYPES[name]).tobytes())
+            if progress:
+                progress({"pack": (start + len(wanted), len(frames))})
+    finally:
+        for file in files.values():
+            file.close()
+    first, places = 0, {}
+    counts = dict(zip(frames._reader.trajectory_ids, frames._reader.frames))
+    for name in frames.trajectory_ids:
+        places[name], first = first, first + counts[name]
+    about = {
+        "format": "cosfly-pack-1", "size": [width, height], "channels": list(frames.channels), "first_frame": places,
+    }  # fmt: skip
+    (folder / "pack.json").write_text(json.dumps(about, indent=1) + "\n", encoding="utf-8")
 
 
 class Pack(Dataset):
@@ -86,26 +98,109 @@ class Pack(Dataset):
             about = json.loads((self.pack_path / "pack.json").read_text(encoding="utf-8"))
         except FileNotFoundError:
             raise FileNotFoundError(f"{path} is no training pack: it has no pack.json; `cosfly.pack` writes one") from None
+        except ValueError:
+            raise _cosfly.damaged_pack(os.fspath(self.pack_path / "pack.json"), "it is not JSON") from None
         if about.get("format") != "cosfly-pack-1":
             raise ValueError(f"{path} has the format {about.get('format')!r}; this version reads 'cosfly-pack-1'")
         self._first: Dict[str, int] = about["first_frame"]
-        self._arrays: Dict[str, np.ndarray] = {}
+        self._frames: Dict[str, Frames] = {}
         options.setdefault("channels", tuple(about["channels"]))
         super().__init__(dataset, size=tuple(about["size"]), **options)
         for name in self.channels:
-            self._array(name)
+            self._frames_of(name)
 
-    def _array(self, channel: str) -> np.ndarray:
-        if channel not in self._arrays:
+    def _frames_of(self, channel: str) -> "Frames":
+        if channel not in self._frames:
             path = self.pack_path / f"{channel}.npy"
             if not path.exists():
                 raise ValueError(f"{self.pack_path} has no channel {channel!r}")
-            self._arrays[channel] = np.load(path, mmap_mode="r")
-        return self._arrays[channel]
+            self._frames[channel] = Frames(path)
+        return self._frames[channel]
 
     def _images(self, frames: Any, channels: Sequence[str], size: Any) -> Dict[str, Any]:
-        places = [self._first[name] + int(frame) for name, frame in frames]
-        return {channel: [self._array(channel)[place] for place in places] for channel in channels}
+        return {channel: self._stacked(frames, channel) for channel in channels}
+
+    def _stacked(self, frames: Any, channel: str) -> Any:
+        places: List[int] = [self._first[name] + int(frame) for name, frame in frames]
+        first, count = places[0], len(places)
+        if places == list(range(first, first + count)):  # frames of a window lie side by side
+            return self._frames_of(channel).read(first, count)
+        return [self._frames_of(channel).read(place, 1)[0] for place in places]
+
+
+class Frames:
+    """The pictures of a channel: rows of a .npy file, read when asked for.
+
+    They are read, not mapped: a file that is cut while it is mapped ends the process with a signal, a read is an error.
+    """
+
+    def __init__(self, path: Path):
+        self.path, self._opened = path, (-1, -1)
+        self._lock = threading.Lock()
+        with open(path, "rb") as file:
+            try:
+                version = np.lib.format.read_magic(file)
+                shape, is_fortran, self.dtype = np.lib.format.read_array_header_1_0(file)
+            except ValueError as error:
+                raise _cosfly.damaged_pack(os.fspath(path), str(error)) from None
+            self.start = file.tell()
+        if version != (1, 0) or is_fortran or len(shape) < 3 or self.dtype.hasobject:
+            raise _cosfly.damaged_pack(os.fspath(path), f"it has the shape {shape}")
+        self.count, self.shape = shape[0], shape[1:]
+        self.bytes = int(np.prod(self.shape)) * self.dtype.itemsize
+
+    def read(self, first: int, count: int) -> np.ndarray:
+        """Pictures ``first`` to ``first + count``, as one array."""
+        if not 0 <= first <= self.count - count:
+            raise IndexError(f"{self.path} has {self.count} frames, not {first + count}")
+        made = np.empty((count, *self.shape), self.dtype)
+        whole = memoryview(made).cast("B")
+        try:
+            done = self._read_at(whole, self.start + first * self.bytes)
+        except OSError as error:
+            raise _refused(f"read `{self.path}`", error) from None
+        if done != len(whole):
+            raise _cosfly.damaged_pack(os.fspath(self.path), "it ends too early: it was changed, or written incompletely")
+        return made
+
+    def _read_at(self, into: memoryview, place: int) -> int:
+        file, done = self._file(), 0
+        while done < len(into):
+            if hasattr(os, "preadv"):
+                read = os.preadv(file, [into[done:]], place + done)
+            else:  # Windows and older macOS: one reader at a time moves the position of the file
+                with self._lock:
+                    os.lseek(file, place + done, os.SEEK_SET)
+                    part = os.read(file, len(into) - done)
+                    into[done : done + len(part)] = part
+                    read = len(part)
+            if read == 0:
+                break
+            done += read
+        return done
+
+    def _file(self) -> int:
+        process, file = self._opened
+        if process != os.getpid():  # a fork opens its own file
+            file = os.open(self.path, os.O_RDONLY | getattr(os, "O_BINARY", 0))
+            self._opened = (os.getpid(), file)
+        return file
+
+    def __del__(self) -> None:
+        process, file = getattr(self, "_opened", (-1, -1))
+        if process == os.getpid():
+            os.close(file)
 
     def __getstate__(self) -> Dict[str, Any]:
-        return {**super().__getstate__(), "_arrays": {}}
+        state = {**self.__dict__, "_opened": (-1, -1)}
+        state.pop("_lock")
+        return state
+
+    def __setstate__(self, state: Dict[str, Any]) -> None:
+        self.__dict__.update(state)
+        self._lock = threading.Lock()
+
+
+def _refused(action: str, error: OSError) -> Exception:
+    """The refusal of the command line for an error of the system."""
+    return _cosfly.refused_by_machine(action, error.errno or 0)

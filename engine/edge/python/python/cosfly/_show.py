@@ -6,7 +6,15 @@ import base64
 import html
 import shutil
 import sys
-from typing import Any, Dict, List, Tuple
+import tempfile
+from typing import Any, Dict, Tuple
+
+import numpy as np
+
+from . import _cosfly
+
+LARGEST_REPORT = 8_000_000
+"""Bytes of a report that is shown inside of a notebook."""
 
 
 class Bars:
@@ -50,21 +58,97 @@ class Bars:
 
 
 def dataset_html(dataset: Any, pictures: int = 4) -> str:
-    """A dataset as a page: its size, and previews of some trajectories."""
-    table = dataset.table("frames")
-    cells: List[str] = []
-    if "preview" in table.columns:
-        names, files = table["trajectory_id"], table["preview"]
-        step = max(1, len(names) // pictures)
-        for row in range(0, len(names), step)[:pictures]:
-            data = files[row]
-            if data:
-                code = base64.b64encode(bytes(data)).decode()
-                cells.append(
-                    f"<figure style='display:inline-block'><img src='data:image/jpeg;base64,{code}'>"
-                    f"<figcaption>{html.escape(names[row])}</figcaption></figure>"
-                )
-    return f"<p>{html.escape(repr(dataset))}</p>{''.join(cells)}"
+    """A dataset as a page: its size, frames of some trajectories, and its report where it has one."""
+    names = dataset.trajectory_ids
+    chosen = names[:: max(1, len(names) // pictures)][:pictures]
+    parts = [f"<p>{html.escape(repr(dataset))}</p>"]
+    for name in chosen if "rgb" in (dataset.channels_of(names[0]) if names else []) else []:
+        middle = len(dataset.trajectory(name)) // 2
+        frame = dataset.frame(name, middle, channels=("rgb",), size=_thumbnail(dataset, name))
+        parts.append(_figure(frame.png("rgb"), f"{name}, frame {middle}"))
+    report = dataset.path / "report" / "index.html"
+    if report.is_file() and report.stat().st_size <= LARGEST_REPORT:
+        page = html.escape(report.read_text(encoding="utf-8"), quote=True)
+        parts.append(f"<details><summary>report</summary><iframe sandbox srcdoc='{page}' style='width:100%;height:600px'></iframe></details>")
+    return "".join(parts)
+
+
+class Frame(Dict[str, Any]):
+    """Images of a frame by channel; notebooks show them."""
+
+    def png(self, channel: str) -> bytes:
+        """A PNG file: colours as they are, depth warm (near) to cold (far), labels in CARLA's colours, ids in a colour each."""
+        image = self[channel]
+        image = image.astype(np.float32) if image.dtype == np.float16 else image
+        return _cosfly.shown(channel, np.ascontiguousarray(image).tobytes(), image.shape[1], image.shape[0])
+
+    def _repr_html_(self) -> str:
+        return "".join(_figure(self.png(channel), channel) for channel in self)
+
+
+class Trajectory:
+    """One flight of a dataset: ``len(it)`` frames, ``it[frame]`` its images. Notebooks show contact sheet, plan and clip."""
+
+    def __init__(self, dataset: Any, trajectory_id: str, frames: int):
+        self.dataset, self.trajectory_id, self._frames = dataset, trajectory_id, frames
+
+    def __len__(self) -> int:
+        return self._frames
+
+    def __getitem__(self, frame: int) -> Frame:
+        if not -len(self) <= frame < len(self):
+            raise IndexError(f"frame {frame} of {len(self)}")
+        return self.dataset.frame(self.trajectory_id, frame % len(self))
+
+    def __repr__(self) -> str:
+        return f"<cosfly trajectory {self.trajectory_id} of {self.dataset.path}: {len(self)} frames>"
+
+    def _repr_html_(self) -> str:
+        text = f"<p>{html.escape(repr(self))}</p>"
+        if (self.dataset.path / "data" / "trajectories").is_dir():
+            return text + pictures_html(self.dataset.path, self.trajectory_id)
+        size = _thumbnail(self.dataset, self.trajectory_id)
+        for frame in range(0, len(self), max(1, len(self) // 6)):
+            images = self.dataset.frame(self.trajectory_id, frame, channels=("rgb",), size=size)
+            text += _figure(images.png("rgb"), f"frame {frame}")
+        return text
+
+
+class Town:
+    """A town of a dataset, by the name that table ``trajectories`` has. Notebooks show its plan with the flights of a pedestrian."""
+
+    def __init__(self, path: Any, name: str, trajectory_id: str):
+        self.path, self.name, self.trajectory_id = path, name, trajectory_id
+
+    def __repr__(self) -> str:
+        return f"<cosfly town {self.name} of {self.path}>"
+
+    def _repr_png_(self) -> bytes:
+        from ._calls import preview
+
+        with tempfile.TemporaryDirectory() as scratch:
+            return preview(self.path, self.trajectory_id, frames="0", out=scratch, progress=False).plan.read_bytes()
+
+
+def pictures_html(path: Any, trajectory_id: str) -> str:
+    """Contact sheet, plan and clip of a flight, which leave no files."""
+    from ._calls import preview
+
+    with tempfile.TemporaryDirectory() as scratch:
+        return preview(path, trajectory_id, out=scratch, progress=False)._repr_html_()
+
+
+def _thumbnail(dataset: Any, trajectory_id: str) -> Tuple[int, int]:
+    width, height = dataset.size_of(trajectory_id)
+    return (320, max(1, 320 * height // width)) if width > 320 else (width, height)
+
+
+def _figure(png: bytes, caption: str) -> str:
+    code = base64.b64encode(png).decode()
+    return (
+        f"<figure style='display:inline-block'><img src='data:image/png;base64,{code}'>"
+        f"<figcaption>{html.escape(caption)}</figcaption></figure>"
+    )
 
 
 def image_html(path: Any) -> str:
@@ -88,6 +172,3 @@ def _is_notebook() -> bool:
     module = sys.modules.get("IPython")
     shell = module.get_ipython() if module else None
     return shell is not None and shell.__class__.__name__ == "ZMQInteractiveShell"
-
-
-Size = Tuple[int, int]

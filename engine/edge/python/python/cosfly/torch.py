@@ -1,47 +1,57 @@
-"""PyTorch: ``torch.utils.data.DataLoader`` takes :class:`cosfly.Dataset` as it is; here is the iterable style.
+"""PyTorch: ``torch.utils.data.DataLoader`` takes :class:`cosfly.Dataset` as it is; here is a loader that resumes.
 
-``torch`` is imported when :class:`Batches` is made, not before.
+``torch`` is imported when :class:`Loader` is iterated, not before.
 """
 
 from __future__ import annotations
 
 from typing import Any, Iterator
 
-from ._dataset import Dataset, Loader
+from . import _dataset
+from ._dataset import Dataset, collated
 
 
-def batches(dataset: Dataset, batch_size: int = 1, **options: Any) -> Any:
-    """A ``torch.utils.data.IterableDataset`` of shuffled batches; workers of a DataLoader share every epoch.
+class Loader(_dataset.Loader):
+    """Batches of tensors, made by worker processes of a ``torch.utils.data.DataLoader``.
 
-    Use with ``DataLoader(..., batch_size=None)``. ``options`` are those of :class:`cosfly.Loader`.
+    The order is that of :class:`cosfly.Loader` with the same options, whatever the number of ``workers`` (0: this process).
+    ``state_dict()`` names the batch after the last one that was handed out; a loader with this state goes on there, to the
+    sample, also in another process and with another number of workers. ``data_loader`` are options of the ``DataLoader``,
+    such as ``pin_memory`` or ``prefetch_factor``.
     """
-    import torch.utils.data as data
 
-    class Batches(data.IterableDataset):  # type: ignore[misc, valid-type]
-        """Shuffled batches of tensors."""
+    def __init__(self, dataset: Dataset, batch_size: int = 1, *, workers: int = 0, data_loader: Any = None, **options: Any):
+        super().__init__(dataset, batch_size, **options)
+        self.workers, self.data_loader = workers, dict(data_loader or {})
 
-        def __init__(self) -> None:
-            self.loader = Loader(dataset, batch_size, **options)
+    def __iter__(self) -> Iterator[Any]:
+        import torch.utils.data as data
 
-        def __iter__(self) -> Iterator[Any]:
-            worker, loader = data.get_worker_info(), self.loader
-            if worker is not None:
-                rank, world = loader.shard
-                shard = (rank * worker.num_workers + worker.id, world * worker.num_workers)
-                loader = Loader(dataset, batch_size, **{**options, "shard": shard})
-                loader.load_state_dict(self.loader.state_dict())
-            return (tensors(batch) for batch in loader)
+        order = self._order()
+        left = [order[batch * self.batch_size :][: self.batch_size].tolist() for batch in range(self.batch, len(self))]
+        batches: Any = data.DataLoader(
+            self.dataset,  # type: ignore[arg-type]
+            batch_sampler=left, num_workers=self.workers, collate_fn=tensors_of, **self.data_loader,
+        )  # fmt: skip
+        for batch in batches:
+            self.batch += 1
+            yield batch
+        self.epoch, self.batch = self.epoch + 1, 0
 
-    return Batches()
+
+def tensors_of(samples: Any) -> Any:
+    """A batch of samples (``collate_fn`` of a ``DataLoader``): tensors for arrays and numbers, lists for texts."""
+    return tensors(collated(samples))
 
 
 def tensors(batch: Any) -> Any:
-    """A batch with tensors instead of arrays; texts stay as they are."""
+    """A batch with tensors instead of arrays; texts stay as they are. Unsigned numbers above 8 bits become int64."""
     import torch
 
-    numbers = lambda it: hasattr(it, "dtype") and it.dtype.kind in "biuf" and it.dtype.name not in ("uint32", "uint64")
-    return {
-        name: torch.from_numpy(value) if numbers(value) else
-        torch.from_numpy(value.astype("int64")) if hasattr(value, "dtype") and value.dtype.kind == "u" else value
-        for name, value in batch.items()
-    }  # fmt: skip
+    def tensor(value: Any) -> Any:
+        kind = value.dtype.kind if hasattr(value, "dtype") else ""
+        if kind == "u" and value.dtype.itemsize > 1:
+            value = value.astype("int64")
+        return torch.from_numpy(value) if kind and kind in "biuf" else value
+
+    return {name: tensor(value) for name, value in batch.items()}

@@ -35,11 +35,23 @@ pub fn recognises(folder: &Path) -> bool {
 /// Episodes, faults of the files, and impossible checks as texts.
 pub type Read = (Vec<Episode>, Vec<Flag>, Vec<String>);
 
-/// Reads all episodes.
+/// Reads all episodes, and every file to its end.
 ///
 /// # Errors
 /// Refusals of the machine where a folder cannot be listed.
 pub fn episodes(folder: &Path, progress: &mut dyn FnMut(u64, u64)) -> Result<Read> {
+    read(folder, true, progress)
+}
+
+/// Reads the numbers of all episodes; pictures and videos are not looked at.
+///
+/// # Errors
+/// As of [`episodes`].
+pub fn motions(folder: &Path) -> Result<Read> {
+    read(folder, false, &mut |_, _| {})
+}
+
+fn read(folder: &Path, with_pictures: bool, progress: &mut dyn FnMut(u64, u64)) -> Result<Read> {
     let info = match info(folder) {
         Ok(info) => info,
         Err(problem) => {
@@ -49,8 +61,8 @@ pub fn episodes(folder: &Path, progress: &mut dyn FnMut(u64, u64)) -> Result<Rea
     let features = Features::of(&info["features"]);
     let (mut flags, mut notes) = (vec![], vec![]);
     let mut files: Vec<PathBuf> = vec![];
-    for path in files_below(folder)?.into_iter().filter(|path| path.extension().is_some_and(|it| it == "parquet")) {
-        match parquet_problem(&path) {
+    for path in tables(folder)? {
+        match with_pictures.then(|| parquet_problem(&path)).flatten() {
             Some(problem) => flags.push(Flag::damage("parquet-damaged", shown(folder, &path), problem)),
             None => files.push(path),
         }
@@ -63,7 +75,7 @@ pub fn episodes(folder: &Path, progress: &mut dyn FnMut(u64, u64)) -> Result<Rea
         if !(is_data || is_list) {
             continue;
         }
-        match foreign_rows(path) {
+        match foreign_rows(path, with_pictures) {
             Ok(rows) if is_data => frames.append(rows),
             Ok(rows) => listed.append(&rows),
             Err(refusal) if refusal.fault == Fault::Machine => return Err(refusal),
@@ -78,17 +90,32 @@ pub fn episodes(folder: &Path, progress: &mut dyn FnMut(u64, u64)) -> Result<Rea
     if is_whole {
         listed.check(&info, &recordings, frames.rows, &mut flags);
     }
-    listed.check_videos(folder, &info, &features, &mut flags);
+    if with_pictures {
+        listed.check_videos(folder, &info, &features, &mut flags);
+    }
     notes.extend(gaps(&features));
     actions::interpret(&mut recordings, &features, &mut notes);
     Ok((recordings.into_iter().map(|it| it.episode).collect(), flags, notes))
+}
+
+/// Tables in and below the folder, sorted.
+///
+/// # Errors
+/// Refusals of the machine.
+pub fn tables(folder: &Path) -> Result<Vec<PathBuf>> {
+    let files = files_below(folder)?.into_iter();
+    Ok(files.filter(|path| path.extension().is_some_and(|it| it == "parquet")).collect())
 }
 
 fn shown(folder: &Path, path: &Path) -> String {
     path.strip_prefix(folder).unwrap_or(path).display().to_string()
 }
 
-fn info(folder: &Path) -> Result<Value, String> {
+/// The contents of `meta/info.json`.
+///
+/// # Errors
+/// The reason, in words.
+pub fn info(folder: &Path) -> Result<Value, String> {
     let path = folder.join("meta/info.json");
     let size = std::fs::metadata(&path).map_err(|error| error.to_string())?.len();
     if size > INFO_LIMIT {

@@ -8,7 +8,7 @@ use crate::exit;
 use crate::text::{bytes, count};
 use clap::Parser;
 use clap::builder::{PossibleValue, PossibleValuesParser};
-use cosfly_export::{Choice, FORMATS, prepare};
+use cosfly_export::{Choice, FORMATS, on_threads, prepare};
 use cosfly_read::PublishedDataset;
 use format_options::FormatOptions;
 use serde_json::json;
@@ -57,8 +57,13 @@ pub struct Arguments {
 
 impl Command for Arguments {
     fn run(&self, console: &dyn Console) -> Outcome {
+        on_threads(self.jobs, || self.write(console))?
+    }
+}
+
+impl Arguments {
+    fn write(&self, console: &dyn Console) -> Outcome {
         let format = prepare(&self.format, self.options.0.clone())?;
-        cosfly_export::use_threads(self.jobs);
         let dataset = PublishedDataset::open(&self.dir)?;
         let choice = Choice { splits: self.splits.clone(), trajectories: self.trajectories.clone() };
         let progress = console.progress("export", "frames");

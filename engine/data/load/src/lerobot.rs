@@ -1,0 +1,170 @@
+//! LeRobot's layout: pictures inside of tables, or as files that tables name.
+
+use crate::foreign::{Foreign, Pictures, damaged, sound};
+use crate::{Flight, tasks};
+use cosfly_diagnose::{Diagnostic, Fault, Result};
+use cosfly_doctor::sources::lerobot::{self, features::Features};
+use cosfly_doctor::{Episode, Flag};
+use cosfly_read::StoredImage;
+use cosfly_read::columns::{Column, column};
+use cosfly_read::{PictureColumn, PictureFile};
+use cosfly_render::channels::Channel;
+use serde_json::Value;
+use std::collections::BTreeMap;
+use std::path::{Component, Path, PathBuf};
+
+/// The LeRobot datasets in `folder`: itself, or those of its splits, as `cosfly export` writes them.
+pub fn roots(folder: &Path) -> Vec<PathBuf> {
+    if lerobot::recognises(folder) {
+        return vec![folder.to_owned()];
+    }
+    let mut found: Vec<PathBuf> = ["train", "val", "test"].iter().map(|split| folder.join(split)).collect();
+    found.retain(|path| lerobot::recognises(path));
+    found
+}
+
+/// Opens the datasets `roots` in `folder` as one.
+///
+/// # Errors
+/// `dataset-damaged` where tables cannot be read.
+pub fn open(folder: &Path, roots: &[PathBuf]) -> Result<Foreign<Tables>> {
+    let (mut flights, mut episodes, mut has_poses) = (vec![], vec![], true);
+    let mut pictures = Tables { files: vec![], frames: vec![], feature: None, videos: vec![] };
+    for root in roots {
+        let (found, flags, _) = lerobot::motions(root)?;
+        sound(root, &flags)?;
+        let info = lerobot::info(root).map_err(|why| damaged(&root.join("meta/info.json"), "it is unreadable", why))?;
+        let features = Features::of(&info["features"]);
+        has_poses &= features.position.is_some();
+        let feature = main_picture(&features.pictures);
+        let size = feature.as_ref().map_or([0, 0], |name| size_of(&info["features"][name]));
+        pictures.append(root, feature.as_deref())?;
+        pictures.videos.extend(features.videos.clone());
+        pictures.feature = pictures.feature.take().or(feature);
+        let mut captions = captions(root)?;
+        for (place, mut episode) in found.into_iter().enumerate() {
+            episode.captions = captions.get_mut(place).map(std::mem::take).unwrap_or_default();
+            if roots.len() > 1 && episodes.iter().any(|it: &Episode| it.id == episode.id) {
+                let split = root.file_name().unwrap_or_default().to_string_lossy();
+                episode.id = format!("{split}/{}", episode.id);
+            }
+            flights.push(Flight {
+                id: episode.id.clone(),
+                split: episode.split.clone().unwrap_or_default(),
+                frames: episode.moments.len(),
+                size,
+            });
+            episodes.push(episode);
+        }
+    }
+    let frames = flights.iter().zip(&pictures.frames).find(|(flight, rows)| flight.frames != rows.len());
+    if let Some((flight, rows)) = frames.filter(|_| pictures.feature.is_some()) {
+        let message = format!("{} frames have {} rows of pictures", flight.frames, rows.len());
+        sound(folder, &[Flag::damage("index-mismatch", &flight.id, message)])?;
+    }
+    Ok(Foreign { layout: "LeRobot", folder: folder.to_owned(), flights, episodes, has_poses, pictures })
+}
+
+/// Language and text of the instructions of each episode, in the order of their numbers.
+fn captions(root: &Path) -> Result<Vec<Vec<(String, String)>>> {
+    let tasks = tasks::tasks(root)?;
+    let mut first: BTreeMap<i64, i64> = BTreeMap::new();
+    for path in data_tables(root)?.into_iter().filter(|_| !tasks.is_empty()) {
+        let paths = [path];
+        if let (Column::Integers(episodes), Column::Integers(numbers)) =
+            (column(&paths, "episode_index")?, column(&paths, "task_index")?)
+        {
+            episodes.into_iter().zip(numbers).for_each(|(episode, task)| {
+                first.entry(episode).or_insert(task);
+            });
+        }
+    }
+    let caption = |text: &String| (tasks::language(text).to_owned(), text.clone());
+    Ok(first.values().map(|task| tasks.get(task).map(caption).into_iter().collect()).collect())
+}
+
+/// Tables of frames, in their order.
+fn data_tables(root: &Path) -> Result<Vec<PathBuf>> {
+    let is_data = |path: &PathBuf| path.strip_prefix(root).is_ok_and(|inside| inside.starts_with("data"));
+    Ok(lerobot::tables(root)?.into_iter().filter(is_data).collect())
+}
+
+/// The feature with the colour pictures: one called `rgb`, else the first.
+fn main_picture(pictures: &[String]) -> Option<String> {
+    pictures.iter().find(|name| name.rsplit('.').next() == Some("rgb")).or(pictures.first()).cloned()
+}
+
+/// Width and height of the pictures of a feature, whichever the order of its axes.
+fn size_of(feature: &Value) -> [u32; 2] {
+    let side = |at: usize| feature["shape"][at].as_u64().and_then(|side| u32::try_from(side).ok()).unwrap_or(0);
+    if side(0) <= 4 && side(2) > 4 { [side(2), side(1)] } else { [side(1), side(0)] }
+}
+
+/// Pictures of all episodes.
+pub struct Tables {
+    /// Tables with the folder that names of files begin at.
+    files: Vec<(PathBuf, PictureColumn)>,
+    /// Table and row of each frame, flight by flight.
+    frames: Vec<Vec<(u32, u32)>>,
+    feature: Option<String>,
+    videos: Vec<String>,
+}
+
+impl Tables {
+    /// Finds the rows of the frames of the dataset in `root`.
+    fn append(&mut self, root: &Path, feature: Option<&str>) -> Result<()> {
+        let Some(feature) = feature else { return Ok(()) };
+        let mut episodes: BTreeMap<i64, Vec<(u32, u32)>> = BTreeMap::new();
+        for path in data_tables(root)? {
+            let file = self.files.len() as u32;
+            if let Column::Integers(numbers) = column(std::slice::from_ref(&path), "episode_index")? {
+                for (row, number) in (0..).zip(numbers) {
+                    episodes.entry(number).or_default().push((file, row));
+                }
+            }
+            self.files.push((root.to_owned(), PictureColumn::open(&path, feature)?));
+        }
+        self.frames.extend(episodes.into_values());
+        Ok(())
+    }
+}
+
+impl Pictures for Tables {
+    fn channels(&self) -> &[&'static str] {
+        if self.feature.is_some() { &["rgb"] } else { &[] }
+    }
+
+    fn advice(&self) -> String {
+        match &self.feature {
+            Some(feature) => format!("this dataset holds rgb (`{feature}`); `channels=(\"rgb\",)` asks for that alone"),
+            None if !self.videos.is_empty() => format!(
+                "its pictures are videos ({}), which cosfly does not decode; `channels=()` loads all else, and LeRobot \
+                 converts videos to pictures",
+                self.videos.join(", ")
+            ),
+            None => "this dataset has no pictures; `channels=()` loads all else".to_owned(),
+        }
+    }
+
+    fn image(&self, flight: usize, _channel: &Channel, frame: usize) -> Result<StoredImage> {
+        let (file, row) = self.frames[flight][frame];
+        let (root, pictures) = &self.files[file as usize];
+        let bytes = match pictures.file(row as usize)? {
+            PictureFile::Stored(bytes) => bytes,
+            PictureFile::Named(name) => named(root, &name)?,
+        };
+        let format = if bytes.starts_with(b"\x89PNG") { "png" } else { "jpeg" };
+        Ok(StoredImage::File(bytes, format.to_owned()))
+    }
+}
+
+/// A picture file of the dataset.
+fn named(root: &Path, name: &str) -> Result<prost::bytes::Bytes> {
+    let path = root.join(name);
+    if !Path::new(name).components().all(|part| matches!(part, Component::Normal(_))) {
+        let message = format!("the picture `{name}` is outside the dataset");
+        return Err(Diagnostic::new("dataset-damaged", Fault::Input, message));
+    }
+    let bytes = std::fs::read(&path);
+    Ok(bytes.map_err(|error| Diagnostic::io(format!("read `{}`", path.display()), &error))?.into())
+}

@@ -1,0 +1,79 @@
+//! Datasets of cosfly: tables in Parquet files, images in logs.
+
+use crate::{Flight, Source};
+use cosfly_diagnose::{Diagnostic, Fault, Result};
+use cosfly_read::columns::TableData;
+use cosfly_read::{ImageLog, PublishedDataset, StoredImage};
+use cosfly_render::channels::Channel;
+use std::collections::VecDeque;
+use std::path::Path;
+use std::sync::{Arc, Mutex, PoisonError};
+
+/// Logs kept open; each needs a file descriptor and about 100 kB for its index.
+const OPEN_LOGS: usize = 64;
+
+/// A dataset of cosfly.
+pub struct Ours {
+    dataset: PublishedDataset,
+    flights: Vec<Flight>,
+    /// Open logs by the number of their flight, the latest last.
+    logs: Mutex<VecDeque<(usize, Arc<ImageLog>)>>,
+}
+
+impl Ours {
+    /// Opens the dataset in `folder`.
+    ///
+    /// # Errors
+    /// As of [`PublishedDataset::open`].
+    pub fn open(folder: &Path) -> Result<Self> {
+        let dataset = PublishedDataset::open(folder)?;
+        let flights = dataset.flights().iter().map(|flight| Flight {
+            id: flight.trajectory_id.clone(),
+            split: flight.split.clone(),
+            frames: flight.frames,
+            size: [flight.camera.width, flight.camera.height],
+        });
+        Ok(Self { flights: flights.collect(), dataset, logs: Mutex::default() })
+    }
+
+    /// The open log of a flight; the one unused for longest is closed when there are too many.
+    fn log(&self, flight: usize) -> Result<Arc<ImageLog>> {
+        let mut logs = self.logs.lock().unwrap_or_else(PoisonError::into_inner);
+        let place = logs.iter().position(|(number, _)| *number == flight);
+        let entry = match place.and_then(|place| logs.remove(place)) {
+            Some(entry) => entry,
+            None => (flight, Arc::new(self.dataset.image_log(&self.dataset.flights()[flight])?)),
+        };
+        let log = Arc::clone(&entry.1);
+        logs.push_back(entry);
+        if logs.len() > OPEN_LOGS {
+            logs.pop_front();
+        }
+        Ok(log)
+    }
+}
+
+impl Source for Ours {
+    fn flights(&self) -> &[Flight] {
+        &self.flights
+    }
+
+    fn channels(&self, flight: usize) -> Result<Vec<&'static str>> {
+        Ok(self.log(flight)?.channels().collect())
+    }
+
+    fn image(&self, flight: usize, channel: &Channel, frame: usize) -> Result<StoredImage> {
+        self.log(flight)?.image(channel, frame)
+    }
+
+    fn table(&self, name: &str, split: Option<&str>) -> Result<TableData> {
+        let files = self.dataset.files(name)?;
+        if files.is_empty() {
+            let folder = self.dataset.folder().display();
+            return Err(Diagnostic::new("dataset-none", Fault::Input, format!("`{folder}` has no table `{name}`"))
+                .hint("the tables are the folders in `data`"));
+        }
+        let is_wanted = |of: &str| split.is_none_or(|split| split == of || !matches!(of, "train" | "val" | "test"));
+        Ok(TableData::Files(files.into_iter().filter(|(of, _)| is_wanted(of)).map(|(_, path)| path).collect()))
+    }
+}

@@ -1,0 +1,119 @@
+//! The same flights from all layouts.
+
+use crate::{Flight, Source, open};
+use cosfly_images::read;
+use cosfly_read::columns::Column;
+use cosfly_read::{PublishedDataset, StoredImage};
+use cosfly_render::channels::{self, Channel};
+use cosfly_sample as sample;
+use cosfly_schema::{DatasetConfig, EncodingConfig};
+use serde_json::Map;
+use std::path::{Path, PathBuf};
+
+/// The sample dataset, and its exports.
+fn published() -> (tempfile::TempDir, [PathBuf; 3]) {
+    let home = tempfile::tempdir().unwrap();
+    let folders = ["sample", "v7", "lerobot"].map(|name| home.path().join(name));
+    sample::write_to_folder(&folders[0], &DatasetConfig::default(), EncodingConfig::default()).unwrap();
+    let dataset = PublishedDataset::open(&folders[0]).unwrap();
+    for out in &folders[1..] {
+        let name = out.file_name().unwrap().to_str().unwrap();
+        let format = cosfly_export::prepare(name, Map::new()).unwrap();
+        format.write(&dataset, &Default::default(), out, &|_, _| {}).unwrap();
+    }
+    (home, folders)
+}
+
+fn reals(source: &dyn Source, table: &str, name: &str) -> Vec<f64> {
+    match source.table(table, None).unwrap().column(name).unwrap() {
+        Column::Reals(values) | Column::Lists(values, _) => values,
+        Column::Integers(values) => values.into_iter().map(|value| value as f64).collect(),
+        other => panic!("{name}: {other:?}"),
+    }
+}
+
+fn pixels(source: &dyn Source, flight: usize, channel: &Channel, frame: usize) -> Vec<u8> {
+    match source.image(flight, channel, frame).unwrap() {
+        StoredImage::File(file, format) => read::decoded(&file, &format).unwrap().rgb,
+        // v7 says 1,000 m for the sky, and readers take 999 m and more for it.
+        StoredImage::Raw { data, .. } if channel.name == "depth" => {
+            let depths = data.as_chunks::<4>().0.iter().map(|depth| f32::from_le_bytes(*depth));
+            depths.flat_map(|depth| if depth >= 999.0 { f32::INFINITY } else { depth }.to_le_bytes()).collect()
+        }
+        StoredImage::Raw { data, .. } => data.to_vec(),
+    }
+}
+
+/// The flight of `source` with these values of `drone_x_m`.
+fn flight_with(source: &dyn Source, xs: &[f64]) -> usize {
+    let all = reals(source, "frames", "drone_x_m");
+    let mut rest = &all[..];
+    let is_it = |flight: &Flight| {
+        let (own, others) = rest.split_at(flight.frames);
+        rest = others;
+        own.len() == xs.len() && own.iter().zip(xs).all(|(a, b)| (a - b).abs() < 1e-3)
+    };
+    source.flights().iter().map(is_it).collect::<Vec<_>>().iter().position(|it| *it).expect("the flight")
+}
+
+#[test]
+fn frames_and_poses_are_the_same_in_all_layouts() {
+    let (_home, folders) = published();
+    let [ours, v7, lerobot] = folders.each_ref().map(|folder| open(folder).unwrap());
+    let xs = reals(&*ours, "frames", "drone_x_m");
+    let mut first = 0;
+    for (flight, known) in ours.flights().iter().enumerate() {
+        for (source, tolerance) in [(&v7, 1e-6), (&lerobot, 1e-3)] {
+            let other = flight_with(&**source, &xs[first..first + known.frames]);
+            let (found, from) = (&source.flights()[other], source.flights()[..other].iter().map(|it| it.frames).sum());
+            assert_eq!((found.frames, found.size, &found.split), (known.frames, known.size, &known.split));
+            for name in ["drone_x_m", "drone_y_m", "drone_z_m", "drone_yaw_deg", "target_x_m", "target_z_m", "role"] {
+                let (a, b) = (reals(&*ours, "frames", name), reals(&**source, "frames", name));
+                let (a, b): (&[f64], &[f64]) = (&a[first..first + known.frames], &b[from..from + known.frames]);
+                assert!(a.iter().zip(b).all(|(a, b)| (a - b).abs() < tolerance), "{name}: {a:?} {b:?}");
+            }
+            for channel in source.channels(other).unwrap() {
+                let channel = channels::called(channel).unwrap();
+                for frame in 0..known.frames {
+                    let (a, b) = (pixels(&*ours, flight, channel, frame), pixels(&**source, other, channel, frame));
+                    assert!(a == b, "{}, frame {frame}", channel.name);
+                }
+            }
+        }
+        first += known.frames;
+    }
+    assert!(
+        matches!(lerobot.table("captions", None).unwrap().column("text").unwrap(), Column::Texts(it) if it.iter().all(Option::is_some))
+    );
+}
+
+#[test]
+fn what_a_layout_does_not_hold_is_refused_with_what_it_holds() {
+    let (_home, [_, v7, lerobot]) = published();
+    let refused = |folder: &Path, name: &str| {
+        let refusal = open(folder).unwrap().image(0, channels::called(name).unwrap(), 0).unwrap_err();
+        (refusal.code, refusal.hints.join(" "))
+    };
+    let (code, hints) = refused(&lerobot, "depth");
+    assert!(code == "dataset-channel" && hints.contains("rgb"), "{hints}");
+    assert_eq!(refused(&v7, "normals").0, "dataset-channel");
+    let missing = open(&v7).unwrap().table("objects", None).unwrap_err();
+    assert!(missing.code == "dataset-none" && missing.hints[0].contains("frames"), "{missing:?}");
+    assert_eq!(open(Path::new("/nowhere")).err().unwrap().code, "dataset-none");
+}
+
+#[test]
+fn damaged_folders_are_refused() {
+    let (_home, [_, v7, lerobot]) = published();
+    let mut below = vec![v7.clone(), lerobot.clone()];
+    while let Some(path) = below.pop() {
+        if path.is_dir() {
+            below.extend(std::fs::read_dir(&path).unwrap().map(|entry| entry.unwrap().path()));
+        } else if path.extension().is_some_and(|it| ["json", "parquet", "npy", "png"].iter().any(|end| it == *end)) {
+            let bytes = std::fs::read(&path).unwrap();
+            std::fs::write(&path, &bytes[..bytes.len() / 2]).unwrap();
+        }
+    }
+    assert_eq!(open(&v7).err().unwrap().code, "dataset-damaged");
+    assert_eq!(open(&lerobot).err().unwrap().code, "dataset-damaged");
+}
