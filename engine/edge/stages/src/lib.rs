@@ -5,7 +5,7 @@
 mod backends;
 mod body_rays;
 mod caption;
-mod codec;
+pub mod codec;
 mod companions;
 mod crowd;
 mod dataset;
@@ -36,11 +36,16 @@ mod verdict;
 mod walks;
 pub mod world;
 
-use cosfly_stage::{Registry, Stage};
+use cosfly_stage::{Registry, Stage, StageKind};
 
 /// All built-in stage kinds, sorted by name.
 pub fn registry() -> Registry {
-    Registry::new(vec![
+    registry_with(vec![])
+}
+
+/// All built-in stage kinds and `others`, for measurements.
+pub fn registry_with(others: Vec<Box<dyn StageKind>>) -> Registry {
+    let mut kinds: Vec<Box<dyn StageKind>> = vec![
         Box::new(caption::Caption),
         Box::new(dataset::Dataset),
         Box::new(inspect::Inspect),
@@ -50,7 +55,9 @@ pub fn registry() -> Registry {
         Box::new(perturb::Perturb),
         Box::new(render::Render),
         Box::new(plugins::stage::Wasm),
-    ])
+    ];
+    kinds.extend(others);
+    Registry::new(kinds)
 }
 
 /// A stage kind of a single part.

@@ -75,6 +75,11 @@ impl ManyFlights {
         record
     }
 
+    /// The packed pictures of a flight.
+    pub fn pack(&self, index: usize) -> &[u8] {
+        &self.packs[index % self.packs.len()]
+    }
+
     /// The log of a flight, and its row.
     ///
     /// # Errors

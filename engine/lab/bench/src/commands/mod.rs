@@ -1,6 +1,8 @@
 //! The command line of the lab: one file per measurement.
 
 mod engine;
+mod flights;
+mod flights_stages;
 mod geometry;
 mod outcome;
 mod planner;
@@ -23,6 +25,9 @@ pub struct Arguments {
 enum Command {
     /// The engine with cheap items: cold overhead, everything cached, one parameter changed and changed back
     Engine(engine::EngineArguments),
+    /// Publishing many flights: toy films, then real logs, tables, manifest and delivery; time, memory and disk
+    #[command(after_help = flights::EXAMPLES)]
+    Flights(flights::FlightsArguments),
     /// Box queries per second on one core: cosfly's tree, the trees of parry and obvhs, and a brute-force loop
     #[command(after_help = geometry::EXAMPLES)]
     Geometry(geometry::GeometryArguments),
@@ -39,6 +44,7 @@ impl Arguments {
     pub fn run(&self) -> Outcome {
         match &self.command {
             Command::Engine(arguments) => engine::engine(arguments),
+            Command::Flights(arguments) => flights::flights(arguments),
             Command::Geometry(arguments) => geometry::geometry(arguments),
             Command::Planner(arguments) => planner::planner(arguments),
             Command::Render(arguments) => render::render(arguments),
