@@ -7,6 +7,7 @@ use crate::published_towns::PublishedTowns;
 use crate::{codec, parameters};
 use cosfly_blobs::OutputSink;
 use cosfly_diagnose::{Diagnostic, Fault, Result};
+use cosfly_fingerprint::canonical_json;
 use cosfly_schema::config::SplitShares;
 use cosfly_schema::{DatasetConfig, Rejection};
 use cosfly_stage::{
@@ -16,7 +17,7 @@ use cosfly_write::{GroupPlan, plan_groups};
 
 /// Name of the part and of the port that reads it.
 const NAME: &str = "splits";
-/// Blob with the policy; all other blobs are called like the groups.
+/// Blob with the policy, JSON; all other blobs are called like the groups.
 const POLICY: &str = "policy";
 
 /// The part of a stage that gathers towns at the port `town`.
@@ -51,7 +52,9 @@ pub fn policy_port() -> InputPort {
 
 /// Policy at the port of [`policy_port`], with the areas of all towns.
 pub fn policy(inputs: &Inputs<'_>) -> Result<SplitShares> {
-    codec::decode(SPLITS, &inputs.read(inputs.one(NAME)?, POLICY)?)
+    serde_json::from_slice(&inputs.read(inputs.one(NAME)?, POLICY)?).map_err(|error| {
+        Diagnostic::new("artifact-decode", Fault::Input, "could not decode the policy of the splits").because(error)
+    })
 }
 
 /// Plan of the group `item` at the port of [`port`].
@@ -83,7 +86,7 @@ impl Stage for SplitsStage {
         for (name, group) in names.iter().zip(&plan.groups) {
             outputs.put(name, &codec::encode(SPLITS, group)?)?;
         }
-        outputs.put(POLICY, &codec::encode(SPLITS, &plan.splits)?)?;
+        outputs.put(POLICY, canonical_json(&plan.splits).as_bytes())?;
         Ok(Produced { warnings: plan.warnings, ..Produced::default() })
     }
 }

@@ -3,7 +3,7 @@
 use super::flights_stages::registry;
 use super::outcome::{Outcome, Refusals, print};
 use clap::Args;
-use cosfly_diagnose::{Diagnostic, Fault};
+use cosfly_diagnose::Diagnostic;
 use cosfly_runner::{Delivery, RunOptions, RunOutcome, deliver};
 use cosfly_stage::Registry;
 use cosfly_store::{GarbageOptions, Store, collect_garbage};
