@@ -8,7 +8,7 @@ use crate::report::result::{
 use crate::report::score::{Score, Scores};
 use crate::scoring::{MethodTallies, clusters, score, total};
 use crate::settings::{InputRole, Settings};
-use crate::strata::{Membership, STRATA, memberships};
+use crate::strata::STRATA;
 use crate::windows::{Flights, WindowSet};
 use cosfly_diagnose::{Diagnostic, Fault, Result};
 use cosfly_metrics::baselines::Anchor;
@@ -40,7 +40,6 @@ pub fn evaluate(
     if file.is_some() && joined.predicted == 0 {
         return Err(nothing_to_score(flights, &windows, &joined));
     }
-    let memberships = memberships(flights, &windows);
     let everything = file.is_none() || settings.missing_as_zero;
     let wanted = |window: usize| everything || joined.row(window).is_some();
     let scored = if everything { windows.len } else { joined.predicted };
@@ -48,15 +47,28 @@ pub fn evaluate(
     let mut notes = vec![];
     let mut methods: Vec<Method<'_>> = vec![];
     methods.extend(file.is_some().then_some(Method::Predictions(&given, &joined)));
-    methods.extend(baselines(flights, settings, scored, splits.contains("train"), &mut notes));
-    let reports = methods
-        .par_iter()
-        .map(|method| {
-            let tallies = score(method, flights, &windows, &memberships, settings, &wanted);
-            method_report(method, &tallies, settings)
-        })
-        .collect();
-    let beside = other_anchor(flights, &windows, &memberships, (&given, &joined, file), settings, &wanted, scored);
+    methods.extend(baselines(flights, settings, scored, splits.contains("train"), &mut notes)?);
+    // The same methods over all windows with the other anchor.
+    let other = Settings {
+        anchor: match settings.anchor {
+            Anchor::Input => Anchor::Expert,
+            Anchor::Expert => Anchor::Input,
+        },
+        ..settings.clone()
+    };
+    let mut others: Vec<Method<'_>> = vec![];
+    others.extend(file.is_some().then_some(Method::Predictions(&given, &joined)));
+    others.extend(baselines(flights, &other, scored, false, &mut vec![])?);
+    let with_settings = methods.iter().map(|it| (it, settings)).chain(others.iter().map(|it| (it, &other)));
+    let mut tallies = score(&with_settings.collect::<Vec<_>>(), flights, &windows, &wanted)?;
+    let tallies_of_others = tallies.split_off(methods.len());
+    let reports = (methods.par_iter().zip(&tallies)).map(|(method, it)| method_report(method, it, settings)).collect();
+    let anchored = |(method, tallies): (&Method<'_>, &MethodTallies)| {
+        let scores = scores(&tallies.overall, settings.resamples, settings.seed);
+        AnchoredMethod { name: method.name().to_owned(), scores }
+    };
+    let others = others.par_iter().zip(&tallies_of_others).map(anchored).collect();
+    let beside = AnchorReport { anchor: other.anchor, methods: others };
     let groups: BTreeSet<usize> = clusters(flights, &windows).into_iter().collect();
     Ok(Evaluation {
         format: "cosfly-evaluation",
@@ -79,32 +91,6 @@ pub fn evaluate(
         other_anchor: beside,
         notes,
     })
-}
-
-/// The scores of the same methods over all windows with the other anchor.
-fn other_anchor(
-    flights: &Flights,
-    windows: &WindowSet,
-    memberships: &[Membership],
-    (given, joined, file): (&Predictions, &Joined, Option<&str>),
-    settings: &Settings,
-    wanted: &(dyn Fn(usize) -> bool + Sync),
-    scored: usize,
-) -> AnchorReport {
-    let anchor = match settings.anchor {
-        Anchor::Input => Anchor::Expert,
-        Anchor::Expert => Anchor::Input,
-    };
-    let settings = Settings { anchor, ..settings.clone() };
-    let mut methods: Vec<Method<'_>> = vec![];
-    methods.extend(file.is_some().then_some(Method::Predictions(given, joined)));
-    methods.extend(baselines(flights, &settings, scored, false, &mut vec![]));
-    let report = |method: &Method<'_>| {
-        let tallies = score(method, flights, windows, memberships, &settings, wanted);
-        let scores = scores(&tallies.overall, settings.resamples, settings.seed);
-        AnchoredMethod { name: method.name().to_owned(), scores }
-    };
-    AnchorReport { anchor, methods: methods.par_iter().map(report).collect() }
 }
 
 /// The splits to score.

@@ -3,6 +3,7 @@
 use crate::join::Joined;
 use crate::settings::Settings;
 use crate::windows::{Flights, Window, WindowSet};
+use cosfly_diagnose::Result;
 use cosfly_frames::Pose;
 use cosfly_metrics::baselines::features::{Examples, Known};
 use cosfly_metrics::baselines::{Anchor, Extrapolation, NearestNeighbour, Ridge};
@@ -105,38 +106,48 @@ fn training_windows(flights: &Flights, settings: &Settings) -> Vec<Window> {
     set.all(flights).step_by(every).collect()
 }
 
-/// Training windows as features and outcomes.
-fn examples(flights: &Flights, settings: &Settings, known: Known) -> Examples {
+/// Training windows as features and outcomes: with the target's true places, and with its boxes.
+fn examples(flights: &Flights, settings: &Settings) -> Result<[Examples; 2]> {
     let shape = &settings.window;
-    let mut examples = Examples { known, ..Examples::default() };
-    for window in training_windows(flights, settings) {
-        let start = flights.anchor(window, shape, settings.anchor);
-        examples.push(&flights.view(window, shape), &start, &flights.truth(window, shape));
+    let mut examples = [Known::Places, Known::Boxes].map(|known| Examples { known, ..Examples::default() });
+    let windows = training_windows(flights, settings);
+    for part in flights.parts(&windows, &|window| window.flight) {
+        let mut chosen: Vec<usize> = part.iter().map(|window| window.flight).collect();
+        chosen.dedup();
+        let loaded = flights.part(&chosen)?;
+        for window in part {
+            let start = loaded.anchor(*window, shape, settings.anchor);
+            let (view, truth) = (loaded.view(*window, shape), loaded.truth(*window, shape));
+            examples.iter_mut().for_each(|examples| examples.push(&view, &start, &truth));
+        }
     }
-    examples
+    Ok(examples)
 }
 
 /// All baselines that can be made; the reasons why others cannot go to `notes`.
+///
+/// # Errors
+/// Damage of the dataset.
 pub fn baselines(
     flights: &Flights,
     settings: &Settings,
     windows: usize,
     in_sample: bool,
     notes: &mut Vec<String>,
-) -> Vec<Method<'static>> {
+) -> Result<Vec<Method<'static>>> {
     let mut methods: Vec<Method<'static>> = Extrapolation::ALL.map(Method::Extrapolation).into();
-    let examples = examples(flights, settings, Known::Places);
+    let [examples, with_boxes] = examples(flights, settings)?;
     if examples.is_empty() {
         notes.push("ridge and nearest neighbour are left out: split train has no window to learn from".to_owned());
-        return methods;
+        return Ok(methods);
     }
     if in_sample {
         notes
             .push("ridge and nearest neighbour have learnt from windows that are scored here (split train)".to_owned());
     }
     let limit = COMPARED_NUMBERS / windows.max(1) / examples.width.max(1);
-    methods.extend(Ridge::fit(&self::examples(flights, settings, Known::Boxes)).map(Method::Ridge));
+    methods.extend(Ridge::fit(&with_boxes).map(Method::Ridge));
     methods.extend(Ridge::fit(&examples).map(Method::Ridge));
     methods.extend(NearestNeighbour::fit(&examples, limit.max(64)).map(Method::Nearest));
-    methods
+    Ok(methods)
 }

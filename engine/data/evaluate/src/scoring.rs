@@ -2,8 +2,9 @@
 
 use crate::methods::Method;
 use crate::settings::Settings;
-use crate::strata::{COUNT, Membership};
+use crate::strata::{COUNT, Membership, is_seen, memberships};
 use crate::windows::{Flights, WindowSet};
+use cosfly_diagnose::Result;
 use cosfly_metrics::{Tally, errors};
 use rayon::prelude::*;
 use std::collections::BTreeMap;
@@ -46,71 +47,114 @@ struct FlightTally {
     by_step_m: Vec<f64>,
 }
 
-/// Scores `method` on the windows for which `wanted` holds. The sums are taken in the order of windows, whatever
-/// thread did what.
+/// Scores methods, each with its settings, on the windows for which `wanted` holds. Tracks of some flights are in memory at a
+/// time. The sums are taken in the order of windows, whatever thread did what.
+///
+/// # Errors
+/// Damage of the dataset.
 pub fn score(
-    method: &Method<'_>,
+    methods: &[(&Method<'_>, &Settings)],
     flights: &Flights,
     windows: &WindowSet,
-    memberships: &[Membership],
-    settings: &Settings,
     wanted: &(dyn Fn(usize) -> bool + Sync),
-) -> MethodTallies {
-    let empty = FlightTally {
+) -> Result<Vec<MethodTallies>> {
+    let clusters = clusters(flights, windows);
+    let seen = is_seen(flights);
+    let mut sums: Vec<Sums> = methods.iter().map(|_| Sums::new(&clusters, windows.shape.horizon)).collect();
+    let mut first = 0;
+    for part in flights.parts(&windows.flights, &|entry| entry.0) {
+        let chosen: Vec<usize> = part.iter().map(|entry| entry.0).collect();
+        let loaded = flights.part(&chosen)?;
+        let memberships = memberships(&loaded, windows, &seen, part);
+        sums.par_iter_mut().zip(methods).for_each(|(sums, (method, settings))| {
+            let of_flight = |(entry, memberships): (&(usize, usize), &Vec<Membership>)| {
+                tally(method, settings, &loaded, windows, *entry, memberships, wanted)
+            };
+            let by_flight: Vec<FlightTally> = part.par_iter().zip(&memberships).map(of_flight).collect();
+            sums.add(&by_flight, &clusters[first..]);
+        });
+        first += part.len();
+    }
+    Ok(sums.into_iter().map(Sums::finished).collect())
+}
+
+/// The errors of a method in the windows of a flight.
+fn tally(
+    method: &Method<'_>,
+    settings: &Settings,
+    flights: &Flights,
+    windows: &WindowSet,
+    entry: (usize, usize),
+    memberships: &[Membership],
+    wanted: &(dyn Fn(usize) -> bool + Sync),
+) -> FlightTally {
+    let mut sum = FlightTally {
         overall: Tally::default(),
         strata: [Tally::default(); COUNT],
         by_step_m: vec![0.0; windows.shape.horizon],
     };
-    let of_flight = |entry: &(usize, usize)| {
-        let mut sum = empty.clone();
-        for (number, window) in windows.of_flight(*entry, flights.rows[entry.0].frames) {
-            let waypoints = if wanted(number) { method.waypoints(flights, window, number, settings) } else { None };
-            let Some(waypoints) = waypoints else { continue };
-            let truth = flights.truth(window, &windows.shape);
-            let mut tally = Tally::default();
-            tally.add_window(&errors(&waypoints, &truth));
-            let boxes = method.boxes(flights, window, number, settings);
-            if !boxes.is_empty() {
-                for (predicted, truth) in boxes.iter().zip(flights.true_boxes(window, &windows.shape)) {
-                    if let Some(truth) = truth {
-                        tally.add_box(predicted.as_ref(), &truth);
-                    }
+    for ((number, window), membership) in windows.of_flight(entry, flights.rows[entry.0].frames).zip(memberships) {
+        let waypoints = if wanted(number) { method.waypoints(flights, window, number, settings) } else { None };
+        let Some(waypoints) = waypoints else { continue };
+        let truth = flights.truth(window, &windows.shape);
+        let mut tally = Tally::default();
+        tally.add_window(&errors(&waypoints, &truth));
+        let boxes = method.boxes(flights, window, number, settings);
+        if !boxes.is_empty() {
+            for (predicted, truth) in boxes.iter().zip(flights.true_boxes(window, &windows.shape)) {
+                if let Some(truth) = truth {
+                    tally.add_box(predicted.as_ref(), &truth);
                 }
-            }
-            sum.overall.add(&tally);
-            for (stratum, total) in sum.strata.iter_mut().enumerate() {
-                if memberships[number] & (1 << stratum) != 0 {
-                    total.add(&tally);
-                }
-            }
-            for ((sum, reached), truth) in sum.by_step_m.iter_mut().zip(&waypoints).zip(&truth) {
-                *sum += (reached.position_in_world - truth.position_in_world).length();
             }
         }
-        sum
-    };
-    let by_flight: Vec<FlightTally> = windows.flights.par_iter().map(of_flight).collect();
-    gathered(&by_flight, &clusters(flights, windows), windows.shape.horizon)
+        sum.overall.add(&tally);
+        for (stratum, total) in sum.strata.iter_mut().enumerate() {
+            if membership & (1 << stratum) != 0 {
+                total.add(&tally);
+            }
+        }
+        for ((sum, reached), truth) in sum.by_step_m.iter_mut().zip(&waypoints).zip(&truth) {
+            *sum += (reached.position_in_world - truth.position_in_world).length();
+        }
+    }
+    sum
 }
 
-fn gathered(by_flight: &[FlightTally], clusters: &[usize], horizon: usize) -> MethodTallies {
-    let number = clusters.iter().max().map_or(0, |last| last + 1);
-    let mut overall = vec![Tally::default(); number];
-    let mut strata: [Vec<Tally>; COUNT] = core::array::from_fn(|_| vec![Tally::default(); number]);
-    let mut by_step_m = vec![0.0; horizon];
-    for (flight, cluster) in by_flight.iter().zip(clusters) {
-        overall[*cluster].add(&flight.overall);
-        for (stratum, tally) in strata.iter_mut().zip(&flight.strata) {
-            stratum[*cluster].add(tally);
+/// Sums of a method, cluster by cluster.
+struct Sums {
+    overall: Vec<Tally>,
+    strata: [Vec<Tally>; COUNT],
+    by_step_m: Vec<f64>,
+}
+
+impl Sums {
+    fn new(clusters: &[usize], horizon: usize) -> Self {
+        let number = clusters.iter().max().map_or(0, |last| last + 1);
+        Self {
+            overall: vec![Tally::default(); number],
+            strata: core::array::from_fn(|_| vec![Tally::default(); number]),
+            by_step_m: vec![0.0; horizon],
         }
-        by_step_m.iter_mut().zip(&flight.by_step_m).for_each(|(sum, more)| *sum += more);
     }
-    let windows: f64 = overall.iter().map(|tally| tally.windows).sum();
-    by_step_m.iter_mut().for_each(|sum| *sum /= windows.max(1.0));
-    for tallies in strata.iter_mut().chain([&mut overall]) {
-        tallies.retain(|tally| tally.windows > 0.0);
+
+    fn add(&mut self, by_flight: &[FlightTally], clusters: &[usize]) {
+        for (flight, cluster) in by_flight.iter().zip(clusters) {
+            self.overall[*cluster].add(&flight.overall);
+            for (stratum, tally) in self.strata.iter_mut().zip(&flight.strata) {
+                stratum[*cluster].add(tally);
+            }
+            self.by_step_m.iter_mut().zip(&flight.by_step_m).for_each(|(sum, more)| *sum += more);
+        }
     }
-    MethodTallies { overall, strata, by_step_m }
+
+    fn finished(mut self) -> MethodTallies {
+        let windows: f64 = self.overall.iter().map(|tally| tally.windows).sum();
+        self.by_step_m.iter_mut().for_each(|sum| *sum /= windows.max(1.0));
+        for tallies in self.strata.iter_mut().chain([&mut self.overall]) {
+            tallies.retain(|tally| tally.windows > 0.0);
+        }
+        MethodTallies { overall: self.overall, strata: self.strata, by_step_m: self.by_step_m }
+    }
 }
 
 /// All tallies as one.

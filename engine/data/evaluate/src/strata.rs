@@ -2,7 +2,6 @@
 
 use crate::windows::{Flights, Window, WindowSet};
 use cosfly_metrics::{Difficulty, WindowShape};
-use cosfly_read::PublishedFlight;
 use cosfly_schema::TownLayout;
 use rayon::prelude::*;
 use std::collections::BTreeMap;
@@ -26,21 +25,25 @@ pub const STRATA: [(&str, &str); COUNT] = [
 /// Places in [`STRATA`], one bit each.
 pub type Membership = u16;
 
-/// The strata of every window.
+/// The strata of every window of the flights of `part`, which are loaded.
 ///
 /// * difficulty: see [`cosfly_metrics::difficulty`].
 /// * scene: a town is seen when a flight of split `train` is in a town of the same ground plan, whatever its name.
 /// * target in the input: occluded when rays reach less than half of it in an input frame.
 /// * target: static when it stays within half a metre during the window.
-pub fn memberships(flights: &Flights, windows: &WindowSet) -> Vec<Membership> {
-    let seen = is_seen(flights);
+pub fn memberships(
+    flights: &Flights,
+    windows: &WindowSet,
+    seen: &[bool],
+    part: &[(usize, usize)],
+) -> Vec<Vec<Membership>> {
     let of_flight = |entry: &(usize, usize)| -> Vec<Membership> {
         let row = &flights.rows[entry.0];
         let scene = if seen[entry.0] { 3 } else { 4 };
         let numbered = windows.of_flight(*entry, row.frames);
         numbered.map(|(_, window)| (1 << scene) | of_window(flights, window, &windows.shape)).collect()
     };
-    windows.flights.par_iter().flat_map_iter(of_flight).collect()
+    part.par_iter().map(of_flight).collect()
 }
 
 /// Of every flight whether a flight of split `train` is in a town of the same ground plan.
@@ -49,13 +52,13 @@ pub fn is_seen(flights: &Flights) -> Vec<bool> {
     let seen: BTreeMap<&str, &TownLayout> =
         train.map(|row| (row.town_layout.digest.as_str(), &*row.town_layout)).collect();
     // Each town is compared with those of the training split once.
-    let mut known: BTreeMap<&str, bool> = BTreeMap::new();
-    let is_seen = |row: &PublishedFlight| {
-        let layout = &row.town_layout;
+    let layouts: BTreeMap<&str, &TownLayout> =
+        flights.rows.iter().map(|row| (row.town_layout.digest.as_str(), &*row.town_layout)).collect();
+    let is_seen = |layout: &TownLayout| {
         seen.contains_key(layout.digest.as_str()) || seen.values().any(|it| it.is_same_place(layout))
     };
-    let of = |row: &'_ PublishedFlight| *known.entry(row.town_layout.digest.as_str()).or_insert_with(|| is_seen(row));
-    flights.rows.iter().map(of).collect()
+    let known: BTreeMap<&str, bool> = layouts.into_iter().map(|(digest, layout)| (digest, is_seen(layout))).collect();
+    flights.rows.iter().map(|row| known[row.town_layout.digest.as_str()]).collect()
 }
 
 fn of_window(flights: &Flights, window: Window, shape: &WindowShape) -> Membership {
@@ -65,7 +68,7 @@ fn of_window(flights: &Flights, window: Window, shape: &WindowShape) -> Membersh
         Difficulty::Medium => 1,
         Difficulty::Hard => 2,
     };
-    let input = &flights.tracks[window.flight].visible[window.start..window.start + shape.history];
+    let input = &flights.track(window.flight).visible[window.start..window.start + shape.history];
     let occluded = if input.iter().any(|visible| *visible < 0.5) { 6 } else { 5 };
     let target = if features.target_is_static() { 8 } else { 7 };
     (1 << difficulty) | (1 << occluded) | (1 << target)

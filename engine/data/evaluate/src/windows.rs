@@ -6,23 +6,32 @@ use cosfly_frames::Pose;
 use cosfly_metrics::baselines::{Anchor, View};
 use cosfly_metrics::difficulty::WindowFrames;
 use cosfly_metrics::{WindowFeatures, WindowShape};
-use cosfly_read::{FlightTrack, PublishedDataset, PublishedFlight};
+use cosfly_read::{FlightTrack, PublishedDataset, PublishedFlight, RowIndex};
+use std::borrow::Cow;
 use std::collections::{BTreeMap, BTreeSet};
+use std::sync::Arc;
 
-/// A dataset's flights with their tracks.
-#[derive(Debug)]
+/// Frames whose tracks are in memory at a time.
+const FRAMES_AT_ONCE: usize = 1_000_000;
+
+/// A dataset's flights, with the tracks of all or some of them.
+#[derive(Clone, Debug)]
 pub struct Flights {
     /// Name of the dataset's folder.
     pub name: String,
     /// The folder as it was given.
     pub folder: String,
     /// Rows of the table of flights.
-    pub rows: Vec<PublishedFlight>,
-    /// Frames of each flight.
-    pub tracks: Vec<FlightTrack>,
+    pub rows: Arc<Vec<PublishedFlight>>,
     /// The expert of each flight; itself for an expert.
-    pub expert: Vec<usize>,
-    places: BTreeMap<String, usize>,
+    pub expert: Arc<Vec<usize>>,
+    /// Flights whose ids have a dot, by their keys in WebDataset.
+    by_key: Arc<BTreeMap<String, usize>>,
+    dataset: Arc<PublishedDataset>,
+    index: Arc<RowIndex>,
+    /// Frames of the flights that are loaded.
+    tracks: BTreeMap<usize, FlightTrack>,
+    frames_at_once: usize,
 }
 
 /// A window: flight and first frame.
@@ -35,48 +44,114 @@ pub struct Window {
 }
 
 impl Flights {
-    /// Reads all flights of `dataset`.
+    /// Reads the flights of `dataset`; their tracks, too, where they have a million frames at most.
     ///
     /// # Errors
     /// Damage of the dataset: an expert that is not there, or frames that an expert does not have.
     pub fn read(dataset: &PublishedDataset) -> Result<Self> {
-        let all = (0..dataset.flights().len()).collect();
-        let tracks: Vec<FlightTrack> = dataset.tracks(&dataset.row_index("frames")?, &all)?.into_values().collect();
+        Self::with_frames_at_once(dataset, FRAMES_AT_ONCE)
+    }
+
+    /// Reads the flights of `dataset`, with tracks of so many frames in memory at a time.
+    ///
+    /// # Errors
+    /// Those of [`Self::read`].
+    pub fn with_frames_at_once(dataset: &PublishedDataset, frames_at_once: usize) -> Result<Self> {
         let rows = dataset.flights().to_vec();
-        let places: BTreeMap<String, usize> =
-            rows.iter().enumerate().map(|(place, row)| (row.trajectory_id.clone(), place)).collect();
         let mut expert = Vec::with_capacity(rows.len());
-        for (place, (row, track)) in rows.iter().zip(&tracks).enumerate() {
-            let damaged = |what: String| {
-                let message = format!("flight `{}` {what}", row.trajectory_id);
-                Diagnostic::new("dataset-damaged", Fault::Input, message)
-            };
-            let of = row.expert_id.as_ref().map_or(Some(place), |id| places.get(id).copied());
-            let of = of.ok_or_else(|| {
-                damaged(format!(
-                    "has the expert `{}`, which is not there",
-                    row.expert_id.as_deref().unwrap_or_default()
-                ))
-            })?;
-            let frames = tracks[of].poses.len();
-            if let Some(frame) = track.expert_frame.iter().find(|frame| **frame as usize >= frames) {
-                return Err(damaged(format!("belongs to frame {frame} of an expert with {frames} frames")));
-            }
-            expert.push(of);
+        for (place, row) in rows.iter().enumerate() {
+            let of = row.expert_id.as_ref().map_or(Some(place), |id| dataset.place(id));
+            let absent =
+                || format!("has the expert `{}`, which is not there", row.expert_id.as_deref().unwrap_or_default());
+            expert.push(of.ok_or_else(|| damaged(row, &absent()))?);
         }
+        let dotted = rows.iter().enumerate().filter(|(_, row)| row.trajectory_id.contains('.'));
+        let by_key = dotted.rev().map(|(place, row)| (row.trajectory_id.replace('.', "_"), place)).collect();
         let folder = dataset.folder();
         let name = folder.file_name().map_or_else(|| ".".to_owned(), |name| name.to_string_lossy().into_owned());
-        Ok(Self { name, folder: folder.display().to_string(), rows, tracks, expert, places })
+        let mut flights = Self {
+            name,
+            folder: folder.display().to_string(),
+            rows: Arc::new(rows),
+            expert: Arc::new(expert),
+            by_key: Arc::new(by_key),
+            dataset: Arc::new(dataset.clone()),
+            index: Arc::new(dataset.row_index("frames")?),
+            tracks: BTreeMap::new(),
+            frames_at_once,
+        };
+        if flights.rows.iter().map(|row| row.frames).sum::<usize>() <= frames_at_once {
+            flights.tracks = flights.load(&(0..flights.rows.len()).collect::<Vec<_>>())?;
+        }
+        Ok(flights)
+    }
+
+    /// Tracks of some flights and their experts.
+    fn load(&self, flights: &[usize]) -> Result<BTreeMap<usize, FlightTrack>> {
+        let wanted = flights.iter().flat_map(|flight| [*flight, self.expert[*flight]]).collect();
+        let tracks = self.dataset.tracks(&self.index, &wanted)?;
+        for flight in flights {
+            let frames = self.rows[self.expert[*flight]].frames;
+            if let Some(frame) = tracks[flight].expert_frame.iter().find(|frame| **frame as usize >= frames) {
+                let what = format!("belongs to frame {frame} of an expert with {frames} frames");
+                return Err(damaged(&self.rows[*flight], &what));
+            }
+        }
+        Ok(tracks)
+    }
+
+    /// The same flights with the tracks of at least these and their experts.
+    ///
+    /// # Errors
+    /// Damage of the dataset.
+    pub fn part(&self, flights: &[usize]) -> Result<Cow<'_, Self>> {
+        if flights.iter().all(|flight| self.tracks.contains_key(flight)) {
+            return Ok(Cow::Borrowed(self));
+        }
+        let without = Self {
+            name: self.name.clone(),
+            folder: self.folder.clone(),
+            rows: Arc::clone(&self.rows),
+            expert: Arc::clone(&self.expert),
+            by_key: Arc::clone(&self.by_key),
+            dataset: Arc::clone(&self.dataset),
+            index: Arc::clone(&self.index),
+            tracks: BTreeMap::new(),
+            frames_at_once: self.frames_at_once,
+        };
+        Ok(Cow::Owned(Self { tracks: self.load(flights)?, ..without }))
+    }
+
+    /// `items` in parts whose flights have about as many frames as may be in memory at a time.
+    pub fn parts<'i, T>(&self, items: &'i [T], flight_of: &dyn Fn(&T) -> usize) -> Vec<&'i [T]> {
+        let (mut parts, mut start, mut frames) = (vec![], 0, 0);
+        for (at, item) in items.iter().enumerate() {
+            let is_new = at == start || flight_of(&items[at - 1]) != flight_of(item);
+            // With the expert's.
+            let more = if is_new { 2 * self.rows[flight_of(item)].frames } else { 0 };
+            if at > start && is_new && frames + more > self.frames_at_once {
+                parts.push(&items[start..at]);
+                (start, frames) = (at, 0);
+            }
+            frames += more;
+        }
+        parts.push(&items[start..]);
+        parts
+    }
+
+    /// Track of a flight that is loaded.
+    pub fn track(&self, flight: usize) -> &FlightTrack {
+        &self.tracks[&flight]
     }
 
     /// Place of a flight.
     pub fn place(&self, trajectory_id: &str) -> Option<usize> {
-        self.places.get(trajectory_id).copied()
+        self.dataset.place(trajectory_id)
     }
 
     /// Place of a flight by its id as keys of WebDataset have it, with `_` for `.`.
     pub fn place_by_key(&self, key: &str) -> Option<usize> {
-        self.rows.iter().position(|row| row.trajectory_id.contains('.') && row.trajectory_id.replace('.', "_") == key)
+        self.by_key.get(key).copied()
     }
 
     /// Which flights models see.
@@ -86,7 +161,7 @@ impl Flights {
 
     /// The inputs of a window.
     pub fn view(&self, window: Window, shape: &WindowShape) -> View<'_> {
-        let (track, camera) = (&self.tracks[window.flight], &self.rows[window.flight].camera);
+        let (track, camera) = (self.track(window.flight), &self.rows[window.flight].camera);
         let frames = window.start..window.start + shape.history;
         View {
             poses: &track.poses[frames.clone()],
@@ -99,7 +174,7 @@ impl Flights {
 
     /// The expert's frame of frame `frame` of the flight of `window`.
     fn expert_frame(&self, window: Window, frame: usize) -> (usize, usize) {
-        (self.expert[window.flight], self.tracks[window.flight].expert_frame[frame] as usize)
+        (self.expert[window.flight], self.track(window.flight).expert_frame[frame] as usize)
     }
 
     /// The expert's poses in the frames to predict.
@@ -107,7 +182,7 @@ impl Flights {
         let first = window.start + shape.history;
         let pose = |frame| {
             let (expert, frame) = self.expert_frame(window, frame);
-            self.tracks[expert].poses[frame]
+            self.track(expert).poses[frame]
         };
         (first..first + shape.horizon).map(pose).collect()
     }
@@ -117,7 +192,7 @@ impl Flights {
         let first = window.start + shape.history;
         (first..first + shape.horizon).map(move |frame| {
             let (expert, frame) = self.expert_frame(window, frame);
-            self.tracks[expert].boxes[frame].map(|edges| edges.map(f64::from))
+            self.track(expert).boxes[frame].map(|edges| edges.map(f64::from))
         })
     }
 
@@ -125,22 +200,22 @@ impl Flights {
     pub fn anchor(&self, window: Window, shape: &WindowShape, anchor: Anchor) -> Pose {
         let current = window.start + shape.history - 1;
         match anchor {
-            Anchor::Input => self.tracks[window.flight].poses[current],
+            Anchor::Input => self.track(window.flight).poses[current],
             Anchor::Expert => {
                 let (expert, frame) = self.expert_frame(window, current);
-                self.tracks[expert].poses[frame]
+                self.track(expert).poses[frame]
             }
         }
     }
 
     /// Features that make a window easy or hard.
     pub fn features(&self, window: Window, shape: &WindowShape) -> WindowFeatures {
-        let track = &self.tracks[window.flight];
+        let track = self.track(window.flight);
         let frames = window.start..window.start + shape.size();
         let of_expert = |frame| self.expert_frame(window, frame);
-        let expert: Vec<Pose> = frames.clone().map(of_expert).map(|(it, frame)| self.tracks[it].poses[frame]).collect();
+        let expert: Vec<Pose> = frames.clone().map(of_expert).map(|(it, frame)| self.track(it).poses[frame]).collect();
         let visible: Vec<f64> =
-            frames.clone().map(of_expert).map(|(it, frame)| self.tracks[it].visible[frame]).collect();
+            frames.clone().map(of_expert).map(|(it, frame)| self.track(it).visible[frame]).collect();
         WindowFeatures::of(&WindowFrames {
             expert: &expert,
             feet: &track.feet[frames.clone()],
@@ -149,6 +224,10 @@ impl Flights {
             dt_s: self.rows[window.flight].dt_s,
         })
     }
+}
+
+fn damaged(row: &PublishedFlight, what: &str) -> Box<Diagnostic> {
+    Diagnostic::new("dataset-damaged", Fault::Input, format!("flight `{}` {what}", row.trajectory_id))
 }
 
 /// The windows that are to be predicted, flight by flight.

@@ -174,6 +174,19 @@ fn threads_do_not_change_a_byte() {
 }
 
 #[test]
+fn tracks_in_memory_do_not_change_a_byte() {
+    let (_folder, dataset) = dataset();
+    let settings = settings();
+    let rows = perfect(&dataset, &settings, |pose| pose.position_in_world.x += 0.3);
+    let [all, few] = [1_000_000, 1].map(|frames| {
+        let flights = Flights::with_frames_at_once(&dataset, frames).unwrap();
+        let found = evaluate(&flights, Some(("some", predictions(&rows))), &settings).unwrap();
+        found.to_json()
+    });
+    assert!(all == few);
+}
+
+#[test]
 fn what_cannot_be_scored_is_refused() {
     let (_folder, dataset) = dataset();
     let empty = |settings: &Settings| evaluate(&Flights::read(&dataset).unwrap(), None, settings).unwrap_err();

@@ -7,16 +7,38 @@ use cosfly_read::{FrameRow, PublishedDataset, PublishedFlight};
 use cosfly_render::Lens;
 use serde::Serialize;
 use std::collections::BTreeMap;
+use std::io::Write;
 
 /// Version of the file, raised when older scripts would misread newer jobs.
 const VERSION: u32 = 1;
 
-/// The job. Lengths in metres, angles in degrees, all in the frame of CARLA's own world.
-#[derive(Clone, Debug, PartialEq, Serialize)]
-pub struct CarlaJob {
-    format: &'static str,
-    version: u32,
-    flights: Vec<JobFlight>,
+/// Writes a job over `flights` of `dataset` to `out`, one flight at a time. Lengths in metres, angles in degrees, all in the
+/// frame of CARLA's own world.
+///
+/// # Errors
+/// `carla-lens` for a flight with a lens that CARLA lacks, before anything is written; damage of the dataset; a full disk.
+pub fn write(dataset: &PublishedDataset, flights: &[&PublishedFlight], out: &mut dyn Write) -> Result<()> {
+    flights.iter().try_for_each(|flight| check_lens(flight))?;
+    let failed = |error: std::io::Error| Diagnostic::io("write the job", &error);
+    let index = dataset.row_index("frames")?;
+    write!(out, "{{\"format\":\"cosfly-carla-job\",\"version\":{VERSION},\"flights\":[").map_err(failed)?;
+    for (number, flight) in flights.iter().enumerate() {
+        let flight = JobFlight::new(flight, &dataset.frames(&index, flight)?);
+        let text = serde_json::to_string(&flight).expect("a job is plain JSON");
+        let comma = if number > 0 { "," } else { "" };
+        write!(out, "{comma}{text}").map_err(failed)?;
+    }
+    writeln!(out, "]}}").map_err(failed)
+}
+
+fn check_lens(flight: &PublishedFlight) -> Result<()> {
+    if flight.lens.is_none() {
+        return Ok(());
+    }
+    let Lens { k1, k2 } = flight.lens;
+    let message = format!("the lens of `{}` is bent (k1 = {k1}, k2 = {k2})", flight.trajectory_id);
+    Err(Diagnostic::new("carla-lens", Fault::Recipe, message)
+        .hint("CARLA's lens is bent by another formula; render the flights without `lens`"))
 }
 
 /// One flight.
@@ -59,37 +81,11 @@ struct JobFrame {
     target: [f64; 5],
 }
 
-impl CarlaJob {
-    /// A job over `flights` of `dataset`.
-    pub fn new(dataset: &PublishedDataset, flights: &[&PublishedFlight]) -> Result<Self> {
-        let wanted: BTreeMap<&str, &PublishedFlight> =
-            flights.iter().map(|flight| (flight.trajectory_id.as_str(), *flight)).collect();
-        let mut made = BTreeMap::new();
-        dataset.walk(&|flight| wanted.contains_key(&*flight.trajectory_id), &mut |flight, frames| {
-            made.insert(flight.trajectory_id.clone(), JobFlight::new(wanted[&*flight.trajectory_id], &frames)?);
-            Ok(())
-        })?;
-        let flights = flights.iter().filter_map(|flight| made.remove(&flight.trajectory_id)).collect();
-        Ok(Self { format: "cosfly-carla-job", version: VERSION, flights })
-    }
-
-    /// The file's text.
-    pub fn to_json(&self) -> String {
-        serde_json::to_string(self).expect("a job is plain JSON") + "\n"
-    }
-}
-
 impl JobFlight {
-    fn new(flight: &PublishedFlight, frames: &[FrameRow]) -> Result<Self> {
-        if !flight.lens.is_none() {
-            let Lens { k1, k2 } = flight.lens;
-            let message = format!("the lens of `{}` is bent (k1 = {k1}, k2 = {k2})", flight.trajectory_id);
-            return Err(Diagnostic::new("carla-lens", Fault::Recipe, message)
-                .hint("CARLA's lens is bent by another formula; render the flights without `lens`"));
-        }
+    fn new(flight: &PublishedFlight, frames: &[FrameRow]) -> Self {
         let (camera, offset) = (&flight.camera, flight.town_offset_m);
         let walker = Digest::of(flight.pedestrian_id.as_bytes()).0;
-        Ok(Self {
+        Self {
             trajectory_id: flight.trajectory_id.clone(),
             town: flight.town.clone(),
             log: flight.mcap_path.clone(),
@@ -107,7 +103,7 @@ impl JobFlight {
                 walker: u32::from_le_bytes([walker[0], walker[1], walker[2], 0]),
             },
             frames: frames.iter().map(|frame| JobFrame::new(frame, offset)).collect(),
-        })
+        }
     }
 }
 
@@ -141,8 +137,9 @@ mod tests {
     fn a_job_holds_poses_weather_and_camera_of_every_flight() {
         let (_folder, dataset) = published();
         let flights: Vec<_> = dataset.flights().iter().collect();
-        let job: serde_json::Value =
-            serde_json::from_str(&CarlaJob::new(&dataset, &flights).unwrap().to_json()).unwrap();
+        let mut text = vec![];
+        write(&dataset, &flights, &mut text).unwrap();
+        let job: serde_json::Value = serde_json::from_slice(&text).unwrap();
         assert_eq!((job["format"].as_str(), job["version"].as_u64()), (Some("cosfly-carla-job"), Some(1)));
         let flights = job["flights"].as_array().unwrap();
         assert_eq!(flights.len(), 4);
@@ -152,7 +149,7 @@ mod tests {
         assert_eq!(first["frames"].as_array().unwrap().len(), given.len());
         let pose = &given.trajectory.poses_in_world[3];
         let bent = PublishedFlight { lens: Lens { k1: 0.1, k2: 0.0 }, ..dataset.flights()[0].clone() };
-        assert_eq!(CarlaJob::new(&dataset, &[&bent]).unwrap_err().code, "carla-lens");
+        assert_eq!(write(&dataset, &[&bent], &mut vec![]).unwrap_err().code, "carla-lens");
         let camera = &first["frames"][3]["camera"];
         assert_eq!(camera[1].as_f64(), Some(pose.position_in_world.y));
         assert!((camera[4].as_f64().unwrap() - pose.yaw_rad.to_degrees()).abs() < 1e-9);

@@ -202,6 +202,7 @@ fn no_folder_of_pictures_has_more_than_a_thousand_entries() {
 #[test]
 fn what_a_vision_language_model_learns_to_say_leads_to_the_expert() {
     let (home, dataset) = published();
+    let index = dataset.row_index("frames").unwrap();
     for (delta_frame, name) in [(DeltaFrame::World, "world"), (DeltaFrame::Body, "body")] {
         let out = home.path().join(name);
         let mut options = options("vlm");
@@ -219,8 +220,9 @@ fn what_a_vision_language_model_learns_to_say_leads_to_the_expert() {
                 let deltas: Vec<[f64; 6]> = serde_json::from_value(answer["waypoint_deltas"].clone()).unwrap();
                 let id = row["trajectory_id"].as_str().unwrap();
                 let current = row["frame"].as_u64().unwrap() as usize + 2;
-                let own = dataset.frames(dataset.flight(id).unwrap()).unwrap();
-                let expert = dataset.frames(dataset.flight(&id.replace("perturbed", "expert")).unwrap()).unwrap();
+                let own = dataset.frames(&index, dataset.flight(id).unwrap()).unwrap();
+                let expert =
+                    dataset.frames(&index, dataset.flight(&id.replace("perturbed", "expert")).unwrap()).unwrap();
                 let mut reached = vec![];
                 cosfly_metrics::waypoints(
                     &own[current].pose,

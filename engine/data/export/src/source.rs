@@ -29,7 +29,7 @@ pub struct Source<'a> {
     pub dataset: &'a PublishedDataset,
     /// Trajectory ids of the chosen flights.
     chosen: BTreeSet<String>,
-    captions: RefCell<CaptionReader<'a>>,
+    captions: RefCell<CaptionReader>,
     /// Places of the rows of table `frames`.
     index: OnceCell<RowIndex>,
     progress: &'a dyn Fn(u64, u64),
@@ -139,7 +139,7 @@ impl<'a> Source<'a> {
         self.done.set(0);
         self.dataset.walk(&is_wanted, &mut |flight, frames| {
             let place = self.dataset.place(&flight.trajectory_id).unwrap_or_default();
-            let captions = self.captions.borrow_mut().at(place)?.to_vec();
+            let captions = self.captions.borrow_mut().at(self.dataset, place)?.to_vec();
             let end = self.done.get() + frames.len() as u64;
             visit(&Episode { flight, frames, captions, source: self, logs: Mutex::default() })?;
             self.set_done(end);
@@ -179,10 +179,13 @@ impl Episode<'_> {
         make: impl Fn(usize, LoggedFrame) -> Result<T> + Sync,
         mut take: impl FnMut(usize, T) -> Result<()>,
     ) -> Result<()> {
+        let (dataset, flight, logs) = (self.source.dataset, self.flight, &self.logs);
         let made_of = |frame: &usize| {
-            let mut log = self.log()?;
+            // Each thread opens the log once at most.
+            let open = logs.lock().unwrap_or_else(PoisonError::into_inner).pop();
+            let mut log = open.map_or_else(|| dataset.log(flight), Ok)?;
             let made = make(*frame, log.frame_with_instances(*frame)?);
-            self.logs.lock().unwrap_or_else(PoisonError::into_inner).push(log);
+            logs.lock().unwrap_or_else(PoisonError::into_inner).push(log);
             made
         };
         for batch in frames.chunks(BATCH) {
@@ -193,12 +196,6 @@ impl Episode<'_> {
             self.source.set_done(self.source.done.get() + batch.len() as u64);
         }
         Ok(())
-    }
-
-    /// An open log of the flight that nobody reads: each thread opens one at most.
-    fn log(&self) -> Result<LogReader> {
-        let open = self.logs.lock().unwrap_or_else(PoisonError::into_inner).pop();
-        open.map_or_else(|| self.source.dataset.log(self.flight), Ok)
     }
 
     /// The expert's pose of every frame (for an expert, the own poses).

@@ -8,26 +8,25 @@ use cosfly_schema::tables::Captions;
 use std::collections::BTreeMap;
 
 /// Reads captions trajectory by trajectory.
-pub struct CaptionReader<'a> {
-    dataset: &'a PublishedDataset,
+pub struct CaptionReader {
     index: RowIndex,
     known: BTreeMap<usize, Vec<CaptionRecord>>,
 }
 
-impl<'a> CaptionReader<'a> {
+impl CaptionReader {
     /// A reader of table `captions`.
     ///
     /// # Errors
     /// Damage of the table.
-    pub fn of(dataset: &'a PublishedDataset) -> Result<Self> {
-        Ok(Self { dataset, index: dataset.row_index("captions")?, known: BTreeMap::new() })
+    pub fn of(dataset: &PublishedDataset) -> Result<Self> {
+        Ok(Self { index: dataset.row_index("captions")?, known: BTreeMap::new() })
     }
 
-    /// Captions of the trajectory at a place in [`PublishedDataset::flights`].
+    /// Captions of the trajectory at a place in [`PublishedDataset::flights`] of the same dataset.
     ///
     /// # Errors
     /// Damage of the table.
-    pub fn at(&mut self, place: usize) -> Result<&[CaptionRecord]> {
+    pub fn at(&mut self, dataset: &PublishedDataset, place: usize) -> Result<&[CaptionRecord]> {
         if !self.known.contains_key(&place) && self.index.has(place) {
             self.known = BTreeMap::new();
             let wanted = self.index.beside(place);
@@ -35,7 +34,7 @@ impl<'a> CaptionReader<'a> {
             self.index.visit(&wanted, &mut |rows, _| {
                 let ids = rows.values(Captions::trajectory_id)?;
                 for row in 0..rows.len() {
-                    let Some(place) = self.dataset.place(ids.text(row)).filter(|it| wanted.contains(it)) else {
+                    let Some(place) = dataset.place(ids.text(row)).filter(|it| wanted.contains(it)) else {
                         continue;
                     };
                     known.entry(place).or_default().push(CaptionRecord {

@@ -139,21 +139,23 @@ impl PublishedDataset {
     /// # Errors
     /// Damage of table `people`.
     pub fn others_seen(&self, flights: &[&PublishedFlight]) -> Result<usize> {
-        let wanted: BTreeMap<&str, usize> =
-            flights.iter().enumerate().map(|(place, flight)| (flight.trajectory_id.as_str(), place)).collect();
-        let mut seen = BTreeSet::new();
+        let wanted: BTreeSet<&str> = flights.iter().map(|flight| flight.trajectory_id.as_str()).collect();
+        // The rows of a trajectory are together.
+        let (mut last, mut seen, mut count) = (String::new(), BTreeSet::new(), 0);
         for (_, path) in self.files("people")? {
             read(&path, &mut |rows| {
-                let ids = rows.values(People::trajectory_id)?;
-                for row in 0..rows.len() {
-                    if let Some(flight) = wanted.get(ids.text(row)) {
-                        seen.insert((*flight, rows.get(People::instance, row)?));
+                let (ids, instances) = (rows.values(People::trajectory_id)?, rows.values(People::instance)?);
+                for row in (0..rows.len()).filter(|row| wanted.contains(ids.text(*row))) {
+                    if ids.text(row) != last {
+                        last = ids.text(row).to_owned();
+                        seen.clear();
                     }
+                    count += usize::from(seen.insert(instances.at(row)?));
                 }
                 Ok(())
             })?;
         }
-        Ok(seen.len())
+        Ok(count)
     }
 
     /// Opens the log of `flight`.

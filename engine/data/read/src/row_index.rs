@@ -35,15 +35,17 @@ impl PublishedDataset {
 
 impl RowIndex {
     /// Adds a file of the table; reads the column `trajectory_id` only. Of a trajectory in several files the first counts.
+    /// Returns the ids that have no number.
     ///
     /// # Errors
     /// Damage of the file.
-    pub fn add(&mut self, path: PathBuf, number_of: &dyn Fn(&str) -> Option<usize>) -> Result<()> {
+    pub fn add(&mut self, path: PathBuf, number_of: &dyn Fn(&str) -> Option<usize>) -> Result<BTreeSet<String>> {
         let number_of_file = self.files.len() as u32;
         if self.offsets.is_empty() {
             self.offsets.push(0);
         }
         let mut found: BTreeMap<usize, (u32, u32)> = BTreeMap::new();
+        let mut unknown = BTreeSet::new();
         let file = TableFile::open(&path)?;
         for group in 0..file.groups() {
             let rows = file.group(group)?;
@@ -53,8 +55,9 @@ impl RowIndex {
                 let id = ids.text(row);
                 if last != Some(id) {
                     last = Some(id);
-                    if let Some(number) = number_of(id) {
-                        found.entry(number).or_insert((group as u32, 0)).1 = group as u32;
+                    match number_of(id) {
+                        Some(number) => found.entry(number).or_insert((group as u32, 0)).1 = group as u32,
+                        None => drop(unknown.insert(id.to_owned())),
                     }
                 }
             }
@@ -69,7 +72,7 @@ impl RowIndex {
         }
         self.offsets.push(self.numbers.len());
         self.files.push(path);
-        Ok(())
+        Ok(unknown)
     }
 
     /// Files, in the order in which they were added.

@@ -120,6 +120,12 @@ impl<'f> Rows<'f> {
         self.rows
     }
 
+    /// Place of the first row in the file.
+    pub fn first(&self) -> usize {
+        let groups = self.file.metadata.metadata().row_groups();
+        groups[..self.group].iter().map(|group| usize::try_from(group.num_rows()).unwrap_or(0)).sum()
+    }
+
     /// Whether there are no rows.
     pub fn is_empty(&self) -> bool {
         self.rows == 0

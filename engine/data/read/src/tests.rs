@@ -125,7 +125,7 @@ fn flights_are_walked_one_after_the_other_with_all_that_is_said_of_their_frames(
     let mut captions = CaptionReader::of(&dataset).unwrap();
     for given in sample::flights() {
         let place = dataset.place(&given.record.trajectory_id).unwrap();
-        assert_eq!(captions.at(place).unwrap(), given.captions);
+        assert_eq!(captions.at(&dataset, place).unwrap(), given.captions);
     }
 }
 

@@ -265,8 +265,8 @@ mod tests {
             feet_m: (0..frames).map(|frame| [frame as f32, 0.0, 0.0]).collect(),
             visible: (0..frames).map(|frame| ((frame as u64 + number) % 7) as f32 / 6.0).collect(),
             clearance_m: (0..frames).map(|frame| 1.0 + (frame as u64 + number) as f32 / 100.0).collect(),
-            holds: number % 4 != 0,
-            violations: if number % 4 == 0 { vec!["speed".into()] } else { vec![] },
+            holds: !number.is_multiple_of(4),
+            violations: if number.is_multiple_of(4) { vec!["speed".into()] } else { vec![] },
             convergence: vec![3.0, 2.0, 1.0],
             term_costs: vec![("jerk".into(), 0.25)],
             ..FlightSketch::default()

@@ -4,7 +4,7 @@ use super::files::{CheckedFiles, State};
 use super::frames::{check_frames, check_occluders, check_pair};
 use super::log::{self, Known};
 use super::options::Wanted;
-use super::people::PersonRow;
+use super::people::{PeopleIndex, PersonRow};
 use super::report::VerifyReport;
 use super::resume::ResumeFile;
 use super::rows::{self, PlacedFrame};
@@ -42,6 +42,7 @@ pub struct Flights<'a> {
     pub wanted: &'a Wanted,
     resume: Option<ResumeFile>,
     index: RowIndex,
+    people: PeopleIndex,
 }
 
 /// A flight that was checked.
@@ -54,8 +55,14 @@ struct Checked {
     log: Option<[u64; 2]>,
 }
 
-/// Rows of a flight in table `frames`, and those of the people seen.
-type Rows = (Vec<PlacedFrame>, Vec<PersonRow>);
+/// Rows of a flight, and what they are compared with.
+struct Rows<'a> {
+    file: &'a str,
+    frames: &'a [PlacedFrame],
+    people_file: &'a str,
+    people: &'a [PersonRow],
+    expert: Option<&'a FlightTrack>,
+}
 
 impl<'a> Flights<'a> {
     /// The flights; finds their rows in table `frames`.
@@ -65,13 +72,15 @@ impl<'a> Flights<'a> {
         tables: &'a SmallTables,
         wanted: &'a Wanted,
         resume: Option<ResumeFile>,
+        report: &mut VerifyReport,
     ) -> Self {
         let mut index = RowIndex::default();
         for file in files.sound_below("data/frames/") {
             // Damage is found again, and reported, when all columns are read.
             let _ = index.add(folder.join(file), &|id| tables.flights.number(id));
         }
-        Self { folder, files, tables, wanted, resume, index }
+        let people = PeopleIndex::read(folder, files, &tables.flights, &|number| index.has(number), report);
+        Self { folder, files, tables, wanted, resume, index, people }
     }
 
     /// Tracks of some flights; those whose rows are damaged are left out.
@@ -136,13 +145,11 @@ impl<'a> Flights<'a> {
             }
             return Ok((checked, report));
         }
-        let mut others = people::read(self.folder, self.files, file, &mut report);
-        let people_file = people::file_beside(file);
-        let mut batch: Vec<Rows> = vec![];
+        let mut batch: Vec<Vec<PlacedFrame>> = vec![];
         let mut seen: BTreeSet<usize> = BTreeSet::new();
         let mut outcome_of_logs = Ok(());
         let mut work =
-            |batch: &mut Vec<Rows>| match self.check_together(file, &people_file, std::mem::take(batch), count) {
+            |batch: &mut Vec<Vec<PlacedFrame>>| match self.check_together(file, &std::mem::take(batch), count) {
                 Ok(flights) => checked.extend(flights),
                 Err(refusal) => outcome_of_logs = Err(refusal),
             };
@@ -152,12 +159,11 @@ impl<'a> Flights<'a> {
             let Some(number) = self.tables.flights.number(id) else {
                 return report.find(file, place(), "verify-reference", "there is no such flight");
             };
-            let people = others.remove(id).unwrap_or_default();
             if !seen.insert(number) {
                 return report.find(file, place(), "verify-duplicate", "its rows are apart");
             }
             if self.wanted.has(number) {
-                batch.push((frames, people));
+                batch.push(frames);
                 if batch.len() == TOGETHER {
                     work(&mut batch);
                 }
@@ -167,10 +173,6 @@ impl<'a> Flights<'a> {
         outcome_of_logs?;
         if let Err(message) = outcome {
             report.find(file, "", "verify-schema", message);
-        }
-        for (id, rows) in others {
-            let place = format!("row {}, `{id}`", rows[0].row);
-            report.find(&people_file, place, "verify-reference", "its frames are not in the file of this name");
         }
         Ok((checked, report))
     }
@@ -184,16 +186,20 @@ impl<'a> Flights<'a> {
     fn check_together(
         &self,
         file: &str,
-        people_file: &str,
-        batch: Vec<Rows>,
+        batch: &[Vec<PlacedFrame>],
         count: &(dyn Fn() + Sync),
     ) -> Result<Vec<Checked>> {
         let flights = &self.tables.flights;
-        let expert = |rows: &Rows| flights.number(flights.get(&rows.0[0].trajectory_id)?.expert_id.as_ref()?);
-        let experts = self.tracks(&batch.iter().filter_map(expert).collect());
-        let check = |rows: &Rows| {
-            let track = expert(rows).and_then(|number| experts.get(&number));
-            let checked = self.check_flight(file, people_file, rows, track);
+        let number = |frames: &[PlacedFrame]| flights.number(&frames[0].trajectory_id).unwrap_or_default();
+        let numbers: BTreeSet<usize> = batch.iter().map(|frames| number(frames)).collect();
+        let expert = |number: usize| flights.number(flights.at(number).expert_id.as_ref()?);
+        let experts = self.tracks(&numbers.iter().filter_map(|number| expert(*number)).collect());
+        let people = self.people.of(&numbers, flights);
+        let check = |frames: &Vec<PlacedFrame>| {
+            let number = number(frames);
+            let (people_file, people) = people.get(&number).map_or(("", &[][..]), |(file, rows)| (file, rows));
+            let expert = expert(number).and_then(|number| experts.get(&number));
+            let checked = self.check_flight(number, &Rows { file, frames, people_file, people, expert });
             count();
             checked
         };
@@ -201,16 +207,10 @@ impl<'a> Flights<'a> {
     }
 
     /// Checks the rows and the log of a flight.
-    fn check_flight(
-        &self,
-        file: &str,
-        people_file: &str,
-        (frames, others): &Rows,
-        expert: Option<&FlightTrack>,
-    ) -> Result<Checked> {
-        let id = &frames[0].trajectory_id;
-        let number = self.tables.flights.number(id).unwrap_or_default();
+    fn check_flight(&self, number: usize, rows: &Rows<'_>) -> Result<Checked> {
+        let (file, frames, others) = (rows.file, rows.frames, rows.people);
         let flight = self.tables.flights.at(number);
+        let id = &flight.trajectory_id;
         let mut hasher = blake3::Hasher::new();
         for frame in frames {
             hasher.update(&frame.motion_bytes());
@@ -233,10 +233,10 @@ impl<'a> Flights<'a> {
         sums::check_frames(flight, frames, report);
         labels::compare(file, flight, frames, report);
         let objects = self.tables.instances.get(&flight.town);
-        people::check(people_file, flight, frames, others, objects, report);
+        people::check(rows.people_file, flight, frames, others, objects, report);
         check_occluders(file, objects, others, frames, report);
         check_pair(&self.tables.pairs, flight, frames, report);
-        if let Some(expert) = expert {
+        if let Some(expert) = rows.expert {
             twins::check(file, flight, frames, expert, report);
         }
         if self.files.check_log(self.folder, &flight.mcap_path, report)? >= State::Regular {

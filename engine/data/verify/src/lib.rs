@@ -79,7 +79,7 @@ fn check(folder: &Path, options: &Options, progress: &(dyn Fn(u64, u64) + Sync))
     splits::check(folder, &tables, &mut report);
     croissant::check(folder, &files, &mut report)?;
     extras::check(folder, &files, &tables, &mut report);
-    let flights = Flights::new(folder, &files, &tables, &wanted, resume);
+    let flights = Flights::new(folder, &files, &tables, &wanted, resume, &mut report);
     windows::check(&flights, &mut report);
     flights.check_all(&mut report, progress)?;
     Ok(report)

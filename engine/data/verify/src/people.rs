@@ -1,11 +1,14 @@
 //! Table `people`: all people seen beside the target, against frames, objects and pixels.
 
 use super::body::{Body, SLACK_PX};
-use super::files::{CheckedFiles, State};
+use super::files::CheckedFiles;
+use super::flight_list::FlightList;
 use super::report::VerifyReport;
-use super::rows::{self, PlacedFlight, PlacedFrame};
+use super::rows::{self, PlacedFlight, PlacedFrame, split_of};
 use cosfly_frames::DVec3;
+use cosfly_read::RowIndex;
 use cosfly_schema::tables::People;
+use rayon::prelude::*;
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::Path;
 
@@ -33,45 +36,84 @@ impl PersonRow {
     }
 }
 
-/// The people of each flight of one file, in the order of their rows.
-pub type PeopleOfFlights = BTreeMap<String, Vec<PersonRow>>;
-
-/// Reads the people of the flights whose frames are in `frames_file`: both tables are cut alike.
-pub fn read(folder: &Path, files: &CheckedFiles, frames_file: &str, report: &mut VerifyReport) -> PeopleOfFlights {
-    let mut people = PeopleOfFlights::new();
-    let file = file_beside(frames_file);
-    if files.state(&file) != State::Sound {
-        if files.listed(&file).is_none() {
-            report.find(&file, "", "verify-missing-file", "there is none beside the file of table `frames`");
-        }
-        return people;
-    }
-    let mut row_in_file = 0;
-    let outcome = rows::read(&folder.join(&file), &rows::table("people"), &mut |rows| {
-        for row in 0..rows.len() {
-            let [x, y, z] = rows.get(People::feet_in_world_m, row)?;
-            people.entry(rows.get(People::trajectory_id, row)?).or_default().push(PersonRow {
-                row: row_in_file,
-                frame: rows.get(People::frame, row)?,
-                instance: rows.get(People::instance, row)?,
-                pixels: rows.get(People::visible_pixels, row)?,
-                visible_box: rows.get(People::visible_box_px, row)?.map(f64::from),
-                walk_id: rows.get(People::walk_id, row)?,
-                body: [x, y, z, rows.get(People::height_m, row)?, rows.get(People::radius_m, row)?],
-            });
-            row_in_file += 1;
-        }
-        Ok(())
-    });
-    if let Err(message) = outcome {
-        report.find(&file, "", "verify-schema", message);
-    }
-    people
+/// Where the people of each flight are in table `people`, however the table is cut into files.
+pub struct PeopleIndex {
+    index: RowIndex,
+    /// Path of each file from the dataset's folder.
+    names: Vec<String>,
 }
 
-/// The file of table `people` that goes with a file of table `frames`.
-pub fn file_beside(frames_file: &str) -> String {
-    frames_file.replacen("data/frames/", "data/people/", 1)
+/// File and people of a flight, in the order of their rows.
+pub type PeopleOfFlight = (String, Vec<PersonRow>);
+
+impl PeopleIndex {
+    /// Checks the table as a whole and finds the people of each flight; `has_frames` tells whether a flight has frames.
+    pub fn read(
+        folder: &Path,
+        files: &CheckedFiles,
+        flights: &FlightList,
+        has_frames: &dyn Fn(usize) -> bool,
+        report: &mut VerifyReport,
+    ) -> Self {
+        let mut people = Self { index: RowIndex::default(), names: vec![] };
+        let names: Vec<&str> = files.sound_below("data/people/").collect();
+        let read = |name: &&str| rows::read(&folder.join(name), &rows::table("people"), &mut |_| Ok(()));
+        let outcomes: Vec<rows::ReadResult<()>> = names.par_iter().map(read).collect();
+        for (name, outcome) in names.into_iter().zip(outcomes) {
+            let added = outcome.and_then(|()| {
+                let added = people.index.add(folder.join(name), &|id| flights.number(id));
+                added.map_err(|refusal| refusal.message.clone())
+            });
+            match added {
+                Err(message) => report.find(name, "", "verify-schema", message),
+                Ok(unknown) => {
+                    people.names.push(name.to_owned());
+                    for id in unknown {
+                        report.find(name, format!("`{id}`"), "verify-reference", "there is no such flight");
+                    }
+                }
+            }
+        }
+        for (file, name) in people.names.iter().enumerate() {
+            for flight in people.index.numbers_in(file).iter().map(|number| *number as usize) {
+                let it = flights.at(flight);
+                let mut find = |rule, message| report.find(name, format!("`{}`", it.trajectory_id), rule, message);
+                if !has_frames(flight) {
+                    find("verify-reference", "its frames are not in table `frames`");
+                } else if split_of(&it.place.0) != split_of(name) {
+                    find("verify-split", "its flight is in another split");
+                }
+            }
+        }
+        people
+    }
+
+    /// People of some flights.
+    pub fn of(&self, wanted: &BTreeSet<usize>, flights: &FlightList) -> BTreeMap<usize, PeopleOfFlight> {
+        let mut found: BTreeMap<usize, PeopleOfFlight> = BTreeMap::new();
+        // The rows could be read before; what cannot be read now is missing in the comparison with the pictures.
+        let _ = self.index.visit(wanted, &mut |rows, path| {
+            let (ids, first) = (rows.values(People::trajectory_id)?, rows.first());
+            let file = self.index.files().iter().position(|it| it == path).map_or("", |file| &self.names[file]);
+            for row in 0..rows.len() {
+                let Some(number) = flights.number(ids.text(row)).filter(|number| wanted.contains(number)) else {
+                    continue;
+                };
+                let [x, y, z] = rows.get(People::feet_in_world_m, row)?;
+                found.entry(number).or_insert_with(|| (file.to_owned(), vec![])).1.push(PersonRow {
+                    row: first + row,
+                    frame: rows.get(People::frame, row)?,
+                    instance: rows.get(People::instance, row)?,
+                    pixels: rows.get(People::visible_pixels, row)?,
+                    visible_box: rows.get(People::visible_box_px, row)?.map(f64::from),
+                    walk_id: rows.get(People::walk_id, row)?,
+                    body: [x, y, z, rows.get(People::height_m, row)?, rows.get(People::radius_m, row)?],
+                });
+            }
+            Ok(())
+        });
+        found
+    }
 }
 
 /// Order, ids and boxes of the people of one flight; the pixels are compared with the log.

@@ -394,7 +394,7 @@ mod tests {
         let files = files::check(folder.path(), &mut report).unwrap();
         let small = tables::read(folder.path(), &files, &mut report);
         let wanted = Wanted::of(&small.flights, None);
-        let flights = Flights::new(folder.path(), &files, &small, &wanted, None);
+        let flights = Flights::new(folder.path(), &files, &small, &wanted, None, &mut report);
         let load = |wanted: &BTreeSet<usize>| {
             let mut tracks = flights.tracks(wanted);
             tracks.iter_mut().for_each(|(number, track)| spoil(&small.flights.at(*number).trajectory_id, track));

@@ -94,7 +94,7 @@ fn measure(arguments: &Arguments) -> Result<usize> {
         Reader::Export => export(&dataset)?,
         Reader::CarlaJob => {
             let flights: Vec<_> = dataset.flights().iter().collect();
-            println!("{} bytes", cosfly_export::carla_job::CarlaJob::new(&dataset, &flights)?.to_json().len());
+            cosfly_export::carla_job::write(&dataset, &flights, &mut std::io::sink())?;
         }
         _ => {}
     }

@@ -96,7 +96,8 @@ fn read(dataset: &PublishedDataset, progress: &mut dyn FnMut(u64, u64), visit: &
         done += 1;
         let mut episode = episode(flight, &rows);
         let place = dataset.place(&flight.trajectory_id).unwrap_or_default();
-        episode.captions = captions.at(place)?.iter().map(|it| (it.language.clone(), it.text.clone())).collect();
+        episode.captions =
+            captions.at(dataset, place)?.iter().map(|it| (it.language.clone(), it.text.clone())).collect();
         episode.vehicles = vehicles.get(&flight.town).cloned().unwrap_or_default();
         let walls = walls.get(&flight.town).filter(|_| episode.camera.is_some());
         episode.looks = looks(dataset, flight, &rows, walls).unwrap_or_default();

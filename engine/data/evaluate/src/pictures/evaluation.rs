@@ -149,6 +149,7 @@ impl Count {
     ) -> Result<()> {
         for of_flight in present.chunk_by(|a, b| a.0 == b.0) {
             let flight = of_flight[0].0;
+            let loaded = flights.part(&[flight])?;
             for batch in of_flight.chunks(BATCH) {
                 let found: Vec<std::result::Result<Found, Refusal>> = batch
                     .par_iter()
@@ -165,7 +166,7 @@ impl Count {
                     )
                     .collect::<Result<_>>()?;
                 for (key, found) in batch.iter().zip(found) {
-                    self.take(flights, *key, found, given);
+                    self.take(&loaded, *key, found, given);
                 }
             }
         }

@@ -61,7 +61,7 @@ impl FrameKinds {
         [
             difficulty,
             if self.seen[flight] { 3 } else { 4 },
-            if flights.tracks[flight].visible[frame] < 0.5 { 6 } else { 5 },
+            if flights.track(flight).visible[frame] < 0.5 { 6 } else { 5 },
             if features.target_is_static() { 8 } else { 7 },
             self.weather[flight],
         ]

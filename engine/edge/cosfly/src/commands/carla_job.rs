@@ -6,8 +6,10 @@ use crate::exit;
 use crate::text::count;
 use clap::Parser;
 use cosfly_diagnose::{Diagnostic, Result};
-use cosfly_export::carla_job::CarlaJob;
+use cosfly_export::carla_job;
 use cosfly_read::{PublishedDataset, PublishedFlight};
+use std::fs::File;
+use std::io::BufWriter;
 use std::path::PathBuf;
 
 /// Write the job with which `plugins/carla/replay.py` flies a dataset's flights through a CARLA server
@@ -48,9 +50,18 @@ fn written(arguments: &Arguments) -> Result<String> {
     } else {
         arguments.trajectories.iter().map(|id| dataset.flight(id)).collect::<Result<_>>()?
     };
-    let job = CarlaJob::new(&dataset, &flights)?.to_json();
     let out = arguments.out.display();
-    std::fs::write(&arguments.out, &job).map_err(|error| Diagnostic::io(format!("write `{out}`"), &error))?;
+    let failed = |error: std::io::Error| Diagnostic::io(format!("write `{out}`"), &error);
+    // A job that was not written to its end never has the name of one.
+    let part = arguments.out.with_extension("part");
+    let mut file = BufWriter::new(File::create(&part).map_err(failed)?);
+    let outcome = carla_job::write(&dataset, &flights, &mut file);
+    if outcome.is_err() {
+        std::fs::remove_file(&part).map_err(failed)?;
+    }
+    outcome?;
+    file.into_inner().map_err(|error| failed(error.into_error()))?;
+    std::fs::rename(&part, &arguments.out).map_err(failed)?;
     let left_out = match dataset.others_seen(&flights)? {
         0 => String::new(),
         seen => format!(
