@@ -11,6 +11,7 @@ mod frames;
 mod image_log;
 mod log;
 mod objects;
+mod parquet_metadata;
 mod picture_column;
 mod plain;
 pub mod predictions;
