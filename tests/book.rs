@@ -12,7 +12,13 @@ const OTHERS: [&str; 4] = ["camera_optical", "drone_nav_traj_v7", "drone_pose", 
 /// Pictures and texts of the samples of the Python package.
 const OF_SAMPLES: [&str; 5] = ["caption", "depth", "instance", "rgb", "semantic"];
 /// Pages whose examples index other things than rows of tables.
-const NOT_OF_TABLES: [&str; 1] = ["guide/dagger.md"];
+const NOT_OF_TABLES: [&str; 5] = [
+    "guide/dagger.md",
+    "frameworks/jax.md",
+    "frameworks/lerobot.md",
+    "frameworks/llama-factory.md",
+    "frameworks/torch.md",
+];
 
 fn columns() -> BTreeSet<String> {
     let page = repository_root().join("book/src/reference/tables.md");

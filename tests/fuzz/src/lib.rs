@@ -21,6 +21,8 @@ pub const TARGETS: &[(&str, Target)] = &[
     ("arrow_answers", arrow_answers),
     ("boxes", map),
     ("frame_pack", frame_pack),
+    ("image_log", image_log),
+    ("jpeg", jpeg),
     ("mcap", mcap),
     ("mp4", mp4),
     ("opendrive", map),
@@ -66,6 +68,28 @@ fn mcap(bytes: &[u8]) {
             let _ = (log.topics(), log.frame(0), log.frame_with_instances(1));
         }
     });
+}
+
+/// The images of a log, at random.
+fn image_log(bytes: &[u8]) {
+    in_a_file(bytes, "mcap", |path| {
+        let Ok(log) = cosfly_read::ImageLog::open(path, 0.5) else { return };
+        for (channel, frame) in channels::ALL.iter().flat_map(|channel| [1, 0, 2].map(|frame| (channel, frame))) {
+            if let Ok(cosfly_read::StoredImage::Raw { data, width, height, pixel_bytes }) = log.image(channel, frame) {
+                assert_eq!(data.len(), width as usize * height as usize * pixel_bytes, "an image has its bytes");
+            }
+        }
+    });
+}
+
+/// A JPEG file: whole, and scaled while it is decoded.
+fn jpeg(bytes: &[u8]) {
+    for size in [None, Some([1, 1]), Some([9, 5]), Some([16, 16])] {
+        if let Ok(picture) = cosfly_images::read::picture(bytes, "jpeg", size) {
+            assert_eq!(picture.rgb.len(), 3 * picture.size[0] * picture.size[1], "a picture has its pixels");
+            assert!(size.is_none_or(|size| size == picture.size), "a scaled picture has the wanted size");
+        }
+    }
 }
 
 /// The boxes of a video file.

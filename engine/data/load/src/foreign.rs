@@ -60,10 +60,7 @@ impl<P: Pictures> Source for Foreign<P> {
 
     fn table(&self, name: &str, split: Option<&str>) -> Result<TableData> {
         let all = self.flights.iter().zip(&self.episodes);
-        let parts: Vec<Part<'_>> = all
-            .filter(|(flight, _)| split.is_none_or(|split| split == flight.split))
-            .map(|(flight, episode)| Part { flight, episode, expert: tables::expert(&self.episodes, episode) })
-            .collect();
+        let parts: Vec<Part<'_>> = all.filter(|(flight, _)| split.is_none_or(|split| split == flight.split)).collect();
         let none = |why: String| {
             let (folder, layout) = (self.folder.display(), self.layout);
             let message = format!("`{folder}`, of layout {layout}, has no table `{name}`{why}");
@@ -71,7 +68,7 @@ impl<P: Pictures> Source for Foreign<P> {
             Diagnostic::new("dataset-none", Fault::Input, message)
                 .hint(format!("data of this layout give the tables {}", tables.join(", ")))
         };
-        match tables::made(name, &parts, self.has_poses) {
+        match tables::made(name, &parts, &self.episodes, self.has_poses) {
             Some(rows) => Ok(TableData::Rows(rows)),
             None if name == "windows" => Err(none(": the data state no poses of the drone".to_owned())),
             None => Err(none(String::new())),

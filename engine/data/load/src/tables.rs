@@ -9,6 +9,7 @@ use arrow_schema::{DataType, Field};
 use cosfly_doctor::{Episode, Moment};
 use cosfly_frames::{DVec3, Pose, action};
 use cosfly_metrics::WindowShape;
+use std::collections::BTreeMap;
 use std::sync::Arc;
 
 /// Names of all tables.
@@ -16,38 +17,28 @@ pub const NAMES: &[&str] = &["trajectories", "frames", "captions", "windows"];
 /// Names of the tables of data without poses.
 pub const NAMES_WITHOUT_POSES: &[&str] = &["trajectories", "frames", "captions"];
 
-/// A flight that counts for a table.
-pub struct Part<'a> {
-    /// The flight.
-    pub flight: &'a Flight,
-    /// Its frames.
-    pub episode: &'a Episode,
-    /// Poses of the flight that a model learns; none: its expert is absent, or of another length.
-    pub expert: Option<Vec<Pose>>,
-}
+/// A flight that counts for a table, and its frames.
+pub type Part<'a> = (&'a Flight, &'a Episode);
 
-/// Poses of the expert of an episode, one for each frame.
-pub fn expert(all: &[Episode], episode: &Episode) -> Option<Vec<Pose>> {
-    let own = || episode.moments.iter().map(|moment| moment.drone).collect::<Vec<_>>();
+/// Poses of the flight that a model learns, one for each frame; none where it is absent or of another length. `originals` are the
+/// experts of v7 by the folders of their pairs.
+fn expert(originals: &BTreeMap<&str, &Episode>, episode: &Episode) -> Option<Vec<Pose>> {
+    let poses = |of: &Episode| of.moments.iter().map(|moment| moment.drone).collect::<Vec<_>>();
     let found = match &episode.followed {
         Some(poses) => poses.clone(),
-        None if !episode.is_perturbed => own(),
-        None => {
-            let pair = episode.id.rsplit_once('/')?.0;
-            let expert = all.iter().find(|it| it.id.rsplit_once('/') == Some((pair, "ORI")))?;
-            expert.moments.iter().map(|moment| moment.drone).collect()
-        }
+        None if !episode.is_perturbed => poses(episode),
+        None => poses(originals.get(episode.id.rsplit_once('/')?.0)?),
     };
     (found.len() == episode.moments.len()).then_some(found)
 }
 
-/// The table `name`; none where the layout has no such table.
-pub fn made(name: &str, parts: &[Part<'_>], has_poses: bool) -> Option<RecordBatch> {
+/// The table `name` of `parts`, some of `all` episodes; none where the layout has no such table.
+pub fn made(name: &str, parts: &[Part<'_>], all: &[Episode], has_poses: bool) -> Option<RecordBatch> {
     let columns = match name {
         "trajectories" => trajectories(parts),
         "frames" => frames(parts, has_poses),
         "captions" => captions(parts),
-        "windows" if has_poses => windows(parts),
+        "windows" if has_poses => windows(parts, all),
         _ => return None,
     };
     RecordBatch::try_from_iter_with_nullable(columns.into_iter().map(|(name, array)| (name, array, true))).ok()
@@ -81,39 +72,39 @@ fn rows(values: impl Iterator<Item = Option<Vec<f64>>>) -> ArrayRef {
 }
 
 fn role(part: &Part<'_>) -> usize {
-    usize::from(part.episode.is_perturbed)
+    usize::from(part.1.is_perturbed)
 }
 
 fn trajectories(parts: &[Part<'_>]) -> Columns {
     let each = || parts.iter();
     vec![
-        ("trajectory_id", texts(each().map(|it| it.flight.id.as_str()))),
-        ("split", texts(each().map(|it| it.flight.split.as_str()))),
+        ("trajectory_id", texts(each().map(|it| it.0.id.as_str()))),
+        ("split", texts(each().map(|it| it.0.split.as_str()))),
         ("role", integers(each().map(role))),
-        ("frames", integers(each().map(|it| it.flight.frames))),
-        ("dt_s", reals(each().map(|it| Some(it.episode.dt_s)))),
-        ("image_width_px", integers(each().map(|it| it.flight.size[0] as usize))),
-        ("image_height_px", integers(each().map(|it| it.flight.size[1] as usize))),
+        ("frames", integers(each().map(|it| it.0.frames))),
+        ("dt_s", reals(each().map(|it| Some(it.1.dt_s)))),
+        ("image_width_px", integers(each().map(|it| it.0.size[0] as usize))),
+        ("image_height_px", integers(each().map(|it| it.0.size[1] as usize))),
     ]
 }
 
 fn captions(parts: &[Part<'_>]) -> Columns {
-    let each = || parts.iter().flat_map(|part| part.episode.captions.iter().map(move |caption| (part, caption)));
+    let each = || parts.iter().flat_map(|part| part.1.captions.iter().map(move |caption| (part, caption)));
     vec![
-        ("trajectory_id", texts(each().map(|(part, _)| part.flight.id.as_str()))),
+        ("trajectory_id", texts(each().map(|(part, _)| part.0.id.as_str()))),
         ("language", texts(each().map(|(_, caption)| caption.0.as_str()))),
         ("text", texts(each().map(|(_, caption)| caption.1.as_str()))),
     ]
 }
 
 fn frames(parts: &[Part<'_>], has_poses: bool) -> Columns {
-    let each = || parts.iter().flat_map(|part| part.episode.moments.iter().enumerate().map(move |it| (part, it)));
+    let each = || parts.iter().flat_map(|part| part.1.moments.iter().enumerate().map(move |it| (part, it)));
     let real = |value: &dyn Fn(&Part<'_>, usize, &Moment) -> Option<f64>| {
         reals(each().map(|(part, (frame, moment))| value(part, frame, moment)))
     };
     let mut columns: Columns = vec![
-        ("trajectory_id", texts(each().map(|(part, _)| part.flight.id.as_str()))),
-        ("split", texts(each().map(|(part, _)| part.flight.split.as_str()))),
+        ("trajectory_id", texts(each().map(|(part, _)| part.0.id.as_str()))),
+        ("split", texts(each().map(|(part, _)| part.0.split.as_str()))),
         ("frame", integers(each().map(|(_, (frame, _))| frame))),
         ("time_s", real(&|_, _, it| Some(it.time_s))),
         ("role", integers(each().map(|(part, _)| role(part)))),
@@ -121,7 +112,7 @@ fn frames(parts: &[Part<'_>], has_poses: bool) -> Columns {
     if has_poses {
         let step = |of: fn(&Pose, &Pose) -> [f64; 6]| {
             lists(each().map(|(part, (frame, moment))| {
-                part.episode.moments.get(frame + 1).map(|next| of(&moment.drone, &next.drone))
+                part.1.moments.get(frame + 1).map(|next| of(&moment.drone, &next.drone))
             }))
         };
         columns.extend([
@@ -139,7 +130,7 @@ fn frames(parts: &[Part<'_>], has_poses: bool) -> Columns {
         ]);
     }
     let feet = |part: &Part<'_>, moment: &Moment| {
-        moment.target_in_world.map(|middle| middle - DVec3::Z * (0.5 * part.episode.target_height_m))
+        moment.target_in_world.map(|middle| middle - DVec3::Z * (0.5 * part.1.target_height_m))
     };
     let stated: [(&'static str, &dyn Fn(&Part<'_>, usize, &Moment) -> Option<f64>); 7] = [
         ("target_x_m", &|part, _, it| Some(feet(part, it)?.x)),
@@ -161,44 +152,47 @@ fn frames(parts: &[Part<'_>], has_poses: bool) -> Columns {
     columns
 }
 
-/// A window: the flight, and its first frame.
-type Window<'a> = (&'a Part<'a>, &'a [Pose], usize);
+/// A window: the flight, the poses of its expert, and the first frame.
+type Window<'a> = (Part<'a>, &'a [Pose], usize);
 
-fn windows(parts: &[Part<'_>]) -> Columns {
+fn windows(parts: &[Part<'_>], all: &[Episode]) -> Columns {
     let shape = WindowShape::default();
+    let originals: BTreeMap<&str, &Episode> =
+        all.iter().filter_map(|it| Some((it.id.strip_suffix("/ORI")?, it))).collect();
+    let experts: Vec<Option<Vec<Pose>>> = parts.iter().map(|(_, episode)| expert(&originals, episode)).collect();
     let mut all: Vec<Window<'_>> = vec![];
-    for part in parts {
-        if let Some(expert) = &part.expert {
-            all.extend(shape.starts(part.flight.frames).map(|start| (part, &expert[..], start)));
+    for (part, expert) in parts.iter().zip(&experts) {
+        if let Some(expert) = expert {
+            all.extend(shape.starts(part.0.frames).map(|start| (*part, &expert[..], start)));
         }
     }
-    let own = |part: &Part<'_>, frame: usize| part.episode.moments[frame].drone;
+    let own = |part: &Part<'_>, frame: usize| part.1.moments[frame].drone;
     let now = |start: usize| start + shape.history - 1;
     let steps = |poses: &dyn Fn(&Window<'_>) -> Vec<(Pose, Pose)>, step: fn(&Pose, &Pose) -> [f64; 6]| {
         rows(all.iter().map(|it| Some(poses(it).iter().flat_map(|(from, to)| step(from, to)).collect())))
     };
-    let input = |it: &Window<'_>| (it.2..now(it.2)).map(|frame| (own(it.0, frame), own(it.0, frame + 1))).collect();
-    let correction = |it: &Window<'_>| (it.2..=now(it.2)).map(|frame| (own(it.0, frame), it.1[frame])).collect();
+    let input = |it: &Window<'_>| (it.2..now(it.2)).map(|frame| (own(&it.0, frame), own(&it.0, frame + 1))).collect();
+    let correction = |it: &Window<'_>| (it.2..=now(it.2)).map(|frame| (own(&it.0, frame), it.1[frame])).collect();
     let ahead = |it: &Window<'_>| {
-        let from = |frame: usize| if frame == now(it.2) { own(it.0, frame) } else { it.1[frame] };
+        let from = |frame: usize| if frame == now(it.2) { own(&it.0, frame) } else { it.1[frame] };
         (now(it.2)..it.2 + shape.size() - 1).map(|frame| (from(frame), it.1[frame + 1])).collect()
     };
     let current = |it: &Window<'_>| {
-        let pose = own(it.0, now(it.2));
+        let pose = own(&it.0, now(it.2));
         let angles = [pose.pitch_rad, pose.yaw_rad, pose.roll_rad].map(f64::to_degrees);
         [pose.position_in_world.to_array(), angles].concat()
     };
     let boxes = |it: &Window<'_>| {
-        let edges = |frame: usize| it.0.episode.moments[frame].visible_box.unwrap_or([0.0; 4]);
+        let edges = |frame: usize| it.0.1.moments[frame].visible_box.unwrap_or([0.0; 4]);
         (it.2..=now(it.2)).flat_map(edges).collect()
     };
     let mut names = StringBuilder::new();
-    all.iter().for_each(|(part, _, start)| names.append_value(format!("{}/{start}", part.flight.id)));
+    all.iter().for_each(|(part, _, start)| names.append_value(format!("{}/{start}", part.0.id)));
     vec![
         ("window_id", Arc::new(names.finish())),
-        ("trajectory_id", texts(all.iter().map(|it| it.0.flight.id.as_str()))),
-        ("split", texts(all.iter().map(|it| it.0.flight.split.as_str()))),
-        ("role", integers(all.iter().map(|it| role(it.0)))),
+        ("trajectory_id", texts(all.iter().map(|it| it.0.0.id.as_str()))),
+        ("split", texts(all.iter().map(|it| it.0.0.split.as_str()))),
+        ("role", integers(all.iter().map(|it| role(&it.0)))),
         ("start_frame", integers(all.iter().map(|it| it.2))),
         ("current_pose_in_world", rows(all.iter().map(|it| Some(current(it))))),
         ("input_steps_in_world", steps(&input, action::in_world)),

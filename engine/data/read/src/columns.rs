@@ -1,6 +1,7 @@
 //! Whole columns of a table as plain values, and whole tables as Arrow streams.
 
 use super::damage::damaged;
+use super::parquet_metadata;
 use super::plain::{integers, reals, texts};
 use arrow_array::cast::AsArray;
 use arrow_array::ffi_stream::FFI_ArrowArrayStream;
@@ -163,7 +164,7 @@ pub fn stream(paths: &[PathBuf]) -> Result<ArrowStream> {
 
 fn builder(path: &Path) -> Result<ParquetRecordBatchReaderBuilder<File>> {
     let file = File::open(path).map_err(|error| Diagnostic::io(format!("open `{}`", path.display()), &error))?;
-    ParquetRecordBatchReaderBuilder::try_new(file).map_err(|error| damaged(path, "it is not Parquet", error))
+    parquet_metadata::builder(file).map_err(|error| damaged(path, "it is not Parquet", error))
 }
 
 /// Plain values of the arrays of one column; `None` for other types.

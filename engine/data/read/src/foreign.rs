@@ -1,14 +1,13 @@
 //! Foreign Parquet tables: columns of numbers, texts and pictures, by name.
 
 use super::damage::damaged;
-use super::plain;
+use super::{parquet_metadata, plain};
 use arrow_array::cast::AsArray;
 use arrow_array::{Array, ArrayRef};
 use arrow_schema::DataType;
 use cosfly_diagnose::{Diagnostic, Result};
 use cosfly_fingerprint::Digest;
 use parquet::arrow::ProjectionMask;
-use parquet::arrow::arrow_reader::ParquetRecordBatchReaderBuilder;
 use std::collections::BTreeMap;
 use std::fs::File;
 use std::path::Path;
@@ -35,10 +34,9 @@ pub struct ForeignRows {
 /// The file cannot be opened or read to its end.
 pub fn foreign_rows(path: &Path, with_pictures: bool) -> Result<ForeignRows> {
     let file = File::open(path).map_err(|error| Diagnostic::io(format!("open `{}`", path.display()), &error))?;
-    let builder =
-        ParquetRecordBatchReaderBuilder::try_new(file).map_err(|error| damaged(path, "it is not Parquet", error))?;
+    let builder = parquet_metadata::builder(file).map_err(|error| damaged(path, "it is not Parquet", error))?;
     let fields = builder.schema().fields().iter().enumerate();
-    let wanted = fields.filter(|(_, field)| with_pictures || !matches!(field.data_type(), DataType::Struct(_)));
+    let wanted = fields.filter(|(_, field)| with_pictures || !is_of_pixels(field.data_type()));
     let mask = ProjectionMask::roots(builder.parquet_schema(), wanted.map(|(at, _)| at));
     let reader = builder.with_projection(mask).with_batch_size(BATCH).build();
     let mut all = ForeignRows::default();
@@ -57,6 +55,17 @@ pub fn foreign_rows(path: &Path, with_pictures: bool) -> Result<ForeignRows> {
         all.rows += batch.num_rows();
     }
     Ok(all)
+}
+
+/// Whether a column holds pictures, or images as lists of rows.
+fn is_of_pixels(kind: &DataType) -> bool {
+    match kind {
+        DataType::Struct(_) => true,
+        DataType::List(item) | DataType::LargeList(item) | DataType::FixedSizeList(item, _) => {
+            item.data_type().is_nested()
+        }
+        _ => false,
+    }
 }
 
 /// Values of the lists in a column, row by row; `None` when the column has no lists.

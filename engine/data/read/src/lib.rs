@@ -12,6 +12,7 @@ mod frames;
 mod image_log;
 mod log;
 mod objects;
+mod parquet_metadata;
 mod picture_column;
 mod plain;
 pub mod predictions;

@@ -1,15 +1,12 @@
 //! Random access to pictures in a foreign Parquet table: one row is read, and the page that holds it.
 
 use super::damage::damaged;
-use super::plain;
+use super::{parquet_metadata, plain};
 use arrow_array::cast::AsArray;
 use arrow_array::{Array, ArrayRef};
 use cosfly_diagnose::{Diagnostic, Result};
 use parquet::arrow::ProjectionMask;
-use parquet::arrow::arrow_reader::{
-    ArrowReaderMetadata, ArrowReaderOptions, ParquetRecordBatchReaderBuilder, RowSelection, RowSelector,
-};
-use parquet::file::metadata::PageIndexPolicy;
+use parquet::arrow::arrow_reader::{ArrowReaderMetadata, ParquetRecordBatchReaderBuilder, RowSelection, RowSelector};
 use prost::bytes::Bytes;
 use std::fs::File;
 use std::path::{Path, PathBuf};
@@ -37,9 +34,8 @@ impl PictureColumn {
     /// The file cannot be opened, is not Parquet or lacks the column.
     pub fn open(path: &Path, name: &str) -> Result<Self> {
         let file = open(path)?;
-        let options = ArrowReaderOptions::new().with_offset_index_policy(PageIndexPolicy::Optional);
         let metadata =
-            ArrowReaderMetadata::load(&file, options).map_err(|error| damaged(path, "it is not Parquet", error))?;
+            parquet_metadata::load_with_pages(&file).map_err(|error| damaged(path, "it is not Parquet", error))?;
         let column = metadata.schema().index_of(name);
         let column = column.map_err(|_| damaged(path, "a column is missing", format!("`{name}`")))?;
         Ok(Self { path: path.to_owned(), metadata, column })

@@ -2,13 +2,14 @@
 //! the first request, so that no reader lists the columns that it needs.
 
 use super::damage::damaged;
+use super::parquet_metadata;
 use arrow_array::cast::AsArray;
 use arrow_array::{Array, ArrayRef, RecordBatch};
 use arrow_schema::DataType;
 use cosfly_diagnose::{Diagnostic, Fault, Result};
 use cosfly_schema::tables::{Column, Kind, Value};
 use parquet::arrow::ProjectionMask;
-use parquet::arrow::arrow_reader::{ArrowReaderMetadata, ArrowReaderOptions, ParquetRecordBatchReaderBuilder};
+use parquet::arrow::arrow_reader::{ArrowReaderMetadata, ParquetRecordBatchReaderBuilder};
 use std::cell::RefCell;
 use std::collections::{BTreeMap, BTreeSet};
 use std::fs::File;
@@ -58,8 +59,7 @@ impl<'p> TableFile<'p> {
     /// The file cannot be opened or is not Parquet.
     pub fn open(path: &'p Path) -> Result<Self> {
         let file = File::open(path).map_err(|error| Diagnostic::io(format!("open `{}`", path.display()), &error))?;
-        let metadata = ArrowReaderMetadata::load(&file, ArrowReaderOptions::default())
-            .map_err(|error| damaged(path, "it is not Parquet", error))?;
+        let metadata = parquet_metadata::load(&file).map_err(|error| damaged(path, "it is not Parquet", error))?;
         Ok(Self { path, file, metadata, wanted: RefCell::default() })
     }
 

@@ -3,12 +3,11 @@
 use super::model_text;
 use super::rows::{Block, Predictions, Refusal, RowProblem};
 use super::waypoint::DIMENSIONS;
-use crate::plain;
+use crate::{parquet_metadata, plain};
 use arrow_array::cast::AsArray;
 use arrow_array::{Array, ArrayRef, Int64Array, RecordBatch, StringArray};
 use arrow_schema::DataType;
 use cosfly_diagnose::{Diagnostic, Fault, Result};
-use parquet::arrow::arrow_reader::ParquetRecordBatchReaderBuilder;
 use std::fs::File;
 use std::path::Path;
 
@@ -21,7 +20,7 @@ pub fn read(path: &Path, file: File) -> Result<Predictions> {
         let message = format!("`{}` cannot be read as Parquet", path.display());
         Diagnostic::new("predictions-damaged", Fault::Input, message).because(error)
     };
-    let builder = ParquetRecordBatchReaderBuilder::try_new(file).map_err(|e| unreadable(&e))?;
+    let builder = parquet_metadata::builder(file).map_err(|e| unreadable(&e))?;
     let mut found = Predictions::default();
     let mut line = 0;
     for batch in builder.with_batch_size(ROWS_AT_ONCE).build().map_err(|e| unreadable(&e))? {

@@ -1,0 +1,44 @@
+//! Metadata of Parquet files. The library panics on negative places and lengths of columns: they are refused before.
+
+use parquet::arrow::arrow_reader::{ArrowReaderMetadata, ArrowReaderOptions, ParquetRecordBatchReaderBuilder};
+use parquet::errors::{ParquetError, Result};
+use parquet::file::metadata::PageIndexPolicy;
+use std::fs::File;
+
+/// Metadata of a file.
+///
+/// # Errors
+/// The file is not Parquet, or its columns lie outside of it.
+pub fn load(file: &File) -> Result<ArrowReaderMetadata> {
+    let metadata = ArrowReaderMetadata::load(file, ArrowReaderOptions::new())?;
+    let end = i64::try_from(file.metadata()?.len()).unwrap_or(i64::MAX);
+    for column in metadata.metadata().row_groups().iter().flat_map(|group| group.columns()) {
+        let starts = [Some(column.data_page_offset()), column.dictionary_page_offset()];
+        let is_inside = |start: i64| {
+            start >= 0 && column.compressed_size() >= 0 && start.saturating_add(column.compressed_size()) <= end
+        };
+        let first = starts[1].or(starts[0]).unwrap_or(-1);
+        if !(is_inside(first) && starts.into_iter().flatten().all(|start| (0..=end).contains(&start))) {
+            return Err(ParquetError::General("a column lies outside of the file".to_owned()));
+        }
+    }
+    Ok(metadata)
+}
+
+/// Metadata of a file, with the places of pages where it has them, so that one row can be read.
+///
+/// # Errors
+/// As of [`load`].
+pub fn load_with_pages(file: &File) -> Result<ArrowReaderMetadata> {
+    load(file)?;
+    ArrowReaderMetadata::load(file, ArrowReaderOptions::new().with_offset_index_policy(PageIndexPolicy::Optional))
+}
+
+/// Reader of a file.
+///
+/// # Errors
+/// As of [`load`].
+pub fn builder(file: File) -> Result<ParquetRecordBatchReaderBuilder<File>> {
+    let metadata = load(&file)?;
+    Ok(ParquetRecordBatchReaderBuilder::new_with_metadata(file, metadata))
+}

@@ -1,0 +1,4 @@
+//! `image_log` for libFuzzer.
+#![no_main]
+
+libfuzzer_sys::fuzz_target!(|bytes: &[u8]| cosfly_fuzz::target("image_log")(bytes));
