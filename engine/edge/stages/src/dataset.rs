@@ -52,7 +52,7 @@ impl StageKind for Dataset {
         parameters["tables"] = Digest::of(cosfly_schema::reference().as_bytes()).short().into();
         let gather = StageProperties {
             kind: self.name().into(),
-            version: 7,
+            version: 8,
             parameters,
             sources: vec![],
             inputs,
