@@ -5,15 +5,17 @@
     python recipes/training/small_networks.py out/hundred --predictions networks.jsonl
 
 Needs numpy, and pyarrow for reading. Learns from split train, judges on the other splits. Fifteen networks, three
-seeds of five kinds: two hidden layers, trained by Adam on poses and on boxes of the target, never on pictures. Tested is
-whether pose history is the decisive input, and whether learning from perturbed flights (denoising) beats learning from
-experts' flights alone on yaw.
+seeds of five kinds: two hidden layers, trained by Adam on poses and on boxes of the target, never on pictures. A box is
+read as a place: its middle gives the direction, its height the distance. Every window is learnt a second time as its
+mirror image. Tested is whether pose history is the decisive input, whether boxes add to poses, and whether learning from
+perturbed flights (denoising) beats learning from experts' flights alone on yaw.
 
 `--predictions` writes the windows' predictions by the first network (poses and boxes, denoising) as a file for
 `cosfly eval`. The book's page "Scoring a model" has the figures of a dataset of a hundred walkers.
 """
 
 import argparse
+import copy
 import json
 from pathlib import Path
 
@@ -31,6 +33,9 @@ KINDS = [
 ]
 FULL, WITHOUT_BOXES, WITHOUT_POSES, EXPERT_ONLY = 0, 1, 2, 4
 HIDDEN, BATCH, RATE = 64, 64, 2e-3
+PERSON_M = 1.72
+# Signs of x, y, z, pitch, yaw, roll in a mirror.
+MIRROR = np.array([1, -1, 1, 1, -1, -1])
 METRICS = ["ade_m", "fde_m", "sr_1m", "yaw_mae_deg"]
 
 
@@ -42,7 +47,7 @@ class Windows:
         table = ds.dataset(files).to_table()
         table = table.filter(np.isin(table["role"].to_numpy(), roles))
         flights = ds.dataset(folder / "data/trajectories").to_table(
-            ["trajectory_id", "town", "pedestrian_id", "camera_width_px", "camera_height_px"]
+            ["trajectory_id", "town", "pedestrian_id", "camera_width_px", "camera_height_px", "camera_focal_px"]
         )
         flights = {row["trajectory_id"]: row for row in flights.to_pylist()}
         lists = lambda name, width: table[name].combine_chunks().flatten().to_numpy().reshape(len(table), -1, width)
@@ -55,6 +60,7 @@ class Windows:
         self.before = self.current[:, None] - steps[:, ::-1].cumsum(axis=1)[:, ::-1]
         rows = [flights[name] for name in self.trajectory_id]
         self.image_px = np.array([[row["camera_width_px"], row["camera_height_px"]] for row in rows], np.float64)
+        self.focal_px = np.array([row["camera_focal_px"] for row in rows])
         self.boxes_px = lists("input_boxes_px", 4).astype(np.float64)
         walkers = [(row["town"], row["pedestrian_id"]) for row in rows]
         numbers = {walker: number for number, walker in enumerate(dict.fromkeys(walkers))}
@@ -62,6 +68,15 @@ class Windows:
 
     def __len__(self):
         return len(self.current)
+
+    def mirrored(self):
+        """The same windows in a mirrored world."""
+        other = copy.copy(self)
+        other.current, other.deltas, other.before = self.current * MIRROR, self.deltas * MIRROR, self.before * MIRROR
+        left, top, right, bottom = np.moveaxis(self.boxes_px, -1, 0)
+        width = self.image_px[:, None, 0]
+        other.boxes_px = np.where((right > left)[..., None], np.stack([width - right, top, width - left, bottom], axis=-1), 0)
+        return other
 
 
 def short_way(degrees):
@@ -83,17 +98,34 @@ def relative(current, poses):
     return np.concatenate([place, short_way(difference[..., 3:])], axis=-1)
 
 
+def places(windows, sees_poses):
+    """Where the boxes show the target: place (ahead, right, up, m), direction, angle of its height, and whether it is seen.
+
+    With poses all are seen from the current pose; without, each from the camera of its own picture.
+    """
+    low, high = windows.boxes_px[..., :2], windows.boxes_px[..., 2:]
+    is_seen = (high > low).all(axis=-1, keepdims=True)
+    right, down = np.moveaxis((low + high) / 2 - windows.image_px[:, None] / 2, -1, 0) / windows.focal_px[:, None]
+    poses = np.concatenate([windows.before, windows.current[:, None]], axis=1) * sees_poses
+    current = poses[:, -1:]
+    pitch, yaw = np.radians(poses[..., 3]), np.radians(poses[..., 4])
+    ahead, up = np.cos(pitch) + np.sin(pitch) * down, np.sin(pitch) - np.cos(pitch) * down
+    ray = np.stack([np.cos(yaw) * ahead - np.sin(yaw) * right, np.sin(yaw) * ahead + np.cos(yaw) * right, up], axis=-1)
+    ray /= np.linalg.norm(ray, axis=-1, keepdims=True)
+    # A person of usual height who stands upright covers this angle.
+    angle = np.maximum((high - low)[..., 1:], 1) / windows.focal_px[:, None, None]
+    away_m = np.clip(PERSON_M * np.hypot(ray[..., :1], ray[..., 1:2]) / angle, 2, 80)
+    seen_from = lambda offset: np.where(is_seen, turned(offset, current[..., 4]), 0.0)
+    place = seen_from(poses[..., :3] + away_m * ray - current[..., :3])
+    return place, seen_from(ray), np.where(is_seen, angle, 0.0), is_seen.astype(float)
+
+
 def features(windows, sees_poses, sees_boxes):
     parts = []
     if sees_poses:
         parts += [relative(windows.current, windows.before).reshape(len(windows), -1), windows.current[:, [3, 5]]]
     if sees_boxes:
-        low, high = windows.boxes_px[..., :2], windows.boxes_px[..., 2:]
-        size_px = windows.image_px[:, None]
-        is_seen = (high > low).all(axis=-1, keepdims=True)
-        middle, size = (low + high) / (2 * size_px) - 0.5, (high - low) / size_px
-        boxes = np.concatenate([np.ones_like(middle[..., :1]), middle, size], axis=-1)
-        parts.append(np.where(is_seen, boxes, 0.0).reshape(len(windows), -1))
+        parts += [part.reshape(len(windows), -1) for part in places(windows, sees_poses)]
     return np.concatenate(parts, axis=1)
 
 
@@ -206,7 +238,9 @@ def main():
     print("| --- | ---: | ---: | ---: | ---: | ---: |")
     for name, sees_poses, sees_boxes, roles in KINDS:
         lessons = Windows(chosen.dataset, ["train"], roles)
-        seen, learnt = features(lessons, sees_poses, sees_boxes), outcomes(lessons)
+        both = [lessons, lessons.mirrored()]
+        seen = np.concatenate([features(part, sees_poses, sees_boxes) for part in both])
+        learnt = np.concatenate([outcomes(part) for part in both])
         view = features(judged, sees_poses, sees_boxes)
         of_seeds = []
         for seed in range(chosen.seeds):
@@ -227,6 +261,9 @@ def main():
         f"Pose history is the decisive input: the direction {holds}. FDE grows {no_poses / full:.2f} times without poses "
         f"(the paper: 3.1) and {no_boxes / full:.2f} times without boxes; {value:.2f} m [{low:.2f}, {high:.2f}] between the two."
     )
+    value, low, high = difference("fde_m", found[WITHOUT_BOXES], found[FULL], judged.walker, 1000)
+    holds = "holds" if low > 0 else "does NOT hold"
+    print(f"Boxes add to poses: the direction {holds}. FDE is {value:.2f} m [{low:.2f}, {high:.2f}] larger without them.")
     value, low, high = difference("yaw_mae_deg", found[EXPERT_ONLY], found[FULL], judged.walker, 1000)
     holds = "holds" if low > 0 else "does NOT hold"
     ratio = score(EXPERT_ONLY, "yaw_mae_deg") / score(FULL, "yaw_mae_deg")

@@ -1,6 +1,7 @@
 //! Options that several formats have: part of their structs with `#[serde(flatten)]`, so that they are the same in all.
 
 use cosfly_metrics::DeltaFrame;
+use cosfly_schema::tables::{Column, DatasetItem, Windows};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
@@ -44,6 +45,14 @@ impl Language {
         match self {
             Self::En => "en",
             Self::Zh => "zh",
+        }
+    }
+
+    /// Column of table `windows` with the instructions in the language.
+    pub fn of_windows(self) -> Column<DatasetItem, String> {
+        match self {
+            Self::En => Windows::instruction_en,
+            Self::Zh => Windows::instruction_zh,
         }
     }
 }

@@ -121,6 +121,7 @@ fn typed_values_of_every_kind_come_back() {
     .unwrap();
     cosfly_read::read(&written("windows"), &mut |rows| {
         same!(rows, 0, &items[0], 0, Windows::input_boxes_px, Windows::caption_ids, Windows::scene);
+        same!(rows, 0, &items[0], 0, Windows::instruction_en, Windows::instruction_zh);
         let refused = rows.get(cosfly_schema::tables::Column::<(), Edges>::named("turn_deg", "", |_, _| [0.0; 4]), 0);
         assert_eq!(refused.unwrap_err().code, "dataset-column");
         let absent = cosfly_schema::tables::Column::<(), ImageFile>::named("nothing", "", |_, _| ImageFile(vec![]));

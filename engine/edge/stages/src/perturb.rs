@@ -36,7 +36,7 @@ impl StageKind for Perturb {
         config.validate().map_err(|(path, message)| parameters::refused_at(&path, message))?;
         let properties = StageProperties {
             kind: self.name().into(),
-            version: 3,
+            version: 4,
             parameters: parameters::canonical(&config),
             sources: vec![],
             inputs: self.ports(),

@@ -24,6 +24,8 @@ pub enum Slot {
     Turns,
     Walking,
     Clothes,
+    Place,
+    People,
     Number,
 }
 
@@ -44,6 +46,8 @@ impl Slot {
             Self::Turns => "turns",
             Self::Walking => "walking",
             Self::Clothes => "clothes",
+            Self::Place => "place",
+            Self::People => "people",
             Self::Number => "number",
         }
     }
@@ -96,7 +100,7 @@ pub fn check_clothes(text: &str, language: Language, wear: Wear) -> Result<(), S
 }
 
 /// Disagreement of a claim about clothes with the clothes; `None` for other claims.
-fn clothes_mismatch(claim: &Claim, wear: &Wear) -> Option<SlotMismatch> {
+pub(crate) fn clothes_mismatch(claim: &Claim, wear: &Wear) -> Option<SlotMismatch> {
     let (garment, found, expected) = match claim {
         Claim::Top(colour) => ("top", colour.name(), wear.top.name()),
         Claim::Trousers(colour) => ("trousers", colour.name(), wear.trousers.name()),
@@ -105,6 +109,19 @@ fn clothes_mismatch(claim: &Claim, wear: &Wear) -> Option<SlotMismatch> {
     };
     let told = |words: &str| format!("{garment}: {words}");
     (found != expected).then(|| SlotMismatch { slot: Slot::Clothes, found: told(found), expected: told(expected) })
+}
+
+/// The disagreement of a text that is not in the script of its language.
+pub(crate) fn script_mismatch(text: &str, language: Language) -> Option<SlotMismatch> {
+    let han = text.chars().filter(|c| ('\u{4e00}'..='\u{9fff}').contains(c)).count();
+    let latin = text.chars().filter(char::is_ascii_alphabetic).count();
+    let foreign = text.chars().filter(|c| c.is_alphabetic() && !c.is_ascii()).count();
+    let (holds, expected) = match language {
+        Language::Zh => (han > 0 && latin == 0 && foreign == han, "Chinese characters alone"),
+        Language::En => (latin > 0 && foreign == 0, "Latin letters alone"),
+    };
+    let found = || format!("{han} Chinese and {latin} Latin letters");
+    (!holds).then(|| SlotMismatch { slot: Slot::Language, found: found(), expected: expected.to_owned() })
 }
 
 fn claims_of(text: &str, language: Language) -> Vec<Claim> {
@@ -134,14 +151,7 @@ impl Checker<'_> {
     }
 
     fn script(&mut self, text: &str, language: Language) {
-        let han = text.chars().filter(|c| ('\u{4e00}'..='\u{9fff}').contains(c)).count();
-        let latin = text.chars().filter(char::is_ascii_alphabetic).count();
-        let foreign = text.chars().filter(|c| c.is_alphabetic() && !c.is_ascii()).count();
-        let (holds, expected) = match language {
-            Language::Zh => (han > 0 && latin == 0 && foreign == han, "Chinese characters alone"),
-            Language::En => (latin > 0 && foreign == 0, "Latin letters alone"),
-        };
-        self.expect(holds, Slot::Language, format_args!("{han} Chinese and {latin} Latin letters"), expected);
+        self.mismatches.extend(script_mismatch(text, language));
     }
 
     fn directions(&mut self, claims: &[Claim]) {

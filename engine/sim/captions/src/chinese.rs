@@ -1,6 +1,6 @@
 //! Chinese wordings of the facts.
 
-use crate::facts::Facts;
+use crate::facts::{Facts, Wear};
 use crate::precision::{DISTANCE_STEP_M, PITCH_STEP_DEG, SPEED_STEP_MPS, STOP_STEP_S, duration_step_s, way_step_m};
 use crate::turns::{Turn, TurnKind};
 use crate::wording::{one_of, rounded};
@@ -17,7 +17,7 @@ pub(crate) fn instruction(facts: &Facts, template: usize, words: &mut RandomStre
         (false, Some(_)) => "站立不动、",
         (false, None) => "站立不动的",
     };
-    let who = format!("{standing}{}", who(facts, words));
+    let who = format!("{standing}{}", who(facts.wear.as_ref(), words));
     let distance = rounded(facts.distance_m, DISTANCE_STEP_M);
     let view = view(facts, words);
     match template {
@@ -33,7 +33,7 @@ pub(crate) fn instruction(facts: &Facts, template: usize, words: &mut RandomStre
 /// Several sentences: route, stops, length, and how the drone flies.
 pub(crate) fn description(facts: &Facts, template: usize, words: &mut RandomStream) -> String {
     let drone = drone(facts, template % 3, words);
-    let target = who(facts, words);
+    let target = who(facts.wear.as_ref(), words);
     let walk = if facts.walks {
         format!("{target}{}{}{}", route(facts, words), stops(facts, words), length(facts, words))
     } else {
@@ -44,15 +44,15 @@ pub(crate) fn description(facts: &Facts, template: usize, words: &mut RandomStre
 }
 
 /// The target with clothes: `身穿红色上衣和蓝色裤子的行人`.
-fn who(facts: &Facts, words: &mut RandomStream) -> String {
-    let Some(wear) = &facts.wear else { return "行人".to_owned() };
+pub(crate) fn who(wear: Option<&Wear>, words: &mut RandomStream) -> String {
+    let Some(wear) = wear else { return "行人".to_owned() };
     let (top, trousers) = (colour(wear.top), colour(wear.trousers));
     let backpack = if wear.backpack { "、背着背包" } else { "" };
     let pattern = one_of(words, &["身穿{}上衣、#裤子%的行人", "穿{}上衣和#裤子%的行人"]);
     pattern.replace("{}", top).replace('#', trousers).replace('%', backpack)
 }
 
-fn colour(colour: Colour) -> &'static str {
+pub(crate) fn colour(colour: Colour) -> &'static str {
     match colour {
         Colour::Black => "黑色",
         Colour::Grey => "灰色",
@@ -107,7 +107,7 @@ fn listed_turns(facts: &Facts) -> String {
 }
 
 /// Numerals up to ten, before a measure word.
-fn numeral(count: usize) -> String {
+pub(crate) fn numeral(count: usize) -> String {
     let numerals = ["零", "一", "两", "三", "四", "五", "六", "七", "八", "九", "十"];
     numerals.get(count).map_or_else(|| count.to_string(), |numeral| (*numeral).to_owned())
 }

@@ -1,6 +1,6 @@
 //! English wordings of the facts.
 
-use crate::facts::Facts;
+use crate::facts::{Facts, Wear};
 use crate::precision::{DISTANCE_STEP_M, PITCH_STEP_DEG, SPEED_STEP_MPS, STOP_STEP_S, duration_step_s, way_step_m};
 use crate::turns::{Turn, TurnKind};
 use crate::wording::{one_of, rounded};
@@ -12,7 +12,7 @@ const LISTED_TURNS: usize = 4;
 /// One sentence for the pilot: whom to follow, how far away, at which angle.
 pub(crate) fn instruction(facts: &Facts, template: usize, words: &mut RandomStream) -> String {
     let standing = if facts.walks { "" } else { " who stands still" };
-    let who = format!("{}{standing}", who(facts, words));
+    let who = format!("{}{standing}", who(facts.wear.as_ref(), words));
     let distance = rounded(facts.distance_m, DISTANCE_STEP_M);
     let (at, by) = (view(facts, "at"), view(facts, "by"));
     match template {
@@ -28,7 +28,7 @@ pub(crate) fn instruction(facts: &Facts, template: usize, words: &mut RandomStre
 /// Several sentences: route, stops, length, and how the drone flies.
 pub(crate) fn description(facts: &Facts, template: usize, words: &mut RandomStream) -> String {
     let drone = drone(facts, template % 3);
-    let target = who(facts, words);
+    let target = who(facts.wear.as_ref(), words);
     let walk = if facts.walks {
         format!("The {target} {} {} {}", route(facts), stops(facts, words), length(facts, words))
     } else {
@@ -39,14 +39,19 @@ pub(crate) fn description(facts: &Facts, template: usize, words: &mut RandomStre
 }
 
 /// The target with clothes: `pedestrian in a red top and blue trousers`.
-fn who(facts: &Facts, words: &mut RandomStream) -> String {
+pub(crate) fn who(wear: Option<&Wear>, words: &mut RandomStream) -> String {
     let who = one_of(words, &["pedestrian", "person"]);
-    let Some(wear) = &facts.wear else { return who.to_owned() };
+    let Some(wear) = wear else { return who.to_owned() };
     let (top, trousers) = (wear.top.name(), wear.trousers.name());
-    let article = if top.starts_with(['a', 'e', 'i', 'o', 'u']) { "an" } else { "a" };
+    let article = article(top);
     let backpack = if wear.backpack { " with a backpack" } else { "" };
     let pattern = one_of(words, &["in # {} top and {} trousers", "wearing # {} top and {} trousers"]);
     format!("{who}{backpack} {}", pattern.replace('#', article).replacen("{}", top, 1).replacen("{}", trousers, 1))
+}
+
+/// Indefinite article before a word.
+pub(crate) fn article(word: &str) -> &'static str {
+    if word.starts_with(['a', 'e', 'i', 'o', 'u']) { "an" } else { "a" }
 }
 
 /// `down at about 45 degrees`.

@@ -2,6 +2,8 @@
 //!
 //! [`facts`] reads a trajectory, [`captions`] puts the facts into words, [`check`] reads any text back and compares
 //! it with the facts. The reader shares no code with the templates, so it can judge other people's texts as well.
+//!
+//! [`sight`] does the same for one picture: an instruction that singles the target out by what the picture shows.
 
 pub mod caption;
 pub mod check;
@@ -13,6 +15,7 @@ pub mod facts;
 pub mod language;
 pub mod precision;
 mod reading;
+pub mod sight;
 mod turns;
 mod wording;
 

@@ -12,6 +12,7 @@ mod objects;
 mod pairs;
 mod people;
 mod rejected;
+mod sight;
 mod table;
 mod trajectories;
 mod value;

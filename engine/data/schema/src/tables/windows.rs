@@ -2,9 +2,10 @@
 
 use super::column::columns;
 use super::value::class_value;
-use super::{DatasetItem, Need, Table};
+use super::{DatasetItem, Need, Table, sight};
 use crate::Role;
 use crate::log::messages::edges_px;
+use cosfly_captions::Language;
 use cosfly_frames::Pose;
 use cosfly_frames::action;
 use cosfly_metrics::difficulty::WindowFrames;
@@ -62,6 +63,11 @@ columns! { Windows::COLUMNS of DatasetItem;
     start_frame: u32 = |item, row| start(item, row) as u32;
     /// Instructions of the trajectory: `captions.caption_id`.
     caption_ids: Vec<String> = |item, _| (0..item.captions.len()).map(|place| super::captions::id(item, place)).collect();
+    /// Instruction in English that singles the target out in the last picture of the input: by its clothes, the people around it,
+    /// its way across the picture. Empty for a target without a body.
+    instruction_en: String = |item, row| sight::instruction(item, current_frame(item, row), start(item, row), Language::En);
+    /// The same in Chinese, in words of its own.
+    instruction_zh: String = |item, row| sight::instruction(item, current_frame(item, row), start(item, row), Language::Zh);
     /// Rank in nested subsets, 0..1, the same for all trajectories behind a pedestrian: windows below 0.25 are a
     /// quarter of all.
     subset_rank: f64 = |item, _| item.membership.subset_rank;
@@ -159,8 +165,13 @@ fn expert_view(item: &DatasetItem, frame: usize) -> &TargetView {
     &record.views[expert_frame(item, frame)]
 }
 
+/// Last frame of the input.
+fn current_frame(item: &DatasetItem, row: usize) -> usize {
+    input(item, row).end - 1
+}
+
 fn current(item: &DatasetItem, row: usize) -> &Pose {
-    &item.record.trajectory.poses_in_world[input(item, row).end - 1]
+    &item.record.trajectory.poses_in_world[current_frame(item, row)]
 }
 
 /// Difficulty features of the frames: the expert's flight and the target's walk.

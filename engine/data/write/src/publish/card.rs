@@ -209,7 +209,7 @@ from PIL import Image
 windows = ds.dataset(\"data/windows\").to_table(filter=ds.field(\"split\") == \"SPLIT\")
 captions = {row[\"caption_id\"]: row for row in ds.dataset(\"data/captions\").to_table().to_pylist()}
 for window in windows.slice(0, 4).to_pylist():
-    instructions = [captions[it][\"text\"] for it in window[\"caption_ids\"]]
+    instructions = [window[\"instruction_en\"]] + [captions[it][\"text\"] for it in window[\"caption_ids\"]]
     seen = [window[\"start_frame\"] + i for i in range(HISTORY)]
     is_seen = (ds.field(\"trajectory_id\") == window[\"trajectory_id\"]) & ds.field(\"frame\").isin(seen)
     rows = ds.dataset(\"data/frames\").to_table(columns=[\"frame\", \"preview\"], filter=is_seen).sort_by(\"frame\").to_pylist()

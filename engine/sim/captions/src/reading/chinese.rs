@@ -39,7 +39,7 @@ pub fn read(text: &str) -> Vec<Claim> {
     clauses(text).iter().flat_map(read).collect()
 }
 
-fn clauses(text: &str) -> Vec<Vec<char>> {
+pub(crate) fn clauses(text: &str) -> Vec<Vec<char>> {
     let chars: Vec<char> = text.chars().collect();
     let mut clauses = vec![vec![]];
     for (i, &c) in chars.iter().enumerate() {
@@ -106,7 +106,7 @@ fn repeated_turn(text: &str) -> Option<(TurnKind, usize, &str)> {
 }
 
 /// A colour before a garment at the start of `text`, or luggage; and what follows.
-fn garment(text: &str) -> Option<(Claim, &str)> {
+pub(crate) fn garment(text: &str) -> Option<(Claim, &str)> {
     if let Some(after) = text.strip_prefix("背包") {
         return Some((Claim::Backpack, after));
     }

@@ -11,7 +11,7 @@ const DISTANCE_WORDS: [&str; 6] = ["away", "distance", "from", "behind", "apart"
 const NEGATIONS: [&str; 5] = ["no", "not", "never", "without", "nowhere"];
 
 #[derive(Clone, Debug, PartialEq)]
-enum Token {
+pub(crate) enum Token {
     Word(String),
     Number(f64),
 }
@@ -22,7 +22,7 @@ pub fn read(text: &str) -> Vec<Claim> {
 }
 
 /// Lower-case tokens, parted at punctuation.
-fn clauses(text: &str) -> Vec<Vec<Token>> {
+pub(crate) fn clauses(text: &str) -> Vec<Vec<Token>> {
     let chars: Vec<char> = text.to_lowercase().chars().collect();
     let mut clauses = vec![vec![]];
     let mut i = 0;
@@ -109,7 +109,7 @@ fn read_clause(tokens: &[Token]) -> Vec<Claim> {
 }
 
 /// A colour before a garment, and luggage.
-fn garment_claim(word: &str, next: &str) -> Option<Claim> {
+pub(crate) fn garment_claim(word: &str, next: &str) -> Option<Claim> {
     if word == "backpack" {
         return Some(Claim::Backpack);
     }
@@ -208,7 +208,7 @@ fn is_unit(word: &str) -> bool {
     units.contains(&word) || word.starts_with("turn") || is_stop(word) || turn_word(word).is_some()
 }
 
-fn number_word(word: &str) -> Option<f64> {
+pub(crate) fn number_word(word: &str) -> Option<f64> {
     let words = ["zero", "one", "two", "three", "four", "five", "six", "seven", "eight", "nine", "ten"];
     words.iter().position(|known| *known == word).map(|value| value as f64)
 }

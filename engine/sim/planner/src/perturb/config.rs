@@ -65,11 +65,11 @@ impl Default for PerturbConfig {
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(default, deny_unknown_fields)]
 pub struct FlyableConfig {
-    /// Kind `drift`: standard deviation of the displacement along each horizontal axis, metres; along the vertical axis it is
-    /// 0.4 times as large. Default 1.5.
+    /// All kinds that a drone could fly: standard deviation of the drift along each horizontal axis, metres; along the vertical
+    /// axis it is 0.4 times as large. With 0 the twins of kinds `aim` and `search` fly the expert's own way. Default 2.5.
     #[schemars(range(min = 0.0, max = 20.0))]
     pub drift_m: f64,
-    /// Kind `drift`: time constant, seconds. Default 6.
+    /// Time constant of the drift, seconds. Default 6.
     #[schemars(range(min = 0.5, max = 1000.0))]
     pub drift_s: f64,
     /// Kind `gusts`: mean time from the end of a gust to the next one, seconds. Default 8.
@@ -110,7 +110,7 @@ pub struct FlyableConfig {
 impl Default for FlyableConfig {
     fn default() -> Self {
         Self {
-            drift_m: 1.5,
+            drift_m: 2.5,
             drift_s: 6.0,
             gust_every_s: 8.0,
             gust_mps2: 4.0,

@@ -33,18 +33,23 @@ pub(super) fn twin(
 ) -> (Vec<Pose>, Vec<FramePerturbation>) {
     let places: Vec<DVec3> = expert.poses_in_world.iter().map(|pose| pose.position_in_world).collect();
     let (flyable, dt_s) = (&config.flyable, expert.track.dt_s);
-    let wanted = match kind {
-        Kind::Drift => motion::drift(places.len(), dt_s, flyable, seed),
+    // Every twin drifts: where its own way were the expert's, poses alone would tell a model the answer.
+    let mut wanted = motion::drift(places.len(), dt_s, flyable, seed);
+    let more = match kind {
         Kind::Gusts => motion::gusts(places.len(), dt_s, flyable, seed),
         Kind::Timing => motion::timing(&places, dt_s, flyable, seed),
-        Kind::Jumps | Kind::Aim | Kind::Search => vec![DVec3::ZERO; places.len()],
+        Kind::Drift | Kind::Jumps | Kind::Aim | Kind::Search => vec![],
     };
+    wanted.iter_mut().zip(more).for_each(|(drift, more)| *drift += more);
     let way = Way { expert, places: &places, exact, config };
     let mut offsets = way.flown(wanted);
     offsets.iter_mut().filter(|offset| offset.length() <= NOTHING).for_each(|offset| *offset = DVec3::ZERO);
     let straight = views(expert, &offsets);
     let poses = match kind {
-        Kind::Aim => aimed(&places, &expert.track, 0, None, &coarse_aim(flyable), seed.child("aim", 0)),
+        Kind::Aim => {
+            let places: Vec<DVec3> = places.iter().zip(&offsets).map(|(place, offset)| *place + *offset).collect();
+            aimed(&places, &expert.track, 0, None, &coarse_aim(flyable), seed.child("aim", 0))
+        }
         Kind::Search => search::views(&straight, dt_s, flyable, seed),
         _ => straight.clone(),
     };

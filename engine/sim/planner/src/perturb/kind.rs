@@ -10,7 +10,7 @@ use serde::{Deserialize, Serialize};
 pub enum Kind {
     /// Independent displacements and turns, frame by frame (the paper's).
     Jumps,
-    /// A correlated drift of the drone.
+    /// A correlated drift of the drone, which the kinds below have, too.
     Drift,
     /// Gusts that push the drone aside, from which it recovers.
     Gusts,
@@ -45,6 +45,7 @@ impl Kind {
 }
 
 /// Shares of the kinds of perturbation among the flights: each flight draws one kind. The shares are relative to their sum.
+/// All kinds but `jumps` drift away from the expert's way and back, and do what they are named after besides.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(default, deny_unknown_fields)]
 pub struct Mixture {
@@ -52,20 +53,19 @@ pub struct Mixture {
     /// between frames are some 40 m/s^2. Default 1.
     #[schemars(range(min = 0.0, max = 1000.0))]
     pub jumps: f64,
-    /// The drone drifts away and back. Default 0.
+    /// Nothing but the drift. Default 0.
     #[schemars(range(min = 0.0, max = 1000.0))]
     pub drift: f64,
-    /// Gusts push the drone aside, and it recovers. Default 0.
+    /// Gusts push the drone aside, from which it recovers. Default 0.
     #[schemars(range(min = 0.0, max = 1000.0))]
     pub gusts: f64,
     /// The drone flies the expert's way early or late, and so turns early or late. Default 0.
     #[schemars(range(min = 0.0, max = 1000.0))]
     pub timing: f64,
-    /// The drone flies with the expert, but its camera aims coarsely and late. Default 0.
+    /// The camera aims coarsely and late. Default 0.
     #[schemars(range(min = 0.0, max = 1000.0))]
     pub aim: f64,
-    /// The drone flies with the expert, but its camera loses the target at times, looks for it to both sides, and finds it
-    /// again. Default 0.
+    /// The camera loses the target at times, looks for it to both sides, and finds it again. Default 0.
     #[schemars(range(min = 0.0, max = 1000.0))]
     pub search: f64,
 }

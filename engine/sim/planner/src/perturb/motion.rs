@@ -147,7 +147,7 @@ mod tests {
         let spread =
             |offsets: &[DVec3]| (offsets.iter().map(|it| it.x * it.x).sum::<f64>() / offsets.len() as f64).sqrt();
         let drifting = drift(20_000, 0.5, &config, &seed);
-        assert!((1.0..1.6).contains(&spread(&drifting)), "{}", spread(&drifting));
+        assert!((1.7..2.6).contains(&spread(&drifting)), "{}", spread(&drifting));
         let gusty = gusts(20_000, 0.5, &config, &seed);
         let largest = gusty.iter().map(|it| it.length()).fold(0.0, f64::max);
         assert!((1.0..6.0).contains(&largest) && gusty.iter().all(|it| it.z == 0.0), "{largest}");

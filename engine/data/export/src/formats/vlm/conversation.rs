@@ -13,13 +13,14 @@ use std::collections::BTreeMap;
 use std::fmt::Write as _;
 
 /// The line of the window of `episode` that begins at frame `start`; `expert` has the expert's pose of every frame,
-/// `pictures` the paths of its pictures by frame.
+/// `pictures` the paths of its pictures by frame, `instruction` is that of the window.
 pub fn conversation(
     episode: &Episode<'_>,
     options: &Options,
     expert: &[Pose],
     pictures: &BTreeMap<usize, String>,
     start: usize,
+    instruction: &str,
 ) -> Value {
     let window = options.window();
     let first_unseen = start + window.history;
@@ -34,7 +35,7 @@ pub fn conversation(
         "frame": start,
         "messages": [
             {"role": "system", "content": system(options)},
-            {"role": "user", "content": question(episode, options, seen)},
+            {"role": "user", "content": question(episode, options, seen, instruction)},
             {"role": "assistant", "content": json!({"waypoint_deltas": deltas}).to_string()},
         ],
         "images": images,
@@ -85,7 +86,7 @@ fn system(options: &Options) -> String {
     )
 }
 
-fn question(episode: &Episode<'_>, options: &Options, seen: &[FrameRow]) -> String {
+fn question(episode: &Episode<'_>, options: &Options, seen: &[FrameRow], instruction: &str) -> String {
     let flight = episode.flight;
     let dt_s = flight.dt_s;
     let history = "<image>".repeat(seen.len() - 1);
@@ -96,7 +97,7 @@ fn question(episode: &Episode<'_>, options: &Options, seen: &[FrameRow]) -> Stri
         BoxScale::Thousandths => "thousandths of width and height".into(),
     };
     let mut text = if seen.len() > 1 { format!("History, every {dt_s} s: {history}\n") } else { String::new() };
-    let _ = writeln!(text, "Current: <image>\nInstruction: {}", episode.instruction(options.instructions.language));
+    let _ = writeln!(text, "Current: <image>\nInstruction: {instruction}");
     let _ = writeln!(
         text,
         "Poses, oldest first, [x, y, z, pitch, yaw, roll], metres along the world's axes from the current place, degrees:"

@@ -43,6 +43,8 @@ impl Format for Vlm {
             return Err(Diagnostic::new("export-windows", Fault::Recipe, message)
                 .hint("choose with `--input`, `--history` and `--horizon`"));
         }
+        let language = options.instructions.language;
+        let instructions = source.dataset.window_instructions(language.of_windows(), window.history)?;
         let mut files: BTreeMap<String, BufWriter<File>> = BTreeMap::new();
         let (mut flight, mut windows) = (0, 0);
         source.each_flight_of(&is_seen, &mut |episode| {
@@ -54,8 +56,11 @@ impl Format for Vlm {
             let pictures = write_pictures(episode, options, out, flight)?;
             let expert = episode.expert_poses()?;
             let Some(file) = files.get_mut(split) else { return Ok(()) };
+            let own = instructions.get(&episode.flight.trajectory_id);
             for start in window.starts(episode.frames.len()) {
-                let line = conversation(episode, options, &expert, &pictures, start);
+                let instruction = own.and_then(|own| own.get(&start)).map(String::as_str);
+                let instruction = instruction.unwrap_or_else(|| episode.instruction(language));
+                let line = conversation(episode, options, &expert, &pictures, start, instruction);
                 writeln!(file, "{line}").map_err(|error| out.refusal(&name, &error))?;
                 windows += 1;
             }
@@ -159,5 +164,7 @@ swift sft --dataset train.jsonl ...                                             
 
 A line has `messages` (system, user, assistant), `images` (one path for each `<image>`, from this folder), and `id`,
 `trajectory_id` and `frame` (the window's first) to find it again. Metres have three decimals, degrees two; every increment is
-counted from where the rounded ones before lead, so that rounding does not add up.
+counted from where the rounded ones before lead, so that rounding does not add up. The instruction holds in the current picture: it
+singles the person out by clothes, by the people around, by the way across the picture. Windows that table `windows` of the
+dataset does not have (`--history`, `--stride`) have the instruction of the whole flight.
 ";

@@ -1,0 +1,48 @@
+//! Instructions of windows: what the last picture of the input shows of the target.
+
+use super::DatasetItem;
+use crate::log::messages::edges_px;
+use crate::{OtherPerson, Sighting};
+use cosfly_captions::sight::{self, Person, View};
+use cosfly_captions::{Language, Wear};
+use cosfly_frames::{Seed, TargetState};
+use cosfly_render::{Colour, PixelBox};
+
+/// The instruction of frame `frame`, of a window that begins at frame `start`; empty for a target without a body.
+pub fn instruction(item: &DatasetItem, frame: usize, start: usize, language: Language) -> String {
+    let Some(view) = view(item, frame, start) else { return String::new() };
+    let record = &item.record;
+    let seed = Seed::of_item(record.seed, "windows", &record.trajectory_id).child("window", start as u64);
+    sight::instruction(&sight::sight(&view), language, seed)
+}
+
+/// The picture of frame `frame`; `None` for a target without a body.
+fn view(item: &DatasetItem, frame: usize, start: usize) -> Option<View> {
+    let record = &item.record;
+    let outfit = record.outfit.as_ref()?;
+    let states = &record.trajectory.track.states;
+    let seen = &record.views[frame];
+    let other = |(person, sighting): (&OtherPerson, &Sighting)| {
+        let view = &sighting.view;
+        self::person(&sighting.state, Some(&view.visible_box), view.pixels, person.outfit.top.name)
+    };
+    Some(View {
+        camera: record.camera_pose(frame),
+        width_px: f64::from(record.camera.width),
+        target: person(&states[frame], seen.visible_box.as_ref(), seen.pixels, outfit.top.name),
+        wear: Some(Wear::from(outfit)),
+        moved_in_world: states[frame].feet_in_world - states[start].feet_in_world,
+        others: record.seen_in(frame).map(other).collect(),
+    })
+}
+
+fn person(state: &TargetState, visible_box: Option<&PixelBox>, pixels: u32, top: Colour) -> Person {
+    Person {
+        feet_in_world: state.feet_in_world,
+        heading_rad: state.heading_rad,
+        speed_mps: state.speed_mps,
+        box_px: visible_box.map(|it| edges_px(it).map(f64::from)),
+        pixels,
+        top,
+    }
+}

@@ -1,0 +1,343 @@
+//! Facts of one picture, from what is visible in it: pixels of the target and of bystanders, and their places in the world.
+//!
+//! A fact that a person who sees the picture could dispute is left out: people of a few pixels make no counts, and
+//! directions near a border have no name.
+
+use crate::facts::Wear;
+use cosfly_frames::{DVec3, Pose, real};
+use cosfly_render::Colour;
+
+/// A person with fewer visible pixels is not clear: texts do not mention and do not count such a person, and do not say how
+/// many people the picture shows.
+const CLEAR_PIXELS: u32 = 30;
+/// Smallest height of the box of a clear person, pixels.
+const CLEAR_HEIGHT_PX: f64 = 10.0;
+/// A target that moves less than this over the input stands; one that moves more than [`WALKS_M`] walks, metres.
+const STANDS_M: f64 = 0.1;
+const WALKS_M: f64 = 0.4;
+/// A way within this angle of a direction of the picture has its name, degrees.
+const ACROSS_DEG: f64 = 30.0;
+/// In a picture that looks down more steeply, "away" and "towards" mean little, degrees.
+const STEEP_DEG: f64 = 70.0;
+/// Someone who walks within this angle of the target's direction walks along, degrees.
+const ALONG_DEG: f64 = 30.0;
+/// Slowest walk of somebody who walks along, m/s.
+const ALONG_MPS: f64 = 0.3;
+/// Someone who walks along within this distance is near, metres.
+const NEAR_M: f64 = 6.0;
+/// Someone who is not farther than this before or behind the target is beside it, metres.
+const BESIDE_M: f64 = 0.7;
+/// Largest distance across the way, metres.
+const ASIDE_M: f64 = 1.8;
+/// The nearest person is nearer than all others by this factor at least.
+const NEARER: f64 = 1.25;
+/// The outermost person is this far from the next one at least, as a share of the picture's width.
+const OUTER: f64 = 0.03;
+
+/// Somebody in a picture.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Person {
+    /// Ground point between the feet, world frame.
+    pub feet_in_world: DVec3,
+    /// Walking direction, radians.
+    pub heading_rad: f64,
+    /// Speed along the ground, m/s.
+    pub speed_mps: f64,
+    /// Left, top, right, bottom edge of the visible pixels; `None` where no pixel is visible.
+    pub box_px: Option<[f64; 4]>,
+    /// Number of visible pixels.
+    pub pixels: u32,
+    /// Colour of the shirt or jacket.
+    pub top: Colour,
+}
+
+impl Person {
+    fn is_clear(&self) -> bool {
+        self.pixels >= CLEAR_PIXELS && self.box_px.is_some_and(|edges| edges[3] - edges[1] >= CLEAR_HEIGHT_PX)
+    }
+
+    /// Middle of the visible pixels as a share of the picture's width.
+    fn across(&self, width_px: f64) -> f64 {
+        self.box_px.map_or(0.5, |edges| 0.5 * (edges[0] + edges[2]) / width_px)
+    }
+}
+
+/// The picture that ends the input of a window.
+#[derive(Clone, Debug, PartialEq)]
+pub struct View {
+    /// Pose of the camera.
+    pub camera: Pose,
+    /// Width of the picture, pixels.
+    pub width_px: f64,
+    /// The target.
+    pub target: Person,
+    /// Clothes of the target.
+    pub wear: Option<Wear>,
+    /// Way of the target over the input, world frame, metres.
+    pub moved_in_world: DVec3,
+    /// Everybody else of whom at least one pixel is visible.
+    pub others: Vec<Person>,
+}
+
+/// Way across the picture.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[expect(missing_docs, reason = "the names say it")]
+pub enum Across {
+    Away,
+    Towards,
+    ToTheLeft,
+    ToTheRight,
+    Stands,
+}
+
+/// Part of the picture.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[expect(missing_docs, reason = "the names say it")]
+pub enum Part {
+    Left,
+    Middle,
+    Right,
+}
+
+/// Side on which the target is outermost.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[expect(missing_docs, reason = "the names say it")]
+pub enum Side {
+    Leftmost,
+    Rightmost,
+}
+
+/// Place of the target relative to people who walk along with it.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[expect(missing_docs, reason = "the names say it")]
+pub enum Place {
+    Ahead,
+    Behind,
+    Beside,
+}
+
+impl Place {
+    /// All places, in the order of [`Seen::near`].
+    pub const ALL: [Self; 3] = [Self::Ahead, Self::Behind, Self::Beside];
+}
+
+/// The people of whom the target is ahead, or whom it is behind or beside.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct Near {
+    /// Colours of their shirts or jackets.
+    pub tops: Vec<Colour>,
+    /// Whether all of them are clear in the picture; else nothing is said of them.
+    pub is_clear: bool,
+}
+
+/// Facts of a picture that shows the target.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Seen {
+    /// Way across the picture; `None` between two directions, and for a target that is not clear.
+    pub across: Option<Across>,
+    /// Part of the picture; `None` near a border.
+    pub part: Option<Part>,
+    /// Number of people in the picture, with the target; `None` where somebody is not clear.
+    pub people: Option<usize>,
+    /// Side on which the target is outermost of all people.
+    pub side: Option<Side>,
+    /// Whether the target is the one nearest to the camera of at least two.
+    pub is_nearest: bool,
+    /// People who walk along, in the order of [`Place::ALL`].
+    pub near: [Near; 3],
+}
+
+/// Facts of one picture.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Sight {
+    /// Clothes of the target.
+    pub wear: Option<Wear>,
+    /// Facts of the picture; `None` where it shows no pixel of the target.
+    pub seen: Option<Seen>,
+}
+
+/// Facts of the picture.
+pub fn sight(view: &View) -> Sight {
+    Sight { wear: view.wear, seen: view.target.box_px.map(|_| seen(view)) }
+}
+
+fn seen(view: &View) -> Seen {
+    let (target, width_px) = (&view.target, view.width_px);
+    let at = target.across(width_px);
+    let part = match at {
+        left if left < 0.42 => Some(Part::Left),
+        middle if (0.45..=0.55).contains(&middle) => Some(Part::Middle),
+        right if right > 0.58 => Some(Part::Right),
+        _ => None,
+    };
+    let all_clear = target.is_clear() && view.others.iter().all(Person::is_clear);
+    let others = || view.others.iter().map(|other| other.across(width_px));
+    let side = match () {
+        () if !all_clear || view.others.is_empty() => None,
+        () if others().all(|other| at + OUTER < other) => Some(Side::Leftmost),
+        () if others().all(|other| at - OUTER > other) => Some(Side::Rightmost),
+        () => None,
+    };
+    let distance_m = |person: &Person| person.feet_in_world.distance(view.camera.position_in_world);
+    let is_nearest = target.is_clear()
+        && view.others.iter().any(Person::is_clear)
+        && view.others.iter().all(|other| distance_m(other) > NEARER * distance_m(target));
+    Seen {
+        across: across(view).filter(|_| target.is_clear()),
+        part,
+        people: all_clear.then_some(view.others.len() + 1),
+        side,
+        is_nearest,
+        near: Place::ALL.map(|place| near(view, place)),
+    }
+}
+
+/// The direction of the picture in which the target moved over the input.
+fn across(view: &View) -> Option<Across> {
+    let moved_m = real::hypot(view.moved_in_world.x, view.moved_in_world.y);
+    if moved_m < STANDS_M {
+        return Some(Across::Stands);
+    }
+    if moved_m < WALKS_M {
+        return None;
+    }
+    let walked_rad = real::atan2(view.moved_in_world.y, view.moved_in_world.x);
+    let turned_deg = real::wrap_angle_rad(walked_rad - view.camera.yaw_rad).to_degrees();
+    let is_steep = view.camera.pitch_rad.to_degrees().abs() > STEEP_DEG;
+    match turned_deg {
+        right if (right - 90.0).abs() <= ACROSS_DEG => Some(Across::ToTheRight),
+        left if (left + 90.0).abs() <= ACROSS_DEG => Some(Across::ToTheLeft),
+        _ if is_steep => None,
+        away if away.abs() <= ACROSS_DEG => Some(Across::Away),
+        towards if towards.abs() >= 180.0 - ACROSS_DEG => Some(Across::Towards),
+        _ => None,
+    }
+}
+
+/// The people who walk along with the target and of whom it is at `place`.
+fn near(view: &View, place: Place) -> Near {
+    let target = &view.target;
+    let mut near = Near { tops: vec![], is_clear: true };
+    if target.speed_mps < ALONG_MPS {
+        return near;
+    }
+    let (sin, cos) = real::sin_cos(target.heading_rad);
+    for other in &view.others {
+        let turned_deg = real::wrap_angle_rad(other.heading_rad - target.heading_rad).to_degrees().abs();
+        let apart = other.feet_in_world - target.feet_in_world;
+        let (before_m, aside_m) = (cos * apart.x + sin * apart.y, (cos * apart.y - sin * apart.x).abs());
+        let is_there = match place {
+            Place::Ahead => before_m < -BESIDE_M,
+            Place::Behind => before_m > BESIDE_M,
+            Place::Beside => before_m.abs() <= BESIDE_M,
+        };
+        let is_along = turned_deg <= ALONG_DEG && other.speed_mps >= ALONG_MPS;
+        if is_along && is_there && before_m.abs() <= NEAR_M && aside_m <= ASIDE_M {
+            near.tops.push(other.top);
+            near.is_clear &= other.is_clear();
+        }
+    }
+    near
+}
+
+#[cfg(test)]
+pub(crate) mod test_views {
+    //! Pictures with known facts.
+
+    use super::*;
+
+    /// Somebody at x, y (m) who walks along a yaw (degrees) at 1.3 m/s, seen by the camera of [`view`].
+    pub(crate) fn person(x: f64, y: f64, yaw_deg: f64, top: Colour) -> Person {
+        let (across_px, height_px) = (320.0 + 320.0 * y / x, 400.0 / x);
+        let edges = [across_px - 0.2 * height_px, 200.0, across_px + 0.2 * height_px, 200.0 + height_px];
+        Person {
+            feet_in_world: DVec3::new(x, y, 0.0),
+            heading_rad: yaw_deg.to_radians(),
+            speed_mps: 1.3,
+            box_px: Some(edges),
+            pixels: (0.3 * height_px * height_px) as u32,
+            top,
+        }
+    }
+
+    /// A picture 640 pixels wide, taken 5 m above the world's origin along x. Everybody walked on for 2 s.
+    pub(crate) fn view(target: Person, others: Vec<Person>) -> View {
+        let (sin, cos) = real::sin_cos(target.heading_rad);
+        View {
+            camera: Pose::looking_at(DVec3::Z * 5.0, DVec3::new(12.0, 0.0, 1.0)),
+            width_px: 640.0,
+            wear: Some(Wear { top: target.top, trousers: Colour::Blue, backpack: false }),
+            moved_in_world: 2.0 * target.speed_mps * DVec3::new(cos, sin, 0.0),
+            target,
+            others,
+        }
+    }
+
+    /// Pictures with every kind of fact.
+    pub(crate) fn views() -> Vec<View> {
+        let target = |y, yaw_deg| person(12.0, y, yaw_deg, Colour::Red);
+        let still = Person { speed_mps: 0.0, ..target(-5.0, 0.0) };
+        let hidden = Person { box_px: None, pixels: 0, ..target(0.0, 0.0) };
+        let faint = Person { pixels: 5, ..person(13.0, 5.5, 90.0, Colour::Grey) };
+        let follower = person(10.0, 0.3, 5.0, Colour::Black);
+        vec![
+            view(target(0.0, 0.0), vec![]),
+            view(target(0.0, 45.0), vec![]),
+            view(target(-4.0, 180.0), vec![person(22.0, 4.0, 90.0, Colour::White)]),
+            view(target(4.0, 90.0), vec![person(12.0, -3.0, 0.0, Colour::White), person(14.0, 0.0, 0.0, Colour::Grey)]),
+            view(target(0.0, 0.0), vec![follower]),
+            view(target(0.0, 0.0), vec![follower, person(8.5, -0.4, -3.0, Colour::Green)]),
+            view(target(0.0, 180.0), vec![person(10.0, 0.2, 178.0, Colour::Purple)]),
+            view(target(0.0, -90.0), vec![person(13.0, 0.2, -90.0, Colour::Beige)]),
+            view(
+                target(0.0, -90.0),
+                vec![person(13.0, 0.2, -90.0, Colour::Beige), person(90.0, 3.0, 0.0, Colour::Red)],
+            ),
+            view(still, vec![person(11.0, 5.0, 0.0, Colour::Orange)]),
+            view(hidden, vec![person(11.0, 5.0, 0.0, Colour::Orange)]),
+            view(target(-4.0, 0.0), vec![faint]),
+            view(target(0.0, 0.0), vec![faint]),
+            view(target(4.0, 0.0), vec![faint]),
+        ]
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::test_views::{person, view, views};
+    use super::*;
+
+    fn seen_in(number: usize) -> Seen {
+        sight(&views()[number]).seen.expect("it is seen")
+    }
+
+    #[test]
+    fn the_facts_are_those_of_the_picture() {
+        assert_eq!(
+            [0, 1, 2, 3, 9].map(|number| seen_in(number).across),
+            [Some(Across::Away), None, Some(Across::Towards), Some(Across::ToTheRight), Some(Across::Stands),]
+        );
+        assert_eq!(
+            [0, 2, 3].map(|number| seen_in(number).part),
+            [Some(Part::Middle), Some(Part::Left), Some(Part::Right)]
+        );
+        assert_eq!([0, 2, 3].map(|number| seen_in(number).people), [Some(1), Some(2), Some(3)]);
+        assert_eq!([0, 2, 3].map(|number| seen_in(number).side), [None, Some(Side::Leftmost), Some(Side::Rightmost)]);
+        assert_eq!([0, 2, 4].map(|number| seen_in(number).is_nearest), [false, true, false]);
+        let tops = |number: usize| seen_in(number).near.map(|near| near.tops);
+        assert_eq!(tops(5), [vec![Colour::Black, Colour::Green], vec![], vec![]]);
+        assert_eq!(tops(6), [vec![], vec![Colour::Purple], vec![]]);
+        assert_eq!(tops(7), [vec![], vec![], vec![Colour::Beige]]);
+        assert_eq!(sight(&views()[10]).seen, None);
+    }
+
+    #[test]
+    fn people_of_a_few_pixels_make_no_counts() {
+        let far = seen_in(8);
+        assert_eq!((far.people, far.side), (None, None));
+        assert!(far.near[2].is_clear, "the one beside the target is clear");
+        let target = person(12.0, 0.0, 0.0, Colour::Red);
+        let faint = Person { pixels: 5, ..person(10.0, 0.0, 0.0, Colour::Black) };
+        assert!(!sight(&view(target, vec![faint])).seen.expect("it is seen").near[0].is_clear);
+    }
+}
