@@ -40,6 +40,8 @@ pub struct PlannedStage {
     pub spent: u64,
     /// Expected bytes of the items that are left to do.
     pub predicted_bytes: u64,
+    /// Expected time of the items that are left to do, on one core each, seconds; `None` where none was ever measured.
+    pub predicted_s: Option<f64>,
     /// Reasons why items will run, with the number of items; empty where all are finished.
     pub reasons: Vec<(Reason, u64)>,
     /// Whether some intermediate blob of each finished item is gone.
@@ -57,6 +59,11 @@ pub fn recipe_id(recipe: &Recipe) -> String {
 }
 
 impl PlannedStage {
+    /// Kind and part, such as `dataset.logs`.
+    pub(crate) fn kind_and_part(&self) -> String {
+        StageName::new(&self.kind, self.name.part()).to_string()
+    }
+
     /// Number of items.
     pub fn items(&self) -> u64 {
         self.plans.len() as u64

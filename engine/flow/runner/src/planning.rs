@@ -32,6 +32,7 @@ pub fn plan_for<'r>(recipe: &'r Recipe, store: &Store, asked: Option<usize>) -> 
     find_finished(&mut plan, store);
     find_needed(&mut plan, asked);
     predict(&mut plan);
+    predict_time(&mut plan, store);
     reasons::give_reasons(&mut plan, store);
     Ok(plan)
 }
@@ -79,6 +80,7 @@ fn digest_stage(
         spent_items: Vec::new(),
         plans,
         predicted_bytes: 0,
+        predicted_s: None,
         reasons: Vec::new(),
         definition,
         sources,
@@ -131,6 +133,14 @@ fn find_needed(plan: &mut Plan<'_>, asked: Option<usize>) {
         }
     }
     plan.stages.iter_mut().zip(spent).for_each(|(stage, spent)| stage.spent = spent.len() as u64);
+}
+
+/// Predicts the time of the items left to do from measured ones.
+fn predict_time(plan: &mut Plan<'_>, store: &Store) {
+    for stage in plan.stages.iter_mut().filter(|stage| stage.to_run() > 0) {
+        let measured = store.costs(&stage.definition.digest, &stage.kind_and_part()).per_item_s();
+        stage.predicted_s = measured.map(|seconds| seconds * stage.to_run() as f64);
+    }
 }
 
 /// Predicts the bytes of the items left to do: as many as the stage's finished items have, else as it states itself.

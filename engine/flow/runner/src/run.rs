@@ -8,7 +8,7 @@ use crate::workers::{AfterWork, do_the_rest};
 use cosfly_diagnose::Result;
 use cosfly_recipe::Recipe;
 use cosfly_stage::{RunEvent, Work};
-use cosfly_store::Store;
+use cosfly_store::{Costs, Store};
 
 /// Plans and runs a recipe.
 ///
@@ -26,9 +26,10 @@ pub fn run(
     report(RunEvent::Planned { stages: stages.collect() });
     let work = if plan.to_run() == 0 { None } else { Some(do_the_rest(&mut plan, store, options, report)?) };
     let remembered = if work.is_some() || !plan.index_is_current { remember(&plan, store) } else { Ok(()) };
-    let AfterWork { endings, mut failures, mut diagnostics, stopped } =
+    let AfterWork { endings, mut failures, costs, mut diagnostics, stopped } =
         work.unwrap_or_else(|| AfterWork { endings: all_cached(&plan), ..AfterWork::default() });
     diagnostics.extend(remembered.err());
+    diagnostics.extend(remember_costs(&plan, &costs, store).err());
     failures.sort_by_key(|failure| recipe.position(failure.id.stage.as_str()));
     let mut summary = RunSummary::new(plan, endings);
     (summary.failures, summary.diagnostics) = (failures, diagnostics);
@@ -38,6 +39,14 @@ pub fn run(
         false => RunOutcome::Failed,
     };
     Ok(summary)
+}
+
+/// Keeps the measured time of tasks for predictions.
+fn remember_costs(plan: &Plan<'_>, costs: &[Costs], store: &Store) -> Result<()> {
+    let measured = plan.stages.iter().zip(costs).filter(|(_, costs)| costs.items > 0);
+    measured.into_iter().try_for_each(|(stage, costs)| {
+        store.add_costs(&stage.definition.digest, &stage.kind_and_part(), costs)
+    })
 }
 
 fn all_cached(plan: &Plan<'_>) -> Vec<Vec<Ending>> {

@@ -11,7 +11,7 @@ use crate::summary::{Ending, Failure, RunSummary};
 use cosfly_diagnose::{Diagnostic, Fault, Result};
 use cosfly_recipe::{Arrival, Recipe};
 use cosfly_stage::{ItemId, Produced, RunEvent, Work};
-use cosfly_store::{ActionRecord, Finished, Store};
+use cosfly_store::{ActionRecord, Costs, Finished, Store};
 use std::collections::{BTreeMap, BTreeSet};
 use std::sync::atomic::Ordering;
 use std::sync::{Arc, Condvar, Mutex, MutexGuard, PoisonError};
@@ -33,6 +33,8 @@ pub(crate) struct AfterWork {
     pub(crate) endings: Vec<Vec<Ending>>,
     /// The first failed tasks.
     pub(crate) failures: Vec<Failure>,
+    /// Measured tasks of each stage.
+    pub(crate) costs: Vec<Costs>,
     /// Failures that belong to no task.
     #[expect(clippy::vec_box, reason = "diagnostics are boxed wherever they go")]
     pub(crate) diagnostics: Vec<Box<Diagnostic>>,
@@ -56,6 +58,8 @@ struct Shared<'r> {
     wanted_whole: BTreeSet<TaskIndex>,
     /// Set where intermediate blobs are removed.
     intermediates: Option<Intermediates<'r>>,
+    /// Measured tasks of each stage.
+    costs: Vec<Costs>,
     failures: Vec<Failure>,
     #[expect(clippy::vec_box, reason = "diagnostics are boxed wherever they go")]
     diagnostics: Vec<Box<Diagnostic>>,
@@ -112,8 +116,8 @@ pub(crate) fn do_the_rest(
     for (stage, results) in plan.stages.iter_mut().zip(shared.results) {
         stage.finished = results;
     }
-    let Shared { failures, diagnostics, stopping: stopped, .. } = shared;
-    Ok(AfterWork { endings, failures, diagnostics, stopped })
+    let Shared { failures, costs, diagnostics, stopping: stopped, .. } = shared;
+    Ok(AfterWork { endings, failures, costs, diagnostics, stopped })
 }
 
 impl<'r> Shared<'r> {
@@ -133,6 +137,7 @@ impl<'r> Shared<'r> {
             contended: Vec::new(),
             healings: BTreeMap::new(),
             wanted_whole: BTreeSet::new(),
+            costs: vec![Costs::default(); recipe.stages.len()],
             failures: Vec::new(),
             diagnostics: Vec::new(),
             broken: false,
@@ -363,6 +368,11 @@ impl<'r> Workers<'_, 'r> {
             let Publication { task, settlement, took } = publication;
             let mut shared = self.lock();
             let is_first = shared.work[task].replace(settlement.work).is_none();
+            if settlement.work == Work::Ran {
+                let (stage, _) = shared.schedule.place(task);
+                shared.costs[stage].items += 1;
+                shared.costs[stage].seconds += took.as_secs_f64();
+            }
             if is_first {
                 shared.remove_spent(self.store, task, &settlement.finished.record);
             }

@@ -9,6 +9,7 @@
 //! STORE/build/ab/<digest>          parameters and paths to build the stage of a plan definition again
 //! STORE/runs/<recipe>/<n>          plan digests of the tasks of a recipe; the last ten runs
 //! STORE/index/<recipe>             a cache of `done` and `ac` for quick starts; may be deleted
+//! STORE/costs/<stage>            measured time of tasks, for predictions; may be deleted
 //! STORE/out/<path digest>          sizes and times of the files of a delivered folder; may be deleted
 //! STORE/pins/<name>                a copy of a run that garbage collection keeps
 //! STORE/divergence/<action>-<n>    two executions of one action with different bytes
@@ -25,6 +26,7 @@
 //! * [`collect_garbage`]: removes everything that no recent run needs.
 
 mod blobs;
+mod costs;
 mod decoded;
 mod delivered;
 mod digesting;
@@ -46,6 +48,7 @@ mod sink;
 mod store;
 
 pub use blobs::digest_of_file;
+pub use costs::Costs;
 pub use fault::{FaultPoints, Step};
 pub use garbage::{GarbageOptions, GarbageReport, collect_garbage, pin};
 pub use history::{PastRun, PastStage};

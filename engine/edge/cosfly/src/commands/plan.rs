@@ -4,24 +4,43 @@ use crate::arguments::{RecipeArguments, StoreArguments};
 use crate::command::{Command, Outcome};
 use crate::console::Console;
 use crate::exit;
-use crate::text::{bytes, count};
+use crate::text::{bytes, count, duration};
 use clap::Parser;
 use cosfly_runner::{Plan, Reason};
 use cosfly_store::Store;
 use serde_json::json;
 use std::fmt::Write;
+use std::time::Duration;
 
-/// Show the DAG of a recipe: items per stage, what is cached, what would run and why, predicted size
+const SECONDS_PER_HOUR: f64 = 3600.0;
+
+/// Show the DAG of a recipe: items per stage, what is cached, what would run and why, predicted size and time
 #[derive(Debug, Parser)]
-#[command(name = "plan")]
+#[command(
+    name = "plan",
+    after_help = "\
+Time is predicted from tasks measured on this machine, in this store: run a small part of a recipe first.
+
+Examples:
+  cosfly plan recipes/carla_town.toml
+  cosfly plan recipes/carla_town.toml --set stages.walkers.count=6000 --price 0.04"
+)]
 pub struct Arguments {
     #[command(flatten)]
     recipe: RecipeArguments,
     #[command(flatten)]
     store: StoreArguments,
+    /// Price of a core-hour, in any currency: prints the price of what would run
+    #[arg(long, value_name = "MONEY", value_parser = price)]
+    price: Option<f64>,
     /// Print JSON
     #[arg(long)]
     json: bool,
+}
+
+fn price(text: &str) -> Result<f64, String> {
+    let price: f64 = text.parse().map_err(|_| "it is not a number".to_owned())?;
+    if price.is_finite() && price >= 0.0 { Ok(price) } else { Err("it must be at least 0".to_owned()) }
 }
 
 impl Command for Arguments {
@@ -29,24 +48,28 @@ impl Command for Arguments {
         let recipe = self.recipe.load(console)?;
         let store = Store::open_to_read(&self.store.folder())?;
         let plan = cosfly_runner::plan(&recipe, &store)?;
-        console.print(&if self.json { json(&plan) } else { table(&plan) })?;
+        console.print(&if self.json { json(&plan, self.price) } else { table(&plan) + &cost(&plan, self.price) })?;
         Ok(exit::SUCCESS)
     }
 }
 
 /// The plan for programs.
-fn json(plan: &Plan<'_>) -> String {
+fn json(plan: &Plan<'_>, price: Option<f64>) -> String {
     let stages = plan.stages.iter().map(|stage| {
         let reasons =
             stage.reasons.iter().map(|(reason, items)| json!({ "reason": reason.to_string(), "items": items }));
         json!({
             "stage": stage.name.as_str(), "uses": stage.kind, "items": stage.items(), "cached": stage.cached(),
             "to_run": stage.to_run(), "not_needed": stage.not_needed(), "made_again": stage.spent,
-            "predicted_bytes": stage.predicted_bytes, "reasons": reasons.collect::<Vec<_>>(),
+            "predicted_core_s": stage.predicted_s, "predicted_bytes": stage.predicted_bytes, "reasons": reasons.collect::<Vec<_>>(),
         })
     });
     let predicted: u64 = plan.stages.iter().map(|stage| stage.predicted_bytes).sum();
-    let whole = json!({ "to_run": plan.to_run(), "predicted_bytes": predicted, "stages": stages.collect::<Vec<_>>() });
+    let (core_s, is_whole) = predicted_s(plan);
+    let whole = json!({
+        "to_run": plan.to_run(), "predicted_bytes": predicted, "predicted_core_s": core_s, "all_measured": is_whole,
+        "predicted_price": price.map(|price| price * core_s / SECONDS_PER_HOUR), "stages": stages.collect::<Vec<_>>(),
+    });
     format!("{whole:#}\n")
 }
 
@@ -105,6 +128,29 @@ fn table(plan: &Plan<'_>) -> String {
         ),
     };
     text
+}
+
+/// Time of everything that would run, core-seconds, and whether all of its stages were ever measured.
+fn predicted_s(plan: &Plan<'_>) -> (f64, bool) {
+    let to_run: Vec<Option<f64>> =
+        plan.stages.iter().filter(|stage| stage.to_run() > 0).map(|stage| stage.predicted_s).collect();
+    (to_run.iter().flatten().sum(), to_run.iter().all(Option::is_some))
+}
+
+/// Text about time and money.
+fn cost(plan: &Plan<'_>, price: Option<f64>) -> String {
+    let (core_s, is_whole) = predicted_s(plan);
+    if plan.to_run() == 0 || (core_s == 0.0 && !is_whole) {
+        return String::new();
+    }
+    let mut text = format!("About {} on one core", duration(Duration::from_secs_f64(core_s)));
+    if let Some(price) = price {
+        let _ = write!(text, ", {:.2} at {price} per core-hour", price * core_s / SECONDS_PER_HOUR);
+    }
+    let unmeasured = plan.stages.iter().filter(|stage| stage.to_run() > 0 && stage.predicted_s.is_none());
+    let names: Vec<String> = unmeasured.map(|stage| format!("`{}`", stage.name)).collect();
+    let rest = if is_whole { String::new() } else { format!("; without {}, never measured here", names.join(", ")) };
+    text + &rest + ".\n"
 }
 
 /// The one reason for everything that would run, where there is only one (such as a first run).
