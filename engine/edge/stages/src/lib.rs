@@ -28,6 +28,7 @@ mod published_towns;
 pub mod read;
 mod rejections;
 mod render;
+pub mod requests;
 mod shooting;
 mod verdict;
 mod walks;

@@ -10,8 +10,22 @@ use std::path::{Path, PathBuf};
 const VERSION: u32 = 1;
 const FORMAT_NAME: &str = "cosfly-store";
 /// Folders of a store.
-const OWN_FOLDERS: [&str; 13] =
-    ["locks", "tmp", "cas", "ac", "done", "plan", "build", "runs", "index", "pins", "divergence", "out", "lost+found"];
+const OWN_FOLDERS: [&str; 14] = [
+    "locks",
+    "tmp",
+    "cas",
+    "ac",
+    "done",
+    "plan",
+    "build",
+    "runs",
+    "index",
+    "pins",
+    "divergence",
+    "out",
+    "failed",
+    "lost+found",
+];
 
 /// Folders that hold one file per digest.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -77,7 +77,7 @@ fn ran(summary: &RunSummary) -> u64 {
 fn timed(folder: &Path, recipe: &Recipe, jobs: usize) -> Result<(Duration, RunSummary)> {
     let start = Instant::now();
     let store = Store::open(folder)?;
-    let options = RunOptions { jobs, cancelled: Arc::new(AtomicBool::new(false)) };
+    let options = RunOptions { jobs, cancelled: Arc::new(AtomicBool::new(false)), ..RunOptions::default() };
     let summary = run(recipe, &store, &options, &|_| {})?;
     let took = start.elapsed();
     if summary.outcome != RunOutcome::Complete {
@@ -87,7 +87,7 @@ fn timed(folder: &Path, recipe: &Recipe, jobs: usize) -> Result<(Duration, RunSu
     Ok((took, summary))
 }
 
-fn bench_recipe(items: usize, alpha: f64) -> Result<Recipe> {
+pub(crate) fn bench_recipe(items: usize, alpha: f64) -> Result<Recipe> {
     let names = ["map", "paths", "optimise", "perturb", "render", "caption"];
     let toys = names.iter().enumerate().map(|(index, name)| {
         let inputs = index.checked_sub(1).map(|upstream| (upstream, Fan::Each));

@@ -59,7 +59,7 @@ fn recipe(toys: &[Toy]) -> Recipe {
 }
 
 fn options(jobs: usize) -> RunOptions {
-    RunOptions { jobs, cancelled: Arc::new(AtomicBool::new(false)) }
+    RunOptions { jobs, cancelled: Arc::new(AtomicBool::new(false)), ..RunOptions::default() }
 }
 
 fn run_quietly(recipe: &Recipe, store: &Store) -> RunSummary {

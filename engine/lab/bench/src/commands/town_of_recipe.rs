@@ -40,7 +40,7 @@ pub fn town_of_recipe(
         .map_err(|error| vec![Diagnostic::io("make a scratch folder here", &error)])?;
     let store = Store::open(&scratch.path().join("store")).map_err(one)?;
     let jobs = std::thread::available_parallelism().map_or(1, usize::from);
-    let options = RunOptions { jobs, cancelled: Arc::default() };
+    let options = RunOptions { jobs, cancelled: Arc::default(), ..RunOptions::default() };
     let mut summary = cosfly_runner::run(&recipe, &store, &options, &|_| {}).map_err(one)?;
     let failures: Refusals = summary.failures.drain(..).map(|failure| failure.diagnostic).collect();
     if !failures.is_empty() {
