@@ -4,6 +4,8 @@ mod book;
 mod caching;
 mod cameras;
 mod carla_job;
+#[cfg(unix)]
+mod cluster;
 mod codes;
 mod crash;
 mod diagnostics;

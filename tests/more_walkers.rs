@@ -28,7 +28,7 @@ fn recipe(walkers: u32) -> Recipe {
 
 fn run(recipe: &Recipe, store: &Path) -> RunSummary {
     let jobs = std::thread::available_parallelism().map_or(1, usize::from);
-    let options = RunOptions { jobs, cancelled: Default::default() };
+    let options = RunOptions { jobs, cancelled: Default::default(), ..RunOptions::default() };
     let store = Store::open(store).expect("a store");
     let summary = cosfly_runner::run(recipe, &store, &options, &|_| {}).expect("it runs");
     assert!(summary.failures.is_empty());

@@ -51,7 +51,7 @@ fn made() -> BTreeMap<String, Held> {
     let jobs = std::thread::available_parallelism().map_or(1, usize::from);
     let mut made = BTreeMap::new();
     for recipe in recipes() {
-        let options = RunOptions { jobs, cancelled: Default::default() };
+        let options = RunOptions { jobs, cancelled: Default::default(), ..RunOptions::default() };
         let summary = cosfly_runner::run(&recipe, &store, &options, &|_| {}).expect("it runs");
         if let Some(failure) = summary.failures.first() {
             panic!("`{}` of recipe `{}`: {}", failure.id, recipe.name, failure.diagnostic.message);

@@ -56,3 +56,28 @@ impl StoreArguments {
 pub fn count() -> impl TypedValueParser<Value = usize> {
     clap::value_parser!(u64).range(1..=1_000_000).map(|count| count as usize)
 }
+
+/// Machines that run the tasks.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, clap::ValueEnum)]
+pub enum Place {
+    /// This machine
+    Local,
+    /// Workers of a HyperQueue server
+    Hq,
+    /// None: print the commands as JSON lines
+    Emit,
+}
+
+/// Tasks on other machines.
+#[derive(Args, Clone, Debug)]
+pub struct ClusterArguments {
+    /// Machines that run the tasks; the store must be at the same place on all of them
+    #[arg(long, value_name = "PLACE", value_enum, default_value_t = Place::Local)]
+    pub on: Place,
+    /// Resources of the tasks of a stage (* for all), such as frames:cpus=4,memory=8GB,time=2h,gpus=1,batch=1 (repeatable)
+    #[arg(long, value_name = "STAGE:RESOURCES")]
+    pub request: Vec<String>,
+    /// Command that starts cosfly on other machines, such as "apptainer exec cosfly.sif cosfly" [default: this program's path]
+    #[arg(long, value_name = "COMMAND")]
+    pub leaf: Option<String>,
+}

@@ -30,6 +30,7 @@ mod published_towns;
 pub mod read;
 mod rejections;
 mod render;
+pub mod requests;
 mod shards;
 mod shooting;
 mod verdict;

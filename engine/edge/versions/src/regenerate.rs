@@ -5,7 +5,7 @@ use cosfly_diagnose::{Diagnostic, Fault, Result};
 use cosfly_fingerprint::Digest;
 use cosfly_read::PublishedDataset;
 use cosfly_recipe::Recipe;
-use cosfly_runner::{plan, run_task};
+use cosfly_runner::{RunOptions, plan, run_tasks};
 use cosfly_stage::Registry;
 use cosfly_store::{Store, digest_of_file};
 use std::collections::BTreeSet;
@@ -80,9 +80,9 @@ fn made(
     }
     let plan = plan(recipe, store)?;
     // Stages are in dependency order, so inputs come first.
-    for (stage, item) in &needed {
-        run_task(store, registry, &plan.stages[*stage].plans[*item], Arc::clone(cancelled))?;
-    }
+    let plans: Vec<Digest> = needed.iter().map(|(stage, item)| plan.stages[*stage].plans[*item]).collect();
+    let options = RunOptions { cancelled: Arc::clone(cancelled), ..RunOptions::default() };
+    run_tasks(store, registry, &plans, &options)?.into_iter().try_for_each(|end| end.map(drop))?;
     let finished = store.finished(&plan.stages[stage].plans[item]);
     Ok(finished.and_then(|finished| finished.record.outputs.get("mcap").map(|blob| blob.digest)))
 }

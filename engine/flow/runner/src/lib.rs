@@ -3,7 +3,7 @@
 //! * [`plan`]: a recipe against a store: every task with its plan digest, the finished ones, and why the others will run.
 //! * [`run`]: does what a plan leaves to do, on several threads; resuming is the same as running.
 //! * [`deliver`]: a run, then the artifact of a stage as a folder.
-//! * [`run_task`]: one task by its plan digest, for another process or machine; the same code as in [`run`].
+//! * [`run_tasks`]: tasks by their plan digests, for another process or machine; the same code as in [`run`].
 //! * [`why`]: the ingredient that changed a task's key.
 
 mod change;
@@ -32,8 +32,8 @@ pub use deliver::{Delivery, deliver};
 pub use explain::{Explanation, Link, why};
 pub use options::RunOptions;
 pub use plan::{Plan, PlannedStage, recipe_id};
-pub use planning::{plan, plan_for};
+pub use planning::{plan, plan_elsewhere, plan_for};
 pub use reason::Reason;
 pub use run::run;
-pub use single::run_task;
+pub use single::run_tasks;
 pub use summary::{Failure, Origin, Rejection, RunOutcome, RunSummary, StageSummary, TaskEnd};

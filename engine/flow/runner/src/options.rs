@@ -1,5 +1,8 @@
 //! Options of a run.
 
+use cosfly_diagnose::Diagnostic;
+use cosfly_fingerprint::Digest;
+use std::collections::BTreeMap;
 use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
 
@@ -12,4 +15,6 @@ pub struct RunOptions {
     pub asked: Option<usize>,
     /// Set from anywhere to stop: running tasks finish or give up, finished ones are published.
     pub cancelled: Arc<AtomicBool>,
+    /// Tasks, by their plan digests, that failed on other machines: they are not tried again here.
+    pub failed_elsewhere: BTreeMap<Digest, Box<Diagnostic>>,
 }

@@ -130,7 +130,7 @@ impl Plan<'_> {
         store.put_build(&planned.definition.digest, &build_document(&self.recipe.stages[stage], &planned.sources))
     }
 
-    /// Publishes the documents of everything that is left to do, so that [`crate::run_task`] can do it anywhere.
+    /// Publishes the documents of everything that is left to do, so that [`crate::run_tasks`] can do it anywhere.
     pub fn publish_documents(&self, store: &Store) -> Result<()> {
         for (stage, planned) in self.stages.iter().enumerate() {
             if planned.to_run() > 0 {

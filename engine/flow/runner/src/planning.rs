@@ -28,9 +28,22 @@ pub fn plan<'r>(recipe: &'r Recipe, store: &Store) -> Result<Plan<'r>> {
 /// # Errors
 /// Refusals of the machine while sources are hashed.
 pub fn plan_for<'r>(recipe: &'r Recipe, store: &Store, asked: Option<usize>) -> Result<Plan<'r>> {
+    made(recipe, store, asked, false)
+}
+
+/// Like [`plan_for`], for tasks on other machines, which cannot ask for a removed blob while they run: an item without an
+/// intermediate blob that a task to run may read is to run again.
+///
+/// # Errors
+/// Refusals of the machine while sources are hashed.
+pub fn plan_elsewhere<'r>(recipe: &'r Recipe, store: &Store, asked: Option<usize>) -> Result<Plan<'r>> {
+    made(recipe, store, asked, true)
+}
+
+fn made<'r>(recipe: &'r Recipe, store: &Store, asked: Option<usize>, make_again: bool) -> Result<Plan<'r>> {
     let mut plan = digest_tasks(recipe)?;
     find_finished(&mut plan, store);
-    find_needed(&mut plan, asked);
+    find_needed(&mut plan, asked, make_again);
     predict(&mut plan);
     predict_time(&mut plan, store);
     reasons::give_reasons(&mut plan, store);
@@ -100,8 +113,9 @@ fn find_finished(plan: &mut Plan<'_>, store: &Store) {
     plan.index_is_current = known.is_current(&plan.run_digest());
 }
 
-/// Walks from what is asked for to what it reads: an item is needed where something that will run reads it.
-fn find_needed(plan: &mut Plan<'_>, asked: Option<usize>) {
+/// Walks from what is asked for to what it reads: an item is needed where something that will run reads it. With
+/// `make_again`, finished items without an intermediate blob that may be read count as unfinished.
+fn find_needed(plan: &mut Plan<'_>, asked: Option<usize>, make_again: bool) {
     let recipe = plan.recipe;
     let read: BTreeSet<usize> =
         recipe.stages.iter().flat_map(|stage| &stage.connections).flat_map(|it| it.upstreams.iter().copied()).collect();
@@ -121,6 +135,9 @@ fn find_needed(plan: &mut Plan<'_>, asked: Option<usize>) {
                 let sees = properties.intermediate.iter().any(|name| sees(connection, name));
                 if sees && upstream.spent_items[arrival.item] {
                     spent[arrival.stage].insert(arrival.item);
+                    if make_again {
+                        upstream.finished[arrival.item] = None;
+                    }
                 }
             };
             match connection.port.fan {

@@ -44,9 +44,9 @@ pub fn run(
 /// Keeps the measured time of tasks for predictions.
 fn remember_costs(plan: &Plan<'_>, costs: &[Costs], store: &Store) -> Result<()> {
     let measured = plan.stages.iter().zip(costs).filter(|(_, costs)| costs.items > 0);
-    measured.into_iter().try_for_each(|(stage, costs)| {
-        store.add_costs(&stage.definition.digest, &stage.kind_and_part(), costs)
-    })
+    measured
+        .into_iter()
+        .try_for_each(|(stage, costs)| store.add_costs(&stage.definition.digest, &stage.kind_and_part(), costs))
 }
 
 fn all_cached(plan: &Plan<'_>) -> Vec<Vec<Ending>> {

@@ -1,83 +1,196 @@
-//! One task by its plan digest alone: `cosfly task run`, for another process or machine over the same store.
+//! Tasks by their plan digests alone: `cosfly task run`, for another process or machine over the same store.
 
 use crate::change::definition_changes;
 use crate::document::{DEFINITION_SCHEMA, Definition, StoredPlan};
 use crate::inputs::seen_by;
-use crate::leaf::{Ended, Task, execute};
+use crate::leaf::{Ended, Settlement, Task, execute};
 use crate::names::NameReader;
+use crate::options::RunOptions;
 use crate::sources::{HashedSource, SourceReader};
+use crate::workers::thread_pool;
 use cosfly_diagnose::{Diagnostic, Fault, Result};
 use cosfly_fingerprint::{Digest, canonical_json};
 use cosfly_stage::{Artifact, ItemId, ItemName, Ports, Registry, Stage, StageName, Work};
 use cosfly_store::Store;
 use serde_json::Value;
+use std::collections::BTreeMap;
 use std::fmt::Display;
 use std::path::Path;
 use std::sync::Arc;
-use std::sync::atomic::{AtomicBool, Ordering};
-use std::time::Duration;
+use std::sync::atomic::Ordering;
+use std::time::{Duration, Instant};
 
 /// Pause before a task that another process is working on is tried again.
 const LOOK_AGAIN: Duration = Duration::from_millis(50);
+/// Settled tasks that are made durable together.
+const GROUP: usize = 64;
+/// Time after which settled tasks are made durable, so that a killed process loses little.
+const GROUP_TIME: Duration = Duration::from_secs(5);
 
-/// Runs the task `plan`, whose documents are in `store` (see [`crate::Plan::publish_documents`]) and whose inputs are
-/// finished. Nothing is done where it is finished already.
+/// Runs the tasks `plans` one after another; their documents are in `store` (see [`crate::Plan::publish_documents`]) and
+/// their inputs are finished, or among the tasks before them. Finished tasks are not run again. Gives the end of each
+/// task; a failure is also recorded in the store.
 ///
 /// # Errors
-/// `task-unknown`, `task-input-missing`, `task-other-version`, `nondeterministic-stage` (the task is finished with the
-/// earlier bytes), or a refusal of the stage or the machine.
-pub fn run_task(store: &Store, registry: &Registry, plan: &Digest, cancelled: Arc<AtomicBool>) -> Result<Work> {
-    let unknown = || {
-        Diagnostic::new("task-unknown", Fault::Input, format!("the store has no plan `{plan}`"))
-            .hint("plan digests come from a run or a plan of a recipe on the same store")
+/// `machine-threads`. Ends of tasks: `task-unknown`, `task-input-missing`, `task-other-version`, `nondeterministic-stage`
+/// (the task is finished with the earlier bytes), or a refusal of the stage or the machine.
+pub fn run_tasks(
+    store: &Store,
+    registry: &Registry,
+    plans: &[Digest],
+    options: &RunOptions,
+) -> Result<Vec<Result<Work>>> {
+    let mut tasks = Tasks {
+        store,
+        registry,
+        options,
+        pool: thread_pool(options.jobs)?,
+        definitions: BTreeMap::new(),
+        names: NameReader::new(store),
+        settled: Vec::new(),
+        since: Instant::now(),
+        ends: vec![Ok(Work::Cached); plans.len()],
     };
-    let stored = StoredPlan::read(plan, |digest| store.document(digest)).ok_or_else(unknown)?;
-    let document = canonical_json(&store.document(plan).ok_or_else(unknown)?);
-    let definition = store.document(&stored.definition).filter(|it| it["schema"] == DEFINITION_SCHEMA);
-    let definition = definition.ok_or_else(unknown)?;
-    let build = store.build(&stored.definition).ok_or_else(unknown)?;
-    let name = StageName::read(definition["stage"].as_str().ok_or_else(unknown)?);
-    let recipe_seed = definition["seed"].as_u64().ok_or_else(unknown)?;
-    let stage = build_stage(registry, &build)?;
-    let sources = read_sources(&build)?;
-    let rebuilt = Definition::new(&name, recipe_seed, &*stage, &sources);
-    if rebuilt.digest != stored.definition {
-        return Err(other_version(&name, &definition, &rebuilt));
+    for (index, plan) in plans.iter().enumerate() {
+        tasks.run(index, plan);
     }
-    let mut names = NameReader::new(store);
-    let missing = || input_missing(&name, &stored.item);
-    let item = names.of_task(plan).ok_or_else(missing)?;
-    let ports = read_inputs(store, &*stage, &stored, &item, &mut names)?.ok_or_else(missing)?;
-    let task = Task {
-        plan: *plan,
-        stage: &*stage,
-        id: ItemId { stage: name, item },
-        recipe_seed,
-        definition: &rebuilt,
-        sources: &sources,
-        ports,
-        whole: false,
-        cancelled,
-    };
-    finish(store, &task, &document)
+    tasks.publish();
+    for (plan, end) in plans.iter().zip(&tasks.ends) {
+        if let Err(failure) = end
+            && failure.fault != Fault::Stopped
+        {
+            // The caller gets the failure anyway.
+            let _ = store.put_failure(plan, failure);
+        }
+    }
+    Ok(tasks.ends)
 }
 
-fn finish(store: &Store, task: &Task<'_>, document: &str) -> Result<Work> {
-    let settlement = loop {
-        match execute(store, task)? {
-            Ended::AlreadyDone(_) => return Ok(Work::Cached),
-            Ended::InputsLost => return Err(input_missing(&task.id.stage, &task.id.item)),
-            Ended::Settled(settlement) => break settlement,
-            Ended::Contended if task.cancelled.load(Ordering::Relaxed) => {
+/// A stage as documents of the store describe it.
+struct StoredStage {
+    name: StageName,
+    recipe_seed: u64,
+    stage: Box<dyn Stage>,
+    sources: Vec<HashedSource>,
+    definition: Definition,
+}
+
+/// A task whose done record is to be published.
+struct Settled {
+    index: usize,
+    plan: Digest,
+    document: String,
+    settlement: Settlement,
+}
+
+struct Tasks<'s> {
+    store: &'s Store,
+    registry: &'s Registry,
+    options: &'s RunOptions,
+    pool: rayon::ThreadPool,
+    definitions: BTreeMap<Digest, Arc<StoredStage>>,
+    names: NameReader<'s>,
+    settled: Vec<Settled>,
+    /// Time of the last publication.
+    since: Instant,
+    ends: Vec<Result<Work>>,
+}
+
+impl Tasks<'_> {
+    fn run(&mut self, index: usize, plan: &Digest) {
+        self.store.forget_failure(plan);
+        let mut settled = self.attempt(index, plan);
+        // What it reads may be among the tasks before it.
+        if settled.as_ref().is_err_and(|failure| failure.code == "task-input-missing") && !self.settled.is_empty() {
+            self.publish();
+            settled = self.attempt(index, plan);
+        }
+        match settled {
+            Ok(settled) => self.settled.extend(settled),
+            Err(failure) => self.ends[index] = Err(failure),
+        }
+        if self.settled.len() >= GROUP || self.since.elapsed() >= GROUP_TIME {
+            self.publish();
+        }
+    }
+
+    /// Publishes the done records of settled tasks, after their blobs and actions are on the disk.
+    fn publish(&mut self) {
+        let group = std::mem::take(&mut self.settled);
+        self.since = Instant::now();
+        if group.is_empty() {
+            return;
+        }
+        let done = |it: &Settled| self.store.publish_done(&it.plan, &it.document, &it.settlement.finished.action);
+        let published =
+            self.store.sync().and_then(|()| group.iter().try_for_each(done)).and_then(|()| self.store.sync());
+        for Settled { index, settlement, .. } in group {
+            self.ends[index] = match &published {
+                Ok(()) => settlement.divergence.map_or(Ok(settlement.work), Err),
+                Err(refusal) => Err(refusal.clone()),
+            };
+        }
+    }
+
+    /// Does a task; `None` where it is finished already.
+    fn attempt(&mut self, index: usize, plan: &Digest) -> Result<Option<Settled>> {
+        let store = self.store;
+        let stored = StoredPlan::read(plan, |digest| store.document(digest)).ok_or_else(|| unknown(plan))?;
+        let document = canonical_json(&store.document(plan).ok_or_else(|| unknown(plan))?);
+        let of = self.definition(plan, &stored.definition)?;
+        let missing = || input_missing(&of.name, &stored.item);
+        let item = self.names.of_task(plan).ok_or_else(missing)?;
+        let ports = read_inputs(store, &*of.stage, &stored, &item, &mut self.names)?.ok_or_else(missing)?;
+        let task = Task {
+            plan: *plan,
+            stage: &*of.stage,
+            id: ItemId { stage: of.name.clone(), item },
+            recipe_seed: of.recipe_seed,
+            definition: &of.definition,
+            sources: &of.sources,
+            ports,
+            // Something may need what was removed: that is why the task was asked for.
+            whole: true,
+            cancelled: Arc::clone(&self.options.cancelled),
+        };
+        loop {
+            if self.options.cancelled.load(Ordering::Relaxed) {
                 return Err(Diagnostic::stopped(&task.id));
             }
-            Ended::Contended => std::thread::sleep(LOOK_AGAIN),
+            match self.pool.install(|| execute(store, &task))? {
+                Ended::AlreadyDone(_) => return Ok(None),
+                Ended::InputsLost => return Err(missing()),
+                Ended::Settled(settlement) => return Ok(Some(Settled { index, plan: *plan, document, settlement })),
+                Ended::Contended => std::thread::sleep(LOOK_AGAIN),
+            }
         }
-    };
-    store.sync()?;
-    store.publish_done(&task.plan, document, &settlement.finished.action)?;
-    store.sync()?;
-    settlement.divergence.map_or(Ok(settlement.work), Err)
+    }
+
+    /// The stage with the definition `digest`, built once.
+    fn definition(&mut self, plan: &Digest, digest: &Digest) -> Result<Arc<StoredStage>> {
+        if let Some(known) = self.definitions.get(digest) {
+            return Ok(Arc::clone(known));
+        }
+        let unknown = || unknown(plan);
+        let json = self.store.document(digest).filter(|it| it["schema"] == DEFINITION_SCHEMA).ok_or_else(unknown)?;
+        let build = self.store.build(digest).ok_or_else(unknown)?;
+        let name = StageName::read(json["stage"].as_str().ok_or_else(unknown)?);
+        let recipe_seed = json["seed"].as_u64().ok_or_else(unknown)?;
+        let stage = build_stage(self.registry, &build)?;
+        let sources = read_sources(&build)?;
+        let definition = Definition::new(&name, recipe_seed, &*stage, &sources);
+        if definition.digest != *digest {
+            return Err(other_version(&name, &json, &definition));
+        }
+        let stored = Arc::new(StoredStage { name, recipe_seed, stage, sources, definition });
+        self.definitions.insert(*digest, Arc::clone(&stored));
+        Ok(stored)
+    }
+}
+
+fn unknown(plan: &Digest) -> Box<Diagnostic> {
+    Diagnostic::new("task-unknown", Fault::Input, format!("the store has no plan `{plan}`"))
+        .hint("plan digests come from a run or a plan of a recipe on the same store")
 }
 
 fn build_stage(registry: &Registry, build: &Value) -> Result<Box<dyn Stage>> {

@@ -92,10 +92,7 @@ pub(crate) fn do_the_rest(
         plan.publish_stage(store, stage)?;
     }
     let results: Results = plan.stages.iter_mut().map(|stage| std::mem::take(&mut stage.finished)).collect();
-    let pool = rayon::ThreadPoolBuilder::new().num_threads(jobs).stack_size(STACK_BYTES).build();
-    let pool = pool.map_err(|error| {
-        Diagnostic::new("machine-threads", Fault::Machine, format!("could not start {jobs} threads")).because(error)
-    })?;
+    let pool = thread_pool(jobs)?;
     let workers = Workers {
         shared: Mutex::new(Shared::new(plan, results)),
         plan,
@@ -118,6 +115,14 @@ pub(crate) fn do_the_rest(
     }
     let Shared { failures, costs, diagnostics, stopping: stopped, .. } = shared;
     Ok(AfterWork { endings, failures, costs, diagnostics, stopped })
+}
+
+/// Threads for the parallel work of stages.
+pub(crate) fn thread_pool(jobs: usize) -> Result<rayon::ThreadPool> {
+    let pool = rayon::ThreadPoolBuilder::new().num_threads(jobs).stack_size(STACK_BYTES).build();
+    pool.map_err(|error| {
+        Diagnostic::new("machine-threads", Fault::Machine, format!("could not start {jobs} threads")).because(error)
+    })
 }
 
 impl<'r> Shared<'r> {
@@ -267,6 +272,9 @@ impl<'r> Workers<'_, 'r> {
             return self.heal(index);
         }
         let task = self.task(index);
+        if let Some(diagnostic) = self.options.failed_elsewhere.get(&task.plan) {
+            return self.failed(index, diagnostic.clone());
+        }
         let started = Instant::now();
         match self.pool.install(|| execute(self.store, &task)) {
             Ok(Ended::AlreadyDone(finished)) => self.found_done(index, finished, started.elapsed()),

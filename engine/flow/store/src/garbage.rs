@@ -63,7 +63,9 @@ pub fn collect_garbage(root: &Path, options: &GarbageOptions) -> Result<GarbageR
     for area in [Area::Done, Area::Builds, Area::Plans, Area::Actions, Area::Blobs] {
         sweep(&layout, area, &needed, options, &mut report).map_err(failed)?;
     }
-    sweep_delivered(&layout, options, &mut report).map_err(failed)?;
+    for folder in ["out", "failed"] {
+        sweep_old(&layout, folder, options, &mut report).map_err(failed)?;
+    }
     if !options.dry_run {
         remove_stale_locks(&layout).map_err(failed)?;
     }
@@ -221,9 +223,9 @@ fn sweep(
     Ok(())
 }
 
-/// Removes records of delivered folders; without them the folders are read once more.
-fn sweep_delivered(layout: &Layout, options: &GarbageOptions, report: &mut GarbageReport) -> io::Result<()> {
-    for entry in read_dir_or_nothing(&layout.folder("out"))? {
+/// Removes old records of delivered folders, which are then read once more, and old failures of tasks.
+fn sweep_old(layout: &Layout, folder: &str, options: &GarbageOptions, report: &mut GarbageReport) -> io::Result<()> {
+    for entry in read_dir_or_nothing(&layout.folder(folder))? {
         let path = entry?.path();
         let metadata = fs::symlink_metadata(&path)?;
         if age_of(&metadata, options) >= options.keep_age {

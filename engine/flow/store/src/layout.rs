@@ -10,8 +10,23 @@ use std::path::{Path, PathBuf};
 const VERSION: u32 = 1;
 const FORMAT_NAME: &str = "cosfly-store";
 /// Folders of a store.
-const OWN_FOLDERS: [&str; 14] =
-    ["locks", "tmp", "cas", "ac", "done", "plan", "build", "runs", "index", "pins", "divergence", "out", "costs", "lost+found"];
+const OWN_FOLDERS: [&str; 15] = [
+    "locks",
+    "tmp",
+    "cas",
+    "ac",
+    "done",
+    "plan",
+    "build",
+    "runs",
+    "index",
+    "pins",
+    "divergence",
+    "out",
+    "failed",
+    "costs",
+    "lost+found",
+];
 
 /// Folders that hold one file per digest.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

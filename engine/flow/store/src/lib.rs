@@ -12,6 +12,7 @@
 //! STORE/costs/<stage>            measured time of tasks, for predictions; may be deleted
 //! STORE/out/<path digest>          sizes and times of the files of a delivered folder; may be deleted
 //! STORE/pins/<name>                a copy of a run that garbage collection keeps
+//! STORE/failed/<plan digest>       reason why a task failed that ran apart from its run
 //! STORE/divergence/<action>-<n>    two executions of one action with different bytes
 //! STORE/tmp/<pid>-<n>/             files that a living process is writing
 //! STORE/locks/                     advisory locks; the system frees them when their process dies
@@ -31,6 +32,7 @@ mod decoded;
 mod delivered;
 mod digesting;
 mod durability;
+mod failures;
 mod fault;
 mod folder;
 mod garbage;

@@ -1,4 +1,4 @@
-//! The lab's binary: `cosfly-lab planner | render | geometry | engine`.
+//! The lab's binary: `cosfly-lab planner | render | geometry | engine | cluster`.
 
 mod commands;
 

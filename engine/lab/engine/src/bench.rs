@@ -87,7 +87,7 @@ fn timed(folder: &Path, recipe: &Recipe, jobs: usize) -> Result<(Duration, RunSu
     Ok((took, summary))
 }
 
-fn bench_recipe(items: usize, alpha: f64) -> Result<Recipe> {
+pub(crate) fn bench_recipe(items: usize, alpha: f64) -> Result<Recipe> {
     let names = ["map", "paths", "optimise", "perturb", "render", "caption"];
     let toys = names.iter().enumerate().map(|(index, name)| {
         let inputs = index.checked_sub(1).map(|upstream| (upstream, Fan::Each));

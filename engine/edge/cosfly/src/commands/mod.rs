@@ -3,8 +3,10 @@
 //! To add one, write its file and add two lines here: its `mod` and its entry in [`COMMANDS`].
 
 mod carla_job;
+mod cluster;
 mod dataset;
 mod doctor;
+mod elsewhere;
 mod eval;
 mod export;
 mod gc;
@@ -33,6 +35,7 @@ use crate::command::Entry;
 /// The commands, sorted by name.
 pub const COMMANDS: &[Entry] = &[
     Entry::of::<carla_job::Arguments>(),
+    cluster::CLUSTER,
     dataset::DATASET,
     Entry::of::<doctor::Arguments>(),
     Entry::of::<eval::Arguments>(),

@@ -1,6 +1,7 @@
 //! `cosfly run`: makes everything that a recipe describes; prints the result, its place and what to open next.
 
-use crate::arguments::{RecipeArguments, StoreArguments};
+use super::elsewhere;
+use crate::arguments::{ClusterArguments, Place, RecipeArguments, StoreArguments};
 use crate::command::{Command, Outcome};
 use crate::console::Console;
 use crate::exit;
@@ -28,7 +29,9 @@ Examples:
   cosfly run recipes/small.toml
   cosfly run recipes/carla_town.toml --jobs 1 --out /data/town
   cosfly run recipes/carla_town.toml --stage expert
-  cosfly run recipes/carla_town.toml --set stages.expert.weights.visibility=5 --set seed=7"
+  cosfly run recipes/carla_town.toml --set stages.expert.weights.visibility=5 --set seed=7
+  cosfly run recipes/carla_town.toml --on hq --store /shared/store --request frames:cpus=4,time=2h
+  cosfly run recipes/carla_town.toml --on emit --store /shared/store > commands.jsonl"
 )]
 pub struct Arguments {
     #[command(flatten)]
@@ -44,6 +47,8 @@ pub struct Arguments {
     /// Tasks at the same time [default: one per core]
     #[arg(long, short, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
     jobs: Option<u16>,
+    #[command(flatten)]
+    cluster: ClusterArguments,
     /// Print the summary as JSON
     #[arg(long)]
     json: bool,
@@ -63,10 +68,18 @@ impl Command for Arguments {
         check_out_folder(&self.store.folder(), &out)?;
         let store = Store::open(&self.store.folder())?;
         let jobs = self.jobs.map_or_else(|| std::thread::available_parallelism().map_or(1, usize::from), usize::from);
-        let options = RunOptions { jobs, asked, cancelled: console.cancelled() };
-        let progress = console.run_progress(self.quiet);
+        let options = RunOptions { jobs, asked, cancelled: console.cancelled(), ..RunOptions::default() };
         let wanted = asked.unwrap_or_else(|| delivered_stage(&recipe));
-        let delivery = deliver(&recipe, &store, wanted, &out, &options, &*progress);
+        if self.cluster.on == Place::Emit {
+            return elsewhere::emit(&recipe, &store, wanted, asked, &self.cluster, console);
+        }
+        let progress = console.run_progress(self.quiet);
+        let delivery = match self.cluster.on {
+            Place::Hq => {
+                elsewhere::deliver(&recipe, &store, wanted, &out, options, &self.cluster, (&*progress, console))
+            }
+            _ => deliver(&recipe, &store, wanted, &out, &options, &*progress),
+        };
         drop(progress);
         let delivery = delivery?;
         if self.json {

@@ -1,66 +1,14 @@
 //! One task by its plan digest, as another process would run it.
 
 use super::*;
-use cosfly_blobs::OutputSink;
-use cosfly_diagnose::{ParameterError, Result};
-use cosfly_runner::{plan, run_task};
-use cosfly_stage::{
-    InputPort, Inputs, Produced, Registry, Stage, StageKind, StagePart, StageProperties, Takes, TaskContext, Work,
-};
-use serde_json::Value;
-
-/// Builds a toy again from its stored parameters; `version` is that of the binary.
-struct ToyKind {
-    version: u32,
-}
-
-/// A toy that declares every port: parameters do not say which of them are connected.
-struct WithPorts {
-    stage: Arc<dyn Stage>,
-    properties: StageProperties,
-}
-
-impl Stage for WithPorts {
-    fn properties(&self) -> &StageProperties {
-        &self.properties
-    }
-
-    fn run(&self, inputs: &Inputs<'_>, outputs: &mut dyn OutputSink, context: &TaskContext) -> Result<Produced> {
-        self.stage.run(inputs, outputs, context)
-    }
-}
-
-impl StageKind for ToyKind {
-    fn name(&self) -> &'static str {
-        "toy"
-    }
-
-    fn doc(&self) -> &'static str {
-        "A toy."
-    }
-
-    fn schema(&self) -> Value {
-        json!({})
-    }
-
-    fn ports(&self) -> Vec<InputPort> {
-        Vec::new()
-    }
-
-    fn build(&self, parameters: Value) -> std::result::Result<Vec<StagePart>, ParameterError> {
-        let mut toy = Toy::new("toy", 1, &[]);
-        toy.parameters = parameters;
-        toy.version = self.version;
-        let stage = Arc::clone(&recipe(&[toy]).stages[0].stage);
-        let inputs = Toy::ports(Fan::Gather, Takes::One).to_vec();
-        let properties = StageProperties { inputs, ..stage.properties().clone() };
-        Ok(vec![StagePart { suffix: "", stage: Box::new(WithPorts { stage, properties }) }])
-    }
-}
+use cosfly_diagnose::Result;
+use cosfly_lab_engine::ToyKind;
+use cosfly_runner::{plan, run_tasks};
+use cosfly_stage::{Registry, Takes, Work};
 
 fn run_one(store: &Store, version: u32, digest: &cosfly_fingerprint::Digest) -> Result<Work> {
     let registry = Registry::new(vec![Box::new(ToyKind { version })]);
-    run_task(store, &registry, digest, Arc::new(AtomicBool::new(false)))
+    run_tasks(store, &registry, &[*digest], &options(1)).unwrap().remove(0)
 }
 
 /// A town with films of every expert in two weathers, and what is made of the films: items of all forms of names.
@@ -98,8 +46,41 @@ fn tasks_run_one_by_one_give_what_a_run_gives() {
             assert_eq!(run_one(&store, 1, digest).unwrap(), Work::Cached);
         }
     }
+    assert_eq!(store.failure(&last), None, "the failure of the first attempt is forgotten");
     let summary = run_quietly(&recipe, &store);
     assert_eq!(counts(&summary), [0, 0, 24, 0, 0, 0]);
     assert_eq!(records(&summary), reference, "names have the same form when they are read from documents");
     assert!(log.take().is_empty(), "the recipe's own stages had nothing left to do");
+}
+
+#[test]
+fn a_list_of_tasks_gives_the_end_of_each_and_may_read_itself() {
+    let (_folder, store) = fresh_store();
+    let log = Log::default();
+    let recipe = recipe(&filmed_toys(&log));
+    let plan = plan(&recipe, &store).unwrap();
+    plan.publish_documents(&store).unwrap();
+    let all: Vec<_> = plan.stages.iter().flat_map(|stage| stage.plans.iter().copied()).collect();
+    let unknown = cosfly_fingerprint::Digest::of(b"unknown");
+    let listed: Vec<_> = std::iter::once(unknown).chain(all.iter().copied()).collect();
+    let registry = Registry::new(vec![Box::new(ToyKind { version: 1 })]);
+    let ends = run_tasks(&store, &registry, &listed, &options(2)).unwrap();
+    assert_eq!(ends[0].as_ref().unwrap_err().code, "task-unknown");
+    assert_eq!(store.failure(&unknown).unwrap().code, "task-unknown");
+    assert!(ends[1..].iter().all(|end| *end == Ok(Work::Ran)));
+    assert_eq!(counts(&run_quietly(&recipe, &store)), [0, 0, 24, 0, 0, 0]);
+}
+
+#[test]
+fn what_failed_elsewhere_is_not_tried_again() {
+    let (_folder, store) = fresh_store();
+    let log = Log::default();
+    let recipe = recipe(&town_toys(3, &log));
+    let failed = plan(&recipe, &store).unwrap().stages[1].plans[2];
+    let refusal = cosfly_diagnose::Diagnostic::new("elsewhere", cosfly_diagnose::Fault::Input, "no");
+    let options = RunOptions { failed_elsewhere: BTreeMap::from([(failed, refusal)]), ..options(2) };
+    let (summary, _) = run_with_events(&recipe, &store, &options);
+    assert_eq!(counts(&summary), [7, 0, 0, 1, 3, 0]);
+    assert_eq!(summary.failures[0].diagnostic.code, "elsewhere");
+    assert!(!log.take().contains(&"walkers/i00002".to_owned()));
 }

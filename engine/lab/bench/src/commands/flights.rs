@@ -9,7 +9,6 @@ use cosfly_stage::Registry;
 use cosfly_store::{GarbageOptions, Store, collect_garbage};
 use std::fs;
 use std::path::Path;
-use std::sync::Arc;
 use std::time::{Duration, Instant, SystemTime};
 
 /// Examples of the help text.
@@ -71,7 +70,7 @@ impl Bench<'_> {
         ];
         let recipe = cosfly_recipe::load(&self.root.join("flights.toml"), &sets, &self.registry)?;
         let store = Store::open(&self.root.join("store")).map_err(one)?;
-        let options = RunOptions { jobs: self.jobs, asked: None, cancelled: Arc::default() };
+        let options = RunOptions { jobs: self.jobs, ..RunOptions::default() };
         let last = recipe.stages.len() - 1;
         let delivery = deliver(&recipe, &store, last, &self.root.join("out"), &options, &|_| {}).map_err(one)?;
         if delivery.summary.outcome != RunOutcome::Complete {

@@ -1,6 +1,8 @@
 //! The command line of the lab: one file per measurement.
 
+mod cluster;
 mod engine;
+mod fleet;
 mod flights;
 mod flights_stages;
 mod geometry;
@@ -23,11 +25,15 @@ pub struct Arguments {
 
 #[derive(Debug, Subcommand)]
 enum Command {
+    /// The engine on a running HyperQueue server: cheap items as commands on workers
+    Cluster(cluster::ClusterArguments),
     /// The engine with cheap items: cold overhead, everything cached, one parameter changed and changed back
     Engine(engine::EngineArguments),
     /// Publishing many flights: toy films, then real logs, tables, manifest and delivery; time, memory and disk
     #[command(after_help = flights::EXAMPLES)]
     Flights(flights::FlightsArguments),
+    /// Many trajectories on many workers, simulated: operations of the store, waiting, crashes
+    Fleet(fleet::FleetArguments),
     /// Box queries per second on one core: cosfly's tree, the trees of parry and obvhs, and a brute-force loop
     #[command(after_help = geometry::EXAMPLES)]
     Geometry(geometry::GeometryArguments),
@@ -37,17 +43,23 @@ enum Command {
     /// The renderer: CPU time of a frame by stage, frames per second as finished logs, comparison with memory bandwidth
     #[command(after_help = render::EXAMPLES)]
     Render(render::RenderArguments),
+    /// A command of `cluster`
+    #[command(hide = true)]
+    Task(cluster::TaskArguments),
 }
 
 impl Arguments {
     /// Runs the measurement and prints its table.
     pub fn run(&self) -> Outcome {
         match &self.command {
+            Command::Cluster(arguments) => cluster::cluster(arguments),
             Command::Engine(arguments) => engine::engine(arguments),
             Command::Flights(arguments) => flights::flights(arguments),
+            Command::Fleet(arguments) => fleet::fleet(arguments),
             Command::Geometry(arguments) => geometry::geometry(arguments),
             Command::Planner(arguments) => planner::planner(arguments),
             Command::Render(arguments) => render::render(arguments),
+            Command::Task(arguments) => cluster::task(arguments),
         }
     }
 }
