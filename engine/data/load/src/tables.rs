@@ -97,11 +97,12 @@ fn captions(parts: &[Part<'_>]) -> Columns {
     ]
 }
 
+/// A number of a frame, which has a number and a moment.
+type Value<'a> = dyn Fn(&Part<'_>, usize, &Moment) -> Option<f64> + 'a;
+
 fn frames(parts: &[Part<'_>], has_poses: bool) -> Columns {
     let each = || parts.iter().flat_map(|part| part.1.moments.iter().enumerate().map(move |it| (part, it)));
-    let real = |value: &dyn Fn(&Part<'_>, usize, &Moment) -> Option<f64>| {
-        reals(each().map(|(part, (frame, moment))| value(part, frame, moment)))
-    };
+    let real = |value: &Value<'_>| reals(each().map(|(part, (frame, moment))| value(part, frame, moment)));
     let mut columns: Columns = vec![
         ("trajectory_id", texts(each().map(|(part, _)| part.0.id.as_str()))),
         ("split", texts(each().map(|(part, _)| part.0.split.as_str()))),
@@ -132,7 +133,7 @@ fn frames(parts: &[Part<'_>], has_poses: bool) -> Columns {
     let feet = |part: &Part<'_>, moment: &Moment| {
         moment.target_in_world.map(|middle| middle - DVec3::Z * (0.5 * part.1.target_height_m))
     };
-    let stated: [(&'static str, &dyn Fn(&Part<'_>, usize, &Moment) -> Option<f64>); 7] = [
+    let stated: [(&'static str, &Value<'_>); 7] = [
         ("target_x_m", &|part, _, it| Some(feet(part, it)?.x)),
         ("target_y_m", &|part, _, it| Some(feet(part, it)?.y)),
         ("target_z_m", &|part, _, it| Some(feet(part, it)?.z)),

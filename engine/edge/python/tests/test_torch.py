@@ -74,7 +74,7 @@ def test_a_training_that_is_killed_and_resumed_sees_the_same_samples(tmp_path):
     os.symlink(os.path.abspath("data"), tmp_path / "data")
     command = lambda kill_after, workers: [sys.executable, "-c", TRAINING, str(kill_after), str(workers)]
     seen, state = tmp_path / "seen.jsonl", tmp_path / "state.json"
-    subprocess.run(command(0, WORKERS), cwd=tmp_path, check=True)
+    subprocess.run(command(0, WORKERS), cwd=tmp_path, check=True, timeout=300)
     whole = [json.loads(line) for line in open(seen)]
     seen.unlink(), state.unlink()
     assert len(whole) > 6
@@ -83,7 +83,7 @@ def test_a_training_that_is_killed_and_resumed_sees_the_same_samples(tmp_path):
         assert training.stdout.readline() == b"waiting\n"
         training.send_signal(signal.SIGKILL)
         training.wait()
-    subprocess.run(command(0, 2), cwd=tmp_path, check=True)  # another number of workers
+    subprocess.run(command(0, 2), cwd=tmp_path, check=True, timeout=300)  # another number of workers
     assert [json.loads(line) for line in open(seen)] == whole
 
 
