@@ -61,11 +61,12 @@ impl Figures {
     }
 }
 
-/// Values of [`MAXIMA`]; 0 for those of rates of turning in datasets from before these columns.
+/// Values of [`MAXIMA`]; NaN for those of rates of turning in datasets from before these columns.
 fn maxima(rows: &Rows<'_>, row: usize) -> Result<[f64; 5]> {
     let mut maxima = [0.0; 5];
     for (number, column) in maxima.iter_mut().zip(MAXIMA) {
-        *number = if column.name.ends_with("_deg_s") { rows.get_or(column, row, 0.0)? } else { rows.get(column, row)? };
+        *number =
+            if column.name.ends_with("_deg_s") { rows.get_or(column, row, f64::NAN)? } else { rows.get(column, row)? };
     }
     Ok(maxima)
 }

@@ -3,6 +3,7 @@
 use super::figures::{MAXIMA, MEANS};
 use super::report::VerifyReport;
 use super::rows::{PlacedFlight, PlacedFrame};
+use cosfly_frames::real;
 use cosfly_render::Camera;
 use cosfly_schema::Role;
 use cosfly_schema::tables::Trajectories;
@@ -68,6 +69,12 @@ pub fn check_frames(flight: &PlacedFlight, frames: &[PlacedFrame], report: &mut 
             find("verify-figures", format!("`{}` is {found}; table `frames` gives {expected}", column.name));
         }
     }
+    let [.., yaw, pitch] = figures.maxima;
+    for ((column, found), expected) in MAXIMA[3..].iter().zip([yaw, pitch]).zip(turning_deg_s(flight, frames)) {
+        if !found.is_nan() && !is_near(found, expected) {
+            find("verify-figures", format!("`{}` is {found}; table `frames` gives {expected}", column.name));
+        }
+    }
     let nearest_m = frames.iter().map(|frame| frame.clearance_m).fold(f64::INFINITY, f64::min);
     if figures.min_clearance_m > nearest_m + TOLERANCE {
         find("verify-figures", format!("`min_clearance_m` is {}; a frame has {nearest_m}", figures.min_clearance_m));
@@ -90,6 +97,15 @@ fn of_frames(frames: &[PlacedFrame]) -> [f64; 5] {
         mean(&|frame| frame.distance_m),
         frames.windows(2).map(|pair| pair[1].pose.position_in_world.distance(pair[0].pose.position_in_world)).sum(),
     ]
+}
+
+/// Largest rates of yaw and of pitch between two frames, degrees/s.
+fn turning_deg_s(flight: &PlacedFlight, frames: &[PlacedFrame]) -> [f64; 2] {
+    let angles: [fn(&PlacedFrame) -> f64; 2] = [|frame| frame.pose.yaw_rad, |frame| frame.pose.pitch_rad];
+    angles.map(|angle| {
+        let turned = |pair: &[PlacedFrame]| real::wrap_angle_rad(angle(&pair[1]) - angle(&pair[0])).abs().to_degrees();
+        frames.windows(2).map(turned).fold(0.0, f64::max) / flight.dt_s
+    })
 }
 
 /// Mean visibility by rays and by pixels over the frames in which the whole body is large and in the image; `None`

@@ -206,7 +206,9 @@ fn a_twin_that_is_not_its_expert_plus_its_displacement_is_found() {
 
 #[test]
 fn figures_that_do_not_follow_from_the_frames_are_found() {
-    let spoils: [fn(&mut cosfly_planner::Certificate); 5] = [
+    let spoils: [fn(&mut cosfly_planner::Certificate); 7] = [
+        |it| it.max_yaw_rate_deg_s += 0.01,
+        |it| it.max_pitch_rate_deg_s += 0.01,
         |it| it.mean_visibility += 1e-6,
         |it| it.frames_half_visible = 0.9,
         |it| it.mean_distance_m += 0.1,

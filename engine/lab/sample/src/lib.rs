@@ -10,6 +10,7 @@ pub use many::{ManyFlights, write_many};
 use cosfly_frames::{DVec3, Pose, Seed, TargetState, TargetTrack, real};
 use cosfly_geometry::OrientedBox;
 use cosfly_maps::{MapOrigin, Obstacle, ObstacleKind, SemanticLabel, SimplificationReport, Synthetic, Town};
+use cosfly_planner::certificate::view_rates_deg_s;
 use cosfly_planner::perturb::Kind;
 use cosfly_planner::{Certificate, FramePerturbation, Limits, Perturbation, TermCost, Trajectory};
 use cosfly_render::channels::{ALL, SeenPoint};
@@ -266,6 +267,7 @@ fn certificate(track: &TargetTrack, poses: &[Pose], views: &[TargetView]) -> Cer
     let positions: Vec<DVec3> = poses.iter().map(|pose| pose.position_in_world).collect();
     let distances = positions.iter().zip(&track.states).map(|(position, state)| position.distance(state.feet_in_world));
     let length_m = positions.windows(2).map(|pair| pair[1].distance(pair[0])).sum::<f64>();
+    let [max_yaw_rate_deg_s, max_pitch_rate_deg_s] = view_rates_deg_s(poses, track.dt_s);
     Certificate {
         limits: Limits {
             clearance_m: 1.0,
@@ -283,6 +285,8 @@ fn certificate(track: &TargetTrack, poses: &[Pose], views: &[TargetView]) -> Cer
         max_speed_mps: 1.3,
         max_acceleration_mps2: 0.1,
         max_jerk_mps3: 0.1,
+        max_yaw_rate_deg_s,
+        max_pitch_rate_deg_s,
         mean_distance_m: distances.sum::<f64>() / count,
         mean_rear_angle_deg: 0.0,
         length_m,

@@ -1,0 +1,37 @@
+"""Loads an export of format vlm with LLaMA-Factory's own loader, where it is installed.
+
+    venv/bin/python tests/outside/check_llamafactory.py EXPORT_FOLDER
+
+Every line must become a question with as many `<image>` as pictures, which exist, and an answer.
+"""
+
+import importlib.util
+import json
+import sys
+import tempfile
+from pathlib import Path
+
+if importlib.util.find_spec("llamafactory") is None:
+    print("skipped: LLaMA-Factory is not installed (pip install llamafactory)")
+    sys.exit()
+
+from llamafactory.data.loader import _load_single_dataset
+from llamafactory.data.parser import get_dataset_list
+from llamafactory.hparams import DataArguments, ModelArguments
+from transformers import Seq2SeqTrainingArguments
+
+folder = sys.argv[1]
+names = list(json.loads((Path(folder) / "dataset_info.json").read_text()))
+data = DataArguments(dataset=",".join(names), dataset_dir=folder, media_dir=folder)
+with tempfile.TemporaryDirectory() as out:
+    training = Seq2SeqTrainingArguments(output_dir=out, report_to=[])
+    for name, entry in zip(names, get_dataset_list(names, folder)):
+        rows = _load_single_dataset(entry, ModelArguments(model_name_or_path="none"), data, training)
+        lines = (Path(folder) / f"{name.removeprefix('cosfly_')}.jsonl").read_text().splitlines()
+        assert len(rows) == len(lines), (name, len(rows), len(lines))
+        for row in rows:
+            question, answer = row["_prompt"][0]["content"], row["_response"][0]["content"]
+            assert question.count("<image>") == len(row["_images"]) > 0 and "Instruction: " in question, row
+            assert all(Path(picture).is_file() for picture in row["_images"]) and row["_system"], row
+            assert json.loads(answer)["waypoint_deltas"], answer
+        print(f"ok  {name}: {len(rows)} windows")
