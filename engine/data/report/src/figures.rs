@@ -1,8 +1,9 @@
 //! What the page tells of flights: figures over all of them, and sketches of a few. Parts can be merged, so that a page is made
 //! from summaries of many files; memory is bounded by the number of towns, not of flights.
 
-use crate::model::FlightSketch;
+use crate::name_hash::hash;
 use crate::sample::{Sample, Worst};
+use crate::sketch::FlightSketch;
 use cosfly_plot::distribution::Distribution;
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
 use std::collections::{BTreeMap, BTreeSet};
@@ -219,17 +220,6 @@ fn quantities(flight: &FlightSketch) -> [(Quantity, Vec<f32>); 8] {
         (Quantity::TargetSpeed, flight.target_speeds_mps()),
         (Quantity::BoxHeight, (0..flight.len()).map(|frame| flight.box_height_px(frame)).collect()),
     ]
-}
-
-/// A hash of some texts (FNV-1a, mixed), the same everywhere.
-pub(crate) fn hash(texts: &[&str]) -> u64 {
-    let bytes = texts.iter().flat_map(|text| text.bytes().chain([0]));
-    let sum =
-        bytes.fold(0xcbf2_9ce4_8422_2325, |sum: u64, byte| (sum ^ u64::from(byte)).wrapping_mul(0x0100_0000_01b3));
-    // The finaliser of SplitMix64: ids that differ in their last digit only are far apart.
-    let mixed = (sum ^ sum >> 30).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-    let mixed = (mixed ^ mixed >> 27).wrapping_mul(0x94d0_49bb_1331_11eb);
-    mixed ^ mixed >> 31
 }
 
 /// Distributions in files.

@@ -9,11 +9,14 @@ pub mod figures;
 mod map;
 pub mod model;
 mod moments;
+mod name_hash;
 mod page;
 mod pictures;
 mod sample;
 mod sections;
+mod sketch;
 
 pub use figures::Figures;
-pub use model::{BoxSketch, FlightSketch, Known, PlannerRow, RejectionSketch, Report, TownSketch};
+pub use model::{BoxSketch, Known, PlannerRow, RejectionSketch, Report, TownSketch};
 pub use page::page;
+pub use sketch::FlightSketch;

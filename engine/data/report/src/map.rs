@@ -1,7 +1,8 @@
 //! A town from above with its flights, coloured by how much of their targets they see.
 
-use crate::model::{BoxSketch, FlightSketch, TownSketch};
+use crate::model::{BoxSketch, TownSketch};
 use crate::moments;
+use crate::sketch::FlightSketch;
 use cosfly_plot::statistics;
 use cosfly_plot::strip::class_of;
 use cosfly_plot::text::escaped;

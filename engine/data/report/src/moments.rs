@@ -1,7 +1,7 @@
 //! Choice of the flights and frames that the page shows.
 
-use crate::model::FlightSketch;
 use crate::sample::Worst;
+use crate::sketch::FlightSketch;
 
 /// Mean visibility from which a flight is not a bad case.
 const FULLY: f64 = 0.9995;

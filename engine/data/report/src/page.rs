@@ -104,7 +104,8 @@ fn foot(report: &Report) -> String {
 mod tests {
     use super::*;
     use crate::figures::Figures;
-    use crate::model::{BoxSketch, FlightSketch, RejectionSketch, TownSketch};
+    use crate::model::{BoxSketch, RejectionSketch, TownSketch};
+    use crate::sketch::FlightSketch;
     use cosfly_metrics::shortcuts::{ShortcutFigures, Shortcuts};
     use std::convert::Infallible;
 

@@ -1,6 +1,6 @@
 //! Pictures inside of the page.
 
-use crate::model::FlightSketch;
+use crate::sketch::FlightSketch;
 use base64::Engine;
 use base64::prelude::BASE64_STANDARD;
 use cosfly_plot::text::escaped;

@@ -1,8 +1,8 @@
 //! Flights that are drawn: a sample by the hashes of their ids, and the worst ones. Both depend on the flights alone, not on
 //! their order or on how parts were merged, and few more flights change few of them.
 
-use crate::figures::hash;
-use crate::model::FlightSketch;
+use crate::name_hash::hash;
+use crate::sketch::FlightSketch;
 use serde::{Deserialize, Serialize};
 use std::collections::{BTreeMap, BTreeSet};
 

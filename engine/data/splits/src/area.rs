@@ -3,8 +3,8 @@
 //! A walk belongs to an area when all of it is at least half a guard band away from the area's lines; walks that enter a
 //! band are left out. They cannot go to `train` instead: they would cover ground of the area behind the band.
 
-use super::assign::Places;
 use super::facts::FlightFacts;
+use super::places::Places;
 use super::route::Route;
 use cosfly_frames::Seed;
 use cosfly_schema::Split;

@@ -1,6 +1,7 @@
 //! Splits without leaks: groups of flights, their splits, and a linter for published datasets.
 //!
 //! * [`route`]: ground that a walk covers; [`overlap`]: walks that repeat each other; [`disjoint_sets`]: their groups.
+//! * [`places`]: towns by their ground plans.
 //! * [`facts`]: input of the linter for each flight.
 //! * [`assign`]: groups of flights, their splits, nested subsets.
 //! * [`area`]: cuts of the map; [`balance`]: shares asked for and reached.
@@ -14,6 +15,7 @@ pub mod disjoint_sets;
 pub mod facts;
 pub mod leaks;
 pub mod overlap;
+pub mod places;
 pub mod policy;
 pub mod route;
 

@@ -9,7 +9,7 @@ use super::report::VerifyReport;
 use super::resume::ResumeFile;
 use super::rows::{self, PlacedFrame};
 use super::tables::SmallTables;
-use super::{labels, people, sums, twins, waypoints};
+use super::{labels, people, sums, twins};
 use cosfly_diagnose::Result;
 use cosfly_read::{FlightTrack, RowIndex};
 use rayon::prelude::*;
@@ -97,11 +97,16 @@ impl<'a> Flights<'a> {
         self.index.has(number)
     }
 
-    /// Checks all wanted flights: rows of `frames`, the log of each, then `waypoints` and other logs.
+    /// Checks all wanted flights: rows of `frames`, the log of each, then other logs. Returns the motion of each flight by its
+    /// number.
     ///
     /// # Errors
     /// A log is there and cannot be read, or the notes of the check cannot be written.
-    pub fn check_all(&self, report: &mut VerifyReport, progress: &(dyn Fn(u64, u64) + Sync)) -> Result<()> {
+    pub fn check_all(
+        &self,
+        report: &mut VerifyReport,
+        progress: &(dyn Fn(u64, u64) + Sync),
+    ) -> Result<Vec<Option<Motion>>> {
         report.sample = self.wanted.sample();
         let all = report.sample.unwrap_or(self.tables.flights.len() as u64);
         let done = AtomicU64::new(0);
@@ -131,8 +136,7 @@ impl<'a> Flights<'a> {
         }
         self.check_missing(&motions, report);
         self.check_other_logs(&motions, report)?;
-        waypoints::check(self, &motions, report);
-        Ok(())
+        Ok(motions)
     }
 
     /// Checks the flights of one file of table `frames`.

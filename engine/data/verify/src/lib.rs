@@ -81,7 +81,8 @@ fn check(folder: &Path, options: &Options, progress: &(dyn Fn(u64, u64) + Sync))
     extras::check(folder, &files, &tables, &mut report);
     let flights = Flights::new(folder, &files, &tables, &wanted, resume, &mut report);
     windows::check(&flights, &mut report);
-    flights.check_all(&mut report, progress)?;
+    let motions = flights.check_all(&mut report, progress)?;
+    waypoints::check(&flights, &motions, &mut report);
     Ok(report)
 }
 

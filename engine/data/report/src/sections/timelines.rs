@@ -1,8 +1,9 @@
 //! Visibility over time: a strip of colours per flight.
 
 use super::maps::legend;
-use crate::model::{FlightSketch, Report};
+use crate::model::Report;
 use crate::moments::spread;
+use crate::sketch::FlightSketch;
 use cosfly_plot::strip::strip;
 use cosfly_plot::text::{escaped, percent, short};
 use std::fmt::Write;
