@@ -239,8 +239,8 @@ mod tests {
                 encoder.set_sampling_factor(sampling);
                 encoder.encode(&rgb, width as u16, height as u16, jpeg_encoder::ColorType::Rgb).expect("a file");
                 let (ours, theirs) = (error(&pixels, &rgb), error(&decoded(&other).0, &rgb));
-                // Encoders differ in how they halve colours at edges, which a picture of 3 pixels shows most.
-                let margin = if chroma == Chroma::Half { 1.06 } else { 1.02 };
+                // Encoders differ in how they halve colours at the picture's edge, which is most of a picture of 3 pixels.
+                let margin = if chroma == Chroma::Half && width < 8 { 1.06 } else { 1.02 };
                 assert!(ours < margin * theirs + 0.3, "{width} x {height} at {quality}: {ours} {theirs}");
             }
         }

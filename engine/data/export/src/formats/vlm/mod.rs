@@ -143,7 +143,9 @@ fn card<'a>(options: &Options, splits: impl Iterator<Item = &'a str>) -> Card {
         "Windows: {} frames of {input} flights, then {} waypoints of the expert, one window every {} frames; increments in the \
          {frame} frame. A model's answers are scored with\n\n```sh\ncosfly eval answers.jsonl --dataset DATASET --frame {frame} \
          --input {input} --history {} --horizon {} --stride {}\n```\n\nwhere a line of answers has `trajectory_id` and `frame` of \
-         the line here, and `text`, what the model wrote.\n\n",
+         the line here, and `text`, what the model wrote. The first increment starts at the drone's own pose, from which a drone \
+         flies on (`--anchor input`). The paper's untrained models have the scores of `--anchor expert`, where it starts at the \
+         expert's pose: the report has both.\n\n",
         shape.history, shape.horizon, shape.stride, shape.history, shape.horizon, shape.stride
     );
     let pictures = format!(
