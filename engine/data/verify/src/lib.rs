@@ -76,11 +76,25 @@ fn check(folder: &Path, options: &Options, progress: &(dyn Fn(u64, u64) + Sync))
     let wanted = Wanted::of(&tables.flights, options.sample);
     let resume = options.resume.as_deref().map(|path| ResumeFile::open(path, folder, &files)).transpose()?;
     report.flights_of_dataset = tables.flights.len() as u64;
-    splits::check(folder, &tables, &mut report);
-    croissant::check(folder, &files, &mut report)?;
-    extras::check(folder, &files, &tables, &mut report);
-    let flights = Flights::new(folder, &files, &tables, &wanted, resume, &mut report);
-    windows::check(&flights, &mut report);
+    // Both halves read whole tables, each on one thread.
+    let (of_splits, rest) = rayon::join(
+        || {
+            let mut report = VerifyReport::default();
+            splits::check(folder, &tables, &mut report);
+            report
+        },
+        || -> Result<_> {
+            let mut report = VerifyReport::default();
+            croissant::check(folder, &files, &mut report)?;
+            extras::check(folder, &files, &tables, &mut report);
+            let flights = Flights::new(folder, &files, &tables, &wanted, resume, &mut report);
+            windows::check(&flights, &mut report);
+            Ok((flights, report))
+        },
+    );
+    let (flights, of_tables) = rest?;
+    report.absorb(of_splits);
+    report.absorb(of_tables);
     let motions = flights.check_all(&mut report, progress)?;
     waypoints::check(&flights, &motions, &mut report);
     Ok(report)
