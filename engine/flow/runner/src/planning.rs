@@ -21,6 +21,7 @@ const PER_THREAD: usize = 256;
 pub fn plan<'r>(recipe: &'r Recipe, store: &Store) -> Result<Plan<'r>> {
     let mut plan = digest_tasks(recipe)?;
     find_finished(&mut plan, store);
+    store.check_remote()?;
     predict(&mut plan);
     reasons::give_reasons(&mut plan, store);
     Ok(plan)

@@ -7,7 +7,6 @@ use crate::exit;
 use crate::text::{bytes, count};
 use clap::Parser;
 use cosfly_runner::{Plan, Reason};
-use cosfly_store::Store;
 use serde_json::json;
 use std::fmt::Write;
 
@@ -27,7 +26,7 @@ pub struct Arguments {
 impl Command for Arguments {
     fn run(&self, console: &dyn Console) -> Outcome {
         let recipe = self.recipe.load(console)?;
-        let store = Store::open_to_read(&self.store.folder())?;
+        let store = self.store.open_to_read()?;
         let plan = cosfly_runner::plan(&recipe, &store)?;
         console.print(&if self.json { json(&plan) } else { table(&plan) })?;
         Ok(exit::SUCCESS)
