@@ -64,8 +64,14 @@ impl Bucket {
         let diagnostic = if says(&["RequestTimeTooSkewed"]) {
             Diagnostic::new("remote-clock", Fault::Machine, message)
                 .hint("the clock of this machine differs from the server's: set it, for instance with an NTP service")
-        } else if says(&["InvalidAccessKeyId", "SignatureDoesNotMatch", "AccessDenied", "ExpiredToken", "InvalidToken", NO_KEY])
-            || matches!(error, Error::PermissionDenied { .. } | Error::Unauthenticated { .. })
+        } else if says(&[
+            "InvalidAccessKeyId",
+            "SignatureDoesNotMatch",
+            "AccessDenied",
+            "ExpiredToken",
+            "InvalidToken",
+            NO_KEY,
+        ]) || matches!(error, Error::PermissionDenied { .. } | Error::Unauthenticated { .. })
         {
             Diagnostic::new("remote-credentials", Fault::Machine, message)
                 .hint("check AWS_ACCESS_KEY_ID, AWS_SECRET_ACCESS_KEY, AWS_SESSION_TOKEN and the rights of that user")

@@ -5,6 +5,7 @@
 //! operations of the store: a queue with a number of operations and of bytes per second. Numbers of operations were counted with
 //! `strace` on `cosfly task run`.
 
+use cosfly_frames::real::exp;
 use cosfly_random::Seed;
 use std::cmp::Reverse;
 use std::collections::BinaryHeap;
@@ -111,10 +112,16 @@ impl Queue {
 }
 
 /// Order of moments.
-#[derive(PartialEq, PartialOrd)]
+#[derive(PartialEq)]
 struct Moment(f64);
 
 impl Eq for Moment {}
+
+impl PartialOrd for Moment {
+    fn partial_cmp(&self, other: &Self) -> Option<std::cmp::Ordering> {
+        Some(self.cmp(other))
+    }
+}
 
 impl Ord for Moment {
     fn cmp(&self, other: &Self) -> std::cmp::Ordering {
@@ -147,7 +154,7 @@ pub fn simulate(fleet: &Fleet) -> FleetFigures {
             let moved = 1.0 + (stage.read_mb - 1.0 + stage.written_mb) * here as f64;
             let served = operations_of_store.serve(placed, asked / fleet.operations_per_s);
             let served = served.max(bytes_of_store.serve(placed, moved / fleet.mb_per_s));
-            let work: f64 = (0..here).map(|_| stage.cpu_s * (random.normal(0.0, 0.25)).exp()).sum();
+            let work: f64 = (0..here).map(|_| stage.cpu_s * exp(random.normal(0.0, 0.25))).sum();
             let busy = START_S + work;
             let minute = (served / 60.0) as usize;
             minutes.resize(minutes.len().max(minute + 1), 0.0);
@@ -157,7 +164,7 @@ pub fn simulate(fleet: &Fleet) -> FleetFigures {
             reads += 1.0;
             for_engine += placed - now;
             for_store += served - placed;
-            let crashed = random.chance(1.0 - (-fleet.crashes_per_hour * busy / 3600.0).exp());
+            let crashed = random.chance(1.0 - exp(-fleet.crashes_per_hour * busy / 3600.0));
             let took = if crashed { busy * random.unit() } else { busy };
             if crashed {
                 crashes += 1;
