@@ -72,6 +72,9 @@ fn heavy_crates_stay_in_their_one_room() {
         ("parry3d", &["cosfly-lab"][..]),
         ("pyo3", &["cosfly-python"][..]),
         ("numpy", &["cosfly-python"][..]),
+        ("object_store", &["cosfly-remote"][..]),
+        ("tokio", &["cosfly-remote"][..]),
+        ("ureq", &["cosfly-remote"][..]),
     ]);
     for (name, (shelf, dependencies)) in packages() {
         let places = [name.clone(), format!("shelf {shelf}")];

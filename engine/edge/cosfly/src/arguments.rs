@@ -5,8 +5,11 @@ use crate::console::Console;
 use clap::Args;
 use clap::builder::TypedValueParser;
 use cosfly_diagnose::Diagnostic;
+use cosfly_fingerprint::Digest;
 use cosfly_recipe::Recipe;
+use cosfly_store::{Remote, Store};
 use std::path::{Path, PathBuf};
+use std::sync::Arc;
 
 /// A recipe with changes to it.
 #[derive(Args, Clone, Debug)]
@@ -40,16 +43,82 @@ impl RecipeArguments {
 /// Place of the store.
 #[derive(Args, Clone, Debug)]
 pub struct StoreArguments {
-    /// Folder of the store [default: $COSFLY_STORE, else .cosfly in the current folder]
+    /// Folder of the store, or s3://BUCKET/PREFIX [default: $COSFLY_STORE, else .cosfly in the current folder]
     #[arg(long, value_name = "DIR", env = "COSFLY_STORE", hide_env = true)]
     pub store: Option<PathBuf>,
 }
 
 impl StoreArguments {
-    /// The store's folder.
+    /// The store's folder; of a bucket, the folder on this machine that is its cache.
     pub fn folder(&self) -> PathBuf {
-        self.store.clone().unwrap_or_else(|| PathBuf::from(".cosfly"))
+        let Some(place) = self.bucket() else { return self.store.clone().unwrap_or_else(|| PathBuf::from(".cosfly")) };
+        let cache = std::env::var_os("COSFLY_CACHE").filter(|folder| !folder.is_empty()).map(PathBuf::from);
+        let name = format!("cosfly-{}", Digest::of(place.as_bytes()).short());
+        cache.unwrap_or_else(std::env::temp_dir).join(name)
     }
+
+    /// The bucket, where the store is in one.
+    pub fn bucket(&self) -> Option<&str> {
+        self.store.as_deref().and_then(Path::to_str).filter(|place| place.starts_with("s3://"))
+    }
+
+    /// The store.
+    ///
+    /// # Errors
+    /// The errors of opening it.
+    pub fn open(&self) -> cosfly_diagnose::Result<Store> {
+        match self.bucket() {
+            Some(place) => Store::open_remote(&self.folder(), remote(place)?),
+            None => Store::open(&self.folder()),
+        }
+    }
+
+    /// The store, for one of many processes on a cluster. The cache of a bucket belongs to one machine.
+    ///
+    /// # Errors
+    /// The errors of opening it.
+    pub fn open_as_worker(&self) -> cosfly_diagnose::Result<Store> {
+        if self.bucket().is_some() { self.open() } else { Store::open_as_worker(&self.folder()) }
+    }
+
+    /// The store, for reading.
+    ///
+    /// # Errors
+    /// The errors of opening it.
+    pub fn open_to_read(&self) -> cosfly_diagnose::Result<Store> {
+        if self.bucket().is_some() { self.open() } else { Store::open_to_read(&self.folder()) }
+    }
+
+    /// The store's folder with its named versions.
+    ///
+    /// # Errors
+    /// Those of a bucket.
+    pub fn with_versions(&self) -> cosfly_diagnose::Result<PathBuf> {
+        if self.bucket().is_some() {
+            self.open()?.fetch_files("versions")?;
+        }
+        Ok(self.folder())
+    }
+}
+
+/// The bucket at `place`.
+///
+/// # Errors
+/// `remote-place`.
+#[cfg(feature = "s3")]
+pub fn remote(place: &str) -> cosfly_diagnose::Result<Arc<dyn Remote>> {
+    Ok(Arc::new(cosfly_remote::Bucket::open(place)?))
+}
+
+/// No bucket: this program has none.
+///
+/// # Errors
+/// `remote-unsupported`.
+#[cfg(not(feature = "s3"))]
+pub fn remote(place: &str) -> cosfly_diagnose::Result<Arc<dyn Remote>> {
+    let message = format!("this cosfly cannot use `{place}`: it was built without buckets");
+    Err(Diagnostic::new("remote-unsupported", cosfly_diagnose::Fault::Recipe, message)
+        .hint("build it with `cargo build --release --features s3`, or use a folder that all machines share"))
 }
 
 /// Whole numbers from 1 to a million.

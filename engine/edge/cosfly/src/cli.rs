@@ -31,7 +31,9 @@ Exit codes:
   130  stopped by Ctrl-C; finished items are kept
 
 Environment:
-  COSFLY_STORE  folder of the store, where `--store` is not given
+  COSFLY_STORE  place of the store, where `--store` is not given
+  COSFLY_CACHE  folder for caches of stores in buckets [default: the folder for temporary files]
+  COSFLY_HQ     the command of HyperQueue [default: `hq` on the PATH]
   COSFLY_SIMD   plain, avx2 or avx512 [default: the best of the processor]; all give the same bytes
   NO_COLOR      no colours";
 

@@ -79,7 +79,8 @@ impl Driver<'_> {
             let before = told.progress();
             told.planned(&plan, is_first);
             let kept = kept_stages(&plan, self.wanted);
-            let leaves = leaves(&plan, &kept, |digest| told.failed.contains_key(digest), &self.requests);
+            let requests = self.requests_of_wave(&told);
+            let leaves = leaves(&plan, &kept, |digest| told.failed.contains_key(digest), &requests);
             if leaves.is_empty() {
                 break;
             }
@@ -88,7 +89,7 @@ impl Driver<'_> {
                 return Err(Diagnostic::new("cluster-no-progress", Fault::Machine, message)
                     .hint("look at `hq job list --all` and at the log of the server"));
             }
-            let name = self.job_name(&plan);
+            let name = self.job_name(&plan, &requests);
             let job = match self.patiently(|| self.find_running(hq, &name))? {
                 Some(job) => job,
                 None => {
@@ -110,10 +111,20 @@ impl Driver<'_> {
         self.cancelled.load(Ordering::Relaxed)
     }
 
+    /// Requests by stage; after a command without a result, every task of its stage has a command of its own, so that one
+    /// that brings its command down does not take others with it.
+    fn requests_of_wave(&self, told: &Told<'_>) -> Vec<Request> {
+        let alone = |(stage, request): (usize, &Request)| match told.lossy.contains(&stage) {
+            true => Request { batch: 1, ..*request },
+            false => *request,
+        };
+        self.requests.iter().enumerate().map(alone).collect()
+    }
+
     /// Name of the job: the same for every driver of the same plan, requests and store, so that leaves have the same numbers.
-    fn job_name(&self, plan: &Plan<'_>) -> String {
+    fn job_name(&self, plan: &Plan<'_>, requests: &[Request]) -> String {
         let mut bytes: Vec<u8> = self.command.store.clone().into_bytes();
-        bytes.extend(format!("{:?}", self.requests).bytes());
+        bytes.extend(format!("{requests:?}").bytes());
         plan.stages.iter().for_each(|stage| stage.plans.iter().for_each(|digest| bytes.extend(digest.0)));
         format!("cosfly-{}-{}", self.recipe.name, Digest::of(&bytes).short())
     }

@@ -20,6 +20,8 @@ pub(crate) struct Told<'a> {
     pub(crate) divergences: Vec<Box<Diagnostic>>,
     /// Ends without a result, by plan digest.
     lost: BTreeMap<Digest, u32>,
+    /// Stages with such ends.
+    pub(crate) lossy: BTreeSet<usize>,
 }
 
 /// Ends of a task without a result after which it counts as failed.
@@ -34,6 +36,7 @@ impl<'a> Told<'a> {
             failed: BTreeMap::new(),
             divergences: Vec::new(),
             lost: BTreeMap::new(),
+            lossy: BTreeSet::new(),
         }
     }
 
@@ -87,6 +90,7 @@ impl<'a> Told<'a> {
         }
         let id = plan.recipe.id(stage, item);
         let diagnostic = failure.or_else(|| {
+            self.lossy.insert(stage);
             let losses = self.lost.entry(digest).or_insert(0);
             *losses += 1;
             (*losses >= MOST_LOSSES).then(|| lost(&id.to_string(), words))

@@ -43,6 +43,7 @@ pub fn plan_elsewhere<'r>(recipe: &'r Recipe, store: &Store, asked: Option<usize
 fn made<'r>(recipe: &'r Recipe, store: &Store, asked: Option<usize>, make_again: bool) -> Result<Plan<'r>> {
     let mut plan = digest_tasks(recipe)?;
     find_finished(&mut plan, store);
+    store.check_remote()?;
     find_needed(&mut plan, asked, make_again);
     predict(&mut plan);
     predict_time(&mut plan, store);

@@ -105,7 +105,8 @@ impl Tasks<'_> {
             self.publish();
             settled = self.attempt(index, plan);
         }
-        match settled {
+        // Nothing is missing where the remote refused to tell.
+        match settled.map_err(|failure| self.store.check_remote().err().unwrap_or(failure)) {
             Ok(settled) => self.settled.extend(settled),
             Err(failure) => self.ends[index] = Err(failure),
         }

@@ -15,8 +15,12 @@ use std::sync::Arc;
 
 impl BlobSource for Store {
     fn read(&self, blob: &BlobRef) -> Result<Vec<u8>> {
-        let bytes = match fs::read(self.blob_path(blob)) {
+        let path = self.blob_path(blob);
+        let bytes = match fs::read(&path) {
             Ok(bytes) => bytes,
+            Err(error) if error.kind() == io::ErrorKind::NotFound && self.fetch_blob(&path, &blob.digest) => {
+                return self.read(blob);
+            }
             Err(error) => return Err(self.unreadable(blob, &error)),
         };
         if bytes.len() as u64 != blob.bytes {
@@ -66,7 +70,13 @@ impl Store {
 
     /// Opens the file of a blob at its start; `None` where its bytes do not match its digest.
     fn open_checked(&self, blob: &BlobRef) -> io::Result<Option<File>> {
-        let mut file = File::open(self.blob_path(blob))?;
+        let path = self.blob_path(blob);
+        let mut file = match File::open(&path) {
+            Err(error) if error.kind() == io::ErrorKind::NotFound && self.fetch_blob(&path, &blob.digest) => {
+                File::open(&path)?
+            }
+            opened => opened?,
+        };
         if file.metadata()?.len() != blob.bytes {
             return Ok(None);
         }
@@ -87,6 +97,7 @@ impl Store {
     pub fn remove_blob(&self, blob: &BlobRef) -> Result<()> {
         locked(&self.checked).remove(&blob.digest);
         let path = self.blob_path(blob);
+        self.remove_from_remote(&path, &blob.digest)?;
         match fs::remove_file(&path) {
             Err(error) if error.kind() != io::ErrorKind::NotFound => {
                 Err(Diagnostic::io(format!("remove `{}`", path.display()), &error))
@@ -96,7 +107,9 @@ impl Store {
     }
 
     fn unreadable(&self, blob: &BlobRef, error: &io::Error) -> Box<Diagnostic> {
-        if error.kind() == io::ErrorKind::NotFound {
+        if let Err(trouble) = self.check_remote() {
+            trouble
+        } else if error.kind() == io::ErrorKind::NotFound {
             lost(blob, "is missing")
         } else if self.clear_away(&self.blob_path(blob)) {
             lost(blob, "is a folder")

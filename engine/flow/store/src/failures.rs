@@ -50,12 +50,13 @@ impl Store {
             hints: diagnostic.hints.clone(),
         };
         let bytes = canonical_json(&failure).into_bytes();
+        self.upload(&self.failure_path(plan), &bytes)?;
         self.write_file(&self.failure_path(plan), &bytes, Step::WriteRun, Step::RenameRun)
     }
 
     /// Failure of the task `plan` when it ran last; `None` where it did not fail.
     pub fn failure(&self, plan: &Digest) -> Option<Box<Diagnostic>> {
-        let stored: Failure = serde_json::from_slice(&fs::read(self.failure_path(plan)).ok()?).ok()?;
+        let stored: Failure = serde_json::from_slice(&self.failure_bytes(plan)?).ok()?;
         let fault = FAULTS.iter().find(|(_, name)| *name == stored.fault)?.0;
         if stored.schema != SCHEMA || stored.plan != *plan {
             return None;
@@ -67,7 +68,18 @@ impl Store {
 
     /// Forgets the failure of a task that is tried again.
     pub fn forget_failure(&self, plan: &Digest) {
-        let _ = fs::remove_file(self.failure_path(plan));
+        let path = self.failure_path(plan);
+        let _ = fs::remove_file(&path);
+        self.remote.as_ref().and_then(|remote| self.or_trouble(remote.delete(&[self.object(&path)])));
+    }
+
+    /// Bytes of a failure; those of the remote are never those of an earlier attempt.
+    fn failure_bytes(&self, plan: &Digest) -> Option<Vec<u8>> {
+        let path = self.failure_path(plan);
+        match &self.remote {
+            Some(remote) => self.or_trouble(remote.get(&self.object(&path))).flatten(),
+            None => fs::read(&path).ok(),
+        }
     }
 
     fn failure_path(&self, plan: &Digest) -> PathBuf {

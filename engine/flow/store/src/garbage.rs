@@ -113,7 +113,7 @@ fn lock(layout: &Layout, dry_run: bool) -> Result<File> {
 
 /// Digests to keep, and blobs to remove whatever their age.
 #[derive(Default)]
-struct Needed {
+pub(crate) struct Needed {
     /// Plans, definitions and all documents that they name.
     documents: BTreeSet<Digest>,
     actions: BTreeSet<Digest>,
@@ -137,6 +137,17 @@ fn spent_names(runs: &[PastRun]) -> BTreeMap<Digest, BTreeSet<&str>> {
     names
 }
 
+impl Needed {
+    /// Digests to keep in an area.
+    pub(crate) fn in_area(&self, area: Area) -> &BTreeSet<Digest> {
+        match area {
+            Area::Blobs => &self.blobs,
+            Area::Actions => &self.actions,
+            Area::Done | Area::Plans | Area::Builds => &self.documents,
+        }
+    }
+}
+
 fn mark(layout: &Layout, keep_runs: usize) -> io::Result<Needed> {
     let mut roots = Vec::new();
     for recipe in read_dir_or_nothing(&layout.folder("runs"))? {
@@ -145,25 +156,33 @@ fn mark(layout: &Layout, keep_runs: usize) -> io::Result<Needed> {
     for pin in read_dir_or_nothing(&layout.folder("pins"))? {
         roots.extend(read_run(&pin?.path()));
     }
-    let spent = spent_names(&roots);
+    Ok(needed_by(&roots, &|area, digest| fs::read(layout.file(area, digest)).ok()))
+}
+
+/// File of a digest in an area; `None` where it is absent.
+type ReadFile<'a> = dyn Fn(Area, &Digest) -> Option<Vec<u8>> + 'a;
+
+/// Everything that the runs `roots` need, and their spent blobs.
+pub(crate) fn needed_by(roots: &[PastRun], read: &ReadFile<'_>) -> Needed {
+    let spent = spent_names(roots);
     let mut needed = Needed::default();
-    let mut waiting: Vec<Digest> = roots.iter().flat_map(|run| run.digests()).collect();
+    let mut waiting: Vec<Digest> = roots.iter().flat_map(PastRun::digests).collect();
     while let Some(document) = waiting.pop() {
         if needed.documents.insert(document) {
-            waiting.extend(documents_named_in(layout, &document));
-            mark_finished(layout, &document, spent.get(&document), &mut needed);
+            waiting.extend(documents_named_in(read, &document));
+            mark_finished(read, &document, spent.get(&document), &mut needed);
         }
     }
     let Needed { blobs, spent, .. } = &mut needed;
     spent.retain(|blob| !blobs.contains(blob));
-    Ok(needed)
+    needed
 }
 
-fn mark_finished(layout: &Layout, plan: &Digest, spent: Option<&BTreeSet<&str>>, needed: &mut Needed) {
-    let done = fs::read(layout.file(Area::Done, plan)).ok();
+fn mark_finished(read: &ReadFile<'_>, plan: &Digest, spent: Option<&BTreeSet<&str>>, needed: &mut Needed) {
+    let done = read(Area::Done, plan);
     let Some(action) = done.and_then(|bytes| records::decode_done(plan, &bytes)) else { return };
     needed.actions.insert(action);
-    let record = fs::read(layout.file(Area::Actions, &action)).ok().and_then(|bytes| records::decode(&action, &bytes));
+    let record = read(Area::Actions, &action).and_then(|bytes| records::decode(&action, &bytes));
     for (name, blob) in record.iter().flat_map(|record| record.outputs.iter()) {
         let is_spent = spent.is_some_and(|names| names.contains(name.as_str()));
         if is_spent { &mut needed.spent } else { &mut needed.blobs }.insert(blob.digest);
@@ -171,8 +190,8 @@ fn mark_finished(layout: &Layout, plan: &Digest, spent: Option<&BTreeSet<&str>>,
 }
 
 /// Digests in a plan document, which are the names of other documents.
-fn documents_named_in(layout: &Layout, document: &Digest) -> Vec<Digest> {
-    let Ok(bytes) = fs::read(layout.file(Area::Plans, document)) else { return Vec::new() };
+fn documents_named_in(read: &ReadFile<'_>, document: &Digest) -> Vec<Digest> {
+    let Some(bytes) = read(Area::Plans, document) else { return Vec::new() };
     let mut named = Vec::new();
     let mut waiting: Vec<serde_json::Value> = serde_json::from_slice(&bytes).into_iter().collect();
     while let Some(value) = waiting.pop() {
@@ -193,11 +212,7 @@ fn sweep(
     options: &GarbageOptions,
     report: &mut GarbageReport,
 ) -> io::Result<()> {
-    let wanted = match area {
-        Area::Blobs => &needed.blobs,
-        Area::Actions => &needed.actions,
-        Area::Done | Area::Plans | Area::Builds => &needed.documents,
-    };
+    let wanted = needed.in_area(area);
     for digest in layout.list(area)? {
         let path = layout.file(area, &digest);
         let metadata = match fs::symlink_metadata(&path) {

@@ -137,7 +137,7 @@ impl KnownTasks<'_> {
         let indexed = indexed.map(|position| &self.entries[position].1);
         let is_done =
             (indexed.is_some() && self.done_is_whole[shard]) || self.done_in(shard).binary_search(plan).is_ok();
-        if !is_done {
+        if !is_done && self.store.remote.is_none() {
             return None;
         }
         if let Some(known) = indexed.and_then(|entry| self.known(entry, removable)) {

@@ -28,7 +28,9 @@ impl Scratch {
     }
 
     fn try_create(layout: &Layout) -> io::Result<Self> {
-        let _guard = guard(layout)?;
+        // Creators need not wait for each other: a folder is created in one step.
+        let guard = guard(layout)?;
+        guard.lock_shared()?;
         let mut attempt = 0_u64;
         let folder = loop {
             let folder = layout.folder("tmp").join(format!("{}-{attempt}", std::process::id()));
@@ -64,7 +66,8 @@ impl Drop for Scratch {
 
 /// Number and bytes of the folders below `tmp/` whose owner is dead; they are removed unless `dry_run`.
 pub(crate) fn sweep_orphans(layout: &Layout, dry_run: bool) -> io::Result<(u64, u64)> {
-    let _guard = guard(layout)?;
+    let guard = guard(layout)?;
+    guard.lock()?;
     let (mut folders, mut bytes) = (0, 0);
     for entry in read_dir_or_nothing(&layout.folder("tmp"))? {
         let folder = entry?.path();
@@ -114,11 +117,9 @@ fn folder_bytes(folder: &Path) -> u64 {
     entries.flatten().filter_map(|entry| entry.metadata().ok()).map(|metadata| metadata.len()).sum()
 }
 
-/// Lock by which creators and removers of temporary folders take turns.
+/// Lock that creators of temporary folders share, and that their removers hold alone.
 fn guard(layout: &Layout) -> io::Result<File> {
-    let file = lock_file(&layout.root.join("locks/tmp"))?;
-    file.lock()?;
-    Ok(file)
+    lock_file(&layout.root.join("locks/tmp"))
 }
 
 #[cfg(test)]
@@ -141,6 +142,18 @@ mod tests {
         let folder = living.folder.clone();
         drop(living);
         assert!(!folder.exists());
+    }
+
+    #[test]
+    fn a_worker_leaves_what_the_dead_left_and_others_remove_it() {
+        let root = tempfile::tempdir().unwrap();
+        let dead = root.path().join("tmp/999999-0");
+        fs::create_dir_all(root.path().join("locks")).unwrap();
+        fs::create_dir_all(&dead).unwrap();
+        drop(crate::Store::open_as_worker(root.path()).unwrap());
+        assert!(dead.exists());
+        drop(crate::Store::open(root.path()).unwrap());
+        assert!(!dead.exists());
     }
 
     #[test]

@@ -13,7 +13,7 @@ use cosfly_stage::{BlobSource, Produced};
 use std::collections::BTreeMap;
 use std::fs;
 use std::io::{self, BufWriter, Write};
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 /// Outputs of one task, in temporary files until [`TaskSink::settle`]; dropping it removes them.
@@ -48,6 +48,7 @@ impl<'s> TaskSink<'s> {
                 // This may replace a blob: its bytes are the same, unless they are damaged.
                 self.store.move_into_place(&path, &self.store.blob_path(blob), Step::RenameBlob)?;
                 self.store.mark_checked(blob.digest);
+                self.store.upload_blob(&self.store.blob_path(blob), &blob.digest, blob.bytes)?;
             }
         }
         self.store.settle_record(action, record)
@@ -143,6 +144,13 @@ impl Store {
     /// Makes `record` the outcome of `action`, unless another process recorded other bytes first.
     fn settle_record(&self, action: &Digest, record: ActionRecord) -> Result<Settled> {
         let path = self.layout.file(Area::Actions, action);
+        if let Some(earlier) = self.created_elsewhere(action, &path, &record)? {
+            return if earlier == record {
+                Ok(Settled { record: Arc::new(record), divergence: None })
+            } else {
+                self.diverged(action, earlier, &record)
+            };
+        }
         let temporary = self.write_temporary(&records::encode(action, &record), 0o644, Step::WriteAction)?;
         let linked = self
             .faults
@@ -175,6 +183,23 @@ impl Store {
                 settled(record)
             }
         }
+    }
+
+    /// Creates the record in the remote; gives the intact record that was there before, which the folder then holds.
+    fn created_elsewhere(&self, action: &Digest, path: &Path, record: &ActionRecord) -> Result<Option<ActionRecord>> {
+        let Some(remote) = &self.remote else { return Ok(None) };
+        let (name, bytes) = (self.object(path), records::encode(action, record));
+        if remote.create(&name, bytes.clone())? {
+            return Ok(None);
+        }
+        let earlier = self.fetch(path).and_then(|there| records::decode(action, &there));
+        self.check_remote()?;
+        let earlier = earlier.filter(|earlier| earlier == record || self.is_intact(earlier));
+        if earlier.is_none() {
+            // Its blobs are lost or its bytes damaged.
+            remote.put(&name, bytes)?;
+        }
+        Ok(earlier)
     }
 
     /// Whether every blob of a record exists with the right bytes.

@@ -6,6 +6,7 @@ use crate::fault::{FaultPoints, NoFaults, Step};
 use crate::layout::{Area, Layout};
 use crate::locks::{TaskLock, lock_file};
 use crate::records::{self, ActionRecord, Finished};
+use crate::remote::Remote;
 use crate::scratch::{Scratch, sweep_orphans};
 use cosfly_blobs::BlobRef;
 use cosfly_diagnose::{Diagnostic, Fault, Result};
@@ -25,6 +26,12 @@ pub struct Store {
     /// Blobs whose size and digest this process has checked, or that it wrote itself.
     pub(crate) checked: Mutex<BTreeSet<Digest>>,
     pub(crate) decoded: DecodeCache,
+    /// Store that the folder is a cache of.
+    pub(crate) remote: Option<Arc<dyn Remote>>,
+    /// First error of the remote that was not told yet.
+    pub(crate) remote_trouble: Mutex<Option<Box<Diagnostic>>>,
+    /// Blobs that the remote should have and has not.
+    pub(crate) remote_lost: Mutex<BTreeSet<Digest>>,
     /// Lock that runs share, and that garbage collection holds exclusively.
     _garbage_lock: Option<File>,
 }
@@ -40,12 +47,27 @@ impl Store {
 
     /// Like [`Self::open`], with `faults` that may fail steps of publishing.
     pub fn open_with_faults(root: &Path, faults: Arc<dyn FaultPoints>) -> Result<Self> {
+        Self::open_as(root, faults, true)
+    }
+
+    /// Like [`Self::open`], for one of very many processes: leaves it to others to remove what dead processes left, since
+    /// asking each living one for its lock would cost as many operations as there are processes.
+    ///
+    /// # Errors
+    /// The errors of [`Self::open`].
+    pub fn open_as_worker(root: &Path) -> Result<Self> {
+        Self::open_as(root, Arc::new(NoFaults), false)
+    }
+
+    fn open_as(root: &Path, faults: Arc<dyn FaultPoints>, sweep: bool) -> Result<Self> {
         let layout = Layout::create_or_check(root)?;
         let failed = |error: io::Error| Diagnostic::io(format!("lock the store `{}`", root.display()), &error);
         let garbage_lock = lock_file(&layout.root.join("locks/garbage")).map_err(failed)?;
         garbage_lock.lock_shared().map_err(failed)?;
-        sweep_orphans(&layout, false)
-            .map_err(|error| Diagnostic::io(format!("clean `{}`", layout.folder("tmp").display()), &error))?;
+        if sweep {
+            sweep_orphans(&layout, false)
+                .map_err(|error| Diagnostic::io(format!("clean `{}`", layout.folder("tmp").display()), &error))?;
+        }
         let durability = Durability::of(&layout)?;
         let scratch = Scratch::create(&layout)?;
         Ok(Self {
@@ -55,6 +77,9 @@ impl Store {
             durability,
             checked: Mutex::default(),
             decoded: DecodeCache::default(),
+            remote: None,
+            remote_trouble: Mutex::default(),
+            remote_lost: Mutex::default(),
             _garbage_lock: Some(garbage_lock),
         })
     }
@@ -84,6 +109,9 @@ impl Store {
             layout,
             checked: Mutex::default(),
             decoded: DecodeCache::default(),
+            remote: None,
+            remote_trouble: Mutex::default(),
+            remote_lost: Mutex::default(),
             _garbage_lock: garbage_lock,
         }))
     }
@@ -100,18 +128,18 @@ impl Store {
 
     /// Whether the task was finished once, whether or not its output is complete.
     pub fn was_finished(&self, plan: &Digest) -> bool {
-        fs::symlink_metadata(self.layout.file(Area::Done, plan)).is_ok()
+        self.read_file(&self.layout.file(Area::Done, plan)).is_some()
     }
 
     /// Result of a task; `None` where it is not finished or one of its records is damaged.
     pub fn finished(&self, plan: &Digest) -> Option<Finished> {
-        let action = records::decode_done(plan, &fs::read(self.layout.file(Area::Done, plan)).ok()?)?;
+        let action = records::decode_done(plan, &self.read_file(&self.layout.file(Area::Done, plan))?)?;
         Some(Finished { action, record: Arc::new(self.action(&action)?) })
     }
 
     /// Output of an action; `None` where it never ran or its record is damaged.
     pub fn action(&self, action: &Digest) -> Option<ActionRecord> {
-        records::decode(action, &fs::read(self.layout.file(Area::Actions, action)).ok()?)
+        records::decode(action, &self.read_file(&self.layout.file(Area::Actions, action))?)
     }
 
     /// Whether all blobs of a record exist with the right size. Their bytes are checked when they are read.
@@ -128,6 +156,7 @@ impl Store {
     pub fn holds_blob(&self, blob: &BlobRef) -> bool {
         fs::symlink_metadata(self.layout.file(Area::Blobs, &blob.digest))
             .is_ok_and(|metadata| metadata.is_file() && metadata.len() == blob.bytes)
+            || self.remote_holds(&blob.digest)
     }
 
     /// Records that the task `plan` is finished by `action`. Call it after a [`Self::sync`] that began after the action
@@ -135,13 +164,17 @@ impl Store {
     pub fn publish_done(&self, plan: &Digest, document: &str, action: &Digest) -> Result<()> {
         self.put_document(plan, document)?;
         let path = self.layout.file(Area::Done, plan);
-        self.write_file(&path, &records::encode_done(plan, action), Step::WriteDone, Step::RenameDone)
+        let record = records::encode_done(plan, action);
+        self.upload(&path, &record)?;
+        self.write_file(&path, &record, Step::WriteDone, Step::RenameDone)
     }
 
     /// Stores a plan document under its own digest, unless it is there already.
     pub fn put_document(&self, digest: &Digest, document: &str) -> Result<()> {
         debug_assert_eq!(*digest, Digest::of(document.as_bytes()));
         let path = self.layout.file(Area::Plans, digest);
+        // The folder may remember what garbage collection removed from the remote.
+        self.upload(&path, document.as_bytes())?;
         if fs::read(&path).is_ok_and(|there| there == document.as_bytes()) {
             return Ok(());
         }
@@ -150,7 +183,7 @@ impl Store {
 
     /// Plan document; `None` where it is absent or damaged.
     pub fn document(&self, digest: &Digest) -> Option<serde_json::Value> {
-        let bytes = fs::read(self.layout.file(Area::Plans, digest)).ok()?;
+        let bytes = self.read_file(&self.layout.file(Area::Plans, digest))?;
         if Digest::of(&bytes) != *digest {
             return None;
         }
@@ -160,16 +193,20 @@ impl Store {
     /// Stores the description by which the stage of a plan definition is built; the latest one counts.
     pub fn put_build(&self, definition: &Digest, document: &str) -> Result<()> {
         let path = self.layout.file(Area::Builds, definition);
+        self.upload(&path, document.as_bytes())?;
         self.write_file(&path, document.as_bytes(), Step::WriteDocument, Step::RenameDocument)
     }
 
     /// Description by which the stage of a plan definition is built; `None` where it is absent or damaged.
     pub fn build(&self, definition: &Digest) -> Option<serde_json::Value> {
-        serde_json::from_slice(&fs::read(self.layout.file(Area::Builds, definition)).ok()?).ok()
+        let path = self.layout.file(Area::Builds, definition);
+        let remote = self.remote.as_ref().and_then(|_| self.fetch(&path));
+        serde_json::from_slice(&remote.or_else(|| fs::read(&path).ok())?).ok()
     }
 
-    /// Makes everything published so far durable.
+    /// Makes everything published so far durable; tells errors of the remote.
     pub fn sync(&self) -> Result<()> {
+        self.check_remote()?;
         let synced = self.faults.before(Step::Sync).and_then(|()| self.durability.sync());
         synced.map_err(|error| Diagnostic::io(format!("sync `{}` to disk", self.root().display()), &error))
     }

@@ -71,8 +71,13 @@ pub fn bench_cluster(folder: &Path, items: usize, batch: u32, program: &[String]
 ///
 /// # Errors
 /// The first failure.
-pub fn run_toys(store: &Path, plans: &[Digest]) -> Result<()> {
+pub fn run_toys(store: &Path, plans: &[String]) -> Result<()> {
+    let plans: Vec<Digest> = plans.iter().filter_map(|plan| plan.parse().ok()).collect();
+    if plans.is_empty() {
+        return Ok(());
+    }
     let registry = Registry::new(vec![Box::new(ToyKind { version: 1 })]);
-    let ends = run_tasks(&Store::open(store)?, &registry, plans, &RunOptions { jobs: 1, ..RunOptions::default() })?;
+    let ends =
+        run_tasks(&Store::open_as_worker(store)?, &registry, &plans, &RunOptions { jobs: 1, ..RunOptions::default() })?;
     ends.into_iter().try_for_each(|end| end.map(drop))
 }

@@ -5,14 +5,15 @@
 //! operations of the store: a queue with a number of operations and of bytes per second. Numbers of operations were counted with
 //! `strace` on `cosfly task run`.
 
+use cosfly_frames::real::exp;
 use cosfly_random::Seed;
 use std::cmp::Reverse;
 use std::collections::BinaryHeap;
 
 /// Operations of a command apart from its tasks: locks, a temporary folder, two syncs.
 const OPERATIONS_PER_COMMAND: f64 = 45.0;
-/// Start of a process, seconds.
-const START_S: f64 = 0.02;
+/// Start of a process that decodes a town, seconds.
+const START_S: f64 = 0.05;
 /// Time of the engine for a command, seconds: one thread places all of them.
 const ENGINE_S: f64 = 0.001;
 
@@ -35,31 +36,22 @@ pub struct FleetStage {
     pub batch: u64,
 }
 
-/// The stages of `recipes/carla_town.toml`, 400 frames of 1280 x 720 a flight, measured on one core.
-pub const STAGES: [FleetStage; 6] = [
-    FleetStage {
-        name: "walkers",
-        per_walk: 1,
-        cpu_s: 0.11,
-        operations: 32.0,
-        read_mb: 1.0,
-        written_mb: 0.1,
-        batch: 16,
-    },
-    FleetStage { name: "crowd", per_walk: 1, cpu_s: 0.10, operations: 36.0, read_mb: 1.0, written_mb: 0.1, batch: 16 },
-    FleetStage { name: "expert", per_walk: 1, cpu_s: 0.07, operations: 42.0, read_mb: 1.1, written_mb: 0.1, batch: 4 },
-    FleetStage {
-        name: "perturbed",
-        per_walk: 1,
-        cpu_s: 0.05,
-        operations: 46.0,
-        read_mb: 1.1,
-        written_mb: 0.1,
-        batch: 16,
-    },
-    FleetStage { name: "frames", per_walk: 2, cpu_s: 19.0, operations: 51.0, read_mb: 1.2, written_mb: 60.0, batch: 1 },
-    FleetStage { name: "logs", per_walk: 2, cpu_s: 1.0, operations: 65.0, read_mb: 61.0, written_mb: 62.0, batch: 1 },
+/// The stages of `recipes/carla_town.toml` in its full look at 1280 x 720, measured on one core of the project's machine.
+pub const STAGES: [FleetStage; 8] = [
+    stage("walkers", 1, [0.004, 32.0, 1.0, 0.01], 16),
+    stage("crowd", 1, [0.004, 36.0, 1.0, 0.01], 16),
+    stage("expert", 1, [0.020, 42.0, 1.1, 0.10], 4),
+    stage("perturbed", 1, [0.005, 46.0, 1.1, 0.10], 16),
+    stage("nearby", 2, [0.030, 40.0, 1.1, 0.10], 4),
+    stage("frames", 2, [10.900, 51.0, 1.2, 165.00], 1),
+    stage("captions", 2, [0.002, 38.0, 1.1, 0.01], 64),
+    stage("logs", 2, [0.450, 65.0, 166.0, 166.00], 1),
 ];
+
+const fn stage(name: &'static str, per_walk: u64, costs: [f64; 4], batch: u64) -> FleetStage {
+    let [cpu_s, operations, read_mb, written_mb] = costs;
+    FleetStage { name, per_walk, cpu_s, operations, read_mb, written_mb, batch }
+}
 
 /// A fleet of workers and the store that they share.
 #[derive(Clone, Copy, Debug)]
@@ -120,10 +112,16 @@ impl Queue {
 }
 
 /// Order of moments.
-#[derive(PartialEq, PartialOrd)]
+#[derive(PartialEq)]
 struct Moment(f64);
 
 impl Eq for Moment {}
+
+impl PartialOrd for Moment {
+    fn partial_cmp(&self, other: &Self) -> Option<std::cmp::Ordering> {
+        Some(self.cmp(other))
+    }
+}
 
 impl Ord for Moment {
     fn cmp(&self, other: &Self) -> std::cmp::Ordering {
@@ -156,7 +154,7 @@ pub fn simulate(fleet: &Fleet) -> FleetFigures {
             let moved = 1.0 + (stage.read_mb - 1.0 + stage.written_mb) * here as f64;
             let served = operations_of_store.serve(placed, asked / fleet.operations_per_s);
             let served = served.max(bytes_of_store.serve(placed, moved / fleet.mb_per_s));
-            let work: f64 = (0..here).map(|_| stage.cpu_s * (random.normal(0.0, 0.25)).exp()).sum();
+            let work: f64 = (0..here).map(|_| stage.cpu_s * exp(random.normal(0.0, 0.25))).sum();
             let busy = START_S + work;
             let minute = (served / 60.0) as usize;
             minutes.resize(minutes.len().max(minute + 1), 0.0);
@@ -166,7 +164,7 @@ pub fn simulate(fleet: &Fleet) -> FleetFigures {
             reads += 1.0;
             for_engine += placed - now;
             for_store += served - placed;
-            let crashed = random.chance(1.0 - (-fleet.crashes_per_hour * busy / 3600.0).exp());
+            let crashed = random.chance(1.0 - exp(-fleet.crashes_per_hour * busy / 3600.0));
             let took = if crashed { busy * random.unit() } else { busy };
             if crashed {
                 crashes += 1;

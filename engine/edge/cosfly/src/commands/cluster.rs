@@ -66,7 +66,7 @@ impl Command for SlurmScript {
         let mut command = this_program().map_err(|error| Diagnostic::io("find this program", &error))?;
         command.extend(["run".to_owned(), text(&self.recipe.recipe)]);
         command.extend(["--on", "hq", "--store"].map(str::to_owned));
-        command.push(text(&self.store.folder()));
+        command.push(self.store.bucket().map_or_else(|| text(&self.store.folder()), str::to_owned));
         let mut option = |name: &str, value: &str| command.extend([name.to_owned(), value.to_owned()]);
         self.out.iter().for_each(|out| option("--out", &text(out)));
         self.recipe.overrides.iter().for_each(|change| option("--set", change));

@@ -70,7 +70,10 @@ pub fn deliver(
 
 fn command(store: &Store, arguments: &ClusterArguments) -> Result<Command> {
     let refused = |error: std::io::Error| Diagnostic::io("find the place of the store or of cosfly", &error);
-    let store = std::path::absolute(store.root()).map_err(refused)?.to_string_lossy().into_owned();
+    let store = match store.remote_place() {
+        Some(place) => place.to_owned(),
+        None => std::path::absolute(store.root()).map_err(refused)?.to_string_lossy().into_owned(),
+    };
     let program = match &arguments.leaf {
         Some(leaf) => leaf.split_whitespace().map(str::to_owned).collect(),
         None => this_program().map_err(refused)?,

@@ -1,12 +1,12 @@
 //! `cosfly gc`: frees the space of results that no recent run needs.
 
-use crate::arguments::StoreArguments;
+use crate::arguments::{StoreArguments, remote};
 use crate::command::{Command, Outcome};
 use crate::console::Console;
 use crate::exit;
 use crate::text::{bytes, count};
 use clap::Parser;
-use cosfly_store::{GarbageOptions, collect_garbage};
+use cosfly_store::{GarbageOptions, collect_garbage, collect_remote_garbage};
 use std::time::{Duration, SystemTime};
 
 const SECONDS_PER_DAY: u64 = 86_400;
@@ -43,7 +43,10 @@ impl Command for Arguments {
             now: SystemTime::now(),
             dry_run: !self.delete,
         };
-        let report = collect_garbage(&root, &options)?;
+        let report = match self.store.bucket() {
+            Some(place) => collect_remote_garbage(&*remote(place)?, &options)?,
+            None => collect_garbage(&root, &options)?,
+        };
         let verb = if self.delete { "removed" } else { "would remove" };
         console.print(&format!(
             "{verb} {} ({}), {} ({}), {} of dead processes ({})\n{} stay ({})\n",

@@ -7,7 +7,6 @@ use crate::exit;
 use crate::text::{bytes, count, duration};
 use clap::Parser;
 use cosfly_runner::{Plan, Reason};
-use cosfly_store::Store;
 use serde_json::json;
 use std::fmt::Write;
 use std::time::Duration;
@@ -46,7 +45,7 @@ fn price(text: &str) -> Result<f64, String> {
 impl Command for Arguments {
     fn run(&self, console: &dyn Console) -> Outcome {
         let recipe = self.recipe.load(console)?;
-        let store = Store::open_to_read(&self.store.folder())?;
+        let store = self.store.open_to_read()?;
         let plan = cosfly_runner::plan(&recipe, &store)?;
         console.print(&if self.json { json(&plan, self.price) } else { table(&plan) + &cost(&plan, self.price) })?;
         Ok(exit::SUCCESS)

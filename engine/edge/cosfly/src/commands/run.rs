@@ -12,7 +12,7 @@ use cosfly_fingerprint::Digest;
 use cosfly_recipe::{Recipe, RecipeStage};
 use cosfly_runner::{Delivery, Origin, Rejection, RunOptions, RunOutcome, RunSummary, deliver};
 use cosfly_stage::{ItemId, StageName};
-use cosfly_store::{Store, check_out_folder};
+use cosfly_store::check_out_folder;
 use std::fmt::Write;
 use std::path::{Path, PathBuf};
 use std::time::Instant;
@@ -66,7 +66,7 @@ impl Command for Arguments {
             self.stage.as_ref().map_or_else(|| recipe.name.clone(), |stage| format!("{}.{stage}", recipe.name));
         let out = self.out.clone().unwrap_or_else(|| PathBuf::from("out").join(folder));
         check_out_folder(&self.store.folder(), &out)?;
-        let store = Store::open(&self.store.folder())?;
+        let store = self.store.open()?;
         let jobs = self.jobs.map_or_else(|| std::thread::available_parallelism().map_or(1, usize::from), usize::from);
         let options = RunOptions { jobs, asked, cancelled: console.cancelled(), ..RunOptions::default() };
         let wanted = asked.unwrap_or_else(|| delivered_stage(&recipe));
@@ -90,7 +90,8 @@ impl Command for Arguments {
                 console.print(&stages(&delivery.summary))?;
             }
             let wanted = &recipe.stages[wanted].name;
-            console.print(&result(&delivery, wanted, &out, &self.store.folder(), &took, self.quiet))?;
+            let store = self.store.bucket().map_or_else(|| self.store.folder(), PathBuf::from);
+            console.print(&result(&delivery, wanted, &out, &store, &took, self.quiet))?;
         }
         Ok(ended(&delivery.summary, console))
     }

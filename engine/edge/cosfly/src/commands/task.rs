@@ -9,7 +9,6 @@ use cosfly_diagnose::{Diagnostic, Fault};
 use cosfly_fingerprint::Digest;
 use cosfly_runner::{RunOptions, run_tasks};
 use cosfly_stage::Work;
-use cosfly_store::Store;
 
 const COMMANDS: &[Entry] = &[Entry::of::<Arguments>()];
 
@@ -53,7 +52,7 @@ impl Command for Arguments {
         if plans.is_empty() {
             return Ok(exit::SUCCESS);
         }
-        let store = Store::open(&self.store.folder())?;
+        let store = self.store.open_as_worker()?;
         let options =
             RunOptions { jobs: usize::from(self.jobs), cancelled: console.cancelled(), ..RunOptions::default() };
         let mut failures = Vec::new();

@@ -6,7 +6,6 @@ use crate::console::Console;
 use crate::exit;
 use clap::Parser;
 use cosfly_runner::Explanation;
-use cosfly_store::Store;
 use serde_json::json;
 use std::fmt::Write;
 
@@ -35,7 +34,7 @@ pub struct Arguments {
 impl Command for Arguments {
     fn run(&self, console: &dyn Console) -> Outcome {
         let recipe = self.recipe.load(console)?;
-        let store = Store::open_to_read(&self.store.folder())?;
+        let store = self.store.open_to_read()?;
         let (stage, item) = match self.subject.split_once('/') {
             Some((stage, item)) => (stage, Some(item)),
             None => (self.subject.as_str(), None),

@@ -3,7 +3,6 @@
 use super::outcome::{Outcome, print};
 use clap::Args;
 use cosfly_diagnose::Diagnostic;
-use cosfly_fingerprint::Digest;
 use std::path::PathBuf;
 
 /// Arguments of `cluster`.
@@ -55,10 +54,5 @@ pub fn cluster(arguments: &ClusterArguments) -> Outcome {
 
 /// Runs toys by their plan digests.
 pub fn task(arguments: &TaskArguments) -> Outcome {
-    let plans: Vec<Digest> = arguments.plans.iter().filter_map(|plan| plan.parse().ok()).collect();
-    if plans.is_empty() {
-        return print("");
-    }
-    cosfly_lab_engine::run_toys(&arguments.store, &plans).map_err(|refusal| vec![refusal])?;
-    print("")
+    cosfly_lab_engine::run_toys(&arguments.store, &arguments.plans).map_err(|refusal| vec![refusal])
 }

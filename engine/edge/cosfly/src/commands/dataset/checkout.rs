@@ -6,7 +6,7 @@ use crate::console::Console;
 use crate::exit;
 use crate::text::{bytes, count};
 use clap::Parser;
-use cosfly_store::{Store, check_out_folder, materialise};
+use cosfly_store::{check_out_folder, materialise};
 use cosfly_versions::shelf;
 use std::path::PathBuf;
 
@@ -26,10 +26,10 @@ pub struct Arguments {
 
 impl Command for Arguments {
     fn run(&self, console: &dyn Console) -> Outcome {
-        let root = self.store.folder();
+        let root = self.store.with_versions()?;
         let version = shelf::get(&root, &self.name)?;
         check_out_folder(&root, &self.out)?;
-        let folder = materialise(&Store::open(&root)?, &version.files, &self.out)?;
+        let folder = materialise(&self.store.open()?, &version.files, &self.out)?;
         let state = if folder.changed { "" } else { " (unchanged)" };
         let (files, size) = (count(folder.files, "file"), bytes(folder.bytes));
         console.print(&format!("{} in {files} of {size}{state}\n", self.out.display()))?;

@@ -33,7 +33,7 @@ pub struct Arguments {
 
 impl Command for Arguments {
     fn run(&self, console: &dyn Console) -> Outcome {
-        let root = self.store.folder();
+        let root = self.store.with_versions()?;
         let (old, new) = (shelf::get(&root, &self.old)?, shelf::get(&root, &self.new)?);
         console.print(&told(&old, &new, &difference(&old, &new), self.all))?;
         Ok(exit::SUCCESS)

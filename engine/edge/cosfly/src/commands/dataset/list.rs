@@ -18,7 +18,7 @@ pub struct Arguments {
 
 impl Command for Arguments {
     fn run(&self, console: &dyn Console) -> Outcome {
-        let text: String = shelf::all(&self.store.folder())?.iter().map(line).collect();
+        let text: String = shelf::all(&self.store.with_versions()?)?.iter().map(line).collect();
         console.print(if text.is_empty() {
             "no version has a name yet: `cosfly dataset tag NAME RECIPE`\n"
         } else {

@@ -40,14 +40,14 @@ pub struct Arguments {
 impl Command for Arguments {
     fn run(&self, console: &dyn Console) -> Outcome {
         let recipe = self.recipe.load(console)?;
-        console.print(&tagged(self, &recipe, &self.store.folder())?)?;
+        console.print(&tagged(self, &recipe, &self.store.with_versions()?)?)?;
         Ok(exit::SUCCESS)
     }
 }
 
 fn tagged(arguments: &Arguments, recipe: &Recipe, root: &Path) -> Result<String> {
     let version = {
-        let store = Store::open(root)?;
+        let store = arguments.store.open()?;
         let version = record(&arguments.name, recipe, &arguments.recipe.overrides, &store, env!("CARGO_PKG_VERSION"))?;
         check_newest(recipe, &store, &version)?;
         version
@@ -55,6 +55,10 @@ fn tagged(arguments: &Arguments, recipe: &Recipe, root: &Path) -> Result<String>
     let earlier = shelf::all(root)?;
     pin(root, &cosfly_runner::recipe_id(recipe), &format!("version-{}", version.name))?;
     shelf::put(root, &version)?;
+    if arguments.store.bucket().is_some() {
+        let names = [format!("pins/version-{}", version.name), format!("versions/{}.json", version.name)];
+        arguments.store.open()?.upload_files(&names)?;
+    }
     let mut text = line(&version);
     let earlier = earlier.iter().filter(|it| it.dataset == version.dataset && it.content != version.content);
     for old in earlier {

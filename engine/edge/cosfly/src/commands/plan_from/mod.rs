@@ -11,7 +11,6 @@ use clap::Parser;
 use cosfly_diagnose::{Diagnostic, Fault};
 use cosfly_frames::DVec3;
 use cosfly_planner::{Certificate, PlanOutcome, StartState, Trajectory};
-use cosfly_store::Store;
 use experts::Experts;
 use serde::Serialize;
 use state::State;
@@ -70,10 +69,10 @@ impl Command for Arguments {
     fn run(&self, console: &dyn Console) -> Outcome {
         let recipe = self.recipe.load(console)?;
         let folder = self.store.folder();
-        if !folder.exists() {
+        if self.store.bucket().is_none() && !folder.exists() {
             return Err(no_store(&self.recipe.recipe, &folder).into());
         }
-        let store = Store::open_to_read(&folder)?;
+        let store = self.store.open_to_read()?;
         let plan = cosfly_runner::plan(&recipe, &store)?;
         let mut experts = Experts::new(plan, &store);
         let (Some(trajectory), Some(frame), Some(position)) = (&self.trajectory, self.frame, &self.position) else {

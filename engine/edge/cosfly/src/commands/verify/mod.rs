@@ -85,7 +85,7 @@ impl Arguments {
     fn recipe(&self) -> Result<Recipe, Refusals> {
         match &self.recipe {
             Some(path) => Ok(cosfly_recipe::load(path, &self.overrides, &cosfly_stages::registry())?),
-            None => recipe_of_version(&self.dir, &self.store.folder()),
+            None => recipe_of_version(&self.dir, &self.store.with_versions()?),
         }
     }
 }
