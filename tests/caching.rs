@@ -38,6 +38,9 @@ fn only_what_depends_on_a_change_runs_and_changing_back_runs_nothing() {
             ("frames", 6),
             ("captions", 6),
             ("dataset.logs", 6),
+            ("dataset.notes", 1),
+            ("dataset.splits", 1),
+            ("dataset.tables", 1),
             ("dataset.planners", 1),
             ("dataset", 1)
         ])

@@ -63,7 +63,7 @@ fn heavy_crates_stay_in_their_one_room() {
         ("arrow-array", &["shelf data"][..]),
         ("parquet", &["shelf data"][..]),
         ("mcap", &["shelf data"][..]),
-        ("clap", &["cosfly", "cosfly-lab"][..]),
+        ("clap", &["cosfly", "shelf lab"][..]),
         ("indicatif", &["cosfly", "cosfly-lab"][..]),
         ("roxmltree", &["cosfly-maps"][..]),
         ("obvhs", &["cosfly-lab"][..]),

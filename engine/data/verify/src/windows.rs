@@ -88,7 +88,7 @@ impl Windows<'_> {
             let tracks = load(&numbers.filter_map(|id| list.number(id)).collect());
             let wrong: Vec<(usize, Wrong)> = windows
                 .par_iter()
-                .filter_map(|(row, count, window)| Some((*row, self.problem(window, *count, &tracks, file)?)))
+                .filter_map(|(row, count, window)| Some((*row, self.mismatch(window, *count, &tracks, file)?)))
                 .collect();
             findings.extend(
                 wrong
@@ -189,7 +189,7 @@ struct Cut<'a> {
 
 impl Windows<'_> {
     /// What is wrong with a window, `count` others of whose flight come before.
-    fn problem(
+    fn mismatch(
         &self,
         window: &WindowRow,
         count: u32,

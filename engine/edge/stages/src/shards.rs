@@ -22,8 +22,12 @@ const FIGURES: &str = "shard";
 
 /// The part of a stage that meets pictures, captions and extras at `inputs`.
 pub fn part(config: &DatasetConfig, inputs: [InputPort; 3]) -> StagePart {
-    let config =
-        DatasetConfig { windows: config.windows, frames_per_file: config.frames_per_file, ..DatasetConfig::default() };
+    let config = DatasetConfig {
+        windows: config.windows,
+        frames_per_file: config.frames_per_file,
+        walks_per_file: config.walks_per_file,
+        ..DatasetConfig::default()
+    };
     let canonical = parameters::canonical(&config);
     let mut inputs: Vec<InputPort> = inputs.map(ports::group).into();
     inputs.extend([ports::group(logs::port()), group_splits::port()]);
