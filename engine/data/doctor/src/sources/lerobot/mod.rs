@@ -228,9 +228,9 @@ impl Frames {
             }
         }
         if let Some(frame) = (0..rows.len())
-            .find(|frame| self.number("row_index", rows[*frame]).is_some_and(|stated| stated as i64 != *frame as i64))
+            .find(|frame| self.number("frame_index", rows[*frame]).is_some_and(|stated| stated as i64 != *frame as i64))
         {
-            let stated = self.number("row_index", rows[frame]).unwrap_or_default();
+            let stated = self.number("frame_index", rows[frame]).unwrap_or_default();
             let message =
                 format!("row {frame} of the episode is called frame {stated}: rows are missing or out of order");
             flags.push(Flag::damage("index-mismatch", &id, message));
@@ -326,7 +326,7 @@ impl Frames {
 const NOWHERE: Pose = Pose { position_in_world: DVec3::ZERO, pitch_rad: 0.0, yaw_rad: 0.0, roll_rad: 0.0 };
 
 /// Columns of indices; all others are values of the frame.
-const COUNTS: [&str; 4] = ["timestamp", "row_index", "index", "next.done"];
+const COUNTS: [&str; 4] = ["timestamp", "frame_index", "index", "next.done"];
 
 fn split(info: &Value, number: i64) -> Option<String> {
     let splits = info["splits"].as_object()?;

@@ -134,7 +134,8 @@ fn rows_of(
         for ((name, ..), values) in VECTORS.iter().zip(&vectors) {
             statistics.push(name, values);
         }
-        let counts = [("row_index", frame), ("episode_index", number), ("index", first + frame), ("task_index", task)];
+        let counts =
+            [("frame_index", frame), ("episode_index", number), ("index", first + frame), ("task_index", task)];
         counts.into_iter().for_each(|(name, count)| statistics.push(name, &[count as f64]));
         statistics.push("timestamp", &[frame as f64 * dt_s]);
         rows.vectors.push(vectors);
@@ -206,7 +207,7 @@ fn info(source: &Source<'_>, split: &str, fps: u32, episodes: &[EpisodeRow], tas
         features.insert(name.to_owned(), json!({"dtype": "float32", "shape": [names.len()], "names": names}));
     }
     features.insert("timestamp".into(), json!({"dtype": "float32", "shape": [1], "names": null}));
-    for name in ["row_index", "episode_index", "index", "task_index"] {
+    for name in ["frame_index", "episode_index", "index", "task_index"] {
         features.insert(name.into(), json!({"dtype": "int64", "shape": [1], "names": null}));
     }
     json!({

@@ -79,7 +79,7 @@ pub fn data() -> Table<DataRows> {
         &Column::named(VECTORS[3].0, "", |it: &DataRows, i| numbers::<4>(&it.vectors[i][3])),
         &Column::named(VECTORS[4].0, "", |it: &DataRows, i| numbers::<{ 6 * STEPS }>(&it.vectors[i][4])),
         &Column::named("timestamp", "", |it: &DataRows, i| i as f64 * it.dt_s),
-        &Column::named("row_index", "", |_: &DataRows, i| i as u64),
+        &Column::named("frame_index", "", |_: &DataRows, i| i as u64),
         &Column::named("episode_index", "", |it: &DataRows, _| it.number as u64),
         &Column::named("index", "", |it: &DataRows, i| (it.first + i) as u64),
         &Column::named("task_index", "", |it: &DataRows, _| it.task as u64),
