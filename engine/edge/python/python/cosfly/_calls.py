@@ -33,6 +33,8 @@ class Stage:
     failed: int
     skipped: int
     unfinished: int
+    not_needed: int
+    """Items that were not made: everything that is made of them is finished."""
     digest: str
     """Digest over the outputs of all items: equal exactly when all bytes are equal."""
 
@@ -82,6 +84,12 @@ class PlannedStage:
     items: int
     cached: int
     to_run: int
+    not_needed: int
+    """Items that are not in the store, and that nothing needs."""
+    made_again: int
+    """Finished items whose intermediate files were removed, and that may be made again for a reader."""
+    predicted_core_s: Optional[float]
+    """Time of the items to run on one core each, seconds; None where none was measured in this store."""
     predicted_bytes: int
     reasons: List[Dict[str, Any]]
     """Why items would run, with their number."""
@@ -92,6 +100,9 @@ class Plan:
     """Result of :func:`plan`."""
 
     to_run: int
+    predicted_core_s: float
+    """Time of everything that would run on one core, seconds, as far as it was measured in this store."""
+    all_measured: bool
     predicted_bytes: int
     stages: List[PlannedStage]
 
@@ -102,6 +113,8 @@ class Why:
 
     task: str
     cached: bool
+    needed: bool
+    """False where everything that is made of the result is finished."""
     chain: List[Dict[str, Any]]
     """Tasks from the asked one to the root cause, each with its changes."""
 
@@ -204,14 +217,15 @@ def run(
     set: Settings = None,
     out: Optional[PathLike] = None,
     store: Optional[PathLike] = None,
+    stage: Optional[str] = None,
     jobs: Optional[int] = None,
     progress: Progress = True,
 ) -> Made:
-    """Make everything that a recipe describes. Finished items are never made again, and Ctrl-C keeps them.
+    """Make everything that a recipe describes, or only ``stage`` and what it needs. Finished items are never made again, and Ctrl-C keeps them.
 
     Raises :class:`cosfly.Error` where the recipe is wrong. Items that fail do not raise: ``outcome`` is then ``failed``.
     """
-    options = _options(out=out, store=store, jobs=jobs)
+    options = _options(out=out, store=store, stage=stage, jobs=jobs)
     _, text, messages = _with_recipe(["run", "--json"], recipe, set, options, progress)
     found = json.loads(text)
     stages = [Stage(**stage) for stage in found.pop("stages")]
@@ -223,7 +237,10 @@ def plan(recipe: Recipe, *, set: Settings = None, store: Optional[PathLike] = No
     """What :func:`run` would do, and why."""
     _, text, _ = _with_recipe(["plan", "--json"], recipe, set, _options(store=store), False)
     found = json.loads(text)
-    return Plan(found["to_run"], found["predicted_bytes"], [PlannedStage(**stage) for stage in found["stages"]])
+    stages = [PlannedStage(**stage) for stage in found["stages"]]
+    return Plan(
+        found["to_run"], found["predicted_core_s"], found["all_measured"], found["predicted_bytes"], stages
+    )
 
 
 def why(recipe: Recipe, subject: str, *, set: Settings = None, store: Optional[PathLike] = None) -> Why:
