@@ -191,32 +191,19 @@ impl Held {
 mod tests {
     use super::*;
     use crate::assign::assign;
+    use crate::facts::fixture::behind;
     use crate::leaks::{LintRules, lint};
     use cosfly_frames::DVec3;
-    use cosfly_schema::TownLayout;
-    use std::sync::Arc;
 
     /// Walks in a dense town of 600 by 300 m: anywhere, 20 to 80 m long, along x or y.
     fn dense_town(count: usize) -> Vec<FlightFacts> {
-        let layout = Arc::new(TownLayout { digest: "ab".repeat(32), sketch: vec![] });
         let walk = |id: usize| {
             let mut random = Seed::of_item(7, "walk", &id.to_string()).stream("walk");
             let from = DVec3::new((random.unit() * 520.0 / 6.0).floor() * 6.0, random.unit() * 220.0, 0.0);
             let along = if random.unit() < 0.5 { DVec3::X } else { DVec3::Y };
             let length = 20.0 + 60.0 * random.unit();
             let feet: Vec<DVec3> = (0..40).map(|k| from + along * (length * f64::from(k) / 39.0)).collect();
-            FlightFacts {
-                dataset: 0,
-                trajectory_id: format!("expert-p{id:05}"),
-                expert_id: None,
-                pedestrian_id: format!("p{id:05}"),
-                group: String::new(),
-                split: String::new(),
-                town: "town".into(),
-                layout: Arc::clone(&layout),
-                route: Route::of(&feet),
-                windows: vec![],
-            }
+            behind(id, &feet)
         };
         (0..count).map(walk).collect()
     }

@@ -106,25 +106,14 @@ fn distinct_routes<'a>(facts: &'a [FlightFacts], places: &Places) -> Vec<(Walker
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::route::Route;
+    use crate::facts::fixture::behind;
     use cosfly_frames::DVec3;
     use cosfly_schema::TownLayout;
     use std::sync::Arc;
 
     fn walker(id: usize, street: f64, from: f64) -> FlightFacts {
         let feet: Vec<DVec3> = (0..50).map(|k| DVec3::new(from + f64::from(k), street, 0.0)).collect();
-        FlightFacts {
-            dataset: 0,
-            trajectory_id: format!("expert-p{id:05}"),
-            expert_id: None,
-            pedestrian_id: format!("p{id:05}"),
-            group: String::new(),
-            split: String::new(),
-            town: "town".into(),
-            layout: Arc::new(TownLayout { digest: "ab".repeat(32), sketch: vec![] }),
-            route: Route::of(&feet),
-            windows: vec![],
-        }
+        behind(id, &feet)
     }
 
     #[test]

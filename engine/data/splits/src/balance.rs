@@ -155,28 +155,14 @@ fn percent(share: f64) -> String {
 mod tests {
     use super::*;
     use crate::assign::assign;
-    use crate::route::Route;
+    use crate::facts::fixture::behind;
     use cosfly_frames::DVec3;
-    use cosfly_schema::TownLayout;
-    use std::sync::Arc;
 
     fn walks(count: usize, street_m: f64, step_m: f64) -> Vec<FlightFacts> {
-        let layout = Arc::new(TownLayout { digest: "ab".repeat(32), sketch: vec![] });
         let walk = |id: usize| {
             let from = DVec3::new(step_m * id as f64, street_m * id as f64, 0.0);
             let feet: Vec<DVec3> = (0..60).map(|k| from + DVec3::X * f64::from(k)).collect();
-            FlightFacts {
-                dataset: 0,
-                trajectory_id: format!("expert-p{id:05}"),
-                expert_id: None,
-                pedestrian_id: format!("p{id:05}"),
-                group: String::new(),
-                split: String::new(),
-                town: "town".into(),
-                layout: Arc::clone(&layout),
-                route: Route::of(&feet),
-                windows: vec![],
-            }
+            behind(id, &feet)
         };
         (0..count).map(walk).collect()
     }

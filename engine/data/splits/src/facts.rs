@@ -123,3 +123,25 @@ fn fingerprint(kind: u8, places: &[DVec3]) -> u64 {
     }
     u64::from_le_bytes(hasher.finalize().as_bytes()[..8].try_into().unwrap_or_default())
 }
+
+/// Facts for tests.
+#[cfg(test)]
+pub(crate) mod fixture {
+    use super::*;
+
+    /// An expert's flight behind pedestrian `id`, whose feet are at `feet`, in one town, without a split.
+    pub(crate) fn behind(id: usize, feet: &[DVec3]) -> FlightFacts {
+        FlightFacts {
+            dataset: 0,
+            trajectory_id: format!("expert-p{id:05}"),
+            expert_id: None,
+            pedestrian_id: format!("p{id:05}"),
+            group: String::new(),
+            split: String::new(),
+            town: "town".into(),
+            layout: Arc::new(TownLayout { digest: "ab".repeat(32), sketch: vec![] }),
+            route: Route::of(feet),
+            windows: vec![],
+        }
+    }
+}
