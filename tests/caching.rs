@@ -61,6 +61,36 @@ fn only_what_depends_on_a_change_runs_and_changing_back_runs_nothing() {
 }
 
 #[test]
+fn pictures_lie_once_and_are_made_again_only_where_something_reads_them() {
+    let street = Street::new();
+    let remove = "intermediates=remove";
+    made(&street, &[remove]);
+    let plan = |change: &str| {
+        let plan = cosfly(&["plan", "recipe.toml", "--json", "--set", remove, "--set", change]).within(street.path());
+        let plan: serde_json::Value = serde_json::from_str(&plan.run_ok().stdout).expect("a JSON plan");
+        let stages = plan["stages"].as_array().expect("stages").clone();
+        stages.iter().find(|stage| stage["stage"] == "frames").expect("frames")["made_again"].as_u64()
+    };
+    assert_eq!(plan("stages.dataset.title=Another title"), Some(0));
+    assert_eq!(made(&street, &[remove, "stages.dataset.title=Another title"]), stages(&[("dataset", 1)]));
+    assert_eq!(plan("stages.captions.clothes=false"), Some(6));
+    let reworded = made(&street, &[remove, "stages.captions.clothes=false"]);
+    assert_eq!((reworded.get("captions"), reworded.get("frames"), reworded.get("expert")), (Some(&6), Some(&6), None));
+}
+
+#[test]
+fn a_single_stage_is_made_with_what_it_needs() {
+    let street = Street::new();
+    let told = cosfly(&["run", "recipe.toml", "--stage", "expert"]).within(street.path()).run_ok().stdout;
+    assert!(told.contains(".expert in ") && told.contains("not needed") && !told.contains("README.md"), "{told}");
+    assert!(!street.dataset().exists());
+    let rest = made(&street, &[]);
+    assert!(!rest.contains_key("expert") && !rest.contains_key("walkers") && rest.contains_key("frames"), "{rest:?}");
+    let unknown = cosfly(&["run", "recipe.toml", "--stage", "expret"]).within(street.path()).run();
+    assert!(unknown.stderr.contains("did you mean `expert`?"), "{}", unknown.stderr);
+}
+
+#[test]
 fn why_names_the_changed_ingredient() {
     let street = Street::new();
     cosfly(&["run", "recipe.toml", "--quiet"]).within(street.path()).run_ok();

@@ -144,12 +144,17 @@ fn cost(plan: &Plan<'_>, price: Option<f64>) -> String {
     }
     let mut text = format!("About {} on one core", duration(Duration::from_secs_f64(core_s)));
     if let Some(price) = price {
-        let _ = write!(text, ", {:.2} at {price} per core-hour", price * core_s / SECONDS_PER_HOUR);
+        let _ = write!(text, ", {} at {price} per core-hour", money(price * core_s / SECONDS_PER_HOUR));
     }
     let unmeasured = plan.stages.iter().filter(|stage| stage.to_run() > 0 && stage.predicted_s.is_none());
     let names: Vec<String> = unmeasured.map(|stage| format!("`{}`", stage.name)).collect();
     let rest = if is_whole { String::new() } else { format!("; without {}, never measured here", names.join(", ")) };
     text + &rest + ".\n"
+}
+
+/// An amount with two decimals, or with two significant digits where it is small.
+fn money(amount: f64) -> String {
+    if amount == 0.0 || amount >= 0.1 { format!("{amount:.2}") } else { format!("{amount:.1e}") }
 }
 
 /// The one reason for everything that would run, where there is only one (such as a first run).

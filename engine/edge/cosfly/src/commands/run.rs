@@ -177,7 +177,8 @@ fn result(delivery: &Delivery, wanted: &StageName, out: &Path, store: &Path, too
                 count(folder.files, "file"),
                 bytes(folder.bytes)
             );
-            if quiet {
+            // The files of a single stage are no dataset.
+            if quiet || !out.join("croissant.json").is_file() {
                 return text;
             }
             let _ = writeln!(text, "  start with  {}", out.join("README.md").display());
