@@ -1,8 +1,8 @@
 //! [`read_town`]: bytes of any known format into a finished, checked [`Town`].
 
 use crate::fill::fill;
-use crate::formats::{FORMATS, Format};
 use crate::simplify::simplify;
+use crate::{FORMATS, Format};
 use crate::{MapConfig, MapError, Town};
 use cosfly_frames::Seed;
 

@@ -24,7 +24,7 @@ fn read_plainly(bytes: &[u8]) -> Result<Town, MapError> {
 }
 
 fn examples() -> impl Iterator<Item = (&'static Format, &'static [u8])> {
-    FORMATS.iter().map(|format| (format, format.example().as_bytes()))
+    FORMATS.iter().map(|format| (format, format.example()))
 }
 
 #[test]

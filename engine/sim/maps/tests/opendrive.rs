@@ -7,7 +7,7 @@ use cosfly_maps::{
 };
 
 /// A road of every curve, with every kind of profile, object and signal.
-const STREET: &str = OpenDrive::EXAMPLE;
+const STREET: &str = include_str!("../src/formats/opendrive/every_feature.xodr");
 
 fn read(text: &str) -> Result<Town, MapError> {
     read_bytes(text.as_bytes())

@@ -2,12 +2,12 @@
 //!
 //! Frame of the file: right-handed, x east, y north, z up, metres; yaw counter-clockwise from x, degrees.
 
-use super::format::MapFormat;
-use super::mesh::MeshBuilder;
-use super::terrain;
-use super::text::{Lines, decoded};
-use super::world::WorldFromMap;
+use crate::format::MapFormat;
+use crate::mesh::MeshBuilder;
 use crate::polygons::triangulated;
+use crate::terrain;
+use crate::text::{Lines, decoded};
+use crate::world::WorldFromMap;
 use crate::{MapError, Obstacle, ObstacleKind, SemanticLabel, Town, WalkableKind, WalkablePolygon};
 use cosfly_frames::{DVec2, DVec3};
 use cosfly_geometry::OrientedBox;
@@ -48,7 +48,7 @@ impl MapFormat for Boxes {
 
     const NAME: &'static str = "boxes";
 
-    const EXAMPLE: &'static str = r#"{
+    const EXAMPLE: &'static [u8] = br#"{
   "format": "cosfly-boxes/1",
   "boxes": [
     { "kind": "building", "center_m": [20, 14, 5], "size_m": [16, 10, 10], "yaw_deg": 15 },

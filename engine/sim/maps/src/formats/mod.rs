@@ -1,16 +1,11 @@
-//! Map formats: the list of all of them, and what their readers share.
+//! The list of all map formats.
 //!
 //! A new format is one file here and two lines in this one: its `mod` line and its entry in [`FORMATS`].
 
 pub mod boxes;
-pub mod format;
-mod mesh;
 pub mod opendrive;
-mod terrain;
-mod text;
-pub mod world;
 
-pub use format::{Format, MapFormat};
+use crate::Format;
 
 /// All formats.
 pub const FORMATS: &[Format] = &[

@@ -1,7 +1,7 @@
 //! Numbers and names out of XML attributes; each refusal says its line, column, element and rule.
 
 use crate::error::{MapError, Place};
-use crate::formats::text::Lines;
+use crate::text::Lines;
 use core::cell::{Cell, RefCell};
 use roxmltree::{Document, Node};
 

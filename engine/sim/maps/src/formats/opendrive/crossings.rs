@@ -6,9 +6,9 @@ use super::objects::outline_in_map;
 use super::road_geometry::LaneSpan;
 use super::road_marks::PAINT_ABOVE_M;
 use super::walkable::without_repeats;
-use crate::formats::mesh::MeshBuilder;
-use crate::formats::world::WorldFromMap;
+use crate::mesh::MeshBuilder;
 use crate::polygons::{PolygonIndex, clipped_to_band, triangulated};
+use crate::world::WorldFromMap;
 use crate::{GroundIndex, SemanticLabel, WalkableKind, WalkablePolygon};
 use cosfly_frames::{DVec2, DVec3, real};
 

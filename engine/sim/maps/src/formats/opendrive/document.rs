@@ -3,7 +3,7 @@
 use super::attributes::Source;
 use super::xml_bounds;
 use crate::error::MapError;
-use crate::formats::text::{Lines, decoded};
+use crate::text::{Lines, decoded};
 use roxmltree::{Document, ParsingOptions};
 
 /// Most XML nodes of one file.

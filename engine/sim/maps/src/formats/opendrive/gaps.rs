@@ -3,7 +3,7 @@
 //! The ways through a junction are strips beside and over one another; files leave the triangles between them out, or
 //! give them as lanes of no kind.
 
-use crate::formats::mesh::MeshBuilder;
+use crate::mesh::MeshBuilder;
 use crate::{GroundIndex, SemanticLabel};
 use cosfly_frames::{DVec2, DVec3};
 

@@ -1,7 +1,7 @@
 //! OpenDRIVE 1.4 to 1.8: roads, lanes, objects and signals into a [`Town`].
 //!
 //! [`network`] is the file as it stands; [`plan_view`] and [`road_geometry`] evaluate it; the other rooms build the
-//! town's parts from it. Everything stays in the file's right-handed frame until [`super::world`] turns it over.
+//! town's parts from it. Everything stays in the file's right-handed frame until [`crate::world`] turns it over.
 
 mod attributes;
 mod build;
@@ -31,7 +31,7 @@ mod xml_bounds;
 pub use options::OpenDriveOptions;
 pub use road_map::{LanePoint, RoadMap};
 
-use super::format::MapFormat;
+use crate::format::MapFormat;
 use crate::{MapError, Town};
 
 /// The OpenDRIVE format.
@@ -43,7 +43,7 @@ impl MapFormat for OpenDrive {
 
     const NAME: &'static str = "OpenDRIVE";
 
-    const EXAMPLE: &'static str = include_str!("every_feature.xodr");
+    const EXAMPLE: &'static [u8] = include_bytes!("every_feature.xodr");
 
     fn recognises(head: &[u8]) -> bool {
         // UTF-16 is recognised, too, so that its refusal can say what to do.

@@ -4,7 +4,7 @@ use super::network::{Corner, Outline, Repeat, Road, RoadObject};
 use super::object_kind::{ObjectKind, kind_of};
 use crate::cover::cover_polygon;
 use crate::crown::crown_boxes;
-use crate::formats::world::WorldFromMap;
+use crate::world::WorldFromMap;
 use crate::{Obstacle, ObstacleKind};
 use cosfly_frames::{DVec2, DVec3, real};
 use cosfly_geometry::OrientedBox;

@@ -4,7 +4,7 @@ use super::document::with_source;
 use super::network::RoadNetwork;
 use super::parse_road;
 use crate::MapError;
-use crate::formats::world::WorldFromMap;
+use crate::world::WorldFromMap;
 use cosfly_frames::DVec3;
 
 /// A parsed road network in the world frame; answers questions about lanes.

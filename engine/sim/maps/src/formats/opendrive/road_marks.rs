@@ -3,8 +3,8 @@
 use super::network::{Lane, LaneSection, Paint, Road, RoadMark};
 use super::stations::CrossSection;
 use crate::SemanticLabel;
-use crate::formats::mesh::MeshBuilder;
-use crate::formats::world::WorldFromMap;
+use crate::mesh::MeshBuilder;
+use crate::world::WorldFromMap;
 use cosfly_frames::{DVec2, DVec3, real};
 
 /// Paint lies this far above the surface below it, metres.

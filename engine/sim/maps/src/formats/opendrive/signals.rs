@@ -3,7 +3,7 @@
 use super::network::{Road, RoadSignal};
 use super::objects::ObstacleBuilder;
 use crate::ObstacleKind;
-use crate::formats::world::WorldFromMap;
+use crate::world::WorldFromMap;
 use cosfly_frames::{DVec2, DVec3};
 
 /// A pole of the file this close to a signal carries it, metres.

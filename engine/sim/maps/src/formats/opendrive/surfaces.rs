@@ -4,8 +4,8 @@ use super::network::{Lane, LaneHeight, LaneKind, Road};
 use super::road_geometry::LaneSpan;
 use super::stations::CrossSection;
 use crate::SemanticLabel;
-use crate::formats::mesh::MeshBuilder;
-use crate::formats::world::WorldFromMap;
+use crate::mesh::MeshBuilder;
+use crate::world::WorldFromMap;
 use cosfly_frames::{DVec2, DVec3};
 
 /// Height of the skirt below a road's edge, so that no gap opens towards the terrain, metres.

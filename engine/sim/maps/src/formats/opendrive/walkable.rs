@@ -2,7 +2,7 @@
 
 use super::network::{Lane, LaneKind, LaneSection, Road};
 use super::stations::CrossSection;
-use crate::formats::world::WorldFromMap;
+use crate::world::WorldFromMap;
 use crate::{WalkableKind, WalkablePolygon};
 use cosfly_frames::DVec3;
 

@@ -2,7 +2,7 @@
 //! attributes and of the depth of elements that declare namespaces.
 
 use crate::error::MapError;
-use crate::formats::text::Lines;
+use crate::text::Lines;
 
 /// Deepest nesting of elements; OpenDRIVE itself has about ten levels.
 const DEEPEST: usize = 100;

@@ -19,7 +19,7 @@ pub trait MapFormat {
     const NAME: &'static str;
 
     /// A small file with everything that the format can say; the laws run over it.
-    const EXAMPLE: &'static str;
+    const EXAMPLE: &'static [u8];
 
     /// Whether a file that begins with `head`, at most [`Format::HEAD_BYTES`] bytes, is of this format.
     fn recognises(head: &[u8]) -> bool;
@@ -39,7 +39,7 @@ type Read = fn(&[u8], &FormatOptions) -> Result<(Town, Vec<String>), MapError>;
 #[derive(Clone, Copy)]
 pub struct Format {
     name: &'static str,
-    example: &'static str,
+    example: &'static [u8],
     recognises: fn(&[u8]) -> bool,
     read: Read,
     schema: fn() -> Value,
@@ -68,7 +68,7 @@ impl Format {
     }
 
     /// See [`MapFormat::EXAMPLE`].
-    pub fn example(&self) -> &'static str {
+    pub fn example(&self) -> &'static [u8] {
         self.example
     }
 

@@ -6,18 +6,18 @@ use std::collections::BTreeMap;
 
 /// One growing mesh for each label.
 #[derive(Debug, Default)]
-pub(super) struct MeshBuilder {
+pub struct MeshBuilder {
     meshes: BTreeMap<(SemanticLabel, bool), SurfaceMesh>,
 }
 
 impl MeshBuilder {
     /// Adds a quad; corners in order around it, each with its place along and across the road.
-    pub(super) fn quad(&mut self, label: SemanticLabel, synthetic: bool, corners: [(DVec3, DVec2); 4]) {
+    pub fn quad(&mut self, label: SemanticLabel, synthetic: bool, corners: [(DVec3, DVec2); 4]) {
         self.polygon(label, synthetic, &corners, &[[0, 1, 2], [0, 2, 3]]);
     }
 
     /// Adds triangles over some vertices.
-    pub(super) fn polygon(
+    pub fn polygon(
         &mut self,
         label: SemanticLabel,
         synthetic: bool,
@@ -38,17 +38,17 @@ impl MeshBuilder {
     }
 
     /// Goes on with finished meshes.
-    pub(super) fn from_meshes(meshes: Vec<SurfaceMesh>) -> Self {
+    pub fn from_meshes(meshes: Vec<SurfaceMesh>) -> Self {
         Self { meshes: meshes.into_iter().map(|mesh| ((mesh.label, mesh.synthetic), mesh)).collect() }
     }
 
     /// The meshes made so far.
-    pub(super) fn meshes(&self) -> impl Iterator<Item = &SurfaceMesh> {
+    pub fn meshes(&self) -> impl Iterator<Item = &SurfaceMesh> {
         self.meshes.values()
     }
 
     /// The meshes in the order of their labels.
-    pub(super) fn finish(self) -> Vec<SurfaceMesh> {
+    pub fn finish(self) -> Vec<SurfaceMesh> {
         self.meshes.into_values().collect()
     }
 }

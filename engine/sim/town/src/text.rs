@@ -8,7 +8,7 @@ use std::borrow::Cow;
 const LARGEST_FILE: usize = 512 << 20;
 
 /// The text of a map file without its byte-order mark. Latin-1 is decoded when the XML declaration says so.
-pub(super) fn decoded(bytes: &[u8]) -> Result<Cow<'_, str>, MapError> {
+pub fn decoded(bytes: &[u8]) -> Result<Cow<'_, str>, MapError> {
     if bytes.len() > LARGEST_FILE {
         let message = format!("the file has {} bytes; at most {LARGEST_FILE} are read", bytes.len());
         return Err(MapError::new(message).hint("cut the map into smaller pieces"));
@@ -37,19 +37,20 @@ fn declares_latin1(bytes: &[u8]) -> bool {
 }
 
 /// Starts of the lines, so that a position becomes a line and a column in little time.
-pub(super) struct Lines<'t> {
+pub struct Lines<'t> {
     text: &'t str,
     starts: Vec<usize>,
 }
 
 impl<'t> Lines<'t> {
-    pub(super) fn new(text: &'t str) -> Self {
+    /// Of this text.
+    pub fn new(text: &'t str) -> Self {
         let ends = text.bytes().enumerate().filter(|(_, byte)| *byte == b'\n').map(|(at, _)| at + 1);
         Self { text, starts: core::iter::once(0).chain(ends).collect() }
     }
 
     /// The place of some bytes; `element` names the element there.
-    pub(super) fn place(&self, byte_span: Range<usize>, element: String) -> Place {
+    pub fn place(&self, byte_span: Range<usize>, element: String) -> Place {
         let line = self.starts.partition_point(|start| *start <= byte_span.start).max(1);
         let before = self.text.get(self.starts[line - 1]..byte_span.start).unwrap_or_default();
         let column = before.chars().count() as u32 + 1;
@@ -57,7 +58,7 @@ impl<'t> Lines<'t> {
     }
 
     /// The byte at a line and column (characters), both from 1; held to the text.
-    pub(super) fn byte_at(&self, line: u32, column: u32) -> usize {
+    pub fn byte_at(&self, line: u32, column: u32) -> usize {
         let start = self.starts.get(line.max(1) as usize - 1).copied().unwrap_or(self.text.len());
         let rest = self.text.get(start..).unwrap_or_default();
         start + rest.char_indices().nth(column.max(1) as usize - 1).map_or(rest.len(), |(at, _)| at)

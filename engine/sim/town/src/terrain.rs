@@ -2,12 +2,12 @@
 //!
 //! Heights are solved on a fine grid, so that grass meets pavements at their edge; open land is meshed in larger cells.
 
-use super::mesh::MeshBuilder;
+use crate::mesh::MeshBuilder;
 use crate::{MapError, Obstacle, ObstacleKind, SemanticLabel, SurfaceMesh};
 use cosfly_frames::{DVec2, DVec3};
 
 /// Distance that the terrain usually reaches beyond everything else, metres.
-pub(super) const USUAL_MARGIN_M: f64 = 60.0;
+pub const USUAL_MARGIN_M: f64 = 60.0;
 /// Distance of the terrain below roads and pavements, metres.
 const BELOW_ROADS_M: f64 = 0.11;
 /// Cells along one side that are aimed at; 2 to 4 m wide in towns of usual size.
@@ -39,7 +39,7 @@ struct HeightGrid {
 ///
 /// # Errors
 /// Roads and pavements of absurd area.
-pub(super) fn add_terrain(builder: &mut MeshBuilder, obstacles: &[Obstacle], margin_m: f64) -> Result<(), MapError> {
+pub fn add_terrain(builder: &mut MeshBuilder, obstacles: &[Obstacle], margin_m: f64) -> Result<(), MapError> {
     let Some(mut grid) = HeightGrid::around(builder.meshes(), obstacles, margin_m) else { return Ok(()) };
     let mut samples = 0.0;
     for mesh in builder.meshes().filter(|mesh| mesh.label != SemanticLabel::RoadLine) {
@@ -73,7 +73,7 @@ fn is_upright([a, b, c]: [DVec3; 3]) -> bool {
 }
 
 /// Whether things of this kind stand on the ground (crowns and plates hang).
-pub(super) fn stands_on_ground(kind: ObstacleKind) -> bool {
+pub fn stands_on_ground(kind: ObstacleKind) -> bool {
     !matches!(
         kind,
         ObstacleKind::TreeCrown | ObstacleKind::TrafficSign | ObstacleKind::TrafficLight | ObstacleKind::Bridge
@@ -292,62 +292,5 @@ impl HeightGrid {
         };
         let triangles = triangles.into_iter().map(|triangle| triangle.map(&mut number_of)).collect();
         (vertices, triangles)
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::{GroundIndex, MapConfig, Town};
-    use cosfly_frames::Seed;
-
-    fn downtown() -> Town {
-        let path = concat!(env!("CARGO_MANIFEST_DIR"), "/../../../recipes/towns/downtown.xodr");
-        crate::read_town(&std::fs::read(path).unwrap(), &MapConfig::default(), Seed([0; 32])).unwrap().0
-    }
-
-    /// Heights of pavements and roads above the terrain, at the corners and middles of their flat triangles.
-    fn heights_above_terrain_m(town: &Town, label: SemanticLabel) -> Vec<f64> {
-        let terrain =
-            GroundIndex::of_surfaces(&town.surfaces, |mesh| mesh.label == SemanticLabel::Terrain && mesh.synthetic);
-        let meshes = town.surfaces.iter().filter(|mesh| mesh.label == label);
-        let triangles = meshes.flat_map(|mesh| {
-            mesh.triangles.iter().map(|triangle| triangle.map(|corner| mesh.vertices_in_world[corner as usize]))
-        });
-        let flat = triangles.filter(|[a, b, c]| {
-            let normal = (*b - *a).cross(*c - *a);
-            normal.z.abs() > 0.9 * normal.length() && normal.length() > 1e-6
-        });
-        flat.flat_map(|[a, b, c]| [a, b, c, (a + b + c) / 3.0])
-            .map(|point| point.z - terrain.ground_height_m(point.x, point.y).unwrap())
-            .collect()
-    }
-
-    #[test]
-    fn terrain_lies_closely_below_pavements_and_never_above_anything_paved() {
-        let town = downtown();
-        for label in [SemanticLabel::Roads, SemanticLabel::SideWalks] {
-            let mut above_m = heights_above_terrain_m(&town, label);
-            above_m.sort_by(f64::total_cmp);
-            let share = |part: f64| above_m[((above_m.len() - 1) as f64 * part) as usize];
-            println!(
-                "{label:?}: least {:.3} m, median {:.3} m, 95 of 100 below {:.3} m, most {:.3} m",
-                share(0.0),
-                share(0.5),
-                share(0.95),
-                share(1.0)
-            );
-            assert!(share(0.0) > 0.1, "{label:?}: terrain comes up to {} m", share(0.0));
-            if label == SemanticLabel::SideWalks {
-                assert!(share(0.5) < 0.3 && share(0.95) < 0.5, "{} {}", share(0.5), share(0.95));
-            }
-        }
-        let count: usize = town
-            .surfaces
-            .iter()
-            .filter(|mesh| mesh.label == SemanticLabel::Terrain)
-            .map(|mesh| mesh.triangles.len())
-            .sum();
-        println!("{count} triangles of terrain");
     }
 }

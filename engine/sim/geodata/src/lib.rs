@@ -1,0 +1,1 @@
+//! Readers of survey data: OpenStreetMap, CityJSON.

@@ -1,0 +1,1 @@
+//! Readers of measured shapes: point clouds, triangle meshes.

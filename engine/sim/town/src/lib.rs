@@ -1,0 +1,28 @@
+//! The [`Town`] model (obstacles, walkable ground, surfaces, labels), the seam of map formats, and what their readers
+//! share: the world frame, text with places, covers of footprints, ground meshes, land around them, planning boxes.
+
+pub mod cover;
+pub mod crown;
+pub mod error;
+pub mod format;
+pub mod ground;
+pub mod mesh;
+pub mod options;
+pub mod polygons;
+pub mod semantics;
+pub mod simplify;
+pub mod solids;
+pub mod terrain;
+pub mod text;
+pub mod town;
+pub mod world;
+
+pub use error::{MapError, Place};
+pub use format::{Format, MapFormat};
+pub use ground::{GroundIndex, GroundPoint};
+pub use options::FormatOptions;
+pub use semantics::SemanticLabel;
+pub use town::{
+    MapOrigin, Obstacle, ObstacleKind, SimplificationReport, SurfaceMesh, Synthetic, Town, WalkableKind,
+    WalkablePolygon,
+};
