@@ -1,10 +1,8 @@
 //! OpenDRIVE: every feature of a file reaches the town, and bad input is refused at its place.
 
 use cosfly_frames::Seed;
-use cosfly_maps::formats::opendrive::{OpenDrive, OpenDriveOptions, RoadMap};
-use cosfly_maps::{
-    FormatOptions, MapConfig, MapError, MapFormat, ObstacleKind, SemanticLabel, Town, WalkableKind, read_town,
-};
+use cosfly_maps::formats::opendrive::{OpenDriveOptions, RoadMap};
+use cosfly_maps::{FormatOptions, MapConfig, MapError, ObstacleKind, SemanticLabel, Town, WalkableKind, read_town};
 
 /// A road of every curve, with every kind of profile, object and signal.
 const STREET: &str = include_str!("../src/formats/opendrive/every_feature.xodr");
