@@ -1,7 +1,7 @@
 //! Solid boxes of things that a map gives by their outline and heights.
 
 use crate::cover::{LOOSE_TOLERANCE_M, MOST, Plan, Row, Rows, Span, TurnedRectangle, cover_rings, strips};
-use crate::polygons::contains;
+use crate::polygons::{contains, twice_area_m2};
 use cosfly_frames::DVec2;
 use cosfly_geometry::OrientedBox;
 
@@ -45,6 +45,19 @@ pub enum Roof {
 }
 
 impl Footprint {
+    /// Width of the strip of the same area and perimeter, metres: the shorter side of a rectangle, the width of wings.
+    pub fn wing_width_m(&self) -> f64 {
+        let rings = self.rings();
+        let half = |ring: &&[DVec2]| -> f64 {
+            (0..ring.len()).map(|i| 0.5 * ring[i].distance(ring[(i + 1) % ring.len()])).sum()
+        };
+        let area = |ring: &[DVec2]| 0.5 * twice_area_m2(ring).abs();
+        let around_m: f64 = rings.iter().map(half).sum();
+        let area_m2 = area(rings[0]) - rings[1..].iter().map(|hole| area(hole)).sum::<f64>();
+        // Length and width add up to half the perimeter.
+        0.5 * (around_m - (around_m * around_m - 4.0 * area_m2).max(0.0).sqrt())
+    }
+
     /// The outer ring, and the courtyards that begin inside it.
     fn rings(&self) -> Vec<&[DVec2]> {
         let is_inside = |hole: &&Vec<DVec2>| hole.first().is_some_and(|corner| contains(&self.outer, *corner));
