@@ -1,6 +1,6 @@
 //! Solid boxes of things that a map gives by their outline and heights.
 
-use crate::cover::{LOOSE_TOLERANCE_M, MOST, Plan, Row, Rows, Span, TurnedRectangle, cover_rings, strips};
+use crate::cover::{COVER_TOLERANCE_M, LOOSE_TOLERANCE_M, MOST, Plan, Row, Rows, Span, TurnedRectangle, strips};
 use crate::polygons::{contains, twice_area_m2};
 use cosfly_frames::DVec2;
 use cosfly_geometry::OrientedBox;
@@ -47,21 +47,21 @@ pub enum Roof {
 impl Footprint {
     /// Width of the strip of the same area and perimeter, metres: the shorter side of a rectangle, the width of wings.
     pub fn wing_width_m(&self) -> f64 {
-        let rings = self.rings();
-        let half = |ring: &&[DVec2]| -> f64 {
+        let yards = self.yards();
+        let half = |ring: &[DVec2]| -> f64 {
             (0..ring.len()).map(|i| 0.5 * ring[i].distance(ring[(i + 1) % ring.len()])).sum()
         };
         let area = |ring: &[DVec2]| 0.5 * twice_area_m2(ring).abs();
-        let around_m: f64 = rings.iter().map(half).sum();
-        let area_m2 = area(rings[0]) - rings[1..].iter().map(|hole| area(hole)).sum::<f64>();
+        let around_m: f64 = half(&self.outer) + yards.iter().map(|yard| half(yard)).sum::<f64>();
+        let area_m2 = area(&self.outer) - yards.iter().map(|yard| area(yard)).sum::<f64>();
         // Length and width add up to half the perimeter.
         0.5 * (around_m - (around_m * around_m - 4.0 * area_m2).max(0.0).sqrt())
     }
 
-    /// The outer ring, and the courtyards that begin inside it.
-    fn rings(&self) -> Vec<&[DVec2]> {
+    /// The courtyards that begin inside the outer ring.
+    fn yards(&self) -> Vec<&[DVec2]> {
         let is_inside = |hole: &&Vec<DVec2>| hole.first().is_some_and(|corner| contains(&self.outer, *corner));
-        core::iter::once(&self.outer).chain(self.holes.iter().filter(is_inside)).map(Vec::as_slice).collect()
+        self.holes.iter().filter(is_inside).map(Vec::as_slice).collect()
     }
 }
 
@@ -75,12 +75,12 @@ pub fn building_boxes(footprint: &Footprint, base_m: f64, eaves_m: f64, roof: Ro
     if !(base_m.is_finite() && eaves_m.is_finite() && rise_m.is_finite()) {
         return Vec::new();
     }
-    let rings = footprint.rings();
+    let Some(plan) = Plan::of(&[&footprint.outer], &footprint.yards()) else { return Vec::new() };
     let step_count = (rise_m / ROOF_STEP_M).ceil().clamp(1.0, MOST_STEPS);
     let level_m = |step: f64| eaves_m.max(base_m) + rise_m * step / step_count;
     let mut boxes: Vec<OrientedBox> =
-        cover_rings(&rings).into_iter().map(|one| upright(one, base_m, level_m(1.0))).collect();
-    let plan = if step_count > 1.0 { RoofPlan::of(&rings, roof) } else { None };
+        plan.cover(COVER_TOLERANCE_M).into_iter().map(|one| upright(one, base_m, level_m(1.0))).collect();
+    let plan = if step_count > 1.0 { RoofPlan::of(plan, roof) } else { None };
     let Some(plan) = plan else {
         // Too low or too thin for steps.
         boxes.iter_mut().for_each(|one| *one = reaching(*one, level_m(step_count)));
@@ -124,8 +124,7 @@ struct RoofPlan {
 }
 
 impl RoofPlan {
-    fn of(rings: &[&[DVec2]], roof: Roof) -> Option<Self> {
-        let plan = Plan::of(rings)?;
+    fn of(plan: Plan, roof: Roof) -> Option<Self> {
         let size = |yaw_rad: f64| 2.0 * plan.bounding(yaw_rad).half_extents_m;
         let longer = |angles: &[f64]| {
             let widest = angles.iter().copied().take(2).max_by(|a, b| size(*a).x.total_cmp(&size(*b).x));
@@ -133,7 +132,7 @@ impl RoofPlan {
         };
         let yaw_rad = match roof {
             Roof::Gabled { ridge_yaw_rad: Some(yaw_rad), .. } if yaw_rad.is_finite() => yaw_rad,
-            _ => longer(&plan.angles_rad),
+            _ => longer(&plan.angles_rad()),
         };
         let has_wings = plan.area_m2() < WITHOUT_WINGS * size(yaw_rad).element_product();
         let rows = plan.rows(yaw_rad);

@@ -56,7 +56,7 @@ fn covered(cover: &[TurnedRectangle], point: DVec2) -> bool {
 
 /// Asserts both halves of the contract at points of a grid of `count` steps across.
 fn check_grid(name: &str, rings: &[&[DVec2]], count: i32, overhang_m: f64) -> usize {
-    let cover = cover_rings(rings);
+    let cover = cover_rings(&rings[..1], &rings[1..]);
     let corners = || rings.iter().copied().flatten().copied();
     let low = corners().fold(DVec2::INFINITY, DVec2::min) - 2.0;
     let high = corners().fold(DVec2::NEG_INFINITY, DVec2::max) + 2.0;
@@ -114,6 +114,19 @@ fn courtyards_stay_open() {
         assert!((4..=8).contains(&count), "{count} rectangles");
         let skew = turned(&yard, 0.35);
         check_grid("skew yard", &[&outer, &skew], 300, LOOSE_TOLERANCE_M);
+    }
+}
+
+#[test]
+fn faces_that_share_sides_or_overlap_are_united() {
+    let [a, b] = [rectangle((0.0, 0.0), (10.0, 8.0)), ring(&[(10.0, 0.0), (18.0, 0.0), (18.0, 8.0), (10.0, 8.0)])];
+    let over = rectangle((6.0, 2.0), (14.0, 6.0));
+    for angle_rad in [0.0, 0.7] {
+        let faces = [&a, &b, &over].map(|face| turned(face, angle_rad));
+        let faces: Vec<&[DVec2]> = faces.iter().map(Vec::as_slice).collect();
+        let cover = cover_rings(&faces, &[]);
+        assert_eq!(cover.len(), 1, "{cover:?}");
+        assert!((cover[0].half_extents_m.element_product() - 36.0).abs() < 1e-6, "{cover:?}");
     }
 }
 
@@ -234,7 +247,7 @@ proptest! {
     fn covers_hold_the_polygon_without_its_courtyard(outline in outline(), hole in 0.05..0.9, shares in prop::collection::vec((0.0..1.0, 0.0..1.0), 40)) {
         let center = outline.iter().sum::<DVec2>() / outline.len() as f64;
         let yard: Vec<DVec2> = outline.iter().map(|corner| center.lerp(*corner, hole)).collect();
-        let cover = cover_rings(&[&outline, &yard]);
+        let cover = cover_rings(&[&outline], &[&yard]);
         prop_assert!(cover.len() <= MOST);
         let (low, high) = outline.iter().fold((DVec2::INFINITY, DVec2::NEG_INFINITY), |(a, b), p| (a.min(*p), b.max(*p)));
         for (x, y) in shares {

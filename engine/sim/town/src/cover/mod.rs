@@ -36,27 +36,38 @@ pub struct TurnedRectangle {
 
 /// Rectangles whose union contains the polygon (corners in order, either way round); see [`cover_rings`].
 pub fn cover_polygon(outline: &[DVec2]) -> Vec<TurnedRectangle> {
-    cover_rings(&[outline])
+    cover_rings(&[outline], &[])
 }
 
-/// Rectangles whose union contains what an odd number of rings enclose: an outer ring and courtyards, each either way
-/// round, crossed ones too. Rings without an area give one rectangle at most; a coordinate that is not finite gives none.
-/// Rings of very many corners are thinned out first, and the rectangles grow by what that moved.
-pub fn cover_rings(rings: &[&[DVec2]]) -> Vec<TurnedRectangle> {
-    let Some(plan) = Plan::of(rings) else { return Vec::new() };
-    let smallest = plan.angles_rad.iter().map(|angle| plan.bounding(*angle));
-    let smallest = smallest.min_by(|a, b| area_m2(a).total_cmp(&area_m2(b)));
-    let tolerance_m = (TOLERANCE_SHARE * plan.area_m2().sqrt()).clamp(0.02, COVER_TOLERANCE_M);
-    let rows: Vec<(f64, Rows)> = plan.angles_rad.iter().map(|angle| (*angle, plan.rows(*angle))).collect();
-    let mut allowed_m = tolerance_m;
-    loop {
-        let most = if allowed_m < 0.99 * LOOSE_TOLERANCE_M { FEW } else { MOST };
-        let covers = rows.iter().map(|(angle, rows)| plan.rectangles(strips(rows.cut(allowed_m), allowed_m), *angle));
-        let best = covers.min_by(|a, b| a.len().cmp(&b.len()).then(sum_m2(a).total_cmp(&sum_m2(b))));
-        match best {
-            Some(cover) if !cover.is_empty() && cover.len() <= most => return cover,
-            Some(cover) if !cover.is_empty() && allowed_m < plan.extent_m => allowed_m *= core::f64::consts::SQRT_2,
-            _ => return smallest.into_iter().collect(),
+/// Rectangles whose union contains what the outer rings enclose and the holes do not, each either way round, crossed
+/// ones too. Rings without an area give one rectangle at most; a coordinate that is not finite gives none. Rings of very
+/// many corners are thinned out first, and the rectangles grow by what that moved.
+pub fn cover_rings(outer: &[&[DVec2]], holes: &[&[DVec2]]) -> Vec<TurnedRectangle> {
+    match Plan::of(outer, holes) {
+        Some(plan) => plan.cover(COVER_TOLERANCE_M),
+        None => Vec::new(),
+    }
+}
+
+impl Plan {
+    /// The cover, with a tolerance of at most `tolerance_m` where few rectangles are enough.
+    pub fn cover(&self, tolerance_m: f64) -> Vec<TurnedRectangle> {
+        let plan = self;
+        let smallest = plan.angles_rad.iter().map(|angle| plan.bounding(*angle));
+        let smallest = smallest.min_by(|a, b| area_m2(a).total_cmp(&area_m2(b)));
+        let tolerance_m = (TOLERANCE_SHARE * plan.area_m2().sqrt()).clamp(0.02, tolerance_m);
+        let rows: Vec<(f64, Rows)> = plan.angles_rad.iter().map(|angle| (*angle, plan.rows(*angle))).collect();
+        let mut allowed_m = tolerance_m;
+        loop {
+            let most = if allowed_m < 0.99 * LOOSE_TOLERANCE_M { FEW } else { MOST };
+            let covers =
+                rows.iter().map(|(angle, rows)| plan.rectangles(strips(rows.cut(allowed_m), allowed_m), *angle));
+            let best = covers.min_by(|a, b| a.len().cmp(&b.len()).then(sum_m2(a).total_cmp(&sum_m2(b))));
+            match best {
+                Some(cover) if !cover.is_empty() && cover.len() <= most => return cover,
+                Some(cover) if !cover.is_empty() && allowed_m < plan.extent_m => allowed_m *= core::f64::consts::SQRT_2,
+                _ => return smallest.into_iter().collect(),
+            }
         }
     }
 }
@@ -70,48 +81,68 @@ fn sum_m2(rectangles: &[TurnedRectangle]) -> f64 {
 }
 
 /// Rings near the origin, thinned out, and the directions that suit them.
-pub(crate) struct Plan {
+#[derive(Clone, Debug)]
+pub struct Plan {
+    /// Outer rings first.
     rings: Vec<Vec<DVec2>>,
+    outer_count: usize,
     /// Middle of the rings in their own frame.
     middle: DVec2,
     /// Distance by which thinning out moved the rings at most, metres.
     moved_m: f64,
     /// Directions of the longest sides, longest first, each followed by the direction across.
-    pub(crate) angles_rad: Vec<f64>,
+    angles_rad: Vec<f64>,
     /// Width and depth, whichever is larger.
     extent_m: f64,
 }
 
 impl Plan {
-    /// None when there is no ring of two corners or a coordinate is not finite.
-    pub(crate) fn of(rings: &[&[DVec2]]) -> Option<Self> {
-        let corners = || rings.iter().copied().flatten().copied();
-        if rings.first().is_none_or(|outer| outer.len() < 2) || !corners().all(DVec2::is_finite) {
-            return None;
-        }
+    /// None when there is no corner or a coordinate is not finite.
+    pub fn of(outer: &[&[DVec2]], holes: &[&[DVec2]]) -> Option<Self> {
+        let corners = || outer.iter().chain(holes).copied().flatten().copied();
         let low = corners().fold(DVec2::INFINITY, DVec2::min);
         let high = corners().fold(DVec2::NEG_INFINITY, DVec2::max);
+        let has_sides = outer.iter().any(|ring| ring.len() > 1);
+        if !(has_sides && low.is_finite() && high.is_finite() && corners().all(DVec2::is_finite)) {
+            return None;
+        }
         let middle = 0.5 * (low + high);
-        let mut rings: Vec<Vec<DVec2>> =
-            rings.iter().map(|ring| ring.iter().map(|corner| *corner - middle).collect()).collect();
-        let moved_m = thinning::thin_out(&mut rings);
+        let near = |rings: &[&[DVec2]]| -> Vec<Vec<DVec2>> {
+            rings.iter().map(|ring| ring.iter().map(|corner| *corner - middle).collect()).collect()
+        };
+        let (mut outer, mut holes) = (near(outer), near(holes));
+        let moved_m = thinning::thin_out(&mut outer).max(thinning::thin_out(&mut holes));
+        let outer_count = outer.len();
+        let rings = [outer, holes].concat();
         let angles_rad = side_angles_rad(&rings);
-        Some(Self { rings, middle, moved_m, angles_rad, extent_m: (high - low).max_element() })
+        Some(Self { rings, outer_count, middle, moved_m, angles_rad, extent_m: (high - low).max_element() })
     }
 
-    /// Area of the first ring without the others, square metres.
-    pub(crate) fn area_m2(&self) -> f64 {
+    /// The same rings, to be covered in these directions only.
+    #[must_use]
+    pub fn along(mut self, angles_rad: &[f64]) -> Self {
+        self.angles_rad = angles_rad.to_vec();
+        self
+    }
+
+    /// Directions of the longest sides, longest first, each followed by the direction across; radians, x towards y.
+    pub fn angles_rad(&self) -> &[f64] {
+        &self.angles_rad
+    }
+
+    /// Area of the outer rings without the holes, square metres.
+    pub fn area_m2(&self) -> f64 {
         let area_m2 = |ring: &Vec<DVec2>| 0.5 * crate::polygons::twice_area_m2(ring).abs();
-        let holes: f64 = self.rings.iter().skip(1).map(area_m2).sum();
-        (area_m2(&self.rings[0]) - holes).max(0.0)
+        let (outer, holes) = self.rings.split_at(self.outer_count);
+        (outer.iter().map(area_m2).sum::<f64>() - holes.iter().map(area_m2).sum::<f64>()).max(0.0)
     }
 
     /// The rings turned so that `yaw_rad` is x.
     pub(crate) fn rows(&self, yaw_rad: f64) -> Rows {
         let (sin, cos) = real::sin_cos(yaw_rad);
-        Rows::of(self.rings.iter().map(|ring| {
-            ring.iter().map(|p| DVec2::new(cos * p.x + sin * p.y, cos * p.y - sin * p.x)).collect::<Vec<_>>()
-        }))
+        let turned = |p: &DVec2| DVec2::new(cos * p.x + sin * p.y, cos * p.y - sin * p.x);
+        let rings = self.rings.iter().enumerate();
+        Rows::of(rings.map(|(index, ring)| (ring.iter().map(turned).collect(), index >= self.outer_count)))
     }
 
     /// The smallest rectangle in this direction.

@@ -1,5 +1,7 @@
 //! Polygons as rows of spans, and rows of nearly the same reach as strips.
 
+use crate::polygons::twice_area_m2;
+use core::cmp::Ordering;
 use cosfly_frames::{DVec2, real};
 
 /// Most rows between two neighbouring corners.
@@ -30,11 +32,23 @@ pub(crate) struct Row {
     narrower_m: f64,
 }
 
-/// Sides of a polygon, lower end first, and the levels of its corners.
+/// A side of a ring, lower end first. Over the rings' inside, upward sides open it and downward sides close it, or the
+/// other way round: along a line the windings of the sides passed add up to a number other than 0 inside.
+#[derive(Clone, Copy, Debug)]
+struct Side {
+    a: DVec2,
+    b: DVec2,
+    winding: i32,
+}
+
+/// Sides of rings, lowest first, and the levels of their corners.
 pub(crate) struct Rows {
-    sides: Vec<(DVec2, DVec2)>,
+    sides: Vec<Side>,
     levels: Vec<f64>,
 }
+
+/// x of a side at two levels, and its winding.
+type Crossing = (f64, f64, i32);
 
 impl Span {
     pub(crate) fn new(low: f64, high: f64) -> Self {
@@ -53,80 +67,108 @@ impl Row {
 }
 
 impl Rows {
-    /// Of rings; a point within an odd number of them is inside.
-    pub(crate) fn of(rings: impl Iterator<Item = Vec<DVec2>>) -> Self {
-        let (mut sides, mut levels) = (Vec::new(), Vec::new());
-        for ring in rings {
-            levels.extend(ring.iter().map(|corner| corner.y));
+    /// Of rings; the flag marks holes. Sides that two neighbours share cancel out.
+    pub(crate) fn of(rings: impl Iterator<Item = (Vec<DVec2>, bool)>) -> Self {
+        let mut sides = Vec::new();
+        for (ring, is_hole) in rings {
+            let forwards = if (twice_area_m2(&ring) < 0.0) == is_hole { 1 } else { -1 };
             for i in 0..ring.len() {
                 let (a, b) = (ring[i], ring[(i + 1) % ring.len()]);
-                sides.push(if a.y <= b.y { (a, b) } else { (b, a) });
+                let side = if a.y < b.y { (a, b, forwards) } else { (b, a, -forwards) };
+                sides.push(Side { a: side.0, b: side.1, winding: side.2 });
             }
         }
+        let place = |side: &Side| [side.a.y, side.a.x, side.b.y, side.b.x];
+        sides.sort_by(|p, q| {
+            place(p).iter().zip(&place(q)).map(|(x, y)| x.total_cmp(y)).find(|it| it.is_ne()).unwrap_or(Ordering::Equal)
+        });
+        sides.dedup_by(|next, kept| {
+            let is_same = next.a == kept.a && next.b == kept.b;
+            kept.winding += if is_same { next.winding } else { 0 };
+            is_same
+        });
+        sides.retain(|side| side.winding != 0);
+        let mut levels: Vec<f64> = sides.iter().flat_map(|side| [side.a.y, side.b.y]).collect();
         levels.sort_by(f64::total_cmp);
         levels.dedup();
         Self { sides, levels }
     }
 
     pub(crate) fn bounds(&self) -> (DVec2, DVec2) {
-        let ends = || self.sides.iter().flat_map(|(a, b)| [*a, *b]);
+        let ends = || self.sides.iter().flat_map(|side| [side.a, side.b]);
         (ends().fold(DVec2::INFINITY, DVec2::min), ends().fold(DVec2::NEG_INFINITY, DVec2::max))
     }
 
     /// Rows between neighbouring corners, cut where a slanted side would stand over more than the tolerance.
     pub(crate) fn cut(&self, tolerance_m: f64) -> Vec<Row> {
         let mut rows = Vec::new();
+        let mut active: Vec<Side> = Vec::new();
+        let mut next = 0;
         for pair in self.levels.windows(2) {
             let (low_y, height_m) = (pair[0], pair[1] - pair[0]);
-            let slants = self.crossings(pair[0], pair[1]).into_iter().map(|(low, high)| (high - low).abs());
-            let slant_m = slants.fold(0.0, f64::max);
+            active.retain(|side| side.b.y > low_y);
+            while let Some(side) = self.sides.get(next).filter(|side| side.a.y <= low_y) {
+                if side.b.y > low_y {
+                    active.push(*side);
+                }
+                next += 1;
+            }
+            let slant_m = crossings(&active, pair[0], pair[1]).iter().map(|it| (it.1 - it.0).abs()).fold(0.0, f64::max);
             // A row of height h beside a side that leans by slant/height adds at most h * slant / hypot deep.
             let depth_m = height_m * slant_m / real::hypot(height_m, slant_m).max(1e-12);
             let count = (depth_m / tolerance_m).ceil().clamp(1.0, MOST_PIECES) as usize;
             let level = |i: usize| if i == count { pair[1] } else { low_y + height_m * i as f64 / count as f64 };
-            rows.extend((0..count).map(|i| Row::new(level(i), level(i + 1), self.spans(level(i), level(i + 1)))));
+            rows.extend((0..count).map(|i| Row::new(level(i), level(i + 1), spans(&active, level(i), level(i + 1)))));
         }
         rows
     }
 
-    /// Spans that hold all of the polygon between two levels, whatever corners lie between them.
+    /// Spans that hold everything inside between two levels, whatever corners lie between them.
     pub(crate) fn spans_between(&self, low_y: f64, high_y: f64) -> Vec<Span> {
         let first = self.levels.partition_point(|level| *level <= low_y);
         let inner = self.levels[first..].iter().copied().take_while(|level| *level < high_y);
+        let near = &self.sides[..self.sides.partition_point(|side| side.a.y < high_y)];
+        let near: Vec<Side> = near.iter().filter(|side| side.b.y > low_y).copied().collect();
         let mut below = low_y;
         let mut all = Vec::new();
         for level in inner.chain([high_y]) {
-            all.extend(self.spans(below, level));
+            all.extend(spans(&near, below, level));
             below = level;
         }
         joined(all)
     }
+}
 
-    /// x of the sides at both levels, sorted by their middles. No corner lies between the levels.
-    fn crossings(&self, low_y: f64, high_y: f64) -> Vec<(f64, f64)> {
-        let middle_y = 0.5 * (low_y + high_y);
-        let across = self.sides.iter().filter(|(a, b)| a.y <= middle_y && b.y > middle_y);
-        let mut out: Vec<(f64, f64)> = across
-            .map(|(a, b)| {
-                let x_at = |y: f64| a.x + (b.x - a.x) * ((y - a.y) / (b.y - a.y)).clamp(0.0, 1.0);
-                (x_at(low_y), x_at(high_y))
-            })
-            .collect();
-        out.sort_by(|p, q| (p.0 + p.1).total_cmp(&(q.0 + q.1)));
-        out
-    }
+/// x of the sides at both levels, sorted by their middles. No corner lies between the levels.
+fn crossings(sides: &[Side], low_y: f64, high_y: f64) -> Vec<Crossing> {
+    let middle_y = 0.5 * (low_y + high_y);
+    let across = sides.iter().filter(|side| side.a.y <= middle_y && side.b.y > middle_y);
+    let mut out: Vec<Crossing> = across
+        .map(|Side { a, b, winding }| {
+            let x_at = |y: f64| a.x + (b.x - a.x) * ((y - a.y) / (b.y - a.y)).clamp(0.0, 1.0);
+            (x_at(low_y), x_at(high_y), *winding)
+        })
+        .collect();
+    out.sort_by(|p, q| (p.0 + p.1).total_cmp(&(q.0 + q.1)));
+    out
+}
 
-    /// Sides pair up from the left. A point outside all spans has both sides of every pair on one hand, hence an even
-    /// number of sides to its left: whatever sides cross in the row, the spans hold the polygon.
-    fn spans(&self, low_y: f64, high_y: f64) -> Vec<Span> {
-        let crossings = self.crossings(low_y, high_y);
-        let of_pair = |pair: &[(f64, f64)]| {
-            let [(a, b), (c, d)] = [pair[0], pair[1]];
-            let (low, high) = (a.min(b).min(c.min(d)), a.max(b).max(c.max(d)));
-            Span { low, high, inner_low: a.max(b).min(high), inner_high: c.min(d).max(low) }
-        };
-        joined(crossings.chunks_exact(2).map(of_pair).collect())
+/// Each span holds the sides from where the winding leaves 0 to where it is 0 again. A point outside all spans has all
+/// sides of every span on one hand, hence the winding 0: whatever sides cross in the row, the spans hold the inside.
+fn spans(sides: &[Side], low_y: f64, high_y: f64) -> Vec<Span> {
+    let mut out = Vec::new();
+    let mut winding = 0;
+    let mut open: Option<Span> = None;
+    for (x_low, x_high, step) in crossings(sides, low_y, high_y) {
+        let (low, high) = (x_low.min(x_high), x_low.max(x_high));
+        let span = open.get_or_insert(Span { low, high, inner_low: high, inner_high: high });
+        (span.low, span.high, span.inner_high) = (span.low.min(low), span.high.max(high), low);
+        winding += step;
+        if winding == 0 {
+            out.extend(open.take());
+        }
     }
+    joined(out)
 }
 
 /// Overlapping spans as one.

@@ -2,9 +2,10 @@
 
 use cosfly_frames::DVec2;
 
-/// Most corners of all rings that are left as they are.
+/// Most corners that are left as they are: in all rings, or on average where there are many rings.
 const MOST_CORNERS: usize = 256;
-/// Most corners that the exact thinning (quadratic at worst) works on.
+const MOST_OF_A_RING: usize = 8;
+/// Most corners of a ring that the exact thinning (quadratic at worst) works on.
 const MOST_FOR_EXACT: usize = 4096;
 /// First distance that is tried, metres.
 const FIRST_M: f64 = 0.02;
@@ -14,20 +15,19 @@ pub(super) fn thin_out(rings: &mut Vec<Vec<DVec2>>) -> f64 {
     let corners = |rings: &[Vec<DVec2>]| rings.iter().map(Vec::len).sum::<usize>();
     let mut moved_m = 0.0;
     let mut step_m = FIRST_M;
-    while corners(rings) > MOST_FOR_EXACT {
+    let longest = |rings: &[Vec<DVec2>]| rings.iter().map(Vec::len).max().unwrap_or(0);
+    while longest(rings) > MOST_FOR_EXACT {
         drop_close(rings, step_m);
         moved_m += step_m;
         step_m *= 2.0;
     }
     let mut step_m = FIRST_M;
-    while corners(rings) > MOST_CORNERS {
+    while corners(rings) > MOST_CORNERS.max(MOST_OF_A_RING * rings.len()) {
         for ring in rings.iter_mut() {
             *ring = without_small_bends(ring, step_m);
         }
         moved_m += step_m;
-        // A ring that shrank to a line is within that distance of the others or holds nothing; the outer one stays.
-        let mut index = 0;
-        rings.retain(|ring| (index == 0 || ring.len() > 2, index += 1).0);
+        drop_lines(rings);
         step_m *= 2.0;
     }
     moved_m
@@ -45,6 +45,11 @@ fn drop_close(rings: &mut Vec<Vec<DVec2>>, step_m: f64) {
             far
         });
     }
+    drop_lines(rings);
+}
+
+/// A ring that shrank to a line holds next to nothing. The first one stays, so that something is left.
+fn drop_lines(rings: &mut Vec<Vec<DVec2>>) {
     let mut index = 0;
     rings.retain(|ring| (index == 0 || ring.len() > 2, index += 1).0);
 }
