@@ -6,10 +6,14 @@ pub mod boxes;
 pub mod opendrive;
 
 use crate::Format;
+use cosfly_scans::{las, pcd, ply};
 
 /// All formats.
 pub const FORMATS: &[Format] = &[
     // Sorted by name.
     Format::of::<boxes::Boxes>(),
+    Format::of::<las::Las>(),
     Format::of::<opendrive::OpenDrive>(),
+    Format::of::<pcd::Pcd>(),
+    Format::of::<ply::Ply>(),
 ];
