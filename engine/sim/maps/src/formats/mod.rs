@@ -7,11 +7,15 @@ pub mod generated;
 pub mod opendrive;
 
 use crate::Format;
+use cosfly_scans::{las, pcd, ply};
 
 /// All formats.
 pub const FORMATS: &[Format] = &[
     // Sorted by name.
     Format::of::<boxes::Boxes>(),
     Format::of::<generated::Generated>(),
+    Format::of::<las::Las>(),
     Format::of::<opendrive::OpenDrive>(),
+    Format::of::<pcd::Pcd>(),
+    Format::of::<ply::Ply>(),
 ];
