@@ -11,5 +11,6 @@ use crate::Format;
 pub const FORMATS: &[Format] = &[
     // Sorted by name.
     Format::of::<boxes::Boxes>(),
+    Format::of::<cosfly_geodata::cityjson::CityJson>(),
     Format::of::<opendrive::OpenDrive>(),
 ];
