@@ -1,1 +1,4 @@
 //! Readers of survey data: OpenStreetMap, CityJSON.
+
+pub mod cityjson;
+mod open_ground;

@@ -15,6 +15,7 @@ pub const FORMATS: &[Format] = &[
     Format::of::<boxes::Boxes>(),
     Format::of::<generated::Generated>(),
     Format::of::<las::Las>(),
+    Format::of::<cosfly_geodata::cityjson::CityJson>(),
     Format::of::<opendrive::OpenDrive>(),
     Format::of::<pcd::Pcd>(),
     Format::of::<ply::Ply>(),
