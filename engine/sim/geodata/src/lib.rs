@@ -1,1 +1,5 @@
 //! Readers of survey data: OpenStreetMap, CityJSON.
+
+pub mod osm;
+pub mod projection;
+pub mod slabs;

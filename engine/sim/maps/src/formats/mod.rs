@@ -12,4 +12,5 @@ pub const FORMATS: &[Format] = &[
     // Sorted by name.
     Format::of::<boxes::Boxes>(),
     Format::of::<opendrive::OpenDrive>(),
+    Format::of::<cosfly_geodata::osm::OpenStreetMap>(),
 ];
