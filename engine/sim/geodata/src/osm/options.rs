@@ -1,6 +1,5 @@
 //! [`OsmOptions`]: what a recipe may say about OpenStreetMap files.
 
-use cosfly_town::terrain;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
@@ -17,9 +16,6 @@ pub struct OsmOptions {
     /// Whether to invent pavements on both sides of every street whose file says nothing of pavements. Off by default; a
     /// file with no ground for people at all gets them anyway.
     pub assume_pavements: bool,
-    /// Distance that the terrain reaches beyond everything in an OpenStreetMap extract, metres. 1 to 1000, default 60.
-    #[schemars(range(min = 1.0, max = 1000.0))]
-    pub osm_terrain_margin_m: f64,
 }
 
 impl Default for OsmOptions {
@@ -28,7 +24,6 @@ impl Default for OsmOptions {
             default_building_height_m: 8.0,
             storey_height_m: 3.0,
             assume_pavements: false,
-            osm_terrain_margin_m: terrain::USUAL_MARGIN_M,
         }
     }
 }

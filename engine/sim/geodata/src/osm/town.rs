@@ -46,7 +46,7 @@ pub fn town(elements: &Elements, options: &OsmOptions) -> Result<(Town, Vec<Stri
     }
     notes.append(&mut paths.notes);
     notes.push("everything stands on one level: the file has no heights of the ground; bridges lie on it, tunnels are left out".to_owned());
-    terrain::add_terrain(&mut meshes, &obstacles, options.osm_terrain_margin_m)?;
+    terrain::add_terrain(&mut meshes, &obstacles, terrain::USUAL_MARGIN_M)?;
     let town = Town {
         name: "town".to_owned(),
         origin: MapOrigin { geo_reference: Some(frame.projection.proj_text()), ..MapOrigin::default() },
