@@ -58,7 +58,7 @@ fn the_recipe_of_two_towns_makes_a_verified_dataset_with_an_unseen_town() {
     assert!(lint.contains("town `downtown`") && lint.contains("town `uptown`"), "{lint}");
     assert!(lint.contains("4 flights in `train`") && lint.contains("4 flights in `test`"), "{lint}");
     let out = folder.path().join("out");
-    assert!(out.join("mcap/uptown/000/uptown_expert-p00000.mcap").is_file());
+    assert!(out.join("mcap/uptown/000/expert_uptown-p00000.mcap").is_file());
     let page = text(&out.join("report/index.html"));
     assert!(page.contains("<h3>downtown</h3>") && page.contains("<h3>uptown</h3>"));
     assert!(text(&out.join("README.md")).contains("| pedestrians | 4 |"));
@@ -66,7 +66,7 @@ fn the_recipe_of_two_towns_makes_a_verified_dataset_with_an_unseen_town() {
     let scored = cosfly(&["eval", "--dataset", &at("out"), "--json"]).run_ok().stdout;
     assert!(scored.contains("unseen") && !scored.contains("\"seen\""), "{scored}");
     cosfly(&["doctor", &at("out"), "--imperfect", "100"]).run_ok();
-    cosfly(&["preview", &at("out"), "--trajectory", "uptown_perturbed-p00001", "--out", &at("pictures")]).run_ok();
+    cosfly(&["preview", &at("out"), "--trajectory", "perturbed_uptown-p00001", "--out", &at("pictures")]).run_ok();
     cosfly(&["carla-job", &at("out"), "--out", &at("job.json")]).run_ok();
     let job = text(&folder.path().join("job.json"));
     assert!(job.contains("\"uptown\"") && job.contains("\"downtown\""));
@@ -91,6 +91,47 @@ fn adding_a_town_makes_no_flight_of_the_first_one_again() {
     let logs = |dataset: &Path| crate::support::tree_digests(&dataset.join("mcap/street"));
     assert_eq!(logs(&street.path().join("alone")), logs(&street.dataset()));
     cosfly(&["verify", "out/street"]).within(street.path()).run_ok();
+}
+
+/// The street's recipe with its stages made for each town of a list.
+fn recipe_of_a_list(towns: &str) -> String {
+    let (head, stages) = RECIPE.split_at(RECIPE.find("[stages.town]").expect("it has a town"));
+    let (chain, dataset) = stages.split_at(stages.find("[stages.captions]").expect("it has captions"));
+    let chain = chain.replace("\nuse = ", "\nfor_each = \"town\"\nuse = ").replace("\"street.xodr\"", "\"{town}\"");
+    format!("{head}\n[for_each]\ntown = {towns}\n\n{chain}{dataset}")
+}
+
+#[test]
+fn another_file_in_the_folder_is_another_town_and_no_file_of_the_others_changes() {
+    let street = Street::with(&recipe_of_a_list("\"maps/*.xodr\""), &map());
+    let maps = street.path().join("maps");
+    std::fs::create_dir(&maps).expect("writable");
+    for (name, at) in [("near", "0"), ("far", "4000")] {
+        let text = map().replace("x=\"0.0\"", &format!("x=\"{at}.0\"")).replace("x=\"0\"", &format!("x=\"{at}\""));
+        std::fs::write(maps.join(format!("{name}.xodr")), text).expect("writable");
+    }
+    cosfly(&["run", "recipe.toml", "--quiet"]).within(street.path()).run_ok();
+    let files = |town: &str| {
+        let mut files = crate::support::tree_digests(&street.dataset());
+        files.retain(|(path, _)| path.contains(town));
+        files
+    };
+    let before = [files("near"), files("far")];
+    assert!(before.iter().all(|files| files.len() > 6), "{before:?}");
+    std::fs::write(
+        maps.join("middle.xodr"),
+        map().replace("x=\"0.0\"", "x=\"9000.0\"").replace("x=\"0\"", "x=\"9000\""),
+    )
+    .expect("writable");
+    let printed = cosfly(&["run", "recipe.toml"]).within(street.path()).run_ok();
+    assert_eq!([files("near"), files("far")], before, "{}", printed.stdout);
+    assert_eq!(files("middle").len(), before[0].len());
+    cosfly(&["verify", "out/street"]).within(street.path()).run_ok();
+    // A town alone: what is read of it needs no file of the others.
+    for (path, _) in files("near").into_iter().chain(files("far")) {
+        std::fs::remove_file(street.dataset().join(path)).expect("it is there");
+    }
+    cosfly(&["preview", "out/street", "--out", "pictures"]).within(street.path()).run_ok();
 }
 
 #[test]

@@ -16,6 +16,6 @@ pub mod table_file;
 pub use frame_pack::{FramePackReader, FramePackWriter, PackHeader, PackedFrame};
 pub use log::write_log;
 pub use publish::{
-    DatasetSource, FlightNote, GroupFlights, GroupPlan, GroupSource, PublishedLog, Shard, Summary, plan_groups,
-    write_dataset, write_shard,
+    DatasetSource, FlightNote, GroupFlights, GroupName, GroupPlan, GroupSource, PublishedLog, Shard, Summary,
+    plan_groups, write_dataset, write_shard,
 };

@@ -8,13 +8,13 @@ use cosfly_blobs::OutputSink;
 use cosfly_diagnose::Result;
 use cosfly_schema::{DatasetConfig, Rejection, RenderedTrajectory};
 use cosfly_stage::{
-    Artifact, Fan, InputPort, Inputs, ItemRule, Produced, Stage, StagePart, StageProperties, TaskContext,
+    Artifact, Fan, InputPort, Inputs, ItemName, ItemRule, Produced, Stage, StagePart, StageProperties, TaskContext,
 };
-use cosfly_write::FlightNote;
+use cosfly_write::{FlightNote, GroupName};
 use serde::{Deserialize, Serialize};
 
 /// Name of the part, of the port that reads it and of its blob.
-const NAME: &str = "notes";
+pub const NAME: &str = "notes";
 /// Letter before the numbers of groups.
 const PREFIX: &str = "w";
 
@@ -32,6 +32,13 @@ pub struct GroupNotes {
 /// Items of the parts that work group by group: the walks of the port `frames`.
 pub fn items(config: &DatasetConfig) -> ItemRule {
     ItemRule::Groups { port: "frames", prefix: PREFIX, size: u64::from(config.walks_per_file) }
+}
+
+/// Name of a group in files, from the name of its item.
+pub fn group_name(item: &ItemName) -> GroupName {
+    let (_, own) = item.origin();
+    let number = own.strip_prefix(PREFIX).and_then(|digits| digits.parse().ok()).unwrap_or_default();
+    GroupName { stage: item.stage().map(|stage| stage.recipe_name().to_owned()), number }
 }
 
 /// The part of a stage that meets pictures at the port `frames`.

@@ -26,7 +26,7 @@ pub fn part(config: &DatasetConfig, towns: InputPort) -> StagePart {
     let parameters = parameters::canonical(&config);
     let properties = StageProperties {
         kind: "dataset".into(),
-        version: 1,
+        version: 2,
         parameters: serde_json::json!({ "splits": parameters["splits"], "windows": parameters["windows"] }),
         sources: vec![],
         inputs: vec![towns, group_notes::port()],
@@ -80,11 +80,11 @@ impl Stage for SplitsStage {
         if groups.iter().all(|group| group.flights.is_empty()) {
             return Err(nothing_left(&groups));
         }
-        let names: Vec<String> = inputs.all("notes").iter().map(|artifact| artifact.id.item.to_string()).collect();
-        let flights = groups.into_iter().map(|group| group.flights).collect();
-        let plan = plan_groups(&self.config, flights, &|note| towns.layout(&note.town_digest))?;
-        for (name, group) in names.iter().zip(&plan.groups) {
-            outputs.put(name, &codec::encode(SPLITS, group)?)?;
+        let items: Vec<&ItemName> = inputs.all(group_notes::NAME).iter().map(|artifact| &artifact.id.item).collect();
+        let groups = items.iter().zip(groups).map(|(item, group)| (group_notes::group_name(item), group.flights));
+        let plan = plan_groups(&self.config, groups.collect(), &|note| towns.layout(&note.town_digest))?;
+        for (item, group) in items.iter().zip(&plan.groups) {
+            outputs.put(&item.to_string(), &codec::encode(SPLITS, group)?)?;
         }
         outputs.put(POLICY, canonical_json(&plan.splits).as_bytes())?;
         Ok(Produced { warnings: plan.warnings, ..Produced::default() })

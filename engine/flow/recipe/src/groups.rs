@@ -1,38 +1,91 @@
-//! Groups of items: numbers of the items that they began as.
+//! Groups of items by the items that they began as.
 
-use cosfly_stage::ItemName;
-use std::collections::BTreeMap;
+use crate::model::{Arrival, RecipeStage};
+use cosfly_stage::{ItemName, ItemRule};
+use std::collections::{BTreeMap, btree_map::Entry};
 
-/// Number of the item that each of `names` began as, counted within the stages that it came through: `expert-p00002` and
-/// `perturbed-p00002-Night` have the same number where both stages have the same items. A further item changes no number.
-pub(crate) fn ranks(names: &[ItemName]) -> Vec<u64> {
-    let mut families: BTreeMap<Vec<&str>, BTreeMap<&str, u64>> = BTreeMap::new();
-    let rank = |name| {
-        let (stages, origin) = ItemName::origin(name);
-        let known = families.entry(stages).or_default();
-        let next = known.len() as u64;
-        *known.entry(origin).or_insert(next)
-    };
-    names.iter().map(rank).collect()
+/// Stage and item, as indices.
+type Origin = (usize, usize);
+
+/// Groups of the items at one port.
+#[derive(Default)]
+pub(crate) struct Groups {
+    /// Group of each item by its name in its own stage and by its name at the port.
+    of_name: BTreeMap<ItemName, usize>,
+    /// Group of the items of which the port has variants.
+    of_original: BTreeMap<ItemName, usize>,
+    /// Group of the items that began as the first, the second ... `size` items of a stage.
+    of_origin: BTreeMap<(usize, u64), usize>,
+    /// Successive items of a stage in a group, at least 1.
+    size: u64,
+    /// Names, in the order of the groups.
+    pub(crate) names: Vec<ItemName>,
 }
 
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use cosfly_stage::StageName;
-
-    #[test]
-    fn twins_and_variants_have_the_number_of_their_walk_whatever_follows() {
-        let walk = |number| ItemName::numbered("p", number);
-        let of = |stage: &str, number| walk(number).of_stage(&StageName::new(stage, ""));
-        let names = |count: u64| -> Vec<ItemName> {
-            let experts = (0..count).map(|number| of("expert", number));
-            let variants =
-                (0..count).flat_map(|number| ["Noon", "Night"].map(|it| of("perturbed", number).with_variant(it)));
-            experts.chain(variants).collect()
+/// Item that an item began as: where a stage has an item for each one of another stage, that one, and so on.
+fn origin(done: &[RecipeStage], (mut stage, mut item): Origin) -> Origin {
+    loop {
+        let (port, per_item) = match &done[stage].stage.properties().items {
+            ItemRule::PerInput(port) => (*port, 1),
+            ItemRule::PerVariant { port, variants } => (*port, variants.len().max(1)),
+            ItemRule::One | ItemRule::Count { .. } | ItemRule::Groups { .. } => return (stage, item),
         };
-        assert_eq!(ranks(&names(3)), [0, 1, 2, 0, 0, 1, 1, 2, 2]);
-        assert_eq!(ranks(&names(4)), [0, 1, 2, 3, 0, 0, 1, 1, 2, 2, 3, 3]);
-        assert_eq!(ranks(&[]), Vec::<u64>::new());
+        let arrivals = done[stage].connection(port).map(|connection| &connection.arrivals);
+        let Some(arrival) = arrivals.and_then(|arrivals| arrivals.get(item / per_item)) else { return (stage, item) };
+        (stage, item) = (arrival.stage, arrival.item);
+    }
+}
+
+impl Groups {
+    /// Groups of the items that began as `size` successive items of one stage: an expert and its perturbed twin are in one
+    /// group. Items that began in another stage, such as walks of another town, are in other groups; where there are several
+    /// such stages, groups are named after them.
+    pub(crate) fn of(done: &[RecipeStage], arrivals: &[Arrival], prefix: &str, size: u64) -> Self {
+        let origins: Vec<Origin> = arrivals.iter().map(|it| origin(done, (it.stage, it.item))).collect();
+        let several = origins.iter().any(|(stage, _)| *stage != origins[0].0);
+        let mut groups = Self { size: size.max(1), ..Self::default() };
+        for (arrival, (stage, item)) in arrivals.iter().zip(origins) {
+            let number = item as u64 / groups.size;
+            let next = groups.names.len();
+            let group = match groups.of_origin.entry((stage, number)) {
+                Entry::Occupied(known) => *known.get(),
+                Entry::Vacant(vacant) => {
+                    let name = ItemName::numbered(prefix, number);
+                    groups.names.push(if several { name.of_stage(&done[stage].name) } else { name });
+                    *vacant.insert(next)
+                }
+            };
+            let own_name = &done[arrival.stage].items[arrival.item];
+            groups.of_name.insert(arrival.name.clone(), group);
+            groups.of_name.entry(own_name.clone()).or_insert(group);
+            for name in [&arrival.name, own_name] {
+                for original in std::iter::successors(name.without_variant(), ItemName::without_variant) {
+                    groups.of_original.entry(original).or_insert(group);
+                }
+            }
+        }
+        groups
+    }
+
+    /// Arrivals by group, and where each group begins. An item of which the leading port has only a variant is in the group
+    /// of that; items that the leading port does not have are left out.
+    pub(crate) fn sorted(&self, done: &[RecipeStage], arrivals: Vec<Arrival>) -> (Vec<Arrival>, Vec<usize>) {
+        let known = |name: &ItemName| self.of_name.get(name).or_else(|| self.of_original.get(name)).copied();
+        let mut members: Vec<Vec<Arrival>> = vec![vec![]; self.names.len()];
+        for arrival in arrivals {
+            let named = known(&arrival.name).or_else(|| known(&done[arrival.stage].items[arrival.item]));
+            // Items of two stages may have one name; the items that they began as tell them apart.
+            let (stage, item) = origin(done, (arrival.stage, arrival.item));
+            let begun = self.of_origin.get(&(stage, item as u64 / self.size));
+            if let Some(group) = named.map(|named| begun.copied().unwrap_or(named)) {
+                members[group].push(arrival);
+            }
+        }
+        let mut bounds = vec![0];
+        bounds.extend(members.iter().scan(0, |end, members| {
+            *end += members.len();
+            Some(*end)
+        }));
+        (members.into_iter().flatten().collect(), bounds)
     }
 }

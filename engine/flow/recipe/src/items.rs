@@ -1,7 +1,7 @@
 //! Items of every stage and their inputs, computed before any stage runs.
 
 use crate::document::{Place, Texts, list};
-use crate::groups;
+use crate::groups::Groups;
 use crate::model::{Arrival, Connection, ItemNames, RecipeStage};
 use cosfly_diagnose::{Diagnostic, Fault};
 use cosfly_stage::{Fan, InputPort, ItemName, ItemRule, StageProperties, Takes};
@@ -33,9 +33,6 @@ pub(crate) struct Arranged {
     pub(crate) connections: Vec<Connection>,
 }
 
-/// Groups by the names of items.
-type Groups = BTreeMap<ItemName, u64>;
-
 /// Items at one port.
 struct PortItems {
     names: ItemNames,
@@ -52,10 +49,15 @@ impl ItemReader<'_> {
             ItemRule::One | ItemRule::Count { .. } => None,
         };
         let leading = leader.map(|at| &arriving[at].names);
-        let items = self.own_items(&properties.items, leading.unwrap_or(&ItemNames::default()))?;
         let groups = match (&properties.items, leader) {
-            (ItemRule::Groups { size, .. }, Some(at)) => self.groups_of(&arriving[at], *size),
+            (ItemRule::Groups { prefix, size, .. }, Some(at)) => {
+                Groups::of(self.done, &arriving[at].arrivals, prefix, *size)
+            }
             _ => Groups::default(),
+        };
+        let items = match &properties.items {
+            ItemRule::Groups { .. } => groups.names.iter().cloned().collect(),
+            rule => self.own_items(rule, leading.unwrap_or(&ItemNames::default()))?,
         };
         let mut connections = vec![];
         for (wire, at_port) in wires.iter().zip(arriving) {
@@ -63,7 +65,7 @@ impl ItemReader<'_> {
             let arrivals = match wire.port.fan {
                 Fan::Gather => at_port.arrivals,
                 Fan::Group => {
-                    let grouped = self.grouped(&groups, items.len(), at_port);
+                    let grouped = groups.sorted(self.done, at_port.arrivals);
                     bounds = grouped.1;
                     grouped.0
                 }
@@ -90,58 +92,13 @@ impl ItemReader<'_> {
         Ok(match rule {
             ItemRule::One => [ItemName::only()].into(),
             ItemRule::Count { prefix, count } => (0..*count).map(|number| ItemName::numbered(prefix, number)).collect(),
-            ItemRule::PerInput(_) => leading.clone(),
-            ItemRule::Groups { prefix, size, .. } => {
-                let last = groups::ranks(leading).into_iter().max();
-                let count = last.map_or(0, |last| last / size + 1);
-                (0..count).map(|number| ItemName::numbered(prefix, number)).collect()
-            }
+            ItemRule::PerInput(_) | ItemRule::Groups { .. } => leading.clone(),
             ItemRule::PerVariant { variants, .. } => {
                 let variants: Vec<Arc<str>> = variants.iter().map(|variant| variant.as_str().into()).collect();
                 let of_item = |item: &ItemName| variants.iter().map(|it| item.with_variant(it.clone())).collect();
                 leading.iter().flat_map(|item| -> Vec<ItemName> { of_item(item) }).collect()
             }
         })
-    }
-
-    /// Group of each item at the leading port, by its name in its own stage and by its name at the port.
-    fn groups_of(&self, leading: &PortItems, size: u64) -> Groups {
-        let ranks = groups::ranks(&leading.names);
-        let mut groups = Groups::default();
-        for (arrival, rank) in leading.arrivals.iter().zip(ranks) {
-            groups.insert(arrival.name.clone(), rank / size);
-            groups.entry(self.own_name(arrival).clone()).or_insert(rank / size);
-        }
-        groups
-    }
-
-    fn own_name(&self, arrival: &Arrival) -> &ItemName {
-        &self.done[arrival.stage].items[arrival.item]
-    }
-
-    /// Arrivals by group, and where each group begins. An item of which the leading port has only a variant is in the group
-    /// of that; items that the leading port does not have are left out.
-    fn grouped(&self, groups: &Groups, count: usize, at_port: PortItems) -> (Vec<Arrival>, Vec<usize>) {
-        let mut of_original = Groups::new();
-        for (name, group) in groups {
-            for original in std::iter::successors(name.without_variant(), ItemName::without_variant) {
-                of_original.entry(original).or_insert(*group);
-            }
-        }
-        let group_of = |name: &ItemName| groups.get(name).or_else(|| of_original.get(name)).copied();
-        let mut members: Vec<Vec<Arrival>> = vec![vec![]; count];
-        for arrival in at_port.arrivals {
-            let group = group_of(&arrival.name).or_else(|| group_of(self.own_name(&arrival)));
-            if let Some(members) = group.and_then(|group| members.get_mut(group as usize)) {
-                members.push(arrival);
-            }
-        }
-        let mut bounds = vec![0];
-        bounds.extend(members.iter().scan(0, |end, members| {
-            *end += members.len();
-            Some(*end)
-        }));
-        (members.into_iter().flatten().collect(), bounds)
     }
 
     /// Index of the wire of the port that defines the stage's items.

@@ -1,13 +1,15 @@
 //! Reads TOML recipes into checked graphs of stages.
 //!
 //! * [`load`], [`read`]: the entry points; a [`Recipe`], or all errors in it.
-//! * `toml_text` -> `document`: the text as a tree with places; `overrides` applies `--set` to it.
+//! * `toml_text` -> `document`: the text as a tree with places; `overrides` applies `--set` to it,
+//!   `for_each` writes out the stages of lists.
 //! * `outline` -> `kinds` -> `wiring` -> `order` -> `sources` -> `items`: the checks, in this order.
 //! * `parameters`: the parameters of a stage against the JSON Schema of its kind.
 //! * [`schema`], [`reference`], [`graph`]: schema for editors, reference page, drawing of the graph.
 
 mod document;
 mod drawing;
+mod for_each;
 mod groups;
 mod items;
 mod kinds;

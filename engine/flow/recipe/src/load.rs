@@ -9,7 +9,7 @@ use crate::outline::Outline;
 use crate::parameters::Subject;
 use crate::sources::{Neighbours, SourceFinder};
 use crate::wiring::{Wires, Wiring};
-use crate::{overrides, toml_text};
+use crate::{for_each, overrides, toml_text};
 use cosfly_diagnose::{Diagnostic, Fault, Label};
 use cosfly_stage::{PortSource, Registry, StageName};
 use std::collections::BTreeMap;
@@ -44,9 +44,16 @@ pub fn read(
         Some(recipe) if problems.is_empty() => Ok(recipe),
         _ => {
             problems.sort_by_key(|problem| problem.labels.first().map(|label| (label.path != path, label.span.start)));
+            // Stages of a list have their errors at the same place.
+            problems.dedup_by(|next, first| next.code == first.code && at(next).is_some() && at(next) == at(first));
             Err(problems)
         }
     }
+}
+
+/// Place of an error.
+fn at(problem: &Diagnostic) -> Option<(&Path, &std::ops::Range<usize>)> {
+    problem.labels.first().map(|label| (label.path.as_path(), &label.span))
 }
 
 fn check(
@@ -60,6 +67,8 @@ fn check(
     let mut root = toml_text::parse_document(text, texts, problems)?;
     overrides::apply(&mut root, overrides, texts, problems);
     let texts = &*texts;
+    let directory = path.parent().unwrap_or(Path::new(""));
+    for_each::expand(&mut root, directory, texts, problems)?;
     let outline = Outline::read(root, texts, problems)?;
     let mut builder = Builder::new(registry, texts);
     let known: Vec<Option<KnownStage>> = outline.stages.iter().map(|stage| builder.build(stage, problems)).collect();
@@ -73,7 +82,6 @@ fn check(
     });
     problems.append(&mut connected.mismatches);
     let graph_is_sound = problems.is_empty();
-    let directory = path.parent().unwrap_or(Path::new(""));
     let mut finder = SourceFinder { directory, texts, neighbours: Neighbours::default() };
     let mut files = find_files(&outline, &known, &mut finder, problems);
     let wires = &connected.wires;

@@ -37,7 +37,7 @@ pub(crate) struct InputOutline {
 /// Kind whose stages are files: `use = "wasm:FILE"` means `use = "wasm"` with `file = "FILE"`.
 pub(crate) const FILE_KIND: &str = "wasm";
 
-const TOP_KEYS: [&str; 4] = ["name", "seed", "intermediates", "stages"];
+const TOP_KEYS: [&str; 5] = ["name", "seed", "intermediates", "for_each", "stages"];
 /// Values of `intermediates`.
 pub(crate) const INTERMEDIATES: [&str; 2] = ["keep", "remove"];
 

@@ -33,9 +33,17 @@ pub fn schema(registry: &Registry) -> Value {
         json!({
             "type": "object",
             "description": "One step of the recipe: `use` names its kind, `inputs` its upstream stages; all other keys are its parameters.",
-            "properties": { "use": { "description": "Kind of the stage.", "oneOf": uses } },
+            "properties": {
+                "use": { "description": "Kind of the stage.", "oneOf": uses },
+                "for_each": {
+                    "description": "Lists of `[for_each]`: the stage is made for each of their values, `{LIST}` or `{LIST.FIELD}` in its parameters is the value.",
+                    "anyOf": [{ "type": "string" }, { "type": "array", "items": { "type": "string" }, "uniqueItems": true }],
+                },
+            },
             "required": ["use"],
-            "allOf": rules,
+            // A parameter may be a placeholder, whatever its type.
+            "if": { "not": { "required": ["for_each"] } },
+            "then": { "allOf": rules },
             "anyOf": offers,
         }),
     );
@@ -62,6 +70,17 @@ pub fn schema(registry: &Registry) -> Value {
                 "enum": INTERMEDIATES,
                 "default": INTERMEDIATES[0],
                 "description": "Whether intermediate files in the store, such as packed pictures, are removed as soon as everything that reads them is finished.",
+            },
+            "for_each": {
+                "type": "object",
+                "description": "Lists of values that stages are made for: values written out, or a pattern of files relative to the recipe's folder.",
+                "additionalProperties": {
+                    "anyOf": [
+                        { "type": "array", "minItems": 1 },
+                        { "type": "string" },
+                        { "type": "object", "properties": { "files": { "type": "string" } }, "required": ["files"] },
+                    ],
+                },
             },
             "stages": {
                 "type": "object",

@@ -10,7 +10,7 @@ use cosfly_schema::{
     CaptionRecord, DatasetConfig, EncodingConfig, LogRecord, PreviewStrip, RenderedTrajectory, TownLayout,
 };
 use cosfly_write::publish::{
-    DatasetSource, FlightNote, GroupFlights, GroupSource, PublishedLog, Summary, plan_groups, write_dataset,
+    DatasetSource, FlightNote, GroupFlights, GroupName, GroupSource, PublishedLog, Summary, plan_groups, write_dataset,
     write_shard,
 };
 use cosfly_write::{FramePackReader, write_log};
@@ -113,7 +113,7 @@ pub fn write_flights(
     let layout = Arc::new(TownLayout::of(&town));
     let note = |flight: &SampleFlight| FlightNote::of(&flight.record, config.windows.shape().size(), String::new());
     let notes = flights.iter().map(note).collect();
-    let plan = plan_groups(config, vec![notes], &|_| Ok(Arc::clone(&layout)))?;
+    let plan = plan_groups(config, vec![(GroupName::default(), notes)], &|_| Ok(Arc::clone(&layout)))?;
     let group = &plan.groups[0];
     let is_kept = |id: &str| group.flights.iter().any(|flight| flight.trajectory_id == id);
     let logs: Vec<PublishedLog> = logs.into_iter().filter(|log| is_kept(&log.record.trajectory_id)).collect();

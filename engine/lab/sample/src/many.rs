@@ -8,7 +8,7 @@ use cosfly_frames::DVec3;
 use cosfly_schema::tables::ObjectRecord;
 use cosfly_schema::{CaptionRecord, DatasetConfig, EncodingConfig, PreviewStrip, RenderedTrajectory, TownLayout};
 use cosfly_write::publish::{
-    DatasetSource, FlightNote, GroupFlights, GroupSource, PublishedLog, Summary, plan_groups, write_dataset,
+    DatasetSource, FlightNote, GroupFlights, GroupName, GroupSource, PublishedLog, Summary, plan_groups, write_dataset,
     write_shard,
 };
 use cosfly_write::{FramePackReader, write_log};
@@ -175,7 +175,10 @@ pub fn write_many(folder: &Path, config: &DatasetConfig, count: usize) -> Result
     let window = config.windows.shape().size();
     let note = |index: usize| FlightNote::of(&source.record(index), window, String::new());
     let firsts: Vec<usize> = (0..count).step_by(IN_GROUP).collect();
-    let group = |first: &usize| (*first..count.min(first + IN_GROUP)).map(note).collect();
+    let group = |first: &usize| {
+        let name = GroupName { stage: None, number: (first / IN_GROUP) as u64 };
+        (name, (*first..count.min(first + IN_GROUP)).map(note).collect())
+    };
     let plan = plan_groups(config, firsts.iter().map(group).collect(), &|_| Ok(Arc::clone(&source.layout)))?;
     let mut sink = MovingSink { folder, logs: &scratch, moved: 0 };
     let mut shards = vec![];

@@ -1,10 +1,8 @@
 //! OpenDRIVE: every feature of a file reaches the town, and bad input is refused at its place.
 
 use cosfly_frames::Seed;
-use cosfly_maps::formats::opendrive::{OpenDrive, OpenDriveOptions, RoadMap};
-use cosfly_maps::{
-    FormatOptions, MapConfig, MapError, MapFormat, ObstacleKind, SemanticLabel, Town, WalkableKind, read_town,
-};
+use cosfly_maps::formats::opendrive::{OpenDriveOptions, RoadMap, Roofs};
+use cosfly_maps::{FormatOptions, MapConfig, MapError, ObstacleKind, SemanticLabel, Town, WalkableKind, read_town};
 
 /// A road of every curve, with every kind of profile, object and signal.
 const STREET: &str = include_str!("../src/formats/opendrive/every_feature.xodr");
@@ -14,7 +12,11 @@ fn read(text: &str) -> Result<Town, MapError> {
 }
 
 fn read_bytes(bytes: &[u8]) -> Result<Town, MapError> {
-    let options = OpenDriveOptions { shoulders_as_sidewalks: true, ..OpenDriveOptions::default() };
+    read_with_roofs(bytes, Roofs::Flat)
+}
+
+fn read_with_roofs(bytes: &[u8], roofs: Roofs) -> Result<Town, MapError> {
+    let options = OpenDriveOptions { shoulders_as_sidewalks: true, roofs, ..OpenDriveOptions::default() };
     let config = MapConfig { options: FormatOptions::of(&options), ..MapConfig::default() };
     let (town, _) = read_town(bytes, &config, Seed::of_item(1, "town", "town"))?;
     town.assert_well_formed().expect("a town that was read is well formed");
@@ -65,6 +67,44 @@ fn a_file_with_every_feature_gives_every_part_of_a_town() {
         assert!(town.walkable.iter().any(|polygon| polygon.kind == kind), "{kind:?}");
     }
     assert_eq!((town.name.as_str(), town.origin.geo_reference.as_deref()), ("every feature", Some("+proj=tmerc")));
+}
+
+fn tops_m(town: &Town) -> Vec<f64> {
+    let buildings = town.obstacles.iter().filter(|obstacle| obstacle.kind == ObstacleKind::Building);
+    buildings.map(|one| one.shape.center_in_world.z + one.shape.half_extents_m.z).collect()
+}
+
+#[test]
+fn roofs_are_guessed_in_georeferenced_maps_and_said() {
+    let highest = |text: &str, roofs| {
+        let town = read_with_roofs(text.as_bytes(), roofs).unwrap();
+        let is_noted = town.synthetic.notes.iter().any(|note| note.contains("roofs of 1 buildings are guessed"));
+        // The building with an outline is 9 m high, the other one 15 m.
+        let tops = tops_m(&town).into_iter().filter(|top_m| *top_m < 14.0).fold(0.0, f64::max);
+        (is_noted, tops)
+    };
+    let anonymous = with("<geoReference><![CDATA[+proj=tmerc]]></geoReference>", "");
+    let (flat, flat_m) = highest(STREET, Roofs::Flat);
+    assert_eq!((flat, highest(&anonymous, Roofs::Auto).0), (false, false));
+    for (text, roofs) in [(STREET, Roofs::Auto), (STREET, Roofs::Pitched), (&*anonymous, Roofs::Pitched)] {
+        let (is_noted, top_m) = highest(text, roofs);
+        // Wings of about 4 m.
+        assert!(is_noted && (1.5..2.5).contains(&(top_m - flat_m)), "{top_m} beside {flat_m}");
+    }
+}
+
+#[test]
+fn courtyards_of_outlines_stay_open() {
+    let yard = r#"<outline id="1" outer="false"><cornerLocal u="-5" v="-3" z="0" height="9"/><cornerLocal u="-1" v="-3" z="0" height="9"/>
+        <cornerLocal u="-1" v="2" z="0" height="9"/><cornerLocal u="-5" v="2" z="0" height="9"/></outline></object>"#;
+    let plain = read(STREET).unwrap();
+    let open = read(&with("</outline></object>", &format!("</outline>{yard}"))).unwrap();
+    let volume = |town: &Town| -> f64 {
+        let buildings = town.obstacles.iter().filter(|obstacle| obstacle.kind == ObstacleKind::Building);
+        buildings.map(|one| 8.0 * one.shape.half_extents_m.element_product()).sum()
+    };
+    let missing_m3 = volume(&plain) - volume(&open);
+    assert!((missing_m3 / (4.0 * 5.0 * 9.0) - 1.0).abs() < 0.3, "{missing_m3}");
 }
 
 #[test]

@@ -1,7 +1,7 @@
 //! Real map files of `../shared`: each is read, is well formed and has what it is known to have.
 
 use cosfly_frames::{DVec2, DVec3, Seed};
-use cosfly_maps::formats::opendrive::OpenDriveOptions;
+use cosfly_maps::formats::opendrive::{OpenDriveOptions, Roofs};
 use cosfly_maps::polygons::contains;
 use cosfly_maps::{
     FormatOptions, GroundIndex, MapConfig, MapError, ObstacleKind, SemanticLabel, SurfaceMesh, Town, WalkableKind,
@@ -156,6 +156,29 @@ fn the_surveyed_city_keeps_its_buildings_trees_and_lamps() {
         (119, 117, 40)
     );
     assert!(town.origin.offset_m.length() > 1e6 && town.max_in_world.abs().max_element() < 1e3);
+}
+
+#[test]
+fn roofs_of_the_surveyed_city_are_guessed_above_the_eaves() {
+    let Some(folder) = shared::shared_input("") else { return };
+    let path = folder.join("xodr_city/Ingolstadt_CityHall.xodr");
+    let tops = |roofs| {
+        let options = OpenDriveOptions { roofs, ..OpenDriveOptions::default() };
+        let town = read(&path, &MapConfig { options: FormatOptions::of(&options), ..MapConfig::default() });
+        let mut tops: BTreeMap<u32, f64> = BTreeMap::new();
+        for one in town.obstacles.iter().filter(|obstacle| obstacle.kind == ObstacleKind::Building) {
+            let top_m = one.shape.center_in_world.z + one.shape.half_extents_m.z;
+            tops.entry(one.object_id).and_modify(|top| *top = top.max(top_m)).or_insert(top_m);
+        }
+        tops.into_values().collect::<Vec<f64>>()
+    };
+    let (flat, pitched) = (tops(Roofs::Flat), tops(Roofs::Auto));
+    let mut rises: Vec<f64> = pitched.iter().zip(&flat).map(|(high, low)| high - low).collect();
+    rises.sort_by(f64::total_cmp);
+    // The city's own model has its roofs 4.3 m above the stated heights in the median.
+    let median_m = rises[rises.len() / 2];
+    println!("rises: median {median_m:.2} m, {:.2} to {:.2} m", rises[0], rises[rises.len() - 1]);
+    assert!((3.3..5.3).contains(&median_m), "{median_m}");
 }
 
 fn triangles(town: &Town) -> usize {

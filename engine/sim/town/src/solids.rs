@@ -1,8 +1,18 @@
 //! Solid boxes of things that a map gives by their outline and heights.
 
-use crate::cover::cover_polygon;
+use crate::cover::{COVER_TOLERANCE_M, LOOSE_TOLERANCE_M, MOST, Plan, Row, Rows, Span, TurnedRectangle, strips};
+use crate::polygons::{contains, twice_area_m2};
 use cosfly_frames::DVec2;
 use cosfly_geometry::OrientedBox;
+
+/// Highest step of a roof that is made of boxes, metres, up to [`MOST_STEPS`].
+pub const ROOF_STEP_M: f64 = 0.75;
+/// Most steps of a roof.
+const MOST_STEPS: f64 = 24.0;
+/// Rows of a roof's plan that are looked at.
+const ROOF_ROWS: f64 = 40.0;
+/// A footprint that fills less of its bounding rectangle has wings: its roof rises from every wall.
+const WITHOUT_WINGS: f64 = 0.8;
 
 /// Ground that a building covers, plan view in the world frame, metres. Rings either way round, first corner not repeated.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -19,7 +29,8 @@ pub enum Roof {
     /// Level.
     #[default]
     Flat,
-    /// Two planes that meet in a ridge along `ridge_yaw_rad` (x towards y); none means along the longer side.
+    /// Two planes that meet in a ridge along `ridge_yaw_rad` (x towards y); none means along the longer side. A
+    /// footprint with wings gets planes from every wall instead.
     Gabled {
         /// Ridge above the eaves, metres.
         rise_m: f64,
@@ -33,17 +44,174 @@ pub enum Roof {
     },
 }
 
-/// Boxes whose union covers a building from `base_m` to its roof, heights in the world frame, metres.
+impl Footprint {
+    /// Width of the strip of the same area and perimeter, metres: the shorter side of a rectangle, the width of wings.
+    pub fn wing_width_m(&self) -> f64 {
+        let yards = self.yards();
+        let half = |ring: &[DVec2]| -> f64 {
+            (0..ring.len()).map(|i| 0.5 * ring[i].distance(ring[(i + 1) % ring.len()])).sum()
+        };
+        let area = |ring: &[DVec2]| 0.5 * twice_area_m2(ring).abs();
+        let around_m: f64 = half(&self.outer) + yards.iter().map(|yard| half(yard)).sum::<f64>();
+        let area_m2 = area(&self.outer) - yards.iter().map(|yard| area(yard)).sum::<f64>();
+        // Length and width add up to half the perimeter.
+        0.5 * (around_m - (around_m * around_m - 4.0 * area_m2).max(0.0).sqrt())
+    }
+
+    /// The courtyards that begin inside the outer ring.
+    fn yards(&self) -> Vec<&[DVec2]> {
+        let is_inside = |hole: &&Vec<DVec2>| hole.first().is_some_and(|corner| contains(&self.outer, *corner));
+        self.holes.iter().filter(is_inside).map(Vec::as_slice).collect()
+    }
+}
+
+/// Boxes whose union covers a building from `base_m` to its roof, heights in the world frame, metres; none when a
+/// number is not finite. Overhang in plan as in [`crate::cover`]; a roof's boxes contain it and stand over it by less than one step.
 pub fn building_boxes(footprint: &Footprint, base_m: f64, eaves_m: f64, roof: Roof) -> Vec<OrientedBox> {
-    let top_m = match roof {
-        Roof::Flat => eaves_m,
-        Roof::Gabled { rise_m, .. } | Roof::Hipped { rise_m } => eaves_m + rise_m,
+    let rise_m = match roof {
+        Roof::Flat => 0.0,
+        Roof::Gabled { rise_m, .. } | Roof::Hipped { rise_m } => rise_m.max(0.0),
     };
-    let half_height_m = 0.5 * (top_m - base_m);
-    let boxes = cover_polygon(&footprint.outer).into_iter().map(|rectangle| OrientedBox {
-        center_in_world: rectangle.center.extend(base_m + half_height_m),
-        half_extents_m: rectangle.half_extents_m.extend(half_height_m),
+    if !(base_m.is_finite() && eaves_m.is_finite() && rise_m.is_finite()) {
+        return Vec::new();
+    }
+    let Some(plan) = Plan::of(&[&footprint.outer], &footprint.yards()) else { return Vec::new() };
+    let step_count = (rise_m / ROOF_STEP_M).ceil().clamp(1.0, MOST_STEPS);
+    let level_m = |step: f64| eaves_m.max(base_m) + rise_m * step / step_count;
+    let mut boxes: Vec<OrientedBox> =
+        plan.cover(COVER_TOLERANCE_M).into_iter().map(|one| upright(one, base_m, level_m(1.0))).collect();
+    let plan = if step_count > 1.0 { RoofPlan::of(plan, roof) } else { None };
+    let Some(plan) = plan else {
+        // Too low or too thin for steps.
+        boxes.iter_mut().for_each(|one| *one = reaching(*one, level_m(step_count)));
+        return boxes;
+    };
+    let mut step = 1.0;
+    while step < step_count {
+        let section = plan.section(step / step_count);
+        boxes.extend(section.into_iter().map(|one| upright(one, level_m(step), level_m(step + 1.0))));
+        step += 1.0;
+    }
+    boxes
+}
+
+fn upright(rectangle: TurnedRectangle, low_m: f64, high_m: f64) -> OrientedBox {
+    OrientedBox {
+        center_in_world: rectangle.center.extend(0.5 * (low_m + high_m)),
+        half_extents_m: rectangle.half_extents_m.extend(0.5 * (high_m - low_m)),
         yaw_rad: rectangle.yaw_rad,
-    });
-    boxes.collect()
+    }
+}
+
+fn reaching(shape: OrientedBox, top_m: f64) -> OrientedBox {
+    let low_m = shape.center_in_world.z - shape.half_extents_m.z;
+    OrientedBox {
+        center_in_world: shape.center_in_world.with_z(0.5 * (low_m + top_m)),
+        half_extents_m: shape.half_extents_m.with_z(0.5 * (top_m - low_m)),
+        ..shape
+    }
+}
+
+/// A roof's plan, ready to be cut at heights.
+struct RoofPlan {
+    plan: Plan,
+    yaw_rad: f64,
+    rows: Rows,
+    low: DVec2,
+    high: DVec2,
+    /// Distance of the highest point from the walls; none for a roof of two planes.
+    depth_m: Option<f64>,
+}
+
+impl RoofPlan {
+    fn of(plan: Plan, roof: Roof) -> Option<Self> {
+        let size = |yaw_rad: f64| 2.0 * plan.bounding(yaw_rad).half_extents_m;
+        let longer = |angles: &[f64]| {
+            let widest = angles.iter().copied().take(2).max_by(|a, b| size(*a).x.total_cmp(&size(*b).x));
+            widest.unwrap_or(0.0)
+        };
+        let yaw_rad = match roof {
+            Roof::Gabled { ridge_yaw_rad: Some(yaw_rad), .. } if yaw_rad.is_finite() => yaw_rad,
+            _ => longer(&plan.angles_rad()),
+        };
+        let has_wings = plan.area_m2() < WITHOUT_WINGS * size(yaw_rad).element_product();
+        let rows = plan.rows(yaw_rad);
+        let (low, high) = rows.bounds();
+        let mut roof_plan = Self { plan, yaw_rad, rows, low, high, depth_m: None };
+        if has_wings || matches!(roof, Roof::Hipped { .. }) {
+            roof_plan.depth_m = Some(roof_plan.deepest_m());
+        }
+        ((high - low).min_element() > 0.1).then_some(roof_plan)
+    }
+
+    /// Rectangles over all of the roof that is higher than a share of its rise.
+    fn section(&self, share: f64) -> Vec<TurnedRectangle> {
+        let rows = match self.depth_m {
+            Some(depth_m) => self.eroded(share * depth_m),
+            None => {
+                let inset_m = 0.5 * share * (self.high.y - self.low.y);
+                self.sampled(self.low.y + inset_m, self.high.y - inset_m, |low, high| {
+                    self.rows.spans_between(low, high)
+                })
+            }
+        };
+        let mut tolerance_m = LOOSE_TOLERANCE_M;
+        loop {
+            let joined = strips(rows.clone(), tolerance_m);
+            let count: usize = joined.iter().map(|row| row.spans.len()).sum();
+            if count <= MOST / 4 || tolerance_m > self.high.y - self.low.y {
+                return self.plan.rectangles(joined, self.yaw_rad);
+            }
+            tolerance_m *= 1.5;
+        }
+    }
+
+    fn sampled(&self, from: f64, to: f64, spans: impl Fn(f64, f64) -> Vec<Span>) -> Vec<Row> {
+        let count = ((to - from) / ((self.high.y - self.low.y) / ROOF_ROWS).max(0.2)).ceil().max(1.0);
+        let level = |i: f64| from + (to - from) * i / count;
+        (0..count as usize)
+            .map(|i| (level(i as f64), level(i as f64 + 1.0)))
+            .map(|(low, high)| Row::new(low, high, spans(low, high)))
+            .collect()
+    }
+
+    /// Rows that hold every point at least `inset_m` from all walls: the disc around such a point lies in the footprint,
+    /// so it does at the disc's middle, its ends and half-way.
+    fn eroded(&self, inset_m: f64) -> Vec<Row> {
+        self.sampled(self.low.y + inset_m, self.high.y - inset_m, |low, high| {
+            let around = [(0.0, 1.0), (-1.0, 0.0), (1.0, 0.0), (-0.5, 0.75_f64.sqrt()), (0.5, 0.75_f64.sqrt())];
+            let mut kept = vec![Span::new(f64::NEG_INFINITY, f64::INFINITY)];
+            for (up, aside) in around {
+                let spans = self.rows.spans_between(low + up * inset_m, high + up * inset_m);
+                let shrunk =
+                    spans.iter().map(|span| Span::new(span.low + aside * inset_m, span.high - aside * inset_m));
+                kept = overlaps(&kept, &shrunk.filter(|span| span.low < span.high).collect::<Vec<_>>());
+            }
+            kept
+        })
+    }
+
+    /// Largest inset that leaves anything.
+    fn deepest_m(&self) -> f64 {
+        let (mut low, mut high) = (0.0, 0.5 * (self.high - self.low).min_element());
+        for _ in 0..6 {
+            let middle = 0.5 * (low + high);
+            if self.eroded(middle).iter().any(|row| !row.spans.is_empty()) { low = middle } else { high = middle }
+        }
+        high
+    }
+}
+
+/// What two sorted lists of spans share.
+fn overlaps(some: &[Span], others: &[Span]) -> Vec<Span> {
+    let mut out = Vec::new();
+    let (mut i, mut j) = (0, 0);
+    while let (Some(a), Some(b)) = (some.get(i), others.get(j)) {
+        let (low, high) = (a.low.max(b.low), a.high.min(b.high));
+        if low < high {
+            out.push(Span::new(low, high));
+        }
+        if a.high < b.high { i += 1 } else { j += 1 }
+    }
+    out
 }

@@ -5,6 +5,7 @@
 use crate::mesh::MeshBuilder;
 use crate::{MapError, Obstacle, ObstacleKind, SemanticLabel, SurfaceMesh};
 use cosfly_frames::{DVec2, DVec3};
+use std::collections::BTreeMap;
 
 /// Distance that the terrain usually reaches beyond everything else, metres.
 pub const USUAL_MARGIN_M: f64 = 60.0;
@@ -58,7 +59,7 @@ pub fn add_terrain(builder: &mut MeshBuilder, obstacles: &[Obstacle], margin_m: 
             }
         }
     }
-    for obstacle in obstacles.iter().filter(|obstacle| stands_on_ground(obstacle.kind)) {
+    for (obstacle, _) in obstacles.iter().zip(standing(obstacles)).filter(|(_, stands)| *stands) {
         grid.note_foot(obstacle);
     }
     let heights_m = grid.solved();
@@ -78,6 +79,20 @@ pub fn stands_on_ground(kind: ObstacleKind) -> bool {
         kind,
         ObstacleKind::TreeCrown | ObstacleKind::TrafficSign | ObstacleKind::TrafficLight | ObstacleKind::Bridge
     )
+}
+
+/// For each box whether it stands on the ground: by its kind, and no higher than the lowest box of its thing and a bit
+/// (roofs and upper parts stand on others).
+pub fn standing(obstacles: &[Obstacle]) -> Vec<bool> {
+    const HIGHER_M: f64 = 2.0;
+    let foot_m = |obstacle: &Obstacle| obstacle.shape.center_in_world.z - obstacle.shape.half_extents_m.z;
+    let mut lowest_m: BTreeMap<u32, f64> = BTreeMap::new();
+    for obstacle in obstacles.iter().filter(|obstacle| stands_on_ground(obstacle.kind)) {
+        let lowest = lowest_m.entry(obstacle.object_id).or_insert(f64::INFINITY);
+        *lowest = lowest.min(foot_m(obstacle));
+    }
+    let is_low = |one: &Obstacle| lowest_m.get(&one.object_id).is_some_and(|lowest| foot_m(one) <= lowest + HIGHER_M);
+    obstacles.iter().map(|one| stands_on_ground(one.kind) && is_low(one)).collect()
 }
 
 impl HeightGrid {

@@ -38,7 +38,7 @@ impl<'a> GroupFlights<'a> {
     ) -> Result<Self> {
         let planned = plan.flights.iter().map(|flight| &flight.trajectory_id);
         if !planned.eq(logs.iter().map(|log| &log.record.trajectory_id)) {
-            let message = format!("the splits of group {} are of other flights than its logs", plan.number);
+            let message = format!("the splits of group {} are of other flights than its logs", plan.name.label());
             return Err(Diagnostic::new("dataset-order", Fault::Bug, message));
         }
         Ok(Self {

@@ -33,7 +33,7 @@ pub use citation::citation;
 pub use group_flights::GroupFlights;
 pub use layout::LAYOUT_VERSION;
 pub use notes::FlightNote;
-pub use plan::{FlightPlan, GroupPlan};
+pub use plan::{FlightPlan, GroupName, GroupPlan};
 pub use shard::{Shard, write_shard};
 pub use source::{DatasetSource, GroupSource, PublishedLog};
 pub use split::{SplitPlan, plan_groups};

@@ -22,11 +22,37 @@ pub struct FlightPlan {
     pub membership: Membership,
 }
 
+/// Name of a group of walks.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct GroupName {
+    /// Stage that the walks come from, where walks come from several.
+    pub stage: Option<String>,
+    /// Number of the group among those of the stage.
+    pub number: u64,
+}
+
+impl GroupName {
+    /// The name within names of files: `00003`, `walkers_uptown-00003`.
+    pub(crate) fn label(&self) -> String {
+        match &self.stage {
+            None => format!("{:05}", self.number),
+            Some(stage) => format!("{stage}-{:05}", self.number),
+        }
+    }
+
+    /// Number of flight number `index` of the group among all flights; another group changes none.
+    pub(crate) fn place(&self, index: usize) -> u64 {
+        let hash = |stage: &String| u64::from(crc32fast::hash(stage.as_bytes()) >> 12);
+        let stage = self.stage.as_ref().map_or(0, hash);
+        (stage << 44) + (self.number << 24) + index as u64
+    }
+}
+
 /// The flights of a group of walks, whose tables are written together.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct GroupPlan {
-    /// Number of the group.
-    pub number: u64,
+    /// Name of the group.
+    pub name: GroupName,
     /// The flights that are published, in the order of the group.
     pub flights: Vec<FlightPlan>,
     /// Flights that the splits leave out.
@@ -62,13 +88,13 @@ impl GroupPlan {
 }
 
 /// Path of a file of a table with a row per frame: part `part` of group `group`.
-pub(crate) fn path_of_part(table: &str, split: Split, group: u64, part: usize) -> String {
-    format!("data/{table}/{}-{group:05}-{part:03}.parquet", split.name())
+pub(crate) fn path_of_part(table: &str, split: Split, group: &GroupName, part: usize) -> String {
+    format!("data/{table}/{}-{}-{part:03}.parquet", split.name(), group.label())
 }
 
 /// Path of the file of another table for group `group`.
-pub(crate) fn path_of_group(table: &str, split: Split, group: u64) -> String {
-    format!("data/{table}/{}-{group:05}.parquet", split.name())
+pub(crate) fn path_of_group(table: &str, split: Split, group: &GroupName) -> String {
+    format!("data/{table}/{}-{}.parquet", split.name(), group.label())
 }
 
 /// Path of the only file of a table without splits.

@@ -91,17 +91,17 @@ impl Writing<'_> {
         };
         let (per_frame, per_flight): (Vec<_>, Vec<_>) = small.into_iter().partition(|table| table.per_frame);
         let mut of_split = growing(if parts.is_empty() { &[] } else { &per_flight })?;
-        let number = self.plan.number;
+        let name = &self.plan.name;
         for part in parts {
             let mut of_part = growing(&per_frame)?;
             let Self { files, shard, flights, .. } = self;
             let mut rows = 0;
-            files.hashed(&path_of_part(streamed.name, split, number, part.number), &mut |output| {
+            files.hashed(&path_of_part(streamed.name, split, name, part.number), &mut |output| {
                 let mut writer = TableWriter::new(streamed, output)?;
                 for index in &part.members {
                     let item = flights.load(*index)?;
                     shard.summary.count(&item, split.name());
-                    let place = (number << 32) + *index as u64;
+                    let place = name.place(*index);
                     shard.figures.add(report::sketch(place, &item.record, split.name()));
                     writer.append(&item)?;
                     of_part.iter_mut().chain(&mut of_split).try_for_each(|table| table.append(&item))?;
@@ -111,12 +111,12 @@ impl Writing<'_> {
             })?;
             shard.summary.count_rows(streamed.name, split.name(), rows);
             for table in of_part {
-                let path = path_of_part(table.name(), split, number, part.number);
+                let path = path_of_part(table.name(), split, name, part.number);
                 self.put(table, split, &path)?;
             }
         }
         for table in of_split {
-            let path = path_of_group(table.name(), split, number);
+            let path = path_of_group(table.name(), split, name);
             self.put(table, split, &path)?;
         }
         Ok(())
@@ -167,7 +167,7 @@ impl Writing<'_> {
                 continue;
             }
             let mut rows = 0;
-            self.files.hashed(&path_of_group(&name, split, self.plan.number), &mut |output| {
+            self.files.hashed(&path_of_group(&name, split, &self.plan.name), &mut |output| {
                 let failed = |error| write_error(&name, error);
                 let properties = writer_properties(EXTRA_ROWS_PER_GROUP, None);
                 let mut writer =

@@ -1,7 +1,7 @@
 //! Splits of all flights at once, from the notes of their groups: the part of publishing that sees every flight.
 
 use super::notes::FlightNote;
-use super::plan::{FlightPlan, GroupPlan, LogPaths};
+use super::plan::{FlightPlan, GroupName, GroupPlan, LogPaths};
 use cosfly_diagnose::{Diagnostic, Fault, Result};
 use cosfly_schema::config::{DatasetConfig, SplitBy, SplitShares};
 use cosfly_schema::tables::Membership;
@@ -30,18 +30,17 @@ pub struct SplitPlan {
 /// Flights of other rates, towns that no flight is in, two flights of one name, splits that would leak.
 pub fn plan_groups(
     config: &DatasetConfig,
-    groups: Vec<Vec<FlightNote>>,
+    groups: Vec<(GroupName, Vec<FlightNote>)>,
     layout_of: &dyn Fn(&FlightNote) -> Result<Arc<TownLayout>>,
 ) -> Result<SplitPlan> {
     let of_group = |(number, notes): (usize, Vec<FlightNote>)| notes.into_iter().map(move |note| (number, note));
-    let count = groups.len();
+    let (names, groups): (Vec<GroupName>, Vec<Vec<FlightNote>>) = groups.into_iter().unzip();
     let (places, notes): (Vec<usize>, Vec<FlightNote>) = groups.into_iter().enumerate().flat_map(of_group).unzip();
     check_rates(&notes)?;
     let layouts: Vec<Arc<TownLayout>> = notes.iter().map(layout_of).collect::<Result<_>>()?;
     let facts: Vec<FlightFacts> =
         notes.into_iter().zip(layouts).map(|(note, layout)| note.into_facts(layout)).collect();
-    let mut plans: Vec<GroupPlan> =
-        (0..count as u64).map(|number| GroupPlan { number, ..GroupPlan::default() }).collect();
+    let mut plans: Vec<GroupPlan> = names.into_iter().map(|name| GroupPlan { name, ..GroupPlan::default() }).collect();
     let splits = match config.splits.by {
         SplitBy::Area => area::resolved(&facts, &config.splits),
         _ => config.splits.clone(),

@@ -104,7 +104,13 @@ fn asked_stage(recipe: &Recipe, name: &str) -> Result<usize> {
         let problem = Diagnostic::new("run-unknown-stage", Fault::Recipe, format!("the recipe has no stage `{name}`"));
         match cosfly_diagnose::nearest_name(name, names.iter().copied()) {
             Some(near) => problem.hint(format!("did you mean `{near}`?")),
-            None => problem.hint(format!("its stages are `{}`", names.join("`, `"))),
+            None => {
+                let made: Vec<&str> = names.iter().copied().filter(|it| it.starts_with(&format!("{name}_"))).collect();
+                match &made[..] {
+                    [] => problem.hint(format!("its stages are `{}`", names.join("`, `"))),
+                    made => problem.hint(format!("ask for one of `{}`", made.join("`, `"))),
+                }
+            }
         }
     })
 }

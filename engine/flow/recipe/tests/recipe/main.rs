@@ -2,6 +2,7 @@
 
 mod checked_recipes;
 mod file_mistakes;
+mod for_each;
 mod garbage;
 mod generated;
 mod graph_mistakes;

@@ -70,7 +70,7 @@ impl MapFormat for Boxes {
 
     fn read(bytes: &[u8], options: &BoxesOptions) -> Result<(Town, Vec<String>), MapError> {
         let text = decoded(bytes)?;
-        let document: Document = serde_json::from_str(&text).map_err(|error| refusal(&error, &text))?;
+        let document: Document = serde_json::from_str(&text).map_err(|error| Lines::new(&text).json_error(&error))?;
         document.check()?;
         Ok((document.town(options)?, Vec::new()))
     }
@@ -198,21 +198,6 @@ fn within(value: f64, name: &str, [low, high]: [f64; 2], unit: &str) -> Result<f
 
 fn vector(numbers: &[Coordinate; 3]) -> DVec3 {
     DVec3::from_array(numbers.map(|number| number.0))
-}
-
-/// An error of the JSON parser at its place in the file.
-fn refusal(error: &serde_json::Error, text: &str) -> MapError {
-    let lines = Lines::new(text);
-    let at = lines.byte_at(error.line() as u32, error.column() as u32);
-    // The parser's own text ends with the position, which the place says better.
-    let message = error.to_string();
-    let message = message.rsplit_once(" at line ").map_or(message.as_str(), |(before, _)| before);
-    let hint = if error.is_eof() {
-        "the file seems to be cut off: fetch or export it again"
-    } else {
-        "the book's chapter `Real towns` describes the format"
-    };
-    MapError::new(message).at(lines.place(at..(at + 1).min(text.len()).max(at), String::new())).hint(hint)
 }
 
 impl Document {

@@ -3,6 +3,7 @@
 //! A new format is one file here and two lines in this one: its `mod` line and its entry in [`FORMATS`].
 
 pub mod boxes;
+pub mod generated;
 pub mod opendrive;
 
 use crate::Format;
@@ -11,6 +12,7 @@ use crate::Format;
 pub const FORMATS: &[Format] = &[
     // Sorted by name.
     Format::of::<boxes::Boxes>(),
+    Format::of::<generated::Generated>(),
     Format::of::<opendrive::OpenDrive>(),
     Format::of::<cosfly_geodata::osm::OpenStreetMap>(),
 ];

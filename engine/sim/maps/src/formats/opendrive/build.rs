@@ -6,7 +6,8 @@ use super::document::with_source;
 use super::gaps::{self, JunctionArea};
 use super::joining::joining_strips;
 use super::network::{LaneKind, Road, RoadNetwork};
-use super::objects::{MOST_OBSTACLES, ObstacleBuilder};
+use super::objects::{MOST_OBSTACLES, ObstacleBuilder, ROOF_PITCH_DEG};
+use super::options::Roofs;
 use super::parse_road;
 use super::road_marks::{LinePainter, MOST_STROKES};
 use super::signals;
@@ -44,6 +45,11 @@ fn build(
     notes: Vec<String>,
 ) -> Result<(Town, Vec<String>), MapError> {
     let mut parts = Parts { world: WorldFromMap::around(network.plan_points()), notes, ..Parts::default() };
+    parts.obstacles.guess_roofs = match options.roofs {
+        Roofs::Auto => network.geo_reference.is_some(),
+        Roofs::Flat => false,
+        Roofs::Pitched => true,
+    };
     for road in &network.roads {
         parts.add_lanes(road, options).map_err(|error| match error.place {
             Some(_) => error,
@@ -194,6 +200,13 @@ impl Parts {
                 self.obstacles.assumed_crowns
             ));
         }
+        if self.obstacles.guessed_roofs > 0 {
+            self.notes.push(format!(
+                "roofs of {} buildings are guessed (gables of {ROOF_PITCH_DEG} degrees above the stated height, which \
+                 is taken for the eaves'): the format has no roofs; `roofs = \"flat\"` leaves them out",
+                self.obstacles.guessed_roofs
+            ));
+        }
         let surfaces = self.meshes.finish();
         let mut obstacles = self.obstacles.obstacles;
         settle(&mut obstacles, &GroundIndex::of_surfaces(&surfaces, |_| true));
@@ -213,7 +226,8 @@ impl Parts {
 /// Things that hover a little over the terrain, which is our own, reach down to it.
 fn settle(obstacles: &mut [Obstacle], ground: &GroundIndex) {
     const HIGHEST_GAP_M: f64 = 3.0;
-    for obstacle in obstacles.iter_mut().filter(|obstacle| terrain::stands_on_ground(obstacle.kind)) {
+    let standing = terrain::standing(obstacles);
+    for (obstacle, _) in obstacles.iter_mut().zip(standing).filter(|(_, stands)| *stands) {
         let shape = &mut obstacle.shape;
         let foot_m = shape.center_in_world.z - shape.half_extents_m.z;
         let corners = shape.corners_in_world();

@@ -28,7 +28,7 @@ mod surfaces;
 mod walkable;
 mod xml_bounds;
 
-pub use options::OpenDriveOptions;
+pub use options::{OpenDriveOptions, Roofs};
 pub use road_map::{LanePoint, RoadMap};
 
 use crate::format::MapFormat;

@@ -252,6 +252,8 @@ pub struct Repeat {
 pub struct Outline {
     /// An area, not a line.
     pub closed: bool,
+    /// A courtyard in the other outlines.
+    pub is_hole: bool,
     /// Corners in order.
     pub corners: Vec<Corner>,
 }

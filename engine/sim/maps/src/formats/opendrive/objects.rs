@@ -2,8 +2,8 @@
 
 use super::network::{Corner, Outline, Repeat, Road, RoadObject};
 use super::object_kind::{ObjectKind, kind_of};
-use crate::cover::cover_polygon;
 use crate::crown::crown_boxes;
+use crate::solids::{Footprint, Roof, building_boxes};
 use crate::world::WorldFromMap;
 use crate::{Obstacle, ObstacleKind};
 use cosfly_frames::{DVec2, DVec3, real};
@@ -17,12 +17,24 @@ const DEFAULT_THICKNESS_M: f64 = 0.15;
 const LOWEST_M: f64 = 0.05;
 /// Longest straight piece of a continuous wall, metres, in a curve; straight ones are not cut.
 const WALL_CHORD_M: f64 = 0.1;
+/// Pitch of a guessed roof, degrees.
+pub(super) const ROOF_PITCH_DEG: f64 = 45.0;
+/// Highest rise of a guessed roof, metres.
+const HIGHEST_ROOF_M: f64 = 8.0;
+/// Lowest buildings that get a guessed roof, metres.
+const LOWEST_EAVES_M: f64 = 2.5;
+/// Widths of buildings that get a guessed roof, metres.
+const ROOF_WIDTHS_M: core::ops::RangeInclusive<f64> = 4.0..=20.0;
 
 /// The growing list of obstacles of a file.
 #[derive(Debug, Default)]
 pub(super) struct ObstacleBuilder {
     pub(super) obstacles: Vec<Obstacle>,
     next_object_id: u32,
+    /// Whether buildings get a roof that the file does not have.
+    pub(super) guess_roofs: bool,
+    /// Buildings that got one.
+    pub(super) guessed_roofs: usize,
     /// Trees whose crown is our assumption.
     pub(super) assumed_crowns: usize,
     /// Signs whose plate and pole are our assumption.
@@ -52,23 +64,26 @@ impl ObstacleBuilder {
     }
 
     fn push(&mut self, kind: ObstacleKind, block: Block, world: &WorldFromMap) {
-        if self.obstacles.len() >= MOST_OBSTACLES {
-            self.left_out += 1;
-            return;
-        }
         let height_m = (block.top_m - block.bottom_m).max(0.0);
         let center = world.point(block.center_in_map.extend(0.5 * (block.top_m + block.bottom_m)));
         let half_extents_m = block.half_extents_m.abs().extend(0.5 * height_m);
         if center.is_finite() && half_extents_m.is_finite() {
-            let shape =
-                OrientedBox { center_in_world: center, half_extents_m, yaw_rad: world.yaw_rad(block.heading_rad) };
-            let object_id = self.next_object_id;
-            let one = |shape| Obstacle { shape, kind, object_id, synthetic: false };
-            if kind == ObstacleKind::TreeCrown {
-                self.obstacles.extend(crown_boxes(&shape, object_id).map(one));
-            } else {
-                self.obstacles.push(one(shape));
-            }
+            let yaw_rad = world.yaw_rad(block.heading_rad);
+            self.push_shape(kind, OrientedBox { center_in_world: center, half_extents_m, yaw_rad });
+        }
+    }
+
+    fn push_shape(&mut self, kind: ObstacleKind, shape: OrientedBox) {
+        if self.obstacles.len() >= MOST_OBSTACLES {
+            self.left_out += 1;
+            return;
+        }
+        let object_id = self.next_object_id;
+        let one = |shape| Obstacle { shape, kind, object_id, synthetic: false };
+        if kind == ObstacleKind::TreeCrown {
+            self.obstacles.extend(crown_boxes(&shape, object_id).map(one));
+        } else {
+            self.obstacles.push(one(shape));
         }
     }
 
@@ -100,9 +115,7 @@ impl ObstacleBuilder {
                 self.add_repeat(road, object, kind, repeat, world);
             }
         } else if object.outlines.iter().any(|outline| outline.corners.len() >= 2) {
-            for outline in &object.outlines {
-                self.add_outline(road, object, kind, outline, world);
-            }
+            self.add_outlines(road, object, kind, world);
         } else {
             let foot = road.point(object.at.s_m, object.at.t_m, object.at.z_offset_m);
             let heading_rad = road.plan_point(object.at.s_m).heading_rad + object.heading_rad;
@@ -267,41 +280,51 @@ impl ObstacleBuilder {
         self.push(kind, block, world);
     }
 
-    fn add_outline(
-        &mut self,
-        road: &Road,
-        object: &RoadObject,
-        kind: ObstacleKind,
-        outline: &Outline,
-        world: &WorldFromMap,
-    ) {
-        let corners = outline_in_map(road, object, outline);
-        if !outline.closed {
-            for pair in corners.windows(2) {
-                self.add_wall(kind, [pair[0].0, pair[1].0], [pair[0].1, pair[1].1], object.size.width_m, world);
+    /// Open outlines are walls; closed ones are areas, less those that are courtyards.
+    fn add_outlines(&mut self, road: &Road, object: &RoadObject, kind: ObstacleKind, world: &WorldFromMap) {
+        let plan = |corners: &[(DVec3, f64)]| -> Vec<DVec2> {
+            corners.iter().map(|(foot, _)| world.point(*foot).truncate()).collect()
+        };
+        let holes = object.outlines.iter().filter(|outline| outline.closed && outline.is_hole);
+        let holes: Vec<Vec<DVec2>> = holes.map(|hole| plan(&outline_in_map(road, object, hole))).collect();
+        for outline in object.outlines.iter().filter(|outline| !(outline.closed && outline.is_hole)) {
+            let corners = outline_in_map(road, object, outline);
+            if outline.closed {
+                let footprint = Footprint { outer: plan(&corners), holes: holes.clone() };
+                self.add_area(kind, &footprint, &corners, world);
+            } else {
+                for pair in corners.windows(2) {
+                    self.add_wall(kind, [pair[0].0, pair[1].0], [pair[0].1, pair[1].1], object.size.width_m, world);
+                }
             }
-            return;
         }
+    }
+
+    fn add_area(&mut self, kind: ObstacleKind, footprint: &Footprint, corners: &[(DVec3, f64)], world: &WorldFromMap) {
         let tallest_m = corners.iter().map(|(_, height_m)| *height_m).fold(0.0, f64::max);
         if tallest_m < LOWEST_M || corners.len() < 2 {
             return;
         }
-        let bottom_m = corners.iter().map(|(foot, _)| foot.z).fold(f64::INFINITY, f64::min);
-        let top_m = corners.iter().map(|(foot, height_m)| foot.z + height_m).fold(f64::NEG_INFINITY, f64::max);
-        // Near the origin, so that rectangles of UTM coordinates keep their precision.
-        let near = corners[0].0.truncate();
-        let flat: Vec<DVec2> = corners.iter().map(|(foot, _)| foot.truncate() - near).collect();
-        for rectangle in cover_polygon(&flat) {
-            let block = Block {
-                center_in_map: near + rectangle.center,
-                half_extents_m: rectangle.half_extents_m,
-                heading_rad: rectangle.yaw_rad,
-                bottom_m,
-                top_m,
-            };
-            self.push(kind, block, world);
+        let bottom_m = corners.iter().map(|(foot, _)| foot.z).fold(f64::INFINITY, f64::min) - world.offset_m.z;
+        let top_m = corners.iter().map(|(foot, height_m)| foot.z + height_m).fold(f64::NEG_INFINITY, f64::max)
+            - world.offset_m.z;
+        let guessed = self.guess_roofs && kind == ObstacleKind::Building;
+        let roof = if guessed { guessed_roof(footprint, top_m - bottom_m) } else { Roof::Flat };
+        self.guessed_roofs += usize::from(roof != Roof::Flat);
+        for shape in building_boxes(footprint, bottom_m, top_m, roof) {
+            self.push_shape(kind, shape);
         }
     }
+}
+
+/// See [`super::options::Roofs::Pitched`].
+fn guessed_roof(footprint: &Footprint, eaves_m: f64) -> Roof {
+    let width_m = footprint.wing_width_m();
+    if eaves_m < LOWEST_EAVES_M || !ROOF_WIDTHS_M.contains(&width_m) {
+        return Roof::Flat;
+    }
+    let rise_m = (0.5 * width_m * real::tan(ROOF_PITCH_DEG.to_radians())).min(HIGHEST_ROOF_M);
+    Roof::Gabled { rise_m, ridge_yaw_rad: None }
 }
 
 fn sagitta_m(at: &impl Fn(f64) -> (f64, DVec3, f64, f64), piece: usize, pieces: usize) -> f64 {

@@ -119,7 +119,8 @@ fn outline<'d>(
             _ => continue,
         });
     }
-    Ok(Outline { closed: node.attribute("closed") != Some("false"), corners })
+    let is_hole = node.attribute("outer") == Some("false");
+    Ok(Outline { closed: node.attribute("closed") != Some("false"), is_hole, corners })
 }
 
 /// The signals of a road that stand beside it; painted ones have no height.

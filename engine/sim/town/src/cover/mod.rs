@@ -1,0 +1,200 @@
+//! Covers a footprint with few turned rectangles that contain it.
+//!
+//! The footprint is cut into rows along one of its sides; rows of nearly the same reach become one strip.
+
+mod rows;
+mod thinning;
+
+pub(crate) use rows::{Row, Rows, Span, strips};
+
+use cosfly_frames::{DVec2, real};
+
+/// A rectangle's overhang beyond the outline is at most this deep, metres, where few rectangles are enough (a tenth
+/// more where rows of slanted sides are joined); less for things of a few metres.
+pub const COVER_TOLERANCE_M: f64 = 0.25;
+/// The same where [`FEW`] rectangles are not enough. Only where [`MOST`] are not enough either the overhang grows.
+pub const LOOSE_TOLERANCE_M: f64 = 0.5;
+/// Few rectangles of one footprint.
+const FEW: usize = 20;
+/// Most rectangles of one footprint.
+pub const MOST: usize = 64;
+/// Tolerance as a share of the square root of the area.
+const TOLERANCE_SHARE: f64 = 0.04;
+/// Directions of sides that are tried, each lengthwise and across.
+const DIRECTIONS: usize = 3;
+
+/// A rectangle turned about its centre.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct TurnedRectangle {
+    /// Centre, metres.
+    pub center: DVec2,
+    /// Half its size along its own axes, metres.
+    pub half_extents_m: DVec2,
+    /// Turn from x towards y, radians.
+    pub yaw_rad: f64,
+}
+
+/// Rectangles whose union contains the polygon (corners in order, either way round); see [`cover_rings`].
+pub fn cover_polygon(outline: &[DVec2]) -> Vec<TurnedRectangle> {
+    cover_rings(&[outline], &[])
+}
+
+/// Rectangles whose union contains what the outer rings enclose and the holes do not, each either way round, crossed
+/// ones too. Rings without an area give one rectangle at most; a coordinate that is not finite gives none. Rings of very
+/// many corners are thinned out first, and the rectangles grow by what that moved.
+pub fn cover_rings(outer: &[&[DVec2]], holes: &[&[DVec2]]) -> Vec<TurnedRectangle> {
+    match Plan::of(outer, holes) {
+        Some(plan) => plan.cover(COVER_TOLERANCE_M),
+        None => Vec::new(),
+    }
+}
+
+impl Plan {
+    /// The cover, with a tolerance of at most `tolerance_m` where few rectangles are enough.
+    pub fn cover(&self, tolerance_m: f64) -> Vec<TurnedRectangle> {
+        let plan = self;
+        let smallest = plan.angles_rad.iter().map(|angle| plan.bounding(*angle));
+        let smallest = smallest.min_by(|a, b| area_m2(a).total_cmp(&area_m2(b)));
+        let tolerance_m = (TOLERANCE_SHARE * plan.area_m2().sqrt()).clamp(0.02, tolerance_m);
+        let rows: Vec<(f64, Rows)> = plan.angles_rad.iter().map(|angle| (*angle, plan.rows(*angle))).collect();
+        let mut allowed_m = tolerance_m;
+        loop {
+            let most = if allowed_m < 0.99 * LOOSE_TOLERANCE_M { FEW } else { MOST };
+            let covers =
+                rows.iter().map(|(angle, rows)| plan.rectangles(strips(rows.cut(allowed_m), allowed_m), *angle));
+            let best = covers.min_by(|a, b| a.len().cmp(&b.len()).then(sum_m2(a).total_cmp(&sum_m2(b))));
+            match best {
+                Some(cover) if !cover.is_empty() && cover.len() <= most => return cover,
+                Some(cover) if !cover.is_empty() && allowed_m < plan.extent_m => allowed_m *= core::f64::consts::SQRT_2,
+                _ => return smallest.into_iter().collect(),
+            }
+        }
+    }
+}
+
+fn area_m2(rectangle: &TurnedRectangle) -> f64 {
+    4.0 * rectangle.half_extents_m.x * rectangle.half_extents_m.y
+}
+
+fn sum_m2(rectangles: &[TurnedRectangle]) -> f64 {
+    rectangles.iter().map(area_m2).sum()
+}
+
+/// Rings near the origin, thinned out, and the directions that suit them.
+#[derive(Clone, Debug)]
+pub struct Plan {
+    /// Outer rings first.
+    rings: Vec<Vec<DVec2>>,
+    outer_count: usize,
+    /// Middle of the rings in their own frame.
+    middle: DVec2,
+    /// Distance by which thinning out moved the rings at most, metres.
+    moved_m: f64,
+    /// Directions of the longest sides, longest first, each followed by the direction across.
+    angles_rad: Vec<f64>,
+    /// Width and depth, whichever is larger.
+    extent_m: f64,
+}
+
+impl Plan {
+    /// None when there is no corner or a coordinate is not finite.
+    pub fn of(outer: &[&[DVec2]], holes: &[&[DVec2]]) -> Option<Self> {
+        let corners = || outer.iter().chain(holes).copied().flatten().copied();
+        let low = corners().fold(DVec2::INFINITY, DVec2::min);
+        let high = corners().fold(DVec2::NEG_INFINITY, DVec2::max);
+        let has_sides = outer.iter().any(|ring| ring.len() > 1);
+        if !(has_sides && low.is_finite() && high.is_finite() && corners().all(DVec2::is_finite)) {
+            return None;
+        }
+        let middle = 0.5 * (low + high);
+        let near = |rings: &[&[DVec2]]| -> Vec<Vec<DVec2>> {
+            rings.iter().map(|ring| ring.iter().map(|corner| *corner - middle).collect()).collect()
+        };
+        let (mut outer, mut holes) = (near(outer), near(holes));
+        let moved_m = thinning::thin_out(&mut outer).max(thinning::thin_out(&mut holes));
+        let outer_count = outer.len();
+        let rings = [outer, holes].concat();
+        let angles_rad = side_angles_rad(&rings);
+        Some(Self { rings, outer_count, middle, moved_m, angles_rad, extent_m: (high - low).max_element() })
+    }
+
+    /// The same rings, to be covered in these directions only.
+    #[must_use]
+    pub fn along(mut self, angles_rad: &[f64]) -> Self {
+        self.angles_rad = angles_rad.to_vec();
+        self
+    }
+
+    /// Directions of the longest sides, longest first, each followed by the direction across; radians, x towards y.
+    pub fn angles_rad(&self) -> &[f64] {
+        &self.angles_rad
+    }
+
+    /// Area of the outer rings without the holes, square metres.
+    pub fn area_m2(&self) -> f64 {
+        let area_m2 = |ring: &Vec<DVec2>| 0.5 * crate::polygons::twice_area_m2(ring).abs();
+        let (outer, holes) = self.rings.split_at(self.outer_count);
+        (outer.iter().map(area_m2).sum::<f64>() - holes.iter().map(area_m2).sum::<f64>()).max(0.0)
+    }
+
+    /// The rings turned so that `yaw_rad` is x.
+    pub(crate) fn rows(&self, yaw_rad: f64) -> Rows {
+        let (sin, cos) = real::sin_cos(yaw_rad);
+        let turned = |p: &DVec2| DVec2::new(cos * p.x + sin * p.y, cos * p.y - sin * p.x);
+        let rings = self.rings.iter().enumerate();
+        Rows::of(rings.map(|(index, ring)| (ring.iter().map(turned).collect(), index >= self.outer_count)))
+    }
+
+    /// The smallest rectangle in this direction.
+    pub(crate) fn bounding(&self, yaw_rad: f64) -> TurnedRectangle {
+        let (low, high) = self.rows(yaw_rad).bounds();
+        self.rectangle(low, high, yaw_rad)
+    }
+
+    /// The rectangles of strips.
+    pub(crate) fn rectangles(&self, strips: Vec<Row>, yaw_rad: f64) -> Vec<TurnedRectangle> {
+        let of_strip = |strip: Row| {
+            let (low_y, high_y) = (strip.low_y, strip.high_y);
+            strip.spans.into_iter().map(move |span| (DVec2::new(span.low, low_y), DVec2::new(span.high, high_y)))
+        };
+        strips.into_iter().flat_map(of_strip).map(|(low, high)| self.rectangle(low, high, yaw_rad)).collect()
+    }
+
+    fn rectangle(&self, low: DVec2, high: DVec2, yaw_rad: f64) -> TurnedRectangle {
+        let (sin, cos) = real::sin_cos(yaw_rad);
+        let center = 0.5 * (low + high);
+        let turned = DVec2::new(cos * center.x - sin * center.y, sin * center.x + cos * center.y);
+        let half_extents_m = 0.5 * (high - low) + self.moved_m;
+        TurnedRectangle { center: self.middle + turned, half_extents_m, yaw_rad }
+    }
+}
+
+/// Directions in which the sides are longest together, sides within two degrees of each other (or of a right angle)
+/// counted together.
+fn side_angles_rad(rings: &[Vec<DVec2>]) -> Vec<f64> {
+    let quarter = 0.5 * real::PI;
+    let near = |a: f64, b: f64| {
+        let apart = (a - b).rem_euclid(quarter);
+        apart.min(quarter - apart) < 0.035
+    };
+    let mut sides: Vec<DVec2> = rings
+        .iter()
+        .flat_map(|ring| (0..ring.len()).map(|i| ring[(i + 1) % ring.len()] - ring[i]))
+        .filter(|side| side.length() > 1e-6)
+        .collect();
+    sides.sort_by(|a, b| b.length_squared().total_cmp(&a.length_squared()));
+    let mut groups: Vec<(f64, f64)> = Vec::new();
+    for side in &sides {
+        let angle = real::atan2(side.y, side.x);
+        match groups.iter().position(|(other, _)| near(*other, angle)) {
+            Some(group) => groups[group].1 += side.length(),
+            None if groups.len() < 32 => groups.push((angle, side.length())),
+            None => {}
+        }
+    }
+    if groups.is_empty() {
+        groups.push((0.0, 0.0));
+    }
+    groups.sort_by(|a, b| b.1.total_cmp(&a.1));
+    groups.iter().take(DIRECTIONS).flat_map(|(angle, _)| [*angle, *angle + quarter]).collect()
+}

@@ -1,0 +1,248 @@
+//! Polygons as rows of spans, and rows of nearly the same reach as strips.
+
+use crate::polygons::twice_area_m2;
+use core::cmp::Ordering;
+use cosfly_frames::{DVec2, real};
+
+/// Most rows between two neighbouring corners.
+const MOST_PIECES: f64 = 256.0;
+/// Share of the tolerance that joining rows may use up, so that an overhang along and one across stay within it.
+const JOINING_SHARE: f64 = 0.5;
+
+/// A stretch of a row.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Span {
+    /// Least x of the polygon in the row.
+    pub(crate) low: f64,
+    /// Greatest x.
+    pub(crate) high: f64,
+    /// From here the polygon fills the whole height of the row.
+    inner_low: f64,
+    /// Up to here.
+    inner_high: f64,
+}
+
+/// Spans between two levels, sorted, apart from each other.
+#[derive(Clone, Debug)]
+pub(crate) struct Row {
+    pub(crate) low_y: f64,
+    pub(crate) high_y: f64,
+    pub(crate) spans: Vec<Span>,
+    /// Height at the row's upper end that reaches less far than the spans say.
+    narrower_m: f64,
+}
+
+/// A side of a ring, lower end first. Over the rings' inside, upward sides open it and downward sides close it, or the
+/// other way round: along a line the windings of the sides passed add up to a number other than 0 inside.
+#[derive(Clone, Copy, Debug)]
+struct Side {
+    a: DVec2,
+    b: DVec2,
+    winding: i32,
+}
+
+/// Sides of rings, lowest first, and the levels of their corners.
+pub(crate) struct Rows {
+    sides: Vec<Side>,
+    levels: Vec<f64>,
+}
+
+/// x of a side at two levels, and its winding.
+type Crossing = (f64, f64, i32);
+
+impl Span {
+    pub(crate) fn new(low: f64, high: f64) -> Self {
+        Self { low, high, inner_low: low, inner_high: high }
+    }
+}
+
+impl Row {
+    pub(crate) fn new(low_y: f64, high_y: f64, spans: Vec<Span>) -> Self {
+        Self { low_y, high_y, spans, narrower_m: 0.0 }
+    }
+
+    fn height_m(&self) -> f64 {
+        self.high_y - self.low_y
+    }
+}
+
+impl Rows {
+    /// Of rings; the flag marks holes. Sides that two neighbours share cancel out.
+    pub(crate) fn of(rings: impl Iterator<Item = (Vec<DVec2>, bool)>) -> Self {
+        let mut sides = Vec::new();
+        for (ring, is_hole) in rings {
+            let forwards = if (twice_area_m2(&ring) < 0.0) == is_hole { 1 } else { -1 };
+            for i in 0..ring.len() {
+                let (a, b) = (ring[i], ring[(i + 1) % ring.len()]);
+                let side = if a.y < b.y { (a, b, forwards) } else { (b, a, -forwards) };
+                sides.push(Side { a: side.0, b: side.1, winding: side.2 });
+            }
+        }
+        let place = |side: &Side| [side.a.y, side.a.x, side.b.y, side.b.x];
+        sides.sort_by(|p, q| {
+            place(p).iter().zip(&place(q)).map(|(x, y)| x.total_cmp(y)).find(|it| it.is_ne()).unwrap_or(Ordering::Equal)
+        });
+        sides.dedup_by(|next, kept| {
+            let is_same = next.a == kept.a && next.b == kept.b;
+            kept.winding += if is_same { next.winding } else { 0 };
+            is_same
+        });
+        sides.retain(|side| side.winding != 0);
+        let mut levels: Vec<f64> = sides.iter().flat_map(|side| [side.a.y, side.b.y]).collect();
+        levels.sort_by(f64::total_cmp);
+        levels.dedup();
+        Self { sides, levels }
+    }
+
+    pub(crate) fn bounds(&self) -> (DVec2, DVec2) {
+        let ends = || self.sides.iter().flat_map(|side| [side.a, side.b]);
+        (ends().fold(DVec2::INFINITY, DVec2::min), ends().fold(DVec2::NEG_INFINITY, DVec2::max))
+    }
+
+    /// Rows between neighbouring corners, cut where a slanted side would stand over more than the tolerance.
+    pub(crate) fn cut(&self, tolerance_m: f64) -> Vec<Row> {
+        let mut rows = Vec::new();
+        let mut active: Vec<Side> = Vec::new();
+        let mut next = 0;
+        for pair in self.levels.windows(2) {
+            let (low_y, height_m) = (pair[0], pair[1] - pair[0]);
+            active.retain(|side| side.b.y > low_y);
+            while let Some(side) = self.sides.get(next).filter(|side| side.a.y <= low_y) {
+                if side.b.y > low_y {
+                    active.push(*side);
+                }
+                next += 1;
+            }
+            let slant_m = crossings(&active, pair[0], pair[1]).iter().map(|it| (it.1 - it.0).abs()).fold(0.0, f64::max);
+            // A row of height h beside a side that leans by slant/height adds at most h * slant / hypot deep.
+            let depth_m = height_m * slant_m / real::hypot(height_m, slant_m).max(1e-12);
+            let count = (depth_m / tolerance_m).ceil().clamp(1.0, MOST_PIECES) as usize;
+            let level = |i: usize| if i == count { pair[1] } else { low_y + height_m * i as f64 / count as f64 };
+            rows.extend((0..count).map(|i| Row::new(level(i), level(i + 1), spans(&active, level(i), level(i + 1)))));
+        }
+        rows
+    }
+
+    /// Spans that hold everything inside between two levels, whatever corners lie between them.
+    pub(crate) fn spans_between(&self, low_y: f64, high_y: f64) -> Vec<Span> {
+        let first = self.levels.partition_point(|level| *level <= low_y);
+        let inner = self.levels[first..].iter().copied().take_while(|level| *level < high_y);
+        let near = &self.sides[..self.sides.partition_point(|side| side.a.y < high_y)];
+        let near: Vec<Side> = near.iter().filter(|side| side.b.y > low_y).copied().collect();
+        let mut below = low_y;
+        let mut all = Vec::new();
+        for level in inner.chain([high_y]) {
+            all.extend(spans(&near, below, level));
+            below = level;
+        }
+        joined(all)
+    }
+}
+
+/// x of the sides at both levels, sorted by their middles. No corner lies between the levels.
+fn crossings(sides: &[Side], low_y: f64, high_y: f64) -> Vec<Crossing> {
+    let middle_y = 0.5 * (low_y + high_y);
+    let across = sides.iter().filter(|side| side.a.y <= middle_y && side.b.y > middle_y);
+    let mut out: Vec<Crossing> = across
+        .map(|Side { a, b, winding }| {
+            let x_at = |y: f64| a.x + (b.x - a.x) * ((y - a.y) / (b.y - a.y)).clamp(0.0, 1.0);
+            (x_at(low_y), x_at(high_y), *winding)
+        })
+        .collect();
+    out.sort_by(|p, q| (p.0 + p.1).total_cmp(&(q.0 + q.1)));
+    out
+}
+
+/// Each span holds the sides from where the winding leaves 0 to where it is 0 again. A point outside all spans has all
+/// sides of every span on one hand, hence the winding 0: whatever sides cross in the row, the spans hold the inside.
+fn spans(sides: &[Side], low_y: f64, high_y: f64) -> Vec<Span> {
+    let mut out = Vec::new();
+    let mut winding = 0;
+    let mut open: Option<Span> = None;
+    for (x_low, x_high, step) in crossings(sides, low_y, high_y) {
+        let (low, high) = (x_low.min(x_high), x_low.max(x_high));
+        let span = open.get_or_insert(Span { low, high, inner_low: high, inner_high: high });
+        (span.low, span.high, span.inner_high) = (span.low.min(low), span.high.max(high), low);
+        winding += step;
+        if winding == 0 {
+            out.extend(open.take());
+        }
+    }
+    joined(out)
+}
+
+/// Overlapping spans as one.
+fn joined(mut spans: Vec<Span>) -> Vec<Span> {
+    spans.sort_by(|a, b| a.low.total_cmp(&b.low));
+    let mut out: Vec<Span> = Vec::with_capacity(spans.len());
+    for span in spans {
+        match out.last_mut() {
+            Some(last) if span.low <= last.high => {
+                if span.high > last.high {
+                    (last.high, last.inner_high) = (span.high, span.inner_high);
+                }
+            }
+            _ => out.push(span),
+        }
+    }
+    out
+}
+
+/// Rows joined upwards as long as no strip stands over its rows by more than the tolerance.
+pub(crate) fn strips(rows: Vec<Row>, tolerance_m: f64) -> Vec<Row> {
+    let mut out: Vec<Row> = Vec::new();
+    for row in rows.into_iter().filter(|row| !row.spans.is_empty()) {
+        let below = out.last().filter(|below| below.high_y >= row.low_y - 1e-9);
+        match below.and_then(|below| together(below, &row, JOINING_SHARE * tolerance_m)) {
+            Some(both) => *out.last_mut().expect("there is a strip below") = both,
+            None => out.push(row),
+        }
+    }
+    out
+}
+
+/// One strip in place of two, if it stands over neither by more than the tolerance: at the ends of its spans, or as a
+/// whole over one that is no higher than the tolerance.
+fn together(below: &Row, above: &Row, tolerance_m: f64) -> Option<Row> {
+    let all: Vec<Span> = below.spans.iter().chain(&above.spans).copied().collect();
+    let mut spans = joined(all);
+    let row = |spans, narrower_m| Row { low_y: below.low_y, high_y: above.high_y, spans, narrower_m };
+    let height_m = above.high_y - below.low_y;
+    match (reaches(&spans, below, tolerance_m), reaches(&spans, above, tolerance_m)) {
+        (true, true) => {
+            for (span, (a, b)) in spans.iter_mut().zip(below.spans.iter().zip(&above.spans)) {
+                span.inner_low = a.inner_low.max(b.inner_low);
+                span.inner_high = a.inner_high.min(b.inner_high);
+            }
+            Some(row(spans, 0.0))
+        }
+        _ if height_m <= tolerance_m => {
+            let filled = spans.iter().map(|span| Span::new(span.low, span.high)).collect();
+            Some(row(filled, 0.0))
+        }
+        (true, false) if below.narrower_m + above.height_m() <= tolerance_m => {
+            let inner = with_inner(spans, &below.spans);
+            Some(row(inner, below.narrower_m + above.height_m()))
+        }
+        (false, true) if below.height_m() <= tolerance_m => Some(row(with_inner(spans, &above.spans), 0.0)),
+        _ => None,
+    }
+}
+
+fn with_inner(mut spans: Vec<Span>, of: &[Span]) -> Vec<Span> {
+    for (span, inner) in spans.iter_mut().zip(of) {
+        (span.inner_low, span.inner_high) = (inner.inner_low, inner.inner_high);
+    }
+    spans
+}
+
+/// Whether each span of the row nearly fills one of `spans`, or reaches as far.
+fn reaches(spans: &[Span], row: &Row, tolerance_m: f64) -> bool {
+    spans.len() == row.spans.len()
+        && spans.iter().zip(&row.spans).all(|(all, own)| {
+            own.low >= all.low - 1e-9
+                && own.high <= all.high + 1e-9
+                && (own.low <= all.low + 1e-9 || own.inner_low - all.low <= tolerance_m)
+                && (own.high >= all.high - 1e-9 || all.high - own.inner_high <= tolerance_m)
+        })
+}
