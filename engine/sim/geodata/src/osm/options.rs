@@ -20,10 +20,6 @@ pub struct OsmOptions {
 
 impl Default for OsmOptions {
     fn default() -> Self {
-        Self {
-            default_building_height_m: 8.0,
-            storey_height_m: 3.0,
-            assume_pavements: false,
-        }
+        Self { default_building_height_m: 8.0, storey_height_m: 3.0, assume_pavements: false }
     }
 }
