@@ -26,6 +26,7 @@ pub const TARGETS: &[(&str, Target)] = &[
     ("mcap", mcap),
     ("mp4", mp4),
     ("opendrive", map),
+    ("osm", map),
     #[cfg(feature = "plugins")]
     ("plugins", plugins),
     ("predictions", predictions),

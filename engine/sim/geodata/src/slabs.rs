@@ -4,6 +4,8 @@ use cosfly_frames::DVec2;
 
 /// Most trapezoids of one area.
 const MOST_TRAPEZOIDS: usize = 100_000;
+/// Most sides that are looked at, over all levels.
+const MOST_WORK: usize = 20_000_000;
 /// Levels closer than this are one, metres.
 const SAME_LEVEL_M: f64 = 1e-6;
 
@@ -23,8 +25,54 @@ impl Edge {
     }
 }
 
+/// A piece that may go on upwards: left and right edge, the level it begins on.
+type Piece = (usize, usize, f64);
+
 /// Trapezoids that fill what lies inside an odd number of `rings`; `None` where there are absurdly many.
 pub fn trapezoids(rings: &[&[DVec2]]) -> Option<Vec<Trapezoid>> {
+    let edges = rising_edges(rings);
+    let mut levels: Vec<f64> = edges.iter().flat_map(|edge| [edge.low.y, edge.high.y]).collect();
+    levels.sort_by(f64::total_cmp);
+    levels.dedup_by(|later, first| *later - *first <= SAME_LEVEL_M);
+    let (mut next, mut work) = (0, 0);
+    let mut active: Vec<usize> = Vec::new();
+    let mut open: Vec<Piece> = Vec::new();
+    // For each left edge: the right one and the beginning of its piece, as of the last level that had one.
+    let mut pieces: Vec<Option<(usize, f64)>> = vec![None; edges.len()];
+    let mut done = Vec::new();
+    for pair in levels.windows(2) {
+        let middle = 0.5 * (pair[0] + pair[1]);
+        active.extend((next..edges.len()).take_while(|edge| edges[*edge].low.y < middle));
+        next = active.last().map_or(next, |last| next.max(last + 1));
+        active.retain(|edge| edges[*edge].high.y > middle);
+        work += active.len();
+        if work > MOST_WORK || done.len() > MOST_TRAPEZOIDS {
+            return None;
+        }
+        let order = |a: &usize, b: &usize| edges[*a].x_at(middle).total_cmp(&edges[*b].x_at(middle));
+        let mut sorted = active.clone();
+        sorted.sort_by(order);
+        let current: Vec<Piece> = sorted
+            .chunks_exact(2)
+            .map(|sides| {
+                let before = pieces[sides[0]].filter(|(right, _)| *right == sides[1]);
+                (sides[0], sides[1], before.map_or(pair[0], |(_, begin)| begin))
+            })
+            .collect();
+        open.iter().for_each(|(left, _, _)| pieces[*left] = None);
+        current.iter().for_each(|(left, right, begin)| pieces[*left] = Some((*right, *begin)));
+        let ended = open.iter().filter(|(left, right, _)| pieces[*left].is_none_or(|(other, _)| other != *right));
+        done.extend(ended.map(|(left, right, begin)| trapezoid(&edges[*left], &edges[*right], *begin, pair[0])));
+        open = current;
+    }
+    if let Some(top) = levels.last() {
+        done.extend(open.iter().map(|(left, right, begin)| trapezoid(&edges[*left], &edges[*right], *begin, *top)));
+    }
+    Some(done)
+}
+
+/// All sides that are not level, by their lower ends.
+fn rising_edges(rings: &[&[DVec2]]) -> Vec<Edge> {
     let mut edges: Vec<Edge> = Vec::new();
     for ring in rings {
         for (index, from) in ring.iter().enumerate() {
@@ -35,52 +83,8 @@ pub fn trapezoids(rings: &[&[DVec2]]) -> Option<Vec<Trapezoid>> {
             }
         }
     }
-    let mut levels: Vec<f64> = edges.iter().flat_map(|edge| [edge.low.y, edge.high.y]).collect();
-    levels.sort_by(f64::total_cmp);
-    levels.dedup_by(|later, first| *later - *first <= SAME_LEVEL_M);
     edges.sort_by(|a, b| a.low.y.total_cmp(&b.low.y));
-    let mut next = 0;
-    let mut active: Vec<Edge> = Vec::new();
-    // Pieces that may go on upwards: their edges and the level they begin on.
-    let mut open: Vec<(Edge, Edge, f64)> = Vec::new();
-    let mut done = Vec::new();
-    for pair in levels.windows(2) {
-        let middle = 0.5 * (pair[0] + pair[1]);
-        active.retain(|edge| edge.high.y > middle);
-        while let Some(edge) = edges.get(next).filter(|edge| edge.low.y < middle) {
-            active.push(*edge);
-            next += 1;
-        }
-        active.retain(|edge| edge.high.y > middle);
-        active.sort_by(|a, b| a.x_at(middle).total_cmp(&b.x_at(middle)));
-        let mut current = Vec::with_capacity(active.len() / 2);
-        for sides in active.chunks_exact(2) {
-            let same = |(left, right, _): &&(Edge, Edge, f64)| {
-                left.low == sides[0].low
-                    && left.high == sides[0].high
-                    && right.low == sides[1].low
-                    && right.high == sides[1].high
-            };
-            let begin = open.iter().find(same).map_or(pair[0], |(_, _, begin)| *begin);
-            current.push((sides[0], sides[1], begin));
-        }
-        for (left, right, begin) in &open {
-            let goes_on = current.iter().any(|(l, r, b)| {
-                b == begin && l.low == left.low && l.high == left.high && r.low == right.low && r.high == right.high
-            });
-            if !goes_on {
-                done.push(trapezoid(left, right, *begin, pair[0]));
-            }
-        }
-        if done.len() > MOST_TRAPEZOIDS {
-            return None;
-        }
-        open = current;
-    }
-    if let Some(top) = levels.last() {
-        done.extend(open.iter().map(|(left, right, begin)| trapezoid(left, right, *begin, *top)));
-    }
-    Some(done)
+    edges
 }
 
 fn trapezoid(left: &Edge, right: &Edge, from: f64, to: f64) -> Trapezoid {

@@ -5,7 +5,7 @@ use crate::projection::TransverseMercator;
 use cosfly_frames::DVec2;
 use cosfly_town::MapError;
 
-/// Widest extract, metres: beyond it the projection is no longer true to the centimetre in a hundred metres.
+/// Widest extract, metres: lengths at its rim are too long by 20 mm in a kilometre.
 const WIDEST_M: f64 = 80_000.0;
 /// Nodes farther from the middle than this are moved to this distance, degrees; what leads to them is cut anyway.
 const FARTHEST_DEG: f64 = 3.0;

@@ -13,6 +13,7 @@ mod pavements;
 mod pbf;
 mod rings;
 mod roads;
+mod sea;
 mod strip;
 mod tags;
 mod tally;

@@ -8,7 +8,7 @@ use super::rings::{Area, Problems, areas};
 use super::roads::{LINE_MARGIN_M, Road, RoadIndex, is_shared_street, lines};
 use super::strip::{add_surface, strips, walkable};
 use super::tags::Tags;
-use crate::slabs::trapezoids;
+use crate::slabs::{Trapezoid, trapezoids};
 use cosfly_frames::DVec2;
 use cosfly_town::mesh::MeshBuilder;
 use cosfly_town::polygons::twice_area_m2;
@@ -279,10 +279,15 @@ pub fn add_ground(
     let rings: Vec<&[DVec2]> = clipped.iter().map(Vec::as_slice).collect();
     let pieces = trapezoids(&rings).unwrap_or_default();
     for piece in &pieces {
-        let vertices = piece.map(|corner| (corner.extend(height_m), corner));
-        meshes.polygon(label, false, &vertices, &[[0, 1, 3], [0, 3, 2]]);
+        add_trapezoid(meshes, label, piece, height_m);
     }
     !pieces.is_empty()
+}
+
+/// Adds a piece of ground at a height.
+pub fn add_trapezoid(meshes: &mut MeshBuilder, label: SemanticLabel, piece: &Trapezoid, height_m: f64) {
+    let vertices = piece.map(|corner| (corner.extend(height_m), corner));
+    meshes.polygon(label, false, &vertices, &[[0, 1, 3], [0, 3, 2]]);
 }
 
 /// The label under which ground is seen.

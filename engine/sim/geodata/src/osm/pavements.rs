@@ -12,6 +12,8 @@ pub const PAVEMENT_M: f64 = 2.0;
 const SAME_STREET_COS: f64 = 0.5;
 /// Distance between places that are tested for carriageways, metres.
 const STEP_M: f64 = 1.0;
+/// Streets that are looked at where one ends.
+const MOST_ARMS: usize = 64;
 /// Longest way over a carriageway, metres.
 const LONGEST_CROSSING_M: f64 = 30.0;
 
@@ -101,8 +103,13 @@ fn chains(sides: &[Side]) -> Vec<Vec<usize>> {
         let into = (end - side.points[side.points.len() - 2]).normalize_or_zero();
         let straightness =
             |other: usize| into.dot((sides[other].points[1] - sides[other].points[0]).normalize_or_zero());
-        let free =
-            starts.get(&key(end)).into_iter().flatten().copied().filter(|other| !has_before[*other] && *other != index);
+        let free = starts
+            .get(&key(end))
+            .into_iter()
+            .flatten()
+            .take(MOST_ARMS)
+            .copied()
+            .filter(|other| !has_before[*other] && *other != index);
         let best = free.max_by(|a, b| straightness(*a).total_cmp(&straightness(*b)).then(b.cmp(a)));
         if let Some(best) = best.filter(|best| straightness(*best) > SAME_STREET_COS) {
             (next[index], has_before[best]) = (Some(best), true);

@@ -70,6 +70,8 @@ pub struct Problems {
     pub crossed: Tally,
     /// Rings of too many corners.
     pub too_long: Tally,
+    /// The sea cannot be told from the land.
+    pub is_coast_open: bool,
 }
 
 /// The areas of all elements whose tags `is_wanted` accepts, ways first, by number.

@@ -91,11 +91,7 @@ pub fn read<'e>(elements: &'e Elements, frame: &Frame) -> Result<Vec<Road<'e>>, 
 /// # Errors
 /// The sum is absurd.
 pub fn lines(elements: &Elements, frame: &Frame, way: &Way, length_m: &mut f64) -> Result<Vec<Vec<DVec2>>, MapError> {
-    let mut pieces = Vec::new();
-    for run in way.nodes.split(|id| elements.node(*id).is_none()) {
-        let points: Vec<DVec2> = run.iter().filter_map(|id| frame.position(elements, *id)).collect();
-        pieces.extend(frame.clipped_line(&points, LINE_MARGIN_M));
-    }
+    let pieces = lines_of(elements, frame, &way.nodes);
     *length_m += pieces.iter().flat_map(|piece| piece.windows(2)).map(|pair| pair[0].distance(pair[1])).sum::<f64>();
     if *length_m > LONGEST_M {
         return Err(MapError::new(format!(
@@ -106,6 +102,16 @@ pub fn lines(elements: &Elements, frame: &Frame, way: &Way, length_m: &mut f64) 
         .hint("cut the area that you need out of it: `osmium extract --bbox WEST,SOUTH,EAST,NORTH`"));
     }
     Ok(pieces)
+}
+
+/// The pieces of a line of nodes that lie in the extract.
+pub fn lines_of(elements: &Elements, frame: &Frame, nodes: &[i64]) -> Vec<Vec<DVec2>> {
+    let mut pieces = Vec::new();
+    for run in nodes.split(|id| elements.node(*id).is_none()) {
+        let points: Vec<DVec2> = run.iter().filter_map(|id| frame.position(elements, *id)).collect();
+        pieces.extend(frame.clipped_line(&points, LINE_MARGIN_M));
+    }
+    pieces
 }
 
 /// Adds the surfaces of carriageways, rounded at their ends, with dashed middle lines.

@@ -15,6 +15,8 @@ use std::collections::BTreeSet;
 const MARGIN_M: f64 = 100.0;
 /// Distance between the trees of a row, metres.
 const TREE_SPACING_M: f64 = 8.0;
+/// Most openings of one barrier.
+const MOST_OPENINGS: usize = 200;
 /// Half the opening of a barrier at a gate or a path, metres.
 const HALF_OPENING_M: f64 = 1.5;
 
@@ -119,7 +121,8 @@ fn openings(elements: &Elements, frame: &Frame, way: &Way, passages: &BTreeSet<i
         let is_gate = |tags: &Tags| tags.has("barrier") && !tags.is("barrier", &["bollard", "block", "wall", "fence"]);
         passages.contains(&id) || elements.tags_of_node(id).is_some_and(is_gate)
     };
-    way.nodes.iter().filter(|id| is_open(**id)).filter_map(|id| frame.position(elements, *id)).collect()
+    let open = way.nodes.iter().filter(|id| is_open(**id)).filter_map(|id| frame.position(elements, *id));
+    open.take(MOST_OPENINGS).collect()
 }
 
 impl Things<'_> {

@@ -6,7 +6,8 @@ use super::options::OsmOptions;
 use super::rings::{Problems, areas};
 use super::tags::Tags;
 use super::things::Things;
-use super::{buildings, paths, roads, things};
+use super::{buildings, paths, roads, sea, things};
+use crate::slabs::trapezoids;
 use cosfly_frames::DVec2;
 use cosfly_town::mesh::MeshBuilder;
 use cosfly_town::{
@@ -59,7 +60,7 @@ pub fn town(elements: &Elements, options: &OsmOptions) -> Result<(Town, Vec<Stri
     Ok((town, warnings(elements, &problems, &buildings)))
 }
 
-/// Adds water, and asphalt that is no street.
+/// Adds water, the sea, and asphalt that is no street.
 fn add_ground(elements: &Elements, frame: &Frame, meshes: &mut MeshBuilder, problems: &mut Problems) {
     let is_water = |tags: &Tags| {
         let is_pool = tags.is("leisure", &["swimming_pool"]);
@@ -83,6 +84,15 @@ fn add_ground(elements: &Elements, frame: &Frame, meshes: &mut MeshBuilder, prob
     };
     for area in areas(elements, frame, is_water, problems) {
         paths::add_ground(meshes, SemanticLabel::Water, &area, frame, WATER_HEIGHT_M);
+    }
+    match sea::rings(elements, frame) {
+        Some(rings) => {
+            let rings: Vec<&[DVec2]> = rings.iter().map(Vec::as_slice).collect();
+            for piece in trapezoids(&rings).unwrap_or_default() {
+                paths::add_trapezoid(meshes, SemanticLabel::Water, &piece, WATER_HEIGHT_M);
+            }
+        }
+        None => problems.is_coast_open = true,
     }
     for area in areas(elements, frame, is_parking, problems) {
         paths::add_ground(meshes, SemanticLabel::Roads, &area, frame, PARKING_HEIGHT_M);
@@ -149,6 +159,7 @@ fn warnings(elements: &Elements, problems: &Problems, buildings: &buildings::Bui
         problems.too_long.line("rings have too many corners and are left out"),
         buildings.far.line("buildings lie far outside the bounds of the file and are left out"),
         hidden,
+        problems.is_coast_open.then(|| "the coastline ends within the extract: the sea is left out".to_owned()),
     ]
     .into_iter()
     .flatten()
