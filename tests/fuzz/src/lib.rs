@@ -28,6 +28,7 @@ pub const TARGETS: &[(&str, Target)] = &[
     ("mp4", mp4),
     ("opendrive", map),
     ("pcd", map),
+    ("osm", map),
     #[cfg(feature = "plugins")]
     ("plugins", plugins),
     ("ply", map),

@@ -2,3 +2,6 @@
 
 pub mod cityjson;
 mod open_ground;
+pub mod osm;
+pub mod projection;
+pub mod slabs;

@@ -6,13 +6,17 @@ use crate::polygon::Cut;
 use crate::{PedestrianConfig, PedestrianError};
 use cosfly_frames::{DVec2, DVec3};
 use cosfly_maps::{Town, WalkableKind};
+use tiles::{Numbering, Tiles};
 
 mod raster;
 #[cfg(test)]
 pub(crate) mod test_towns;
+mod tiles;
 
-/// More cells than this are refused (two kilometres square at the default cell size, several times over).
+/// Ground that takes more cells than this is refused (two kilometres square of it at the default cell size, several times over).
 const MAX_CELLS: usize = 32_000_000;
+/// Ground that is spread over more than this is refused, square metres: the indices of places take room.
+const MAX_EXTENT_M2: f64 = 4e8;
 
 /// Largest step up or down between neighbouring cells, metres: a kerb, not a wall.
 const MAX_RISE_M: f64 = 0.4;
@@ -57,10 +61,9 @@ pub(crate) struct Component {
 #[derive(Clone, Debug)]
 pub struct WalkableGrid {
     pub(crate) cell_m: f64,
-    columns: usize,
-    rows: usize,
+    numbering: Numbering,
     corner: DVec2,
-    node_of_cell: Vec<u32>,
+    node_of_cell: Tiles<u32>,
     pub(crate) nodes: Vec<Node>,
     pub(crate) components: Vec<Component>,
     ground: Ground,
@@ -77,20 +80,20 @@ impl WalkableGrid {
         let size = (ground.max - ground.min).truncate() / config.grid_m;
         // One cell of margin all round, so that neighbours never leave the array.
         let cells = (size.x + 4.0) * (size.y + 4.0);
-        if cells > MAX_CELLS as f64 {
-            return Err(PedestrianError::TooLarge { cells, limit: MAX_CELLS, grid_m: config.grid_m });
-        }
+        let too_large = |cells: f64, limit| PedestrianError::TooLarge { cells, limit, grid_m: config.grid_m };
+        let most_cells = MAX_EXTENT_M2 / (config.grid_m * config.grid_m);
+        let (columns, rows) = (size.x as usize + 3, size.y as usize + 3);
+        let numbering = Numbering::new(columns, rows).filter(|_| cells <= most_cells);
+        let Some(numbering) = numbering else { return Err(too_large(cells, most_cells as usize)) };
         ground.index();
         let corner = ground.min.truncate() - config.grid_m;
-        let (columns, rows) = (size.x as usize + 3, size.y as usize + 3);
         let obstruction =
             Obstruction::new(town, corner, corner + config.grid_m * DVec2::new(columns as f64, rows as f64))?;
         let mut grid = Self {
             cell_m: config.grid_m,
-            columns,
-            rows,
+            numbering,
             corner,
-            node_of_cell: vec![NO_NODE; columns * rows],
+            node_of_cell: Tiles::new(numbering, NO_NODE),
             nodes: vec![],
             components: vec![],
             ground,
@@ -98,7 +101,7 @@ impl WalkableGrid {
             radius_m: config.radius.max_m,
             height_m: config.height.max_m,
         };
-        let ground_cells = grid.lay_nodes();
+        let ground_cells = grid.lay_nodes().map_err(|room| too_large(room as f64, MAX_CELLS))?;
         grid.join_nodes();
         grid.part_by_obstacles();
         grid.find_components();
@@ -141,7 +144,8 @@ impl WalkableGrid {
         let (Some(z_from), Some(z_to)) = (self.z_near(from_in_world), self.z_near(to_in_world)) else { return false };
         let mut open = true;
         raster::cells_on_segment(self, from_in_world, to_in_world, &mut |cell| {
-            open = open && self.node_of_cell[cell] != NO_NODE && self.nodes[self.node_of_cell[cell] as usize].open;
+            let node = self.node_of_cell.get(cell);
+            open = open && node != NO_NODE && self.nodes[node as usize].open;
         });
         open || {
             let (from, to) = (from_in_world.extend(z_from), to_in_world.extend(z_to));
@@ -152,12 +156,12 @@ impl WalkableGrid {
     /// Height of the ground at or beside a point, from the cells; `None` far from walkable ground.
     pub(crate) fn z_near(&self, point: DVec2) -> Option<f64> {
         let cell = self.cell_at(point)?;
-        let node = self.node_of_cell[cell];
+        let node = self.node_of_cell.get(cell);
         if node != NO_NODE {
             return Some(f64::from(self.nodes[node as usize].z));
         }
         STEPS.iter().find_map(|&step| {
-            let node = self.node_of_cell[self.beside(cell, step)?];
+            let node = self.node_of_cell.get(self.beside(cell, step)?);
             (node != NO_NODE).then(|| f64::from(self.nodes[node as usize].z))
         })
     }
@@ -169,8 +173,7 @@ impl WalkableGrid {
 
     /// Column and row of a node.
     pub(crate) fn column_row(&self, node: u32) -> (usize, usize) {
-        let cell = self.nodes[node as usize].cell as usize;
-        (cell % self.columns, cell / self.columns)
+        self.numbering.column_row(self.nodes[node as usize].cell as usize)
     }
 
     /// The node one free step away, if that step is free.
@@ -179,9 +182,8 @@ impl WalkableGrid {
         if from.steps & (1 << step) == 0 {
             return None;
         }
-        let (column, row) = STEPS[step];
-        let cell = from.cell as isize + row * self.columns as isize + column;
-        Some(self.node_of_cell[cell as usize])
+        // A free step leads to a node, so its cell is in the grid.
+        Some(self.node_of_cell.get(self.beside(from.cell as usize, STEPS[step])?))
     }
 
     /// The joined node of `component` nearest to `point` within `reach` cells.
@@ -192,9 +194,9 @@ impl WalkableGrid {
         }
         let (column, row) = (middle.x as isize, middle.y as isize);
         let mut best: Option<(f64, u32)> = None;
-        for row in (row - reach).max(0)..=(row + reach).min(self.rows as isize - 1) {
-            for column in (column - reach).max(0)..=(column + reach).min(self.columns as isize - 1) {
-                let node = self.node_of_cell[row as usize * self.columns + column as usize];
+        for row in (row - reach).max(0)..=(row + reach).min(self.numbering.rows as isize - 1) {
+            for column in (column - reach).max(0)..=(column + reach).min(self.numbering.columns as isize - 1) {
+                let node = self.node_of_cell.get(self.numbering.cell(column as usize, row as usize));
                 if node != NO_NODE && self.nodes[node as usize].component == component {
                     let distance = (self.center(node) - point).length_squared();
                     if best.is_none_or(|kept| distance < kept.0) {
@@ -207,51 +209,56 @@ impl WalkableGrid {
     }
 
     fn center_of_cell(&self, cell: usize) -> DVec2 {
-        let (column, row) = (cell % self.columns, cell / self.columns);
+        let (column, row) = self.numbering.column_row(cell);
         self.corner + self.cell_m * DVec2::new(column as f64 + 0.5, row as f64 + 0.5)
     }
 
     fn cell_at(&self, point: DVec2) -> Option<usize> {
         let place = ((point - self.corner) / self.cell_m).floor();
-        let inside = place.x >= 0.0 && place.y >= 0.0 && place.x < self.columns as f64 && place.y < self.rows as f64;
-        inside.then(|| place.y as usize * self.columns + place.x as usize)
+        let (columns, rows) = (self.numbering.columns as f64, self.numbering.rows as f64);
+        let inside = place.x >= 0.0 && place.y >= 0.0 && place.x < columns && place.y < rows;
+        inside.then(|| self.numbering.cell(place.x as usize, place.y as usize))
     }
 
     fn beside(&self, cell: usize, (column, row): (isize, isize)) -> Option<usize> {
-        let (c, r) = ((cell % self.columns) as isize + column, (cell / self.columns) as isize + row);
-        let inside = c >= 0 && r >= 0 && c < self.columns as isize && r < self.rows as isize;
-        inside.then(|| r as usize * self.columns + c as usize)
+        let (own_column, own_row) = self.numbering.column_row(cell);
+        let (c, r) = (own_column as isize + column, own_row as isize + row);
+        let inside = c >= 0 && r >= 0 && c < self.numbering.columns as isize && r < self.numbering.rows as isize;
+        inside.then(|| self.numbering.cell(c as usize, r as usize))
     }
 
-    /// Rasters the polygons: one node for every cell whose centre is on walkable ground. Returns their number.
-    fn lay_nodes(&mut self) -> usize {
-        let mut cells = raster::Cells::new(self.columns * self.rows);
+    /// Rasters the polygons: one node for every cell whose centre is on walkable ground. Returns their number; the error
+    /// is the number of cells that are too many.
+    fn lay_nodes(&mut self) -> Result<usize, usize> {
+        let mut cells = Tiles::new(self.numbering, raster::Cell::default());
         let mut cut = Cut::default();
         for polygon in &self.ground.polygons {
             for (across, direction) in [(DVec2::Y, DVec2::X), (DVec2::X, DVec2::Y)] {
-                raster::fill(self, polygon, across, direction, &mut cut, &mut cells);
+                raster::fill(self, polygon, across, direction, &mut cut, &mut cells)?;
             }
         }
         for polygon in &self.ground.polygons {
             for (from, to) in polygon.edges() {
-                raster::cells_on_segment(self, from.truncate(), to.truncate(), &mut |cell| cells.outlined[cell] = true);
+                raster::cells_on_segment(self, from.truncate(), to.truncate(), &mut |cell| {
+                    cells.get_mut(cell).outlined = true;
+                });
             }
         }
-        for (cell, kind) in cells.kinds.iter().enumerate() {
-            if let Some(kind) = *kind {
-                self.node_of_cell[cell] = self.nodes.len() as u32;
+        cells.visit(|cell, ground| {
+            if let Some(kind) = ground.kind {
+                *self.node_of_cell.get_mut(cell) = self.nodes.len() as u32;
                 self.nodes.push(Node {
                     cell: cell as u32,
-                    z: cells.z[cell],
+                    z: ground.z,
                     edge_distance_m: 0.0,
                     component: u32::MAX,
                     steps: 0,
                     kind,
-                    open: !cells.outlined[cell],
+                    open: !ground.outlined,
                 });
             }
-        }
-        self.nodes.len()
+        });
+        Ok(self.nodes.len())
     }
 
     /// Frees the steps that stay on walkable ground.
@@ -259,7 +266,9 @@ impl WalkableGrid {
         for node in 0..self.nodes.len() {
             let cell = self.nodes[node].cell as usize;
             for (step, &offset) in STEPS.iter().enumerate().take(4) {
-                let Some(other) = self.beside(cell, offset).map(|beside| self.node_of_cell[beside]) else { continue };
+                let Some(other) = self.beside(cell, offset).map(|beside| self.node_of_cell.get(beside)) else {
+                    continue;
+                };
                 if other == NO_NODE {
                     continue;
                 }
@@ -284,13 +293,13 @@ impl WalkableGrid {
             let low = ((footprint.center() - footprint.reach - reach - self.corner) / self.cell_m).floor();
             let high = ((footprint.center() + footprint.reach + reach - self.corner) / self.cell_m).floor();
             let low = low.max(DVec2::ZERO);
-            let high = high.min(DVec2::new(self.columns as f64 - 1.0, self.rows as f64 - 1.0));
+            let high = high.min(DVec2::new(self.numbering.columns as f64 - 1.0, self.numbering.rows as f64 - 1.0));
             if high.x < low.x || high.y < low.y {
                 continue;
             }
             for row in low.y as usize..=high.y as usize {
                 for column in low.x as usize..=high.x as usize {
-                    let node = self.node_of_cell[row * self.columns + column];
+                    let node = self.node_of_cell.get(self.numbering.cell(column, row));
                     if node != NO_NODE {
                         self.part_node(node as usize, footprint);
                     }

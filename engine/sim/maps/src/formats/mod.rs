@@ -19,4 +19,5 @@ pub const FORMATS: &[Format] = &[
     Format::of::<opendrive::OpenDrive>(),
     Format::of::<pcd::Pcd>(),
     Format::of::<ply::Ply>(),
+    Format::of::<cosfly_geodata::osm::OpenStreetMap>(),
 ];

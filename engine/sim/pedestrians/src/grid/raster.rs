@@ -1,43 +1,40 @@
 //! Polygons and segments on the cells of the grid.
 
-use super::{WalkableGrid, better_claim};
+use super::tiles::Tiles;
+use super::{MAX_CELLS, WalkableGrid, better_claim};
 use crate::polygon::{Cut, Polygon};
 use cosfly_frames::DVec2;
 use cosfly_maps::WalkableKind;
 
-/// Ground of each cell by the polygons, while the grid is built.
-pub(super) struct Cells {
-    pub kinds: Vec<Option<WalkableKind>>,
-    pub z: Vec<f32>,
+/// Ground of one cell by the polygons, while the grid is built.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct Cell {
+    pub kind: Option<WalkableKind>,
+    pub z: f32,
     /// Length of the line inside the polygon that gave the height.
-    spans: Vec<f32>,
+    span: f32,
     /// Some outline passes through the cell.
-    pub outlined: Vec<bool>,
+    pub outlined: bool,
 }
 
-impl Cells {
-    pub fn new(count: usize) -> Self {
-        Self { kinds: vec![None; count], z: vec![0.0; count], spans: vec![0.0; count], outlined: vec![false; count] }
-    }
-
-    fn claim(&mut self, cell: usize, kind: WalkableKind, z: f32, span: f32) {
-        let better =
-            self.kinds[cell].is_none_or(|old| better_claim((kind, z, span), (old, self.z[cell], self.spans[cell])));
-        if better {
-            (self.kinds[cell], self.z[cell], self.spans[cell]) = (Some(kind), z, span);
+impl Cell {
+    fn claim(&mut self, kind: WalkableKind, z: f32, span: f32) {
+        if self.kind.is_none_or(|old| better_claim((kind, z, span), (old, self.z, self.span))) {
+            (self.kind, self.z, self.span) = (Some(kind), z, span);
         }
     }
 }
 
-/// Claims every cell whose centre lies in the polygon, line by line along `direction`.
+/// Claims every cell whose centre lies in the polygon, line by line along `direction`. The error is the number of cells
+/// that are too many.
 pub(super) fn fill(
     grid: &WalkableGrid,
     polygon: &Polygon,
     across: DVec2,
     direction: DVec2,
     cut: &mut Cut,
-    cells: &mut Cells,
-) {
+    cells: &mut Tiles<Cell>,
+) -> Result<(), usize> {
     let low = ((polygon.min.truncate() - grid.corner) / grid.cell_m).floor();
     let high = ((polygon.max.truncate() - grid.corner) / grid.cell_m).floor();
     let along_rows = direction.x > 0.0;
@@ -52,13 +49,18 @@ pub(super) fn fill(
             }
             for place in first..=last as usize {
                 let (column, row) = if along_rows { (place, line) } else { (line, place) };
-                if column < grid.columns && row < grid.rows {
+                if column < grid.numbering.columns && row < grid.numbering.rows {
                     let z = piece.z_at(place as f64 * grid.cell_m);
-                    cells.claim(row * grid.columns + column, polygon.kind, z as f32, (piece.to - piece.from) as f32);
+                    let span = (piece.to - piece.from) as f32;
+                    cells.get_mut(grid.numbering.cell(column, row)).claim(polygon.kind, z as f32, span);
                 }
             }
         }
+        if cells.room() > MAX_CELLS {
+            return Err(cells.room());
+        }
     }
+    Ok(())
 }
 
 /// Visits every cell that the segment passes through (a line exactly on a border visits one side).
@@ -75,8 +77,9 @@ pub(super) fn cells_on_segment(grid: &WalkableGrid, from: DVec2, to: DVec2, visi
     let (mut next_y, stride_y) = axis(start.y, row, step.y);
     let crossings = (last_column - column).unsigned_abs() + (last_row - row).unsigned_abs();
     for crossing in 0..=crossings {
-        if column >= 0 && row >= 0 && (column as usize) < grid.columns && (row as usize) < grid.rows {
-            visit(row as usize * grid.columns + column as usize);
+        if column >= 0 && row >= 0 && (column as usize) < grid.numbering.columns && (row as usize) < grid.numbering.rows
+        {
+            visit(grid.numbering.cell(column as usize, row as usize));
         }
         if crossing == crossings {
             break;

@@ -1,0 +1,307 @@
+//! Ground for people: paths, pedestrian areas, crossings, pavements.
+
+use super::elements::{Elements, Way};
+use super::frame::Frame;
+use super::options::OsmOptions;
+use super::pavements::{self, PAVEMENT_M, runs};
+use super::rings::{Area, Problems, areas};
+use super::roads::{LINE_MARGIN_M, Road, RoadIndex, is_shared_street, lines};
+use super::strip::{add_surface, strips, walkable};
+use super::tags::Tags;
+use crate::slabs::{Trapezoid, trapezoids};
+use cosfly_frames::DVec2;
+use cosfly_town::mesh::MeshBuilder;
+use cosfly_town::polygons::twice_area_m2;
+use cosfly_town::{MapError, SemanticLabel, WalkableKind, WalkablePolygon};
+use std::collections::BTreeSet;
+
+/// Height of pavements and paths, and of crossings, metres.
+const PAVEMENT_HEIGHT_M: f64 = 0.12;
+const CROSSING_HEIGHT_M: f64 = 0.045;
+/// Less ground of its own than this, and a file gets pavements along its streets, square metres.
+const ENOUGH_M2: f64 = 300.0;
+/// Width of a crossing that is a point of a street, metres, and how far it reaches beyond the carriageway.
+const CROSSING_M: f64 = 3.0;
+const CROSSING_REACH_M: f64 = 1.5;
+/// Stripes of a marked crossing: width of a stripe, metres.
+const STRIPE_M: f64 = 0.5;
+
+/// The ground for people of an extract.
+#[derive(Debug, Default)]
+pub struct Paths {
+    /// Polygons.
+    pub walkable: Vec<WalkablePolygon>,
+    /// Nodes that paths and roads go through, sorted: barriers are open there.
+    pub nodes: BTreeSet<i64>,
+    /// In words, what was invented.
+    pub notes: Vec<String>,
+}
+
+/// Kind and usual width in metres of the ground along a way; none where people do not walk.
+fn usual(tags: &Tags) -> Option<(WalkableKind, f64)> {
+    if tags.is("foot", &["no"]) || tags.is_hidden() {
+        return None;
+    }
+    let for_people = tags.is("foot", &["yes", "designated", "permissive"]);
+    let is_crossing = ["footway", "highway"].iter().any(|key| tags.is(key, &["crossing", "traffic_island"]));
+    let platform = tags.is("railway", &["platform"]) || tags.is("public_transport", &["platform"]);
+    match tags.get("highway") {
+        Some("footway" | "path" | "cycleway" | "crossing") if is_crossing => Some((WalkableKind::Crossing, CROSSING_M)),
+        Some("footway" | "steps") => Some((WalkableKind::Sidewalk, 2.2)),
+        Some("path") => Some((WalkableKind::Sidewalk, 1.8)),
+        Some("pedestrian") => Some((WalkableKind::Plaza, 5.0)),
+        Some("platform") => Some((WalkableKind::Sidewalk, 2.5)),
+        Some("cycleway" | "bridleway") if for_people => Some((WalkableKind::Sidewalk, 2.8)),
+        Some("track") => Some((WalkableKind::Shoulder, 2.5)),
+        None if platform => Some((WalkableKind::Sidewalk, 2.5)),
+        _ => None,
+    }
+}
+
+/// Kind of the ground of an area; none where it is not for people.
+fn kind_of_area(tags: &Tags) -> Option<WalkableKind> {
+    if tags.is_hidden() || tags.is("foot", &["no"]) {
+        return None;
+    }
+    match tags.get("area:highway") {
+        Some("footway" | "path" | "pedestrian" | "traffic_island" | "steps" | "prohibited") => {
+            return Some(WalkableKind::Sidewalk);
+        }
+        Some("crossing") => return Some(WalkableKind::Crossing),
+        _ => {}
+    }
+    let is_area = tags.is("area", &["yes"]) || tags.is("type", &["multipolygon"]);
+    let platform = tags.is("railway", &["platform"]) || tags.is("public_transport", &["platform"]);
+    match tags.get("highway") {
+        Some("pedestrian" | "footway" | "path" | "steps" | "platform") if is_area => Some(WalkableKind::Plaza),
+        None if platform => Some(WalkableKind::Plaza),
+        _ => None,
+    }
+}
+
+/// Reads all ground for people and adds its surfaces.
+///
+/// # Errors
+/// Absurdly many metres of paths.
+pub fn read(
+    elements: &Elements,
+    frame: &Frame,
+    roads: &[Road<'_>],
+    options: &OsmOptions,
+    meshes: &mut MeshBuilder,
+    problems: &mut Problems,
+) -> Result<Paths, MapError> {
+    let index = RoadIndex::new(roads);
+    let mut out = Paths::default();
+    let mut length_m = 0.0;
+    for way in &elements.ways {
+        if kind_of_area(&way.tags).is_some() && way.is_closed() {
+            continue;
+        }
+        let Some((kind, usual_m)) = usual(&way.tags) else { continue };
+        let width_m = way.tags.length_m(&["width"]).filter(|width| (1.2..=30.0).contains(width)).unwrap_or(usual_m);
+        out.nodes.extend(&way.nodes);
+        for piece in lines(elements, frame, way, &mut length_m)? {
+            out.add_path(&piece, kind, width_m, is_marked(&way.tags), &index, meshes);
+        }
+    }
+    for road in roads {
+        out.nodes.extend(&road.way.nodes);
+        if is_shared_street(&road.way.tags) {
+            for strip in road.pieces.iter().flat_map(|piece| strips(piece, road.half_width_m)) {
+                out.walkable.push(walkable(WalkableKind::Shoulder, false, &strip, CROSSING_HEIGHT_M));
+            }
+        }
+    }
+    for area in areas(elements, frame, |tags| kind_of_area(tags).is_some(), problems) {
+        out.add_area(&area, frame, meshes);
+    }
+    out.add_crossing_nodes(elements, frame, roads, meshes);
+    let area_m2: f64 = out.walkable.iter().map(|polygon| 0.5 * twice_area_m2(&polygon.plan()).abs()).sum();
+    let has_stated = out.add_pavements(roads, &index, options.assume_pavements, meshes);
+    if area_m2 < ENOUGH_M2 && !has_stated && !options.assume_pavements {
+        out.add_pavements(roads, &index, true, meshes);
+    }
+    Ok(out)
+}
+
+fn is_marked(tags: &Tags) -> bool {
+    let unmarked = tags.is("crossing", &["unmarked", "no"]) || tags.is("crossing:markings", &["no"]);
+    !unmarked && (tags.get("crossing").is_some() || tags.has("crossing:markings"))
+}
+
+impl Paths {
+    /// A path; where it leads over a carriageway it is a crossing.
+    fn add_path(
+        &mut self,
+        line: &[DVec2],
+        kind: WalkableKind,
+        width_m: f64,
+        is_marked: bool,
+        index: &RoadIndex,
+        meshes: &mut MeshBuilder,
+    ) {
+        for (is_road, points) in runs(line, |point| index.is_road(point, |_| true)) {
+            let is_crossing = is_road && kind != WalkableKind::Plaza || kind == WalkableKind::Crossing;
+            let kind = if is_crossing { WalkableKind::Crossing } else { kind };
+            self.add_strips(&points, kind, width_m, false, meshes);
+            if is_road && is_marked {
+                add_stripes(meshes, &points, width_m);
+            }
+        }
+    }
+
+    fn add_strips(
+        &mut self,
+        line: &[DVec2],
+        kind: WalkableKind,
+        width_m: f64,
+        synthetic: bool,
+        meshes: &mut MeshBuilder,
+    ) {
+        for strip in strips(line, 0.5 * width_m) {
+            add_surface(meshes, label(kind), synthetic, &strip, height_m(kind));
+            self.walkable.push(walkable(kind, synthetic, &strip, height_m(kind)));
+        }
+    }
+
+    fn add_area(&mut self, area: &Area<'_>, frame: &Frame, meshes: &mut MeshBuilder) {
+        let Some(kind) = kind_of_area(area.tags) else { return };
+        if !add_ground(meshes, label(kind), area, frame, height_m(kind)) {
+            return;
+        }
+        // One outline with bridges to the holes, which run the other way round.
+        let oriented = |ring: &[DVec2], is_positive: bool| {
+            let mut ring = ring.to_vec();
+            if (twice_area_m2(&ring) > 0.0) != is_positive {
+                ring.reverse();
+            }
+            ring
+        };
+        let mut outline = oriented(&area.outer, true);
+        let first = outline[0];
+        for hole in &area.holes {
+            let hole = oriented(hole, false);
+            outline.push(first);
+            outline.extend(&hole);
+            outline.push(hole[0]);
+        }
+        let plan = frame.clipped_ring(&outline, LINE_MARGIN_M);
+        if plan.len() >= 3 {
+            let outline_in_world = plan.iter().map(|corner| corner.extend(height_m(kind))).collect();
+            self.walkable.push(WalkablePolygon { kind, outline_in_world, synthetic: false });
+        }
+    }
+
+    /// Crossings that are a point of a street and not a line of their own.
+    fn add_crossing_nodes(&mut self, elements: &Elements, frame: &Frame, roads: &[Road<'_>], meshes: &mut MeshBuilder) {
+        let on_paths: BTreeSet<i64> = elements
+            .ways
+            .iter()
+            .filter(|way| usual(&way.tags).is_some())
+            .flat_map(|way: &Way| way.nodes.iter().copied())
+            .collect();
+        for road in roads {
+            for (place, id) in road.way.nodes.iter().enumerate() {
+                let Some(tags) = elements.tags_of_node(*id).filter(|tags| tags.is("highway", &["crossing"])) else {
+                    continue;
+                };
+                let Some(at) = frame.position(elements, *id).filter(|at| frame.holds(*at, LINE_MARGIN_M)) else {
+                    continue;
+                };
+                if on_paths.contains(id) {
+                    continue;
+                }
+                let beside = |place: Option<usize>| {
+                    place.and_then(|place| road.way.nodes.get(place)).and_then(|id| frame.position(elements, *id))
+                };
+                let (before, after) = (beside(place.checked_sub(1)), beside(place.checked_add(1)));
+                let along = (after.unwrap_or(at) - before.unwrap_or(at)).normalize_or_zero();
+                let aside = (road.half_width_m + CROSSING_REACH_M) * along.perp();
+                let line = [at - aside, at + aside];
+                self.add_strips(&line, WalkableKind::Crossing, CROSSING_M, false, meshes);
+                if is_marked(tags) {
+                    let aside = road.half_width_m * along.perp();
+                    add_stripes(meshes, &[at - aside, at + aside], CROSSING_M);
+                }
+            }
+        }
+    }
+
+    /// Pavements beside streets. Gives whether there were any.
+    fn add_pavements(&mut self, roads: &[Road<'_>], index: &RoadIndex, assume: bool, meshes: &mut MeshBuilder) -> bool {
+        let lines = pavements::lines(roads, index, assume);
+        let (mut crossings, mut invented) = (0, 0);
+        for line in &lines {
+            let kind = if line.is_crossing { WalkableKind::Crossing } else { WalkableKind::Sidewalk };
+            crossings += usize::from(line.is_crossing);
+            invented += usize::from(line.is_invented && !line.is_crossing);
+            self.add_strips(&line.points, kind, PAVEMENT_M, line.is_invented, meshes);
+        }
+        if crossings > 0 {
+            self.notes.push(format!("{crossings} unmarked crossings where a pavement meets a side street"));
+        }
+        if invented > 0 {
+            self.notes.push(format!("{invented} pavements, {PAVEMENT_M} m wide, beside streets that state none"));
+        }
+        !lines.is_empty()
+    }
+}
+
+/// Stripes of a marked crossing along a line over a carriageway.
+fn add_stripes(meshes: &mut MeshBuilder, line: &[DVec2], width_m: f64) {
+    for pair in line.windows(2) {
+        let (length_m, along) = (pair[0].distance(pair[1]), (pair[1] - pair[0]).normalize_or_zero());
+        let count = (length_m / (2.0 * STRIPE_M)).floor() as usize;
+        for stripe in 0..count {
+            let from = pair[0] + (2.0 * STRIPE_M * stripe as f64 + 0.5 * STRIPE_M) * along;
+            for strip in strips(&[from, from + STRIPE_M * along], 0.5 * width_m) {
+                add_surface(meshes, SemanticLabel::RoadLine, false, &strip, CROSSING_HEIGHT_M + 0.005);
+            }
+        }
+    }
+}
+
+/// Adds the ground of an area with holes at a height; gives whether there is any.
+pub fn add_ground(
+    meshes: &mut MeshBuilder,
+    label: SemanticLabel,
+    area: &Area<'_>,
+    frame: &Frame,
+    height_m: f64,
+) -> bool {
+    let clipped: Vec<Vec<DVec2>> = area
+        .rings()
+        .iter()
+        .map(|ring| frame.clipped_ring(ring, LINE_MARGIN_M))
+        .filter(|ring| ring.len() >= 3)
+        .collect();
+    let rings: Vec<&[DVec2]> = clipped.iter().map(Vec::as_slice).collect();
+    let pieces = trapezoids(&rings).unwrap_or_default();
+    for piece in &pieces {
+        add_trapezoid(meshes, label, piece, height_m);
+    }
+    !pieces.is_empty()
+}
+
+/// Adds a piece of ground at a height.
+pub fn add_trapezoid(meshes: &mut MeshBuilder, label: SemanticLabel, piece: &Trapezoid, height_m: f64) {
+    let vertices = piece.map(|corner| (corner.extend(height_m), corner));
+    meshes.polygon(label, false, &vertices, &[[0, 1, 3], [0, 3, 2]]);
+}
+
+/// The label under which ground is seen.
+fn label(kind: WalkableKind) -> SemanticLabel {
+    match kind {
+        WalkableKind::Sidewalk | WalkableKind::Plaza => SemanticLabel::SideWalks,
+        WalkableKind::Crossing | WalkableKind::Road => SemanticLabel::Roads,
+        WalkableKind::Shoulder => SemanticLabel::Ground,
+    }
+}
+
+fn height_m(kind: WalkableKind) -> f64 {
+    match kind {
+        WalkableKind::Sidewalk | WalkableKind::Plaza => PAVEMENT_HEIGHT_M,
+        _ => CROSSING_HEIGHT_M,
+    }
+}

@@ -1,0 +1,209 @@
+//! [`Tags`] of an element, cut down to the keys that the reader knows, and what their values say.
+
+/// All keys that are kept, sorted.
+const KEYS: &[&str] = &[
+    "amenity",
+    "area",
+    "area:highway",
+    "barrier",
+    "building",
+    "building:height",
+    "building:levels",
+    "building:min_height",
+    "building:min_level",
+    "building:part",
+    "covered",
+    "crossing",
+    "crossing:markings",
+    "diameter_crown",
+    "est_height",
+    "foot",
+    "footway",
+    "height",
+    "highway",
+    "indoor",
+    "junction",
+    "landuse",
+    "lanes",
+    "layer",
+    "leisure",
+    "level",
+    "location",
+    "man_made",
+    "min_height",
+    "natural",
+    "oneway",
+    "place",
+    "power",
+    "public_transport",
+    "railway",
+    "roof:angle",
+    "roof:direction",
+    "roof:height",
+    "roof:levels",
+    "roof:orientation",
+    "roof:shape",
+    "segregated",
+    "service",
+    "sidewalk",
+    "sidewalk:both",
+    "sidewalk:left",
+    "sidewalk:right",
+    "tunnel",
+    "type",
+    "waterway",
+    "width",
+];
+
+/// Longer values say nothing that is read here, bytes.
+const LONGEST_VALUE: usize = 255;
+
+/// Tags of one element, sorted by key.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Tags(Vec<(&'static str, Box<str>)>);
+
+impl Tags {
+    /// Takes a tag if its key is known; the first of several with one key stays.
+    pub fn add(&mut self, key: &str, value: &str) {
+        let Ok(known) = KEYS.binary_search(&key) else { return };
+        if let Err(place) = self.0.binary_search_by_key(&KEYS[known], |(key, _)| key)
+            && value.len() <= LONGEST_VALUE
+        {
+            self.0.insert(place, (KEYS[known], value.into()));
+        }
+    }
+
+    /// Whether no known tag is there.
+    pub fn is_empty(&self) -> bool {
+        self.0.is_empty()
+    }
+
+    /// The value of a key.
+    pub fn get(&self, key: &str) -> Option<&str> {
+        debug_assert!(KEYS.contains(&key), "{key}");
+        self.0.iter().find(|(own, _)| *own == key).map(|(_, value)| &**value)
+    }
+
+    /// Whether the value of a key is one of some.
+    pub fn is(&self, key: &str, values: &[&str]) -> bool {
+        self.get(key).is_some_and(|value| values.contains(&value))
+    }
+
+    /// Whether a key is there and its value is not `no`.
+    pub fn has(&self, key: &str) -> bool {
+        self.get(key).is_some_and(|value| value != "no")
+    }
+
+    /// Length under the first of `keys` that states a readable one, metres.
+    pub fn length_m(&self, keys: &[&str]) -> Option<f64> {
+        keys.iter().find_map(|key| length_m(self.get(key)?))
+    }
+
+    /// Number under a key.
+    pub fn number(&self, key: &str) -> Option<f64> {
+        number(self.get(key)?.trim())
+    }
+
+    /// Whether the thing lies under the ground, or inside a house on another storey.
+    pub fn is_hidden(&self) -> bool {
+        let below = |key| self.number(key).is_some_and(|number| number < 0.0);
+        self.is("location", &["underground", "indoor"])
+            || self.has("indoor")
+            || self
+                .get("tunnel")
+                .is_some_and(|tunnel| !["no", "building_passage", "avalanche_protector"].contains(&tunnel))
+            || below("layer")
+            || below("level")
+    }
+}
+
+/// A decimal number; a comma may stand for the point.
+fn number(text: &str) -> Option<f64> {
+    let plain = !text.is_empty() && text.bytes().all(|byte| byte.is_ascii_digit() || b"+-.,".contains(&byte));
+    let value: f64 = plain.then(|| text.replace(',', ".").parse().ok())??;
+    value.is_finite().then_some(value)
+}
+
+/// A length as the map's users write it, in metres: `12`, `12.5 m`, `12,5m`, `40'`, `40 ft`, `12'6"`, `0.5 km`; of a list
+/// or a range (`12;15`, `12-15`) the larger one.
+pub fn length_m(text: &str) -> Option<f64> {
+    const FOOT_M: f64 = 0.3048;
+    let text = text.trim().trim_start_matches(['~', '<', '>', '≈']).trim();
+    if let Some((first, second)) = text.split_once(';').or_else(|| text.split_once('-').filter(|(a, _)| !a.is_empty()))
+    {
+        return Some(length_m(first)?.max(length_m(second)?));
+    }
+    if let Some((feet, inches)) = text.split_once(['\'', '′', '’']) {
+        let inches = inches.trim().trim_end_matches(['"', '″', '”', '\'', '′', '’']).trim();
+        let inches = if inches.is_empty() { 0.0 } else { number(inches)? };
+        return Some(FOOT_M * (number(feet.trim())? + inches / 12.0));
+    }
+    let split = text.find(|c: char| !(c.is_ascii_digit() || "+-.,".contains(c))).unwrap_or(text.len());
+    let (value, unit) = text.split_at(split);
+    let metres = match unit.trim().to_lowercase().as_str() {
+        "" | "m" | "m." | "meter" | "meters" | "metre" | "metres" | "mtr" => 1.0,
+        "ft" | "ft." | "feet" | "foot" => FOOT_M,
+        "in" | "inch" | "inches" | "\"" | "″" => FOOT_M / 12.0,
+        "cm" => 0.01,
+        "km" => 1000.0,
+        "yd" | "yard" | "yards" => 3.0 * FOOT_M,
+        _ => return None,
+    };
+    Some(number(value)? * metres)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn lengths_are_read_in_every_unit_in_use() {
+        for (text, metres) in [
+            ("12", 12.0),
+            ("12.5 m", 12.5),
+            ("12,5m", 12.5),
+            (" 3 metres", 3.0),
+            ("40'", 12.192),
+            ("40 ft", 12.192),
+            ("12'6\"", 3.81),
+            ("12′ 6″", 3.81),
+            ("0.5 km", 500.0),
+            ("250 cm", 2.5),
+            ("~7", 7.0),
+            ("12;15", 15.0),
+            ("12-15 m", 15.0),
+            ("-2", -2.0),
+        ] {
+            let read = length_m(text).unwrap_or_else(|| panic!("{text}"));
+            assert!((read - metres).abs() < 1e-9, "{text}: {read}");
+        }
+        for text in ["", "high", "NaN", "inf", "1e9", "3 storeys", "m", "'", "--", "1.2.3"] {
+            assert_eq!(length_m(text), None, "{text}");
+        }
+    }
+
+    #[test]
+    fn known_tags_are_kept_and_the_first_of_two_stays() {
+        assert!(KEYS.is_sorted());
+        let mut tags = Tags::default();
+        for (key, value) in [("name", "x"), ("height", "3 m"), ("building", "yes"), ("height", "9"), ("area", "no")] {
+            tags.add(key, value);
+        }
+        assert_eq!((tags.length_m(&["height"]), tags.get("building")), (Some(3.0), Some("yes")));
+        assert!(tags.has("building") && !tags.has("area") && !tags.has("layer"));
+    }
+
+    #[test]
+    fn tunnels_and_cellars_are_hidden_and_passages_through_houses_are_not() {
+        for (key, value, hidden) in [
+            ("tunnel", "yes", true),
+            ("tunnel", "building_passage", false),
+            ("layer", "-1", true),
+            ("layer", "1", false),
+        ] {
+            let mut tags = Tags::default();
+            tags.add(key, value);
+            assert_eq!(tags.is_hidden(), hidden, "{key}={value}");
+        }
+    }
+}

@@ -1,0 +1,175 @@
+//! Elements from OSM XML (`.osm`, `.osm.gz`), read as a stream.
+
+use super::elements::{Bounds, Elements, Member, Relation, Role, Way};
+use super::tags::Tags;
+use super::unpacked::Unpacked;
+use cosfly_town::MapError;
+use quick_xml::XmlVersion;
+use quick_xml::events::{BytesStart, Event};
+use quick_xml::reader::Reader;
+
+/// The elements of a file.
+///
+/// # Errors
+/// Text that is no XML, is cut off, or has an element without its number.
+pub fn read(bytes: &[u8]) -> Result<Elements, MapError> {
+    let mut xml = Reader::from_reader(Unpacked::new(bytes));
+    let mut buffer = Vec::new();
+    let mut reading = Reading::default();
+    let mut depth = 0_usize;
+    loop {
+        buffer.clear();
+        let at = xml.buffer_position();
+        let event = xml
+            .read_event_into(&mut buffer)
+            .map_err(|error| broken(format!("the file is not readable as OSM XML: {error}"), at))?;
+        match &event {
+            Event::Start(tag) => {
+                reading.open(tag, depth).map_err(|error| broken(error.message, at))?;
+                depth += 1;
+            }
+            Event::Empty(tag) => {
+                reading.open(tag, depth).map_err(|error| broken(error.message, at))?;
+                if depth <= 1 {
+                    reading.close()?;
+                }
+            }
+            Event::End(_) => {
+                depth = depth.saturating_sub(1);
+                if depth == 1 {
+                    reading.close()?;
+                }
+                reading.is_complete |= depth == 0;
+            }
+            Event::Eof if reading.is_complete => return Ok(reading.elements),
+            Event::Eof => {
+                return Err(broken("the file ends before `</osm>`".to_owned(), at));
+            }
+            Event::GeneralRef(_) | Event::DocType(_) | Event::CData(_) | Event::Text(_) | Event::Comment(_) => {}
+            Event::Decl(_) | Event::PI(_) => {}
+        }
+        xml.get_mut().end_piece();
+    }
+}
+
+fn broken(message: String, at: u64) -> MapError {
+    MapError::new(format!("{message} (byte {at} of the text)"))
+        .hint("if the file is cut off or damaged, fetch or export it again")
+}
+
+/// The file so far.
+#[derive(Default)]
+struct Reading {
+    elements: Elements,
+    open: Option<Open>,
+    is_complete: bool,
+}
+
+/// The element that is open.
+enum Open {
+    Node { id: i64, place: [i64; 2], tags: Tags },
+    Way(Way),
+    Relation(Relation),
+}
+
+impl Reading {
+    /// A start tag inside `depth` others.
+    fn open(&mut self, tag: &BytesStart<'_>, depth: usize) -> Result<(), MapError> {
+        match (depth, tag.name().as_ref()) {
+            (0, b"osm") if !self.is_complete => Ok(()),
+            (0, _) => Err(MapError::new("the outermost element is not one `<osm>`")),
+            (1, b"bounds") => self.bounds(tag),
+            (1, name @ (b"node" | b"way" | b"relation")) => self.element(tag, name),
+            (2, b"tag") => self.tag(tag),
+            (2, b"nd") => {
+                if let (Some(Open::Way(way)), Some(node)) = (&mut self.open, number(tag, "ref")?) {
+                    way.nodes.push(node);
+                }
+                Ok(())
+            }
+            (2, b"member") => self.member(tag),
+            _ => Ok(()),
+        }
+    }
+
+    fn bounds(&mut self, tag: &BytesStart<'_>) -> Result<(), MapError> {
+        let degrees = |name| Ok::<_, MapError>(attribute(tag, name)?.and_then(|text| text.trim().parse::<f64>().ok()));
+        if let (Some(west), Some(south), Some(east), Some(north)) =
+            (degrees("minlon")?, degrees("minlat")?, degrees("maxlon")?, degrees("maxlat")?)
+        {
+            self.elements.bounds = Some(Bounds { low: [west, south], high: [east, north] });
+        }
+        Ok(())
+    }
+
+    fn element(&mut self, tag: &BytesStart<'_>, name: &[u8]) -> Result<(), MapError> {
+        let kind = String::from_utf8_lossy(name).into_owned();
+        let id = number(tag, "id")?.ok_or_else(|| MapError::new(format!("a `<{kind}>` has no `id`")))?;
+        let is_gone = attribute(tag, "action")?.as_deref() == Some("delete")
+            || attribute(tag, "visible")?.as_deref() == Some("false");
+        self.open = match name {
+            _ if is_gone => None,
+            b"node" => {
+                Some(Open::Node { id, place: [degrees(tag, "lon")?, degrees(tag, "lat")?], tags: Tags::default() })
+            }
+            b"way" => Some(Open::Way(Way { id, tags: Tags::default(), nodes: Vec::new() })),
+            _ => Some(Open::Relation(Relation { id, tags: Tags::default(), members: Vec::new() })),
+        };
+        Ok(())
+    }
+
+    fn tag(&mut self, tag: &BytesStart<'_>) -> Result<(), MapError> {
+        let tags = match &mut self.open {
+            Some(Open::Node { tags, .. }) => tags,
+            Some(Open::Way(way)) => &mut way.tags,
+            Some(Open::Relation(relation)) => &mut relation.tags,
+            None => return Ok(()),
+        };
+        if let (Some(key), Some(value)) = (attribute(tag, "k")?, attribute(tag, "v")?) {
+            tags.add(&key, &value);
+        }
+        Ok(())
+    }
+
+    fn member(&mut self, tag: &BytesStart<'_>) -> Result<(), MapError> {
+        let Some(Open::Relation(relation)) = &mut self.open else { return Ok(()) };
+        let kind = attribute(tag, "type")?.unwrap_or_default();
+        let role = Role::of(&attribute(tag, "role")?.unwrap_or_default());
+        if let (Some(id), "way" | "relation") = (number(tag, "ref")?, &*kind) {
+            relation.members.push(Member { is_way: kind == "way", id, role });
+        }
+        Ok(())
+    }
+
+    fn close(&mut self) -> Result<(), MapError> {
+        match self.open.take() {
+            Some(Open::Node { id, place, tags }) => self.elements.add_node(id, place, tags),
+            Some(Open::Way(way)) => self.elements.add_way(way),
+            Some(Open::Relation(relation)) => self.elements.add_relation(relation),
+            None => Ok(()),
+        }
+    }
+}
+
+fn attribute(tag: &BytesStart<'_>, name: &str) -> Result<Option<String>, MapError> {
+    let unreadable = |problem: String| MapError::new(format!("attribute `{name}` is not readable: {problem}"));
+    let found = tag.try_get_attribute(name).map_err(|error| unreadable(error.to_string()))?;
+    let Some(found) = found else { return Ok(None) };
+    let value = found.normalized_value(XmlVersion::Implicit1_0).map_err(|error| unreadable(error.to_string()))?;
+    Ok(Some(value.into_owned()))
+}
+
+/// A whole number of an attribute.
+fn number(tag: &BytesStart<'_>, name: &str) -> Result<Option<i64>, MapError> {
+    let Some(text) = attribute(tag, name)? else { return Ok(None) };
+    let shown: String = text.chars().take(40).collect();
+    let rule = || MapError::new(format!("`{name}` is `{shown}`; it must be a whole number"));
+    text.trim().parse().map(Some).map_err(|_| rule())
+}
+
+/// Degrees of an attribute in nanodegrees; absurd where there is none, so that the node counts as one without a place.
+fn degrees(tag: &BytesStart<'_>, name: &str) -> Result<i64, MapError> {
+    let value: Option<f64> = attribute(tag, name)?.and_then(|text| text.trim().parse().ok());
+    let nano = value.map(|degrees| (degrees * 1e7).round() * 100.0).filter(|nano| nano.abs() < 1e12);
+    Ok(nano.map_or(i64::MAX, |nano| nano as i64))
+}

@@ -1,0 +1,210 @@
+"""Towns of OpenStreetMap extracts against what pyosmium, PROJ and GEOS make of the same files.
+
+    check_osm.py INSPECT FOLDER
+
+INSPECT is the example `inspect_json` of cosfly-maps, FOLDER holds extracts. Compared are counts of buildings, trees and
+lamps, footprints (intersection over union), stated heights, and whether the middle lines of footpaths are walkable.
+"""
+
+import json
+import math
+import statistics
+import subprocess
+import sys
+import tempfile
+from pathlib import Path
+
+import numpy
+import osmium
+from pyproj import Proj
+from shapely import Point, Polygon, STRtree, transform, wkb
+from shapely.affinity import rotate
+from shapely.ops import unary_union
+
+STOREY_M = 3.0
+BUILDING_MARGIN_M = 1000.0
+THING_MARGIN_M = 100.0
+
+
+def rows(path):
+    """Building areas, footpaths, trees and lamps of a file, in degrees."""
+    factory = osmium.geom.WKBFactory()
+    areas, paths, points = [], [], []
+    for one in osmium.FileProcessor(str(in_order(path))).with_locations().with_areas():
+        tags = dict(one.tags)
+        if one.is_node() and one.location.valid():
+            if tags.get("natural") == "tree" or tags.get("highway") == "street_lamp":
+                points.append((tags, one.location.lon, one.location.lat))
+        elif one.is_way() and tags.get("highway") in ("footway", "steps", "pedestrian"):
+            if not is_area(tags) and not is_hidden(tags) and tags.get("foot") != "no":
+                known = [(node.lon, node.lat) if node.location.valid() else None for node in one.nodes]
+                paths += [pair for pair in zip(known, known[1:]) if None not in pair]
+        elif one.is_area() and any(tags.get(key, "no") != "no" for key in ("building", "building:part")):
+            shape = wkb.loads(factory.create_multipolygon(one), hex=True)
+            kind = "way" if one.from_way() else "relation"
+            areas += [(f"{kind} {one.orig_id()}", tags, polygon) for polygon in shape.geoms]
+    return areas, paths, points
+
+
+def in_order(path):
+    """The same content sorted by kind and number, which pyosmium needs to make areas."""
+    out = Path(tempfile.mkdtemp()) / "sorted.osm.pbf"
+    with osmium.SimpleWriter(str(out)) as writer:
+        reader = osmium.MergeInputReader()
+        reader.add_file(str(path))
+        reader.apply(writer)
+    return out
+
+
+def is_area(tags):
+    return tags.get("area") == "yes" or "area:highway" in tags
+
+
+def number(text):
+    try:
+        return float(text)
+    except (TypeError, ValueError):
+        return None
+
+
+def is_hidden(tags):
+    tunnel = tags.get("tunnel", "no")
+    below = any((number(tags.get(key)) or 0) < 0 for key in ("layer", "level"))
+    indoor = tags.get("indoor", "no") != "no" or tags.get("location") in ("underground", "indoor")
+    return below or indoor or tunnel not in ("no", "building_passage", "avalanche_protector")
+
+
+def is_kept(tags):
+    return tags.get("location") != "underground" and not (number(tags.get("layer")) or 0) < 0
+
+
+def rectangle(box):
+    (x, y, _), (a, b, _) = box["center_m"], box["half_m"]
+    shape = Polygon([(x - a, y - b), (x + a, y - b), (x + a, y + b), (x - a, y + b)])
+    return rotate(shape, box["yaw_rad"], origin=(x, y), use_radians=True)
+
+
+def stated_top_m(tags):
+    if number(tags.get("height")):
+        return number(tags["height"])
+    if "height" not in tags and "est_height" not in tags and "building:height" not in tags:
+        levels = number(tags.get("building:levels"))
+        if levels and not any(key.startswith("roof:") for key in tags):
+            return levels * STOREY_M
+    return None
+
+
+class Town:
+    """A town as `inspect_json` prints it, and the extract in its frame."""
+
+    def __init__(self, inspect, path):
+        self.name = path.name
+        self.town = json.loads(subprocess.run([inspect, path], check=True, capture_output=True, text=True).stdout)
+        assert self.town["format"] == "OpenStreetMap", self.town["format"]
+        projection = Proj(self.town["geo_reference"])
+        self.plan = lambda lon, lat: (lambda x, y: (x, -y))(*projection(lon, lat))
+        areas, paths, points = rows(path)
+        moved = lambda shape: transform(shape, lambda at: numpy.column_stack(self.plan(at[:, 0], at[:, 1])))
+        self.areas = [(name, tags, moved(shape)) for name, tags, shape in areas if is_kept(tags)]
+        self.paths = [[self.plan(*end) for end in pair] for pair in paths]
+        self.points = [(tags, self.plan(lon, lat)) for tags, lon, lat in points]
+        box = osmium.io.Reader(str(path)).header().box()
+        corners = [self.plan(lon, lat) for lon in (box.bottom_left.lon, box.top_right.lon) for lat in (box.bottom_left.lat, box.top_right.lat)]
+        self.low, self.high = ([pick(corner[axis] for corner in corners) for axis in (0, 1)] for pick in (min, max))
+
+    def holds(self, point, margin):
+        return all(low - margin <= at <= high + margin for low, at, high in zip(self.low, point, self.high))
+
+    def check(self):
+        boxes = [box for box in self.town["boxes"] if box["kind"] == "Building"]
+        shapes = [rectangle(box) for box in boxes]
+        index = STRtree(shapes)
+        near = [(name, tags, shape) for name, tags, shape in self.areas if any(self.holds(at, BUILDING_MARGIN_M) for at in shape.exterior.coords)]
+        outlines = [one for one in near if one[1].get("building", "no") != "no"]
+        parts = [one for one in near if one[1].get("building:part", "no") != "no"]
+        outline_index = STRtree([shape for _, _, shape in outlines])
+        parents = [[int(at) for at in outline_index.query(shape.representative_point(), predicate="within")] for _, _, shape in parts]
+        expected = len(outlines) + sum(not own for own in parents)
+        objects = len({box["object"] for box in boxes})
+        assert abs(objects - expected) <= max(2, 0.01 * expected), f"{self.name}: {objects} buildings, the file has {expected}"
+
+        of_parent = {}
+        for part, own in zip(parts, parents):
+            for parent in own:
+                of_parent.setdefault(parent, []).append(part)
+        overlaps, heights = [], []
+        for number_, (name, tags, shape) in enumerate(outlines):
+            own = of_parent.get(number_, [])
+            covered = unary_union([part for _, _, part in own]).intersection(shape).area / shape.area if own else 0.0
+            if covered < 0.4 or not own:
+                overlaps.append((self.overlap(shape, shapes, index, boxes), name))
+                heights += self.height(name, tags, shape, shapes, index, boxes) if not own else []
+        for name, tags, shape in parts:
+            heights += self.height(name, tags, shape, shapes, index, boxes)
+        if overlaps:
+            median = statistics.median(value for value, _ in overlaps)
+            assert median >= 0.9, f"{self.name}: median overlap {median:.3f}, worst {sorted(overlaps)[:5]}"
+        wrong = [one for one in heights if one[0] > 0.05]
+        assert len(wrong) <= 0.02 * len(heights), f"{self.name}: heights {wrong[:5]}"
+        self.check_points()
+        share = self.check_paths()
+        print(f"{self.name}: {objects} buildings ({len(parts)} parts), overlap {statistics.median(v for v, _ in overlaps) if overlaps else math.nan:.3f} "
+              f"over {len(overlaps)}, {len(heights)} heights, {len(wrong)} wrong, {share:.3f} of the footpaths walkable")
+
+    def overlap(self, shape, shapes, index, boxes):
+        """Intersection over union with the boxes of the object that covers most of the shape."""
+        there = [int(at) for at in index.query(shape, predicate="intersects")]
+        if not there:
+            return 0.0
+        covered = {}
+        for at in there:
+            covered[boxes[at]["object"]] = covered.get(boxes[at]["object"], 0.0) + shapes[at].intersection(shape).area
+        best = max(covered, key=covered.get)
+        union = unary_union([shapes[at] for at in there if boxes[at]["object"] == best])
+        # All boxes of the object, also those that do not touch the shape.
+        union = union.union(unary_union([s for s, b in zip(shapes, boxes) if b["object"] == best])) if len(there) < 40 else union
+        return shape.intersection(union).area / shape.union(union).area
+
+    def height(self, name, tags, shape, shapes, index, boxes):
+        """Difference between a stated height and the nearest top of the boxes over the middle of a shape."""
+        stated = stated_top_m(tags)
+        if stated is None or not 0.5 <= stated <= 1000:
+            return []
+        there = [int(at) for at in index.query(shape, predicate="intersects")]
+        tops = [boxes[at]["center_m"][2] + boxes[at]["half_m"][2] for at in there]
+        return [(min((abs(top - stated) for top in tops), default=math.inf), name, stated)]
+
+    def check_points(self):
+        for key, value, kind in (("natural", "tree", "TreeTrunk"), ("highway", "street_lamp", "Lamp")):
+            expected = sum(tags.get(key) == value and self.holds(at, THING_MARGIN_M) for tags, at in self.points)
+            notes = [note for note in self.town["notes"] if "trees in rows" in note and kind == "TreeTrunk"]
+            in_rows = int(notes[0].split("places of ")[1].split()[0]) if notes else 0
+            found = self.town["counts"].get(kind, 0) - in_rows
+            assert found == expected, f"{self.name}: {found} {kind}, the file has {expected}"
+
+    def check_paths(self):
+        ground = [Polygon([corner[:2] for corner in one["outline_m"]]).buffer(0.01) for one in self.town["walkable"]]
+        index = STRtree(ground)
+        inside, walkable = 0, 0
+        for (ax, ay), (bx, by) in self.paths:
+            for share in (0.25, 0.5, 0.75):
+                at = (ax + share * (bx - ax), ay + share * (by - ay))
+                if self.holds(at, 0.0):
+                    inside += 1
+                    walkable += len(index.query(Point(at), predicate="intersects")) > 0
+        share = walkable / max(inside, 1)
+        assert share >= 0.98 or inside == 0, f"{self.name}: only {share:.3f} of the footpaths are walkable"
+        return share
+
+
+def main():
+    inspect, folder = sys.argv[1:]
+    files = sorted(path for path in Path(folder).iterdir() if ".osm" in path.name)
+    assert files, f"no extracts in {folder}"
+    for path in files:
+        Town(inspect, path).check()
+    print(f"{len(files)} extracts agree with pyosmium")
+
+
+if __name__ == "__main__":
+    main()
