@@ -62,6 +62,7 @@ impl StageKind for Map {
         let properties = StageProperties {
             kind: self.name().into(),
             version: 3,
+            version: 4,
             parameters: canonical(&config)?,
             sources: vec![Source { check: Some(own_options_only()), ..Source::new("source", source) }],
             inputs: self.ports(),
