@@ -27,8 +27,8 @@ pub const TARGETS: &[(&str, Target)] = &[
     ("mcap", mcap),
     ("mp4", mp4),
     ("opendrive", map),
-    ("pcd", map),
     ("osm", map),
+    ("pcd", map),
     #[cfg(feature = "plugins")]
     ("plugins", plugins),
     ("ply", map),

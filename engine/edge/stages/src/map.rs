@@ -61,7 +61,6 @@ impl StageKind for Map {
         config.source = "(content)".into();
         let properties = StageProperties {
             kind: self.name().into(),
-            version: 3,
             version: 4,
             parameters: canonical(&config)?,
             sources: vec![Source { check: Some(own_options_only()), ..Source::new("source", source) }],

@@ -72,21 +72,6 @@ impl<'t> Lines<'t> {
         Place { line: line as u32, column, byte_span, element }
     }
 
-    /// An error of the JSON parser at its place in the text.
-    pub fn json_error(&self, error: &serde_json::Error) -> MapError {
-        let at = self.byte_at(error.line() as u32, error.column() as u32);
-        // The parser's own text ends with the position, which the place says better.
-        let message = error.to_string();
-        let message = message.rsplit_once(" at line ").map_or(message.as_str(), |(before, _)| before);
-        let hint = if error.is_eof() {
-            "the file seems to be cut off: fetch or export it again"
-        } else {
-            "the book's chapter `Real towns` describes the format"
-        };
-        let span = at..(at + 1).min(self.text.len()).max(at);
-        MapError::new(message).at(self.place(span, String::new())).hint(hint)
-    }
-
     /// The byte at a line and column (characters), both from 1; held to the text.
     pub fn byte_at(&self, line: u32, column: u32) -> usize {
         let start = self.starts.get(line.max(1) as usize - 1).copied().unwrap_or(self.text.len());

@@ -70,7 +70,6 @@ impl MapFormat for Boxes {
 
     fn read(bytes: &[u8], options: &BoxesOptions) -> Result<(Town, Vec<String>), MapError> {
         let text = decoded(bytes)?;
-        let document: Document = serde_json::from_str(&text).map_err(|error| Lines::new(&text).json_error(&error))?;
         let document: Document = serde_json::from_str(&text).map_err(|error| refused_json(&error, &text))?;
         document.check()?;
         Ok((document.town(options)?, Vec::new()))

@@ -5,8 +5,8 @@
 
 use super::network::{Lane, LaneKind};
 use super::stations::CrossSection;
-use crate::formats::mesh::MeshBuilder;
-use crate::formats::world::WorldFromMap;
+use crate::mesh::MeshBuilder;
+use crate::world::WorldFromMap;
 use crate::{GroundIndex, SemanticLabel};
 use cosfly_frames::DVec3;
 
