@@ -8,8 +8,10 @@ mod plan;
 mod selection;
 mod sheet;
 mod shot;
+mod town;
 
 pub use selection::FrameList;
+pub use town::town_plan;
 
 use clip::Clip;
 use cosfly_diagnose::{Diagnostic, Fault, Result};

@@ -15,7 +15,7 @@ mod group_notes;
 mod group_splits;
 mod inspect;
 mod logs;
-mod map;
+pub mod map;
 mod memo;
 mod muco;
 mod nearby;

@@ -7,7 +7,7 @@ use cosfly_blobs::OutputSink;
 use cosfly_diagnose::{Diagnostic, Fault, Label, ParameterError, Result};
 use cosfly_frames::Seed;
 use cosfly_maps::formats::opendrive::OpenDrive;
-use cosfly_maps::{FORMATS, Format, FormatOptions, MapConfig, MapError, MapFormat, read_town, recognise};
+use cosfly_maps::{FORMATS, Format, FormatOptions, MapConfig, MapError, MapFormat, Town, read_town_of, recognise};
 use cosfly_stage::{
     InputPort, Inputs, ItemRule, Produced, Source, SourceCheck, Stage, StageKind, StagePart, StageProperties,
     TaskContext,
@@ -38,32 +38,13 @@ impl StageKind for Map {
         vec![]
     }
 
-    fn build(&self, mut given: Value) -> Result<Vec<StagePart>, ParameterError> {
-        let mut config: MapConfig = parameters::take(&mut given)?;
-        config.options = given.as_object().cloned().unwrap_or_default().into();
-        let fill = &config.fill;
-        for (path, low, high) in [
-            ("fill.max_height_m", fill.min_height_m, fill.max_height_m),
-            ("fill.max_setback_m", fill.min_setback_m, fill.max_setback_m),
-        ] {
-            if high < low {
-                let message = format!("`{path}` is `{high}`; it must be at least the smallest one, `{low}`");
-                return Err(parameters::refused_at(path, message));
-            }
-        }
-        let source = PathBuf::from(&config.source);
-        // The name is part of the stage's output; the path of the file is not.
-        config.name = Some(match config.name.take() {
-            Some(name) if is_plain(&name) => name,
-            Some(name) => return Err(refused_name(&name)),
-            None => plain_stem(&source),
-        });
-        config.source = "(content)".into();
+    fn build(&self, given: Value) -> Result<Vec<StagePart>, ParameterError> {
+        let (config, files) = checked(given)?;
         let properties = StageProperties {
             kind: self.name().into(),
             version: 4,
             parameters: canonical(&config)?,
-            sources: vec![Source { check: Some(own_options_only()), ..Source::new("source", source) }],
+            sources: sources(files),
             inputs: self.ports(),
             artifact: TOWN,
             items: ItemRule::One,
@@ -72,6 +53,47 @@ impl StageKind for Map {
         };
         Ok(single(MapStage { config, properties }))
     }
+}
+
+/// The parameters of a stage, checked and without folders, and the paths of its files.
+fn checked(mut given: Value) -> Result<(MapConfig, Vec<PathBuf>), ParameterError> {
+    let mut config: MapConfig = parameters::take(&mut given)?;
+    config.options = given.as_object().cloned().unwrap_or_default().into();
+    let fill = &config.fill;
+    for (path, low, high) in [
+        ("fill.max_height_m", fill.min_height_m, fill.max_height_m),
+        ("fill.max_setback_m", fill.min_setback_m, fill.max_setback_m),
+    ] {
+        if high < low {
+            let message = format!("`{path}` is `{high}`; it must be at least the smallest one, `{low}`");
+            return Err(parameters::refused_at(path, message));
+        }
+    }
+    let source = PathBuf::from(&config.source);
+    // The name is part of the stage's output; the path of the file is not.
+    config.name = Some(match config.name.take() {
+        Some(name) if is_plain(&name) => name,
+        Some(name) => return Err(refused_name(&name)),
+        None => plain_stem(&source),
+    });
+    config.source = "(content)".into();
+    let mut files = vec![source];
+    for further in &mut config.more {
+        let path = PathBuf::from(&further.source);
+        let name = path.file_name().map_or_else(String::new, |name| name.to_string_lossy().into_owned());
+        further.source = name;
+        files.push(path);
+    }
+    Ok((config, files))
+}
+
+/// Files that a stage reads; options of the stage belong to the first.
+fn sources(files: Vec<PathBuf>) -> Vec<Source> {
+    let source = |(index, path): (usize, PathBuf)| match index {
+        0 => Source { check: Some(own_options_only()), ..Source::new("source", path) },
+        more => Source::new(format!("more.{}.source", more - 1), path),
+    };
+    files.into_iter().enumerate().map(source).collect()
 }
 
 /// Schema of the options of a format; their descriptions begin with the names of the formats that have them.
@@ -164,6 +186,37 @@ fn plain_stem(source: &std::path::Path) -> String {
     if plain.is_empty() { "town".into() } else { plain.into() }
 }
 
+/// A map that was read.
+pub struct ReadMap {
+    /// Name of the file's format.
+    pub format: &'static str,
+    /// The town, as the stage makes it of the same parameters.
+    pub town: Town,
+    /// Warnings of the reader.
+    pub warnings: Vec<String>,
+}
+
+/// Reads `files` with checked `parameters` of a stage `map`, for a look at the town without a run.
+///
+/// # Errors
+/// Refusals of a file.
+pub fn read_map(parameters: Value, files: &[PathBuf]) -> Result<ReadMap> {
+    let (config, _) =
+        checked(parameters).map_err(|error| Diagnostic::new("map-refused", Fault::Recipe, error.message))?;
+    read_files(files, &config, Seed::of_item(0, "map", "all"))
+}
+
+fn read_files(files: &[PathBuf], config: &MapConfig, seed: Seed) -> Result<ReadMap> {
+    let read = |path: &PathBuf| std::fs::read(path).map_err(|error| unreadable(path, &error));
+    let contents: Vec<Vec<u8>> = files.iter().map(read).collect::<Result<_>>()?;
+    let slices: Vec<&[u8]> = contents.iter().map(Vec::as_slice).collect();
+    let refused = |(at, error): (usize, MapError)| refusal(error, files[at].clone(), &contents[at]);
+    let (town, warnings) = read_town_of(&slices, config, seed).map_err(refused)?;
+    let head = &contents[0][..contents[0].len().min(Format::HEAD_BYTES)];
+    let format = recognise(head).map_err(|error| refused((0, error)))?.name();
+    Ok(ReadMap { format, town, warnings })
+}
+
 struct MapStage {
     config: MapConfig,
     properties: StageProperties,
@@ -175,10 +228,7 @@ impl Stage for MapStage {
     }
 
     fn run(&self, _inputs: &Inputs<'_>, outputs: &mut dyn OutputSink, context: &TaskContext) -> Result<Produced> {
-        let path = &context.sources[0];
-        let bytes = std::fs::read(path).map_err(|error| unreadable(path, &error))?;
-        let (town, warnings) = read_town(&bytes, &self.config, Seed(context.seed))
-            .map_err(|error| refusal(error, path.clone(), &bytes))?;
+        let ReadMap { town, warnings, .. } = read_files(&context.sources, &self.config, Seed(context.seed))?;
         outputs.put(TOWN_BLOB, &codec::encode(TOWN, &town)?)?;
         let report = &town.simplification;
         let mut notes = std::collections::BTreeMap::from([

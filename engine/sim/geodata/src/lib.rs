@@ -4,4 +4,5 @@ pub mod cityjson;
 mod open_ground;
 pub mod osm;
 pub mod projection;
+pub mod reference;
 pub mod slabs;

@@ -1,6 +1,7 @@
 //! [`MapConfig`]: the parameters of a map in a recipe.
 
 use crate::FormatOptions;
+use crate::combine::FurtherSource;
 use crate::fill::FillConfig;
 use crate::simplify::SimplifyConfig;
 use schemars::JsonSchema;
@@ -14,6 +15,9 @@ pub struct MapConfig {
     pub source: String,
     /// Name of the town in all metadata and of its folder: letters, digits, `.`, `_`, `-`. Default: the file's name without its extension.
     pub name: Option<String>,
+    /// Further map files, such as one with the houses beside these streets.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub more: Vec<FurtherSource>,
     /// Things to invent beside the streets of a town whose file has nothing there. None by default.
     pub fill: FillConfig,
     /// Merge, crop and prune of the boxes that the planner sees.

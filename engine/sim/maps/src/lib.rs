@@ -1,6 +1,7 @@
 //! Map files of any known format to a [`Town`], streets from numbers, things to stand beside them. Types of the town
 //! come from the room `town` and are found here, too.
 
+pub mod combine;
 pub mod config;
 pub mod fill;
 pub mod formats;
@@ -10,4 +11,4 @@ pub mod read;
 pub use config::MapConfig;
 pub use cosfly_town::*;
 pub use formats::FORMATS;
-pub use read::{read_town, recognise};
+pub use read::{read_town, read_town_of, recognise};

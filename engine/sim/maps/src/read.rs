@@ -1,5 +1,6 @@
 //! [`read_town`]: bytes of any known format into a finished, checked [`Town`].
 
+use crate::combine::add_source;
 use crate::fill::fill;
 use crate::simplify::simplify;
 use crate::{FORMATS, Format};
@@ -12,7 +13,37 @@ use cosfly_frames::Seed;
 /// # Errors
 /// A file of no known format, or one that its reader refuses.
 pub fn read_town(bytes: &[u8], config: &MapConfig, seed: Seed) -> Result<(Town, Vec<String>), MapError> {
-    let (mut town, mut warnings) = recognise(bytes)?.read(bytes, &config.options)?;
+    read_town_of(&[bytes], config, seed).map_err(|(_, error)| error)
+}
+
+/// [`read_town`] of several files: the first is the town's own, the others are those of [`MapConfig::more`].
+///
+/// # Errors
+/// As [`read_town`], with the number of the file; a number of files that is not that of the configuration.
+pub fn read_town_of(files: &[&[u8]], config: &MapConfig, seed: Seed) -> Result<(Town, Vec<String>), (usize, MapError)> {
+    let [first, more @ ..] = files else { return Err((0, MapError::new("no map file is given"))) };
+    if more.len() != config.more.len() {
+        return Err((
+            0,
+            MapError::new(format!("{} further files for {} further sources", more.len(), config.more.len())),
+        ));
+    }
+    let read = |bytes: &[u8]| recognise(bytes)?.read(bytes, &config.options);
+    let (mut town, mut warnings) = read(first).map_err(|error| (0, error))?;
+    for (index, (further, bytes)) in config.more.iter().zip(more).enumerate() {
+        let more_warnings = add_source(&mut town, further, bytes).map_err(|error| (index + 1, error))?;
+        warnings.extend(more_warnings.into_iter().map(|warning| format!("{}: {warning}", further.source)));
+    }
+    finished(town, warnings, config, seed).map_err(|error| (0, error))
+}
+
+/// The town with what is invented, its planning boxes and bounds.
+fn finished(
+    mut town: Town,
+    mut warnings: Vec<String>,
+    config: &MapConfig,
+    seed: Seed,
+) -> Result<(Town, Vec<String>), MapError> {
     if let Some(name) = &config.name {
         town.name.clone_from(name);
     }

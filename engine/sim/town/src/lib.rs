@@ -1,6 +1,7 @@
 //! The [`Town`] model (obstacles, walkable ground, surfaces, labels), the seam of map formats, and what their readers
 //! share: the world frame, text with places, covers of footprints, ground meshes, land around them, planning boxes.
 
+pub mod census;
 pub mod cover;
 pub mod crown;
 pub mod error;

@@ -12,6 +12,7 @@ mod export;
 mod gc;
 mod graph;
 mod init;
+mod map;
 mod plan;
 mod plan_from;
 #[cfg(feature = "plugins")]
@@ -43,6 +44,7 @@ pub const COMMANDS: &[Entry] = &[
     Entry::of::<gc::Arguments>(),
     Entry::of::<graph::Arguments>(),
     Entry::of::<init::Arguments>(),
+    map::MAP,
     Entry::of::<plan::Arguments>(),
     Entry::of::<plan_from::Arguments>(),
     #[cfg(feature = "plugins")]

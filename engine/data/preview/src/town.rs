@@ -1,0 +1,151 @@
+//! The plan of a whole town: ground, walkable ground and obstacles from above.
+
+use cosfly_frames::{DVec2, DVec3, real};
+use cosfly_maps::{Obstacle, ObstacleKind, SemanticLabel, SurfaceMesh, Town, WalkableKind};
+use cosfly_plot::canvas::{Canvas, Colour, INK, Point, text_width};
+
+/// Longest side of the drawn area, pixels.
+const SIDE: f64 = 1400.0;
+/// Most pixels per metre.
+const DENSEST: f64 = 8.0;
+const HEADER: usize = 34;
+const LEGEND: usize = 34;
+const EMPTY: Colour = [244, 243, 240];
+
+/// The plan of a town; north is up. `title` stands above it.
+pub fn town_plan(town: &Town, title: &str) -> Canvas {
+    let view = View::of(town);
+    let mut canvas = Canvas::new(view.size[0].max(700), view.size[1] + HEADER + LEGEND, EMPTY);
+    let mut surfaces: Vec<&SurfaceMesh> = town.surfaces.iter().collect();
+    surfaces.sort_by_key(|mesh| layer(mesh.label));
+    for mesh in surfaces {
+        draw_mesh(&view, &mut canvas, mesh);
+    }
+    for polygon in &town.walkable {
+        let corners: Vec<Point> = polygon.outline_in_world.iter().map(|corner| view.place(corner.truncate())).collect();
+        let colour = walkable_colour(polygon.kind);
+        canvas.area(&corners, colour, 0.35);
+        canvas.outline(&corners, 0.6, colour, 0.6);
+    }
+    let top_m = |it: &Obstacle| it.shape.center_in_world.z + it.shape.half_extents_m.z;
+    let mut obstacles: Vec<&Obstacle> = town.obstacles.iter().collect();
+    obstacles.sort_by(|a, b| top_m(a).total_cmp(&top_m(b)));
+    let highest_m = obstacles.last().map_or(1.0, |it| it.shape.half_extents_m.z * 2.0).max(1.0);
+    for obstacle in obstacles {
+        draw_obstacle(&view, &mut canvas, obstacle, highest_m);
+    }
+    draw_frame(&view, &mut canvas, title);
+    canvas
+}
+
+/// World to picture: x to the right, y down.
+struct View {
+    low: DVec2,
+    scale: f64,
+    size: [usize; 2],
+}
+
+impl View {
+    fn of(town: &Town) -> Self {
+        let (low, high): (DVec3, DVec3) = (town.min_in_world, town.max_in_world);
+        let extent = (high - low).truncate().max(DVec2::splat(1.0));
+        let scale = (SIDE / extent.max_element()).min(DENSEST);
+        let size = (extent * scale).ceil().max(DVec2::ONE);
+        Self { low: low.truncate(), scale, size: [size.x as usize, size.y as usize] }
+    }
+
+    fn place(&self, point: DVec2) -> Point {
+        let place = (point - self.low) * self.scale;
+        [place.x, HEADER as f64 + place.y]
+    }
+}
+
+fn draw_mesh(view: &View, canvas: &mut Canvas, mesh: &SurfaceMesh) {
+    let colour = ground_colour(mesh.label);
+    for triangle in &mesh.triangles {
+        let corners = triangle.map(|corner| view.place(mesh.vertices_in_world[corner as usize].truncate()));
+        canvas.area(&corners, colour, 1.0);
+    }
+}
+
+/// A box from above; high ones are darker.
+fn draw_obstacle(view: &View, canvas: &mut Canvas, obstacle: &Obstacle, highest_m: f64) {
+    let shape = &obstacle.shape;
+    let (sin, cos) = real::sin_cos(shape.yaw_rad);
+    let corners = [[1.0, 1.0], [-1.0, 1.0], [-1.0, -1.0], [1.0, -1.0]].map(|[a, b]| {
+        let (along, across) = (a * shape.half_extents_m.x, b * shape.half_extents_m.y);
+        let offset = DVec2::new(along * cos - across * sin, along * sin + across * cos);
+        view.place(shape.center_in_world.truncate() + offset)
+    });
+    let (colour, share) = match obstacle.kind {
+        ObstacleKind::Building | ObstacleKind::Bridge => {
+            let height = (2.0 * shape.half_extents_m.z / highest_m).clamp(0.0, 1.0).sqrt();
+            ([198, 170, 148].map(|value| (f64::from(value) * (1.0 - 0.55 * height)) as u8), 1.0)
+        }
+        ObstacleKind::TreeCrown | ObstacleKind::Bush => ([96, 146, 78], 0.55),
+        ObstacleKind::TreeTrunk => ([86, 70, 52], 0.9),
+        ObstacleKind::Wall | ObstacleKind::Fence | ObstacleKind::GuardRail => ([110, 92, 84], 0.9),
+        _ => ([60, 70, 110], 0.9),
+    };
+    canvas.area(&corners, colour, share);
+}
+
+/// Order in which ground is drawn.
+fn layer(label: SemanticLabel) -> u8 {
+    match label {
+        SemanticLabel::Terrain | SemanticLabel::Ground => 0,
+        SemanticLabel::Water => 1,
+        SemanticLabel::Roads => 2,
+        SemanticLabel::SideWalks => 3,
+        _ => 4,
+    }
+}
+
+fn ground_colour(label: SemanticLabel) -> Colour {
+    match label {
+        SemanticLabel::Terrain => [206, 218, 186],
+        SemanticLabel::Water => [158, 196, 224],
+        SemanticLabel::Roads => [150, 152, 158],
+        SemanticLabel::SideWalks => [222, 218, 212],
+        SemanticLabel::RoadLine => [240, 240, 236],
+        _ => [190, 188, 182],
+    }
+}
+
+fn walkable_colour(kind: WalkableKind) -> Colour {
+    match kind {
+        WalkableKind::Sidewalk | WalkableKind::Shoulder => [70, 60, 200],
+        WalkableKind::Crossing => [220, 60, 60],
+        WalkableKind::Plaza => [200, 150, 40],
+        WalkableKind::Road => [110, 110, 120],
+    }
+}
+
+/// Title above; legend and scale below.
+fn draw_frame(view: &View, canvas: &mut Canvas, title: &str) {
+    let (width, bottom) = (canvas.width as i64, (canvas.height - LEGEND) as i64);
+    canvas.fill([0, 0], [width, HEADER as i64], EMPTY, 1.0);
+    canvas.fill([0, bottom], [width, LEGEND as i64], EMPTY, 1.0);
+    canvas.text(8, 10, 2, INK, title);
+    let y = bottom + 14;
+    let legend = [
+        ("pavement", walkable_colour(WalkableKind::Sidewalk)),
+        ("crossing", walkable_colour(WalkableKind::Crossing)),
+        ("plaza", walkable_colour(WalkableKind::Plaza)),
+        ("road", ground_colour(SemanticLabel::Roads)),
+        ("house (dark: high)", [198, 170, 148]),
+        ("plants", [96, 146, 78]),
+    ];
+    let mut x = 8;
+    for (words, colour) in legend {
+        canvas.fill([x, y - 1], [14, 9], colour, 1.0);
+        x = canvas.text(x + 18, y, 1, INK, words) + 14;
+    }
+    let wanted_m = 120.0 / view.scale;
+    let power = 10_f64.powi(wanted_m.log10().floor() as i32);
+    let length_m = [5.0, 2.0, 1.0].into_iter().map(|step| step * power).find(|it| *it <= wanted_m).unwrap_or(power);
+    let words = format!("{length_m} m");
+    let end = (width - 12 - text_width(&words, 1)) as f64;
+    canvas.line([end - length_m * view.scale, y as f64 + 3.0], [end - 4.0, y as f64 + 3.0], 2.0, INK, 1.0);
+    canvas.text(end as i64, y, 1, INK, &words);
+}

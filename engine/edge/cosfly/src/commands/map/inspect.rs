@@ -1,0 +1,151 @@
+//! `cosfly map inspect`: the town that is read from a map file, in figures and as a plan.
+
+use crate::command::{Command, Outcome};
+use crate::console::Console;
+use crate::exit;
+use clap::Parser;
+use cosfly_diagnose::Diagnostic;
+use cosfly_stages::map::{ReadMap, read_map};
+use serde_json::{Value, json};
+use std::fmt::Write;
+use std::path::{Path, PathBuf};
+
+/// Show the town that is read from a map file: counts, heights, walkable ground, warnings, and a plan as PNG
+#[derive(Debug, Parser)]
+#[command(
+    name = "inspect",
+    after_help = "\
+Examples:
+  cosfly map inspect monaco.osm.pbf                        figures, and the plan monaco-plan.png
+  cosfly map inspect Town01.xodr --set fill.buildings=true --plan out/town01.png
+  cosfly map inspect tile.laz --set voxel_m=0.5 --json
+
+`--set` takes the parameters of the stage `map`; see the page \"Recipe\" of the book."
+)]
+pub struct Arguments {
+    /// The map file, of any format that the stage `map` reads
+    #[arg(value_name = "FILE")]
+    file: PathBuf,
+    /// Parameter of the stage `map`, such as fill.trees=true (repeatable)
+    #[arg(long = "set", value_name = "PARAMETER=VALUE")]
+    parameters: Vec<String>,
+    /// File for the plan [default: <FILE's name>-plan.png in the current folder]
+    #[arg(long, value_name = "PNG")]
+    plan: Option<PathBuf>,
+    /// Print JSON; the plan is drawn where `--plan` is given
+    #[arg(long)]
+    json: bool,
+}
+
+impl Command for Arguments {
+    fn run(&self, console: &dyn Console) -> Outcome {
+        let map = self.read()?;
+        let plan = match (&self.plan, self.json) {
+            (Some(path), _) => Some(path.clone()),
+            (None, true) => None,
+            (None, false) => Some(PathBuf::from(format!("{}-plan.png", map.town.name))),
+        };
+        if let Some(path) = &plan {
+            let title = format!("{} ({})", map.town.name, map.format);
+            let picture = cosfly_preview::town_plan(&map.town, &title).png()?;
+            std::fs::write(path, picture)
+                .map_err(|error| Diagnostic::io(format!("write the plan `{}`", path.display()), &error))?;
+        }
+        let figures = figures(&map);
+        console.print(&if self.json { format!("{figures:#}\n") } else { text(&map, &figures, plan.as_deref()) })?;
+        Ok(exit::SUCCESS)
+    }
+}
+
+impl Arguments {
+    /// The town; the parameters are checked as those of a recipe.
+    fn read(&self) -> Result<ReadMap, crate::command::Refusals> {
+        // TOML and JSON write strings alike.
+        let file = Value::from(self.file.to_string_lossy().as_ref());
+        let recipe = format!("name = \"map\"\n\n[stages.map]\nuse = \"map\"\nsource = {file}\n");
+        let changes: Vec<String> = self.parameters.iter().map(|change| format!("stages.map.{change}")).collect();
+        let recipe = cosfly_recipe::read(Path::new("map inspect"), &recipe, &changes, &cosfly_stages::registry())?;
+        let stage = &recipe.stages[0];
+        let files: Vec<PathBuf> = stage.sources.iter().map(|source| source.path.clone()).collect();
+        Ok(read_map(stage.parameters.clone(), &files)?)
+    }
+}
+
+/// Figures of the town for programs.
+fn figures(map: &ReadMap) -> Value {
+    let ReadMap { town, format, warnings } = map;
+    let census = town.census();
+    let kinds = census.kinds.iter().map(|(kind, it)| {
+        let figures = json!({
+            "objects": it.objects, "boxes": it.boxes, "synthetic_objects": it.synthetic_objects,
+            "height_m": { "least": it.heights_m.least, "median": it.heights_m.median, "most": it.heights_m.most },
+        });
+        (kind.clone(), figures)
+    });
+    let walkable = census.walkable.iter().map(|(kind, it)| {
+        (
+            kind.clone(),
+            json!({ "polygons": it.polygons, "area_m2": it.area_m2, "synthetic_area_m2": it.synthetic_area_m2 }),
+        )
+    });
+    let report = &town.simplification;
+    json!({
+        "name": town.name, "format": format,
+        "min_m": town.min_in_world.to_array(), "max_m": town.max_in_world.to_array(),
+        "offset_m": town.origin.offset_m.to_array(), "geo_reference": town.origin.geo_reference,
+        "obstacles": kinds.collect::<serde_json::Map<_, _>>(),
+        "walkable": walkable.collect::<serde_json::Map<_, _>>(),
+        "planning_boxes": {
+            "before": report.input_boxes, "after": report.output_boxes,
+            "tolerance_m": report.tolerance_m, "added_volume_share": report.added_volume_share,
+        },
+        "synthetic_notes": town.synthetic.notes, "warnings": warnings,
+    })
+}
+
+fn text(map: &ReadMap, figures: &Value, plan: Option<&Path>) -> String {
+    let town = &map.town;
+    let extent_m = town.max_in_world - town.min_in_world;
+    let mut text =
+        format!("{}, {}: {:.0} x {:.0} m, {:.0} m high\n", town.name, map.format, extent_m.x, extent_m.y, extent_m.z);
+    let _ = writeln!(
+        text,
+        "\n{:<14} {:>8} {:>8}  {:>24}  {:>8}",
+        "kind", "objects", "boxes", "height m (median)", "invented"
+    );
+    let census = town.census();
+    for (kind, it) in &census.kinds {
+        let heights = &it.heights_m;
+        let range = format!("{:.1} to {:.1} ({:.1})", heights.least, heights.most, heights.median);
+        let _ =
+            writeln!(text, "{kind:<14} {:>8} {:>8}  {range:>24}  {:>8}", it.objects, it.boxes, it.synthetic_objects);
+    }
+    let _ = writeln!(text, "\n{:<14} {:>8} {:>12}  {:>12}", "walkable", "polygons", "area m2", "invented m2");
+    for (kind, it) in &census.walkable {
+        let _ = writeln!(text, "{kind:<14} {:>8} {:>12.0}  {:>12.0}", it.polygons, it.area_m2, it.synthetic_area_m2);
+    }
+    let report = &town.simplification;
+    let _ = writeln!(
+        text,
+        "\nthe planner sees {} boxes instead of {}: within {} m, {:.1} % more volume",
+        report.output_boxes,
+        report.input_boxes,
+        report.tolerance_m,
+        100.0 * report.added_volume_share
+    );
+    let offset = town.origin.offset_m;
+    let _ = writeln!(text, "origin: x_map = x + {}, y_map = -(y + {}), z_map = z + {}", offset.x, offset.y, offset.z);
+    if let Some(projection) = figures["geo_reference"].as_str() {
+        let _ = writeln!(text, "projection: {}", projection.trim());
+    }
+    for note in &town.synthetic.notes {
+        let _ = writeln!(text, "note: {note}");
+    }
+    for warning in &map.warnings {
+        let _ = writeln!(text, "warning: {warning}");
+    }
+    if let Some(path) = plan {
+        let _ = writeln!(text, "\nplan: {}", path.display());
+    }
+    text
+}
