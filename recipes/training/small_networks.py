@@ -3,10 +3,12 @@
 
     python recipes/training/small_networks.py out/hundred
     python recipes/training/small_networks.py out/hundred --predictions networks.jsonl
+    python recipes/training/small_networks.py out/hundred --depth
 
 Needs numpy, and pyarrow for reading. Learns from split train, judges on the other splits. Fifteen networks, three
-seeds of five kinds: two hidden layers, trained by Adam on poses and on boxes of the target, never on pictures. A box is
-read as a place: its middle gives the direction, its height the distance. Every window is learnt a second time as its
+seeds of five kinds: two hidden layers, trained by Adam on poses and on boxes of the target. A box is
+read as a place: its middle gives the direction, its height the distance. `--depth` adds a kind that reads the distance from the
+depth pictures of the logs instead, and needs `mcap` and `mcap-protobuf-support`. Every window is learnt a second time as its
 mirror image. Tested is whether pose history is the decisive input, whether boxes add to poses, and whether learning from
 perturbed flights (denoising) beats learning from experts' flights alone on yaw.
 
@@ -32,6 +34,9 @@ KINDS = [
     ("poses and boxes, expert only", True, True, [EXPERT]),
 ]
 FULL, WITHOUT_BOXES, WITHOUT_POSES, EXPERT_ONLY = 0, 1, 2, 4
+WITH_DEPTH = ("poses, boxes and depth, denoising", True, True, [PERTURBED])
+# A person fills the near part of a box: this share of its pixels is no farther.
+NEAR_SHARE = 30
 HIDDEN, BATCH, RATE = 64, 64, 2e-3
 PERSON_M = 1.72
 # Signs of x, y, z, pitch, yaw, roll in a mirror.
@@ -62,12 +67,36 @@ class Windows:
         self.image_px = np.array([[row["camera_width_px"], row["camera_height_px"]] for row in rows], np.float64)
         self.focal_px = np.array([row["camera_focal_px"] for row in rows])
         self.boxes_px = lists("input_boxes_px", 4).astype(np.float64)
+        self.depth_m = None
         walkers = [(row["town"], row["pedestrian_id"]) for row in rows]
         numbers = {walker: number for number, walker in enumerate(dict.fromkeys(walkers))}
         self.walker = np.array([numbers[walker] for walker in walkers], dtype=int)
 
     def __len__(self):
         return len(self.current)
+
+    def read_depth(self, folder):
+        """Distances along the optical axis to what the boxes show, metres, from the depth pictures of the logs; 0 without a box."""
+        from mcap.reader import make_reader
+        from mcap_protobuf.decoder import DecoderFactory
+
+        paths = ds.dataset(folder / "data/trajectories").to_table(["trajectory_id", "mcap_path"]).to_pylist()
+        paths = {row["trajectory_id"]: row["mcap_path"] for row in paths}
+        rows = {}
+        for row, name in enumerate(self.trajectory_id):
+            rows.setdefault(name, []).append(row)
+        self.depth_m = np.zeros(self.boxes_px.shape[:2])
+        for name, of_flight in rows.items():
+            with (folder / paths[name]).open("rb") as file:
+                messages = make_reader(file, decoder_factories=[DecoderFactory()]).iter_decoded_messages("/camera/depth/image")
+                for frame, (*_, image) in enumerate(messages):
+                    picture = np.frombuffer(image.data, "<f4").reshape(image.height, image.width)
+                    for row in of_flight:
+                        place = frame - self.start_frame[row]
+                        if 0 <= place < self.boxes_px.shape[1]:
+                            left, top, right, bottom = self.boxes_px[row, place].astype(int)
+                            box = picture[top:bottom, left:right]
+                            self.depth_m[row, place] = np.percentile(box, NEAR_SHARE) if box.size else 0
 
     def mirrored(self):
         """The same windows in a mirrored world."""
@@ -111,10 +140,12 @@ def places(windows, sees_poses):
     pitch, yaw = np.radians(poses[..., 3]), np.radians(poses[..., 4])
     ahead, up = np.cos(pitch) + np.sin(pitch) * down, np.sin(pitch) - np.cos(pitch) * down
     ray = np.stack([np.cos(yaw) * ahead - np.sin(yaw) * right, np.sin(yaw) * ahead + np.cos(yaw) * right, up], axis=-1)
-    ray /= np.linalg.norm(ray, axis=-1, keepdims=True)
+    length = np.linalg.norm(ray, axis=-1, keepdims=True)
+    ray /= length
     # A person of usual height who stands upright covers this angle.
     angle = np.maximum((high - low)[..., 1:], 1) / windows.focal_px[:, None, None]
-    away_m = np.clip(PERSON_M * np.hypot(ray[..., :1], ray[..., 1:2]) / angle, 2, 80)
+    away_m = PERSON_M * np.hypot(ray[..., :1], ray[..., 1:2]) / angle
+    away_m = np.clip(away_m if windows.depth_m is None else windows.depth_m[..., None] * length, 2, 80)
     seen_from = lambda offset: np.where(is_seen, turned(offset, current[..., 4]), 0.0)
     place = seen_from(poses[..., :3] + away_m * ray - current[..., :3])
     return place, seen_from(ray), np.where(is_seen, angle, 0.0), is_seen.astype(float)
@@ -226,6 +257,7 @@ def main():
     arguments.add_argument("dataset", type=Path, help="folder of a finished dataset")
     arguments.add_argument("--predictions", type=Path, help="write the first network's predictions for `cosfly eval`")
     arguments.add_argument("--steps", type=int, default=4000, help="steps of training (default 4000)")
+    arguments.add_argument("--depth", action="store_true", help="also read distances from the depth pictures of the logs")
     arguments.add_argument("--seeds", type=int, default=3, help="networks of each kind (default 3)")
     chosen = arguments.parse_args()
     splits = {file.name.split("-")[0] for file in (chosen.dataset / "data/windows").glob("*.parquet")}
@@ -236,8 +268,11 @@ def main():
     found, first = [], None
     print("| network | windows learnt | ADE, m | FDE, m | SR@1m, % | yaw MAE, degrees |")
     print("| --- | ---: | ---: | ---: | ---: | ---: |")
-    for name, sees_poses, sees_boxes, roles in KINDS:
+    for name, sees_poses, sees_boxes, roles in KINDS + [WITH_DEPTH] * chosen.depth:
         lessons = Windows(chosen.dataset, ["train"], roles)
+        if name == WITH_DEPTH[0]:
+            lessons.read_depth(chosen.dataset)
+            judged.read_depth(chosen.dataset)
         both = [lessons, lessons.mirrored()]
         seen = np.concatenate([features(part, sees_poses, sees_boxes) for part in both])
         learnt = np.concatenate([outcomes(part) for part in both])
@@ -264,6 +299,10 @@ def main():
     value, low, high = difference("fde_m", found[WITHOUT_BOXES], found[FULL], judged.walker, 1000)
     holds = "holds" if low > 0 else "does NOT hold"
     print(f"Boxes add to poses: the direction {holds}. FDE is {value:.2f} m [{low:.2f}, {high:.2f}] larger without them.")
+    if chosen.depth:
+        value, low, high = difference("fde_m", found[WITHOUT_BOXES], found[-1], judged.walker, 1000)
+        holds = "holds" if low > 0 else "does NOT hold"
+        print(f"Boxes and depth add to poses: the direction {holds}. FDE is {value:.2f} m [{low:.2f}, {high:.2f}] larger without them.")
     value, low, high = difference("yaw_mae_deg", found[EXPERT_ONLY], found[FULL], judged.walker, 1000)
     holds = "holds" if low > 0 else "does NOT hold"
     ratio = score(EXPERT_ONLY, "yaw_mae_deg") / score(FULL, "yaw_mae_deg")
