@@ -93,6 +93,39 @@ fn adding_a_town_makes_no_flight_of_the_first_one_again() {
     cosfly(&["verify", "out/street"]).within(street.path()).run_ok();
 }
 
+#[test]
+fn the_recipe_of_the_papers_size_has_its_counts_and_runs_in_small() {
+    let folder = tempfile::tempdir().expect("scratch");
+    let at = |name: &str| folder.path().join(name).display().to_string();
+    let recipe = "recipes/cosfly_track_full.toml";
+    let small = [
+        "for_each.town.walks=1",
+        "for_each.town.others=3",
+        "for_each.town.files=towns/track/town0[18].json",
+        "stages.walkers.steps=24",
+        "stages.crowd.steps=24",
+        "stages.frames.width=96",
+        "stages.frames.height=54",
+    ];
+    let mut run = vec!["run", recipe, "--quiet", "--store", "", "--out", ""];
+    let (store, out) = (at("store"), at("out"));
+    (run[4], run[6]) = (&store, &out);
+    run.extend(small.iter().flat_map(|change| ["--set", change]));
+    cosfly(&run).run_ok();
+    cosfly(&["verify", &out]).run_ok();
+    assert_eq!(std::fs::read_dir(folder.path().join("out/mcap")).expect("it has logs").count(), 2);
+    // The trial has measured every stage: the plan of the whole has its time and its price.
+    let plan = cosfly(&["plan", recipe, "--store", &store, "--price", "0.04", "--json"]).run_ok().stdout;
+    let plan: serde_json::Value = serde_json::from_str(&plan).expect("JSON");
+    let items = |kind: &str| -> u64 {
+        let stages = plan["stages"].as_array().into_iter().flatten();
+        stages.filter(|it| it["uses"] == kind).filter_map(|it| it["items"].as_u64()).sum()
+    };
+    assert_eq!((items("map"), items("muco"), items("perturb"), items("caption")), (16, 6_000, 6_000, 12_000));
+    assert_eq!(plan["all_measured"], true);
+    assert!(plan["predicted_price"].as_f64().is_some_and(|price| price > 0.0), "{}", plan["predicted_price"]);
+}
+
 /// The street's recipe with its stages made for each town of a list.
 fn recipe_of_a_list(towns: &str) -> String {
     let (head, stages) = RECIPE.split_at(RECIPE.find("[stages.town]").expect("it has a town"));

@@ -13,6 +13,34 @@ from pathlib import Path
 import numpy as np
 from PIL import Image
 
+
+
+def positions_by_points(path):
+    """As readers do that look for `points` and `trace_timestamp`, and refuse gaps: times and places of the drone."""
+    document = json.loads(path.read_text())
+    if document.get("schema") != "drone_nav_traj_v7":
+        raise ValueError(f"{path}: not a flight of v7")
+    points = document["points"]
+    assert [point["index"] for point in points] == list(range(len(points)))
+    pose = lambda point: [float(point["drone_pose"][key]) for key in ("x", "y", "z", "pitch", "yaw", "roll")]
+    return [float(point["timing"]["trace_timestamp"]) for point in points], np.array([pose(point) for point in points])
+
+
+def positions_by_waypoints(path):
+    """As readers do that look for `waypoints` and `timing.timestamp`, and make velocities of them."""
+    document = json.loads(path.read_text())
+    times, poses = [], []
+    for waypoint in document["waypoints"]:
+        times.append(waypoint["timing"]["timestamp"])
+        pose = waypoint["drone_pose"]
+        poses.append([pose["x"], pose["y"], pose["z"], pose["pitch"], pose["yaw"], pose["roll"]])
+        frame = path.parent / "frames_playback" / f"frame_{waypoint['index']:05d}" / "rgb.png"
+        assert frame.is_file(), frame
+    velocities = np.diff(np.array(poses), axis=0) / np.diff(times)[:, None]
+    assert np.isfinite(velocities).all() and (np.linalg.norm(velocities[:, :3], axis=1) < 60).all()
+    return times, np.array(poses)
+
+
 TOWN = re.compile(r"(Town0[1-7]|Town10HD)(_Opt)?")
 root = Path(sys.argv[1]) / "data_v7"
 groups = defaultdict(set)
@@ -33,7 +61,8 @@ for folder in sorted(root.glob("Town*/trajectory_*")):
         K = np.array(camera["intrinsic"], float)
         assert K.shape == (3, 3) and np.isfinite(K).all() and K[0, 0] == K[1, 1] == camera["focal_length_px"]
         assert points and report["num_points"] == len(points)
-        # Some readers look for `waypoints` and `timing.timestamp`.
+        by_points, by_waypoints = (read(folder / trace / "trajectory.json") for read in (positions_by_points, positions_by_waypoints))
+        assert by_points[0] == by_waypoints[0] and (by_points[1] == by_waypoints[1]).all() and len(by_points[0]) == len(points)
         for point, waypoint in zip(points, document["waypoints"], strict=True):
             assert waypoint["drone_pose"] == point["drone_pose"] and waypoint["timing"] == point["timing"]
             assert waypoint["timing"]["timestamp"] == point["timing"]["trace_timestamp"]

@@ -38,6 +38,7 @@ fn items() -> Vec<DatasetItem> {
             subset_rank: 0.5,
         },
         layout: Arc::new(TownLayout::of(&sample::town())),
+        landmarks: Arc::default(),
         windows: WindowShape { history: 2, horizon: 2, stride: 1 },
         record: flight.record,
     };

@@ -37,6 +37,7 @@ fn item(role: Role) -> DatasetItem {
             subset_rank: 0.5,
         },
         layout: Arc::new(TownLayout::of(&sample::town())),
+        landmarks: Arc::default(),
         windows: WindowShape { history: 2, horizon: 2, stride: 1 },
     }
 }

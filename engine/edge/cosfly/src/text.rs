@@ -22,13 +22,15 @@ pub fn bytes(number: u64) -> String {
     }
 }
 
-/// A duration as seconds or minutes.
+/// A duration as seconds, minutes or hours.
 pub fn duration(time: Duration) -> String {
     let seconds = time.as_secs_f64();
     if seconds < 60.0 {
         format!("{seconds:.1} s")
-    } else {
+    } else if time.as_secs() < 3 * 3600 {
         format!("{} min {:02} s", time.as_secs() / 60, time.as_secs() % 60)
+    } else {
+        format!("{} h {:02} min", time.as_secs() / 3600, time.as_secs() / 60 % 60)
     }
 }
 
@@ -42,5 +44,6 @@ mod tests {
         assert_eq!(shown, ["0 B", "999 B", "1.0 kB", "100 kB", "1.2 MB", "2.0 GB"]);
         assert_eq!((count(1, "item"), count(0, "item")), ("1 item".to_owned(), "0 items".to_owned()));
         assert_eq!(duration(Duration::from_millis(61_400)), "1 min 01 s");
+        assert_eq!(duration(Duration::from_secs(356_000)), "98 h 53 min");
     }
 }

@@ -61,7 +61,7 @@ impl StageKind for Map {
         config.source = "(content)".into();
         let properties = StageProperties {
             kind: self.name().into(),
-            version: 3,
+            version: 4,
             parameters: canonical(&config)?,
             sources: vec![Source { check: Some(own_options_only()), ..Source::new("source", source) }],
             inputs: self.ports(),
@@ -74,12 +74,14 @@ impl StageKind for Map {
     }
 }
 
-/// Schema of the options of a format; their descriptions begin with its name.
+/// Schema of the options of a format; their descriptions begin with the names of the formats that have them.
 fn named_schema(format: &Format) -> Value {
     let mut schema = format.schema();
-    for (_, option) in schema["properties"].as_object_mut().into_iter().flatten() {
+    for (name, option) in schema["properties"].as_object_mut().into_iter().flatten() {
+        let owners: Vec<&str> =
+            FORMATS.iter().filter(|one| one.option_names().contains(name)).map(Format::name).collect();
         let description = option["description"].as_str().unwrap_or_default();
-        option["description"] = format!("{}: {description}", format.name()).into();
+        option["description"] = format!("{}: {description}", owners.join(", ")).into();
     }
     schema
 }
@@ -117,7 +119,7 @@ fn own_options_only() -> SourceCheck {
 
 /// Schema that allows all options but those of other formats than `own`.
 fn without_foreign_options(own: &Format, path: &Path) -> Value {
-    let mut properties = serde_json::Map::new();
+    let (mut properties, own_names) = (serde_json::Map::new(), own.option_names());
     for foreign in FORMATS.iter().filter(|format| format.name() != own.name()) {
         let reason = format!(
             "is an option of maps in the format {}, but `{}` is in the format {}",
@@ -125,8 +127,8 @@ fn without_foreign_options(own: &Format, path: &Path) -> Value {
             path.display(),
             own.name()
         );
-        properties
-            .extend(foreign.option_names().into_iter().map(|name| (name, json!({ "not": {}, "description": reason }))));
+        let names = foreign.option_names().into_iter().filter(|name| !own_names.contains(name));
+        properties.extend(names.map(|name| (name, json!({ "not": {}, "description": reason }))));
     }
     json!({ "properties": properties })
 }
@@ -219,6 +221,7 @@ fn refusal(error: MapError, path: PathBuf, bytes: &[u8]) -> Box<Diagnostic> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use std::collections::BTreeSet;
 
     fn keys_of(parameters: Value) -> Value {
         let parts = Map.build(parameters).unwrap_or_else(|error| panic!("{error:?}"));
@@ -240,11 +243,11 @@ mod tests {
     }
 
     #[test]
-    fn the_schema_names_the_format_that_owns_an_option_and_no_option_twice() {
+    fn the_schema_names_the_formats_that_have_an_option_and_no_option_twice() {
         let common = parameters::schema_of::<MapConfig>()["properties"].as_object().expect("a table").len();
-        let options: usize = FORMATS.iter().map(|format| format.option_names().len()).sum();
+        let options: BTreeSet<String> = FORMATS.iter().flat_map(Format::option_names).collect();
         let schema = Map.schema();
-        assert_eq!(schema["properties"].as_object().expect("a table").len(), common + options);
+        assert_eq!(schema["properties"].as_object().expect("a table").len(), common + options.len());
         assert!(schema["properties"]["signals"]["description"].as_str().expect("text").starts_with("OpenDRIVE: "));
     }
 }

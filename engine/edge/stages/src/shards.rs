@@ -1,19 +1,23 @@
 //! Part `tables` of a `dataset` stage: tables and logs of each group of walks.
 
 use crate::plugins::stage::EXTRA;
-use crate::ports::{self, EXTRAS, LOG, SHARD};
+use crate::ports::{self, EXTRAS, LOG, SHARD, TOWN};
 use crate::rejections::rejection;
+use crate::world::TOWN_BLOB;
 use crate::{codec, group_notes, group_splits, logs, parameters};
 use cosfly_blobs::OutputSink;
 use cosfly_diagnose::{Diagnostic, Fault, Result};
 use cosfly_fingerprint::Digest;
+use cosfly_maps::Town;
 use cosfly_schema::extras::Extra;
+use cosfly_schema::tables::Landmarks;
 use cosfly_schema::{CaptionRecord, DatasetConfig, LogRecord, PreviewStrip, Rejection, RenderedTrajectory};
 use cosfly_stage::{
     Artifact, Blobs, Fan, InputPort, Inputs, ItemName, Produced, Stage, StagePart, StageProperties, TaskContext,
 };
 use cosfly_write::{GroupFlights, GroupSource, PublishedLog, Shard, write_shard};
 use std::collections::BTreeMap;
+use std::sync::Arc;
 
 /// Name of the part and of the port that reads it.
 const NAME: &str = "tables";
@@ -33,7 +37,7 @@ pub fn part(config: &DatasetConfig, inputs: [InputPort; 3]) -> StagePart {
     inputs.extend([ports::group(logs::port()), group_splits::port()]);
     let properties = StageProperties {
         kind: "dataset".into(),
-        version: 1,
+        version: 2,
         parameters: serde_json::json!({
             "windows": canonical["windows"],
             "frames_per_file": canonical["frames_per_file"],
@@ -138,6 +142,12 @@ impl GroupSource for Gathered<'_> {
 
     fn captions(&self, index: usize) -> Result<Vec<CaptionRecord>> {
         logs::captions_of(self.inputs, self.flights[index].captions)
+    }
+
+    fn landmarks(&self, index: usize) -> Result<Arc<Landmarks>> {
+        self.inputs.decoded(self.flights[index].frames, TOWN_BLOB, |bytes| {
+            codec::decode(TOWN, bytes).map(|town: Town| Landmarks::of(&town.obstacles))
+        })
     }
 
     fn extras(&self, index: usize) -> Result<Vec<Extra>> {

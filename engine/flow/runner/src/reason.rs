@@ -14,6 +14,9 @@ pub enum Reason {
     Wiring,
 }
 
+/// Most stages that a reason names.
+const MOST_NAMED: usize = 5;
+
 impl fmt::Display for Reason {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
@@ -21,7 +24,14 @@ impl fmt::Display for Reason {
                 f.write_str(if index == 0 { "" } else { "; " })?;
                 change.fmt(f)
             }),
-            Self::Upstream(stages) => write!(f, "its inputs from `{}` changed", stages.join("`, `")),
+            Self::Upstream(stages) => {
+                let named = stages.len().min(MOST_NAMED);
+                write!(f, "its inputs from `{}`", stages[..named].join("`, `"))?;
+                match stages.len() - named {
+                    0 => f.write_str(" changed"),
+                    more => write!(f, " and {more} more stages changed"),
+                }
+            }
             Self::Wiring => write!(f, "other inputs are connected"),
         }
     }

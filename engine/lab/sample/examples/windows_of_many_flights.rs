@@ -5,7 +5,7 @@ use cosfly_frames::{DVec3, Pose, Seed};
 use cosfly_metrics::WindowShape;
 use cosfly_sample as sample;
 use cosfly_schema::TownLayout;
-use cosfly_schema::tables::{self, DatasetItem, Membership};
+use cosfly_schema::tables::{self, DatasetItem, Landmarks, Membership};
 use cosfly_schema::{LogRecord, PreviewStrip, RenderedTrajectory, Role, Split};
 use cosfly_write::table_file::TableWriter;
 use std::fs::File;
@@ -23,6 +23,7 @@ fn main() {
     let output = BufWriter::new(File::create(path).expect("the file can be written"));
     let mut writer = TableWriter::new(&table, output).expect("a new file can be written");
     let layout = Arc::new(TownLayout::of(&sample::town()));
+    let landmarks = Arc::new(Landmarks::of(&sample::town().obstacles));
     let patterns = [Role::Expert, Role::Perturbed].map(|role| sample::flight(0, role));
     for pair in 0..PAIRS {
         let expert = long_flight(&patterns[0].record, pair, 0.0);
@@ -41,6 +42,7 @@ fn main() {
                     subset_rank: 0.5,
                 },
                 layout: Arc::clone(&layout),
+                landmarks: Arc::clone(&landmarks),
                 windows: WindowShape::default(),
                 record,
             };

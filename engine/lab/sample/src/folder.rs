@@ -5,7 +5,7 @@ use cosfly_blobs::{BlobRef, OutputSink, SeekWrite};
 use cosfly_diagnose::{Diagnostic, Result};
 use cosfly_fingerprint::Digest;
 use cosfly_render::ChannelSet;
-use cosfly_schema::tables::ObjectRecord;
+use cosfly_schema::tables::{Landmarks, ObjectRecord};
 use cosfly_schema::{
     CaptionRecord, DatasetConfig, EncodingConfig, LogRecord, PreviewStrip, RenderedTrajectory, TownLayout,
 };
@@ -63,6 +63,10 @@ impl GroupSource for Flights {
 
     fn captions(&self, index: usize) -> Result<Vec<CaptionRecord>> {
         Ok(self.0[index].captions.clone())
+    }
+
+    fn landmarks(&self, _: usize) -> Result<Arc<Landmarks>> {
+        Ok(Arc::new(Landmarks::of(&town().obstacles)))
     }
 
     fn previews(&self, index: usize) -> Result<PreviewStrip> {

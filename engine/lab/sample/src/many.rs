@@ -5,7 +5,7 @@ use super::{SampleFlight, flights, town};
 use cosfly_blobs::{BlobRef, OutputSink, SeekWrite};
 use cosfly_diagnose::{Diagnostic, Result};
 use cosfly_frames::DVec3;
-use cosfly_schema::tables::ObjectRecord;
+use cosfly_schema::tables::{Landmarks, ObjectRecord};
 use cosfly_schema::{CaptionRecord, DatasetConfig, EncodingConfig, PreviewStrip, RenderedTrajectory, TownLayout};
 use cosfly_write::publish::{
     DatasetSource, FlightNote, GroupFlights, GroupName, GroupSource, PublishedLog, Summary, plan_groups, write_dataset,
@@ -29,6 +29,7 @@ pub struct ManyFlights {
     packs: Vec<Vec<u8>>,
     previews: Vec<PreviewStrip>,
     layout: Arc<TownLayout>,
+    landmarks: Arc<Landmarks>,
     count: usize,
 }
 
@@ -42,7 +43,8 @@ impl ManyFlights {
         let packs: Vec<Vec<u8>> = samples.iter().map(|flight| flight.pack(EncodingConfig::default())).collect();
         let preview = |pack: &Vec<u8>| FramePackReader::new(Cursor::new(pack))?.preview_strip();
         let previews = packs.iter().map(preview).collect::<Result<_>>()?;
-        Ok(Self { samples, packs, previews, layout: Arc::new(TownLayout::of(&town())), count })
+        let layout = Arc::new(TownLayout::of(&town()));
+        Ok(Self { samples, packs, previews, layout, landmarks: Arc::new(Landmarks::of(&town().obstacles)), count })
     }
 
     /// Number of flights.
@@ -117,6 +119,10 @@ impl GroupSource for Group<'_> {
     fn captions(&self, index: usize) -> Result<Vec<CaptionRecord>> {
         let samples = &self.all.samples;
         Ok(samples[(self.first + index) % samples.len()].captions.clone())
+    }
+
+    fn landmarks(&self, _: usize) -> Result<Arc<Landmarks>> {
+        Ok(Arc::clone(&self.all.landmarks))
     }
 
     fn previews(&self, index: usize) -> Result<PreviewStrip> {

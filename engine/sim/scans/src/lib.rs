@@ -1,1 +1,12 @@
 //! Readers of measured shapes: point clouds, triangle meshes.
+
+pub mod bytes;
+pub mod cloud;
+pub mod grid;
+pub mod las;
+pub mod open_ground;
+pub mod pcd;
+pub mod ply;
+pub mod relief;
+pub mod scalar;
+pub mod solid_cells;

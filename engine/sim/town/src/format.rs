@@ -9,8 +9,8 @@ use serde_json::Value;
 /// A map format: a reader over bytes, and the options that it owns.
 ///
 /// Laws, tested over all formats: a format recognises its own files only; truncated, damaged and absurd files are
-/// refused with an error in bounded time and memory; the same bytes and options give the same town; no two formats
-/// own an option of the same name.
+/// refused with an error in bounded time and memory; the same bytes and options give the same town; formats that have
+/// an option of the same name describe it alike.
 pub trait MapFormat {
     /// Options of the format. A recipe gives them in the table of its stage `map`, beside those of all maps.
     type Options: Default + Serialize + DeserializeOwned + JsonSchema;

@@ -79,7 +79,7 @@ pub fn building_boxes(footprint: &Footprint, base_m: f64, eaves_m: f64, roof: Ro
     let step_count = (rise_m / ROOF_STEP_M).ceil().clamp(1.0, MOST_STEPS);
     let level_m = |step: f64| eaves_m.max(base_m) + rise_m * step / step_count;
     let mut boxes: Vec<OrientedBox> =
-        plan.cover(COVER_TOLERANCE_M).into_iter().map(|one| upright(one, base_m, level_m(1.0))).collect();
+        plan.cover(COVER_TOLERANCE_M, MOST).into_iter().map(|one| upright(one, base_m, level_m(1.0))).collect();
     let plan = if step_count > 1.0 { RoofPlan::of(plan, roof) } else { None };
     let Some(plan) = plan else {
         // Too low or too thin for steps.

@@ -36,6 +36,21 @@ fn declares_latin1(bytes: &[u8]) -> bool {
     ["iso-8859-1", "latin1", "windows-1252"].iter().any(|name| declaration.contains(name))
 }
 
+/// A refusal of the JSON parser at its place in the text.
+pub fn refused_json(error: &serde_json::Error, text: &str) -> MapError {
+    let lines = Lines::new(text);
+    let at = lines.byte_at(error.line() as u32, error.column() as u32);
+    // The parser's own text ends with the position, which the place says better.
+    let message = error.to_string();
+    let message = message.rsplit_once(" at line ").map_or(message.as_str(), |(before, _)| before);
+    let hint = if error.is_eof() {
+        "the file seems to be cut off: fetch or export it again"
+    } else {
+        "the book's chapter `Real towns` describes the format"
+    };
+    MapError::new(message).at(lines.place(at..(at + 1).min(text.len()).max(at), String::new())).hint(hint)
+}
+
 /// Starts of the lines, so that a position becomes a line and a column in little time.
 pub struct Lines<'t> {
     text: &'t str,
@@ -55,21 +70,6 @@ impl<'t> Lines<'t> {
         let before = self.text.get(self.starts[line - 1]..byte_span.start).unwrap_or_default();
         let column = before.chars().count() as u32 + 1;
         Place { line: line as u32, column, byte_span, element }
-    }
-
-    /// An error of the JSON parser at its place in the text.
-    pub fn json_error(&self, error: &serde_json::Error) -> MapError {
-        let at = self.byte_at(error.line() as u32, error.column() as u32);
-        // The parser's own text ends with the position, which the place says better.
-        let message = error.to_string();
-        let message = message.rsplit_once(" at line ").map_or(message.as_str(), |(before, _)| before);
-        let hint = if error.is_eof() {
-            "the file seems to be cut off: fetch or export it again"
-        } else {
-            "the book's chapter `Real towns` describes the format"
-        };
-        let span = at..(at + 1).min(self.text.len()).max(at);
-        MapError::new(message).at(self.place(span, String::new())).hint(hint)
     }
 
     /// The byte at a line and column (characters), both from 1; held to the text.

@@ -158,6 +158,19 @@ fn outlines_of_a_million_corners_are_covered_by_few_rectangles() {
     }
 }
 
+#[test]
+fn thousands_of_faces_are_covered_coarsely() {
+    let face = |i: u32| {
+        let (x, y) = (f64::from(i * 37 % 4001) * 0.05, f64::from(i * 61 % 3989) * 0.02);
+        ring(&[(x, y), (x + 3.0, y + 0.5), (x + 0.3, y + 2.0 + 0.01 * y)])
+    };
+    let faces: Vec<Vec<DVec2>> = (0..6000).map(face).collect();
+    let cover = cover_rings(&faces.iter().map(Vec::as_slice).collect::<Vec<_>>(), &[]);
+    assert!(!cover.is_empty() && cover.len() <= MOST, "{} rectangles", cover.len());
+    let inner = faces.iter().flat_map(|face| [face[0], face[1], face[2], (face[0] + face[1] + face[2]) / 3.0]);
+    assert!(inner.into_iter().all(|point| covered(&cover, point)));
+}
+
 /// Height of the boxes over a point, none beside them.
 fn top_m(boxes: &[OrientedBox], point: DVec2) -> Option<f64> {
     let over = boxes.iter().filter(|one| {

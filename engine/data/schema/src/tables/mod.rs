@@ -22,6 +22,7 @@ mod windows;
 pub use arrow_schema::{hugging_face_features, schema};
 pub use captions::Captions;
 pub use column::{AnyColumn, CellProblem, Column};
+pub use cosfly_captions::sight::Landmarks;
 pub use files::{FileRecord, Files};
 pub use frames::{Frames, ROLES};
 pub use objects::{ObjectRecord, Objects, kind_name};

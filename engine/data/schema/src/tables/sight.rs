@@ -13,7 +13,7 @@ pub fn instruction(item: &DatasetItem, frame: usize, start: usize, language: Lan
     let Some(view) = view(item, frame, start) else { return String::new() };
     let record = &item.record;
     let seed = Seed::of_item(record.seed, "windows", &record.trajectory_id).child("window", start as u64);
-    sight::instruction(&sight::sight(&view), language, seed)
+    sight::instruction(&sight::sight(&view, &item.landmarks), language, seed)
 }
 
 /// The picture of frame `frame`; `None` for a target without a body.
@@ -28,7 +28,7 @@ fn view(item: &DatasetItem, frame: usize, start: usize) -> Option<View> {
     };
     Some(View {
         camera: record.camera_pose(frame),
-        width_px: f64::from(record.camera.width),
+        optics: record.camera,
         target: person(&states[frame], seen.visible_box.as_ref(), seen.pixels, outfit.top.name),
         wear: Some(Wear::from(outfit)),
         moved_in_world: states[frame].feet_in_world - states[start].feet_in_world,

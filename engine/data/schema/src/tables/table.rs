@@ -2,6 +2,7 @@
 
 use super::column::AnyColumn;
 use crate::{CaptionRecord, LogRecord, PreviewStrip, RenderedTrajectory, Split, TownLayout};
+use cosfly_captions::sight::Landmarks;
 use cosfly_metrics::WindowShape;
 use serde::{Deserialize, Serialize};
 use std::sync::Arc;
@@ -25,6 +26,8 @@ pub struct DatasetItem {
     pub membership: Membership,
     /// Ground plan of the trajectory's town.
     pub layout: Arc<TownLayout>,
+    /// Trees, lamps and buildings of the trajectory's town.
+    pub landmarks: Arc<Landmarks>,
     /// Shape of training windows.
     pub windows: WindowShape,
 }

@@ -79,6 +79,7 @@ impl<'a> GroupFlights<'a> {
             expert: self.expert_of(&record)?,
             membership: planned.membership.clone(),
             layout: Arc::clone(layout),
+            landmarks: self.source.landmarks(index)?,
             windows: self.windows,
             record,
         })

@@ -5,8 +5,9 @@ use cosfly_diagnose::Result;
 use cosfly_render::ChannelSet;
 use cosfly_report::PlannerRow;
 use cosfly_schema::extras::Extra;
-use cosfly_schema::tables::ObjectRecord;
+use cosfly_schema::tables::{Landmarks, ObjectRecord};
 use cosfly_schema::{CaptionRecord, LogRecord, PreviewStrip, RenderedTrajectory};
+use std::sync::Arc;
 
 /// A finished log and the blob that holds it.
 #[derive(Clone, Debug)]
@@ -27,6 +28,8 @@ pub trait GroupSource {
     fn captions(&self, index: usize) -> Result<Vec<CaptionRecord>>;
     /// Previews of flight `index`.
     fn previews(&self, index: usize) -> Result<PreviewStrip>;
+    /// Trees, lamps and buildings of the town of flight `index`.
+    fn landmarks(&self, index: usize) -> Result<Arc<Landmarks>>;
     /// Tables and files of plugins for flight `index`.
     fn extras(&self, _: usize) -> Result<Vec<Extra>> {
         Ok(vec![])

@@ -6,6 +6,7 @@ use crate::console::Console;
 use crate::exit;
 use crate::text::{bytes, count, duration};
 use clap::Parser;
+use cosfly_recipe::Recipe;
 use cosfly_runner::{Plan, Reason};
 use serde_json::json;
 use std::fmt::Write;
@@ -47,7 +48,11 @@ impl Command for Arguments {
         let recipe = self.recipe.load(console)?;
         let store = self.store.open_to_read()?;
         let plan = cosfly_runner::plan(&recipe, &store)?;
-        console.print(&if self.json { json(&plan, self.price) } else { table(&plan) + &cost(&plan, self.price) })?;
+        console.print(&if self.json {
+            json(&plan, self.price)
+        } else {
+            table(&plan) + &passing(&recipe, &plan) + &cost(&plan, self.price)
+        })?;
         Ok(exit::SUCCESS)
     }
 }
@@ -127,6 +132,22 @@ fn table(plan: &Plan<'_>) -> String {
         ),
     };
     text
+}
+
+/// Text about bytes that the recipe removes again.
+fn passing(recipe: &Recipe, plan: &Plan<'_>) -> String {
+    let is_removed = |name: &str| {
+        let stage = recipe.position(name).map(|at| &recipe.stages[at]);
+        stage.is_some_and(|stage| !stage.stage.properties().intermediate.is_empty())
+    };
+    let removed = plan.stages.iter().filter(|stage| recipe.remove_intermediates && is_removed(stage.name.as_str()));
+    match removed.map(|stage| stage.predicted_bytes).sum() {
+        0 => String::new(),
+        removed => format!(
+            "About {} of them are intermediate and are removed as soon as what is made of them is finished.\n",
+            bytes(removed)
+        ),
+    }
 }
 
 /// Time of everything that would run, core-seconds, and whether all of its stages were ever measured.

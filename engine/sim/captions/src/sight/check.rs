@@ -1,5 +1,6 @@
 //! The check of a text about one picture: its claims against the facts.
 
+use super::beside::NearLandmark;
 use super::facts::{Place, Seen, Sight};
 use super::reading::{SightClaim, read};
 use crate::check::{Slot, SlotMismatch, clothes_mismatch, script_mismatch};
@@ -44,6 +45,12 @@ fn mismatch(claim: &SightClaim, sight: &Sight) -> Option<SlotMismatch> {
             let near = &seen.near[*place as usize];
             differs(Slot::People, near.is_clear && near.tops.len() == *count, near)
         }
+        SightClaim::Landmark(it) => {
+            let is_so = |fact: &NearLandmark| {
+                Some(fact.beside) == it.beside && fact.kind == it.kind && (it.side.is_none() || it.side == fact.side)
+            };
+            differs(Slot::Place, seen.landmarks.iter().any(is_so), &seen.landmarks)
+        }
         SightClaim::NearTop(top) => differs(Slot::Clothes, is_worn_near(seen, *top), &seen.near),
         SightClaim::Clothes(_) | SightClaim::Hidden | SightClaim::Unknown(_) => None,
     }
@@ -61,7 +68,7 @@ fn told(slot: Slot, found: impl Debug, expected: impl Debug) -> SlotMismatch {
 #[cfg(test)]
 mod tests {
     use super::super::facts::sight;
-    use super::super::facts::test_views::views;
+    use super::super::facts::test_views::{town, views};
     use super::super::instruction;
     use super::*;
     use cosfly_random::Seed;
@@ -72,7 +79,7 @@ mod tests {
         for view in views() {
             for language in Language::ALL {
                 for item in 0..40 {
-                    let facts = sight(&view);
+                    let facts = sight(&view, &town());
                     let seed = Seed::of_item(1, "windows", &format!("p{item}"));
                     texts.push((instruction(&facts, language, seed), language, facts));
                 }
@@ -115,6 +122,13 @@ mod tests {
             ("beige top", "brown top"),
             ("red top", "green top"),
             ("standing still", "walking to the left"),
+            ("a tree", "a street lamp"),
+            ("a street lamp", "a tree"),
+            ("a building", "a parked car"),
+            ("passing", "approaching"),
+            ("approaching", "passing"),
+            ("next to a", "in front of a"),
+            ("in front of a", "next to a"),
             ("cannot be seen", "is the nearest"),
             ("背对镜头", "迎着镜头"),
             ("迎着镜头", "背对镜头"),
@@ -132,6 +146,12 @@ mod tests {
             ("黑色", "白色"),
             ("红色", "绿色"),
             ("站着不动", "迎着镜头走来"),
+            ("一棵树", "一盏路灯"),
+            ("一盏路灯", "一棵树"),
+            ("一栋楼房", "一辆停着的汽车"),
+            ("从左侧的", "从右侧的"),
+            ("旁走过", "前"),
+            ("走近", "位于"),
             ("不在视野内", "离镜头最近"),
         ];
         let (mut tried, mut used) = (0, std::collections::BTreeSet::new());

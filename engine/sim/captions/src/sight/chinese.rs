@@ -1,6 +1,8 @@
 //! Chinese wordings of what a picture shows.
 
+use super::beside::{Beside, NearLandmark, OnSide};
 use super::facts::{Across, Part, Place, Side, Sight};
+use super::landmarks::LandmarkKind;
 use super::wording::{Relation, relation};
 use crate::chinese::{colour, numeral, who};
 use crate::wording::one_of;
@@ -19,6 +21,7 @@ pub(super) fn instruction(sight: &Sight, words: &mut RandomStream) -> String {
     if words.chance(0.5) {
         parts.reverse();
     }
+    parts.extend(seen.landmarks.first().map(landmark_words));
     match parts.join("，") {
         nothing if nothing.is_empty() => format!("{follow}{who}。"),
         parts => format!("{follow}{who}，此人{parts}。"),
@@ -32,6 +35,29 @@ fn across_words(across: Across) -> &'static str {
         Across::ToTheLeft => "正朝画面左侧走去",
         Across::ToTheRight => "正朝画面右侧走去",
         Across::Stands => "正站着不动",
+    }
+}
+
+/// `正从左侧的一棵树旁走过`.
+fn landmark_words(landmark: &NearLandmark) -> String {
+    let thing = match landmark.kind {
+        LandmarkKind::TrafficLight => "一处红绿灯",
+        LandmarkKind::Lamp => "一盏路灯",
+        LandmarkKind::TrafficSign => "一块交通标志牌",
+        LandmarkKind::Tree => "一棵树",
+        LandmarkKind::Car => "一辆停着的汽车",
+        LandmarkKind::Building => "一栋楼房",
+    };
+    let side = match landmark.side {
+        Some(OnSide::Left) => "左侧的",
+        Some(OnSide::Right) => "右侧的",
+        None => "",
+    };
+    match landmark.beside {
+        Beside::Passes => format!("正从{side}{thing}旁走过"),
+        Beside::Approaches => format!("正走近{thing}"),
+        Beside::NextTo => format!("就在{thing}旁"),
+        Beside::InFront => format!("位于{thing}前"),
     }
 }
 

@@ -1,6 +1,8 @@
 //! English wordings of what a picture shows.
 
+use super::beside::{Beside, NearLandmark, OnSide};
 use super::facts::{Across, Part, Place, Side, Sight};
+use super::landmarks::LandmarkKind;
 use super::wording::{Relation, relation};
 use crate::english::{article, who};
 use crate::wording::one_of;
@@ -19,6 +21,8 @@ pub(super) fn instruction(sight: &Sight, words: &mut RandomStream) -> String {
     if words.chance(0.5) {
         parts.reverse();
     }
+    let walks = matches!(seen.across, Some(Across::Away | Across::Towards | Across::ToTheLeft | Across::ToTheRight));
+    parts.extend(seen.landmarks.first().map(|it| landmark_words(it, walks)));
     parts.insert(0, format!("{follow} the {who}"));
     format!("{}.", parts.join(", "))
 }
@@ -50,6 +54,31 @@ fn relation_words(relation: &Relation, words: &mut RandomStream) -> String {
         Relation::In(Part::Middle) => "in the middle of the picture".to_owned(),
         Relation::In(Part::Right) => "on the right of the picture".to_owned(),
     }
+}
+
+/// `passing a tree on the left`; `walks`: whether the text says already that the target walks.
+fn landmark_words(landmark: &NearLandmark, walks: bool) -> String {
+    let thing = match landmark.kind {
+        LandmarkKind::TrafficLight => "a traffic light",
+        LandmarkKind::Lamp => "a street lamp",
+        LandmarkKind::TrafficSign => "a traffic sign",
+        LandmarkKind::Tree => "a tree",
+        LandmarkKind::Car => "a parked car",
+        LandmarkKind::Building => "a building",
+    };
+    let side = match landmark.side {
+        Some(OnSide::Left) => " on the left",
+        Some(OnSide::Right) => " on the right",
+        None => "",
+    };
+    let relation = match landmark.beside {
+        Beside::Passes if walks => "passing",
+        Beside::Passes => "walking past",
+        Beside::Approaches => "approaching",
+        Beside::NextTo => "next to",
+        Beside::InFront => "in front of",
+    };
+    format!("{relation} {thing}{side}")
 }
 
 fn place_words(place: Place) -> &'static str {

@@ -3,9 +3,11 @@
 //! A fact that a person who sees the picture could dispute is left out: people of a few pixels make no counts, and
 //! directions near a border have no name.
 
+use super::beside::{NearLandmark, near_landmarks};
+use super::landmarks::Landmarks;
 use crate::facts::Wear;
 use cosfly_frames::{DVec3, Pose, real};
-use cosfly_render::Colour;
+use cosfly_render::{Camera, Colour};
 
 /// A person with fewer visible pixels is not clear: texts do not mention and do not count such a person, and do not say how
 /// many people the picture shows.
@@ -13,8 +15,8 @@ const CLEAR_PIXELS: u32 = 30;
 /// Smallest height of the box of a clear person, pixels.
 const CLEAR_HEIGHT_PX: f64 = 10.0;
 /// A target that moves less than this over the input stands; one that moves more than [`WALKS_M`] walks, metres.
-const STANDS_M: f64 = 0.1;
-const WALKS_M: f64 = 0.4;
+pub(super) const STANDS_M: f64 = 0.1;
+pub(super) const WALKS_M: f64 = 0.4;
 /// A way within this angle of a direction of the picture has its name, degrees.
 const ACROSS_DEG: f64 = 30.0;
 /// In a picture that looks down more steeply, "away" and "towards" mean little, degrees.
@@ -29,6 +31,8 @@ const NEAR_M: f64 = 6.0;
 const BESIDE_M: f64 = 0.7;
 /// Largest distance across the way, metres.
 const ASIDE_M: f64 = 1.8;
+/// Of people who are near only if all limits are so much wider, nobody can say whether they are near: nothing is said then.
+const BORDER: f64 = 1.3;
 /// The nearest person is nearer than all others by this factor at least.
 const NEARER: f64 = 1.25;
 /// The outermost person is this far from the next one at least, as a share of the picture's width.
@@ -67,8 +71,8 @@ impl Person {
 pub struct View {
     /// Pose of the camera.
     pub camera: Pose,
-    /// Width of the picture, pixels.
-    pub width_px: f64,
+    /// Size of the picture and its field of view.
+    pub optics: Camera,
     /// The target.
     pub target: Person,
     /// Clothes of the target.
@@ -126,7 +130,7 @@ impl Place {
 pub struct Near {
     /// Colours of their shirts or jackets.
     pub tops: Vec<Colour>,
-    /// Whether all of them are clear in the picture; else nothing is said of them.
+    /// Whether all of them are clear in the picture and nobody is at the border of being near; else nothing is said of them.
     pub is_clear: bool,
 }
 
@@ -145,6 +149,8 @@ pub struct Seen {
     pub is_nearest: bool,
     /// People who walk along, in the order of [`Place::ALL`].
     pub near: [Near; 3],
+    /// Landmarks that single the target out, the best first.
+    pub landmarks: Vec<NearLandmark>,
 }
 
 /// Facts of one picture.
@@ -156,13 +162,13 @@ pub struct Sight {
     pub seen: Option<Seen>,
 }
 
-/// Facts of the picture.
-pub fn sight(view: &View) -> Sight {
-    Sight { wear: view.wear, seen: view.target.box_px.map(|_| seen(view)) }
+/// Facts of the picture in a town with these landmarks.
+pub fn sight(view: &View, landmarks: &Landmarks) -> Sight {
+    Sight { wear: view.wear, seen: view.target.box_px.map(|_| seen(view, landmarks)) }
 }
 
-fn seen(view: &View) -> Seen {
-    let (target, width_px) = (&view.target, view.width_px);
+fn seen(view: &View, landmarks: &Landmarks) -> Seen {
+    let (target, width_px) = (&view.target, f64::from(view.optics.width));
     let at = target.across(width_px);
     let part = match at {
         left if left < 0.42 => Some(Part::Left),
@@ -189,6 +195,7 @@ fn seen(view: &View) -> Seen {
         side,
         is_nearest,
         near: Place::ALL.map(|place| near(view, place)),
+        landmarks: if target.is_clear() { near_landmarks(view, landmarks) } else { vec![] },
     }
 }
 
@@ -226,15 +233,21 @@ fn near(view: &View, place: Place) -> Near {
         let turned_deg = real::wrap_angle_rad(other.heading_rad - target.heading_rad).to_degrees().abs();
         let apart = other.feet_in_world - target.feet_in_world;
         let (before_m, aside_m) = (cos * apart.x + sin * apart.y, (cos * apart.y - sin * apart.x).abs());
-        let is_there = match place {
-            Place::Ahead => before_m < -BESIDE_M,
-            Place::Behind => before_m > BESIDE_M,
-            Place::Beside => before_m.abs() <= BESIDE_M,
+        // `wider` holds of people at the border, too.
+        let is_near = |wider: f64| {
+            let is_there = match place {
+                Place::Ahead => before_m < -BESIDE_M / wider,
+                Place::Behind => before_m > BESIDE_M / wider,
+                Place::Beside => before_m.abs() <= BESIDE_M * wider,
+            };
+            let is_along = turned_deg <= ALONG_DEG * wider && other.speed_mps >= ALONG_MPS / wider;
+            is_along && is_there && before_m.abs() <= NEAR_M * wider && aside_m <= ASIDE_M * wider
         };
-        let is_along = turned_deg <= ALONG_DEG && other.speed_mps >= ALONG_MPS;
-        if is_along && is_there && before_m.abs() <= NEAR_M && aside_m <= ASIDE_M {
+        if is_near(1.0) {
             near.tops.push(other.top);
             near.is_clear &= other.is_clear();
+        } else if is_near(BORDER) {
+            near.is_clear = false;
         }
     }
     near
@@ -245,6 +258,8 @@ pub(crate) mod test_views {
     //! Pictures with known facts.
 
     use super::*;
+    use cosfly_geometry::OrientedBox;
+    use cosfly_maps::{Obstacle, ObstacleKind};
 
     /// Somebody at x, y (m) who walks along a yaw (degrees) at 1.3 m/s, seen by the camera of [`view`].
     pub(crate) fn person(x: f64, y: f64, yaw_deg: f64, top: Colour) -> Person {
@@ -260,12 +275,32 @@ pub(crate) mod test_views {
         }
     }
 
+    /// A town with a tree, a lamp and a building near the people of [`views`].
+    pub(crate) fn town() -> Landmarks {
+        let thing = |kind, object_id, center: [f64; 3], half: [f64; 3]| Obstacle {
+            shape: OrientedBox {
+                center_in_world: DVec3::from_array(center),
+                half_extents_m: DVec3::from_array(half),
+                yaw_rad: 0.0,
+            },
+            kind,
+            object_id,
+            synthetic: false,
+        };
+        Landmarks::of(&[
+            thing(ObstacleKind::TreeTrunk, 0, [12.5, 7.0, 1.2], [0.2, 0.2, 1.2]),
+            thing(ObstacleKind::TreeCrown, 0, [12.5, 7.0, 3.2], [1.0, 1.0, 1.0]),
+            thing(ObstacleKind::Lamp, 1, [17.0, -4.0, 2.5], [0.2, 0.2, 2.5]),
+            thing(ObstacleKind::Building, 2, [21.0, 0.0, 4.0], [3.0, 12.0, 4.0]),
+        ])
+    }
+
     /// A picture 640 pixels wide, taken 5 m above the world's origin along x. Everybody walked on for 2 s.
     pub(crate) fn view(target: Person, others: Vec<Person>) -> View {
         let (sin, cos) = real::sin_cos(target.heading_rad);
         View {
             camera: Pose::looking_at(DVec3::Z * 5.0, DVec3::new(12.0, 0.0, 1.0)),
-            width_px: 640.0,
+            optics: Camera { width: 640, height: 480, horizontal_fov_rad: 90f64.to_radians() },
             wear: Some(Wear { top: target.top, trousers: Colour::Blue, backpack: false }),
             moved_in_world: 2.0 * target.speed_mps * DVec3::new(cos, sin, 0.0),
             target,
@@ -298,17 +333,22 @@ pub(crate) mod test_views {
             view(target(-4.0, 0.0), vec![faint]),
             view(target(0.0, 0.0), vec![faint]),
             view(target(4.0, 0.0), vec![faint]),
+            view(target(4.5, 0.0), vec![]),
+            view(target(9.5, 0.0), vec![]),
+            view(target(4.5, 90.0), vec![]),
+            view(Person { speed_mps: 0.0, ..target(5.5, 0.0) }, vec![]),
+            view(person(16.7, 3.0, 90.0, Colour::Red), vec![]),
         ]
     }
 }
 
 #[cfg(test)]
 mod tests {
-    use super::test_views::{person, view, views};
+    use super::test_views::{person, town, view, views};
     use super::*;
 
     fn seen_in(number: usize) -> Seen {
-        sight(&views()[number]).seen.expect("it is seen")
+        sight(&views()[number], &town()).seen.expect("it is seen")
     }
 
     #[test]
@@ -328,7 +368,7 @@ mod tests {
         assert_eq!(tops(5), [vec![Colour::Black, Colour::Green], vec![], vec![]]);
         assert_eq!(tops(6), [vec![], vec![Colour::Purple], vec![]]);
         assert_eq!(tops(7), [vec![], vec![], vec![Colour::Beige]]);
-        assert_eq!(sight(&views()[10]).seen, None);
+        assert_eq!(sight(&views()[10], &town()).seen, None);
     }
 
     #[test]
@@ -338,6 +378,6 @@ mod tests {
         assert!(far.near[2].is_clear, "the one beside the target is clear");
         let target = person(12.0, 0.0, 0.0, Colour::Red);
         let faint = Person { pixels: 5, ..person(10.0, 0.0, 0.0, Colour::Black) };
-        assert!(!sight(&view(target, vec![faint])).seen.expect("it is seen").near[0].is_clear);
+        assert!(!sight(&view(target, vec![faint]), &town()).seen.expect("it is seen").near[0].is_clear);
     }
 }

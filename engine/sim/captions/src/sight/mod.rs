@@ -1,13 +1,18 @@
-//! What one picture shows of the target: its way across the picture, its place, the people around it; and instructions
+//! What one picture shows of the target: its way across the picture, its place, people and landmarks around it; and instructions
 //! that single it out by that.
 
+mod beside;
 pub mod check;
 mod chinese;
 mod english;
 pub mod facts;
+mod landmark_reading;
+pub mod landmarks;
 mod reading;
 mod wording;
 
+pub use beside::{Beside, NearLandmark, OnSide};
 pub use check::check_sight;
 pub use facts::{Across, Near, Part, Person, Place, Seen, Side, Sight, View, sight};
+pub use landmarks::{LandmarkKind, Landmarks};
 pub use wording::instruction;

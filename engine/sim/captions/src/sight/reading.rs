@@ -1,6 +1,7 @@
 //! Reads texts about one picture back: the claims of a text, whoever wrote it.
 
 use super::facts::{Across, Part, Place, Side};
+use super::landmark_reading::{LandmarkClaim, of_chinese, of_english};
 use crate::language::Language;
 use crate::reading::english::Token;
 use crate::reading::{Claim, chinese, english};
@@ -23,6 +24,8 @@ pub(super) enum SightClaim {
     Near(Place, usize),
     /// The one person whom the target is near wears a top of this colour.
     NearTop(Colour),
+    /// Passes, approaches, is next to or in front of a landmark.
+    Landmark(LandmarkClaim),
     /// Not in the picture.
     Hidden,
     /// Clothes of the target.
@@ -50,6 +53,10 @@ fn read_english(tokens: &[Token]) -> Vec<SightClaim> {
             Token::Number(value) => value.to_string(),
         })
         .collect();
+    let (landmark, words) = match of_english(&words) {
+        Some((claim, rest)) => (Some(SightClaim::Landmark(claim)), rest),
+        None => (None, words),
+    };
     let rest = |at: usize| words[at.min(words.len())..].join(" ");
     let before = |at: usize| words[..at].join(" ");
     let walks =
@@ -96,6 +103,7 @@ fn read_english(tokens: &[Token]) -> Vec<SightClaim> {
             _ => english::garment_claim(word, next).map(|claim| of_garment(claim, is_near)),
         });
     }
+    claims.extend(landmark);
     claims
 }
 
@@ -119,6 +127,8 @@ fn of_garment(claim: Claim, is_near: bool) -> SightClaim {
 }
 
 fn read_chinese(clause: &str) -> Vec<SightClaim> {
+    let landmark = of_chinese(clause);
+    let clause = landmark.as_ref().map_or(clause, |(_, rest)| rest);
     let has = |phrases: &[&str]| phrases.iter().any(|phrase| clause.contains(phrase));
     let place = match () {
         () if has(&["前面", "前方"]) => Some(Place::Ahead),
@@ -152,6 +162,7 @@ fn read_chinese(clause: &str) -> Vec<SightClaim> {
     }
     let garments = clause.char_indices().filter_map(|(at, _)| chinese::garment(&clause[at..]));
     claims.extend(garments.map(|(claim, _)| of_garment(claim, place.is_some())));
+    claims.extend(landmark.map(|(claim, _)| SightClaim::Landmark(claim)));
     claims
 }
 
@@ -173,10 +184,15 @@ fn people(clause: &str) -> Option<usize> {
 
 #[cfg(test)]
 mod tests {
+    use super::super::beside::{Beside, OnSide};
+    use super::super::landmarks::LandmarkKind;
     use super::*;
 
     #[test]
     fn sentences_in_other_words_are_read() {
+        let landmark = |beside, kind| SightClaim::Landmark(LandmarkClaim { beside, kind, side: None });
+        let tree =
+            |side| SightClaim::Landmark(LandmarkClaim { beside: Some(Beside::Passes), kind: LandmarkKind::Tree, side });
         use SightClaim::{Clothes, Hidden, Near, NearTop, Nearest, Outermost, People};
         for (text, language, expected) in [
             (
@@ -191,6 +207,21 @@ mod tests {
             ("the closest of 4 people", Language::En, vec![Nearest, People(4)]),
             ("the person is hidden", Language::En, vec![Hidden]),
             ("7 dogs", Language::En, vec![SightClaim::Unknown("7 dogs".into())]),
+            ("walks to the left past a tree", Language::En, vec![SightClaim::Across(Across::ToTheLeft), tree(None)]),
+            ("She passes the big tree on the right", Language::En, vec![tree(Some(OnSide::Right))]),
+            (
+                "standing still beside a street light",
+                Language::En,
+                vec![SightClaim::Across(Across::Stands), landmark(Some(Beside::NextTo), LandmarkKind::Lamp)],
+            ),
+            ("above the house", Language::En, vec![landmark(None, LandmarkKind::Building)]),
+            ("in a light grey top", Language::En, vec![Clothes(Claim::Top(Colour::Grey))]),
+            ("此人经过右边的大树", Language::Zh, vec![tree(Some(OnSide::Right))]),
+            (
+                "独自一人走近红绿灯",
+                Language::Zh,
+                vec![People(1), landmark(Some(Beside::Approaches), LandmarkKind::TrafficLight)],
+            ),
             ("走在三个人身后", Language::Zh, vec![Near(Place::Behind, 3)]),
             ("与一位穿灰色外套的人并肩而行", Language::Zh, vec![Near(Place::Beside, 1), NearTop(Colour::Grey)]),
             ("画面里有4个人，他在最右边", Language::Zh, vec![People(4), Outermost(Side::Rightmost)]),

@@ -6,7 +6,7 @@ use crate::format::MapFormat;
 use crate::mesh::MeshBuilder;
 use crate::polygons::triangulated;
 use crate::terrain;
-use crate::text::{Lines, decoded};
+use crate::text::{decoded, refused_json};
 use crate::world::WorldFromMap;
 use crate::{MapError, Obstacle, ObstacleKind, SemanticLabel, Town, WalkableKind, WalkablePolygon};
 use cosfly_frames::{DVec2, DVec3};
@@ -70,7 +70,7 @@ impl MapFormat for Boxes {
 
     fn read(bytes: &[u8], options: &BoxesOptions) -> Result<(Town, Vec<String>), MapError> {
         let text = decoded(bytes)?;
-        let document: Document = serde_json::from_str(&text).map_err(|error| Lines::new(&text).json_error(&error))?;
+        let document: Document = serde_json::from_str(&text).map_err(|error| refused_json(&error, &text))?;
         document.check()?;
         Ok((document.town(options)?, Vec::new()))
     }

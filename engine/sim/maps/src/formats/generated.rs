@@ -3,7 +3,7 @@
 
 use super::opendrive::{OpenDrive, OpenDriveOptions};
 use crate::generate::{GenerateConfig, generate_town};
-use crate::text::{Lines, decoded};
+use crate::text::{decoded, refused_json};
 use crate::{MapError, MapFormat, Town};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -50,7 +50,7 @@ impl MapFormat for Generated {
 
     fn read(bytes: &[u8], _: &GeneratedOptions) -> Result<(Town, Vec<String>), MapError> {
         let text = decoded(bytes)?;
-        let document: Document = serde_json::from_str(&text).map_err(|error| Lines::new(&text).json_error(&error))?;
+        let document: Document = serde_json::from_str(&text).map_err(|error| refused_json(&error, &text))?;
         if document.format != FORMAT {
             return Err(MapError::new(format!("`format` is `{}`; it must be `{FORMAT}`", document.format)));
         }

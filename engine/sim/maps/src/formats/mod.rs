@@ -7,12 +7,18 @@ pub mod generated;
 pub mod opendrive;
 
 use crate::Format;
+use cosfly_geodata::{cityjson, osm};
+use cosfly_scans::{las, pcd, ply};
 
 /// All formats.
 pub const FORMATS: &[Format] = &[
     // Sorted by name.
     Format::of::<boxes::Boxes>(),
+    Format::of::<cityjson::CityJson>(),
     Format::of::<generated::Generated>(),
+    Format::of::<las::Las>(),
     Format::of::<opendrive::OpenDrive>(),
-    Format::of::<cosfly_geodata::osm::OpenStreetMap>(),
+    Format::of::<osm::OpenStreetMap>(),
+    Format::of::<pcd::Pcd>(),
+    Format::of::<ply::Ply>(),
 ];

@@ -5,7 +5,7 @@
 mod rows;
 mod thinning;
 
-pub(crate) use rows::{Row, Rows, Span, strips};
+pub(crate) use rows::{Row, Rows, Span, coarse_rows, strips};
 
 use cosfly_frames::{DVec2, real};
 
@@ -44,22 +44,25 @@ pub fn cover_polygon(outline: &[DVec2]) -> Vec<TurnedRectangle> {
 /// many corners are thinned out first, and the rectangles grow by what that moved.
 pub fn cover_rings(outer: &[&[DVec2]], holes: &[&[DVec2]]) -> Vec<TurnedRectangle> {
     match Plan::of(outer, holes) {
-        Some(plan) => plan.cover(COVER_TOLERANCE_M),
+        Some(plan) => plan.cover(COVER_TOLERANCE_M, MOST),
         None => Vec::new(),
     }
 }
 
 impl Plan {
-    /// The cover, with a tolerance of at most `tolerance_m` where few rectangles are enough.
-    pub fn cover(&self, tolerance_m: f64) -> Vec<TurnedRectangle> {
+    /// The cover, with a tolerance of at most `tolerance_m` where few rectangles are enough, and at most `most` rectangles.
+    pub fn cover(&self, tolerance_m: f64, most: usize) -> Vec<TurnedRectangle> {
         let plan = self;
         let smallest = plan.angles_rad.iter().map(|angle| plan.bounding(*angle));
         let smallest = smallest.min_by(|a, b| area_m2(a).total_cmp(&area_m2(b)));
         let tolerance_m = (TOLERANCE_SHARE * plan.area_m2().sqrt()).clamp(0.02, tolerance_m);
         let rows: Vec<(f64, Rows)> = plan.angles_rad.iter().map(|angle| (*angle, plan.rows(*angle))).collect();
+        if rows.iter().any(|(_, rows)| rows.are_too_many()) {
+            return plan.coarse_cover(most);
+        }
         let mut allowed_m = tolerance_m;
         loop {
-            let most = if allowed_m < 0.99 * LOOSE_TOLERANCE_M { FEW } else { MOST };
+            let most = if allowed_m < 0.99 * LOOSE_TOLERANCE_M { FEW.min(most) } else { most };
             let covers =
                 rows.iter().map(|(angle, rows)| plan.rectangles(strips(rows.cut(allowed_m), allowed_m), *angle));
             let best = covers.min_by(|a, b| a.len().cmp(&b.len()).then(sum_m2(a).total_cmp(&sum_m2(b))));
@@ -137,12 +140,37 @@ impl Plan {
         (outer.iter().map(area_m2).sum::<f64>() - holes.iter().map(area_m2).sum::<f64>()).max(0.0)
     }
 
+    /// The cover of rings whose sides are too many: courtyards are filled.
+    fn coarse_cover(&self, most: usize) -> Vec<TurnedRectangle> {
+        let yaw_rad = self.angles_rad[0];
+        let outer = self.rings[..self.outer_count].iter().map(|ring| self.turned(ring, yaw_rad));
+        let rows = coarse_rows(outer);
+        let mut allowed_m = self.extent_m / 64.0;
+        loop {
+            let strips = strips(rows.clone(), allowed_m);
+            let count: usize = strips.iter().map(|row| row.spans.len()).sum();
+            if count <= most || allowed_m > 4.0 * self.extent_m {
+                return self.rectangles(strips, yaw_rad);
+            }
+            allowed_m *= core::f64::consts::SQRT_2;
+        }
+    }
+
+    fn turned(&self, ring: &[DVec2], yaw_rad: f64) -> Vec<DVec2> {
+        let (sin, cos) = real::sin_cos(yaw_rad);
+        ring.iter().map(|p| DVec2::new(cos * p.x + sin * p.y, cos * p.y - sin * p.x)).collect()
+    }
+
     /// The rings turned so that `yaw_rad` is x.
     pub(crate) fn rows(&self, yaw_rad: f64) -> Rows {
-        let (sin, cos) = real::sin_cos(yaw_rad);
-        let turned = |p: &DVec2| DVec2::new(cos * p.x + sin * p.y, cos * p.y - sin * p.x);
         let rings = self.rings.iter().enumerate();
-        Rows::of(rings.map(|(index, ring)| (ring.iter().map(turned).collect(), index >= self.outer_count)))
+        Rows::of(rings.map(|(index, ring)| (self.turned(ring, yaw_rad), index >= self.outer_count)))
+    }
+
+    /// Convex quads, corners in order, that tile the inside; a ring's sides must not cross. Thinned out like a cover.
+    pub fn trapezoids(&self) -> Vec<[DVec2; 4]> {
+        let quads = self.rows(0.0).trapezoids();
+        quads.into_iter().map(|quad| quad.map(|corner| corner + self.middle)).collect()
     }
 
     /// The smallest rectangle in this direction.

@@ -3,9 +3,14 @@
 use crate::polygons::twice_area_m2;
 use core::cmp::Ordering;
 use cosfly_frames::{DVec2, real};
+use std::collections::BTreeMap;
 
 /// Most rows between two neighbouring corners.
 const MOST_PIECES: f64 = 256.0;
+/// Most crossings of sides with rows that are worked on exactly, and with rows that are cut for slanted sides.
+const MOST_CROSSINGS: usize = 60_000;
+/// Rows of rings whose sides are too many.
+const COARSE_ROWS: f64 = 64.0;
 /// Share of the tolerance that joining rows may use up, so that an overhang along and one across stay within it.
 const JOINING_SHARE: f64 = 0.5;
 
@@ -45,6 +50,8 @@ struct Side {
 pub(crate) struct Rows {
     sides: Vec<Side>,
     levels: Vec<f64>,
+    /// Crossings of the sides with the rows between all levels.
+    crossing_count: usize,
 }
 
 /// x of a side at two levels, and its winding.
@@ -91,7 +98,14 @@ impl Rows {
         let mut levels: Vec<f64> = sides.iter().flat_map(|side| [side.a.y, side.b.y]).collect();
         levels.sort_by(f64::total_cmp);
         levels.dedup();
-        Self { sides, levels }
+        let level = |y: f64| levels.partition_point(|level| *level < y);
+        let crossing_count = sides.iter().map(|side| level(side.b.y) - level(side.a.y)).sum();
+        Self { sides, levels, crossing_count }
+    }
+
+    /// Whether there are so many sides that their rows would take long.
+    pub(crate) fn are_too_many(&self) -> bool {
+        self.crossing_count > MOST_CROSSINGS
     }
 
     pub(crate) fn bounds(&self) -> (DVec2, DVec2) {
@@ -104,6 +118,7 @@ impl Rows {
         let mut rows = Vec::new();
         let mut active: Vec<Side> = Vec::new();
         let mut next = 0;
+        let mut left = 4 * MOST_CROSSINGS;
         for pair in self.levels.windows(2) {
             let (low_y, height_m) = (pair[0], pair[1] - pair[0]);
             active.retain(|side| side.b.y > low_y);
@@ -117,6 +132,8 @@ impl Rows {
             // A row of height h beside a side that leans by slant/height adds at most h * slant / hypot deep.
             let depth_m = height_m * slant_m / real::hypot(height_m, slant_m).max(1e-12);
             let count = (depth_m / tolerance_m).ceil().clamp(1.0, MOST_PIECES) as usize;
+            let count = count.min((left / active.len().max(1)).max(1));
+            left = left.saturating_sub(count * active.len());
             let level = |i: usize| if i == count { pair[1] } else { low_y + height_m * i as f64 / count as f64 };
             rows.extend((0..count).map(|i| Row::new(level(i), level(i + 1), spans(&active, level(i), level(i + 1)))));
         }
@@ -137,6 +154,57 @@ impl Rows {
         }
         joined(all)
     }
+}
+
+impl Rows {
+    /// Trapezoids between neighbouring corners' levels, each with its corners in order: together the inside, exactly, where no two sides cross.
+    pub(crate) fn trapezoids(&self) -> Vec<[DVec2; 4]> {
+        let mut out = Vec::new();
+        for pair in self.levels.windows(2) {
+            let near = &self.sides[..self.sides.partition_point(|side| side.a.y < pair[1])];
+            let near: Vec<Side> = near.iter().filter(|side| side.b.y > pair[0]).copied().collect();
+            let mut winding = 0;
+            let mut left = None;
+            for (low, high, step) in crossings(&near, pair[0], pair[1]) {
+                let (from_low, from_high) = *left.get_or_insert((low, high));
+                winding += step;
+                if winding == 0 {
+                    left = None;
+                    let corners = [(from_low, pair[0]), (low, pair[0]), (high, pair[1]), (from_high, pair[1])];
+                    out.push(corners.map(|(x, y)| DVec2::new(x, y)));
+                }
+            }
+        }
+        out
+    }
+}
+
+/// Rows of equal height over what any of the rings reaches: conservative, and quick for very many rings.
+pub(crate) fn coarse_rows(rings: impl Iterator<Item = Vec<DVec2>>) -> Vec<Row> {
+    let rings: Vec<Vec<DVec2>> = rings.collect();
+    let corners = || rings.iter().flatten();
+    let low_y = corners().map(|corner| corner.y).fold(f64::INFINITY, f64::min);
+    let high_y = corners().map(|corner| corner.y).fold(f64::NEG_INFINITY, f64::max);
+    let height_m = (high_y - low_y) / COARSE_ROWS;
+    let level = |row: usize| low_y + height_m * row as f64;
+    let mut spans: Vec<Vec<Span>> = vec![Vec::new(); COARSE_ROWS as usize];
+    for ring in &rings {
+        let row = |y: f64| (((y - low_y) / height_m.max(1e-12)) as usize).min(spans.len() - 1);
+        let mut reach: BTreeMap<usize, Span> = BTreeMap::new();
+        for i in 0..ring.len() {
+            let (p, q) = (ring[i], ring[(i + 1) % ring.len()]);
+            let (a, b) = if p.y <= q.y { (p, q) } else { (q, p) };
+            for row in row(a.y)..=row(b.y) {
+                let x_at = |y: f64| a.x + (b.x - a.x) * ((y - a.y) / (b.y - a.y).max(1e-12)).clamp(0.0, 1.0);
+                let (x, y) = if b.y > a.y { (x_at(level(row)), x_at(level(row + 1))) } else { (a.x, b.x) };
+                let span = reach.entry(row).or_insert(Span::new(x, x));
+                *span = Span::new(span.low.min(x).min(y), span.high.max(x).max(y));
+            }
+        }
+        reach.into_iter().for_each(|(row, span)| spans[row].push(span));
+    }
+    let rows = spans.into_iter().enumerate();
+    rows.map(|(row, spans)| Row::new(level(row), level(row + 1), joined(spans))).collect()
 }
 
 /// x of the sides at both levels, sorted by their middles. No corner lies between the levels.

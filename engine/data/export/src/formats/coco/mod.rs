@@ -30,7 +30,7 @@ impl Format for Coco {
         Card {
             format: "COCO",
             front_matter: "task_categories:\n- object-detection\n- image-segmentation\n".into(),
-            body: BODY.into(),
+            body: BODY.replace("SPLIT", source.splits().first().copied().unwrap_or_default()),
         }
         .write(source, out)?;
         Ok(vec![])
@@ -117,10 +117,15 @@ annotations/instances_<split>.json
 ```
 
 ```python
+from PIL import Image
 from pycocotools.coco import COCO
-coco = COCO(\"annotations/instances_train.json\")
-people = coco.loadAnns(coco.getAnnIds(catIds=[12]))
-mask = coco.annToMask(people[0])
+
+coco = COCO(\"annotations/instances_SPLIT.json\")
+for image in coco.loadImgs(coco.getImgIds()):
+    rgb = Image.open(\"SPLIT/\" + image[\"file_name\"])
+    for person in coco.loadAnns(coco.getAnnIds(imgIds=[image[\"id\"]], catIds=[12])):
+        left, top, width, height = person[\"bbox\"]
+        mask = coco.annToMask(person)  # rows x columns, 1 where the person is seen
 ```
 
 `file_name` is relative to the folder of the split. Category ids are CARLA's labels. Every thing with an id has an annotation

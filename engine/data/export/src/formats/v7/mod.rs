@@ -108,6 +108,23 @@ data_v7/<Town>/trajectory_<id>/<trace>/perturbation_report.json
 data_v7/<Town>/trajectory_<id>/<trace>/frames_playback/frame_<index>/{rgb.png,depth.npy,instance.png,debug.png}
 ```
 
+```python
+import json
+from pathlib import Path
+
+import numpy
+from PIL import Image
+
+for file in sorted(Path(\"data_v7\").glob(\"Town*/trajectory_*/*/trajectory.json\")):
+    flight = json.loads(file.read_text())
+    for point in flight[\"points\"]:
+        time_s, pose = point[\"timing\"][\"timestamp\"], point[\"drone_pose\"]
+        frame = file.parent / f\"frames_playback/frame_{point['index']:05d}\"
+        rgb, depth_m = Image.open(frame / \"rgb.png\"), numpy.load(frame / \"depth.npy\")
+        label, low, high = numpy.moveaxis(numpy.asarray(Image.open(frame / \"instance.png\")), -1, 0)
+        instance = low + 256 * high.astype(numpy.uint16)  # 1: the target
+```
+
 `ORI` is the expert's flight, `aug_001` its perturbed twin. The keys and rules are those that readers of the published
 release (`drone_nav_traj_v7`, `7.0.0`) rely on. Its full description is not public, so these choices are ours:
 

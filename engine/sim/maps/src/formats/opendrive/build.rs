@@ -4,6 +4,7 @@ use super::OpenDriveOptions;
 use super::crossings::{Crosswalk, crosswalks, unmarked_crossings};
 use super::document::with_source;
 use super::gaps::{self, JunctionArea};
+use super::inner_lanes::{self, InnerStrip};
 use super::joining::joining_strips;
 use super::network::{LaneKind, Road, RoadNetwork};
 use super::objects::{MOST_OBSTACLES, ObstacleBuilder, ROOF_PITCH_DEG};
@@ -81,6 +82,7 @@ struct Parts {
     obstacles: ObstacleBuilder,
     budget: StationBudget,
     junctions: BTreeMap<String, JunctionArea>,
+    inner_strips: Vec<InnerStrip>,
     notes: Vec<String>,
     warnings: Vec<String>,
 }
@@ -97,6 +99,8 @@ impl Parts {
                 rows.iter()
                     .flat_map(|row| row.points.iter().flatten().flatten())
                     .for_each(|it| area.add(world.point(*it)));
+                let lanes = section.sides().map(|(_, lanes)| lanes);
+                self.inner_strips.extend(inner_lanes::strips(lanes, &rows, &world));
             }
             surfaces::add_section(&mut self.meshes, section.sides().map(|(_, lanes)| lanes), &rows, &world);
             if options.road_marks {
@@ -115,9 +119,14 @@ impl Parts {
         let surfaces = core::mem::take(&mut self.meshes).finish();
         let ground = GroundIndex::of_surfaces(&surfaces, |_| true);
         self.meshes = MeshBuilder::from_meshes(surfaces);
-        let count: usize = self.junctions.values().map(|area| gaps::pave(&mut self.meshes, &ground, area)).sum();
-        if count > 0 {
-            self.notes.push(format!("{count} gaps between the lanes of junctions are paved"));
+        let gaps: usize = self.junctions.values().map(|area| gaps::pave(&mut self.meshes, &ground, area)).sum();
+        let strips = inner_lanes::pave(&mut self.meshes, &ground, &self.inner_strips);
+        for (count, what) in
+            [(gaps, "gaps between the lanes"), (strips, "pieces of lanes without a kind between carriageways")]
+        {
+            if count > 0 {
+                self.notes.push(format!("{count} {what} of junctions are paved"));
+            }
         }
     }
 

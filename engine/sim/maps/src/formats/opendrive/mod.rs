@@ -8,6 +8,7 @@ mod build;
 mod crossings;
 mod document;
 mod gaps;
+mod inner_lanes;
 mod joining;
 pub mod network;
 mod object_kind;

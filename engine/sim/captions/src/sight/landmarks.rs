@@ -1,0 +1,121 @@
+//! Things of a town that a text may name: trees, street lamps, traffic lights and signs, parked cars, buildings.
+
+use cosfly_frames::{DVec2, DVec3, real};
+use cosfly_geometry::{BoxBvh, OrientedBox, SpatialQuery};
+use cosfly_maps::{Obstacle, ObstacleKind};
+
+/// Kind of a landmark. Things of other kinds have no name that everybody would give them.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+#[expect(missing_docs, reason = "the names say it")]
+pub enum LandmarkKind {
+    TrafficLight,
+    Lamp,
+    TrafficSign,
+    Tree,
+    Car,
+    Building,
+}
+
+impl LandmarkKind {
+    /// All kinds; texts prefer the first.
+    pub const ALL: [Self; 6] =
+        [Self::TrafficLight, Self::Lamp, Self::TrafficSign, Self::Tree, Self::Car, Self::Building];
+
+    fn of(kind: ObstacleKind) -> Option<Self> {
+        match kind {
+            ObstacleKind::TrafficLight => Some(Self::TrafficLight),
+            ObstacleKind::Lamp => Some(Self::Lamp),
+            ObstacleKind::TrafficSign => Some(Self::TrafficSign),
+            ObstacleKind::TreeTrunk => Some(Self::Tree),
+            ObstacleKind::Car => Some(Self::Car),
+            ObstacleKind::Building => Some(Self::Building),
+            _ => None,
+        }
+    }
+}
+
+/// The boxes of a town, and which of them are landmarks.
+pub struct Landmarks {
+    boxes: BoxBvh,
+    /// Object and kind of every box. A crown belongs to its tree, whose place is that of the trunk.
+    parts: Vec<(u32, Option<LandmarkKind>)>,
+    /// Pairs of an object and one of its boxes, in order.
+    objects: Vec<(u32, u32)>,
+}
+
+impl Default for Landmarks {
+    fn default() -> Self {
+        Self::of(&[])
+    }
+}
+
+impl std::fmt::Debug for Landmarks {
+    fn fmt(&self, formatter: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        write!(formatter, "Landmarks of {} boxes", self.parts.len())
+    }
+}
+
+impl Landmarks {
+    /// The landmarks among the obstacles of a town.
+    pub fn of(obstacles: &[Obstacle]) -> Self {
+        let parts = obstacles.iter().map(|it| (it.object_id, LandmarkKind::of(it.kind))).collect();
+        let mut objects: Vec<(u32, u32)> =
+            obstacles.iter().zip(0..).map(|(it, number)| (it.object_id, number)).collect();
+        objects.sort_unstable();
+        Self { boxes: BoxBvh::build(obstacles.iter().map(|it| it.shape).collect()), parts, objects }
+    }
+
+    /// Landmarks whose box comes within `reach_m` of a point along x, y or z: kind, object and box, in the order of the town.
+    pub(super) fn around(&self, point: DVec3, reach_m: f64) -> Vec<(LandmarkKind, u32, &OrientedBox)> {
+        let mut found = vec![];
+        let reach = DVec3::splat(reach_m);
+        self.boxes.within(point - reach, point + reach, &mut |number| found.push(number));
+        found.sort_unstable();
+        let landmark = |number: u32| {
+            let (object, kind) = self.parts[number as usize];
+            kind.map(|kind| (kind, object, &self.boxes.boxes()[number as usize]))
+        };
+        found.into_iter().filter_map(landmark).collect()
+    }
+
+    /// The first box on the way from one point to another: its kind, its object and the point that is hit.
+    pub(super) fn first_between(&self, from: DVec3, to: DVec3) -> Option<(Option<LandmarkKind>, u32, DVec3)> {
+        let hit = self.boxes.closest_hit(from, to - from, 1.0)?;
+        let (object, kind) = self.parts[hit.primitive as usize];
+        Some((kind, object, from + hit.t * (to - from)))
+    }
+
+    /// Boxes of an object.
+    pub(super) fn boxes_of(&self, object: u32) -> impl Iterator<Item = &OrientedBox> {
+        let first = self.objects.partition_point(|(it, _)| *it < object);
+        let of_object = self.objects[first..].iter().take_while(move |(it, _)| *it == object);
+        of_object.map(|(_, number)| &self.boxes.boxes()[*number as usize])
+    }
+}
+
+/// The way along the ground from a point to the nearest point of a box's footprint, metres.
+pub(super) fn way_to(shape: &OrientedBox, point: DVec3) -> DVec2 {
+    let (sin, cos) = real::sin_cos(shape.yaw_rad);
+    let from_center = (point - shape.center_in_world).truncate();
+    let own = DVec2::new(cos * from_center.x + sin * from_center.y, cos * from_center.y - sin * from_center.x);
+    let half = shape.half_extents_m.truncate();
+    let to = own.clamp(-half, half) - own;
+    DVec2::new(cos * to.x - sin * to.y, sin * to.x + cos * to.y)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn ways_lead_to_the_footprint_of_a_turned_box() {
+        let shape = OrientedBox {
+            center_in_world: DVec3::new(10.0, 0.0, 5.0),
+            half_extents_m: DVec3::new(3.0, 1.0, 5.0),
+            yaw_rad: std::f64::consts::FRAC_PI_2,
+        };
+        assert!((way_to(&shape, DVec3::ZERO) - DVec2::new(9.0, 0.0)).length() < 1e-12);
+        assert!((way_to(&shape, DVec3::new(10.0, 5.0, 0.0)) - DVec2::new(0.0, -2.0)).length() < 1e-12);
+        assert_eq!(way_to(&shape, DVec3::new(10.5, 1.0, 0.0)), DVec2::ZERO);
+    }
+}

@@ -1,0 +1,199 @@
+//! A file as it stands: CityJSON 1.0 to 2.0, and the lines of CityJSONSeq.
+
+use super::boundaries::{Boundaries, FlatNumbers};
+use cosfly_town::MapError;
+use cosfly_town::text::{decoded, refused_json};
+use serde::Deserialize;
+use serde_json::Value;
+use std::collections::BTreeMap;
+
+/// A CityJSON object, or one feature of a sequence.
+#[derive(Debug, Deserialize)]
+pub(super) struct Document {
+    #[serde(rename = "type")]
+    kind: String,
+    version: Option<String>,
+    pub(super) transform: Option<Transform>,
+    metadata: Option<Metadata>,
+    #[serde(rename = "CityObjects", default)]
+    pub(super) objects: BTreeMap<String, CityObject>,
+    #[serde(default)]
+    pub(super) vertices: Vec<[f64; 3]>,
+    #[serde(rename = "geometry-templates")]
+    pub(super) templates: Option<Templates>,
+}
+
+/// From the whole numbers of `vertices` to coordinates.
+#[derive(Clone, Copy, Debug, Deserialize)]
+pub(super) struct Transform {
+    pub(super) scale: [f64; 3],
+    pub(super) translate: [f64; 3],
+}
+
+#[derive(Debug, Deserialize)]
+struct Metadata {
+    #[serde(rename = "referenceSystem")]
+    reference_system: Option<Value>,
+}
+
+/// Shapes that several objects have, in frames of their own, metres.
+#[derive(Debug, Deserialize)]
+pub(super) struct Templates {
+    #[serde(default)]
+    pub(super) templates: Vec<Geometry>,
+    #[serde(rename = "vertices-templates", default)]
+    pub(super) vertices: Vec<[f64; 3]>,
+}
+
+#[derive(Debug, Deserialize)]
+pub(super) struct CityObject {
+    #[serde(rename = "type")]
+    pub(super) kind: String,
+    pub(super) attributes: Option<Attributes>,
+    pub(super) geometry: Option<Vec<Geometry>>,
+    #[serde(default)]
+    pub(super) parents: Vec<String>,
+}
+
+/// What is read of an object's or a surface's attributes. Values of a wrong type count as missing.
+#[derive(Debug, Default, Deserialize)]
+pub(super) struct Attributes {
+    function: Option<Value>,
+    class: Option<Value>,
+    usage: Option<Value>,
+    /// Of Dutch base maps.
+    bgt_type: Option<Value>,
+    #[serde(rename = "measuredHeight")]
+    measured_height: Option<Value>,
+    #[serde(rename = "storeysAboveGround")]
+    storeys: Option<Value>,
+    height: Option<Value>,
+    #[serde(rename = "crownDiameter")]
+    crown_diameter: Option<Value>,
+}
+
+#[derive(Debug, Deserialize)]
+pub(super) struct Geometry {
+    lod: Option<Value>,
+    #[serde(default)]
+    pub(super) boundaries: Boundaries,
+    semantics: Option<Semantics>,
+    /// Of a `GeometryInstance`.
+    pub(super) template: Option<usize>,
+    #[serde(rename = "transformationMatrix")]
+    pub(super) matrix: Option<Vec<f64>>,
+}
+
+#[derive(Debug, Deserialize)]
+struct Semantics {
+    #[serde(default)]
+    surfaces: Vec<Surface>,
+    values: Option<FlatNumbers>,
+}
+
+/// Meaning of a face.
+#[derive(Debug, Deserialize)]
+pub(super) struct Surface {
+    #[serde(rename = "type")]
+    pub(super) kind: String,
+    #[serde(flatten)]
+    pub(super) attributes: Attributes,
+}
+
+/// All documents of a file: one, or the head and the features of a sequence.
+pub(super) fn documents(bytes: &[u8]) -> Result<Vec<Document>, MapError> {
+    let text = decoded(bytes)?;
+    let mut values = serde_json::Deserializer::from_str(&text).into_iter::<Document>();
+    let mut documents = Vec::new();
+    while let Some(document) = values.next() {
+        documents.push(document.map_err(|error| refused_json(&error, &text))?);
+    }
+    let head = documents.first().ok_or_else(|| MapError::new("the file is empty"))?;
+    if head.kind != "CityJSON" {
+        let shown: String = head.kind.chars().take(40).collect();
+        let error = MapError::new(format!("`type` of the first object is `{shown}`; it must be `CityJSON`"));
+        return Err(error.hint("a sequence begins with the line that has the transform of its features"));
+    }
+    if let Some(other) = documents[1..].iter().find(|document| document.kind != "CityJSONFeature") {
+        let shown: String = other.kind.chars().take(40).collect();
+        return Err(MapError::new(format!("`type` of a line is `{shown}`; it must be `CityJSONFeature`")));
+    }
+    head.check_version()?;
+    Ok(documents)
+}
+
+impl Document {
+    fn check_version(&self) -> Result<(), MapError> {
+        let version = self.version.as_deref().unwrap_or_default();
+        if version.starts_with("1.") || version.starts_with("2.") {
+            return Ok(());
+        }
+        let shown: String = version.chars().take(20).collect();
+        let error = MapError::new(format!("the file is CityJSON `{shown}`; versions 1.0 to 2.0 are read"));
+        Err(error.hint("`cjio FILE upgrade save NEW` brings older files to the latest version"))
+    }
+
+    /// The text of `metadata.referenceSystem`.
+    pub(super) fn reference_system(&self) -> Option<&str> {
+        self.metadata.as_ref()?.reference_system.as_ref()?.as_str()
+    }
+}
+
+impl Geometry {
+    /// Level of detail, 0 when it is missing.
+    pub(super) fn lod(&self) -> f64 {
+        self.lod.as_ref().and_then(number).unwrap_or(0.0)
+    }
+
+    /// Meaning of each face, as far as the file says it.
+    pub(super) fn surface_of_face(&self, face: usize) -> Option<&Surface> {
+        let semantics = self.semantics.as_ref()?;
+        let values = &semantics.values.as_ref()?.0;
+        // A null in place of a whole shell: nobody knows which face is which.
+        if values.len() != self.boundaries.face_count() {
+            return None;
+        }
+        values[face].and_then(|surface| semantics.surfaces.get(surface as usize))
+    }
+}
+
+impl Attributes {
+    /// Height of a building or plant, metres or the file's unit, with the storeys as the second choice.
+    pub(super) fn height(&self) -> Option<f64> {
+        [&self.measured_height, &self.height].into_iter().flatten().find_map(number).filter(|height| *height > 0.0)
+    }
+
+    pub(super) fn storeys(&self) -> Option<f64> {
+        self.storeys.as_ref().and_then(number).filter(|storeys| *storeys > 0.0)
+    }
+
+    pub(super) fn crown_diameter(&self) -> Option<f64> {
+        self.crown_diameter.as_ref().and_then(number).filter(|diameter| *diameter > 0.0)
+    }
+
+    /// Words that say what the thing is for, in small letters.
+    pub(super) fn words(&self) -> impl Iterator<Item = String> {
+        let all = [&self.function, &self.usage, &self.class, &self.bgt_type].into_iter().flatten();
+        all.flat_map(|value| match value {
+            Value::Array(list) => list.iter().filter_map(word).collect(),
+            one => word(one).into_iter().collect::<Vec<_>>(),
+        })
+    }
+}
+
+fn word(value: &Value) -> Option<String> {
+    match value {
+        Value::String(text) => Some(text.to_lowercase()),
+        Value::Number(number) => Some(number.to_string()),
+        _ => None,
+    }
+}
+
+fn number(value: &Value) -> Option<f64> {
+    match value {
+        Value::Number(number) => number.as_f64(),
+        Value::String(text) => text.parse().ok(),
+        _ => None,
+    }
+    .filter(|number: &f64| number.is_finite() && number.abs() < 1e5)
+}

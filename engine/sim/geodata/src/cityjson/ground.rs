@@ -1,0 +1,77 @@
+//! Roads, footpaths, land and water: faces as surfaces, and as walkable polygons.
+
+use super::faces::Face;
+use cosfly_frames::{DVec2, DVec3};
+use cosfly_town::cover::Plan;
+use cosfly_town::mesh::MeshBuilder;
+use cosfly_town::polygons::{triangulated, twice_area_m2};
+use cosfly_town::{MapError, SemanticLabel, WalkableKind, WalkablePolygon};
+
+/// Ground is at most this steep, vertical part of the unit normal.
+const STEEPEST_NORMAL: f64 = 0.3;
+/// Steepest ground to walk on.
+const STEEPEST_WALK_NORMAL: f64 = 0.8;
+/// Smallest walkable piece, square metres.
+const SMALLEST_M2: f64 = 0.01;
+/// Outlines of more corners are cut into pieces.
+const MOST_CORNERS: usize = 24;
+/// Most triangles of one file.
+const MOST_TRIANGLES: usize = 8_000_000;
+
+/// The ground of a town while it grows.
+#[derive(Default)]
+pub(super) struct Ground {
+    pub(super) meshes: MeshBuilder,
+    pub(super) walkable: Vec<WalkablePolygon>,
+    triangle_count: usize,
+}
+
+impl Ground {
+    /// Adds a face unless it is a wall. Gives whether it was ground.
+    pub(super) fn add(
+        &mut self,
+        face: &Face,
+        label: SemanticLabel,
+        kind: Option<WalkableKind>,
+    ) -> Result<bool, MapError> {
+        let level_share = face.level_share();
+        if level_share < STEEPEST_NORMAL {
+            return Ok(false);
+        }
+        let kind = kind.filter(|_| level_share >= STEEPEST_WALK_NORMAL);
+        for (outline, triangles) in pieces(face) {
+            self.triangle_count += triangles.len();
+            if self.triangle_count > MOST_TRIANGLES {
+                let error = MapError::new(format!("the ground has more than {MOST_TRIANGLES} triangles"));
+                return Err(error.hint("cut the map into smaller pieces"));
+            }
+            let vertices: Vec<(DVec3, DVec2)> = outline.iter().map(|corner| (*corner, corner.truncate())).collect();
+            self.meshes.polygon(label, false, &vertices, &triangles);
+            let plan: Vec<DVec2> = outline.iter().map(|corner| corner.truncate()).collect();
+            if let Some(kind) = kind.filter(|_| twice_area_m2(&plan).abs() > 2.0 * SMALLEST_M2) {
+                self.walkable.push(WalkablePolygon { kind, outline_in_world: outline, synthetic: false });
+            }
+        }
+        Ok(true)
+    }
+}
+
+/// The face as simple polygons with their triangles: itself where it is one, else quads that tile it.
+fn pieces(face: &Face) -> Vec<(Vec<DVec3>, Vec<[u32; 3]>)> {
+    if face.rings.len() == 1 && face.rings[0].len() <= MOST_CORNERS {
+        let outline = face.rings[0].clone();
+        let plan: Vec<DVec2> = outline.iter().map(|corner| corner.truncate()).collect();
+        let triangles = triangulated(&plan);
+        if !triangles.is_empty() {
+            return vec![(outline, triangles)];
+        }
+    }
+    let rings: Vec<Vec<DVec2>> =
+        face.rings.iter().map(|ring| ring.iter().map(|corner| corner.truncate()).collect()).collect();
+    let (outer, holes) = rings.split_at(1);
+    let holes: Vec<&[DVec2]> = holes.iter().map(Vec::as_slice).collect();
+    let Some(plan) = Plan::of(&[&outer[0]], &holes) else { return Vec::new() };
+    let on_face = |corner: DVec2| corner.extend(face.height_m(corner));
+    let quads = plan.trapezoids().into_iter().filter(|quad| twice_area_m2(quad).abs() > 1e-6);
+    quads.map(|quad| (quad.map(on_face).to_vec(), vec![[0, 1, 2], [0, 2, 3]])).collect()
+}

@@ -1,0 +1,73 @@
+//! Trees and stands of plants as obstacles.
+
+use super::document::Attributes;
+use super::faces::Face;
+use super::layers::{Steps, layered};
+use super::shapes::{Shape, Space};
+use cosfly_frames::DVec3;
+use cosfly_geometry::OrientedBox;
+use cosfly_town::ObstacleKind;
+use cosfly_town::crown::crown_boxes;
+
+/// Of stands of plants.
+const STAND: Steps = Steps { height_m: 3.0, most_of_foot: 12, most_of_layer: 6 };
+/// Faces of a stand this far above its lowest corner are ground, metres.
+pub(super) const GROUND_RISE_M: f64 = 1.0;
+/// Stands up to this height are bushes, metres; people walk under higher ones.
+const BUSH_M: f64 = 3.0;
+/// Height of the lowest branches of higher stands, metres.
+const BRANCHES_M: f64 = 2.0;
+/// Height of a tree of which the file gives the place only, metres.
+const USUAL_TREE_M: f64 = 8.0;
+
+/// Trunk and crown of a tree; true when sizes are assumed.
+pub(super) fn tree(
+    shape: &Shape,
+    attributes: Option<&Attributes>,
+    space: &Space,
+    object_id: u32,
+) -> Option<(Vec<(ObstacleKind, OrientedBox)>, bool)> {
+    let (low, high) = shape.bounds()?;
+    let size = high - low;
+    let stated_m = attributes.and_then(Attributes::height).map(|height| space.length_m(height));
+    let is_assumed = size.z < 0.5 && stated_m.is_none();
+    let height_m = if size.z >= 0.5 { size.z } else { stated_m.unwrap_or(USUAL_TREE_M) }.clamp(0.5, 120.0);
+    let crown_m = attributes.and_then(Attributes::crown_diameter).map(|diameter| 0.5 * space.length_m(diameter));
+    let seen_m = 0.25 * (size.x + size.y);
+    let radius_m =
+        if seen_m > 0.2 { seen_m } else { crown_m.unwrap_or((0.2 * height_m).clamp(1.0, 4.5)) }.clamp(0.2, 20.0);
+    let foot = (0.5 * (low + high)).with_z(low.z);
+    let base_m = 0.35 * height_m;
+    let upright = |foot: DVec3, half_m: f64, height_m: f64| OrientedBox {
+        center_in_world: foot + 0.5 * height_m * DVec3::Z,
+        half_extents_m: DVec3::new(half_m, half_m, 0.5 * height_m),
+        yaw_rad: 0.0,
+    };
+    let trunk = upright(foot, (0.015 * height_m).clamp(0.08, 0.4), base_m);
+    let crown = upright(foot + base_m * DVec3::Z, radius_m, height_m - base_m);
+    let crowns = crown_boxes(&crown, object_id).map(|shape| (ObstacleKind::TreeCrown, shape));
+    let boxes = core::iter::once((ObstacleKind::TreeTrunk, trunk)).chain(crowns).collect();
+    Some((boxes, is_assumed))
+}
+
+/// Boxes of the plants under faces that rise from the ground.
+pub(super) fn stand(faces: &[Face], base_m: f64) -> Vec<(ObstacleKind, OrientedBox)> {
+    let upper: Vec<Face> = faces.iter().filter(|face| face.highest_m() > base_m + GROUND_RISE_M).cloned().collect();
+    let boxes = layered(&[], &upper, base_m, STAND).into_iter();
+    boxes.filter_map(|shape| of_height(shape, base_m)).collect()
+}
+
+fn of_height(shape: OrientedBox, base_m: f64) -> Option<(ObstacleKind, OrientedBox)> {
+    let (foot_m, top_m) =
+        (shape.center_in_world.z - shape.half_extents_m.z, shape.center_in_world.z + shape.half_extents_m.z);
+    let is_bush = top_m <= base_m + BUSH_M;
+    let foot_m = if is_bush { foot_m } else { foot_m.max(base_m + BRANCHES_M) };
+    let half_height_m = 0.5 * (top_m - foot_m);
+    let cut = OrientedBox {
+        center_in_world: shape.center_in_world.with_z(foot_m + half_height_m),
+        half_extents_m: shape.half_extents_m.with_z(half_height_m),
+        ..shape
+    };
+    let kind = if is_bush { ObstacleKind::Bush } else { ObstacleKind::TreeCrown };
+    (half_height_m > 0.05 && top_m > base_m + 0.3).then_some((kind, cut))
+}

@@ -1,0 +1,159 @@
+//! From a document's objects to faces in the world: vertices, units, templates, the geometry that is used.
+
+use super::document::{CityObject, Document, Geometry, Templates, Transform};
+use super::faces::Face;
+use super::units::{epsg_code, unit_m};
+use cosfly_frames::{DVec2, DVec3};
+use cosfly_town::MapError;
+use cosfly_town::world::WorldFromMap;
+
+/// Farthest coordinate, metres.
+const FARTHEST_M: f64 = 1e8;
+/// Widest map, metres.
+const WIDEST_M: f64 = 100_000.0;
+/// Most faces of one object; a building of the finest level has some ten thousand.
+pub(super) const MOST_FACES: usize = 500_000;
+
+/// What the vertices of all documents share.
+pub(super) struct Space {
+    transform: Transform,
+    unit_m: f64,
+    templates: Option<Templates>,
+    pub(super) world: WorldFromMap,
+    pub(super) reference_system: Option<String>,
+}
+
+/// Faces of one object at its best level of detail, world frame.
+#[derive(Debug, Default)]
+pub(super) struct Shape {
+    pub(super) faces: Vec<Face>,
+    /// Meaning of each face: the index of its surface in the geometry, by [`Geometry::surface_of_face`].
+    pub(super) sources: Vec<(usize, usize)>,
+    pub(super) lod: f64,
+    /// Faces left out: too few corners, or a vertex that the file does not have.
+    pub(super) broken: usize,
+    /// Corners of points and lines.
+    pub(super) points: Vec<DVec3>,
+}
+
+impl Space {
+    /// The head's transform and unit, and the shift that the first vertices of all documents ask for.
+    pub(super) fn of(documents: &mut [Document]) -> Result<Self, MapError> {
+        let head = &mut documents[0];
+        let plain = Transform { scale: [1.0; 3], translate: [0.0; 3] };
+        let transform = head.transform.unwrap_or(plain);
+        let reference_system = head.reference_system().map(str::to_owned);
+        let code = reference_system.as_deref().and_then(epsg_code);
+        let unit_m = code.map_or(1.0, unit_m);
+        let templates = head.templates.take();
+        let mut space = Self { transform, unit_m, templates, world: WorldFromMap::default(), reference_system };
+        let (mut low, mut high) = (DVec3::INFINITY, DVec3::NEG_INFINITY);
+        for vertex in documents.iter().flat_map(|document| &document.vertices) {
+            let point = space.in_map(*vertex);
+            (low, high) = (low.min(point), high.max(point));
+        }
+        if !low.is_finite() {
+            return Err(MapError::new("the file has no vertices"));
+        }
+        let across_m = (high - low).max_element();
+        if low.abs().max(high.abs()).max_element() > FARTHEST_M || across_m > WIDEST_M {
+            let error = MapError::new(format!("the map is {across_m} m across; at most {WIDEST_M} m are read"));
+            return Err(error.hint("check `transform` and `vertices`, or cut the map into smaller pieces"));
+        }
+        let is_geographic = code.is_some_and(|code| (4000..5000).contains(&code));
+        if is_geographic && low.abs().max(high.abs()).truncate().cmple(DVec2::new(360.0, 360.0)).all() {
+            let error = MapError::new("the coordinates are degrees; cosfly needs a projected reference system");
+            return Err(error.hint("`cjio FILE reproject EPSG save NEW` projects the map"));
+        }
+        space.world = WorldFromMap::around([low.truncate(), high.truncate()]);
+        Ok(space)
+    }
+
+    fn in_map(&self, vertex: [f64; 3]) -> DVec3 {
+        let scaled = DVec3::from_array(vertex) * DVec3::from_array(self.transform.scale);
+        self.unit_m * (scaled + DVec3::from_array(self.transform.translate))
+    }
+
+    /// A length of the file's attributes, metres.
+    pub(super) fn length_m(&self, length: f64) -> f64 {
+        self.unit_m * length
+    }
+
+    /// Faces of an object's geometries at the highest level of detail that has any.
+    pub(super) fn shape(&self, object: &CityObject, vertices: &[[f64; 3]]) -> Shape {
+        let geometries = object.geometry.as_deref().unwrap_or_default();
+        let lods = geometries.iter().filter(|geometry| self.corner_count(geometry) > 0).map(Geometry::lod);
+        let Some(lod) = lods.max_by(f64::total_cmp) else { return Shape::default() };
+        let mut shape = Shape { lod, ..Shape::default() };
+        for (index, geometry) in geometries.iter().enumerate().filter(|(_, geometry)| geometry.lod() == lod) {
+            match (geometry.template, &self.templates) {
+                (Some(template), Some(templates)) => {
+                    self.add_instance(&mut shape, geometry, template, templates, vertices)
+                }
+                _ => shape
+                    .add(geometry, index, &|vertex| vertices.get(vertex).map(|it| self.world.point(self.in_map(*it)))),
+            }
+        }
+        shape
+    }
+
+    fn corner_count(&self, geometry: &Geometry) -> usize {
+        geometry.boundaries.corners().len()
+    }
+
+    /// A template turned and scaled by the instance's matrix, at the instance's point.
+    fn add_instance(
+        &self,
+        shape: &mut Shape,
+        instance: &Geometry,
+        template: usize,
+        templates: &Templates,
+        vertices: &[[f64; 3]],
+    ) {
+        let place = instance.boundaries.corners().first().and_then(|vertex| vertices.get(*vertex as usize));
+        let (Some(place), Some(geometry)) = (place, templates.templates.get(template)) else {
+            shape.broken += 1;
+            return;
+        };
+        let place = self.in_map(*place);
+        let rows = instance.matrix.as_deref().filter(|matrix| matrix.len() == 16);
+        let turned = |point: DVec3| match rows {
+            Some(m) => DVec3::from_array(
+                [0, 4, 8].map(|r| m[r] * point.x + m[r + 1] * point.y + m[r + 2] * point.z + m[r + 3]),
+            ),
+            None => point,
+        };
+        shape.add(geometry, usize::MAX, &|vertex| {
+            let point = DVec3::from_array(*templates.vertices.get(vertex)?);
+            Some(self.world.point(place + self.unit_m * turned(point)))
+        });
+    }
+}
+
+impl Shape {
+    fn add(&mut self, geometry: &Geometry, index: usize, point: &dyn Fn(usize) -> Option<DVec3>) {
+        let usable = |point: &DVec3| point.is_finite() && point.abs().max_element() < FARTHEST_M;
+        if geometry.boundaries.face_count() == 0 {
+            let corners = geometry.boundaries.corners().iter();
+            self.points.extend(corners.filter_map(|vertex| point(*vertex as usize)).filter(usable));
+        }
+        for (number, rings) in geometry.boundaries.faces().enumerate() {
+            let rings: Option<Vec<Vec<DVec3>>> =
+                rings.map(|ring| ring.iter().map(|vertex| point(*vertex as usize).filter(usable)).collect()).collect();
+            match rings {
+                Some(rings) if rings.first().is_some_and(|outer| outer.len() > 2) && self.faces.len() < MOST_FACES => {
+                    self.faces.push(Face { rings });
+                    self.sources.push((index, number));
+                }
+                _ => self.broken += 1,
+            }
+        }
+    }
+
+    /// Lowest and highest corner; none without any.
+    pub(super) fn bounds(&self) -> Option<(DVec3, DVec3)> {
+        let corners = || self.faces.iter().flat_map(Face::corners).chain(self.points.iter().copied());
+        let low = corners().fold(DVec3::INFINITY, DVec3::min);
+        low.is_finite().then(|| (low, corners().fold(DVec3::NEG_INFINITY, DVec3::max)))
+    }
+}

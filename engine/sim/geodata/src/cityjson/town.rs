@@ -1,0 +1,301 @@
+//! The parts of a file put together.
+
+use super::document::{Attributes, CityObject, Document, documents};
+use super::faces::Face;
+use super::ground::Ground;
+use super::layers::{BUILDING, Steps, layered};
+use super::plants;
+use super::shapes::{Shape, Space};
+use super::words::{Part, ground_of_surface, is_indoors, part_of};
+use crate::open_ground::add_open_ground;
+use cosfly_geometry::OrientedBox;
+use cosfly_town::{MapError, Obstacle, ObstacleKind, Synthetic, Town, WalkableKind, terrain};
+use std::collections::BTreeMap;
+
+/// Most boxes of one file.
+const MOST_OBSTACLES: usize = 500_000;
+/// Of walls, furniture and other things.
+const OTHER: Steps = Steps { height_m: 1.0, most_of_foot: 24, most_of_layer: 8 };
+/// Height of a storey where the file gives their number only, metres.
+const STOREY_M: f64 = 3.0;
+/// A shape lower than this has no height of its own, metres.
+const FLAT_M: f64 = 0.3;
+/// Most objects from a part up to its building.
+const MOST_GENERATIONS: usize = 16;
+
+/// Reads a file into a town without planning boxes and bounds.
+pub(super) fn town(bytes: &[u8]) -> Result<(Town, Vec<String>), MapError> {
+    let mut documents = documents(bytes)?;
+    let space = Space::of(&mut documents)?;
+    let mut parts =
+        Parts { space, ground: Ground::default(), obstacles: Vec::new(), next_id: 1, tally: Tally::default() };
+    for document in documents {
+        parts.add_document(&document)?;
+    }
+    parts.finish()
+}
+
+/// The town while it grows.
+struct Parts {
+    space: Space,
+    ground: Ground,
+    obstacles: Vec<Obstacle>,
+    next_id: u32,
+    tally: Tally,
+}
+
+/// What was left out or assumed: how often, and the first object.
+#[derive(Default)]
+struct Tally {
+    broken_faces: Count,
+    without_height: Count,
+    without_shape: Count,
+    unknown: Count,
+    storeys: usize,
+    bare_trees: usize,
+}
+
+#[derive(Default)]
+struct Count {
+    count: usize,
+    first: String,
+}
+
+impl Count {
+    fn note(&mut self, count: usize, id: &str) {
+        if self.count == 0 && count > 0 {
+            self.first = id.chars().take(60).collect();
+        }
+        self.count += count;
+    }
+}
+
+impl Parts {
+    fn add_document(&mut self, document: &Document) -> Result<(), MapError> {
+        let finest = finest_parts(document);
+        let mut ids: BTreeMap<&str, u32> = BTreeMap::new();
+        for (id, object) in &document.objects {
+            let object_id = *ids.entry(root(document, id)).or_insert_with(|| {
+                self.next_id += 1;
+                self.next_id - 1
+            });
+            let part = part_of(&object.kind, object.attributes.as_ref());
+            if part == Part::Nothing {
+                self.tally.unknown.note(1, id);
+                continue;
+            }
+            let shape = self.space.shape(object, &document.vertices);
+            self.tally.broken_faces.note(shape.broken, id);
+            // A building whose parts are finer is their sum.
+            if finest.get(id.as_str()).is_some_and(|lod| *lod > shape.lod) {
+                continue;
+            }
+            if shape.bounds().is_none() {
+                let has_geometry = object.geometry.as_ref().is_some_and(|list| !list.is_empty());
+                self.tally.without_shape.note(usize::from(has_geometry), id);
+                continue;
+            }
+            match part {
+                Part::Building => self.add_building(id, object, shape, object_id),
+                Part::Solid(kind) => self.add_solid(kind, &shape, object_id),
+                Part::Tree => self.add_tree(object, &shape, object_id),
+                Part::Plants => self.add_plants(&shape, object_id)?,
+                Part::Ground(label, kind) => {
+                    for (face, source) in shape.faces.iter().zip(&shape.sources) {
+                        let (label, kind) = match surface(object, *source) {
+                            Some((name, attributes)) => ground_of_surface(name, attributes, (label, kind)),
+                            None => (label, kind),
+                        };
+                        self.ground.add(face, label, kind)?;
+                    }
+                }
+                Part::Nothing => {}
+            }
+            if self.obstacles.len() > MOST_OBSTACLES {
+                let error = MapError::new(format!("the map has more than {MOST_OBSTACLES} solid boxes"));
+                return Err(error.hint("cut the map into smaller pieces"));
+            }
+        }
+        Ok(())
+    }
+
+    fn push(&mut self, kind: ObstacleKind, object_id: u32, boxes: impl IntoIterator<Item = OrientedBox>) {
+        let one = |shape| Obstacle { shape, kind, object_id, synthetic: false };
+        self.obstacles.extend(boxes.into_iter().filter(|shape| shape.half_extents_m.is_finite()).map(one));
+    }
+
+    fn add_building(&mut self, id: &str, object: &CityObject, shape: Shape, object_id: u32) {
+        let Some((low, high)) = shape.bounds() else { return };
+        let name = |source: (usize, usize)| surface(object, source).map(|(name, _)| name);
+        let outside =
+            shape.faces.into_iter().zip(shape.sources).filter(|(_, source)| !name(*source).is_some_and(is_indoors));
+        if high.z - low.z < FLAT_M || shape.lod == 0.0 && high.z - low.z < 1.0 {
+            let faces: Vec<Face> = outside.map(|(face, _)| face).collect();
+            let Some(height_m) = self.stated_height_m(object) else { return self.tally.without_height.note(1, id) };
+            let roof: Vec<Face> = faces.iter().map(|face| raised(face, low.z + height_m)).collect();
+            return self.push(ObstacleKind::Building, object_id, layered(&faces, &roof, low.z, BUILDING));
+        }
+        let (mut ground, mut upper, mut walls) = (Vec::new(), Vec::new(), Vec::new());
+        let mut says_ground = false;
+        let mut rest = Vec::new();
+        for (face, source) in outside {
+            match name(source) {
+                Some("GroundSurface") => {
+                    says_ground = true;
+                    ground.push(face);
+                }
+                _ => rest.push(face),
+            }
+        }
+        for face in rest {
+            if face.is_wall() {
+                walls.push(face);
+            } else if !says_ground && face.highest_m() <= low.z + FLAT_M {
+                ground.push(face);
+            } else {
+                upper.push(face);
+            }
+        }
+        let mut boxes = layered(&ground, &upper, low.z, BUILDING);
+        if boxes.is_empty() {
+            // No roof: as high as the walls, over the ground or over the walls alone.
+            let plan = if ground.is_empty() { &walls } else { &ground };
+            let roof: Vec<Face> = plan.iter().map(|face| raised(face, high.z)).collect();
+            boxes = layered(plan, &roof, low.z, BUILDING);
+        }
+        if boxes.is_empty() {
+            self.tally.without_shape.note(1, id);
+        }
+        self.push(ObstacleKind::Building, object_id, boxes);
+    }
+
+    fn stated_height_m(&mut self, object: &CityObject) -> Option<f64> {
+        let attributes = object.attributes.as_ref()?;
+        if let Some(height) = attributes.height() {
+            return Some(self.space.length_m(height).clamp(1.0, 1500.0));
+        }
+        let storeys = attributes.storeys()?;
+        self.tally.storeys += 1;
+        Some((STOREY_M * storeys).clamp(STOREY_M, 1500.0))
+    }
+
+    fn add_solid(&mut self, kind: ObstacleKind, shape: &Shape, object_id: u32) {
+        let Some((low, high)) = shape.bounds().filter(|(low, high)| high.z - low.z >= FLAT_M) else { return };
+        let upper: Vec<Face> = shape.faces.iter().filter(|face| !face.is_wall()).cloned().collect();
+        let mut boxes = layered(&[], &upper, low.z, OTHER);
+        if boxes.is_empty() {
+            let roof: Vec<Face> = shape.faces.iter().map(|face| raised(face, high.z)).collect();
+            boxes = layered(&[], &roof, low.z, OTHER);
+        }
+        self.push(kind, object_id, boxes);
+    }
+
+    fn add_tree(&mut self, object: &CityObject, shape: &Shape, object_id: u32) {
+        let tree = plants::tree(shape, object.attributes.as_ref(), &self.space, object_id);
+        if let Some((boxes, is_assumed)) = tree {
+            self.tally.bare_trees += usize::from(is_assumed);
+            for (kind, shape) in boxes {
+                self.push(kind, object_id, [shape]);
+            }
+        }
+    }
+
+    fn add_plants(&mut self, shape: &Shape, object_id: u32) -> Result<(), MapError> {
+        let Some((low, _)) = shape.bounds() else { return Ok(()) };
+        for face in shape.faces.iter().filter(|face| face.highest_m() <= low.z + plants::GROUND_RISE_M) {
+            self.ground.add(face, cosfly_town::SemanticLabel::Terrain, None)?;
+        }
+        for (kind, shape) in plants::stand(&shape.faces, low.z) {
+            self.push(kind, object_id, [shape]);
+        }
+        Ok(())
+    }
+
+    fn finish(mut self) -> Result<(Town, Vec<String>), MapError> {
+        let mut notes = Vec::new();
+        let Tally { storeys, bare_trees, .. } = self.tally;
+        if storeys > 0 {
+            notes.push(format!(
+                "{storeys} buildings are as high as their storeys, {STOREY_M} m each: the file gives no height"
+            ));
+        }
+        if bare_trees > 0 {
+            notes.push(format!("{bare_trees} trees have an assumed size: the file gives their place only"));
+        }
+        terrain::add_terrain(&mut self.ground.meshes, &self.obstacles, terrain::USUAL_MARGIN_M)?;
+        let surfaces = self.ground.meshes.finish();
+        let mut walkable = self.ground.walkable;
+        if !walkable.iter().any(|polygon| polygon.kind != WalkableKind::Road) {
+            let count = add_open_ground(&mut walkable, &self.obstacles, &surfaces);
+            notes.push(format!(
+                "{count} plazas on the open ground around the buildings are invented: the file has no ground for people to walk on"
+            ));
+        }
+        if walkable.is_empty() {
+            let error = MapError::new("the map has neither ground for people to walk on nor buildings to walk around");
+            return Err(error.hint("use a file with objects of type `Building` or `Road`"));
+        }
+        let warnings = self.tally.warnings();
+        let town = Town {
+            name: "town".to_owned(),
+            origin: self.space.world.origin(self.space.reference_system.clone()),
+            obstacles: self.obstacles,
+            walkable,
+            surfaces,
+            synthetic: Synthetic { notes, ..Synthetic::default() },
+            ..Town::default()
+        };
+        Ok((town, warnings))
+    }
+}
+
+impl Tally {
+    fn warnings(&self) -> Vec<String> {
+        let all = [
+            (
+                &self.broken_faces,
+                "faces with fewer than three corners or with corners that the file does not have are left out",
+            ),
+            (&self.without_height, "flat buildings without `measuredHeight` or `storeysAboveGround` are left out"),
+            (&self.without_shape, "objects without a usable shape are left out"),
+            (&self.unknown, "objects of kinds that are not read are left out"),
+        ];
+        let counted = all.into_iter().filter(|(count, _)| count.count > 0);
+        counted.map(|(count, text)| format!("{} {text}, the first one of `{}`", count.count, count.first)).collect()
+    }
+}
+
+/// Meaning of a face of an object.
+fn surface(object: &CityObject, (geometry, face): (usize, usize)) -> Option<(&str, &Attributes)> {
+    let surface = object.geometry.as_ref()?.get(geometry)?.surface_of_face(face)?;
+    Some((&surface.kind, &surface.attributes))
+}
+
+fn raised(face: &Face, height_m: f64) -> Face {
+    Face { rings: face.rings.iter().map(|ring| ring.iter().map(|corner| corner.with_z(height_m)).collect()).collect() }
+}
+
+/// The finest level of detail among the parts of each building.
+fn finest_parts(document: &Document) -> BTreeMap<&str, f64> {
+    let mut finest: BTreeMap<&str, f64> = BTreeMap::new();
+    let parts = document.objects.values().filter(|object| object.kind == "BuildingPart");
+    for (parent, geometry) in parts.flat_map(|part| {
+        part.parents.iter().flat_map(|parent| part.geometry.iter().flatten().map(move |it| (parent, it)))
+    }) {
+        let lod = finest.entry(parent).or_insert(f64::NEG_INFINITY);
+        *lod = lod.max(geometry.lod());
+    }
+    finest
+}
+
+/// The object that has no parent, from this one up. Circles end somewhere in them.
+fn root<'d>(document: &'d Document, id: &'d str) -> &'d str {
+    let mut id = id;
+    for _ in 0..MOST_GENERATIONS {
+        match document.objects.get(id).and_then(|object| object.parents.first()) {
+            Some(parent) if document.objects.contains_key(parent.as_str()) => id = parent,
+            _ => break,
+        }
+    }
+    id
+}

@@ -1,0 +1,224 @@
+//! Buildings: roofs as columns of cells down to the ground, on grids that are turned along the walls.
+
+use super::class;
+use super::survey::{Survey, is_ground, plan_of};
+use crate::grid::{Grid, nearest_seeds, parts};
+use crate::solid_cells::{Column, boxes_of};
+use cosfly_frames::{DVec2, real};
+use cosfly_geometry::OrientedBox;
+use cosfly_town::{Obstacle, ObstacleKind};
+
+/// A roof over ground that was seen under it is no wall where it hangs higher than this, metres.
+const OVERHANG_M: f64 = 2.5;
+/// Cells from a wall within which a roof over ground that was seen counts as eaves, not as hanging.
+const EAVES: usize = 2;
+/// Height of the steps in which boxes follow a roof, metres.
+const STEP_M: f64 = 1.0;
+/// Distance of a column's foot above ground that was seen in its cell, metres.
+const ABOVE_GROUND_M: f64 = 0.1;
+/// Cells at the edge over which the direction of a wall is felt.
+const EDGE_REACH: usize = 2;
+/// Sides of an outline that are tried as a side of its smallest rectangle.
+const MOST_SIDES: usize = 256;
+
+/// Adds all buildings.
+pub fn add(survey: &Survey<'_>, obstacles: &mut Vec<Obstacle>) {
+    let grid = &survey.grid;
+    let classes = |cell: usize| survey.buckets.of(cell).map(|point| survey.cloud.classes[point]);
+    let has_roof: Vec<bool> = (0..grid.len()).map(|cell| classes(cell).any(|class| class == class::BUILDING)).collect();
+    let seeds = nearest_seeds(grid, |cell| survey.buckets.of(cell).next().is_some(), survey.reach_cells());
+    let is_building = |cell: usize| seeds[cell] != u32::MAX && has_roof[seeds[cell] as usize];
+    let (part, count) = parts(grid, is_building);
+    let mut cells = vec![Vec::new(); count as usize + 1];
+    for (cell, number) in part.iter().enumerate().filter(|(_, number)| **number != 0) {
+        cells[*number as usize].push(cell);
+    }
+    for cells in &cells[1..] {
+        let object_id = super::next_id(obstacles);
+        let site = Site::new(survey, cells, &part);
+        let covers = site.directions_rad(cells, &is_building).map(|yaw_rad| site.boxes(yaw_rad));
+        let fewest = covers.into_iter().min_by_key(Vec::len).unwrap_or_default();
+        let obstacle = |shape| Obstacle { shape, kind: ObstacleKind::Building, object_id, synthetic: false };
+        obstacles.extend(fewest.into_iter().map(obstacle));
+    }
+}
+
+/// One building: the points on it and on the ground beside it.
+struct Site<'a> {
+    survey: &'a Survey<'a>,
+    roof: Vec<usize>,
+    /// Points on and beside it that are no roof.
+    others: Vec<usize>,
+    /// Lowest ground beside or under it, metres.
+    foot_m: f64,
+}
+
+impl<'a> Site<'a> {
+    fn new(survey: &'a Survey<'a>, cells: &[usize], part: &[u32]) -> Self {
+        let number = part[cells[0]];
+        let mut near: Vec<usize> =
+            cells.iter().flat_map(|cell| survey.grid.around_cell(*cell, survey.reach_cells())).collect();
+        near.sort_unstable();
+        near.dedup();
+        let (mut roof, mut others) = (Vec::new(), Vec::new());
+        for cell in near {
+            for point in survey.buckets.of(cell) {
+                match survey.cloud.classes[point] {
+                    class::BUILDING if part[cell] == number => roof.push(point),
+                    class::BUILDING => {}
+                    _ => others.push(point),
+                }
+            }
+        }
+        let heights = cells.iter().map(|cell| survey.relief.height_m(survey.grid.center(*cell)));
+        Self { survey, roof, others, foot_m: heights.fold(f64::INFINITY, f64::min) }
+    }
+
+    /// Directions that the walls may have: of the edge of the cells in the mean, of the smallest rectangle around the
+    /// points, and of the map.
+    fn directions_rad(&self, cells: &[usize], is_building: &impl Fn(usize) -> bool) -> [f64; 3] {
+        let hull = convex_hull(plan_of(self.survey.cloud, &self.roof).collect());
+        [edge_direction_rad(&self.survey.grid, cells, is_building), smallest_rectangle_rad(&hull), 0.0]
+    }
+
+    /// Boxes on a grid of a direction.
+    fn boxes(&self, yaw_rad: f64) -> Vec<OrientedBox> {
+        let (cloud, cell_m) = (self.survey.cloud, self.survey.grid.cell_m);
+        let grid = Grid::around(plan_of(cloud, &self.roof), cell_m, yaw_rad);
+        let mut roof: Vec<Option<Column>> = vec![None; grid.len()];
+        for point in &self.roof {
+            let at = cloud.point(*point);
+            let column = roof[grid.cell_of(at.truncate())].get_or_insert(Column { base_m: at.z, top_m: at.z });
+            *column = Column { base_m: column.base_m.min(at.z), top_m: column.top_m.max(at.z) };
+        }
+        let mut ground_m = vec![f64::NEG_INFINITY; grid.len()];
+        let mut is_seed: Vec<bool> = roof.iter().map(Option::is_some).collect();
+        for point in &self.others {
+            let at = cloud.point(*point);
+            let in_cells = grid.in_cells(at.truncate());
+            if in_cells.cmpge(DVec2::ZERO).all() && in_cells.x < grid.columns as f64 && in_cells.y < grid.rows as f64 {
+                let cell = grid.cell_of(at.truncate());
+                is_seed[cell] = true;
+                if is_ground(cloud.classes[*point]) {
+                    ground_m[cell] = ground_m[cell].max(at.z);
+                }
+            }
+        }
+        let seeds = nearest_seeds(&grid, |cell| is_seed[cell], self.survey.reach_cells());
+        let mut roofs: Vec<Option<Column>> =
+            seeds.iter().map(|seed| roof.get(*seed as usize).copied().flatten()).collect();
+        fill_pits(&grid, &mut roofs, (self.survey.reach_cells() / 2).max(1));
+        let columns = self.standing(&grid, &roofs, &ground_m);
+        boxes_of(&grid, &columns, STEP_M.max(cell_m))
+    }
+
+    /// Columns from the roofs down to the foot, or to the ground that was seen in a cell, or only the roof where it
+    /// hangs over that ground far from any wall.
+    fn standing(&self, grid: &Grid, roofs: &[Option<Column>], ground_m: &[f64]) -> Vec<Option<Column>> {
+        let is_solid = |cell: usize| roofs[cell].is_some() && ground_m[cell] == f64::NEG_INFINITY;
+        let column = |cell: usize| {
+            let roof = roofs[cell]?;
+            let hangs = !is_solid(cell)
+                && roof.base_m - ground_m[cell] > OVERHANG_M
+                && !grid.around_cell(cell, EAVES).any(is_solid);
+            let base_m = if hangs { roof.base_m } else { self.foot_m.max(ground_m[cell] + ABOVE_GROUND_M) };
+            Some(Column { base_m, top_m: roof.top_m.max(base_m) })
+        };
+        (0..grid.len()).map(column).collect()
+    }
+}
+
+/// Raises tops in pits that are narrower than twice `reach` cells to their rim: a closing of the roof's surface.
+fn fill_pits(grid: &Grid, roofs: &mut [Option<Column>], reach: usize) {
+    let near = |cell: usize, tops: &[Option<f64>], pick: fn(f64, f64) -> f64| {
+        tops[cell]?;
+        grid.around_cell(cell, reach).filter_map(|near| tops[near]).reduce(pick)
+    };
+    let tops: Vec<Option<f64>> = roofs.iter().map(|roof| roof.map(|column| column.top_m)).collect();
+    let raised: Vec<Option<f64>> = (0..tops.len()).map(|cell| near(cell, &tops, f64::max)).collect();
+    for (cell, roof) in roofs.iter_mut().enumerate() {
+        if let (Some(column), Some(rim_m)) = (roof, near(cell, &raised, f64::min)) {
+            column.top_m = column.top_m.max(rim_m);
+        }
+    }
+}
+
+/// Mean direction of the walls: each cell at the edge feels which way its neighbours lie; quarter turns count as one.
+fn edge_direction_rad(grid: &Grid, cells: &[usize], is_building: &impl Fn(usize) -> bool) -> f64 {
+    let (mut sine, mut cosine) = (0.0, 0.0);
+    for cell in cells {
+        let own = DVec2::new((cell % grid.columns) as f64, (cell / grid.columns) as f64);
+        let inward: DVec2 = grid
+            .around_cell(*cell, EDGE_REACH)
+            .filter(|near| is_building(*near))
+            .map(|near| DVec2::new((near % grid.columns) as f64, (near / grid.columns) as f64) - own)
+            .sum();
+        let strength = inward.length();
+        if strength > 0.0 {
+            let (sin, cos) = real::sin_cos(4.0 * real::atan2(inward.y, inward.x));
+            sine += strength * sin;
+            cosine += strength * cos;
+        }
+    }
+    0.25 * real::atan2(sine, cosine)
+}
+
+/// Corners of the smallest convex outline around points, counter-clockwise from x to y.
+fn convex_hull(mut points: Vec<DVec2>) -> Vec<DVec2> {
+    points.sort_by(|a, b| a.x.total_cmp(&b.x).then(a.y.total_cmp(&b.y)));
+    let mut hull: Vec<DVec2> = Vec::new();
+    let add = |point: DVec2, least: usize, hull: &mut Vec<DVec2>| {
+        while hull.len() > least
+            && (hull[hull.len() - 1] - hull[hull.len() - 2]).perp_dot(point - hull[hull.len() - 2]) <= 0.0
+        {
+            hull.pop();
+        }
+        hull.push(point);
+    };
+    for point in &points {
+        add(*point, 1, &mut hull);
+    }
+    let lower = hull.len();
+    for point in points.iter().rev().skip(1) {
+        add(*point, lower, &mut hull);
+    }
+    hull
+}
+
+/// Direction of the smallest rectangle around a convex outline.
+fn smallest_rectangle_rad(hull: &[DVec2]) -> f64 {
+    let area_m2 = |side: &DVec2| {
+        let along = side.normalize_or(DVec2::X);
+        let extent = |axis: DVec2| {
+            let reach = hull.iter().map(|corner| corner.dot(axis));
+            reach.clone().fold(f64::NEG_INFINITY, f64::max) - reach.fold(f64::INFINITY, f64::min)
+        };
+        extent(along) * extent(along.perp())
+    };
+    let sides = hull.windows(2).map(|pair| pair[1] - pair[0]).filter(|side| side.length() > 1e-6);
+    let sides = sides.step_by(1 + hull.len() / MOST_SIDES);
+    let best = sides.map(|side| (area_m2(&side), side)).min_by(|a, b| a.0.total_cmp(&b.0));
+    best.map_or(0.0, |(_, side)| real::atan2(side.y, side.x))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn walls_of_a_turned_house_are_found() {
+        let (sin, cos) = real::sin_cos(0.35);
+        let corner = |x: f64, y: f64| DVec2::new(cos * x - sin * y, sin * x + cos * y);
+        let points: Vec<DVec2> = (0..400).map(|i| corner(0.9 * f64::from(i % 20), 0.5 * f64::from(i / 20))).collect();
+        let quarter = |angle: f64| (angle - (angle / real::FRAC_PI_2).round() * real::FRAC_PI_2).abs();
+        assert!(quarter(smallest_rectangle_rad(&convex_hull(points.clone())) - 0.35) < 1e-6);
+        let grid = Grid::around(points.iter().copied(), 0.5, 0.0);
+        let mut is_house = vec![false; grid.len()];
+        for i in 0..4000 {
+            is_house[grid.cell_of(corner(0.1 * f64::from(i % 180), 0.45 * f64::from(i / 180)))] = true;
+        }
+        let cells: Vec<usize> = (0..grid.len()).filter(|cell| is_house[*cell]).collect();
+        let found = edge_direction_rad(&grid, &cells, &|cell| is_house[cell]);
+        assert!(quarter(found - 0.35) < 0.05, "{found}");
+    }
+}

@@ -1,0 +1,151 @@
+//! [`Cloud`]: measured points as the town's builder takes them, whatever file they come from.
+
+use cosfly_frames::{DVec2, DVec3};
+use cosfly_town::MapError;
+use cosfly_town::world::WorldFromMap;
+
+/// Classes of the ASPRS standard that the builder knows.
+pub mod class {
+    /// Not classified.
+    pub const UNCLASSIFIED: u8 = 1;
+    /// Bare ground.
+    pub const GROUND: u8 = 2;
+    /// Low, medium and high plants.
+    pub const PLANTS: std::ops::RangeInclusive<u8> = 3..=5;
+    /// High plants.
+    pub const HIGH_PLANTS: u8 = 5;
+    /// Buildings.
+    pub const BUILDING: u8 = 6;
+    /// Points that are too low to be anything.
+    pub const LOW_NOISE: u8 = 7;
+    /// Water.
+    pub const WATER: u8 = 9;
+    /// Surface of a road.
+    pub const ROAD: u8 = 11;
+    /// Deck of a bridge.
+    pub const BRIDGE: u8 = 17;
+    /// Points that are too high to be anything.
+    pub const HIGH_NOISE: u8 = 18;
+}
+
+/// Widest cloud, metres.
+const WIDEST_M: f64 = 20_000.0;
+/// Largest coordinate, metres.
+const FARTHEST_M: f64 = 1e8;
+/// Largest height of a point, metres.
+const HIGHEST_M: f64 = 1e5;
+
+/// Points in the world frame, metres.
+#[derive(Clone, Debug, Default)]
+pub struct Cloud {
+    /// Place of the points' origin in the world, metres.
+    origin_in_world: DVec3,
+    /// Positions from the origin, axes of the world, metres.
+    positions: Vec<[f32; 3]>,
+    /// Class of each point.
+    pub classes: Vec<u8>,
+    /// Shift between map and world.
+    pub world: WorldFromMap,
+    /// The file's projection, in its own words.
+    pub geo_reference: Option<String>,
+    /// What the user should know.
+    pub warnings: Vec<String>,
+}
+
+/// Takes points one by one, map frame (right-handed, z up), metres.
+#[derive(Debug, Default)]
+pub struct CloudBuilder {
+    origin_in_map: Option<DVec3>,
+    positions: Vec<[f32; 3]>,
+    classes: Vec<u8>,
+    noise: usize,
+    absurd: usize,
+}
+
+impl CloudBuilder {
+    /// Room for points that are known to be there.
+    pub fn with_capacity(points: usize) -> Self {
+        Self { positions: Vec::with_capacity(points), classes: Vec::with_capacity(points), ..Self::default() }
+    }
+
+    /// Adds a point; noise and points that are nowhere are counted.
+    pub fn push(&mut self, point_in_map: DVec3, class: u8) {
+        let is_somewhere =
+            point_in_map.truncate().abs().max_element() <= FARTHEST_M && point_in_map.z.abs() <= HIGHEST_M;
+        // Also false for numbers that are none.
+        if !is_somewhere {
+            self.absurd += 1;
+            return;
+        }
+        if matches!(class, class::LOW_NOISE | class::HIGH_NOISE) {
+            self.noise += 1;
+            return;
+        }
+        let origin = *self.origin_in_map.get_or_insert_with(|| point_in_map.round());
+        self.positions.push((point_in_map - origin).as_vec3().to_array());
+        self.classes.push(class);
+    }
+
+    /// The cloud in the world frame.
+    ///
+    /// # Errors
+    /// No points, or points too far apart.
+    pub fn finish(mut self, geo_reference: Option<String>, mut warnings: Vec<String>) -> Result<Cloud, MapError> {
+        let Some(origin_in_map) = self.origin_in_map else {
+            let dropped = self.noise + self.absurd;
+            let message = format!("the cloud has no points ({dropped} are noise or have no finite coordinates)");
+            return Err(MapError::new(message));
+        };
+        let plan =
+            || self.positions.iter().map(|[x, y, _]| origin_in_map.truncate() + DVec2::new((*x).into(), (*y).into()));
+        let size = plan().fold(DVec2::NEG_INFINITY, DVec2::max) - plan().fold(DVec2::INFINITY, DVec2::min);
+        if size.max_element() > WIDEST_M {
+            let message = format!("the cloud is {:.0} m across; at most {WIDEST_M} m are read", size.max_element());
+            return Err(
+                MapError::new(message).hint("cut the cloud into tiles, or give the length of its unit with `unit_m`")
+            );
+        }
+        if self.absurd > 0 {
+            warnings.push(format!("{} points without finite coordinates on Earth were left out", self.absurd));
+        }
+        if self.noise > 0 {
+            warnings.push(format!("{} points of the classes for noise (7, 18) were left out", self.noise));
+        }
+        let world = WorldFromMap::around(plan());
+        for position in &mut self.positions {
+            position[1] = -position[1];
+        }
+        let origin_in_world = world.point(origin_in_map);
+        Ok(Cloud { origin_in_world, positions: self.positions, classes: self.classes, world, geo_reference, warnings })
+    }
+}
+
+impl Cloud {
+    /// Number of points.
+    pub fn len(&self) -> usize {
+        self.positions.len()
+    }
+
+    /// Whether there are no points.
+    pub fn is_empty(&self) -> bool {
+        self.positions.is_empty()
+    }
+
+    /// A point in the world, metres.
+    pub fn point(&self, index: usize) -> DVec3 {
+        let [x, y, z] = self.positions[index];
+        self.origin_in_world + DVec3::new(x.into(), y.into(), z.into())
+    }
+
+    /// All points in the world, metres.
+    pub fn points(&self) -> impl Iterator<Item = DVec3> {
+        (0..self.len()).map(|index| self.point(index))
+    }
+
+    /// Smallest and largest corner in plan, world, metres.
+    pub fn bounds(&self) -> (DVec2, DVec2) {
+        self.points().fold((DVec2::INFINITY, DVec2::NEG_INFINITY), |(low, high), point| {
+            (low.min(point.truncate()), high.max(point.truncate()))
+        })
+    }
+}

@@ -1,0 +1,107 @@
+//! [`Survey`]: a classified cloud, sorted into cells.
+
+use super::{Cloud, class};
+use crate::grid::{Buckets, Grid};
+use crate::relief::Relief;
+use cosfly_frames::DVec2;
+
+/// Narrowest and widest cells that the density of the points asks for, metres.
+const USUAL_VOXELS_M: [f64; 2] = [0.5, 2.0];
+/// Side of the cells in distances between neighbouring points.
+const VOXELS_IN_SPACINGS: f64 = 0.7;
+/// Cells over which the density is measured, metres.
+const DENSITY_CELL_M: f64 = 4.0;
+/// Most cells of a grid.
+const MOST_CELLS: f64 = 16e6;
+/// Most cells for each point: memory follows the size of the file.
+const MOST_CELLS_PER_POINT: f64 = 64.0;
+/// Gaps between points that are closed, in distances between neighbouring points.
+const REACH_IN_SPACINGS: f64 = 2.0;
+/// Widest gap that is closed on each side, metres.
+const WIDEST_REACH_M: f64 = 4.0;
+
+/// A cloud whose points all have a class.
+#[derive(Debug)]
+pub struct Survey<'a> {
+    /// The points.
+    pub cloud: &'a Cloud,
+    /// Height of the ground.
+    pub relief: Relief,
+    /// Cells.
+    pub grid: Grid,
+    /// The points of each cell.
+    pub buckets: Buckets,
+    /// Cells without points take after points at most this far away, metres.
+    pub reach_m: f64,
+}
+
+impl<'a> Survey<'a> {
+    /// Sorts the points into cells.
+    pub fn new(cloud: &'a Cloud, relief: Relief, voxel_m: f64) -> Self {
+        let grid = grid_of(cloud, voxel_m);
+        let buckets = Buckets::new(grid.len(), |point| Some(grid.cell_of(cloud.point(point).truncate())), cloud.len());
+        let reach_m = (REACH_IN_SPACINGS * spacing_m(cloud)).clamp(voxel_m, WIDEST_REACH_M.max(voxel_m));
+        Self { cloud, relief, grid, buckets, reach_m }
+    }
+
+    /// [`Self::reach_m`] in cells.
+    pub fn reach_cells(&self) -> usize {
+        (self.reach_m / self.grid.cell_m).ceil() as usize
+    }
+
+    /// Height of a point above the ground, metres.
+    pub fn height_m(&self, point: usize) -> f64 {
+        let at = self.cloud.point(point);
+        at.z - self.relief.height_m(at.truncate())
+    }
+}
+
+/// Whether a class is ground.
+pub fn is_ground(class: u8) -> bool {
+    matches!(class, class::GROUND | class::WATER | class::ROAD)
+}
+
+/// Cells over a cloud.
+pub fn grid_of(cloud: &Cloud, cell_m: f64) -> Grid {
+    let (low, high) = cloud.bounds();
+    Grid::around([low, high].into_iter(), cell_m, 0.0)
+}
+
+/// Distance between neighbouring points where there are points, metres.
+fn spacing_m(cloud: &Cloud) -> f64 {
+    let grid = grid_of(cloud, coarse_enough(cloud, DENSITY_CELL_M));
+    let mut has_points = vec![false; grid.len()];
+    for point in cloud.points() {
+        has_points[grid.cell_of(point.truncate())] = true;
+    }
+    let covered = has_points.iter().filter(|has| **has).count() as f64;
+    grid.cell_m * (covered / cloud.len().max(1) as f64).sqrt()
+}
+
+/// The cell size, or a larger one that gives the cloud no more cells than it may have.
+pub fn coarse_enough(cloud: &Cloud, cell_m: f64) -> f64 {
+    let (low, high) = cloud.bounds();
+    let most = (MOST_CELLS_PER_POINT * cloud.len() as f64 + 1e4).min(MOST_CELLS);
+    let cells = |cell_m: f64| ((high - low) / cell_m + 3.0).element_product();
+    let mut cell_m = cell_m;
+    while cells(cell_m) > most {
+        cell_m *= 1.25;
+    }
+    cell_m
+}
+
+/// Side of the cells: as asked for, else by the density of the points.
+pub fn voxel_m(cloud: &Cloud, asked_m: Option<f64>, warnings: &mut Vec<String>) -> f64 {
+    let [narrowest, widest] = USUAL_VOXELS_M;
+    let wanted_m = asked_m.unwrap_or_else(|| (VOXELS_IN_SPACINGS * spacing_m(cloud)).clamp(narrowest, widest));
+    let voxel_m = coarse_enough(cloud, wanted_m);
+    if voxel_m > wanted_m {
+        warnings.push(format!("the cloud is too wide for cells of {wanted_m:.2} m: they are {voxel_m:.2} m wide"));
+    }
+    voxel_m
+}
+
+/// Positions in plan of points of some kind.
+pub fn plan_of<'a>(cloud: &'a Cloud, points: &'a [usize]) -> impl Iterator<Item = DVec2> + 'a {
+    points.iter().map(|point| cloud.point(*point).truncate())
+}

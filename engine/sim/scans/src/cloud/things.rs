@@ -1,0 +1,79 @@
+//! What is neither building nor plant: cars, walls, masts, bridges, as boxes around the points of each cell.
+
+use super::class;
+use super::survey::{Survey, is_ground};
+use crate::grid::parts;
+use crate::solid_cells::{Column, boxes_of};
+use cosfly_town::{Obstacle, ObstacleKind};
+
+/// Lower points are kerbs and litter, metres.
+const LOWEST_M: f64 = 0.4;
+/// Height of the steps in which boxes follow a thing, metres.
+const STEP_M: f64 = 1.0;
+/// Fewer points are no thing.
+const LEAST_POINTS: usize = 4;
+/// Distance of a thing above ground that was seen in its cell, metres.
+const ABOVE_GROUND_M: f64 = 0.15;
+/// A thing whose lowest point is closer to the ground stands on it, metres.
+const STANDS_M: f64 = 1.0;
+/// Points of a tall thing are spread over its height; gaps wider than this part it from what hangs above, metres.
+const THINNEST_M: f64 = 0.2;
+
+/// Adds all things.
+pub fn add(survey: &Survey<'_>, obstacles: &mut Vec<Obstacle>) {
+    for (kind, belongs) in [
+        (ObstacleKind::Bridge, (|class| class == class::BRIDGE) as fn(u8) -> bool),
+        (ObstacleKind::Static, |class| {
+            !is_ground(class) && !class::PLANTS.contains(&class) && !matches!(class, class::BUILDING | class::BRIDGE)
+        }),
+    ] {
+        add_kind(survey, kind, belongs, obstacles);
+    }
+}
+
+fn add_kind(survey: &Survey<'_>, kind: ObstacleKind, belongs: fn(u8) -> bool, obstacles: &mut Vec<Obstacle>) {
+    let (grid, cloud) = (&survey.grid, survey.cloud);
+    let mut counts = vec![0_usize; grid.len()];
+    let mut columns: Vec<Option<Column>> = vec![None; grid.len()];
+    for cell in 0..grid.len() {
+        let mut ground_m = f64::NEG_INFINITY;
+        for point in survey.buckets.of(cell) {
+            let at = cloud.point(point);
+            if is_ground(cloud.classes[point]) {
+                ground_m = ground_m.max(at.z);
+            } else if belongs(cloud.classes[point]) && survey.height_m(point) > LOWEST_M {
+                let column = columns[cell].get_or_insert(Column { base_m: at.z, top_m: at.z });
+                *column = Column { base_m: column.base_m.min(at.z), top_m: column.top_m.max(at.z) };
+                counts[cell] += 1;
+            }
+        }
+        if let Some(column) = &mut columns[cell] {
+            let foot_m = survey.relief.height_m(grid.center(cell));
+            let lowest_m = foot_m.max(ground_m) + ABOVE_GROUND_M;
+            column.base_m =
+                if column.base_m - foot_m < STANDS_M { lowest_m } else { (column.base_m - THINNEST_M).max(lowest_m) };
+            column.top_m = column.top_m.max(column.base_m + THINNEST_M);
+        }
+    }
+    let (part, count) = parts(grid, |cell| columns[cell].is_some());
+    let mut sizes = vec![0_usize; count as usize + 1];
+    for (cell, number) in part.iter().enumerate() {
+        sizes[*number as usize] += counts[cell];
+    }
+    for (cell, column) in columns.iter_mut().enumerate() {
+        if sizes[part[cell] as usize] < LEAST_POINTS {
+            *column = None;
+        }
+    }
+    let first_id = super::next_id(obstacles);
+    let shapes = boxes_of(grid, &columns, STEP_M.max(grid.cell_m));
+    let number = |shape: &cosfly_geometry::OrientedBox| part[grid.cell_of(shape.center_in_world.truncate())];
+    let mut numbered: Vec<_> = shapes.into_iter().map(|shape| (number(&shape), shape)).collect();
+    numbered.sort_by_key(|(number, _)| *number);
+    obstacles.extend(numbered.into_iter().map(|(number, shape)| Obstacle {
+        shape,
+        kind,
+        object_id: first_id + number,
+        synthetic: false,
+    }));
+}

@@ -1,0 +1,266 @@
+//! `PCD`: point clouds of the Point Cloud Library; text, binary or compressed.
+
+use crate::bytes::Bytes;
+use crate::cloud::table::Columns;
+use crate::cloud::{CloudBuilder, CloudOptions, town_of};
+use crate::scalar::Scalar;
+use cosfly_town::{MapError, MapFormat, Town};
+
+/// Longest head, bytes.
+const LONGEST_HEAD: usize = 64 << 10;
+/// Largest number that a field may have of itself.
+const MOST_OF_A_FIELD: usize = 10_000;
+/// Most unpacked bytes for each packed one: what the packing can reach.
+const MOST_UNPACKED: usize = 264;
+
+/// The format `PCD`.
+#[derive(Clone, Copy, Debug)]
+pub struct Pcd;
+
+impl MapFormat for Pcd {
+    type Options = CloudOptions;
+
+    const NAME: &'static str = "PCD";
+
+    const EXAMPLE: &'static [u8] = include_bytes!("cloud/example.pcd");
+
+    fn recognises(head: &[u8]) -> bool {
+        let text = String::from_utf8_lossy(&head[..head.len().min(1024)]);
+        let mut lines = text.lines().filter(|line| !line.starts_with('#'));
+        let has_version =
+            text.starts_with("# .PCD") || lines.clone().next().is_some_and(|line| line.starts_with("VERSION "));
+        has_version && lines.any(|line| line.starts_with("FIELDS "))
+    }
+
+    fn read(bytes: &[u8], options: &CloudOptions) -> Result<(Town, Vec<String>), MapError> {
+        let (head, data) = Head::read(bytes)?;
+        let columns = Columns::find(head.fields.iter().map(|field| field.name.as_str()))?;
+        let unit_m = options.unit_m.unwrap_or(1.0);
+        let mut cloud = CloudBuilder::default();
+        match head.packing.as_str() {
+            "ascii" => head.add_lines(data, &columns, unit_m, &mut cloud)?,
+            "binary" => head.add_rows(data, &columns, unit_m, &mut cloud)?,
+            "binary_compressed" => head.add_columns(&head.unpacked(data)?, &columns, unit_m, &mut cloud),
+            other => {
+                let shown: String = other.chars().take(40).collect();
+                return Err(MapError::new(format!(
+                    "`DATA` is `{shown}`; `ascii`, `binary` and `binary_compressed` are read"
+                )));
+            }
+        }
+        town_of(columns.finish(cloud, options.unit_m)?, options)
+    }
+}
+
+#[derive(Debug)]
+struct Field {
+    name: String,
+    scalar: Scalar,
+    /// Numbers that the field consists of.
+    count: usize,
+}
+
+impl Field {
+    fn bytes(&self) -> usize {
+        self.scalar.bytes() * self.count
+    }
+}
+
+#[derive(Debug)]
+struct Head {
+    fields: Vec<Field>,
+    points: usize,
+    packing: String,
+}
+
+impl Head {
+    /// The head, and the bytes behind it.
+    fn read(bytes: &[u8]) -> Result<(Self, &[u8]), MapError> {
+        let (mut names, mut sizes, mut kinds, mut counts) = (vec![], vec![], vec![], vec![]);
+        let (mut size, mut points, mut at) = ([None, None], None, 0);
+        loop {
+            let rest = &bytes[at..];
+            let Some(end) = rest.iter().take(LONGEST_HEAD).position(|byte| *byte == b'\n') else {
+                let error = MapError::new("the head of the file does not end with a line `DATA`");
+                return Err(error.hint("the file seems to be cut off: fetch or export it again"));
+            };
+            let line = String::from_utf8_lossy(&rest[..end]).into_owned();
+            at += end + 1;
+            let mut words = line.split_whitespace().map(str::to_owned);
+            let keyword = words.next().unwrap_or_default();
+            let number = line.split_whitespace().nth(1).and_then(|word| word.parse::<usize>().ok());
+            match keyword.as_str() {
+                "FIELDS" => names = words.collect(),
+                "SIZE" => sizes = words.collect(),
+                "TYPE" => kinds = words.collect(),
+                "COUNT" => counts = words.collect(),
+                "WIDTH" => size[0] = number,
+                "HEIGHT" => size[1] = number,
+                "POINTS" => points = number,
+                "DATA" => {
+                    let packing = words.next().unwrap_or_default();
+                    let grid = || size[0]?.checked_mul(size[1]?);
+                    let points = points
+                        .or_else(grid)
+                        .ok_or_else(|| MapError::new("the head does not state the number of `POINTS`"))?;
+                    let fields = fields(&names, &sizes, &kinds, &counts)?;
+                    return Ok((Self { fields, points, packing }, &bytes[at..]));
+                }
+                _ if at > LONGEST_HEAD => return Err(MapError::new("the head of the file has no line `DATA`")),
+                _ => {}
+            }
+        }
+    }
+
+    fn cut_off(&self) -> MapError {
+        let error = MapError::new(format!("the file ends before the last of {} points", self.points));
+        error.hint("the file seems to be cut off: fetch or export it again")
+    }
+
+    fn row_bytes(&self) -> usize {
+        self.fields.iter().map(Field::bytes).sum()
+    }
+
+    fn all_bytes(&self) -> Result<usize, MapError> {
+        self.points.checked_mul(self.row_bytes()).ok_or_else(|| self.cut_off())
+    }
+
+    /// First byte of each field in a row.
+    fn places(&self) -> Vec<usize> {
+        self.fields
+            .iter()
+            .scan(0, |next, field| {
+                let place = *next;
+                *next += field.bytes();
+                Some(place)
+            })
+            .collect()
+    }
+
+    fn add_rows(&self, data: &[u8], columns: &Columns, unit_m: f64, cloud: &mut CloudBuilder) -> Result<(), MapError> {
+        let rows = data.get(..self.all_bytes()?).ok_or_else(|| self.cut_off())?;
+        let places = self.places();
+        for row in rows.chunks_exact(self.row_bytes()) {
+            let value =
+                |column: usize| self.fields[column].scalar.read(&row[places[column]..], false).unwrap_or(f64::NAN);
+            columns.push(cloud, unit_m, value);
+        }
+        Ok(())
+    }
+
+    /// Compressed points come field by field.
+    fn add_columns(&self, data: &[u8], columns: &Columns, unit_m: f64, cloud: &mut CloudBuilder) {
+        let places = self.places();
+        for point in 0..self.points {
+            let value = |column: usize| {
+                let field = &self.fields[column];
+                let start = places[column] * self.points + point * field.bytes();
+                data.get(start..).and_then(|bytes| field.scalar.read(bytes, false)).unwrap_or(f64::NAN)
+            };
+            columns.push(cloud, unit_m, value);
+        }
+    }
+
+    fn add_lines(&self, data: &[u8], columns: &Columns, unit_m: f64, cloud: &mut CloudBuilder) -> Result<(), MapError> {
+        let text = String::from_utf8_lossy(data);
+        let mut lines = text.lines().filter(|line| !line.trim().is_empty());
+        // Numbers before each field in a line.
+        let before: Vec<usize> =
+            (0..self.fields.len()).map(|at| self.fields[..at].iter().map(|field| field.count).sum()).collect();
+        let needed = before[columns.last()] + 1;
+        let mut numbers = Vec::new();
+        for point in 0..self.points {
+            let line = lines.next().ok_or_else(|| self.cut_off())?;
+            numbers.clear();
+            numbers.extend(line.split_whitespace().take(needed).map_while(|word| word.parse::<f64>().ok()));
+            if numbers.len() < needed {
+                let shown: String = line.chars().take(60).collect();
+                return Err(MapError::new(format!(
+                    "point {point} is `{shown}`; it must have at least {needed} numbers"
+                )));
+            }
+            columns.push(cloud, unit_m, |column| numbers[before[column]]);
+        }
+        Ok(())
+    }
+
+    fn unpacked(&self, data: &[u8]) -> Result<Vec<u8>, MapError> {
+        let sizes = Bytes(data);
+        let packed = sizes.u32(0, "the size of the compressed points")?;
+        let length = sizes.u32(4, "the size of the points")? as usize;
+        let packed = sizes.slice(8, packed.into(), "the compressed points")?;
+        if length != self.all_bytes()? || length > packed.len().saturating_mul(MOST_UNPACKED) {
+            let message = format!(
+                "the points unpack to {length} bytes of {}, but {} points have {}",
+                packed.len(),
+                self.points,
+                self.all_bytes()?
+            );
+            return Err(MapError::new(message).hint("the file is damaged: fetch or export it again"));
+        }
+        unpack(packed, length).ok_or_else(|| {
+            MapError::new("the compressed points are damaged").hint("the file is damaged: fetch or export it again")
+        })
+    }
+}
+
+fn fields(names: &[String], sizes: &[String], kinds: &[String], counts: &[String]) -> Result<Vec<Field>, MapError> {
+    let field = |(at, name): (usize, &String)| {
+        let bytes: Option<u8> =
+            sizes.get(at).and_then(|size| size.parse().ok()).filter(|size| [1, 2, 4, 8].contains(size));
+        let scalar = match (kinds.get(at).map(String::as_str), bytes) {
+            (Some("I"), Some(bytes)) => Some(Scalar::Signed(bytes)),
+            (Some("U"), Some(bytes)) => Some(Scalar::Unsigned(bytes)),
+            (Some("F"), Some(bytes @ (4 | 8))) => Some(Scalar::Real(bytes)),
+            _ => None,
+        };
+        let count =
+            counts.get(at).map_or(Some(1), |count| count.parse().ok()).filter(|count| *count <= MOST_OF_A_FIELD);
+        let shown: String = name.chars().take(40).collect();
+        let refused = || MapError::new(format!("the field `{shown}` has no known `SIZE`, `TYPE` and `COUNT`"));
+        Ok(Field { name: name.clone(), scalar: scalar.ok_or_else(refused)?, count: count.ok_or_else(refused)? })
+    };
+    names.iter().enumerate().map(field).collect()
+}
+
+/// Unpacks LZF (the compression of PCD files): runs of plain bytes, and copies of what came before. None when damaged.
+fn unpack(mut packed: &[u8], length: usize) -> Option<Vec<u8>> {
+    let mut out = Vec::with_capacity(length);
+    while let Some((control, rest)) = packed.split_first() {
+        let high = usize::from(control >> 5);
+        if high == 0 {
+            let (run, rest) = rest.split_at_checked(usize::from(*control) + 1)?;
+            out.extend_from_slice(run);
+            packed = rest;
+        } else {
+            let (longer, rest) = if high == 7 { rest.split_first()? } else { (&0, rest) };
+            let (low, rest) = rest.split_first()?;
+            let back = (usize::from(control & 31) << 8 | usize::from(*low)) + 1;
+            let start = out.len().checked_sub(back)?;
+            // Byte by byte: a copy may reach into itself.
+            for at in start..start + 2 + high + usize::from(*longer) {
+                out.push(out[at]);
+            }
+            packed = rest;
+        }
+        if out.len() > length {
+            return None;
+        }
+    }
+    (out.len() == length).then_some(out)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn runs_and_copies_are_unpacked_and_damage_is_noticed() {
+        // Three plain bytes, then five from three back.
+        let packed = [2, b'a', b'b', b'c', 3 << 5, 2];
+        assert_eq!(unpack(&packed, 8).as_deref(), Some(&b"abcabcab"[..]));
+        for (damaged, length) in [(&packed[..5], 8), (&packed[..3], 3), (&packed[..], 7), (&[1 << 5, 9][..], 3)] {
+            assert_eq!(unpack(damaged, length), None);
+        }
+    }
+}

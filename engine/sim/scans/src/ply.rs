@@ -1,0 +1,209 @@
+//! `PLY`: vertices of a PLY file as a point cloud; text, little-endian or big-endian.
+
+use crate::cloud::table::Columns;
+use crate::cloud::{CloudBuilder, CloudOptions, town_of};
+use crate::scalar::Scalar;
+use cosfly_town::{MapError, MapFormat, Town};
+
+/// Longest head, bytes.
+const LONGEST_HEAD: usize = 64 << 10;
+const END: &[u8] = b"end_header";
+
+/// The format `PLY`.
+#[derive(Clone, Copy, Debug)]
+pub struct Ply;
+
+impl MapFormat for Ply {
+    type Options = CloudOptions;
+
+    const NAME: &'static str = "PLY";
+
+    const EXAMPLE: &'static [u8] = include_bytes!("cloud/example.ply");
+
+    fn recognises(head: &[u8]) -> bool {
+        head.starts_with(b"ply\n") || head.starts_with(b"ply\r\n")
+    }
+
+    fn read(bytes: &[u8], options: &CloudOptions) -> Result<(Town, Vec<String>), MapError> {
+        let (head, data) = split(bytes)?;
+        let head = Head::read(&head)?;
+        let columns = Columns::find(head.properties.iter().map(|(name, _)| name.as_str()))?;
+        let unit_m = options.unit_m.unwrap_or(1.0);
+        let mut cloud = CloudBuilder::default();
+        match head.encoding {
+            Encoding::Text => head.add_lines(data, &columns, unit_m, &mut cloud)?,
+            Encoding::Binary { is_big_endian } => head.add_rows(data, &columns, unit_m, is_big_endian, &mut cloud)?,
+        }
+        let (town, mut warnings) = town_of(columns.finish(cloud, options.unit_m)?, options)?;
+        if head.has_faces {
+            warnings.push("the file has faces: only its vertices are read, as points".to_owned());
+        }
+        Ok((town, warnings))
+    }
+}
+
+/// The head as text and the bytes behind it.
+fn split(bytes: &[u8]) -> Result<(String, &[u8]), MapError> {
+    let within = &bytes[..bytes.len().min(LONGEST_HEAD)];
+    let at = within.windows(END.len()).position(|window| window == END);
+    let line_end = at.and_then(|at| Some((at, at + within[at..].iter().position(|byte| *byte == b'\n')?)));
+    let Some((at, line_end)) = line_end else {
+        let error = MapError::new("the head of the file does not end with `end_header`");
+        return Err(error.hint("the file seems to be cut off: fetch or export it again"));
+    };
+    Ok((String::from_utf8_lossy(&bytes[..at]).into_owned(), &bytes[line_end + 1..]))
+}
+
+#[derive(Clone, Copy, Debug)]
+enum Encoding {
+    Text,
+    Binary { is_big_endian: bool },
+}
+
+#[derive(Debug)]
+struct Head {
+    encoding: Encoding,
+    /// Numbers of a vertex.
+    properties: Vec<(String, Scalar)>,
+    vertices: usize,
+    /// Rows and bytes of the elements before the vertices.
+    before: Vec<(usize, usize)>,
+    has_faces: bool,
+}
+
+impl Head {
+    fn read(text: &str) -> Result<Self, MapError> {
+        let refusal = |at: usize, line: &str, rule: &str| {
+            let shown: String = line.chars().take(60).collect();
+            MapError::new(format!("line {} of the head is `{shown}`; {rule}", at + 1))
+        };
+        let mut encoding = None;
+        // Name, rows and numbers of each element; `None` for lists.
+        let mut elements: Vec<(String, usize, Vec<(String, Option<Scalar>)>)> = Vec::new();
+        for (at, line) in text.lines().enumerate().skip(1) {
+            let words: Vec<&str> = line.split_whitespace().collect();
+            match words[..] {
+                ["format", name, _] => {
+                    encoding = Some(match name {
+                        "ascii" => Encoding::Text,
+                        "binary_little_endian" => Encoding::Binary { is_big_endian: false },
+                        "binary_big_endian" => Encoding::Binary { is_big_endian: true },
+                        _ => {
+                            return Err(refusal(
+                                at,
+                                line,
+                                "known are `ascii`, `binary_little_endian`, `binary_big_endian`",
+                            ));
+                        }
+                    });
+                }
+                ["element", name, count] => {
+                    let count = count.parse().map_err(|_| refusal(at, line, "the count must be a whole number"))?;
+                    elements.push((name.to_owned(), count, Vec::new()));
+                }
+                ["property", ref kind @ .., name] => {
+                    let scalar = match kind {
+                        [kind] => {
+                            Some(scalar(kind).ok_or_else(|| refusal(at, line, "the type of the number is unknown"))?)
+                        }
+                        _ => None,
+                    };
+                    let element =
+                        elements.last_mut().ok_or_else(|| refusal(at, line, "no `element` comes before it"))?;
+                    element.2.push((name.to_owned(), scalar));
+                }
+                _ => {}
+            }
+        }
+        let encoding = encoding.ok_or_else(|| MapError::new("the head has no line `format`"))?;
+        let at = elements.iter().position(|(name, ..)| name == "vertex");
+        let at = at.ok_or_else(|| MapError::new("the file has no element `vertex`"))?;
+        let has_faces = elements.iter().any(|(name, count, _)| name == "face" && *count > 0);
+        let plain = |(name, count, properties): (String, usize, Vec<(String, Option<Scalar>)>)| {
+            let plain: Option<Vec<(String, Scalar)>> =
+                properties.into_iter().map(|(name, scalar)| Some((name, scalar?))).collect();
+            let refused = || MapError::new(format!("`{name}` has a list; lists are read in no element up to `vertex`"));
+            plain.ok_or_else(refused).map(|properties| (count, properties))
+        };
+        let mut rows = elements.into_iter().take(at + 1).map(plain).collect::<Result<Vec<_>, _>>()?;
+        let (vertices, properties) = rows.pop().unwrap_or_default();
+        let before = rows.into_iter().map(|(count, properties)| (count, row_bytes(&properties))).collect();
+        Ok(Self { encoding, properties, vertices, before, has_faces })
+    }
+
+    fn cut_off(&self) -> MapError {
+        let error = MapError::new(format!("the file ends before the last of {} vertices", self.vertices));
+        error.hint("the file seems to be cut off: fetch or export it again")
+    }
+
+    fn add_rows(
+        &self,
+        mut data: &[u8],
+        columns: &Columns,
+        unit_m: f64,
+        is_big_endian: bool,
+        cloud: &mut CloudBuilder,
+    ) -> Result<(), MapError> {
+        for (count, bytes) in &self.before {
+            let length = count.checked_mul(*bytes).ok_or_else(|| self.cut_off())?;
+            data = data.get(length..).ok_or_else(|| self.cut_off())?;
+        }
+        let row_bytes = row_bytes(&self.properties);
+        let length = self.vertices.checked_mul(row_bytes).ok_or_else(|| self.cut_off())?;
+        let rows = data.get(..length).ok_or_else(|| self.cut_off())?;
+        let places: Vec<(usize, Scalar)> = self
+            .properties
+            .iter()
+            .scan(0, |next, (_, scalar)| {
+                let place = *next;
+                *next += scalar.bytes();
+                Some((place, *scalar))
+            })
+            .collect();
+        for row in rows.chunks_exact(row_bytes) {
+            let value = |column: usize| {
+                let (place, scalar) = places[column];
+                scalar.read(&row[place..], is_big_endian).unwrap_or(f64::NAN)
+            };
+            columns.push(cloud, unit_m, value);
+        }
+        Ok(())
+    }
+
+    fn add_lines(&self, data: &[u8], columns: &Columns, unit_m: f64, cloud: &mut CloudBuilder) -> Result<(), MapError> {
+        let text = String::from_utf8_lossy(data);
+        let skipped = self.before.iter().map(|(count, _)| *count).fold(0, usize::saturating_add);
+        let mut lines = text.lines().filter(|line| !line.trim().is_empty()).skip(skipped);
+        let mut numbers = Vec::new();
+        for vertex in 0..self.vertices {
+            let line = lines.next().ok_or_else(|| self.cut_off())?;
+            numbers.clear();
+            numbers.extend(line.split_whitespace().take(columns.last() + 1).map_while(|word| word.parse::<f64>().ok()));
+            if numbers.len() <= columns.last() {
+                let shown: String = line.chars().take(60).collect();
+                let rule = format!("it must have {} numbers", self.properties.len());
+                return Err(MapError::new(format!("vertex {vertex} is `{shown}`; {rule}")));
+            }
+            columns.push(cloud, unit_m, |column| numbers[column]);
+        }
+        Ok(())
+    }
+}
+
+fn row_bytes(properties: &[(String, Scalar)]) -> usize {
+    properties.iter().map(|(_, scalar)| scalar.bytes()).sum()
+}
+
+fn scalar(name: &str) -> Option<Scalar> {
+    Some(match name {
+        "char" | "int8" => Scalar::Signed(1),
+        "uchar" | "uint8" => Scalar::Unsigned(1),
+        "short" | "int16" => Scalar::Signed(2),
+        "ushort" | "uint16" => Scalar::Unsigned(2),
+        "int" | "int32" => Scalar::Signed(4),
+        "uint" | "uint32" => Scalar::Unsigned(4),
+        "float" | "float32" => Scalar::Real(4),
+        "double" | "float64" => Scalar::Real(8),
+        _ => return None,
+    })
+}

@@ -1,0 +1,131 @@
+//! One scene in every format and encoding of point clouds; what the town of it has; files that lie about their size.
+
+use cosfly_frames::DVec3;
+use cosfly_geometry::{BoxBvh, SpatialQuery};
+use cosfly_scans::cloud::CloudOptions;
+use cosfly_scans::las::Las;
+use cosfly_scans::pcd::Pcd;
+use cosfly_scans::ply::Ply;
+use cosfly_town::{MapError, MapFormat, Obstacle, ObstacleKind, Town};
+
+#[path = "../examples/write_clouds.rs"]
+#[expect(dead_code, reason = "the program's own `main`")]
+mod write_clouds;
+
+use write_clouds::{PCD_ENCODINGS, PLY_ENCODINGS, files, las, pcd, ply, scene};
+
+fn read<F: MapFormat<Options = CloudOptions>>(bytes: &[u8], options: &CloudOptions) -> Result<Town, MapError> {
+    assert!(F::recognises(bytes), "{}", F::NAME);
+    F::read(bytes, options).map(|(town, _)| town)
+}
+
+fn of_kind(town: &Town, kind: ObstacleKind) -> Vec<&Obstacle> {
+    town.obstacles.iter().filter(|one| one.kind == kind).collect()
+}
+
+fn top_m(obstacles: &[&Obstacle]) -> f64 {
+    obstacles.iter().map(|one| one.shape.bounds_in_world().1.z).fold(f64::NEG_INFINITY, f64::max)
+}
+
+#[test]
+fn example_files_are_what_their_program_writes() {
+    for (path, bytes) in files().expect("the examples can be written") {
+        let kept =
+            std::fs::read(std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join(path)).expect("the example is there");
+        assert!(kept == bytes, "{path} differs: run `cargo run --release -p cosfly-scans --example write_clouds`");
+    }
+}
+
+/// The scene has a house 12 m by 10 m with a ridge at 8 m, a tree 7 m high, a post 3.8 m high, ground that rises to 0.8 m.
+fn check_scene(name: &str, town: &Town) {
+    let houses = of_kind(town, ObstacleKind::Building);
+    let crowns = of_kind(town, ObstacleKind::TreeCrown);
+    assert!(!houses.is_empty() && (top_m(&houses) - 8.0).abs() < 0.01, "{name}: {houses:?}");
+    assert!(!crowns.is_empty() && (top_m(&crowns) - 7.0).abs() < 0.1, "{name}: {crowns:?}");
+    let scene_of = |obstacles: &[&Obstacle]| BoxBvh::build(obstacles.iter().map(|one| one.shape).collect());
+    let (house, all) = (scene_of(&houses), scene_of(&town.obstacles.iter().collect::<Vec<_>>()));
+    let distance_m = |scene: &BoxBvh, at: DVec3| scene.nearest(at, 50.0).map_or(50.0, |near| near.distance_m);
+    for ([x, y, z], class) in scene() {
+        let at = DVec3::new(x, -y, z);
+        match class {
+            6 => assert!(distance_m(&house, at) <= 0.5, "{name}: {at}"),
+            2 => assert!(distance_m(&all, at) >= 0.0, "{name}: {at}"),
+            _ => {}
+        }
+    }
+    let area_m2: f64 = houses.iter().map(|one| 4.0 * one.shape.half_extents_m.x * one.shape.half_extents_m.y).sum();
+    assert!((120.0..=190.0).contains(&area_m2), "{name}: the house covers {area_m2} m2");
+    town.walkable.iter().for_each(|plaza| assert!(plaza.synthetic && plaza.plan().len() == 4, "{name}"));
+}
+
+#[test]
+fn every_encoding_of_a_classified_scene_gives_its_house_tree_and_ground() {
+    let options = CloudOptions::default();
+    let plain = read::<Las>(&las(&scene(), false).unwrap(), &options).unwrap();
+    check_scene("LAS", &plain);
+    assert_eq!(of_kind(&plain, ObstacleKind::Static).len(), 1);
+    assert_eq!(read::<Las>(&las(&scene(), true).unwrap(), &options).unwrap(), plain, "LAZ");
+    let towns = PLY_ENCODINGS.map(|encoding| read::<Ply>(&ply(&scene(), encoding), &options).unwrap());
+    check_scene("PLY", &towns[1]);
+    // Text has three digits.
+    check_scene("PLY as text", &towns[0]);
+    assert_eq!(towns[1], towns[2]);
+}
+
+#[test]
+fn ground_house_and_tree_are_found_without_classes() {
+    let towns = PCD_ENCODINGS.map(|encoding| read::<Pcd>(&pcd(&scene(), encoding), &CloudOptions::default()).unwrap());
+    check_scene("PCD as text", &towns[0]);
+    check_scene("PCD", &towns[1]);
+    assert_eq!(towns[1], towns[2], "compressed");
+    let notes = &towns[1].synthetic.notes;
+    assert!(notes.iter().any(|note| note.contains("ground is estimated")), "{notes:?}");
+}
+
+#[test]
+fn feet_are_told_from_metres_by_the_file_or_by_the_user() {
+    let in_feet: Vec<_> = scene().into_iter().map(|(at, class)| (at.map(|metres| metres / 0.3048), class)).collect();
+    let told = CloudOptions { unit_m: Some(0.3048), ..CloudOptions::default() };
+    check_scene("PLY in feet", &read::<Ply>(&ply(&in_feet, "binary_little_endian"), &told).unwrap());
+    let mut file = las(&in_feet, false).unwrap();
+    let (metres, feet) = (br#"UNIT["metre",1]"#, br#"UNIT["f",0.3048]"#);
+    let at = file.windows(metres.len()).position(|window| window == metres).unwrap();
+    // One byte longer: the name of the projection gives it.
+    let name = file.windows(4).position(|window| window == b"test").unwrap();
+    file.splice(at..at + metres.len(), feet.iter().copied());
+    file.remove(name);
+    check_scene("LAS in feet", &read::<Las>(&file, &CloudOptions::default()).unwrap());
+}
+
+#[test]
+fn files_that_lie_about_their_size_are_refused() {
+    let put = |bytes: &[u8], at: usize, value: &[u8]| [&bytes[..at], value, &bytes[at + value.len()..]].concat();
+    let options = CloudOptions::default();
+    let (plain, packed) = (las(&scene(), false).unwrap(), las(&scene(), true).unwrap());
+    for file in [&plain, &packed] {
+        for count in [scene().len() as u64 + 1, 1 << 40, u64::MAX] {
+            let refused = read::<Las>(&put(file, 247, &count.to_le_bytes()), &options).unwrap_err();
+            assert!(!refused.hints.is_empty(), "{refused}");
+        }
+    }
+    let table = u64::from_le_bytes(*packed[points_start(&packed)..].first_chunk().unwrap());
+    let many = put(&packed, table as usize + 4, &u32::MAX.to_le_bytes());
+    assert!(read::<Las>(&many, &options).unwrap_err().message.contains("chunks"));
+    for (from, to) in [("vertex ", "vertex 99999999999"), ("vertex ", "vertex 9")] {
+        let text = String::from_utf8(ply(&scene(), "ascii")).unwrap().replace(from, to);
+        assert!(read::<Ply>(text.as_bytes(), &options).is_err());
+    }
+    let text = String::from_utf8(pcd(&scene(), "ascii")).unwrap().replace("POINTS ", "POINTS 9");
+    assert!(read::<Pcd>(text.as_bytes(), &options).unwrap_err().message.contains("file ends"));
+    let text = String::from_utf8(ply(&scene(), "ascii")).unwrap().replace(" 8.000 ", " nan ");
+    check_ply_with_gaps(text.as_bytes());
+}
+
+fn points_start(file: &[u8]) -> usize {
+    u32::from_le_bytes(*file[96..].first_chunk().unwrap()) as usize
+}
+
+fn check_ply_with_gaps(bytes: &[u8]) {
+    let (_, warnings) = Ply::read(bytes, &CloudOptions::default()).unwrap();
+    assert!(warnings.iter().any(|warning| warning.contains("without finite coordinates")), "{warnings:?}");
+}

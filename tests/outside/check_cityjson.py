@@ -1,0 +1,163 @@
+#!/usr/bin/env python3
+"""Compares towns read from CityJSON with the files themselves, which this script parses on its own as plain JSON.
+
+    check_cityjson.py INSPECT_JSON FILE...
+
+INSPECT_JSON is the example `inspect_json` of the room `maps`. For each file: every building is there, its footprint (the
+ground surface, else the lowest level faces) has an intersection over union of at least 0.9 in the median, and its
+lowest and highest points agree within 0.3 m; footpaths and roads cover the same ground.
+"""
+
+import json
+import math
+import statistics
+import subprocess
+import sys
+
+import numpy as np
+from shapely import STRtree, make_valid, union_all
+from shapely.geometry import Polygon
+
+
+def faces_of(geometry):
+    """(semantic kind, rings of vertex indices) of each face of a geometry."""
+    depth = {"MultiSurface": 1, "CompositeSurface": 1, "Solid": 2, "MultiSolid": 3, "CompositeSolid": 3}
+    boundaries, values = geometry["boundaries"], geometry.get("semantics", {}).get("values")
+    for _ in range(depth[geometry["type"]] - 1):
+        boundaries = [face for shell in boundaries for face in shell]
+        values = values and [value for shell in values for value in (shell or [])]
+    surfaces = geometry.get("semantics", {}).get("surfaces", [])
+    kinds = [surfaces[v]["type"] if v is not None else None for v in values] if values else [None] * len(boundaries)
+    return zip(kinds, boundaries)
+
+
+def polygon(rings, points):
+    """A face in plan, y to the north; none without an area."""
+    outer, *holes = [[tuple(points[i][:2]) for i in ring] for ring in rings]
+    shape = make_valid(Polygon(outer, holes))
+    return shape if shape.area > 1e-6 else None
+
+
+def vertical_share(rings, points):
+    ring = points[rings[0]]
+    normal = sum(np.cross(ring[i] - ring[0], ring[i + 1] - ring[0]) for i in range(1, len(ring) - 1))
+    length = np.linalg.norm(normal)
+    return abs(normal[2]) / length if length > 1e-9 else 0.0
+
+
+class Source:
+    def __init__(self, path):
+        with open(path, encoding="utf-8") as file:
+            self.file = json.load(file)
+        transform = self.file.get("transform", {"scale": [1, 1, 1], "translate": [0, 0, 0]})
+        self.points = np.array(self.file["vertices"], float) * transform["scale"] + transform["translate"]
+
+    def objects(self, *kinds):
+        return {name: it for name, it in self.file["CityObjects"].items() if it["type"] in kinds and it.get("geometry")}
+
+    def buildings(self):
+        """Footprint, lowest and highest point of each building with its parts."""
+        groups = {}
+        for name, it in self.objects("Building", "BuildingPart").items():
+            groups.setdefault(it.get("parents", [name])[0], []).append(it)
+        for name, members in sorted(groups.items()):
+            lows, highs, footprints = [], [], []
+            for it in members:
+                faces = [face for geometry in it["geometry"] for face in faces_of(geometry)]
+                # Roofs without an area, at the height of a neighbour, are slips of the survey.
+                level = [rings for _, rings in faces if vertical_share(rings, self.points) >= 0.1]
+                level = [rings for rings in level if (shape := polygon(rings, self.points)) and shape.area > 1e-3]
+                lows += [self.points[i][2] for _, rings in faces for i in rings[0]]
+                highs += [self.points[i][2] for rings in level or [r for _, r in faces] for i in rings[0]]
+                footprints += self.footprint(faces)
+            yield name, union_all(footprints), min(lows), max(highs)
+
+    def footprint(self, faces):
+        ground = [rings for kind, rings in faces if kind == "GroundSurface"]
+        level = [rings for _, rings in faces if vertical_share(rings, self.points) >= 0.1]
+        lowest = min((self.points[i][2] for rings in level for i in rings[0]), default=0.0)
+        if not ground:
+            ground = [rings for rings in level if max(self.points[i][2] for i in rings[0]) <= lowest + 0.3] or level
+        return [shape for shape in (polygon(rings, self.points) for rings in ground) if shape]
+
+
+def box_polygon(box, offset):
+    """Plan of a box in the file's frame."""
+    (x, y, _), (half_x, half_y, _), yaw = box["center_m"], box["half_m"], box["yaw_rad"]
+    cos, sin = math.cos(yaw), math.sin(yaw)
+    around = [(half_x, half_y), (-half_x, half_y), (-half_x, -half_y), (half_x, -half_y)]
+    return Polygon([(x + offset[0] + cos * u - sin * v, -(y + offset[1] + sin * u + cos * v)) for u, v in around])
+
+
+def things_of(town, kind):
+    """Plan, lowest and highest point of each thing's boxes."""
+    groups = {}
+    for box in town["boxes"]:
+        if box["kind"] == kind:
+            groups.setdefault(box["object"], []).append(box)
+    for boxes in groups.values():
+        plan = union_all([box_polygon(box, town["offset_m"]) for box in boxes])
+        low = min(box["center_m"][2] - box["half_m"][2] for box in boxes)
+        yield plan, low, max(box["center_m"][2] + box["half_m"][2] for box in boxes), len(boxes)
+
+
+def check_buildings(name, source, town):
+    truth = list(source.buildings())
+    things = list(things_of(town, "Building"))
+    assert len(truth) == len(things), f"{name}: {len(truth)} buildings in the file, {len(things)} in the town"
+    tree = STRtree([plan for plan, *_ in things])
+    overlaps, lows, highs, missing = [], [], [], []
+    for identity, footprint, low, high in truth:
+        best = (0.0, -1)
+        for index in tree.query(footprint, "intersects"):
+            plan = things[index][0]
+            best = max(best, (plan.intersection(footprint).area / plan.union(footprint).area, int(index)))
+        if best[1] < 0:
+            missing.append(identity)
+            continue
+        overlaps.append(best[0])
+        lows.append(things[best[1]][1] - low)
+        highs.append(things[best[1]][2] - high)
+    boxes = sum(count for *_, count in things)
+    print(
+        f"{name}: {len(truth)} buildings, {boxes} boxes; footprints: median {statistics.median(overlaps):.3f}, "
+        f"least {min(overlaps):.3f}; base {statistics.median(lows):+.3f} m, top {statistics.median(highs):+.3f} m"
+    )
+    off = [i for i in range(len(highs)) if abs(highs[i]) > 0.3 or abs(lows[i]) > 0.3]
+    assert not missing, f"{name}: no boxes at {missing[:5]}"
+    assert statistics.median(overlaps) >= 0.9, f"{name}: {statistics.median(overlaps)}"
+    assert len(off) <= 0.02 * len(highs), f"{name}: {len(off)} buildings are too high or low"
+
+
+def check_ground(name, source, town):
+    walks = {"voetpad", "voetgangersgebied", "voetpad op trap"}
+    for kind, is_of_kind in (("Sidewalk", lambda f: f in walks), ("Road", lambda f: f not in walks)):
+        faces = [
+            polygon(rings, source.points)
+            for it in source.objects("Road").values()
+            if is_of_kind(it["attributes"].get("function"))
+            for geometry in it["geometry"]
+            for _, rings in faces_of(geometry)
+        ]
+        truth = union_all([face for face in faces if face])
+        offset = town["offset_m"]
+        outlines = [it["outline_m"] for it in town["walkable"] if it["kind"] == kind]
+        found = union_all([make_valid(Polygon([(x + offset[0], -(y + offset[1])) for x, y, _ in it])) for it in outlines])
+        if truth.area == 0.0:
+            continue
+        overlap = truth.intersection(found).area / truth.union(found).area
+        print(f"{name}: {kind} {truth.area:.0f} m2, intersection over union {overlap:.3f}")
+        assert overlap > 0.97, f"{name}: {kind} {overlap}"
+
+
+def main():
+    inspect, *paths = sys.argv[1:]
+    for path in paths:
+        town = json.loads(subprocess.run([inspect, path], check=True, capture_output=True).stdout)
+        source, name = Source(path), path.rsplit("/", 1)[-1]
+        check_buildings(name, source, town)
+        check_ground(name, source, town)
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,136 @@
+"""Towns of point clouds against the clouds themselves, which laspy reads: `check_clouds.py INSPECT_JSON FILE...`.
+
+INSPECT_JSON is the example of `cosfly-maps`. Points of buildings must lie in boxes or within 0.5 m of one, points of the ground in none; the surface of
+the ground must pass through them; open ground must be walkable.
+"""
+
+import json
+import subprocess
+import sys
+
+import laspy
+import numpy as np
+
+FOOT = 0.3048
+
+
+def distance_to_boxes(points, boxes, most):
+    """Distance of each point to the nearest box, at most `most`."""
+    out = np.full(len(points), most)
+    order = np.argsort(points[:, 0])
+    sorted_x = points[order, 0]
+    for box in boxes:
+        center, half, yaw = np.array(box["center_m"]), np.array(box["half_m"]), box["yaw_rad"]
+        reach = np.hypot(half[0], half[1]) + most
+        low, high = np.searchsorted(sorted_x, [center[0] - reach, center[0] + reach])
+        near = order[low:high]
+        near = near[np.abs(points[near, 1] - center[1]) <= reach]
+        away = points[near] - center
+        cos, sin = np.cos(yaw), np.sin(yaw)
+        local = np.stack([cos * away[:, 0] + sin * away[:, 1], cos * away[:, 1] - sin * away[:, 0], away[:, 2]], axis=1)
+        outside = np.abs(local) - half
+        distance = np.linalg.norm(np.maximum(outside, 0), axis=1)
+        # Inside: the depth, negative.
+        distance = np.where((outside < 0).all(axis=1), outside.max(axis=1), distance)
+        out[near] = np.minimum(out[near], distance)
+    return out
+
+
+def ground_heights(surfaces, points):
+    """Height of the measured ground under each point: the nearest vertex in plan."""
+    vertices = np.concatenate([np.array(one["vertices_m"]) for one in surfaces if not one["synthetic"]])
+    cell = 8.0
+    keys = {}
+    for index, (column, row) in enumerate(np.floor(vertices[:, :2] / cell).astype(int)):
+        keys.setdefault((column, row), []).append(index)
+    heights = np.full(len(points), np.nan)
+    for at, point in enumerate(points):
+        column, row = np.floor(point[:2] / cell).astype(int)
+        near = [i for c in (-1, 0, 1) for r in (-1, 0, 1) for i in keys.get((column + c, row + r), [])]
+        if near:
+            away = ((vertices[near, :2] - point[:2]) ** 2).sum(axis=1)
+            heights[at] = vertices[near[int(away.argmin())], 2]
+    return heights
+
+
+def check(inspect, path):
+    report = json.loads(subprocess.run([inspect, path, "--surfaces"], check=True, capture_output=True, text=True).stdout)
+    cloud = laspy.read(path)
+    unit = FOOT if any(b"foot" in vlr.record_data_bytes().lower() for vlr in cloud.header.vlrs if vlr.record_id == 2112) else 1.0
+    x, y, z = (np.asarray(values) * unit for values in (cloud.x, cloud.y, cloud.z))
+    points = np.stack([x, -y, z], axis=1) - np.array(report["offset_m"])
+    classes = np.asarray(cloud.classification)
+    boxes = report["boxes"]
+    buildings = [box for box in boxes if box["kind"] == "Building"]
+    failures = []
+
+    def expect(what, value, holds):
+        print(f"  {what}: {value}")
+        if not holds:
+            failures.append(f"{path}: {what}: {value}")
+
+    print(path, report["counts"], "planning boxes", report["planning_boxes"], "plazas", len(report["walkable"]))
+    for line in report["notes"] + report["warnings"]:
+        print("   ", line)
+    margin = 1.0
+    expect("extent of points in the bounds", points.min(axis=0), (points.min(axis=0) >= np.array(report["min_m"]) - margin).all())
+    expect("to", points.max(axis=0), (points.max(axis=0) <= np.array(report["max_m"]) + margin).all())
+    roofs = points[classes == 6]
+    if len(roofs):
+        distance = distance_to_boxes(roofs, buildings, 5.0)
+        inside = float((distance <= 0.5).mean())
+        expect("points of buildings within 0.5 m of a box of a building", round(inside, 4), inside >= 0.99)
+        print(f"  in a box: {(distance <= 0).mean():.4f}; median depth {-np.median(distance):.2f} m")
+        top = max(box["center_m"][2] + box["half_m"][2] for box in buildings)
+        expect("highest box above the highest point of a building, m", round(top - roofs[:, 2].max(), 3), abs(top - roofs[:, 2].max()) < 0.01)
+        # Area of the boxes' footprints against cells of 1 m that hold points of buildings.
+        covered = roof_cells(buildings)
+        cells = {tuple(cell) for cell in np.floor(roofs[:, :2]).astype(int)}
+        density = len(roofs) / len(cells)
+        share = len(cells - covered) / len(cells)
+        expect("cells of 1 m with roof that no building covers", round(share, 4), share < 0.1)
+        if density > 8:
+            share = len(covered & cells) / len(covered | cells)
+            expect("intersection over union of roof cells and covered cells", round(share, 3), share >= 0.8)
+    ground = points[np.isin(classes, [2])]
+    distance = distance_to_boxes(ground, boxes, 1.0)
+    outside = float((distance >= 0).mean())
+    expect("points of the ground outside all boxes", round(outside, 4), outside >= 0.99)
+    some = ground[:: max(1, len(ground) // 4000)]
+    error = np.abs(ground_heights(report["surfaces"], some) - some[:, 2])
+    expect("median distance of points of the ground to its surface, m", round(float(np.nanmedian(error)), 3), np.nanmedian(error) < 0.3)
+    plants = points[(classes >= 4) & (classes <= 5)]
+    if len(plants):
+        crowns = [box for box in boxes if box["kind"] in ("TreeCrown", "Bush", "Building")]
+        near = float((distance_to_boxes(plants, crowns, 5.0) <= 0.5).mean())
+        expect("points of plants within 0.5 m of a crown", round(near, 4), near >= 0.9)
+    area = sum(polygon_area(np.array(one["outline_m"])) for one in report["walkable"])
+    extent = np.ptp(points[:, :2], axis=0).prod()
+    expect("walkable share of the extent", round(area / extent, 3), area / extent > 0.05)
+    return failures
+
+
+def roof_cells(buildings):
+    """Cells of 1 m whose middle lies in the footprint of a building's box."""
+    cells = set()
+    for box in buildings:
+        (x, y, _), (a, b, _), yaw = box["center_m"], box["half_m"], box["yaw_rad"]
+        cos, sin = np.cos(yaw), np.sin(yaw)
+        reach = np.hypot(a, b)
+        columns = np.arange(np.floor(x - reach), np.ceil(x + reach) + 1)
+        rows = np.arange(np.floor(y - reach), np.ceil(y + reach) + 1)
+        column, row = (grid.ravel() for grid in np.meshgrid(columns, rows))
+        dx, dy = column + 0.5 - x, row + 0.5 - y
+        hit = (np.abs(cos * dx + sin * dy) <= a) & (np.abs(cos * dy - sin * dx) <= b)
+        cells.update(zip(column[hit].astype(int).tolist(), row[hit].astype(int).tolist()))
+    return cells
+
+
+def polygon_area(outline):
+    x, y = outline[:, 0], outline[:, 1]
+    return 0.5 * abs(np.dot(x, np.roll(y, -1)) - np.dot(y, np.roll(x, -1)))
+
+
+if __name__ == "__main__":
+    failures = [failure for path in sys.argv[2:] for failure in check(sys.argv[1], path)]
+    sys.exit("\n".join(failures) if failures else 0)
