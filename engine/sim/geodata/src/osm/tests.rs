@@ -201,7 +201,8 @@ fn a_file_without_paths_gets_pavements_and_one_without_streets_open_ground() {
     let (town, _) = read(osm(&ends, &(house.clone() + &street)).as_bytes()).unwrap();
     assert_eq!(town.walkable.iter().filter(|area| area.synthetic && area.kind == WalkableKind::Sidewalk).count(), 2);
     let (town, _) = read(osm(&SQUARE, &house).as_bytes()).unwrap();
-    assert_eq!((town.walkable.len(), town.walkable[0].kind), (1, WalkableKind::Plaza));
+    assert!(!town.walkable.is_empty());
+    assert!(town.walkable.iter().all(|area| area.synthetic && area.kind == WalkableKind::Plaza));
     assert!(town.synthetic.notes.iter().any(|note| note.contains("between the houses")));
 }
 
