@@ -5,7 +5,7 @@ use super::pbf::{
 };
 use super::pbf::{PrimitiveGroup, StringTable};
 use super::{OpenStreetMap, OsmOptions};
-use cosfly_frames::DVec2;
+use cosfly_frames::{DVec2, Seed};
 use cosfly_town::polygons::contains;
 use cosfly_town::{MapError, MapFormat, ObstacleKind, SemanticLabel, Town, WalkableKind};
 use flate2::Compression;
@@ -322,6 +322,23 @@ fn absurd_numbers_in_a_pbf_file_do_not_panic() {
     let file = [blob("OSMHeader", &raw(&[])), blob("OSMData", &raw(&block.encode_to_vec()))].concat();
     assert!(pbf::recognises(&file));
     assert!(read(&file).is_err());
+}
+
+#[test]
+fn damaged_containers_give_an_error_or_a_well_formed_town() {
+    let mut stream = Seed([0; 32]).stream("damage");
+    for file in [example_as_pbf(raw), example_as_pbf(zlib), gzip(OpenStreetMap::EXAMPLE)] {
+        for _ in 0..400 {
+            let mut damaged = file.clone();
+            for _ in 0..=stream.index(3) {
+                let place = stream.index(damaged.len());
+                damaged[place] = stream.index(256) as u8;
+            }
+            let _ = read(&damaged);
+            let end = stream.index(file.len());
+            let _ = read(&file[..end]);
+        }
+    }
 }
 
 #[test]
