@@ -101,7 +101,7 @@ impl WalkableGrid {
             radius_m: config.radius.max_m,
             height_m: config.height.max_m,
         };
-        let ground_cells = grid.lay_nodes().map_err(|room| too_large(room as f64, MAX_CELLS))?;
+        let ground_cells = grid.lay_nodes().map_err(|count| too_large(count as f64, MAX_CELLS))?;
         grid.join_nodes();
         grid.part_by_obstacles();
         grid.find_components();
@@ -230,7 +230,7 @@ impl WalkableGrid {
     /// Rasters the polygons: one node for every cell whose centre is on walkable ground. Returns their number; the error
     /// is the number of cells that are too many.
     fn lay_nodes(&mut self) -> Result<usize, usize> {
-        let mut cells = Tiles::new(self.numbering, raster::Cell::default());
+        let mut cells = raster::Cells { values: Tiles::new(self.numbering, raster::Cell::default()), count: 0 };
         let mut cut = Cut::default();
         for polygon in &self.ground.polygons {
             for (across, direction) in [(DVec2::Y, DVec2::X), (DVec2::X, DVec2::Y)] {
@@ -240,11 +240,11 @@ impl WalkableGrid {
         for polygon in &self.ground.polygons {
             for (from, to) in polygon.edges() {
                 raster::cells_on_segment(self, from.truncate(), to.truncate(), &mut |cell| {
-                    cells.get_mut(cell).outlined = true;
+                    cells.values.get_mut(cell).outlined = true;
                 });
             }
         }
-        cells.visit(|cell, ground| {
+        cells.values.visit(|cell, ground| {
             if let Some(kind) = ground.kind {
                 *self.node_of_cell.get_mut(cell) = self.nodes.len() as u32;
                 self.nodes.push(Node {

@@ -31,7 +31,7 @@ const STRIPE_M: f64 = 0.5;
 pub struct Paths {
     /// Polygons.
     pub walkable: Vec<WalkablePolygon>,
-    /// Nodes that paths and roads go through, sorted: barriers are open there.
+    /// Nodes that paths and roads go through: barriers are open there.
     pub nodes: BTreeSet<i64>,
     /// In words, what was invented.
     pub notes: Vec<String>,

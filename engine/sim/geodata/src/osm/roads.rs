@@ -30,8 +30,7 @@ const CELL_M: f64 = 16.0;
 pub struct Road<'e> {
     /// Its way.
     pub way: &'e Way,
-    /// Its middle line, in the pieces that are inside and whole; each with the nodes at its two ends where those are ends
-    /// of a piece of the way itself.
+    /// Its middle line, in the pieces that are inside and whole.
     pub pieces: Vec<Vec<DVec2>>,
     /// Half its width, metres.
     pub half_width_m: f64,

@@ -5,7 +5,9 @@ use super::pbf::{
 };
 use super::pbf::{PrimitiveGroup, StringTable};
 use super::{OpenStreetMap, OsmOptions};
-use cosfly_town::{MapError, MapFormat, ObstacleKind, Town, WalkableKind};
+use cosfly_frames::{DVec2, Seed};
+use cosfly_town::polygons::contains;
+use cosfly_town::{MapError, MapFormat, ObstacleKind, SemanticLabel, Town, WalkableKind};
 use flate2::Compression;
 use flate2::write::{GzEncoder, ZlibEncoder};
 use prost::Message;
@@ -199,7 +201,8 @@ fn a_file_without_paths_gets_pavements_and_one_without_streets_open_ground() {
     let (town, _) = read(osm(&ends, &(house.clone() + &street)).as_bytes()).unwrap();
     assert_eq!(town.walkable.iter().filter(|area| area.synthetic && area.kind == WalkableKind::Sidewalk).count(), 2);
     let (town, _) = read(osm(&SQUARE, &house).as_bytes()).unwrap();
-    assert_eq!((town.walkable.len(), town.walkable[0].kind), (1, WalkableKind::Plaza));
+    assert!(!town.walkable.is_empty());
+    assert!(town.walkable.iter().all(|area| area.synthetic && area.kind == WalkableKind::Plaza));
     assert!(town.synthetic.notes.iter().any(|note| note.contains("between the houses")));
 }
 
@@ -216,6 +219,52 @@ fn parts_replace_the_outline_that_they_fill_and_not_one_that_they_do_not() {
     };
     assert_eq!(heights(&RING, &[]), [12.0]);
     assert_eq!(heights(&[1, 5, 4, 1], &[(5, 1, 1)]).iter().copied().fold(0.0, f64::max), 30.0);
+}
+
+#[test]
+fn pavements_go_on_over_side_streets_and_round_corners() {
+    let ends = [(11, -9, 0), (12, 9, 0), (13, 0, -9), (14, 0, 9), (15, 0, 0)];
+    let both = [("highway", "residential"), ("sidewalk", "both")];
+    let rest: String = [11, 12, 13, 14].iter().map(|end| way(*end, &[*end, 15], &both)).collect();
+    let (town, _) = read(osm(&ends, &rest).as_bytes()).unwrap();
+    let count = |kind| town.walkable.iter().filter(|area| area.kind == kind).count();
+    assert_eq!((count(WalkableKind::Crossing), count(WalkableKind::Sidewalk)), (4, 8));
+    // Each pavement meets another one at the corner: the middle of the corner lies on two.
+    let corner = 5.5 / 2.0 + 1.0;
+    for (x, y) in [(corner, corner), (-corner, corner), (corner, -corner), (-corner, -corner)] {
+        let there = town.walkable.iter().filter(|area| contains(&area.plan(), DVec2::new(x, y)));
+        assert_eq!(there.filter(|area| area.kind == WalkableKind::Sidewalk).count(), 2, "{x} {y}");
+    }
+    assert!(town.synthetic.notes.iter().any(|note| note.starts_with("4 unmarked crossings")));
+}
+
+#[test]
+fn a_path_over_a_street_is_a_crossing_there_and_a_tunnel_is_left_out() {
+    let nodes = [(11, -9, 0), (12, 9, 0), (13, 0, -9), (14, 0, 9), (15, 0, 0), (16, 5, -9), (17, 5, 9)];
+    let rest = way(1, &[11, 15, 12], &[("highway", "secondary"), ("width", "10")])
+        + &way(2, &[13, 15, 14], &[("highway", "footway")])
+        + &way(3, &[16, 17], &[("highway", "footway"), ("tunnel", "yes")]);
+    let (town, _) = read(osm(&nodes, &rest).as_bytes()).unwrap();
+    let kinds: Vec<WalkableKind> = town.walkable.iter().map(|area| area.kind).collect();
+    assert_eq!(kinds, [WalkableKind::Sidewalk, WalkableKind::Crossing, WalkableKind::Sidewalk]);
+    let across = town.walkable[1].plan().iter().map(|corner| corner.y.abs()).fold(0.0, f64::max);
+    assert!((across - 5.0).abs() < 1.0, "{across}");
+}
+
+#[test]
+fn the_sea_is_water_right_of_the_coast() {
+    let nodes = [&SQUARE[..], &[(21, -90, -5), (22, 90, -5)]].concat();
+    let house = way(8, &RING, &[("building", "yes")]);
+    // To the west: the land lies on the left, in the south.
+    let (town, warnings) =
+        read(osm(&nodes, &(house.clone() + &way(9, &[22, 21], &[("natural", "coastline")]))).as_bytes()).unwrap();
+    let water = town.surfaces.iter().find(|mesh| mesh.label == SemanticLabel::Water).unwrap();
+    let south = water.vertices_in_world.iter().map(|vertex| vertex.y).fold(f64::NEG_INFINITY, f64::max);
+    assert!((south - 5e-4 * 110_574.0).abs() < 0.1 && warnings.is_empty(), "{south} {warnings:?}");
+    let ends = [&SQUARE[..], &[(21, -9, -5), (22, 9, -5)]].concat();
+    let (_, warnings) =
+        read(osm(&ends, &(house + &way(9, &[22, 21], &[("natural", "coastline")]))).as_bytes()).unwrap();
+    assert!(warnings[0].contains("coastline ends"), "{warnings:?}");
 }
 
 #[test]
@@ -273,6 +322,23 @@ fn absurd_numbers_in_a_pbf_file_do_not_panic() {
     let file = [blob("OSMHeader", &raw(&[])), blob("OSMData", &raw(&block.encode_to_vec()))].concat();
     assert!(pbf::recognises(&file));
     assert!(read(&file).is_err());
+}
+
+#[test]
+fn damaged_containers_give_an_error_or_a_well_formed_town() {
+    let mut stream = Seed([0; 32]).stream("damage");
+    for file in [example_as_pbf(raw), example_as_pbf(zlib), gzip(OpenStreetMap::EXAMPLE)] {
+        for _ in 0..400 {
+            let mut damaged = file.clone();
+            for _ in 0..=stream.index(3) {
+                let place = stream.index(damaged.len());
+                damaged[place] = stream.index(256) as u8;
+            }
+            let _ = read(&damaged);
+            let end = stream.index(file.len());
+            let _ = read(&file[..end]);
+        }
+    }
 }
 
 #[test]

@@ -7,6 +7,7 @@ use super::rings::{Problems, areas};
 use super::tags::Tags;
 use super::things::Things;
 use super::{buildings, paths, roads, sea, things};
+use crate::open_ground::add_open_ground;
 use crate::slabs::trapezoids;
 use cosfly_frames::DVec2;
 use cosfly_town::mesh::MeshBuilder;
@@ -41,19 +42,22 @@ pub fn town(elements: &Elements, options: &OsmOptions) -> Result<(Town, Vec<Stri
     let mut notes = notes(&buildings, &things, options);
     let mut obstacles: Vec<Obstacle> = std::mem::take(&mut buildings.obstacles);
     obstacles.extend(things.obstacles);
-    if paths.walkable.is_empty() {
-        paths.walkable.push(open_ground(&frame));
-        notes.push("the ground between the houses, for people: the file has neither paths nor streets".to_owned());
-    }
     notes.append(&mut paths.notes);
     notes.push("everything stands on one level: the file has no heights of the ground; bridges lie on it, tunnels are left out".to_owned());
     terrain::add_terrain(&mut meshes, &obstacles, terrain::USUAL_MARGIN_M)?;
+    let surfaces = meshes.finish();
+    if paths.walkable.is_empty() && add_open_ground(&mut paths.walkable, &obstacles, &surfaces) == 0 {
+        paths.walkable.push(whole_extract(&frame));
+    }
+    if paths.walkable.iter().all(|area| area.synthetic && area.kind == WalkableKind::Plaza) {
+        notes.push("the ground between the houses, for people: the file has neither paths nor streets".to_owned());
+    }
     let town = Town {
         name: "town".to_owned(),
         origin: MapOrigin { geo_reference: Some(frame.projection.proj_text()), ..MapOrigin::default() },
         obstacles,
         walkable: paths.walkable,
-        surfaces: meshes.finish(),
+        surfaces,
         synthetic: Synthetic { notes, ..Synthetic::default() },
         ..Town::default()
     };
@@ -100,7 +104,7 @@ fn add_ground(elements: &Elements, frame: &Frame, meshes: &mut MeshBuilder, prob
 }
 
 /// The whole extract as open ground.
-fn open_ground(frame: &Frame) -> WalkablePolygon {
+fn whole_extract(frame: &Frame) -> WalkablePolygon {
     let (low, high) = (frame.low, frame.high);
     let corners = [low, DVec2::new(high.x, low.y), high, DVec2::new(low.x, high.y)];
     let outline_in_world = corners.map(|corner| corner.extend(0.0)).to_vec();

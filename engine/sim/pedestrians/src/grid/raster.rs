@@ -18,11 +18,21 @@ pub(super) struct Cell {
 }
 
 impl Cell {
-    fn claim(&mut self, kind: WalkableKind, z: f32, span: f32) {
+    /// Gives whether the cell had no ground before.
+    fn claim(&mut self, kind: WalkableKind, z: f32, span: f32) -> bool {
+        let is_new = self.kind.is_none();
         if self.kind.is_none_or(|old| better_claim((kind, z, span), (old, self.z, self.span))) {
             (self.kind, self.z, self.span) = (Some(kind), z, span);
         }
+        is_new
     }
+}
+
+/// Ground of all cells.
+pub(super) struct Cells {
+    pub values: Tiles<Cell>,
+    /// Cells with ground.
+    pub count: usize,
 }
 
 /// Claims every cell whose centre lies in the polygon, line by line along `direction`. The error is the number of cells
@@ -33,7 +43,7 @@ pub(super) fn fill(
     across: DVec2,
     direction: DVec2,
     cut: &mut Cut,
-    cells: &mut Tiles<Cell>,
+    cells: &mut Cells,
 ) -> Result<(), usize> {
     let low = ((polygon.min.truncate() - grid.corner) / grid.cell_m).floor();
     let high = ((polygon.max.truncate() - grid.corner) / grid.cell_m).floor();
@@ -52,12 +62,13 @@ pub(super) fn fill(
                 if column < grid.numbering.columns && row < grid.numbering.rows {
                     let z = piece.z_at(place as f64 * grid.cell_m);
                     let span = (piece.to - piece.from) as f32;
-                    cells.get_mut(grid.numbering.cell(column, row)).claim(polygon.kind, z as f32, span);
+                    let cell = cells.values.get_mut(grid.numbering.cell(column, row));
+                    cells.count += usize::from(cell.claim(polygon.kind, z as f32, span));
                 }
             }
         }
-        if cells.room() > MAX_CELLS {
-            return Err(cells.room());
+        if cells.count > MAX_CELLS {
+            return Err(cells.count);
         }
     }
     Ok(())

@@ -1,7 +1,7 @@
 //! [`Tiles`]: a value for each cell of a wide grid, where most of the grid is empty.
 
 /// Cells along the side of a tile, as a power of two.
-const TILE_BITS: usize = 6;
+const TILE_BITS: usize = 3;
 const TILE: usize = 1 << TILE_BITS;
 
 /// How cells are numbered: row by row, each row `1 << row_bits` cells apart.
@@ -57,7 +57,7 @@ impl<T: Copy> Tiles<T> {
     fn place(&self, cell: usize) -> usize {
         let (column, row) = self.numbering.column_row(cell);
         let tile = self.tiles[self.numbering.tile(cell)] as usize;
-        (tile << TILE_BITS | row % TILE) << TILE_BITS | column % TILE
+        (((tile << TILE_BITS) + row % TILE) << TILE_BITS) + column % TILE
     }
 
     /// The value of a cell.
@@ -75,11 +75,6 @@ impl<T: Copy> Tiles<T> {
         }
         let place = self.place(cell);
         &mut self.values[place]
-    }
-
-    /// Cells that take room.
-    pub fn room(&self) -> usize {
-        self.values.len() - TILE * TILE
     }
 
     /// Calls `visit` with the cells that take room and their values, row by row.
@@ -116,7 +111,7 @@ mod tests {
         });
         assert_eq!(seen, places.into_iter().zip(1..).collect::<Vec<_>>());
         assert_eq!((tiles.get(numbering.cell(1, 0)), tiles.get(numbering.cell(700, 200))), (0, 0));
-        assert_eq!(tiles.room(), 5 * TILE * TILE);
+        assert_eq!(tiles.values.len(), (1 + places.len()) * TILE * TILE);
     }
 
     #[test]
