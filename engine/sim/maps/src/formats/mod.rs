@@ -6,13 +6,15 @@ pub mod boxes;
 pub mod opendrive;
 
 use crate::Format;
-use cosfly_scans::{las, pcd, ply};
+use cosfly_scans::{gltf, las, obj, pcd, ply};
 
 /// All formats.
 pub const FORMATS: &[Format] = &[
     // Sorted by name.
     Format::of::<boxes::Boxes>(),
+    Format::of::<gltf::GlTf>(),
     Format::of::<las::Las>(),
+    Format::of::<obj::Obj>(),
     Format::of::<opendrive::OpenDrive>(),
     Format::of::<pcd::Pcd>(),
     Format::of::<ply::Ply>(),

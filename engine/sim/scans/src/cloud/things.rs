@@ -3,7 +3,7 @@
 use super::class;
 use super::survey::{Survey, is_ground};
 use crate::grid::parts;
-use crate::solid_cells::{Column, boxes_of};
+use crate::solid_cells::{Bases, Column, boxes_of};
 use cosfly_town::{Obstacle, ObstacleKind};
 
 /// Lower points are kerbs and litter, metres.
@@ -66,7 +66,7 @@ fn add_kind(survey: &Survey<'_>, kind: ObstacleKind, belongs: fn(u8) -> bool, ob
         }
     }
     let first_id = super::next_id(obstacles);
-    let shapes = boxes_of(grid, &columns, STEP_M.max(grid.cell_m));
+    let shapes = boxes_of(grid, &columns, STEP_M.max(grid.cell_m), Bases::Highest);
     let number = |shape: &cosfly_geometry::OrientedBox| part[grid.cell_of(shape.center_in_world.truncate())];
     let mut numbered: Vec<_> = shapes.into_iter().map(|shape| (number(&shape), shape)).collect();
     numbered.sort_by_key(|(number, _)| *number);
