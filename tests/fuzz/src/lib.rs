@@ -21,11 +21,13 @@ pub const TARGETS: &[(&str, Target)] = &[
     ("arrow_answers", arrow_answers),
     ("boxes", map),
     ("frame_pack", frame_pack),
+    ("gltf", map),
     ("image_log", image_log),
     ("jpeg", jpeg),
     ("las", map),
     ("mcap", mcap),
     ("mp4", mp4),
+    ("obj", map),
     ("opendrive", map),
     ("pcd", map),
     #[cfg(feature = "plugins")]

@@ -1,5 +1,7 @@
 //! Simplification of towns of voxels: `cargo bench -p cosfly-town --bench simplify`.
 
+#![expect(missing_docs, reason = "the benchmark macro writes an undocumented function")]
+
 use cosfly_frames::{DVec3, Seed, real};
 use cosfly_geometry::OrientedBox;
 use cosfly_town::simplify::{SimplifyConfig, simplify};

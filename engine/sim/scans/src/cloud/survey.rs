@@ -63,8 +63,7 @@ pub fn is_ground(class: u8) -> bool {
 
 /// Cells over a cloud.
 pub fn grid_of(cloud: &Cloud, cell_m: f64) -> Grid {
-    let (low, high) = cloud.bounds();
-    Grid::around([low, high].into_iter(), cell_m, 0.0)
+    Grid::around(cloud.bounds.into_iter(), cell_m, 0.0)
 }
 
 /// Distance between neighbouring points where there are points, metres.
@@ -80,7 +79,7 @@ fn spacing_m(cloud: &Cloud) -> f64 {
 
 /// The cell size, or a larger one that gives the cloud no more cells than it may have.
 pub fn coarse_enough(cloud: &Cloud, cell_m: f64) -> f64 {
-    let (low, high) = cloud.bounds();
+    let [low, high] = cloud.bounds;
     let most = (MOST_CELLS_PER_POINT * cloud.len() as f64 + 1e4).min(MOST_CELLS);
     let cells = |cell_m: f64| ((high - low) / cell_m + 3.0).element_product();
     let mut cell_m = cell_m;

@@ -33,6 +33,9 @@ pub fn add(survey: &Survey<'_>, obstacles: &mut Vec<Obstacle>) {
 
 fn add_kind(survey: &Survey<'_>, kind: ObstacleKind, belongs: fn(u8) -> bool, obstacles: &mut Vec<Obstacle>) {
     let (grid, cloud) = (&survey.grid, survey.cloud);
+    if !cloud.classes.iter().any(|class| belongs(*class)) {
+        return;
+    }
     let mut counts = vec![0_usize; grid.len()];
     let mut columns: Vec<Option<Column>> = vec![None; grid.len()];
     for cell in 0..grid.len() {
