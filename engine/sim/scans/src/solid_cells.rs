@@ -112,9 +112,9 @@ mod tests {
         let grid = Grid::around([DVec2::ZERO, DVec2::new(9.9, 7.9)].into_iter(), 1.0, 0.4);
         let column = |cell: usize| {
             let top_m = 4.0 + ((cell * 7919) % 13) as f64 * 0.1;
-            (cell % 3 != 0 || cell % 5 == 0).then_some(Column { base_m: 0.0, top_m })
+            (!cell.is_multiple_of(3) || cell.is_multiple_of(5)).then_some(Column { base_m: 0.0, top_m })
         };
-        let columns: Vec<_> = (0..grid.len()).map(column).collect();
+        let columns: Vec<_> = (0..grid.cells()).map(column).collect();
         let boxes = boxes_of(&grid, &columns, 0.5, Bases::Highest);
         let total: f64 = boxes.iter().map(|one| 4.0 * one.half_extents_m.x * one.half_extents_m.y).sum();
         assert!((total - columns.iter().flatten().count() as f64).abs() < 1e-9, "the boxes do not overlap");

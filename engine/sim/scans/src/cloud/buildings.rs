@@ -24,7 +24,8 @@ const EDGE_REACH: usize = 2;
 pub fn add(survey: &Survey<'_>, obstacles: &mut Vec<Obstacle>) {
     let grid = &survey.grid;
     let classes = |cell: usize| survey.buckets.of(cell).map(|point| survey.cloud.classes[point]);
-    let has_roof: Vec<bool> = (0..grid.len()).map(|cell| classes(cell).any(|class| class == class::BUILDING)).collect();
+    let has_roof: Vec<bool> =
+        (0..grid.cells()).map(|cell| classes(cell).any(|class| class == class::BUILDING)).collect();
     let seeds = nearest_seeds(grid, |cell| survey.buckets.of(cell).next().is_some(), survey.reach_cells());
     let is_building = |cell: usize| seeds[cell] != u32::MAX && has_roof[seeds[cell] as usize];
     let (part, count) = parts(grid, is_building);
@@ -84,13 +85,13 @@ impl<'a> Site<'a> {
     fn boxes(&self, yaw_rad: f64) -> Vec<OrientedBox> {
         let (cloud, cell_m) = (self.survey.cloud, self.survey.grid.cell_m);
         let grid = Grid::around(plan_of(cloud, &self.roof), cell_m, yaw_rad);
-        let mut roof: Vec<Option<Column>> = vec![None; grid.len()];
+        let mut roof: Vec<Option<Column>> = vec![None; grid.cells()];
         for point in &self.roof {
             let at = cloud.point(*point);
             let column = roof[grid.cell_of(at.truncate())].get_or_insert(Column { base_m: at.z, top_m: at.z });
             *column = Column { base_m: column.base_m.min(at.z), top_m: column.top_m.max(at.z) };
         }
-        let mut ground_m = vec![f64::NEG_INFINITY; grid.len()];
+        let mut ground_m = vec![f64::NEG_INFINITY; grid.cells()];
         let mut is_seed: Vec<bool> = roof.iter().map(Option::is_some).collect();
         for point in &self.others {
             let at = cloud.point(*point);
@@ -123,7 +124,7 @@ impl<'a> Site<'a> {
             let base_m = if hangs { roof.base_m } else { self.foot_m.max(ground_m[cell] + ABOVE_GROUND_M) };
             Some(Column { base_m, top_m: roof.top_m.max(base_m) })
         };
-        (0..grid.len()).map(column).collect()
+        (0..grid.cells()).map(column).collect()
     }
 }
 
@@ -174,11 +175,11 @@ mod tests {
         let quarter = |angle: f64| (angle - (angle / real::FRAC_PI_2).round() * real::FRAC_PI_2).abs();
         assert!(quarter(smallest_rectangle_rad(&convex_hull(points.clone())) - 0.35) < 1e-6);
         let grid = Grid::around(points.iter().copied(), 0.5, 0.0);
-        let mut is_house = vec![false; grid.len()];
+        let mut is_house = vec![false; grid.cells()];
         for i in 0..4000 {
             is_house[grid.cell_of(corner(0.1 * f64::from(i % 180), 0.45 * f64::from(i / 180)))] = true;
         }
-        let cells: Vec<usize> = (0..grid.len()).filter(|cell| is_house[*cell]).collect();
+        let cells: Vec<usize> = (0..grid.cells()).filter(|cell| is_house[*cell]).collect();
         let found = edge_direction_rad(&grid, &cells, &|cell| is_house[cell]);
         assert!(quarter(found - 0.35) < 0.05, "{found}");
     }

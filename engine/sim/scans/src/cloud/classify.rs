@@ -30,7 +30,7 @@ pub fn is_classified(cloud: &Cloud) -> bool {
 /// Gives unclassified points high above the ground the class of buildings or of plants; says so in words.
 pub fn estimate(cloud: &mut Cloud, relief: &Relief, voxel_m: f64) -> String {
     let grid = grid_of(cloud, coarse_enough(cloud, (2.0 * voxel_m).max(NARROWEST_CELL_M)));
-    let mut span = vec![[f32::INFINITY, f32::NEG_INFINITY]; grid.len()];
+    let mut span = vec![[f32::INFINITY, f32::NEG_INFINITY]; grid.cells()];
     for point in 0..cloud.len() {
         let at = cloud.point(point);
         if !is_ground(cloud.classes[point]) && at.z - relief.height_m(at.truncate()) > LOWEST_ROOF_M {
@@ -41,7 +41,7 @@ pub fn estimate(cloud: &mut Cloud, relief: &Relief, voxel_m: f64) -> String {
     let is_high = |cell: usize| span[cell][1] > f32::NEG_INFINITY;
     let is_thin = |cell: usize| span[cell][1] - span[cell][0] <= THICKEST_ROOF_M as f32;
     let bend_m = (SMOOTH_BEND * grid.cell_m) as f32;
-    let is_smooth: Vec<bool> = (0..grid.len())
+    let is_smooth: Vec<bool> = (0..grid.cells())
         .map(|cell| {
             let (column, row) = (cell % grid.columns, cell / grid.columns);
             let is_inside = column > 0 && row > 0 && column + 1 < grid.columns && row + 1 < grid.rows;
@@ -61,7 +61,7 @@ pub fn estimate(cloud: &mut Cloud, relief: &Relief, voxel_m: f64) -> String {
                     >= 2
         })
         .collect();
-    let is_roof: Vec<bool> = (0..grid.len())
+    let is_roof: Vec<bool> = (0..grid.cells())
         .map(|cell| {
             let near = || grid.around_cell(cell, 2).filter(|near| is_high(*near));
             let smooth = near().filter(|near| is_smooth[*near]).count();

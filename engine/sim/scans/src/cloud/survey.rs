@@ -39,7 +39,8 @@ impl<'a> Survey<'a> {
     /// Sorts the points into cells.
     pub fn new(cloud: &'a Cloud, relief: Relief, voxel_m: f64) -> Self {
         let grid = grid_of(cloud, voxel_m);
-        let buckets = Buckets::new(grid.len(), |point| Some(grid.cell_of(cloud.point(point).truncate())), cloud.len());
+        let buckets =
+            Buckets::new(grid.cells(), |point| Some(grid.cell_of(cloud.point(point).truncate())), cloud.len());
         let reach_m = (REACH_IN_SPACINGS * spacing_m(cloud)).clamp(voxel_m, WIDEST_REACH_M.max(voxel_m));
         Self { cloud, relief, grid, buckets, reach_m }
     }
@@ -69,7 +70,7 @@ pub fn grid_of(cloud: &Cloud, cell_m: f64) -> Grid {
 /// Distance between neighbouring points where there are points, metres.
 fn spacing_m(cloud: &Cloud) -> f64 {
     let grid = grid_of(cloud, coarse_enough(cloud, DENSITY_CELL_M));
-    let mut has_points = vec![false; grid.len()];
+    let mut has_points = vec![false; grid.cells()];
     for point in cloud.points() {
         has_points[grid.cell_of(point.truncate())] = true;
     }

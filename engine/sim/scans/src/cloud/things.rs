@@ -36,9 +36,9 @@ fn add_kind(survey: &Survey<'_>, kind: ObstacleKind, belongs: fn(u8) -> bool, ob
     if !cloud.classes.iter().any(|class| belongs(*class)) {
         return;
     }
-    let mut counts = vec![0_usize; grid.len()];
-    let mut columns: Vec<Option<Column>> = vec![None; grid.len()];
-    for cell in 0..grid.len() {
+    let mut counts = vec![0_usize; grid.cells()];
+    let mut columns: Vec<Option<Column>> = vec![None; grid.cells()];
+    for cell in 0..grid.cells() {
         let mut ground_m = f64::NEG_INFINITY;
         for point in survey.buckets.of(cell) {
             let at = cloud.point(point);

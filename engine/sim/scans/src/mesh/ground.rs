@@ -41,7 +41,7 @@ pub fn relief(things: &[(Thing, Part)], low: DVec3, high: DVec3, notes: &mut Vec
     let size = (high - low).truncate() + 2.0 * MARGIN_M;
     let cell_m = CELL_M.max((size.element_product() / MOST_CELLS).sqrt());
     let grid = Grid::around([low.truncate() - MARGIN_M, high.truncate() + MARGIN_M].into_iter(), cell_m, 0.0);
-    let mut heights_m = vec![f32::NAN; grid.len()];
+    let mut heights_m = vec![f32::NAN; grid.cells()];
     for triangle in level_triangles(things, |thing| matches!(thing, Thing::Ground(..))) {
         let plan = triangle.map(|corner| grid.in_cells(corner.truncate()));
         let from = plan.iter().copied().fold(DVec2::INFINITY, DVec2::min).floor().max(DVec2::ZERO);

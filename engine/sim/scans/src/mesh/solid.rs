@@ -21,7 +21,7 @@ pub fn boxes(part: &Part, voxel_m: f64) -> Vec<OrientedBox> {
     let plan: Vec<DVec2> = part.vertices.iter().map(|vertex| vertex.truncate()).collect();
     let yaw_rad = smallest_rectangle_rad(&convex_hull(plan.clone()));
     let grid = grid_of(part, &plan, voxel_m, yaw_rad);
-    let mut cells = Cells { pieces: vec![Vec::new(); grid.len()], crossings: vec![Vec::new(); grid.len()] };
+    let mut cells = Cells { pieces: vec![Vec::new(); grid.cells()], crossings: vec![Vec::new(); grid.cells()] };
     for triangle in &part.triangles {
         cells.add(&grid, part.corners(*triangle));
     }
