@@ -7,6 +7,7 @@ the ground must pass through them; open ground must be walkable.
 import json
 import subprocess
 import sys
+import tempfile
 
 import laspy
 import numpy as np
@@ -110,6 +111,31 @@ def check(inspect, path):
     return failures
 
 
+def check_without_classes(inspect, path):
+    """The ground is estimated where a file has no classes: its classes are taken away, and judge what comes out."""
+    cloud = laspy.read(path)
+    classes = np.array(cloud.classification)
+    if not (classes == 6).any():
+        return []
+    cloud.classification[:] = 1
+    with tempfile.TemporaryDirectory() as folder:
+        stripped = f"{folder}/stripped.laz"
+        cloud.write(stripped)
+        report = json.loads(subprocess.run([inspect, stripped, "--surfaces"], check=True, capture_output=True, text=True).stdout)
+    points = np.stack([np.asarray(cloud.x), -np.asarray(cloud.y), np.asarray(cloud.z)], axis=1) - np.array(report["offset_m"])
+    ground = points[classes == 2]
+    some = ground[:: max(1, len(ground) // 4000)]
+    error = float(np.nanmedian(np.abs(ground_heights(report["surfaces"], some) - some[:, 2])))
+    outside = float((distance_to_boxes(ground, report["boxes"], 1.0) >= 0).mean())
+    roofs = points[classes == 6]
+    held = float((distance_to_boxes(roofs, report["boxes"], 5.0) <= 0.5).mean())
+    buildings = [box for box in report["boxes"] if box["kind"] == "Building"]
+    found = float((distance_to_boxes(roofs, buildings, 5.0) <= 0.5).mean())
+    print(f"  without classes: ground {error:.3f} m off, {outside:.4f} of it outside all boxes; roofs {held:.4f} in boxes, {found:.3f} in buildings")
+    is_good = error < 0.1 and outside >= 0.99 and held >= 0.9
+    return [] if is_good else [f"{path}: the estimated ground or what stands on it is off"]
+
+
 def roof_cells(buildings):
     """Cells of 1 m whose middle lies in the footprint of a building's box."""
     cells = set()
@@ -132,5 +158,5 @@ def polygon_area(outline):
 
 
 if __name__ == "__main__":
-    failures = [failure for path in sys.argv[2:] for failure in check(sys.argv[1], path)]
+    failures = [one for path in sys.argv[2:] for test in (check, check_without_classes) for one in test(sys.argv[1], path)]
     sys.exit("\n".join(failures) if failures else 0)

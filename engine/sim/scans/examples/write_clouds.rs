@@ -22,7 +22,9 @@ pub fn scene() -> Vec<Point> {
             match (is_house, is_crown) {
                 (true, _) => points.push(([x, y, 8.0 - 0.5 * from_ridge_m], 6)),
                 (_, true) => {
-                    points.push(([x, y, 7.0 - 0.4 * hypot(x - 30.0, y - 30.0)], 5));
+                    // Leaves are rough, roofs are not.
+                    let rough_m = 0.6 * f64::from((i * i + 3 * j * j + i * j) % 5);
+                    points.push(([x, y, 7.0 - 0.4 * hypot(x - 30.0, y - 30.0) - rough_m], 5));
                     points.push(([x, y, 3.0], 5));
                 }
                 _ => points.push(([x, y, 0.02 * x], 2)),

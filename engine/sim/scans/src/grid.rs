@@ -34,7 +34,7 @@ impl Grid {
     }
 
     /// Number of cells.
-    pub fn len(&self) -> usize {
+    pub fn cells(&self) -> usize {
         self.columns * self.rows
     }
 
@@ -107,9 +107,9 @@ impl Buckets {
 /// Number of each cell's connected part (all eight neighbours touch), from 1 in the order of the first cells; 0 for
 /// cells that do not count. The second value is the number of parts.
 pub fn parts(grid: &Grid, counts: impl Fn(usize) -> bool) -> (Vec<u32>, u32) {
-    let mut part = vec![0_u32; grid.len()];
+    let mut part = vec![0_u32; grid.cells()];
     let (mut number, mut stack) = (0, Vec::new());
-    for start in 0..grid.len() {
+    for start in 0..grid.cells() {
         if part[start] != 0 || !counts(start) {
             continue;
         }
@@ -131,8 +131,8 @@ pub fn parts(grid: &Grid, counts: impl Fn(usize) -> bool) -> (Vec<u32>, u32) {
 /// For each cell the nearest seed, at most `reach` cells away; `u32::MAX` where there is none. Rings of eight and four
 /// neighbours take turns, which is near enough to true distance.
 pub fn nearest_seeds(grid: &Grid, is_seed: impl Fn(usize) -> bool, reach: usize) -> Vec<u32> {
-    let mut nearest = vec![u32::MAX; grid.len()];
-    let mut ring: Vec<usize> = (0..grid.len()).filter(|cell| is_seed(*cell)).collect();
+    let mut nearest = vec![u32::MAX; grid.cells()];
+    let mut ring: Vec<usize> = (0..grid.cells()).filter(|cell| is_seed(*cell)).collect();
     for cell in &ring {
         nearest[*cell] = *cell as u32;
     }

@@ -2,10 +2,14 @@
 
 pub mod bytes;
 pub mod cloud;
+pub mod gltf;
 pub mod grid;
 pub mod las;
+pub mod mesh;
+pub mod obj;
 pub mod open_ground;
 pub mod pcd;
+pub mod plan;
 pub mod ply;
 pub mod relief;
 pub mod scalar;

@@ -28,12 +28,12 @@ pub fn open_ground(obstacles: &[Obstacle], relief: &Relief) -> Vec<WalkablePolyg
     let size = (opposite - across).abs();
     let cell_m = NARROWEST_CELL_M.max((size.element_product() / MOST_CELLS).sqrt());
     let grid = Grid::around([across, opposite].into_iter(), cell_m, 0.0);
-    let mut is_open: Vec<bool> = (0..grid.len()).map(|cell| is_ground(relief, grid.center(cell), cell_m)).collect();
+    let mut is_open: Vec<bool> = (0..grid.cells()).map(|cell| is_ground(relief, grid.center(cell), cell_m)).collect();
     for obstacle in obstacles {
         close_under(&grid, relief, &obstacle.shape, &mut is_open);
     }
     let mut plazas = Vec::new();
-    for first in 0..grid.len() {
+    for first in 0..grid.cells() {
         if is_open[first] {
             plazas.extend(plaza(&grid, relief, first, &mut is_open));
         }

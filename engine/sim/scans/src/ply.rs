@@ -60,6 +60,14 @@ enum Encoding {
     Binary { is_big_endian: bool },
 }
 
+/// An element of the head.
+struct Element {
+    name: String,
+    count: usize,
+    /// Names and kinds of its numbers; none for lists.
+    properties: Vec<(String, Option<Scalar>)>,
+}
+
 #[derive(Debug)]
 struct Head {
     encoding: Encoding,
@@ -78,8 +86,7 @@ impl Head {
             MapError::new(format!("line {} of the head is `{shown}`; {rule}", at + 1))
         };
         let mut encoding = None;
-        // Name, rows and numbers of each element; `None` for lists.
-        let mut elements: Vec<(String, usize, Vec<(String, Option<Scalar>)>)> = Vec::new();
+        let mut elements: Vec<Element> = Vec::new();
         for (at, line) in text.lines().enumerate().skip(1) {
             let words: Vec<&str> = line.split_whitespace().collect();
             match words[..] {
@@ -99,7 +106,7 @@ impl Head {
                 }
                 ["element", name, count] => {
                     let count = count.parse().map_err(|_| refusal(at, line, "the count must be a whole number"))?;
-                    elements.push((name.to_owned(), count, Vec::new()));
+                    elements.push(Element { name: name.to_owned(), count, properties: Vec::new() });
                 }
                 ["property", ref kind @ .., name] => {
                     let scalar = match kind {
@@ -110,16 +117,16 @@ impl Head {
                     };
                     let element =
                         elements.last_mut().ok_or_else(|| refusal(at, line, "no `element` comes before it"))?;
-                    element.2.push((name.to_owned(), scalar));
+                    element.properties.push((name.to_owned(), scalar));
                 }
                 _ => {}
             }
         }
         let encoding = encoding.ok_or_else(|| MapError::new("the head has no line `format`"))?;
-        let at = elements.iter().position(|(name, ..)| name == "vertex");
+        let at = elements.iter().position(|element| element.name == "vertex");
         let at = at.ok_or_else(|| MapError::new("the file has no element `vertex`"))?;
-        let has_faces = elements.iter().any(|(name, count, _)| name == "face" && *count > 0);
-        let plain = |(name, count, properties): (String, usize, Vec<(String, Option<Scalar>)>)| {
+        let has_faces = elements.iter().any(|element| element.name == "face" && element.count > 0);
+        let plain = |Element { name, count, properties }: Element| {
             let plain: Option<Vec<(String, Scalar)>> =
                 properties.into_iter().map(|(name, scalar)| Some((name, scalar?))).collect();
             let refused = || MapError::new(format!("`{name}` has a list; lists are read in no element up to `vertex`"));

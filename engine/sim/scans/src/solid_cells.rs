@@ -16,9 +16,20 @@ pub struct Column {
 /// Bases that differ by more are never joined, metres.
 const SAME_BASE_M: f64 = 0.3;
 
-/// Rectangles of cells whose tops differ by at most `tolerance_m`, as boxes from the highest base to the highest top:
-/// nothing on top is lost, and nothing below a base is taken.
-pub fn boxes_of(grid: &Grid, columns: &[Option<Column>], tolerance_m: f64) -> Vec<OrientedBox> {
+/// Thinnest box, metres.
+const THINNEST_M: f64 = 0.1;
+
+/// Which of the bases of joined columns is that of their box.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Bases {
+    /// The highest: nothing below a base is taken.
+    Highest,
+    /// The lowest: nothing solid is lost.
+    Lowest,
+}
+
+/// Rectangles of cells whose tops differ by at most `tolerance_m`, as boxes to the highest top: nothing on top is lost.
+pub fn boxes_of(grid: &Grid, columns: &[Option<Column>], tolerance_m: f64, bases: Bases) -> Vec<OrientedBox> {
     let mut is_taken = vec![false; columns.len()];
     let mut boxes = Vec::new();
     for first in 0..columns.len() {
@@ -57,7 +68,8 @@ pub fn boxes_of(grid: &Grid, columns: &[Option<Column>], tolerance_m: f64) -> Ve
         }
         let size = DVec2::new(width as f64, height as f64);
         let center = grid.point(DVec2::new(column as f64, row as f64) + 0.5 * size);
-        let (base_m, top_m) = (range.base_m[1], range.top_m[1].max(range.base_m[1] + 0.1));
+        let base_m = range.base_m[usize::from(bases == Bases::Highest)];
+        let top_m = range.top_m[1].max(base_m + THINNEST_M);
         boxes.push(OrientedBox {
             center_in_world: center.extend(0.5 * (base_m + top_m)),
             half_extents_m: (0.5 * grid.cell_m * size).extend(0.5 * (top_m - base_m)),
@@ -100,10 +112,10 @@ mod tests {
         let grid = Grid::around([DVec2::ZERO, DVec2::new(9.9, 7.9)].into_iter(), 1.0, 0.4);
         let column = |cell: usize| {
             let top_m = 4.0 + ((cell * 7919) % 13) as f64 * 0.1;
-            (cell % 3 != 0 || cell % 5 == 0).then_some(Column { base_m: 0.0, top_m })
+            (!cell.is_multiple_of(3) || cell.is_multiple_of(5)).then_some(Column { base_m: 0.0, top_m })
         };
-        let columns: Vec<_> = (0..grid.len()).map(column).collect();
-        let boxes = boxes_of(&grid, &columns, 0.5);
+        let columns: Vec<_> = (0..grid.cells()).map(column).collect();
+        let boxes = boxes_of(&grid, &columns, 0.5, Bases::Highest);
         let total: f64 = boxes.iter().map(|one| 4.0 * one.half_extents_m.x * one.half_extents_m.y).sum();
         assert!((total - columns.iter().flatten().count() as f64).abs() < 1e-9, "the boxes do not overlap");
         for (cell, column) in columns.iter().enumerate() {

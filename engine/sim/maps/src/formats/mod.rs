@@ -8,7 +8,7 @@ pub mod opendrive;
 
 use crate::Format;
 use cosfly_geodata::{cityjson, osm};
-use cosfly_scans::{las, pcd, ply};
+use cosfly_scans::{gltf, las, obj, pcd, ply};
 
 /// All formats.
 pub const FORMATS: &[Format] = &[
@@ -16,7 +16,9 @@ pub const FORMATS: &[Format] = &[
     Format::of::<boxes::Boxes>(),
     Format::of::<cityjson::CityJson>(),
     Format::of::<generated::Generated>(),
+    Format::of::<gltf::GlTf>(),
     Format::of::<las::Las>(),
+    Format::of::<obj::Obj>(),
     Format::of::<opendrive::OpenDrive>(),
     Format::of::<osm::OpenStreetMap>(),
     Format::of::<pcd::Pcd>(),

@@ -3,7 +3,8 @@
 use super::class;
 use super::survey::{Survey, is_ground, plan_of};
 use crate::grid::{Grid, nearest_seeds, parts};
-use crate::solid_cells::{Column, boxes_of};
+use crate::plan::{convex_hull, smallest_rectangle_rad};
+use crate::solid_cells::{Bases, Column, boxes_of};
 use cosfly_frames::{DVec2, real};
 use cosfly_geometry::OrientedBox;
 use cosfly_town::{Obstacle, ObstacleKind};
@@ -18,14 +19,13 @@ const STEP_M: f64 = 1.0;
 const ABOVE_GROUND_M: f64 = 0.1;
 /// Cells at the edge over which the direction of a wall is felt.
 const EDGE_REACH: usize = 2;
-/// Sides of an outline that are tried as a side of its smallest rectangle.
-const MOST_SIDES: usize = 256;
 
 /// Adds all buildings.
 pub fn add(survey: &Survey<'_>, obstacles: &mut Vec<Obstacle>) {
     let grid = &survey.grid;
     let classes = |cell: usize| survey.buckets.of(cell).map(|point| survey.cloud.classes[point]);
-    let has_roof: Vec<bool> = (0..grid.len()).map(|cell| classes(cell).any(|class| class == class::BUILDING)).collect();
+    let has_roof: Vec<bool> =
+        (0..grid.cells()).map(|cell| classes(cell).any(|class| class == class::BUILDING)).collect();
     let seeds = nearest_seeds(grid, |cell| survey.buckets.of(cell).next().is_some(), survey.reach_cells());
     let is_building = |cell: usize| seeds[cell] != u32::MAX && has_roof[seeds[cell] as usize];
     let (part, count) = parts(grid, is_building);
@@ -85,13 +85,13 @@ impl<'a> Site<'a> {
     fn boxes(&self, yaw_rad: f64) -> Vec<OrientedBox> {
         let (cloud, cell_m) = (self.survey.cloud, self.survey.grid.cell_m);
         let grid = Grid::around(plan_of(cloud, &self.roof), cell_m, yaw_rad);
-        let mut roof: Vec<Option<Column>> = vec![None; grid.len()];
+        let mut roof: Vec<Option<Column>> = vec![None; grid.cells()];
         for point in &self.roof {
             let at = cloud.point(*point);
             let column = roof[grid.cell_of(at.truncate())].get_or_insert(Column { base_m: at.z, top_m: at.z });
             *column = Column { base_m: column.base_m.min(at.z), top_m: column.top_m.max(at.z) };
         }
-        let mut ground_m = vec![f64::NEG_INFINITY; grid.len()];
+        let mut ground_m = vec![f64::NEG_INFINITY; grid.cells()];
         let mut is_seed: Vec<bool> = roof.iter().map(Option::is_some).collect();
         for point in &self.others {
             let at = cloud.point(*point);
@@ -109,7 +109,7 @@ impl<'a> Site<'a> {
             seeds.iter().map(|seed| roof.get(*seed as usize).copied().flatten()).collect();
         fill_pits(&grid, &mut roofs, (self.survey.reach_cells() / 2).max(1));
         let columns = self.standing(&grid, &roofs, &ground_m);
-        boxes_of(&grid, &columns, STEP_M.max(cell_m))
+        boxes_of(&grid, &columns, STEP_M.max(cell_m), Bases::Highest)
     }
 
     /// Columns from the roofs down to the foot, or to the ground that was seen in a cell, or only the roof where it
@@ -124,7 +124,7 @@ impl<'a> Site<'a> {
             let base_m = if hangs { roof.base_m } else { self.foot_m.max(ground_m[cell] + ABOVE_GROUND_M) };
             Some(Column { base_m, top_m: roof.top_m.max(base_m) })
         };
-        (0..grid.len()).map(column).collect()
+        (0..grid.cells()).map(column).collect()
     }
 }
 
@@ -163,44 +163,6 @@ fn edge_direction_rad(grid: &Grid, cells: &[usize], is_building: &impl Fn(usize)
     0.25 * real::atan2(sine, cosine)
 }
 
-/// Corners of the smallest convex outline around points, counter-clockwise from x to y.
-fn convex_hull(mut points: Vec<DVec2>) -> Vec<DVec2> {
-    points.sort_by(|a, b| a.x.total_cmp(&b.x).then(a.y.total_cmp(&b.y)));
-    let mut hull: Vec<DVec2> = Vec::new();
-    let add = |point: DVec2, least: usize, hull: &mut Vec<DVec2>| {
-        while hull.len() > least
-            && (hull[hull.len() - 1] - hull[hull.len() - 2]).perp_dot(point - hull[hull.len() - 2]) <= 0.0
-        {
-            hull.pop();
-        }
-        hull.push(point);
-    };
-    for point in &points {
-        add(*point, 1, &mut hull);
-    }
-    let lower = hull.len();
-    for point in points.iter().rev().skip(1) {
-        add(*point, lower, &mut hull);
-    }
-    hull
-}
-
-/// Direction of the smallest rectangle around a convex outline.
-fn smallest_rectangle_rad(hull: &[DVec2]) -> f64 {
-    let area_m2 = |side: &DVec2| {
-        let along = side.normalize_or(DVec2::X);
-        let extent = |axis: DVec2| {
-            let reach = hull.iter().map(|corner| corner.dot(axis));
-            reach.clone().fold(f64::NEG_INFINITY, f64::max) - reach.fold(f64::INFINITY, f64::min)
-        };
-        extent(along) * extent(along.perp())
-    };
-    let sides = hull.windows(2).map(|pair| pair[1] - pair[0]).filter(|side| side.length() > 1e-6);
-    let sides = sides.step_by(1 + hull.len() / MOST_SIDES);
-    let best = sides.map(|side| (area_m2(&side), side)).min_by(|a, b| a.0.total_cmp(&b.0));
-    best.map_or(0.0, |(_, side)| real::atan2(side.y, side.x))
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -213,11 +175,11 @@ mod tests {
         let quarter = |angle: f64| (angle - (angle / real::FRAC_PI_2).round() * real::FRAC_PI_2).abs();
         assert!(quarter(smallest_rectangle_rad(&convex_hull(points.clone())) - 0.35) < 1e-6);
         let grid = Grid::around(points.iter().copied(), 0.5, 0.0);
-        let mut is_house = vec![false; grid.len()];
+        let mut is_house = vec![false; grid.cells()];
         for i in 0..4000 {
             is_house[grid.cell_of(corner(0.1 * f64::from(i % 180), 0.45 * f64::from(i / 180)))] = true;
         }
-        let cells: Vec<usize> = (0..grid.len()).filter(|cell| is_house[*cell]).collect();
+        let cells: Vec<usize> = (0..grid.cells()).filter(|cell| is_house[*cell]).collect();
         let found = edge_direction_rad(&grid, &cells, &|cell| is_house[cell]);
         assert!(quarter(found - 0.35) < 0.05, "{found}");
     }

@@ -26,7 +26,7 @@ pub fn is_classified(cloud: &Cloud) -> bool {
 /// Heights of the ground points.
 pub fn relief(cloud: &Cloud, voxel_m: f64) -> Relief {
     let grid = grid_of(cloud, coarse_enough(cloud, voxel_m.max(NARROWEST_CELL_M)));
-    let mut sums = vec![(0.0_f64, 0_u32); grid.len()];
+    let mut sums = vec![(0.0_f64, 0_u32); grid.cells()];
     for point in (0..cloud.len()).filter(|point| is_ground(cloud.classes[*point])) {
         let at = cloud.point(point);
         let (sum, count) = &mut sums[grid.cell_of(at.truncate())];
@@ -41,7 +41,7 @@ pub fn relief(cloud: &Cloud, voxel_m: f64) -> Relief {
 /// says so in words.
 pub fn estimate(cloud: &mut Cloud, voxel_m: f64) -> String {
     let grid = grid_of(cloud, coarse_enough(cloud, voxel_m.max(NARROWEST_CELL_M)));
-    let mut lowest = vec![f32::NAN; grid.len()];
+    let mut lowest = vec![f32::NAN; grid.cells()];
     for point in cloud.points() {
         let cell = &mut lowest[grid.cell_of(point.truncate())];
         *cell = cell.min(point.z as f32);
@@ -68,7 +68,7 @@ pub fn estimate(cloud: &mut Cloud, voxel_m: f64) -> String {
         before_m = window_m;
     }
     // The opened surface is a lower bound with flat steps: the cells that passed keep their own heights.
-    let mut lowest = vec![f32::NAN; grid.len()];
+    let mut lowest = vec![f32::NAN; grid.cells()];
     for point in cloud.points() {
         let cell = grid.cell_of(point.truncate());
         if is_measured[cell] && point.z as f32 >= surface[cell] - STEPS_M[1] as f32 {

@@ -7,6 +7,7 @@ pub mod buildings;
 pub mod classify;
 pub mod ground;
 pub mod options;
+pub mod planes;
 pub mod points;
 pub mod survey;
 pub mod table;

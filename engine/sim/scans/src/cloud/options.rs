@@ -7,7 +7,7 @@ use serde::{Deserialize, Serialize};
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(default, deny_unknown_fields)]
 pub struct CloudOptions {
-    /// Side of the cells in which points become solid boxes, metres. 0.2 to 10. Default: from the density of the points, 0.5 to 2.
+    /// Side of the cells in which shapes become solid boxes, metres. 0.2 to 10. Default: 0.5; up to 2 for clouds of sparse points.
     #[schemars(range(min = 0.2, max = 10.0))]
     pub voxel_m: Option<f64>,
     /// Length of the file's unit, metres: 0.3048 for feet. 0.000001 to 1000. Default: what the file says, else 1.

@@ -44,6 +44,8 @@ pub struct Cloud {
     positions: Vec<[f32; 3]>,
     /// Class of each point.
     pub classes: Vec<u8>,
+    /// Smallest and largest corner in plan, world, metres.
+    pub bounds: [DVec2; 2],
     /// Shift between map and world.
     pub world: WorldFromMap,
     /// The file's projection, in its own words.
@@ -63,11 +65,6 @@ pub struct CloudBuilder {
 }
 
 impl CloudBuilder {
-    /// Room for points that are known to be there.
-    pub fn with_capacity(points: usize) -> Self {
-        Self { positions: Vec::with_capacity(points), classes: Vec::with_capacity(points), ..Self::default() }
-    }
-
     /// Adds a point; noise and points that are nowhere are counted.
     pub fn push(&mut self, point_in_map: DVec3, class: u8) {
         let is_somewhere =
@@ -98,7 +95,8 @@ impl CloudBuilder {
         };
         let plan =
             || self.positions.iter().map(|[x, y, _]| origin_in_map.truncate() + DVec2::new((*x).into(), (*y).into()));
-        let size = plan().fold(DVec2::NEG_INFINITY, DVec2::max) - plan().fold(DVec2::INFINITY, DVec2::min);
+        let [low, high] = [plan().fold(DVec2::INFINITY, DVec2::min), plan().fold(DVec2::NEG_INFINITY, DVec2::max)];
+        let size = high - low;
         if size.max_element() > WIDEST_M {
             let message = format!("the cloud is {:.0} m across; at most {WIDEST_M} m are read", size.max_element());
             return Err(
@@ -111,12 +109,22 @@ impl CloudBuilder {
         if self.noise > 0 {
             warnings.push(format!("{} points of the classes for noise (7, 18) were left out", self.noise));
         }
-        let world = WorldFromMap::around(plan());
+        let world = WorldFromMap::around([low, high]);
         for position in &mut self.positions {
             position[1] = -position[1];
         }
         let origin_in_world = world.point(origin_in_map);
-        Ok(Cloud { origin_in_world, positions: self.positions, classes: self.classes, world, geo_reference, warnings })
+        let corners = [low, high].map(|corner| world.point(corner.extend(0.0)).truncate());
+        let bounds = [corners[0].min(corners[1]), corners[0].max(corners[1])];
+        Ok(Cloud {
+            origin_in_world,
+            positions: self.positions,
+            classes: self.classes,
+            bounds,
+            world,
+            geo_reference,
+            warnings,
+        })
     }
 }
 
@@ -140,12 +148,5 @@ impl Cloud {
     /// All points in the world, metres.
     pub fn points(&self) -> impl Iterator<Item = DVec3> {
         (0..self.len()).map(|index| self.point(index))
-    }
-
-    /// Smallest and largest corner in plan, world, metres.
-    pub fn bounds(&self) -> (DVec2, DVec2) {
-        self.points().fold((DVec2::INFINITY, DVec2::NEG_INFINITY), |(low, high), point| {
-            (low.min(point.truncate()), high.max(point.truncate()))
-        })
     }
 }

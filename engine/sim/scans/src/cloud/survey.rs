@@ -39,7 +39,8 @@ impl<'a> Survey<'a> {
     /// Sorts the points into cells.
     pub fn new(cloud: &'a Cloud, relief: Relief, voxel_m: f64) -> Self {
         let grid = grid_of(cloud, voxel_m);
-        let buckets = Buckets::new(grid.len(), |point| Some(grid.cell_of(cloud.point(point).truncate())), cloud.len());
+        let buckets =
+            Buckets::new(grid.cells(), |point| Some(grid.cell_of(cloud.point(point).truncate())), cloud.len());
         let reach_m = (REACH_IN_SPACINGS * spacing_m(cloud)).clamp(voxel_m, WIDEST_REACH_M.max(voxel_m));
         Self { cloud, relief, grid, buckets, reach_m }
     }
@@ -63,14 +64,13 @@ pub fn is_ground(class: u8) -> bool {
 
 /// Cells over a cloud.
 pub fn grid_of(cloud: &Cloud, cell_m: f64) -> Grid {
-    let (low, high) = cloud.bounds();
-    Grid::around([low, high].into_iter(), cell_m, 0.0)
+    Grid::around(cloud.bounds.into_iter(), cell_m, 0.0)
 }
 
 /// Distance between neighbouring points where there are points, metres.
 fn spacing_m(cloud: &Cloud) -> f64 {
     let grid = grid_of(cloud, coarse_enough(cloud, DENSITY_CELL_M));
-    let mut has_points = vec![false; grid.len()];
+    let mut has_points = vec![false; grid.cells()];
     for point in cloud.points() {
         has_points[grid.cell_of(point.truncate())] = true;
     }
@@ -80,7 +80,7 @@ fn spacing_m(cloud: &Cloud) -> f64 {
 
 /// The cell size, or a larger one that gives the cloud no more cells than it may have.
 pub fn coarse_enough(cloud: &Cloud, cell_m: f64) -> f64 {
-    let (low, high) = cloud.bounds();
+    let [low, high] = cloud.bounds;
     let most = (MOST_CELLS_PER_POINT * cloud.len() as f64 + 1e4).min(MOST_CELLS);
     let cells = |cell_m: f64| ((high - low) / cell_m + 3.0).element_product();
     let mut cell_m = cell_m;

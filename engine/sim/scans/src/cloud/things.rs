@@ -3,7 +3,7 @@
 use super::class;
 use super::survey::{Survey, is_ground};
 use crate::grid::parts;
-use crate::solid_cells::{Column, boxes_of};
+use crate::solid_cells::{Bases, Column, boxes_of};
 use cosfly_town::{Obstacle, ObstacleKind};
 
 /// Lower points are kerbs and litter, metres.
@@ -33,9 +33,12 @@ pub fn add(survey: &Survey<'_>, obstacles: &mut Vec<Obstacle>) {
 
 fn add_kind(survey: &Survey<'_>, kind: ObstacleKind, belongs: fn(u8) -> bool, obstacles: &mut Vec<Obstacle>) {
     let (grid, cloud) = (&survey.grid, survey.cloud);
-    let mut counts = vec![0_usize; grid.len()];
-    let mut columns: Vec<Option<Column>> = vec![None; grid.len()];
-    for cell in 0..grid.len() {
+    if !cloud.classes.iter().any(|class| belongs(*class)) {
+        return;
+    }
+    let mut counts = vec![0_usize; grid.cells()];
+    let mut columns: Vec<Option<Column>> = vec![None; grid.cells()];
+    for cell in 0..grid.cells() {
         let mut ground_m = f64::NEG_INFINITY;
         for point in survey.buckets.of(cell) {
             let at = cloud.point(point);
@@ -66,7 +69,7 @@ fn add_kind(survey: &Survey<'_>, kind: ObstacleKind, belongs: fn(u8) -> bool, ob
         }
     }
     let first_id = super::next_id(obstacles);
-    let shapes = boxes_of(grid, &columns, STEP_M.max(grid.cell_m));
+    let shapes = boxes_of(grid, &columns, STEP_M.max(grid.cell_m), Bases::Highest);
     let number = |shape: &cosfly_geometry::OrientedBox| part[grid.cell_of(shape.center_in_world.truncate())];
     let mut numbered: Vec<_> = shapes.into_iter().map(|shape| (number(&shape), shape)).collect();
     numbered.sort_by_key(|(number, _)| *number);

@@ -35,16 +35,16 @@ pub fn add(survey: &Survey<'_>, obstacles: &mut Vec<Obstacle>) {
     }
     let cell_m = coarse_enough(cloud, (2.0 * survey.grid.cell_m).max(NARROWEST_CELL_M));
     let grid = grid_of(cloud, cell_m);
-    let mut top_m = vec![f32::NEG_INFINITY; grid.len()];
+    let mut top_m = vec![f32::NEG_INFINITY; grid.cells()];
     for point in &plants {
         let cell = &mut top_m[grid.cell_of(cloud.point(*point).truncate())];
         *cell = cell.max(survey.height_m(*point) as f32);
     }
     let peaks = peaks(&grid, &top_m);
     let peak_of = |member: usize| Some(peaks[grid.cell_of(cloud.point(plants[member]).truncate())] as usize);
-    let members = Buckets::new(grid.len(), peak_of, plants.len());
+    let members = Buckets::new(grid.cells(), peak_of, plants.len());
     let mut points = Vec::new();
-    for peak in (0..grid.len()).filter(|cell| peaks[*cell] as usize == *cell && top_m[*cell] > f32::NEG_INFINITY) {
+    for peak in (0..grid.cells()).filter(|cell| peaks[*cell] as usize == *cell && top_m[*cell] > f32::NEG_INFINITY) {
         points.clear();
         points.extend(members.of(peak).map(|member| cloud.point(plants[member])));
         let object_id = super::next_id(obstacles);
@@ -63,7 +63,7 @@ pub fn add(survey: &Survey<'_>, obstacles: &mut Vec<Obstacle>) {
 
 /// The hilltop of each cell: the way up over the highest cell within two, to where there is none higher.
 fn peaks(grid: &Grid, top_m: &[f32]) -> Vec<u32> {
-    let smooth: Vec<f32> = (0..grid.len())
+    let smooth: Vec<f32> = (0..grid.cells())
         .map(|cell| {
             let near = || grid.around_cell(cell, 1).map(|near| top_m[near]).filter(|top| top.is_finite());
             if top_m[cell].is_finite() { near().sum::<f32>() / near().count() as f32 } else { f32::NEG_INFINITY }
@@ -71,7 +71,7 @@ fn peaks(grid: &Grid, top_m: &[f32]) -> Vec<u32> {
         .collect();
     let higher = |a: &usize, b: &usize| smooth[*a].total_cmp(&smooth[*b]).then(b.cmp(a));
     let up: Vec<u32> =
-        (0..grid.len()).map(|cell| grid.around_cell(cell, 2).max_by(higher).unwrap_or(cell) as u32).collect();
+        (0..grid.cells()).map(|cell| grid.around_cell(cell, 2).max_by(higher).unwrap_or(cell) as u32).collect();
     let mut peaks = up.clone();
     for cell in 0..peaks.len() {
         while up[peaks[cell] as usize] != peaks[cell] {

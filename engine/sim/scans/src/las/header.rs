@@ -136,7 +136,7 @@ impl<'a> Header<'a> {
     /// # Errors
     /// The file holds fewer than it says.
     pub fn plain_points(&self) -> Result<&'a [u8], MapError> {
-        let length = self.points.checked_mul(self.record_bytes as u64).unwrap_or(u64::MAX);
+        let length = self.points.saturating_mul(self.record_bytes as u64);
         self.bytes.slice(self.points_start, length, &format!("the last of {} points", self.points))
     }
 }

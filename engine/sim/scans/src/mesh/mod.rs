@@ -1,0 +1,99 @@
+//! From triangles with names to a town: ground as surfaces, everything else as boxes.
+//!
+//! [`parts`] holds the triangles, [`names`] tells things by their names, [`solid`] covers them with boxes, [`ground`]
+//! makes the relief, the surfaces and the walkable ground.
+
+pub mod ground;
+pub mod names;
+pub mod options;
+pub mod parts;
+pub mod solid;
+
+pub use options::{MeshOptions, UpAxis};
+pub use parts::{Part, PartBuilder};
+
+use crate::open_ground::open_ground;
+use cosfly_town::mesh::MeshBuilder;
+use cosfly_town::terrain::{USUAL_MARGIN_M, add_terrain};
+use cosfly_town::world::WorldFromMap;
+use cosfly_town::{MapError, Obstacle, Synthetic, Town};
+use names::Thing;
+
+/// Side of the cells in which shapes become boxes, metres.
+const USUAL_VOXEL_M: f64 = 0.5;
+/// Widest scene, metres.
+const WIDEST_M: f64 = 20_000.0;
+/// Most boxes of a scene.
+const MOST_BOXES: usize = 500_000;
+
+/// The town of parts in the map frame (right-handed, z up, metres), and what the user should know.
+///
+/// # Errors
+/// No triangles, a scene that is too wide, or more boxes than a town may have.
+pub fn town_of(
+    mut parts: Vec<Part>,
+    options: &MeshOptions,
+    warnings: Vec<String>,
+) -> Result<(Town, Vec<String>), MapError> {
+    parts.retain(|part| !part.triangles.is_empty());
+    if parts.is_empty() {
+        return Err(MapError::new("the file has no triangles").hint("export meshes, not curves or points"));
+    }
+    let world = WorldFromMap::around(parts.iter().flat_map(|part| &part.vertices).map(|vertex| vertex.truncate()));
+    for vertex in parts.iter_mut().flat_map(|part| &mut part.vertices) {
+        *vertex = world.point(*vertex);
+    }
+    let (low, high) = parts::bounds(parts.iter().flat_map(|part| &part.vertices));
+    if (high - low).max_element() > WIDEST_M {
+        let error = MapError::new(format!(
+            "the scene is {:.0} m across; at most {WIDEST_M} m are read",
+            (high - low).max_element()
+        ));
+        return Err(error.hint("give the length of the file's unit with `unit_m`: 0.01 for centimetres"));
+    }
+    let mut notes = Vec::new();
+    let things = names::things(parts, &mut notes);
+    let mut meshes = MeshBuilder::default();
+    let mut obstacles = Vec::new();
+    let mut unnamed = 0;
+    for (object, (thing, part)) in things.iter().enumerate() {
+        match thing {
+            Thing::Ground(label, _) => ground::add_surface(&mut meshes, *label, part),
+            Thing::Solid { kind, is_named } => {
+                let shapes = solid::boxes(part, options.voxel_m.unwrap_or(USUAL_VOXEL_M));
+                let obstacle = |shape| Obstacle { shape, kind: *kind, object_id: object as u32 + 1, synthetic: false };
+                obstacles.extend(shapes.into_iter().map(obstacle));
+                unnamed += usize::from(!is_named);
+                if obstacles.len() > MOST_BOXES {
+                    let error = MapError::new(format!("the meshes need more than {MOST_BOXES} boxes"));
+                    return Err(error.hint("give a larger `voxel_m`, or cut the scene into pieces"));
+                }
+            }
+        }
+    }
+    if unnamed > 0 {
+        notes.push(format!("{unnamed} things are told by their size: their names say nothing"));
+    }
+    let relief = ground::relief(&things, low, high, &mut notes);
+    let mut walkable = ground::walkable(&things);
+    if walkable.is_empty() {
+        walkable = open_ground(&obstacles, &relief);
+        notes
+            .push(format!("{} plazas on the open ground are invented: nothing is named as a pavement", walkable.len()));
+    }
+    if walkable.is_empty() {
+        let error = MapError::new("the scene leaves no open ground to walk on");
+        return Err(error.hint("name the meshes to walk on `sidewalk`; check `up_axis` and `unit_m`"));
+    }
+    add_terrain(&mut meshes, &obstacles, USUAL_MARGIN_M)?;
+    let town = Town {
+        name: "town".to_owned(),
+        origin: world.origin(None),
+        obstacles,
+        walkable,
+        surfaces: meshes.finish(),
+        synthetic: Synthetic { notes, ..Synthetic::default() },
+        ..Town::default()
+    };
+    Ok((town, warnings))
+}

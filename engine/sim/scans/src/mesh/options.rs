@@ -1,0 +1,41 @@
+//! [`MeshOptions`]: the choices that all formats of meshes leave to the user.
+
+use cosfly_frames::DVec3;
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+/// Axis of a file that points up.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "lowercase")]
+pub enum UpAxis {
+    /// y up, z towards the viewer.
+    #[default]
+    Y,
+    /// z up.
+    Z,
+}
+
+/// Options of meshes.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(default, deny_unknown_fields)]
+pub struct MeshOptions {
+    /// Axis of the file that points up, `y` or `z`. Default `y`.
+    pub up_axis: UpAxis,
+    /// Side of the cells in which shapes become solid boxes, metres. 0.2 to 10. Default: 0.5; up to 2 for clouds of sparse points.
+    #[schemars(range(min = 0.2, max = 10.0))]
+    pub voxel_m: Option<f64>,
+    /// Length of the file's unit, metres: 0.3048 for feet. 0.000001 to 1000. Default: what the file says, else 1.
+    #[schemars(range(min = 0.000001, max = 1000.0))]
+    pub unit_m: Option<f64>,
+}
+
+impl MeshOptions {
+    /// A point of the file in the map frame (right-handed, z up), metres.
+    pub fn in_map(&self, point: DVec3) -> DVec3 {
+        let point = point * self.unit_m.unwrap_or(1.0);
+        match self.up_axis {
+            UpAxis::Y => DVec3::new(point.x, -point.z, point.y),
+            UpAxis::Z => point,
+        }
+    }
+}

@@ -1,0 +1,141 @@
+//! One scene in every format of meshes; boxes of solids against `parry3d`, an independent library; files that lie.
+
+use cosfly_frames::{DVec3, RandomStream, Seed, real};
+use cosfly_geometry::{BoxBvh, SpatialQuery};
+use cosfly_scans::gltf::GlTf;
+use cosfly_scans::mesh::{MeshOptions, Part, UpAxis, solid};
+use cosfly_scans::obj::Obj;
+use cosfly_town::{MapError, MapFormat, ObstacleKind, SemanticLabel, Town, WalkableKind};
+use parry3d_f64::math::Vector;
+use parry3d_f64::query::PointQuery;
+use parry3d_f64::shape::{TriMesh, TriMeshFlags};
+
+#[path = "../examples/write_meshes.rs"]
+#[expect(dead_code, reason = "the program's own `main`")]
+mod write_meshes;
+
+use write_meshes::{HOUSE, HOUSE_CAP, files, glb, obj, prism, scene};
+
+fn read<F: MapFormat<Options = MeshOptions>>(bytes: &[u8], options: &MeshOptions) -> Result<Town, MapError> {
+    assert!(F::recognises(bytes), "{}", F::NAME);
+    F::read(bytes, options).map(|(town, _)| town)
+}
+
+#[test]
+fn example_files_are_what_their_program_writes() {
+    for (path, bytes) in files() {
+        let kept =
+            std::fs::read(std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join(path)).expect("the example is there");
+        assert!(kept == bytes, "{path} differs: run `cargo run --release -p cosfly-scans --example write_meshes`");
+    }
+}
+
+fn check_scene(town: &Town) {
+    let count = |kind| town.obstacles.iter().filter(|one| one.kind == kind).count();
+    assert!((1..=12).contains(&count(ObstacleKind::Building)), "{:?}", town.obstacles);
+    assert_eq!(
+        (count(ObstacleKind::TreeTrunk), count(ObstacleKind::TreeCrown), count(ObstacleKind::Static)),
+        (1, 1, 1)
+    );
+    let bench = town.obstacles.iter().find(|one| one.kind == ObstacleKind::Static).unwrap();
+    assert!((bench.shape.half_extents_m - DVec3::new(0.6, 0.6, 0.25)).abs().max_element() < 0.011, "{bench:?}");
+    assert!(bench.shape.center_in_world.distance(DVec3::new(-10.0, 15.0, 0.25)) < 0.02, "{bench:?}");
+    let labels: Vec<_> = town.surfaces.iter().filter(|mesh| !mesh.synthetic).map(|mesh| mesh.label).collect();
+    assert_eq!(labels, [SemanticLabel::SideWalks, SemanticLabel::Terrain]);
+    assert!(town.walkable.iter().all(|one| one.kind == WalkableKind::Sidewalk && !one.synthetic));
+    assert_eq!(town.walkable.len(), 2);
+}
+
+#[test]
+fn both_formats_give_the_same_things() {
+    let options = MeshOptions::default();
+    let towns = [read::<Obj>(&obj(&scene()), &options).unwrap(), read::<GlTf>(&glb(&scene()), &options).unwrap()];
+    towns.iter().for_each(check_scene);
+    let shapes = towns.map(|town| town.obstacles.iter().map(|one| one.kind).collect::<Vec<_>>());
+    assert_eq!(shapes[0], shapes[1]);
+}
+
+#[test]
+fn the_axis_and_the_unit_are_the_users() {
+    let mut meshes = scene();
+    meshes.iter_mut().flat_map(|mesh| &mut mesh.vertices).for_each(|vertex| {
+        // What the writer does to make y point up, undone; in centimetres.
+        let [x, y, z] = vertex.map(|metres| 100.0 * metres);
+        *vertex = [x, -z, y];
+    });
+    let options = MeshOptions { up_axis: UpAxis::Z, unit_m: Some(0.01), ..MeshOptions::default() };
+    check_scene(&read::<Obj>(&obj(&meshes), &options).unwrap());
+}
+
+/// A solid by an outline, turned about z, as a part and as parry's mesh.
+fn turned(outline: &[[f64; 2]], cap: &[[u32; 3]], height_m: f64, yaw_rad: f64) -> (Part, TriMesh) {
+    let mesh = prism("solid", outline, 0.0, height_m, cap);
+    let (sin, cos) = real::sin_cos(yaw_rad);
+    let turn = |[x, y, z]: &[f64; 3]| DVec3::new(cos * x - sin * y, sin * x + cos * y, *z);
+    let vertices: Vec<DVec3> = mesh.vertices.iter().map(turn).collect();
+    let theirs = vertices.iter().map(|at| Vector::new(at.x, at.y, at.z)).collect();
+    let solid = TriMesh::with_flags(theirs, mesh.triangles.clone(), TriMeshFlags::ORIENTED).expect("a closed mesh");
+    (Part { name: "solid".into(), vertices, triangles: mesh.triangles }, solid)
+}
+
+fn check_cover(name: &str, outline: &[[f64; 2]], cap: &[[u32; 3]], stream: &mut RandomStream) {
+    for (round, voxel_m) in [(0, 0.5), (1, 0.5), (2, 1.0), (3, 0.25)] {
+        let yaw_rad = if round == 0 { 0.0 } else { stream.uniform(-3.0, 3.0) };
+        let (part, solid) = turned(outline, cap, 7.0, yaw_rad);
+        let boxes = solid::boxes(&part, voxel_m);
+        let cover = BoxBvh::build(boxes.clone());
+        for _ in 0..3000 {
+            let at = DVec3::new(stream.uniform(-25.0, 25.0), stream.uniform(-25.0, 25.0), stream.uniform(-1.0, 8.0));
+            let point = Vector::new(at.x, at.y, at.z);
+            let is_covered = cover.nearest(at, 50.0).is_some_and(|near| near.distance_m <= 1e-6);
+            let is_solid = solid.contains_local_point(point);
+            assert!(!is_solid || is_covered, "{name}, yaw {yaw_rad}: {at} is solid but not covered");
+            let far_m = if is_solid { 0.0 } else { solid.distance_to_local_point(point, true) };
+            assert!(!is_covered || far_m <= 1.5 * voxel_m, "{name}, yaw {yaw_rad}: {at} is covered but {far_m} m away");
+        }
+    }
+}
+
+#[test]
+fn boxes_hold_every_solid_point_and_stay_near() {
+    let mut stream = Seed::of_item(3, "meshes", "cover").stream("points");
+    check_cover("L", &HOUSE, &HOUSE_CAP, &mut stream);
+    check_cover("rectangle", &[[0.0, 0.0], [16.0, 0.0], [16.0, 9.0], [0.0, 9.0]], &[[0, 1, 2], [0, 2, 3]], &mut stream);
+    let bent = [[0.0, 0.0], [12.0, 0.0], [20.0, 8.0], [19.8, 8.3], [11.9, 0.3], [0.0, 0.3]];
+    check_cover("bent wall", &bent, &[[0, 1, 5], [1, 4, 5], [1, 2, 4], [2, 3, 4]], &mut stream);
+}
+
+#[test]
+fn a_turned_block_is_one_exact_box() {
+    let (part, _) = turned(&[[0.0, 0.0], [16.0, 0.0], [16.0, 9.0], [0.0, 9.0]], &[[0, 1, 2], [0, 2, 3]], 7.0, 0.7);
+    let boxes = solid::boxes(&part, 0.5);
+    assert_eq!(boxes.len(), 1, "{boxes:?}");
+    let mut half = boxes[0].half_extents_m.to_array();
+    half.sort_by(f64::total_cmp);
+    assert!(half.iter().zip([3.5, 4.5, 8.0]).all(|(own, expected)| (own - expected).abs() < 0.02), "{half:?}");
+}
+
+#[test]
+fn files_that_lie_are_refused_or_read_without_what_is_missing() {
+    let options = MeshOptions::default();
+    for (from, to, expected) in [
+        ("f 1 2 3", "f 1 2 99999", "has corner 99999"),
+        ("f 1 2 3", "f 1 2 -9", "corner"),
+        ("f 1 2 3", "f 1 2", "three corners"),
+        ("v 40 0 40", "v 40 0", "three numbers"),
+    ] {
+        let text = String::from_utf8(obj(&scene())).unwrap();
+        assert!(text.contains(from));
+        let error = read::<Obj>(text.replacen(from, to, 1).as_bytes(), &options).unwrap_err();
+        assert!(error.message.contains(expected), "{error}");
+    }
+    let file = glb(&scene());
+    let patched = |from: &str, to: &str| {
+        assert_eq!(from.len(), to.len());
+        let at = file.windows(from.len()).position(|window| window == from.as_bytes()).unwrap();
+        [&file[..at], to.as_bytes(), &file[at + from.len()..]].concat()
+    };
+    let (_, warnings) = GlTf::read(&patched(r#""count":8,"#, r#""count":9,"#), &options).unwrap();
+    assert!(warnings.iter().any(|warning| warning.contains("left out")), "{warnings:?}");
+    assert!(read::<GlTf>(&file[..file.len() - 9], &options).is_err());
+}

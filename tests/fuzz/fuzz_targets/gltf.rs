@@ -1,0 +1,4 @@
+//! `gltf` for libFuzzer.
+#![no_main]
+
+libfuzzer_sys::fuzz_target!(|bytes: &[u8]| cosfly_fuzz::target("gltf")(bytes));
