@@ -226,10 +226,7 @@ impl Parts {
         let surfaces = self.ground.meshes.finish();
         let mut walkable = self.ground.walkable;
         if !walkable.iter().any(|polygon| polygon.kind != WalkableKind::Road) {
-            let count = add_open_ground(&mut walkable, &self.obstacles, &surfaces);
-            notes.push(format!(
-                "{count} plazas on the open ground around the buildings are invented: the file has no ground for people to walk on"
-            ));
+            notes.push(add_open_ground(&mut walkable, &self.obstacles, &surfaces));
         }
         if walkable.is_empty() {
             let error = MapError::new("the map has neither ground for people to walk on nor buildings to walk around");
