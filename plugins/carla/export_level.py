@@ -88,8 +88,9 @@ def piece(lane):
     if lane.lane_width < 0.2:
         return []
     here = lane.transform.location
-    behind = [it for it in lane.next(STEP_M + 0.05) if it.lane_type == lane.lane_type]
-    quads = []
+    quads, behind = [], []
+    for step in (STEP_M + 0.05, 0.95 * STEP_M, 0.5 * STEP_M, 0.2 * STEP_M):  # shorter ones before the end of a road without a next one
+        behind = behind or [it for it in lane.next(step) if it.lane_type == lane.lane_type]
     for other in behind:
         (a, b), (d, c) = edges(lane), edges(other)
         # Where the next lane runs the other way, its edges change sides.

@@ -55,6 +55,12 @@ def in_polygon(outline, x, y):
     return odd
 
 
+def is_on(outline, transform):
+    """Whether a place lies in a polygon; the first and last ones of a lane lie on its edge."""
+    at, ahead = transform.location, transform.get_forward_vector()
+    return any(in_polygon(outline, at.x + step * ahead.x, at.y + step * ahead.y) for step in (0.0, 0.2, -0.2))
+
+
 def check(inspect, path):
     stream = random.Random(7)
     names = [name for name in carla.CityObjectLabel.names if name not in ("NONE", "Any")]
@@ -81,7 +87,7 @@ def check(inspect, path):
     assert town["counts"].get("TreeTrunk", 0) == len(trees), (town["counts"], len(trees))
     walks = [it for it in town["walkable"] if it["kind"] == "Sidewalk"]
     lanes = list(all_sidewalks(town_map))
-    missed = [it for it in lanes if not any(in_polygon(w["outline_m"], it.x, it.y) for w in walks)]
+    missed = [it for it in lanes if not any(is_on(w["outline_m"], it) for w in walks)]
     crossings = sum(it["kind"] == "Crossing" for it in town["walkable"])
     print(f"{path.name}: {corners} corners in {len(town['boxes'])} boxes; {len(walks)} pieces of pavement, {crossings} crossings")
     assert len(missed) <= 0.02 * len(lanes), f"{len(missed)} of {len(lanes)} middles of sidewalk lanes lie beside them"
@@ -95,7 +101,7 @@ def all_sidewalks(town_map):
             while lane is not None and lane.lane_type != carla.LaneType.Sidewalk:
                 lane, steps = getattr(lane, step)() if steps < 16 else None, steps + 1
             if lane is not None and lane.lane_width > 0.5:
-                yield lane.transform.location
+                yield lane.transform
 
 
 def main():

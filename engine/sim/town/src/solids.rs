@@ -132,7 +132,7 @@ impl RoofPlan {
         };
         let yaw_rad = match roof {
             Roof::Gabled { ridge_yaw_rad: Some(yaw_rad), .. } if yaw_rad.is_finite() => yaw_rad,
-            _ => longer(&plan.angles_rad()),
+            _ => longer(plan.angles_rad()),
         };
         let has_wings = plan.area_m2() < WITHOUT_WINGS * size(yaw_rad).element_product();
         let rows = plan.rows(yaw_rad);
