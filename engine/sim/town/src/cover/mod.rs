@@ -165,9 +165,11 @@ impl Plan {
         Rows::of(rings.map(|(index, ring)| (self.turned(ring, yaw_rad), index >= self.outer_count)))
     }
 
-    /// Convex quads, corners in order, that tile the inside; a ring's sides must not cross. Thinned out like a cover.
+    /// Convex quads, corners in order, that tile the inside; a ring's sides must not cross. Thinned out like a cover;
+    /// none where the sides are too many.
     pub fn trapezoids(&self) -> Vec<[DVec2; 4]> {
-        let quads = self.rows(0.0).trapezoids();
+        let rows = self.rows(0.0);
+        let quads = if rows.are_too_many() { Vec::new() } else { rows.trapezoids() };
         quads.into_iter().map(|quad| quad.map(|corner| corner + self.middle)).collect()
     }
 
