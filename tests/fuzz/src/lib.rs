@@ -20,6 +20,7 @@ pub type Target = fn(&[u8]);
 pub const TARGETS: &[(&str, Target)] = &[
     ("arrow_answers", arrow_answers),
     ("boxes", map),
+    ("cityjson", map),
     ("frame_pack", frame_pack),
     ("gltf", map),
     ("image_log", image_log),

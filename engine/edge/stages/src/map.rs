@@ -177,9 +177,11 @@ fn refused_name(name: &str) -> ParameterError {
     refusal
 }
 
-/// The file's name without extension, other characters replaced.
+/// The file's name without extensions, other characters replaced.
 fn plain_stem(source: &std::path::Path) -> String {
     let stem = source.file_stem().map_or_else(String::new, |stem| stem.to_string_lossy().into_owned());
+    // `krems.osm.gz`, `delft.city.json`
+    let stem = [".osm", ".city"].iter().find_map(|kind| stem.strip_suffix(kind)).unwrap_or(&stem).to_owned();
     let plain: String =
         stem.chars().map(|letter| if is_plain(&format!("a{letter}")) { letter } else { '_' }).take(80).collect();
     let plain = plain.trim_start_matches(['.', '-']);

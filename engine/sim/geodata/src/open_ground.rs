@@ -19,6 +19,12 @@ const MOST_BEND_M: f64 = 0.15;
 /// Steepest plaza, rise over run.
 const STEEPEST: f64 = 0.35;
 
+/// Widest ground that becomes plazas, metres: walks of a few hundred metres need no more, and grids over it stay small.
+const WIDEST_M: f64 = 2000.0;
+/// Cells in which obstacles are counted to find their densest part, and how many of them make the widest ground.
+const COUNTED_M: f64 = 250.0;
+const COUNTED: usize = (WIDEST_M / COUNTED_M) as usize;
+
 #[derive(Clone, Copy, PartialEq)]
 enum Cell {
     Far,
@@ -34,14 +40,57 @@ struct Cells {
     cells: Vec<Cell>,
 }
 
-/// Adds plazas, synthetic, on the ground of `surfaces` near the obstacles. Gives their number.
+/// Adds plazas, synthetic, on the ground of `surfaces` near the obstacles, in their densest part where they lie far
+/// apart. Gives a note about them.
 pub(crate) fn add_open_ground(
     walkable: &mut Vec<WalkablePolygon>,
     obstacles: &[Obstacle],
     surfaces: &[SurfaceMesh],
-) -> usize {
+) -> String {
     let before = walkable.len();
-    let Some(mut cells) = Cells::around(obstacles) else { return 0 };
+    let (obstacles, is_part) = densest(obstacles);
+    fill(walkable, &obstacles, surfaces);
+    let part = if is_part { format!(", in the densest {WIDEST_M} m square of the map") } else { String::new() };
+    format!(
+        "{} plazas on the open ground around the buildings are invented{part}: the file has no ground for people to walk on",
+        walkable.len() - before
+    )
+}
+
+/// The obstacles in the square that holds most of them; whether some are left out.
+fn densest(obstacles: &[Obstacle]) -> (Vec<&Obstacle>, bool) {
+    let center = |obstacle: &Obstacle| obstacle.shape.center_in_world.truncate();
+    let low = obstacles.iter().map(center).fold(DVec2::INFINITY, DVec2::min);
+    let size = obstacles.iter().map(center).fold(DVec2::NEG_INFINITY, DVec2::max) - low;
+    if obstacles.is_empty() || size.max_element() <= WIDEST_M || !size.is_finite() {
+        return (obstacles.iter().collect(), false);
+    }
+    let [columns, rows] = size.to_array().map(|side_m| (side_m / COUNTED_M) as usize + 1);
+    let cell = |obstacle: &Obstacle| ((center(obstacle) - low) / COUNTED_M).as_usizevec2().to_array();
+    let mut counts = vec![0_usize; columns * rows];
+    for [column, row] in obstacles.iter().map(cell) {
+        counts[row * columns + column] += 1;
+    }
+    let within = |first: usize| {
+        let (column, row) = (first % columns, first / columns);
+        let rows = row..(row + COUNTED).min(rows);
+        rows.map(|row| {
+            counts[row * columns + column..row * columns + (column + COUNTED).min(columns)].iter().sum::<usize>()
+        })
+        .sum::<usize>()
+    };
+    // The first one of equals.
+    let best = (0..counts.len()).rev().max_by_key(|first| within(*first)).unwrap_or(0);
+    let (column, row) = (best % columns, best / columns);
+    let is_inside = |obstacle: &&Obstacle| {
+        let [x, y] = cell(obstacle);
+        (column..column + COUNTED).contains(&x) && (row..row + COUNTED).contains(&y)
+    };
+    (obstacles.iter().filter(is_inside).collect(), true)
+}
+
+fn fill(walkable: &mut Vec<WalkablePolygon>, obstacles: &[&Obstacle], surfaces: &[SurfaceMesh]) {
+    let Some(mut cells) = Cells::around(obstacles) else { return };
     for obstacle in obstacles {
         cells.mark(&obstacle.shape, REACH_M, Cell::Open, |old| old == Cell::Far);
     }
@@ -59,11 +108,10 @@ pub(crate) fn add_open_ground(
             walkable.extend(cells.plaza(first, &ground));
         }
     }
-    walkable.len() - before
 }
 
 impl Cells {
-    fn around(obstacles: &[Obstacle]) -> Option<Self> {
+    fn around(obstacles: &[&Obstacle]) -> Option<Self> {
         let (mut low, mut high) = (DVec2::INFINITY, DVec2::NEG_INFINITY);
         for obstacle in obstacles {
             let (a, b) = obstacle.shape.bounds_in_world();

@@ -22,7 +22,8 @@ Examples:
   cosfly carla-job out/Town01 --out job.json --trajectory expert-p00000 --trajectory perturbed-p00000
 
 The job holds poses, walks, weathers and cameras. The script then makes logs with the same topics, whose pictures are the
-server's; the map must be one that the server has."
+server's; the map must be one that the server has. Flights of a town from plugins/carla/export_level.py are clear of the
+server's own houses; a town from OpenDRIVE alone has none, or its own."
 )]
 pub struct Arguments {
     /// Folder of the dataset that `cosfly run` delivered

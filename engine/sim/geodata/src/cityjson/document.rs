@@ -103,9 +103,9 @@ pub(super) struct Surface {
 /// All documents of a file: one, or the head and the features of a sequence.
 pub(super) fn documents(bytes: &[u8]) -> Result<Vec<Document>, MapError> {
     let text = decoded(bytes)?;
-    let mut values = serde_json::Deserializer::from_str(&text).into_iter::<Document>();
+    let values = serde_json::Deserializer::from_str(&text).into_iter::<Document>();
     let mut documents = Vec::new();
-    while let Some(document) = values.next() {
+    for document in values {
         documents.push(document.map_err(|error| refused_json(&error, &text))?);
     }
     let head = documents.first().ok_or_else(|| MapError::new("the file is empty"))?;

@@ -4,6 +4,7 @@ use super::faces::{Face, plan_of};
 use cosfly_frames::DVec2;
 use cosfly_geometry::OrientedBox;
 use cosfly_town::cover::{COVER_TOLERANCE_M, LOOSE_TOLERANCE_M, MOST, Plan, TurnedRectangle};
+use std::collections::BTreeMap;
 
 /// How finely a solid becomes boxes.
 #[derive(Clone, Copy, Debug)]
@@ -17,7 +18,7 @@ pub(super) struct Steps {
 }
 
 /// Of buildings and their roofs.
-pub(super) const BUILDING: Steps = Steps { height_m: 1.0, most_of_foot: MOST, most_of_layer: 16 };
+pub(super) const BUILDING: Steps = Steps { height_m: 1.0, most_of_foot: MOST, most_of_layer: 48 };
 /// Heights of corners that are closer make one layer, metres.
 const CLOSE_M: f64 = 0.25;
 /// Most layers of one solid.
@@ -58,6 +59,19 @@ pub(super) fn layered(ground: &[Face], upper: &[Face], base_m: f64, steps: Steps
         }
     }
     layers.iter().flat_map(Layer::boxes).collect()
+}
+
+/// Faces by the squares of a grid that their middles lie in: long and bent things become boxes piece by piece, each
+/// along its own sides.
+pub(super) fn pieces(faces: &[Face], square_m: f64) -> Vec<Vec<Face>> {
+    let mut squares: BTreeMap<[i64; 2], Vec<Face>> = BTreeMap::new();
+    for face in faces {
+        let count = face.corners().count().max(1) as f64;
+        let middle = face.corners().map(|corner| corner.truncate()).sum::<DVec2>() / count;
+        let square = (middle / square_m).floor().to_array().map(|cell| cell as i64);
+        squares.entry(square).or_default().push(face.clone());
+    }
+    squares.into_values().collect()
 }
 
 struct Layer {
@@ -165,7 +179,7 @@ mod tests {
     #[test]
     fn monsters_and_slivers_are_bounded() {
         let spikes: Vec<Face> = (0..4000)
-            .map(|i| f64::from(i))
+            .map(f64::from)
             .map(|i| face(&[[i, 0.0, 0.01 * i], [i + 0.5, 0.0, i], [i, 1.0, 3.0 * i]]))
             .collect();
         assert!(layered(&[], &spikes, 0.0, BUILDING).len() <= 64 * 2 * MOST_LAYERS);

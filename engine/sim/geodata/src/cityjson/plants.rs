@@ -2,7 +2,7 @@
 
 use super::document::Attributes;
 use super::faces::Face;
-use super::layers::{Steps, layered};
+use super::layers::{Steps, layered, pieces};
 use super::shapes::{Shape, Space};
 use cosfly_frames::DVec3;
 use cosfly_geometry::OrientedBox;
@@ -10,7 +10,9 @@ use cosfly_town::ObstacleKind;
 use cosfly_town::crown::crown_boxes;
 
 /// Of stands of plants.
-const STAND: Steps = Steps { height_m: 3.0, most_of_foot: 12, most_of_layer: 6 };
+const STAND: Steps = Steps { height_m: 3.0, most_of_foot: 4, most_of_layer: 3 };
+/// Side of the squares in which they are cut, metres.
+const PIECE_M: f64 = 12.0;
 /// Faces of a stand this far above its lowest corner are ground, metres.
 pub(super) const GROUND_RISE_M: f64 = 1.0;
 /// Stands up to this height are bushes, metres; people walk under higher ones.
@@ -53,7 +55,7 @@ pub(super) fn tree(
 /// Boxes of the plants under faces that rise from the ground.
 pub(super) fn stand(faces: &[Face], base_m: f64) -> Vec<(ObstacleKind, OrientedBox)> {
     let upper: Vec<Face> = faces.iter().filter(|face| face.highest_m() > base_m + GROUND_RISE_M).cloned().collect();
-    let boxes = layered(&[], &upper, base_m, STAND).into_iter();
+    let boxes = pieces(&upper, PIECE_M).into_iter().flat_map(|piece| layered(&[], &piece, base_m, STAND));
     boxes.filter_map(|shape| of_height(shape, base_m)).collect()
 }
 

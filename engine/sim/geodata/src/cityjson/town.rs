@@ -3,7 +3,7 @@
 use super::document::{Attributes, CityObject, Document, documents};
 use super::faces::Face;
 use super::ground::Ground;
-use super::layers::{BUILDING, Steps, layered};
+use super::layers::{BUILDING, Steps, layered, pieces};
 use super::plants;
 use super::shapes::{Shape, Space};
 use super::words::{Part, ground_of_surface, is_indoors, part_of};
@@ -15,7 +15,9 @@ use std::collections::BTreeMap;
 /// Most boxes of one file.
 const MOST_OBSTACLES: usize = 500_000;
 /// Of walls, furniture and other things.
-const OTHER: Steps = Steps { height_m: 1.0, most_of_foot: 24, most_of_layer: 8 };
+const OTHER: Steps = Steps { height_m: 1.0, most_of_foot: 8, most_of_layer: 4 };
+/// Side of the squares in which these things are cut, metres.
+const PIECE_M: f64 = 8.0;
 /// Height of a storey where the file gives their number only, metres.
 const STOREY_M: f64 = 3.0;
 /// A shape lower than this has no height of its own, metres.
@@ -182,12 +184,11 @@ impl Parts {
     fn add_solid(&mut self, kind: ObstacleKind, shape: &Shape, object_id: u32) {
         let Some((low, high)) = shape.bounds().filter(|(low, high)| high.z - low.z >= FLAT_M) else { return };
         let upper: Vec<Face> = shape.faces.iter().filter(|face| !face.is_wall()).cloned().collect();
-        let mut boxes = layered(&[], &upper, low.z, OTHER);
-        if boxes.is_empty() {
-            let roof: Vec<Face> = shape.faces.iter().map(|face| raised(face, high.z)).collect();
-            boxes = layered(&[], &roof, low.z, OTHER);
+        let roof = || shape.faces.iter().map(|face| raised(face, high.z)).collect();
+        let upper: Vec<Face> = if upper.is_empty() { roof() } else { upper };
+        for piece in pieces(&upper, PIECE_M) {
+            self.push(kind, object_id, layered(&[], &piece, low.z, OTHER));
         }
-        self.push(kind, object_id, boxes);
     }
 
     fn add_tree(&mut self, object: &CityObject, shape: &Shape, object_id: u32) {
@@ -226,10 +227,7 @@ impl Parts {
         let surfaces = self.ground.meshes.finish();
         let mut walkable = self.ground.walkable;
         if !walkable.iter().any(|polygon| polygon.kind != WalkableKind::Road) {
-            let count = add_open_ground(&mut walkable, &self.obstacles, &surfaces);
-            notes.push(format!(
-                "{count} plazas on the open ground around the buildings are invented: the file has no ground for people to walk on"
-            ));
+            notes.push(add_open_ground(&mut walkable, &self.obstacles, &surfaces));
         }
         if walkable.is_empty() {
             let error = MapError::new("the map has neither ground for people to walk on nor buildings to walk around");

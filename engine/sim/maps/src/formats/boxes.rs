@@ -2,15 +2,18 @@
 //!
 //! Frame of the file: right-handed, x east, y north, z up, metres; yaw counter-clockwise from x, degrees.
 
+mod labels;
+
 use crate::format::MapFormat;
 use crate::mesh::MeshBuilder;
 use crate::polygons::triangulated;
 use crate::terrain;
 use crate::text::{decoded, refused_json};
 use crate::world::WorldFromMap;
-use crate::{MapError, Obstacle, ObstacleKind, SemanticLabel, Town, WalkableKind, WalkablePolygon};
-use cosfly_frames::{DVec2, DVec3};
+use crate::{MapError, Obstacle, ObstacleKind, SemanticLabel, Synthetic, Town, WalkableKind, WalkablePolygon};
+use cosfly_frames::{DVec2, DVec3, real};
 use cosfly_geometry::OrientedBox;
+use labels::{Label, Part, Tally};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
@@ -53,7 +56,10 @@ impl MapFormat for Boxes {
   "boxes": [
     { "kind": "building", "center_m": [20, 14, 5], "size_m": [16, 10, 10], "yaw_deg": 15 },
     { "kind": "tree_trunk", "center_m": [-20, 7, 1.5], "size_m": [0.3, 0.3, 3], "object": 1 },
-    { "kind": "tree_crown", "center_m": [-20, 7, 5], "size_m": [4, 4, 4], "object": 1 }
+    { "kind": "tree_crown", "center_m": [-20, 7, 5], "size_m": [4, 4, 4], "object": 1 },
+    { "label": "Buildings", "center_m": [-34, -20, 4], "size_m": [9, 6, 8], "yaw_deg": -30, "pitch_deg": 2, "roll_deg": 1 },
+    { "label": "Vegetation", "center_m": [30, -20, 4], "size_m": [5, 5, 8] },
+    { "label": "Roads", "center_m": [0, 40, 0], "size_m": [60, 7, 0.1] }
   ],
   "walkable": [
     { "kind": "sidewalk", "outline_m": [[-60, 0, 0.15], [60, 0, 0.15], [60, 3, 0.15], [-60, 3, 0.15]] },
@@ -72,7 +78,7 @@ impl MapFormat for Boxes {
         let text = decoded(bytes)?;
         let document: Document = serde_json::from_str(&text).map_err(|error| refused_json(&error, &text))?;
         document.check()?;
-        Ok((document.town(options)?, Vec::new()))
+        document.town(options)
     }
 }
 
@@ -94,12 +100,17 @@ struct FormatName;
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
 struct SolidBox {
-    #[serde(with = "KindName")]
-    kind: ObstacleKind,
+    kind: Option<Kind>,
+    /// The server's label, in place of a kind.
+    label: Option<Label>,
     center_m: [Coordinate; 3],
     size_m: [Size; 3],
     #[serde(default)]
     yaw_deg: Angle,
+    #[serde(default)]
+    pitch_deg: Angle,
+    #[serde(default)]
+    roll_deg: Angle,
     /// Boxes of one thing have the same number; a box without one is a thing of its own.
     object: Option<u32>,
 }
@@ -111,6 +122,9 @@ struct Ground {
     kind: WalkableKind,
     outline_m: Vec<[Coordinate; 3]>,
 }
+
+#[derive(Clone, Copy, Deserialize)]
+struct Kind(#[serde(with = "KindName")] ObstacleKind);
 
 #[derive(Deserialize)]
 #[serde(remote = "ObstacleKind", rename_all = "snake_case")]
@@ -229,9 +243,9 @@ impl Document {
         centers.chain(self.walkable.iter().flat_map(|ground| &ground.outline_m).map(vector))
     }
 
-    fn town(&self, options: &BoxesOptions) -> Result<Town, MapError> {
+    fn town(&self, options: &BoxesOptions) -> Result<(Town, Vec<String>), MapError> {
         let world = WorldFromMap::around(self.points().map(DVec3::truncate));
-        let obstacles = self.obstacles(&world);
+        let (obstacles, tally) = self.obstacles(&world)?;
         let mut meshes = MeshBuilder::default();
         let mut walkable = Vec::with_capacity(self.walkable.len());
         for (index, ground) in self.walkable.iter().enumerate() {
@@ -249,37 +263,70 @@ impl Document {
             walkable.push(polygon);
         }
         terrain::add_terrain(&mut meshes, &obstacles, options.terrain_margin_m)?;
-        Ok(Town {
+        let town = Town {
             name: "town".to_owned(),
             origin: world.origin(None),
             obstacles,
             walkable,
             surfaces: meshes.finish(),
+            synthetic: Synthetic { notes: tally.notes(), ..Synthetic::default() },
             ..Town::default()
-        })
+        };
+        Ok((town, tally.warnings()))
     }
 
-    fn obstacles(&self, world: &WorldFromMap) -> Vec<Obstacle> {
+    fn obstacles(&self, world: &WorldFromMap) -> Result<(Vec<Obstacle>, Tally), MapError> {
         let mut ids = BTreeMap::new();
         let mut count = 0;
         let mut next_id = || {
             count += 1;
             count
         };
+        let mut tally = Tally::default();
         let mut obstacles = Vec::with_capacity(self.boxes.len());
-        for one in &self.boxes {
+        for (index, one) in self.boxes.iter().enumerate() {
             let object_id = match one.object {
                 Some(object) => *ids.entry(object).or_insert_with(&mut next_id),
                 None => next_id(),
             };
+            let part = match (one.kind, one.label) {
+                (Some(Kind(kind)), None) => Part::Solid(kind),
+                (None, Some(label)) => label.part(),
+                _ => {
+                    let message = format!("`boxes[{index}]` must have either `kind` or `label`");
+                    return Err(MapError::new(message).hint("the book's chapter `Real towns` describes the format"));
+                }
+            };
             let shape = OrientedBox {
                 center_in_world: world.point(vector(&one.center_m)),
-                half_extents_m: 0.5 * DVec3::from_array(one.size_m.map(|side| side.0)),
+                half_extents_m: one.half_extents_m(),
                 yaw_rad: world.yaw_rad(one.yaw_deg.0.to_radians()),
             };
-            obstacles.push(Obstacle { shape, kind: one.kind, object_id, synthetic: false });
+            tally.note(part);
+            let boxes = part.boxes(shape, object_id);
+            obstacles.extend(boxes.into_iter().map(|(kind, shape)| Obstacle {
+                shape,
+                kind,
+                object_id,
+                synthetic: false,
+            }));
         }
-        obstacles
+        Ok((obstacles, tally))
+    }
+}
+
+impl SolidBox {
+    /// Half the size of the box that encloses this one when it is pitched and rolled, along the axes that its yaw turns.
+    fn half_extents_m(&self) -> DVec3 {
+        let half = 0.5 * DVec3::from_array(self.size_m.map(|side| side.0));
+        let [(sin_pitch, cos_pitch), (sin_roll, cos_roll)] =
+            [self.pitch_deg, self.roll_deg].map(|angle| real::sin_cos(angle.0.to_radians()));
+        // Rows of the pitch times the roll, without their signs.
+        DVec3::new(
+            half.dot(DVec3::new(cos_pitch, sin_pitch * sin_roll, sin_pitch * cos_roll).abs()),
+            half.dot(DVec3::new(0.0, cos_roll, sin_roll).abs()),
+            half.dot(DVec3::new(sin_pitch, cos_pitch * sin_roll, cos_pitch * cos_roll).abs()),
+        )
     }
 }
 

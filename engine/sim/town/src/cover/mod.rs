@@ -52,26 +52,24 @@ pub fn cover_rings(outer: &[&[DVec2]], holes: &[&[DVec2]]) -> Vec<TurnedRectangl
 impl Plan {
     /// The cover, with a tolerance of at most `tolerance_m` where few rectangles are enough, and at most `most` rectangles.
     pub fn cover(&self, tolerance_m: f64, most: usize) -> Vec<TurnedRectangle> {
-        let plan = self;
-        let smallest = plan.angles_rad.iter().map(|angle| plan.bounding(*angle));
-        let smallest = smallest.min_by(|a, b| area_m2(a).total_cmp(&area_m2(b)));
-        let tolerance_m = (TOLERANCE_SHARE * plan.area_m2().sqrt()).clamp(0.02, tolerance_m);
-        let rows: Vec<(f64, Rows)> = plan.angles_rad.iter().map(|angle| (*angle, plan.rows(*angle))).collect();
+        let rows: Vec<(f64, Rows)> = self.angles_rad.iter().map(|angle| (*angle, self.rows(*angle))).collect();
         if rows.iter().any(|(_, rows)| rows.are_too_many()) {
-            return plan.coarse_cover(most);
+            return self.coarse_cover(most);
         }
-        let mut allowed_m = tolerance_m;
-        loop {
+        let mut allowed_m = (TOLERANCE_SHARE * self.area_m2().sqrt()).clamp(0.02, tolerance_m);
+        while allowed_m < self.extent_m {
             let most = if allowed_m < 0.99 * LOOSE_TOLERANCE_M { FEW.min(most) } else { most };
             let covers =
-                rows.iter().map(|(angle, rows)| plan.rectangles(strips(rows.cut(allowed_m), allowed_m), *angle));
+                rows.iter().map(|(angle, rows)| self.rectangles(strips(rows.cut(allowed_m), allowed_m), *angle));
             let best = covers.min_by(|a, b| a.len().cmp(&b.len()).then(sum_m2(a).total_cmp(&sum_m2(b))));
-            match best {
-                Some(cover) if !cover.is_empty() && cover.len() <= most => return cover,
-                Some(cover) if !cover.is_empty() && allowed_m < plan.extent_m => allowed_m *= core::f64::consts::SQRT_2,
-                _ => return smallest.into_iter().collect(),
+            match best.filter(|cover| !cover.is_empty()) {
+                Some(cover) if cover.len() <= most => return cover,
+                Some(_) => allowed_m *= core::f64::consts::SQRT_2,
+                None => break,
             }
         }
+        let around = self.angles_rad.iter().map(|angle| self.bounding(*angle));
+        around.min_by(|a, b| area_m2(a).total_cmp(&area_m2(b))).into_iter().collect()
     }
 }
 
@@ -167,15 +165,18 @@ impl Plan {
         Rows::of(rings.map(|(index, ring)| (self.turned(ring, yaw_rad), index >= self.outer_count)))
     }
 
-    /// Convex quads, corners in order, that tile the inside; a ring's sides must not cross. Thinned out like a cover.
+    /// Convex quads, corners in order, that tile the inside; a ring's sides must not cross. Thinned out like a cover;
+    /// none where the sides are too many.
     pub fn trapezoids(&self) -> Vec<[DVec2; 4]> {
-        let quads = self.rows(0.0).trapezoids();
+        let rows = self.rows(0.0);
+        let quads = if rows.are_too_many() { Vec::new() } else { rows.trapezoids() };
         quads.into_iter().map(|quad| quad.map(|corner| corner + self.middle)).collect()
     }
 
     /// The smallest rectangle in this direction.
     pub(crate) fn bounding(&self, yaw_rad: f64) -> TurnedRectangle {
-        let (low, high) = self.rows(yaw_rad).bounds();
+        let corners = self.rings.iter().flat_map(|ring| self.turned(ring, yaw_rad));
+        let (low, high) = corners.fold((DVec2::INFINITY, DVec2::NEG_INFINITY), |(a, b), p| (a.min(p), b.max(p)));
         self.rectangle(low, high, yaw_rad)
     }
 

@@ -1,0 +1,173 @@
+//! CityJSON: every feature of a file reaches the town, and bad input is refused or left out and counted.
+
+use cosfly_frames::DVec3;
+use cosfly_geodata::cityjson::{CityJson, CityJsonOptions};
+use cosfly_town::{MapError, MapFormat, ObstacleKind, SemanticLabel, Town, WalkableKind};
+
+/// A house of two parts, a shed without a height of its own, a street, a square, relief, a hedge, a wall, a pond, a tree.
+const PLACE: &str = include_str!("../src/cityjson/every_feature.city.json");
+/// Two features in a sequence.
+const SEQUENCE: &str = include_str!("../../../../tests/fuzz/corpus/cityjson/sequence.city.jsonl");
+
+fn read(text: &str) -> Result<(Town, Vec<String>), MapError> {
+    let (mut town, warnings) = CityJson::read(text.as_bytes(), &CityJsonOptions::default())?;
+    town.update_bounds();
+    town.assert_well_formed().expect("a town that was read is well formed");
+    Ok((town, warnings))
+}
+
+/// The place with one piece of its text replaced.
+fn with(from: &str, to: &str) -> String {
+    assert!(PLACE.contains(from), "`{from}` is in the test file");
+    PLACE.replacen(from, to, 1)
+}
+
+/// Lowest and highest point of each thing of a kind, metres, in the order of the file's names.
+fn heights_m(town: &Town, kind: ObstacleKind) -> Vec<(f64, f64)> {
+    let mut ids: Vec<u32> = town.obstacles.iter().filter(|one| one.kind == kind).map(|one| one.object_id).collect();
+    ids.sort_unstable();
+    ids.dedup();
+    let of_thing = |id: u32| {
+        let boxes = town.obstacles.iter().filter(move |one| one.object_id == id && one.kind == kind);
+        let ends = boxes.map(|one| (one.shape.bounds_in_world().0.z, one.shape.bounds_in_world().1.z));
+        ends.reduce(|a, b| (a.0.min(b.0), a.1.max(b.1))).expect("a thing has boxes")
+    };
+    ids.into_iter().map(of_thing).collect()
+}
+
+fn is_solid(town: &Town, point: DVec3) -> bool {
+    town.obstacles.iter().any(|one| {
+        let away = point - one.shape.center_in_world;
+        let local = glam::DVec2::from_angle(-one.shape.yaw_rad).rotate(away.truncate()).extend(away.z);
+        local.abs().cmple(one.shape.half_extents_m).all()
+    })
+}
+
+#[test]
+fn a_file_with_every_feature_gives_every_part_of_a_town() {
+    let (town, warnings) = read(PLACE).unwrap();
+    assert_eq!(warnings, Vec::<String>::new());
+    assert_eq!(town.origin.offset_m, DVec3::new(85020.0, -447503.0, 0.0));
+    assert_eq!(town.origin.geo_reference.as_deref(), Some("https://www.opengis.net/def/crs/EPSG/0/7415"));
+    // The house with its parts is one thing up to 12 m; the shed is 3.5 m high by its attribute.
+    let buildings = heights_m(&town, ObstacleKind::Building);
+    assert_eq!(buildings.len(), 2);
+    for ((low_m, high_m), expected_m) in buildings.into_iter().zip([12.0, 4.5]) {
+        assert!((low_m - 1.0).abs() < 1e-9 && (high_m - expected_m).abs() < 1e-9, "{low_m} to {high_m}");
+    }
+    for kind in [ObstacleKind::TreeTrunk, ObstacleKind::TreeCrown, ObstacleKind::Bush, ObstacleKind::Wall] {
+        assert!(town.obstacles.iter().any(|one| one.kind == kind), "{kind:?}");
+    }
+    for kind in [WalkableKind::Sidewalk, WalkableKind::Crossing, WalkableKind::Plaza, WalkableKind::Road] {
+        assert!(town.walkable.iter().any(|polygon| polygon.kind == kind && !polygon.synthetic), "{kind:?}");
+    }
+    for label in [SemanticLabel::Roads, SemanticLabel::SideWalks, SemanticLabel::Terrain, SemanticLabel::Water] {
+        assert!(town.surfaces.iter().any(|mesh| mesh.label == label && !mesh.synthetic), "{label:?}");
+    }
+}
+
+#[test]
+fn gables_are_solid_below_the_ridge_and_courtyards_are_open() {
+    let (town, _) = read(PLACE).unwrap();
+    // Map coordinates from the file's corner: x east, y north, metres above the corner.
+    let is_solid = |x: f64, y: f64, z: f64| is_solid(&town, DVec3::new(x - 20.0, 3.0 - y, z + 1.0));
+    assert!(is_solid(6.0, 4.0, 8.9) && is_solid(6.0, 1.0, 6.7));
+    assert!(!is_solid(6.0, 0.6, 8.5) && !is_solid(6.0, 7.4, 8.5) && !is_solid(6.0, 4.0, 9.1));
+    assert!(is_solid(16.0, 8.0, 10.9) && is_solid(32.0, 8.0, 1.0) && !is_solid(24.0, 8.0, 1.0));
+}
+
+#[test]
+fn trees_are_templates_at_their_place_and_scale() {
+    let (town, _) = read(PLACE).unwrap();
+    let trunk = town.obstacles.iter().find(|one| one.kind == ObstacleKind::TreeTrunk).unwrap();
+    let (low, _) = trunk.shape.bounds_in_world();
+    assert!((trunk.shape.center_in_world.truncate() - glam::DVec2::new(30.0, -1.0)).length() < 0.2);
+    let top_m = heights_m(&town, ObstacleKind::TreeCrown)[0].1;
+    // The template is 4 m high, the instance twice that.
+    assert!((low.z - 1.0).abs() < 1e-9 && (top_m - 9.0).abs() < 1e-9, "{low} {top_m}");
+}
+
+#[test]
+fn feet_become_metres() {
+    let text = PLACE.replace("EPSG/0/7415", "EPSG/0/2263");
+    let (town, _) = read(&text).unwrap();
+    let heights = heights_m(&town, ObstacleKind::Building);
+    assert!((heights[0].1 - heights[0].0 - 11.0 * 1200.0 / 3937.0).abs() < 1e-6, "{heights:?}");
+    let degrees = with("EPSG/0/7415", "EPSG/0/4979")
+        .replace("[85000, 447500, 1]", "[8, 47, 1]")
+        .replace("0.01, 0.01, 0.01", "1e-6, 1e-6, 0.01");
+    assert!(read(&degrees).unwrap_err().message.contains("degrees"));
+}
+
+#[test]
+fn sequences_are_read_feature_by_feature() {
+    let (town, warnings) = read(SEQUENCE).unwrap();
+    assert_eq!(warnings, Vec::<String>::new());
+    assert_eq!(heights_m(&town, ObstacleKind::Building), [(0.0, 5.0), (0.0, 9.0)]);
+    assert!(town.walkable.iter().all(|polygon| polygon.kind == WalkableKind::Plaza && polygon.synthetic));
+    assert!(town.synthetic.notes.iter().any(|note| note.contains("plazas")), "{:?}", town.synthetic.notes);
+    assert!(town.synthetic.notes.iter().any(|note| note.contains("storeys")), "{:?}", town.synthetic.notes);
+    let lines: Vec<&str> = SEQUENCE.lines().collect();
+    let error = read(lines[1]).unwrap_err();
+    assert!(error.message.contains("must be `CityJSON`"), "{error}");
+}
+
+#[test]
+fn what_is_broken_is_left_out_and_counted_with_its_name() {
+    for (text, expected) in [
+        (with("[[4, 5, 9, 8]]", "[[4, 5, 9, 8000]]"), "1 faces with fewer than three corners"),
+        (with("[[4, 5, 9, 8]]", "[[4, 5]]"), "the first one of `wing`"),
+        (with("\"measuredHeight\": 3.5", "\"measuredHeight\": \"tall\""), "1 flat buildings without"),
+        (with("\"type\": \"WaterBody\"", "\"type\": \"+Duckpond\""), "1 objects of kinds that are not read"),
+        (with("\"template\": 0", "\"template\": 7"), "1 faces"),
+    ] {
+        let (_, warnings) = read(&text).unwrap();
+        assert!(warnings.iter().any(|warning| warning.contains(expected)), "{expected}: {warnings:?}");
+    }
+}
+
+#[test]
+fn wrong_files_say_what_is_wrong() {
+    for (text, expected) in [
+        (with("\"2.0\"", "\"0.9\""), "versions 1.0 to 2.0 are read"),
+        (with("[[0, 1, 2, 3]]", "[[0, 1, -2, 3]]"), "the index of a vertex"),
+        (with("[0.01, 0.01, 0.01]", "[1e7, 1e7, 1]"), "m across; at most 100000 m are read"),
+        (PLACE[..PLACE.len() / 2].to_owned(), "EOF"),
+        ("{\"type\": \"CityJSON\", \"version\": \"2.0\", \"CityObjects\": {}, \"vertices\": []}".into(), "no vertices"),
+        (
+            "{\"type\": \"CityJSON\", \"version\": \"2.0\", \"CityObjects\": {}, \"vertices\": [[0, 0, 0]]}".into(),
+            "neither",
+        ),
+    ] {
+        let error = read(&text).unwrap_err();
+        assert!(error.message.contains(expected), "{expected}: {error}");
+    }
+    let deep = with("[[[0, 1, 2, 3]]]", &("[".repeat(5000) + &"]".repeat(5000)));
+    assert!(read(&deep).is_err());
+}
+
+#[test]
+fn circles_of_parents_and_rings_that_cross_themselves_are_read() {
+    let (town, _) = read(&with("\"children\": [\"wing\", \"hall\"]", "\"parents\": [\"wing\"]")).unwrap();
+    assert!(!town.obstacles.is_empty());
+    let (town, _) = read(&with("[[26, 27, 28, 29]]", "[[26, 28, 27, 29]]")).unwrap();
+    assert_eq!(heights_m(&town, ObstacleKind::Building).len(), 2);
+}
+
+#[test]
+fn a_ring_of_a_million_corners_takes_bounded_time() {
+    let count = 1_000_000;
+    let corner = |i: i32| format!("[{},{},0]", 3000 + (i * 7) % 1000, i % 3001);
+    let corners: Vec<String> = (0..count).map(corner).collect();
+    let ring: Vec<String> = (0..count).map(|i| i.to_string()).collect();
+    let text = format!(
+        "{{\"type\": \"CityJSON\", \"version\": \"1.1\", \"transform\": {{\"scale\": [0.01, 0.01, 0.01], \"translate\": [0, 0, 0]}}, \
+         \"CityObjects\": {{\"a\": {{\"type\": \"Building\", \"attributes\": {{\"measuredHeight\": 9}}, \"geometry\": \
+         [{{\"type\": \"MultiSurface\", \"lod\": 0, \"boundaries\": [[[{}]]]}}]}}}}, \"vertices\": [{}]}}",
+        ring.join(","),
+        corners.join(",")
+    );
+    let (town, _) = read(&text).unwrap();
+    let count = town.obstacles.len();
+    assert!((1..=64).contains(&count), "{count} boxes");
+}
