@@ -79,7 +79,7 @@ fn pitched_and_rolled_boxes_are_enclosed() {
             reach = reach.max(DVec3::new(pitched.x, rolled.x, pitched.y).abs());
         }
         assert!((shape.half_extents_m - reach).abs().max_element() < 1e-9, "{:?} {reach}", shape.half_extents_m);
-        assert!((shape.yaw_rad + yaw).sin().abs() < 1e-9);
+        assert!(cosfly_frames::real::sin(shape.yaw_rad + yaw).abs() < 1e-9);
     }
 }
 

@@ -50,7 +50,7 @@ fn houses_of_a_given_place_replace_those_of_the_streets() {
     let origin = town.origin.offset_m;
     let expected = DVec3::new(86.0, -70.0, 105.0) - origin;
     assert!(houses[0].shape.center_in_world.distance(expected) < 1e-9, "{:?}", houses[0].shape);
-    assert!(houses[0].shape.yaw_rad.cos().abs() < 1e-9);
+    assert!(cosfly_frames::real::cos(houses[0].shape.yaw_rad).abs() < 1e-9);
     // Other things stay, those of the second file are not taken, and ids are of one thing each.
     let others = |town: &Town| town.obstacles.iter().filter(|it| it.kind == ObstacleKind::Lamp).count();
     assert_eq!(others(&town), others(&alone));

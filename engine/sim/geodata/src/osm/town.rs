@@ -46,11 +46,12 @@ pub fn town(elements: &Elements, options: &OsmOptions) -> Result<(Town, Vec<Stri
     notes.push("everything stands on one level: the file has no heights of the ground; bridges lie on it, tunnels are left out".to_owned());
     terrain::add_terrain(&mut meshes, &obstacles, terrain::USUAL_MARGIN_M)?;
     let surfaces = meshes.finish();
-    if paths.walkable.is_empty() && add_open_ground(&mut paths.walkable, &obstacles, &surfaces) == 0 {
-        paths.walkable.push(whole_extract(&frame));
+    if paths.walkable.is_empty() {
+        notes.push(add_open_ground(&mut paths.walkable, &obstacles, &surfaces));
     }
-    if paths.walkable.iter().all(|area| area.synthetic && area.kind == WalkableKind::Plaza) {
-        notes.push("the ground between the houses, for people: the file has neither paths nor streets".to_owned());
+    if paths.walkable.is_empty() {
+        notes.push("the whole ground is for people: the file has neither paths nor streets".to_owned());
+        paths.walkable.push(whole_extract(&frame));
     }
     let town = Town {
         name: "town".to_owned(),
