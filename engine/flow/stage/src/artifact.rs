@@ -1,15 +1,12 @@
 //! Finished items as stages read them: named blobs with checked digests.
 
-use crate::{ItemId, ItemName};
+use crate::{Blobs, ItemId, ItemName};
 use cosfly_blobs::BlobRef;
 use cosfly_diagnose::{Diagnostic, Fault, Result};
 use std::any::{Any, TypeId};
 use std::collections::BTreeMap;
 use std::fs::File;
 use std::sync::Arc;
-
-/// Blobs of one item by name.
-pub type Blobs = BTreeMap<String, BlobRef>;
 
 /// A finished item at a port.
 #[derive(Clone, Debug, PartialEq, Eq)]

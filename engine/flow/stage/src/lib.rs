@@ -7,13 +7,15 @@
 //! * [`RunEvent`]: the events of a run.
 
 mod artifact;
+mod blobs;
 mod event;
 mod kind;
 mod name;
 mod properties;
 mod stage;
 
-pub use artifact::{Artifact, BlobSource, Blobs, Decoded, Inputs, Ports};
+pub use artifact::{Artifact, BlobSource, Decoded, Inputs, Ports};
+pub use blobs::Blobs;
 pub use event::{RunEvent, Work};
 pub use kind::{Registry, StageKind, StagePart};
 pub use name::{ItemId, ItemName, StageName};

@@ -20,8 +20,8 @@ pub struct ActionRecord {
 
 impl ActionRecord {
     /// Creates a record.
-    pub fn new(outputs: Blobs, produced: Produced) -> Self {
-        Self { outputs: Arc::new(outputs), produced, schema: SCHEMA.to_owned() }
+    pub fn new(outputs: impl Into<Blobs>, produced: Produced) -> Self {
+        Self { outputs: Arc::new(outputs.into()), produced, schema: SCHEMA.to_owned() }
     }
 
     /// Total number of bytes of all blobs.

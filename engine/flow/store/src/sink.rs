@@ -9,7 +9,7 @@ use crate::store::{Store, create_file, with_folder_of};
 use cosfly_blobs::{BlobRef, OutputSink, SeekWrite};
 use cosfly_diagnose::{Diagnostic, Fault, Result};
 use cosfly_fingerprint::{Digest, canonical_json};
-use cosfly_stage::{BlobSource, Produced};
+use cosfly_stage::{BlobSource, Blobs, Produced};
 use std::collections::BTreeMap;
 use std::fs;
 use std::io::{self, BufWriter, Write};
@@ -35,7 +35,7 @@ impl<'s> TaskSink<'s> {
     /// Moves the blobs into the store and records them as the outcome of `action`. An earlier outcome with other bytes
     /// is kept while it is intact.
     pub fn settle(mut self, action: &Digest, produced: Produced) -> Result<Settled> {
-        let outputs = self.outputs.iter().map(|(name, (blob, _))| (name.clone(), *blob)).collect();
+        let outputs: Blobs = self.outputs.iter().map(|(name, (blob, _))| (name.clone(), *blob)).collect();
         let record = ActionRecord::new(outputs, produced);
         let earlier = self.store.action(action).filter(|earlier| self.store.holds(earlier));
         if let Some(earlier) = earlier.filter(|earlier| *earlier != record)

@@ -40,8 +40,8 @@ use = "toy_town"
 use = "toy_walks"
 count = 1
 [stages.perturbed]
-use = "toy_walks"
-count = 1
+use = "toy_twins"
+inputs.walks = "expert"
 [stages.frames]
 use = "toy_films"
 inputs = { town = "town", walks = ["expert", "perturbed"] }
@@ -63,11 +63,7 @@ impl Bench<'_> {
     fn run(&self, walks: u64, title: &str) -> Result<(Duration, Delivery), Refusals> {
         reset_peak();
         let began = Instant::now();
-        let sets = [
-            format!("stages.expert.count={walks}"),
-            format!("stages.perturbed.count={walks}"),
-            format!("stages.dataset.title=\"{title}\""),
-        ];
+        let sets = [format!("stages.expert.count={walks}"), format!("stages.dataset.title=\"{title}\"")];
         let recipe = cosfly_recipe::load(&self.root.join("flights.toml"), &sets, &self.registry)?;
         let store = Store::open(&self.root.join("store")).map_err(one)?;
         let options = RunOptions { jobs: self.jobs, ..RunOptions::default() };

@@ -20,6 +20,7 @@ const WALK: &str = "toy_walk/1";
 enum Makes {
     Town,
     Walks,
+    Twins,
     Films,
 }
 
@@ -43,7 +44,12 @@ struct ToyStage {
 pub fn registry() -> Result<Registry> {
     let samples = Arc::new(ManyFlights::new(usize::MAX)?);
     let toy = |name, makes| -> Box<dyn StageKind> { Box::new(Toy { name, makes, samples: Arc::clone(&samples) }) };
-    let toys = vec![toy("toy_town", Makes::Town), toy("toy_walks", Makes::Walks), toy("toy_films", Makes::Films)];
+    let toys = vec![
+        toy("toy_town", Makes::Town),
+        toy("toy_walks", Makes::Walks),
+        toy("toy_twins", Makes::Twins),
+        toy("toy_films", Makes::Films),
+    ];
     Ok(cosfly_stages::registry_with(toys))
 }
 
@@ -86,6 +92,7 @@ impl StageKind for Toy {
             Makes::Films => {
                 vec![port("town", "town/1", Fan::Broadcast, Takes::One), port("walks", WALK, Fan::Each, Takes::Named)]
             }
+            Makes::Twins => vec![port("walks", WALK, Fan::Each, Takes::One)],
             Makes::Town | Makes::Walks => vec![],
         }
     }
@@ -95,6 +102,7 @@ impl StageKind for Toy {
         let (artifact, items) = match self.makes {
             Makes::Town => ("town/1", ItemRule::One),
             Makes::Walks => (WALK, ItemRule::Count { prefix: "p", count }),
+            Makes::Twins => (WALK, ItemRule::PerInput("walks")),
             Makes::Films => ("frames/1", ItemRule::PerInput("walks")),
         };
         let properties = StageProperties {
@@ -122,7 +130,7 @@ impl Stage for ToyStage {
     fn run(&self, inputs: &Inputs<'_>, outputs: &mut dyn OutputSink, context: &TaskContext) -> Result<Produced> {
         match self.makes {
             Makes::Town => outputs.put(TOWN_BLOB, &codec::encode("town/1", &cosfly_sample::town())?)?,
-            Makes::Walks => outputs.put("walk", context.id.item.to_string().as_bytes())?,
+            Makes::Walks | Makes::Twins => outputs.put("walk", context.id.item.to_string().as_bytes())?,
             Makes::Films => self.film(inputs, outputs, context)?,
         }
         Ok(Produced::default())

@@ -183,7 +183,8 @@ impl Parts {
 
     fn add_solid(&mut self, kind: ObstacleKind, shape: &Shape, object_id: u32) {
         let Some((low, high)) = shape.bounds().filter(|(low, high)| high.z - low.z >= FLAT_M) else { return };
-        let upper: Vec<Face> = shape.faces.iter().filter(|face| !face.is_wall()).cloned().collect();
+        let is_upper = |face: &&Face| !face.is_wall() && face.highest_m() > low.z + FLAT_M;
+        let upper: Vec<Face> = shape.faces.iter().filter(is_upper).cloned().collect();
         let roof = || shape.faces.iter().map(|face| raised(face, high.z)).collect();
         let upper: Vec<Face> = if upper.is_empty() { roof() } else { upper };
         for piece in pieces(&upper, PIECE_M) {

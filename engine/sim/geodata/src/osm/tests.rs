@@ -203,7 +203,7 @@ fn a_file_without_paths_gets_pavements_and_one_without_streets_open_ground() {
     let (town, _) = read(osm(&SQUARE, &house).as_bytes()).unwrap();
     assert!(!town.walkable.is_empty());
     assert!(town.walkable.iter().all(|area| area.synthetic && area.kind == WalkableKind::Plaza));
-    assert!(town.synthetic.notes.iter().any(|note| note.contains("between the houses")));
+    assert!(town.synthetic.notes.iter().any(|note| note.contains("open ground around the buildings")));
 }
 
 #[test]
