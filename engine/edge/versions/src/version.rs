@@ -1,8 +1,8 @@
 //! Manifest of a version of a dataset: hashes of all files, the exact recipe, the tool, and the origin of each flight.
 
 use crate::task_name::TaskName;
-use cosfly_blobs::BlobRef;
 use cosfly_fingerprint::Digest;
+use cosfly_stage::Blobs;
 use serde::{Deserialize, Serialize};
 use serde_json::Value;
 use std::collections::BTreeMap;
@@ -32,7 +32,7 @@ pub struct Version {
     /// BLAKE3 over path, hash and size of all files.
     pub content: Digest,
     /// All files of the dataset by their paths.
-    pub files: BTreeMap<String, BlobRef>,
+    pub files: Blobs,
     /// Definitions by stage: kind, version, all parameters with their defaults, digests of files.
     pub definitions: BTreeMap<String, Value>,
     /// All tasks behind the flights.
