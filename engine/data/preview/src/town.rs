@@ -8,6 +8,8 @@ use cosfly_plot::canvas::{Canvas, Colour, INK, Point, text_width};
 const SIDE: f64 = 1400.0;
 /// Most pixels per metre.
 const DENSEST: f64 = 8.0;
+/// Land around everything that stands or is walked on, metres.
+const MARGIN_M: f64 = 20.0;
 const HEADER: usize = 34;
 const LEGEND: usize = 34;
 const EMPTY: Colour = [244, 243, 240];
@@ -16,7 +18,13 @@ const EMPTY: Colour = [244, 243, 240];
 pub fn town_plan(town: &Town, title: &str) -> Canvas {
     let view = View::of(town);
     let mut canvas = Canvas::new(view.size[0].max(700), view.size[1] + HEADER + LEGEND, EMPTY);
-    let mut surfaces: Vec<&SurfaceMesh> = town.surfaces.iter().collect();
+    // Land fills the picture: seams between its many triangles would show.
+    let is_land = |mesh: &SurfaceMesh| layer(mesh.label) == 0;
+    if town.surfaces.iter().any(is_land) {
+        let size = [canvas.width as i64, view.size[1] as i64];
+        canvas.fill([0, HEADER as i64], size, ground_colour(SemanticLabel::Terrain), 1.0);
+    }
+    let mut surfaces: Vec<&SurfaceMesh> = town.surfaces.iter().filter(|mesh| !is_land(mesh)).collect();
     surfaces.sort_by_key(|mesh| layer(mesh.label));
     for mesh in surfaces {
         draw_mesh(&view, &mut canvas, mesh);
@@ -47,7 +55,14 @@ struct View {
 
 impl View {
     fn of(town: &Town) -> Self {
-        let (low, high): (DVec3, DVec3) = (town.min_in_world, town.max_in_world);
+        let solid = town.obstacles.iter().map(|obstacle| obstacle.shape.bounds_in_world());
+        let walked =
+            town.walkable.iter().flat_map(|polygon| &polygon.outline_in_world).map(|corner| (*corner, *corner));
+        let around = solid.chain(walked).reduce(|a, b| (a.0.min(b.0), a.1.max(b.1)));
+        let bounds: (DVec3, DVec3) = (town.min_in_world, town.max_in_world);
+        let (low, high) = around.map_or(bounds, |(low, high)| {
+            (bounds.0.max(low - DVec3::splat(MARGIN_M)), bounds.1.min(high + DVec3::splat(MARGIN_M)))
+        });
         let extent = (high - low).truncate().max(DVec2::splat(1.0));
         let scale = (SIDE / extent.max_element()).min(DENSEST);
         let size = (extent * scale).ceil().max(DVec2::ONE);

@@ -239,7 +239,7 @@ mod tests {
     use super::*;
     use crate::version::{Flight, RecipeText, SCHEMA, Task};
     use cosfly_fingerprint::Digest;
-    use cosfly_stage::StageName;
+    use cosfly_stage::{Blobs, StageName};
     use serde_json::json;
 
     fn version(name: &str, walkers: u32, weight: f64) -> Version {
@@ -264,7 +264,7 @@ mod tests {
             recipe: RecipeText { path: "r.toml".into(), text: String::new(), overrides: vec![], settings },
             sources: BTreeMap::new(),
             content: key(format!("{walkers} {weight}")),
-            files: BTreeMap::new(),
+            files: Blobs::default(),
             definitions: BTreeMap::from([
                 ("expert".to_owned(), definition("muco", json!({"weights": {"visibility": weight}}))),
                 ("dataset".to_owned(), definition("dataset", json!({"splits": {"seed": 0}}))),

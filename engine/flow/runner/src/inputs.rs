@@ -55,7 +55,7 @@ fn artifact(recipe: &Recipe, results: &Results, sees: Sees, reader: &ItemName, a
 pub(crate) fn seen_by(reader: &ItemName, sees: Sees, outputs: Arc<Blobs>) -> Arc<Blobs> {
     let seen: Blobs = match sees {
         Sees::All => return outputs,
-        Sees::Only(names) => names.iter().filter_map(|name| Some(((*name).to_owned(), *outputs.get(*name)?))).collect(),
+        Sees::Only(names) => names.iter().filter_map(|name| Some(((*name).to_owned(), *outputs.get(name)?))).collect(),
         Sees::Own => {
             let name = reader.to_string();
             outputs.get(&name).map(|blob| (name, *blob)).into_iter().collect()

@@ -62,7 +62,7 @@ impl<'r> Intermediates<'r> {
     /// Intermediate blobs of a result of `stage`.
     fn blobs_of(&self, stage: usize, record: &ActionRecord) -> Vec<BlobRef> {
         let names = self.recipe.stages[stage].stage.properties().intermediate;
-        names.iter().filter_map(|name| record.outputs.get(*name).copied()).collect()
+        names.iter().filter_map(|name| record.outputs.get(name).copied()).collect()
     }
 
     /// Notes that a task is finished for good, with `record`; gives the blobs that nothing needs any more.

@@ -233,7 +233,7 @@ impl Store {
 fn first_difference(kept: &ActionRecord, other: &ActionRecord) -> String {
     let names = kept.outputs.keys().chain(other.outputs.keys());
     names
-        .filter(|name| kept.outputs.get(*name) != other.outputs.get(*name))
+        .filter(|name| kept.outputs.get(name) != other.outputs.get(name))
         .min()
         .map_or_else(|| "a note or a warning".to_owned(), |name| format!("output `{name}`"))
 }
