@@ -7,7 +7,7 @@ use cosfly_town::{MapError, MapFormat, ObstacleKind, SemanticLabel, Town, Walkab
 /// A house of two parts, a shed without a height of its own, a street, a square, relief, a hedge, a wall, a pond, a tree.
 const PLACE: &str = include_str!("../src/cityjson/every_feature.city.json");
 /// Two features in a sequence.
-const SEQUENCE: &str = include_str!("../../../../tests/fuzz/corpus/cityjson/sequence.city.jsonl");
+const SEQUENCE: &str = include_str!("sequence.city.jsonl");
 
 fn read(text: &str) -> Result<(Town, Vec<String>), MapError> {
     let (mut town, warnings) = CityJson::read(text.as_bytes(), &CityJsonOptions::default())?;
