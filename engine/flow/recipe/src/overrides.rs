@@ -73,32 +73,40 @@ fn place_value(root: &mut Table, assignment: Assignment, texts: &Texts, problems
         problems.push(problem.hint("name one of its parameters: `--set stages.STAGE.PARAMETER=VALUE`"));
         return;
     }
-    let mut table = root;
-    let (last, parents) = path.split_last().expect("splitting a text gives at least one piece");
-    let mut walked = vec![];
-    for (index, (key, place)) in parents.iter().enumerate() {
-        walked.push(key.as_str());
-        let entry = table.entry(key.clone()).or_insert_with(|| Entry {
-            key: place.clone(),
-            node: Node { place: place.clone(), value: Value::Table(Table::new()) },
-        });
-        if let Value::Array(items) = &mut entry.node.value
-            && index + 1 == parents.len()
-            && let Some(item) = last.0.parse().ok().and_then(|position: usize| items.get_mut(position))
-        {
-            *item = node;
-            return;
-        }
-        let words = entry.node.type_words();
-        let Value::Table(next) = &mut entry.node.value else {
-            let next = parents.get(index + 1).unwrap_or(last);
-            let message = format!("`{}` is {words}; it has no `{}`", walked.join("."), next.0);
-            problems.push(texts.problem("override-syntax", &next.1, message));
-            return;
-        };
-        table = next;
+    let ((first, first_place), rest) = path.split_first().expect("splitting a text gives at least one piece");
+    if rest.is_empty() {
+        root.insert(first.clone(), Entry { key: first_place.clone(), node });
+        return;
     }
-    table.insert(last.0.clone(), Entry { key: last.1.clone(), node });
+    let mut here = &mut root.entry(first.clone()).or_insert_with(|| empty_table(first_place)).node;
+    for (index, (key, place)) in rest.iter().enumerate() {
+        let words = here.type_words();
+        let is_last = index + 1 == rest.len();
+        // Elements of lists are named by their numbers.
+        let position = match &here.value {
+            Value::Array(items) => key.parse().ok().filter(|position: &usize| *position < items.len()),
+            _ => None,
+        };
+        here = match (&mut here.value, position) {
+            (Value::Table(table), _) if is_last => {
+                table.insert(key.clone(), Entry { key: place.clone(), node });
+                return;
+            }
+            (Value::Table(table), _) => &mut table.entry(key.clone()).or_insert_with(|| empty_table(place)).node,
+            (Value::Array(items), Some(position)) => &mut items[position],
+            _ => {
+                let walked: Vec<&str> = path[..=index].iter().map(|(key, _)| key.as_str()).collect();
+                let message = format!("`{}` is {words}; it has no `{key}`", walked.join("."));
+                problems.push(texts.problem("override-syntax", place, message));
+                return;
+            }
+        };
+    }
+    *here = node;
+}
+
+fn empty_table(place: &Place) -> Entry {
+    Entry { key: place.clone(), node: Node { place: place.clone(), value: Value::Table(Table::new()) } }
 }
 
 fn no_such_stage(stage: &str, place: &Place, stages: &Table, texts: &Texts) -> Box<cosfly_diagnose::Diagnostic> {

@@ -157,6 +157,16 @@ fn overrides_reach_the_stage_as_it_is_written() {
 }
 
 #[test]
+fn overrides_reach_a_field_of_one_value_of_a_list() {
+    let recipe = read(TOWNS, &["for_each.town.1.walks=5", "for_each.pace.0=0.75"]);
+    let count = |name: &str| recipe.stages[recipe.position(name).unwrap()].items.len();
+    assert_eq!((count("people_a"), count("people_b")), (2, 5));
+    assert!(recipe.position("fast_a_0_75").is_some());
+    let text = complaint(TOWNS, &["for_each.town.2.walks=5"]);
+    assert!(text.starts_with("error[override-syntax]: `for_each.town` is a list; it has no `2`"), "{text}");
+}
+
+#[test]
 fn a_mistake_in_a_stage_of_a_list_is_told_once() {
     let text = complaint(
         &TOWNS.replace("use = \"expert\"\nfor_each = \"town\"", "use = \"expret\"\nfor_each = \"town\""),
