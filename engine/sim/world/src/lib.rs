@@ -1,0 +1,17 @@
+//! Who is where at time t: people and vehicles as bodies with tracks.
+//!
+//! [`Traffic`] holds all tracks of one town; planner, renderer, captions and tables read it. A [`Population`] is a group of
+//! bodies that move by one rule (a crowd, vehicles on lanes, recorded tracks); [`simulate`] steps several of them together:
+//! all see the same [`Snapshot`] of the moment before, so results depend neither on their order nor on threads.
+
+mod body;
+mod contacts;
+mod population;
+mod snapshot;
+mod traffic;
+
+pub use body::{Body, BodyKind, BodyPlan};
+pub use contacts::{Contact, contacts};
+pub use population::{Clock, Population, simulate};
+pub use snapshot::{Present, Snapshot};
+pub use traffic::Traffic;
