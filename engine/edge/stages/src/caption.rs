@@ -2,7 +2,7 @@
 
 use crate::ports::{self, CAPTIONS, TRAJECTORY};
 use crate::walks::walk_seed;
-use crate::{codec, parameters, single};
+use crate::{codec, parameters, single, traffic};
 use cosfly_blobs::OutputSink;
 use cosfly_captions::{Caption as Text, CaptionConfig, Wear, captions, check, facts};
 use cosfly_diagnose::{Diagnostic, Fault, ParameterError, Result};
@@ -74,7 +74,11 @@ impl Stage for CaptionStage {
             outputs.put("captions", &captions_to_bytes(&[]))?;
             return Ok(Produced::default());
         }
-        let outfit = Clothes::draw(&walk_seed(&trajectory.track)?).outfit;
+        let looks = match traffic::followed(inputs, inputs.one("trajectories")?)? {
+            Some(followed) => followed.plan.looks,
+            None => walk_seed(&trajectory.track)?,
+        };
+        let outfit = Clothes::draw(&looks).outfit;
         let facts = facts(&trajectory).wearing(self.config.clothes.then(|| Wear::from(&outfit)));
         let texts: Vec<Text> = captions(&facts, &self.config, Seed(context.seed));
         let mut records = Vec::with_capacity(texts.len());

@@ -4,7 +4,7 @@ use crate::expert::Expert;
 use crate::plugins::Plugins;
 use crate::ports::{self, TRAJECTORY, WALK};
 use crate::world::{check_same_town, link_town, world};
-use crate::{codec, companions};
+use crate::{codec, companions, traffic};
 use cosfly_blobs::OutputSink;
 use cosfly_diagnose::{ParameterError, Result};
 use cosfly_frames::{Seed, TargetTrack};
@@ -13,6 +13,7 @@ use cosfly_objectives::config::DT_S;
 use cosfly_pedestrians::PedestrianPath;
 use cosfly_planner::PlanOutcome;
 use cosfly_stage::{InputPort, Inputs, ItemRule, Produced, Stage, StageKind, StagePart, StageProperties, TaskContext};
+use cosfly_world::Around;
 
 /// Stage kind `muco`.
 pub struct Muco;
@@ -81,9 +82,12 @@ impl Stage for MucoStage {
 
     fn run(&self, inputs: &Inputs<'_>, outputs: &mut dyn OutputSink, context: &TaskContext) -> Result<Produced> {
         let world = world(inputs)?;
+        let mut around = Around::default();
         let (walk, companions) = if self.expert.objective.objective == Objective::Track {
             check_same_town(inputs, "paths")?;
-            let walk: PedestrianPath = codec::decode(WALK, &inputs.read(inputs.one("paths")?, "walk")?)?;
+            let artifact = inputs.one("paths")?;
+            let walk: PedestrianPath = codec::decode(WALK, &inputs.read(artifact, "walk")?)?;
+            around = traffic::cut_around(inputs, artifact, &walk.track)?;
             (Some(walk.track), companions::read(inputs)?)
         } else {
             (None, vec![])
@@ -108,6 +112,9 @@ impl Stage for MucoStage {
         };
         outputs.put("trajectory", &codec::encode(TRAJECTORY, &outcome)?)?;
         link_town(inputs, outputs)?;
+        if let Some(walk) = inputs.all("paths").first() {
+            traffic::put_around(walk, &around, outputs)?;
+        }
         let mut produced = produced(&outcome);
         produced.notes.extend(findings.0);
         produced.warnings.extend(findings.1);

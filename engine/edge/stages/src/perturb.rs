@@ -3,7 +3,7 @@
 use crate::muco::produced;
 use crate::ports::{self, TRAJECTORY};
 use crate::world::{check_same_town, link_town, world};
-use crate::{codec, parameters, single};
+use crate::{codec, parameters, single, traffic};
 use cosfly_blobs::OutputSink;
 use cosfly_diagnose::{ParameterError, Result};
 use cosfly_frames::Seed;
@@ -76,6 +76,7 @@ impl Stage for PerturbStage {
         };
         outputs.put("trajectory", &codec::encode(TRAJECTORY, &twin)?)?;
         link_town(inputs, outputs)?;
+        traffic::link_moving(artifact, outputs)?;
         Ok(produced(&twin))
     }
 }

@@ -9,7 +9,7 @@ use crate::rejections::reject;
 use crate::shooting::{Shooting, preset};
 use crate::walks::walked_m;
 use crate::world::{TOWN_BLOB, World, check_same_town, link_town, world};
-use crate::{backends, codec, nearby, parameters};
+use crate::{backends, codec, nearby, parameters, traffic};
 use cosfly_blobs::OutputSink;
 use cosfly_diagnose::{ParameterError, Result};
 use cosfly_frames::{Pose, Seed};
@@ -128,7 +128,8 @@ impl Stage for RenderStage {
         // Buildings look the same in every flight through the town.
         let scene =
             self.scene.get(town_digest, || -> Result<_> { Ok(Scene::new(&world.town, Seed(town_digest.0))) })?;
-        let shooting = Shooting::of(&self.config, &trajectory, &context.id.item)?;
+        let target = traffic::followed(inputs, artifact)?;
+        let shooting = Shooting::of(&self.config, &trajectory, target.as_ref(), &context.id.item)?;
         let preset = preset(&self.config, &context.id.item);
         let crowd = Crowd::around(inputs)?;
         let place = Place { scene: &scene, world: &world, crowd: &crowd };

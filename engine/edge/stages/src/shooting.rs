@@ -1,5 +1,6 @@
 //! Settings that all frames of a flight share: camera, mount and weather.
 
+use crate::traffic::Followed;
 use crate::walks::walk_seed;
 use cosfly_diagnose::Result;
 use cosfly_frames::{Pose, Seed};
@@ -20,16 +21,22 @@ pub struct Shooting {
 }
 
 impl Shooting {
-    /// Settings of the item `item`, which films `trajectory`. Twins follow the same walk: same clothes, same weather, same
+    /// Settings of the item `item`, which films `trajectory` behind a walker or behind a body of traffic. Twins follow the same walk: same clothes, same weather, same
     /// camera.
-    pub fn of(config: &RenderConfig, trajectory: &Trajectory, item: &ItemName) -> Result<Self> {
+    pub fn of(
+        config: &RenderConfig,
+        trajectory: &Trajectory,
+        followed: Option<&Followed>,
+        item: &ItemName,
+    ) -> Result<Self> {
         let walk_seed = walk_seed(&trajectory.track)?;
         let weather = match preset(config, item) {
             Some(preset) => config.weather_called(preset, &walk_seed),
             None => config.draw_weather(&walk_seed),
         };
         let (camera, mount) = (config.draw_camera(&walk_seed), config.draw_mount(&walk_seed));
-        let clothes_seed = clothes_seed_of_target(&walk_seed, config.target_stands_out);
+        let looks = followed.map_or(walk_seed, |followed| followed.plan.looks);
+        let clothes_seed = clothes_seed_of_target(&looks, config.target_stands_out);
         Ok(Self { camera, mount, weather, clothes_seed })
     }
 

@@ -4,12 +4,14 @@
 //! bodies that move by one rule (a crowd, vehicles on lanes, recorded tracks); [`simulate`] steps several of them together:
 //! all see the same [`Snapshot`] of the moment before, so results depend neither on their order nor on threads.
 
+mod around;
 mod body;
 mod contacts;
 mod population;
 mod snapshot;
 mod traffic;
 
+pub use around::Around;
 pub use body::{Body, BodyKind, BodyPlan};
 pub use contacts::{Contact, contacts};
 pub use population::{Clock, Population, simulate};
