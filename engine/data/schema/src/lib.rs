@@ -14,6 +14,7 @@ pub mod extras;
 pub mod flight_labels;
 pub mod flight_table;
 pub mod log;
+pub mod losses;
 pub mod record;
 mod reference;
 mod split;

@@ -6,6 +6,7 @@ use cosfly_diagnose::Result;
 use cosfly_render::{Bystander, PersonView};
 use cosfly_schema::{OtherPerson, Sighting};
 use cosfly_stage::Inputs;
+use cosfly_world::{BodyKind, Traffic};
 
 /// Other people around one flight, by instance id.
 #[derive(Default)]
@@ -22,15 +23,16 @@ impl Crowd {
             let person = Person::on(&walk)?;
             let (height_m, radius_m) = person.size_m();
             let outfit = person.outfit();
-            Ok((OtherPerson { instance, walk_id, height_m, radius_m, outfit }, person))
+            let kind = BodyKind::Pedestrian;
+            Ok((OtherPerson { instance, walk_id, kind, height_m, radius_m, outfit }, person))
         };
         let mut members: Vec<_> = nearby::people(inputs, artifact)?.into_iter().map(read).collect::<Result<_>>()?;
         for NearbyBodies { instances, around } in nearby::bodies(inputs, artifact)? {
             for (instance, (number, body)) in instances.into_iter().zip(around.bodies()) {
                 let person = Person::of(body, around.traffic.dt_s);
                 let ((height_m, radius_m), outfit) = (person.size_m(), person.outfit());
-                let walk_id = nearby::body_id(&around.traffic.name, number);
-                members.push((OtherPerson { instance, walk_id, height_m, radius_m, outfit }, person));
+                let (walk_id, kind) = (Traffic::body_id(&around.traffic.name, number), body.plan.kind);
+                members.push((OtherPerson { instance, walk_id, kind, height_m, radius_m, outfit }, person));
             }
         }
         members.sort_by_key(|(other, _)| other.instance);

@@ -4,7 +4,7 @@
 use crate::memo::Memo;
 use crate::ports::{self, NEARBY, TRAJECTORY, WALK};
 use crate::shooting::Shooting;
-use crate::traffic::{BODIES, Followed, followed, traffic_of};
+use crate::traffic::{BODIES, followed, traffic_of};
 use crate::walks::Person;
 use crate::world::{TOWN_BLOB, World, check_same_town, world};
 use crate::{body_rays, codec};
@@ -19,7 +19,7 @@ use cosfly_render::{Buildings, Camera, Outlook, RenderConfig};
 use cosfly_stage::{
     Artifact, InputPort, Inputs, ItemRule, PortSource, Produced, Stage, StagePart, StageProperties, TaskContext,
 };
-use cosfly_world::{Around, Traffic};
+use cosfly_world::{Around, Followed, Traffic};
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 use std::sync::Arc;
@@ -92,11 +92,6 @@ pub fn bodies(inputs: &Inputs<'_>, artifact: &Artifact) -> Result<Vec<NearbyBodi
         return Ok(vec![]);
     }
     codec::decode(NEARBY, &inputs.read(artifact, BODIES)?)
-}
-
-/// Name of a body in tables, such as `street-b00012`.
-pub fn body_id(traffic: &str, number: u32) -> String {
-    format!("{traffic}-b{number:05}")
 }
 
 /// Name of the blob of an item that holds the walk of a person.

@@ -26,6 +26,7 @@ use cosfly_schema::{EncodingConfig, PairInfo, Rejection, RenderedTrajectory, Rol
 use cosfly_stage::{
     InputPort, Inputs, ItemName, ItemRule, Produced, Stage, StageKind, StagePart, StageProperties, TaskContext,
 };
+use cosfly_world::Around;
 use cosfly_write::frame_pack::{FramePackWriter, PackHeader};
 use std::collections::{BTreeMap, BTreeSet};
 use std::sync::{Mutex, PoisonError};
@@ -68,7 +69,7 @@ impl StageKind for Render {
         let nearby = nearby::part(&config, canonical(&config, parameters::canonical(&config)), items.clone());
         let properties = StageProperties {
             kind: self.name().into(),
-            version: 6,
+            version: 7,
             parameters: canonical(&config, parameters::joined_canonical(&config, &encoding, "encoding")),
             sources: vec![],
             inputs: vec![ports::town(), nearby::trajectories(), nearby::port()],
@@ -160,6 +161,8 @@ impl Stage for RenderStage {
             views: seen.views,
             visible_by_dense_rays: seen.by_dense_rays,
             outfit: has_body.then(|| Clothes::draw(&shooting.clothes_seed).outfit),
+            around: Around::clone(&*traffic::around(inputs, artifact)?),
+            followed: target,
             others: crowd.into_people(),
             sightings: seen.sightings,
             pair,

@@ -1,12 +1,12 @@
 //! Settings that all frames of a flight share: camera, mount and weather.
 
-use crate::traffic::Followed;
 use crate::walks::walk_seed;
 use cosfly_diagnose::Result;
 use cosfly_frames::{Pose, Seed};
 use cosfly_planner::Trajectory;
 use cosfly_render::{Camera, Mount, RenderConfig, Weather, clothes_seed_of_target};
 use cosfly_stage::ItemName;
+use cosfly_world::Followed;
 
 /// Settings of one flight.
 pub struct Shooting {

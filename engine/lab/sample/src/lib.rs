@@ -22,6 +22,7 @@ use cosfly_render::{
 use cosfly_schema::{
     CaptionRecord, EncodingConfig, OtherPerson, PairInfo, Rejection, RenderedTrajectory, Role, Sighting, TownInfo,
 };
+use cosfly_world::{Around, BodyKind};
 use cosfly_write::frame_pack::{FramePackWriter, PackHeader};
 
 /// Number of frames of every flight.
@@ -176,9 +177,12 @@ pub fn flight(pedestrian: usize, role: Role) -> SampleFlight {
         seed: 0x0123_4567_89ab_cdef,
         visible_by_dense_rays: views.iter().map(|view| view.in_view.then_some(view.visible_by_pixels)).collect(),
         views,
+        followed: None,
+        around: Around::default(),
         others: vec![OtherPerson {
             instance: COMPANION,
             walk_id: "crowd-p00000".into(),
+            kind: BodyKind::Pedestrian,
             height_m: HEIGHT_M,
             radius_m: RADIUS_M,
             outfit: outfit(9),

@@ -44,6 +44,14 @@ pub struct Outfit {
     pub backpack: bool,
 }
 
+impl Outfit {
+    /// Whether two people are dressed alike in words: colours of top and trousers, a backpack or none.
+    pub fn is_like(&self, other: &Self) -> bool {
+        let words = |it: &Self| (it.top.name, it.trousers.name, it.backpack);
+        words(self) == words(other)
+    }
+}
+
 /// Colour of a piece of clothing.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Dye {

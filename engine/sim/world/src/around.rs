@@ -1,9 +1,18 @@
 //! [`Around`]: the bodies near one track, cut out of the traffic of a whole town.
 
-use crate::body::Body;
+use crate::body::{Body, BodyPlan};
 use crate::traffic::Traffic;
 use cosfly_frames::TargetTrack;
 use serde::{Deserialize, Serialize};
+
+/// The body that a walk is the track of.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Followed {
+    /// Number of the body in the traffic.
+    pub number: u32,
+    /// Kind, size and looks.
+    pub plan: BodyPlan,
+}
 
 /// The bodies near one track, with their numbers in the whole traffic.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
@@ -39,7 +48,7 @@ impl Around {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::{BodyKind, BodyPlan};
+    use crate::BodyKind;
     use cosfly_frames::{DVec3, Seed, TargetState};
 
     #[test]

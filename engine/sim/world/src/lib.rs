@@ -11,7 +11,7 @@ mod population;
 mod snapshot;
 mod traffic;
 
-pub use around::Around;
+pub use around::{Around, Followed};
 pub use body::{Body, BodyKind, BodyPlan};
 pub use contacts::{Contact, contacts};
 pub use population::{Clock, Population, simulate};

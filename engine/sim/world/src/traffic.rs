@@ -25,6 +25,11 @@ pub struct Traffic {
 }
 
 impl Traffic {
+    /// Name of a body among those of all traffics of a dataset, such as `street-b00012`.
+    pub fn body_id(traffic: &str, number: u32) -> String {
+        format!("{traffic}-b{number:05}")
+    }
+
     /// Bodies present in a frame.
     pub fn snapshot(&self, frame: u32) -> Snapshot {
         let present = |(number, body): (usize, &Body)| {

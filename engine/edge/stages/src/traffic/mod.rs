@@ -14,8 +14,7 @@ use cosfly_pedestrians::PedestrianPath;
 use cosfly_stage::{
     Artifact, Fan, InputPort, Inputs, ItemRule, Produced, Stage, StageKind, StagePart, StageProperties, TaskContext,
 };
-use cosfly_world::{Around, Body, BodyPlan, Traffic, simulate};
-use serde::{Deserialize, Serialize};
+use cosfly_world::{Around, Body, Followed, Traffic, simulate};
 use std::sync::Arc;
 
 /// Blob of a walk that was taken out of traffic, with the whole [`Traffic`]; and the part that makes it.
@@ -27,15 +26,6 @@ pub const FOLLOWED: &str = "followed";
 const AROUND_BLOB: &str = "around";
 /// Bodies that come within this distance of the followed one, seen from above, are around it, metres.
 const AROUND_M: f64 = 60.0;
-
-/// The body that a walk is the track of.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-pub struct Followed {
-    /// Number of the body in the traffic.
-    pub number: u32,
-    /// Kind, size and looks.
-    pub plan: BodyPlan,
-}
 
 /// Stage kind `traffic`.
 pub struct TrafficKind;
