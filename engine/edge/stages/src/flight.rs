@@ -8,7 +8,7 @@ use cosfly_maps::ObstacleKind;
 use cosfly_objectives::inspect::{self, Inspection};
 use cosfly_objectives::patrol::{self, MET_M, Patrol};
 use cosfly_objectives::{Mission, Objective, ObjectiveConfig, Site, reference, track};
-use cosfly_planner::aim::{AimConfig, aimed};
+use cosfly_pilot::aim::{AimConfig, aimed};
 use cosfly_planner::certificate::view_rates_deg_s;
 use cosfly_planner::obstacles::exact::ExactMap;
 use cosfly_planner::{MucoConfig, PlanOutcome, StartState, TermCost, Trajectory, plan_request};

@@ -7,8 +7,8 @@ use crate::{codec, parameters, single};
 use cosfly_blobs::OutputSink;
 use cosfly_diagnose::{ParameterError, Result};
 use cosfly_frames::Seed;
+use cosfly_pilot::perturb::{PerturbConfig, perturb};
 use cosfly_planner::PlanOutcome;
-use cosfly_planner::perturb::{PerturbConfig, perturb};
 use cosfly_stage::{InputPort, Inputs, ItemRule, Produced, Stage, StageKind, StagePart, StageProperties, TaskContext};
 
 /// Stage kind `perturb`.

@@ -4,15 +4,15 @@
 use super::config::PerturbConfig;
 use super::displacement::{Corridor, free_offset, horizontal_offset};
 use super::flyable;
-use super::kind::Kind;
-use crate::certificate::{certify, view_rates_deg_s};
-use crate::config::limits::LimitsConfig;
-use crate::config::muco::MucoConfig;
-use crate::obstacles::exact::ExactMap;
-use crate::trajectory::{FramePerturbation, Perturbation, PlanOutcome, Trajectory};
-use crate::visibility::aim_point;
 use cosfly_frames::{DVec3, Pose, real};
 use cosfly_geometry::SpatialQuery;
+use cosfly_planner::certificate::{certify, view_rates_deg_s};
+use cosfly_planner::config::limits::LimitsConfig;
+use cosfly_planner::config::muco::MucoConfig;
+use cosfly_planner::obstacles::exact::ExactMap;
+use cosfly_planner::trajectory::Kind;
+use cosfly_planner::trajectory::{FramePerturbation, Perturbation, PlanOutcome, Trajectory};
+use cosfly_planner::visibility::aim_point;
 use cosfly_random::{RandomStream, Seed};
 
 /// Steepest pitch of a turned view, radians (89.9 degrees): at 90 a pose has no unique yaw.

@@ -1,13 +1,14 @@
 //! Twins: their shares of events, their bounds, their clearance, and what they depend on.
 
 use super::config::{FlyableConfig, PerturbConfig};
-use super::kind::{Kind, Mixture};
+use super::mixture::Mixture;
 use super::twin::{measured, perturb};
-use crate::config::muco::MucoConfig;
-use crate::trajectory::{Certificate, FramePerturbation, Perturbation, PlanOutcome, Trajectory};
-use crate::visibility::aim_point;
 use cosfly_frames::{DVec3, Pose, TargetState, TargetTrack, real};
 use cosfly_geometry::{BoxBvh, OrientedBox, SpatialQuery};
+use cosfly_planner::config::muco::MucoConfig;
+use cosfly_planner::trajectory::Kind;
+use cosfly_planner::trajectory::{Certificate, FramePerturbation, Perturbation, PlanOutcome, Trajectory};
+use cosfly_planner::visibility::aim_point;
 use cosfly_random::Seed;
 
 /// An expert 20 m behind and 20 m above a target that walks along x at 1 m/s.

@@ -2,14 +2,14 @@
 //! hold, and views that turn no faster than stated.
 
 use super::config::{FlyableConfig, PerturbConfig};
-use super::kind::Kind;
 use super::{motion, search};
 use crate::aim::{AimConfig, aimed, reached};
-use crate::certificate::Kinematics;
-use crate::trajectory::{FramePerturbation, Trajectory};
-use crate::visibility::aim_point;
 use cosfly_frames::{DVec3, Pose, real};
 use cosfly_geometry::SpatialQuery;
+use cosfly_planner::certificate::Kinematics;
+use cosfly_planner::trajectory::Kind;
+use cosfly_planner::trajectory::{FramePerturbation, Trajectory};
+use cosfly_planner::visibility::aim_point;
 use cosfly_random::Seed;
 
 /// Kept beyond the asked clearance, so that rounding cannot take it away again, metres.
