@@ -1,17 +1,17 @@
 //! Expert of a `muco` stage: its parameters and its flights. For the stage itself, and for tools that ask the same expert
 //! again from another state.
 
-pub use crate::flight::{Companion, Flight};
+pub use crate::flight::{Bodies, Companion, Flight};
 
 use crate::parameters;
 use crate::plugins::config::ExpertPlugins;
 use crate::plugins::{Plugins, Role, source};
 use crate::world::World;
 use cosfly_diagnose::ParameterError;
-use cosfly_frames::{Seed, TargetTrack};
+use cosfly_frames::Seed;
 use cosfly_objectives::{Objective, ObjectiveConfig};
+use cosfly_pilot::aim::AimConfig;
 use cosfly_planner::MucoConfig;
-use cosfly_planner::aim::AimConfig;
 use cosfly_planner::config::Planner;
 use cosfly_planner::weights::Preset;
 use cosfly_stage::Source;
@@ -137,19 +137,18 @@ impl Expert {
         all
     }
 
-    /// Flight behind `walk` and its companions, or one that the objective draws from `seed`, as [`Flight::of`].
+    /// Flight behind a walk and its companions, or one that the objective draws from `seed`, as [`Flight::of`].
     ///
     /// # Errors
     /// Failures of a plugin.
     pub fn flight(
         &self,
         world: &Arc<World>,
-        walk: Option<TargetTrack>,
-        companions: Vec<Companion>,
+        bodies: Bodies,
         seed: Seed,
         plugins: Plugins,
     ) -> cosfly_diagnose::Result<Result<Flight, String>> {
-        let flight = Flight::of((&self.config, &self.objective), world, walk, companions, seed, plugins)?;
+        let flight = Flight::of((&self.config, &self.objective), world, bodies, seed, plugins)?;
         Ok(flight.map(|flight| flight.aiming(&self.aim)))
     }
 }

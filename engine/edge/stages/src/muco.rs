@@ -1,6 +1,6 @@
 //! `muco`: expert trajectories from the multi-constraint optimiser.
 
-use crate::expert::Expert;
+use crate::expert::{Bodies, Expert};
 use crate::plugins::Plugins;
 use crate::ports::{self, TRAJECTORY, WALK};
 use crate::world::{check_same_town, link_town, world};
@@ -83,18 +83,19 @@ impl Stage for MucoStage {
     fn run(&self, inputs: &Inputs<'_>, outputs: &mut dyn OutputSink, context: &TaskContext) -> Result<Produced> {
         let world = world(inputs)?;
         let mut around = Around::default();
-        let (walk, companions) = if self.expert.objective.objective == Objective::Track {
+        let bodies = if self.expert.objective.objective == Objective::Track {
             check_same_town(inputs, "paths")?;
             let artifact = inputs.one("paths")?;
             let walk: PedestrianPath = codec::decode(WALK, &inputs.read(artifact, "walk")?)?;
             around = traffic::cut_around(inputs, artifact, &walk.track)?;
-            (Some(walk.track), companions::read(inputs)?)
+            let (companions, movers) = (companions::read(inputs)?, around.boxes());
+            Bodies { walk: Some(walk.track), companions, movers }
         } else {
-            (None, vec![])
+            Bodies::default()
         };
         let plugins = Plugins::of_expert(&self.expert.plugins, &context.sources)?;
         let plugins = plugins.for_item(context.id.to_string());
-        let flight = self.expert.flight(&world, walk, companions, Seed(context.seed), plugins)?;
+        let flight = self.expert.flight(&world, bodies, Seed(context.seed), plugins)?;
         let (outcome, findings) = match flight {
             Ok(flight) => {
                 let (outcome, said) = flight.plan(&world)?;

@@ -11,7 +11,7 @@ use cosfly_frames::{DVec3, Pose, Seed, TargetState, TargetTrack, real};
 use cosfly_geometry::OrientedBox;
 use cosfly_maps::{MapOrigin, Obstacle, ObstacleKind, SemanticLabel, SimplificationReport, Synthetic, Town};
 use cosfly_planner::certificate::view_rates_deg_s;
-use cosfly_planner::perturb::Kind;
+use cosfly_planner::trajectory::Kind;
 use cosfly_planner::{Certificate, FramePerturbation, Limits, Perturbation, TermCost, Trajectory};
 use cosfly_render::channels::{ALL, SeenPoint};
 use cosfly_render::frame::TARGET_INSTANCE;

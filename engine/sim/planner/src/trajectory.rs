@@ -1,6 +1,5 @@
 //! A finished flight: camera poses frame by frame, what it cost, and what was verified about it.
 
-use crate::perturb::kind::Kind;
 use cosfly_frames::{DVec3, Pose, TargetTrack};
 use serde::{Deserialize, Serialize};
 
@@ -121,6 +120,46 @@ pub struct Certificate {
     pub occlusion_ordered_s: f64,
     /// Time for which the target was lost where that was ordered, seconds.
     pub occlusion_reached_s: f64,
+}
+
+/// Kind of departure from an expert.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Kind {
+    /// Independent displacements and turns, frame by frame (the paper's).
+    Jumps,
+    /// A correlated drift of the drone, which the kinds below have, too.
+    Drift,
+    /// Gusts that push the drone aside, from which it recovers.
+    Gusts,
+    /// The expert's way flown early or late.
+    Timing,
+    /// A coarse and late aim.
+    Aim,
+    /// Losses of the target, and the search for it.
+    Search,
+}
+
+impl Kind {
+    /// All kinds, in the order of mixtures.
+    pub const ALL: [Self; 6] = [Self::Jumps, Self::Drift, Self::Gusts, Self::Timing, Self::Aim, Self::Search];
+
+    /// The name in recipes and tables.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Jumps => "jumps",
+            Self::Drift => "drift",
+            Self::Gusts => "gusts",
+            Self::Timing => "timing",
+            Self::Aim => "aim",
+            Self::Search => "search",
+        }
+    }
+
+    /// Whether a drone could fly it: speed, acceleration and rates of turning are bounded.
+    pub fn is_flyable(self) -> bool {
+        self != Self::Jumps
+    }
 }
 
 /// Departure of a perturbed trajectory from its expert (paper, dual-trajectory augmentation).

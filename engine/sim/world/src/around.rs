@@ -3,6 +3,7 @@
 use crate::body::{Body, BodyPlan};
 use crate::traffic::Traffic;
 use cosfly_frames::TargetTrack;
+use cosfly_geometry::OrientedBox;
 use serde::{Deserialize, Serialize};
 
 /// The body that a walk is the track of.
@@ -35,6 +36,11 @@ impl Around {
     /// Numbers and bodies.
     pub fn bodies(&self) -> impl Iterator<Item = (u32, &Body)> {
         self.numbers.iter().copied().zip(&self.traffic.bodies)
+    }
+
+    /// Box of each body in every frame, as [`Traffic::boxes`].
+    pub fn boxes(&self) -> Vec<Vec<OrientedBox>> {
+        (0..).zip(&self.traffic.bodies).map(|(place, _)| self.traffic.boxes(place)).collect()
     }
 
     /// Present bodies, frame by frame: frame number and place in [`Self::bodies`].

@@ -23,7 +23,7 @@ pub const BODIES: &str = "bodies";
 pub const FOLLOWED: &str = "followed";
 
 /// Blob of a flight through traffic with the [`Around`] of its target.
-const AROUND_BLOB: &str = "around";
+pub const AROUND_BLOB: &str = "around";
 /// Bodies that come within this distance of the followed one, seen from above, are around it, metres.
 const AROUND_M: f64 = 60.0;
 

@@ -1,48 +1,9 @@
-//! Kinds of perturbation, and the mixture that each flight draws one from.
+//! The mixture of kinds of perturbation that each flight draws one from.
 
+use cosfly_planner::trajectory::Kind;
 use cosfly_random::Seed;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
-
-/// Kind of departure from an expert.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
-#[serde(rename_all = "snake_case")]
-pub enum Kind {
-    /// Independent displacements and turns, frame by frame (the paper's).
-    Jumps,
-    /// A correlated drift of the drone, which the kinds below have, too.
-    Drift,
-    /// Gusts that push the drone aside, from which it recovers.
-    Gusts,
-    /// The expert's way flown early or late.
-    Timing,
-    /// A coarse and late aim.
-    Aim,
-    /// Losses of the target, and the search for it.
-    Search,
-}
-
-impl Kind {
-    /// All kinds, in the order of [`Mixture`].
-    pub const ALL: [Self; 6] = [Self::Jumps, Self::Drift, Self::Gusts, Self::Timing, Self::Aim, Self::Search];
-
-    /// The name in recipes and tables.
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::Jumps => "jumps",
-            Self::Drift => "drift",
-            Self::Gusts => "gusts",
-            Self::Timing => "timing",
-            Self::Aim => "aim",
-            Self::Search => "search",
-        }
-    }
-
-    /// Whether a drone could fly it: speed, acceleration and rates of turning are bounded.
-    pub fn is_flyable(self) -> bool {
-        self != Self::Jumps
-    }
-}
 
 /// Shares of the kinds of perturbation among the flights: each flight draws one kind. The shares are relative to their sum.
 /// All kinds but `jumps` drift away from the expert's way and back, and do what they are named after besides.

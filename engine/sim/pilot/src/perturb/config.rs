@@ -1,6 +1,7 @@
 //! Parameters of the `perturb` stage, their defaults and ranges.
 
-use super::kind::Mixture;
+use super::mixture::Mixture;
+use cosfly_planner::trajectory::Kind;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
@@ -168,7 +169,7 @@ impl PerturbConfig {
             ("clearance_m", self.clearance_m, 0.05, 10.0),
             ("min_height_m", self.min_height_m, 0.5, 100.0),
         ];
-        let kinds = super::kind::Kind::ALL.map(|kind| kind.name()).into_iter().zip(self.mixture.shares());
+        let kinds = Kind::ALL.map(|kind| kind.name()).into_iter().zip(self.mixture.shares());
         let shares: Vec<(String, f64)> = kinds.map(|(name, share)| (format!("mixture.{name}"), share)).collect();
         let shares = shares.iter().map(|(path, share)| (path.as_str(), *share, 0.0, 1000.0));
         for (path, value, low, high) in own.into_iter().chain(self.flyable.ranges()).chain(shares) {

@@ -1,13 +1,15 @@
 //! Twins: their shares of events, their bounds, their clearance, and what they depend on.
 
 use super::config::{FlyableConfig, PerturbConfig};
-use super::kind::{Kind, Mixture};
+use super::mixture::Mixture;
 use super::twin::{measured, perturb};
-use crate::config::muco::MucoConfig;
-use crate::trajectory::{Certificate, FramePerturbation, Perturbation, PlanOutcome, Trajectory};
-use crate::visibility::aim_point;
 use cosfly_frames::{DVec3, Pose, TargetState, TargetTrack, real};
 use cosfly_geometry::{BoxBvh, OrientedBox, SpatialQuery};
+use cosfly_planner::config::muco::MucoConfig;
+use cosfly_planner::obstacles::exact::ExactMap;
+use cosfly_planner::trajectory::Kind;
+use cosfly_planner::trajectory::{Certificate, FramePerturbation, Perturbation, PlanOutcome, Trajectory};
+use cosfly_planner::visibility::aim_point;
 use cosfly_random::Seed;
 
 /// An expert 20 m behind and 20 m above a target that walks along x at 1 m/s.
@@ -55,7 +57,8 @@ fn expert(count: usize) -> Trajectory {
         },
         perturbation: None,
     };
-    blank = measured(&blank, poses_in_world, no_twin, &BoxBvh::build(vec![]), &PerturbConfig::default());
+    blank =
+        measured(&blank, poses_in_world, no_twin, ExactMap::still(&BoxBvh::build(vec![])), &PerturbConfig::default());
     blank.perturbation = None;
     blank
 }
@@ -65,7 +68,7 @@ fn seed() -> Seed {
 }
 
 fn twin_of(expert: &Trajectory, exact: &BoxBvh, config: &PerturbConfig, seed: Seed) -> Trajectory {
-    match perturb(expert, "p3", exact, config, seed) {
+    match perturb(expert, "p3", ExactMap::still(exact), config, seed) {
         PlanOutcome::Planned(twin) => *twin,
         PlanOutcome::Rejected { reason, .. } => panic!("{reason}"),
     }
@@ -199,7 +202,7 @@ fn a_twin_depends_on_its_seed_alone() {
 #[test]
 fn uneven_and_touching_experts_are_rejected_and_empty_ones_have_empty_twins() {
     let config = PerturbConfig::default();
-    let reason = |expert: &Trajectory| match perturb(expert, "p3", &tunnel(), &config, seed()) {
+    let reason = |expert: &Trajectory| match perturb(expert, "p3", ExactMap::still(&tunnel()), &config, seed()) {
         PlanOutcome::Rejected { reason, .. } => reason,
         PlanOutcome::Planned(_) => String::new(),
     };

@@ -1,8 +1,8 @@
 //! Aimed flights: exact without errors, off the middle as far as asked, bounded in rate, the same from the middle on.
 
 use super::{AimConfig, aimed};
-use crate::visibility::aim_point;
 use cosfly_frames::{DVec3, Pose, TargetState, TargetTrack, real};
+use cosfly_planner::visibility::aim_point;
 use cosfly_random::Seed;
 
 /// A target that walks a square, and a drone that stays 20 m west and 20 m above.

@@ -2,8 +2,8 @@
 
 use super::config::AimConfig;
 use super::wander::{Wander, smooth};
-use crate::visibility::aim_point;
 use cosfly_frames::{DVec3, Pose, TargetState, TargetTrack, real};
+use cosfly_planner::visibility::aim_point;
 use cosfly_random::Seed;
 
 /// Time constant of the quick error of the aim, seconds.
