@@ -6,7 +6,7 @@ use cosfly_fingerprint::Digest;
 use cosfly_frames::{Seed, TargetState, TargetTrack};
 use cosfly_pedestrians::PedestrianPath;
 use cosfly_render::effects::target_state_at;
-use cosfly_render::{Clothes, Outfit, Walker, gait_phase_rad};
+use cosfly_render::{BodyShape, Clothes, Outfit, Walker, gait_phase_rad};
 use std::sync::Arc;
 
 /// Distance between the axes of two bodies below which one would walk through the other, metres.
@@ -51,6 +51,7 @@ impl Person {
             radius_m: track.radius_m,
             clothes_seed: self.seed,
             gait_phase_rad: gait_phase_rad(walked_m, track.height_m),
+            body: BodyShape::default(),
         }
     }
 
