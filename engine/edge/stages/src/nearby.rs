@@ -15,7 +15,7 @@ use cosfly_pedestrians::PedestrianPath;
 use cosfly_planner::{PlanOutcome, Trajectory};
 use cosfly_render::effects::pose_at;
 use cosfly_render::frame::{TARGET_INSTANCE, object_instance};
-use cosfly_render::{Buildings, Camera, Outlook, RenderConfig};
+use cosfly_render::{Buildings, Camera, Outlook, RenderConfig, Walker};
 use cosfly_stage::{
     Artifact, InputPort, Inputs, ItemRule, PortSource, Produced, Stage, StagePart, StageProperties, TaskContext,
 };
@@ -276,7 +276,14 @@ impl NearbyStage {
         let mut near = vec![];
         for (frame, target) in track.states.iter().enumerate() {
             context.check_cancelled()?;
-            let target_in_world = body_rays::middle(target.feet_in_world, track.height_m);
+            let target = Walker {
+                state: *target,
+                height_m: track.height_m,
+                radius_m: track.radius_m,
+                clothes_seed: shooting.clothes_seed,
+                gait_phase_rad: 0.0,
+                body: shooting.body,
+            };
             for offset_s in &moments_s {
                 let pose = pose_at(&poses, frame as f64 + offset_s / track.dt_s);
                 let outlook = Outlook::new(&camera, &shooting.weather, &pose);
@@ -284,7 +291,7 @@ impl NearbyStage {
                 let matters = |other: &mut Candidate<'_>| {
                     let walker = other.person.walker(frame as f64 * track.dt_s + offset_s);
                     let Some(walker) = walker else { return false };
-                    (outlook.may_show(&walker) || body_rays::is_before(&walker, eye_in_world, target_in_world))
+                    (outlook.may_show(&walker) || body_rays::is_before(&walker, eye_in_world, &target))
                         && !scenery.buildings.hide(eye_in_world, &outlook.hull(&walker, scenery.lowest_m))
                 };
                 near.extend(others.extract_if(.., matters));

@@ -18,8 +18,8 @@ use cosfly_planner::{PlanOutcome, Trajectory};
 use cosfly_render::effects::{pose_at, target_state_at};
 use cosfly_render::frame::{TARGET_INSTANCE, object_instance};
 use cosfly_render::{
-    Backend, Bystander, Camera, Clothes, Effects, Moment, RenderConfig, Scene, Shot, TargetSetup, TargetView,
-    gait_phase_rad,
+    Backend, Bystander, Camera, Clothes, Effects, Moment, RenderConfig, Scene, Shot, TargetSetup,
+    TargetView, gait_phase_rad,
 };
 use cosfly_schema::tables::kind_name;
 use cosfly_schema::{EncodingConfig, PairInfo, Rejection, RenderedTrajectory, Role, Sighting, TownInfo};
@@ -261,6 +261,7 @@ impl RenderStage {
                         clothes_seed: shooting.clothes_seed,
                         gait_phase_rad: gait_phase_rad(walked_m[frame] + offset_s * state.speed_mps, track.height_m),
                         visible_by_rays,
+                        body: shooting.body,
                     };
                     // A target without extent is a point: it is watched, not drawn.
                     Moment { pose: pose_at(&poses, at), target: Some(target).filter(|target| target.radius_m > 0.0) }

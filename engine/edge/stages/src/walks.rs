@@ -6,7 +6,7 @@ use cosfly_fingerprint::Digest;
 use cosfly_frames::{Seed, TargetState, TargetTrack};
 use cosfly_pedestrians::PedestrianPath;
 use cosfly_render::effects::target_state_at;
-use cosfly_render::{Clothes, Outfit, Walker, gait_phase_rad};
+use cosfly_render::{BodyShape, Clothes, Outfit, Walker, gait_phase_rad};
 use cosfly_world::Body;
 
 /// Distance between the axes of two bodies below which one would walk through the other, metres.
@@ -21,13 +21,14 @@ pub struct Person {
     comes_and_goes: bool,
     walked_m: Vec<f64>,
     seed: Seed,
+    body: BodyShape,
 }
 
 impl Person {
     /// The person on `walk`.
     pub fn on(walk: &PedestrianPath) -> Result<Self> {
         let (track, seed) = (walk.track.clone(), walk_seed(&walk.track)?);
-        Ok(Self { walked_m: walked_m(&track.states), track, first_s: 0.0, comes_and_goes: false, seed })
+        Ok(Self { walked_m: walked_m(&track.states), track, first_s: 0.0, comes_and_goes: false, seed, body: BodyShape::Person })
     }
 
     /// A body of traffic whose frames are `dt_s` apart.
@@ -35,7 +36,8 @@ impl Person {
         let (height_m, radius_m) = (body.plan.size_m.z, 0.5 * body.plan.size_m.y);
         let track = TargetTrack { dt_s, height_m, radius_m, states: body.states.clone() };
         let first_s = f64::from(body.first_frame) * dt_s;
-        Self { walked_m: walked_m(&track.states), track, first_s, comes_and_goes: true, seed: body.plan.looks }
+        let (seed, shape) = (body.plan.looks, BodyShape::of(body.plan.kind, body.plan.size_m));
+        Self { walked_m: walked_m(&track.states), track, first_s, comes_and_goes: true, seed, body: shape }
     }
 
     /// Body height and radius seen from above, metres.
@@ -70,6 +72,7 @@ impl Person {
             radius_m: track.radius_m,
             clothes_seed: self.seed,
             gait_phase_rad: gait_phase_rad(walked_m, track.height_m),
+            body: self.body,
         })
     }
 

@@ -3,8 +3,8 @@
 use cosfly_frames::{RandomStream, Seed};
 use serde::{Deserialize, Serialize};
 
-/// Material of a part of the figure.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+/// Material of a part of the figure; those of vehicles follow those of people.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Region {
     /// Face, neck, hands.
     Skin,
@@ -18,12 +18,40 @@ pub enum Region {
     Shoes,
     /// Backpack.
     Bag,
+    /// Painted sheet of a vehicle, or a painted frame.
+    Paint,
+    /// The box of a lorry.
+    Cargo,
+    /// Dark plastic, rubber and leather.
+    Trim,
+    /// Windows.
+    Glass,
+    /// Tyres.
+    Tyre,
+    /// Wheels and bare metal.
+    Metal,
+    /// Number plates.
+    Plate,
+    /// Lamps at the front.
+    HeadLamp,
+    /// Lamps at the back.
+    TailLamp,
+}
+
+impl Region {
+    /// Number of regions.
+    pub const COUNT: usize = 15;
+
+    /// Whether people wear it or are made of it.
+    pub fn is_of_people(self) -> bool {
+        self <= Self::Bag
+    }
 }
 
 /// Colours of a figure, linear RGB.
 #[derive(Clone, Copy, Debug)]
 pub struct Clothes {
-    /// Indexed by [`Region`].
+    /// Indexed by the first six of [`Region`].
     pub colours: [[f32; 3]; 6],
     /// What texts may say of them.
     pub outfit: Outfit,
@@ -115,7 +143,7 @@ impl Colour {
     }
 }
 
-const fn dye(name: Colour, linear_rgb: [f32; 3]) -> Dye {
+pub(crate) const fn dye(name: Colour, linear_rgb: [f32; 3]) -> Dye {
     Dye { name, linear_rgb }
 }
 

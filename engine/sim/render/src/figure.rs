@@ -1,6 +1,8 @@
-//! People: jointed figures of frustums whose limbs swing with the gait.
+//! People: jointed figures of frustums whose limbs swing with the gait; and the entry to the figures of vehicles.
 
+use crate::body_shape::BodyShape;
 use crate::clothes::{Clothes, Region};
+use crate::vehicles;
 use cosfly_frames::{DVec3, Seed, TargetState, real};
 
 /// The target of one frame.
@@ -18,6 +20,8 @@ pub struct TargetSetup {
     pub gait_phase_rad: f64,
     /// Share of body points that unoccluded rays reach; copied into [`crate::TargetView`].
     pub visible_by_rays: f64,
+    /// What moves.
+    pub body: BodyShape,
 }
 
 impl TargetSetup {
@@ -29,23 +33,26 @@ impl TargetSetup {
             radius_m: self.radius_m,
             clothes_seed: self.clothes_seed,
             gait_phase_rad: self.gait_phase_rad,
+            body: self.body,
         }
     }
 }
 
-/// Somebody in the picture.
+/// Somebody in the picture: a person, or a vehicle with its rider.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Walker {
     /// Position, heading and speed.
     pub state: TargetState,
-    /// Body height, metres.
+    /// Body height, metres; vehicles have that of [`Self::body`].
     pub height_m: f64,
-    /// Body radius seen from above, metres.
+    /// Body radius seen from above, metres; vehicles have the extent of [`Self::body`].
     pub radius_m: f64,
-    /// Draws their clothes, skin and build.
+    /// Draws their clothes, skin and build; paint and model of a vehicle.
     pub clothes_seed: Seed,
-    /// Phase of the gait, radians; see [`gait_phase_rad`].
+    /// Phase of the gait, radians; see [`gait_phase_rad`]. Of a bicycle, that of the pedals; other vehicles have none.
     pub gait_phase_rad: f64,
+    /// What moves.
+    pub body: BodyShape,
 }
 
 impl Walker {
@@ -54,6 +61,7 @@ impl Walker {
         let numbers = [self.radius_m, self.state.heading_rad, self.state.speed_mps, self.gait_phase_rad];
         self.height_m > 0.0
             && self.height_m.is_finite()
+            && self.body.is_drawable()
             && self.state.feet_in_world.is_finite()
             && numbers.iter().all(|number| number.is_finite())
     }
@@ -71,6 +79,11 @@ pub struct Bystander {
 /// Phase of the gait after `walked_m` metres: one turn every two steps, and two steps are 0.83 body heights.
 pub fn gait_phase_rad(walked_m: f64, height_m: f64) -> f64 {
     real::wrap_angle_rad(real::TAU * walked_m / (0.83 * height_m.max(0.1)))
+}
+
+/// Phase of a cyclist's pedals after `ridden_m` metres: one turn every 5 m.
+pub fn pedal_phase_rad(ridden_m: f64) -> f64 {
+    real::wrap_angle_rad(real::TAU * ridden_m / 5.0)
 }
 
 /// A triangle of the figure, corners in the world frame.
@@ -102,9 +115,14 @@ pub fn walker_triangles(walker: &Walker) -> Vec<[DVec3; 3]> {
     triangles.iter().map(|triangle| triangle.corners_in_world).collect()
 }
 
-/// Appends the figure of `person` to `triangles`. All limbs stay near the upright cylinder of the walker.
+/// Appends the figure of `person` to `triangles`. All limbs stay near the upright cylinder of the walker; a vehicle stays
+/// within its box.
 pub fn figure(walker: &Walker, clothes: &Clothes, person: u32, triangles: &mut Vec<FigureTriangle>) {
     if !walker.has_body() {
+        return;
+    }
+    if let BodyShape::Vehicle { kind, size_m } = walker.body {
+        vehicles::add(walker, kind, size_m, clothes, person, triangles);
         return;
     }
     let first = triangles.len();
@@ -116,7 +134,7 @@ pub fn figure(walker: &Walker, clothes: &Clothes, person: u32, triangles: &mut V
         height: walker.height_m,
         forearm: if clothes.short_sleeves { Region::Skin } else { Region::Top },
         width: clothes.build * (walker.radius_m / (0.15 * walker.height_m)).clamp(0.8, 1.25),
-        around: core::array::from_fn(|k| real::sin_cos(real::TAU * k as f64 / SIDES as f64)),
+        around: around(),
         person,
         parts: 0,
         triangles,
@@ -139,11 +157,16 @@ pub fn figure(walker: &Walker, clothes: &Clothes, person: u32, triangles: &mut V
 }
 
 /// Sides of every frustum.
-const SIDES: usize = 6;
+pub(crate) const SIDES: usize = 6;
+
+/// Sine and cosine of the direction of each side of a frustum.
+pub(crate) fn around() -> [(f64, f64); SIDES] {
+    core::array::from_fn(|k| real::sin_cos(real::TAU * k as f64 / SIDES as f64))
+}
 
 /// One end of a frustum: centre in body heights (forward, right, up), half width to the side and forward.
 #[derive(Clone, Copy)]
-struct Ring {
+pub(crate) struct Ring {
     forward: f64,
     right: f64,
     up: f64,
@@ -151,23 +174,24 @@ struct Ring {
     half_forward: f64,
 }
 
-fn ring(forward: f64, right: f64, up: f64, half_side: f64, half_forward: f64) -> Ring {
+pub(crate) fn ring(forward: f64, right: f64, up: f64, half_side: f64, half_forward: f64) -> Ring {
     Ring { forward, right, up, half_side, half_forward }
 }
 
-struct Body<'a> {
-    feet: DVec3,
-    forward: DVec3,
-    right: DVec3,
-    height: f64,
-    width: f64,
-    forearm: Region,
+/// A body of frustums while it is built.
+pub(crate) struct Body<'a> {
+    pub feet: DVec3,
+    pub forward: DVec3,
+    pub right: DVec3,
+    pub height: f64,
+    pub width: f64,
+    pub forearm: Region,
     /// Sine and cosine of the direction of each side.
-    around: [(f64, f64); SIDES],
-    person: u32,
+    pub around: [(f64, f64); SIDES],
+    pub person: u32,
     /// Parts built so far.
-    parts: u32,
-    triangles: &'a mut Vec<FigureTriangle>,
+    pub parts: u32,
+    pub triangles: &'a mut Vec<FigureTriangle>,
 }
 
 impl Body<'_> {
@@ -231,7 +255,7 @@ impl Body<'_> {
     }
 
     /// A closed hexagonal frustum between two rings.
-    fn part(&mut self, low: Ring, high: Ring, region: Region) {
+    pub(crate) fn part(&mut self, low: Ring, high: Ring, region: Region) {
         let corner = |ring: &Ring, k: usize| {
             let (sin, cos) = self.around[k];
             self.feet
@@ -293,6 +317,7 @@ mod tests {
             clothes_seed: Seed([3; 32]),
             gait_phase_rad: phase,
             visible_by_rays: 1.0,
+            body: BodyShape::Person,
         }
     }
 

@@ -302,7 +302,7 @@ impl Renderer {
                         self.alone.draw_polygon(&self.screen, &corners, &plane, 0.0, number);
                     }
                     let source = FaceSource::Figure { triangle: index as u32, first_face };
-                    let label = SemanticLabel::Pedestrian.id();
+                    let label = person.walker.body.label(triangle.region).id();
                     let normal = triangle.normal_in_world.as_vec3().to_array();
                     self.faces.push(DrawnFace { plane, normal, source, label, instance: person.instance });
                 }
