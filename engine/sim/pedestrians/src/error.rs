@@ -67,6 +67,13 @@ pub enum PedestrianError {
         /// Asked extent, metres.
         min_route_m: f64,
     },
+    /// The people of a crowd do not all find a place to begin at.
+    TooCrowded {
+        /// People who found one.
+        placed: usize,
+        /// Asked number of people.
+        count: u32,
+    },
     /// The grid would not fit into memory.
     TooLarge {
         /// Cells it would take.
@@ -99,6 +106,9 @@ impl PedestrianError {
                     largest_m.floor().max(1.0)
                 )
             }
+            Self::TooCrowded { placed, .. } => {
+                format!("set `count` to {} or less, or choose a map with more walkable ground", placed * 4 / 5)
+            }
             Self::TooLarge { .. } => {
                 "make `grid_m` larger, or cut the map to the part you need in the `map` stage".into()
             }
@@ -125,6 +135,9 @@ impl fmt::Display for PedestrianError {
                 "the largest connected piece of walkable ground is {largest_m:.1} m across; `min_route_m` asks for \
                  {min_route_m} m"
             ),
+            Self::TooCrowded { placed, count } => {
+                write!(f, "only {placed} of {count} people find a place to begin at on the walkable ground")
+            }
             Self::TooLarge { cells, limit, grid_m } => write!(
                 f,
                 "the walkable ground needs {cells:.0} cells at `grid_m` of {grid_m} m; at most {limit} are supported"

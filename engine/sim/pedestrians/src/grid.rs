@@ -166,6 +166,22 @@ impl WalkableGrid {
         })
     }
 
+    /// Whether the cell at a point is walkable ground.
+    pub(crate) fn is_ground(&self, point: DVec2) -> bool {
+        self.cell_at(point).is_some_and(|cell| self.node_of_cell.get(cell) != NO_NODE)
+    }
+
+    /// Sum of the directions away from the steps that are not free at a point, unit vectors; zero in the open.
+    pub(crate) fn away_from_edge(&self, point: DVec2) -> DVec2 {
+        let node = self.cell_at(point).map_or(NO_NODE, |cell| self.node_of_cell.get(cell));
+        if node == NO_NODE {
+            return DVec2::ZERO;
+        }
+        let steps = self.nodes[node as usize].steps;
+        let closed = STEPS.iter().enumerate().filter(|(step, _)| steps & (1 << step) == 0);
+        closed.map(|(_, way)| -DVec2::new(way.0 as f64, way.1 as f64).normalize()).sum()
+    }
+
     /// Centre of a node's cell in plan.
     pub(crate) fn center(&self, node: u32) -> DVec2 {
         self.center_of_cell(self.nodes[node as usize].cell as usize)

@@ -4,7 +4,9 @@
 //! the grid, the config and its seed.
 
 pub mod config;
+pub mod crowd;
 pub mod error;
+mod goal;
 pub mod grid;
 pub mod ground;
 mod motion;
@@ -16,8 +18,9 @@ mod smooth;
 pub mod walk;
 
 pub use config::{HeightRange, PedestrianConfig, RadiusRange, SpeedConfig, StopConfig};
+pub use crowd::{Crowd, CrowdConfig};
 pub use error::{ConfigRule, PedestrianError};
 pub use grid::WalkableGrid;
 pub use ground::Ground;
-pub use path::PedestrianPath;
+pub use path::{PedestrianPath, path_of};
 pub use walk::walk;

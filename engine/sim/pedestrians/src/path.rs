@@ -1,5 +1,6 @@
 //! [`PedestrianPath`]: track of a pedestrian and the ground under it.
 
+use crate::Ground;
 use cosfly_frames::TargetTrack;
 use cosfly_maps::WalkableKind;
 use serde::{Deserialize, Serialize};
@@ -13,4 +14,17 @@ pub struct PedestrianPath {
     pub ground: Vec<WalkableKind>,
     /// Whether the pedestrian stands, per frame.
     pub standing: Vec<bool>,
+}
+
+/// The path of somebody on a track: the kind of the ground, read from the exact ground (beside it, the kind before counts),
+/// and standing where the speed is 0.
+pub fn path_of(ground: &Ground, track: TargetTrack) -> PedestrianPath {
+    let mut kinds: Vec<WalkableKind> = Vec::with_capacity(track.len());
+    for state in &track.states {
+        let under = ground.at(state.feet_in_world.truncate(), state.feet_in_world.z);
+        let kind = under.map(|(kind, _)| kind).or(kinds.last().copied());
+        kinds.push(kind.unwrap_or(WalkableKind::Sidewalk));
+    }
+    let standing = track.states.iter().map(|state| state.speed_mps == 0.0).collect();
+    PedestrianPath { track, ground: kinds, standing }
 }

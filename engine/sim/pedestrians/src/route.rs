@@ -1,17 +1,18 @@
 //! A* over the grid: eight neighbours, ground costs, a preference for the middle of the ground, deterministic ties.
 
 use crate::WalkableGrid;
+use crate::ground::rank;
 use cosfly_frames::{RandomStream, Seed};
-use cosfly_maps::WalkableKind;
 use std::cmp::Reverse;
 use std::collections::BinaryHeap;
+use std::ops::Deref;
 
 /// Spacing of the lattice of personal preference, metres, and its number of points per side (it repeats).
 const TASTE_M: f64 = 5.0;
 const TASTE_POINTS: usize = 32;
 
-/// Largest extra cost of ground by personal preference, as a share.
-const TASTE_SHARE: f32 = 0.3;
+/// Largest extra cost of ground by personal preference of people who walk alone, as a share.
+pub(crate) const TASTE_SHARE: f32 = 0.3;
 
 /// Extra cost of the very edge of the ground over its middle, as a share.
 const EDGE_SHARE: f32 = 1.5;
@@ -19,20 +20,19 @@ const EDGE_SHARE: f32 = 1.5;
 /// Factor on the cost of going back over the last part of the route.
 const BACK_FACTOR: f32 = 4.0;
 
-/// Cost of a metre on each kind of ground; never below 1, so that straight distance is a lower bound.
-fn ground_cost(kind: WalkableKind) -> f32 {
-    match kind {
-        WalkableKind::Sidewalk | WalkableKind::Plaza => 1.0,
-        WalkableKind::Crossing => 1.2,
-        WalkableKind::Shoulder => 1.5,
-        WalkableKind::Road => 8.0,
-    }
-}
+/// Cost of a metre on each kind of ground, by its rank; never below 1, so that straight distance is a lower bound.
+pub(crate) type GroundCosts = [f32; 5];
 
-/// Route searches of one pedestrian with personal preferences; scratch space is kept between legs.
-pub(crate) struct RouteSearch<'a> {
-    grid: &'a WalkableGrid,
+/// Costs of people who walk alone: pavement, plaza, crossing, shoulder, road.
+pub(crate) const LONE_COSTS: GroundCosts = [1.0, 1.0, 1.2, 1.5, 8.0];
+
+/// Route searches with personal preferences; scratch space is kept between searches. `G` holds the grid: a reference or an `Arc`.
+pub(crate) struct RouteSearch<G> {
+    grid: G,
     edge_distance_m: f32,
+    costs: GroundCosts,
+    /// Largest extra cost of ground by personal preference, as a share.
+    taste_share: f32,
     taste: Vec<f32>,
     /// Number of the search that last wrote the entries of a node.
     written: Vec<u32>,
@@ -46,13 +46,15 @@ pub(crate) struct RouteSearch<'a> {
 const FINAL: u8 = 0x80;
 const START: u8 = 8;
 
-impl<'a> RouteSearch<'a> {
-    pub fn new(grid: &'a WalkableGrid, edge_distance_m: f64, seed: Seed) -> Self {
+impl<G: Deref<Target = WalkableGrid>> RouteSearch<G> {
+    pub fn new(grid: G, edge_distance_m: f64, costs: GroundCosts, taste_share: f32, seed: Seed) -> Self {
         let mut stream: RandomStream = seed.stream("taste");
         let count = grid.nodes.len();
         Self {
             grid,
             edge_distance_m: edge_distance_m as f32,
+            costs,
+            taste_share,
             taste: (0..TASTE_POINTS * TASTE_POINTS).map(|_| stream.unit() as f32).collect(),
             written: vec![0; count],
             search: 0,
@@ -121,7 +123,7 @@ impl<'a> RouteSearch<'a> {
         let own = &self.grid.nodes[node as usize];
         let edge =
             if self.edge_distance_m > 0.0 { (1.0 - own.edge_distance_m / self.edge_distance_m).max(0.0) } else { 0.0 };
-        ground_cost(own.kind) * (1.0 + EDGE_SHARE * edge) * (1.0 + TASTE_SHARE * self.taste_at(node))
+        self.costs[rank(own.kind) as usize] * (1.0 + EDGE_SHARE * edge) * (1.0 + self.taste_share * self.taste_at(node))
     }
 
     /// Bilinear value noise in 0..1.
@@ -161,6 +163,7 @@ mod tests {
     use crate::PedestrianConfig;
     use crate::grid::test_towns::{pillar, rectangle, streets, town};
     use cosfly_frames::DVec2;
+    use cosfly_maps::WalkableKind;
 
     fn seed() -> Seed {
         Seed::of_item(3, "walkers", "route")
@@ -171,7 +174,7 @@ mod tests {
             let piece = (0..grid.components.len() as u32).find_map(|c| grid.node_near(DVec2::new(x, y), c, 2));
             piece.unwrap()
         };
-        let mut search = RouteSearch::new(grid, 0.8, seed());
+        let mut search = RouteSearch::new(grid, 0.8, LONE_COSTS, TASTE_SHARE, seed());
         let way = search.find(node(from), node(to), &[])?;
         Some(way.into_iter().map(|node| grid.center(node)).collect())
     }

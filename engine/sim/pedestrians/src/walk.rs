@@ -1,18 +1,15 @@
 //! One pedestrian's walk: a person, a chain of goals, a smooth path, and its frames.
 
+use crate::goal::{GOAL_ATTEMPTS, LONGEST_LEG_M, draw_goal, draw_start, roomy_pieces};
 use crate::motion::{self, ArcPath};
-use crate::route::RouteSearch;
+use crate::route::{LONE_COSTS, RouteSearch, TASTE_SHARE};
 use crate::smooth::smooth;
 use crate::{PedestrianConfig, PedestrianError, PedestrianPath, WalkableGrid};
-use cosfly_frames::{DVec2, RandomStream, Seed, TargetState, TargetTrack, real};
+use cosfly_frames::{DVec2, RandomStream, Seed, TargetState, TargetTrack};
 use cosfly_maps::WalkableKind;
 
-/// Straight distance to the next goal, metres: bounds the work of one search.
-const LONGEST_LEG_M: f64 = 120.0;
+/// Shortest straight distance to the next goal, metres.
 const SHORTEST_LEG_M: f64 = 15.0;
-
-/// Largest angle between the direction of the walk so far and that to the next goal, radians.
-const AHEAD_RAD: f64 = 1.9;
 
 /// Last nodes of the route that a new leg avoids.
 const BEHIND_NODES: usize = 60;
@@ -24,8 +21,7 @@ const TURNING_BACK_REFUSALS: usize = 3;
 /// Smoothing cuts corners; routes are made longer by this.
 const SPARE: f64 = 1.12;
 
-/// Attempts to find a goal that a route leads to, and rounds of making a route longer.
-const GOAL_ATTEMPTS: usize = 48;
+/// Rounds of making a route longer.
 const ROUNDS: usize = 6;
 
 /// Walks one pedestrian over the grid for exactly `steps` frames.
@@ -104,7 +100,7 @@ impl Person {
 /// A route that grows goal by goal.
 struct GoalChain<'a> {
     grid: &'a WalkableGrid,
-    search: RouteSearch<'a>,
+    search: RouteSearch<&'a WalkableGrid>,
     stream: RandomStream,
     component: u32,
     nodes: Vec<u32>,
@@ -116,33 +112,11 @@ struct GoalChain<'a> {
 impl<'a> GoalChain<'a> {
     fn new(grid: &'a WalkableGrid, config: &PedestrianConfig, seed: Seed) -> Result<Self, PedestrianError> {
         let mut stream = seed.stream("goals");
-        let roomy: Vec<u32> = (0..grid.components.len() as u32)
-            .filter(|&piece| grid.components[piece as usize].extent_m >= config.min_route_m)
-            .collect();
-        let size = |piece: &u32| grid.components[*piece as usize].nodes.len();
-        let total: usize = roomy.iter().map(size).sum();
-        if total == 0 {
-            let largest_m = grid.components.iter().map(|piece| piece.extent_m).fold(0.0, f64::max);
-            return Err(PedestrianError::NoRoom { largest_m, min_route_m: config.min_route_m });
-        }
-        // Every square metre is as likely a start as any other; crossings and carriageways only when nothing else is drawn.
-        let mut start = (0, 0);
-        for _ in 0..GOAL_ATTEMPTS {
-            let mut place = stream.index(total);
-            for piece in &roomy {
-                if place < size(piece) {
-                    start = (*piece, grid.components[*piece as usize].nodes[place]);
-                    break;
-                }
-                place -= size(piece);
-            }
-            if is_goal(grid, start.1) {
-                break;
-            }
-        }
+        let roomy = roomy_pieces(grid, config.min_route_m)?;
+        let start = draw_start(grid, &roomy, &mut stream);
         Ok(Self {
             grid,
-            search: RouteSearch::new(grid, config.edge_distance_m, seed),
+            search: RouteSearch::new(grid, config.edge_distance_m, LONE_COSTS, TASTE_SHARE, seed),
             stream,
             component: start.0,
             nodes: vec![start.1],
@@ -174,7 +148,11 @@ impl<'a> GoalChain<'a> {
         let here = self.nodes[self.nodes.len() - 1];
         let mut refusals = 0;
         for attempt in 0..GOAL_ATTEMPTS {
-            let Some(goal) = self.draw_goal(here, leg_m, attempt) else { continue };
+            let before = self.nodes.len().checked_sub(BEHIND_NODES / 2).map(|place| self.nodes[place]);
+            let Some(goal) = draw_goal(self.grid, self.component, (here, before), leg_m, attempt, &mut self.stream)
+            else {
+                continue;
+            };
             let behind = &self.nodes[self.nodes.len().saturating_sub(BEHIND_NODES)..self.nodes.len() - 1];
             if let Some(way) = self.search.find(here, goal, behind)
                 && way.len() > 1
@@ -194,36 +172,6 @@ impl<'a> GoalChain<'a> {
         }
         false
     }
-
-    /// A node about `leg_m` away, ahead at first, nearer and anywhere later; at last any node of the piece.
-    fn draw_goal(&mut self, here: u32, leg_m: f64, attempt: usize) -> Option<u32> {
-        let center = self.grid.center(here);
-        let late = attempt as f64 / GOAL_ATTEMPTS as f64;
-        if late > 0.8 {
-            let nodes = &self.grid.components[self.component as usize].nodes;
-            let node = nodes[self.stream.index(nodes.len())];
-            let apart_m = (self.grid.center(node) - center).length();
-            return (node != here && apart_m <= 2.0 * LONGEST_LEG_M).then_some(node);
-        }
-        let distance_m = leg_m * self.stream.uniform(0.5, 1.0) * (1.0 - late);
-        let turn = self.stream.uniform(-1.0, 1.0);
-        let angle = match self.nodes.len().checked_sub(BEHIND_NODES / 2) {
-            Some(before) if late < 0.5 => {
-                let came = center - self.grid.center(self.nodes[before]);
-                real::atan2(came.y, came.x) + AHEAD_RAD * turn
-            }
-            _ => real::PI * turn,
-        };
-        let (sin, cos) = real::sin_cos(angle);
-        let node = self.grid.node_near(center + distance_m * DVec2::new(cos, sin), self.component, 10)?;
-        let apart_m = (self.grid.center(node) - center).length();
-        (is_goal(self.grid, node) && apart_m > 0.25 * distance_m && node != here).then_some(node)
-    }
-}
-
-/// Whether a walk may start or choose a new goal here.
-fn is_goal(grid: &WalkableGrid, node: u32) -> bool {
-    !matches!(grid.nodes[node as usize].kind, WalkableKind::Crossing | WalkableKind::Road)
 }
 
 #[cfg(test)]

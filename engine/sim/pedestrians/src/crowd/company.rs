@@ -1,0 +1,184 @@
+//! [`Company`]: people who walk together, one or more: their route, their stops.
+
+use crate::WalkableGrid;
+use crate::crowd::CrowdConfig;
+use crate::crowd::person::Person;
+use crate::goal::{GOAL_ATTEMPTS, LONGEST_LEG_M, draw_goal};
+use crate::route::RouteSearch;
+use cosfly_frames::{DVec2, RandomStream, Seed, real};
+use cosfly_maps::WalkableKind;
+use std::ops::Range;
+use std::sync::Arc;
+
+/// A route whose end is nearer than this many nodes is led on.
+const SPARE_NODES: usize = 40;
+
+/// Nodes behind that are kept, and those that the way on avoids.
+const KEPT_NODES: usize = 60;
+
+/// Nodes ahead of the present one that may become the present one in a step.
+const AHEAD_NODES: usize = 12;
+
+/// Who has not come so far in so long looks for another way, metres and seconds.
+const STUCK_M: f64 = 0.7;
+const STUCK_S: f64 = 6.0;
+
+/// What a company does.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) enum Activity {
+    /// Walks along the route.
+    Walking,
+    /// Slows down and stands until a time, seconds since frame 0.
+    Standing { until_s: f64 },
+}
+
+/// People who walk together.
+#[derive(Clone, Debug)]
+pub(crate) struct Company {
+    /// Members, as numbers within the crowd.
+    pub members: Range<usize>,
+    /// Number of the company among the groups of several people.
+    pub group: Option<u32>,
+    /// Nodes of the way behind and ahead.
+    pub route: Vec<u32>,
+    /// Free speed of the slowest member, m/s.
+    pub cruise_mps: f64,
+    pub activity: Activity,
+    piece: u32,
+    stream: RandomStream,
+    /// Distance to the next stop, metres.
+    until_stop_m: f64,
+    /// Place of the first member and time when it was last seen to get on.
+    seen: (DVec2, f64),
+}
+
+impl Company {
+    /// A company that begins at a node.
+    pub fn new(
+        members: Range<usize>,
+        group: Option<u32>,
+        (piece, start): (u32, u32),
+        config: &CrowdConfig,
+        seed: Seed,
+    ) -> Self {
+        let mut stream = seed.stream("company");
+        let stands = stream.chance(config.stops.standing_share);
+        let mut company = Self {
+            members,
+            group,
+            route: vec![start],
+            cruise_mps: f64::INFINITY,
+            activity: if stands { Activity::Standing { until_s: f64::INFINITY } } else { Activity::Walking },
+            piece,
+            stream,
+            until_stop_m: 0.0,
+            seen: (DVec2::ZERO, 0.0),
+        };
+        company.until_stop_m = company.way_to_stop_m(config);
+        company
+    }
+
+    /// Brings the members' progress up to date, leads the route on, begins and ends stops.
+    pub fn decide(
+        &mut self,
+        people: &mut [Person],
+        search: &mut RouteSearch<Arc<WalkableGrid>>,
+        grid: &WalkableGrid,
+        config: &CrowdConfig,
+        (time_s, step_s): (f64, f64),
+    ) {
+        for person in people.iter_mut() {
+            self.follow(person, grid);
+        }
+        if let Activity::Standing { until_s } = self.activity {
+            self.seen = (people[0].at, time_s);
+            if time_s >= until_s {
+                self.activity = Activity::Walking;
+            }
+            return;
+        }
+        if (people[0].at - self.seen.0).length() > STUCK_M {
+            self.seen = (people[0].at, time_s);
+        }
+        if time_s - self.seen.1 > STUCK_S {
+            self.turn_round(people, search, grid);
+            self.seen = (people[0].at, time_s);
+        }
+        let hindmost = people.iter().map(|person| person.progress).min().unwrap_or_default();
+        if self.route.len() - hindmost < SPARE_NODES {
+            self.lead_on(search, grid);
+        }
+        if hindmost > 4 * KEPT_NODES {
+            let gone = hindmost - KEPT_NODES;
+            self.route.drain(..gone);
+            people.iter_mut().for_each(|person| person.progress -= gone);
+        }
+        self.until_stop_m -= people[0].velocity_mps.length() * step_s;
+        if self.until_stop_m <= 0.0 && people.iter().all(|person| self.may_stand(person, grid)) {
+            let length_s = config.stops.median_s * real::exp(config.stops.spread * self.stream.normal(0.0, 1.0));
+            let slowing_s = self.cruise_mps / config.braking_mps2;
+            self.activity = Activity::Standing { until_s: time_s + slowing_s + length_s.min(config.stops.longest_s) };
+            self.until_stop_m = self.way_to_stop_m(config);
+        }
+    }
+
+    /// Exponential distance to the next stop, metres; infinite without stops.
+    fn way_to_stop_m(&mut self, config: &CrowdConfig) -> f64 {
+        let way_m = -100.0 / config.stops.per_100m * real::ln(1.0 - self.stream.unit());
+        if way_m.is_finite() { way_m } else { f64::INFINITY }
+    }
+
+    /// Whether the ground under and just ahead of a person is no road.
+    fn may_stand(&self, person: &Person, grid: &WalkableGrid) -> bool {
+        let ahead = person.progress..(person.progress + 5).min(self.route.len());
+        self.route[ahead].iter().all(|node| !is_road(grid.nodes[*node as usize].kind))
+    }
+
+    /// The node of the route that the person is nearest to, searched around the last one.
+    fn follow(&self, person: &mut Person, grid: &WalkableGrid) {
+        let range = person.progress.saturating_sub(2)..(person.progress + AHEAD_NODES).min(self.route.len());
+        let away = |place: &usize| (grid.center(self.route[*place]) - person.at).length_squared();
+        person.progress = range.min_by(|a, b| away(a).total_cmp(&away(b))).unwrap_or(person.progress);
+    }
+
+    /// Adds the way to one more goal.
+    fn lead_on(&mut self, search: &mut RouteSearch<Arc<WalkableGrid>>, grid: &WalkableGrid) {
+        let Some(&here) = self.route.last() else { return };
+        let before = self.route.len().checked_sub(KEPT_NODES / 2).map(|place| self.route[place]);
+        for attempt in 0..GOAL_ATTEMPTS {
+            let Some(goal) = draw_goal(grid, self.piece, (here, before), LONGEST_LEG_M, attempt, &mut self.stream)
+            else {
+                continue;
+            };
+            let behind = self.route.len().saturating_sub(KEPT_NODES)..self.route.len() - 1;
+            if let Some(way) = search.find(here, goal, &self.route[behind])
+                && way.len() > 1
+            {
+                self.route.extend(&way[1..]);
+                return;
+            }
+        }
+    }
+
+    /// Begins a new route at the place of the first member, away from where it led.
+    fn turn_round(&mut self, people: &mut [Person], search: &mut RouteSearch<Arc<WalkableGrid>>, grid: &WalkableGrid) {
+        let ahead = self.route[(people[0].progress + 6).min(self.route.len() - 1)];
+        let Some(here) = grid.node_near(people[0].at, self.piece, 4) else { return };
+        self.route = vec![here];
+        people.iter_mut().for_each(|person| person.progress = 0);
+        for attempt in 0..GOAL_ATTEMPTS {
+            let goal = draw_goal(grid, self.piece, (here, Some(ahead)), 0.5 * LONGEST_LEG_M, attempt, &mut self.stream);
+            if let Some(way) = goal.and_then(|goal| search.find(here, goal, &[ahead]))
+                && way.len() > 1
+            {
+                self.route = way;
+                return;
+            }
+        }
+    }
+}
+
+/// Whether vehicles have the right to be on this ground.
+pub(crate) fn is_road(kind: WalkableKind) -> bool {
+    matches!(kind, WalkableKind::Crossing | WalkableKind::Road)
+}

@@ -1,0 +1,199 @@
+//! [`Crowd`]: people who walk the town's ground together.
+//!
+//! Each step is made from one snapshot of everybody: companies decide on route and stops, then each person chooses a velocity
+//! ([`steering`]) and takes the step nearest to it that keeps bodies apart and feet on free ground ([`limits`]).
+
+mod company;
+mod config;
+mod limits;
+mod person;
+mod placing;
+mod pursuit;
+mod roads;
+mod steering;
+mod surroundings;
+
+use crate::route::RouteSearch;
+use crate::{PedestrianError, WalkableGrid};
+use company::{Activity, Company};
+pub use config::{CrowdConfig, CrowdStopConfig, GroundCostConfig, GroupConfig, SideConfig};
+use cosfly_frames::{DVec2, Seed, TargetState, real};
+use cosfly_maps::Town;
+use cosfly_world::{BodyPlan, Clock, Population, Present, Snapshot};
+use limits::Limits;
+use person::Person;
+use std::ops::Range;
+use std::sync::Arc;
+use steering::Steering;
+use surroundings::Surroundings;
+
+/// Time in which people adapt their velocity, seconds.
+const RELAXATION_S: f64 = 0.5;
+
+/// Largest acceleration that people choose, m/s2.
+const HARDEST_MPS2: f64 = 2.5;
+
+/// Fastest turn of a body, rad/s.
+const TURN_RAD_PER_S: f64 = 3.0;
+
+/// Slower than this, a person keeps the heading, m/s.
+const HEADING_MPS: f64 = 0.15;
+
+/// People look for the place to walk towards once in so many steps.
+const PURSUIT_STEPS: usize = 4;
+
+/// People who walk the town's ground together.
+pub struct Crowd {
+    config: CrowdConfig,
+    grid: Arc<WalkableGrid>,
+    clock: Clock,
+    people: Vec<Person>,
+    companies: Vec<Company>,
+    search: RouteSearch<Arc<WalkableGrid>>,
+    steering: Steering,
+    first_number: u32,
+    steps: usize,
+    scratch: Scratch,
+}
+
+/// Room that every step uses again.
+#[derive(Default)]
+struct Scratch {
+    surroundings: Surroundings,
+    limits: Limits,
+    /// Places of the people at the snapshot.
+    places: Vec<DVec2>,
+    vehicles: Vec<Present>,
+}
+
+impl Crowd {
+    /// Draws the people and places them on the ground. `grid` is built by [`Crowd::grid`] from the same config.
+    ///
+    /// # Errors
+    /// When the config breaks its rules, no connected piece of ground is `min_route_m` across, or the people do not find room.
+    pub fn new(
+        grid: Arc<WalkableGrid>,
+        config: &CrowdConfig,
+        clock: Clock,
+        seed: Seed,
+    ) -> Result<Self, PedestrianError> {
+        config.check()?;
+        let costs = &config.ground_cost;
+        let costs = [1.0, 1.0, costs.crossing as f32, costs.shoulder as f32, costs.road as f32];
+        let mut crowd = Self {
+            search: RouteSearch::new(grid.clone(), config.edge_distance_m, costs, 0.0, seed),
+            config: config.clone(),
+            grid,
+            clock,
+            people: vec![],
+            companies: vec![],
+            steering: Steering::default(),
+            first_number: 0,
+            steps: 0,
+            scratch: Scratch::default(),
+        };
+        crowd.fill(seed)?;
+        Ok(crowd)
+    }
+
+    /// The walkable grid of a town for such people.
+    ///
+    /// # Errors
+    /// When the config breaks its rules or the town has no walkable ground.
+    pub fn grid(town: &Town, config: &CrowdConfig) -> Result<WalkableGrid, PedestrianError> {
+        config.check()?;
+        WalkableGrid::build(town, &config.body_and_grid())
+    }
+
+    fn numbers(&self, range: &Range<usize>) -> Range<u32> {
+        self.first_number + range.start as u32..self.first_number + range.end as u32
+    }
+
+    /// Moves one person on by a step.
+    fn walk(&mut self, number: usize, step_s: f64, everybody: &Snapshot) {
+        let own = self.numbers(&(0..self.people.len()));
+        let company = &self.companies[self.people[number].company];
+        let mates = self.numbers(&company.members);
+        let Scratch { surroundings, limits, places, vehicles } = &mut self.scratch;
+        let person = &mut self.people[number];
+        surroundings.look(everybody, own.start + number as u32, (person.at, person.radius_m), &own, &mates);
+        let neighbours = &surroundings.neighbours;
+        person.wander(&self.config, step_s);
+        if (self.steps + number).is_multiple_of(PURSUIT_STEPS) {
+            person.target = pursuit::target(&self.grid, &self.config, company, person, number, places);
+        }
+        let ahead = (person.target - person.at).try_normalize().unwrap_or(DVec2::ZERO);
+
+        // Planned speed: own tempo, level with the company, slower before a stop and before a road that is not free.
+        let may_go_m = roads::free_way_m(&self.grid, &self.config, company, person, vehicles);
+        let goal_mps = match company.activity {
+            Activity::Walking => {
+                let level_m = pursuit::lag_m(company, person, number, places, ahead);
+                let free_mps = company.cruise_mps * (1.0 + person.tempo + (0.25 * level_m).clamp(-0.5, 0.35));
+                free_mps.min((2.0 * self.config.braking_mps2 * may_go_m).sqrt())
+            }
+            Activity::Standing { .. } => 0.0,
+        };
+        let change_mps = self.config.braking_mps2 * step_s;
+        person.pace_mps += (goal_mps - person.pace_mps).clamp(-change_mps, change_mps);
+
+        let grid = &self.grid;
+        let at = person.at;
+        let has_ground = |direction: DVec2| grid.is_ground(at + 0.7 * direction);
+        let wanted = self.steering.intent(neighbours, ahead, person.pace_mps.max(0.0), has_ground).velocity_mps;
+        let mut change = (wanted - person.velocity_mps) / RELAXATION_S
+            + self.steering.push(neighbours, ahead)
+            + self.grid.away_from_edge(at);
+        if person.pace_mps <= 0.0 && change.length() < 0.8 {
+            change = -person.velocity_mps / RELAXATION_S.max(step_s);
+        }
+        let velocity = person.velocity_mps + change.clamp_length_max(HARDEST_MPS2) * step_s;
+        let velocity = velocity.clamp_length_max(1.25 * self.config.speed.max_mps);
+        limits.beside(neighbours, step_s, velocity.length() * step_s + 0.3);
+        let step = limits.on_ground(&self.grid, person.frame_place, at, velocity * step_s);
+        person.velocity_mps = step / step_s;
+        person.at += step;
+        person.z = self.grid.z_near(person.at).unwrap_or(person.z);
+        if person.velocity_mps.length() > HEADING_MPS {
+            let turn = real::atan2(person.velocity_mps.y, person.velocity_mps.x) - person.heading_rad;
+            let most = TURN_RAD_PER_S * step_s;
+            person.heading_rad =
+                real::wrap_angle_rad(person.heading_rad + real::wrap_angle_rad(turn).clamp(-most, most));
+        }
+    }
+}
+
+impl Population for Crowd {
+    fn plans(&self) -> Vec<BodyPlan> {
+        self.people.iter().map(|person| person.plan(self.companies[person.company].group)).collect()
+    }
+
+    fn begin(&mut self, first_number: u32) {
+        self.first_number = first_number;
+    }
+
+    fn state(&self, body: usize) -> Option<TargetState> {
+        self.people.get(body).map(Person::state)
+    }
+
+    fn step(&mut self, time_s: f64, step_s: f64, everybody: &Snapshot) {
+        for company in &mut self.companies {
+            let people = &mut self.people[company.members.clone()];
+            company.decide(people, &mut self.search, &self.grid, &self.config, (time_s, step_s));
+        }
+        self.scratch.places.clear();
+        self.scratch.places.extend(self.people.iter().map(|person| person.at));
+        self.scratch.vehicles.clear();
+        self.scratch.vehicles.extend(everybody.all().iter().filter(|body| !body.kind.is_person()));
+        for number in 0..self.people.len() {
+            self.walk(number, step_s, everybody);
+        }
+        self.steps += 1;
+        if self.steps.is_multiple_of(self.clock.steps_per_frame as usize) {
+            for person in &mut self.people {
+                (person.at, person.z) = (person.at, self.grid.feet_at(person.at).0.z);
+                person.frame_place = person.at;
+            }
+        }
+    }
+}

@@ -1,0 +1,105 @@
+//! [`Person`]: one member of a crowd: what is drawn once, and the present state.
+
+use crate::crowd::CrowdConfig;
+use cosfly_frames::{DVec2, DVec3, RandomStream, Seed, TargetState};
+use cosfly_world::{BodyKind, BodyPlan};
+
+/// Slower than this, a person stands, m/s.
+const STANDING_MPS: f64 = 0.03;
+
+/// Time after which the variation of the own speed is forgotten, seconds.
+const TEMPO_S: f64 = 6.0;
+
+/// One person of a crowd.
+#[derive(Clone, Debug)]
+pub(crate) struct Person {
+    /// Free speed, m/s.
+    pub cruise_mps: f64,
+    pub radius_m: f64,
+    pub height_m: f64,
+    /// Own distance to the right of the middle of the way, metres.
+    pub side_m: f64,
+    /// Number of the company that the person belongs to.
+    pub company: usize,
+    looks: Seed,
+    stream: RandomStream,
+    /// Present place in plan, height of the ground, velocity and heading.
+    pub at: DVec2,
+    pub z: f64,
+    pub velocity_mps: DVec2,
+    pub heading_rad: f64,
+    /// Place in the last frame; the straight way from there to the present place is free.
+    pub frame_place: DVec2,
+    /// Place that the person walks towards now.
+    pub target: DVec2,
+    /// Place on the company's route, as an index of its nodes.
+    pub progress: usize,
+    /// Speed that the person would walk at now without others, m/s: rises and falls at the braking limit.
+    pub pace_mps: f64,
+    /// Sway to the right, metres, and relative variation of the speed.
+    pub sway_m: f64,
+    pub tempo: f64,
+}
+
+impl Person {
+    /// Draws a person who stands at the origin.
+    pub fn drawn(config: &CrowdConfig, company: usize, seed: Seed) -> Self {
+        let mut stream = seed.stream("person");
+        let speed = &config.speed;
+        Self {
+            cruise_mps: stream.normal(speed.mean_mps, speed.deviation_mps).clamp(speed.min_mps, speed.max_mps),
+            height_m: stream.uniform(config.height.min_m, config.height.max_m),
+            radius_m: stream.uniform(config.radius.min_m, config.radius.max_m),
+            side_m: stream.normal(config.side.mean_m, config.side.deviation_m),
+            company,
+            looks: seed.child("looks", 0),
+            sway_m: stream.normal(0.0, config.side.drift_m),
+            tempo: stream.normal(0.0, config.speed_noise),
+            stream,
+            at: DVec2::ZERO,
+            z: 0.0,
+            velocity_mps: DVec2::ZERO,
+            heading_rad: 0.0,
+            frame_place: DVec2::ZERO,
+            target: DVec2::ZERO,
+            progress: 0,
+            pace_mps: 0.0,
+        }
+    }
+
+    /// Puts the person at a place.
+    pub fn place(&mut self, at: DVec2) {
+        (self.at, self.frame_place, self.target) = (at, at, at);
+    }
+
+    /// Lets sway and tempo wander on (Ornstein-Uhlenbeck processes).
+    pub fn wander(&mut self, config: &CrowdConfig, step_s: f64) {
+        let mut wander = |value: &mut f64, deviation: f64, forget_s: f64| {
+            let kept = 1.0 / (1.0 + step_s / forget_s);
+            *value = *value * kept + deviation * (1.0 - kept * kept).sqrt() * self.stream.normal(0.0, 1.0);
+        };
+        wander(&mut self.sway_m, config.side.drift_m, config.side.drift_s);
+        wander(&mut self.tempo, config.speed_noise, TEMPO_S);
+    }
+
+    /// What does not change.
+    pub fn plan(&self, group: Option<u32>) -> BodyPlan {
+        BodyPlan {
+            source: String::new(),
+            kind: BodyKind::Pedestrian,
+            size_m: DVec3::new(2.0 * self.radius_m, 2.0 * self.radius_m, self.height_m),
+            looks: self.looks,
+            group,
+        }
+    }
+
+    /// Present state.
+    pub fn state(&self) -> TargetState {
+        let speed_mps = self.velocity_mps.length();
+        TargetState {
+            feet_in_world: self.at.extend(self.z),
+            heading_rad: self.heading_rad,
+            speed_mps: if speed_mps < STANDING_MPS { 0.0 } else { speed_mps },
+        }
+    }
+}

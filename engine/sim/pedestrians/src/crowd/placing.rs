@@ -1,0 +1,119 @@
+//! Where the people of a crowd begin: drawn one company after the other, each on free ground and apart from all before.
+
+use crate::PedestrianError;
+use crate::crowd::Crowd;
+use crate::crowd::company::{Activity, Company};
+use crate::crowd::person::Person;
+use crate::goal::{draw_start, roomy_pieces};
+use cosfly_frames::{DVec2, RandomStream, Seed, real};
+use std::collections::BTreeMap;
+
+/// Gap between bodies at the start, metres.
+const APART_M: f64 = 0.1;
+
+/// Attempts to place a company.
+const ATTEMPTS: usize = 400;
+
+/// Side of a cell of the register of places, metres: two bodies in cells that do not touch cannot overlap.
+const CELL_M: f64 = 4.2;
+
+/// Places taken, by cell.
+#[derive(Default)]
+struct Taken {
+    cells: BTreeMap<(i64, i64), Vec<(DVec2, f64)>>,
+}
+
+impl Taken {
+    fn cell(at: DVec2) -> (i64, i64) {
+        ((at.x / CELL_M).floor() as i64, (at.y / CELL_M).floor() as i64)
+    }
+
+    fn is_free(&self, at: DVec2, radius_m: f64) -> bool {
+        let (column, row) = Self::cell(at);
+        (-1..=1).flat_map(|x| (-1..=1).map(move |y| (column + x, row + y))).all(|cell| {
+            self.cells.get(&cell).is_none_or(|list| {
+                list.iter().all(|(other, other_m)| (*other - at).length() >= radius_m + other_m + APART_M)
+            })
+        })
+    }
+
+    fn take(&mut self, at: DVec2, radius_m: f64) {
+        self.cells.entry(Self::cell(at)).or_default().push((at, radius_m));
+    }
+}
+
+impl Crowd {
+    /// Draws and places all people. The first people are the same whatever their number, but for the last company.
+    pub(super) fn fill(&mut self, seed: Seed) -> Result<(), PedestrianError> {
+        let roomy = roomy_pieces(&self.grid, self.config.min_route_m)?;
+        let count = self.config.count as usize;
+        let (mut taken, mut groups) = (Taken::default(), 0);
+        while self.people.len() < count {
+            let number = self.companies.len();
+            let own = seed.child("company", number as u64);
+            let mut stream = own.stream("placing");
+            let size = self.draw_size(&mut stream).min(count - self.people.len());
+            let first = self.people.len();
+            let draw = |member: usize| Person::drawn(&self.config, number, own.child("member", member as u64));
+            let mut people: Vec<Person> = (0..size).map(draw).collect();
+            let start = (0..ATTEMPTS).find_map(|_| {
+                let start = draw_start(&self.grid, &roomy, &mut stream);
+                self.place(&mut people, start.1, &taken, &mut stream).then_some(start)
+            });
+            let Some(start) = start else {
+                return Err(PedestrianError::TooCrowded { placed: first, count: self.config.count });
+            };
+            let group = (size > 1).then_some(groups);
+            groups += u32::from(size > 1);
+            let mut company = Company::new(first..first + size, group, start, &self.config, own);
+            company.cruise_mps = people.iter().map(|person| person.cruise_mps).fold(f64::INFINITY, f64::min);
+            for person in &mut people {
+                person.z = self.grid.feet_at(person.at).0.z;
+                person.pace_mps = if company.activity == Activity::Walking { company.cruise_mps } else { 0.0 };
+                taken.take(person.at, person.radius_m);
+            }
+            self.companies.push(company);
+            self.people.append(&mut people);
+        }
+        Ok(())
+    }
+
+    /// Number of people in a company.
+    fn draw_size(&self, stream: &mut RandomStream) -> usize {
+        let groups = &self.config.groups;
+        let total: f64 = groups.sizes.iter().sum();
+        let mean: f64 = groups.sizes.iter().zip(2..).map(|(weight, size)| weight / total * f64::from(size)).sum();
+        // Share of companies that are groups, so that the asked share of people is in them.
+        let share = groups.share / (groups.share + mean * (1.0 - groups.share));
+        let (is_group, mut rest) = (stream.chance(share), stream.unit() * total);
+        if !is_group {
+            return 1;
+        }
+        for (weight, size) in groups.sizes.iter().zip(2..) {
+            if rest < *weight {
+                return size;
+            }
+            rest -= weight;
+        }
+        groups.sizes.len() + 1
+    }
+
+    /// Places the members in a row around a node; false where there is no room.
+    fn place(&self, people: &mut [Person], start: u32, taken: &Taken, stream: &mut RandomStream) -> bool {
+        let within = 0.5 * self.grid.cell_m;
+        let middle =
+            self.grid.center(start) + DVec2::new(stream.uniform(-within, within), stream.uniform(-within, within));
+        let heading_rad = stream.uniform(-real::PI, real::PI);
+        let (sin, cos) = real::sin_cos(heading_rad);
+        let first_m = -0.5 * (people.len() - 1) as f64;
+        for (rank, person) in people.iter_mut().enumerate() {
+            let across_m =
+                (first_m + rank as f64) * self.config.groups.abreast_m.max(2.0 * self.config.radius.max_m + APART_M);
+            person.place(middle + across_m * DVec2::new(-sin, cos));
+            person.heading_rad = heading_rad;
+        }
+        people.iter().all(|person| {
+            self.grid.step_is_free(self.grid.center(start), person.at) && taken.is_free(person.at, person.radius_m)
+        })
+    }
+}

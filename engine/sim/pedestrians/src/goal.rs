@@ -1,0 +1,89 @@
+//! Starts and goals: pieces of ground with room, places on them, and the next goal of a walk.
+
+use crate::{PedestrianError, WalkableGrid};
+use cosfly_frames::{DVec2, RandomStream, real};
+use cosfly_maps::WalkableKind;
+
+/// Longest straight distance to the next goal, metres: bounds the work of one search.
+pub(crate) const LONGEST_LEG_M: f64 = 120.0;
+
+/// Largest angle between the direction of the walk so far and that to the next goal, radians.
+const AHEAD_RAD: f64 = 1.9;
+
+/// Attempts to find a start, or a goal that a route leads to.
+pub(crate) const GOAL_ATTEMPTS: usize = 48;
+
+/// Numbers of the connected pieces of ground that are at least so far across.
+///
+/// # Errors
+/// When there is none.
+pub(crate) fn roomy_pieces(grid: &WalkableGrid, min_route_m: f64) -> Result<Vec<u32>, PedestrianError> {
+    let roomy: Vec<u32> = (0..grid.components.len() as u32)
+        .filter(|&piece| grid.components[piece as usize].extent_m >= min_route_m)
+        .collect();
+    if roomy.iter().all(|piece| grid.components[*piece as usize].nodes.is_empty()) {
+        let largest_m = grid.components.iter().map(|piece| piece.extent_m).fold(0.0, f64::max);
+        return Err(PedestrianError::NoRoom { largest_m, min_route_m });
+    }
+    Ok(roomy)
+}
+
+/// Piece and node of a start. Every square metre is as likely as any other; crossings and carriageways only when nothing
+/// else is drawn.
+pub(crate) fn draw_start(grid: &WalkableGrid, roomy: &[u32], stream: &mut RandomStream) -> (u32, u32) {
+    let size = |piece: &u32| grid.components[*piece as usize].nodes.len();
+    let total: usize = roomy.iter().map(size).sum();
+    let mut start = (0, 0);
+    for _ in 0..GOAL_ATTEMPTS {
+        let mut place = stream.index(total);
+        for piece in roomy {
+            if place < size(piece) {
+                start = (*piece, grid.components[*piece as usize].nodes[place]);
+                break;
+            }
+            place -= size(piece);
+        }
+        if is_goal(grid, start.1) {
+            break;
+        }
+    }
+    start
+}
+
+/// A node about `leg_m` from the node `here`, ahead at first, nearer and anywhere later; at last any node of the piece.
+/// `before` is a node behind, which says where ahead is.
+pub(crate) fn draw_goal(
+    grid: &WalkableGrid,
+    piece: u32,
+    (here, before): (u32, Option<u32>),
+    leg_m: f64,
+    attempt: usize,
+    stream: &mut RandomStream,
+) -> Option<u32> {
+    let center = grid.center(here);
+    let late = attempt as f64 / GOAL_ATTEMPTS as f64;
+    if late > 0.8 {
+        let nodes = &grid.components[piece as usize].nodes;
+        let node = nodes[stream.index(nodes.len())];
+        let apart_m = (grid.center(node) - center).length();
+        return (node != here && apart_m <= 2.0 * LONGEST_LEG_M).then_some(node);
+    }
+    let distance_m = leg_m * stream.uniform(0.5, 1.0) * (1.0 - late);
+    let turn = stream.uniform(-1.0, 1.0);
+    let angle = match before {
+        Some(before) if late < 0.5 => {
+            let came = center - grid.center(before);
+            real::atan2(came.y, came.x) + AHEAD_RAD * turn
+        }
+        _ => real::PI * turn,
+    };
+    let (sin, cos) = real::sin_cos(angle);
+    let node = grid.node_near(center + distance_m * DVec2::new(cos, sin), piece, 10)?;
+    let apart_m = (grid.center(node) - center).length();
+    (is_goal(grid, node) && apart_m > 0.25 * distance_m && node != here).then_some(node)
+}
+
+/// Whether a walk may start or choose a new goal here.
+fn is_goal(grid: &WalkableGrid, node: u32) -> bool {
+    !matches!(grid.nodes[node as usize].kind, WalkableKind::Crossing | WalkableKind::Road)
+}
