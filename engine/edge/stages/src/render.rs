@@ -18,8 +18,8 @@ use cosfly_planner::{PlanOutcome, Trajectory};
 use cosfly_render::effects::{pose_at, target_state_at};
 use cosfly_render::frame::{TARGET_INSTANCE, object_instance};
 use cosfly_render::{
-    Backend, Bystander, Camera, Clothes, Effects, Moment, RenderConfig, Scene, Shot, TargetSetup,
-    TargetView, gait_phase_rad,
+    Backend, Bystander, Camera, Clothes, Effects, Moment, RenderConfig, Scene, Shot, TargetSetup, TargetView,
+    gait_phase_rad,
 };
 use cosfly_schema::tables::kind_name;
 use cosfly_schema::{EncodingConfig, PairInfo, Rejection, RenderedTrajectory, Role, Sighting, TownInfo};

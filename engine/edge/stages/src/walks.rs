@@ -28,7 +28,14 @@ impl Person {
     /// The person on `walk`.
     pub fn on(walk: &PedestrianPath) -> Result<Self> {
         let (track, seed) = (walk.track.clone(), walk_seed(&walk.track)?);
-        Ok(Self { walked_m: walked_m(&track.states), track, first_s: 0.0, comes_and_goes: false, seed, body: BodyShape::Person })
+        Ok(Self {
+            walked_m: walked_m(&track.states),
+            track,
+            first_s: 0.0,
+            comes_and_goes: false,
+            seed,
+            body: BodyShape::Person,
+        })
     }
 
     /// A body of traffic whose frames are `dt_s` apart.

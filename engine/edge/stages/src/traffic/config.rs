@@ -1,7 +1,7 @@
 //! [`TrafficConfig`]: the parameters of traffic in a recipe.
 
 use crate::parameters;
-use cosfly_pedestrians::{ConfigRule, PedestrianConfig};
+use cosfly_pedestrians::{ConfigRule, CrowdConfig};
 use cosfly_world::{BodyKind, Clock, Traffic};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -22,12 +22,12 @@ pub struct TrafficConfig {
     /// Bodies that flights follow.
     pub follow: Follow,
     /// People on foot.
-    pub people: PedestrianConfig,
+    pub people: CrowdConfig,
 }
 
 impl Default for TrafficConfig {
     fn default() -> Self {
-        Self { frames: 200, dt_s: 0.5, follow: Follow::default(), people: PedestrianConfig::default() }
+        Self { frames: 200, dt_s: 0.5, follow: Follow::default(), people: CrowdConfig::default() }
     }
 }
 

@@ -3,14 +3,15 @@
 mod config;
 mod population;
 
+use crate::memo::Memo;
 use crate::ports::{self, TRAFFIC, WALK};
-use crate::world::{link_town, world};
+use crate::world::{TOWN_BLOB, link_town, world};
 use crate::{codec, parameters};
 use config::TrafficConfig;
 use cosfly_blobs::OutputSink;
 use cosfly_diagnose::{Diagnostic, Fault, ParameterError, Result};
 use cosfly_frames::{Seed, TargetTrack};
-use cosfly_pedestrians::PedestrianPath;
+use cosfly_pedestrians::{Crowd, WalkableGrid, path_of};
 use cosfly_stage::{
     Artifact, Fan, InputPort, Inputs, ItemRule, Produced, Stage, StageKind, StagePart, StageProperties, TaskContext,
 };
@@ -62,7 +63,7 @@ impl StageKind for TrafficKind {
             intermediate: &[],
         };
         let bodies = config.canonical_of_bodies();
-        let bytes = 20 * u64::from(config.frames) * config.people.count;
+        let bytes = 20 * u64::from(config.frames) * u64::from(config.people.count);
         let bodies = properties(bodies, self.ports(), TRAFFIC, ItemRule::One, bytes);
         let doc = "Everybody: the part of the same stage.";
         let inputs = vec![ports::town(), ports::sibling(BODIES, TRAFFIC, Fan::Broadcast, doc)];
@@ -74,7 +75,7 @@ impl StageKind for TrafficKind {
                 suffix: BODIES,
                 stage: Box::new(BodiesStage { config: Arc::clone(&config), properties: bodies }),
             },
-            StagePart { suffix: "", stage: Box::new(WalksStage { config, properties: walks }) },
+            StagePart { suffix: "", stage: Box::new(WalksStage { config, properties: walks, grid: Memo::default() }) },
         ])
     }
 }
@@ -154,6 +155,7 @@ impl Stage for BodiesStage {
 struct WalksStage {
     config: Arc<TrafficConfig>,
     properties: StageProperties,
+    grid: Memo<Option<WalkableGrid>>,
 }
 
 impl Stage for WalksStage {
@@ -169,7 +171,11 @@ impl Stage for WalksStage {
         let number = *eligible.get(place).ok_or_else(|| too_few(&self.config, eligible.len()))?;
         let body: &Body = &traffic.bodies[number as usize];
         let track = traffic.track(number).ok_or_else(|| missing(artifact))?;
-        let path: PedestrianPath = population::path(&world(inputs)?.town, &self.config, track);
+        let digest = inputs.one("town")?.blobs[TOWN_BLOB].digest;
+        let world = world(inputs)?;
+        let grid = || Ok::<_, Box<Diagnostic>>(Crowd::grid(&world.town, &self.config.people).ok());
+        let grid = self.grid.get(digest, grid)?;
+        let path = path_of(Option::as_ref(&grid).map(WalkableGrid::ground), track);
         outputs.put("walk", &codec::encode(WALK, &path)?)?;
         outputs.put(FOLLOWED, &codec::encode(WALK, &Followed { number, plan: body.plan.clone() })?)?;
         outputs.link(BODIES, artifact.blobs[BODIES])?;
