@@ -69,15 +69,14 @@ impl Stage for CaptionStage {
                 return Ok(Produced::rejected(reason));
             }
         };
-        if trajectory.track.radius_m == 0.0 {
+        let followed = traffic::followed(inputs, inputs.one("trajectories")?)?;
+        let is_person = followed.as_ref().is_none_or(|followed| followed.plan.kind.is_person());
+        if trajectory.track.radius_m == 0.0 || !is_person {
             // The texts are about walkers only.
             outputs.put("captions", &captions_to_bytes(&[]))?;
             return Ok(Produced::default());
         }
-        let looks = match traffic::followed(inputs, inputs.one("trajectories")?)? {
-            Some(followed) => followed.plan.looks,
-            None => walk_seed(&trajectory.track)?,
-        };
+        let looks = followed.map_or_else(|| walk_seed(&trajectory.track), |followed| Ok(followed.plan.looks))?;
         let outfit = Clothes::draw(&looks).outfit;
         let facts = facts(&trajectory).wearing(self.config.clothes.then(|| Wear::from(&outfit)));
         let texts: Vec<Text> = captions(&facts, &self.config, Seed(context.seed));

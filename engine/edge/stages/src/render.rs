@@ -18,7 +18,7 @@ use cosfly_planner::{PlanOutcome, Trajectory};
 use cosfly_render::effects::{pose_at, target_state_at};
 use cosfly_render::frame::{TARGET_INSTANCE, object_instance};
 use cosfly_render::{
-    Backend, Bystander, Camera, Clothes, Effects, Moment, RenderConfig, Scene, Shot, TargetSetup, TargetView,
+    Backend, Bystander, Camera, Effects, Moment, Outfit, RenderConfig, Scene, Shot, TargetSetup, TargetView,
     gait_phase_rad,
 };
 use cosfly_schema::tables::kind_name;
@@ -160,7 +160,7 @@ impl Stage for RenderStage {
             seed: Seed(context.seed).as_u64(),
             views: seen.views,
             visible_by_dense_rays: seen.by_dense_rays,
-            outfit: has_body.then(|| Clothes::draw(&shooting.clothes_seed).outfit),
+            outfit: has_body.then(|| Outfit::of(shooting.body, &shooting.clothes_seed)),
             around: Around::clone(&*traffic::around(inputs, artifact)?),
             followed: target,
             others: crowd.into_people(),

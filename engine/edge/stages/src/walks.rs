@@ -6,7 +6,7 @@ use cosfly_fingerprint::Digest;
 use cosfly_frames::{Seed, TargetState, TargetTrack};
 use cosfly_pedestrians::PedestrianPath;
 use cosfly_render::effects::target_state_at;
-use cosfly_render::{BodyShape, Clothes, Outfit, Walker, gait_phase_rad};
+use cosfly_render::{BodyShape, Outfit, Walker, gait_phase_rad};
 use cosfly_world::Body;
 
 /// Distance between the axes of two bodies below which one would walk through the other, metres.
@@ -52,9 +52,9 @@ impl Person {
         (self.track.height_m, self.track.radius_m)
     }
 
-    /// Clothes of the person.
+    /// Clothes of the person or rider, paint of another vehicle.
     pub fn outfit(&self) -> Outfit {
-        Clothes::draw(&self.seed).outfit
+        Outfit::of(self.body, &self.seed)
     }
 
     /// State at a time, seconds from the flight's first frame; `None` where the person is absent. At the end of a walk the

@@ -1,6 +1,9 @@
 //! Clothes: one palette for everybody, drawn from a person's own seed, so that nobody changes clothes when followed.
 
+use crate::body_shape::BodyShape;
+use crate::vehicles::Livery;
 use cosfly_frames::{RandomStream, Seed};
+use cosfly_world::BodyKind;
 use serde::{Deserialize, Serialize};
 
 /// Material of a part of the figure; those of vehicles follow those of people.
@@ -73,6 +76,17 @@ pub struct Outfit {
 }
 
 impl Outfit {
+    /// What texts may say of a body: clothes of a person or rider; of another vehicle, its paint for top and trousers.
+    pub fn of(body: BodyShape, seed: &Seed) -> Self {
+        match body {
+            BodyShape::Vehicle { kind, .. } if !matches!(kind, BodyKind::Bicycle | BodyKind::Motorcycle) => {
+                let paint = Livery::draw(seed).paint;
+                Self { top: paint, trousers: paint, backpack: false }
+            }
+            _ => Clothes::draw(seed).outfit,
+        }
+    }
+
     /// Whether two people are dressed alike in words: colours of top and trousers, a backpack or none.
     pub fn is_like(&self, other: &Self) -> bool {
         let words = |it: &Self| (it.top.name, it.trousers.name, it.backpack);

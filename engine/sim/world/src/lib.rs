@@ -7,6 +7,7 @@
 mod around;
 mod body;
 mod contacts;
+mod look_alikes;
 mod population;
 mod snapshot;
 mod traffic;
@@ -14,6 +15,7 @@ mod traffic;
 pub use around::{Around, Followed};
 pub use body::{Body, BodyKind, BodyPlan};
 pub use contacts::{Contact, contacts};
+pub use look_alikes::{LookAlikeConfig, dress};
 pub use population::{Clock, Population, simulate};
 pub use snapshot::{Present, Snapshot};
 pub use traffic::Traffic;

@@ -13,6 +13,7 @@ mod losses;
 mod objects;
 mod pairs;
 mod people;
+mod phrases;
 mod rejected;
 mod sight;
 mod table;
@@ -32,6 +33,7 @@ pub use losses::Losses;
 pub use objects::{ObjectRecord, Objects, kind_name};
 pub use pairs::Pairs;
 pub use people::People;
+pub use phrases::Phrases;
 pub use rejected::Rejected;
 pub use table::{DatasetItem, Derived, INLINE_SETS, Membership, Need, Table};
 pub use trajectories::{Trajectories, WEATHER_NUMBERS, WeatherNumber};
@@ -50,6 +52,7 @@ pub fn of_trajectories() -> Vec<Table<DatasetItem>> {
         people::table(),
         bodies::table(),
         losses::table(),
+        phrases::table(),
         windows::table(),
     ]
 }

@@ -41,11 +41,11 @@ columns! { People::COLUMNS of DatasetItem;
     height_m: f64 = |item, i| person(item, i).height_m;
     /// Radius of the body seen from above.
     radius_m: f64 = |item, i| person(item, i).radius_m;
-    /// Colour of the shirt or jacket in words.
+    /// Colour of the shirt or jacket in words; of a vehicle without a rider, of its paint.
     top_colour: String = |item, i| person(item, i).outfit.top.name.name().to_owned();
     /// Colour of the shirt or jacket: share of light that it reflects, linear red, green, blue.
     top_linear_rgb: [f64; 3] = |item, i| person(item, i).outfit.top.linear_rgb.map(f64::from);
-    /// Colour of the trousers in words.
+    /// Colour of the trousers in words; of a vehicle without a rider, of its paint.
     trousers_colour: String = |item, i| person(item, i).outfit.trousers.name.name().to_owned();
     /// Whether the person wears a backpack.
     has_backpack: bool = |item, i| person(item, i).outfit.backpack;

@@ -2,6 +2,7 @@
 
 use super::column::AnyColumn;
 use crate::losses::Loss;
+use crate::phrases::Given;
 use crate::{CaptionRecord, LogRecord, PreviewStrip, RenderedTrajectory, Split, TownLayout};
 use cosfly_captions::sight::Landmarks;
 use cosfly_metrics::WindowShape;
@@ -40,6 +41,8 @@ pub struct DatasetItem {
 pub struct Derived {
     /// Intervals without sight of the target.
     pub losses: Vec<Loss>,
+    /// Referring phrases.
+    pub phrases: Vec<Given>,
     /// Present bodies around the target, frame by frame: frame number and place among the bodies.
     pub bodies: Vec<(u32, u32)>,
 }
@@ -47,7 +50,7 @@ pub struct Derived {
 impl Derived {
     /// Of a trajectory.
     pub fn of(record: &RenderedTrajectory) -> Self {
-        Self { losses: Loss::all(record), bodies: record.around.present() }
+        Self { losses: Loss::all(record), phrases: Given::all(record), bodies: record.around.present() }
     }
 }
 

@@ -2,7 +2,7 @@
 
 use crate::parameters;
 use cosfly_pedestrians::{ConfigRule, CrowdConfig};
-use cosfly_world::{BodyKind, Clock, Traffic};
+use cosfly_world::{BodyKind, Clock, LookAlikeConfig, Traffic};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
@@ -23,11 +23,19 @@ pub struct TrafficConfig {
     pub follow: Follow,
     /// People on foot.
     pub people: CrowdConfig,
+    /// People who are dressed like a followed person.
+    pub look_alikes: LookAlikeConfig,
 }
 
 impl Default for TrafficConfig {
     fn default() -> Self {
-        Self { frames: 200, dt_s: 0.5, follow: Follow::default(), people: CrowdConfig::default() }
+        Self {
+            frames: 200,
+            dt_s: 0.5,
+            follow: Follow::default(),
+            people: CrowdConfig::default(),
+            look_alikes: LookAlikeConfig::default(),
+        }
     }
 }
 
@@ -125,6 +133,8 @@ impl TrafficConfig {
             let message = format!("`{}` is listed twice", self.follow.kinds[at].body().name());
             return Err(ConfigRule { path: &["follow", "kinds"], message });
         }
+        let shares = |message| ConfigRule { path: &["look_alikes", "shares"], message };
+        self.look_alikes.check().map_err(shares)?;
         self.people.check()
     }
 
@@ -133,10 +143,12 @@ impl TrafficConfig {
         Clock::new(self.frames, self.dt_s, STEP_S)
     }
 
-    /// Parameters that the tracks depend on, for keys.
+    /// Parameters that the bodies depend on, for keys: those who are followed as far as others are dressed like them.
     pub fn canonical_of_bodies(&self) -> serde_json::Value {
         let mut all = parameters::canonical(self);
-        all.as_object_mut().expect("a table").remove("follow");
+        if self.look_alikes.shares.is_empty() {
+            all.as_object_mut().expect("a table").remove("follow");
+        }
         all
     }
 

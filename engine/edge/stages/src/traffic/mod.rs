@@ -12,10 +12,11 @@ use cosfly_blobs::OutputSink;
 use cosfly_diagnose::{Diagnostic, Fault, ParameterError, Result};
 use cosfly_frames::{Seed, TargetTrack};
 use cosfly_pedestrians::{Crowd, WalkableGrid, path_of};
+use cosfly_render::{BodyShape, Outfit};
 use cosfly_stage::{
     Artifact, Fan, InputPort, Inputs, ItemRule, Produced, Stage, StageKind, StagePart, StageProperties, TaskContext,
 };
-use cosfly_world::{Around, Body, Followed, Traffic, simulate};
+use cosfly_world::{Around, Body, Followed, Traffic, dress, simulate};
 use std::sync::Arc;
 
 /// Blob of a walk that was taken out of traffic, with the whole [`Traffic`]; and the part that makes it.
@@ -144,7 +145,14 @@ impl Stage for BodiesStage {
         let clock = self.config.clock();
         let mut populations = population::all(&self.config, &world.town, clock, Seed(context.seed))?;
         let simulated = simulate(&mut populations, clock, |_| context.check_cancelled())?;
-        let traffic = Traffic { name: context.id.stage.recipe_name().to_owned(), ..simulated };
+        let mut traffic = Traffic { name: context.id.stage.recipe_name().to_owned(), ..simulated };
+        let mut followed = self.config.follow.eligible(&traffic);
+        followed.truncate(self.config.follow.count as usize);
+        let outfit = |looks: &Seed| Outfit::of(BodyShape::Person, looks);
+        let alike = |a: &Seed, b: &Seed| outfit(a).is_like(&outfit(b));
+        let seed = Seed(context.seed).child("look-alikes", 0);
+        let note = dress(&mut traffic, &followed, &self.config.look_alikes, &alike, &seed);
+        traffic.notes.extend(note);
         outputs.put(BODIES, &codec::encode(TRAFFIC, &traffic)?)?;
         link_town(inputs, outputs)?;
         let notes = [("bodies".to_owned(), traffic.bodies.len().to_string())].into();
