@@ -16,7 +16,7 @@ const DROP_M: f64 = 8.0;
 /// Shading looks this far around a point, metres.
 const MARGIN_M: f64 = 0.5;
 /// People whose bodies are less high than this are left out, pixels.
-const LEAST_HEIGHT_PX: f64 = 1.0;
+pub const LEAST_HEIGHT_PX: f64 = 1.0;
 
 /// Somebody whose figure is built in this frame.
 pub(crate) struct Person {
@@ -112,6 +112,14 @@ pub(crate) struct Bounds {
     low: DVec3,
     high: DVec3,
     foot_m: f64,
+}
+
+impl Walker {
+    /// Lowest and highest corner of an upright box around the figure, in the world frame, metres.
+    pub fn bounds_in_world(&self) -> (DVec3, DVec3) {
+        let bounds = Bounds::new(self);
+        (bounds.low, bounds.high)
+    }
 }
 
 impl Bounds {
