@@ -19,6 +19,8 @@ pub struct Eye {
     /// axis is 1.
     pub ray_in_world: [DVec3; 3],
     pub body_from_world: DMat3,
+    /// The world's axes as [`Self::pixels_ahead`].
+    pub turn_to_pixels: [[f32; 3]; 3],
 }
 
 impl Eye {
@@ -26,6 +28,9 @@ impl Eye {
         let world_from_body = pose.world_from_body();
         let half_px = [0.5 * width as f64, 0.5 * height as f64];
         let focal_px = half_px[0] / real::tan(0.5 * horizontal_fov_rad);
+        let body_from_world = world_from_body.transpose();
+        let axes = [body_from_world.x_axis, body_from_world.y_axis, body_from_world.z_axis];
+        let to_pixels = |axis: DVec3| DVec3::new(axis.x, focal_px * axis.y, -focal_px * axis.z).as_vec3().to_array();
         Self {
             position_in_world: pose.position_in_world,
             focal_px,
@@ -35,7 +40,8 @@ impl Eye {
                 world_from_body.y_axis / focal_px,
                 -world_from_body.z_axis / focal_px,
             ],
-            body_from_world: world_from_body.transpose(),
+            body_from_world,
+            turn_to_pixels: axes.map(to_pixels),
         }
     }
 
@@ -43,6 +49,13 @@ impl Eye {
     #[inline]
     pub fn see(&self, point_in_world: DVec3) -> DVec3 {
         self.body_from_world * (point_in_world - self.position_in_world)
+    }
+
+    /// A point in body axes with its ways across and down in pixels times metres: divided by the way ahead, it is a place in
+    /// the image.
+    #[inline]
+    pub fn pixels_ahead(&self, seen: DVec3) -> DVec3 {
+        DVec3::new(seen.x, self.focal_px * seen.y, -self.focal_px * seen.z)
     }
 
     /// Component of each pixel's ray along a world direction.

@@ -1,6 +1,6 @@
 //! The picture so far, coarsely: shapes that are nowhere nearer than what is drawn are hidden.
 
-use crate::canvas::{Canvas, Part, WIDE};
+use crate::canvas::{Canvas, NEARER, Part, WIDE};
 use cosfly_frames::simd::Level;
 use cosfly_frames::simd_kernel;
 
@@ -27,8 +27,7 @@ impl Hidden {
     /// Whether all pixels of a part hold something nearer than an inverse depth.
     #[inline]
     pub fn hides(&self, part: Part, inverse_depth: f32) -> bool {
-        // A margin for rounding and for the lift of coplanar faces.
-        let limit = inverse_depth * 1.000_05;
+        let limit = inverse_depth * NEARER;
         let [from, to] = part.blocks.map(|block| block as usize);
         let rows = part.rows[0] as usize / TILE_ROWS..(part.rows[1] as usize).div_ceil(TILE_ROWS);
         for row in rows {

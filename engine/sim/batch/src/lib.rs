@@ -11,12 +11,14 @@
 //! ([`resolve`]).
 
 mod boxes;
+mod buried;
 mod canvas;
 mod eye;
 mod faces;
 mod figures;
 mod ground;
 mod hidden;
+mod lanes;
 mod outputs;
 mod painter;
 mod raster;

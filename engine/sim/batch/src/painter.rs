@@ -1,14 +1,15 @@
 //! One picture: boxes from near to far, people, other figures, ground; then the channels.
 
-use crate::boxes::{Boxes, Group, Projected};
-use crate::canvas::{Canvas, Part};
+use crate::boxes::{Boxes, Grouped};
+use crate::canvas::{Canvas, Part, WIDE};
 use crate::eye::{Eye, Linear, NEAR_M};
 use crate::faces::{DrawnFace, SKY};
 use crate::figures::{Around, SeenPart, Stance, Wardrobe};
-use crate::ground::{Cluster, Ground, Polygon, SeenPoints};
+use crate::ground::{FAR_OFF_PX, Ground, Pack, Polygon, SeenPack};
 use crate::hidden::Hidden;
+use crate::lanes::Candidate;
 use crate::outputs::Outputs;
-use crate::raster::{HalfPlanes, MAX_LINES, Surface, draw_box, draw_polygon};
+use crate::raster::{HalfPlanes, MOST_LINES, Surface, draw_box, draw_large_polygon, draw_polygon};
 use crate::resolve::resolve;
 use crate::view::View;
 use cosfly_frames::DVec3;
@@ -19,9 +20,12 @@ use cosfly_render::frame::TARGET_INSTANCE;
 use cosfly_render::{LEAST_HEIGHT_PX, Walker};
 
 /// Most corners of a polygon.
-const MAX_CORNERS: usize = MAX_LINES;
-/// Beyond this, pixels from the image's centre, corners are too coarse in single precision.
-const FAR_OFF_PX: f32 = 3000.0;
+const MOST_CORNERS: usize = WIDE * MOST_LINES;
+/// Parts of up to this many blocks are compared with the canvas itself.
+const SMALL_BLOCKS: u32 = 8;
+/// Where a corner is farther from the image's centre than this per metre that it lies ahead, a rounding of its place in the
+/// world counts on the screen.
+const COARSE_PX_PER_M: f32 = 100.0;
 /// Width by which polygons reach beyond their edges, so that neighbours leave no gap, pixels.
 const SEAM_PX: f32 = 2e-5;
 
@@ -31,20 +35,10 @@ pub struct Painter {
     canvas: Canvas,
     hidden: Hidden,
     faces: Vec<DrawnFace>,
-    /// Distance and place in a list of what may be seen.
-    order: Vec<(u32, u32)>,
+    groups: Vec<Candidate>,
     candidates: Vec<Candidate>,
-    seen: SeenPoints,
+    seen: SeenPack,
     wardrobe: Wardrobe,
-}
-
-/// A box that may be seen.
-#[derive(Clone, Copy)]
-struct Candidate {
-    index: u32,
-    part: Part,
-    /// Greatest inverse depth that it may have.
-    nearest: f32,
 }
 
 impl Painter {
@@ -54,9 +48,9 @@ impl Painter {
             canvas: Canvas::new(width, height),
             hidden: Hidden::default(),
             faces: Vec::new(),
-            order: Vec::new(),
+            groups: Vec::new(),
             candidates: Vec::new(),
-            seen: SeenPoints::default(),
+            seen: SeenPack::default(),
             wardrobe: Wardrobe::new(),
         }
     }
@@ -82,39 +76,22 @@ impl Painter {
         resolve(self.level, &self.canvas, &self.faces, outputs);
     }
 
-    /// Boxes of groups that may be seen, from near to far.
-    fn draw_boxes(&mut self, eye: &Eye, boxes: &Boxes, groups: &[Group]) {
+    /// Boxes that may be seen, from near to far.
+    fn draw_boxes(&mut self, eye: &Eye, boxes: &Boxes, grouped: &Grouped) {
+        let Self { level, canvas, hidden, .. } = self;
+        self.groups.clear();
+        grouped.around().gather(*level, eye, canvas, hidden, &mut self.groups);
         self.candidates.clear();
-        for group in groups {
-            if eye.may_see(group.center_in_world, group.half_m) {
-                self.add_candidates(group, &group.project(self.level, eye));
-            }
+        for group in &self.groups {
+            let (first, lanes) = grouped.group(group.index);
+            let start = self.candidates.len();
+            lanes.gather(*level, eye, canvas, hidden, &mut self.candidates);
+            self.candidates[start..].iter_mut().for_each(|candidate| candidate.index += first);
         }
-        self.order.clear();
-        // Greater inverse depths first; those of positive floats are ordered as their bits.
-        self.order.extend((0u32..).zip(&self.candidates).map(|(place, it)| (!it.nearest.to_bits(), place)));
-        self.order.sort_unstable();
-        for position in 0..self.order.len() {
-            let Candidate { index, part, nearest } = self.candidates[self.order[position].1 as usize];
-            if !self.hidden.hides(part, nearest)
-                && let Some(shape) = boxes.get(index).on_screen(eye, &mut self.faces)
-            {
-                draw_box(self.level, &mut self.canvas, part, &shape);
-            }
-        }
-    }
-
-    fn add_candidates(&mut self, group: &Group, on_screen: &Projected) {
-        for k in 0..group.count as usize {
-            if on_screen.farthest_m[k] < NEAR_M as f32 {
-                continue;
-            }
-            let at = |bounds: &[[f32; 8]; 2]| [bounds[0][k], bounds[1][k]];
-            if let Some(part) = self.canvas.part(at(&on_screen.low), at(&on_screen.high)) {
-                let nearest = 1.0 / on_screen.nearest_m[k].max(NEAR_M as f32);
-                if !self.hidden.hides(part, nearest) {
-                    self.candidates.push(Candidate { index: group.first + k as u32, part, nearest });
-                }
+        near_first(&mut self.candidates);
+        for Candidate { index, part, .. } in &self.candidates {
+            if let Some(shape) = boxes.get(*index).on_screen(eye, &mut self.faces) {
+                draw_box(*level, canvas, *part, &shape);
             }
         }
     }
@@ -195,7 +172,7 @@ impl Painter {
         });
         let nearest_m = corners.iter().map(|corner| corner.x).fold(f64::INFINITY, f64::min);
         let face = DrawnFace { plane, ..face };
-        if nearest_m >= NEAR_M && is_close(&points) {
+        if nearest_m >= NEAR_M && points.iter().flatten().all(|part| part.abs() < FAR_OFF_PX) {
             self.draw_points(&points, face, 0.0);
         } else {
             self.draw_reaching(eye, corners, face, 0.0);
@@ -203,71 +180,55 @@ impl Painter {
     }
 
     fn draw_ground(&mut self, eye: &Eye, ground: &Ground) {
-        self.order.clear();
-        for (index, cluster) in (0u32..).zip(&ground.clusters) {
-            if eye.may_see(cluster.center_in_world, cluster.half_m) {
-                let away = (cluster.center_in_world - eye.position_in_world).abs() - cluster.half_m;
-                let nearest_m = away.max(DVec3::ZERO).length() as f32;
-                self.order.push((nearest_m.to_bits(), index));
+        let mut groups = core::mem::take(&mut self.groups);
+        let mut seen = core::mem::take(&mut self.seen);
+        groups.clear();
+        ground.around().gather(self.level, eye, &self.canvas, &self.hidden, &mut groups);
+        near_first(&mut groups);
+        for group in &groups {
+            let (center_in_world, packs) = ground.cluster(group.index);
+            let origin = eye.pixels_ahead(eye.see(center_in_world)).as_vec3().to_array();
+            for pack in packs {
+                ground.project(self.level, eye, origin, pack, &mut seen);
+                self.draw_pack(eye, ground, pack, &seen);
             }
         }
-        self.order.sort_unstable();
-        for position in 0..self.order.len() {
-            self.draw_cluster(eye, ground, &ground.clusters[self.order[position].1 as usize]);
+        (self.groups, self.seen) = (groups, seen);
+    }
+
+    fn draw_pack(&mut self, eye: &Eye, ground: &Ground, pack: &Pack, seen: &SeenPack) {
+        for k in 0..pack.count {
+            let Some(part) = seen.parts.get(k) else { continue };
+            if self.is_hidden(part, 1.0 / seen.nearest_m[k].max(NEAR_M as f32)) {
+                continue;
+            }
+            let polygon = ground.polygon(pack, k);
+            let Some(face) = ground_face(eye, polygon) else { continue };
+            let corners_in_world = ground.corners_in_world(polygon);
+            let count = corners_in_world.len().min(MOST_CORNERS);
+            if seen.nearest_m[k] >= NEAR_M as f32 && seen.coarse[k] < COARSE_PX_PER_M {
+                let mut points = [[0.0f32; 2]; MOST_CORNERS];
+                for (point, corner) in points.iter_mut().zip(&seen.corners[..count]) {
+                    *point = [corner[0][k], corner[1][k]];
+                }
+                self.draw_part(part, &points[..count], face, polygon.lift);
+            } else {
+                let mut corners = [DVec3::ZERO; MOST_CORNERS];
+                for (corner, in_world) in corners.iter_mut().zip(corners_in_world) {
+                    *corner = eye.see(*in_world);
+                }
+                self.draw_reaching(eye, &corners[..count], face, polygon.lift);
+            }
         }
     }
 
-    fn draw_cluster(&mut self, eye: &Eye, ground: &Ground, cluster: &Cluster) {
-        let around =
-            Around::of_box(eye, cluster.center_in_world - cluster.half_m, cluster.center_in_world + cluster.half_m);
-        let Some(part) = self.canvas.part(around.low, around.high) else { return };
-        if around.nearest_m >= NEAR_M && self.hidden.hides(part, (1.0 / around.nearest_m) as f32) {
-            return;
+    /// Whether all pixels of a part hold something nearer than an inverse depth.
+    fn is_hidden(&self, part: Part, inverse_depth: f32) -> bool {
+        if part.area() <= SMALL_BLOCKS {
+            self.canvas.hides(part, inverse_depth)
+        } else {
+            self.hidden.hides(part, inverse_depth)
         }
-        let mut seen = core::mem::take(&mut self.seen);
-        ground.project(self.level, eye, cluster, &mut seen);
-        for polygon in ground.polygons(cluster) {
-            let numbers = ground.corners(polygon);
-            let count = numbers.len().min(MAX_CORNERS);
-            let mut points = [[0.0f32; 2]; MAX_CORNERS];
-            let (mut nearest_m, mut farthest_m) = (f32::INFINITY, f32::NEG_INFINITY);
-            let (mut low, mut high) = ([f32::INFINITY; 2], [f32::NEG_INFINITY; 2]);
-            for (point, number) in points.iter_mut().zip(numbers) {
-                let [ahead, u, v] = seen.get(*number);
-                *point = [u, v];
-                nearest_m = if ahead < nearest_m { ahead } else { nearest_m };
-                farthest_m = if ahead > farthest_m { ahead } else { farthest_m };
-                for axis in 0..2 {
-                    low[axis] = if point[axis] < low[axis] { point[axis] } else { low[axis] };
-                    high[axis] = if point[axis] > high[axis] { point[axis] } else { high[axis] };
-                }
-            }
-            let is_ahead = nearest_m >= NEAR_M as f32;
-            if is_ahead {
-                let Some(part) = self.canvas.part(low, high) else { continue };
-                if self.hidden.hides(part, 1.0 / nearest_m) {
-                    continue;
-                }
-                if is_close(&[low, high]) {
-                    if let Some(face) = ground_face(eye, polygon) {
-                        self.draw_part(part, &points[..count], face, polygon.lift);
-                    }
-                    continue;
-                }
-            } else if farthest_m < NEAR_M as f32 {
-                continue;
-            }
-            {
-                let mut corners = [DVec3::ZERO; MAX_CORNERS];
-                for (corner, number) in corners.iter_mut().zip(numbers) {
-                    *corner = eye.see(ground.exact_in_world(cluster, *number));
-                }
-                if let Some(face) = ground_face(eye, polygon) {
-                    self.draw_reaching(eye, &corners[..count], face, polygon.lift);
-                }
-            }
-        }
-        self.seen = seen;
     }
 
     /// Draws a polygon ahead of the camera, by its corners on the screen.
@@ -279,35 +240,33 @@ impl Painter {
     }
 
     fn draw_part(&mut self, part: Part, points: &[[f32; 2]], face: DrawnFace, lift: f64) {
-        let mut within = HalfPlanes::new();
+        let (origin, last) = (points[0], points[points.len() - 1]);
         let mut area = 0.0;
-        let origin = points[0];
-        let Some(mut from) = points.last().copied() else { return };
+        let mut from = last;
         for to in points {
             area += (from[0] - origin[0]) * (to[1] - from[1]) - (from[1] - origin[1]) * (to[0] - from[0]);
             from = *to;
         }
         let side = if area < 0.0 { -1.0 } else { 1.0 };
-        for to in points {
-            let step = [side * (to[0] - from[0]), side * (to[1] - from[1])];
-            let seam = SEAM_PX * (step[0].abs() + step[1].abs());
-            within.add([step[1] * from[0] - step[0] * from[1] + seam, -step[1], step[0]]);
-            from = *to;
+        let surface = self.surface(face, lift);
+        if points.len() <= WIDE {
+            let within = between(points, side);
+            draw_polygon(self.level, &mut self.canvas, part, &within, &surface);
+        } else {
+            let within = between(points, side);
+            draw_large_polygon(self.level, &mut self.canvas, part, &within, &surface);
         }
-        self.draw_within(part, &within, face, lift);
     }
 
     /// Draws a polygon that may reach behind the camera, by its corners in body axes.
     fn draw_reaching(&mut self, eye: &Eye, corners: &[DVec3], face: DrawnFace, lift: f64) {
-        if corners.iter().all(|corner| corner.x < NEAR_M) {
-            return;
-        }
+        let (Some(part), Some(last)) = (self.part_ahead(eye, corners), corners.last()) else { return };
         let mut within = HalfPlanes::new();
         let normal = (1..corners.len().saturating_sub(1))
             .map(|k| (corners[k] - corners[0]).cross(corners[k + 1] - corners[0]))
             .sum::<DVec3>();
-        let Some(mut from) = corners.last().copied() else { return };
-        let side = if normal.dot(from) < 0.0 { -1.0 } else { 1.0 };
+        let side = if normal.dot(*last) < 0.0 { -1.0 } else { 1.0 };
+        let mut from = *last;
         for to in corners {
             // Positive for rays that pass on the inner side of the plane through the eye and the edge.
             let across = from.cross(*to);
@@ -315,9 +274,8 @@ impl Painter {
             within.add([across.x, across.y / eye.focal_px, -across.z / eye.focal_px].map(|part| (part * scale) as f32));
             from = *to;
         }
-        if let Some(part) = self.part_ahead(eye, corners) {
-            self.draw_within(part, &within, face, lift);
-        }
+        let surface = self.surface(face, lift);
+        draw_large_polygon(self.level, &mut self.canvas, part, &within, &surface);
     }
 
     /// The part of the screen that a polygon covers with its points ahead of the camera.
@@ -345,12 +303,32 @@ impl Painter {
         self.canvas.part(low, high)
     }
 
-    fn draw_within(&mut self, part: Part, within: &HalfPlanes, face: DrawnFace, lift: f64) {
+    /// Adds a face to the list.
+    fn surface(&mut self, face: DrawnFace, lift: f64) -> Surface {
         let plane = face.plane.map(|part| (part * (1.0 + lift)) as f32);
         let number = self.faces.len() as u32;
         self.faces.push(face);
-        draw_polygon(self.level, &mut self.canvas, part, within, &Surface { plane, face: number });
+        Surface { plane, face: number }
     }
+}
+
+/// The half planes between the edges of a polygon; `side` is -1 where its corners go around it the other way.
+#[inline(always)]
+fn between<const BLOCKS: usize>(points: &[[f32; 2]], side: f32) -> HalfPlanes<BLOCKS> {
+    let mut within = HalfPlanes::new();
+    let mut from = points[points.len() - 1];
+    for to in points {
+        let step = [side * (to[0] - from[0]), side * (to[1] - from[1])];
+        let seam = SEAM_PX * (step[0].abs() + step[1].abs());
+        within.add([step[1] * from[0] - step[0] * from[1] + seam, -step[1], step[0]]);
+        from = *to;
+    }
+    within
+}
+
+/// From near to far: greater inverse depths first; those of positive floats are ordered as their bits.
+fn near_first(candidates: &mut [Candidate]) {
+    candidates.sort_unstable_by_key(|candidate| (!candidate.nearest.to_bits(), candidate.index));
 }
 
 fn ground_face(eye: &Eye, polygon: &Polygon) -> Option<DrawnFace> {
@@ -369,9 +347,4 @@ fn bounds(points: &[[f32; 2]]) -> ([f32; 2], [f32; 2]) {
         }
     }
     (low, high)
-}
-
-/// Whether points are near enough to the image for single precision.
-fn is_close(points: &[[f32; 2]]) -> bool {
-    points.iter().flatten().all(|part| part.abs() < FAR_OFF_PX)
 }

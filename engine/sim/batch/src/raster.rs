@@ -1,12 +1,12 @@
 //! Drawing convex shapes: eight rows of ends of spans at a time, then eight pixels at a time.
 
-use crate::canvas::{Canvas, Part, WIDE};
+use crate::canvas::{Canvas, Part, WIDE, whole};
 use crate::eye::NEAR_M;
 use cosfly_frames::simd::Level;
 use cosfly_frames::simd_kernel;
 
-/// Most lines around a shape.
-pub const MAX_LINES: usize = 24;
+/// Most blocks of eight lines around a shape.
+pub const MOST_LINES: usize = 3;
 
 /// Greatest inverse depth that is drawn, 1/m.
 const NEAREST: f32 = (1.0 / NEAR_M) as f32;
@@ -27,29 +27,24 @@ pub struct BoxOnScreen {
 
 /// Half planes of the screen: where `constant + across * u + down * v` is at least 0. Eight by eight; those beyond the last
 /// hold everywhere.
-pub struct HalfPlanes {
-    constant: [[f32; WIDE]; MAX_LINES / WIDE],
-    across: [[f32; WIDE]; MAX_LINES / WIDE],
-    down: [[f32; WIDE]; MAX_LINES / WIDE],
+pub struct HalfPlanes<const BLOCKS: usize> {
+    constant: [[f32; WIDE]; BLOCKS],
+    across: [[f32; WIDE]; BLOCKS],
+    down: [[f32; WIDE]; BLOCKS],
     count: usize,
 }
 
-impl HalfPlanes {
+impl<const BLOCKS: usize> HalfPlanes<BLOCKS> {
     /// The whole screen.
     #[inline(always)]
     pub fn new() -> Self {
-        Self {
-            constant: [[1.0; WIDE]; MAX_LINES / WIDE],
-            across: [[0.0; WIDE]; MAX_LINES / WIDE],
-            down: [[0.0; WIDE]; MAX_LINES / WIDE],
-            count: 0,
-        }
+        Self { constant: [[1.0; WIDE]; BLOCKS], across: [[0.0; WIDE]; BLOCKS], down: [[0.0; WIDE]; BLOCKS], count: 0 }
     }
 
-    /// Adds a half plane; those beyond [`MAX_LINES`] are left out.
+    /// Adds a half plane; those beyond the last place are left out.
     #[inline(always)]
     pub fn add(&mut self, [constant, across, down]: [f32; 3]) {
-        if self.count < MAX_LINES {
+        if self.count < WIDE * BLOCKS {
             let (block, lane) = (self.count / WIDE, self.count % WIDE);
             (self.constant[block][lane], self.across[block][lane], self.down[block][lane]) = (constant, across, down);
             self.count += 1;
@@ -83,8 +78,19 @@ pub fn draw_box(level: Level, canvas: &mut Canvas, part: Part, shape: &BoxOnScre
 }
 
 /// Draws a convex polygon, the part of a surface within half planes, where it is nearer than what is there.
-pub fn draw_polygon(level: Level, canvas: &mut Canvas, part: Part, within: &HalfPlanes, surface: &Surface) {
+pub fn draw_polygon(level: Level, canvas: &mut Canvas, part: Part, within: &HalfPlanes<1>, surface: &Surface) {
     draw_within(level, Rows::of(canvas, part), within, surface);
+}
+
+/// [`draw_polygon`] with up to `8 * MOST_LINES` edges.
+pub fn draw_large_polygon(
+    level: Level,
+    canvas: &mut Canvas,
+    part: Part,
+    within: &HalfPlanes<MOST_LINES>,
+    surface: &Surface,
+) {
+    draw_within_many(level, Rows::of(canvas, part), within, surface);
 }
 
 simd_kernel! {
@@ -93,7 +99,7 @@ simd_kernel! {
         let planes = &shape.planes;
         for entry in 0..shape.entries {
             let mine = planes[entry];
-            let mut within = HalfPlanes::new();
+            let mut within = HalfPlanes::<1>::new();
             for (k, other) in planes.iter().enumerate() {
                 // Before all planes of exit; behind all planes of entry.
                 let side = if k < shape.entries { -1.0 } else { 1.0 };
@@ -108,23 +114,30 @@ simd_kernel! {
 }
 
 simd_kernel! {
-    fn draw_within(rows: Rows<'_>, within: &HalfPlanes, surface: &Surface) {
+    fn draw_within(rows: Rows<'_>, within: &HalfPlanes<1>, surface: &Surface) {
+        let mut rows = rows;
+        rows.draw(within, surface);
+    }
+}
+
+simd_kernel! {
+    fn draw_within_many(rows: Rows<'_>, within: &HalfPlanes<MOST_LINES>, surface: &Surface) {
         let mut rows = rows;
         rows.draw(within, surface);
     }
 }
 
 /// The left and right bound of each row that lines give: `at + slope * row`.
-struct Bounds {
-    left: [[[f32; WIDE]; 2]; MAX_LINES / WIDE],
-    right: [[[f32; WIDE]; 2]; MAX_LINES / WIDE],
+struct Sides<const BLOCKS: usize> {
+    left: [[[f32; WIDE]; 2]; BLOCKS],
+    right: [[[f32; WIDE]; 2]; BLOCKS],
 }
 
-impl Bounds {
+impl<const BLOCKS: usize> Sides<BLOCKS> {
     #[inline(always)]
-    fn of(within: &HalfPlanes) -> Self {
-        let mut bounds = Self { left: [[[0.0; WIDE]; 2]; 3], right: [[[0.0; WIDE]; 2]; 3] };
-        for block in 0..within.count.div_ceil(WIDE) {
+    fn of(within: &HalfPlanes<BLOCKS>) -> Self {
+        let mut bounds = Self { left: [[[0.0; WIDE]; 2]; BLOCKS], right: [[[0.0; WIDE]; 2]; BLOCKS] };
+        for block in 0..BLOCKS {
             let (constant, across, down) = (&within.constant[block], &within.across[block], &within.down[block]);
             let (left, right) = (&mut bounds.left[block], &mut bounds.right[block]);
             for k in 0..WIDE {
@@ -161,15 +174,15 @@ impl<'a> Rows<'a> {
     }
 
     #[inline(always)]
-    fn draw(&mut self, within: &HalfPlanes, surface: &Surface) {
-        let bounds = Bounds::of(within);
+    fn draw<const BLOCKS: usize>(&mut self, within: &HalfPlanes<BLOCKS>, surface: &Surface) {
+        let bounds = Sides::of(within);
         let [first_row, end_row] = self.part.rows;
         let mut row = first_row;
         while row < end_row {
             let y = self.first[1] + row as i32 as f32;
             let (mut left, mut right) = ([-OUTSIDE; WIDE], [OUTSIDE; WIDE]);
             for line in 0..within.count {
-                let (block, lane) = (line / WIDE % (MAX_LINES / WIDE), line % WIDE);
+                let (block, lane) = (line / WIDE % BLOCKS, line % WIDE);
                 let [from, from_slope] = [bounds.left[block][0][lane], bounds.left[block][1][lane]];
                 let [to, to_slope] = [bounds.right[block][0][lane], bounds.right[block][1][lane]];
                 for k in 0..WIDE {
@@ -231,14 +244,4 @@ impl<'a> Rows<'a> {
             }
         }
     }
-}
-
-/// The whole part of a number from -2^22 to 2^22, rounded towards minus infinity.
-#[inline(always)]
-fn whole(number: f32) -> i32 {
-    // Adding it leaves the nearest whole number in the low bits.
-    const MAGIC: f32 = 12_582_912.0;
-    let nearest = (number + MAGIC) - MAGIC;
-    let below = if nearest > number { nearest - 1.0 } else { nearest };
-    ((below + MAGIC).to_bits() as i32).wrapping_sub(MAGIC.to_bits() as i32)
 }
