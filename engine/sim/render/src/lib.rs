@@ -50,6 +50,7 @@ pub use figure::{Bystander, TargetSetup, Walker, gait_phase_rad, pedal_phase_rad
 pub use frame::{ChannelImage, FrameImages, PersonView, PixelBox, RenderedFrame, TargetView};
 pub use look::PictureLook;
 pub use outlook::Outlook;
+pub use people::LEAST_HEIGHT_PX;
 pub use renderer::{FrameParts, Renderer};
 pub use scene::{Scene, SceneTriangle};
 pub use setup::FrameSetup;

@@ -20,7 +20,7 @@ const MARGIN_M: f64 = 0.5;
 /// Vehicles stay within their boxes and this margin, metres.
 const VEHICLE_MARGIN_M: f64 = 0.02;
 /// People whose bodies are less high than this are left out, pixels.
-const LEAST_HEIGHT_PX: f64 = 1.0;
+pub const LEAST_HEIGHT_PX: f64 = 1.0;
 
 /// Somebody whose figure is built in this frame.
 pub(crate) struct Person {
@@ -119,6 +119,14 @@ pub(crate) struct Bounds {
     low: DVec3,
     high: DVec3,
     foot_m: f64,
+}
+
+impl Walker {
+    /// Lowest and highest corner of an upright box around the figure, in the world frame, metres.
+    pub fn bounds_in_world(&self) -> (DVec3, DVec3) {
+        let bounds = Bounds::new(self);
+        (bounds.low, bounds.high)
+    }
 }
 
 impl Bounds {

@@ -1,7 +1,7 @@
 //! Flat faces of a vehicle's model, in the vehicle's own axes.
 
-use crate::clothes::{Clothes, Region};
-use crate::figure::{Body, FigureTriangle, Walker, around};
+use crate::clothes::Region;
+use crate::figure::{FigureTriangle, Surface, Walker, around};
 use cosfly_frames::{DVec3, real};
 
 /// Panels such as windows lie this far before the sheet, metres.
@@ -161,16 +161,14 @@ impl<'a> Model<'a> {
         }
     }
 
-    /// A rider's body in shares of `canonical_m`, the size of the box around a vehicle whose rider is 1 box height tall.
-    pub fn rider(&mut self, clothes: &Clothes, canonical_m: DVec3) -> Body<'_> {
+    /// Surface of a rider in shares of `canonical_m`, the size of the box around a vehicle whose rider is 1 box height tall.
+    pub fn rider(&mut self, canonical_m: DVec3) -> Surface<'_> {
         let stretch = self.size_m / canonical_m;
-        Body {
+        Surface {
             feet: self.feet,
             forward: self.forward * (stretch.x / stretch.z),
             right: self.right * (stretch.y / stretch.z),
             height: self.size_m.z,
-            width: 1.0,
-            forearm: if clothes.short_sleeves { Region::Skin } else { Region::Top },
             around: around(),
             person: self.person,
             // Beyond the regions, each of which is one part.

@@ -2,7 +2,7 @@
 
 use super::model::Model;
 use crate::clothes::{Clothes, Region};
-use crate::figure::{Body, ring};
+use crate::figure::{Surface, ring};
 use cosfly_frames::{DVec3, real};
 
 /// Sizes that the shares of both vehicles are made for, metres.
@@ -53,7 +53,7 @@ pub(super) fn bicycle(model: &mut Model<'_>, clothes: &Clothes, phase_rad: f64) 
         feet,
         half_stand: 0.060,
     };
-    rider(&mut model.rider(clothes, BICYCLE_M), &seat);
+    rider(&mut model.rider(BICYCLE_M), &seat, forearm(clothes));
 }
 
 /// A motorcycle.
@@ -96,7 +96,7 @@ pub(super) fn motorcycle(model: &mut Model<'_>, clothes: &Clothes) {
         feet: [foot; 2],
         half_stand: 0.12,
     };
-    rider(&mut model.rider(clothes, MOTORCYCLE_M), &seat);
+    rider(&mut model.rider(MOTORCYCLE_M), &seat, forearm(clothes));
 }
 
 /// A bar across the whole width.
@@ -105,8 +105,13 @@ fn handlebar(model: &mut Model<'_>, x_m: f64, z_m: f64, thick_m: f64) {
     model.bar(Region::Trim, DVec3::new(x_m, -half_m, z_m), DVec3::new(x_m, half_m, z_m), thick_m);
 }
 
+/// Forearms, bare or covered.
+fn forearm(clothes: &Clothes) -> Region {
+    if clothes.short_sleeves { Region::Skin } else { Region::Top }
+}
+
 /// Somebody who sits; the head reaches the top of the box.
-fn rider(body: &mut Body<'_>, seat: &Seat) {
+fn rider(body: &mut Surface<'_>, seat: &Seat, forearm: Region) {
     let ([hip_x, hip_z], [neck_x, neck_z]) = (seat.hip, seat.shoulder);
     body.part(
         ring(hip_x - 0.02, 0.0, hip_z - 0.05, 0.085, 0.065),
@@ -144,7 +149,7 @@ fn rider(body: &mut Body<'_>, seat: &Seat) {
         Region::Hair,
     );
     for (side, [foot_x, foot_z]) in [-1.0, 1.0].into_iter().zip(seat.feet) {
-        arm(body, seat, side);
+        arm(body, seat, side, forearm);
         let hip = [hip_x + 0.01, hip_z - 0.01];
         let ankle = [foot_x - 0.015, foot_z + 0.04];
         let [knee_x, knee_z] = joint(hip, ankle, 0.255, 0.255);
@@ -169,12 +174,11 @@ fn rider(body: &mut Body<'_>, seat: &Seat) {
     }
 }
 
-fn arm(body: &mut Body<'_>, seat: &Seat, side: f64) {
+fn arm(body: &mut Surface<'_>, seat: &Seat, side: f64, forearm: Region) {
     let ([neck_x, neck_z], [hand_x, hand_z]) = (seat.shoulder, seat.hand);
     let (near, far) = (side * 0.122, side * seat.half_grip);
     let elbow = [0.5 * (neck_x + hand_x) - 0.012, 0.5 * (neck_z + hand_z) - 0.03];
     let middle = 0.5 * (near + far) + side * 0.008;
-    let forearm = body.forearm;
     body.part(
         ring(elbow[0], middle, elbow[1], 0.025, 0.028),
         ring(neck_x, near, neck_z - 0.01, 0.031, 0.036),
