@@ -110,6 +110,7 @@ pub fn town() -> Town {
         simplification: SimplificationReport::default(),
         walkable: vec![],
         surfaces: vec![],
+        lanes: vec![],
         synthetic: Synthetic {
             buildings: true,
             trees: false,

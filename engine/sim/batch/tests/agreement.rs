@@ -59,6 +59,7 @@ fn setup_of(target: &Walker) -> TargetSetup {
         radius_m: target.radius_m,
         clothes_seed: target.clothes_seed,
         gait_phase_rad: target.gait_phase_rad,
+        body: target.body,
         visible_by_rays: 1.0,
     }
 }

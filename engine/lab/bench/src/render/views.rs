@@ -203,6 +203,7 @@ fn box_town(boxes: usize) -> Town {
         planning_boxes: vec![],
         simplification: SimplificationReport::default(),
         walkable: vec![],
+        lanes: vec![],
         surfaces: vec![ground],
         synthetic: Synthetic::default(),
         min_in_world: DVec3::new(-half, -half, 0.0),
