@@ -104,7 +104,8 @@ pub struct Certificate {
     /// Path length divided by the target's; 0 when the target stands.
     pub length_ratio: f64,
     /// Visibility along the way through the lattice that the flight was refined from, mean over the lattice's layers; the
-    /// flight may see more. 0 where no lattice was searched.
+    /// flight may see more. Of a causal flight, the visibility that its plans promised, mean over its frames. 0 where no lattice
+    /// was searched.
     pub lattice_visibility: f64,
     /// `lattice_visibility` minus the flight's visibility; 0 when the flight sees as much or more.
     pub visibility_regret: f64,

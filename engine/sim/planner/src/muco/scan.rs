@@ -108,13 +108,14 @@ impl<'a> Scanner<'a> {
         self.profiles.clear();
         let lowest = self.lattice.altitudes_m[0];
         let grown = (keep_out_m + CLOSE_EXTRA_M, lowest);
+        let view = (lowest, self.lattice.radii_m.last().copied().unwrap_or(0.0));
         let mut add = |solid: &Solid, hides: bool, closes: bool| {
             self.profiles.extend(profile(solid, feet, farthest, grown, (hides, closes)));
         };
         obstacles.still_at(frame).for_each(|solid| add(solid, true, true));
         for moving in obstacles.moving_at(frame) {
             // Seen past where it is; kept clear of wherever it goes until the next frame.
-            if !moving.is_target {
+            if moving.may_hide(feet, view) {
                 add(&moving.here, true, false);
             }
             let swept = moving.swept();

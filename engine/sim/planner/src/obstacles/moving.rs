@@ -37,6 +37,15 @@ impl Moving {
         Self { here: solid, step, is_target: solid.signed_distance(middle).0 <= 0.0, growth_m }
     }
 
+    /// Whether it may hide something of a body at `feet` from a camera at least `lowest_m` above the feet and at most
+    /// `farthest_m` from them, seen from above.
+    pub fn may_hide(&self, feet: DVec3, (lowest_m, farthest_m): (f64, f64)) -> bool {
+        let (middle, disc_m) = self.here.disc_from_above();
+        let near_m = ((middle - feet).truncate().length() - disc_m).max(0.0);
+        // The lowest line of sight there rises evenly from the feet to the camera.
+        !self.is_target && self.here.max.z - feet.z >= near_m * lowest_m.max(0.0) / farthest_m && near_m <= farthest_m
+    }
+
     /// A box that contains it, standing at its place, however far it turns until the next frame.
     pub fn around(&self) -> Solid {
         self.here.grown(self.growth_m)
