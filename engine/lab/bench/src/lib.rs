@@ -6,5 +6,6 @@ pub mod clock;
 pub mod geometry;
 pub mod geometry_contenders;
 pub mod geometry_scenes;
+pub mod people;
 pub mod planner;
 pub mod render;

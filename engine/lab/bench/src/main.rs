@@ -1,4 +1,4 @@
-//! The lab's binary: `cosfly-lab planner | render | geometry | engine | cluster`.
+//! The lab's binary: `cosfly-lab planner | people | render | geometry | engine | cluster`.
 
 mod commands;
 

@@ -1,7 +1,7 @@
-//! Simulated pedestrians: walkable grid, A* routes, smoothing, variable speed, stops.
+//! People on foot: walkable grid, A* routes, smoothing, variable speed, stops; crowds; recorded and scripted people.
 //!
-//! [`WalkableGrid::build`] once per town, [`walk`] once per pedestrian. A walk is a pure function of
-//! the grid, the config and its seed.
+//! [`WalkableGrid::build`] once per town. [`walk`] once per person who walks alone: a pure function of the grid, the config and
+//! the seed. [`Crowd`], [`Recording::placed`] and [`scripted()`] make populations of a moving world.
 
 pub mod config;
 pub mod crowd;
@@ -13,7 +13,10 @@ mod motion;
 mod obstruction;
 pub mod path;
 mod polygon;
+pub mod prescribed;
+pub mod recorded;
 mod route;
+pub mod scripted;
 mod smooth;
 pub mod walk;
 
@@ -23,4 +26,7 @@ pub use error::{ConfigRule, PedestrianError};
 pub use grid::WalkableGrid;
 pub use ground::Ground;
 pub use path::{PedestrianPath, path_of};
+pub use prescribed::Prescribed;
+pub use recorded::{RecordedConfig, RecordedError, Recording};
+pub use scripted::{ScriptedPerson, Waypoint, scripted};
 pub use walk::walk;

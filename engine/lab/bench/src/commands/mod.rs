@@ -7,6 +7,7 @@ mod flights;
 mod flights_stages;
 mod geometry;
 mod outcome;
+mod people;
 mod planner;
 mod render;
 mod town_of_recipe;
@@ -37,6 +38,9 @@ enum Command {
     /// Box queries per second on one core: cosfly's tree, the trees of parry and obvhs, and a brute-force loop
     #[command(after_help = geometry::EXAMPLES)]
     Geometry(geometry::GeometryArguments),
+    /// Simulated people beside recorded ones: speeds, stops, turns, groups, distances; speed by density
+    #[command(after_help = people::EXAMPLES)]
+    People(people::PeopleArguments),
     /// Planners compared on the same paths: visibility, distance, length, time, nodes, clearance, limits
     #[command(after_help = planner::EXAMPLES)]
     Planner(planner::PlannerArguments),
@@ -57,6 +61,7 @@ impl Arguments {
             Command::Flights(arguments) => flights::flights(arguments),
             Command::Fleet(arguments) => fleet::fleet(arguments),
             Command::Geometry(arguments) => geometry::geometry(arguments),
+            Command::People(arguments) => people::people(arguments),
             Command::Planner(arguments) => planner::planner(arguments),
             Command::Render(arguments) => render::render(arguments),
             Command::Task(arguments) => cluster::task(arguments),

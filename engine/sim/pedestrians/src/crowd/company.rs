@@ -21,7 +21,11 @@ const AHEAD_NODES: usize = 12;
 
 /// Who has not come so far in so long looks for another way, metres and seconds.
 const STUCK_M: f64 = 0.7;
-const STUCK_S: f64 = 6.0;
+const STUCK_S: f64 = 12.0;
+
+/// A way on that goes back within so many nodes is given up for another goal, at most so many times.
+const TURNING_BACK_NODES: usize = 6;
+const TURNING_BACK_REFUSALS: usize = 6;
 
 /// What a company does.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -145,15 +149,21 @@ impl Company {
     fn lead_on(&mut self, search: &mut RouteSearch<Arc<WalkableGrid>>, grid: &WalkableGrid) {
         let Some(&here) = self.route.last() else { return };
         let before = self.route.len().checked_sub(KEPT_NODES / 2).map(|place| self.route[place]);
+        let mut refusals = 0;
         for attempt in 0..GOAL_ATTEMPTS {
             let Some(goal) = draw_goal(grid, self.piece, (here, before), LONGEST_LEG_M, attempt, &mut self.stream)
             else {
                 continue;
             };
-            let behind = self.route.len().saturating_sub(KEPT_NODES)..self.route.len() - 1;
-            if let Some(way) = search.find(here, goal, &self.route[behind])
+            let behind = &self.route[self.route.len().saturating_sub(KEPT_NODES)..self.route.len() - 1];
+            if let Some(way) = search.find(here, goal, behind)
                 && way.len() > 1
             {
+                let turns_back = way.get(TURNING_BACK_NODES).is_some_and(|node| behind.contains(node));
+                if turns_back && refusals < TURNING_BACK_REFUSALS {
+                    refusals += 1;
+                    continue;
+                }
                 self.route.extend(&way[1..]);
                 return;
             }

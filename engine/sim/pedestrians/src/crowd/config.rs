@@ -16,7 +16,10 @@ pub struct CrowdConfig {
     /// Random variation of a person's own speed, standard deviation as a share of it. Default 0.06.
     #[schemars(range(min = 0.0, max = 0.5))]
     pub speed_noise: f64,
-    /// Deceleration before a stop and acceleration after it, m/s2. Default 0.8.
+    /// Irregularity of the steps: standard deviation of the velocity along and across the way, m/s. Default 0.14.
+    #[schemars(range(min = 0.0, max = 1.0))]
+    pub unevenness_mps: f64,
+    /// Deceleration before a stop and acceleration after it, m/s2. Default 0.9.
     #[schemars(range(min = 0.1, max = 5.0))]
     pub braking_mps2: f64,
     /// Which side of the way people keep to, and how much they sway.
@@ -37,7 +40,7 @@ pub struct CrowdConfig {
     /// Cell size of the walkable grid, metres. Default 0.5.
     #[schemars(range(min = 0.1, max = 2.0))]
     pub grid_m: f64,
-    /// Distance from the edge of the walkable ground that people like to keep, metres. Default 0.8.
+    /// Distance from the edge of the walkable ground that people like to keep, metres. Default 1.6.
     #[schemars(range(min = 0.0, max = 10.0))]
     pub edge_distance_m: f64,
     /// Ground whose pieces are all smaller than this across is refused, metres. Default 20.
@@ -52,7 +55,8 @@ impl Default for CrowdConfig {
             count: 100,
             speed: lone.speed,
             speed_noise: 0.06,
-            braking_mps2: 0.8,
+            unevenness_mps: 0.14,
+            braking_mps2: 0.9,
             side: SideConfig::default(),
             groups: GroupConfig::default(),
             stops: CrowdStopConfig::default(),
@@ -61,7 +65,7 @@ impl Default for CrowdConfig {
             height: lone.height,
             radius: lone.radius,
             grid_m: lone.grid_m,
-            edge_distance_m: lone.edge_distance_m,
+            edge_distance_m: 1.6,
             min_route_m: lone.min_route_m,
         }
     }
@@ -71,10 +75,10 @@ impl Default for CrowdConfig {
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(default, deny_unknown_fields)]
 pub struct SideConfig {
-    /// Mean distance to the right of the middle of the way, metres; negative for the left. Default 0.3.
+    /// Mean distance to the right of the middle of the way, metres; negative for the left. Default 0.7.
     #[schemars(range(min = -3.0, max = 3.0))]
     pub mean_m: f64,
-    /// Standard deviation of that distance between people, metres. Default 0.3.
+    /// Standard deviation of that distance between people, metres. Default 0.5.
     #[schemars(range(min = 0.0, max = 3.0))]
     pub deviation_m: f64,
     /// Standard deviation of the sway of one person about the own line (Ornstein-Uhlenbeck), metres. Default 0.15.
@@ -87,7 +91,7 @@ pub struct SideConfig {
 
 impl Default for SideConfig {
     fn default() -> Self {
-        Self { mean_m: 0.3, deviation_m: 0.3, drift_m: 0.15, drift_s: 3.0 }
+        Self { mean_m: 0.7, deviation_m: 0.5, drift_m: 0.15, drift_s: 3.0 }
     }
 }
 
@@ -168,8 +172,9 @@ impl CrowdConfig {
     pub fn check(&self) -> Result<(), ConfigRule> {
         ConfigRule::within(&["count"], f64::from(self.count), 0.0, 20_000.0)?;
         self.body_and_grid().check()?;
-        let numbers: [(&'static [&'static str], f64, f64, f64); 16] = [
+        let numbers: [(&'static [&'static str], f64, f64, f64); 17] = [
             (&["speed_noise"], self.speed_noise, 0.0, 0.5),
+            (&["unevenness_mps"], self.unevenness_mps, 0.0, 1.0),
             (&["braking_mps2"], self.braking_mps2, 0.1, 5.0),
             (&["side", "mean_m"], self.side.mean_m, -3.0, 3.0),
             (&["side", "deviation_m"], self.side.deviation_m, 0.0, 3.0),

@@ -116,13 +116,13 @@ impl Crowd {
         let mates = self.numbers(&company.members);
         let Scratch { surroundings, limits, places, vehicles } = &mut self.scratch;
         let person = &mut self.people[number];
-        surroundings.look(everybody, own.start + number as u32, (person.at, person.radius_m), &own, &mates);
-        let neighbours = &surroundings.neighbours;
         person.wander(&self.config, step_s);
         if (self.steps + number).is_multiple_of(PURSUIT_STEPS) {
             person.target = pursuit::target(&self.grid, &self.config, company, person, number, places);
         }
         let ahead = (person.target - person.at).try_normalize().unwrap_or(DVec2::ZERO);
+        surroundings.look(everybody, own.start + number as u32, (person.at, person.radius_m, ahead), &own, &mates);
+        let neighbours = &surroundings.neighbours;
 
         // Planned speed: own tempo, level with the company, slower before a stop and before a road that is not free.
         let may_go_m = roads::free_way_m(&self.grid, &self.config, company, person, vehicles);
@@ -140,8 +140,10 @@ impl Crowd {
         let grid = &self.grid;
         let at = person.at;
         let has_ground = |direction: DVec2| grid.is_ground(at + 0.7 * direction);
-        let wanted = self.steering.intent(neighbours, ahead, person.pace_mps.max(0.0), has_ground).velocity_mps;
-        let mut change = (wanted - person.velocity_mps) / RELAXATION_S
+        let way_on = person.way_on(ahead, step_s);
+        let wanted = self.steering.intent(neighbours, way_on, person.pace_mps.max(0.0), has_ground).velocity_mps;
+        let uneven_mps = person.uneven_mps * (person.pace_mps / company.cruise_mps).clamp(0.0, 1.0);
+        let mut change = (wanted + uneven_mps - person.velocity_mps) / RELAXATION_S
             + self.steering.push(neighbours, ahead)
             + self.grid.away_from_edge(at);
         if person.pace_mps <= 0.0 && change.length() < 0.8 {

@@ -1,7 +1,7 @@
 //! [`Person`]: one member of a crowd: what is drawn once, and the present state.
 
 use crate::crowd::CrowdConfig;
-use cosfly_frames::{DVec2, DVec3, RandomStream, Seed, TargetState};
+use cosfly_frames::{DVec2, DVec3, RandomStream, Seed, TargetState, real};
 use cosfly_world::{BodyKind, BodyPlan};
 
 /// Slower than this, a person stands, m/s.
@@ -9,6 +9,17 @@ const STANDING_MPS: f64 = 0.03;
 
 /// Time after which the variation of the own speed is forgotten, seconds.
 const TEMPO_S: f64 = 6.0;
+
+/// Who walks slower than this share of the planned speed is blocked, unless that is slow itself, m/s.
+const BLOCKED_SHARE: f64 = 0.3;
+const BLOCKED_MPS: f64 = 0.3;
+/// Time for which a blocked person goes straight on, longest time that counts, seconds; turn of the way on after that, rad/s.
+const PATIENCE_S: f64 = 0.6;
+const LONGEST_BLOCKED_S: f64 = 2.5;
+const YIELDING_RAD_PER_S: f64 = 0.7;
+
+/// Time after which the irregularity of the steps is forgotten, seconds.
+const UNEVEN_S: f64 = 1.0;
 
 /// One person of a crowd.
 #[derive(Clone, Debug)]
@@ -39,6 +50,10 @@ pub(crate) struct Person {
     /// Sway to the right, metres, and relative variation of the speed.
     pub sway_m: f64,
     pub tempo: f64,
+    /// How long the person has hardly come on, seconds: rises while others are in the way, falls again on the move.
+    pub blocked_s: f64,
+    /// Irregularity of the velocity, m/s, world axes.
+    pub uneven_mps: DVec2,
 }
 
 impl Person {
@@ -55,6 +70,8 @@ impl Person {
             looks: seed.child("looks", 0),
             sway_m: stream.normal(0.0, config.side.drift_m),
             tempo: stream.normal(0.0, config.speed_noise),
+            blocked_s: 0.0,
+            uneven_mps: DVec2::ZERO,
             stream,
             at: DVec2::ZERO,
             z: 0.0,
@@ -72,7 +89,7 @@ impl Person {
         (self.at, self.frame_place, self.target) = (at, at, at);
     }
 
-    /// Lets sway and tempo wander on (Ornstein-Uhlenbeck processes).
+    /// Lets sway, tempo and steps wander on (Ornstein-Uhlenbeck processes).
     pub fn wander(&mut self, config: &CrowdConfig, step_s: f64) {
         let mut wander = |value: &mut f64, deviation: f64, forget_s: f64| {
             let kept = 1.0 / (1.0 + step_s / forget_s);
@@ -80,6 +97,18 @@ impl Person {
         };
         wander(&mut self.sway_m, config.side.drift_m, config.side.drift_s);
         wander(&mut self.tempo, config.speed_noise, TEMPO_S);
+        wander(&mut self.uneven_mps.x, config.unevenness_mps, UNEVEN_S);
+        wander(&mut self.uneven_mps.y, config.unevenness_mps, UNEVEN_S);
+    }
+
+    /// Direction of the way on from the straight one: who is blocked goes to the right, as the others do to theirs.
+    pub fn way_on(&mut self, ahead: DVec2, step_s: f64) -> DVec2 {
+        let is_blocked = self.velocity_mps.length() < BLOCKED_SHARE * self.pace_mps && self.pace_mps > BLOCKED_MPS;
+        let change_s = if is_blocked { step_s } else { -step_s };
+        self.blocked_s = (self.blocked_s + change_s).clamp(0.0, LONGEST_BLOCKED_S);
+        let turn = (self.blocked_s - PATIENCE_S).max(0.0) * YIELDING_RAD_PER_S;
+        let (sin, cos) = real::sin_cos(turn);
+        DVec2::new(cos * ahead.x - sin * ahead.y, sin * ahead.x + cos * ahead.y)
     }
 
     /// What does not change.

@@ -10,7 +10,10 @@ use cosfly_frames::DVec2;
 const WINDOWS: [(usize, usize); 3] = [(4, 13), (2, 7), (1, 4)];
 
 /// Shares of the distance beside the route that are tried, until the way there is free.
-const SHARES: [f64; 4] = [1.0, 0.6, 0.25, 0.0];
+const SHARES: [f64; 4] = [1.0, 0.7, 0.4, 0.15];
+
+/// Distance that people keep from the edge of the ground where there is room, metres.
+const KERB_M: f64 = 0.3;
 
 /// The farthest place ahead that the person can walk straight to.
 pub(crate) fn target(
@@ -34,10 +37,15 @@ pub(crate) fn target(
         let right = DVec2::new(-ahead.y, ahead.x);
         let beside_m = person.side_m + person.sway_m + slot_m(config, company, person, number, places, right);
         for share in SHARES {
-            let place = middle + share * beside_m * right;
-            if grid.step_is_free(person.at, place) {
+            let beside_m = share * beside_m;
+            let place = middle + beside_m * right;
+            let farther = place + KERB_M.copysign(beside_m) * right;
+            if grid.step_is_free(person.at, farther) && grid.step_is_free(person.at, place) {
                 return place;
             }
+        }
+        if grid.step_is_free(person.at, middle) {
+            return middle;
         }
     }
     // The next node, or one behind, from where the route can be walked again.

@@ -5,10 +5,10 @@ use crate::crowd::surroundings::Neighbour;
 use cosfly_frames::{DVec2, real};
 
 /// Distance within which collisions ahead matter, metres.
-const HORIZON_M: f64 = 6.0;
+const HORIZON_M: f64 = 8.0;
 
 /// Time to the first collision ahead that people leave by walking slower, seconds.
-const HEADWAY_S: f64 = 0.8;
+const HEADWAY_S: f64 = 0.6;
 
 /// Distance that people leave to others when they pass, metres.
 const PASSING_M: f64 = 0.12;

@@ -5,7 +5,10 @@ use cosfly_world::{Present, Snapshot};
 use std::ops::Range;
 
 /// Distance at which people take notice of others, metres.
-const SEE_M: f64 = 6.0;
+const SEE_M: f64 = 8.0;
+
+/// Distance at which they take notice of those behind, metres.
+const BEHIND_M: f64 = 2.0;
 
 /// Others beyond this number are not noticed; the nearest are.
 const MOST: usize = 24;
@@ -47,12 +50,12 @@ pub(crate) struct Surroundings {
 }
 
 impl Surroundings {
-    /// Looks around from the place of body `number`; `own` are the numbers of its population, `mates` those of its company.
+    /// Looks around from the place of body `number`, which walks `ahead`; `own` are the numbers of its population, `mates` those of its company.
     pub fn look(
         &mut self,
         everybody: &Snapshot,
         number: u32,
-        (at, radius_m): (DVec2, f64),
+        (at, radius_m, ahead): (DVec2, f64, DVec2),
         own: &Range<u32>,
         mates: &Range<u32>,
     ) {
@@ -63,6 +66,9 @@ impl Surroundings {
             }
             let is_person = other.kind.is_person();
             let away = if is_person { other.state.feet_in_world.truncate() - at } else { to_vehicle(at, other) };
+            if is_person && away.dot(ahead) < 0.0 && away.length_squared() > BEHIND_M * BEHIND_M {
+                return;
+            }
             self.neighbours.push(Neighbour {
                 away,
                 distance_m: away.length(),

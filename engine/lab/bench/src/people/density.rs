@@ -1,0 +1,73 @@
+//! Speed by density: people on a ring of pavement, at rising numbers, beside Weidmann's curve.
+
+use super::{SAMPLE_S, crowded};
+use cosfly_frames::DVec3;
+use cosfly_maps::{Town, WalkableKind, WalkablePolygon};
+use cosfly_pedestrians::{CrowdConfig, PedestrianError};
+use serde::Serialize;
+
+/// Outer side and width of the ring, metres.
+const SIDE_M: f64 = 30.0;
+const WIDTH_M: f64 = 4.0;
+/// Frames, and those at the beginning that are left out.
+const FRAMES: u32 = 160;
+const LEFT_OUT: usize = 40;
+
+/// Mean speed at one density.
+#[derive(Clone, Debug, Serialize)]
+pub struct DensityRow {
+    /// People per square metre of pavement.
+    pub per_m2: f64,
+    /// Mean speed, m/s.
+    pub speed_mps: f64,
+    /// Speed by Weidmann's curve, m/s.
+    pub weidmann_mps: f64,
+}
+
+/// Weidmann's curve of 1993: speed of a one-way stream by its density.
+fn weidmann_mps(per_m2: f64) -> f64 {
+    1.34 * (1.0 - (-1.913 * (1.0 / per_m2 - 1.0 / 5.4)).exp())
+}
+
+/// Measures the mean speed at several densities; nobody stops on purpose or walks in a group.
+///
+/// # Errors
+/// When the people do not fit.
+pub fn density(seed: u64) -> Result<Vec<DensityRow>, PedestrianError> {
+    let town = ring();
+    let area_m2 = SIDE_M * SIDE_M - (SIDE_M - 2.0 * WIDTH_M) * (SIDE_M - 2.0 * WIDTH_M);
+    let row = |wanted: &f64| {
+        let mut config = CrowdConfig { count: (wanted * area_m2) as u32, ..CrowdConfig::default() };
+        (config.stops.per_100m, config.stops.standing_share, config.groups.share) = (0.0, 0.0, 0.0);
+        let (_, tracks) = crowded(&town, &config, FRAMES, seed)?;
+        let speeds = tracks
+            .people
+            .iter()
+            .flat_map(|(_, places)| places[LEFT_OUT..].windows(2).map(|pair| (pair[1] - pair[0]).length() / SAMPLE_S));
+        let (sum, count) = speeds.fold((0.0, 0), |(sum, count), speed| (sum + speed, count + 1));
+        let per_m2 = f64::from(config.count) / area_m2;
+        Ok(DensityRow { per_m2, speed_mps: sum / f64::from(count.max(1)), weidmann_mps: weidmann_mps(per_m2) })
+    };
+    [0.05, 0.25, 0.5, 0.75, 1.0, 1.5, 2.0].iter().map(row).collect()
+}
+
+/// A square ring of pavement.
+fn ring() -> Town {
+    let rectangle = |low: (f64, f64), high: (f64, f64)| WalkablePolygon {
+        kind: WalkableKind::Sidewalk,
+        outline_in_world: [(low.0, low.1), (high.0, low.1), (high.0, high.1), (low.0, high.1)]
+            .map(|(x, y)| DVec3::new(x, y, 0.0))
+            .to_vec(),
+        synthetic: true,
+    };
+    let (side, inner) = (SIDE_M, SIDE_M - WIDTH_M);
+    let walkable = vec![
+        rectangle((0.0, 0.0), (side, WIDTH_M)),
+        rectangle((0.0, inner), (side, side)),
+        rectangle((0.0, WIDTH_M), (WIDTH_M, inner)),
+        rectangle((inner, WIDTH_M), (side, inner)),
+    ];
+    let mut town = Town { name: "ring".into(), walkable, ..Town::default() };
+    town.update_bounds();
+    town
+}

@@ -1,0 +1,126 @@
+//! Tracks in columns: ETH/UCY `obsmat` and CSV.
+
+use super::{RecordedConfig, RecordedError, RecordedPoint, RecordedTrack, Recording};
+use cosfly_frames::DVec2;
+use std::collections::BTreeMap;
+
+/// Frames in a second of the videos of ETH and UCY.
+const OBSMAT_RATE_HZ: f64 = 25.0;
+
+/// Columns of `obsmat`: frame, id, x, z (height), y, velocities.
+const OBSMAT_COLUMNS: usize = 8;
+
+/// Tracks by id, in the order of their first rows.
+#[derive(Default)]
+struct Rows {
+    tracks: Vec<RecordedTrack>,
+    places: BTreeMap<String, usize>,
+}
+
+impl Rows {
+    fn add(&mut self, id: &str, point: RecordedPoint) {
+        let place = match self.places.get(id) {
+            Some(&place) => place,
+            None => {
+                self.places.insert(id.to_owned(), self.tracks.len());
+                self.tracks.push(RecordedTrack { id: id.to_owned(), points: vec![] });
+                self.tracks.len() - 1
+            }
+        };
+        self.tracks[place].points.push(point);
+    }
+
+    fn recording(self) -> Recording {
+        Recording { tracks: self.tracks, is_geographic: false, warnings: vec![] }
+    }
+}
+
+fn number(text: &str, column: &str, line: u32) -> Result<f64, RecordedError> {
+    let value = text.trim().parse().ok().filter(|value: &f64| value.is_finite());
+    value.ok_or_else(|| {
+        RecordedError::new(format!("`{}` in column `{column}` is not a finite number", shortened(text.trim())))
+            .at(line)
+            .hint("leave out the rows in which a person has no place")
+    })
+}
+
+/// Text of a message, cut to a readable length.
+pub(super) fn shortened(text: &str) -> String {
+    let cut: String = text.chars().take(40).collect();
+    if cut.len() < text.len() { cut + "..." } else { cut }
+}
+
+/// Lines that are not empty and no comment, with their numbers.
+fn rows(text: &str) -> impl Iterator<Item = (u32, &str)> {
+    let lines = (1_u32..).zip(text.lines());
+    lines.filter(|(_, line)| !line.trim().is_empty() && !line.trim_start().starts_with('#'))
+}
+
+pub(super) fn read_obsmat(text: &str, config: &RecordedConfig) -> Result<Recording, RecordedError> {
+    let rate_hz = config.rate_hz.unwrap_or(OBSMAT_RATE_HZ);
+    let mut read = Rows::default();
+    for (line, row) in rows(text) {
+        let cells: Vec<&str> = row.split_whitespace().take(OBSMAT_COLUMNS + 1).collect();
+        if cells.len() != OBSMAT_COLUMNS {
+            let message =
+                format!("a row of an `obsmat` file has {OBSMAT_COLUMNS} numbers; this one has {}", cells.len());
+            return Err(RecordedError::new(message).at(line).hint("if the file is CSV, set `format = \"csv\"`"));
+        }
+        let time_s = number(cells[0], "frame", line)? / rate_hz;
+        number(cells[1], "id", line)?;
+        let at = DVec2::new(number(cells[2], "x", line)?, number(cells[4], "y", line)?);
+        let id = cells[1].parse::<f64>().map_or_else(|_| cells[1].to_owned(), |id| id.to_string());
+        read.add(&id, RecordedPoint { time_s, at, line });
+    }
+    Ok(read.recording())
+}
+
+pub(super) fn read_csv(text: &str, config: &RecordedConfig) -> Result<Recording, RecordedError> {
+    let mut read = Rows::default();
+    let mut rows = rows(text).peekable();
+    let Some((first_line, first)) = rows.peek().copied() else { return Ok(read.recording()) };
+    let separator = if first.contains(';') { ';' } else { ',' };
+    let mut columns = [0, 1, 2, 3];
+    if first.split(separator).next().is_some_and(|cell| unquoted(cell).parse::<f64>().is_err()) {
+        columns = header(first, separator).map_err(|error| error.at(first_line))?;
+        rows.next();
+    }
+    let count = columns.iter().max().map_or(0, |last| last + 1);
+    for (line, row) in rows {
+        let cells: Vec<&str> = row.split(separator).take(count).map(unquoted).collect();
+        if cells.len() < count {
+            let message = format!("the row has {} columns; {count} are needed", cells.len());
+            return Err(RecordedError::new(message).at(line).hint("a row is time, id, x, y with commas between"));
+        }
+        let [time, id, x, y] = columns.map(|column| cells[column]);
+        let time_s = number(time, "t", line)? / config.rate_hz.unwrap_or(1.0);
+        let at = DVec2::new(number(x, "x", line)?, number(y, "y", line)?);
+        read.add(id, RecordedPoint { time_s, at, line });
+    }
+    Ok(read.recording())
+}
+
+fn unquoted(cell: &str) -> &str {
+    let cell = cell.trim();
+    cell.strip_prefix('"').and_then(|cell| cell.strip_suffix('"')).unwrap_or(cell)
+}
+
+/// Places of the columns time, id, x, y in a header.
+fn header(row: &str, separator: char) -> Result<[usize; 4], RecordedError> {
+    const NAMES: [&[&str]; 4] = [
+        &["t", "time", "time_s", "frame", "timestamp"],
+        &["id", "person", "ped", "agent", "track"],
+        &["x", "x_m"],
+        &["y", "y_m"],
+    ];
+    let cells: Vec<String> = row.split(separator).map(|cell| unquoted(cell).to_lowercase()).collect();
+    let mut columns = [0; 4];
+    for (column, names) in columns.iter_mut().zip(NAMES) {
+        let place = cells.iter().position(|cell| names.contains(&cell.as_str()));
+        *column = place.ok_or_else(|| {
+            RecordedError::new(format!("the header has no column `{}`", names[0]))
+                .hint("name the columns `t`, `id`, `x`, `y`, in any order, or leave the header out")
+        })?;
+    }
+    Ok(columns)
+}
