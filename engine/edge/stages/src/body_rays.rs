@@ -3,7 +3,7 @@
 
 use cosfly_frames::{DVec3, Pose};
 use cosfly_geometry::{BoxBvh, SpatialQuery};
-use cosfly_render::{BodyShape, Bystander, Camera, TargetSetup, Walker, target_triangles, walker_triangles};
+use cosfly_render::{Bystander, Camera, TargetSetup, Walker, target_triangles, walker_triangles};
 
 /// Rays through the box around the body in the image; about half of them meet the body.
 const RAYS: f64 = 900.0;
@@ -154,6 +154,7 @@ mod tests {
     use super::*;
     use cosfly_frames::{Seed, TargetState};
     use cosfly_geometry::OrientedBox;
+    use cosfly_render::BodyShape;
 
     const CAMERA: Camera = Camera { width: 640, height: 360, horizontal_fov_rad: 1.2 };
 
