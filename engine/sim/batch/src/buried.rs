@@ -59,9 +59,7 @@ fn joined<'a>(triangles: impl Iterator<Item = &'a SceneFace>) -> Vec<SceneFace> 
             continue;
         }
         if is_half {
-            (0..3).for_each(|k| {
-                halves.insert(edge(k), walls.len());
-            });
+            halves.extend((0..3).map(|k| (edge(k), walls.len())));
         }
         walls.push(face.clone());
     }

@@ -11,7 +11,7 @@ use std::ops::Range;
 /// Beyond this, pixels from the image's centre, corners are too coarse in single precision.
 pub const FAR_OFF_PX: f32 = 3000.0;
 /// Polygons of a cluster.
-const CLUSTER: usize = 32;
+const CLUSTER: usize = 8 * WIDE;
 
 /// Ground of a town.
 pub struct Ground {
@@ -26,9 +26,11 @@ pub struct Ground {
 }
 
 /// Neighbouring polygons.
-struct Cluster {
-    center_in_world: DVec3,
-    packs: Range<u32>,
+pub struct Cluster {
+    pub center_in_world: DVec3,
+    /// Boxes around its packs.
+    pub around: BoxLanes,
+    first_pack: u32,
 }
 
 /// Eight polygons of a cluster side by side.
@@ -63,28 +65,25 @@ pub struct SeenPack {
 impl Ground {
     /// Ground by its faces.
     pub fn of(mut faces: Vec<&SceneFace>) -> Self {
-        let mut ends = Vec::new();
-        split(&mut faces, 0, &mut ends);
-        let starts = core::iter::once(0).chain(ends.iter().copied());
-        let clusters: Vec<&[&SceneFace]> = starts.zip(&ends).map(|(start, end)| &faces[start..*end]).collect();
-        let bounds: Vec<Bounds> = clusters.iter().map(|members| bounds_of(members)).collect();
         let mut ground = Self {
             clusters: vec![],
-            around: BoxLanes::of(&bounds),
+            around: BoxLanes::of(&[]),
             packs: vec![],
             corners: vec![],
             polygons: vec![],
             corners_in_world: vec![],
         };
-        clusters.iter().zip(&bounds).for_each(|(members, bounds)| ground.add(members, bounds.center_in_world));
+        sort(&mut faces);
+        let bounds: Vec<Bounds> = faces.chunks(CLUSTER).map(bounds_of).collect();
+        faces.chunks(CLUSTER).zip(&bounds).for_each(|(members, bounds)| ground.add(members, bounds.center_in_world));
+        ground.around = BoxLanes::of(&bounds);
         ground
     }
 
     fn add(&mut self, faces: &[&SceneFace], center_in_world: DVec3) {
+        let around: Vec<Bounds> = faces.chunks(WIDE).map(bounds_of).collect();
         let first_pack = self.packs.len() as u32;
-        // Those with equally many corners together.
-        let mut faces = faces.to_vec();
-        faces.sort_by_key(|face| face.corners_in_world.len());
+        self.clusters.push(Cluster { center_in_world, around: BoxLanes::of(&around), first_pack });
         for eight in faces.chunks(WIDE) {
             let (first, first_corner) = (self.polygons.len() as u32, self.corners.len() as u32);
             for face in eight {
@@ -110,7 +109,6 @@ impl Ground {
             let corners = first_corner..self.corners.len() as u32;
             self.packs.push(Pack { first, count: eight.len(), corners });
         }
-        self.clusters.push(Cluster { center_in_world, packs: first_pack..self.packs.len() as u32 });
     }
 
     /// Boxes around the clusters.
@@ -118,10 +116,14 @@ impl Ground {
         &self.around
     }
 
-    /// Centre and packs of a cluster.
-    pub fn cluster(&self, number: u32) -> (DVec3, &[Pack]) {
-        let cluster = &self.clusters[number as usize];
-        (cluster.center_in_world, &self.packs[cluster.packs.start as usize..cluster.packs.end as usize])
+    /// A cluster by its number.
+    pub fn cluster(&self, number: u32) -> &Cluster {
+        &self.clusters[number as usize]
+    }
+
+    /// A pack of a cluster.
+    pub fn pack(&self, cluster: &Cluster, number: u32) -> &Pack {
+        &self.packs[cluster.first_pack as usize + number as usize]
     }
 
     /// Polygon `k` of a pack.
@@ -146,6 +148,7 @@ impl Ground {
 
     pub fn bytes(&self) -> usize {
         size_of_val(&*self.clusters)
+            + self.clusters.iter().map(|cluster| cluster.around.bytes()).sum::<usize>()
             + self.around.bytes()
             + size_of_val(&*self.packs)
             + size_of_val(&*self.corners)
@@ -154,22 +157,20 @@ impl Ground {
     }
 }
 
-/// Sorts neighbours together: halves along the longer side until a cluster is left. Notes where each ends, from `start` on.
-fn split(faces: &mut [&SceneFace], start: usize, ends: &mut Vec<usize>) {
-    if faces.len() <= CLUSTER {
-        if !faces.is_empty() {
-            ends.push(start + faces.len());
-        }
+/// Sorts neighbours together: halves along the longer side until a pack is left.
+fn sort(faces: &mut [&SceneFace]) {
+    if faces.len() <= WIDE {
         return;
     }
     let bounds = bounds_of(faces);
     let axis = usize::from(bounds.half_m.y > bounds.half_m.x);
     faces.sort_by(|a, b| a.point_in_world[axis].total_cmp(&b.point_in_world[axis]));
-    // Whole packs on the left.
-    let middle = (faces.len() / 2).next_multiple_of(CLUSTER).min(faces.len() - 1);
+    // Whole clusters on the left while there are several, then whole packs.
+    let unit = if faces.len() > CLUSTER { CLUSTER } else { WIDE };
+    let middle = (faces.len() / 2).next_multiple_of(unit).min((faces.len() - 1) / unit * unit);
     let (left, right) = faces.split_at_mut(middle);
-    split(left, start, ends);
-    split(right, start + middle, ends);
+    sort(left);
+    sort(right);
 }
 
 fn bounds_of(faces: &[&SceneFace]) -> Bounds {
@@ -184,6 +185,8 @@ simd_kernel! {
         let mut nearest = [f32::INFINITY; WIDE];
         let mut farthest = [f32::NEG_INFINITY; WIDE];
         let mut coarse = [0.0f32; WIDE];
+        // How far corners reach within the sides of the view.
+        let mut within = [[f32::NEG_INFINITY; WIDE]; 4];
         for (corner, seen) in corners.iter().zip(seen.corners.iter_mut()) {
             for k in 0..WIDE {
                 let [x, y, z] = [corner[0][k], corner[1][k], corner[2][k]];
@@ -198,6 +201,10 @@ simd_kernel! {
                 low[1][k] = if v < low[1][k] { v } else { low[1][k] };
                 high[0][k] = if u > high[0][k] { u } else { high[0][k] };
                 high[1][k] = if v > high[1][k] { v } else { high[1][k] };
+                let (wide, tall) = (0.5 * size[0] * ahead, 0.5 * size[1] * ahead);
+                for (within, by) in within.iter_mut().zip([wide + right, wide - right, tall + down, tall - down]) {
+                    within[k] = if by > within[k] { by } else { within[k] };
+                }
                 nearest[k] = if ahead < nearest[k] { ahead } else { nearest[k] };
                 farthest[k] = if ahead > farthest[k] { ahead } else { farthest[k] };
                 let away = if u.abs() > v.abs() { u.abs() } else { v.abs() };
@@ -210,8 +217,10 @@ simd_kernel! {
             for axis in 0..2 {
                 low[axis][k] = if ahead { low[axis][k] } else { f32::NEG_INFINITY };
                 high[axis][k] = if ahead { high[axis][k] } else { f32::INFINITY };
-                // Nothing of what lies behind.
-                high[axis][k] = if farthest[k] < NEAR_M as f32 { f32::NEG_INFINITY } else { high[axis][k] };
+                // Nothing of what lies behind or beside the view.
+                let is_beside = (within[2 * axis][k] < 0.0) | (within[2 * axis + 1][k] < 0.0);
+                let is_out = is_beside | (farthest[k] < NEAR_M as f32);
+                high[axis][k] = if is_out { f32::NEG_INFINITY } else { high[axis][k] };
                 let is_off = (low[axis][k] < -FAR_OFF_PX) | (high[axis][k] > FAR_OFF_PX);
                 coarse[k] = if is_off { f32::INFINITY } else { coarse[k] };
             }

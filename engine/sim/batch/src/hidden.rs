@@ -7,6 +7,9 @@ use cosfly_frames::simd_kernel;
 /// Rows of a tile; a tile is a block wide.
 const TILE_ROWS: usize = 8;
 
+/// Parts of up to this many blocks are small.
+const SMALL_BLOCKS: u32 = 8;
+
 /// The least inverse depth in each tile of a canvas.
 #[derive(Default)]
 pub struct Hidden {
@@ -24,9 +27,14 @@ impl Hidden {
         }
     }
 
-    /// Whether all pixels of a part hold something nearer than an inverse depth.
+    /// Whether all pixels of a part hold something nearer than an inverse depth: small parts are compared with the canvas
+    /// itself.
     #[inline]
-    pub fn hides(&self, part: Part, inverse_depth: f32) -> bool {
+    pub fn hides(&self, canvas: &Canvas, part: Part, inverse_depth: f32) -> bool {
+        if part.area() <= SMALL_BLOCKS { canvas.hides(part, inverse_depth) } else { self.covers(part, inverse_depth) }
+    }
+
+    fn covers(&self, part: Part, inverse_depth: f32) -> bool {
         let limit = inverse_depth * NEARER;
         let [from, to] = part.blocks.map(|block| block as usize);
         let rows = part.rows[0] as usize / TILE_ROWS..(part.rows[1] as usize).div_ceil(TILE_ROWS);

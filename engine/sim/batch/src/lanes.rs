@@ -99,7 +99,7 @@ impl BoxLanes {
             for k in 0..LANES.min(self.count - LANES * number) {
                 let Some(part) = projected.parts.get(k) else { continue };
                 let nearest = 1.0 / projected.nearest_m[k].max(NEAR_M as f32);
-                if !hidden.hides(part, nearest) {
+                if !hidden.hides(canvas, part, nearest) {
                     found.push(Candidate { index: (LANES * number + k) as u32, part, nearest });
                 }
             }
@@ -130,6 +130,8 @@ simd_kernel! {
         let mut high = [[f32::NEG_INFINITY; LANES]; 2];
         let mut nearest = [f32::INFINITY; LANES];
         let mut farthest = [f32::NEG_INFINITY; LANES];
+        // How far corners reach within the sides of the view.
+        let mut within = [[f32::NEG_INFINITY; LANES]; 4];
         for corner in 0..8 {
             let sign = [0, 1, 2].map(|axis| if corner >> axis & 1 == 0 { -1.0f32 } else { 1.0 });
             for k in 0..LANES {
@@ -137,9 +139,13 @@ simd_kernel! {
                     let across = sign[0] * reach[0][part][k] + sign[1] * reach[1][part][k];
                     center[part][k] + across + sign[2] * reach[2][part][k]
                 };
-                let x = at(0);
+                let (x, right, down) = (at(0), at(1), at(2));
+                let (wide, tall) = (0.5 * size[0] * x, 0.5 * size[1] * x);
+                for (within, by) in within.iter_mut().zip([wide + right, wide - right, tall + down, tall - down]) {
+                    within[k] = if by > within[k] { by } else { within[k] };
+                }
                 let scale = 1.0 / x;
-                let (u, v) = (at(1) * scale, at(2) * scale);
+                let (u, v) = (right * scale, down * scale);
                 nearest[k] = if x < nearest[k] { x } else { nearest[k] };
                 farthest[k] = if x > farthest[k] { x } else { farthest[k] };
                 low[0][k] = if u < low[0][k] { u } else { low[0][k] };
@@ -153,8 +159,10 @@ simd_kernel! {
             for axis in 0..2 {
                 low[axis][k] = if ahead { low[axis][k] } else { f32::NEG_INFINITY };
                 high[axis][k] = if ahead { high[axis][k] } else { f32::INFINITY };
-                // Nothing of what lies behind.
-                high[axis][k] = if farthest[k] < NEAR_M as f32 { f32::NEG_INFINITY } else { high[axis][k] };
+                // Nothing of what lies behind or, by more than a rounding, beside the view.
+                let is_beside = (within[2 * axis][k] < -1.0) | (within[2 * axis + 1][k] < -1.0);
+                let is_out = is_beside | (farthest[k] < NEAR_M as f32);
+                high[axis][k] = if is_out { f32::NEG_INFINITY } else { high[axis][k] };
             }
         }
         projected.parts.find(size, &low, &high);

@@ -21,8 +21,6 @@ use cosfly_render::{LEAST_HEIGHT_PX, Walker};
 
 /// Most corners of a polygon.
 const MOST_CORNERS: usize = WIDE * MOST_LINES;
-/// Parts of up to this many blocks are compared with the canvas itself.
-const SMALL_BLOCKS: u32 = 8;
 /// Where a corner is farther from the image's centre than this per metre that it lies ahead, a rounding of its place in the
 /// world counts on the screen.
 const COARSE_PX_PER_M: f32 = 100.0;
@@ -89,8 +87,10 @@ impl Painter {
             self.candidates[start..].iter_mut().for_each(|candidate| candidate.index += first);
         }
         near_first(&mut self.candidates);
-        for Candidate { index, part, .. } in &self.candidates {
-            if let Some(shape) = boxes.get(*index).on_screen(eye, &mut self.faces) {
+        for Candidate { index, part, nearest } in &self.candidates {
+            if !hidden.hides(canvas, *part, *nearest)
+                && let Some(shape) = boxes.get(*index).on_screen(eye, &mut self.faces)
+            {
                 draw_box(*level, canvas, *part, &shape);
             }
         }
@@ -121,7 +121,7 @@ impl Painter {
         }
         let around = Around::of_box(eye, low, high);
         let Some(part) = self.canvas.part(around.low, around.high) else { return };
-        if around.nearest_m >= NEAR_M && self.hidden.hides(part, (1.0 / around.nearest_m) as f32) {
+        if around.nearest_m >= NEAR_M && self.hidden.hides(&self.canvas, part, (1.0 / around.nearest_m) as f32) {
             return;
         }
         let parts = FigureParts::of(walker, &self.wardrobe.clothes(&walker.clothes_seed));
@@ -141,7 +141,7 @@ impl Painter {
             return;
         }
         let Some(part) = self.canvas.part(seen.low, seen.high) else { return };
-        if self.hidden.hides(part, 1.0 / seen.nearest_m) {
+        if self.hidden.hides(&self.canvas, part, 1.0 / seen.nearest_m) {
             return;
         }
         for corners in seen.corners() {
@@ -185,21 +185,26 @@ impl Painter {
         groups.clear();
         ground.around().gather(self.level, eye, &self.canvas, &self.hidden, &mut groups);
         near_first(&mut groups);
+        let mut packs = core::mem::take(&mut self.candidates);
         for group in &groups {
-            let (center_in_world, packs) = ground.cluster(group.index);
-            let origin = eye.pixels_ahead(eye.see(center_in_world)).as_vec3().to_array();
-            for pack in packs {
+            let cluster = ground.cluster(group.index);
+            let origin = eye.pixels_ahead(eye.see(cluster.center_in_world)).as_vec3().to_array();
+            packs.clear();
+            cluster.around.gather(self.level, eye, &self.canvas, &self.hidden, &mut packs);
+            for pack in &packs {
+                let pack = ground.pack(cluster, pack.index);
                 ground.project(self.level, eye, origin, pack, &mut seen);
                 self.draw_pack(eye, ground, pack, &seen);
             }
         }
+        self.candidates = packs;
         (self.groups, self.seen) = (groups, seen);
     }
 
     fn draw_pack(&mut self, eye: &Eye, ground: &Ground, pack: &Pack, seen: &SeenPack) {
         for k in 0..pack.count {
             let Some(part) = seen.parts.get(k) else { continue };
-            if self.is_hidden(part, 1.0 / seen.nearest_m[k].max(NEAR_M as f32)) {
+            if self.hidden.hides(&self.canvas, part, 1.0 / seen.nearest_m[k].max(NEAR_M as f32)) {
                 continue;
             }
             let polygon = ground.polygon(pack, k);
@@ -219,15 +224,6 @@ impl Painter {
                 }
                 self.draw_reaching(eye, &corners[..count], face, polygon.lift);
             }
-        }
-    }
-
-    /// Whether all pixels of a part hold something nearer than an inverse depth.
-    fn is_hidden(&self, part: Part, inverse_depth: f32) -> bool {
-        if part.area() <= SMALL_BLOCKS {
-            self.canvas.hides(part, inverse_depth)
-        } else {
-            self.hidden.hides(part, inverse_depth)
         }
     }
 

@@ -10,6 +10,8 @@ pub const MOST_LINES: usize = 3;
 
 /// Greatest inverse depth that is drawn, 1/m.
 const NEAREST: f32 = (1.0 / NEAR_M) as f32;
+/// Parts of up to this many blocks are drawn pixel by pixel.
+const SMALL_BLOCKS: u32 = 8;
 /// Beyond every column.
 const OUTSIDE: f32 = 1e30;
 
@@ -97,6 +99,14 @@ simd_kernel! {
     fn draw_faces(rows: Rows<'_>, shape: &BoxOnScreen) {
         let mut rows = rows;
         let planes = &shape.planes;
+        if rows.part.area() <= SMALL_BLOCKS {
+            match shape.entries {
+                1 => rows.draw_small_box::<1>(shape),
+                2 => rows.draw_small_box::<2>(shape),
+                _ => rows.draw_small_box::<3>(shape),
+            }
+            return;
+        }
         for entry in 0..shape.entries {
             let mine = planes[entry];
             let mut within = HalfPlanes::<1>::new();
@@ -116,6 +126,18 @@ simd_kernel! {
 simd_kernel! {
     fn draw_within(rows: Rows<'_>, within: &HalfPlanes<1>, surface: &Surface) {
         let mut rows = rows;
+        if rows.part.area() <= SMALL_BLOCKS {
+            let mut lines = [[0.0f32; 3]; WIDE];
+            for (k, line) in lines.iter_mut().enumerate() {
+                *line = [within.constant[0][k], within.across[0][k], within.down[0][k]];
+            }
+            match within.count {
+                3 => rows.draw_small::<3>(&[lines[0], lines[1], lines[2]], surface),
+                4 => rows.draw_small::<4>(&[lines[0], lines[1], lines[2], lines[3]], surface),
+                _ => rows.draw_small::<8>(&lines, surface),
+            }
+            return;
+        }
         rows.draw(within, surface);
     }
 }
@@ -148,13 +170,14 @@ impl<const BLOCKS: usize> Sides<BLOCKS> {
                 let by = -1.0 / rate;
                 let (at, slope) = (constant[k] * by, down[k] * by);
                 let nowhere = if constant[k] >= 0.0 { -OUTSIDE } else { OUTSIDE };
-                let is_line = steep > 0.0;
-                let (at, slope) = (if is_line { at } else { nowhere }, if is_line { slope } else { 0.0 });
-                let is_left = (rate > 0.0) | !is_line;
-                left[0][k] = if is_left { at } else { -OUTSIDE };
-                left[1][k] = if is_left { slope } else { 0.0 };
-                right[0][k] = if is_left { OUTSIDE } else { at };
-                right[1][k] = if is_left { 0.0 } else { slope };
+                let at = if steep > 0.0 { at } else { nowhere };
+                let slope = if steep > 0.0 { slope } else { 0.0 };
+                // A left bound where the function grows to the right.
+                let rate = if steep > 0.0 { rate } else { 1.0 };
+                left[0][k] = if rate > 0.0 { at } else { -OUTSIDE };
+                left[1][k] = if rate > 0.0 { slope } else { 0.0 };
+                right[0][k] = if rate > 0.0 { OUTSIDE } else { at };
+                right[1][k] = if rate > 0.0 { 0.0 } else { slope };
             }
         }
         bounds
@@ -228,20 +251,117 @@ impl<'a> Rows<'a> {
         let base = surface.plane[0] + surface.plane[2] * y;
         let pixels = self.inverse_depth[span.clone()].iter_mut().zip(&mut self.face[span]);
         for ((depths, faces), x) in pixels.zip(&self.columns[blocks[0]..blocks[1]]) {
-            let (old_depths, old_faces) = (*depths, *faces);
             let mut entry = [0.0f32; WIDE];
             for k in 0..WIDE {
                 let here = base + surface.plane[1] * x[k];
-                let is_inside = (x[k] >= left) & (x[k] <= right) & (here <= NEAREST);
-                entry[k] = if is_inside { here } else { 0.0 };
+                let here = if here <= NEAREST { here } else { 0.0 };
+                let here = if x[k] >= left { here } else { 0.0 };
+                entry[k] = if x[k] <= right { here } else { 0.0 };
             }
-            for k in 0..WIDE {
-                let nearer = 0u32.wrapping_sub(u32::from(entry[k] > old_depths[k]));
-                faces[k] = (surface.face & nearer) | (old_faces[k] & !nearer);
+            put(&entry, &[surface.face; WIDE], depths, faces);
+        }
+    }
+
+    /// A row of the part: its place from the image's centre, depths and faces.
+    #[inline(always)]
+    fn row(&mut self, row: u32) -> (f32, &mut [[f32; WIDE]], &mut [[u32; WIDE]]) {
+        let start = (row as usize).wrapping_mul(self.blocks);
+        let [from, to] = self.part.blocks.map(|block| start.wrapping_add(block as usize));
+        (self.first[1] + row as i32 as f32, &mut self.inverse_depth[from..to], &mut self.face[from..to])
+    }
+
+    /// Columns of pixel centres of a row of the part.
+    #[inline(always)]
+    fn columns(&self) -> &'a [[f32; WIDE]] {
+        &self.columns[self.part.blocks[0] as usize..self.part.blocks[1] as usize]
+    }
+
+    /// Draws a small part, every pixel against every line.
+    #[inline(always)]
+    fn draw_small<const COUNT: usize>(&mut self, lines: &[[f32; 3]; COUNT], surface: &Surface) {
+        let columns = self.columns();
+        for row in self.part.rows[0]..self.part.rows[1] {
+            let (y, depths, faces) = self.row(row);
+            let mut base = [0.0f32; COUNT];
+            for i in 0..COUNT {
+                base[i] = lines[i][0] + lines[i][2] * y;
             }
-            for k in 0..WIDE {
-                depths[k] = if entry[k] > old_depths[k] { entry[k] } else { old_depths[k] };
+            let depth = surface.plane[0] + surface.plane[2] * y;
+            for ((depths, faces), x) in depths.iter_mut().zip(faces).zip(columns) {
+                let mut inside = [0.0f32; WIDE];
+                for k in 0..WIDE {
+                    inside[k] = base[0] + lines[0][1] * x[k];
+                }
+                for i in 1..COUNT {
+                    for k in 0..WIDE {
+                        let other = base[i] + lines[i][1] * x[k];
+                        inside[k] = if other < inside[k] { other } else { inside[k] };
+                    }
+                }
+                let mut entry = [0.0f32; WIDE];
+                for k in 0..WIDE {
+                    let here = depth + surface.plane[1] * x[k];
+                    let here = if here <= NEAREST { here } else { 0.0 };
+                    entry[k] = if inside[k] >= 0.0 { here } else { 0.0 };
+                }
+                put(&entry, &[surface.face; WIDE], depths, faces);
             }
         }
+    }
+
+    /// Draws a box into a small part, every pixel against every plane.
+    #[inline(always)]
+    fn draw_small_box<const ENTRIES: usize>(&mut self, shape: &BoxOnScreen) {
+        let (planes, numbers) = (&shape.planes, shape.faces);
+        let columns = self.columns();
+        for row in self.part.rows[0]..self.part.rows[1] {
+            let (y, depths, faces) = self.row(row);
+            let mut base = [0.0f32; 6];
+            for i in 0..6 {
+                base[i] = planes[i][0] + planes[i][2] * y;
+            }
+            for ((depths, faces), x) in depths.iter_mut().zip(faces).zip(columns) {
+                let mut entry = [0.0f32; WIDE];
+                let mut exit = [0.0f32; WIDE];
+                let mut face = [numbers[0]; WIDE];
+                for k in 0..WIDE {
+                    entry[k] = base[0] + planes[0][1] * x[k];
+                    exit[k] = base[5] + planes[5][1] * x[k];
+                }
+                for i in 1..ENTRIES {
+                    for k in 0..WIDE {
+                        let other = base[i] + planes[i][1] * x[k];
+                        let before = 0u32.wrapping_sub(u32::from(other < entry[k]));
+                        face[k] ^= (face[k] ^ numbers[i]) & before;
+                        entry[k] = if other < entry[k] { other } else { entry[k] };
+                    }
+                }
+                for i in ENTRIES..5 {
+                    for k in 0..WIDE {
+                        let other = base[i] + planes[i][1] * x[k];
+                        exit[k] = if other > exit[k] { other } else { exit[k] };
+                    }
+                }
+                for k in 0..WIDE {
+                    let here = if entry[k] <= NEAREST { entry[k] } else { 0.0 };
+                    entry[k] = if entry[k] >= exit[k] { here } else { 0.0 };
+                }
+                put(&entry, &face, depths, faces);
+            }
+        }
+    }
+}
+
+/// Puts faces where they are nearer than what is there; 0 for pixels that they do not cover.
+#[inline(always)]
+fn put(entry: &[f32; WIDE], face: &[u32; WIDE], depths: &mut [f32; WIDE], faces: &mut [u32; WIDE]) {
+    let (old_depths, old_faces) = (*depths, *faces);
+    for k in 0..WIDE {
+        // All bits where the difference is negative: compilers make slow masked stores of comparisons.
+        let nearer = ((old_depths[k] - entry[k]).to_bits() as i32 >> 31) as u32;
+        faces[k] = old_faces[k] ^ ((old_faces[k] ^ face[k]) & nearer);
+    }
+    for k in 0..WIDE {
+        depths[k] = if entry[k] > old_depths[k] { entry[k] } else { old_depths[k] };
     }
 }
