@@ -10,6 +10,8 @@ mod hold;
 mod plan;
 mod random;
 
+pub use plan::Plan;
+
 use crate::action::Action;
 use crate::environment::Environment;
 use cosfly_frames::DVec3;

@@ -6,7 +6,7 @@ use cosfly_frames::DVec3;
 use std::sync::Arc;
 
 /// A planned flight, followed step by step.
-pub(super) struct Plan {
+pub struct Plan {
     /// Control points of the spline that is flown, world frame, metres; at least one.
     controls: Arc<[DVec3]>,
     /// Time of the first waypoint, seconds.
