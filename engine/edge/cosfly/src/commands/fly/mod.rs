@@ -137,9 +137,10 @@ fn seconds(text: &str) -> Result<f64, String> {
 }
 
 fn shard(text: &str) -> Result<Shard, String> {
-    let parts = text.split_once('/').and_then(|(index, of)| Some((index.parse().ok()?, of.parse().ok()?)));
+    let number = |text: &str| text.parse::<usize>().ok();
+    let parts = text.split_once('/').and_then(|(index, of)| Some((number(index)?, number(of)?)));
     match parts {
-        Some((index, of)) if index >= 1_usize && index <= of => Ok(Shard { index: index - 1, of }),
+        Some((index, of)) if index >= 1 && index <= of => Ok(Shard { index: index - 1, of }),
         _ => Err("it must be like 1/4: a number from 1 on, and the number of shares".to_owned()),
     }
 }
