@@ -1,7 +1,10 @@
 //! [`TrafficConfig`]: the parameters of traffic in a recipe.
 
 use crate::parameters;
-use cosfly_pedestrians::{ConfigRule, CrowdConfig};
+use cosfly_pedestrians::{ConfigRule, CrowdConfig, RecordedConfig, ScriptedPerson};
+use cosfly_stage::Source;
+use cosfly_vehicles::VehicleConfig;
+use cosfly_vehicles::fcd::FcdConfig;
 use cosfly_world::{BodyKind, Clock, LookAlikeConfig, Traffic};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -23,6 +26,14 @@ pub struct TrafficConfig {
     pub follow: Follow,
     /// People on foot.
     pub people: CrowdConfig,
+    /// Vehicles on the town's lanes; in a town without lanes there are none, with a note.
+    pub vehicles: VehicleConfig,
+    /// People of recorded tracks: GPX and GeoJSON with times, ETH/UCY `obsmat`, CSV.
+    pub recorded: Vec<RecordedSource>,
+    /// People on routes of their own.
+    pub scripted: Vec<ScriptedPerson>,
+    /// Vehicles and people that SUMO simulated.
+    pub sumo: Option<SumoSource>,
     /// People who are dressed like a followed person.
     pub look_alikes: LookAlikeConfig,
 }
@@ -34,9 +45,37 @@ impl Default for TrafficConfig {
             dt_s: 0.5,
             follow: Follow::default(),
             people: CrowdConfig::default(),
+            vehicles: VehicleConfig::default(),
+            recorded: vec![],
+            scripted: vec![],
+            sumo: None,
             look_alikes: LookAlikeConfig::default(),
         }
     }
+}
+
+/// A file of recorded tracks.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct RecordedSource {
+    /// Path of the file, absolute or relative to the recipe.
+    pub source: String,
+    /// Format, clock and place of the tracks.
+    #[serde(default)]
+    pub options: RecordedConfig,
+}
+
+/// Traffic that SUMO simulated.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct SumoSource {
+    /// Path of the file of `sumo --fcd-output`, absolute or relative to the recipe.
+    pub source: String,
+    /// Path of the net that SUMO used.
+    pub net: String,
+    /// Time and kinds.
+    #[serde(default)]
+    pub options: FcdConfig,
 }
 
 /// Bodies that flights follow: the first ones, by number, of the named kinds that are there in all frames.
@@ -135,12 +174,36 @@ impl TrafficConfig {
         }
         let shares = |message| ConfigRule { path: &["look_alikes", "shares"], message };
         self.look_alikes.check().map_err(shares)?;
-        self.people.check()
+        for person in &self.scripted {
+            let below = |rule: ConfigRule| ConfigRule { path: &["scripted"], ..rule };
+            person.check().map_err(below)?;
+        }
+        for recorded in &self.recorded {
+            let below = |rule: ConfigRule| ConfigRule { path: &["recorded"], ..rule };
+            recorded.options.check().map_err(below)?;
+        }
+        let below = |rule: cosfly_vehicles::ConfigRule| ConfigRule { path: &["vehicles"], message: rule.message };
+        self.vehicles.validate().map_err(below)?;
+        let below = |rule: ConfigRule| ConfigRule { path: &["people"], ..rule };
+        self.people.check().map_err(below)
     }
 
     /// Frames and steps.
     pub fn clock(&self) -> Clock {
         Clock::new(self.frames, self.dt_s, STEP_S)
+    }
+
+    /// Files of recorded tracks, then the two of SUMO. Their names are left out of the parameters: contents count.
+    pub fn take_sources(&mut self) -> Vec<Source> {
+        let mut sources = vec![];
+        for (number, recorded) in self.recorded.iter_mut().enumerate() {
+            sources.push(Source::new(format!("recorded.{number}.source"), std::mem::take(&mut recorded.source)));
+        }
+        if let Some(sumo) = &mut self.sumo {
+            sources.push(Source::new("sumo.source", std::mem::take(&mut sumo.source)));
+            sources.push(Source::new("sumo.net", std::mem::take(&mut sumo.net)));
+        }
+        sources
     }
 
     /// Parameters that the bodies depend on, for keys: those who are followed as far as others are dressed like them.

@@ -50,8 +50,9 @@ impl StageKind for TrafficKind {
     }
 
     fn build(&self, given: serde_json::Value) -> Result<Vec<StagePart>, ParameterError> {
-        let config: TrafficConfig = parameters::read(given)?;
+        let mut config: TrafficConfig = parameters::read(given)?;
         config.check().map_err(|rule| parameters::refused_at(&rule.path.join("."), rule.message))?;
+        let sources = config.take_sources();
         let properties = |parameters, inputs, artifact, items, bytes_per_item| StageProperties {
             kind: self.name().into(),
             version: 1,
@@ -66,6 +67,7 @@ impl StageKind for TrafficKind {
         let bodies = config.canonical_of_bodies();
         let bytes = 20 * u64::from(config.frames) * u64::from(config.people.count);
         let bodies = properties(bodies, self.ports(), TRAFFIC, ItemRule::One, bytes);
+        let bodies = StageProperties { sources, ..bodies };
         let doc = "Everybody: the part of the same stage.";
         let inputs = vec![ports::town(), ports::sibling(BODIES, TRAFFIC, Fan::Broadcast, doc)];
         let items = ItemRule::Count { prefix: "t", count: config.follow.count };
@@ -143,8 +145,9 @@ impl Stage for BodiesStage {
     fn run(&self, inputs: &Inputs<'_>, outputs: &mut dyn OutputSink, context: &TaskContext) -> Result<Produced> {
         let world = world(inputs)?;
         let clock = self.config.clock();
-        let mut populations = population::all(&self.config, &world.town, clock, Seed(context.seed))?;
-        let simulated = simulate(&mut populations, clock, |_| context.check_cancelled())?;
+        let by = (clock, Seed(context.seed));
+        let mut populations = population::all(&self.config, &world.town, by, &context.sources)?;
+        let simulated = simulate(&mut populations.all, clock, |_| context.check_cancelled())?;
         let mut traffic = Traffic { name: context.id.stage.recipe_name().to_owned(), ..simulated };
         let mut followed = self.config.follow.eligible(&traffic);
         followed.truncate(self.config.follow.count as usize);
@@ -152,7 +155,7 @@ impl Stage for BodiesStage {
         let alike = |a: &Seed, b: &Seed| outfit(a).is_like(&outfit(b));
         let seed = Seed(context.seed).child("look-alikes", 0);
         let note = dress(&mut traffic, &followed, &self.config.look_alikes, &alike, &seed);
-        traffic.notes.extend(note);
+        traffic.notes.extend(populations.notes.into_iter().chain(note));
         outputs.put(BODIES, &codec::encode(TRAFFIC, &traffic)?)?;
         link_town(inputs, outputs)?;
         let notes = [("bodies".to_owned(), traffic.bodies.len().to_string())].into();

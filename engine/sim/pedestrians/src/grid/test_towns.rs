@@ -32,6 +32,7 @@ pub(crate) fn town(walkable: Vec<WalkablePolygon>, obstacles: Vec<Obstacle>) -> 
         planning_boxes: vec![],
         simplification: SimplificationReport::default(),
         walkable,
+        lanes: vec![],
         surfaces: vec![],
         synthetic: Synthetic::default(),
         min_in_world: DVec3::ZERO,

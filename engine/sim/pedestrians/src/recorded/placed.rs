@@ -203,7 +203,7 @@ fn meetings_with_things(bodies: &[Body], town: &Town) -> Result<Option<String>, 
 
 /// Makes the radii of people so small that no two overlap in any frame; returns a note where some are.
 fn make_room(bodies: &mut [Body], clock: Clock) -> Option<String> {
-    let mut traffic = Traffic { dt_s: clock.dt_s, frames: clock.frames, bodies: bodies.to_vec(), notes: vec![] };
+    let mut traffic = Traffic { dt_s: clock.dt_s, frames: clock.frames, bodies: bodies.to_vec(), ..Traffic::default() };
     let mut nearest_m = vec![f64::INFINITY; bodies.len()];
     for frame in 0..clock.frames {
         let snapshot: Snapshot = traffic.snapshot(frame);
