@@ -3,6 +3,7 @@
 use crate::expert::{Bodies, Expert};
 use crate::plugins::Plugins;
 use crate::ports::{self, TRAJECTORY, WALK};
+use crate::quotas::{self, Trial};
 use crate::world::{check_same_town, link_town, world};
 use crate::{codec, companions, traffic};
 use cosfly_blobs::OutputSink;
@@ -46,10 +47,18 @@ impl StageKind for Muco {
             }
             Some(count) => (vec![], vec![ports::town()], ItemRule::Count { prefix: "f", count }),
         };
+        let occlusion = expert.config.occlusion.clone();
+        let mut parameters = expert.canonical();
+        if occlusion.has_quota() {
+            // A flight depends on its own order alone.
+            for key in ["share", "beside_look_alike"] {
+                parameters["occlusion"].as_object_mut().expect("a table").remove(key);
+            }
+        }
         let properties = StageProperties {
             kind: self.name().into(),
-            version: 3,
-            parameters: expert.canonical(),
+            version: 4,
+            parameters,
             sources: expert.sources(),
             inputs,
             artifact: TRAJECTORY,
@@ -57,7 +66,15 @@ impl StageKind for Muco {
             bytes_per_item: 60_000,
             intermediate: &[],
         };
-        parts.push(StagePart { suffix: "", stage: Box::new(MucoStage { expert, properties }) });
+        let mut main = properties.clone();
+        if occlusion.has_quota() && expert.count().is_none() {
+            let trial = StageProperties { artifact: ports::LOSSES, bytes_per_item: 100, ..properties };
+            let trial = MucoStage { expert: expert.clone(), properties: trial, is_trial: true };
+            parts.push(StagePart { suffix: quotas::TRIALS, stage: Box::new(trial) });
+            parts.push(quotas::orders_part(&occlusion));
+            main.inputs.push(quotas::port());
+        }
+        parts.push(StagePart { suffix: "", stage: Box::new(MucoStage { expert, properties: main, is_trial: false }) });
         Ok(parts)
     }
 }
@@ -73,6 +90,8 @@ fn others() -> InputPort {
 struct MucoStage {
     expert: Expert,
     properties: StageProperties,
+    /// Whether the flights are planned only to learn whether they can lose their targets.
+    is_trial: bool,
 }
 
 impl Stage for MucoStage {
@@ -93,9 +112,13 @@ impl Stage for MucoStage {
         } else {
             Bodies::default()
         };
-        let plugins = Plugins::of_expert(&self.expert.plugins, &context.sources)?;
+        let mut expert = self.expert.clone();
+        if quotas::order(inputs, context)? == Some(false) {
+            expert.config.occlusion.count = 0;
+        }
+        let plugins = Plugins::of_expert(&expert.plugins, &context.sources)?;
         let plugins = plugins.for_item(context.id.to_string());
-        let flight = self.expert.flight(&world, bodies, Seed(context.seed), plugins)?;
+        let flight = expert.flight(&world, bodies, Seed(context.seed), plugins)?;
         let (outcome, findings) = match flight {
             Ok(flight) => {
                 let (outcome, said) = flight.plan(&world)?;
@@ -111,6 +134,11 @@ impl Stage for MucoStage {
                 (PlanOutcome::Rejected { track, reason }, Default::default())
             }
         };
+        if self.is_trial {
+            let followed = traffic::followed(inputs, inputs.one("paths")?)?;
+            Trial::of(&outcome, &expert.config.occlusion, &around, followed.as_ref()).put(outputs)?;
+            return Ok(Produced::default());
+        }
         outputs.put("trajectory", &codec::encode(TRAJECTORY, &outcome)?)?;
         link_town(inputs, outputs)?;
         if let Some(walk) = inputs.all("paths").first() {

@@ -91,11 +91,14 @@ impl<'a> Experts<'a> {
         let described = &self.plan.recipe.stages[stage];
         let name = described.items[item].of_stage(&described.name).to_string();
         let broken = |rule: String| Diagnostic::new("plan-from-parameters", Fault::Bug, rule);
-        let expert = Expert::read(described.stage.properties().parameters.clone()).map_err(|it| broken(it.message))?;
+        let mut expert =
+            Expert::read(described.stage.properties().parameters.clone()).map_err(|it| broken(it.message))?;
         let town = described.connection("town").and_then(|connection| connection.arrivals.first().cloned());
         let world = self.world(&town.ok_or_else(|| broken(format!("`{name}` has no town")))?)?;
         let blobs = self.blobs(stage, item)?;
         let outcome = read::trajectory(&self.store.read(&blobs[read::TRAJECTORY_BLOB])?)?;
+        let published_without_loss =
+            matches!(&outcome, PlanOutcome::Planned(it) if it.certificate.occlusion_ordered_s == 0.0);
         let (track, flown) = match outcome {
             PlanOutcome::Planned(flight) => {
                 let flown = flight.poses_in_world.iter().map(|pose| pose.position_in_world).collect();
@@ -103,6 +106,9 @@ impl<'a> Experts<'a> {
             }
             PlanOutcome::Rejected { track, .. } => (track, vec![]),
         };
+        if published_without_loss {
+            expert.config.occlusion.count = 0;
+        }
         let around = blobs.get(read::AROUND_BLOB).map(|blob| read::around(&self.store.read(blob)?)).transpose()?;
         let movers = around.map_or_else(Vec::new, |around| around.boxes());
         let bodies = Bodies { walk: Some(track), companions: self.companions(stage, item)?, movers };
