@@ -9,6 +9,7 @@ use cosfly_diagnose::{ParameterError, Result};
 use cosfly_frames::Seed;
 use cosfly_pilot::perturb::{PerturbConfig, perturb};
 use cosfly_planner::PlanOutcome;
+use cosfly_planner::obstacles::exact::ExactMap;
 use cosfly_stage::{InputPort, Inputs, ItemRule, Produced, Stage, StageKind, StagePart, StageProperties, TaskContext};
 
 /// Stage kind `perturb`.
@@ -68,7 +69,8 @@ impl Stage for PerturbStage {
         let expert_id = artifact.id.item.of_stage(&artifact.id.stage).to_string();
         let twin = match expert {
             PlanOutcome::Planned(expert) => {
-                perturb(&expert, &expert_id, &world.exact, &self.config, Seed(context.seed))
+                let map = ExactMap::still(&world.exact);
+                perturb(&expert, &expert_id, map, &self.config, Seed(context.seed))
             }
             PlanOutcome::Rejected { track, reason } => {
                 PlanOutcome::Rejected { track, reason: format!("its expert was rejected: {reason}") }

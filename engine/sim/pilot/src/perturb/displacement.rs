@@ -2,7 +2,7 @@
 
 use super::config::OffsetRange;
 use cosfly_frames::{DVec3, real};
-use cosfly_geometry::SpatialQuery;
+use cosfly_planner::obstacles::exact::ExactMap;
 use cosfly_random::RandomStream;
 
 /// Kept beyond the asked clearance, so that rounding cannot take it away again, metres.
@@ -16,8 +16,10 @@ const SHARES: [f64; 4] = [0.75, 0.5, 0.25, 0.125];
 
 /// Places where a displaced drone may be. World frame, metres.
 pub(super) struct Corridor<'a> {
-    /// All unsimplified boxes.
-    pub exact: &'a dyn SpatialQuery,
+    /// All unsimplified boxes, and those that move.
+    pub map: ExactMap<'a>,
+    /// Frame at which the drone is displaced.
+    pub frame: usize,
     /// Distance from obstacles along the whole swept path.
     pub clearance_m: f64,
     /// Lowest height.
@@ -31,8 +33,13 @@ pub(super) struct Corridor<'a> {
 impl Corridor<'_> {
     fn holds(&self, position: DVec3) -> bool {
         let kept_m = self.clearance_m + ROUNDING_M;
-        let swept = |other: DVec3| self.exact.segment_clearance(position, other, kept_m) >= kept_m;
-        position.z >= self.lowest_z_m && swept(self.before.unwrap_or(position)) && self.after.is_none_or(swept)
+        let (frame, map) = (self.frame, self.map);
+        let here = |to: DVec3| map.segment_clearance(frame, position, to, kept_m) >= kept_m;
+        let is_reached = match self.before {
+            Some(before) => map.segment_clearance(frame - 1, before, position, kept_m) >= kept_m,
+            None => here(position),
+        };
+        position.z >= self.lowest_z_m && is_reached && self.after.is_none_or(here)
     }
 }
 

@@ -5,8 +5,8 @@ use super::config::{FlyableConfig, PerturbConfig};
 use super::{motion, search};
 use crate::aim::{AimConfig, aimed, reached};
 use cosfly_frames::{DVec3, Pose, real};
-use cosfly_geometry::SpatialQuery;
 use cosfly_planner::certificate::Kinematics;
+use cosfly_planner::obstacles::exact::ExactMap;
 use cosfly_planner::trajectory::Kind;
 use cosfly_planner::trajectory::{FramePerturbation, Trajectory};
 use cosfly_planner::visibility::aim_point;
@@ -27,7 +27,7 @@ const NOTHING: f64 = 1e-6;
 pub(super) fn twin(
     expert: &Trajectory,
     kind: Kind,
-    exact: &dyn SpatialQuery,
+    map: ExactMap<'_>,
     config: &PerturbConfig,
     seed: &Seed,
 ) -> (Vec<Pose>, Vec<FramePerturbation>) {
@@ -41,7 +41,7 @@ pub(super) fn twin(
         Kind::Drift | Kind::Jumps | Kind::Aim | Kind::Search => vec![],
     };
     wanted.iter_mut().zip(more).for_each(|(drift, more)| *drift += more);
-    let way = Way { expert, places: &places, exact, config };
+    let way = Way { expert, places: &places, map, config };
     let mut offsets = way.flown(wanted);
     offsets.iter_mut().filter(|offset| offset.length() <= NOTHING).for_each(|offset| *offset = DVec3::ZERO);
     let straight = views(expert, &offsets);
@@ -113,7 +113,7 @@ fn turned_in_time(wanted: &[Pose], largest_step_rad: f64) -> Vec<Pose> {
 struct Way<'a> {
     expert: &'a Trajectory,
     places: &'a [DVec3],
-    exact: &'a dyn SpatialQuery,
+    map: ExactMap<'a>,
     config: &'a PerturbConfig,
 }
 
@@ -166,7 +166,7 @@ impl Way<'_> {
             let lowest_z_m = self.expert.track.states[*frame].feet_in_world.z + self.config.min_height_m;
             let is_moved = |frame: usize| offsets.get(frame).is_some_and(|offset| *offset != DVec3::ZERO);
             (is_moved(*frame) || is_moved(*frame + 1))
-                && (from.z < lowest_z_m || self.exact.segment_clearance(from, to, kept_m) < kept_m)
+                && (from.z < lowest_z_m || self.map.segment_clearance(*frame, from, to, kept_m) < kept_m)
         };
         (0..offsets.len()).filter(is_blocked).collect()
     }

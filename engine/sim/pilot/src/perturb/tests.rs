@@ -6,6 +6,7 @@ use super::twin::{measured, perturb};
 use cosfly_frames::{DVec3, Pose, TargetState, TargetTrack, real};
 use cosfly_geometry::{BoxBvh, OrientedBox, SpatialQuery};
 use cosfly_planner::config::muco::MucoConfig;
+use cosfly_planner::obstacles::exact::ExactMap;
 use cosfly_planner::trajectory::Kind;
 use cosfly_planner::trajectory::{Certificate, FramePerturbation, Perturbation, PlanOutcome, Trajectory};
 use cosfly_planner::visibility::aim_point;
@@ -56,7 +57,8 @@ fn expert(count: usize) -> Trajectory {
         },
         perturbation: None,
     };
-    blank = measured(&blank, poses_in_world, no_twin, &BoxBvh::build(vec![]), &PerturbConfig::default());
+    blank =
+        measured(&blank, poses_in_world, no_twin, ExactMap::still(&BoxBvh::build(vec![])), &PerturbConfig::default());
     blank.perturbation = None;
     blank
 }
@@ -66,7 +68,7 @@ fn seed() -> Seed {
 }
 
 fn twin_of(expert: &Trajectory, exact: &BoxBvh, config: &PerturbConfig, seed: Seed) -> Trajectory {
-    match perturb(expert, "p3", exact, config, seed) {
+    match perturb(expert, "p3", ExactMap::still(exact), config, seed) {
         PlanOutcome::Planned(twin) => *twin,
         PlanOutcome::Rejected { reason, .. } => panic!("{reason}"),
     }
@@ -200,7 +202,7 @@ fn a_twin_depends_on_its_seed_alone() {
 #[test]
 fn uneven_and_touching_experts_are_rejected_and_empty_ones_have_empty_twins() {
     let config = PerturbConfig::default();
-    let reason = |expert: &Trajectory| match perturb(expert, "p3", &tunnel(), &config, seed()) {
+    let reason = |expert: &Trajectory| match perturb(expert, "p3", ExactMap::still(&tunnel()), &config, seed()) {
         PlanOutcome::Rejected { reason, .. } => reason,
         PlanOutcome::Planned(_) => String::new(),
     };
@@ -289,4 +291,24 @@ fn a_tight_limit_of_acceleration_makes_displacements_smaller() {
     config.flyable.max_acceleration_mps2 = 0.5;
     let narrow = largest(&config);
     assert!(0.0 < narrow && narrow < 0.7 * wide, "{narrow} {wide}");
+}
+
+#[test]
+fn twins_keep_clear_of_boxes_that_move() {
+    let (expert, exact) = (expert(300), BoxBvh::build(vec![]));
+    // Something flies along, a frame behind, as near as the clearance allows.
+    let at = |frame: usize| OrientedBox {
+        center_in_world: expert.poses_in_world[frame.saturating_sub(1)].position_in_world + DVec3::new(0.0, 3.2, 0.0),
+        half_extents_m: DVec3::splat(1.0),
+        yaw_rad: 0.1 * frame as f64,
+    };
+    let movers = [(0..300).map(at).collect::<Vec<_>>()];
+    let map = ExactMap { query: &exact, movers: &movers };
+    for kind in Kind::ALL {
+        let config = only(kind);
+        let PlanOutcome::Planned(twin) = perturb(&expert, "p3", map, &config, seed()) else { panic!("{kind:?}") };
+        assert!(twin.certificate.min_clearance_m >= config.clearance_m - 1e-9, "{kind:?}");
+        let offsets = frames(&twin).iter().map(|frame| frame.drone_offset_in_world.length());
+        assert!(kind == Kind::Aim || kind == Kind::Search || offsets.fold(0.0, f64::max) > 0.1, "{kind:?}");
+    }
 }

@@ -5,7 +5,6 @@ use super::config::PerturbConfig;
 use super::displacement::{Corridor, free_offset, horizontal_offset};
 use super::flyable;
 use cosfly_frames::{DVec3, Pose, real};
-use cosfly_geometry::SpatialQuery;
 use cosfly_planner::certificate::{certify, view_rates_deg_s};
 use cosfly_planner::config::limits::LimitsConfig;
 use cosfly_planner::config::muco::MucoConfig;
@@ -21,7 +20,7 @@ const STEEPEST_PITCH_RAD: f64 = 89.9 * (real::PI / 180.0);
 /// The perturbed twin of `expert`, of the kind that the seed draws from the mixture.
 ///
 /// Twins of all kinds but `jumps` could be flown: the certificate states their limits of speed and acceleration; a
-/// displacement that would break them, or that comes too near to an obstacle, is made smaller, smoothly in time.
+/// displacement that would break them, or that comes too near to an obstacle, still or moving, is made smaller, smoothly in time.
 ///
 /// Kind `jumps`: with probability `position_probability` the drone is displaced and aims at a displaced point; independently,
 /// with probability `rotation_probability`, its view is turned. A displacement that would come nearer to an obstacle than
@@ -37,7 +36,7 @@ const STEEPEST_PITCH_RAD: f64 = 89.9 * (real::PI / 180.0);
 pub fn perturb(
     expert: &Trajectory,
     expert_item: &str,
-    exact: &dyn SpatialQuery,
+    map: ExactMap<'_>,
     config: &PerturbConfig,
     seed: Seed,
 ) -> PlanOutcome {
@@ -51,8 +50,8 @@ pub fn perturb(
     }
     let kind = config.mixture.draw(&seed);
     let (poses, frames) = match kind {
-        Kind::Jumps => jumps(expert, exact, config, &seed),
-        _ => flyable::twin(expert, kind, exact, config, &seed),
+        Kind::Jumps => jumps(expert, map, config, &seed),
+        _ => flyable::twin(expert, kind, map, config, &seed),
     };
     let probability = |probability| if kind == Kind::Jumps { probability } else { 0.0 };
     let perturbation = Perturbation {
@@ -62,7 +61,7 @@ pub fn perturb(
         rotation_probability: probability(config.rotation_probability),
         frames,
     };
-    let twin = measured(expert, poses, perturbation, exact, config);
+    let twin = measured(expert, poses, perturbation, map, config);
     match twin.certificate.min_clearance_m {
         free if free > 0.0 => PlanOutcome::Planned(Box::new(twin)),
         touching => rejected(format!("the twin comes to {touching:.2} m from an obstacle, as its expert does")),
@@ -72,7 +71,7 @@ pub fn perturb(
 /// Poses and events of kind `jumps`.
 fn jumps(
     expert: &Trajectory,
-    exact: &dyn SpatialQuery,
+    map: ExactMap<'_>,
     config: &PerturbConfig,
     seed: &Seed,
 ) -> (Vec<Pose>, Vec<FramePerturbation>) {
@@ -92,7 +91,7 @@ fn jumps(
         };
         let before = poses.last().map(|pose| pose.position_in_world);
         let own = seed.child("frame", frame as u64);
-        let pose = perturbed(expert, frame, before, exact, config, &own, &mut applied);
+        let pose = perturbed(expert, frame, before, map, config, &own, &mut applied);
         poses.push(pose);
         frames.push(applied);
     }
@@ -104,7 +103,7 @@ fn perturbed(
     expert: &Trajectory,
     frame: usize,
     before: Option<DVec3>,
-    exact: &dyn SpatialQuery,
+    map: ExactMap<'_>,
     config: &PerturbConfig,
     own: &Seed,
     applied: &mut FramePerturbation,
@@ -112,7 +111,8 @@ fn perturbed(
     let mut pose = expert.poses_in_world[frame];
     if applied.position {
         let corridor = Corridor {
-            exact,
+            map,
+            frame,
             clearance_m: config.clearance_m,
             lowest_z_m: expert.track.states[frame].feet_in_world.z + config.min_height_m,
             before,
@@ -156,7 +156,7 @@ pub(super) fn measured(
     expert: &Trajectory,
     poses: Vec<Pose>,
     perturbation: Perturbation,
-    exact: &dyn SpatialQuery,
+    map: ExactMap<'_>,
     config: &PerturbConfig,
 ) -> Trajectory {
     let positions: Vec<DVec3> = poses.iter().map(|pose| pose.position_in_world).collect();
@@ -173,7 +173,7 @@ pub(super) fn measured(
     // Height is kept above the target's feet while displacing; no ground below is known here.
     let no_ground = |_: f64, _: f64| f64::NEG_INFINITY;
     let muco = MucoConfig { limits, ..MucoConfig::default() };
-    let mut measured = certify(&expert.track, &positions, 0, ExactMap::still(exact), &no_ground, &muco);
+    let mut measured = certify(&expert.track, &positions, 0, map, &no_ground, &muco);
     let certificate = &mut measured.certificate;
     certificate.filtered_boxes = expert.certificate.filtered_boxes;
     let [yaw, pitch] = view_rates_deg_s(&poses, expert.track.dt_s);

@@ -99,7 +99,8 @@ impl Part {
         // Boxes below the lowest flight are only looked past: there the prediction itself is the best guess.
         let floor_m = request.track.states[now].feet_in_world.z + request.config.view.min_altitude_m
             - request.config.limits.clearance_m;
-        let mover = |places: &Vec<OrientedBox>| predicted_box(places, request.track.dt_s, first..=now, horizon, floor_m);
+        let mover =
+            |places: &Vec<OrientedBox>| predicted_box(places, request.track.dt_s, first..=now, horizon, floor_m);
         Self {
             first,
             track: track(request.track),
