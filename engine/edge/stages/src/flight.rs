@@ -227,7 +227,7 @@ impl Flight {
         }
         if !self.companions.is_empty() {
             notes.insert("companions".to_owned(), self.companion_ids.join(", "));
-            let map = ExactMap { query: &world.exact, movers: &self.movers };
+            let map = ExactMap::among(&world.exact, &self.movers);
             let seen = self.companions.iter().map(|companion| companion_visibility(map, companion, flight));
             let mean = seen.sum::<f64>() / self.companions.len() as f64;
             notes.insert("visibility of companions".to_owned(), format!("{mean:.3}"));

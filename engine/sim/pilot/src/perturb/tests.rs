@@ -303,7 +303,7 @@ fn twins_keep_clear_of_boxes_that_move() {
         yaw_rad: 0.1 * frame as f64,
     };
     let movers = [(0..300).map(at).collect::<Vec<_>>()];
-    let map = ExactMap { query: &exact, movers: &movers };
+    let map = ExactMap::among(&exact, &movers);
     for kind in Kind::ALL {
         let config = only(kind);
         let PlanOutcome::Planned(twin) = perturb(&expert, "p3", map, &config, seed()) else { panic!("{kind:?}") };
