@@ -1,6 +1,6 @@
 //! `muco`: expert trajectories from the multi-constraint optimiser.
 
-use crate::expert::{Bodies, Expert};
+use crate::expert::{Bodies, Expert, drones_before};
 use crate::plugins::Plugins;
 use crate::ports::{self, TRAJECTORY, WALK};
 use crate::world::{check_same_town, link_town, world};
@@ -41,7 +41,11 @@ impl StageKind for Muco {
         let (mut parts, inputs, items) = match expert.count() {
             None => {
                 let ports = vec![ports::town(), paths(), companions::port(count == 0)];
-                (vec![companions::part(count, paths(), others())], ports, ItemRule::PerInput("paths"))
+                let items = match expert.drones() {
+                    alone if alone.is_empty() => ItemRule::PerInput("paths"),
+                    variants => ItemRule::PerVariant { port: "paths", variants },
+                };
+                (vec![companions::part(count, paths(), others())], ports, items)
             }
             Some(count) => (vec![], vec![ports::town()], ItemRule::Count { prefix: "f", count }),
         };
@@ -84,7 +88,8 @@ impl Stage for MucoStage {
         let bodies = if self.expert.objective.objective == Objective::Track {
             check_same_town(inputs, "paths")?;
             let walk: PedestrianPath = codec::decode(WALK, &inputs.read(inputs.one("paths")?, "walk")?)?;
-            Bodies { walk: Some(walk.track), companions: companions::read(inputs)?, movers: vec![] }
+            let (companions, drones_before) = (companions::read(inputs)?, drones_before(&context.id.item));
+            Bodies { walk: Some(walk.track), companions, movers: vec![], drones_before }
         } else {
             Bodies::default()
         };

@@ -5,8 +5,8 @@ use cosfly_frames::{DVec3, Seed};
 use cosfly_planner::PlanOutcome;
 use cosfly_recipe::{Arrival, RecipeStage};
 use cosfly_runner::Plan;
-use cosfly_stage::{BlobSource, Blobs, ItemName};
-use cosfly_stages::expert::{Bodies, Companion, Expert, Flight};
+use cosfly_stage::{BlobSource, Blobs, ItemName, ItemRule};
+use cosfly_stages::expert::{Bodies, Companion, Expert, Flight, drones_before};
 use cosfly_stages::plugins::Plugins;
 use cosfly_stages::read;
 use cosfly_stages::world::World;
@@ -103,7 +103,9 @@ impl<'a> Experts<'a> {
             }
             PlanOutcome::Rejected { track, .. } => (track, vec![]),
         };
-        let bodies = Bodies { walk: Some(track), companions: self.companions(stage, item)?, movers: vec![] };
+        let drones_before = drones_before(&described.items[item]);
+        let companions = self.companions(stage, item)?;
+        let bodies = Bodies { walk: Some(track), companions, movers: vec![], drones_before };
         let seed = Seed::of_item(self.plan.recipe.seed, described.name.as_str(), &described.items[item].to_string());
         let paths: Vec<PathBuf> = described.sources.iter().map(|source| source.path.clone()).collect();
         let plugins = Plugins::of_expert(&expert.plugins, &paths)?.for_item(name.clone());
@@ -126,7 +128,11 @@ impl<'a> Experts<'a> {
 
     fn companions(&self, stage: usize, item: usize) -> Result<Vec<Companion>> {
         let part = self.plan.recipe.stages[stage].connection(read::COMPANIONS_BLOB);
-        let Some(chosen) = part.and_then(|part| part.arrivals.get(item)) else { return Ok(vec![]) };
+        let drones = match &self.plan.recipe.stages[stage].stage.properties().items {
+            ItemRule::PerVariant { variants, .. } => variants.len().max(1),
+            _ => 1,
+        };
+        let Some(chosen) = part.and_then(|part| part.arrivals.get(item / drones)) else { return Ok(vec![]) };
         let blobs = self.blobs(chosen.stage, chosen.item)?;
         read::companions(&self.store.read(&blobs[read::COMPANIONS_BLOB])?)
     }
