@@ -123,7 +123,17 @@ impl Expert {
             all[key] = value.clone();
         }
         let mut objective = parameters::canonical(&self.objective);
-        if let Some(drones) = all["drones"].as_object_mut() {
+        if let Some(table) = all.as_object_mut() {
+            // What is left at its default is left out, so that recipes that know none of it keep their keys.
+            if self.config.foresight == Foresight::Expected {
+                table.remove("foresight");
+                table.remove("causal");
+            }
+            if self.config.drones.count == 1 {
+                table.remove("drones");
+            }
+        }
+        if let Some(drones) = all.get_mut("drones").and_then(|drones| drones.as_object_mut()) {
             drones.remove("count");
         }
         if self.objective.objective == Objective::Track {
@@ -263,9 +273,16 @@ mod tests {
         assert_eq!((again.config, again.objective.objective), (read.config, Objective::Patrol));
         let track = Expert::read(serde_json::json!({ "objective": "track" })).unwrap().canonical();
         let mut defaults = parameters::canonical(&MucoConfig::default());
-        defaults["drones"].as_object_mut().unwrap().remove("count");
+        for key in ["foresight", "causal", "drones"] {
+            defaults.as_object_mut().unwrap().remove(key);
+        }
         defaults["aim"] = parameters::canonical(&AimConfig::default());
         assert_eq!(track, defaults);
+        let drones = |count: u32| {
+            Expert::read(serde_json::json!({ "drones": { "count": count, "separation_m": 9.0 } })).unwrap().canonical()
+        };
+        assert_eq!(drones(2), drones(3));
+        assert_eq!(drones(2)["drones"], serde_json::json!({ "separation_m": 9.0 }));
     }
 
     #[test]

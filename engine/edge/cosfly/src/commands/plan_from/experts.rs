@@ -5,7 +5,7 @@ use cosfly_frames::{DVec3, Seed};
 use cosfly_planner::PlanOutcome;
 use cosfly_recipe::{Arrival, RecipeStage};
 use cosfly_runner::Plan;
-use cosfly_stage::{BlobSource, Blobs, ItemName, ItemRule};
+use cosfly_stage::{BlobSource, Blobs, ItemName};
 use cosfly_stages::expert::{Bodies, Companion, Expert, Flight, drones_before};
 use cosfly_stages::plugins::Plugins;
 use cosfly_stages::read;
@@ -128,11 +128,7 @@ impl<'a> Experts<'a> {
 
     fn companions(&self, stage: usize, item: usize) -> Result<Vec<Companion>> {
         let part = self.plan.recipe.stages[stage].connection(read::COMPANIONS_BLOB);
-        let drones = match &self.plan.recipe.stages[stage].stage.properties().items {
-            ItemRule::PerVariant { variants, .. } => variants.len().max(1),
-            _ => 1,
-        };
-        let Some(chosen) = part.and_then(|part| part.arrivals.get(item / drones)) else { return Ok(vec![]) };
+        let Some(chosen) = part.and_then(|part| part.arrivals.get(item)) else { return Ok(vec![]) };
         let blobs = self.blobs(chosen.stage, chosen.item)?;
         read::companions(&self.store.read(&blobs[read::COMPANIONS_BLOB])?)
     }
