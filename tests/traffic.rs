@@ -72,7 +72,8 @@ fn tracks_that_cannot_be_used_are_named_with_their_line() {
     let recipe = "name = \"tracks\"\nseed = 1\n[stages.town]\nuse = \"map\"\nsource = \"MAP\"\n[stages.street]\nuse = \"traffic\"\n\
                   inputs.town = \"town\"\nframes = 4\npeople.count = 0\nvehicles.count = 0\nrecorded = [{ source = \"tracks.csv\" }]\n";
     let map = crate::support::repository_root().join("recipes/towns/downtown.xodr");
-    std::fs::write(folder.path().join("recipe.toml"), recipe.replace("MAP", &map.display().to_string())).expect("written");
+    std::fs::write(folder.path().join("recipe.toml"), recipe.replace("MAP", &map.display().to_string()))
+        .expect("written");
     std::fs::write(folder.path().join("tracks.csv"), "t,id,x,y\n0,a,1,2\n1,a,nan,2\n").expect("written");
     let recipe = folder.path().join("recipe.toml");
     let printed = run(folder.path(), recipe.to_str().expect("UTF-8"), "out", &[]).run();

@@ -1,6 +1,6 @@
 //! `muco`: expert trajectories from the multi-constraint optimiser.
 
-use crate::expert::{Bodies, Expert};
+use crate::expert::{Bodies, Expert, drones_before};
 use crate::plugins::Plugins;
 use crate::ports::{self, TRAJECTORY, WALK};
 use crate::quotas::{self, Trial};
@@ -43,21 +43,23 @@ impl StageKind for Muco {
         let (mut parts, inputs, items) = match expert.count() {
             None => {
                 let ports = vec![ports::town(), paths(), companions::port(count == 0)];
-                (vec![companions::part(count, paths(), others())], ports, ItemRule::PerInput("paths"))
+                let items = match expert.drones() {
+                    alone if alone.is_empty() => ItemRule::PerInput("paths"),
+                    variants => ItemRule::PerVariant { port: "paths", variants },
+                };
+                (vec![companions::part(count, paths(), others())], ports, items)
             }
             Some(count) => (vec![], vec![ports::town()], ItemRule::Count { prefix: "f", count }),
         };
         let occlusion = expert.config.occlusion.clone();
         let mut parameters = expert.canonical();
-        if occlusion.has_quota() {
-            // A flight depends on its own order alone.
-            for key in ["share", "beside_look_alike"] {
-                parameters["occlusion"].as_object_mut().expect("a table").remove(key);
-            }
+        // A flight depends on its own order alone.
+        for key in ["share", "beside_look_alike"] {
+            parameters["occlusion"].as_object_mut().expect("a table").remove(key);
         }
         let properties = StageProperties {
             kind: self.name().into(),
-            version: 4,
+            version: 3,
             parameters,
             sources: expert.sources(),
             inputs,
@@ -108,7 +110,7 @@ impl Stage for MucoStage {
             let walk: PedestrianPath = codec::decode(WALK, &inputs.read(artifact, "walk")?)?;
             around = traffic::cut_around(inputs, artifact, &walk.track)?;
             let (companions, movers) = (companions::read(inputs)?, around.boxes());
-            Bodies { walk: Some(walk.track), companions, movers }
+            Bodies { walk: Some(walk.track), companions, movers, drones_before: drones_before(&context.id.item) }
         } else {
             Bodies::default()
         };
