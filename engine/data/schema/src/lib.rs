@@ -14,6 +14,8 @@ pub mod extras;
 pub mod flight_labels;
 pub mod flight_table;
 pub mod log;
+pub mod losses;
+pub mod phrases;
 pub mod record;
 mod reference;
 mod split;

@@ -6,6 +6,7 @@ use cosfly_maps::{MapOrigin, Synthetic, Town};
 use cosfly_planner::Trajectory;
 use cosfly_render::frame::TARGET_INSTANCE;
 use cosfly_render::{Camera, Lens, MotionBlur, Mount, Noise, Outfit, PersonView, RollingShutter, TargetView, Weather};
+use cosfly_world::{Around, BodyKind, Followed};
 use serde::{Deserialize, Serialize, de::DeserializeOwned};
 
 /// Role of a flight behind a pedestrian.
@@ -62,13 +63,15 @@ pub struct PairInfo {
     pub expert_id: String,
 }
 
-/// A bystander.
+/// A bystander: a person or a vehicle.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct OtherPerson {
     /// Id in instance images: after those of all objects, the same in all flights of a stage.
     pub instance: u32,
-    /// Stage and item of the walk, such as `crowd-p00003`.
+    /// Stage and item of the walk, such as `crowd-p00003`; traffic and number of a body of it, such as `street-b00003`.
     pub walk_id: String,
+    /// Person or kind of vehicle.
+    pub kind: BodyKind,
     /// Body height, metres.
     pub height_m: f64,
     /// Body radius seen from above, metres.
@@ -129,6 +132,10 @@ pub struct RenderedTrajectory {
     pub visible_by_dense_rays: Vec<Option<f64>>,
     /// Clothes of the target; `None` for a target without a body.
     pub outfit: Option<Outfit>,
+    /// The target among the bodies of traffic; `None` outside of traffic.
+    pub followed: Option<Followed>,
+    /// Bodies of traffic around the target, seen or not; none outside of traffic.
+    pub around: Around,
     /// All bystanders, by instance id.
     pub others: Vec<OtherPerson>,
     /// Frames in which bystanders are visible, by frame and instance id.
@@ -163,6 +170,19 @@ impl RenderedTrajectory {
         let start = self.sightings.partition_point(|sighting| (sighting.frame as usize) < frame);
         let seen = self.sightings[start..].iter().take_while(move |sighting| sighting.frame as usize == frame);
         seen.map(|sighting| (&self.others[sighting.person as usize], sighting))
+    }
+
+    /// Kind of the target; `None` for a target without a body.
+    pub fn target_kind(&self) -> Option<BodyKind> {
+        let followed = self.followed.as_ref().map(|followed| followed.plan.kind);
+        (self.trajectory.track.radius_m > 0.0).then(|| followed.unwrap_or(BodyKind::Pedestrian))
+    }
+
+    /// Number of visible bystanders in a frame who wear what the target wears: the same colours in words, a backpack or none.
+    pub fn look_alikes(&self, frame: usize) -> usize {
+        let Some(own) = &self.outfit else { return 0 };
+        let is_alike = |other: &OtherPerson| Some(other.kind) == self.target_kind() && other.outfit.is_like(own);
+        self.seen_in(frame).filter(|(other, _)| is_alike(other)).count()
     }
 
     /// Distance from the camera to the target's feet, metres.
@@ -339,7 +359,7 @@ pub fn captions_from_bytes(bytes: &[u8]) -> Result<Vec<CaptionRecord>> {
     decode("captions", CAPTIONS_MAGIC, bytes)
 }
 
-const TRAJECTORY_MAGIC: &[u8; 8] = b"CFTRAJ\x00\x04";
+const TRAJECTORY_MAGIC: &[u8; 8] = b"CFTRAJ\x00\x05";
 const PREVIEWS_MAGIC: &[u8; 8] = b"CFPREV\x00\x01";
 const CAPTIONS_MAGIC: &[u8; 8] = b"CFCAPT\x00\x01";
 

@@ -6,7 +6,9 @@ use cosfly_frames::{DVec3, Pose, Seed, TargetState};
 use cosfly_gpu::GpuBackend;
 use cosfly_maps::generate::{GenerateConfig, generate_town};
 use cosfly_maps::{MapConfig, Town, WalkableKind};
-use cosfly_render::{Backend, Camera, FrameImages, FrameSetup, Renderer, Scene, TargetSetup, TargetView, Weather};
+use cosfly_render::{
+    Backend, BodyShape, Camera, FrameImages, FrameSetup, Renderer, Scene, TargetSetup, TargetView, Weather,
+};
 
 const CAMERA: Camera = Camera { width: 640, height: 360, horizontal_fov_rad: 1.5 };
 
@@ -43,6 +45,7 @@ fn target(feet: DVec3) -> TargetSetup {
         clothes_seed: Seed([9; 32]),
         gait_phase_rad: 1.2,
         visible_by_rays: 1.0,
+        body: BodyShape::default(),
     }
 }
 

@@ -7,7 +7,8 @@ use cosfly_render::{Bystander, Camera, TargetSetup, Walker, target_triangles, wa
 
 /// Rays through the box around the body in the image; about half of them meet the body.
 const RAYS: f64 = 900.0;
-/// Distance from a line of sight to the middle of a body that cannot hide another one there, metres.
+/// Distance from a line of sight to the middle of a person who cannot hide another one there, metres; vehicles add half their
+/// diagonals.
 const APART_M: f64 = 2.5;
 
 /// Casts rays; keeps its buffers from frame to frame.
@@ -44,8 +45,8 @@ impl BodyRays {
         triangles.iter().for_each(|triangle| grid.meet(triangle, &mut self.nearness));
         self.nearness_of_others.clear();
         self.nearness_of_others.resize(grid.columns * grid.rows, 0.0);
-        let target_in_world = middle(target.state.feet_in_world, target.height_m);
-        let is_before = |other: &&Bystander| is_before(&other.walker, pose.position_in_world, target_in_world);
+        let walker = target.walker();
+        let is_before = |other: &&Bystander| is_before(&other.walker, pose.position_in_world, &walker);
         for other in others.iter().filter(is_before) {
             let triangles = walker_triangles(&other.walker).into_iter().filter_map(seen);
             triangles.for_each(|triangle| grid.meet(&triangle, &mut self.nearness_of_others));
@@ -65,17 +66,18 @@ impl BodyRays {
     }
 }
 
-/// True where a person may hide a part of the target, whose middle is given, from an eye.
-pub fn is_before(other: &Walker, eye_in_world: DVec3, target_in_world: DVec3) -> bool {
-    let to_target = target_in_world - eye_in_world;
-    let to_other = middle(other.state.feet_in_world, other.height_m) - eye_in_world;
+/// True where somebody may hide a part of the target from an eye.
+pub fn is_before(other: &Walker, eye_in_world: DVec3, target: &Walker) -> bool {
+    let to_target = middle(target) - eye_in_world;
+    let to_other = middle(other) - eye_in_world;
     let along = to_other.dot(to_target) / to_target.length_squared().max(1e-9);
-    (to_other - to_target * along.clamp(0.0, 1.0)).length() < APART_M
+    let apart_m = APART_M + other.body.reach_m() + target.body.reach_m();
+    (to_other - to_target * along.clamp(0.0, 1.0)).length() < apart_m
 }
 
 /// Middle of an upright body.
-pub fn middle(feet_in_world: DVec3, height_m: f64) -> DVec3 {
-    feet_in_world + DVec3::Z * (0.5 * height_m)
+fn middle(walker: &Walker) -> DVec3 {
+    walker.state.feet_in_world + DVec3::Z * (0.5 * walker.body.height_m(walker.height_m))
 }
 
 /// Pixels of rays: the middles of square cells.
@@ -152,6 +154,7 @@ mod tests {
     use super::*;
     use cosfly_frames::{Seed, TargetState};
     use cosfly_geometry::OrientedBox;
+    use cosfly_render::BodyShape;
 
     const CAMERA: Camera = Camera { width: 640, height: 360, horizontal_fov_rad: 1.2 };
 
@@ -163,6 +166,7 @@ mod tests {
             clothes_seed: Seed([1; 32]),
             gait_phase_rad: 0.5,
             visible_by_rays: 1.0,
+            body: BodyShape::default(),
         }
     }
 

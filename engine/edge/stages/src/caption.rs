@@ -2,7 +2,7 @@
 
 use crate::ports::{self, CAPTIONS, TRAJECTORY};
 use crate::walks::walk_seed;
-use crate::{codec, parameters, single};
+use crate::{codec, parameters, single, traffic};
 use cosfly_blobs::OutputSink;
 use cosfly_captions::{Caption as Text, CaptionConfig, Wear, captions, check, facts};
 use cosfly_diagnose::{Diagnostic, Fault, ParameterError, Result};
@@ -69,12 +69,15 @@ impl Stage for CaptionStage {
                 return Ok(Produced::rejected(reason));
             }
         };
-        if trajectory.track.radius_m == 0.0 {
+        let followed = traffic::followed(inputs, inputs.one("trajectories")?)?;
+        let is_person = followed.as_ref().is_none_or(|followed| followed.plan.kind.is_person());
+        if trajectory.track.radius_m == 0.0 || !is_person {
             // The texts are about walkers only.
             outputs.put("captions", &captions_to_bytes(&[]))?;
             return Ok(Produced::default());
         }
-        let outfit = Clothes::draw(&walk_seed(&trajectory.track)?).outfit;
+        let looks = followed.map_or_else(|| walk_seed(&trajectory.track), |followed| Ok(followed.plan.looks))?;
+        let outfit = Clothes::draw(&looks).outfit;
         let facts = facts(&trajectory).wearing(self.config.clothes.then(|| Wear::from(&outfit)));
         let texts: Vec<Text> = captions(&facts, &self.config, Seed(context.seed));
         let mut records = Vec::with_capacity(texts.len());

@@ -1,11 +1,12 @@
 //! Other people in the pictures of a flight: those whom part `nearby` found.
 
-use crate::nearby::{self, NearbyPerson};
+use crate::nearby::{self, NearbyBodies, NearbyPerson};
 use crate::walks::Person;
 use cosfly_diagnose::Result;
 use cosfly_render::{Bystander, PersonView};
 use cosfly_schema::{OtherPerson, Sighting};
 use cosfly_stage::Inputs;
+use cosfly_world::{BodyKind, Traffic};
 
 /// Other people around one flight, by instance id.
 #[derive(Default)]
@@ -19,12 +20,23 @@ impl Crowd {
         let Some(artifact) = inputs.all(nearby::NAME).first() else { return Ok(Self::default()) };
         let read = |NearbyPerson { instance, walk_id }: NearbyPerson| {
             let walk = nearby::walk(inputs, artifact, &nearby::walk_blob(&walk_id))?;
-            let (height_m, radius_m) = (walk.track.height_m, walk.track.radius_m);
-            let person = Person::on(walk)?;
+            let person = Person::on(&walk)?;
+            let (height_m, radius_m) = person.size_m();
             let outfit = person.outfit();
-            Ok((OtherPerson { instance, walk_id, height_m, radius_m, outfit }, person))
+            let kind = BodyKind::Pedestrian;
+            Ok((OtherPerson { instance, walk_id, kind, height_m, radius_m, outfit }, person))
         };
-        Ok(Self { members: nearby::people(inputs, artifact)?.into_iter().map(read).collect::<Result<_>>()? })
+        let mut members: Vec<_> = nearby::people(inputs, artifact)?.into_iter().map(read).collect::<Result<_>>()?;
+        for NearbyBodies { instances, around } in nearby::bodies(inputs, artifact)? {
+            for (instance, (number, body)) in instances.into_iter().zip(around.bodies()) {
+                let person = Person::of(body, around.traffic.dt_s);
+                let ((height_m, radius_m), outfit) = (person.size_m(), person.outfit());
+                let (walk_id, kind) = (Traffic::body_id(&around.traffic.name, number), body.plan.kind);
+                members.push((OtherPerson { instance, walk_id, kind, height_m, radius_m, outfit }, person));
+            }
+        }
+        members.sort_by_key(|(other, _)| other.instance);
+        Ok(Self { members })
     }
 
     /// Number of people.
@@ -39,18 +51,17 @@ impl Crowd {
 
     /// Adds all people at a time, seconds from the flight's first frame.
     pub fn at(&self, time_s: f64, list: &mut Vec<Bystander>) {
-        list.extend(
-            self.members
-                .iter()
-                .map(|(other, person)| Bystander { walker: person.walker(time_s), instance: other.instance }),
-        );
+        let bystander = |(other, person): &(OtherPerson, Person)| {
+            Some(Bystander { walker: person.walker(time_s)?, instance: other.instance })
+        };
+        list.extend(self.members.iter().filter_map(bystander));
     }
 
     /// Sightings of the people who are seen in a frame.
     pub fn sightings(&self, frame: usize, time_s: f64, seen: &[PersonView]) -> impl Iterator<Item = Sighting> {
         seen.iter().filter_map(move |view| {
             let place = self.members.binary_search_by_key(&view.instance, |(other, _)| other.instance).ok()?;
-            let state = self.members[place].1.state(time_s);
+            let state = self.members[place].1.state(time_s)?;
             Some(Sighting { frame: frame as u32, person: place as u32, state, view: *view })
         })
     }

@@ -1,18 +1,18 @@
 //! Expert of a `muco` stage: its parameters and its flights. For the stage itself, and for tools that ask the same expert
 //! again from another state.
 
-pub use crate::flight::{Companion, Flight};
+pub use crate::flight::{Bodies, Companion, Flight};
 
 use crate::parameters;
 use crate::plugins::config::ExpertPlugins;
 use crate::plugins::{Plugins, Role, source};
 use crate::world::World;
 use cosfly_diagnose::ParameterError;
-use cosfly_frames::{Seed, TargetTrack};
+use cosfly_frames::Seed;
 use cosfly_objectives::{Objective, ObjectiveConfig};
+use cosfly_pilot::aim::AimConfig;
 use cosfly_planner::MucoConfig;
-use cosfly_planner::aim::AimConfig;
-use cosfly_planner::config::Planner;
+use cosfly_planner::config::{Foresight, Planner};
 use cosfly_planner::weights::Preset;
 use cosfly_stage::Source;
 use schemars::JsonSchema;
@@ -93,6 +93,7 @@ impl Expert {
             return Err(parameters::refused_at("targets.companions", message));
         }
         check_planner(&config)?;
+        check_foresight(&config, &objective)?;
         Ok(Self { config, objective, plugins, aim })
     }
 
@@ -137,19 +138,18 @@ impl Expert {
         all
     }
 
-    /// Flight behind `walk` and its companions, or one that the objective draws from `seed`, as [`Flight::of`].
+    /// Flight behind a walk and its companions, or one that the objective draws from `seed`, as [`Flight::of`].
     ///
     /// # Errors
     /// Failures of a plugin.
     pub fn flight(
         &self,
         world: &Arc<World>,
-        walk: Option<TargetTrack>,
-        companions: Vec<Companion>,
+        bodies: Bodies,
         seed: Seed,
         plugins: Plugins,
     ) -> cosfly_diagnose::Result<Result<Flight, String>> {
-        let flight = Flight::of((&self.config, &self.objective), world, walk, companions, seed, plugins)?;
+        let flight = Flight::of((&self.config, &self.objective), world, bodies, seed, plugins)?;
         Ok(flight.map(|flight| flight.aiming(&self.aim)))
     }
 }
@@ -178,6 +178,26 @@ fn check_planner(config: &MucoConfig) -> Result<(), ParameterError> {
         return refuse("planner", message, "set `limits.require_kinematics = false`, or take `astar_smoothed`");
     }
     Ok(())
+}
+
+/// Refuses parameters that an expert who knows only the past does not support.
+fn check_foresight(config: &MucoConfig, objective: &ObjectiveConfig) -> Result<(), ParameterError> {
+    if config.foresight == Foresight::Expected {
+        return Ok(());
+    }
+    let name = objective.objective.name();
+    let reason = if objective.objective != Objective::Track {
+        format!("flies behind walkers; this stage's objective is `{name}`")
+    } else if config.planner.is_baseline() || config.preset == Preset::Paper {
+        "is for `planner = \"muco\"` with another preset than `paper`".to_owned()
+    } else if config.occlusion.count > 0 {
+        format!("cannot choose when to lose its target; `occlusion.count` is {}", config.occlusion.count)
+    } else {
+        return Ok(());
+    };
+    let message = format!("`foresight = \"causal\"` {reason}");
+    let hint = Some("leave `foresight` out, or the other one of the two".to_owned());
+    Err(ParameterError { hint, ..parameters::refused_at("foresight", message) })
 }
 
 #[cfg(test)]
@@ -215,7 +235,12 @@ mod tests {
         check(serde_json::json!({ "planner": "beam", "preset": "paper" }), &["planner"]);
         check(serde_json::json!({ "preset": "paper", "occlusion": { "count": 1 } }), &["occlusion", "count"]);
         check(serde_json::json!({ "planner": "astar_smoothed", "occlusion": { "count": 1 } }), &["occlusion", "count"]);
+        check(serde_json::json!({ "foresight": "causal", "objective": "patrol" }), &["foresight"]);
+        check(serde_json::json!({ "foresight": "causal", "planner": "astar_smoothed" }), &["foresight"]);
+        check(serde_json::json!({ "foresight": "causal", "occlusion": { "count": 1 } }), &["foresight"]);
+        check(serde_json::json!({ "foresight": "causal", "causal": { "horizon_s": 0.5 } }), &["causal", "horizon_s"]);
         for fine in [
+            serde_json::json!({ "foresight": "causal", "causal": { "horizon_s": 5.0 } }),
             serde_json::json!({ "planner": "astar_smoothed" }),
             serde_json::json!({ "planner": "dp", "limits": { "require_kinematics": false } }),
             serde_json::json!({ "objective": "inspect", "inspect": { "row_m": 2.0 } }),

@@ -8,14 +8,27 @@ use cosfly_maps::ObstacleKind;
 use cosfly_objectives::inspect::{self, Inspection};
 use cosfly_objectives::patrol::{self, MET_M, Patrol};
 use cosfly_objectives::{Mission, Objective, ObjectiveConfig, Site, reference, track};
-use cosfly_planner::aim::{AimConfig, aimed};
+use cosfly_pilot::aim::{AimConfig, aimed};
 use cosfly_planner::certificate::view_rates_deg_s;
-use cosfly_planner::{MucoConfig, PlanOutcome, StartState, TermCost, Trajectory, plan_request, visibility};
+use cosfly_planner::obstacles::exact::ExactMap;
+use cosfly_planner::{MucoConfig, PlanOutcome, StartState, TermCost, Trajectory, plan_request};
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
 /// A walk that may accompany another one: id and track.
 pub type Companion = (String, TargetTrack);
+
+/// Who moves around a flight. The walker's own body is in none of the lists beside it.
+#[derive(Clone, Debug, Default)]
+pub struct Bodies {
+    /// Walk that is followed; `None` for objectives that follow nobody.
+    pub walk: Option<TargetTrack>,
+    /// Further walks to be seen.
+    pub companions: Vec<Companion>,
+    /// Boxes of everybody else who matters, frame by frame of the walk, world frame: kept clear of and looked past. Between
+    /// frames they move evenly and turn the shorter way.
+    pub movers: Vec<Vec<OrientedBox>>,
+}
 
 enum Purpose {
     Walker,
@@ -30,6 +43,7 @@ pub struct Flight {
     pub mission: Mission,
     companion_ids: Vec<String>,
     companions: Vec<TargetTrack>,
+    movers: Vec<Vec<OrientedBox>>,
     purpose: Purpose,
     objective: ObjectiveConfig,
     /// Aim at a walker; `None` where the flight follows nobody.
@@ -39,8 +53,8 @@ pub struct Flight {
 }
 
 impl Flight {
-    /// Flight behind `walk` and its companions, or one that the objective draws from `seed`, as `config` and `objective` ask;
-    /// see [`Self::aiming`].
+    /// Flight behind the walk of `bodies` and its companions, or one that the objective draws from `seed`, among the movers, as
+    /// `config` and `objective` ask; see [`Self::aiming`].
     /// `Err` inside is the reason why there is nothing to fly.
     ///
     /// # Errors
@@ -48,8 +62,7 @@ impl Flight {
     pub fn of(
         (config, objective): (&MucoConfig, &ObjectiveConfig),
         world: &Arc<World>,
-        walk: Option<TargetTrack>,
-        companions: Vec<Companion>,
+        bodies: Bodies,
         seed: Seed,
         plugins: Plugins,
     ) -> cosfly_diagnose::Result<Result<Self, String>> {
@@ -62,19 +75,19 @@ impl Flight {
         } else {
             None
         };
-        Ok(Self::drawn_or_behind((config, objective), world, walk, companions, seed, plugins, drawn))
+        Ok(Self::drawn_or_behind((config, objective), world, bodies, seed, plugins, drawn))
     }
 
     /// As [`Self::of`], with the reference that a plugin drew.
     fn drawn_or_behind(
         (config, objective): (&MucoConfig, &ObjectiveConfig),
         world: &World,
-        walk: Option<TargetTrack>,
-        companions: Vec<Companion>,
+        bodies: Bodies,
         seed: Seed,
         plugins: Plugins,
         drawn: Option<DrawnReference>,
     ) -> Result<Self, String> {
+        let Bodies { walk, companions, movers } = bodies;
         let ground = |x: f64, y: f64| world.ground.ground_height_m(x, y).unwrap_or(0.0);
         let structures = if objective.objective == Objective::Inspect { buildings(world) } else { Vec::new() };
         let site = Site { exact: &world.exact, structures: &structures, ground: &ground, bounds: bounds(world) };
@@ -96,7 +109,7 @@ impl Flight {
         };
         let (companion_ids, companions) = companions.into_iter().unzip();
         let objective = objective.clone();
-        Ok(Self { mission, companion_ids, companions, purpose, objective, aim: None, plugins, seed })
+        Ok(Self { mission, companion_ids, companions, movers, purpose, objective, aim: None, plugins, seed })
     }
 
     /// The same flight with a pilot who aims at the walker as `aim` says; flights that follow nobody stay as they are.
@@ -111,7 +124,8 @@ impl Flight {
     /// # Errors
     /// Failures of a plugin.
     pub fn plan(&self, world: &Arc<World>) -> cosfly_diagnose::Result<(PlanOutcome, Vec<String>)> {
-        let (mut outcome, warnings) = self.plan_mission(world, &self.mission, &self.companions, None)?;
+        let (mut outcome, warnings) =
+            self.plan_mission(world, &self.mission, (&self.companions, &self.movers), None)?;
         self.take_aim(&mut outcome, 0);
         if let (PlanOutcome::Planned(flight), Purpose::Walls(inspection)) = (&mut outcome, &self.purpose) {
             let ground = |x: f64, y: f64| world.ground.ground_height_m(x, y).unwrap_or(0.0);
@@ -144,8 +158,11 @@ impl Flight {
             ..companion.clone()
         };
         let companions: Vec<TargetTrack> = self.companions.iter().map(part).collect();
+        let movers: Vec<Vec<OrientedBox>> =
+            self.movers.iter().map(|places| places.get(frame..end).unwrap_or_default().to_vec()).collect();
         let known = flown.get(frame..end);
-        let mut outcome = self.plan_mission(world, &mission, &companions, Some((frame, start, known)))?.0;
+        let bodies = (companions.as_slice(), movers.as_slice());
+        let mut outcome = self.plan_mission(world, &mission, bodies, Some((frame, start, known)))?.0;
         self.take_aim(&mut outcome, frame);
         Ok(outcome)
     }
@@ -169,12 +186,12 @@ impl Flight {
         &self,
         world: &Arc<World>,
         mission: &Mission,
-        companions: &[TargetTrack],
+        (companions, movers): (&[TargetTrack], &[Vec<OrientedBox>]),
         start: Option<(usize, StartState, Option<&[DVec3]>)>,
     ) -> cosfly_diagnose::Result<(PlanOutcome, Vec<String>)> {
         let ground = |x: f64, y: f64| world.ground.ground_height_m(x, y).unwrap_or(0.0);
         let mut request = mission.request(&world.exact, &world.town.planning_boxes, &ground);
-        request.companions = companions;
+        (request.companions, request.movers) = (companions, movers);
         if let Some((frame, state, known)) = start {
             (request.start, request.flight) = (Some(state), known);
             request.first_frame = i64::try_from(frame).unwrap_or(i64::MAX);
@@ -210,7 +227,8 @@ impl Flight {
         }
         if !self.companions.is_empty() {
             notes.insert("companions".to_owned(), self.companion_ids.join(", "));
-            let seen = self.companions.iter().map(|companion| companion_visibility(world, companion, flight));
+            let map = ExactMap { query: &world.exact, movers: &self.movers };
+            let seen = self.companions.iter().map(|companion| companion_visibility(map, companion, flight));
             let mean = seen.sum::<f64>() / self.companions.len() as f64;
             notes.insert("visibility of companions".to_owned(), format!("{mean:.3}"));
         }
@@ -239,9 +257,9 @@ fn tell_met(shortfalls: &[f64], notes: &mut BTreeMap<String, String>, warnings: 
     }
 }
 
-fn companion_visibility(world: &World, companion: &TargetTrack, flight: &Trajectory) -> f64 {
-    let pairs = companion.states.iter().zip(&flight.poses_in_world);
-    let seen = pairs.map(|(state, pose)| visibility(&world.exact, pose.position_in_world, state, companion.height_m));
+fn companion_visibility(map: ExactMap<'_>, companion: &TargetTrack, flight: &Trajectory) -> f64 {
+    let pairs = companion.states.iter().zip(&flight.poses_in_world).enumerate();
+    let seen = pairs.map(|(i, (state, pose))| map.visibility(i, pose.position_in_world, state, companion.height_m));
     seen.sum::<f64>() / companion.len().max(1) as f64
 }
 
@@ -262,4 +280,49 @@ fn bounds(world: &World) -> (DVec2, DVec2) {
         Some((corner.min(low), corner.max(high)))
     });
     around.unwrap_or((world.town.min_in_world.truncate(), world.town.max_in_world.truncate()))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::expert::Expert;
+    use cosfly_frames::TargetState;
+    use cosfly_maps::Town;
+
+    #[test]
+    fn movers_are_kept_clear_of_by_the_whole_flight_and_by_each_part_of_it() {
+        let state = |x: f64| TargetState { feet_in_world: DVec3::new(x, 0.0, 0.0), heading_rad: 0.0, speed_mps: 1.0 };
+        let states = (0..60).map(|i| state(0.5 * f64::from(i))).collect();
+        let walk = TargetTrack { dt_s: 0.5, height_m: 1.75, radius_m: 0.3, states };
+        let world = Arc::new(World::new(Town::default()));
+        let fly = |movers: Vec<Vec<OrientedBox>>| {
+            let bodies = Bodies { walk: Some(walk.clone()), movers, ..Bodies::default() };
+            Expert::default().flight(&world, bodies, Seed([1; 32]), Plugins::default()).unwrap().unwrap()
+        };
+        let flown = |outcome: PlanOutcome| match outcome {
+            PlanOutcome::Planned(flight) => flight.poses_in_world.iter().map(|it| it.position_in_world).collect(),
+            PlanOutcome::Rejected { reason, .. } => panic!("{reason}"),
+        };
+        let alone: Vec<DVec3> = flown(fly(vec![]).plan(&world).unwrap().0);
+        // A balloon crosses the way that the drone would take.
+        let at = |i: usize| OrientedBox {
+            center_in_world: alone[30] + DVec3::new(0.0, 0.5 * (i as f64 - 30.0), 0.0),
+            half_extents_m: DVec3::splat(2.0),
+            yaw_rad: 0.0,
+        };
+        let balloon: Vec<OrientedBox> = (0..60).map(at).collect();
+        let flight = fly(vec![balloon.clone()]);
+        let gap = |i: usize, place: DVec3| {
+            let shape = &balloon[i];
+            ((place - shape.center_in_world).abs() - shape.half_extents_m).max(DVec3::ZERO).length()
+        };
+        assert!(gap(30, alone[30]) < 1.5);
+        let whole: Vec<DVec3> = flown(flight.plan(&world).unwrap().0);
+        let start = StartState { position_in_world: alone[10], velocity_in_world: (alone[10] - alone[9]) / 0.5 };
+        // The known flight would lead through the balloon: the answer has to leave it.
+        let rest: Vec<DVec3> = flown(flight.plan_from(&world, 10, 40, start, &alone).unwrap());
+        assert_eq!((whole.len(), rest.len()), (60, 40));
+        assert!(whole.iter().enumerate().all(|(i, place)| gap(i, *place) >= 1.5));
+        assert!(rest.iter().enumerate().all(|(i, place)| gap(i + 10, *place) >= 1.5));
+    }
 }

@@ -33,6 +33,7 @@ mod render;
 pub mod requests;
 mod shards;
 mod shooting;
+mod traffic;
 mod verdict;
 mod walks;
 pub mod world;
@@ -55,6 +56,7 @@ pub fn registry_with(others: Vec<Box<dyn StageKind>>) -> Registry {
         Box::new(pedestrians::Pedestrians),
         Box::new(perturb::Perturb),
         Box::new(render::Render),
+        Box::new(traffic::TrafficKind),
         Box::new(plugins::stage::Wasm),
     ];
     kinds.extend(others);

@@ -1,10 +1,10 @@
 //! `muco`: expert trajectories from the multi-constraint optimiser.
 
-use crate::expert::Expert;
+use crate::expert::{Bodies, Expert};
 use crate::plugins::Plugins;
 use crate::ports::{self, TRAJECTORY, WALK};
 use crate::world::{check_same_town, link_town, world};
-use crate::{codec, companions};
+use crate::{codec, companions, traffic};
 use cosfly_blobs::OutputSink;
 use cosfly_diagnose::{ParameterError, Result};
 use cosfly_frames::{Seed, TargetTrack};
@@ -13,6 +13,7 @@ use cosfly_objectives::config::DT_S;
 use cosfly_pedestrians::PedestrianPath;
 use cosfly_planner::PlanOutcome;
 use cosfly_stage::{InputPort, Inputs, ItemRule, Produced, Stage, StageKind, StagePart, StageProperties, TaskContext};
+use cosfly_world::Around;
 
 /// Stage kind `muco`.
 pub struct Muco;
@@ -81,16 +82,20 @@ impl Stage for MucoStage {
 
     fn run(&self, inputs: &Inputs<'_>, outputs: &mut dyn OutputSink, context: &TaskContext) -> Result<Produced> {
         let world = world(inputs)?;
-        let (walk, companions) = if self.expert.objective.objective == Objective::Track {
+        let mut around = Around::default();
+        let bodies = if self.expert.objective.objective == Objective::Track {
             check_same_town(inputs, "paths")?;
-            let walk: PedestrianPath = codec::decode(WALK, &inputs.read(inputs.one("paths")?, "walk")?)?;
-            (Some(walk.track), companions::read(inputs)?)
+            let artifact = inputs.one("paths")?;
+            let walk: PedestrianPath = codec::decode(WALK, &inputs.read(artifact, "walk")?)?;
+            around = traffic::cut_around(inputs, artifact, &walk.track)?;
+            let (companions, movers) = (companions::read(inputs)?, around.boxes());
+            Bodies { walk: Some(walk.track), companions, movers }
         } else {
-            (None, vec![])
+            Bodies::default()
         };
         let plugins = Plugins::of_expert(&self.expert.plugins, &context.sources)?;
         let plugins = plugins.for_item(context.id.to_string());
-        let flight = self.expert.flight(&world, walk, companions, Seed(context.seed), plugins)?;
+        let flight = self.expert.flight(&world, bodies, Seed(context.seed), plugins)?;
         let (outcome, findings) = match flight {
             Ok(flight) => {
                 let (outcome, said) = flight.plan(&world)?;
@@ -108,6 +113,9 @@ impl Stage for MucoStage {
         };
         outputs.put("trajectory", &codec::encode(TRAJECTORY, &outcome)?)?;
         link_town(inputs, outputs)?;
+        if let Some(walk) = inputs.all("paths").first() {
+            traffic::put_around(walk, &around, outputs)?;
+        }
         let mut produced = produced(&outcome);
         produced.notes.extend(findings.0);
         produced.warnings.extend(findings.1);

@@ -4,6 +4,7 @@
 use crate::memo::Memo;
 use crate::ports::{self, NEARBY, TRAJECTORY, WALK};
 use crate::shooting::Shooting;
+use crate::traffic::{BODIES, followed, traffic_of};
 use crate::walks::Person;
 use crate::world::{TOWN_BLOB, World, check_same_town, world};
 use crate::{body_rays, codec};
@@ -14,10 +15,11 @@ use cosfly_pedestrians::PedestrianPath;
 use cosfly_planner::{PlanOutcome, Trajectory};
 use cosfly_render::effects::pose_at;
 use cosfly_render::frame::{TARGET_INSTANCE, object_instance};
-use cosfly_render::{Buildings, Camera, Outlook, RenderConfig};
+use cosfly_render::{Buildings, Camera, Outlook, RenderConfig, Walker};
 use cosfly_stage::{
     Artifact, InputPort, Inputs, ItemRule, PortSource, Produced, Stage, StagePart, StageProperties, TaskContext,
 };
+use cosfly_world::{Around, Followed, Traffic};
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 use std::sync::Arc;
@@ -34,6 +36,15 @@ pub struct NearbyPerson {
     pub instance: u32,
     /// Stage and item of the walk, such as `crowd-p00003`.
     pub walk_id: String,
+}
+
+/// The bodies of one traffic that are near a flight.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct NearbyBodies {
+    /// Ids in instance images, one for each body.
+    pub instances: Vec<u32>,
+    /// The bodies.
+    pub around: Around,
 }
 
 /// The part of a stage that renders as `config` says, with the same `items`.
@@ -75,6 +86,14 @@ pub fn people(inputs: &Inputs<'_>, artifact: &Artifact) -> Result<Vec<NearbyPers
     codec::decode(NEARBY, &inputs.read(artifact, PEOPLE)?)
 }
 
+/// Bodies of traffic of an item; none where no traffic is at port `others`.
+pub fn bodies(inputs: &Inputs<'_>, artifact: &Artifact) -> Result<Vec<NearbyBodies>> {
+    if !artifact.blobs.contains_key(BODIES) {
+        return Ok(vec![]);
+    }
+    codec::decode(NEARBY, &inputs.read(artifact, BODIES)?)
+}
+
 /// Name of the blob of an item that holds the walk of a person.
 pub fn walk_blob(walk_id: &str) -> String {
     format!("walk-{walk_id}")
@@ -111,15 +130,26 @@ impl Stage for NearbyStage {
             .buildings
             .get(inputs.one("town")?.blobs[TOWN_BLOB].digest, || -> Result<_> { Ok(Buildings::of(&world.town)) })?;
         let scenery = Scenery { buildings: &buildings, lowest_m: world.town.min_in_world.z };
-        let mut near = self.near(context, &scenery, &trajectory, candidates)?;
+        let target = followed(inputs, inputs.one("trajectories")?)?;
+        let mut near = self.near(context, &scenery, &trajectory, target.as_ref(), candidates)?;
         near.sort_by_key(|candidate| candidate.instance);
-        for Candidate { artifact, .. } in &near {
-            outputs.link(&walk_blob(&artifact.name.to_string()), artifact.blobs["walk"])?;
+        let mut people = vec![];
+        let mut bodies: Vec<NearbyBodies> = vec![];
+        for Candidate { instance, origin, .. } in &near {
+            match origin {
+                Origin::Walk(artifact) => {
+                    let walk_id = artifact.name.to_string();
+                    outputs.link(&walk_blob(&walk_id), artifact.blobs["walk"])?;
+                    people.push(NearbyPerson { instance: *instance, walk_id });
+                }
+                Origin::Body(traffic, number) => NearbyBodies::add(&mut bodies, traffic, *number, *instance),
+            }
         }
-        let people: Vec<NearbyPerson> = near.iter().map(Candidate::named).collect();
         outputs.put(PEOPLE, &codec::encode(NEARBY, &people)?)?;
-        let words =
-            format!("{} of {about} near, {left_out} left out: they would walk through the target", people.len());
+        if !bodies.is_empty() {
+            outputs.put(BODIES, &codec::encode(NEARBY, &bodies)?)?;
+        }
+        let words = format!("{} of {about} near, {left_out} left out: they would walk through the target", near.len());
         Ok(Produced { notes: BTreeMap::from([("others".to_owned(), words)]), ..Produced::default() })
     }
 }
@@ -134,13 +164,31 @@ struct Scenery<'a> {
 /// A person who may be near.
 struct Candidate<'a> {
     instance: u32,
-    artifact: &'a Artifact,
+    origin: Origin<'a>,
     person: Person,
 }
 
-impl Candidate<'_> {
-    fn named(&self) -> NearbyPerson {
-        NearbyPerson { instance: self.instance, walk_id: self.artifact.name.to_string() }
+/// Origin of a person's track.
+enum Origin<'a> {
+    /// A walk of its own.
+    Walk(&'a Artifact),
+    /// A body of traffic.
+    Body(Arc<Traffic>, u32),
+}
+
+impl NearbyBodies {
+    /// Adds a body to those of its traffic.
+    fn add(all: &mut Vec<Self>, traffic: &Traffic, number: u32, instance: u32) {
+        let place = all.iter().position(|it| it.around.traffic.name == traffic.name).unwrap_or_else(|| {
+            let (name, dt_s, frames) = (traffic.name.clone(), traffic.dt_s, traffic.frames);
+            let traffic = Traffic { name, dt_s, frames, ..Traffic::default() };
+            all.push(Self { instances: vec![], around: Around { numbers: vec![], traffic } });
+            all.len() - 1
+        });
+        let own = &mut all[place];
+        own.instances.push(instance);
+        own.around.numbers.push(number);
+        own.around.traffic.bodies.push(traffic.bodies[number as usize].clone());
     }
 }
 
@@ -153,7 +201,25 @@ fn candidates<'a>(
     let objects = world.town.obstacles.iter().map(|obstacle| object_instance(obstacle.object_id));
     let largest_object = objects.max().unwrap_or(TARGET_INSTANCE);
     let (mut candidates, mut left_out) = (vec![], 0);
+    let target = followed(inputs, inputs.one("trajectories")?)?;
     for (stage, artifacts) in inputs.all("others").chunk_by(|a, b| a.id.stage == b.id.stage).enumerate() {
+        let instance_of = |item: usize, named: &Artifact| {
+            let instance = instance_of(stage, item).and_then(|number| largest_object.checked_add(number));
+            instance.ok_or_else(|| too_many(named))
+        };
+        if let Some(traffic) = artifacts.first().map_or(Ok(None), |artifact| traffic_of(inputs, artifact))? {
+            for (number, body) in (0..).zip(&traffic.bodies).filter(|(_, body)| !body.states.is_empty()) {
+                let is_target = target.as_ref().is_some_and(|target| {
+                    target.number == number && body.plan == target.plan && trajectory.track.states == body.states
+                });
+                if !is_target {
+                    let instance = instance_of(number as usize, &artifacts[0])?;
+                    let (origin, person) = (Origin::Body(Arc::clone(&traffic), number), Person::of(body, traffic.dt_s));
+                    candidates.push(Candidate { instance, origin, person });
+                }
+            }
+            continue;
+        }
         for (item, artifact) in artifacts.iter().enumerate() {
             let walk = walk(inputs, artifact, "walk")?;
             let track = &walk.track;
@@ -164,13 +230,12 @@ fn candidates<'a>(
             if track.states == trajectory.track.states {
                 continue;
             }
-            let instance = instance_of(stage, item).and_then(|number| largest_object.checked_add(number));
-            let instance = instance.ok_or_else(|| too_many(artifact))?;
-            let person = Person::on(walk)?;
+            let instance = instance_of(item, artifact)?;
+            let person = Person::on(&walk)?;
             if person.meets(&trajectory.track) {
                 left_out += 1;
             } else {
-                candidates.push(Candidate { instance, artifact, person });
+                candidates.push(Candidate { instance, origin: Origin::Walk(artifact), person });
             }
         }
     }
@@ -200,9 +265,10 @@ impl NearbyStage {
         context: &TaskContext,
         scenery: &Scenery<'_>,
         trajectory: &Trajectory,
+        target: Option<&Followed>,
         mut others: Vec<Candidate<'a>>,
     ) -> Result<Vec<Candidate<'a>>> {
-        let shooting = Shooting::of(&self.config, trajectory, &context.id.item)?;
+        let shooting = Shooting::of(&self.config, trajectory, target, &context.id.item)?;
         let effects = self.config.effects(shooting.camera);
         let (camera, moments_s): (Camera, Vec<f64>) = (effects.ideal_camera(), effects.moments_s());
         let poses: Vec<Pose> = shooting.poses(trajectory);
@@ -210,14 +276,22 @@ impl NearbyStage {
         let mut near = vec![];
         for (frame, target) in track.states.iter().enumerate() {
             context.check_cancelled()?;
-            let target_in_world = body_rays::middle(target.feet_in_world, track.height_m);
+            let target = Walker {
+                state: *target,
+                height_m: track.height_m,
+                radius_m: track.radius_m,
+                clothes_seed: shooting.clothes_seed,
+                gait_phase_rad: 0.0,
+                body: shooting.body,
+            };
             for offset_s in &moments_s {
                 let pose = pose_at(&poses, frame as f64 + offset_s / track.dt_s);
                 let outlook = Outlook::new(&camera, &shooting.weather, &pose);
                 let eye_in_world = pose.position_in_world;
                 let matters = |other: &mut Candidate<'_>| {
                     let walker = other.person.walker(frame as f64 * track.dt_s + offset_s);
-                    (outlook.may_show(&walker) || body_rays::is_before(&walker, eye_in_world, target_in_world))
+                    let Some(walker) = walker else { return false };
+                    (outlook.may_show(&walker) || body_rays::is_before(&walker, eye_in_world, &target))
                         && !scenery.buildings.hide(eye_in_world, &outlook.hull(&walker, scenery.lowest_m))
                 };
                 near.extend(others.extract_if(.., matters));

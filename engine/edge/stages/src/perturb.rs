@@ -3,12 +3,13 @@
 use crate::muco::produced;
 use crate::ports::{self, TRAJECTORY};
 use crate::world::{check_same_town, link_town, world};
-use crate::{codec, parameters, single};
+use crate::{codec, parameters, single, traffic};
 use cosfly_blobs::OutputSink;
 use cosfly_diagnose::{ParameterError, Result};
 use cosfly_frames::Seed;
+use cosfly_pilot::perturb::{PerturbConfig, perturb};
 use cosfly_planner::PlanOutcome;
-use cosfly_planner::perturb::{PerturbConfig, perturb};
+use cosfly_planner::obstacles::exact::ExactMap;
 use cosfly_stage::{InputPort, Inputs, ItemRule, Produced, Stage, StageKind, StagePart, StageProperties, TaskContext};
 
 /// Stage kind `perturb`.
@@ -68,7 +69,9 @@ impl Stage for PerturbStage {
         let expert_id = artifact.id.item.of_stage(&artifact.id.stage).to_string();
         let twin = match expert {
             PlanOutcome::Planned(expert) => {
-                perturb(&expert, &expert_id, &world.exact, &self.config, Seed(context.seed))
+                let movers = traffic::around(inputs, artifact)?.boxes();
+                let map = ExactMap { query: &world.exact, movers: &movers };
+                perturb(&expert, &expert_id, map, &self.config, Seed(context.seed))
             }
             PlanOutcome::Rejected { track, reason } => {
                 PlanOutcome::Rejected { track, reason: format!("its expert was rejected: {reason}") }
@@ -76,6 +79,7 @@ impl Stage for PerturbStage {
         };
         outputs.put("trajectory", &codec::encode(TRAJECTORY, &twin)?)?;
         link_town(inputs, outputs)?;
+        traffic::link_moving(artifact, outputs)?;
         Ok(produced(&twin))
     }
 }

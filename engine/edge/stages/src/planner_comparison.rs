@@ -133,6 +133,7 @@ impl<'a> Task<'a> {
             problem,
             planning_boxes: &self.world.town.planning_boxes,
             exact: &self.world.exact,
+            movers: &[],
             ground: &self.ground,
             config: &self.config,
         }

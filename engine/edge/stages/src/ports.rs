@@ -10,6 +10,10 @@ pub const TOWN: &str = "town/1";
 pub const WALK: &str = "walk/1";
 /// Artifact of the companions of a flight.
 pub const COMPANIONS: &str = "companions/1";
+/// Artifact of all people and vehicles that move through a town.
+pub const TRAFFIC: &str = "traffic/1";
+/// Artifact of the bodies around the target of a flight.
+pub const AROUND: &str = "around/1";
 /// Artifact of a planned or perturbed trajectory.
 pub const TRAJECTORY: &str = "trajectory/3";
 /// Artifact of the people who are near a flight.

@@ -1,12 +1,13 @@
 //! Results of stages, read back by other tools.
 
 use crate::flight::Companion;
-use crate::ports::{TOWN, TRAJECTORY, WALK};
+use crate::ports::{AROUND, TOWN, TRAJECTORY, WALK};
 use crate::{codec, companions};
 use cosfly_diagnose::Result;
 use cosfly_maps::Town;
 use cosfly_pedestrians::PedestrianPath;
 use cosfly_planner::PlanOutcome;
+use cosfly_world::Around;
 
 /// Name of the blob of a `map` item that holds the town.
 pub const TOWN_BLOB: &str = crate::world::TOWN_BLOB;
@@ -32,6 +33,17 @@ pub fn town(bytes: &[u8]) -> Result<Town> {
 /// As [`town`].
 pub fn walk(bytes: &[u8]) -> Result<PedestrianPath> {
     codec::decode(WALK, bytes)
+}
+
+/// Name of the blob of a flight through traffic that holds the bodies around its target.
+pub const AROUND_BLOB: &str = crate::traffic::AROUND_BLOB;
+
+/// Bodies in a blob named [`AROUND_BLOB`].
+///
+/// # Errors
+/// As [`town`].
+pub fn around(bytes: &[u8]) -> Result<Around> {
+    codec::decode(AROUND, bytes)
 }
 
 /// Trajectory in a blob named [`TRAJECTORY_BLOB`], or the reason why there is none.

@@ -9,7 +9,7 @@ use crate::rejections::reject;
 use crate::shooting::{Shooting, preset};
 use crate::walks::walked_m;
 use crate::world::{TOWN_BLOB, World, check_same_town, link_town, world};
-use crate::{backends, codec, nearby, parameters};
+use crate::{backends, codec, nearby, parameters, traffic};
 use cosfly_blobs::OutputSink;
 use cosfly_diagnose::{ParameterError, Result};
 use cosfly_frames::{Pose, Seed};
@@ -18,7 +18,7 @@ use cosfly_planner::{PlanOutcome, Trajectory};
 use cosfly_render::effects::{pose_at, target_state_at};
 use cosfly_render::frame::{TARGET_INSTANCE, object_instance};
 use cosfly_render::{
-    Backend, Bystander, Camera, Clothes, Effects, Moment, RenderConfig, Scene, Shot, TargetSetup, TargetView,
+    Backend, Bystander, Camera, Effects, Moment, Outfit, RenderConfig, Scene, Shot, TargetSetup, TargetView,
     gait_phase_rad,
 };
 use cosfly_schema::tables::kind_name;
@@ -26,6 +26,7 @@ use cosfly_schema::{EncodingConfig, PairInfo, Rejection, RenderedTrajectory, Rol
 use cosfly_stage::{
     InputPort, Inputs, ItemName, ItemRule, Produced, Stage, StageKind, StagePart, StageProperties, TaskContext,
 };
+use cosfly_world::Around;
 use cosfly_write::frame_pack::{FramePackWriter, PackHeader};
 use std::collections::{BTreeMap, BTreeSet};
 use std::sync::{Mutex, PoisonError};
@@ -68,7 +69,7 @@ impl StageKind for Render {
         let nearby = nearby::part(&config, canonical(&config, parameters::canonical(&config)), items.clone());
         let properties = StageProperties {
             kind: self.name().into(),
-            version: 6,
+            version: 7,
             parameters: canonical(&config, parameters::joined_canonical(&config, &encoding, "encoding")),
             sources: vec![],
             inputs: vec![ports::town(), nearby::trajectories(), nearby::port()],
@@ -128,7 +129,8 @@ impl Stage for RenderStage {
         // Buildings look the same in every flight through the town.
         let scene =
             self.scene.get(town_digest, || -> Result<_> { Ok(Scene::new(&world.town, Seed(town_digest.0))) })?;
-        let shooting = Shooting::of(&self.config, &trajectory, &context.id.item)?;
+        let target = traffic::followed(inputs, artifact)?;
+        let shooting = Shooting::of(&self.config, &trajectory, target.as_ref(), &context.id.item)?;
         let preset = preset(&self.config, &context.id.item);
         let crowd = Crowd::around(inputs)?;
         let place = Place { scene: &scene, world: &world, crowd: &crowd };
@@ -158,7 +160,9 @@ impl Stage for RenderStage {
             seed: Seed(context.seed).as_u64(),
             views: seen.views,
             visible_by_dense_rays: seen.by_dense_rays,
-            outfit: has_body.then(|| Clothes::draw(&shooting.clothes_seed).outfit),
+            outfit: has_body.then(|| Outfit::of(shooting.body, &shooting.clothes_seed)),
+            around: Around::clone(&*traffic::around(inputs, artifact)?),
+            followed: target,
             others: crowd.into_people(),
             sightings: seen.sightings,
             pair,
@@ -257,6 +261,7 @@ impl RenderStage {
                         clothes_seed: shooting.clothes_seed,
                         gait_phase_rad: gait_phase_rad(walked_m[frame] + offset_s * state.speed_mps, track.height_m),
                         visible_by_rays,
+                        body: shooting.body,
                     };
                     // A target without extent is a point: it is watched, not drawn.
                     Moment { pose: pose_at(&poses, at), target: Some(target).filter(|target| target.radius_m > 0.0) }

@@ -10,6 +10,7 @@ pub fn request(kind: &str) -> Request {
         "perturb" => of(256, 16),
         "pedestrians" => of(512, 16),
         "muco" => of(512, 4),
+        "traffic" => of(1024, 1),
         "map" => of(1024, 1),
         "render" => of(1024, 1),
         "dataset" => of(2048, 1),

@@ -4,8 +4,9 @@ use crate::walks::walk_seed;
 use cosfly_diagnose::Result;
 use cosfly_frames::{Pose, Seed};
 use cosfly_planner::Trajectory;
-use cosfly_render::{Camera, Mount, RenderConfig, Weather, clothes_seed_of_target};
+use cosfly_render::{BodyShape, Camera, Mount, RenderConfig, Weather, clothes_seed_of_target};
 use cosfly_stage::ItemName;
+use cosfly_world::Followed;
 
 /// Settings of one flight.
 pub struct Shooting {
@@ -15,22 +16,31 @@ pub struct Shooting {
     pub mount: Mount,
     /// Weather, with the azimuth of its sun drawn.
     pub weather: Weather,
-    /// Seed of the clothes of the followed walker.
+    /// Seed of the clothes of the followed walker, or of the paint of a followed vehicle.
     pub clothes_seed: Seed,
+    /// Shape of the followed body.
+    pub body: BodyShape,
 }
 
 impl Shooting {
-    /// Settings of the item `item`, which films `trajectory`. Twins follow the same walk: same clothes, same weather, same
+    /// Settings of the item `item`, which films `trajectory` behind a walker or behind a body of traffic. Twins follow the same walk: same clothes, same weather, same
     /// camera.
-    pub fn of(config: &RenderConfig, trajectory: &Trajectory, item: &ItemName) -> Result<Self> {
+    pub fn of(
+        config: &RenderConfig,
+        trajectory: &Trajectory,
+        followed: Option<&Followed>,
+        item: &ItemName,
+    ) -> Result<Self> {
         let walk_seed = walk_seed(&trajectory.track)?;
         let weather = match preset(config, item) {
             Some(preset) => config.weather_called(preset, &walk_seed),
             None => config.draw_weather(&walk_seed),
         };
         let (camera, mount) = (config.draw_camera(&walk_seed), config.draw_mount(&walk_seed));
-        let clothes_seed = clothes_seed_of_target(&walk_seed, config.target_stands_out);
-        Ok(Self { camera, mount, weather, clothes_seed })
+        let looks = followed.map_or(walk_seed, |followed| followed.plan.looks);
+        let clothes_seed = clothes_seed_of_target(&looks, config.target_stands_out);
+        let body = followed.map_or(BodyShape::Person, |it| BodyShape::of(it.plan.kind, it.plan.size_m));
+        Ok(Self { camera, mount, weather, clothes_seed, body })
     }
 
     /// Poses of the camera, one per frame.

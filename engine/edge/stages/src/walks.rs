@@ -1,4 +1,4 @@
-//! People on their walks, by the clock of a flight.
+//! People and vehicles on their tracks, by the clock of a flight.
 
 use crate::codec;
 use cosfly_diagnose::Result;
@@ -6,67 +6,99 @@ use cosfly_fingerprint::Digest;
 use cosfly_frames::{Seed, TargetState, TargetTrack};
 use cosfly_pedestrians::PedestrianPath;
 use cosfly_render::effects::target_state_at;
-use cosfly_render::{Clothes, Outfit, Walker, gait_phase_rad};
-use std::sync::Arc;
+use cosfly_render::{BodyShape, Outfit, Walker, gait_phase_rad};
+use cosfly_world::Body;
 
 /// Distance between the axes of two bodies below which one would walk through the other, metres.
 const APART_M: f64 = 0.6;
 
-/// A person on a walk that has at least one step.
+/// A person or vehicle on a track that has at least one state.
 pub struct Person {
-    walk: Arc<PedestrianPath>,
+    track: TargetTrack,
+    /// Time of the track's first state, seconds from the flight's first frame.
+    first_s: f64,
+    /// Whether the body is absent before and after its track; otherwise it stands at the ends.
+    comes_and_goes: bool,
     walked_m: Vec<f64>,
     seed: Seed,
+    body: BodyShape,
 }
 
 impl Person {
     /// The person on `walk`.
-    pub fn on(walk: Arc<PedestrianPath>) -> Result<Self> {
-        Ok(Self { walked_m: walked_m(&walk.track.states), seed: walk_seed(&walk.track)?, walk })
+    pub fn on(walk: &PedestrianPath) -> Result<Self> {
+        let (track, seed) = (walk.track.clone(), walk_seed(&walk.track)?);
+        Ok(Self {
+            walked_m: walked_m(&track.states),
+            track,
+            first_s: 0.0,
+            comes_and_goes: false,
+            seed,
+            body: BodyShape::Person,
+        })
     }
 
-    /// Clothes of the person.
+    /// A body of traffic whose frames are `dt_s` apart.
+    pub fn of(body: &Body, dt_s: f64) -> Self {
+        let (height_m, radius_m) = (body.plan.size_m.z, 0.5 * body.plan.size_m.y);
+        let track = TargetTrack { dt_s, height_m, radius_m, states: body.states.clone() };
+        let first_s = f64::from(body.first_frame) * dt_s;
+        let (seed, shape) = (body.plan.looks, BodyShape::of(body.plan.kind, body.plan.size_m));
+        Self { walked_m: walked_m(&track.states), track, first_s, comes_and_goes: true, seed, body: shape }
+    }
+
+    /// Body height and radius seen from above, metres.
+    pub fn size_m(&self) -> (f64, f64) {
+        (self.track.height_m, self.track.radius_m)
+    }
+
+    /// Clothes of the person or rider, paint of another vehicle.
     pub fn outfit(&self) -> Outfit {
-        Clothes::draw(&self.seed).outfit
+        Outfit::of(self.body, &self.seed)
     }
 
-    /// State at a time, seconds from the flight's first frame; at the end of the walk the person stands still.
-    pub fn state(&self, time_s: f64) -> TargetState {
-        let (states, step) = (&self.walk.track.states, self.step(time_s));
+    /// State at a time, seconds from the flight's first frame; `None` where the person is absent. At the end of a walk the
+    /// person stands still.
+    pub fn state(&self, time_s: f64) -> Option<TargetState> {
+        let (states, step) = (&self.track.states, self.step(time_s)?);
         let state = target_state_at(states, step);
-        let is_over = time_s > (states.len() - 1) as f64 * self.walk.track.dt_s;
-        TargetState { speed_mps: if is_over { 0.0 } else { state.speed_mps }, ..state }
+        let is_over = time_s - self.first_s > (states.len() - 1) as f64 * self.track.dt_s;
+        Some(TargetState { speed_mps: if is_over { 0.0 } else { state.speed_mps }, ..state })
     }
 
-    /// State and looks at a time, seconds from the flight's first frame.
-    pub fn walker(&self, time_s: f64) -> Walker {
-        let track = &self.walk.track;
-        let step = self.step(time_s);
+    /// State and looks at a time, seconds from the flight's first frame; `None` where the person is absent.
+    pub fn walker(&self, time_s: f64) -> Option<Walker> {
+        let track = &self.track;
+        let step = self.step(time_s)?;
         let first = step as usize;
         let last = (first + 1).min(track.len() - 1);
         let walked_m = self.walked_m[first] + (self.walked_m[last] - self.walked_m[first]) * (step - first as f64);
-        Walker {
-            state: self.state(time_s),
+        Some(Walker {
+            state: self.state(time_s)?,
             height_m: track.height_m,
             radius_m: track.radius_m,
             clothes_seed: self.seed,
             gait_phase_rad: gait_phase_rad(walked_m, track.height_m),
-        }
+            body: self.body,
+        })
     }
 
     /// True where the person walks through a target with a body.
     pub fn meets(&self, target: &TargetTrack) -> bool {
         let near = |(frame, state): (usize, &TargetState)| {
-            let feet = self.state(frame as f64 * target.dt_s).feet_in_world;
-            (feet - state.feet_in_world).length() < APART_M
+            let own = self.state(frame as f64 * target.dt_s);
+            own.is_some_and(|own| (own.feet_in_world - state.feet_in_world).length() < APART_M)
         };
         target.radius_m > 0.0 && target.states.iter().enumerate().any(near)
     }
 
-    /// Frame number of the walk at a time, within the walk.
-    fn step(&self, time_s: f64) -> f64 {
-        let last = (self.walk.track.len() - 1) as f64;
-        (time_s / self.walk.track.dt_s).clamp(0.0, last)
+    /// Place in the track at a time, frames; `None` where the body is absent. A body that comes and goes stays for half a frame
+    /// beyond its first and last state, so that pictures with an exposure or a rolling shutter show it whole.
+    fn step(&self, time_s: f64) -> Option<f64> {
+        let last = (self.track.len() - 1) as f64;
+        let step = (time_s - self.first_s) / self.track.dt_s;
+        let is_there = !self.comes_and_goes || (step > -0.5 && step < last + 0.5);
+        is_there.then(|| step.clamp(0.0, last))
     }
 }
 

@@ -81,6 +81,13 @@ impl ItemName {
         Self(Form::Own(text.into()))
     }
 
+    /// Number of an item of a stage that counts its items (see [`Self::numbered`]).
+    pub fn number(&self) -> Option<u64> {
+        let text = self.origin().1;
+        let digits = text.trim_start_matches(|letter: char| !letter.is_ascii_digit());
+        digits.parse().ok()
+    }
+
     /// Name of this item of `stage` at a port that names items after their stages.
     pub fn of_stage(&self, stage: &StageName) -> Self {
         Self(Form::OfStage(Arc::new((stage.clone(), self.clone()))))

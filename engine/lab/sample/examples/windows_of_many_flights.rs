@@ -5,7 +5,7 @@ use cosfly_frames::{DVec3, Pose, Seed};
 use cosfly_metrics::WindowShape;
 use cosfly_sample as sample;
 use cosfly_schema::TownLayout;
-use cosfly_schema::tables::{self, DatasetItem, Landmarks, Membership};
+use cosfly_schema::tables::{self, DatasetItem, Derived, Landmarks, Membership};
 use cosfly_schema::{LogRecord, PreviewStrip, RenderedTrajectory, Role, Split};
 use cosfly_write::table_file::TableWriter;
 use std::fs::File;
@@ -30,6 +30,7 @@ fn main() {
         let twin = long_flight(&patterns[1].record, pair, 2.0);
         for (pattern, record) in patterns.iter().zip([expert.clone(), twin]) {
             let item = DatasetItem {
+                derived: Derived::of(&record),
                 captions: pattern.captions.clone(),
                 previews: PreviewStrip::default(),
                 log: log_of(&record),

@@ -11,7 +11,7 @@ use cosfly_frames::{DVec3, Pose, Seed, TargetState, TargetTrack, real};
 use cosfly_geometry::OrientedBox;
 use cosfly_maps::{MapOrigin, Obstacle, ObstacleKind, SemanticLabel, SimplificationReport, Synthetic, Town};
 use cosfly_planner::certificate::view_rates_deg_s;
-use cosfly_planner::perturb::Kind;
+use cosfly_planner::trajectory::Kind;
 use cosfly_planner::{Certificate, FramePerturbation, Limits, Perturbation, TermCost, Trajectory};
 use cosfly_render::channels::{ALL, SeenPoint};
 use cosfly_render::frame::TARGET_INSTANCE;
@@ -22,6 +22,7 @@ use cosfly_render::{
 use cosfly_schema::{
     CaptionRecord, EncodingConfig, OtherPerson, PairInfo, Rejection, RenderedTrajectory, Role, Sighting, TownInfo,
 };
+use cosfly_world::{Around, BodyKind};
 use cosfly_write::frame_pack::{FramePackWriter, PackHeader};
 
 /// Number of frames of every flight.
@@ -109,6 +110,7 @@ pub fn town() -> Town {
         simplification: SimplificationReport::default(),
         walkable: vec![],
         surfaces: vec![],
+        lanes: vec![],
         synthetic: Synthetic {
             buildings: true,
             trees: false,
@@ -176,9 +178,12 @@ pub fn flight(pedestrian: usize, role: Role) -> SampleFlight {
         seed: 0x0123_4567_89ab_cdef,
         visible_by_dense_rays: views.iter().map(|view| view.in_view.then_some(view.visible_by_pixels)).collect(),
         views,
+        followed: None,
+        around: Around::default(),
         others: vec![OtherPerson {
             instance: COMPANION,
             walk_id: "crowd-p00000".into(),
+            kind: BodyKind::Pedestrian,
             height_m: HEIGHT_M,
             radius_m: RADIUS_M,
             outfit: outfit(9),

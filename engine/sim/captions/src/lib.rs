@@ -3,6 +3,8 @@
 //! [`facts`] reads a trajectory, [`captions`] puts the facts into words, [`check`] reads any text back and compares
 //! it with the facts. The reader shares no code with the templates, so it can judge other people's texts as well.
 //!
+//! [`refer`] names the target by properties that nobody else in a picture has.
+//!
 //! [`sight`] does the same for one picture: an instruction that singles the target out by what the picture shows.
 
 pub mod caption;
@@ -15,6 +17,7 @@ pub mod facts;
 pub mod language;
 pub mod precision;
 mod reading;
+pub mod refer;
 pub mod sight;
 mod turns;
 mod wording;

@@ -90,6 +90,7 @@ pub fn add_source(town: &mut Town, further: &FurtherSource, bytes: &[u8]) -> Res
         if further.replace {
             town.walkable.clear();
             town.surfaces.clear();
+            town.lanes.clear();
         }
         for mut polygon in other.walkable {
             place.points(&mut polygon.outline_in_world).ok_or_else(|| far(further))?;
@@ -98,6 +99,10 @@ pub fn add_source(town: &mut Town, further: &FurtherSource, bytes: &[u8]) -> Res
         for mut mesh in other.surfaces {
             place.points(&mut mesh.vertices_in_world).ok_or_else(|| far(further))?;
             town.surfaces.push(mesh);
+        }
+        for mut lane in other.lanes {
+            place.points(&mut lane.middle_in_world).ok_or_else(|| far(further))?;
+            town.lanes.push(lane);
         }
     }
     if further.heights == Heights::Ground {

@@ -51,6 +51,7 @@ fn finished(
         warnings.extend(fill(&mut town, &config.fill, seed));
     }
     (town.planning_boxes, town.simplification) = simplify(&town.obstacles, &town.walkable, &config.simplify);
+    town.link_lanes();
     town.update_bounds();
     town.assert_well_formed().map_err(|rule| MapError::new(format!("the town is not well formed: {rule}")))?;
     Ok((town, warnings))

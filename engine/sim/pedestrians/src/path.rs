@@ -16,14 +16,14 @@ pub struct PedestrianPath {
     pub standing: Vec<bool>,
 }
 
-/// The path of somebody on a track: the kind of the ground, read from the exact ground (beside it, the kind before counts),
-/// and standing where the speed is 0.
-pub fn path_of(ground: &Ground, track: TargetTrack) -> PedestrianPath {
+/// The path of somebody on a track: the kind of the ground, read from the walkable ground (beside it, the kind before counts, at
+/// first road), and standing where the speed is 0.
+pub fn path_of(ground: Option<&Ground>, track: TargetTrack) -> PedestrianPath {
     let mut kinds: Vec<WalkableKind> = Vec::with_capacity(track.len());
     for state in &track.states {
-        let under = ground.at(state.feet_in_world.truncate(), state.feet_in_world.z);
+        let under = ground.and_then(|ground| ground.at(state.feet_in_world.truncate(), state.feet_in_world.z));
         let kind = under.map(|(kind, _)| kind).or(kinds.last().copied());
-        kinds.push(kind.unwrap_or(WalkableKind::Sidewalk));
+        kinds.push(kind.unwrap_or(WalkableKind::Road));
     }
     let standing = track.states.iter().map(|state| state.speed_mps == 0.0).collect();
     PedestrianPath { track, ground: kinds, standing }

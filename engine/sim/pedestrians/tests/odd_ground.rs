@@ -48,6 +48,7 @@ fn odd_town(stream: &mut RandomStream) -> Town {
         planning_boxes: vec![],
         simplification: SimplificationReport::default(),
         walkable,
+        lanes: vec![],
         surfaces: vec![],
         synthetic: Synthetic::default(),
         min_in_world: DVec3::ZERO,

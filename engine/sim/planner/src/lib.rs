@@ -1,4 +1,4 @@
-//! MuCO, the multi-constraint trajectory optimiser, its safety layers, and the perturbed twins.
+//! MuCO, the multi-constraint trajectory optimiser, and its safety layers.
 //!
 //! [`plan`] turns a target track into a certified [`Trajectory`] or gives the reason why there is none.
 //!
@@ -6,9 +6,7 @@
 //! * [`muco`], [`paper`], [`baselines`]: the optimiser, the paper's own pipeline, planners to compare with.
 //! * [`terms`]: the cost, one file per term.
 //! * [`obstacles`]: the map around a path; [`certificate`]: the promises of a published flight.
-//! * [`aim`]: aim of the camera; [`perturb`]: perturbed twins of flights.
 
-pub mod aim;
 pub mod baselines;
 pub mod certificate;
 pub mod config;
@@ -18,7 +16,6 @@ pub mod gradient;
 pub mod muco;
 pub mod obstacles;
 pub mod paper;
-pub mod perturb;
 pub mod planning;
 pub mod problem;
 pub mod request;

@@ -1,6 +1,5 @@
 //! A finished flight: camera poses frame by frame, what it cost, and what was verified about it.
 
-use crate::perturb::kind::Kind;
 use cosfly_frames::{DVec3, Pose, TargetTrack};
 use serde::{Deserialize, Serialize};
 
@@ -105,7 +104,8 @@ pub struct Certificate {
     /// Path length divided by the target's; 0 when the target stands.
     pub length_ratio: f64,
     /// Visibility along the way through the lattice that the flight was refined from, mean over the lattice's layers; the
-    /// flight may see more. 0 where no lattice was searched.
+    /// flight may see more. Of a causal flight, the visibility that its plans promised, mean over its frames. 0 where no lattice
+    /// was searched.
     pub lattice_visibility: f64,
     /// `lattice_visibility` minus the flight's visibility; 0 when the flight sees as much or more.
     pub visibility_regret: f64,
@@ -121,6 +121,46 @@ pub struct Certificate {
     pub occlusion_ordered_s: f64,
     /// Time for which the target was lost where that was ordered, seconds.
     pub occlusion_reached_s: f64,
+}
+
+/// Kind of departure from an expert.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Kind {
+    /// Independent displacements and turns, frame by frame (the paper's).
+    Jumps,
+    /// A correlated drift of the drone, which the kinds below have, too.
+    Drift,
+    /// Gusts that push the drone aside, from which it recovers.
+    Gusts,
+    /// The expert's way flown early or late.
+    Timing,
+    /// A coarse and late aim.
+    Aim,
+    /// Losses of the target, and the search for it.
+    Search,
+}
+
+impl Kind {
+    /// All kinds, in the order of mixtures.
+    pub const ALL: [Self; 6] = [Self::Jumps, Self::Drift, Self::Gusts, Self::Timing, Self::Aim, Self::Search];
+
+    /// The name in recipes and tables.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Jumps => "jumps",
+            Self::Drift => "drift",
+            Self::Gusts => "gusts",
+            Self::Timing => "timing",
+            Self::Aim => "aim",
+            Self::Search => "search",
+        }
+    }
+
+    /// Whether a drone could fly it: speed, acceleration and rates of turning are bounded.
+    pub fn is_flyable(self) -> bool {
+        self != Self::Jumps
+    }
 }
 
 /// Departure of a perturbed trajectory from its expert (paper, dual-trajectory augmentation).

@@ -8,7 +8,7 @@ mod small_town;
 
 use cosfly_frames::{DVec3, Pose, Seed, TargetState, real};
 use cosfly_maps::{MapConfig, Town};
-use cosfly_render::{FrameParts, FrameSetup, RenderConfig, Renderer, Scene, Stages, TargetSetup, Weather};
+use cosfly_render::{BodyShape, FrameParts, FrameSetup, RenderConfig, Renderer, Scene, Stages, TargetSetup, Weather};
 use std::time::Instant;
 
 fn main() -> Result<(), Box<dyn std::error::Error>> {
@@ -97,6 +97,7 @@ fn frame(index: u32, middle: DVec3, away: DVec3) -> (Pose, TargetSetup) {
         clothes_seed: Seed([9; 32]),
         gait_phase_rad: 0.4 * f64::from(index),
         visible_by_rays: 1.0,
+        body: BodyShape::default(),
     };
     let turned = DVec3::new(cos * away.x - sin * away.y, sin * away.x + cos * away.y, away.z);
     (Pose::looking_at(feet + turned, feet + DVec3::Z), target)

@@ -8,7 +8,7 @@ mod small_town;
 
 use cosfly_frames::{DVec3, Pose, Seed, TargetState};
 use cosfly_maps::{MapConfig, Town, WalkableKind};
-use cosfly_render::{FrameSetup, RenderConfig, Renderer, Scene, TargetSetup, Weather, preview};
+use cosfly_render::{BodyShape, FrameSetup, RenderConfig, Renderer, Scene, TargetSetup, Weather, preview};
 use std::fs::File;
 use std::path::Path;
 
@@ -41,6 +41,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         clothes_seed: Seed([9; 32]),
         gait_phase_rad: 1.2,
         visible_by_rays: 1.0,
+        body: BodyShape::default(),
     };
     let views = [
         ("follow", Pose::looking_at(feet + DVec3::new(-17.0, -10.0, 20.0), feet + DVec3::Z)),

@@ -3,7 +3,7 @@
 use cosfly_frames::{DVec3, Pose, Seed, TargetState};
 use cosfly_maps::{MapConfig, Town, WalkableKind};
 use cosfly_render::{
-    Bystander, FrameSetup, RenderConfig, Renderer, Scene, TargetSetup, Walker, Weather, gait_phase_rad,
+    BodyShape, Bystander, FrameSetup, RenderConfig, Renderer, Scene, TargetSetup, Walker, Weather, gait_phase_rad,
 };
 use std::fs::File;
 use std::path::Path;
@@ -52,6 +52,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
             clothes_seed: Seed([9; 32]),
             gait_phase_rad: 1.2,
             visible_by_rays: 1.0,
+            body: BodyShape::default(),
         };
         let offset = DVec3::new(back * cos - aside * sin, back * sin + aside * cos, up);
         let ahead = DVec3::new(6.0 * cos, 6.0 * sin, 1.0);
@@ -96,6 +97,7 @@ fn passers_by(town: &Town, place: DVec3) -> Vec<Bystander> {
                 radius_m: 0.3,
                 clothes_seed: Seed([number; 32]),
                 gait_phase_rad: gait_phase_rad(random.uniform(0.0, 2.0), height_m),
+                body: BodyShape::default(),
             },
             instance: 60_000 + u32::from(number),
         });

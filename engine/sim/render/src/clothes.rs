@@ -1,10 +1,13 @@
 //! Clothes: one palette for everybody, drawn from a person's own seed, so that nobody changes clothes when followed.
 
+use crate::body_shape::BodyShape;
+use crate::vehicles::Livery;
 use cosfly_frames::{RandomStream, Seed};
+use cosfly_world::BodyKind;
 use serde::{Deserialize, Serialize};
 
-/// Material of a part of the figure.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+/// Material of a part of the figure; those of vehicles follow those of people.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Region {
     /// Face, neck, hands.
     Skin,
@@ -18,12 +21,40 @@ pub enum Region {
     Shoes,
     /// Backpack.
     Bag,
+    /// Painted sheet of a vehicle, or a painted frame.
+    Paint,
+    /// The box of a lorry.
+    Cargo,
+    /// Dark plastic, rubber and leather.
+    Trim,
+    /// Windows.
+    Glass,
+    /// Tyres.
+    Tyre,
+    /// Wheels and bare metal.
+    Metal,
+    /// Number plates.
+    Plate,
+    /// Lamps at the front.
+    HeadLamp,
+    /// Lamps at the back.
+    TailLamp,
+}
+
+impl Region {
+    /// Number of regions.
+    pub const COUNT: usize = 15;
+
+    /// Whether people wear it or are made of it.
+    pub fn is_of_people(self) -> bool {
+        self <= Self::Bag
+    }
 }
 
 /// Colours of a figure, linear RGB.
 #[derive(Clone, Copy, Debug)]
 pub struct Clothes {
-    /// Indexed by [`Region`].
+    /// Indexed by the first six of [`Region`].
     pub colours: [[f32; 3]; 6],
     /// What texts may say of them.
     pub outfit: Outfit,
@@ -42,6 +73,25 @@ pub struct Outfit {
     pub trousers: Dye,
     /// Wears a backpack.
     pub backpack: bool,
+}
+
+impl Outfit {
+    /// What texts may say of a body: clothes of a person or rider; of another vehicle, its paint for top and trousers.
+    pub fn of(body: BodyShape, seed: &Seed) -> Self {
+        match body {
+            BodyShape::Vehicle { kind, .. } if !matches!(kind, BodyKind::Bicycle | BodyKind::Motorcycle) => {
+                let paint = Livery::draw(seed).paint;
+                Self { top: paint, trousers: paint, backpack: false }
+            }
+            _ => Clothes::draw(seed).outfit,
+        }
+    }
+
+    /// Whether two people are dressed alike in words: colours of top and trousers, a backpack or none.
+    pub fn is_like(&self, other: &Self) -> bool {
+        let words = |it: &Self| (it.top.name, it.trousers.name, it.backpack);
+        words(self) == words(other)
+    }
 }
 
 /// Colour of a piece of clothing.
@@ -107,7 +157,7 @@ impl Colour {
     }
 }
 
-const fn dye(name: Colour, linear_rgb: [f32; 3]) -> Dye {
+pub(crate) const fn dye(name: Colour, linear_rgb: [f32; 3]) -> Dye {
     Dye { name, linear_rgb }
 }
 

@@ -1,6 +1,7 @@
 //! The faces drawn in a frame, and where each comes from.
 
 use crate::visibility::PlaneOnScreen;
+use cosfly_maps::SemanticLabel;
 
 /// A face drawn in this frame.
 pub(crate) struct DrawnFace {
@@ -21,4 +22,21 @@ pub(crate) enum FaceSource {
     Ground { cluster: u32, polygon: u16 },
     /// Triangle of the figures, and the first face drawn of the same part of a body.
     Figure { triangle: u32, first_face: u32 },
+}
+
+/// Share by which the inverse depth of a box counts as greater: of coplanar faces of different boxes, the number decides,
+/// not the rounding.
+pub(crate) fn box_lift(index: u32) -> f64 {
+    5e-7 * f64::from(index % 8)
+}
+
+/// The same share for ground: which of two coplanar layers lies on top.
+pub(crate) fn ground_lift(label: SemanticLabel) -> f64 {
+    let layer = match label {
+        SemanticLabel::Terrain | SemanticLabel::Ground | SemanticLabel::Water => 0.0,
+        SemanticLabel::Roads => 1.0,
+        SemanticLabel::RoadLine => 3.0,
+        _ => 2.0,
+    };
+    2e-6 * layer
 }

@@ -1,6 +1,8 @@
-//! People: jointed figures of frustums whose limbs swing with the gait.
+//! People: jointed figures of frustums whose limbs swing with the gait; and the entry to the figures of vehicles.
 
+use crate::body_shape::BodyShape;
 use crate::clothes::{Clothes, Region};
+use crate::vehicles;
 use cosfly_frames::{DVec3, Seed, TargetState, real};
 
 /// The target of one frame.
@@ -18,6 +20,8 @@ pub struct TargetSetup {
     pub gait_phase_rad: f64,
     /// Share of body points that unoccluded rays reach; copied into [`crate::TargetView`].
     pub visible_by_rays: f64,
+    /// What moves.
+    pub body: BodyShape,
 }
 
 impl TargetSetup {
@@ -29,31 +33,35 @@ impl TargetSetup {
             radius_m: self.radius_m,
             clothes_seed: self.clothes_seed,
             gait_phase_rad: self.gait_phase_rad,
+            body: self.body,
         }
     }
 }
 
-/// Somebody in the picture.
+/// Somebody in the picture: a person, or a vehicle with its rider.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Walker {
     /// Position, heading and speed.
     pub state: TargetState,
-    /// Body height, metres.
+    /// Body height, metres; vehicles have that of [`Self::body`].
     pub height_m: f64,
-    /// Body radius seen from above, metres.
+    /// Body radius seen from above, metres; vehicles have the extent of [`Self::body`].
     pub radius_m: f64,
-    /// Draws their clothes, skin and build.
+    /// Draws their clothes, skin and build; paint and model of a vehicle.
     pub clothes_seed: Seed,
-    /// Phase of the gait, radians; see [`gait_phase_rad`].
+    /// Phase of the gait, radians; see [`gait_phase_rad`]. Of a bicycle, that of the pedals; other vehicles have none.
     pub gait_phase_rad: f64,
+    /// What moves.
+    pub body: BodyShape,
 }
 
 impl Walker {
     /// Whether there is a body to draw.
-    pub(crate) fn has_body(&self) -> bool {
+    pub fn has_body(&self) -> bool {
         let numbers = [self.radius_m, self.state.heading_rad, self.state.speed_mps, self.gait_phase_rad];
         self.height_m > 0.0
             && self.height_m.is_finite()
+            && self.body.is_drawable()
             && self.state.feet_in_world.is_finite()
             && numbers.iter().all(|number| number.is_finite())
     }
@@ -71,6 +79,11 @@ pub struct Bystander {
 /// Phase of the gait after `walked_m` metres: one turn every two steps, and two steps are 0.83 body heights.
 pub fn gait_phase_rad(walked_m: f64, height_m: f64) -> f64 {
     real::wrap_angle_rad(real::TAU * walked_m / (0.83 * height_m.max(0.1)))
+}
+
+/// Phase of a cyclist's pedals after `ridden_m` metres: one turn every 5 m.
+pub fn pedal_phase_rad(ridden_m: f64) -> f64 {
+    real::wrap_angle_rad(real::TAU * ridden_m / 5.0)
 }
 
 /// A triangle of the figure, corners in the world frame.
@@ -102,30 +115,30 @@ pub fn walker_triangles(walker: &Walker) -> Vec<[DVec3; 3]> {
     triangles.iter().map(|triangle| triangle.corners_in_world).collect()
 }
 
-/// Appends the figure of `person` to `triangles`. All limbs stay near the upright cylinder of the walker.
+/// Appends the figure of `person` to `triangles`. All limbs stay near the upright cylinder of the walker; a vehicle stays
+/// within its box.
 pub fn figure(walker: &Walker, clothes: &Clothes, person: u32, triangles: &mut Vec<FigureTriangle>) {
     if !walker.has_body() {
         return;
     }
+    if let BodyShape::Vehicle { kind, size_m } = walker.body {
+        vehicles::add(walker, kind, size_m, clothes, person, triangles);
+        return;
+    }
     let first = triangles.len();
     let (sin, cos) = real::sin_cos(walker.state.heading_rad);
-    let mut body = Body {
+    let mut surface = Surface {
         feet: walker.state.feet_in_world,
         forward: DVec3::new(cos, sin, 0.0),
         right: DVec3::new(-sin, cos, 0.0),
         height: walker.height_m,
-        forearm: if clothes.short_sleeves { Region::Skin } else { Region::Top },
-        width: clothes.build * (walker.radius_m / (0.15 * walker.height_m)).clamp(0.8, 1.25),
-        around: core::array::from_fn(|k| real::sin_cos(real::TAU * k as f64 / SIDES as f64)),
+        around: around(),
         person,
         parts: 0,
         triangles,
     };
-    let swing = 0.5 * (walker.state.speed_mps / 1.3).clamp(0.0, 1.2);
-    body.trunk(clothes.outfit.backpack);
-    for side in [-1.0, 1.0] {
-        body.leg(side, walker.gait_phase_rad + if side < 0.0 { 0.0 } else { real::PI }, swing);
-        body.arm(side, walker.gait_phase_rad + if side < 0.0 { real::PI } else { 0.0 }, 0.8 * swing + 0.08);
+    for FigurePart { low, high, region } in FigureParts::of(walker, clothes).iter() {
+        surface.part(*low, *high, *region);
     }
     // Bent legs are shorter: the whole body sinks until a foot stands on the ground.
     let built = &mut triangles[first..];
@@ -138,39 +151,95 @@ pub fn figure(walker: &Walker, clothes: &Clothes, person: u32, triangles: &mut V
     }
 }
 
-/// Sides of every frustum.
-const SIDES: usize = 6;
-
-/// One end of a frustum: centre in body heights (forward, right, up), half width to the side and forward.
-#[derive(Clone, Copy)]
-struct Ring {
-    forward: f64,
-    right: f64,
-    up: f64,
-    half_side: f64,
-    half_forward: f64,
+/// Sine and cosine of the direction of each side of a frustum.
+pub(crate) fn around() -> [(f64, f64); SIDES] {
+    core::array::from_fn(|k| real::sin_cos(real::TAU * k as f64 / SIDES as f64))
 }
 
-fn ring(forward: f64, right: f64, up: f64, half_side: f64, half_forward: f64) -> Ring {
+/// Most parts of a figure.
+const MOST_PARTS: usize = 23;
+
+/// The parts of a figure, before it sinks to the ground: closed frustums of [`SIDES`] sides.
+pub struct FigureParts {
+    count: usize,
+    parts: [FigurePart; MOST_PARTS],
+}
+
+/// A part of a figure between two level rings.
+#[derive(Clone, Copy)]
+pub struct FigurePart {
+    /// One end.
+    pub low: Ring,
+    /// The other end.
+    pub high: Ring,
+    /// Material.
+    pub region: Region,
+}
+
+impl FigureParts {
+    /// The parts of a walker's figure; none without a body.
+    pub fn of(walker: &Walker, clothes: &Clothes) -> Self {
+        let nothing = ring(0.0, 0.0, 0.0, 0.0, 0.0);
+        let nothing = FigurePart { low: nothing, high: nothing, region: Region::Skin };
+        let mut body = Body {
+            forearm: if clothes.short_sleeves { Region::Skin } else { Region::Top },
+            width: clothes.build * (walker.radius_m / (0.15 * walker.height_m)).clamp(0.8, 1.25),
+            parts: Self { count: 0, parts: [nothing; MOST_PARTS] },
+        };
+        if walker.has_body() {
+            let swing = 0.5 * (walker.state.speed_mps / 1.3).clamp(0.0, 1.2);
+            body.trunk(clothes.outfit.backpack);
+            for side in [-1.0, 1.0] {
+                body.leg(side, walker.gait_phase_rad + if side < 0.0 { 0.0 } else { real::PI }, swing);
+                body.arm(side, walker.gait_phase_rad + if side < 0.0 { real::PI } else { 0.0 }, 0.8 * swing + 0.08);
+            }
+        }
+        body.parts
+    }
+
+    /// All parts.
+    pub fn iter(&self) -> impl Iterator<Item = &FigurePart> {
+        self.parts[..self.count].iter()
+    }
+
+    /// Height of the lowest ring, body heights: the figure sinks by it.
+    pub fn lowest(&self) -> f64 {
+        self.iter().flat_map(|part| [part.low.up, part.high.up]).map(|up| up.max(0.0)).fold(f64::INFINITY, f64::min)
+    }
+}
+
+/// Sides of every frustum.
+pub const SIDES: usize = 6;
+
+/// One end of a frustum, in body heights. Its corner `k` lies at `forward + half_forward * cos`, `right + half_side * sin` of
+/// `k` turns in [`SIDES`].
+#[derive(Clone, Copy)]
+#[expect(missing_docs, reason = "the names say it")]
+pub struct Ring {
+    pub forward: f64,
+    pub right: f64,
+    /// Below 0 counts as 0.
+    pub up: f64,
+    pub half_side: f64,
+    pub half_forward: f64,
+}
+
+pub(crate) fn ring(forward: f64, right: f64, up: f64, half_side: f64, half_forward: f64) -> Ring {
     Ring { forward, right, up, half_side, half_forward }
 }
 
-struct Body<'a> {
-    feet: DVec3,
-    forward: DVec3,
-    right: DVec3,
-    height: f64,
+struct Body {
     width: f64,
     forearm: Region,
-    /// Sine and cosine of the direction of each side.
-    around: [(f64, f64); SIDES],
-    person: u32,
-    /// Parts built so far.
-    parts: u32,
-    triangles: &'a mut Vec<FigureTriangle>,
+    parts: FigureParts,
 }
 
-impl Body<'_> {
+impl Body {
+    fn part(&mut self, low: Ring, high: Ring, region: Region) {
+        self.parts.parts[self.parts.count] = FigurePart { low, high, region };
+        self.parts.count += 1;
+    }
+
     fn trunk(&mut self, backpack: bool) {
         let w = self.width;
         self.part(ring(0.0, 0.0, 0.46, 0.085 * w, 0.060), ring(0.0, 0.0, 0.57, 0.088 * w, 0.062), Region::Trousers);
@@ -229,9 +298,25 @@ impl Body<'_> {
         self.part(ring(wrist.0, far, wrist.1, 0.022, 0.023), ring(elbow.0, out, elbow.1, 0.027, 0.029), self.forearm);
         self.part(ring(hand.0, far, hand.1, 0.014, 0.021), ring(wrist.0, far, wrist.1, 0.019, 0.021), Region::Skin);
     }
+}
 
+/// Triangles of a figure in the world.
+pub(crate) struct Surface<'a> {
+    pub feet: DVec3,
+    pub forward: DVec3,
+    pub right: DVec3,
+    pub height: f64,
+    /// Sine and cosine of the direction of each side.
+    pub around: [(f64, f64); SIDES],
+    pub person: u32,
+    /// Parts built so far.
+    pub parts: u32,
+    pub triangles: &'a mut Vec<FigureTriangle>,
+}
+
+impl Surface<'_> {
     /// A closed hexagonal frustum between two rings.
-    fn part(&mut self, low: Ring, high: Ring, region: Region) {
+    pub(crate) fn part(&mut self, low: Ring, high: Ring, region: Region) {
         let corner = |ring: &Ring, k: usize| {
             let (sin, cos) = self.around[k];
             self.feet
@@ -293,6 +378,7 @@ mod tests {
             clothes_seed: Seed([3; 32]),
             gait_phase_rad: phase,
             visible_by_rays: 1.0,
+            body: BodyShape::Person,
         }
     }
 

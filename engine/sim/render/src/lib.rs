@@ -6,6 +6,7 @@
 //! from the same face at the same pixel centre, so they agree pixel by pixel; only RGB is smoothed along edges afterwards.
 
 pub mod backend;
+mod body_shape;
 mod buildings;
 pub mod camera;
 mod channel_set;
@@ -32,10 +33,12 @@ mod setup;
 mod shade;
 mod stages;
 mod target_view;
+mod vehicles;
 mod visibility;
 pub mod weather;
 
 pub use backend::{Backend, BackendError};
+pub use body_shape::BodyShape;
 pub use buildings::Buildings;
 pub use camera::{Camera, Mount};
 pub use channel_set::ChannelSet;
@@ -43,13 +46,15 @@ pub use channels::Channel;
 pub use clothes::{Clothes, Colour, Dye, Outfit, clothes_seed_of_target};
 pub use config::{BackendKind, ConfigProblem, GimbalConfig, RenderConfig};
 pub use effects::{Effects, Lens, Moment, MotionBlur, Noise, RollingShutter, Shot};
-pub use figure::{Bystander, TargetSetup, Walker, gait_phase_rad, target_triangles, walker_triangles};
+pub use figure::{Bystander, TargetSetup, Walker, gait_phase_rad, pedal_phase_rad, target_triangles, walker_triangles};
 pub use frame::{ChannelImage, FrameImages, PersonView, PixelBox, RenderedFrame, TargetView};
 pub use look::PictureLook;
 pub use outlook::Outlook;
+pub use people::LEAST_HEIGHT_PX;
 pub use renderer::{FrameParts, Renderer};
 pub use scene::{Scene, SceneTriangle};
 pub use setup::FrameSetup;
 pub use stages::Stages;
 pub use target_view::measure as measure_target;
+pub use vehicles::Livery;
 pub use weather::{Weather, WeatherRanges};

@@ -44,6 +44,7 @@ pub(crate) fn to_sun(weather: &Weather) -> DVec3 {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::body_shape::BodyShape;
     use cosfly_frames::{Seed, TargetState};
 
     fn walker(x: f64, y: f64) -> Walker {
@@ -53,6 +54,7 @@ mod tests {
             radius_m: 0.3,
             clothes_seed: Seed([1; 32]),
             gait_phase_rad: 0.5,
+            body: BodyShape::default(),
         }
     }
 

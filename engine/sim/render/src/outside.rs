@@ -1,7 +1,7 @@
 //! Frames whose nearest static faces were found elsewhere, such as on a graphics card: everything after visibility is ours.
 
 use crate::eye::Eye;
-use crate::faces::{DrawnFace, FaceSource};
+use crate::faces::{DrawnFace, FaceSource, box_lift, ground_lift};
 use crate::scene::Scene;
 use crate::scene_parts::BOX_FACES;
 use crate::visibility::{PlaneOnScreen, Screen, Visibility};
@@ -16,8 +16,16 @@ pub struct SceneFace {
     pub corners_in_world: Vec<DVec3>,
     /// Set for the faces of boxes, which are seen from outside only.
     pub outward_in_world: Option<DVec3>,
+    /// Unit normal; outward for boxes, upward for ground.
+    pub normal_in_world: DVec3,
+    /// A point of its plane, metres; corners may lie a millimetre off the plane.
+    pub point_in_world: DVec3,
+    /// Share by which its inverse depth counts as greater where faces are coplanar.
+    pub lift: f64,
     /// CARLA label id.
     pub label: u8,
+    /// Instance id; 0 for ground.
+    pub instance: u32,
 }
 
 impl Scene {
@@ -29,11 +37,15 @@ impl Scene {
     /// All faces but the target's: six of each box, then the ground's.
     pub fn faces(&self) -> Vec<SceneFace> {
         let mut faces = Vec::new();
-        for b in &self.boxes {
+        for (index, b) in (0u32..).zip(&self.boxes) {
             faces.extend(BOX_FACES.iter().enumerate().map(|(face, (_, _, around))| SceneFace {
                 corners_in_world: around.map(|corner| b.corners_in_world[corner]).to_vec(),
                 outward_in_world: Some(b.normal_in_world(face)),
+                normal_in_world: b.normal_in_world(face),
+                point_in_world: b.corners_in_world[around[0]],
+                lift: box_lift(index),
                 label: b.label,
+                instance: b.instance,
             }));
         }
         for cluster in &self.clusters {
@@ -42,7 +54,11 @@ impl Scene {
                 SceneFace {
                     corners_in_world: corners.map(|corner| cluster.points_in_world[usize::from(*corner)]).collect(),
                     outward_in_world: None,
+                    normal_in_world: polygon.normal_in_world,
+                    point_in_world: polygon.middle_in_world,
+                    lift: ground_lift(polygon.label),
                     label: polygon.label.id(),
+                    instance: 0,
                 }
             }));
         }

@@ -1,10 +1,12 @@
 //! The people of a frame: who of them can be seen, or throws a shadow that can, and their figures.
 
-use crate::clothes::Clothes;
+use crate::body_shape::BodyShape;
+use crate::clothes::{Clothes, Region};
 use crate::eye::Eye;
 use crate::figure::{FigureTriangle, Walker, figure};
 use crate::frame::TARGET_INSTANCE;
 use crate::setup::FrameSetup;
+use crate::vehicles::Livery;
 use crate::visibility::{NEAR_M, Nearer, Screen};
 use cosfly_frames::DVec3;
 use std::ops::Range;
@@ -15,13 +17,16 @@ const REACH_PER_HEIGHT: f64 = 0.45;
 const DROP_M: f64 = 8.0;
 /// Shading looks this far around a point, metres.
 const MARGIN_M: f64 = 0.5;
+/// Vehicles stay within their boxes and this margin, metres.
+const VEHICLE_MARGIN_M: f64 = 0.02;
 /// People whose bodies are less high than this are left out, pixels.
-const LEAST_HEIGHT_PX: f64 = 1.0;
+pub const LEAST_HEIGHT_PX: f64 = 1.0;
 
 /// Somebody whose figure is built in this frame.
 pub(crate) struct Person {
     pub walker: Walker,
-    pub clothes: Clothes,
+    /// Linear RGB, indexed by [`Region`].
+    pub colours: [[f32; 3]; Region::COUNT],
     pub instance: u32,
     /// Triangles of the figure among those of all.
     pub triangles: Range<usize>,
@@ -103,7 +108,9 @@ impl People {
         let clothes = Clothes::draw(&walker.clothes_seed);
         figure(&walker, &clothes, self.members.len() as u32, &mut self.triangles);
         let triangles = first..self.triangles.len();
-        self.members.push(Person { walker, clothes, instance, triangles, is_seen, reach, height_px });
+        let mut colours = Livery::draw(&walker.clothes_seed).colours(&walker.body);
+        colours[..clothes.colours.len()].copy_from_slice(&clothes.colours);
+        self.members.push(Person { walker, colours, instance, triangles, is_seen, reach, height_px });
     }
 }
 
@@ -114,10 +121,27 @@ pub(crate) struct Bounds {
     foot_m: f64,
 }
 
+impl Walker {
+    /// Lowest and highest corner of an upright box around the figure, in the world frame, metres.
+    pub fn bounds_in_world(&self) -> (DVec3, DVec3) {
+        let bounds = Bounds::new(self);
+        (bounds.low, bounds.high)
+    }
+}
+
 impl Bounds {
     pub fn new(walker: &Walker) -> Self {
-        let side = (REACH_PER_HEIGHT * walker.height_m).max(3.0 * walker.radius_m.clamp(0.1, 2.0));
         let feet = walker.state.feet_in_world;
+        if let BodyShape::Vehicle { size_m, .. } = walker.body {
+            let half = BodyShape::half_bounds_m(size_m, walker.state.heading_rad) + VEHICLE_MARGIN_M;
+            let (low, high) = (feet - half, feet + half);
+            return Self {
+                low: low.with_z(feet.z - VEHICLE_MARGIN_M),
+                high: high.with_z(feet.z + 2.0 * half.z),
+                foot_m: feet.z,
+            };
+        }
+        let side = (REACH_PER_HEIGHT * walker.height_m).max(3.0 * walker.radius_m.clamp(0.1, 2.0));
         Self {
             low: feet - DVec3::new(side, side, 0.05 * walker.height_m),
             high: feet + DVec3::new(side, side, 1.05 * walker.height_m),
@@ -131,7 +155,7 @@ impl Bounds {
 
     fn height_px(&self, walker: &Walker, eye: &Eye, screen: &Screen) -> f64 {
         let away_m = (eye.position_in_world - eye.position_in_world.clamp(self.low, self.high)).length();
-        screen.focal_px * walker.height_m / away_m.max(NEAR_M)
+        screen.focal_px * walker.body.height_m(walker.height_m) / away_m.max(NEAR_M)
     }
 
     /// Whether the body is large enough to be drawn, and it or its shadow may be in view.
@@ -192,6 +216,7 @@ mod tests {
     use crate::camera::Camera;
     use crate::figure::walker_triangles;
     use cosfly_frames::{Pose, Seed, TargetState};
+    use cosfly_world::BodyKind;
 
     #[test]
     fn a_body_and_its_shadow_stay_within_reach() {
@@ -206,6 +231,11 @@ mod tests {
                 radius_m: 0.3,
                 clothes_seed: Seed([step as u8; 32]),
                 gait_phase_rad: 1.3 * turn,
+                body: match step % 3 {
+                    0 => BodyShape::Person,
+                    1 => BodyShape::Vehicle { kind: BodyKind::Bus, size_m: DVec3::new(5.0, 2.5, 3.0) },
+                    _ => BodyShape::Vehicle { kind: BodyKind::Bicycle, size_m: DVec3::new(1.8, 0.65, 1.75) },
+                },
             };
             let to_sun = DVec3::new(libm::cos(turn), libm::sin(turn), 0.3 + 0.1 * turn).normalize();
             let bounds = Bounds::new(&walker);

@@ -3,7 +3,7 @@
 use crate::camera::Camera;
 use crate::channel_set::ChannelSet;
 use crate::eye::Eye;
-use crate::faces::{DrawnFace, FaceSource};
+use crate::faces::{DrawnFace, FaceSource, box_lift, ground_lift};
 use crate::frame::{ChannelImage, FrameImages, PersonView, RenderedFrame, TARGET_INSTANCE, TargetView};
 use crate::look::PictureLook;
 use crate::outlook::to_sun;
@@ -249,8 +249,7 @@ impl Renderer {
             let index = self.visible[position].1;
             let b = &scene.boxes[index as usize];
             let corners = b.corners_in_world.map(|corner| eye.see(corner));
-            // Coplanar faces of different boxes: the number decides, not the rounding.
-            let bias = 5e-7 * f64::from(index % 8);
+            let bias = box_lift(index);
             for (face, (_, _, around)) in BOX_FACES.iter().enumerate() {
                 let normal_in_world = b.normal_in_world(face);
                 let normal = eye.turn(normal_in_world);
@@ -302,7 +301,7 @@ impl Renderer {
                         self.alone.draw_polygon(&self.screen, &corners, &plane, 0.0, number);
                     }
                     let source = FaceSource::Figure { triangle: index as u32, first_face };
-                    let label = SemanticLabel::Pedestrian.id();
+                    let label = person.walker.body.label(triangle.region).id();
                     let normal = triangle.normal_in_world.as_vec3().to_array();
                     self.faces.push(DrawnFace { plane, normal, source, label, instance: person.instance });
                 }
@@ -369,7 +368,7 @@ impl Renderer {
             let normal = eye.turn(polygon.normal_in_world);
             let Some(plane) = PlaneOnScreen::new(&screen, normal, eye.see(polygon.middle_in_world)) else { continue };
             let face = self.faces.len() as u32;
-            let bias = 2e-6 * layer_of(polygon.label);
+            let bias = ground_lift(polygon.label);
             if is_ahead {
                 self.nearest.draw_rows(&points[..count], rows, &plane.lifted(bias), face);
             } else {
@@ -379,15 +378,5 @@ impl Renderer {
             let normal = polygon.normal_in_world.as_vec3().to_array();
             self.faces.push(DrawnFace { plane, normal, source, label: polygon.label.id(), instance: 0 });
         }
-    }
-}
-
-/// Which of two coplanar ground layers lies on top.
-fn layer_of(label: SemanticLabel) -> f64 {
-    match label {
-        SemanticLabel::Terrain | SemanticLabel::Ground | SemanticLabel::Water => 0.0,
-        SemanticLabel::Roads => 1.0,
-        SemanticLabel::RoadLine => 3.0,
-        _ => 2.0,
     }
 }

@@ -4,7 +4,7 @@ mod crowd;
 mod small_town;
 
 use cosfly_frames::{DVec3, Pose, Seed, TargetState, real};
-use cosfly_render::{Camera, FrameSetup, Renderer, Scene, TargetSetup, Weather};
+use cosfly_render::{BodyShape, Camera, FrameSetup, Renderer, Scene, TargetSetup, Weather};
 use std::alloc::{GlobalAlloc, Layout, System};
 use std::cell::Cell;
 
@@ -56,6 +56,7 @@ fn the_second_pass_over_a_flight_with_people_allocates_nothing() {
                 clothes_seed: Seed([2; 32]),
                 gait_phase_rad: 0.4 * f64::from(frame),
                 visible_by_rays: 1.0,
+                body: BodyShape::default(),
             };
             let setup = FrameSetup {
                 pose: Pose::looking_at(feet + DVec3::new(-12.0 * cos, 12.0 * sin, 9.0), feet),

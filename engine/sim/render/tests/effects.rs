@@ -5,8 +5,8 @@ mod small_town;
 use cosfly_frames::{DVec3, Pose, Seed, TargetState};
 use cosfly_render::frame::TARGET_INSTANCE;
 use cosfly_render::{
-    Bystander, Camera, Effects, FrameImages, Lens, Moment, MotionBlur, Noise, PixelBox, Renderer, RollingShutter,
-    Scene, Shot, TargetSetup, TargetView, Weather,
+    BodyShape, Bystander, Camera, Effects, FrameImages, Lens, Moment, MotionBlur, Noise, PixelBox, Renderer,
+    RollingShutter, Scene, Shot, TargetSetup, TargetView, Weather,
 };
 use std::cell::RefCell;
 
@@ -23,6 +23,7 @@ fn moment(offset_s: f64) -> Moment {
         clothes_seed: Seed([2; 32]),
         gait_phase_rad: 0.8,
         visible_by_rays: 0.5,
+        body: BodyShape::default(),
     };
     let pose = Pose::looking_at(FEET + DVec3::new(-6.0, 1.5 + 9.0 * offset_s, 7.5), FEET + DVec3::new(0.0, 1.0, 0.9));
     Moment { pose, target: Some(target) }

@@ -5,7 +5,8 @@ use cosfly_geometry::{BoxBvh, SpatialQuery};
 use cosfly_maps::{MapConfig, Town, WalkableKind};
 use cosfly_render::frame::TARGET_INSTANCE;
 use cosfly_render::{
-    Camera, FrameImages, FrameParts, FrameSetup, Renderer, Scene, TargetSetup, TargetView, Weather, target_triangles,
+    BodyShape, Camera, FrameImages, FrameParts, FrameSetup, Renderer, Scene, TargetSetup, TargetView, Weather,
+    target_triangles,
 };
 
 const CAMERA: Camera = Camera { width: 640, height: 360, horizontal_fov_rad: 1.2 };
@@ -37,6 +38,7 @@ fn flight(town: &Town, random: &mut RandomStream, frames: usize) -> Vec<(Pose, T
             clothes_seed: Seed([2; 32]),
             gait_phase_rad: walked_m,
             visible_by_rays: 0.0,
+            body: BodyShape::default(),
         };
         let position = feet + DVec3::new(-back_m * rear_cos, -back_m * rear_sin, up_m);
         (Pose::looking_at(position, feet + DVec3::Z * 0.9), target)

@@ -4,7 +4,8 @@ mod small_town;
 
 use cosfly_frames::{DVec3, Pose, Seed, TargetState, real};
 use cosfly_render::{
-    Camera, Effects, Lens, Moment, MotionBlur, Noise, Renderer, RollingShutter, Scene, Shot, TargetSetup, Weather,
+    BodyShape, Camera, Effects, Lens, Moment, MotionBlur, Noise, Renderer, RollingShutter, Scene, Shot, TargetSetup,
+    Weather,
 };
 
 /// Resident memory of this process in kB, where the system tells.
@@ -40,6 +41,7 @@ fn ten_thousand_frames_take_no_more_memory_than_a_thousand() {
                 clothes_seed: Seed([2; 32]),
                 gait_phase_rad: 0.1 * f64::from(frame),
                 visible_by_rays: 1.0,
+                body: BodyShape::default(),
             }),
         };
         let noise_seed = Seed([3; 32]).child("frame", u64::from(frame));

@@ -7,10 +7,11 @@ use cosfly_frames::{DVec3, Pose, RandomStream, Seed, TargetState, real};
 use cosfly_maps::{SemanticLabel, SurfaceMesh};
 use cosfly_render::frame::TARGET_INSTANCE;
 use cosfly_render::{
-    Buildings, Bystander, Camera, Effects, FrameImages, FrameSetup, Lens, Moment, MotionBlur, Noise, Outlook,
-    PersonView, PixelBox, Renderer, RollingShutter, Scene, Shot, TargetSetup, TargetView, Walker, Weather,
-    walker_triangles,
+    BodyShape, Buildings, Bystander, Camera, Clothes, Effects, FrameImages, FrameSetup, Lens, Moment, MotionBlur,
+    Noise, Outlook, PersonView, PixelBox, Renderer, RollingShutter, Scene, Shot, TargetSetup, TargetView, Walker,
+    Weather, walker_triangles,
 };
+use cosfly_world::BodyKind;
 
 const CAMERA: Camera = Camera { width: 640, height: 360, horizontal_fov_rad: 1.4 };
 /// Larger than all ids of the small town.
@@ -28,12 +29,13 @@ fn walker(feet: DVec3, seed: u8) -> Walker {
         radius_m: 0.28,
         clothes_seed: Seed([seed; 32]),
         gait_phase_rad: 0.7 * turn,
+        body: BodyShape::default(),
     }
 }
 
 fn target(feet: DVec3) -> TargetSetup {
-    let Walker { state, height_m, radius_m, clothes_seed, gait_phase_rad } = walker(feet, 2);
-    TargetSetup { state, height_m, radius_m, clothes_seed, gait_phase_rad, visible_by_rays: 0.5 }
+    let Walker { state, height_m, radius_m, clothes_seed, gait_phase_rad, body } = walker(feet, 2);
+    TargetSetup { state, height_m, radius_m, clothes_seed, gait_phase_rad, visible_by_rays: 0.5, body }
 }
 
 fn crowd(random: &mut RandomStream, around: DVec3, count: u32) -> Vec<Bystander> {
@@ -83,6 +85,59 @@ fn cast(triangles: &[([DVec3; 3], u32)], origin: DVec3, ray: DVec3) -> (f64, u32
         }
     }
     first
+}
+
+/// Vehicles of all kinds around a place.
+fn traffic(random: &mut RandomStream, around: DVec3, count: u32) -> Vec<Bystander> {
+    let sizes =
+        [[1.8, 0.65, 1.75], [2.1, 0.8, 1.6], [4.5, 1.8, 1.5], [5.2, 2.0, 2.3], [8.0, 2.5, 3.4], [12.0, 2.5, 3.1]];
+    let vehicle = |k: u32| {
+        let away = DVec3::new(random.uniform(-25.0, 25.0), random.uniform(-25.0, 25.0), 0.0);
+        let kind = k as usize % sizes.len();
+        let body = BodyShape::of(BodyKind::ALL[kind + 1], DVec3::from_array(sizes[kind]));
+        Bystander { walker: Walker { body, ..walker(around + away, k as u8) }, instance: FIRST + k }
+    };
+    (0..count).map(vehicle).collect()
+}
+
+#[test]
+fn vehicles_and_riders_are_where_rays_meet_them_with_the_labels_of_their_kinds() {
+    let scene = Scene::new(&small_town::empty_town(), Seed([1; 32]));
+    let mut random = Seed([8; 32]).stream("traffic");
+    for round in 0..4u32 {
+        let others = traffic(&mut random, DVec3::ZERO, 15);
+        let turn = 1.3 * f64::from(round);
+        let away = DVec3::new(24.0 * real::cos(turn), 24.0 * real::sin(turn), 7.0 + 5.0 * f64::from(round));
+        let followed = TargetSetup { body: others[round as usize].walker.body, ..target(DVec3::ZERO) };
+        let pose = Pose::looking_at(away, DVec3::ZERO);
+        let setup = FrameSetup { pose, weather: &noon(), target: Some(followed), others: &others };
+        let Drawn { images, view, others: views } = draw(&mut Renderer::new(CAMERA), &scene, &setup);
+        let mut drawn: Vec<_> = vec![(followed.walker(), TARGET_INSTANCE)];
+        drawn.extend(others.iter().map(|other| (other.walker, other.instance)));
+        let (mut triangles, mut labels) = (vec![], vec![]);
+        for (walker, instance) in &drawn {
+            let mut figure = vec![];
+            cosfly_render::figure::figure(walker, &Clothes::draw(&walker.clothes_seed), 0, &mut figure);
+            for triangle in figure {
+                triangles.push((triangle.corners_in_world, labels.len() as u32));
+                labels.push((walker.body.label(triangle.region), *instance));
+            }
+        }
+        labels.push((SemanticLabel::Sky, 0));
+        let (mut vehicles, mut wrong) = (0, 0);
+        let worth_a_ray = |pixel: &usize| pixel.is_multiple_of(if images.instance[*pixel] == 0 { 501 } else { 7 });
+        for pixel in (0..images.instance.len()).filter(worth_a_ray) {
+            let ray = CAMERA.ray_in_world(&pose, (pixel % 640) as f64 + 0.5, (pixel / 640) as f64 + 0.5);
+            let (depth, first) = cast(&triangles, pose.position_in_world, ray);
+            let (label, owner) = labels[if depth.is_finite() { first as usize } else { labels.len() - 1 }];
+            let seen = f64::from(images.depth_m[pixel]);
+            let is_deep = seen != depth && (seen - depth).abs() > 6e-3 + 1e-5 * depth;
+            vehicles += usize::from(owner != 0);
+            wrong += usize::from(is_deep || images.instance[pixel] != owner || images.semantic[pixel] != label.id());
+        }
+        assert!(vehicles > 1000 && wrong * 500 < vehicles, "round {round}: {wrong} of {vehicles}");
+        assert!(view.in_view && view.pixels > 0 && views.len() > 5, "round {round}");
+    }
 }
 
 #[test]

@@ -4,7 +4,7 @@ mod small_town;
 
 use cosfly_frames::simd::Level;
 use cosfly_frames::{DVec3, Pose, Seed, TargetState};
-use cosfly_render::{Camera, FrameImages, FrameSetup, PictureLook, Renderer, Scene, TargetSetup, Weather};
+use cosfly_render::{BodyShape, Camera, FrameImages, FrameSetup, PictureLook, Renderer, Scene, TargetSetup, Weather};
 
 const CAMERA: Camera = Camera { width: 333, height: 187, horizontal_fov_rad: 1.4 };
 
@@ -18,6 +18,7 @@ fn draw(renderer: &mut Renderer, scene: &Scene, weather: &str) -> FrameImages {
         clothes_seed: Seed([2; 32]),
         gait_phase_rad: 0.8,
         visible_by_rays: 0.5,
+        body: BodyShape::default(),
     };
     let pose = Pose::looking_at(feet + DVec3::new(-16.0, 5.0, 7.0), feet + 2.0 * DVec3::Z);
     renderer.render(scene, &FrameSetup { pose, weather: &weather, target: Some(target), others: &[] }).images.clone()

@@ -7,7 +7,8 @@ use cosfly_geometry::OrientedBox;
 use cosfly_maps::{Obstacle, ObstacleKind, SemanticLabel, SurfaceMesh, Town};
 use cosfly_render::frame::TARGET_INSTANCE;
 use cosfly_render::{
-    Camera, FrameImages, FrameSetup, PixelBox, Renderer, Scene, TargetSetup, TargetView, Weather, target_triangles,
+    BodyShape, Camera, FrameImages, FrameSetup, PixelBox, Renderer, Scene, TargetSetup, TargetView, Weather,
+    target_triangles,
 };
 
 fn noon() -> Weather {
@@ -26,6 +27,7 @@ fn walker(feet: DVec3) -> TargetSetup {
         clothes_seed: Seed([2; 32]),
         gait_phase_rad: 0.8,
         visible_by_rays: 0.5,
+        body: BodyShape::default(),
     }
 }
 

@@ -5,6 +5,10 @@
 //! `tunnel` with crowns that nearly touch), `alley` and `canyon` are gaps of 4.5 to 7 m and
 //! 4.2 to 5.2 m between houses of 20 to 45 m and 40 to 60 m. `fine` is `leafy` cut into some 65,000 boxes.
 
+mod movers;
+
+pub use movers::movers_around;
+
 use cosfly_frames::{DVec2, DVec3, TargetState, TargetTrack, real};
 use cosfly_geometry::OrientedBox;
 use cosfly_random::{RandomStream, Seed};

@@ -1,4 +1,4 @@
-//! The [`Town`] model (obstacles, walkable ground, surfaces, labels), the seam of map formats, and what their readers
+//! The [`Town`] model (obstacles, walkable ground, lanes, surfaces, labels), the seam of map formats, and what their readers
 //! share: the world frame, text with places, covers of footprints, ground meshes, land around them, planning boxes.
 
 pub mod census;
@@ -7,6 +7,7 @@ pub mod crown;
 pub mod error;
 pub mod format;
 pub mod ground;
+pub mod lanes;
 pub mod mesh;
 pub mod options;
 pub mod polygons;
@@ -21,6 +22,7 @@ pub mod world;
 pub use error::{MapError, Place};
 pub use format::{Format, MapFormat};
 pub use ground::{GroundIndex, GroundPoint};
+pub use lanes::{Lane, LaneKind};
 pub use options::FormatOptions;
 pub use semantics::SemanticLabel;
 pub use town::{

@@ -1,6 +1,6 @@
 //! The town every stage works in: solid obstacles, ground surfaces, walkable polygons, all in one local world frame.
 
-use crate::SemanticLabel;
+use crate::{Lane, SemanticLabel};
 use cosfly_frames::{DVec2, DVec3};
 use cosfly_geometry::OrientedBox;
 use serde::{Deserialize, Serialize};
@@ -21,6 +21,9 @@ pub struct Town {
     pub simplification: SimplificationReport,
     /// Ground the pedestrians may use.
     pub walkable: Vec<WalkablePolygon>,
+    /// Lanes of vehicles, where the map has them.
+    #[serde(default)]
+    pub lanes: Vec<Lane>,
     /// Roads, pavements, crossings, road marks, terrain: thin, not obstacles, but visible and hit by depth rays.
     pub surfaces: Vec<SurfaceMesh>,
     /// Parts of this town that were invented and are not in the file.
@@ -231,6 +234,7 @@ impl Town {
                 return Err(format!("walkable polygon {i} has {} corners or one that is far away", outline.len()));
             }
         }
+        self.check_lanes(near)?;
         for (i, mesh) in self.surfaces.iter().enumerate() {
             let count = mesh.vertices_in_world.len();
             if mesh.along_across_m.len() != count || !mesh.along_across_m.iter().all(|uv| uv.is_finite()) {

@@ -58,7 +58,7 @@ mod tests {
             body(BodyKind::Car, car, DVec3::new(2.5, 0.0, 0.0)),
             body(BodyKind::Pedestrian, person, DVec3::new(2.5, 0.0, 5.0)),
         ];
-        let traffic = Traffic { dt_s: 0.5, frames: 1, bodies, notes: vec![] };
+        let traffic = Traffic { dt_s: 0.5, frames: 1, bodies, ..Traffic::default() };
         let found = contacts(&traffic, 0.0);
         assert_eq!(found.iter().map(|contact| contact.bodies).collect::<Vec<_>>(), [[0, 1], [1, 2]]);
         assert!((found[0].depth_m - 0.1).abs() < 1e-12 && (found[1].depth_m - 0.15).abs() < 1e-12, "{found:?}");

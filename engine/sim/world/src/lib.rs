@@ -4,14 +4,18 @@
 //! bodies that move by one rule (a crowd, vehicles on lanes, recorded tracks); [`simulate`] steps several of them together:
 //! all see the same [`Snapshot`] of the moment before, so results depend neither on their order nor on threads.
 
+mod around;
 mod body;
 mod contacts;
+mod look_alikes;
 mod population;
 mod snapshot;
 mod traffic;
 
+pub use around::{Around, Followed};
 pub use body::{Body, BodyKind, BodyPlan};
 pub use contacts::{Contact, contacts};
+pub use look_alikes::{LookAlikeConfig, dress};
 pub use population::{Clock, Population, simulate};
 pub use snapshot::{Present, Snapshot};
 pub use traffic::Traffic;

@@ -106,7 +106,7 @@ pub fn simulate<E>(
         }
     }
     let notes = populations.iter().flat_map(|population| population.notes()).collect();
-    Ok(Traffic { dt_s: clock.dt_s, frames: clock.frames, bodies, notes })
+    Ok(Traffic { name: String::new(), dt_s: clock.dt_s, frames: clock.frames, bodies, notes })
 }
 
 #[cfg(test)]

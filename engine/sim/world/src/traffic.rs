@@ -12,6 +12,8 @@ const ABSENT_M: f64 = 10_000.0;
 /// All bodies of a town over a stretch of time. The place of a body in the list is its number.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Traffic {
+    /// Name, unique in a dataset: that of the stage.
+    pub name: String,
     /// Time between frames, seconds.
     pub dt_s: f64,
     /// Number of frames.
@@ -23,6 +25,11 @@ pub struct Traffic {
 }
 
 impl Traffic {
+    /// Name of a body among those of all traffics of a dataset, such as `street-b00012`.
+    pub fn body_id(traffic: &str, number: u32) -> String {
+        format!("{traffic}-b{number:05}")
+    }
+
     /// Bodies present in a frame.
     pub fn snapshot(&self, frame: u32) -> Snapshot {
         let present = |(number, body): (usize, &Body)| {
@@ -82,7 +89,7 @@ mod tests {
             BodyPlan { source: String::new(), kind: BodyKind::Pedestrian, size_m, looks: Seed([0; 32]), group: None };
         let body = Body { plan, first_frame: 1, states: vec![state(0.0), state(1.0)] };
         let whole = Body { first_frame: 0, states: vec![state(5.0); 4], ..body.clone() };
-        let traffic = Traffic { dt_s: 0.5, frames: 4, bodies: vec![body, whole], notes: vec![] };
+        let traffic = Traffic { dt_s: 0.5, frames: 4, bodies: vec![body, whole], ..Traffic::default() };
         let places: Vec<[f64; 2]> =
             traffic.boxes(0).iter().map(|it| [it.center_in_world.x, it.center_in_world.z]).collect();
         assert_eq!(places, [[0.0, 0.9 - ABSENT_M], [0.0, 0.9], [1.0, 0.9], [1.0, 0.9 - ABSENT_M]]);

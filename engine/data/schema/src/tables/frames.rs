@@ -88,6 +88,9 @@ columns! { Frames::COLUMNS of DatasetItem;
     /// occluder, or only ground.
     occluder_instance: u32 = |item, i| view(item, i).occluder_instance;
 
+    /// Number of other visible bodies of the target's kind in the same clothes: colours of top and trousers in words, backpack.
+    look_alikes: u32 = |item, i| item.record.look_alikes(i) as u32;
+
     /// Step to the next frame along the world's axes: dx, dy, dz (m), dpitch, dyaw, droll (degrees); null on the last frame.
     action_in_world: Option<[f64; 6]> = |item, i| action_from(item, i, action::in_world);
     /// The next pose in the body frame of this one (x ahead, y right, z up): dx, dy, dz (m), dpitch, dyaw, droll (degrees);

@@ -4,13 +4,16 @@
 //! [`of_trajectories`]. Writer, checks, card, `croissant.json` and reference page follow from its columns.
 
 mod arrow_schema;
+mod bodies;
 mod captions;
 mod column;
 mod files;
 mod frames;
+mod losses;
 mod objects;
 mod pairs;
 mod people;
+mod phrases;
 mod rejected;
 mod sight;
 mod table;
@@ -20,16 +23,19 @@ mod waypoints;
 mod windows;
 
 pub use arrow_schema::{hugging_face_features, schema};
+pub use bodies::Bodies;
 pub use captions::Captions;
 pub use column::{AnyColumn, CellProblem, Column};
 pub use cosfly_captions::sight::Landmarks;
 pub use files::{FileRecord, Files};
 pub use frames::{Frames, ROLES};
+pub use losses::Losses;
 pub use objects::{ObjectRecord, Objects, kind_name};
 pub use pairs::Pairs;
 pub use people::People;
+pub use phrases::Phrases;
 pub use rejected::Rejected;
-pub use table::{DatasetItem, INLINE_SETS, Membership, Need, Table};
+pub use table::{DatasetItem, Derived, INLINE_SETS, Membership, Need, Table};
 pub use trajectories::{Trajectories, WEATHER_NUMBERS, WeatherNumber};
 pub use value::{Edges, ImageFile, Kind, Value};
 pub use waypoints::Waypoints;
@@ -44,6 +50,9 @@ pub fn of_trajectories() -> Vec<Table<DatasetItem>> {
         captions::table(),
         pairs::table(),
         people::table(),
+        bodies::table(),
+        losses::table(),
+        phrases::table(),
         windows::table(),
     ]
 }

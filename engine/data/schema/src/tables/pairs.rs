@@ -2,7 +2,7 @@
 
 use super::column::columns;
 use super::{DatasetItem, Table};
-use cosfly_planner::perturb::Kind;
+use cosfly_planner::trajectory::Kind;
 use cosfly_planner::{FramePerturbation, Perturbation};
 
 /// Definition of the table.

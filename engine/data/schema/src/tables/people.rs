@@ -8,8 +8,7 @@ use crate::{OtherPerson, Sighting};
 
 /// Definition of the table.
 pub fn table() -> Table<DatasetItem> {
-    let doc =
-        "Bystanders, one row for each frame that shows at least one pixel of them; empty in towns without bystanders.";
+    let doc = "Bystanders, people and vehicles, one row for each frame that shows at least one pixel of them; empty in towns without bystanders.";
     let key = &["trajectory_id", "frame", "instance"];
     let rows = |item: &DatasetItem| item.record.sightings.len();
     Table { per_frame: true, ..Table::new("people", doc, key, rows, People::COLUMNS) }
@@ -27,8 +26,11 @@ columns! { People::COLUMNS of DatasetItem;
     frame: u32 = |item, i| sighting(item, i).frame;
     /// Id in instance images and in `frames.occluder_instance`: greater than those of all objects.
     instance: u32 = |item, i| person(item, i).instance;
-    /// Stage and item of the walk, such as `crowd-p00003`; the same person in all trajectories.
+    /// Stage and item of the walk, such as `crowd-p00003`, or traffic and number of the body, such as `street-b00003`; the same
+    /// person in all trajectories.
     walk_id: String = |item, i| person(item, i).walk_id.clone();
+    /// `pedestrian`, `bicycle`, `motorcycle`, `car`, `van`, `truck` or `bus`.
+    kind: String = |item, i| person(item, i).kind.name().to_owned();
     /// Ground point between the feet, world frame: x, y, z.
     feet_in_world_m: [f64; 3] = |item, i| sighting(item, i).state.feet_in_world.to_array();
     /// Walking direction, positive: x towards y.
@@ -39,11 +41,11 @@ columns! { People::COLUMNS of DatasetItem;
     height_m: f64 = |item, i| person(item, i).height_m;
     /// Radius of the body seen from above.
     radius_m: f64 = |item, i| person(item, i).radius_m;
-    /// Colour of the shirt or jacket in words.
+    /// Colour of the shirt or jacket in words; of a vehicle without a rider, of its paint.
     top_colour: String = |item, i| person(item, i).outfit.top.name.name().to_owned();
     /// Colour of the shirt or jacket: share of light that it reflects, linear red, green, blue.
     top_linear_rgb: [f64; 3] = |item, i| person(item, i).outfit.top.linear_rgb.map(f64::from);
-    /// Colour of the trousers in words.
+    /// Colour of the trousers in words; of a vehicle without a rider, of its paint.
     trousers_colour: String = |item, i| person(item, i).outfit.trousers.name.name().to_owned();
     /// Whether the person wears a backpack.
     has_backpack: bool = |item, i| person(item, i).outfit.backpack;

@@ -7,8 +7,9 @@ use cosfly_captions::sight::{self, Person, View};
 use cosfly_captions::{Language, Wear};
 use cosfly_frames::{Seed, TargetState};
 use cosfly_render::{Colour, PixelBox};
+use cosfly_world::BodyKind;
 
-/// The instruction of frame `frame`, of a window that begins at frame `start`; empty for a target without a body.
+/// The instruction of frame `frame`, of a window that begins at frame `start`; empty for a target that is no person.
 pub fn instruction(item: &DatasetItem, frame: usize, start: usize, language: Language) -> String {
     let Some(view) = view(item, frame, start) else { return String::new() };
     let record = &item.record;
@@ -16,15 +17,17 @@ pub fn instruction(item: &DatasetItem, frame: usize, start: usize, language: Lan
     sight::instruction(&sight::sight(&view, &item.landmarks), language, seed)
 }
 
-/// The picture of frame `frame`; `None` for a target without a body.
+/// The picture of frame `frame`; `None` for a target that is no person.
 fn view(item: &DatasetItem, frame: usize, start: usize) -> Option<View> {
     let record = &item.record;
-    let outfit = record.outfit.as_ref()?;
+    let outfit = record.outfit.as_ref().filter(|_| record.target_kind() == Some(BodyKind::Pedestrian))?;
     let states = &record.trajectory.track.states;
     let seen = &record.views[frame];
     let other = |(person, sighting): (&OtherPerson, &Sighting)| {
         let view = &sighting.view;
-        self::person(&sighting.state, Some(&view.visible_box), view.pixels, person.outfit.top.name)
+        // A rider is somebody, but nobody whom a text counts.
+        let pixels = if person.kind.is_person() { view.pixels } else { 0 };
+        self::person(&sighting.state, Some(&view.visible_box), pixels, person.outfit.top.name)
     };
     Some(View {
         camera: record.camera_pose(frame),
@@ -32,8 +35,13 @@ fn view(item: &DatasetItem, frame: usize, start: usize) -> Option<View> {
         target: person(&states[frame], seen.visible_box.as_ref(), seen.pixels, outfit.top.name),
         wear: Some(Wear::from(outfit)),
         moved_in_world: states[frame].feet_in_world - states[start].feet_in_world,
-        others: record.seen_in(frame).map(other).collect(),
+        others: record.seen_in(frame).filter(|it| is_somebody(it.0.kind)).map(other).collect(),
     })
+}
+
+/// Whether people are seen on such a body.
+fn is_somebody(kind: BodyKind) -> bool {
+    matches!(kind, BodyKind::Pedestrian | BodyKind::Bicycle | BodyKind::Motorcycle)
 }
 
 fn person(state: &TargetState, visible_box: Option<&PixelBox>, pixels: u32, top: Colour) -> Person {

@@ -1,6 +1,8 @@
 //! Definition of a table: its columns, and the rows of a record.
 
 use super::column::AnyColumn;
+use crate::losses::Loss;
+use crate::phrases::Given;
 use crate::{CaptionRecord, LogRecord, PreviewStrip, RenderedTrajectory, Split, TownLayout};
 use cosfly_captions::sight::Landmarks;
 use cosfly_metrics::WindowShape;
@@ -12,6 +14,8 @@ use std::sync::Arc;
 pub struct DatasetItem {
     /// Record of the render stage.
     pub record: RenderedTrajectory,
+    /// Rows of tables that are worked out once for a trajectory.
+    pub derived: Derived,
     /// Captions of the trajectory.
     pub captions: Vec<CaptionRecord>,
     /// Previews of the frames; empty unless a table needs them.
@@ -30,6 +34,24 @@ pub struct DatasetItem {
     pub landmarks: Arc<Landmarks>,
     /// Shape of training windows.
     pub windows: WindowShape,
+}
+
+/// Rows of tables that are worked out once for a trajectory.
+#[derive(Clone, Debug)]
+pub struct Derived {
+    /// Intervals without sight of the target.
+    pub losses: Vec<Loss>,
+    /// Referring phrases.
+    pub phrases: Vec<Given>,
+    /// Present bodies around the target, frame by frame: frame number and place among the bodies.
+    pub bodies: Vec<(u32, u32)>,
+}
+
+impl Derived {
+    /// Of a trajectory.
+    pub fn of(record: &RenderedTrajectory) -> Self {
+        Self { losses: Loss::all(record), phrases: Given::all(record), bodies: record.around.present() }
+    }
 }
 
 /// Split, split group and subset of a trajectory.

@@ -7,7 +7,7 @@ use cosfly_metrics::WindowShape;
 use cosfly_schema::RenderedTrajectory;
 use cosfly_schema::TownLayout;
 use cosfly_schema::config::DatasetConfig;
-use cosfly_schema::tables::DatasetItem;
+use cosfly_schema::tables::{DatasetItem, Derived};
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
@@ -72,6 +72,7 @@ impl<'a> GroupFlights<'a> {
             return Err(Diagnostic::new("dataset-order", Fault::Bug, message));
         };
         Ok(DatasetItem {
+            derived: Derived::of(&record),
             captions: self.source.captions(index)?,
             previews: self.source.previews(index)?,
             log: log.clone(),

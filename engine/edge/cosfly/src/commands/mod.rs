@@ -9,6 +9,7 @@ mod doctor;
 mod elsewhere;
 mod eval;
 mod export;
+mod fly;
 mod gc;
 mod graph;
 mod init;
@@ -41,6 +42,7 @@ pub const COMMANDS: &[Entry] = &[
     Entry::of::<doctor::Arguments>(),
     Entry::of::<eval::Arguments>(),
     Entry::of::<export::Arguments>(),
+    Entry::of::<fly::Arguments>(),
     Entry::of::<gc::Arguments>(),
     Entry::of::<graph::Arguments>(),
     Entry::of::<init::Arguments>(),

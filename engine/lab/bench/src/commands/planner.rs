@@ -38,7 +38,9 @@ Examples:
   cosfly-lab planner --solver --scene leafy                the paper's solver table: trees or none, one path or many
   cosfly-lab planner --split                               where our planner's time goes
   cosfly-lab planner --many 6000                           a dataset's worth on all cores
-  cosfly-lab planner --many 10000 --seed 1000              the same to count collisions (there should be none)";
+  cosfly-lab planner --many 10000 --seed 1000              the same to count collisions (there should be none)
+  cosfly-lab planner --many 10000 --movers 50              the same among people, vehicles and things that fly
+  cosfly-lab planner --many 40 --movers 50 --planner astar A* among the same, by the same judge";
 
 /// Arguments of `planner`.
 #[derive(Args, Debug)]
@@ -61,6 +63,9 @@ pub struct PlannerArguments {
     /// Plan this many paths on all cores, check each, and list flights that come too near to obstacles
     #[arg(long, value_name = "N", allow_negative_numbers = true, value_parser = from_one, conflicts_with = "paths")]
     pub many: Option<usize>,
+    /// Boxes that move around each walker; their paths are also planned without them, to compare the time
+    #[arg(long, value_name = "N", default_value_t = 0, requires = "many")]
+    pub movers: usize,
     /// Time the paper's pipeline without a tree, with a tree, and with the boxes near the path
     #[arg(long, conflicts_with_all = ["many", "planners"])]
     pub solver: bool,
@@ -113,7 +118,7 @@ fn flown_in_bulk(
     let contender = contenders(arguments).first().copied().unwrap_or(Contender::Cosfly);
     let kinds = if arguments.scenes.is_empty() { SceneKind::ALL.to_vec() } else { kinds(arguments) };
     let (seed, config) = (arguments.seed.unwrap_or(SEED), MucoConfig::default());
-    let report = many(&ManyOptions { kinds, seed, count, contender, config, progress });
+    let report = many(&ManyOptions { kinds, seed, count, movers: arguments.movers, contender, config, progress });
     Ok(if arguments.json { json(&report) } else { report.to_string() })
 }
 

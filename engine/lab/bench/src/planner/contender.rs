@@ -3,6 +3,7 @@
 use super::plain_bvh::PlainBvh;
 use super::scene::Ground;
 use cosfly_frames::{DVec3, TargetTrack};
+use cosfly_geometry::OrientedBox;
 use cosfly_planner::baselines::grid::VoxelOptions;
 use cosfly_planner::baselines::{Baseline, BaselineInput, BaselinePath, plan_astar, plan_baseline, plan_baseline_with};
 use cosfly_planner::obstacles::{ground::GroundGrid, local::LocalObstacles};
@@ -10,8 +11,7 @@ use cosfly_planner::paper::plan_paper;
 use cosfly_planner::problem::Problem;
 use cosfly_planner::terms::built_in_terms;
 use cosfly_planner::walk::Walk;
-use cosfly_planner::{MucoConfig, PlanOutcome, Preset, plan};
-use cosfly_random::Seed;
+use cosfly_planner::{MucoConfig, PlanOutcome, PlanRequest, Preset, plan_request};
 
 /// A planner of the table.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -114,24 +114,44 @@ impl Contender {
 
     /// Plans one path; the error is the reason for a missing flight.
     pub fn plan(self, ground: &Ground, track: &TargetTrack, config: &MucoConfig) -> Result<Planned, String> {
+        self.plan_among(&[], ground, track, config)
+    }
+
+    /// The same among boxes that move, of which the paper's pipeline alone does not know.
+    pub fn plan_among(
+        self,
+        movers: &[Vec<OrientedBox>],
+        ground: &Ground,
+        track: &TargetTrack,
+        config: &MucoConfig,
+    ) -> Result<Planned, String> {
+        let way = &Way { ground, track, movers };
         match self {
-            Self::Cosfly => flight(ground, track, &MucoConfig { preset: Preset::Cosfly, ..config.clone() }),
-            Self::Preset(preset) => flight(ground, track, &MucoConfig { preset, ..config.clone() }),
+            Self::Cosfly => flight(way, &MucoConfig { preset: Preset::Cosfly, ..config.clone() }),
+            Self::Preset(preset) => flight(way, &MucoConfig { preset, ..config.clone() }),
             Self::Paper => Ok(paper_flight(ground, track, &MucoConfig { preset: Preset::Paper, ..config.clone() })),
-            Self::PaperFlyable => flight(ground, track, &MucoConfig { preset: Preset::Paper, ..config.clone() }),
-            Self::Astar => baseline_path(ground, track, config, &|input| {
+            Self::PaperFlyable => flight(way, &MucoConfig { preset: Preset::Paper, ..config.clone() }),
+            Self::Astar => baseline_path(way, config, &|input| {
                 plan_astar(input, VoxelOptions::default(), |boxes| PlainBvh::build(&boxes))
             }),
-            Self::Baseline(baseline) => baseline_path(ground, track, config, &|input| plan_baseline(baseline, input)),
-            Self::Setting(index) => setting_path(&SETTINGS[index], ground, track, config),
+            Self::Baseline(baseline) => baseline_path(way, config, &|input| plan_baseline(baseline, input)),
+            Self::Setting(index) => setting_path(&SETTINGS[index], way, config),
         }
     }
 }
 
-fn flight(ground: &Ground, track: &TargetTrack, config: &MucoConfig) -> Result<Planned, String> {
-    let seed = Seed::of_item(0, "bench", "planner");
+/// What one flight is planned on.
+struct Way<'a> {
+    ground: &'a Ground,
+    track: &'a TargetTrack,
+    movers: &'a [Vec<OrientedBox>],
+}
+
+fn flight(&Way { ground, track, movers }: &Way<'_>, config: &MucoConfig) -> Result<Planned, String> {
     let height = |x: f64, y: f64| (ground.height)(x, y);
-    match plan(track, ground.exact.as_ref(), &ground.planning_boxes, &height, config, seed) {
+    let mut request = PlanRequest::new(track, ground.exact.as_ref(), &ground.planning_boxes, &height, config);
+    request.movers = movers;
+    match plan_request(request) {
         PlanOutcome::Planned(flight) => Ok(Planned {
             waypoints: flight.poses_in_world.iter().map(|pose| pose.position_in_world).collect(),
             nodes: 0,
@@ -155,22 +175,16 @@ fn paper_flight(ground: &Ground, track: &TargetTrack, config: &MucoConfig) -> Pl
     Planned { waypoints: flight.waypoints, nodes: 0, convergence: flight.convergence, lattice_visibility: None }
 }
 
-fn setting_path(
-    setting: &Setting,
-    ground: &Ground,
-    track: &TargetTrack,
-    config: &MucoConfig,
-) -> Result<Planned, String> {
+fn setting_path(setting: &Setting, way: &Way<'_>, config: &MucoConfig) -> Result<Planned, String> {
     let mut own = config.clone();
     own.weights.visibility = setting.visibility.or(own.weights.visibility);
     own.weights.safety = setting.safety.or(own.weights.safety);
     let kind = if setting.smoothed { Baseline::AstarSmoothed } else { Baseline::AstarFast };
-    baseline_path(ground, track, &own, &|input| plan_baseline_with(kind, input, setting.options))
+    baseline_path(way, &own, &|input| plan_baseline_with(kind, input, setting.options))
 }
 
 fn baseline_path(
-    ground: &Ground,
-    track: &TargetTrack,
+    &Way { ground, track, movers }: &Way<'_>,
     config: &MucoConfig,
     find: &dyn Fn(&BaselineInput<'_>) -> Result<BaselinePath, String>,
 ) -> Result<Planned, String> {
@@ -183,6 +197,7 @@ fn baseline_path(
         problem: &problem,
         planning_boxes: &ground.planning_boxes,
         exact: ground.exact.as_ref(),
+        movers,
         ground: &grid,
         config,
     };

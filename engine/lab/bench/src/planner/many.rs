@@ -1,16 +1,21 @@
 //! Many trajectories on all cores: time of a whole dataset, and flights that come too near to obstacles.
 //!
-//! Every flight is checked with another tree than the planner's own, in `f64`, against the unsimplified map.
+//! Every flight is checked with another tree than the planner's own, in `f64`, against the unsimplified map, and against
+//! boxes that move by [`super::contacts`].
 
+use super::contacts::least_distance_m;
 use super::contender::{Contender, Planned};
 use super::figures::COLLISION_M;
 use super::plain_bvh::PlainBvh;
 use super::scene::Ground;
 use crate::clock::timed;
 use cosfly_frames::{DVec3, TargetTrack};
+use cosfly_geometry::OrientedBox;
 use cosfly_planner::MucoConfig;
 use cosfly_planner::certificate::Kinematics;
-use cosfly_scenes::SceneKind;
+use cosfly_planner::obstacles::exact::ExactMap;
+use cosfly_random::Seed;
+use cosfly_scenes::{SceneKind, movers_around};
 use rayon::prelude::*;
 use serde::Serialize;
 use std::fmt;
@@ -37,6 +42,8 @@ pub struct ManyOptions<'a> {
     pub seed: u64,
     /// Number of trajectories.
     pub count: usize,
+    /// Number of boxes that move around each walker.
+    pub movers: usize,
     /// Planner.
     pub contender: Contender,
     /// Limits, view and weights.
@@ -60,6 +67,12 @@ pub struct ManyReport {
     pub planning_wall_s: f64,
     /// CPU time of all planning threads, seconds.
     pub planning_cpu_s: f64,
+    /// The same for the same paths with nothing that moves, seconds; 0 where nothing moves.
+    pub still_cpu_s: f64,
+    /// Number of boxes that move around each walker.
+    pub movers: usize,
+    /// Smallest distance of all flights from boxes that move, metres, capped at 5.
+    pub min_moving_m: f64,
     /// Speed relative to the paper's 25 minutes for 6,000 trajectories.
     pub times_paper: f64,
     /// The same by CPU time instead of wall time, as on an idle machine.
@@ -74,7 +87,7 @@ pub struct ManyReport {
     pub max_acceleration_mps2: f64,
     /// Largest jerk, m/s^3.
     pub max_jerk_mps3: f64,
-    /// Number of flights whose swept path collides.
+    /// Number of flights whose swept path collides with a box, still or moving.
     pub collisions: usize,
     /// Number of flights nearer than the clearance limit.
     pub margin_violations: usize,
@@ -93,13 +106,17 @@ struct Job<'a> {
     ground: &'a Ground,
     judge: &'a PlainBvh,
     track: &'a TargetTrack,
+    movers: Vec<Vec<OrientedBox>>,
     name: String,
 }
 
 /// Evaluation of one flight.
 struct Verdict {
     visibility: f64,
+    /// From boxes that stand still.
     clearance_m: f64,
+    /// From boxes that move.
+    moving_m: f64,
     kinematics: Kinematics,
 }
 
@@ -109,6 +126,8 @@ pub fn many(options: &ManyOptions<'_>) -> ManyReport {
         planner: options.contender.name().to_owned(),
         threads: rayon::current_num_threads(),
         min_clearance_m: CAP_M,
+        min_moving_m: CAP_M,
+        movers: options.movers,
         ..ManyReport::default()
     };
     let scenes: Vec<(SceneKind, u64, usize)> = scenes(options);
@@ -147,13 +166,20 @@ fn plan_round(options: &ManyOptions<'_>, round: &[(SceneKind, u64, usize)], repo
         .flat_map(|(ground, judge, seed)| {
             ground.tracks.iter().enumerate().map(move |(path, track)| {
                 let name = format!("{} --seed {seed}, path {path}", ground.name);
-                Job { ground, judge, track, name }
+                let own = Seed::of_item(*seed, "movers", &ground.name).child("path", path as u64);
+                let movers = movers_around(track, options.movers, own);
+                Job { ground, judge, track, movers, name }
             })
         })
         .collect();
+    let plan = |job: &Job<'_>, movers: &[Vec<OrientedBox>]| {
+        timed(|| options.contender.plan_among(movers, job.ground, job.track, &options.config))
+    };
+    if options.movers > 0 {
+        report.still_cpu_s += jobs.par_iter().map(|job| plan(job, &[]).1).collect::<Vec<f64>>().iter().sum::<f64>();
+    }
     let begin = Instant::now();
-    let planned: Vec<(Result<Planned, String>, f64)> =
-        jobs.par_iter().map(|job| timed(|| options.contender.plan(job.ground, job.track, &options.config))).collect();
+    let planned: Vec<(Result<Planned, String>, f64)> = jobs.par_iter().map(|job| plan(job, &job.movers)).collect();
     report.planning_wall_s += begin.elapsed().as_secs_f64();
     let verdicts: Vec<Result<Verdict, String>> =
         jobs.par_iter().zip(&planned).map(|(job, (planned, _))| judge(job, planned)).collect();
@@ -175,11 +201,11 @@ fn judge(job: &Job<'_>, planned: &Result<Planned, String>) -> Result<Verdict, St
         .zip(ends)
         .map(|(&from, &to)| job.judge.segment_clearance_m(from, to, CAP_M))
         .fold(CAP_M, f64::min);
-    let seen = |(waypoint, state): (&DVec3, _)| {
-        cosfly_planner::visibility(job.ground.exact.as_ref(), *waypoint, state, job.track.height_m)
-    };
-    let visibility = waypoints.iter().zip(&job.track.states).map(seen).sum::<f64>() / waypoints.len().max(1) as f64;
-    Ok(Verdict { visibility, clearance_m, kinematics: Kinematics::of(job.track, waypoints, 0) })
+    let moving_m = least_distance_m(waypoints, &job.movers, CAP_M);
+    let map = ExactMap { query: job.ground.exact.as_ref(), movers: &job.movers };
+    let seen = |frame: usize| map.visibility(frame, waypoints[frame], &job.track.states[frame], job.track.height_m);
+    let visibility = (0..waypoints.len()).map(seen).sum::<f64>() / waypoints.len().max(1) as f64;
+    Ok(Verdict { visibility, clearance_m, moving_m, kinematics: Kinematics::of(job.track, waypoints, 0) })
 }
 
 impl ManyReport {
@@ -191,18 +217,22 @@ impl ManyReport {
         self.planned += 1;
         self.visibility += verdict.visibility;
         self.min_clearance_m = self.min_clearance_m.min(verdict.clearance_m);
+        self.min_moving_m = self.min_moving_m.min(verdict.moving_m);
         let (found, limits) = (verdict.kinematics, config.stated_limits());
         self.max_speed_mps = self.max_speed_mps.max(found.speed_mps);
         self.max_acceleration_mps2 = self.max_acceleration_mps2.max(found.acceleration_mps2);
         self.max_jerk_mps3 = self.max_jerk_mps3.max(found.jerk_mps3);
         self.max_yaw_rate_deg_s = self.max_yaw_rate_deg_s.max(found.yaw_rate_deg_s);
         self.max_pitch_rate_deg_s = self.max_pitch_rate_deg_s.max(found.pitch_rate_deg_s);
-        if verdict.clearance_m < COLLISION_M - ROUNDING {
+        let (clearance_m, moving_m) = (verdict.clearance_m, verdict.moving_m);
+        let words = format!("{}: clearance {clearance_m:.3} m, from what moves {moving_m:.3} m", job.name);
+        let least_m = clearance_m.min(moving_m);
+        if least_m < COLLISION_M - ROUNDING {
             self.collisions += 1;
-            self.incident(format!("collision: {}: clearance {:.3} m", job.name, verdict.clearance_m));
-        } else if verdict.clearance_m < limits.clearance_m - ROUNDING {
+            self.incident(format!("collision: {words}"));
+        } else if least_m < limits.clearance_m - ROUNDING {
             self.margin_violations += 1;
-            self.incident(format!("too near: {}: clearance {:.3} m", job.name, verdict.clearance_m));
+            self.incident(format!("too near: {words}"));
         }
         let beyond = found.violations(&limits);
         if !beyond.is_empty() {
@@ -232,6 +262,15 @@ impl fmt::Display for ManyReport {
             f,
             "{wall:.0} times as fast as the paper's 25 minutes for 6,000 trajectories ({undisturbed:.0} undisturbed)"
         )?;
+        if self.movers > 0 {
+            let ratio = self.planning_cpu_s / self.still_cpu_s.max(1e-9);
+            let (movers, least_m) = (self.movers, self.min_moving_m);
+            writeln!(
+                f,
+                "among {movers} boxes that move: {ratio:.2} times the CPU time of the same paths without them"
+            )?;
+            writeln!(f, "least distance from a box that moves {least_m:.3} m, moments a 25th of a frame apart")?;
+        }
         let none = self.paths - self.planned;
         writeln!(f, "{} flights, {none} paths without; mean visibility {:.4}", self.planned, self.visibility)?;
         writeln!(
@@ -258,7 +297,7 @@ mod tests {
 
     fn check(contender: Contender, config: MucoConfig) -> ManyReport {
         let kinds = vec![SceneKind::Alley, SceneKind::Canyon];
-        many(&ManyOptions { kinds, seed: 3, count: 23, contender, config, progress: &|_, _| {} })
+        many(&ManyOptions { kinds, seed: 3, count: 23, movers: 50, contender, config, progress: &|_, _| {} })
     }
 
     #[test]

@@ -4,6 +4,7 @@
 //! flights against the unsimplified map ([`figures`]); [`tabulate`] summarises them in rows, and [`front`] sets visibility
 //! against learnability.
 
+pub mod contacts;
 pub mod contender;
 pub mod figures;
 pub mod front;

@@ -66,20 +66,15 @@ impl PlainBvh {
         self.blocker(from, to).is_some()
     }
 
-    /// Number of `points` visible from `camera`. The occluder of the last point is tested first.
-    pub fn visible_points(&self, camera: DVec3, points: &[DVec3]) -> usize {
+    /// Whether each of `points` is hidden from `camera`. The occluder of the last point is tested first.
+    pub fn hide(&self, camera: DVec3, points: &[DVec3], hidden: &mut [bool]) {
         let mut last: Option<&Solid> = None;
-        let mut visible = 0;
-        for &point in points {
-            if last.is_some_and(|solid| solid.meets_segment(camera, point)) {
-                continue;
+        for (&point, hidden) in points.iter().zip(hidden) {
+            if !last.is_some_and(|solid| solid.meets_segment(camera, point)) {
+                last = self.blocker(camera, point).or(last);
             }
-            match self.blocker(camera, point) {
-                Some(solid) => last = Some(solid),
-                None => visible += 1,
-            }
+            *hidden = last.is_some_and(|solid| solid.meets_segment(camera, point));
         }
-        visible
     }
 
     /// A box that meets the segment, if any.
@@ -284,8 +279,8 @@ fn split(solids: &mut [Solid], depth: usize) -> usize {
 }
 
 impl Sight for PlainBvh {
-    fn visible_points(&self, camera: DVec3, body: &[DVec3]) -> usize {
-        PlainBvh::visible_points(self, camera, body)
+    fn hide(&self, camera: DVec3, body: &[DVec3], hidden: &mut [bool]) {
+        PlainBvh::hide(self, camera, body, hidden);
     }
 
     fn distance_m(&self, point: DVec3, within_m: f64) -> f64 {

@@ -7,7 +7,7 @@ use cosfly_maps::GroundIndex;
 use cosfly_pedestrians::{PedestrianConfig, WalkableGrid, walk};
 use cosfly_planner::{MucoConfig, PlanOutcome, plan};
 use cosfly_random::Seed;
-use cosfly_render::{TargetSetup, gait_phase_rad};
+use cosfly_render::{BodyShape, TargetSetup, gait_phase_rad};
 
 /// Expert flights behind `count` walkers, `frames` frames each, with the defaults of all recipes. Empty in a town
 /// without walkable ground.
@@ -38,6 +38,7 @@ pub fn flown(ground: &Ground, frames: usize, count: u64) -> Vec<Vec<View>> {
                         clothes_seed: seed,
                         gait_phase_rad: gait_phase_rad(walked_m, track.height_m),
                         visible_by_rays: 1.0,
+                        body: BodyShape::default(),
                     },
                 };
                 Some(shown.take(frames).map(view).collect())

@@ -8,7 +8,7 @@ use cosfly_maps::{
     Synthetic, Town, WalkableKind, read_town,
 };
 use cosfly_random::Seed;
-use cosfly_render::{Camera, Scene, TargetSetup, gait_phase_rad};
+use cosfly_render::{BodyShape, Camera, Scene, TargetSetup, gait_phase_rad};
 use serde::Serialize;
 
 /// Distance from the camera to the target, metres.
@@ -149,6 +149,7 @@ fn follower(tree: &BoxBvh, feet: DVec3, index: usize) -> View {
         clothes_seed: Seed([9; 32]),
         gait_phase_rad: gait_phase_rad(0.7 * index as f64, HEIGHT_M),
         visible_by_rays: 1.0,
+        body: BodyShape::default(),
     };
     View { pose: Pose::looking_at(from(turn), chest), target }
 }
@@ -202,6 +203,7 @@ fn box_town(boxes: usize) -> Town {
         planning_boxes: vec![],
         simplification: SimplificationReport::default(),
         walkable: vec![],
+        lanes: vec![],
         surfaces: vec![ground],
         synthetic: Synthetic::default(),
         min_in_world: DVec3::new(-half, -half, 0.0),

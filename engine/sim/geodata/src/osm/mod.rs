@@ -7,6 +7,7 @@ mod buildings;
 mod elements;
 mod frame;
 mod heights;
+mod lanes;
 mod options;
 mod paths;
 mod pavements;

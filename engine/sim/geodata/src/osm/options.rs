@@ -16,10 +16,12 @@ pub struct OsmOptions {
     /// Whether to invent pavements on both sides of every street whose file says nothing of pavements. Off by default; a
     /// file with no ground for people at all gets them anyway.
     pub assume_pavements: bool,
+    /// Whether traffic keeps to the left, as in Britain, Japan, India or Singapore; files do not say. Default false.
+    pub left_hand_traffic: bool,
 }
 
 impl Default for OsmOptions {
     fn default() -> Self {
-        Self { default_building_height_m: 8.0, storey_height_m: 3.0, assume_pavements: false }
+        Self { default_building_height_m: 8.0, storey_height_m: 3.0, assume_pavements: false, left_hand_traffic: false }
     }
 }

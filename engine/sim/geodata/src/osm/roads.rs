@@ -14,7 +14,7 @@ pub const LINE_MARGIN_M: f64 = 30.0;
 /// Most metres of roads and paths, all together.
 const LONGEST_M: f64 = 2e7;
 /// Height of carriageways, of paint on them, of rails, metres.
-const ROAD_HEIGHT_M: f64 = 0.03;
+pub const ROAD_HEIGHT_M: f64 = 0.03;
 const PAINT_HEIGHT_M: f64 = 0.04;
 const RAIL_HEIGHT_M: f64 = 0.035;
 /// Half the gauge of a track with its sleepers, metres.
@@ -34,6 +34,8 @@ pub struct Road<'e> {
     pub pieces: Vec<Vec<DVec2>>,
     /// Half its width, metres.
     pub half_width_m: f64,
+    /// Whether traffic goes one way only.
+    pub is_oneway: bool,
     has_middle_line: bool,
 }
 
@@ -79,7 +81,7 @@ pub fn read<'e>(elements: &'e Elements, frame: &Frame) -> Result<Vec<Road<'e>>, 
         let pieces = lines(elements, frame, way, &mut length_m)?;
         let has_middle_line = has_middle_line && !is_oneway && stated_lanes.unwrap_or(lanes) >= 2.0;
         if !pieces.is_empty() {
-            roads.push(Road { way, pieces, half_width_m: 0.5 * width_m, has_middle_line });
+            roads.push(Road { way, pieces, half_width_m: 0.5 * width_m, is_oneway, has_middle_line });
         }
     }
     Ok(roads)

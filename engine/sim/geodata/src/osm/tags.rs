@@ -15,6 +15,10 @@ const KEYS: &[&str] = &[
     "covered",
     "crossing",
     "crossing:markings",
+    "cycleway",
+    "cycleway:both",
+    "cycleway:left",
+    "cycleway:right",
     "diameter_crown",
     "est_height",
     "foot",
@@ -25,11 +29,14 @@ const KEYS: &[&str] = &[
     "junction",
     "landuse",
     "lanes",
+    "lanes:backward",
+    "lanes:forward",
     "layer",
     "leisure",
     "level",
     "location",
     "man_made",
+    "maxspeed",
     "min_height",
     "natural",
     "oneway",
@@ -152,6 +159,19 @@ pub fn length_m(text: &str) -> Option<f64> {
     Some(number(value)? * metres)
 }
 
+/// A speed limit as the map's users write it, m/s: `50`, `30 mph`, `walk`; the first of several.
+pub fn speed_mps(text: &str) -> Option<f64> {
+    let first = text.split([';', '|']).next()?.trim();
+    if first == "walk" {
+        return Some(7.0 / 3.6);
+    }
+    let (value, unit_mps) = match first.strip_suffix("mph") {
+        Some(value) => (value, 0.44704),
+        None => (first.trim_end_matches("km/h"), 1.0 / 3.6),
+    };
+    Some(number(value.trim())? * unit_mps).filter(|limit| (1.0..=100.0).contains(limit))
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -180,6 +200,14 @@ mod tests {
         for text in ["", "high", "NaN", "inf", "1e9", "3 storeys", "m", "'", "--", "1.2.3"] {
             assert_eq!(length_m(text), None, "{text}");
         }
+    }
+
+    #[test]
+    fn speed_limits_are_read_in_both_units() {
+        for (text, mps) in [("50", 50.0 / 3.6), ("30 mph", 13.4112), ("20km/h", 20.0 / 3.6), ("walk", 7.0 / 3.6)] {
+            assert!((speed_mps(text).unwrap() - mps).abs() < 1e-9, "{text}");
+        }
+        assert!(["none", "signals", "DE:urban", "", "1e9"].iter().all(|text| speed_mps(text).is_none()));
     }
 
     #[test]

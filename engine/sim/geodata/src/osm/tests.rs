@@ -375,3 +375,36 @@ fn a_ring_of_a_million_corners_is_left_out_with_its_number() {
     assert!(town.obstacles.is_empty());
     assert!(warnings[0].contains("too many corners") && warnings[0].contains("way 77"), "{warnings:?}");
 }
+
+#[test]
+fn streets_have_lanes_on_the_right_that_turn_at_junctions() {
+    // Two streets that meet, the second a one-way street; a node is about 11 m per unit.
+    let nodes = [(1, -12, 0), (2, 0, 0), (3, 12, 0), (4, 0, 12), (5, 14, 14), (6, 16, 14)];
+    let street = [("highway", "residential"), ("maxspeed", "30")];
+    let rest = way(10, &[1, 2, 3], &street)
+        + &way(11, &[2, 4], &[("highway", "residential"), ("oneway", "yes")])
+        + &way(12, &[5, 6], &[("highway", "service")]);
+    for left_hand_traffic in [false, true] {
+        let options = OsmOptions { left_hand_traffic, ..OsmOptions::default() };
+        let (mut town, _) = OpenStreetMap::read(osm(&nodes, &rest).as_bytes(), &options).unwrap();
+        town.link_lanes();
+        town.update_bounds();
+        town.assert_well_formed().unwrap();
+        let streets: Vec<_> = town.lanes.iter().filter(|lane| !lane.in_junction).collect();
+        assert_eq!(streets.len(), 5, "two pieces both ways, and one way north");
+        for lane in &streets {
+            let [from, to] = [lane.middle_in_world[0], lane.middle_in_world[lane.middle_in_world.len() - 1]];
+            let along = (to - from).truncate().normalize();
+            if along.x.abs() > 0.9 {
+                // y grows to the south: right of a way to the east is south.
+                let right_m = from.y * along.x;
+                assert!(right_m * if left_hand_traffic { -1.0 } else { 1.0 } > 1.0, "{from} {to}");
+                assert!((lane.speed_limit_mps - 30.0 / 3.6).abs() < 1e-9);
+            }
+            let leaves = to.truncate().length() > from.truncate().length();
+            assert_eq!(lane.successors.len(), if leaves { 0 } else { 2 }, "straight on, and into the one-way street");
+        }
+        let ways = town.lanes.iter().filter(|lane| lane.in_junction);
+        assert_eq!(ways.map(|lane| lane.successors.len()).collect::<Vec<_>>(), [1; 4]);
+    }
+}

@@ -6,7 +6,7 @@ use super::options::OsmOptions;
 use super::rings::{Problems, areas};
 use super::tags::Tags;
 use super::things::Things;
-use super::{buildings, paths, roads, sea, things};
+use super::{buildings, lanes, paths, roads, sea, things};
 use crate::open_ground::add_open_ground;
 use crate::slabs::trapezoids;
 use cosfly_frames::DVec2;
@@ -58,6 +58,7 @@ pub fn town(elements: &Elements, options: &OsmOptions) -> Result<(Town, Vec<Stri
         origin: MapOrigin { geo_reference: Some(frame.projection.proj_text()), ..MapOrigin::default() },
         obstacles,
         walkable: paths.walkable,
+        lanes: lanes::lanes(&roads, options.left_hand_traffic),
         surfaces,
         synthetic: Synthetic { notes, ..Synthetic::default() },
         ..Town::default()

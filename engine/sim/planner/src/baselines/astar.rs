@@ -73,7 +73,7 @@ impl<S: Sight> Search<'_, S> {
                 record[MARKS] |= CLOSED;
                 return None;
             }
-            let seen = self.sight.visible_points(self.grid.position(cell), &self.grid.layers[cell.layer].body);
+            let seen = self.grid.visible_points(cell, self.sight);
             let more = self.grid.obstacle_cost(cell.layer, distance_m, seen);
             record[MARKS] |= SEEN;
             if more > 0.0 {

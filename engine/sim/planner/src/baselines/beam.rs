@@ -76,7 +76,7 @@ fn survivors(
         if distance_m < keep_m {
             continue;
         }
-        let seen = sight.visible_points(grid.position(node.cell), &grid.layers[node.cell.layer].body);
+        let seen = grid.visible_points(node.cell, sight);
         node.cost += grid.obstacle_cost(node.cell.layer, distance_m, seen);
         alive.push(node);
         if alive.len() == 2 * width {

@@ -30,9 +30,16 @@ impl ClearanceCache {
         Self { low, size, distance_m: vec![f32::NAN; kept], within_m }
     }
 
-    /// The distance of a cell's middle.
+    /// The distance of a cell's middle from all obstacles.
     #[inline]
     pub fn distance_m(&mut self, grid: &VoxelGrid<'_>, cell: Cell, sight: &impl Sight) -> f64 {
+        let still_m = self.still_m(grid, cell, sight);
+        grid.moving.distance_m(grid.layers[cell.layer].frame, grid.position(cell), still_m)
+    }
+
+    /// The distance from what stands still.
+    #[inline]
+    fn still_m(&mut self, grid: &VoxelGrid<'_>, cell: Cell, sight: &impl Sight) -> f64 {
         if self.distance_m.is_empty() {
             return sight.distance_m(grid.position(cell), self.within_m);
         }
@@ -57,12 +64,27 @@ pub fn move_is_free(
     length_m: f64,
     keep_m: f64,
 ) -> bool {
-    let at_start = cache.distance_m(grid, from, sight);
+    let (frames, ends) =
+        (grid.layers[from.layer].frame..grid.layers[to.layer].frame, (grid.position(from), grid.position(to)));
+    grid.moving.is_free(frames, ends.0, ends.1, keep_m)
+        && still_is_free(cache, grid, sight, (from, to), length_m, keep_m)
+}
+
+#[inline]
+fn still_is_free(
+    cache: &mut ClearanceCache,
+    grid: &VoxelGrid<'_>,
+    sight: &impl Sight,
+    (from, to): (Cell, Cell),
+    length_m: f64,
+    keep_m: f64,
+) -> bool {
+    let at_start = cache.still_m(grid, from, sight);
     if at_start - length_m >= keep_m {
         return true;
     }
     // No point of the segment is nearer than either end's distance less the way from that end.
-    let at_end = cache.distance_m(grid, to, sight);
+    let at_end = cache.still_m(grid, to, sight);
     if at_end < keep_m || 0.5 * (at_start + at_end - length_m) >= keep_m {
         return at_end >= keep_m;
     }

@@ -13,10 +13,12 @@ const OBJECTIVE: Objective = Objective { rounds: 4, iterations: 160, nearness: 0
 pub fn made_flyable(input: &BaselineInput<'_>, found: BaselinePath) -> BaselinePath {
     let (track, config) = (input.problem.track, input.config);
     let (radius_m, influence_m) = (config.search.filter_radius_m, config.view.safety_influence_m);
-    let mut obstacles = LocalObstacles::filter(track, input.planning_boxes, input.ground, radius_m, influence_m);
+    let mut obstacles = LocalObstacles::filter(track, input.planning_boxes, input.ground, radius_m, influence_m)
+        .with_movers(input.movers);
     obstacles.focus_on(&found.waypoints);
     let ground = |x: f64, y: f64| input.ground.z_m(x, y);
-    let mut judge = Judge::new(input.problem, ExactMap::still(input.exact), &ground, config, &[]);
+    let mut judge =
+        Judge::new(input.problem, ExactMap { query: input.exact, movers: input.movers }, &ground, config, &[]);
     let (waypoints, _) = judge.make_flyable(&obstacles, &found.waypoints, &found.waypoints, OBJECTIVE);
     BaselinePath { waypoints, ..found }
 }

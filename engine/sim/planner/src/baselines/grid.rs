@@ -1,12 +1,16 @@
 //! The voxels around a moving target, layer by layer in time, and what they cost before any ray is cast.
 
+use super::moving_layers::MovingLayers;
+use super::sight::Sight;
 use crate::config::muco::MucoConfig;
 use crate::obstacles::ground::GroundGrid;
+use crate::obstacles::local::LocalObstacles;
 use crate::problem::Problem;
 use crate::terms::place::PlaceCosts;
 use crate::terms::{length, viewpoint};
 use crate::visibility::{BODY_POINTS, body_points};
 use cosfly_frames::{DVec3, TargetState};
+use cosfly_geometry::OrientedBox;
 
 /// Time between layers that one move of a voxel fits, seconds (the paper's time step).
 const LAYER_S: f64 = 0.5;
@@ -68,6 +72,8 @@ pub struct VoxelGrid<'a> {
     pub move_cost: [f32; MOVES],
     /// Length of each move, metres.
     pub move_m: [f64; MOVES],
+    /// Boxes that move.
+    pub moving: MovingLayers,
 }
 
 impl<'a> VoxelGrid<'a> {
@@ -104,7 +110,28 @@ impl<'a> VoxelGrid<'a> {
         let move_cost = move_m.map(|length_m| (per_m * length_m) as f32);
         let clearance_m = config.limits.clearance_m;
         let costs = PlaceCosts { weights, view };
-        Ok(Self { problem, ground, costs, clearance_m, options, origin, size, layers, move_cost, move_m })
+        let moving = MovingLayers::default();
+        Ok(Self { problem, ground, costs, clearance_m, options, origin, size, layers, move_cost, move_m, moving })
+    }
+
+    /// The same among boxes that move.
+    pub fn among(mut self, movers: &[Vec<OrientedBox>], config: &MucoConfig) -> Self {
+        let (view, influence_m) = (self.problem.view, config.view.safety_influence_m);
+        let obstacles =
+            LocalObstacles::filter(self.problem.track, &[], self.ground, config.search.filter_radius_m, influence_m)
+                .with_movers(movers);
+        let band = (view.min_altitude_m - 0.5 * self.options.voxel_m, view.max_radius_m);
+        self.moving = MovingLayers::new(&obstacles, &self.layers, band, influence_m.max(self.clearance_m));
+        self
+    }
+
+    /// Number of the target's points that are seen from a cell.
+    pub fn visible_points(&self, cell: Cell, sight: &impl Sight) -> usize {
+        let (camera, body) = (self.position(cell), &self.layers[cell.layer].body);
+        let mut hidden = [false; BODY_POINTS];
+        sight.hide(camera, body, &mut hidden);
+        self.moving.hide(cell.layer, camera, body, &mut hidden);
+        hidden.iter().filter(|&&hidden| !hidden).count()
     }
 
     /// Voxels of one layer.

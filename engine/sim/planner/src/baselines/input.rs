@@ -15,6 +15,8 @@ pub struct BaselineInput<'a> {
     pub planning_boxes: &'a [OrientedBox],
     /// All unsimplified boxes.
     pub exact: &'a dyn SpatialQuery,
+    /// Boxes that move, frame by frame; see [`crate::PlanRequest::movers`].
+    pub movers: &'a [Vec<OrientedBox>],
     /// Ground heights.
     pub ground: &'a GroundGrid,
     /// Limits, view, weights.

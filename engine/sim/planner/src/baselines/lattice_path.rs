@@ -10,7 +10,8 @@ pub fn lattice_path(input: &BaselineInput<'_>) -> Result<BaselinePath, String> {
     let (track, config) = (input.problem.track, input.config);
     let influence_m = config.view.safety_influence_m;
     let radius_m = config.search.filter_radius_m;
-    let obstacles = LocalObstacles::filter(track, input.planning_boxes, input.ground, radius_m, influence_m);
+    let obstacles = LocalObstacles::filter(track, input.planning_boxes, input.ground, radius_m, influence_m)
+        .with_movers(input.movers);
     let waypoints =
         search(input.problem, &obstacles, config, full_effort(config), &[], &mut Default::default())?.waypoints;
     let cost = input.problem.cost(&obstacles, &waypoints);

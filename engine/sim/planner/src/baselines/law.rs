@@ -34,7 +34,7 @@ fn with_input<T>(
         Problem { track, view: &config.view, walk: &walk, terms: &terms, built_in: terms.len(), first_frame: 0 };
     let ground = GroundGrid::sample(track, &|_, _| 0.0, 60.0);
     let exact = BruteForce::new(boxes);
-    f(&BaselineInput { problem: &problem, planning_boxes: boxes, exact: &exact, ground: &ground, config })
+    f(&BaselineInput { problem: &problem, planning_boxes: boxes, exact: &exact, movers: &[], ground: &ground, config })
 }
 
 /// Costs of every cell from the terms themselves, hovering there; infinite where it may not be.

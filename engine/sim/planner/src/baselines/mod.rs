@@ -16,6 +16,7 @@ pub mod flyable;
 pub mod grid;
 pub mod input;
 pub mod lattice_path;
+pub mod moving_layers;
 pub mod near_track;
 pub mod plan;
 pub mod queue;

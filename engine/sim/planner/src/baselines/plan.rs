@@ -63,7 +63,7 @@ fn near_boxes(input: &BaselineInput<'_>) -> Vec<OrientedBox> {
 
 fn checked_grid<'a>(input: &BaselineInput<'a>, options: VoxelOptions) -> Result<VoxelGrid<'a>, String> {
     check(input)?;
-    VoxelGrid::new(input.problem, input.ground, input.config, options)
+    Ok(VoxelGrid::new(input.problem, input.ground, input.config, options)?.among(input.movers, input.config))
 }
 
 fn check(input: &BaselineInput<'_>) -> Result<(), String> {

@@ -5,8 +5,8 @@ use cosfly_geometry::{BoxBvh, SpatialQuery};
 
 /// Visibility and clearance among obstacles that stand still. World frame, metres.
 pub trait Sight {
-    /// Number of the `body` points that an unoccluded ray from `camera` reaches.
-    fn visible_points(&self, camera: DVec3, body: &[DVec3]) -> usize;
+    /// Sets for each of the `body` points whether an obstacle hides it from `camera`.
+    fn hide(&self, camera: DVec3, body: &[DVec3], hidden: &mut [bool]);
 
     /// Signed distance to the nearest obstacle, capped at `within_m`.
     fn distance_m(&self, point: DVec3, within_m: f64) -> f64;
@@ -16,11 +16,8 @@ pub trait Sight {
 }
 
 impl Sight for BoxBvh {
-    fn visible_points(&self, camera: DVec3, body: &[DVec3]) -> usize {
-        let mut blocked = [false; crate::visibility::BODY_POINTS];
-        let blocked = &mut blocked[..body.len()];
-        self.blocked_batch(camera, body, blocked);
-        blocked.iter().filter(|&&hidden| !hidden).count()
+    fn hide(&self, camera: DVec3, body: &[DVec3], hidden: &mut [bool]) {
+        self.blocked_batch(camera, body, hidden);
     }
 
     fn distance_m(&self, point: DVec3, within_m: f64) -> f64 {

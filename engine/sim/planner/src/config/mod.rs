@@ -1,6 +1,7 @@
 //! Parameters of the `muco` stage: one file per table of the recipe, with defaults, ranges and contradictions.
 
 pub mod descent;
+pub mod foresight;
 pub mod limits;
 pub mod muco;
 pub mod occlusion;
@@ -12,6 +13,7 @@ pub mod targets;
 pub mod view;
 
 pub use descent::DescentConfig;
+pub use foresight::{CausalConfig, Foresight};
 pub use limits::LimitsConfig;
 pub use muco::MucoConfig;
 pub use occlusion::OcclusionConfig;

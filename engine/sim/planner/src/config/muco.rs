@@ -1,6 +1,7 @@
 //! All parameters of a flight, and the checks that run over several tables at once.
 
 use super::descent::DescentConfig;
+use super::foresight::{CausalConfig, Foresight};
 use super::limits::{LimitsConfig, VIEW_RATE_DEG_S};
 use super::occlusion::OcclusionConfig;
 use super::paper::PaperConfig;
@@ -37,6 +38,11 @@ pub struct MucoConfig {
     pub targets: TargetsConfig,
     /// Losing the target on purpose.
     pub occlusion: OcclusionConfig,
+    /// What the expert knows of the future of its target and of all that moves: `expected` (all of it, the default) or
+    /// `causal` (nothing: it plans again and again as it flies).
+    pub foresight: Foresight,
+    /// The planning of `foresight = "causal"`.
+    pub causal: CausalConfig,
     /// The descent of `preset = "paper"`; of it the other presets use only `difference_m`, for terms without a gradient.
     pub descent: DescentConfig,
     /// Parameters that only `preset = "paper"` reads.
@@ -54,6 +60,8 @@ impl Default for MucoConfig {
             search: SearchConfig::default(),
             targets: TargetsConfig::default(),
             occlusion: OcclusionConfig::default(),
+            foresight: Foresight::Expected,
+            causal: CausalConfig::default(),
             descent: DescentConfig::default(),
             paper: PaperConfig::default(),
         }
@@ -96,7 +104,7 @@ impl MucoConfig {
 
     fn check_ranges(&self) -> Result<(), Refusal> {
         let flight = self.limits.ranges().into_iter().chain(self.view.ranges()).chain(self.search.ranges());
-        let targets = self.targets.ranges().into_iter().chain(self.occlusion.ranges());
+        let targets = self.targets.ranges().into_iter().chain(self.occlusion.ranges()).chain(self.causal.ranges());
         for (path, value, low, high) in flight.chain(targets).chain(self.descent.ranges()) {
             in_range(path, value, low, high)?;
         }
@@ -129,6 +137,7 @@ mod tests {
         check_refused(|c| c.weights.jerk = Some(-1.0), "weights.jerk");
         check_refused(|c| c.descent.min_rate = 1.0, "descent.min_rate");
         check_refused(|c| c.search.radii = 13, "search.radii");
+        check_refused(|c| c.causal.horizon_s = f64::NAN, "causal.horizon_s");
     }
 
     #[test]

@@ -2,7 +2,7 @@
 //!
 //! For a segment and a box near it, the plane through the box's closest point separates them. If both ends of
 //! the segment stay on its free side by the clearance, so does all between: swept safety by construction, for
-//! turned boxes too. Planes of the boxes' shadows keep the line of sight open in the same way, as wishes.
+//! turned boxes too. A plane of a box that moves goes along with it. Planes of the boxes' shadows keep the line of sight open in the same way, as wishes.
 
 use crate::obstacles::local::{GUARDED_POINTS, LocalObstacles};
 use crate::obstacles::{Surroundings, solid::HalfSpace};
@@ -75,7 +75,7 @@ fn add_separations(input: &CorridorInput<'_>, waypoints: &[DVec3], frame: usize,
     let (from, to) = (waypoints[frame], waypoints[last]);
     let (low, high) = (from.min(to), from.max(to));
     let reach = input.keep_out_m + TRUST_M;
-    for solid in input.obstacles.at_frame(frame) {
+    for solid in input.obstacles.still_at(frame) {
         if solid.bounds_gap_m(low, high) > reach {
             continue;
         }
@@ -88,6 +88,21 @@ fn add_separations(input: &CorridorInput<'_>, waypoints: &[DVec3], frame: usize,
         corridor[frame].hard.push(plane);
         if last != frame {
             corridor[last].hard.push(plane);
+        }
+    }
+    for moving in input.obstacles.moving_at(frame) {
+        if moving.gap_m(from, to) > reach {
+            continue;
+        }
+        let approach = moving.approach(from, to);
+        if approach.distance_m > reach {
+            continue;
+        }
+        let mut plane = approach.separation;
+        plane.offset_m += input.keep_out_m;
+        corridor[frame].hard.push(plane);
+        if last != frame {
+            corridor[last].hard.push(moving.at_next(plane));
         }
     }
 }
@@ -108,7 +123,8 @@ fn add_sight(input: &CorridorInput<'_>, waypoint: DVec3, frame: usize, corridor:
     let body = input.obstacles.body(frame);
     let wished = input.wished[frame];
     let (low, high) = (body[0].min(waypoint).min(wished), body[5].max(waypoint).max(wished));
-    for solid in input.obstacles.at_frame(frame) {
+    let moving = input.obstacles.moving_at(frame).iter().filter(|it| !it.is_target).map(|it| &it.here);
+    for solid in input.obstacles.still_at(frame).chain(moving) {
         if solid.bounds_gap_m(low, high) > 0.0 {
             continue;
         }

@@ -50,8 +50,10 @@ struct Profile {
     /// Middle of the box seen from above, and the radius of a disc around the box when grown most.
     away: [f32; 2],
     reach: f32,
-    /// Even when grown most it stays below all nodes: nothing comes near it.
-    below_all: bool,
+    /// Something may come near it: grown most it does not stay below all nodes.
+    closes: bool,
+    /// It hides what is behind it.
+    hides: bool,
 }
 
 impl<'a> Scanner<'a> {
@@ -106,7 +108,21 @@ impl<'a> Scanner<'a> {
         self.profiles.clear();
         let lowest = self.lattice.altitudes_m[0];
         let grown = (keep_out_m + CLOSE_EXTRA_M, lowest);
-        self.profiles.extend(obstacles.at_frame(frame).filter_map(|solid| profile(solid, feet, farthest, grown)));
+        let view = (lowest, self.lattice.radii_m.last().copied().unwrap_or(0.0));
+        let mut add = |solid: &Solid, hides: bool, closes: bool| {
+            self.profiles.extend(profile(solid, feet, farthest, grown, (hides, closes)));
+        };
+        obstacles.still_at(frame).for_each(|solid| add(solid, true, true));
+        for moving in obstacles.moving_at(frame) {
+            // Seen past where it is; kept clear of wherever it goes until the next frame.
+            if moving.may_hide(feet, view) {
+                add(&moving.here, true, false);
+            }
+            let swept = moving.swept();
+            if swept.max.z - feet.z + grown.0 >= lowest {
+                add(&swept, false, true);
+            }
+        }
         self.marks.fill(0);
         let shape = Shape {
             cos: &self.cos,
@@ -165,7 +181,13 @@ fn half_group(azimuths: usize) -> [f32; 2] {
 }
 
 /// `None` when the box is too far away to matter.
-fn profile(solid: &Solid, feet: DVec3, farthest_m: f64, (grow_m, lowest_m): (f64, f64)) -> Option<Profile> {
+fn profile(
+    solid: &Solid,
+    feet: DVec3,
+    farthest_m: f64,
+    (grow_m, lowest_m): (f64, f64),
+    (hides, closes): (bool, bool),
+) -> Option<Profile> {
     let (center, disc) = solid.disc_from_above();
     let away = (center - feet).truncate();
     let reach = farthest_m + disc;
@@ -174,8 +196,8 @@ fn profile(solid: &Solid, feet: DVec3, farthest_m: f64, (grow_m, lowest_m): (f64
     }
     let (sin, cos) = solid.turn();
     let half = solid.half_extents_m();
-    let below_all = solid.max.z - feet.z + grow_m < lowest_m;
-    let grow_m = if below_all { 0.0 } else { grow_m };
+    let closes = closes && solid.max.z - feet.z + grow_m >= lowest_m;
+    let grow_m = if closes { grow_m } else { 0.0 };
     Some(Profile {
         center: [(cos * away.x + sin * away.y) as f32, (cos * away.y - sin * away.x) as f32],
         cos: cos as f32,
@@ -185,7 +207,8 @@ fn profile(solid: &Solid, feet: DVec3, farthest_m: f64, (grow_m, lowest_m): (f64
         high: (solid.max.z - feet.z) as f32,
         away: [away.x as f32, away.y as f32],
         // The corners of a grown box stand out by more than it grows; a little more covers all rounding.
-        below_all,
+        closes,
+        hides,
         reach: (disc + core::f64::consts::SQRT_2 * grow_m) as f32 + 0.1,
     })
 }
@@ -242,7 +265,7 @@ fn cross(shape: &Shape<'_>, first: usize, solid: &Profile, out: &mut Crossings) 
         return 0;
     };
     let grow = [0.0, shape.grow[0], shape.grow[1]];
-    let outermost = if solid.below_all { 0 } else { 2 };
+    let outermost = if solid.closes { 2 } else { 0 };
     let mut hit = [0_u32; VECTOR];
     for j in 0..VECTOR {
         // A ray parallel to a face gets a slope too small to matter instead of a division by zero.
@@ -357,12 +380,12 @@ simd_kernel! {
                     bits &= bits - 1;
                     let row = &mut marks[(first + j) * rings..(first + j + 1) * rings];
                     let along = |k: usize| (crossings.enter[k][j], crossings.leave[k][j]);
-                    if !solid.below_all {
+                    if solid.closes {
                         mark_inside(shape, solid, [along(1), along(2)], row);
                     }
                     let (enter, leave) = along(0);
                     let stands = shape.from_above && solid.low <= shape.body_m[0];
-                    match (enter <= leave, stands) {
+                    match (solid.hides && enter <= leave, stands) {
                         (true, true) => mark_behind(shape, solid, enter, row),
                         (true, false) => mark_hidden(shape, solid, enter, leave, row),
                         (false, _) => (),

@@ -152,8 +152,9 @@ fn add_companions(
     let points = [(1, 2.0), (3, 3.0), (5, 3.0)];
     for (node, state) in states.iter_mut().enumerate().filter(|(_, state)| **state != UNSAFE) {
         let place = feet + lattice.offset(node);
-        let dark = |point: DVec3| obstacles.is_hidden(frame, point, place);
-        let hidden = |body: &&[DVec3; 8]| points.iter().filter(|(k, _)| dark(body[*k])).map(|(_, n)| n).sum::<f64>();
+        let dark =
+            |body: &[DVec3; 8], k: usize| obstacles.is_hidden(frame, (0.5 * (body[0] + body[5]), body[k]), place);
+        let hidden = |body: &&[DVec3; 8]| points.iter().filter(|(k, _)| dark(body, *k)).map(|(_, n)| n).sum::<f64>();
         let own = f64::from(*state & !CLOSE);
         let together = match obstacles.seen_together() {
             SeveralTargets::Mean => (own + bodies.iter().map(hidden).sum::<f64>()) / (bodies.len() + 1) as f64,

@@ -1,8 +1,8 @@
 //! Surroundings answered by the unsimplified map.
 
-use super::local::swept_box;
+use super::moving::{Encounter, hides};
 use super::{Surroundings, ground::GroundGrid, solid::Solid};
-use crate::visibility::{body_points, visibility};
+use crate::visibility::{aim_point, body_points, visibility};
 use cosfly_frames::{DVec3, TargetState, TargetTrack};
 use cosfly_geometry::{OrientedBox, SpatialQuery};
 
@@ -21,19 +21,13 @@ impl<'a> ExactMap<'a> {
         Self { query, movers: &[] }
     }
 
-    fn moving_at(&self, frame: usize) -> impl Iterator<Item = Solid> {
-        self.movers.iter().filter_map(move |places| places.get(frame)).map(Solid::new)
+    /// The boxes that move, where they are at a frame.
+    fn moving_at(&self, frame: usize) -> impl Iterator<Item = &'a OrientedBox> {
+        self.movers.iter().filter_map(move |places| places.get(frame))
     }
 
-    /// The space that the moving boxes sweep from `frame` to the next.
-    fn swept_at(&self, frame: usize) -> impl Iterator<Item = Solid> {
-        self.movers.iter().filter_map(move |places| {
-            let here = places.get(frame)?;
-            Some(Solid::new(&swept_box(here, places.get(frame + 1).unwrap_or(here))))
-        })
-    }
-
-    /// Share of the body points that a camera sees, 0..=1.
+    /// Share of the body points that a camera sees, 0..=1. A moving box around the target's own middle is its body, which hides
+    /// nothing of it.
     pub fn visibility(&self, frame: usize, camera: DVec3, target: &TargetState, height_m: f64) -> f64 {
         if self.movers.is_empty() {
             return visibility(self.query, camera, target, height_m);
@@ -41,9 +35,11 @@ impl<'a> ExactMap<'a> {
         let points = body_points(target, height_m);
         let mut blocked = [false; crate::visibility::BODY_POINTS];
         self.query.blocked_batch(camera, &points, &mut blocked);
-        for solid in self.moving_at(frame) {
+        let middle = aim_point(target, height_m);
+        for shape in self.moving_at(frame) {
+            let is_own = || Solid::new(shape).signed_distance(middle).0 <= 0.0;
             for (point, blocked) in points.iter().zip(&mut blocked) {
-                *blocked |= solid.meets_segment(*point, camera);
+                *blocked |= hides(shape, *point, camera) && !is_own();
             }
         }
         blocked.iter().filter(|&&hidden| !hidden).count() as f64 / points.len() as f64
@@ -52,15 +48,26 @@ impl<'a> ExactMap<'a> {
     /// Signed distance to the nearest obstacle and the direction away from it, when below `within_m`.
     pub fn nearest(&self, frame: usize, position: DVec3, within_m: f64) -> Option<(f64, DVec3)> {
         let still = self.query.nearest(position, within_m).map(|near| (near.distance_m, near.away_in_world));
-        let moving = self.moving_at(frame).map(|solid| solid.signed_distance(position));
-        let near = moving.filter(|near| near.0 < within_m).chain(still);
-        near.min_by(|a, b| a.0.total_cmp(&b.0))
+        let mut best = still;
+        for shape in self.moving_at(frame) {
+            let limit_m = best.map_or(within_m, |near| near.0);
+            if position.distance(shape.center_in_world) - shape.half_extents_m.length() < limit_m {
+                let near = Solid::new(shape).signed_distance(position);
+                best = if near.0 < limit_m { Some(near) } else { best };
+            }
+        }
+        best
     }
 
-    /// Smallest distance of the segment from `frame` to the next, capped at `within_m`.
+    /// Smallest distance of a drone that flies from `from` at `frame` to `to` at the next, capped at `within_m`. From boxes that
+    /// move it is a lower bound in continuous time, see [`Encounter::clearance_m`].
     pub fn segment_clearance(&self, frame: usize, from: DVec3, to: DVec3, within_m: f64) -> f64 {
         let still = self.query.segment_clearance(from, to, within_m);
-        self.swept_at(frame).map(|solid| solid.approach(from, to).distance_m).fold(still, f64::min)
+        self.movers.iter().fold(still, |smallest, places| {
+            let Some(here) = places.get(frame) else { return smallest };
+            let next = places.get(frame + 1).unwrap_or(here);
+            Encounter { here, next, from, to }.clearance_m(smallest)
+        })
     }
 }
 

@@ -1,9 +1,9 @@
 //! Per-path obstacle filtering: the planning boxes near each stretch of the path (paper, section 3.3).
 
-use super::{Surroundings, ground::GroundGrid, solid::Solid};
+use super::{Surroundings, ground::GroundGrid, moving::Moving, solid::Solid};
 use crate::config::targets::SeveralTargets;
 use crate::visibility::{BODY_POINTS, body_points};
-use cosfly_frames::{DVec3, TargetTrack, real};
+use cosfly_frames::{DVec3, TargetTrack};
 use cosfly_geometry::OrientedBox;
 
 /// Frames that share one list of boxes.
@@ -25,21 +25,16 @@ pub struct LocalObstacles<'a> {
     /// Body points of the target frame by frame, then those of its companions.
     bodies: Vec<Vec<[DVec3; BODY_POINTS]>>,
     seen_together: SeveralTargets,
-    movers: Movers,
+    /// The boxes near the path that move, frame after frame.
+    moving: Vec<Moving>,
+    /// First place in `moving` of each frame, and the end; empty where nothing moves.
+    moving_starts: Vec<u32>,
+    radius_m: f64,
     /// Frames in which the target is to be lost; empty when in none.
     lost: Vec<bool>,
     ground: &'a GroundGrid,
     influence_m: f64,
     focus: Vec<Focus>,
-}
-
-/// Boxes that move.
-#[derive(Default)]
-struct Movers {
-    /// Per frame, where they are.
-    there: Vec<Vec<Solid>>,
-    /// Per frame, all that they pass on the way to the next.
-    swept: Vec<Vec<Solid>>,
 }
 
 /// The boxes that matter while a waypoint stays within [`FOCUS_M`] of `center`.
@@ -50,6 +45,10 @@ struct Focus {
     between: Vec<u32>,
     /// May be nearer than the safety influence radius.
     near: Vec<u32>,
+    /// Places in the frame's moving boxes of those that may stand between waypoint and body.
+    moving_between: Vec<u32>,
+    /// The same for those that may be nearer than the safety influence radius.
+    moving_near: Vec<u32>,
 }
 
 impl<'a> LocalObstacles<'a> {
@@ -83,8 +82,19 @@ impl<'a> LocalObstacles<'a> {
             }
         }
         let bodies = vec![bodies_of(track)];
-        let (movers, seen_together, lost) = (Movers::default(), SeveralTargets::Mean, Vec::new());
-        Self { solids, lists, bodies, seen_together, movers, lost, ground, influence_m, focus: Vec::new() }
+        Self {
+            solids,
+            lists,
+            bodies,
+            seen_together: SeveralTargets::Mean,
+            moving: Vec::new(),
+            moving_starts: Vec::new(),
+            radius_m,
+            lost: Vec::new(),
+            ground,
+            influence_m,
+            focus: Vec::new(),
+        }
     }
 
     /// Adds targets to be seen beside the one whose track it is.
@@ -94,15 +104,27 @@ impl<'a> LocalObstacles<'a> {
         self
     }
 
-    /// Adds boxes that move, each given by its places frame by frame.
+    /// Adds boxes that move, each given by its places frame by frame. At each frame only those are kept that come within the
+    /// filter's radius of the target (from above) until the next.
     pub fn with_movers(mut self, movers: &[Vec<OrientedBox>]) -> Self {
-        if let Some(frames) = movers.iter().map(Vec::len).min() {
-            let at = |frame: usize| movers.iter().map(|places| Solid::new(&places[frame])).collect();
-            let to_next = |frame: usize| {
-                let next = (frame + 1).min(frames - 1);
-                movers.iter().map(|places| Solid::new(&swept_box(&places[frame], &places[next]))).collect()
-            };
-            self.movers = Movers { there: (0..frames).map(at).collect(), swept: (0..frames).map(to_next).collect() };
+        if movers.is_empty() {
+            return self;
+        }
+        self.moving_starts.push(0);
+        for (frame, body) in self.bodies[0].iter().enumerate() {
+            let middle = 0.5 * (body[0] + body[5]);
+            for places in movers {
+                let Some(here) = places.get(frame) else { continue };
+                let next = places.get(frame + 1).unwrap_or(here);
+                let reach_m = self.radius_m
+                    + here.center_in_world.distance(next.center_in_world)
+                    + here.half_extents_m.max(next.half_extents_m).truncate().length();
+                let away = (here.center_in_world - middle).truncate();
+                if away.length_squared() <= reach_m * reach_m {
+                    self.moving.push(Moving::new(here, next, middle));
+                }
+            }
+            self.moving_starts.push(self.moving.len() as u32);
         }
         self
     }
@@ -137,37 +159,54 @@ impl<'a> LocalObstacles<'a> {
         self.solids.len()
     }
 
-    /// The boxes that matter at `frame`; those that move with all that they pass until the next.
-    pub fn at_frame(&self, frame: usize) -> impl Iterator<Item = &Solid> {
-        let still = self.lists[frame / FRAMES_PER_LIST].iter().map(|&index| &self.solids[index as usize]);
-        still.chain(self.movers.swept.get(frame).into_iter().flatten())
+    /// The boxes that stand still and matter at `frame`.
+    pub fn still_at(&self, frame: usize) -> impl Iterator<Item = &Solid> {
+        self.lists[frame / FRAMES_PER_LIST].iter().map(|&index| &self.solids[index as usize])
     }
 
-    /// Whether a box stands between a point of a body and `position` at `frame`.
-    pub fn is_hidden(&self, frame: usize, point: DVec3, position: DVec3) -> bool {
-        let still = self.lists[frame / FRAMES_PER_LIST].iter().map(|&index| &self.solids[index as usize]);
+    /// The boxes that move and matter at `frame`.
+    pub fn moving_at(&self, frame: usize) -> &[Moving] {
+        match self.moving_starts.get(frame..frame + 2) {
+            Some(&[first, end]) => &self.moving[first as usize..end as usize],
+            _ => &[],
+        }
+    }
+
+    /// Whether a box stands between the point of a body and `position` at `frame`. A moving box around the body's `middle` is
+    /// the body itself.
+    pub fn is_hidden(&self, frame: usize, (middle, point): (DVec3, DVec3), position: DVec3) -> bool {
         let (low, high) = (point.min(position), point.max(position));
-        let mut near = still.chain(self.moving_at(frame)).filter(|solid| solid.bounds_gap_m(low, high) <= 0.0);
-        near.any(|solid| solid.meets_segment(point, position))
+        let meets = |solid: &Solid| solid.bounds_gap_m(low, high) <= 0.0 && solid.meets_segment(point, position);
+        self.still_at(frame).any(meets)
+            || self.moving_at(frame).iter().any(|it| meets(&it.here) && it.here.signed_distance(middle).0 > 0.0)
     }
 
     /// Whether any box moves.
     pub fn has_movers(&self) -> bool {
-        !self.movers.there.is_empty()
+        !self.moving_starts.is_empty()
     }
 
-    fn moving_at(&self, frame: usize) -> &[Solid] {
-        self.movers.there.get(frame).map_or(&[], Vec::as_slice)
-    }
-
-    /// Share of one body that is seen from `position`.
-    fn seen_share(&self, frame: usize, list: &[u32], body: &[DVec3; BODY_POINTS], position: DVec3) -> f64 {
-        let meets = |solid: &Solid, point: DVec3| solid.meets_segment(point, position);
+    /// Share of the target's body that is seen from `position`.
+    fn seen_share(&self, frame: usize, focus: Option<&Focus>, position: DVec3) -> f64 {
+        let body = &self.bodies[0][frame];
+        let all = &self.lists[frame / FRAMES_PER_LIST];
+        let (list, moving) = (focus.map_or(all, |focus| &focus.between), self.moving_at(frame));
+        let hides = |it: &Moving, point: DVec3| !it.is_target && it.here.meets_segment(point, position);
         let hidden = |point: DVec3| {
-            list.iter().any(|&index| meets(&self.solids[index as usize], point))
-                || self.moving_at(frame).iter().any(|solid| meets(solid, point))
+            list.iter().any(|&index| self.solids[index as usize].meets_segment(point, position))
+                || match focus {
+                    Some(focus) => focus.moving_between.iter().any(|&k| hides(&moving[k as usize], point)),
+                    None => moving.iter().any(|it| hides(it, point)),
+                }
         };
         body.iter().filter(|&&point| !hidden(point)).count() as f64 / BODY_POINTS as f64
+    }
+
+    /// Share of a companion's body that is seen from `position`.
+    fn companion_share(&self, frame: usize, body: &[DVec3; BODY_POINTS], position: DVec3) -> f64 {
+        let middle = 0.5 * (body[0] + body[5]);
+        let seen = |point: &&DVec3| !self.is_hidden(frame, (middle, **point), position);
+        body.iter().filter(seen).count() as f64 / BODY_POINTS as f64
     }
 
     /// The body points at `frame`.
@@ -193,6 +232,8 @@ impl<'a> LocalObstacles<'a> {
         slot.center = center;
         slot.between.clear();
         slot.near.clear();
+        slot.moving_between.clear();
+        slot.moving_near.clear();
         let body = self.bodies[0][frame];
         let middle = 0.5 * (body[0] + body[5]);
         let body_radius = body.iter().map(|point| point.distance(middle)).fold(0.0, f64::max);
@@ -207,19 +248,35 @@ impl<'a> LocalObstacles<'a> {
                 slot.near.push(index);
             }
         }
+        for (k, moving) in (0..).zip(self.moving_at(frame)) {
+            let solid = &moving.here;
+            let may_hide = !moving.is_target && solid.bounds_gap_m(low, high) <= reach;
+            if may_hide && solid.approach(middle, center).distance_m <= reach {
+                slot.moving_between.push(k);
+            }
+            if moving.gap_m(center, center + moving.step) <= self.influence_m + FOCUS_M {
+                slot.moving_near.push(k);
+            }
+        }
     }
 
     fn in_focus(&self, frame: usize, position: DVec3) -> Option<&Focus> {
         self.focus.get(frame).filter(|focus| focus.center.distance(position) <= FOCUS_M)
     }
 
-    /// Smallest distance of the segment from frame `frame` to the next, capped at `within_m`.
+    /// Smallest distance of a drone that flies from `from` at `frame` to `to` at the next, capped at `within_m`: from boxes that
+    /// move, at the same times.
     pub fn segment_clearance_m(&self, frame: usize, from: DVec3, to: DVec3, within_m: f64) -> f64 {
         let (low, high) = (from.min(to), from.max(to));
         let mut smallest = within_m;
-        for solid in self.at_frame(frame) {
+        for solid in self.still_at(frame) {
             if solid.bounds_gap_m(low, high) < smallest {
                 smallest = smallest.min(solid.approach(from, to).distance_m);
+            }
+        }
+        for moving in self.moving_at(frame) {
+            if moving.gap_m(from, to) < smallest {
+                smallest = smallest.min(moving.approach(from, to).distance_m);
             }
         }
         smallest
@@ -228,26 +285,6 @@ impl<'a> LocalObstacles<'a> {
 
 fn bodies_of(track: &TargetTrack) -> Vec<[DVec3; BODY_POINTS]> {
     track.states.iter().map(|state| body_points(state, track.height_m)).collect()
-}
-
-/// A box in the axes of `from` around `from` and `to`, which is everything a box passes that moves evenly between
-/// them and turns by less than a right angle.
-pub fn swept_box(from: &OrientedBox, to: &OrientedBox) -> OrientedBox {
-    let (sin, cos) = real::sin_cos(from.yaw_rad);
-    let into = |v: DVec3| DVec3::new(cos * v.x + sin * v.y, cos * v.y - sin * v.x, v.z);
-    let out = |v: DVec3| DVec3::new(cos * v.x - sin * v.y, sin * v.x + cos * v.y, v.z);
-    let corners = to.corners_in_world().map(|corner| into(corner - from.center_in_world));
-    // A corner that turns on the way bulges out by less than the way it turns.
-    let turn = real::wrap_angle_rad(to.yaw_rad - from.yaw_rad).abs().min(real::PI);
-    let bulge = turn * real::hypot(to.half_extents_m.x, to.half_extents_m.y);
-    let low = corners.iter().fold(-from.half_extents_m, |low, corner| low.min(*corner)) - DVec3::new(bulge, bulge, 0.0);
-    let high =
-        corners.iter().fold(from.half_extents_m, |high, corner| high.max(*corner)) + DVec3::new(bulge, bulge, 0.0);
-    OrientedBox {
-        center_in_world: from.center_in_world + out(0.5 * (low + high)),
-        half_extents_m: 0.5 * (high - low),
-        yaw_rad: from.yaw_rad,
-    }
 }
 
 /// A quick look from above that keeps every box within `radius_m` of the rectangle, and none that is not finite.
@@ -285,11 +322,9 @@ fn near_from_above(
 
 impl Surroundings for LocalObstacles<'_> {
     fn visibility(&self, frame: usize, position: DVec3) -> f64 {
-        let all = &self.lists[frame / FRAMES_PER_LIST];
-        let list = self.in_focus(frame, position).map_or(all, |focus| &focus.between);
-        let mut seen = self.seen_share(frame, list, &self.bodies[0][frame], position);
+        let mut seen = self.seen_share(frame, self.in_focus(frame, position), position);
         if self.bodies.len() > 1 {
-            let others = self.companions(frame).map(|body| self.seen_share(frame, all, body, position));
+            let others = self.companions(frame).map(|body| self.companion_share(frame, body, position));
             seen = match self.seen_together {
                 SeveralTargets::Mean => (seen + others.sum::<f64>()) / self.bodies.len() as f64,
                 SeveralTargets::Minimum => others.fold(seen, f64::min),
@@ -299,10 +334,8 @@ impl Surroundings for LocalObstacles<'_> {
     }
 
     fn nearest(&self, frame: usize, position: DVec3, within_m: f64) -> Option<(f64, DVec3)> {
-        let list = match self.in_focus(frame, position) {
-            Some(focus) if within_m <= self.influence_m => &focus.near,
-            _ => &self.lists[frame / FRAMES_PER_LIST],
-        };
+        let focus = self.in_focus(frame, position).filter(|_| within_m <= self.influence_m);
+        let list = focus.map_or(&self.lists[frame / FRAMES_PER_LIST], |focus| &focus.near);
         let mut best: Option<(f64, DVec3)> = None;
         let mut limit = within_m;
         for &index in list {
@@ -315,12 +348,19 @@ impl Surroundings for LocalObstacles<'_> {
                 }
             }
         }
-        for solid in self.movers.swept.get(frame).into_iter().flatten() {
-            let found = solid.signed_distance(position);
-            if found.0 < limit {
-                limit = found.0;
-                best = Some(found);
+        let mut look_at = |moving: &Moving| {
+            if moving.gap_m(position, position + moving.step) < limit {
+                let found = moving.around().signed_distance(position);
+                if found.0 < limit {
+                    limit = found.0;
+                    best = Some(found);
+                }
             }
+        };
+        let moving = self.moving_at(frame);
+        match focus {
+            Some(focus) => focus.moving_near.iter().for_each(|&k| look_at(&moving[k as usize])),
+            None => moving.iter().for_each(look_at),
         }
         best
     }
@@ -330,16 +370,27 @@ impl Surroundings for LocalObstacles<'_> {
             return;
         }
         let all = &self.lists[frame / FRAMES_PER_LIST];
-        let list = self.in_focus(frame, position).map_or(all, |focus| &focus.between);
+        let (focus, moving) = (self.in_focus(frame, position), self.moving_at(frame));
         for (target, body) in self.bodies.iter().enumerate() {
-            let list = if target == 0 { list } else { all };
+            let focus = focus.filter(|_| target == 0);
+            let list = focus.map_or(all, |focus| &focus.between);
+            let middle = 0.5 * (body[frame][0] + body[frame][5]);
+            let is_other = |it: &&Moving| match target {
+                0 => !it.is_target,
+                _ => it.here.signed_distance(middle).0 > 0.0,
+            };
             for point in GUARDED_POINTS.map(|k| body[frame][k]) {
                 let mut deepest: Option<(f64, DVec3)> = None;
-                for solid in list.iter().map(|&index| &self.solids[index as usize]).chain(self.moving_at(frame)) {
+                let mut look_at = |solid: &Solid| {
                     let limit = deepest.map_or(SHADOW_REACH_M, |(slack, _)| slack);
                     if let Some((slack, plane)) = solid.lit_side_below(point, position, limit) {
                         deepest = Some((slack, plane.normal));
                     }
+                };
+                list.iter().for_each(|&index| look_at(&self.solids[index as usize]));
+                match focus {
+                    Some(focus) => focus.moving_between.iter().for_each(|&k| look_at(&moving[k as usize].here)),
+                    None => moving.iter().filter(is_other).for_each(|it| look_at(&it.here)),
                 }
                 if let Some((slack, away)) = deepest {
                     each(slack, away);

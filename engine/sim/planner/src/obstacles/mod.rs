@@ -6,6 +6,7 @@
 pub mod exact;
 pub mod ground;
 pub mod local;
+pub mod moving;
 pub mod solid;
 
 use cosfly_frames::DVec3;

@@ -45,8 +45,24 @@ impl Solid {
     /// Prepares `shape`.
     pub fn new(shape: &OrientedBox) -> Self {
         let (sin, cos) = real::sin_cos(shape.yaw_rad);
-        let (min, max) = shape.bounds_in_world();
-        Self { center: shape.center_in_world, half: shape.half_extents_m, sin, cos, min, max }
+        Self::turned(shape.center_in_world, shape.half_extents_m, (sin, cos))
+    }
+
+    fn turned(center: DVec3, half: DVec3, (sin, cos): (f64, f64)) -> Self {
+        let reach =
+            DVec3::new(cos.abs() * half.x + sin.abs() * half.y, sin.abs() * half.x + cos.abs() * half.y, half.z);
+        Self { center, half, sin, cos, min: center - reach, max: center + reach }
+    }
+
+    /// The box with half extents larger by so much along its own axes.
+    pub fn grown(&self, by_m: DVec3) -> Self {
+        Self::turned(self.center, self.half + by_m, (self.sin, self.cos))
+    }
+
+    /// The smallest box with the same turn around it and around itself moved by `way`.
+    pub fn stretched(&self, way: DVec3) -> Self {
+        let half = self.half + 0.5 * self.turn_to_local(way).abs();
+        Self::turned(self.center + 0.5 * way, half, (self.sin, self.cos))
     }
 
     /// Sine and cosine of its turn.

@@ -56,7 +56,7 @@ impl<'a> NearBoxes<'a> {
         let body_m = body.iter().map(|point| point.distance(middle)).fold(0.0, f64::max);
         let (low, high) = (middle.min(center), middle.max(center));
         let reach_m = FOCUS_M.max(body_m);
-        for solid in obstacles.at_frame(frame) {
+        for solid in obstacles.still_at(frame) {
             if solid.bounds_gap_m(low, high) <= reach_m && may_come_between(solid, (middle, body_m), (center, FOCUS_M))
             {
                 near.between.push(RayBox::new(solid));
@@ -90,7 +90,7 @@ impl Surroundings for NearBoxes<'_> {
         let body = self.obstacles.body(frame);
         let (low, high) = body.iter().fold((position, position), |(low, high), p| (low.min(*p), high.max(*p)));
         let mut mask = 0;
-        for solid in self.obstacles.at_frame(frame) {
+        for solid in self.obstacles.still_at(frame) {
             if solid.bounds_gap_m(low, high) <= 0.0 {
                 mask |= blocked(self.level, &[RayBox::new(solid)], &self.bodies[frame], position);
                 if mask == u8::MAX {

@@ -6,9 +6,11 @@
 //! join a known flight from there, or                               (join)
 //! hand the problem to the planner that the recipe names            (planners)
 //!   long tracks in stretches                                       (stretches)
+//!   from moment to moment where the future is not known            (causal)
 //! publish what holds, with poses and the costs of all terms        (publish)
 //! ```
 
+mod causal;
 mod join;
 mod plan;
 mod planners;

@@ -1,7 +1,9 @@
 //! The neutral dispatcher: hands a problem to the planner that the recipe names, and judges what it returns.
 
+use super::causal::fly;
 use super::stretches::{STRETCH_FRAMES, plan_stretches};
 use crate::baselines::{baseline::Baseline, input::BaselineInput, plan::plan_baseline};
+use crate::config::foresight::Foresight;
 use crate::config::muco::MucoConfig;
 use crate::config::planner::Planner;
 use crate::found::Found;
@@ -50,6 +52,12 @@ pub(super) fn solve(
 ) -> Result<Found, String> {
     let solver = Solver::of(request.config);
     let one = |request: &PlanRequest<'_>, head: &[DVec3]| solve_at_once(solver, request, terms, built_in, head);
+    if request.config.foresight == Foresight::Causal {
+        return match solver {
+            Solver::Muco => fly(request, head, &one),
+            _ => Err("`foresight = \"causal\"` is for `planner = \"muco\"` and presets of its own".to_owned()),
+        };
+    }
     // The paper's pipeline needs little memory and no stretches; baselines refuse what is too much for them.
     if request.track.len() <= STRETCH_FRAMES || solver != Solver::Muco {
         one(request, head)
@@ -92,11 +100,11 @@ fn by_a_baseline(
     ground: &GroundGrid,
     judge: &Judge<'_>,
 ) -> Result<Found, String> {
-    if !(judge.head.is_empty() && request.companions.is_empty() && request.movers.is_empty()) {
-        return Err("baselines know no start states, companions or moving boxes; `planner` must be `muco`".into());
+    if !(judge.head.is_empty() && request.companions.is_empty()) {
+        return Err("baselines know no start states or companions; `planner` must be `muco`".into());
     }
-    let PlanRequest { planning_boxes, exact, config, .. } = *request;
-    let input = BaselineInput { problem, planning_boxes, exact, ground, config };
+    let PlanRequest { planning_boxes, exact, movers, config, .. } = *request;
+    let input = BaselineInput { problem, planning_boxes, exact, movers, ground, config };
     let waypoints = plan_baseline(kind, &input)?.waypoints;
     let mut measured = judge.measure(&waypoints);
     if !judge.publishable(&measured) {

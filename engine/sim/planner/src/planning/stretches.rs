@@ -18,7 +18,7 @@ const LOOK_AHEAD_FRAMES: usize = 256;
 const HEAD_FRAMES: usize = 3;
 
 /// Plans a short request that begins with the given waypoints.
-type PlanOne<'a> = dyn Fn(&PlanRequest<'_>, &[DVec3]) -> Result<Found, String> + 'a;
+pub(super) type PlanOne<'a> = dyn Fn(&PlanRequest<'_>, &[DVec3]) -> Result<Found, String> + 'a;
 
 /// Plans a long request with `plan_one`, which plans a short one that begins with the given waypoints.
 pub fn plan_stretches(request: &PlanRequest<'_>, head: &[DVec3], plan_one: &PlanOne<'_>) -> Result<Found, String> {

@@ -128,7 +128,11 @@ impl Band<'_> {
 fn surface_of(number: u32, face: &DrawnFace) -> u32 {
     match face.source {
         FaceSource::Ground { .. } => 0x8000_0000 | u32::from(face.label),
-        FaceSource::Figure { .. } => 0x8100_0000 | (face.instance & 0xff_ffff),
+        FaceSource::Figure { .. } if face.label == SemanticLabel::Pedestrian.id() => {
+            0x8100_0000 | (face.instance & 0xff_ffff)
+        }
+        // Windows, wheels and lamps of a vehicle have edges of their own.
+        FaceSource::Figure { first_face, .. } => 0x8200_0000 | (first_face & 0xff_ffff),
         FaceSource::Box { .. } => number & 0x7fff_ffff,
     }
 }

@@ -5,17 +5,18 @@ use super::geometry::{FaceAxes, open, place, points};
 use super::ground::ground;
 use super::lanes::{Block, FOUR, FOURS, GROUPS, LANES, Shared, Stage, WIDE, get};
 use super::lighting;
-use super::material::{Material, cloth, material_of};
-use super::pattern::share;
+use super::material::{Material, cloth, coach, material_of};
+use super::pattern::{most, share};
 use super::setting::{Seen, Setting};
 use super::simple;
 use super::things::{swell, things};
 use super::vector::Vec3;
+use crate::body_shape::BodyShape;
 use crate::faces::{DrawnFace, FaceSource};
 use crate::look::PictureLook;
 use crate::passes::ids::{Band, Run};
 use crate::visibility::{NO_FACE, PlaneOnScreen};
-use cosfly_frames::simd_kernel;
+use cosfly_frames::{real, simd_kernel};
 
 /// Groups of pixels that are not of a single face: the sky, and ground by label. Faces of one part of a body are a group,
 /// too, named after the first of them.
@@ -347,7 +348,15 @@ fn run_kernels(
     if let Material::Ground(_) = material {
         for person in near {
             let walker = &seen.people.members[*person as usize].walker;
-            contact(level, shared, walker.state.feet_in_world.into(), walker.radius_m.clamp(0.1, 2.0) as f32);
+            let feet = walker.state.feet_in_world.into();
+            match walker.body {
+                BodyShape::Person => contact(level, shared, feet, walker.radius_m.clamp(0.1, 2.0) as f32),
+                BodyShape::Vehicle { size_m, .. } => {
+                    let (sin, cos) = real::sin_cos(walker.state.heading_rad);
+                    let half_m = 0.5 * size_m.truncate().as_vec2();
+                    contact_below(level, shared, feet, [cos as f32, sin as f32], half_m.to_array());
+                }
+            }
         }
     }
     let is_bent = material.is_bent();
@@ -368,6 +377,7 @@ fn run_kernels(
         Material::Roof(roof) => roofs(level, shared, blocks, roof, noise),
         Material::Thing(thing) => things(level, shared, blocks, thing, noise),
         Material::Cloth(look) => cloth(level, shared, blocks, look, noise),
+        Material::Coach(look) => coach(level, blocks, look),
     }
     lighting::arriving(level, shared, light, setting.haze);
     if is_bent {
@@ -417,6 +427,7 @@ fn run_simple_kernels(
         Material::Roof(roof) => simple::even(level, shared, blocks, roof.colour(), tone),
         Material::Thing(thing) => simple::even(level, shared, blocks, thing.colour(), tone),
         Material::Cloth(look) => simple::even(level, shared, blocks, look.colour, tone),
+        Material::Coach(look) => simple::even(level, shared, blocks, look.colour, tone),
         Material::Sky => {}
     }
 }
@@ -442,6 +453,24 @@ simd_kernel! {
                 let away = get(&shared.middle, k) - feet;
                 let shade = share(1.0 - away.dot(away) * per_radius2 * (1.0 / 9.0));
                 let kept = 1.0 - 0.55 * shade * shade * shade;
+                shared.sky[k] *= kept;
+                shared.lamps[k] *= kept;
+            }
+        }
+    }
+}
+
+simd_kernel! {
+    /// Less sky below and beside a vehicle: a rectangle around `feet` whose length lies along `along`.
+    fn contact_below(shared: &mut [Shared], feet: Vec3, along: [f32; 2], half_m: [f32; 2]) {
+        let ([cos, sin], [half_length_m, half_width_m]) = (along, half_m);
+        for shared in shared.iter_mut() {
+            for k in 0..WIDE {
+                let away = get(&shared.middle, k) - feet;
+                let (ahead, aside) = (away.x * cos + away.y * sin, away.y * cos - away.x * sin);
+                let (ahead, aside) = (most(ahead.abs() - half_length_m, 0.0), most(aside.abs() - half_width_m, 0.0));
+                let shade = share(1.0 - (ahead * ahead + aside * aside + away.z * away.z) * 1.6);
+                let kept = 1.0 - 0.75 * shade * shade * shade;
                 shared.sky[k] *= kept;
                 shared.lamps[k] *= kept;
             }

@@ -2,7 +2,7 @@
 
 use super::facade::{BoxFace, Facade, Roof};
 use super::geometry::FaceAxes;
-use super::lanes::{Block, Shared, Stage, WIDE, groups};
+use super::lanes::{Block, Shared, Stage, WIDE, groups, set};
 use super::light::Light;
 use super::lighting::Answers;
 use super::pattern::{NoiseTexture, Noises, share};
@@ -10,6 +10,7 @@ use super::setting::{Seen, Setting};
 use super::surface::Look;
 use super::things::Thing;
 use super::vector::Vec3;
+use crate::clothes::Region;
 use crate::faces::FaceSource;
 use crate::scene_parts::{BOX_FACES, SceneBox};
 use cosfly_frames::simd_kernel;
@@ -23,6 +24,7 @@ pub(super) enum Material {
     Roof(Roof),
     Thing(Thing),
     Cloth(Cloth),
+    Coach(Coach),
 }
 
 /// Material of a drawn face, and the axes along its surface.
@@ -36,7 +38,10 @@ pub(super) fn material_of(setting: &Setting, seen: &Seen<'_>, face: u32) -> (Mat
         }
         FaceSource::Figure { triangle, .. } => {
             let part = &seen.people.triangles[triangle as usize];
-            let [r, g, b] = seen.people.members[part.person as usize].clothes.colours[part.region as usize];
+            let [r, g, b] = seen.people.members[part.person as usize].colours[part.region as usize];
+            if !part.region.is_of_people() {
+                return (Material::Coach(Coach::new(part.region, Vec3::new(r, g, b), setting.light.night)), flat);
+            }
             let [from, to] = part.middle_in_world.map(Vec3::from);
             (Material::Cloth(Cloth { colour: Vec3::new(r, g, b), from, along: to - from }), flat)
         }
@@ -73,7 +78,7 @@ impl Material {
         match self {
             Self::Thing(thing) => matches!(thing.kind, ObstacleKind::TreeCrown | ObstacleKind::Bush),
             Self::Cloth(_) => true,
-            Self::Sky | Self::Ground(_) | Self::Facade(..) | Self::Roof(_) => false,
+            Self::Sky | Self::Ground(_) | Self::Facade(..) | Self::Roof(_) | Self::Coach(_) => false,
         }
     }
 
@@ -95,6 +100,7 @@ impl Material {
             }
             Self::Facade(..) => Answers { wettable: false, shiny: true, glows: true },
             Self::Roof(_) => Answers { wettable: true, shiny: false, glows: false },
+            Self::Coach(_) => Answers { wettable: false, shiny: true, glows: true },
             Self::Thing(thing) => match thing.kind {
                 ObstacleKind::Car | ObstacleKind::Lamp | ObstacleKind::TrafficLight | ObstacleKind::Pole => {
                     Answers { wettable: false, shiny: true, glows: true }
@@ -102,6 +108,44 @@ impl Material {
                 _ => matt,
             },
             Self::Sky | Self::Cloth(_) => matt,
+        }
+    }
+}
+
+/// A part of a vehicle: flat, of one colour.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Coach {
+    pub(super) colour: Vec3,
+    mirror: f32,
+    emission: Vec3,
+}
+
+impl Coach {
+    /// The look of a region of a vehicle; `night` is 1 when lamps are lit.
+    fn new(region: Region, colour: Vec3, night: f32) -> Self {
+        let (mirror, glow) = match region {
+            Region::Paint => (0.16, 0.0),
+            Region::Cargo => (0.04, 0.0),
+            Region::Glass => (0.46, 0.0),
+            Region::Metal => (0.30, 0.0),
+            Region::HeadLamp => (0.25, 0.9),
+            Region::TailLamp => (0.20, 0.25),
+            _ => (0.0, 0.0),
+        };
+        Self { colour, mirror, emission: colour * (glow * night) }
+    }
+}
+
+simd_kernel! {
+    /// Sheet, glass and rubber.
+    pub(super) fn coach(blocks: &mut [Block], look: &Coach) {
+        let Coach { colour, mirror, emission } = *look;
+        for block in blocks.iter_mut() {
+            for k in 0..WIDE {
+                set(&mut block.albedo, k, colour);
+                set(&mut block.emission, k, emission);
+            }
+            block.mirror = [mirror; WIDE];
         }
     }
 }

@@ -1,7 +1,7 @@
 //! A small invented crowd for tests and pictures.
 
 use cosfly_frames::{DVec3, Seed, TargetState};
-use cosfly_render::{Bystander, Walker};
+use cosfly_render::{BodyShape, Bystander, Walker};
 
 /// People who walk and stand within 30 m of a place, on its height.
 pub fn crowd(around: DVec3, count: u32) -> Vec<Bystander> {
@@ -16,6 +16,7 @@ pub fn crowd(around: DVec3, count: u32) -> Vec<Bystander> {
             radius_m: random.uniform(0.24, 0.34),
             clothes_seed: Seed([6; 32]).child("clothes", u64::from(number)),
             gait_phase_rad: random.uniform(-3.1, 3.1),
+            body: BodyShape::default(),
         };
         Bystander { walker, instance: 50_000 + number }
     };

@@ -38,6 +38,7 @@ pub fn empty_town() -> Town {
         simplification: SimplificationReport::default(),
         walkable: vec![],
         surfaces: vec![],
+        lanes: vec![],
         synthetic: Synthetic::default(),
         min_in_world: DVec3::ZERO,
         max_in_world: DVec3::ONE,

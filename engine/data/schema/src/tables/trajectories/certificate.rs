@@ -4,7 +4,7 @@ use super::columns::Trajectories;
 use crate::flight_labels;
 use crate::tables::DatasetItem;
 use crate::tables::column::columns;
-use cosfly_planner::perturb::Kind;
+use cosfly_planner::trajectory::Kind;
 use cosfly_planner::{Certificate, Perturbation};
 
 columns! { Trajectories::CERTIFICATE of DatasetItem;

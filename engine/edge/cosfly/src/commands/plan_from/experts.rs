@@ -6,7 +6,7 @@ use cosfly_planner::PlanOutcome;
 use cosfly_recipe::{Arrival, RecipeStage};
 use cosfly_runner::Plan;
 use cosfly_stage::{BlobSource, Blobs, ItemName};
-use cosfly_stages::expert::{Companion, Expert, Flight};
+use cosfly_stages::expert::{Bodies, Companion, Expert, Flight};
 use cosfly_stages::plugins::Plugins;
 use cosfly_stages::read;
 use cosfly_stages::world::World;
@@ -103,11 +103,13 @@ impl<'a> Experts<'a> {
             }
             PlanOutcome::Rejected { track, .. } => (track, vec![]),
         };
-        let companions = self.companions(stage, item)?;
+        let around = blobs.get(read::AROUND_BLOB).map(|blob| read::around(&self.store.read(blob)?)).transpose()?;
+        let movers = around.map_or_else(Vec::new, |around| around.boxes());
+        let bodies = Bodies { walk: Some(track), companions: self.companions(stage, item)?, movers };
         let seed = Seed::of_item(self.plan.recipe.seed, described.name.as_str(), &described.items[item].to_string());
         let paths: Vec<PathBuf> = described.sources.iter().map(|source| source.path.clone()).collect();
         let plugins = Plugins::of_expert(&expert.plugins, &paths)?.for_item(name.clone());
-        let flight = expert.flight(&world, Some(track), companions, seed, plugins)?.map_err(|reason| {
+        let flight = expert.flight(&world, bodies, seed, plugins)?.map_err(|reason| {
             Diagnostic::new("plan-from-nothing", Fault::Recipe, format!("`{name}` has no flight to go on from"))
                 .because(reason)
         })?;

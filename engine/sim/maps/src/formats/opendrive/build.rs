@@ -6,6 +6,7 @@ use super::document::with_source;
 use super::gaps::{self, JunctionArea};
 use super::inner_lanes::{self, InnerStrip};
 use super::joining::joining_strips;
+use super::lanes::lanes_of;
 use super::network::{LaneKind, Road, RoadNetwork};
 use super::objects::{MOST_OBSTACLES, ObstacleBuilder, ROOF_PITCH_DEG};
 use super::options::Roofs;
@@ -20,7 +21,7 @@ use crate::polygons::PolygonIndex;
 use crate::terrain;
 use crate::text::Lines;
 use crate::world::WorldFromMap;
-use crate::{GroundIndex, MapError, Obstacle, ObstacleKind, Synthetic, Town, WalkablePolygon};
+use crate::{GroundIndex, Lane, MapError, Obstacle, ObstacleKind, Synthetic, Town, WalkablePolygon};
 use cosfly_frames::DVec2;
 use std::collections::BTreeMap;
 
@@ -79,6 +80,7 @@ struct Parts {
     meshes: MeshBuilder,
     painter: LinePainter,
     walkable: Vec<WalkablePolygon>,
+    lanes: Vec<Lane>,
     obstacles: ObstacleBuilder,
     budget: StationBudget,
     junctions: BTreeMap<String, JunctionArea>,
@@ -94,6 +96,7 @@ impl Parts {
         let world = self.world;
         for (index, section) in road.sections.iter().enumerate() {
             let rows = cross_sections(road, section, longest_m, &mut self.budget)?;
+            self.lanes.extend(lanes_of(road, section, &rows, &world));
             if let Some(junction) = &road.junction {
                 let area = self.junctions.entry(junction.clone()).or_insert(JunctionArea::EMPTY);
                 rows.iter()
@@ -224,6 +227,7 @@ impl Parts {
             origin: self.world.origin(network.geo_reference),
             obstacles,
             walkable: self.walkable,
+            lanes: self.lanes,
             surfaces,
             synthetic: Synthetic { notes: self.notes, ..Synthetic::default() },
             ..Town::default()

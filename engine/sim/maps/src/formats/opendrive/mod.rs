@@ -10,6 +10,7 @@ mod document;
 mod gaps;
 mod inner_lanes;
 mod joining;
+mod lanes;
 pub mod network;
 mod object_kind;
 mod objects;

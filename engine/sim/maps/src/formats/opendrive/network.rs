@@ -30,6 +30,10 @@ pub struct Road {
     pub id: String,
     /// Junction that it crosses, `None` outside junctions.
     pub junction: Option<String>,
+    /// Whether traffic keeps to the left.
+    pub left_hand: bool,
+    /// Speed limits, m/s, by the place along the road where they begin, metres; sorted.
+    pub speed_limits: Vec<(f64, f64)>,
     /// Length of the reference line, metres.
     pub length_m: f64,
     /// Whether its start and its end meet a junction.
@@ -94,6 +98,10 @@ pub struct Lane {
     pub id: i32,
     /// Use of the lane.
     pub kind: LaneKind,
+    /// Vehicles that drive on it in its direction, if any.
+    pub traffic: Option<cosfly_town::LaneKind>,
+    /// Its own speed limit, m/s.
+    pub speed_limit_mps: Option<f64>,
     /// Kept level: the road's roll does not apply.
     pub level: bool,
     /// Course of the outer edge.

@@ -4,6 +4,7 @@ use super::attributes::{OFFSET, SIZE, STATION, Source, child, children};
 use super::network::{Dash, Lane, LaneEdge, LaneHeight, LaneKind, LaneSection, Paint, RoadMark};
 use super::polynomial::{Cubic, CubicProfile};
 use crate::error::MapError;
+use cosfly_town::LaneKind as TrafficKind;
 use roxmltree::Node;
 
 /// The sections of a road in the order of their start.
@@ -94,7 +95,17 @@ fn lane<'d>(source: &Source<'d>, node: Node<'d, 'd>, section_s_m: f64) -> Result
         .collect::<Result<Vec<_>, MapError>>()?;
     heights.sort_by(|a, b| a.s_m.total_cmp(&b.s_m));
     let level = matches!(node.attribute("level"), Some("true" | "1"));
-    Ok(Lane { id, kind: kind(node.attribute("type")), level, edge, heights, marks: marks(source, node, section_s_m)? })
+    let type_name = node.attribute("type");
+    Ok(Lane {
+        id,
+        kind: kind(type_name),
+        traffic: type_name.and_then(traffic),
+        speed_limit_mps: child(node, "speed").and_then(speed_limit_mps),
+        level,
+        edge,
+        heights,
+        marks: marks(source, node, section_s_m)?,
+    })
 }
 
 fn edge_records<'d>(
@@ -113,6 +124,27 @@ fn edge_records<'d>(
         });
     }
     Ok(CubicProfile::new(records))
+}
+
+/// Vehicles that drive in one direction on a lane of a type. Lanes for both directions have none.
+fn traffic(type_name: &str) -> Option<TrafficKind> {
+    match type_name {
+        "driving" | "entry" | "exit" | "offRamp" | "onRamp" | "connectingRamp" | "slipLane" | "mwyEntry"
+        | "mwyExit" | "bus" | "taxi" | "HOV" | "hov" => Some(TrafficKind::Driving),
+        "biking" => Some(TrafficKind::Biking),
+        _ => None,
+    }
+}
+
+/// The limit of a `<speed>`, m/s; `None` where it states no number.
+pub(super) fn speed_limit_mps(speed: Node) -> Option<f64> {
+    let max = speed.attribute("max")?.trim().parse::<f64>().ok()?;
+    let unit_mps = match speed.attribute("unit") {
+        Some("km/h") => 1.0 / 3.6,
+        Some("mph") => 0.44704,
+        _ => 1.0,
+    };
+    Some(max * unit_mps).filter(|limit| (0.5..=150.0).contains(limit))
 }
 
 fn kind(type_name: Option<&str>) -> LaneKind {

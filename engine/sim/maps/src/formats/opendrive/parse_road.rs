@@ -2,7 +2,7 @@
 
 use super::attributes::{ANGLE, COEFFICIENT, COORDINATE, CURVATURE, LENGTH, STATION, Source, child, children};
 use super::network::{Road, RoadNetwork, ShapeSection};
-use super::parse_lanes::lane_sections;
+use super::parse_lanes::{lane_sections, speed_limit_mps};
 use super::parse_objects::{objects, signals};
 use super::plan_view::{Curve, PlanElement, PlanPoint};
 use super::polynomial::{Cubic, CubicProfile};
@@ -42,6 +42,8 @@ fn road<'d>(source: &Source<'d>, node: Node<'d, 'd>) -> Result<Road, MapError> {
     Ok(Road {
         id: source.text(node, "id")?.to_owned(),
         junction,
+        left_hand: node.attribute("rule") == Some("LHT"),
+        speed_limits: speed_limits(source, node)?,
         length_m,
         meets_junction: ["predecessor", "successor"].map(|end| {
             child(node, "link")
@@ -59,6 +61,18 @@ fn road<'d>(source: &Source<'d>, node: Node<'d, 'd>) -> Result<Road, MapError> {
         signals: signals(source, node, length_m)?,
         byte_span: source.start_tag(node),
     })
+}
+
+/// Limits of the road's types.
+fn speed_limits<'d>(source: &Source<'d>, road: Node<'d, 'd>) -> Result<Vec<(f64, f64)>, MapError> {
+    let mut limits = vec![];
+    for node in children(road, "type") {
+        if let Some(limit) = child(node, "speed").and_then(speed_limit_mps) {
+            limits.push((source.optional_number(node, "s", STATION)?.unwrap_or(0.0), limit));
+        }
+    }
+    limits.sort_by(|a, b| a.0.total_cmp(&b.0));
+    Ok(limits)
 }
 
 fn plan_view<'d>(source: &Source<'d>, road: Node<'d, 'd>) -> Result<Vec<PlanElement>, MapError> {

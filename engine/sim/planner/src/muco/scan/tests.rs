@@ -47,7 +47,7 @@ fn every_node_agrees_with_rays_and_grown_boxes_at_every_level() {
             let position = feet + lattice.offset(node);
             let dark = |height: f64| {
                 let eye = feet + DVec3::Z * height;
-                obstacles.at_frame(0).any(|solid| solid.meets_segment(eye, position))
+                obstacles.still_at(0).any(|solid| solid.meets_segment(eye, position))
             };
             let hidden: u32 = BODY_HEIGHTS.iter().filter(|(height, _)| dark(*height)).map(|(_, count)| count).sum();
             let near = obstacles.nearest(0, position, 1.7).is_some();

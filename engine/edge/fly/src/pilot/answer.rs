@@ -1,0 +1,135 @@
+//! [`Answer`]: actions that a policy gave in one message, and the message that asks for them.
+
+use super::Manners;
+use crate::wire::{self, Field};
+use cosfly_env::{Action, Environment, FEATURES, policies};
+use cosfly_frames::{DVec3, Pose, action, real};
+use rmpv::Value;
+
+/// Largest absolute value of a number of an action.
+const LARGEST: f64 = 1e6;
+
+/// Kind of the actions of a policy.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum ActionKind {
+    /// Rows of five numbers, one per step: velocity ahead, right, up (m/s), yaw rate and pitch rate (degrees/s).
+    Velocity,
+    /// Rows of six numbers, one per frame of the dataset: dx, dy, dz (m), dpitch, dyaw, droll (degrees) from the pose before,
+    /// along the world's axes.
+    DeltasInWorld,
+    /// As [`Self::DeltasInWorld`], along the axes of the pose before: ahead, right, up.
+    DeltasInBody,
+}
+
+impl ActionKind {
+    /// Name on the command line and in cards.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Velocity => "velocity",
+            Self::DeltasInWorld => "deltas-world",
+            Self::DeltasInBody => "deltas-body",
+        }
+    }
+
+    fn columns(self) -> usize {
+        if self == Self::Velocity { 5 } else { 6 }
+    }
+}
+
+/// Actions that a policy gave in one message.
+pub struct Answer {
+    kind: ActionKind,
+    rows: Vec<f64>,
+    /// Step of the observation that was answered.
+    step: u32,
+    /// Poses at the frames after it, the pose then first; empty for velocities.
+    poses: Vec<Pose>,
+    plan: Option<policies::Plan>,
+    begins_s: f64,
+    frame_s: f64,
+}
+
+impl Answer {
+    /// Reads the answer to the present observation.
+    ///
+    /// # Errors
+    /// What is wrong with it, in words.
+    pub fn read(message: &Value, environment: &Environment, kind: ActionKind) -> Result<Self, String> {
+        let given = ["actions", "action"].into_iter().find_map(|name| wire::entry(message, name));
+        let given = given.ok_or_else(|| format!("the answer is {} without `actions`", wire::kind(message)))?;
+        let (rows, shape) = wire::numbers(given).map_err(|what| format!("`actions` is {what}"))?;
+        let columns = kind.columns();
+        let fits = matches!(shape[..], [width] | [_, width] if width == columns) && !rows.is_empty();
+        if !fits {
+            let name = kind.name();
+            return Err(format!(
+                "`actions` has the shape {shape:?}; {name} is ({columns},) or (n, {columns}) with n of at least 1"
+            ));
+        }
+        if let Some(place) = rows.iter().position(|number| !(number.abs() <= LARGEST)) {
+            let (row, column, number) = (place / columns, place % columns, rows[place]);
+            return Err(format!("`actions` is {number} at row {row}, column {column}; it must be within {LARGEST}"));
+        }
+        let observation = environment.observation();
+        let (begins_s, frame_s) = (observation.time_s, environment.episode().target.dt_s);
+        let mut answer = Self { kind, rows, step: observation.step, poses: vec![], plan: None, begins_s, frame_s };
+        if kind != ActionKind::Velocity {
+            answer.lay_out(environment.camera());
+        }
+        Ok(answer)
+    }
+
+    /// Chains the increments from a pose on.
+    fn lay_out(&mut self, from: Pose) {
+        let moved = if self.kind == ActionKind::DeltasInWorld { action::moved_in_world } else { action::moved_in_body };
+        self.poses.push(from);
+        let (rows, _) = self.rows.as_chunks::<6>();
+        for row in rows {
+            let next = moved(self.poses.last().unwrap_or(&from), row);
+            self.poses.push(next);
+        }
+        let waypoints: Vec<DVec3> = self.poses.iter().map(|pose| pose.position_in_world).collect();
+        self.plan = Some(policies::Plan::through(&waypoints, self.begins_s, self.frame_s));
+    }
+
+    /// The action for the present step; `None` where the answer is used up or another is due after `every` steps.
+    pub fn action(&self, environment: &Environment, every: u32) -> Option<Action> {
+        let age = environment.observation().step - self.step;
+        if age >= every {
+            return None;
+        }
+        let Some(plan) = &self.plan else {
+            let (rows, _) = self.rows.as_chunks::<5>();
+            return rows.get(age as usize).map(|row| Action::of_numbers(*row));
+        };
+        let settings = environment.settings();
+        let time_s = environment.observation().time_s - self.begins_s + settings.step_s;
+        let last = self.poses.len() - 1;
+        let place = time_s / self.frame_s;
+        if place > last as f64 + 1e-9 {
+            return None;
+        }
+        let (frame, share) = ((place as usize).min(last - 1), place - (place as usize).min(last - 1) as f64);
+        let [from, to] = [self.poses[frame], self.poses[frame + 1]];
+        let turn = real::wrap_angle_rad(to.yaw_rad - from.yaw_rad);
+        let mut action = plan.action(environment, from.position_in_world);
+        let gimbal = environment.gimbal();
+        action.view.yaw_rad_s = real::wrap_angle_rad(from.yaw_rad + share * turn - gimbal.yaw_rad) / settings.step_s;
+        let pitch_rad = from.pitch_rad + share * (to.pitch_rad - from.pitch_rad);
+        action.view.pitch_rad_s = (pitch_rad - gimbal.pitch_rad) / settings.step_s;
+        Some(action)
+    }
+}
+
+/// The message that asks for an action.
+pub fn question(environment: &Environment, manners: &Manners) -> Vec<u8> {
+    let observation = environment.observation();
+    let state = observation.features().map(|feature| feature as f32);
+    wire::encode(&[
+        ("episode", Field::Text(&environment.episode().name)),
+        ("step", Field::Count(u64::from(observation.step))),
+        ("time_s", Field::Number(observation.time_s)),
+        ("prompt", Field::Text(&manners.prompt)),
+        ("state", Field::Floats(&state, &[FEATURES])),
+    ])
+}

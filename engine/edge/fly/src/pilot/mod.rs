@@ -1,0 +1,146 @@
+//! Policies of an evaluation: baselines, servers, functions in Python.
+
+mod answer;
+mod baseline;
+mod python;
+mod socket;
+
+pub use answer::{ActionKind, Answer};
+
+use cosfly_diagnose::{Diagnostic, Fault, Result, nearest_name};
+use cosfly_env::policies::{BASELINES, Knowledge};
+use cosfly_env::{Action, Environment};
+use std::path::PathBuf;
+use std::time::Duration;
+
+/// Where a policy is.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum Place {
+    /// One of [`BASELINES`], by its name.
+    Baseline(&'static str),
+    /// `ws://HOST:PORT`, a server that speaks openpi's wire.
+    Socket(String),
+    /// `python:module:function`.
+    Python {
+        /// Module.
+        module: String,
+        /// Function of the module: takes an observation, gives an action.
+        function: String,
+    },
+}
+
+impl Place {
+    /// Reads `ws://HOST:PORT`, `python:module:function` or the name of a baseline.
+    ///
+    /// # Errors
+    /// `fly-policy`, with what is allowed.
+    pub fn read(text: &str) -> Result<Self> {
+        let refused = |message: String| Diagnostic::new("fly-policy", Fault::Recipe, message);
+        if text.starts_with("ws://") {
+            return Ok(Self::Socket(text.to_owned()));
+        }
+        if text.starts_with("wss://") {
+            let message = format!("`{text}` asks for an encrypted connection, which `cosfly fly` does not make");
+            return Err(refused(message).hint("use ws://, through a tunnel such as `ssh -L` where the network is open"));
+        }
+        if let Some(rest) = text.strip_prefix("python:") {
+            let parts: Vec<&str> = rest.split(':').collect();
+            return match parts[..] {
+                [module, function] if !module.is_empty() && !function.is_empty() => {
+                    Ok(Self::Python { module: module.to_owned(), function: function.to_owned() })
+                }
+                _ => Err(refused(format!("`{text}` must be `python:MODULE:FUNCTION`"))),
+            };
+        }
+        let names = || BASELINES.iter().map(|it| it.name);
+        if let Some(baseline) = BASELINES.iter().find(|it| it.name == text) {
+            return Ok(Self::Baseline(baseline.name));
+        }
+        let problem = refused(format!("there is no policy `{text}`"));
+        let problem = match nearest_name(text, names()) {
+            Some(near) => problem.hint(format!("did you mean `{near}`?")),
+            None => problem,
+        };
+        let names: Vec<&str> = names().collect();
+        Err(problem.hint(format!("allowed are ws://HOST:PORT, python:MODULE:FUNCTION, {}", names.join(", "))))
+    }
+
+    /// Name in tables and of folders, where none is given.
+    pub fn name(&self) -> String {
+        let safe = |text: &str| {
+            let kept = |c: char| if c.is_ascii_alphanumeric() || "-_.".contains(c) { c } else { '-' };
+            text.chars().map(kept).collect::<String>()
+        };
+        match self {
+            Self::Baseline(name) => (*name).to_owned(),
+            Self::Socket(address) => safe(address.trim_start_matches("ws://")),
+            Self::Python { module, function } => safe(&format!("{module}.{function}")),
+        }
+    }
+}
+
+/// How policies are asked.
+#[derive(Clone, Debug)]
+pub struct Manners {
+    /// Kind of their actions.
+    pub actions: ActionKind,
+    /// Steps after which a policy is asked again, at least 1; rows of its last answer are flown meanwhile.
+    pub every: u32,
+    /// Text of the task that observations carry.
+    pub prompt: String,
+    /// Time within which an answer must come.
+    pub timeout: Duration,
+    /// Time for which a policy that is absent is waited for.
+    pub wait: Duration,
+    /// Value of the header `Authorization: Api-Key ...`.
+    pub api_key: Option<String>,
+    /// The command of Python.
+    pub python: PathBuf,
+}
+
+/// Why a policy gave no action.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum Failure {
+    /// It answered wrongly or not in time: the episode ends and says so.
+    Answer(String),
+    /// It is gone: the episode may be flown again.
+    Gone(String),
+}
+
+impl Failure {
+    /// The reason, in words.
+    pub fn words(&self) -> &str {
+        match self {
+            Self::Answer(words) | Self::Gone(words) => words,
+        }
+    }
+}
+
+/// A policy as episodes see it.
+pub trait Pilot {
+    /// Begins an episode.
+    ///
+    /// # Errors
+    /// [`Failure::Gone`] where the policy cannot be had.
+    fn begin(&mut self, environment: &Environment, knowledge: &Knowledge) -> std::result::Result<(), Failure>;
+
+    /// Action for the present observation.
+    ///
+    /// # Errors
+    /// [`Failure`].
+    fn act(&mut self, environment: &Environment) -> std::result::Result<Action, Failure>;
+
+    /// What the policy says of itself, as text; empty where it says nothing. After [`Self::begin`].
+    fn metadata(&self) -> String {
+        String::new()
+    }
+}
+
+/// The policy at a place, for one thread.
+pub fn open(place: &Place, manners: &Manners) -> Box<dyn Pilot> {
+    match place {
+        Place::Baseline(name) => Box::new(baseline::BaselinePilot::new(name)),
+        Place::Socket(address) => Box::new(socket::SocketPilot::new(address, manners.clone())),
+        Place::Python { module, function } => Box::new(python::PythonPilot::new(module, function, manners.clone())),
+    }
+}

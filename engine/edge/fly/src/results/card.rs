@@ -1,0 +1,110 @@
+//! [`Card`]: what was evaluated, and how.
+
+use cosfly_env::{RewardWeights, Settings};
+use serde::{Deserialize, Serialize};
+
+/// What was evaluated, and how. Rows of two results are comparable where `suite`, `episodes` and `environment` are equal.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Card {
+    /// Suite.
+    pub suite: SuiteCard,
+    /// Policy.
+    pub policy: PolicyCard,
+    /// Settings of the environment.
+    pub environment: EnvironmentCard,
+    /// Version of cosfly.
+    pub cosfly: String,
+}
+
+/// The suite on a card.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct SuiteCard {
+    /// Name of the recipe.
+    pub name: String,
+    /// Digest of all towns and flights, and of the version of the environment.
+    pub hash: String,
+    /// Episodes.
+    pub episodes: u64,
+    /// Walks that have no episode because the expert found no flight behind them.
+    pub rejected: u64,
+}
+
+/// The policy on a card.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct PolicyCard {
+    /// Name.
+    pub name: String,
+    /// Version, as given.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub version: Option<String>,
+    /// Kind: `baseline`, `socket`, `python`.
+    pub kind: String,
+    /// Kind of its actions.
+    pub actions: String,
+    /// Steps after which it is asked again.
+    pub every: u32,
+    /// Text of the task.
+    pub prompt: String,
+}
+
+/// Settings of the environment on a card: metres, seconds, degrees.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct EnvironmentCard {
+    step_s: f64,
+    latency_s: f64,
+    radius_m: f64,
+    speed_mps: f64,
+    acceleration_mps2: f64,
+    jerk_mps3: f64,
+    view_rate_deg_s: [f64; 2],
+    pitch_deg: [f64; 2],
+    horizontal_field_deg: f64,
+    aspect: f64,
+    least_visible: f64,
+    farthest_m: f64,
+    band_m: [f64; 2],
+    give_up_s: f64,
+    reward_weights: RewardWeights,
+}
+
+impl From<&Settings> for EnvironmentCard {
+    fn from(settings: &Settings) -> Self {
+        let gimbal = &settings.gimbal;
+        Self {
+            step_s: settings.step_s,
+            latency_s: settings.latency_s,
+            radius_m: settings.radius_m,
+            speed_mps: settings.motion.speed_mps,
+            acceleration_mps2: settings.motion.acceleration_mps2,
+            jerk_mps3: settings.motion.jerk_mps3,
+            view_rate_deg_s: [gimbal.yaw_rate_rad_s, gimbal.pitch_rate_rad_s].map(f64::to_degrees),
+            pitch_deg: [gimbal.lowest_pitch_rad, gimbal.highest_pitch_rad].map(f64::to_degrees),
+            horizontal_field_deg: settings.lens.horizontal_deg,
+            aspect: settings.lens.aspect,
+            least_visible: settings.least_visible,
+            farthest_m: settings.farthest_m,
+            band_m: [settings.band_m.0, settings.band_m.1],
+            give_up_s: settings.give_up_s,
+            reward_weights: settings.weights,
+        }
+    }
+}
+
+impl Card {
+    /// Difference that keeps rows of two results from being compared, in words.
+    pub fn incomparable(&self, other: &Self) -> Option<String> {
+        let differ =
+            |what: &str, ours: &str, theirs: &str| Some(format!("their {what} differ: `{ours}` and `{theirs}`"));
+        if self.suite.hash != other.suite.hash {
+            return differ("suites", &self.suite.hash, &other.suite.hash);
+        }
+        let without_latency = |card: &Self| EnvironmentCard { latency_s: 0.0, ..card.environment.clone() };
+        let text = |card: &Self| serde_json::to_string(&without_latency(card)).unwrap_or_default();
+        let (ours, theirs) = (text(self), text(other));
+        if ours == theirs { None } else { differ("environments", &ours, &theirs) }
+    }
+}

@@ -1,0 +1,114 @@
+//! All episodes of a suite, flown by one policy on several threads; episodes that are in the folder are kept.
+
+use crate::flight::{Row, fly};
+use crate::pilot::{Manners, Place, open};
+use crate::results::{Card, Folder};
+use crate::suite::{Suite, Task};
+use cosfly_diagnose::{Diagnostic, Fault, Result};
+use cosfly_env::Settings;
+use std::sync::Mutex;
+use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
+
+/// A share of the episodes: those whose number leaves `index` when divided by `of`.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Shard {
+    /// Number of the share, from 0 on.
+    pub index: usize,
+    /// Number of shares.
+    pub of: usize,
+}
+
+impl Shard {
+    /// All episodes.
+    pub const WHOLE: Self = Self { index: 0, of: 1 };
+}
+
+/// What is flown, and how.
+pub struct Order<'a> {
+    /// Episodes.
+    pub suite: &'a Suite,
+    /// The policy.
+    pub place: &'a Place,
+    /// How it is asked.
+    pub manners: &'a Manners,
+    /// Settings of the environment.
+    pub settings: Settings,
+    /// Episodes to fly.
+    pub shard: Shard,
+    /// Threads.
+    pub jobs: usize,
+    /// Set from anywhere to stop.
+    pub cancelled: &'a AtomicBool,
+}
+
+/// What came of it.
+#[derive(Debug, Default)]
+pub struct Outcome {
+    /// Rows of all episodes that the folder has now, in the order of the suite.
+    pub rows: Vec<Row>,
+    /// Episodes flown by this call.
+    pub flown: usize,
+    /// Whether every episode of the suite has a row.
+    pub whole: bool,
+    /// Why episodes of this call were not flown: the policy could not be had.
+    pub gone: Option<String>,
+    /// Episodes that were not flown for that reason.
+    pub missing: usize,
+}
+
+/// Flies what the folder lacks. `progress` gets the numbers of finished and of all episodes. The tables are written once every
+/// episode has a row.
+///
+/// # Errors
+/// Errors of the file system; `fly-policy-gone` where the policy could not be had for any episode.
+pub fn run(order: &Order<'_>, card: &Card, folder: &Folder, progress: &dyn Fn(u64, u64)) -> Result<Outcome> {
+    let tasks = &order.suite.tasks;
+    let due: Vec<usize> = (0..tasks.len())
+        .filter(|at| at % order.shard.of == order.shard.index && folder.row(&tasks[*at].episode.name).is_none())
+        .collect();
+    let (next, done, stop) = (AtomicUsize::new(0), AtomicUsize::new(0), AtomicBool::new(false));
+    let failed: Mutex<Option<Box<Diagnostic>>> = Mutex::new(None);
+    let gone: Mutex<Option<String>> = Mutex::new(None);
+    let work = || {
+        let mut pilot = open(order.place, order.manners);
+        while !stop.load(Ordering::Relaxed) && !order.cancelled.load(Ordering::Relaxed) {
+            let Some(&at) = due.get(next.fetch_add(1, Ordering::Relaxed)) else { break };
+            match fly(&tasks[at], order.settings, &mut *pilot) {
+                Ok(flown) => match folder.keep(&flown) {
+                    Ok(()) => _ = done.fetch_add(1, Ordering::Relaxed),
+                    Err(error) => {
+                        stop.store(true, Ordering::Relaxed);
+                        failed.lock().unwrap_or_else(|it| it.into_inner()).get_or_insert(error);
+                    }
+                },
+                // Others would wait for the policy as long, one by one.
+                Err(reason) => {
+                    stop.store(true, Ordering::Relaxed);
+                    gone.lock().unwrap_or_else(|it| it.into_inner()).get_or_insert(reason);
+                }
+            }
+        }
+    };
+    std::thread::scope(|scope| {
+        let workers: Vec<_> = (0..order.jobs.clamp(1, due.len().max(1))).map(|_| scope.spawn(work)).collect();
+        while workers.iter().any(|worker| !worker.is_finished()) {
+            progress(done.load(Ordering::Relaxed) as u64, due.len() as u64);
+            std::thread::sleep(std::time::Duration::from_millis(5));
+        }
+    });
+    if let Some(error) = failed.into_inner().unwrap_or_else(|it| it.into_inner()) {
+        return Err(error);
+    }
+    if order.cancelled.load(Ordering::Relaxed) {
+        let message = "stopped; the episodes that were flown are kept, and the same command goes on with the others";
+        return Err(Diagnostic::new("fly-stopped", Fault::Stopped, message));
+    }
+    let flown = done.into_inner();
+    let rows: Vec<Row> = tasks.iter().filter_map(|Task { episode, .. }| folder.row(&episode.name)).collect();
+    let whole = rows.len() == tasks.len();
+    if whole {
+        folder.finish(card, &rows)?;
+    }
+    let gone = gone.into_inner().unwrap_or_else(|it| it.into_inner());
+    Ok(Outcome { rows, flown, whole, gone, missing: due.len() - flown })
+}

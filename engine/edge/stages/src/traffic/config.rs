@@ -1,0 +1,161 @@
+//! [`TrafficConfig`]: the parameters of traffic in a recipe.
+
+use crate::parameters;
+use cosfly_pedestrians::{ConfigRule, CrowdConfig};
+use cosfly_world::{BodyKind, Clock, LookAlikeConfig, Traffic};
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+/// Longest step of the simulation, seconds.
+const STEP_S: f64 = 0.1;
+
+/// People and vehicles who move together: numbers, manners, length, and which of them are followed.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(default, deny_unknown_fields)]
+pub struct TrafficConfig {
+    /// Frames of all tracks. Default 200.
+    #[schemars(range(min = 2, max = 100_000))]
+    pub frames: u32,
+    /// Time between frames, seconds. Default 0.5.
+    #[schemars(range(min = 0.01, max = 10.0))]
+    pub dt_s: f64,
+    /// Bodies that flights follow.
+    pub follow: Follow,
+    /// People on foot.
+    pub people: CrowdConfig,
+    /// People who are dressed like a followed person.
+    pub look_alikes: LookAlikeConfig,
+}
+
+impl Default for TrafficConfig {
+    fn default() -> Self {
+        Self {
+            frames: 200,
+            dt_s: 0.5,
+            follow: Follow::default(),
+            people: CrowdConfig::default(),
+            look_alikes: LookAlikeConfig::default(),
+        }
+    }
+}
+
+/// Bodies that flights follow: the first ones, by number, of the named kinds that are there in all frames.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(default, deny_unknown_fields)]
+pub struct Follow {
+    /// Number of followed bodies; a higher number changes none of the first. Default 4.
+    #[schemars(range(min = 1, max = 1_000_000))]
+    pub count: u64,
+    /// Kinds of followed bodies, in turn. Default `["pedestrian"]`.
+    #[schemars(length(min = 1))]
+    pub kinds: Vec<Kind>,
+    /// Least distance that a followed body covers, metres. Default 20.
+    #[schemars(range(min = 0.0, max = 100_000.0))]
+    pub min_length_m: f64,
+}
+
+impl Default for Follow {
+    fn default() -> Self {
+        Self { count: 4, kinds: vec![Kind::Pedestrian], min_length_m: 20.0 }
+    }
+}
+
+/// Kinds of bodies.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum Kind {
+    /// People on foot.
+    Pedestrian,
+    /// Bicycles with their riders.
+    Bicycle,
+    /// Motorcycles with their riders.
+    Motorcycle,
+    /// Passenger cars.
+    Car,
+    /// Vans.
+    Van,
+    /// Lorries.
+    Truck,
+    /// Buses.
+    Bus,
+}
+
+impl Kind {
+    fn body(self) -> BodyKind {
+        match self {
+            Self::Pedestrian => BodyKind::Pedestrian,
+            Self::Bicycle => BodyKind::Bicycle,
+            Self::Motorcycle => BodyKind::Motorcycle,
+            Self::Car => BodyKind::Car,
+            Self::Van => BodyKind::Van,
+            Self::Truck => BodyKind::Truck,
+            Self::Bus => BodyKind::Bus,
+        }
+    }
+}
+
+impl Follow {
+    /// Numbers of all bodies that may be followed, in the order in which they are: the first of each kind, the second of each
+    /// kind and so on, so that further ones change nothing.
+    pub fn eligible(&self, traffic: &Traffic) -> Vec<u32> {
+        let of_kind = |kind: &Kind| -> Vec<u32> {
+            let may = |number: &u32| {
+                let body = &traffic.bodies[*number as usize];
+                body.plan.kind == kind.body()
+                    && traffic.track(*number).is_some()
+                    && body.length_m() >= self.min_length_m
+            };
+            (0..traffic.bodies.len() as u32).filter(may).collect()
+        };
+        let lists: Vec<Vec<u32>> = self.kinds.iter().map(of_kind).collect();
+        let longest = lists.iter().map(Vec::len).max().unwrap_or(0);
+        (0..longest).flat_map(|place| lists.iter().filter_map(move |list| list.get(place))).copied().collect()
+    }
+
+    /// Names of the kinds, for messages.
+    pub fn names(&self) -> String {
+        let names: Vec<String> = self.kinds.iter().map(|kind| format!("`{}`", kind.body().name())).collect();
+        names.join(", ")
+    }
+}
+
+impl TrafficConfig {
+    /// Checks what the schema cannot say.
+    pub fn check(&self) -> Result<(), ConfigRule> {
+        let duration_s = f64::from(self.frames) * self.dt_s;
+        if duration_s > 86_400.0 {
+            let message = format!("`frames` x `dt_s` is `{duration_s}` s; it must not be more than a day, `86400` s");
+            return Err(ConfigRule { path: &["frames"], message });
+        }
+        if let Some(at) =
+            (1..self.follow.kinds.len()).find(|at| self.follow.kinds[..*at].contains(&self.follow.kinds[*at]))
+        {
+            let message = format!("`{}` is listed twice", self.follow.kinds[at].body().name());
+            return Err(ConfigRule { path: &["follow", "kinds"], message });
+        }
+        let shares = |message| ConfigRule { path: &["look_alikes", "shares"], message };
+        self.look_alikes.check().map_err(shares)?;
+        self.people.check()
+    }
+
+    /// Frames and steps.
+    pub fn clock(&self) -> Clock {
+        Clock::new(self.frames, self.dt_s, STEP_S)
+    }
+
+    /// Parameters that the bodies depend on, for keys: those who are followed as far as others are dressed like them.
+    pub fn canonical_of_bodies(&self) -> serde_json::Value {
+        let mut all = parameters::canonical(self);
+        if self.look_alikes.shares.is_empty() {
+            all.as_object_mut().expect("a table").remove("follow");
+        }
+        all
+    }
+
+    /// Parameters that one walk depends on beside the tracks, for keys: not how many there are.
+    pub fn canonical_of_walks(&self) -> serde_json::Value {
+        let mut follow = parameters::canonical(&self.follow);
+        follow.as_object_mut().expect("a table").remove("count");
+        follow
+    }
+}

@@ -1,0 +1,210 @@
+//! `traffic`: people and vehicles who move together through the town, and the walks of those who are followed.
+
+mod config;
+mod population;
+
+use crate::memo::Memo;
+use crate::ports::{self, TRAFFIC, WALK};
+use crate::world::{TOWN_BLOB, link_town, world};
+use crate::{codec, parameters};
+use config::TrafficConfig;
+use cosfly_blobs::OutputSink;
+use cosfly_diagnose::{Diagnostic, Fault, ParameterError, Result};
+use cosfly_frames::{Seed, TargetTrack};
+use cosfly_pedestrians::{Crowd, WalkableGrid, path_of};
+use cosfly_render::{BodyShape, Outfit};
+use cosfly_stage::{
+    Artifact, Fan, InputPort, Inputs, ItemRule, Produced, Stage, StageKind, StagePart, StageProperties, TaskContext,
+};
+use cosfly_world::{Around, Body, Followed, Traffic, dress, simulate};
+use std::sync::Arc;
+
+/// Blob of a walk that was taken out of traffic, with the whole [`Traffic`]; and the part that makes it.
+pub const BODIES: &str = "bodies";
+/// Blob of such a walk, and of the flights behind it, with its [`Followed`].
+pub const FOLLOWED: &str = "followed";
+
+/// Blob of a flight through traffic with the [`Around`] of its target.
+pub const AROUND_BLOB: &str = "around";
+/// Bodies that come within this distance of the followed one, seen from above, are around it, metres.
+const AROUND_M: f64 = 60.0;
+
+/// Stage kind `traffic`.
+pub struct TrafficKind;
+
+impl StageKind for TrafficKind {
+    fn name(&self) -> &'static str {
+        "traffic"
+    }
+
+    fn doc(&self) -> &'static str {
+        "Moves people and vehicles through the town together, none through another; flights follow some of them among all others."
+    }
+
+    fn schema(&self) -> serde_json::Value {
+        parameters::schema_of::<TrafficConfig>()
+    }
+
+    fn ports(&self) -> Vec<InputPort> {
+        vec![ports::town()]
+    }
+
+    fn build(&self, given: serde_json::Value) -> Result<Vec<StagePart>, ParameterError> {
+        let config: TrafficConfig = parameters::read(given)?;
+        config.check().map_err(|rule| parameters::refused_at(&rule.path.join("."), rule.message))?;
+        let properties = |parameters, inputs, artifact, items, bytes_per_item| StageProperties {
+            kind: self.name().into(),
+            version: 1,
+            parameters,
+            sources: vec![],
+            inputs,
+            artifact,
+            items,
+            bytes_per_item,
+            intermediate: &[],
+        };
+        let bodies = config.canonical_of_bodies();
+        let bytes = 20 * u64::from(config.frames) * u64::from(config.people.count);
+        let bodies = properties(bodies, self.ports(), TRAFFIC, ItemRule::One, bytes);
+        let doc = "Everybody: the part of the same stage.";
+        let inputs = vec![ports::town(), ports::sibling(BODIES, TRAFFIC, Fan::Broadcast, doc)];
+        let items = ItemRule::Count { prefix: "t", count: config.follow.count };
+        let walks = properties(config.canonical_of_walks(), inputs, WALK, items, 60 * u64::from(config.frames));
+        let config = Arc::new(config);
+        Ok(vec![
+            StagePart {
+                suffix: BODIES,
+                stage: Box::new(BodiesStage { config: Arc::clone(&config), properties: bodies }),
+            },
+            StagePart { suffix: "", stage: Box::new(WalksStage { config, properties: walks, grid: Memo::default() }) },
+        ])
+    }
+}
+
+/// Traffic that a walk was taken out of; `None` for a walk of a stage `pedestrians`.
+pub fn traffic_of(inputs: &Inputs<'_>, walk: &Artifact) -> Result<Option<Arc<Traffic>>> {
+    if !walk.blobs.contains_key(BODIES) {
+        return Ok(None);
+    }
+    inputs.decoded(walk, BODIES, |bytes| codec::decode(TRAFFIC, bytes)).map(Some)
+}
+
+/// The followed body of a walk or a flight; `None` outside of traffic.
+pub fn followed(inputs: &Inputs<'_>, artifact: &Artifact) -> Result<Option<Followed>> {
+    if !artifact.blobs.contains_key(FOLLOWED) {
+        return Ok(None);
+    }
+    codec::decode(WALK, &inputs.read(artifact, FOLLOWED)?).map(Some)
+}
+
+/// Bodies around the target of a walk; nobody outside of traffic.
+pub fn cut_around(inputs: &Inputs<'_>, walk: &Artifact, track: &TargetTrack) -> Result<Around> {
+    let Some(traffic) = traffic_of(inputs, walk)? else { return Ok(Around::default()) };
+    let own = followed(inputs, walk)?.map(|followed| followed.number);
+    Ok(Around::of(&traffic, track, own, AROUND_M))
+}
+
+/// Writes the bodies around the target of a flight, and links what later stages need to know of the moving world.
+pub fn put_around(walk: &Artifact, around: &Around, outputs: &mut dyn OutputSink) -> Result<()> {
+    if walk.blobs.contains_key(BODIES) {
+        outputs.put(AROUND_BLOB, &codec::encode(ports::AROUND, around)?)?;
+    }
+    link_moving(walk, outputs)
+}
+
+/// Bodies around the target of a flight; nobody outside of traffic.
+pub fn around(inputs: &Inputs<'_>, artifact: &Artifact) -> Result<Arc<Around>> {
+    if !artifact.blobs.contains_key(AROUND_BLOB) {
+        return Ok(Arc::default());
+    }
+    inputs.decoded(artifact, AROUND_BLOB, |bytes| codec::decode(ports::AROUND, bytes))
+}
+
+/// Links the followed body and the bodies around it from an input to the output of a task.
+pub fn link_moving(artifact: &Artifact, outputs: &mut dyn OutputSink) -> Result<()> {
+    for name in [FOLLOWED, AROUND_BLOB] {
+        if let Some(blob) = artifact.blobs.get(name) {
+            outputs.link(name, *blob)?;
+        }
+    }
+    Ok(())
+}
+
+struct BodiesStage {
+    config: Arc<TrafficConfig>,
+    properties: StageProperties,
+}
+
+impl Stage for BodiesStage {
+    fn properties(&self) -> &StageProperties {
+        &self.properties
+    }
+
+    fn run(&self, inputs: &Inputs<'_>, outputs: &mut dyn OutputSink, context: &TaskContext) -> Result<Produced> {
+        let world = world(inputs)?;
+        let clock = self.config.clock();
+        let mut populations = population::all(&self.config, &world.town, clock, Seed(context.seed))?;
+        let simulated = simulate(&mut populations, clock, |_| context.check_cancelled())?;
+        let mut traffic = Traffic { name: context.id.stage.recipe_name().to_owned(), ..simulated };
+        let mut followed = self.config.follow.eligible(&traffic);
+        followed.truncate(self.config.follow.count as usize);
+        let outfit = |looks: &Seed| Outfit::of(BodyShape::Person, looks);
+        let alike = |a: &Seed, b: &Seed| outfit(a).is_like(&outfit(b));
+        let seed = Seed(context.seed).child("look-alikes", 0);
+        let note = dress(&mut traffic, &followed, &self.config.look_alikes, &alike, &seed);
+        traffic.notes.extend(note);
+        outputs.put(BODIES, &codec::encode(TRAFFIC, &traffic)?)?;
+        link_town(inputs, outputs)?;
+        let notes = [("bodies".to_owned(), traffic.bodies.len().to_string())].into();
+        Ok(Produced { notes, warnings: traffic.notes, ..Produced::default() })
+    }
+}
+
+struct WalksStage {
+    config: Arc<TrafficConfig>,
+    properties: StageProperties,
+    grid: Memo<Option<WalkableGrid>>,
+}
+
+impl Stage for WalksStage {
+    fn properties(&self) -> &StageProperties {
+        &self.properties
+    }
+
+    fn run(&self, inputs: &Inputs<'_>, outputs: &mut dyn OutputSink, context: &TaskContext) -> Result<Produced> {
+        let artifact = inputs.one(BODIES)?;
+        let traffic = traffic_of(inputs, artifact)?.ok_or_else(|| missing(artifact))?;
+        let eligible = self.config.follow.eligible(&traffic);
+        let place = context.id.item.number().unwrap_or(0) as usize;
+        let number = *eligible.get(place).ok_or_else(|| too_few(&self.config, eligible.len()))?;
+        let body: &Body = &traffic.bodies[number as usize];
+        let track = traffic.track(number).ok_or_else(|| missing(artifact))?;
+        let digest = inputs.one("town")?.blobs[TOWN_BLOB].digest;
+        let world = world(inputs)?;
+        let grid = || Ok::<_, Box<Diagnostic>>(Crowd::grid(&world.town, &self.config.people).ok());
+        let grid = self.grid.get(digest, grid)?;
+        let path = path_of(Option::as_ref(&grid).map(WalkableGrid::ground), track);
+        outputs.put("walk", &codec::encode(WALK, &path)?)?;
+        outputs.put(FOLLOWED, &codec::encode(WALK, &Followed { number, plan: body.plan.clone() })?)?;
+        outputs.link(BODIES, artifact.blobs[BODIES])?;
+        link_town(inputs, outputs)?;
+        let notes = [("body".to_owned(), format!("{} {number}", body.plan.kind.name()))].into();
+        Ok(Produced { notes, ..Produced::default() })
+    }
+}
+
+fn missing(artifact: &Artifact) -> Box<Diagnostic> {
+    Diagnostic::new("artifact-decode", Fault::Bug, format!("`{}` holds no traffic", artifact.id))
+}
+
+fn too_few(config: &TrafficConfig, eligible: usize) -> Box<Diagnostic> {
+    let follow = &config.follow;
+    let message = format!(
+        "`follow.count` is {}, but only {eligible} bodies of the kinds {} are there all the time and cover {} m",
+        follow.count,
+        follow.names(),
+        follow.min_length_m
+    );
+    Diagnostic::new("traffic-few", Fault::Recipe, message)
+        .hint("follow fewer, move more people or vehicles, name further kinds, or lower `follow.min_length_m`")
+}

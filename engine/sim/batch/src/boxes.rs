@@ -1,0 +1,173 @@
+//! Boxes of a town in groups of eight neighbours, projected together.
+
+use crate::eye::{Eye, Linear};
+use crate::faces::DrawnFace;
+use crate::lanes::{Bounds, BoxLanes, LANES};
+use crate::raster::BoxOnScreen;
+use crate::zorder::z_order;
+use cosfly_frames::DVec3;
+use cosfly_render::outside::SceneFace;
+
+/// Boxes of a group.
+const GROUP: usize = LANES;
+/// Boxes with a longer side than this are grouped apart and drawn first: they hide much, metres.
+const LARGE_M: f64 = 6.0;
+
+/// A box in full precision.
+#[derive(Clone, Copy)]
+pub struct SolidBox {
+    bounds: Bounds,
+    lift: f64,
+    label: u8,
+    instance: u32,
+}
+
+/// Neighbouring boxes.
+struct Group {
+    /// Index of the first box; the others follow.
+    first: u32,
+    lanes: BoxLanes,
+}
+
+/// Boxes of a kind in groups.
+pub struct Grouped {
+    groups: Vec<Group>,
+    /// Boxes around the groups.
+    around: BoxLanes,
+}
+
+/// All boxes of a town.
+pub struct Boxes {
+    all: Vec<SolidBox>,
+    large: Grouped,
+    small: Grouped,
+}
+
+impl Boxes {
+    /// Boxes by their faces, six of each.
+    pub fn of(faces: &[SceneFace]) -> Self {
+        let mut boxes: Vec<SolidBox> = faces.chunks_exact(6).map(SolidBox::of).collect();
+        let low = boxes.iter().map(|b| b.bounds.center_in_world).fold(DVec3::INFINITY, DVec3::min);
+        let is_large = |b: &SolidBox| b.bounds.half_m.truncate().max_element() > 0.5 * LARGE_M;
+        boxes.sort_by_cached_key(|b| {
+            let cell = (b.bounds.center_in_world - low) * 0.5;
+            (!is_large(b), z_order(cell.x as u32, cell.y as u32))
+        });
+        let large = boxes.partition_point(is_large);
+        let (large, small) = (Grouped::of(&boxes[..large], 0), Grouped::of(&boxes[large..], large));
+        Self { all: boxes, large, small }
+    }
+
+    pub fn get(&self, index: u32) -> &SolidBox {
+        &self.all[index as usize]
+    }
+
+    /// Boxes that hide much.
+    pub fn large(&self) -> &Grouped {
+        &self.large
+    }
+
+    /// All others.
+    pub fn small(&self) -> &Grouped {
+        &self.small
+    }
+
+    pub fn bytes(&self) -> usize {
+        size_of_val(&*self.all) + self.large.bytes() + self.small.bytes()
+    }
+}
+
+impl SolidBox {
+    fn of(faces: &[SceneFace]) -> Self {
+        // Faces 0 and 1 look along the box's x axis, 2 and 3 along y, 4 and 5 along z.
+        let (low, high) = (&faces[4].corners_in_world, &faces[5].corners_in_world);
+        let axis = faces[1].normal_in_world;
+        let half = |from: usize, to: usize| 0.5 * (low[to] - low[from]).length();
+        Self {
+            bounds: Bounds {
+                center_in_world: 0.5 * (low[0] + high[2]),
+                half_m: DVec3::new(half(0, 1), half(1, 2), 0.5 * (high[0].z - low[0].z)),
+                axis: [axis.x, axis.y],
+            },
+            lift: faces[0].lift,
+            label: faces[0].label,
+            instance: faces[0].instance,
+        }
+    }
+
+    /// The planes of its faces; the faces that are seen are appended to `faces`. `None` when the camera is inside.
+    pub fn on_screen(&self, eye: &Eye, faces: &mut Vec<DrawnFace>) -> Option<BoxOnScreen> {
+        let Bounds { center_in_world, half_m, axis: [cos, sin] } = self.bounds;
+        let away = center_in_world - eye.position_in_world;
+        let center = [cos * away.x + sin * away.y, cos * away.y - sin * away.x, away.z];
+        let rays = eye.ray_in_world;
+        let along: [Linear; 3] = [
+            rays.map(|ray| cos * ray.x + sin * ray.y),
+            rays.map(|ray| cos * ray.y - sin * ray.x),
+            rays.map(|ray| ray.z),
+        ];
+        let mut planes = [[0.0f32; 3]; 6];
+        let mut numbers = [0u32; 3];
+        let (mut entries, mut exits) = (0, 6);
+        let lift = 1.0 + self.lift;
+        let mut leave = |axis: usize, way: f64| {
+            exits -= 1;
+            let scale = lift / way;
+            planes[exits] = along[axis].map(|part| (part * scale) as f32);
+        };
+        let mut ways = [0.0; 3];
+        for axis in 0..3 {
+            let (low, high) = (center[axis] - half_m[axis], center[axis] + half_m[axis]);
+            if low > 0.0 {
+                ways[axis] = low;
+                leave(axis, high);
+            } else if high < 0.0 {
+                ways[axis] = high;
+                leave(axis, low);
+            } else {
+                // Between both: rays only leave, by one or the other.
+                leave(axis, low.min(-1e-12));
+                leave(axis, high.max(1e-12));
+            }
+        }
+        for axis in 0..3 {
+            if ways[axis] != 0.0 {
+                let scale = 1.0 / ways[axis];
+                let plane = along[axis].map(|part| part * scale);
+                planes[entries] = plane.map(|part| (part * lift) as f32);
+                numbers[entries] = faces.len() as u32;
+                faces.push(DrawnFace { plane, instance: self.instance, label: self.label });
+                entries += 1;
+            }
+        }
+        (entries > 0).then_some(BoxOnScreen { planes, entries, faces: numbers })
+    }
+}
+
+impl Grouped {
+    fn of(boxes: &[SolidBox], first: usize) -> Self {
+        let bounds: Vec<Bounds> = boxes.iter().map(|b| b.bounds).collect();
+        let group = |(number, members): (usize, &[Bounds])| Group {
+            first: (first + GROUP * number) as u32,
+            lanes: BoxLanes::of(members),
+        };
+        let around: Vec<Bounds> = bounds.chunks(GROUP).map(|members| Bounds::around(members.iter().copied())).collect();
+        Self { groups: bounds.chunks(GROUP).enumerate().map(group).collect(), around: BoxLanes::of(&around) }
+    }
+
+    /// Boxes around all groups.
+    pub fn around(&self) -> &BoxLanes {
+        &self.around
+    }
+
+    /// Index of the first box of a group, and the group's boxes.
+    pub fn group(&self, number: u32) -> (u32, &BoxLanes) {
+        let group = &self.groups[number as usize];
+        (group.first, &group.lanes)
+    }
+
+    fn bytes(&self) -> usize {
+        let lanes = self.groups.iter().map(|group| group.lanes.bytes());
+        self.around.bytes() + lanes.sum::<usize>() + size_of_val(&*self.groups)
+    }
+}

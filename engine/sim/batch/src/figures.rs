@@ -1,0 +1,197 @@
+//! People and other figures as triangles.
+
+use crate::canvas::WIDE;
+use crate::eye::Eye;
+use cosfly_frames::simd::Level;
+use cosfly_frames::{DVec3, Seed, real, simd_kernel};
+use cosfly_render::Walker;
+use cosfly_render::clothes::Clothes;
+use cosfly_render::figure::{FigurePart, SIDES};
+
+/// A box around something on the screen: bounds in pixels from the image's centre, and the nearest depth.
+pub struct Around {
+    pub low: [f32; 2],
+    pub high: [f32; 2],
+    pub nearest_m: f64,
+}
+
+impl Around {
+    /// Around points of the world.
+    pub fn new(eye: &Eye, points_in_world: impl Iterator<Item = DVec3>) -> Self {
+        let (mut low, mut high) = ([f32::INFINITY; 2], [f32::NEG_INFINITY; 2]);
+        let mut nearest_m = f64::INFINITY;
+        for point in points_in_world {
+            let seen = eye.see(point);
+            nearest_m = nearest_m.min(seen.x);
+            let at = [eye.focal_px * seen.y / seen.x, -eye.focal_px * seen.z / seen.x].map(|part| part as f32);
+            for axis in 0..2 {
+                low[axis] = low[axis].min(at[axis]);
+                high[axis] = high[axis].max(at[axis]);
+            }
+        }
+        if nearest_m < crate::eye::NEAR_M {
+            (low, high) = ([f32::NEG_INFINITY; 2], [f32::INFINITY; 2]);
+        }
+        Self { low, high, nearest_m }
+    }
+
+    /// Around an upright box.
+    pub fn of_box(eye: &Eye, low_in_world: DVec3, high_in_world: DVec3) -> Self {
+        let ends = [low_in_world, high_in_world];
+        Self::new(eye, (0..8).map(|k: usize| DVec3::new(ends[k & 1].x, ends[k >> 1 & 1].y, ends[k >> 2].z)))
+    }
+}
+
+/// Corners of the two rings of a part of a body on the screen: metres ahead, pixels from the image's centre.
+pub struct SeenPart {
+    /// Corners in body axes of the camera, metres: x ahead, y right, z up; ring by ring.
+    pub points: [[[f32; WIDE]; 3]; 2],
+    /// Right and down.
+    pub pixels: [[[f32; WIDE]; 2]; 2],
+    pub low: [f32; 2],
+    pub high: [f32; 2],
+    pub nearest_m: f32,
+}
+
+/// A walker's axes in body axes of the camera, as long as the body is high.
+pub struct Stance {
+    feet: DVec3,
+    axes: [DVec3; 3],
+    focal_px: f32,
+}
+
+/// Directions of the corners of a ring; the last two repeat the first, to fill eight lanes.
+const COS: [f32; WIDE] = [1.0, 0.5, -0.5, -1.0, -0.5, 0.5, 1.0, 0.5];
+const SIN: [f32; WIDE] = {
+    const HIGH: f32 = 0.866_025_4;
+    [0.0, HIGH, HIGH, 0.0, -HIGH, -HIGH, 0.0, HIGH]
+};
+
+impl Stance {
+    /// The stance of a walker whose lowest ring is `lowest` body heights above the feet.
+    pub fn new(eye: &Eye, walker: &Walker, lowest: f64) -> Self {
+        let (sin, cos) = real::sin_cos(walker.state.heading_rad);
+        let axes = [DVec3::new(cos, sin, 0.0), DVec3::new(-sin, cos, 0.0), DVec3::Z];
+        let sunk = walker.state.feet_in_world - DVec3::Z * (lowest * walker.height_m);
+        Self {
+            feet: eye.see(sunk),
+            axes: axes.map(|axis| eye.body_from_world * axis * walker.height_m),
+            focal_px: eye.focal_px as f32,
+        }
+    }
+
+    /// A part of the body on the screen.
+    pub fn see(&self, level: Level, part: &FigurePart) -> SeenPart {
+        let [forward, right, up] = self.axes;
+        let rings = [part.low, part.high].map(|ring| {
+            let center = self.feet + forward * ring.forward + right * ring.right + up * ring.up.max(0.0);
+            [center, forward * ring.half_forward, right * ring.half_side].map(|vector| vector.as_vec3().to_array())
+        });
+        let mut seen = SeenPart {
+            points: [[[0.0; WIDE]; 3]; 2],
+            pixels: [[[0.0; WIDE]; 2]; 2],
+            low: [0.0; 2],
+            high: [0.0; 2],
+            nearest_m: 0.0,
+        };
+        project(level, &rings, self.focal_px, &mut seen);
+        seen
+    }
+}
+
+simd_kernel! {
+    fn project(rings: &[[[f32; 3]; 3]; 2], focal_px: f32, seen: &mut SeenPart) {
+        let mut low = [[f32::INFINITY; WIDE]; 2];
+        let mut high = [[f32::NEG_INFINITY; WIDE]; 2];
+        let mut nearest = [f32::INFINITY; WIDE];
+        for ring in 0..2 {
+            let [center, forward, side] = rings[ring];
+            for axis in 0..3 {
+                for k in 0..WIDE {
+                    seen.points[ring][axis][k] = center[axis] + (forward[axis] * COS[k] + side[axis] * SIN[k]);
+                }
+            }
+            let points = &seen.points[ring];
+            for k in 0..WIDE {
+                let scale = focal_px / points[0][k];
+                let (u, v) = (points[1][k] * scale, -points[2][k] * scale);
+                (seen.pixels[ring][0][k], seen.pixels[ring][1][k]) = (u, v);
+                low[0][k] = if u < low[0][k] { u } else { low[0][k] };
+                low[1][k] = if v < low[1][k] { v } else { low[1][k] };
+                high[0][k] = if u > high[0][k] { u } else { high[0][k] };
+                high[1][k] = if v > high[1][k] { v } else { high[1][k] };
+                nearest[k] = if points[0][k] < nearest[k] { points[0][k] } else { nearest[k] };
+            }
+        }
+        for axis in 0..2 {
+            let (mut least, mut most) = (low[axis][0], high[axis][0]);
+            for k in 1..WIDE {
+                least = if low[axis][k] < least { low[axis][k] } else { least };
+                most = if high[axis][k] > most { high[axis][k] } else { most };
+            }
+            (seen.low[axis], seen.high[axis]) = (least, most);
+        }
+        seen.nearest_m = nearest[0];
+        for k in 1..WIDE {
+            seen.nearest_m = if nearest[k] < seen.nearest_m { nearest[k] } else { seen.nearest_m };
+        }
+    }
+}
+
+/// Clothes of people by their seeds, so that nobody's are drawn again in every picture. Forgets rather than grows.
+pub struct Wardrobe {
+    shelves: Vec<Option<(Seed, Clothes)>>,
+}
+
+impl Wardrobe {
+    pub fn new() -> Self {
+        Self { shelves: vec![None; 256] }
+    }
+
+    pub fn clothes(&mut self, seed: &Seed) -> Clothes {
+        let shelf = &mut self.shelves[usize::from(seed.0[0])];
+        match shelf {
+            Some((known, clothes)) if known == seed => *clothes,
+            _ => shelf.insert((*seed, Clothes::draw(seed))).1,
+        }
+    }
+}
+
+/// Corners of a frustum's triangles: ring and number. Two for each side; the ends as fans around their first corner, which
+/// cover the same pixels as the flat ends themselves.
+const TRIANGLES: [[(usize, usize); 3]; 20] = {
+    let mut triangles = [[(0, 0); 3]; 20];
+    let mut k = 0;
+    while k < SIDES {
+        let next = (k + 1) % SIDES;
+        triangles[2 * k] = [(0, k), (0, next), (1, k)];
+        triangles[2 * k + 1] = [(1, k), (0, next), (1, next)];
+        k += 1;
+    }
+    let mut k = 2;
+    while k < SIDES {
+        triangles[2 * SIDES + k - 2] = [(0, 0), (0, k), (0, k - 1)];
+        triangles[2 * SIDES + SIDES + k - 4] = [(1, 0), (1, k - 1), (1, k)];
+        k += 1;
+    }
+    triangles
+};
+
+impl SeenPart {
+    /// Corner `k` of a ring in body axes, metres.
+    #[inline]
+    pub fn point(&self, ring: usize, k: usize) -> DVec3 {
+        let [x, y, z] = &self.points[ring];
+        DVec3::new(f64::from(x[k]), f64::from(y[k]), f64::from(z[k]))
+    }
+
+    /// The triangles of its surface, by ring and number of the corners.
+    pub fn corners(&self) -> &'static [[(usize, usize); 3]] {
+        &TRIANGLES
+    }
+
+    /// The triangles of its surface in body axes.
+    pub fn triangles(&self) -> impl Iterator<Item = [DVec3; 3]> {
+        TRIANGLES.iter().map(|corners| corners.map(|(ring, k)| self.point(ring, k)))
+    }
+}

@@ -1,0 +1,171 @@
+//! Bounds of eight boxes at a time on the screen.
+
+use crate::canvas::{Canvas, Part, Parts};
+use crate::eye::{Eye, NEAR_M};
+use crate::hidden::Hidden;
+use cosfly_frames::simd::Level;
+use cosfly_frames::{DVec3, simd_kernel};
+
+/// Boxes side by side.
+pub const LANES: usize = 8;
+
+/// A box turned around the vertical axis.
+#[derive(Clone, Copy)]
+pub struct Bounds {
+    pub center_in_world: DVec3,
+    pub half_m: DVec3,
+    /// Unit vector of its x axis.
+    pub axis: [f64; 2],
+}
+
+impl Bounds {
+    /// An upright box between two corners.
+    pub fn between(low: DVec3, high: DVec3) -> Self {
+        Self { center_in_world: 0.5 * (low + high), half_m: 0.5 * (high - low), axis: [1.0, 0.0] }
+    }
+
+    /// Lowest and highest corner.
+    pub fn ends(&self) -> [DVec3; 2] {
+        let [cos, sin] = self.axis.map(f64::abs);
+        let half = self.half_m;
+        let reach = DVec3::new(cos * half.x + sin * half.y, sin * half.x + cos * half.y, half.z);
+        [self.center_in_world - reach, self.center_in_world + reach]
+    }
+
+    /// Around others.
+    pub fn around(others: impl Iterator<Item = Self>) -> Self {
+        let (low, high) = others.fold((DVec3::INFINITY, DVec3::NEG_INFINITY), |(low, high), other| {
+            let [from, to] = other.ends();
+            (low.min(from), high.max(to))
+        });
+        Self::between(low, high)
+    }
+}
+
+/// Neighbouring boxes, eight side by side.
+pub struct BoxLanes {
+    origin_in_world: DVec3,
+    count: usize,
+    eights: Vec<Eight>,
+}
+
+/// Eight boxes from the origin.
+struct Eight {
+    center_m: [[f32; LANES]; 3],
+    half_m: [[f32; LANES]; 3],
+    axis: [[f32; LANES]; 2],
+}
+
+/// Eight boxes on the screen.
+#[derive(Default)]
+struct Projected {
+    parts: Parts<LANES>,
+    nearest_m: [f32; LANES],
+}
+
+/// A box that may be seen.
+#[derive(Clone, Copy)]
+pub struct Candidate {
+    /// Its number among its neighbours.
+    pub index: u32,
+    /// The part of the canvas that it may cover.
+    pub part: Part,
+    /// Greatest inverse depth that it may have, 1/m.
+    pub nearest: f32,
+}
+
+impl BoxLanes {
+    pub fn of(boxes: &[Bounds]) -> Self {
+        let origin_in_world = Bounds::around(boxes.iter().copied()).center_in_world;
+        let eight = |members: &[Bounds]| {
+            let lane = |value: &dyn Fn(&Bounds) -> f64| {
+                core::array::from_fn(|k| members.get(k).or(members.last()).map_or(0.0, value) as f32)
+            };
+            Eight {
+                center_m: [0, 1, 2].map(|axis| lane(&|b| (b.center_in_world - origin_in_world)[axis])),
+                half_m: [0, 1, 2].map(|axis| lane(&|b| b.half_m[axis])),
+                axis: [0, 1].map(|axis| lane(&|b| b.axis[axis])),
+            }
+        };
+        Self { origin_in_world, count: boxes.len(), eights: boxes.chunks(LANES).map(eight).collect() }
+    }
+
+    /// Appends the boxes that cover a pixel centre of the canvas and are not hidden.
+    pub fn gather(&self, level: Level, eye: &Eye, canvas: &Canvas, hidden: &Hidden, found: &mut Vec<Candidate>) {
+        let origin = eye.pixels_ahead(eye.see(self.origin_in_world)).as_vec3().to_array();
+        let mut projected = Projected::default();
+        for (number, eight) in self.eights.iter().enumerate() {
+            project(level, eight, origin, &eye.turn_to_pixels, canvas.size(), &mut projected);
+            for k in 0..LANES.min(self.count - LANES * number) {
+                let Some(part) = projected.parts.get(k) else { continue };
+                let nearest = 1.0 / projected.nearest_m[k].max(NEAR_M as f32);
+                if !hidden.hides(canvas, part, nearest) {
+                    found.push(Candidate { index: (LANES * number + k) as u32, part, nearest });
+                }
+            }
+        }
+    }
+
+    pub fn bytes(&self) -> usize {
+        size_of_val(&*self.eights)
+    }
+}
+
+simd_kernel! {
+    /// Bounds of the corners of eight boxes on the screen; those that reach behind the camera may be everywhere.
+    fn project(eight: &Eight, origin: [f32; 3], turn: &[[f32; 3]; 3], size: [f32; 2], projected: &mut Projected) {
+        let mut center = [[0.0f32; LANES]; 3];
+        let mut reach = [[[0.0f32; LANES]; 3]; 3];
+        for part in 0..3 {
+            for k in 0..LANES {
+                let [x, y, z] = [eight.center_m[0][k], eight.center_m[1][k], eight.center_m[2][k]];
+                center[part][k] = origin[part] + (x * turn[0][part] + y * turn[1][part] + z * turn[2][part]);
+                let [cos, sin] = [eight.axis[0][k], eight.axis[1][k]];
+                reach[0][part][k] = eight.half_m[0][k] * (cos * turn[0][part] + sin * turn[1][part]);
+                reach[1][part][k] = eight.half_m[1][k] * (cos * turn[1][part] - sin * turn[0][part]);
+                reach[2][part][k] = eight.half_m[2][k] * turn[2][part];
+            }
+        }
+        let mut low = [[f32::INFINITY; LANES]; 2];
+        let mut high = [[f32::NEG_INFINITY; LANES]; 2];
+        let mut nearest = [f32::INFINITY; LANES];
+        let mut farthest = [f32::NEG_INFINITY; LANES];
+        // How far corners reach within the sides of the view.
+        let mut within = [[f32::NEG_INFINITY; LANES]; 4];
+        for corner in 0..8 {
+            let sign = [0, 1, 2].map(|axis| if corner >> axis & 1 == 0 { -1.0f32 } else { 1.0 });
+            for k in 0..LANES {
+                let at = |part: usize| {
+                    let across = sign[0] * reach[0][part][k] + sign[1] * reach[1][part][k];
+                    center[part][k] + across + sign[2] * reach[2][part][k]
+                };
+                let (x, right, down) = (at(0), at(1), at(2));
+                let (wide, tall) = (0.5 * size[0] * x, 0.5 * size[1] * x);
+                for (within, by) in within.iter_mut().zip([wide + right, wide - right, tall + down, tall - down]) {
+                    within[k] = if by > within[k] { by } else { within[k] };
+                }
+                let scale = 1.0 / x;
+                let (u, v) = (right * scale, down * scale);
+                nearest[k] = if x < nearest[k] { x } else { nearest[k] };
+                farthest[k] = if x > farthest[k] { x } else { farthest[k] };
+                low[0][k] = if u < low[0][k] { u } else { low[0][k] };
+                low[1][k] = if v < low[1][k] { v } else { low[1][k] };
+                high[0][k] = if u > high[0][k] { u } else { high[0][k] };
+                high[1][k] = if v > high[1][k] { v } else { high[1][k] };
+            }
+        }
+        for k in 0..LANES {
+            let ahead = nearest[k] >= NEAR_M as f32;
+            for axis in 0..2 {
+                low[axis][k] = if ahead { low[axis][k] } else { f32::NEG_INFINITY };
+                high[axis][k] = if ahead { high[axis][k] } else { f32::INFINITY };
+                // Nothing of what lies behind or, by more than a rounding, beside the view.
+                let is_beside = (within[2 * axis][k] < -1.0) | (within[2 * axis + 1][k] < -1.0);
+                let is_out = is_beside | (farthest[k] < NEAR_M as f32);
+                high[axis][k] = if is_out { f32::NEG_INFINITY } else { high[axis][k] };
+            }
+        }
+        projected.parts.find(size, &low, &high);
+        projected.nearest_m = nearest;
+    }
+}

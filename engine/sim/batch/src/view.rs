@@ -1,0 +1,33 @@
+//! The content of one picture: the town, the camera, and whoever moves in it.
+
+use crate::scene::BatchScene;
+use cosfly_frames::{DVec3, Pose};
+use cosfly_render::{Bystander, Walker};
+
+/// One picture of a batch.
+#[derive(Clone, Copy)]
+pub struct View<'a> {
+    /// The town.
+    pub scene: &'a BatchScene,
+    /// The camera's pose (body axes: x along the optical axis, y right, z up).
+    pub pose: Pose,
+    /// Horizontal field of view, radians; pixels are square, the optical centre is the picture's centre.
+    pub horizontal_fov_rad: f64,
+    /// The followed target, if there is one; its instance id is [`cosfly_render::frame::TARGET_INSTANCE`].
+    pub target: Option<Walker>,
+    /// All other people, drawn as the same figures as in large pictures; those less than a pixel high are left out, as there.
+    pub others: &'a [Bystander],
+    /// Everything else that moves, as triangles.
+    pub figures: &'a [Figure<'a>],
+}
+
+/// Something that moves, as a closed surface.
+#[derive(Clone, Copy, Debug)]
+pub struct Figure<'a> {
+    /// Corners of the triangles in the world frame, metres; both sides are drawn.
+    pub triangles_in_world: &'a [[DVec3; 3]],
+    /// CARLA label id.
+    pub label: u8,
+    /// Instance id.
+    pub instance: u32,
+}

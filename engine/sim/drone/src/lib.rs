@@ -1,0 +1,15 @@
+//! Drones that fly: the motion that follows from commands, step by step.
+//!
+//! * [`PointMass`]: follows velocities within limits of speed, acceleration and jerk, as flights of the planner do.
+//! * [`Gimbal`]: yaw and pitch of the camera, within limits of rate and angle.
+//! * [`Spline`]: a smooth flight along waypoints of the planner that keeps their limits between the waypoints, too.
+//!
+//! Steps are deterministic, in f64, and allocate nothing.
+
+mod gimbal;
+mod point_mass;
+mod spline;
+
+pub use gimbal::{Gimbal, GimbalLimits, ViewRates};
+pub use point_mass::{Command, Motion, MotionLimits, PointMass};
+pub use spline::Spline;

@@ -1,0 +1,107 @@
+//! [`Controller`]: from a setpoint to thrust and body rates, and from those to speeds of the rotors.
+
+use super::dynamics::{GRAVITY_MPS2, QuadrotorState};
+use super::parameters::QuadrotorParameters;
+use cosfly_frames::{DMat3, DQuat, DVec3, real};
+use glam::{DMat4, DVec4};
+
+/// Wanted motion, right-handed inertial frame.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Setpoint {
+    /// Position, metres.
+    pub position_m: DVec3,
+    /// Velocity, m/s.
+    pub velocity_mps: DVec3,
+    /// Acceleration, m/s^2.
+    pub acceleration_mps2: DVec3,
+    /// Yaw, radians, x towards y (to the left).
+    pub yaw_rad: f64,
+}
+
+/// Collective thrust and body rates.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct ThrustAndRates {
+    /// Sum of the thrusts, N.
+    pub thrust_n: f64,
+    /// Rates of turning around the body's axes, rad/s.
+    pub rates_rad_s: DVec3,
+}
+
+/// Gains of a controller.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct ControlGains {
+    /// Acceleration per error of the position, 1/s^2.
+    pub position: f64,
+    /// Acceleration per error of the velocity, 1/s.
+    pub velocity: f64,
+    /// Rate of turning per error of the attitude, 1/s.
+    pub attitude: f64,
+    /// Angular acceleration per error of the rates, 1/s.
+    pub rates: f64,
+    /// Largest tilt, radians.
+    pub tilt_rad: f64,
+}
+
+impl Default for ControlGains {
+    /// A critically damped loop of 2 rad/s around an attitude of 8 and rates of 25 rad/s; tilts up to 45 degrees.
+    fn default() -> Self {
+        Self { position: 4.0, velocity: 4.0, attitude: 8.0, rates: 25.0, tilt_rad: 45.0_f64.to_radians() }
+    }
+}
+
+/// A controller of a quadrotor.
+#[derive(Clone, Debug)]
+pub struct Controller {
+    gains: ControlGains,
+    parameters: QuadrotorParameters,
+    /// Thrusts of the rotors from collective thrust and torques.
+    thrusts_from_wrench: DMat4,
+}
+
+impl Controller {
+    /// The controller of a quadrotor.
+    pub fn new(parameters: &QuadrotorParameters, gains: ControlGains) -> Self {
+        let hover_rpm = parameters.hover_rpm();
+        let ratio_m = parameters.torque_nm(hover_rpm) / parameters.thrust_n(hover_rpm);
+        let [roll, pitch, yaw] = &parameters.mixing;
+        let column = |rotor: usize| {
+            DVec4::new(1.0, parameters.arm_m * roll[rotor], parameters.arm_m * pitch[rotor], ratio_m * yaw[rotor])
+        };
+        let wrench_from_thrusts = DMat4::from_cols(column(0), column(1), column(2), column(3));
+        Self { gains, parameters: parameters.clone(), thrusts_from_wrench: wrench_from_thrusts.inverse() }
+    }
+
+    /// Thrust and body rates that lead to a setpoint.
+    pub fn track(&self, state: &QuadrotorState, setpoint: &Setpoint) -> ThrustAndRates {
+        let gains = &self.gains;
+        let missing_m = setpoint.position_m - state.position_m;
+        let missing_mps = setpoint.velocity_mps - state.velocity_mps;
+        let wanted = setpoint.acceleration_mps2 + gains.position * missing_m + gains.velocity * missing_mps;
+        let lift = tilted_at_most(wanted + GRAVITY_MPS2 * DVec3::Z, gains.tilt_rad);
+        let up = lift.normalize_or(DVec3::Z);
+        let (sin, cos) = real::sin_cos(setpoint.yaw_rad);
+        let left = up.cross(DVec3::new(cos, sin, 0.0)).normalize_or(DVec3::Y);
+        let attitude = DQuat::from_mat3(&DMat3::from_cols(left.cross(up), left, up));
+        let error = state.attitude.conjugate() * attitude;
+        let sign = if error.w < 0.0 { -1.0 } else { 1.0 };
+        let turn = 2.0 * sign * DVec3::new(error.x, error.y, error.z);
+        let thrust_n = self.parameters.mass_kg * lift.dot(state.attitude * DVec3::Z);
+        ThrustAndRates { thrust_n, rates_rad_s: gains.attitude * turn }
+    }
+
+    /// Speeds of the rotors for thrust and body rates, rev/min. Where a rotor is at its limit the thrusts follow as far as they can.
+    pub fn rotors_rpm(&self, state: &QuadrotorState, wanted: &ThrustAndRates) -> [f64; 4] {
+        let inertia = self.parameters.inertia_kgm2;
+        let rates = state.rates_rad_s;
+        let torque = inertia * (self.gains.rates * (wanted.rates_rad_s - rates)) + rates.cross(inertia * rates);
+        let thrusts = self.thrusts_from_wrench * DVec4::new(wanted.thrust_n, torque.x, torque.y, torque.z);
+        thrusts.to_array().map(|thrust_n| self.parameters.speed_of_thrust_rpm(thrust_n))
+    }
+}
+
+/// The vector, turned towards the vertical until its tilt is allowed; its height stays.
+fn tilted_at_most(lift: DVec3, tilt_rad: f64) -> DVec3 {
+    let up = lift.z.max(0.2 * GRAVITY_MPS2);
+    let level = lift.truncate().clamp_length_max(up * real::tan(tilt_rad));
+    level.extend(up)
+}

@@ -1,0 +1,72 @@
+//! [`Action`]: what a policy asks of the drone until its next action.
+
+use cosfly_drone::{Command, ViewRates};
+use cosfly_frames::{DVec3, real};
+
+/// Axes of the velocity of an action.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Axes {
+    /// x ahead of the camera on the level, y right, z up.
+    #[default]
+    Heading,
+    /// The world's.
+    World,
+}
+
+/// What a policy asks of the drone until its next action.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Action {
+    /// Axes of velocity and acceleration.
+    pub axes: Axes,
+    /// Wanted velocity, m/s.
+    pub velocity_mps: DVec3,
+    /// Acceleration with which the wanted velocity changes, m/s^2; zero where it stays.
+    pub acceleration_mps2: DVec3,
+    /// Turns of the camera.
+    pub view: ViewRates,
+}
+
+impl Action {
+    /// Action of five numbers: velocity ahead, right and up, m/s; yaw rate (positive: to the right) and pitch rate
+    /// (positive: up), degrees/s.
+    pub fn of_numbers([ahead, right, up, yaw_deg_s, pitch_deg_s]: [f64; 5]) -> Self {
+        Self {
+            velocity_mps: DVec3::new(ahead, right, up),
+            view: ViewRates { yaw_rad_s: yaw_deg_s.to_radians(), pitch_rad_s: pitch_deg_s.to_radians() },
+            ..Self::default()
+        }
+    }
+
+    /// The five numbers of an action of a drone with this yaw.
+    pub fn numbers(&self, yaw_rad: f64) -> [f64; 5] {
+        let velocity = match self.axes {
+            Axes::Heading => self.velocity_mps,
+            Axes::World => heading_from_world(self.velocity_mps, yaw_rad),
+        };
+        let view = [self.view.yaw_rad_s, self.view.pitch_rad_s].map(f64::to_degrees);
+        [velocity.x, velocity.y, velocity.z, view[0], view[1]]
+    }
+
+    /// The command for a drone with this yaw.
+    pub fn command(&self, yaw_rad: f64) -> Command {
+        let in_world = |vector: DVec3| match self.axes {
+            Axes::Heading => world_from_heading(vector, yaw_rad),
+            Axes::World => vector,
+        };
+        Command {
+            velocity_in_world: in_world(self.velocity_mps),
+            acceleration_in_world: in_world(self.acceleration_mps2),
+        }
+    }
+}
+
+/// Turns a vector from the axes of a heading into the world's.
+pub fn world_from_heading(vector: DVec3, yaw_rad: f64) -> DVec3 {
+    let (sin, cos) = real::sin_cos(yaw_rad);
+    DVec3::new(cos * vector.x - sin * vector.y, sin * vector.x + cos * vector.y, vector.z)
+}
+
+/// Turns a vector from the world's axes into those of a heading.
+pub fn heading_from_world(vector: DVec3, yaw_rad: f64) -> DVec3 {
+    world_from_heading(vector, -yaw_rad)
+}

@@ -1,0 +1,230 @@
+//! [`Environment`]: flies an episode, action by action.
+
+use crate::action::Action;
+use crate::episode::Episode;
+use crate::observation::{Observation, Sighting};
+use crate::reward::Reward;
+use crate::score::{End, Score};
+use crate::settings::Settings;
+use cosfly_drone::{Gimbal, Motion, PointMass};
+use cosfly_frames::{Pose, TargetState, real};
+use cosfly_planner::{aim_point, visibility};
+use std::sync::Arc;
+
+/// Slack for the comparison of times, seconds.
+const ROUNDING_S: f64 = 1e-9;
+
+/// Result of a step.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Step {
+    /// Observation after the step.
+    pub observation: Observation,
+    /// Reward of the step, by terms.
+    pub reward: Reward,
+    /// Why the episode ended in this step.
+    pub end: Option<End>,
+}
+
+/// An action on its way to the drone.
+#[derive(Clone, Copy)]
+struct Answer {
+    arrives_s: f64,
+    action: Action,
+}
+
+/// Flies an episode, action by action.
+#[derive(Clone)]
+pub struct Environment {
+    settings: Settings,
+    episode: Arc<Episode>,
+    drone: PointMass,
+    gimbal: Gimbal,
+    /// The action in force.
+    action: Action,
+    answer: Option<Answer>,
+    observation: Observation,
+    score: Score,
+}
+
+impl Environment {
+    /// The beginning of an episode.
+    pub fn new(episode: Arc<Episode>, settings: Settings) -> Self {
+        let (first, start) = (episode.first_view(), episode.start);
+        let motion = Motion {
+            position_in_world: start.position_in_world,
+            velocity_in_world: start.velocity_in_world,
+            ..Motion::default()
+        };
+        let gimbal = Gimbal { yaw_rad: first.yaw_rad, pitch_rad: first.pitch_rad, limits: settings.gimbal };
+        let drone = PointMass { motion, limits: settings.motion };
+        let action = coasting(&motion);
+        let target = episode.target_at(0.0);
+        let sighting = Sighting { time_s: 0.0, target, velocity_in_world: episode.target_velocity(0.0) };
+        let observation = Observation {
+            step: 0,
+            time_s: 0.0,
+            motion,
+            yaw_rad: gimbal.yaw_rad,
+            pitch_rad: gimbal.pitch_rad,
+            above_ground_m: 0.0,
+            visible: 0.0,
+            in_picture: true,
+            tracked: true,
+            sighting,
+        };
+        let score = Score { planned_steps: episode.steps(settings.step_s), ..Score::default() };
+        let mut new = Self { settings, episode, drone, gimbal, action, answer: None, observation, score };
+        new.observe(target);
+        new
+    }
+
+    /// Begins an episode anew.
+    pub fn reset(&mut self, episode: Arc<Episode>) -> &Observation {
+        *self = Self::new(episode, self.settings);
+        &self.observation
+    }
+
+    /// The present observation.
+    pub fn observation(&self) -> &Observation {
+        &self.observation
+    }
+
+    /// The outcome so far.
+    pub fn score(&self) -> &Score {
+        &self.score
+    }
+
+    /// The episode.
+    pub fn episode(&self) -> &Arc<Episode> {
+        &self.episode
+    }
+
+    /// The settings.
+    pub fn settings(&self) -> &Settings {
+        &self.settings
+    }
+
+    /// Pose of the camera.
+    pub fn camera(&self) -> Pose {
+        self.gimbal.pose(self.drone.motion.position_in_world)
+    }
+
+    /// The camera's turns.
+    pub fn gimbal(&self) -> &Gimbal {
+        &self.gimbal
+    }
+
+    /// Whether the policy is free to answer the present observation; false while its last answer is on its way.
+    pub fn wants_action(&self) -> bool {
+        self.answer.is_none() && self.score.end.is_none()
+    }
+
+    /// Moves on by one step. An action that is given while another is on its way is dropped. After the end nothing moves.
+    pub fn step(&mut self, action: Option<&Action>) -> Step {
+        if self.score.end.is_some() {
+            return Step { observation: self.observation, reward: Reward::default(), end: self.score.end };
+        }
+        let begins_s = self.observation.time_s;
+        if let (Some(&action), true) = (action, self.wants_action()) {
+            self.answer = Some(Answer { arrives_s: begins_s + self.settings.latency_s, action });
+        }
+        let before = self.drone.motion;
+        self.observation.step += 1;
+        let ends_s = f64::from(self.observation.step) * self.settings.step_s;
+        self.observation.time_s = ends_s;
+        let mut touched = false;
+        let mut now_s = begins_s;
+        if let Some(Answer { arrives_s, action }) = self.answer.filter(|answer| answer.arrives_s < ends_s - ROUNDING_S)
+        {
+            if arrives_s > now_s + ROUNDING_S {
+                touched |= self.fly(arrives_s - now_s);
+                now_s = arrives_s;
+            }
+            (self.action, self.answer) = (action, None);
+        }
+        touched |= self.fly(ends_s - now_s);
+        if let Some(Answer { action, .. }) = self.answer.filter(|answer| answer.arrives_s <= ends_s + ROUNDING_S) {
+            (self.action, self.answer) = (action, None);
+        }
+        let target = self.episode.target_at(ends_s);
+        touched |= self.touches(&target);
+        self.observe(target);
+        let reward = self.judge(&before, &target, touched);
+        Step { observation: self.observation, reward, end: self.score.end }
+    }
+
+    /// Flies on with the action in force; whether something is touched on the way.
+    fn fly(&mut self, time_s: f64) -> bool {
+        let from = self.drone.motion.position_in_world;
+        self.drone.step(&self.action.command(self.gimbal.yaw_rad), time_s);
+        self.gimbal.step(&self.action.view, time_s);
+        self.episode.place.collides(from, self.drone.motion.position_in_world, self.settings.radius_m)
+    }
+
+    fn touches(&self, target: &TargetState) -> bool {
+        let away = self.drone.motion.position_in_world - target.feet_in_world;
+        let (radius_m, track) = (self.settings.radius_m, &self.episode.target);
+        away.z < track.height_m + radius_m && away.truncate().length() < track.radius_m + radius_m
+    }
+
+    /// Fills the observation from the present state.
+    fn observe(&mut self, target: TargetState) {
+        let (episode, settings) = (&self.episode, &self.settings);
+        let position = self.drone.motion.position_in_world;
+        let height_m = episode.target.height_m;
+        let observation = &mut self.observation;
+        (observation.motion, observation.yaw_rad) = (self.drone.motion, self.gimbal.yaw_rad);
+        observation.pitch_rad = self.gimbal.pitch_rad;
+        observation.above_ground_m = position.z - episode.place.ground_m(position.x, position.y);
+        observation.visible = visibility(&episode.place.exact, position, &target, height_m);
+        let seen = self.gimbal.pose(position).body_from_world_point(aim_point(&target, height_m));
+        let right = real::tan(0.5 * settings.lens.horizontal_deg.to_radians());
+        observation.in_picture =
+            seen.x > 0.0 && seen.y.abs() <= right * seen.x && seen.z.abs() <= settings.lens.aspect * right * seen.x;
+        let is_near = position.distance(target.feet_in_world) <= settings.farthest_m;
+        observation.tracked = observation.visible >= settings.least_visible && observation.in_picture && is_near;
+        if observation.tracked {
+            let velocity_in_world = episode.target_velocity(observation.time_s);
+            observation.sighting = Sighting { time_s: observation.time_s, target, velocity_in_world };
+        }
+    }
+
+    /// Counts the step.
+    fn judge(&mut self, before: &Motion, target: &TargetState, touched: bool) -> Reward {
+        let (settings, observation, score) = (&self.settings, &self.observation, &mut self.score);
+        let motion = &self.drone.motion;
+        score.count(observation.tracked, settings.step_s);
+        let distance_m = motion.position_in_world.distance(target.feet_in_world);
+        let seen = aim_point(target, self.episode.target.height_m) - motion.position_in_world;
+        let axis = self.gimbal.pose(motion.position_in_world).world_from_body().x_axis;
+        let off_rad = real::acos((axis.dot(seen) / seen.length().max(1e-9)).clamp(-1.0, 1.0));
+        let share = motion.acceleration_in_world.length() / settings.motion.acceleration_mps2;
+        let reward = Reward {
+            visibility: if observation.in_picture { observation.visible } else { 0.0 },
+            framing: -(off_rad / (0.5 * settings.lens.horizontal_deg.to_radians())).min(1.0),
+            distance: Reward::outside_band(distance_m, settings),
+            effort: -share * share,
+            collision: -f64::from(touched),
+            loss: -f64::from(!observation.tracked),
+        };
+        score.visible_sum += observation.visible;
+        score.distance_sum_m += distance_m;
+        score.in_band_steps += u32::from(reward.distance == 0.0);
+        let jerk = (motion.acceleration_in_world - before.acceleration_in_world).length() / settings.step_s;
+        score.jerk_sum_mps3 += jerk;
+        score.reward_sum += reward.sum(&settings.weights);
+        score.end = if touched {
+            Some(End::Collision)
+        } else if score.untracked_s >= settings.give_up_s - ROUNDING_S {
+            Some(End::Lost)
+        } else {
+            (score.steps >= score.planned_steps).then_some(End::Finished)
+        };
+        reward
+    }
+}
+
+/// The action that keeps a velocity.
+fn coasting(motion: &Motion) -> Action {
+    Action { axes: crate::Axes::World, velocity_mps: motion.velocity_in_world, ..Action::default() }
+}

@@ -1,0 +1,47 @@
+//! `follow`: keeps its place behind the target where it last saw it, without regard to obstacles.
+
+use super::{Baseline, Policy};
+use crate::{Action, Axes, Environment};
+use cosfly_frames::{DVec3, real};
+use cosfly_planner::aim_point;
+
+/// Rate at which an error of the position is removed, 1/s.
+const GAIN: f64 = 0.6;
+/// Time for which the target is supposed to walk on as it was last seen, seconds.
+const TRUST_S: f64 = 2.0;
+
+pub(super) const BASELINE: Baseline = Baseline {
+    name: "follow",
+    doc: "keeps the start's distance and height behind the target, without regard to obstacles",
+    make: |environment, _| {
+        let (observation, episode) = (environment.observation(), environment.episode());
+        let away = episode.start.position_in_world - observation.sighting.target.feet_in_world;
+        Box::new(Follow { behind_m: away.truncate().length(), above_m: away.z })
+    },
+};
+
+struct Follow {
+    behind_m: f64,
+    above_m: f64,
+}
+
+impl Policy for Follow {
+    fn act(&mut self, environment: &Environment) -> Action {
+        let (observation, settings) = (environment.observation(), environment.settings());
+        let next_s = observation.time_s + settings.step_s;
+        let feet = observation.supposed_feet(next_s, TRUST_S);
+        let (sin, cos) = real::sin_cos(observation.sighting.target.heading_rad);
+        let wanted = feet + DVec3::new(-cos * self.behind_m, -sin * self.behind_m, self.above_m);
+        let own = observation.motion.position_in_world;
+        let mut sighted = observation.sighting.target;
+        sighted.feet_in_world = feet;
+        let aim = aim_point(&sighted, environment.episode().target.height_m);
+        let next = own + settings.step_s * observation.motion.velocity_in_world;
+        Action {
+            axes: Axes::World,
+            velocity_mps: observation.sighting.velocity_in_world + GAIN * (wanted - own),
+            view: environment.gimbal().rates_to(next, aim, settings.step_s),
+            ..Action::default()
+        }
+    }
+}

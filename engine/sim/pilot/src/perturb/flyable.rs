@@ -1,0 +1,180 @@
+//! Twins that a drone could fly: smooth displacements that are made smaller until clearance, height, speed and acceleration
+//! hold, and views that turn no faster than stated.
+
+use super::config::{FlyableConfig, PerturbConfig};
+use super::{motion, search};
+use crate::aim::{AimConfig, aimed, reached};
+use cosfly_frames::{DVec3, Pose, real};
+use cosfly_planner::certificate::Kinematics;
+use cosfly_planner::obstacles::exact::ExactMap;
+use cosfly_planner::trajectory::Kind;
+use cosfly_planner::trajectory::{FramePerturbation, Trajectory};
+use cosfly_planner::visibility::aim_point;
+use cosfly_random::Seed;
+
+/// Kept beyond the asked clearance, so that rounding cannot take it away again, metres.
+const ROUNDING_M: f64 = 1e-6;
+/// Time on both sides of a place that is too near to an obstacle over which the displacement is reduced, seconds.
+const REDUCED_S: f64 = 5.0;
+/// Halvings of the displacement before it is left out altogether.
+const HALVINGS: usize = 12;
+/// Reductions of the whole displacement by a fifth before it is left out altogether.
+const REDUCTIONS: usize = 14;
+/// Displacements and turns smaller than this are none, metres and radians.
+const NOTHING: f64 = 1e-6;
+
+/// Poses and recorded departures of a twin of `expert`.
+pub(super) fn twin(
+    expert: &Trajectory,
+    kind: Kind,
+    map: ExactMap<'_>,
+    config: &PerturbConfig,
+    seed: &Seed,
+) -> (Vec<Pose>, Vec<FramePerturbation>) {
+    let places: Vec<DVec3> = expert.poses_in_world.iter().map(|pose| pose.position_in_world).collect();
+    let (flyable, dt_s) = (&config.flyable, expert.track.dt_s);
+    // Every twin drifts: where its own way were the expert's, poses alone would tell a model the answer.
+    let mut wanted = motion::drift(places.len(), dt_s, flyable, seed);
+    let more = match kind {
+        Kind::Gusts => motion::gusts(places.len(), dt_s, flyable, seed),
+        Kind::Timing => motion::timing(&places, dt_s, flyable, seed),
+        Kind::Drift | Kind::Jumps | Kind::Aim | Kind::Search => vec![],
+    };
+    wanted.iter_mut().zip(more).for_each(|(drift, more)| *drift += more);
+    let way = Way { expert, places: &places, map, config };
+    let mut offsets = way.flown(wanted);
+    offsets.iter_mut().filter(|offset| offset.length() <= NOTHING).for_each(|offset| *offset = DVec3::ZERO);
+    let straight = views(expert, &offsets);
+    let poses = match kind {
+        Kind::Aim => {
+            let places: Vec<DVec3> = places.iter().zip(&offsets).map(|(place, offset)| *place + *offset).collect();
+            aimed(&places, &expert.track, 0, None, &coarse_aim(flyable), seed.child("aim", 0))
+        }
+        Kind::Search => search::views(&straight, dt_s, flyable, seed),
+        _ => straight.clone(),
+    };
+    let poses = turned_in_time(&poses, flyable.max_rate_deg_s.to_radians() * dt_s);
+    let recorded = poses.iter().zip(&straight).zip(&offsets).enumerate();
+    let frames = recorded.map(|(frame, ((pose, straight), offset))| recorded_frame(frame, pose, straight, *offset));
+    let frames = frames.collect();
+    (poses, frames)
+}
+
+fn coarse_aim(config: &FlyableConfig) -> AimConfig {
+    AimConfig {
+        framing_deg: config.aim_deg,
+        framing_s: 5.0,
+        tremor_deg: 1.0,
+        lag_s: config.aim_lag_s,
+        lag_spread_s: 0.4 * config.aim_lag_s,
+        max_deg: 3.0 * config.aim_deg,
+        max_rate_deg_s: config.max_rate_deg_s,
+    }
+}
+
+fn recorded_frame(frame: usize, pose: &Pose, straight: &Pose, offset: DVec3) -> FramePerturbation {
+    let pitch_offset_rad = pose.pitch_rad - straight.pitch_rad;
+    let yaw_offset_rad = real::wrap_angle_rad(pose.yaw_rad - straight.yaw_rad);
+    FramePerturbation {
+        position: offset != DVec3::ZERO,
+        rotation: real::hypot(pitch_offset_rad, yaw_offset_rad) > NOTHING,
+        drone_offset_in_world: offset,
+        aim_offset_in_world: DVec3::ZERO,
+        pitch_offset_rad,
+        yaw_offset_rad,
+        expert_frame: frame as u32,
+    }
+}
+
+/// Views from the displaced places to the points that the expert looks at abreast of the target.
+fn views(expert: &Trajectory, offsets: &[DVec3]) -> Vec<Pose> {
+    let view = |((pose, state), offset): ((&Pose, &_), &DVec3)| {
+        if *offset == DVec3::ZERO {
+            return *pose;
+        }
+        let forward = pose.world_from_body() * DVec3::X;
+        let ahead_m = (aim_point(state, expert.track.height_m) - pose.position_in_world).dot(forward).max(1.0);
+        let aim = pose.position_in_world + ahead_m * forward;
+        Pose { roll_rad: pose.roll_rad, ..Pose::looking_at(pose.position_in_world + *offset, aim) }
+    };
+    expert.poses_in_world.iter().zip(&expert.track.states).zip(offsets).map(view).collect()
+}
+
+/// The same places with views that turn by a step at most from frame to frame.
+fn turned_in_time(wanted: &[Pose], largest_step_rad: f64) -> Vec<Pose> {
+    let mut poses: Vec<Pose> = Vec::with_capacity(wanted.len());
+    for pose in wanted {
+        poses.push(reached(poses.last().copied(), pose, largest_step_rad));
+    }
+    poses
+}
+
+/// The expert's way, and what a displaced drone keeps.
+struct Way<'a> {
+    expert: &'a Trajectory,
+    places: &'a [DVec3],
+    map: ExactMap<'a>,
+    config: &'a PerturbConfig,
+}
+
+impl Way<'_> {
+    /// The largest displacements of the form of `wanted` that keep clearance, height, speed and acceleration; none where
+    /// nothing else does.
+    fn flown(&self, mut wanted: Vec<DVec3>) -> Vec<DVec3> {
+        for _ in 0..REDUCTIONS {
+            if wanted.iter().all(|offset| *offset == DVec3::ZERO) {
+                break;
+            }
+            let free = self.kept_free(wanted.clone());
+            if self.is_flyable(&free) && self.blocked(&free).is_empty() {
+                return free;
+            }
+            wanted.iter_mut().for_each(|offset| *offset *= 0.8);
+        }
+        vec![DVec3::ZERO; wanted.len()]
+    }
+
+    /// Displacements that are reduced, smoothly in time, wherever they lead too near to an obstacle or too low.
+    fn kept_free(&self, mut offsets: Vec<DVec3>) -> Vec<DVec3> {
+        let reach = (REDUCED_S / self.expert.track.dt_s).ceil().max(1.0) as usize;
+        for halving in 0..=HALVINGS {
+            let blocked = self.blocked(&offsets);
+            if blocked.is_empty() {
+                break;
+            }
+            let removed = if halving == HALVINGS { 1.0 } else { 0.5 };
+            let mut kept = vec![1.0_f64; offsets.len()];
+            for frame in blocked {
+                let near = frame.saturating_sub(reach)..(frame + reach + 2).min(kept.len());
+                for (at, kept) in near.clone().zip(&mut kept[near]) {
+                    let apart = at.abs_diff(frame).min(at.abs_diff(frame + 1)) as f64 / reach as f64;
+                    let bump = 0.5 * (1.0 + real::cos(real::PI * apart.min(1.0)));
+                    *kept = kept.min(1.0 - removed * bump);
+                }
+            }
+            offsets.iter_mut().zip(kept).for_each(|(offset, kept)| *offset *= kept);
+        }
+        offsets
+    }
+
+    /// Frames from which on the displaced way is too near to an obstacle, or too low, up to the next frame.
+    fn blocked(&self, offsets: &[DVec3]) -> Vec<usize> {
+        let kept_m = self.config.clearance_m + ROUNDING_M;
+        let place = |frame: usize| self.places[frame] + offsets[frame];
+        let is_blocked = |frame: &usize| {
+            let (from, to) = (place(*frame), place((*frame + 1).min(offsets.len() - 1)));
+            let lowest_z_m = self.expert.track.states[*frame].feet_in_world.z + self.config.min_height_m;
+            let is_moved = |frame: usize| offsets.get(frame).is_some_and(|offset| *offset != DVec3::ZERO);
+            (is_moved(*frame) || is_moved(*frame + 1))
+                && (from.z < lowest_z_m || self.map.segment_clearance(*frame, from, to, kept_m) < kept_m)
+        };
+        (0..offsets.len()).filter(is_blocked).collect()
+    }
+
+    fn is_flyable(&self, offsets: &[DVec3]) -> bool {
+        let places: Vec<DVec3> = self.places.iter().zip(offsets).map(|(place, offset)| *place + *offset).collect();
+        let reached = Kinematics::of(&self.expert.track, &places, 0);
+        let limits = &self.config.flyable;
+        reached.speed_mps <= limits.max_speed_mps && reached.acceleration_mps2 <= limits.max_acceleration_mps2
+    }
+}

@@ -1,0 +1,77 @@
+//! What moves: a person, or a vehicle of a kind and size.
+
+use crate::clothes::Region;
+use cosfly_frames::{DVec3, real};
+use cosfly_maps::SemanticLabel;
+use cosfly_world::BodyKind;
+
+/// Largest vehicle that is drawn, metres along each axis.
+const LARGEST_M: f64 = 60.0;
+
+/// What moves.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub enum BodyShape {
+    /// A person on foot.
+    #[default]
+    Person,
+    /// A vehicle, with its rider where it has one.
+    Vehicle {
+        /// Kind of the vehicle; a pedestrian is drawn as a car.
+        kind: BodyKind,
+        /// Length, width and height, metres: the model fills the box of [`cosfly_world::BodyPlan::box_at`].
+        size_m: DVec3,
+    },
+}
+
+impl BodyShape {
+    /// The shape of a body of a kind and size.
+    pub fn of(kind: BodyKind, size_m: DVec3) -> Self {
+        if kind.is_person() { Self::Person } else { Self::Vehicle { kind, size_m } }
+    }
+
+    /// CARLA's label of a region of the body. Vans are cars; riders have a label of their own.
+    pub fn label(&self, region: Region) -> SemanticLabel {
+        let Self::Vehicle { kind, .. } = self else { return SemanticLabel::Pedestrian };
+        match kind {
+            _ if region.is_of_people() => SemanticLabel::Rider,
+            BodyKind::Bicycle => SemanticLabel::Bicycle,
+            BodyKind::Motorcycle => SemanticLabel::Motorcycle,
+            BodyKind::Truck => SemanticLabel::Truck,
+            BodyKind::Bus => SemanticLabel::Bus,
+            BodyKind::Car | BodyKind::Van | BodyKind::Pedestrian => SemanticLabel::Car,
+        }
+    }
+
+    /// Half the diagonal of a vehicle's box, metres; 0 for people, whose extent every bound counts in.
+    pub fn reach_m(&self) -> f64 {
+        match self {
+            Self::Person => 0.0,
+            Self::Vehicle { size_m, .. } => 0.5 * size_m.length(),
+        }
+    }
+
+    /// Height of the body, metres; `of_person` for a person.
+    pub fn height_m(&self, of_person: f64) -> f64 {
+        match self {
+            Self::Person => of_person,
+            Self::Vehicle { size_m, .. } => size_m.z,
+        }
+    }
+
+    /// Half the size of the upright box around a turned vehicle, metres.
+    pub(crate) fn half_bounds_m(size_m: DVec3, heading_rad: f64) -> DVec3 {
+        let (sin, cos) = real::sin_cos(heading_rad);
+        let (sin, cos) = (sin.abs(), cos.abs());
+        0.5 * DVec3::new(cos * size_m.x + sin * size_m.y, sin * size_m.x + cos * size_m.y, size_m.z)
+    }
+
+    /// Whether a vehicle's size is one.
+    pub(crate) fn is_drawable(&self) -> bool {
+        match self {
+            Self::Person => true,
+            Self::Vehicle { size_m, .. } => {
+                size_m.is_finite() && size_m.min_element() > 0.05 && size_m.max_element() <= LARGEST_M
+            }
+        }
+    }
+}

@@ -1,0 +1,98 @@
+//! Paint and build of vehicles, drawn from their seeds.
+
+use crate::body_shape::BodyShape;
+use crate::clothes::{Colour, Dye, Region, dye};
+use cosfly_frames::Seed;
+use cosfly_world::BodyKind;
+
+/// Paint of a vehicle.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Livery {
+    /// Colour of the sheet.
+    pub paint: Dye,
+    /// Colour of a lorry's box.
+    pub cargo: Dye,
+    /// Build of a car.
+    pub(crate) body: CarBody,
+}
+
+/// Builds of cars.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum CarBody {
+    Saloon,
+    Hatchback,
+}
+
+/// Paints with their shares: those of new cars in the world in the early 2020s, by the yearly reports of paint makers.
+const PAINTS: [(f64, Dye); 14] = [
+    (0.33, dye(Colour::White, [0.72, 0.72, 0.70])),
+    (0.20, dye(Colour::Black, [0.018, 0.018, 0.020])),
+    (0.10, dye(Colour::Grey, [0.13, 0.135, 0.14])),
+    (0.06, dye(Colour::Grey, [0.25, 0.26, 0.27])),
+    (0.10, dye(Colour::Grey, [0.48, 0.49, 0.50])),
+    (0.05, dye(Colour::Blue, [0.020, 0.050, 0.18])),
+    (0.03, dye(Colour::Blue, [0.05, 0.16, 0.42])),
+    (0.05, dye(Colour::Red, [0.38, 0.018, 0.018])),
+    (0.01, dye(Colour::Green, [0.03, 0.10, 0.05])),
+    (0.01, dye(Colour::Green, [0.10, 0.14, 0.08])),
+    (0.02, dye(Colour::Brown, [0.12, 0.07, 0.04])),
+    (0.02, dye(Colour::Beige, [0.46, 0.40, 0.30])),
+    (0.01, dye(Colour::Orange, [0.65, 0.20, 0.02])),
+    (0.01, dye(Colour::Yellow, [0.70, 0.52, 0.04])),
+];
+
+impl Livery {
+    /// The livery that a seed draws.
+    pub fn draw(seed: &Seed) -> Self {
+        let mut stream = seed.stream("livery");
+        let mut draw = || {
+            let mut left = stream.unit();
+            let of_share = |(share, _): &&(f64, Dye)| {
+                left -= share;
+                left < 0.0
+            };
+            PAINTS.iter().find(of_share).unwrap_or(&PAINTS[0]).1
+        };
+        let (paint, other) = (draw(), draw());
+        // Most boxes of lorries are white.
+        let cargo = if stream.chance(0.6) { PAINTS[0].1 } else { other };
+        let body = if stream.chance(0.45) { CarBody::Saloon } else { CarBody::Hatchback };
+        Self { paint, cargo, body }
+    }
+
+    /// Colours of all regions, linear RGB; those of people are black.
+    pub(crate) fn colours(&self, body: &BodyShape) -> [[f32; 3]; Region::COUNT] {
+        let mut colours = [[0.0; 3]; Region::COUNT];
+        // The frame of a two-wheeler is seen as its paint, all the rest is black.
+        let is_light = matches!(body, BodyShape::Vehicle { kind: BodyKind::Bicycle, .. });
+        for (region, colour) in [
+            (Region::Paint, self.paint.linear_rgb),
+            (Region::Cargo, self.cargo.linear_rgb),
+            (Region::Trim, [0.014; 3]),
+            (Region::Glass, [0.020, 0.023, 0.025]),
+            (Region::Tyre, [0.012; 3]),
+            (Region::Metal, if is_light { [0.30; 3] } else { [0.22, 0.225, 0.23] }),
+            (Region::Plate, [0.62, 0.62, 0.58]),
+            (Region::HeadLamp, [0.70, 0.70, 0.66]),
+            (Region::TailLamp, [0.42, 0.015, 0.015]),
+        ] {
+            colours[region as usize] = colour;
+        }
+        colours
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn paints_have_their_shares() {
+        assert!((PAINTS.iter().map(|(share, _)| share).sum::<f64>() - 1.0).abs() < 1e-9);
+        let liveries: Vec<Livery> = (0..4000).map(|number| Livery::draw(&Seed([3; 32]).child("car", number))).collect();
+        for (name, share) in [(Colour::White, 0.33), (Colour::Black, 0.20), (Colour::Grey, 0.26), (Colour::Red, 0.05)] {
+            let drawn = liveries.iter().filter(|livery| livery.paint.name == name).count() as f64 / 4000.0;
+            assert!((drawn - share).abs() < 0.03, "{name:?}: {drawn}");
+        }
+    }
+}

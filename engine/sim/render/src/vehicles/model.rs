@@ -1,0 +1,187 @@
+//! Flat faces of a vehicle's model, in the vehicle's own axes.
+
+use crate::clothes::Region;
+use crate::figure::{FigureTriangle, Surface, Walker, around};
+use cosfly_frames::{DVec3, real};
+
+/// Panels such as windows lie this far before the sheet, metres.
+const PANEL_M: f64 = 0.004;
+/// Sheet ends this far before both ends of the box, metres: lamps lie on it.
+const SHEET_M: f64 = 0.006;
+/// Most corners of an outline.
+const MOST_CORNERS: usize = 12;
+/// Sides of a wheel.
+const SPOKES: usize = 12;
+
+/// A vehicle while it is built. Own axes: x forward, y right, z up, metres, from the middle of the box's foot.
+pub(super) struct Model<'a> {
+    /// Length, width and height of the box, metres.
+    pub size_m: DVec3,
+    feet: DVec3,
+    forward: DVec3,
+    right: DVec3,
+    person: u32,
+    triangles: &'a mut Vec<FigureTriangle>,
+}
+
+impl<'a> Model<'a> {
+    pub fn new(walker: &Walker, size_m: DVec3, person: u32, triangles: &'a mut Vec<FigureTriangle>) -> Self {
+        let (sin, cos) = real::sin_cos(walker.state.heading_rad);
+        let (forward, right) = (DVec3::new(cos, sin, 0.0), DVec3::new(-sin, cos, 0.0));
+        Self { size_m, feet: walker.state.feet_in_world, forward, right, person, triangles }
+    }
+
+    fn in_world(&self, point: DVec3) -> DVec3 {
+        self.feet + self.forward * point.x + self.right * point.y + DVec3::Z * point.z
+    }
+
+    /// A flat convex face whose outside is away from `inside`; own axes, metres.
+    pub fn face(&mut self, region: Region, corners: &[DVec3], inside: DVec3) {
+        let normal = (corners[1] - corners[0]).cross(corners[2] - corners[0]).normalize_or_zero();
+        let outward = if normal.dot(corners[0] - inside) < 0.0 { -normal } else { normal };
+        let normal_in_world = self.forward * outward.x + self.right * outward.y + DVec3::Z * outward.z;
+        let first = self.in_world(corners[0]);
+        for pair in corners[1..].windows(2) {
+            let corners_in_world = [first, self.in_world(pair[0]), self.in_world(pair[1])];
+            // All faces of a region are shaded together.
+            let part = region as u32;
+            let middle_in_world = [self.feet; 2];
+            let (person, triangles) = (self.person, &mut *self.triangles);
+            triangles.push(FigureTriangle { corners_in_world, normal_in_world, middle_in_world, region, person, part });
+        }
+    }
+
+    /// A flat convex face before another one: moved away from `inside` by a few millimetres, but not out of the box.
+    pub fn panel(&mut self, region: Region, corners: &[DVec3], inside: DVec3) {
+        let normal = (corners[1] - corners[0]).cross(corners[2] - corners[0]).normalize_or_zero();
+        let outward = if normal.dot(corners[0] - inside) < 0.0 { -normal } else { normal };
+        let (half, height_m) = (0.5 * self.size_m, self.size_m.z);
+        let mut moved = [DVec3::ZERO; MOST_CORNERS];
+        for (moved, corner) in moved.iter_mut().zip(corners) {
+            *moved = *corner + PANEL_M * outward;
+            *moved = moved.clamp(DVec3::new(-half.x, -half.y, 0.0), DVec3::new(half.x, half.y, height_m));
+        }
+        self.face(region, &moved[..corners.len().min(MOST_CORNERS)], inside);
+    }
+
+    /// A body whose side view is a convex outline of (x, z), as shares of length and height, and whose half width, as a
+    /// share of the width, changes evenly from the foot of the box to its top.
+    pub fn hull(&mut self, region: Region, outline: &[[f64; 2]], half_width: [f64; 2]) {
+        let count = outline.len().min(MOST_CORNERS);
+        let [mut left, mut right] = [[DVec3::ZERO; MOST_CORNERS]; 2];
+        for (k, [x, z]) in outline.iter().enumerate().take(count) {
+            (left[k], right[k]) = (self.point(*x, -1.0, *z, half_width), self.point(*x, 1.0, *z, half_width));
+        }
+        let (left, right) = (&left[..count], &right[..count]);
+        let inside = left.iter().chain(right).sum::<DVec3>() / (2 * count) as f64;
+        for k in 0..count {
+            let next = (k + 1) % count;
+            self.face(region, &[left[k], left[next], right[next], right[k]], inside);
+        }
+        self.face(region, left, inside);
+        self.face(region, right, inside);
+    }
+
+    /// A point at shares (x, z) of length and height, and share `y` of the half width there.
+    pub fn point(&self, x: f64, y: f64, z: f64, [foot, top]: [f64; 2]) -> DVec3 {
+        let sheet_m = self.size_m - DVec3::X * (2.0 * SHEET_M);
+        sheet_m * DVec3::new(x, y * (foot + (top - foot) * z), z)
+    }
+
+    /// The same panel on both sides of a hull: an outline of (x, z).
+    pub fn side_panels(&mut self, region: Region, outline: &[[f64; 2]], half_width: [f64; 2]) {
+        for y in [-1.0, 1.0] {
+            self.side_panel(region, outline, half_width, y);
+        }
+    }
+
+    /// A panel on one side of a hull.
+    pub fn side_panel(&mut self, region: Region, outline: &[[f64; 2]], half_width: [f64; 2], y: f64) {
+        let mut corners = [DVec3::ZERO; MOST_CORNERS];
+        for (corner, [x, z]) in corners.iter_mut().zip(outline) {
+            *corner = self.point(*x, y, *z, half_width);
+        }
+        let inside = DVec3::new(corners[0].x, 0.0, corners[0].z);
+        self.panel(region, &corners[..outline.len().min(MOST_CORNERS)], inside);
+    }
+
+    /// A panel across a face between two points of the side view, `(x, z)`, over `ys`, shares of the half width.
+    pub fn cross_panel(&mut self, region: Region, [low, high]: [[f64; 2]; 2], ys: [f64; 2], half_width: [f64; 2]) {
+        let at = |[x, z]: [f64; 2], y: f64| self.point(x, y, z, half_width);
+        let corners = [at(low, ys[0]), at(low, ys[1]), at(high, ys[1]), at(high, ys[0])];
+        self.panel(region, &corners, DVec3::new(0.0, 0.0, corners[0].z.min(corners[2].z)));
+    }
+
+    /// A wheel on either side: x of its middle in metres, its radius and width in metres.
+    pub fn wheels(&mut self, x_m: f64, radius_m: f64, width_m: f64) {
+        let outer_m = 0.5 * self.size_m.y;
+        for sign in [-1.0, 1.0] {
+            let at = |share: f64, y_m: f64| rim(x_m, radius_m, share, sign * y_m);
+            let face_m = outer_m - 0.003;
+            let (near, far, hub) = (at(1.0, face_m), at(1.0, face_m - width_m), at(0.62, outer_m));
+            let inside = DVec3::new(x_m, sign * (face_m - 0.5 * width_m), radius_m);
+            for k in 0..SPOKES {
+                let next = (k + 1) % SPOKES;
+                self.face(Region::Tyre, &[near[k], near[next], far[next], far[k]], inside);
+            }
+            self.face(Region::Tyre, &near, inside);
+            self.face(Region::Metal, &hub, inside);
+        }
+    }
+
+    /// An open wheel in the middle plane: x of its middle, radius and width in metres; elliptic where the box is.
+    pub fn spoked_wheel(&mut self, x_m: f64, radius_m: DVec3, width_m: f64) {
+        let at = |share: f64, y_m: f64| {
+            rim(0.0, 1.0, share, y_m).map(|p| DVec3::new(x_m + p.x * radius_m.x, p.y, radius_m.z * p.z))
+        };
+        let half_m = 0.5 * width_m;
+        let rings = [at(1.0, -half_m), at(1.0, half_m), at(0.88, -half_m), at(0.88, half_m)];
+        let middle = DVec3::new(x_m, 0.0, radius_m.z);
+        for k in 0..SPOKES {
+            let next = (k + 1) % SPOKES;
+            let [outer, outer_right, inner, inner_right] = &rings;
+            self.face(Region::Tyre, &[outer[k], outer[next], outer_right[next], outer_right[k]], middle);
+            self.face(Region::Tyre, &[outer[k], outer[next], inner[next], inner[k]], middle);
+            self.face(Region::Tyre, &[outer_right[k], outer_right[next], inner_right[next], inner_right[k]], middle);
+            // The inside of the rim looks to the hub.
+            let beyond = 2.0 * inner[k] - middle;
+            self.face(Region::Metal, &[inner[k], inner[next], inner_right[next], inner_right[k]], beyond);
+        }
+    }
+
+    /// A square bar between two points, metres.
+    pub fn bar(&mut self, region: Region, from: DVec3, to: DVec3, thick_m: f64) {
+        let along = (to - from).normalize_or_zero();
+        let aside = if along.y.abs() < 0.9 { DVec3::Y } else { DVec3::X };
+        let (u, v) = (0.5 * thick_m * aside, 0.5 * thick_m * along.cross(aside).normalize_or_zero());
+        let corner = |end: DVec3, k: usize| end + [u + v, v - u, -u - v, u - v][k % 4];
+        for k in 0..4 {
+            let corners = [corner(from, k), corner(from, k + 1), corner(to, k + 1), corner(to, k)];
+            self.face(region, &corners, 0.5 * (from + to));
+        }
+    }
+
+    /// Surface of a rider in shares of `canonical_m`, the size of the box around a vehicle whose rider is 1 box height tall.
+    pub fn rider(&mut self, canonical_m: DVec3) -> Surface<'_> {
+        let stretch = self.size_m / canonical_m;
+        Surface {
+            feet: self.feet,
+            forward: self.forward * (stretch.x / stretch.z),
+            right: self.right * (stretch.y / stretch.z),
+            height: self.size_m.z,
+            around: around(),
+            person: self.person,
+            // Beyond the regions, each of which is one part.
+            parts: Region::COUNT as u32,
+            triangles: self.triangles,
+        }
+    }
+}
+
+/// Corners of a wheel's rim, the first at the ground.
+fn rim(x_m: f64, radius_m: f64, share: f64, y_m: f64) -> [DVec3; SPOKES] {
+    core::array::from_fn(|k| {
+        let (sin, cos) = real::sin_cos(real::TAU * k as f64 / SPOKES as f64);
+        DVec3::new(x_m + share * radius_m * sin, y_m, radius_m * (1.0 - share * cos))
+    })
+}

@@ -1,0 +1,206 @@
+//! Bicycles and motorcycles with their riders. All sizes follow the box.
+
+use super::model::Model;
+use crate::clothes::{Clothes, Region};
+use crate::figure::{Surface, ring};
+use cosfly_frames::{DVec3, real};
+
+/// Sizes that the shares of both vehicles are made for, metres.
+const BICYCLE_M: DVec3 = DVec3::new(1.80, 0.65, 1.75);
+const MOTORCYCLE_M: DVec3 = DVec3::new(2.10, 0.80, 1.60);
+
+/// Places of a rider, in box heights forward and up.
+struct Seat {
+    hip: [f64; 2],
+    shoulder: [f64; 2],
+    hand: [f64; 2],
+    /// Half the distance between the hands.
+    half_grip: f64,
+    feet: [[f64; 2]; 2],
+    /// Half the distance between the feet.
+    half_stand: f64,
+}
+
+/// A bicycle; `phase_rad` turns its pedals.
+pub(super) fn bicycle(model: &mut Model<'_>, clothes: &Clothes, phase_rad: f64) {
+    let stretch = model.size_m / BICYCLE_M;
+    let at = |x_m: f64, y_m: f64, z_m: f64| stretch * DVec3::new(x_m, y_m, z_m);
+    let radius_m = 0.34;
+    let axle_m = 0.90 - radius_m;
+    for sign in [-1.0, 1.0] {
+        model.spoked_wheel(sign * axle_m * stretch.x, radius_m * stretch, 0.034 * stretch.y);
+    }
+    let (rear, front) = (at(-axle_m, 0.0, radius_m), at(axle_m, 0.0, radius_m));
+    let (crank, seat, head) = (at(-0.08, 0.0, 0.28), at(-0.22, 0.0, 0.90), at(0.40, 0.0, 0.92));
+    let thick_m = 0.035 * stretch.min_element();
+    for (from, to) in [(rear, crank), (rear, at(-0.19, 0.0, 0.74)), (crank, seat), (crank, head), (head, front)] {
+        model.bar(Region::Paint, from, to, thick_m);
+    }
+    model.bar(Region::Paint, at(-0.18, 0.0, 0.72), at(0.38, 0.0, 0.84), thick_m);
+    model.bar(Region::Trim, at(-0.34, 0.0, 0.91), at(-0.08, 0.0, 0.91), 2.2 * thick_m);
+    handlebar(model, 0.40 * stretch.x, 1.02 * stretch.z, thick_m);
+    let pedal = |turn_rad: f64| {
+        let (sin, cos) = real::sin_cos(turn_rad);
+        [(-0.08 + 0.165 * sin) / 1.75, (0.30 + 0.165 * cos) / 1.75]
+    };
+    // Ahead means forward over the top.
+    let feet = [pedal(phase_rad), pedal(phase_rad + real::PI)];
+    let seat = Seat {
+        hip: [-0.115, 0.545],
+        shoulder: [0.02, 0.815],
+        hand: [0.20, 0.595],
+        half_grip: 0.145,
+        feet,
+        half_stand: 0.060,
+    };
+    rider(&mut model.rider(BICYCLE_M), &seat, forearm(clothes));
+}
+
+/// A motorcycle.
+pub(super) fn motorcycle(model: &mut Model<'_>, clothes: &Clothes) {
+    let stretch = model.size_m / MOTORCYCLE_M;
+    let at = |x_m: f64, z_m: f64| [x_m / MOTORCYCLE_M.x, z_m / MOTORCYCLE_M.z];
+    let radius_m = 0.32;
+    let axle_m = 1.05 - radius_m;
+    for sign in [-1.0, 1.0] {
+        model.spoked_wheel(sign * axle_m * stretch.x, radius_m * stretch, 0.13 * stretch.y);
+    }
+    let narrow = [0.17, 0.17];
+    model.hull(Region::Trim, &[at(-0.42, 0.22), at(0.34, 0.22), at(0.42, 0.56), at(-0.50, 0.56)], narrow);
+    model.hull(Region::Paint, &[at(-0.10, 0.55), at(0.50, 0.55), at(0.42, 0.88), at(0.02, 0.88)], [0.22, 0.18]);
+    model.hull(Region::Trim, &[at(-0.72, 0.56), at(0.0, 0.56), at(0.0, 0.78), at(-0.68, 0.80)], [0.18, 0.16]);
+    let fork = stretch * DVec3::new(0.48, 0.0, 0.90);
+    let axle = stretch * DVec3::new(axle_m, 0.0, radius_m);
+    let thick_m = 0.05 * stretch.min_element();
+    model.bar(Region::Metal, fork, axle, thick_m);
+    model.bar(
+        Region::Metal,
+        stretch * DVec3::new(-0.3, 0.0, 0.36),
+        stretch * DVec3::new(-axle_m, 0.0, radius_m),
+        thick_m,
+    );
+    handlebar(model, 0.40 * stretch.x, 0.98 * stretch.z, 0.7 * thick_m);
+    let lamp = |region: Region, model: &mut Model<'_>, x: f64, z: [f64; 2]| {
+        let corners = [[-0.08, z[0]], [0.08, z[0]], [0.08, z[1]], [-0.08, z[1]]];
+        let corners = corners.map(|[y, z]| stretch * DVec3::new(x, y, z));
+        model.face(region, &corners, DVec3::new(0.0, 0.0, corners[0].z));
+    };
+    lamp(Region::HeadLamp, model, 0.53, [0.76, 0.90]);
+    lamp(Region::TailLamp, model, -0.73, [0.68, 0.76]);
+    let foot = [0.02, 0.17];
+    let seat = Seat {
+        hip: [-0.13, 0.50],
+        shoulder: [0.0, 0.80],
+        hand: [0.22, 0.625],
+        half_grip: 0.19,
+        feet: [foot; 2],
+        half_stand: 0.12,
+    };
+    rider(&mut model.rider(MOTORCYCLE_M), &seat, forearm(clothes));
+}
+
+/// A bar across the whole width.
+fn handlebar(model: &mut Model<'_>, x_m: f64, z_m: f64, thick_m: f64) {
+    let half_m = 0.5 * model.size_m.y;
+    model.bar(Region::Trim, DVec3::new(x_m, -half_m, z_m), DVec3::new(x_m, half_m, z_m), thick_m);
+}
+
+/// Forearms, bare or covered.
+fn forearm(clothes: &Clothes) -> Region {
+    if clothes.short_sleeves { Region::Skin } else { Region::Top }
+}
+
+/// Somebody who sits; the head reaches the top of the box.
+fn rider(body: &mut Surface<'_>, seat: &Seat, forearm: Region) {
+    let ([hip_x, hip_z], [neck_x, neck_z]) = (seat.hip, seat.shoulder);
+    body.part(
+        ring(hip_x - 0.02, 0.0, hip_z - 0.05, 0.085, 0.065),
+        ring(hip_x + 0.01, 0.0, hip_z + 0.05, 0.090, 0.066),
+        Region::Trousers,
+    );
+    body.part(
+        ring(hip_x + 0.01, 0.0, hip_z + 0.03, 0.090, 0.066),
+        ring(neck_x - 0.01, 0.0, neck_z, 0.118, 0.070),
+        Region::Top,
+    );
+    body.part(
+        ring(neck_x - 0.01, 0.0, neck_z, 0.118, 0.070),
+        ring(neck_x, 0.0, neck_z + 0.04, 0.05, 0.045),
+        Region::Top,
+    );
+    body.part(
+        ring(neck_x, 0.0, neck_z + 0.02, 0.034, 0.034),
+        ring(neck_x + 0.02, 0.0, 0.90, 0.034, 0.034),
+        Region::Skin,
+    );
+    body.part(
+        ring(neck_x + 0.035, 0.0, 0.87, 0.038, 0.046),
+        ring(neck_x + 0.03, 0.0, 0.945, 0.052, 0.058),
+        Region::Skin,
+    );
+    body.part(
+        ring(neck_x + 0.015, 0.0, 0.905, 0.056, 0.060),
+        ring(neck_x + 0.02, 0.0, 0.965, 0.062, 0.070),
+        Region::Hair,
+    );
+    body.part(
+        ring(neck_x + 0.02, 0.0, 0.965, 0.062, 0.070),
+        ring(neck_x + 0.015, 0.0, 1.0, 0.036, 0.042),
+        Region::Hair,
+    );
+    for (side, [foot_x, foot_z]) in [-1.0, 1.0].into_iter().zip(seat.feet) {
+        arm(body, seat, side, forearm);
+        let hip = [hip_x + 0.01, hip_z - 0.01];
+        let ankle = [foot_x - 0.015, foot_z + 0.04];
+        let [knee_x, knee_z] = joint(hip, ankle, 0.255, 0.255);
+        let (near, far) = (side * 0.052, side * seat.half_stand);
+        let middle = 0.5 * (near + far) + side * 0.012;
+        body.part(
+            ring(knee_x, middle, knee_z, 0.034, 0.040),
+            ring(hip[0], near, hip[1], 0.050, 0.058),
+            Region::Trousers,
+        );
+        body.part(
+            ring(ankle[0], far, ankle[1], 0.026, 0.030),
+            ring(knee_x, middle, knee_z, 0.035, 0.040),
+            Region::Trousers,
+        );
+        let sole = (foot_z - 0.005).max(0.0);
+        body.part(
+            ring(foot_x + 0.012, far, sole, 0.028, 0.072),
+            ring(ankle[0] + 0.01, far, ankle[1], 0.026, 0.040),
+            Region::Shoes,
+        );
+    }
+}
+
+fn arm(body: &mut Surface<'_>, seat: &Seat, side: f64, forearm: Region) {
+    let ([neck_x, neck_z], [hand_x, hand_z]) = (seat.shoulder, seat.hand);
+    let (near, far) = (side * 0.122, side * seat.half_grip);
+    let elbow = [0.5 * (neck_x + hand_x) - 0.012, 0.5 * (neck_z + hand_z) - 0.03];
+    let middle = 0.5 * (near + far) + side * 0.008;
+    body.part(
+        ring(elbow[0], middle, elbow[1], 0.025, 0.028),
+        ring(neck_x, near, neck_z - 0.01, 0.031, 0.036),
+        Region::Top,
+    );
+    body.part(
+        ring(hand_x - 0.02, far, hand_z + 0.005, 0.021, 0.022),
+        ring(elbow[0], middle, elbow[1], 0.026, 0.029),
+        forearm,
+    );
+    body.part(
+        ring(hand_x + 0.005, far, hand_z - 0.02, 0.018, 0.026),
+        ring(hand_x, far, hand_z + 0.02, 0.018, 0.022),
+        Region::Skin,
+    );
+}
+
+/// The knee between a hip and an ankle, ahead of both: thigh and shin have these lengths, or are stretched.
+fn joint(hip: [f64; 2], ankle: [f64; 2], thigh: f64, shin: f64) -> [f64; 2] {
+    let (x, z) = (ankle[0] - hip[0], ankle[1] - hip[1]);
+    let length = (x * x + z * z).sqrt().max(1e-6);
+    let along = ((thigh * thigh - shin * shin + length * length) / (2.0 * length)).clamp(0.0, length);
+    let aside = (thigh * thigh - along * along).max(0.0).sqrt();
+    [hip[0] + (along * x - aside * z) / length, hip[1] + (along * z + aside * x) / length]
+}

@@ -1,0 +1,90 @@
+//! Models and boxes agree.
+
+use super::*;
+use crate::body_shape::BodyShape;
+use crate::clothes::Region;
+use crate::figure::{figure, walker_triangles};
+use cosfly_frames::{Seed, TargetState};
+use cosfly_maps::SemanticLabel;
+use cosfly_world::BodyPlan;
+
+/// No corner is farther outside of the box than this, and every side of the box has a corner as near, metres.
+const BOUND_M: f64 = 0.01;
+
+const KINDS: [(BodyKind, [f64; 3], SemanticLabel); 6] = [
+    (BodyKind::Bicycle, [1.8, 0.65, 1.75], SemanticLabel::Bicycle),
+    (BodyKind::Motorcycle, [2.1, 0.8, 1.6], SemanticLabel::Motorcycle),
+    (BodyKind::Car, [4.5, 1.85, 1.5], SemanticLabel::Car),
+    (BodyKind::Van, [5.4, 2.0, 2.3], SemanticLabel::Car),
+    (BodyKind::Truck, [8.5, 2.5, 3.4], SemanticLabel::Truck),
+    (BodyKind::Bus, [12.0, 2.55, 3.1], SemanticLabel::Bus),
+];
+
+fn vehicle(kind: BodyKind, size_m: DVec3, number: u64) -> Walker {
+    let turn = 0.77 * number as f64;
+    Walker {
+        state: TargetState { feet_in_world: DVec3::new(14.0, -3.0, 1.5), heading_rad: turn, speed_mps: 5.0 },
+        height_m: size_m.z,
+        radius_m: 0.5 * size_m.y,
+        clothes_seed: Seed([9; 32]).child("vehicle", number),
+        gait_phase_rad: turn,
+        body: BodyShape::of(kind, size_m),
+    }
+}
+
+#[test]
+fn models_fill_their_boxes_and_stay_inside() {
+    for (kind, size_m, _) in KINDS {
+        for number in 0..40 {
+            let mut stream = Seed([1; 32]).child("size", number).stream("size");
+            let size_m = DVec3::from_array(size_m.map(|side| side * stream.uniform(0.8, 1.25)));
+            let walker = vehicle(kind, size_m, number);
+            let plan = BodyPlan { source: String::new(), kind, size_m, looks: walker.clothes_seed, group: None };
+            let shape = plan.box_at(&walker.state);
+            let (sin, cos) = cosfly_frames::real::sin_cos(shape.yaw_rad);
+            let (mut low, mut high) = (DVec3::INFINITY, DVec3::NEG_INFINITY);
+            for corner in walker_triangles(&walker).into_iter().flatten() {
+                let away = corner - shape.center_in_world;
+                let own = DVec3::new(cos * away.x + sin * away.y, cos * away.y - sin * away.x, away.z);
+                (low, high) = (low.min(own), high.max(own));
+            }
+            let off = (low + shape.half_extents_m).abs().max((high - shape.half_extents_m).abs());
+            assert!(off.max_element() < BOUND_M, "{kind:?} {number}: {low} to {high} in {}", shape.half_extents_m);
+        }
+    }
+}
+
+#[test]
+fn faces_look_outward_and_have_the_labels_of_their_kind() {
+    for (kind, size_m, label) in KINDS {
+        let walker = vehicle(kind, DVec3::from_array(size_m), 3);
+        let mut triangles = vec![];
+        figure(&walker, &Clothes::draw(&walker.clothes_seed), 0, &mut triangles);
+        let labels: std::collections::BTreeSet<_> = triangles.iter().map(|it| walker.body.label(it.region)).collect();
+        let is_ridden = matches!(kind, BodyKind::Bicycle | BodyKind::Motorcycle);
+        assert_eq!(labels.contains(&label), true, "{kind:?}");
+        assert_eq!(labels.contains(&SemanticLabel::Rider), is_ridden, "{kind:?}");
+        assert_eq!(labels.len(), 1 + usize::from(is_ridden));
+        for triangle in &triangles {
+            let [a, b, c] = triangle.corners_in_world;
+            let normal = triangle.normal_in_world;
+            assert!((normal.length() - 1.0).abs() < 1e-9, "{kind:?} {:?}", triangle.region);
+            assert!(normal.dot(b - a).abs() < 1e-6 && normal.dot(c - a).abs() < 1e-6, "{kind:?} {:?}", triangle.region);
+        }
+        // Roofs and sides of closed bodies look away from the middle.
+        if !is_ridden {
+            let middle = walker.state.feet_in_world + DVec3::Z * (0.5 * size_m[2]);
+            let wrong = triangles.iter().filter(|it| {
+                it.region == Region::Glass && it.normal_in_world.dot(it.corners_in_world[0] - middle) <= 0.0
+            });
+            assert_eq!(wrong.count(), 0, "{kind:?}");
+        }
+    }
+}
+
+#[test]
+fn a_size_that_is_none_is_not_drawn() {
+    for size_m in [[4.0, 0.0, 1.5], [f64::NAN, 2.0, 1.5], [400.0, 2.0, 1.5]] {
+        assert!(walker_triangles(&vehicle(BodyKind::Car, DVec3::from_array(size_m), 1)).is_empty());
+    }
+}

@@ -1,0 +1,16 @@
+//! Recorded traffic of SUMO: the XML that `sumo --fcd-output` writes, read as a stream.
+//!
+//! [`read`] keeps what the frames need and nothing else: a file of any size takes the memory of its bodies in those frames.
+//! Positions of vehicles are those of their front bumpers, angles are clockwise from north.
+
+mod kinds;
+mod lines;
+mod place;
+mod recorded;
+mod samples;
+mod stream;
+
+pub use kinds::FcdType;
+pub use place::{NetLocation, Place};
+pub use recorded::Recorded;
+pub use stream::{FcdConfig, FcdError, read};

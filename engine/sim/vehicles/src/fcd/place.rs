@@ -1,0 +1,142 @@
+//! [`Place`]: from the coordinates of a SUMO file to the world frame of a town.
+
+use super::FcdError;
+use cosfly_frames::{DVec2, DVec3};
+use cosfly_geodata::reference::GeoReference;
+use cosfly_maps::{GroundIndex, Town};
+
+/// `<location>` of a SUMO net.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct NetLocation {
+    /// `netOffset`: what was added to the projected coordinates, metres.
+    pub offset_m: DVec2,
+    /// `projParameter`, where it is one.
+    pub projection: Option<String>,
+}
+
+impl NetLocation {
+    /// The location of a net, of a file that begins with `head`; 64 KiB are enough.
+    ///
+    /// # Errors
+    /// No `<location>`, or one without a readable `netOffset`.
+    pub fn of_net(head: &[u8]) -> Result<Self, FcdError> {
+        let text = String::from_utf8_lossy(head);
+        let refusal =
+            |message: &str| FcdError::new(message).hint("give the `.net.xml` that the traffic was simulated on");
+        let start = text.find("<location").ok_or_else(|| refusal("the net has no `<location>`"))?;
+        let line = text[..start].matches('\n').count() as u64 + 1;
+        let element = text[start..].split_once('>').map_or(&text[start..], |(element, _)| element);
+        let attribute = |name: &str| {
+            let (_, rest) = element.split_once(&format!(" {name}=\""))?;
+            rest.split_once('"').map(|(value, _)| value)
+        };
+        let offset = attribute("netOffset").and_then(|value| {
+            let (x, y) = value.split_once(',')?;
+            let offset = DVec2::new(x.trim().parse().ok()?, y.trim().parse().ok()?);
+            offset.is_finite().then_some(offset)
+        });
+        let offset_m = offset.ok_or_else(|| refusal("`netOffset` of the net is not two numbers").at(line))?;
+        let projection = attribute("projParameter").filter(|text| text.starts_with('+')).map(str::to_owned);
+        Ok(Self { offset_m, projection })
+    }
+}
+
+/// From the coordinates of a SUMO file to the world frame of a town, on the town's ground.
+pub struct Place {
+    offset_m: DVec2,
+    between: Between,
+    town_offset_m: DVec3,
+    ground: GroundIndex,
+    low: DVec2,
+    high: DVec2,
+}
+
+/// From the net's projection to that of the town's map.
+enum Between {
+    Nothing,
+    /// The file has degrees (`--fcd-output.geo`).
+    Degrees(GeoReference),
+    Projections(GeoReference, GeoReference),
+}
+
+/// Bodies this far outside of a town are none of it, metres.
+const MARGIN_M: f64 = 500.0;
+
+impl Place {
+    /// The place of a file in a town. `net` is the location of its net, `is_geo` says that positions are degrees.
+    ///
+    /// # Errors
+    /// Projections that are needed and not known.
+    pub fn new(town: &Town, net: &NetLocation, is_geo: bool) -> Result<Self, FcdError> {
+        let parsed = |text: Option<&String>| text.and_then(|text| GeoReference::parse(text));
+        let own = town.origin.geo_reference.as_ref();
+        let unknown = |what: &str| {
+            FcdError::new(format!("the place of the traffic in the town is not known: {what}"))
+                .hint("cosfly compares UTM and transverse Mercator (PROJ texts and EPSG codes)")
+        };
+        let between = match (is_geo, &net.projection) {
+            (true, _) => {
+                let own = parsed(own).ok_or_else(|| unknown("the town's map has no projection for degrees"))?;
+                Between::Degrees(own)
+            }
+            // Nets of maps without a projection, and of the same one.
+            (false, None) => Between::Nothing,
+            (false, Some(text)) if own.is_some_and(|own| own.trim() == text.trim()) => Between::Nothing,
+            (false, Some(text)) => {
+                let net =
+                    GeoReference::parse(text).ok_or_else(|| unknown(&format!("projection `{text}` of the net")))?;
+                let own =
+                    parsed(own).ok_or_else(|| unknown("the town's map has no projection, but the net has one"))?;
+                Between::Projections(net, own)
+            }
+        };
+        Ok(Self {
+            offset_m: if is_geo { DVec2::ZERO } else { net.offset_m },
+            between,
+            town_offset_m: town.origin.offset_m,
+            ground: GroundIndex::new(town),
+            low: town.min_in_world.truncate() - MARGIN_M,
+            high: town.max_in_world.truncate() + MARGIN_M,
+        })
+    }
+
+    /// A point of the file in the world, in plan; `None` where the projections know none.
+    pub fn plan(&self, point: DVec2) -> Option<DVec2> {
+        let in_map = match &self.between {
+            Between::Nothing => point - self.offset_m,
+            Between::Degrees(own) => own.project(point.to_array()),
+            Between::Projections(net, own) => own.project(net.unproject(point - self.offset_m)?),
+        };
+        Some(DVec2::new(in_map.x, -in_map.y) - self.town_offset_m.truncate()).filter(|point| point.is_finite())
+    }
+
+    /// A point `length` ahead of another one by an angle clockwise from north, in the file's own units.
+    pub(super) fn is_geo(&self) -> bool {
+        matches!(self.between, Between::Degrees(_))
+    }
+
+    /// Whether a point of the world is in the town or not far away.
+    pub fn holds(&self, point: DVec2) -> bool {
+        point.cmpge(self.low).all() && point.cmple(self.high).all()
+    }
+
+    /// The point on the ground.
+    pub fn on_ground(&self, point: DVec2) -> DVec3 {
+        point.extend(self.ground.ground_height_m(point.x, point.y).unwrap_or(0.0))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_location_of_a_net_is_read() {
+        let head = b"<?xml version=\"1.0\"?>\n<net version=\"1.20\">\n    <location netOffset=\"12.50,-3.00\" convBoundary=\"0,0,1,1\" origBoundary=\"0,0,1,1\" projParameter=\"!\"/>\n";
+        let location = NetLocation::of_net(head).unwrap();
+        assert_eq!(location, NetLocation { offset_m: DVec2::new(12.5, -3.0), projection: None });
+        assert!(NetLocation::of_net(b"<net>").unwrap_err().to_string().contains("no `<location>`"));
+        let broken = NetLocation::of_net(b"<net>\n<location netOffset=\"nan,1\"/>").unwrap_err();
+        assert!(broken.to_string().contains("line 2"), "{broken}");
+    }
+}

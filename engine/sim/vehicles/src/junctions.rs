@@ -1,0 +1,146 @@
+//! [`Junctions`]: who may drive through a junction. A vehicle asks before it enters; it gets its way when all lanes that
+//! cross it are free and there is room behind the junction. Who asked first goes first.
+
+use crate::driver::STANDING_GAP_M;
+use crate::network::Network;
+use crate::vehicles::Vehicle;
+
+/// Vehicles ask from this distance beyond their braking distance, metres.
+const ASK_M: f64 = 12.0;
+/// Who waits longer than this keeps others from going before, seconds.
+const PATIENCE_S: f64 = 4.0;
+
+/// The way of a vehicle through junctions.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Passage {
+    /// Lanes of the route before this index are granted, or need no grant.
+    pub granted: usize,
+    /// Lanes before this index were left.
+    pub left: usize,
+    /// When the vehicle asked for the next way, seconds.
+    pub asked_s: Option<f64>,
+}
+
+/// Who holds which lane.
+#[derive(Clone, Debug)]
+pub(crate) struct Junctions {
+    /// Number of vehicles that hold each lane.
+    held: Vec<u32>,
+    /// Length that vehicles on their way to each lane, or on it, will take, metres.
+    promised_m: Vec<f64>,
+    /// Nearest vehicle to the end of each lane that would ask: distance in metres, number.
+    nearest: Vec<Option<(f64, usize)>>,
+    asking: Vec<usize>,
+    requests: Vec<(f64, usize)>,
+    starving: Vec<u32>,
+}
+
+impl Junctions {
+    pub fn new(network: &Network) -> Self {
+        let lanes = network.lanes.len();
+        Self {
+            held: vec![0; lanes],
+            promised_m: vec![0.0; lanes],
+            nearest: vec![None; lanes],
+            asking: vec![],
+            requests: vec![],
+            starving: vec![],
+        }
+    }
+
+    /// Counts a vehicle that begins on a lane outside of junctions.
+    pub fn begin(&mut self, vehicle: &Vehicle) {
+        self.promised_m[vehicle.route.lanes[0] as usize] += takes_m(vehicle);
+    }
+
+    /// Takes back the lanes that a vehicle has left; all of them when it is gone.
+    pub fn release(&mut self, network: &Network, vehicle: &mut Vehicle, is_gone: bool) {
+        let rear_m = vehicle.way_m - 0.5 * vehicle.length_m();
+        let end = if is_gone { vehicle.route.lanes.len() } else { vehicle.route.index(rear_m) };
+        for index in vehicle.passage.left..end {
+            let lane = vehicle.route.lanes[index] as usize;
+            let was_granted = |index: usize| index < vehicle.passage.granted && is_inner(network, vehicle, index);
+            if was_granted(index) {
+                self.held[lane] = self.held[lane].saturating_sub(1);
+            } else if index == 0 || was_granted(index - 1) {
+                self.promised_m[lane] = (self.promised_m[lane] - takes_m(vehicle)).max(0.0);
+            }
+        }
+        vehicle.passage.left = vehicle.passage.left.max(end);
+    }
+
+    /// Grants ways in the order in which they were asked for.
+    pub fn grant(&mut self, network: &Network, time_s: f64, vehicles: &mut [Vehicle]) {
+        self.requests.clear();
+        for (number, vehicle) in vehicles.iter_mut().enumerate().filter(|(_, vehicle)| vehicle.drives()) {
+            let Some([first, _]) = next(network, vehicle) else { continue };
+            let away_m = vehicle.route.starts_m[first] - vehicle.front_m();
+            if away_m < ASK_M + 0.3 * vehicle.speed_mps * vehicle.speed_mps {
+                let lane = vehicle.route.lanes[first.saturating_sub(1)] as usize;
+                // Only the first vehicle of a lane may ask: nobody waits for one who cannot pass.
+                if self.nearest[lane].is_none_or(|(nearest_m, _)| away_m < nearest_m) {
+                    self.nearest[lane] = Some((away_m, number));
+                }
+                self.asking.push(lane);
+            }
+        }
+        for lane in self.asking.drain(..) {
+            if let Some((_, number)) = self.nearest[lane].take() {
+                let asked_s = *vehicles[number].passage.asked_s.get_or_insert(time_s);
+                self.requests.push((asked_s, number));
+            }
+        }
+        self.requests.sort_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
+        self.starving.clear();
+        for request in 0..self.requests.len() {
+            let (asked_s, number) = self.requests[request];
+            let vehicle = &mut vehicles[number];
+            let Some([first, end]) = next(network, vehicle) else { continue };
+            let (lanes, exit) = (&vehicle.route.lanes[first..end], vehicle.route.lanes.get(end).copied());
+            if self.is_free(network, lanes, exit, takes_m(vehicle)) {
+                lanes.iter().for_each(|lane| self.held[*lane as usize] += 1);
+                if let Some(exit) = exit {
+                    self.promised_m[exit as usize] += takes_m(vehicle);
+                }
+                (vehicle.passage.granted, vehicle.passage.asked_s) = (end, None);
+            } else if time_s - asked_s > PATIENCE_S {
+                self.starving.extend(lanes);
+            }
+        }
+    }
+
+    fn is_free(&self, network: &Network, lanes: &[u32], exit: Option<u32>, takes_m: f64) -> bool {
+        let is_free = |lane: &u32| {
+            let conflicts = &network.lanes[*lane as usize].conflicts;
+            conflicts.iter().all(|other| self.held[*other as usize] == 0 && !self.starving.contains(other))
+        };
+        let has_room = exit.is_none_or(|exit| {
+            let promised_m = self.promised_m[exit as usize];
+            promised_m <= 0.0 || promised_m + takes_m < network.lanes[exit as usize].length_m
+        });
+        has_room && lanes.iter().all(is_free)
+    }
+}
+
+/// Way at which a vehicle must stop: the beginning of lanes that are not granted.
+pub(crate) fn stop_m(network: &Network, vehicle: &Vehicle) -> Option<f64> {
+    next(network, vehicle).map(|[first, _]| vehicle.route.starts_m[first])
+}
+
+/// Length of a lane that a standing vehicle takes, metres.
+fn takes_m(vehicle: &Vehicle) -> f64 {
+    vehicle.length_m() + STANDING_GAP_M + 0.5
+}
+
+fn is_inner(network: &Network, vehicle: &Vehicle, index: usize) -> bool {
+    network.lanes[vehicle.route.lanes[index] as usize].in_junction
+}
+
+/// The next lanes of the route that need a grant: first index and the end.
+fn next(network: &Network, vehicle: &Vehicle) -> Option<[usize; 2]> {
+    let count = vehicle.route.lanes.len();
+    let from = vehicle.passage.granted.max(vehicle.route.index(vehicle.way_m));
+    let first = (from..count).find(|index| is_inner(network, vehicle, *index))?;
+    let end = (first..count).find(|index| !is_inner(network, vehicle, *index)).unwrap_or(count);
+    Some([first, end])
+}

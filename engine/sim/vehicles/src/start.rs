@@ -1,0 +1,135 @@
+//! Where vehicles begin.
+
+use crate::config::VehicleConfig;
+use crate::kinds::{draw_kind, drives_on, size_m};
+use crate::network::Network;
+use crate::outlines::meet;
+use crate::route::Route;
+use crate::vehicles::{Doing, Vehicle};
+use cosfly_frames::{DVec2, Seed};
+use cosfly_maps::{LaneKind, Town};
+use cosfly_world::{BodyKind, BodyPlan};
+
+/// Places that are tried for each vehicle.
+const TRIES: u64 = 40;
+/// Free space around a vehicle in the beginning, metres.
+const APART_M: f64 = 2.0;
+/// Room that a vehicle needs beside itself on its lane, metres.
+const BESIDE_M: f64 = 0.25;
+/// Distance between a bicycle and the edge of the lane, metres.
+const FROM_EDGE_M: f64 = 0.35;
+
+/// Vehicles that drive.
+pub(crate) fn driving(
+    network: &Network,
+    town: &Town,
+    config: &VehicleConfig,
+    parking: &[u32],
+    seed: Seed,
+) -> Vec<Vehicle> {
+    let blocked = Blocked::new(town);
+    let lanes: Vec<u32> = (0u32..)
+        .zip(&network.lanes)
+        .filter(|(number, lane)| !lane.in_junction && lane.length_m > 8.0 && !parking.contains(number))
+        .map(|(number, _)| number)
+        .collect();
+    // Long lanes begin more vehicles.
+    let mut ends_m = vec![];
+    let mut sum_m = 0.0;
+    for lane in &lanes {
+        sum_m += network.lanes[*lane as usize].length_m;
+        ends_m.push(sum_m);
+    }
+    let mut vehicles: Vec<Vehicle> = vec![];
+    for number in 0..u64::from(config.count) {
+        let own = seed.child("vehicle", number);
+        let mut random = own.stream("start");
+        let kind = draw_kind(&config.mix, &mut random);
+        let size_m = size_m(kind, &mut random);
+        let speed_share = random.normal(config.speed_share, config.speed_deviation).clamp(0.2, 1.5);
+        let looks = own.child("looks", 0);
+        let plan = BodyPlan { source: String::new(), kind, size_m, looks, group: None };
+        for _ in 0..TRIES {
+            let at_m = random.unit() * sum_m;
+            let place = ends_m.partition_point(|end| *end <= at_m).min(lanes.len().saturating_sub(1));
+            let Some(number) = lanes.get(place) else { break };
+            let lane = &network.lanes[*number as usize];
+            let way_m = at_m - (ends_m[place] - lane.length_m);
+            let room_m = 0.5 * size_m.x + 0.5;
+            let fits = drives_on(kind, lane.kind)
+                && (lane.kind == LaneKind::Biking || lane.width_m > size_m.y + 2.0 * BESIDE_M)
+                && (room_m..lane.length_m - room_m).contains(&way_m);
+            if !fits {
+                continue;
+            }
+            let route = Route::new(network, *number, aside_m(network, lane.kind, lane.width_m, kind, size_m.y));
+            let vehicle = Vehicle::new(network, plan.clone(), route, way_m, Doing::Drives);
+            let place = vehicle.state.feet_in_world;
+            let is_inside = config.area_m.is_none_or(|[left, top, right, bottom]| {
+                (left..=right).contains(&place.x) && (top..=bottom).contains(&place.y)
+            });
+            let on_crossing = lane
+                .crossings
+                .iter()
+                .any(|crossing| (crossing.from_m - room_m - 1.0..crossing.to_m + room_m + 1.0).contains(&way_m));
+            if is_inside && !on_crossing && is_free(&vehicle, &vehicles, APART_M) && !blocked.touches(&vehicle) {
+                vehicles.push(Vehicle { speed_share, ..vehicle });
+                break;
+            }
+        }
+    }
+    vehicles
+}
+
+/// Whether a vehicle keeps away from all others.
+pub(crate) fn is_free(vehicle: &Vehicle, others: &[Vehicle], apart_m: f64) -> bool {
+    others.iter().all(|other| !meet(&vehicle.plan, &vehicle.state, &other.plan, &other.state, apart_m))
+}
+
+/// Distance of a vehicle from the middle of its lanes to the right: bicycles ride at the edge of lanes that they share.
+fn aside_m(network: &Network, lane: LaneKind, lane_m: f64, kind: BodyKind, width_m: f64) -> f64 {
+    let is_shared = kind == BodyKind::Bicycle && lane == LaneKind::Driving;
+    if is_shared { network.kerb * (0.5 * (lane_m - width_m) - FROM_EDGE_M).max(0.0) } else { 0.0 }
+}
+
+/// Solid things of the town that vehicles would drive into.
+pub(crate) struct Blocked<'t> {
+    town: &'t Town,
+}
+
+impl<'t> Blocked<'t> {
+    pub fn new(town: &'t Town) -> Self {
+        Self { town }
+    }
+
+    /// Whether a vehicle stands in a solid thing.
+    pub fn touches(&self, vehicle: &Vehicle) -> bool {
+        let shape = vehicle.plan.box_at(&vehicle.state);
+        let (low, high) = shape.bounds_in_world();
+        let reach = shape.half_extents_m.truncate().length();
+        self.town.obstacles.iter().any(|obstacle| {
+            let (other_low, other_high) = obstacle.shape.bounds_in_world();
+            other_low.z < high.z
+                && other_high.z > low.z + 0.3
+                && (obstacle.shape.center_in_world - shape.center_in_world).truncate().length()
+                    < reach + obstacle.shape.half_extents_m.truncate().length()
+                && overlap(&shape, &obstacle.shape)
+        })
+    }
+}
+
+/// Whether two upright boxes overlap seen from above.
+fn overlap(one: &cosfly_geometry::OrientedBox, other: &cosfly_geometry::OrientedBox) -> bool {
+    let axes = |yaw_rad: f64| {
+        let (sin, cos) = cosfly_frames::real::sin_cos(yaw_rad);
+        [DVec2::new(cos, sin), DVec2::new(-sin, cos)]
+    };
+    let (own, others) = (axes(one.yaw_rad), axes(other.yaw_rad));
+    let between = (other.center_in_world - one.center_in_world).truncate();
+    own.into_iter().chain(others).all(|axis| {
+        let reach = |half: cosfly_frames::DVec3, [along, across]: [DVec2; 2]| {
+            half.x * axis.dot(along).abs() + half.y * axis.dot(across).abs()
+        };
+        axis.dot(between).abs() < reach(one.half_extents_m, own) + reach(other.half_extents_m, others)
+    })
+}

@@ -1,0 +1,110 @@
+"""Reads the phrases of table `phrases` and finds, frame by frame, all visible bodies that they may mean.
+
+    venv/bin/python tests/outside/check_phrases.py DATASET_FOLDER [DATASET_FOLDER ...]
+
+Shares no code with cosfly. Every phrase is read from its own words, in English and in Chinese; both must name the same. In the frame in
+which it is given, a phrase must fit the target and no other body of tables `people` and `frames`; in all frames the number of bodies that
+it may fit must be the stated one. Prints how often each property is named.
+"""
+
+import re
+import sys
+from collections import Counter, defaultdict
+from pathlib import Path
+
+import pyarrow.dataset as ds
+
+COLOURS = dict(zip(
+    "black grey white red orange yellow green blue purple pink brown beige".split(),
+    "黑色 灰色 白色 红色 橙色 黄色 绿色 蓝色 紫色 粉色 棕色 米色".split(),
+))
+KINDS = {
+    "pedestrian": ("person", "人"), "bicycle": ("cyclist", "骑自行车的人"), "motorcycle": ("motorcyclist", "骑摩托车的人"),
+    "car": ("car", "汽车"), "van": ("van", "面包车"), "truck": ("lorry", "卡车"), "bus": ("bus", "公交车"),
+}
+ENGLISH = re.compile(
+    r"the (?:(?P<motion>walking|moving|standing|stationary) )?(?:(?P<paint>[a-z]+) )??(?P<kind>person|cyclist|motorcyclist|car|van|lorry|bus)"
+    r"(?: in an? (?P<top>[a-z]+) top)?(?:(?: and| in) (?P<trousers>[a-z]+) trousers)?(?P<backpack> with a backpack)?"
+    r"(?: (?:on|in) the (?P<part>left|right|middle) of the picture)?"
+)
+
+
+def english(text):
+    found = ENGLISH.fullmatch(text)
+    if not found:
+        return None
+    kind = next(kind for kind, (word, _) in KINDS.items() if word == found["kind"])
+    moves = {"walking": True, "moving": True, "standing": False, "stationary": False}.get(found["motion"])
+    return {"kind": kind, "motion": moves, "top": found["top"] or found["paint"], "trousers": found["trousers"],
+            "backpack": bool(found["backpack"]) or None, "part": found["part"]}
+
+
+def chinese(text):
+    kind = next(kind for kind in ("bicycle", "motorcycle", "van", "truck", "bus", "car", "pedestrian") if text.endswith(KINDS[kind][1]))
+    colour = {zh: en for en, zh in COLOURS.items()}
+    any_colour = "|".join(colour)
+    found = {name: re.search(pattern, text) for name, pattern in {
+        "top": f"穿({any_colour})上衣" if kind in ("pedestrian", "bicycle", "motorcycle") else f"({any_colour})", "trousers": f"({any_colour})裤子",
+        "part": "画面(左侧|右侧|中间)", "motion": "(正在行走|正在行驶|站着不动|停着不动)", "backpack": "背着背包"}.items()}
+    word = lambda name: found[name] and found[name].group(1)
+    return {"kind": kind, "motion": {"正在行走": True, "正在行驶": True, "站着不动": False, "停着不动": False}.get(word("motion")),
+            "top": colour.get(word("top")), "trousers": colour.get(word("trousers")), "backpack": bool(found["backpack"]) or None,
+            "part": {"左侧": "left", "右侧": "right", "中间": "middle"}.get(word("part"))}
+
+
+def may_fit(meant, body):
+    """Whether a body may be meant; where it moves slowly, or near a border of the picture's parts, nobody could deny it."""
+    speed, at = body["speed"], body["at"]
+    moves = True if speed >= 0.4 else False if speed <= 0.05 else None
+    part = "left" if at < 0.3 else "right" if at > 0.7 else "middle" if 0.4 <= at <= 0.6 else None
+    agrees = [meant[name] is None or meant[name] == body[name] for name in ("top", "trousers", "backpack")]
+    agrees.append(meant["motion"] is None or moves is None or moves == meant["motion"])
+    agrees.append(meant["part"] is None or part is None or part == meant["part"])
+    return body["kind"] == meant["kind"] and all(agrees)
+
+
+def check(folder):
+    table = lambda name: ds.dataset(Path(folder) / "data" / name, format="parquet").to_table(
+        columns=[column for column in ds.dataset(Path(folder) / "data" / name, format="parquet").schema.names if column != "preview"]).to_pylist()
+    flights = {row["trajectory_id"]: row for row in table("trajectories")}
+    frames, others = defaultdict(dict), defaultdict(list)
+    for row in table("frames"):
+        frames[row["trajectory_id"]][row["frame"]] = row
+    for row in table("people"):
+        others[row["trajectory_id"], row["frame"]].append(row)
+    wrong, named, unique = [], Counter(), Counter()
+    phrases = table("phrases")
+    for row in phrases:
+        flight = flights[row["trajectory_id"]]
+        meant = english(row["text_en"])
+        if meant is None or meant != chinese(row["text_zh"]):
+            wrong.append(f"{row['trajectory_id']} frame {row['frame']}: `{row['text_en']}` and `{row['text_zh']}` do not mean the same")
+            continue
+        said = sorted(name for name, value in meant.items() if value is not None and name != "kind")
+        if said != sorted(row["properties"]):
+            wrong.append(f"{row['trajectory_id']} frame {row['frame']}: `properties` are {row['properties']}; the words name {said}")
+        named.update(said)
+        middle = lambda edges: (edges[0] + edges[2]) / 2 / flight["camera_width_px"]
+        for frame, state in frames[row["trajectory_id"]].items():
+            bodies = [{"kind": it["kind"], "top": it["top_colour"], "trousers": it["trousers_colour"], "backpack": it["has_backpack"],
+                       "speed": it["speed_mps"], "at": middle(it["visible_box_px"])} for it in others[row["trajectory_id"], frame]]
+            fits = sum(may_fit(meant, body) for body in bodies)
+            target = None
+            if state["visible_box_px"] is not None:
+                target = {"kind": flight["target_kind"], "top": flight["target_top_colour"], "trousers": flight["target_trousers_colour"],
+                          "backpack": flight["target_has_backpack"], "speed": state["target_speed_mps"], "at": middle(state["visible_box_px"])}
+            is_target = target is not None and may_fit(meant, target)
+            if (row["candidates"][frame], row["fits_target"][frame]) != (fits + is_target, int(is_target)):
+                wrong.append(f"{row['trajectory_id']} frame {frame}: `{row['text_en']}` may mean {fits + is_target} bodies; the table says {row['candidates'][frame]}")
+            if frame == row["frame"] and (fits, is_target) != (0, True):
+                wrong.append(f"{row['trajectory_id']} frame {frame}: `{row['text_en']}` is given there and means {fits} others")
+            unique[bool(is_target and fits == 0)] += 1
+    print(f"{folder}: {len(phrases)} phrases in {len(flights)} flights, {len(wrong)} wrong; named: {dict(named)};",
+          f"unique in {unique[True]} of {sum(unique.values())} frames")
+    return wrong
+
+
+if __name__ == "__main__":
+    problems = [problem for folder in sys.argv[1:] for problem in check(folder)]
+    print(*problems[:20], sep="\n")
+    sys.exit(bool(problems))
