@@ -166,6 +166,22 @@ impl WalkableGrid {
         })
     }
 
+    /// Kind of the ground at a point, by cells.
+    pub(crate) fn kind_at(&self, point: DVec2) -> Option<WalkableKind> {
+        let node = self.node_of_cell.get(self.cell_at(point)?);
+        (node != NO_NODE).then(|| self.nodes[node as usize].kind)
+    }
+
+    /// Whether the straight step is free and ends on walkable ground itself, not in a seam of it.
+    pub(crate) fn step_ends_on_ground(&self, from: DVec2, to: DVec2) -> bool {
+        let is_open = || {
+            let node = self.cell_at(to).map_or(NO_NODE, |cell| self.node_of_cell.get(cell));
+            node != NO_NODE && self.nodes[node as usize].open
+        };
+        let is_on_ground = || is_open() || self.z_near(to).is_some_and(|z| self.ground.exactly_at(to, z).is_some());
+        is_on_ground() && self.step_is_free(from, to)
+    }
+
     /// Whether the cell at a point is walkable ground.
     pub(crate) fn is_ground(&self, point: DVec2) -> bool {
         self.cell_at(point).is_some_and(|cell| self.node_of_cell.get(cell) != NO_NODE)

@@ -104,7 +104,7 @@ impl Ground {
         })
     }
 
-    fn exactly_at(&self, point: DVec2, near_z_m: f64) -> Option<(WalkableKind, f64)> {
+    pub(crate) fn exactly_at(&self, point: DVec2, near_z_m: f64) -> Option<(WalkableKind, f64)> {
         let mut cut = Cut::default();
         let mut best: Option<(bool, u8, f64, WalkableKind)> = None;
         self.polygons_near(point, point, &mut |polygon| {

@@ -123,7 +123,8 @@ impl<G: Deref<Target = WalkableGrid>> RouteSearch<G> {
         let own = &self.grid.nodes[node as usize];
         let edge =
             if self.edge_distance_m > 0.0 { (1.0 - own.edge_distance_m / self.edge_distance_m).max(0.0) } else { 0.0 };
-        self.costs[rank(own.kind) as usize] * (1.0 + EDGE_SHARE * edge) * (1.0 + self.taste_share * self.taste_at(node))
+        let ground = self.costs[rank(own.kind) as usize] * (1.0 + EDGE_SHARE * edge);
+        if self.taste_share > 0.0 { ground * (1.0 + self.taste_share * self.taste_at(node)) } else { ground }
     }
 
     /// Bilinear value noise in 0..1.

@@ -89,7 +89,7 @@ impl Limits {
     /// The asked step, bent or shortened so that it keeps all limits and the way from `frame_place` to its end is free.
     pub fn on_ground(&self, grid: &WalkableGrid, frame_place: DVec2, at: DVec2, asked: DVec2) -> DVec2 {
         let step = self.kept(asked);
-        let is_free = |step: DVec2| grid.step_is_free(frame_place, at + step);
+        let is_free = |step: DVec2| grid.step_ends_on_ground(frame_place, at + step);
         if is_free(step) {
             return step;
         }

@@ -22,6 +22,7 @@ use cosfly_maps::Town;
 use cosfly_world::{BodyPlan, Clock, Population, Present, Snapshot};
 use limits::Limits;
 use person::Person;
+use roads::Right;
 use std::ops::Range;
 use std::sync::Arc;
 use steering::Steering;
@@ -77,6 +78,20 @@ impl Crowd {
         clock: Clock,
         seed: Seed,
     ) -> Result<Self, PedestrianError> {
+        Self::beside(grid, config, clock, seed, &[])
+    }
+
+    /// The same, apart from bodies that are there in the first frame: their places in plan and radii, metres.
+    ///
+    /// # Errors
+    /// See [`Crowd::new`].
+    pub fn beside(
+        grid: Arc<WalkableGrid>,
+        config: &CrowdConfig,
+        clock: Clock,
+        seed: Seed,
+        others: &[(DVec2, f64)],
+    ) -> Result<Self, PedestrianError> {
         config.check()?;
         let costs = &config.ground_cost;
         let costs = [1.0, 1.0, costs.crossing as f32, costs.shoulder as f32, costs.road as f32];
@@ -92,7 +107,7 @@ impl Crowd {
             steps: 0,
             scratch: Scratch::default(),
         };
-        crowd.fill(seed)?;
+        crowd.fill(seed, others)?;
         Ok(crowd)
     }
 
@@ -125,17 +140,23 @@ impl Crowd {
         let neighbours = &surroundings.neighbours;
 
         // Planned speed: own tempo, level with the company, slower before a stop and before a road that is not free.
-        let may_go_m = roads::free_way_m(&self.grid, &self.config, company, person, vehicles);
-        let goal_mps = match company.activity {
-            Activity::Walking => {
-                let level_m = pursuit::lag_m(company, person, number, places, ahead);
+        let right = roads::right(&self.grid, &self.config, company, person, ahead, vehicles);
+        let goal_mps = match (company.activity, right) {
+            (_, Right::Escape(share)) => share.abs() * company.cruise_mps,
+            (Activity::Walking, _) => {
+                let level_m = pursuit::lag_m(company, person, places, ahead);
                 let free_mps = company.cruise_mps * (1.0 + person.tempo + (0.25 * level_m).clamp(-0.5, 0.35));
-                free_mps.min((2.0 * self.config.braking_mps2 * may_go_m).sqrt())
+                match right {
+                    Right::Wait(way_m) => free_mps.min((2.0 * self.config.braking_mps2 * way_m).sqrt()),
+                    _ => free_mps,
+                }
             }
-            Activity::Standing { .. } => 0.0,
+            (Activity::Standing { .. }, _) => 0.0,
         };
-        let change_mps = self.config.braking_mps2 * step_s;
+        let is_escape = matches!(right, Right::Escape(_));
+        let change_mps = if is_escape { HARDEST_MPS2 } else { self.config.braking_mps2 } * step_s;
         person.pace_mps += (goal_mps - person.pace_mps).clamp(-change_mps, change_mps);
+        let ahead = if matches!(right, Right::Escape(share) if share < 0.0) { -ahead } else { ahead };
 
         let grid = &self.grid;
         let at = person.at;

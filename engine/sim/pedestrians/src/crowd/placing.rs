@@ -14,8 +14,8 @@ const APART_M: f64 = 0.1;
 /// Attempts to place a company.
 const ATTEMPTS: usize = 400;
 
-/// Side of a cell of the register of places, metres: two bodies in cells that do not touch cannot overlap.
-const CELL_M: f64 = 4.2;
+/// Side of a cell of the register of places, metres.
+const CELL_M: f64 = 4.0;
 
 /// Places taken, by cell.
 #[derive(Default)]
@@ -24,30 +24,32 @@ struct Taken {
 }
 
 impl Taken {
-    fn cell(at: DVec2) -> (i64, i64) {
-        ((at.x / CELL_M).floor() as i64, (at.y / CELL_M).floor() as i64)
+    fn cells(at: DVec2, reach_m: f64) -> impl Iterator<Item = (i64, i64)> {
+        let cell = |place: f64| (place / CELL_M).floor() as i64;
+        let (low, high) = (at - reach_m, at + reach_m);
+        (cell(low.x)..=cell(high.x)).flat_map(move |x| (cell(low.y)..=cell(high.y)).map(move |y| (x, y)))
     }
 
     fn is_free(&self, at: DVec2, radius_m: f64) -> bool {
-        let (column, row) = Self::cell(at);
-        (-1..=1).flat_map(|x| (-1..=1).map(move |y| (column + x, row + y))).all(|cell| {
-            self.cells.get(&cell).is_none_or(|list| {
-                list.iter().all(|(other, other_m)| (*other - at).length() >= radius_m + other_m + APART_M)
-            })
-        })
+        let is_apart = |(other, other_m): &(DVec2, f64)| (*other - at).length() >= radius_m + other_m + APART_M;
+        Self::cells(at, radius_m + APART_M)
+            .all(|cell| self.cells.get(&cell).is_none_or(|list| list.iter().all(is_apart)))
     }
 
+    /// Enters a body in all cells that it reaches into.
     fn take(&mut self, at: DVec2, radius_m: f64) {
-        self.cells.entry(Self::cell(at)).or_default().push((at, radius_m));
+        Self::cells(at, radius_m).for_each(|cell| self.cells.entry(cell).or_default().push((at, radius_m)));
     }
 }
 
 impl Crowd {
     /// Draws and places all people. The first people are the same whatever their number, but for the last company.
-    pub(super) fn fill(&mut self, seed: Seed) -> Result<(), PedestrianError> {
+    pub(super) fn fill(&mut self, seed: Seed, others: &[(DVec2, f64)]) -> Result<(), PedestrianError> {
         let roomy = roomy_pieces(&self.grid, self.config.min_route_m)?;
         let count = self.config.count as usize;
         let (mut taken, mut groups) = (Taken::default(), 0);
+        let others = others.iter().filter(|(at, radius_m)| at.is_finite() && *radius_m < 100.0);
+        others.for_each(|(at, radius_m)| taken.take(*at, *radius_m));
         while self.people.len() < count {
             let number = self.companies.len();
             let own = seed.child("company", number as u64);
@@ -113,7 +115,8 @@ impl Crowd {
             person.heading_rad = heading_rad;
         }
         people.iter().all(|person| {
-            self.grid.step_is_free(self.grid.center(start), person.at) && taken.is_free(person.at, person.radius_m)
+            self.grid.step_ends_on_ground(self.grid.center(start), person.at)
+                && taken.is_free(person.at, person.radius_m)
         })
     }
 }

@@ -74,7 +74,7 @@ fn slot_m(
 }
 
 /// How far the person is behind the middle of the company, metres along the way.
-pub(crate) fn lag_m(company: &Company, person: &Person, _number: usize, places: &[DVec2], ahead: DVec2) -> f64 {
+pub(crate) fn lag_m(company: &Company, person: &Person, places: &[DVec2], ahead: DVec2) -> f64 {
     let members = &places[company.members.clone()];
     let middle = members.iter().sum::<DVec2>() / members.len() as f64;
     ahead.dot(middle - person.at)

@@ -1,4 +1,5 @@
-//! Before a road: people step on it when no vehicle comes in the time that they need to cross.
+//! Roads: people step on one when no vehicle comes in the time that they need to cross, and on it they wait for a vehicle
+//! that would hit them if they went on.
 
 use crate::WalkableGrid;
 use crate::crowd::CrowdConfig;
@@ -14,66 +15,148 @@ const ROAD_NODES: usize = 60;
 /// People wait this far before the first node of a road, metres.
 const KERB_M: f64 = 0.7;
 
+/// Steps ahead at which a kerb is looked for: their length, metres, and number.
+const PROBE_M: f64 = 0.4;
+const PROBES: i32 = 9;
+
+/// Speeds at which a person on a road goes on or back, as multiples of the own one, in order of preference.
+const ESCAPES: [f64; 4] = [1.0, 1.5, 0.0, -1.0];
+
 /// Vehicles slower than this let people pass, m/s.
 const WAITING_MPS: f64 = 0.5;
 
-/// Distance that people may walk before they have to wait, metres; infinite where the way is free.
-pub(crate) fn free_way_m(
+/// On a road, people look so far ahead, seconds, and keep so far from vehicles, metres.
+const LOOK_S: f64 = 4.0;
+const KEEP_M: f64 = 0.6;
+
+/// What a person may do on the way.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) enum Right {
+    /// Walk on.
+    Free,
+    /// Walk on to a kerb so many metres away and wait.
+    Wait(f64),
+    /// On a road with vehicles near: walk at once with this velocity, as a multiple of the own speed ahead.
+    Escape(f64),
+}
+
+/// What the vehicles let a person do who walks `ahead` (a unit vector).
+pub(crate) fn right(
     grid: &WalkableGrid,
     config: &CrowdConfig,
     company: &Company,
     person: &Person,
+    ahead: DVec2,
     vehicles: &[Present],
-) -> f64 {
+) -> Right {
     if vehicles.is_empty() {
-        return f64::INFINITY;
+        return Right::Free;
     }
-    let ahead = &company.route[person.progress..];
+    if grid.kind_at(person.at).is_some_and(is_road) {
+        return escape(company, person, ahead, vehicles);
+    }
+    let route = &company.route[person.progress..];
     let on_road = |node: &u32| is_road(grid.nodes[*node as usize].kind);
-    let Some(first) = ahead.iter().take(AHEAD_NODES).position(on_road) else { return f64::INFINITY };
-    if first == 0 {
-        return f64::INFINITY;
+    let Some(first) = route.iter().take(AHEAD_NODES).position(on_road) else { return Right::Free };
+    let beyond = route[first..].iter().take(ROAD_NODES).position(|node| !on_road(node)).unwrap_or(ROAD_NODES);
+    let [from, to] = [route[first], route[(first + beyond).min(route.len() - 1)]].map(|node| grid.center(node));
+    // The kerb may be nearer than the route's own place at it.
+    let is_on_road = |step: &i32| grid.kind_at(person.at + PROBE_M * f64::from(*step) * ahead).is_some_and(is_road);
+    let probed_m = (1..=PROBES).find(is_on_road).map_or(f64::INFINITY, |step| PROBE_M * f64::from(step));
+    let kerb_m = (from - person.at).length().min(probed_m);
+    let crossing = Crossing { from, to, before_m: kerb_m, speed_mps: company.cruise_mps.max(0.1) };
+    match vehicles.iter().all(|vehicle| crossing.is_clear_of(vehicle, config.gap_s)) {
+        true => Right::Free,
+        false => Right::Wait((kerb_m - KERB_M).max(0.0)),
     }
-    let beyond = ahead[first..].iter().take(ROAD_NODES).position(|node| !on_road(node)).unwrap_or(ROAD_NODES);
-    let [from, to] = [ahead[first], ahead[(first + beyond).min(ahead.len() - 1)]].map(|node| grid.center(node));
-    let kerb_m = (from - person.at).length();
-    let is_free =
-        vehicles.iter().all(|vehicle| leaves_time(vehicle, from, to, kerb_m, company.cruise_mps, config.gap_s));
-    if is_free { f64::INFINITY } else { (kerb_m - KERB_M).max(0.0) }
 }
 
-/// Whether a vehicle that goes on as now is not within the time `gap_s` of a person who walks `before_m` and then from one
-/// place to another.
-fn leaves_time(vehicle: &Present, from: DVec2, to: DVec2, before_m: f64, speed_mps: f64, gap_s: f64) -> bool {
-    let along_mps = vehicle.state.speed_mps;
-    if along_mps < WAITING_MPS {
-        return true;
+/// The first way of going on a road that no vehicle hits; the one that is hit last where all are.
+fn escape(company: &Company, person: &Person, ahead: DVec2, vehicles: &[Present]) -> Right {
+    let mut best = (1.0, 0.0);
+    for share in ESCAPES {
+        let velocity_mps = ahead * (share * company.cruise_mps);
+        let hits = vehicles.iter().filter_map(|vehicle| hit_s(vehicle, person.at, velocity_mps, person.radius_m));
+        let hit_s = hits.fold(LOOK_S, f64::min);
+        if hit_s > best.1 {
+            best = (share, hit_s);
+        }
+        if hit_s >= LOOK_S {
+            break;
+        }
     }
+    if best.0 == 1.0 { Right::Free } else { Right::Escape(best.0) }
+}
+
+/// Offset from a vehicle's middle along and across it.
+fn beside(vehicle: &Present, point: DVec2) -> DVec2 {
+    turned(vehicle, point - vehicle.state.feet_in_world.truncate())
+}
+
+/// A vector along and across a vehicle.
+fn turned(vehicle: &Present, vector: DVec2) -> DVec2 {
     let (sin, cos) = real::sin_cos(vehicle.state.heading_rad);
-    let own = |point: DVec2| {
-        let offset = point - vehicle.state.feet_in_world.truncate();
-        DVec2::new(cos * offset.x + sin * offset.y, cos * offset.y - sin * offset.x)
-    };
-    let (from, to) = (own(from), own(to));
-    let half = 0.5 * vehicle.size_m.truncate() + 0.5;
-    // Part of the way that lies in the vehicle's lane.
-    let step = to - from;
-    let (mut enter, mut leave) = (0.0_f64, 1.0_f64);
-    if step.y.abs() > 1e-9 {
-        let (a, b) = ((-half.y - from.y) / step.y, (half.y - from.y) / step.y);
-        (enter, leave) = (enter.max(a.min(b)), leave.min(a.max(b)));
-    } else if from.y.abs() > half.y {
-        return true;
+    DVec2::new(cos * vector.x + sin * vector.y, cos * vector.y - sin * vector.x)
+}
+
+/// Time after which a body at a place comes too near to a vehicle if both go on as now, seconds.
+fn hit_s(vehicle: &Present, at: DVec2, velocity_mps: DVec2, radius_m: f64) -> Option<f64> {
+    let half = 0.5 * vehicle.size_m.truncate() + radius_m + KEEP_M;
+    let place = beside(vehicle, at);
+    let closing = turned(vehicle, velocity_mps) - DVec2::new(vehicle.state.speed_mps, 0.0);
+    let (mut enter, mut leave) = (0.0_f64, f64::INFINITY);
+    for axis in 0..2 {
+        let (at, speed, half) = (place[axis], closing[axis], half[axis]);
+        if speed.abs() < 1e-9 {
+            if at.abs() > half {
+                return None;
+            }
+            continue;
+        }
+        let times = [(-half - at) / speed, (half - at) / speed];
+        enter = enter.max(times[0].min(times[1]));
+        leave = leave.min(times[0].max(times[1]));
     }
-    if enter > leave {
-        return true;
+    (enter <= leave).then_some(enter)
+}
+
+/// A way over a road.
+struct Crossing {
+    from: DVec2,
+    to: DVec2,
+    /// Distance to its beginning, metres.
+    before_m: f64,
+    speed_mps: f64,
+}
+
+impl Crossing {
+    /// Whether a vehicle that goes on as now is away from the way by the time `gap_s` before and after the person.
+    fn is_clear_of(&self, vehicle: &Present, gap_s: f64) -> bool {
+        let along_mps = vehicle.state.speed_mps;
+        if along_mps < WAITING_MPS {
+            return true;
+        }
+        let (from, to) = (beside(vehicle, self.from), beside(vehicle, self.to));
+        let half = 0.5 * vehicle.size_m.truncate() + KEEP_M;
+        // Part of the way that lies in the vehicle's lane.
+        let step = to - from;
+        let (mut enter, mut leave) = (0.0_f64, 1.0_f64);
+        if step.y.abs() > 1e-9 {
+            let (a, b) = ((-half.y - from.y) / step.y, (half.y - from.y) / step.y);
+            (enter, leave) = (enter.max(a.min(b)), leave.min(a.max(b)));
+        } else if from.y.abs() > half.y {
+            return true;
+        }
+        if enter > leave {
+            return true;
+        }
+        let places = [from.x + enter * step.x, from.x + leave * step.x];
+        let (near, far) = (places[0].min(places[1]), places[0].max(places[1]));
+        if far < -half.x {
+            return true;
+        }
+        let vehicle_s = [(near - half.x) / along_mps, (far + half.x) / along_mps];
+        let walked_s = |share: f64| (self.before_m + share * step.length()) / self.speed_mps;
+        walked_s(leave) + gap_s < vehicle_s[0] || walked_s(enter) > vehicle_s[1] + gap_s
     }
-    let places = [from + enter * step, from + leave * step];
-    let (near, far) = (places[0].x.min(places[1].x), places[0].x.max(places[1].x));
-    if far < -half.x {
-        return true;
-    }
-    let vehicle_s = [(near - half.x) / along_mps, (far + half.x) / along_mps];
-    let walked = |share: f64| (before_m + share * step.length()) / speed_mps.max(0.1);
-    walked(leave) + gap_s < vehicle_s[0] || walked(enter) > vehicle_s[1] + gap_s
 }

@@ -79,15 +79,15 @@ pub(super) fn read_csv(text: &str, config: &RecordedConfig) -> Result<Recording,
     let mut read = Rows::default();
     let mut rows = rows(text).peekable();
     let Some((first_line, first)) = rows.peek().copied() else { return Ok(read.recording()) };
-    let separator = if first.contains(';') { ';' } else { ',' };
+    let separator = [';', ','].into_iter().find(|sign| first.contains(*sign));
     let mut columns = [0, 1, 2, 3];
-    if first.split(separator).next().is_some_and(|cell| unquoted(cell).parse::<f64>().is_err()) {
+    if cells(first, separator).next().is_some_and(|cell| cell.parse::<f64>().is_err()) {
         columns = header(first, separator).map_err(|error| error.at(first_line))?;
         rows.next();
     }
     let count = columns.iter().max().map_or(0, |last| last + 1);
     for (line, row) in rows {
-        let cells: Vec<&str> = row.split(separator).take(count).map(unquoted).collect();
+        let cells: Vec<&str> = cells(row, separator).take(count).collect();
         if cells.len() < count {
             let message = format!("the row has {} columns; {count} are needed", cells.len());
             return Err(RecordedError::new(message).at(line).hint("a row is time, id, x, y with commas between"));
@@ -100,20 +100,27 @@ pub(super) fn read_csv(text: &str, config: &RecordedConfig) -> Result<Recording,
     Ok(read.recording())
 }
 
+/// Cells of a row between separators; without one, between white space.
+fn cells(row: &str, separator: Option<char>) -> impl Iterator<Item = &str> {
+    let is_between = move |sign: char| separator.map_or(sign.is_whitespace(), |separator| sign == separator);
+    let pieces = row.split(is_between).map(unquoted);
+    pieces.filter(move |cell| separator.is_some() || !cell.is_empty())
+}
+
 fn unquoted(cell: &str) -> &str {
     let cell = cell.trim();
     cell.strip_prefix('"').and_then(|cell| cell.strip_suffix('"')).unwrap_or(cell)
 }
 
 /// Places of the columns time, id, x, y in a header.
-fn header(row: &str, separator: char) -> Result<[usize; 4], RecordedError> {
+fn header(row: &str, separator: Option<char>) -> Result<[usize; 4], RecordedError> {
     const NAMES: [&[&str]; 4] = [
         &["t", "time", "time_s", "frame", "timestamp"],
         &["id", "person", "ped", "agent", "track"],
         &["x", "x_m"],
         &["y", "y_m"],
     ];
-    let cells: Vec<String> = row.split(separator).map(|cell| unquoted(cell).to_lowercase()).collect();
+    let cells: Vec<String> = cells(row, separator).map(str::to_lowercase).collect();
     let mut columns = [0; 4];
     for (column, names) in columns.iter_mut().zip(NAMES) {
         let place = cells.iter().position(|cell| names.contains(&cell.as_str()));

@@ -14,7 +14,7 @@ pub enum RecordedFormat {
     Geojson,
     /// ETH and UCY matrices: frame, id, x, z, y and velocities, metres.
     Obsmat,
-    /// Columns `t`, `id`, `x`, `y`, metres.
+    /// Columns `t`, `id`, `x`, `y`, metres, between commas, semicolons or white space; other columns need a header.
     Csv,
 }
 
@@ -26,7 +26,7 @@ impl RecordedFormat {
         match start.chars().next() {
             Some('<') => Self::Gpx,
             Some('{' | '[') => Self::Geojson,
-            _ if first_line.contains([',', ';']) => Self::Csv,
+            _ if first_line.contains([',', ';']) || first_line.split_whitespace().count() != 8 => Self::Csv,
             _ => Self::Obsmat,
         }
     }
@@ -55,7 +55,7 @@ pub struct RecordedConfig {
     /// Nobody is faster, m/s: at a jump the track is parted, and the person is two people. Default 8.
     #[schemars(range(min = 0.1, max = 100.0))]
     pub fastest_mps: f64,
-    /// Longest time between two points of one track, seconds: at a longer gap the track is parted. Default 5.
+    /// Longest time between two points of one track, seconds: at a longer gap the track is parted. Default 30.
     #[schemars(range(min = 0.01, max = 3600.0))]
     pub longest_gap_s: f64,
     /// Body height.
@@ -74,7 +74,7 @@ impl Default for RecordedConfig {
             turn_deg: 0.0,
             y_is_left: true,
             fastest_mps: 8.0,
-            longest_gap_s: 5.0,
+            longest_gap_s: 30.0,
             height: HeightRange::default(),
             radius: RadiusRange::default(),
         }

@@ -30,7 +30,10 @@ pub(super) fn read(text: &str) -> Result<Recording, RecordedError> {
     for (number, feature) in features.iter().enumerate() {
         let (geometry, properties) = (&feature["geometry"], &feature["properties"]);
         let id = id_of(feature).unwrap_or_else(|| format!("feature {}", number + 1));
-        let wrong = |message: String| RecordedError::new(format!("feature {number}: {message}"));
+        let wrong = |message: String| {
+            RecordedError::new(format!("feature {number}: {message}"))
+                .hint("points have `time`; lines have one time per vertex in `coordTimes`, `times` or `coordinateProperties.times`")
+        };
         match geometry["type"].as_str() {
             Some("Point") => match ["time", "timestamp", "t"].iter().find_map(|key| properties.get(*key)) {
                 Some(time) => {

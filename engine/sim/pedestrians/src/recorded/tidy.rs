@@ -17,10 +17,10 @@ pub(super) fn tidy(recording: &mut Recording, config: &RecordedConfig) -> Result
         part(track, recording.is_geographic, config, &mut counts, &mut tracks)?;
     }
     if tracks.is_empty() {
-        let hint = if recording.warnings.is_empty() {
-            "the file needs at least one person with two points"
-        } else {
-            "tracks need a time for each point"
+        let hint = match (counts.gaps > 0, recording.warnings.is_empty()) {
+            (true, _) => "all points are farther apart in time than `longest_gap_s`; set it higher",
+            (false, true) => "the file needs at least one person with two points",
+            (false, false) => "tracks need a time for each point",
         };
         return Err(RecordedError::new("the file has no track with time").hint(hint));
     }

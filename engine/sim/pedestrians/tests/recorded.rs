@@ -1,0 +1,234 @@
+//! Recorded people: every format, real files, and files with something wrong.
+
+use cosfly_frames::{DVec2, DVec3, Seed};
+use cosfly_geometry::OrientedBox;
+use cosfly_maps::{MapOrigin, Obstacle, ObstacleKind, SemanticLabel, SurfaceMesh, Town};
+use cosfly_pedestrians::{RecordedConfig, Recording};
+use cosfly_world::{Clock, Population, contacts, simulate};
+use shared::shared_input;
+
+#[path = "../../../../tests/shared.rs"]
+mod shared;
+
+/// A level square of ground at a height, around the origin.
+fn field(half_m: f64, height_m: f64) -> Town {
+    let corner = |x: f64, y: f64| DVec3::new(x * half_m, y * half_m, height_m);
+    let ground = SurfaceMesh {
+        label: SemanticLabel::SideWalks,
+        vertices_in_world: vec![corner(-1.0, -1.0), corner(1.0, -1.0), corner(1.0, 1.0), corner(-1.0, 1.0)],
+        along_across_m: vec![],
+        triangles: vec![[0, 1, 2], [0, 2, 3]],
+        synthetic: true,
+    };
+    let mut town = Town { name: "field".into(), surfaces: vec![ground], ..Town::default() };
+    town.update_bounds();
+    town
+}
+
+fn seed() -> Seed {
+    Seed::of_item(1, "traffic", "recorded")
+}
+
+fn placed(text: &str, config: &RecordedConfig, town: &Town, clock: Clock) -> cosfly_pedestrians::Prescribed {
+    Recording::read(text.as_bytes(), config).unwrap().placed(town, config, clock, seed()).unwrap()
+}
+
+#[test]
+fn columns_become_people_on_the_ground_at_their_times() {
+    let text = "time;person;y;x\n10;a;0;0\n11;a;0;1\n12;a;0;2\n11.5;b;5;5\n12.5;b;5;6\n";
+    let clock = Clock::new(10, 0.5, 0.1);
+    let people = placed(text, &RecordedConfig::default(), &field(50.0, 3.5), clock);
+    let [a, b] = people.bodies() else { panic!("two people") };
+    assert_eq!((a.plan.source.as_str(), a.first_frame, a.states.len()), ("a", 0, 5));
+    assert_eq!((b.plan.source.as_str(), b.first_frame, b.states.len()), ("b", 3, 3));
+    let places: Vec<DVec3> = a.states.iter().map(|state| state.feet_in_world).collect();
+    assert_eq!(places, [0.0, 0.5, 1.0, 1.5, 2.0].map(|x| DVec3::new(x, 0.0, 3.5)));
+    assert!(a.states.iter().all(|state| (state.speed_mps, state.heading_rad) == (1.0, 0.0)));
+    // y of the file is to the left.
+    assert_eq!(b.states[0].feet_in_world, DVec3::new(5.0, -5.0, 3.5));
+}
+
+#[test]
+fn frames_need_a_rate_and_the_recording_can_be_turned_and_moved() {
+    let text = "0 7 1.0 0.0\n25 7 2.0 0.0\n";
+    let config =
+        RecordedConfig { rate_hz: Some(25.0), origin_m: [10.0, 20.0], turn_deg: 90.0, ..RecordedConfig::default() };
+    let people = placed(text, &config, &field(50.0, 0.0), Clock::new(4, 0.5, 0.1));
+    let places: Vec<DVec2> = people.bodies()[0].states.iter().map(|state| state.feet_in_world.truncate()).collect();
+    for (place, y) in places.iter().zip([21.0, 21.5, 22.0]) {
+        assert!(place.distance(DVec2::new(10.0, y)) < 1e-12, "{places:?}");
+    }
+    assert_eq!(places.len(), 3);
+}
+
+#[test]
+fn degrees_are_projected_by_the_town() {
+    let mut town = field(500.0, 0.0);
+    let geo_reference = Some("+proj=tmerc +lat_0=48 +lon_0=11 +k=1 +x_0=0 +y_0=0".to_owned());
+    town.origin = MapOrigin { offset_m: DVec3::ZERO, geo_reference };
+    let gpx = r#"<?xml version="1.0"?><gpx xmlns="http://www.topografix.com/GPX/1/1"><trk><name>Ada</name><trkseg>
+<trkpt lat="48.0" lon="11.0"><time>2024-05-01T10:00:00Z</time></trkpt>
+<trkpt lat="48.0001" lon="11.0"><time>2024-05-01T10:00:05Z</time></trkpt>
+<trkpt lat="48.0002" lon="11.0"/></trkseg></trk></gpx>"#;
+    let lines = r#"{"type":"FeatureCollection","features":[{"type":"Feature","properties":{"name":"Ada",
+"coordTimes":["2024-05-01T10:00:00Z",1714557605000]},"geometry":{"type":"LineString","coordinates":[[11,48],[11,48.0001]]}},
+{"type":"Feature","properties":{},"geometry":{"type":"Polygon","coordinates":[]}}]}"#;
+    let points = r#"{"type":"FeatureCollection","features":[
+{"type":"Feature","properties":{"id":"Ada","time":"2024-05-01T10:00:00Z"},"geometry":{"type":"Point","coordinates":[11,48]}},
+{"type":"Feature","properties":{"id":"Ada","time":1714557605},"geometry":{"type":"Point","coordinates":[11,48.0001]}}]}"#;
+    for text in [gpx, lines, points] {
+        let people = placed(text, &RecordedConfig::default(), &town, Clock::new(11, 0.5, 0.1));
+        let [ada] = people.bodies() else { panic!("one person") };
+        assert_eq!((ada.plan.source.as_str(), ada.states.len()), ("Ada", 11));
+        let last = ada.states[10].feet_in_world;
+        // A ten-thousandth of a degree of latitude is 11.12 m; north is -y.
+        assert!(last.distance(DVec3::new(0.0, -11.12, 0.0)) < 0.01, "{last}");
+        assert!((ada.states[5].speed_mps - 2.224).abs() < 1e-3);
+    }
+    let recording = Recording::read(gpx.as_bytes(), &RecordedConfig::default()).unwrap();
+    assert_eq!(recording.warnings, ["1 points without a time are left out"]);
+    let clock = Clock::new(4, 0.5, 0.1);
+    let refused = recording.placed(&field(9.0, 0.0), &RecordedConfig::default(), clock, seed()).unwrap_err();
+    assert_eq!(refused.message, "the tracks are in degrees, but the town `field` has no geographic reference");
+}
+
+#[test]
+fn broken_files_are_refused_with_their_line() {
+    for (text, expected) in [
+        ("t,id,x,y\n0,1,0,0\n1,1,nan,0\n", "`nan` in column `x` is not a finite number (line 3)"),
+        ("0,1,0,0\n1,1,0\n", "the row has 3 columns; 4 are needed (line 2)"),
+        ("t,name,x,y\n", "the header has no column `id` (line 1)"),
+        ("0,1,0,0\n\n# a comment\n2,1,1,1\n1,1,0,0\n", "the time of `1` runs backwards by 1.000 s (line 5)"),
+        ("", "the file has no track with time"),
+        ("0,1,0,0\n", "the file has no track with time"),
+        ("1 2 3 4 5 6 7 8\n1 2 3\n", "a row of an `obsmat` file has 8 numbers; this one has 3 (line 2)"),
+        ("1 x 3 4 5 6 7 8\n", "`x` in column `id` is not a finite number (line 1)"),
+        ("<kml></kml>", "the file begins with `<kml>`, not with `<gpx>` (line 1)"),
+        ("<gpx><trk>\n<trkseg>\n", "the file ends before `</gpx>` (line 3)"),
+        (
+            "<gpx><trk><trkseg>\n<trkpt lat=\"91\" lon=\"0\"/></trkseg></trk></gpx>",
+            "`lat` is `91`; it must be a number within -90 and 90 (line 2)",
+        ),
+        (
+            "<gpx><trk><trkseg>\n<trkpt lat=\"1\" lon=\"0\">\n<time>noon</time></trkpt></trkseg></trk></gpx>",
+            "`noon` is not a time (line 3)",
+        ),
+        ("{", "broken JSON: EOF while parsing an object at line 1 column 1 (line 1)"),
+        ("{\"type\": \"Topology\"}", "the JSON is neither a `FeatureCollection` nor a `Feature`"),
+        (
+            "{\"type\":\"Feature\",\"properties\":{\"times\":[1]},\"geometry\":{\"type\":\"LineString\",\"coordinates\":[[0,0],[0,1]]}}",
+            "feature 0: it has 2 points and 1 times",
+        ),
+    ] {
+        let error = Recording::read(text.as_bytes(), &RecordedConfig::default()).unwrap_err();
+        assert_eq!(error.to_string(), expected, "{text}");
+        assert!(!error.hint.is_empty(), "{text}");
+    }
+    let error = Recording::read(b"0,1,0,0\n\xff\xfe", &RecordedConfig::default()).unwrap_err();
+    assert_eq!(error.to_string(), "the file is not UTF-8 text (line 2)");
+}
+
+#[test]
+fn what_is_odd_is_counted_and_said() {
+    // A jump at line 4, a repeated time, a gap of 37 s, a lone point, a house in the way, and a way out of the town.
+    let text = "0,a,0,0\n1,a,1,0\n1,a,1,0\n2,a,30,0\n3,a,31,0\n40,a,32,0\n41,a,33,0\n0,b,0,9\n0,c,48,0\n4,c,52,0\n";
+    let mut town = field(50.0, 0.0);
+    let shape = OrientedBox {
+        center_in_world: DVec3::new(0.5, 0.0, 5.0),
+        half_extents_m: DVec3::new(0.3, 0.3, 5.0),
+        yaw_rad: 0.0,
+    };
+    town.obstacles.push(Obstacle { shape, kind: ObstacleKind::Building, object_id: 1, synthetic: true });
+    let clock = Clock::new(90, 0.5, 0.1);
+    let people = placed(text, &RecordedConfig::default(), &town, clock);
+    let names: Vec<&str> = people.bodies().iter().map(|body| body.plan.source.as_str()).collect();
+    assert_eq!(names, ["a", "a / 2", "a / 3", "c"]);
+    assert_eq!(
+        people.notes(),
+        [
+            "1 points at the time of the point before are left out",
+            "tracks are parted at 1 jumps, the first of `a` at 29.0 m/s (line 4); `fastest_mps` is 8",
+            "tracks are parted at 1 gaps longer than `longest_gap_s`, 30 s",
+            "1 tracks of one point are left out",
+            "recorded people leave the town: 4 of their frames are left out",
+            "1 recorded people cross the town's things in 3 frames, the first is `a` at (0.0, 0.0)",
+        ]
+    );
+    let late = RecordedConfig { start_s: 500.0, ..RecordedConfig::default() };
+    let recording = Recording::read(text.as_bytes(), &late).unwrap();
+    let error = recording.placed(&town, &late, clock, seed()).unwrap_err();
+    assert_eq!(error.to_string(), "no recorded person is present in the 45 s from `start_s` on");
+    let far = RecordedConfig { origin_m: [5000.0, 0.0], ..RecordedConfig::default() };
+    let error = recording.placed(&town, &far, clock, seed()).unwrap_err();
+    assert_eq!(error.to_string(), "none of the 4 recorded people is in the town");
+}
+
+#[test]
+fn damaged_files_never_panic() {
+    let texts = [
+        "t,id,x,y\n0,1,0,0\n1,1,1,0\n2,\"1\",2,0\n",
+        "1 1 0 0 0 0 0 0\n11 1 0.5 0 0 0 0 0\n",
+        "<gpx><trk><name>a</name><trkseg><trkpt lat='1' lon='2'><time>2020-01-01T00:00:00Z</time></trkpt></trkseg></trk></gpx>",
+        r#"{"type":"Feature","properties":{"coordTimes":[1,2]},"geometry":{"type":"LineString","coordinates":[[0,0],[0,1]]}}"#,
+    ];
+    let mut random = Seed([9; 32]).stream("damage");
+    for text in texts {
+        for _ in 0..4_000 {
+            let mut bytes = text.as_bytes().to_vec();
+            for _ in 0..=random.index(3) {
+                let at = random.index(bytes.len());
+                match random.index(3) {
+                    0 => bytes[at] = random.bits() as u8,
+                    1 => bytes.truncate(at.max(1)),
+                    _ => bytes.insert(at, b"0123456789eE.-+,;<>\"'{}[]/: \n"[random.index(29)]),
+                }
+            }
+            if let Ok(recording) = Recording::read(&bytes, &RecordedConfig::default()) {
+                let clock = Clock::new(20, 0.5, 0.1);
+                let _ = recording.placed(&field(50.0, 0.0), &RecordedConfig::default(), clock, seed());
+            }
+        }
+    }
+}
+
+#[test]
+fn people_of_zara_and_of_the_university_walk_in_a_field_and_none_overlap() {
+    for (name, people, rows) in [("zara01", 148, 5_024), ("students03", 400, 21_846)] {
+        let Some(path) = shared_input(&format!("pedestrians/UCY/{name}/obsmat.txt")) else { return };
+        let bytes = std::fs::read(path).unwrap();
+        let config = RecordedConfig::default();
+        let recording = Recording::read(&bytes, &config).unwrap();
+        let points: usize = recording.tracks.iter().map(|track| track.points.len()).sum();
+        println!("{name}: {} tracks, {points} points, {:?}", recording.tracks.len(), recording.warnings);
+        assert_eq!(points, rows);
+        assert!(recording.tracks.len() >= people);
+        let clock = Clock::new(200, 0.4, 0.1);
+        let population = recording.placed(&field(50.0, 0.0), &config, clock, seed()).unwrap();
+        println!("{:?}", population.notes());
+        let known = population.bodies().to_vec();
+        let traffic = simulate(&mut [Box::new(population) as Box<dyn Population>], clock, |_| Ok::<_, ()>(())).unwrap();
+        assert_eq!(traffic.bodies, known);
+        assert_eq!(contacts(&traffic, 0.0), []);
+        // Frames of 0.4 s are the annotated ones: every place is that of the file.
+        let first = &recording.tracks[0];
+        for (point, state) in first.points.iter().zip(&known[0].states) {
+            let place = DVec2::new(point.at.x, -point.at.y);
+            assert!(state.feet_in_world.truncate().distance(place) < 1e-9, "{name}");
+        }
+    }
+}
+
+#[test]
+fn a_real_hike_is_read_and_its_points_without_time_are_counted() {
+    let Some(path) = shared_input("gpx/korita-zbevnica.gpx") else { return };
+    let bytes = std::fs::read(path).unwrap();
+    let config = RecordedConfig { longest_gap_s: 300.0, ..RecordedConfig::default() };
+    let recording = Recording::read(&bytes, &config).unwrap();
+    let points: usize = recording.tracks.iter().map(|track| track.points.len()).sum();
+    println!("{} tracks, {points} points, {:?}", recording.tracks.len(), recording.warnings);
+    assert!(recording.is_geographic && points > 450);
+    assert!(recording.warnings[0].ends_with("points without a time are left out"));
+    let short = RecordedConfig { longest_gap_s: 1.0, ..RecordedConfig::default() };
+    let error = Recording::read(&bytes, &short).unwrap_err();
+    assert!(error.hint.contains("longest_gap_s"), "{error:?}");
+}
