@@ -224,7 +224,10 @@ fn find_conflicts(lanes: &mut [Drive]) {
         for (other, place) in around.filter_map(|key| cells.get(&key)).flatten() {
             for (number, point) in members.iter().filter(|(number, _)| number < other) {
                 let away = *place - *point;
-                if away.truncate().length_squared() < CONFLICT_M * CONFLICT_M && away.z.abs() < 2.5 {
+                // Lanes side by side are no conflict.
+                let widths_m = [number, other].map(|lane| lanes[*lane as usize].width_m);
+                let apart_m = (0.5 * (widths_m[0] + widths_m[1]) - 0.15).min(CONFLICT_M);
+                if away.truncate().length_squared() < apart_m * apart_m && away.z.abs() < 2.5 {
                     pairs.insert([*number, *other]);
                 }
             }

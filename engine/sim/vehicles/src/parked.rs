@@ -5,8 +5,9 @@
 
 use crate::kinds::size_m;
 use crate::network::Network;
+use crate::outlines::Solid;
 use crate::route::Route;
-use crate::start::{Blocked, is_free};
+use crate::start::is_free;
 use crate::vehicles::{Doing, Vehicle};
 use cosfly_frames::{Seed, real};
 use cosfly_maps::{LaneKind, Town};
@@ -50,7 +51,7 @@ pub(crate) fn park(
     seed: Seed,
     vehicles: &mut Vec<Vehicle>,
 ) {
-    let blocked = Blocked::new(town);
+    let solid = Solid::new(town);
     let driving = vehicles.len();
     for number in parking {
         let lane = &network.lanes[*number as usize];
@@ -80,7 +81,7 @@ pub(crate) fn park(
             let is_inside = area_m.is_none_or(|[left, top, right, bottom]| {
                 (left..=right).contains(&at.x) && (top..=bottom).contains(&at.y)
             });
-            let has_room = is_free(&vehicle, vehicles, 0.3) && !blocked.touches(&vehicle);
+            let has_room = is_free(&vehicle, vehicles, 0.3) && !solid.touches(&vehicle.plan.box_at(&vehicle.state));
             if is_taken && is_inside && !is_near_crossing && has_room {
                 vehicles.push(vehicle);
             }
