@@ -47,6 +47,7 @@ fn odd_town(stream: &mut RandomStream) -> Town {
         obstacles,
         planning_boxes: vec![],
         simplification: SimplificationReport::default(),
+        lanes: vec![],
         walkable,
         lanes: vec![],
         surfaces: vec![],

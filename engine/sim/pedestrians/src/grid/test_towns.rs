@@ -31,6 +31,7 @@ pub(crate) fn town(walkable: Vec<WalkablePolygon>, obstacles: Vec<Obstacle>) -> 
         obstacles,
         planning_boxes: vec![],
         simplification: SimplificationReport::default(),
+        lanes: vec![],
         walkable,
         lanes: vec![],
         surfaces: vec![],
