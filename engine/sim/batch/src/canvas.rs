@@ -18,8 +18,8 @@ pub struct Canvas {
     pub blocks: usize,
     /// Inverse depth with the lift of coplanar faces in it, 1/m; 0 where nothing was drawn.
     pub inverse_depth: Vec<[f32; WIDE]>,
-    /// Number of the face in this picture's list; 0 where nothing was drawn.
-    pub face: Vec<[u32; WIDE]>,
+    /// Number of the face in this picture's list, whole, below 2^24; 0 where nothing was drawn.
+    pub face: Vec<[f32; WIDE]>,
     /// Columns of pixel centres from the image's centre.
     pub columns: Vec<[f32; WIDE]>,
 }
@@ -33,14 +33,14 @@ impl Canvas {
             height,
             blocks,
             inverse_depth: vec![[0.0; WIDE]; blocks * height],
-            face: vec![[0; WIDE]; blocks * height],
+            face: vec![[0.0; WIDE]; blocks * height],
             columns: (0..blocks).map(|block| core::array::from_fn(|k| column(WIDE * block + k))).collect(),
         }
     }
 
     pub fn clear(&mut self) {
         self.inverse_depth.fill([0.0; WIDE]);
-        self.face.fill([0; WIDE]);
+        self.face.fill([0.0; WIDE]);
     }
 
     /// Size in pixels.

@@ -24,7 +24,7 @@ pub struct BoxOnScreen {
     /// Number of planes of entry, 1 to 3.
     pub entries: usize,
     /// Face number of each plane of entry.
-    pub faces: [u32; 3],
+    pub faces: [f32; 3],
 }
 
 /// Half planes of the screen: where `constant + across * u + down * v` is at least 0. Eight by eight; those beyond the last
@@ -60,13 +60,13 @@ pub struct Surface {
     /// Inverse depth.
     pub plane: [f32; 3],
     /// Face number.
-    pub face: u32,
+    pub face: f32,
 }
 
 /// The rows of a canvas that a shape is drawn into.
 struct Rows<'a> {
     inverse_depth: &'a mut [[f32; WIDE]],
-    face: &'a mut [[u32; WIDE]],
+    face: &'a mut [[f32; WIDE]],
     columns: &'a [[f32; WIDE]],
     blocks: usize,
     part: Part,
@@ -264,7 +264,7 @@ impl<'a> Rows<'a> {
 
     /// A row of the part: its place from the image's centre, depths and faces.
     #[inline(always)]
-    fn row(&mut self, row: u32) -> (f32, &mut [[f32; WIDE]], &mut [[u32; WIDE]]) {
+    fn row(&mut self, row: u32) -> (f32, &mut [[f32; WIDE]], &mut [[f32; WIDE]]) {
         let start = (row as usize).wrapping_mul(self.blocks);
         let [from, to] = self.part.blocks.map(|block| start.wrapping_add(block as usize));
         (self.first[1] + row as i32 as f32, &mut self.inverse_depth[from..to], &mut self.face[from..to])
@@ -331,8 +331,7 @@ impl<'a> Rows<'a> {
                 for i in 1..ENTRIES {
                     for k in 0..WIDE {
                         let other = base[i] + planes[i][1] * x[k];
-                        let before = 0u32.wrapping_sub(u32::from(other < entry[k]));
-                        face[k] ^= (face[k] ^ numbers[i]) & before;
+                        face[k] = if other < entry[k] { numbers[i] } else { face[k] };
                         entry[k] = if other < entry[k] { other } else { entry[k] };
                     }
                 }
@@ -354,12 +353,12 @@ impl<'a> Rows<'a> {
 
 /// Puts faces where they are nearer than what is there; 0 for pixels that they do not cover.
 #[inline(always)]
-fn put(entry: &[f32; WIDE], face: &[u32; WIDE], depths: &mut [f32; WIDE], faces: &mut [u32; WIDE]) {
+fn put(entry: &[f32; WIDE], face: &[f32; WIDE], depths: &mut [f32; WIDE], faces: &mut [f32; WIDE]) {
     let (old_depths, old_faces) = (*depths, *faces);
     for k in 0..WIDE {
-        // All bits where the difference is negative: compilers make slow masked stores of comparisons.
-        let nearer = ((old_depths[k] - entry[k]).to_bits() as i32 >> 31) as u32;
-        faces[k] = old_faces[k] ^ ((old_faces[k] ^ face[k]) & nearer);
+        // Exact for whole numbers. Not a choice between both: compilers make slow masked stores of that.
+        let nearer = if entry[k] > old_depths[k] { 1.0 } else { 0.0 };
+        faces[k] = old_faces[k] + (face[k] - old_faces[k]) * nearer;
     }
     for k in 0..WIDE {
         depths[k] = if entry[k] > old_depths[k] { entry[k] } else { old_depths[k] };

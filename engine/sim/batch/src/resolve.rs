@@ -58,17 +58,17 @@ simd_kernel! {
 
 /// Whether all pixels of a block are of one face.
 #[inline(always)]
-fn is_one(ids: &[u32; WIDE]) -> bool {
+fn is_one(ids: &[f32; WIDE]) -> bool {
     let mut differences = 0;
     for k in 1..WIDE {
-        differences |= ids[k] ^ ids[0];
+        differences |= ids[k].to_bits() ^ ids[0].to_bits();
     }
     differences == 0
 }
 
 #[inline(always)]
-fn face_of(faces: &[DrawnFace], number: u32) -> &DrawnFace {
-    faces.get(number as usize).unwrap_or(&SKY)
+fn face_of(faces: &[DrawnFace], number: f32) -> &DrawnFace {
+    faces.get(number as i32 as usize).unwrap_or(&SKY)
 }
 
 /// Writes a block; the last of a row may be cut off.
