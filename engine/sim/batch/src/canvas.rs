@@ -110,7 +110,7 @@ impl<const COUNT: usize> Parts<COUNT> {
                 let to = high[axis][k] + (half + MARGIN_PX);
                 let to = if to > -1.0 { to } else { -1.0 };
                 let to = if to < size[axis] - 1.0 { to } else { size[axis] - 1.0 };
-                self.first[axis][k] = -whole(-from);
+                self.first[axis][k] = whole(-from).wrapping_neg();
                 self.end[axis][k] = whole(to).wrapping_add(1);
             }
         }

@@ -71,7 +71,8 @@ impl Eye {
         if distance.abs() < 1e-12 || !distance.is_finite() {
             return None;
         }
-        Some(self.along(normal_in_world).map(|part| part / distance))
+        let scale = 1.0 / distance;
+        Some(self.along(normal_in_world).map(|part| part * scale))
     }
 
     /// Whether an axis-aligned box may be in view.

@@ -144,12 +144,14 @@ impl Painter {
         if self.hidden.hides(&self.canvas, part, 1.0 / seen.nearest_m) {
             return;
         }
-        for corners in seen.corners() {
-            let points = corners.map(|(ring, k)| [seen.pixels[ring][0][k], seen.pixels[ring][1][k]]);
-            let (low, high) = bounds(&points);
-            if self.canvas.part(low, high).is_some() {
-                let corners = corners.map(|(ring, k)| seen.point(ring, k));
-                self.draw_seen_triangle(eye, &corners, face);
+        for (part, corners, points) in seen.sides() {
+            if let Some(plane) = plane_through(eye, &corners) {
+                self.draw_part(part, &points, DrawnFace { plane, ..face }, 0.0);
+            }
+        }
+        for (corners, points) in seen.ends() {
+            if let Some(plane) = plane_through(eye, &corners) {
+                self.draw_points(&points, DrawnFace { plane, ..face }, 0.0);
             }
         }
     }
@@ -161,12 +163,7 @@ impl Painter {
 
     /// Draws a triangle by its corners in body axes; the plane of `face` is set here.
     fn draw_seen_triangle(&mut self, eye: &Eye, corners: &[DVec3; 3], face: DrawnFace) {
-        let normal = (corners[1] - corners[0]).cross(corners[2] - corners[0]);
-        let distance = normal.dot(corners[0]);
-        if distance == 0.0 || !distance.is_finite() {
-            return;
-        }
-        let plane = [normal.x, normal.y / eye.focal_px, -normal.z / eye.focal_px].map(|part| part / distance);
+        let Some(plane) = plane_through(eye, corners) else { return };
         let points = corners.map(|corner| {
             [eye.focal_px * corner.y / corner.x, -eye.focal_px * corner.z / corner.x].map(|part| part as f32)
         });
@@ -325,6 +322,14 @@ fn between<const BLOCKS: usize>(points: &[[f32; 2]], side: f32) -> HalfPlanes<BL
 /// From near to far: greater inverse depths first; those of positive floats are ordered as their bits.
 fn near_first(candidates: &mut [Candidate]) {
     candidates.sort_unstable_by_key(|candidate| (!candidate.nearest.to_bits(), candidate.index));
+}
+
+/// The plane through three points in body axes; `None` where the camera lies in it.
+fn plane_through(eye: &Eye, corners: &[DVec3; 3]) -> Option<Linear> {
+    let normal = (corners[1] - corners[0]).cross(corners[2] - corners[0]);
+    let scale = 1.0 / normal.dot(corners[0]);
+    let by_focal = scale / eye.focal_px;
+    scale.is_finite().then_some([normal.x * scale, normal.y * by_focal, -normal.z * by_focal])
 }
 
 fn ground_face(eye: &Eye, polygon: &Polygon) -> Option<DrawnFace> {
