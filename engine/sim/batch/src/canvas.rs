@@ -61,11 +61,16 @@ impl Canvas {
     #[inline]
     pub fn hides(&self, part: Part, inverse_depth: f32) -> bool {
         let limit = inverse_depth * NEARER;
-        (part.rows[0]..part.rows[1]).all(|row| {
+        let mut least = [f32::INFINITY; WIDE];
+        for row in part.rows[0]..part.rows[1] {
             let start = row as usize * self.blocks;
-            let blocks = &self.inverse_depth[start + part.blocks[0] as usize..start + part.blocks[1] as usize];
-            blocks.iter().all(|block| block.iter().fold(true, |all, depth| all & (*depth > limit)))
-        })
+            for block in &self.inverse_depth[start + part.blocks[0] as usize..start + part.blocks[1] as usize] {
+                for k in 0..WIDE {
+                    least[k] = if block[k] < least[k] { block[k] } else { least[k] };
+                }
+            }
+        }
+        least.iter().all(|least| *least > limit)
     }
 }
 

@@ -1,7 +1,7 @@
 //! People and other figures as triangles.
 
-use crate::canvas::{Part, Parts, WIDE};
-use crate::eye::Eye;
+use crate::canvas::{Canvas, Part, Parts, WIDE};
+use crate::eye::{Eye, NEAR_M};
 use cosfly_frames::simd::Level;
 use cosfly_frames::{DVec3, Seed, real, simd_kernel};
 use cosfly_render::Walker;
@@ -29,7 +29,7 @@ impl Around {
                 high[axis] = high[axis].max(at[axis]);
             }
         }
-        if nearest_m < crate::eye::NEAR_M {
+        if nearest_m < NEAR_M {
             (low, high) = ([f32::NEG_INFINITY; 2], [f32::INFINITY; 2]);
         }
         Self { low, high, nearest_m }
@@ -64,6 +64,7 @@ pub struct SeenPart {
 pub struct Stance {
     feet: DVec3,
     axes: [DVec3; 3],
+    height_m: f64,
     focal_px: f32,
     size_px: [f32; 2],
 }
@@ -84,9 +85,31 @@ impl Stance {
         Self {
             feet: eye.see(sunk),
             axes: axes.map(|axis| eye.body_from_world * axis * walker.height_m),
+            height_m: walker.height_m,
             focal_px: eye.focal_px as f32,
             size_px: eye.half_px.map(|half| 2.0 * half as f32),
         }
+    }
+
+    /// The pixels that a part of the body may cover, roughly; `None` when it covers none.
+    pub fn part(&self, canvas: &Canvas, part: &FigurePart) -> Option<Part> {
+        let [forward, right, up] = self.axes;
+        let (mut low, mut high) = ([f32::INFINITY; 2], [f32::NEG_INFINITY; 2]);
+        for ring in [part.low, part.high] {
+            let center = self.feet + forward * ring.forward + right * ring.right + up * ring.up.max(0.0);
+            // Corners lie on an ellipse around the centre.
+            let reach_m = ring.half_forward.max(ring.half_side) * self.height_m;
+            let nearest_m = center.x - reach_m;
+            if nearest_m < 2.0 * NEAR_M {
+                return canvas.part([f32::NEG_INFINITY; 2], [f32::INFINITY; 2]);
+            }
+            for (axis, way) in [center.y, -center.z].into_iter().enumerate() {
+                let (at, spread) = (way / center.x, reach_m * (1.0 + (way / center.x).abs()) / nearest_m);
+                low[axis] = low[axis].min(self.focal_px * (at - spread) as f32);
+                high[axis] = high[axis].max(self.focal_px * (at + spread) as f32);
+            }
+        }
+        canvas.part(low, high)
     }
 
     /// A part of the body on the screen.

@@ -128,7 +128,9 @@ impl Painter {
         let stance = Stance::new(eye, walker, parts.lowest());
         let face = DrawnFace { plane: [0.0; 3], instance, label: SemanticLabel::Pedestrian.id() };
         for part in parts.iter() {
-            self.draw_body_part(eye, &stance.see(self.level, part), face);
+            if stance.part(&self.canvas, part).is_some() {
+                self.draw_body_part(eye, &stance.see(self.level, part), face);
+            }
         }
     }
 
