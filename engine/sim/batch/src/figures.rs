@@ -20,9 +20,14 @@ impl Around {
     pub fn new(eye: &Eye, points_in_world: impl Iterator<Item = DVec3>) -> Self {
         let (mut low, mut high) = ([f32::INFINITY; 2], [f32::NEG_INFINITY; 2]);
         let mut nearest_m = f64::INFINITY;
+        // How far points reach within the sides of the view.
+        let mut within = [f64::NEG_INFINITY; 4];
         for point in points_in_world {
             let seen = eye.see(point);
             nearest_m = nearest_m.min(seen.x);
+            let [wide, tall] = eye.half_px.map(|half| half / eye.focal_px * seen.x);
+            let reach = [wide + seen.y, wide - seen.y, tall + seen.z, tall - seen.z];
+            within.iter_mut().zip(reach).for_each(|(within, reach)| *within = within.max(reach));
             let at = [eye.focal_px * seen.y / seen.x, -eye.focal_px * seen.z / seen.x].map(|part| part as f32);
             for axis in 0..2 {
                 low[axis] = low[axis].min(at[axis]);
@@ -31,6 +36,9 @@ impl Around {
         }
         if nearest_m < NEAR_M {
             (low, high) = ([f32::NEG_INFINITY; 2], [f32::INFINITY; 2]);
+        }
+        if within.iter().any(|within| *within < 0.0) {
+            (low, high) = ([f32::INFINITY; 2], [f32::NEG_INFINITY; 2]);
         }
         Self { low, high, nearest_m }
     }

@@ -43,10 +43,19 @@ pub struct Pack {
 /// A flat convex polygon.
 pub struct Polygon {
     pub normal_in_world: DVec3,
-    pub point_in_world: DVec3,
+    /// Component of its points along the normal, metres.
+    pub offset_m: f64,
     pub lift: f64,
-    pub label: u8,
     corners: Range<u32>,
+    pub label: u8,
+}
+
+impl Polygon {
+    /// Number of corners.
+    #[inline]
+    pub fn count(&self) -> usize {
+        (self.corners.end - self.corners.start) as usize
+    }
 }
 
 /// Eight polygons on the screen; pixels from the image's centre, metres ahead.
@@ -91,7 +100,7 @@ impl Ground {
                 self.corners_in_world.extend(&face.corners_in_world);
                 self.polygons.push(Polygon {
                     normal_in_world: face.normal_in_world,
-                    point_in_world: face.point_in_world,
+                    offset_m: face.normal_in_world.dot(face.point_in_world),
                     lift: face.lift,
                     label: face.label,
                     corners: start..self.corners_in_world.len() as u32,

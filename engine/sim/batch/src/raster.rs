@@ -27,6 +27,61 @@ pub struct BoxOnScreen {
     pub faces: [f32; 3],
 }
 
+/// Width by which polygons reach beyond their edges, so that neighbours leave no gap, pixels.
+pub const SEAM_PX: f32 = 2e-5;
+
+/// The corners of a convex polygon of up to eight, pixels from the image's centre; beyond the last, the last again.
+#[derive(Clone, Copy, Debug)]
+pub struct Corners {
+    u: [f32; WIDE],
+    v: [f32; WIDE],
+    count: usize,
+}
+
+impl Corners {
+    /// Corner `k` of `count` is `at(k)`.
+    #[inline(always)]
+    pub fn new(count: usize, at: impl Fn(usize) -> [f32; 2]) -> Self {
+        let mut corners = Self { u: [0.0; WIDE], v: [0.0; WIDE], count };
+        for k in 0..WIDE {
+            [corners.u[k], corners.v[k]] = at(k.min(count.saturating_sub(1)));
+        }
+        corners
+    }
+
+    /// The half planes between its edges.
+    #[inline(always)]
+    fn edges(&self) -> HalfPlanes<1> {
+        let (u, v) = (&self.u, &self.v);
+        let (mut next_u, mut next_v) = ([u[0]; WIDE], [v[0]; WIDE]);
+        for k in 0..WIDE - 1 {
+            (next_u[k], next_v[k]) = (u[k + 1], v[k + 1]);
+        }
+        let mut area = 0.0;
+        for k in 1..WIDE - 1 {
+            area += (u[k] - u[0]) * (v[k + 1] - v[0]) - (v[k] - v[0]) * (u[k + 1] - u[0]);
+        }
+        // Either way around.
+        let side = if area < 0.0 { -1.0 } else { 1.0 };
+        let mut within = HalfPlanes::new();
+        within.count = WIDE;
+        for k in 0..WIDE {
+            let (across, down) = (side * (next_u[k] - u[k]), side * (next_v[k] - v[k]));
+            let seam = SEAM_PX * (across.abs() + down.abs());
+            within.constant[0][k] = (down * u[k] - across * v[k]) + seam;
+            within.across[0][k] = 0.0 - down;
+            within.down[0][k] = across;
+        }
+        // The edge from the last corner to the first comes right after the others.
+        let last = self.count.wrapping_sub(1) % WIDE;
+        within.constant[0][last] = within.constant[0][WIDE - 1];
+        within.across[0][last] = within.across[0][WIDE - 1];
+        within.down[0][last] = within.down[0][WIDE - 1];
+        within.count = self.count.min(WIDE);
+        within
+    }
+}
+
 /// Half planes of the screen: where `constant + across * u + down * v` is at least 0. Eight by eight; those beyond the last
 /// hold everywhere.
 pub struct HalfPlanes<const BLOCKS: usize> {
@@ -79,20 +134,14 @@ pub fn draw_box(level: Level, canvas: &mut Canvas, part: Part, shape: &BoxOnScre
     draw_faces(level, Rows::of(canvas, part), shape);
 }
 
-/// Draws a convex polygon, the part of a surface within half planes, where it is nearer than what is there.
-pub fn draw_polygon(level: Level, canvas: &mut Canvas, part: Part, within: &HalfPlanes<1>, surface: &Surface) {
-    draw_within(level, Rows::of(canvas, part), within, surface);
+/// Draws a convex polygon where it is nearer than what is there.
+pub fn draw_polygon(level: Level, canvas: &mut Canvas, part: Part, corners: &Corners, surface: &Surface) {
+    draw_between(level, Rows::of(canvas, part), corners, surface);
 }
 
-/// [`draw_polygon`] with up to `8 * MOST_LINES` edges.
-pub fn draw_large_polygon(
-    level: Level,
-    canvas: &mut Canvas,
-    part: Part,
-    within: &HalfPlanes<MOST_LINES>,
-    surface: &Surface,
-) {
-    draw_within_many(level, Rows::of(canvas, part), within, surface);
+/// Draws the part of a surface within half planes where it is nearer than what is there.
+pub fn draw_within(level: Level, canvas: &mut Canvas, part: Part, within: &HalfPlanes<MOST_LINES>, surface: &Surface) {
+    draw_many(level, Rows::of(canvas, part), within, surface);
 }
 
 simd_kernel! {
@@ -124,26 +173,25 @@ simd_kernel! {
 }
 
 simd_kernel! {
-    fn draw_within(rows: Rows<'_>, within: &HalfPlanes<1>, surface: &Surface) {
+    fn draw_between(rows: Rows<'_>, corners: &Corners, surface: &Surface) {
         let mut rows = rows;
+        let within = corners.edges();
         if rows.part.area() <= SMALL_BLOCKS {
-            let mut lines = [[0.0f32; 3]; WIDE];
-            for (k, line) in lines.iter_mut().enumerate() {
-                *line = [within.constant[0][k], within.across[0][k], within.down[0][k]];
-            }
-            match within.count {
-                3 => rows.draw_small::<3>(&[lines[0], lines[1], lines[2]], surface),
-                4 => rows.draw_small::<4>(&[lines[0], lines[1], lines[2], lines[3]], surface),
-                _ => rows.draw_small::<8>(&lines, surface),
+            match corners.count {
+                3 => rows.draw_small::<3>(&within, surface),
+                4 => rows.draw_small::<4>(&within, surface),
+                5 => rows.draw_small::<5>(&within, surface),
+                6 => rows.draw_small::<6>(&within, surface),
+                _ => rows.draw_small::<8>(&within, surface),
             }
             return;
         }
-        rows.draw(within, surface);
+        rows.draw(&within, surface);
     }
 }
 
 simd_kernel! {
-    fn draw_within_many(rows: Rows<'_>, within: &HalfPlanes<MOST_LINES>, surface: &Surface) {
+    fn draw_many(rows: Rows<'_>, within: &HalfPlanes<MOST_LINES>, surface: &Surface) {
         let mut rows = rows;
         rows.draw(within, surface);
     }
@@ -278,23 +326,24 @@ impl<'a> Rows<'a> {
 
     /// Draws a small part, every pixel against every line.
     #[inline(always)]
-    fn draw_small<const COUNT: usize>(&mut self, lines: &[[f32; 3]; COUNT], surface: &Surface) {
+    fn draw_small<const COUNT: usize>(&mut self, within: &HalfPlanes<1>, surface: &Surface) {
+        let ([constant], [across], [down]) = (&within.constant, &within.across, &within.down);
         let columns = self.columns();
         for row in self.part.rows[0]..self.part.rows[1] {
             let (y, depths, faces) = self.row(row);
             let mut base = [0.0f32; COUNT];
             for i in 0..COUNT {
-                base[i] = lines[i][0] + lines[i][2] * y;
+                base[i] = constant[i] + down[i] * y;
             }
             let depth = surface.plane[0] + surface.plane[2] * y;
             for ((depths, faces), x) in depths.iter_mut().zip(faces).zip(columns) {
                 let mut inside = [0.0f32; WIDE];
                 for k in 0..WIDE {
-                    inside[k] = base[0] + lines[0][1] * x[k];
+                    inside[k] = base[0] + across[0] * x[k];
                 }
                 for i in 1..COUNT {
                     for k in 0..WIDE {
-                        let other = base[i] + lines[i][1] * x[k];
+                        let other = base[i] + across[i] * x[k];
                         inside[k] = if other < inside[k] { other } else { inside[k] };
                     }
                 }
