@@ -308,7 +308,7 @@ impl Painter {
 
     /// Adds a face to the list.
     fn surface(&mut self, face: DrawnFace, lift: f64) -> Surface {
-        let plane = face.plane.map(|part| (part * (1.0 + lift)) as f32);
+        let plane = face.plane.map(|part| part * (1.0 + lift));
         let number = self.faces.len() as f32;
         self.faces.push(face);
         Surface { plane, face: number }

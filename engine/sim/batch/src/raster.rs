@@ -1,7 +1,7 @@
 //! Drawing convex shapes: eight rows of ends of spans at a time, then eight pixels at a time.
 
 use crate::canvas::{Canvas, Part, WIDE, whole};
-use crate::eye::NEAR_M;
+use crate::eye::{Linear, NEAR_M};
 use cosfly_frames::simd::Level;
 use cosfly_frames::simd_kernel;
 
@@ -12,6 +12,8 @@ pub const MOST_LINES: usize = 3;
 const NEAREST: f32 = (1.0 / NEAR_M) as f32;
 /// Parts of up to this many blocks are drawn pixel by pixel.
 const SMALL_BLOCKS: u32 = 8;
+/// Columns of a block from its first.
+const STEPS: [f32; WIDE] = [0.0, 1.0, 2.0, 3.0, 4.0, 5.0, 6.0, 7.0];
 /// Beyond every column.
 const OUTSIDE: f32 = 1e30;
 
@@ -112,8 +114,8 @@ impl<const BLOCKS: usize> HalfPlanes<BLOCKS> {
 /// A plane of the scene on the screen with its face number.
 #[derive(Clone, Copy, Debug)]
 pub struct Surface {
-    /// Inverse depth.
-    pub plane: [f32; 3],
+    /// Inverse depth, in full precision: that of a wall seen along itself changes by much from pixel to pixel.
+    pub plane: Linear,
     /// Face number.
     pub face: f32,
 }
@@ -167,7 +169,7 @@ simd_kernel! {
                 within.down[0][k] = side * (mine[2] - other[2]);
             }
             within.count = 6;
-            rows.draw(&within, &Surface { plane: mine, face: shape.faces[entry] });
+            rows.draw(&within, &Surface { plane: mine.map(f64::from), face: shape.faces[entry] });
         }
     }
 }
@@ -296,12 +298,13 @@ impl<'a> Rows<'a> {
     #[inline(always)]
     fn draw_span(&mut self, start: usize, blocks: [usize; 2], [left, right]: [f32; 2], y: f32, surface: &Surface) {
         let span = start.wrapping_add(blocks[0])..start.wrapping_add(blocks[1]);
-        let base = surface.plane[0] + surface.plane[2] * y;
+        let base = surface.plane[0] + surface.plane[2] * f64::from(y);
         let pixels = self.inverse_depth[span.clone()].iter_mut().zip(&mut self.face[span]);
         for ((depths, faces), x) in pixels.zip(&self.columns[blocks[0]..blocks[1]]) {
             let mut entry = [0.0f32; WIDE];
+            let (first, step) = ((base + surface.plane[1] * f64::from(x[0])) as f32, surface.plane[1] as f32);
             for k in 0..WIDE {
-                let here = base + surface.plane[1] * x[k];
+                let here = first + step * STEPS[k];
                 let here = if here <= NEAREST { here } else { 0.0 };
                 let here = if x[k] >= left { here } else { 0.0 };
                 entry[k] = if x[k] <= right { here } else { 0.0 };
@@ -335,7 +338,7 @@ impl<'a> Rows<'a> {
             for i in 0..COUNT {
                 base[i] = constant[i] + down[i] * y;
             }
-            let depth = surface.plane[0] + surface.plane[2] * y;
+            let depth = surface.plane[0] + surface.plane[2] * f64::from(y);
             for ((depths, faces), x) in depths.iter_mut().zip(faces).zip(columns) {
                 let mut inside = [0.0f32; WIDE];
                 for k in 0..WIDE {
@@ -348,8 +351,9 @@ impl<'a> Rows<'a> {
                     }
                 }
                 let mut entry = [0.0f32; WIDE];
+                let (first, step) = ((depth + surface.plane[1] * f64::from(x[0])) as f32, surface.plane[1] as f32);
                 for k in 0..WIDE {
-                    let here = depth + surface.plane[1] * x[k];
+                    let here = first + step * STEPS[k];
                     let here = if here <= NEAREST { here } else { 0.0 };
                     entry[k] = if inside[k] >= 0.0 { here } else { 0.0 };
                 }
