@@ -70,8 +70,10 @@ pub fn compare(first: &[Row], second: &[Row]) -> Result<Vec<Difference>> {
 
 /// The differences, for people.
 pub fn told(names: [&str; 2], differences: &[Difference]) -> String {
-    let mut text =
-        format!("{:<20}  {:>8}  {:>10}  {:>10}  {:>10}  95 % interval\n", "metric", "episodes", "first", "second", "change");
+    let mut text = format!(
+        "{:<20}  {:>8}  {:>10}  {:>10}  {:>10}  95 % interval\n",
+        "metric", "episodes", "first", "second", "change"
+    );
     for it in differences {
         let decimals = METRICS.iter().find(|metric| metric.name == it.name).map_or(3, |metric| metric.decimals);
         let ([first, second], change) = (it.means, it.difference());

@@ -63,8 +63,9 @@ impl Suite {
         let stages: Vec<usize> = (0..recipe.stages.len()).filter(|at| follows(&recipe.stages[*at])).collect();
         if stages.is_empty() {
             let message = format!("`{}` has no episodes: no stage plans flights behind walkers", recipe.path.display());
-            return Err(Diagnostic::new("fly-suite", Fault::Recipe, message)
-                .hint("a suite has a stage with `use = \"muco\"` and `objective = \"track\"`, as recipes/suites have"));
+            return Err(Diagnostic::new("fly-suite", Fault::Recipe, message).hint(
+                "a suite has a stage with `use = \"muco\"` and `objective = \"track\"`, as recipes/suites have",
+            ));
         }
         for asked in &stages {
             let summary = run(recipe, store, &RunOptions { asked: Some(*asked), ..options.clone() }, report)?;

@@ -95,7 +95,8 @@ fn of_numpy(value: &Value) -> Result<(Vec<f64>, Vec<usize>), String> {
     let data = entry(value, "data").and_then(Value::as_slice).ok_or("an array without `data`")?;
     let sizes = entry(value, "shape").and_then(Value::as_array).ok_or("an array without a `shape`")?;
     let size = |size: &Value| size.as_u64().and_then(|size| usize::try_from(size).ok());
-    let shape: Vec<usize> = sizes.iter().map(size).collect::<Option<_>>().ok_or("a `shape` that is no list of sizes")?;
+    let shape: Vec<usize> =
+        sizes.iter().map(size).collect::<Option<_>>().ok_or("a `shape` that is no list of sizes")?;
     let count = shape.iter().try_fold(1_usize, |product, size| product.checked_mul(*size));
     let count = count.filter(|count| *count <= MOST_NUMBERS).ok_or_else(|| format!("a shape of {shape:?}"))?;
     macro_rules! read {

@@ -72,8 +72,7 @@ impl Answer {
         }
         let observation = environment.observation();
         let (begins_s, frame_s) = (observation.time_s, environment.episode().target.dt_s);
-        let mut answer =
-            Self { kind, rows, step: observation.step, poses: vec![], plan: None, begins_s, frame_s };
+        let mut answer = Self { kind, rows, step: observation.step, poses: vec![], plan: None, begins_s, frame_s };
         if kind != ActionKind::Velocity {
             answer.lay_out(environment.camera());
         }
@@ -115,8 +114,7 @@ impl Answer {
         let turn = real::wrap_angle_rad(to.yaw_rad - from.yaw_rad);
         let mut action = plan.action(environment, from.position_in_world);
         let gimbal = environment.gimbal();
-        action.view.yaw_rad_s =
-            real::wrap_angle_rad(from.yaw_rad + share * turn - gimbal.yaw_rad) / settings.step_s;
+        action.view.yaw_rad_s = real::wrap_angle_rad(from.yaw_rad + share * turn - gimbal.yaw_rad) / settings.step_s;
         let pitch_rad = from.pitch_rad + share * (to.pitch_rad - from.pitch_rad);
         action.view.pitch_rad_s = (pitch_rad - gimbal.pitch_rad) / settings.step_s;
         Some(action)

@@ -141,8 +141,6 @@ pub fn open(place: &Place, manners: &Manners) -> Box<dyn Pilot> {
     match place {
         Place::Baseline(name) => Box::new(baseline::BaselinePilot::new(name)),
         Place::Socket(address) => Box::new(socket::SocketPilot::new(address, manners.clone())),
-        Place::Python { module, function } => {
-            Box::new(python::PythonPilot::new(module, function, manners.clone()))
-        }
+        Place::Python { module, function } => Box::new(python::PythonPilot::new(module, function, manners.clone())),
     }
 }

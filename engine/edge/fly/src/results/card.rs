@@ -97,7 +97,8 @@ impl From<&Settings> for EnvironmentCard {
 impl Card {
     /// Difference that keeps rows of two results from being compared, in words.
     pub fn incomparable(&self, other: &Self) -> Option<String> {
-        let differ = |what: &str, ours: &str, theirs: &str| Some(format!("their {what} differ: `{ours}` and `{theirs}`"));
+        let differ =
+            |what: &str, ours: &str, theirs: &str| Some(format!("their {what} differ: `{ours}` and `{theirs}`"));
         if self.suite.hash != other.suite.hash {
             return differ("suites", &self.suite.hash, &other.suite.hash);
         }

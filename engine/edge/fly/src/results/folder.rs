@@ -32,7 +32,9 @@ impl Folder {
             Err(error) if error.kind() == std::io::ErrorKind::NotFound => {
                 if path.read_dir().is_ok_and(|mut entries| entries.next().is_some()) {
                     let message = format!("`{}` is a folder with other files", path.display());
-                    return Err(Diagnostic::new("fly-out", Fault::Recipe, message).hint("give another folder with `--out`"));
+                    return Err(
+                        Diagnostic::new("fly-out", Fault::Recipe, message).hint("give another folder with `--out`")
+                    );
                 }
                 for part in ["rows", "logs"] {
                     let made = std::fs::create_dir_all(folder.path.join(part));

@@ -77,7 +77,8 @@ pub fn markdown(card: &Card, rows: &[Row]) -> String {
     for row in worst.iter().take(5) {
         let end = row.score.end.and_then(|end| serde_json::to_value(end).ok());
         let end = end.as_ref().and_then(Value::as_str).unwrap_or("policy failed").to_owned();
-        let _ = writeln!(text, "* {}: {:.3}, {end} (logs/{}.jsonl)", row.episode, row.score.tracking_rate(), row.episode);
+        let _ =
+            writeln!(text, "* {}: {:.3}, {end} (logs/{}.jsonl)", row.episode, row.score.tracking_rate(), row.episode);
     }
     let _ = writeln!(text, "\n## Metrics\n");
     METRICS.iter().for_each(|metric| _ = writeln!(text, "* {}: {}", metric.title, metric.doc));

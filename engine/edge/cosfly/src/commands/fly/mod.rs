@@ -247,7 +247,11 @@ impl Arguments {
         }
     }
 
-    fn tell(&self, arms: &[(String, Vec<cosfly_fly::flight::Row>)], console: &dyn Console) -> cosfly_diagnose::Result<()> {
+    fn tell(
+        &self,
+        arms: &[(String, Vec<cosfly_fly::flight::Row>)],
+        console: &dyn Console,
+    ) -> cosfly_diagnose::Result<()> {
         if self.json {
             let scores = arms.iter().map(|(name, rows)| (name.clone(), cosfly_fly::results::scores(rows)));
             let scores: serde_json::Map<String, serde_json::Value> = scores.collect();
