@@ -44,7 +44,7 @@ fn two_results_compare_and_others_are_refused() {
     let printed = cosfly(&compare).within(street.path()).run_ok().stdout;
     let compared: Value = serde_json::from_str(&printed).expect("JSON");
     assert!(compared["metrics"]["tracking_rate"]["difference"].is_number(), "{compared}");
-    refused(&street, &["compare", "at_once/follow", "coarse/follow"], 4, "their environments differ");
+    refused(&street, &["compare", "at_once/follow", "coarse/follow"], 4, "step_s is 0.1 and 0.2");
     refused(&street, &["compare", "at_once/follow", "nowhere"], 4, "is no finished result");
     refused(&street, &["recipe.toml", "--policy", "follow", "--out", "late"], 3, "another evaluation");
     refused(&street, &["recipe.toml", "--policy", "folow"], 3, "did you mean `follow`?");

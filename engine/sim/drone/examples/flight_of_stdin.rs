@@ -48,8 +48,7 @@ fn main() {
             }
         }
         "gusts" => {
-            let turbulence =
-                Turbulence { deviation_mps: DVec3::splat(number(3)), length_m: DVec3::splat(number(4)) };
+            let turbulence = Turbulence { deviation_mps: DVec3::splat(number(3)), length_m: DVec3::splat(number(4)) };
             let mut gusts = Gusts::new(&turbulence, number(2), number(1), Seed([9; 32]));
             (0..number(5) as usize).for_each(|_| tell(&gusts.next_mps().to_array()));
         }

@@ -200,10 +200,8 @@ mod tests {
         let mut drone = Quadrotor::hovering(DVec3::ZERO, QuadrotorParameters::pelican());
         let hover = drone.parameters.hover_rpm();
         let mut unit = InertialUnit::new(InertialParameters::exact(500.0), Seed([1; 32]));
-        let carried = |drone: &Quadrotor| Carried {
-            attitude: drone.state.attitude,
-            velocity_mps: drone.state.velocity_mps,
-        };
+        let carried =
+            |drone: &Quadrotor| Carried { attitude: drone.state.attitude, velocity_mps: drone.state.velocity_mps };
         let (mut reckoned, mut place) = (carried(&drone), drone.state.position_m);
         for step in 0..1000 {
             let tilt = 0.02 * hover * real::sin(0.01 * f64::from(step));

@@ -112,10 +112,7 @@ mod tests {
 
     #[test]
     fn gusts_have_the_asked_deviations_for_any_step() {
-        let turbulence = Turbulence {
-            deviation_mps: DVec3::new(1.0, 2.0, 0.5),
-            length_m: DVec3::new(10.0, 10.0, 5.0),
-        };
+        let turbulence = Turbulence { deviation_mps: DVec3::new(1.0, 2.0, 0.5), length_m: DVec3::new(10.0, 10.0, 5.0) };
         for step_s in [0.02, 0.5] {
             let mut gusts = Gusts::new(&turbulence, 10.0, step_s, Seed([4; 32]));
             let count = (8000.0 / step_s) as usize;
@@ -139,5 +136,4 @@ mod tests {
         assert!((found.length_m.x - 20.0 / real::powf(share, 1.2) * 0.3048).abs() < 1e-9);
         assert!(found.deviation_mps.x > found.deviation_mps.z);
     }
-
 }
