@@ -46,7 +46,7 @@ pub struct Outputs {
 /// One of many.
 struct Bird {
     environment: Environment,
-    expert: Option<Box<dyn Policy + Send>>,
+    expert: Option<Box<dyn Policy + Send + Sync>>,
     /// Draws episodes.
     stream: RandomStream,
     /// Number of the task.

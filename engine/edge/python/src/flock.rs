@@ -110,7 +110,8 @@ impl PyFlock {
 
 fn made(recipe: &std::path::Path, overrides: &[String], store: &std::path::Path) -> Result<Arc<[Task]>, Refusal> {
     let one = |refusal: Box<Diagnostic>| Refusal::Work(vec![refusal]);
-    let recipe = cosfly_recipe::load(recipe, overrides, &cosfly_stages::registry()).map_err(Refusal::Work)?;
+    let recipe = if recipe.is_dir() { recipe.join("recipe.toml") } else { recipe.to_owned() };
+    let recipe = cosfly_recipe::load(&recipe, overrides, &cosfly_stages::registry()).map_err(Refusal::Work)?;
     let store = Store::open(store).map_err(one)?;
     let jobs = std::thread::available_parallelism().map_or(1, usize::from);
     let options = RunOptions { jobs, ..RunOptions::default() };

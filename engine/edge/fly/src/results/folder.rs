@@ -86,11 +86,23 @@ impl Folder {
         self.write(&format!("rows/{name}.json"), &line(&flown.row))
     }
 
+    /// Removes what calls that were killed left half written.
+    fn clean(&self) {
+        for part in [self.path.clone(), self.path.join("rows"), self.path.join("logs")] {
+            for entry in part.read_dir().into_iter().flatten().flatten() {
+                if entry.file_name().to_string_lossy().starts_with(".tmp") {
+                    _ = std::fs::remove_file(entry.path());
+                }
+            }
+        }
+    }
+
     /// Writes the tables over all rows.
     ///
     /// # Errors
     /// Errors of the file system.
     pub fn finish(&self, card: &Card, rows: &[Row]) -> Result<()> {
+        self.clean();
         self.write("episodes.jsonl", &rows.iter().map(line).collect::<String>())?;
         self.write("scores.json", &pretty(&report::scores(rows)))?;
         self.write("report.md", &report::markdown(card, rows))
