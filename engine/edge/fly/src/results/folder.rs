@@ -38,11 +38,11 @@ impl Folder {
                 }
                 for part in ["rows", "logs"] {
                     let made = std::fs::create_dir_all(folder.path.join(part));
-                    made.map_err(|error| Diagnostic::io(&format!("make the folder {}", path.display()), &error))?;
+                    made.map_err(|error| Diagnostic::io(format!("make the folder {}", path.display()), &error))?;
                 }
                 folder.write("card.json", &text)?;
             }
-            Err(error) => return Err(Diagnostic::io(&format!("read {}", path.join("card.json").display()), &error)),
+            Err(error) => return Err(Diagnostic::io(format!("read {}", path.join("card.json").display()), &error)),
         }
         Ok(folder)
     }
@@ -122,7 +122,7 @@ impl Folder {
             file.as_file().sync_data()?;
             file.persist(&path).map(|_| ()).map_err(|error| error.error)
         });
-        written.map_err(|error| Diagnostic::io(&format!("write {}", path.display()), &error))
+        written.map_err(|error| Diagnostic::io(format!("write {}", path.display()), &error))
     }
 }
 
