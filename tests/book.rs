@@ -12,7 +12,8 @@ const OTHERS: [&str; 4] = ["camera_optical", "drone_nav_traj_v7", "drone_pose", 
 /// Pictures and texts of the samples of the Python package.
 const OF_SAMPLES: [&str; 5] = ["caption", "depth", "instance", "rgb", "semantic"];
 /// Pages whose examples index other things than rows of tables.
-const NOT_OF_TABLES: [&str; 5] = [
+const NOT_OF_TABLES: [&str; 6] = [
+    "guide/closed-loop.md",
     "guide/dagger.md",
     "frameworks/jax.md",
     "frameworks/lerobot.md",

@@ -12,6 +12,7 @@ mod diagnostics;
 mod doctor;
 mod evaluation;
 mod export;
+mod fly;
 mod fuzzing;
 mod more_walkers;
 mod people;

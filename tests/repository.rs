@@ -75,6 +75,8 @@ fn heavy_crates_stay_in_their_one_room() {
         ("object_store", &["cosfly-remote"][..]),
         ("tokio", &["cosfly-remote"][..]),
         ("ureq", &["cosfly-remote"][..]),
+        ("tungstenite", &["cosfly-fly"][..]),
+        ("rmpv", &["cosfly-fly"][..]),
     ]);
     for (name, (shelf, dependencies)) in packages() {
         let places = [name.clone(), format!("shelf {shelf}")];

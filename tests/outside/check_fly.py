@@ -112,8 +112,7 @@ for _ in range(4):
     process.kill()
     process.wait()
 subprocess.run(command, cwd=here, check=True, stdout=subprocess.DEVNULL)
-kept = {name: digest for name, digest in bytes_of("killed").items() if not pathlib.Path(name).name.startswith(".tmp")}
-assert kept == bytes_of("one")
+assert bytes_of("killed") == bytes_of("one")
 server.stop()
 
 
@@ -142,7 +141,8 @@ faults = {
 few = ["--set", "stages.walkers.count=2", "--jobs", "1"]
 for name, (fault, words) in faults.items():
     server = Server(at_step_5(fault))
-    score = fly(name, "--policy", f"ws://127.0.0.1:{server.port}", "--name", "mine", "--timeout", "1", *few)
+    patience = "60" if name == "a_gigabyte" else "1"
+    score = fly(name, "--policy", f"ws://127.0.0.1:{server.port}", "--name", "mine", "--timeout", patience, *few)
     reasons = [row.get("policy_failure") for row in rows(f"{name}/mine")]
     assert all(reason and reason.startswith("at step 5: ") and words in reason for reason in reasons), (name, reasons)
     assert score["mine"]["all"]["policy_failure"]["mean"] == 1.0

@@ -35,8 +35,6 @@ pub struct Flown {
     pub row: Row,
     /// One line of JSON per step.
     pub log: String,
-    /// What the policy says of itself.
-    pub metadata: String,
 }
 
 /// Flies an episode. A policy that goes away in the middle of it begins anew, a few times.
@@ -84,7 +82,7 @@ fn attempt_at(task: &Task, settings: Settings, pilot: &mut dyn Pilot) -> Result<
         step_s: settings.step_s,
         score: *environment.score(),
     };
-    Ok(Flown { row, log, metadata: pilot.metadata() })
+    Ok(Flown { row, log })
 }
 
 /// Line of a log: the state after a step.

@@ -84,7 +84,7 @@ pub fn call(
 const STACK_BYTES: usize = 8 << 20;
 
 /// Does `work` on threads of its own, one per core: those of the process would not survive a fork.
-fn on_own_threads<R: Send>(work: impl FnOnce() -> Result<R, Refusal> + Send) -> Result<R, Refusal> {
+pub fn on_own_threads<R: Send>(work: impl FnOnce() -> Result<R, Refusal> + Send) -> Result<R, Refusal> {
     let pool = rayon::ThreadPoolBuilder::new().stack_size(STACK_BYTES).build().map_err(|error| {
         let refusal = Diagnostic::new("machine-threads", Fault::Machine, "could not start threads").because(error);
         Refusal::Work(vec![refusal])

@@ -6,6 +6,7 @@ mod calls;
 mod console;
 mod dataset;
 mod errors;
+mod flock;
 mod images;
 mod table;
 
@@ -23,5 +24,6 @@ fn _cosfly(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add_function(wrap_pyfunction!(errors::damaged_pack, module)?)?;
     module.add_function(wrap_pyfunction!(errors::refused_by_machine, module)?)?;
     module.add_class::<dataset::Reader>()?;
+    module.add_class::<flock::PyFlock>()?;
     module.add_class::<table::Table>()
 }

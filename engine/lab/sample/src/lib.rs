@@ -108,7 +108,6 @@ pub fn town() -> Town {
         obstacles: vec![wall],
         planning_boxes: vec![],
         simplification: SimplificationReport::default(),
-        lanes: vec![],
         walkable: vec![],
         surfaces: vec![],
         lanes: vec![],

@@ -66,7 +66,7 @@ impl Answer {
                 "`actions` has the shape {shape:?}; {name} is ({columns},) or (n, {columns}) with n of at least 1"
             ));
         }
-        if let Some(place) = rows.iter().position(|number| !(number.abs() <= LARGEST)) {
+        if let Some(place) = rows.iter().position(|number| number.is_nan() || number.abs() > LARGEST) {
             let (row, column, number) = (place / columns, place % columns, rows[place]);
             return Err(format!("`actions` is {number} at row {row}, column {column}; it must be within {LARGEST}"));
         }

@@ -7,7 +7,7 @@ use cosfly_env::{Action, Environment, Policy};
 /// A baseline.
 pub struct BaselinePilot {
     name: &'static str,
-    policy: Option<Box<dyn Policy + Send>>,
+    policy: Option<Box<dyn Policy + Send + Sync>>,
 }
 
 impl BaselinePilot {

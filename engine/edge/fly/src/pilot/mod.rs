@@ -129,11 +129,6 @@ pub trait Pilot {
     /// # Errors
     /// [`Failure`].
     fn act(&mut self, environment: &Environment) -> std::result::Result<Action, Failure>;
-
-    /// What the policy says of itself, as text; empty where it says nothing. After [`Self::begin`].
-    fn metadata(&self) -> String {
-        String::new()
-    }
 }
 
 /// The policy at a place, for one thread.

@@ -31,7 +31,6 @@ pub struct PythonPilot {
     manners: Manners,
     process: Option<Process>,
     answer: Option<Answer>,
-    metadata: String,
 }
 
 struct Process {
@@ -51,7 +50,7 @@ impl PythonPilot {
     /// The function of a module, not yet started.
     pub fn new(module: &str, function: &str, manners: Manners) -> Self {
         let (module, function) = (module.to_owned(), function.to_owned());
-        Self { module, function, manners, process: None, answer: None, metadata: String::new() }
+        Self { module, function, manners, process: None, answer: None }
     }
 
     fn start(&mut self) -> Result<(), Failure> {
@@ -74,7 +73,7 @@ impl PythonPilot {
         });
         self.process = Some(Process { child, questions, answers });
         let metadata = self.receive(STARTS)?;
-        self.metadata = wire::decode(&metadata).map_err(Failure::Answer)?.to_string();
+        wire::decode(&metadata).map_err(Failure::Answer)?;
         Ok(())
     }
 
@@ -137,9 +136,5 @@ impl Pilot for PythonPilot {
         let action = answer.action(environment, every);
         self.answer = Some(answer);
         action.ok_or_else(|| Failure::Answer("the answer is too short for one step".to_owned()))
-    }
-
-    fn metadata(&self) -> String {
-        self.metadata.clone()
     }
 }

@@ -25,13 +25,12 @@ pub struct SocketPilot {
     manners: Manners,
     socket: Option<WebSocket<Timed>>,
     answer: Option<Answer>,
-    metadata: String,
 }
 
 impl SocketPilot {
     /// The server at `ws://HOST:PORT`, not yet connected.
     pub fn new(address: &str, manners: Manners) -> Self {
-        Self { address: address.to_owned(), manners, socket: None, answer: None, metadata: String::new() }
+        Self { address: address.to_owned(), manners, socket: None, answer: None }
     }
 
     fn connect(&self) -> Result<WebSocket<Timed>, String> {
@@ -70,8 +69,7 @@ impl SocketPilot {
             }
         }
         let metadata = self.receive()?;
-        let metadata = wire::decode(&metadata).map_err(|what| Failure::Answer(format!("the metadata: {what}")))?;
-        self.metadata = metadata.to_string();
+        wire::decode(&metadata).map_err(|what| Failure::Answer(format!("the metadata: {what}")))?;
         Ok(())
     }
 
@@ -143,10 +141,6 @@ impl Pilot for SocketPilot {
         let action = answer.action(environment, every);
         self.answer = Some(answer);
         action.ok_or_else(|| Failure::Answer("the answer is too short for one step".to_owned()))
-    }
-
-    fn metadata(&self) -> String {
-        self.metadata.clone()
     }
 }
 

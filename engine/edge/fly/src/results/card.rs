@@ -97,14 +97,18 @@ impl From<&Settings> for EnvironmentCard {
 impl Card {
     /// Difference that keeps rows of two results from being compared, in words.
     pub fn incomparable(&self, other: &Self) -> Option<String> {
-        let differ =
-            |what: &str, ours: &str, theirs: &str| Some(format!("their {what} differ: `{ours}` and `{theirs}`"));
-        if self.suite.hash != other.suite.hash {
-            return differ("suites", &self.suite.hash, &other.suite.hash);
+        let (ours, theirs) = (&self.suite.hash, &other.suite.hash);
+        if ours != theirs {
+            return Some(format!("their suites differ: `{ours}` and `{theirs}`"));
         }
-        let without_latency = |card: &Self| EnvironmentCard { latency_s: 0.0, ..card.environment.clone() };
-        let text = |card: &Self| serde_json::to_string(&without_latency(card)).unwrap_or_default();
-        let (ours, theirs) = (text(self), text(other));
-        if ours == theirs { None } else { differ("environments", &ours, &theirs) }
+        // Latencies may differ.
+        let settings = |card: &Self| {
+            serde_json::to_value(EnvironmentCard { latency_s: 0.0, ..card.environment.clone() }).unwrap_or_default()
+        };
+        let (ours, theirs) = (settings(self), settings(other));
+        let names = ours.as_object()?.keys().filter(|name| ours[name.as_str()] != theirs[name.as_str()]);
+        let differ: Vec<String> =
+            names.map(|name| format!("{name} is {} and {}", ours[name.as_str()], theirs[name.as_str()])).collect();
+        (!differ.is_empty()).then(|| format!("their environments differ: {}", differ.join(", ")))
     }
 }

@@ -38,11 +38,11 @@ impl Folder {
                 }
                 for part in ["rows", "logs"] {
                     let made = std::fs::create_dir_all(folder.path.join(part));
-                    made.map_err(|error| Diagnostic::io(&format!("make the folder {}", path.display()), &error))?;
+                    made.map_err(|error| Diagnostic::io(format!("make the folder {}", path.display()), &error))?;
                 }
                 folder.write("card.json", &text)?;
             }
-            Err(error) => return Err(Diagnostic::io(&format!("read {}", path.join("card.json").display()), &error)),
+            Err(error) => return Err(Diagnostic::io(format!("read {}", path.join("card.json").display()), &error)),
         }
         Ok(folder)
     }
@@ -86,11 +86,23 @@ impl Folder {
         self.write(&format!("rows/{name}.json"), &line(&flown.row))
     }
 
+    /// Removes what calls that were killed left half written.
+    fn clean(&self) {
+        for part in [self.path.clone(), self.path.join("rows"), self.path.join("logs")] {
+            for entry in part.read_dir().into_iter().flatten().flatten() {
+                if entry.file_name().to_string_lossy().starts_with(".tmp") {
+                    _ = std::fs::remove_file(entry.path());
+                }
+            }
+        }
+    }
+
     /// Writes the tables over all rows.
     ///
     /// # Errors
     /// Errors of the file system.
     pub fn finish(&self, card: &Card, rows: &[Row]) -> Result<()> {
+        self.clean();
         self.write("episodes.jsonl", &rows.iter().map(line).collect::<String>())?;
         self.write("scores.json", &pretty(&report::scores(rows)))?;
         self.write("report.md", &report::markdown(card, rows))
@@ -110,7 +122,7 @@ impl Folder {
             file.as_file().sync_data()?;
             file.persist(&path).map(|_| ()).map_err(|error| error.error)
         });
-        written.map_err(|error| Diagnostic::io(&format!("write {}", path.display()), &error))
+        written.map_err(|error| Diagnostic::io(format!("write {}", path.display()), &error))
     }
 }
 

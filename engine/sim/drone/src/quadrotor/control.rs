@@ -34,18 +34,31 @@ pub struct ControlGains {
     pub position: f64,
     /// Acceleration per error of the velocity, 1/s.
     pub velocity: f64,
-    /// Rate of turning per error of the attitude, 1/s.
-    pub attitude: f64,
-    /// Angular acceleration per error of the rates, 1/s.
-    pub rates: f64,
+    /// Largest acceleration, m/s^2.
+    pub acceleration_mps2: f64,
+    /// Rate of turning per error of the attitude, around each axis of the body, 1/s.
+    pub attitude: DVec3,
+    /// Angular acceleration per error of the rates, around each axis of the body, 1/s.
+    pub rates: DVec3,
+    /// Time within which rotors are brought to their wanted speeds, by commands beyond those, seconds.
+    pub spin_s: f64,
     /// Largest tilt, radians.
     pub tilt_rad: f64,
 }
 
 impl Default for ControlGains {
-    /// A critically damped loop of 2 rad/s around an attitude of 8 and rates of 25 rad/s; tilts up to 45 degrees.
+    /// A critically damped loop of 2 rad/s around an attitude of 8 and rates of 25 rad/s; yaw is slower, because rotors turn the
+    /// body around its vertical axis with little torque.
     fn default() -> Self {
-        Self { position: 4.0, velocity: 4.0, attitude: 8.0, rates: 25.0, tilt_rad: 45.0_f64.to_radians() }
+        Self {
+            position: 4.0,
+            velocity: 4.0,
+            acceleration_mps2: 6.0,
+            attitude: DVec3::new(8.0, 8.0, 2.0),
+            rates: DVec3::new(25.0, 25.0, 5.0),
+            spin_s: 0.01,
+            tilt_rad: 45.0_f64.to_radians(),
+        }
     }
 }
 
@@ -77,6 +90,7 @@ impl Controller {
         let missing_m = setpoint.position_m - state.position_m;
         let missing_mps = setpoint.velocity_mps - state.velocity_mps;
         let wanted = setpoint.acceleration_mps2 + gains.position * missing_m + gains.velocity * missing_mps;
+        let wanted = wanted.clamp_length_max(gains.acceleration_mps2);
         let lift = tilted_at_most(wanted + GRAVITY_MPS2 * DVec3::Z, gains.tilt_rad);
         let up = lift.normalize_or(DVec3::Z);
         let (sin, cos) = real::sin_cos(setpoint.yaw_rad);
@@ -95,7 +109,25 @@ impl Controller {
         let rates = state.rates_rad_s;
         let torque = inertia * (self.gains.rates * (wanted.rates_rad_s - rates)) + rates.cross(inertia * rates);
         let thrusts = self.thrusts_from_wrench * DVec4::new(wanted.thrust_n, torque.x, torque.y, torque.z);
-        thrusts.to_array().map(|thrust_n| self.parameters.speed_of_thrust_rpm(thrust_n))
+        let speeds = thrusts.to_array().map(|thrust_n| self.parameters.speed_of_thrust_rpm(thrust_n));
+        core::array::from_fn(|rotor| self.spun_to(state.rotors_rpm[rotor], speeds[rotor]))
+    }
+}
+
+impl Controller {
+    /// Command that brings a rotor from a speed to another one within the time that the gains give, where its limits allow; rev/min.
+    fn spun_to(&self, speed_rpm: f64, wanted_rpm: f64) -> f64 {
+        let [rise, rise_square, fall, fall_square] = self.parameters.spin;
+        let (linear, square) = if wanted_rpm > speed_rpm { (rise, rise_square) } else { (fall, fall_square) };
+        // linear * c + square * c^2 = pull
+        let pull = linear * speed_rpm + square * speed_rpm * speed_rpm + (wanted_rpm - speed_rpm) / self.gains.spin_s;
+        let under = linear * linear + 4.0 * square * pull;
+        let command = match square {
+            0.0 => pull / linear,
+            _ if under > 0.0 => (under.sqrt() - linear) / (2.0 * square),
+            _ => 0.0,
+        };
+        command.clamp(self.parameters.speed_rpm.0, self.parameters.speed_rpm.1)
     }
 }
 

@@ -90,8 +90,11 @@ impl Quadrotor {
             Gyroscope::Exact => DVec3::new(rates.y * momentum, -rates.x * momentum, spun_up),
             Gyroscope::OfDroneModels => DVec3::new(-rates.y * momentum, -rates.x * momentum, spun_up),
         };
-        let of_thrust =
-            DVec3::new(parameters.arm_m * sum(roll, &thrusts), parameters.arm_m * sum(pitch, &thrusts), sum(yaw, &torques));
+        let of_thrust = DVec3::new(
+            parameters.arm_m * sum(roll, &thrusts),
+            parameters.arm_m * sum(pitch, &thrusts),
+            sum(yaw, &torques),
+        );
         let inertia = parameters.inertia_kgm2;
         Derivative {
             acceleration_mps2: (lift + drag) / parameters.mass_kg - GRAVITY_MPS2 * DVec3::Z,
@@ -104,7 +107,7 @@ impl Quadrotor {
         let turn = DQuat::from_xyzw(state.rates_rad_s.x, state.rates_rad_s.y, state.rates_rad_s.z, 0.0);
         Slope {
             velocity_mps: state.velocity_mps,
-            attitude: 0.5 * (state.attitude * turn),
+            attitude: (state.attitude * turn) * 0.5,
             rest: self.derivative(state, command_rpm, wind_mps),
         }
     }
@@ -123,7 +126,7 @@ impl Slope {
         let vector = |of: fn(&Self) -> DVec3| (of(a) + 2.0 * of(b) + 2.0 * of(c) + of(d)) / 6.0;
         Self {
             velocity_mps: vector(|it| it.velocity_mps),
-            attitude: (a.attitude + 2.0 * b.attitude + 2.0 * c.attitude + d.attitude) * (1.0 / 6.0),
+            attitude: (a.attitude + b.attitude * 2.0 + c.attitude * 2.0 + d.attitude) * (1.0 / 6.0),
             rest: Derivative {
                 acceleration_mps2: vector(|it| it.rest.acceleration_mps2),
                 rates_rad_s2: vector(|it| it.rest.rates_rad_s2),
@@ -140,7 +143,7 @@ impl QuadrotorState {
     fn moved(&self, slope: &Slope, time_s: f64) -> Self {
         Self {
             position_m: self.position_m + time_s * slope.velocity_mps,
-            attitude: self.attitude + time_s * slope.attitude,
+            attitude: self.attitude + slope.attitude * time_s,
             velocity_mps: self.velocity_mps + time_s * slope.rest.acceleration_mps2,
             rates_rad_s: self.rates_rad_s + time_s * slope.rest.rates_rad_s2,
             rotors_rpm: core::array::from_fn(|rotor| self.rotors_rpm[rotor] + time_s * slope.rest.rotors_rpm_s[rotor]),

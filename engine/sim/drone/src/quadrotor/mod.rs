@@ -7,6 +7,8 @@
 mod control;
 mod dynamics;
 mod parameters;
+#[cfg(test)]
+mod tests;
 
 pub use control::{ControlGains, Controller, Setpoint, ThrustAndRates};
 pub use dynamics::{Derivative, Quadrotor, QuadrotorState};

@@ -1,8 +1,8 @@
-//! `follow`: keeps its place behind the target where it last saw it, without regard to obstacles.
+//! `follow`: keeps the start's offset from the target, without regard to obstacles.
 
 use super::{Baseline, Policy};
 use crate::{Action, Axes, Environment};
-use cosfly_frames::{DVec3, real};
+use cosfly_frames::DVec3;
 use cosfly_planner::aim_point;
 
 /// Rate at which an error of the position is removed, 1/s.
@@ -12,26 +12,21 @@ const TRUST_S: f64 = 2.0;
 
 pub(super) const BASELINE: Baseline = Baseline {
     name: "follow",
-    doc: "keeps the start's distance and height behind the target, without regard to obstacles",
+    doc: "keeps the start's offset from the target, without regard to obstacles",
     make: |environment, _| {
         let (observation, episode) = (environment.observation(), environment.episode());
-        let away = episode.start.position_in_world - observation.sighting.target.feet_in_world;
-        Box::new(Follow { behind_m: away.truncate().length(), above_m: away.z })
+        Box::new(Follow(episode.start.position_in_world - observation.sighting.target.feet_in_world))
     },
 };
 
-struct Follow {
-    behind_m: f64,
-    above_m: f64,
-}
+/// Place of the drone from the target's feet, world frame, metres.
+struct Follow(DVec3);
 
 impl Policy for Follow {
     fn act(&mut self, environment: &Environment) -> Action {
         let (observation, settings) = (environment.observation(), environment.settings());
         let next_s = observation.time_s + settings.step_s;
         let feet = observation.supposed_feet(next_s, TRUST_S);
-        let (sin, cos) = real::sin_cos(observation.sighting.target.heading_rad);
-        let wanted = feet + DVec3::new(-cos * self.behind_m, -sin * self.behind_m, self.above_m);
         let own = observation.motion.position_in_world;
         let mut sighted = observation.sighting.target;
         sighted.feet_in_world = feet;
@@ -39,7 +34,7 @@ impl Policy for Follow {
         let next = own + settings.step_s * observation.motion.velocity_in_world;
         Action {
             axes: Axes::World,
-            velocity_mps: observation.sighting.velocity_in_world + GAIN * (wanted - own),
+            velocity_mps: observation.sighting.velocity_in_world + GAIN * (feet + self.0 - own),
             view: environment.gimbal().rates_to(next, aim, settings.step_s),
             ..Action::default()
         }

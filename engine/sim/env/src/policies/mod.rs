@@ -40,7 +40,7 @@ pub struct Baseline {
     /// Description, half a sentence.
     pub doc: &'static str,
     /// The policy for the episode of an environment.
-    pub make: fn(&Environment, &Knowledge) -> Box<dyn Policy + Send>,
+    pub make: fn(&Environment, &Knowledge) -> Box<dyn Policy + Send + Sync>,
 }
 
 /// All baselines, sorted by name.

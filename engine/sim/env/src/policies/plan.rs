@@ -5,6 +5,9 @@ use cosfly_drone::Spline;
 use cosfly_frames::DVec3;
 use std::sync::Arc;
 
+/// Rate at which a drone comes back to its plan, 1/s.
+const RETURN: f64 = 1.0;
+
 /// A planned flight, followed step by step.
 pub struct Plan {
     /// Control points of the spline that is flown, world frame, metres; at least one.
@@ -26,21 +29,24 @@ impl Plan {
         Self { controls: controls.into(), begins_s, dt_s }
     }
 
-    /// Action that leads to the place of the plan one step ahead, with the camera aimed at `aim_in_world`, where the target is
-    /// then.
+    /// Action that leads along the plan for a step, with the camera aimed at `aim_in_world`, where the target is then. A drone that
+    /// is on the plan stays on it exactly, where its limits allow; another one comes back to it.
     pub fn action(&self, environment: &Environment, aim_in_world: DVec3) -> Action {
-        let (observation, settings) = (environment.observation(), environment.settings());
+        let (observation, step_s) = (environment.observation(), environment.settings().step_s);
         let spline = Spline { waypoints: &self.controls, dt_s: self.dt_s };
-        let next_s = observation.time_s + settings.step_s;
-        let next = spline.at(next_s - self.begins_s).position_in_world;
-        let motion = &observation.motion;
-        let velocity = (next - motion.position_in_world) / settings.step_s;
-        let change = (velocity - motion.velocity_in_world) / settings.step_s;
+        let time_s = observation.time_s - self.begins_s;
+        let (here, next) = (spline.at(time_s), spline.at(time_s + step_s));
+        let velocity = (next.position_in_world - here.position_in_world) / step_s;
+        let before = match time_s - step_s {
+            before_s if before_s < 0.0 => here.velocity_in_world,
+            before_s => (here.position_in_world - spline.at(before_s).position_in_world) / step_s,
+        };
+        let beside = here.position_in_world - observation.motion.position_in_world;
         Action {
             axes: Axes::World,
-            velocity_mps: velocity,
-            acceleration_mps2: change,
-            view: environment.gimbal().rates_to(next, aim_in_world, settings.step_s),
+            velocity_mps: velocity + RETURN * beside,
+            acceleration_mps2: (velocity - before) / step_s,
+            view: environment.gimbal().rates_to(next.position_in_world, aim_in_world, step_s),
         }
     }
 }

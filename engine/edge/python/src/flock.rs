@@ -1,0 +1,124 @@
+//! Environments of `cosfly.gym`: a suite, and many environments over its episodes, stepped with the GIL released.
+
+use crate::calls::on_own_threads;
+use crate::errors::exception;
+use cosfly::Refusal;
+use cosfly_diagnose::{Diagnostic, Fault};
+use cosfly_fly::suite::{Suite, Task};
+use cosfly_fly::vector::{ACTIONS, Autoreset, Flock};
+use cosfly_runner::RunOptions;
+use cosfly_store::Store;
+use numpy::{PyArray1, PyArray2, PyReadonlyArray2};
+use pyo3::exceptions::PyValueError;
+use pyo3::prelude::*;
+use pyo3::types::PyDict;
+use std::path::PathBuf;
+use std::sync::Arc;
+
+/// Environments over the episodes of a recipe.
+#[pyclass(name = "Flock")]
+pub struct PyFlock {
+    flock: Flock,
+}
+
+#[pymethods]
+impl PyFlock {
+    /// Makes the episodes that the store lacks, and `count` environments over them.
+    #[new]
+    #[pyo3(signature = (recipe, overrides, store, count, step_s, latency_s, mode, has_experts))]
+    #[expect(clippy::too_many_arguments, reason = "Python's class names them")]
+    fn new(
+        py: Python<'_>,
+        recipe: PathBuf,
+        overrides: Vec<String>,
+        store: PathBuf,
+        count: usize,
+        step_s: f64,
+        latency_s: f64,
+        mode: &str,
+        has_experts: bool,
+    ) -> PyResult<Self> {
+        let mode = match mode {
+            "next_step" => Autoreset::NextStep,
+            "same_step" => Autoreset::SameStep,
+            "disabled" => Autoreset::Disabled,
+            other => return Err(PyValueError::new_err(format!("`{other}` is no mode of autoreset"))),
+        };
+        let made = py.detach(|| on_own_threads(|| made(&recipe, &overrides, &store)));
+        let tasks = match made {
+            Ok(tasks) => tasks,
+            Err(Refusal::Work(refusals)) => return Err(exception(py, &refusals)),
+            Err(Refusal::Arguments(error)) => return Err(PyValueError::new_err(error.to_string())),
+        };
+        let settings = cosfly_env::Settings { step_s, latency_s, ..cosfly_env::Settings::default() };
+        Ok(Self { flock: Flock::new(tasks, count, settings, mode, has_experts) })
+    }
+
+    /// Begins episodes: of all environments, or of those that `mask` chooses.
+    fn reset(&mut self, py: Python<'_>, seeds: Vec<Option<u64>>, mask: Option<Vec<bool>>) {
+        let flock = &mut self.flock;
+        py.detach(|| flock.reset(&seeds, |number| mask.as_ref().is_none_or(|mask| mask.get(number) == Some(&true))));
+    }
+
+    /// One step of all environments.
+    fn step(&mut self, py: Python<'_>, actions: PyReadonlyArray2<'_, f32>) -> PyResult<()> {
+        let given = actions.as_slice().map_err(|error| PyValueError::new_err(error.to_string()))?;
+        let (rows, rest) = given.as_chunks::<ACTIONS>();
+        if rows.len() != self.flock.len() || !rest.is_empty() {
+            let message = format!("actions must have the shape ({}, {ACTIONS})", self.flock.len());
+            return Err(PyValueError::new_err(message));
+        }
+        let rows = rows.to_vec();
+        let flock = &mut self.flock;
+        py.detach(|| flock.step(&rows));
+        Ok(())
+    }
+
+    /// Copies of what the last reset or step gave, by name.
+    fn outputs<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
+        let (outputs, told) = (self.flock.outputs(), PyDict::new(py));
+        let rows = |rows: &[[f32; cosfly_env::FEATURES]]| {
+            let rows: Vec<Vec<f32>> = rows.iter().map(|row| row.to_vec()).collect();
+            PyArray2::from_vec2(py, &rows)
+        };
+        told.set_item("features", rows(&outputs.features)?)?;
+        told.set_item("last_features", rows(&outputs.last_features)?)?;
+        told.set_item("rewards", PyArray1::from_slice(py, &outputs.rewards))?;
+        told.set_item("terminated", PyArray1::from_slice(py, &outputs.terminated))?;
+        told.set_item("truncated", PyArray1::from_slice(py, &outputs.truncated))?;
+        told.set_item("tracked", PyArray1::from_slice(py, &outputs.tracked))?;
+        for (at, name) in cosfly_env::Reward::NAMES.iter().enumerate() {
+            let term: Vec<f64> = outputs.terms.iter().map(|terms| terms[at]).collect();
+            told.set_item(format!("reward_{name}"), PyArray1::from_vec(py, term))?;
+        }
+        if !outputs.expert_actions.is_empty() {
+            let rows: Vec<Vec<f32>> = outputs.expert_actions.iter().map(|row| row.to_vec()).collect();
+            told.set_item("expert_action", PyArray2::from_vec2(py, &rows)?)?;
+        }
+        Ok(told)
+    }
+
+    /// Name of the episode that an environment flies.
+    fn episode(&self, number: usize) -> PyResult<&str> {
+        if number < self.flock.len() {
+            Ok(self.flock.episode(number))
+        } else {
+            Err(PyValueError::new_err(format!("there is no environment {number}")))
+        }
+    }
+}
+
+fn made(recipe: &std::path::Path, overrides: &[String], store: &std::path::Path) -> Result<Arc<[Task]>, Refusal> {
+    let one = |refusal: Box<Diagnostic>| Refusal::Work(vec![refusal]);
+    let recipe = if recipe.is_dir() { recipe.join("recipe.toml") } else { recipe.to_owned() };
+    let recipe = cosfly_recipe::load(&recipe, overrides, &cosfly_stages::registry()).map_err(Refusal::Work)?;
+    let store = Store::open(store).map_err(one)?;
+    let jobs = std::thread::available_parallelism().map_or(1, usize::from);
+    let options = RunOptions { jobs, ..RunOptions::default() };
+    let suite = Suite::make(&recipe, &store, &options, &|_| ()).map_err(one)?;
+    if suite.tasks.is_empty() {
+        let message = format!("`{}` has no episode: the expert found no flight", recipe.path.display());
+        return Err(one(Diagnostic::new("fly-suite", Fault::Recipe, message)));
+    }
+    Ok(suite.tasks.into())
+}
