@@ -49,7 +49,6 @@ fn odd_town(stream: &mut RandomStream) -> Town {
         simplification: SimplificationReport::default(),
         lanes: vec![],
         walkable,
-        lanes: vec![],
         surfaces: vec![],
         synthetic: Synthetic::default(),
         min_in_world: DVec3::ZERO,

@@ -204,7 +204,6 @@ fn box_town(boxes: usize) -> Town {
         simplification: SimplificationReport::default(),
         lanes: vec![],
         walkable: vec![],
-        lanes: vec![],
         surfaces: vec![ground],
         synthetic: Synthetic::default(),
         min_in_world: DVec3::new(-half, -half, 0.0),
