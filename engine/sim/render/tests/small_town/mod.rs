@@ -39,7 +39,6 @@ pub fn empty_town() -> Town {
         lanes: vec![],
         walkable: vec![],
         surfaces: vec![],
-        lanes: vec![],
         synthetic: Synthetic::default(),
         min_in_world: DVec3::ZERO,
         max_in_world: DVec3::ONE,
