@@ -121,7 +121,8 @@ impl<'a> VoxelGrid<'a> {
             LocalObstacles::filter(self.problem.track, &[], self.ground, config.search.filter_radius_m, influence_m)
                 .with_movers(movers);
         let band = (view.min_altitude_m - 0.5 * self.options.voxel_m, view.max_radius_m);
-        self.moving = MovingLayers::new(&obstacles, &self.layers, band, influence_m.max(self.clearance_m));
+        let frames: Vec<usize> = self.layers.iter().map(|layer| layer.frame).collect();
+        self.moving = MovingLayers::new(&obstacles, &frames, band, influence_m.max(self.clearance_m));
         self
     }
 

@@ -1,6 +1,5 @@
 //! Boxes that move, layer by layer of a voxel search: those that may hide the target, and those that may come near a drone.
 
-use super::grid::Layer;
 use crate::obstacles::local::LocalObstacles;
 use crate::obstacles::moving::Moving;
 use crate::visibility::BODY_POINTS;
@@ -17,20 +16,19 @@ pub struct MovingLayers {
 }
 
 impl MovingLayers {
-    /// Of a search whose drone stays `lowest_m` above the target's feet and within `farthest_m` of them (from above), and
-    /// asks for distances up to `within_m`.
+    /// Of a search with layers at `frames` whose drone stays `lowest_m` above the target's feet and within `farthest_m` of them
+    /// (from above), and asks for distances up to `within_m`.
     pub fn new(
         obstacles: &LocalObstacles<'_>,
-        layers: &[Layer],
+        frames: &[usize],
         (lowest_m, farthest_m): (f64, f64),
         within_m: f64,
     ) -> Self {
         if !obstacles.has_movers() {
             return Self::default();
         }
-        let frames = layers.last().map_or(0, |layer| layer.frame + 1);
         let feet = |frame: usize| obstacles.body(frame)[0];
-        let may_hide = |frame: usize| {
+        let may_hide = |&frame: &usize| {
             let chosen = |it: &&Moving| it.may_hide(feet(frame), (lowest_m, farthest_m));
             obstacles.moving_at(frame).iter().filter(chosen).copied().collect()
         };
@@ -38,10 +36,8 @@ impl MovingLayers {
             let chosen = |it: &&Moving| it.swept().max.z + within_m >= feet(frame).z + lowest_m;
             obstacles.moving_at(frame).iter().filter(chosen).copied().collect()
         };
-        Self {
-            hiding: layers.iter().map(|layer| may_hide(layer.frame)).collect(),
-            near: (0..frames).map(may_be_near).collect(),
-        }
+        let end = frames.last().map_or(0, |last| last + 1);
+        Self { hiding: frames.iter().map(may_hide).collect(), near: (0..end).map(may_be_near).collect() }
     }
 
     /// Adds what moves to the `hidden` points of a `body`, in a layer.
