@@ -207,6 +207,28 @@ mod tests {
     }
 
     #[test]
+    fn a_long_vehicle_hides_from_far_off_its_middle_and_can_be_the_target() {
+        let pose = Pose::looking_at(DVec3::new(20.0, 0.0, 0.9), DVec3::new(0.0, 0.0, 0.9));
+        let size_m = DVec3::new(12.0, 2.5, 3.1);
+        let bus = BodyShape::Vehicle { kind: cosfly_world::BodyKind::Bus, size_m };
+        let share = |target: &TargetSetup, x: f64, y: f64| {
+            let mut walker = Walker { body: bus, ..self::target().walker() };
+            (walker.state.feet_in_world, walker.state.heading_rad) =
+                (DVec3::new(x, y, 0.0), 0.5 * cosfly_frames::real::PI);
+            let other = [Bystander { walker, instance: 9 }];
+            BodyRays::default().visible_share(&BoxBvh::build(vec![]), &other, &CAMERA, &pose, target).unwrap()
+        };
+        // The end of the bus, 5 m from its middle, is before the person.
+        assert_eq!(
+            [share(&target(), 6.0, 5.0), share(&target(), -6.0, 5.0), share(&target(), 6.0, 8.0)],
+            [0.0, 1.0, 1.0]
+        );
+        let followed = TargetSetup { body: bus, ..target() };
+        let half = share(&followed, 8.0, 6.0);
+        assert!((0.2..0.8).contains(&half), "{half}");
+    }
+
+    #[test]
     fn half_a_wall_hides_the_lower_part_of_the_body() {
         let level = Pose::looking_at(DVec3::new(1000.0, 0.0, 0.9), DVec3::new(0.0, 0.0, 0.9));
         let shares: Vec<f64> =
