@@ -8,3 +8,4 @@ pub mod geometry_contenders;
 pub mod geometry_scenes;
 pub mod planner;
 pub mod render;
+pub mod small;

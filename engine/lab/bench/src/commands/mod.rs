@@ -9,6 +9,7 @@ mod geometry;
 mod outcome;
 mod planner;
 mod render;
+mod small;
 mod town_of_recipe;
 
 use clap::{Parser, Subcommand};
@@ -43,6 +44,9 @@ enum Command {
     /// The renderer: CPU time of a frame by stage, frames per second as finished logs, comparison with memory bandwidth
     #[command(after_help = render::EXAMPLES)]
     Render(render::RenderArguments),
+    /// Small pictures: depth, labels and ids in the large renderer and in the batch renderer, in turns
+    #[command(after_help = small::EXAMPLES)]
+    Small(small::SmallArguments),
     /// A command of `cluster`
     #[command(hide = true)]
     Task(cluster::TaskArguments),
@@ -59,6 +63,7 @@ impl Arguments {
             Command::Geometry(arguments) => geometry::geometry(arguments),
             Command::Planner(arguments) => planner::planner(arguments),
             Command::Render(arguments) => render::render(arguments),
+            Command::Small(arguments) => small::small(arguments),
             Command::Task(arguments) => cluster::task(arguments),
         }
     }
