@@ -9,3 +9,4 @@ pub mod geometry_scenes;
 pub mod people;
 pub mod planner;
 pub mod render;
+pub mod small;

@@ -6,8 +6,10 @@ use cosfly_maps::GroundIndex;
 use cosfly_render::outside::SceneFace;
 use std::collections::BTreeMap;
 
-/// Distance between the places where polygons are compared, metres.
+/// Distance between the places along an edge where polygons are compared, metres.
 const STEP_M: f64 = 0.1;
+/// The same within surfaces, metres.
+const INSIDE_STEP_M: f64 = 0.5;
 /// Most places along an edge.
 const MOST_STEPS: f64 = 300.0;
 /// Distance of the places beside a wall from it, metres.
@@ -22,7 +24,7 @@ const COVER_M: f64 = 0.01;
 const LARGEST_M: f64 = 6.0;
 
 /// The ground polygons that may be seen from above: walls down to just below the ground beside them, their halves joined;
-/// surfaces but for those closely below others. Heights are compared every tenth of a metre.
+/// surfaces but for those closely below others. Heights are compared every tenth of a metre along edges.
 pub fn seen_from_above(faces: &[SceneFace], ground: &GroundIndex) -> Vec<SceneFace> {
     let is_wall = |face: &&SceneFace| face.normal_in_world.z.abs() < 1e-3;
     let surfaces = faces.iter().filter(|face| !is_wall(face) && !is_covered(face, ground)).cloned();
@@ -147,10 +149,10 @@ fn is_covered(face: &SceneFace, ground: &GroundIndex) -> bool {
     let low = corners.iter().copied().fold(DVec2::INFINITY, DVec2::min);
     let high = corners.iter().copied().fold(DVec2::NEG_INFINITY, DVec2::max);
     let inside = || {
-        let [columns, rows] = ((high - low) / STEP_M).to_array().map(|count| count as u32);
+        let [columns, rows] = ((high - low) / INSIDE_STEP_M).to_array().map(|count| count as u32);
         (0..rows).all(|row| {
             (0..columns).all(|column| {
-                let at = low + STEP_M * DVec2::new(f64::from(column) + 0.5, f64::from(row) + 0.5);
+                let at = low + INSIDE_STEP_M * DVec2::new(f64::from(column) + 0.5, f64::from(row) + 0.5);
                 let is_inside = edges().all(|(a, b)| (*b - *a).perp_dot(at - *a) * normal.z.signum() >= 0.0);
                 !is_inside || is_covered(at)
             })

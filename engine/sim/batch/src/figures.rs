@@ -145,8 +145,7 @@ simd_kernel! {
         let mut low = [[f32::INFINITY; WIDE]; 2];
         let mut high = [[f32::NEG_INFINITY; WIDE]; 2];
         let mut nearest = [f32::INFINITY; WIDE];
-        for ring in 0..2 {
-            let [center, forward, side] = rings[ring];
+        for (ring, [center, forward, side]) in rings.iter().enumerate() {
             for axis in 0..3 {
                 for k in 0..WIDE {
                     seen.points[ring][axis][k] = center[axis] + (forward[axis] * COS[k] + side[axis] * SIN[k]);
@@ -172,10 +171,7 @@ simd_kernel! {
             }
             (seen.low[axis], seen.high[axis]) = (least, most);
         }
-        seen.nearest_m = nearest[0];
-        for k in 1..WIDE {
-            seen.nearest_m = if nearest[k] < seen.nearest_m { nearest[k] } else { seen.nearest_m };
-        }
+        seen.nearest_m = nearest.iter().fold(nearest[0], |least, ahead| if *ahead < least { *ahead } else { least });
         // Side `k` lies between the corners `k` and `k + 1` of both rings.
         let mut low = [[0.0f32; WIDE]; 2];
         let mut high = [[0.0f32; WIDE]; 2];

@@ -10,6 +10,7 @@ mod outcome;
 mod people;
 mod planner;
 mod render;
+mod small;
 mod town_of_recipe;
 
 use clap::{Parser, Subcommand};
@@ -47,6 +48,9 @@ enum Command {
     /// The renderer: CPU time of a frame by stage, frames per second as finished logs, comparison with memory bandwidth
     #[command(after_help = render::EXAMPLES)]
     Render(render::RenderArguments),
+    /// Small pictures: depth, labels and ids in the large renderer and in the batch renderer, in turns
+    #[command(after_help = small::EXAMPLES)]
+    Small(small::SmallArguments),
     /// A command of `cluster`
     #[command(hide = true)]
     Task(cluster::TaskArguments),
@@ -64,6 +68,7 @@ impl Arguments {
             Command::People(arguments) => people::people(arguments),
             Command::Planner(arguments) => planner::planner(arguments),
             Command::Render(arguments) => render::render(arguments),
+            Command::Small(arguments) => small::small(arguments),
             Command::Task(arguments) => cluster::task(arguments),
         }
     }

@@ -1,0 +1,68 @@
+//! Drawing a batch allocates nothing once buffers have grown, and the memory stays within its bounds.
+
+mod towns;
+
+use cosfly_batch::{BatchRenderer, BatchScene, Outputs, View};
+use cosfly_frames::Seed;
+use std::alloc::{GlobalAlloc, Layout, System};
+use std::cell::Cell;
+
+thread_local! {
+    static ALLOCATIONS: Cell<u64> = const { Cell::new(0) };
+}
+
+/// The system's allocator, which counts what each thread asks for.
+struct Counting;
+
+// SAFETY: everything is the system's; counting touches a thread's own number, which needs no memory.
+unsafe impl GlobalAlloc for Counting {
+    unsafe fn alloc(&self, layout: Layout) -> *mut u8 {
+        ALLOCATIONS.with(|count| count.set(count.get() + 1));
+        // SAFETY: the caller keeps the contract, which is the same.
+        unsafe { System.alloc(layout) }
+    }
+
+    unsafe fn dealloc(&self, at: *mut u8, layout: Layout) {
+        // SAFETY: as above.
+        unsafe { System.dealloc(at, layout) }
+    }
+
+    unsafe fn realloc(&self, at: *mut u8, layout: Layout, size: usize) -> *mut u8 {
+        ALLOCATIONS.with(|count| count.set(count.get() + 1));
+        // SAFETY: as above.
+        unsafe { System.realloc(at, layout, size) }
+    }
+}
+
+#[global_allocator]
+static COUNTING: Counting = Counting;
+
+#[test]
+fn the_second_batch_allocates_nothing() {
+    let town = towns::shipped("downtown.xodr");
+    let scene = BatchScene::new(&town, Seed([1; 32]));
+    assert!(scene.bytes() < 50_000_000, "{} bytes", scene.bytes());
+    let places = towns::places(&town, 12, 30);
+    let views: Vec<View<'_>> = places
+        .iter()
+        .map(|place| View {
+            scene: &scene,
+            pose: place.pose,
+            horizontal_fov_rad: 1.4,
+            target: Some(place.target),
+            others: &place.others,
+            figures: &[],
+        })
+        .collect();
+    let mut renderer = BatchRenderer::new(84, 84);
+    let mut depth_m = vec![0.0f32; views.len() * renderer.pixels()];
+    let mut instance = vec![0; views.len() * renderer.pixels()];
+    let mut pass = || {
+        let before = ALLOCATIONS.with(Cell::get);
+        let (depth_m, instance) = (Some(&mut depth_m[..]), Some(&mut instance[..]));
+        renderer.render(&views, Outputs { depth_m, instance, ..Outputs::default() });
+        ALLOCATIONS.with(Cell::get) - before
+    };
+    assert!(pass() > 0, "the first pass grows the buffers");
+    assert_eq!(pass(), 0);
+}
