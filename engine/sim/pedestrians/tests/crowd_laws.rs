@@ -116,7 +116,7 @@ fn frames_of_any_length_keep_bodies_apart_and_feet_on_the_ground() {
                 let (from, to) = (pair[0].feet_in_world, pair[1].feet_in_world);
                 assert!(grid.ground().covers(from, to), "{dt_s} s: person {number} from {from} to {to}");
             }
-            let path = path_of(grid.ground(), traffic.track(number).unwrap());
+            let path = path_of(Some(grid.ground()), traffic.track(number).unwrap());
             assert_eq!((path.ground.len(), path.standing.len()), (frames as usize, frames as usize));
         }
     }

@@ -1,7 +1,8 @@
 //! [`TrafficConfig`]: the parameters of traffic in a recipe.
 
 use crate::parameters;
-use cosfly_pedestrians::{ConfigRule, CrowdConfig};
+use cosfly_diagnose::ParameterError;
+use cosfly_pedestrians::{ConfigRule, CrowdConfig, RecordedConfig, ScriptedPerson};
 use cosfly_world::{BodyKind, Clock, LookAlikeConfig, Traffic};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -23,8 +24,23 @@ pub struct TrafficConfig {
     pub follow: Follow,
     /// People on foot.
     pub people: CrowdConfig,
+    /// Recorded people, file by file.
+    pub recorded: Vec<RecordedPeople>,
+    /// People who walk as written, one by one.
+    pub scripted: Vec<ScriptedPerson>,
     /// People who are dressed like a followed person.
     pub look_alikes: LookAlikeConfig,
+}
+
+/// Recorded people of one file.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct RecordedPeople {
+    /// File of tracks with times: GPX, GeoJSON, ETH/UCY `obsmat`, CSV; relative to the recipe's folder.
+    pub file: String,
+    /// How the file is read and placed.
+    #[serde(default)]
+    pub read: RecordedConfig,
 }
 
 impl Default for TrafficConfig {
@@ -34,6 +50,8 @@ impl Default for TrafficConfig {
             dt_s: 0.5,
             follow: Follow::default(),
             people: CrowdConfig::default(),
+            recorded: vec![],
+            scripted: vec![],
             look_alikes: LookAlikeConfig::default(),
         }
     }
@@ -121,21 +139,30 @@ impl Follow {
 
 impl TrafficConfig {
     /// Checks what the schema cannot say.
-    pub fn check(&self) -> Result<(), ConfigRule> {
+    pub fn check(&self) -> Result<(), ParameterError> {
         let duration_s = f64::from(self.frames) * self.dt_s;
         if duration_s > 86_400.0 {
             let message = format!("`frames` x `dt_s` is `{duration_s}` s; it must not be more than a day, `86400` s");
-            return Err(ConfigRule { path: &["frames"], message });
+            return Err(parameters::refused_at("frames", message));
         }
         if let Some(at) =
             (1..self.follow.kinds.len()).find(|at| self.follow.kinds[..*at].contains(&self.follow.kinds[*at]))
         {
             let message = format!("`{}` is listed twice", self.follow.kinds[at].body().name());
-            return Err(ConfigRule { path: &["follow", "kinds"], message });
+            return Err(parameters::refused_at("follow.kinds", message));
         }
-        let shares = |message| ConfigRule { path: &["look_alikes", "shares"], message };
-        self.look_alikes.check().map_err(shares)?;
-        self.people.check()
+        self.look_alikes.check().map_err(|message| parameters::refused_at("look_alikes.shares", message))?;
+        let below = |table: String| {
+            move |rule: ConfigRule| parameters::refused_at(&format!("{table}.{}", rule.path.join(".")), rule.message)
+        };
+        self.people.check().map_err(below("people".into()))?;
+        for (number, recorded) in self.recorded.iter().enumerate() {
+            recorded.read.check().map_err(below(format!("recorded.{number}.read")))?;
+        }
+        for (number, person) in self.scripted.iter().enumerate() {
+            person.check().map_err(below(format!("scripted.{number}")))?;
+        }
+        Ok(())
     }
 
     /// Frames and steps.
@@ -146,6 +173,10 @@ impl TrafficConfig {
     /// Parameters that the bodies depend on, for keys: those who are followed as far as others are dressed like them.
     pub fn canonical_of_bodies(&self) -> serde_json::Value {
         let mut all = parameters::canonical(self);
+        // The content of a file is part of the key; its path is not.
+        for recorded in all["recorded"].as_array_mut().into_iter().flatten() {
+            recorded["file"] = "(content)".into();
+        }
         if self.look_alikes.shares.is_empty() {
             all.as_object_mut().expect("a table").remove("follow");
         }

@@ -108,7 +108,7 @@ fn on_roads(grid: &WalkableGrid, traffic: &Traffic) -> (f64, f64) {
     let (mut crossings, mut roads, mut all) = (0, 0, 0);
     for number in 0..traffic.bodies.len() as u32 {
         let Some(track) = traffic.track(number) else { continue };
-        let kinds = path_of(grid.ground(), track).ground;
+        let kinds = path_of(Some(grid.ground()), track).ground;
         crossings += kinds.iter().filter(|kind| **kind == Crossing).count();
         roads += kinds.iter().filter(|kind| **kind == Road).count();
         all += kinds.len();

@@ -36,6 +36,7 @@ pub(crate) fn town(walkable: Vec<WalkablePolygon>, obstacles: Vec<Obstacle>) -> 
         synthetic: Synthetic::default(),
         min_in_world: DVec3::ZERO,
         max_in_world: DVec3::ZERO,
+        lanes: vec![],
     }
 }
 

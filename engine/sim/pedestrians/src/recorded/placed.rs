@@ -203,7 +203,8 @@ fn meetings_with_things(bodies: &[Body], town: &Town) -> Result<Option<String>, 
 
 /// Makes the radii of people so small that no two overlap in any frame; returns a note where some are.
 fn make_room(bodies: &mut [Body], clock: Clock) -> Option<String> {
-    let mut traffic = Traffic { dt_s: clock.dt_s, frames: clock.frames, bodies: bodies.to_vec(), notes: vec![] };
+    let bodies_now = bodies.to_vec();
+    let traffic = Traffic { dt_s: clock.dt_s, frames: clock.frames, bodies: bodies_now, ..Traffic::default() };
     let mut nearest_m = vec![f64::INFINITY; bodies.len()];
     for frame in 0..clock.frames {
         let snapshot: Snapshot = traffic.snapshot(frame);
@@ -217,7 +218,6 @@ fn make_room(bodies: &mut [Body], clock: Clock) -> Option<String> {
             });
         }
     }
-    traffic.bodies.clear();
     let (mut smaller, mut smallest_m) = (0, f64::INFINITY);
     for (body, nearest_m) in bodies.iter_mut().zip(nearest_m) {
         let room_m = (0.5 * nearest_m - 1e-9).max(THINNEST_M);
