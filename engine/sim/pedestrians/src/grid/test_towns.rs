@@ -31,12 +31,13 @@ pub(crate) fn town(walkable: Vec<WalkablePolygon>, obstacles: Vec<Obstacle>) -> 
         obstacles,
         planning_boxes: vec![],
         simplification: SimplificationReport::default(),
+        lanes: vec![],
         walkable,
+        lanes: vec![],
         surfaces: vec![],
         synthetic: Synthetic::default(),
         min_in_world: DVec3::ZERO,
         max_in_world: DVec3::ZERO,
-        lanes: vec![],
     }
 }
 
