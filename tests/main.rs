@@ -28,6 +28,7 @@ mod steering;
 mod street;
 mod support;
 mod towns;
+mod traffic;
 mod versions;
 #[cfg(feature = "plugins")]
 mod versions_held;

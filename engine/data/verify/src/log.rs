@@ -232,9 +232,15 @@ impl LogCheck<'_> {
     /// Labels by their number alone: they come before the ids, which say whose pixels are whose.
     fn check_labels(&mut self, image: &messages::RawImage, row: &PlacedFrame, place: String) {
         let last = SemanticLabel::ALL.len() as u8;
-        let people = image.data.iter().filter(|label| **label == SemanticLabel::Pedestrian.id()).count();
-        if image.data.iter().any(|label| *label >= last) || people < row.visible_pixels as usize {
-            self.find(place, "verify-pixels", "labels are unknown, or too few of them are pedestrian".into());
+        // People, riders, vehicles: whatever may be followed.
+        let moving = SemanticLabel::Pedestrian.id()..=SemanticLabel::Bicycle.id();
+        let bodies = image.data.iter().filter(|label| moving.contains(label)).count();
+        if image.data.iter().any(|label| *label >= last) || bodies < row.visible_pixels as usize {
+            self.find(
+                place,
+                "verify-pixels",
+                "labels are unknown, or too few of them are of people and vehicles".into(),
+            );
         }
     }
 

@@ -11,10 +11,10 @@ use cosfly_diagnose::ParameterError;
 use cosfly_frames::Seed;
 use cosfly_objectives::{Objective, ObjectiveConfig};
 use cosfly_pilot::aim::AimConfig;
-use cosfly_planner::MucoConfig;
 use cosfly_planner::config::{Foresight, Planner};
 use cosfly_planner::weights::Preset;
-use cosfly_stage::Source;
+use cosfly_planner::{MucoConfig, PlanOutcome};
+use cosfly_stage::{ItemName, Source};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use std::sync::Arc;
@@ -94,6 +94,7 @@ impl Expert {
         }
         check_planner(&config)?;
         check_foresight(&config, &objective)?;
+        check_drones(&config, &objective, &plugins)?;
         Ok(Self { config, objective, plugins, aim })
     }
 
@@ -110,8 +111,8 @@ impl Expert {
         settings.iter().map(|(parameter, setting)| source(parameter, role(parameter), setting)).collect()
     }
 
-    /// Parameters with all defaults filled in, for keys. Those that the objective does not read are left out, and so is the
-    /// number of flights, on which no single flight depends.
+    /// Parameters with all defaults filled in, for keys. Those that the objective does not read are left out, and so are the
+    /// numbers of flights and drones, on which no single flight depends.
     pub fn canonical(&self) -> serde_json::Value {
         let mut all = parameters::canonical(&self.config);
         let plugins = parameters::canonical(&self.plugins.canonical());
@@ -122,6 +123,19 @@ impl Expert {
             all[key] = value.clone();
         }
         let mut objective = parameters::canonical(&self.objective);
+        if let Some(table) = all.as_object_mut() {
+            // What is left at its default is left out, so that recipes that know none of it keep their keys.
+            if self.config.foresight == Foresight::Expected {
+                table.remove("foresight");
+                table.remove("causal");
+            }
+            if self.config.drones.count == 1 {
+                table.remove("drones");
+            }
+        }
+        if let Some(drones) = all.get_mut("drones").and_then(|drones| drones.as_object_mut()) {
+            drones.remove("count");
+        }
         if self.objective.objective == Objective::Track {
             all["aim"] = parameters::canonical(&self.aim);
             return all;
@@ -149,9 +163,32 @@ impl Expert {
         seed: Seed,
         plugins: Plugins,
     ) -> cosfly_diagnose::Result<Result<Flight, String>> {
+        let drones_before = bodies.drones_before;
         let flight = Flight::of((&self.config, &self.objective), world, bodies, seed, plugins)?;
-        Ok(flight.map(|flight| flight.aiming(&self.aim)))
+        let mut flight = match flight {
+            Ok(flight) => flight.aiming(&self.aim),
+            Err(reason) => return Ok(Err(reason)),
+        };
+        // One after the other, each beside those before it. Drones without a flight are in nobody's way.
+        for _ in 0..drones_before {
+            if let PlanOutcome::Planned(flown) = flight.plan(world)?.0 {
+                flight.beside(&flown);
+            }
+        }
+        Ok(Ok(flight))
     }
+
+    /// Names of the variants of each walk's item, one per drone; none where there is one drone alone.
+    pub fn drones(&self) -> Vec<String> {
+        let count = self.config.drones.count;
+        if count > 1 { (1..=count).map(|number| format!("d{number}")).collect() } else { vec![] }
+    }
+}
+
+/// Number of drones that are planned before that of an item, which is named by a variant of [`Expert::drones`].
+pub fn drones_before(item: &ItemName) -> usize {
+    let number: Option<usize> = item.variant().and_then(|name| name.strip_prefix('d')?.parse().ok());
+    number.unwrap_or(1).saturating_sub(1)
 }
 
 /// Refuses parameters that the chosen planner does not support.
@@ -200,6 +237,28 @@ fn check_foresight(config: &MucoConfig, objective: &ObjectiveConfig) -> Result<(
     Err(ParameterError { hint, ..parameters::refused_at("foresight", message) })
 }
 
+/// Refuses what several drones do not support.
+fn check_drones(
+    config: &MucoConfig,
+    objective: &ObjectiveConfig,
+    plugins: &ExpertPlugins,
+) -> Result<(), ParameterError> {
+    if config.drones.count == 1 {
+        return Ok(());
+    }
+    let reason = if objective.objective != Objective::Track {
+        format!("this stage's objective is `{}`, which follows nobody", objective.objective.name())
+    } else if !plugins.terms.is_empty() {
+        "cost terms of plugins may be drawn for each flight anew, so that flights would not know of each other"
+            .to_owned()
+    } else {
+        return Ok(());
+    };
+    let message = format!("`drones.count` is {}, but {reason}", config.drones.count);
+    let hint = Some("leave `drones.count` out".to_owned());
+    Err(ParameterError { hint, ..parameters::refused_at("drones.count", message) })
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -214,8 +273,16 @@ mod tests {
         assert_eq!((again.config, again.objective.objective), (read.config, Objective::Patrol));
         let track = Expert::read(serde_json::json!({ "objective": "track" })).unwrap().canonical();
         let mut defaults = parameters::canonical(&MucoConfig::default());
+        for key in ["foresight", "causal", "drones"] {
+            defaults.as_object_mut().unwrap().remove(key);
+        }
         defaults["aim"] = parameters::canonical(&AimConfig::default());
         assert_eq!(track, defaults);
+        let drones = |count: u32| {
+            Expert::read(serde_json::json!({ "drones": { "count": count, "separation_m": 9.0 } })).unwrap().canonical()
+        };
+        assert_eq!(drones(2), drones(3));
+        assert_eq!(drones(2)["drones"], serde_json::json!({ "separation_m": 9.0 }));
     }
 
     #[test]
@@ -235,6 +302,8 @@ mod tests {
         check(serde_json::json!({ "planner": "beam", "preset": "paper" }), &["planner"]);
         check(serde_json::json!({ "preset": "paper", "occlusion": { "count": 1 } }), &["occlusion", "count"]);
         check(serde_json::json!({ "planner": "astar_smoothed", "occlusion": { "count": 1 } }), &["occlusion", "count"]);
+        check(serde_json::json!({ "drones": { "count": 2 }, "objective": "patrol" }), &["drones", "count"]);
+        check(serde_json::json!({ "drones": { "count": 0 } }), &["drones", "count"]);
         check(serde_json::json!({ "foresight": "causal", "objective": "patrol" }), &["foresight"]);
         check(serde_json::json!({ "foresight": "causal", "planner": "astar_smoothed" }), &["foresight"]);
         check(serde_json::json!({ "foresight": "causal", "occlusion": { "count": 1 } }), &["foresight"]);

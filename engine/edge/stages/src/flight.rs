@@ -11,7 +11,8 @@ use cosfly_objectives::{Mission, Objective, ObjectiveConfig, Site, reference, tr
 use cosfly_pilot::aim::{AimConfig, aimed};
 use cosfly_planner::certificate::view_rates_deg_s;
 use cosfly_planner::obstacles::exact::ExactMap;
-use cosfly_planner::{MucoConfig, PlanOutcome, StartState, TermCost, Trajectory, plan_request};
+use cosfly_planner::obstacles::moving::{OtherDrones, drone_boxes, hides};
+use cosfly_planner::{MucoConfig, PlanOutcome, StartState, TermCost, Trajectory, body_points, plan_request};
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
@@ -28,6 +29,8 @@ pub struct Bodies {
     /// Boxes of everybody else who matters, frame by frame of the walk, world frame: kept clear of and looked past. Between
     /// frames they move evenly and turn the shorter way.
     pub movers: Vec<Vec<OrientedBox>>,
+    /// Number of drones behind the same walk that are planned before this one.
+    pub drones_before: usize,
 }
 
 enum Purpose {
@@ -43,7 +46,10 @@ pub struct Flight {
     pub mission: Mission,
     companion_ids: Vec<String>,
     companions: Vec<TargetTrack>,
+    /// What moves; the last ones are the other drones.
     movers: Vec<Vec<OrientedBox>>,
+    /// Number of other drones.
+    drones: usize,
     purpose: Purpose,
     objective: ObjectiveConfig,
     /// Aim at a walker; `None` where the flight follows nobody.
@@ -87,7 +93,7 @@ impl Flight {
         plugins: Plugins,
         drawn: Option<DrawnReference>,
     ) -> Result<Self, String> {
-        let Bodies { walk, companions, movers } = bodies;
+        let Bodies { walk, companions, movers, .. } = bodies;
         let ground = |x: f64, y: f64| world.ground.ground_height_m(x, y).unwrap_or(0.0);
         let structures = if objective.objective == Objective::Inspect { buildings(world) } else { Vec::new() };
         let site = Site { exact: &world.exact, structures: &structures, ground: &ground, bounds: bounds(world) };
@@ -109,13 +115,43 @@ impl Flight {
         };
         let (companion_ids, companions) = companions.into_iter().unzip();
         let objective = objective.clone();
-        Ok(Self { mission, companion_ids, companions, movers, purpose, objective, aim: None, plugins, seed })
+        Ok(Self { mission, companion_ids, companions, movers, drones: 0, purpose, objective, aim: None, plugins, seed })
     }
 
     /// The same flight with a pilot who aims at the walker as `aim` says; flights that follow nobody stay as they are.
     pub fn aiming(mut self, aim: &AimConfig) -> Self {
         self.aim = matches!(self.purpose, Purpose::Walker).then(|| aim.clone());
         self
+    }
+
+    /// Adds the flight of another drone behind the same walker, to be kept apart from.
+    pub fn beside(&mut self, flown: &Trajectory) {
+        let places: Vec<DVec3> = flown.poses_in_world.iter().map(|pose| pose.position_in_world).collect();
+        self.movers.push(drone_boxes(&places));
+        self.drones += 1;
+    }
+
+    fn others(&self) -> OtherDrones {
+        OtherDrones { count: self.drones, separation_m: self.mission.config.drones.separation_m }
+    }
+
+    /// The first frame in which a drone is between the target and another drone, as a reason; `None` where none is.
+    fn hidden_by_a_drone(&self, flight: &Trajectory) -> Option<String> {
+        let places: Vec<DVec3> = flight.poses_in_world.iter().map(|pose| pose.position_in_world).collect();
+        let own = drone_boxes(&places);
+        let others = &self.movers[self.movers.len() - self.drones..];
+        flight.track.states.iter().enumerate().find_map(|(frame, state)| {
+            let points = body_points(state, flight.track.height_m);
+            let hides = |one: &OrientedBox, other: &OrientedBox| {
+                points.iter().any(|point| hides(one, *point, other.center_in_world))
+            };
+            let is_between = |other: &Vec<OrientedBox>| {
+                let other = &other[frame];
+                hides(&own[frame], other) || hides(other, &own[frame])
+            };
+            let number = others.iter().position(is_between)? + 1;
+            Some(format!("at frame {frame} this drone or drone {number} hides the target from the other one"))
+        })
     }
 
     /// The whole flight, and warnings of plugins for users. An inspection lists its coverage beside its costs, as `coverage`
@@ -127,6 +163,11 @@ impl Flight {
         let (mut outcome, warnings) =
             self.plan_mission(world, &self.mission, (&self.companions, &self.movers), None)?;
         self.take_aim(&mut outcome, 0);
+        if let PlanOutcome::Planned(flight) = &outcome
+            && let Some(reason) = self.hidden_by_a_drone(flight)
+        {
+            outcome = PlanOutcome::Rejected { track: flight.track.clone(), reason };
+        }
         if let (PlanOutcome::Planned(flight), Purpose::Walls(inspection)) = (&mut outcome, &self.purpose) {
             let ground = |x: f64, y: f64| world.ground.ground_height_m(x, y).unwrap_or(0.0);
             let structures = buildings(world);
@@ -191,7 +232,7 @@ impl Flight {
     ) -> cosfly_diagnose::Result<(PlanOutcome, Vec<String>)> {
         let ground = |x: f64, y: f64| world.ground.ground_height_m(x, y).unwrap_or(0.0);
         let mut request = mission.request(&world.exact, &world.town.planning_boxes, &ground);
-        (request.companions, request.movers) = (companions, movers);
+        (request.companions, request.movers, request.drones) = (companions, movers, self.others());
         if let Some((frame, state, known)) = start {
             (request.start, request.flight) = (Some(state), known);
             request.first_frame = i64::try_from(frame).unwrap_or(i64::MAX);
@@ -225,9 +266,12 @@ impl Flight {
                 }
             }
         }
+        if self.drones > 0 {
+            notes.insert("drones before".to_owned(), self.drones.to_string());
+        }
         if !self.companions.is_empty() {
             notes.insert("companions".to_owned(), self.companion_ids.join(", "));
-            let map = ExactMap { query: &world.exact, movers: &self.movers };
+            let map = ExactMap::among(&world.exact, &self.movers);
             let seen = self.companions.iter().map(|companion| companion_visibility(map, companion, flight));
             let mean = seen.sum::<f64>() / self.companions.len() as f64;
             notes.insert("visibility of companions".to_owned(), format!("{mean:.3}"));
@@ -324,5 +368,28 @@ mod tests {
         assert_eq!((whole.len(), rest.len()), (60, 40));
         assert!(whole.iter().enumerate().all(|(i, place)| gap(i, *place) >= 1.5));
         assert!(rest.iter().enumerate().all(|(i, place)| gap(i + 10, *place) >= 1.5));
+    }
+
+    #[test]
+    fn each_drone_keeps_apart_from_those_before_it_and_is_the_same_whoever_asks() {
+        let state = |x: f64| TargetState { feet_in_world: DVec3::new(x, 0.0, 0.0), heading_rad: 0.0, speed_mps: 1.0 };
+        let states = (0..60).map(|i| state(0.5 * f64::from(i))).collect();
+        let walk = TargetTrack { dt_s: 0.5, height_m: 1.75, radius_m: 0.3, states };
+        let world = Arc::new(World::new(Town::default()));
+        let given = serde_json::json!({ "drones": { "count": 3, "separation_m": 7.0 } });
+        let places = |drone: usize| -> Vec<DVec3> {
+            let bodies = Bodies { walk: Some(walk.clone()), drones_before: drone, ..Bodies::default() };
+            let expert = Expert::read(given.clone()).unwrap();
+            let flight = expert.flight(&world, bodies, Seed([1; 32]), Plugins::default()).unwrap().unwrap();
+            match flight.plan(&world).unwrap().0 {
+                PlanOutcome::Planned(flight) => flight.poses_in_world.iter().map(|it| it.position_in_world).collect(),
+                PlanOutcome::Rejected { reason, .. } => panic!("{reason}"),
+            }
+        };
+        let flown = [0, 1, 2].map(places);
+        for (one, other) in [(0, 1), (0, 2), (1, 2)] {
+            let apart = flown[one].iter().zip(&flown[other]).map(|(a, b)| a.distance(*b)).fold(f64::INFINITY, f64::min);
+            assert!(apart >= 7.0, "{one} {other}: {apart}");
+        }
     }
 }

@@ -27,6 +27,7 @@ mod planners;
 pub mod plugins;
 mod ports;
 mod published_towns;
+mod quotas;
 pub mod read;
 mod rejections;
 mod render;

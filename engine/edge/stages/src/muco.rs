@@ -1,8 +1,9 @@
 //! `muco`: expert trajectories from the multi-constraint optimiser.
 
-use crate::expert::{Bodies, Expert};
+use crate::expert::{Bodies, Expert, drones_before};
 use crate::plugins::Plugins;
 use crate::ports::{self, TRAJECTORY, WALK};
+use crate::quotas::{self, Trial};
 use crate::world::{check_same_town, link_town, world};
 use crate::{codec, companions, traffic};
 use cosfly_blobs::OutputSink;
@@ -42,14 +43,24 @@ impl StageKind for Muco {
         let (mut parts, inputs, items) = match expert.count() {
             None => {
                 let ports = vec![ports::town(), paths(), companions::port(count == 0)];
-                (vec![companions::part(count, paths(), others())], ports, ItemRule::PerInput("paths"))
+                let items = match expert.drones() {
+                    alone if alone.is_empty() => ItemRule::PerInput("paths"),
+                    variants => ItemRule::PerVariant { port: "paths", variants },
+                };
+                (vec![companions::part(count, paths(), others())], ports, items)
             }
             Some(count) => (vec![], vec![ports::town()], ItemRule::Count { prefix: "f", count }),
         };
+        let occlusion = expert.config.occlusion.clone();
+        let mut parameters = expert.canonical();
+        // A flight depends on its own order alone.
+        for key in ["share", "beside_look_alike"] {
+            parameters["occlusion"].as_object_mut().expect("a table").remove(key);
+        }
         let properties = StageProperties {
             kind: self.name().into(),
             version: 3,
-            parameters: expert.canonical(),
+            parameters,
             sources: expert.sources(),
             inputs,
             artifact: TRAJECTORY,
@@ -57,7 +68,15 @@ impl StageKind for Muco {
             bytes_per_item: 60_000,
             intermediate: &[],
         };
-        parts.push(StagePart { suffix: "", stage: Box::new(MucoStage { expert, properties }) });
+        let mut main = properties.clone();
+        if occlusion.has_quota() && expert.count().is_none() {
+            let trial = StageProperties { artifact: ports::LOSSES, bytes_per_item: 100, ..properties };
+            let trial = MucoStage { expert: expert.clone(), properties: trial, is_trial: true };
+            parts.push(StagePart { suffix: quotas::TRIALS, stage: Box::new(trial) });
+            parts.push(quotas::orders_part(&occlusion));
+            main.inputs.push(quotas::port());
+        }
+        parts.push(StagePart { suffix: "", stage: Box::new(MucoStage { expert, properties: main, is_trial: false }) });
         Ok(parts)
     }
 }
@@ -73,6 +92,8 @@ fn others() -> InputPort {
 struct MucoStage {
     expert: Expert,
     properties: StageProperties,
+    /// Whether the flights are planned only to learn whether they can lose their targets.
+    is_trial: bool,
 }
 
 impl Stage for MucoStage {
@@ -89,13 +110,17 @@ impl Stage for MucoStage {
             let walk: PedestrianPath = codec::decode(WALK, &inputs.read(artifact, "walk")?)?;
             around = traffic::cut_around(inputs, artifact, &walk.track)?;
             let (companions, movers) = (companions::read(inputs)?, around.boxes());
-            Bodies { walk: Some(walk.track), companions, movers }
+            Bodies { walk: Some(walk.track), companions, movers, drones_before: drones_before(&context.id.item) }
         } else {
             Bodies::default()
         };
-        let plugins = Plugins::of_expert(&self.expert.plugins, &context.sources)?;
+        let mut expert = self.expert.clone();
+        if quotas::order(inputs, context)? == Some(false) {
+            expert.config.occlusion.count = 0;
+        }
+        let plugins = Plugins::of_expert(&expert.plugins, &context.sources)?;
         let plugins = plugins.for_item(context.id.to_string());
-        let flight = self.expert.flight(&world, bodies, Seed(context.seed), plugins)?;
+        let flight = expert.flight(&world, bodies, Seed(context.seed), plugins)?;
         let (outcome, findings) = match flight {
             Ok(flight) => {
                 let (outcome, said) = flight.plan(&world)?;
@@ -111,6 +136,11 @@ impl Stage for MucoStage {
                 (PlanOutcome::Rejected { track, reason }, Default::default())
             }
         };
+        if self.is_trial {
+            let followed = traffic::followed(inputs, inputs.one("paths")?)?;
+            Trial::of(&outcome, &expert.config.occlusion, &around, followed.as_ref()).put(outputs)?;
+            return Ok(Produced::default());
+        }
         outputs.put("trajectory", &codec::encode(TRAJECTORY, &outcome)?)?;
         link_town(inputs, outputs)?;
         if let Some(walk) = inputs.all("paths").first() {

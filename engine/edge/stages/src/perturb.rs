@@ -70,7 +70,7 @@ impl Stage for PerturbStage {
         let twin = match expert {
             PlanOutcome::Planned(expert) => {
                 let movers = traffic::around(inputs, artifact)?.boxes();
-                let map = ExactMap { query: &world.exact, movers: &movers };
+                let map = ExactMap::among(&world.exact, &movers);
                 perturb(&expert, &expert_id, map, &self.config, Seed(context.seed))
             }
             PlanOutcome::Rejected { track, reason } => {

@@ -14,6 +14,10 @@ pub const COMPANIONS: &str = "companions/1";
 pub const TRAFFIC: &str = "traffic/1";
 /// Artifact of the bodies around the target of a flight.
 pub const AROUND: &str = "around/1";
+/// Artifact of what came of ordering a loss of the target.
+pub const LOSSES: &str = "losses/1";
+/// Artifact of the orders to lose the target, by item.
+pub const ORDERS: &str = "orders/1";
 /// Artifact of a planned or perturbed trajectory.
 pub const TRAJECTORY: &str = "trajectory/3";
 /// Artifact of the people who are near a flight.

@@ -101,6 +101,11 @@ struct RenderStage {
     idle: Mutex<Vec<Rig>>,
 }
 
+/// Item of the walk that a flight follows: several drones behind one walk are variants of it.
+fn walker(flight: &ItemName) -> ItemName {
+    flight.without_variant().unwrap_or_else(|| flight.clone())
+}
+
 impl Stage for RenderStage {
     fn properties(&self) -> &StageProperties {
         &self.properties
@@ -118,7 +123,7 @@ impl Stage for RenderStage {
                 let rejection = Rejection {
                     trajectory_id: context.id.item.to_string(),
                     stage: artifact.id.stage.to_string(),
-                    pedestrian_id: artifact.id.item.to_string(),
+                    pedestrian_id: walker(&artifact.id.item).to_string(),
                     town: world.town.name.clone(),
                     reason,
                 };
@@ -147,7 +152,7 @@ impl Stage for RenderStage {
             flight_id: artifact.name.to_string(),
             role: if pair.is_some() { Role::Perturbed } else { Role::Expert },
             // A trajectory has the name of the walk that it follows.
-            pedestrian_id: artifact.id.item.to_string(),
+            pedestrian_id: walker(&artifact.id.item).to_string(),
             town: TownInfo::of(&world.town, town_digest),
             trajectory,
             camera: shooting.camera,

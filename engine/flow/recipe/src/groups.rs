@@ -25,13 +25,13 @@ pub(crate) struct Groups {
 /// Item that an item began as: where a stage has an item for each one of another stage, that one, and so on.
 fn origin(done: &[RecipeStage], (mut stage, mut item): Origin) -> Origin {
     loop {
-        let (port, per_item) = match &done[stage].stage.properties().items {
-            ItemRule::PerInput(port) => (*port, 1),
-            ItemRule::PerVariant { port, variants } => (*port, variants.len().max(1)),
+        let port = match &done[stage].stage.properties().items {
+            ItemRule::PerInput(port) | ItemRule::PerVariant { port, .. } => *port,
             ItemRule::One | ItemRule::Count { .. } | ItemRule::Groups { .. } => return (stage, item),
         };
         let arrivals = done[stage].connection(port).map(|connection| &connection.arrivals);
-        let Some(arrival) = arrivals.and_then(|arrivals| arrivals.get(item / per_item)) else { return (stage, item) };
+        // One arrival per item, also where several variants read the same one.
+        let Some(arrival) = arrivals.and_then(|arrivals| arrivals.get(item)) else { return (stage, item) };
         (stage, item) = (arrival.stage, arrival.item);
     }
 }

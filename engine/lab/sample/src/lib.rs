@@ -108,6 +108,7 @@ pub fn town() -> Town {
         obstacles: vec![wall],
         planning_boxes: vec![],
         simplification: SimplificationReport::default(),
+        lanes: vec![],
         walkable: vec![],
         surfaces: vec![],
         lanes: vec![],

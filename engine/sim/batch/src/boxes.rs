@@ -107,7 +107,7 @@ impl SolidBox {
             rays.map(|ray| ray.z),
         ];
         let mut planes = [[0.0f32; 3]; 6];
-        let mut numbers = [0u32; 3];
+        let mut numbers = [0.0f32; 3];
         let (mut entries, mut exits) = (0, 6);
         let lift = 1.0 + self.lift;
         let mut leave = |axis: usize, way: f64| {
@@ -135,7 +135,7 @@ impl SolidBox {
                 let scale = 1.0 / ways[axis];
                 let plane = along[axis].map(|part| part * scale);
                 planes[entries] = plane.map(|part| (part * lift) as f32);
-                numbers[entries] = faces.len() as u32;
+                numbers[entries] = faces.len() as f32;
                 faces.push(DrawnFace { plane, instance: self.instance, label: self.label });
                 entries += 1;
             }

@@ -157,7 +157,9 @@ fn is_covered(face: &SceneFace, ground: &GroundIndex) -> bool {
         })
     };
     let is_small = corners.iter().all(|corner| corner.distance(middle) < LARGEST_M);
-    is_small
+    let is_level = normal.z.abs() > 0.5;
+    is_level
+        && is_small
         && is_covered(middle)
         && corners.iter().all(|corner| is_covered(corner.lerp(middle, 1e-3)))
         && on_edges()

@@ -18,8 +18,8 @@ pub struct Canvas {
     pub blocks: usize,
     /// Inverse depth with the lift of coplanar faces in it, 1/m; 0 where nothing was drawn.
     pub inverse_depth: Vec<[f32; WIDE]>,
-    /// Number of the face in this picture's list; 0 where nothing was drawn.
-    pub face: Vec<[u32; WIDE]>,
+    /// Number of the face in this picture's list, whole, below 2^24; 0 where nothing was drawn.
+    pub face: Vec<[f32; WIDE]>,
     /// Columns of pixel centres from the image's centre.
     pub columns: Vec<[f32; WIDE]>,
 }
@@ -33,14 +33,14 @@ impl Canvas {
             height,
             blocks,
             inverse_depth: vec![[0.0; WIDE]; blocks * height],
-            face: vec![[0; WIDE]; blocks * height],
+            face: vec![[0.0; WIDE]; blocks * height],
             columns: (0..blocks).map(|block| core::array::from_fn(|k| column(WIDE * block + k))).collect(),
         }
     }
 
     pub fn clear(&mut self) {
         self.inverse_depth.fill([0.0; WIDE]);
-        self.face.fill([0; WIDE]);
+        self.face.fill([0.0; WIDE]);
     }
 
     /// Size in pixels.
@@ -61,11 +61,16 @@ impl Canvas {
     #[inline]
     pub fn hides(&self, part: Part, inverse_depth: f32) -> bool {
         let limit = inverse_depth * NEARER;
-        (part.rows[0]..part.rows[1]).all(|row| {
+        let mut least = [f32::INFINITY; WIDE];
+        for row in part.rows[0]..part.rows[1] {
             let start = row as usize * self.blocks;
-            let blocks = &self.inverse_depth[start + part.blocks[0] as usize..start + part.blocks[1] as usize];
-            blocks.iter().all(|block| block.iter().fold(true, |all, depth| all & (*depth > limit)))
-        })
+            for block in &self.inverse_depth[start + part.blocks[0] as usize..start + part.blocks[1] as usize] {
+                for k in 0..WIDE {
+                    least[k] = if block[k] < least[k] { block[k] } else { least[k] };
+                }
+            }
+        }
+        least.iter().all(|least| *least > limit)
     }
 }
 
@@ -110,7 +115,7 @@ impl<const COUNT: usize> Parts<COUNT> {
                 let to = high[axis][k] + (half + MARGIN_PX);
                 let to = if to > -1.0 { to } else { -1.0 };
                 let to = if to < size[axis] - 1.0 { to } else { size[axis] - 1.0 };
-                self.first[axis][k] = -whole(-from);
+                self.first[axis][k] = whole(-from).wrapping_neg();
                 self.end[axis][k] = whole(to).wrapping_add(1);
             }
         }

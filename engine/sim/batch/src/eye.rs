@@ -64,27 +64,15 @@ impl Eye {
         self.ray_in_world.map(|part| part.dot(direction_in_world))
     }
 
-    /// Inverse depth of the plane through `point` with unit normal `normal`; `None` when the camera lies in it.
+    /// Inverse depth of the plane with a unit normal and the component `offset_m` of its points along it; `None` when the
+    /// camera lies in it.
     #[inline]
-    pub fn plane(&self, normal_in_world: DVec3, point_in_world: DVec3) -> Option<Linear> {
-        let distance = normal_in_world.dot(point_in_world - self.position_in_world);
+    pub fn plane(&self, normal_in_world: DVec3, offset_m: f64) -> Option<Linear> {
+        let distance = offset_m - normal_in_world.dot(self.position_in_world);
         if distance.abs() < 1e-12 || !distance.is_finite() {
             return None;
         }
-        Some(self.along(normal_in_world).map(|part| part / distance))
-    }
-
-    /// Whether an axis-aligned box may be in view.
-    pub fn may_see(&self, center_in_world: DVec3, half_m: DVec3) -> bool {
-        let center = self.see(center_in_world);
-        let (across, up) = (self.half_px[0] / self.focal_px, self.half_px[1] / self.focal_px);
-        // Reach of the box along a body direction.
-        let world_from_body = self.body_from_world.transpose();
-        let is_before = |plane: DVec3| plane.dot(center) + (world_from_body * plane).abs().dot(half_m) >= 0.0;
-        is_before(DVec3::X)
-            && is_before(DVec3::new(across, 1.0, 0.0))
-            && is_before(DVec3::new(across, -1.0, 0.0))
-            && is_before(DVec3::new(up, 0.0, 1.0))
-            && is_before(DVec3::new(up, 0.0, -1.0))
+        let scale = 1.0 / distance;
+        Some(self.along(normal_in_world).map(|part| part * scale))
     }
 }

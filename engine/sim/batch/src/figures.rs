@@ -1,7 +1,7 @@
 //! People and other figures as triangles.
 
-use crate::canvas::WIDE;
-use crate::eye::Eye;
+use crate::canvas::{Canvas, Part, Parts, WIDE};
+use crate::eye::{Eye, NEAR_M};
 use cosfly_frames::simd::Level;
 use cosfly_frames::{DVec3, Seed, real, simd_kernel};
 use cosfly_render::Walker;
@@ -20,17 +20,25 @@ impl Around {
     pub fn new(eye: &Eye, points_in_world: impl Iterator<Item = DVec3>) -> Self {
         let (mut low, mut high) = ([f32::INFINITY; 2], [f32::NEG_INFINITY; 2]);
         let mut nearest_m = f64::INFINITY;
+        // How far points reach within the sides of the view.
+        let mut within = [f64::NEG_INFINITY; 4];
         for point in points_in_world {
             let seen = eye.see(point);
             nearest_m = nearest_m.min(seen.x);
+            let [wide, tall] = eye.half_px.map(|half| half / eye.focal_px * seen.x);
+            let reach = [wide + seen.y, wide - seen.y, tall + seen.z, tall - seen.z];
+            within.iter_mut().zip(reach).for_each(|(within, reach)| *within = within.max(reach));
             let at = [eye.focal_px * seen.y / seen.x, -eye.focal_px * seen.z / seen.x].map(|part| part as f32);
             for axis in 0..2 {
                 low[axis] = low[axis].min(at[axis]);
                 high[axis] = high[axis].max(at[axis]);
             }
         }
-        if nearest_m < crate::eye::NEAR_M {
+        if nearest_m < NEAR_M {
             (low, high) = ([f32::NEG_INFINITY; 2], [f32::INFINITY; 2]);
+        }
+        if within.iter().any(|within| *within < 0.0) {
+            (low, high) = ([f32::INFINITY; 2], [f32::NEG_INFINITY; 2]);
         }
         Self { low, high, nearest_m }
     }
@@ -43,11 +51,18 @@ impl Around {
 }
 
 /// Corners of the two rings of a part of a body on the screen: metres ahead, pixels from the image's centre.
+#[derive(Default)]
 pub struct SeenPart {
     /// Corners in body axes of the camera, metres: x ahead, y right, z up; ring by ring.
-    pub points: [[[f32; WIDE]; 3]; 2],
+    points: [[[f32; WIDE]; 3]; 2],
     /// Right and down.
-    pub pixels: [[[f32; WIDE]; 2]; 2],
+    pixels: [[[f32; WIDE]; 2]; 2],
+    /// The pixels that each side may cover.
+    sides: Parts<WIDE>,
+    /// Twice the areas of each side's two triangles, positive where they are seen from outside.
+    areas: [[f32; WIDE]; 2],
+    /// Twice the areas of both ends, positive where they are seen from outside.
+    ends: [f32; 2],
     pub low: [f32; 2],
     pub high: [f32; 2],
     pub nearest_m: f32,
@@ -57,7 +72,9 @@ pub struct SeenPart {
 pub struct Stance {
     feet: DVec3,
     axes: [DVec3; 3],
+    height_m: f64,
     focal_px: f32,
+    size_px: [f32; 2],
 }
 
 /// Directions of the corners of a ring; the last two repeat the first, to fill eight lanes.
@@ -76,8 +93,31 @@ impl Stance {
         Self {
             feet: eye.see(sunk),
             axes: axes.map(|axis| eye.body_from_world * axis * walker.height_m),
+            height_m: walker.height_m,
             focal_px: eye.focal_px as f32,
+            size_px: eye.half_px.map(|half| 2.0 * half as f32),
         }
+    }
+
+    /// The pixels that a part of the body may cover, roughly; `None` when it covers none.
+    pub fn part(&self, canvas: &Canvas, part: &FigurePart) -> Option<Part> {
+        let [forward, right, up] = self.axes;
+        let (mut low, mut high) = ([f32::INFINITY; 2], [f32::NEG_INFINITY; 2]);
+        for ring in [part.low, part.high] {
+            let center = self.feet + forward * ring.forward + right * ring.right + up * ring.up.max(0.0);
+            // Corners lie on an ellipse around the centre.
+            let reach_m = ring.half_forward.max(ring.half_side) * self.height_m;
+            let nearest_m = center.x - reach_m;
+            if nearest_m < 2.0 * NEAR_M {
+                return canvas.part([f32::NEG_INFINITY; 2], [f32::INFINITY; 2]);
+            }
+            for (axis, way) in [center.y, -center.z].into_iter().enumerate() {
+                let (at, spread) = (way / center.x, reach_m * (1.0 + (way / center.x).abs()) / nearest_m);
+                low[axis] = low[axis].min(self.focal_px * (at - spread) as f32);
+                high[axis] = high[axis].max(self.focal_px * (at + spread) as f32);
+            }
+        }
+        canvas.part(low, high)
     }
 
     /// A part of the body on the screen.
@@ -87,20 +127,21 @@ impl Stance {
             let center = self.feet + forward * ring.forward + right * ring.right + up * ring.up.max(0.0);
             [center, forward * ring.half_forward, right * ring.half_side].map(|vector| vector.as_vec3().to_array())
         });
-        let mut seen = SeenPart {
-            points: [[[0.0; WIDE]; 3]; 2],
-            pixels: [[[0.0; WIDE]; 2]; 2],
-            low: [0.0; 2],
-            high: [0.0; 2],
-            nearest_m: 0.0,
-        };
-        project(level, &rings, self.focal_px, &mut seen);
+        let mut seen = SeenPart::default();
+        let turned = if part.high.up < part.low.up { -1.0 } else { 1.0 };
+        project(level, &rings, self.focal_px, self.size_px, turned, &mut seen);
         seen
     }
 }
 
 simd_kernel! {
-    fn project(rings: &[[[f32; 3]; 3]; 2], focal_px: f32, seen: &mut SeenPart) {
+    fn project(
+        rings: &[[[f32; 3]; 3]; 2],
+        focal_px: f32,
+        size_px: [f32; 2],
+        turned: f32,
+        seen: &mut SeenPart,
+    ) {
         let mut low = [[f32::INFINITY; WIDE]; 2];
         let mut high = [[f32::NEG_INFINITY; WIDE]; 2];
         let mut nearest = [f32::INFINITY; WIDE];
@@ -135,6 +176,36 @@ simd_kernel! {
         for k in 1..WIDE {
             seen.nearest_m = if nearest[k] < seen.nearest_m { nearest[k] } else { seen.nearest_m };
         }
+        // Side `k` lies between the corners `k` and `k + 1` of both rings.
+        let mut low = [[0.0f32; WIDE]; 2];
+        let mut high = [[0.0f32; WIDE]; 2];
+        let [[u, v], [high_u, high_v]] = &seen.pixels;
+        for axis in 0..2 {
+            let (one, other) = (&seen.pixels[0][axis], &seen.pixels[1][axis]);
+            for k in 0..WIDE - 1 {
+                let least = if one[k] < one[k + 1] { one[k] } else { one[k + 1] };
+                let most = if one[k] > one[k + 1] { one[k] } else { one[k + 1] };
+                let other_least = if other[k] < other[k + 1] { other[k] } else { other[k + 1] };
+                let other_most = if other[k] > other[k + 1] { other[k] } else { other[k + 1] };
+                low[axis][k] = if other_least < least { other_least } else { least };
+                high[axis][k] = if other_most > most { other_most } else { most };
+            }
+        }
+        seen.sides.find(size_px, &low, &high);
+        for k in 0..WIDE - 1 {
+            let (across, down) = (u[k + 1] - high_u[k], v[k + 1] - high_v[k]);
+            let first = (u[k] - high_u[k]) * down - (v[k] - high_v[k]) * across;
+            let second = across * (high_v[k + 1] - high_v[k]) - down * (high_u[k + 1] - high_u[k]);
+            (seen.areas[0][k], seen.areas[1][k]) = (turned * first, turned * second);
+        }
+        for (ring, sign) in [(0, -turned), (1, turned)] {
+            let [u, v] = &seen.pixels[ring];
+            let mut area = 0.0;
+            for k in 1..SIDES - 1 {
+                area += (u[k] - u[0]) * (v[k + 1] - v[0]) - (v[k] - v[0]) * (u[k + 1] - u[0]);
+            }
+            seen.ends[ring] = sign * area;
+        }
     }
 }
 
@@ -157,41 +228,43 @@ impl Wardrobe {
     }
 }
 
-/// Corners of a frustum's triangles: ring and number. Two for each side; the ends as fans around their first corner, which
-/// cover the same pixels as the flat ends themselves.
-const TRIANGLES: [[(usize, usize); 3]; 20] = {
-    let mut triangles = [[(0, 0); 3]; 20];
-    let mut k = 0;
-    while k < SIDES {
-        let next = (k + 1) % SIDES;
-        triangles[2 * k] = [(0, k), (0, next), (1, k)];
-        triangles[2 * k + 1] = [(1, k), (0, next), (1, next)];
-        k += 1;
-    }
-    let mut k = 2;
-    while k < SIDES {
-        triangles[2 * SIDES + k - 2] = [(0, 0), (0, k), (0, k - 1)];
-        triangles[2 * SIDES + SIDES + k - 4] = [(1, 0), (1, k - 1), (1, k)];
-        k += 1;
-    }
-    triangles
-};
-
 impl SeenPart {
     /// Corner `k` of a ring in body axes, metres.
     #[inline]
-    pub fn point(&self, ring: usize, k: usize) -> DVec3 {
+    fn point(&self, ring: usize, k: usize) -> DVec3 {
         let [x, y, z] = &self.points[ring];
         DVec3::new(f64::from(x[k]), f64::from(y[k]), f64::from(z[k]))
     }
 
-    /// The triangles of its surface, by ring and number of the corners.
-    pub fn corners(&self) -> &'static [[(usize, usize); 3]] {
-        &TRIANGLES
+    /// The triangles of the sides that are seen from outside and may cover a pixel: the part of the canvas, corners in body
+    /// axes and on the screen.
+    pub fn sides(&self) -> impl Iterator<Item = (Part, [DVec3; 3], [[f32; 2]; 3])> {
+        (0..SIDES).filter_map(|k| Some((k, self.sides.get(k)?))).flat_map(move |(k, part)| {
+            let corners = [[(0, k), (0, k + 1), (1, k)], [(1, k), (0, k + 1), (1, k + 1)]];
+            let seen = (0..2).filter(move |half| self.areas[*half][k] > 0.0);
+            seen.map(move |half| {
+                let points = corners[half].map(|(ring, k)| self.point(ring, k));
+                (part, points, corners[half].map(|(ring, k)| self.pixel(ring, k)))
+            })
+        })
     }
 
-    /// The triangles of its surface in body axes.
+    /// The flat ends that are seen from outside: three corners in body axes, all corners on the screen.
+    pub fn ends(&self) -> impl Iterator<Item = ([DVec3; 3], [[f32; 2]; SIDES])> {
+        (0..2)
+            .filter(|ring| self.ends[*ring] > 0.0)
+            .map(|ring| ([0, 2, 4].map(|k| self.point(ring, k)), core::array::from_fn(|k| self.pixel(ring, k))))
+    }
+
+    fn pixel(&self, ring: usize, k: usize) -> [f32; 2] {
+        [self.pixels[ring][0][k], self.pixels[ring][1][k]]
+    }
+
+    /// All triangles of its surface in body axes.
     pub fn triangles(&self) -> impl Iterator<Item = [DVec3; 3]> {
-        TRIANGLES.iter().map(|corners| corners.map(|(ring, k)| self.point(ring, k)))
+        let side = |k: usize| [[(0, k), (0, k + 1), (1, k)], [(1, k), (0, k + 1), (1, k + 1)]];
+        let end = |k: usize| [[(0, 0), (0, k), (0, k + 1)], [(1, 0), (1, k), (1, k + 1)]];
+        let all = (0..SIDES).flat_map(side).chain((1..SIDES - 1).flat_map(end));
+        all.map(|corners| corners.map(|(ring, k)| self.point(ring, k)))
     }
 }

@@ -43,10 +43,19 @@ pub struct Pack {
 /// A flat convex polygon.
 pub struct Polygon {
     pub normal_in_world: DVec3,
-    pub point_in_world: DVec3,
+    /// Component of its points along the normal, metres.
+    pub offset_m: f64,
     pub lift: f64,
-    pub label: u8,
     corners: Range<u32>,
+    pub label: u8,
+}
+
+impl Polygon {
+    /// Number of corners.
+    #[inline]
+    pub fn count(&self) -> usize {
+        (self.corners.end - self.corners.start) as usize
+    }
 }
 
 /// Eight polygons on the screen; pixels from the image's centre, metres ahead.
@@ -91,7 +100,7 @@ impl Ground {
                 self.corners_in_world.extend(&face.corners_in_world);
                 self.polygons.push(Polygon {
                     normal_in_world: face.normal_in_world,
-                    point_in_world: face.point_in_world,
+                    offset_m: face.normal_in_world.dot(face.point_in_world),
                     lift: face.lift,
                     label: face.label,
                     corners: start..self.corners_in_world.len() as u32,
@@ -180,13 +189,14 @@ fn bounds_of(faces: &[&SceneFace]) -> Bounds {
 
 simd_kernel! {
     fn project(corners: &[[[f32; WIDE]; 3]], origin: [f32; 3], turn: &[[f32; 3]; 3], size: [f32; 2], seen: &mut SeenPack) {
-        let mut low = [[f32::INFINITY; WIDE]; 2];
-        let mut high = [[f32::NEG_INFINITY; WIDE]; 2];
+        let (mut low_u, mut low_v) = ([f32::INFINITY; WIDE], [f32::INFINITY; WIDE]);
+        let (mut high_u, mut high_v) = ([f32::NEG_INFINITY; WIDE], [f32::NEG_INFINITY; WIDE]);
         let mut nearest = [f32::INFINITY; WIDE];
         let mut farthest = [f32::NEG_INFINITY; WIDE];
         let mut coarse = [0.0f32; WIDE];
         // How far corners reach within the sides of the view.
-        let mut within = [[f32::NEG_INFINITY; WIDE]; 4];
+        let (mut left, mut right_side) = ([f32::NEG_INFINITY; WIDE], [f32::NEG_INFINITY; WIDE]);
+        let (mut top, mut bottom) = ([f32::NEG_INFINITY; WIDE], [f32::NEG_INFINITY; WIDE]);
         for (corner, seen) in corners.iter().zip(seen.corners.iter_mut()) {
             for k in 0..WIDE {
                 let [x, y, z] = [corner[0][k], corner[1][k], corner[2][k]];
@@ -197,14 +207,17 @@ simd_kernel! {
                 let (u, v) = (right * scale, down * scale);
                 seen[0][k] = u;
                 seen[1][k] = v;
-                low[0][k] = if u < low[0][k] { u } else { low[0][k] };
-                low[1][k] = if v < low[1][k] { v } else { low[1][k] };
-                high[0][k] = if u > high[0][k] { u } else { high[0][k] };
-                high[1][k] = if v > high[1][k] { v } else { high[1][k] };
+                low_u[k] = if u < low_u[k] { u } else { low_u[k] };
+                low_v[k] = if v < low_v[k] { v } else { low_v[k] };
+                high_u[k] = if u > high_u[k] { u } else { high_u[k] };
+                high_v[k] = if v > high_v[k] { v } else { high_v[k] };
                 let (wide, tall) = (0.5 * size[0] * ahead, 0.5 * size[1] * ahead);
-                for (within, by) in within.iter_mut().zip([wide + right, wide - right, tall + down, tall - down]) {
-                    within[k] = if by > within[k] { by } else { within[k] };
-                }
+                let (from_left, from_right) = (wide + right, wide - right);
+                let (from_top, from_bottom) = (tall + down, tall - down);
+                left[k] = if from_left > left[k] { from_left } else { left[k] };
+                right_side[k] = if from_right > right_side[k] { from_right } else { right_side[k] };
+                top[k] = if from_top > top[k] { from_top } else { top[k] };
+                bottom[k] = if from_bottom > bottom[k] { from_bottom } else { bottom[k] };
                 nearest[k] = if ahead < nearest[k] { ahead } else { nearest[k] };
                 farthest[k] = if ahead > farthest[k] { ahead } else { farthest[k] };
                 let away = if u.abs() > v.abs() { u.abs() } else { v.abs() };
@@ -212,20 +225,25 @@ simd_kernel! {
                 coarse[k] = if spread > coarse[k] { spread } else { coarse[k] };
             }
         }
-        for k in 0..WIDE {
-            let ahead = nearest[k] >= NEAR_M as f32;
-            for axis in 0..2 {
-                low[axis][k] = if ahead { low[axis][k] } else { f32::NEG_INFINITY };
-                high[axis][k] = if ahead { high[axis][k] } else { f32::INFINITY };
-                // Nothing of what lies behind or beside the view.
-                let is_beside = (within[2 * axis][k] < 0.0) | (within[2 * axis + 1][k] < 0.0);
-                let is_out = is_beside | (farthest[k] < NEAR_M as f32);
-                high[axis][k] = if is_out { f32::NEG_INFINITY } else { high[axis][k] };
-                let is_off = (low[axis][k] < -FAR_OFF_PX) | (high[axis][k] > FAR_OFF_PX);
-                coarse[k] = if is_off { f32::INFINITY } else { coarse[k] };
+        let (low, high) = ([low_u, low_v], [high_u, high_v]);
+        let within = [left, right_side, top, bottom];
+        let mut from = [[0.0f32; WIDE]; 2];
+        let mut to = [[0.0f32; WIDE]; 2];
+        for axis in 0..2 {
+            for k in 0..WIDE {
+                let low = if low[axis][k] < -FAR_OFF_PX { f32::INFINITY } else { coarse[k] };
+                coarse[k] = if high[axis][k] > FAR_OFF_PX { f32::INFINITY } else { low };
+            }
+            for k in 0..WIDE {
+                // Anywhere, where it reaches behind the camera; nothing of what lies behind or beside the view.
+                from[axis][k] = if nearest[k] >= NEAR_M as f32 { low[axis][k] } else { f32::NEG_INFINITY };
+                let end = if nearest[k] >= NEAR_M as f32 { high[axis][k] } else { f32::INFINITY };
+                let end = if farthest[k] >= NEAR_M as f32 { end } else { f32::NEG_INFINITY };
+                let end = if within[2 * axis][k] >= 0.0 { end } else { f32::NEG_INFINITY };
+                to[axis][k] = if within[2 * axis + 1][k] >= 0.0 { end } else { f32::NEG_INFINITY };
             }
         }
-        seen.parts.find(size, &low, &high);
+        seen.parts.find(size, &from, &to);
         (seen.nearest_m, seen.coarse) = (nearest, coarse);
     }
 }

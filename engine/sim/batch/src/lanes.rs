@@ -126,12 +126,13 @@ simd_kernel! {
                 reach[2][part][k] = eight.half_m[2][k] * turn[2][part];
             }
         }
-        let mut low = [[f32::INFINITY; LANES]; 2];
-        let mut high = [[f32::NEG_INFINITY; LANES]; 2];
+        let (mut low_u, mut low_v) = ([f32::INFINITY; LANES], [f32::INFINITY; LANES]);
+        let (mut high_u, mut high_v) = ([f32::NEG_INFINITY; LANES], [f32::NEG_INFINITY; LANES]);
         let mut nearest = [f32::INFINITY; LANES];
         let mut farthest = [f32::NEG_INFINITY; LANES];
         // How far corners reach within the sides of the view.
-        let mut within = [[f32::NEG_INFINITY; LANES]; 4];
+        let (mut left, mut right_side) = ([f32::NEG_INFINITY; LANES], [f32::NEG_INFINITY; LANES]);
+        let (mut top, mut bottom) = ([f32::NEG_INFINITY; LANES], [f32::NEG_INFINITY; LANES]);
         for corner in 0..8 {
             let sign = [0, 1, 2].map(|axis| if corner >> axis & 1 == 0 { -1.0f32 } else { 1.0 });
             for k in 0..LANES {
@@ -141,31 +142,37 @@ simd_kernel! {
                 };
                 let (x, right, down) = (at(0), at(1), at(2));
                 let (wide, tall) = (0.5 * size[0] * x, 0.5 * size[1] * x);
-                for (within, by) in within.iter_mut().zip([wide + right, wide - right, tall + down, tall - down]) {
-                    within[k] = if by > within[k] { by } else { within[k] };
-                }
+                let (from_left, from_right) = (wide + right, wide - right);
+                let (from_top, from_bottom) = (tall + down, tall - down);
+                left[k] = if from_left > left[k] { from_left } else { left[k] };
+                right_side[k] = if from_right > right_side[k] { from_right } else { right_side[k] };
+                top[k] = if from_top > top[k] { from_top } else { top[k] };
+                bottom[k] = if from_bottom > bottom[k] { from_bottom } else { bottom[k] };
                 let scale = 1.0 / x;
                 let (u, v) = (right * scale, down * scale);
                 nearest[k] = if x < nearest[k] { x } else { nearest[k] };
                 farthest[k] = if x > farthest[k] { x } else { farthest[k] };
-                low[0][k] = if u < low[0][k] { u } else { low[0][k] };
-                low[1][k] = if v < low[1][k] { v } else { low[1][k] };
-                high[0][k] = if u > high[0][k] { u } else { high[0][k] };
-                high[1][k] = if v > high[1][k] { v } else { high[1][k] };
+                low_u[k] = if u < low_u[k] { u } else { low_u[k] };
+                low_v[k] = if v < low_v[k] { v } else { low_v[k] };
+                high_u[k] = if u > high_u[k] { u } else { high_u[k] };
+                high_v[k] = if v > high_v[k] { v } else { high_v[k] };
             }
         }
-        for k in 0..LANES {
-            let ahead = nearest[k] >= NEAR_M as f32;
-            for axis in 0..2 {
-                low[axis][k] = if ahead { low[axis][k] } else { f32::NEG_INFINITY };
-                high[axis][k] = if ahead { high[axis][k] } else { f32::INFINITY };
-                // Nothing of what lies behind or, by more than a rounding, beside the view.
-                let is_beside = (within[2 * axis][k] < -1.0) | (within[2 * axis + 1][k] < -1.0);
-                let is_out = is_beside | (farthest[k] < NEAR_M as f32);
-                high[axis][k] = if is_out { f32::NEG_INFINITY } else { high[axis][k] };
+        let (low, high) = ([low_u, low_v], [high_u, high_v]);
+        let within = [left, right_side, top, bottom];
+        let mut from = [[0.0f32; LANES]; 2];
+        let mut to = [[0.0f32; LANES]; 2];
+        for axis in 0..2 {
+            for k in 0..LANES {
+                // Anywhere, where it reaches behind the camera; nothing of what lies behind or beside the view.
+                from[axis][k] = if nearest[k] >= NEAR_M as f32 { low[axis][k] } else { f32::NEG_INFINITY };
+                let end = if nearest[k] >= NEAR_M as f32 { high[axis][k] } else { f32::INFINITY };
+                let end = if farthest[k] >= NEAR_M as f32 { end } else { f32::NEG_INFINITY };
+                let end = if within[2 * axis][k] >= -1.0 { end } else { f32::NEG_INFINITY };
+                to[axis][k] = if within[2 * axis + 1][k] >= -1.0 { end } else { f32::NEG_INFINITY };
             }
         }
-        projected.parts.find(size, &low, &high);
+        projected.parts.find(size, &from, &to);
         projected.nearest_m = nearest;
     }
 }

@@ -9,7 +9,7 @@ use crate::ground::{FAR_OFF_PX, Ground, Pack, Polygon, SeenPack};
 use crate::hidden::Hidden;
 use crate::lanes::Candidate;
 use crate::outputs::Outputs;
-use crate::raster::{HalfPlanes, MOST_LINES, Surface, draw_box, draw_large_polygon, draw_polygon};
+use crate::raster::{Corners, HalfPlanes, MOST_LINES, SEAM_PX, Surface, draw_box, draw_polygon, draw_within};
 use crate::resolve::resolve;
 use crate::view::View;
 use cosfly_frames::DVec3;
@@ -24,8 +24,6 @@ const MOST_CORNERS: usize = WIDE * MOST_LINES;
 /// Where a corner is farther from the image's centre than this per metre that it lies ahead, a rounding of its place in the
 /// world counts on the screen.
 const COARSE_PX_PER_M: f32 = 100.0;
-/// Width by which polygons reach beyond their edges, so that neighbours leave no gap, pixels.
-const SEAM_PX: f32 = 2e-5;
 
 /// Draws pictures of one size, one at a time; owns all buffers.
 pub struct Painter {
@@ -104,31 +102,44 @@ impl Painter {
             self.draw_walker(eye, &other.walker, other.instance);
         }
         for figure in view.figures {
+            let corners = || figure.triangles_in_world.iter().flatten().copied();
+            let low = corners().fold(DVec3::INFINITY, DVec3::min);
+            let high = corners().fold(DVec3::NEG_INFINITY, DVec3::max);
+            if !self.may_show(&Around::of_box(eye, low, high)) {
+                continue;
+            }
             for corners in figure.triangles_in_world {
                 self.draw_triangle(eye, corners, figure.instance, figure.label);
             }
         }
     }
 
+    /// Whether something covers a pixel centre and is not hidden.
+    fn may_show(&self, around: &Around) -> bool {
+        let part = self.canvas.part(around.low, around.high);
+        let nearest = (1.0 / around.nearest_m.max(NEAR_M)) as f32;
+        part.is_some_and(|part| !self.hidden.hides(&self.canvas, part, nearest))
+    }
+
     fn draw_walker(&mut self, eye: &Eye, walker: &Walker, instance: u32) {
         let (low, high) = walker.bounds_in_world();
-        if !eye.may_see(0.5 * (low + high), 0.5 * (high - low)) {
+        if eye.see(0.5 * (low + high)).x < -(high - low).max_element() {
             return;
         }
         let away_m = (eye.position_in_world - eye.position_in_world.clamp(low, high)).length();
         if instance != TARGET_INSTANCE && eye.focal_px * walker.height_m < LEAST_HEIGHT_PX * away_m {
             return;
         }
-        let around = Around::of_box(eye, low, high);
-        let Some(part) = self.canvas.part(around.low, around.high) else { return };
-        if around.nearest_m >= NEAR_M && self.hidden.hides(&self.canvas, part, (1.0 / around.nearest_m) as f32) {
+        if !self.may_show(&Around::of_box(eye, low, high)) {
             return;
         }
         let parts = FigureParts::of(walker, &self.wardrobe.clothes(&walker.clothes_seed));
         let stance = Stance::new(eye, walker, parts.lowest());
         let face = DrawnFace { plane: [0.0; 3], instance, label: SemanticLabel::Pedestrian.id() };
         for part in parts.iter() {
-            self.draw_body_part(eye, &stance.see(self.level, part), face);
+            if stance.part(&self.canvas, part).is_some() {
+                self.draw_body_part(eye, &stance.see(self.level, part), face);
+            }
         }
     }
 
@@ -144,12 +155,14 @@ impl Painter {
         if self.hidden.hides(&self.canvas, part, 1.0 / seen.nearest_m) {
             return;
         }
-        for corners in seen.corners() {
-            let points = corners.map(|(ring, k)| [seen.pixels[ring][0][k], seen.pixels[ring][1][k]]);
-            let (low, high) = bounds(&points);
-            if self.canvas.part(low, high).is_some() {
-                let corners = corners.map(|(ring, k)| seen.point(ring, k));
-                self.draw_seen_triangle(eye, &corners, face);
+        for (part, corners, points) in seen.sides() {
+            if let Some(plane) = plane_through(eye, &corners) {
+                self.draw_part(part, &points, DrawnFace { plane, ..face }, 0.0);
+            }
+        }
+        for (corners, points) in seen.ends() {
+            if let Some(plane) = plane_through(eye, &corners) {
+                self.draw_points(&points, DrawnFace { plane, ..face }, 0.0);
             }
         }
     }
@@ -161,12 +174,7 @@ impl Painter {
 
     /// Draws a triangle by its corners in body axes; the plane of `face` is set here.
     fn draw_seen_triangle(&mut self, eye: &Eye, corners: &[DVec3; 3], face: DrawnFace) {
-        let normal = (corners[1] - corners[0]).cross(corners[2] - corners[0]);
-        let distance = normal.dot(corners[0]);
-        if distance == 0.0 || !distance.is_finite() {
-            return;
-        }
-        let plane = [normal.x, normal.y / eye.focal_px, -normal.z / eye.focal_px].map(|part| part / distance);
+        let Some(plane) = plane_through(eye, corners) else { return };
         let points = corners.map(|corner| {
             [eye.focal_px * corner.y / corner.x, -eye.focal_px * corner.z / corner.x].map(|part| part as f32)
         });
@@ -209,17 +217,19 @@ impl Painter {
             }
             let polygon = ground.polygon(pack, k);
             let Some(face) = ground_face(eye, polygon) else { continue };
-            let corners_in_world = ground.corners_in_world(polygon);
-            let count = corners_in_world.len().min(MOST_CORNERS);
+            let count = polygon.count().min(MOST_CORNERS);
             if seen.nearest_m[k] >= NEAR_M as f32 && seen.coarse[k] < COARSE_PX_PER_M {
-                let mut points = [[0.0f32; 2]; MOST_CORNERS];
-                for (point, corner) in points.iter_mut().zip(&seen.corners[..count]) {
-                    *point = [corner[0][k], corner[1][k]];
+                let corner = |number: usize| [seen.corners[number][0][k], seen.corners[number][1][k]];
+                if count <= WIDE {
+                    let surface = self.surface(face, polygon.lift);
+                    draw_polygon(self.level, &mut self.canvas, part, &Corners::new(count, corner), &surface);
+                } else {
+                    let points: [[f32; 2]; MOST_CORNERS] = core::array::from_fn(|k| corner(k.min(count - 1)));
+                    self.draw_part(part, &points[..count], face, polygon.lift);
                 }
-                self.draw_part(part, &points[..count], face, polygon.lift);
             } else {
                 let mut corners = [DVec3::ZERO; MOST_CORNERS];
-                for (corner, in_world) in corners.iter_mut().zip(corners_in_world) {
+                for (corner, in_world) in corners.iter_mut().zip(ground.corners_in_world(polygon)) {
                     *corner = eye.see(*in_world);
                 }
                 self.draw_reaching(eye, &corners[..count], face, polygon.lift);
@@ -236,22 +246,19 @@ impl Painter {
     }
 
     fn draw_part(&mut self, part: Part, points: &[[f32; 2]], face: DrawnFace, lift: f64) {
-        let (origin, last) = (points[0], points[points.len() - 1]);
-        let mut area = 0.0;
-        let mut from = last;
-        for to in points {
-            area += (from[0] - origin[0]) * (to[1] - from[1]) - (from[1] - origin[1]) * (to[0] - from[0]);
-            from = *to;
-        }
-        let side = if area < 0.0 { -1.0 } else { 1.0 };
         let surface = self.surface(face, lift);
         if points.len() <= WIDE {
-            let within = between(points, side);
-            draw_polygon(self.level, &mut self.canvas, part, &within, &surface);
-        } else {
-            let within = between(points, side);
-            draw_large_polygon(self.level, &mut self.canvas, part, &within, &surface);
+            let corners = Corners::new(points.len(), |k| points[k]);
+            draw_polygon(self.level, &mut self.canvas, part, &corners, &surface);
+            return;
         }
+        let (mut area, mut from) = (0.0, points[points.len() - 1]);
+        for to in points {
+            area += (from[0] - points[0][0]) * (to[1] - from[1]) - (from[1] - points[0][1]) * (to[0] - from[0]);
+            from = *to;
+        }
+        let within = between(points, if area < 0.0 { -1.0 } else { 1.0 });
+        draw_within(self.level, &mut self.canvas, part, &within, &surface);
     }
 
     /// Draws a polygon that may reach behind the camera, by its corners in body axes.
@@ -271,7 +278,7 @@ impl Painter {
             from = *to;
         }
         let surface = self.surface(face, lift);
-        draw_large_polygon(self.level, &mut self.canvas, part, &within, &surface);
+        draw_within(self.level, &mut self.canvas, part, &within, &surface);
     }
 
     /// The part of the screen that a polygon covers with its points ahead of the camera.
@@ -301,8 +308,8 @@ impl Painter {
 
     /// Adds a face to the list.
     fn surface(&mut self, face: DrawnFace, lift: f64) -> Surface {
-        let plane = face.plane.map(|part| (part * (1.0 + lift)) as f32);
-        let number = self.faces.len() as u32;
+        let plane = face.plane.map(|part| part * (1.0 + lift));
+        let number = self.faces.len() as f32;
         self.faces.push(face);
         Surface { plane, face: number }
     }
@@ -327,8 +334,16 @@ fn near_first(candidates: &mut [Candidate]) {
     candidates.sort_unstable_by_key(|candidate| (!candidate.nearest.to_bits(), candidate.index));
 }
 
+/// The plane through three points in body axes; `None` where the camera lies in it.
+fn plane_through(eye: &Eye, corners: &[DVec3; 3]) -> Option<Linear> {
+    let normal = (corners[1] - corners[0]).cross(corners[2] - corners[0]);
+    let scale = 1.0 / normal.dot(corners[0]);
+    let by_focal = scale / eye.focal_px;
+    scale.is_finite().then_some([normal.x * scale, normal.y * by_focal, -normal.z * by_focal])
+}
+
 fn ground_face(eye: &Eye, polygon: &Polygon) -> Option<DrawnFace> {
-    let plane: Linear = eye.plane(polygon.normal_in_world, polygon.point_in_world)?;
+    let plane: Linear = eye.plane(polygon.normal_in_world, polygon.offset_m)?;
     Some(DrawnFace { plane, instance: 0, label: polygon.label })
 }
 

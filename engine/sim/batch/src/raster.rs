@@ -1,7 +1,7 @@
 //! Drawing convex shapes: eight rows of ends of spans at a time, then eight pixels at a time.
 
 use crate::canvas::{Canvas, Part, WIDE, whole};
-use crate::eye::NEAR_M;
+use crate::eye::{Linear, NEAR_M};
 use cosfly_frames::simd::Level;
 use cosfly_frames::simd_kernel;
 
@@ -12,6 +12,8 @@ pub const MOST_LINES: usize = 3;
 const NEAREST: f32 = (1.0 / NEAR_M) as f32;
 /// Parts of up to this many blocks are drawn pixel by pixel.
 const SMALL_BLOCKS: u32 = 8;
+/// Columns of a block from its first.
+const STEPS: [f32; WIDE] = [0.0, 1.0, 2.0, 3.0, 4.0, 5.0, 6.0, 7.0];
 /// Beyond every column.
 const OUTSIDE: f32 = 1e30;
 
@@ -24,7 +26,62 @@ pub struct BoxOnScreen {
     /// Number of planes of entry, 1 to 3.
     pub entries: usize,
     /// Face number of each plane of entry.
-    pub faces: [u32; 3],
+    pub faces: [f32; 3],
+}
+
+/// Width by which polygons reach beyond their edges, so that neighbours leave no gap, pixels.
+pub const SEAM_PX: f32 = 2e-5;
+
+/// The corners of a convex polygon of up to eight, pixels from the image's centre; beyond the last, the last again.
+#[derive(Clone, Copy, Debug)]
+pub struct Corners {
+    u: [f32; WIDE],
+    v: [f32; WIDE],
+    count: usize,
+}
+
+impl Corners {
+    /// Corner `k` of `count` is `at(k)`.
+    #[inline(always)]
+    pub fn new(count: usize, at: impl Fn(usize) -> [f32; 2]) -> Self {
+        let mut corners = Self { u: [0.0; WIDE], v: [0.0; WIDE], count };
+        for k in 0..WIDE {
+            [corners.u[k], corners.v[k]] = at(k.min(count.saturating_sub(1)));
+        }
+        corners
+    }
+
+    /// The half planes between its edges.
+    #[inline(always)]
+    fn edges(&self) -> HalfPlanes<1> {
+        let (u, v) = (&self.u, &self.v);
+        let (mut next_u, mut next_v) = ([u[0]; WIDE], [v[0]; WIDE]);
+        for k in 0..WIDE - 1 {
+            (next_u[k], next_v[k]) = (u[k + 1], v[k + 1]);
+        }
+        let mut area = 0.0;
+        for k in 1..WIDE - 1 {
+            area += (u[k] - u[0]) * (v[k + 1] - v[0]) - (v[k] - v[0]) * (u[k + 1] - u[0]);
+        }
+        // Either way around.
+        let side = if area < 0.0 { -1.0 } else { 1.0 };
+        let mut within = HalfPlanes::new();
+        within.count = WIDE;
+        for k in 0..WIDE {
+            let (across, down) = (side * (next_u[k] - u[k]), side * (next_v[k] - v[k]));
+            let seam = SEAM_PX * (across.abs() + down.abs());
+            within.constant[0][k] = (down * u[k] - across * v[k]) + seam;
+            within.across[0][k] = 0.0 - down;
+            within.down[0][k] = across;
+        }
+        // The edge from the last corner to the first comes right after the others.
+        let last = self.count.wrapping_sub(1) % WIDE;
+        within.constant[0][last] = within.constant[0][WIDE - 1];
+        within.across[0][last] = within.across[0][WIDE - 1];
+        within.down[0][last] = within.down[0][WIDE - 1];
+        within.count = self.count.min(WIDE);
+        within
+    }
 }
 
 /// Half planes of the screen: where `constant + across * u + down * v` is at least 0. Eight by eight; those beyond the last
@@ -57,16 +114,16 @@ impl<const BLOCKS: usize> HalfPlanes<BLOCKS> {
 /// A plane of the scene on the screen with its face number.
 #[derive(Clone, Copy, Debug)]
 pub struct Surface {
-    /// Inverse depth.
-    pub plane: [f32; 3],
+    /// Inverse depth, in full precision: that of a wall seen along itself changes by much from pixel to pixel.
+    pub plane: Linear,
     /// Face number.
-    pub face: u32,
+    pub face: f32,
 }
 
 /// The rows of a canvas that a shape is drawn into.
 struct Rows<'a> {
     inverse_depth: &'a mut [[f32; WIDE]],
-    face: &'a mut [[u32; WIDE]],
+    face: &'a mut [[f32; WIDE]],
     columns: &'a [[f32; WIDE]],
     blocks: usize,
     part: Part,
@@ -79,20 +136,14 @@ pub fn draw_box(level: Level, canvas: &mut Canvas, part: Part, shape: &BoxOnScre
     draw_faces(level, Rows::of(canvas, part), shape);
 }
 
-/// Draws a convex polygon, the part of a surface within half planes, where it is nearer than what is there.
-pub fn draw_polygon(level: Level, canvas: &mut Canvas, part: Part, within: &HalfPlanes<1>, surface: &Surface) {
-    draw_within(level, Rows::of(canvas, part), within, surface);
+/// Draws a convex polygon where it is nearer than what is there.
+pub fn draw_polygon(level: Level, canvas: &mut Canvas, part: Part, corners: &Corners, surface: &Surface) {
+    draw_between(level, Rows::of(canvas, part), corners, surface);
 }
 
-/// [`draw_polygon`] with up to `8 * MOST_LINES` edges.
-pub fn draw_large_polygon(
-    level: Level,
-    canvas: &mut Canvas,
-    part: Part,
-    within: &HalfPlanes<MOST_LINES>,
-    surface: &Surface,
-) {
-    draw_within_many(level, Rows::of(canvas, part), within, surface);
+/// Draws the part of a surface within half planes where it is nearer than what is there.
+pub fn draw_within(level: Level, canvas: &mut Canvas, part: Part, within: &HalfPlanes<MOST_LINES>, surface: &Surface) {
+    draw_many(level, Rows::of(canvas, part), within, surface);
 }
 
 simd_kernel! {
@@ -118,32 +169,31 @@ simd_kernel! {
                 within.down[0][k] = side * (mine[2] - other[2]);
             }
             within.count = 6;
-            rows.draw(&within, &Surface { plane: mine, face: shape.faces[entry] });
+            rows.draw(&within, &Surface { plane: mine.map(f64::from), face: shape.faces[entry] });
         }
     }
 }
 
 simd_kernel! {
-    fn draw_within(rows: Rows<'_>, within: &HalfPlanes<1>, surface: &Surface) {
+    fn draw_between(rows: Rows<'_>, corners: &Corners, surface: &Surface) {
         let mut rows = rows;
+        let within = corners.edges();
         if rows.part.area() <= SMALL_BLOCKS {
-            let mut lines = [[0.0f32; 3]; WIDE];
-            for (k, line) in lines.iter_mut().enumerate() {
-                *line = [within.constant[0][k], within.across[0][k], within.down[0][k]];
-            }
-            match within.count {
-                3 => rows.draw_small::<3>(&[lines[0], lines[1], lines[2]], surface),
-                4 => rows.draw_small::<4>(&[lines[0], lines[1], lines[2], lines[3]], surface),
-                _ => rows.draw_small::<8>(&lines, surface),
+            match corners.count {
+                3 => rows.draw_small::<3>(&within, surface),
+                4 => rows.draw_small::<4>(&within, surface),
+                5 => rows.draw_small::<5>(&within, surface),
+                6 => rows.draw_small::<6>(&within, surface),
+                _ => rows.draw_small::<8>(&within, surface),
             }
             return;
         }
-        rows.draw(within, surface);
+        rows.draw(&within, surface);
     }
 }
 
 simd_kernel! {
-    fn draw_within_many(rows: Rows<'_>, within: &HalfPlanes<MOST_LINES>, surface: &Surface) {
+    fn draw_many(rows: Rows<'_>, within: &HalfPlanes<MOST_LINES>, surface: &Surface) {
         let mut rows = rows;
         rows.draw(within, surface);
     }
@@ -248,12 +298,13 @@ impl<'a> Rows<'a> {
     #[inline(always)]
     fn draw_span(&mut self, start: usize, blocks: [usize; 2], [left, right]: [f32; 2], y: f32, surface: &Surface) {
         let span = start.wrapping_add(blocks[0])..start.wrapping_add(blocks[1]);
-        let base = surface.plane[0] + surface.plane[2] * y;
+        let base = surface.plane[0] + surface.plane[2] * f64::from(y);
         let pixels = self.inverse_depth[span.clone()].iter_mut().zip(&mut self.face[span]);
         for ((depths, faces), x) in pixels.zip(&self.columns[blocks[0]..blocks[1]]) {
             let mut entry = [0.0f32; WIDE];
+            let (first, step) = ((base + surface.plane[1] * f64::from(x[0])) as f32, surface.plane[1] as f32);
             for k in 0..WIDE {
-                let here = base + surface.plane[1] * x[k];
+                let here = first + step * STEPS[k];
                 let here = if here <= NEAREST { here } else { 0.0 };
                 let here = if x[k] >= left { here } else { 0.0 };
                 entry[k] = if x[k] <= right { here } else { 0.0 };
@@ -264,7 +315,7 @@ impl<'a> Rows<'a> {
 
     /// A row of the part: its place from the image's centre, depths and faces.
     #[inline(always)]
-    fn row(&mut self, row: u32) -> (f32, &mut [[f32; WIDE]], &mut [[u32; WIDE]]) {
+    fn row(&mut self, row: u32) -> (f32, &mut [[f32; WIDE]], &mut [[f32; WIDE]]) {
         let start = (row as usize).wrapping_mul(self.blocks);
         let [from, to] = self.part.blocks.map(|block| start.wrapping_add(block as usize));
         (self.first[1] + row as i32 as f32, &mut self.inverse_depth[from..to], &mut self.face[from..to])
@@ -278,29 +329,31 @@ impl<'a> Rows<'a> {
 
     /// Draws a small part, every pixel against every line.
     #[inline(always)]
-    fn draw_small<const COUNT: usize>(&mut self, lines: &[[f32; 3]; COUNT], surface: &Surface) {
+    fn draw_small<const COUNT: usize>(&mut self, within: &HalfPlanes<1>, surface: &Surface) {
+        let ([constant], [across], [down]) = (&within.constant, &within.across, &within.down);
         let columns = self.columns();
         for row in self.part.rows[0]..self.part.rows[1] {
             let (y, depths, faces) = self.row(row);
             let mut base = [0.0f32; COUNT];
             for i in 0..COUNT {
-                base[i] = lines[i][0] + lines[i][2] * y;
+                base[i] = constant[i] + down[i] * y;
             }
-            let depth = surface.plane[0] + surface.plane[2] * y;
+            let depth = surface.plane[0] + surface.plane[2] * f64::from(y);
             for ((depths, faces), x) in depths.iter_mut().zip(faces).zip(columns) {
                 let mut inside = [0.0f32; WIDE];
                 for k in 0..WIDE {
-                    inside[k] = base[0] + lines[0][1] * x[k];
+                    inside[k] = base[0] + across[0] * x[k];
                 }
                 for i in 1..COUNT {
                     for k in 0..WIDE {
-                        let other = base[i] + lines[i][1] * x[k];
+                        let other = base[i] + across[i] * x[k];
                         inside[k] = if other < inside[k] { other } else { inside[k] };
                     }
                 }
                 let mut entry = [0.0f32; WIDE];
+                let (first, step) = ((depth + surface.plane[1] * f64::from(x[0])) as f32, surface.plane[1] as f32);
                 for k in 0..WIDE {
-                    let here = depth + surface.plane[1] * x[k];
+                    let here = first + step * STEPS[k];
                     let here = if here <= NEAREST { here } else { 0.0 };
                     entry[k] = if inside[k] >= 0.0 { here } else { 0.0 };
                 }
@@ -331,8 +384,7 @@ impl<'a> Rows<'a> {
                 for i in 1..ENTRIES {
                     for k in 0..WIDE {
                         let other = base[i] + planes[i][1] * x[k];
-                        let before = 0u32.wrapping_sub(u32::from(other < entry[k]));
-                        face[k] ^= (face[k] ^ numbers[i]) & before;
+                        face[k] = if other < entry[k] { numbers[i] } else { face[k] };
                         entry[k] = if other < entry[k] { other } else { entry[k] };
                     }
                 }
@@ -354,12 +406,12 @@ impl<'a> Rows<'a> {
 
 /// Puts faces where they are nearer than what is there; 0 for pixels that they do not cover.
 #[inline(always)]
-fn put(entry: &[f32; WIDE], face: &[u32; WIDE], depths: &mut [f32; WIDE], faces: &mut [u32; WIDE]) {
+fn put(entry: &[f32; WIDE], face: &[f32; WIDE], depths: &mut [f32; WIDE], faces: &mut [f32; WIDE]) {
     let (old_depths, old_faces) = (*depths, *faces);
     for k in 0..WIDE {
-        // All bits where the difference is negative: compilers make slow masked stores of comparisons.
-        let nearer = ((old_depths[k] - entry[k]).to_bits() as i32 >> 31) as u32;
-        faces[k] = old_faces[k] ^ ((old_faces[k] ^ face[k]) & nearer);
+        // Exact for whole numbers. Not a choice between both: compilers make slow masked stores of that.
+        let nearer = if entry[k] > old_depths[k] { 1.0 } else { 0.0 };
+        faces[k] = old_faces[k] + (face[k] - old_faces[k]) * nearer;
     }
     for k in 0..WIDE {
         depths[k] = if entry[k] > old_depths[k] { entry[k] } else { old_depths[k] };

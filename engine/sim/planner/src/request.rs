@@ -1,6 +1,7 @@
 //! The request for a flight: track, map, wishes, start, companions, moving occluders.
 
 use crate::config::muco::MucoConfig;
+use crate::obstacles::{exact::ExactMap, moving::OtherDrones};
 use crate::terms::term::WeightedTerm;
 use cosfly_frames::{DVec3, TargetTrack};
 use cosfly_geometry::{OrientedBox, SpatialQuery};
@@ -28,8 +29,11 @@ pub struct PlanRequest<'a> {
     /// Further targets to be seen, as long as `track` and with its time step; see
     /// [`SeveralTargets`](crate::config::targets::SeveralTargets).
     pub companions: &'a [TargetTrack],
-    /// Boxes that move: each one's place frame by frame, as long as `track`.
+    /// Boxes that move: each one's place frame by frame, as long as `track`. Between frames they go evenly and turn the shorter
+    /// way. One around the target's middle is the target itself, which hides nothing of it.
     pub movers: &'a [Vec<OrientedBox>],
+    /// Those of them that are other drones.
+    pub drones: OtherDrones,
     /// Number that reasons give the track's first frame, for tracks that are parts of longer ones. Usually 0.
     pub first_frame: i64,
 }
@@ -65,8 +69,15 @@ impl<'a> PlanRequest<'a> {
             flight,
             companions,
             movers,
+            drones: OtherDrones::default(),
             first_frame,
         }
+    }
+
+    /// The unsimplified map with what moves.
+    pub fn map(&self) -> ExactMap<'a> {
+        let clearance_m = self.config.limits.clearance_m;
+        ExactMap { query: self.exact, movers: self.movers, drones: self.drones, clearance_m }
     }
 
     /// Checks that the parts of the request fit each other.
@@ -119,12 +130,7 @@ impl<'a> PlanRequest<'a> {
         if speed > limits.speed_mps {
             return Err(format!("the start state moves at {speed:.2} m/s; the limit is {} m/s", limits.speed_mps));
         }
-        let mut clearance =
-            self.exact.nearest(at, limits.clearance_m).map_or(limits.clearance_m, |near| near.distance_m);
-        for places in self.movers {
-            let solid = places.first().map(crate::obstacles::solid::Solid::new);
-            clearance = solid.map_or(clearance, |solid| clearance.min(solid.signed_distance(at).0));
-        }
+        let clearance = self.map().nearest(0, at, limits.clearance_m).map_or(limits.clearance_m, |near| near.0);
         let above = at.z - (self.ground)(at.x, at.y);
         let clearance = if above.is_finite() { clearance.min(above) } else { clearance };
         if clearance < limits.clearance_m {

@@ -4,6 +4,7 @@ use core::f64::consts::{PI, TAU};
 use cosfly_frames::{DVec3, TargetTrack, real};
 use cosfly_geometry::{BoxBvh, BruteForce, OrientedBox, SpatialQuery};
 use cosfly_planner::config::{Foresight, Planner};
+use cosfly_planner::obstacles::moving::{OtherDrones, drone_boxes};
 use cosfly_planner::{MucoConfig, PlanOutcome, PlanRequest, Trajectory, body_points, plan_request};
 use cosfly_random::Seed;
 use cosfly_scenes::{Scene, SceneKind, movers_around};
@@ -118,7 +119,7 @@ fn flights_among_movers_keep_clear_of_them_and_state_what_they_see() {
 fn a_baseline_keeps_clear_of_movers_and_looks_past_them_too() {
     let scene = Scene::generate(SceneKind::Light, 32);
     let mut track = scene.walker(32, 0);
-    track.states.truncate(60);
+    track.states.truncate(40);
     let movers = movers_around(&track, 50, Seed::of_item(32, "movers", "a"));
     for planner in [Planner::Astar, Planner::AstarSmoothed, Planner::Beam] {
         let mut config = MucoConfig { planner, ..MucoConfig::default() };
@@ -169,4 +170,35 @@ fn a_causal_flight_is_certified_against_what_happens_and_knows_nothing_of_it_bef
         }
     }
     assert!(flown >= 2 && same >= 1, "{flown} flown, {same} compared");
+}
+
+#[test]
+fn drones_behind_one_target_keep_apart() {
+    const SEPARATION_M: f64 = 6.0;
+    let config = MucoConfig::default();
+    for (kind, index) in [(SceneKind::Light, 0), (SceneKind::Light, 1), (SceneKind::Leafy, 0), (SceneKind::Alley, 0)] {
+        let scene = Scene::generate(kind, 35);
+        let exact = BoxBvh::build(scene.boxes.clone());
+        let mut track = scene.walker(35, index);
+        track.states.truncate(120);
+        let mut flown: Vec<Vec<DVec3>> = vec![];
+        for _ in 0..3 {
+            let movers: Vec<Vec<OrientedBox>> = flown.iter().map(|places| drone_boxes(places)).collect();
+            let mut request = PlanRequest::new(&track, &exact, &scene.boxes, &|_, _| 0.0, &config);
+            request.movers = &movers;
+            request.drones = OtherDrones { count: movers.len(), separation_m: SEPARATION_M };
+            let PlanOutcome::Planned(flight) = plan_request(request) else { panic!("{} {index}", kind.name()) };
+            assert!(flight.certificate.holds && flight.certificate.mean_visibility > 0.7);
+            flown.push(positions(&flight));
+        }
+        for (one, places) in flown.iter().enumerate() {
+            for other in &flown[..one] {
+                for (a, b) in places.windows(2).zip(other.windows(2)) {
+                    let apart =
+                        (0..=20).map(|k| f64::from(k) / 20.0).map(|t| a[0].lerp(a[1], t).distance(b[0].lerp(b[1], t)));
+                    assert!(apart.fold(f64::INFINITY, f64::min) >= SEPARATION_M - 1e-9);
+                }
+            }
+        }
+    }
 }

@@ -1,20 +1,27 @@
-//! Time per 1280 x 720 frame: wall time by stage, CPU time in all; `bench_frame [TOWN.xodr] [PEOPLE] [PRESET...]`; without a map
-//! file, an invented town of about 3,000 boxes and 100,000 ground triangles; PEOPLE is how many are around, none by default.
+//! Time per 1280 x 720 frame: wall time by stage, CPU time in all; `bench_frame [TOWN.xodr] [PEOPLE [CARS]] [PRESET...]`; without a
+//! map file, an invented town of about 3,000 boxes and 100,000 ground triangles; PEOPLE is how many are around, none by default. With
+//! CARS, people and vehicles are spread over the pavements and lanes of the map, and the views are those of its middle street.
 
 #[path = "../tests/crowd/mod.rs"]
 mod crowd;
 #[path = "../tests/small_town/mod.rs"]
 mod small_town;
+#[path = "../tests/traffic/mod.rs"]
+mod traffic;
 
 use cosfly_frames::{DVec3, Pose, Seed, TargetState, real};
 use cosfly_maps::{MapConfig, Town};
-use cosfly_render::{BodyShape, FrameParts, FrameSetup, RenderConfig, Renderer, Scene, Stages, TargetSetup, Weather};
+use cosfly_render::{
+    BodyShape, Bystander, FrameParts, FrameSetup, RenderConfig, Renderer, Scene, Stages, TargetSetup, Weather,
+};
 use std::time::Instant;
 
 fn main() -> Result<(), Box<dyn std::error::Error>> {
     let mut arguments = std::env::args().skip(1).peekable();
     let map = arguments.next_if(|argument| argument.ends_with(".xodr"));
     let people = arguments.next_if(|argument| argument.parse::<u32>().is_ok()).and_then(|count| count.parse().ok());
+    let cars: Option<u32> =
+        arguments.next_if(|argument| argument.parse::<u32>().is_ok()).and_then(|count| count.parse().ok());
     let mut presets: Vec<String> = arguments.collect();
     if presets.is_empty() {
         presets = ["ClearNoon", "HardRainNoon", "WetNight"].map(str::to_owned).to_vec();
@@ -39,7 +46,10 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     let mut renderer = Renderer::new(RenderConfig::default().camera());
     let middle =
         if map.is_some() { 0.5 * (town.min_in_world + town.max_in_world) } else { DVec3::new(-23.0, 43.5, 0.14) };
-    let others = crowd::crowd(middle, people.unwrap_or(0));
+    let (middle, others) = match cars {
+        Some(cars) => spread(&town, middle, people.unwrap_or(0), cars),
+        None => (middle, crowd::crowd(middle, people.unwrap_or(0))),
+    };
     let views = [("follow", [-17.0, -10.0, 20.0]), ("high", [40.0, -60.0, 55.0]), ("street", [-14.0, -8.0, 5.0])];
     let names = Stages::NAMES.map(|name| format!("{name:>10}")).join("");
     println!("{:22}{names} total, CPU  depth + ids", "ms a frame");
@@ -77,6 +87,27 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         }
     }
     Ok(())
+}
+
+/// The lane's place that is nearest to a place, and people and vehicles all over the town.
+fn spread(town: &Town, middle: DVec3, people: u32, cars: u32) -> (DVec3, Vec<Bystander>) {
+    let mut random = Seed([3; 32]).stream("spread");
+    let away = |point: &DVec3| (*point - middle).truncate().length();
+    let points = town.lanes.iter().flat_map(|lane| &lane.middle_in_world).copied();
+    let street = points.min_by(|a, b| away(a).total_cmp(&away(b))).unwrap_or(middle);
+    let mut others = crowd::crowd(DVec3::ZERO, people);
+    for other in &mut others {
+        let outline = &town.walkable[random.index(town.walkable.len())].outline_in_world;
+        let corner = outline[random.index(outline.len())];
+        other.walker.state.feet_in_world = corner.lerp(outline[random.index(outline.len())], random.unit());
+    }
+    for number in 0..cars {
+        let lane = &town.lanes[random.index(town.lanes.len())].middle_in_world;
+        let side = random.index(lane.len() - 1);
+        let (from, along) = (lane[side], lane[side + 1] - lane[side]);
+        others.push(traffic::vehicle(number, from + random.unit() * along, real::atan2(along.y, along.x)));
+    }
+    (street, others)
 }
 
 /// CPU time of this thread, nanoseconds; wall time where the system does not tell.

@@ -2,6 +2,7 @@
 
 mod crowd;
 mod small_town;
+mod traffic;
 
 use cosfly_frames::{DVec3, Pose, Seed, TargetState, real};
 use cosfly_render::{BodyShape, Camera, FrameSetup, Renderer, Scene, TargetSetup, Weather};
@@ -39,10 +40,12 @@ unsafe impl GlobalAlloc for Counting {
 static COUNTING: Counting = Counting;
 
 #[test]
-fn the_second_pass_over_a_flight_with_people_allocates_nothing() {
+fn the_second_pass_over_a_flight_with_people_and_vehicles_allocates_nothing() {
     let scene = Scene::new(&small_town::small_town(4, 5), Seed([1; 32]));
     let mut renderer = Renderer::new(Camera { width: 320, height: 180, horizontal_fov_rad: 1.4 });
-    let others = crowd::crowd(DVec3::new(5.0, -16.0, 0.1), 30);
+    let mut others = crowd::crowd(DVec3::new(5.0, -16.0, 0.1), 30);
+    let place = |number: u32| DVec3::new(5.0 * f64::from(number), -14.0, 0.1);
+    others.extend((0..12).map(|number| traffic::vehicle(number, place(number), 0.4 * f64::from(number))));
     let weathers = ["ClearNoon", "HardRainSunset", "WetNight"].map(|name| Weather::preset(name).expect("a preset"));
     let mut pass = || {
         let before = ALLOCATIONS.with(Cell::get);

@@ -111,6 +111,7 @@ fn find_successors(lanes: &mut [Lane]) {
     }
     for number in 0..lanes.len() {
         let (end, along) = lanes[number].end(true);
+        let begin = lanes[number].end(false).0;
         let [column, row] = cell(end);
         let around = (-1..=1).flat_map(|right| (-1..=1).map(move |down| [column + right, row + down]));
         let follows = |other: &u32| {
@@ -121,6 +122,8 @@ fn find_successors(lanes: &mut [Lane]) {
                 && lane.kind == lanes[number].kind
                 && away.truncate().length() < near_m
                 && away.z.abs() < level_m
+                // Of two lanes shorter than a gap, only one follows the other.
+                && away.length_squared() < (start - begin).length_squared()
                 && along.dot(onward) > MEETING_COS
         };
         let mut found: Vec<u32> =
@@ -182,6 +185,10 @@ mod tests {
         assert_eq!(town.lanes[0].successors, [1, 2]);
         assert_eq!(town.lanes[0].crossings, [1]);
         assert!(town.lanes[1..].iter().all(|lane| lane.successors.is_empty()));
+        let short = |from: f64| lane(&[(from, 0.0), (from + 0.1, 0.0)]);
+        town.lanes = vec![short(0.0), short(0.1), short(0.2)];
+        town.link_lanes();
+        assert_eq!(town.lanes.iter().map(|lane| &lane.successors[..]).collect::<Vec<_>>(), [&[1, 2][..], &[2], &[]]);
         assert!(Lane::new(LaneKind::Driving, [DVec3::ONE; 4], 3.0, 10.0).is_none());
     }
 }

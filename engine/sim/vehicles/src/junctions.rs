@@ -62,7 +62,8 @@ impl Junctions {
             let was_granted = |index: usize| index < vehicle.passage.granted && is_inner(network, vehicle, index);
             if was_granted(index) {
                 self.held[lane] = self.held[lane].saturating_sub(1);
-            } else if index == 0 || was_granted(index - 1) {
+            }
+            if index == 0 || !was_granted(index) && was_granted(index - 1) {
                 self.promised_m[lane] = (self.promised_m[lane] - takes_m(vehicle)).max(0.0);
             }
         }
@@ -132,8 +133,11 @@ fn takes_m(vehicle: &Vehicle) -> f64 {
     vehicle.length_m() + STANDING_GAP_M + 0.5
 }
 
+/// Whether a lane of a route is no place to stand: it leads through a junction, or is too short between two of them. Ways over such
+/// lanes are granted together, so that nobody waits within a junction for the next one.
 fn is_inner(network: &Network, vehicle: &Vehicle, index: usize) -> bool {
-    network.lanes[vehicle.route.lanes[index] as usize].in_junction
+    let lane = &network.lanes[vehicle.route.lanes[index] as usize];
+    lane.in_junction || lane.length_m < takes_m(vehicle)
 }
 
 /// The next lanes of the route that need a grant: first index and the end.

@@ -33,6 +33,8 @@ pub(crate) struct Drive {
     pub crossings: Vec<Crossing>,
     /// How far one can drive from its beginning, metres, up to [`FAR_M`].
     pub leads_m: f64,
+    /// Whether vehicles leave the town at its end: a street that ends as a whole.
+    pub is_exit: bool,
     points: Vec<DVec3>,
     /// Way along the lane to each point, metres.
     at_m: Vec<f64>,
@@ -77,6 +79,7 @@ impl Drive {
             conflicts: vec![],
             crossings: vec![],
             leads_m: 0.0,
+            is_exit: false,
             points,
             at_m,
             bends: vec![],
@@ -117,7 +120,8 @@ impl Drive {
         Some(Crossing { from_m, to_m, middle, outline })
     }
 
-    fn spaced(&self) -> impl Iterator<Item = DVec3> + '_ {
+    /// Points of the lane, a metre apart.
+    pub fn spaced(&self) -> impl Iterator<Item = DVec3> + '_ {
         (0..=(self.length_m / SPACING_M) as usize).map(|step| self.at(step as f64 * SPACING_M).0)
     }
 }
@@ -128,6 +132,12 @@ impl Network {
         find_conflicts(&mut lanes);
         let kerb = kerb_side(&lanes);
         let mut network = Self { lanes, kerb };
+        for number in 0..network.lanes.len() {
+            let lane = &network.lanes[number];
+            let ends = lane.successors.is_empty() && !lane.in_junction;
+            let beside = [1.0, -1.0].map(|side| ends && network.beside(number as u32, side).is_some());
+            network.lanes[number].is_exit = ends && beside == [false; 2];
+        }
         network.measure();
         network
     }
@@ -148,7 +158,8 @@ impl Network {
             let mut has_changed = false;
             for number in 0..lanes.len() {
                 let ahead = lanes[number].successors.iter().map(|next| lanes[*next as usize].leads_m);
-                let leads_m = (lanes[number].length_m + ahead.fold(0.0, f64::max)).min(FAR_M);
+                let beyond_m = if lanes[number].is_exit { FAR_M } else { ahead.fold(0.0, f64::max) };
+                let leads_m = (lanes[number].length_m + beyond_m).min(FAR_M);
                 has_changed |= leads_m > lanes[number].leads_m;
                 lanes[number].leads_m = leads_m;
             }
@@ -224,7 +235,10 @@ fn find_conflicts(lanes: &mut [Drive]) {
         for (other, place) in around.filter_map(|key| cells.get(&key)).flatten() {
             for (number, point) in members.iter().filter(|(number, _)| number < other) {
                 let away = *place - *point;
-                if away.truncate().length_squared() < CONFLICT_M * CONFLICT_M && away.z.abs() < 2.5 {
+                // Lanes side by side are no conflict.
+                let widths_m = [number, other].map(|lane| lanes[*lane as usize].width_m);
+                let apart_m = (0.5 * (widths_m[0] + widths_m[1]) - 0.15).min(CONFLICT_M);
+                if away.truncate().length_squared() < apart_m * apart_m && away.z.abs() < 2.5 {
                     pairs.insert([*number, *other]);
                 }
             }

@@ -1,6 +1,9 @@
-//! Outlines of bodies seen from above: nearest points, and overlaps of bodies that are about to move.
+//! Outlines seen from above: nearest points of bodies, overlaps of bodies that are about to move, solid things on lanes.
 
-use cosfly_frames::{DVec2, TargetState, real};
+use crate::network::Network;
+use cosfly_frames::{DVec2, DVec3, TargetState, real};
+use cosfly_geometry::{BoxBvh, OrientedBox, SpatialQuery};
+use cosfly_maps::{ObstacleKind, Town};
 use cosfly_world::{BodyPlan, Present};
 
 /// Bodies whose feet differ by more do not meet: one is on a bridge, metres.
@@ -26,4 +29,62 @@ pub(crate) fn meet(plan: &BodyPlan, state: &TargetState, other: &BodyPlan, at: &
     away.z.abs() < LEVEL_M
         && away.truncate().length_squared() < reach_m * reach_m
         && plan.gap_m(state, other, at) < apart_m
+}
+
+/// Size of what must fit on a lane: length of a piece, width and height, metres.
+const FITS_M: DVec3 = DVec3::new(2.0, 2.1, 2.6);
+/// Things whose tops are lower above the ground are driven over, metres.
+const STEP_M: f64 = 0.3;
+
+/// Solid things of a town that vehicles would drive into; crowns of trees give way.
+pub(crate) struct Solid {
+    things: BoxBvh,
+}
+
+impl Solid {
+    pub fn new(town: &Town) -> Self {
+        let solid = town.obstacles.iter().filter(|thing| thing.kind != ObstacleKind::TreeCrown);
+        Self { things: BoxBvh::build(solid.map(|thing| thing.shape).collect()) }
+    }
+
+    /// Whether a box overlaps a solid thing.
+    pub fn touches(&self, shape: &OrientedBox) -> bool {
+        let (low, high) = shape.bounds_in_world();
+        let mut touches = false;
+        self.things.within(low + STEP_M * DVec3::Z, high, &mut |number| {
+            touches |= overlap(shape, &self.things.boxes()[number as usize]);
+        });
+        touches
+    }
+}
+
+/// Lanes on which something solid stands, ascending.
+pub(crate) fn blocked_lanes(network: &Network, town: &Town) -> Vec<u32> {
+    let solid = Solid::new(town);
+    let is_blocked = |number: &u32| {
+        let lane = &network.lanes[*number as usize];
+        let size_m = FITS_M.with_y(FITS_M.y.min(lane.width_m));
+        (0..=(lane.length_m / FITS_M.x) as usize).any(|piece| {
+            let (place, along) = lane.at((piece as f64 + 0.5) * FITS_M.x);
+            let center_in_world = place + DVec3::Z * (0.5 * size_m.z);
+            let yaw_rad = real::atan2(along.y, along.x);
+            solid.touches(&OrientedBox { center_in_world, half_extents_m: 0.5 * size_m, yaw_rad })
+        })
+    };
+    (0..network.lanes.len() as u32).filter(is_blocked).collect()
+}
+
+/// Whether two upright boxes overlap seen from above.
+fn overlap(one: &OrientedBox, other: &OrientedBox) -> bool {
+    let axes = |yaw_rad: f64| {
+        let (sin, cos) = real::sin_cos(yaw_rad);
+        [DVec2::new(cos, sin), DVec2::new(-sin, cos)]
+    };
+    let (own, others) = (axes(one.yaw_rad), axes(other.yaw_rad));
+    let between = (other.center_in_world - one.center_in_world).truncate();
+    own.into_iter().chain(others).all(|axis| {
+        let reach =
+            |half: DVec3, [along, across]: [DVec2; 2]| half.x * axis.dot(along).abs() + half.y * axis.dot(across).abs();
+        axis.dot(between).abs() < reach(one.half_extents_m, own) + reach(other.half_extents_m, others)
+    })
 }

@@ -5,12 +5,14 @@
 
 use crate::kinds::size_m;
 use crate::network::Network;
+use crate::outlines::{Solid, to_outline};
 use crate::route::Route;
-use crate::start::{Blocked, is_free};
+use crate::start::is_free;
 use crate::vehicles::{Doing, Vehicle};
-use cosfly_frames::{Seed, real};
+use cosfly_frames::{DVec2, Seed, real};
 use cosfly_maps::{LaneKind, Town};
-use cosfly_world::{BodyKind, BodyPlan};
+use cosfly_world::{BodyKind, BodyPlan, Snapshot};
+use std::collections::BTreeMap;
 
 /// Distance between parked cars: least and most, metres.
 const BETWEEN_M: [f64; 2] = [0.8, 2.2];
@@ -20,6 +22,8 @@ const FROM_ENDS_M: f64 = 8.0;
 const FROM_KERB_M: f64 = 0.2;
 /// Share of the places that are taken.
 const TAKEN: f64 = 0.75;
+/// Distance between a parked car and the middle of a lane that stays open, metres.
+const ROOM_M: f64 = 1.55;
 /// Most parked cars of a town.
 const MOST: usize = 2_000;
 
@@ -50,8 +54,9 @@ pub(crate) fn park(
     seed: Seed,
     vehicles: &mut Vec<Vehicle>,
 ) {
-    let blocked = Blocked::new(town);
+    let solid = Solid::new(town);
     let driving = vehicles.len();
+    let driven = Driven::new(network, parking);
     for number in parking {
         let lane = &network.lanes[*number as usize];
         let own = seed.child("parked", u64::from(*number));
@@ -80,10 +85,40 @@ pub(crate) fn park(
             let is_inside = area_m.is_none_or(|[left, top, right, bottom]| {
                 (left..=right).contains(&at.x) && (top..=bottom).contains(&at.y)
             });
-            let has_room = is_free(&vehicle, vehicles, 0.3) && !blocked.touches(&vehicle);
+            let shape = vehicle.plan.box_at(&vehicle.state);
+            let has_room = is_free(&vehicle, vehicles, 0.3) && !solid.touches(&shape) && !driven.is_near(&vehicle);
             if is_taken && is_inside && !is_near_crossing && has_room {
                 vehicles.push(vehicle);
             }
         }
+    }
+}
+
+/// Middle lines of the lanes that stay open, in cells.
+struct Driven {
+    cells: BTreeMap<[i64; 2], Vec<DVec2>>,
+}
+
+impl Driven {
+    fn new(network: &Network, parking: &[u32]) -> Self {
+        let mut cells: BTreeMap<[i64; 2], Vec<DVec2>> = BTreeMap::new();
+        let open = (0u32..).zip(&network.lanes).filter(|(number, _)| parking.binary_search(number).is_err());
+        for point in open.flat_map(|(_, lane)| lane.spaced()) {
+            cells.entry(Self::cell(point.truncate())).or_default().push(point.truncate());
+        }
+        Self { cells }
+    }
+
+    fn cell(point: DVec2) -> [i64; 2] {
+        [point.x, point.y].map(|at| (at / 8.0).floor() as i64)
+    }
+
+    /// Whether a parked car leaves too little room for those who drive past.
+    fn is_near(&self, vehicle: &Vehicle) -> bool {
+        let body = Snapshot::present(0, &vehicle.plan, vehicle.state);
+        let [column, row] = Self::cell(vehicle.state.feet_in_world.truncate());
+        let around = (-1..=1).flat_map(|x| (-1..=1).map(move |y| [column + x, row + y]));
+        let mut points = around.filter_map(|cell| self.cells.get(&cell)).flatten();
+        points.any(|point| to_outline(*point, &body).length() < ROOM_M)
     }
 }

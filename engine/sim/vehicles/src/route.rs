@@ -28,15 +28,19 @@ impl Route {
         Self { lanes: vec![lane], starts_m: vec![0.0], end_m, aside_m }
     }
 
-    /// Draws further lanes until the route reaches far enough beyond a way, or nothing follows.
-    pub fn extend(&mut self, network: &Network, way_m: f64, random: &mut RandomStream) {
+    /// Draws further lanes until the route reaches far enough beyond a way, or nothing follows. Lanes that lead far and are at least
+    /// `width_m` wide are preferred.
+    pub fn extend(&mut self, network: &Network, way_m: f64, width_m: f64, random: &mut RandomStream) {
         while self.end_m < way_m + AHEAD_M {
             let last = &network.lanes[self.lanes[self.lanes.len() - 1] as usize];
-            let leads = |next: &&u32| network.lanes[**next as usize].leads_m >= LEADS_M;
-            let next = match last.successors.iter().filter(leads).count() {
+            let is_good = |next: &&u32| {
+                let lane = &network.lanes[**next as usize];
+                lane.leads_m >= LEADS_M && lane.width_m >= width_m
+            };
+            let next = match last.successors.iter().filter(is_good).count() {
                 0 if last.successors.is_empty() => None,
                 0 => last.successors.get(random.index(last.successors.len())),
-                count => last.successors.iter().filter(leads).nth(random.index(count)),
+                count => last.successors.iter().filter(is_good).nth(random.index(count)),
             };
             let Some(next) = next.copied() else { return };
             self.lanes.push(next);

@@ -3,10 +3,10 @@
 use crate::config::VehicleConfig;
 use crate::kinds::{draw_kind, drives_on, size_m};
 use crate::network::Network;
-use crate::outlines::meet;
+use crate::outlines::{Solid, meet};
 use crate::route::Route;
 use crate::vehicles::{Doing, Vehicle};
-use cosfly_frames::{DVec2, Seed};
+use cosfly_frames::Seed;
 use cosfly_maps::{LaneKind, Town};
 use cosfly_world::{BodyKind, BodyPlan};
 
@@ -15,7 +15,7 @@ const TRIES: u64 = 40;
 /// Free space around a vehicle in the beginning, metres.
 const APART_M: f64 = 2.0;
 /// Room that a vehicle needs beside itself on its lane, metres.
-const BESIDE_M: f64 = 0.25;
+pub(crate) const BESIDE_M: f64 = 0.25;
 /// Distance between a bicycle and the edge of the lane, metres.
 const FROM_EDGE_M: f64 = 0.35;
 
@@ -24,13 +24,13 @@ pub(crate) fn driving(
     network: &Network,
     town: &Town,
     config: &VehicleConfig,
-    parking: &[u32],
+    closed: &[u32],
     seed: Seed,
 ) -> Vec<Vehicle> {
-    let blocked = Blocked::new(town);
+    let solid = Solid::new(town);
     let lanes: Vec<u32> = (0u32..)
         .zip(&network.lanes)
-        .filter(|(number, lane)| !lane.in_junction && lane.length_m > 8.0 && !parking.contains(number))
+        .filter(|(number, lane)| !lane.in_junction && lane.length_m > 8.0 && !closed.contains(number))
         .map(|(number, _)| number)
         .collect();
     // Long lanes begin more vehicles.
@@ -72,7 +72,11 @@ pub(crate) fn driving(
                 .crossings
                 .iter()
                 .any(|crossing| (crossing.from_m - room_m - 1.0..crossing.to_m + room_m + 1.0).contains(&way_m));
-            if is_inside && !on_crossing && is_free(&vehicle, &vehicles, APART_M) && !blocked.touches(&vehicle) {
+            if is_inside
+                && !on_crossing
+                && is_free(&vehicle, &vehicles, APART_M)
+                && !solid.touches(&vehicle.plan.box_at(&vehicle.state))
+            {
                 vehicles.push(Vehicle { speed_share, ..vehicle });
                 break;
             }
@@ -90,46 +94,4 @@ pub(crate) fn is_free(vehicle: &Vehicle, others: &[Vehicle], apart_m: f64) -> bo
 fn aside_m(network: &Network, lane: LaneKind, lane_m: f64, kind: BodyKind, width_m: f64) -> f64 {
     let is_shared = kind == BodyKind::Bicycle && lane == LaneKind::Driving;
     if is_shared { network.kerb * (0.5 * (lane_m - width_m) - FROM_EDGE_M).max(0.0) } else { 0.0 }
-}
-
-/// Solid things of the town that vehicles would drive into.
-pub(crate) struct Blocked<'t> {
-    town: &'t Town,
-}
-
-impl<'t> Blocked<'t> {
-    pub fn new(town: &'t Town) -> Self {
-        Self { town }
-    }
-
-    /// Whether a vehicle stands in a solid thing.
-    pub fn touches(&self, vehicle: &Vehicle) -> bool {
-        let shape = vehicle.plan.box_at(&vehicle.state);
-        let (low, high) = shape.bounds_in_world();
-        let reach = shape.half_extents_m.truncate().length();
-        self.town.obstacles.iter().any(|obstacle| {
-            let (other_low, other_high) = obstacle.shape.bounds_in_world();
-            other_low.z < high.z
-                && other_high.z > low.z + 0.3
-                && (obstacle.shape.center_in_world - shape.center_in_world).truncate().length()
-                    < reach + obstacle.shape.half_extents_m.truncate().length()
-                && overlap(&shape, &obstacle.shape)
-        })
-    }
-}
-
-/// Whether two upright boxes overlap seen from above.
-fn overlap(one: &cosfly_geometry::OrientedBox, other: &cosfly_geometry::OrientedBox) -> bool {
-    let axes = |yaw_rad: f64| {
-        let (sin, cos) = cosfly_frames::real::sin_cos(yaw_rad);
-        [DVec2::new(cos, sin), DVec2::new(-sin, cos)]
-    };
-    let (own, others) = (axes(one.yaw_rad), axes(other.yaw_rad));
-    let between = (other.center_in_world - one.center_in_world).truncate();
-    own.into_iter().chain(others).all(|axis| {
-        let reach = |half: cosfly_frames::DVec3, [along, across]: [DVec2; 2]| {
-            half.x * axis.dot(along).abs() + half.y * axis.dot(across).abs()
-        };
-        axis.dot(between).abs() < reach(one.half_extents_m, own) + reach(other.half_extents_m, others)
-    })
 }

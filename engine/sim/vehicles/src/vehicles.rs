@@ -6,12 +6,12 @@ use crate::error::VehicleError;
 use crate::junctions::{Junctions, Passage, stop_m};
 use crate::kinds::{Limits, limits};
 use crate::network::Network;
-use crate::outlines::meet;
+use crate::outlines::{blocked_lanes, meet};
 use crate::route::Route;
 use crate::{parked, start};
 use cosfly_frames::{RandomStream, Seed, TargetState};
 use cosfly_maps::Town;
-use cosfly_world::{BodyPlan, Clock, Population, Present, Snapshot};
+use cosfly_world::{BodyKind, BodyPlan, Clock, Population, Present, Snapshot};
 
 /// Vehicles keep this distance from each other when they move, metres.
 const APART_M: f64 = 0.05;
@@ -85,6 +85,11 @@ impl Vehicle {
         self.way_m + 0.5 * self.length_m()
     }
 
+    /// Width of lanes that the vehicle prefers, metres.
+    pub fn needed_m(&self) -> f64 {
+        if self.plan.kind == BodyKind::Bicycle { 0.0 } else { self.plan.size_m.y + 2.0 * start::BESIDE_M }
+    }
+
     pub fn drives(&self) -> bool {
         self.doing == Doing::Drives
     }
@@ -120,13 +125,19 @@ impl Vehicles {
         let mut network = Network::new(town);
         let parking = parked::parking_lanes(&network, config.parked_share, seed);
         network.close(&parking);
-        let mut vehicles = start::driving(&network, town, config, &parking, seed);
+        let blocked = blocked_lanes(&network, town);
+        network.close(&blocked);
+        let closed: Vec<u32> = parking.iter().chain(&blocked).copied().collect();
+        let mut vehicles = start::driving(&network, town, config, &closed, seed);
         if vehicles.is_empty() && config.count > 0 {
             return Err(VehicleError::NoRoom { lanes: town.lanes.len(), asked: config.count });
         }
         let mut notes = vec![];
         if vehicles.len() < config.count as usize {
             notes.push(format!("{} of {} vehicles: the lanes have no room for more", vehicles.len(), config.count));
+        }
+        if !blocked.is_empty() {
+            notes.push(format!("{} lanes are closed: solid things stand on them", blocked.len()));
         }
         let driving = vehicles.len();
         parked::park(&network, town, &parking, config.area_m, seed, &mut vehicles);
@@ -146,7 +157,8 @@ impl Vehicles {
             steps: 0,
         };
         for vehicle in all.vehicles.iter_mut().filter(|vehicle| vehicle.drives()) {
-            vehicle.route.extend(&all.network, vehicle.way_m, &mut vehicle.random);
+            let needed_m = vehicle.needed_m();
+            vehicle.route.extend(&all.network, vehicle.way_m, needed_m, &mut vehicle.random);
         }
         all.begin_rolling();
         Ok(all)
@@ -201,7 +213,8 @@ impl Vehicles {
         let vehicle = &mut self.vehicles[number];
         let speed_mps = (vehicle.speed_mps + step_s * self.accelerations_mps2[number]).max(0.0);
         let way_m = vehicle.way_m + 0.5 * step_s * (vehicle.speed_mps + speed_mps);
-        vehicle.route.extend(&self.network, way_m, &mut vehicle.random);
+        let needed_m = vehicle.needed_m();
+        vehicle.route.extend(&self.network, way_m, needed_m, &mut vehicle.random);
         if way_m + 0.5 * vehicle.length_m() >= vehicle.route.end_m {
             vehicle.doing = Doing::HasLeft;
             self.junctions.release(&self.network, vehicle, true);

@@ -1,8 +1,10 @@
 //! [`TrafficConfig`]: the parameters of traffic in a recipe.
 
 use crate::parameters;
-use cosfly_diagnose::ParameterError;
 use cosfly_pedestrians::{ConfigRule, CrowdConfig, RecordedConfig, ScriptedPerson};
+use cosfly_stage::Source;
+use cosfly_vehicles::VehicleConfig;
+use cosfly_vehicles::fcd::FcdConfig;
 use cosfly_world::{BodyKind, Clock, LookAlikeConfig, Traffic};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -24,23 +26,16 @@ pub struct TrafficConfig {
     pub follow: Follow,
     /// People on foot.
     pub people: CrowdConfig,
-    /// Recorded people, file by file.
-    pub recorded: Vec<RecordedPeople>,
-    /// People who walk as written, one by one.
+    /// Vehicles on the town's lanes; in a town without lanes there are none, with a note.
+    pub vehicles: VehicleConfig,
+    /// People of recorded tracks: GPX and GeoJSON with times, ETH/UCY `obsmat`, CSV.
+    pub recorded: Vec<RecordedSource>,
+    /// People on routes of their own.
     pub scripted: Vec<ScriptedPerson>,
+    /// Vehicles and people that SUMO simulated.
+    pub sumo: Option<SumoSource>,
     /// People who are dressed like a followed person.
     pub look_alikes: LookAlikeConfig,
-}
-
-/// Recorded people of one file.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
-pub struct RecordedPeople {
-    /// File of tracks with times: GPX, GeoJSON, ETH/UCY `obsmat`, CSV; relative to the recipe's folder.
-    pub file: String,
-    /// How the file is read and placed.
-    #[serde(default)]
-    pub read: RecordedConfig,
 }
 
 impl Default for TrafficConfig {
@@ -50,11 +45,37 @@ impl Default for TrafficConfig {
             dt_s: 0.5,
             follow: Follow::default(),
             people: CrowdConfig::default(),
+            vehicles: VehicleConfig::default(),
             recorded: vec![],
             scripted: vec![],
+            sumo: None,
             look_alikes: LookAlikeConfig::default(),
         }
     }
+}
+
+/// A file of recorded tracks.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct RecordedSource {
+    /// Path of the file, absolute or relative to the recipe.
+    pub source: String,
+    /// Format, clock and place of the tracks.
+    #[serde(default)]
+    pub options: RecordedConfig,
+}
+
+/// Traffic that SUMO simulated.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct SumoSource {
+    /// Path of the file of `sumo --fcd-output`, absolute or relative to the recipe.
+    pub source: String,
+    /// Path of the net that SUMO used.
+    pub net: String,
+    /// Time and kinds.
+    #[serde(default)]
+    pub options: FcdConfig,
 }
 
 /// Bodies that flights follow: the first ones, by number, of the named kinds that are there in all frames.
@@ -139,30 +160,32 @@ impl Follow {
 
 impl TrafficConfig {
     /// Checks what the schema cannot say.
-    pub fn check(&self) -> Result<(), ParameterError> {
+    pub fn check(&self) -> Result<(), ConfigRule> {
         let duration_s = f64::from(self.frames) * self.dt_s;
         if duration_s > 86_400.0 {
             let message = format!("`frames` x `dt_s` is `{duration_s}` s; it must not be more than a day, `86400` s");
-            return Err(parameters::refused_at("frames", message));
+            return Err(ConfigRule { path: &["frames"], message });
         }
         if let Some(at) =
             (1..self.follow.kinds.len()).find(|at| self.follow.kinds[..*at].contains(&self.follow.kinds[*at]))
         {
             let message = format!("`{}` is listed twice", self.follow.kinds[at].body().name());
-            return Err(parameters::refused_at("follow.kinds", message));
+            return Err(ConfigRule { path: &["follow", "kinds"], message });
         }
-        self.look_alikes.check().map_err(|message| parameters::refused_at("look_alikes.shares", message))?;
-        let below = |table: String| {
-            move |rule: ConfigRule| parameters::refused_at(&format!("{table}.{}", rule.path.join(".")), rule.message)
-        };
-        self.people.check().map_err(below("people".into()))?;
-        for (number, recorded) in self.recorded.iter().enumerate() {
-            recorded.read.check().map_err(below(format!("recorded.{number}.read")))?;
+        let shares = |message| ConfigRule { path: &["look_alikes", "shares"], message };
+        self.look_alikes.check().map_err(shares)?;
+        for person in &self.scripted {
+            let below = |rule: ConfigRule| ConfigRule { path: &["scripted"], ..rule };
+            person.check().map_err(below)?;
         }
-        for (number, person) in self.scripted.iter().enumerate() {
-            person.check().map_err(below(format!("scripted.{number}")))?;
+        for recorded in &self.recorded {
+            let below = |rule: ConfigRule| ConfigRule { path: &["recorded"], ..rule };
+            recorded.options.check().map_err(below)?;
         }
-        Ok(())
+        let below = |rule: cosfly_vehicles::ConfigRule| ConfigRule { path: &["vehicles"], message: rule.message };
+        self.vehicles.validate().map_err(below)?;
+        let below = |rule: ConfigRule| ConfigRule { path: &["people"], ..rule };
+        self.people.check().map_err(below)
     }
 
     /// Frames and steps.
@@ -170,13 +193,22 @@ impl TrafficConfig {
         Clock::new(self.frames, self.dt_s, STEP_S)
     }
 
+    /// Files of recorded tracks, then the two of SUMO. Their names are left out of the parameters: contents count.
+    pub fn take_sources(&mut self) -> Vec<Source> {
+        let mut sources = vec![];
+        for (number, recorded) in self.recorded.iter_mut().enumerate() {
+            sources.push(Source::new(format!("recorded.{number}.source"), std::mem::take(&mut recorded.source)));
+        }
+        if let Some(sumo) = &mut self.sumo {
+            sources.push(Source::new("sumo.source", std::mem::take(&mut sumo.source)));
+            sources.push(Source::new("sumo.net", std::mem::take(&mut sumo.net)));
+        }
+        sources
+    }
+
     /// Parameters that the bodies depend on, for keys: those who are followed as far as others are dressed like them.
     pub fn canonical_of_bodies(&self) -> serde_json::Value {
         let mut all = parameters::canonical(self);
-        // The content of a file is part of the key; its path is not.
-        for recorded in all["recorded"].as_array_mut().into_iter().flatten() {
-            recorded["file"] = "(content)".into();
-        }
         if self.look_alikes.shares.is_empty() {
             all.as_object_mut().expect("a table").remove("follow");
         }

@@ -14,11 +14,9 @@ use cosfly_frames::{Seed, TargetTrack};
 use cosfly_pedestrians::{Crowd, WalkableGrid, path_of};
 use cosfly_render::{BodyShape, Outfit};
 use cosfly_stage::{
-    Artifact, Fan, InputPort, Inputs, ItemRule, Produced, Source, Stage, StageKind, StagePart, StageProperties,
-    TaskContext,
+    Artifact, Fan, InputPort, Inputs, ItemRule, Produced, Stage, StageKind, StagePart, StageProperties, TaskContext,
 };
 use cosfly_world::{Around, Body, Followed, Traffic, dress, simulate};
-use std::path::PathBuf;
 use std::sync::Arc;
 
 /// Blob of a walk that was taken out of traffic, with the whole [`Traffic`]; and the part that makes it.
@@ -52,13 +50,14 @@ impl StageKind for TrafficKind {
     }
 
     fn build(&self, given: serde_json::Value) -> Result<Vec<StagePart>, ParameterError> {
-        let config: TrafficConfig = parameters::read(given)?;
-        config.check()?;
-        let properties = |parameters, sources, inputs, artifact, items, bytes_per_item| StageProperties {
+        let mut config: TrafficConfig = parameters::read(given)?;
+        config.check().map_err(|rule| parameters::refused_at(&rule.path.join("."), rule.message))?;
+        let sources = config.take_sources();
+        let properties = |parameters, inputs, artifact, items, bytes_per_item| StageProperties {
             kind: self.name().into(),
             version: 1,
             parameters,
-            sources,
+            sources: vec![],
             inputs,
             artifact,
             items,
@@ -67,11 +66,12 @@ impl StageKind for TrafficKind {
         };
         let bodies = config.canonical_of_bodies();
         let bytes = 20 * u64::from(config.frames) * u64::from(config.people.count);
-        let bodies = properties(bodies, sources(&config), self.ports(), TRAFFIC, ItemRule::One, bytes);
+        let bodies = properties(bodies, self.ports(), TRAFFIC, ItemRule::One, bytes);
+        let bodies = StageProperties { sources, ..bodies };
         let doc = "Everybody: the part of the same stage.";
         let inputs = vec![ports::town(), ports::sibling(BODIES, TRAFFIC, Fan::Broadcast, doc)];
         let items = ItemRule::Count { prefix: "t", count: config.follow.count };
-        let walks = properties(config.canonical_of_walks(), vec![], inputs, WALK, items, 60 * u64::from(config.frames));
+        let walks = properties(config.canonical_of_walks(), inputs, WALK, items, 60 * u64::from(config.frames));
         let config = Arc::new(config);
         Ok(vec![
             StagePart {
@@ -81,12 +81,6 @@ impl StageKind for TrafficKind {
             StagePart { suffix: "", stage: Box::new(WalksStage { config, properties: walks, grid: Memo::default() }) },
         ])
     }
-}
-
-/// Files of recorded people.
-fn sources(config: &TrafficConfig) -> Vec<Source> {
-    let files = config.recorded.iter().enumerate();
-    files.map(|(number, it)| Source::new(format!("recorded.{number}.file"), PathBuf::from(&it.file))).collect()
 }
 
 /// Traffic that a walk was taken out of; `None` for a walk of a stage `pedestrians`.
@@ -151,8 +145,9 @@ impl Stage for BodiesStage {
     fn run(&self, inputs: &Inputs<'_>, outputs: &mut dyn OutputSink, context: &TaskContext) -> Result<Produced> {
         let world = world(inputs)?;
         let clock = self.config.clock();
-        let mut populations = population::all(&self.config, &context.sources, &world.town, clock, Seed(context.seed))?;
-        let simulated = simulate(&mut populations, clock, |_| context.check_cancelled())?;
+        let by = (clock, Seed(context.seed));
+        let mut populations = population::all(&self.config, &world.town, by, &context.sources)?;
+        let simulated = simulate(&mut populations.all, clock, |_| context.check_cancelled())?;
         let mut traffic = Traffic { name: context.id.stage.recipe_name().to_owned(), ..simulated };
         let mut followed = self.config.follow.eligible(&traffic);
         followed.truncate(self.config.follow.count as usize);
@@ -160,7 +155,7 @@ impl Stage for BodiesStage {
         let alike = |a: &Seed, b: &Seed| outfit(a).is_like(&outfit(b));
         let seed = Seed(context.seed).child("look-alikes", 0);
         let note = dress(&mut traffic, &followed, &self.config.look_alikes, &alike, &seed);
-        traffic.notes.extend(note);
+        traffic.notes.extend(populations.notes.into_iter().chain(note));
         outputs.put(BODIES, &codec::encode(TRAFFIC, &traffic)?)?;
         link_town(inputs, outputs)?;
         let notes = [("bodies".to_owned(), traffic.bodies.len().to_string())].into();

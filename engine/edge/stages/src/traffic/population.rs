@@ -1,47 +1,73 @@
-//! The populations of a stage `traffic`: one line per kind.
+//! The populations of a stage `traffic`: one function per kind.
 
-use super::config::TrafficConfig;
+use super::config::{RecordedSource, SumoSource, TrafficConfig};
 use cosfly_diagnose::{Diagnostic, Fault, Result};
 use cosfly_frames::{DVec2, Seed};
 use cosfly_maps::Town;
-use cosfly_pedestrians::{Crowd, PedestrianError, Prescribed, RecordedConfig, RecordedError, Recording, scripted};
+use cosfly_pedestrians::{Crowd, PedestrianError, Recording, WalkableGrid, scripted};
+use cosfly_vehicles::fcd::{self, FcdError, NetLocation, Place};
+use cosfly_vehicles::{VehicleError, Vehicles};
 use cosfly_world::{Clock, Population};
+use std::fs::File;
+use std::io::{BufReader, Read};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-/// All populations, in the order of their numbers: further kinds come last. `files` are those of the recorded people.
-pub fn all(
-    config: &TrafficConfig,
-    files: &[PathBuf],
-    town: &Town,
-    clock: Clock,
-    seed: Seed,
-) -> Result<Vec<Box<dyn Population>>> {
-    let mut others: Vec<Box<dyn Population>> = vec![];
-    for (number, (recorded, path)) in config.recorded.iter().zip(files).enumerate() {
-        let seed = seed.child("recorded", number as u64);
-        others.push(Box::new(recording(&recorded.read, path, town, clock, seed)?));
-    }
-    let refused = |error| refusal(error, &town.name);
-    let grid = match config.people.count > 0 || !config.scripted.is_empty() {
-        true => Some(Arc::new(Crowd::grid(town, &config.people).map_err(refused)?)),
-        false => None,
-    };
-    if let (Some(grid), false) = (&grid, config.scripted.is_empty()) {
-        let seed = seed.child("scripted", 0);
-        let fastest_mps = config.people.speed.max_mps;
-        others.push(Box::new(scripted(&config.scripted, grid, fastest_mps, clock, seed).map_err(refused)?));
-    }
-    let mut all: Vec<Box<dyn Population>> = vec![];
-    if let (Some(grid), true) = (grid, config.people.count > 0) {
-        let (seed, taken) = (seed.child("people", 0), first_places(&others));
-        all.push(Box::new(Crowd::beside(grid, &config.people, clock, seed, &taken).map_err(refused)?));
-    }
-    all.append(&mut others);
-    Ok(all)
+/// Bytes of a SUMO net that hold its location.
+const NET_HEAD_BYTES: u64 = 64 * 1024;
+
+/// Populations, and what was left out, in words.
+#[derive(Default)]
+pub struct Populations {
+    /// In the order of their numbers.
+    pub all: Vec<Box<dyn Population>>,
+    /// What was left out.
+    pub notes: Vec<String>,
 }
 
-/// Places and radii of all bodies that are present at the beginning.
+/// All populations. `files` are those of [`TrafficConfig::sources`].
+pub fn all(
+    config: &TrafficConfig,
+    town: &Town,
+    (clock, seed): (Clock, Seed),
+    files: &[PathBuf],
+) -> Result<Populations> {
+    let mut populations = Populations::default();
+    let mut grid: Option<Arc<WalkableGrid>> = None;
+    let refused = |error: PedestrianError| refusal(&error, error.hint(), &town.name);
+    if config.people.count > 0 || !config.scripted.is_empty() {
+        grid = Some(Arc::new(Crowd::grid(town, &config.people).map_err(refused)?));
+    }
+    if config.vehicles.count > 0 {
+        match Vehicles::new(town, &config.vehicles, clock, seed.child("vehicles", 0)) {
+            Ok(vehicles) => populations.all.push(Box::new(vehicles)),
+            Err(error @ VehicleError::NoLanes { .. }) => populations.notes.push(format!("{error}: there are none")),
+            Err(error) => return Err(refusal(&error, error.hint(), &town.name)),
+        }
+    }
+    for (number, recorded) in config.recorded.iter().enumerate() {
+        let seed = seed.child("recorded", number as u64);
+        populations.all.push(self::recorded(recorded, &files[number], town, clock, seed, &mut populations.notes)?);
+    }
+    if let Some(grid) = grid.as_ref().filter(|_| !config.scripted.is_empty()) {
+        let fastest_mps = config.people.speed.max_mps;
+        let people =
+            scripted(&config.scripted, grid, fastest_mps, clock, seed.child("scripted", 0)).map_err(refused)?;
+        populations.all.push(Box::new(people));
+    }
+    if let Some(sumo) = &config.sumo {
+        populations.all.push(self::sumo(sumo, &files[config.recorded.len()..], town, clock, seed.child("sumo", 0))?);
+    }
+    // People are numbered first, and begin beside everybody else.
+    if let Some(grid) = grid.filter(|_| config.people.count > 0) {
+        let (seed, others) = (seed.child("people", 0), first_places(&populations.all));
+        let crowd = Crowd::beside(grid, &config.people, clock, seed, &others).map_err(refused)?;
+        populations.all.insert(0, Box::new(crowd));
+    }
+    Ok(populations)
+}
+
+/// Places in plan and radii of all bodies that are there in the first frame, metres.
 fn first_places(populations: &[Box<dyn Population>]) -> Vec<(DVec2, f64)> {
     let mut places = vec![];
     for population in populations {
@@ -53,20 +79,51 @@ fn first_places(populations: &[Box<dyn Population>]) -> Vec<(DVec2, f64)> {
     places
 }
 
-fn recording(config: &RecordedConfig, path: &Path, town: &Town, clock: Clock, seed: Seed) -> Result<Prescribed> {
-    let bytes = std::fs::read(path)
-        .map_err(|error| Diagnostic::io(format!("read the recorded people `{}`", path.display()), &error))?;
-    let refused = |error: RecordedError| {
-        Diagnostic::new("tracks-refused", Fault::Input, error.to_string())
-            .because(format!("in `{}`", path.display()))
-            .hint(error.hint)
-    };
-    let recording = Recording::read(&bytes, config).map_err(refused)?;
-    recording.placed(town, config, clock, seed).map_err(refused)
+fn recorded(
+    source: &RecordedSource,
+    file: &Path,
+    town: &Town,
+    clock: Clock,
+    seed: Seed,
+    notes: &mut Vec<String>,
+) -> Result<Box<dyn Population>> {
+    let bytes = std::fs::read(file).map_err(|error| unreadable(file, &error))?;
+    let refused = |error: cosfly_pedestrians::RecordedError| in_file(file, &error, &error.hint);
+    let recording = Recording::read(&bytes, &source.options).map_err(refused)?;
+    notes.extend(recording.warnings.iter().map(|warning| format!("{}: {warning}", name_of(file))));
+    Ok(Box::new(recording.placed(town, &source.options, clock, seed).map_err(refused)?))
 }
 
-fn refusal(error: PedestrianError, town: &str) -> Box<Diagnostic> {
-    Diagnostic::new("pedestrians-refused", Fault::Input, format!("{error}"))
-        .because(format!("in town `{town}`"))
-        .hint(error.hint())
+fn sumo(source: &SumoSource, files: &[PathBuf], town: &Town, clock: Clock, seed: Seed) -> Result<Box<dyn Population>> {
+    let [traffic, net] = files else { return Err(Diagnostic::new("traffic-files", Fault::Bug, "a file is missing")) };
+    let refused = |file: &Path, error: FcdError| in_file(file, &error, error.hint.as_deref().unwrap_or_default());
+    let mut head = vec![];
+    File::open(net)
+        .and_then(|file| file.take(NET_HEAD_BYTES).read_to_end(&mut head))
+        .map_err(|error| unreadable(net, &error))?;
+    let net_location = NetLocation::of_net(&head).map_err(|error| refused(net, error))?;
+    let place = Place::new(town, &net_location, source.options.geo).map_err(|error| refused(net, error))?;
+    let file = File::open(traffic).map_err(|error| unreadable(traffic, &error))?;
+    let recorded = fcd::read(BufReader::new(file), &place, &source.options, clock, seed)
+        .map_err(|error| refused(traffic, error))?;
+    Ok(Box::new(recorded))
+}
+
+fn name_of(file: &Path) -> String {
+    file.file_name().map_or_else(String::new, |name| name.to_string_lossy().into_owned())
+}
+
+fn unreadable(file: &Path, error: &std::io::Error) -> Box<Diagnostic> {
+    let message = format!("cannot read `{}`", file.display());
+    Diagnostic::new("traffic-unreadable", Fault::Input, message).because(error)
+}
+
+fn in_file(file: &Path, error: &dyn std::fmt::Display, hint: &str) -> Box<Diagnostic> {
+    let message = format!("cannot use the tracks in `{}`", file.display());
+    let refusal = Diagnostic::new("traffic-tracks", Fault::Input, message).because(error);
+    if hint.is_empty() { refusal } else { refusal.hint(hint) }
+}
+
+fn refusal(error: &dyn std::fmt::Display, hint: impl Into<String>, town: &str) -> Box<Diagnostic> {
+    Diagnostic::new("traffic-refused", Fault::Input, format!("{error}")).because(format!("in town `{town}`")).hint(hint)
 }

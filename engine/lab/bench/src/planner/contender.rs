@@ -6,6 +6,7 @@ use cosfly_frames::{DVec3, TargetTrack};
 use cosfly_geometry::OrientedBox;
 use cosfly_planner::baselines::grid::VoxelOptions;
 use cosfly_planner::baselines::{Baseline, BaselineInput, BaselinePath, plan_astar, plan_baseline, plan_baseline_with};
+use cosfly_planner::config::Foresight;
 use cosfly_planner::obstacles::{ground::GroundGrid, local::LocalObstacles};
 use cosfly_planner::paper::plan_paper;
 use cosfly_planner::problem::Problem;
@@ -18,6 +19,8 @@ use cosfly_planner::{MucoConfig, PlanOutcome, PlanRequest, Preset, plan_request}
 pub enum Contender {
     /// Cosfly's planner with its default preset.
     Cosfly,
+    /// The same, knowing only the past of target and movers.
+    Causal,
     /// Cosfly's planner with another of its presets.
     Preset(Preset),
     /// The paper's pipeline alone: neither certified nor rejected.
@@ -96,7 +99,12 @@ impl Contender {
     /// [`Self::all`], the other presets, and the [`SETTINGS`].
     pub fn nameable() -> Vec<Self> {
         let presets = PRESETS.map(|(preset, _)| Self::Preset(preset));
-        Self::all().into_iter().chain(presets).chain((0..SETTINGS.len()).map(Self::Setting)).collect()
+        Self::all()
+            .into_iter()
+            .chain([Self::Causal])
+            .chain(presets)
+            .chain((0..SETTINGS.len()).map(Self::Setting))
+            .collect()
     }
 
     /// Name in the table and on the command line.
@@ -104,6 +112,7 @@ impl Contender {
         match self {
             Self::Setting(index) => SETTINGS[index].name,
             Self::Cosfly => "cosfly",
+            Self::Causal => "causal",
             Self::Preset(preset) => PRESETS.iter().find(|(known, _)| *known == preset).map_or("preset", |it| it.1),
             Self::Paper => "paper",
             Self::PaperFlyable => "paper_flyable",
@@ -128,6 +137,7 @@ impl Contender {
         let way = &Way { ground, track, movers };
         match self {
             Self::Cosfly => flight(way, &MucoConfig { preset: Preset::Cosfly, ..config.clone() }),
+            Self::Causal => flight(way, &MucoConfig { foresight: Foresight::Causal, ..config.clone() }),
             Self::Preset(preset) => flight(way, &MucoConfig { preset, ..config.clone() }),
             Self::Paper => Ok(paper_flight(ground, track, &MucoConfig { preset: Preset::Paper, ..config.clone() })),
             Self::PaperFlyable => flight(way, &MucoConfig { preset: Preset::Paper, ..config.clone() }),

@@ -202,7 +202,7 @@ fn judge(job: &Job<'_>, planned: &Result<Planned, String>) -> Result<Verdict, St
         .map(|(&from, &to)| job.judge.segment_clearance_m(from, to, CAP_M))
         .fold(CAP_M, f64::min);
     let moving_m = least_distance_m(waypoints, &job.movers, CAP_M);
-    let map = ExactMap { query: job.ground.exact.as_ref(), movers: &job.movers };
+    let map = ExactMap::among(job.ground.exact.as_ref(), &job.movers);
     let seen = |frame: usize| map.visibility(frame, waypoints[frame], &job.track.states[frame], job.track.height_m);
     let visibility = (0..waypoints.len()).map(seen).sum::<f64>() / waypoints.len().max(1) as f64;
     Ok(Verdict { visibility, clearance_m, moving_m, kinematics: Kinematics::of(job.track, waypoints, 0) })

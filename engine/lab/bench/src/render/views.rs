@@ -202,6 +202,7 @@ fn box_town(boxes: usize) -> Town {
         obstacles,
         planning_boxes: vec![],
         simplification: SimplificationReport::default(),
+        lanes: vec![],
         walkable: vec![],
         lanes: vec![],
         surfaces: vec![ground],

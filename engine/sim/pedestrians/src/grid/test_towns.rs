@@ -33,7 +33,6 @@ pub(crate) fn town(walkable: Vec<WalkablePolygon>, obstacles: Vec<Obstacle>) -> 
         simplification: SimplificationReport::default(),
         lanes: vec![],
         walkable,
-        lanes: vec![],
         surfaces: vec![],
         synthetic: Synthetic::default(),
         min_in_world: DVec3::ZERO,

@@ -17,7 +17,7 @@ const STANDING_MPS: f64 = 0.1;
 const THINNEST_M: f64 = 0.05;
 
 impl Recording {
-    /// The recorded people in a town, at every frame of the clock. Who is outside the town is absent; who comes back is another
+    /// The recorded people in a town, at every frame of the clock; its notes come on top of the recording's own warnings. Who is outside the town is absent; who comes back is another
     /// person.
     ///
     /// # Errors
@@ -52,7 +52,7 @@ impl Recording {
                 _ => "check `origin_m` and `turn_deg`, or that the map is of the place of the recording",
             }));
         }
-        let mut notes = self.warnings.clone();
+        let mut notes = vec![];
         if outside > 0 {
             notes.push(format!("recorded people leave the town: {outside} of their frames are left out"));
         }

@@ -18,7 +18,7 @@ const SHARES: [f64; 4] = [0.75, 0.5, 0.25, 0.125];
 pub(super) struct Corridor<'a> {
     /// All unsimplified boxes, and those that move.
     pub map: ExactMap<'a>,
-    /// Number of the frame.
+    /// Frame at which the drone is displaced.
     pub frame: usize,
     /// Distance from obstacles along the whole swept path.
     pub clearance_m: f64,
@@ -33,12 +33,13 @@ pub(super) struct Corridor<'a> {
 impl Corridor<'_> {
     fn holds(&self, position: DVec3) -> bool {
         let kept_m = self.clearance_m + ROUNDING_M;
-        let swept = |frame, from, to| self.map.segment_clearance(frame, from, to, kept_m) >= kept_m;
+        let (frame, map) = (self.frame, self.map);
+        let here = |to: DVec3| map.segment_clearance(frame, position, to, kept_m) >= kept_m;
         let is_reached = match self.before {
-            Some(before) => swept(self.frame - 1, before, position),
-            None => swept(self.frame, position, position),
+            Some(before) => map.segment_clearance(frame - 1, before, position, kept_m) >= kept_m,
+            None => here(position),
         };
-        position.z >= self.lowest_z_m && is_reached && self.after.is_none_or(|after| swept(self.frame, position, after))
+        position.z >= self.lowest_z_m && is_reached && self.after.is_none_or(here)
     }
 }
 

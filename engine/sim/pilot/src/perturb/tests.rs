@@ -292,3 +292,23 @@ fn a_tight_limit_of_acceleration_makes_displacements_smaller() {
     let narrow = largest(&config);
     assert!(0.0 < narrow && narrow < 0.7 * wide, "{narrow} {wide}");
 }
+
+#[test]
+fn twins_keep_clear_of_boxes_that_move() {
+    let (expert, exact) = (expert(300), BoxBvh::build(vec![]));
+    // Something flies along, a frame behind, as near as the clearance allows.
+    let at = |frame: usize| OrientedBox {
+        center_in_world: expert.poses_in_world[frame.saturating_sub(1)].position_in_world + DVec3::new(0.0, 3.2, 0.0),
+        half_extents_m: DVec3::splat(1.0),
+        yaw_rad: 0.1 * frame as f64,
+    };
+    let movers = [(0..300).map(at).collect::<Vec<_>>()];
+    let map = ExactMap::among(&exact, &movers);
+    for kind in Kind::ALL {
+        let config = only(kind);
+        let PlanOutcome::Planned(twin) = perturb(&expert, "p3", map, &config, seed()) else { panic!("{kind:?}") };
+        assert!(twin.certificate.min_clearance_m >= config.clearance_m - 1e-9, "{kind:?}");
+        let offsets = frames(&twin).iter().map(|frame| frame.drone_offset_in_world.length());
+        assert!(kind == Kind::Aim || kind == Kind::Search || offsets.fold(0.0, f64::max) > 0.1, "{kind:?}");
+    }
+}

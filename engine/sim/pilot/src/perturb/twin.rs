@@ -20,7 +20,7 @@ const STEEPEST_PITCH_RAD: f64 = 89.9 * (real::PI / 180.0);
 /// The perturbed twin of `expert`, of the kind that the seed draws from the mixture.
 ///
 /// Twins of all kinds but `jumps` could be flown: the certificate states their limits of speed and acceleration; a
-/// displacement that would break them, or that comes too near to an obstacle, is made smaller, smoothly in time.
+/// displacement that would break them, or that comes too near to an obstacle, still or moving, is made smaller, smoothly in time.
 ///
 /// Kind `jumps`: with probability `position_probability` the drone is displaced and aims at a displaced point; independently,
 /// with probability `rotation_probability`, its view is turned. A displacement that would come nearer to an obstacle than

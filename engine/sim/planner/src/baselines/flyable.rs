@@ -17,8 +17,7 @@ pub fn made_flyable(input: &BaselineInput<'_>, found: BaselinePath) -> BaselineP
         .with_movers(input.movers);
     obstacles.focus_on(&found.waypoints);
     let ground = |x: f64, y: f64| input.ground.z_m(x, y);
-    let mut judge =
-        Judge::new(input.problem, ExactMap { query: input.exact, movers: input.movers }, &ground, config, &[]);
+    let mut judge = Judge::new(input.problem, ExactMap::among(input.exact, input.movers), &ground, config, &[]);
     let (waypoints, _) = judge.make_flyable(&obstacles, &found.waypoints, &found.waypoints, OBJECTIVE);
     BaselinePath { waypoints, ..found }
 }

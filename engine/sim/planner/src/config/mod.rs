@@ -1,6 +1,7 @@
 //! Parameters of the `muco` stage: one file per table of the recipe, with defaults, ranges and contradictions.
 
 pub mod descent;
+pub mod drones;
 pub mod foresight;
 pub mod limits;
 pub mod muco;
@@ -13,6 +14,7 @@ pub mod targets;
 pub mod view;
 
 pub use descent::DescentConfig;
+pub use drones::DronesConfig;
 pub use foresight::{CausalConfig, Foresight};
 pub use limits::LimitsConfig;
 pub use muco::MucoConfig;

@@ -1,6 +1,7 @@
 //! All parameters of a flight, and the checks that run over several tables at once.
 
 use super::descent::DescentConfig;
+use super::drones::DronesConfig;
 use super::foresight::{CausalConfig, Foresight};
 use super::limits::{LimitsConfig, VIEW_RATE_DEG_S};
 use super::occlusion::OcclusionConfig;
@@ -43,6 +44,8 @@ pub struct MucoConfig {
     pub foresight: Foresight,
     /// The planning of `foresight = "causal"`.
     pub causal: CausalConfig,
+    /// Several drones behind one target.
+    pub drones: DronesConfig,
     /// The descent of `preset = "paper"`; of it the other presets use only `difference_m`, for terms without a gradient.
     pub descent: DescentConfig,
     /// Parameters that only `preset = "paper"` reads.
@@ -62,6 +65,7 @@ impl Default for MucoConfig {
             occlusion: OcclusionConfig::default(),
             foresight: Foresight::Expected,
             causal: CausalConfig::default(),
+            drones: DronesConfig::default(),
             descent: DescentConfig::default(),
             paper: PaperConfig::default(),
         }
@@ -105,6 +109,7 @@ impl MucoConfig {
     fn check_ranges(&self) -> Result<(), Refusal> {
         let flight = self.limits.ranges().into_iter().chain(self.view.ranges()).chain(self.search.ranges());
         let targets = self.targets.ranges().into_iter().chain(self.occlusion.ranges()).chain(self.causal.ranges());
+        let targets = targets.chain(self.drones.ranges());
         for (path, value, low, high) in flight.chain(targets).chain(self.descent.ranges()) {
             in_range(path, value, low, high)?;
         }
@@ -137,6 +142,7 @@ mod tests {
         check_refused(|c| c.weights.jerk = Some(-1.0), "weights.jerk");
         check_refused(|c| c.descent.min_rate = 1.0, "descent.min_rate");
         check_refused(|c| c.search.radii = 13, "search.radii");
+        check_refused(|c| c.drones.separation_m = 0.0, "drones.separation_m");
         check_refused(|c| c.causal.horizon_s = f64::NAN, "causal.horizon_s");
     }
 

@@ -11,6 +11,14 @@ pub struct OcclusionConfig {
     /// Number of times that the target is to be lost. The certificate states the time ordered and reached. Default 0.
     #[schemars(range(min = 0, max = 100))]
     pub count: u32,
+    /// Share of the flights that lose their target. Below 1, every flight is planned with its loss first, and the orders go to
+    /// flights that succeeded, so that the share is filled; a shortfall is reported. Default 1: each flight tries.
+    #[schemars(range(min = 0.0, max = 1.0))]
+    pub share: f64,
+    /// Share of those flights that see the target again beside somebody in the same clothes, at most 15 m away; for walks of stage
+    /// `traffic` and `share` below 1. Default 0.
+    #[schemars(range(min = 0.0, max = 1.0))]
+    pub beside_look_alike: f64,
     /// Shortest loss, seconds. Default 2.
     #[schemars(range(min = 0.1, max = 60.0))]
     pub min_s: f64,
@@ -21,14 +29,21 @@ pub struct OcclusionConfig {
 
 impl Default for OcclusionConfig {
     fn default() -> Self {
-        Self { count: 0, min_s: 2.0, max_s: 4.0 }
+        Self { count: 0, share: 1.0, beside_look_alike: 0.0, min_s: 2.0, max_s: 4.0 }
     }
 }
 
 impl OcclusionConfig {
-    pub(super) fn ranges(&self) -> [Range; 3] {
+    /// Whether losses are ordered in a share of the flights.
+    pub fn has_quota(&self) -> bool {
+        self.count > 0 && self.share < 1.0
+    }
+
+    pub(super) fn ranges(&self) -> [Range; 5] {
         [
             ("occlusion.count", f64::from(self.count), 0.0, 100.0),
+            ("occlusion.share", self.share, 0.0, 1.0),
+            ("occlusion.beside_look_alike", self.beside_look_alike, 0.0, 1.0),
             ("occlusion.min_s", self.min_s, 0.1, 60.0),
             ("occlusion.max_s", self.max_s, 0.1, 60.0),
         ]

@@ -1,6 +1,6 @@
 //! Surroundings answered by the unsimplified map.
 
-use super::moving::{Encounter, hides};
+use super::moving::{Encounter, OtherDrones, hides};
 use super::{Surroundings, ground::GroundGrid, solid::Solid};
 use crate::visibility::{aim_point, body_points, visibility};
 use cosfly_frames::{DVec3, TargetState, TargetTrack};
@@ -13,12 +13,25 @@ pub struct ExactMap<'a> {
     pub query: &'a dyn SpatialQuery,
     /// Places of each moving box, frame by frame; see [`crate::PlanRequest::movers`].
     pub movers: &'a [Vec<OrientedBox>],
+    /// Those of them that are drones. Distances from them are smaller by what is kept from them beyond `clearance_m`.
+    pub drones: OtherDrones,
+    /// Distance that is kept from all, metres.
+    pub clearance_m: f64,
 }
 
 impl<'a> ExactMap<'a> {
     /// A map in which nothing moves.
     pub fn still(query: &'a dyn SpatialQuery) -> Self {
-        Self { query, movers: &[] }
+        Self::among(query, &[])
+    }
+
+    /// A map in which some boxes move.
+    pub fn among(query: &'a dyn SpatialQuery, movers: &'a [Vec<OrientedBox>]) -> Self {
+        Self { query, movers, drones: OtherDrones::default(), clearance_m: 0.0 }
+    }
+
+    fn beyond_m(&self, index: usize) -> f64 {
+        self.drones.beyond_m(index, self.movers.len(), self.clearance_m)
     }
 
     /// The boxes that move, where they are at a frame.
@@ -49,10 +62,11 @@ impl<'a> ExactMap<'a> {
     pub fn nearest(&self, frame: usize, position: DVec3, within_m: f64) -> Option<(f64, DVec3)> {
         let still = self.query.nearest(position, within_m).map(|near| (near.distance_m, near.away_in_world));
         let mut best = still;
-        for shape in self.moving_at(frame) {
-            let limit_m = best.map_or(within_m, |near| near.0);
-            if position.distance(shape.center_in_world) - shape.half_extents_m.length() < limit_m {
-                let near = Solid::new(shape).signed_distance(position);
+        for (index, shape) in self.moving_at(frame).enumerate() {
+            let (limit_m, beyond_m) = (best.map_or(within_m, |near| near.0), self.beyond_m(index));
+            if position.distance(shape.center_in_world) - shape.half_extents_m.length() < limit_m + beyond_m {
+                let (distance_m, away) = Solid::new(shape).signed_distance(position);
+                let near = (distance_m - beyond_m, away);
                 best = if near.0 < limit_m { Some(near) } else { best };
             }
         }
@@ -63,10 +77,10 @@ impl<'a> ExactMap<'a> {
     /// move it is a lower bound in continuous time, see [`Encounter::clearance_m`].
     pub fn segment_clearance(&self, frame: usize, from: DVec3, to: DVec3, within_m: f64) -> f64 {
         let still = self.query.segment_clearance(from, to, within_m);
-        self.movers.iter().fold(still, |smallest, places| {
+        self.movers.iter().enumerate().fold(still, |smallest, (index, places)| {
             let Some(here) = places.get(frame) else { return smallest };
-            let next = places.get(frame + 1).unwrap_or(here);
-            Encounter { here, next, from, to }.clearance_m(smallest)
+            let (next, beyond_m) = (places.get(frame + 1).unwrap_or(here), self.beyond_m(index));
+            Encounter { here, next, from, to }.clearance_m(smallest + beyond_m) - beyond_m
         })
     }
 }

@@ -1,6 +1,6 @@
 //! Per-path obstacle filtering: the planning boxes near each stretch of the path (paper, section 3.3).
 
-use super::{Surroundings, ground::GroundGrid, moving::Moving, solid::Solid};
+use super::{Surroundings, ground::GroundGrid, moving::Moving, moving::OtherDrones, solid::Solid};
 use crate::config::targets::SeveralTargets;
 use crate::visibility::{BODY_POINTS, body_points};
 use cosfly_frames::{DVec3, TargetTrack};
@@ -106,14 +106,19 @@ impl<'a> LocalObstacles<'a> {
 
     /// Adds boxes that move, each given by its places frame by frame. At each frame only those are kept that come within the
     /// filter's radius of the target (from above) until the next.
-    pub fn with_movers(mut self, movers: &[Vec<OrientedBox>]) -> Self {
+    pub fn with_movers(self, movers: &[Vec<OrientedBox>]) -> Self {
+        self.with_drones(movers, OtherDrones::default(), 0.0)
+    }
+
+    /// The same where some of them are drones and flights keep `clearance_m` from all others.
+    pub fn with_drones(mut self, movers: &[Vec<OrientedBox>], drones: OtherDrones, clearance_m: f64) -> Self {
         if movers.is_empty() {
             return self;
         }
         self.moving_starts.push(0);
         for (frame, body) in self.bodies[0].iter().enumerate() {
             let middle = 0.5 * (body[0] + body[5]);
-            for places in movers {
+            for (index, places) in movers.iter().enumerate() {
                 let Some(here) = places.get(frame) else { continue };
                 let next = places.get(frame + 1).unwrap_or(here);
                 let reach_m = self.radius_m
@@ -121,7 +126,8 @@ impl<'a> LocalObstacles<'a> {
                     + here.half_extents_m.max(next.half_extents_m).truncate().length();
                 let away = (here.center_in_world - middle).truncate();
                 if away.length_squared() <= reach_m * reach_m {
-                    self.moving.push(Moving::new(here, next, middle));
+                    let beyond_m = drones.beyond_m(index, movers.len(), clearance_m);
+                    self.moving.push(Moving::new(here, next, middle).kept_from(beyond_m));
                 }
             }
             self.moving_starts.push(self.moving.len() as u32);

@@ -13,6 +13,32 @@ pub const TURN_ERROR_M: f64 = 0.01;
 /// move by 300 m in a turn get there.
 const MOST_HALVINGS: u32 = 15;
 
+/// Half the size of a drone's own box, metres.
+const DRONE_HALF_M: f64 = 0.3;
+
+/// Boxes of a drone, frame by frame, from its places in the world frame.
+pub fn drone_boxes(places: &[DVec3]) -> Vec<OrientedBox> {
+    let half_extents_m = DVec3::splat(DRONE_HALF_M);
+    places.iter().map(|&center_in_world| OrientedBox { center_in_world, half_extents_m, yaw_rad: 0.0 }).collect()
+}
+
+/// Other drones among the boxes that move.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct OtherDrones {
+    /// So many of the boxes that move, the last ones, are drones ([`drone_boxes`]).
+    pub count: usize,
+    /// Smallest distance from drone to drone, middle to middle, metres.
+    pub separation_m: f64,
+}
+
+impl OtherDrones {
+    /// What a flight keeps from mover number `index` of `movers` beyond the `clearance_m` that it keeps from all, metres.
+    pub fn beyond_m(&self, index: usize, movers: usize, clearance_m: f64) -> f64 {
+        let is_drone = index + self.count >= movers;
+        if is_drone { (self.separation_m - DRONE_HALF_M - clearance_m).max(0.0) } else { 0.0 }
+    }
+}
+
 /// One moving box at a frame, and its way to the next.
 #[derive(Clone, Copy, Debug)]
 pub struct Moving {
@@ -35,6 +61,12 @@ impl Moving {
         let growth_m = half + turned_growth(half, turn_rad) - here.half_extents_m;
         let step = next.center_in_world - here.center_in_world;
         Self { here: solid, step, is_target: solid.signed_distance(middle).0 <= 0.0, growth_m }
+    }
+
+    /// The same box, of which flights keep further away by `more_m`.
+    pub fn kept_from(mut self, more_m: f64) -> Self {
+        self.growth_m += DVec3::splat(more_m);
+        self
     }
 
     /// Whether it may hide something of a body at `feet` from a camera at least `lowest_m` above the feet and at most

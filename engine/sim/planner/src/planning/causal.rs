@@ -7,7 +7,6 @@
 use super::stretches::PlanOne;
 use crate::certificate::{certify, publishable};
 use crate::found::Found;
-use crate::obstacles::exact::ExactMap;
 use crate::problem::frame_number;
 use crate::request::PlanRequest;
 use crate::trajectory::Certificate;
@@ -59,7 +58,7 @@ pub(super) fn fly(request: &PlanRequest<'_>, head: &[DVec3], plan_one: &PlanOne<
             sum.lattice_visibility += seen;
         }
     }
-    let exact = ExactMap { query: request.exact, movers: request.movers };
+    let exact = request.map();
     let mut measured = certify(request.track, &flown, head.len(), exact, request.ground, config);
     let certificate = &mut measured.certificate;
     certificate.lattice_visibility = sum.lattice_visibility / (frames - head.len()).max(1) as f64;

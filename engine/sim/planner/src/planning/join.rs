@@ -6,7 +6,6 @@
 use crate::certificate::{certify, publishable};
 use crate::found::Found;
 use crate::muco::lead_in;
-use crate::obstacles::exact::ExactMap;
 use crate::request::PlanRequest;
 use cosfly_frames::DVec3;
 
@@ -43,7 +42,7 @@ pub(super) fn join(request: &PlanRequest<'_>, head: &[DVec3], flight: &[DVec3]) 
 /// The flight, if it may be published.
 fn judged(request: &PlanRequest<'_>, head: &[DVec3], mut waypoints: Vec<DVec3>) -> Option<Found> {
     waypoints[..head.len()].copy_from_slice(head);
-    let exact = ExactMap { query: request.exact, movers: request.movers };
+    let exact = request.map();
     let measured = certify(request.track, &waypoints, head.len(), exact, request.ground, request.config);
     let valid = publishable(request.config, &measured.certificate);
     valid.then_some(Found { waypoints, measured, convergence: Vec::new() })

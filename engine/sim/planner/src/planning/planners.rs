@@ -9,7 +9,7 @@ use crate::config::planner::Planner;
 use crate::found::Found;
 use crate::muco::attempts::{THOROUGH, escalate};
 use crate::muco::judge::Judge;
-use crate::obstacles::{exact::ExactMap, ground::GroundGrid, local::LocalObstacles};
+use crate::obstacles::{ground::GroundGrid, local::LocalObstacles};
 use crate::paper::pipeline::plan_paper;
 use crate::problem::Problem;
 use crate::request::PlanRequest;
@@ -80,9 +80,9 @@ fn solve_at_once(
     let ground = GroundGrid::sample(track, request.ground, radius_m + 10.0);
     let mut obstacles = LocalObstacles::filter(track, request.planning_boxes, &ground, radius_m, influence_m)
         .with_companions(request.companions, config.targets.visibility)
-        .with_movers(request.movers);
+        .with_drones(request.movers, request.drones, config.limits.clearance_m);
     terms.iter().for_each(|weighted| weighted.term.begin(&problem.context(&obstacles)));
-    let exact = ExactMap { query: request.exact, movers: request.movers };
+    let exact = request.map();
     let mut judge = Judge::new(&problem, exact, request.ground, config, head);
     match solver {
         Solver::Baseline(kind) => by_a_baseline(kind, request, &problem, &ground, &judge),

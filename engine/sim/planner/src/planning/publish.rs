@@ -14,7 +14,7 @@ use cosfly_frames::{DVec3, Pose};
 /// The flight as it is handed out: without the frames before the first one, with poses and the costs of all terms.
 pub(super) fn publish(request: &PlanRequest<'_>, terms: &[WeightedTerm], found: Found) -> PlanOutcome {
     let (track, config) = (request.track, request.config);
-    let map = ExactMap { query: request.exact, movers: request.movers };
+    let map = request.map();
     let before = found.waypoints.len().saturating_sub(track.len());
     let waypoints = &found.waypoints[before..];
     let measured = if before > 0 { measured_again(request, map, &found, waypoints) } else { found.measured };

@@ -3,7 +3,6 @@
 
 use crate::certificate::{certify, publishable};
 use crate::found::Found;
-use crate::obstacles::exact::ExactMap;
 use crate::problem::frame_number;
 use crate::request::PlanRequest;
 use crate::trajectory::Certificate;
@@ -44,7 +43,7 @@ pub fn plan_stretches(request: &PlanRequest<'_>, head: &[DVec3], plan_one: &Plan
             break;
         }
     }
-    let exact = ExactMap { query: request.exact, movers: request.movers };
+    let exact = request.map();
     let mut measured = certify(request.track, &waypoints, head.len(), exact, request.ground, request.config);
     let certificate = &mut measured.certificate;
     certificate.lattice_visibility = sum.lattice_visibility / seen_frames;

@@ -62,7 +62,7 @@ fn faces_look_outward_and_have_the_labels_of_their_kind() {
         figure(&walker, &Clothes::draw(&walker.clothes_seed), 0, &mut triangles);
         let labels: std::collections::BTreeSet<_> = triangles.iter().map(|it| walker.body.label(it.region)).collect();
         let is_ridden = matches!(kind, BodyKind::Bicycle | BodyKind::Motorcycle);
-        assert_eq!(labels.contains(&label), true, "{kind:?}");
+        assert!(labels.contains(&label), "{kind:?}");
         assert_eq!(labels.contains(&SemanticLabel::Rider), is_ridden, "{kind:?}");
         assert_eq!(labels.len(), 1 + usize::from(is_ridden));
         for triangle in &triangles {

@@ -36,6 +36,7 @@ pub fn empty_town() -> Town {
         obstacles: vec![],
         planning_boxes: vec![],
         simplification: SimplificationReport::default(),
+        lanes: vec![],
         walkable: vec![],
         surfaces: vec![],
         lanes: vec![],

@@ -6,7 +6,7 @@ use cosfly_planner::PlanOutcome;
 use cosfly_recipe::{Arrival, RecipeStage};
 use cosfly_runner::Plan;
 use cosfly_stage::{BlobSource, Blobs, ItemName};
-use cosfly_stages::expert::{Bodies, Companion, Expert, Flight};
+use cosfly_stages::expert::{Bodies, Companion, Expert, Flight, drones_before};
 use cosfly_stages::plugins::Plugins;
 use cosfly_stages::read;
 use cosfly_stages::world::World;
@@ -91,11 +91,14 @@ impl<'a> Experts<'a> {
         let described = &self.plan.recipe.stages[stage];
         let name = described.items[item].of_stage(&described.name).to_string();
         let broken = |rule: String| Diagnostic::new("plan-from-parameters", Fault::Bug, rule);
-        let expert = Expert::read(described.stage.properties().parameters.clone()).map_err(|it| broken(it.message))?;
+        let mut expert =
+            Expert::read(described.stage.properties().parameters.clone()).map_err(|it| broken(it.message))?;
         let town = described.connection("town").and_then(|connection| connection.arrivals.first().cloned());
         let world = self.world(&town.ok_or_else(|| broken(format!("`{name}` has no town")))?)?;
         let blobs = self.blobs(stage, item)?;
         let outcome = read::trajectory(&self.store.read(&blobs[read::TRAJECTORY_BLOB])?)?;
+        let published_without_loss =
+            matches!(&outcome, PlanOutcome::Planned(it) if it.certificate.occlusion_ordered_s == 0.0);
         let (track, flown) = match outcome {
             PlanOutcome::Planned(flight) => {
                 let flown = flight.poses_in_world.iter().map(|pose| pose.position_in_world).collect();
@@ -103,9 +106,14 @@ impl<'a> Experts<'a> {
             }
             PlanOutcome::Rejected { track, .. } => (track, vec![]),
         };
+        if published_without_loss {
+            expert.config.occlusion.count = 0;
+        }
         let around = blobs.get(read::AROUND_BLOB).map(|blob| read::around(&self.store.read(blob)?)).transpose()?;
         let movers = around.map_or_else(Vec::new, |around| around.boxes());
-        let bodies = Bodies { walk: Some(track), companions: self.companions(stage, item)?, movers };
+        let drones_before = drones_before(&described.items[item]);
+        let companions = self.companions(stage, item)?;
+        let bodies = Bodies { walk: Some(track), companions, movers, drones_before };
         let seed = Seed::of_item(self.plan.recipe.seed, described.name.as_str(), &described.items[item].to_string());
         let paths: Vec<PathBuf> = described.sources.iter().map(|source| source.path.clone()).collect();
         let plugins = Plugins::of_expert(&expert.plugins, &paths)?.for_item(name.clone());

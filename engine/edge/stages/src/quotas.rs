@@ -1,0 +1,174 @@
+//! Parts `trials` and `orders` of a `muco` stage whose recipe orders losses in a share of the flights: every flight is planned
+//! with its loss once, and the orders go to flights that succeeded, so that the shares are filled.
+
+use crate::codec;
+use crate::ports::{self, LOSSES, ORDERS};
+use cosfly_blobs::OutputSink;
+use cosfly_diagnose::Result;
+use cosfly_planner::config::OcclusionConfig;
+use cosfly_planner::{PlanOutcome, Trajectory};
+use cosfly_render::{BodyShape, Outfit};
+use cosfly_stage::{Fan, InputPort, Inputs, ItemRule, Produced, Sees, Stage, StagePart, StageProperties, TaskContext};
+use cosfly_world::{Around, Followed};
+use serde::{Deserialize, Serialize};
+
+/// Part with the trial of every flight.
+pub const TRIALS: &str = "trials";
+/// Part with the orders of all flights.
+pub const ORDERS_PART: &str = "orders";
+/// Blob of a trial.
+const TRIAL: &str = "trial";
+/// Somebody within this distance of the target, where it is seen again, is beside it, metres.
+const BESIDE_M: f64 = 15.0;
+
+/// What came of ordering a loss.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub struct Trial {
+    /// Whether the target is lost for as long as ordered.
+    pub is_lost: bool,
+    /// Whether somebody in the target's clothes is beside it where it is seen again.
+    pub beside_look_alike: bool,
+}
+
+impl Trial {
+    /// Of a flight planned with the loss.
+    pub fn of(outcome: &PlanOutcome, ordered: &OcclusionConfig, around: &Around, followed: Option<&Followed>) -> Self {
+        let PlanOutcome::Planned(flight) = outcome else { return Self { is_lost: false, beside_look_alike: false } };
+        let least_s = f64::from(ordered.count) * ordered.min_s;
+        let is_lost = flight.certificate.occlusion_reached_s >= least_s;
+        let seen_again = seen_again(flight);
+        let beside_look_alike = followed.zip(seen_again).is_some_and(|(followed, frame)| {
+            let looks = |seed| Outfit::of(BodyShape::Person, seed);
+            let feet = flight.track.states[frame].feet_in_world;
+            around.traffic.bodies.iter().filter(|body| body.plan.kind == followed.plan.kind).any(|body| {
+                let state = body.state(frame as u32);
+                state.is_some_and(|state| (state.feet_in_world - feet).length() <= BESIDE_M)
+                    && looks(&body.plan.looks).is_like(&looks(&followed.plan.looks))
+            })
+        });
+        Self { is_lost, beside_look_alike }
+    }
+
+    /// Writes the trial as the output of its item.
+    pub fn put(&self, outputs: &mut dyn OutputSink) -> Result<()> {
+        outputs.put(TRIAL, &codec::encode(LOSSES, self)?)
+    }
+}
+
+/// Frame after the longest stretch in which no ray reaches the target; `None` where it is the end.
+fn seen_again(flight: &Trajectory) -> Option<usize> {
+    let lost = |frame: &usize| flight.visibility[*frame] == 0.0;
+    let frames: Vec<usize> = (0..flight.visibility.len()).collect();
+    let stretches = frames.chunk_by(|a, b| lost(a) == lost(b)).filter(|stretch| lost(&stretch[0]));
+    let longest = stretches.reduce(|longest, next| if next.len() > longest.len() { next } else { longest })?;
+    Some(longest[longest.len() - 1] + 1).filter(|frame| *frame < flight.visibility.len())
+}
+
+/// Who loses the target: for each flight in turn, from its trial and those before it.
+fn assigned(trials: &[Trial], share: f64, share_beside: f64) -> Vec<bool> {
+    let (mut given, mut given_beside) = (0.0, 0.0);
+    let assign = |(place, trial): (usize, &Trial)| {
+        let wanted = (share * (place + 1) as f64 + 1e-9).floor();
+        let wanted_beside = (share_beside * wanted + 1e-9).ceil();
+        let is_beside = trial.beside_look_alike;
+        let goes = trial.is_lost && ((is_beside && given_beside < wanted_beside) || given < wanted);
+        given += f64::from(u8::from(goes));
+        given_beside += f64::from(u8::from(goes && is_beside));
+        goes
+    };
+    trials.iter().enumerate().map(assign).collect()
+}
+
+/// The part that gives the orders of `config`.
+pub fn orders_part(config: &OcclusionConfig) -> StagePart {
+    let trials = ports::sibling(TRIALS, LOSSES, Fan::Gather, "The trials of all flights.");
+    let properties = StageProperties {
+        kind: "muco".into(),
+        version: 1,
+        parameters: serde_json::json!({ "share": config.share, "beside_look_alike": config.beside_look_alike }),
+        sources: vec![],
+        inputs: vec![trials],
+        artifact: ORDERS,
+        items: ItemRule::One,
+        bytes_per_item: 1_000,
+        intermediate: &[],
+    };
+    StagePart { suffix: ORDERS_PART, stage: Box::new(OrdersStage { config: config.clone(), properties }) }
+}
+
+/// Port through which a flight reads its own order.
+pub fn port() -> InputPort {
+    let doc = "Whether the flight loses its target: the part of the same stage.";
+    InputPort { sees: Sees::Own, ..ports::sibling(ORDERS_PART, ORDERS, Fan::Broadcast, doc) }
+}
+
+/// Whether a flight is to lose its target; `None` where the stage gives no orders.
+pub fn order(inputs: &Inputs<'_>, context: &TaskContext) -> Result<Option<bool>> {
+    let Some(artifact) = inputs.all(ORDERS_PART).first() else { return Ok(None) };
+    codec::decode(ORDERS, &inputs.read(artifact, &context.id.item.to_string())?).map(Some)
+}
+
+struct OrdersStage {
+    config: OcclusionConfig,
+    properties: StageProperties,
+}
+
+impl Stage for OrdersStage {
+    fn properties(&self) -> &StageProperties {
+        &self.properties
+    }
+
+    fn run(&self, inputs: &Inputs<'_>, outputs: &mut dyn OutputSink, _: &TaskContext) -> Result<Produced> {
+        let read = |artifact| codec::decode(LOSSES, &inputs.read(artifact, TRIAL)?);
+        let trials: Vec<Trial> = inputs.all(TRIALS).iter().map(read).collect::<Result<_>>()?;
+        let assigned = assigned(&trials, self.config.share, self.config.beside_look_alike);
+        for (artifact, goes) in inputs.all(TRIALS).iter().zip(&assigned) {
+            outputs.put(&artifact.id.item.to_string(), &codec::encode(ORDERS, goes)?)?;
+        }
+        let (notes, warnings) = self.said(&trials, &assigned);
+        Ok(Produced { notes: [("losses".to_owned(), notes)].into(), warnings, ..Produced::default() })
+    }
+}
+
+impl OrdersStage {
+    fn said(&self, trials: &[Trial], assigned: &[bool]) -> (String, Vec<String>) {
+        let count = |is: &dyn Fn(&Trial) -> bool| trials.iter().zip(assigned).filter(|it| *it.1 && is(it.0)).count();
+        let (lost, beside) = (count(&|_| true), count(&|trial| trial.beside_look_alike));
+        let wanted = (self.config.share * trials.len() as f64 + 1e-9).floor() as usize;
+        let wanted_beside = (self.config.beside_look_alike * wanted as f64 + 1e-9).floor() as usize;
+        let can = |is: &dyn Fn(&Trial) -> bool| trials.iter().filter(|trial| trial.is_lost && is(trial)).count();
+        let mut warnings = vec![];
+        if lost < wanted {
+            let (can, all) = (can(&|_| true), trials.len());
+            warnings.push(format!(
+                "`occlusion.share` asks for {wanted} flights that lose their target; {lost} do: only {can} of {all} walks lead past something that hides them for {} s",
+                self.config.min_s
+            ));
+        }
+        if beside < wanted_beside {
+            let can = can(&|trial| trial.beside_look_alike);
+            warnings.push(format!(
+                "`occlusion.beside_look_alike` asks for {wanted_beside} losses that end beside a look-alike; {beside} do: somebody in the same clothes is there at the end of {can}; ask for more with `look_alikes.shares` of stage `traffic`"
+            ));
+        }
+        (format!("{lost} of {wanted}, {beside} of {wanted_beside} beside a look-alike"), warnings)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn shares_are_filled_in_turn_and_more_flights_change_no_order() {
+        let trial = |number: u32| Trial { is_lost: number % 3 != 0, beside_look_alike: number % 5 == 1 };
+        let trials: Vec<Trial> = (0..400).map(trial).collect();
+        let all = assigned(&trials, 0.2, 0.1);
+        let lost = || trials.iter().zip(&all).filter(|it| *it.1);
+        assert!(lost().all(|it| it.0.is_lost));
+        assert_eq!((lost().count(), lost().filter(|it| it.0.beside_look_alike).count() >= 8), (80, true));
+        assert_eq!(assigned(&trials[..123], 0.2, 0.1), all[..123]);
+        assert_eq!(assigned(&trials, 0.9, 0.0).iter().filter(|goes| **goes).count(), 266, "no more can be lost");
+        assert!(assigned(&trials, 0.0, 1.0).iter().all(|goes| !goes));
+    }
+}
