@@ -33,6 +33,8 @@ pub(crate) struct RouteSearch<G> {
     costs: GroundCosts,
     /// Largest extra cost of ground by personal preference, as a share.
     taste_share: f32,
+    /// Factor on the bound of the way left: above 1, routes are found sooner and may cost up to so many times the cheapest.
+    haste: f32,
     taste: Vec<f32>,
     /// Number of the search that last wrote the entries of a node.
     written: Vec<u32>,
@@ -55,6 +57,7 @@ impl<G: Deref<Target = WalkableGrid>> RouteSearch<G> {
             edge_distance_m: edge_distance_m as f32,
             costs,
             taste_share,
+            haste: 1.0,
             taste: (0..TASTE_POINTS * TASTE_POINTS).map(|_| stream.unit() as f32).collect(),
             written: vec![0; count],
             search: 0,
@@ -64,9 +67,19 @@ impl<G: Deref<Target = WalkableGrid>> RouteSearch<G> {
         }
     }
 
+    /// The same search with a factor on the bound of the way left.
+    pub fn with_haste(self, haste: f32) -> Self {
+        Self { haste, ..self }
+    }
+
     /// Nodes of the cheapest route from `start` to `goal`, both included; `None` when no route leads there.
     /// Routes over `recent` nodes cost more, so that a walk goes on rather than back.
     pub fn find(&mut self, start: u32, goal: u32, recent: &[u32]) -> Option<Vec<u32>> {
+        self.find_within(start, goal, recent, f32::INFINITY)
+    }
+
+    /// The same; `None`, too, when the cheapest route costs more than `most` metres of pavement.
+    pub fn find_within(&mut self, start: u32, goal: u32, recent: &[u32], most: f32) -> Option<Vec<u32>> {
         self.search += 1;
         for &node in recent {
             self.touch(node);
@@ -76,7 +89,10 @@ impl<G: Deref<Target = WalkableGrid>> RouteSearch<G> {
         (self.cost[start as usize], self.reached_by[start as usize]) = (0.0, START);
         // Costs are not negative, so their bits sort as they do; then the larger cost so far, then the node.
         let mut open = BinaryHeap::from([Reverse((self.bound(start, goal).to_bits(), 0_u32, start))]);
-        while let Some(Reverse((_, _, node))) = open.pop() {
+        while let Some(Reverse((bound, _, node))) = open.pop() {
+            if f32::from_bits(bound) > most {
+                return None;
+            }
             if self.reached_by[node as usize] & FINAL != 0 {
                 continue;
             }
@@ -111,11 +127,11 @@ impl<G: Deref<Target = WalkableGrid>> RouteSearch<G> {
         }
     }
 
-    /// Octile distance: no route on ground of cost 1 is shorter.
+    /// Octile distance: no route on ground of cost 1 is shorter. Times the haste.
     fn bound(&self, node: u32, goal: u32) -> f32 {
         let (a, b) = (self.grid.column_row(node), self.grid.column_row(goal));
         let (x, y) = (a.0.abs_diff(b.0) as f32, a.1.abs_diff(b.1) as f32);
-        self.grid.cell_m as f32 * (x.max(y) + (core::f32::consts::SQRT_2 - 1.0) * x.min(y))
+        self.haste * self.grid.cell_m as f32 * (x.max(y) + (core::f32::consts::SQRT_2 - 1.0) * x.min(y))
     }
 
     /// Cost of a metre at a node: kind x distance from the edge x personal preference.

@@ -1,6 +1,6 @@
 //! People who walk together in a real town: on its ground, off its things, apart from each other, and getting on.
 
-use cosfly_frames::{DVec2, Seed, TargetState, real};
+use cosfly_frames::{DVec2, DVec3, Seed, TargetState, real};
 use cosfly_maps::{MapConfig, Town, read_town};
 use cosfly_pedestrians::{Crowd, CrowdConfig, Ground, WalkableGrid};
 use cosfly_world::{Body, Clock, Population, Traffic, contacts, simulate};
@@ -38,6 +38,54 @@ fn free_m(town: &Town, body: &Body, frame: usize) -> f64 {
     })
 }
 
+/// Whether a point is within an outline seen from above: it has an odd number of edges to its right.
+fn is_within(outline: &[DVec3], point: DVec2) -> bool {
+    let mut is_inside = false;
+    for (from, to) in outline.iter().zip(outline.iter().cycle().skip(1)) {
+        let is_crossed = (from.y > point.y) != (to.y > point.y);
+        if is_crossed && point.x < from.x + (point.y - from.y) / (to.y - from.y) * (to.x - from.x) {
+            is_inside = !is_inside;
+        }
+    }
+    is_inside
+}
+
+/// Frames in which somebody is within none of the town's walkable outlines, found by trying all of them.
+fn off_ground(town: &Town, traffic: &Traffic) -> usize {
+    let bounds: Vec<(DVec2, DVec2)> = town
+        .walkable
+        .iter()
+        .map(|polygon| {
+            let plan = || polygon.outline_in_world.iter().map(|corner| corner.truncate());
+            (plan().fold(DVec2::INFINITY, DVec2::min), plan().fold(DVec2::NEG_INFINITY, DVec2::max))
+        })
+        .collect();
+    let is_off = |state: &&TargetState| {
+        let point = state.feet_in_world.truncate();
+        let mut near = town
+            .walkable
+            .iter()
+            .zip(&bounds)
+            .filter(|(_, (low, high))| point.cmpge(*low).all() && point.cmple(*high).all());
+        !near.any(|(polygon, _)| is_within(&polygon.outline_in_world, point))
+    };
+    traffic.bodies.iter().flat_map(|body| &body.states).filter(is_off).count()
+}
+
+/// Overlaps of people, found by trying all pairs.
+fn overlaps(traffic: &Traffic) -> usize {
+    let pairs = |frame: usize| {
+        let touches = |(one, other): (&Body, &Body)| {
+            let away = one.states[frame].feet_in_world - other.states[frame].feet_in_world;
+            away.truncate().length() < one.plan.radius_m() + other.plan.radius_m()
+        };
+        let bodies = &traffic.bodies;
+        let rest = |number: usize| bodies[number + 1..].iter().filter(move |other| touches((&bodies[number], other)));
+        (0..bodies.len()).map(|number| rest(number).count()).sum::<usize>()
+    };
+    (0..traffic.frames as usize).map(pairs).sum()
+}
+
 /// The law of a crowd: nobody leaves the ground, meets a thing or overlaps another person.
 fn check_law(town: &Town, ground: &Ground, traffic: &Traffic) {
     for (number, body) in traffic.bodies.iter().enumerate() {
@@ -55,6 +103,7 @@ fn check_law(town: &Town, ground: &Ground, traffic: &Traffic) {
         }
     }
     assert_eq!(contacts(traffic, 0.0), []);
+    assert_eq!((overlaps(traffic), off_ground(town, traffic)), (0, 0));
 }
 
 /// Share of the people who move for 30 s without coming a metre away.

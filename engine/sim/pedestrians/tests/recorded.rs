@@ -143,8 +143,9 @@ fn what_is_odd_is_counted_and_said() {
     let people = placed(text, &RecordedConfig::default(), &town, clock);
     let names: Vec<&str> = people.bodies().iter().map(|body| body.plan.source.as_str()).collect();
     assert_eq!(names, ["a", "a / 2", "a / 3", "c"]);
+    let warnings = Recording::read(text.as_bytes(), &RecordedConfig::default()).unwrap().warnings;
     assert_eq!(
-        people.notes(),
+        [warnings, people.notes()].concat(),
         [
             "1 points at the time of the point before are left out",
             "tracks are parted at 1 jumps, the first of `a` at 29.0 m/s (line 4); `fastest_mps` is 8",

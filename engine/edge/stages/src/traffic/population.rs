@@ -2,7 +2,7 @@
 
 use super::config::{RecordedSource, SumoSource, TrafficConfig};
 use cosfly_diagnose::{Diagnostic, Fault, Result};
-use cosfly_frames::Seed;
+use cosfly_frames::{DVec2, Seed};
 use cosfly_maps::Town;
 use cosfly_pedestrians::{Crowd, PedestrianError, Recording, WalkableGrid, scripted};
 use cosfly_vehicles::fcd::{self, FcdError, NetLocation, Place};
@@ -38,10 +38,6 @@ pub fn all(
     if config.people.count > 0 || !config.scripted.is_empty() {
         grid = Some(Arc::new(Crowd::grid(town, &config.people).map_err(refused)?));
     }
-    if let Some(grid) = grid.as_ref().filter(|_| config.people.count > 0) {
-        let crowd = Crowd::new(Arc::clone(grid), &config.people, clock, seed.child("people", 0)).map_err(refused)?;
-        populations.all.push(Box::new(crowd));
-    }
     if config.vehicles.count > 0 {
         match Vehicles::new(town, &config.vehicles, clock, seed.child("vehicles", 0)) {
             Ok(vehicles) => populations.all.push(Box::new(vehicles)),
@@ -62,7 +58,25 @@ pub fn all(
     if let Some(sumo) = &config.sumo {
         populations.all.push(self::sumo(sumo, &files[config.recorded.len()..], town, clock, seed.child("sumo", 0))?);
     }
+    // People are numbered first, and begin beside everybody else.
+    if let Some(grid) = grid.filter(|_| config.people.count > 0) {
+        let (seed, others) = (seed.child("people", 0), first_places(&populations.all));
+        let crowd = Crowd::beside(grid, &config.people, clock, seed, &others).map_err(refused)?;
+        populations.all.insert(0, Box::new(crowd));
+    }
     Ok(populations)
+}
+
+/// Places in plan and radii of all bodies that are there in the first frame, metres.
+fn first_places(populations: &[Box<dyn Population>]) -> Vec<(DVec2, f64)> {
+    let mut places = vec![];
+    for population in populations {
+        let plans = population.plans().into_iter().enumerate();
+        places.extend(
+            plans.filter_map(|(body, plan)| Some((population.state(body)?.feet_in_world.truncate(), plan.radius_m()))),
+        );
+    }
+    places
 }
 
 fn recorded(

@@ -48,7 +48,7 @@ pub fn density(seed: u64) -> Result<Vec<DensityRow>, PedestrianError> {
         let per_m2 = f64::from(config.count) / area_m2;
         Ok(DensityRow { per_m2, speed_mps: sum / f64::from(count.max(1)), weidmann_mps: weidmann_mps(per_m2) })
     };
-    [0.05, 0.25, 0.5, 0.75, 1.0, 1.5, 2.0].iter().map(row).collect()
+    [0.05, 0.25, 0.5, 0.75, 1.0, 1.25, 1.5].iter().map(row).collect()
 }
 
 /// A square ring of pavement.

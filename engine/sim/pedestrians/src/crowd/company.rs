@@ -19,6 +19,10 @@ const KEPT_NODES: usize = 60;
 /// Nodes ahead of the present one that may become the present one in a step.
 const AHEAD_NODES: usize = 12;
 
+/// Ways that cost more than so many metres of pavement are given up for another goal, in the first attempts.
+const DEAR_M: f32 = 250.0;
+const CHEAP_ATTEMPTS: usize = 20;
+
 /// Who has not come so far in so long looks for another way, metres and seconds.
 const STUCK_M: f64 = 0.7;
 const STUCK_S: f64 = 12.0;
@@ -156,7 +160,8 @@ impl Company {
                 continue;
             };
             let behind = &self.route[self.route.len().saturating_sub(KEPT_NODES)..self.route.len() - 1];
-            if let Some(way) = search.find(here, goal, behind)
+            let most = if attempt < CHEAP_ATTEMPTS { DEAR_M } else { f32::INFINITY };
+            if let Some(way) = search.find_within(here, goal, behind, most)
                 && way.len() > 1
             {
                 let turns_back = way.get(TURNING_BACK_NODES).is_some_and(|node| behind.contains(node));
@@ -178,7 +183,8 @@ impl Company {
         people.iter_mut().for_each(|person| person.progress = 0);
         for attempt in 0..GOAL_ATTEMPTS {
             let goal = draw_goal(grid, self.piece, (here, Some(ahead)), 0.5 * LONGEST_LEG_M, attempt, &mut self.stream);
-            if let Some(way) = goal.and_then(|goal| search.find(here, goal, &[ahead]))
+            let most = if attempt < CHEAP_ATTEMPTS { DEAR_M } else { f32::INFINITY };
+            if let Some(way) = goal.and_then(|goal| search.find_within(here, goal, &[ahead], most))
                 && way.len() > 1
             {
                 self.route = way;

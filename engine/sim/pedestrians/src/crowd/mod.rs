@@ -6,6 +6,7 @@
 mod company;
 mod config;
 mod limits;
+mod pace;
 mod person;
 mod placing;
 mod pursuit;
@@ -15,14 +16,13 @@ mod surroundings;
 
 use crate::route::RouteSearch;
 use crate::{PedestrianError, WalkableGrid};
-use company::{Activity, Company};
+use company::Company;
 pub use config::{CrowdConfig, CrowdStopConfig, GroundCostConfig, GroupConfig, SideConfig};
-use cosfly_frames::{DVec2, Seed, TargetState, real};
+use cosfly_frames::{DVec2, Seed, TargetState};
 use cosfly_maps::Town;
 use cosfly_world::{BodyPlan, Clock, Population, Present, Snapshot};
 use limits::Limits;
 use person::Person;
-use roads::Right;
 use std::ops::Range;
 use std::sync::Arc;
 use steering::Steering;
@@ -34,11 +34,8 @@ const RELAXATION_S: f64 = 0.5;
 /// Largest acceleration that people choose, m/s2.
 const HARDEST_MPS2: f64 = 2.5;
 
-/// Fastest turn of a body, rad/s.
-const TURN_RAD_PER_S: f64 = 3.0;
-
-/// Slower than this, a person keeps the heading, m/s.
-const HEADING_MPS: f64 = 0.15;
+/// Haste of the searches for routes: a metre of pavement beside an edge costs about so much.
+const HASTE: f32 = 1.4;
 
 /// People look for the place to walk towards once in so many steps.
 const PURSUIT_STEPS: usize = 4;
@@ -96,7 +93,7 @@ impl Crowd {
         let costs = &config.ground_cost;
         let costs = [1.0, 1.0, costs.crossing as f32, costs.shoulder as f32, costs.road as f32];
         let mut crowd = Self {
-            search: RouteSearch::new(grid.clone(), config.edge_distance_m, costs, 0.0, seed),
+            search: RouteSearch::new(grid.clone(), config.edge_distance_m, costs, 0.0, seed).with_haste(HASTE),
             config: config.clone(),
             grid,
             clock,
@@ -139,25 +136,8 @@ impl Crowd {
         surroundings.look(everybody, own.start + number as u32, (person.at, person.radius_m, ahead), &own, &mates);
         let neighbours = &surroundings.neighbours;
 
-        // Planned speed: own tempo, level with the company, slower before a stop and before a road that is not free.
         let right = roads::right(&self.grid, &self.config, company, person, ahead, vehicles);
-        let goal_mps = match (company.activity, right) {
-            (_, Right::Escape(share)) => share.abs() * company.cruise_mps,
-            (Activity::Walking, _) => {
-                let level_m = pursuit::lag_m(company, person, places, ahead);
-                let free_mps = company.cruise_mps * (1.0 + person.tempo + (0.25 * level_m).clamp(-0.5, 0.35));
-                match right {
-                    Right::Wait(way_m) => free_mps.min((2.0 * self.config.braking_mps2 * way_m).sqrt()),
-                    _ => free_mps,
-                }
-            }
-            (Activity::Standing { .. }, _) => 0.0,
-        };
-        let is_escape = matches!(right, Right::Escape(_));
-        let change_mps = if is_escape { HARDEST_MPS2 } else { self.config.braking_mps2 } * step_s;
-        person.pace_mps += (goal_mps - person.pace_mps).clamp(-change_mps, change_mps);
-        let ahead = if matches!(right, Right::Escape(share) if share < 0.0) { -ahead } else { ahead };
-
+        let ahead = pace::plan(&self.config, company, person, right, (places, ahead), step_s);
         let grid = &self.grid;
         let at = person.at;
         let has_ground = |direction: DVec2| grid.is_ground(at + 0.7 * direction);
@@ -177,12 +157,7 @@ impl Crowd {
         person.velocity_mps = step / step_s;
         person.at += step;
         person.z = self.grid.z_near(person.at).unwrap_or(person.z);
-        if person.velocity_mps.length() > HEADING_MPS {
-            let turn = real::atan2(person.velocity_mps.y, person.velocity_mps.x) - person.heading_rad;
-            let most = TURN_RAD_PER_S * step_s;
-            person.heading_rad =
-                real::wrap_angle_rad(person.heading_rad + real::wrap_angle_rad(turn).clamp(-most, most));
-        }
+        person.turn(step_s);
     }
 }
 

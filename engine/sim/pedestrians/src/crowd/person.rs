@@ -10,6 +10,12 @@ const STANDING_MPS: f64 = 0.03;
 /// Time after which the variation of the own speed is forgotten, seconds.
 const TEMPO_S: f64 = 6.0;
 
+/// Fastest turn of a body, rad/s.
+const TURN_RAD_PER_S: f64 = 3.0;
+
+/// Slower than this, a person keeps the heading, m/s.
+const HEADING_MPS: f64 = 0.15;
+
 /// Who walks slower than this share of the planned speed is blocked, unless that is slow itself, m/s.
 const BLOCKED_SHARE: f64 = 0.3;
 const BLOCKED_MPS: f64 = 0.3;
@@ -109,6 +115,15 @@ impl Person {
         let turn = (self.blocked_s - PATIENCE_S).max(0.0) * YIELDING_RAD_PER_S;
         let (sin, cos) = real::sin_cos(turn);
         DVec2::new(cos * ahead.x - sin * ahead.y, sin * ahead.x + cos * ahead.y)
+    }
+
+    /// Turns the body into the direction of the velocity.
+    pub fn turn(&mut self, step_s: f64) {
+        if self.velocity_mps.length() > HEADING_MPS {
+            let turn = real::atan2(self.velocity_mps.y, self.velocity_mps.x) - self.heading_rad;
+            let most = TURN_RAD_PER_S * step_s;
+            self.heading_rad = real::wrap_angle_rad(self.heading_rad + real::wrap_angle_rad(turn).clamp(-most, most));
+        }
     }
 
     /// What does not change.

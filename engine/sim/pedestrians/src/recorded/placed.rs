@@ -17,7 +17,7 @@ const STANDING_MPS: f64 = 0.1;
 const THINNEST_M: f64 = 0.05;
 
 impl Recording {
-    /// The recorded people in a town, at every frame of the clock. Who is outside the town is absent; who comes back is another
+    /// The recorded people in a town, at every frame of the clock; its notes come on top of the recording's own warnings. Who is outside the town is absent; who comes back is another
     /// person.
     ///
     /// # Errors
@@ -52,7 +52,7 @@ impl Recording {
                 _ => "check `origin_m` and `turn_deg`, or that the map is of the place of the recording",
             }));
         }
-        let mut notes = self.warnings.clone();
+        let mut notes = vec![];
         if outside > 0 {
             notes.push(format!("recorded people leave the town: {outside} of their frames are left out"));
         }
@@ -203,7 +203,8 @@ fn meetings_with_things(bodies: &[Body], town: &Town) -> Result<Option<String>, 
 
 /// Makes the radii of people so small that no two overlap in any frame; returns a note where some are.
 fn make_room(bodies: &mut [Body], clock: Clock) -> Option<String> {
-    let mut traffic = Traffic { dt_s: clock.dt_s, frames: clock.frames, bodies: bodies.to_vec(), ..Traffic::default() };
+    let bodies_now = bodies.to_vec();
+    let traffic = Traffic { dt_s: clock.dt_s, frames: clock.frames, bodies: bodies_now, ..Traffic::default() };
     let mut nearest_m = vec![f64::INFINITY; bodies.len()];
     for frame in 0..clock.frames {
         let snapshot: Snapshot = traffic.snapshot(frame);
@@ -217,7 +218,6 @@ fn make_room(bodies: &mut [Body], clock: Clock) -> Option<String> {
             });
         }
     }
-    traffic.bodies.clear();
     let (mut smaller, mut smallest_m) = (0, f64::INFINITY);
     for (body, nearest_m) in bodies.iter_mut().zip(nearest_m) {
         let room_m = (0.5 * nearest_m - 1e-9).max(THINNEST_M);
