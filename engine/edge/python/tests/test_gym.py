@@ -9,6 +9,8 @@ gym = pytest.importorskip("gymnasium")
 from gymnasium.utils.env_checker import check_env  # noqa: E402
 from gymnasium.vector import AutoresetMode  # noqa: E402
 
+import cosfly.gym  # noqa: E402, F401 (registers the environments, as the installed package does by itself)
+
 ID = "cosfly/Track-v0"
 
 
@@ -23,6 +25,8 @@ def test_the_checker_finds_nothing():
     with warnings.catch_warnings():
         warnings.simplefilter("error")
         warnings.filterwarnings("ignore", message=".*(minimum|maximum) value.*infinity.*")
+        # Actions are in m/s and degrees/s on purpose; gymnasium's RescaleAction normalises them.
+        warnings.filterwarnings("ignore", message=".*symmetric and normalized space.*")
         check_env(gym.make(ID, recipe="small/recipe.toml").unwrapped, skip_render_check=True)
 
 
