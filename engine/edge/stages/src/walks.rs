@@ -40,7 +40,7 @@ impl Person {
 
     /// A body of traffic whose frames are `dt_s` apart.
     pub fn of(body: &Body, dt_s: f64) -> Self {
-        let (height_m, radius_m) = (body.plan.size_m.z, 0.5 * body.plan.size_m.y);
+        let (height_m, radius_m) = (body.plan.size_m.z, body.plan.radius_m());
         let track = TargetTrack { dt_s, height_m, radius_m, states: body.states.clone() };
         let first_s = f64::from(body.first_frame) * dt_s;
         let (seed, shape) = (body.plan.looks, BodyShape::of(body.plan.kind, body.plan.size_m));

@@ -38,11 +38,11 @@ impl Traffic {
         Snapshot::new(self.bodies.iter().enumerate().filter_map(present).collect())
     }
 
-    /// Track of a body that is present in all frames; `None` otherwise. Vehicles get the radius of a cylinder as wide as they are.
+    /// Track of a body that is present in all frames; `None` otherwise. Vehicles have the radius of the circle around their outline.
     pub fn track(&self, number: u32) -> Option<TargetTrack> {
         let body = self.bodies.get(number as usize)?;
         let is_whole = body.first_frame == 0 && body.states.len() == self.frames as usize;
-        let (height_m, radius_m) = (body.plan.size_m.z, 0.5 * body.plan.size_m.y);
+        let (height_m, radius_m) = (body.plan.size_m.z, body.plan.radius_m());
         is_whole.then(|| TargetTrack { dt_s: self.dt_s, height_m, radius_m, states: body.states.clone() })
     }
 

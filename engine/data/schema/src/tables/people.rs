@@ -39,7 +39,7 @@ columns! { People::COLUMNS of DatasetItem;
     speed_mps: f64 = |item, i| sighting(item, i).state.speed_mps;
     /// Height of the body.
     height_m: f64 = |item, i| person(item, i).height_m;
-    /// Radius of the body seen from above.
+    /// Radius of the body seen from above; of a vehicle, of the circle around its outline.
     radius_m: f64 = |item, i| person(item, i).radius_m;
     /// Colour of the shirt or jacket in words; of a vehicle without a rider, of its paint.
     top_colour: String = |item, i| person(item, i).outfit.top.name.name().to_owned();

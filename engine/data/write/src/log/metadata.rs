@@ -6,6 +6,7 @@ use cosfly_render::channels::instance;
 use cosfly_render::frame::{TARGET_INSTANCE, object_instance};
 use cosfly_schema::tables::kind_name;
 use cosfly_schema::{DepthEncoding, OtherPerson, RenderedTrajectory};
+use cosfly_world::BodyKind;
 use std::collections::BTreeMap;
 
 /// Layout of our logs; raised when channels or conventions change.
@@ -159,8 +160,17 @@ fn instances(town: &Town, record: &RenderedTrajectory) -> BTreeMap<String, Strin
         (id(object_instance(group[0].object_id)), value)
     };
     let person = |person: &OtherPerson| {
-        let label = SemanticLabel::Pedestrian.id();
-        let value = format!("person label {label} of walk {}, {:.2} m high", person.walk_id, person.height_m);
+        let (what, label) = match person.kind {
+            BodyKind::Pedestrian => ("person", SemanticLabel::Pedestrian),
+            BodyKind::Bicycle => ("bicycle", SemanticLabel::Bicycle),
+            BodyKind::Motorcycle => ("motorcycle", SemanticLabel::Motorcycle),
+            BodyKind::Car => ("car", SemanticLabel::Car),
+            BodyKind::Van => ("van", SemanticLabel::Car),
+            BodyKind::Truck => ("truck", SemanticLabel::Truck),
+            BodyKind::Bus => ("bus", SemanticLabel::Bus),
+        };
+        let label = label.id();
+        let value = format!("{what} label {label} of walk {}, {:.2} m high", person.walk_id, person.height_m);
         (id(person.instance), value)
     };
     let fixed = [(0, "ground and sky"), (TARGET_INSTANCE, "the target")];

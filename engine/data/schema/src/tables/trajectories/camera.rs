@@ -37,7 +37,7 @@ columns! { Trajectories::CAMERA of DatasetItem;
 
     /// Height of the target's body.
     target_height_m: f64 = |item, _| item.record.trajectory.track.height_m;
-    /// Radius of the target's body seen from above.
+    /// Radius of the target's body seen from above; of a vehicle, of the circle around its outline.
     target_radius_m: f64 = |item, _| item.record.trajectory.track.radius_m;
     /// Length of the target's walk.
     target_length_m: f64 = |item, _| item.record.trajectory.track.length_m();
