@@ -8,7 +8,7 @@ use cosfly_schema::tables::Captions;
 use std::collections::BTreeSet;
 use std::path::Path;
 
-/// Languages that every flight has captions in, where one has captions.
+/// Languages that every flight behind a person has captions in, where one has captions.
 const LANGUAGES: [&str; 2] = ["en", "zh"];
 
 /// A caption of a flight.
@@ -91,7 +91,7 @@ impl CaptionList {
     }
 
     fn check_languages(&self, flights: &FlightList, report: &mut VerifyReport) {
-        for (number, flight) in flights.iter().enumerate() {
+        for (number, flight) in flights.iter().enumerate().filter(|(_, flight)| flight.follows_person) {
             let of_flight = self.of(number);
             for (at, language) in LANGUAGES.into_iter().enumerate() {
                 if !of_flight.iter().any(|caption| caption.language == Some(at as u8)) {

@@ -68,8 +68,9 @@ fn seen_again(flight: &Trajectory) -> Option<usize> {
 fn assigned(trials: &[Trial], share: f64, share_beside: f64) -> Vec<bool> {
     let (mut given, mut given_beside) = (0.0, 0.0);
     let assign = |(place, trial): (usize, &Trial)| {
-        let wanted = (share * (place + 1) as f64 + 1e-9).floor();
-        let wanted_beside = (share_beside * wanted + 1e-9).ceil();
+        // Ahead by up to one: who comes later may not be able to.
+        let wanted = (share * (place + 1) as f64 - 1e-9).ceil();
+        let wanted_beside = (share_beside * wanted - 1e-9).ceil();
         let is_beside = trial.beside_look_alike;
         let goes = trial.is_lost && ((is_beside && given_beside < wanted_beside) || given < wanted);
         given += f64::from(u8::from(goes));
@@ -141,7 +142,7 @@ impl OrdersStage {
         if lost < wanted {
             let (can, all) = (can(&|_| true), trials.len());
             warnings.push(format!(
-                "`occlusion.share` asks for {wanted} flights that lose their target; {lost} do: only {can} of {all} walks lead past something that hides them for {} s",
+                "`occlusion.share` asks for {wanted} flights that lose their target; {lost} do: {can} of {all} walks lead past something that hides them for {} s",
                 self.config.min_s
             ));
         }

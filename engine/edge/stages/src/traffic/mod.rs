@@ -17,6 +17,7 @@ use cosfly_stage::{
     Artifact, Fan, InputPort, Inputs, ItemRule, Produced, Stage, StageKind, StagePart, StageProperties, TaskContext,
 };
 use cosfly_world::{Around, Body, Followed, Traffic, dress, simulate};
+use std::collections::BTreeMap;
 use std::sync::Arc;
 
 /// Blob of a walk that was taken out of traffic, with the whole [`Traffic`]; and the part that makes it.
@@ -155,11 +156,16 @@ impl Stage for BodiesStage {
         let alike = |a: &Seed, b: &Seed| outfit(a).is_like(&outfit(b));
         let seed = Seed(context.seed).child("look-alikes", 0);
         let note = dress(&mut traffic, &followed, &self.config.look_alikes, &alike, &seed);
-        traffic.notes.extend(populations.notes.into_iter().chain(note));
+        let about = traffic.notes.join("; ");
+        let warnings: Vec<String> = populations.notes.into_iter().chain(note).collect();
+        traffic.notes.extend(warnings.iter().cloned());
         outputs.put(BODIES, &codec::encode(TRAFFIC, &traffic)?)?;
         link_town(inputs, outputs)?;
-        let notes = [("bodies".to_owned(), traffic.bodies.len().to_string())].into();
-        Ok(Produced { notes, warnings: traffic.notes, ..Produced::default() })
+        let mut notes = BTreeMap::from([("bodies".to_owned(), traffic.bodies.len().to_string())]);
+        if !about.is_empty() {
+            notes.insert("traffic".to_owned(), about);
+        }
+        Ok(Produced { notes, warnings, ..Produced::default() })
     }
 }
 
