@@ -1,0 +1,125 @@
+"""Judges the moving world of a dataset from its tables: bodies, flights among them, losses, look-alikes.
+
+    venv/bin/python tests/outside/check_bodies.py DATASET_FOLDER
+
+Shares no code with cosfly. No two bodies may overlap; no flight may come nearer to a body than its certificate says, at 20 moments between
+frames; table `losses` must be what `frames` shows; `look_alikes` must be the number of visible people in the target's clothes. Prints the
+smallest distances.
+"""
+
+import sys
+from collections import defaultdict
+from pathlib import Path
+
+import numpy as np
+import pyarrow.dataset as ds
+
+BETWEEN = 20
+
+
+def rows(folder, name, columns):
+    return ds.dataset(folder / "data" / name, format="parquet").to_table(columns=columns).to_pylist()
+
+
+def axes(yaw):
+    return np.array([[np.cos(yaw), np.sin(yaw)], [-np.sin(yaw), np.cos(yaw)]])
+
+
+def gap(a, b):
+    """Distance between two bodies seen from above, metres; negative where they overlap (for two boxes, the largest gap along an axis)."""
+    between = np.array(b["feet_in_world_m"][:2]) - a["feet_in_world_m"][:2]
+    round_ones = [it["kind"] == "pedestrian" for it in (a, b)]
+    if all(round_ones):
+        return np.hypot(*between) - (a["size_m"][0] + b["size_m"][0]) / 2
+    if any(round_ones):
+        box, person, away = (b, a, -between) if round_ones[0] else (a, b, between)
+        excess = np.abs(axes(np.radians(box["heading_deg"])) @ away) - np.array(box["size_m"][:2]) / 2
+        return np.hypot(*np.maximum(excess, 0)) + min(excess.max(), 0) - person["size_m"][0] / 2
+    directions = [axes(np.radians(it["heading_deg"])) for it in (a, b)]
+    reach = lambda body, own, axis: sum(abs(axis @ own[k]) * body["size_m"][k] / 2 for k in range(2))
+    return max(abs(axis @ between) - reach(a, directions[0], axis) - reach(b, directions[1], axis) for axis in np.concatenate(directions))
+
+
+def to_box(point, feet, yaw, size):
+    """Distance from a point to an upright box, metres."""
+    away = point - feet
+    x, y = axes(yaw) @ away[:2]
+    excess = np.abs([x, y, away[2] - size[2] / 2]) - np.array(size) / 2
+    return np.linalg.norm(np.maximum(excess, 0)) + min(excess.max(), 0)
+
+
+def main(folder):
+    wrong = []
+    flights = {row["trajectory_id"]: row for row in rows(folder, "trajectories", [
+        "trajectory_id", "target_kind", "target_top_colour", "target_trousers_colour", "target_has_backpack", "min_clearance_m", "dt_s"])}
+    frames = defaultdict(dict)
+    for row in rows(folder, "frames", ["trajectory_id", "frame", "drone_x_m", "drone_y_m", "drone_z_m", "visible_pixels", "in_view", "look_alikes"]):
+        frames[row["trajectory_id"]][row["frame"]] = row
+    bodies = defaultdict(lambda: defaultdict(dict))
+    for row in rows(folder, "bodies", ["trajectory_id", "frame", "body", "kind", "feet_in_world_m", "heading_deg", "size_m"]):
+        bodies[row["trajectory_id"]][row["frame"]][row["body"]] = row
+    nearest_two, nearest_flight, overlaps = np.inf, np.inf, 0
+    for name, by_frame in bodies.items():
+        least = flights[name]["min_clearance_m"]
+        for frame, present in by_frame.items():
+            listed = list(present.values())
+            places = np.array([it["feet_in_world_m"][:2] for it in listed])
+            reach = np.array([np.hypot(*it["size_m"][:2]) / 2 for it in listed])
+            for i in range(len(listed)):
+                near = np.flatnonzero(np.hypot(*(places[i + 1:] - places[i]).T) < reach[i + 1:] + reach[i] + 0.5) + i + 1
+                for j in near:
+                    apart = gap(listed[i], listed[j])
+                    nearest_two = min(nearest_two, apart)
+                    if apart < -1e-6:
+                        overlaps += 1
+                        wrong.append(f"{name} frame {frame}: bodies {listed[i]['body']} and {listed[j]['body']} overlap by {-apart:.3f} m")
+            here, there = frames[name][frame], frames[name].get(frame + 1)
+            place = lambda row: np.array([row[f"drone_{axis}_m"] for axis in "xyz"])
+            for share in np.arange(BETWEEN) / BETWEEN if there else [0.0]:
+                drone = place(here) + share * (place(there or here) - place(here))
+                for body in listed:
+                    later = by_frame.get(frame + 1, {}).get(body["body"], body)
+                    feet = np.array(body["feet_in_world_m"]) + share * (np.array(later["feet_in_world_m"]) - body["feet_in_world_m"])
+                    if np.abs(drone - feet).max() > 40:
+                        continue
+                    turn = (later["heading_deg"] - body["heading_deg"] + 180) % 360 - 180
+                    apart = to_box(drone, feet, np.radians(body["heading_deg"] + share * turn), body["size_m"])
+                    nearest_flight = min(nearest_flight, apart)
+                    if apart < least - 0.01:
+                        wrong.append(f"{name} frame {frame}: the drone is {apart:.2f} m from body {body['body']}; the certificate says {least:.2f} m")
+    alike = defaultdict(int)
+    for row in rows(folder, "people", ["trajectory_id", "frame", "kind", "top_colour", "trousers_colour", "has_backpack"]):
+        flight = flights[row["trajectory_id"]]
+        own = [flight[f"target_{key}"] for key in ("kind", "top_colour", "trousers_colour", "has_backpack")]
+        alike[row["trajectory_id"], row["frame"]] += [row[key] for key in ("kind", "top_colour", "trousers_colour", "has_backpack")] == own
+    stated = {(row["trajectory_id"], row["start_frame"]): row for row in rows(folder, "losses", [
+        "trajectory_id", "start_frame", "end_frame", "duration_s", "frames_out_of_view", "reacquired", "look_alikes"])}
+    losses = 0
+    for name, by_frame in frames.items():
+        for frame, row in by_frame.items():
+            if row["look_alikes"] != alike[name, frame]:
+                wrong.append(f"{name} frame {frame}: {alike[name, frame]} people are dressed like the target; the table says {row['look_alikes']}")
+        start = None
+        for frame in range(len(by_frame) + 1):
+            is_lost = frame < len(by_frame) and by_frame[frame]["visible_pixels"] == 0
+            if is_lost and start is None:
+                start = frame
+            if not is_lost and start is not None:
+                losses += 1
+                again = frame < len(by_frame)
+                expected = {"trajectory_id": name, "start_frame": start, "end_frame": frame, "duration_s": (frame - start) * flights[name]["dt_s"],
+                            "frames_out_of_view": sum(not by_frame[it]["in_view"] for it in range(start, frame)), "reacquired": again,
+                            "look_alikes": alike[name, frame] if again else None}
+                if stated.pop((name, start), None) != expected:
+                    wrong.append(f"{name}: the target is lost from frame {start} to {frame}; the table says otherwise")
+                start = None
+    wrong += [f"{name} frame {frame}: the table states a loss that is none" for name, frame in stated]
+    print(f"{folder}: {sum(len(it) for it in bodies.values())} frames with bodies, two bodies {nearest_two:.3f} m apart at least, flights",
+          f"{nearest_flight:.2f} m from bodies at least; {losses} losses; {len(wrong)} things wrong")
+    return wrong
+
+
+if __name__ == "__main__":
+    problems = main(Path(sys.argv[1]))
+    print(*problems[:20], sep="\n")
+    sys.exit(bool(problems))
