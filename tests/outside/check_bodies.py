@@ -3,7 +3,7 @@
     venv/bin/python tests/outside/check_bodies.py DATASET_FOLDER
 
 Shares no code with cosfly. No two bodies may overlap; no flight may come nearer to a body than its certificate says, at 20 moments between
-frames; table `losses` must be what `frames` shows; `look_alikes` must be the number of visible people in the target's clothes. Prints the
+frames; table `target_losses` must be what `frames` shows; `look_alikes` must be the number of visible people in the target's clothes. Prints the
 smallest distances.
 """
 
@@ -92,7 +92,7 @@ def main(folder):
         flight = flights[row["trajectory_id"]]
         own = [flight[f"target_{key}"] for key in ("kind", "top_colour", "trousers_colour", "has_backpack")]
         alike[row["trajectory_id"], row["frame"]] += [row[key] for key in ("kind", "top_colour", "trousers_colour", "has_backpack")] == own
-    stated = {(row["trajectory_id"], row["start_frame"]): row for row in rows(folder, "losses", [
+    stated = {(row["trajectory_id"], row["start_frame"]): row for row in rows(folder, "target_losses", [
         "trajectory_id", "start_frame", "end_frame", "duration_s", "frames_out_of_view", "reacquired", "look_alikes"])}
     losses = 0
     for name, by_frame in frames.items():

@@ -24,7 +24,7 @@ columns! { Bodies::COLUMNS of DatasetItem;
     frame: u32 = |item, i| item.derived.bodies[i].0;
     /// Number of the body in its traffic, as in `trajectories.target_body`.
     body: u32 = |item, i| item.record.around.numbers[item.derived.bodies[i].1 as usize];
-    /// `pedestrian`, `bicycle`, `motorcycle`, `car`, `van`, `truck` or `bus`.
+    /// Kind: `pedestrian`, `bicycle`, `motorcycle`, `car`, `van`, `truck` or `bus`.
     kind: String = |item, i| body(item, i).plan.kind.name().to_owned();
     /// Name of the traffic and number of the body, as in `people.walk_id`.
     walk_id: String = |item, i| {

@@ -9,7 +9,6 @@ mod captions;
 mod column;
 mod files;
 mod frames;
-mod losses;
 mod objects;
 mod pairs;
 mod people;
@@ -17,6 +16,7 @@ mod phrases;
 mod rejected;
 mod sight;
 mod table;
+mod target_losses;
 mod trajectories;
 mod value;
 mod waypoints;
@@ -29,13 +29,13 @@ pub use column::{AnyColumn, CellProblem, Column};
 pub use cosfly_captions::sight::Landmarks;
 pub use files::{FileRecord, Files};
 pub use frames::{Frames, ROLES};
-pub use losses::Losses;
 pub use objects::{ObjectRecord, Objects, kind_name};
 pub use pairs::Pairs;
 pub use people::People;
 pub use phrases::Phrases;
 pub use rejected::Rejected;
 pub use table::{DatasetItem, Derived, INLINE_SETS, Membership, Need, Table};
+pub use target_losses::TargetLosses;
 pub use trajectories::{Trajectories, WEATHER_NUMBERS, WeatherNumber};
 pub use value::{Edges, ImageFile, Kind, Value};
 pub use waypoints::Waypoints;
@@ -51,7 +51,7 @@ pub fn of_trajectories() -> Vec<Table<DatasetItem>> {
         pairs::table(),
         people::table(),
         bodies::table(),
-        losses::table(),
+        target_losses::table(),
         phrases::table(),
         windows::table(),
     ]

@@ -29,7 +29,7 @@ columns! { People::COLUMNS of DatasetItem;
     /// Stage and item of the walk, such as `crowd-p00003`, or traffic and number of the body, such as `street-b00003`; the same
     /// person in all trajectories.
     walk_id: String = |item, i| person(item, i).walk_id.clone();
-    /// `pedestrian`, `bicycle`, `motorcycle`, `car`, `van`, `truck` or `bus`.
+    /// Kind: `pedestrian`, `bicycle`, `motorcycle`, `car`, `van`, `truck` or `bus`.
     kind: String = |item, i| person(item, i).kind.name().to_owned();
     /// Ground point between the feet, world frame: x, y, z.
     feet_in_world_m: [f64; 3] = |item, i| sighting(item, i).state.feet_in_world.to_array();

@@ -34,7 +34,7 @@ columns! { Phrases::COLUMNS of DatasetItem;
     /// Number of visible bodies, with the target, that the phrase may fit, by frame; between the limits of `motion` and `part`
     /// it may fit.
     candidates: Vec<i64> = |item, i| given(item, i).candidates.iter().map(|count| i64::from(*count)).collect();
-    /// 1 where the target is visible and the phrase may fit it, else 0, by frame; unique where `candidates` is 1, too.
+    /// The number 1 where the target is visible and the phrase may fit it, else 0, by frame; unique where `candidates` is 1, too.
     fits_target: Vec<i64> = |item, i| given(item, i).fits_target.iter().map(|fits| i64::from(*fits)).collect();
 }
 

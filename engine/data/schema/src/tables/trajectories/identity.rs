@@ -19,7 +19,7 @@ columns! { Trajectories::IDENTITY of DatasetItem;
     expert_id: Option<String> = |item, _| item.record.pair.as_ref().map(|pair| pair.expert_id.clone());
     /// Pedestrian who is followed; all trajectories behind one pedestrian are in the same split.
     pedestrian_id: String = |item, _| item.record.pedestrian_id.clone();
-    /// `pedestrian`, `bicycle`, `motorcycle`, `car`, `van`, `truck` or `bus`; null for a target without a body.
+    /// Kind of the target: `pedestrian`, `bicycle`, `motorcycle`, `car`, `van`, `truck` or `bus`; null for a target without a body.
     target_kind: Option<String> = |item, _| item.record.target_kind().map(|kind| kind.name().to_owned());
     /// Number of the target among the bodies of its traffic; null outside of stage `traffic`.
     target_body: Option<u32> = |item, _| item.record.followed.as_ref().map(|followed| followed.number);

@@ -1,4 +1,4 @@
-//! Table `losses`: intervals without sight of the target.
+//! Table `target_losses`: intervals without sight of the target.
 
 use super::column::columns;
 use super::{DatasetItem, Table};
@@ -8,13 +8,13 @@ use crate::losses::Loss;
 pub fn table() -> Table<DatasetItem> {
     let doc = "Intervals in which no pixel of the target is visible, with cause and end; empty where the target is always seen.";
     let rows = |item: &DatasetItem| item.derived.losses.len();
-    Table::new("losses", doc, &["trajectory_id", "start_frame"], rows, Losses::COLUMNS)
+    Table::new("target_losses", doc, &["trajectory_id", "start_frame"], rows, TargetLosses::COLUMNS)
 }
 
-/// Columns of table `losses`.
-pub struct Losses;
+/// Columns of table `target_losses`.
+pub struct TargetLosses;
 
-columns! { Losses::COLUMNS of DatasetItem;
+columns! { TargetLosses::COLUMNS of DatasetItem;
     /// Trajectory that the interval belongs to.
     trajectory_id: String = |item, _| item.record.trajectory_id.clone();
     /// Split: `train`, `val` or `test`; that of the file.
