@@ -162,7 +162,7 @@ mod tests {
 
     #[test]
     fn shares_are_filled_in_turn_and_more_flights_change_no_order() {
-        let trial = |number: u32| Trial { is_lost: number % 3 != 0, beside_look_alike: number % 5 == 1 };
+        let trial = |number: u32| Trial { is_lost: !number.is_multiple_of(3), beside_look_alike: number % 5 == 1 };
         let trials: Vec<Trial> = (0..400).map(trial).collect();
         let all = assigned(&trials, 0.2, 0.1);
         let lost = || trials.iter().zip(&all).filter(|it| *it.1);

@@ -1,6 +1,6 @@
 //! `people`: simulated people beside recorded ones.
 
-use super::outcome::{Outcome, print};
+use super::outcome::{Outcome, Refusals, print};
 use clap::Args;
 use cosfly_diagnose::{Diagnostic, Fault};
 use cosfly_frames::Seed;
@@ -68,8 +68,8 @@ pub fn people(arguments: &PeopleArguments) -> Outcome {
     print(&if arguments.json { as_json() } else { table.to_string() })
 }
 
-fn read(path: &Path) -> Result<Vec<u8>, Vec<Box<Diagnostic>>> {
-    std::fs::read(path).map_err(|error| vec![Diagnostic::io(&format!("read `{}`", path.display()), &error)])
+fn read(path: &Path) -> Result<Vec<u8>, Refusals> {
+    std::fs::read(path).map_err(|error| vec![Diagnostic::io(format!("read `{}`", path.display()), &error)])
 }
 
 /// Folder and file of a set are its name: all files of one publisher have the same name.
@@ -78,6 +78,6 @@ fn name_of(path: &Path) -> String {
     part(path.parent().and_then(Path::file_name)).or_else(|| part(path.file_stem())).unwrap_or_default()
 }
 
-fn refused(error: PedestrianError) -> Vec<Box<Diagnostic>> {
+fn refused(error: PedestrianError) -> Refusals {
     vec![Diagnostic::new("bench-people", Fault::Input, error.to_string()).hint(error.hint())]
 }

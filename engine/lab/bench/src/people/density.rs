@@ -26,7 +26,7 @@ pub struct DensityRow {
 
 /// Weidmann's curve of 1993: speed of a one-way stream by its density.
 fn weidmann_mps(per_m2: f64) -> f64 {
-    1.34 * (1.0 - (-1.913 * (1.0 / per_m2 - 1.0 / 5.4)).exp())
+    1.34 * (1.0 - cosfly_frames::real::exp(-1.913 * (1.0 / per_m2 - 1.0 / 5.4)))
 }
 
 /// Measures the mean speed at several densities; nobody stops on purpose or walks in a group.
