@@ -53,3 +53,138 @@ fn two_results_compare_and_others_are_refused() {
     refused(&street, &["recipe.toml"], 2, "--policy");
     refused(&street, &["recipe.toml", "--policy", "ws://127.0.0.1:9", "--wait", "0.1", "--out", "gone"], 1, "kept");
 }
+
+#[test]
+fn logs_clips_and_the_page_are_there_as_they_were_asked_for() {
+    let street = Street::new();
+    let kept = |folder: &str, part: &str, ending: &str| {
+        let entries = std::fs::read_dir(street.path().join(folder).join("random").join(part)).expect("a part");
+        let names = entries.map(|entry| entry.expect("readable").file_name().to_string_lossy().into_owned());
+        let mut names: Vec<String> = names.filter_map(|name| name.strip_suffix(ending).map(str::to_owned)).collect();
+        names.sort();
+        names
+    };
+    fly(&street, "all", &["--policy", "random"]);
+    let episodes = kept("all", "rows", ".json");
+    assert_eq!(kept("all", "logs", ".mcap"), episodes);
+    let clips = kept("all", "clips", ".gif");
+    assert_eq!(clips.len(), episodes.len().min(3));
+    let page = std::fs::read_to_string(street.path().join("all/random/report.html")).expect("a page");
+    assert!(
+        clips.iter().all(|name| page.contains(&format!("clips/{name}.gif"))) && !page.contains("<script"),
+        "{page}"
+    );
+    fly(&street, "worst", &["--policy", "random", "--logs", "worst", "--clips", "1"]);
+    let worst = kept("worst", "clips", ".gif");
+    assert_eq!((worst.len(), kept("worst", "logs", ".mcap")), (1, worst.clone()));
+    let read = |folder: &str| std::fs::read(street.path().join(format!("{folder}/random/logs/{}.mcap", worst[0])));
+    assert_eq!(read("worst").expect("a log"), read("all").expect("a log"), "the same log in both");
+    fly(&street, "none", &["--policy", "random", "--logs", "none", "--clips", "0"]);
+    assert!(kept("none", "logs", ".mcap").is_empty() && kept("none", "clips", ".gif").is_empty());
+    assert_eq!(kept("none", "logs", ".jsonl"), episodes);
+}
+
+#[test]
+fn quadrotors_fly_suites_and_their_sensors_are_in_the_logs() {
+    let street = Street::new();
+    let arguments = ["--policy", "expert", "--drone", "pelican", "--wind-mps", "3", "--gusts", "--clips", "0"];
+    let scores = fly(&street, "one", &[&arguments[..], &["--jobs", "1"]].concat());
+    let mean = |name: &str| scores["expert"]["all"][name]["mean"].as_f64().expect("a number");
+    assert!(mean("tracking_error_m") > 0.0 && mean("tracking_error_m") < 1.0 && mean("saturated") < 0.1, "{scores}");
+    assert!(mean("from_expert_m") < 1.0, "{scores}");
+    fly(&street, "two", &[&arguments[..], &["--jobs", "2"]].concat());
+    let digests = |folder: &str| tree_digests(&street.path().join(folder));
+    assert_eq!(digests("two"), digests("one"));
+    let log = std::fs::read_dir(street.path().join("one/expert/logs")).expect("logs").filter_map(|entry| {
+        let path = entry.expect("readable").path();
+        path.extension().is_some_and(|ending| ending == "mcap").then(|| std::fs::read(path).expect("a log"))
+    });
+    let has_sensors = |log: &[u8]| log.windows(15).any(|window| window == b"cosfly.Inertial");
+    assert!(log.into_iter().all(|log| has_sensors(&log)));
+    refused(&street, &["recipe.toml", "--policy", "follow", "--wind-mps", "3"], 3, "wind does not move a point mass");
+    refused(&street, &["recipe.toml", "--policy", "follow", "--actions", "rotors"], 3, "a point mass takes no actions");
+    refused(&street, &["recipe.toml", "--policy", "follow", "--drone", "glider"], 2, "point-mass, crazyflie, pelican");
+}
+
+#[test]
+fn a_suite_names_its_drone_and_other_keys_are_refused() {
+    let street = Street::new();
+    let recipe = std::fs::read_to_string(street.path().join("recipe.toml")).expect("a recipe");
+    let with = |table: &str| {
+        let text = format!("{recipe}\n[tool.fly]\n{table}\n");
+        std::fs::write(street.path().join("recipe.toml"), text).expect("written");
+    };
+    with("drone = \"crazyflie\"\nblackouts = 1");
+    let scores = fly(&street, "small", &["--policy", "expert", "--clips", "0"]);
+    assert!(scores["expert"]["all"]["tracking_error_m"]["mean"].is_number(), "{scores}");
+    let card = std::fs::read_to_string(street.path().join("small/expert/card.json")).expect("a card");
+    assert!(card.contains("\"drone\": \"crazyflie\""), "{card}");
+    with("drone = \"glider\"");
+    refused(&street, &["recipe.toml", "--policy", "follow"], 3, "there is no drone `glider`");
+    with("wings = 2");
+    refused(&street, &["recipe.toml", "--policy", "follow"], 3, "unknown field `wings`");
+    with("wind_mps = 3");
+    refused(&street, &["recipe.toml", "--policy", "follow"], 3, "wind does not move a point mass");
+}
+
+#[test]
+fn measured_latencies_are_told_and_simulated_ones_are_not() {
+    let street = Street::new();
+    let scores = fly(&street, "measured", &["--policy", "follow", "--latency-ms", "measured", "--clips", "0"]);
+    assert!(scores["follow"]["all"]["latency_s"]["mean"].as_f64().is_some_and(|mean| mean >= 0.0), "{scores}");
+    let report = std::fs::read_to_string(street.path().join("measured/follow/report.md")).expect("a report");
+    assert!(report.contains("Latencies are measured"), "{report}");
+    refused(&street, &["recipe.toml", "--policy", "follow", "--latency-ms", "long"], 2, "0 to 5000, or `measured`");
+}
+
+#[test]
+fn dagger_adds_rounds_and_says_what_is_new() {
+    let street = Street::new();
+    let dagger = |arguments: &[&str]| {
+        let all = [&["dagger", "recipe.toml"], arguments].concat();
+        cosfly(&all).within(street.path()).run_ok().stdout
+    };
+    let first = dagger(&["--policy", "hold", "--expert", "1", "--round", "clone", "--out", "v1", "--jobs", "1"]);
+    assert!(first.contains("added: round `clone`") && first.contains("the expert flew 100 %"), "{first}");
+    let mixed = ["--policy", "follow", "--expert", "0.5", "--round", "next", "--onto", "v1"];
+    let second = dagger(&[&mixed[..], &["--out", "v2", "--jobs", "1"]].concat());
+    assert!(second.contains("kept: round `clone`") && second.contains("added: round `next`"), "{second}");
+    dagger(&[&mixed[..], &["--out", "v3", "--jobs", "2"]].concat());
+    let digests = |folder: &str| tree_digests(&street.path().join(folder));
+    assert_eq!(digests("v3"), digests("v2"), "labels do not depend on threads");
+    // An episode that is missing is flown again; the bytes are the same.
+    let rounds = street.path().join("v3/rounds/next");
+    let episode = std::fs::read_dir(rounds).expect("a round").next().expect("an episode").expect("readable");
+    std::fs::remove_file(episode.path()).expect("removed");
+    dagger(&[&mixed[..], &["--out", "v3"]].concat());
+    assert_eq!(digests("v3"), digests("v2"));
+    // Copies of older rounds that a kill cut off are made again; an older round that was changed is refused.
+    let copies = street.path().join("v3/rounds/clone");
+    std::fs::remove_dir_all(&copies).expect("removed");
+    dagger(&[&mixed[..], &["--out", "v3"]].concat());
+    assert_eq!(digests("v3"), digests("v2"));
+    let copy = std::fs::read_dir(copies).expect("a round").next().expect("an episode").expect("readable").path();
+    let text = std::fs::read_to_string(&copy).expect("labels");
+    std::fs::write(&copy, text.split_once('\n').expect("lines").1).expect("written");
+    let changed = [&["dagger", "recipe.toml"], &mixed[..], &["--out", "v3"]].concat();
+    let printed = cosfly(&changed).within(street.path()).run();
+    assert!(printed.code != Some(0) && printed.stderr.contains("round `clone` is not"), "{}", printed.stderr);
+    let diff = cosfly(&["dagger", "diff", "v2", "v1"]).within(street.path()).run_ok().stdout;
+    assert!(diff.contains("dropped: round `next`"), "{diff}");
+    let states = std::fs::read(street.path().join("v2/states.npy")).expect("states");
+    let actions = std::fs::read(street.path().join("v2/expert_actions.npy")).expect("actions");
+    assert!(
+        states.starts_with(b"\x93NUMPY") && (states.len() - 128) / 16 == (actions.len() - 128) / 5,
+        "{}",
+        states.len()
+    );
+    for (arguments, words) in [
+        (&["--policy", "follow", "--round", "clone", "--onto", "v1", "--out", "v4"][..], "has a round `clone` already"),
+        (&["--policy", "follow", "--round", "other", "--out", "v2"], "another version of labels"),
+        (&["--policy", "follow", "--round", "other", "--onto", "nowhere", "--out", "v4"], "no version of labels"),
+        (&["--policy", "follow", "--actions", "rotors", "--round", "other", "--out", "v4"], "labels are velocities"),
+    ] {
+        let printed = cosfly(&[&["dagger", "recipe.toml"], arguments].concat()).within(street.path()).run();
+        assert!(printed.code != Some(0) && printed.stderr.contains(words), "{arguments:?}: {}", printed.stderr);
+    }
+}

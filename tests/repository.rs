@@ -74,7 +74,7 @@ fn heavy_crates_stay_in_their_one_room() {
         ("numpy", &["cosfly-python"][..]),
         ("object_store", &["cosfly-remote"][..]),
         ("tokio", &["cosfly-remote"][..]),
-        ("ureq", &["cosfly-remote"][..]),
+        ("ureq", &["cosfly-remote", "cosfly-teacher"][..]),
         ("tungstenite", &["cosfly-fly"][..]),
         ("rmpv", &["cosfly-fly"][..]),
     ]);

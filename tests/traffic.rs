@@ -67,6 +67,27 @@ fn traffic_has_the_same_bytes_on_one_thread_and_on_three() {
 }
 
 #[test]
+fn a_filter_hands_on_the_bodies_around_a_flight() {
+    let folder = tempfile::tempdir().expect("scratch");
+    let recipes = crate::support::repository_root().join("recipes");
+    let street = std::fs::read_to_string(recipes.join("busy_street.toml")).expect("the recipe");
+    let keep = "\n[stages.expert]\nuse = \"wasm:RECIPES/plugins/keep_good.wasm\"\ninputs = { town = \"town\", trajectories = \"planned\" }\n\
+                params.rules = [{ column = \"visibility\", of = \"mean\", at_least = 0.0 }]\n";
+    let filtered =
+        street.replace("source = \"", "source = \"RECIPES/").replace("[stages.expert]", "[stages.planned]") + keep;
+    let path = folder.path().join("busy_street.toml");
+    std::fs::write(&path, filtered.replace("RECIPES", &recipes.display().to_string())).expect("written");
+    let changes = ["stages.street.follow.kinds=[\"car\"]", "stages.street.follow.count=2"];
+    let rows = |recipe: &str, out: &str| {
+        run(folder.path(), recipe, out, &changes).run_ok();
+        let out = folder.path().join(out);
+        cosfly(&["verify", out.to_str().expect("UTF-8")]).run_ok();
+        tree_digests(&out.join("data/bodies"))
+    };
+    assert_eq!(rows("recipes/busy_street.toml", "plain"), rows(path.to_str().expect("UTF-8"), "kept"));
+}
+
+#[test]
 fn tracks_that_cannot_be_used_are_named_with_their_line() {
     let folder = tempfile::tempdir().expect("scratch");
     let recipe = "name = \"tracks\"\nseed = 1\n[stages.town]\nuse = \"map\"\nsource = \"MAP\"\n[stages.street]\nuse = \"traffic\"\n\

@@ -177,6 +177,33 @@ server = Server(good)
 assert fly("absent", "--policy", f"ws://127.0.0.1:{server.port}", "--name", "mine", *few) == quiet
 server.stop()
 
+# Pictures on request, by the real codec; the same bytes again.
+def looks(connection, observation):
+    shape = (160, 160)
+    assert observation["depth"].shape == shape and observation["depth"].dtype == np.float32
+    assert observation["instance"].shape == shape and observation["instance"].dtype == np.uint32
+    assert observation["mask"].dtype == np.uint8 and ((observation["instance"] == 1) == (observation["mask"] == 1)).all()
+    assert 0 < observation["depth"].min() and observation["depth"].max() <= 200
+    if observation["step"] == 0:
+        assert observation["mask"].any(), "the target is in the first picture"
+    good(connection, observation)
+
+
+server = Server(looks)
+pictures = ["--policy", f"ws://127.0.0.1:{server.port}", "--name", "mine", "--obs", "depth,instance,mask", "--size", "160"]
+fly("pictures", *pictures, *few)
+fly("pictures_again", *pictures, *few[:-1], "2")
+assert bytes_of("pictures") == bytes_of("pictures_again")
+assert all(not row.get("policy_failure") for row in rows("pictures/mine"))
+
+# The time that a policy really takes, on request.
+server.stop()
+server = Server(good)
+timed = ["--policy", f"ws://127.0.0.1:{server.port}", "--name", "mine", "--latency-ms", "measured"]
+measured = fly("measured", *timed, *few)["mine"]["all"]["latency_s"]["mean"]
+assert 0 < measured < 1, measured
+server.stop()
+
 # A function that fails says why.
 (work / "broken.py").write_text("def act(observation):\n    raise KeyError('no such feature')\n")
 fly("broken", "--policy", "python:broken:act", "--python", sys.executable, "--name", "mine", *few, cwd=work)

@@ -29,9 +29,13 @@ with tempfile.TemporaryDirectory() as out:
         rows = _load_single_dataset(entry, ModelArguments(model_name_or_path="none"), data, training)
         lines = (Path(folder) / f"{name.removeprefix('cosfly_')}.jsonl").read_text().splitlines()
         assert len(rows) == len(lines), (name, len(rows), len(lines))
+        is_waypoints = not name.endswith(("_texts", "_preferences"))
         for row in rows:
             question, answer = row["_prompt"][0]["content"], row["_response"][0]["content"]
-            assert question.count("<image>") == len(row["_images"]) > 0 and "Instruction: " in question, row
-            assert all(Path(picture).is_file() for picture in row["_images"]) and row["_system"], row
-            assert json.loads(answer)["waypoint_deltas"], answer
+            pictures = row["_images"] or []
+            assert question.count("<image>") == len(pictures) and ("Instruction: " in question) == is_waypoints, row
+            assert pictures or name.endswith("_no_pictures"), row
+            assert all(Path(picture).is_file() for picture in pictures) and row["_system"], row
+            assert not is_waypoints or json.loads(answer)["waypoint_deltas"], answer
+            assert not name.endswith("_preferences") or len(row["_response"]) == 2, row
         print(f"ok  {name}: {len(rows)} windows")

@@ -2,6 +2,7 @@
 
 use crate::checks::Trace;
 use crate::sources::{lerobot, ours, v7};
+use crate::texts::{GivenTexts, Judged, TextFigures, TextTally};
 use crate::{Episode, Flag, Severity, checks, shortcuts};
 use cosfly_diagnose::{Diagnostic, Fault, Result};
 use cosfly_metrics::shortcuts::ShortcutFigures;
@@ -57,6 +58,10 @@ pub struct Examination {
     pub quotas: Vec<(Quota, f64)>,
     /// Signs that give targets away; datasets of cosfly only.
     pub shortcuts: Option<ShortcutFigures>,
+    /// Figures of the instructions, by language.
+    pub texts: Vec<TextFigures>,
+    /// Verdicts on texts that were given in the place of the data's own.
+    pub judged: Option<Judged>,
     /// Checks that were impossible, with reasons.
     pub unchecked: Vec<String>,
 }
@@ -78,20 +83,44 @@ impl Examination {
 /// # Errors
 /// `doctor-layout` for an unknown layout; refusals of the machine. Faults of the data are flags.
 pub fn examine(folder: &Path, quotas: &[Quota], progress: &mut dyn FnMut(u64, u64)) -> Result<Examination> {
+    examine_texts(folder, quotas, None, progress)
+}
+
+/// Like [`examine`], with `texts` in the place of the data's own instructions.
+///
+/// # Errors
+/// Those of [`examine`]; `doctor-texts` for texts about an episode that is not there.
+pub fn examine_texts(
+    folder: &Path,
+    quotas: &[Quota],
+    texts: Option<&GivenTexts>,
+    progress: &mut dyn FnMut(u64, u64),
+) -> Result<Examination> {
     let mut tally = Tally::new(quotas);
+    tally.texts.judged = texts.map(|_| Judged::default());
+    let mut add = |mut episode: Episode| {
+        if let Some(texts) = texts {
+            texts.give(&mut episode);
+        }
+        tally.add(&episode);
+    };
     let (layout, flags, notes) = if ours::recognises(folder) {
         let mut flags = ours::files(folder)?;
-        ours::episodes(folder, &mut flags, &mut |episode| tally.add(&episode), progress)?;
+        ours::episodes(folder, &mut flags, &mut add, progress)?;
         (Layout::Cosfly, flags, vec![])
     } else if let Some(root) = v7::root(folder) {
-        (Layout::V7, v7::episodes(&root, &mut |episode| tally.add(&episode), progress)?, vec![])
+        (Layout::V7, v7::episodes(&root, &mut add, progress)?, vec![])
     } else if lerobot::recognises(folder) {
         let (episodes, flags, notes) = lerobot::episodes(folder, progress)?;
-        episodes.iter().for_each(|episode| tally.add(episode));
+        episodes.into_iter().for_each(add);
         (Layout::Lerobot, flags, notes)
     } else {
         return Err(unknown(folder));
     };
+    if let Some(stranger) = texts.and_then(|texts| texts.stranger(tally.traces.iter().map(Trace::id))) {
+        let message = format!("there are texts about `{stranger}`, which is no episode of `{}`", folder.display());
+        return Err(Diagnostic::new("doctor-texts", Fault::Input, message));
+    }
     // Damage of the tables has its flag.
     let figures = || shortcuts::figures(&PublishedDataset::open(folder).ok()?).ok();
     let shortcuts = if layout == Layout::Cosfly { figures() } else { None };
@@ -107,6 +136,7 @@ struct Tally<'a> {
     visibility: [usize; SHARES.len()],
     /// Episodes that meet each quota.
     kept_quotas: Vec<usize>,
+    texts: TextTally,
     stated: Stated,
 }
 
@@ -130,6 +160,7 @@ impl<'a> Tally<'a> {
             frames: 0,
             visibility: [0; SHARES.len()],
             kept_quotas: vec![0; quotas.len()],
+            texts: TextTally::default(),
             stated: Stated::default(),
         }
     }
@@ -139,6 +170,7 @@ impl<'a> Tally<'a> {
         if !episode.moments.is_empty() {
             self.flags.extend(checks::of_episode(episode));
         }
+        self.texts.add(episode);
         self.traces.push(Trace::of(episode));
         self.frames += episode.moments.len();
         for share in episode.moments.iter().filter_map(|it| it.visible) {
@@ -203,6 +235,8 @@ impl<'a> Tally<'a> {
             visibility: SHARES.into_iter().zip(self.visibility).collect(),
             quotas: self.quotas.iter().cloned().zip(self.kept_quotas.into_iter().map(share)).collect(),
             shortcuts: None,
+            texts: self.texts.figures(),
+            judged: self.texts.judged,
             unchecked,
             flags,
         }

@@ -16,9 +16,11 @@ mod shortcuts;
 pub mod sources;
 #[cfg(test)]
 mod tests;
+mod texts;
 pub mod walls;
 
 pub use cosfly_metrics::shortcuts::ShortcutFigures;
 pub use episode::{Episode, Look, Moment};
-pub use examination::{Examination, Layout, Quota, examine};
+pub use examination::{Examination, Layout, Quota, examine, examine_texts};
 pub use flag::{Flag, Severity};
+pub use texts::{GivenTexts, Judged, TextFigures, TextVerdict};

@@ -29,7 +29,8 @@ pub fn figures(dataset: &PublishedDataset) -> Result<ShortcutFigures> {
     for (_, path) in dataset.files("people")? {
         cosfly_read::read(&path, &mut |rows| {
             for row in 0..rows.len() {
-                if rows.has(People::top_linear_rgb) {
+                let is_person = rows.get_or(People::kind, row, PERSON.to_owned())? == PERSON;
+                if is_person && rows.has(People::top_linear_rgb) {
                     let id = rows.get(People::trajectory_id, row)?;
                     let walk = format!("{} {}", town(&id), rows.get(People::walk_id, row)?);
                     shortcuts.add_other(&walk, rows.get(People::top_linear_rgb, row)?);
@@ -44,8 +45,9 @@ pub fn figures(dataset: &PublishedDataset) -> Result<ShortcutFigures> {
         let boxes = people.boxes(flight)?;
         for (frame, row) in rows.iter().enumerate() {
             if let Some(target) = row.visible_box_px {
-                let others = boxes.get(&(frame as u32)).into_iter().flatten().copied();
-                shortcuts.add_frame(image_px, target.map(f64::from), others);
+                let others = boxes.get(&(frame as u32)).into_iter().flatten();
+                let alike = others.filter(|other| flight.target_kind.as_ref() == Some(&other.0)).map(|other| other.1);
+                shortcuts.add_frame(image_px, target.map(f64::from), alike);
             }
         }
         Ok(())
@@ -53,8 +55,11 @@ pub fn figures(dataset: &PublishedDataset) -> Result<ShortcutFigures> {
     Ok(shortcuts.figures())
 }
 
-/// Boxes of people by frame.
-type Boxes = BTreeMap<u32, Vec<Edges>>;
+/// Kinds and boxes of bodies by frame.
+type Boxes = BTreeMap<u32, Vec<(String, Edges)>>;
+
+/// Kind of people, and of all bodies in tables without kinds.
+const PERSON: &str = "pedestrian";
 
 /// Boxes of people, flight by flight; those of neighbouring flights are read together.
 struct PeopleBoxes<'a> {
@@ -83,7 +88,8 @@ impl<'a> PeopleBoxes<'a> {
                         continue;
                     };
                     let of_frame = known.entry(place).or_default().entry(frames.at(row)?).or_default();
-                    of_frame.push(edges.at(row)?.map(f64::from));
+                    let kind = rows.get_or(People::kind, row, PERSON.to_owned())?;
+                    of_frame.push((kind, edges.at(row)?.map(f64::from)));
                 }
                 Ok(())
             })?;

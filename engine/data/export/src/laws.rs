@@ -246,3 +246,33 @@ fn what_a_vision_language_model_learns_to_say_leads_to_the_expert() {
         assert_eq!(rows, 2);
     }
 }
+
+#[test]
+fn sets_for_students_are_registered_and_nested() {
+    let (home, dataset) = published();
+    let out = home.path().join("students");
+    let mut options = options("vlm");
+    options.insert("sets".into(), "students".into());
+    options.insert("input".into(), "mixed".into());
+    export_with(&dataset, "vlm", options, &Choice::default(), &out).unwrap();
+    let registered: Map<String, Value> =
+        serde_json::from_slice(&std::fs::read(out.join("dataset_info.json")).unwrap()).unwrap();
+    let ids = |name: &str| -> std::collections::BTreeSet<String> {
+        let text = std::fs::read_to_string(out.join(format!("{name}.jsonl"))).unwrap_or_default();
+        let row = |line: &str| serde_json::from_str::<Value>(line).unwrap();
+        text.lines().map(|line| row(line)["id"].as_str().unwrap().to_owned()).collect()
+    };
+    let splits: Vec<&str> = registered.keys().filter_map(|name| name.strip_prefix("cosfly_")).collect();
+    for name in &splits {
+        assert!(!ids(name).is_empty(), "{name}");
+    }
+    for split in splits.iter().filter(|name| !name.contains('_')) {
+        let whole = ids(split);
+        assert!(ids(&format!("{split}_25")).is_subset(&ids(&format!("{split}_50"))));
+        assert!(ids(&format!("{split}_50")).is_subset(&whole));
+        for name in ["no_pictures", "no_boxes", "no_poses", "pictures_only"] {
+            assert_eq!(ids(&format!("{split}_{name}")), whole, "{split}_{name}");
+        }
+        assert!(!ids(&format!("{split}_texts")).is_empty());
+    }
+}

@@ -10,7 +10,9 @@ mod sheet;
 mod shot;
 mod town;
 
+pub use cosfly_read::LoggedFrame;
 pub use selection::FrameList;
+pub use shot::Shot;
 pub use town::town_plan;
 
 use clip::Clip;
@@ -20,7 +22,6 @@ use ground::SeenGround;
 use plan::Plan;
 use selection::spread;
 use sheet::Sheet;
-use shot::Shot;
 use std::collections::{BTreeMap, BTreeSet};
 
 /// Rows of a sheet when no frames are asked for.
@@ -101,6 +102,16 @@ pub fn draw(
     let plan = Plan { flight, family, boxes: log.scene()?, ground };
     let shown = [of_sheet.len(), of_clip.len()];
     Ok(Pictures { sheet: sheet.finish().png()?, clip: clip.finish()?, plan: plan.draw().png()?, shown })
+}
+
+/// The animated clip of some frames, GIF: ten of them a second.
+///
+/// # Errors
+/// `preview-encode` where they cannot be encoded.
+pub fn clip(shots: impl Iterator<Item = Shot>) -> Result<Vec<u8>> {
+    let mut clip = Clip::default();
+    shots.for_each(|shot| clip.add(&shot));
+    clip.finish()
 }
 
 #[cfg(test)]

@@ -41,6 +41,14 @@ impl CaptionReader {
                         language: rows.get(Captions::language, row)?,
                         style: rows.get(Captions::style, row)?,
                         text: rows.get(Captions::text, row)?,
+                        writer: rows.get_or(Captions::writer, row, "template".to_owned())?,
+                        model: rows.get_or(Captions::model, row, None)?,
+                        prompt_version: rows.get_or(Captions::prompt_version, row, None)?,
+                        attempts: rows.get_or(Captions::attempts, row, 0)?,
+                        fallback: rows.get_or(Captions::fallback, row, None)?,
+                        verdicts: rows.get_or(Captions::verdicts, row, vec![])?,
+                        refused: rows.get_or(Captions::refused, row, vec![])?,
+                        refused_because: rows.get_or(Captions::refused_because, row, vec![])?,
                     });
                 }
                 Ok(())

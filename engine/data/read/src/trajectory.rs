@@ -55,8 +55,8 @@ pub struct PublishedFlight {
     /// Colours of the target's top and trousers in words, and whether it wears a backpack; `None` without a body, and in
     /// datasets from before the columns existed.
     pub target_clothes: Option<(String, String, bool)>,
-    /// Whether the target is a person on foot.
-    pub follows_person: bool,
+    /// Kind of the followed body, `pedestrian` in datasets that do not state one; `None` where nobody is followed.
+    pub target_kind: Option<String>,
     /// Limits of clearance (m), speed (m/s), acceleration (m/s^2), jerk (m/s^3), yaw and pitch rate (degrees/s); `None` where
     /// there is no limit.
     pub limits: [Option<f64>; 6],
@@ -109,9 +109,7 @@ impl PublishedFlight {
             target_height_m: rows.get(Trajectories::target_height_m, row)?,
             target_radius_m: rows.get(Trajectories::target_radius_m, row)?,
             target_clothes: clothes(rows, row)?,
-            follows_person: rows
-                .get_or(Trajectories::target_kind, row, Some("pedestrian".to_owned()))?
-                .is_some_and(|kind| kind == "pedestrian"),
+            target_kind: rows.get_or(Trajectories::target_kind, row, Some("pedestrian".to_owned()))?,
             limits: [
                 rows.get_or(Trajectories::limit_clearance_m, row, None)?,
                 rows.get_or(Trajectories::limit_speed_mps, row, None)?,

@@ -5,6 +5,7 @@
 //!
 //! To add a section: one file in `sections/` and its line in the list of sections in `page.rs`.
 
+mod document;
 pub mod figures;
 mod map;
 pub mod model;
@@ -16,6 +17,7 @@ mod sample;
 mod sections;
 mod sketch;
 
+pub use document::{Section, document};
 pub use figures::Figures;
 pub use model::{BoxSketch, Known, PlannerRow, RejectionSketch, Report, TownSketch};
 pub use page::page;

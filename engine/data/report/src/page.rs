@@ -1,5 +1,6 @@
 //! The page as a whole: heading, contents, sections, foot.
 
+use crate::document::{Section, document};
 use crate::model::Report;
 use crate::moments;
 use crate::pictures::{Source, image};
@@ -7,7 +8,6 @@ use crate::sections::{distributions, maps, numbers, planners, planning, shares, 
 use cosfly_plot::text::escaped;
 use std::fmt::Write;
 
-const STYLE: &str = include_str!("../assets/style.css");
 /// Pictures in the heading.
 const GALLERY: usize = 6;
 
@@ -16,41 +16,19 @@ const GALLERY: usize = 6;
 /// # Errors
 /// Those of `pictures`.
 pub fn page<E>(report: &Report, pictures: Source<'_, E>) -> Result<String, E> {
+    let section = |id, [short_title, title]: [&'static str; 2], body| Section { id, short_title, title, body };
     let sections = [
-        ("numbers", ["Numbers", "In numbers"], numbers::section(report)),
-        ("maps", ["Maps", "Where they fly"], maps::section(report)),
-        ("time", ["Visibility", "When the target is seen"], timelines::section(report)),
-        ("distributions", ["Distributions"; 2], distributions::section(report)),
-        ("shortcuts", ["Shortcuts", "What gives the target away"], shortcuts::section(report)),
-        ("planning", ["Planning"; 2], planning::section(report)),
-        ("planners", ["Planners", "Planners beside each other"], planners::section(report)),
-        ("worst", ["Worst cases"; 2], worst::section(report, pictures)?),
-        ("shares", ["Shares", "What is where, and what was left out"], shares::section(report)),
+        section("numbers", ["Numbers", "In numbers"], numbers::section(report)),
+        section("maps", ["Maps", "Where they fly"], maps::section(report)),
+        section("time", ["Visibility", "When the target is seen"], timelines::section(report)),
+        section("distributions", ["Distributions"; 2], distributions::section(report)),
+        section("shortcuts", ["Shortcuts", "What gives the target away"], shortcuts::section(report)),
+        section("planning", ["Planning"; 2], planning::section(report)),
+        section("planners", ["Planners", "Planners beside each other"], planners::section(report)),
+        section("worst", ["Worst cases"; 2], worst::section(report, pictures)?),
+        section("shares", ["Shares", "What is where, and what was left out"], shares::section(report)),
     ];
-    let shown: Vec<_> = sections.iter().filter(|(_, _, body)| !body.is_empty()).collect();
-    let mut html = format!(
-        "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n\
-         <meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n\
-         <meta name=\"color-scheme\" content=\"light dark\">\n<title>{title}</title>\n<link rel=\"icon\" href=\"data:,\">\n\
-         <style>\n{STYLE}</style>\n</head>\n<body>\n<a class=\"skip\" href=\"#main\">Skip to the content</a>\n",
-        title = escaped(&report.title)
-    );
-    html.push_str(&heading(report, pictures)?);
-    html.push_str("<nav aria-label=\"Contents\"><ul>");
-    for (id, [title, _], _) in &shown {
-        let _ = write!(html, "<li><a href=\"#{id}\">{title}</a></li>");
-    }
-    html.push_str("</ul></nav>\n<main id=\"main\">\n");
-    for (id, [_, title], body) in &shown {
-        let _ = writeln!(
-            html,
-            "<section id=\"{id}\" aria-labelledby=\"{id}-title\"><h2 id=\"{id}-title\">{title}</h2>{body}</section>"
-        );
-    }
-    html.push_str("</main>\n");
-    html.push_str(&foot(report));
-    html.push_str("</body>\n</html>\n");
-    Ok(html)
+    Ok(document(&report.title, &heading(report, pictures)?, &sections, &foot(report)))
 }
 
 fn heading<E>(report: &Report, pictures: Source<'_, E>) -> Result<String, E> {

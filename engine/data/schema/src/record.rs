@@ -305,7 +305,7 @@ pub struct LogRecord {
 }
 
 /// One caption of one trajectory.
-#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub struct CaptionRecord {
     /// Two-letter code: `zh` or `en`.
     pub language: String,
@@ -313,6 +313,22 @@ pub struct CaptionRecord {
     pub style: String,
     /// The text.
     pub text: String,
+    /// Who wrote it: `template` or `teacher`.
+    pub writer: String,
+    /// Model that was asked; `None` where none was.
+    pub model: Option<String>,
+    /// Version of the prompt; `None` where no model was asked.
+    pub prompt_version: Option<u32>,
+    /// Number of answers that were judged.
+    pub attempts: u32,
+    /// Why the template wrote it although a model was asked.
+    pub fallback: Option<String>,
+    /// Subjects that the text speaks of; each was compared with the facts and is true.
+    pub verdicts: Vec<String>,
+    /// Answers that were refused before.
+    pub refused: Vec<String>,
+    /// Why they were refused.
+    pub refused_because: Vec<String>,
 }
 
 /// An item without a trajectory, published with its reason.
@@ -361,7 +377,7 @@ pub fn captions_from_bytes(bytes: &[u8]) -> Result<Vec<CaptionRecord>> {
 
 const TRAJECTORY_MAGIC: &[u8; 8] = b"CFTRAJ\x00\x05";
 const PREVIEWS_MAGIC: &[u8; 8] = b"CFPREV\x00\x01";
-const CAPTIONS_MAGIC: &[u8; 8] = b"CFCAPT\x00\x01";
+const CAPTIONS_MAGIC: &[u8; 8] = b"CFCAPT\x00\x02";
 
 /// Encodes eight bytes of kind and version, then postcard.
 fn encode<T: Serialize>(magic: &[u8; 8], value: &T) -> Vec<u8> {
@@ -394,12 +410,16 @@ mod tests {
 
     #[test]
     fn captions_survive_a_round_trip_and_damage_is_refused() {
-        let captions =
-            vec![CaptionRecord { language: "zh".into(), style: "instruction".into(), text: "跟随行人".into() }];
+        let captions = vec![CaptionRecord {
+            language: "zh".into(),
+            style: "instruction".into(),
+            text: "跟随行人".into(),
+            ..CaptionRecord::default()
+        }];
         let bytes = captions_to_bytes(&captions);
         assert_eq!(captions_from_bytes(&bytes).unwrap(), captions);
         assert!(captions_from_bytes(&bytes[..bytes.len() - 1]).is_err());
-        assert!(captions_from_bytes(b"CFCAPT\x00\x02").unwrap_err().message.contains("version 2"));
+        assert!(captions_from_bytes(b"CFCAPT\x00\x03").unwrap_err().message.contains("version 3"));
         assert!(PreviewStrip::from_bytes(&bytes).unwrap_err().message.contains("not a preview strip"));
     }
 

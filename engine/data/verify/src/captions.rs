@@ -91,7 +91,9 @@ impl CaptionList {
     }
 
     fn check_languages(&self, flights: &FlightList, report: &mut VerifyReport) {
-        for (number, flight) in flights.iter().enumerate().filter(|(_, flight)| flight.follows_person) {
+        for (number, flight) in
+            flights.iter().enumerate().filter(|(_, flight)| flight.target_kind.as_deref() == Some("pedestrian"))
+        {
             let of_flight = self.of(number);
             for (at, language) in LANGUAGES.into_iter().enumerate() {
                 if !of_flight.iter().any(|caption| caption.language == Some(at as u8)) {

@@ -1,11 +1,15 @@
 //! One episode, flown by a pilot: its [`Row`] and its log.
 
+use crate::log::Line;
 use crate::pilot::{Failure, Pilot};
 use crate::suite::Task;
-use cosfly_env::{Action, End, Environment, Reward, Score, Settings};
+use cosfly_drone::Sensed;
+use cosfly_drone::quadrotor::Strain;
+use cosfly_env::{Environment, Score, Settings};
+use cosfly_frames::DVec3;
 use serde::{Deserialize, Serialize};
-use std::fmt::Write as _;
 use std::sync::Arc;
+use std::time::Instant;
 
 /// Attempts at an episode whose policy goes away in the middle of it.
 const ATTEMPTS: u32 = 3;
@@ -25,26 +29,69 @@ pub struct Row {
     pub certified_visibility: f64,
     /// Time between steps, seconds.
     pub step_s: f64,
+    /// Mean distance from the expert's flight at its waypoints that were reached, metres.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub from_expert_m: Option<f64>,
+    /// How well a quadrotor could do what it was asked for.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub strain: Option<StrainRow>,
+    /// Mean time that the policy took for an action, where latencies are measured.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub mean_latency_s: Option<f64>,
     /// The outcome.
     pub score: Score,
+}
+
+/// How well a quadrotor could do what it was asked for.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct StrainRow {
+    /// Share of the time in which a rotor was asked for more or less thrust than it has.
+    pub saturated: f64,
+    /// Mean distance from its setpoints; none without setpoints.
+    pub tracking_error_m: Option<f64>,
+    /// Largest distance from its setpoints.
+    pub largest_tracking_error_m: f64,
+}
+
+impl From<&Strain> for StrainRow {
+    fn from(strain: &Strain) -> Self {
+        let share = |sum: f64, count: u64| (count > 0).then(|| sum / count as f64);
+        Self {
+            saturated: share(strain.saturated_ticks as f64, strain.ticks).unwrap_or(0.0),
+            tracking_error_m: share(strain.error_sum_m, strain.followed_ticks),
+            largest_tracking_error_m: strain.largest_error_m,
+        }
+    }
 }
 
 /// An episode that was flown.
 pub struct Flown {
     /// Outcome.
     pub row: Row,
-    /// One line of JSON per step.
-    pub log: String,
+    /// The steps.
+    pub steps: Vec<Line>,
+    /// What sensors measured, by time.
+    pub sensed: Vec<Sensed>,
+}
+
+/// Time that a policy takes for an action.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Latency {
+    /// That of the settings, in simulated time.
+    Simulated,
+    /// What the clock says; rows and logs differ from run to run.
+    Measured,
 }
 
 /// Flies an episode. A policy that goes away in the middle of it begins anew, a few times.
 ///
 /// # Errors
 /// The reason why the policy cannot be had, in words: the episode was not flown.
-pub fn fly(task: &Task, settings: Settings, pilot: &mut dyn Pilot) -> Result<Flown, String> {
+pub fn fly(task: &Task, settings: Settings, latency: Latency, pilot: &mut dyn Pilot) -> Result<Flown, String> {
     let mut attempt = 1;
     loop {
-        match attempt_at(task, settings, pilot) {
+        match attempt_at(task, settings, latency, pilot) {
             Ok(flown) => return Ok(flown),
             Err(_) if attempt < ATTEMPTS => attempt += 1,
             Err(reason) => return Err(reason),
@@ -52,16 +99,17 @@ pub fn fly(task: &Task, settings: Settings, pilot: &mut dyn Pilot) -> Result<Flo
     }
 }
 
-fn attempt_at(task: &Task, settings: Settings, pilot: &mut dyn Pilot) -> Result<Flown, String> {
+fn attempt_at(task: &Task, settings: Settings, latency: Latency, pilot: &mut dyn Pilot) -> Result<Flown, String> {
     let mut environment = Environment::new(Arc::clone(&task.episode), settings);
     let mut policy_failure = None;
-    let mut log = String::new();
+    let mut steps: Vec<Line> = Vec::new();
     match pilot.begin(&environment, &task.knowledge) {
         Ok(()) => {}
         Err(Failure::Gone(reason)) => return Err(reason),
         Err(Failure::Answer(reason)) => policy_failure = Some(reason),
     }
     while environment.score().end.is_none() && policy_failure.is_none() && environment.score().planned_steps > 0 {
+        let asked_at = (latency == Latency::Measured).then(Instant::now);
         let asked = environment.wants_action().then(|| pilot.act(&environment)).transpose();
         let action = match asked {
             Ok(action) => action,
@@ -71,8 +119,10 @@ fn attempt_at(task: &Task, settings: Settings, pilot: &mut dyn Pilot) -> Result<
                 break;
             }
         };
-        let step = environment.step(action.as_ref());
-        tell(&mut log, &environment, action.as_ref(), &step.reward, step.end);
+        let taken_s = action.and(asked_at).map(|asked_at| asked_at.elapsed().as_secs_f64());
+        let step = environment.step_late(action.as_ref(), taken_s.unwrap_or(settings.latency_s));
+        let line = Line::of(&environment, action.as_ref(), &step.reward, step.end);
+        steps.push(Line { latency_s: taken_s, ..line });
     }
     let row = Row {
         episode: task.episode.name.clone(),
@@ -80,50 +130,26 @@ fn attempt_at(task: &Task, settings: Settings, pilot: &mut dyn Pilot) -> Result<
         policy_failure,
         certified_visibility: task.certified_visibility,
         step_s: settings.step_s,
+        from_expert_m: from_expert_m(task, &steps),
+        strain: environment.strain().map(StrainRow::from),
+        mean_latency_s: mean(steps.iter().filter_map(|step| step.latency_s)),
         score: *environment.score(),
     };
-    Ok(Flown { row, log })
+    Ok(Flown { row, steps, sensed: environment.sensed().to_vec() })
 }
 
-/// Line of a log: the state after a step.
-#[derive(Serialize)]
-struct Line<'a> {
-    step: u32,
-    time_s: f64,
-    position_in_world: [f64; 3],
-    velocity_in_world: [f64; 3],
-    yaw_deg: f64,
-    pitch_deg: f64,
-    target_in_world: [f64; 3],
-    visible: f64,
-    in_picture: bool,
-    tracked: bool,
-    /// Velocity ahead, right and up (m/s), yaw and pitch rate (degrees/s), where the policy gave an action before the step.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    action: Option<[f64; 5]>,
-    /// Terms of the reward, unweighted, in the order of the card's list.
-    reward: [f64; 6],
-    #[serde(skip_serializing_if = "Option::is_none")]
-    end: Option<&'a End>,
+/// Mean distance from the expert's flight at those of its waypoints that fall on steps.
+fn from_expert_m(task: &Task, steps: &[Line]) -> Option<f64> {
+    let dt_s = task.episode.target.dt_s;
+    mean(steps.iter().filter_map(|step| {
+        let frame = (step.time_s / dt_s).round();
+        let waypoint = task.knowledge.flight.get(frame as usize)?;
+        let is_there = (frame * dt_s - step.time_s).abs() < 1e-6;
+        is_there.then(|| waypoint.distance(DVec3::from_array(step.position_in_world)))
+    }))
 }
 
-fn tell(log: &mut String, environment: &Environment, action: Option<&Action>, reward: &Reward, end: Option<End>) {
-    let seen = environment.observation();
-    let target = environment.episode().target_at(seen.time_s);
-    let line = Line {
-        step: seen.step,
-        time_s: seen.time_s,
-        position_in_world: seen.motion.position_in_world.to_array(),
-        velocity_in_world: seen.motion.velocity_in_world.to_array(),
-        yaw_deg: seen.yaw_rad.to_degrees(),
-        pitch_deg: seen.pitch_rad.to_degrees(),
-        target_in_world: target.feet_in_world.to_array(),
-        visible: seen.visible,
-        in_picture: seen.in_picture,
-        tracked: seen.tracked,
-        action: action.map(|action| action.numbers(seen.yaw_rad)),
-        reward: reward.terms(),
-        end: end.as_ref(),
-    };
-    let _ = writeln!(log, "{}", serde_json::to_string(&line).unwrap_or_default());
+fn mean(values: impl Iterator<Item = f64>) -> Option<f64> {
+    let (sum, count) = values.fold((0.0, 0.0), |(sum, count), value| (sum + value, count + 1.0));
+    (count > 0.0).then(|| sum / count)
 }

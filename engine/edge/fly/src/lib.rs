@@ -1,17 +1,26 @@
 //! Closed-loop evaluation: a policy flies the episodes of a suite, and the result is a folder of scores and logs.
 //!
 //! * [`suite`]: the episodes of a recipe, with the experts' flights.
+//! * [`settings`]: what a recipe says of the drone.
 //! * [`pilot`]: policies: baselines, servers behind a WebSocket ([`wire`]), functions in Python.
-//! * [`flight`]: one episode, flown: its row and its log.
+//! * [`flight`]: one episode, flown: its row and its steps ([`log`]).
 //! * [`run`]: all episodes on several threads, resumed where rows are there already.
 //! * [`vector`]: many environments stepped together, for learners.
+//! * [`experts`]: the experts of a recipe, asked again; [`dagger`]: what they say where a policy came.
 //! * [`results`]: the folder: card, rows, logs, tables with intervals; [`compare`]: two of them side by side.
+//! * [`pictures`]: logs that play in Foxglove, clips, the page.
 
 pub mod compare;
+pub mod dagger;
+pub mod experts;
 pub mod flight;
+pub mod log;
+pub mod pictures;
 pub mod pilot;
 pub mod results;
 pub mod run;
+pub mod settings;
 pub mod suite;
 pub mod vector;
+mod whole;
 pub mod wire;

@@ -1,13 +1,14 @@
 //! All episodes of a suite, flown by one policy on several threads; episodes that are in the folder are kept.
 
-use crate::flight::{Row, fly};
+use crate::flight::{Flown, Latency, Row, fly};
+use crate::pictures::{self, Case};
 use crate::pilot::{Manners, Place, open};
-use crate::results::{Card, Folder};
+use crate::results::{Card, Folder, LogChoice, worst};
 use crate::suite::{Suite, Task};
 use cosfly_diagnose::{Diagnostic, Fault, Result};
 use cosfly_env::Settings;
-use std::sync::Mutex;
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
+use std::sync::{Mutex, OnceLock};
 
 /// A share of the episodes: those whose number leaves `index` when divided by `of`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -33,6 +34,8 @@ pub struct Order<'a> {
     pub manners: &'a Manners,
     /// Settings of the environment.
     pub settings: Settings,
+    /// Time that the policy takes for an action.
+    pub latency: Latency,
     /// Episodes to fly.
     pub shard: Shard,
     /// Threads.
@@ -73,8 +76,8 @@ pub fn run(order: &Order<'_>, card: &Card, folder: &Folder, progress: &dyn Fn(u6
         let mut pilot = open(order.place, order.manners);
         while !stop.load(Ordering::Relaxed) && !order.cancelled.load(Ordering::Relaxed) {
             let Some(&at) = due.get(next.fetch_add(1, Ordering::Relaxed)) else { break };
-            match fly(&tasks[at], order.settings, &mut *pilot) {
-                Ok(flown) => match folder.keep(&flown) {
+            match fly(&tasks[at], order.settings, order.latency, &mut *pilot) {
+                Ok(flown) => match keep(order, card, folder, &tasks[at], &flown) {
                     Ok(()) => _ = done.fetch_add(1, Ordering::Relaxed),
                     Err(error) => {
                         stop.store(true, Ordering::Relaxed);
@@ -107,8 +110,45 @@ pub fn run(order: &Order<'_>, card: &Card, folder: &Folder, progress: &dyn Fn(u6
     let rows: Vec<Row> = tasks.iter().filter_map(|Task { episode, .. }| folder.row(&episode.name)).collect();
     let whole = rows.len() == tasks.len();
     if whole {
-        folder.finish(card, &rows)?;
+        finish(order, card, folder, &rows)?;
     }
     let gone = gone.into_inner().unwrap_or_else(|it| it.into_inner());
     Ok(Outcome { rows, flown, whole, gone, missing: due.len() - flown })
+}
+
+/// Keeps an episode with the logs that the card asks for.
+fn keep(order: &Order<'_>, card: &Card, folder: &Folder, task: &Task, flown: &Flown) -> Result<()> {
+    let is_logged = card.kept.logs != LogChoice::None;
+    let mcap = is_logged.then(|| pictures::mcap(task, &order.settings, flown)).transpose()?;
+    folder.keep(flown, mcap.as_deref())
+}
+
+/// Makes the clips of the worst episodes, the tables and the page, and removes logs that the card does not ask for.
+fn finish(order: &Order<'_>, card: &Card, folder: &Folder, rows: &[Row]) -> Result<()> {
+    let worst = worst(rows, card.kept.clips as usize);
+    let cases: Vec<OnceLock<Result<Case<'_>>>> = worst.iter().map(|_| OnceLock::new()).collect();
+    let next = AtomicUsize::new(0);
+    let work = || {
+        while let Some((row, slot)) = worst.iter().zip(&cases).nth(next.fetch_add(1, Ordering::Relaxed)) {
+            slot.get_or_init(|| case(order, folder, row));
+        }
+    };
+    std::thread::scope(|scope| (0..order.jobs.clamp(1, worst.len().max(1))).for_each(|_| _ = scope.spawn(work)));
+    let cases = cases.into_iter().filter_map(OnceLock::into_inner).collect::<Result<Vec<_>>>()?;
+    if card.kept.logs == LogChoice::Worst {
+        let others = rows.iter().filter(|row| worst.iter().all(|kept| kept.episode != row.episode));
+        others.for_each(|row| folder.forget(&format!("logs/{}.mcap", row.episode)));
+    }
+    folder.finish(card, rows, &pictures::page(card, rows, &cases, card.kept.logs == LogChoice::All))
+}
+
+/// The steps of an episode, and its clip.
+fn case<'a>(order: &Order<'_>, folder: &Folder, row: &'a Row) -> Result<Case<'a>> {
+    let (settings, name) = (&order.settings, &row.episode);
+    let steps = folder.steps(name)?;
+    let mut has_clip = false;
+    if let Some(task) = order.suite.tasks.iter().find(|task| task.episode.name == *name) {
+        has_clip = folder.keep_once(&format!("clips/{name}.gif"), &|| pictures::clip(task, settings, &steps))?;
+    }
+    Ok(Case { row, steps, has_clip })
 }

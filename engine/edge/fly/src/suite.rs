@@ -1,23 +1,26 @@
 //! [`Suite`]: the episodes of a recipe, with the experts' flights.
 
-use cosfly_diagnose::{Diagnostic, Fault, Result};
+use cosfly_diagnose::{Diagnostic, Fault, ParameterError, Result};
 use cosfly_env::policies::Knowledge;
-use cosfly_env::{Episode, Place, Start};
+use cosfly_env::{Episode, Others, Place, Start};
 use cosfly_fingerprint::Digest;
 use cosfly_frames::{DVec3, Seed};
-use cosfly_planner::{MucoConfig, PlanOutcome};
+use cosfly_planner::PlanOutcome;
 use cosfly_recipe::{Recipe, RecipeStage};
+use cosfly_render::RenderConfig;
 use cosfly_runner::{Plan, RunOptions, RunOutcome, run};
 use cosfly_stage::{BlobSource, Blobs, RunEvent};
 use cosfly_stages::expert::Expert;
 use cosfly_stages::read;
+use cosfly_stages::shooting::{self, Shooting};
 use cosfly_store::Store;
+use cosfly_town::Town;
 use std::collections::BTreeMap;
 use std::fmt::Write as _;
 use std::sync::Arc;
 
 /// Version of the environment: raised when an episode's rows change for the same actions.
-pub const ENVIRONMENT_VERSION: u32 = 1;
+pub const ENVIRONMENT_VERSION: u32 = 2;
 
 /// An episode and what baselines may know of it.
 pub struct Task {
@@ -27,6 +30,27 @@ pub struct Task {
     pub knowledge: Knowledge,
     /// Mean visibility that the certificate of the expert's flight states.
     pub certified_visibility: f64,
+    /// The town as it looks.
+    pub scenery: Arc<Scenery>,
+    /// Weather, and looks of the target: those of the pictures that the recipe makes of the flight.
+    pub shooting: Shooting,
+}
+
+impl Task {
+    /// An episode in a town that is not drawn: empty ground under a clear sky.
+    pub fn undrawn(episode: Episode, knowledge: Knowledge, certified_visibility: f64) -> Self {
+        let scenery = Arc::new(Scenery { town: Town::default(), looks: episode.seed });
+        let shooting = Shooting::plain(episode.looks);
+        Self { episode: Arc::new(episode), knowledge, certified_visibility, scenery, shooting }
+    }
+}
+
+/// A town as it looks.
+pub struct Scenery {
+    /// The town.
+    pub town: Town,
+    /// Seed of colours and patterns.
+    pub looks: Seed,
 }
 
 /// The episodes of a recipe.
@@ -85,7 +109,7 @@ struct Reader<'a> {
     plan: Plan<'a>,
     store: &'a Store,
     /// By the index of the stage that made the town, and its item.
-    places: BTreeMap<(usize, usize), Arc<Place>>,
+    places: BTreeMap<(usize, usize), (Arc<Place>, Arc<Scenery>)>,
 }
 
 impl Reader<'_> {
@@ -101,6 +125,7 @@ impl Reader<'_> {
             let town = described.connection("town").and_then(|connection| connection.arrivals.first());
             let town = town.map(|arrival| (arrival.stage, arrival.item));
             let town = town.ok_or_else(|| broken(format!("`{}` has no town", described.name)))?;
+            let pictures = pictures(recipe, stage).map_err(|error| broken(error.message))?;
             for (item, name) in described.items.iter().enumerate() {
                 let blobs = self.blobs(stage, item)?.clone();
                 for (blob, stored) in blobs.iter() {
@@ -111,24 +136,48 @@ impl Reader<'_> {
                     rejected += 1;
                     continue;
                 };
-                let place = self.place(town)?;
-                let stratum = described.name.as_str().to_owned();
+                let followed = self.read_blob(&blobs, read::FOLLOWED_BLOB, read::followed)?;
+                let around = self.read_blob(&blobs, read::AROUND_BLOB, read::around)?.unwrap_or_default();
+                let shooting = Shooting::of(&pictures, &flight, followed.as_ref(), name)?;
+                let followed = followed.map(|followed| followed.plan);
+                let (place, scenery) = self.place(town)?;
                 let name = name.of_stage(&described.name).to_string();
                 let seed = Seed::of_item(recipe.seed, "fly", &name);
-                tasks.push(task(name, stratum, place, *flight, Arc::clone(&config), seed));
+                let waypoints: Vec<DVec3> = flight.poses_in_world.iter().map(|pose| pose.position_in_world).collect();
+                let episode = Episode {
+                    name,
+                    stratum: described.name.as_str().to_owned(),
+                    place,
+                    start: start(&waypoints, flight.track.dt_s),
+                    target: Arc::new(flight.track),
+                    others: Arc::new(Others::new(&around, followed.as_ref())),
+                    followed,
+                    looks: shooting.clothes_seed,
+                    seed,
+                };
+                let knowledge = Knowledge { flight: waypoints.into(), config: Arc::clone(&config) };
+                let certified_visibility = flight.certificate.mean_visibility;
+                tasks.push(Task { episode: Arc::new(episode), knowledge, certified_visibility, scenery, shooting });
             }
         }
         Ok(Suite { name: recipe.name.clone(), digest: Digest::of(listed.as_bytes()), tasks, rejected })
     }
 
-    fn place(&mut self, town: (usize, usize)) -> Result<Arc<Place>> {
-        if let Some(place) = self.places.get(&town) {
-            return Ok(Arc::clone(place));
+    fn place(&mut self, at: (usize, usize)) -> Result<(Arc<Place>, Arc<Scenery>)> {
+        if let Some(known) = self.places.get(&at) {
+            return Ok(known.clone());
         }
-        let bytes = self.store.read(&self.blobs(town.0, town.1)?[read::TOWN_BLOB])?;
-        let place = Arc::new(Place::new(&read::town(&bytes)?));
-        self.places.insert(town, Arc::clone(&place));
-        Ok(place)
+        let stored = self.blobs(at.0, at.1)?[read::TOWN_BLOB];
+        let (town, looks) = (read::town(&self.store.read(&stored)?)?, Seed(stored.digest.0));
+        // Buildings look as in films.
+        let known = (Arc::new(Place::new(town.clone(), looks)), Arc::new(Scenery { town, looks }));
+        self.places.insert(at, known.clone());
+        Ok(known)
+    }
+
+    /// What a blob of a flight holds; `None` where the flight has none of that name.
+    fn read_blob<T>(&self, blobs: &Blobs, name: &str, decode: fn(&[u8]) -> Result<T>) -> Result<Option<T>> {
+        blobs.get(name).map(|blob| decode(&self.store.read(blob)?)).transpose()
     }
 
     fn blobs(&self, stage: usize, item: usize) -> Result<&Blobs> {
@@ -141,19 +190,22 @@ impl Reader<'_> {
     }
 }
 
-fn task(
-    name: String,
-    stratum: String,
-    place: Arc<Place>,
-    flight: cosfly_planner::Trajectory,
-    config: Arc<MucoConfig>,
-    seed: Seed,
-) -> Task {
-    let waypoints: Vec<DVec3> = flight.poses_in_world.iter().map(|pose| pose.position_in_world).collect();
-    let first = waypoints.first().copied().unwrap_or_default();
-    let velocity_in_world = waypoints.get(1).map_or(DVec3::ZERO, |next| (*next - first) / flight.track.dt_s);
-    let start = Start { position_in_world: first, velocity_in_world };
-    let episode = Episode { name, stratum, place, target: Arc::new(flight.track), start, seed };
-    let knowledge = Knowledge { flight: waypoints.into(), config };
-    Task { episode: Arc::new(episode), knowledge, certified_visibility: flight.certificate.mean_visibility }
+/// The settings of the pictures that a recipe makes of the flights of a stage; those of the default under a clear sky where it
+/// makes none.
+fn pictures(recipe: &Recipe, flights: usize) -> std::result::Result<RenderConfig, ParameterError> {
+    let films = |stage: &&RecipeStage| {
+        let is_of_flights = stage.connections.iter().any(|connection| connection.upstreams.contains(&flights));
+        stage.kind == "render" && stage.name.part().is_empty() && is_of_flights
+    };
+    match recipe.stages.iter().find(films) {
+        Some(stage) => shooting::render_config(stage.parameters.clone()),
+        None => Ok(RenderConfig { weathers: vec!["ClearNoon".to_owned()], ..RenderConfig::default() }),
+    }
+}
+
+/// The first state of a flight.
+fn start(waypoints: &[DVec3], dt_s: f64) -> Start {
+    let position_in_world = waypoints.first().copied().unwrap_or_default();
+    let velocity_in_world = waypoints.get(1).map_or(DVec3::ZERO, |next| (*next - position_in_world) / dt_s);
+    Start { position_in_world, velocity_in_world }
 }

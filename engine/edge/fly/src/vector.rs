@@ -1,9 +1,14 @@
 //! [`Flock`]: many environments that are stepped together, for learners.
 
+#[cfg(test)]
+mod tests;
+
 use crate::suite::Task;
+use cosfly_env::pictures::{Album, Format, Pictures};
 use cosfly_env::policies::baseline;
 use cosfly_env::{Action, End, Environment, FEATURES, Policy, Reward, Settings};
 use cosfly_frames::{RandomStream, Seed};
+use rayon::{ThreadPool, ThreadPoolBuildError};
 use std::sync::Arc;
 
 /// Numbers of an action.
@@ -29,6 +34,10 @@ pub struct Outputs {
     pub features: Vec<[f32; FEATURES]>,
     /// Features of the last observation of the episode that ended in this step; else those of `features`.
     pub last_features: Vec<[f32; FEATURES]>,
+    /// Pictures of the observations, where they are asked for.
+    pub album: Album,
+    /// In [`Autoreset::SameStep`], the last pictures of the episodes that ended in this step; the others are old.
+    pub last_album: Album,
     /// Weighted rewards.
     pub rewards: Vec<f64>,
     /// Terms of the rewards, unweighted.
@@ -39,8 +48,18 @@ pub struct Outputs {
     pub truncated: Vec<bool>,
     /// Whether the target is tracked.
     pub tracked: Vec<bool>,
+    /// Bodies in the picture that may be taken for the target.
+    pub look_alikes: Vec<u32>,
     /// The expert's actions for the observations, where they are asked for.
     pub expert_actions: Vec<[f32; ACTIONS]>,
+}
+
+/// What all environments share.
+struct Shared {
+    tasks: Arc<[Task]>,
+    settings: Settings,
+    mode: Autoreset,
+    has_experts: bool,
 }
 
 /// One of many.
@@ -49,32 +68,94 @@ struct Bird {
     expert: Option<Box<dyn Policy + Send + Sync>>,
     /// Draws episodes.
     stream: RandomStream,
-    /// Number of the task.
-    task: usize,
     /// Whether the next step begins an episode.
     is_due: bool,
+    reward: Reward,
+    end: Option<End>,
+    expert_action: [f32; ACTIONS],
+}
+
+impl Bird {
+    fn new(number: usize, shared: &Shared) -> Self {
+        let mut stream = stream_of(number as u64);
+        let task = &shared.tasks[stream.index(shared.tasks.len())];
+        let environment = Environment::new(Arc::clone(&task.episode), shared.settings);
+        let (reward, expert_action) = (Reward::default(), [0.0; ACTIONS]);
+        Self { environment, expert: None, stream, is_due: false, reward, end: None, expert_action }
+    }
+
+    /// Begins the next episode. What the last step gave stays.
+    fn begin(&mut self, shared: &Shared) {
+        let task = self.stream.index(shared.tasks.len());
+        self.begin_task(shared, task);
+    }
+
+    fn begin_task(&mut self, shared: &Shared, task: usize) {
+        let task = &shared.tasks[task];
+        self.environment.reset(Arc::clone(&task.episode));
+        self.is_due = false;
+        if shared.has_experts {
+            let make = baseline("expert").map(|expert| expert.make);
+            self.expert = make.map(|make| make(&self.environment, &task.knowledge));
+        }
+        self.ask_expert();
+    }
+
+    /// Begins the next episode, with nothing to tell of the one before.
+    fn begin_anew(&mut self, shared: &Shared) {
+        self.begin(shared);
+        (self.reward, self.end) = (Reward::default(), None);
+    }
+
+    fn step(&mut self, action: &[f32; ACTIONS], shared: &Shared) {
+        if self.is_due && shared.mode == Autoreset::NextStep {
+            self.begin_anew(shared);
+            return;
+        }
+        let step = self.environment.step(Some(&Action::of_numbers(action.map(f64::from))));
+        (self.reward, self.end, self.is_due) = (step.reward, step.end, step.end.is_some());
+        self.ask_expert();
+    }
+
+    fn ask_expert(&mut self) {
+        if let Some(expert) = &mut self.expert {
+            let action = expert.act(&self.environment);
+            self.expert_action = action.numbers(self.environment.observation().yaw_rad).map(|number| number as f32);
+        }
+    }
+}
+
+/// Pictures of a flock, and the threads that draw them.
+struct Studio {
+    pictures: Pictures,
+    pool: Option<ThreadPool>,
+}
+
+impl Studio {
+    /// Draws the pictures of some environments that follow each other from number `first` on.
+    fn draw(&mut self, birds: &[Bird], album: &mut Album, first: usize) {
+        let environments: Vec<&Environment> = birds.iter().map(|bird| &bird.environment).collect();
+        let pictures = &mut self.pictures;
+        match &self.pool {
+            Some(pool) => pool.install(|| pictures.draw(&environments, album, first)),
+            None => pictures.draw(&environments, album, first),
+        }
+    }
 }
 
 /// Many environments that are stepped together. Each draws its episodes from a seed of its own: what one does changes no other.
 pub struct Flock {
-    tasks: Arc<[Task]>,
-    settings: Settings,
-    mode: Autoreset,
-    has_experts: bool,
+    shared: Shared,
     birds: Vec<Bird>,
     outputs: Outputs,
+    studio: Option<Studio>,
 }
 
 impl Flock {
     /// Environments over the episodes of `tasks`, of which there must be one; before the first reset.
     pub fn new(tasks: Arc<[Task]>, count: usize, settings: Settings, mode: Autoreset, has_experts: bool) -> Self {
-        let bird = |number: usize| {
-            let mut stream = stream_of(number as u64);
-            let task = stream.index(tasks.len());
-            let environment = Environment::new(Arc::clone(&tasks[task].episode), settings);
-            Bird { environment, expert: None, stream, task, is_due: false }
-        };
-        let birds: Vec<Bird> = (0..count).map(bird).collect();
+        let shared = Shared { tasks, settings, mode, has_experts };
+        let birds: Vec<Bird> = (0..count).map(|number| Bird::new(number, &shared)).collect();
         let outputs = Outputs {
             features: vec![[0.0; FEATURES]; count],
             last_features: vec![[0.0; FEATURES]; count],
@@ -83,9 +164,26 @@ impl Flock {
             terminated: vec![false; count],
             truncated: vec![false; count],
             tracked: vec![false; count],
+            look_alikes: vec![0; count],
             expert_actions: vec![[0.0; ACTIONS]; if has_experts { count } else { 0 }],
+            ..Outputs::default()
         };
-        Self { tasks, settings, mode, has_experts, birds, outputs }
+        Self { shared, birds, outputs, studio: None }
+    }
+
+    /// The same environments with pictures in their observations, drawn on `threads` threads: their number changes no byte.
+    ///
+    /// # Errors
+    /// Threads that cannot be started.
+    pub fn with_pictures(mut self, format: Format, threads: usize) -> Result<Self, ThreadPoolBuildError> {
+        let build = || rayon::ThreadPoolBuilder::new().num_threads(threads).build();
+        let pool = (threads > 1).then(build).transpose()?;
+        self.outputs.album = Album::new(&format, self.len());
+        if self.shared.mode == Autoreset::SameStep {
+            self.outputs.last_album = self.outputs.album.clone();
+        }
+        self.studio = Some(Studio { pictures: Pictures::new(format, threads), pool });
+        Ok(self)
     }
 
     /// Number of environments.
@@ -100,7 +198,12 @@ impl Flock {
 
     /// Settings of the environments.
     pub fn settings(&self) -> &Settings {
-        &self.settings
+        &self.shared.settings
+    }
+
+    /// What their pictures hold, where there are any.
+    pub fn format(&self) -> Option<&Format> {
+        self.studio.as_ref().map(|studio| studio.pictures.format())
     }
 
     /// What the last reset or step gave.
@@ -113,148 +216,96 @@ impl Flock {
         &self.birds[number].environment.episode().name
     }
 
+    /// Names of all episodes.
+    pub fn episodes(&self) -> impl Iterator<Item = &str> {
+        self.shared.tasks.iter().map(|task| task.episode.name.as_str())
+    }
+
+    /// Steps of the whole episode that an environment flies.
+    pub fn planned_steps(&self, number: usize) -> u32 {
+        self.birds[number].environment.score().planned_steps
+    }
+
+    /// Begins the episode of a name in one environment; false where there is none.
+    pub fn begin_episode(&mut self, number: usize, name: &str) -> bool {
+        let Some(task) = self.shared.tasks.iter().position(|task| task.episode.name == name) else { return false };
+        let bird = &mut self.birds[number];
+        bird.begin_task(&self.shared, task);
+        (bird.reward, bird.end) = (Reward::default(), None);
+        self.outputs.tell(number, bird);
+        self.outputs.last_features[number] = self.outputs.features[number];
+        self.draw(|chosen| chosen == number);
+        true
+    }
+
     /// Begins an episode in each environment that `chosen` names; where there is a seed, its draws begin anew.
     pub fn reset(&mut self, seeds: &[Option<u64>], chosen: impl Fn(usize) -> bool) {
-        for number in (0..self.birds.len()).filter(|number| chosen(*number)) {
+        for (number, bird) in self.birds.iter_mut().enumerate().filter(|(number, _)| chosen(*number)) {
             if let Some(seed) = seeds.get(number).copied().flatten() {
-                self.birds[number].stream = stream_of(seed);
+                bird.stream = stream_of(seed);
             }
-            self.begin(number);
+            bird.begin_anew(&self.shared);
+            self.outputs.tell(number, bird);
             self.outputs.last_features[number] = self.outputs.features[number];
-            (self.outputs.rewards[number], self.outputs.terms[number]) = (0.0, [0.0; TERMS]);
-            (self.outputs.terminated[number], self.outputs.truncated[number]) = (false, false);
         }
+        self.draw(chosen);
     }
 
     /// Moves every environment on by one step, with one action of [`Action::of_numbers`] each.
     pub fn step(&mut self, actions: &[[f32; ACTIONS]]) {
-        for (number, action) in actions.iter().enumerate().take(self.birds.len()) {
-            if self.birds[number].is_due && self.mode == Autoreset::NextStep {
-                self.begin(number);
-                self.outputs.last_features[number] = self.outputs.features[number];
-                (self.outputs.rewards[number], self.outputs.terms[number]) = (0.0, [0.0; TERMS]);
-                (self.outputs.terminated[number], self.outputs.truncated[number]) = (false, false);
-                continue;
-            }
-            let bird = &mut self.birds[number];
-            let action = Action::of_numbers(action.map(f64::from));
-            let step = bird.environment.step(Some(&action));
-            let outputs = &mut self.outputs;
-            outputs.rewards[number] = step.reward.sum(&self.settings.weights);
-            outputs.terms[number] = step.reward.terms();
-            outputs.terminated[number] = matches!(step.end, Some(End::Collision | End::Lost));
-            outputs.truncated[number] = step.end == Some(End::Finished);
-            bird.is_due = step.end.is_some();
-            self.tell(number);
+        for (number, (bird, action)) in self.birds.iter_mut().zip(actions).enumerate() {
+            bird.step(action, &self.shared);
+            self.outputs.tell(number, bird);
             self.outputs.last_features[number] = self.outputs.features[number];
-            if step.end.is_some() && self.mode == Autoreset::SameStep {
-                self.begin(number);
+        }
+        self.draw(|_| true);
+        if self.shared.mode == Autoreset::SameStep {
+            self.begin_ended();
+        }
+    }
+
+    /// Begins the next episode wherever one ended in this step; its last observation is kept.
+    fn begin_ended(&mut self) {
+        for (number, bird) in self.birds.iter_mut().enumerate().filter(|(_, bird)| bird.is_due) {
+            self.outputs.last_album.copy(&self.outputs.album, number);
+            bird.begin(&self.shared);
+            self.outputs.tell(number, bird);
+        }
+        let ended: Vec<bool> = self.birds.iter().map(|bird| bird.end.is_some()).collect();
+        self.draw(|number| ended[number]);
+    }
+
+    /// Draws the pictures of the chosen environments, neighbours together.
+    fn draw(&mut self, chosen: impl Fn(usize) -> bool) {
+        let Some(studio) = &mut self.studio else { return };
+        let mut first = 0;
+        while first < self.birds.len() {
+            let end = (first..self.birds.len()).find(|number| !chosen(*number)).unwrap_or(self.birds.len());
+            if end > first {
+                studio.draw(&self.birds[first..end], &mut self.outputs.album, first);
             }
+            first = end + 1;
         }
     }
+}
 
-    /// Begins the next episode of an environment.
-    fn begin(&mut self, number: usize) {
-        let bird = &mut self.birds[number];
-        bird.task = bird.stream.index(self.tasks.len());
-        let task = &self.tasks[bird.task];
-        bird.environment.reset(Arc::clone(&task.episode));
-        bird.is_due = false;
-        if self.has_experts {
-            let make = baseline("expert").map(|expert| expert.make);
-            bird.expert = make.map(|make| make(&bird.environment, &task.knowledge));
-        }
-        self.tell(number);
-    }
-
-    /// Fills what is told of the present state of an environment.
-    fn tell(&mut self, number: usize) {
-        let (bird, outputs) = (&mut self.birds[number], &mut self.outputs);
+impl Outputs {
+    /// Fills what is told of the present state of an environment and of its last step.
+    fn tell(&mut self, number: usize, bird: &Bird) {
         let observation = bird.environment.observation();
-        outputs.features[number] = observation.features().map(|feature| feature as f32);
-        outputs.tracked[number] = observation.tracked;
-        if let (Some(expert), Some(told)) = (&mut bird.expert, outputs.expert_actions.get_mut(number)) {
-            let action = expert.act(&bird.environment);
-            *told = action.numbers(observation.yaw_rad).map(|number| number as f32);
+        self.features[number] = observation.features().map(|feature| feature as f32);
+        self.tracked[number] = observation.tracked;
+        self.look_alikes[number] = bird.environment.look_alikes() as u32;
+        self.rewards[number] = bird.reward.sum(&bird.environment.settings().weights);
+        self.terms[number] = bird.reward.terms();
+        self.terminated[number] = matches!(bird.end, Some(End::Collision | End::Lost));
+        self.truncated[number] = bird.end == Some(End::Finished);
+        if let Some(told) = self.expert_actions.get_mut(number) {
+            *told = bird.expert_action;
         }
     }
 }
 
 fn stream_of(seed: u64) -> RandomStream {
     Seed::of_item(seed, "fly", "environment").stream("episodes")
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use cosfly_env::policies::Knowledge;
-    use cosfly_env::{Episode, Place, Start};
-    use cosfly_frames::{DVec3, TargetState, TargetTrack};
-
-    /// Targets that stand for 1 to 4 s.
-    fn tasks() -> Arc<[Task]> {
-        let place = Arc::new(Place::on_flat_ground(vec![]));
-        let task = |seconds: usize| {
-            let state = TargetState { feet_in_world: 20.0 * DVec3::X, heading_rad: 0.0, speed_mps: 0.0 };
-            let states = vec![state; 2 * seconds + 1];
-            let episode = Episode {
-                name: format!("e{seconds}"),
-                stratum: String::new(),
-                place: Arc::clone(&place),
-                target: Arc::new(TargetTrack { dt_s: 0.5, height_m: 1.7, radius_m: 0.25, states }),
-                start: Start { position_in_world: 20.0 * DVec3::Z, velocity_in_world: DVec3::ZERO },
-                seed: Seed([0; 32]),
-            };
-            let knowledge = Knowledge { flight: Arc::new([20.0 * DVec3::Z]), config: Arc::default() };
-            Task { episode: Arc::new(episode), knowledge, certified_visibility: 1.0 }
-        };
-        (1..=4).map(task).collect()
-    }
-
-    fn flock(mode: Autoreset) -> Flock {
-        let mut flock = Flock::new(tasks(), 3, Settings::default(), mode, true);
-        flock.reset(&[Some(5), Some(6), Some(5)], |_| true);
-        flock
-    }
-
-    #[test]
-    fn equal_seeds_fly_equal_episodes_beside_any_others() {
-        let mut flock = flock(Autoreset::SameStep);
-        for step in 0..200 {
-            flock.step(&[[1.0, 0.0, 0.0, 0.0, 0.0], [0.0, 0.0, step as f32, 0.0, 9.0], [1.0, 0.0, 0.0, 0.0, 0.0]]);
-            let outputs = flock.outputs();
-            assert_eq!(outputs.features[0], outputs.features[2]);
-            assert_eq!((outputs.rewards[0], flock.episode(0)), (outputs.rewards[2], flock.episode(2)));
-            assert_eq!(outputs.expert_actions[0], outputs.expert_actions[2]);
-        }
-    }
-
-    #[test]
-    fn episodes_end_and_begin_as_each_mode_says() {
-        for mode in [Autoreset::NextStep, Autoreset::SameStep, Autoreset::Disabled] {
-            let mut flock = flock(mode);
-            let mut steps = 0;
-            while !flock.outputs().truncated[0] {
-                flock.step(&[[0.0; ACTIONS]; 3]);
-                steps += 1;
-            }
-            assert_eq!(steps % 10, 0, "whole seconds");
-            let is_first = |flock: &Flock| flock.birds[0].environment.observation().step == 0;
-            assert_eq!(is_first(&flock), mode == Autoreset::SameStep);
-            let last = flock.outputs().clone();
-            flock.step(&[[0.0; ACTIONS]; 3]);
-            assert_eq!(is_first(&flock), mode == Autoreset::NextStep);
-            match mode {
-                Autoreset::NextStep => {
-                    assert_eq!((flock.outputs().rewards[0], flock.outputs().truncated[0]), (0.0, false))
-                }
-                Autoreset::SameStep => assert!(!flock.outputs().truncated[0]),
-                Autoreset::Disabled => {
-                    assert!(flock.outputs().truncated[0] && flock.outputs().features[0] == last.features[0]);
-                    flock.reset(&[], |number| number == 0);
-                    assert!(is_first(&flock) && !flock.outputs().truncated[0]);
-                }
-            }
-        }
-    }
 }

@@ -22,6 +22,8 @@ pub enum Field<'a> {
     Number(f64),
     /// Array of 32-bit floats.
     Floats(&'a [f32], &'a [usize]),
+    /// Array of 32-bit whole numbers from 0 on.
+    Ids(&'a [u32], &'a [usize]),
     /// Array of bytes.
     Bytes(&'a [u8], &'a [usize]),
 }
@@ -35,6 +37,9 @@ pub fn encode(fields: &[(&str, Field<'_>)]) -> Vec<u8> {
             Field::Number(number) => Value::F64(*number),
             Field::Floats(values, shape) => {
                 array(values.iter().flat_map(|value| value.to_le_bytes()).collect(), "<f4", shape)
+            }
+            Field::Ids(values, shape) => {
+                array(values.iter().flat_map(|value| value.to_le_bytes()).collect(), "<u4", shape)
             }
             Field::Bytes(values, shape) => array(values.to_vec(), "|u1", shape),
         };
@@ -115,6 +120,7 @@ fn of_numpy(value: &Value) -> Result<(Vec<f64>, Vec<usize>), String> {
         ">f8" => read!(f64, from_be_bytes),
         "<i4" => read!(i32, from_le_bytes),
         "<i8" => read!(i64, from_le_bytes),
+        "<u4" => read!(u32, from_le_bytes),
         "|i1" => read!(i8, from_le_bytes),
         "|u1" => read!(u8, from_le_bytes),
         other => return Err(format!("an array of type `{other}`; `<f4`, `<f8` and whole numbers are read")),

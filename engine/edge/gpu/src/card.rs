@@ -5,7 +5,7 @@ use bytemuck::{Pod, Zeroable};
 use cosfly_frames::Pose;
 use cosfly_render::outside::NO_FACE;
 use cosfly_render::{
-    Backend, BackendError, Camera, ChannelSet, FrameSetup, PictureLook, RenderedFrame, Renderer, Scene,
+    Backend, BackendError, Camera, ChannelSet, FrameSetup, Optics, PictureLook, RenderedFrame, Renderer, Scene,
 };
 use std::sync::{Arc, Mutex, OnceLock, PoisonError};
 
@@ -116,6 +116,11 @@ impl GpuBackend {
     /// Sets the look of colours for the following frames.
     pub fn set_look(&mut self, look: PictureLook) {
         self.renderer.set_look(look);
+    }
+
+    /// Sets the optics of colours for the following frames.
+    pub fn set_optics(&mut self, optics: Optics) {
+        self.renderer.set_optics(optics);
     }
 
     /// Draws these channels from now on.

@@ -4,12 +4,14 @@ use crate::calls::on_own_threads;
 use crate::errors::exception;
 use cosfly::Refusal;
 use cosfly_diagnose::{Diagnostic, Fault};
+use cosfly_env::pictures::{Channel, Format};
 use cosfly_fly::suite::{Suite, Task};
 use cosfly_fly::vector::{ACTIONS, Autoreset, Flock};
+use cosfly_render::Weather;
 use cosfly_runner::RunOptions;
 use cosfly_store::Store;
-use numpy::{PyArray1, PyArray2, PyReadonlyArray2};
-use pyo3::exceptions::PyValueError;
+use numpy::{PyArray1, PyArray2, PyArrayMethods, PyReadonlyArray2};
+use pyo3::exceptions::{PyRuntimeError, PyValueError};
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 use std::path::PathBuf;
@@ -25,7 +27,7 @@ pub struct PyFlock {
 impl PyFlock {
     /// Makes the episodes that the store lacks, and `count` environments over them.
     #[new]
-    #[pyo3(signature = (recipe, overrides, store, count, step_s, latency_s, mode, has_experts))]
+    #[pyo3(signature = (recipe, overrides, store, count, step_s, latency_s, mode, has_experts, channels, size, farthest_m, weather, threads))]
     #[expect(clippy::too_many_arguments, reason = "Python's class names them")]
     fn new(
         py: Python<'_>,
@@ -37,6 +39,11 @@ impl PyFlock {
         latency_s: f64,
         mode: &str,
         has_experts: bool,
+        channels: Vec<String>,
+        size: (u32, u32),
+        farthest_m: f32,
+        weather: &str,
+        threads: usize,
     ) -> PyResult<Self> {
         let mode = match mode {
             "next_step" => Autoreset::NextStep,
@@ -51,7 +58,22 @@ impl PyFlock {
             Err(Refusal::Arguments(error)) => return Err(PyValueError::new_err(error.to_string())),
         };
         let settings = cosfly_env::Settings { step_s, latency_s, ..cosfly_env::Settings::default() };
-        Ok(Self { flock: Flock::new(tasks, count, settings, mode, has_experts) })
+        let flock = Flock::new(tasks, count, settings, mode, has_experts);
+        let channel = |name: &String| {
+            Channel::named(name).ok_or_else(|| PyValueError::new_err(format!("`{name}` is no channel of pictures")))
+        };
+        let channels: Vec<Channel> = channels.iter().map(channel).collect::<PyResult<_>>()?;
+        if channels.is_empty() {
+            return Ok(Self { flock });
+        }
+        let known = Weather::preset(weather);
+        let weather = known.ok_or_else(|| {
+            let presets = Weather::PRESETS.join(", ");
+            PyValueError::new_err(format!("weather is `{weather}`; it is one of {presets}"))
+        })?;
+        let format = Format { width: size.0, height: size.1, channels, farthest_m, weather: Some(weather) };
+        let flock = flock.with_pictures(format, threads).map_err(|error| PyRuntimeError::new_err(error.to_string()))?;
+        Ok(Self { flock })
     }
 
     /// Begins episodes: of all environments, or of those that `mask` chooses.
@@ -87,6 +109,18 @@ impl PyFlock {
         told.set_item("terminated", PyArray1::from_slice(py, &outputs.terminated))?;
         told.set_item("truncated", PyArray1::from_slice(py, &outputs.truncated))?;
         told.set_item("tracked", PyArray1::from_slice(py, &outputs.tracked))?;
+        told.set_item("look_alikes", PyArray1::from_slice(py, &outputs.look_alikes))?;
+        if let Some(format) = self.flock.format() {
+            let shape = [self.flock.len(), format.height as usize, format.width as usize];
+            for (prefix, album) in [("", &outputs.album), ("last_", &outputs.last_album)] {
+                put_pictures(&told, (prefix, "depth"), &album.depth_m, &shape)?;
+                put_pictures(&told, (prefix, "semantic"), &album.semantic, &shape)?;
+                put_pictures(&told, (prefix, "instance"), &album.instance, &shape)?;
+                put_pictures(&told, (prefix, "mask"), &album.mask, &shape)?;
+                let [count, height, width] = shape;
+                put_pictures(&told, (prefix, "rgb"), &album.rgb, &[count, height, width, 3])?;
+            }
+        }
         for (at, name) in cosfly_env::Reward::NAMES.iter().enumerate() {
             let term: Vec<f64> = outputs.terms.iter().map(|terms| terms[at]).collect();
             told.set_item(format!("reward_{name}"), PyArray1::from_vec(py, term))?;
@@ -98,6 +132,30 @@ impl PyFlock {
         Ok(told)
     }
 
+    /// Names of all episodes.
+    fn episodes(&self) -> Vec<&str> {
+        self.flock.episodes().collect()
+    }
+
+    /// Steps of the whole episode that an environment flies.
+    fn planned_steps(&self, number: usize) -> PyResult<u32> {
+        if number < self.flock.len() {
+            Ok(self.flock.planned_steps(number))
+        } else {
+            Err(PyValueError::new_err(format!("there is no environment {number}")))
+        }
+    }
+
+    /// Begins the episode of a name in one environment.
+    fn begin_episode(&mut self, py: Python<'_>, number: usize, name: &str) -> PyResult<()> {
+        let flock = &mut self.flock;
+        if number < flock.len() && py.detach(|| flock.begin_episode(number, name)) {
+            Ok(())
+        } else {
+            Err(PyValueError::new_err(format!("there is no environment {number} or no episode `{name}`")))
+        }
+    }
+
     /// Name of the episode that an environment flies.
     fn episode(&self, number: usize) -> PyResult<&str> {
         if number < self.flock.len() {
@@ -106,6 +164,19 @@ impl PyFlock {
             Err(PyValueError::new_err(format!("there is no environment {number}")))
         }
     }
+}
+
+/// Adds a channel as an array of (environment, row, column), and colour, where the album has it.
+fn put_pictures<T: numpy::Element>(
+    told: &Bound<'_, PyDict>,
+    (prefix, name): (&str, &str),
+    pixels: &[T],
+    shape: &[usize],
+) -> PyResult<()> {
+    if pixels.is_empty() {
+        return Ok(());
+    }
+    told.set_item(format!("{prefix}{name}"), PyArray1::from_slice(told.py(), pixels).reshape(shape)?)
 }
 
 fn made(recipe: &std::path::Path, overrides: &[String], store: &std::path::Path) -> Result<Arc<[Task]>, Refusal> {

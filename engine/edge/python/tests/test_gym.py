@@ -30,6 +30,50 @@ def test_the_checker_finds_nothing():
         check_env(gym.make(ID, recipe="small/recipe.toml").unwrapped, skip_render_check=True)
 
 
+@pytest.mark.parametrize("obs", [("depth",), ("rgb",), ("state", "depth", "mask", "semantic", "instance", "rgb")])
+def test_the_checker_finds_nothing_in_pictures(obs):
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        warnings.filterwarnings("ignore", message=".*(minimum|maximum) value.*infinity.*")
+        warnings.filterwarnings("ignore", message=".*symmetric and normalized space.*")
+        # Depth is in metres, and masks are 0 or 1; pictures are taken by smaller networks than those the checker thinks of.
+        warnings.filterwarnings("ignore", message=".*(looks like an image|not an image|box observation space|unconventional).*")
+        check_env(gym.make(ID, recipe="small/recipe.toml", obs=obs, size=48).unwrapped, skip_render_check=True)
+
+
+@pytest.mark.parametrize("mode", list(AutoresetMode))
+def test_pictures_do_not_depend_on_threads_or_on_who_is_beside(mode):
+    obs = ("state", "depth", "mask", "semantic", "instance", "rgb")
+    many = make_vec(mode, num_envs=5, obs=obs, size=(64, 40), threads=2, expert_action=True)
+    few = make_vec(mode, num_envs=2, obs=obs, size=(64, 40), threads=1, expert_action=True)
+    (first, info), (other, _) = many.reset(seed=[7, 8, 9, 7, 3]), few.reset(seed=[3, 7])
+    assert many.observation_space.contains(first) and first["depth"].shape == (5, 40, 64)
+    finals = 0
+    for _ in range(150):
+        for name in obs:
+            assert (first[name][[4, 3]] == other[name]).all() and (first[name][0] == first[name][3]).all()
+        actions = info["expert_action"] + np.float32([0.5, 0, -0.3, 0, 0])
+        first, _, terminated, truncated, info = many.step(actions)
+        other, _, _, _, beside = few.step(actions[[4, 3]])
+        if "final_obs" in info:
+            number = np.flatnonzero(terminated | truncated)[0]
+            assert many.single_observation_space.contains(info["final_obs"][number])
+            finals += 1
+    assert (finals > 0) == (mode == AutoresetMode.SAME_STEP)
+
+
+def test_pictures_show_the_target_where_it_is_tracked():
+    envs = make_vec(num_envs=2, obs=("depth", "mask"), size=256, expert_action=True)
+    observations, info = envs.reset(seed=1)
+    seen, tracked = [], []
+    for _ in range(60):
+        observations, _, _, _, info = envs.step(info["expert_action"])
+        seen.append(observations["mask"].any(axis=(1, 2)))
+        tracked.append(info["tracked"])
+    seen, tracked = np.array(seen), np.array(tracked)
+    assert seen[tracked].mean() > 0.95 and observations["depth"].max() <= 200.0
+
+
 def test_equal_seeds_give_equal_flights():
     flights = []
     for _ in range(2):
@@ -83,8 +127,12 @@ def test_the_expert_tracks_and_the_terms_add_up():
 
 
 def test_what_is_not_there_is_refused():
-    with pytest.raises(ValueError, match="state"):
-        make_vec(obs=("depth",))
+    with pytest.raises(ValueError, match="state, depth"):
+        make_vec(obs=("thermal",))
+    with pytest.raises(ValueError, match="ClearNoon"):
+        make_vec(obs=("rgb",), weather="Frogs")
+    with pytest.raises(ValueError, match="8 to 2048"):
+        make_vec(obs=("depth",), size=4)
     with pytest.raises(ValueError, match="shape"):
         envs = make_vec(num_envs=2)
         envs.reset(seed=1)

@@ -22,11 +22,13 @@ pub fn open(config: &RenderConfig, camera: Camera) -> Result<Box<dyn Backend>, B
     if config.backend == BackendKind::Gpu {
         let mut backend = cosfly_gpu::GpuBackend::new(camera)?;
         backend.set_look(config.look);
+        backend.set_optics(config.optics);
         backend.set_channels(&config.channels);
         return Ok(Box::new(backend));
     }
     let mut renderer = Renderer::new(camera);
     renderer.set_look(config.look);
+    renderer.set_optics(config.optics);
     renderer.set_channels(&config.channels);
     Ok(Box::new(renderer))
 }

@@ -28,6 +28,7 @@ pub fn part(count: u32, paths: InputPort, others: InputPort) -> StagePart {
         items: ItemRule::PerInput("paths"),
         bytes_per_item: 8_000 * u64::from(count),
         intermediate: &[],
+        asks: None,
     };
     StagePart { suffix: NAME, stage: Box::new(CompanionsStage { count: count as usize, properties }) }
 }

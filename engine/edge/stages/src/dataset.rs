@@ -48,7 +48,7 @@ impl StageKind for Dataset {
         parameters["tables"] = Digest::of(cosfly_schema::reference().as_bytes()).short().into();
         let whole = StageProperties {
             kind: self.name().into(),
-            version: 8,
+            version: 9,
             parameters,
             sources: vec![],
             inputs: vec![
@@ -62,6 +62,7 @@ impl StageKind for Dataset {
             items: ItemRule::One,
             bytes_per_item: 1_000_000,
             intermediate: &[],
+            asks: None,
         };
         let records = |fan| ports::without_pictures(frames(fan));
         Ok(vec![

@@ -54,6 +54,7 @@ pub fn part(config: &DatasetConfig, frames: InputPort) -> StagePart {
         items: items(config),
         bytes_per_item: 1_000_000,
         intermediate: &[],
+        asks: None,
     };
     StagePart { suffix: NAME, stage: Box::new(NotesStage { window, properties }) }
 }

@@ -34,6 +34,7 @@ pub fn part(config: &DatasetConfig, towns: InputPort) -> StagePart {
         items: ItemRule::One,
         bytes_per_item: 100_000,
         intermediate: &[],
+        asks: None,
     };
     StagePart { suffix: NAME, stage: Box::new(SplitsStage { config, properties }) }
 }

@@ -49,6 +49,7 @@ impl StageKind for Inspect {
             items: ItemRule::PerInput("frames"),
             bytes_per_item: 0,
             intermediate: &[PACK],
+            asks: None,
         };
         Ok(vec![verdict::part(config), StagePart { suffix: "", stage: Box::new(KeepStage { properties: kept }) }])
     }

@@ -33,10 +33,10 @@ mod rejections;
 mod render;
 pub mod requests;
 mod shards;
-mod shooting;
+pub mod shooting;
 mod traffic;
 mod verdict;
-mod walks;
+pub mod walks;
 pub mod world;
 
 use cosfly_stage::{Registry, Stage, StageKind};

@@ -37,6 +37,7 @@ pub fn part(frames: InputPort, captions: InputPort) -> StagePart {
         items: ItemRule::PerInput("frames"),
         bytes_per_item: 0,
         intermediate: &[],
+        asks: None,
     };
     StagePart { suffix: NAME, stage: Box::new(LogStage { properties }) }
 }

@@ -50,6 +50,7 @@ impl StageKind for Map {
             items: ItemRule::One,
             bytes_per_item: 4_000_000,
             intermediate: &[],
+            asks: None,
         };
         Ok(single(MapStage { config, properties }))
     }

@@ -67,6 +67,7 @@ impl StageKind for Muco {
             items,
             bytes_per_item: 60_000,
             intermediate: &[],
+            asks: None,
         };
         let mut main = properties.clone();
         if occlusion.has_quota() && expert.count().is_none() {

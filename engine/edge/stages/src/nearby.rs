@@ -59,6 +59,7 @@ pub fn part(config: &RenderConfig, parameters: serde_json::Value, items: ItemRul
         items,
         bytes_per_item: 2_000,
         intermediate: &[],
+        asks: None,
     };
     let stage = NearbyStage { config: config.clone(), properties, buildings: Memo::default() };
     StagePart { suffix: NAME, stage: Box::new(stage) }

@@ -47,6 +47,7 @@ impl StageKind for Pedestrians {
             items: ItemRule::Count { prefix: "p", count },
             bytes_per_item: 60 * u64::from(config.steps),
             intermediate: &[],
+            asks: None,
         };
         Ok(single(PedestrianStage { config, properties, grid: Memo::default() }))
     }

@@ -45,6 +45,7 @@ impl StageKind for Perturb {
             items: ItemRule::PerInput("trajectories"),
             bytes_per_item: 80_000,
             intermediate: &[],
+            asks: None,
         };
         Ok(single(PerturbStage { config, properties }))
     }

@@ -31,6 +31,7 @@ pub fn part(frames: InputPort) -> StagePart {
         items: ItemRule::One,
         bytes_per_item: 2_000,
         intermediate: &[],
+        asks: None,
     };
     StagePart { suffix: NAME, stage: Box::new(PlannersStage { properties }) }
 }

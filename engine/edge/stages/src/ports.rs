@@ -27,7 +27,7 @@ pub const FRAMES: &str = "frames/1";
 /// Blob of a rendered trajectory: its packed pictures, which its log holds as well.
 pub const PACK: &str = "pack";
 /// Artifact of a trajectory's captions.
-pub const CAPTIONS: &str = "captions/1";
+pub const CAPTIONS: &str = "captions/2";
 /// Artifact of a trajectory's MCAP log.
 pub const LOG: &str = "log/1";
 /// Artifact of extras that a plugin made of a trajectory.

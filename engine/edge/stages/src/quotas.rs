@@ -85,7 +85,7 @@ pub fn orders_part(config: &OcclusionConfig) -> StagePart {
     let trials = ports::sibling(TRIALS, LOSSES, Fan::Gather, "The trials of all flights.");
     let properties = StageProperties {
         kind: "muco".into(),
-        version: 1,
+        version: 2,
         parameters: serde_json::json!({ "share": config.share, "beside_look_alike": config.beside_look_alike }),
         sources: vec![],
         inputs: vec![trials],
@@ -93,6 +93,7 @@ pub fn orders_part(config: &OcclusionConfig) -> StagePart {
         items: ItemRule::One,
         bytes_per_item: 1_000,
         intermediate: &[],
+        asks: None,
     };
     StagePart { suffix: ORDERS_PART, stage: Box::new(OrdersStage { config: config.clone(), properties }) }
 }
@@ -152,7 +153,13 @@ impl OrdersStage {
                 "`occlusion.beside_look_alike` asks for {wanted_beside} losses that end beside a look-alike; {beside} do: somebody in the same clothes is there at the end of {can}; ask for more with `look_alikes.shares` of stage `traffic`"
             ));
         }
-        (format!("{lost} of {wanted}, {beside} of {wanted_beside} beside a look-alike"), warnings)
+        let percent = |share: f64| format!("{}", (1_000.0 * share).round() / 10.0);
+        let [share, share_beside] = [self.config.share, self.config.beside_look_alike].map(percent);
+        let notes = format!(
+            "in {lost} of {} flights ({share} % ordered), {beside} of them beside a look-alike ({share_beside} % ordered)",
+            trials.len()
+        );
+        (notes, warnings)
     }
 }
 

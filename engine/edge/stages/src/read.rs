@@ -2,12 +2,14 @@
 
 use crate::flight::Companion;
 use crate::ports::{AROUND, TOWN, TRAJECTORY, WALK};
+use crate::walks::walk_seed;
 use crate::{codec, companions};
 use cosfly_diagnose::Result;
+use cosfly_frames::{Seed, TargetTrack};
 use cosfly_maps::Town;
 use cosfly_pedestrians::PedestrianPath;
 use cosfly_planner::PlanOutcome;
-use cosfly_world::Around;
+use cosfly_world::{Around, Followed};
 
 /// Name of the blob of a `map` item that holds the town.
 pub const TOWN_BLOB: &str = crate::world::TOWN_BLOB;
@@ -44,6 +46,25 @@ pub const AROUND_BLOB: &str = crate::traffic::AROUND_BLOB;
 /// As [`town`].
 pub fn around(bytes: &[u8]) -> Result<Around> {
     codec::decode(AROUND, bytes)
+}
+
+/// Name of the blob of a flight through traffic that holds the body it follows.
+pub const FOLLOWED_BLOB: &str = crate::traffic::FOLLOWED;
+
+/// Body in a blob named [`FOLLOWED_BLOB`].
+///
+/// # Errors
+/// As [`town`].
+pub fn followed(bytes: &[u8]) -> Result<Followed> {
+    codec::decode(WALK, bytes)
+}
+
+/// Seed of the looks of a walker who is no body of traffic.
+///
+/// # Errors
+/// As [`town`].
+pub fn looks(track: &TargetTrack) -> Result<Seed> {
+    walk_seed(track)
 }
 
 /// Trajectory in a blob named [`TRAJECTORY_BLOB`], or the reason why there is none.

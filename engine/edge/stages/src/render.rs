@@ -69,7 +69,7 @@ impl StageKind for Render {
         let nearby = nearby::part(&config, canonical(&config, parameters::canonical(&config)), items.clone());
         let properties = StageProperties {
             kind: self.name().into(),
-            version: 7,
+            version: 8,
             parameters: canonical(&config, parameters::joined_canonical(&config, &encoding, "encoding")),
             sources: vec![],
             inputs: vec![ports::town(), nearby::trajectories(), nearby::port()],
@@ -77,6 +77,7 @@ impl StageKind for Render {
             items,
             bytes_per_item: 200 * pixels * 3 / 4,
             intermediate: &[PACK],
+            asks: None,
         };
         let stage = RenderStage { config, encoding, properties, scene: Memo::default(), idle: Mutex::default() };
         Ok(vec![nearby, StagePart { suffix: "", stage: Box::new(stage) }])

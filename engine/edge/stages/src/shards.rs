@@ -37,7 +37,7 @@ pub fn part(config: &DatasetConfig, inputs: [InputPort; 3]) -> StagePart {
     inputs.extend([ports::group(logs::port()), group_splits::port()]);
     let properties = StageProperties {
         kind: "dataset".into(),
-        version: 2,
+        version: 3,
         parameters: serde_json::json!({
             "windows": canonical["windows"],
             "frames_per_file": canonical["frames_per_file"],
@@ -50,6 +50,7 @@ pub fn part(config: &DatasetConfig, inputs: [InputPort; 3]) -> StagePart {
         items: group_notes::items(&config),
         bytes_per_item: 10_000_000,
         intermediate: &[],
+        asks: None,
     };
     StagePart { suffix: NAME, stage: Box::new(TablesStage { config, properties }) }
 }

@@ -1,10 +1,12 @@
 //! Settings that all frames of a flight share: camera, mount and weather.
 
+use crate::parameters;
 use crate::walks::walk_seed;
-use cosfly_diagnose::Result;
+use cosfly_diagnose::{ParameterError, Result};
 use cosfly_frames::{Pose, Seed};
 use cosfly_planner::Trajectory;
 use cosfly_render::{BodyShape, Camera, Mount, RenderConfig, Weather, clothes_seed_of_target};
+use cosfly_schema::EncodingConfig;
 use cosfly_stage::ItemName;
 use cosfly_world::Followed;
 
@@ -43,10 +45,26 @@ impl Shooting {
         Ok(Self { camera, mount, weather, clothes_seed, body })
     }
 
+    /// The default camera under a clear sky, behind a person with these looks.
+    pub fn plain(looks: Seed) -> Self {
+        let config = RenderConfig { weathers: vec!["ClearNoon".to_owned()], ..RenderConfig::default() };
+        let (weather, clothes_seed) = (config.draw_weather(&looks), clothes_seed_of_target(&looks, 0.0));
+        let (camera, mount) = (config.camera(), Mount::default());
+        Self { camera, mount, weather, clothes_seed, body: BodyShape::Person }
+    }
+
     /// Poses of the camera, one per frame.
     pub fn poses(&self, trajectory: &Trajectory) -> Vec<Pose> {
         trajectory.poses_in_world.iter().map(|drone| self.mount.camera_pose(drone)).collect()
     }
+}
+
+/// The settings of pictures among the parameters of a stage `render`.
+///
+/// # Errors
+/// Parameters that the stage refuses.
+pub fn render_config(parameters: serde_json::Value) -> std::result::Result<RenderConfig, ParameterError> {
+    parameters::read_joined::<RenderConfig, EncodingConfig>(parameters, "encoding").map(|(config, _)| config)
 }
 
 /// Weather preset that a paired rendering names the item after.

@@ -75,6 +75,7 @@ pub fn part(config: InspectConfig) -> StagePart {
         items: ItemRule::One,
         bytes_per_item: 10_000,
         intermediate: &[],
+        asks: None,
     };
     StagePart { suffix: NAME, stage: Box::new(VerdictStage { config, properties }) }
 }

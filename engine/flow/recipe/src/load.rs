@@ -98,6 +98,7 @@ fn check(
         name: outline.name,
         seed: outline.seed,
         remove_intermediates: outline.remove_intermediates,
+        tool: outline.tool,
         path: path.to_path_buf(),
         text: text.into(),
         stages,

@@ -17,6 +17,8 @@ pub struct Recipe {
     pub seed: u64,
     /// Whether intermediate blobs are removed as soon as everything that reads them is finished.
     pub remove_intermediates: bool,
+    /// Tables of other commands by their names (`[tool.NAME]`); runs do not read them.
+    pub tool: serde_json::Map<String, serde_json::Value>,
     /// Path of the recipe file as it was given.
     pub path: PathBuf,
     /// Text of the recipe.

@@ -1,13 +1,15 @@
 //! Outline of a recipe, before its stage kinds are looked up: name, seed, stages, kinds and connections.
 
-use crate::document::{Entry, Node, Place, Problems, Table, Texts, Value, list};
+use crate::document::{Entry, Node, Place, Problems, Table, Texts, Value, list, table_json};
 use cosfly_diagnose::nearest_name;
+use serde_json::{Map, Value as Json};
 
 /// A recipe as written, with checked keys.
 pub(crate) struct Outline {
     pub(crate) name: String,
     pub(crate) seed: u64,
     pub(crate) remove_intermediates: bool,
+    pub(crate) tool: Map<String, Json>,
     /// Stages in the order of the file.
     pub(crate) stages: Vec<StageOutline>,
 }
@@ -37,7 +39,7 @@ pub(crate) struct InputOutline {
 /// Kind whose stages are files: `use = "wasm:FILE"` means `use = "wasm"` with `file = "FILE"`.
 pub(crate) const FILE_KIND: &str = "wasm";
 
-const TOP_KEYS: [&str; 5] = ["name", "seed", "intermediates", "for_each", "stages"];
+const TOP_KEYS: [&str; 6] = ["name", "seed", "intermediates", "for_each", "stages", "tool"];
 /// Values of `intermediates`.
 pub(crate) const INTERMEDIATES: [&str; 2] = ["keep", "remove"];
 
@@ -49,8 +51,9 @@ impl Outline {
         let name = reader.name(root.get("name"));
         let seed = reader.seed(root.get("seed"));
         let remove_intermediates = reader.intermediates(root.get("intermediates"));
+        let tool = reader.tool(root.get("tool"));
         let stages = reader.stages(root)?;
-        Some(Self { name, seed, remove_intermediates, stages })
+        Some(Self { name, seed, remove_intermediates, tool, stages })
     }
 }
 
@@ -105,6 +108,18 @@ impl Reader<'_> {
             _ => self.wrong_type("seed", node, "a whole number"),
         }
         0
+    }
+
+    /// Tables of other commands, which runs do not read.
+    fn tool(&mut self, entry: Option<&Entry>) -> Map<String, Json> {
+        let Some(node) = entry.map(|entry| &entry.node) else { return Map::new() };
+        match node.as_table() {
+            Some(table) => table_json(table),
+            None => {
+                self.wrong_type("tool", node, "a table");
+                Map::new()
+            }
+        }
     }
 
     fn intermediates(&mut self, entry: Option<&Entry>) -> bool {

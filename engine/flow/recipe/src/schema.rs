@@ -82,6 +82,11 @@ pub fn schema(registry: &Registry) -> Value {
                     ],
                 },
             },
+            "tool": {
+                "type": "object",
+                "description": "Tables of other commands, which runs do not read: `[tool.fly]` for `cosfly fly`.",
+                "additionalProperties": { "type": "object" },
+            },
             "stages": {
                 "type": "object",
                 "minProperties": 1,

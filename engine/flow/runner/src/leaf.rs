@@ -103,7 +103,7 @@ fn run_stage(
     seed: [u8; 32],
     sink: &mut cosfly_store::TaskSink<'_>,
 ) -> Result<Produced> {
-    let inputs = Inputs { ports: task.ports.clone(), blobs: store };
+    let inputs = Inputs { ports: task.ports.clone(), blobs: store, answers: store };
     let context = TaskContext {
         id: task.id.clone(),
         seed,

@@ -1,6 +1,6 @@
 //! Finished items as stages read them: named blobs with checked digests.
 
-use crate::{Blobs, ItemId, ItemName};
+use crate::{Answers, Blobs, ItemId, ItemName};
 use cosfly_blobs::BlobRef;
 use cosfly_diagnose::{Diagnostic, Fault, Result};
 use std::any::{Any, TypeId};
@@ -42,6 +42,8 @@ pub struct Inputs<'a> {
     pub ports: Ports,
     /// Storage of their bytes.
     pub blobs: &'a dyn BlobSource,
+    /// Answers of services outside.
+    pub answers: &'a dyn Answers,
 }
 
 impl Inputs<'_> {

@@ -4,8 +4,10 @@
 //! * [`Stage`]: declares its [`StageProperties`] as data, then makes one item at a time.
 //! * [`StageName`], [`ItemName`], [`ItemId`]: identities of stages and items.
 //! * [`Inputs`], [`TaskContext`], [`cosfly_blobs::OutputSink`]: everything that a stage may access while it runs.
+//! * [`Answers`]: answers of services outside, kept because nobody can compute them again.
 //! * [`RunEvent`]: the events of a run.
 
+mod answers;
 mod artifact;
 mod blobs;
 mod event;
@@ -14,6 +16,7 @@ mod name;
 mod properties;
 mod stage;
 
+pub use answers::{Answers, Asks, Spent};
 pub use artifact::{Artifact, BlobSource, Decoded, Inputs, Ports};
 pub use blobs::Blobs;
 pub use event::{RunEvent, Work};

@@ -1,6 +1,6 @@
 //! Declaration of a stage: ports, items, sources, version. Data, not methods.
 
-use crate::ItemName;
+use crate::{Asks, ItemName};
 use cosfly_diagnose::Diagnostic;
 use std::fmt;
 use std::path::{Path, PathBuf};
@@ -29,6 +29,8 @@ pub struct StageProperties {
     /// Blobs that only other stages need: they may be removed once everything that reads them is finished. A reader that
     /// needs a removed blob has the item made again.
     pub intermediate: &'static [&'static str],
+    /// Requests that an item may send to a service outside, for `cosfly plan`.
+    pub asks: Option<Asks>,
 }
 
 /// A file that a stage reads from outside the store.

@@ -10,7 +10,8 @@ use std::path::{Path, PathBuf};
 const VERSION: u32 = 1;
 const FORMAT_NAME: &str = "cosfly-store";
 /// Folders of a store.
-const OWN_FOLDERS: [&str; 15] = [
+const OWN_FOLDERS: [&str; 16] = [
+    "answers",
     "locks",
     "tmp",
     "cas",

@@ -5,6 +5,8 @@
 //! STORE/cas/ab/<digest>            blobs, read-only, named by their BLAKE3 digest
 //! STORE/ac/ab/<action digest>      output of an action: blob names and digests, notes, warnings, its key, a check line
 //! STORE/done/ab/<plan digest>      action digest of a finished task, its key, a check line
+//! STORE/answers/ab/<digest>        answers of services outside, by their questions; never removed
+//! STORE/answers/accounts/<digest>  what was asked of a service
 //! STORE/plan/ab/<digest>           plan documents (canonical JSON, named by their own digest)
 //! STORE/build/ab/<digest>          parameters and paths to build the stage of a plan definition again
 //! STORE/runs/<recipe>/<n>          plan digests of the tasks of a recipe; the last ten runs
@@ -26,6 +28,7 @@
 //! * [`materialise`]: writes an artifact as an ordinary folder; [`check_out_folder`]: checks the place of that folder.
 //! * [`collect_garbage`]: removes everything that no recent run needs.
 
+mod answers;
 mod blobs;
 mod costs;
 mod decoded;

@@ -49,6 +49,12 @@ pub(crate) fn encode_done(plan: &Digest, action: &Digest) -> Vec<u8> {
     with_check(format!("{action}\n{plan}\n"))
 }
 
+/// File of an answer, one line: the answer, the key of its question, then the digest of both.
+pub(crate) fn encode_answer(question: &Digest, answer: &str) -> Vec<u8> {
+    debug_assert!(!answer.contains('\n'));
+    with_check(format!("{answer}\n{question}\n"))
+}
+
 fn with_check(mut body: String) -> Vec<u8> {
     let check = Digest::of(body.as_bytes());
     body.push_str(&format!("{check}\n"));
@@ -56,7 +62,7 @@ fn with_check(mut body: String) -> Vec<u8> {
 }
 
 /// Text before the key and the check line; `None` where the file is incomplete or belongs to another key.
-fn content_for<'b>(key: &Digest, bytes: &'b [u8]) -> Option<&'b str> {
+pub(crate) fn content_for<'b>(key: &Digest, bytes: &'b [u8]) -> Option<&'b str> {
     let lines = std::str::from_utf8(bytes).ok()?.strip_suffix('\n')?;
     let (body, check) = lines.split_at(lines.rfind('\n')? + 1);
     if check.parse::<Digest>().ok()? != Digest::of(body.as_bytes()) {

@@ -6,6 +6,7 @@ pub mod clock;
 pub mod geometry;
 pub mod geometry_contenders;
 pub mod geometry_scenes;
+pub mod look;
 pub mod people;
 pub mod planner;
 pub mod render;

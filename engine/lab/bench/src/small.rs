@@ -119,6 +119,7 @@ fn row(options: &SmallOptions, scene: &BatchScene, crowds: &[Vec<Bystander>], si
             horizontal_fov_rad: FOV_RAD,
             target: Some(place.target.walker()),
             others,
+            weather: None,
             figures: &[],
         })
         .collect();
@@ -132,6 +133,7 @@ fn row(options: &SmallOptions, scene: &BatchScene, crowds: &[Vec<Bystander>], si
             semantic: Some(&mut semantic),
             instance: Some(&mut instance),
             target_mask: None,
+            rgb: None,
         };
         small_s = small_s.min(timed(|| small.render(&views, outputs)).1);
         let mut spent_s = 0.0;

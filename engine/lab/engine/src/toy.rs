@@ -132,6 +132,7 @@ pub fn toy_recipe(name: &str, seed: u64, toys: &[Toy]) -> Result<Recipe> {
         name: name.to_owned(),
         seed,
         remove_intermediates: false,
+        tool: serde_json::Map::new(),
         path: Path::new(name).with_extension("toml"),
         text: Arc::from(""),
         stages,
@@ -181,6 +182,7 @@ fn toy_stage(toy: &Toy, earlier: &[RecipeStage]) -> Result<RecipeStage> {
         items: ItemRule::One,
         bytes_per_item: 1000,
         intermediate: if toy.packs { &[PACK] } else { &[] },
+        asks: None,
     };
     let files = sources.map(|(parameter, path)| SourceFile { parameter, path });
     Ok(RecipeStage {

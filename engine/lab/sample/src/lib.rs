@@ -196,6 +196,8 @@ pub fn flight(pedestrian: usize, role: Role) -> SampleFlight {
         language: language.into(),
         style: "instruction".into(),
         text: text.into(),
+        writer: "template".into(),
+        ..CaptionRecord::default()
     };
     let captions = vec![caption("en", "Follow the pedestrian for 2 metres."), caption("zh", "跟随行人前进2米。")];
     SampleFlight { record, images, captions }

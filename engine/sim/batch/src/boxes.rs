@@ -20,6 +20,8 @@ pub struct SolidBox {
     lift: f64,
     label: u8,
     instance: u32,
+    /// Number of its first face in the scene.
+    first_face: u32,
 }
 
 /// Neighbouring boxes.
@@ -46,7 +48,8 @@ pub struct Boxes {
 impl Boxes {
     /// Boxes by their faces, six of each.
     pub fn of(faces: &[SceneFace]) -> Self {
-        let mut boxes: Vec<SolidBox> = faces.chunks_exact(6).map(SolidBox::of).collect();
+        let mut boxes: Vec<SolidBox> =
+            (0u32..).step_by(6).zip(faces.chunks_exact(6)).map(|(first, faces)| SolidBox::of(first, faces)).collect();
         let low = boxes.iter().map(|b| b.bounds.center_in_world).fold(DVec3::INFINITY, DVec3::min);
         let is_large = |b: &SolidBox| b.bounds.half_m.truncate().max_element() > 0.5 * LARGE_M;
         boxes.sort_by_cached_key(|b| {
@@ -78,7 +81,7 @@ impl Boxes {
 }
 
 impl SolidBox {
-    fn of(faces: &[SceneFace]) -> Self {
+    fn of(first_face: u32, faces: &[SceneFace]) -> Self {
         // Faces 0 and 1 look along the box's x axis, 2 and 3 along y, 4 and 5 along z.
         let (low, high) = (&faces[4].corners_in_world, &faces[5].corners_in_world);
         let axis = faces[1].normal_in_world;
@@ -92,6 +95,7 @@ impl SolidBox {
             lift: faces[0].lift,
             label: faces[0].label,
             instance: faces[0].instance,
+            first_face,
         }
     }
 
@@ -136,7 +140,9 @@ impl SolidBox {
                 let plane = along[axis].map(|part| part * scale);
                 planes[entries] = plane.map(|part| (part * lift) as f32);
                 numbers[entries] = faces.len() as f32;
-                faces.push(DrawnFace { plane, instance: self.instance, label: self.label });
+                // Faces 0, 2 and 4 look along the axes' negative directions; a way is positive behind the lower face.
+                let number = self.first_face + 2 * axis as u32 + u32::from(ways[axis] < 0.0);
+                faces.push(DrawnFace { plane, instance: self.instance, number, label: self.label });
                 entries += 1;
             }
         }

@@ -47,6 +47,8 @@ pub struct Polygon {
     pub offset_m: f64,
     pub lift: f64,
     corners: Range<u32>,
+    /// Its number in the scene.
+    pub number: u32,
     pub label: u8,
 }
 
@@ -72,7 +74,7 @@ pub struct SeenPack {
 }
 
 impl Ground {
-    /// Ground by its faces.
+    /// Ground by its faces, whose instances are their numbers in the scene.
     pub fn of(mut faces: Vec<&SceneFace>) -> Self {
         let mut ground = Self {
             clusters: vec![],
@@ -102,6 +104,7 @@ impl Ground {
                     normal_in_world: face.normal_in_world,
                     offset_m: face.normal_in_world.dot(face.point_in_world),
                     lift: face.lift,
+                    number: face.instance,
                     label: face.label,
                     corners: start..self.corners_in_world.len() as u32,
                 });

@@ -13,6 +13,7 @@
 mod boxes;
 mod buried;
 mod canvas;
+mod colours;
 mod eye;
 mod faces;
 mod figures;

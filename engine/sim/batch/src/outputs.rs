@@ -13,6 +13,8 @@ pub struct Outputs<'a> {
     pub instance: Option<&'a mut [u32]>,
     /// 1 where the target is seen, 0 elsewhere.
     pub target_mask: Option<&'a mut [u8]>,
+    /// Red, green, blue, in the simple look of large pictures; three elements a pixel.
+    pub rgb: Option<&'a mut [u8]>,
 }
 
 impl<'a> Outputs<'a> {
@@ -23,9 +25,15 @@ impl<'a> Outputs<'a> {
             ("semantic", self.semantic.as_ref().map(|channel| channel.len())),
             ("instance", self.instance.as_ref().map(|channel| channel.len())),
             ("target_mask", self.target_mask.as_ref().map(|channel| channel.len())),
+            ("rgb", self.rgb.as_ref().map(|channel| if channel.len() == 3 * pixels { pixels } else { channel.len() })),
         ]
         .into_iter()
         .find_map(|(name, length)| length.filter(|length| *length != pixels).map(|length| (name, length)))
+    }
+
+    /// Whether anything but colours is asked for.
+    pub(crate) fn has_geometry(&self) -> bool {
+        self.depth_m.is_some() || self.semantic.is_some() || self.instance.is_some() || self.target_mask.is_some()
     }
 
     /// Takes the first `pixels` elements of each channel away.
@@ -35,6 +43,7 @@ impl<'a> Outputs<'a> {
             semantic: first(&mut self.semantic, pixels),
             instance: first(&mut self.instance, pixels),
             target_mask: first(&mut self.target_mask, pixels),
+            rgb: first(&mut self.rgb, 3 * pixels),
         }
     }
 }

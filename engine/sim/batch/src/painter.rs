@@ -1,7 +1,8 @@
-//! One picture: boxes from near to far, people, other figures, ground; then the channels.
+//! One picture: boxes from near to far, ground, people, other figures; then the channels.
 
 use crate::boxes::{Boxes, Grouped};
 use crate::canvas::{Canvas, Part, WIDE};
+use crate::colours::Colours;
 use crate::eye::{Eye, Linear, NEAR_M};
 use crate::faces::{DrawnFace, SKY};
 use crate::figures::{Around, SeenPart, Stance, Wardrobe};
@@ -15,9 +16,9 @@ use crate::view::View;
 use cosfly_frames::DVec3;
 use cosfly_frames::simd::Level;
 use cosfly_maps::SemanticLabel;
-use cosfly_render::figure::FigureParts;
+use cosfly_render::figure::{FigureParts, FigureTriangle, figure};
 use cosfly_render::frame::TARGET_INSTANCE;
-use cosfly_render::{LEAST_HEIGHT_PX, Walker};
+use cosfly_render::{BodyShape, LEAST_HEIGHT_PX, Walker};
 
 /// Most corners of a polygon.
 const MOST_CORNERS: usize = WIDE * MOST_LINES;
@@ -35,6 +36,9 @@ pub struct Painter {
     candidates: Vec<Candidate>,
     seen: SeenPack,
     wardrobe: Wardrobe,
+    /// Triangles of a vehicle.
+    vehicle: Vec<FigureTriangle>,
+    colours: Colours,
 }
 
 impl Painter {
@@ -48,6 +52,8 @@ impl Painter {
             candidates: Vec::new(),
             seen: SeenPack::default(),
             wardrobe: Wardrobe::new(),
+            vehicle: Vec::new(),
+            colours: Colours::default(),
         }
     }
 
@@ -67,9 +73,15 @@ impl Painter {
         self.hidden.measure(self.level, &self.canvas);
         self.draw_boxes(&eye, boxes, boxes.small());
         self.hidden.measure(self.level, &self.canvas);
-        self.draw_people(&eye, view);
         self.draw_ground(&eye, &view.scene.ground);
-        resolve(self.level, &self.canvas, &self.faces, outputs);
+        if let Some(rgb) = &mut outputs.rgb {
+            // Colours come from the large renderer, which draws who moves itself.
+            self.colours.draw(self.level, view, &self.canvas, &self.faces, rgb);
+        }
+        if outputs.has_geometry() {
+            self.draw_people(&eye, view);
+            resolve(self.level, &self.canvas, &self.faces, outputs);
+        }
     }
 
     /// Boxes that may be seen, from near to far.
@@ -127,20 +139,37 @@ impl Painter {
             return;
         }
         let away_m = (eye.position_in_world - eye.position_in_world.clamp(low, high)).length();
-        if instance != TARGET_INSTANCE && eye.focal_px * walker.height_m < LEAST_HEIGHT_PX * away_m {
+        if instance != TARGET_INSTANCE
+            && eye.focal_px * walker.body.height_m(walker.height_m) < LEAST_HEIGHT_PX * away_m
+        {
             return;
         }
         if !self.may_show(&Around::of_box(eye, low, high)) {
             return;
         }
+        if walker.body != BodyShape::Person {
+            self.draw_vehicle(eye, walker, instance);
+            return;
+        }
         let parts = FigureParts::of(walker, &self.wardrobe.clothes(&walker.clothes_seed));
         let stance = Stance::new(eye, walker, parts.lowest());
-        let face = DrawnFace { plane: [0.0; 3], instance, label: SemanticLabel::Pedestrian.id() };
+        let face = DrawnFace { instance, label: SemanticLabel::Pedestrian.id(), ..SKY };
         for part in parts.iter() {
             if stance.part(&self.canvas, part).is_some() {
                 self.draw_body_part(eye, &stance.see(self.level, part), face);
             }
         }
+    }
+
+    /// A vehicle with its rider, as in large pictures.
+    fn draw_vehicle(&mut self, eye: &Eye, walker: &Walker, instance: u32) {
+        let mut triangles = core::mem::take(&mut self.vehicle);
+        triangles.clear();
+        figure(walker, &self.wardrobe.clothes(&walker.clothes_seed), 0, &mut triangles);
+        for triangle in &triangles {
+            self.draw_triangle(eye, &triangle.corners_in_world, instance, walker.body.label(triangle.region).id());
+        }
+        self.vehicle = triangles;
     }
 
     /// A closed frustum: its sides as two triangles each, its ends.
@@ -169,21 +198,24 @@ impl Painter {
 
     fn draw_triangle(&mut self, eye: &Eye, corners_in_world: &[DVec3; 3], instance: u32, label: u8) {
         let corners = corners_in_world.map(|corner| eye.see(corner));
-        self.draw_seen_triangle(eye, &corners, DrawnFace { plane: [0.0; 3], instance, label });
+        self.draw_seen_triangle(eye, &corners, DrawnFace { instance, label, ..SKY });
     }
 
     /// Draws a triangle by its corners in body axes; the plane of `face` is set here.
     fn draw_seen_triangle(&mut self, eye: &Eye, corners: &[DVec3; 3], face: DrawnFace) {
-        let Some(plane) = plane_through(eye, corners) else { return };
         let points = corners.map(|corner| {
             [eye.focal_px * corner.y / corner.x, -eye.focal_px * corner.z / corner.x].map(|part| part as f32)
         });
         let nearest_m = corners.iter().map(|corner| corner.x).fold(f64::INFINITY, f64::min);
-        let face = DrawnFace { plane, ..face };
         if nearest_m >= NEAR_M && points.iter().flatten().all(|part| part.abs() < FAR_OFF_PX) {
-            self.draw_points(&points, face, 0.0);
-        } else {
-            self.draw_reaching(eye, corners, face, 0.0);
+            let (low, high) = bounds(&points);
+            // Most are so small that they lie between pixel centres.
+            let Some(part) = self.canvas.part(low, high) else { return };
+            if let Some(plane) = plane_through(eye, corners) {
+                self.draw_part(part, &points, DrawnFace { plane, ..face }, 0.0);
+            }
+        } else if let Some(plane) = plane_through(eye, corners) {
+            self.draw_reaching(eye, corners, DrawnFace { plane, ..face }, 0.0);
         }
     }
 
@@ -344,7 +376,7 @@ fn plane_through(eye: &Eye, corners: &[DVec3; 3]) -> Option<Linear> {
 
 fn ground_face(eye: &Eye, polygon: &Polygon) -> Option<DrawnFace> {
     let plane: Linear = eye.plane(polygon.normal_in_world, polygon.offset_m)?;
-    Some(DrawnFace { plane, instance: 0, label: polygon.label })
+    Some(DrawnFace { plane, instance: 0, number: polygon.number, label: polygon.label })
 }
 
 /// Lowest and highest coordinates of points.

@@ -11,25 +11,34 @@ use cosfly_render::Scene;
 pub struct BatchScene {
     pub(crate) boxes: Boxes,
     pub(crate) ground: Ground,
+    /// The scene of the large renderer, which draws colours.
+    pub(crate) large: Option<Scene>,
 }
 
 impl BatchScene {
     /// Prepares a town; `seed` draws its looks, as for [`Scene::new`].
     pub fn new(town: &Town, seed: Seed) -> Self {
-        Self::of(town, &Scene::new(town, seed))
+        let scene = Scene::new(town, seed);
+        let prepared = Self::of(town, &scene);
+        Self { large: Some(scene), ..prepared }
     }
 
-    /// Prepares a town from its scene in the large renderer: the same faces.
+    /// Prepares a town from its scene in the large renderer: the same faces. There are no colours.
     pub fn of(town: &Town, scene: &Scene) -> Self {
-        let faces = scene.faces();
+        let mut faces = scene.faces();
         // Six faces of each box come first, then the ground's.
         let boxes = faces.partition_point(|face| face.outward_in_world.is_some());
         let index = GroundIndex::new(town);
+        // Ground has no instances: the field holds the number of each face.
+        for (number, face) in (0u32..).zip(&mut faces).skip(boxes) {
+            face.instance = number;
+        }
         let ground = seen_from_above(&faces[boxes..], &index);
-        Self { boxes: Boxes::of(&faces[..boxes]), ground: Ground::of(ground.iter().collect()) }
+        let ground = Ground::of(ground.iter().collect());
+        Self { boxes: Boxes::of(&faces[..boxes]), ground, large: None }
     }
 
-    /// Memory that the scene holds, bytes.
+    /// Memory that the scene holds without what colours need, bytes.
     pub fn bytes(&self) -> usize {
         self.boxes.bytes() + self.ground.bytes()
     }

@@ -2,7 +2,7 @@
 
 use crate::scene::BatchScene;
 use cosfly_frames::{DVec3, Pose};
-use cosfly_render::{Bystander, Walker};
+use cosfly_render::{Bystander, Walker, Weather};
 
 /// One picture of a batch.
 #[derive(Clone, Copy)]
@@ -15,9 +15,12 @@ pub struct View<'a> {
     pub horizontal_fov_rad: f64,
     /// The followed target, if there is one; its instance id is [`cosfly_render::frame::TARGET_INSTANCE`].
     pub target: Option<Walker>,
-    /// All other people, drawn as the same figures as in large pictures; those less than a pixel high are left out, as there.
+    /// All other people and vehicles, drawn as the same figures as in large pictures; those less than a pixel high are left out, as
+    /// there.
     pub others: &'a [Bystander],
-    /// Everything else that moves, as triangles.
+    /// Weather of the colours; noon under a clear sky where there is none.
+    pub weather: Option<&'a Weather>,
+    /// Everything else that moves, as triangles; they are not in colours.
     pub figures: &'a [Figure<'a>],
 }
 

@@ -5,14 +5,38 @@ mod shared;
 mod towns;
 
 use cosfly_batch::{BatchRenderer, BatchScene, Outputs, View};
-use cosfly_frames::Seed;
+use cosfly_frames::{DVec3, Seed};
 use cosfly_geometry::{BoxBvh, SpatialQuery};
 use cosfly_maps::Town;
 use cosfly_render::frame::object_instance;
-use cosfly_render::{Camera, FrameParts, FrameSetup, Renderer, Scene, TargetSetup, Walker, Weather};
+use cosfly_render::{BodyShape, Camera, FrameParts, FrameSetup, Renderer, Scene, TargetSetup, Walker, Weather};
+use cosfly_world::BodyKind;
 use towns::Place;
 
 const FOV_RAD: f64 = 1.4;
+
+/// Every eighth of the people becomes a vehicle, a kind after the other; the first target is a car.
+fn with_vehicles(mut places: Vec<Place>) -> Vec<Place> {
+    let kinds = [
+        (BodyKind::Car, DVec3::new(4.4, 1.8, 1.5)),
+        (BodyKind::Bus, DVec3::new(11.5, 2.5, 3.2)),
+        (BodyKind::Bicycle, DVec3::new(1.8, 0.6, 1.75)),
+        (BodyKind::Truck, DVec3::new(8.0, 2.4, 3.3)),
+        (BodyKind::Motorcycle, DVec3::new(2.1, 0.8, 1.7)),
+        (BodyKind::Van, DVec3::new(5.4, 2.0, 2.3)),
+    ];
+    let mut next = kinds.iter().cycle();
+    let mut turn = |walker: &mut Walker| {
+        let Some((kind, size_m)) = next.next() else { return };
+        walker.body = BodyShape::of(*kind, *size_m);
+        (walker.height_m, walker.radius_m) = (size_m.z, 0.5 * size_m.truncate().length());
+    };
+    if let Some(first) = places.first_mut() {
+        turn(&mut first.target);
+    }
+    places.iter_mut().for_each(|place| place.others.iter_mut().step_by(8).for_each(|other| turn(&mut other.walker)));
+    places
+}
 
 /// Depths agree within a millimetre and a hundred-thousandth, the bound of the large renderer against rays.
 fn is_same_depth(a: f64, b: f64) -> bool {
@@ -40,6 +64,7 @@ fn small(scene: &BatchScene, place: &Place, size: u32) -> Pictures {
         horizontal_fov_rad: FOV_RAD,
         target: Some(place.target),
         others: &place.others,
+        weather: None,
         figures: &[],
     };
     let outputs = Outputs {
@@ -47,6 +72,7 @@ fn small(scene: &BatchScene, place: &Place, size: u32) -> Pictures {
         semantic: Some(&mut pictures.semantic),
         instance: Some(&mut pictures.instance),
         target_mask: Some(&mut pictures.target_mask),
+        rgb: None,
     };
     BatchRenderer::new(size, size).render(&[view], outputs);
     pictures
@@ -70,7 +96,7 @@ fn agrees_with_large(town: &Town, count: usize, people: u32, rare: usize) {
     let scene = Scene::new(town, Seed([1; 32]));
     let batch = BatchScene::of(town, &scene);
     let weather = Weather { sun_azimuth_angle: 200.0, ..Weather::preset("ClearNoon").expect("a preset") };
-    for (number, place) in towns::places(town, count, people).iter().enumerate() {
+    for (number, place) in with_vehicles(towns::places(town, count, people)).iter().enumerate() {
         for size in [64u32, 84, 128, 224] {
             let ours = small(&batch, place, size);
             let mut large = Renderer::new(Camera { width: size, height: size, horizontal_fov_rad: FOV_RAD });

@@ -51,6 +51,7 @@ fn the_second_batch_allocates_nothing() {
             horizontal_fov_rad: 1.4,
             target: Some(place.target),
             others: &place.others,
+            weather: None,
             figures: &[],
         })
         .collect();

@@ -16,6 +16,7 @@ struct Pictures {
     semantic: Vec<u8>,
     instance: Vec<u32>,
     target_mask: Vec<u8>,
+    rgb: Vec<u8>,
 }
 
 fn view<'a>(scene: &'a BatchScene, place: &'a Place) -> View<'a> {
@@ -25,6 +26,7 @@ fn view<'a>(scene: &'a BatchScene, place: &'a Place) -> View<'a> {
         horizontal_fov_rad: 1.4,
         target: Some(place.target),
         others: &place.others,
+        weather: None,
         figures: &[],
     }
 }
@@ -34,14 +36,16 @@ fn draw(renderer: &mut BatchRenderer, views: &[View<'_>]) -> Pictures {
     let mut semantic = vec![99; views.len() * PIXELS];
     let mut instance = vec![99; views.len() * PIXELS];
     let mut target_mask = vec![99; views.len() * PIXELS];
+    let mut rgb = vec![99; 3 * views.len() * PIXELS];
     let outputs = Outputs {
         depth_m: Some(&mut depth_m),
         semantic: Some(&mut semantic),
         instance: Some(&mut instance),
         target_mask: Some(&mut target_mask),
+        rgb: Some(&mut rgb),
     };
     renderer.render(views, outputs);
-    Pictures { depth_m: depth_m.into_iter().map(f32::to_bits).collect(), semantic, instance, target_mask }
+    Pictures { depth_m: depth_m.into_iter().map(f32::to_bits).collect(), semantic, instance, target_mask, rgb }
 }
 
 /// One picture of a batch.
@@ -51,7 +55,8 @@ fn picture(all: &Pictures, number: usize) -> Pictures {
         depth_m: all.depth_m[range.clone()].to_vec(),
         semantic: all.semantic[range.clone()].to_vec(),
         instance: all.instance[range.clone()].to_vec(),
-        target_mask: all.target_mask[range].to_vec(),
+        target_mask: all.target_mask[range.clone()].to_vec(),
+        rgb: all.rgb[3 * range.start..3 * range.end].to_vec(),
     }
 }
 
@@ -101,6 +106,9 @@ fn channels_that_nobody_asks_for_change_nothing() {
     let mut mask = vec![7; 3 * PIXELS];
     renderer.render(&views, Outputs { target_mask: Some(&mut mask), ..Outputs::default() });
     assert!(mask == all.target_mask && mask.contains(&1));
+    let mut rgb = vec![7; 9 * PIXELS];
+    renderer.render(&views, Outputs { rgb: Some(&mut rgb), ..Outputs::default() });
+    assert!(rgb == all.rgb);
     renderer.render(&views, Outputs::default());
     renderer.render(&[], Outputs::default());
 }

@@ -3,7 +3,7 @@
 use crate::config::{CaptionConfig, Style};
 use crate::facts::Facts;
 use crate::language::Language;
-use crate::wording::TEMPLATES;
+use crate::wording::{TEMPLATES, approximately, approximately_in_chinese};
 use crate::{chinese, english};
 use cosfly_random::{RandomStream, Seed};
 use serde::{Deserialize, Serialize};
@@ -26,20 +26,33 @@ pub fn captions(facts: &Facts, config: &CaptionConfig, seed: Seed) -> Vec<Captio
     for language in Language::ALL {
         for &style in &config.styles {
             let own = seed.child(language.code(), style as u64);
+            let first = captions.len();
             for template in template_order(&mut own.stream("order"), config.variants_per_style as usize) {
-                let words = &mut own.child("words", template as u64).stream("choice");
-                let text = match (language, style) {
-                    (Language::Zh, Style::Instruction) => chinese::instruction(facts, template, words),
-                    (Language::Zh, Style::Description) => chinese::description(facts, template, words),
-                    (Language::En, Style::Instruction) => english::instruction(facts, template, words),
-                    (Language::En, Style::Description) => english::description(facts, template, words),
-                };
-                captions.push(Caption { language, style, text });
+                // Draws the words again where another template came to the same text.
+                let drawn = (0..MOST_DRAWS).map(|draw| {
+                    let words = &mut own.child("words", template as u64).child("draw", draw).stream("choice");
+                    let text = match (language, style) {
+                        (Language::Zh, Style::Instruction) => chinese::instruction(facts, template, words),
+                        (Language::Zh, Style::Description) => chinese::description(facts, template, words),
+                        (Language::En, Style::Instruction) => english::instruction(facts, template, words),
+                        (Language::En, Style::Description) => english::description(facts, template, words),
+                    };
+                    match language {
+                        Language::Zh => approximately_in_chinese(&text, words),
+                        Language::En => approximately(&text, words),
+                    }
+                });
+                let is_new = |text: &String| captions[first..].iter().all(|it: &Caption| it.text != *text);
+                let text = drawn.into_iter().find(is_new);
+                captions.extend(text.map(|text| Caption { language, style, text }));
             }
         }
     }
     captions
 }
+
+/// Draws of words after which a flight has no further different text.
+const MOST_DRAWS: u64 = 50;
 
 /// The first `count` of the template numbers in random order (Fisher-Yates).
 fn template_order(stream: &mut RandomStream, count: usize) -> Vec<usize> {

@@ -27,6 +27,8 @@ pub enum Slot {
     Place,
     People,
     Number,
+    Things,
+    Wording,
 }
 
 impl Slot {
@@ -49,6 +51,8 @@ impl Slot {
             Self::Place => "place",
             Self::People => "people",
             Self::Number => "number",
+            Self::Things => "things",
+            Self::Wording => "wording",
         }
     }
 }
@@ -79,7 +83,7 @@ impl fmt::Display for SlotMismatch {
 /// # Errors
 /// All disagreements, in the order of the text; missing slots come last.
 pub fn check(text: &str, language: Language, facts: &Facts) -> Result<(), Vec<SlotMismatch>> {
-    let claims = claims_of(text, language);
+    let claims = listed_turns(claims_of(text, language));
     let mut checker = Checker { facts, mismatches: vec![] };
     checker.script(text, language);
     checker.directions(&claims);
@@ -89,6 +93,26 @@ pub fn check(text: &str, language: Language, facts: &Facts) -> Result<(), Vec<Sl
     checker.turns(&claims);
     checker.required(&claims);
     if checker.mismatches.is_empty() { Ok(()) } else { Err(checker.mismatches) }
+}
+
+/// Subjects that a text says something about, each once.
+pub fn claimed(text: &str, language: Language) -> Vec<Slot> {
+    let slot = |claim: Claim| match claim {
+        Claim::Direction(_) => Slot::Direction,
+        Claim::Distance(_) => Slot::Distance,
+        Claim::Altitude(_) => Slot::Altitude,
+        Claim::Pitch(_) => Slot::Pitch,
+        Claim::Way(_) => Slot::Way,
+        Claim::Duration(_) => Slot::Duration,
+        Claim::Speed(_) => Slot::Speed,
+        Claim::Stops(_) | Claim::SomeStops => Slot::Stops,
+        Claim::Standing(_) => Slot::Standing,
+        Claim::Turn(_) | Claim::Turns(_) | Claim::TurnsOf(..) | Claim::NoTurns | Claim::StopFirst(_) => Slot::Turns,
+        Claim::Top(_) | Claim::Trousers(_) | Claim::Backpack | Claim::NoBackpack | Claim::Wears(_) => Slot::Clothes,
+        Claim::Stays => Slot::Walking,
+        Claim::Unknown(_) => Slot::Number,
+    };
+    claims_of(text, language).into_iter().map(slot).collect::<std::collections::BTreeSet<_>>().into_iter().collect()
 }
 
 /// Compares what a text claims of the target's clothes alone, with the clothes.
@@ -105,6 +129,9 @@ pub(crate) fn clothes_mismatch(claim: &Claim, wear: &Wear) -> Option<SlotMismatc
         Claim::Top(colour) => ("top", colour.name(), wear.top.name()),
         Claim::Trousers(colour) => ("trousers", colour.name(), wear.trousers.name()),
         Claim::Backpack => ("backpack", "one", if wear.backpack { "one" } else { "none" }),
+        Claim::NoBackpack => ("backpack", "none", if wear.backpack { "one" } else { "none" }),
+        Claim::Wears(colour) if *colour == wear.top || *colour == wear.trousers => return None,
+        Claim::Wears(colour) => ("colour", colour.name(), wear.top.name()),
         _ => return None,
     };
     let told = |words: &str| format!("{garment}: {words}");
@@ -129,6 +156,18 @@ fn claims_of(text: &str, language: Language) -> Vec<Claim> {
         Language::Zh => chinese::read(text),
         Language::En => english::read(text),
     }
+}
+
+/// Counts of turns to a side as a list, where the text lists others: `two left turns, then a right one`.
+fn listed_turns(claims: Vec<Claim>) -> Vec<Claim> {
+    if !claims.iter().any(|claim| matches!(claim, Claim::Turn(_))) {
+        return claims;
+    }
+    let listed = |claim: Claim| match claim {
+        Claim::TurnsOf(kind, count) if count <= 100 => vec![Claim::Turn(kind); count],
+        other => vec![other],
+    };
+    claims.into_iter().flat_map(listed).collect()
 }
 
 struct Checker<'a> {
@@ -188,8 +227,17 @@ impl Checker<'_> {
                 let expected = facts.turns_of(kind);
                 self.expect(count == expected, Slot::Turns, format_args!("{count} {kind:?}"), expected);
             }
-            Claim::Top(_) | Claim::Trousers(_) | Claim::Backpack => {
+            Claim::Top(_) | Claim::Trousers(_) | Claim::Backpack | Claim::NoBackpack | Claim::Wears(_) => {
                 self.mismatches.extend(facts.wear.as_ref().and_then(|wear| clothes_mismatch(claim, wear)));
+            }
+            Claim::StopFirst(first) => {
+                let known = match (&facts.stops[..], &facts.turns[..]) {
+                    ([stop], [turn]) => Some(stop.frame < turn.frame),
+                    _ => None,
+                };
+                let words = |first| if first { "a stop before the turn" } else { "a stop after the turn" };
+                let expected = known.map_or("another order", words);
+                self.expect(known == Some(first), Slot::Turns, words(first), expected);
             }
             Claim::Stays => self.expect(!facts.walks, Slot::Walking, "stands", "walks"),
             Claim::Unknown(ref words) => self.expect(false, Slot::Number, words, "nothing of the kind"),
@@ -273,17 +321,18 @@ mod tests {
             }
         }
         let sides = match language {
-            Language::En => [
+            Language::En => vec![
                 ("left", "right"),
                 ("right", "left"),
-                ("around", "left"),
+                ("turns around", "turns left"),
+                ("then around", "then left"),
                 ("no stops", "2 stops"),
                 ("red", "blue"),
                 ("black", "white"),
                 ("without a", "with 1"),
                 ("turns", "turns left, then"),
             ],
-            Language::Zh => [
+            Language::Zh => vec![
                 ("左转", "右转"),
                 ("右转", "左转"),
                 ("掉头", "左转"),

@@ -10,7 +10,73 @@ use cosfly_render::Colour;
 /// More turns than this are counted instead of listed.
 const LISTED_TURNS: usize = 4;
 
-/// One sentence for the pilot: whom to follow, how far away, at which angle.
+/// Calls to follow somebody.
+const CALLS: [&str; 14] = [
+    "跟随{who}",
+    "跟住{who}",
+    "盯住{who}",
+    "跟拍{who}",
+    "跟踪{who}",
+    "紧跟{who}",
+    "锁定{who}",
+    "对准{who}",
+    "全程拍摄{who}",
+    "别跟丢{who}",
+    "始终关注{who}",
+    "让{who}留在画面里",
+    "把{who}框在画面中",
+    "陪着{who}飞",
+];
+/// Distances.
+const KEEPS: [&str; 12] = [
+    "保持约{d}米距离",
+    "相距约{d}米",
+    "距离控制在约{d}米",
+    "间距约{d}米",
+    "隔开约{d}米",
+    "离目标约{d}米",
+    "跟随距离约{d}米",
+    "始终相隔约{d}米",
+    "飞在约{d}米开外",
+    "与目标拉开约{d}米",
+    "距目标约{d}米",
+    "在约{d}米外飞行",
+];
+/// Angles of a camera that looks down, and up.
+const LOOKS_DOWN: [&str; 11] = [
+    "镜头向下俯视约{p}度",
+    "镜头俯角约{p}度",
+    "俯拍约{p}度",
+    "相机下倾约{p}度",
+    "云台下压约{p}度",
+    "镜头朝下约{p}度",
+    "以约{p}度俯角拍摄",
+    "俯角保持在约{p}度",
+    "视线向下约{p}度",
+    "俯视角度约{p}度",
+    "摄像头向下倾斜约{p}度",
+];
+const LOOKS_UP: [&str; 5] =
+    ["镜头向上仰视约{p}度", "仰角约{p}度", "镜头朝上约{p}度", "以约{p}度仰角拍摄", "仰拍约{p}度"];
+/// Orders of call, distance and angle.
+const INSTRUCTIONS: [&str; 14] = [
+    "[c]，[k]，[l]。",
+    "请[c]，[k]，[l]。",
+    "[k]，[c]，[l]。",
+    "[l]，[k]，[c]。",
+    "[c]，[l]，[k]。",
+    "目标是{who}：[k]，[l]。",
+    "你要跟的是{who}，[k]，[l]。",
+    "[c]。[k]，[l]。",
+    "画面主角是{who}，[l]，[k]。",
+    "任务：[c]；[k]，[l]。",
+    "[k]、[l]，[c]。",
+    "注意{who}，[k]，[l]。",
+    "[l]，[c]，并[k0]。",
+    "找到{who}，然后[k]，[l]。",
+];
+
+/// One or two sentences for the pilot: whom to follow, how far away, at which angle.
 pub(crate) fn instruction(facts: &Facts, template: usize, words: &mut RandomStream) -> String {
     let standing = match (facts.walks, &facts.wear) {
         (true, _) => "",
@@ -18,38 +84,62 @@ pub(crate) fn instruction(facts: &Facts, template: usize, words: &mut RandomStre
         (false, None) => "站立不动的",
     };
     let who = format!("{standing}{}", who(facts.wear.as_ref(), words));
-    let distance = rounded(facts.distance_m, DISTANCE_STEP_M);
-    let view = view(facts, words);
-    match template {
-        0 => format!("跟随{who}，保持约{distance}米距离，{view}。"),
-        1 => format!("请在约{distance}米的距离上跟踪{who}，{view}。"),
-        2 => format!("请跟随{who}，与其相距约{distance}米，{view}。"),
-        3 => format!("与{who}保持约{distance}米的距离并持续跟拍，{view}。"),
-        4 => format!("目标是{who}，跟随距离约{distance}米，{view}。"),
-        _ => format!("{view}，在约{distance}米外跟拍{who}。"),
+    let mut text = INSTRUCTIONS[template % INSTRUCTIONS.len()].to_owned();
+    for (key, list) in [("[c]", &CALLS[..]), ("[k]", &KEEPS), ("[k0]", &KEEPS[..1]), ("[l]", looks(facts))] {
+        text = text.replace(key, one_of(words, list));
     }
+    fill(&text, facts).replace("{who}", &who)
+}
+
+fn looks(facts: &Facts) -> &'static [&'static str] {
+    if facts.pitch_down_deg < 0.0 { &LOOKS_UP } else { &LOOKS_DOWN }
+}
+
+/// `text` with distance and angle.
+fn fill(text: &str, facts: &Facts) -> String {
+    text.replace("{d}", &rounded(facts.distance_m, DISTANCE_STEP_M))
+        .replace("{p}", &rounded(facts.pitch_down_deg.abs(), PITCH_STEP_DEG))
 }
 
 /// Several sentences: route, stops, length, and how the drone flies.
 pub(crate) fn description(facts: &Facts, template: usize, words: &mut RandomStream) -> String {
-    let drone = drone(facts, template % 3, words);
+    let drone = drone(facts, words);
     let target = who(facts.wear.as_ref(), words);
-    let walk = if facts.walks {
-        format!("{target}{}{}{}", route(facts, words), stops(facts, words), length(facts, words))
-    } else {
+    if !facts.walks {
         let duration = rounded(facts.duration_s, duration_step_s(facts.duration_s));
-        format!("{target}站立不动，历时约{duration}秒。")
-    };
-    if template < 3 { format!("{walk}{drone}") } else { format!("{drone}{walk}") }
+        let stands = one_of(words, &["站立不动，历时约{}秒。", "一直站着，历时约{}秒。", "原地不动，前后约{}秒。"]);
+        let walk = format!("{target}{}", stands.replace("{}", &duration));
+        return if template.is_multiple_of(2) { format!("{walk}{drone}") } else { format!("{drone}{walk}") };
+    }
+    let (route, stops, length) =
+        (format!("{target}{}", route(facts, words)), stops(facts, words), length(facts, words));
+    match template % 6 {
+        0 => format!("{route}{stops}{length}{drone}"),
+        1 => format!("{drone}{route}{stops}{length}"),
+        2 => format!("{route}{length}{stops}{drone}"),
+        3 => format!("{drone}{length}{route}{stops}"),
+        4 => format!("{route}{stops}{drone}{length}"),
+        _ => format!("{length}{route}{stops}{drone}"),
+    }
 }
 
 /// The target with clothes: `身穿红色上衣和蓝色裤子的行人`.
 pub(crate) fn who(wear: Option<&Wear>, words: &mut RandomStream) -> String {
-    let Some(wear) = wear else { return "行人".to_owned() };
+    let noun = one_of(words, &["行人", "行人", "路人"]);
+    let Some(wear) = wear else { return noun.to_owned() };
     let (top, trousers) = (colour(wear.top), colour(wear.trousers));
-    let backpack = if wear.backpack { "、背着背包" } else { "" };
-    let pattern = one_of(words, &["身穿{}上衣、#裤子%的行人", "穿{}上衣和#裤子%的行人"]);
-    pattern.replace("{}", top).replace('#', trousers).replace('%', backpack)
+    let backpack = if wear.backpack { one_of(words, &["、背着背包", "、身后背着背包"]) } else { "" };
+    let pattern = one_of(
+        words,
+        &[
+            "身穿{}上衣、#裤子%的",
+            "穿{}上衣和#裤子%的",
+            "上身{}上衣、下身#裤子%的",
+            "穿着#裤子、{}上衣%的",
+            "一身{}上衣配#裤子%的",
+        ],
+    );
+    format!("{}{noun}", pattern.replace("{}", top).replace('#', trousers).replace('%', backpack))
 }
 
 pub(crate) fn colour(colour: Colour) -> &'static str {
@@ -69,21 +159,25 @@ pub(crate) fn colour(colour: Colour) -> &'static str {
     }
 }
 
-fn view(facts: &Facts, words: &mut RandomStream) -> String {
-    let patterns: &[&str] = if facts.pitch_down_deg < 0.0 {
-        &["镜头向上仰视约{}度", "仰角约{}度"]
-    } else {
-        &["镜头向下俯视约{}度", "镜头俯角约{}度"]
-    };
-    one_of(words, patterns).replace("{}", &rounded(facts.pitch_down_deg.abs(), PITCH_STEP_DEG))
-}
-
 /// The way: what a picture can show of it, without directions of the compass.
 fn route(facts: &Facts, words: &mut RandomStream) -> String {
+    let ending = one_of(words, &["随后继续前行", "之后一路向前", "接着往前走", "然后继续走", "最后照直往前走"]);
     match facts.turns.len() {
-        0 if facts.start_direction == facts.end_direction => one_of(words, &["一路直行。", "笔直前行。"]).to_owned(),
-        0 => "一路前行，没有急转弯。".to_owned(),
-        listed if listed <= LISTED_TURNS => format!("出发后{}，随后继续前行。", listed_turns(facts)),
+        0 if facts.start_direction == facts.end_direction => {
+            one_of(words, &["一路直行。", "笔直前行。", "沿直线往前走。", "从头到尾直走。", "径直往前走。"]).to_owned()
+        }
+        0 => one_of(words, &["一路前行，没有急转弯。", "往前走，路上没有急转弯。", "缓缓前行，始终没有急转弯。"])
+            .to_owned(),
+        listed if listed <= LISTED_TURNS => {
+            let turns = listed_turns(facts);
+            match words.index(5) {
+                0 => format!("出发后{turns}，{ending}。"),
+                1 => format!("走出一段后{turns}，{ending}。"),
+                2 => format!("起步往前，途中{turns}，{ending}。"),
+                3 => format!("先往前走，再{turns}，{ending}。"),
+                _ => format!("动身后不久{turns}，{ending}。"),
+            }
+        }
         count => {
             let counts: Vec<String> = [TurnKind::Left, TurnKind::Right, TurnKind::Around]
                 .iter()
@@ -91,7 +185,8 @@ fn route(facts: &Facts, words: &mut RandomStream) -> String {
                 .filter(|(count, _)| *count > 0)
                 .map(|(count, side)| format!("{side}{count}次"))
                 .collect();
-            format!("途中转弯{count}次（{}），随后继续前行。", counts.join("、"))
+            let opening = one_of(words, &["途中转弯", "一路上转弯", "走走转转，转弯", "先后转弯"]);
+            format!("{opening}{count}次（{}），{ending}。", counts.join("、"))
         }
     }
 }
@@ -123,11 +218,42 @@ fn side(kind: TurnKind) -> &'static str {
 fn stops(facts: &Facts, words: &mut RandomStream) -> String {
     let standing = rounded(facts.standing_s(), STOP_STEP_S);
     match facts.stops.len() {
-        0 => one_of(words, &["途中没有停留。", "途中未作停留。"]).into(),
-        1 => one_of(words, &["途中停留一次，约{}秒。", "途中停下一次，停了约{}秒。"]).replace("{}", &standing),
-        count => one_of(words, &["途中停留#次，共约{}秒。", "途中停下#次，共停了约{}秒。"])
-            .replace('#', &numeral(count))
-            .replace("{}", &standing),
+        0 => one_of(
+            words,
+            &[
+                "途中没有停留。",
+                "途中未作停留。",
+                "一路没停。",
+                "中间不曾停下。",
+                "脚步没有停过。",
+                "全程没有驻足。",
+                "一刻不停。",
+            ],
+        )
+        .into(),
+        1 => one_of(
+            words,
+            &[
+                "途中停留一次，约{}秒。",
+                "途中停下一次，停了约{}秒。",
+                "半路停了一次，约{}秒。",
+                "中间驻足一次，约{}秒。",
+                "路上停下一回，停了约{}秒。",
+            ],
+        )
+        .replace("{}", &standing),
+        count => one_of(
+            words,
+            &[
+                "途中停留#次，共约{}秒。",
+                "途中停下#次，共停了约{}秒。",
+                "一路停了#次，合计约{}秒。",
+                "中间停下#回，总共停了约{}秒。",
+                "前后停了#次，加起来约{}秒。",
+            ],
+        )
+        .replace('#', &numeral(count))
+        .replace("{}", &standing),
     }
 }
 
@@ -135,30 +261,40 @@ fn length(facts: &Facts, words: &mut RandomStream) -> String {
     let way = rounded(facts.way_m, way_step_m(facts.way_m));
     let duration = rounded(facts.duration_s, duration_step_s(facts.duration_s));
     let speed = rounded(facts.walking_speed_mps, SPEED_STEP_MPS);
-    match words.index(2) {
-        0 => format!("全程约{way}米，用时约{duration}秒，步速约{speed}米/秒。"),
-        _ => format!("路程约{way}米，历时约{duration}秒，行走速度约{speed}米/秒。"),
-    }
+    let pattern = one_of(
+        words,
+        &[
+            "全程约{w}米，用时约{t}秒，步速约{s}米/秒。",
+            "路程约{w}米，历时约{t}秒，行走速度约{s}米/秒。",
+            "一共走了约{w}米，花了约{t}秒，平均每秒约{s}米。",
+            "约{t}秒走完约{w}米的路程，速度约{s}米/秒。",
+            "以约{s}米/秒的步速，约{t}秒走了约{w}米。",
+            "总长约{w}米，耗时约{t}秒，每秒走约{s}米。",
+            "走完这段路用了约{t}秒，路程约{w}米，步速约{s}米/秒。",
+        ],
+    );
+    pattern.replace("{w}", &way).replace("{t}", &duration).replace("{s}", &speed)
 }
 
-fn drone(facts: &Facts, template: usize, words: &mut RandomStream) -> String {
-    let distance = rounded(facts.distance_m, DISTANCE_STEP_M);
-    let view = view(facts, words);
-    // A drone that is not above its target has no height worth a word.
+/// How the drone flies. One that is not above its target has no height worth a word.
+fn drone(facts: &Facts, words: &mut RandomStream) -> String {
+    let look = one_of(words, looks(facts));
     let height = (facts.altitude_m >= 0.5).then(|| rounded(facts.altitude_m, DISTANCE_STEP_M));
-    let height = |pattern: &str| height.as_ref().map_or(String::new(), |height| pattern.replace("{}", height));
-    match template {
-        0 => {
-            let height = height("，飞行高度高出目标约{}米");
-            format!("无人机与目标保持约{distance}米的距离{height}，{view}。")
-        }
-        1 => {
-            let height = height("，位于目标上方约{}米");
-            format!("无人机在约{distance}米外跟拍{height}，{view}。")
-        }
-        _ => {
-            let height = height("，相对高度约{}米");
-            format!("无人机与目标相距约{distance}米{height}，{view}。")
-        }
-    }
+    let Some(height) = height else {
+        let pattern = one_of(words, &["无人机与目标保持约{d}米的距离，", "无人机在约{d}米外跟拍，"]);
+        return fill(&format!("{pattern}{look}。"), facts);
+    };
+    let pattern = one_of(
+        words,
+        &[
+            "无人机与目标保持约{d}米的距离，飞行高度高出目标约{h}米，#。",
+            "无人机在约{d}米外跟拍，位于目标上方约{h}米，#。",
+            "无人机与目标相距约{d}米，相对高度约{h}米，#。",
+            "航拍距离约{d}米，比目标高约{h}米，#。",
+            "无人机飞得比目标高约{h}米，相隔约{d}米，#。",
+            "#，无人机离目标约{d}米，高度约{h}米。",
+            "在目标上空约{h}米处，无人机保持约{d}米距离，#。",
+        ],
+    );
+    fill(&pattern.replace('#', look), facts).replace("{h}", &height)
 }

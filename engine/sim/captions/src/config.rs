@@ -13,6 +13,8 @@ pub struct CaptionConfig {
     /// Name the target's clothes. Default true; set it to false where `target_stands_out` of the pictures is above 0, which
     /// dresses targets in other clothes than their walk's.
     pub clothes: bool,
+    /// Writer of the texts. Default `template`.
+    pub writer: Writer,
     /// Styles to write. Default `["instruction", "description"]`.
     #[schemars(length(min = 1, max = 2), extend("uniqueItems" = true))]
     pub styles: Vec<Style>,
@@ -20,7 +22,28 @@ pub struct CaptionConfig {
 
 impl Default for CaptionConfig {
     fn default() -> Self {
-        Self { variants_per_style: 2, clothes: true, styles: Style::ALL.to_vec() }
+        Self { variants_per_style: 2, clothes: true, writer: Writer::Template, styles: Style::ALL.to_vec() }
+    }
+}
+
+/// Writer of texts.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum Writer {
+    /// Templates of cosfly.
+    #[default]
+    Template,
+    /// A language model; key `teacher` says which.
+    Teacher,
+}
+
+impl Writer {
+    /// The name in recipes and tables.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Template => "template",
+            Self::Teacher => "teacher",
+        }
     }
 }
 

@@ -9,44 +9,173 @@ use cosfly_random::RandomStream;
 /// More turns than this are counted instead of listed.
 const LISTED_TURNS: usize = 4;
 
-/// One sentence for the pilot: whom to follow, how far away, at which angle.
+/// Calls to follow somebody.
+const CALLS: [&str; 16] = [
+    "follow the {who}",
+    "track the {who}",
+    "stay with the {who}",
+    "tail the {who}",
+    "shadow the {who}",
+    "accompany the {who}",
+    "stick with the {who}",
+    "escort the {who}",
+    "pursue the {who}",
+    "film the {who}",
+    "keep the {who} in view",
+    "keep the {who} in frame",
+    "hold the {who} in shot",
+    "keep your camera on the {who}",
+    "keep sight of the {who}",
+    "never lose the {who}",
+];
+/// Distances as requests, and as circumstances.
+const KEEPS: [&str; 12] = [
+    "keep about {d} m away",
+    "stay about {d} m away",
+    "hold a distance of about {d} m",
+    "leave a gap of about {d} m",
+    "maintain about {d} m of separation",
+    "remain about {d} m off",
+    "keep to a range of about {d} m",
+    "fly about {d} m away",
+    "let about {d} m lie between you",
+    "keep your distance at about {d} m",
+    "hover no nearer and no farther than about {d} m away",
+    "stay back by about {d} m",
+];
+const FROM: [&str; 8] = [
+    "from about {d} m away",
+    "at a distance of about {d} m",
+    "at a range of about {d} m",
+    "with a gap of about {d} m",
+    "from a distance of about {d} m",
+    "keeping about {d} m away",
+    "staying about {d} m off",
+    "with about {d} m between you",
+];
+/// Angles as requests, and as circumstances.
+const LOOKS: [&str; 9] = [
+    "look {v} at about {p} degrees",
+    "tilt the camera {v} by about {p} degrees",
+    "point the camera about {p} degrees {v}",
+    "angle the lens {v} at about {p} degrees",
+    "pitch the gimbal {v} by about {p} degrees",
+    "aim {v} at about {p} degrees",
+    "set the camera about {p} degrees {v}",
+    "let the lens face {v} at about {p} degrees",
+    "keep the view about {p} degrees {v}",
+];
+const WITH: [&str; 9] = [
+    "looking {v} at about {p} degrees",
+    "camera pointing {v} at about {p} degrees",
+    "with the camera tilted {v} by about {p} degrees",
+    "the lens angled about {p} degrees {v}",
+    "camera pitched {v} by about {p} degrees",
+    "with the gimbal about {p} degrees {v}",
+    "aiming {v} at about {p} degrees",
+    "with a view about {p} degrees {v}",
+    "your lens turned {v} at about {p} degrees",
+];
+/// Orders of call, distance and angle. A capital letter begins the part's sentence.
+const INSTRUCTIONS: [&str; 16] = [
+    "[C]; [k] and [l].",
+    "[C], [k] and [l].",
+    "[C] [f], [w].",
+    "[C]. [K] and [l].",
+    "[F], [c] and [l].",
+    "[W], [c] [f].",
+    "Your target is the {who}: [k] and [l].",
+    "The one to follow is the {who}. [K]; [l].",
+    "[K], [l], and [c].",
+    "[L] and [k], and [c].",
+    "The {who} is your target; follow [f], [w].",
+    "Please [c]; [l] and [k].",
+    "Your job is to [c] [f], [w].",
+    "[F] and [w], [c].",
+    "Pick out the {who}, then [k] and [l].",
+    "Go with the {who}: [l], and [k].",
+];
+
+/// One or two sentences for the pilot: whom to follow, how far away, at which angle.
 pub(crate) fn instruction(facts: &Facts, template: usize, words: &mut RandomStream) -> String {
     let standing = if facts.walks { "" } else { " who stands still" };
     let who = format!("{}{standing}", who(facts.wear.as_ref(), words));
-    let distance = rounded(facts.distance_m, DISTANCE_STEP_M);
-    let (at, by) = (view(facts, "at"), view(facts, "by"));
-    match template {
-        0 => format!("Follow the {who}; keep about {distance} m away and look {at}."),
-        1 => format!("Track the {who} from a distance of about {distance} m, with the camera tilted {by}."),
-        2 => format!("Stay about {distance} m from the {who}, and keep the camera pitched {by}."),
-        3 => format!("Keep the {who} in view from about {distance} m away, camera pointing {at}."),
-        4 => format!("Your target is the {who}: hold a distance of about {distance} m and look {at}."),
-        _ => format!("Looking {at}, escort the {who} at a distance of about {distance} m."),
+    let mut text = INSTRUCTIONS[template % INSTRUCTIONS.len()].to_owned();
+    for (key, list) in [("c", &CALLS[..]), ("k", &KEEPS), ("f", &FROM), ("l", &LOOKS), ("w", &WITH)] {
+        let chosen = one_of(words, list);
+        text = text.replace(&format!("[{key}]"), chosen);
+        text = text.replace(&format!("[{}]", key.to_uppercase()), &capitalised(chosen));
     }
+    fill(&text, facts).replace("{who}", &who)
+}
+
+/// `text` with distance and angle.
+fn fill(text: &str, facts: &Facts) -> String {
+    let side = if facts.pitch_down_deg < 0.0 { "up" } else { "down" };
+    text.replace("{d}", &rounded(facts.distance_m, DISTANCE_STEP_M))
+        .replace("{p}", &rounded(facts.pitch_down_deg.abs(), PITCH_STEP_DEG))
+        .replace("{v}", side)
 }
 
 /// Several sentences: route, stops, length, and how the drone flies.
 pub(crate) fn description(facts: &Facts, template: usize, words: &mut RandomStream) -> String {
-    let drone = drone(facts, template % 3);
+    let drone = drone(facts, words);
     let target = who(facts.wear.as_ref(), words);
-    let walk = if facts.walks {
-        format!("The {target} {} {} {}", route(facts), stops(facts, words), length(facts, words))
-    } else {
+    let subject = capitalised(one_of(words, &["the {who}", "the {who}", "this {who}"])).replace("{who}", &target);
+    if !facts.walks {
         let duration = rounded(facts.duration_s, duration_step_s(facts.duration_s));
-        format!("The {target} stands still for about {duration} seconds.")
-    };
-    if template < 3 { format!("{walk} {drone}") } else { format!("{drone} {walk}") }
+        let stands = one_of(
+            words,
+            &[
+                "stands still for about {} seconds.",
+                "stays motionless for about {} seconds.",
+                "remains stationary for about {} seconds.",
+            ],
+        );
+        let walk = format!("{subject} {}", stands.replace("{}", &duration));
+        return if template.is_multiple_of(2) { format!("{walk} {drone}") } else { format!("{drone} {walk}") };
+    }
+    let (route, stops, length) =
+        (format!("{subject} {}", route(facts, words)), stops(facts, words), length(facts, words));
+    match template % 6 {
+        0 => format!("{route} {stops} {length} {drone}"),
+        1 => format!("{drone} {route} {stops} {length}"),
+        2 => format!("{route} {length} {stops} {drone}"),
+        3 => format!("{length} {route} {stops} {drone}"),
+        4 => format!("{drone} {length} {route} {stops}"),
+        _ => format!("{route} {stops} {drone} {length}"),
+    }
+}
+
+/// The text with a capital first letter.
+fn capitalised(text: &str) -> String {
+    let mut chars = text.chars();
+    chars.next().map_or_else(String::new, |first| first.to_uppercase().chain(chars).collect())
 }
 
 /// The target with clothes: `pedestrian in a red top and blue trousers`.
 pub(crate) fn who(wear: Option<&Wear>, words: &mut RandomStream) -> String {
-    let who = one_of(words, &["pedestrian", "person"]);
+    let who = one_of(words, &["pedestrian", "person", "walker"]);
     let Some(wear) = wear else { return who.to_owned() };
     let (top, trousers) = (wear.top.name(), wear.trousers.name());
     let article = article(top);
-    let backpack = if wear.backpack { " with a backpack" } else { "" };
-    let pattern = one_of(words, &["in # {} top and {} trousers", "wearing # {} top and {} trousers"]);
-    format!("{who}{backpack} {}", pattern.replace('#', article).replacen("{}", top, 1).replacen("{}", trousers, 1))
+    let backpack = if wear.backpack {
+        one_of(words, &[" with a backpack", " carrying a backpack", " with a backpack on the back"])
+    } else {
+        ""
+    };
+    let pattern = one_of(
+        words,
+        &[
+            "in # {} top and % trousers",
+            "wearing # {} top and % trousers",
+            "dressed in # {} top and % trousers",
+            "in % trousers and # {} top",
+            "wearing % trousers and # {} top",
+            "with # {} top and % trousers",
+        ],
+    );
+    format!("{who} {}{backpack}", pattern.replace('#', article).replace("{}", top).replace('%', trousers))
 }
 
 /// Indefinite article before a word.
@@ -54,18 +183,41 @@ pub(crate) fn article(word: &str) -> &'static str {
     if word.starts_with(['a', 'e', 'i', 'o', 'u']) { "an" } else { "a" }
 }
 
-/// `down at about 45 degrees`.
-fn view(facts: &Facts, preposition: &str) -> String {
-    let side = if facts.pitch_down_deg < 0.0 { "up" } else { "down" };
-    format!("{side} {preposition} about {} degrees", rounded(facts.pitch_down_deg.abs(), PITCH_STEP_DEG))
-}
-
 /// The way: what a picture can show of it, without directions of the compass.
-fn route(facts: &Facts) -> String {
+fn route(facts: &Facts, words: &mut RandomStream) -> String {
+    let ending = one_of(words, &["walks on", "goes on", "carries on", "keeps walking", "continues ahead"]);
     match facts.turns.len() {
-        0 if facts.start_direction == facts.end_direction => "walks straight on.".to_owned(),
-        0 => "walks on without a sharp turn.".to_owned(),
-        listed if listed <= LISTED_TURNS => format!("sets off, turns {}, and walks on.", listed_turns(facts)),
+        0 if facts.start_direction == facts.end_direction => one_of(
+            words,
+            &[
+                "walks straight on.",
+                "goes straight ahead all the way.",
+                "keeps straight on.",
+                "heads straight on throughout.",
+                "follows a straight line.",
+            ],
+        )
+        .to_owned(),
+        0 => one_of(
+            words,
+            &[
+                "walks on without a sharp turn.",
+                "goes along with no sharp turn.",
+                "makes no sharp turn.",
+                "bends gently and never turns sharply.",
+            ],
+        )
+        .to_owned(),
+        listed if listed <= LISTED_TURNS => {
+            let turns = listed_turns(facts);
+            match words.index(5) {
+                0 => format!("sets off, turns {turns}, and {ending}."),
+                1 => format!("starts walking, turns {turns}, and then {ending}."),
+                2 => format!("turns {turns} and {ending}."),
+                3 => format!("moves off, later turns {turns} and finally {ending}."),
+                _ => format!("goes ahead at first, turns {turns}, and {ending}."),
+            }
+        }
         count => {
             let counts: Vec<String> = [TurnKind::Left, TurnKind::Right, TurnKind::Around]
                 .iter()
@@ -73,7 +225,11 @@ fn route(facts: &Facts) -> String {
                 .filter(|(count, _)| *count > 0)
                 .map(|(count, side)| format!("{count} {side}"))
                 .collect();
-            format!("sets off, makes {count} turns ({}) and walks on.", counts.join(", "))
+            let opening = one_of(
+                words,
+                &["sets off, makes", "winds along with", "takes", "zigzags through", "moves off and makes"],
+            );
+            format!("{opening} {count} turns ({}) and {ending}.", counts.join(", "))
         }
     }
 }
@@ -99,16 +255,43 @@ fn side(kind: TurnKind) -> &'static str {
 fn stops(facts: &Facts, words: &mut RandomStream) -> String {
     let standing = rounded(facts.standing_s(), STOP_STEP_S);
     match facts.stops.len() {
-        0 => one_of(words, &["There are no stops on the way.", "The walk goes on without stopping."]).into(),
-        1 => {
-            one_of(words, &["They pause once for about {} seconds.", "On the way they stop once for about {} seconds."])
-                .replace("{}", &standing)
-        }
-        count => {
-            one_of(words, &["They stop # for about {} seconds in all.", "They pause # for about {} seconds together."])
-                .replace('#', &times(count))
-                .replace("{}", &standing)
-        }
+        0 => one_of(
+            words,
+            &[
+                "There are no stops on the way.",
+                "The walk goes on without stopping.",
+                "They never stop.",
+                "They do not pause anywhere.",
+                "Not a single stop is made.",
+                "They keep moving without a pause.",
+                "No pause interrupts the walk.",
+            ],
+        )
+        .into(),
+        1 => one_of(
+            words,
+            &[
+                "They pause once for about {} seconds.",
+                "On the way they stop once for about {} seconds.",
+                "There is one stop of about {} seconds.",
+                "One pause of about {} seconds comes in between.",
+                "They halt once and wait about {} seconds.",
+                "A single stop lasts about {} seconds.",
+            ],
+        )
+        .replace("{}", &standing),
+        count => one_of(
+            words,
+            &[
+                "They stop # for about {} seconds in all.",
+                "They pause # for about {} seconds together.",
+                "They halt # and stand about {} seconds altogether.",
+                "Pauses come #, about {} seconds in total.",
+                "They come to a stop #, for about {} seconds all told.",
+            ],
+        )
+        .replace('#', &times(count))
+        .replace("{}", &standing),
     }
 }
 
@@ -120,32 +303,47 @@ fn length(facts: &Facts, words: &mut RandomStream) -> String {
     let way = rounded(facts.way_m, way_step_m(facts.way_m));
     let duration = rounded(facts.duration_s, duration_step_s(facts.duration_s));
     let speed = rounded(facts.walking_speed_mps, SPEED_STEP_MPS);
-    match words.index(2) {
-        0 => format!("The walk covers about {way} m in about {duration} seconds, at about {speed} m/s."),
-        _ => format!(
-            "The route is about {way} m long, takes about {duration} seconds and is walked at about {speed} m/s."
-        ),
-    }
+    let pattern = one_of(
+        words,
+        &[
+            "The walk covers about {w} m in about {t} seconds, at about {s} m/s.",
+            "The route is about {w} m long, takes about {t} seconds and is walked at about {s} m/s.",
+            "About {w} m are walked in about {t} seconds, at about {s} m/s.",
+            "In about {t} seconds they cover about {w} m, at about {s} m/s.",
+            "At about {s} m/s, the route of about {w} m takes about {t} seconds.",
+            "The path measures about {w} m; at about {s} m/s it takes about {t} seconds.",
+            "Walking at about {s} m/s, they cover about {w} m in about {t} seconds.",
+            "It takes about {t} seconds to cover a way of about {w} m, at a pace of about {s} m/s.",
+        ],
+    );
+    pattern.replace("{w}", &way).replace("{t}", &duration).replace("{s}", &speed)
 }
 
-fn drone(facts: &Facts, template: usize) -> String {
-    let distance = rounded(facts.distance_m, DISTANCE_STEP_M);
-    let view = view(facts, "at");
-    // A drone that is not above its target has no height worth a word.
+/// How the drone flies. One that is not above its target has no height worth a word.
+fn drone(facts: &Facts, words: &mut RandomStream) -> String {
     let height = (facts.altitude_m >= 0.5).then(|| rounded(facts.altitude_m, DISTANCE_STEP_M));
-    let height = |pattern: &str| height.as_ref().map_or(String::new(), |height| pattern.replace("{}", height));
-    match template {
-        0 => {
-            let height = height(", flies about {} m higher than the target");
-            format!("The drone keeps about {distance} m away{height} and looks {view}.")
-        }
-        1 => {
-            let height = height(" about {} m above the target,");
-            format!("From about {distance} m away,{height} the camera looks {view}.")
-        }
-        _ => {
-            let height = height(" a height of about {} m above the target,");
-            format!("The drone holds a distance of about {distance} m,{height} and points its camera {view}.")
-        }
-    }
+    let Some(height) = height else {
+        let pattern = one_of(
+            words,
+            &[
+                "The drone keeps about {d} m away and looks {v} at about {p} degrees.",
+                "From about {d} m away, the camera looks {v} at about {p} degrees.",
+            ],
+        );
+        return fill(pattern, facts);
+    };
+    let pattern = one_of(
+        words,
+        &[
+            "The drone keeps about {d} m away, flies about {h} m higher than the target and looks {v} at about {p} degrees.",
+            "From about {d} m away, about {h} m above the target, the camera looks {v} at about {p} degrees.",
+            "The drone holds a distance of about {d} m, a height of about {h} m above the target, and points its camera {v} at about {p} degrees.",
+            "About {h} m above the target, the drone stays about {d} m away with its camera tilted {v} by about {p} degrees.",
+            "The aircraft follows at a distance of about {d} m, its lens angled {v} at about {p} degrees, at a height of about {h} m.",
+            "Behind it all flies the drone: about {d} m away, about {h} m higher, camera {v} by about {p} degrees.",
+            "It is filmed from about {d} m away and about {h} m above the target, with the camera turned {v} by about {p} degrees.",
+            "The camera, about {h} m higher than the target and about {d} m away, is pitched {v} by about {p} degrees.",
+        ],
+    );
+    fill(pattern, facts).replace("{h}", &height)
 }

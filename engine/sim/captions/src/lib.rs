@@ -5,6 +5,8 @@
 //!
 //! [`refer`] names the target by properties that nobody else in a picture has.
 //!
+//! [`teaching`] puts the facts into questions to a language model, and judges what it writes; [`diversity`] measures texts.
+//!
 //! [`sight`] does the same for one picture: an instruction that singles the target out by what the picture shows.
 
 pub mod caption;
@@ -12,20 +14,24 @@ pub mod check;
 mod chinese;
 pub mod compass;
 pub mod config;
+pub mod diversity;
 mod english;
 pub mod facts;
+mod foreign;
 pub mod language;
 pub mod precision;
 mod reading;
 pub mod refer;
 pub mod sight;
+pub mod teaching;
 mod turns;
 mod wording;
 
 pub use caption::{Caption, captions};
-pub use check::{Slot, SlotMismatch, check, check_clothes};
+pub use check::{Slot, SlotMismatch, check, check_clothes, claimed};
 pub use compass::Compass;
-pub use config::{CaptionConfig, Style};
+pub use config::{CaptionConfig, Style, Writer};
+pub use diversity::{Diversity, diversity};
 pub use facts::{Facts, Stop, Wear, facts};
 pub use language::Language;
 pub use turns::{Turn, TurnKind};

@@ -24,6 +24,16 @@ impl Default for GimbalLimits {
     }
 }
 
+impl GimbalLimits {
+    /// Rates within the limits.
+    pub fn clamped(&self, rates: &ViewRates) -> ViewRates {
+        ViewRates {
+            yaw_rad_s: rates.yaw_rad_s.clamp(-self.yaw_rate_rad_s, self.yaw_rate_rad_s),
+            pitch_rad_s: rates.pitch_rad_s.clamp(-self.pitch_rate_rad_s, self.pitch_rate_rad_s),
+        }
+    }
+}
+
 /// Wanted rates of the view.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct ViewRates {

@@ -31,6 +31,38 @@ impl Turbulence {
     }
 }
 
+/// Slowest speed at which gusts are met, m/s.
+const SLOWEST_MPS: f64 = 2.0;
+
+/// The air around a drone: a mean wind, and gusts that it carries along.
+#[derive(Clone, Debug)]
+pub struct Air {
+    mean_in_world: DVec3,
+    along: DVec3,
+    gusts: Option<Gusts>,
+}
+
+impl Air {
+    /// Air that does not move.
+    pub fn still() -> Self {
+        Self { mean_in_world: DVec3::ZERO, along: DVec3::X, gusts: None }
+    }
+
+    /// A mean wind (world frame, m/s) with gusts, a sample every [`crate::quadrotor::TICK_S`].
+    pub fn new(mean_in_world: DVec3, turbulence: Option<Turbulence>, seed: Seed) -> Self {
+        let met_at_mps = mean_in_world.length().max(SLOWEST_MPS);
+        let gusts = turbulence.map(|it| Gusts::new(&it, met_at_mps, crate::quadrotor::TICK_S, seed));
+        Self { mean_in_world, along: mean_in_world.with_z(0.0).normalize_or(DVec3::X), gusts }
+    }
+
+    /// Velocity of the air in the next tick, world frame, m/s.
+    pub fn next_in_world(&mut self) -> DVec3 {
+        let gust = self.gusts.as_mut().map_or(DVec3::ZERO, Gusts::next_mps);
+        let across = DVec3::new(-self.along.y, self.along.x, 0.0);
+        self.mean_in_world + gust.x * self.along + gust.y * across + gust.z * DVec3::Z
+    }
+}
+
 /// Gusts at equal steps, for a drone that meets frozen turbulence at a constant speed. Each sample is drawn from the exact
 /// distribution of Dryden's process after the one before, so spectra do not depend on the step (up to its Nyquist frequency).
 #[derive(Clone, Debug)]

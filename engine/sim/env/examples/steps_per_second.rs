@@ -19,7 +19,17 @@ fn main() {
             let position_in_world = target.states[0].feet_in_world + DVec3::new(-14.0, -3.0, 30.0);
             let start = Start { position_in_world, velocity_in_world: DVec3::ZERO };
             let (name, stratum, seed) = (format!("w{index}"), String::new(), Seed([index as u8; 32]));
-            Arc::new(Episode { name, stratum, place: Arc::clone(&place), target: Arc::new(target), start, seed })
+            Arc::new(Episode {
+                name,
+                stratum,
+                place: Arc::clone(&place),
+                target: Arc::new(target),
+                followed: None,
+                looks: seed,
+                others: Arc::default(),
+                start,
+                seed,
+            })
         })
         .collect();
     for threads in [1, 2] {

@@ -13,9 +13,28 @@ pub enum Axes {
     World,
 }
 
+/// What moves the drone.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub enum Drive {
+    /// Velocity and acceleration of the action.
+    #[default]
+    Velocity,
+    /// Collective thrust and rates of turning of a quadrotor.
+    ThrustAndRates {
+        /// Thrust, in multiples of the weight.
+        weights: f64,
+        /// Roll (positive: right side down), pitch (nose up) and yaw (to the right), radians/s.
+        rates_rad_s: DVec3,
+    },
+    /// Speeds of the rotors of a quadrotor, rev/min, in the order of its parameters.
+    Rotors([f64; 4]),
+}
+
 /// What a policy asks of the drone until its next action.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Action {
+    /// What moves the drone.
+    pub drive: Drive,
     /// Axes of velocity and acceleration.
     pub axes: Axes,
     /// Wanted velocity, m/s.
@@ -34,6 +53,34 @@ impl Action {
             velocity_mps: DVec3::new(ahead, right, up),
             view: ViewRates { yaw_rad_s: yaw_deg_s.to_radians(), pitch_rad_s: pitch_deg_s.to_radians() },
             ..Self::default()
+        }
+    }
+
+    /// Action of six numbers: thrust in multiples of the weight; roll, pitch and yaw rate of the body, degrees/s, positive: right side
+    /// down, nose up, to the right; yaw and pitch rate of the camera, degrees/s.
+    pub fn of_thrust_and_rates([weights, roll, pitch, yaw, view_yaw, view_pitch]: [f64; 6]) -> Self {
+        let rates_rad_s = DVec3::new(roll, pitch, yaw) * 1.0_f64.to_radians();
+        Self {
+            drive: Drive::ThrustAndRates { weights, rates_rad_s },
+            ..Self::of_numbers([0.0, 0.0, 0.0, view_yaw, view_pitch])
+        }
+    }
+
+    /// Action of six numbers: speeds of the rotors, rev/min; yaw and pitch rate of the camera, degrees/s.
+    pub fn of_rotors([a, b, c, d, view_yaw, view_pitch]: [f64; 6]) -> Self {
+        Self { drive: Drive::Rotors([a, b, c, d]), ..Self::of_numbers([0.0, 0.0, 0.0, view_yaw, view_pitch]) }
+    }
+
+    /// The numbers of an action of a drone with this yaw, in the form of its drive.
+    pub fn row(&self, yaw_rad: f64) -> Vec<f64> {
+        let view = [self.view.yaw_rad_s, self.view.pitch_rad_s].map(f64::to_degrees);
+        match self.drive {
+            Drive::Velocity => self.numbers(yaw_rad).to_vec(),
+            Drive::ThrustAndRates { weights, rates_rad_s } => {
+                let rates = rates_rad_s.to_array().map(f64::to_degrees);
+                [&[weights][..], &rates, &view].concat()
+            }
+            Drive::Rotors(rotors_rpm) => [&rotors_rpm[..], &view].concat(),
         }
     }
 

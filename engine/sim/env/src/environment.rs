@@ -1,14 +1,18 @@
 //! [`Environment`]: flies an episode, action by action.
 
 use crate::action::Action;
+use crate::craft::Craft;
 use crate::episode::Episode;
 use crate::observation::{Observation, Sighting};
+use crate::others::Present;
 use crate::reward::Reward;
 use crate::score::{End, Score};
 use crate::settings::Settings;
-use cosfly_drone::{Gimbal, Motion, PointMass};
+use cosfly_drone::quadrotor::Strain;
+use cosfly_drone::{Gimbal, Motion, Sensed};
 use cosfly_frames::{Pose, TargetState, real};
-use cosfly_planner::{aim_point, visibility};
+use cosfly_geometry::SpatialQuery;
+use cosfly_planner::aim_point;
 use std::sync::Arc;
 
 /// Slack for the comparison of times, seconds.
@@ -37,12 +41,16 @@ struct Answer {
 pub struct Environment {
     settings: Settings,
     episode: Arc<Episode>,
-    drone: PointMass,
+    drone: Craft,
     gimbal: Gimbal,
+    /// Beginnings and ends of stretches in which the camera sees nothing, seconds.
+    blackouts: Arc<[[f64; 2]]>,
     /// The action in force.
     action: Action,
     answer: Option<Answer>,
     observation: Observation,
+    /// Distance that the target covered so far, metres.
+    target_covered_m: f64,
     score: Score,
 }
 
@@ -56,7 +64,7 @@ impl Environment {
             ..Motion::default()
         };
         let gimbal = Gimbal { yaw_rad: first.yaw_rad, pitch_rad: first.pitch_rad, limits: settings.gimbal };
-        let drone = PointMass { motion, limits: settings.motion };
+        let drone = Craft::new(&settings, &episode, motion, gimbal.yaw_rad);
         let action = coasting(&motion);
         let target = episode.target_at(0.0);
         let sighting = Sighting { time_s: 0.0, target, velocity_in_world: episode.target_velocity(0.0) };
@@ -72,8 +80,11 @@ impl Environment {
             tracked: true,
             sighting,
         };
+        let blackouts = settings.blackouts.drawn(&episode.seed, episode.target.duration_s());
         let score = Score { planned_steps: episode.steps(settings.step_s), ..Score::default() };
-        let mut new = Self { settings, episode, drone, gimbal, action, answer: None, observation, score };
+        let (answer, target_covered_m) = (None, 0.0);
+        let mut new =
+            Self { settings, episode, drone, gimbal, blackouts, action, answer, observation, target_covered_m, score };
         new.observe(target);
         new
     }
@@ -104,14 +115,55 @@ impl Environment {
         &self.settings
     }
 
+    /// Number of bodies that a policy may take for the target: of its kind, in the same clothes, their middles in the picture and
+    /// nearer than a target that is tracked may be, with no obstacle of the town before them.
+    pub fn look_alikes(&self) -> usize {
+        let (camera, settings, place) = (self.camera(), &self.settings, &self.episode.place);
+        let eye = camera.position_in_world;
+        let is_seen = |present: &Present<'_>| {
+            let middle = aim_point(&present.state, present.mover.plan.size_m.z);
+            let is_near = eye.distance(middle) <= settings.farthest_m;
+            is_near && settings.lens.shows(&camera, middle) && !place.exact.blocked(eye, middle)
+        };
+        let present = self.episode.others.at(self.observation.time_s);
+        present.filter(|present| present.mover.is_look_alike).filter(is_seen).count()
+    }
+
+    /// Distance that the target covered so far, metres.
+    pub fn target_covered_m(&self) -> f64 {
+        self.target_covered_m
+    }
+
     /// Pose of the camera.
     pub fn camera(&self) -> Pose {
-        self.gimbal.pose(self.drone.motion.position_in_world)
+        self.gimbal.pose(self.drone.motion().position_in_world)
     }
 
     /// The camera's turns.
     pub fn gimbal(&self) -> &Gimbal {
         &self.gimbal
+    }
+
+    /// How well a quadrotor could do what it was asked for; `None` of a point mass.
+    pub fn strain(&self) -> Option<&Strain> {
+        self.drone.strain()
+    }
+
+    /// Attitude of a quadrotor: x, y, z, w of the rotation from its right-handed axes (x ahead, y left, z up) to those of the world
+    /// with y negated; `None` of a point mass.
+    pub fn attitude_xyzw(&self) -> Option<[f64; 4]> {
+        self.drone.attitude_xyzw()
+    }
+
+    /// What the sensors of a quadrotor measured, by time; nothing without sensors.
+    pub fn sensed(&self) -> &[Sensed] {
+        self.drone.sensed()
+    }
+
+    /// Whether the camera sees nothing now.
+    pub fn is_blind(&self) -> bool {
+        let now_s = self.observation.time_s;
+        self.blackouts.iter().any(|[begins_s, ends_s]| (*begins_s..*ends_s).contains(&now_s))
     }
 
     /// Whether the policy is free to answer the present observation; false while its last answer is on its way.
@@ -121,14 +173,19 @@ impl Environment {
 
     /// Moves on by one step. An action that is given while another is on its way is dropped. After the end nothing moves.
     pub fn step(&mut self, action: Option<&Action>) -> Step {
+        self.step_late(action, self.settings.latency_s)
+    }
+
+    /// As [`Self::step`], with a latency of this action's own, seconds.
+    pub fn step_late(&mut self, action: Option<&Action>, latency_s: f64) -> Step {
         if self.score.end.is_some() {
             return Step { observation: self.observation, reward: Reward::default(), end: self.score.end };
         }
         let begins_s = self.observation.time_s;
         if let (Some(&action), true) = (action, self.wants_action()) {
-            self.answer = Some(Answer { arrives_s: begins_s + self.settings.latency_s, action });
+            self.answer = Some(Answer { arrives_s: begins_s + latency_s, action });
         }
-        let before = self.drone.motion;
+        let before = self.drone.motion();
         self.observation.step += 1;
         let ends_s = f64::from(self.observation.step) * self.settings.step_s;
         self.observation.time_s = ends_s;
@@ -137,16 +194,18 @@ impl Environment {
         if let Some(Answer { arrives_s, action }) = self.answer.filter(|answer| answer.arrives_s < ends_s - ROUNDING_S)
         {
             if arrives_s > now_s + ROUNDING_S {
-                touched |= self.fly(arrives_s - now_s);
+                touched |= self.fly(now_s, arrives_s);
                 now_s = arrives_s;
             }
             (self.action, self.answer) = (action, None);
         }
-        touched |= self.fly(ends_s - now_s);
+        touched |= self.fly(now_s, ends_s);
         if let Some(Answer { action, .. }) = self.answer.filter(|answer| answer.arrives_s <= ends_s + ROUNDING_S) {
             (self.action, self.answer) = (action, None);
         }
         let target = self.episode.target_at(ends_s);
+        let step = target.feet_in_world - self.episode.target_at(begins_s).feet_in_world;
+        self.target_covered_m += step.length();
         touched |= self.touches(&target);
         self.observe(target);
         let reward = self.judge(&before, &target, touched);
@@ -154,33 +213,38 @@ impl Environment {
     }
 
     /// Flies on with the action in force; whether something is touched on the way.
-    fn fly(&mut self, time_s: f64) -> bool {
-        let from = self.drone.motion.position_in_world;
-        self.drone.step(&self.action.command(self.gimbal.yaw_rad), time_s);
-        self.gimbal.step(&self.action.view, time_s);
-        self.episode.place.collides(from, self.drone.motion.position_in_world, self.settings.radius_m)
+    fn fly(&mut self, from_s: f64, to_s: f64) -> bool {
+        let from = self.drone.motion().position_in_world;
+        self.drone.step(&self.action, self.gimbal.yaw_rad, to_s - from_s);
+        self.gimbal.step(&self.action.view, to_s - from_s);
+        let (to, radius_m, episode) = (self.drone.motion().position_in_world, self.settings.radius_m, &self.episode);
+        episode.place.collides(from, to, radius_m)
+            || episode.others.clearance_m([from_s, to_s], [from, to], radius_m) < radius_m
+            || episode.vehicle_clearance_m([from_s, to_s], [from, to], radius_m) < radius_m
     }
 
+    /// Whether a target on foot is touched.
     fn touches(&self, target: &TargetState) -> bool {
-        let away = self.drone.motion.position_in_world - target.feet_in_world;
+        let away = self.drone.motion().position_in_world - target.feet_in_world;
         let (radius_m, track) = (self.settings.radius_m, &self.episode.target);
-        away.z < track.height_m + radius_m && away.truncate().length() < track.radius_m + radius_m
+        !self.episode.is_vehicle()
+            && away.z < track.height_m + radius_m
+            && away.truncate().length() < track.radius_m + radius_m
     }
 
     /// Fills the observation from the present state.
     fn observe(&mut self, target: TargetState) {
+        let is_blind = self.is_blind();
         let (episode, settings) = (&self.episode, &self.settings);
-        let position = self.drone.motion.position_in_world;
+        let position = self.drone.motion().position_in_world;
         let height_m = episode.target.height_m;
         let observation = &mut self.observation;
-        (observation.motion, observation.yaw_rad) = (self.drone.motion, self.gimbal.yaw_rad);
+        (observation.motion, observation.yaw_rad) = (self.drone.motion(), self.gimbal.yaw_rad);
         observation.pitch_rad = self.gimbal.pitch_rad;
         observation.above_ground_m = position.z - episode.place.ground_m(position.x, position.y);
-        observation.visible = visibility(&episode.place.exact, position, &target, height_m);
-        let seen = self.gimbal.pose(position).body_from_world_point(aim_point(&target, height_m));
-        let right = real::tan(0.5 * settings.lens.horizontal_deg.to_radians());
+        observation.visible = episode.visible(observation.time_s, position, &target);
         observation.in_picture =
-            seen.x > 0.0 && seen.y.abs() <= right * seen.x && seen.z.abs() <= settings.lens.aspect * right * seen.x;
+            !is_blind && settings.lens.shows(&self.gimbal.pose(position), aim_point(&target, height_m));
         let is_near = position.distance(target.feet_in_world) <= settings.farthest_m;
         observation.tracked = observation.visible >= settings.least_visible && observation.in_picture && is_near;
         if observation.tracked {
@@ -192,7 +256,7 @@ impl Environment {
     /// Counts the step.
     fn judge(&mut self, before: &Motion, target: &TargetState, touched: bool) -> Reward {
         let (settings, observation, score) = (&self.settings, &self.observation, &mut self.score);
-        let motion = &self.drone.motion;
+        let motion = self.drone.motion();
         score.count(observation.tracked, settings.step_s);
         let distance_m = motion.position_in_world.distance(target.feet_in_world);
         let seen = aim_point(target, self.episode.target.height_m) - motion.position_in_world;

@@ -1,8 +1,13 @@
 //! [`Episode`]: a town, the track of a target, a start.
 
+use crate::others::Others;
 use crate::place::Place;
 use cosfly_frames::{DVec3, Pose, Seed, TargetState, TargetTrack, real};
-use cosfly_planner::aim_point;
+use cosfly_geometry::SpatialQuery;
+use cosfly_planner::obstacles::moving::Encounter;
+use cosfly_planner::visibility::BODY_POINTS;
+use cosfly_planner::{aim_point, body_points};
+use cosfly_world::BodyPlan;
 use std::sync::Arc;
 
 /// State of the drone at the beginning.
@@ -25,6 +30,12 @@ pub struct Episode {
     pub place: Arc<Place>,
     /// The target.
     pub target: Arc<TargetTrack>,
+    /// Kind, size and looks of a target that is a body of traffic; a person otherwise.
+    pub followed: Option<BodyPlan>,
+    /// Seed of the target's clothes or paint.
+    pub looks: Seed,
+    /// Who moves around the target.
+    pub others: Arc<Others>,
     /// State of the drone at the beginning; the camera is aimed at the target.
     pub start: Start,
     /// Seed of what is drawn while the episode runs.
@@ -63,9 +74,45 @@ impl Episode {
         between.map_or(DVec3::ZERO, |(from, to)| (to.feet_in_world - from.feet_in_world) / self.target.dt_s)
     }
 
+    /// Way that the target has walked by a time, metres.
+    pub fn walked_m(&self, time_s: f64) -> f64 {
+        let frames = (time_s / self.target.dt_s).max(0.0) as usize;
+        let way_m: f64 = self.target.states.windows(2).take(frames).map(|pair| step_m(&pair[0], &pair[1])).sum();
+        let rest_s = time_s - frames as f64 * self.target.dt_s;
+        way_m + rest_s.max(0.0) * self.target_velocity(time_s).truncate().length()
+    }
+
+    /// Whether the target is a vehicle.
+    pub fn is_vehicle(&self) -> bool {
+        self.followed.as_ref().is_some_and(|plan| !plan.kind.is_person())
+    }
+
+    /// Share of the target's body points that a camera sees at a time, past the town and whoever moves.
+    pub fn visible(&self, time_s: f64, camera: DVec3, target: &TargetState) -> f64 {
+        let height_m = self.target.height_m;
+        let mut hidden = [false; BODY_POINTS];
+        self.place.exact.blocked_batch(camera, &body_points(target, height_m), &mut hidden);
+        self.others.hide(time_s, camera, target, height_m, &mut hidden);
+        hidden.iter().filter(|hidden| !**hidden).count() as f64 / BODY_POINTS as f64
+    }
+
+    /// Smallest distance from a followed vehicle of a drone that flies straight from one place to another between two times, capped
+    /// at `within_m`.
+    pub fn vehicle_clearance_m(&self, times_s: [f64; 2], [from, to]: [DVec3; 2], within_m: f64) -> f64 {
+        let vehicle = self.followed.as_ref().filter(|plan| !plan.kind.is_person());
+        vehicle.map_or(within_m, |plan| {
+            let [here, next] = times_s.map(|time_s| plan.box_at(&self.target_at(time_s)));
+            Encounter { here: &here, next: &next, from, to }.clearance_m(within_m)
+        })
+    }
+
     /// View of a camera that is aimed at the target from the start.
     pub fn first_view(&self) -> Pose {
         let target = self.target_at(0.0);
         Pose::looking_at(self.start.position_in_world, aim_point(&target, self.target.height_m))
     }
+}
+
+fn step_m(from: &TargetState, to: &TargetState) -> f64 {
+    from.feet_in_world.truncate().distance(to.feet_in_world.truncate())
 }

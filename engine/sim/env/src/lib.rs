@@ -1,15 +1,18 @@
 //! Closed-loop tracking: a drone, its target and its surroundings, stepped by actions.
 //!
-//! An [`Episode`] is a town, the track of a target and a start. An [`Environment`] flies it: each step takes an [`Action`] and
+//! An [`Episode`] is a town, the track of a target, whoever else moves ([`Others`]), and a start. An [`Environment`] flies it: each step takes an [`Action`] and
 //! gives an [`Observation`], a [`Reward`] by named terms, and the [`End`] where there is one; [`Score`] is the outcome so far.
 //! What happens depends on the episode, the [`Settings`] and the actions alone. Steps allocate nothing.
 //!
-//! A [`Policy`] answers observations; [`policies`] are the baselines.
+//! A [`Policy`] answers observations; [`policies`] are the baselines. [`pictures`] draws what the cameras see.
 
 mod action;
+mod craft;
 mod environment;
 mod episode;
 mod observation;
+mod others;
+pub mod pictures;
 mod place;
 pub mod policies;
 mod reward;
@@ -19,12 +22,14 @@ mod settings;
 #[cfg(test)]
 mod tests;
 
-pub use action::{Action, Axes};
+pub use action::{Action, Axes, Drive};
+pub use craft::{DroneModel, DroneSettings};
 pub use environment::{Environment, Step};
 pub use episode::{Episode, Start};
 pub use observation::{FEATURES, Observation, Sighting};
+pub use others::{Mover, Others, Present};
 pub use place::Place;
 pub use policies::Policy;
 pub use reward::Reward;
 pub use score::{End, Score};
-pub use settings::{Lens, RewardWeights, Settings};
+pub use settings::{Blackouts, Lens, RewardWeights, Settings};

@@ -1,8 +1,11 @@
 //! [`Place`]: the surroundings of a flight, ready for queries.
 
-use cosfly_frames::DVec3;
+use cosfly_batch::BatchScene;
+use cosfly_frames::{DVec3, Seed};
 use cosfly_geometry::{BoxBvh, OrientedBox, SpatialQuery};
+use cosfly_render::frame::{TARGET_INSTANCE, object_instance};
 use cosfly_town::{GroundIndex, Town};
+use std::sync::{Mutex, OnceLock, PoisonError};
 
 /// The surroundings of a flight, ready for queries; shared by all episodes of a town.
 pub struct Place {
@@ -12,23 +15,52 @@ pub struct Place {
     pub planning_boxes: Vec<OrientedBox>,
     ground: GroundIndex,
     lowest_m: f64,
+    largest_instance: u32,
+    looks: Seed,
+    /// The town until its pictures are prepared.
+    town: Mutex<Option<Town>>,
+    scene: OnceLock<BatchScene>,
 }
 
 impl Place {
-    /// The surroundings in a town.
-    pub fn new(town: &Town) -> Self {
+    /// The surroundings in a town; `looks` draws the look of its buildings.
+    pub fn new(town: Town, looks: Seed) -> Self {
+        let instances = town.obstacles.iter().map(|obstacle| object_instance(obstacle.object_id));
         Self {
             exact: BoxBvh::build(town.obstacles.iter().map(|obstacle| obstacle.shape).collect()),
             planning_boxes: town.planning_boxes.clone(),
-            ground: GroundIndex::new(town),
+            ground: GroundIndex::new(&town),
             lowest_m: town.min_in_world.z.min(0.0),
+            largest_instance: instances.max().unwrap_or(TARGET_INSTANCE),
+            looks,
+            town: Mutex::new(Some(town)),
+            scene: OnceLock::new(),
         }
     }
 
     /// Boxes on flat ground at height 0.
     pub fn on_flat_ground(boxes: Vec<OrientedBox>) -> Self {
-        let ground = GroundIndex::of_surfaces(&[], |_| true);
-        Self { exact: BoxBvh::build(boxes.clone()), planning_boxes: boxes, ground, lowest_m: 0.0 }
+        Self {
+            exact: BoxBvh::build(boxes.clone()),
+            planning_boxes: boxes,
+            ground: GroundIndex::of_surfaces(&[], |_| true),
+            lowest_m: 0.0,
+            ..Self::new(Town::default(), Seed([0; 32]))
+        }
+    }
+
+    /// The surroundings prepared for pictures, at the first call, which takes about a second in a town. Boxes on flat ground are not
+    /// in pictures.
+    pub fn scene(&self) -> &BatchScene {
+        self.scene.get_or_init(|| {
+            let town = self.town.lock().unwrap_or_else(PoisonError::into_inner).take().unwrap_or_default();
+            BatchScene::new(&town, self.looks)
+        })
+    }
+
+    /// Largest instance id of an object of the town.
+    pub fn largest_instance(&self) -> u32 {
+        self.largest_instance
     }
 
     /// Height of the ground, metres; the town's lowest point (at most 0) where there is none.

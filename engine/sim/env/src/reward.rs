@@ -28,6 +28,11 @@ impl Reward {
         [self.visibility, self.framing, self.distance, self.effort, self.collision, self.loss]
     }
 
+    /// The reward of terms in the order of [`Self::NAMES`].
+    pub fn of_terms([visibility, framing, distance, effort, collision, loss]: [f64; 6]) -> Self {
+        Self { visibility, framing, distance, effort, collision, loss }
+    }
+
     /// Sum of the weighted terms.
     pub fn sum(&self, weights: &RewardWeights) -> f64 {
         let RewardWeights { visibility, framing, distance, effort, collision, loss } = *weights;

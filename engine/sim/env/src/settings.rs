@@ -1,7 +1,10 @@
 //! [`Settings`]: what an environment is set to, apart from its episodes.
 
+use crate::craft::DroneSettings;
 use cosfly_drone::{GimbalLimits, MotionLimits};
+use cosfly_frames::{DVec3, Pose, Seed, real};
 use serde::{Deserialize, Serialize};
+use std::sync::Arc;
 
 /// Field of view of the camera.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
@@ -11,6 +14,40 @@ pub struct Lens {
     pub horizontal_deg: f64,
     /// Height of the picture divided by its width.
     pub aspect: f64,
+}
+
+/// Stretches of an episode in which the camera sees nothing.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Blackouts {
+    /// Number in an episode, one in each of so many equal parts of it.
+    pub count: u32,
+    /// Shortest and longest length, seconds.
+    pub length_s: [f64; 2],
+}
+
+impl Blackouts {
+    /// Beginnings and ends in an episode of a length, drawn from a seed.
+    pub fn drawn(&self, seed: &Seed, duration_s: f64) -> Arc<[[f64; 2]]> {
+        let mut stream = seed.stream("blackouts");
+        let part_s = duration_s / f64::from(self.count.max(1));
+        let drawn = (0..self.count).map(|number| {
+            let length_s = stream.uniform(self.length_s[0], self.length_s[1]).min(0.5 * part_s);
+            // Never at the ends of a part: the first sight and the end of the walk stay.
+            let begins_s = f64::from(number) * part_s + stream.uniform(0.2, 0.9) * (part_s - length_s);
+            [begins_s, begins_s + length_s]
+        });
+        drawn.collect()
+    }
+}
+
+impl Lens {
+    /// Whether a point is inside the picture's borders.
+    pub fn shows(&self, camera: &Pose, point_in_world: DVec3) -> bool {
+        let seen = camera.body_from_world_point(point_in_world);
+        let right = real::tan(0.5 * self.horizontal_deg.to_radians());
+        seen.x > 0.0 && seen.y.abs() <= right * seen.x && seen.z.abs() <= self.aspect * right * seen.x
+    }
 }
 
 /// Weights of the terms of the reward.
@@ -41,12 +78,16 @@ pub struct Settings {
     pub latency_s: f64,
     /// Radius of the sphere around the drone that must touch nothing.
     pub radius_m: f64,
-    /// Limits of motion.
+    /// The drone, and the air around it.
+    pub drone: DroneSettings,
+    /// Limits of motion; a quadrotor follows velocities as a point mass within them would.
     pub motion: MotionLimits,
     /// Limits of the camera's turns.
     pub gimbal: GimbalLimits,
     /// The camera.
     pub lens: Lens,
+    /// Stretches in which the camera sees nothing.
+    pub blackouts: Blackouts,
     /// A target is tracked only where at least this share of it is seen, 0..=1.
     pub least_visible: f64,
     /// A target is tracked only within this distance.
@@ -65,9 +106,11 @@ impl Default for Settings {
             step_s: 0.1,
             latency_s: 0.0,
             radius_m: 0.3,
+            drone: DroneSettings::default(),
             motion: MotionLimits::default(),
             gimbal: GimbalLimits::default(),
             lens: Lens { horizontal_deg: 90.0, aspect: 0.75 },
+            blackouts: Blackouts { count: 0, length_s: [2.0, 4.0] },
             least_visible: 0.5,
             farthest_m: 60.0,
             band_m: (10.0, 40.0),

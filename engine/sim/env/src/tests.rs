@@ -1,11 +1,15 @@
 //! Laws of the environment: same actions, same steps; collisions; latency; baselines that rank as they should.
 
 use crate::policies::{BASELINES, Knowledge, baseline};
-use crate::{Action, Axes, End, Environment, Episode, Place, Reward, Score, Settings, Start};
-use cosfly_frames::{DVec3, Seed, TargetState, TargetTrack};
+use crate::{
+    Action, Axes, Blackouts, DroneModel, DroneSettings, End, Environment, Episode, Others, Place, Reward, Score,
+    Settings, Start,
+};
+use cosfly_frames::{DVec3, Seed, TargetState, TargetTrack, real};
 use cosfly_geometry::OrientedBox;
 use cosfly_planner::{MucoConfig, PlanOutcome, PlanRequest, Trajectory, plan_request};
 use cosfly_scenes::{Scene, SceneKind};
+use cosfly_world::{Around, Body, BodyKind, BodyPlan, Traffic};
 use std::sync::Arc;
 
 /// Episodes behind walkers of a scene with their experts' flights.
@@ -25,6 +29,9 @@ fn episodes(kind: SceneKind, count: u64, frames: usize) -> Vec<(Arc<Episode>, Kn
             stratum: kind.name().to_owned(),
             place: Arc::clone(&place),
             target: Arc::new(track),
+            followed: None,
+            looks: Seed([0; 32]),
+            others: Arc::default(),
             start: Start { position_in_world: waypoints[0], velocity_in_world },
             seed: Seed::of_item(3, "episodes", &index.to_string()),
         };
@@ -57,6 +64,9 @@ fn standing(boxes: Vec<OrientedBox>, seconds: usize) -> Arc<Episode> {
             radius_m: 0.25,
             states: vec![target; 2 * seconds + 1],
         }),
+        followed: None,
+        looks: Seed([0; 32]),
+        others: Arc::default(),
         start: Start { position_in_world: DVec3::new(0.0, 0.0, 20.0), velocity_in_world: DVec3::ZERO },
         seed: Seed([0; 32]),
     })
@@ -165,4 +175,182 @@ fn a_lost_target_ends_the_episode_and_is_remembered_as_it_was_seen() {
     let score = environment.score();
     assert_eq!((score.end, score.losses, score.reacquired), (Some(End::Lost), 1, 0));
     assert!((score.untracked_s - 10.0).abs() < 1e-6 && score.tracking_rate() < 0.05);
+}
+
+#[test]
+fn quadrotors_hold_their_place_in_wind_and_fall_without_thrust() {
+    for model in [DroneModel::Crazyflie, DroneModel::Pelican] {
+        let drone = DroneSettings { model, wind_mps: 3.0, gusts: true, sensors: true };
+        let settings = Settings { drone, ..Settings::default() };
+        let mut environment = Environment::new(standing(vec![], 20), settings);
+        let from = environment.observation().motion.position_in_world;
+        for _ in 0..50 {
+            environment.step(Some(&Action::default()));
+        }
+        let away_m = environment.observation().motion.position_in_world.distance(from);
+        let strain = environment.strain().expect("a quadrotor");
+        assert!(away_m < 1.0 && strain.largest_error_m < 1.0 && strain.ticks == 5000, "{model:?} {away_m} {strain:?}");
+        assert_eq!(environment.sensed().len(), 1000);
+        while environment.score().end.is_none() {
+            environment.step(Some(&Action::of_thrust_and_rates([0.0; 6])));
+        }
+        assert_eq!(environment.score().end, Some(End::Collision));
+    }
+}
+
+/// A body that moves evenly along y from `from` for so many frames of 0.5 s.
+fn crossing(kind: BodyKind, size_m: DVec3, from: DVec3, speed_mps: f64, frames: usize) -> Body {
+    let heading_rad = real::FRAC_PI_2.copysign(speed_mps);
+    let state = |frame: usize| TargetState {
+        feet_in_world: from + DVec3::Y * (0.5 * frame as f64 * speed_mps),
+        heading_rad,
+        speed_mps: speed_mps.abs(),
+    };
+    let plan = BodyPlan { source: String::new(), kind, size_m, looks: Seed([1; 32]), group: None };
+    Body { plan, first_frame: 0, states: (0..frames).map(state).collect() }
+}
+
+fn around(bodies: Vec<Body>, frames: u32) -> Around {
+    let numbers = (0..bodies.len() as u32).collect();
+    Around { numbers, traffic: Traffic { dt_s: 0.5, frames, bodies, ..Traffic::default() } }
+}
+
+#[test]
+fn a_lorry_hides_the_target_while_it_passes_and_is_hit() {
+    // It passes between a low camera and the target, its middle in the line of sight after 6 s.
+    let lorry = crossing(BodyKind::Truck, DVec3::new(8.0, 2.5, 3.5), DVec3::new(16.0, -30.0, 0.0), 5.0, 41);
+    let base = standing(vec![], 20);
+    let start = Start { position_in_world: DVec3::new(0.0, 0.0, 4.0), velocity_in_world: DVec3::ZERO };
+    let others = Arc::new(Others::new(&around(vec![lorry], 41), None));
+    let episode = Arc::new(Episode { start, others, ..(*base).clone() });
+    let mut environment = Environment::new(Arc::clone(&episode), Settings::default());
+    let mut seen = vec![];
+    while environment.score().end.is_none() && seen.len() < 100 {
+        seen.push(environment.step(Some(&Action::default())).observation.visible);
+    }
+    assert!(seen[..40].iter().all(|visible| *visible == 1.0) && seen[75..].iter().all(|visible| *visible == 1.0));
+    assert!(seen[55..65].iter().all(|visible| *visible < 0.3), "{seen:?}");
+    // A drone that flies low along x meets it; one that waits does not.
+    let low = Start { position_in_world: DVec3::new(4.0, 0.0, 2.0), velocity_in_world: DVec3::ZERO };
+    for (speed_mps, end) in [(2.0, Some(End::Collision)), (0.0, None)] {
+        let episode = Arc::new(Episode { start: low, ..(*episode).clone() });
+        let mut environment = Environment::new(episode, Settings::default());
+        let ahead = Action { axes: Axes::World, velocity_mps: speed_mps * DVec3::X, ..Action::default() };
+        (0..90).for_each(|_| _ = environment.step(Some(&ahead)));
+        assert_eq!(environment.score().end, end);
+        let x = environment.observation().motion.position_in_world.x;
+        assert!(end.is_none() || (14.0..18.0).contains(&x), "{x}");
+    }
+}
+
+#[test]
+fn a_followed_car_is_its_box_and_hides_nothing_of_itself() {
+    let car = crossing(BodyKind::Car, DVec3::new(4.5, 1.8, 1.5), DVec3::new(20.0, 0.0, 0.0), 0.0, 41);
+    let base = standing(vec![], 20);
+    let target = TargetTrack { height_m: 1.5, radius_m: car.plan.radius_m(), states: car.states.clone(), dt_s: 0.5 };
+    let followed = Some(car.plan.clone());
+    // Alone, and with its own body among the others.
+    for bodies in [vec![], vec![car.clone()]] {
+        let others = Arc::new(Others::new(&around(bodies, 41), followed.as_ref()));
+        let is_alone = others.is_empty();
+        assert!(others.movers().iter().all(|mover| mover.is_look_alike));
+        let target = Arc::new(target.clone());
+        let episode = Episode { target, followed: followed.clone(), others, ..(*base).clone() };
+        assert_eq!(episode.visible(0.0, base.start.position_in_world, &car.states[0]), 1.0);
+        // The car stands along y: beside its middle there is room within the circle around it.
+        let clearance_m = |x: f64| {
+            let at = DVec3::new(x, 0.0, 1.0);
+            episode.vehicle_clearance_m([0.0, 0.1], [at, at], 9.0)
+        };
+        assert!((clearance_m(17.0) - 2.1).abs() < 0.011, "{}", clearance_m(17.0));
+        let descend = |x: f64| {
+            let start = Start { position_in_world: DVec3::new(x, 0.0, 4.0), velocity_in_world: DVec3::ZERO };
+            let mut environment = Environment::new(Arc::new(Episode { start, ..episode.clone() }), Settings::default());
+            let down = Action { velocity_mps: -0.5 * DVec3::Z, ..Action::default() };
+            (0..60).for_each(|_| _ = environment.step(Some(&down)));
+            environment.score().end
+        };
+        assert_eq!(descend(20.0), Some(End::Collision));
+        assert_eq!(descend(18.5), None, "{is_alone}");
+    }
+}
+
+#[test]
+fn look_alikes_count_where_they_are_seen() {
+    let person = DVec3::new(0.5, 0.5, 1.75);
+    let body = |x: f64, y: f64, kind: BodyKind, looks: u8| {
+        let mut body = crossing(kind, person, DVec3::new(x, y, 0.0), 0.0, 41);
+        body.plan.looks = Seed([looks; 32]);
+        body
+    };
+    // The same clothes ahead, behind a wall, behind the camera and beyond 60 m; a bicycle, and other clothes.
+    let alike =
+        [(25.0, 3.0), (25.0, -9.0), (-20.0, 0.0), (80.0, 0.0)].map(|(x, y)| body(x, y, BodyKind::Pedestrian, 1));
+    let others = [body(22.0, 2.0, BodyKind::Bicycle, 1), body(22.0, 4.0, BodyKind::Pedestrian, 9)];
+    let bodies: Vec<Body> = alike.iter().chain(&others).cloned().collect();
+    let wall = OrientedBox {
+        center_in_world: DVec3::new(22.0, -9.0, 5.0),
+        half_extents_m: DVec3::new(0.2, 4.0, 5.0),
+        yaw_rad: 0.0,
+    };
+    let followed = Some(alike[0].plan.clone());
+    let others = Arc::new(Others::new(&around(bodies, 41), followed.as_ref()));
+    assert_eq!(others.movers().iter().filter(|mover| mover.is_look_alike).count(), 4);
+    let episode = Episode { others, followed, ..(*standing(vec![wall], 20)).clone() };
+    assert_eq!(Environment::new(Arc::new(episode), Settings::default()).look_alikes(), 1);
+}
+
+#[test]
+fn an_expert_among_traffic_sees_what_its_certificate_says() {
+    let scene = Scene::generate(SceneKind::Light, 3);
+    let place = Arc::new(Place::on_flat_ground(scene.boxes.clone()));
+    let config = Arc::new(MucoConfig::default());
+    let (mut flown_sum, mut stated_sum, mut count) = (0.0, 0.0, 0.0);
+    for index in 0..4 {
+        let mut track = scene.walker(3, index);
+        track.states.truncate(100);
+        let walk = track.states[0].feet_in_world;
+        let bus = |k: usize| {
+            let from = walk + DVec3::new(3.0 * k as f64 - 10.0, -20.0 - 9.0 * k as f64, 0.0);
+            crossing(BodyKind::Bus, DVec3::new(11.0, 2.5, 6.0), from, 1.5, 100)
+        };
+        let around = around((0..6).map(bus).collect(), 100);
+        let movers = around.boxes();
+        let mut request = PlanRequest::new(&track, &place.exact, &place.planning_boxes, &|_, _| 0.0, &config);
+        request.movers = &movers;
+        let PlanOutcome::Planned(flight) = plan_request(request) else { continue };
+        let waypoints: Vec<DVec3> = flight.poses_in_world.iter().map(|pose| pose.position_in_world).collect();
+        let velocity_in_world = (waypoints[1] - waypoints[0]) / track.dt_s;
+        let episode = Arc::new(Episode {
+            name: format!("w{index}"),
+            place: Arc::clone(&place),
+            target: Arc::new(track),
+            others: Arc::new(Others::new(&around, None)),
+            start: Start { position_in_world: waypoints[0], velocity_in_world },
+            ..(*standing(vec![], 1)).clone()
+        });
+        let knowledge = Knowledge { flight: waypoints.into(), config: Arc::clone(&config) };
+        let score = flown("expert", &episode, &knowledge, Settings::default());
+        assert_eq!(score.end, Some(End::Finished));
+        flown_sum += score.mean_visibility();
+        stated_sum += flight.certificate.mean_visibility;
+        count += 1.0;
+        assert!(flown("causal", &episode, &knowledge, Settings::default()).steps > 0);
+    }
+    assert!(count >= 2.0 && (flown_sum - stated_sum).abs() / count < 0.01, "{flown_sum} {stated_sum} {count}");
+}
+
+#[test]
+fn a_blind_camera_tracks_nothing_and_the_target_is_found_again() {
+    let blackouts = Blackouts { count: 2, length_s: [2.0, 4.0] };
+    let mut environment = Environment::new(standing(vec![], 60), Settings { blackouts, ..Settings::default() });
+    let mut blind_steps = 0;
+    while environment.score().end.is_none() {
+        let step = environment.step(Some(&Action::default()));
+        assert_eq!(step.observation.tracked, !environment.is_blind());
+        blind_steps += u32::from(environment.is_blind());
+    }
+    let score = environment.score();
+    assert_eq!((score.losses, score.reacquired, score.end), (2, 2, Some(End::Finished)));
+    assert!((40..=80).contains(&blind_steps), "{blind_steps}");
 }

@@ -13,6 +13,11 @@ pub struct Shortcuts {
     frames: u64,
     nearest: u64,
     rank_sum: u64,
+    /// Frames with others, and over them the sums of the shares of others who are farther from the middle, and who are less
+    /// high, in millionths: whole numbers, so that the order of merging does not matter.
+    accompanied: u64,
+    farther_sum: u64,
+    lower_sum: u64,
     targets: BTreeMap<String, [f64; 3]>,
     others: BTreeMap<String, [f64; 3]>,
 }
@@ -26,6 +31,11 @@ pub struct ShortcutFigures {
     pub target_nearest_the_centre: Option<f64>,
     /// Mean number of people who are nearer to the middle of the picture than the target.
     pub mean_people_nearer: Option<f64>,
+    /// Probability that a random other person in the frame is farther from its middle: 0.5 where the place tells nothing; null
+    /// without others.
+    pub place_auc: Option<f64>,
+    /// Probability that a random other person in the frame is less high in pixels, equal ones counted half.
+    pub height_auc: Option<f64>,
     /// Number of different targets.
     pub targets: usize,
     /// Number of different bystanders who are seen.
@@ -42,11 +52,24 @@ pub struct ShortcutFigures {
 impl Shortcuts {
     /// Adds an expert's frame of `image_px` pixels with the visible boxes of target and others.
     pub fn add_frame(&mut self, image_px: [f64; 2], target: Edges, others: impl Iterator<Item = Edges>) {
-        let own = from_middle(image_px, target);
-        let nearer = others.filter(|edges| from_middle(image_px, *edges) < own).count() as u64;
+        let own = [from_middle(image_px, target), height_px(target)];
+        let (mut count, mut nearer, mut above) = (0_u64, 0_u64, [0.0; 2]);
+        for edges in others {
+            let other = [from_middle(image_px, edges), height_px(edges)];
+            count += 1;
+            nearer += u64::from(other[0] < own[0]);
+            above[0] += share_above(other[0], own[0]);
+            above[1] += share_above(own[1], other[1]);
+        }
         self.frames += 1;
         self.nearest += u64::from(nearer == 0);
         self.rank_sum += nearer;
+        if count > 0 {
+            self.accompanied += 1;
+            let millionths = |sum: f64| (1e6 * sum / count as f64).round() as u64;
+            self.farther_sum += millionths(above[0]);
+            self.lower_sum += millionths(above[1]);
+        }
     }
 
     /// Adds somebody who is followed, with the colour of the top, linear RGB.
@@ -64,6 +87,9 @@ impl Shortcuts {
         self.frames += other.frames;
         self.nearest += other.nearest;
         self.rank_sum += other.rank_sum;
+        self.accompanied += other.accompanied;
+        self.farther_sum += other.farther_sum;
+        self.lower_sum += other.lower_sum;
         self.targets.extend(other.targets);
         self.others.extend(other.others);
     }
@@ -71,6 +97,7 @@ impl Shortcuts {
     /// The figures.
     pub fn figures(&self) -> ShortcutFigures {
         let per_frame = |sum: u64| (self.frames > 0).then(|| sum as f64 / self.frames as f64);
+        let per_pair = |sum: u64| (self.accompanied > 0).then(|| 1e-6 * sum as f64 / self.accompanied as f64);
         let of = |people: &BTreeMap<String, [f64; 3]>, feature: fn(&[f64; 3]) -> f64| -> Vec<f64> {
             people.values().map(feature).collect()
         };
@@ -81,6 +108,8 @@ impl Shortcuts {
             frames: self.frames,
             target_nearest_the_centre: per_frame(self.nearest),
             mean_people_nearer: per_frame(self.rank_sum),
+            place_auc: per_pair(self.farther_sum),
+            height_auc: per_pair(self.lower_sum),
             targets: self.targets.len(),
             others: self.others.len(),
             clothes_auc_colourfulness: auc_of(colourfulness),
@@ -93,6 +122,15 @@ impl Shortcuts {
 fn from_middle([width, height]: [f64; 2], [left, top, right, bottom]: Edges) -> f64 {
     let (across, down) = (0.5 * (left + right - width), 0.5 * (top + bottom - height));
     across * across + down * down
+}
+
+fn height_px([_, top, _, bottom]: Edges) -> f64 {
+    bottom - top
+}
+
+/// 1 where the first is above the second, a half where both are equal.
+fn share_above(first: f64, second: f64) -> f64 {
+    f64::from(u8::from(first > second)) + 0.5 * f64::from(u8::from(first == second))
 }
 
 fn colourfulness(rgb: &[f64; 3]) -> f64 {
@@ -138,6 +176,9 @@ mod tests {
         shortcuts.add_other("p2", [0.2, 0.2, 0.2]);
         shortcuts.add_other("p2", [0.2, 0.2, 0.2]);
         let figures = shortcuts.figures();
+        let place = figures.place_auc.expect("others");
+        assert!((place - 0.5 * (1.0 + 1.0 / 3.0)).abs() < 1e-6, "{place}");
+        assert_eq!(figures.height_auc, Some(0.5));
         assert_eq!((figures.target_nearest_the_centre, figures.mean_people_nearer), (Some(0.5), Some(1.0)));
         assert_eq!((figures.targets, figures.others, figures.clothes_auc_colourfulness), (1, 1, Some(1.0)));
         assert_eq!(Shortcuts::default().figures().clothes_auc_standard_error, None);

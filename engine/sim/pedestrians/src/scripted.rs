@@ -3,9 +3,9 @@
 use crate::motion::ArcPath;
 use crate::route::{LONE_COSTS, RouteSearch};
 use crate::smooth::smooth;
-use crate::{ConfigRule, PedestrianConfig, PedestrianError, Prescribed, WalkableGrid};
+use crate::{ConfigRule, PedestrianConfig, PedestrianError, WalkableGrid};
 use cosfly_frames::{DVec2, DVec3, Seed, TargetState};
-use cosfly_world::{Body, BodyKind, BodyPlan, Clock};
+use cosfly_world::{Body, BodyKind, BodyPlan, Clock, Prescribed};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 

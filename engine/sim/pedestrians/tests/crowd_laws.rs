@@ -3,8 +3,8 @@
 
 use cosfly_frames::{DVec2, DVec3, Seed, TargetState};
 use cosfly_maps::{Town, WalkableKind, WalkablePolygon};
-use cosfly_pedestrians::{Crowd, CrowdConfig, Prescribed, ScriptedPerson, WalkableGrid, Waypoint, path_of, scripted};
-use cosfly_world::{Body, BodyKind, BodyPlan, Clock, Population, Traffic, contacts, simulate};
+use cosfly_pedestrians::{Crowd, CrowdConfig, ScriptedPerson, WalkableGrid, Waypoint, path_of, scripted};
+use cosfly_world::{Body, BodyKind, BodyPlan, Clock, Population, Prescribed, Traffic, contacts, simulate};
 use std::sync::Arc;
 
 /// Two pavements of 4 m along a road of 8 m that one crossing joins, 120 m long.

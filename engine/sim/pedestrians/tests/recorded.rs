@@ -29,7 +29,7 @@ fn seed() -> Seed {
     Seed::of_item(1, "traffic", "recorded")
 }
 
-fn placed(text: &str, config: &RecordedConfig, town: &Town, clock: Clock) -> cosfly_pedestrians::Prescribed {
+fn placed(text: &str, config: &RecordedConfig, town: &Town, clock: Clock) -> cosfly_world::Prescribed {
     Recording::read(text.as_bytes(), config).unwrap().placed(town, config, clock, seed()).unwrap()
 }
 
@@ -101,6 +101,10 @@ fn broken_files_are_refused_with_their_line() {
         ("0,1,0,0\n\n# a comment\n2,1,1,1\n1,1,0,0\n", "the time of `1` runs backwards by 1.000 s (line 5)"),
         ("", "the file has no track with time"),
         ("0,1,0,0\n", "the file has no track with time"),
+        (
+            "0,1,0,0\n1,1,90,0\n",
+            "no two points of a track follow each other at `fastest_mps`, 8, or less; the first jump is at 90.0 m/s, of `1` (line 2)",
+        ),
         ("1 2 3 4 5 6 7 8\n1 2 3\n", "a row of an `obsmat` file has 8 numbers; this one has 3 (line 2)"),
         ("1 x 3 4 5 6 7 8\n", "`x` in column `id` is not a finite number (line 1)"),
         ("<kml></kml>", "the file begins with `<kml>`, not with `<gpx>` (line 1)"),

@@ -1,4 +1,4 @@
-//! The book's pictures: one town at noon, sunset, in rain, fog and at night: `postcards OUT_DIR TOWN.xodr`.
+//! The book's pictures: one town at noon, sunset, in rain, fog, at night and in dust: `postcards OUT_DIR TOWN.xodr`.
 
 use cosfly_frames::{DVec3, Pose, Seed, TargetState};
 use cosfly_maps::{MapConfig, Town, WalkableKind};
@@ -11,7 +11,7 @@ use std::path::Path;
 /// A picture's name, its preset, what is changed of it, and where the camera is: back, aside and up from the target, metres.
 type Postcard = (&'static str, &'static str, fn(&mut Weather), [f64; 3]);
 
-const POSTCARDS: [Postcard; 5] = [
+const POSTCARDS: [Postcard; 6] = [
     ("noon", "ClearNoon", |it| it.sun_azimuth_angle = 330.0, [-23.0, 11.0, 15.0]),
     ("sunset", "ClearSunset", |it| it.sun_azimuth_angle = 160.0, [-26.0, 9.0, 17.0]),
     ("rain", "HardRainNoon", |it| it.sun_azimuth_angle = 215.0, [-15.0, 8.0, 8.0]),
@@ -25,6 +25,7 @@ const POSTCARDS: [Postcard; 5] = [
         [-24.0, 12.0, 13.0],
     ),
     ("night", "ClearNight", |it| it.sun_azimuth_angle = 215.0, [-21.0, 11.0, 12.0]),
+    ("dust", "DustStorm", |it| it.sun_azimuth_angle = 215.0, [-20.0, 10.0, 11.0]),
 ];
 
 fn main() -> Result<(), Box<dyn std::error::Error>> {

@@ -4,6 +4,7 @@ use crate::camera::{Camera, Mount};
 use crate::channel_set::ChannelSet;
 use crate::effects::{Effects, Lens, MotionBlur, Noise, RollingShutter};
 use crate::look::PictureLook;
+use crate::optics::Optics;
 use crate::weather::{Weather, WeatherRanges};
 use cosfly_frames::Seed;
 use schemars::JsonSchema;
@@ -38,6 +39,8 @@ pub struct RenderConfig {
     pub fov_range_deg: Option<[f64; 2]>,
     /// Turn of the camera against the drone; drawn once per walk, the same for all of its flights and frames.
     pub gimbal: GimbalConfig,
+    /// Point spread, exposure and white balance of the camera, and bloom of lamps; of colours in the full look.
+    pub optics: Optics,
     /// Distortion of the lens; the focal length is that of the undistorted camera.
     pub lens: Lens,
     /// Motion blur of colour.
@@ -73,6 +76,7 @@ impl Default for RenderConfig {
             fov_deg: 90.0,
             fov_range_deg: None,
             gimbal: GimbalConfig::default(),
+            optics: Optics::default(),
             lens: Lens::default(),
             motion_blur: MotionBlur::default(),
             rolling_shutter: RollingShutter::default(),
@@ -197,6 +201,10 @@ impl RenderConfig {
             let message = format!("the value is `{value}`");
             Err(ConfigProblem { path: path.into(), message, hint: format!("allowed are {low} to {high}") })
         };
+        in_range("optics.point_spread_px", self.optics.point_spread_px, [0.0, 1.2])?;
+        in_range("optics.exposure_ev", self.optics.exposure_ev, [-4.0, 4.0])?;
+        in_range("optics.white_balance_k", self.optics.white_balance_k, [2500.0, 10_000.0])?;
+        in_range("optics.bloom", self.optics.bloom, [0.0, 2.0])?;
         in_range("lens.k1", self.lens.k1, [-1.0, 1.0])?;
         in_range("lens.k2", self.lens.k2, [-1.0, 1.0])?;
         in_range("motion_blur.shutter_s", self.motion_blur.shutter_s, [0.0, 0.5])?;
@@ -321,6 +329,10 @@ mod tests {
                 "gimbal.yaw_range_deg",
             ),
             (RenderConfig { lens: Lens { k1: -0.9, k2: 0.0 }, ..good.clone() }, "lens"),
+            (
+                RenderConfig { optics: Optics { white_balance_k: f64::NAN, ..Optics::default() }, ..good.clone() },
+                "optics.white_balance_k",
+            ),
             (RenderConfig { noise: Noise { gaussian: -1.0, shot: 0.0 }, ..good.clone() }, "noise.gaussian"),
             (
                 RenderConfig {

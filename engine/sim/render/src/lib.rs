@@ -20,6 +20,7 @@ pub mod figure;
 pub mod frame;
 mod ground_polygons;
 mod look;
+pub mod optics;
 mod outlook;
 pub mod outside;
 mod passes;
@@ -49,6 +50,7 @@ pub use effects::{Effects, Lens, Moment, MotionBlur, Noise, RollingShutter, Shot
 pub use figure::{Bystander, TargetSetup, Walker, gait_phase_rad, pedal_phase_rad, target_triangles, walker_triangles};
 pub use frame::{ChannelImage, FrameImages, PersonView, PixelBox, RenderedFrame, TargetView};
 pub use look::PictureLook;
+pub use optics::Optics;
 pub use outlook::Outlook;
 pub use people::LEAST_HEIGHT_PX;
 pub use renderer::{FrameParts, Renderer};

@@ -6,6 +6,7 @@ use crate::eye::Eye;
 use crate::faces::{DrawnFace, FaceSource, box_lift, ground_lift};
 use crate::frame::{ChannelImage, FrameImages, PersonView, RenderedFrame, TARGET_INSTANCE, TargetView};
 use crate::look::PictureLook;
+use crate::optics::{Glass, Optics};
 use crate::outlook::to_sun;
 use crate::outside::Found;
 use crate::passes::ids::{SeenRuns, for_each_band};
@@ -58,6 +59,8 @@ pub struct Renderer {
     parallel: bool,
     shader: Shader,
     smoother: smooth::Smoother,
+    optics: Optics,
+    glass: Glass,
 }
 
 impl Renderer {
@@ -94,6 +97,8 @@ impl Renderer {
             parallel: false,
             shader: Shader::new(&screen),
             smoother: smooth::Smoother::default(),
+            optics: Optics::default(),
+            glass: Glass::default(),
         }
     }
 
@@ -114,6 +119,12 @@ impl Renderer {
     pub fn set_look(&mut self, look: PictureLook) {
         self.look = look;
         self.shader.set_look(look);
+    }
+
+    /// Takes colours of the full look through these optics from now on; the default ones at first.
+    pub fn set_optics(&mut self, optics: Optics) {
+        self.optics = optics;
+        self.shader.set_optics(&optics);
     }
 
     /// Draws these channels from now on; the channels of every frame are always among them.
@@ -217,9 +228,13 @@ impl Renderer {
             watch.lap(4);
         }
         if parts == FrameParts::All && self.look == PictureLook::Full {
+            let seen = Seen { scene, faces: &self.faces, people: &self.people };
+            self.shader.fray(&seen, self.runs.rows(), &mut self.images);
             self.smoother.smooth(self.runs.rows(), self.screen.width, &mut self.images.rgb);
             watch.lap(5);
             self.shader.overlay(&mut self.images);
+            let FrameImages { width, rgb, .. } = &mut self.images;
+            self.glass.see(self.level, &self.optics, self.shader.is_night(), *width as usize, rgb);
             watch.lap(6);
         }
     }

@@ -3,6 +3,7 @@
 use crate::ground_polygons::{GroundPolygon, GroundPolygons};
 use crate::scene_parts::{BOX_FACES, Cluster, ClusterPolygon, SceneBox};
 use crate::shade::grid::LightGrid;
+use crate::shade::outskirts::Outskirts;
 use crate::shade::pattern::{NoiseTexture, noise_texture};
 use cosfly_frames::{DVec3, Seed, real};
 use cosfly_maps::{ObstacleKind, Town};
@@ -18,6 +19,7 @@ pub struct Scene {
     pub(crate) clusters: Vec<Cluster>,
     pub(crate) noise: Box<NoiseTexture>,
     pub(crate) grid: LightGrid,
+    pub(crate) outskirts: Outskirts,
     /// Tells scenes of one process apart; buffers that outlive a frame remember it.
     pub(crate) identity: u64,
 }
@@ -43,9 +45,10 @@ impl Scene {
         let clusters = clusters_of(town);
         let noise = noise_texture(look_seed);
         let grid = LightGrid::new(&boxes, &clusters);
+        let outskirts = Outskirts::of(&grid);
         static SCENES: AtomicU64 = AtomicU64::new(0);
         let identity = SCENES.fetch_add(1, Ordering::Relaxed);
-        Self { boxes, clusters, noise, grid, identity }
+        Self { boxes, clusters, noise, grid, outskirts, identity }
     }
 
     /// Every triangle that the renderer draws except the target's, for casting the same rays
@@ -93,6 +96,7 @@ fn scene_box(obstacle: &cosfly_maps::Obstacle, look_seed: u32) -> Option<SceneBo
         label: obstacle.kind.label().id(),
         instance: obstacle.object_id.saturating_add(2),
         seed: crate::shade::pattern::hash(obstacle.object_id, look_seed),
+        town: look_seed,
         whole: [shape.center_in_world.as_vec3a(), half.as_vec3a()],
     })
 }

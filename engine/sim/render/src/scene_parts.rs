@@ -17,6 +17,8 @@ pub(crate) struct SceneBox {
     pub instance: u32,
     /// The same for all boxes of one thing.
     pub seed: u32,
+    /// The same for all boxes of a town.
+    pub town: u32,
     /// Middle and half size of the whole crown that a crown's box belongs to; of the box itself for other kinds.
     pub whole: [Vec3; 2],
 }

@@ -6,7 +6,7 @@ pub struct Stages([u64; Stages::NAMES.len()]);
 
 impl Stages {
     /// The stages in order: boxes and figure drawn, ground drawn, shadow maps, depth and ids and shading (band by band),
-    /// the target measured, edges, rain.
+    /// the target measured, edges, rain and optics.
     pub const NAMES: [&'static str; 7] = ["boxes", "ground", "shadows", "shading", "target", "smoothing", "overlay"];
 
     /// Duration of each, in the order of the names.

@@ -21,7 +21,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     let clock = Clock::new(frames.parse()?, dt_s.parse()?, 0.1);
     let recorded = read(BufReader::new(File::open(fcd)?), &place, &config, clock, Seed([1; 32]))?;
     println!("frame,source,kind,length_m,x,y,heading_rad,speed_mps,from_lane_m");
-    for body in &recorded.bodies {
+    for body in recorded.bodies() {
         for (frame, state) in (body.first_frame..).zip(&body.states) {
             let (sin, cos) = real::sin_cos(state.heading_rad);
             let at = state.feet_in_world.truncate();

@@ -2,8 +2,8 @@
 
 use cosfly_frames::{DVec2, DVec3, Seed, real};
 use cosfly_maps::Town;
-use cosfly_vehicles::fcd::{FcdConfig, FcdError, FcdType, NetLocation, Place, Recorded, read};
-use cosfly_world::{BodyKind, Clock, Population, simulate};
+use cosfly_vehicles::fcd::{FcdConfig, FcdError, FcdType, NetLocation, Place, read};
+use cosfly_world::{BodyKind, Clock, Population, Prescribed, simulate};
 use std::collections::BTreeMap;
 use std::io::{BufReader, Read};
 
@@ -16,7 +16,7 @@ fn config() -> FcdConfig {
     FcdConfig { types: BTreeMap::from([("taxi".to_owned(), taxi)]), ..FcdConfig::default() }
 }
 
-fn read_with(text: &str, config: &FcdConfig, clock: Clock) -> Result<Recorded, FcdError> {
+fn read_with(text: &str, config: &FcdConfig, clock: Clock) -> Result<Prescribed, FcdError> {
     let net = NetLocation { offset_m: DVec2::new(100.0, 50.0), projection: None };
     read(text.as_bytes(), &Place::new(&town(), &net, false).unwrap(), config, clock, Seed([1; 32]))
 }
@@ -40,7 +40,7 @@ fn vehicles_are_where_their_front_bumpers_say_and_move_evenly_between_steps() {
     // North, then east: the file's y grows to the north, the world's to the south.
     let text = file(&(step(0.0, &vehicle("a", 100.0, 52.0, 0.0)) + &step(1.0, &vehicle("a", 104.0, 50.0, 90.0))));
     let recorded = read_with(&text, &config(), Clock::new(3, 0.5, 0.5)).unwrap();
-    let [body] = &recorded.bodies[..] else { panic!("one body") };
+    let [body] = recorded.bodies() else { panic!("one body") };
     assert_eq!((body.plan.source.as_str(), body.plan.kind, body.first_frame), ("a", BodyKind::Car, 0));
     let states: Vec<[f64; 3]> =
         body.states.iter().map(|it| [it.feet_in_world.x, it.feet_in_world.y, it.heading_rad]).collect();
@@ -68,7 +68,7 @@ fn people_and_those_who_leave_and_come_back() {
     );
     let recorded = read_with(&text, &config(), Clock::new(5, 1.0, 1.0)).unwrap();
     let seen: Vec<(&str, BodyKind, u32, u32)> = recorded
-        .bodies
+        .bodies()
         .iter()
         .map(|it| (it.plan.source.as_str(), it.plan.kind, it.first_frame, it.end_frame()))
         .collect();
@@ -136,6 +136,6 @@ fn long_files_take_the_memory_of_their_frames() {
     let place = Place::new(&town(), &net, false).unwrap();
     // 4 s in steps of a millisecond: about 25 MB of text for nine frames.
     let recorded = read(BufReader::new(endless), &place, &config(), Clock::new(9, 0.5, 0.5), Seed([1; 32])).unwrap();
-    assert_eq!(recorded.bodies.len(), 50);
-    assert!(recorded.bodies.iter().all(|body| body.states.len() == 9));
+    assert_eq!(recorded.bodies().len(), 50);
+    assert!(recorded.bodies().iter().all(|body| body.states.len() == 9));
 }

@@ -2,10 +2,11 @@
 
 use cosfly_frames::{DVec2, DVec3, Seed, TargetState, real};
 use cosfly_geometry::OrientedBox;
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 /// Kinds of bodies that move.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum BodyKind {
     /// A person on foot.

@@ -9,6 +9,7 @@ mod body;
 mod contacts;
 mod look_alikes;
 mod population;
+mod prescribed;
 mod snapshot;
 mod traffic;
 
@@ -17,5 +18,6 @@ pub use body::{Body, BodyKind, BodyPlan};
 pub use contacts::{Contact, contacts};
 pub use look_alikes::{LookAlikeConfig, dress};
 pub use population::{Clock, Population, simulate};
+pub use prescribed::Prescribed;
 pub use snapshot::{Present, Snapshot};
 pub use traffic::Traffic;

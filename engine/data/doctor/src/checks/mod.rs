@@ -10,7 +10,7 @@ mod projection;
 mod surface;
 mod surroundings;
 mod time;
-mod words;
+pub(crate) mod words;
 
 pub use leaks::{Trace, of_all as leaks};
 

@@ -1,14 +1,13 @@
 //! Instructions that differ from their flights.
 
 use crate::{Episode, Flag};
-use cosfly_captions::{Language, check as check_caption, facts};
+use cosfly_captions::{Facts, Language, check as check_caption, facts};
 use cosfly_frames::{DVec3, TargetState, TargetTrack};
 use cosfly_planner::{Certificate, Trajectory};
 
 /// Parses every instruction in a known language and compares it with the facts of the flight.
 pub fn check(episode: &Episode) -> Vec<Flag> {
-    let Some(trajectory) = trajectory(episode).filter(|_| !episode.captions.is_empty()) else { return vec![] };
-    let facts = facts(&trajectory).wearing(episode.wear);
+    let Some(facts) = facts_of(episode).filter(|_| !episode.captions.is_empty()) else { return vec![] };
     let mut flags = vec![];
     for (code, text) in &episode.captions {
         let Some(language) = [Language::Zh, Language::En].into_iter().find(|it| it.code() == code) else { continue };
@@ -19,6 +18,11 @@ pub fn check(episode: &Episode) -> Vec<Flag> {
         }
     }
     flags
+}
+
+/// Facts of a flight; none where the target is unknown in some frames.
+pub fn facts_of(episode: &Episode) -> Option<Facts> {
+    trajectory(episode).filter(|it| !it.track.states.is_empty()).map(|it| facts(&it).wearing(episode.wear))
 }
 
 /// The flight as captions need it; none where the target is unknown in some frames.

@@ -12,6 +12,7 @@ use cosfly_read::{
     BoxInWorld, CaptionReader, FrameRow, PublishedDataset, PublishedFlight, log_problem, parquet_problem,
 };
 use cosfly_render::Colour;
+use cosfly_render::frame::TARGET_INSTANCE;
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::Path;
 
@@ -168,10 +169,16 @@ fn looks(
     let mut looks = vec![];
     for frame in stretch(rows.len()) {
         let logged = log.frame_with_instances(frame)?;
+        // Others may stand in the target's box.
+        let is_target = |instance: &u32| *instance == TARGET_INSTANCE;
+        let of_target: Vec<f32> = (logged.depth_m.iter().zip(&logged.instance))
+            .map(|(depth_m, instance)| if is_target(instance) { *depth_m } else { f32::NAN })
+            .collect();
         let depth = |offset: &i64| {
             let row = rows.get(frame.checked_add_signed(*offset as isize)?)?;
             let edges = row.visible_box_px?.map(f64::from);
-            depth_in_box(&logged.depth_m, logged.width as usize, edges)
+            let in_box = |depth_m: &[f32]| depth_in_box(depth_m, logged.width as usize, edges);
+            in_box(&of_target).or_else(|| in_box(&logged.depth_m))
         };
         let digest = Digest::of(&logged.rgb_file).to_string();
         let mut look = Look { frame, digest, depth_m: OFFSETS.iter().map(depth).collect(), walls_m: vec![] };

@@ -36,6 +36,11 @@ fn rows(figures: &ShortcutFigures) -> Vec<(&'static str, String, String)> {
     if let Some(nearer) = figures.mean_people_nearer {
         rows.push(("People nearer to the centre", format!("{nearer:.2}"), "mean over these frames".to_owned()));
     }
+    for (name, auc) in [("Place, AUC", figures.place_auc), ("Height in pixels, AUC", figures.height_auc)] {
+        if let Some(auc) = auc {
+            rows.push((name, format!("{auc:.2}"), "against others in the same frame; 0.50 by chance".to_owned()));
+        }
+    }
     let people = format!("{} targets, {} bystanders", figures.targets, figures.others);
     let error = figures.clothes_auc_standard_error.unwrap_or_default();
     for (name, auc) in [

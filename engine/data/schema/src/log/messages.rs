@@ -3,8 +3,8 @@
 use super::right_handed::{self, map_from_world_point};
 use super::target_state::TargetStateMessage;
 use crate::RenderedTrajectory;
-use cosfly_frames::{DVec3, Pose};
-use cosfly_render::{Camera, Lens, PixelBox};
+use cosfly_frames::{DQuat, DVec3, Pose, TargetState};
+use cosfly_render::{Camera, Lens, Mount, PixelBox};
 use foxglove::bytes::Bytes;
 use foxglove::messages::{self, Timestamp};
 
@@ -47,29 +47,35 @@ pub fn calibration(time_ns: u64, camera: &Camera, lens: &Lens) -> messages::Came
 
 /// Pose at the target's feet, with the target's heading.
 pub fn target_pose(record: &RenderedTrajectory, frame: usize) -> Pose {
-    let state = &record.trajectory.track.states[frame];
+    feet_pose(&record.trajectory.track.states[frame])
+}
+
+/// Pose at somebody's feet, with their heading.
+pub fn feet_pose(state: &TargetState) -> Pose {
     Pose { position_in_world: state.feet_in_world, pitch_rad: 0.0, yaw_rad: state.heading_rad, roll_rad: 0.0 }
 }
 
 /// map -> drone -> camera_optical, and map -> target.
-pub fn transforms(time_ns: u64, record: &RenderedTrajectory, frame: usize) -> messages::FrameTransforms {
-    let transform = |parent: &str, child: &str, translation: DVec3, rotation| messages::FrameTransform {
-        timestamp: Some(timestamp(time_ns)),
-        parent_frame_id: parent.into(),
-        child_frame_id: child.into(),
-        translation: Some(right_handed::vector(translation)),
-        rotation: Some(right_handed::quaternion(rotation)),
-    };
+pub fn transforms(time_ns: u64, drone: &Pose, mount: &Mount, target: &Pose) -> messages::FrameTransforms {
     let in_map = |child: &str, pose: &Pose| {
         let translation = map_from_world_point(pose.position_in_world);
-        transform(MAP_FRAME, child, translation, right_handed::map_from_body(pose))
+        transform(time_ns, child, translation, right_handed::map_from_body(pose))
     };
-    messages::FrameTransforms {
-        transforms: vec![
-            in_map("drone", &record.trajectory.poses_in_world[frame]),
-            transform("drone", OPTICAL_FRAME, DVec3::ZERO, right_handed::body_from_optical(&record.mount)),
-            in_map("target", &target_pose(record, frame)),
-        ],
+    let optical = messages::FrameTransform {
+        parent_frame_id: "drone".into(),
+        ..transform(time_ns, OPTICAL_FRAME, DVec3::ZERO, right_handed::body_from_optical(mount))
+    };
+    messages::FrameTransforms { transforms: vec![in_map("drone", drone), optical, in_map("target", target)] }
+}
+
+/// Transform from a child frame to the `map` frame.
+pub fn transform(time_ns: u64, child: &str, translation_m: DVec3, rotation: DQuat) -> messages::FrameTransform {
+    messages::FrameTransform {
+        timestamp: Some(timestamp(time_ns)),
+        parent_frame_id: MAP_FRAME.into(),
+        child_frame_id: child.into(),
+        translation: Some(right_handed::vector(translation_m)),
+        rotation: Some(right_handed::quaternion(rotation)),
     }
 }
 

@@ -3,7 +3,9 @@
 //! Here the world frame (left-handed, y right) is converted to the right-handed `map` frame of robotics tools, by
 //! [`right_handed`] and nowhere else. Frame `i` is at `i * dt_s` after time 0.
 
+pub mod flown_step;
 pub mod messages;
+mod own_message;
 pub mod raw_format;
 pub mod right_handed;
 pub mod target_state;
@@ -11,7 +13,7 @@ pub mod topic;
 
 pub use raw_format::{RawFormat, formats};
 pub use target_state::TargetStateMessage;
-pub use topic::{Frequency, Topic, topics};
+pub use topic::{Frequency, Topic, flown_topics, topics};
 
 /// Time of frame `frame`, nanoseconds after the file's time 0.
 pub fn frame_time_ns(dt_s: f64, frame: usize) -> u64 {

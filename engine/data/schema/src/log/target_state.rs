@@ -1,8 +1,8 @@
-//! The only message type defined by cosfly, `cosfly.TargetState`: fields, descriptor and `.proto` text from one list.
+//! The message type `cosfly.TargetState`: fields, descriptor and `.proto` text from one list.
 
+use super::own_message::{self, Field};
 use prost::Message;
-use prost_types::field_descriptor_proto::{Label, Type};
-use prost_types::{DescriptorProto, FieldDescriptorProto, FileDescriptorProto, FileDescriptorSet};
+use prost_types::field_descriptor_proto::Type;
 
 /// Name of the schema in logs.
 pub const SCHEMA_NAME: &str = "cosfly.TargetState";
@@ -55,8 +55,8 @@ pub struct TargetStateMessage {
     pub rotation_event: bool,
 }
 
-/// Name, type, repetition and meaning of each field; its number is its position in the list, from 1.
-pub const FIELDS: [(&str, Type, bool, &str); 21] = [
+/// The fields.
+pub const FIELDS: [Field; 21] = [
     ("frame", Type::Uint32, false, "frame number, from 0"),
     ("time_s", Type::Double, false, "frame * dt, seconds"),
     ("feet_x_m", Type::Double, false, "ground point between the feet, frame `map`"),
@@ -82,26 +82,7 @@ pub const FIELDS: [(&str, Type, bool, &str); 21] = [
 
 /// Encoded `FileDescriptorSet` that logs carry.
 pub fn descriptor_set() -> Vec<u8> {
-    let field = |(i, (name, kind, repeated, _)): (usize, &(&str, Type, bool, &str))| FieldDescriptorProto {
-        name: Some((*name).into()),
-        number: Some(i as i32 + 1),
-        label: Some(if *repeated { Label::Repeated } else { Label::Optional } as i32),
-        r#type: Some(*kind as i32),
-        ..FieldDescriptorProto::default()
-    };
-    let message = DescriptorProto {
-        name: Some("TargetState".into()),
-        field: FIELDS.iter().enumerate().map(field).collect(),
-        ..DescriptorProto::default()
-    };
-    let file = FileDescriptorProto {
-        name: Some("cosfly.proto".into()),
-        package: Some("cosfly".into()),
-        message_type: vec![message],
-        syntax: Some("proto3".into()),
-        ..FileDescriptorProto::default()
-    };
-    FileDescriptorSet { file: vec![file] }.encode_to_vec()
+    own_message::descriptor_set("TargetState", &FIELDS)
 }
 
 /// Text of `schemas/cosfly.proto`.
@@ -126,6 +107,7 @@ pub fn proto_text() -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use prost_types::FileDescriptorSet;
 
     #[test]
     fn the_message_has_the_fields_of_the_list_in_their_order() {

@@ -1,7 +1,7 @@
 //! Topics of a log: two for each channel (images, previews), and the other topics.
 
 use super::raw_format::formats;
-use super::target_state;
+use super::{flown_step, own_message, target_state};
 use cosfly_render::ChannelSet;
 use cosfly_render::channels::{self, Channel, Element};
 use foxglove::{Encode, Schema, messages};
@@ -26,6 +26,17 @@ pub const SCENE: &str = "/scene";
 pub const CAPTIONS: &str = "/captions";
 /// State of the target.
 pub const TARGET_STATE: &str = "/target/state";
+
+/// Action and outcome of each step of a closed-loop flight.
+pub const STEP: &str = "/flight/step";
+/// Inertial unit.
+pub const INERTIAL: &str = "/imu";
+/// Barometer.
+pub const BAROMETER: &str = "/barometer";
+/// Satellite receiver.
+pub const FIX: &str = "/gnss";
+/// Events of a closed-loop flight.
+pub const EVENTS: &str = "/flight/events";
 
 /// Topic of a channel's images.
 pub fn images(channel: &Channel) -> String {
@@ -97,22 +108,54 @@ pub fn topics(channels: &ChannelSet) -> Vec<Topic> {
             topics.push(Topic::new::<messages::CompressedImage>(previews(channel), &doc, Frequency::Previews));
         }
     }
-    topics.push(Topic::new::<messages::FrameTransforms>(TF, ".", Frequency::EveryFrame));
+    topics.extend(of_poses());
+    topics.push(Topic::new::<messages::Log>(CAPTIONS, ": captions, once.", Frequency::Captions));
+    topics.push(of_target_state());
+    topics
+}
+
+/// All topics of the log of a closed-loop flight, which has no pictures.
+pub fn flown_topics(has_sensors: bool) -> Vec<Topic> {
+    let mut topics = vec![Topic::new::<messages::CameraCalibration>(CAMERA, ".", Frequency::EveryFrame)];
+    topics.extend(of_poses());
+    topics.push(of_target_state());
+    topics.push(Topic {
+        name: STEP.into(),
+        doc: format!("`{}`: action and outcome.", flown_step::SCHEMA_NAME),
+        schema: Schema::new(flown_step::SCHEMA_NAME, "protobuf", flown_step::descriptor_set()),
+        notes: &[],
+        frequency: Frequency::EveryFrame,
+    });
+    let events = ": losses, reacquisitions, collisions, the end.";
+    topics.push(Topic::new::<messages::Log>(EVENTS, events, Frequency::EveryFrame));
+    let sensors = flown_step::SENSORS.iter().zip([INERTIAL, BAROMETER, FIX]).filter(|_| has_sensors);
+    topics.extend(sensors.map(|((message, fields), topic)| {
+        let name = format!("cosfly.{message}");
+        let schema = Schema::new(name.clone(), "protobuf", own_message::descriptor_set(message, fields));
+        Topic { name: topic.into(), doc: format!("`{name}`."), schema, notes: &[], frequency: Frequency::EveryFrame }
+    }));
+    topics
+}
+
+fn of_poses() -> Vec<Topic> {
+    let mut topics = vec![Topic::new::<messages::FrameTransforms>(TF, ".", Frequency::EveryFrame)];
     topics.push(Topic::new::<messages::PoseInFrame>(DRONE_POSE, " of the drone.", Frequency::EveryFrame));
     topics.push(Topic::new::<messages::PoseInFrame>(TARGET_POSE, " of the target's feet.", Frequency::EveryFrame));
     topics.push(Topic::new::<messages::PosesInFrame>(DRONE_PATH, ": the whole flight, once.", Frequency::Once));
     topics.push(Topic::new::<messages::PosesInFrame>(TARGET_PATH, ": the whole walk, once.", Frequency::Once));
     let scene = ": obstacles near the flight and the target, once.";
     topics.push(Topic::new::<messages::SceneUpdate>(SCENE, scene, Frequency::Once));
-    topics.push(Topic::new::<messages::Log>(CAPTIONS, ": captions, once.", Frequency::Captions));
-    topics.push(Topic {
+    topics
+}
+
+fn of_target_state() -> Topic {
+    Topic {
         name: TARGET_STATE.into(),
         doc: format!("`{}`.", target_state::SCHEMA_NAME),
         schema: Schema::new(target_state::SCHEMA_NAME, "protobuf", target_state::descriptor_set()),
         notes: &[],
         frequency: Frequency::EveryFrame,
-    });
-    topics
+    }
 }
 
 fn raw_images(channel: &Channel) -> Topic {

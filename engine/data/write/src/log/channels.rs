@@ -1,6 +1,6 @@
 //! The topics of a log: one writer with every topic declared, and messages appended by topic.
 
-use super::container::{Chunk, Container};
+use super::container::{Chunk, Container, Indexed};
 use crate::frame_pack::PackedChunk;
 use crate::message_head::message_head;
 use cosfly_diagnose::{Diagnostic, Fault, Result};
@@ -17,10 +17,9 @@ pub struct ChannelWriter<W: Write> {
     container: Container<W>,
     schemas: BTreeMap<String, u16>,
     channels: BTreeMap<String, (u16, u32)>,
-    /// Records of the chunk that is not ended, their channels and offsets, and the moment of all of them.
+    /// Records of the chunk that is not ended, and their places.
     records: Vec<u8>,
-    messages: Vec<(u16, u64)>,
-    time_ns: u64,
+    messages: Vec<Indexed>,
 }
 
 impl<W: Write> ChannelWriter<W> {
@@ -31,7 +30,7 @@ impl<W: Write> ChannelWriter<W> {
     pub fn new(output: W, topics: &[Topic]) -> Result<Self> {
         let container = Container::new(output, "cosfly").map_err(|error| write_error(&error))?;
         let (schemas, channels, records, messages) = (BTreeMap::new(), BTreeMap::new(), vec![], vec![]);
-        let mut this = Self { container, schemas, channels, records, messages, time_ns: 0 };
+        let mut this = Self { container, schemas, channels, records, messages };
         topics.iter().try_for_each(|topic| this.declare(topic))?;
         Ok(this)
     }
@@ -52,17 +51,16 @@ impl<W: Write> ChannelWriter<W> {
         Ok(())
     }
 
-    /// Adds a message to the chunk; all messages of a chunk have the same time.
+    /// Adds a message to the chunk. Times do not fall.
     pub fn write(&mut self, topic: &str, time_ns: u64, message: &impl Message) -> Result<()> {
         let (channel, sequence) = self
             .channels
             .get_mut(topic)
             .ok_or_else(|| Diagnostic::new("mcap-channel", Fault::Bug, format!("topic `{topic}` was not declared")))?;
         *sequence += 1;
-        self.messages.push((*channel, self.records.len() as u64));
+        self.messages.push(Indexed { channel: *channel, time_ns, offset: self.records.len() as u64 });
         self.records.extend_from_slice(&message_head(*channel, *sequence, time_ns, message.encoded_len()));
         message.encode(&mut self.records).expect("a vector grows as needed");
-        self.time_ns = time_ns;
         Ok(())
     }
 
@@ -70,7 +68,6 @@ impl<W: Write> ChannelWriter<W> {
     pub fn end_plain_chunk(&mut self) -> Result<()> {
         let crc = crc32fast::hash(&self.records);
         let chunk = Chunk {
-            time_ns: self.time_ns,
             compression: "",
             plain_bytes: self.records.len() as u64,
             plain_crc: crc,
@@ -88,7 +85,6 @@ impl<W: Write> ChannelWriter<W> {
     pub fn end_compressed_chunk(&mut self) -> Result<()> {
         let stored = zstd::bulk::compress(&self.records, ZSTD_LEVEL).map_err(|error| write_error(&error))?;
         let chunk = Chunk {
-            time_ns: self.time_ns,
             compression: "zstd",
             plain_bytes: self.records.len() as u64,
             plain_crc: crc32fast::hash(&self.records),
@@ -104,14 +100,15 @@ impl<W: Write> ChannelWriter<W> {
 
     /// Appends a chunk of a frame pack as it is.
     pub fn packed_chunk(&mut self, time_ns: u64, packed: &PackedChunk) -> Result<()> {
+        let indexed = |&(channel, offset): &(u16, u64)| Indexed { channel, time_ns, offset };
+        let messages: Vec<Indexed> = packed.messages.iter().map(indexed).collect();
         let chunk = Chunk {
-            time_ns,
             compression: "zstd",
             plain_bytes: packed.plain_bytes,
             plain_crc: packed.plain_crc,
             stored: &packed.stored,
             stored_crc: packed.stored_crc,
-            messages: &packed.messages,
+            messages: &messages,
         };
         self.container.chunk(&chunk).map_err(|error| write_error(&error))
     }

@@ -24,10 +24,8 @@ mod opcode {
     pub const DATA_END: u8 = 0x0f;
 }
 
-/// Message records of one moment, compressed or not.
+/// Message records, compressed or not, in the order of their times.
 pub struct Chunk<'a> {
-    /// The moment.
-    pub time_ns: u64,
     /// `zstd`, or nothing.
     pub compression: &'static str,
     /// Bytes of the records before compression, and their CRC-32.
@@ -38,8 +36,19 @@ pub struct Chunk<'a> {
     pub stored: &'a [u8],
     /// CRC-32 of them.
     pub stored_crc: u32,
-    /// Channel and offset (before compression) of each message.
-    pub messages: &'a [(u16, u64)],
+    /// The messages.
+    pub messages: &'a [Indexed],
+}
+
+/// Place of a message in a chunk.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Indexed {
+    /// Channel.
+    pub channel: u16,
+    /// Time.
+    pub time_ns: u64,
+    /// Offset of the record before compression.
+    pub offset: u64,
 }
 
 /// Writes one file. Without [`Self::finish`] it has no index, and readers say that it was cut short.
@@ -105,9 +114,11 @@ impl<W: Write> Container<W> {
     /// Appends a chunk and the index of its messages.
     pub fn chunk(&mut self, chunk: &Chunk<'_>) -> Result<()> {
         let start = self.position;
+        let time_ns = |message: Option<&Indexed>| message.map_or(0, |message| message.time_ns);
+        let times_ns = [time_ns(chunk.messages.first()), time_ns(chunk.messages.last())];
         let head = Fields::default()
-            .u64(chunk.time_ns)
-            .u64(chunk.time_ns)
+            .u64(times_ns[0])
+            .u64(times_ns[1])
             .u64(chunk.plain_bytes)
             .u32(chunk.plain_crc)
             .text(chunk.compression)
@@ -120,9 +131,9 @@ impl<W: Write> Container<W> {
         self.position += chunk.stored.len() as u64;
         let length = self.position - start;
         let mut by_channel: BTreeMap<u16, Fields> = BTreeMap::new();
-        for (channel, offset) in chunk.messages {
+        for Indexed { channel, time_ns, offset } in chunk.messages {
             let entries = by_channel.remove(channel).unwrap_or_default();
-            by_channel.insert(*channel, entries.u64(chunk.time_ns).u64(*offset));
+            by_channel.insert(*channel, entries.u64(*time_ns).u64(*offset));
             *self.counts.entry(*channel).or_default() += 1;
         }
         let indexes_start = self.position;
@@ -132,8 +143,8 @@ impl<W: Write> Container<W> {
             self.record(opcode::MESSAGE_INDEX, &Fields::default().u16(channel).bytes(&entries.0).0)?;
         }
         let index = Fields::default()
-            .u64(chunk.time_ns)
-            .u64(chunk.time_ns)
+            .u64(times_ns[0])
+            .u64(times_ns[1])
             .u64(start)
             .u64(length)
             .bytes(&offsets.0)
@@ -142,8 +153,8 @@ impl<W: Write> Container<W> {
             .u64(chunk.stored.len() as u64)
             .u64(chunk.plain_bytes);
         self.chunk_indexes.push(index.0);
-        let [first, last] = self.times_ns.unwrap_or([chunk.time_ns; 2]);
-        self.times_ns = Some([first.min(chunk.time_ns), last.max(chunk.time_ns)]);
+        let [first, last] = self.times_ns.unwrap_or(times_ns);
+        self.times_ns = Some([first.min(times_ns[0]), last.max(times_ns[1])]);
         Ok(())
     }
 
@@ -269,8 +280,8 @@ mod tests {
                 records.extend_from_slice(payload);
             }
             let second = (MESSAGE_HEAD_BYTES + 3) as u64;
+            let at = |channel: u16, offset: u64| Indexed { channel, time_ns, offset };
             let chunk = |compression, stored, messages| Chunk {
-                time_ns,
                 compression,
                 plain_bytes: records.len() as u64,
                 plain_crc: crc32fast::hash(&records),
@@ -278,19 +289,18 @@ mod tests {
                 stored_crc: crc32fast::hash(&records),
                 messages,
             };
-            container.chunk(&chunk("", &records, &[(plain, 0), (plain, second)])).unwrap();
+            container.chunk(&chunk("", &records, &[at(plain, 0), at(plain, second)])).unwrap();
             records.clear();
             records.extend_from_slice(&message_head(packed, frame + 1, time_ns, 1000));
             records.resize(MESSAGE_HEAD_BYTES + 1000, 7);
             let stored = zstd::bulk::compress(&records, 1).unwrap();
             let chunk = Chunk {
-                time_ns,
                 compression: "zstd",
                 plain_bytes: records.len() as u64,
                 plain_crc: crc32fast::hash(&records),
                 stored: &stored,
                 stored_crc: crc32fast::hash(&stored),
-                messages: &[(packed, 0)],
+                messages: &[at(packed, 0)],
             };
             container.chunk(&chunk).unwrap();
         }

@@ -82,7 +82,8 @@ fn write_once<W: Write>(
     captions: &[CaptionRecord],
     town: &Town,
 ) -> Result<()> {
-    log.write(topic::SCENE, 0, &scene::scene(record, town))?;
+    let track = &record.trajectory.track;
+    log.write(topic::SCENE, 0, &scene::scene(town, &record.trajectory.poses_in_world, track.height_m, track.radius_m))?;
     let poses = record.trajectory.poses_in_world.iter().copied();
     log.write(topic::DRONE_PATH, 0, &messages::path_in_map(poses))?;
     let targets = (0..record.len()).map(|frame| messages::target_pose(record, frame));
@@ -101,9 +102,10 @@ fn write_frame<W: Write>(
     let time = frame_time_ns(record.dt_s(), frame);
     let camera = &record.camera;
     let pose = &record.trajectory.poses_in_world[frame];
-    log.write(topic::TF, time, &messages::transforms(time, record, frame))?;
+    let target = messages::target_pose(record, frame);
+    log.write(topic::TF, time, &messages::transforms(time, pose, &record.mount, &target))?;
     log.write(topic::DRONE_POSE, time, &messages::pose_in_map(time, pose))?;
-    log.write(topic::TARGET_POSE, time, &messages::pose_in_map(time, &messages::target_pose(record, frame)))?;
+    log.write(topic::TARGET_POSE, time, &messages::pose_in_map(time, &target))?;
     log.write(topic::TARGET_STATE, time, &messages::target_state(record, frame))?;
     log.write(topic::CAMERA, time, &messages::calibration(time, camera, &record.lens))?;
     log.write(topic::ANNOTATIONS, time, &messages::annotations(time, record, frame))?;

@@ -6,7 +6,7 @@ use crate::exit;
 use crate::text::count;
 use clap::Parser;
 use cosfly_diagnose::Diagnostic;
-use cosfly_doctor::{Examination, Layout, Severity, ShortcutFigures, examine};
+use cosfly_doctor::{Examination, GivenTexts, Layout, Severity, ShortcutFigures, examine_texts};
 use std::fmt::Write;
 use std::path::{Path, PathBuf};
 
@@ -24,6 +24,7 @@ Examples:
   cosfly doctor my-lerobot-data                      a LeRobot dataset, exported or anyone's
   cosfly doctor out/carla_town --quota 20:2-4        do 20 % of the episodes lose their target for 2 to 4 s?
   cosfly doctor out/carla_town --json verdict.json   every flag, and which episodes are without one
+  cosfly doctor out/carla_town --texts mine.jsonl    are my texts about these flights true, and how different are they?
 
 A damage is a statement of the data that is false; an imperfection is true and worse than elsewhere. Exits with 1 when there
 is a damage, more imperfect episodes than --imperfect allows, or a quota that is not met."
@@ -38,6 +39,9 @@ pub struct Arguments {
     /// Share of episodes, percent, that lose their target for a time between two lengths in seconds (repeatable)
     #[arg(long = "quota", value_name = "PERCENT:FROM-TO", value_parser = quota)]
     quotas: Vec<cosfly_doctor::Quota>,
+    /// Judge these texts in the place of the data's own: lines of JSON with trajectory_id, language and text
+    #[arg(long, value_name = "FILE")]
+    texts: Option<PathBuf>,
     /// Write all findings as JSON; - for standard output, instead of the text
     #[arg(long, value_name = "FILE")]
     json: Option<PathBuf>,
@@ -46,7 +50,10 @@ pub struct Arguments {
 impl Command for Arguments {
     fn run(&self, console: &dyn Console) -> Outcome {
         let progress = console.progress("doctor", "episodes");
-        let examination = examine(&self.dir, &self.quotas, &mut |done, all| progress(done, all))?;
+        let examination = {
+            let texts = self.texts.as_deref().map(GivenTexts::read).transpose()?;
+            examine_texts(&self.dir, &self.quotas, texts.as_ref(), &mut |done, all| progress(done, all))?
+        };
         drop(progress);
         let json = || serde_json::to_string_pretty(&examination).unwrap_or_default();
         let is_printed = self.json.as_deref() == Some(Path::new("-"));
@@ -101,6 +108,24 @@ fn text(examination: &Examination, allowed: f64) -> String {
         let _ = writeln!(text, "frames by visible share of the target: {}", shares.collect::<Vec<_>>().join(", "));
     }
     text.push_str(&examination.shortcuts.as_ref().map_or_else(String::new, shortcuts));
+    for figures in &examination.texts {
+        let it = &figures.diversity;
+        let _ = writeln!(
+            text,
+            "texts ({}): {} of {} different; {:.1} % true; distinct-1 {:.3}, distinct-2 {:.3}, self-BLEU {:.2}; {} to {} words, {:.1} on average; {:.0} % name clothes",
+            figures.language,
+            it.different_texts,
+            it.texts,
+            100.0 * figures.true_share,
+            it.distinct_1,
+            it.distinct_2,
+            it.self_bleu,
+            it.words[0],
+            it.words[1],
+            it.mean_words,
+            100.0 * figures.names_target_share,
+        );
+    }
     for gap in &examination.unchecked {
         let _ = writeln!(text, "not checked: {gap}");
     }
@@ -137,6 +162,12 @@ fn shortcuts(figures: &ShortcutFigures) -> String {
             "the target is the person nearest to the picture's centre in {:.1} % of {}; {nearer:.2} people are nearer on average",
             100.0 * share,
             count(figures.frames, "expert frame")
+        );
+    }
+    if let (Some(place), Some(height)) = (figures.place_auc, figures.height_auc) {
+        let _ = writeln!(
+            text,
+            "the picture tells the target from others in the frame with AUC {place:.2} by its place, {height:.2} by its height; 0.50 is chance"
         );
     }
     let (colourful, bright) = (figures.clothes_auc_colourfulness, figures.clothes_auc_brightness);

@@ -4,6 +4,7 @@
 
 mod carla_job;
 mod cluster;
+mod dagger;
 mod dataset;
 mod doctor;
 mod elsewhere;
@@ -38,6 +39,7 @@ use crate::command::Entry;
 pub const COMMANDS: &[Entry] = &[
     Entry::of::<carla_job::Arguments>(),
     cluster::CLUSTER,
+    Entry::of::<dagger::Arguments>(),
     dataset::DATASET,
     Entry::of::<doctor::Arguments>(),
     Entry::of::<eval::Arguments>(),

@@ -7,7 +7,8 @@ use crate::exit;
 use crate::text::{bytes, count, duration};
 use clap::Parser;
 use cosfly_recipe::Recipe;
-use cosfly_runner::{Plan, Reason};
+use cosfly_runner::{Plan, PlannedStage, Reason};
+use cosfly_stage::Asks;
 use serde_json::json;
 use std::fmt::Write;
 use std::time::Duration;
@@ -49,20 +50,28 @@ impl Command for Arguments {
         let store = self.store.open_to_read()?;
         let plan = cosfly_runner::plan(&recipe, &store)?;
         console.print(&if self.json {
-            json(&plan, self.price)
+            json(&recipe, &plan, self.price)
         } else {
-            table(&plan) + &passing(&recipe, &plan) + &cost(&plan, self.price)
+            table(&plan) + &passing(&recipe, &plan) + &questions(&recipe, &plan) + &cost(&plan, self.price)
         })?;
         Ok(exit::SUCCESS)
     }
 }
 
 /// The plan for programs.
-fn json(plan: &Plan<'_>, price: Option<f64>) -> String {
+fn json(recipe: &Recipe, plan: &Plan<'_>, price: Option<f64>) -> String {
     let stages = plan.stages.iter().map(|stage| {
         let reasons =
             stage.reasons.iter().map(|(reason, items)| json!({ "reason": reason.to_string(), "items": items }));
+        let asks = asks(recipe, stage).map(|asks| {
+            let (few, many) = (stage.to_run().saturating_mul(asks.questions), stage.to_run().saturating_mul(asks.most_questions));
+            json!({
+                "questions": few, "most_questions": many, "input_tokens": few.saturating_mul(asks.input_tokens),
+                "output_tokens": few.saturating_mul(asks.output_tokens), "price": asks.price(few), "most_price": asks.price(many),
+            })
+        });
         json!({
+            "asks": asks,
             "stage": stage.name.as_str(), "uses": stage.kind, "items": stage.items(), "cached": stage.cached(),
             "to_run": stage.to_run(), "not_needed": stage.not_needed(), "made_again": stage.spent,
             "predicted_core_s": stage.predicted_s, "predicted_bytes": stage.predicted_bytes, "reasons": reasons.collect::<Vec<_>>(),
@@ -131,6 +140,34 @@ fn table(plan: &Plan<'_>) -> String {
             shared.map_or(String::new(), |reason| format!(", because {reason}")),
         ),
     };
+    text
+}
+
+/// Requests of an item of a stage to a service outside.
+fn asks(recipe: &Recipe, stage: &PlannedStage) -> Option<Asks> {
+    recipe.stages[recipe.position(stage.name.as_str())?].stage.properties().asks
+}
+
+/// Text about requests to services outside; kept answers are not asked for again.
+fn questions(recipe: &Recipe, plan: &Plan<'_>) -> String {
+    let mut text = String::new();
+    for stage in plan.stages.iter().filter(|stage| stage.to_run() > 0) {
+        let Some(asks) = asks(recipe, stage) else { continue };
+        let (few, many) =
+            (stage.to_run().saturating_mul(asks.questions), stage.to_run().saturating_mul(asks.most_questions));
+        let _ = write!(
+            text,
+            "`{}` has {} for its service, at most {many} with repeated ones, less those whose answers are kept: about {} input and {} output tokens",
+            stage.name,
+            count(few, "question"),
+            few.saturating_mul(asks.input_tokens),
+            few.saturating_mul(asks.output_tokens),
+        );
+        if asks.prices != [0.0; 2] {
+            let _ = write!(text, ", {} to {}", money(asks.price(few)), money(asks.price(many)));
+        }
+        text += ".\n";
+    }
     text
 }
 

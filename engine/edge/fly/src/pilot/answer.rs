@@ -1,8 +1,7 @@
-//! [`Answer`]: actions that a policy gave in one message, and the message that asks for them.
+//! [`Answer`]: actions that a policy gave in one message.
 
-use super::Manners;
-use crate::wire::{self, Field};
-use cosfly_env::{Action, Environment, FEATURES, policies};
+use crate::wire;
+use cosfly_env::{Action, Environment, policies};
 use cosfly_frames::{DVec3, Pose, action, real};
 use rmpv::Value;
 
@@ -14,6 +13,11 @@ const LARGEST: f64 = 1e6;
 pub enum ActionKind {
     /// Rows of five numbers, one per step: velocity ahead, right, up (m/s), yaw rate and pitch rate (degrees/s).
     Velocity,
+    /// Rows of six numbers, one per step: collective thrust (multiples of the weight), roll, pitch and yaw rate of a quadrotor,
+    /// yaw and pitch rate of the camera (degrees/s).
+    ThrustAndRates,
+    /// Rows of six numbers, one per step: speeds of a quadrotor's rotors (rev/min), yaw and pitch rate of the camera (degrees/s).
+    Rotors,
     /// Rows of six numbers, one per frame of the dataset: dx, dy, dz (m), dpitch, dyaw, droll (degrees) from the pose before,
     /// along the world's axes.
     DeltasInWorld,
@@ -26,9 +30,16 @@ impl ActionKind {
     pub fn name(self) -> &'static str {
         match self {
             Self::Velocity => "velocity",
+            Self::ThrustAndRates => "thrust-rates",
+            Self::Rotors => "rotors",
             Self::DeltasInWorld => "deltas-world",
             Self::DeltasInBody => "deltas-body",
         }
+    }
+
+    /// Whether only quadrotors take such actions.
+    pub fn is_of_rotors(self) -> bool {
+        matches!(self, Self::ThrustAndRates | Self::Rotors)
     }
 
     fn columns(self) -> usize {
@@ -73,7 +84,7 @@ impl Answer {
         let observation = environment.observation();
         let (begins_s, frame_s) = (observation.time_s, environment.episode().target.dt_s);
         let mut answer = Self { kind, rows, step: observation.step, poses: vec![], plan: None, begins_s, frame_s };
-        if kind != ActionKind::Velocity {
+        if matches!(kind, ActionKind::DeltasInWorld | ActionKind::DeltasInBody) {
             answer.lay_out(environment.camera());
         }
         Ok(answer)
@@ -99,8 +110,12 @@ impl Answer {
             return None;
         }
         let Some(plan) = &self.plan else {
-            let (rows, _) = self.rows.as_chunks::<5>();
-            return rows.get(age as usize).map(|row| Action::of_numbers(*row));
+            let row = self.rows.chunks_exact(self.kind.columns()).nth(age as usize)?;
+            return match (self.kind, row) {
+                (ActionKind::ThrustAndRates, row) => row.try_into().ok().map(Action::of_thrust_and_rates),
+                (ActionKind::Rotors, row) => row.try_into().ok().map(Action::of_rotors),
+                (_, row) => row.try_into().ok().map(Action::of_numbers),
+            };
         };
         let settings = environment.settings();
         let time_s = environment.observation().time_s - self.begins_s + settings.step_s;
@@ -119,17 +134,4 @@ impl Answer {
         action.view.pitch_rad_s = (pitch_rad - gimbal.pitch_rad) / settings.step_s;
         Some(action)
     }
-}
-
-/// The message that asks for an action.
-pub fn question(environment: &Environment, manners: &Manners) -> Vec<u8> {
-    let observation = environment.observation();
-    let state = observation.features().map(|feature| feature as f32);
-    wire::encode(&[
-        ("episode", Field::Text(&environment.episode().name)),
-        ("step", Field::Count(u64::from(observation.step))),
-        ("time_s", Field::Number(observation.time_s)),
-        ("prompt", Field::Text(&manners.prompt)),
-        ("state", Field::Floats(&state, &[FEATURES])),
-    ])
 }

@@ -3,11 +3,13 @@
 mod answer;
 mod baseline;
 mod python;
+mod question;
 mod socket;
 
 pub use answer::{ActionKind, Answer};
 
 use cosfly_diagnose::{Diagnostic, Fault, Result, nearest_name};
+use cosfly_env::pictures::Format;
 use cosfly_env::policies::{BASELINES, Knowledge};
 use cosfly_env::{Action, Environment};
 use std::path::PathBuf;
@@ -86,6 +88,8 @@ pub struct Manners {
     pub actions: ActionKind,
     /// Steps after which a policy is asked again, at least 1; rows of its last answer are flown meanwhile.
     pub every: u32,
+    /// Pictures that observations carry.
+    pub pictures: Option<Format>,
     /// Text of the task that observations carry.
     pub prompt: String,
     /// Time within which an answer must come.

@@ -1,6 +1,7 @@
 //! A policy that is a function in Python, in a process of its own.
 
-use super::answer::{Answer, question};
+use super::answer::Answer;
+use super::question::Question;
 use super::{Failure, Manners, Pilot};
 use crate::wire;
 use cosfly_diagnose::visible_text;
@@ -30,6 +31,7 @@ pub struct PythonPilot {
     function: String,
     manners: Manners,
     process: Option<Process>,
+    question: Question,
     answer: Option<Answer>,
 }
 
@@ -50,7 +52,8 @@ impl PythonPilot {
     /// The function of a module, not yet started.
     pub fn new(module: &str, function: &str, manners: Manners) -> Self {
         let (module, function) = (module.to_owned(), function.to_owned());
-        Self { module, function, manners, process: None, answer: None }
+        let question = Question::new(&manners);
+        Self { module, function, manners, process: None, question, answer: None }
     }
 
     fn start(&mut self) -> Result<(), Failure> {
@@ -122,7 +125,7 @@ impl Pilot for PythonPilot {
         if let Some(action) = self.answer.as_ref().and_then(|answer| answer.action(environment, every)) {
             return Ok(action);
         }
-        let question = question(environment, &self.manners);
+        let question = self.question.bytes(environment);
         let process = self.process.as_mut().ok_or_else(|| Failure::Gone("there is no process".to_owned()))?;
         let size = (question.len() as u32).to_le_bytes();
         let sent = process.questions.write_all(&size).and_then(|()| process.questions.write_all(&question));

@@ -1,6 +1,7 @@
 //! A policy behind a WebSocket that speaks openpi's wire: metadata first, then an action for every observation.
 
-use super::answer::{Answer, question};
+use super::answer::Answer;
+use super::question::Question;
 use super::{Failure, Manners, Pilot};
 use crate::wire;
 use cosfly_diagnose::visible_text;
@@ -24,13 +25,15 @@ pub struct SocketPilot {
     address: String,
     manners: Manners,
     socket: Option<WebSocket<Timed>>,
+    question: Question,
     answer: Option<Answer>,
 }
 
 impl SocketPilot {
     /// The server at `ws://HOST:PORT`, not yet connected.
     pub fn new(address: &str, manners: Manners) -> Self {
-        Self { address: address.to_owned(), manners, socket: None, answer: None }
+        let question = Question::new(&manners);
+        Self { address: address.to_owned(), manners, socket: None, question, answer: None }
     }
 
     fn connect(&self) -> Result<WebSocket<Timed>, String> {
@@ -104,7 +107,7 @@ impl SocketPilot {
     }
 
     fn ask(&mut self, environment: &Environment) -> Result<Answer, Failure> {
-        let question = question(environment, &self.manners);
+        let question = self.question.bytes(environment);
         let socket = self.socket.as_mut().ok_or_else(|| Failure::Gone("there is no connection".to_owned()))?;
         socket.get_mut().until = Instant::now() + self.manners.timeout;
         if let Err(error) = socket.send(Message::Binary(question.into())) {

@@ -1,6 +1,9 @@
 //! [`Card`]: what was evaluated, and how.
 
-use cosfly_env::{RewardWeights, Settings};
+use crate::flight::Latency;
+use crate::suite::Suite;
+use cosfly_env::pictures::{Channel, Format};
+use cosfly_env::{Blackouts, RewardWeights, Settings};
 use serde::{Deserialize, Serialize};
 
 /// What was evaluated, and how. Rows of two results are comparable where `suite`, `episodes` and `environment` are equal.
@@ -13,6 +16,8 @@ pub struct Card {
     pub policy: PolicyCard,
     /// Settings of the environment.
     pub environment: EnvironmentCard,
+    /// What is kept beside rows and tables.
+    pub kept: KeptCard,
     /// Version of cosfly.
     pub cosfly: String,
 }
@@ -29,6 +34,18 @@ pub struct SuiteCard {
     pub episodes: u64,
     /// Walks that have no episode because the expert found no flight behind them.
     pub rejected: u64,
+}
+
+impl SuiteCard {
+    /// The card of a suite.
+    pub fn of(suite: &Suite) -> Self {
+        Self {
+            name: suite.name.clone(),
+            hash: suite.digest.to_string(),
+            episodes: suite.tasks.len() as u64,
+            rejected: suite.rejected,
+        }
+    }
 }
 
 /// The policy on a card.
@@ -48,6 +65,54 @@ pub struct PolicyCard {
     pub every: u32,
     /// Text of the task.
     pub prompt: String,
+    /// Pictures in its observations.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub pictures: Option<PicturesCard>,
+}
+
+/// Pictures in observations on a card.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct PicturesCard {
+    channels: Vec<String>,
+    width: u32,
+    height: u32,
+    farthest_m: f32,
+}
+
+impl PicturesCard {
+    /// The card of a format.
+    pub fn of(format: &Format) -> Self {
+        let asked = Channel::ALL.into_iter().filter(|(_, channel)| format.channels.contains(channel));
+        Self {
+            channels: asked.map(|(name, _)| name.to_owned()).collect(),
+            width: format.width,
+            height: format.height,
+            farthest_m: format.farthest_m,
+        }
+    }
+}
+
+/// What is kept beside rows and tables.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct KeptCard {
+    /// Episodes with logs that play.
+    pub logs: LogChoice,
+    /// Number of the worst episodes that have clips.
+    pub clips: u32,
+}
+
+/// Episodes with logs that play (MCAP).
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum LogChoice {
+    /// All.
+    All,
+    /// Those that have clips.
+    Worst,
+    /// None.
+    None,
 }
 
 /// Settings of the environment on a card: metres, seconds, degrees.
@@ -56,6 +121,13 @@ pub struct PolicyCard {
 pub struct EnvironmentCard {
     step_s: f64,
     latency_s: f64,
+    /// Whether latencies are measured: then rows and logs differ from run to run.
+    #[serde(default, skip_serializing_if = "core::ops::Not::not")]
+    latency_is_measured: bool,
+    drone: String,
+    wind_mps: f64,
+    gusts: bool,
+    blackouts: Blackouts,
     radius_m: f64,
     speed_mps: f64,
     acceleration_mps2: f64,
@@ -71,12 +143,18 @@ pub struct EnvironmentCard {
     reward_weights: RewardWeights,
 }
 
-impl From<&Settings> for EnvironmentCard {
-    fn from(settings: &Settings) -> Self {
+impl EnvironmentCard {
+    /// The card of settings.
+    pub fn new(settings: &Settings, latency: Latency) -> Self {
         let gimbal = &settings.gimbal;
         Self {
             step_s: settings.step_s,
             latency_s: settings.latency_s,
+            latency_is_measured: latency == Latency::Measured,
+            drone: settings.drone.model.name().to_owned(),
+            wind_mps: settings.drone.wind_mps,
+            gusts: settings.drone.gusts,
+            blackouts: settings.blackouts,
             radius_m: settings.radius_m,
             speed_mps: settings.motion.speed_mps,
             acceleration_mps2: settings.motion.acceleration_mps2,
@@ -95,6 +173,11 @@ impl From<&Settings> for EnvironmentCard {
 }
 
 impl Card {
+    /// Whether latencies are measured: then rows and logs differ from run to run.
+    pub fn is_measured(&self) -> bool {
+        self.environment.latency_is_measured
+    }
+
     /// Difference that keeps rows of two results from being compared, in words.
     pub fn incomparable(&self, other: &Self) -> Option<String> {
         let (ours, theirs) = (&self.suite.hash, &other.suite.hash);
@@ -103,7 +186,12 @@ impl Card {
         }
         // Latencies may differ.
         let settings = |card: &Self| {
-            serde_json::to_value(EnvironmentCard { latency_s: 0.0, ..card.environment.clone() }).unwrap_or_default()
+            serde_json::to_value(EnvironmentCard {
+                latency_s: 0.0,
+                latency_is_measured: false,
+                ..card.environment.clone()
+            })
+            .unwrap_or_default()
         };
         let (ours, theirs) = (settings(self), settings(other));
         let names = ours.as_object()?.keys().filter(|name| ours[name.as_str()] != theirs[name.as_str()]);

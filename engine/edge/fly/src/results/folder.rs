@@ -3,12 +3,16 @@
 use super::card::Card;
 use super::report;
 use crate::flight::{Flown, Row};
+use crate::log::{self, Line};
+use crate::whole;
 use cosfly_diagnose::{Diagnostic, Fault, Result};
-use std::io::Write as _;
 use std::path::{Path, PathBuf};
 
-/// The folder of a result: `card.json`, `rows/EPISODE.json`, `logs/EPISODE.jsonl`; once whole also `episodes.jsonl`,
-/// `scores.json` and `report.md`.
+/// Folders in the folder.
+const PARTS: [&str; 3] = ["rows", "logs", "clips"];
+
+/// The folder of a result: `card.json`, `rows/EPISODE.json`, `logs/EPISODE.jsonl` and `.mcap`; once whole also `episodes.jsonl`,
+/// `scores.json`, `report.md`, `report.html` and `clips/EPISODE.gif`.
 pub struct Folder {
     path: PathBuf,
 }
@@ -36,11 +40,11 @@ impl Folder {
                         Diagnostic::new("fly-out", Fault::Recipe, message).hint("give another folder with `--out`")
                     );
                 }
-                for part in ["rows", "logs"] {
+                for part in PARTS {
                     let made = std::fs::create_dir_all(folder.path.join(part));
                     made.map_err(|error| Diagnostic::io(format!("make the folder {}", path.display()), &error))?;
                 }
-                folder.write("card.json", &text)?;
+                folder.write("card.json", text.as_bytes())?;
             }
             Err(error) => return Err(Diagnostic::io(format!("read {}", path.join("card.json").display()), &error)),
         }
@@ -76,19 +80,49 @@ impl Folder {
         serde_json::from_str(&text).ok()
     }
 
-    /// Keeps an episode: its log, then its row.
+    /// Keeps an episode: its logs, then its row.
     ///
     /// # Errors
     /// Errors of the file system.
-    pub fn keep(&self, flown: &Flown) -> Result<()> {
+    pub fn keep(&self, flown: &Flown, mcap: Option<&[u8]>) -> Result<()> {
         let name = &flown.row.episode;
-        self.write(&format!("logs/{name}.jsonl"), &flown.log)?;
-        self.write(&format!("rows/{name}.json"), &line(&flown.row))
+        self.write(&format!("logs/{name}.jsonl"), log::text(&flown.steps).as_bytes())?;
+        mcap.map_or(Ok(()), |bytes| self.write(&format!("logs/{name}.mcap"), bytes))?;
+        self.write(&format!("rows/{name}.json"), line(&flown.row).as_bytes())
+    }
+
+    /// The steps of an episode that was flown before.
+    ///
+    /// # Errors
+    /// `fly-result` where its log is damaged; errors of the file system.
+    pub fn steps(&self, episode: &str) -> Result<Vec<Line>> {
+        let path = self.path.join(format!("logs/{episode}.jsonl"));
+        let text = std::fs::read_to_string(&path);
+        let text = text.map_err(|error| Diagnostic::io(format!("read {}", path.display()), &error))?;
+        log::read(&text).map_err(|error| error.because(path.display().to_string()))
+    }
+
+    /// Keeps a file of an episode, in one of the folder's parts, unless it is there.
+    ///
+    /// # Errors
+    /// Those of `make`; errors of the file system.
+    pub fn keep_once(&self, name: &str, make: &dyn Fn() -> Result<Option<Vec<u8>>>) -> Result<bool> {
+        if self.path.join(name).exists() {
+            return Ok(true);
+        }
+        let made = make()?;
+        made.as_ref().map_or(Ok(()), |bytes| self.write(name, bytes))?;
+        Ok(made.is_some())
+    }
+
+    /// Removes a file of an episode.
+    pub fn forget(&self, name: &str) {
+        _ = std::fs::remove_file(self.path.join(name));
     }
 
     /// Removes what calls that were killed left half written.
     fn clean(&self) {
-        for part in [self.path.clone(), self.path.join("rows"), self.path.join("logs")] {
+        for part in PARTS.map(|part| self.path.join(part)).into_iter().chain([self.path.clone()]) {
             for entry in part.read_dir().into_iter().flatten().flatten() {
                 if entry.file_name().to_string_lossy().starts_with(".tmp") {
                     _ = std::fs::remove_file(entry.path());
@@ -97,15 +131,16 @@ impl Folder {
         }
     }
 
-    /// Writes the tables over all rows.
+    /// Writes the tables over all rows, and the page.
     ///
     /// # Errors
     /// Errors of the file system.
-    pub fn finish(&self, card: &Card, rows: &[Row]) -> Result<()> {
+    pub fn finish(&self, card: &Card, rows: &[Row], page: &str) -> Result<()> {
         self.clean();
-        self.write("episodes.jsonl", &rows.iter().map(line).collect::<String>())?;
-        self.write("scores.json", &pretty(&report::scores(rows)))?;
-        self.write("report.md", &report::markdown(card, rows))
+        self.write("episodes.jsonl", rows.iter().map(line).collect::<String>().as_bytes())?;
+        self.write("scores.json", pretty(&report::scores(rows)).as_bytes())?;
+        self.write("report.html", page.as_bytes())?;
+        self.write("report.md", report::markdown(card, rows).as_bytes())
     }
 
     /// Path of the folder.
@@ -114,15 +149,9 @@ impl Folder {
     }
 
     /// Writes a file whole or not at all.
-    fn write(&self, name: &str, text: &str) -> Result<()> {
+    fn write(&self, name: &str, bytes: &[u8]) -> Result<()> {
         let path = self.path.join(name);
-        let place = path.parent().unwrap_or(&self.path);
-        let written = tempfile::NamedTempFile::new_in(place).and_then(|mut file| {
-            file.write_all(text.as_bytes())?;
-            file.as_file().sync_data()?;
-            file.persist(&path).map(|_| ()).map_err(|error| error.error)
-        });
-        written.map_err(|error| Diagnostic::io(format!("write {}", path.display()), &error))
+        whole::write(&path, bytes).map_err(|error| Diagnostic::io(format!("write {}", path.display()), &error))
     }
 }
 

@@ -1,11 +1,11 @@
-//! The result of an evaluation: a folder with a card, a row and a log per episode, and tables.
+//! The result of an evaluation: a folder with a card, a row and logs per episode, tables, clips and a page.
 
 mod card;
 mod folder;
 mod metrics;
 mod report;
 
-pub use card::{Card, PolicyCard, SuiteCard};
+pub use card::{Card, EnvironmentCard, KeptCard, LogChoice, PicturesCard, PolicyCard, SuiteCard};
 pub use folder::Folder;
 pub use metrics::{METRICS, Metric, Summary, mean_of, strata, summary};
-pub use report::{beside, markdown, scores};
+pub use report::{beside, cell, ending, markdown, scores, worst};

@@ -3,6 +3,7 @@
 use super::card::Card;
 use super::metrics::{METRICS, Metric, Summary, strata, summary};
 use crate::flight::Row;
+use cosfly_env::End;
 use serde_json::{Map, Value, json};
 use std::fmt::Write as _;
 
@@ -38,6 +39,26 @@ pub fn cell(metric: &Metric, summary: &Summary) -> String {
     }
 }
 
+/// How an episode ended, in words.
+pub fn ending(row: &Row) -> String {
+    let after_s = f64::from(row.score.steps) * row.step_s;
+    match row.score.end {
+        _ if row.policy_failure.is_some() => format!("the policy failed after {after_s:.1} s"),
+        Some(End::Finished) => "flown to the end".to_owned(),
+        Some(End::Collision) => format!("collision after {after_s:.1} s"),
+        Some(End::Lost) => format!("given up after {after_s:.1} s"),
+        None => "not flown".to_owned(),
+    }
+}
+
+/// The episodes with the lowest tracking rates, the lowest first.
+pub fn worst(rows: &[Row], count: usize) -> Vec<&Row> {
+    let mut worst: Vec<&Row> = rows.iter().collect();
+    worst.sort_by(|a, b| a.score.tracking_rate().total_cmp(&b.score.tracking_rate()));
+    worst.truncate(count);
+    worst
+}
+
 /// The report of one policy.
 pub fn markdown(card: &Card, rows: &[Row]) -> String {
     let mut text = format!("# `{}` on `{}`\n\n", card.policy.name, card.suite.name);
@@ -47,6 +68,9 @@ pub fn markdown(card: &Card, rows: &[Row]) -> String {
         rows.len(),
         card.suite.hash
     );
+    if card.is_measured() {
+        text.push_str("Latencies are measured: another run gives other numbers.\n\n");
+    }
     let groups = strata(rows);
     let several = groups.len() > 1;
     let all = summary(&rows.iter().collect::<Vec<_>>());
@@ -55,7 +79,7 @@ pub fn markdown(card: &Card, rows: &[Row]) -> String {
     let _ = write!(text, "| metric | all |");
     groups.iter().for_each(|(name, _)| _ = write!(text, " {name} |"));
     let _ = writeln!(text, "\n| --- | --- |{}", " --- |".repeat(groups.len()));
-    for (at, metric) in METRICS.iter().enumerate() {
+    for (at, metric) in METRICS.iter().enumerate().filter(|(at, _)| all[*at].count > 0) {
         let _ = write!(text, "| {} | {} |", metric.title, cell(metric, &all[at]));
         groups.iter().for_each(|(_, group)| _ = write!(text, " {} |", cell(metric, &group[at])));
         text.push('\n');
@@ -71,31 +95,39 @@ pub fn markdown(card: &Card, rows: &[Row]) -> String {
             let _ = writeln!(text, "* ... and {} more", failures.len() - MOST_FAILURES);
         }
     }
-    let mut worst: Vec<&Row> = rows.iter().collect();
-    worst.sort_by(|a, b| a.score.tracking_rate().total_cmp(&b.score.tracking_rate()));
     let _ = writeln!(text, "\n## Episodes with the lowest tracking rate\n");
-    for row in worst.iter().take(5) {
-        let end = row.score.end.and_then(|end| serde_json::to_value(end).ok());
-        let end = end.as_ref().and_then(Value::as_str).unwrap_or("policy failed").to_owned();
-        let _ =
-            writeln!(text, "* {}: {:.3}, {end} (logs/{}.jsonl)", row.episode, row.score.tracking_rate(), row.episode);
+    for row in worst(rows, 5) {
+        let (name, rate) = (&row.episode, row.score.tracking_rate());
+        let _ = writeln!(text, "* {name}: {rate:.3}, {} (logs/{name}.jsonl)", ending(row));
     }
     let _ = writeln!(text, "\n## Metrics\n");
     METRICS.iter().for_each(|metric| _ = writeln!(text, "* {}: {}", metric.title, metric.doc));
     text
 }
 
-/// Several policies side by side.
+/// Several policies side by side, a metric per line, in columns that a terminal and Markdown show.
 pub fn beside(arms: &[(&str, &[Row])]) -> String {
-    let mut text = String::from("| policy | episodes |");
-    METRICS.iter().for_each(|metric| _ = write!(text, " {} |", metric.title));
-    let _ = writeln!(text, "\n| --- | --- |{}", " --- |".repeat(METRICS.len()));
+    let is_known = |metric: &Metric| arms.iter().any(|(_, rows)| rows.iter().any(|row| (metric.of)(row).is_some()));
+    let mut lines = vec![vec!["metric".to_owned()], vec!["episodes".to_owned()]];
+    lines.extend(METRICS.iter().map(|metric| vec![metric.title.to_owned()]));
     for (name, rows) in arms {
-        let _ = write!(text, "| {name} | {} |", rows.len());
-        for (metric, summary) in METRICS.iter().zip(summary(&rows.iter().collect::<Vec<_>>())) {
-            let _ = write!(text, " {} |", cell(metric, &summary));
+        let summaries = summary(&rows.iter().collect::<Vec<_>>());
+        let cells = METRICS.iter().zip(&summaries).map(|(metric, summary)| cell(metric, summary));
+        let column = [(*name).to_owned(), rows.len().to_string()].into_iter().chain(cells);
+        lines.iter_mut().zip(column).for_each(|(line, cell)| line.push(cell));
+    }
+    let is_shown = |at: &usize| at.checked_sub(2).is_none_or(|metric| is_known(&METRICS[metric]));
+    let shown: Vec<Vec<String>> = (0..lines.len()).filter(is_shown).map(|at| lines[at].clone()).collect();
+    let width = |column: usize| shown.iter().map(|line| line[column].chars().count()).max().unwrap_or(0);
+    let widths: Vec<usize> = (0..=arms.len()).map(width).collect();
+    let mut text = String::new();
+    for (at, line) in shown.iter().enumerate() {
+        line.iter().zip(&widths).for_each(|(cell, width)| _ = write!(text, "| {cell:<width$} "));
+        text.push_str("|\n");
+        if at == 0 {
+            widths.iter().for_each(|width| _ = write!(text, "| {:-<width$} ", ""));
+            text.push_str("|\n");
         }
-        text.push('\n');
     }
     text
 }

@@ -93,6 +93,8 @@ class PlannedStage:
     predicted_bytes: int
     reasons: List[Dict[str, Any]]
     """Why items would run, with their number."""
+    asks: Optional[Dict[str, Any]] = None
+    """Questions to a service outside, their tokens and price, where the stage has any."""
 
 
 @dataclass(frozen=True)

@@ -1,26 +1,79 @@
 """Environments for gymnasium: `gym.make_vec("cosfly/Track-v0", num_envs=64, recipe="recipes/suites/street.toml")`.
 
 An environment flies the episodes of a recipe, as `cosfly fly` does; each draws its episodes from a seed of its own.
-Observations are 16 numbers, actions five: velocity ahead, right, up (m/s), yaw rate, pitch rate (degrees/s). The book's page
-"Flying in closed loop" defines them, and the terms of the reward, which `info` has as `reward_...`.
+Observations are 16 numbers (`obs=("state",)`), pictures (`depth`, `mask`, `semantic`, `instance`, `rgb`), or several of them as a
+dictionary. Actions are five numbers: velocity ahead, right, up (m/s), yaw rate, pitch rate (degrees/s). The book's page "Flying in
+closed loop" defines them, and the terms of the reward, which `info` has as `reward_...`.
 """
 
 from __future__ import annotations
 
 import os
-from typing import Any, Sequence
+from dataclasses import dataclass
+from typing import Any, Callable, Sequence
 
 import gymnasium
 import numpy as np
+from gymnasium import spaces
 from gymnasium.vector import AutoresetMode, VectorEnv
 from gymnasium.vector.utils import batch_space
 
 from ._cosfly import Flock
 from ._gym import register
 
-OBSERVATIONS = gymnasium.spaces.Box(-np.inf, np.inf, (16,), np.float32)
 _LARGEST = np.array([12, 12, 12, 60, 60], dtype=np.float32)
-ACTIONS = gymnasium.spaces.Box(-_LARGEST, _LARGEST, dtype=np.float32)
+ACTIONS = spaces.Box(-_LARGEST, _LARGEST, dtype=np.float32)
+_MODES = {
+    AutoresetMode.NEXT_STEP: "next_step",
+    AutoresetMode.SAME_STEP: "same_step",
+    AutoresetMode.DISABLED: "disabled",
+}
+_LARGEST_SIZE = 2048
+
+
+@dataclass
+class _Observations:
+    """What observations hold: their names, the size of pictures (width, height), the greatest depth."""
+
+    names: tuple[str, ...]
+    size: tuple[int, int]
+    max_depth_m: float
+
+    def __post_init__(self) -> None:
+        known = ("state", "depth", "mask", "semantic", "instance", "rgb")
+        if not self.names or not set(self.names) <= set(known) or len(set(self.names)) < len(self.names):
+            raise ValueError(f"obs is {self.names}; it names one or several of {', '.join(known)}, each once")
+        if not all(8 <= side <= _LARGEST_SIZE for side in self.size):
+            raise ValueError(f"size is {self.size}; the sides of pictures are 8 to {_LARGEST_SIZE} pixels")
+        if not 1.0 <= self.max_depth_m <= 1e6:
+            raise ValueError(f"max_depth_m is {self.max_depth_m}; it is 1 to 1000000 m")
+
+    @property
+    def channels(self) -> list[str]:
+        return [name for name in self.names if name != "state"]
+
+    def space(self) -> spaces.Space[Any]:
+        width, height = self.size
+        known: dict[str, Callable[[], spaces.Space[Any]]] = {
+            "state": lambda: spaces.Box(-np.inf, np.inf, (16,), np.float32),
+            "depth": lambda: spaces.Box(0, self.max_depth_m, (height, width), np.float32),
+            "mask": lambda: spaces.Box(0, 1, (height, width), np.uint8),
+            "semantic": lambda: spaces.Box(0, 255, (height, width), np.uint8),
+            "instance": lambda: spaces.Box(0, 2**32 - 1, (height, width), np.uint32),
+            "rgb": lambda: spaces.Box(0, 255, (height, width, 3), np.uint8),
+        }
+        if len(self.names) == 1:
+            return known[self.names[0]]()
+        return spaces.Dict({name: known[name]() for name in self.names})
+
+    def of(self, told: dict[str, Any], prefix: str = "", number: int | None = None) -> Any:
+        """The observations in what a flock tells: of all environments, or of one."""
+
+        def value(name: str) -> Any:
+            values = told[prefix + ("features" if name == "state" else name)]
+            return values if number is None else values[number]
+
+        return value(self.names[0]) if len(self.names) == 1 else {name: value(name) for name in self.names}
 
 
 def _flock(
@@ -31,28 +84,36 @@ def _flock(
     overrides: Sequence[str],
     store: str | os.PathLike[str] | None,
     obs: Sequence[str],
+    size: int | tuple[int, int],
+    max_depth_m: float,
+    weather: str,
+    threads: int | None,
     step_s: float,
     latency_s: float,
     expert_action: bool,
-) -> Flock:
-    if tuple(obs) != ("state",):
-        raise ValueError(f"obs is {tuple(obs)}; ('state',) is what environments give yet")
+) -> tuple[Flock, _Observations]:
+    width, height = (size, size) if isinstance(size, (int, np.integer)) else size
+    observations = _Observations(tuple(obs), (int(width), int(height)), float(max_depth_m))
     if not 0.01 <= step_s <= 1.0 or not 0.0 <= latency_s <= 5.0:
         raise ValueError(f"step_s is {step_s} (0.01 to 1 s) and latency_s is {latency_s} (0 to 5 s)")
     place = os.fspath(store if store is not None else os.environ.get("COSFLY_STORE") or ".cosfly")
-    name = {
-        AutoresetMode.NEXT_STEP: "next_step",
-        AutoresetMode.SAME_STEP: "same_step",
-        AutoresetMode.DISABLED: "disabled",
-    }[mode]
-    return Flock(os.fspath(recipe), list(overrides), place, count, step_s, latency_s, name, expert_action)
+    flock = Flock(
+        os.fspath(recipe), list(overrides), place, count, step_s, latency_s, _MODES[mode], expert_action,
+        observations.channels, observations.size, observations.max_depth_m, weather,
+        min(count, threads if threads is not None else os.cpu_count() or 1),
+    )  # fmt: skip
+    return flock, observations
 
 
-_NOT_INFO = ("features", "last_features", "rewards", "terminated", "truncated")
+_NOT_INFO = {"features", "rewards", "terminated", "truncated", "depth", "mask", "semantic", "instance", "rgb"}
+
+
+def _is_info(name: str) -> bool:
+    return name not in _NOT_INFO and not name.startswith("last_")
 
 
 class TrackVector(VectorEnv):
-    """Many drones that each follow a person; one call steps all of them with the GIL released."""
+    """Many drones that each follow a person or vehicle; one call steps all of them with the GIL released."""
 
     metadata = {"autoreset_mode": AutoresetMode.NEXT_STEP, "render_modes": []}
 
@@ -64,6 +125,10 @@ class TrackVector(VectorEnv):
         overrides: Sequence[str] = (),
         store: str | os.PathLike[str] | None = None,
         obs: Sequence[str] = ("state",),
+        size: int | tuple[int, int] = 84,
+        max_depth_m: float = 200.0,
+        weather: str = "ClearNoon",
+        threads: int | None = None,
         step_s: float = 0.1,
         latency_s: float = 0.0,
         expert_action: bool = False,
@@ -72,18 +137,18 @@ class TrackVector(VectorEnv):
         mode = AutoresetMode(autoreset_mode)
         self.num_envs = num_envs
         self.metadata = {**type(self).metadata, "autoreset_mode": mode}
-        self.single_observation_space, self.single_action_space = OBSERVATIONS, ACTIONS
-        self.observation_space = batch_space(OBSERVATIONS, num_envs)
-        self.action_space = batch_space(ACTIONS, num_envs)
         self._mode = mode
-        self._flock = _flock(
-            recipe, num_envs, mode, overrides=overrides, store=store, obs=obs, step_s=step_s, latency_s=latency_s,
-            expert_action=expert_action,
-        )
+        self._flock, self._observations = _flock(
+            recipe, num_envs, mode, overrides=overrides, store=store, obs=obs, size=size, max_depth_m=max_depth_m,
+            weather=weather, threads=threads, step_s=step_s, latency_s=latency_s, expert_action=expert_action,
+        )  # fmt: skip
+        self.single_observation_space, self.single_action_space = self._observations.space(), ACTIONS
+        self.observation_space = batch_space(self.single_observation_space, num_envs)
+        self.action_space = batch_space(ACTIONS, num_envs)
 
     def reset(
         self, *, seed: int | Sequence[int | None] | None = None, options: dict[str, Any] | None = None
-    ) -> tuple[np.ndarray, dict[str, Any]]:
+    ) -> tuple[Any, dict[str, Any]]:
         seeds: list[int | None]
         if seed is None:
             seeds = [None] * self.num_envs
@@ -96,9 +161,9 @@ class TrackVector(VectorEnv):
         mask = (options or {}).get("reset_mask")
         self._flock.reset(seeds, None if mask is None else [bool(chosen) for chosen in mask])
         told = self._flock.outputs()
-        return told["features"], self._info(told)
+        return self._observations.of(told), self._info(told)
 
-    def step(self, actions: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray, dict[str, Any]]:
+    def step(self, actions: np.ndarray) -> tuple[Any, np.ndarray, np.ndarray, np.ndarray, dict[str, Any]]:
         self._flock.step(np.ascontiguousarray(actions, dtype=np.float32))
         told = self._flock.outputs()
         info = self._info(told)
@@ -106,14 +171,14 @@ class TrackVector(VectorEnv):
         if self._mode == AutoresetMode.SAME_STEP and ended.any():
             final = np.empty(self.num_envs, dtype=object)
             for number in np.flatnonzero(ended):
-                final[number] = told["last_features"][number]
+                final[number] = self._observations.of(told, "last_", number)
             info["final_obs"], info["_final_obs"] = final, ended
-        return told["features"], told["rewards"], told["terminated"], told["truncated"], info
+        return self._observations.of(told), told["rewards"], told["terminated"], told["truncated"], info
 
     def _info(self, told: dict[str, Any]) -> dict[str, Any]:
         info: dict[str, Any] = {}
         for name, values in told.items():
-            if name not in _NOT_INFO:
+            if _is_info(name):
                 info[name], info[f"_{name}"] = values, np.ones(self.num_envs, dtype=bool)
         return info
 
@@ -123,7 +188,7 @@ class TrackVector(VectorEnv):
 
 
 class Track(gymnasium.Env):
-    """A drone that follows a person."""
+    """A drone that follows a person or vehicle."""
 
     metadata = {"render_modes": []}
 
@@ -134,32 +199,48 @@ class Track(gymnasium.Env):
         overrides: Sequence[str] = (),
         store: str | os.PathLike[str] | None = None,
         obs: Sequence[str] = ("state",),
+        size: int | tuple[int, int] = 84,
+        max_depth_m: float = 200.0,
+        weather: str = "ClearNoon",
         step_s: float = 0.1,
         latency_s: float = 0.0,
         expert_action: bool = False,
     ) -> None:
-        self.observation_space, self.action_space = OBSERVATIONS, ACTIONS
-        self._flock = _flock(
-            recipe, 1, AutoresetMode.DISABLED, overrides=overrides, store=store, obs=obs, step_s=step_s,
-            latency_s=latency_s, expert_action=expert_action,
-        )
+        self._flock, self._observations = _flock(
+            recipe, 1, AutoresetMode.DISABLED, overrides=overrides, store=store, obs=obs, size=size,
+            max_depth_m=max_depth_m, weather=weather, threads=1, step_s=step_s, latency_s=latency_s, expert_action=expert_action,
+        )  # fmt: skip
+        self.observation_space, self.action_space = self._observations.space(), ACTIONS
 
-    def reset(self, *, seed: int | None = None, options: dict[str, Any] | None = None) -> tuple[np.ndarray, dict[str, Any]]:
+    def reset(self, *, seed: int | None = None, options: dict[str, Any] | None = None) -> tuple[Any, dict[str, Any]]:
         super().reset(seed=seed)
-        self._flock.reset([seed], None)
+        episode = (options or {}).get("episode")
+        if episode is None:
+            self._flock.reset([seed], None)
+        else:
+            self._flock.begin_episode(0, episode)
         told = self._flock.outputs()
-        return told["features"][0], self._info(told)
+        return self._observations.of(told, number=0), self._info(told)
 
-    def step(self, action: np.ndarray) -> tuple[np.ndarray, float, bool, bool, dict[str, Any]]:
+    def step(self, action: np.ndarray) -> tuple[Any, float, bool, bool, dict[str, Any]]:
         self._flock.step(np.asarray(action, dtype=np.float32).reshape(1, -1))
         told = self._flock.outputs()
         ended = bool(told["terminated"][0]), bool(told["truncated"][0])
-        return told["features"][0], float(told["rewards"][0]), *ended, self._info(told)
+        return self._observations.of(told, number=0), float(told["rewards"][0]), *ended, self._info(told)
 
     def _info(self, told: dict[str, Any]) -> dict[str, Any]:
-        info = {name: values[0] for name, values in told.items() if name not in _NOT_INFO}
+        info = {name: values[0] for name, values in told.items() if _is_info(name)}
         info["episode"] = self._flock.episode(0)
         return info
+
+    def episodes(self) -> list[str]:
+        """Names of all episodes; `reset(options={"episode": NAME})` begins one of them."""
+        return self._flock.episodes()
+
+    @property
+    def planned_steps(self) -> int:
+        """Steps of the whole episode that is flown."""
+        return self._flock.planned_steps(0)
 
 
 register()

@@ -5,6 +5,7 @@ use super::{Declaration, Effect, Plugins, Role, source, tables};
 use crate::muco::produced;
 use crate::ports::{self, CAPTIONS, EXTRAS, FRAMES, TRAJECTORY};
 use crate::rejections::handed_on;
+use crate::traffic::link_moving;
 use crate::world::{check_same_town, link_town, world};
 use crate::{codec, parameters, single};
 use cosfly_blobs::OutputSink;
@@ -52,7 +53,7 @@ impl StageKind for Wasm {
         };
         let properties = StageProperties {
             kind: self.name().into(),
-            version: 2,
+            version: 3,
             parameters: parameters::canonical(&config.canonical()),
             sources: vec![source("", Role::Stage(config.makes), &config.setting())],
             inputs: ports_of(config.makes),
@@ -60,6 +61,7 @@ impl StageKind for Wasm {
             items: ItemRule::PerInput(items),
             bytes_per_item,
             intermediate: &[],
+            asks: None,
         };
         Ok(single(WasmStage { config, properties }))
     }
@@ -126,6 +128,7 @@ fn flights(
     };
     outputs.put("trajectory", &codec::encode(TRAJECTORY, &outcome)?)?;
     link_town(inputs, outputs)?;
+    link_moving(artifact, outputs)?;
     Ok(Produced { warnings, ..produced(&outcome) })
 }
 

@@ -87,7 +87,7 @@ pub struct Follow {
     pub count: u64,
     /// Kinds of followed bodies, in turn. Default `["pedestrian"]`.
     #[schemars(length(min = 1))]
-    pub kinds: Vec<Kind>,
+    pub kinds: Vec<BodyKind>,
     /// Least distance that a followed body covers, metres. Default 20.
     #[schemars(range(min = 0.0, max = 100_000.0))]
     pub min_length_m: f64,
@@ -95,41 +95,7 @@ pub struct Follow {
 
 impl Default for Follow {
     fn default() -> Self {
-        Self { count: 4, kinds: vec![Kind::Pedestrian], min_length_m: 20.0 }
-    }
-}
-
-/// Kinds of bodies.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
-#[serde(rename_all = "snake_case")]
-pub enum Kind {
-    /// People on foot.
-    Pedestrian,
-    /// Bicycles with their riders.
-    Bicycle,
-    /// Motorcycles with their riders.
-    Motorcycle,
-    /// Passenger cars.
-    Car,
-    /// Vans.
-    Van,
-    /// Lorries.
-    Truck,
-    /// Buses.
-    Bus,
-}
-
-impl Kind {
-    fn body(self) -> BodyKind {
-        match self {
-            Self::Pedestrian => BodyKind::Pedestrian,
-            Self::Bicycle => BodyKind::Bicycle,
-            Self::Motorcycle => BodyKind::Motorcycle,
-            Self::Car => BodyKind::Car,
-            Self::Van => BodyKind::Van,
-            Self::Truck => BodyKind::Truck,
-            Self::Bus => BodyKind::Bus,
-        }
+        Self { count: 4, kinds: vec![BodyKind::Pedestrian], min_length_m: 20.0 }
     }
 }
 
@@ -137,12 +103,10 @@ impl Follow {
     /// Numbers of all bodies that may be followed, in the order in which they are: the first of each kind, the second of each
     /// kind and so on, so that further ones change nothing.
     pub fn eligible(&self, traffic: &Traffic) -> Vec<u32> {
-        let of_kind = |kind: &Kind| -> Vec<u32> {
+        let of_kind = |kind: &BodyKind| -> Vec<u32> {
             let may = |number: &u32| {
                 let body = &traffic.bodies[*number as usize];
-                body.plan.kind == kind.body()
-                    && traffic.track(*number).is_some()
-                    && body.length_m() >= self.min_length_m
+                body.plan.kind == *kind && traffic.track(*number).is_some() && body.length_m() >= self.min_length_m
             };
             (0..traffic.bodies.len() as u32).filter(may).collect()
         };
@@ -153,7 +117,7 @@ impl Follow {
 
     /// Names of the kinds, for messages.
     pub fn names(&self) -> String {
-        let names: Vec<String> = self.kinds.iter().map(|kind| format!("`{}`", kind.body().name())).collect();
+        let names: Vec<String> = self.kinds.iter().map(|kind| format!("`{}`", kind.name())).collect();
         names.join(", ")
     }
 }
@@ -169,7 +133,7 @@ impl TrafficConfig {
         if let Some(at) =
             (1..self.follow.kinds.len()).find(|at| self.follow.kinds[..*at].contains(&self.follow.kinds[*at]))
         {
-            let message = format!("`{}` is listed twice", self.follow.kinds[at].body().name());
+            let message = format!("`{}` is listed twice", self.follow.kinds[at].name());
             return Err(ConfigRule { path: &["follow", "kinds"], message });
         }
         let shares = |message| ConfigRule { path: &["look_alikes", "shares"], message };

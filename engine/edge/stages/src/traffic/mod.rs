@@ -56,7 +56,7 @@ impl StageKind for TrafficKind {
         let sources = config.take_sources();
         let properties = |parameters, inputs, artifact, items, bytes_per_item| StageProperties {
             kind: self.name().into(),
-            version: 1,
+            version: 2,
             parameters,
             sources: vec![],
             inputs,
@@ -64,6 +64,7 @@ impl StageKind for TrafficKind {
             items,
             bytes_per_item,
             intermediate: &[],
+            asks: None,
         };
         let bodies = config.canonical_of_bodies();
         let bytes = 20 * u64::from(config.frames) * u64::from(config.people.count);

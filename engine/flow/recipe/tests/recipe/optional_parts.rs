@@ -24,6 +24,7 @@ impl Film {
             items: ItemRule::Count { prefix: "t", count: 2 },
             bytes_per_item: 1,
             intermediate: &[],
+            asks: None,
         }
     }
 }

@@ -164,7 +164,7 @@ use = "map"
       | ^^^^
       |
       = help: did you mean `seed`?
-      = help: a recipe has `name`, `seed`, `intermediates`, `for_each`, `stages`
+      = help: a recipe has `name`, `seed`, `intermediates`, `for_each`, `stages`, `tool`
 
     error[recipe-unknown-key]: `town2` is not a key of recipes
      --> a.toml:6:2
@@ -173,7 +173,7 @@ use = "map"
       |  ^^^^^
       |
       = help: did you mean `[stages.town2]`?
-      = help: a recipe has `name`, `seed`, `intermediates`, `for_each`, `stages`
+      = help: a recipe has `name`, `seed`, `intermediates`, `for_each`, `stages`, `tool`
 
     2 errors
     "#);

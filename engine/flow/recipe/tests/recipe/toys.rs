@@ -66,6 +66,7 @@ impl Toy {
             items: self.items.clone(),
             bytes_per_item: 1,
             intermediate: &[],
+            asks: None,
         }
     }
 

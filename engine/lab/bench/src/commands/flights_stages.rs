@@ -116,6 +116,7 @@ impl StageKind for Toy {
             items,
             bytes_per_item: 10_000,
             intermediate: if self.makes == Makes::Films { &["pack"] } else { &[] },
+            asks: None,
         };
         let stage = ToyStage { makes: self.makes, samples: Arc::clone(&self.samples), properties };
         Ok(vec![StagePart { suffix: "", stage: Box::new(stage) }])

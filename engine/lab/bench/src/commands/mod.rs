@@ -6,6 +6,8 @@ mod fleet;
 mod flights;
 mod flights_stages;
 mod geometry;
+mod ground;
+mod look;
 mod outcome;
 mod people;
 mod planner;
@@ -39,6 +41,9 @@ enum Command {
     /// Box queries per second on one core: cosfly's tree, the trees of parry and obvhs, and a brute-force loop
     #[command(after_help = geometry::EXAMPLES)]
     Geometry(geometry::GeometryArguments),
+    /// Statistics of pictures beside those of real ones: spectral slope, flat pixels, edges, spread of colours
+    #[command(after_help = look::EXAMPLES)]
+    Look(look::LookArguments),
     /// Simulated people beside recorded ones: speeds, stops, turns, groups, distances; speed by density
     #[command(after_help = people::EXAMPLES)]
     People(people::PeopleArguments),
@@ -65,6 +70,7 @@ impl Arguments {
             Command::Flights(arguments) => flights::flights(arguments),
             Command::Fleet(arguments) => fleet::fleet(arguments),
             Command::Geometry(arguments) => geometry::geometry(arguments),
+            Command::Look(arguments) => look::look(arguments),
             Command::People(arguments) => people::people(arguments),
             Command::Planner(arguments) => planner::planner(arguments),
             Command::Render(arguments) => render::render(arguments),

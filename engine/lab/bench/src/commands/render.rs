@@ -7,7 +7,7 @@ use cosfly_lab::render::views::Ground;
 use cosfly_lab::render::{RenderOptions, measure};
 use cosfly_render::{Camera, RenderConfig, Weather};
 use cosfly_schema::EncodingConfig;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 /// Default weathers: clear noon, hard rain, night.
 const WEATHERS: [&str; 3] = ["ClearNoon", "HardRainNoon", "ClearNight"];
@@ -98,11 +98,7 @@ fn weathers(arguments: &RenderArguments) -> Result<Vec<Weather>, Refusals> {
         false => arguments.weathers.iter().map(String::as_str).collect(),
     };
     let weather = |name: &&str| {
-        let mut weather = Weather::preset(name).ok_or_else(|| {
-            let message = format!("there is no weather `{name}`");
-            let hint = format!("the presets are {}", Weather::PRESETS.join(", "));
-            vec![Diagnostic::new("bench-weather", Fault::Recipe, message).hint(hint)]
-        })?;
+        let mut weather = super::ground::weather(name)?;
         weather.sun_azimuth_angle = 215.0;
         Ok(weather)
     };
@@ -110,20 +106,6 @@ fn weathers(arguments: &RenderArguments) -> Result<Vec<Weather>, Refusals> {
 }
 
 fn grounds(arguments: &RenderArguments, camera: Camera) -> Result<Vec<Ground>, Refusals> {
-    let unreadable = |error: &dyn std::fmt::Display| {
-        vec![Diagnostic::new("bench-town", Fault::Input, format!("the town cannot be read: {error}"))]
-    };
-    let town = match &arguments.town {
-        None => Ground::downtown(camera, arguments.views).map_err(|error| unreadable(&error))?,
-        Some(path) => {
-            let map = std::fs::read(path)
-                .map_err(|error| vec![Diagnostic::io(format!("read `{}`", path.display()), &error)])?;
-            Ground::of_map(name_of(path), &map, camera, arguments.views).map_err(|error| unreadable(&error))?
-        }
-    };
+    let town = super::ground::of_town(arguments.town.as_deref(), camera, arguments.views)?;
     Ok(vec![town, Ground::of_boxes(arguments.box_count, camera, arguments.views)])
-}
-
-fn name_of(path: &Path) -> &str {
-    path.file_stem().and_then(|stem| stem.to_str()).unwrap_or("town")
 }

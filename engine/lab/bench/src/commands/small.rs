@@ -2,11 +2,9 @@
 
 use super::outcome::{Outcome, print};
 use clap::Args;
-use cosfly_diagnose::{Diagnostic, Fault};
-use cosfly_lab::render::views::Ground;
 use cosfly_lab::small::{SmallOptions, measure};
 use cosfly_render::Camera;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 /// Examples of `small`.
 pub const EXAMPLES: &str = "\
@@ -41,19 +39,7 @@ pub struct SmallArguments {
 /// Measures and prints.
 pub fn small(arguments: &SmallArguments) -> Outcome {
     let camera = Camera { width: 84, height: 84, horizontal_fov_rad: core::f64::consts::FRAC_PI_2 };
-    let unreadable = |error: &dyn std::fmt::Display| {
-        vec![Diagnostic::new("bench-town", Fault::Input, format!("the town cannot be read: {error}"))]
-    };
-    let ground = match &arguments.town {
-        None => Ground::downtown(camera, arguments.views).map_err(|error| unreadable(&error))?,
-        Some(path) => {
-            let map = std::fs::read(path)
-                .map_err(|error| vec![Diagnostic::io(format!("read `{}`", path.display()), &error)])?;
-            let name = path.file_stem().unwrap_or(path.as_os_str());
-            Ground::of_map(&Path::new(name).display().to_string(), &map, camera, arguments.views)
-                .map_err(|error| unreadable(&error))?
-        }
-    };
+    let ground = super::ground::of_town(arguments.town.as_deref(), camera, arguments.views)?;
     let sizes = if arguments.sizes.is_empty() { vec![64, 84, 128, 224] } else { arguments.sizes.clone() };
     let report = measure(&SmallOptions { ground, sizes, people: arguments.people, rounds: arguments.rounds });
     let json = || serde_json::to_string_pretty(&report).unwrap_or_default() + "\n";

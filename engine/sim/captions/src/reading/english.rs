@@ -1,14 +1,14 @@
 //! Reads English texts: words and numbers, clause by clause.
 
-use super::{Claim, count};
+use super::english_numbers::fold_numbers;
+use super::english_words::{
+    ALTITUDE_WORDS, DISTANCE_WORDS, DOWN_WORDS, DURATION_WORDS, GOES_ON, LUGGAGE, NEGATIONS, OTHER_COLOURS, STOP_WORDS,
+    TOPS, TROUSERS, UP_WORDS, WALKED, WAY_WORDS,
+};
+use super::{Claim, count, sentences};
 use crate::compass::Compass;
 use crate::turns::TurnKind;
 use cosfly_render::Colour;
-
-const ALTITUDE_WORDS: [&str; 6] = ["above", "high", "higher", "height", "altitude", "overhead"];
-const WAY_WORDS: [&str; 7] = ["covers", "cover", "route", "path", "long", "length", "walked"];
-const DISTANCE_WORDS: [&str; 6] = ["away", "distance", "from", "behind", "apart", "range"];
-const NEGATIONS: [&str; 5] = ["no", "not", "never", "without", "nowhere"];
 
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) enum Token {
@@ -18,7 +18,17 @@ pub(crate) enum Token {
 
 /// Everything that the text claims, in order.
 pub fn read(text: &str) -> Vec<Claim> {
-    clauses(text).iter().flat_map(|clause| read_clause(clause)).collect()
+    let sentence = |sentence: &str| {
+        let mut after_stop = false;
+        let read = |clause: Vec<Token>| {
+            let tokens = fold_numbers(clause);
+            let claims = read_clause(&tokens, after_stop);
+            after_stop = tokens.iter().any(|token| is_stop(word_of(token)));
+            claims
+        };
+        clauses(sentence).into_iter().flat_map(read).collect::<Vec<_>>()
+    };
+    sentences(text).into_iter().flat_map(sentence).collect()
 }
 
 /// Lower-case tokens, parted at punctuation.
@@ -67,45 +77,96 @@ fn letter(chars: &[char], at: usize) -> bool {
     chars.get(at).is_some_and(|c| c.is_alphabetic())
 }
 
-fn read_clause(tokens: &[Token]) -> Vec<Claim> {
-    let words: Vec<&str> = tokens
-        .iter()
-        .filter_map(|token| match token {
-            Token::Word(word) => Some(word.as_str()),
-            Token::Number(_) => None,
-        })
-        .collect();
+fn read_clause(tokens: &[Token], after_stop: bool) -> Vec<Claim> {
+    let words: Vec<&str> = tokens.iter().map(word_of).collect();
     let about_stops = words.iter().any(|word| is_stop(word));
-    let denied = words.iter().any(|word| NEGATIONS.contains(word));
+    // `They pause once, for about 3 seconds`: the time belongs to the stop.
+    let sums = || words.iter().any(|word| ["altogether", "together", "total", "all"].contains(word));
+    let goes_on = after_stop && !about_stops && (words.first().is_some_and(|word| GOES_ON.contains(word)) || sums());
     let mut claims = vec![];
+    let mut turns: Vec<(usize, TurnKind)> = vec![];
     for (i, token) in tokens.iter().enumerate() {
-        let next = match tokens.get(i + 1) {
-            Some(Token::Word(word)) => word.as_str(),
-            _ => "",
-        };
+        let next = words.get(i + 1).copied().unwrap_or_default();
         match token {
-            Token::Number(value) => claims.extend(quantity(*value, next, &words, about_stops)),
+            Token::Number(value) => claims.extend(quantity(*value, i, &words, about_stops || goes_on)),
             Token::Word(word) => {
                 if let Some(value) = number_word(word).filter(|_| is_unit(next)) {
-                    claims.extend(quantity(value, next, &words, about_stops));
+                    claims.extend(quantity(value, i, &words, about_stops || goes_on));
+                    continue;
+                }
+                let counted = i > 0 && matches!(&tokens[i - 1], Token::Number(_));
+                let claim = clothes_claim(i, &words).or_else(|| word_claim(i, &words, counted, about_stops));
+                if let Some(Claim::Turn(kind)) = claim {
+                    let times = repetitions(&tokens[i + 1..]);
+                    turns.push((i, kind));
+                    claims.extend(core::iter::repeat_n(Claim::Turn(kind), times));
                 } else {
-                    let counted = i > 0 && matches!(&tokens[i - 1], Token::Number(_));
-                    let claim = garment_claim(word, next).or_else(|| word_claim(word, counted, about_stops));
-                    let repeated = matches!(claim, Some(Claim::Turn(_))).then(|| repetitions(&tokens[i + 1..]));
-                    claims.extend(core::iter::repeat_n(claim, repeated.unwrap_or(1)).flatten());
+                    claims.extend(claim);
                 }
             }
         }
     }
-    if about_stops && denied {
+    // `turns left after turning right` says the later turn first.
+    if let [(first, one), (second, other)] = turns[..]
+        && words[first..second].contains(&"after")
+    {
+        let listed = |claim: &Claim| matches!(claim, Claim::Turn(_));
+        let places: Vec<usize> = (0..claims.len()).filter(|at| listed(&claims[*at])).collect();
+        if let [a, b] = places[..] {
+            (claims[a], claims[b]) = (Claim::Turn(other), Claim::Turn(one));
+        }
+    }
+    claims.extend(order_of_stop_and_turn(&words, &turns));
+    if words.contains(&"nonstop") || denied(&words, is_stop) {
+        claims.retain(|claim| !matches!(claim, Claim::Stops(_)));
         claims.push(Claim::Stops(0));
     } else if about_stops && !claims.iter().any(|claim| matches!(claim, Claim::Stops(_))) {
         claims.push(Claim::SomeStops);
     }
-    if denied && words.iter().any(|word| word.starts_with("turn")) {
+    if denied(&words, |word| word.starts_with("turn") || matches!(word, "bends" | "corners")) {
+        claims.retain(|claim| !matches!(claim, Claim::Turn(_)));
         claims.push(Claim::NoTurns);
     }
     claims
+}
+
+/// Whether a negation comes a few words before such a word.
+fn denied(words: &[&str], is_such: impl Fn(&str) -> bool) -> bool {
+    (0..words.len()).filter(|at| is_such(words[*at])).any(|at| {
+        let before = &words[at.saturating_sub(4)..at];
+        let negation = before.iter().rposition(|word| NEGATIONS.contains(word));
+        negation.is_some_and(|from| !before[from..].iter().any(|word| LUGGAGE.contains(word)))
+    })
+}
+
+/// Numbers have no word.
+pub fn word_of(token: &Token) -> &str {
+    match token {
+        Token::Word(word) => word,
+        Token::Number(_) => "",
+    }
+}
+
+/// `stops before turning left`, `turns left after a stop`.
+fn order_of_stop_and_turn(words: &[&str], turns: &[(usize, TurnKind)]) -> Option<Claim> {
+    let stop = words.iter().position(|word| is_stop(word))?;
+    let (turn, _) = *turns.first()?;
+    let between = &words[stop.min(turn)..stop.max(turn)];
+    let stop_first = match () {
+        () if between.contains(&"before") => stop < turn,
+        () if between.contains(&"after") => stop > turn,
+        () if between.contains(&"then") => stop < turn,
+        () => return None,
+    };
+    Some(Claim::StopFirst(stop_first))
+}
+
+/// The list that has the word nearest to place `at`, by its number; of equally near ones the word behind counts.
+fn nearest(words: &[&str], at: usize, lists: &[&[&str]]) -> Option<usize> {
+    let places = (0..words.len()).filter(|place| *place != at);
+    let of = |word: &str| lists.iter().position(|list| list.contains(&word));
+    let found = places.filter_map(|place| Some((place.abs_diff(at), place < at, of(words[place])?)));
+    found.min().map(|(_, _, list)| list)
 }
 
 /// A colour before a garment, and luggage.
@@ -125,6 +186,7 @@ pub(crate) fn garment_claim(word: &str, next: &str) -> Option<Claim> {
 fn repetitions(after: &[Token]) -> usize {
     match after {
         [Token::Word(word), ..] if word == "twice" => 2,
+        [Token::Word(turn), Token::Word(word), ..] if turn.starts_with("turn") && word == "twice" => 2,
         [Token::Word(number), Token::Word(times), ..] if times == "times" => {
             number_word(number).map_or(1, |number| number as usize)
         }
@@ -133,29 +195,38 @@ fn repetitions(after: &[Token]) -> usize {
     }
 }
 
-/// The claim of a number with the word after it, in its clause.
-fn quantity(value: f64, unit: &str, words: &[&str], about_stops: bool) -> Option<Claim> {
-    let has = |known: &[&str]| words.iter().any(|word| known.contains(word));
+/// The claim of a number at a place, with the word after it, in its clause.
+fn quantity(value: f64, at: usize, words: &[&str], about_stops: bool) -> Option<Claim> {
+    let unit = words.get(at + 1).copied().unwrap_or_default();
+    let after = |offset: usize| words.get(at + offset).copied().unwrap_or_default();
+    let is_metres = matches!(unit, "m" | "metre" | "metres" | "meter" | "meters");
+    if unit == "m/s"
+        || (is_metres && ["per", "a", "each", "every"].contains(&after(2)) && after(3).starts_with("second"))
+    {
+        return Some(Claim::Speed(value));
+    }
     Some(match unit {
-        "m/s" => Claim::Speed(value),
-        "m" | "metre" | "metres" | "meter" | "meters" => match () {
-            () if has(&ALTITUDE_WORDS) => Claim::Altitude(value),
-            () if has(&WAY_WORDS) => Claim::Way(value),
-            () if has(&DISTANCE_WORDS) => Claim::Distance(value),
-            () => Claim::Unknown(format!("{value} {unit}")),
-        },
-        "degree" | "degrees" | "deg" => Claim::Pitch(if has(&["up", "upward", "upwards"]) { -value } else { value }),
-        "s" | "sec" | "second" | "seconds" => {
-            if about_stops {
-                Claim::Standing(value)
-            } else {
-                Claim::Duration(value)
+        _ if is_metres => match nearest(words, at, &[&ALTITUDE_WORDS, &WAY_WORDS, &DISTANCE_WORDS]) {
+            Some(0) => Claim::Altitude(value),
+            Some(1) => Claim::Way(value),
+            Some(_) if words.contains(&"distance") && WALKED.iter().any(|word| words.contains(word)) => {
+                Claim::Way(value)
             }
+            _ if value < 0.0 => Claim::Unknown(format!("{value} {unit}")),
+            _ => Claim::Distance(value),
+        },
+        "degree" | "degrees" | "deg" => {
+            Claim::Pitch(if nearest(words, at, &[&UP_WORDS, &DOWN_WORDS]) == Some(0) { -value } else { value })
         }
-        "time" | "times" if about_stops => count(value, unit, Claim::Stops),
+        "s" | "sec" | "secs" | "second" | "seconds" => {
+            let walks = || nearest(words, at, &[&STOP_WORDS, &DURATION_WORDS]) == Some(1);
+            if about_stops && !walks() { Claim::Standing(value) } else { Claim::Duration(value) }
+        }
+        "time" | "times" | "occasions" if about_stops => count(value, unit, Claim::Stops),
         // Repetitions of a turn, which the turn's own claims contain.
         "time" | "times" if words.iter().any(|word| turn_word(word).is_some()) => return None,
-        "turn" | "turns" => count(value, unit, Claim::Turns),
+        "time" | "times" if words.iter().any(|word| word.starts_with("turn")) => count(value, unit, Claim::Turns),
+        "turn" | "turns" | "corners" | "bends" => count(value, unit, Claim::Turns),
         stop if is_stop(stop) => count(value, unit, Claim::Stops),
         side => match turn_word(side) {
             Some(kind) => count(value, unit, |count| Claim::TurnsOf(kind, count)),
@@ -164,15 +235,97 @@ fn quantity(value: f64, unit: &str, words: &[&str], about_stops: bool) -> Option
     })
 }
 
-fn word_claim(word: &str, counted: bool, about_stops: bool) -> Option<Claim> {
-    let turn = turn_word(word).filter(|_| !counted).map(Claim::Turn);
-    turn.or_else(|| compass_word(word).map(Claim::Direction)).or(match word {
-        "straight" => Some(Claim::NoTurns),
-        "still" => Some(Claim::Stays),
-        "once" if about_stops => Some(Claim::Stops(1)),
-        "twice" if about_stops => Some(Claim::Stops(2)),
+/// Clothes and luggage at a place of a clause.
+fn clothes_claim(at: usize, words: &[&str]) -> Option<Claim> {
+    let (word, next) = (words[at], words.get(at + 1).copied().unwrap_or_default());
+    if LUGGAGE.contains(&word) {
+        let before = &words[at.saturating_sub(4)..at];
+        let denied = before.iter().any(|word| NEGATIONS.contains(word));
+        return Some(if denied { Claim::NoBackpack } else { Claim::Backpack });
+    }
+    if OTHER_COLOURS.contains(&word) {
+        return Some(Claim::Unknown(word.to_owned()));
+    }
+    for (ending, claim) in
+        [("shirted", Claim::Top as fn(Colour) -> Claim), ("topped", Claim::Top), ("trousered", Claim::Trousers)]
+    {
+        if let Some(colour) = word.strip_suffix(ending).and_then(colour) {
+            return Some(claim(colour));
+        }
+    }
+    let found = colour(word)?;
+    if next == "and" {
+        // `a black and white top`, which no garment here is.
+        if let Some(other) =
+            words.get(at + 2).and_then(|word| colour(word)).filter(|_| garment(words.get(at + 3)).is_some())
+        {
+            return (other != found).then(|| Claim::Unknown(format!("{word} and {}", words[at + 2])));
+        }
+    }
+    if let Some(claim) = garment(Some(&next)) {
+        return Some(claim(found));
+    }
+    // `a top that is red`, `trousers in black`, `red on top`
+    let before = words[at.saturating_sub(4)..at].iter().rev().find_map(|word| garment(Some(word)));
+    let link = words[at.saturating_sub(2)..at]
+        .iter()
+        .any(|word| ["is", "are", "in", "of", "coloured", "colored"].contains(word));
+    match before.filter(|_| link) {
+        Some(claim) => Some(claim(found)),
+        None => Some(Claim::Wears(found)),
+    }
+}
+
+fn colour(word: &str) -> Option<Colour> {
+    let word = if word == "gray" { "grey" } else { word };
+    Colour::ALL.into_iter().find(|colour| colour.name() == word)
+}
+
+fn garment(word: Option<&&str>) -> Option<fn(Colour) -> Claim> {
+    match word {
+        Some(word) if TOPS.contains(word) => Some(Claim::Top),
+        Some(word) if TROUSERS.contains(word) => Some(Claim::Trousers),
         _ => None,
-    })
+    }
+}
+
+fn word_claim(at: usize, words: &[&str], counted: bool, about_stops: bool) -> Option<Claim> {
+    let (word, next) = (words[at], words.get(at + 1).copied().unwrap_or_default());
+    let before = at.checked_sub(1).map_or("", |before| words[before]);
+    // `right behind`, `around 25 m` are no turns.
+    let is_idiom = match word {
+        "right" => {
+            !["turns", "turn", "turning", "turned", "takes", "then", "next", "and", ""].contains(&before)
+                && ["behind", "above", "after", "away", "there", "on", "up", "over", "across", "beside"].contains(&next)
+                || before == "all"
+        }
+        "around" | "round" => {
+            let is_amount =
+                words.get(at + 1) == Some(&"") && !words.get(at + 2).is_some_and(|it| it.starts_with("time"));
+            is_amount || !["turns", "turn", "turning", "turned", "then", ""].contains(&before)
+        }
+        "left" => ["is", "are", "has", "be"].contains(&before),
+        _ => false,
+    };
+    let turn = turn_word(word).filter(|_| !counted && !is_idiom).map(Claim::Turn);
+    let back = (["back", "round"].contains(&next)
+        && ["turns", "doubles", "turn", "turning", "doubling", "heads"].contains(&word))
+        || matches!(word, "reverses" | "backtracks" | "aboutturn" | "aboutface");
+    turn.or_else(|| back.then_some(Claim::Turn(TurnKind::Around)))
+        .or_else(|| compass_word(word).map(Claim::Direction))
+        .or(match word {
+            "straight" if !["down", "at", "above", "up"].contains(&next) => Some(Claim::NoTurns),
+            "still" if !["walks", "walking", "keeps", "keep", "moving"].contains(&next) && !about_stops => {
+                Some(Claim::Stays)
+            }
+            "motionless" | "stationary" | "immobile" if !about_stops => Some(Claim::Stays),
+            "stays" | "remains" if ["put", "in"].contains(&next) && !words.contains(&"view") => Some(Claim::Stays),
+            "once" if about_stops => Some(Claim::Stops(1)),
+            "single" if is_stop(next) => Some(Claim::Stops(1)),
+            "twice" if about_stops && turn_word(before).is_none() => Some(Claim::Stops(2)),
+            "thrice" if about_stops => Some(Claim::Stops(3)),
+            _ => None,
+        })
 }
 
 fn compass_word(word: &str) -> Option<Compass> {
@@ -192,19 +345,36 @@ fn compass_word(word: &str) -> Option<Compass> {
 
 fn turn_word(word: &str) -> Option<TurnKind> {
     match word {
-        "left" | "leftward" | "leftwards" => Some(TurnKind::Left),
-        "right" | "rightward" | "rightwards" => Some(TurnKind::Right),
+        "left" | "leftward" | "leftwards" | "lefts" | "lefthand" => Some(TurnKind::Left),
+        "right" | "rightward" | "rightwards" | "rights" | "righthand" => Some(TurnKind::Right),
         "around" | "uturn" | "uturns" => Some(TurnKind::Around),
         _ => None,
     }
 }
 
 fn is_stop(word: &str) -> bool {
-    ["stop", "pause", "halt"].iter().any(|stem| word.starts_with(stem)) || word == "pausing"
+    ["stop", "pause", "halt"].iter().any(|stem| word.starts_with(stem))
+        || matches!(word, "pausing" | "waits" | "waiting" | "break" | "breaks" | "rests" | "standstill" | "lingers")
 }
 
-fn is_unit(word: &str) -> bool {
-    let units = ["m", "metre", "metres", "meter", "meters", "degree", "degrees", "second", "seconds", "time", "times"];
+pub fn is_unit(word: &str) -> bool {
+    let units = [
+        "m",
+        "m/s",
+        "metre",
+        "metres",
+        "meter",
+        "meters",
+        "degree",
+        "degrees",
+        "second",
+        "seconds",
+        "time",
+        "times",
+        "bends",
+        "corners",
+        "occasions",
+    ];
     units.contains(&word) || word.starts_with("turn") || is_stop(word) || turn_word(word).is_some()
 }
 

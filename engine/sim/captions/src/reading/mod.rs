@@ -1,7 +1,10 @@
 //! Reads texts back: the claims of a text, whoever wrote it.
 
 pub mod chinese;
+mod chinese_words;
 pub mod english;
+mod english_numbers;
+mod english_words;
 
 use crate::compass::Compass;
 use crate::turns::TurnKind;
@@ -44,10 +47,32 @@ pub enum Claim {
     Trousers(Colour),
     /// The target wears a backpack.
     Backpack,
+    /// The target wears no backpack.
+    NoBackpack,
+    /// Something that the target wears has this colour.
+    Wears(Colour),
     /// The target stays where it is.
     Stays,
+    /// The only stop comes before the only turn, or after it.
+    StopFirst(bool),
     /// A number that says nothing this reader knows.
     Unknown(String),
+}
+
+/// Sentences of a text in either language; a point between digits ends none.
+fn sentences(text: &str) -> Vec<&str> {
+    let mut sentences = vec![];
+    let mut start = 0;
+    for (at, c) in text.char_indices() {
+        let end = at + c.len_utf8();
+        let is_decimal = c == '.' && text[end..].starts_with(|next: char| next.is_ascii_digit());
+        if "。！？!?\n".contains(c) || (c == '.' && !is_decimal) {
+            sentences.push(&text[start..end]);
+            start = end;
+        }
+    }
+    sentences.push(&text[start..]);
+    sentences
 }
 
 /// A whole number of things, from a parsed number.

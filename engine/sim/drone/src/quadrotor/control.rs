@@ -103,13 +103,24 @@ impl Controller {
         ThrustAndRates { thrust_n, rates_rad_s: gains.attitude * turn }
     }
 
-    /// Speeds of the rotors for thrust and body rates, rev/min. Where a rotor is at its limit the thrusts follow as far as they can.
-    pub fn rotors_rpm(&self, state: &QuadrotorState, wanted: &ThrustAndRates) -> [f64; 4] {
+    /// Thrusts of the rotors for thrust and body rates, N, whether rotors have them or not.
+    fn thrusts_n(&self, state: &QuadrotorState, wanted: &ThrustAndRates) -> [f64; 4] {
         let inertia = self.parameters.inertia_kgm2;
         let rates = state.rates_rad_s;
         let torque = inertia * (self.gains.rates * (wanted.rates_rad_s - rates)) + rates.cross(inertia * rates);
-        let thrusts = self.thrusts_from_wrench * DVec4::new(wanted.thrust_n, torque.x, torque.y, torque.z);
-        let speeds = thrusts.to_array().map(|thrust_n| self.parameters.speed_of_thrust_rpm(thrust_n));
+        (self.thrusts_from_wrench * DVec4::new(wanted.thrust_n, torque.x, torque.y, torque.z)).to_array()
+    }
+
+    /// Whether thrust and body rates ask a rotor for more or less thrust than it has.
+    pub fn saturates(&self, state: &QuadrotorState, wanted: &ThrustAndRates) -> bool {
+        let (low, high) = self.parameters.speed_rpm;
+        let allowed = self.parameters.thrust_n(low)..=self.parameters.thrust_n(high);
+        self.thrusts_n(state, wanted).iter().any(|thrust_n| !allowed.contains(thrust_n))
+    }
+
+    /// Speeds of the rotors for thrust and body rates, rev/min. Where a rotor is at its limit the thrusts follow as far as they can.
+    pub fn rotors_rpm(&self, state: &QuadrotorState, wanted: &ThrustAndRates) -> [f64; 4] {
+        let speeds = self.thrusts_n(state, wanted).map(|thrust_n| self.parameters.speed_of_thrust_rpm(thrust_n));
         core::array::from_fn(|rotor| self.spun_to(state.rotors_rpm[rotor], speeds[rotor]))
     }
 }

@@ -6,12 +6,14 @@
 
 mod control;
 mod dynamics;
+mod flown;
 mod parameters;
 #[cfg(test)]
 mod tests;
 
 pub use control::{ControlGains, Controller, Setpoint, ThrustAndRates};
 pub use dynamics::{Derivative, Quadrotor, QuadrotorState};
+pub use flown::{FlownQuadrotor, Lead, Strain, TICK_S};
 pub use parameters::{Gyroscope, QuadrotorParameters};
 
 use cosfly_frames::DVec3;

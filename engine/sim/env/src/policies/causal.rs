@@ -15,7 +15,7 @@ const TRUST_S: f64 = 4.0;
 
 pub(super) const BASELINE: Baseline = Baseline {
     name: "causal",
-    doc: "plans every second behind a target that walks on as it was last seen",
+    doc: "plans every second behind a target that walks on as it was last seen, past others who move on as they do now",
     make: |_, knowledge| Box::new(Causal { knowledge: knowledge.clone(), plan: None, again_s: 0.0 }),
 };
 
@@ -60,8 +60,10 @@ fn planned(environment: &Environment, knowledge: &Knowledge) -> Option<Plan> {
     let states = (0..=(AHEAD_S / dt_s) as u32).map(state).collect();
     let track = TargetTrack { dt_s, height_m, radius_m, states };
     let place = &episode.place;
+    let movers = episode.others.supposed(observation.time_s, track.states.len(), dt_s);
     let ground = |x: f64, y: f64| place.ground_m(x, y);
     let mut request = PlanRequest::new(&track, &place.exact, &place.planning_boxes, &ground, &knowledge.config);
+    request.movers = &movers;
     let motion = &observation.motion;
     let (position_in_world, velocity_in_world) = (motion.position_in_world, motion.velocity_in_world);
     request.start = Some(StartState { position_in_world, velocity_in_world });

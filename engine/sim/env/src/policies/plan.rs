@@ -47,6 +47,7 @@ impl Plan {
             velocity_mps: velocity + RETURN * beside,
             acceleration_mps2: (velocity - before) / step_s,
             view: environment.gimbal().rates_to(next.position_in_world, aim_in_world, step_s),
+            ..Action::default()
         }
     }
 }

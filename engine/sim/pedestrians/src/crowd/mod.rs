@@ -142,7 +142,8 @@ impl Crowd {
         let at = person.at;
         let has_ground = |direction: DVec2| grid.is_ground(at + 0.7 * direction);
         let way_on = person.way_on(ahead, step_s);
-        let wanted = self.steering.intent(neighbours, way_on, person.pace_mps.max(0.0), has_ground).velocity_mps;
+        let pace = (person.pace_mps.max(0.0), person.velocity_mps);
+        let wanted = self.steering.intent(neighbours, way_on, pace, has_ground).velocity_mps;
         let uneven_mps = person.uneven_mps * (person.pace_mps / company.cruise_mps).clamp(0.0, 1.0);
         let mut change = (wanted + uneven_mps - person.velocity_mps) / RELAXATION_S
             + self.steering.push(neighbours, ahead)

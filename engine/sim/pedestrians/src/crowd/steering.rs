@@ -8,10 +8,17 @@ use cosfly_frames::{DVec2, real};
 const HORIZON_M: f64 = 8.0;
 
 /// Time to the first collision ahead that people leave by walking slower, seconds.
-const HEADWAY_S: f64 = 0.6;
+const HEADWAY_S: f64 = 0.3;
 
 /// Distance that people leave to others when they pass, metres.
-const PASSING_M: f64 = 0.12;
+const PASSING_M: f64 = 0.05;
+
+/// Weight of going on as now beside the squared distance that a direction leaves, square metres: without it people in a dense
+/// crowd change their minds at every step, and their velocities cancel.
+const STEADY_M2: f64 = 6.0;
+
+/// Slower than this, the present velocity counts for less, m/s.
+const GOING_MPS: f64 = 0.2;
 
 /// Strength and range of the repulsion: m/s2, metres; share that acts from behind.
 const PUSH_MPS2: f64 = 1.6;
@@ -45,15 +52,16 @@ impl Default for Steering {
 }
 
 impl Steering {
-    /// Velocity towards `ahead` (a unit vector) at `pace_mps` that avoids the neighbours; `has_ground` says whether a
-    /// direction leads on over walkable ground.
+    /// Velocity towards `ahead` (a unit vector) at `pace_mps` that avoids the neighbours and is steady beside the present
+    /// velocity; `has_ground` says whether a direction leads on over walkable ground.
     pub fn intent(
         &self,
         neighbours: &[Neighbour],
         ahead: DVec2,
-        pace_mps: f64,
+        (pace_mps, present_mps): (f64, DVec2),
         has_ground: impl Fn(DVec2) -> bool,
     ) -> Intent {
+        let going = present_mps / present_mps.length().max(GOING_MPS);
         let mut best = (f64::INFINITY, ahead, HORIZON_M);
         for turn in self.turns {
             let direction = DVec2::new(ahead.x * turn.x - ahead.y * turn.y, ahead.x * turn.y + ahead.y * turn.x);
@@ -62,7 +70,8 @@ impl Steering {
                 free_m = free_m.min(0.3);
             }
             // Distance left to the horizon straight ahead after the free way (law of cosines).
-            let left = HORIZON_M * HORIZON_M + free_m * free_m - 2.0 * HORIZON_M * free_m * turn.x;
+            let left_m2 = HORIZON_M * HORIZON_M + free_m * free_m - 2.0 * HORIZON_M * free_m * turn.x;
+            let left = left_m2 + STEADY_M2 * (1.0 - direction.dot(going));
             if left < best.0 - 1e-9 {
                 best = (left, direction, free_m);
             }

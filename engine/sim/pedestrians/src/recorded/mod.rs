@@ -1,7 +1,7 @@
 //! Recorded people: tracks with time from GPX, GeoJSON, ETH/UCY `obsmat` and CSV files, read from bytes.
 //!
 //! [`Recording::read`] gives tracks as the file has them, checked; [`Recording::placed`] puts them into a town as a
-//! [`Prescribed`](crate::Prescribed) population.
+//! [`Prescribed`](cosfly_world::Prescribed) population.
 
 mod columns;
 mod config;

@@ -17,12 +17,7 @@ pub(super) fn tidy(recording: &mut Recording, config: &RecordedConfig) -> Result
         part(track, recording.is_geographic, config, &mut counts, &mut tracks)?;
     }
     if tracks.is_empty() {
-        let hint = match (counts.gaps > 0, recording.warnings.is_empty()) {
-            (true, _) => "all points are farther apart in time than `longest_gap_s`; set it higher",
-            (false, true) => "the file needs at least one person with two points",
-            (false, false) => "tracks need a time for each point",
-        };
-        return Err(RecordedError::new("the file has no track with time").hint(hint));
+        return Err(counts.nothing_left(config, recording.warnings.is_empty()));
     }
     recording.tracks = tracks;
     recording.warnings.extend(counts.warnings(config));
@@ -39,6 +34,25 @@ struct Counts {
 }
 
 impl Counts {
+    /// Why no track is left.
+    fn nothing_left(&self, config: &RecordedConfig, all_are_timed: bool) -> RecordedError {
+        if let Some((id, speed_mps, line)) = &self.first_jump {
+            let message = format!(
+                "no two points of a track follow each other at `fastest_mps`, {}, or less; the first jump is at {speed_mps:.1} m/s, of `{id}`",
+                config.fastest_mps
+            );
+            return RecordedError::new(message)
+                .at(*line)
+                .hint("are the places metres and the times seconds? `rate_hz` is for times in frames");
+        }
+        let hint = match (self.gaps > 0, all_are_timed) {
+            (true, _) => "all points are farther apart in time than `longest_gap_s`; set it higher",
+            (false, true) => "the file needs at least one person with two points",
+            (false, false) => "tracks need a time for each point",
+        };
+        RecordedError::new("the file has no track with time").hint(hint)
+    }
+
     fn warnings(&self, config: &RecordedConfig) -> Vec<String> {
         let mut warnings = vec![];
         if self.repeated > 0 {

@@ -34,9 +34,9 @@ impl Default for OcclusionConfig {
 }
 
 impl OcclusionConfig {
-    /// Whether losses are ordered in a share of the flights.
+    /// Whether losses are ordered in a share of the flights, or a share of the losses beside look-alikes.
     pub fn has_quota(&self) -> bool {
-        self.count > 0 && self.share < 1.0
+        self.count > 0 && (self.share < 1.0 || self.beside_look_alike > 0.0)
     }
 
     pub(super) fn ranges(&self) -> [Range; 5] {

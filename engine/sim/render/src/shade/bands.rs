@@ -338,7 +338,8 @@ fn run_kernels(
 ) {
     let (level, light, noise) = (setting.level, &setting.light, &seen.scene.noise);
     if let Material::Sky = material {
-        lighting::sky(level, blocks, stage, &setting.view, light, &setting.tone, noise);
+        let air = (light, setting.haze, &seen.scene.outskirts);
+        lighting::sky(level, blocks, stage, &setting.view, air, &setting.tone, noise);
         return;
     }
     let grid = &seen.scene.grid;
@@ -372,9 +373,9 @@ fn run_kernels(
     }
     match material {
         Material::Sky => {}
-        Material::Ground(label) => ground(level, shared, blocks, *label, noise),
-        Material::Facade(look, face) => facade(level, shared, blocks, look, face, light.night, noise),
-        Material::Roof(roof) => roofs(level, shared, blocks, roof, noise),
+        Material::Ground(label) => ground(level, shared, blocks, *label, (grid.tables(), &grid.frame()), noise),
+        Material::Facade(look, face) => facade(level, shared, blocks, look, face, light, noise),
+        Material::Roof(roof) => roofs(level, shared, blocks, roof, light, noise),
         Material::Thing(thing) => things(level, shared, blocks, thing, noise),
         Material::Cloth(look) => cloth(level, shared, blocks, look, noise),
         Material::Coach(look) => coach(level, blocks, look),
@@ -391,7 +392,7 @@ fn run_kernels(
     }
     let is_shiny = is_wet || answers.shiny;
     if is_shiny {
-        lighting::mirrored(level, shared, light);
+        lighting::mirrored(level, shared, light, (grid.tables(), &grid.frame()));
     }
     lighting::develop(level, shared, blocks, light, &setting.tone, answers.glows && light.night > 0.0, is_shiny);
 }

@@ -9,6 +9,8 @@ use cosfly_maps::ObstacleKind;
 const MAX_CELLS: usize = 508;
 /// Cells along a side of the packed tables.
 const TABLE_SIDE: usize = 512;
+/// Distances to walls are told up to this, metres.
+pub const FAR_FROM_WALLS_M: f32 = 6.0;
 /// Lamp light of a byte's step.
 const LAMP_STEP: f32 = 1.0 / 64.0;
 
@@ -21,6 +23,8 @@ pub struct GridSample {
     pub sky: f32,
     /// Light of lamps on the ground at night, 0..=1 and above.
     pub lamps: f32,
+    /// Distance to the nearest wall of a building, metres, up to [`FAR_FROM_WALLS_M`].
+    pub wall_m: f32,
 }
 
 /// Ground height, sky share and lamp light in square cells.
@@ -36,7 +40,7 @@ pub struct LightGrid {
 /// The cells as kernels read them: sky shares of a cell, the one to the right, below, and below right, in bytes; then
 /// their lamp light likewise; then heights of the ground, the bits of an f32. A bare array, so that compilers see that
 /// kernels' results lie elsewhere.
-pub type GridTables = [u32; 3 * TABLE];
+pub type GridTables = [u32; 4 * TABLE];
 const TABLE: usize = TABLE_SIDE * TABLE_SIDE;
 
 /// A place between four cells.
@@ -58,6 +62,12 @@ impl GridPlace {
     #[inline(always)]
     pub fn lamps(self, tables: &GridTables) -> f32 {
         blend(tables[TABLE + self.at], self.fx, self.fy) * LAMP_STEP
+    }
+
+    /// Distance to the nearest wall of a building, metres, up to [`FAR_FROM_WALLS_M`].
+    #[inline(always)]
+    pub fn wall_m(self, tables: &GridTables) -> f32 {
+        blend(tables[3 * TABLE + self.at], self.fx, self.fy) * (FAR_FROM_WALLS_M / 255.0)
     }
 
     /// Height of the ground of the cell there, metres.
@@ -114,12 +124,13 @@ impl LightGrid {
             cells_per_m: (1.0 / cell) as f32,
             columns,
             rows,
-            cells: vec![GridSample { ground_m: 0.0, sky: 1.0, lamps: 0.0 }; columns * rows],
+            cells: vec![GridSample { ground_m: 0.0, sky: 1.0, lamps: 0.0, wall_m: FAR_FROM_WALLS_M }; columns * rows],
             tables: fixed_size(vec![]),
         };
         grid.measure_ground(clusters, boxes);
         grid.measure_sky(boxes);
         grid.add_lamps(boxes);
+        grid.measure_walls(boxes);
         grid.pack();
         grid
     }
@@ -135,8 +146,26 @@ impl LightGrid {
                 self.tables[at] = four_bytes(four.map(|c| (255.0 * c.sky + 0.5) as u8));
                 self.tables[TABLE + at] = four_bytes(four.map(|c| (c.lamps / LAMP_STEP + 0.5) as u8));
                 self.tables[2 * TABLE + at] = four[0].ground_m.to_bits();
+                let near = four.map(|c| (255.0 / FAR_FROM_WALLS_M * c.wall_m + 0.5) as u8);
+                self.tables[3 * TABLE + at] = four_bytes(near);
             }
         }
+    }
+
+    /// Lowest and highest corner of the grid over the ground, metres.
+    pub fn bounds_m(&self) -> [[f32; 2]; 2] {
+        let size = [self.columns, self.rows].map(|count| count as f32 / self.cells_per_m);
+        [self.min, [self.min[0] + size[0], self.min[1] + size[1]]]
+    }
+
+    /// Mean height of the ground along the border, metres.
+    pub fn border_m(&self) -> f32 {
+        let is_border = |at: &usize| {
+            let (column, row) = (at % self.columns, at / self.columns);
+            column == 0 || row == 0 || column + 1 == self.columns || row + 1 == self.rows
+        };
+        let heights = (0..self.cells.len()).filter(is_border).map(|at| self.cells[at].ground_m);
+        heights.clone().sum::<f32>() / heights.count().max(1) as f32
     }
 
     /// The cells as kernels read them.
@@ -163,7 +192,12 @@ impl LightGrid {
             let lower = lerp(pick(&self.cells[at + self.columns]), pick(&self.cells[at + self.columns + 1]), fx);
             lerp(upper, lower, fy)
         };
-        GridSample { ground_m: mix(|c| c.ground_m), sky: mix(|c| c.sky), lamps: mix(|c| c.lamps) }
+        GridSample {
+            ground_m: mix(|c| c.ground_m),
+            sky: mix(|c| c.sky),
+            lamps: mix(|c| c.lamps),
+            wall_m: mix(|c| c.wall_m),
+        }
     }
 
     fn cell_of(&self, point: DVec3) -> usize {
@@ -248,6 +282,26 @@ impl LightGrid {
                     open += 1.0 - tangent / (1.0 + tangent * tangent).sqrt();
                 }
                 self.cells[cell].sky = (open / 8.0).clamp(0.08, 1.0);
+            }
+        }
+    }
+
+    /// Distances to the walls of buildings, from the corners of cells, between which places are blended.
+    fn measure_walls(&mut self, boxes: &[SceneBox]) {
+        let reach = DVec3::splat(f64::from(FAR_FROM_WALLS_M));
+        for b in boxes.iter().filter(|b| b.kind == ObstacleKind::Building) {
+            let low = self.cell_of(b.center_in_world - b.half_bounds_m - reach);
+            let high = self.cell_of(b.center_in_world + b.half_bounds_m + reach);
+            for row in low / self.columns..=high / self.columns {
+                for column in low % self.columns..=high % self.columns {
+                    let place = |at: usize, k: usize| f64::from(self.min[k] + at as f32 / self.cells_per_m);
+                    let away = DVec3::new(place(column, 0), place(row, 1), b.center_in_world.z) - b.center_in_world;
+                    let beyond =
+                        |k: usize| (away.dot(b.axes_in_world[k]).abs() - f64::from(b.half_extents_m[k])).max(0.0);
+                    let cell = &mut self.cells[row * self.columns + column];
+                    let (x, y) = (beyond(0), beyond(1));
+                    cell.wall_m = cell.wall_m.min((x * x + y * y).sqrt() as f32);
+                }
             }
         }
     }

@@ -1,7 +1,10 @@
 //! Ground: asphalt, pavement slabs, road marks, grass, each from world coordinates.
 
-use super::lanes::{Block, Shared, WIDE, groups};
-use super::pattern::{NoiseTexture, Noises, hash, lerp, most, one_if, smoothstep, stripes, unit};
+use super::grid::{GridFrame, GridTables};
+use super::lanes::{Block, Shared, WIDE, get, groups, set};
+use super::pattern::{
+    NoiseTexture, Noises, band, floor_int, hash, least, lerp, most, one_if, smoothstep, stripes, unit,
+};
 use super::surface::{Look, SurfacePoint};
 use super::vector::Vec3;
 use cosfly_frames::simd_kernel;
@@ -43,12 +46,48 @@ macro_rules! paint_patches {
     };
 }
 
+/// Paints over blocks in which a condition holds for any four.
+macro_rules! repaint_some {
+    ($shared:ident, $blocks:ident, $middle:ident => $wanted:expr, $point:ident, $albedo:ident => $new:expr) => {
+        for (shared, four) in groups($shared, $blocks) {
+            let mut wanted = 0u32;
+            for k in 0..WIDE {
+                let $middle = shared.point(k);
+                wanted |= u32::from($wanted);
+            }
+            if wanted != 0 {
+                for block in four {
+                    for k in 0..WIDE {
+                        let ($point, $albedo) = (block.point(shared, k), get(&block.albedo, k));
+                        set(&mut block.albedo, k, $new);
+                    }
+                }
+            }
+        }
+    };
+}
+
 simd_kernel! {
     /// The look of ground with a label.
-    pub fn ground(shared: &[Shared], blocks: &mut [Block], label: SemanticLabel, noise: &NoiseTexture) {
+    pub fn ground(
+        shared: &[Shared],
+        blocks: &mut [Block],
+        label: SemanticLabel,
+        grid: (&GridTables, &GridFrame),
+        noise: &NoiseTexture,
+    ) {
+        let (tables, frame) = (grid.0, *grid.1);
         match label {
-            SemanticLabel::Roads | SemanticLabel::Bridge => paint_all!(shared, blocks, point => asphalt(&point, noise)),
-            SemanticLabel::SideWalks => paint_all!(shared, blocks, point => slabs(&point, noise)),
+            SemanticLabel::Roads | SemanticLabel::Bridge => {
+                paint_all!(shared, blocks, point => asphalt(&point, noise));
+                repaint_some!(shared, blocks, middle => to_manhole(middle.world.x, middle.world.y)
+                    < 0.5 + 4.0 * middle.footprint_m, point, albedo => {
+                    lid(&point, to_manhole(point.world.x, point.world.y), albedo)
+                });
+            }
+            SemanticLabel::SideWalks => {
+                paint_patches!(shared, blocks, middle => wear(&middle, noise), point, worn => slabs(&point, worn, noise));
+            }
             SemanticLabel::RoadLine => paint_all!(shared, blocks, point => paint(&point, noise)),
             SemanticLabel::Ground | SemanticLabel::Static | SemanticLabel::Other => {
                 paint_patches!(shared, blocks, middle => stains(&middle, noise), point, stain => gravel(&point, stain, noise));
@@ -57,7 +96,14 @@ simd_kernel! {
                 paint_all!(shared, blocks, point => Vec3::new(0.02, 0.05, 0.06));
                 blocks.iter_mut().for_each(|block| block.mirror = [0.9; WIDE]);
             }
-            _ => paint_patches!(shared, blocks, middle => dryness(&middle, noise), point, dry => grass(&point, dry, noise)),
+            _ => {
+                paint_patches!(shared, blocks, middle => dryness(&middle, noise), point, dry => grass(&point, dry, noise));
+                repaint_some!(shared, blocks, middle => frame.place(middle.world.x, middle.world.y).wall_m(tables)
+                    < 3.4 + 2.0 * middle.footprint_m, point, albedo => {
+                    let wall_m = frame.place(point.world.x, point.world.y).wall_m(tables);
+                    apron(&point, wall_m, albedo, noise)
+                });
+            }
         }
     }
 }
@@ -74,8 +120,51 @@ fn asphalt(point: &SurfacePoint, noise: &NoiseTexture) -> Vec3 {
     Vec3::new(tone, tone * 0.99, tone * 0.975)
 }
 
+/// Distance to the middle of the nearest manhole of a square of ground, metres; far where there is none.
 #[inline(always)]
-fn slabs(point: &SurfacePoint, noise: &NoiseTexture) -> Vec3 {
+fn to_manhole(x: f32, y: f32) -> f32 {
+    let (u, v) = (x * (1.0 / MANHOLE_M), y * (1.0 / MANHOLE_M));
+    let cell = hash(floor_int(u) as u32, floor_int(v) as u32 ^ 0x3a7e);
+    let (middle_u, middle_v) = (0.1 + 0.8 * unit(hash(cell, 1)), 0.1 + 0.8 * unit(hash(cell, 2)));
+    let (dx, dy) = (u - floor_int(u) as f32 - middle_u, v - floor_int(v) as f32 - middle_v);
+    (dx * dx + dy * dy).sqrt() * MANHOLE_M + if unit(cell) < 0.30 { 0.0 } else { 99.0 }
+}
+
+/// Asphalt with the lid of a manhole `away_m` from its middle.
+#[inline(always)]
+fn lid(point: &SurfacePoint, away_m: f32, asphalt: Vec3) -> Vec3 {
+    let (x, y, size) = (point.world.x, point.world.y, point.footprint_m);
+    let inside = 1.0 - band(away_m, 0.34, 9.0, size);
+    let rim = band(away_m, 0.27, 0.34, size);
+    let ribs = stripes(x * 12.0, 0.0, 0.5, size * 12.0) * stripes(y * 12.0, 0.0, 0.5, size * 12.0);
+    asphalt.lerp(Vec3::splat(0.075) * (0.7 + 0.7 * ribs), least(inside, 1.0)).lerp(Vec3::splat(0.16), rim)
+}
+
+/// Side of the squares of ground that have at most one manhole, metres.
+const MANHOLE_M: f32 = 13.0;
+
+/// Ground along a wall: slabs with an edging, then soil, then what `grass` is.
+#[inline(always)]
+fn apron(point: &SurfacePoint, wall_m: f32, grass: Vec3, noise: &NoiseTexture) -> Vec3 {
+    let (x, y, size) = (point.world.x, point.world.y, point.footprint_m);
+    let rough = noise.rough(x * 15.0 + 31.0, y * 15.0, size * 15.0);
+    let wild = noise.clumps(x * 6.0, y * 6.0, size * 6.0) - 0.5;
+    let soil = Vec3::new(0.095, 0.072, 0.048) * (0.45 + 1.1 * rough);
+    let plants = 1.0 - smoothstep(1.1, 2.3, wall_m + 1.6 * wild);
+    let slabs = 1.0 - band(wall_m, 0.85, 99.0, size);
+    let edging = band(wall_m, 0.77, 0.87, size);
+    let joint = most(stripes(x * 2.0, 0.0, 0.05, size * 2.0), stripes(y * 2.0, 0.0, 0.05, size * 2.0));
+    let stone = Vec3::new(0.30, 0.29, 0.27) * ((0.55 + 0.75 * rough) * (1.0 - 0.35 * joint));
+    grass.lerp(soil, 0.8 * plants).lerp(stone, slabs).lerp(Vec3::splat(0.36) * (0.7 + 0.5 * rough), edging)
+}
+
+#[inline(always)]
+fn wear(point: &SurfacePoint, noise: &NoiseTexture) -> f32 {
+    noise.clumps(point.world.x * 1.9 + 70.0, point.world.y * 1.9, point.footprint_m * 1.9) - 0.5
+}
+
+#[inline(always)]
+fn slabs(point: &SurfacePoint, worn: f32, noise: &NoiseTexture) -> Vec3 {
     let (x, y, size) = (point.world.x, point.world.y, point.footprint_m);
     let footprints = point.footprints_m;
     const PER_M: f32 = 1.0 / 0.75;
@@ -85,7 +174,7 @@ fn slabs(point: &SurfacePoint, noise: &NoiseTexture) -> Vec3 {
     let near = 1.0 - smoothstep(0.25, 0.8, size * PER_M);
     let slab = unit(hash(super::pattern::floor_int(u) as u32, super::pattern::floor_int(v) as u32)) - 0.5;
     let rough = noise.rough(x * 15.0, y * 15.0, size * 15.0) - 0.5;
-    let slab_tone = 0.34 * (1.0 + 0.18 * slab * near + 0.42 * rough) * (1.0 - 0.4 * joint);
+    let slab_tone = 0.34 * (1.0 + 0.18 * slab * near + 0.42 * rough + 0.28 * worn) * (1.0 - 0.4 * joint);
     // Kerbs: upright faces of lighter stone.
     let kerb_tone = 0.44 * (1.0 + 0.3 * rough) * (1.0 - 0.3 * joint);
     let tone = lerp(slab_tone, kerb_tone, one_if(point.normal.z < 0.6));
@@ -120,7 +209,7 @@ fn dryness(point: &SurfacePoint, noise: &NoiseTexture) -> f32 {
 fn grass(point: &SurfacePoint, dry: f32, noise: &NoiseTexture) -> Vec3 {
     let (x, y, size) = (point.world.x, point.world.y, point.footprint_m);
     let blades = noise.rough(x * 16.0, y * 16.0, size * 16.0);
-    let fresh = Vec3::new(0.088, 0.160, 0.040);
+    let fresh = Vec3::new(0.084, 0.146, 0.040);
     let straw = Vec3::new(0.200, 0.195, 0.080);
     fresh.lerp(straw, 0.65 * dry) * lerp(0.45, 1.55, blades)
 }

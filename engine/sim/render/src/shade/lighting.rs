@@ -1,8 +1,10 @@
 //! From looks to bytes: sun, sky, lamps, wetness, mirrors, haze and the tone curve.
 
 use super::geometry::View;
+use super::grid::{GridFrame, GridTables};
 use super::lanes::{Block, FOUR, Shared, Stage, WIDE, get, groups, set};
 use super::light::Light;
+use super::outskirts::{self, Outskirts, Sight};
 use super::pattern::{NoiseTexture, Noises, least, most, share, smoothstep};
 use super::tone::ToneCurve;
 use super::vector::Vec3;
@@ -33,7 +35,7 @@ simd_kernel! {
                     let puddle = smoothstep(edge, edge + 0.05, level) * flat;
                     let albedo = get(&block.albedo, k) * (1.0 - 0.42 * flat - 0.10 * puddle);
                     set(&mut block.albedo, k, albedo);
-                    block.mirror[k] = most(block.mirror[k], 0.10 * flat + 0.45 * puddle);
+                    block.mirror[k] = most(block.mirror[k], 0.24 * flat + 0.45 * puddle);
                 }
             }
         }
@@ -59,9 +61,9 @@ simd_kernel! {
 }
 
 simd_kernel! {
-    /// The sky as flat surfaces mirror it.
-    pub fn mirrored(shared: &mut [Shared], light: &Light) {
-        let light = *light;
+    /// Sky, houses across the street and lamps as flat surfaces mirror them.
+    pub fn mirrored(shared: &mut [Shared], light: &Light, grid: (&GridTables, &GridFrame)) {
+        let (light, tables, frame) = (*light, grid.0, *grid.1);
         for shared in shared.iter_mut() {
             for k in 0..WIDE {
                 let (ray, normal) = (get(&shared.ray, k), get(&shared.normal, k));
@@ -72,8 +74,15 @@ simd_kernel! {
                 let fresnel = 0.05 + 0.95 * grazing2 * grazing2 * grazing;
                 let out = view + normal * (2.0 * cosine);
                 shared.fresnel[k] = 0.30 + 0.9 * fresnel;
-                // Near the horizon a street mirrors its houses more than the sky.
-                let open = shared.sky[k] * (0.30 + 0.70 * share(2.2 * out.z));
+                // A wall mirrors the houses across the street up to their roofs, and ground beside it its own houses: as
+                // high as a place some way along the mirrored ray sees little of the sky.
+                let level_m = 16.0 / (out.x * out.x + out.y * out.y + 0.02).sqrt();
+                let middle = get(&shared.middle, k);
+                let there = frame.place(middle.x + out.x * level_m, middle.y + out.y * level_m);
+                let roof_m = 26.0 * (1.0 - there.sky(tables));
+                let height_m = middle.z - there.ground_m(tables) + out.z * level_m;
+                let above = share(0.5 + (height_m - roof_m) * 0.16);
+                let open = (0.16 + 0.84 * above) * (0.45 + 0.55 * shared.sky[k]);
                 // Lamps stand near the horizon of what a street mirrors.
                 let level = 1.0 - share(1.4 * out.z);
                 let from_lamps = shared.lamps[k] * (0.6 + 2.4 * level * level);
@@ -150,16 +159,55 @@ simd_kernel! {
 }
 
 simd_kernel! {
-    /// Colours of the sky.
-    pub fn sky(blocks: &mut [Block], stage: &Stage, view: &View, light: &Light, tone: &ToneCurve, noise: &NoiseTexture) {
-        let (view, light) = (*view, *light);
+    /// Colours of the sky and of the land before it.
+    pub fn sky(
+        blocks: &mut [Block],
+        stage: &Stage,
+        view: &View,
+        air: (&Light, Vec3, &Outskirts),
+        tone: &ToneCurve,
+        noise: &NoiseTexture,
+    ) {
+        let (view, light, haze, outskirts) = (*view, *air.0, air.1, *air.2);
+        let pixel = view.across.dot(view.across).sqrt();
         for (group, four) in blocks.as_chunks_mut::<FOUR>().0.iter_mut().enumerate() {
             let [u, v] = [&stage.u, &stage.v].map(|row| Stage::lane(row, group));
-            for (pixel, block) in four.iter_mut().enumerate() {
-                let aside = pixel as i32 as f32;
+            // The sky changes slowly: it is blended between the ends of fours, which neighbours share.
+            let mut ends = [[[0.0f32; WIDE]; 3]; 2];
+            let (mut lowest, mut highest) = (1.0f32, -1.0f32);
+            for (end, aside) in ends.iter_mut().zip([-0.5, 3.5]) {
                 for k in 0..WIDE {
                     let direction = view.ray(u[k] + aside, v[k]).unit();
-                    block.bytes[k] = tone.pixel(super::sky::colour(&light, direction, noise) * light.exposure);
+                    (lowest, highest) = (least(lowest, direction.z), most(highest, direction.z));
+                    set(end, k, super::sky::colour(&light, direction, haze, noise));
+                }
+            }
+            for (aside, block) in four.iter_mut().enumerate() {
+                let aside = aside as i32 as f32;
+                let [first, last] = &ends;
+                for k in 0..WIDE {
+                    set(&mut block.albedo, k, get(first, k).lerp(get(last, k), 0.125 + 0.25 * aside));
+                }
+                if lowest < outskirts::HIGHEST {
+                    for k in 0..WIDE {
+                        let direction = view.ray(u[k] + aside, v[k]).unit();
+                        let sight = Sight { position: view.position, direction, pixel, haze };
+                        let behind = get(&block.albedo, k);
+                        set(&mut block.albedo, k, outskirts.land(behind, &light, &sight, noise));
+                    }
+                }
+                if lowest < outskirts::HIGHEST && highest > outskirts::LOWEST {
+                    for ring in outskirts::RINGS {
+                        for k in 0..WIDE {
+                            let direction = view.ray(u[k] + aside, v[k]).unit();
+                            let sight = Sight { position: view.position, direction, pixel, haze };
+                            let behind = get(&block.albedo, k);
+                            set(&mut block.albedo, k, outskirts.houses(behind, &ring, &light, &sight, noise));
+                        }
+                    }
+                }
+                for k in 0..WIDE {
+                    block.bytes[k] = tone.pixel(get(&block.albedo, k) * light.exposure);
                 }
             }
         }

@@ -65,7 +65,7 @@ fn box_material(b: &SceneBox, face: usize, night: f32) -> (Material, FaceAxes) {
         Material::Roof(Roof::new(b.seed, center, axes, [half.x, half.y]))
     } else {
         let half_width = if axis == 0 { half.y } else { half.x };
-        let look = Facade::new(b.seed, face as u32, 2.0 * half_width, 2.0 * half.z);
+        let look = Facade::new(b.seed, b.town, face as u32, 2.0 * half_width, 2.0 * half.z);
         let edge_m = center.dot(Vec3::new(along.x, along.y, 0.0)) - half_width;
         Material::Facade(look, BoxFace { along, edge_m, foot_m: center.z - half.z })
     };

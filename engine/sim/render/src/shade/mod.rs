@@ -6,6 +6,7 @@
 
 mod bands;
 pub mod facade;
+pub mod foliage;
 pub mod geometry;
 pub mod grid;
 pub mod ground;
@@ -13,6 +14,7 @@ pub mod lanes;
 pub mod light;
 pub mod lighting;
 mod material;
+pub mod outskirts;
 pub mod pattern;
 pub mod setting;
 pub mod shader;

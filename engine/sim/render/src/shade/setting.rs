@@ -25,6 +25,8 @@ pub struct Setting {
     pub light: Light,
     pub haze: Vec3,
     pub shadows: Shadows,
+    /// Factor of all light before the tone curve.
+    pub exposure: f32,
     pub tone: ToneCurve,
 }
 
@@ -48,6 +50,7 @@ impl Setting {
             light: Light::new(&crate::presets::clear_noon()),
             haze: Vec3::ZERO,
             shadows: Shadows::new(),
+            exposure: 1.0,
             tone: ToneCurve::new(),
         }
     }
@@ -55,6 +58,7 @@ impl Setting {
     /// Takes over a frame's light, camera and shadows.
     pub(crate) fn prepare(&mut self, scene: &Scene, setup: &FrameSetup<'_>, eye: &Eye, people: &People) {
         self.light = Light::new(setup.weather);
+        self.light.exposure *= self.exposure;
         self.view = View::new(&self.screen, eye);
         self.haze =
             self.light.horizon * (0.8 - 0.2 * self.light.rain) + self.light.zenith * 0.2 + self.light.lamp * 0.02;

@@ -1,12 +1,15 @@
 //! Shades whole frames band by band.
 
 use super::bands::Worker;
+use super::foliage::{Crowns, Foliage};
 use super::setting::{Seen, Setting};
 use super::sky;
+use super::vector::Vec3;
 use crate::eye::Eye;
 use crate::frame::FrameImages;
 use crate::look::PictureLook;
-use crate::passes::ids::Band;
+use crate::optics::Optics;
+use crate::passes::ids::{Band, Run};
 use crate::people::People;
 use crate::scene::Scene;
 use crate::setup::FrameSetup;
@@ -17,6 +20,7 @@ use std::sync::{Mutex, PoisonError};
 /// Shades whole frames; owns the shadow maps.
 pub struct Shader {
     setting: Setting,
+    foliage: Foliage,
     /// Buffers that no thread uses now.
     idle: Mutex<Vec<Worker>>,
 }
@@ -24,7 +28,7 @@ pub struct Shader {
 impl Shader {
     /// A shader for one image size.
     pub fn new(screen: &Screen) -> Self {
-        Self { setting: Setting::new(screen), idle: Mutex::new(Vec::new()) }
+        Self { setting: Setting::new(screen), foliage: Foliage::default(), idle: Mutex::new(Vec::new()) }
     }
 
     /// Shades with these vector instructions from now on.
@@ -35,6 +39,18 @@ impl Shader {
     /// Shades in this look from now on.
     pub fn set_look(&mut self, look: PictureLook) {
         self.setting.look = look;
+    }
+
+    /// Exposes and balances colours like this from now on.
+    pub fn set_optics(&mut self, optics: &Optics) {
+        self.setting.exposure = optics.exposure();
+        let [red, green, blue] = optics.gains();
+        self.setting.tone.gains = Vec3::new(red, green, blue);
+    }
+
+    /// Whether lamps are lit in the frame at hand.
+    pub fn is_night(&self) -> bool {
+        self.setting.light.night > 0.0
     }
 
     /// Takes over a frame's light, camera and shadows.
@@ -48,6 +64,17 @@ impl Shader {
         let mut worker = idle().pop().unwrap_or_else(Worker::new);
         worker.shade(&self.setting, seen, band);
         idle().push(worker);
+    }
+
+    /// Breaks the edges of crowns, before edges are smoothed.
+    pub(crate) fn fray<'a>(
+        &mut self,
+        seen: &Seen<'_>,
+        rows: impl Iterator<Item = &'a [Run]>,
+        images: &mut FrameImages,
+    ) {
+        let crowns = Crowns { scene: seen.scene, faces: seen.faces, view: &self.setting.view };
+        self.foliage.fray(&crowns, rows, images);
     }
 
     /// Rain in front of everything.

@@ -1,13 +1,13 @@
 //! The sky behind everything, and the rain in front of it.
 
 use super::light::Light;
-use super::pattern::{NoiseTexture, Noises, hash, most, smoothstep, unit};
+use super::pattern::{NoiseTexture, Noises, hash, most, share, smoothstep, unit};
 use super::vector::Vec3;
 use crate::frame::FrameImages;
 
-/// Colour of the sky in a direction (unit length): gradient, sun, clouds, stars; haze below the horizon.
+/// Colour of the sky in a direction (unit length): gradient, sun, clouds, and haze near the horizon.
 #[inline(always)]
-pub fn colour(light: &Light, direction: Vec3, noise: &NoiseTexture) -> Vec3 {
+pub fn colour(light: &Light, direction: Vec3, haze: Vec3, noise: &NoiseTexture) -> Vec3 {
     let colour = light.sky(direction);
     let toward = most(direction.dot(light.to_sun), 0.0);
     let clear = 1.0 - light.clouds;
@@ -17,18 +17,27 @@ pub fn colour(light: &Light, direction: Vec3, noise: &NoiseTexture) -> Vec3 {
     let near32 = near8 * near8 * near8 * near8;
     let ring = near32 * near32 * near8 * near8 * near8 * (0.25 * clear);
     let colour = colour + light.sun * (disc * if light.night > 0.5 { 12.0 } else { 5.0 } + ring);
-    let up = most(direction.z, 0.01);
+    let up = most(direction.z, 0.02);
     let (x, y) = (direction.x / up, direction.y / up);
     let size = 0.012 / (up * up);
-    let shape =
-        0.7 * noise.clumps(x * 34.0, y * 34.0, size * 34.0) + 0.3 * noise.clumps(x * 131.0, y * 131.0, size * 131.0);
+    // High veils: noise drawn out along one direction.
+    let veil = noise.clumps((x + 0.6 * y) * 6.0, (y - 0.6 * x) * 31.0, size * 20.0);
+    let veil = smoothstep(0.50, 0.85, veil) * smoothstep(0.04, 0.30, direction.z) * (0.45 - 0.3 * light.clouds);
+    let colour = colour.lerp(light.horizon * 0.8 + light.sun * 0.10, veil);
+    // Heaps: darker below and away from the sun, where they are thick.
+    let fine = 0.30 * noise.clumps(x * 131.0, y * 131.0, size * 131.0);
+    let shape = 0.70 * noise.clumps(x * 34.0, y * 34.0, size * 34.0) + fine;
+    let (aside_x, aside_y) = (x + 0.22 * light.to_sun.x, y + 0.22 * light.to_sun.y);
+    let beyond = 0.70 * noise.clumps(aside_x * 34.0, aside_y * 34.0, size * 34.0) + fine;
     let threshold = 0.74 - 0.62 * light.clouds;
-    let cover = smoothstep(threshold, threshold + 0.22, shape) * smoothstep(0.01, 0.16, direction.z);
-    let body = (light.sun * 0.22 + light.zenith * 0.9 + light.horizon * 0.35) * (1.15 - 0.55 * shape * light.clouds);
-    let colour = colour.lerp(body, cover * (0.85 - 0.1 * light.clouds));
-    // Below the horizon the world is out of the town: haze.
-    let below = smoothstep(0.0, -0.25, direction.z);
-    colour.lerp(light.horizon * 0.55 + light.bounce * 0.5, below)
+    let cover = smoothstep(threshold, threshold + 0.20, shape) * smoothstep(0.015, 0.14, direction.z);
+    let thick = share((shape - threshold) * 2.2);
+    let lit = share(0.62 - 0.42 * thick + 1.5 * (shape - beyond));
+    let shaded = light.zenith * 0.55 + light.horizon * 0.30;
+    let body = (shaded + light.sun * (0.30 * lit * lit) + light.horizon * (0.22 * lit)) * (1.0 - 0.25 * light.rain);
+    let colour = colour.lerp(body, cover * (0.94 - 0.14 * light.clouds));
+    let low = 1.0 - share(direction.z * 7.0);
+    colour.lerp(haze, low * low * low * 0.9)
 }
 
 /// Streaks of rain: light lines slanted by the wind, drawn from the frame's seed.

@@ -19,6 +19,20 @@ const PAINTS: [Vec3; 8] = [
     Vec3::new(0.45, 0.38, 0.28),
 ];
 
+/// Leaves by species, linear RGB: plane, lime, maple, oak, ash, willow, cherry, olive, birch, and copper beech.
+const SPECIES: [[f32; 3]; 10] = [
+    [0.085, 0.135, 0.036],
+    [0.095, 0.160, 0.042],
+    [0.070, 0.125, 0.030],
+    [0.062, 0.100, 0.030],
+    [0.080, 0.120, 0.045],
+    [0.130, 0.165, 0.060],
+    [0.075, 0.110, 0.034],
+    [0.105, 0.120, 0.070],
+    [0.125, 0.150, 0.040],
+    [0.075, 0.045, 0.040],
+];
+
 /// The box a thing is made of, and one of its faces.
 #[derive(Clone, Copy, Debug)]
 pub struct Thing {
@@ -88,7 +102,10 @@ impl Thing {
         let (mut tint, mut choice) = (Vec3::splat(0.2), 0);
         match kind {
             ObstacleKind::TreeCrown | ObstacleKind::Bush => {
-                tint = Vec3::new(0.060, 0.135, 0.030).lerp(Vec3::new(0.120, 0.155, 0.036), draw(seed, 1));
+                // The last species is rare.
+                choice = if draw(seed, 8) < 0.03 { SPECIES.len() - 1 } else { pick(7, SPECIES.len() - 1) };
+                let [r, g, b] = SPECIES[choice];
+                tint = Vec3::new(r, g, b) * (0.8 + 0.45 * draw(seed, 1));
             }
             ObstacleKind::Car => tint = PAINTS[pick(2, PAINTS.len())],
             ObstacleKind::TrafficLight => {
@@ -182,11 +199,12 @@ impl Thing {
         let small = noise.grain(u * 0.55, v * 0.55, size * 16.5) - 0.5;
         // Every clump of leaves faces its own way.
         let bent = out + Vec3::new(aside - upward, aside + upward - big, upward + 0.5 * big) * 1.7;
-        let deep = smoothstep(-0.20, 0.24, big + 0.8 * small);
-        let tint = self.tint.lerp(Vec3::new(0.20, 0.24, 0.07), 0.45 * (small + 0.5) * deep);
+        let deep = smoothstep(-0.24, 0.22, big + 0.8 * small);
+        // Light shines through leaves at the rim of a clump: they are yellower there.
+        let tint = self.tint.lerp(self.tint * 0.6 + Vec3::new(0.11, 0.115, 0.02), 0.5 * (small + 0.5) * deep);
         // Darker below, where the crown shades itself.
         let shade = 0.5 + 0.5 * smoothstep(-1.0, 0.6, out.z);
-        Look { openness: (0.45 + 0.75 * deep) * shade, ..Look::matt(tint * (0.35 + 1.15 * deep), bent.unit()) }
+        Look { openness: (0.55 + 0.55 * deep) * shade, ..Look::matt(tint * (0.50 + 0.95 * deep), bent.unit()) }
     }
 
     #[inline(always)]

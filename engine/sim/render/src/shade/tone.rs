@@ -13,6 +13,8 @@ const WHITE: f32 = 8.0;
 /// The tone curve as a table.
 pub struct ToneCurve {
     bytes: [u32; ENTRIES],
+    /// Factors of red, green and blue before the curve.
+    pub gains: Vec3,
 }
 
 impl ToneCurve {
@@ -31,7 +33,7 @@ impl ToneCurve {
                 (255.0 * srgb + 0.5) as u32
             })
             .collect();
-        Self { bytes: *fixed_size(bytes) }
+        Self { bytes: *fixed_size(bytes), gains: Vec3::splat(1.0) }
     }
 
     /// The byte for linear light, exposed. The bits of a float grow nearly like its logarithm.
@@ -45,7 +47,8 @@ impl ToneCurve {
     /// The pixel for a linear colour, exposed: red in the lowest byte, then green and blue.
     #[inline(always)]
     pub fn pixel(&self, colour: Vec3) -> u32 {
-        self.byte(colour.x) | (self.byte(colour.y) << 8) | (self.byte(colour.z) << 16)
+        let Vec3 { x, y, z } = colour * self.gains;
+        self.byte(x) | (self.byte(y) << 8) | (self.byte(z) << 16)
     }
 }
 

@@ -6,11 +6,9 @@
 mod kinds;
 mod lines;
 mod place;
-mod recorded;
 mod samples;
 mod stream;
 
 pub use kinds::FcdType;
 pub use place::{NetLocation, Place};
-pub use recorded::Recorded;
 pub use stream::{FcdConfig, FcdError, read};

@@ -3,9 +3,9 @@
 use super::kinds::kind_of;
 use super::lines::Lines;
 use super::samples::Sample;
-use super::{FcdType, Place, Recorded};
+use super::{FcdType, Place};
 use cosfly_frames::{DVec2, Seed, TargetState};
-use cosfly_world::{Body, BodyPlan, Clock};
+use cosfly_world::{Body, BodyPlan, Clock, Prescribed};
 use quick_xml::Reader;
 use quick_xml::events::{BytesStart, Event};
 use schemars::JsonSchema;
@@ -82,7 +82,7 @@ pub fn read(
     config: &FcdConfig,
     clock: Clock,
     seed: Seed,
-) -> Result<Recorded, FcdError> {
+) -> Result<Prescribed, FcdError> {
     let mut reader = Reader::from_reader(Lines::new(file));
     reader.config_mut().trim_text(true);
     let mut frames = Frames::new(place, config, clock, seed);
@@ -299,7 +299,7 @@ impl<'a> Frames<'a> {
         Ok(())
     }
 
-    fn finish(self, is_fcd: bool, is_cut: bool, line: u64) -> Result<Recorded, FcdError> {
+    fn finish(self, is_fcd: bool, is_cut: bool, line: u64) -> Result<Prescribed, FcdError> {
         if !is_fcd || is_cut && !self.is_done() {
             let what = if is_fcd { "the file ends within a time step" } else { "the file is empty" };
             return Err(FcdError::new(what).at(line).hint("write it again with `sumo --fcd-output FILE`"));
@@ -326,7 +326,7 @@ impl<'a> Frames<'a> {
                 notes.push(format!("{count} {what}"));
             }
         }
-        Ok(Recorded { bodies: self.bodies, dt_s: self.clock.dt_s, time_s: 0.0, notes })
+        Ok(Prescribed::new(self.bodies, self.clock.dt_s, notes))
     }
 }
 

@@ -5,12 +5,28 @@ use crate::pixels::smaller_size;
 use crate::sample_text::pose_numbers;
 use crate::shared_options::Axes;
 use crate::source::Episode;
-use cosfly_frames::{Pose, action};
+use cosfly_frames::{DVec3, Pose, action};
 use cosfly_metrics::DeltaFrame;
 use cosfly_read::FrameRow;
 use serde_json::{Value, json};
 use std::collections::BTreeMap;
 use std::fmt::Write as _;
+
+/// Inputs that a question shows.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Shown {
+    /// Pictures.
+    pub pictures: bool,
+    /// Poses of the drone.
+    pub poses: bool,
+    /// Boxes of the target.
+    pub boxes: bool,
+}
+
+impl Shown {
+    /// All inputs.
+    pub const ALL: Self = Self { pictures: true, poses: true, boxes: true };
+}
 
 /// The line of the window of `episode` that begins at frame `start`; `expert` has the expert's pose of every frame,
 /// `pictures` the paths of its pictures by frame, `instruction` is that of the window.
@@ -21,6 +37,7 @@ pub fn conversation(
     pictures: &BTreeMap<usize, String>,
     start: usize,
     instruction: &str,
+    shown: Shown,
 ) -> Value {
     let window = options.window();
     let first_unseen = start + window.history;
@@ -28,14 +45,15 @@ pub fn conversation(
     let current = seen[seen.len() - 1].pose;
     let ahead = &expert[first_unseen..first_unseen + window.horizon];
     let deltas = increments(current, ahead, options.increments.delta_frame());
-    let images: Vec<&String> = (start..first_unseen).filter_map(|frame| pictures.get(&frame)).collect();
+    let images = (start..first_unseen).filter(|_| shown.pictures).filter_map(|frame| pictures.get(&frame));
+    let images: Vec<&String> = images.collect();
     json!({
         "id": format!("{}_{start:06}", episode.flight.trajectory_id),
         "trajectory_id": episode.flight.trajectory_id,
         "frame": start,
         "messages": [
             {"role": "system", "content": system(options)},
-            {"role": "user", "content": question(episode, options, seen, instruction)},
+            {"role": "user", "content": question(episode, options, seen, instruction, shown)},
             {"role": "assistant", "content": json!({"waypoint_deltas": deltas}).to_string()},
         ],
         "images": images,
@@ -86,7 +104,7 @@ fn system(options: &Options) -> String {
     )
 }
 
-fn question(episode: &Episode<'_>, options: &Options, seen: &[FrameRow], instruction: &str) -> String {
+fn question(episode: &Episode<'_>, options: &Options, seen: &[FrameRow], instruction: &str, shown: Shown) -> String {
     let flight = episode.flight;
     let dt_s = flight.dt_s;
     let history = "<image>".repeat(seen.len() - 1);
@@ -96,27 +114,39 @@ fn question(episode: &Episode<'_>, options: &Options, seen: &[FrameRow], instruc
         BoxScale::Pixels => format!("pixels of {} x {}", size[0], size[1]),
         BoxScale::Thousandths => "thousandths of width and height".into(),
     };
-    let mut text = if seen.len() > 1 { format!("History, every {dt_s} s: {history}\n") } else { String::new() };
-    let _ = writeln!(text, "Current: <image>\nInstruction: {instruction}");
-    let _ = writeln!(
-        text,
-        "Poses, oldest first, [x, y, z, pitch, yaw, roll], metres along the world's axes from the current place, degrees:"
-    );
-    let current = seen[seen.len() - 1].pose.position_in_world;
-    for row in seen {
-        let pose = &row.pose;
-        let [x, y, z, pitch, yaw, roll] =
-            pose_numbers(&Pose { position_in_world: pose.position_in_world - current, ..*pose });
-        let numbers = [x, y, z, pitch, yaw, roll].map(hundredths);
-        let _ = writeln!(text, "{}", json!(numbers));
+    let mut text = match (shown.pictures, seen.len()) {
+        (false, _) => format!("Instruction: {instruction}\n"),
+        (true, 1) => format!("Current: <image>\nInstruction: {instruction}\n"),
+        (true, _) => format!("History, every {dt_s} s: {history}\nCurrent: <image>\nInstruction: {instruction}\n"),
+    };
+    if shown.poses {
+        let _ = writeln!(
+            text,
+            "Poses, oldest first, [x, y, z, pitch, yaw, roll], metres along the world's axes from the current place, degrees:"
+        );
+        let current = seen[seen.len() - 1].pose.position_in_world;
+        for row in seen {
+            let _ = writeln!(text, "{}", pose_text(&row.pose, current));
+        }
     }
-    let _ =
-        writeln!(text, "Boxes of the person, [left, top, right, bottom] in {unit}, null where they cannot be seen:");
-    for row in seen {
-        let _ = writeln!(text, "{}", box_text(row, options.box_scale, full, size));
+    if shown.boxes {
+        let _ = writeln!(
+            text,
+            "Boxes of the person, [left, top, right, bottom] in {unit}, null where they cannot be seen:"
+        );
+        for row in seen {
+            let _ = writeln!(text, "{}", box_text(row, options.box_scale, full, size));
+        }
     }
     let _ = write!(text, "Where are the next {} waypoints, {dt_s} s apart?", options.horizon);
     text
+}
+
+/// A pose, its position from `origin`.
+pub(super) fn pose_text(pose: &Pose, origin: DVec3) -> Value {
+    let [x, y, z, pitch, yaw, roll] =
+        pose_numbers(&Pose { position_in_world: pose.position_in_world - origin, ..*pose });
+    json!([x, y, z, pitch, yaw, roll].map(hundredths))
 }
 
 /// The visible box of the target in pictures that are `full` large in the log and `size` large here.

@@ -2,6 +2,7 @@
 
 mod conversation;
 mod options;
+mod students;
 
 use crate::card::Card;
 use crate::folder::OutFolder;
@@ -10,10 +11,10 @@ use crate::media::{ending, picture_path};
 use crate::pixels::{rgb_jpeg, rgb_of, smaller_size};
 use crate::shared_options::Axes;
 use crate::source::{Episode, Source};
-use conversation::conversation;
+use conversation::{Shown, conversation};
 use cosfly_diagnose::{Diagnostic, Fault, Result};
 use cosfly_images::read::averaged;
-use options::{Input, Options};
+use options::{Options, Sets};
 use serde_json::{Value, json};
 use std::collections::BTreeMap;
 use std::fmt::Write as _;
@@ -35,7 +36,7 @@ impl Format for Vlm {
     fn write(options: &Options, source: &Source<'_>, out: &OutFolder) -> Result<Vec<String>> {
         let window = options.window();
         let is_seen = |flight: &cosfly_read::PublishedFlight| {
-            flight.expert_id.is_some() == (options.input == Input::Perturbed) && window.count(flight.frames) > 0
+            options.input.shows(flight.expert_id.is_some()) && window.count(flight.frames) > 0
         };
         if !source.flights().any(is_seen) {
             let (size, input) = (window.size(), options.input.word());
@@ -45,50 +46,99 @@ impl Format for Vlm {
         }
         let language = options.instructions.language;
         let instructions = source.dataset.window_instructions(language.of_windows(), window.history)?;
-        let mut files: BTreeMap<String, BufWriter<File>> = BTreeMap::new();
+        let mut lines = Lines { out, files: BTreeMap::new() };
         let (mut flight, mut windows) = (0, 0);
         source.each_flight_of(&is_seen, &mut |episode| {
             let split = &episode.flight.split;
-            let name = format!("{split}.jsonl");
-            if !files.contains_key(split) {
-                files.insert(split.clone(), out.create(&name)?);
-            }
             let pictures = write_pictures(episode, options, out, flight)?;
             let expert = episode.expert_poses()?;
-            let Some(file) = files.get_mut(split) else { return Ok(()) };
             let own = instructions.get(&episode.flight.trajectory_id);
             for start in window.starts(episode.frames.len()) {
                 let instruction = own.and_then(|own| own.get(&start)).map(String::as_str);
                 let instruction = instruction.unwrap_or_else(|| episode.instruction(language));
-                let line = conversation(episode, options, &expert, &pictures, start, instruction);
-                writeln!(file, "{line}").map_err(|error| out.refusal(&name, &error))?;
+                let line = |shown| conversation(episode, options, &expert, &pictures, start, instruction, shown);
+                let whole = line(Shown::ALL);
+                lines.put(split, &whole)?;
                 windows += 1;
+                if options.sets == Sets::Students {
+                    for percent in students::SHARES.into_iter().filter(|it| students::is_in_share(episode, *it)) {
+                        lines.put(&format!("{split}_{percent}"), &whole)?;
+                    }
+                    for (name, shown) in students::ABLATIONS {
+                        lines.put(&format!("{split}_{name}"), &line(shown))?;
+                    }
+                }
+            }
+            if options.sets == Sets::Students {
+                for (name, line) in students::texts(episode, options, &pictures) {
+                    lines.put(&format!("{split}_{name}"), &line)?;
+                }
             }
             flight += 1;
             Ok(())
         })?;
-        let mut entries = BTreeMap::new();
-        for (split, mut file) in files {
-            file.flush().map_err(|error| out.refusal(&format!("{split}.jsonl"), &error))?;
-            entries.insert(format!("cosfly_{split}"), registration(&split));
-        }
+        let names = lines.finish()?;
+        // ms-swift takes its file by its path.
+        let registered = names.iter().filter(|name| !name.ends_with("_swift"));
+        let entries: BTreeMap<String, Value> =
+            registered.map(|name| (format!("cosfly_{name}"), registration(name))).collect();
         out.put("dataset_info.json", format!("{:#}\n", json!(entries)).as_bytes())?;
-        card(options, entries.keys().filter_map(|name| name.strip_prefix("cosfly_"))).write(source, out)?;
+        if options.sets == Sets::Students {
+            out.put("README_students.md", students::GUIDE.as_bytes())?;
+        }
+        let splits: std::collections::BTreeSet<&str> = source.splits().into_iter().collect();
+        card(options, names.iter().map(String::as_str).filter(|name| splits.contains(name))).write(source, out)?;
         Ok(vec![format!("{windows} window{}", if windows == 1 { "" } else { "s" })])
     }
 }
 
+/// Files of lines, created with their first line.
+struct Lines<'a> {
+    out: &'a OutFolder,
+    files: BTreeMap<String, BufWriter<File>>,
+}
+
+impl Lines<'_> {
+    fn put(&mut self, name: &str, line: &Value) -> Result<()> {
+        let file = format!("{name}.jsonl");
+        if !self.files.contains_key(name) {
+            self.files.insert(name.to_owned(), self.out.create(&file)?);
+        }
+        let Some(writer) = self.files.get_mut(name) else { return Ok(()) };
+        writeln!(writer, "{line}").map_err(|error| self.out.refusal(&file, &error))
+    }
+
+    /// Names of the complete files.
+    fn finish(self) -> Result<Vec<String>> {
+        let out = self.out;
+        let finish = |(name, mut file): (String, BufWriter<File>)| {
+            file.flush().map_err(|error| out.refusal(&format!("{name}.jsonl"), &error))?;
+            Ok(name)
+        };
+        self.files.into_iter().map(finish).collect()
+    }
+}
+
 /// Entry of a file in LLaMA-Factory's `dataset_info.json`.
-fn registration(split: &str) -> Value {
-    json!({
-        "file_name": format!("{split}.jsonl"),
+fn registration(name: &str) -> Value {
+    let is_ranking = name.ends_with("_preferences");
+    let mut entry = json!({
+        "file_name": format!("{name}.jsonl"),
         "formatting": "sharegpt",
         "columns": {"messages": "messages", "images": "images"},
         "tags": {
             "role_tag": "role", "content_tag": "content",
             "user_tag": "user", "assistant_tag": "assistant", "system_tag": "system",
         },
-    })
+    });
+    if is_ranking {
+        entry["ranking"] = json!(true);
+        entry["columns"] =
+            json!({"messages": "messages", "chosen": "chosen", "rejected": "rejected", "images": "images"});
+    } else if name.ends_with("_no_pictures") {
+        entry["columns"] = json!({"messages": "messages"});
+    }
+    entry
 }
 
 /// Writes the pictures that windows show; their paths by frame.

@@ -15,6 +15,8 @@ pub struct Options {
     pub(super) increments: IncrementOptions,
     /// Flights that models see
     pub(super) input: Input,
+    /// Sets of lines to write
+    pub(super) sets: Sets,
     /// Number of frames that a model sees
     #[schemars(range(min = 1, max = 1_000_000))]
     pub(super) history: usize,
@@ -41,6 +43,7 @@ impl Default for Options {
             instructions: InstructionOptions::default(),
             increments: IncrementOptions::default(),
             input: Input::default(),
+            sets: Sets::default(),
             history,
             horizon,
             stride,
@@ -66,14 +69,37 @@ pub enum Input {
     Perturbed,
     /// Experts' flights
     Expert,
+    /// Both
+    Mixed,
+}
+
+/// Sets of lines.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum Sets {
+    /// Windows with waypoints
+    #[default]
+    Windows,
+    /// Also: nested shares of the windows, windows without some inputs, texts to learn, pairs of accepted and refused texts
+    Students,
 }
 
 impl Input {
+    /// Whether models see a flight.
+    pub fn shows(self, is_perturbed: bool) -> bool {
+        match self {
+            Self::Perturbed => is_perturbed,
+            Self::Expert => !is_perturbed,
+            Self::Mixed => true,
+        }
+    }
+
     /// The word of the command line.
     pub fn word(self) -> &'static str {
         match self {
             Self::Perturbed => "perturbed",
             Self::Expert => "expert",
+            Self::Mixed => "mixed",
         }
     }
 }

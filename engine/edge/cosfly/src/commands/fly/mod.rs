@@ -1,23 +1,26 @@
 //! `cosfly fly`: flies the episodes of a suite with policies, in closed loop, and scores them.
 
 mod compare;
+pub mod policy;
 
-use crate::arguments::{RecipeArguments, StoreArguments, count};
+use crate::arguments::{RecipeArguments, StoreArguments};
 use crate::command::{Command, Outcome};
 use crate::console::Console;
 use crate::exit;
 use clap::{Parser, Subcommand, ValueEnum};
 use cosfly_diagnose::{Diagnostic, Fault};
-use cosfly_env::Settings;
-use cosfly_fly::pilot::{ActionKind, Manners, Place};
-use cosfly_fly::results::{Card, Folder, PolicyCard, SuiteCard, beside};
+use cosfly_env::{DroneModel, DroneSettings, Settings};
+use cosfly_fly::flight::Latency;
+use cosfly_fly::pilot::Place;
+use cosfly_fly::results::{Card, EnvironmentCard, Folder, KeptCard, LogChoice, SuiteCard, beside};
 use cosfly_fly::run::{Order, Shard, run};
+use cosfly_fly::settings::FlySettings;
 use cosfly_fly::suite::Suite;
 use cosfly_runner::RunOptions;
 use cosfly_store::check_out_folder;
+use policy::PolicyArguments;
 use std::fmt::Write as _;
 use std::path::PathBuf;
-use std::time::Duration;
 
 /// Fly a suite's episodes with a policy, in closed loop, and score it
 #[derive(Debug, Parser)]
@@ -35,8 +38,8 @@ Examples:
 
 A policy is a server that speaks openpi's wire, a function in Python, or a baseline: causal, constant-velocity, expert,
 follow, hold, random. It gets a map with `state` (16 numbers), `prompt`, `episode`, `step` and `time_s`, and answers with a
-map whose `actions` are rows of numbers. The result is a folder: card.json, report.md, scores.json, episodes.jsonl, rows and
-logs. The same command goes on with what a folder lacks. Exits with 1 when a policy could not be had for some episodes."
+map whose `actions` are rows of numbers. The result is a folder: card.json, report.html with clips of the worst
+episodes, report.md, scores.json, episodes.jsonl, rows and logs. The same command goes on with what a folder lacks. Exits with 1 when a policy could not be had for some episodes."
 )]
 pub struct Arguments {
     #[command(subcommand)]
@@ -51,9 +54,6 @@ pub struct Arguments {
     /// Name of the policy in the result [default: made from its place]
     #[arg(long, value_name = "NAME", value_parser = folder_name)]
     name: Option<String>,
-    /// Version of the policy, for the card
-    #[arg(long = "policy-version", value_name = "TEXT")]
-    version: Option<String>,
     /// Folder for the results, one folder per policy [default: out/fly/<recipe name>]
     #[arg(long, value_name = "DIR")]
     out: Option<PathBuf>,
@@ -64,32 +64,29 @@ pub struct Arguments {
     #[arg(long, value_name = "I/N", value_parser = shard, default_value = "1/1")]
     shard: Shard,
     /// Simulated time from an observation to the effect of the action that answers it; the world moves on meanwhile
-    #[arg(long, value_name = "MS", default_value_t = 0, value_parser = clap::value_parser!(u32).range(0..=5000))]
-    latency_ms: u32,
+    /// (`measured`: as long as the policy really takes; then rows and logs differ from run to run)
+    #[arg(long, value_name = "MS", default_value = "0", value_parser = latency)]
+    latency_ms: LatencyChoice,
     /// Simulated time from one action to the next
     #[arg(long, value_name = "MS", default_value_t = 100, value_parser = clap::value_parser!(u32).range(10..=1000))]
     step_ms: u32,
-    /// Kind of the actions that a policy answers with
-    #[arg(long, value_enum, default_value_t = ActionChoice::Velocity)]
-    actions: ActionChoice,
-    /// Steps after which a policy is asked again; rows of its last answer are flown meanwhile
-    #[arg(long, value_name = "N", default_value_t = 1, value_parser = count())]
-    every: usize,
-    /// Text of the task in observations
-    #[arg(long, value_name = "TEXT", default_value = "Follow the person and keep them in view.")]
-    prompt: String,
-    /// Time within which an answer must come, seconds; an episode without one ends
-    #[arg(long, value_name = "SECONDS", default_value_t = 10.0, value_parser = seconds)]
-    timeout: f64,
-    /// Time for which a policy that is absent is waited for, seconds
-    #[arg(long, value_name = "SECONDS", default_value_t = 60.0, value_parser = seconds)]
-    wait: f64,
-    /// Key that a server gets as `Authorization: Api-Key KEY`
-    #[arg(long, value_name = "KEY", env = "COSFLY_API_KEY", hide_env_values = true)]
-    api_key: Option<String>,
-    /// Command of Python, for policies in Python
-    #[arg(long, value_name = "COMMAND", default_value = "python3")]
-    python: PathBuf,
+    /// The drone [default: that of the suite, else a point mass]
+    #[arg(long, value_name = "MODEL", value_parser = drone_model)]
+    drone: Option<DroneModel>,
+    /// Speed of the mean wind that moves a quadrotor, m/s; each episode draws its direction [default: that of the suite, else 0]
+    #[arg(long, value_name = "MPS", value_parser = wind)]
+    wind_mps: Option<f64>,
+    /// Gusts in the wind
+    #[arg(long)]
+    gusts: bool,
+    #[command(flatten)]
+    asked: PolicyArguments,
+    /// Episodes whose logs are also written for Foxglove (MCAP): all, those that have clips, none
+    #[arg(long, value_enum, value_name = "WHICH", default_value_t = LogsChoice::All)]
+    logs: LogsChoice,
+    /// Number of the worst episodes that get a clip on the page
+    #[arg(long, value_name = "N", default_value_t = 3, value_parser = clap::value_parser!(u32).range(0..=100))]
+    clips: u32,
     /// Print the scores as JSON
     #[arg(long)]
     json: bool,
@@ -104,36 +101,58 @@ enum Other {
     Compare(compare::Arguments),
 }
 
-/// Kind of actions.
+/// Episodes with logs for Foxglove.
 #[derive(Clone, Copy, Debug, ValueEnum)]
-enum ActionChoice {
-    /// Five numbers a step: velocity ahead, right, up (m/s), yaw and pitch rate (degrees/s)
-    Velocity,
-    /// Six numbers a frame of the dataset: dx, dy, dz (m), dpitch, dyaw, droll (degrees), along the world's axes
-    DeltasWorld,
-    /// As before, along the axes of the body that moves
-    DeltasBody,
+enum LogsChoice {
+    /// All episodes
+    All,
+    /// The episodes that have clips
+    Worst,
+    /// No episode
+    None,
 }
 
-impl From<ActionChoice> for ActionKind {
-    fn from(choice: ActionChoice) -> Self {
+impl From<LogsChoice> for LogChoice {
+    fn from(choice: LogsChoice) -> Self {
         match choice {
-            ActionChoice::Velocity => Self::Velocity,
-            ActionChoice::DeltasWorld => Self::DeltasInWorld,
-            ActionChoice::DeltasBody => Self::DeltasInBody,
+            LogsChoice::All => Self::All,
+            LogsChoice::Worst => Self::Worst,
+            LogsChoice::None => Self::None,
         }
     }
 }
 
-fn folder_name(text: &str) -> Result<String, String> {
+/// Time from an observation to the effect of its action.
+#[derive(Clone, Copy, Debug)]
+enum LatencyChoice {
+    Milliseconds(u32),
+    Measured,
+}
+
+fn latency(text: &str) -> Result<LatencyChoice, String> {
+    if text == "measured" {
+        return Ok(LatencyChoice::Measured);
+    }
+    let number = text.parse().ok().filter(|number| *number <= 5000);
+    number.map(LatencyChoice::Milliseconds).ok_or_else(|| "it must be 0 to 5000, or `measured`".to_owned())
+}
+
+fn drone_model(text: &str) -> Result<DroneModel, String> {
+    let names: Vec<&str> = DroneModel::ALL.iter().map(|model| model.name()).collect();
+    let found = DroneModel::ALL.into_iter().find(|model| model.name() == text);
+    found.ok_or_else(|| format!("allowed are {}", names.join(", ")))
+}
+
+fn wind(text: &str) -> Result<f64, String> {
+    let number = text.parse().ok().filter(|number| (0.0..=30.0).contains(number));
+    number.ok_or_else(|| "it must be 0 to 30".to_owned())
+}
+
+/// Name that can be that of a folder.
+pub fn folder_name(text: &str) -> Result<String, String> {
     let is_safe = |c: char| c.is_ascii_alphanumeric() || "-_.".contains(c);
     let fits = !text.is_empty() && !text.starts_with('.') && text.chars().all(is_safe);
     if fits { Ok(text.to_owned()) } else { Err("letters, digits, `-`, `_` and `.` are allowed".to_owned()) }
-}
-
-fn seconds(text: &str) -> Result<f64, String> {
-    let number: f64 = text.parse().map_err(|_| "it is not a number".to_owned())?;
-    if (0.001..=86_400.0).contains(&number) { Ok(number) } else { Err("it must be 0.001 to 86400".to_owned()) }
 }
 
 fn shard(text: &str) -> Result<Shard, String> {
@@ -160,6 +179,7 @@ impl Command for Arguments {
             return Err(Diagnostic::new("fly-policy", Fault::Recipe, message).hint("leave it out").into());
         }
         let recipe = recipe.load(console)?;
+        let settings = self.settings(&FlySettings::of(&recipe)?)?;
         let out = self.out.clone().unwrap_or_else(|| PathBuf::from("out").join("fly").join(&recipe.name));
         check_out_folder(&self.store.folder(), &out)?;
         let store = self.store.open()?;
@@ -173,12 +193,14 @@ impl Command for Arguments {
         let mut code = exit::SUCCESS;
         for place in &places {
             let name = self.name.clone().unwrap_or_else(|| place.name());
-            let card = self.card(&suite, place, &name);
+            let card = self.card(&suite, place, &name, &settings);
             let folder = Folder::open(&out.join(&name), &card)?;
             let cancelled = console.cancelled();
-            let (manners, settings) = (self.manners(), self.settings());
+            let manners = self.asked.manners();
             let (shard, suite) = (self.shard, &suite);
-            let order = Order { suite, place, manners: &manners, settings, shard, jobs, cancelled: &cancelled };
+            let latency = self.latency();
+            let order =
+                Order { suite, place, manners: &manners, settings, latency, shard, jobs, cancelled: &cancelled };
             let progress = console.progress("fly", "episodes");
             let outcome = run(&order, &card, &folder, &*progress)?;
             drop(progress);
@@ -203,46 +225,47 @@ impl Command for Arguments {
 }
 
 impl Arguments {
-    fn settings(&self) -> Settings {
+    /// Settings of the environment: those of the suite, and over them those of the command line.
+    fn settings(&self, suite: &FlySettings) -> cosfly_diagnose::Result<Settings> {
         let seconds = |milliseconds: u32| f64::from(milliseconds) / 1000.0;
-        Settings { step_s: seconds(self.step_ms), latency_s: seconds(self.latency_ms), ..Settings::default() }
+        let latency_s = match self.latency_ms {
+            LatencyChoice::Milliseconds(milliseconds) => seconds(milliseconds),
+            LatencyChoice::Measured => 0.0,
+        };
+        let drone = DroneSettings {
+            model: self.drone.unwrap_or(suite.drone),
+            wind_mps: self.wind_mps.unwrap_or(suite.wind_mps),
+            gusts: self.gusts || suite.gusts,
+            sensors: !matches!(self.logs, LogsChoice::None),
+        };
+        let actions = self.asked.actions();
+        let is_point = drone.model == DroneModel::PointMass;
+        let refused = |message: &str| {
+            let problem = Diagnostic::new("fly-drone", Fault::Recipe, message);
+            Err(problem.hint("choose a quadrotor: `--drone pelican` or `--drone crazyflie`"))
+        };
+        if is_point && actions.is_of_rotors() {
+            return refused(&format!("a point mass takes no actions of the kind `{}`", actions.name()));
+        }
+        if is_point && (drone.wind_mps > 0.0 || drone.gusts) {
+            return refused("wind does not move a point mass");
+        }
+        Ok(Settings { step_s: seconds(self.step_ms), latency_s, drone, ..suite.environment() })
     }
 
-    fn manners(&self) -> Manners {
-        Manners {
-            actions: self.actions.into(),
-            every: u32::try_from(self.every).unwrap_or(u32::MAX),
-            prompt: self.prompt.clone(),
-            timeout: Duration::from_secs_f64(self.timeout),
-            wait: Duration::from_secs_f64(self.wait),
-            api_key: self.api_key.clone(),
-            python: self.python.clone(),
+    fn latency(&self) -> Latency {
+        match self.latency_ms {
+            LatencyChoice::Milliseconds(_) => Latency::Simulated,
+            LatencyChoice::Measured => Latency::Measured,
         }
     }
 
-    fn card(&self, suite: &Suite, place: &Place, name: &str) -> Card {
-        let kind = match place {
-            Place::Baseline(_) => "baseline",
-            Place::Socket(_) => "socket",
-            Place::Python { .. } => "python",
-        };
-        let manners = self.manners();
+    fn card(&self, suite: &Suite, place: &Place, name: &str, settings: &Settings) -> Card {
         Card {
-            suite: SuiteCard {
-                name: suite.name.clone(),
-                hash: suite.digest.to_string(),
-                episodes: suite.tasks.len() as u64,
-                rejected: suite.rejected,
-            },
-            policy: PolicyCard {
-                name: name.to_owned(),
-                version: self.version.clone(),
-                kind: kind.to_owned(),
-                actions: manners.actions.name().to_owned(),
-                every: manners.every,
-                prompt: manners.prompt,
-            },
-            environment: (&self.settings()).into(),
+            suite: SuiteCard::of(suite),
+            policy: self.asked.card(place, name),
+            environment: EnvironmentCard::new(settings, self.latency()),
+            kept: KeptCard { logs: self.logs.into(), clips: self.clips },
             cosfly: env!("CARGO_PKG_VERSION").to_owned(),
         }
     }

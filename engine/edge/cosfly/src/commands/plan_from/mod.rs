@@ -1,6 +1,5 @@
 //! `cosfly plan-from`: the expert's way on from a state that a drone came into (relabelling, as for DAgger).
 
-mod experts;
 mod state;
 
 use crate::arguments::{RecipeArguments, StoreArguments};
@@ -9,17 +8,14 @@ use crate::console::Console;
 use crate::exit;
 use clap::Parser;
 use cosfly_diagnose::{Diagnostic, Fault};
+use cosfly_fly::experts::{Experts, LOOK_AHEAD_S};
 use cosfly_frames::DVec3;
 use cosfly_planner::{Certificate, PlanOutcome, StartState, Trajectory};
-use experts::Experts;
 use serde::Serialize;
 use state::State;
 use std::fmt::Write as _;
 use std::io::BufRead;
 use std::path::Path;
-
-/// Shorter horizons are planned as far as this and cut off, so that no way ends in a dead end, seconds.
-const LOOK_AHEAD_S: f64 = 15.0;
 
 /// Ask a finished recipe's expert how to go on from any state of a drone (relabelling, as for DAgger)
 #[derive(Debug, Parser)]

@@ -1,10 +1,10 @@
-//! [`Prescribed`]: people whose way is known beforehand: recorded tracks, scripted routes.
+//! [`Prescribed`]: bodies whose tracks are known beforehand: recorded tracks, scripted routes.
 
+use crate::{Body, BodyPlan, Population, Snapshot};
 use cosfly_frames::{TargetState, real};
-use cosfly_world::{Body, BodyPlan, Population, Snapshot};
 
-/// People whose states at all frames are known; between frames they go on evenly.
-#[derive(Clone, Debug, Default)]
+/// Bodies whose states at all frames are known; between frames they go on evenly.
+#[derive(Clone, Debug, Default, PartialEq)]
 pub struct Prescribed {
     bodies: Vec<Body>,
     dt_s: f64,
@@ -14,13 +14,13 @@ pub struct Prescribed {
 }
 
 impl Prescribed {
-    /// People with states every `dt_s` seconds. Those without a state are left out.
+    /// Bodies with states every `dt_s` seconds. Those without a state are left out.
     pub fn new(mut bodies: Vec<Body>, dt_s: f64, notes: Vec<String>) -> Self {
         bodies.retain(|body| !body.states.is_empty());
         Self { bodies, dt_s, notes, now: 0.0 }
     }
 
-    /// The people and their states.
+    /// The bodies and their states.
     pub fn bodies(&self) -> &[Body] {
         &self.bodies
     }
@@ -40,7 +40,7 @@ impl Population for Prescribed {
         let share = now - now.floor();
         match body.state(now as u32 + 1) {
             Some(to) if share > 0.0 => Some(between(&from, to, share)),
-            // Between the last frame and the one after, the person has left.
+            // Between the last frame and the one after, the body has left.
             None if share > 0.0 => None,
             _ => Some(from),
         }
@@ -68,8 +68,8 @@ fn between(from: &TargetState, to: &TargetState, share: f64) -> TargetState {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::{BodyKind, Clock, simulate};
     use cosfly_frames::{DVec3, Seed};
-    use cosfly_world::{BodyKind, Clock, simulate};
 
     #[test]
     fn a_simulation_repeats_the_states_and_absent_frames_stay_absent() {
@@ -84,8 +84,8 @@ mod tests {
         let body = Body { plan, first_frame: 2, states: (0..5).map(|frame| state(0.3 * f64::from(frame))).collect() };
         for dt_s in [0.1, 0.5, 1.0 / 3.0] {
             let clock = Clock::new(20, dt_s, 0.07);
-            let people = Prescribed::new(vec![body.clone()], dt_s, vec!["a note".into()]);
-            let traffic = simulate(&mut [Box::new(people) as Box<dyn Population>], clock, |_| Ok::<_, ()>(())).unwrap();
+            let bodies = Prescribed::new(vec![body.clone()], dt_s, vec!["a note".into()]);
+            let traffic = simulate(&mut [Box::new(bodies) as Box<dyn Population>], clock, |_| Ok::<_, ()>(())).unwrap();
             assert_eq!((&traffic.bodies, traffic.notes.len()), (&vec![body.clone()], 1));
         }
     }

@@ -15,6 +15,9 @@ use std::collections::BTreeMap;
 use std::path::PathBuf;
 use std::sync::Arc;
 
+/// Shorter horizons are planned as far as this and cut off, so that no way ends in a dead end, seconds.
+pub const LOOK_AHEAD_S: f64 = 15.0;
+
 /// Experts by the ids of their published trajectories; each town and each flight is made ready once.
 pub struct Experts<'a> {
     plan: Plan<'a>,

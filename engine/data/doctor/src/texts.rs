@@ -1,0 +1,158 @@
+//! Figures of instructions: how different they are, what they speak of, how much of it is true. Anyone's texts can be given in the
+//! place of a dataset's own.
+
+use crate::Episode;
+use crate::checks::words;
+use cosfly_captions::teaching::foreign_words;
+use cosfly_captions::{Diversity, Facts, Language, Slot, check, claimed, diversity};
+use cosfly_diagnose::{Diagnostic, Fault, Result};
+use serde::{Deserialize, Serialize};
+use std::collections::BTreeMap;
+use std::path::Path;
+
+/// A text about an episode, as a line of a file has it.
+#[derive(Clone, Debug, Deserialize)]
+struct Line {
+    trajectory_id: String,
+    language: String,
+    text: String,
+}
+
+/// Texts of others, by episode.
+#[derive(Clone, Debug, Default)]
+pub struct GivenTexts(BTreeMap<String, Vec<(String, String)>>);
+
+/// Figures of the texts of one language.
+#[derive(Clone, Debug, Serialize)]
+pub struct TextFigures {
+    /// Language code.
+    pub language: &'static str,
+    /// Lengths, distinct-n, self-BLEU.
+    #[serde(flatten)]
+    pub diversity: Diversity,
+    /// Share of texts without a contradiction.
+    pub true_share: f64,
+    /// Share of texts that name the target by its clothes, of flights whose clothes are known.
+    pub names_target_share: f64,
+    /// By subject: number of texts that speak of it, and of texts that contradict the facts in it.
+    pub subjects: BTreeMap<&'static str, [usize; 2]>,
+}
+
+/// The verdict on a given text.
+#[derive(Clone, Debug, Serialize)]
+pub struct TextVerdict {
+    /// Episode.
+    pub trajectory_id: String,
+    /// Language code.
+    pub language: String,
+    /// The text.
+    pub text: String,
+    /// What is not true of it.
+    pub contradictions: Vec<String>,
+}
+
+/// Verdicts on given texts, and the facts that they were compared with.
+#[derive(Clone, Debug, Default, Serialize)]
+pub struct Judged {
+    /// Facts by episode.
+    pub facts: BTreeMap<String, Facts>,
+    /// Verdicts in the order of the episodes.
+    pub verdicts: Vec<TextVerdict>,
+}
+
+impl GivenTexts {
+    /// Reads lines of JSON with `trajectory_id`, `language` and `text`.
+    ///
+    /// # Errors
+    /// `doctor-texts` names the line; errors of the machine.
+    pub fn read(path: &Path) -> Result<Self> {
+        let bytes =
+            std::fs::read(path).map_err(|error| Diagnostic::io(format!("read `{}`", path.display()), &error))?;
+        let mut texts = Self::default();
+        for (number, line) in String::from_utf8_lossy(&bytes).lines().enumerate() {
+            if line.trim().is_empty() {
+                continue;
+            }
+            let line: Line = serde_json::from_str(line).map_err(|error| {
+                let message = format!("line {} of `{}` is no text: {error}", number + 1, path.display());
+                Diagnostic::new("doctor-texts", Fault::Input, message)
+                    .hint("a line is a JSON object with `trajectory_id`, `language` (`en` or `zh`) and `text`")
+            })?;
+            texts.0.entry(line.trajectory_id).or_default().push((line.language, line.text));
+        }
+        Ok(texts)
+    }
+
+    /// Puts the texts in the place of an episode's own.
+    pub(crate) fn give(&self, episode: &mut Episode) {
+        episode.captions = self.0.get(&episode.id).cloned().unwrap_or_default();
+    }
+
+    /// The first episode that has texts and is not among `known`.
+    pub(crate) fn stranger<'a>(&'a self, known: impl Iterator<Item = &'a str>) -> Option<&'a str> {
+        let known: std::collections::BTreeSet<&str> = known.collect();
+        self.0.keys().map(String::as_str).find(|id| !known.contains(id))
+    }
+}
+
+/// What is kept of the texts of all episodes.
+#[derive(Default)]
+pub(crate) struct TextTally {
+    texts: [Vec<String>; 2],
+    clean: [usize; 2],
+    dressed: [[usize; 2]; 2],
+    subjects: [BTreeMap<Slot, [usize; 2]>; 2],
+    /// Only for given texts.
+    pub(crate) judged: Option<Judged>,
+}
+
+impl TextTally {
+    pub(crate) fn add(&mut self, episode: &Episode) {
+        let Some(facts) = words::facts_of(episode) else { return };
+        for (code, text) in &episode.captions {
+            let Some(at) = Language::ALL.iter().position(|it| it.code() == code) else { continue };
+            let language = Language::ALL[at];
+            let slots = claimed(text, language);
+            let mut wrong = check(text, language, &facts).err().unwrap_or_default();
+            if self.judged.is_some() {
+                wrong.extend(foreign_words(text, language));
+            }
+            self.clean[at] += usize::from(wrong.is_empty());
+            if facts.wear.is_some() {
+                self.dressed[at][0] += usize::from(slots.contains(&Slot::Clothes));
+                self.dressed[at][1] += 1;
+            }
+            slots.iter().for_each(|slot| self.subjects[at].entry(*slot).or_default()[0] += 1);
+            let mut false_slots: Vec<Slot> = wrong.iter().map(|it| it.slot).collect();
+            false_slots.sort_unstable();
+            false_slots.dedup();
+            false_slots.iter().for_each(|slot| self.subjects[at].entry(*slot).or_default()[1] += 1);
+            if let Some(judged) = &mut self.judged {
+                judged.verdicts.push(TextVerdict {
+                    trajectory_id: episode.id.clone(),
+                    language: code.clone(),
+                    text: text.clone(),
+                    contradictions: wrong.iter().map(ToString::to_string).collect(),
+                });
+            }
+            self.texts[at].push(text.clone());
+        }
+        if let Some(judged) = &mut self.judged {
+            judged.facts.insert(episode.id.clone(), facts);
+        }
+    }
+
+    pub(crate) fn figures(&self) -> Vec<TextFigures> {
+        let of = |at: usize| {
+            let share = |part: usize, whole: usize| part as f64 / whole.max(1) as f64;
+            TextFigures {
+                language: Language::ALL[at].code(),
+                diversity: diversity(self.texts[at].iter().map(String::as_str), Language::ALL[at]),
+                true_share: share(self.clean[at], self.texts[at].len()),
+                names_target_share: share(self.dressed[at][0], self.dressed[at][1]),
+                subjects: self.subjects[at].iter().map(|(slot, counts)| (slot.name(), *counts)).collect(),
+            }
+        };
+        (0..Language::ALL.len()).filter(|at| !self.texts[*at].is_empty()).map(of).collect()
+    }
+}

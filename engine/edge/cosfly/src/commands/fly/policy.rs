@@ -1,0 +1,132 @@
+//! Arguments about a policy: how it is asked, and what its card says.
+
+use crate::arguments::count;
+use clap::{Args, ValueEnum};
+use cosfly_env::pictures::{Channel, Format};
+use cosfly_fly::pilot::{ActionKind, Manners, Place};
+use cosfly_fly::results::{PicturesCard, PolicyCard};
+use std::path::PathBuf;
+use std::time::Duration;
+
+/// Greatest depth in pictures, metres.
+const FARTHEST_M: f32 = 200.0;
+
+/// How a policy is asked.
+#[derive(Args, Debug)]
+pub struct PolicyArguments {
+    /// Version of the policy, for the card
+    #[arg(long = "policy-version", value_name = "TEXT")]
+    version: Option<String>,
+    /// Kind of the actions that a policy answers with
+    #[arg(long, value_enum, default_value_t = ActionChoice::Velocity)]
+    actions: ActionChoice,
+    /// Steps after which a policy is asked again; rows of its last answer are flown meanwhile
+    #[arg(long, value_name = "N", default_value_t = 1, value_parser = count())]
+    every: usize,
+    /// Pictures in observations, for policies behind a socket or in Python (repeatable)
+    #[arg(long, value_name = "CHANNEL", value_parser = channel, value_delimiter = ',')]
+    obs: Vec<Channel>,
+    /// Width and height of pictures in observations, pixels
+    #[arg(long, value_name = "PX", default_value_t = 84, value_parser = clap::value_parser!(u32).range(16..=512))]
+    size: u32,
+    /// Text of the task in observations
+    #[arg(long, value_name = "TEXT", default_value = "Follow the person and keep them in view.")]
+    prompt: String,
+    /// Time within which an answer must come, seconds; an episode without one ends
+    #[arg(long, value_name = "SECONDS", default_value_t = 10.0, value_parser = seconds)]
+    timeout: f64,
+    /// Time for which a policy that is absent is waited for, seconds
+    #[arg(long, value_name = "SECONDS", default_value_t = 60.0, value_parser = seconds)]
+    wait: f64,
+    /// Key that a server gets as `Authorization: Api-Key KEY`
+    #[arg(long, value_name = "KEY", env = "COSFLY_API_KEY", hide_env_values = true)]
+    api_key: Option<String>,
+    /// Command of Python, for policies in Python
+    #[arg(long, value_name = "COMMAND", default_value = "python3")]
+    python: PathBuf,
+}
+
+/// Kind of actions.
+#[derive(Clone, Copy, Debug, ValueEnum)]
+enum ActionChoice {
+    /// Five numbers a step: velocity ahead, right, up (m/s), yaw and pitch rate (degrees/s)
+    Velocity,
+    /// Six numbers a step, for quadrotors: thrust (multiples of the weight), roll, pitch, yaw rate of the body, yaw and pitch
+    /// rate of the camera (degrees/s)
+    ThrustRates,
+    /// Six numbers a step, for quadrotors: speeds of the rotors (rev/min), yaw and pitch rate of the camera (degrees/s)
+    Rotors,
+    /// Six numbers a frame of the dataset: dx, dy, dz (m), dpitch, dyaw, droll (degrees), along the world's axes
+    DeltasWorld,
+    /// As before, along the axes of the body that moves
+    DeltasBody,
+}
+
+impl From<ActionChoice> for ActionKind {
+    fn from(choice: ActionChoice) -> Self {
+        match choice {
+            ActionChoice::Velocity => Self::Velocity,
+            ActionChoice::ThrustRates => Self::ThrustAndRates,
+            ActionChoice::Rotors => Self::Rotors,
+            ActionChoice::DeltasWorld => Self::DeltasInWorld,
+            ActionChoice::DeltasBody => Self::DeltasInBody,
+        }
+    }
+}
+
+impl PolicyArguments {
+    /// Kind of the policy's actions.
+    pub fn actions(&self) -> ActionKind {
+        self.actions.into()
+    }
+
+    /// How the policy is asked.
+    pub fn manners(&self) -> Manners {
+        Manners {
+            actions: self.actions.into(),
+            every: u32::try_from(self.every).unwrap_or(u32::MAX),
+            pictures: self.pictures(),
+            prompt: self.prompt.clone(),
+            timeout: Duration::from_secs_f64(self.timeout),
+            wait: Duration::from_secs_f64(self.wait),
+            api_key: self.api_key.clone(),
+            python: self.python.clone(),
+        }
+    }
+
+    fn pictures(&self) -> Option<Format> {
+        let mut channels = self.obs.clone();
+        channels.dedup();
+        let (width, height) = (self.size, self.size);
+        (!channels.is_empty()).then_some(Format { width, height, channels, farthest_m: FARTHEST_M, weather: None })
+    }
+
+    /// What a card says of the policy at a place.
+    pub fn card(&self, place: &Place, name: &str) -> PolicyCard {
+        let kind = match place {
+            Place::Baseline(_) => "baseline",
+            Place::Socket(_) => "socket",
+            Place::Python { .. } => "python",
+        };
+        let manners = self.manners();
+        PolicyCard {
+            name: name.to_owned(),
+            version: self.version.clone(),
+            kind: kind.to_owned(),
+            actions: manners.actions.name().to_owned(),
+            every: manners.every,
+            prompt: manners.prompt,
+            pictures: manners.pictures.map(|format| PicturesCard::of(&format)),
+        }
+    }
+}
+
+fn channel(text: &str) -> Result<Channel, String> {
+    let names: Vec<&str> = Channel::ALL.iter().map(|(name, _)| *name).collect();
+    Channel::named(text).ok_or_else(|| format!("allowed are {}", names.join(", ")))
+}
+
+fn seconds(text: &str) -> Result<f64, String> {
+    let number: f64 = text.parse().map_err(|_| "it is not a number".to_owned())?;
+    if (0.001..=86_400.0).contains(&number) { Ok(number) } else { Err("it must be 0.001 to 86400".to_owned()) }
+}

@@ -1,0 +1,83 @@
+//! The clip of a flight: what the camera saw where it matters, drawn from the poses of the log.
+
+use super::window::telling;
+use crate::log::Line;
+use crate::suite::Task;
+use cosfly_diagnose::Result;
+use cosfly_env::pictures::walker;
+use cosfly_env::{Present, Settings};
+use cosfly_plot::canvas::Canvas;
+use cosfly_preview::{LoggedFrame, Shot, clip as encoded};
+use cosfly_render::{Bystander, Camera, FrameSetup, PixelBox, Renderer, Scene, TargetSetup, gait_phase_rad};
+use cosfly_schema::log::TargetStateMessage;
+use cosfly_schema::log::messages::edges_px;
+
+/// Width of the colour picture, pixels.
+const WIDTH_PX: u32 = 320;
+/// Length of a clip and time between its pictures, seconds.
+const LENGTH_S: f64 = 12.0;
+const EVERY_S: f64 = 0.2;
+
+/// An animated picture of the steps of a flight that say most, GIF; `None` of a flight without steps.
+///
+/// # Errors
+/// `preview-encode`.
+pub fn clip(task: &Task, settings: &Settings, steps: &[Line]) -> Result<Option<Vec<u8>>> {
+    let count = |time_s: f64| ((time_s / settings.step_s).round() as usize).max(1);
+    let shown: Vec<&Line> = steps[telling(steps, count(LENGTH_S))].iter().step_by(count(EVERY_S)).collect();
+    if shown.is_empty() {
+        return Ok(None);
+    }
+    let scene = Scene::new(&task.scenery.town, task.scenery.looks);
+    let height = (f64::from(WIDTH_PX) * settings.lens.aspect) as u32;
+    let horizontal_fov_rad = settings.lens.horizontal_deg.to_radians();
+    let mut renderer = Renderer::new(Camera { width: WIDTH_PX, height: height.max(1), horizontal_fov_rad });
+    encoded(shown.into_iter().map(|line| shot(task, &scene, &mut renderer, line))).map(Some)
+}
+
+fn shot(task: &Task, scene: &Scene, renderer: &mut Renderer, line: &Line) -> Shot {
+    let (track, shooting) = (&task.episode.target, &task.shooting);
+    let state = task.episode.target_at(line.time_s);
+    let target = TargetSetup {
+        state,
+        height_m: track.height_m,
+        radius_m: track.radius_m,
+        clothes_seed: shooting.clothes_seed,
+        gait_phase_rad: gait_phase_rad(task.episode.walked_m(line.time_s), track.height_m),
+        visible_by_rays: line.visible,
+        body: shooting.body,
+    };
+    let others: Vec<Bystander> = task.episode.others.at(line.time_s).map(|present| bystander(&present)).collect();
+    let setup = FrameSetup { pose: line.pose(), weather: &shooting.weather, target: Some(target), others: &others };
+    let drawn = renderer.render(scene, &setup);
+    let (images, view) = (drawn.images, drawn.target_view);
+    let edges = |pixel_box: &Option<PixelBox>| pixel_box.iter().flat_map(edges_px).collect();
+    let told = TargetStateMessage {
+        frame: line.step,
+        time_s: line.time_s,
+        radius_m: track.radius_m,
+        visible_by_rays: line.visible,
+        visible_by_pixels: view.visible_by_pixels,
+        visible_box_px: edges(&view.visible_box),
+        full_box_px: edges(&view.full_box),
+        ..TargetStateMessage::default()
+    };
+    let logged = LoggedFrame {
+        width: images.width,
+        height: images.height,
+        depth_m: images.depth_m.clone(),
+        semantic: images.semantic.clone(),
+        target: told,
+        ..LoggedFrame::default()
+    };
+    let rgb = Canvas { width: images.width as usize, height: images.height as usize, rgb: images.rgb.clone() };
+    Shot { logged, rgb }
+}
+
+/// Ids of bodies of traffic in clips begin behind those of all objects of a town.
+const FIRST_INSTANCE: u32 = 1 << 24;
+
+/// Somebody beside the target, as the renderer draws them.
+fn bystander(present: &Present<'_>) -> Bystander {
+    Bystander { walker: walker(present), instance: FIRST_INSTANCE + present.mover.number }
+}

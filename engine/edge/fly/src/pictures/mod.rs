@@ -1,0 +1,10 @@
+//! What people look at: logs that play in Foxglove, clips, the page.
+
+mod clip;
+mod mcap;
+mod page;
+mod window;
+
+pub use clip::clip;
+pub use mcap::mcap;
+pub use page::{Case, page};

@@ -1,0 +1,57 @@
+//! [`Question`]: the message that asks for an action, with pictures where they are asked for.
+
+use super::Manners;
+use crate::wire::{self, Field};
+use cosfly_env::pictures::{Album, Channel, Pictures};
+use cosfly_env::{Environment, FEATURES};
+
+/// Asks for actions. Owns what draws the pictures.
+pub struct Question {
+    prompt: String,
+    pictures: Option<(Pictures, Album)>,
+}
+
+impl Question {
+    /// Questions in a manner.
+    pub fn new(manners: &Manners) -> Self {
+        let pictures = manners.pictures.clone().map(|format| {
+            let album = Album::new(&format, 1);
+            (Pictures::new(format, 1), album)
+        });
+        Self { prompt: manners.prompt.clone(), pictures }
+    }
+
+    /// The message that asks for an action in the present state.
+    pub fn bytes(&mut self, environment: &Environment) -> Vec<u8> {
+        let observation = environment.observation();
+        let state = observation.features().map(|feature| feature as f32);
+        let mut fields = vec![
+            ("episode", Field::Text(&environment.episode().name)),
+            ("step", Field::Count(u64::from(observation.step))),
+            ("time_s", Field::Number(observation.time_s)),
+            ("prompt", Field::Text(&self.prompt)),
+            ("state", Field::Floats(&state, &[FEATURES])),
+        ];
+        let Some((pictures, album)) = &mut self.pictures else { return wire::encode(&fields) };
+        if environment.is_blind() {
+            *album = Album::new(pictures.format(), 1);
+        } else {
+            pictures.draw(&[environment], album, 0);
+        }
+        let format = pictures.format();
+        let [rows, columns] = [format.height as usize, format.width as usize];
+        let (shape, coloured) = ([rows, columns], [rows, columns, 3]);
+        let asked = Channel::ALL.into_iter().filter(|(_, channel)| format.channels.contains(channel));
+        fields.extend(asked.map(|(name, channel)| {
+            let field = match channel {
+                Channel::Depth => Field::Floats(&album.depth_m, &shape),
+                Channel::Semantic => Field::Bytes(&album.semantic, &shape),
+                Channel::Instance => Field::Ids(&album.instance, &shape),
+                Channel::Mask => Field::Bytes(&album.mask, &shape),
+                Channel::Rgb => Field::Bytes(&album.rgb, &coloured),
+            };
+            (name, field)
+        }));
+        wire::encode(&fields)
+    }
+}

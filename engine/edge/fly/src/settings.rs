@@ -1,0 +1,73 @@
+//! [`FlySettings`]: the table `[tool.fly]` of a recipe: the drone that flies its episodes.
+
+use cosfly_diagnose::{Diagnostic, Fault, Result};
+use cosfly_env::{Blackouts, DroneModel, DroneSettings, Settings};
+use cosfly_recipe::Recipe;
+use serde::Deserialize;
+
+/// What a suite says of the drone.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct FlySettings {
+    /// Model.
+    pub drone: DroneModel,
+    /// Speed of the mean wind, m/s.
+    pub wind_mps: f64,
+    /// Whether the wind carries gusts.
+    pub gusts: bool,
+    /// Number of stretches of an episode in which the camera sees nothing, each of two to four seconds.
+    pub blackouts: u32,
+}
+
+/// The table as written.
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct Given {
+    drone: Option<String>,
+    #[serde(default)]
+    wind_mps: f64,
+    #[serde(default)]
+    gusts: bool,
+    #[serde(default)]
+    blackouts: u32,
+}
+
+impl FlySettings {
+    /// The table `[tool.fly]` of a recipe.
+    ///
+    /// # Errors
+    /// `fly-settings` where a key or a value is not allowed.
+    pub fn of(recipe: &Recipe) -> Result<Self> {
+        let Some(table) = recipe.tool.get("fly") else { return Ok(Self::default()) };
+        let refused = |message: String| {
+            let message = format!("[tool.fly] of `{}`: {message}", recipe.path.display());
+            let allowed = "allowed are drone (point-mass, crazyflie, pelican), wind_mps (0 to 30), gusts (true or false) and \
+                           blackouts (0 to 10)";
+            Diagnostic::new("fly-settings", Fault::Recipe, message).hint(allowed)
+        };
+        let given: Given = serde_json::from_value(table.clone()).map_err(|error| refused(error.to_string()))?;
+        let named = |name: &String| {
+            let found = DroneModel::ALL.into_iter().find(|model| model.name() == *name);
+            found.ok_or_else(|| refused(format!("there is no drone `{name}`")))
+        };
+        let drone = given.drone.as_ref().map(named).transpose()?.unwrap_or_default();
+        if !(0.0..=30.0).contains(&given.wind_mps) {
+            return Err(refused(format!("wind_mps is {}", given.wind_mps)));
+        }
+        if given.blackouts > 10 {
+            return Err(refused(format!("blackouts is {}", given.blackouts)));
+        }
+        if drone == DroneModel::PointMass && (given.wind_mps > 0.0 || given.gusts) {
+            return Err(refused("wind does not move a point mass".to_owned()));
+        }
+        Ok(Self { drone, wind_mps: given.wind_mps, gusts: given.gusts, blackouts: given.blackouts })
+    }
+}
+
+impl FlySettings {
+    /// Settings of environments, with these of the suite.
+    pub fn environment(&self) -> Settings {
+        let defaults = Settings::default();
+        let drone = DroneSettings { model: self.drone, wind_mps: self.wind_mps, gusts: self.gusts, sensors: false };
+        Settings { drone, blackouts: Blackouts { count: self.blackouts, ..defaults.blackouts }, ..defaults }
+    }
+}

@@ -1,0 +1,125 @@
+//! Laws of flocks: seeds, modes of autoreset, pictures.
+
+use super::*;
+use cosfly_env::pictures::Channel;
+use cosfly_env::policies::Knowledge;
+use cosfly_env::{Episode, Place, Start};
+use cosfly_frames::{DVec3, TargetState, TargetTrack};
+
+/// Targets that stand for 1 to 4 s.
+fn tasks() -> Arc<[Task]> {
+    let place = Arc::new(Place::on_flat_ground(vec![]));
+    let task = |seconds: usize| {
+        let state = TargetState { feet_in_world: 20.0 * DVec3::X, heading_rad: 0.0, speed_mps: 0.0 };
+        let states = vec![state; 2 * seconds + 1];
+        let episode = Episode {
+            name: format!("e{seconds}"),
+            stratum: String::new(),
+            place: Arc::clone(&place),
+            target: Arc::new(TargetTrack { dt_s: 0.5, height_m: 1.7, radius_m: 0.25, states }),
+            followed: None,
+            looks: Seed([0; 32]),
+            others: Arc::default(),
+            start: Start { position_in_world: 20.0 * DVec3::Z, velocity_in_world: DVec3::ZERO },
+            seed: Seed([0; 32]),
+        };
+        let knowledge = Knowledge { flight: Arc::new([20.0 * DVec3::Z]), config: Arc::default() };
+        Task::undrawn(episode, knowledge, 1.0)
+    };
+    (1..=4).map(task).collect()
+}
+
+fn flock(mode: Autoreset) -> Flock {
+    let mut flock = Flock::new(tasks(), 3, Settings::default(), mode, true);
+    flock.reset(&[Some(5), Some(6), Some(5)], |_| true);
+    flock
+}
+
+#[test]
+fn equal_seeds_fly_equal_episodes_beside_any_others() {
+    let mut flock = flock(Autoreset::SameStep);
+    for step in 0..200 {
+        flock.step(&[[1.0, 0.0, 0.0, 0.0, 0.0], [0.0, 0.0, step as f32, 0.0, 9.0], [1.0, 0.0, 0.0, 0.0, 0.0]]);
+        let outputs = flock.outputs();
+        assert_eq!(outputs.features[0], outputs.features[2]);
+        assert_eq!((outputs.rewards[0], flock.episode(0)), (outputs.rewards[2], flock.episode(2)));
+        assert_eq!(outputs.expert_actions[0], outputs.expert_actions[2]);
+    }
+}
+
+#[test]
+fn episodes_end_and_begin_as_each_mode_says() {
+    for mode in [Autoreset::NextStep, Autoreset::SameStep, Autoreset::Disabled] {
+        let mut flock = flock(mode);
+        let mut steps = 0;
+        while !flock.outputs().truncated[0] {
+            flock.step(&[[0.0; ACTIONS]; 3]);
+            steps += 1;
+        }
+        assert_eq!(steps % 10, 0, "whole seconds");
+        let is_first = |flock: &Flock| flock.birds[0].environment.observation().step == 0;
+        assert_eq!(is_first(&flock), mode == Autoreset::SameStep);
+        let last = flock.outputs().clone();
+        flock.step(&[[0.0; ACTIONS]; 3]);
+        assert_eq!(is_first(&flock), mode == Autoreset::NextStep);
+        match mode {
+            Autoreset::NextStep => {
+                assert_eq!((flock.outputs().rewards[0], flock.outputs().truncated[0]), (0.0, false))
+            }
+            Autoreset::SameStep => assert!(!flock.outputs().truncated[0]),
+            Autoreset::Disabled => {
+                assert!(flock.outputs().truncated[0] && flock.outputs().features[0] == last.features[0]);
+                flock.reset(&[], |number| number == 0);
+                assert!(is_first(&flock) && !flock.outputs().truncated[0]);
+            }
+        }
+    }
+}
+
+#[test]
+fn pictures_are_those_of_the_observations_for_any_number_of_threads_and_in_each_mode() {
+    let format = || Format {
+        width: 160,
+        height: 120,
+        channels: vec![Channel::Depth, Channel::Mask],
+        farthest_m: 99.0,
+        weather: None,
+    };
+    for mode in [Autoreset::NextStep, Autoreset::SameStep, Autoreset::Disabled] {
+        let mut flocks = [1, 2].map(|threads| {
+            let flock = Flock::new(tasks(), 3, Settings::default(), mode, false);
+            let mut flock = flock.with_pictures(format(), threads).expect("threads");
+            flock.reset(&[Some(5), Some(6), Some(7)], |_| true);
+            flock
+        });
+        let alone = |flock: &Flock, number: usize| {
+            let mut album = Album::new(&format(), 1);
+            Pictures::new(format(), 1).draw(&[&flock.birds[number].environment], &mut album, 0);
+            (album.depth_m, album.mask)
+        };
+        let (mut ended, mut is_seen) = (0, false);
+        for step in 0..60 {
+            let before: Vec<_> = (0..3).map(|number| flocks[0].birds[number].environment.clone()).collect();
+            let action = [0.3, 0.1, 0.0, step as f32 % 7.0, 0.0];
+            flocks.iter_mut().for_each(|flock| flock.step(&[action; 3]));
+            let [one, other] = &flocks;
+            assert_eq!(one.outputs.album, other.outputs.album);
+            is_seen |= one.outputs.album.mask.contains(&1);
+            let pixels = format().pixels();
+            for (number, mut environment) in before.into_iter().enumerate() {
+                let part = number * pixels..(number + 1) * pixels;
+                let album = &one.outputs.album;
+                let (depth_m, mask) = alone(one, number);
+                assert!(album.depth_m[part.clone()] == depth_m && album.mask[part.clone()] == mask);
+                if mode == Autoreset::SameStep && one.outputs.truncated[number] {
+                    ended += 1;
+                    environment.step(Some(&Action::of_numbers(action.map(f64::from))));
+                    let mut last = Album::new(&format(), 1);
+                    Pictures::new(format(), 1).draw(&[&environment], &mut last, 0);
+                    assert!(one.outputs.last_album.depth_m[part] == last.depth_m);
+                }
+            }
+        }
+        assert!(is_seen && (ended > 0) == (mode == Autoreset::SameStep), "{mode:?} {ended}");
+    }
+}

@@ -1,0 +1,101 @@
+"""An environment for LeRobot: importing this module registers the configuration `cosfly`.
+
+`lerobot-eval --env.discover_packages_path=cosfly.lerobot --env.type=cosfly --env.recipe=recipes/suites/street.toml ...`, or
+`lerobot.envs.factory.make_env(CosflyEnv(recipe=...), n_envs=4)`. Observations have `agent_pos` (16 numbers), which
+LeRobot calls `observation.state`; an action is five numbers: velocity ahead, right, up (m/s), yaw rate, pitch rate (degrees/s).
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from typing import Any
+
+import gymnasium
+import numpy as np
+
+from ._outcome import Outcome
+from .gym import ACTIONS, Track
+
+ID = "cosfly/LeRobotTrack-v0"
+PROMPT = "Follow the person and keep them in view."
+
+
+class LeRobotTrack(gymnasium.Env):
+    """:class:`cosfly.gym.Track` with the names of observations and infos that LeRobot expects."""
+
+    metadata = {"render_modes": [], "render_fps": 10}
+
+    def __init__(self, recipe: str, step_s: float = 0.1, prompt: str = PROMPT, **more: Any) -> None:
+        self._track = Track(recipe, step_s=step_s, **more)
+        self._step_s, self.task_description, self.task = step_s, prompt, prompt
+        self.observation_space = gymnasium.spaces.Dict({"agent_pos": self._track.observation_space})
+        self.action_space = ACTIONS
+        self._outcome = Outcome(1, step_s)
+
+    @property
+    def _max_episode_steps(self) -> int:
+        return self._track.planned_steps
+
+    def reset(
+        self, *, seed: int | None = None, options: dict[str, Any] | None = None
+    ) -> tuple[dict[str, np.ndarray], dict[str, Any]]:
+        super().reset(seed=seed)
+        state, info = self._track.reset(seed=seed, options=options)
+        self._outcome = Outcome(self._track.planned_steps, self._step_s)
+        return {"agent_pos": state}, {**info, "is_success": False}
+
+    def step(self, action: np.ndarray) -> tuple[dict[str, np.ndarray], float, bool, bool, dict[str, Any]]:
+        state, reward, terminated, truncated, info = self._track.step(action)
+        self._outcome.count(bool(info["tracked"]), reward, terminated, truncated)
+        told = {**info, "is_success": self._outcome.success, "tracking_rate": self._outcome.tracking_rate}
+        return {"agent_pos": state}, reward, terminated, truncated, told
+
+
+def _register() -> None:
+    from gymnasium.envs.registration import register, registry
+
+    if ID not in registry:
+        register(id=ID, entry_point="cosfly.lerobot:LeRobotTrack")
+
+
+_register()
+
+try:
+    from lerobot.configs.types import FeatureType, PolicyFeature
+    from lerobot.envs.configs import EnvConfig
+except ImportError:  # The environment works without LeRobot; its configuration does not.
+    pass
+else:
+
+    @EnvConfig.register_subclass("cosfly")
+    @dataclass
+    class CosflyEnv(EnvConfig):
+        """LeRobot's configuration of the environment."""
+
+        task: str | None = "LeRobotTrack-v0"
+        fps: int = 10
+        recipe: str = "recipes/suites/street.toml"
+        features: dict[str, PolicyFeature] = field(
+            default_factory=lambda: {
+                "action": PolicyFeature(type=FeatureType.ACTION, shape=(5,)),
+                "agent_pos": PolicyFeature(type=FeatureType.STATE, shape=(16,)),
+            }
+        )
+        features_map: dict[str, str] = field(
+            default_factory=lambda: {"action": "action", "agent_pos": "observation.state"}
+        )
+
+        @property
+        def package_name(self) -> str:
+            """Package that registers the environment."""
+            return "cosfly.lerobot"
+
+        @property
+        def gym_id(self) -> str:
+            """Id of the environment."""
+            return ID
+
+        @property
+        def gym_kwargs(self) -> dict[str, Any]:
+            """Arguments of the environment."""
+            return {"recipe": self.recipe, "step_s": 1.0 / self.fps}

@@ -1,0 +1,30 @@
+//! Ground and weathers of measurements of pictures, by their arguments.
+
+use super::outcome::Refusals;
+use cosfly_diagnose::{Diagnostic, Fault};
+use cosfly_lab::render::views::Ground;
+use cosfly_render::{Camera, Weather};
+use std::path::Path;
+
+/// A map file with viewpoints, or the town printed by `cosfly town`.
+pub fn of_town(town: Option<&Path>, camera: Camera, views: usize) -> Result<Ground, Refusals> {
+    let read = match town {
+        None => Ground::downtown(camera, views),
+        Some(path) => {
+            let map = std::fs::read(path)
+                .map_err(|error| vec![Diagnostic::io(format!("read `{}`", path.display()), &error)])?;
+            let name = path.file_stem().and_then(|stem| stem.to_str()).unwrap_or("town");
+            Ground::of_map(name, &map, camera, views)
+        }
+    };
+    read.map_err(|error| vec![Diagnostic::new("bench-town", Fault::Input, format!("the town cannot be read: {error}"))])
+}
+
+/// The weather of a preset.
+pub fn weather(name: &str) -> Result<Weather, Refusals> {
+    Weather::preset(name).ok_or_else(|| {
+        let message = format!("there is no weather `{name}`");
+        let hint = format!("the presets are {}", Weather::PRESETS.join(", "));
+        vec![Diagnostic::new("bench-weather", Fault::Recipe, message).hint(hint)]
+    })
+}

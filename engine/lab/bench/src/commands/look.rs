@@ -1,0 +1,59 @@
+//! `look`: statistics of pictures beside those of real ones.
+
+use super::outcome::{Outcome, print};
+use clap::Args;
+use cosfly_lab::look::{LookReport, of_folder, of_town};
+use cosfly_render::RenderConfig;
+use std::path::PathBuf;
+
+/// Default weathers.
+const WEATHERS: [&str; 5] = ["ClearNoon", "ClearSunset", "HardRainNoon", "ClearNight", "DustStorm"];
+
+/// Examples of `look`.
+pub const EXAMPLES: &str = "\
+Examples:
+  cosfly-lab look                            the recipes' town at noon, sunset, in rain, at night and in dust
+  cosfly-lab look --pictures stanford-drone  beside a folder of JPEG or PNG pictures (repeatable)
+  cosfly-lab look --town my.xodr --views 40  another town";
+
+/// Arguments of `look`.
+#[derive(Args, Debug)]
+pub struct LookArguments {
+    /// A map file instead of the town printed by `cosfly town`
+    #[arg(long, value_name = "FILE")]
+    pub town: Option<PathBuf>,
+    /// Weather presets (repeatable)
+    #[arg(long = "weather", value_name = "PRESET")]
+    pub weathers: Vec<String>,
+    /// Folders of pictures to compare with (repeatable)
+    #[arg(long = "pictures", value_name = "FOLDER")]
+    pub pictures: Vec<PathBuf>,
+    /// Number of viewpoints
+    #[arg(long, value_name = "N", default_value_t = 20, value_parser = super::outcome::counts())]
+    pub views: usize,
+    /// Print JSON
+    #[arg(long)]
+    pub json: bool,
+}
+
+/// Measures and prints.
+pub fn look(arguments: &LookArguments) -> Outcome {
+    let camera = RenderConfig::default().camera();
+    let ground = super::ground::of_town(arguments.town.as_deref(), camera, arguments.views)?;
+    let names: Vec<&str> = match arguments.weathers.is_empty() {
+        true => WEATHERS.to_vec(),
+        false => arguments.weathers.iter().map(String::as_str).collect(),
+    };
+    let mut rows = vec![];
+    for name in names {
+        let mut weather = super::ground::weather(name)?;
+        weather.sun_azimuth_angle = 215.0;
+        rows.push(of_town(&ground, &weather));
+    }
+    for folder in &arguments.pictures {
+        rows.push(of_folder(folder).map_err(|refusal| vec![refusal])?);
+    }
+    let report = LookReport { rows };
+    let json = || serde_json::to_string_pretty(&report).unwrap_or_default() + "\n";
+    print(&if arguments.json { json() } else { report.to_string() })
+}

@@ -1,0 +1,89 @@
+//! English words by what they tell about a number or a garment.
+
+pub const ALTITUDE_WORDS: [&str; 9] =
+    ["above", "high", "higher", "height", "altitude", "overhead", "over", "up", "aloft"];
+pub const WAY_WORDS: [&str; 24] = [
+    "travel",
+    "travelling",
+    "covers",
+    "cover",
+    "covered",
+    "covering",
+    "route",
+    "path",
+    "long",
+    "length",
+    "walked",
+    "walk",
+    "walks",
+    "travels",
+    "travelled",
+    "traveled",
+    "journey",
+    "stroll",
+    "trip",
+    "way",
+    "total",
+    "strolls",
+    "course",
+    "stretch",
+];
+pub const DISTANCE_WORDS: [&str; 14] = [
+    "away",
+    "distance",
+    "from",
+    "behind",
+    "apart",
+    "range",
+    "back",
+    "gap",
+    "off",
+    "between",
+    "separation",
+    "spacing",
+    "clear",
+    "standoff",
+];
+/// Words that make a distance one that was walked.
+pub const WALKED: [&str; 10] =
+    ["travel", "covers", "cover", "covered", "covering", "travels", "travelled", "traveled", "walked", "total"];
+pub const UP_WORDS: [&str; 6] = ["up", "upward", "upwards", "skyward", "raised", "upturned"];
+pub const DOWN_WORDS: [&str; 6] = ["down", "downward", "downwards", "below", "lowered", "dipped"];
+pub const STOP_WORDS: [&str; 12] =
+    ["stop", "stops", "stopping", "stopped", "pause", "pauses", "pausing", "paused", "halt", "halts", "waits", "break"];
+pub const DURATION_WORDS: [&str; 14] = [
+    "travel", "walk", "walks", "walked", "takes", "take", "taking", "covers", "covered", "route", "journey", "flight",
+    "stroll", "m/s",
+];
+/// First words of a clause that goes on about the stop before.
+pub const GOES_ON: [&str; 11] =
+    ["for", "about", "each", "lasting", "totalling", "totaling", "which", "altogether", "in", "together", "standing"];
+pub const NEGATIONS: [&str; 11] =
+    ["no", "not", "never", "without", "nowhere", "doesn", "don", "didn", "isn", "neither", "nor"];
+pub const TOPS: [&str; 11] =
+    ["top", "shirt", "tshirt", "jacket", "coat", "sweater", "jumper", "hoodie", "blouse", "pullover", "tee"];
+pub const TROUSERS: [&str; 7] = ["trousers", "pants", "jeans", "slacks", "leggings", "bottoms", "chinos"];
+pub const LUGGAGE: [&str; 4] = ["backpack", "rucksack", "knapsack", "bag"];
+/// Colours that no garment here has a name for; a text that names one cannot be compared.
+pub const OTHER_COLOURS: [&str; 20] = [
+    "navy",
+    "teal",
+    "turquoise",
+    "cyan",
+    "maroon",
+    "gold",
+    "golden",
+    "silver",
+    "khaki",
+    "magenta",
+    "crimson",
+    "scarlet",
+    "violet",
+    "lilac",
+    "olive",
+    "tan",
+    "cream",
+    "burgundy",
+    "indigo",
+    "ochre",
+];

@@ -1,0 +1,211 @@
+//! [`Pictures`]: what the cameras of environments see, drawn in batches.
+
+use crate::environment::Environment;
+use crate::others::Present;
+use cosfly_batch::{BatchRenderer, Outputs, View};
+use cosfly_render::{BodyShape, Bystander, Walker, Weather, gait_phase_rad};
+use std::ops::Range;
+
+/// A channel of pictures.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Channel {
+    /// Planar depth along the optical axis, metres, up to [`Format::farthest_m`], which the sky has.
+    Depth,
+    /// CARLA's label ids.
+    Semantic,
+    /// Ids of objects, people and vehicles: 0 for ground and sky, 1 for the target.
+    Instance,
+    /// 1 where the target is seen, 0 elsewhere.
+    Mask,
+    /// Red, green and blue in the simple look of films.
+    Rgb,
+}
+
+impl Channel {
+    /// All channels, by name.
+    pub const ALL: [(&'static str, Self); 5] = [
+        ("depth", Self::Depth),
+        ("semantic", Self::Semantic),
+        ("instance", Self::Instance),
+        ("mask", Self::Mask),
+        ("rgb", Self::Rgb),
+    ];
+
+    /// The channel of a name.
+    pub fn named(name: &str) -> Option<Self> {
+        Self::ALL.into_iter().find_map(|(known, channel)| (known == name).then_some(channel))
+    }
+}
+
+/// What pictures hold.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Format {
+    /// Columns. Pixels are square; pictures are as wide as the environment's lens.
+    pub width: u32,
+    /// Rows.
+    pub height: u32,
+    /// Channels.
+    pub channels: Vec<Channel>,
+    /// Greatest depth, metres.
+    pub farthest_m: f32,
+    /// Weather of colours; noon under a clear sky where there is none.
+    pub weather: Option<Weather>,
+}
+
+impl Format {
+    /// Pixels of a picture.
+    pub fn pixels(&self) -> usize {
+        self.width as usize * self.height as usize
+    }
+}
+
+/// Pictures of several environments, one after the other, row by row from the top left pixel. Channels that the format lacks are
+/// empty.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Album {
+    pixels: usize,
+    /// [`Channel::Depth`].
+    pub depth_m: Vec<f32>,
+    /// [`Channel::Semantic`].
+    pub semantic: Vec<u8>,
+    /// [`Channel::Instance`].
+    pub instance: Vec<u32>,
+    /// [`Channel::Mask`].
+    pub mask: Vec<u8>,
+    /// [`Channel::Rgb`], three elements a pixel.
+    pub rgb: Vec<u8>,
+}
+
+impl Album {
+    /// Room for `count` pictures.
+    pub fn new(format: &Format, count: usize) -> Self {
+        let length = |channel| if format.channels.contains(&channel) { count * format.pixels() } else { 0 };
+        Self {
+            pixels: format.pixels(),
+            depth_m: vec![0.0; length(Channel::Depth)],
+            semantic: vec![0; length(Channel::Semantic)],
+            instance: vec![0; length(Channel::Instance)],
+            mask: vec![0; length(Channel::Mask)],
+            rgb: vec![0; 3 * length(Channel::Rgb)],
+        }
+    }
+
+    /// Copies the picture of one environment from another album of the same format.
+    pub fn copy(&mut self, other: &Self, number: usize) {
+        let part = number * self.pixels..(number + 1) * self.pixels;
+        copy_part(&mut self.depth_m, &other.depth_m, &part);
+        copy_part(&mut self.semantic, &other.semantic, &part);
+        copy_part(&mut self.instance, &other.instance, &part);
+        copy_part(&mut self.mask, &other.mask, &part);
+        copy_part(&mut self.rgb, &other.rgb, &(3 * part.start..3 * part.end));
+    }
+
+    fn outputs(&mut self, part: Range<usize>) -> Outputs<'_> {
+        Outputs {
+            depth_m: self.depth_m.get_mut(part.clone()),
+            semantic: self.semantic.get_mut(part.clone()),
+            instance: self.instance.get_mut(part.clone()),
+            target_mask: self.mask.get_mut(part.clone()),
+            rgb: self.rgb.get_mut(3 * part.start..3 * part.end),
+        }
+    }
+}
+
+fn copy_part<T: Copy>(to: &mut [T], from: &[T], part: &Range<usize>) {
+    if let (Some(to), Some(from)) = (to.get_mut(part.clone()), from.get(part.clone())) {
+        to.copy_from_slice(from);
+    }
+}
+
+/// Draws what the cameras of environments see. A picture depends on its environment and the format alone.
+pub struct Pictures {
+    format: Format,
+    renderer: BatchRenderer,
+    bystanders: Vec<Bystander>,
+    /// The bystanders of each view.
+    ranges: Vec<Range<usize>>,
+}
+
+impl Pictures {
+    /// Up to `threads` pictures are drawn at a time, on the rayon pool that calls [`Self::draw`]; the number changes no byte.
+    pub fn new(format: Format, threads: usize) -> Self {
+        let renderer = BatchRenderer::on_threads(format.width, format.height, threads);
+        Self { format, renderer, bystanders: vec![], ranges: vec![] }
+    }
+
+    /// What the pictures hold.
+    pub fn format(&self) -> &Format {
+        &self.format
+    }
+
+    /// Draws what each environment's camera sees now into an album of the format, from picture number `first` on.
+    ///
+    /// # Panics
+    /// Where the album has no room for all pictures.
+    pub fn draw(&mut self, environments: &[&Environment], album: &mut Album, first: usize) {
+        let Self { format, renderer, bystanders, ranges } = self;
+        bystanders.clear();
+        ranges.clear();
+        for environment in environments {
+            let start = bystanders.len();
+            bystanders.extend(self::bystanders(environment));
+            ranges.push(start..bystanders.len());
+        }
+        let views: Vec<View<'_>> = (environments.iter().zip(&*ranges))
+            .map(|(environment, range)| View {
+                scene: environment.episode().place.scene(),
+                pose: environment.camera(),
+                horizontal_fov_rad: environment.settings().lens.horizontal_deg.to_radians(),
+                target: Some(target(environment)),
+                others: &bystanders[range.clone()],
+                weather: format.weather.as_ref(),
+                figures: &[],
+            })
+            .collect();
+        let pixels = format.pixels();
+        let part = first * pixels..(first + views.len()) * pixels;
+        renderer.render(&views, album.outputs(part.clone()));
+        for depth_m in album.depth_m.get_mut(part).into_iter().flatten() {
+            *depth_m = depth_m.min(format.farthest_m);
+        }
+    }
+}
+
+/// The target of an environment as it is drawn now.
+pub fn target(environment: &Environment) -> Walker {
+    let episode = environment.episode();
+    let (track, state) = (&episode.target, episode.target_at(environment.observation().time_s));
+    let body = episode.followed.as_ref().map_or(BodyShape::Person, |plan| BodyShape::of(plan.kind, plan.size_m));
+    Walker {
+        state,
+        height_m: track.height_m,
+        radius_m: track.radius_m,
+        clothes_seed: episode.looks,
+        gait_phase_rad: gait_phase_rad(environment.target_covered_m(), track.height_m),
+        body,
+    }
+}
+
+/// Everybody else who is there now, with ids that follow those of the town's objects: the body number `n` of traffic has the odd
+/// number `2 n + 1` after the largest.
+pub fn bystanders(environment: &Environment) -> impl Iterator<Item = Bystander> {
+    let episode = environment.episode();
+    let largest = episode.place.largest_instance();
+    episode.others.at(environment.observation().time_s).map(move |present| Bystander {
+        walker: walker(&present),
+        instance: largest.saturating_add(present.mover.number.saturating_mul(2).saturating_add(1)),
+    })
+}
+
+/// Somebody who is there as they are drawn.
+pub fn walker(Present { mover, state, covered_m }: &Present<'_>) -> Walker {
+    let plan = &mover.plan;
+    Walker {
+        state: *state,
+        height_m: plan.size_m.z,
+        radius_m: plan.radius_m(),
+        clothes_seed: plan.looks,
+        gait_phase_rad: gait_phase_rad(*covered_m, plan.size_m.z),
+        body: BodyShape::of(plan.kind, plan.size_m),
+    }
+}

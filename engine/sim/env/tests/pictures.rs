@@ -1,0 +1,137 @@
+//! Pictures of environments: as the large renderer draws them from the same place, whoever else is drawn beside them.
+
+use cosfly_env::pictures::{Album, Channel, Format, Pictures, bystanders, target};
+use cosfly_env::{Action, Environment, Episode, Others, Place, Settings, Start};
+use cosfly_frames::{DVec3, Seed, TargetState, TargetTrack};
+use cosfly_maps::{MapConfig, Town, WalkableKind, read_town};
+use cosfly_render::{Camera, FrameParts, FrameSetup, PictureLook, Renderer, Scene, TargetSetup, Walker, Weather};
+use cosfly_world::{Around, Body, BodyKind, BodyPlan, Traffic};
+use std::path::Path;
+use std::sync::Arc;
+
+const FARTHEST_M: f32 = 150.0;
+
+fn downtown() -> Town {
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../../recipes/towns/downtown.xodr");
+    let map = std::fs::read(path).expect("a shipped town");
+    read_town(&map, &MapConfig::default(), Seed([5; 32])).expect("a map").0
+}
+
+fn walk(from: DVec3, frames: usize) -> Vec<TargetState> {
+    let at = |frame: usize| from + DVec3::new(0.6 * frame as f64, 0.0, 0.0);
+    (0..frames).map(|frame| TargetState { feet_in_world: at(frame), heading_rad: 0.0, speed_mps: 1.2 }).collect()
+}
+
+/// Environments behind walkers and a car, among people, cars and a bus, some steps after their beginnings.
+fn environments(town: &Town, count: usize) -> Vec<Environment> {
+    let place = Arc::new(Place::new(town.clone(), Seed([1; 32])));
+    let pavements: Vec<_> = town.walkable.iter().filter(|area| area.kind == WalkableKind::Sidewalk).collect();
+    let mut random = Seed([2; 32]).stream("environments");
+    let environment = |number: usize| {
+        let feet = pavements[random.index(pavements.len())].outline_in_world[0];
+        let mut body = |number: u64, kind: BodyKind, size_m: DVec3| {
+            let away = DVec3::new(random.uniform(-20.0, 20.0), random.uniform(-20.0, 20.0), 0.0);
+            let plan =
+                BodyPlan { source: String::new(), kind, size_m, looks: Seed([6; 32]).child("b", number), group: None };
+            Body { plan, first_frame: 0, states: walk(feet + away, 20) }
+        };
+        let people = (0..12).map(|k| (k, BodyKind::Pedestrian, DVec3::new(0.5, 0.5, 1.75)));
+        let cars = (12..16).map(|k| (k, BodyKind::Car, DVec3::new(4.5, 1.8, 1.5)));
+        let bus = [(16, BodyKind::Bus, DVec3::new(11.0, 2.5, 3.1))];
+        let bodies: Vec<Body> = people.chain(cars).chain(bus).map(|(k, kind, size_m)| body(k, kind, size_m)).collect();
+        let followed = (number % 3 == 1).then(|| bodies[12].plan.clone());
+        let numbers = (0..bodies.len() as u32).collect();
+        let around = Around { numbers, traffic: Traffic { dt_s: 0.5, frames: 20, bodies, ..Traffic::default() } };
+        let size_m = followed.as_ref().map_or(DVec3::new(0.5, 0.5, 1.7), |plan| plan.size_m);
+        let track = TargetTrack { dt_s: 0.5, height_m: size_m.z, radius_m: 0.5 * size_m.y, states: walk(feet, 20) };
+        let position_in_world = feet + DVec3::new(random.uniform(-15.0, 15.0), 12.0, random.uniform(8.0, 25.0));
+        let episode = Episode {
+            name: number.to_string(),
+            stratum: String::new(),
+            place: Arc::clone(&place),
+            target: Arc::new(track),
+            others: Arc::new(Others::new(&around, followed.as_ref())),
+            followed,
+            looks: Seed([number as u8; 32]),
+            start: Start { position_in_world, velocity_in_world: DVec3::ZERO },
+            seed: Seed([0; 32]),
+        };
+        let mut environment = Environment::new(Arc::new(episode), Settings::default());
+        (0..3 * number).for_each(|_| _ = environment.step(Some(&Action::of_numbers([1.0, 0.0, 0.0, 2.0, 0.0]))));
+        environment
+    };
+    (0..count).map(environment).collect()
+}
+
+fn format(size: u32) -> Format {
+    let channels = Channel::ALL.map(|(_, channel)| channel).to_vec();
+    Format { width: size, height: size, channels, farthest_m: FARTHEST_M, weather: None }
+}
+
+fn drawn(environments: &[&Environment], size: u32, threads: usize) -> Album {
+    let mut album = Album::new(&format(size), environments.len());
+    let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().expect("threads");
+    pool.install(|| Pictures::new(format(size), threads).draw(environments, &mut album, 0));
+    album
+}
+
+fn setup_of(walker: Walker) -> TargetSetup {
+    let Walker { state, height_m, radius_m, clothes_seed, gait_phase_rad, body } = walker;
+    TargetSetup { state, height_m, radius_m, clothes_seed, gait_phase_rad, visible_by_rays: 1.0, body }
+}
+
+#[test]
+fn pictures_are_those_of_the_large_renderer_at_the_pose_of_the_environment() {
+    let town = downtown();
+    let scene = Scene::new(&town, Seed([1; 32]));
+    let weather = Weather::preset("ClearNoon").expect("a preset");
+    let mut others_seen = 0;
+    for (number, environment) in environments(&town, 8).iter().enumerate() {
+        for size in [84, 128] {
+            let ours = drawn(&[environment], size, 1);
+            let horizontal_fov_rad = environment.settings().lens.horizontal_deg.to_radians();
+            let others: Vec<_> = bystanders(environment).collect();
+            let setup = FrameSetup {
+                pose: environment.camera(),
+                weather: &weather,
+                target: Some(setup_of(target(environment))),
+                others: &others,
+            };
+            let mut large = Renderer::new(Camera { width: size, height: size, horizontal_fov_rad });
+            large.set_look(PictureLook::Simple);
+            let images = large.render_parts(&scene, &setup, FrameParts::All).images;
+            let pixels = images.depth_m.len();
+            let differs = |pixel: &usize| {
+                let (ours_m, theirs_m) = (ours.depth_m[*pixel], images.depth_m[*pixel].min(FARTHEST_M));
+                (ours_m - theirs_m).abs() > 1e-3 + 1e-5 * theirs_m
+                    || ours.semantic[*pixel] != images.semantic[*pixel]
+                    || ours.instance[*pixel] != images.instance[*pixel]
+                    || ours.mask[*pixel] != u8::from(images.instance[*pixel] == 1)
+                    || (0..3).any(|k| ours.rgb[3 * pixel + k].abs_diff(images.rgb[3 * pixel + k]) > 2)
+            };
+            let wrong = (0..pixels).filter(differs).count();
+            assert!(wrong <= pixels.div_ceil(1000), "{number}, {size} px: {wrong} of {pixels}");
+            let is_body = |id: &u32| others.iter().any(|other| other.instance == *id);
+            others_seen += images.instance.iter().filter(|id| is_body(id)).count();
+        }
+    }
+    assert!(others_seen > 500, "{others_seen}");
+}
+
+#[test]
+fn a_picture_is_the_same_alone_and_in_any_batch_on_any_number_of_threads() {
+    let all = environments(&downtown(), 7);
+    let all: Vec<&Environment> = all.iter().collect();
+    let together = drawn(&all, 84, 2);
+    assert_eq!(drawn(&all, 84, 1), together);
+    let mut singly = Album::new(&format(84), all.len());
+    let mut pictures = Pictures::new(format(84), 1);
+    for number in (0..all.len()).rev() {
+        pictures.draw(&all[number..=number], &mut singly, number);
+    }
+    assert_eq!(singly, together);
+    let mut copied = Album::new(&format(84), all.len());
+    (0..all.len()).for_each(|number| copied.copy(&together, number));
+    assert_eq!(copied, together);
+    assert!(together.mask.contains(&1) && together.depth_m.iter().all(|depth| *depth <= FARTHEST_M));
+}

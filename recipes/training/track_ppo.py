@@ -1,0 +1,177 @@
+#!/usr/bin/env python3
+"""Trains a small network to follow a person from depth pictures, by proximal policy optimisation (PPO), and compares it.
+
+    pip install cosfly[gym,jax]
+    python recipes/training/track_ppo.py recipes/suites/street.toml --minutes 15
+
+The network sees depth and the target's mask at 84 pixels, scaled down to 21 by their means, and the drone's own motion; it is told
+nothing of where the target is. Actions are the five of `cosfly/Track-v0`. At the end the tracking rate (share of steps in which the
+target is tracked, over whole episodes) of the network stands beside that of random actions and of flying on at the first velocity.
+"""
+
+import argparse
+import time
+
+import gymnasium as gym
+import jax
+import jax.numpy as jnp
+import numpy as np
+from gymnasium.vector import AutoresetMode
+
+import cosfly.gym  # noqa: F401 (registers the environments)
+
+SIZE, STEPS, EPOCHS, BATCHES, HIDDEN = 84, 64, 4, 4, 128
+DISCOUNT, TRACE, CLIP, ENTROPY, RATE = 0.97, 0.9, 0.2, 2e-3, 5e-4
+SCALE = np.array([6, 6, 3, 45, 30], np.float32)
+OWN = slice(6, 14)
+
+
+def environments(recipe, count):
+    return gym.make_vec(
+        "cosfly/Track-v0", num_envs=count, vectorization_mode="vector_entry_point", recipe=recipe,
+        obs=("state", "depth", "mask"), size=SIZE, autoreset_mode=AutoresetMode.SAME_STEP,
+    )  # fmt: skip
+
+
+def seen(observations):
+    """Numbers that the network sees: small pictures, where the mask's middle is, and the drone's own motion."""
+    small = [observations[name].reshape(-1, 21, 4, 21, 4).mean((2, 4)) for name in ("depth", "mask")]
+    depth, mask = 1 - np.minimum(small[0] / 60, 1), small[1]
+    grid = np.linspace(-1, 1, 21, dtype=np.float32)
+    mass = mask.sum((1, 2))
+    whole = np.maximum(mass, 1e-6)
+    middle = [(mask.sum(1) * grid).sum(1) / whole, (mask.sum(2) * grid).sum(1) / whole]
+    away = (mask * small[0]).sum((1, 2)) / whole / 30
+    own = observations["state"][:, OWN] / np.array([6, 6, 6, 6, 6, 6, 1, 30], np.float32)
+    few = np.stack([*middle, away, np.minimum(mass, 1), (mass > 0).astype(np.float32)], 1)
+    return np.concatenate([few, own, depth.reshape(len(own), -1) * 0.2], 1).astype(np.float32)
+
+
+def fresh(key, sizes, last):
+    layers = []
+    for number, (a, b) in enumerate(zip(sizes, sizes[1:])):
+        key, own = jax.random.split(key)
+        gain = last if number == len(sizes) - 2 else 1.0
+        layers.append((gain * jax.random.normal(own, (a, b)) / np.sqrt(a), jnp.zeros(b)))
+    return layers
+
+
+def answer(layers, x):
+    for weights, bias in layers[:-1]:
+        x = jnp.tanh(x @ weights + bias)
+    return x @ layers[-1][0] + layers[-1][1]
+
+
+@jax.jit
+def act(network, x, key):
+    mean = answer(network["policy"], x)
+    noise = jax.random.normal(key, mean.shape)
+    chance = -0.5 * (noise**2).sum(1) - network["log_std"].sum()
+    return mean + jnp.exp(network["log_std"]) * noise, chance, answer(network["value"], x)[:, 0], mean
+
+
+def loss(network, x, action, chance, advantage, wanted):
+    mean = answer(network["policy"], x)
+    now = -0.5 * (((action - mean) / jnp.exp(network["log_std"])) ** 2).sum(1) - network["log_std"].sum()
+    ratio = jnp.exp(now - chance)
+    gain = jnp.minimum(ratio * advantage, jnp.clip(ratio, 1 - CLIP, 1 + CLIP) * advantage).mean()
+    return -gain + 0.5 * ((answer(network["value"], x)[:, 0] - wanted) ** 2).mean() - ENTROPY * network["log_std"].sum()
+
+
+@jax.jit
+def update(network, first, second, step, left, *batch):
+    slopes = jax.grad(loss)(network, *batch)
+    first = jax.tree.map(lambda m, g: 0.9 * m + 0.1 * g, first, slopes)
+    second = jax.tree.map(lambda v, g: 0.999 * v + 0.001 * g * g, second, slopes)
+    rate = RATE * left * jnp.sqrt(1 - 0.999**step) / (1 - 0.9**step)
+    network = jax.tree.map(lambda p, m, v: p - rate * m / (jnp.sqrt(v) + 1e-8), network, first, second)
+    return network, first, second
+
+
+def judge(recipe, policy, episodes=24):
+    """Mean share of steps in which the target is tracked; steps that an early end leaves out count as not tracked."""
+    envs = environments(recipe, episodes)
+    observations, info = envs.reset(seed=1000)
+    tracked, alive, steps = np.zeros(episodes), np.ones(episodes, bool), 0
+    ends = []
+    while alive.any() and steps < 3000:
+        observations, _, terminated, truncated, info = envs.step(policy(observations, steps))
+        steps += 1
+        tracked += alive & info["tracked"]
+        ends += [steps] * int((alive & truncated).sum())
+        alive &= ~(terminated | truncated)
+    return tracked.sum() / (episodes * max(ends, default=steps))
+
+
+def main():
+    options = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    options.add_argument("recipe")
+    options.add_argument("--minutes", type=float, default=15)
+    options.add_argument("--envs", type=int, default=32)
+    options.add_argument("--seed", type=int, default=1)
+    given = options.parse_args()
+    envs = environments(given.recipe, given.envs)
+    observations, _ = envs.reset(seed=given.seed)
+    x = seen(observations)
+    key = jax.random.key(given.seed)
+    key, a, b = jax.random.split(key, 3)
+    network = {
+        "policy": fresh(a, [x.shape[1], HIDDEN, HIDDEN, 5], 0.01),
+        "value": fresh(b, [x.shape[1], HIDDEN, HIDDEN, 1], 1.0),
+        "log_std": jnp.full(5, -1.0),
+    }
+    first, second = jax.tree.map(jnp.zeros_like, network), jax.tree.map(jnp.zeros_like, network)
+    began, updates, rounds = time.monotonic(), 0, 0
+    shuffle = np.random.default_rng(given.seed)
+    best, recent = (0.0, network), []
+    while (left := 1 - (time.monotonic() - began) / (60 * given.minutes)) > 0:
+        rows, tracked = [], []
+        for _ in range(STEPS):
+            key, own = jax.random.split(key)
+            action, chance, value, _ = map(np.asarray, act(network, x, own))
+            observations, reward, terminated, truncated, info = envs.step(np.clip(action, -1.5, 1.5) * SCALE)
+            rows.append((x, action, chance, value, reward / 5, terminated | truncated))
+            tracked.append(info["tracked"])
+            x = seen(observations)
+        xs, actions, chances, values, rewards, ends = map(np.stack, zip(*rows))
+        key, own = jax.random.split(key)
+        following = np.asarray(act(network, x, own)[2])
+        advantages, trace = np.zeros_like(values), 0.0
+        for step in reversed(range(STEPS)):
+            goes_on = 1.0 - ends[step]
+            trace = rewards[step] + DISCOUNT * following * goes_on - values[step] + DISCOUNT * TRACE * goes_on * trace
+            advantages[step], following = trace, values[step]
+        wanted = (advantages + values).reshape(-1)
+        flat = (advantages - advantages.mean()) / (advantages.std() + 1e-6)
+        data = (xs.reshape(-1, xs.shape[2]), actions.reshape(-1, 5), chances.reshape(-1), flat.reshape(-1), wanted)
+        for _ in range(EPOCHS):
+            for part in np.array_split(shuffle.permutation(len(wanted)), BATCHES):
+                updates += 1
+                network, first, second = update(network, first, second, updates, left, *(values[part] for values in data))
+        rounds += 1
+        recent = [*recent[-9:], np.mean(tracked)]
+        if len(recent) == 10 and np.mean(recent) > best[0]:
+            best = np.mean(recent), network
+        if rounds % 10 == 0:
+            minutes, steps = (time.monotonic() - began) / 60, rounds * STEPS * given.envs
+            print(f"{minutes:5.1f} min {steps:8d} steps: tracked {np.mean(recent):.3f}, reward {rewards.mean() * 5:.3f}", flush=True)
+    network = best[1]
+    noise = np.random.default_rng(7)
+    held = {}
+
+    def flying_on(observations, step):
+        if step == 0:
+            held["velocity"] = observations["state"][:, 3:6]
+        return np.concatenate([held["velocity"], np.zeros_like(observations["state"][:, :2])], 1)
+
+    policies = {
+        "PPO": lambda observations, _: np.clip(np.asarray(act(network, seen(observations), key)[3]), -1.5, 1.5) * SCALE,
+        "random": lambda observations, _: noise.uniform(-1, 1, (len(observations["state"]), 5)).astype(np.float32) * SCALE,
+        "constant velocity": flying_on,
+    }
+    for name, policy in policies.items():
+        print(f"{name}: tracking rate {judge(given.recipe, policy):.3f}", flush=True)
+
+
+if __name__ == "__main__":
+    main()

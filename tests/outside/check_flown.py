@@ -1,0 +1,76 @@
+"""The logs, clips and page of a result of `cosfly fly`, read by others: the package mcap, pillow, an HTML parser.
+
+Usage: check_flown.py RESULT_FOLDER
+"""
+
+import html.parser
+import json
+import math
+import pathlib
+import sys
+
+from mcap.reader import make_reader
+from mcap_protobuf.decoder import DecoderFactory
+from PIL import Image
+
+folder = pathlib.Path(sys.argv[1])
+card = json.loads((folder / "card.json").read_text())
+rows = [json.loads(line) for line in (folder / "episodes.jsonl").read_text().splitlines()]
+weights = card["environment"]["reward_weights"]
+terms = ["visibility", "framing", "distance", "effort", "collision", "loss"]
+lost = 0
+for row in rows:
+    name, score = row["episode"], row["score"]
+    steps = [json.loads(line) for line in (folder / "logs" / f"{name}.jsonl").read_text().splitlines()]
+    assert len(steps) == score["steps"], name
+    topics = {}
+    with open(folder / "logs" / f"{name}.mcap", "rb") as file:
+        reader = make_reader(file, decoder_factories=[DecoderFactory()])
+        for _, channel, message, decoded in reader.iter_decoded_messages():
+            topics.setdefault(channel.topic, []).append((message.log_time, decoded))
+    for topic in ("/tf", "/drone/pose", "/target/pose", "/target/state", "/camera/rgb/camera_info", "/flight/step"):
+        assert [time for time, _ in topics[topic]] == [round(1e9 * step["time_s"]) for step in steps], (name, topic)
+    assert any(entity.cubes for entity in topics["/scene"][0][1].entities), name
+    reward = 0.0
+    for step, (_, pose), (_, state), (_, flown) in zip(
+        steps, topics["/drone/pose"], topics["/target/state"], topics["/flight/step"], strict=True
+    ):
+        x, y, z = step["position_in_world"]
+        assert (pose.pose.position.x, pose.pose.position.y, pose.pose.position.z) == (x, -y, z)
+        assert (state.feet_x_m, -state.feet_y_m, state.feet_z_m) == tuple(step["target_in_world"])
+        assert math.isclose(state.distance_m, math.dist(step["position_in_world"], step["target_in_world"]))
+        assert (flown.tracked, flown.visible, list(flown.reward_terms)) == (step["tracked"], step["visible"], step["reward"])
+        assert math.isclose(flown.reward, sum(weights[key] * term for key, term in zip(terms, step["reward"])), abs_tol=1e-9)
+        reward += flown.reward
+    assert math.isclose(reward, score["reward_sum"], rel_tol=1e-9, abs_tol=1e-6), name
+    events = [event.message for _, event in topics.get("/flight/events", [])]
+    assert sum(event.startswith("target lost: ") for event in events) == score["losses"], (name, events)
+    lost += score["losses"]
+    end = {"finished": "end of the walk", "collision": "collision", "lost": "target lost for too long"}.get(score["end"])
+    assert end is None or any(event.startswith(end) for event in events), (name, events)
+
+clips = sorted((folder / "clips").iterdir())
+assert len(clips) == min(card["kept"]["clips"], len(rows)), clips
+by_rate = sorted(rows, key=lambda row: row["score"]["tracked_steps"] / max(row["score"]["planned_steps"], 1))
+assert {clip.stem for clip in clips} == {row["episode"] for row in by_rate[: len(clips)]}
+for clip in clips:
+    with Image.open(clip) as picture:
+        assert picture.n_frames > 1 and picture.size == (480, 266), (picture.n_frames, picture.size)
+
+
+class Page(html.parser.HTMLParser):
+    """Collects what a page refers to."""
+
+    def __init__(self):
+        super().__init__()
+        self.links = []
+
+    def handle_starttag(self, tag, attributes):
+        self.links += [value for key, value in attributes if key in ("src", "href") and value[:1] != "#"]
+
+
+page = Page()
+page.feed((folder / "report.html").read_text())
+links = [link for link in page.links if not link.startswith("data:")]
+assert links and all((folder / link).is_file() for link in links), links
+print(f"{len(rows)} logs with {lost} losses, {len(clips)} clips and the page hold together")

@@ -1,0 +1,311 @@
+"""The stage `caption` with a teacher, against a stand-in of an OpenAI-compatible server that is honest, hostile or slow.
+
+    check_teacher.py COSFLY WORK
+
+The stand-in stands for llama.cpp's server, which takes long to build; its requests and answers have the same form (chat completions
+with `response_format` of type `json_schema`). Checked: every text is there, true and marked; the key is in no byte that is written;
+the same recipe with the kept answers and without a network gives the same bytes; killed and resumed, no answer is asked for twice;
+the budget holds; `cosfly plan` says what would be asked.
+"""
+
+import hashlib
+import json
+import os
+import re
+import shutil
+import signal
+import socket
+import subprocess
+import sys
+import threading
+import time
+from http.server import BaseHTTPRequestHandler, ThreadingHTTPServer
+from pathlib import Path
+
+import pyarrow.parquet as pq
+
+KEY = "sk-4f0c1d7e9b2a86355aQx"
+VARIABLE = "COSFLY_TEST_TEACHER_KEY"
+ZH = dict(zip("黑 灰 白 红 橙 黄 绿 蓝 紫 粉 棕 米".split(), range(12)))
+
+
+def honest(user, number):
+    """A text that says what the facts in a question say; the number chooses the words."""
+    chinese = "此人" in user or "衣着未知" in user
+    if chinese:
+        distance = re.search(r"保持约(\d+)米距离", user)[1]
+        side, pitch = re.search(r"镜头向(上仰视|下俯视)约(\d+)度", user).groups()
+        still = "站着不动、" if "始终站立不动" in user else ""
+        clothes = re.search(r"此人(穿.+?色上衣、.+?色裤子)", user)
+        who = f"{still}{clothes[1]}的行人" if clothes else f"{still.replace('、', '的')}行人"
+        verb = ["请跟上", "追拍", "盯牢", "尾随", "看住", "守着"][number % 6]
+        parts = [f"间隔{distance}米", f"镜头向{side}{pitch}度"]
+        parts = parts[:: 1 if number % 2 else -1]
+        return f"{verb}{who}，{'，'.join(parts)}。" if number % 3 else f"{'，'.join(parts)}，{verb}{who}。"
+    distance = re.search(r"keeps about (\d+) m away", user)[1]
+    side, pitch = re.search(r"looks (up|down) at about (\d+) degrees", user).groups()
+    clothes = re.search(r"wears (an? \w+ top and \w+ trousers)", user)
+    still = " standing still" if "stands still" in user else ""
+    who = f"the walker{still}" + (f" in {clothes[1]}" if clothes else "")
+    verb = ["shadow", "go after", "film", "pursue", "tail", "mind"][number % 6]
+    parts = [f"stay {distance} metres off", f"tilt the lens {side} by {pitch} degrees"]
+    parts = parts[:: 1 if number % 2 else -1]
+    text = f"{verb} {who}: {', '.join(parts)}." if number % 3 else f"{', '.join(parts)} and {verb} {who}."
+    return text[0].upper() + text[1:]
+
+
+class Teacher(ThreadingHTTPServer):
+    daemon_threads = True
+
+    def __init__(self, mode, delay=0.0):
+        super().__init__(("127.0.0.1", 0), Handler)
+        self.mode, self.delay = mode, delay
+        self.lock = threading.Lock()
+        self.requests, self.answered, self.bodies = 0, {}, []
+        self.tries = {}
+        threading.Thread(target=self.serve_forever, daemon=True).start()
+
+    @property
+    def address(self):
+        return f"http://127.0.0.1:{self.server_port}/v1"
+
+
+class Handler(BaseHTTPRequestHandler):
+    protocol_version = "HTTP/1.1"
+
+    def log_message(self, *_):
+        pass
+
+    def reply(self, status, body, whole=True):
+        self.send_response(status)
+        self.send_header("content-type", "application/json")
+        self.send_header("retry-after", "0")
+        self.send_header("content-length", str(len(body)))
+        self.send_header("connection", "close")
+        self.end_headers()
+        self.wfile.write(body if whole else body[: len(body) // 2])
+        self.wfile.flush()
+        self.close_connection = True
+
+    def answer(self, content):
+        message = {"choices": [{"message": {"role": "assistant", "content": content}, "finish_reason": "stop"}], "model": "stand-in", "usage": {"prompt_tokens": 300, "completion_tokens": 40}}
+        return json.dumps(message, ensure_ascii=False).encode()
+
+    def do_POST(self):
+        server = self.server
+        body = self.rfile.read(int(self.headers["content-length"]))
+        digest = hashlib.sha256(body).hexdigest()
+        with server.lock:
+            server.requests += 1
+            server.bodies.append(body)
+            attempt = server.tries[digest] = server.tries.get(digest, 0) + 1
+        assert self.headers["authorization"] == f"Bearer {KEY}", "the key is sent as a bearer token"
+        question = json.loads(body)
+        assert question["response_format"]["type"] == "json_schema" and question["model"] == "tiny"
+        user = question["messages"][-1]["content"]
+        number = int(digest[:8], 16)
+        text = honest(user, number)
+        good = json.dumps({"text": text}, ensure_ascii=False)
+        time.sleep(server.delay)
+        deed = number % 16 if server.mode == "hostile" else 99
+        try:
+            if deed in (0, 1, 2) and attempt == 1:
+                return self.reply([429, 500, 503][deed], b"busy " + KEY.encode())
+            if deed == 3 and attempt == 1:
+                return self.reply(200, self.answer(good), whole=False)
+            if deed == 4 and attempt == 1:
+                time.sleep(3)
+                return self.reply(200, self.answer(good))
+            if deed == 5:
+                return self.reply(500, b"never")
+            if deed == 6:
+                return self.reply(200, self.answer("this is " + KEY + " no JSON"))
+            if deed == 7:
+                other = honest(user.translate(str.maketrans("", "", "此")), number) if "此人" not in user else "Follow the person; keep 3 m away."
+                return self.reply(200, self.answer(json.dumps({"text": "跟随行人" if other != text else other + " 米"})))
+            if deed == 8:
+                return self.reply(200, self.answer(json.dumps({"text": "x" * 10_000_000})))
+            if deed in (9, 10, 11):
+                wrong = re.sub(r"\d+", lambda it: str(int(it[0]) + 7), text, count=1)
+                return self.reply(200, self.answer(json.dumps({"text": wrong}, ensure_ascii=False)))
+            if deed == 12:
+                wrong = text.replace("walker", "woman").replace("行人", "女子").replace("person", "woman")
+                return self.reply(200, self.answer(json.dumps({"text": wrong}, ensure_ascii=False)))
+            self.reply(200, self.answer(good))
+            with server.lock:
+                server.answered[digest] = server.answered.get(digest, 0) + 1
+        except (BrokenPipeError, ConnectionResetError):
+            pass
+
+
+def command(cosfly, work, name, address, store, *more, flights=3):
+    settings = {
+        "stages.walkers.count": flights, "stages.frames.width": 64, "stages.frames.height": 36,
+        "stages.captions.writer": "teacher", "stages.captions.teacher.model": "tiny",
+        "stages.captions.teacher.server.address": address, "stages.captions.teacher.server.key_variable": VARIABLE,
+        "stages.captions.teacher.server.timeout_s": 2.0, "stages.captions.teacher.server.concurrency": 8,
+        "stages.captions.teacher.server.retries": 2,
+    }
+    sets = [word for key, value in settings.items() for word in ("--set", f"{key}={json.dumps(value) if isinstance(value, str) else value}")]
+    sets += [word for setting in more for word in ("--set", setting)]
+    return [cosfly, "run", "recipes/small.toml", "--out", work / name, "--store", work / store, "--quiet", *sets]
+
+
+def run(arguments, key=KEY):
+    environment = {name: value for name, value in os.environ.items() if name != VARIABLE}
+    if key:
+        environment[VARIABLE] = key
+    done = subprocess.run(arguments, capture_output=True, text=True, env=environment)
+    assert KEY not in done.stdout + done.stderr, "the key is printed"
+    return done
+
+
+def captions(folder):
+    rows = []
+    for path in sorted(Path(folder).glob("data/captions/*.parquet")):
+        rows += pq.read_table(path).to_pylist()
+    return rows
+
+
+def bytes_of(folder):
+    return {str(path.relative_to(folder)): hashlib.sha256(path.read_bytes()).hexdigest() for path in sorted(Path(folder).rglob("*")) if path.is_file()}
+
+
+def search_key(work):
+    for path in work.rglob("*"):
+        if path.is_file() and KEY.encode() in path.read_bytes():
+            sys.exit(f"the key is in {path}")
+
+
+def check_rows(rows, flights, hostile):
+    assert len(rows) == flights * 2 * 8, f"{len(rows)} texts"
+    assert all(row["text"].strip() and row["model"] == "tiny" and row["prompt_version"] == 1 for row in rows)
+    for row in rows:
+        assert (row["writer"] == "teacher") == (row["fallback"] is None), row
+        assert len(row["refused"]) == len(row["refused_because"]) <= 3 and row["attempts"] <= 3
+        assert "distance" in row["verdicts"] and "pitch" in row["verdicts"], row
+    taught = [row for row in rows if row["writer"] == "teacher"]
+    refused = sum(len(row["refused"]) for row in rows)
+    fallen = sorted({row["fallback"].split(" after")[0] for row in rows if row["fallback"]})
+    print(f"  {len(taught)} of {len(rows)} texts of the teacher, {refused} answers refused, fallbacks: {fallen}")
+    assert taught and (not hostile or refused)
+    return taught
+
+
+def check_students(cosfly, work):
+    """The sets for students: lines that LLaMA-Factory (sharegpt, ranking) and ms-swift (rejected_response) document."""
+    print("students: windows, shares, texts, pairs")
+    out = work / "students"
+    done = run([cosfly, "export", work / "hostile", "--format", "vlm", "--sets", "students", "--input", "mixed", "--out", out])
+    assert done.returncode == 0, done.stderr
+    registered = json.loads((out / "dataset_info.json").read_text())
+    files = {path.stem: [json.loads(line) for line in path.read_text(encoding="utf-8").splitlines()] for path in out.glob("*.jsonl")}
+    assert {f"cosfly_{name}" for name in files if not name.endswith("_swift")} == set(registered), (files.keys(), registered.keys())
+    for name, rows in files.items():
+        assert len({row["id"] for row in rows}) == len(rows) > 0, name
+        for row in rows:
+            roles = [message["role"] for message in row["messages"]]
+            is_ranking = name.endswith("_preferences")
+            assert roles == ["system", "user"] + ([] if is_ranking else ["assistant"]), (name, roles)
+            asked = row["messages"][1]["content"]
+            assert asked.count("<image>") == len(row["images"]), (name, row["id"])
+            assert all((out / picture).is_file() for picture in row["images"])
+            if is_ranking:
+                assert registered[f"cosfly_{name}"]["ranking"] is True and row["chosen"]["role"] == row["rejected"]["role"] == "assistant"
+                assert row["chosen"]["content"] != row["rejected"]["content"] and row["rejected"]["content"].strip()
+            if name.endswith("_swift"):
+                assert row["rejected_response"].strip()
+            assert ("Poses" in asked) == ("no_poses" not in name and "pictures_only" not in name), name
+    splits = {name for name in files if "_" not in name}
+    for split in splits:
+        share = lambda name: {row["id"] for row in files.get(f"{split}{name}", [])}
+        assert share("_25") <= share("_50") <= share(""), split
+        for name in ("no_pictures", "no_boxes", "no_poses", "pictures_only"):
+            assert share(f"_{name}") == share(""), name
+    pairs = sum(len(rows) for name, rows in files.items() if name.endswith("_preferences"))
+    assert pairs > 0 and pairs == sum(len(rows) for name, rows in files.items() if name.endswith("_swift"))
+    print(f"  {len(files)} files, {pairs} pairs")
+
+
+def main():
+    cosfly, work = Path(sys.argv[1]).resolve(), Path(sys.argv[2]).resolve()
+    shutil.rmtree(work, ignore_errors=True)
+    work.mkdir(parents=True)
+
+    print("hostile: every text is there, true, marked; the key is nowhere")
+    server = Teacher("hostile")
+    done = run(command(cosfly, work, "hostile", server.address, "store"))
+    assert done.returncode == 0, done.stderr
+    check_rows(captions(work / "hostile"), 3, True)
+    doctor = run([cosfly, "doctor", work / "hostile", "--json", "-"])
+    flags = [flag for flag in json.loads(doctor.stdout)["flags"] if "caption-mismatch" in json.dumps(flag)]
+    assert not flags, flags
+    search_key(work)
+    assert not any(b"downtown" in body.lower() for body in server.bodies), "a question names the town"
+    asked = server.requests
+    check_students(cosfly, work)
+
+    print("again, without the server and the key: the same bytes from the kept answers alone")
+    server.shutdown(); server.server_close()
+    other = work / "store2"
+    other.mkdir()
+    shutil.copy(work / "store/format", other / "format")
+    shutil.copytree(work / "store/answers", other / "answers")
+    (other / "locks").mkdir()
+    done = run(command(cosfly, work, "offline", "http://127.0.0.1:9/v1", "store2"), key=None)
+    assert done.returncode == 0, done.stderr
+    assert bytes_of(work / "hostile") == bytes_of(work / "offline"), "other bytes"
+
+    print("killed and resumed: no answer is asked for twice")
+    server = Teacher("honest", delay=0.05)
+    environment = dict(os.environ, **{VARIABLE: KEY})
+    arguments = command(cosfly, work, "killed", server.address, "store3", flights=12)
+    for limit in (40, 90):
+        process = subprocess.Popen(arguments, env=environment, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+        while process.poll() is None and len(server.answered) < limit:
+            time.sleep(0.01)
+        process.send_signal(signal.SIGKILL)
+        process.wait()
+    time.sleep(0.5)
+    kept = {digest for digest in server.answered}
+    before = len(kept)
+    done = run(arguments)
+    assert done.returncode == 0, done.stderr
+    rows = captions(work / "killed")
+    check_rows(rows, 12, False)
+    twice = [digest for digest, times in server.answered.items() if times > 1]
+    print(f"  {before} answers before the second kill, {len(server.answered)} questions in all, {len(twice)} asked twice")
+    # An answer that was on its way at a kill never arrived: at most as many as there are requests at a time.
+    assert len(twice) <= 2 * 8, twice
+    stored = sum(1 for path in (work / "store3/answers").rglob("*") if path.is_file()) - 1
+    assert stored == len(server.answered), f"{stored} answers are kept of {len(server.answered)}"
+
+    print("the budget stops, says so, and a larger one goes on")
+    fresh = Teacher("honest")
+    done = run(command(cosfly, work, "budget", fresh.address, "store4", "stages.captions.teacher.budget.calls=7"))
+    assert done.returncode != 0 and "teacher-budget" in done.stderr, done.stderr
+    assert fresh.requests == 7, fresh.requests
+    done = run(command(cosfly, work, "budget", fresh.address, "store4", "stages.captions.teacher.budget.calls=100"))
+    assert done.returncode == 0, done.stderr
+    assert max(fresh.answered.values()) == 1, "asked twice"
+
+    print("cosfly plan says what would be asked")
+    plan = command(cosfly, work, "plan", fresh.address, "store5", "stages.captions.teacher.budget.input_price=1.0")
+    plan = [plan[0], "plan", *[it for it in plan[2:] if it not in ("--quiet", "--out", work / "plan")]]
+    done = run(plan)
+    assert "48 questions" in done.stdout, done.stdout + done.stderr
+    print("  " + next(line for line in done.stdout.splitlines() if "questions" in line))
+
+    print("a missing key, a server that is not there")
+    for key, code in ((None, "teacher-key"), (KEY, "teacher-unreachable")):
+        with socket.socket() as closed:
+            closed.bind(("127.0.0.1", 0))
+            port = closed.getsockname()[1]
+        done = run(command(cosfly, work, "nobody", f"http://127.0.0.1:{port}/v1", "store6", flights=1), key=key)
+        assert done.returncode != 0 and code in done.stderr, done.stderr
+    search_key(work)
+    print(f"passed; the hostile server had {asked} requests")
+
+
+if __name__ == "__main__":
+    main()
