@@ -89,6 +89,33 @@ fn heavy_crates_stay_in_their_one_room() {
     }
 }
 
+/// Crates with the features that one command builds them with, as Cargo prints both.
+fn crates_and_features(selection: &[&str]) -> BTreeSet<String> {
+    let output = Command::new(env!("CARGO"))
+        .args(["tree", "--offline", "--prefix", "none", "--format", "{p} [{f}]"])
+        .args(selection)
+        .current_dir(repository_root())
+        .output()
+        .expect("cargo runs");
+    assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+    let text = String::from_utf8(output.stdout).expect("UTF-8");
+    text.lines().map(|line| line.trim_end_matches(" (*)").to_owned()).collect()
+}
+
+#[test]
+fn the_program_its_tests_and_the_wheel_are_one_build() {
+    let of_all = crates_and_features(&["--workspace", "--edges", "normal,build,dev"]);
+    for package in ["cosfly", "cosfly-python"] {
+        let of_one = crates_and_features(&["--package", package, "--edges", "normal,build"]);
+        let built_twice: Vec<_> = of_one.difference(&of_all).collect();
+        assert!(
+            built_twice.is_empty(),
+            "`cargo build -p {package}` and `cargo test --workspace` build these crates with other features, and all that \
+             stand on them twice: name the missing features in engine/edge/one-build/Cargo.toml: {built_twice:#?}"
+        );
+    }
+}
+
 /// Appends the Rust files below a folder.
 pub fn rust_files(dir: &Path, found: &mut Vec<PathBuf>) {
     for entry in std::fs::read_dir(dir).expect("readable").map(|entry| entry.expect("entry").path()) {
