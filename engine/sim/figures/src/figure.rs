@@ -18,7 +18,7 @@ pub struct TargetSetup {
     pub clothes_seed: Seed,
     /// Phase of the gait, radians; see [`gait_phase_rad`].
     pub gait_phase_rad: f64,
-    /// Share of body points that unoccluded rays reach; copied into [`crate::TargetView`].
+    /// Share of body points that unoccluded rays reach; copied into the picture's view of the target.
     pub visible_by_rays: f64,
     /// What moves.
     pub body: BodyShape,
@@ -72,7 +72,7 @@ impl Walker {
 pub struct Bystander {
     /// Position and looks.
     pub walker: Walker,
-    /// Id in instance images: not 0, not [`crate::frame::TARGET_INSTANCE`], not that of an object.
+    /// Id in instance images: not 0, not the target's, not that of an object.
     pub instance: u32,
 }
 

@@ -5,7 +5,7 @@
 //! * [`planning`]: from a request to a published flight; hands the problem to the planner that the recipe names.
 //! * [`muco`], [`paper`], [`baselines`]: the optimiser, the paper's own pipeline, planners to compare with.
 //! * [`terms`]: the cost, one file per term.
-//! * [`obstacles`]: the map around a path; [`certificate`]: the promises of a published flight.
+//! * [`obstacles`]: the map around a path, a room of its own; [`certificate`]: the promises of a published flight.
 
 pub mod baselines;
 pub mod certificate;
@@ -14,7 +14,6 @@ pub mod equations;
 pub mod found;
 pub mod gradient;
 pub mod muco;
-pub mod obstacles;
 pub mod paper;
 pub mod planning;
 pub mod problem;
@@ -22,11 +21,12 @@ pub mod request;
 pub mod terms;
 mod track_check;
 pub mod trajectory;
-pub mod visibility;
 pub mod walk;
 pub mod weights;
 
 pub use config::MucoConfig;
+pub use cosfly_surroundings as obstacles;
+pub use cosfly_surroundings::visibility;
 pub use planning::{plan, plan_request, plan_with_terms};
 pub use request::{PlanRequest, StartState};
 pub use terms::{CostTerm, TermContext, WeightedTerm};

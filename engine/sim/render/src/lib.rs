@@ -6,17 +6,14 @@
 //! from the same face at the same pixel centre, so they agree pixel by pixel; only RGB is smoothed along edges afterwards.
 
 pub mod backend;
-mod body_shape;
 mod buildings;
 pub mod camera;
 mod channel_set;
 pub mod channels;
-pub mod clothes;
 pub mod config;
 pub mod effects;
 mod eye;
 mod faces;
-pub mod figure;
 pub mod frame;
 mod ground_polygons;
 mod look;
@@ -34,20 +31,19 @@ mod setup;
 mod shade;
 mod stages;
 mod target_view;
-mod vehicles;
 mod visibility;
 pub mod weather;
 
 pub use backend::{Backend, BackendError};
-pub use body_shape::BodyShape;
 pub use buildings::Buildings;
 pub use camera::{Camera, Mount};
 pub use channel_set::ChannelSet;
 pub use channels::Channel;
-pub use clothes::{Clothes, Colour, Dye, Outfit, clothes_seed_of_target};
 pub use config::{BackendKind, ConfigProblem, GimbalConfig, RenderConfig};
+pub use cosfly_figures::{BodyShape, Bystander, Clothes, Colour, Dye, Livery, Outfit, TargetSetup, Walker};
+pub use cosfly_figures::{clothes, figure};
+pub use cosfly_figures::{clothes_seed_of_target, gait_phase_rad, pedal_phase_rad, target_triangles, walker_triangles};
 pub use effects::{Effects, Lens, Moment, MotionBlur, Noise, RollingShutter, Shot};
-pub use figure::{Bystander, TargetSetup, Walker, gait_phase_rad, pedal_phase_rad, target_triangles, walker_triangles};
 pub use frame::{ChannelImage, FrameImages, PersonView, PixelBox, RenderedFrame, TargetView};
 pub use look::PictureLook;
 pub use optics::Optics;
@@ -58,5 +54,4 @@ pub use scene::{Scene, SceneTriangle};
 pub use setup::FrameSetup;
 pub use stages::Stages;
 pub use target_view::measure as measure_target;
-pub use vehicles::Livery;
 pub use weather::{Weather, WeatherRanges};

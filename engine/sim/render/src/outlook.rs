@@ -2,11 +2,11 @@
 
 use crate::camera::Camera;
 use crate::eye::Eye;
-use crate::figure::Walker;
 use crate::people::Bounds;
 use crate::shade::light::Light;
 use crate::visibility::Screen;
 use crate::weather::Weather;
+use cosfly_figures::figure::Walker;
 use cosfly_frames::{DVec3, Pose};
 
 /// The view of an ideal camera at a moment.
@@ -44,7 +44,7 @@ pub(crate) fn to_sun(weather: &Weather) -> DVec3 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::body_shape::BodyShape;
+    use cosfly_figures::BodyShape;
     use cosfly_frames::{Seed, TargetState};
 
     fn walker(x: f64, y: f64) -> Walker {

@@ -1,24 +1,19 @@
 //! The people of a frame: who of them can be seen, or throws a shadow that can, and their figures.
 
-use crate::body_shape::BodyShape;
-use crate::clothes::{Clothes, Region};
 use crate::eye::Eye;
-use crate::figure::{FigureTriangle, Walker, figure};
 use crate::frame::TARGET_INSTANCE;
 use crate::setup::FrameSetup;
-use crate::vehicles::Livery;
 use crate::visibility::{NEAR_M, Nearer, Screen};
+use cosfly_figures::Livery;
+use cosfly_figures::clothes::{Clothes, Region};
+use cosfly_figures::figure::{FigureTriangle, Walker, figure};
 use cosfly_frames::DVec3;
 use std::ops::Range;
 
-/// Limbs swing this far from the upright axis, in body heights.
-const REACH_PER_HEIGHT: f64 = 0.45;
 /// Shadows are looked for on ground that lies at most this far below the feet, metres.
 const DROP_M: f64 = 8.0;
 /// Shading looks this far around a point, metres.
 const MARGIN_M: f64 = 0.5;
-/// Vehicles stay within their boxes and this margin, metres.
-const VEHICLE_MARGIN_M: f64 = 0.02;
 /// People whose bodies are less high than this are left out, pixels.
 pub const LEAST_HEIGHT_PX: f64 = 1.0;
 
@@ -121,32 +116,10 @@ pub(crate) struct Bounds {
     foot_m: f64,
 }
 
-impl Walker {
-    /// Lowest and highest corner of an upright box around the figure, in the world frame, metres.
-    pub fn bounds_in_world(&self) -> (DVec3, DVec3) {
-        let bounds = Bounds::new(self);
-        (bounds.low, bounds.high)
-    }
-}
-
 impl Bounds {
     pub fn new(walker: &Walker) -> Self {
-        let feet = walker.state.feet_in_world;
-        if let BodyShape::Vehicle { size_m, .. } = walker.body {
-            let half = BodyShape::half_bounds_m(size_m, walker.state.heading_rad) + VEHICLE_MARGIN_M;
-            let (low, high) = (feet - half, feet + half);
-            return Self {
-                low: low.with_z(feet.z - VEHICLE_MARGIN_M),
-                high: high.with_z(feet.z + 2.0 * half.z),
-                foot_m: feet.z,
-            };
-        }
-        let side = (REACH_PER_HEIGHT * walker.height_m).max(3.0 * walker.radius_m.clamp(0.1, 2.0));
-        Self {
-            low: feet - DVec3::new(side, side, 0.05 * walker.height_m),
-            high: feet + DVec3::new(side, side, 1.05 * walker.height_m),
-            foot_m: feet.z,
-        }
+        let (low, high) = walker.bounds_in_world();
+        Self { low, high, foot_m: walker.state.feet_in_world.z }
     }
 
     fn is_in_view(&self, eye: &Eye, screen: &Screen) -> bool {
@@ -214,7 +187,7 @@ impl Bounds {
 mod tests {
     use super::*;
     use crate::camera::Camera;
-    use crate::figure::walker_triangles;
+    use cosfly_figures::{BodyShape, figure::walker_triangles};
     use cosfly_frames::{Pose, Seed, TargetState};
     use cosfly_world::BodyKind;
 

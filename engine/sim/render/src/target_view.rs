@@ -1,8 +1,8 @@
 //! Visible part of people in a frame, counted in pixels; of the target, against the target drawn alone.
 
-use crate::figure::Bystander;
 use crate::frame::{FrameImages, PersonView, PixelBox, TARGET_INSTANCE, TargetView};
 use crate::visibility::{NO_FACE, Visibility};
+use cosfly_figures::figure::Bystander;
 use cosfly_frames::simd::Level;
 use cosfly_frames::simd_kernel;
 

@@ -1,8 +1,8 @@
 //! Surroundings answered by the unsimplified map.
 
-use super::moving::{Encounter, OtherDrones, hides};
-use super::{Surroundings, ground::GroundGrid, solid::Solid};
+use crate::moving::{Encounter, OtherDrones, hides};
 use crate::visibility::{aim_point, body_points, visibility};
+use crate::{Surroundings, ground::GroundGrid, solid::Solid};
 use cosfly_frames::{DVec3, TargetState, TargetTrack};
 use cosfly_geometry::{OrientedBox, SpatialQuery};
 
@@ -11,7 +11,7 @@ use cosfly_geometry::{OrientedBox, SpatialQuery};
 pub struct ExactMap<'a> {
     /// Boxes that stand still.
     pub query: &'a dyn SpatialQuery,
-    /// Places of each moving box, frame by frame; see [`crate::PlanRequest::movers`].
+    /// Places of each moving box, frame by frame; see the requests of the planner.
     pub movers: &'a [Vec<OrientedBox>],
     /// Those of them that are drones. Distances from them are smaller by what is kept from them beyond `clearance_m`.
     pub drones: OtherDrones,

@@ -1,4 +1,4 @@
-//! Obstacles around a path: the boxes near it, queried frame by frame.
+//! Surroundings of a flight: the boxes near its path, the ground, others who move, queried frame by frame.
 //!
 //! [`Surroundings`] is what cost terms see. [`local::LocalObstacles`] answers from the planning boxes while
 //! the solver runs; [`exact::ExactObstacles`] answers from the unsimplified map when the result is judged.
@@ -8,6 +8,10 @@ pub mod ground;
 pub mod local;
 pub mod moving;
 pub mod solid;
+mod targets;
+pub mod visibility;
+
+pub use targets::SeveralTargets;
 
 use cosfly_frames::DVec3;
 

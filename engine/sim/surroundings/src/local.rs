@@ -1,8 +1,8 @@
 //! Per-path obstacle filtering: the planning boxes near each stretch of the path (paper, section 3.3).
 
-use super::{Surroundings, ground::GroundGrid, moving::Moving, moving::OtherDrones, solid::Solid};
-use crate::config::targets::SeveralTargets;
+use crate::SeveralTargets;
 use crate::visibility::{BODY_POINTS, body_points};
+use crate::{Surroundings, ground::GroundGrid, moving::Moving, moving::OtherDrones, solid::Solid};
 use cosfly_frames::{DVec3, TargetTrack};
 use cosfly_geometry::OrientedBox;
 

@@ -3,7 +3,7 @@
 //! Between frames a box goes evenly from place to place and turns the shorter way. Seen from the box, the drone then flies a
 //! straight segment past a box that only turns, so distances in space and time are those of a segment and a box.
 
-use super::solid::{Approach, HalfSpace, Solid};
+use crate::solid::{Approach, HalfSpace, Solid};
 use cosfly_frames::{DVec3, real};
 use cosfly_geometry::OrientedBox;
 

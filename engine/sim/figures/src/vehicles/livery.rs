@@ -61,7 +61,7 @@ impl Livery {
     }
 
     /// Colours of all regions, linear RGB; those of people are black.
-    pub(crate) fn colours(&self, body: &BodyShape) -> [[f32; 3]; Region::COUNT] {
+    pub fn colours(&self, body: &BodyShape) -> [[f32; 3]; Region::COUNT] {
         let mut colours = [[0.0; 3]; Region::COUNT];
         // The frame of a two-wheeler is seen as its paint, all the rest is black.
         let is_light = matches!(body, BodyShape::Vehicle { kind: BodyKind::Bicycle, .. });

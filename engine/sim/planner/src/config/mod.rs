@@ -13,6 +13,7 @@ pub mod search;
 pub mod targets;
 pub mod view;
 
+pub use cosfly_surroundings::SeveralTargets;
 pub use descent::DescentConfig;
 pub use drones::DronesConfig;
 pub use foresight::{CausalConfig, Foresight};
@@ -23,5 +24,5 @@ pub use paper::PaperConfig;
 pub use planner::Planner;
 pub use ranges::{Refusal, in_range};
 pub use search::{SearchConfig, SearchEffort};
-pub use targets::{SeveralTargets, TargetsConfig};
+pub use targets::TargetsConfig;
 pub use view::ViewConfig;

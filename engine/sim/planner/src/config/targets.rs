@@ -1,19 +1,9 @@
 //! Several targets at once.
 
 use super::ranges::Range;
+use cosfly_surroundings::SeveralTargets;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
-
-/// Visibility that counts when the target has companions.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
-#[serde(rename_all = "snake_case")]
-pub enum SeveralTargets {
-    /// As much as possible of all together.
-    #[default]
-    Mean,
-    /// As much as possible of the one that is seen least.
-    Minimum,
-}
 
 /// Several targets at once.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]

@@ -18,12 +18,12 @@ pub use rolling_shutter::RollingShutter;
 
 use crate::backend::{Backend, BackendError};
 use crate::camera::Camera;
-use crate::figure::{Bystander, TargetSetup};
 use crate::frame::{ChannelImage, FrameImages, PersonView, RenderedFrame};
 use crate::scene::Scene;
 use crate::setup::FrameSetup;
 use crate::target_view;
 use crate::weather::Weather;
+use cosfly_figures::figure::{Bystander, TargetSetup};
 use cosfly_frames::simd::Level;
 use cosfly_frames::{Pose, Seed};
 use lens::LensMap;

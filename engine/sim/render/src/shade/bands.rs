@@ -11,11 +11,11 @@ use super::setting::{Seen, Setting};
 use super::simple;
 use super::things::{swell, things};
 use super::vector::Vec3;
-use crate::body_shape::BodyShape;
 use crate::faces::{DrawnFace, FaceSource};
 use crate::look::PictureLook;
 use crate::passes::ids::{Band, Run};
 use crate::visibility::{NO_FACE, PlaneOnScreen};
+use cosfly_figures::BodyShape;
 use cosfly_frames::{real, simd_kernel};
 
 /// Groups of pixels that are not of a single face: the sky, and ground by label. Faces of one part of a body are a group,

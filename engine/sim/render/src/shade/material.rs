@@ -10,9 +10,9 @@ use super::setting::{Seen, Setting};
 use super::surface::Look;
 use super::things::Thing;
 use super::vector::Vec3;
-use crate::clothes::Region;
 use crate::faces::FaceSource;
 use crate::scene_parts::{BOX_FACES, SceneBox};
+use cosfly_figures::clothes::Region;
 use cosfly_frames::simd_kernel;
 use cosfly_maps::{ObstacleKind, SemanticLabel};
 

@@ -4,7 +4,6 @@
 //! `(x, y) - (z - reference) * sun.xy / sun.z`; it is in shadow when the map's height there is above z.
 
 use crate::eye::Eye;
-use crate::figure::FigureTriangle;
 use crate::frame::TARGET_INSTANCE;
 use crate::people::People;
 use crate::scene::Scene;
@@ -19,6 +18,7 @@ use crate::shade::sunlight::{
 };
 use crate::shade::vector::Vec3;
 use crate::visibility::{PlaneOnScreen, Screen, Visibility};
+use cosfly_figures::figure::FigureTriangle;
 use cosfly_frames::simd::Level;
 use cosfly_frames::{DVec2, DVec3};
 use cosfly_maps::ObstacleKind;

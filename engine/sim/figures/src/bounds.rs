@@ -1,0 +1,24 @@
+//! Upright boxes around figures, for who is in view and who may hide whom.
+
+use crate::body_shape::BodyShape;
+use crate::figure::Walker;
+use cosfly_frames::DVec3;
+
+/// Limbs swing this far from the upright axis, in body heights.
+const REACH_PER_HEIGHT: f64 = 0.45;
+/// Vehicles stay within their boxes and this margin, metres.
+const VEHICLE_MARGIN_M: f64 = 0.02;
+
+impl Walker {
+    /// Lowest and highest corner of an upright box around the figure, in the world frame, metres.
+    pub fn bounds_in_world(&self) -> (DVec3, DVec3) {
+        let feet = self.state.feet_in_world;
+        if let BodyShape::Vehicle { size_m, .. } = self.body {
+            let half = BodyShape::half_bounds_m(size_m, self.state.heading_rad) + VEHICLE_MARGIN_M;
+            return ((feet - half).with_z(feet.z - VEHICLE_MARGIN_M), (feet + half).with_z(feet.z + 2.0 * half.z));
+        }
+        let side = (REACH_PER_HEIGHT * self.height_m).max(3.0 * self.radius_m.clamp(0.1, 2.0));
+        let (below, above) = (0.05 * self.height_m, 1.05 * self.height_m);
+        (feet - DVec3::new(side, side, below), feet + DVec3::new(side, side, above))
+    }
+}
