@@ -1,6 +1,7 @@
 //! Clothes: one palette for everybody, drawn from a person's own seed, so that nobody changes clothes when followed.
 
 use crate::body_shape::BodyShape;
+use crate::build::{Build, Hair};
 use crate::vehicles::Livery;
 use cosfly_frames::{RandomStream, Seed};
 use cosfly_world::BodyKind;
@@ -60,8 +61,23 @@ pub struct Clothes {
     pub outfit: Outfit,
     /// Bare forearms.
     pub short_sleeves: bool,
-    /// Width of the trunk relative to the usual.
-    pub build: f64,
+    /// Pattern of the top.
+    pub pattern: Pattern,
+    /// Body and bearing.
+    pub build: Build,
+}
+
+/// Pattern of a top; most of it has the colour that [`Outfit::top`] names.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Pattern {
+    /// One colour.
+    Plain,
+    /// Rings around trunk and sleeves, in another colour, linear RGB.
+    Rings([f32; 3]),
+    /// Lines along trunk and sleeves, in another colour, linear RGB.
+    Lines([f32; 3]),
+    /// Rings and lines.
+    Checks([f32; 3]),
 }
 
 /// Clothes as people name them.
@@ -214,16 +230,36 @@ impl Clothes {
         let trousers = one_of(&mut stream, &TROUSERS);
         let [skin, hair, shoes] = [&SKIN[..], &HAIR, &SHOES].map(|palette| one_of(&mut stream, palette));
         let outfit = Outfit { top, trousers, backpack: stream.chance(0.35) };
-        let build = stream.uniform(0.92, 1.12);
         let short_sleeves = stream.chance(0.45);
+        let build = Build::draw(seed);
+        let head = match build.hair {
+            Hair::Bald => skin,
+            Hair::Cap => one_of(&mut seed.stream("cap"), tops).linear_rgb,
+            Hair::Short | Hair::Long | Hair::Bun => hair,
+        };
         let bag = bag.linear_rgb.map(|c| 0.5 * c);
-        let colours = [skin, hair, top.linear_rgb, trousers.linear_rgb, shoes, bag];
-        Self { colours, outfit, short_sleeves, build }
+        let colours = [skin, head, top.linear_rgb, trousers.linear_rgb, shoes, bag];
+        Self { colours, outfit, short_sleeves, pattern: Pattern::draw(seed, top), build }
     }
 
     /// True for a top that stands out from asphalt, pavement and grass.
     pub fn stand_out(&self) -> bool {
         BRIGHT_TOPS.contains(&self.outfit.top)
+    }
+}
+
+impl Pattern {
+    fn draw(seed: &Seed, top: Dye) -> Self {
+        let mut stream = seed.stream("pattern");
+        let other = one_of(&mut stream, &EVERYDAY_TOPS).linear_rgb;
+        // As much lighter or darker than the top as cloth of two colours is.
+        let second = [0, 1, 2].map(|k| 0.5 * top.linear_rgb[k] + 0.5 * other[k]);
+        match stream.unit() {
+            share if share < 0.10 => Self::Rings(second),
+            share if share < 0.16 => Self::Lines(second),
+            share if share < 0.25 => Self::Checks(second),
+            _ => Self::Plain,
+        }
     }
 }
 

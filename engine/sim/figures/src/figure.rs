@@ -1,6 +1,7 @@
 //! People: jointed figures of frustums whose limbs swing with the gait; and the entry to the figures of vehicles.
 
 use crate::body_shape::BodyShape;
+use crate::build::{Arm, Hair, head_size};
 use crate::clothes::{Clothes, Region};
 use crate::vehicles;
 use cosfly_frames::{DVec3, Seed, TargetState, real};
@@ -157,7 +158,7 @@ pub(crate) fn around() -> [(f64, f64); SIDES] {
 }
 
 /// Most parts of a figure.
-const MOST_PARTS: usize = 23;
+const MOST_PARTS: usize = 27;
 
 /// The parts of a figure, before it sinks to the ground: closed frustums of [`SIDES`] sides.
 pub struct FigureParts {
@@ -181,18 +182,27 @@ impl FigureParts {
     pub fn of(walker: &Walker, clothes: &Clothes) -> Self {
         let nothing = ring(0.0, 0.0, 0.0, 0.0, 0.0);
         let nothing = FigurePart { low: nothing, high: nothing, region: Region::Skin };
+        let build = &clothes.build;
+        let stout = (walker.radius_m / (0.15 * walker.height_m)).clamp(0.8, 1.25);
         let mut body = Body {
             forearm: if clothes.short_sleeves { Region::Skin } else { Region::Top },
-            width: clothes.build * (walker.radius_m / (0.15 * walker.height_m)).clamp(0.8, 1.25),
+            shoulders: build.shoulders * stout,
+            hips: build.hips * stout,
+            depth: build.belly,
             parts: Self { count: 0, parts: [nothing; MOST_PARTS] },
         };
         if walker.has_body() {
             let swing = 0.5 * (walker.state.speed_mps / 1.3).clamp(0.0, 1.2);
-            body.trunk(clothes.outfit.backpack);
-            for side in [-1.0, 1.0] {
-                body.leg(side, walker.gait_phase_rad + if side < 0.0 { 0.0 } else { real::PI }, swing);
-                body.arm(side, walker.gait_phase_rad + if side < 0.0 { real::PI } else { 0.0 }, 0.8 * swing + 0.08);
-            }
+            let (left, right) = (walker.gait_phase_rad, walker.gait_phase_rad + real::PI);
+            body.trunk(build.long_top);
+            body.head(build.hair);
+            body.luggage(clothes.outfit.backpack, build.shoulder_bag);
+            let (stride, arm_swing) = (swing * build.stride, 0.8 * swing * build.arm_swing + 0.08);
+            body.leg(-1.0, left, stride);
+            body.leg(1.0, right, stride);
+            body.arm(-1.0, right, arm_swing, Arm::Swings);
+            body.arm(1.0, left, arm_swing, build.right_arm);
+            body.bear(build.lean, head_size(walker.height_m));
         }
         body.parts
     }
@@ -229,7 +239,11 @@ pub(crate) fn ring(forward: f64, right: f64, up: f64, half_side: f64, half_forwa
 }
 
 struct Body {
-    width: f64,
+    /// Widths relative to the usual.
+    shoulders: f64,
+    hips: f64,
+    /// Depth of the trunk relative to the usual.
+    depth: f64,
     forearm: Region,
     parts: FigureParts,
 }
@@ -240,18 +254,75 @@ impl Body {
         self.parts.count += 1;
     }
 
-    fn trunk(&mut self, backpack: bool) {
-        let w = self.width;
-        self.part(ring(0.0, 0.0, 0.46, 0.085 * w, 0.060), ring(0.0, 0.0, 0.57, 0.088 * w, 0.062), Region::Trousers);
-        self.part(ring(0.0, 0.0, 0.56, 0.088 * w, 0.066), ring(0.0, 0.0, 0.80, 0.122 * w, 0.076), Region::Top);
-        self.part(ring(0.0, 0.0, 0.80, 0.122 * w, 0.076), ring(0.0, 0.0, 0.85, 0.055 * w, 0.045), Region::Top);
+    fn trunk(&mut self, long_top: bool) {
+        let (hips, chest, depth) = (self.hips, self.shoulders, self.depth);
+        let waist = 0.5 * (hips + chest);
+        let belt = ring(0.0, 0.0, 0.56, 0.088 * hips, 0.066 * depth);
+        let middle = ring(0.006 * depth, 0.0, 0.66, 0.096 * waist, 0.070 * depth);
+        let breast = ring(0.0, 0.0, 0.80, 0.122 * chest, 0.076);
+        self.part(
+            ring(0.0, 0.0, 0.46, 0.085 * hips, 0.060),
+            ring(0.0, 0.0, 0.57, 0.088 * hips, 0.062),
+            Region::Trousers,
+        );
+        self.part(belt, middle, Region::Top);
+        self.part(middle, breast, Region::Top);
+        self.part(breast, ring(0.0, 0.0, 0.85, 0.055 * chest, 0.045), Region::Top);
+        if long_top {
+            let hem = ring(0.0, 0.0, 0.40, 0.104 * hips, 0.086);
+            self.part(hem, ring(0.0, 0.0, 0.57, 0.091 * hips, 0.068 * depth), Region::Top);
+        }
         self.part(ring(0.005, 0.0, 0.83, 0.034, 0.034), ring(0.01, 0.0, 0.89, 0.034, 0.034), Region::Skin);
-        self.part(ring(0.015, 0.0, 0.865, 0.036, 0.044), ring(0.01, 0.0, 0.915, 0.052, 0.058), Region::Skin);
-        self.part(ring(0.01, 0.0, 0.915, 0.052, 0.058), ring(0.008, 0.0, 0.955, 0.052, 0.060), Region::Skin);
-        self.part(ring(-0.008, 0.0, 0.90, 0.053, 0.052), ring(-0.004, 0.0, 0.965, 0.059, 0.066), Region::Hair);
-        self.part(ring(-0.004, 0.0, 0.965, 0.059, 0.066), ring(-0.008, 0.0, 1.0, 0.034, 0.040), Region::Hair);
+    }
+
+    /// Face, and hair or hat.
+    fn head(&mut self, hair: Hair) {
+        let cheeks = ring(0.01, 0.0, 0.915, 0.052, 0.058);
+        self.part(ring(0.015, 0.0, 0.865, 0.036, 0.044), cheeks, Region::Skin);
+        self.part(cheeks, ring(0.008, 0.0, 0.955, 0.052, 0.060), Region::Skin);
+        let crown = ring(-0.004, 0.0, 0.965, 0.059, 0.066);
+        let lowest =
+            if hair == Hair::Cap { ring(0.0, 0.0, 0.942, 0.060, 0.066) } else { ring(-0.008, 0.0, 0.90, 0.053, 0.052) };
+        self.part(lowest, crown, Region::Hair);
+        self.part(crown, ring(-0.008, 0.0, 1.0, 0.034, 0.040), Region::Hair);
+        match hair {
+            Hair::Long => {
+                self.part(ring(-0.045, 0.0, 0.79, 0.050, 0.022), ring(-0.016, 0.0, 0.93, 0.058, 0.052), Region::Hair);
+            }
+            Hair::Bun => {
+                self.part(ring(-0.072, 0.0, 0.925, 0.026, 0.020), ring(-0.068, 0.0, 0.972, 0.022, 0.024), Region::Hair);
+            }
+            Hair::Cap => {
+                self.part(ring(0.082, 0.0, 0.943, 0.044, 0.040), ring(0.072, 0.0, 0.953, 0.048, 0.036), Region::Hair);
+            }
+            Hair::Short | Hair::Bald => {}
+        }
+    }
+
+    fn luggage(&mut self, backpack: bool, shoulder_bag: bool) {
         if backpack {
             self.part(ring(-0.095, 0.0, 0.60, 0.085, 0.045), ring(-0.09, 0.0, 0.80, 0.075, 0.040), Region::Bag);
+        } else if shoulder_bag {
+            let side = 0.088 * self.hips + 0.022;
+            self.part(ring(-0.02, side, 0.43, 0.024, 0.070), ring(-0.02, side, 0.545, 0.020, 0.062), Region::Bag);
+        }
+    }
+
+    /// Leans the trunk forward and gives the head its size: the neck moves down by what the head takes.
+    fn bear(&mut self, lean: f64, head: f64) {
+        const CHIN: f64 = 0.865;
+        let below = (1.0 - (1.0 - CHIN) * head) / CHIN;
+        let count = self.parts.count;
+        for FigurePart { low, high, region } in &mut self.parts.parts[..count] {
+            let is_head = low.up >= 0.86 && matches!(region, Region::Skin | Region::Hair);
+            for ring in [low, high] {
+                ring.forward += lean * (ring.up - 0.49).max(0.0);
+                ring.up = if ring.up < CHIN { ring.up * below } else { 1.0 - (1.0 - ring.up) * head };
+                if is_head {
+                    ring.half_side *= head;
+                    ring.half_forward *= head;
+                }
+            }
         }
     }
 
@@ -259,12 +330,12 @@ impl Body {
     fn leg(&mut self, side: f64, phase: f64, swing: f64) {
         let hip_angle = swing * real::sin(phase);
         let knee_angle = swing * 1.3 * real::sin(phase + 0.5 * real::PI).max(0.0);
-        let right = side * 0.047 * self.width;
+        let right = side * 0.047 * self.hips;
         let hip = (0.0, 0.49);
         let knee = reach(hip, hip_angle, 0.235);
         let shin_angle = hip_angle - knee_angle;
         let ankle = reach(knee, shin_angle, 0.225);
-        let thick = 0.5 * (1.0 + self.width);
+        let thick = 0.5 * (1.0 + self.hips);
         self.part(
             ring(knee.0, right, knee.1, 0.034 * thick, 0.038 * thick),
             ring(hip.0, right, hip.1, 0.052 * thick, 0.056 * thick),
@@ -283,14 +354,18 @@ impl Body {
         );
     }
 
-    /// An arm whose shoulder angle is `swing * sin(phase)`, with a bent elbow.
-    fn arm(&mut self, side: f64, phase: f64, swing: f64) {
-        let angle = swing * real::sin(phase);
-        let right = side * (0.112 * self.width + 0.014);
+    /// An arm whose shoulder angle is `swing * sin(phase)`, with a bent elbow; or one that is busy.
+    fn arm(&mut self, side: f64, phase: f64, swing: f64, arm: Arm) {
+        let (angle, bend) = match arm {
+            Arm::Swings => (swing * real::sin(phase), 0.25 + 0.5 * swing),
+            Arm::Pocket => (-0.25 + 0.1 * swing * real::sin(phase), 0.55),
+            Arm::Holds => (0.15 + 0.1 * swing * real::sin(phase), 2.0),
+        };
+        let right = side * (0.112 * self.shoulders + 0.014);
         let shoulder = (0.0, 0.815);
         let elbow = reach(shoulder, angle, 0.165);
-        let wrist = reach(elbow, angle + 0.25 + 0.5 * swing, 0.15);
-        let hand = reach(wrist, angle + 0.3 + 0.5 * swing, 0.05);
+        let wrist = reach(elbow, angle + bend, 0.15);
+        let hand = reach(wrist, angle + bend + 0.05, 0.05);
         let (out, far) = (right + side * 0.010, right + side * 0.012);
         self.part(ring(elbow.0, out, elbow.1, 0.025, 0.028), ring(shoulder.0, right, 0.79, 0.031, 0.038), Region::Top);
         let tip = right - side * 0.016;

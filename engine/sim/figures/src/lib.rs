@@ -1,15 +1,17 @@
-//! Bodies as pictures show them: jointed people, vehicles with their riders, clothes and paint.
+//! Bodies as pictures show them: jointed people, vehicles with their riders, builds, clothes and paint.
 //!
 //! [`figure`] gives triangles in the world, [`figure::FigureParts`] the same people as frustums. Looks are drawn from a body's
 //! own seed, so that nobody changes when followed.
 
 mod body_shape;
 mod bounds;
+pub mod build;
 pub mod clothes;
 pub mod figure;
 mod vehicles;
 
 pub use body_shape::BodyShape;
-pub use clothes::{Clothes, Colour, Dye, Outfit, clothes_seed_of_target};
+pub use build::Build;
+pub use clothes::{Clothes, Colour, Dye, Outfit, Pattern, clothes_seed_of_target};
 pub use figure::{Bystander, TargetSetup, Walker, gait_phase_rad, pedal_phase_rad, target_triangles, walker_triangles};
 pub use vehicles::Livery;

@@ -3,11 +3,13 @@
 use crate::eye::Eye;
 use crate::frame::TARGET_INSTANCE;
 use crate::setup::FrameSetup;
+use crate::shade::vector::Vec3;
 use crate::visibility::{NEAR_M, Nearer, Screen};
 use cosfly_figures::Livery;
+use cosfly_figures::Pattern;
 use cosfly_figures::clothes::{Clothes, Region};
 use cosfly_figures::figure::{FigureTriangle, Walker, figure};
-use cosfly_frames::DVec3;
+use cosfly_frames::{DVec3, real};
 use std::ops::Range;
 
 /// Shadows are looked for on ground that lies at most this far below the feet, metres.
@@ -22,6 +24,10 @@ pub(crate) struct Person {
     pub walker: Walker,
     /// Linear RGB, indexed by [`Region`].
     pub colours: [[f32; 3]; Region::COUNT],
+    /// Pattern of the top.
+    pub pattern: Pattern,
+    /// To the right of the body, unit length.
+    pub side_in_world: Vec3,
     pub instance: u32,
     /// Triangles of the figure among those of all.
     pub triangles: Range<usize>,
@@ -105,7 +111,20 @@ impl People {
         let triangles = first..self.triangles.len();
         let mut colours = Livery::draw(&walker.clothes_seed).colours(&walker.body);
         colours[..clothes.colours.len()].copy_from_slice(&clothes.colours);
-        self.members.push(Person { walker, colours, instance, triangles, is_seen, reach, height_px });
+        let (sin, cos) = real::sin_cos(walker.state.heading_rad);
+        let side_in_world = Vec3::new(-sin as f32, cos as f32, 0.0);
+        let pattern = clothes.pattern;
+        self.members.push(Person {
+            walker,
+            colours,
+            pattern,
+            side_in_world,
+            instance,
+            triangles,
+            is_seen,
+            reach,
+            height_px,
+        });
     }
 }
 

@@ -1,11 +1,12 @@
 //! Bands of rows: pixels gathered by face, taken through the kernels, put back.
 
+use super::cloth::cloth;
 use super::facade::{facade, roofs};
 use super::geometry::{FaceAxes, open, place, points};
 use super::ground::ground;
 use super::lanes::{Block, FOUR, FOURS, GROUPS, LANES, Shared, Stage, WIDE, get};
 use super::lighting;
-use super::material::{Material, cloth, coach, material_of};
+use super::material::{Material, coach, material_of};
 use super::pattern::{most, share};
 use super::setting::{Seen, Setting};
 use super::simple;

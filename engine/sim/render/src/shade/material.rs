@@ -1,13 +1,12 @@
 //! Materials of drawn faces.
 
+use super::cloth::Cloth;
 use super::facade::{BoxFace, Facade, Roof};
 use super::geometry::FaceAxes;
-use super::lanes::{Block, Shared, Stage, WIDE, groups, set};
+use super::lanes::{Block, Stage, WIDE, set};
 use super::light::Light;
 use super::lighting::Answers;
-use super::pattern::{NoiseTexture, Noises, share};
 use super::setting::{Seen, Setting};
-use super::surface::Look;
 use super::things::Thing;
 use super::vector::Vec3;
 use crate::faces::FaceSource;
@@ -38,12 +37,12 @@ pub(super) fn material_of(setting: &Setting, seen: &Seen<'_>, face: u32) -> (Mat
         }
         FaceSource::Figure { triangle, .. } => {
             let part = &seen.people.triangles[triangle as usize];
-            let [r, g, b] = seen.people.members[part.person as usize].colours[part.region as usize];
+            let person = &seen.people.members[part.person as usize];
             if !part.region.is_of_people() {
+                let [r, g, b] = person.colours[part.region as usize];
                 return (Material::Coach(Coach::new(part.region, Vec3::new(r, g, b), setting.light.night)), flat);
             }
-            let [from, to] = part.middle_in_world.map(Vec3::from);
-            (Material::Cloth(Cloth { colour: Vec3::new(r, g, b), from, along: to - from }), flat)
+            (Material::Cloth(Cloth::new(person, part)), flat)
         }
         FaceSource::Box { index, face } => {
             box_material(&seen.scene.boxes[index as usize], usize::from(face), setting.light.night)
@@ -146,36 +145,6 @@ simd_kernel! {
                 set(&mut block.emission, k, emission);
             }
             block.mirror = [mirror; WIDE];
-        }
-    }
-}
-
-/// A part of a figure.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Cloth {
-    pub(super) colour: Vec3,
-    /// Middle line.
-    from: Vec3,
-    along: Vec3,
-}
-
-simd_kernel! {
-    /// Clothes, skin and hair, round around the part's middle line.
-    pub(super) fn cloth(shared: &[Shared], blocks: &mut [Block], look: &Cloth, noise: &NoiseTexture) {
-        let Cloth { colour, from, along } = *look;
-        let per_length2 = 1.0 / (along.dot(along) + 1e-9);
-        for (shared, four) in groups(shared, blocks) {
-            for block in four {
-                for k in 0..WIDE {
-                    let point = block.point(shared, k);
-                    let weave = noise.grain(point.world.x * 40.0, point.world.z * 40.0, point.footprint_m * 40.0);
-                    let fold = noise.clumps(point.world.x * 55.0, point.world.z * 35.0, point.footprint_m * 45.0);
-                    let away = point.world - from;
-                    let round = (away - along * share(away.dot(along) * per_length2)).unit();
-                    let normal = (round + point.normal * 0.4).unit();
-                    block.put_bent(k, &Look::matt(colour * (0.62 + 0.25 * weave + 0.5 * fold), normal));
-                }
-            }
         }
     }
 }

@@ -5,6 +5,7 @@
 //! [`things`]), what it sends to the camera ([`lighting`]). Bands depend on nothing but the faces, so threads share them.
 
 mod bands;
+mod cloth;
 pub mod facade;
 pub mod foliage;
 pub mod geometry;
