@@ -5,28 +5,26 @@ use cosfly_scans::las::Las;
 use cosfly_town::MapFormat;
 use std::process::Command;
 
-#[path = "../examples/write_clouds.rs"]
-#[expect(dead_code, reason = "the program's own `main`")]
-mod write_clouds;
-
-use write_clouds::{las, scene};
-
 /// Set in the process that reads the damaged files.
 const READER: &str = "COSFLY_READS_HOSTILE_LAZ";
 
-/// Every few bytes of the points changed, each by several patterns.
+/// Files of the fuzzer's collection with their bytes changed, each by several patterns.
 fn read_damaged_files() {
-    let whole = las(&scene(), true).unwrap();
-    let start = u32::from_le_bytes(*whole[96..].first_chunk().unwrap()) as usize;
-    let mut refused = 0;
-    let mut contained = 0;
-    for at in (start..whole.len()).step_by(1 + (whole.len() - start) / 400) {
-        for change in [0xff, 0x80, 0x01] {
-            let mut file = whole.clone();
-            file[at] ^= change;
-            if let Err(error) = Las::read(&file, &CloudOptions::default()) {
-                refused += 1;
-                contained += usize::from(error.message.contains("what no encoder writes"));
+    let (mut refused, mut contained) = (0, 0);
+    for name in ["format_3.laz", "format_7.laz", "example.laz"] {
+        let path = format!("{}/../../../tests/fuzz/corpus/las/{name}", env!("CARGO_MANIFEST_DIR"));
+        let whole = std::fs::read(&path).unwrap();
+        let start = u32::from_le_bytes(*whole[96..].first_chunk().unwrap()) as usize;
+        for at in (start..whole.len()).step_by(1 + (whole.len() - start) / 300) {
+            for change in [0xff, 0x80, 0x55, 0x01] {
+                // A run of damage, as a bad sector makes it.
+                for length in [1, 16] {
+                    let mut file = whole.clone();
+                    file[at..].iter_mut().take(length).for_each(|byte| *byte ^= change);
+                    let Err(error) = Las::read(&file, &CloudOptions::default()) else { continue };
+                    refused += 1;
+                    contained += usize::from(error.message.contains("what no encoder writes"));
+                }
             }
         }
     }
