@@ -92,7 +92,7 @@ def check(inspect, path):
         expect("cells of 1 m with roof that no building covers", round(share, 4), share < 0.1)
         if density > 8:
             share = len(covered & cells) / len(covered | cells)
-            expect("intersection over union of roof cells and covered cells", round(share, 3), share >= 0.8)
+            expect("intersection over union of roof cells and covered cells", round(share, 3), share >= 0.9)
     ground = points[np.isin(classes, [2])]
     distance = distance_to_boxes(ground, boxes, 1.0)
     outside = float((distance >= 0).mean())

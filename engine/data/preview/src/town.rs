@@ -108,17 +108,19 @@ fn draw_obstacle(view: &View, canvas: &mut Canvas, obstacle: &Obstacle, highest_
 /// Order in which ground is drawn.
 fn layer(label: SemanticLabel) -> u8 {
     match label {
-        SemanticLabel::Terrain | SemanticLabel::Ground => 0,
-        SemanticLabel::Water => 1,
-        SemanticLabel::Roads => 2,
-        SemanticLabel::SideWalks => 3,
-        _ => 4,
+        SemanticLabel::Terrain => 0,
+        SemanticLabel::Ground => 1,
+        SemanticLabel::Water => 2,
+        SemanticLabel::Roads => 3,
+        SemanticLabel::SideWalks => 4,
+        _ => 5,
     }
 }
 
 fn ground_colour(label: SemanticLabel) -> Colour {
     match label {
         SemanticLabel::Terrain => [206, 218, 186],
+        SemanticLabel::Ground => [226, 214, 188],
         SemanticLabel::Water => [158, 196, 224],
         SemanticLabel::Roads => [150, 152, 158],
         SemanticLabel::SideWalks => [222, 218, 212],
@@ -148,6 +150,8 @@ fn draw_frame(view: &View, canvas: &mut Canvas, title: &str) {
         ("crossing", walkable_colour(WalkableKind::Crossing)),
         ("plaza", walkable_colour(WalkableKind::Plaza)),
         ("road", ground_colour(SemanticLabel::Roads)),
+        ("bare ground", ground_colour(SemanticLabel::Ground)),
+        ("water", ground_colour(SemanticLabel::Water)),
         ("house (dark: high)", [198, 170, 148]),
         ("plants", [96, 146, 78]),
     ];

@@ -1,14 +1,11 @@
-//! [`TransverseMercator`]: degrees on the WGS84 ellipsoid to metres about a middle.
+//! [`TransverseMercator`]: degrees on an ellipsoid to metres about a middle.
 //!
 //! Krüger's series in the third flattening, to the sixth power (Karney 2011, "Transverse Mercator with an accuracy of a few
 //! nanometers"). Written here because the crates for projections call the platform's maths library, whose last digits
 //! differ between machines.
 
+use crate::datum::{Ellipsoid, WGS84, atanh};
 use cosfly_frames::{DVec2, real};
-
-/// WGS84: half the equator's diameter, metres, and flattening.
-const RADIUS_M: f64 = 6_378_137.0;
-const FLATTENING: f64 = 1.0 / 298.257_223_563;
 
 /// A transverse Mercator projection of scale 1 about a point, which is its origin; x east, y north, metres.
 ///
@@ -16,25 +13,30 @@ const FLATTENING: f64 = 1.0 / 298.257_223_563;
 /// 3 mm in a kilometre at 15 km.
 #[derive(Clone, Debug, PartialEq)]
 pub struct TransverseMercator {
+    ellipsoid: Ellipsoid,
     middle_deg: [f64; 2],
     middle_northing_m: f64,
 }
 
 impl TransverseMercator {
-    /// The projection about a point: longitude, latitude, degrees.
+    /// The projection about a point of WGS84: longitude, latitude, degrees.
     pub fn about(middle_deg: [f64; 2]) -> Self {
-        let raw = Self { middle_deg, middle_northing_m: 0.0 };
+        Self::on(WGS84, middle_deg)
+    }
+
+    /// The projection about a point of an ellipsoid: longitude, latitude, degrees.
+    pub fn on(ellipsoid: Ellipsoid, middle_deg: [f64; 2]) -> Self {
+        let raw = Self { ellipsoid, middle_deg, middle_northing_m: 0.0 };
         let middle_northing_m = raw.project(middle_deg).y;
-        Self { middle_deg, middle_northing_m }
+        Self { middle_northing_m, ..raw }
     }
 
     /// The plan position of a point: longitude, latitude, degrees.
     pub fn project(&self, [lon_deg, lat_deg]: [f64; 2]) -> DVec2 {
-        let n = FLATTENING / (2.0 - FLATTENING);
-        let eccentricity = 2.0 * n.sqrt() / (1.0 + n);
+        let n = self.ellipsoid.flattening / (2.0 - self.ellipsoid.flattening);
         let (sin_lat, (sin_lon, cos_lon)) =
             (real::sin(lat_deg.to_radians()), real::sin_cos((lon_deg - self.middle_deg[0]).to_radians()));
-        let conformal = sinh(atanh(sin_lat) - eccentricity * atanh(eccentricity * sin_lat));
+        let conformal = sinh(self.ellipsoid.isometric(sin_lat));
         let along = real::atan2(conformal, cos_lon);
         let across = atanh(sin_lon / real::hypot(1.0, conformal));
         let (mut x, mut y) = (across, along);
@@ -44,11 +46,12 @@ impl TransverseMercator {
             x += factor * cos * sinh(times * across);
             y += factor * sin * cosh(times * across);
         }
-        let scale_m = RADIUS_M / (1.0 + n) * (1.0 + n.powi(2) / 4.0 + n.powi(4) / 64.0 + n.powi(6) / 256.0);
+        let scale_m =
+            self.ellipsoid.radius_m / (1.0 + n) * (1.0 + n.powi(2) / 4.0 + n.powi(4) / 64.0 + n.powi(6) / 256.0);
         DVec2::new(scale_m * x, scale_m * y - self.middle_northing_m)
     }
 
-    /// The projection as PROJ writes it.
+    /// The projection as PROJ writes it, of WGS84.
     pub fn proj_text(&self) -> String {
         let [lon, lat] = self.middle_deg;
         format!("+proj=tmerc +lat_0={lat} +lon_0={lon} +k=1 +x_0=0 +y_0=0 +datum=WGS84 +units=m +no_defs")
@@ -68,10 +71,6 @@ fn series(n: f64) -> [f64; 6] {
         sum(5, &[34729.0 / 80640.0, -3_418_889.0 / 1_995_840.0]),
         sum(6, &[212_378_941.0 / 319_334_400.0]),
     ]
-}
-
-fn atanh(x: f64) -> f64 {
-    0.5 * real::ln((1.0 + x) / (1.0 - x))
 }
 
 fn sinh(x: f64) -> f64 {

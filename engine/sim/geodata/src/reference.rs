@@ -1,15 +1,26 @@
 //! [`GeoReference`]: the projection of a map by its text, and back to degrees.
 
+use crate::conformal::{Conformal, Sphere};
+use crate::datum::Datum;
+use crate::epsg;
 use crate::projection::TransverseMercator;
 use cosfly_frames::DVec2;
 
-/// A transverse Mercator projection with scale and false origin, as UTM and most national grids are.
+/// A projection with scale, false origin and datum, as UTM and national grids are.
 #[derive(Clone, Debug, PartialEq)]
 pub struct GeoReference {
-    projection: TransverseMercator,
+    projection: Projection,
+    datum: Datum,
+    /// A point in the middle of the projection's use: longitude, latitude, degrees.
     middle_deg: [f64; 2],
     scale: f64,
     false_m: DVec2,
+}
+
+#[derive(Clone, Debug, PartialEq)]
+enum Projection {
+    TransverseMercator(TransverseMercator),
+    Conformal(Conformal),
 }
 
 /// Steps of Newton's method; three suffice within a zone.
@@ -17,66 +28,116 @@ const MOST_STEPS: usize = 12;
 const NEAR_ENOUGH_M: f64 = 1e-7;
 const DIFFERENCE_DEG: f64 = 1e-6;
 
+/// Words and values of a PROJ text.
+struct Words<'a>(&'a str);
+
+impl<'a> Words<'a> {
+    fn text(&self, key: &str) -> Option<&'a str> {
+        self.0.split_whitespace().find_map(|word| word.strip_prefix('+')?.strip_prefix(key)?.strip_prefix('='))
+    }
+
+    fn has(&self, word: &str) -> bool {
+        self.0.split_whitespace().any(|known| known == word)
+    }
+
+    /// A number; `otherwise` where the text has none, none where it is no number.
+    fn number(&self, key: &str, otherwise: f64) -> Option<f64> {
+        match self.text(key) {
+            Some(text) => text.parse().ok().filter(|value: &f64| value.is_finite()),
+            None => Some(otherwise),
+        }
+    }
+
+    /// Units, axes, meridians and tables that are not read.
+    fn is_unusual(&self) -> bool {
+        let is_other = |key: &str, usual: &[&str]| self.text(key).is_some_and(|value| !usual.contains(&value));
+        is_other("units", &["m"])
+            || is_other("axis", &["enu"])
+            || is_other("pm", &["greenwich", "0"])
+            || is_other("nadgrids", &["@null"])
+            || self.number("to_meter", 1.0) != Some(1.0)
+    }
+
+    fn datum(&self) -> Option<Datum> {
+        let mut datum = Datum::named(self.text("ellps"), self.text("datum"))?;
+        if let Some(shift) = self.text("towgs84") {
+            let values: Vec<f64> = shift.split(',').map(|value| value.parse().ok()).collect::<Option<_>>()?;
+            let is_sound = matches!(values.len(), 3 | 7) && values.iter().all(|value| value.abs() < 5000.0);
+            if !is_sound {
+                return None;
+            }
+            datum.to_wgs84 = [0.0; 7];
+            datum.to_wgs84[..values.len()].copy_from_slice(&values);
+        }
+        Some(datum)
+    }
+}
+
 impl GeoReference {
-    /// The projection that a PROJ text, an EPSG code or a URL of one names; none for other kinds. All datums within
-    /// a metre of WGS84 (ETRS89, NAD83) count as WGS84.
+    /// The projection that a PROJ text, an EPSG code, a URL of one or well-known text with one names; none for other kinds.
+    /// Datums within a metre of WGS84 (ETRS89, NAD83) count as WGS84.
     pub fn parse(text: &str) -> Option<Self> {
         match text.contains("+proj=") {
             true => Self::of_proj(text),
-            false => Self::of_epsg(text),
+            false => Self::of_proj(&epsg::proj_text(epsg::code(text)?)?),
         }
     }
 
     fn of_proj(text: &str) -> Option<Self> {
-        let value = |key: &str| -> Option<f64> {
-            let word = text
-                .split_whitespace()
-                .find_map(|word| word.strip_prefix('+')?.strip_prefix(key)?.strip_prefix('='))?;
-            word.parse().ok().filter(|value: &f64| value.is_finite())
+        let words = Words(text);
+        let datum = words.datum().filter(|_| !words.is_unusual())?;
+        if words.has("+proj=utm") {
+            return Self::utm(datum, words.text("zone")?.parse().ok()?, words.has("+south"));
+        }
+        let scale = words.number(if words.text("k").is_some() { "k" } else { "k_0" }, 1.0)?;
+        let origin_deg = [words.number("lon_0", 0.0)?, words.number("lat_0", 0.0)?];
+        let false_m = DVec2::new(words.number("x_0", 0.0)?, words.number("y_0", 0.0)?);
+        let is_below = |most_deg: f64| origin_deg[1].abs() <= most_deg;
+        let (projection, middle_deg) = match words.text("proj")? {
+            "tmerc" | "etmerc" if is_below(89.0) => {
+                (Projection::TransverseMercator(TransverseMercator::on(datum.ellipsoid, origin_deg)), origin_deg)
+            }
+            "sterea" if is_below(89.0) => (
+                Projection::Conformal(Conformal::Stereographic(Sphere::around(datum.ellipsoid, origin_deg))),
+                origin_deg,
+            ),
+            "somerc" if is_below(80.0) => {
+                (Projection::Conformal(Conformal::Swiss(Sphere::around(datum.ellipsoid, origin_deg))), origin_deg)
+            }
+            "lcc" if is_below(90.0) => {
+                let first = words.number("lat_1", origin_deg[1])?;
+                let lats_deg = [first, words.number("lat_2", first)?];
+                let middle = 0.5 * (lats_deg[0] + lats_deg[1]);
+                let is_cone = lats_deg.iter().all(|lat| (1.0..=89.0).contains(&(lat * middle.signum())));
+                let cone = is_cone.then(|| Conformal::cone(datum.ellipsoid, origin_deg, lats_deg))?;
+                (Projection::Conformal(cone), [origin_deg[0], middle])
+            }
+            _ => return None,
         };
-        let has = |word: &str| text.split_whitespace().any(|known| known == word);
-        if value("to_meter").is_some_and(|metres| metres != 1.0) || (text.contains("+units=") && !has("+units=m")) {
-            return None;
-        }
-        if has("+proj=utm") {
-            return Self::utm(value("zone")?, has("+south"));
-        }
-        if !has("+proj=tmerc") {
-            return None;
-        }
-        let scale = value("k").or_else(|| value("k_0")).unwrap_or(1.0);
-        let middle_deg = [value("lon_0").unwrap_or(0.0), value("lat_0").unwrap_or(0.0)];
-        Self::of(middle_deg, scale, DVec2::new(value("x_0").unwrap_or(0.0), value("y_0").unwrap_or(0.0)))
+        Self { projection, datum, middle_deg, scale, false_m }.checked()
     }
 
-    /// UTM on WGS84 (326xx, 327xx) and ETRS89 (258xx); compound codes with a height, such as 5555 to 5557 of ETRS89.
-    fn of_epsg(text: &str) -> Option<Self> {
-        let tail = text.trim().rsplit(['/', ':']).next()?;
-        let code: u32 = tail.trim().parse().ok()?;
-        match code {
-            32601..=32660 => Self::utm(f64::from(code - 32600), false),
-            32701..=32760 => Self::utm(f64::from(code - 32700), true),
-            25828..=25838 => Self::utm(f64::from(code - 25800), false),
-            5554..=5556 => Self::utm(f64::from(code - 5554 + 31), false),
-            _ => None,
-        }
-    }
-
-    fn utm(zone: f64, is_south: bool) -> Option<Self> {
+    fn utm(datum: Datum, zone: f64, is_south: bool) -> Option<Self> {
         let false_m = DVec2::new(500_000.0, if is_south { 10_000_000.0 } else { 0.0 });
-        (zone.fract() == 0.0 && (1.0..=60.0).contains(&zone))
-            .then(|| Self::of([6.0 * zone - 183.0, 0.0], 0.9996, false_m))
-            .flatten()
+        let middle_deg = [6.0 * zone - 183.0, 0.0];
+        let projection = Projection::TransverseMercator(TransverseMercator::on(datum.ellipsoid, middle_deg));
+        let is_zone = zone.fract() == 0.0 && (1.0..=60.0).contains(&zone);
+        is_zone.then_some(Self { projection, datum, middle_deg, scale: 0.9996, false_m })
     }
 
-    fn of(middle_deg: [f64; 2], scale: f64, false_m: DVec2) -> Option<Self> {
-        let is_sound = middle_deg[0].abs() <= 360.0 && middle_deg[1].abs() <= 89.0 && (0.5..2.0).contains(&scale);
-        is_sound.then(|| Self { projection: TransverseMercator::about(middle_deg), middle_deg, scale, false_m })
+    fn checked(self) -> Option<Self> {
+        let is_sound = self.middle_deg[0].abs() <= 360.0 && (0.5..2.0).contains(&self.scale);
+        (is_sound && self.project(self.middle_deg).is_finite()).then_some(self)
     }
 
     /// Map position of a point: longitude, latitude, degrees.
     pub fn project(&self, point_deg: [f64; 2]) -> DVec2 {
-        self.scale * self.projection.project(point_deg) + self.false_m
+        let own_deg = self.datum.from_wgs84(point_deg);
+        let plan_m = match &self.projection {
+            Projection::TransverseMercator(projection) => projection.project(own_deg),
+            Projection::Conformal(projection) => projection.project(own_deg),
+        };
+        self.scale * plan_m + self.false_m
     }
 
     /// Longitude and latitude of a map position, degrees; none far outside the projection.
@@ -127,12 +188,50 @@ mod tests {
     }
 
     #[test]
+    fn national_grids_agree_with_proj_and_come_back() {
+        // As PROJ 9 gives them for degrees of WGS84, with the same shifts between datums.
+        for (text, point, expected) in [
+            ("EPSG:28992", [5.1214, 52.0907], DVec2::new(136783.726, 455860.140)),
+            ("EPSG:2056", [8.5417, 47.3769], DVec2::new(2683303.894, 1247925.628)),
+            ("EPSG:21781", [6.1432, 46.2044], DVec2::new(500016.016, 117821.070)),
+            ("EPSG:31466", [6.9603, 50.9375], DVec2::new(2567542.816, 5645133.261)),
+            ("EPSG:31468", [11.5755, 48.1374], DVec2::new(4468513.486, 5333350.268)),
+            ("EPSG:31256", [16.3738, 48.2082], DVec2::new(3096.804, 341089.370)),
+            ("EPSG:27700", [-0.1276, 51.5072], DVec2::new(530043.195, 180358.209)),
+            ("EPSG:2154", [2.3522, 48.8566], DVec2::new(652469.023, 6862035.259)),
+            ("EPSG:31370", [4.3517, 50.8466], DVec2::new(148799.080, 170688.564)),
+            ("EPSG:2193", [174.7633, -36.8485], DVec2::new(1757209.253, 5920482.809)),
+            ("EPSG:3414", [103.8198, 1.3521], DVec2::new(26495.535, 37133.868)),
+            ("EPSG:5973", [10.7522, 59.9139], DVec2::new(262560.482, 6649443.584)),
+            ("EPSG:7856", [151.2093, -33.8688], DVec2::new(334368.634, 6250948.345)),
+            (
+                "+proj=lcc +lat_1=-30 +lat_0=-30 +lon_0=25 +k_0=0.999 +x_0=10 +y_0=20 +datum=WGS84",
+                [25.5, -30.5],
+                DVec2::new(47963.132, -55458.225),
+            ),
+        ] {
+            let reference = GeoReference::parse(text).unwrap_or_else(|| panic!("{text}"));
+            let found = reference.project(point);
+            assert!(found.distance(expected) < 0.01, "{text}: {found}");
+            let back = DVec2::from_array(reference.unproject(found).unwrap());
+            assert!(back.distance(DVec2::from_array(point)) < 1e-9, "{text}: {back}");
+        }
+    }
+
+    #[test]
     fn other_projections_and_broken_texts_are_none() {
         for text in [
             "",
             "EPSG:4326",
-            "EPSG:28992",
-            "+proj=lcc +lat_1=44",
+            "EPSG:3857",
+            "EPSG:3035",
+            "+proj=lcc +lat_1=0",
+            "+proj=lcc +lat_1=44 +lat_2=-44",
+            "+proj=laea +lat_0=52",
+            "+proj=tmerc +pm=paris",
+            "+proj=tmerc +nadgrids=x.gsb",
+            "+proj=tmerc +ellps=nobody",
+            "+proj=tmerc +towgs84=1,2",
             "+proj=utm",
             "+proj=utm +zone=99",
             "+proj=utm +zone=nan",

@@ -221,5 +221,5 @@ fn unplaced(further: &FurtherSource, own: Option<&str>, first: Option<&str>) -> 
     let words = |text: Option<&str>| text.map_or("none".to_owned(), |text| format!("`{}`", text.trim()));
     MapError::new(format!("the place of `{}` in the town is not known from the projections of the files", further.source))
         .hint(format!("projection of the first file: {}; of this file: {}", words(first), words(own)))
-        .hint("cosfly compares UTM and transverse Mercator (PROJ texts and EPSG codes); give `shift_m = [x, y, z]`, and `turn_deg` where the file is turned")
+        .hint("cosfly compares UTM, transverse Mercator, Lambert's conic and the grids of several countries (PROJ texts, EPSG codes, well-known text with a code); give `shift_m = [x, y, z]`, and `turn_deg` where the file is turned")
 }

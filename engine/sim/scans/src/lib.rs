@@ -14,3 +14,4 @@ pub mod ply;
 pub mod relief;
 pub mod scalar;
 pub mod solid_cells;
+pub mod window_cover;

@@ -1,8 +1,10 @@
 //! Columns of solid space on a grid, joined into few boxes.
 
-use crate::grid::Grid;
+use crate::grid::{Grid, parts};
+use crate::window_cover::{Block, Window};
 use cosfly_frames::DVec2;
 use cosfly_geometry::OrientedBox;
+use std::collections::BTreeMap;
 
 /// Solid space over one cell, world, metres.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -13,11 +15,8 @@ pub struct Column {
     pub top_m: f64,
 }
 
-/// Bases that differ by more are never joined, metres.
-const SAME_BASE_M: f64 = 0.3;
-
-/// Thinnest box, metres.
-const THINNEST_M: f64 = 0.1;
+/// Most cells along one side of what is covered at once; wider parts are cut.
+const WIDEST: usize = 96;
 
 /// Which of the bases of joined columns is that of their box.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -28,107 +27,83 @@ pub enum Bases {
     Lowest,
 }
 
-/// Rectangles of cells whose tops differ by at most `tolerance_m`, as boxes to the highest top: nothing on top is lost.
+/// Boxes that hold every column to its top. None stands over a column by more than `tolerance_m`, or over a cell without
+/// one. Each is as wide as it can be: it may reach under higher columns, and what stands on it begins at its top.
 pub fn boxes_of(grid: &Grid, columns: &[Option<Column>], tolerance_m: f64, bases: Bases) -> Vec<OrientedBox> {
-    let mut is_taken = vec![false; columns.len()];
-    let mut boxes = Vec::new();
-    for first in 0..columns.len() {
-        if is_taken[first] || columns[first].is_none() {
-            continue;
-        }
-        let mut range = Range { tolerance_m, ..Range::default() };
-        let mut take = |cells: &mut dyn Iterator<Item = usize>| {
-            let mut wider = range;
-            for cell in cells {
-                if is_taken[cell] || !columns[cell].is_some_and(|column| wider.takes(column)) {
-                    return false;
-                }
-            }
-            range = wider;
-            true
-        };
-        let (column, row) = (first % grid.columns, first / grid.columns);
-        let (mut width, mut height) = (1, 1);
-        let mut grows = [take(&mut std::iter::once(first)); 2];
-        // By turns to both sides, so that rectangles become wide rather than long.
-        while grows != [false; 2] {
-            if grows[0] {
-                let right = (0..height).map(|line| first + width + line * grid.columns);
-                grows[0] = column + width < grid.columns && take(&mut right.into_iter());
-                width += usize::from(grows[0]);
-            }
-            if grows[1] {
-                let above = first + height * grid.columns;
-                grows[1] = row + height < grid.rows && take(&mut (above..above + width));
-                height += usize::from(grows[1]);
-            }
-        }
-        for line in 0..height {
-            is_taken[first + line * grid.columns..][..width].fill(true);
-        }
-        let size = DVec2::new(width as f64, height as f64);
-        let center = grid.point(DVec2::new(column as f64, row as f64) + 0.5 * size);
-        let base_m = range.base_m[usize::from(bases == Bases::Highest)];
-        let top_m = range.top_m[1].max(base_m + THINNEST_M);
-        boxes.push(OrientedBox {
-            center_in_world: center.extend(0.5 * (base_m + top_m)),
-            half_extents_m: (0.5 * grid.cell_m * size).extend(0.5 * (top_m - base_m)),
-            yaw_rad: grid.yaw_rad,
-        });
+    let (part, _) = parts(grid, |cell| columns[cell].is_some());
+    let mut pieces: BTreeMap<[usize; 3], Vec<([usize; 2], Column)>> = BTreeMap::new();
+    for (cell, column) in columns.iter().enumerate() {
+        let (place, Some(column)) = ([cell % grid.columns, cell / grid.columns], column) else { continue };
+        let piece = [part[cell] as usize, place[1] / WIDEST, place[0] / WIDEST];
+        pieces.entry(piece).or_default().push((place, *column));
     }
-    boxes
+    let blocks = pieces.values().flat_map(|cells| Window::of(cells).blocks(tolerance_m, bases));
+    blocks.map(|block| box_of(grid, &block)).collect()
 }
 
-/// Smallest and largest base and top.
-#[derive(Clone, Copy)]
-struct Range {
-    base_m: [f64; 2],
-    top_m: [f64; 2],
-    tolerance_m: f64,
-}
-
-impl Default for Range {
-    fn default() -> Self {
-        Self { base_m: [f64::INFINITY, f64::NEG_INFINITY], top_m: [f64::INFINITY, f64::NEG_INFINITY], tolerance_m: 0.0 }
-    }
-}
-
-impl Range {
-    /// Widens the range; whether it stays within the tolerance.
-    fn takes(&mut self, column: Column) -> bool {
-        for ([low, high], value) in [(&mut self.base_m, column.base_m), (&mut self.top_m, column.top_m)] {
-            (*low, *high) = (low.min(value), high.max(value));
-        }
-        self.base_m[1] - self.base_m[0] <= SAME_BASE_M && self.top_m[1] - self.top_m[0] <= self.tolerance_m
+fn box_of(grid: &Grid, block: &Block) -> OrientedBox {
+    let [column, row, width, height] = block.cells.map(|cells| cells as f64);
+    let size = DVec2::new(width, height);
+    let center = grid.point(DVec2::new(column, row) + 0.5 * size);
+    OrientedBox {
+        center_in_world: center.extend(0.5 * (block.base_m + block.top_m)),
+        half_extents_m: (0.5 * grid.cell_m * size).extend(0.5 * (block.top_m - block.base_m)),
+        yaw_rad: grid.yaw_rad,
     }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::window_cover::SAME_BASE_M;
 
     #[test]
-    fn boxes_cover_every_column_to_its_top_and_nothing_else() {
-        let grid = Grid::around([DVec2::ZERO, DVec2::new(9.9, 7.9)].into_iter(), 1.0, 0.4);
+    fn boxes_hold_every_column_and_little_else() {
+        let grid = Grid::around([DVec2::ZERO, DVec2::new(119.9, 17.9)].into_iter(), 1.0, 0.4);
         let column = |cell: usize| {
-            let top_m = 4.0 + ((cell * 7919) % 13) as f64 * 0.1;
-            (!cell.is_multiple_of(3) || cell.is_multiple_of(5)).then_some(Column { base_m: 0.0, top_m })
+            let top_m = 4.0 + ((cell * 7919) % 13) as f64 * 0.1 + (cell % grid.columns / 10) as f64;
+            let base_m = 0.05 * (cell / grid.columns) as f64;
+            (!cell.is_multiple_of(3) || cell.is_multiple_of(5)).then_some(Column { base_m, top_m })
         };
         let columns: Vec<_> = (0..grid.cells()).map(column).collect();
-        let boxes = boxes_of(&grid, &columns, 0.5, Bases::Highest);
-        let total: f64 = boxes.iter().map(|one| 4.0 * one.half_extents_m.x * one.half_extents_m.y).sum();
-        assert!((total - columns.iter().flatten().count() as f64).abs() < 1e-9, "the boxes do not overlap");
+        let boxes = boxes_of(&grid, &columns, 0.5, Bases::Lowest);
+        assert!(4 * boxes.len() < 3 * columns.iter().flatten().count(), "{}", boxes.len());
         for (cell, column) in columns.iter().enumerate() {
             let at = grid.in_cells(grid.center(cell));
-            let over = boxes.iter().find(|one| {
+            let is_over = |one: &&OrientedBox| {
                 let from = (at - grid.in_cells(one.center_in_world.truncate())).abs() * grid.cell_m;
                 from.cmple(one.half_extents_m.truncate()).all()
+            };
+            let ends = |one: &OrientedBox| [-1.0, 1.0].map(|side| one.center_in_world.z + side * one.half_extents_m.z);
+            let mut over: Vec<[f64; 2]> = boxes.iter().filter(is_over).map(ends).collect();
+            over.sort_by(|a, b| a[0].total_cmp(&b[0]));
+            let Some(column) = column else {
+                assert!(over.is_empty(), "cell {cell} is free");
+                continue;
+            };
+            assert!(
+                column.base_m - over[0][0] <= SAME_BASE_M + 1e-9 && over[0][0] <= column.base_m + 1e-9,
+                "cell {cell}: {over:?}"
+            );
+            let top_m = over.iter().fold(over[0][0], |top_m, [from, to]| {
+                assert!(*from <= top_m + 1e-9, "cell {cell} has a gap: {over:?}");
+                top_m.max(*to)
             });
-            let top_m = over.map(|one| one.center_in_world.z + one.half_extents_m.z);
-            match column {
-                Some(column) => assert!((0.0..=0.5 + 1e-9).contains(&(top_m.unwrap() - column.top_m + 1e-12))),
-                None => assert_eq!(top_m, None),
-            }
+            assert!((-1e-9..=0.5).contains(&(top_m - column.top_m)), "cell {cell}: {top_m} for {}", column.top_m);
         }
+    }
+
+    #[test]
+    fn a_ridged_roof_is_one_box_for_each_step() {
+        let grid = Grid::around([DVec2::ZERO, DVec2::new(11.9, 19.9)].into_iter(), 1.0, 0.0);
+        let column = |cell: usize| {
+            let (x, y) = (cell % grid.columns, cell / grid.columns);
+            let is_house = (1..13).contains(&x) && (1..21).contains(&y);
+            let rise_m = 0.5 * x.min(13 - x.min(13)) as f64;
+            is_house.then_some(Column { base_m: 0.0, top_m: 6.0 + rise_m })
+        };
+        let columns: Vec<_> = (0..grid.cells()).map(column).collect();
+        let boxes = boxes_of(&grid, &columns, 1.0, Bases::Highest);
+        assert!(boxes.len() <= 4, "{boxes:?}");
     }
 }

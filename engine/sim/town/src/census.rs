@@ -1,4 +1,4 @@
-//! Figures of a town: things by kind, their heights, walkable ground by kind.
+//! Figures of a town: things by kind, their heights, walkable ground by kind, seen ground by label.
 
 use crate::polygons::twice_area_m2;
 use crate::{Obstacle, Town};
@@ -11,6 +11,8 @@ pub struct Census {
     pub kinds: BTreeMap<String, Things>,
     /// Walkable ground by the name of its kind.
     pub walkable: BTreeMap<String, WalkableGround>,
+    /// Ground that is seen, by the name of its label.
+    pub ground: BTreeMap<&'static str, SeenGround>,
 }
 
 /// Things of one kind.
@@ -43,6 +45,15 @@ pub struct WalkableGround {
     /// Number of polygons.
     pub polygons: usize,
     /// Sum of their areas in plan, square metres; where polygons overlap, ground counts twice.
+    pub area_m2: f64,
+    /// The part of the area that was invented, square metres.
+    pub synthetic_area_m2: f64,
+}
+
+/// Ground that is seen under one label.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct SeenGround {
+    /// Area in plan, square metres; where surfaces lie over each other, ground counts for each.
     pub area_m2: f64,
     /// The part of the area that was invented, square metres.
     pub synthetic_area_m2: f64,
@@ -84,6 +95,13 @@ impl Town {
             ground.polygons += 1;
             ground.area_m2 += area_m2;
             ground.synthetic_area_m2 += if polygon.synthetic { area_m2 } else { 0.0 };
+        }
+        for mesh in &self.surfaces {
+            let plan = |corner: u32| mesh.vertices_in_world[corner as usize].truncate();
+            let area_m2: f64 = mesh.triangles.iter().map(|corners| 0.5 * twice_area_m2(&corners.map(plan)).abs()).sum();
+            let ground = census.ground.entry(mesh.label.name()).or_default();
+            ground.area_m2 += area_m2;
+            ground.synthetic_area_m2 += if mesh.synthetic { area_m2 } else { 0.0 };
         }
         census
     }

@@ -1,12 +1,13 @@
 //! OpenStreetMap extracts: `.osm.pbf`, `.osm` and `.osm.gz`.
 //!
 //! `elements` is what a file holds, read by `pbf` or `xml`; `frame` is its place in the world; `rings` makes areas of ways
-//! and relations; `buildings`, `roads`, `pavements`, `paths` and `things` make a town of them.
+//! and relations; `buildings`, `roads`, `pavements`, `paths`, `land` and `things` make a town of them.
 
 mod buildings;
 mod elements;
 mod frame;
 mod heights;
+mod land;
 mod lanes;
 mod options;
 mod paths;

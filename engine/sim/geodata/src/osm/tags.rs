@@ -56,6 +56,7 @@ const KEYS: &[&str] = &[
     "sidewalk:both",
     "sidewalk:left",
     "sidewalk:right",
+    "surface",
     "tunnel",
     "type",
     "waterway",

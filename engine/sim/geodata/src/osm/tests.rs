@@ -14,7 +14,7 @@ use prost::Message;
 use std::collections::BTreeMap;
 use std::io::Write;
 
-fn read(bytes: &[u8]) -> Result<(Town, Vec<String>), MapError> {
+pub(super) fn read(bytes: &[u8]) -> Result<(Town, Vec<String>), MapError> {
     let (mut town, warnings) = OpenStreetMap::read(bytes, &OsmOptions::default())?;
     town.update_bounds();
     town.assert_well_formed().expect("a town that was read is well formed");
@@ -22,7 +22,7 @@ fn read(bytes: &[u8]) -> Result<(Town, Vec<String>), MapError> {
 }
 
 /// A file of some elements around (0, 0) degrees; nodes are given in ten-thousandths of a degree, about 11 m.
-fn osm(nodes: &[(i64, i32, i32)], rest: &str) -> String {
+pub(super) fn osm(nodes: &[(i64, i32, i32)], rest: &str) -> String {
     let place = |value: i32| f64::from(value) * 1e-4;
     let nodes: String = nodes
         .iter()
@@ -32,14 +32,14 @@ fn osm(nodes: &[(i64, i32, i32)], rest: &str) -> String {
     format!("<osm version=\"0.6\">{bounds}\n{nodes}{rest}</osm>")
 }
 
-fn way(id: i64, nodes: &[i64], tags: &[(&str, &str)]) -> String {
+pub(super) fn way(id: i64, nodes: &[i64], tags: &[(&str, &str)]) -> String {
     let nodes: String = nodes.iter().map(|node| format!("<nd ref=\"{node}\"/>")).collect();
     let tags: String = tags.iter().map(|(key, value)| format!("<tag k=\"{key}\" v=\"{value}\"/>")).collect();
     format!("<way id=\"{id}\">{nodes}{tags}</way>\n")
 }
 
 const SQUARE: [(i64, i32, i32); 4] = [(1, 0, 0), (2, 2, 0), (3, 2, 2), (4, 0, 2)];
-const RING: [i64; 5] = [1, 2, 3, 4, 1];
+pub(super) const RING: [i64; 5] = [1, 2, 3, 4, 1];
 
 /// The example as PBF, through the reader's own elements.
 fn example_as_pbf(pack: impl Fn(&[u8]) -> Blob) -> Vec<u8> {

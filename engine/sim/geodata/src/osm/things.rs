@@ -149,6 +149,14 @@ impl Things<'_> {
         self.obstacles.push(Obstacle { shape, kind, object_id, synthetic: false });
     }
 
+    /// A tree that the file does not state, flagged as synthetic.
+    pub fn add_assumed_tree(&mut self, number: u64, at: DVec2) {
+        let (first, trees, unknown) = (self.obstacles.len(), self.trees, self.trees_of_assumed_height);
+        self.add_tree(number, at, &Tags::default());
+        (self.trees, self.trees_of_assumed_height) = (trees, unknown);
+        self.obstacles[first..].iter_mut().for_each(|one| one.synthetic = true);
+    }
+
     /// A trunk and a crown. `number` draws what the tags do not state.
     fn add_tree(&mut self, number: u64, at: DVec2, tags: &Tags) {
         self.trees += 1;

@@ -6,7 +6,7 @@ use super::options::OsmOptions;
 use super::rings::{Problems, areas};
 use super::tags::Tags;
 use super::things::Things;
-use super::{buildings, lanes, paths, roads, sea, things};
+use super::{buildings, land, lanes, paths, roads, sea, things};
 use crate::open_ground::add_open_ground;
 use crate::slabs::trapezoids;
 use cosfly_frames::DVec2;
@@ -31,7 +31,10 @@ pub fn town(elements: &Elements, options: &OsmOptions) -> Result<(Town, Vec<Stri
     let roads = roads::read(elements, &frame)?;
     let mut buildings = buildings::read(elements, &frame, options, &mut next_id, &mut problems)?;
     let mut paths = paths::read(elements, &frame, &roads, options, &mut meshes, &mut problems)?;
-    let things = things::read(elements, &frame, &paths.nodes, &mut next_id)?;
+    let mut things = things::read(elements, &frame, &paths.nodes, &mut next_id)?;
+    let around = (roads.as_slice(), &paths, buildings.obstacles.as_slice());
+    let woods = land::add_woods(elements, &frame, &mut things, around);
+    land::add_surfaces(elements, &frame, &mut meshes, &mut problems);
     add_ground(elements, &frame, &mut meshes, &mut problems);
     roads::add_surfaces(&mut meshes, &roads);
     roads::add_rails(&mut meshes, elements, &frame)?;
@@ -42,6 +45,7 @@ pub fn town(elements: &Elements, options: &OsmOptions) -> Result<(Town, Vec<Stri
     let mut notes = notes(&buildings, &things, options);
     let mut obstacles: Vec<Obstacle> = std::mem::take(&mut buildings.obstacles);
     obstacles.extend(things.obstacles);
+    notes.extend(woods);
     notes.append(&mut paths.notes);
     notes.push("everything stands on one level: the file has no heights of the ground; bridges lie on it, tunnels are left out".to_owned());
     terrain::add_terrain(&mut meshes, &obstacles, terrain::USUAL_MARGIN_M)?;

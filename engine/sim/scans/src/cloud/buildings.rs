@@ -105,8 +105,12 @@ impl<'a> Site<'a> {
             }
         }
         let seeds = nearest_seeds(&grid, |cell| is_seed[cell], self.survey.reach_cells());
-        let mut roofs: Vec<Option<Column>> =
-            seeds.iter().map(|seed| roof.get(*seed as usize).copied().flatten()).collect();
+        // Beyond the edge of the cloud nothing was seen: no roof grows there.
+        let [low, high] = cloud.bounds;
+        let is_seen = |cell: usize| is_seed[cell] || grid.center(cell).clamp(low, high) == grid.center(cell);
+        let nearest =
+            |(cell, seed): (usize, &u32)| roof.get(*seed as usize).copied().flatten().filter(|_| is_seen(cell));
+        let mut roofs: Vec<Option<Column>> = seeds.iter().enumerate().map(nearest).collect();
         fill_pits(&grid, &mut roofs, (self.survey.reach_cells() / 2).max(1));
         let columns = self.standing(&grid, &roofs, &ground_m);
         boxes_of(&grid, &columns, STEP_M.max(cell_m), Bases::Highest)

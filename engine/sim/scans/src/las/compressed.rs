@@ -1,5 +1,6 @@
 //! LAZ: chunks of compressed points, unpacked side by side. Sizes and counts are checked before anything is allocated.
 
+use super::contained::contained;
 use super::header::Header;
 use super::{Points, Record};
 use cosfly_town::MapError;
@@ -8,7 +9,6 @@ use laz::record::{LayeredPointRecordDecompressor, RecordDecompressor, Sequential
 use laz::{DecompressionSelection, LazItem, LazItemRecordBuilder, LazItemType, LazVlr};
 use rayon::prelude::*;
 use std::io::Cursor;
-use std::panic::{AssertUnwindSafe, catch_unwind};
 
 /// User and number of the record that says how points are compressed.
 pub const USER: &str = "laszip encoded";
@@ -133,7 +133,7 @@ fn unpacked(header: &Header<'_>, items: &Vec<LazItem>, chunk: &Chunk<'_>) -> Res
         }
     };
     // The decoder of laz 0.13 indexes beyond its tables on some damaged bytes; nothing of it outlives the chunk.
-    catch_unwind(AssertUnwindSafe(records)).unwrap_or_else(|_| Err(damaged("a chunk holds what no encoder writes")))
+    contained(records).unwrap_or_else(|| Err(damaged("a chunk holds what no encoder writes")))
 }
 
 fn all_records<R>(

@@ -88,6 +88,9 @@ fn figures(map: &ReadMap) -> Value {
             json!({ "polygons": it.polygons, "area_m2": it.area_m2, "synthetic_area_m2": it.synthetic_area_m2 }),
         )
     });
+    let ground = census.ground.iter().map(|(label, it)| {
+        ((*label).to_owned(), json!({ "area_m2": it.area_m2, "synthetic_area_m2": it.synthetic_area_m2 }))
+    });
     let report = &town.simplification;
     json!({
         "name": town.name, "format": format,
@@ -95,6 +98,7 @@ fn figures(map: &ReadMap) -> Value {
         "offset_m": town.origin.offset_m.to_array(), "geo_reference": town.origin.geo_reference,
         "obstacles": kinds.collect::<serde_json::Map<_, _>>(),
         "walkable": walkable.collect::<serde_json::Map<_, _>>(),
+        "ground": ground.collect::<serde_json::Map<_, _>>(),
         "planning_boxes": {
             "before": report.input_boxes, "after": report.output_boxes,
             "tolerance_m": report.tolerance_m, "added_volume_share": report.added_volume_share,
@@ -123,6 +127,10 @@ fn text(map: &ReadMap, figures: &Value, plan: Option<&Path>) -> String {
     let _ = writeln!(text, "\n{:<14} {:>8} {:>12}  {:>12}", "walkable", "polygons", "area m2", "invented m2");
     for (kind, it) in &census.walkable {
         let _ = writeln!(text, "{kind:<14} {:>8} {:>12.0}  {:>12.0}", it.polygons, it.area_m2, it.synthetic_area_m2);
+    }
+    let _ = writeln!(text, "\n{:<14} {:>8} {:>12}  {:>12}", "ground", "", "area m2", "invented m2");
+    for (label, it) in &census.ground {
+        let _ = writeln!(text, "{label:<14} {:>8} {:>12.0}  {:>12.0}", "", it.area_m2, it.synthetic_area_m2);
     }
     let report = &town.simplification;
     let _ = writeln!(
