@@ -1,4 +1,4 @@
-//! [`FlySettings`]: the table `[tool.fly]` of a recipe: the drone that flies its episodes.
+//! [`FlySettings`]: the table `[tool.fly]` of a recipe: the drone that flies its episodes, the air, the latency.
 
 use cosfly_diagnose::{Diagnostic, Fault, Result};
 use cosfly_env::{Blackouts, DroneModel, DroneSettings, Settings};
@@ -16,6 +16,8 @@ pub struct FlySettings {
     pub gusts: bool,
     /// Number of stretches of an episode in which the camera sees nothing, each of two to four seconds.
     pub blackouts: u32,
+    /// Time from an observation to the effect of the action that answers it, milliseconds.
+    pub latency_ms: u32,
 }
 
 /// The table as written.
@@ -29,6 +31,8 @@ struct Given {
     gusts: bool,
     #[serde(default)]
     blackouts: u32,
+    #[serde(default)]
+    latency_ms: u32,
 }
 
 impl FlySettings {
@@ -40,8 +44,8 @@ impl FlySettings {
         let Some(table) = recipe.tool.get("fly") else { return Ok(Self::default()) };
         let refused = |message: String| {
             let message = format!("[tool.fly] of `{}`: {message}", recipe.path.display());
-            let allowed = "allowed are drone (point-mass, crazyflie, pelican), wind_mps (0 to 30), gusts (true or false) and \
-                           blackouts (0 to 10)";
+            let allowed = "allowed are drone (point-mass, crazyflie, pelican), wind_mps (0 to 30), gusts (true or false), \
+                           blackouts (0 to 10) and latency_ms (0 to 5000)";
             Diagnostic::new("fly-settings", Fault::Recipe, message).hint(allowed)
         };
         let given: Given = serde_json::from_value(table.clone()).map_err(|error| refused(error.to_string()))?;
@@ -56,10 +60,14 @@ impl FlySettings {
         if given.blackouts > 10 {
             return Err(refused(format!("blackouts is {}", given.blackouts)));
         }
+        if given.latency_ms > 5000 {
+            return Err(refused(format!("latency_ms is {}", given.latency_ms)));
+        }
         if drone == DroneModel::PointMass && (given.wind_mps > 0.0 || given.gusts) {
             return Err(refused("wind does not move a point mass".to_owned()));
         }
-        Ok(Self { drone, wind_mps: given.wind_mps, gusts: given.gusts, blackouts: given.blackouts })
+        let Given { wind_mps, gusts, blackouts, latency_ms, .. } = given;
+        Ok(Self { drone, wind_mps, gusts, blackouts, latency_ms })
     }
 }
 
@@ -68,6 +76,7 @@ impl FlySettings {
     pub fn environment(&self) -> Settings {
         let defaults = Settings::default();
         let drone = DroneSettings { model: self.drone, wind_mps: self.wind_mps, gusts: self.gusts, sensors: false };
-        Settings { drone, blackouts: Blackouts { count: self.blackouts, ..defaults.blackouts }, ..defaults }
+        let blackouts = Blackouts { count: self.blackouts, ..defaults.blackouts };
+        Settings { drone, blackouts, latency_s: f64::from(self.latency_ms) / 1000.0, ..defaults }
     }
 }

@@ -39,7 +39,7 @@ pub struct Task {
 impl Task {
     /// An episode in a town that is not drawn: empty ground under a clear sky.
     pub fn undrawn(episode: Episode, knowledge: Knowledge, certified_visibility: f64) -> Self {
-        let scenery = Arc::new(Scenery { town: Town::default(), looks: episode.seed });
+        let scenery = Arc::new(Scenery { town: Arc::default(), looks: episode.seed });
         let shooting = Shooting::plain(episode.looks);
         Self { episode: Arc::new(episode), knowledge, certified_visibility, scenery, shooting }
     }
@@ -48,7 +48,7 @@ impl Task {
 /// A town as it looks.
 pub struct Scenery {
     /// The town.
-    pub town: Town,
+    pub town: Arc<Town>,
     /// Seed of colours and patterns.
     pub looks: Seed,
 }
@@ -168,9 +168,9 @@ impl Reader<'_> {
             return Ok(known.clone());
         }
         let stored = self.blobs(at.0, at.1)?[read::TOWN_BLOB];
-        let (town, looks) = (read::town(&self.store.read(&stored)?)?, Seed(stored.digest.0));
+        let (town, looks) = (Arc::new(read::town(&self.store.read(&stored)?)?), Seed(stored.digest.0));
         // Buildings look as in films.
-        let known = (Arc::new(Place::new(town.clone(), looks)), Arc::new(Scenery { town, looks }));
+        let known = (Arc::new(Place::new(Arc::clone(&town), looks)), Arc::new(Scenery { town, looks }));
         self.places.insert(at, known.clone());
         Ok(known)
     }

@@ -1,5 +1,6 @@
 //! [`Flock`]: many environments that are stepped together, for learners.
 
+mod team;
 #[cfg(test)]
 mod tests;
 
@@ -10,6 +11,8 @@ use cosfly_env::{Action, End, Environment, FEATURES, Policy, Reward, Settings};
 use cosfly_frames::{RandomStream, Seed};
 use rayon::{ThreadPool, ThreadPoolBuildError};
 use std::sync::Arc;
+
+pub use team::BESIDE;
 
 /// Numbers of an action.
 pub const ACTIONS: usize = 5;
@@ -52,6 +55,8 @@ pub struct Outputs {
     pub look_alikes: Vec<u32>,
     /// The expert's actions for the observations, where they are asked for.
     pub expert_actions: Vec<[f32; ACTIONS]>,
+    /// Of a team: [`BESIDE`] numbers on each other drone.
+    pub beside: Vec<Vec<f32>>,
 }
 
 /// What all environments share.
@@ -60,6 +65,8 @@ struct Shared {
     settings: Settings,
     mode: Autoreset,
     has_experts: bool,
+    /// Whether all fly the same episode at the same time.
+    is_team: bool,
 }
 
 /// One of many.
@@ -154,7 +161,7 @@ pub struct Flock {
 impl Flock {
     /// Environments over the episodes of `tasks`, of which there must be one; before the first reset.
     pub fn new(tasks: Arc<[Task]>, count: usize, settings: Settings, mode: Autoreset, has_experts: bool) -> Self {
-        let shared = Shared { tasks, settings, mode, has_experts };
+        let shared = Shared { tasks, settings, mode, has_experts, is_team: false };
         let birds: Vec<Bird> = (0..count).map(|number| Bird::new(number, &shared)).collect();
         let outputs = Outputs {
             features: vec![[0.0; FEATURES]; count],
@@ -169,6 +176,14 @@ impl Flock {
             ..Outputs::default()
         };
         Self { shared, birds, outputs, studio: None }
+    }
+
+    /// The same drones as a team: all fly the same episode at the same time, which the first draws, each from a start of its own, and
+    /// they can hit each other.
+    pub fn as_team(mut self) -> Self {
+        self.shared.is_team = true;
+        self.outputs.beside = vec![vec![]; self.len()];
+        self
     }
 
     /// The same environments with pictures in their observations, drawn on `threads` threads: their number changes no byte.
@@ -229,6 +244,10 @@ impl Flock {
     /// Begins the episode of a name in one environment; false where there is none.
     pub fn begin_episode(&mut self, number: usize, name: &str) -> bool {
         let Some(task) = self.shared.tasks.iter().position(|task| task.episode.name == name) else { return false };
+        if self.shared.is_team {
+            self.begin_team(task);
+            return true;
+        }
         let bird = &mut self.birds[number];
         bird.begin_task(&self.shared, task);
         (bird.reward, bird.end) = (Reward::default(), None);
@@ -240,6 +259,15 @@ impl Flock {
 
     /// Begins an episode in each environment that `chosen` names; where there is a seed, its draws begin anew.
     pub fn reset(&mut self, seeds: &[Option<u64>], chosen: impl Fn(usize) -> bool) {
+        if self.shared.is_team {
+            let Some(first) = self.birds.first_mut() else { return };
+            if let Some(seed) = seeds.first().copied().flatten() {
+                first.stream = stream_of(seed);
+            }
+            let task = first.stream.index(self.shared.tasks.len());
+            self.begin_team(task);
+            return;
+        }
         for (number, bird) in self.birds.iter_mut().enumerate().filter(|(number, _)| chosen(*number)) {
             if let Some(seed) = seeds.get(number).copied().flatten() {
                 bird.stream = stream_of(seed);
@@ -253,14 +281,38 @@ impl Flock {
 
     /// Moves every environment on by one step, with one action of [`Action::of_numbers`] each.
     pub fn step(&mut self, actions: &[[f32; ACTIONS]]) {
-        for (number, (bird, action)) in self.birds.iter_mut().zip(actions).enumerate() {
-            bird.step(action, &self.shared);
-            self.outputs.tell(number, bird);
-            self.outputs.last_features[number] = self.outputs.features[number];
+        let before = if self.shared.is_team { team::places(&self.birds) } else { vec![] };
+        self.birds.iter_mut().zip(actions).for_each(|(bird, action)| bird.step(action, &self.shared));
+        if self.shared.is_team {
+            team::meet(&mut self.birds, &before, &self.shared);
         }
+        self.tell_all();
         self.draw(|_| true);
         if self.shared.mode == Autoreset::SameStep {
             self.begin_ended();
+        }
+    }
+
+    /// Begins an episode with the whole team.
+    fn begin_team(&mut self, task: usize) {
+        let episode = &self.shared.tasks[task].episode;
+        let episodes = team::episodes(episode, self.birds.len(), self.shared.settings.radius_m);
+        for (bird, episode) in self.birds.iter_mut().zip(episodes) {
+            bird.begin_task(&self.shared, task);
+            bird.environment.reset(episode);
+            (bird.reward, bird.end) = (Reward::default(), None);
+        }
+        self.tell_all();
+        self.draw(|_| true);
+    }
+
+    fn tell_all(&mut self) {
+        for (number, bird) in self.birds.iter().enumerate() {
+            self.outputs.tell(number, bird);
+            self.outputs.last_features[number] = self.outputs.features[number];
+        }
+        for (number, told) in self.outputs.beside.iter_mut().enumerate() {
+            *told = team::beside(&self.birds, number);
         }
     }
 

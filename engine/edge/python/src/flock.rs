@@ -5,6 +5,7 @@ use crate::errors::exception;
 use cosfly::Refusal;
 use cosfly_diagnose::{Diagnostic, Fault};
 use cosfly_env::pictures::{Channel, Format};
+use cosfly_fly::settings::FlySettings;
 use cosfly_fly::suite::{Suite, Task};
 use cosfly_fly::vector::{ACTIONS, Autoreset, Flock};
 use cosfly_render::Weather;
@@ -27,7 +28,7 @@ pub struct PyFlock {
 impl PyFlock {
     /// Makes the episodes that the store lacks, and `count` environments over them.
     #[new]
-    #[pyo3(signature = (recipe, overrides, store, count, step_s, latency_s, mode, has_experts, channels, size, farthest_m, weather, threads))]
+    #[pyo3(signature = (recipe, overrides, store, count, step_s, latency_s, mode, has_experts, channels, size, farthest_m, weather, threads, is_team))]
     #[expect(clippy::too_many_arguments, reason = "Python's class names them")]
     fn new(
         py: Python<'_>,
@@ -36,7 +37,7 @@ impl PyFlock {
         store: PathBuf,
         count: usize,
         step_s: f64,
-        latency_s: f64,
+        latency_s: Option<f64>,
         mode: &str,
         has_experts: bool,
         channels: Vec<String>,
@@ -44,6 +45,7 @@ impl PyFlock {
         farthest_m: f32,
         weather: &str,
         threads: usize,
+        is_team: bool,
     ) -> PyResult<Self> {
         let mode = match mode {
             "next_step" => Autoreset::NextStep,
@@ -52,13 +54,16 @@ impl PyFlock {
             other => return Err(PyValueError::new_err(format!("`{other}` is no mode of autoreset"))),
         };
         let made = py.detach(|| on_own_threads(|| made(&recipe, &overrides, &store)));
-        let tasks = match made {
-            Ok(tasks) => tasks,
+        let (tasks, suite) = match made {
+            Ok(made) => made,
             Err(Refusal::Work(refusals)) => return Err(exception(py, &refusals)),
             Err(Refusal::Arguments(error)) => return Err(PyValueError::new_err(error.to_string())),
         };
-        let settings = cosfly_env::Settings { step_s, latency_s, ..cosfly_env::Settings::default() };
+        let suite = suite.environment();
+        let latency_s = latency_s.unwrap_or(suite.latency_s);
+        let settings = cosfly_env::Settings { step_s, latency_s, ..suite };
         let flock = Flock::new(tasks, count, settings, mode, has_experts);
+        let flock = if is_team { flock.as_team() } else { flock };
         let channel = |name: &String| {
             Channel::named(name).ok_or_else(|| PyValueError::new_err(format!("`{name}` is no channel of pictures")))
         };
@@ -121,6 +126,9 @@ impl PyFlock {
                 put_pictures(&told, (prefix, "rgb"), &album.rgb, &[count, height, width, 3])?;
             }
         }
+        if !outputs.beside.is_empty() {
+            told.set_item("beside", PyArray2::from_vec2(py, &outputs.beside)?)?;
+        }
         for (at, name) in cosfly_env::Reward::NAMES.iter().enumerate() {
             let term: Vec<f64> = outputs.terms.iter().map(|terms| terms[at]).collect();
             told.set_item(format!("reward_{name}"), PyArray1::from_vec(py, term))?;
@@ -179,10 +187,14 @@ fn put_pictures<T: numpy::Element>(
     told.set_item(format!("{prefix}{name}"), PyArray1::from_slice(told.py(), pixels).reshape(shape)?)
 }
 
-fn made(recipe: &std::path::Path, overrides: &[String], store: &std::path::Path) -> Result<Arc<[Task]>, Refusal> {
+/// Episodes, and what their recipe says of the drone.
+type Made = (Arc<[Task]>, FlySettings);
+
+fn made(recipe: &std::path::Path, overrides: &[String], store: &std::path::Path) -> Result<Made, Refusal> {
     let one = |refusal: Box<Diagnostic>| Refusal::Work(vec![refusal]);
     let recipe = if recipe.is_dir() { recipe.join("recipe.toml") } else { recipe.to_owned() };
     let recipe = cosfly_recipe::load(&recipe, overrides, &cosfly_stages::registry()).map_err(Refusal::Work)?;
+    let settings = FlySettings::of(&recipe).map_err(one)?;
     let store = Store::open(store).map_err(one)?;
     let jobs = std::thread::available_parallelism().map_or(1, usize::from);
     let options = RunOptions { jobs, ..RunOptions::default() };
@@ -191,5 +203,5 @@ fn made(recipe: &std::path::Path, overrides: &[String], store: &std::path::Path)
         let message = format!("`{}` has no episode: the expert found no flight", recipe.path.display());
         return Err(one(Diagnostic::new("fly-suite", Fault::Recipe, message)));
     }
-    Ok(suite.tasks.into())
+    Ok((suite.tasks.into(), settings))
 }

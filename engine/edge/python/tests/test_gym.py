@@ -9,6 +9,7 @@ gym = pytest.importorskip("gymnasium")
 from gymnasium.utils.env_checker import check_env  # noqa: E402
 from gymnasium.vector import AutoresetMode  # noqa: E402
 
+import cosfly  # noqa: E402
 import cosfly.gym  # noqa: E402, F401 (registers the environments, as the installed package does by itself)
 
 ID = "cosfly/Track-v0"
@@ -137,3 +138,36 @@ def test_what_is_not_there_is_refused():
         envs = make_vec(num_envs=2)
         envs.reset(seed=1)
         envs.step(np.zeros((3, 5), dtype=np.float32))
+
+
+def test_the_suite_names_drone_wind_and_latency(tmp_path):
+    text = open("small/recipe.toml").read()
+    recipe = tmp_path / "windy.toml"
+    recipe.write_text(text + '\n[tool.fly]\ndrone = "pelican"\nwind_mps = 8\ngusts = true\nlatency_ms = 500\n')
+    flights = {}
+    for name, given, more in [("plain", "small/recipe.toml", {}), ("windy", recipe, {}), ("at once", recipe, {"latency_s": 0.0})]:
+        env = gym.make(ID, recipe=given, **more).unwrapped
+        env.reset(seed=1)
+        flights[name] = np.stack([env.step(np.float32([3, 0, 0, 0, 0]))[0] for _ in range(8)])
+    # Entries 6 to 8 are the velocity: a quadrotor in gusts is nowhere exactly what a point mass is.
+    assert not np.allclose(flights["plain"][:, 6:9], flights["at once"][:, 6:9], atol=1e-3)
+    # An action takes effect half a second after its observation.
+    assert np.abs(flights["windy"][:3, 6:9] - flights["at once"][:3, 6:9]).max() > 0.05
+    recipe.write_text(text + "\n[tool.fly]\nlatency_ms = 9000\n")
+    with pytest.raises(cosfly.Error, match="latency_ms is 9000"):
+        gym.make(ID, recipe=recipe)
+
+
+def test_a_camera_that_sees_nothing_gives_zeros(tmp_path):
+    recipe = tmp_path / "dark.toml"
+    recipe.write_text(open("small/recipe.toml").read() + "\n[tool.fly]\nblackouts = 2\n")
+    env = gym.make(ID, recipe=recipe, obs=("state", "depth"), size=16, expert_action=True).unwrapped
+    _, info = env.reset(seed=1)
+    dark, ended = 0, False
+    while not ended:
+        observation, _, terminated, truncated, info = env.step(info["expert_action"])
+        ended = terminated or truncated
+        if not observation["depth"].any():
+            dark += 1
+            assert not info["tracked"]
+    assert dark > 5

@@ -11,10 +11,15 @@ use cosfly_objectives::{Mission, Objective, ObjectiveConfig, Site, reference, tr
 use cosfly_pilot::aim::{AimConfig, aimed};
 use cosfly_planner::certificate::view_rates_deg_s;
 use cosfly_planner::obstacles::exact::ExactMap;
+use cosfly_planner::obstacles::ground::GroundGrid;
 use cosfly_planner::obstacles::moving::{OtherDrones, drone_boxes, hides};
 use cosfly_planner::{MucoConfig, PlanOutcome, StartState, TermCost, Trajectory, body_points, plan_request};
 use std::collections::BTreeMap;
-use std::sync::Arc;
+use std::sync::{Arc, OnceLock};
+
+/// Flights of up to so many frames sample the ground once for all states that ask for a way on; along longer ones the samples would
+/// lie too far apart.
+const SHARED_GROUND_FRAMES: usize = 4096;
 
 /// A walk that may accompany another one: id and track.
 pub type Companion = (String, TargetTrack);
@@ -56,6 +61,8 @@ pub struct Flight {
     aim: Option<AimConfig>,
     plugins: Plugins,
     seed: Seed,
+    /// The ground around the whole flight, once a state asks for a way on.
+    ground: OnceLock<GroundGrid>,
 }
 
 impl Flight {
@@ -114,8 +121,20 @@ impl Flight {
             }
         };
         let (companion_ids, companions) = companions.into_iter().unzip();
-        let objective = objective.clone();
-        Ok(Self { mission, companion_ids, companions, movers, drones: 0, purpose, objective, aim: None, plugins, seed })
+        let (objective, ground) = (objective.clone(), OnceLock::new());
+        Ok(Self {
+            mission,
+            companion_ids,
+            companions,
+            movers,
+            drones: 0,
+            purpose,
+            objective,
+            aim: None,
+            plugins,
+            seed,
+            ground,
+        })
     }
 
     /// The same flight with a pilot who aims at the walker as `aim` says; flights that follow nobody stay as they are.
@@ -236,6 +255,10 @@ impl Flight {
         if let Some((frame, state, known)) = start {
             (request.start, request.flight) = (Some(state), known);
             request.first_frame = i64::try_from(frame).unwrap_or(i64::MAX);
+            if self.mission.track.len() <= SHARED_GROUND_FRAMES {
+                let whole = || self.mission.request(&world.exact, &world.town.planning_boxes, &ground).sampled_ground();
+                request.ground_grid = Some(self.ground.get_or_init(whole));
+            }
         }
         let (terms, after) = self.plugins.open_terms(world, self.seed)?;
         request.extra_terms.extend(terms);

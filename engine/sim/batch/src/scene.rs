@@ -18,14 +18,12 @@ pub struct BatchScene {
 impl BatchScene {
     /// Prepares a town; `seed` draws its looks, as for [`Scene::new`].
     pub fn new(town: &Town, seed: Seed) -> Self {
-        let scene = Scene::new(town, seed);
-        let prepared = Self::of(town, &scene);
-        Self { large: Some(scene), ..prepared }
+        Self { large: Some(Scene::new(town, seed)), ..Self::without_colours(town) }
     }
 
-    /// Prepares a town from its scene in the large renderer: the same faces. There are no colours.
-    pub fn of(town: &Town, scene: &Scene) -> Self {
-        let mut faces = scene.faces();
+    /// Prepares a town for all channels but colours: a small part of the memory.
+    pub fn without_colours(town: &Town) -> Self {
+        let mut faces = Scene::faces_of(town);
         // Six faces of each box come first, then the ground's.
         let boxes = faces.partition_point(|face| face.outward_in_world.is_some());
         let index = GroundIndex::new(town);

@@ -94,7 +94,7 @@ fn setup_of(target: &Walker) -> TargetSetup {
 /// rounding decides.
 fn agrees_with_large(town: &Town, count: usize, people: u32, rare: usize) {
     let scene = Scene::new(town, Seed([1; 32]));
-    let batch = BatchScene::of(town, &scene);
+    let batch = BatchScene::without_colours(town);
     let weather = Weather { sun_azimuth_angle: 200.0, ..Weather::preset("ClearNoon").expect("a preset") };
     for (number, place) in with_vehicles(towns::places(town, count, people)).iter().enumerate() {
         for size in [64u32, 84, 128, 224] {

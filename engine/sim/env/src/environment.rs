@@ -212,6 +212,17 @@ impl Environment {
         Step { observation: self.observation, reward, end: self.score.end }
     }
 
+    /// Ends the episode in its last step by a collision with something that the episode does not know, such as another drone.
+    /// Whether the episode did not end by a collision already.
+    pub fn collide(&mut self) -> bool {
+        if self.score.end == Some(End::Collision) {
+            return false;
+        }
+        self.score.end = Some(End::Collision);
+        self.score.reward_sum -= self.settings.weights.collision;
+        true
+    }
+
     /// Flies on with the action in force; whether something is touched on the way.
     fn fly(&mut self, from_s: f64, to_s: f64) -> bool {
         let from = self.drone.motion().position_in_world;

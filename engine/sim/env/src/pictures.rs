@@ -100,6 +100,16 @@ impl Album {
         copy_part(&mut self.rgb, &other.rgb, &(3 * part.start..3 * part.end));
     }
 
+    /// Fills a picture with zeros.
+    fn wipe(&mut self, number: usize) {
+        let part = number * self.pixels..(number + 1) * self.pixels;
+        fill_part(&mut self.depth_m, &part);
+        fill_part(&mut self.semantic, &part);
+        fill_part(&mut self.instance, &part);
+        fill_part(&mut self.mask, &part);
+        fill_part(&mut self.rgb, &(3 * part.start..3 * part.end));
+    }
+
     fn outputs(&mut self, part: Range<usize>) -> Outputs<'_> {
         Outputs {
             depth_m: self.depth_m.get_mut(part.clone()),
@@ -108,6 +118,12 @@ impl Album {
             target_mask: self.mask.get_mut(part.clone()),
             rgb: self.rgb.get_mut(3 * part.start..3 * part.end),
         }
+    }
+}
+
+fn fill_part<T: Copy + Default>(channel: &mut [T], part: &Range<usize>) {
+    if let Some(part) = channel.get_mut(part.clone()) {
+        part.fill(T::default());
     }
 }
 
@@ -138,7 +154,8 @@ impl Pictures {
         &self.format
     }
 
-    /// Draws what each environment's camera sees now into an album of the format, from picture number `first` on.
+    /// Draws what each environment's camera sees now into an album of the format, from picture number `first` on. Pictures of a
+    /// camera that sees nothing now are zeros.
     ///
     /// # Panics
     /// Where the album has no room for all pictures.
@@ -151,9 +168,10 @@ impl Pictures {
             bystanders.extend(self::bystanders(environment));
             ranges.push(start..bystanders.len());
         }
+        let has_colours = format.channels.contains(&Channel::Rgb);
         let views: Vec<View<'_>> = (environments.iter().zip(&*ranges))
             .map(|(environment, range)| View {
-                scene: environment.episode().place.scene(),
+                scene: environment.episode().place.scene(has_colours),
                 pose: environment.camera(),
                 horizontal_fov_rad: environment.settings().lens.horizontal_deg.to_radians(),
                 target: Some(target(environment)),
@@ -167,6 +185,9 @@ impl Pictures {
         renderer.render(&views, album.outputs(part.clone()));
         for depth_m in album.depth_m.get_mut(part).into_iter().flatten() {
             *depth_m = depth_m.min(format.farthest_m);
+        }
+        for number in (first..).zip(environments).filter_map(|(number, one)| one.is_blind().then_some(number)) {
+            album.wipe(number);
         }
     }
 }

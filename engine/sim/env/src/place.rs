@@ -5,7 +5,7 @@ use cosfly_frames::{DVec3, Seed};
 use cosfly_geometry::{BoxBvh, OrientedBox, SpatialQuery};
 use cosfly_render::frame::{TARGET_INSTANCE, object_instance};
 use cosfly_town::{GroundIndex, Town};
-use std::sync::{Mutex, OnceLock, PoisonError};
+use std::sync::{Arc, OnceLock};
 
 /// The surroundings of a flight, ready for queries; shared by all episodes of a town.
 pub struct Place {
@@ -17,14 +17,15 @@ pub struct Place {
     lowest_m: f64,
     largest_instance: u32,
     looks: Seed,
-    /// The town until its pictures are prepared.
-    town: Mutex<Option<Town>>,
-    scene: OnceLock<BatchScene>,
+    /// The town as pictures show it.
+    town: Arc<Town>,
+    without_colours: OnceLock<BatchScene>,
+    with_colours: OnceLock<BatchScene>,
 }
 
 impl Place {
     /// The surroundings in a town; `looks` draws the look of its buildings.
-    pub fn new(town: Town, looks: Seed) -> Self {
+    pub fn new(town: Arc<Town>, looks: Seed) -> Self {
         let instances = town.obstacles.iter().map(|obstacle| object_instance(obstacle.object_id));
         Self {
             exact: BoxBvh::build(town.obstacles.iter().map(|obstacle| obstacle.shape).collect()),
@@ -33,8 +34,9 @@ impl Place {
             lowest_m: town.min_in_world.z.min(0.0),
             largest_instance: instances.max().unwrap_or(TARGET_INSTANCE),
             looks,
-            town: Mutex::new(Some(town)),
-            scene: OnceLock::new(),
+            town,
+            without_colours: OnceLock::new(),
+            with_colours: OnceLock::new(),
         }
     }
 
@@ -45,17 +47,17 @@ impl Place {
             planning_boxes: boxes,
             ground: GroundIndex::of_surfaces(&[], |_| true),
             lowest_m: 0.0,
-            ..Self::new(Town::default(), Seed([0; 32]))
+            ..Self::new(Arc::default(), Seed([0; 32]))
         }
     }
 
     /// The surroundings prepared for pictures, at the first call, which takes about a second in a town. Boxes on flat ground are not
-    /// in pictures.
-    pub fn scene(&self) -> &BatchScene {
-        self.scene.get_or_init(|| {
-            let town = self.town.lock().unwrap_or_else(PoisonError::into_inner).take().unwrap_or_default();
-            BatchScene::new(&town, self.looks)
-        })
+    /// in pictures. What colours need is prepared where they are asked for only: it is most of the memory.
+    pub fn scene(&self, has_colours: bool) -> &BatchScene {
+        if has_colours {
+            return self.with_colours.get_or_init(|| BatchScene::new(&self.town, self.looks));
+        }
+        self.without_colours.get_or_init(|| BatchScene::without_colours(&self.town))
     }
 
     /// Largest instance id of an object of the town.

@@ -24,7 +24,7 @@ fn walk(from: DVec3, frames: usize) -> Vec<TargetState> {
 
 /// Environments behind walkers and a car, among people, cars and a bus, some steps after their beginnings.
 fn environments(town: &Town, count: usize) -> Vec<Environment> {
-    let place = Arc::new(Place::new(town.clone(), Seed([1; 32])));
+    let place = Arc::new(Place::new(Arc::new(town.clone()), Seed([1; 32])));
     let pavements: Vec<_> = town.walkable.iter().filter(|area| area.kind == WalkableKind::Sidewalk).collect();
     let mut random = Seed([2; 32]).stream("environments");
     let environment = |number: usize| {

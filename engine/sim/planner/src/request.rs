@@ -1,7 +1,7 @@
 //! The request for a flight: track, map, wishes, start, companions, moving occluders.
 
 use crate::config::muco::MucoConfig;
-use crate::obstacles::{exact::ExactMap, moving::OtherDrones};
+use crate::obstacles::{exact::ExactMap, ground::GroundGrid, moving::OtherDrones};
 use crate::terms::term::WeightedTerm;
 use cosfly_frames::{DVec3, TargetTrack};
 use cosfly_geometry::{OrientedBox, SpatialQuery};
@@ -34,6 +34,9 @@ pub struct PlanRequest<'a> {
     pub movers: &'a [Vec<OrientedBox>],
     /// Those of them that are other drones.
     pub drones: OtherDrones,
+    /// Ground around `track`, or around a longer track that it is a part of, as [`Self::sampled_ground`] samples it; `None`: it is
+    /// sampled anew. Those who ask again and again along one track sample once.
+    pub ground_grid: Option<&'a GroundGrid>,
     /// Number that reasons give the track's first frame, for tracks that are parts of longer ones. Usually 0.
     pub first_frame: i64,
 }
@@ -57,7 +60,7 @@ impl<'a> PlanRequest<'a> {
         config: &'a MucoConfig,
     ) -> Self {
         let (extra_terms, companions, movers) = (Vec::new(), &[] as &[_], &[] as &[_]);
-        let (start, flight, first_frame) = (None, None, 0);
+        let (start, flight, ground_grid, first_frame) = (None, None, None, 0);
         Self {
             track,
             exact,
@@ -70,6 +73,7 @@ impl<'a> PlanRequest<'a> {
             companions,
             movers,
             drones: OtherDrones::default(),
+            ground_grid,
             first_frame,
         }
     }
@@ -78,6 +82,11 @@ impl<'a> PlanRequest<'a> {
     pub fn map(&self) -> ExactMap<'a> {
         let clearance_m = self.config.limits.clearance_m;
         ExactMap { query: self.exact, movers: self.movers, drones: self.drones, clearance_m }
+    }
+
+    /// The ground around the track, as far as the planner asks for it.
+    pub fn sampled_ground(&self) -> GroundGrid {
+        GroundGrid::sample(self.track, self.ground, self.config.search.filter_radius_m + 10.0)
     }
 
     /// Checks that the parts of the request fit each other.

@@ -2,10 +2,11 @@
 
 use crate::eye::Eye;
 use crate::faces::{DrawnFace, FaceSource, box_lift, ground_lift};
-use crate::scene::Scene;
-use crate::scene_parts::BOX_FACES;
+use crate::scene::{Scene, boxes_of, clusters_of};
+use crate::scene_parts::{BOX_FACES, Cluster, SceneBox};
 use crate::visibility::{PlaneOnScreen, Screen, Visibility};
 use cosfly_frames::DVec3;
+use cosfly_maps::Town;
 
 pub use crate::visibility::NO_FACE;
 
@@ -36,34 +37,45 @@ impl Scene {
 
     /// All faces but the target's: six of each box, then the ground's.
     pub fn faces(&self) -> Vec<SceneFace> {
-        let mut faces = Vec::new();
-        for (index, b) in (0u32..).zip(&self.boxes) {
-            faces.extend(BOX_FACES.iter().enumerate().map(|(face, (_, _, around))| SceneFace {
-                corners_in_world: around.map(|corner| b.corners_in_world[corner]).to_vec(),
-                outward_in_world: Some(b.normal_in_world(face)),
-                normal_in_world: b.normal_in_world(face),
-                point_in_world: b.corners_in_world[around[0]],
-                lift: box_lift(index),
-                label: b.label,
-                instance: b.instance,
-            }));
-        }
-        for cluster in &self.clusters {
-            faces.extend(cluster.polygons.iter().map(|polygon| {
-                let corners = cluster.corners[polygon.range()].iter();
-                SceneFace {
-                    corners_in_world: corners.map(|corner| cluster.points_in_world[usize::from(*corner)]).collect(),
-                    outward_in_world: None,
-                    normal_in_world: polygon.normal_in_world,
-                    point_in_world: polygon.middle_in_world,
-                    lift: ground_lift(polygon.label),
-                    label: polygon.label.id(),
-                    instance: 0,
-                }
-            }));
-        }
-        faces
+        faces(&self.boxes, &self.clusters)
     }
+
+    /// The faces of a town's scene, without the scene: what light and looks need is not prepared.
+    pub fn faces_of(town: &Town) -> Vec<SceneFace> {
+        // Looks alone depend on a seed.
+        faces(&boxes_of(town, 0), &clusters_of(town))
+    }
+}
+
+fn faces(boxes: &[SceneBox], clusters: &[Cluster]) -> Vec<SceneFace> {
+    let ground: usize = clusters.iter().map(|cluster| cluster.polygons.len()).sum();
+    let mut faces = Vec::with_capacity(BOX_FACES.len() * boxes.len() + ground);
+    for (index, b) in (0u32..).zip(boxes) {
+        faces.extend(BOX_FACES.iter().enumerate().map(|(face, (_, _, around))| SceneFace {
+            corners_in_world: around.map(|corner| b.corners_in_world[corner]).to_vec(),
+            outward_in_world: Some(b.normal_in_world(face)),
+            normal_in_world: b.normal_in_world(face),
+            point_in_world: b.corners_in_world[around[0]],
+            lift: box_lift(index),
+            label: b.label,
+            instance: b.instance,
+        }));
+    }
+    for cluster in clusters {
+        faces.extend(cluster.polygons.iter().map(|polygon| {
+            let corners = cluster.corners[polygon.range()].iter();
+            SceneFace {
+                corners_in_world: corners.map(|corner| cluster.points_in_world[usize::from(*corner)]).collect(),
+                outward_in_world: None,
+                normal_in_world: polygon.normal_in_world,
+                point_in_world: polygon.middle_in_world,
+                lift: ground_lift(polygon.label),
+                label: polygon.label.id(),
+                instance: 0,
+            }
+        }));
+    }
+    faces
 }
 
 /// A scene seen by a camera, whose faces are noted as if they had been drawn here.

@@ -39,8 +39,7 @@ impl Scene {
     /// Prepares a town. Boxes and triangles that are not finite are left out; `seed` draws colours and patterns.
     pub fn new(town: &Town, seed: Seed) -> Self {
         let look_seed = (seed.child("looks", 0).as_u64() >> 32) as u32;
-        let mut boxes: Vec<SceneBox> =
-            town.obstacles.iter().filter_map(|obstacle| scene_box(obstacle, look_seed)).collect();
+        let mut boxes = boxes_of(town, look_seed);
         join_crowns(&mut boxes);
         let clusters = clusters_of(town);
         let noise = noise_texture(look_seed);
@@ -75,6 +74,11 @@ impl Scene {
         }
         triangles
     }
+}
+
+/// The boxes of a town that are finite.
+pub(crate) fn boxes_of(town: &Town, look_seed: u32) -> Vec<SceneBox> {
+    town.obstacles.iter().filter_map(|obstacle| scene_box(obstacle, look_seed)).collect()
 }
 
 fn scene_box(obstacle: &cosfly_maps::Obstacle, look_seed: u32) -> Option<SceneBox> {
@@ -117,7 +121,7 @@ fn join_crowns(boxes: &mut [SceneBox]) {
 }
 
 /// Cuts the ground into clusters of neighbouring polygons, ordered along a Z curve over the ground.
-fn clusters_of(town: &Town) -> Vec<Cluster> {
+pub(crate) fn clusters_of(town: &Town) -> Vec<Cluster> {
     let ground = GroundPolygons::of(town);
     let mut order: Vec<(u64, u32)> = (0u32..)
         .zip(&ground.polygons)

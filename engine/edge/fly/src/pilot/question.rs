@@ -33,11 +33,7 @@ impl Question {
             ("state", Field::Floats(&state, &[FEATURES])),
         ];
         let Some((pictures, album)) = &mut self.pictures else { return wire::encode(&fields) };
-        if environment.is_blind() {
-            *album = Album::new(pictures.format(), 1);
-        } else {
-            pictures.draw(&[environment], album, 0);
-        }
+        pictures.draw(&[environment], album, 0);
         let format = pictures.format();
         let [rows, columns] = [format.height as usize, format.width as usize];
         let (shape, coloured) = ([rows, columns], [rows, columns, 3]);

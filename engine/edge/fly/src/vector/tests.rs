@@ -123,3 +123,45 @@ fn pictures_are_those_of_the_observations_for_any_number_of_threads_and_in_each_
         assert!(is_seen && (ended > 0) == (mode == Autoreset::SameStep), "{mode:?} {ended}");
     }
 }
+
+#[test]
+fn a_team_flies_one_episode_from_several_starts() {
+    let mut flock = Flock::new(tasks(), 3, Settings::default(), Autoreset::Disabled, false).as_team();
+    flock.reset(&[Some(5), None, None], |_| true);
+    assert!((1..3).all(|number| flock.episode(number) == flock.episode(0)));
+    let place = |flock: &Flock, number: usize| flock.birds[number].environment.observation().motion.position_in_world;
+    assert!(place(&flock, 0).distance(place(&flock, 1)) > 3.0 && place(&flock, 1).distance(place(&flock, 2)) > 3.0);
+    let beside = &flock.outputs().beside[1];
+    assert_eq!((beside.len(), beside[0], beside[BESIDE]), (2 * BESIDE, 1.0, 1.0));
+    let away = place(&flock, 0) - place(&flock, 1);
+    assert!(
+        (DVec3::new(f64::from(beside[1]), f64::from(beside[2]), f64::from(beside[3])).length() - away.length()).abs()
+            < 1e-4
+    );
+}
+
+#[test]
+fn drones_of_a_team_that_meet_collide_and_are_out_of_the_way_of_others() {
+    let mut flock = Flock::new(tasks(), 3, Settings::default(), Autoreset::Disabled, false).as_team();
+    assert!(flock.begin_episode(0, "e4"));
+    let mut ended = 0;
+    while !flock.outputs().truncated[2] {
+        // The first two fly at each other, the third stays.
+        let toward = |one: usize, other: usize| {
+            let environment = &flock.birds[one].environment;
+            let (own, goal) = (environment.observation(), flock.birds[other].environment.observation());
+            let way = own.along_heading(goal.motion.position_in_world - own.motion.position_in_world) * 5.0;
+            [way.x as f32, way.y as f32, way.z as f32, 0.0, 0.0]
+        };
+        let actions = [toward(0, 1), toward(1, 0), [0.0; ACTIONS]];
+        flock.step(&actions);
+        let outputs = flock.outputs();
+        assert_eq!(outputs.terminated[0], outputs.terminated[1]);
+        if outputs.terminated[0] && ended == 0 {
+            assert!(outputs.rewards[0] < -10.0 && outputs.terms[1][4] == -1.0);
+            assert_eq!((outputs.beside[2][0], outputs.beside[2][BESIDE]), (0.0, 0.0));
+            ended += 1;
+        }
+    }
+    assert_eq!((ended, flock.outputs().terminated[2]), (1, false));
+}

@@ -19,6 +19,10 @@ World frame: CARLA's, left-handed, x forward, y right, z up, metres; angles in d
 :class:`cosfly.Error` with a code, a message, the place in the file and advice.
 """
 
+from typing import TYPE_CHECKING as _TYPE_CHECKING
+from typing import Any as _Any
+
+from ._calls import PathLike as _PathLike
 from ._calls import (
     Check,
     Doctor,
@@ -47,8 +51,18 @@ from ._expert import Answer, Expert
 from ._pack import Pack, pack
 from ._show import Frame, Town, Trajectory, rerun
 
+if _TYPE_CHECKING:
+    from . import pettingzoo as _pettingzoo
+
 __all__ = [
     "Answer", "Check", "Dataset", "Doctor", "Error", "Evaluation", "Expert", "Exported", "Frame", "Loader",
     "Made", "Pack", "Pictures", "Plan", "PlannedStage", "Problem", "Stage", "Table", "Town", "Trajectory", "Why", "__version__",
-    "decode_rgb", "doctor", "evaluate", "export", "init", "pack", "plan", "preview", "rerun", "run", "verify", "why",
+    "decode_rgb", "doctor", "evaluate", "export", "init", "pack", "parallel_env", "plan", "preview", "rerun", "run", "verify", "why",
 ]  # fmt: skip
+
+
+def parallel_env(recipe: _PathLike, num_drones: int = 2, **more: _Any) -> "_pettingzoo.ParallelTrack":
+    """Several drones behind one target, as an environment of pettingzoo (`pip install cosfly[pettingzoo]`)."""
+    from .pettingzoo import ParallelTrack
+
+    return ParallelTrack(recipe, num_drones, **more)

@@ -39,7 +39,7 @@ class Flock:
         store: str,
         count: int,
         step_s: float,
-        latency_s: float,
+        latency_s: Optional[float],
         mode: str,
         has_experts: bool,
         channels: Sequence[str],
@@ -47,6 +47,7 @@ class Flock:
         farthest_m: float,
         weather: str,
         threads: int,
+        is_team: bool,
     ) -> None: ...
     def reset(self, seeds: Sequence[Optional[int]], mask: Optional[Sequence[bool]]) -> None: ...
     def step(self, actions: npt.NDArray[np.float32]) -> None: ...

@@ -52,10 +52,10 @@ class _Observations:
     def channels(self) -> list[str]:
         return [name for name in self.names if name != "state"]
 
-    def space(self) -> spaces.Space[Any]:
+    def space(self, state: spaces.Space[Any] | None = None) -> spaces.Space[Any]:
         width, height = self.size
         known: dict[str, Callable[[], spaces.Space[Any]]] = {
-            "state": lambda: spaces.Box(-np.inf, np.inf, (16,), np.float32),
+            "state": lambda: state or spaces.Box(-np.inf, np.inf, (16,), np.float32),
             "depth": lambda: spaces.Box(0, self.max_depth_m, (height, width), np.float32),
             "mask": lambda: spaces.Box(0, 1, (height, width), np.uint8),
             "semantic": lambda: spaces.Box(0, 255, (height, width), np.uint8),
@@ -89,18 +89,19 @@ def _flock(
     weather: str,
     threads: int | None,
     step_s: float,
-    latency_s: float,
+    latency_s: float | None,
     expert_action: bool,
+    is_team: bool = False,
 ) -> tuple[Flock, _Observations]:
     width, height = (size, size) if isinstance(size, (int, np.integer)) else size
     observations = _Observations(tuple(obs), (int(width), int(height)), float(max_depth_m))
-    if not 0.01 <= step_s <= 1.0 or not 0.0 <= latency_s <= 5.0:
+    if not 0.01 <= step_s <= 1.0 or not 0.0 <= (latency_s or 0.0) <= 5.0:
         raise ValueError(f"step_s is {step_s} (0.01 to 1 s) and latency_s is {latency_s} (0 to 5 s)")
     place = os.fspath(store if store is not None else os.environ.get("COSFLY_STORE") or ".cosfly")
     flock = Flock(
         os.fspath(recipe), list(overrides), place, count, step_s, latency_s, _MODES[mode], expert_action,
         observations.channels, observations.size, observations.max_depth_m, weather,
-        min(count, threads if threads is not None else os.cpu_count() or 1),
+        min(count, threads if threads is not None else os.cpu_count() or 1), is_team,
     )  # fmt: skip
     return flock, observations
 
@@ -130,7 +131,7 @@ class TrackVector(VectorEnv):
         weather: str = "ClearNoon",
         threads: int | None = None,
         step_s: float = 0.1,
-        latency_s: float = 0.0,
+        latency_s: float | None = None,
         expert_action: bool = False,
         autoreset_mode: AutoresetMode | str = AutoresetMode.NEXT_STEP,
     ) -> None:
@@ -203,7 +204,7 @@ class Track(gymnasium.Env):
         max_depth_m: float = 200.0,
         weather: str = "ClearNoon",
         step_s: float = 0.1,
-        latency_s: float = 0.0,
+        latency_s: float | None = None,
         expert_action: bool = False,
     ) -> None:
         self._flock, self._observations = _flock(

@@ -40,7 +40,7 @@ class TrackBenchmark(StepBenchmark):
         pictures: Sequence[str] = (),
         size: int = 84,
         step_s: float = 0.1,
-        latency_s: float = 0.0,
+        latency_s: float | None = None,
     ) -> None:
         super().__init__()
         self._pictures = tuple(pictures)

@@ -114,6 +114,7 @@ impl Part {
             extra_terms: Vec::new(),
             start: None,
             flight: None,
+            ground_grid: None,
             companions: &self.companions,
             movers: &self.movers,
             first_frame: original.first_frame.saturating_add(i64::try_from(self.first).unwrap_or(i64::MAX)),

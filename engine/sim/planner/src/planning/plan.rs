@@ -4,6 +4,8 @@ use super::join::join;
 use super::planners::solve;
 use super::publish::publish;
 use super::start::LongerRequest;
+use super::stretches::STRETCH_FRAMES;
+use crate::config::foresight::Foresight;
 use crate::config::muco::MucoConfig;
 use crate::request::PlanRequest;
 use crate::terms::built_in_terms;
@@ -51,13 +53,17 @@ pub fn plan_with_terms(
 }
 
 /// [`plan`] with all that may be asked for.
-pub fn plan_request(mut request: PlanRequest<'_>) -> PlanOutcome {
+pub fn plan_request(request: PlanRequest<'_>) -> PlanOutcome {
     let (track, config) = (request.track, request.config);
     let checked = config.validate().map_err(|(_, message)| message);
     let checked = checked.and_then(|()| check_track(track, config.limits.speed_mps)).and_then(|()| request.validate());
     if let Err(reason) = checked {
         return PlanOutcome::Rejected { track: track.clone(), reason };
     }
+    // The solver and what follows it ask for the same ground. Parts that are planned one by one have ground of their own.
+    let is_whole = track.len() <= STRETCH_FRAMES && config.foresight != Foresight::Causal;
+    let sampled = (is_whole && request.ground_grid.is_none()).then(|| request.sampled_ground());
+    let mut request = PlanRequest { ground_grid: sampled.as_ref().or(request.ground_grid), ..request };
     let mut terms = built_in_terms(&config.resolved_weights());
     let built_in = terms.len();
     terms.append(&mut request.extra_terms);

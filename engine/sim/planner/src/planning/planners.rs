@@ -77,15 +77,22 @@ fn solve_at_once(
     let walk = Walk::of(track);
     let problem = Problem { track, view: &config.view, walk: &walk, terms, built_in, first_frame: request.first_frame };
     let (radius_m, influence_m) = (config.search.filter_radius_m, config.view.safety_influence_m);
-    let ground = GroundGrid::sample(track, request.ground, radius_m + 10.0);
-    let mut obstacles = LocalObstacles::filter(track, request.planning_boxes, &ground, radius_m, influence_m)
+    let sampled;
+    let ground = match request.ground_grid {
+        Some(grid) => grid,
+        None => {
+            sampled = request.sampled_ground();
+            &sampled
+        }
+    };
+    let mut obstacles = LocalObstacles::filter(track, request.planning_boxes, ground, radius_m, influence_m)
         .with_companions(request.companions, config.targets.visibility)
         .with_drones(request.movers, request.drones, config.limits.clearance_m);
     terms.iter().for_each(|weighted| weighted.term.begin(&problem.context(&obstacles)));
     let exact = request.map();
     let mut judge = Judge::new(&problem, exact, request.ground, config, head);
     match solver {
-        Solver::Baseline(kind) => by_a_baseline(kind, request, &problem, &ground, &judge),
+        Solver::Baseline(kind) => by_a_baseline(kind, request, &problem, ground, &judge),
         Solver::Paper if head.is_empty() => by_the_paper(&problem, &mut obstacles, config, &mut judge),
         // The paper knows no given starts: the optimiser takes those, with the paper's weights.
         Solver::Paper | Solver::Muco => escalate(&problem, &mut obstacles, config, &mut judge),

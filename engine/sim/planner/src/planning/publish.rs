@@ -2,7 +2,7 @@
 
 use crate::certificate::{Measured, certify, term_costs};
 use crate::found::Found;
-use crate::obstacles::{exact::ExactMap, exact::ExactObstacles, ground::GroundGrid};
+use crate::obstacles::{exact::ExactMap, exact::ExactObstacles};
 use crate::problem::frame_number;
 use crate::request::PlanRequest;
 use crate::terms::term::{TermContext, WeightedTerm};
@@ -19,9 +19,16 @@ pub(super) fn publish(request: &PlanRequest<'_>, terms: &[WeightedTerm], found: 
     let waypoints = &found.waypoints[before..];
     let measured = if before > 0 { measured_again(request, map, &found, waypoints) } else { found.measured };
     let walk = Walk::of(track);
-    let grid = GroundGrid::sample(track, request.ground, config.search.filter_radius_m + 10.0);
+    let sampled;
+    let grid = match request.ground_grid {
+        Some(grid) => grid,
+        None => {
+            sampled = request.sampled_ground();
+            &sampled
+        }
+    };
     let surroundings =
-        ExactObstacles { track, map, ground: &grid, known: waypoints, known_visibility: &measured.visibility };
+        ExactObstacles { track, map, ground: grid, known: waypoints, known_visibility: &measured.visibility };
     let context = TermContext { track, view: &config.view, walk: &walk, surroundings: &surroundings };
     terms.iter().for_each(|weighted| weighted.term.begin(&context));
     let costs = term_costs(terms, waypoints, &context);

@@ -73,6 +73,7 @@ fn plan_stretch(
         extra_terms: Vec::new(),
         start: None,
         flight: None,
+        ground_grid: None,
         companions: &companions,
         movers: &movers,
         first_frame: request.first_frame.saturating_add(i64::try_from(frames.start).unwrap_or(i64::MAX)),

@@ -112,7 +112,8 @@ impl Command for Arguments {
             let progress = console.run_progress(self.json);
             Suite::make(&recipe, &store, &options, &*progress)?
         };
-        let settings = FlySettings::of(&recipe)?.environment();
+        // A label belongs to the state it is for: actions take effect at once.
+        let settings = Settings { latency_s: 0.0, ..FlySettings::of(&recipe)?.environment() };
         let onto = self.onto.as_deref().map(LabelFolder::card).transpose()?;
         let card = self.card(&suite, &settings, &place, name, onto.as_ref())?;
         let folder = LabelFolder::open(out, &card, self.onto.as_deref())?;

@@ -64,9 +64,9 @@ pub struct Arguments {
     #[arg(long, value_name = "I/N", value_parser = shard, default_value = "1/1")]
     shard: Shard,
     /// Simulated time from an observation to the effect of the action that answers it; the world moves on meanwhile
-    /// (`measured`: as long as the policy really takes; then rows and logs differ from run to run)
-    #[arg(long, value_name = "MS", default_value = "0", value_parser = latency)]
-    latency_ms: LatencyChoice,
+    /// (`measured`: as long as the policy really takes; then rows and logs differ from run to run) [default: that of the suite, else 0]
+    #[arg(long, value_name = "MS", value_parser = latency)]
+    latency_ms: Option<LatencyChoice>,
     /// Simulated time from one action to the next
     #[arg(long, value_name = "MS", default_value_t = 100, value_parser = clap::value_parser!(u32).range(10..=1000))]
     step_ms: u32,
@@ -229,8 +229,9 @@ impl Arguments {
     fn settings(&self, suite: &FlySettings) -> cosfly_diagnose::Result<Settings> {
         let seconds = |milliseconds: u32| f64::from(milliseconds) / 1000.0;
         let latency_s = match self.latency_ms {
-            LatencyChoice::Milliseconds(milliseconds) => seconds(milliseconds),
-            LatencyChoice::Measured => 0.0,
+            None => seconds(suite.latency_ms),
+            Some(LatencyChoice::Milliseconds(milliseconds)) => seconds(milliseconds),
+            Some(LatencyChoice::Measured) => 0.0,
         };
         let drone = DroneSettings {
             model: self.drone.unwrap_or(suite.drone),
@@ -255,8 +256,8 @@ impl Arguments {
 
     fn latency(&self) -> Latency {
         match self.latency_ms {
-            LatencyChoice::Milliseconds(_) => Latency::Simulated,
-            LatencyChoice::Measured => Latency::Measured,
+            None | Some(LatencyChoice::Milliseconds(_)) => Latency::Simulated,
+            Some(LatencyChoice::Measured) => Latency::Measured,
         }
     }
 

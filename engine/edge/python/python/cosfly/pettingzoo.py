@@ -1,0 +1,116 @@
+"""Several drones behind one target for pettingzoo: `cosfly.parallel_env("recipes/suites/street.toml", num_drones=3)`.
+
+The drones fly the same episode at the same time: the first from the episode's start, the others from places turned around the
+target. They can hit each other. An observation is what `cosfly/Track-v0` gives; its state goes on after the 16 numbers with seven on
+each other drone: whether it flies, its place from the drone (m) and its velocity (m/s), both ahead, right, up. A drone whose episode
+is over leaves; the others fly on.
+"""
+
+from __future__ import annotations
+
+import os
+from typing import Any, Sequence
+
+import numpy as np
+from gymnasium import spaces
+from gymnasium.vector import AutoresetMode
+from pettingzoo import ParallelEnv
+
+from .gym import ACTIONS, _flock, _is_info
+
+_OTHER = 7
+
+
+class ParallelTrack(ParallelEnv):  # type: ignore[misc]
+    """Drones that follow one person or vehicle together."""
+
+    metadata: dict[str, Any] = {"name": "cosfly_track_v0", "render_modes": [], "is_parallelizable": True}
+
+    def __init__(
+        self,
+        recipe: str | os.PathLike[str],
+        num_drones: int = 2,
+        *,
+        overrides: Sequence[str] = (),
+        store: str | os.PathLike[str] | None = None,
+        obs: Sequence[str] = ("state",),
+        size: int | tuple[int, int] = 84,
+        max_depth_m: float = 200.0,
+        weather: str = "ClearNoon",
+        threads: int | None = None,
+        step_s: float = 0.1,
+        latency_s: float | None = None,
+    ) -> None:
+        if not 1 <= num_drones <= 64:
+            raise ValueError(f"num_drones is {num_drones}; it is 1 to 64")
+        self._flock, self._observations = _flock(
+            recipe, num_drones, AutoresetMode.DISABLED, overrides=overrides, store=store, obs=obs, size=size,
+            max_depth_m=max_depth_m, weather=weather, threads=threads, step_s=step_s, latency_s=latency_s,
+            expert_action=False, is_team=True,
+        )  # fmt: skip
+        self.render_mode = None
+        self.possible_agents = [f"drone_{number}" for number in range(num_drones)]
+        self.agents: list[str] = []
+        self._numbers = {agent: number for number, agent in enumerate(self.possible_agents)}
+        state = spaces.Box(-np.inf, np.inf, (16 + _OTHER * (num_drones - 1),), np.float32)
+        space = self._observations.space(state)
+        self.observation_spaces = dict.fromkeys(self.possible_agents, space)
+        self.action_spaces = dict.fromkeys(self.possible_agents, ACTIONS)
+
+    def observation_space(self, agent: str) -> spaces.Space[Any]:
+        return self.observation_spaces[agent]
+
+    def action_space(self, agent: str) -> spaces.Space[Any]:
+        return self.action_spaces[agent]
+
+    def reset(
+        self, seed: int | None = None, options: dict[str, Any] | None = None
+    ) -> tuple[dict[str, Any], dict[str, dict[str, Any]]]:
+        """Begins an episode with all drones: one that the seed draws, or `options={"episode": NAME}`."""
+        episode = (options or {}).get("episode")
+        if episode is None:
+            self._flock.reset([None if seed is None else int(seed)] + [None] * (len(self.possible_agents) - 1), None)
+        else:
+            self._flock.begin_episode(0, episode)
+        self.agents = list(self.possible_agents)
+        told = self._told()
+        observations = {agent: self._observations.of(told, number=self._numbers[agent]) for agent in self.agents}
+        return observations, {agent: self._info(told, agent) for agent in self.agents}
+
+    def step(
+        self, actions: dict[str, Any]
+    ) -> tuple[dict[str, Any], dict[str, float], dict[str, bool], dict[str, bool], dict[str, dict[str, Any]]]:
+        flying = list(self.agents)
+        rows = np.zeros((len(self.possible_agents), 5), dtype=np.float32)
+        for agent in flying:
+            rows[self._numbers[agent]] = actions[agent]
+        self._flock.step(rows)
+        told = self._told()
+        number = self._numbers
+        observations = {agent: self._observations.of(told, number=number[agent]) for agent in flying}
+        rewards = {agent: float(told["rewards"][number[agent]]) for agent in flying}
+        terminated = {agent: bool(told["terminated"][number[agent]]) for agent in flying}
+        truncated = {agent: bool(told["truncated"][number[agent]]) for agent in flying}
+        self.agents = [agent for agent in flying if not (terminated[agent] or truncated[agent])]
+        return observations, rewards, terminated, truncated, {agent: self._info(told, agent) for agent in flying}
+
+    def episodes(self) -> list[str]:
+        """Names of all episodes; `reset(options={"episode": NAME})` begins one of them."""
+        return self._flock.episodes()
+
+    def render(self) -> None:
+        """There is nothing to see: `obs` has the pictures."""
+
+    def close(self) -> None:
+        """Nothing is left open."""
+
+    def _told(self) -> dict[str, Any]:
+        told = self._flock.outputs()
+        told["features"] = np.concatenate([told["features"], told.pop("beside")], axis=1)
+        return told
+
+    def _info(self, told: dict[str, Any], agent: str) -> dict[str, Any]:
+        number = self._numbers[agent]
+        info = {name: values[number] for name, values in told.items() if _is_info(name)}
+        info["episode"] = self._flock.episode(number)
+        return info
