@@ -189,4 +189,124 @@ class SecondChinese(Grammar):
         return text.rstrip("。") + self.pick(f"，方向{name}。", f"，往{name}走。", f"，走向{name}边。")
 
 
-GRAMMARS = {2: (SecondEnglish, SecondChinese)}
+class ThirdEnglish(Grammar):
+    """Written after the reader was widened for the second grammar."""
+
+    code = "en"
+    things = ["by a newsstand", "past the petrol station", "between two lorries", "with their spouse", "in the drizzle", "through an underpass", "carrying groceries", "near a playground", "at midnight", "close to the harbour"]
+    persons = ["jogger in his sixties", "schoolgirl", "policeman", "waiter", "grandmother"]
+
+    def who(self, flight):
+        noun = self.pick("pedestrian", "walker", "person", "target")
+        if not flight.wear:
+            return f"the {noun}"
+        top, trousers, backpack = flight.wear
+        bag = self.pick(" plus a backpack", " and carries a rucksack") if backpack else ""
+        return self.pick(
+            f"the {noun} who has {an(top)} jumper on and {trousers} trousers{bag}",
+            f"the {noun} whose jacket is {top} and whose pants are {trousers}{bag}",
+            f"the {top}-topped {noun} with {trousers} jeans{bag}",
+            f"the {noun} sporting {an(top)} sweatshirt and {trousers} joggers{bag}",
+        )
+
+    def range(self, flight):
+        d = flight.distance
+        return self.pick(f"never leave the {d} m mark", f"your standoff is {d} metres", f"let there be {d} m between you and the target", f"settle at a {d}-metre gap", f"fly at a distance of {d} m")
+
+    def view(self, flight):
+        p, way = abs(flight.pitch), "down" if flight.pitch >= 0 else "up"
+        return self.pick(f"have the camera look {way} by {p} degrees", f"set the gimbal {p}° {way}", f"look {way}wards at an angle of {p} degrees", f"use {an('downward' if way == 'down' else 'upward')} angle of {p} degrees")
+
+    def instruction(self, flight):
+        still = "" if flight.walks else self.pick(" They are not moving.", " They remain stationary.")
+        return self.pick(
+            f"Your job: {self.range(flight)}, {self.view(flight)}, and watch {self.who(flight)}.{still}",
+            f"First {self.view(flight)}; then {self.range(flight)} while you trail {self.who(flight)}.{still}",
+            f"Watch {self.who(flight)}; {self.range(flight)}; {self.view(flight)}.{still}",
+        )
+
+    def description(self, flight):
+        t, w, v, s, n = flight.duration, flight.way, flight.speed, flight.standing, flight.stops
+        if flight.walks:
+            turns = flight.turns
+            if not turns:
+                turned = self.pick("They keep to one street without turning.", "They do not turn at all.")
+            elif len(turns) == 1:
+                turned = f"They make one turn, {'to the ' if turns[0] != 'around' else ''}{turns[0]}."
+            else:
+                turned = "They turn " + ", ".join(turns[:-1]) + " and finally " + turns[-1] + "."
+            stopped = self.pick("At no point do they stop.", "They never stop.") if n == 0 else f"They stop once, for {s} seconds." if n == 1 else self.pick(f"They stop {n} times for a total of {s} seconds.", f"They stop {n} times, {s} seconds in sum.")
+            length = self.pick(f"The walk of {w} m lasts {t} seconds, so {v} m/s.", f"They walk {w} metres in {t} seconds, which is {v} m/s.", f"Walking at {v} m/s, they need {t} seconds for {w} m of path.")
+            walk = f"Watch {self.who(flight)}. {turned} {stopped} {length}"
+        else:
+            walk = f"Over {t} seconds {self.who(flight)} {self.pick('stays put', 'is motionless', 'does not budge and stands still')}."
+        height = f"Fly {flight.altitude} m higher than the target. " if flight.altitude >= 1 else ""
+        drone = f"{self.range(flight).capitalize()}; {self.view(flight)}. {height}".rstrip()
+        return self.pick(f"{walk} {drone}", f"{drone} {walk}")
+
+    def foreign(self, text):
+        return text.rstrip(".") + " " + self.rng.choice(self.things) + "." if self.rng.random() < 0.7 else text.rstrip(".") + f"; a {self.rng.choice(self.persons)} is there too."
+
+    def heading(self, text, direction):
+        return text.rstrip(".") + self.pick(f", bearing {direction}.", f", off to the {direction}.", f", {direction}ward.")
+
+
+class ThirdChinese(Grammar):
+    code = "zh"
+    things = ["路过报刊亭", "加油站旁边", "夹在两辆货车之间", "和爱人一起", "下着毛毛雨", "穿过地下通道", "拎着菜", "操场附近", "深夜时分", "靠近码头"]
+    persons = ["警察", "服务员", "老奶奶", "女学生"]
+
+    def who(self, flight):
+        noun = self.pick("行人", "目标", "走路的人", "路人")
+        if not flight.wear:
+            return noun
+        top, trousers, backpack = flight.wear
+        top, trousers = ZH_COLOURS[top], ZH_COLOURS[trousers]
+        bag = self.pick("、背双肩包", "、背了背包") if backpack else ""
+        return self.pick(
+            f"身上是{top}色衬衫、腿上是{trousers}色裤子{bag}的{noun}",
+            f"穿{top}色夹克搭{trousers}色长裤{bag}的{noun}",
+            f"{top}上衣{trousers}裤子{bag}的{noun}",
+            f"外面穿{top}色外套、下穿{trousers}色裤子{bag}的{noun}",
+        )
+
+    def range(self, flight):
+        d = flight.distance
+        return self.pick(f"人机间距{d}米", f"跟在后方{d}米处", f"维持{d}米的间隔", f"别超过也别小于{d}米的距离", f"和目标之间隔{d}米")
+
+    def view(self, flight):
+        p = abs(flight.pitch)
+        return self.pick(f"镜头朝下{p}度角", f"俯角打到{p}度", f"往下压{p}度拍", f"俯拍角度为{p}度") if flight.pitch >= 0 else self.pick(f"镜头朝上{p}度角", f"仰角打到{p}度", f"往上抬{p}度拍")
+
+    def instruction(self, flight):
+        still = "" if flight.walks else self.pick("目标没走动。", "目标一直站在那里。")
+        return self.pick(
+            f"你的任务是看住{self.who(flight)}，{self.range(flight)}，{self.view(flight)}。{still}",
+            f"{self.view(flight)}，然后{self.range(flight)}，拍{self.who(flight)}。{still}",
+            f"飞手注意：{self.range(flight)}；{self.view(flight)}；跟的是{self.who(flight)}。{still}",
+        )
+
+    def description(self, flight):
+        t, w, v, s, n = flight.duration, flight.way, flight.speed, flight.standing, flight.stops
+        if flight.walks:
+            names = {"left": "向左拐弯", "right": "向右拐弯", "around": "掉头"}
+            turns = [names[turn] for turn in flight.turns]
+            turned = self.pick("路上不拐弯", "没有转过一个弯") if not turns else "，之后".join(turns)
+            stopped = self.pick("没有停步", "从没停下") if n == 0 else f"停下一次{s}秒" if n == 1 else self.pick(f"停下{n}次，合计{s}秒", f"先后停了{n}次，共{s}秒")
+            length = self.pick(f"这段路程{w}米，走了{t}秒，每秒{v}米。", f"全程{w}米用了{t}秒，步速{v}米/秒。", f"步速{v}米/秒，用{t}秒走完{w}米。")
+            walk = f"拍的是{self.who(flight)}。{turned}，{stopped}。{length}"
+        else:
+            walk = f"{self.who(flight)}在{t}秒内{self.pick('一直站着', '原地不动', '没有走动')}。"
+        height = f"比目标高出{flight.altitude}米。" if flight.altitude >= 1 else ""
+        drone = f"飞行时{self.range(flight)}，{self.view(flight)}。{height}"
+        return self.pick(drone + walk, walk + drone)
+
+    def foreign(self, text):
+        return text.rstrip("。") + "，" + (self.rng.choice(self.things) if self.rng.random() < 0.7 else "旁边有个" + self.rng.choice(self.persons)) + "。"
+
+    def heading(self, text, direction):
+        name = ZH_DIRECTIONS[direction]
+        return text.rstrip("。") + self.pick(f"，一路向{name}。", f"，奔{name}去。", f"，朝{name}方向。")
+
+
+GRAMMARS = {2: (SecondEnglish, SecondChinese), 3: (ThirdEnglish, ThirdChinese)}
