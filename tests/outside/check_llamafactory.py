@@ -29,7 +29,7 @@ with tempfile.TemporaryDirectory() as out:
         rows = _load_single_dataset(entry, ModelArguments(model_name_or_path="none"), data, training)
         lines = (Path(folder) / f"{name.removeprefix('cosfly_')}.jsonl").read_text().splitlines()
         assert len(rows) == len(lines), (name, len(rows), len(lines))
-        is_waypoints = not name.endswith(("_texts", "_preferences"))
+        is_waypoints = not name.endswith(("_texts", "_preferences", "_goals", "_goal_checks", "_dialogues"))
         for row in rows:
             question, answer = row["_prompt"][0]["content"], row["_response"][0]["content"]
             pictures = row["_images"] or []

@@ -1,6 +1,6 @@
 """Judges the judge of texts: `cosfly doctor --texts` on true paraphrases and on texts with one planted error each.
 
-    check_text_judge.py COSFLY DATASET [--texts 1000] [--show 10]
+    check_text_judge.py COSFLY DATASET [--texts 1000] [--show 10] [--grammar 1]
 
 The grammar here shares nothing with cosfly's templates. A text is written from the facts of a flight; a planted text from facts of
 which one is changed, or with one thing that no facts have. Of planted texts at least 99 % must be refused, of true ones at most 2 %.
@@ -14,6 +14,8 @@ import subprocess
 import sys
 import tempfile
 from pathlib import Path
+
+from paraphrases import GRAMMARS
 
 COLOURS = ["black", "grey", "white", "red", "orange", "yellow", "green", "blue", "purple", "pink", "brown", "beige"]
 ZH_COLOURS = dict(zip(COLOURS, "黑 灰 白 红 橙 黄 绿 蓝 紫 粉 棕 米".split()))
@@ -365,12 +367,13 @@ def main():
     arguments.add_argument("--texts", type=int, default=1000)
     arguments.add_argument("--show", type=int, default=10)
     arguments.add_argument("--seed", type=int, default=1)
+    arguments.add_argument("--grammar", type=int, default=1, help="1: the one of this file; others: held-out paraphrases")
     given = arguments.parse_args()
     facts = doctor(given.cosfly, given.dataset, [])["judged"]["facts"]
     flights = {name: Flight(it) for name, it in sorted(facts.items())}
     assert flights, "the dataset has no flight with facts"
     names, ok = list(flights), True
-    for kind in (English, Chinese):
+    for kind in {1: (English, Chinese), **GRAMMARS}[given.grammar]:
         rng = random.Random(f"{given.seed} {kind.code}")
         grammar = kind(rng)
         line = lambda name, text: {"trajectory_id": name, "language": kind.code, "text": text}

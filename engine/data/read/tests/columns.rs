@@ -4,8 +4,8 @@ use cosfly_metrics::WindowShape;
 use cosfly_read::TableFile;
 use cosfly_sample as sample;
 use cosfly_schema::tables::{
-    DatasetItem, Derived, Edges, Frames, ImageFile, Kind, Membership, Table, Trajectories, Windows, of_files,
-    of_objects, of_rejections, of_trajectories,
+    DatasetItem, Derived, Edges, Frames, ImageFile, Kind, Landmarks, Membership, Table, Trajectories, Windows,
+    of_files, of_objects, of_rejections, of_trajectories,
 };
 use cosfly_schema::{LogRecord, PreviewStrip, Role, Split, TownLayout};
 use cosfly_write::table_file::TableWriter;
@@ -17,7 +17,7 @@ fn items() -> Vec<DatasetItem> {
         record.pair.as_ref().map(|_| Box::new(sample::flight(0, Role::Expert).record))
     };
     let item = |flight: sample::SampleFlight| DatasetItem {
-        derived: Derived::of(&flight.record),
+        derived: Derived::of(&flight.record, &Landmarks::default()),
         expert: expert(&flight.record),
         captions: flight.captions,
         previews: PreviewStrip { jpegs: vec![vec![1, 2, 3]; flight.record.len()] },

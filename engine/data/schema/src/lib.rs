@@ -13,6 +13,7 @@ pub mod config;
 pub mod extras;
 pub mod flight_labels;
 pub mod flight_table;
+pub mod goals;
 pub mod log;
 pub mod losses;
 pub mod phrases;

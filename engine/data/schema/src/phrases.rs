@@ -57,7 +57,8 @@ impl Given {
     }
 }
 
-fn is_clear(record: &RenderedTrajectory, frame: usize) -> bool {
+/// Whether a frame shows enough of the target for a text about it.
+pub(crate) fn is_clear(record: &RenderedTrajectory, frame: usize) -> bool {
     let view = &record.views[frame];
     let height_px = view.visible_box.as_ref().map(edges_px).map_or(0.0, |edges| edges[3] as f32 - edges[1] as f32);
     view.pixels >= CLEAR_PIXELS && height_px >= CLEAR_HEIGHT_PX

@@ -5,7 +5,9 @@ use arrow_array::{Array, FixedSizeListArray, Float64Array, StringArray};
 use cosfly_metrics::Difficulty;
 use cosfly_metrics::WindowShape;
 use cosfly_sample as sample;
-use cosfly_schema::tables::{Column, DatasetItem, Derived, Membership, Table, Trajectories, Windows, of_trajectories};
+use cosfly_schema::tables::{
+    Column, DatasetItem, Derived, Landmarks, Membership, Table, Trajectories, Windows, of_trajectories,
+};
 use cosfly_schema::{LogRecord, PreviewStrip, Role, Split, TownLayout};
 use cosfly_write::table_file::TableWriter;
 use parquet::arrow::arrow_reader::ParquetRecordBatchReaderBuilder;
@@ -24,7 +26,7 @@ fn item(role: Role) -> DatasetItem {
         sha256: "00".into(),
     };
     DatasetItem {
-        derived: Derived::of(&flight.record),
+        derived: Derived::of(&flight.record, &Landmarks::default()),
         record: flight.record,
         captions: flight.captions,
         previews: PreviewStrip { jpegs: vec![vec![1, 2]; 5] },

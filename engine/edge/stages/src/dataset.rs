@@ -48,7 +48,7 @@ impl StageKind for Dataset {
         parameters["tables"] = Digest::of(cosfly_schema::reference().as_bytes()).short().into();
         let whole = StageProperties {
             kind: self.name().into(),
-            version: 9,
+            version: 10,
             parameters,
             sources: vec![],
             inputs: vec![

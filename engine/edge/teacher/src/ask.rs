@@ -3,6 +3,7 @@
 use crate::budget::{SPENT, book, settle};
 use crate::client::{Client, Sent};
 use crate::config::{TeacherConfig, WhenSpent};
+use crate::envelope::Envelope;
 use crate::gate::{Gate, pause};
 use crate::question::Question;
 use crate::record::{Answer, Record};
@@ -65,7 +66,7 @@ impl Teacher {
         let client = self.client()?;
         let body = question.body(&self.config);
         let mut wait = FIRST_PAUSE;
-        let mut why = String::new();
+        let (mut why, mut failures) = (String::new(), 0);
         for request in 1..=self.config.server.retries + 1 {
             let passed = self.gate.pass(&self.config.server, keep_going)?;
             let booking = match book(&self.config, answers, question.estimated_tokens()) {
@@ -74,7 +75,7 @@ impl Teacher {
                 }
                 booking => booking?,
             };
-            let sent = client.send(&body);
+            let sent = client.send(&body, &idempotency_key(&key, self.config.round, failures));
             let estimated = question.estimated_tokens();
             let tokens = match &sent {
                 Ok(Sent::Came(it)) => {
@@ -84,30 +85,29 @@ impl Teacher {
                 Ok(Sent::TooLong) => [estimated, u64::from(self.config.max_tokens)],
                 _ => [0, 0],
             };
-            settle(&self.config, answers, &booking, tokens)?;
-            let answer = |content: String, served_model: String, finish: String| Answer {
-                content,
-                model: self.config.model.clone(),
-                served_model,
-                prompt_version: self.config.prompt_version,
-                finish,
-                input_tokens: tokens[0],
-                output_tokens: tokens[1],
-                requests: request,
-                unix_s: now_unix_s(),
+            // What arrived is durable before anything else happens, the account too: a booking that is never corrected is only
+            // too high, an answer that is lost would be asked for and paid again.
+            let kept = match &sent {
+                Ok(Sent::Came(it)) => {
+                    Some(keep(answers, &key, &Record::Answer(self.answer(it.clone(), tokens, request)))?)
+                }
+                Ok(Sent::TooLong) => {
+                    let unread = Envelope { finish: "too_long".to_owned(), ..Envelope::default() };
+                    Some(keep(answers, &key, &Record::Answer(self.answer(unread, tokens, request)))?)
+                }
+                _ => None,
             };
+            settle(&self.config, answers, &booking, tokens)?;
+            if let Some(reply) = kept {
+                return Ok(reply);
+            }
             let pause_for = match sent? {
-                Sent::Came(it) => {
-                    return keep(answers, &key, &Record::Answer(answer(it.content, it.served_model, it.finish)));
-                }
-                Sent::TooLong => {
-                    let record = Record::Answer(answer(String::new(), String::new(), "too_long".to_owned()));
-                    return keep(answers, &key, &record);
-                }
-                Sent::Later(reason, pause) => {
+                Sent::Later { why: reason, pause, is_refusal } => {
                     why = format!("{reason} after {request} requests");
+                    failures += u32::from(is_refusal);
                     pause.unwrap_or(wait)
                 }
+                Sent::Came(_) | Sent::TooLong => wait,
             };
             drop(passed);
             if request <= self.config.server.retries {
@@ -116,6 +116,20 @@ impl Teacher {
             }
         }
         keep(answers, &losses[0], &Record::Lost(why))
+    }
+
+    fn answer(&self, came: Envelope, tokens: [u64; 2], requests: u32) -> Answer {
+        Answer {
+            content: came.content,
+            model: self.config.model.clone(),
+            served_model: came.served_model,
+            prompt_version: self.config.prompt_version,
+            finish: came.finish,
+            input_tokens: tokens[0],
+            output_tokens: tokens[1],
+            requests,
+            unix_s: now_unix_s(),
+        }
     }
 
     fn budget(&self) -> serde_json::Value {
@@ -137,6 +151,12 @@ impl Teacher {
         *client = Some(std::sync::Arc::clone(&made));
         Ok(made)
     }
+}
+
+/// Name of a request for servers that know `Idempotency-Key`: sent again after a kill, a cut connection or a time-out, the request
+/// gets the answer that was computed then. After an error of the server it has another name, so that no error is repeated.
+fn idempotency_key(question: &Digest, round: u32, failures: u32) -> String {
+    format!("cosfly-{question}-{round}-{failures}")
 }
 
 /// Keeps a record; the one that was kept first counts.

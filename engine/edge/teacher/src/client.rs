@@ -25,8 +25,15 @@ pub enum Sent {
     Came(Envelope),
     /// An answer that is too long to be read.
     TooLong,
-    /// No answer, and a later request may have one: why, and the pause that the server asks for.
-    Later(String, Option<Duration>),
+    /// No answer, and a later request may have one.
+    Later {
+        /// Why.
+        why: String,
+        /// The pause that the server asks for.
+        pause: Option<Duration>,
+        /// Whether the server itself said so, with a status.
+        is_refusal: bool,
+    },
 }
 
 impl Client {
@@ -50,12 +57,13 @@ impl Client {
         self.key.as_ref().map_or_else(|| text.to_owned(), |key| text.replace(key.as_str(), "***"))
     }
 
-    /// Sends a request.
+    /// Sends a request; `idempotency_key` is its name for servers that answer a repeated request with the first one's answer.
     ///
     /// # Errors
     /// What a repetition does not help against: no server there, a wrong key, a refused request.
-    pub fn send(&self, body: &[u8]) -> Result<Sent> {
+    pub fn send(&self, body: &[u8], idempotency_key: &str) -> Result<Sent> {
         let mut request = self.agent.post(&self.url).header("content-type", "application/json");
+        request = request.header("idempotency-key", idempotency_key);
         if let Some(key) = &self.key {
             request = request.header("authorization", &format!("Bearer {key}"));
         }
@@ -68,11 +76,16 @@ impl Client {
         let pause = header.and_then(|text| text.trim().parse().ok()).map(Duration::from_secs);
         match response.body_mut().with_config().limit(MOST_BYTES).read_to_vec() {
             _ if matches!(status, 408 | 409 | 425 | 429) || status >= 500 => {
-                Ok(Sent::Later(format!("status {status}"), pause.map(|pause| pause.min(LONGEST_PAUSE))))
+                let pause = pause.map(|pause| pause.min(LONGEST_PAUSE));
+                Ok(Sent::Later { why: format!("status {status}"), pause, is_refusal: true })
             }
             body if status != 200 => Err(self.refused(status, &body.unwrap_or_default())),
             Ok(body) => Ok(Envelope::read(&body).map_or_else(
-                || Sent::Later("an answer that is no answer of the protocol".to_owned(), None),
+                || Sent::Later {
+                    why: "an answer that is no answer of the protocol".to_owned(),
+                    pause: None,
+                    is_refusal: true,
+                },
                 |envelope| {
                     Sent::Came(Envelope {
                         content: self.without_key(&envelope.content),
@@ -83,7 +96,7 @@ impl Client {
                 },
             )),
             Err(Error::BodyExceedsLimit(_)) => Ok(Sent::TooLong),
-            Err(_) => Ok(Sent::Later("a cut answer".to_owned(), None)),
+            Err(_) => Ok(silence("a cut answer")),
         }
     }
 
@@ -96,8 +109,8 @@ impl Client {
             | Error::Tls(_)
             | Error::Rustls(_) => Err(self.unreachable(error)),
             Error::Io(io) if io.kind() == std::io::ErrorKind::ConnectionRefused => Err(self.unreachable(error)),
-            Error::Timeout(_) => Ok(Sent::Later("no answer in time".to_owned(), None)),
-            _ => Ok(Sent::Later("a cut connection".to_owned(), None)),
+            Error::Timeout(_) => Ok(silence("no answer in time")),
+            _ => Ok(silence("a cut connection")),
         }
     }
 
@@ -122,6 +135,11 @@ impl Client {
             .because(if text.is_empty() { "it says nothing more".to_owned() } else { text })
             .hint("check `model`, `json` and `frames`: not every server knows all of them")
     }
+}
+
+/// No word of the server: the answer may have been computed.
+fn silence(why: &str) -> Sent {
+    Sent::Later { why: why.to_owned(), pause: None, is_refusal: false }
 }
 
 /// The key in an environment variable; none without a variable.

@@ -8,7 +8,7 @@ pub const MOST_BYTES: u64 = 1 << 20;
 const MOST_TEXT: usize = 16 << 10;
 
 /// What a server sent.
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Envelope {
     pub content: String,
     pub served_model: String,

@@ -30,7 +30,7 @@ fn main() {
         let twin = long_flight(&patterns[1].record, pair, 2.0);
         for (pattern, record) in patterns.iter().zip([expert.clone(), twin]) {
             let item = DatasetItem {
-                derived: Derived::of(&record),
+                derived: Derived::of(&record, &landmarks),
                 captions: pattern.captions.clone(),
                 previews: PreviewStrip::default(),
                 log: log_of(&record),

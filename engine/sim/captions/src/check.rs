@@ -140,6 +140,8 @@ pub(crate) fn clothes_mismatch(claim: &Claim, wear: &Wear) -> Option<SlotMismatc
 
 /// The disagreement of a text that is not in the script of its language.
 pub(crate) fn script_mismatch(text: &str, language: Language) -> Option<SlotMismatch> {
+    // A letter in a Chinese word.
+    let text = &text.replace("T恤", "恤");
     let han = text.chars().filter(|c| ('\u{4e00}'..='\u{9fff}').contains(c)).count();
     let latin = text.chars().filter(char::is_ascii_alphabetic).count();
     let foreign = text.chars().filter(|c| c.is_alphabetic() && !c.is_ascii()).count();

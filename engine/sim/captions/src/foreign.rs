@@ -4,8 +4,7 @@ use crate::language::Language;
 use crate::reading::english::{Token, clauses};
 
 /// English words, in the singular; plurals are recognised.
-const ENGLISH: [&str; 96] = [
-    "building",
+const ENGLISH: [&str; 168] = ["building",
     "house",
     "shop",
     "tower",
@@ -100,12 +99,10 @@ const ENGLISH: [&str; 96] = [
     "skateboard",
     "tunnel",
     "stairs",
-    "umbrellas",
-];
+    "umbrellas", "toddler", "baby", "infant", "teenager", "teen", "biker", "rider", "motorist", "colleague", "neighbour", "neighbor", "stranger", "tourist", "bakery", "cafe", "café", "restaurant", "market", "supermarket", "hospital", "museum", "hotel", "cinema", "theatre", "office", "factory", "library", "pharmacy", "kiosk", "stall", "tractor", "ambulance", "helicopter", "plane", "boat", "ship", "horse", "puppy", "pigeon", "mist", "storm", "thunder", "lightning", "sunshine", "moonlight", "cloud", "store", "mall", "platform", "railway", "motorway", "highway", "canal", "beach", "hill", "mountain", "parasol", "cane", "trolley", "basket", "newspaper", "cigarette", "mask", "skirt", "earphone", "headphone", "briefcase", "balloon", "ladder", "gentlemen", "ladies", "babies"];
 
 /// Chinese words.
-const CHINESE: [&str; 88] = [
-    "楼",
+const CHINESE: [&str; 133] = ["楼",
     "房子",
     "房屋",
     "商店",
@@ -192,8 +189,7 @@ const CHINESE: [&str; 88] = [
     "行李箱",
     "婴儿车",
     "头盔",
-    "隧道",
-];
+    "隧道", "面包店", "咖啡店", "餐厅", "超市", "医院", "酒店", "宾馆", "银行", "地铁", "铁路", "高速", "飞机", "轮船", "小船", "婴儿", "同事", "邻居", "骑车人", "骑手", "少年", "姑娘", "小伙", "大妈", "大爷", "游客", "学生", "阳光", "月光", "乌云", "大风", "刮风", "雷", "口罩", "裙", "拐杖", "推车", "购物", "报纸", "抽烟", "耳机", "公文包", "气球", "沙滩", "山坡", "海边"];
 
 /// Pronouns and words that say who the person is beyond the facts.
 const ENGLISH_WHO: [&str; 8] = ["he", "she", "his", "her", "him", "herself", "himself", "hers"];

@@ -7,6 +7,8 @@
 //!
 //! [`teaching`] puts the facts into questions to a language model, and judges what it writes; [`diversity`] measures texts.
 //!
+//! [`goals`] says what a pilot shall do at several grains: a flight, its steps, dialogues, and goals that do not fit.
+//!
 //! [`sight`] does the same for one picture: an instruction that singles the target out by what the picture shows.
 
 pub mod caption;
@@ -18,6 +20,7 @@ pub mod diversity;
 mod english;
 pub mod facts;
 mod foreign;
+pub mod goals;
 pub mod language;
 pub mod precision;
 mod reading;

@@ -16,6 +16,8 @@ use std::fmt::Write as _;
 
 /// Characters of the longest accepted text.
 const MOST_CHARS: usize = 900;
+/// Characters and words of markup, code and addresses, which no spoken text has.
+const MARKUP: [&str; 16] = ["<", ">", "{", "}", "[", "]", "`", "|", "\\", "#", "@", "=", "_", "*", "://", "www."];
 /// Two texts that share this share of their pairs of words are the same text.
 const NEAR_DUPLICATE: f64 = 0.8;
 
@@ -195,6 +197,9 @@ pub fn believe(text: &str, language: Language, facts: &Facts, others: &[String])
     if chars > MOST_CHARS || text.chars().any(char::is_control) {
         mismatches.push(wrong(Slot::Language, format!("{chars} characters"), "a few sentences on one line"));
     }
+    if let Some(markup) = MARKUP.into_iter().find(|it| text.contains(it)) {
+        mismatches.push(wrong(Slot::Language, format!("`{markup}`"), "plain sentences without markup"));
+    }
     if let Some(other) = others.iter().find(|other| likeness(text, other, language) >= NEAR_DUPLICATE) {
         mismatches.push(wrong(Slot::Wording, text.to_owned(), &format!("other words than `{other}`")));
     }
@@ -234,6 +239,17 @@ mod tests {
                 let twin = believe(&caption.text, caption.language, &facts, std::slice::from_ref(&caption.text));
                 assert_eq!(twin.unwrap_err()[0].slot, Slot::Wording);
             }
+        }
+    }
+
+    #[test]
+    fn a_text_with_markup_is_not_believed() {
+        let facts = &flights()[0];
+        let caption = &captions(facts, &CaptionConfig::default(), Seed::of_item(1, "captions", "a"))[0];
+        for addition in ["<script>alert(1)</script>", "[x](http://a.b)", "`rm`", "{\"text\": 1}"] {
+            let text = format!("{} {addition}", caption.text);
+            let refused = believe(&text, caption.language, facts, &[]).unwrap_err();
+            assert!(refused.iter().any(|it| it.slot == Slot::Language), "{text}");
         }
     }
 

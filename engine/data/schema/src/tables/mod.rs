@@ -9,6 +9,7 @@ mod captions;
 mod column;
 mod files;
 mod frames;
+mod goals;
 mod objects;
 mod pairs;
 mod people;
@@ -29,6 +30,7 @@ pub use column::{AnyColumn, CellProblem, Column};
 pub use cosfly_captions::sight::Landmarks;
 pub use files::{FileRecord, Files};
 pub use frames::{Frames, ROLES};
+pub use goals::Goals;
 pub use objects::{ObjectRecord, Objects, kind_name};
 pub use pairs::Pairs;
 pub use people::People;
@@ -53,6 +55,7 @@ pub fn of_trajectories() -> Vec<Table<DatasetItem>> {
         bodies::table(),
         target_losses::table(),
         phrases::table(),
+        goals::table(),
         windows::table(),
     ]
 }

@@ -4,6 +4,7 @@ use super::column::AnyColumn;
 use crate::losses::Loss;
 use crate::phrases::Given;
 use crate::{CaptionRecord, LogRecord, PreviewStrip, RenderedTrajectory, Split, TownLayout};
+use cosfly_captions::goals::Goal;
 use cosfly_captions::sight::Landmarks;
 use cosfly_metrics::WindowShape;
 use serde::{Deserialize, Serialize};
@@ -43,14 +44,18 @@ pub struct Derived {
     pub losses: Vec<Loss>,
     /// Referring phrases.
     pub phrases: Vec<Given>,
+    /// Goals at several grains.
+    pub goals: Vec<Goal>,
     /// Present bodies around the target, frame by frame: frame number and place among the bodies.
     pub bodies: Vec<(u32, u32)>,
 }
 
 impl Derived {
-    /// Of a trajectory.
-    pub fn of(record: &RenderedTrajectory) -> Self {
-        Self { losses: Loss::all(record), phrases: Given::all(record), bodies: record.around.present() }
+    /// Of a trajectory in a town.
+    pub fn of(record: &RenderedTrajectory, landmarks: &Landmarks) -> Self {
+        let losses = Loss::all(record);
+        let goals = crate::goals::of(record, &losses, landmarks);
+        Self { losses, phrases: Given::all(record), goals, bodies: record.around.present() }
     }
 }
 

@@ -71,8 +71,9 @@ impl<'a> GroupFlights<'a> {
             );
             return Err(Diagnostic::new("dataset-order", Fault::Bug, message));
         };
+        let landmarks = self.source.landmarks(index)?;
         Ok(DatasetItem {
-            derived: Derived::of(&record),
+            derived: Derived::of(&record, &landmarks),
             captions: self.source.captions(index)?,
             previews: self.source.previews(index)?,
             log: log.clone(),
@@ -80,7 +81,7 @@ impl<'a> GroupFlights<'a> {
             expert: self.expert_of(&record)?,
             membership: planned.membership.clone(),
             layout: Arc::clone(layout),
-            landmarks: self.source.landmarks(index)?,
+            landmarks,
             windows: self.windows,
             record,
         })

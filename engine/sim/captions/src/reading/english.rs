@@ -60,6 +60,8 @@ pub(crate) fn clauses(text: &str) -> Vec<Vec<Token>> {
             match chars[i] {
                 '°' => clause.push(Token::Word("degrees".into())),
                 '%' => clause.push(Token::Word("percent".into())),
+                // `Length: 130 m` is one statement.
+                ':' if number_follows(&chars, i + 1) => {}
                 ',' | ';' | ':' | '.' | '!' | '?' | '(' | ')' | '\n' => clauses.push(vec![]),
                 _ => {}
             }
@@ -67,6 +69,10 @@ pub(crate) fn clauses(text: &str) -> Vec<Vec<Token>> {
         }
     }
     clauses
+}
+
+fn number_follows(chars: &[char], from: usize) -> bool {
+    chars[from..].iter().find(|c| !c.is_whitespace()).is_some_and(char::is_ascii_digit)
 }
 
 fn decimal_point(chars: &[char], at: usize) -> bool {
@@ -78,10 +84,11 @@ fn letter(chars: &[char], at: usize) -> bool {
 }
 
 fn read_clause(tokens: &[Token], after_stop: bool) -> Vec<Claim> {
-    let words: Vec<&str> = tokens.iter().map(word_of).collect();
+    let words = without_idioms(tokens.iter().map(word_of).collect());
     let about_stops = words.iter().any(|word| is_stop(word));
     // `They pause once, for about 3 seconds`: the time belongs to the stop.
-    let sums = || words.iter().any(|word| ["altogether", "together", "total", "all"].contains(word));
+    let sums =
+        || words.iter().any(|word| ["altogether", "together", "total", "all", "told", "standing", "sum"].contains(word));
     let goes_on = after_stop && !about_stops && (words.first().is_some_and(|word| GOES_ON.contains(word)) || sums());
     let mut claims = vec![];
     let mut turns: Vec<(usize, TurnKind)> = vec![];
@@ -106,6 +113,11 @@ fn read_clause(tokens: &[Token], after_stop: bool) -> Vec<Claim> {
             }
         }
     }
+    if goes_on {
+        claims.retain(|claim| *claim != Claim::Stays);
+    } else if !about_stops && denied(&words, |word| matches!(word, "move" | "moves" | "moving" | "moved" | "movement")) {
+        claims.push(Claim::Stays);
+    }
     // `turns left after turning right` says the later turn first.
     if let [(first, one), (second, other)] = turns[..]
         && words[first..second].contains(&"after")
@@ -128,6 +140,25 @@ fn read_clause(tokens: &[Token], after_stop: bool) -> Vec<Claim> {
         claims.push(Claim::NoTurns);
     }
     claims
+}
+
+/// The words without those that look like places of the drone and are none: `a shirt above blue jeans`, `it is over`, `130 m are
+/// behind them`.
+fn without_idioms(mut words: Vec<&str>) -> Vec<&str> {
+    for at in 0..words.len() {
+        let before = at.checked_sub(1).map_or("", |before| words[before]);
+        let after = words[at + 1..].iter().take(3).any(|word| colour(word).is_some());
+        let is_idiom = match words[at] {
+            "above" | "over" | "under" | "below" if after => true,
+            "over" => ["is", "was"].contains(&before),
+            "behind" => ["are", "is"].contains(&before) && words.get(at + 1) == Some(&"them"),
+            _ => false,
+        };
+        if is_idiom {
+            words[at] = "-";
+        }
+    }
+    words
 }
 
 /// Whether a negation comes a few words before such a word.
@@ -212,6 +243,8 @@ fn quantity(value: f64, at: usize, words: &[&str], about_stops: bool) -> Option<
             Some(_) if words.contains(&"distance") && WALKED.iter().any(|word| words.contains(word)) => {
                 Claim::Way(value)
             }
+            // With a time or a pace beside it, a length without a place is the way.
+            None if is_travelled(words) => Claim::Way(value),
             _ if value < 0.0 => Claim::Unknown(format!("{value} {unit}")),
             _ => Claim::Distance(value),
         },
@@ -233,6 +266,10 @@ fn quantity(value: f64, at: usize, words: &[&str], about_stops: bool) -> Option<
             None => Claim::Unknown(format!("{value} {unit}").trim_end().to_owned()),
         },
     })
+}
+
+fn is_travelled(words: &[&str]) -> bool {
+    words.iter().any(|word| ["m/s", "seconds", "second", "secs", "s"].contains(word))
 }
 
 /// Clothes and luggage at a place of a clause.
@@ -262,7 +299,8 @@ fn clothes_claim(at: usize, words: &[&str]) -> Option<Claim> {
             return (other != found).then(|| Claim::Unknown(format!("{word} and {}", words[at + 2])));
         }
     }
-    if let Some(claim) = garment(Some(&next)) {
+    let of_pair = || words.get(at + 3).filter(|_| next == "pair" && words.get(at + 2) == Some(&"of"));
+    if let Some(claim) = garment(Some(&next)).or_else(|| garment(of_pair())) {
         return Some(claim(found));
     }
     // `a top that is red`, `trousers in black`, `red on top`
@@ -318,6 +356,7 @@ fn word_claim(at: usize, words: &[&str], counted: bool, about_stops: bool) -> Op
             "still" if !["walks", "walking", "keeps", "keep", "moving"].contains(&next) && !about_stops => {
                 Some(Claim::Stays)
             }
+            "stands" | "standing" if next != "out" && !about_stops => Some(Claim::Stays),
             "motionless" | "stationary" | "immobile" if !about_stops => Some(Claim::Stays),
             "stays" | "remains" if ["put", "in"].contains(&next) && !words.contains(&"view") => Some(Claim::Stays),
             "once" if about_stops => Some(Claim::Stops(1)),
@@ -329,7 +368,7 @@ fn word_claim(at: usize, words: &[&str], counted: bool, about_stops: bool) -> Op
 }
 
 fn compass_word(word: &str) -> Option<Compass> {
-    let stem = ["wards", "ward", "bound"].iter().find_map(|ending| word.strip_suffix(ending)).unwrap_or(word);
+    let stem = ["wards", "ward", "bound", "erly", "ern"].iter().find_map(|ending| word.strip_suffix(ending)).unwrap_or(word);
     Some(match stem {
         "east" => Compass::East,
         "southeast" => Compass::Southeast,
@@ -354,7 +393,7 @@ fn turn_word(word: &str) -> Option<TurnKind> {
 
 fn is_stop(word: &str) -> bool {
     ["stop", "pause", "halt"].iter().any(|stem| word.starts_with(stem))
-        || matches!(word, "pausing" | "waits" | "waiting" | "break" | "breaks" | "rests" | "standstill" | "lingers")
+        || matches!(word, "pausing" | "waits" | "waiting" | "break" | "breaks" | "rests" | "rested" | "resting" | "standstill" | "lingers")
 }
 
 pub fn is_unit(word: &str) -> bool {

@@ -21,7 +21,8 @@ impl LandmarkKind {
     pub const ALL: [Self; 6] =
         [Self::TrafficLight, Self::Lamp, Self::TrafficSign, Self::Tree, Self::Car, Self::Building];
 
-    fn of(kind: ObstacleKind) -> Option<Self> {
+    /// The landmark that an obstacle is.
+    pub(crate) fn of(kind: ObstacleKind) -> Option<Self> {
         match kind {
             ObstacleKind::TrafficLight => Some(Self::TrafficLight),
             ObstacleKind::Lamp => Some(Self::Lamp),
@@ -38,7 +39,7 @@ impl LandmarkKind {
 pub struct Landmarks {
     boxes: BoxBvh,
     /// Object and kind of every box. A crown belongs to its tree, whose place is that of the trunk.
-    parts: Vec<(u32, Option<LandmarkKind>)>,
+    parts: Vec<(u32, ObstacleKind)>,
     /// Pairs of an object and one of its boxes, in order.
     objects: Vec<(u32, u32)>,
 }
@@ -58,7 +59,7 @@ impl std::fmt::Debug for Landmarks {
 impl Landmarks {
     /// The landmarks among the obstacles of a town.
     pub fn of(obstacles: &[Obstacle]) -> Self {
-        let parts = obstacles.iter().map(|it| (it.object_id, LandmarkKind::of(it.kind))).collect();
+        let parts = obstacles.iter().map(|it| (it.object_id, it.kind)).collect();
         let mut objects: Vec<(u32, u32)> =
             obstacles.iter().zip(0..).map(|(it, number)| (it.object_id, number)).collect();
         objects.sort_unstable();
@@ -66,14 +67,14 @@ impl Landmarks {
     }
 
     /// Landmarks whose box comes within `reach_m` of a point along x, y or z: kind, object and box, in the order of the town.
-    pub(super) fn around(&self, point: DVec3, reach_m: f64) -> Vec<(LandmarkKind, u32, &OrientedBox)> {
+    pub(crate) fn around(&self, point: DVec3, reach_m: f64) -> Vec<(LandmarkKind, u32, &OrientedBox)> {
         let mut found = vec![];
         let reach = DVec3::splat(reach_m);
         self.boxes.within(point - reach, point + reach, &mut |number| found.push(number));
         found.sort_unstable();
         let landmark = |number: u32| {
             let (object, kind) = self.parts[number as usize];
-            kind.map(|kind| (kind, object, &self.boxes.boxes()[number as usize]))
+            LandmarkKind::of(kind).map(|kind| (kind, object, &self.boxes.boxes()[number as usize]))
         };
         found.into_iter().filter_map(landmark).collect()
     }
@@ -82,7 +83,13 @@ impl Landmarks {
     pub(super) fn first_between(&self, from: DVec3, to: DVec3) -> Option<(Option<LandmarkKind>, u32, DVec3)> {
         let hit = self.boxes.closest_hit(from, to - from, 1.0)?;
         let (object, kind) = self.parts[hit.primitive as usize];
-        Some((kind, object, from + hit.t * (to - from)))
+        Some((LandmarkKind::of(kind), object, from + hit.t * (to - from)))
+    }
+
+    /// Kind of the first box of an object; `None` where there is no such object.
+    pub fn kind_of(&self, object: u32) -> Option<ObstacleKind> {
+        let first = self.objects.get(self.objects.partition_point(|(it, _)| *it < object))?;
+        (first.0 == object).then(|| self.parts[first.1 as usize].1)
     }
 
     /// Boxes of an object.
@@ -94,7 +101,7 @@ impl Landmarks {
 }
 
 /// The way along the ground from a point to the nearest point of a box's footprint, metres.
-pub(super) fn way_to(shape: &OrientedBox, point: DVec3) -> DVec2 {
+pub(crate) fn way_to(shape: &OrientedBox, point: DVec3) -> DVec2 {
     let (sin, cos) = real::sin_cos(shape.yaw_rad);
     let from_center = (point - shape.center_in_world).truncate();
     let own = DVec2::new(cos * from_center.x + sin * from_center.y, cos * from_center.y - sin * from_center.x);

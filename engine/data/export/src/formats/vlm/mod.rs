@@ -1,6 +1,7 @@
 //! Fine-tuning of vision-language models: a line of JSON per window, as LLaMA-Factory and ms-swift both read it.
 
 mod conversation;
+mod goals;
 mod options;
 mod students;
 
@@ -46,6 +47,8 @@ impl Format for Vlm {
         }
         let language = options.instructions.language;
         let instructions = source.dataset.window_instructions(language.of_windows(), window.history)?;
+        let is_for_students = options.sets == Sets::Students;
+        let goals = if is_for_students { source.dataset.goals(language.code())? } else { BTreeMap::new() };
         let mut lines = Lines { out, files: BTreeMap::new() };
         let (mut flight, mut windows) = (0, 0);
         source.each_flight_of(&is_seen, &mut |episode| {
@@ -60,7 +63,7 @@ impl Format for Vlm {
                 let whole = line(Shown::ALL);
                 lines.put(split, &whole)?;
                 windows += 1;
-                if options.sets == Sets::Students {
+                if is_for_students {
                     for percent in students::SHARES.into_iter().filter(|it| students::is_in_share(episode, *it)) {
                         lines.put(&format!("{split}_{percent}"), &whole)?;
                     }
@@ -69,7 +72,11 @@ impl Format for Vlm {
                     }
                 }
             }
-            if options.sets == Sets::Students {
+            if is_for_students {
+                let own = goals.get(&episode.flight.trajectory_id).map_or(&[][..], Vec::as_slice);
+                for (name, line) in goals::lines(episode, own, language.code(), &pictures) {
+                    lines.put(&format!("{split}_{name}"), &line)?;
+                }
                 for (name, line) in students::texts(episode, options, &pictures) {
                     lines.put(&format!("{split}_{name}"), &line)?;
                 }
@@ -83,7 +90,7 @@ impl Format for Vlm {
         let entries: BTreeMap<String, Value> =
             registered.map(|name| (format!("cosfly_{name}"), registration(name))).collect();
         out.put("dataset_info.json", format!("{:#}\n", json!(entries)).as_bytes())?;
-        if options.sets == Sets::Students {
+        if is_for_students {
             out.put("README_students.md", students::GUIDE.as_bytes())?;
         }
         let splits: std::collections::BTreeSet<&str> = source.splits().into_iter().collect();

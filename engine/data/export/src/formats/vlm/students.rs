@@ -32,6 +32,9 @@ For every split (`train` here), made from the same flights and pictures:
 | `train_25.jsonl`, `train_50.jsonl` | about 25 % and 50 % of the pedestrians; each file holds the smaller one |
 | `train_no_pictures.jsonl`, `train_no_boxes.jsonl`, `train_no_poses.jsonl`, `train_pictures_only.jsonl` | the paper's ablation of inputs |
 | `train_texts.jsonl` | pictures, poses -> text |
+| `train_goals.jsonl` | pictures -> the goal of a flight or a step |
+| `train_goal_checks.jsonl` | pictures, a goal -> whether it fits, and the subject of what is not so |
+| `train_dialogues.jsonl` | pictures, a dialogue with a correction -> what the user says in the end |
 | `train_preferences.jsonl` | pairs for DPO (LLaMA-Factory): the published text and an answer of the teacher that was refused |
 | `train_preferences_swift.jsonl` | the same pairs for ms-swift |
 

@@ -1,0 +1,91 @@
+//! Goals of a flight: what a recorded flight shows, as the room of captions takes it.
+
+use crate::losses::Loss;
+use crate::phrases::is_clear;
+use crate::{OtherPerson, RenderedTrajectory};
+use cosfly_captions::Wear;
+use cosfly_captions::goals::{Course, Flight, Goal, Hidden, Hider, Neighbour, Sample, goals};
+use cosfly_captions::sight::Landmarks;
+use cosfly_frames::Seed;
+use cosfly_render::Outfit;
+use cosfly_render::frame::{TARGET_INSTANCE, object_instance};
+use cosfly_world::BodyKind;
+use std::ops::Range;
+
+/// A target is partly hidden where less than this share of its pixels is visible.
+const PARTLY: f64 = 0.5;
+/// Somebody else with fewer visible pixels is not clear.
+const CLEAR_PIXELS: u32 = 30;
+
+/// All goals of a flight; none for a target that is no person on foot.
+pub fn of(record: &RenderedTrajectory, losses: &[Loss], landmarks: &Landmarks) -> Vec<Goal> {
+    let is_person = record.target_kind() == Some(BodyKind::Pedestrian);
+    let Some(outfit) = record.outfit.as_ref().filter(|_| is_person && !record.is_empty()) else { return vec![] };
+    let flight = flight(record, outfit, losses, landmarks);
+    let seed = Seed::of_item(record.seed, "goals", &record.trajectory_id);
+    goals(&Course::of(&flight, landmarks), &seed)
+}
+
+fn flight<'a>(record: &'a RenderedTrajectory, outfit: &Outfit, losses: &[Loss], landmarks: &Landmarks) -> Flight<'a> {
+    let mut hidden: Vec<Hidden> = losses.iter().map(|loss| whole(record, loss)).collect();
+    hidden.extend(partly(record));
+    hidden.sort_by_key(|it| it.frames.start);
+    let mut ids: Vec<u32> = hidden.iter().filter_map(|it| it.behind).collect();
+    ids.sort_unstable();
+    ids.dedup();
+    Flight {
+        dt_s: record.dt_s(),
+        states: &record.trajectory.track.states,
+        distance_m: (0..record.len()).map(|frame| record.distance_m(frame)).collect(),
+        is_clear: (0..record.len()).map(|frame| is_clear(record, frame)).collect(),
+        wear: Wear::from(outfit),
+        hiders: ids.into_iter().filter_map(|id| hider(record, landmarks, id).map(|it| (id, it))).collect(),
+        hidden,
+        neighbours: neighbours(record),
+    }
+}
+
+/// Frames without a visible pixel; a cause only where it is the same in all of them.
+fn whole(record: &RenderedTrajectory, loss: &Loss) -> Hidden {
+    let cause = record.views[loss.frames.start].occluder_instance;
+    let is_same = record.views[loss.frames.clone()].iter().all(|view| view.in_view && view.occluder_instance == cause);
+    Hidden {
+        frames: loss.frames.clone(),
+        behind: Some(cause).filter(|_| is_same && cause > TARGET_INSTANCE),
+        is_outside: loss.frames_out_of_view == loss.frames.len(),
+        is_whole: true,
+    }
+}
+
+/// Runs of frames in which the same thing hides more than half of the target, and not all of it.
+fn partly(record: &RenderedTrajectory) -> Vec<Hidden> {
+    let cause = |frame: usize| {
+        let view = &record.views[frame];
+        let is_partly = view.pixels > 0 && view.visible_by_pixels < PARTLY;
+        if is_partly { view.occluder_instance } else { 0 }
+    };
+    let frames: Vec<usize> = (0..record.len()).collect();
+    let runs = frames.chunk_by(|a, b| cause(*a) == cause(*b)).filter(|run| cause(run[0]) > TARGET_INSTANCE);
+    let hidden =
+        |frames: Range<usize>| Hidden { behind: Some(cause(frames.start)), frames, is_outside: false, is_whole: false };
+    runs.map(|run| hidden(run[0]..run[run.len() - 1] + 1)).collect()
+}
+
+fn hider(record: &RenderedTrajectory, landmarks: &Landmarks, instance: u32) -> Option<Hider> {
+    if let Ok(at) = record.others.binary_search_by_key(&instance, |other| other.instance) {
+        return Some(Hider::Body(record.others[at].kind));
+    }
+    let object = instance.checked_sub(object_instance(0))?;
+    landmarks.kind_of(object).map(Hider::Object)
+}
+
+fn neighbours(record: &RenderedTrajectory) -> Vec<Neighbour> {
+    let samples = |place: usize| -> Vec<Sample> {
+        let own = record.sightings.iter().filter(|it| it.person as usize == place);
+        own.map(|it| Sample { frame: it.frame as usize, state: it.state, is_clear: it.view.pixels >= CLEAR_PIXELS })
+            .collect()
+    };
+    let is_walker = |it: &(usize, &OtherPerson)| it.1.kind == BodyKind::Pedestrian;
+    let others = record.others.iter().enumerate().filter(is_walker);
+    others.map(|(place, it)| Neighbour { wear: Wear::from(&it.outfit), samples: samples(place) }).collect()
+}

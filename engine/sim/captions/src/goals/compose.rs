@@ -1,0 +1,232 @@
+//! Composition of goals: claims that were picked, put into words of both languages.
+
+use super::claim::{Claim, Passed, Said, Subject};
+use super::course::Course;
+use super::{chinese, english, pick, steps};
+use crate::facts::Wear;
+use crate::language::Language;
+use crate::sight::OnSide;
+use crate::turns::TurnKind;
+use crate::wording::one_of;
+use cosfly_random::{RandomStream, Seed};
+use cosfly_render::Colour;
+use std::ops::Range;
+
+/// Kind of goal.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Grain {
+    /// One for the whole flight.
+    Flight,
+    /// One for a stretch.
+    Step,
+    /// Three lines, the last of which corrects the second.
+    Dialogue,
+    /// One that does not fit: one thing in it is not so.
+    Negative,
+}
+
+impl Grain {
+    /// All grains, in the order of the table.
+    pub const ALL: [Self; 4] = [Self::Flight, Self::Step, Self::Dialogue, Self::Negative];
+
+    /// Name in tables.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Flight => "flight",
+            Self::Step => "step",
+            Self::Dialogue => "dialogue",
+            Self::Negative => "negative",
+        }
+    }
+}
+
+/// A goal in one language.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Goal {
+    /// Kind of goal.
+    pub grain: Grain,
+    /// Language of the lines.
+    pub language: Language,
+    /// Frames that the goal is about.
+    pub frames: Range<usize>,
+    /// Lines: the user's first, then by turns the pilot's and the user's.
+    pub lines: Vec<String>,
+    /// What the user says in the end; of a negative, one of the claims is false.
+    pub said: Vec<Said>,
+    /// What a negative, or the corrected line of a dialogue, is wrong about.
+    pub wrong: Option<Subject>,
+}
+
+/// What a goal says, before it has words.
+#[derive(Clone, Debug)]
+pub(super) struct Plan {
+    pub grain: Grain,
+    pub frames: Range<usize>,
+    pub said: Vec<Said>,
+    pub wrong: Option<Subject>,
+    /// What the pilot understands, for a dialogue.
+    pub mistaken: Option<Claim>,
+    /// Whether a dialogue is about one of two people.
+    pub is_other_of_two: bool,
+}
+
+/// The words of a language.
+pub(super) struct Wording {
+    pub flights: &'static [&'static str],
+    pub steps: &'static [&'static str],
+    pub keeps: &'static [&'static str],
+    pub predicate: fn(&Said, &mut RandomStream) -> String,
+    pub anchored: fn(&Passed, &str, &mut RandomStream) -> String,
+    pub joined: fn(&[String], &mut RandomStream) -> String,
+    pub finished: fn(&str, &str, &str) -> String,
+    pub target: fn(&Wear, &mut RandomStream) -> String,
+    pub dialogue: fn(Subject) -> &'static [[&'static str; 3]],
+}
+
+/// Goals of a flight, in both languages, in the order of [`Grain::ALL`].
+pub fn goals(course: &Course<'_>, seed: &Seed) -> Vec<Goal> {
+    let mut plans = pick::flights(course, &mut seed.stream("flights"));
+    plans.extend(steps::steps(course, &mut seed.stream("steps")));
+    plans.extend(pick::dialogues(course, &mut seed.stream("dialogues")));
+    plans.extend(pick::negatives(course, &plans, &mut seed.stream("negatives")));
+    let mut goals = vec![];
+    for (number, plan) in plans.iter().enumerate() {
+        for language in Language::ALL {
+            let words = &mut seed.child(language.code(), number as u64).stream("words");
+            goals.push(Goal {
+                grain: plan.grain,
+                language,
+                frames: plan.frames.clone(),
+                lines: lines(plan, language, words),
+                said: plan.said.clone(),
+                wrong: plan.wrong,
+            });
+        }
+    }
+    goals
+}
+
+fn lines(plan: &Plan, language: Language, words: &mut RandomStream) -> Vec<String> {
+    let wording = match language {
+        Language::Zh => &chinese::WORDING,
+        Language::En => &english::WORDING,
+    };
+    match &plan.mistaken {
+        Some(mistaken) => dialogue(plan, mistaken, wording, language, words),
+        None => vec![sentence(plan, wording, words)],
+    }
+}
+
+fn wear_of(said: &[Said]) -> Option<Wear> {
+    said.iter().find_map(|it| if let Claim::Wears(wear) = it.claim { Some(wear) } else { None })
+}
+
+fn metres_of(said: &[Said]) -> Option<u32> {
+    said.iter().find_map(|it| if let Claim::Distance(metres) = it.claim { Some(metres) } else { None })
+}
+
+/// One or several sentences with everything that is said.
+fn sentence(plan: &Plan, wording: &Wording, words: &mut RandomStream) -> String {
+    let wear = wear_of(&plan.said);
+    let templates = if wear.is_some() { wording.flights } else { wording.steps };
+    let template = one_of(words, templates);
+    let predicates = (wording.joined)(&predicates(&plan.said, wording, words), words);
+    let keep = one_of(words, wording.keeps).replace("{d}", &metres_of(&plan.said).unwrap_or(0).to_string());
+    let text = (wording.finished)(template, &predicates, &keep);
+    wear.map_or(text.clone(), |wear| text.replace("[w]", &(wording.target)(&wear, words)))
+}
+
+/// What the target does, in order; a move after landmarks may be told by the last of them.
+fn predicates(said: &[Said], wording: &Wording, words: &mut RandomStream) -> Vec<String> {
+    let told: Vec<&Said> = said.iter().filter(|it| !matches!(it.claim, Claim::Wears(_) | Claim::Distance(_))).collect();
+    let mut parts: Vec<String> = vec![];
+    let mut at = 0;
+    while at < told.len() {
+        let is_move = |it: &&Said| matches!(it.claim, Claim::Turns(_));
+        match (&told[at].claim, told.get(at + 1)) {
+            (Claim::Passes(passed), Some(next)) if is_move(next) && next.frames.start >= told[at].frames.end => {
+                let action = (wording.predicate)(next, words);
+                parts.push((wording.anchored)(passed, &action, words));
+                at += 2;
+            }
+            _ => {
+                parts.push((wording.predicate)(told[at], words));
+                at += 1;
+            }
+        }
+    }
+    parts
+}
+
+fn dialogue(
+    plan: &Plan,
+    mistaken: &Claim,
+    wording: &Wording,
+    language: Language,
+    words: &mut RandomStream,
+) -> Vec<String> {
+    let patterns = (wording.dialogue)(plan.wrong.unwrap_or(Subject::Clothes));
+    // Of more than two people nobody is `the other one`.
+    let is_of_two = |lines: &[&str; 3]| lines.iter().any(|line| line.contains("other one") || line.contains("另一个"));
+    let fitting: Vec<&[&str; 3]> = patterns.iter().filter(|it| plan.is_other_of_two || !is_of_two(it)).collect();
+    let lines = fitting[words.index(fitting.len())];
+    let wear = wear_of(&plan.said);
+    let metres = metres_of(&plan.said);
+    let top = |colour: Colour| match language {
+        Language::En => format!("{} {}", crate::english::article(colour.name()), colour.name()),
+        Language::Zh => crate::chinese::colour(colour).to_owned(),
+    };
+    let trousers = |colour: Colour| match language {
+        Language::En => colour.name().to_owned(),
+        Language::Zh => crate::chinese::colour(colour).to_owned(),
+    };
+    let mut filled: Vec<String> = lines.iter().map(|line| (*line).to_owned()).collect();
+    let mut put = |key: &str, value: &str| filled.iter_mut().for_each(|line| *line = line.replace(key, value));
+    if let Some(wear) = &wear {
+        put("{w}", &(wording.target)(wear, words));
+        put("{t}", &top(wear.top));
+        put("{r}", &trousers(wear.trousers));
+    }
+    if let Some(metres) = metres {
+        put("{d}", &metres.to_string());
+    }
+    match mistaken {
+        Claim::Wears(other) => put("{o}", &top(other.top)),
+        Claim::Distance(wrong) => {
+            let is_closer = metres.is_some_and(|metres| metres < *wrong);
+            put("{x}", &wrong.to_string());
+            put(
+                "{F}",
+                match (language, is_closer) {
+                    (Language::En, true) => "Closer",
+                    (Language::En, false) => "Farther back",
+                    (Language::Zh, true) => "太远了",
+                    (Language::Zh, false) => "太近了",
+                },
+            );
+        }
+        wrong => {
+            let own = predicates(&plan.said, wording, words).join(" ");
+            put("{m}", &own);
+            put("{n}", &(wording.predicate)(&Said { claim: wrong.clone(), frames: plan.frames.clone() }, words));
+        }
+    }
+    filled.iter().map(|line| (wording.finished)(line, "", "")).collect()
+}
+
+/// The other side.
+pub(super) fn mirrored(kind: TurnKind) -> Option<TurnKind> {
+    match kind {
+        TurnKind::Left => Some(TurnKind::Right),
+        TurnKind::Right => Some(TurnKind::Left),
+        TurnKind::Around => None,
+    }
+}
+
+/// The other side.
+pub(super) fn other_side(side: OnSide) -> OnSide {
+    match side {
+        OnSide::Left => OnSide::Right,
+        OnSide::Right => OnSide::Left,
+    }
+}

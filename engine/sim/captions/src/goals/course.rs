@@ -1,0 +1,182 @@
+//! The course of a flight: all that a goal may say of it, in order of time.
+
+use super::claim::{Claim, Hider, Said, is_named};
+use super::{passing, people};
+use crate::facts::Wear;
+use crate::sight::Landmarks;
+use crate::turns::{Turn, directions, turns};
+use cosfly_frames::{DVec2, TargetState};
+use std::ops::Range;
+
+/// Slower than this is standing, m/s.
+const STANDING_MPS: f64 = 0.05;
+/// Shorter pauses, and shorter times out of sight, are not worth a word, seconds.
+const LEAST_S: f64 = 1.0;
+/// A target that moves less than this in all stands, metres.
+const LEAST_WALK_M: f64 = 1.0;
+/// Fewest frames in a row of a target that is partly hidden.
+const PARTLY_FRAMES: usize = 2;
+
+/// Frames in a row in which something hides the target.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Hidden {
+    /// The frames.
+    pub frames: Range<usize>,
+    /// What hides it; `None`: nothing that has a name, or several things.
+    pub behind: Option<u32>,
+    /// Whether the target is outside of the picture in all of the frames.
+    pub is_outside: bool,
+    /// Whether no pixel of it is visible; else less than half of it is.
+    pub is_whole: bool,
+}
+
+/// Somebody else in one frame that shows them.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Sample {
+    /// The frame.
+    pub frame: usize,
+    /// Place and motion.
+    pub state: TargetState,
+    /// Whether the picture shows enough of them.
+    pub is_clear: bool,
+}
+
+/// Somebody on foot who is seen in a flight.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Neighbour {
+    /// Clothes.
+    pub wear: Wear,
+    /// All frames that show them, in order.
+    pub samples: Vec<Sample>,
+}
+
+/// What a course is read from.
+#[derive(Clone, Debug)]
+pub struct Flight<'a> {
+    /// Time between frames, seconds.
+    pub dt_s: f64,
+    /// The target.
+    pub states: &'a [TargetState],
+    /// Distance from the drone to the feet by frame, metres.
+    pub distance_m: Vec<f64>,
+    /// Whether the target is clear in the picture, by frame.
+    pub is_clear: Vec<bool>,
+    /// Clothes of the target.
+    pub wear: Wear,
+    /// Times in which it is hidden, in order.
+    pub hidden: Vec<Hidden>,
+    /// What has an instance id, of the ids in `hidden`.
+    pub hiders: Vec<(u32, Hider)>,
+    /// Everybody else on foot.
+    pub neighbours: Vec<Neighbour>,
+}
+
+/// What can be said of a flight.
+#[derive(Clone, Debug)]
+pub struct Course<'a> {
+    pub(super) flight: &'a Flight<'a>,
+    pub(super) landmarks: &'a Landmarks,
+    /// False when the target stays within a metre.
+    pub(super) walks: bool,
+    /// The turns, in order.
+    pub(super) turns: Vec<Turn>,
+    /// The pauses, in order.
+    pub(super) stops: Vec<Range<usize>>,
+}
+
+impl<'a> Course<'a> {
+    /// Of a flight in a town.
+    pub fn of(flight: &'a Flight<'a>, landmarks: &'a Landmarks) -> Self {
+        let feet: Vec<DVec2> = flight.states.iter().map(|state| state.feet_in_world.truncate()).collect();
+        let moving: Vec<bool> = flight.states.iter().map(|state| state.speed_mps >= STANDING_MPS).collect();
+        let way_m: f64 = feet.windows(2).map(|pair| pair[0].distance(pair[1])).sum();
+        let walks = way_m >= LEAST_WALK_M;
+        let turns = if walks { turns(&directions(&feet, &moving)) } else { vec![] };
+        let stops = if walks { pauses(&moving, flight.dt_s) } else { vec![] };
+        Self { flight, landmarks, walks, turns, stops }
+    }
+
+    /// Number of frames.
+    pub(super) fn len(&self) -> usize {
+        self.flight.states.len()
+    }
+
+    pub(super) fn clothes(&self) -> Said {
+        Said { claim: Claim::Wears(self.flight.wear), frames: 0..self.len() }
+    }
+
+    /// Mean distance over frames.
+    pub(super) fn distance(&self, frames: &Range<usize>) -> Said {
+        let part = &self.flight.distance_m[frames.clone()];
+        let mean_m = part.iter().sum::<f64>() / part.len().max(1) as f64;
+        Said { claim: Claim::Distance(mean_m.round() as u32), frames: frames.clone() }
+    }
+
+    /// All turns and pauses that begin in the frames, in order.
+    pub(super) fn moves(&self, frames: &Range<usize>) -> Vec<Said> {
+        let is_in = |frame: usize| frames.contains(&frame);
+        let turns = self
+            .turns
+            .iter()
+            .filter(|turn| is_in(turn.frame as usize))
+            .map(|turn| Said { claim: Claim::Turns(turn.kind), frames: turn.frame as usize..turn.frame as usize + 1 });
+        let stops = self.stops.iter().filter(|stop| is_in(stop.start)).map(|stop| Said {
+            claim: Claim::Stops((stop.len() as f64 * self.flight.dt_s).round() as u32),
+            frames: stop.clone(),
+        });
+        let mut moves: Vec<Said> = turns.chain(stops).collect();
+        moves.sort_by_key(|said| said.frames.start);
+        moves
+    }
+
+    /// That the target stands, or that it does not turn, where that is so all through the frames.
+    pub(super) fn quiet(&self, frames: &Range<usize>) -> Option<Said> {
+        let stands = |frame: usize| self.flight.states[frame].speed_mps < STANDING_MPS;
+        let claim = match () {
+            () if frames.clone().all(stands) => Claim::Stands,
+            () if frames.clone().any(stands) => return None,
+            () if self.turns.iter().all(|turn| !frames.contains(&(turn.frame as usize))) => Claim::NoTurn,
+            () => return None,
+        };
+        Some(Said { claim, frames: frames.clone() })
+    }
+
+    /// Times out of sight, and partly hidden, that begin in the frames.
+    pub(super) fn sights(&self, frames: &Range<usize>) -> Vec<Said> {
+        let said = |hidden: &Hidden| {
+            let length_s = hidden.frames.len() as f64 * self.flight.dt_s;
+            let behind = hidden.behind.and_then(|id| self.flight.hiders.iter().find(|it| it.0 == id)).map(|it| it.1);
+            let behind = behind.filter(|hider| is_named(*hider));
+            let claim = match (hidden.is_whole, behind) {
+                (true, _) if length_s < LEAST_S - 1e-9 => return None,
+                (true, None) if !hidden.is_outside => return None,
+                (true, behind) => Claim::Lost {
+                    behind: behind.filter(|_| !hidden.is_outside),
+                    seconds: length_s.round() as u32,
+                    found: hidden.frames.end < self.len(),
+                },
+                (false, Some(hider)) if hidden.frames.len() >= PARTLY_FRAMES => Claim::PartlyHidden(hider),
+                (false, _) => return None,
+            };
+            Some(Said { claim, frames: hidden.frames.clone() })
+        };
+        let begin = self.flight.hidden.iter().filter(|hidden| frames.contains(&hidden.frames.start));
+        begin.filter_map(said).collect()
+    }
+
+    /// Landmarks that are passed, and people who walk along or come towards the target, in the frames.
+    pub(super) fn surroundings(&self, frames: &Range<usize>) -> Vec<Said> {
+        let mut found = passing::passed(self, frames);
+        found.extend(people::walks_with(self, frames));
+        found.extend(people::meets(self, frames));
+        found
+    }
+}
+
+/// Runs of standing frames of at least [`LEAST_S`].
+fn pauses(moving: &[bool], dt_s: f64) -> Vec<Range<usize>> {
+    let frames: Vec<usize> = (0..moving.len()).collect();
+    let runs = frames.chunk_by(|a, b| moving[*a] == moving[*b]);
+    let stands = runs.filter(|run| !moving[run[0]] && run.len() as f64 * dt_s >= LEAST_S - 1e-9);
+    stands.map(|run| run[0]..run[0] + run.len()).collect()
+}

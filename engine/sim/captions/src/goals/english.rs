@@ -1,0 +1,380 @@
+//! English wordings of goals.
+
+use super::claim::{Claim, Hider, Passed, Said};
+use super::compose::Wording;
+use crate::english::{article, who};
+use crate::facts::Wear;
+use crate::sight::{LandmarkKind, OnSide};
+use crate::turns::TurnKind;
+use crate::wording::one_of;
+use cosfly_maps::ObstacleKind;
+use cosfly_random::RandomStream;
+use cosfly_render::Colour;
+use cosfly_world::BodyKind;
+
+/// Goals of whole flights: `[w]` who, `[p]` what they do, `[b]` the same in the base form, `[k]` and `[K]` how to fly.
+const FLIGHTS: [&str; 18] = [
+    "Follow [w]: they [p]. [K].",
+    "Follow [w], who will [b]; [k].",
+    "Your target is [w]. They [p]. [K] throughout.",
+    "[K] and follow [w]. Expect them to [b].",
+    "Stay with [w] all the way: they [p]. [K].",
+    "Keep [w] in shot; they [p]. [K].",
+    "Track [w]. On the way they [p]. [K].",
+    "We need footage of [w]. They [p]; [k].",
+    "Find [w] and stay on them. They will [b]. [K].",
+    "Don't lose [w]: they [p]. [K].",
+    "Fly behind [w], who will [b]. [K].",
+    "[K] behind [w]; on the way they [p].",
+    "The one to follow is [w]. They will [b]; [k].",
+    "Tail [w] from start to finish. They [p]. [K].",
+    "Please follow [w]. Along the way they [p]. [K].",
+    "Go after [w] and [k]; they will [b].",
+    "Film [w] while they [p]. [K].",
+    "Keep an eye on [w] as they [p]; [k].",
+];
+/// Goals of stretches.
+const STEPS: [&str; 22] = [
+    "They [p]; [k].",
+    "Stay with them: they [p]. [K].",
+    "Follow them as they [p]; [k].",
+    "[K] while they [p].",
+    "Next, they [p]. [K].",
+    "From here they [p]; [k].",
+    "Now they [p]. Stay on them and [k].",
+    "As they [p], [k].",
+    "[K], and follow as they [p].",
+    "[K]; they will [b].",
+    "Expect them to [b]; [k].",
+    "Keep filming while they [p]. [K].",
+    "Carry on after them: they [p]. [K].",
+    "They're about to [b], so [k].",
+    "Stick with them. They [p]; [k].",
+    "Be ready for them to [b]. [K].",
+    "In this stretch they [p]. [K].",
+    "Let them [b], and [k].",
+    "Keep up with them as they [p]. [K].",
+    "Hold your line: they [p]. [K].",
+    "What comes next: they [p]. [K].",
+    "Don't let go of them: they [p]. [K].",
+];
+/// Ways to hold a distance.
+const KEEPS: [&str; 14] = [
+    "keep about {d} m away",
+    "hold a distance of about {d} m",
+    "stay about {d} m back",
+    "leave about {d} m between you",
+    "maintain a gap of about {d} m",
+    "stay about {d} m off",
+    "keep a distance of about {d} m",
+    "fly about {d} m from them",
+    "give them about {d} m of space",
+    "keep your distance at about {d} m",
+    "stay at about {d} m",
+    "don't come much closer than about {d} m",
+    "keep the gap at about {d} m",
+    "remain about {d} m away",
+];
+
+/// The wordings of the language.
+pub(super) const WORDING: Wording = Wording {
+    flights: &FLIGHTS,
+    steps: &STEPS,
+    keeps: &KEEPS,
+    predicate,
+    anchored,
+    joined,
+    finished,
+    target,
+    dialogue,
+};
+
+/// What they do; `{be}` and `{not}` wait for the form of the verb.
+fn predicate(said: &Said, words: &mut RandomStream) -> String {
+    match &said.claim {
+        Claim::Turns(kind) => one_of(words, turns(*kind)).to_owned(),
+        Claim::TurnsInAll(count) => {
+            one_of(words, &["turn {} times", "make {} turns", "change direction {} times", "turn off {} times in all"])
+                .replace("{}", &count.to_string())
+        }
+        Claim::NoTurn => one_of(
+            words,
+            &[
+                "make no sharp turns",
+                "walk on without turning off",
+                "carry on without a sharp turn",
+                "keep going and never turn off",
+                "follow their way without a sharp turn",
+                "stay on their way without turning off",
+            ],
+        )
+        .to_owned(),
+        Claim::Stops(seconds) => in_seconds(
+            one_of(
+                words,
+                &[
+                    "stop for about {s}",
+                    "pause for about {s}",
+                    "stand still for about {s}",
+                    "wait on the spot for about {s}",
+                    "come to a halt for about {s}",
+                    "halt for about {s}",
+                    "stop and stand there for about {s}",
+                    "take a break of about {s}",
+                ],
+            ),
+            *seconds,
+        ),
+        Claim::Stands => one_of(
+            words,
+            &[
+                "stand still the whole time",
+                "never move from the spot",
+                "stay put all the time",
+                "stand where they are",
+            ],
+        )
+        .to_owned(),
+        Claim::Passes(passed) => {
+            let pattern = one_of(
+                words,
+                &[
+                    "walk past {t} on the {side}",
+                    "pass {t} on their {side}",
+                    "go past {t} on the {side}",
+                    "walk by {t} on their {side}",
+                ],
+            );
+            pattern.replace("{t}", &things(passed)).replace("{side}", side(passed.side))
+        }
+        Claim::Lost { behind, seconds, found } => lost(*behind, *seconds, *found, words),
+        Claim::PartlyHidden(hider) => {
+            let pattern = one_of(
+                words,
+                &[
+                    "{be} partly hidden by {}",
+                    "{be} half covered by {} for a moment",
+                    "{be} only partly visible behind {}",
+                ],
+            );
+            pattern.replace("{}", hider_words(*hider))
+        }
+        Claim::WalksWith(count) => {
+            let pattern = one_of(
+                words,
+                &["walk beside {}", "walk along with {}", "walk side by side with {}", "walk together with {}"],
+            );
+            let others = ["", "someone else", "two others", "three others", "four others", "five others", "six others"];
+            pattern.replace("{}", others.get(*count).copied().unwrap_or("several others"))
+        }
+        Claim::Meets(top) => {
+            let pattern = one_of(
+                words,
+                &[
+                    "meet someone in {} top coming the other way",
+                    "pass someone in {} top who comes towards them",
+                    "come face to face with someone in {} top and walk past them",
+                    "walk past someone in {} top coming the opposite way",
+                ],
+            );
+            pattern.replace("{}", &a_colour(*top))
+        }
+        Claim::Wears(_) | Claim::Distance(_) => String::new(),
+    }
+}
+
+fn turns(kind: TurnKind) -> &'static [&'static str] {
+    match kind {
+        TurnKind::Left => &[
+            "turn left",
+            "take a left",
+            "go left",
+            "turn off to the left",
+            "take a left turn",
+            "swing left",
+            "head off to the left",
+        ],
+        TurnKind::Right => &[
+            "turn right",
+            "take a right",
+            "go right",
+            "turn off to the right",
+            "take a right turn",
+            "swing right",
+            "head off to the right",
+        ],
+        TurnKind::Around => &["turn round", "turn back", "double back", "make a U-turn", "go back the way they came"],
+    }
+}
+
+/// A move right after the last of some landmarks: `turn left after the second tree on the right`.
+fn anchored(passed: &Passed, action: &str, words: &mut RandomStream) -> String {
+    let ordinals = ["", "first", "second", "third", "fourth", "fifth", "sixth"];
+    let pattern = one_of(
+        words,
+        &[
+            "{a} after the {n} {t} on the {side}",
+            "go past the {n} {t} on their {side} and then {a}",
+            "{a} once they are past the {n} {t} on the {side}",
+            "reach the {n} {t} on the {side}, pass it and {a}",
+        ],
+    );
+    let (one, _) = thing(passed.kind);
+    let filled = pattern.replace("{a}", action).replace("{n}", ordinals.get(passed.count).copied().unwrap_or("last"));
+    filled.replace("{t}", one).replace("{side}", side(passed.side))
+}
+
+fn lost(behind: Option<Hider>, seconds: u32, found: bool, words: &mut RandomStream) -> String {
+    let patterns: &[&str] = match (behind, found) {
+        (Some(_), true) => &[
+            "disappear behind {h} for about {s}",
+            "{be} out of sight behind {h} for about {s} and then come back into view",
+            "vanish behind {h} and reappear about {s} later",
+            "{be} completely hidden by {h} for about {s}",
+            "go behind {h} and come out again after about {s}",
+            "drop out of sight behind {h} for about {s}",
+        ],
+        (Some(_), false) => &[
+            "disappear behind {h} and {not} come back into view",
+            "go out of sight behind {h} for good",
+            "end up behind {h}, out of sight to the end",
+        ],
+        (None, true) => &[
+            "leave the picture for about {s}",
+            "drop out of the frame for about {s}",
+            "{be} out of the picture for about {s} and then return",
+            "walk out of shot and come back after about {s}",
+        ],
+        (None, false) => &[
+            "leave the picture and {not} come back",
+            "walk out of the frame for good",
+            "end up outside of the picture",
+        ],
+    };
+    let filled = one_of(words, patterns).replace("{h}", behind.map_or("", hider_words));
+    in_seconds(&filled, seconds)
+}
+
+fn in_seconds(pattern: &str, seconds: u32) -> String {
+    pattern.replace("{s}", &if seconds == 1 { "1 second".to_owned() } else { format!("{seconds} seconds") })
+}
+
+/// What they do, joined, in the form that a sentence needs.
+fn joined(parts: &[String], words: &mut RandomStream) -> String {
+    match parts {
+        [] => String::new(),
+        [one] => one.clone(),
+        [one, two] => match words.index(4) {
+            0 => format!("{one}, then {two}"),
+            1 => format!("{one} and then {two}"),
+            2 => format!("first {one}, then {two}"),
+            _ => format!("{one} and later {two}"),
+        },
+        [one, two, rest @ ..] => match words.index(3) {
+            0 => format!("{one}, {two} and finally {}", rest.join(" and ")),
+            1 => format!("{one}, then {two}, then {}", rest.join(", then ")),
+            _ => format!("first {one}, then {two} and after that {}", rest.join(" and ")),
+        },
+    }
+}
+
+/// A text with its predicates in their forms, capitals and full stops.
+fn finished(template: &str, predicates: &str, keep: &str) -> String {
+    let finite = predicates.replace("{be}", "are").replace("{not}", "do not");
+    let base = predicates.replace("{be}", "be").replace("{not}", "not");
+    let text =
+        template.replace("[p]", &finite).replace("[b]", &base).replace("[k]", keep).replace("[K]", &capital(keep));
+    capital(&text)
+}
+
+pub(super) fn capital(text: &str) -> String {
+    let mut chars = text.chars();
+    chars.next().map_or_else(String::new, |first| first.to_uppercase().chain(chars).collect())
+}
+
+/// The target, by its clothes.
+fn target(wear: &Wear, words: &mut RandomStream) -> String {
+    format!("the {}", who(Some(wear), words))
+}
+
+fn a_colour(colour: Colour) -> String {
+    format!("{} {}", article(colour.name()), colour.name())
+}
+
+fn things(passed: &Passed) -> String {
+    let (one, several) = thing(passed.kind);
+    let counts = ["no", "one", "two", "three", "four", "five", "six", "seven", "eight"];
+    match passed.count {
+        1 => format!("{} {one}", article(one)),
+        count => format!("{} {several}", counts.get(count).copied().unwrap_or("many")),
+    }
+}
+
+fn thing(kind: LandmarkKind) -> (&'static str, &'static str) {
+    match kind {
+        LandmarkKind::TrafficLight => ("traffic light", "traffic lights"),
+        LandmarkKind::Lamp => ("street lamp", "street lamps"),
+        LandmarkKind::TrafficSign => ("traffic sign", "traffic signs"),
+        LandmarkKind::Tree => ("tree", "trees"),
+        LandmarkKind::Car => ("parked car", "parked cars"),
+        LandmarkKind::Building => ("building", "buildings"),
+    }
+}
+
+fn side(side: OnSide) -> &'static str {
+    match side {
+        OnSide::Left => "left",
+        OnSide::Right => "right",
+    }
+}
+
+fn hider_words(hider: Hider) -> &'static str {
+    match hider {
+        Hider::Object(ObstacleKind::Building) => "a building",
+        Hider::Object(ObstacleKind::Wall) => "a wall",
+        Hider::Object(ObstacleKind::Fence) => "a fence",
+        Hider::Object(ObstacleKind::TreeTrunk | ObstacleKind::TreeCrown) => "a tree",
+        Hider::Object(ObstacleKind::Bush) => "a bush",
+        Hider::Object(ObstacleKind::Bridge) => "a bridge",
+        Hider::Object(ObstacleKind::Car) => "a parked car",
+        Hider::Object(_) => "something",
+        Hider::Body(BodyKind::Pedestrian) => "another person",
+        Hider::Body(BodyKind::Bicycle) => "a cyclist",
+        Hider::Body(BodyKind::Motorcycle) => "a motorcyclist",
+        Hider::Body(BodyKind::Car) => "a car",
+        Hider::Body(BodyKind::Van) => "a van",
+        Hider::Body(BodyKind::Truck) => "a lorry",
+        Hider::Body(BodyKind::Bus) => "a bus",
+    }
+}
+
+/// Lines of dialogues: `{w}` the target, `{t}` its top, `{o}` the top of somebody else, `{d}` the distance and `{x}` a wrong one,
+/// `{m}` the move and `{n}` a wrong one. Each ends with the correction.
+fn dialogue(subject: super::claim::Subject) -> &'static [[&'static str; 3]] {
+    use super::claim::Subject;
+    match subject {
+        Subject::Clothes => &[
+            ["Follow that person.", "The one in {o} top?", "No, the other one, in {t} top and {r} trousers."],
+            ["Get after the walker over there.", "You mean the one in {o} top?", "No, not that one: {w}."],
+            ["Stay on the pedestrian.", "Okay, I'm on the one in {o} top.", "Wrong person. I want {w}."],
+            ["Lock on to our target.", "Locked on: {o} top.", "That's somebody else. It's {w}."],
+            ["Can you pick up the target?", "I have someone in {o} top. Is that the one?", "No. Look for {w}."],
+            ["Start following now.", "Following the one in {o} top.", "No, leave that one. We want {w}."],
+            ["There they are, go.", "In {o} top, right?", "No, in {t} top, with {r} trousers."],
+            ["Take the person walking there.", "The person in {o} top, got it.", "No, the other one: {w}."],
+        ],
+        Subject::Distance => &[
+            ["Follow {w}.", "Following, about {x} m away.", "{F}: keep about {d} m."],
+            ["Stay with {w}.", "Will do. I'll keep about {x} m.", "No, make it about {d} m."],
+            ["Please film {w}.", "Filming from about {x} m.", "That's not what I want. About {d} m, please."],
+            ["Your target is {w}.", "Copy. Is about {x} m all right?", "No, about {d} m, please."],
+            ["Keep up with {w}.", "Holding at about {x} m.", "Not about {x} m. I said about {d} m."],
+        ],
+        _ => &[
+            ["Where do they go?", "They {n}.", "No, they {m}. Stay with {w}."],
+            ["Stay with {w} and tell me what they do.", "They {n}.", "Look again: they {m}."],
+            ["Keep following {w}.", "So they {n}?", "No, the other way: they {m}."],
+            ["Which way now?", "They {n}, I think.", "No. They {m}; keep after {w}."],
+        ],
+    }
+}

@@ -1,0 +1,20 @@
+//! Goals of a flight in words at several grains: a sentence for the whole flight, a step for each stretch, a dialogue with a
+//! correction, and a goal with one thing that is not so.
+//!
+//! [`Course`] reads off a flight what can be said of it, as typed [`Claim`]s; [`goals`] picks some of them and puts them into words.
+
+mod chinese;
+mod claim;
+mod compose;
+mod course;
+mod english;
+mod passing;
+mod people;
+mod pick;
+mod steps;
+#[cfg(test)]
+mod tests;
+
+pub use claim::{Claim, Hider, Subject};
+pub use compose::{Goal, Grain, goals};
+pub use course::{Course, Flight, Hidden, Neighbour, Sample};

@@ -1,0 +1,68 @@
+//! Steps: the stretches of a flight, each with its move, what is on the way, and the distance.
+
+use super::claim::{Claim, Said, Subject};
+use super::compose::{Grain, Plan};
+use super::course::Course;
+use cosfly_random::RandomStream;
+use std::ops::Range;
+
+/// Frames after a turn begins that belong to its stretch.
+const TURN_FRAMES: usize = 6;
+/// Shorter stretches have no goal, frames.
+const LEAST_FRAMES: usize = 6;
+/// Longer stretches without a move are cut, seconds.
+const LONGEST_S: f64 = 20.0;
+
+/// A goal for each stretch.
+pub(super) fn steps(course: &Course<'_>, words: &mut RandomStream) -> Vec<Plan> {
+    stretches(course).into_iter().map(|(frames, action)| step(course, frames, action, words)).collect()
+}
+
+/// The stretches in order, each with the move that ends it.
+fn stretches(course: &Course<'_>) -> Vec<(Range<usize>, Option<Said>)> {
+    let mut found = vec![];
+    let mut start = 0;
+    let moves = course.moves(&(0..course.len()));
+    for (number, said) in moves.iter().enumerate() {
+        let next = moves.get(number + 1).map_or(course.len(), |it| it.frames.start);
+        let end = match said.claim {
+            Claim::Turns(_) => (said.frames.start + TURN_FRAMES).min(next),
+            _ => said.frames.end.min(course.len()),
+        };
+        if end >= start + LEAST_FRAMES && said.frames.start >= start {
+            found.push((start..end, Some(said.clone())));
+            start = end;
+        }
+    }
+    let longest = ((LONGEST_S / course.flight.dt_s) as usize).max(LEAST_FRAMES);
+    let left = course.len().saturating_sub(start);
+    let pieces = left.div_ceil(longest).max(1);
+    for piece in 0..pieces {
+        let frames = start + left * piece / pieces..start + left * (piece + 1) / pieces;
+        if frames.len() >= LEAST_FRAMES {
+            found.push((frames, None));
+        }
+    }
+    found
+}
+
+fn step(course: &Course<'_>, frames: Range<usize>, action: Option<Said>, words: &mut RandomStream) -> Plan {
+    let before =
+        frames.start..action.as_ref().map_or(frames.end, |said| said.frames.start.saturating_sub(1)).max(frames.start);
+    let mut said = vec![];
+    // At most two things on the way: one around the target, one that hides it.
+    let around = if course.walks { course.surroundings(&before) } else { vec![] };
+    if !around.is_empty() {
+        said.push(around[words.index(around.len())].clone());
+    }
+    let sights: Vec<Said> = course.sights(&before).into_iter().filter(|it| it.frames.end <= before.end).collect();
+    said.extend(sights.into_iter().max_by_key(|it| (it.frames.len(), std::cmp::Reverse(it.frames.start))));
+    said.sort_by_key(|it| it.frames.start);
+    said.extend(action.or_else(|| course.quiet(&frames)));
+    if said.is_empty() {
+        said.extend(course.sights(&frames).into_iter().next());
+    }
+    said.push(course.distance(&frames));
+    let wrong: Option<Subject> = None;
+    Plan { grain: Grain::Step, frames, said, wrong, mistaken: None, is_other_of_two: false }
+}

@@ -1,0 +1,133 @@
+//! Tests of goals on a walk past trees, round a corner, with people.
+
+use super::claim::{Claim, Hider, Subject};
+use super::compose::{Goal, Grain, goals};
+use super::course::{Course, Flight, Hidden, Neighbour, Sample};
+use crate::facts::Wear;
+use crate::language::Language;
+use crate::sight::Landmarks;
+use cosfly_frames::{DVec3, TargetState, real};
+use cosfly_geometry::OrientedBox;
+use cosfly_maps::{Obstacle, ObstacleKind};
+use cosfly_random::Seed;
+use cosfly_render::Colour;
+use cosfly_world::BodyKind;
+use std::collections::BTreeSet;
+
+fn tree(object_id: u32, x: f64, y: f64) -> Obstacle {
+    let shape =
+        OrientedBox { center_in_world: DVec3::new(x, y, 1.5), half_extents_m: DVec3::new(0.2, 0.2, 1.5), yaw_rad: 0.0 };
+    Obstacle { shape, kind: ObstacleKind::TreeTrunk, object_id, synthetic: false }
+}
+
+/// Three trees on the left of a walk east.
+fn town() -> Landmarks {
+    Landmarks::of(&[tree(1, 6.0, -3.0), tree(2, 14.0, -3.0), tree(3, 22.0, -3.0)])
+}
+
+/// East for 30 m, then 4 s still, then south for 24 m.
+fn states() -> Vec<TargetState> {
+    let mut states = vec![];
+    let mut feet = DVec3::ZERO;
+    for (yaw_deg, speed_mps, frames) in [(0.0_f64, 1.2, 50), (0.0, 0.0, 8), (90.0, 1.2, 40)] {
+        let (sin, cos) = real::sin_cos(yaw_deg.to_radians());
+        for _ in 0..frames {
+            feet += 0.5 * speed_mps * DVec3::new(cos, sin, 0.0);
+            states.push(TargetState { feet_in_world: feet, heading_rad: yaw_deg.to_radians(), speed_mps });
+        }
+    }
+    states
+}
+
+fn wear(top: Colour) -> Wear {
+    Wear { top, trousers: Colour::Black, backpack: false }
+}
+
+fn flight(states: &[TargetState]) -> Flight<'_> {
+    let beside = |frame: usize| Sample {
+        frame,
+        state: TargetState { feet_in_world: states[frame].feet_in_world + DVec3::new(0.0, 1.0, 0.0), ..states[frame] },
+        is_clear: true,
+    };
+    Flight {
+        dt_s: 0.5,
+        states,
+        distance_m: vec![15.2; states.len()],
+        is_clear: vec![true; states.len()],
+        wear: wear(Colour::Grey),
+        hidden: vec![Hidden { frames: 70..76, behind: Some(9), is_outside: false, is_whole: true }],
+        hiders: vec![(9, Hider::Body(BodyKind::Van))],
+        neighbours: vec![Neighbour { wear: wear(Colour::Red), samples: (0..states.len()).map(beside).collect() }],
+    }
+}
+
+fn all(seed: u64) -> Vec<Goal> {
+    let states = states();
+    let (flight, town) = (flight(&states), town());
+    goals(&Course::of(&flight, &town), &Seed::of_item(seed, "goals", "a"))
+}
+
+#[test]
+fn a_walk_is_cut_at_its_moves_and_says_what_is_on_the_way() {
+    let states = states();
+    let (flight, town) = (flight(&states), town());
+    let course = Course::of(&flight, &town);
+    let names = |claims: Vec<super::claim::Said>| -> Vec<String> { claims.iter().map(ToString::to_string).collect() };
+    assert_eq!(names(course.moves(&(0..98))), ["stops 4 @ 50..58", "turns right @ 58..59"]);
+    assert_eq!(names(course.surroundings(&(0..48))), ["passes tree left 3 @ 0..48", "walks_with 1 @ 0..48"]);
+    assert_eq!(names(course.sights(&(0..98))), ["lost van 3 found @ 70..76"]);
+    // At the border of the frames nobody could say whether the last tree counts.
+    assert_eq!(names(course.surroundings(&(0..37))), ["walks_with 1 @ 0..37"]);
+    assert_eq!(names(course.quiet(&(0..40)).into_iter().collect()), ["no_turn @ 0..40"]);
+}
+
+#[test]
+fn goals_have_every_grain_in_both_languages_and_depend_on_the_seed_alone() {
+    let goals = all(1);
+    for grain in Grain::ALL {
+        for language in Language::ALL {
+            let of_kind = goals.iter().filter(|it| it.grain == grain && it.language == language);
+            assert!(of_kind.count() >= 2, "{grain:?} {language:?}");
+        }
+    }
+    assert_eq!(goals, all(1));
+    assert_ne!(goals, all(2));
+    for goal in &goals {
+        let slots = ['[', ']', '{', '}'];
+        assert!(goal.lines.iter().all(|line| !line.is_empty() && !line.contains(slots)), "{:?}", goal.lines);
+        assert_eq!(goal.lines.len(), if goal.grain == Grain::Dialogue { 3 } else { 1 });
+        assert_eq!(goal.wrong.is_some(), matches!(goal.grain, Grain::Dialogue | Grain::Negative));
+    }
+}
+
+#[test]
+fn a_goal_that_does_not_fit_differs_from_a_true_one_in_one_claim() {
+    for seed in 0..30 {
+        let goals = all(seed);
+        let true_claims: Vec<&Claim> =
+            goals.iter().filter(|it| it.wrong.is_none()).flat_map(|it| &it.said).map(|it| &it.claim).collect();
+        for goal in goals.iter().filter(|it| it.grain == Grain::Negative) {
+            let strange: Vec<Subject> =
+                goal.said.iter().filter(|it| !true_claims.contains(&&it.claim)).map(|it| it.claim.subject()).collect();
+            assert_eq!(strange, goal.wrong.into_iter().collect::<Vec<_>>(), "{:?}", goal.lines);
+        }
+    }
+}
+
+#[test]
+fn hundreds_of_seeds_give_hundreds_of_different_goals() {
+    let texts: BTreeSet<Vec<String>> = (0..60).flat_map(all).map(|goal| goal.lines).collect();
+    assert!(texts.len() > 1000, "{}", texts.len());
+}
+
+#[test]
+fn a_flight_of_one_frame_and_one_without_people_have_goals_without_a_panic() {
+    let states = states();
+    for count in [1, 3, 7] {
+        let states = &states[..count];
+        let flight = Flight { hidden: vec![], neighbours: vec![], ..flight(states) };
+        for goal in goals(&Course::of(&flight, &Landmarks::default()), &Seed::of_item(1, "goals", "a")) {
+            assert!(goal.frames.end <= count);
+        }
+    }
+}

@@ -1,0 +1,303 @@
+"""Reads the goals of table `goals` from their own words and judges every claim by the other tables.
+
+    venv/bin/python tests/outside/check_goals.py DATASET_FOLDER [DATASET_FOLDER ...] [--texts FILE] [--least-skeletons N]
+
+Shares no code with cosfly. The words of a goal must say what its column `claims` says, no more and no less, in English and in Chinese.
+Then every claim is judged by brute force over tables `frames`, `people`, `objects` and `trajectories`: all claims of goals that fit, and all but
+those of the stated subject of goals that do not. Prints the numbers of goals, claims and skeletons (texts whose slots are blank).
+"""
+
+import argparse
+import sys
+from collections import Counter, defaultdict
+from pathlib import Path
+
+import numpy as np
+import pyarrow.dataset as ds
+
+from goal_words import read, skeleton
+
+REACH_M = {"building": 10.0}
+KIND_OF = {"tree": "tree_trunk", "parked_car": "car"}
+HIDERS = {"tree": {"tree_trunk", "tree_crown"}, "parked_car": {"car"}}
+WORN = {"people": ("top_colour", "trousers_colour", "has_backpack"), "flights": ("target_top_colour", "target_trousers_colour", "target_has_backpack")}
+
+
+def turned(to, of):
+    return (to - of + 180) % 360 - 180
+
+
+class Town:
+    """The boxes of a town."""
+
+    def __init__(self, rows):
+        self.kind_of = {row["instance"]: row["kind"] for row in rows}
+        self.kinds = defaultdict(set)
+        for row in rows:
+            self.kinds[row["instance"]].add(row["kind"])
+        self.boxes = defaultdict(list)
+        for row in rows:
+            self.boxes[row["kind"]].append((row["instance"], np.array(row["center_in_world_m"]), np.array(row["size_m"]) / 2, np.radians(row["yaw_deg"])))
+        self.arrays = {kind: (np.array([it[0] for it in boxes]), np.array([it[1] for it in boxes]), np.array([it[2] for it in boxes]), np.array([it[3] for it in boxes])) for kind, boxes in self.boxes.items()}
+
+    def beside(self, kind, feet, heading, reach):
+        """Instances of a kind that are beside a walker, with their sides: -1 left, 1 right, 0 neither."""
+        if kind not in self.arrays:
+            return {}
+        instance, center, half, yaw = self.arrays[kind]
+        cos, sin = np.cos(yaw), np.sin(yaw)
+        dx, dy = feet[0] - center[:, 0], feet[1] - center[:, 1]
+        own = np.stack([cos * dx + sin * dy, cos * dy - sin * dx], 1)
+        to = np.clip(own, -half[:, :2], half[:, :2]) - own
+        x, y = cos * to[:, 0] - sin * to[:, 1], sin * to[:, 0] + cos * to[:, 1]
+        before, aside = np.cos(heading) * x + np.sin(heading) * y, np.cos(heading) * y - np.sin(heading) * x
+        level = np.abs(center[:, 2] - half[:, 2] - feet[2]) <= 3.0
+        there = level & (np.abs(before) <= 1.0) & (np.abs(aside) <= reach)
+        return {int(instance[at]): (0 if abs(aside[at]) < 0.5 else int(np.sign(aside[at]))) for at in np.flatnonzero(there)}
+
+
+class Flight:
+    def __init__(self, row, frames, people, town):
+        self.row, self.town, self.people = row, town, people
+        frames = sorted(frames, key=lambda it: it["frame"])
+        column = lambda name: np.array([it[name] for it in frames])
+        self.feet = np.stack([column(f"target_{axis}_m") for axis in "xyz"], 1)
+        self.heading, self.speed, self.distance = column("target_heading_deg"), column("target_speed_mps"), column("distance_m")
+        self.pixels, self.share, self.cause, self.in_view = column("visible_pixels"), column("visible_by_pixels"), column("occluder_instance"), column("in_view")
+        self.dt = float(row["dt_s"])
+        self.count = len(frames)
+        self.names = {}
+        for rows in people.values():
+            self.names.update({it["instance"]: it["kind"] for it in rows})
+        self.runs = {}
+
+    def directions(self):
+        """Direction of the way around each frame in which the target walks, degrees, unwrapped."""
+        moving = np.flatnonzero(self.speed >= 0.05)
+        found = []
+        for at, frame in enumerate(moving):
+            step = self.feet[moving[min(at + 2, len(moving) - 1)], :2] - self.feet[moving[max(at - 2, 0)], :2]
+            if np.hypot(*step) >= 0.2:
+                angle = np.degrees(np.arctan2(step[1], step[0]))
+                found.append((frame, found[-1][1] + turned(angle, found[-1][1]) if found else angle))
+        return found
+
+    def turns_to(self, side, frame):
+        """Whether the way changes its direction to a side around a frame."""
+        directions = self.directions()
+        before = [angle for at, angle in directions if frame - 22 <= at <= frame]
+        after = [angle for at, angle in directions if frame <= at <= frame + 14]
+        sign = {"left": -1, "right": 1}.get(side)
+        changes = [a - b for a in after for b in before]
+        if side == "around":
+            return any(abs(change) > 120 for change in changes)
+        return any(48 <= sign * change <= 140 for change in changes) or any(45 <= sign * change for change in changes)
+
+    def sharpest(self, start, end):
+        angles = [angle for at, angle in self.directions() if start <= at < end]
+        changes = [abs(np.mean(angles[b : b + 4]) - np.mean(angles[a : a + 4])) for a in range(len(angles)) for b in range(a + 1, min(a + 20, len(angles) - 3))]
+        return max(changes, default=0.0)
+
+    def hidden_by(self, name, frames):
+        cause = set(self.cause[frames])
+        if len(cause) != 1:
+            return False
+        cause = int(cause.pop())
+        if cause in self.names:
+            return self.names[cause] == name
+        return bool(self.town.kinds.get(cause, set()) & HIDERS.get(name, {name}))
+
+    def passes(self, kind, side, count, start, end):
+        sides = defaultdict(set)
+        table_kind = KIND_OF.get(kind, kind)
+        for frame in range(start, end):
+            there = self.town.beside(table_kind, self.feet[frame], np.radians(self.heading[frame]), 1.2 * REACH_M.get(kind, 5.0))
+            for instance, on in there.items():
+                sides[instance].add(on)
+        sign = {"left": -1, "right": 1}[side]
+        return sum(sign in on for on in sides.values()) == count and all(on == {sign} for on in sides.values() if sign in on)
+
+    def walks_with(self, count, start, end):
+        seen = Counter()
+        for frame in range(start, end):
+            for it in self.people.get(frame, []):
+                away = np.hypot(*(np.array(it["feet_in_world_m"][:2]) - self.feet[frame, :2]))
+                if it["kind"] == "pedestrian" and away < 3.6 and abs(turned(it["heading_deg"], self.heading[frame])) < 36 and it["speed_mps"] > 0.25:
+                    seen[it["instance"]] += 1
+        return sum(times >= 0.5 * (end - start) for times in seen.values()) == count
+
+    def meets(self, top, start, end):
+        for it in self.people.get(start, []):
+            later = next((its for its in self.people.get(end - 1, []) if its["instance"] == it["instance"]), None)
+            if it["kind"] != "pedestrian" or it["top_colour"] != top or later is None:
+                continue
+            ahead = []
+            for frame, person in ((start, it), (end - 1, later)):
+                heading = np.radians(self.heading[frame])
+                way = np.array(person["feet_in_world_m"][:2]) - self.feet[frame, :2]
+                ahead.append(way @ [np.cos(heading), np.sin(heading)])
+            if ahead[0] > 0 >= ahead[1] and abs(turned(it["heading_deg"], self.heading[start])) > 140:
+                return True
+        return False
+
+    def is_true(self, claim, start, end):
+        name, *rest = claim
+        frames = slice(start, end)
+        if name == "wears":
+            top, trousers, backpack = (self.row[column] for column in WORN["flights"])
+            return rest[:2] == [top, trousers] and (("backpack" in rest) <= backpack)
+        if name == "distance":
+            return abs(self.distance[frames].mean() - int(rest[0])) <= 0.51
+        if name == "turns":
+            return self.turns_to(rest[0], start)
+        if name == "turns_in_all":
+            return len(self.all_turns()) == int(rest[0])
+        if name == "no_turn":
+            return self.sharpest(start, end) < 75
+        if name in ("stops", "stands"):
+            still = self.speed < 0.05
+            if name == "stands":
+                return still[frames].all()
+            around = [still[frame] for frame in (start - 1, end) if 0 <= frame < self.count]
+            return still[frames].all() and not any(around) and abs((end - start) * self.dt - int(rest[0])) <= 0.51
+        if name == "passes":
+            return self.passes(rest[0], rest[1], int(rest[2]), start, end)
+        if name == "lost":
+            behind, seconds, end_of = rest
+            hidden = (self.pixels[frames] == 0).all() and all(self.pixels[frame] > 0 for frame in (start - 1, end) if 0 <= frame < self.count)
+            cause = not self.in_view[frames].any() if behind == "outside" else self.hidden_by(behind, frames)
+            return hidden and cause and abs((end - start) * self.dt - int(seconds)) <= 0.51 and (end_of == "found") == (end < self.count)
+        if name == "partly_hidden":
+            return (self.pixels[frames] > 0).all() and (self.share[frames] < 0.5).all() and self.hidden_by(rest[0], frames)
+        if name == "walks_with":
+            return self.walks_with(int(rest[0]), start, end)
+        if name == "meets":
+            return self.meets(rest[0], start, end)
+        raise SystemExit(f"unknown claim {claim}")
+
+    def all_turns(self):
+        """Turns by a search of its own: changes of at least 60 degrees that begin within 20 frames."""
+        directions, found, at, base_from = self.directions(), [], 0, 0
+        angle = lambda i: np.mean([it[1] for it in directions[i : i + 3]])
+        while at < len(directions):
+            base = angle(max(base_from, at - 20))
+            if abs(directions[at][1] - base) >= 50:
+                end = at
+                while end + 4 < len(directions) and abs(directions[end + 4][1] - directions[end][1]) >= 10 and abs(directions[end][1] - base) < 180:
+                    end += 1
+                end = len(directions) - 1 if end + 4 >= len(directions) and end + 1 < len(directions) else end
+                if abs(angle(end) - base) >= 60:
+                    found.append(directions[at][0])
+                    base_from = end
+                at = end
+            at += 1
+        return found
+
+
+SUBJECTS = {"wears": "clothes", "distance": "distance", "turns": "turn", "turns_in_all": "turn", "no_turn": "turn", "stops": "stop", "stands": "stop", "passes": "landmark", "lost": "sight", "partly_hidden": "sight", "walks_with": "people", "meets": "people"}
+
+
+def judge(goal, flight, wrong, counts):
+    """Adds what is wrong with a goal to a list."""
+    where = f"{goal['goal_id']} {goal['grain']} `{' / '.join(goal['lines'])}`"
+    claims = [(*said.split(" @ ")[0].split(), *map(int, said.split(" @ ")[1].split(".."))) for said in goal["claims"]]
+    bare = sorted(tuple(str(word) for word in claim[:-2]) for claim in claims)
+    words = read(goal["lines"][-1] if goal["grain"] == "dialogue" else goal["lines"][0], goal["language"])
+    if goal["grain"] == "dialogue":
+        first = [claim for claim in read(goal["lines"][0], goal["language"]) if claim[0] == "wears"]
+        words += [claim for claim in first if claim not in words]
+        has_clothes = any(claim[0] == "wears" for claim in words)
+        bare = [claim for claim in bare if claim[0] != "wears" or has_clothes]
+        if goal["lines"][2] and "backpack" not in " ".join(map(" ".join, words)):
+            bare = [tuple(word for word in claim if word != "backpack") for claim in bare]
+    without_time = lambda claim: (claim[0], claim[1], claim[3]) if claim[0] == "lost" and claim[3] == "gone" else claim
+    said, meant = sorted(map(without_time, words)), sorted(map(without_time, bare))
+    if said != meant:
+        wrong.append(f"{where} says {said}; its claims are {meant}")
+        return
+    for claim in claims:
+        *name, start, end = claim
+        holds = flight.is_true([str(word) for word in name], start, end)
+        counts[name[0], goal["grain"]] += 1
+        is_false_one = goal["grain"] == "negative" and SUBJECTS[name[0]] == goal["false_subject"]
+        if not holds and not is_false_one:
+            wrong.append(f"{where}: {claim} is not so")
+    if goal["grain"] == "negative":
+        false_ones = [claim for claim in claims if SUBJECTS[claim[0]] == goal["false_subject"]]
+        if all(flight.is_true([str(word) for word in claim[:-2]], claim[-2], claim[-1]) for claim in false_ones):
+            wrong.append(f"{where}: everything in it is so")
+    if goal["grain"] == "dialogue":
+        judge_dialogue(goal, flight, where, wrong)
+
+
+def judge_dialogue(goal, flight, where, wrong):
+    """The pilot's line must be false of the target, and what the user says must single the target out."""
+    pilot = read(goal["lines"][1], goal["language"], is_pilot=True)
+    if not pilot:
+        return wrong.append(f"{where}: the pilot says nothing")
+    start, end = goal["start_frame"], goal["end_frame"]
+    if goal["false_subject"] == "clothes":
+        others = [it for it in flight.people.get(start, []) if it["kind"] == "pedestrian"]
+        top = pilot[0][1]
+        if top == flight.row["target_top_colour"] or sum(it["top_colour"] == top for it in others) != 1:
+            wrong.append(f"{where}: the pilot's colour is nobody else's, or several people's")
+        own = [flight.row[column] for column in WORN["flights"]][:2]
+        if any([it["top_colour"], it["trousers_colour"]] == own for it in others):
+            wrong.append(f"{where}: the correction fits others as well")
+        if "other" in goal["lines"][2] or "另一个" in goal["lines"][2]:
+            if len(others) != 1:
+                wrong.append(f"{where}: `the other one` of {len(others) + 1} people")
+    elif goal["false_subject"] == "turn":
+        turns = [int(said.split(" @ ")[1].split("..")[0]) for said in goal["claims"] if said.startswith("turns")]
+        if any(flight.turns_to(pilot[0][1], frame) and not flight.turns_to("right" if pilot[0][1] == "left" else "left", frame) for frame in turns):
+            wrong.append(f"{where}: the pilot is right")
+    elif goal["false_subject"] == "distance" and flight.is_true(list(pilot[0]), start, end):
+        wrong.append(f"{where}: the pilot is right")
+
+
+def check(folder, texts):
+    table = lambda name, columns=None: ds.dataset(Path(folder) / "data" / name, format="parquet").to_table(columns=columns).to_pylist()
+    objects = defaultdict(list)
+    for row in table("objects"):
+        objects[row["town"]].append(row)
+    towns = {name: Town(rows) for name, rows in objects.items()}
+    frames, people = defaultdict(list), defaultdict(lambda: defaultdict(list))
+    for row in table("frames", ["trajectory_id", "frame", *[f"target_{axis}_m" for axis in "xyz"], "target_heading_deg", "target_speed_mps", "distance_m", "visible_pixels", "visible_by_pixels", "occluder_instance", "in_view"]):
+        frames[row["trajectory_id"]].append(row)
+    for row in table("people", ["trajectory_id", "frame", "instance", "kind", "feet_in_world_m", "heading_deg", "speed_mps", "top_colour", "trousers_colour", "visible_pixels"]):
+        people[row["trajectory_id"]][row["frame"]].append(row)
+    flights = {row["trajectory_id"]: Flight(row, frames[row["trajectory_id"]], people[row["trajectory_id"]], towns[row["town"]]) for row in table("trajectories")}
+    goals, wrong, counts, skeletons = table("goals"), [], Counter(), defaultdict(Counter)
+    for goal in goals:
+        judge(goal, flights[goal["trajectory_id"]], wrong, counts)
+        texts.append(goal)
+        skeletons[goal["language"]].update(skeleton(" / ".join(goal["lines"]), goal["language"]) for _ in (0,))
+    grains = Counter((goal["grain"], goal["language"]) for goal in goals)
+    print(f"{folder}: {len(goals)} goals of {len(flights)} flights, {len(wrong)} wrong; {dict(sorted(grains.items()))}")
+    print("  claims:", dict(sorted(Counter({}).items())) or dict(sum((Counter({name: times}) for (name, _), times in counts.items()), Counter())))
+    return wrong
+
+
+def main():
+    arguments = argparse.ArgumentParser()
+    arguments.add_argument("folders", nargs="+")
+    arguments.add_argument("--show", help="prints so many goals of each language", type=int, default=0)
+    arguments.add_argument("--least-skeletons", type=int, default=0)
+    given = arguments.parse_args()
+    texts = []
+    wrong = [it for folder in given.folders for it in check(folder, texts)]
+    for language in ("en", "zh"):
+        own = [goal for goal in texts if goal["language"] == language]
+        lines = [line for goal in own for line in ([" / ".join(goal["lines"])])]
+        different = {skeleton(line, language) for line in lines}
+        print(f"{language}: {len(different)} skeletons in {len(lines)} goals")
+        if len(different) < given.least_skeletons:
+            wrong.append(f"{language} has {len(different)} skeletons; wanted are {given.least_skeletons}")
+        for goal in own[: given.show]:
+            print(f"  {goal['grain']:8}", " / ".join(goal["lines"]), "|", goal["false_subject"] or "")
+    print(*wrong[:20], sep="\n")
+    sys.exit(bool(wrong))
+
+
+if __name__ == "__main__":
+    main()
