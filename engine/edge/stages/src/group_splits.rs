@@ -88,7 +88,9 @@ impl Stage for SplitsStage {
             groups.push((group_notes::group_name(item), flights));
             rejections.extend(more.into_iter().take(MOST_REASONS.saturating_sub(rejections.len())));
             // One picture of each town is enough for the check.
-            shown.into_iter().for_each(|(picture, town)| drop(pictures.entry(town).or_insert(picture)));
+            for (picture, town) in shown {
+                pictures.entry(town).or_insert(picture);
+            }
         }
         towns.check_pictures(&pictures)?;
         if groups.iter().all(|(_, flights)| flights.is_empty()) {
