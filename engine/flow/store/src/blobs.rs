@@ -209,6 +209,23 @@ mod tests {
     }
 
     #[test]
+    fn a_part_is_read_without_the_rest_and_a_wrong_one_is_refused() {
+        let root = tempfile::tempdir().unwrap();
+        let part = |offset, bytes: &[u8]| BlobPart { offset, bytes: bytes.len() as u32, digest: Digest::of(bytes) };
+        for wrong in [part(6, b"worlD"), part(7, b"world"), part(u64::MAX, b"w")] {
+            let (store, record) = store_with(root.path(), b"hello world");
+            let blob = record.outputs["a"];
+            let path = store.blob_path(&blob);
+            assert_eq!(store.read_part(&blob, &part(6, b"world")).unwrap(), b"world");
+            fs::remove_file(&path).unwrap();
+            fs::write(&path, b"HELLO world").unwrap();
+            assert_eq!(store.read_part(&blob, &part(6, b"world")).unwrap(), b"world");
+            assert_eq!(store.read_part(&blob, &wrong).unwrap_err().fault, Fault::Lost);
+            assert!(!path.exists());
+        }
+    }
+
+    #[test]
     fn a_damaged_blob_is_refused_removed_and_healed_by_publishing_it_again() {
         let root = tempfile::tempdir().unwrap();
         for damage in [&b"hellO"[..], b"hell", b""] {
