@@ -1,10 +1,11 @@
-//! Reproducible bytes: any number of jobs, repeated runs, after kill -9 at random moments; finished items are not made
-//! again.
+//! Reproducible bytes: any number of jobs, repeated runs, after kill -9 at random moments, while the dataset is published and
+//! delivered as well; finished items are not made again.
 
 use crate::street::Street;
 use crate::support::{cosfly, tree_digests};
 use std::collections::BTreeMap;
-use std::time::Duration;
+use std::path::Path;
+use std::time::{Duration, Instant};
 
 fn run(street: &Street, out: &str, more: &[&str]) -> crate::support::Printed {
     let mut arguments = vec!["run", "recipe.toml", "--out", out];
@@ -37,30 +38,104 @@ fn finished(store: &std::path::Path) -> BTreeMap<String, std::time::SystemTime> 
     found
 }
 
+/// Kills of the whole check.
+const KILLS: usize = 50;
+/// Kills after which the store and the output folder begin anew.
+const KILLS_OF_A_STORE: usize = 10;
+/// The first of them fall anywhere; the others wait for the output folder to be built and fall into its delivery.
+const ANYWHERE: usize = 6;
+
+/// Two datasets of one recipe: they differ in their titles, so that a finished run has something to publish and deliver again.
+const TITLES: [&str; 2] = ["one", "two"];
+
+/// Files of the two datasets of an undisturbed run, and the longest run.
+fn undisturbed(street: &Street) -> ([Files; 2], Duration) {
+    let mut longest = Duration::ZERO;
+    let files = TITLES.map(|title| {
+        let began = Instant::now();
+        run(street, title, &["--store", "store-undisturbed", "--set", &title_of(title)]);
+        longest = longest.max(began.elapsed());
+        tree_digests(&street.path().join(title))
+    });
+    (files, longest)
+}
+
+type Files = Vec<(String, String)>;
+
+fn title_of(title: &str) -> String {
+    format!("stages.dataset.title=\"{title}\"")
+}
+
+/// Starts a run and kills it after `pause`, or, with `beside`, as soon as that folder is there. `false` where it had ended.
+fn kill_one(street: &Street, title: &str, pause: Duration, beside: Option<&Path>) -> bool {
+    let arguments =
+        ["run", "recipe.toml", "--out", "out/street", "--store", "store", "--jobs", "2", "--set", &title_of(title)];
+    let mut child = cosfly(&arguments).within(street.path()).spawn();
+    match beside {
+        None => std::thread::sleep(pause),
+        Some(folder) => while !folder.exists() && child.try_wait().expect("a child").is_none() {},
+    }
+    let was_running = child.try_wait().expect("a child").is_none();
+    let _ = child.kill();
+    let _ = child.wait();
+    was_running
+}
+
+/// The delivered folder is one of the datasets, to the byte; a folder on its way there is whole, or does not look whole.
+/// `true` where the kill fell into the delivery.
+fn check_output(street: &Street, datasets: &[Files; 2], beside: &Path) -> bool {
+    let dataset = street.dataset();
+    if dataset.exists() {
+        let found = tree_digests(&dataset);
+        assert!(datasets.contains(&found), "the delivered folder is neither dataset: {found:#?}");
+    }
+    if beside.exists() && !datasets.contains(&tree_digests(beside)) {
+        let verified = cosfly(&["verify", &beside.to_string_lossy()]).within(street.path()).run();
+        assert_ne!(verified.code, Some(0), "a half-written folder looks whole:\n{}", verified.stdout);
+    }
+    beside.exists()
+}
+
 #[test]
-fn twenty_kills_lose_no_finished_item_and_change_no_byte() {
+fn fifty_kills_lose_no_finished_item_and_change_no_byte() {
     let street = Street::new();
-    run(&street, "undisturbed", &["--store", "store-undisturbed"]);
-    let store = street.path().join("store");
-    let mut seen: BTreeMap<String, std::time::SystemTime> = BTreeMap::new();
-    // Moments spread over the whole run by a fixed sequence; the speed of the machine varies the rest.
-    for kill in 0..20u64 {
-        let arguments = ["run", "recipe.toml", "--out", "out/street", "--store", "store", "--jobs", "2"];
-        let mut child = cosfly(&arguments).within(street.path()).spawn();
-        std::thread::sleep(Duration::from_millis(15 + (kill * 37) % 190));
-        let _ = child.kill();
-        let _ = child.wait();
-        for (item, made) in finished(&store) {
-            let before = *seen.entry(item.clone()).or_insert(made);
-            assert_eq!(before, made, "finished item {item} was made again");
+    let (datasets, longest) = undisturbed(&street);
+    let beside = street.path().join("out/.street.cosfly-tmp");
+    let (mut kills, mut tries, mut in_delivery) = (0, 0, 0);
+    while kills < KILLS {
+        let store = street.path().join("store");
+        let mut seen: BTreeMap<String, std::time::SystemTime> = BTreeMap::new();
+        let (first, mut title) = (kills, TITLES[0]);
+        while kills < KILLS.min(first + KILLS_OF_A_STORE) {
+            tries += 1;
+            assert!(tries < 10 * KILLS, "only {kills} of {tries} runs were killed");
+            // Moments spread over a whole run by a fixed sequence; the speed of the machine varies the rest.
+            let pause = longest.mul_f64(f64::from((tries as u32 * 37) % 101) / 101.0);
+            let waits = (kills - first >= ANYWHERE).then_some(beside.as_path());
+            let was_running = kill_one(&street, title, pause, waits);
+            kills += usize::from(was_running);
+            if !was_running {
+                title = TITLES[usize::from(title == TITLES[0])];
+            }
+            in_delivery += usize::from(check_output(&street, &datasets, &beside));
+            for (item, made) in finished(&store) {
+                let before = *seen.entry(item.clone()).or_insert(made);
+                assert_eq!(before, made, "finished item {item} was made again");
+            }
+        }
+        for (title, files) in TITLES.iter().zip(&datasets) {
+            run(&street, "out/street", &["--store", "store", "--set", &title_of(title)]);
+            assert_eq!(*files, tree_digests(&street.dataset()));
+        }
+        let after = finished(&store);
+        for (item, made) in &seen {
+            assert_eq!(after.get(item), Some(made), "finished item {item} was lost or made again");
+        }
+        for folder in ["store", "out"] {
+            std::fs::remove_dir_all(street.path().join(folder)).expect("removable");
         }
     }
-    run(&street, "out/street", &["--store", "store"]);
-    let after = finished(&store);
-    for (item, made) in &seen {
-        assert_eq!(after.get(item), Some(made), "finished item {item} was lost or made again");
-    }
-    assert_eq!(tree_digests(&street.path().join("undisturbed")), tree_digests(&street.dataset()));
+    assert!(in_delivery > 0, "none of the kills fell into the delivery");
 }
 
 #[test]

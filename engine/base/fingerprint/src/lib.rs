@@ -24,6 +24,22 @@ impl Digest {
     }
 }
 
+/// A digest of bytes that come piece by piece.
+#[derive(Default)]
+pub struct DigestOfPieces(blake3::Hasher);
+
+impl DigestOfPieces {
+    /// Appends bytes.
+    pub fn add(&mut self, bytes: &[u8]) {
+        self.0.update(bytes);
+    }
+
+    /// Digest of all bytes so far, as [`Digest::of`] has it of them together.
+    pub fn digest(&self) -> Digest {
+        Digest(*self.0.finalize().as_bytes())
+    }
+}
+
 impl fmt::Display for Digest {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.write_str(blake3::Hash::from_bytes(self.0).to_hex().as_str())
@@ -74,6 +90,13 @@ mod tests {
         let b: serde_json::Value = serde_json::from_str(r#"{ "a":{"c":[1,2],"d":2.5},"b":1 }"#).unwrap();
         assert_eq!(canonical_json(&a), canonical_json(&b));
         assert_eq!(canonical_json(&a), r#"{"a":{"c":[1,2],"d":2.5},"b":1}"#);
+    }
+
+    #[test]
+    fn pieces_have_the_digest_of_the_whole() {
+        let mut pieces = DigestOfPieces::default();
+        [&b"cos"[..], b"", b"fly"].iter().for_each(|piece| pieces.add(piece));
+        assert_eq!(pieces.digest(), Digest::of(b"cosfly"));
     }
 
     #[test]

@@ -6,7 +6,7 @@ use super::rows::read;
 use super::trajectory::{PublishedFlight, Shared};
 use cosfly_diagnose::{Diagnostic, Fault, Result, nearest_name};
 use cosfly_schema::Split;
-use cosfly_schema::tables::{Column, DatasetItem, People, Rejected, Windows};
+use cosfly_schema::tables::{People, Rejected};
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Component, Path, PathBuf};
 
@@ -105,32 +105,6 @@ impl PublishedDataset {
         let id_of = |place: &u32| self.flights[*place as usize].trajectory_id.as_str();
         let first = self.by_id.partition_point(|place| id_of(place) < id);
         self.by_id.get(first).filter(|place| id_of(place) == id).map(|place| *place as usize)
-    }
-
-    /// Instructions of the windows with an input of `history` frames, by trajectory id and first frame; none where the
-    /// dataset was written by a cosfly without them.
-    ///
-    /// # Errors
-    /// Damage of table `windows`.
-    pub fn window_instructions(
-        &self,
-        language: Column<DatasetItem, String>,
-        history: usize,
-    ) -> Result<BTreeMap<String, BTreeMap<usize, String>>> {
-        let mut found: BTreeMap<String, BTreeMap<usize, String>> = BTreeMap::new();
-        for (_, path) in self.files("windows")? {
-            read(&path, &mut |rows| {
-                for row in 0..rows.len() {
-                    let text = rows.get_or(language, row, String::new())?;
-                    if !text.is_empty() && rows.get(Windows::input_boxes_px, row)?.len() == 4 * history {
-                        let of_flight = found.entry(rows.get(Windows::trajectory_id, row)?).or_default();
-                        of_flight.insert(rows.get(Windows::start_frame, row)? as usize, text);
-                    }
-                }
-                Ok(())
-            })?;
-        }
-        Ok(found)
     }
 
     /// Trajectory with the id `id`.

@@ -4,6 +4,7 @@ use super::*;
 use cosfly_frames::DVec3;
 use cosfly_sample as sample;
 use cosfly_schema::log::right_handed::map_from_world_point;
+use cosfly_schema::tables::Windows;
 use cosfly_schema::{DatasetConfig, EncodingConfig};
 
 fn published() -> (tempfile::TempDir, PublishedDataset) {
@@ -33,6 +34,33 @@ fn flights_and_frames_come_back_as_they_were() {
             assert_eq!(read.visible_by_rays, record.views[frame].visible_by_rays);
         }
     }
+}
+
+#[test]
+fn instructions_of_windows_are_those_of_the_table() {
+    let folder = tempfile::tempdir().unwrap();
+    let mut config = DatasetConfig::default();
+    (config.windows.size, config.windows.history, config.windows.stride) = (4, 2, 1);
+    sample::write_to_folder(folder.path(), &config, EncodingConfig::default()).unwrap();
+    let dataset = PublishedDataset::open(folder.path()).unwrap();
+    let mut reader = InstructionReader::of(&dataset, Windows::instruction_en, 2).unwrap();
+    let mut others = InstructionReader::of(&dataset, Windows::instruction_en, 3).unwrap();
+    let mut seen = 0;
+    for (_, path) in dataset.files("windows").unwrap() {
+        read(&path, &mut |rows| {
+            for row in 0..rows.len() {
+                let place = dataset.place(&rows.get(Windows::trajectory_id, row)?).unwrap();
+                let start = rows.get(Windows::start_frame, row)? as usize;
+                let text = rows.get(Windows::instruction_en, row)?;
+                assert_eq!(reader.at(&dataset, place)?.get(&start), Some(&text).filter(|text| !text.is_empty()));
+                assert!(others.at(&dataset, place)?.is_empty());
+                seen += usize::from(!text.is_empty());
+            }
+            Ok(())
+        })
+        .unwrap();
+    }
+    assert!(seen > 0);
 }
 
 #[test]

@@ -347,22 +347,10 @@ pub struct Rejection {
 }
 
 /// Small RGB previews of a trajectory's frames for the `frames` table; empty when previews are off.
-#[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct PreviewStrip {
     /// One JPEG file per frame.
     pub jpegs: Vec<Vec<u8>>,
-}
-
-impl PreviewStrip {
-    /// Encodes a `previews` blob.
-    pub fn to_bytes(&self) -> Vec<u8> {
-        encode(PREVIEWS_MAGIC, self)
-    }
-
-    /// Decodes a `previews` blob.
-    pub fn from_bytes(bytes: &[u8]) -> Result<Self> {
-        decode("preview strip", PREVIEWS_MAGIC, bytes)
-    }
 }
 
 /// Encodes a captions blob.
@@ -376,7 +364,6 @@ pub fn captions_from_bytes(bytes: &[u8]) -> Result<Vec<CaptionRecord>> {
 }
 
 const TRAJECTORY_MAGIC: &[u8; 8] = b"CFTRAJ\x00\x05";
-const PREVIEWS_MAGIC: &[u8; 8] = b"CFPREV\x00\x01";
 const CAPTIONS_MAGIC: &[u8; 8] = b"CFCAPT\x00\x02";
 
 /// Encodes eight bytes of kind and version, then postcard.
@@ -420,7 +407,7 @@ mod tests {
         assert_eq!(captions_from_bytes(&bytes).unwrap(), captions);
         assert!(captions_from_bytes(&bytes[..bytes.len() - 1]).is_err());
         assert!(captions_from_bytes(b"CFCAPT\x00\x03").unwrap_err().message.contains("version 3"));
-        assert!(PreviewStrip::from_bytes(&bytes).unwrap_err().message.contains("not a preview strip"));
+        assert!(captions_from_bytes(b"CFPREV\x00\x01").unwrap_err().message.contains("not a captions"));
     }
 
     #[test]

@@ -14,8 +14,8 @@ pub mod publish;
 pub mod table_file;
 
 pub use frame_pack::{FramePackReader, FramePackWriter, PackHeader, PackedFrame};
-pub use log::write_log;
+pub use log::{WrittenLog, write_log};
 pub use publish::{
-    DatasetSource, FlightNote, GroupFlights, GroupName, GroupPlan, GroupSource, PublishedLog, Shard, Summary,
+    DatasetSource, FlightNote, GroupFlights, GroupName, GroupPlan, GroupSource, PublishedLog, Shard, Shards, Summary,
     plan_groups, write_dataset, write_shard,
 };

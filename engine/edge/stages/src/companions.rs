@@ -27,6 +27,7 @@ pub fn part(count: u32, paths: InputPort, others: InputPort) -> StagePart {
         artifact: COMPANIONS,
         items: ItemRule::PerInput("paths"),
         bytes_per_item: 8_000 * u64::from(count),
+        files_per_item: 1,
         intermediate: &[],
         asks: None,
     };

@@ -8,12 +8,13 @@ use cosfly_blobs::OutputSink;
 use cosfly_diagnose::{ParameterError, Result};
 use cosfly_fingerprint::Digest;
 use cosfly_report::PlannerRow;
+use cosfly_schema::DatasetConfig;
 use cosfly_schema::tables::ObjectRecord;
-use cosfly_schema::{DatasetConfig, PreviewStrip};
 use cosfly_stage::{
-    Fan, InputPort, Inputs, ItemRule, Produced, Sees, Stage, StageKind, StagePart, StageProperties, Takes, TaskContext,
+    Artifact, Fan, InputPort, Inputs, ItemRule, Produced, Sees, Stage, StageKind, StagePart, StageProperties, Takes,
+    TaskContext,
 };
-use cosfly_write::{DatasetSource, write_dataset};
+use cosfly_write::{DatasetSource, Shards, write_dataset};
 use std::collections::BTreeMap;
 
 /// Stage kind `dataset`.
@@ -55,12 +56,17 @@ impl StageKind for Dataset {
                 towns(),
                 group_splits::policy_port(),
                 shards::port(),
-                InputPort { fan: Fan::Gather, sees: Sees::Only(&["previews"]), ..logs::port() },
+                InputPort {
+                    fan: Fan::Gather,
+                    sees: Sees::Only(&[logs::LOG_BLOB, logs::PREVIEWS_BLOB]),
+                    ..logs::port()
+                },
                 planners::port(),
             ],
             artifact: DATASET,
             items: ItemRule::One,
             bytes_per_item: 1_000_000,
+            files_per_item: 14,
             intermediate: &[],
             asks: None,
         };
@@ -107,13 +113,15 @@ impl Stage for DatasetStage {
     }
 
     fn run(&self, inputs: &Inputs<'_>, outputs: &mut dyn OutputSink, context: &TaskContext) -> Result<Produced> {
-        let mut shards = vec![];
-        for (shard, files) in shards::read(inputs)? {
+        // One group after the other: figures of many groups at once would be the most of the memory.
+        let mut shards = Shards::default();
+        for shard in shards::read(inputs) {
+            let (shard, files) = shard?;
             files.iter().try_for_each(|(path, blob)| outputs.link(path, *blob))?;
-            shards.push(shard);
+            shards.add(shard)?;
+            context.check_cancelled()?;
         }
-        context.check_cancelled()?;
-        let whole = Whole { inputs, towns: PublishedTowns::of(inputs)? };
+        let whole = Whole { inputs, towns: PublishedTowns::of(inputs)?, logs: LogIndex::of(inputs.all("logs")) };
         let config = DatasetConfig { splits: group_splits::policy(inputs)?, ..self.config.clone() };
         let summary = write_dataset(outputs, &config, shards, &whole)?;
         let notes = BTreeMap::from([
@@ -130,6 +138,7 @@ impl Stage for DatasetStage {
 struct Whole<'a> {
     inputs: &'a Inputs<'a>,
     towns: PublishedTowns,
+    logs: LogIndex<'a>,
 }
 
 impl DatasetSource for Whole<'_> {
@@ -142,9 +151,58 @@ impl DatasetSource for Whole<'_> {
     }
 
     fn picture(&self, trajectory_id: &str, frame: usize) -> Result<Option<Vec<u8>>> {
-        // A flight is called like its item.
-        let log = self.inputs.all("logs").iter().find(|log| log.name.to_string() == trajectory_id);
-        let previews = log.map(|log| PreviewStrip::from_bytes(&self.inputs.read(log, "previews")?)).transpose()?;
-        Ok(previews.and_then(|previews| previews.jpegs.into_iter().nth(frame)))
+        self.logs.find(trajectory_id).map_or(Ok(None), |log| logs::preview(self.inputs, log, frame))
+    }
+}
+
+/// Logs by the ids of their flights: sixteen bytes a log.
+struct LogIndex<'a> {
+    logs: &'a [Artifact],
+    /// First bytes of the digests of names, sorted, and places.
+    places: Vec<(u64, u32)>,
+}
+
+impl<'a> LogIndex<'a> {
+    fn of(logs: &'a [Artifact]) -> Self {
+        let place = |(place, log): (usize, &Artifact)| (head(&log.name.to_string()), place as u32);
+        let mut places: Vec<_> = logs.iter().enumerate().map(place).collect();
+        places.sort_unstable();
+        Self { logs, places }
+    }
+
+    /// Log of a flight, which is called like its item.
+    fn find(&self, trajectory_id: &str) -> Option<&'a Artifact> {
+        let wanted = head(trajectory_id);
+        let first = self.places.partition_point(|(head, _)| *head < wanted);
+        let alike = self.places[first..].iter().take_while(|(head, _)| *head == wanted);
+        alike.map(|(_, place)| &self.logs[*place as usize]).find(|log| log.name.to_string() == trajectory_id)
+    }
+}
+
+fn head(name: &str) -> u64 {
+    let digest = Digest::of(name.as_bytes());
+    let (heads, _) = digest.0.as_chunks::<8>();
+    u64::from_le_bytes(heads[0])
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use cosfly_stage::{Blobs, ItemId, ItemName, StageName};
+    use std::sync::Arc;
+
+    #[test]
+    fn a_log_is_found_by_the_id_of_its_flight() {
+        let log = |number: u64| {
+            let name = ItemName::numbered("p", number).of_stage(&StageName::new("expert", ""));
+            let id = ItemId { stage: StageName::new("dataset", "logs"), item: name.clone() };
+            Artifact { id, name, blobs: Arc::new(Blobs::default()) }
+        };
+        let logs: Vec<Artifact> = (0..50).map(log).collect();
+        let index = LogIndex::of(&logs);
+        for log in &logs {
+            assert_eq!(index.find(&log.name.to_string()), Some(log));
+        }
+        assert_eq!(index.find("expert-p00050"), None);
     }
 }

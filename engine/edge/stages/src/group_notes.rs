@@ -53,6 +53,7 @@ pub fn part(config: &DatasetConfig, frames: InputPort) -> StagePart {
         artifact: NOTES,
         items: items(config),
         bytes_per_item: 1_000_000,
+        files_per_item: 1,
         intermediate: &[],
         asks: None,
     };
@@ -64,9 +65,9 @@ pub fn port() -> InputPort {
     ports::sibling(NAME, NOTES, Fan::Gather, "Notes about the flights of all groups: the part of the same stage.")
 }
 
-/// Notes at the port of [`port`], group by group.
-pub fn read(inputs: &Inputs<'_>) -> Result<Vec<GroupNotes>> {
-    inputs.all(NAME).iter().map(|artifact| codec::decode(NOTES, &inputs.read(artifact, NAME)?)).collect()
+/// Notes at the port of [`port`], group by group, each read when it is its turn.
+pub fn read(inputs: &Inputs<'_>) -> impl Iterator<Item = Result<GroupNotes>> {
+    inputs.all(NAME).iter().map(|artifact| codec::decode(NOTES, &inputs.read(artifact, NAME)?))
 }
 
 struct NotesStage {

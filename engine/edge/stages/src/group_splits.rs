@@ -14,11 +14,15 @@ use cosfly_stage::{
     Fan, InputPort, Inputs, ItemName, ItemRule, Produced, Sees, Stage, StagePart, StageProperties, TaskContext,
 };
 use cosfly_write::{GroupPlan, plan_groups};
+use std::collections::BTreeMap;
 
 /// Name of the part and of the port that reads it.
 const NAME: &str = "splits";
 /// Blob with the policy, JSON; all other blobs are called like the groups.
 const POLICY: &str = "policy";
+
+/// Rejections that the refusal of a dataset without a flight looks at.
+const MOST_REASONS: usize = 1000;
 
 /// The part of a stage that gathers towns at the port `town`.
 pub fn part(config: &DatasetConfig, towns: InputPort) -> StagePart {
@@ -33,6 +37,7 @@ pub fn part(config: &DatasetConfig, towns: InputPort) -> StagePart {
         artifact: SPLITS,
         items: ItemRule::One,
         bytes_per_item: 100_000,
+        files_per_item: 2,
         intermediate: &[],
         asks: None,
     };
@@ -75,15 +80,23 @@ impl Stage for SplitsStage {
 
     fn run(&self, inputs: &Inputs<'_>, outputs: &mut dyn OutputSink, context: &TaskContext) -> Result<Produced> {
         let towns = PublishedTowns::of(inputs)?;
-        let groups = group_notes::read(inputs)?;
-        context.check_cancelled()?;
-        towns.check_pictures(groups.iter().flat_map(|group| &group.pictures))?;
-        if groups.iter().all(|group| group.flights.is_empty()) {
-            return Err(nothing_left(&groups));
-        }
         let items: Vec<&ItemName> = inputs.all(group_notes::NAME).iter().map(|artifact| &artifact.id.item).collect();
-        let groups = items.iter().zip(groups).map(|(item, group)| (group_notes::group_name(item), group.flights));
-        let plan = plan_groups(&self.config, groups.collect(), &|note| towns.layout(&note.town_digest))?;
+        let (mut groups, mut rejections, mut pictures) = (vec![], vec![], BTreeMap::new());
+        for (item, group) in items.iter().zip(group_notes::read(inputs)) {
+            context.check_cancelled()?;
+            let GroupNotes { flights, rejections: more, pictures: shown } = group?;
+            groups.push((group_notes::group_name(item), flights));
+            rejections.extend(more.into_iter().take(MOST_REASONS.saturating_sub(rejections.len())));
+            // One picture of each town is enough for the check.
+            for (picture, town) in shown {
+                pictures.entry(town).or_insert(picture);
+            }
+        }
+        towns.check_pictures(&pictures)?;
+        if groups.iter().all(|(_, flights)| flights.is_empty()) {
+            return Err(nothing_left(&rejections));
+        }
+        let plan = plan_groups(&self.config, groups, &|note| towns.layout(&note.town_digest))?;
         for (item, group) in items.iter().zip(&plan.groups) {
             outputs.put(&item.to_string(), &codec::encode(SPLITS, group)?)?;
         }
@@ -93,8 +106,7 @@ impl Stage for SplitsStage {
 }
 
 /// Refusal of a dataset without a flight, with the first reasons.
-fn nothing_left(groups: &[GroupNotes]) -> Box<Diagnostic> {
-    let rejections: Vec<&Rejection> = groups.iter().flat_map(|group| &group.rejections).collect();
+fn nothing_left(rejections: &[Rejection]) -> Box<Diagnostic> {
     let refusal =
         Diagnostic::new("dataset-empty", Fault::Input, "every trajectory was rejected: there is nothing to publish");
     let refusal = rejections

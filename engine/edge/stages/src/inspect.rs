@@ -48,6 +48,7 @@ impl StageKind for Inspect {
             artifact: FRAMES,
             items: ItemRule::PerInput("frames"),
             bytes_per_item: 0,
+            files_per_item: 0,
             intermediate: &[PACK],
             asks: None,
         };

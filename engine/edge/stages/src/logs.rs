@@ -4,12 +4,12 @@ use crate::codec;
 use crate::ports::{self, LOG, PACK};
 use crate::rejections::handed_on;
 use crate::world::world_of;
-use cosfly_blobs::{OutputSink, PassingFile};
+use cosfly_blobs::{BlobPart, OutputSink, PassingFile};
 use cosfly_captions::{Language, Wear, check_clothes as clothes_in};
 use cosfly_diagnose::{Diagnostic, Fault, Result};
 use cosfly_render::ChannelSet;
 use cosfly_schema::record::captions_from_bytes;
-use cosfly_schema::{CaptionRecord, RenderedTrajectory};
+use cosfly_schema::{CaptionRecord, PreviewStrip, RenderedTrajectory};
 use cosfly_stage::{
     Artifact, InputPort, Inputs, ItemRule, PortSource, Produced, Stage, StagePart, StageProperties, TaskContext,
 };
@@ -24,11 +24,18 @@ const CHANNELS_BLOB: &str = "channels";
 /// Kind of the blob.
 const CHANNELS: &str = "channels/1";
 
+/// Blob with the log itself.
+pub const LOG_BLOB: &str = "mcap";
+/// Blob with the places of the colour previews in the log, which has every picture once.
+pub const PREVIEWS_BLOB: &str = "previews";
+/// Kind of the blob.
+const PREVIEWS: &str = "preview-places/1";
+
 /// The part of a stage that meets pictures at `frames` and their captions at `captions`, item by item.
 pub fn part(frames: InputPort, captions: InputPort) -> StagePart {
     let properties = StageProperties {
         kind: "dataset".into(),
-        version: 3,
+        version: 4,
         // Logs read no parameter: another title or split rewrites no log.
         parameters: serde_json::json!({}),
         sources: vec![],
@@ -36,6 +43,7 @@ pub fn part(frames: InputPort, captions: InputPort) -> StagePart {
         artifact: LOG,
         items: ItemRule::PerInput("frames"),
         bytes_per_item: 0,
+        files_per_item: 3,
         intermediate: &[],
         asks: None,
     };
@@ -63,6 +71,19 @@ pub fn channels_of(inputs: &Inputs<'_>, log: &Artifact) -> Result<ChannelSet> {
     }
 }
 
+/// Colour previews of a log, by frame; none where previews are off.
+pub fn previews(inputs: &Inputs<'_>, log: &Artifact) -> Result<PreviewStrip> {
+    let places: Vec<BlobPart> = codec::decode(PREVIEWS, &inputs.read(log, PREVIEWS_BLOB)?)?;
+    let jpegs = places.iter().map(|place| inputs.read_part(log, LOG_BLOB, place));
+    Ok(PreviewStrip { jpegs: jpegs.collect::<Result<_>>()? })
+}
+
+/// Colour preview of one frame of a log.
+pub fn preview(inputs: &Inputs<'_>, log: &Artifact, frame: usize) -> Result<Option<Vec<u8>>> {
+    let places: Vec<BlobPart> = codec::decode(PREVIEWS, &inputs.read(log, PREVIEWS_BLOB)?)?;
+    places.get(frame).map(|place| inputs.read_part(log, LOG_BLOB, place)).transpose()
+}
+
 struct LogStage {
     properties: StageProperties,
 }
@@ -83,18 +104,19 @@ impl Stage for LogStage {
         let world = world_of(inputs, frames)?;
         let mut pack = FramePackReader::new(BufReader::new(PassingFile::new(inputs.open(frames, PACK)?)))?;
         let mut log = None;
-        outputs.stream("mcap", &mut |file| {
+        outputs.stream(LOG_BLOB, &mut |file| {
             let written =
                 write_log(&mut *file, &record, &mut pack, &captions, &world.town, &|| context.check_cancelled())?;
             log = Some(written);
             Ok(())
         })?;
+        let (log, previews) = log.map(|log| (log.record, log.previews)).unzip();
         outputs.put("log", &codec::encode(LOG, &log)?)?;
         let channels = &pack.header().channels;
         if !channels.is_default() {
             outputs.put(CHANNELS_BLOB, &codec::encode(CHANNELS, channels)?)?;
         }
-        outputs.put("previews", &pack.preview_strip()?.to_bytes())?;
+        outputs.put(PREVIEWS_BLOB, &codec::encode(PREVIEWS, &previews.unwrap_or_default())?)?;
         Ok(Produced::default())
     }
 }

@@ -49,6 +49,7 @@ impl StageKind for Map {
             artifact: TOWN,
             items: ItemRule::One,
             bytes_per_item: 4_000_000,
+            files_per_item: 1,
             intermediate: &[],
             asks: None,
         };

@@ -66,6 +66,7 @@ impl StageKind for Muco {
             artifact: TRAJECTORY,
             items,
             bytes_per_item: 60_000,
+            files_per_item: 1,
             intermediate: &[],
             asks: None,
         };

@@ -58,6 +58,7 @@ pub fn part(config: &RenderConfig, parameters: serde_json::Value, items: ItemRul
         artifact: NEARBY,
         items,
         bytes_per_item: 2_000,
+        files_per_item: 2,
         intermediate: &[],
         asks: None,
     };

@@ -46,6 +46,7 @@ impl StageKind for Pedestrians {
             artifact: WALK,
             items: ItemRule::Count { prefix: "p", count },
             bytes_per_item: 60 * u64::from(config.steps),
+            files_per_item: 1,
             intermediate: &[],
             asks: None,
         };

@@ -44,6 +44,7 @@ impl StageKind for Perturb {
             artifact: TRAJECTORY,
             items: ItemRule::PerInput("trajectories"),
             bytes_per_item: 80_000,
+            files_per_item: 1,
             intermediate: &[],
             asks: None,
         };

@@ -30,6 +30,7 @@ pub fn part(frames: InputPort) -> StagePart {
         artifact: PLANNERS,
         items: ItemRule::One,
         bytes_per_item: 2_000,
+        files_per_item: 1,
         intermediate: &[],
         asks: None,
     };
@@ -72,13 +73,15 @@ fn chosen(inputs: &Inputs<'_>, context: &TaskContext) -> Result<Vec<ComparedFlig
         inputs.all("frames").iter().map(|frames| (frames.name.to_string(), frames)).collect();
     // By town and pedestrian.
     let mut experts: BTreeMap<(String, String), Vec<&Artifact>> = BTreeMap::new();
-    for flight in group_notes::read(inputs)?.into_iter().flat_map(|group| group.flights) {
-        let frames = items.get(&flight.trajectory_id).filter(|_| flight.expert_id.is_none());
-        if let Some(frames) = frames {
-            experts.entry((flight.town, flight.pedestrian_id)).or_default().push(frames);
+    for group in group_notes::read(inputs) {
+        for flight in group?.flights {
+            let frames = items.get(&flight.trajectory_id).filter(|_| flight.expert_id.is_none());
+            if let Some(frames) = frames {
+                experts.entry((flight.town, flight.pedestrian_id)).or_default().push(frames);
+            }
         }
+        context.check_cancelled()?;
     }
-    context.check_cancelled()?;
     let experts: Vec<Vec<&Artifact>> = experts.into_values().collect();
     let count = COMPARED.min(experts.len());
     let mut chosen: Vec<ComparedFlight> = vec![];

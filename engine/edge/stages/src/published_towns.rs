@@ -67,16 +67,12 @@ impl PublishedTowns {
         self.0.iter().find(|town| town.digest() == digest)
     }
 
-    /// Refuses pictures of a town that is not connected, and towns without pictures. `pictures` are items with the digests of
-    /// their towns.
+    /// Refuses pictures of a town that is not connected, and towns without pictures. `shown` has an item by the digest
+    /// of each town that pictures show.
     ///
     /// # Errors
     /// `towns-differ`, `town-without-pictures`.
-    pub fn check_pictures<'p>(&self, pictures: impl Iterator<Item = &'p (String, String)>) -> Result<()> {
-        let mut shown: BTreeMap<&str, &str> = BTreeMap::new();
-        for (item, digest) in pictures {
-            shown.entry(digest).or_insert(item);
-        }
+    pub fn check_pictures(&self, shown: &BTreeMap<String, String>) -> Result<()> {
         if let Some((_, stray)) = shown.iter().find(|(digest, _)| self.town_of(digest).is_none()) {
             return Err(self.elsewhere(stray));
         }

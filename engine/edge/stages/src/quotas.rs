@@ -92,6 +92,7 @@ pub fn orders_part(config: &OcclusionConfig) -> StagePart {
         artifact: ORDERS,
         items: ItemRule::One,
         bytes_per_item: 1_000,
+        files_per_item: 1,
         intermediate: &[],
         asks: None,
     };

@@ -76,6 +76,7 @@ impl StageKind for Render {
             artifact: FRAMES,
             items,
             bytes_per_item: 200 * pixels * 3 / 4,
+            files_per_item: 2,
             intermediate: &[PACK],
             asks: None,
         };

@@ -49,6 +49,7 @@ pub fn part(config: &DatasetConfig, inputs: [InputPort; 3]) -> StagePart {
         artifact: SHARD,
         items: group_notes::items(&config),
         bytes_per_item: 10_000_000,
+        files_per_item: 24,
         intermediate: &[],
         asks: None,
     };
@@ -60,14 +61,14 @@ pub fn port() -> InputPort {
     ports::sibling(NAME, SHARD, Fan::Gather, "Tables and logs of all groups: the part of the same stage.")
 }
 
-/// Figures and files of the groups at the port of [`port`].
-pub fn read(inputs: &Inputs<'_>) -> Result<Vec<(Shard, Blobs)>> {
+/// Figures and files of the groups at the port of [`port`], each read when it is its turn.
+pub fn read(inputs: &Inputs<'_>) -> impl Iterator<Item = Result<(Shard, Blobs)>> {
     let read = |artifact: &Artifact| -> Result<(Shard, Blobs)> {
         let shard = codec::decode(SHARD, &inputs.read(artifact, FIGURES)?)?;
         let files = artifact.blobs.iter().filter(|(name, _)| *name != FIGURES);
         Ok((shard, files.map(|(name, blob)| (name.clone(), *blob)).collect()))
     };
-    inputs.all(NAME).iter().map(read).collect()
+    inputs.all(NAME).iter().map(read)
 }
 
 struct TablesStage {
@@ -107,7 +108,7 @@ impl Stage for TablesStage {
                 continue;
             }
             let channels = logs::channels_of(inputs, log)?;
-            published.push(PublishedLog { record, blob: log.blobs["mcap"], channels });
+            published.push(PublishedLog { record, blob: log.blobs[logs::LOG_BLOB], channels });
             // One weather of a paired rendering has the captions of its flight.
             let of_flight = || captions.get(&frames.name.without_variant()?);
             let captions = captions.get(&frames.name).or_else(of_flight).copied();
@@ -157,6 +158,6 @@ impl GroupSource for Gathered<'_> {
     }
 
     fn previews(&self, index: usize) -> Result<PreviewStrip> {
-        PreviewStrip::from_bytes(&self.inputs.read(self.flights[index].log, "previews")?)
+        logs::previews(self.inputs, self.flights[index].log)
     }
 }

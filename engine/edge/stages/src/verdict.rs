@@ -74,6 +74,7 @@ pub fn part(config: InspectConfig) -> StagePart {
         artifact: VERDICT,
         items: ItemRule::One,
         bytes_per_item: 10_000,
+        files_per_item: 1,
         intermediate: &[],
         asks: None,
     };

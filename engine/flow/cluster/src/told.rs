@@ -3,7 +3,7 @@
 use cosfly_diagnose::Diagnostic;
 use cosfly_fingerprint::Digest;
 use cosfly_runner::Plan;
-use cosfly_stage::{RunEvent, Work};
+use cosfly_stage::{Produced, RunEvent, Work};
 use cosfly_store::Store;
 use std::collections::{BTreeMap, BTreeSet};
 use std::time::Duration;
@@ -71,7 +71,7 @@ impl<'a> Told<'a> {
         let known = plan.stages[stage].finished[item].clone();
         let Some(finished) = known.or_else(|| self.store.finished(&digest)) else { return false };
         self.finished.insert(digest);
-        let produced = finished.record.produced.clone();
+        let produced = Produced::clone(&finished.record.produced);
         let id = plan.recipe.id(stage, item);
         (self.report)(RunEvent::Finished { id, work: Work::Ran, took: Duration::ZERO, produced });
         true

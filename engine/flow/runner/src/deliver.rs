@@ -53,12 +53,11 @@ fn files_of(summary: &RunSummary, stage: usize) -> Option<Blobs> {
     if summary.outcome == RunOutcome::Cancelled || items.is_empty() || !is_whole {
         return None;
     }
-    let single = items.len() == 1;
+    if let [(_, finished)] = &items[..] {
+        return Some(Blobs::clone(&finished.record.outputs));
+    }
     let files = items.iter().flat_map(|(item, finished)| {
-        finished.record.outputs.iter().map(move |(name, blob)| {
-            let path = if single { name.clone() } else { format!("{item}/{name}") };
-            (path, *blob)
-        })
+        finished.record.outputs.iter().map(move |(name, blob)| (format!("{item}/{name}"), *blob))
     });
     Some(files.collect())
 }

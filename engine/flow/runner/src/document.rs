@@ -6,7 +6,7 @@
 //! see while it runs, with inputs as contents; it is never stored as a document.
 
 use crate::sources::HashedSource;
-use cosfly_fingerprint::{Digest, canonical_json};
+use cosfly_fingerprint::{Digest, DigestOfPieces, canonical_json};
 use cosfly_stage::{Artifact, Fan, ItemId, ItemName, Ports, Stage, StageName};
 use serde_json::{Value, json};
 use std::collections::BTreeMap;
@@ -42,8 +42,8 @@ pub(crate) struct PlannedInput<'a> {
 /// A port in the plan documents of a stage.
 #[derive(Clone, Debug)]
 pub(crate) enum PortDocument {
-    /// Text for all items: a broadcast, or the digest of a gather document.
-    Shared { port: &'static str, text: String, gather: Option<(Digest, String)> },
+    /// Text for all items: a broadcast, or the digest of a gather document with the index of its connection.
+    Shared { port: &'static str, text: String, gather: Option<(Digest, usize)> },
     /// Inputs of each item, of the connection with this index.
     Each { port: &'static str, connection: usize },
 }
@@ -84,6 +84,8 @@ impl Definition {
 
     /// Action key of one item: over everything that its stage can see, and nothing else.
     pub(crate) fn action_key(&self, id: &ItemId, seed: &[u8; 32], ports: &Ports) -> Digest {
+        // Hashed piece by piece: a port may have a hundred thousand artifacts.
+        let mut pieces = DigestOfPieces::default();
         let mut text = format!("{{\"definition\":\"{}\",\"item\":", self.action_prefix);
         push_quoted(&mut text, &id.item);
         text.push_str(",\"ports\":{");
@@ -91,13 +93,18 @@ impl Definition {
             text.push_str(comma(index));
             push_quoted(&mut text, port);
             text.push_str(":[");
-            artifacts.iter().enumerate().for_each(|(index, artifact)| push_artifact(&mut text, index, artifact));
+            for (index, artifact) in artifacts.iter().enumerate() {
+                push_artifact(&mut text, index, artifact);
+                pieces.add(text.as_bytes());
+                text.clear();
+            }
             text.push(']');
         }
         let _ = write!(text, "}},\"seed\":\"{}\",\"stage\":", Digest(*seed));
         push_quoted(&mut text, &id.stage);
         text.push('}');
-        Digest::of(text.as_bytes())
+        pieces.add(text.as_bytes());
+        pieces.digest()
     }
 }
 
@@ -126,12 +133,20 @@ pub(crate) fn port_document<'a>(
         Fan::Each | Fan::Group => PortDocument::Each { port, connection },
         Fan::Broadcast => PortDocument::Shared { port, text: list_text(inputs), gather: None },
         Fan::Gather => {
-            let json = format!("{{\"inputs\":{},\"schema\":\"{GATHER_SCHEMA}\"}}", list_text(inputs));
-            let digest = Digest::of(json.as_bytes());
+            // The document itself is as long as its port has items: it is made again where it is published.
+            let digest = Digest::of(gather_document(inputs).as_bytes());
             let text = format!("{{\"gather\":\"{digest}\"}}");
-            PortDocument::Shared { port, text, gather: Some((digest, json)) }
+            PortDocument::Shared { port, text, gather: Some((digest, connection)) }
         }
     }
+}
+
+/// Document of the items at a port that takes all of them.
+pub(crate) fn gather_document<'a>(inputs: impl Iterator<Item = PlannedInput<'a>>) -> String {
+    let mut text = "{\"inputs\":".to_owned();
+    push_list(&mut text, inputs);
+    let _ = write!(text, ",\"schema\":\"{GATHER_SCHEMA}\"}}");
+    text
 }
 
 /// Plan document of one item. `ports` are sorted by name; `each` gives the item's inputs at a connection.
@@ -256,8 +271,10 @@ mod tests {
         let text = plan_document(&definition, &ItemName::own("é\\"), &ports, |_| std::iter::once(input(3)));
         let value: Value = serde_json::from_str(&text).unwrap();
         assert_eq!(canonical_json(&value), text);
-        let PortDocument::Shared { gather: Some((gather, json)), .. } = &ports[0] else { panic!("no gather") };
-        let documents = BTreeMap::from([(Digest::of(b"it"), text), (*gather, json.clone())]);
+        let PortDocument::Shared { gather: Some((gather, 0)), .. } = &ports[0] else { panic!("no gather") };
+        let json = gather_document([input(0), input(1)].into_iter());
+        assert_eq!(*gather, Digest::of(json.as_bytes()));
+        let documents = BTreeMap::from([(Digest::of(b"it"), text), (*gather, json)]);
         let stored = StoredPlan::read(&Digest::of(b"it"), |digest| serde_json::from_str(documents.get(digest)?).ok());
         let stored = stored.unwrap();
         assert_eq!((stored.definition, stored.item.as_str()), (definition, "é\\"));

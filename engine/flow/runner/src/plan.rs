@@ -1,6 +1,6 @@
 //! The plan of a recipe: every task with its key, the finished ones, and the documents that describe them.
 
-use crate::document::{Definition, PlannedInput, PortDocument, plan_document};
+use crate::document::{Definition, PlannedInput, PortDocument, gather_document, plan_document};
 use crate::reason::Reason;
 use crate::sources::HashedSource;
 use cosfly_diagnose::Result;
@@ -40,6 +40,8 @@ pub struct PlannedStage {
     pub spent: u64,
     /// Expected bytes of the items that are left to do.
     pub predicted_bytes: u64,
+    /// Expected number of files in the store of the items that are left to do: blobs, and three records of each item.
+    pub predicted_files: u64,
     /// Expected time of the items that are left to do, on one core each, seconds; `None` where none was ever measured.
     pub predicted_s: Option<f64>,
     /// Reasons why items will run, with the number of items; empty where all are finished.
@@ -120,14 +122,16 @@ impl Plan<'_> {
 
     /// Publishes the documents that all items of a stage share: its definition, its gathers, and how to build it.
     pub(crate) fn publish_stage(&self, store: &Store, stage: usize) -> Result<()> {
-        let planned = &self.stages[stage];
+        let (described, planned) = (&self.recipe.stages[stage], &self.stages[stage]);
         store.put_document(&planned.definition.digest, &planned.definition.json)?;
         for port in &planned.ports {
-            if let PortDocument::Shared { gather: Some((digest, json)), .. } = port {
-                store.put_document(digest, json)?;
+            if let PortDocument::Shared { gather: Some((digest, connection)), .. } = port {
+                let arrivals = described.connections[*connection].arrivals.iter();
+                let inputs = arrivals.map(|arrival| planned_input(self.recipe, &self.stages, arrival));
+                store.put_document(digest, &gather_document(inputs))?;
             }
         }
-        store.put_build(&planned.definition.digest, &build_document(&self.recipe.stages[stage], &planned.sources))
+        store.put_build(&planned.definition.digest, &build_document(described, &planned.sources))
     }
 
     /// Publishes the documents of everything that is left to do, so that [`crate::run_tasks`] can do it anywhere.

@@ -12,6 +12,8 @@ use cosfly_store::{Known, Store};
 use rayon::prelude::*;
 use std::collections::BTreeSet;
 
+/// Files of a finished item beside its blobs: plan document, action record, done record.
+const RECORDS_PER_ITEM: u64 = 3;
 /// Fewer items than this are not worth another thread.
 const PER_THREAD: usize = 256;
 
@@ -46,6 +48,7 @@ fn made<'r>(recipe: &'r Recipe, store: &Store, asked: Option<usize>, make_again:
     store.check_remote()?;
     find_needed(&mut plan, asked, make_again);
     predict(&mut plan);
+    predict_files(&mut plan);
     predict_time(&mut plan, store);
     reasons::give_reasons(&mut plan, store);
     Ok(plan)
@@ -94,6 +97,7 @@ fn digest_stage(
         spent_items: Vec::new(),
         plans,
         predicted_bytes: 0,
+        predicted_files: 0,
         predicted_s: None,
         reasons: Vec::new(),
         definition,
@@ -151,6 +155,15 @@ fn find_needed(plan: &mut Plan<'_>, asked: Option<usize>, make_again: bool) {
         }
     }
     plan.stages.iter_mut().zip(spent).for_each(|(stage, spent)| stage.spent = spent.len() as u64);
+}
+
+/// Predicts the files of the items left to do: as many blobs as the stage states. (Finished items tell only the names of their
+/// blobs, many of which belong to the items that they were handed on from.)
+fn predict_files(plan: &mut Plan<'_>) {
+    for (stage, described) in plan.stages.iter_mut().zip(&plan.recipe.stages) {
+        let stated = described.stage.properties().files_per_item;
+        stage.predicted_files = stage.to_run().saturating_mul(stated.saturating_add(RECORDS_PER_ITEM));
+    }
 }
 
 /// Predicts the time of the items left to do from measured ones.

@@ -312,7 +312,7 @@ impl<'r> Workers<'_, 'r> {
 
     /// Ends a task that another process finished meanwhile.
     fn found_done(&self, index: TaskIndex, finished: Finished, took: Duration) {
-        let produced = finished.record.produced.clone();
+        let produced = Produced::clone(&finished.record.produced);
         let mut shared = self.lock();
         shared.work[index] = Some(Work::Cached);
         shared.finish(index, finished);
@@ -385,7 +385,7 @@ impl<'r> Workers<'_, 'r> {
                 shared.remove_spent(self.store, task, &settlement.finished.record);
             }
             drop(shared);
-            self.report_finished(task, settlement.work, took, settlement.finished.record.produced.clone());
+            self.report_finished(task, settlement.work, took, Produced::clone(&settlement.finished.record.produced));
         };
         let refused = |diagnostic: Box<Diagnostic>| {
             let mut shared = self.lock();

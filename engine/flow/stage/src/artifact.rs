@@ -1,7 +1,7 @@
 //! Finished items as stages read them: named blobs with checked digests.
 
 use crate::{Answers, Blobs, ItemId, ItemName};
-use cosfly_blobs::BlobRef;
+use cosfly_blobs::{BlobPart, BlobRef};
 use cosfly_diagnose::{Diagnostic, Fault, Result};
 use std::any::{Any, TypeId};
 use std::collections::BTreeMap;
@@ -26,6 +26,8 @@ pub type Decoded = Arc<dyn Any + Send + Sync>;
 pub trait BlobSource: Send + Sync {
     /// Reads all bytes of a blob; the digest is checked.
     fn read(&self, blob: &BlobRef) -> Result<Vec<u8>>;
+    /// Reads a part of a blob; the digest of the part is checked, the rest is not read.
+    fn read_part(&self, blob: &BlobRef, part: &BlobPart) -> Result<Vec<u8>>;
     /// Opens the blob as a file; size and digest are checked once per process.
     fn open(&self, blob: &BlobRef) -> Result<File>;
     /// Decoded value of the blob, of type `kind`; `decode` runs once per process while tasks use the value.
@@ -62,6 +64,11 @@ impl Inputs<'_> {
     /// Reads the bytes of blob `name` of `artifact`.
     pub fn read(&self, artifact: &Artifact, name: &str) -> Result<Vec<u8>> {
         self.blobs.read(Self::blob(artifact, name)?)
+    }
+
+    /// Reads a part of blob `name` of `artifact`.
+    pub fn read_part(&self, artifact: &Artifact, name: &str, part: &BlobPart) -> Result<Vec<u8>> {
+        self.blobs.read_part(Self::blob(artifact, name)?, part)
     }
 
     /// Opens blob `name` of `artifact` as a file.

@@ -2,18 +2,29 @@
 
 use cosfly_blobs::BlobRef;
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
+use std::iter::Zip;
 use std::ops::Index;
+use std::slice;
+use std::sync::{Arc, Mutex, PoisonError};
 
-/// Blobs of one item by name, sorted. A run holds those of every item: a list takes the room of its entries, a tree map
-/// eleven times that for an item of one blob.
-#[derive(Clone, Debug, Default, PartialEq, Eq)]
-pub struct Blobs(Box<[(String, BlobRef)]>);
+/// Most names of a list that items share; longer lists, such as the files of a dataset, are of one item only.
+const MOST_SHARED_NAMES: usize = 16;
+/// Most lists of names that are kept for sharing: one for each kind of item, and a few for rare ones.
+const MOST_SHARED_LISTS: usize = 4096;
+
+/// Blobs of one item by name, sorted. A run holds those of every item: items of one stage share the list of names, so that
+/// a blob takes the room of its digest and size.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Blobs {
+    names: Arc<[String]>,
+    blobs: Box<[BlobRef]>,
+}
 
 impl Blobs {
     /// The blob called `name`.
     pub fn get(&self, name: &str) -> Option<&BlobRef> {
-        self.0.binary_search_by(|(known, _)| known.as_str().cmp(name)).ok().map(|at| &self.0[at].1)
+        self.names.binary_search_by(|known| known.as_str().cmp(name)).ok().map(|at| &self.blobs[at])
     }
 
     /// Whether there is a blob called `name`.
@@ -22,28 +33,54 @@ impl Blobs {
     }
 
     /// Names and blobs, by name.
-    pub fn iter(&self) -> impl ExactSizeIterator<Item = (&String, &BlobRef)> {
-        self.0.iter().map(|(name, blob)| (name, blob))
+    pub fn iter(&self) -> Entries<'_> {
+        self.names.iter().zip(&self.blobs)
     }
 
     /// Names, in order.
     pub fn keys(&self) -> impl ExactSizeIterator<Item = &String> {
-        self.0.iter().map(|(name, _)| name)
+        self.names.iter()
     }
 
     /// Blobs, by name.
     pub fn values(&self) -> impl ExactSizeIterator<Item = &BlobRef> {
-        self.0.iter().map(|(_, blob)| blob)
+        self.blobs.iter()
     }
 
     /// Number of blobs.
     pub fn len(&self) -> usize {
-        self.0.len()
+        self.blobs.len()
     }
 
     /// Whether there is no blob.
     pub fn is_empty(&self) -> bool {
-        self.0.is_empty()
+        self.blobs.is_empty()
+    }
+}
+
+/// Names and blobs of an item.
+pub type Entries<'b> = Zip<slice::Iter<'b, String>, slice::Iter<'b, BlobRef>>;
+
+/// The list of names, in the memory of an equal one where there is one.
+fn shared(names: Vec<String>) -> Arc<[String]> {
+    static LISTS: Mutex<BTreeSet<Arc<[String]>>> = Mutex::new(BTreeSet::new());
+    if names.len() > MOST_SHARED_NAMES {
+        return names.into();
+    }
+    let mut lists = LISTS.lock().unwrap_or_else(PoisonError::into_inner);
+    if let Some(known) = lists.get(names.as_slice()) {
+        return Arc::clone(known);
+    }
+    let names: Arc<[String]> = names.into();
+    if lists.len() < MOST_SHARED_LISTS {
+        lists.insert(Arc::clone(&names));
+    }
+    names
+}
+
+impl Default for Blobs {
+    fn default() -> Self {
+        Self { names: shared(vec![]), blobs: Box::default() }
     }
 }
 
@@ -57,7 +94,8 @@ impl Index<&str> for Blobs {
 
 impl From<BTreeMap<String, BlobRef>> for Blobs {
     fn from(blobs: BTreeMap<String, BlobRef>) -> Self {
-        Self(blobs.into_iter().collect())
+        let (names, blobs): (Vec<String>, Vec<BlobRef>) = blobs.into_iter().unzip();
+        Self { names: shared(names), blobs: blobs.into() }
     }
 }
 
@@ -76,20 +114,10 @@ impl FromIterator<(String, BlobRef)> for Blobs {
 
 impl<'b> IntoIterator for &'b Blobs {
     type Item = (&'b String, &'b BlobRef);
-    type IntoIter =
-        std::iter::Map<std::slice::Iter<'b, (String, BlobRef)>, fn(&(String, BlobRef)) -> (&String, &BlobRef)>;
+    type IntoIter = Entries<'b>;
 
     fn into_iter(self) -> Self::IntoIter {
-        self.0.iter().map(|(name, blob)| (name, blob))
-    }
-}
-
-impl IntoIterator for Blobs {
-    type Item = (String, BlobRef);
-    type IntoIter = std::vec::IntoIter<(String, BlobRef)>;
-
-    fn into_iter(self) -> Self::IntoIter {
-        self.0.into_vec().into_iter()
+        self.iter()
     }
 }
 
@@ -122,6 +150,8 @@ mod tests {
         let text = serde_json::to_string(&map).expect("JSON");
         assert_eq!(serde_json::to_string(&blobs).expect("JSON"), text);
         assert_eq!(serde_json::from_str::<Blobs>(&text).expect("blobs"), blobs);
+        let others: Blobs = map.keys().map(|name| (name.clone(), blob("other"))).collect();
+        assert!(Arc::ptr_eq(&others.names, &blobs.names) && others != blobs);
         let twice: Blobs =
             [("x", "one"), ("x", "two")].map(|(name, text)| (name.to_owned(), blob(text))).into_iter().collect();
         assert_eq!((twice.len(), twice["x"]), (1, blob("two")));

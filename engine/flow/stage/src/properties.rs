@@ -26,6 +26,8 @@ pub struct StageProperties {
     /// Estimated size of one item's output, bytes, for `cosfly plan` before any item is made; 0 where it is about as
     /// large as the items at the [`Fan::Each`] ports.
     pub bytes_per_item: u64,
+    /// Estimated number of blobs of one item that no other item made, for `cosfly plan` before any item is made.
+    pub files_per_item: u64,
     /// Blobs that only other stages need: they may be removed once everything that reads them is finished. A reader that
     /// needs a removed blob has the item made again.
     pub intermediate: &'static [&'static str],

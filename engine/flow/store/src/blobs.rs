@@ -3,13 +3,13 @@
 use crate::layout::Area;
 use crate::mutex::locked;
 use crate::store::Store;
-use cosfly_blobs::BlobRef;
+use cosfly_blobs::{BlobPart, BlobRef};
 use cosfly_diagnose::{Diagnostic, Fault, Result};
 use cosfly_fingerprint::Digest;
 use cosfly_stage::BlobSource;
 use std::any::{Any, TypeId};
 use std::fs::{self, File};
-use std::io::{self, Read, Seek};
+use std::io::{self, Read, Seek, SeekFrom};
 use std::path::PathBuf;
 use std::sync::Arc;
 
@@ -33,6 +33,14 @@ impl BlobSource for Store {
             self.mark_checked(blob.digest);
         }
         Ok(bytes)
+    }
+
+    fn read_part(&self, blob: &BlobRef, part: &BlobPart) -> Result<Vec<u8>> {
+        match self.part_of(blob, part) {
+            Ok(Some(bytes)) => Ok(bytes),
+            Ok(None) => Err(self.damaged(blob)),
+            Err(error) => Err(self.unreadable(blob, &error)),
+        }
     }
 
     fn open(&self, blob: &BlobRef) -> Result<File> {
@@ -61,25 +69,44 @@ impl Store {
     }
 
     pub(crate) fn is_checked(&self, digest: &Digest) -> bool {
-        locked(&self.checked).contains(digest)
+        locked(&self.checked).contains(&head(digest))
     }
 
     pub(crate) fn mark_checked(&self, digest: Digest) {
-        locked(&self.checked).insert(digest);
+        locked(&self.checked).insert(head(&digest));
     }
 
-    /// Opens the file of a blob at its start; `None` where its bytes do not match its digest.
-    fn open_checked(&self, blob: &BlobRef) -> io::Result<Option<File>> {
+    /// Has the blob checked again when it is read next.
+    pub(crate) fn forget_checked(&self, blob: &BlobRef) {
+        locked(&self.checked).remove(&head(&blob.digest));
+    }
+
+    /// Opens the file of a blob; `None` where it has another size.
+    fn open_unchecked(&self, blob: &BlobRef) -> io::Result<Option<File>> {
         let path = self.blob_path(blob);
-        let mut file = match File::open(&path) {
+        let file = match File::open(&path) {
             Err(error) if error.kind() == io::ErrorKind::NotFound && self.fetch_blob(&path, &blob.digest) => {
                 File::open(&path)?
             }
             opened => opened?,
         };
-        if file.metadata()?.len() != blob.bytes {
-            return Ok(None);
-        }
+        Ok((file.metadata()?.len() == blob.bytes).then_some(file))
+    }
+
+    /// Bytes of a part; `None` where the blob has another size, ends before them or has others there.
+    fn part_of(&self, blob: &BlobRef, part: &BlobPart) -> io::Result<Option<Vec<u8>>> {
+        let end = part.offset.checked_add(u64::from(part.bytes));
+        let file = if end.is_some_and(|end| end <= blob.bytes) { self.open_unchecked(blob)? } else { None };
+        let Some(mut file) = file else { return Ok(None) };
+        file.seek(SeekFrom::Start(part.offset))?;
+        let mut bytes = vec![0; part.bytes as usize];
+        file.read_exact(&mut bytes)?;
+        Ok((Digest::of(&bytes) == part.digest).then_some(bytes))
+    }
+
+    /// Opens the file of a blob at its start; `None` where its bytes do not match its digest.
+    fn open_checked(&self, blob: &BlobRef) -> io::Result<Option<File>> {
+        let Some(mut file) = self.open_unchecked(blob)? else { return Ok(None) };
         if !self.is_checked(&blob.digest) {
             if digest_of_file(&mut file)? != blob.digest {
                 return Ok(None);
@@ -95,7 +122,7 @@ impl Store {
     /// # Errors
     /// `machine-io`.
     pub fn remove_blob(&self, blob: &BlobRef) -> Result<()> {
-        locked(&self.checked).remove(&blob.digest);
+        self.forget_checked(blob);
         let path = self.blob_path(blob);
         self.remove_from_remote(&path, &blob.digest)?;
         match fs::remove_file(&path) {
@@ -120,12 +147,19 @@ impl Store {
 
     /// Removes a damaged blob, so that no other reader opens it.
     fn damaged(&self, blob: &BlobRef) -> Box<Diagnostic> {
-        locked(&self.checked).remove(&blob.digest);
+        self.forget_checked(blob);
         let path = self.blob_path(blob);
         let _ = fs::remove_file(&path);
         self.clear_away(&path);
         lost(blob, "is damaged")
     }
+}
+
+/// First bytes of a digest: a run remembers those of every blob that was checked, and eight are enough to tell the blobs of a
+/// store apart.
+fn head(digest: &Digest) -> u64 {
+    let (heads, _) = digest.0.as_chunks::<8>();
+    u64::from_le_bytes(heads[0])
 }
 
 fn lost(blob: &BlobRef, how: &str) -> Box<Diagnostic> {
@@ -172,6 +206,23 @@ mod tests {
         let mut text = String::new();
         again.open(&record.outputs["a"]).unwrap().read_to_string(&mut text).unwrap();
         assert_eq!(text, "hello");
+    }
+
+    #[test]
+    fn a_part_is_read_without_the_rest_and_a_wrong_one_is_refused() {
+        let root = tempfile::tempdir().unwrap();
+        let part = |offset, bytes: &[u8]| BlobPart { offset, bytes: bytes.len() as u32, digest: Digest::of(bytes) };
+        for wrong in [part(6, b"worlD"), part(7, b"world"), part(u64::MAX, b"w")] {
+            let (store, record) = store_with(root.path(), b"hello world");
+            let blob = record.outputs["a"];
+            let path = store.blob_path(&blob);
+            assert_eq!(store.read_part(&blob, &part(6, b"world")).unwrap(), b"world");
+            fs::remove_file(&path).unwrap();
+            fs::write(&path, b"HELLO world").unwrap();
+            assert_eq!(store.read_part(&blob, &part(6, b"world")).unwrap(), b"world");
+            assert_eq!(store.read_part(&blob, &wrong).unwrap_err().fault, Fault::Lost);
+            assert!(!path.exists());
+        }
     }
 
     #[test]

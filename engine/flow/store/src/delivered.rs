@@ -3,6 +3,7 @@
 //! The record is in the store, not in the folder, so that two folders of one artifact are equal to the byte.
 
 use crate::fault::Step;
+use crate::history::{seal, unsealed};
 use crate::store::Store;
 use cosfly_diagnose::Result;
 use cosfly_fingerprint::Digest;
@@ -52,12 +53,14 @@ impl Delivered {
     }
 
     fn encode(&self) -> String {
-        let mut body = format!("{}\n", self.version);
+        let (mut body, start) = unsealed(HEADER);
+        let _ = writeln!(body, "{}", self.version);
         for (name, (digest, [size, modified, changed, device, number])) in &self.files {
             let name = serde_json::Value::from(name.as_str());
             let _ = writeln!(body, "{digest} {size} {modified} {changed} {device} {number} {name}");
         }
-        format!("{HEADER}{}\n{body}", Digest::of(body.as_bytes()))
+        seal(&mut body, start);
+        body
     }
 
     /// Parses a record; `None` where it is not exactly as written.

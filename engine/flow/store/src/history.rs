@@ -50,7 +50,7 @@ impl PastRun {
 
     fn encode(&self) -> String {
         let quoted = |text: &str| serde_json::Value::from(text).to_string();
-        let mut body = String::new();
+        let (mut body, start) = unsealed(HEADER);
         for stage in &self.stages {
             let _ = writeln!(body, "stage {} {}", stage.definition, quoted(&stage.name));
             for blob in &stage.spent {
@@ -60,7 +60,8 @@ impl PastRun {
                 let _ = writeln!(body, "item {plan} {}", quoted(item));
             }
         }
-        format!("{HEADER}{}\n{body}", Digest::of(body.as_bytes()))
+        seal(&mut body, start);
+        body
     }
 
     /// Parses the file of a run; `None` where it is not exactly as written.
@@ -117,6 +118,19 @@ impl Store {
         }
         Ok(())
     }
+}
+
+/// A text that begins with `header` and room for the digest of what follows, which begins at the number given with it.
+pub(crate) fn unsealed(header: &str) -> (String, usize) {
+    let text = format!("{header}{}\n", Digest([0; 32]));
+    let start = text.len();
+    (text, start)
+}
+
+/// Writes the digest of everything from `start` on before it, in place: these texts are long.
+pub(crate) fn seal(text: &mut String, start: usize) {
+    let digest = Digest::of(&text.as_bytes()[start..]).to_string();
+    text.replace_range(start - 1 - digest.len()..start - 1, &digest);
 }
 
 fn file_name(number: u64) -> String {

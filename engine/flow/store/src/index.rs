@@ -206,7 +206,8 @@ fn encode<'e>(
     blobs: &Stamps,
     entries: impl Iterator<Item = (&'e Digest, &'e Finished, bool)>,
 ) -> Vec<u8> {
-    let mut body = run.0.to_vec();
+    let start = HEADER.len() + 32;
+    let mut body = [HEADER, &[0; 32], &run.0].concat();
     done.iter().chain(blobs).for_each(|stamp| body.extend(stamp.to_le_bytes()));
     for (plan, finished, whole) in entries {
         body.extend(plan.0);
@@ -229,10 +230,9 @@ fn encode<'e>(
         put_count(&mut body, record.produced.rejected.iter().count());
         record.produced.rejected.iter().for_each(|reason| put_text(&mut body, reason));
     }
-    let mut bytes = HEADER.to_vec();
-    bytes.extend(Digest::of(&body).0);
-    bytes.extend(body);
-    bytes
+    let digest = Digest::of(&body[start..]);
+    body[HEADER.len()..start].copy_from_slice(&digest.0);
+    body
 }
 
 fn put_count(bytes: &mut Vec<u8>, count: usize) {

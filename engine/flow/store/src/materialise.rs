@@ -4,7 +4,6 @@ use crate::blobs::digest_of_file;
 use crate::delivered::{Delivered, Verified};
 use crate::folder::{first_foreign, fresh_beside, put_in_place, sync_file_system};
 use crate::locks::lock_file;
-use crate::mutex::locked;
 use crate::names::is_relative_path;
 use crate::places::check_out_folder;
 use crate::store::Store;
@@ -82,7 +81,7 @@ fn is_right(store: &Store, blobs: &Blobs, version: &Digest, folder: &Path, befor
         if !known && !holds_bytes(&folder.join(name), blob) {
             right = false;
             // It may be a hard link to the blob itself, which then has to be checked again.
-            locked(&store.checked).remove(&blob.digest);
+            store.forget_checked(blob);
         }
     }
     if right {

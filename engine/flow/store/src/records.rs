@@ -1,11 +1,11 @@
 //! Action and done records, each bound to its key by a check line: a torn, edited or exchanged record is detected.
 
+use cosfly_blobs::BlobRef;
 use cosfly_fingerprint::{Digest, canonical_json};
 use cosfly_stage::{Blobs, Produced};
-use serde::{Deserialize, Serialize};
-use std::sync::Arc;
-
-const SCHEMA: &str = "cosfly.action-record/1";
+use serde::{Deserialize, Deserializer, Serialize};
+use std::fmt::Write as _;
+use std::sync::{Arc, LazyLock};
 
 /// Output of an action.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
@@ -13,21 +13,39 @@ const SCHEMA: &str = "cosfly.action-record/1";
 pub struct ActionRecord {
     /// Blobs by name.
     pub outputs: Arc<Blobs>,
-    /// Notes, warnings and rejection.
-    pub produced: Produced,
-    schema: String,
+    /// Notes, warnings and rejection; most items have none of them and share this.
+    #[serde(deserialize_with = "shared_produced")]
+    pub produced: Arc<Produced>,
+    schema: Schema,
+}
+
+/// Version of the record, without a place in memory.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+enum Schema {
+    #[serde(rename = "cosfly.action-record/1")]
+    First,
 }
 
 impl ActionRecord {
     /// Creates a record.
     pub fn new(outputs: impl Into<Blobs>, produced: Produced) -> Self {
-        Self { outputs: Arc::new(outputs.into()), produced, schema: SCHEMA.to_owned() }
+        Self { outputs: Arc::new(outputs.into()), produced: shared(produced), schema: Schema::First }
     }
 
     /// Total number of bytes of all blobs.
     pub fn bytes(&self) -> u64 {
         self.outputs.values().fold(0, |sum, blob| sum.saturating_add(blob.bytes))
     }
+}
+
+/// One copy of an empty [`Produced`] for all items.
+fn shared(produced: Produced) -> Arc<Produced> {
+    static NOTHING: LazyLock<Arc<Produced>> = LazyLock::new(Arc::default);
+    if produced == **NOTHING { Arc::clone(&NOTHING) } else { Arc::new(produced) }
+}
+
+fn shared_produced<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Arc<Produced>, D::Error> {
+    Produced::deserialize(deserializer).map(shared)
 }
 
 /// Result of a finished task.
@@ -41,7 +59,23 @@ pub struct Finished {
 
 /// File of an action record: canonical JSON, the action's key, then the digest of both.
 pub(crate) fn encode(action: &Digest, record: &ActionRecord) -> Vec<u8> {
-    with_check(format!("{}\n{action}\n", canonical_json(record)))
+    let mut text = canonical(record);
+    let _ = writeln!(text, "\n{action}");
+    with_check(text)
+}
+
+/// The record as canonical JSON. A dataset of a hundred thousand files is an output of as many blobs, so that no tree of
+/// values is built.
+fn canonical(record: &ActionRecord) -> String {
+    let mut text = "{\"outputs\":{".to_owned();
+    for (index, (name, blob)) in record.outputs.iter().enumerate() {
+        let comma = if index == 0 { "" } else { "," };
+        let (name, BlobRef { digest, bytes }) = (serde_json::Value::from(name.as_str()), blob);
+        let _ = write!(text, "{comma}{name}:{{\"bytes\":{bytes},\"digest\":\"{digest}\"}}");
+    }
+    let (produced, schema) = (canonical_json(&record.produced), canonical_json(&record.schema));
+    let _ = write!(text, "}},\"produced\":{produced},\"schema\":{schema}}}");
+    text
 }
 
 /// File of a done record: the action's key, the task's plan digest, then the digest of both.
@@ -57,7 +91,7 @@ pub(crate) fn encode_answer(question: &Digest, answer: &str) -> Vec<u8> {
 
 fn with_check(mut body: String) -> Vec<u8> {
     let check = Digest::of(body.as_bytes());
-    body.push_str(&format!("{check}\n"));
+    let _ = writeln!(body, "{check}");
     body.into_bytes()
 }
 
@@ -74,8 +108,7 @@ pub(crate) fn content_for<'b>(key: &Digest, bytes: &'b [u8]) -> Option<&'b str> 
 
 /// Parses the record of `action`; `None` where it is not exactly as [`encode`] wrote it.
 pub(crate) fn decode(action: &Digest, bytes: &[u8]) -> Option<ActionRecord> {
-    let record: ActionRecord = serde_json::from_str(content_for(action, bytes)?).ok()?;
-    (record.schema == SCHEMA).then_some(record)
+    serde_json::from_str(content_for(action, bytes)?).ok()
 }
 
 /// Parses the done record of `plan`; `None` where it is not exactly as [`encode_done`] wrote it.
@@ -86,14 +119,14 @@ pub(crate) fn decode_done(plan: &Digest, bytes: &[u8]) -> Option<Digest> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use cosfly_blobs::BlobRef;
     use std::collections::BTreeMap;
 
     #[test]
     fn a_record_with_any_byte_changed_is_not_believed() {
         let blob = BlobRef { digest: Digest::of(b"x"), bytes: 1 };
         let produced = Produced { warnings: vec!["w\n\"".to_owned()], ..Produced::default() };
-        let record = ActionRecord::new(BTreeMap::from([("a".to_owned(), blob)]), produced);
+        let record = ActionRecord::new(BTreeMap::from([("a\"".to_owned(), blob), ("b".to_owned(), blob)]), produced);
+        assert_eq!(canonical(&record), canonical_json(&record));
         let action = Digest::of(b"action");
         let bytes = encode(&action, &record);
         assert_eq!(decode(&action, &bytes).unwrap(), record);

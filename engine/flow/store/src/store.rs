@@ -23,8 +23,8 @@ pub struct Store {
     pub(crate) scratch: Scratch,
     pub(crate) faults: Arc<dyn FaultPoints>,
     pub(crate) durability: Durability,
-    /// Blobs whose size and digest this process has checked, or that it wrote itself.
-    pub(crate) checked: Mutex<BTreeSet<Digest>>,
+    /// First bytes of the digests of blobs whose size and digest this process has checked, or that it wrote itself.
+    pub(crate) checked: Mutex<BTreeSet<u64>>,
     pub(crate) decoded: DecodeCache,
     /// Store that the folder is a cache of.
     pub(crate) remote: Option<Arc<dyn Remote>>,

@@ -181,6 +181,7 @@ fn toy_stage(toy: &Toy, earlier: &[RecipeStage]) -> Result<RecipeStage> {
         artifact: "toy/1",
         items: ItemRule::One,
         bytes_per_item: 1000,
+        files_per_item: 1,
         intermediate: if toy.packs { &[PACK] } else { &[] },
         asks: None,
     };

@@ -10,8 +10,8 @@ use cosfly_schema::{
     CaptionRecord, DatasetConfig, EncodingConfig, LogRecord, PreviewStrip, RenderedTrajectory, TownLayout,
 };
 use cosfly_write::publish::{
-    DatasetSource, FlightNote, GroupFlights, GroupName, GroupSource, PublishedLog, Summary, plan_groups, write_dataset,
-    write_shard,
+    DatasetSource, FlightNote, GroupFlights, GroupName, GroupSource, PublishedLog, Shards, Summary, plan_groups,
+    write_dataset, write_shard,
 };
 use cosfly_write::{FramePackReader, write_log};
 use std::collections::BTreeMap;
@@ -103,7 +103,7 @@ pub fn write_flights(
     for flight in &flights {
         let mut bytes = vec![];
         let mut pack = FramePackReader::new(Cursor::new(flight.pack(encoding)))?;
-        let record = write_log(&mut bytes, &flight.record, &mut pack, &flight.captions, &town, &|| Ok(()))?;
+        let record = write_log(&mut bytes, &flight.record, &mut pack, &flight.captions, &town, &|| Ok(()))?.record;
         files.push((record, bytes, flight.channels()));
     }
     let published = |(record, bytes, channels): &(LogRecord, Vec<u8>, ChannelSet)| PublishedLog {
@@ -125,8 +125,9 @@ pub fn write_flights(
     let source = Flights(flights, encoding);
     let rejections = [rejections(), group.left_out.clone()].concat();
     let flights = GroupFlights::new(config, group, &logs, &source, &|| Ok(()))?;
-    let shard = write_shard(&mut sink, config, &flights, rejections)?;
+    let mut shards = Shards::default();
+    shards.add(write_shard(&mut sink, config, &flights, rejections)?)?;
     let config = DatasetConfig { splits: plan.splits, ..config.clone() };
-    let summary = write_dataset(&mut sink, &config, vec![shard], &source)?;
+    let summary = write_dataset(&mut sink, &config, shards, &source)?;
     Ok(Summary { warnings: plan.warnings, ..summary })
 }

@@ -8,8 +8,8 @@ use cosfly_frames::DVec3;
 use cosfly_schema::tables::{Landmarks, ObjectRecord};
 use cosfly_schema::{CaptionRecord, DatasetConfig, EncodingConfig, PreviewStrip, RenderedTrajectory, TownLayout};
 use cosfly_write::publish::{
-    DatasetSource, FlightNote, GroupFlights, GroupName, GroupSource, PublishedLog, Summary, plan_groups, write_dataset,
-    write_shard,
+    DatasetSource, FlightNote, GroupFlights, GroupName, GroupSource, PublishedLog, Shards, Summary, plan_groups,
+    write_dataset, write_shard,
 };
 use cosfly_write::{FramePackReader, write_log};
 use std::io::{Cursor, Seek};
@@ -90,8 +90,8 @@ impl ManyFlights {
         let sample = &self.samples[index % self.samples.len()];
         let mut pack = FramePackReader::new(Cursor::new(&self.packs[index % self.samples.len()]))?;
         let mut bytes = vec![];
-        let record = write_log(&mut bytes, &self.record(index), &mut pack, &sample.captions, &town(), &|| Ok(()))?;
-        Ok((PublishedLog { record, blob: blob_of(&bytes), channels: sample.channels() }, bytes))
+        let log = write_log(&mut bytes, &self.record(index), &mut pack, &sample.captions, &town(), &|| Ok(()))?;
+        Ok((PublishedLog { record: log.record, blob: blob_of(&bytes), channels: sample.channels() }, bytes))
     }
 }
 
@@ -187,12 +187,12 @@ pub fn write_many(folder: &Path, config: &DatasetConfig, count: usize) -> Result
     };
     let plan = plan_groups(config, firsts.iter().map(group).collect(), &|_| Ok(Arc::clone(&source.layout)))?;
     let mut sink = MovingSink { folder, logs: &scratch, moved: 0 };
-    let mut shards = vec![];
+    let mut shards = Shards::default();
     for (first, group) in firsts.iter().zip(&plan.groups) {
         let logs = &logs[*first..first + group.flights.len()];
         let flights = Group { all: &source, first: *first };
         let flights = GroupFlights::new(config, group, logs, &flights, &|| Ok(()))?;
-        shards.push(write_shard(&mut sink, config, &flights, vec![])?);
+        shards.add(write_shard(&mut sink, config, &flights, vec![])?)?;
     }
     let summary = write_dataset(&mut sink, config, shards, &source)?;
     std::fs::remove_dir(&scratch).map_err(|error| Diagnostic::io("remove the folder of logs", &error))?;

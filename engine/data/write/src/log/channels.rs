@@ -64,6 +64,15 @@ impl<W: Write> ChannelWriter<W> {
         Ok(())
     }
 
+    /// Number of bytes of the log before `content`, a part of the last message, if the chunk is ended as it is; `None` where
+    /// the message has no such part.
+    pub fn offset_of(&self, content: &[u8]) -> Option<u64> {
+        let start = self.messages.last()?.offset;
+        let message = self.records.get(usize::try_from(start).ok()?..)?;
+        let at = message.windows(content.len().max(1)).position(|it| it == content)?;
+        Some(self.container.start_of_plain_records() + start + at as u64)
+    }
+
     /// Ends the chunk as it is: image files do not get smaller.
     pub fn end_plain_chunk(&mut self) -> Result<()> {
         let crc = crc32fast::hash(&self.records);

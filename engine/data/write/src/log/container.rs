@@ -51,6 +51,10 @@ pub struct Indexed {
     pub offset: u64,
 }
 
+/// Bytes of the record of an uncompressed chunk before its records: opcode, length, two times, size, checksum, empty name of
+/// the compression, stored size.
+const PLAIN_CHUNK_HEAD_BYTES: u64 = 1 + 8 + 8 + 8 + 8 + 4 + 4 + 8;
+
 /// Writes one file. Without [`Self::finish`] it has no index, and readers say that it was cut short.
 pub struct Container<W: Write> {
     output: W,
@@ -109,6 +113,11 @@ impl<W: Write> Container<W> {
         let length = content.len() as u64 + 9;
         self.metadata_indexes.push(Fields::default().u64(self.position).u64(length).text(name).0);
         self.record(opcode::METADATA, &content)
+    }
+
+    /// Number of bytes before the records of the next chunk, if that one is not compressed.
+    pub fn start_of_plain_records(&self) -> u64 {
+        self.position + PLAIN_CHUNK_HEAD_BYTES
     }
 
     /// Appends a chunk and the index of its messages.

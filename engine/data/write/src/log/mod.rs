@@ -9,7 +9,7 @@ mod scene;
 mod writer;
 
 pub use flown::{FlownFlight, FlownStep, SensedSample, write_flown_log};
-pub use writer::write_log;
+pub use writer::{WrittenLog, write_log};
 
 #[cfg(test)]
 mod tests;

@@ -15,7 +15,12 @@ fn log(record: &RenderedTrajectory) -> (Vec<u8>, LogRecord) {
     let mut bytes = vec![];
     let mut reader = FramePackReader::new(Cursor::new(pack)).unwrap();
     let log = write_log(&mut bytes, record, &mut reader, &flight.captions, &sample::town(), &|| Ok(())).unwrap();
-    (bytes, log)
+    for (part, frame) in log.previews.iter().zip(0..) {
+        let at = part.offset as usize..part.offset as usize + part.bytes as usize;
+        assert_eq!(bytes[at], reader.preview_strip().unwrap().jpegs[frame]);
+    }
+    assert_eq!(log.previews.len(), record.len());
+    (bytes, log.record)
 }
 
 fn messages_of(bytes: &[u8], topic: &str) -> Vec<(u64, Vec<u8>)> {

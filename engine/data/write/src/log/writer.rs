@@ -3,13 +3,25 @@
 use super::channels::ChannelWriter;
 use super::{metadata, scene};
 use crate::frame_pack::{FramePackReader, PackHeader, PackedFrame};
+use cosfly_blobs::BlobPart;
 use cosfly_diagnose::{Diagnostic, Fault, Result};
+use cosfly_fingerprint::Digest;
 use cosfly_fingerprint::sha256::HashingWriter;
 use cosfly_images::previews;
 use cosfly_maps::Town;
+use cosfly_render::channels::rgb;
 use cosfly_schema::log::{Frequency, frame_time_ns, messages, topic, topics};
 use cosfly_schema::{CaptionRecord, LogRecord, RenderedTrajectory, RgbEncoding};
 use std::io::{Read, Seek, Write};
+
+/// A log that was written.
+#[derive(Clone, Debug)]
+pub struct WrittenLog {
+    /// Its row among all logs.
+    pub record: LogRecord,
+    /// Places of the colour previews, by frame; none where previews are off.
+    pub previews: Vec<BlobPart>,
+}
 
 /// Writes the log of `record` with the images of `pack` to `output`, which is only appended to.
 /// Holds one frame in memory. `keep_going` is asked before every frame and its error ends the work.
@@ -20,7 +32,7 @@ pub fn write_log<R: Read + Seek>(
     captions: &[CaptionRecord],
     town: &Town,
     keep_going: &dyn Fn() -> Result<()>,
-) -> Result<LogRecord> {
+) -> Result<WrittenLog> {
     record.check()?;
     check_pack(record, pack)?;
     let mut hashing = HashingWriter::new(output);
@@ -32,14 +44,15 @@ pub fn write_log<R: Read + Seek>(
         log.metadata(name, &entries)?;
     }
     write_once(&mut log, record, captions, town)?;
+    let mut previews = vec![];
     for frame in 0..record.len() {
         keep_going()?;
         let images = pack.frame(frame)?;
-        write_frame(&mut log, record, frame, images, pack.header())?;
+        previews.extend(write_frame(&mut log, record, frame, images, pack.header())?);
     }
     let messages = log.finish()?;
     let (bytes, sha256) = hashing.finish();
-    Ok(LogRecord {
+    let record = LogRecord {
         trajectory_id: record.trajectory_id.clone(),
         role: record.role,
         pedestrian_id: record.pedestrian_id.clone(),
@@ -48,7 +61,8 @@ pub fn write_log<R: Read + Seek>(
         messages,
         bytes,
         sha256,
-    })
+    };
+    Ok(WrittenLog { record, previews })
 }
 
 fn check_pack<R: Read + Seek>(record: &RenderedTrajectory, pack: &FramePackReader<R>) -> Result<()> {
@@ -98,7 +112,7 @@ fn write_frame<W: Write>(
     frame: usize,
     images: PackedFrame,
     header: &PackHeader,
-) -> Result<()> {
+) -> Result<Option<BlobPart>> {
     let time = frame_time_ns(record.dt_s(), frame);
     let camera = &record.camera;
     let pose = &record.trajectory.poses_in_world[frame];
@@ -116,11 +130,24 @@ fn write_frame<W: Write>(
     for (channel, file) in images.files {
         log.write(&topic::images(channel), time, &messages::compressed_image(time, format, file))?;
     }
+    let mut colour = None;
     for (channel, file) in images.previews {
-        let message = messages::compressed_image(time, previews::format(channel), file);
+        let message = messages::compressed_image(time, previews::format(channel), file.clone());
         log.write(&topic::previews(channel), time, &message)?;
+        if *channel == rgb::CHANNEL {
+            colour = Some(part_of(log, &file)?);
+        }
     }
     // A chunk for the files and one for each kind of raw images: who reads one of them decodes nothing of the others.
     log.end_plain_chunk()?;
-    images.chunks.iter().try_for_each(|chunk| log.packed_chunk(time, chunk))
+    images.chunks.iter().try_for_each(|chunk| log.packed_chunk(time, chunk))?;
+    Ok(colour)
+}
+
+/// Place of a file of the last message in the log.
+fn part_of<W: Write>(log: &ChannelWriter<W>, file: &[u8]) -> Result<BlobPart> {
+    let place = log.offset_of(file).zip(u32::try_from(file.len()).ok());
+    let (offset, bytes) =
+        place.ok_or_else(|| Diagnostic::new("mcap-preview", Fault::Bug, "a message does not have its preview"))?;
+    Ok(BlobPart { offset, bytes, digest: Digest::of(file) })
 }

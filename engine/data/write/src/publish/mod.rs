@@ -38,7 +38,7 @@ pub use shard::{Shard, write_shard};
 pub use source::{DatasetSource, GroupSource, PublishedLog};
 pub use split::{SplitPlan, plan_groups};
 pub use summary::{Summary, TownSummary};
-pub use write::write_dataset;
+pub use write::{Shards, write_dataset};
 
 #[cfg(test)]
 mod tests;

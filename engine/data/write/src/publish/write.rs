@@ -21,10 +21,10 @@ use std::collections::BTreeMap;
 pub fn write_dataset(
     sink: &mut dyn OutputSink,
     config: &DatasetConfig,
-    shards: Vec<Shard>,
+    shards: Shards,
     source: &dyn DatasetSource,
 ) -> Result<Summary> {
-    let Merged { mut summary, mut listed, figures, rejections } = merge(shards)?;
+    let Shards { mut summary, mut listed, figures, rejections, .. } = shards;
     if summary.flights() == 0 {
         return Err(nothing_to_publish(&rejections));
     }
@@ -51,26 +51,31 @@ pub fn write_dataset(
     Ok(summary)
 }
 
-struct Merged {
+/// What all groups together have.
+#[derive(Default)]
+pub struct Shards {
     summary: Summary,
     listed: Vec<FileRecord>,
     figures: Figures,
     rejections: Vec<Rejection>,
+    /// Whether some group had flights.
+    has_flights: bool,
 }
 
-fn merge(shards: Vec<Shard>) -> Result<Merged> {
-    let mut merged =
-        Merged { summary: Summary::default(), listed: vec![], figures: Figures::default(), rejections: vec![] };
-    let mut with_flights = 0;
-    for shard in shards {
+impl Shards {
+    /// Adds a group.
+    ///
+    /// # Errors
+    /// Plugins that gave of some flights only, or something else of some.
+    pub fn add(&mut self, shard: Shard) -> Result<()> {
         let has_flights = shard.summary.flights() > 0;
-        merged.summary.merge(shard.summary, with_flights > 0)?;
-        with_flights += u32::from(has_flights);
-        merged.listed.extend(shard.files);
-        merged.figures.merge(shard.figures);
-        merged.rejections.extend(shard.rejections);
+        self.summary.merge(shard.summary, self.has_flights)?;
+        self.has_flights |= has_flights;
+        self.listed.extend(shard.files);
+        self.figures.merge(shard.figures);
+        self.rejections.extend(shard.rejections);
+        Ok(())
     }
-    Ok(merged)
 }
 
 /// The configuration with facts instead of their names in title and description.

@@ -74,13 +74,15 @@ fn json(recipe: &Recipe, plan: &Plan<'_>, price: Option<f64>) -> String {
             "asks": asks,
             "stage": stage.name.as_str(), "uses": stage.kind, "items": stage.items(), "cached": stage.cached(),
             "to_run": stage.to_run(), "not_needed": stage.not_needed(), "made_again": stage.spent,
-            "predicted_core_s": stage.predicted_s, "predicted_bytes": stage.predicted_bytes, "reasons": reasons.collect::<Vec<_>>(),
+            "predicted_core_s": stage.predicted_s, "predicted_bytes": stage.predicted_bytes,
+            "predicted_files": stage.predicted_files, "reasons": reasons.collect::<Vec<_>>(),
         })
     });
     let predicted: u64 = plan.stages.iter().map(|stage| stage.predicted_bytes).sum();
+    let files: u64 = plan.stages.iter().map(|stage| stage.predicted_files).sum();
     let (core_s, is_whole) = predicted_s(plan);
     let whole = json!({
-        "to_run": plan.to_run(), "predicted_bytes": predicted, "predicted_core_s": core_s, "all_measured": is_whole,
+        "to_run": plan.to_run(), "predicted_bytes": predicted, "predicted_files": files, "predicted_core_s": core_s, "all_measured": is_whole,
         "predicted_price": price.map(|price| price * core_s / SECONDS_PER_HOUR), "stages": stages.collect::<Vec<_>>(),
     });
     format!("{whole:#}\n")
@@ -123,7 +125,9 @@ fn table(plan: &Plan<'_>) -> String {
             }
         }
     }
+    let files = plan.stages.iter().map(|stage| stage.predicted_files).sum();
     let written = bytes(plan.stages.iter().map(|stage| stage.predicted_bytes).sum());
+    let written = format!("{written} in {}", count(files, "file"));
     let mut reasons = plan.stages.iter().flat_map(|stage| &stage.reasons);
     let is_bound = reasons.any(|(reason, _)| matches!(reason, Reason::Upstream(_)));
     let _ = match (plan.to_run(), shared) {

@@ -86,6 +86,7 @@ impl StageKind for Caption {
             artifact: CAPTIONS,
             items: ItemRule::PerInput("trajectories"),
             bytes_per_item: 2_000,
+            files_per_item: 1,
             intermediate: &[],
             asks: is_taught.then(|| asks(&config, &teacher)),
         };

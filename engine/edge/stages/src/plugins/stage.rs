@@ -60,6 +60,7 @@ impl StageKind for Wasm {
             artifact,
             items: ItemRule::PerInput(items),
             bytes_per_item,
+            files_per_item: 1,
             intermediate: &[],
             asks: None,
         };

@@ -63,6 +63,7 @@ impl StageKind for TrafficKind {
             artifact,
             items,
             bytes_per_item,
+            files_per_item: 2,
             intermediate: &[],
             asks: None,
         };

@@ -23,6 +23,7 @@ impl Film {
             artifact: "track/1",
             items: ItemRule::Count { prefix: "t", count: 2 },
             bytes_per_item: 1,
+            files_per_item: 1,
             intermediate: &[],
             asks: None,
         }

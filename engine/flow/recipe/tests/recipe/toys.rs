@@ -65,6 +65,7 @@ impl Toy {
             artifact: self.artifact,
             items: self.items.clone(),
             bytes_per_item: 1,
+            files_per_item: 1,
             intermediate: &[],
             asks: None,
         }

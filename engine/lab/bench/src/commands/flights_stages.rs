@@ -115,6 +115,7 @@ impl StageKind for Toy {
             artifact,
             items,
             bytes_per_item: 10_000,
+            files_per_item: 2,
             intermediate: if self.makes == Makes::Films { &["pack"] } else { &[] },
             asks: None,
         };

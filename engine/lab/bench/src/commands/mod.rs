@@ -1,6 +1,7 @@
 //! The command line of the lab: one file per measurement.
 
 mod cluster;
+mod costs;
 mod engine;
 mod fleet;
 mod flights;
@@ -31,6 +32,9 @@ pub struct Arguments {
 enum Command {
     /// The engine on a running HyperQueue server: cheap items as commands on workers
     Cluster(cluster::ClusterArguments),
+    /// Core-seconds, bytes and money of a thousand frames by look and size, as a table in Markdown
+    #[command(after_help = costs::EXAMPLES)]
+    Costs(costs::CostsArguments),
     /// The engine with cheap items: cold overhead, everything cached, one parameter changed and changed back
     Engine(engine::EngineArguments),
     /// Publishing many flights: toy films, then real logs, tables, manifest and delivery; time, memory and disk
@@ -66,6 +70,7 @@ impl Arguments {
     pub fn run(&self) -> Outcome {
         match &self.command {
             Command::Cluster(arguments) => cluster::cluster(arguments),
+            Command::Costs(arguments) => costs::costs(arguments),
             Command::Engine(arguments) => engine::engine(arguments),
             Command::Flights(arguments) => flights::flights(arguments),
             Command::Fleet(arguments) => fleet::fleet(arguments),

@@ -43,6 +43,8 @@ pub struct StageTimes {
     pub log_ms: f64,
     /// Size of a frame in the log, bytes.
     pub log_bytes: f64,
+    /// Size of depth and both id images of a frame, compressed, bytes.
+    pub depth_and_ids_bytes: f64,
 }
 
 impl StageTimes {
@@ -54,6 +56,11 @@ impl StageTimes {
     /// Total time of a frame in a finished log, milliseconds.
     pub fn whole_ms(&self) -> f64 {
         self.render_ms() + self.pack_ms + self.log_ms
+    }
+
+    /// Total time of depth and ids, drawn and compressed, milliseconds.
+    pub fn depth_and_ids_ms(&self) -> f64 {
+        self.visibility_ms + self.ids_ms + self.encode_depth_ms + self.encode_ids_ms
     }
 
     /// Minimum of each stage; a stage of drawing is the difference of two minima, not the minimum of differences.
@@ -72,6 +79,7 @@ impl StageTimes {
             pack_ms: self.pack_ms.min(other.pack_ms),
             log_ms: self.log_ms.min(other.log_ms),
             log_bytes: other.log_bytes,
+            depth_and_ids_bytes: other.depth_and_ids_bytes,
         }
     }
 }
@@ -115,7 +123,8 @@ fn round(
         images.push(rendered.images.clone());
         views.push(rendered.target_view);
     }
-    let encoded = encoding_s(&images, options)?.map(|spent_s| ms_per_frame * spent_s);
+    let (encoded, depth_and_ids_bytes) = encoding_s(&images, options)?;
+    let encoded = encoded.map(|spent_s| ms_per_frame * spent_s);
     let flight = flight(ground, weather, &ground.views, views);
     let header = PackHeader::new(
         ground.camera.width,
@@ -150,11 +159,12 @@ fn round(
         pack_ms: ms_per_frame * pack_s,
         log_ms: ms_per_frame * log_s,
         log_bytes: logged? as f64 / images.len().max(1) as f64,
+        depth_and_ids_bytes: depth_and_ids_bytes as f64 / images.len().max(1) as f64,
     })
 }
 
-/// CPU time of encoding all images: colour, depth, ids, previews, seconds.
-fn encoding_s(images: &[FrameImages], options: &RenderOptions<'_>) -> Result<[f64; 4]> {
+/// CPU time of encoding all images: colour, depth, ids, previews, seconds; bytes of depth and ids.
+fn encoding_s(images: &[FrameImages], options: &RenderOptions<'_>) -> Result<([f64; 4], u64)> {
     let quality = options.encoding.jpeg_quality;
     let mut file = vec![];
     let (encoded, rgb_s) = timed(|| -> Result<()> {
@@ -168,9 +178,11 @@ fn encoding_s(images: &[FrameImages], options: &RenderOptions<'_>) -> Result<[f6
     let mut compressor = chunk_compressor()?;
     let mut bytes = vec![0; 4 * images.iter().map(|it| it.depth_m.len()).max().unwrap_or(0)];
     let mut stored = Vec::with_capacity(zstd::zstd_safe::compress_bound(bytes.len()));
+    let mut all_bytes = 0;
     let mut compressed = |bytes: &[u8]| {
         stored.clear();
-        black_box(compressor.compress_to_buffer(bytes, &mut stored)).expect("room for what is compressed");
+        let length = black_box(compressor.compress_to_buffer(bytes, &mut stored));
+        all_bytes += length.expect("room for what is compressed") as u64;
     };
     let ((), depth_s) = timed(|| {
         for it in images {
@@ -195,5 +207,5 @@ fn encoding_s(images: &[FrameImages], options: &RenderOptions<'_>) -> Result<[f6
         }
         Ok(())
     });
-    encoded.map(|()| [rgb_s, depth_s, ids_s, previews_s])
+    encoded.map(|()| ([rgb_s, depth_s, ids_s, previews_s], all_bytes))
 }

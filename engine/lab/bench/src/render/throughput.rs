@@ -90,5 +90,5 @@ fn fly(
     let mut output = StoredFile::create(&path("mcap"))?;
     let log = write_log(&mut output, &record, &mut pack, &[], &ground.town, &|| Ok(()))?;
     output.finish();
-    Ok(log.bytes)
+    Ok(log.record.bytes)
 }

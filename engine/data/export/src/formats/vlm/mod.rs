@@ -15,6 +15,7 @@ use crate::source::{Episode, Source};
 use conversation::{Shown, conversation};
 use cosfly_diagnose::{Diagnostic, Fault, Result};
 use cosfly_images::read::averaged;
+use cosfly_read::InstructionReader;
 use options::{Options, Sets};
 use serde_json::{Value, json};
 use std::collections::BTreeMap;
@@ -46,7 +47,7 @@ impl Format for Vlm {
                 .hint("choose with `--input`, `--history` and `--horizon`"));
         }
         let language = options.instructions.language;
-        let instructions = source.dataset.window_instructions(language.of_windows(), window.history)?;
+        let mut instructions = InstructionReader::of(source.dataset, language.of_windows(), window.history)?;
         let is_for_students = options.sets == Sets::Students;
         let goals = if is_for_students { source.dataset.goals(language.code())? } else { BTreeMap::new() };
         let mut lines = Lines { out, files: BTreeMap::new() };
@@ -55,9 +56,10 @@ impl Format for Vlm {
             let split = &episode.flight.split;
             let pictures = write_pictures(episode, options, out, flight)?;
             let expert = episode.expert_poses()?;
-            let own = instructions.get(&episode.flight.trajectory_id);
+            let place = source.dataset.place(&episode.flight.trajectory_id).unwrap_or_default();
+            let own = instructions.at(source.dataset, place)?;
             for start in window.starts(episode.frames.len()) {
-                let instruction = own.and_then(|own| own.get(&start)).map(String::as_str);
+                let instruction = own.get(&start).map(String::as_str);
                 let instruction = instruction.unwrap_or_else(|| episode.instruction(language));
                 let line = |shown| conversation(episode, options, &expert, &pictures, start, instruction, shown);
                 let whole = line(Shown::ALL);
