@@ -8,6 +8,7 @@ use crate::solid_cells::{Bases, Column, boxes_of};
 use cosfly_frames::{DVec2, real};
 use cosfly_geometry::OrientedBox;
 use cosfly_town::{Obstacle, ObstacleKind};
+use rayon::prelude::*;
 
 /// A roof over ground that was seen under it is no wall where it hangs higher than this, metres.
 const OVERHANG_M: f64 = 2.5;
@@ -33,13 +34,18 @@ pub fn add(survey: &Survey<'_>, obstacles: &mut Vec<Obstacle>) {
     for (cell, number) in part.iter().enumerate().filter(|(_, number)| **number != 0) {
         cells[*number as usize].push(cell);
     }
-    for cells in &cells[1..] {
+    let covers: Vec<Vec<OrientedBox>> = cells[1..]
+        .par_iter()
+        .map(|cells| {
+            let site = Site::new(survey, cells, &part);
+            let covers = site.directions_rad(cells, &is_building).map(|yaw_rad| site.boxes(yaw_rad));
+            covers.into_iter().min_by_key(Vec::len).unwrap_or_default()
+        })
+        .collect();
+    for cover in covers {
         let object_id = super::next_id(obstacles);
-        let site = Site::new(survey, cells, &part);
-        let covers = site.directions_rad(cells, &is_building).map(|yaw_rad| site.boxes(yaw_rad));
-        let fewest = covers.into_iter().min_by_key(Vec::len).unwrap_or_default();
         let obstacle = |shape| Obstacle { shape, kind: ObstacleKind::Building, object_id, synthetic: false };
-        obstacles.extend(fewest.into_iter().map(obstacle));
+        obstacles.extend(cover.into_iter().map(obstacle));
     }
 }
 
@@ -111,6 +117,7 @@ impl<'a> Site<'a> {
         let nearest =
             |(cell, seed): (usize, &u32)| roof.get(*seed as usize).copied().flatten().filter(|_| is_seen(cell));
         let mut roofs: Vec<Option<Column>> = seeds.iter().enumerate().map(nearest).collect();
+        drop_slivers(&grid, &mut roofs, |cell| roof[cell].is_some());
         fill_pits(&grid, &mut roofs, (self.survey.reach_cells() / 2).max(1));
         let columns = self.standing(&grid, &roofs, &ground_m);
         boxes_of(&grid, &columns, STEP_M.max(cell_m), Bases::Highest)
@@ -130,6 +137,22 @@ impl<'a> Site<'a> {
         };
         (0..grid.cells()).map(column).collect()
     }
+}
+
+/// Drops roofs where none was seen and they are narrower than two cells: the edges of gaps between points are ragged.
+fn drop_slivers(grid: &Grid, roofs: &mut [Option<Column>], is_seen: impl Fn(usize) -> bool) {
+    let mut is_wide = vec![false; roofs.len()];
+    for row in 1..grid.rows {
+        for column in 1..grid.columns {
+            let last = row * grid.columns + column;
+            let square = [last, last - 1, last - grid.columns, last - grid.columns - 1];
+            if square.iter().all(|cell| roofs[*cell].is_some()) {
+                square.iter().for_each(|cell| is_wide[*cell] = true);
+            }
+        }
+    }
+    let slivers = roofs.iter_mut().enumerate().filter(|(cell, _)| !is_wide[*cell] && !is_seen(*cell));
+    slivers.for_each(|(_, roof)| *roof = None);
 }
 
 /// Raises tops in pits that are narrower than twice `reach` cells to their rim: a closing of the roof's surface.
