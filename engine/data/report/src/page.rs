@@ -4,7 +4,9 @@ use crate::document::{Section, document};
 use crate::model::Report;
 use crate::moments;
 use crate::pictures::{Source, image};
-use crate::sections::{distributions, language, maps, numbers, planners, planning, shares, shortcuts, timelines, worst};
+use crate::sections::{
+    distributions, language, maps, numbers, planners, planning, shares, shortcuts, timelines, worst,
+};
 use cosfly_plot::text::escaped;
 use std::fmt::Write;
 

@@ -94,7 +94,8 @@ mod tests {
             singles_out,
             ..TextSketch::default()
         };
-        let texts = vec![text("en", "They turn left.", true), text("en", "They stop.", false), text("zh", "往左拐。", false)];
+        let texts =
+            vec![text("en", "They turn left.", true), text("en", "They stop.", false), text("zh", "往左拐。", false)];
         let mut figures = Figures::default();
         figures.add(FlightSketch { texts, ..FlightSketch::default() });
         let html = section(&Report { figures, ..Report::default() });

@@ -106,8 +106,7 @@ fn texts(item: &DatasetItem) -> Vec<TextSketch> {
         ..text(&it.language, &it.style, it.text.clone(), it.verdicts.clone())
     });
     let goals = item.derived.goals.iter().map(|it| {
-        let mut subjects: Vec<String> =
-            it.said.iter().map(|said| said.claim.subject().name().to_owned()).collect();
+        let mut subjects: Vec<String> = it.said.iter().map(|said| said.claim.subject().name().to_owned()).collect();
         subjects.sort();
         subjects.dedup();
         text(it.language.code(), it.grain.name(), it.lines.join(" "), subjects)
